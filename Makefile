@@ -1,0 +1,65 @@
+# Each target sets up .venv by itself, with the versions of constraints.txt; `make` alone lists them.
+
+PYTHON ?= python3
+VENV := .venv
+PY := $(VENV)/bin/python
+PIP := $(PY) -m pip install -qq --disable-pip-version-check -c constraints.txt
+SHELL := /bin/bash
+RECENT := 'import sys; sys.exit(sys.version_info < (3, 11))'
+USABLE := 'import sys, pip; sys.exit(sys.version_info < (3, 11))'
+
+# A sourced ROS workspace or a user site would put its own packages before those of .venv.
+unexport PYTHONPATH
+unexport PYTHONHOME
+export PYTHONNOUSERSITE = 1
+
+# The stamp .venv/dev holds the directory that was set up: in a copied tree, or when the interpreter is gone,
+# the environment is made anew.
+SETUP_OF := $(shell $(PY) -c $(USABLE) 2>/dev/null && cat $(VENV)/dev 2>/dev/null)
+ifneq ($(SETUP_OF),$(CURDIR))
+.PHONY: $(VENV)/dev
+endif
+
+.DEFAULT_GOAL := help
+.PHONY: help report test lint style types wheel-check
+
+help:
+	@echo "make test         run all tests"
+	@echo "make report       validate every robot, count, measure, and print where the page is"
+	@echo "make lint         check style (ruff) and types (pyright)"
+	@echo "make wheel-check  build the wheel and use it where the source tree cannot be imported"
+	@echo "Each sets up $(VENV) first if need be. With another interpreter: make test PYTHON=python3.12"
+
+test: $(VENV)/dev
+	@$(PY) -m pytest -n 2 --dist worksteal --durations=10
+
+report: $(VENV)/dev
+	@$(PY) -m benchmarks
+
+lint: style types
+
+style: $(VENV)/lint
+	$(PY) -m ruff check
+	$(PY) -m ruff format --check
+
+types: $(VENV)/lint
+	$(PY) -m pyright
+
+wheel-check: $(VENV)/dev
+	@$(PY) tools/wheel_check.py
+
+$(VENV)/dev: pyproject.toml constraints.txt
+	@$(PYTHON) -c $(RECENT) || { \
+	  echo "poekin needs Python 3.11 or newer; $(PYTHON) is $$($(PYTHON) --version 2>&1)." \
+	       "Name another one: make $(firstword $(MAKECMDGOALS)) PYTHON=python3.12" >&2; exit 1; }
+	@if [ -n "$(SETUP_OF)" -a "$(SETUP_OF)" != "$(CURDIR)" ] || ! $(PY) -c $(USABLE) 2>/dev/null; then \
+	  echo "Setting up: a new environment in $(VENV), $$($(PYTHON) --version)"; $(PYTHON) -m venv --clear $(VENV); fi
+	@echo "Setting up: the packages of constraints.txt into $(VENV) (the first time takes minutes)"
+	@$(PIP) hatchling
+	@$(PIP) --no-build-isolation -e '.[dev]'
+	@pwd > $@
+
+$(VENV)/lint: $(VENV)/dev
+	@echo "Setting up: ruff and pyright into $(VENV)"
+	@$(PIP) --no-build-isolation -e '.[lint]'
+	@touch $@
