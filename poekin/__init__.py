@@ -1,0 +1,35 @@
+"""Robot kinematics by the product of exponentials, after F. C. Park (1994).
+
+    f(q) = e^{A_1 q_1} e^{A_2 q_2} ... e^{A_n q_n} M
+
+T_ab is the pose of frame b in frame a; twists are (omega; v), the angular part first; rad, m, s.
+"""
+
+from . import errors
+from .analysis.count import count
+from .analysis.validate import validate
+from .errors import PoekinError, PoekinWarning
+from .formats.load import load
+from .groups import se3, so3
+from .model import screw
+from .model.chain import Chain
+from .model.joint import Joint, Mimic
+from .model.robot import Robot
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "Chain",
+    "Joint",
+    "Mimic",
+    "PoekinError",
+    "PoekinWarning",
+    "Robot",
+    "count",
+    "errors",
+    "load",
+    "screw",
+    "se3",
+    "so3",
+    "validate",
+]

@@ -1,0 +1,152 @@
+"""Vectors, rotations, poses and twists as tuples of scalars of any kind.
+
+- vector: (x, y, z)
+- rotation R: nine numbers, row by row
+- pose T = (R, p): twelve numbers, the nine of R, then p
+- twist or screw (omega; v): six numbers, the angular part first
+
+Plain Python without branches, so that one function serves floats, compiled code, counting scalars and exact numbers.
+An argument may be any indexable row; what is returned is a tuple.
+"""
+
+IDENTITY = (1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0)
+
+
+def add(a, b):
+    """a + b of two vectors."""
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def subtract(a, b):
+    """a - b of two vectors."""
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def scale(k, a):
+    """k a of a scalar and a vector."""
+    return (k * a[0], k * a[1], k * a[2])
+
+
+def dot(a, b):
+    """a . b of two vectors."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a, b):
+    """a x b of two vectors."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def rotate(R, a):
+    """R a."""
+    return (
+        R[0] * a[0] + R[1] * a[1] + R[2] * a[2],
+        R[3] * a[0] + R[4] * a[1] + R[5] * a[2],
+        R[6] * a[0] + R[7] * a[1] + R[8] * a[2],
+    )
+
+
+def unrotate(R, a):
+    """R^T a."""
+    return (
+        R[0] * a[0] + R[3] * a[1] + R[6] * a[2],
+        R[1] * a[0] + R[4] * a[1] + R[7] * a[2],
+        R[2] * a[0] + R[5] * a[1] + R[8] * a[2],
+    )
+
+
+def angular(V):
+    """omega of a twist (omega; v)."""
+    return (V[0], V[1], V[2])
+
+
+def linear(V):
+    """v of a twist (omega; v)."""
+    return (V[3], V[4], V[5])
+
+
+def translation(T):
+    """p of a pose (R, p)."""
+    return (T[9], T[10], T[11])
+
+
+def twist(w, v):
+    """The twist (w; v) of two vectors."""
+    return (w[0], w[1], w[2], v[0], v[1], v[2])
+
+
+def pose(row):
+    """The pose held by the first twelve numbers of a row."""
+    return (row[0], row[1], row[2], row[3], row[4], row[5], row[6], row[7], row[8], row[9], row[10], row[11])
+
+
+def pose_of(R, p):
+    """The pose (R, p) of a rotation and a vector."""
+    return (R[0], R[1], R[2], R[3], R[4], R[5], R[6], R[7], R[8], p[0], p[1], p[2])
+
+
+def compose(T_ab, T_bc):
+    """T_ac = T_ab T_bc: 36 multiplications and 27 additions."""
+    a, b = T_ab, T_bc
+    return (
+        a[0] * b[0] + a[1] * b[3] + a[2] * b[6],
+        a[0] * b[1] + a[1] * b[4] + a[2] * b[7],
+        a[0] * b[2] + a[1] * b[5] + a[2] * b[8],
+        a[3] * b[0] + a[4] * b[3] + a[5] * b[6],
+        a[3] * b[1] + a[4] * b[4] + a[5] * b[7],
+        a[3] * b[2] + a[4] * b[5] + a[5] * b[8],
+        a[6] * b[0] + a[7] * b[3] + a[8] * b[6],
+        a[6] * b[1] + a[7] * b[4] + a[8] * b[7],
+        a[6] * b[2] + a[7] * b[5] + a[8] * b[8],
+        a[0] * b[9] + a[1] * b[10] + a[2] * b[11] + a[9],
+        a[3] * b[9] + a[4] * b[10] + a[5] * b[11] + a[10],
+        a[6] * b[9] + a[7] * b[10] + a[8] * b[11] + a[11],
+    )
+
+
+def inverse(T_ab):
+    """T_ba = (R^T, -R^T p)."""
+    R = T_ab
+    p = unrotate(R, translation(T_ab))
+    return (R[0], R[3], R[6], R[1], R[4], R[7], R[2], R[5], R[8], -p[0], -p[1], -p[2])
+
+
+def adjoint(T_ab, V_b):
+    """V_a = Ad(T_ab) V_b = (R w; R v + p x R w), the paper's eq. (3): 24 multiplications and 18 additions."""
+    w = rotate(T_ab, angular(V_b))
+    return twist(w, add(rotate(T_ab, linear(V_b)), cross(translation(T_ab), w)))
+
+
+def adjoint_inverse(T_ab, V_a):
+    """V_b = Ad(T_ab)^-1 V_a = (R^T w; R^T (v - p x w)): 24 multiplications and 18 additions."""
+    w = angular(V_a)
+    v = subtract(linear(V_a), cross(translation(T_ab), w))
+    return twist(unrotate(T_ab, w), unrotate(T_ab, v))
+
+
+def turned_about_z(T, sine, cosine, slide):
+    """T (Rz, slide z): the pose after a joint about and along its own z axis, its sine and cosine given."""
+    return (
+        T[0] * cosine + T[1] * sine,
+        T[1] * cosine - T[0] * sine,
+        T[2],
+        T[3] * cosine + T[4] * sine,
+        T[4] * cosine - T[3] * sine,
+        T[5],
+        T[6] * cosine + T[7] * sine,
+        T[7] * cosine - T[6] * sine,
+        T[8],
+        T[9] + T[2] * slide,
+        T[10] + T[5] * slide,
+        T[11] + T[8] * slide,
+    )
+
+
+def column(J, i):
+    """Column i of six rows, a twist."""
+    return (J[0][i], J[1][i], J[2][i], J[3][i], J[4][i], J[5][i])
+
+
+def set_column(J, i, V):
+    """Write the twist V into column i of six rows."""
+    J[0][i], J[1][i], J[2][i], J[3][i], J[4][i], J[5][i] = V[0], V[1], V[2], V[3], V[4], V[5]

@@ -1,0 +1,1 @@
+"""What makes the formulas run: compiled (Numba) with a cache of kernels, and counted."""

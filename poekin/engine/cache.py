@@ -1,0 +1,160 @@
+"""The one cache of compiled kernels, kept between runs in the user's cache directory.
+
+Its key covers all source of algebra, formulas and engine, and the versions of Numba, llvmlite, NumPy, Python and the
+processor: an edit anywhere in the formulas makes a new key. An entry is unpickled only after its SHA-256, its owner
+and its permissions have been checked. A place that is damaged, foreign, read-only or absent costs a compilation and
+one log line, never an error. `POEKIN_CACHE_DIR` names another place; empty, it switches the cache off.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import itertools
+import logging
+import os
+import pickle
+import platform
+import stat
+import sys
+import tempfile
+from pathlib import Path
+
+import llvmlite
+import numba
+import numpy as np
+from numba.core import serialize
+from numba.core.compiler import CompileResult
+
+log = logging.getLogger("poekin")
+_said: set[str] = set()
+
+
+def say_once(topic: str, message: str, *details: object) -> None:
+    """One log line for a topic in this process, however often it comes up."""
+    if topic not in _said:
+        _said.add(topic)
+        log.warning("poekin: " + message, *details)
+
+
+def directory() -> Path | None:
+    """Where kernels are kept: `POEKIN_CACHE_DIR`, else this user's cache directory; None for nowhere."""
+    if "POEKIN_CACHE_DIR" in os.environ:
+        named = os.environ["POEKIN_CACHE_DIR"]
+        return Path(named).absolute() if named else None
+    try:
+        if sys.platform == "win32":
+            base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+        elif sys.platform == "darwin":
+            base = Path.home() / "Library" / "Caches"
+        else:
+            base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    except RuntimeError:  # no home directory can be found
+        return None
+    return base / "poekin" if base.is_absolute() else None
+
+
+def source_key() -> str:
+    """SHA-256 over everything that the machine code depends on except the signature and the processor."""
+    package = Path(__file__).parent.parent
+    digest = hashlib.sha256()
+    versions = (numba.__version__, llvmlite.__version__, np.__version__, sys.version, platform.machine(), sys.platform)
+    digest.update(repr(versions).encode())
+    rooms = (sorted((package / room).glob("*.py")) for room in ("formulas", "engine"))
+    for path in [package / "algebra.py", *itertools.chain(*rooms)]:
+        text = path.read_bytes()
+        digest.update(f"{path.name} {len(text)} ".encode() + text)
+    return digest.hexdigest()
+
+
+def _private(status: os.stat_result) -> bool:
+    """Whether a file or directory belongs to this user and nobody else may write or read it."""
+    if not hasattr(os, "geteuid"):
+        return True
+    return status.st_uid == os.geteuid() and not stat.S_IMODE(status.st_mode) & 0o077
+
+
+def _place() -> Path | None:
+    """The cache directory, made if needed, or None where it cannot be trusted or used."""
+    place = directory()
+    if place is None:
+        return None
+    try:
+        place.mkdir(mode=0o700, parents=True, exist_ok=True)
+        status = place.lstat()
+    except OSError as error:
+        say_once("place", "kernels are compiled anew in each run: no cache in %s (%s)", place, error.strerror)
+        return None
+    if not stat.S_ISDIR(status.st_mode) or not _private(status):
+        say_once("place", "kernels are compiled anew in each run: %s is not this user's alone (mode 0700)", place)
+        return None
+    return place
+
+
+class KernelCache:
+    """What a Numba dispatcher asks for machine code and hands it to, for one kernel."""
+
+    def __init__(self, name: str):
+        self.name = name
+        self._key = ""
+
+    def _path(self, signature, codegen) -> Path | None:
+        place = _place()
+        if place is None:
+            return None
+        if not self._key:
+            try:
+                self._key = source_key()
+            except OSError:  # the package runs from where its source cannot be read
+                return None
+        entry = hashlib.sha256(repr((self._key, str(signature), codegen.magic_tuple())).encode()).hexdigest()
+        return place / f"{self.name}-{entry[:32]}.kernel"
+
+    def load_overload(self, signature, target_context):
+        """The kept machine code of this signature; None, after saying that it compiles, where there is none."""
+        target_context.refresh()
+        path = self._path(signature, target_context.codegen())
+        kept = None if path is None else self._load(path, target_context)
+        if kept is None:
+            where = "not kept" if path is None else f"kept in {path.parent}"
+            say_once("compiling", "compiling kernels for this machine, a few seconds each (%s)", where)
+        return kept
+
+    def _load(self, path: Path, target_context):
+        try:
+            with open(path, "rb", opener=_without_following) as file:
+                trusted = _private(os.fstat(file.fileno()))
+                data = file.read()
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            say_once("entry", "a kernel is compiled anew: %s cannot be read (%s)", path, error.strerror)
+            return None
+        digest, payload = data[:32], data[32:]
+        if not trusted or hashlib.sha256(payload).digest() != digest:
+            say_once("entry", "a kernel is compiled anew: %s is damaged or not this user's alone", path)
+            return None
+        return CompileResult._rebuild(target_context, *pickle.loads(payload))
+
+    def save_overload(self, signature, compiled) -> None:
+        """Keep the machine code of this signature; the file appears whole or not at all."""
+        path = self._path(signature, compiled.codegen)
+        if path is None:
+            return
+        payload = serialize.dumps(compiled._reduce())
+        partial = None
+        try:
+            # mkstemp gives mode 0600
+            handle, partial = tempfile.mkstemp(dir=path.parent, prefix=path.name)
+            with os.fdopen(handle, "wb") as file:
+                file.write(hashlib.sha256(payload).digest() + payload)
+            os.replace(partial, path)
+        except OSError as error:
+            say_once("place", "kernels are compiled anew in each run: %s cannot be written (%s)", path, error.strerror)
+            if partial is not None:
+                with contextlib.suppress(OSError):
+                    os.unlink(partial)
+
+
+def _without_following(path, flags):
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0))

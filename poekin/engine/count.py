@@ -1,0 +1,135 @@
+"""A scalar that counts: run a formula on it and read what the formula costs.
+
+A multiplication, addition, subtraction or division counts where at least one operand is a `Counted`: what combines two
+constants is done once, beforehand. Negation and comparison are free, and so are the integers 0, 1 and -1: they are a
+formula's structure (a revolute joint's r = 1, s = 0), while the float 1.0 is a number like any other.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import Any
+
+from ..formulas import elementary
+
+
+@dataclass
+class Count:
+    """Numbers of operations: those of Park's table and the others that a formula may use."""
+
+    multiplications: int = 0
+    additions: int = 0
+    divisions: int = 0
+    square_roots: int = 0
+    sines: int = 0
+    cosines: int = 0
+    arctangents: int = 0
+
+    def __sub__(self, other: Count) -> Count:
+        return Count(*(getattr(self, f.name) - getattr(other, f.name) for f in fields(self)))
+
+
+class Counted:
+    """A float that adds what is done with it to a `Count`."""
+
+    __slots__ = ("count", "value")
+
+    def __init__(self, value: float, count: Count):
+        self.value, self.count = float(value), count
+
+    def _new(self, value: float, operation: str) -> Counted:
+        setattr(self.count, operation, getattr(self.count, operation) + 1)
+        return Counted(value, self.count)
+
+    def __mul__(self, other):
+        if type(other) is int and other in (0, 1, -1):
+            return other if other == 0 else self if other == 1 else -self
+        return self._new(self.value * _value(other), "multiplications")
+
+    def __add__(self, other):
+        return self if _is_zero(other) else self._new(self.value + _value(other), "additions")
+
+    def __sub__(self, other):
+        return self if _is_zero(other) else self._new(self.value - _value(other), "additions")
+
+    def __rsub__(self, other):
+        return -self if _is_zero(other) else self._new(_value(other) - self.value, "additions")
+
+    def __truediv__(self, other):
+        return self._new(self.value / _value(other), "divisions")
+
+    def __rtruediv__(self, other):
+        return self._new(_value(other) / self.value, "divisions")
+
+    def __mod__(self, other):
+        return self._new(self.value % _value(other), "divisions")
+
+    __rmul__, __radd__ = __mul__, __add__
+
+    def __neg__(self):
+        return Counted(-self.value, self.count)
+
+    def __abs__(self):
+        return Counted(abs(self.value), self.count)
+
+    def __eq__(self, other):
+        return self.value == _value(other)
+
+    def __lt__(self, other):
+        return self.value < _value(other)
+
+    def __le__(self, other):
+        return self.value <= _value(other)
+
+    def __gt__(self, other):
+        return self.value > _value(other)
+
+    def __ge__(self, other):
+        return self.value >= _value(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __repr__(self) -> str:
+        return f"Counted({self.value!r})"
+
+
+def _value(x) -> float:
+    return x.value if isinstance(x, Counted) else x
+
+
+def _is_zero(x) -> bool:
+    return type(x) is int and x == 0
+
+
+class _Functions:
+    """What `formulas.elementary` calls on counting scalars."""
+
+    @staticmethod
+    def sqrt(x: Counted) -> Counted:
+        return x._new(math.sqrt(x.value), "square_roots")
+
+    @staticmethod
+    def sin(x: Counted) -> Counted:
+        return x._new(math.sin(x.value), "sines")
+
+    @staticmethod
+    def cos(x: Counted) -> Counted:
+        return x._new(math.cos(x.value), "cosines")
+
+    @staticmethod
+    def atan2(y: Counted, x) -> Counted:
+        return y._new(math.atan2(y.value, _value(x)), "arctangents")
+
+
+elementary.provide(Counted, _Functions)
+
+
+def counted(values: Any, count: Count) -> Any:
+    """Nested tuples and lists of numbers as counting scalars of one count."""
+    if isinstance(values, (tuple, list)):
+        return type(values)(counted(v, count) for v in values)
+    return Counted(values, count)

@@ -1,0 +1,43 @@
+"""Sine and cosine of one angle together, without a table and almost without a branch: a third of the library's time.
+
+The angle loses a multiple k of pi/2, which stands here in three parts of which k times the first two is exact; what
+is left, |r| <= pi/4, goes through both Taylor polynomials. Beyond `MODERATE` the library's functions serve.
+Absolute error at most 2.3e-16 (tests/engine/test_sincos.py).
+"""
+
+import math
+from fractions import Fraction
+
+from ..formulas.coefficients import polynomial
+
+MODERATE = 1e6  # rad; up to here k < 2^20
+_HALF_PI = Fraction(314159265358979323846264338327950288419716939937510, 2 * 10**50)
+_BITS = 2**33
+
+
+def _split(x):
+    """x as the sum of two parts of 33 bits and the nearest float to the rest."""
+    high = Fraction(math.floor(x * _BITS), _BITS)
+    middle = Fraction(math.floor((x - high) * _BITS**2), _BITS**2)
+    return float(high), float(middle), float(x - high - middle)
+
+
+_HIGH, _MIDDLE, _LOW = _split(_HALF_PI)
+_PER_HALF_PI = float(1 / _HALF_PI)
+_ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds to the nearest integer
+_SINE = tuple(float(Fraction((-1) ** k, math.factorial(2 * k + 1))) for k in range(1, 9))
+_COSINE = tuple(float(Fraction((-1) ** k, math.factorial(2 * k))) for k in range(2, 10))
+
+
+def sincos(x):
+    """(sin x, cos x) of an angle in rad."""
+    if not abs(x) <= MODERATE:
+        return math.sin(x), math.cos(x)
+    k = (x * _PER_HALF_PI + _ROUND) - _ROUND
+    r = ((x - k * _HIGH) - k * _MIDDLE) - k * _LOW
+    z = r * r
+    s = r + r * (z * polynomial(_SINE, z))
+    c = 1.0 - (0.5 * z - z * z * polynomial(_COSINE, z))
+    quadrant = int(k) & 3
+    sine, cosine = (c, s) if quadrant & 1 else (s, c)
+    return (-sine if quadrant & 2 else sine), (-cosine if (quadrant + 1) & 2 else cosine)

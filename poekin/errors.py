@@ -1,0 +1,82 @@
+"""The one error tree: every error that poekin raises on purpose is a `PoekinError`.
+
+A message says what was expected, what arrived, where (file and line, batch element, joint name) and what is available.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class PoekinError(Exception):
+    """Base of all errors raised by poekin."""
+
+
+class InputError(PoekinError, ValueError):
+    """A value that cannot be used: wrong number, wrong type, wrong property."""
+
+
+class ShapeError(InputError):
+    """An array of the wrong shape."""
+
+
+class ScrewError(InputError):
+    """Six numbers that are no screw of a joint."""
+
+
+class PoseError(InputError):
+    """A matrix that is no rotation or no pose."""
+
+
+class BranchError(InputError):
+    """A logarithm was asked for on a branch that does not exist."""
+
+
+class ModelError(PoekinError, ValueError):
+    """A robot description that cannot be understood; says file and line where there is one."""
+
+
+class UnknownName(PoekinError, KeyError):
+    """A name of a link, joint, coordinate or model that does not exist; lists the closest ones."""
+
+    def __str__(self) -> str:
+        # KeyError shows the repr of its argument, which would put the whole message in quotes.
+        return str(self.args[0]) if self.args else ""
+
+
+class FileError(PoekinError, OSError):
+    """A file that cannot be read or written."""
+
+
+class MissingExtra(PoekinError, ImportError):
+    """An optional package is not installed; names the extra that brings it."""
+
+    def __init__(self, package: str, extra: str, purpose: str):
+        super().__init__(f"{purpose} needs the package {package}: pip install 'poekin[{extra}]'")
+        self.package, self.extra, self.purpose = package, extra, purpose
+
+    def __reduce__(self):
+        return type(self), (self.package, self.extra, self.purpose)
+
+
+class PoekinWarning(UserWarning):
+    """Something in the input was repaired or ignored; says what and where."""
+
+
+def shown(name: object, width: int = 80) -> str:
+    """A name out of a file, made harmless for plain text: no control or bidirectional characters, no line break."""
+    text = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(name))
+    return repr(text if len(text) <= width else text[: width - 1] + "…")
+
+
+def closest(name: str, available: Iterable[str], most: int = 5) -> str:
+    """The end of a message about an unknown name: the closest names that exist, or how to read an empty list."""
+    names = list(available)
+    if not names:
+        return "there are none"
+    close = difflib.get_close_matches(str(name), names, n=most, cutoff=0.6)
+    if close:
+        return "did you mean " + " or ".join(shown(c) for c in close) + "?"
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return "available: " + ", ".join(shown(n) for n in names[:most]) + more

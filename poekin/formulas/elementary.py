@@ -1,0 +1,46 @@
+"""The only functions beyond + - x / and comparison that the formulas use.
+
+Each looks up the functions of its argument's kind: `math` for floats; `provide` registers other kinds, and the engine
+maps each function to compiled code. This is why one formula runs in all of them.
+"""
+
+import math
+
+_FUNCTIONS = {}
+
+
+def provide(kind, functions, series=True):
+    """Let scalars of type `kind` take sqrt, sin, cos and atan2 from the namespace `functions`.
+
+    `series` says whether small arguments need the Taylor polynomials; numbers of many digits do without.
+    """
+    _FUNCTIONS[kind] = (functions, series)
+
+
+def _functions(x):
+    return _FUNCTIONS.get(type(x), (math, True))[0]
+
+
+def sqrt(x):
+    """Square root."""
+    return _functions(x).sqrt(x)
+
+
+def sin(x):
+    """Sine of an angle in rad."""
+    return _functions(x).sin(x)
+
+
+def cos(x):
+    """Cosine of an angle in rad."""
+    return _functions(x).cos(x)
+
+
+def atan2(y, x):
+    """Angle of the point (x, y), in rad."""
+    return _functions(y).atan2(y, x)
+
+
+def below(x, limit):
+    """Whether x is so small, x < limit, that a closed form would cancel; for exact numbers only x = 0 is."""
+    return x < limit if _FUNCTIONS.get(type(x), (math, True))[1] else x == 0

@@ -1,0 +1,75 @@
+"""Arrays at the public boundary: what arrives is checked here, once, and said clearly where it does not fit."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..engine import group_kernels
+from ..errors import InputError, PoseError, ShapeError
+
+Array = NDArray[np.float64]
+TOLERANCE = 1e-5  # the largest accepted entry of abs(R R^T - I)
+
+
+def numbers(values: ArrayLike, what: str) -> Array:
+    """Values as a float64 array; refuses text, objects and complex numbers."""
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise ShapeError(f"{what}: expected an array of numbers, got rows of different lengths") from error
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"{what}: expected real numbers, got {array.dtype.name} ({type(values).__name__})")
+    return array.astype(np.float64, copy=False)
+
+
+def shaped(values: ArrayLike, tail: tuple[int, ...], what: str) -> Array:
+    """Values as a float64 array whose last axes are `tail`."""
+    array = numbers(values, what)
+    if array.shape[array.ndim - len(tail) :] != tail or array.ndim < len(tail):
+        expected = ", ".join(["...", *map(str, tail)])
+        raise ShapeError(f"{what}: expected shape ({expected}), got {array.shape}")
+    return array
+
+
+def rotations(values: ArrayLike, what: str = "R") -> Array:
+    """Values as rotation matrices (..., 3, 3)."""
+    return _checked(shaped(values, (3, 3), what), what, "rotation")
+
+
+def poses(values: ArrayLike, what: str = "T") -> Array:
+    """Values as poses (..., 4, 4)."""
+    return _checked(shaped(values, (4, 4), what), what, "pose")
+
+
+def _checked(M: Array, what: str, kind: str) -> Array:
+    flat = M.reshape(-1, *M.shape[-2:])
+    found = np.array([TOLERANCE, 0.0, 0.0])
+    k = group_kernels.first_defect.call(flat, found)
+    if k < 0:
+        return M
+    index = tuple(int(i) for i in np.unravel_index(k, M.shape[:-2]))
+    where = f"{what}[{', '.join(map(str, index))}]" if index else what
+    off, determinant, last = found
+    if last > TOLERANCE:
+        raise PoseError(f"{where} is no {kind}: its last row is {flat[k, 3].tolist()}, expected [0, 0, 0, 1]")
+    if off > TOLERANCE:
+        raise PoseError(
+            f"{where} is no {kind}: its rotation misses orthonormality, max abs(R R^T - I) = {off:.3g}, "
+            f"accepted up to {TOLERANCE:g}"
+        )
+    raise PoseError(f"{where} is no {kind}: its rotation is a reflection, det R = {determinant:.3g}, expected 1")
+
+
+def mapped(kernel, element_axes: int, tail: tuple[int, ...], source: Array, *others: Array) -> Array:
+    """A kernel over the leading axes of `source`, one element of which has `element_axes` axes; `others` hold rows
+    of the same leading axes. An element of the result has the shape `tail`.
+    """
+    batch = source.shape[: source.ndim - element_axes]
+    count = math.prod(batch)
+    result = np.empty((count, *tail))
+    rows = (other.reshape(count, other.shape[-1]) for other in others)
+    kernel.call(source.reshape(count, *source.shape[source.ndim - element_axes :]), *rows, result)
+    return result.reshape(*batch, *tail)

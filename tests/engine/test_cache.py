@@ -1,0 +1,160 @@
+"""The cache of kernels: whatever happens to it, results are right and no call raises."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import poekin
+from poekin.engine import cache
+
+PACKAGE = Path(poekin.__file__).parent
+PROGRAM = """
+from poekin.groups import so3
+print(so3.hat([1, 2, 3])[0].tolist(), so3.exp([0.0, 0.0, 0.0]).tolist())
+"""
+RIGHT = "[0.0, -3.0, 2.0] [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]"
+
+
+def run(home: Path, program: str = PROGRAM, path: Path = PACKAGE.parent, **environment: str):
+    """A fresh process whose home and cache are below `home`; returns what it prints and what it logs."""
+    variables = {k: v for k, v in os.environ.items() if k not in ("POEKIN_CACHE_DIR", "XDG_CACHE_HOME", "PYTHONPATH")}
+    variables |= {"HOME": str(home), "PYTHONPATH": str(path)} | environment
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", program],
+        capture_output=True,
+        text=True,
+        env=variables,
+        cwd=home,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip(), done.stderr
+
+
+def entries(home: Path) -> list[Path]:
+    return sorted((home / ".cache" / "poekin").glob("*.kernel"))
+
+
+@pytest.fixture(scope="module")
+def filled(tmp_path_factory):
+    """A home in which the program has run once."""
+    home = tmp_path_factory.mktemp("home")
+    out, log = run(home)
+    assert out == RIGHT
+    assert log.count("\n") == 1
+    assert "compiling kernels" in log
+    return home
+
+
+@pytest.fixture
+def home(filled, tmp_path):
+    shutil.copytree(filled, tmp_path / "home")
+    return tmp_path / "home"
+
+
+def test_the_second_process_compiles_nothing(home):
+    assert run(home) == (RIGHT, "")
+
+
+def test_what_is_kept_belongs_to_the_user_alone(filled):
+    assert (filled / ".cache" / "poekin").stat().st_mode & 0o777 == 0o700
+    assert entries(filled)
+    assert all(entry.stat().st_mode & 0o777 == 0o600 for entry in entries(filled))
+
+
+DAMAGE = {
+    "emptied": lambda data: b"",
+    "cut in the digest": lambda data: data[:20],
+    "cut in the middle": lambda data: data[: len(data) // 2],
+    "one bit flipped": lambda data: data[:-100] + bytes([data[-100] ^ 1]) + data[-99:],
+    "digest flipped": lambda data: bytes([data[0] ^ 1]) + data[1:],
+    "another pickle": lambda data: b"cos\nsystem\n(S'touch owned'\ntR.",
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_a_damaged_entry_is_compiled_anew_with_one_log_line_and_mended(home, damage):
+    for entry in entries(home):
+        entry.write_bytes(DAMAGE[damage](entry.read_bytes()))
+    out, log = run(home)
+    assert out == RIGHT
+    assert log.count("is damaged or not this user's alone") == 1
+    assert not list(home.glob("owned"))
+    assert run(home) == (RIGHT, "")
+
+
+def test_an_entry_that_others_can_write_is_not_read(home):
+    for entry in entries(home):
+        entry.chmod(0o666)
+    out, log = run(home)
+    assert out == RIGHT
+    assert "not this user's alone" in log
+
+
+def test_an_entry_that_is_a_link_is_not_followed(home, tmp_path):
+    for entry in entries(home):
+        shutil.move(entry, tmp_path / entry.name)
+        entry.symlink_to(tmp_path / entry.name)
+    out, log = run(home)
+    assert out == RIGHT
+    assert "cannot be read" in log
+
+
+def test_a_directory_that_others_can_write_is_not_used(home):
+    (home / ".cache" / "poekin").chmod(0o777)
+    out, log = run(home)
+    assert out == RIGHT
+    assert "not this user's alone (mode 0700)" in log
+
+
+PLACES = {
+    "a file in place of the directory": lambda home: (home / "place").write_text(""),
+    "a place below a file": lambda home: (home / "place").write_text(""),
+    "no place at all": lambda home: None,
+}
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_place_that_cannot_be_made_costs_a_compilation(tmp_path, place):
+    PLACES[place](tmp_path)
+    named = {"a place below a file": str(tmp_path / "place" / "below"), "no place at all": ""}
+    out, log = run(tmp_path, POEKIN_CACHE_DIR=named.get(place, str(tmp_path / "place")))
+    assert out == RIGHT
+    assert "compiling kernels" in log
+    assert "Traceback" not in log
+
+
+def test_no_home_at_all_costs_a_compilation(tmp_path):
+    out, log = run(tmp_path, HOME="/nonexistent")
+    assert out == RIGHT
+    assert "Traceback" not in log
+
+
+@pytest.mark.parametrize(
+    "file", ["algebra.py", "formulas/exponential.py", "formulas/coefficients.py", "engine/rows.py"]
+)
+def test_an_edit_anywhere_in_the_formulas_makes_a_new_key(tmp_path, monkeypatch, file):
+    copy = tmp_path / "poekin"
+    shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(cache, "__file__", str(copy / "engine" / "cache.py"))
+    before = cache.source_key()
+    with (copy / file).open("a") as source:
+        source.write("\n")
+    assert cache.source_key() != before
+
+
+def test_an_edit_in_algebra_changes_the_result_of_the_next_process(home, tmp_path):
+    program = "from poekin.groups import se3; import numpy; print(se3.inverse(numpy.eye(4))[0, 3] + 0.0)"
+    shutil.copytree(PACKAGE, tmp_path / "poekin", ignore=shutil.ignore_patterns("__pycache__"))
+    assert run(home, program, tmp_path)[0] == "0.0"
+    algebra = tmp_path / "poekin" / "algebra.py"
+    algebra.write_text(algebra.read_text().replace("R[5], R[8], -p[0],", "R[5], R[8], 7.0 - p[0],"))
+    assert run(home, program, tmp_path)[0] == "7.0"
+
+
+def test_without_compilation_everything_still_runs(tmp_path):
+    assert run(tmp_path, NUMBA_DISABLE_JIT="1") == (RIGHT, "")

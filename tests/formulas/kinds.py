@@ -1,0 +1,69 @@
+"""The kinds of scalar that a formula runs in: floats, compiled, counting and exact, each as a way to call it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import mpmath
+import numba
+import numpy as np
+
+from poekin.engine import compile as engine_compile
+from poekin.engine.count import Count, counted
+from poekin.formulas import elementary
+
+DIGITS = 60
+elementary.provide(mpmath.mpf, mpmath.mp, series=False)
+_compiled: dict[Callable, Callable] = {}
+
+
+def _mapped(value, leaf):
+    """Nested tuples and lists with every float replaced; integers are counts and structure, and stay."""
+    if isinstance(value, (tuple, list)):
+        return type(value)(_mapped(v, leaf) for v in value)
+    return leaf(value) if isinstance(value, float) else value
+
+
+def _flat(value) -> list:
+    if value is None:
+        return []
+    if isinstance(value, np.ndarray):
+        return [float(x) for x in value.ravel()]
+    if isinstance(value, (tuple, list)):
+        return [x for v in value for x in _flat(v)]
+    return [value]
+
+
+def floats(formula, *arguments):
+    return _run(formula, _mapped(list(arguments), float))
+
+
+def compiled(formula, *arguments):
+    """Tuples stay tuples; lists, which are rows, become arrays."""
+    engine_compile.compiled  # noqa: B018  importing the module has registered every formula
+    function = _compiled.setdefault(formula, numba.njit(error_model="numpy")(formula))
+    return _run(function, [np.array(a, dtype=float) if isinstance(a, list) else a for a in arguments])
+
+
+def counting(formula, *arguments):
+    count = Count()
+    return _run(formula, counted_floats(list(arguments), count))
+
+
+def counted_floats(value, count):
+    return _mapped(value, lambda x: counted(x, count))
+
+
+def exact(formula, *arguments):
+    with mpmath.workdps(DIGITS):
+        return _run(formula, _mapped(list(arguments), mpmath.mpf))
+
+
+def _run(function, arguments) -> list[float]:
+    """The result and whatever was written into rows, flattened."""
+    result = function(*arguments)
+    written = [a for a in arguments if isinstance(a, (list, np.ndarray))]
+    return [float(x) for x in _flat(result) + _flat(written)]
+
+
+KINDS = {"compiled": compiled, "counting": counting, "exact": exact}

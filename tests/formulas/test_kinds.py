@@ -1,0 +1,142 @@
+"""Every formula runs as floats, compiled, on counting scalars and in 60 digits, and gives the same."""
+
+import inspect
+import math
+import pkgutil
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+from poekin import algebra, formulas
+from poekin.formulas import (
+    coefficients,
+    columns,
+    defect,
+    dh_recursive,
+    direct,
+    elementary,
+    exp_jacobian,
+    exponential,
+    forward,
+    logarithm,
+    recursive,
+)
+from tests.formulas.kinds import KINDS, floats
+
+rng = np.random.default_rng(1994)
+W, V = (0.3, -0.4, 0.5), (1.0, -2.0, 0.5)
+LONG = (1.9, -1.1, 0.8)
+X = (*W, *V)
+T1 = tuple(map(float, exponential.se3(W, V)))
+T2 = tuple(map(float, exponential.se3(LONG, V)))
+R1, R2 = T1[:9], T2[:9]
+TURNED = (1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0)
+N = 4
+LINKS = [list(map(float, exponential.se3(tuple(w), tuple(v)))) for w, v in rng.normal(size=(N + 1, 2, 3))]
+AXES = [list(map(float, row)) for row in rng.normal(size=(6, N))]
+SCREWS = [list(map(float, row)) for row in rng.normal(size=(N, 6))]
+ANGLES = rng.normal(size=N)
+SINES, COSINES, SHIFTS = np.sin(ANGLES).tolist(), np.cos(ANGLES).tolist(), (0.3 * ANGLES).tolist()
+MOTION = (LINKS, SINES, COSINES, SHIFTS, N)
+ROTATES, SLIDES = [1.0, 0.0, 1.0, 1.0], [0.0, 1.0, 0.2, 0.0]
+RATES = rng.normal(size=N).tolist()
+COUPLING = rng.normal(size=(N, 2)).tolist()
+SIZES = (1.2, 2.9)  # on either side of the switch
+A, B, E = ({t: f(t) for t in SIZES} for f in (coefficients.a_of, coefficients.b_of, coefficients.e_of))
+
+
+def rows(count=N):
+    return [[0.0] * count for _ in range(6)]
+
+
+CASES = [
+    *[(f, V, W) for f in (algebra.add, algebra.subtract, algebra.dot, algebra.cross)],
+    (algebra.scale, 0.3, V),
+    (algebra.rotate, R1, V),
+    (algebra.unrotate, R1, V),
+    *[(f, X) for f in (algebra.angular, algebra.linear)],
+    (algebra.translation, T1),
+    (algebra.twist, W, V),
+    (algebra.pose, T1),
+    (algebra.pose_of, R1, V),
+    (algebra.compose, T1, T2),
+    (algebra.inverse, T1),
+    (algebra.adjoint, T1, X),
+    (algebra.adjoint_inverse, T1, X),
+    (algebra.turned_about_z, T1, 0.6, 0.8, 0.3),
+    (algebra.column, AXES, 2),
+    (algebra.set_column, AXES, 2, X),
+    *[(f, t) for f in (coefficients.a_of, coefficients.b_of, coefficients.e_of) for t in (0.0, 0.4, 3.0)],
+    (coefficients.polynomial, (0.5, -0.25, 0.125), 0.3),
+    *[(coefficients.c_of, t * t, A[t]) for t in SIZES],
+    *[(coefficients.d_of, t * t, E[t]) for t in SIZES],
+    *[(coefficients.b_slope, t * t, A[t], B[t]) for t in SIZES],
+    *[(coefficients.c_slope, t * t, B[t], coefficients.c_of(t * t, A[t])) for t in SIZES],
+    *[(coefficients.d_slope, t * t, B[t], E[t]) for t in SIZES],
+    (exponential.rotation, W, 0.3, 0.2),
+    (exponential.displacement, 0.3, W, 0.2, V, 0.1, LONG),
+    *[(exponential.so3, w) for w in (W, LONG, (0.0, 0.0, 0.0))],
+    *[(exponential.se3, w, V) for w in (W, LONG, (0.0, 0.0, 0.0))],
+    *[(exponential.joint, w, V, 0.4, math.sin(0.4), math.cos(0.4)) for w in ((0.6, 0.0, 0.8), (0.0, 0.0, 0.0))],
+    *[(logarithm.quaternion, R) for R in (R1, R2, TURNED)],
+    *[(logarithm.so3, R) for R in (R1, R2, TURNED)],
+    *[(logarithm.se3, T) for T in (T1, T2)],
+    *[(logarithm.so3_near, R, w) for R in (R1, R2, TURNED) for w in (W, (2.5, -4.0, 4.0))],
+    *[(logarithm.se3_near, T, w) for T in (T1, T2) for w in (W, (2.5, -4.0, 4.0))],
+    (
+        logarithm.se3_near,
+        algebra.pose_of((1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 2.0)),
+        (0.0, 0.0, 6.0),
+    ),
+    *[(f, w) for f in (exp_jacobian.left, exp_jacobian.left_inverse) for w in (W, LONG)],
+    *[(f, w, V) for f in (exp_jacobian.left_dual, exp_jacobian.left_inverse_dual) for w in (W, LONG)],
+    (forward.tip, *MOTION),
+    (forward.frame, *MOTION[:4], 2),
+    (forward.tip_and_axes, *MOTION, rows()),
+    (forward.child, T1, T2, X, 0.4, 0.3, 0.9),
+    (columns.about_point, AXES, ROTATES, SLIDES, N, V),
+    (columns.turned_into, AXES, N, R1),
+    (columns.coupled, AXES, COUPLING, N, 2, rows(2)),
+    *[(f, SCREWS, LINKS, N, rows()) for f in (direct.space, direct.body)],
+    (recursive.z_column, T1, 1.0, 0.2),
+    (recursive.body, LINKS, ROTATES, SLIDES, N, rows()),
+    (recursive.body_with_tool, LINKS, T1, ROTATES, SLIDES, N, rows()),
+    (recursive.body_velocity, LINKS, T1, ROTATES, SLIDES, N, RATES),
+    (dh_recursive.body, LINKS, T1, ROTATES, SLIDES, N, rows()),
+    (defect.orthonormality, R1),
+    (defect.determinant, R1),
+]
+
+
+def _name(case):
+    return f"{case[0].__module__.rpartition('.')[2]}.{case[0].__name__}"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("case", CASES, ids=[f"{_name(case)}-{i}" for i, case in enumerate(CASES)])
+def test_a_formula_gives_the_same_in_every_kind(case, kind):
+    formula, *arguments = case
+    expected, got = floats(formula, *arguments), KINDS[kind](formula, *arguments)
+    # Counting is the same arithmetic; compiled code may differ in the last digits of sines, and the exact kind differs
+    # from floats by their rounding: products of up to four poses with entries of up to about 10.
+    tolerance = 0.0 if kind == "counting" else 1e-13
+    np.testing.assert_allclose(got, expected, rtol=tolerance, atol=tolerance)
+
+
+def test_every_formula_is_among_the_cases():
+    modules = [algebra] + [import_module(f"poekin.formulas.{m.name}") for m in pkgutil.iter_modules(formulas.__path__)]
+    public = {
+        f
+        for module in modules
+        if module is not elementary
+        for name, f in inspect.getmembers(module, inspect.isfunction)
+        if f.__module__ == module.__name__ and not name.startswith("_")
+    }
+    assert public - {case[0] for case in CASES} == set()
+
+
+def test_the_comparison_of_kinds_sees_a_wrong_digit():
+    expected = floats(exponential.so3, W)
+    with pytest.raises(AssertionError):
+        np.testing.assert_allclose(KINDS["exact"](exponential.so3, (*W[:2], 0.5 + 1e-12)), expected, 1e-13, 1e-13)
