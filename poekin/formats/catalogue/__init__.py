@@ -1,0 +1,15 @@
+"""The arms that come with poekin: URDF files in this folder, each with its source in a comment."""
+
+from __future__ import annotations
+
+import pkgutil
+
+from ...model.robot import Robot
+from .. import urdf
+
+NAMES = ("panda", "stanford", "ur5e")
+
+
+def read(name: str) -> Robot:
+    """The arm of that name, one of `NAMES`."""
+    return urdf.read_text(pkgutil.get_data(__name__, f"{name}.urdf") or b"", f"catalogue/{name}.urdf")

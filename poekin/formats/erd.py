@@ -1,0 +1,54 @@
+"""The robots of example-robot-data by name: that package ships URDF files, and no way to find them."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from pathlib import PurePosixPath
+
+from ..errors import MissingExtra, UnknownName, closest, shown
+from ..model.robot import Robot
+from . import urdf
+
+PACKAGE = "example-robot-data"
+
+
+def available() -> dict[str, str]:
+    """Every URDF file of the package: a dict from name to path, in alphabetical order.
+
+    The name is the file's, without `.urdf`; where two files share it, it is preceded by the name of the robot's folder:
+    `anymal_b_simple_description/anymal`.
+    Raises: MissingExtra when example-robot-data is not installed.
+    """
+    # Imported where it is used: it takes longer to import than all of this package's formats.
+    from importlib.metadata import PackageNotFoundError, files
+
+    try:
+        listed = [file for file in files(PACKAGE) or () if file.suffix == ".urdf"]
+    except PackageNotFoundError as missing:
+        raise MissingExtra(PACKAGE, "robots", 'a model named "erd:..."') from missing
+    count = Counter(file.stem for file in listed)
+    named = {}
+    for file in listed:
+        name = file.stem if count[file.stem] == 1 else f"{_folder(file)}/{file.stem}"
+        named[name] = os.fspath(file.locate())
+    return dict(sorted(named.items()))
+
+
+def read(name: str) -> Robot:
+    """The robot of that name, one of `available()`.
+
+    Raises: MissingExtra when example-robot-data is not installed; UnknownName with the closest names; otherwise as
+    `urdf.read`.
+    """
+    paths = available()
+    if name not in paths:
+        both = [known for known in paths if known.endswith(f"/{name}")]
+        ending = "it is one of " + ", ".join(map(shown, both)) if both else closest(name, paths)
+        raise UnknownName(f"{PACKAGE} has no robot {shown(name)}; {ending}")
+    return urdf.read(paths[name])
+
+
+def _folder(file: PurePosixPath) -> str:
+    # .../robots/<folder>/urdf/<stem>.urdf or .../robots/<folder>/robots/<stem>.urdf
+    return file.parts[-3] if len(file.parts) >= 3 else file.parent.name

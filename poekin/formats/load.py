@@ -1,0 +1,51 @@
+"""load: a robot by the name of a file, of an arm that comes with poekin, or of one of example-robot-data."""
+
+from __future__ import annotations
+
+import os
+
+from ..errors import FileError, InputError, UnknownName, closest, shown
+from ..model.robot import Robot
+from . import catalogue, erd, urdf
+
+PREFIX = "erd:"
+
+
+def load(name: str | os.PathLike[str]) -> Robot:
+    """The robot of that name.
+
+    Parameters: name, the path of an existing file; else the name of an arm that comes with poekin ("panda", "ur5e",
+    "stanford"); else "erd:" and the name of a robot of the package example-robot-data, as in "erd:talos_left_arm".
+    A path object is always a path.
+
+    Raises: FileError for a path that does not exist, is a directory, is empty or cannot be read; UnknownName with the
+    closest names; MissingExtra when example-robot-data is asked for and not installed; ModelError, with file and line,
+    for a file that cannot be understood; InputError for a name of another type.
+    Warns: PoekinWarning with file and line for what was repaired, as `poekin.formats.urdf` says.
+    """
+    if isinstance(name, os.PathLike):
+        return urdf.read(name)
+    if not isinstance(name, str):
+        raise InputError(f"load: expected a name or a path, got {type(name).__name__}")
+    if _exists(name) and not os.path.isdir(name):
+        return urdf.read(name)
+    if name in catalogue.NAMES:
+        return catalogue.read(name)
+    if name.startswith(PREFIX):
+        return erd.read(name.removeprefix(PREFIX))
+    if _exists(name):
+        return urdf.read(name)
+    if "/" in name or os.sep in name or name.lower().endswith((".urdf", ".xml", ".xacro")):
+        raise FileError(f"{shown(name, 400)[1:-1]}: no such file")
+    known = catalogue.NAMES
+    raise UnknownName(
+        f"no file and no built-in arm is named {shown(name)}; {closest(name, known)} (built in: {', '.join(known)};"
+        f' "{PREFIX}NAME" is for example-robot-data)'
+    )
+
+
+def _exists(name: str) -> bool:
+    try:
+        return os.path.exists(name)
+    except ValueError:  # a zero byte, which no path has
+        return False

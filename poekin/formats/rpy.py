@@ -1,0 +1,26 @@
+"""Roll, pitch, yaw as URDF means them: R = Rz(yaw) Ry(pitch) Rx(roll), turns about fixed axes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+
+def pose(xyz: Sequence[float], rpy: Sequence[float]) -> np.ndarray:
+    """The pose (4, 4) of a frame at xyz [m], turned by rpy = (roll, pitch, yaw) [rad], in its parent's frame.
+
+    Accuracy: every entry of R to 3 units in the last place of 1; R is orthonormal to the same.
+    Source: the URDF specification, element <origin>.
+    """
+    roll, pitch, yaw = rpy
+    sr, cr, sp, cp, sy, cy = (f(a) for a in (roll, pitch, yaw) for f in (math.sin, math.cos))
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr, xyz[0]],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr, xyz[1]],
+            [-sp, cp * sr, cp * cr, xyz[2]],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+    )

@@ -1,0 +1,190 @@
+"""URDF in, Robot out: only the text counts, no mesh, no ROS, no xacro.
+
+Source: the URDF specification (elements <robot>, <link>, <joint>). Where files depart from it, as real ones do:
+- a missing <axis> is (1, 0, 0); an axis that is not of unit length is normalised, with a warning above 1e-6;
+- limits that are missing, equal, infinite or absurd (1e4 and more) mean "unlimited", with one warning for the file. A
+  bound that is missing alone is unlimited on its side. Continuous joints have no limits;
+- a joint that mimics one that does not exist stays independent, with a warning;
+- only direct children of <robot> count: what <gazebo>, <transmission> and elements of other namespaces hold does not.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import replace
+from typing import NamedTuple
+
+from ..errors import ModelError, shown
+from ..model.joint import FREE, KINDS, MOVING, Joint, Mimic
+from ..model.robot import Robot
+from ..model.source import Source, warn
+from . import rpy, xml
+from .fields import Fields
+from .xml import Element
+
+# An axis this far off unit length is a slip of the pen, not rounding.
+AXIS_TOLERANCE = 1e-6
+# Bounds this large [rad or m] bound nothing.
+ABSURD = 1e4
+URDF_KINDS = tuple(kind for kind in KINDS if kind != "helical")
+
+
+class Repair(NamedTuple):
+    """What was wrong with a joint and was set right: the line, how bad it was, and what to say."""
+
+    line: int
+    size: float
+    text: str
+
+
+class Repairs(NamedTuple):
+    """The repairs of one file, by kind: one warning each."""
+
+    axes: list[Repair]
+    limits: list[Repair]
+    mimics: list[Repair]
+
+
+def read(path: str | os.PathLike[str]) -> Robot:
+    """The robot in a URDF file.
+
+    Raises: FileError for a file that cannot be read, is empty, a directory or larger than 64 MiB; ModelError, with file
+    and line, for everything in it that cannot be understood. Warns: PoekinWarning with file and line for what was
+    repaired (see the top of this module).
+    Accuracy: origins to rounding, rotations orthonormal to 1e-15.
+    """
+    return read_text(xml.read_bytes(path), os.fsdecode(path))
+
+
+def read_text(text: str | bytes, name: str = "<text>") -> Robot:
+    """The robot in the text of a URDF; `name` stands for the file in messages. Raises and warns as `read`."""
+    root = xml.parse(text, name)
+    source = Source(name)
+    top = Fields(root, source)
+    if top.tag != "robot":
+        raise ModelError(f"{source.place(top.line)}: expected the root element <robot>, got {shown(top.tag)}")
+    links = top.all("link")
+    if not links:
+        raise top.fault(f"expected at least one <link>, there is none{_xacro(root)}")
+    repairs = Repairs([], [], [])
+    elements = top.all("joint")
+    joints = [_joint(fields, repairs) for fields in elements]
+    known = {joint.name for joint in joints}
+    joints = [_with_known_master(joint, fields, known, repairs) for joint, fields in zip(joints, elements, strict=True)]
+    lines = Source(name, tuple(link.line for link in links), tuple(fields.line for fields in elements))
+    stem = os.path.splitext(os.path.basename(name))[0]
+    robot = Robot(root.get("name") or stem, [link.name("name") for link in links], joints, lines)
+    _warn(repairs, source)
+    return robot
+
+
+def _joint(fields: Fields, repairs: Repairs) -> Joint:
+    name = fields.name("name")
+    kind = fields.name("type")
+    if kind not in URDF_KINDS:
+        raise fields.fault(f"type must be one of {', '.join(URDF_KINDS)}, got {shown(kind)}")
+    ends = []
+    for role in ("parent", "child"):
+        end = fields.child(role)
+        if end is None:
+            raise fields.fault(f'expected an element <{role} link="..."/>, none there')
+        ends.append(end.name("link"))
+    origin = fields.child("origin")
+    xyz = origin.vector("xyz") if origin else None
+    angles = origin.vector("rpy") if origin else None
+    return Joint(
+        name,
+        kind,
+        ends[0],
+        ends[1],
+        rpy.pose(xyz or (0.0, 0.0, 0.0), angles or (0.0, 0.0, 0.0)),
+        _axis(fields, repairs) if kind in MOVING or kind == "planar" else (1.0, 0.0, 0.0),
+        _limits(fields, name, repairs) if kind in ("revolute", "prismatic") else (-math.inf, math.inf),
+        _mimic(fields, kind),
+    )
+
+
+def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
+    element = fields.child("axis")
+    axis = element.vector("xyz") if element else None
+    if element is None or axis is None:
+        return 1.0, 0.0, 0.0
+    if not any(axis):
+        raise element.fault("xyz must not be zero")
+    length = math.hypot(*axis)
+    if abs(length - 1.0) > AXIS_TOLERANCE:
+        text = f"the axis of {fields.what} has length {length:.9g} and was normalised"
+        repairs.axes.append(Repair(element.line, abs(length - 1.0), text))
+    return axis
+
+
+def _limits(fields: Fields, name: str, repairs: Repairs) -> tuple[float, float]:
+    element = fields.child("limit")
+    lower = element.number("lower", finite=False) if element else None
+    upper = element.number("upper", finite=False) if element else None
+    line = element.line if element else fields.line
+    if element and lower is not None and upper is not None and lower > upper:
+        raise element.fault(f"lower must not be above upper, got lower = {lower!r}, upper = {upper!r}")
+    if lower is None and upper is None:
+        reason = "none"
+    elif lower == upper:
+        reason = f"equal, {lower!r}"
+    elif lower is None or upper is None:
+        reason = "no lower bound" if lower is None else "no upper bound"
+    elif max(abs(lower), abs(upper)) >= ABSURD:
+        reason = f"{lower!r} to {upper!r}"
+    else:
+        return lower, upper
+    repairs.limits.append(Repair(line, 0.0, f"{shown(name)} ({reason}; line {line})"))
+    if lower == upper:
+        return -math.inf, math.inf
+    return (
+        -math.inf if lower is None or abs(lower) >= ABSURD else lower,
+        math.inf if upper is None or abs(upper) >= ABSURD else upper,
+    )
+
+
+def _mimic(fields: Fields, kind: str) -> Mimic | None:
+    element = fields.child("mimic")
+    if element is None:
+        return None
+    if kind in FREE:
+        raise element.fault(f"a {kind} joint has no single value and cannot mimic another joint")
+    multiplier, offset = element.number("multiplier"), element.number("offset")
+    return Mimic(element.name("joint"), 1.0 if multiplier is None else multiplier, 0.0 if offset is None else offset)
+
+
+def _with_known_master(joint: Joint, fields: Fields, known: set[str], repairs: Repairs) -> Joint:
+    if joint.mimic is None or joint.mimic.joint in known:
+        return joint
+    element = fields.child("mimic") or fields
+    text = f"{fields.what} mimics {shown(joint.mimic.joint)}, which does not exist"
+    repairs.mimics.append(Repair(element.line, 0.0, text))
+    return replace(joint, mimic=None)
+
+
+def _warn(repairs: Repairs, source: Source) -> None:
+    if repairs.axes:
+        worst = max(repairs.axes, key=lambda repair: repair.size)
+        warn(f"{source.place(worst.line)}: {worst.text}{_others(repairs.axes, worst, 'the worst of')}")
+    if repairs.mimics:
+        first = repairs.mimics[0]
+        others = _others(repairs.mimics, first, "the first of")
+        warn(f"{source.place(first.line)}: {first.text}, and stays independent{others}")
+    if repairs.limits:
+        listed = ", ".join(repair.text for repair in repairs.limits[:4])
+        more = f" and {len(repairs.limits) - 4} more" if len(repairs.limits) > 4 else ""
+        place = source.place(repairs.limits[0].line)
+        warn(f"{place}: joints without usable limits are taken as unlimited: {listed}{more}")
+
+
+def _others(repairs: list[Repair], named: Repair, rank: str) -> str:
+    lines = [str(repair.line) for repair in repairs if repair is not named]
+    if not lines:
+        return ""
+    return f" ({rank} {len(repairs)}; the others on line {', '.join(lines[:10])}{', ...' if len(lines) > 10 else ''})"
+
+
+def _xacro(root: Element) -> str:
+    return " (xacro that was not processed yet?)" if any("xacro" in str(e.tag) for e in root) else ""

@@ -1,0 +1,1 @@
+"""Models: screws, the serial chain, the tree of links. Frozen data, validated once."""

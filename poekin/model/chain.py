@@ -1,0 +1,306 @@
+"""A serial chain: n screws and one home pose, from a base frame to a tip."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..engine import chain_kernels
+from ..errors import InputError, ShapeError, shown
+from ..groups import se3
+from ..groups.arrays import Array, numbers, poses, shaped
+from . import evaluation, screw
+from .coordinates import coordinates
+from .local import LocalForm, local_form
+
+_EXACT = 4e-15  # a home pose whose rotation is off by more is replaced by the nearest rotation
+
+
+class ScrewForm(NamedTuple):
+    """One global form of the product of exponentials: screws (n, 6) in one frame, and the home pose (4, 4)."""
+
+    screws: Array
+    home: Array
+
+
+class Chain:
+    """f(q) = e^{A_1 x_1} ... e^{A_n x_n} M with x = C q + c: the pose of the tip in the base frame.
+
+    Parameters
+    ----------
+    screws (n, 6): A_i = (omega; v) in the base frame at x = 0; |omega| = 1, or omega = 0 and |v| = 1, to 1e-9.
+    home (4, 4): M, the pose of the tip at x = 0, m.
+    joint_names, q_names: of the n joints and the m coordinates.
+    limits (m, 2): lower and upper bound of each coordinate (rad or m); infinite means unlimited.
+    coupling (n, m), offset (n,): C and c; without them every joint is its own coordinate.
+    base, tip: names of the two frames.
+
+    Frozen: the arrays are read-only. Equal chains have equal numbers and names; hashable; pickles as its data.
+    Revolute, prismatic and helical joints differ only in their screws. A chain without joints is legal.
+    Raises: ScrewError, PoseError, ShapeError, InputError. Accuracy: the data are kept as given, to the last digit.
+    Source: Park 1994, eqs. (1) and (2).
+    """
+
+    __slots__ = (
+        *("screws", "home", "joint_names", "q_names", "limits", "_coupling", "offset", "base", "tip", "kinds"),
+        *("local", "reach", "_table", "_jacobian_shape"),
+    )
+    screws: Array
+    home: Array
+    joint_names: tuple[str, ...]
+    q_names: tuple[str, ...]
+    limits: Array
+    _coupling: Array | None
+    offset: Array
+    base: str
+    tip: str
+    kinds: tuple[str, ...]
+    local: LocalForm
+    reach: float
+    _table: Array
+    _jacobian_shape: tuple[int, int]
+
+    def __init__(
+        self,
+        screws: ArrayLike,
+        home: ArrayLike,
+        *,
+        joint_names: Sequence[str] | None = None,
+        q_names: Sequence[str] | None = None,
+        limits: ArrayLike | None = None,
+        coupling: ArrayLike | None = None,
+        offset: ArrayLike | None = None,
+        base: str = "base",
+        tip: str = "tool",
+    ):
+        A = screw.checked(screws, tuple(joint_names or ()))
+        n = len(A)
+        joints = _names(joint_names, n, "joint_names", "joint")
+        C = None if coupling is None else _coupling(coupling, n)
+        m = n if C is None else C.shape[1]
+        c = np.zeros(n) if offset is None else _finite(offset, "offset")
+        if c.shape != (n,):
+            raise ShapeError(f"offset: expected shape ({n},), one number a joint, got {c.shape}")
+        names = _names(joints if q_names is None and m == n else q_names, m, "q_names", "q")
+        form = local_form(A, _home(home))
+        data = {
+            "screws": A,
+            "home": _home(home),
+            "joint_names": joints,
+            "q_names": names,
+            "limits": _limits(limits, names),
+            "_coupling": C,
+            "offset": c,
+            "base": str(base),
+            "tip": str(tip),
+            "kinds": tuple(_kind(r, s) for r, s in zip(form.rotates, form.slides, strict=True)),
+            "local": form,
+            "reach": max(1.0, float(np.linalg.norm(form.frames[:, :3, 3], axis=1).sum() + (form.rotates == 0).sum())),
+            "_table": _table(form, C, c),
+            "_jacobian_shape": (6, m),
+        }
+        for name, array in (*data.items(), *vars(form).items()):
+            # The kernels' own table stays writable: Numba takes half a microsecond longer over a read-only array.
+            if isinstance(array, np.ndarray) and name != "_table":
+                array.flags.writeable = False
+        for name, value in data.items():
+            object.__setattr__(self, name, value)
+
+    fk = evaluation.fk
+    jacobian = evaluation.jacobian
+    fk_jacobian = evaluation.fk_jacobian
+    velocity = evaluation.velocity
+    joint_poses = evaluation.joint_poses
+
+    @property
+    def dof(self) -> int:
+        """m, the number of coordinates."""
+        return len(self.q_names)
+
+    @property
+    def coupling(self) -> Array:
+        """C (n, m) of x = C q + c: made anew at each call where every joint is its own coordinate."""
+        C = np.eye(self.dof) if self._coupling is None else self._coupling
+        C.flags.writeable = False
+        return C
+
+    @property
+    def space(self) -> ScrewForm:
+        """A_1 ... A_n in the base frame and M: f = e^{A_1 x_1} ... e^{A_n x_n} M."""
+        return ScrewForm(self.screws, self.home)
+
+    @property
+    def body(self) -> ScrewForm:
+        """B_i = Ad(M)^-1 A_i in the tool frame and M: f = M e^{B_1 x_1} ... e^{B_n x_n}."""
+        return ScrewForm(self.screws @ se3.adjoint(se3.inverse(self.home)).T, self.home)
+
+    def rebased(self, P: ArrayLike, base: str | None = None) -> Chain:
+        """f' = P f: the same arm seen from another base frame; A' = Ad(P) A, M' = P M.
+
+        Parameters: P (4, 4), the pose of the old base in the new one; base, its name. Returns: Chain.
+        Raises: PoseError, ShapeError. Accuracy: within 10 u reach. Source: Park 1994, Section II, f' = P f Q.
+        """
+        P = _home(P, "P")
+        return self._with(screws=self.screws @ se3.adjoint(P).T, home=P @ self.home, base=base or self.base)
+
+    def retooled(self, Q: ArrayLike, tip: str | None = None) -> Chain:
+        """f' = f Q: the same arm with another tool frame; A' = A, M' = M Q, so B' = Ad(Q)^-1 B.
+
+        Parameters: Q (4, 4), the pose of the new tool in the old one; tip, its name. Returns: Chain.
+        Raises: PoseError, ShapeError. Accuracy: within 10 u reach. Source: Park 1994, Section II, f' = P f Q.
+        """
+        return self._with(home=self.home @ _home(Q, "Q"), tip=tip or self.tip)
+
+    def rezeroed(self, q0: Any) -> Chain:
+        """f'(q) = f(q + q0): the same arm with its zero positions at q0.
+
+        A_i' = Ad(e^{A_1 d_1} ... e^{A_{i-1} d_{i-1}}) A_i and M' = e^{A_1 d_1} ... e^{A_n d_n} M with d = C q0; limits
+        move by -q0.
+
+        Parameters: q0 (m,) or a dict. Returns: Chain. Raises: ShapeError, UnknownName, InputError.
+        Accuracy: within 10 u n reach. Source: Park 1994, Section II.
+        """
+        q0 = coordinates(q0, self.q_names, "q0")
+        if q0.ndim != 1 or not np.isfinite(q0).all():
+            raise InputError(f"q0: expected one finite configuration ({self.dof},), got {q0.tolist()}")
+        A, P = np.empty_like(self.screws), np.eye(4)
+        shifts = q0 if self._coupling is None else self._coupling @ q0
+        for i, (S, d) in enumerate(zip(self.screws, shifts, strict=True)):
+            A[i] = se3.adjoint(P) @ S
+            P = P @ se3.exp(S * d)
+        return self._with(screws=A, home=P @ self.home, limits=self.limits - q0[:, None])
+
+    def random(self, rng: np.random.Generator | int, size: int | tuple[int, ...] = ()) -> Array:
+        """Configurations drawn uniformly within the limits; one turn (or 1 m either way) where there is none.
+
+        Parameters: rng, a NumPy generator or a seed; size, the batch shape. Returns: (*size, m), rad or m.
+        Raises: nothing of its own. Accuracy and source: none, it draws.
+        """
+        rng = np.random.default_rng(rng)
+        size = (size,) if isinstance(size, (int, np.integer)) else tuple(size)
+        turn = np.array([np.pi if self._turns(k) else 1.0 for k in range(self.dof)])
+        lower, upper = self.limits.T
+        bounded = np.isfinite(lower), np.isfinite(upper)
+        low = np.where(bounded[0], lower, np.where(bounded[1], upper - 2 * turn, -turn))
+        high = np.where(bounded[1], upper, np.where(bounded[0], lower + 2 * turn, turn))
+        return low + (high - low) * rng.random((*size, self.dof))
+
+    def _turns(self, k: int) -> bool:
+        """Whether coordinate k is an angle: the first joint that follows it turns."""
+        followers = [k] if self._coupling is None else np.flatnonzero(self._coupling[:, k])
+        return not len(followers) or self.kinds[followers[0]] != "prismatic"
+
+    def _with(self, **changes: Any) -> Chain:
+        return _rebuilt({**self._data(), **changes})
+
+    def _data(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in _DATA} | {"coupling": self._coupling}
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a Chain is frozen: cannot set {name!r}; rebased, retooled and rezeroed make new ones")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a Chain is frozen: cannot delete {name!r}")
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Chain):
+            return NotImplemented
+        mine, theirs = self._data(), other._data()
+        return all(
+            np.array_equal(a, theirs[k]) if isinstance(a, np.ndarray) else a == theirs[k] for k, a in mine.items()
+        )
+
+    def __hash__(self) -> int:
+        return hash(tuple(a.tobytes() if isinstance(a, np.ndarray) else a for a in self._data().values()))
+
+    def __reduce__(self):
+        return _rebuilt, (self._data(),)
+
+    def __repr__(self) -> str:
+        counts = [f"{self.kinds.count(kind)} {kind}" for kind in _KINDS if kind in self.kinds]
+        coupled = "" if self.dof == len(self.kinds) else f", {self.dof} coordinate{'s' * (self.dof != 1)}"
+        return (
+            f"<Chain {shown(self.base)} -> {shown(self.tip)}: {', '.join(counts) or 'no'} "
+            f"joint{'s' * (len(self.kinds) != 1)}{coupled}, reach {self.reach:.3g} m>"
+        )
+
+
+_DATA = ("screws", "home", "joint_names", "q_names", "limits", "offset", "base", "tip")
+_KINDS = ("revolute", "prismatic", "helical")
+
+
+def _rebuilt(data: dict[str, Any]) -> Chain:
+    return Chain(**data)
+
+
+def _kind(rotates: float, slides: float) -> str:
+    return "prismatic" if rotates == 0 else "helical" if slides else "revolute"
+
+
+def _finite(values: ArrayLike, what: str) -> Array:
+    array = numbers(values, what).copy() + 0.0
+    if not np.isfinite(array).all():
+        raise InputError(f"{what}: expected finite numbers, got {array.tolist()}")
+    return array
+
+
+def _home(T: ArrayLike, what: str = "home") -> Array:
+    """One finite pose, its rotation exact and its last row (0, 0, 0, 1)."""
+    T = poses(_finite(shaped(T, (4, 4), what), what), what)
+    if T.ndim != 2:
+        raise ShapeError(f"{what}: expected one pose (4, 4), got shape {T.shape}")
+    T[3] = [0.0, 0.0, 0.0, 1.0]
+    R = T[:3, :3]
+    if np.abs(R @ R.T - np.eye(3)).max() > _EXACT:
+        U, _, V = np.linalg.svd(R)
+        T[:3, :3] = U @ V
+    return T + 0.0
+
+
+def _names(names: Sequence[str] | None, count: int, what: str, letter: str) -> tuple[str, ...]:
+    if names is None:
+        return tuple(f"{letter}{i + 1}" for i in range(count))
+    if isinstance(names, str) or len(names) != count:
+        raise ShapeError(f"{what}: expected {count} names, got {names!r}")
+    if len(set(names)) != count:
+        twice = next(name for name in names if list(names).count(name) > 1)
+        raise InputError(f"{what}: {shown(twice)} appears more than once")
+    return tuple(map(str, names))
+
+
+def _limits(limits: ArrayLike | None, names: tuple[str, ...]) -> Array:
+    if limits is None:
+        return np.tile([-np.inf, np.inf], (len(names), 1))
+    L = numbers(limits, "limits").copy() + 0.0
+    if L.shape != (len(names), 2):
+        raise ShapeError(f"limits: expected shape ({len(names)}, 2), lower and upper of each coordinate, got {L.shape}")
+    for name, (lower, upper) in zip(names, L, strict=True):
+        if not lower <= upper or lower == np.inf or upper == -np.inf:
+            raise InputError(f"limits: expected lower <= upper for {shown(name)}, got {lower} and {upper}")
+    return L
+
+
+def _coupling(values: ArrayLike, n: int) -> Array | None:
+    """C as given, or None where it is the identity."""
+    C = _finite(values, "coupling")
+    if C.ndim != 2 or C.shape[0] != n:
+        raise ShapeError(f"coupling: expected shape ({n}, m), one row a joint, got {C.shape}")
+    return None if np.array_equal(C, np.eye(n)) else C
+
+
+def _table(form: LocalForm, coupling: Array | None, offset: Array) -> Array:
+    """The numbers of a chain as the kernels read them; see `poekin.engine.chain_kernels`."""
+    n = len(offset)
+    if coupling is None and offset.any():
+        coupling = np.eye(n)
+    width = chain_kernels.OFFSET if coupling is None else chain_kernels.COUPLING + coupling.shape[1]
+    table = np.zeros((n + 1, width))
+    table[:, :9] = form.frames[:, :3, :3].reshape(-1, 9)
+    table[:, 9:12] = form.frames[:, :3, 3]
+    table[:n, chain_kernels.ROTATES], table[:n, chain_kernels.SLIDES] = form.rotates, form.slides
+    if coupling is not None:
+        table[:n, chain_kernels.OFFSET], table[:n, chain_kernels.COUPLING :] = offset, coupling
+    return table

@@ -1,0 +1,198 @@
+"""Poses, Jacobians and velocities of a chain: what `Chain` offers as methods, over the engine's kernels."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..engine import chain_kernels
+from ..errors import InputError, ShapeError, UnknownName, shown
+from ..groups import se3
+from ..groups.arrays import Array, shaped
+from .coordinates import coordinates
+
+if TYPE_CHECKING:
+    from .chain import Chain
+
+_FRAMES: dict[object, int] = {"space": chain_kernels.SPACE, "body": chain_kernels.BODY, "hybrid": chain_kernels.HYBRID}
+# Names looked up once: one call for a pose and a Jacobian takes about a microsecond in all.
+_ndarray, _empty, _POSE_SHAPE = np.ndarray, np.empty, (4, 4)
+_pose_jacobian_one, _pose_one = chain_kernels.pose_jacobian_one, chain_kernels.pose_one
+
+
+def fk(self: Chain, q: Any, *, out: Array | None = None) -> Array:
+    """Forward kinematics: T_sb = f(q) = e^{A_1 x_1} ... e^{A_n x_n} M with x = C q + c.
+
+    Parameters: q (..., m) in the order of `q_names`, rad or m, or a dict name -> value; out, a C-contiguous float64
+    array of the result's shape to write into. Returns: T_sb (..., 4, 4), the pose of the tip in the base frame, m.
+    NaN in a configuration gives NaN in its pose. Raises: ShapeError, UnknownName, InputError.
+    Accuracy: within 2e-14 reach (tests/analysis/test_validate.py, against Pinocchio).
+    Source: Park 1994, eq. (1), by the local form of Section IV.
+    """
+    if q.__class__ is _ndarray:
+        T = _empty(_POSE_SHAPE) if out is None else out
+        try:
+            if _pose_one.call(self._table, q, T) == 0:
+                return T
+        except TypeError:
+            pass  # not one float64 configuration: the general way takes it or says what is wrong
+    batch, rows = _rows(self, q)
+    T = _result(out, (*batch, 4, 4), "out")
+    chain_kernels.pose_many.call(self._table, rows, T.reshape(len(rows), 4, 4))
+    return T
+
+
+def fk_jacobian(
+    self: Chain, q: Any, frame: str | int, *, at: ArrayLike | None = None, out: tuple[Array, Array] | None = None
+) -> tuple[Array, Array]:
+    """Pose and Jacobian in one pass: those of `fk` and `jacobian`.
+
+    Parameters: as `jacobian`; out = (T, J), arrays to write into. Returns: T_sb (..., 4, 4), J (..., 6, m).
+    Raises, accuracy, source: as `fk` and `jacobian`.
+    """
+    if q.__class__ is _ndarray and at is None:
+        try:
+            if out is None:
+                T, J = _empty(_POSE_SHAPE), _empty(self._jacobian_shape)
+            else:
+                T, J = out
+            if _pose_jacobian_one.call(self._table, q, _FRAMES[frame], T, J) == 0:
+                return T, J
+        except (TypeError, KeyError, ValueError):
+            pass  # not one float64 configuration in a named frame: the general way takes it or says what is wrong
+    if at is not None:
+        T, J = _moved_tool(self, frame, at).fk_jacobian(q, frame, out=out)
+        T[..., :3, 3] -= (T[..., :3, :3] @ np.asarray(at, float)[:, None])[..., 0]
+        return T, J
+    code, (batch, rows) = _frame_code(self, frame), _rows(self, q)
+    T, J = (None, None) if out is None else _pair(out)
+    T, J = _result(T, (*batch, 4, 4), "out[0]"), _result(J, (*batch, 6, self.dof), "out[1]")
+    _fill(self, rows, code, T.reshape(len(rows), 4, 4), J)
+    return T, J
+
+
+def jacobian(self: Chain, q: Any, frame: str | int, *, at: ArrayLike | None = None, out: Array | None = None) -> Array:
+    """Jacobian J(q) with V = J dq, rows (omega; v), in the frame that is named at every call.
+
+    - "space": V_s = f' f^-1, base axes, velocity of the tool's point that passes the base origin
+    - "body": V_b = f^-1 f', tool axes, velocity of the tool's origin
+    - "hybrid": base axes, velocity of the tool's origin (Pinocchio's LOCAL_WORLD_ALIGNED)
+    - k: the twist of the tool in the z-aligned frame of joint k (0 ... n - 1, see `joint_poses`), which moves with it
+
+    Parameters: q (..., m) or a dict, as `fk`; frame; at, a point (3,) of the tool in its own frame (m), whose velocity
+    is meant instead of its origin's ("body" and "hybrid" only); out, an array to write into.
+    Returns: J (..., 6, m): rad/s and m/s per unit of dq. Raises: ShapeError, UnknownName, InputError.
+    Accuracy: within 2e-14 reach (tests/analysis/test_validate.py, against Pinocchio).
+    Source: Park 1994, Section III, "The Jacobian".
+    """
+    if at is not None:
+        return _moved_tool(self, frame, at).jacobian(q, frame, out=out)
+    code, (batch, rows) = _frame_code(self, frame), _rows(self, q)
+    J = _result(out, (*batch, 6, self.dof), "out")
+    _fill(self, rows, code, np.empty((1, 4, 4)), J)
+    return J
+
+
+def velocity(self: Chain, q: Any, dq: Any, frame: str | int) -> Array:
+    """Twist V = J(q) dq of the tool by the paper's V recursion, without forming J.
+
+    Parameters: q, dq (..., m), broadcast against each other; frame as in `jacobian`. Returns: V (..., 6), rad/s, m/s.
+    Raises: ShapeError, UnknownName, InputError. Accuracy: within 2e-14 reach |dq| (tests/model/test_chain_laws.py).
+    Source: Park 1994, Section IV; the recursion yields the body velocity, the other frames are reached from it.
+    """
+    code = _frame_code(self, frame)
+    q, dq = coordinates(q, self.q_names), coordinates(dq, self.q_names, "dq")
+    try:
+        batch = np.broadcast_shapes(q.shape, dq.shape)
+    except ValueError as error:
+        raise ShapeError(f"q and dq do not broadcast: shapes {q.shape} and {dq.shape}") from error
+    q, dq = np.broadcast_to(q, batch), np.broadcast_to(dq, batch)
+    batch, rows = _rows(self, q)
+    V = np.empty((len(rows), 6))
+    chain_kernels.body_velocity.call(self._table, rows, dq.reshape(len(rows), self.dof), V)
+    V = V.reshape(*batch, 6)
+    if code == chain_kernels.BODY:
+        return V
+    T = self.fk(q)
+    if code == chain_kernels.HYBRID:
+        R = T[..., :3, :3]
+        return np.concatenate([(R @ V[..., :3, None])[..., 0], (R @ V[..., 3:, None])[..., 0]], axis=-1)
+    if code != chain_kernels.SPACE:
+        T = se3.inverse(self.joint_poses(q)[..., code, :, :]) @ T
+    return (se3.adjoint(T) @ V[..., None])[..., 0]
+
+
+def joint_poses(self: Chain, q: Any) -> Array:
+    """Poses of the joints' z-aligned frames in the base frame, moved: f_k = M_1 e^{S x_1} ... M_k e^{S x_k}.
+
+    Parameters: q (..., m) or a dict, as `fk`. Returns: (..., n, 4, 4), m. Raises: ShapeError, UnknownName, InputError.
+    Accuracy: as `fk`. Source: Park 1994, Section IV; the frames are those of `Chain.local`.
+    """
+    batch, rows = _rows(self, q)
+    T = np.empty((len(rows), len(self.joint_names), 4, 4))
+    chain_kernels.joint_poses.call(self._table, rows, T)
+    return T.reshape(*batch, len(self.joint_names), 4, 4)
+
+
+def _rows(chain: Chain, q: Any) -> tuple[tuple[int, ...], Array]:
+    """The batch shape of q and its configurations as rows."""
+    q = coordinates(q, chain.q_names)
+    return q.shape[:-1], q.reshape(math.prod(q.shape[:-1]), chain.dof)
+
+
+def _fill(chain: Chain, rows: Array, code: int, T: Array, J: Array) -> None:
+    count = len(rows)
+    chain_kernels.pose_jacobian_many.call(chain._table, rows, code, T, J.reshape(count, 6, chain.dof))
+
+
+def _frame_code(chain: Chain, frame: object) -> int:
+    return _FRAMES[frame] if isinstance(frame, str) and frame in _FRAMES else joint_index(chain, frame)
+
+
+def _moved_tool(chain: Chain, frame: str | int, at: ArrayLike) -> Chain:
+    if frame not in ("body", "hybrid"):
+        raise InputError(f"at: a point of the tool matters in the frames 'body' and 'hybrid' only, got frame {frame!r}")
+    p = shaped(at, (3,), "at")
+    if p.ndim != 1:
+        raise ShapeError(f"at: expected one point (3,), got shape {p.shape}")
+    T = np.eye(4)
+    T[:3, 3] = p
+    return chain.retooled(T)
+
+
+def joint_index(chain: Chain, frame: object) -> int:
+    """The index of the joint whose frame is meant."""
+    n = len(chain.joint_names)
+    if isinstance(frame, str):
+        raise UnknownName(f"frame: expected 'space', 'body', 'hybrid' or the index of a joint, got {shown(frame)}")
+    if not isinstance(frame, (int, np.integer)) or isinstance(frame, bool) or not 0 <= frame < n:
+        raise InputError(
+            f"frame: expected 'space', 'body', 'hybrid' or the index of a joint, 0 to {n - 1}, got {frame!r}"
+            if n
+            else f"frame: expected 'space', 'body' or 'hybrid' (the chain has no joint), got {frame!r}"
+        )
+    return int(frame)
+
+
+def checked_out(out: Any, shape: tuple[int, ...], what: str) -> Array:
+    """`out` itself where a kernel can write into it."""
+    if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape:
+        got = f"{out.dtype} {out.shape}" if isinstance(out, np.ndarray) else type(out).__name__
+        raise ShapeError(f"{what}: expected a float64 array of shape {shape}, got {got}")
+    flags = out.flags
+    if not (flags.c_contiguous and flags.writeable and flags.aligned):
+        raise InputError(f"{what}: expected a C-contiguous, writable, aligned array")
+    return out
+
+
+def _result(out: Array | None, shape: tuple[int, ...], what: str) -> Array:
+    return np.empty(shape) if out is None else checked_out(out, shape, what)
+
+
+def _pair(out: Any) -> tuple[Any, Any]:
+    if not isinstance(out, (tuple, list)) or len(out) != 2:
+        raise InputError(f"out: expected a pair of arrays (T, J), got {type(out).__name__}")
+    return out[0], out[1]

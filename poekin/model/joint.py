@@ -1,0 +1,194 @@
+"""Joint: what connects two links of a robot, as data that is checked once."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..algebra import cross, dot
+from ..errors import InputError, ModelError, PoseError, ShapeError, shown
+from ..groups.arrays import TOLERANCE, shaped
+
+MOVING = ("revolute", "continuous", "prismatic", "helical")
+FREE = ("floating", "planar")
+KINDS = (*MOVING, "fixed", *FREE)
+
+# A vector this close to unit length stays as it is, so that a joint made from a joint's own axis equals it.
+UNIT = 1e-15
+# A rotation that misses orthonormality by more is replaced by the nearest one, as in a chain's home pose.
+EXACT = 4e-15
+LAST_ROW = np.array([0.0, 0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True, slots=True)
+class Mimic:
+    """A joint that follows another one: x = multiplier x_joint + offset.
+
+    Fields: joint, the name of the joint to follow; multiplier [own unit per the other's]; offset [rad or m].
+    Raises: ModelError for numbers that are not finite or a name that is none.
+    """
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        _name(self.joint, "mimic: joint")
+        _set(self, "multiplier", _finite((self.multiplier,), 1, "mimic: multiplier")[0])
+        _set(self, "offset", _finite((self.offset,), 1, "mimic: offset")[0])
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Joint:
+    """The child link's pose in the parent link's frame, T_pc(x) = origin e^{S x}, S the joint's screw in its own frame.
+
+    Fields
+    - name, parent, child: its own name and those of the two links.
+    - kind: "revolute", "continuous", "prismatic", "helical"; "fixed"; "floating", "planar" (kept in the tree, but no
+      chain can cross them).
+    - origin (4, 4): pose of the joint's frame in the parent's [m].
+    - axis (3,): direction of the axis in the joint's frame; any length, kept as a unit vector.
+    - limits: lower and upper bound of x [rad or m], -inf and inf where there is none; a continuous joint has none.
+    - mimic: the joint that it follows, or None. A fixed joint stays where it is, whatever it is said to mimic.
+    - pitch [m per rad]: of a helical joint.
+
+    Frozen, and equal to a joint of the same numbers. Raises: ModelError that names the joint and the field;
+    ShapeError, InputError or PoseError for an origin that is no pose.
+    Accuracy: the axis is a unit vector to 1e-15, the origin's rotation orthonormal to 4e-15 (the nearest rotation to
+    what is given); all else is kept as given.
+    """
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    origin: Any = None
+    axis: Any = (1.0, 0.0, 0.0)
+    limits: Any = (-math.inf, math.inf)
+    mimic: Mimic | None = None
+    pitch: float = 0.0
+
+    def __post_init__(self) -> None:
+        _name(self.name, "a joint")
+        try:
+            self._check()
+        except (InputError, ModelError) as fault:
+            raise type(fault)(f"joint {shown(self.name)}: {fault}") from fault.__cause__
+
+    def _check(self) -> None:
+        if self.kind not in KINDS:
+            raise ModelError(f"kind must be one of {', '.join(KINDS)}, got {shown(self.kind)}")
+        _name(self.parent, "parent")
+        _name(self.child, "child")
+        _set(self, "origin", _pose(self.origin))
+        _set(self, "axis", _direction(self.axis))
+        _set(self, "limits", _interval(self.limits) if self.kind != "continuous" else (-math.inf, math.inf))
+        _set(self, "pitch", _finite((self.pitch,), 1, "pitch")[0])
+        if self.pitch and self.kind != "helical":
+            raise ModelError(f"only a helical joint has a pitch, and this one is {self.kind}")
+        if self.mimic is not None and not isinstance(self.mimic, Mimic):
+            raise ModelError(f"mimic must be a Mimic or None, got {shown(self.mimic)}")
+        if self.mimic is not None and self.kind in FREE:
+            raise ModelError(f"a {self.kind} joint has no single value and cannot mimic another joint")
+
+    @property
+    def screw(self) -> tuple[float, ...]:
+        """S = (omega; v) in the joint's own frame, all zeros where it has no coordinate (fixed, floating, planar)."""
+        x, y, z = self.axis
+        if self.kind in ("revolute", "continuous", "helical"):
+            return (x, y, z, self.pitch * x, self.pitch * y, self.pitch * z)
+        return (0.0, 0.0, 0.0, x, y, z) if self.kind == "prismatic" else (0.0,) * 6
+
+    def _data(self) -> tuple[Any, ...]:
+        origin = self.origin.tobytes()
+        return self.name, self.kind, self.parent, self.child, origin, self.axis, self.limits, self.mimic, self.pitch
+
+    def __eq__(self, other: object) -> bool:
+        return self._data() == other._data() if isinstance(other, Joint) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._data())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        fields = (self.name, self.kind, self.parent, self.child, self.origin, self.axis, self.limits, self.mimic)
+        return type(self), (*fields, self.pitch)
+
+    def __repr__(self) -> str:
+        follows = f", mimic={shown(self.mimic.joint)}" if self.mimic else ""
+        return f"Joint({shown(self.name)}, {self.kind}, {shown(self.parent)} -> {shown(self.child)}{follows})"
+
+
+def _set(self: object, field: str, value: object) -> None:
+    object.__setattr__(self, field, value)
+
+
+def _name(value: object, what: str) -> None:
+    if not isinstance(value, str) or not value:
+        raise ModelError(f"{what}: a name must be a string that is not empty, got {shown(repr(value))}")
+
+
+def _finite(values: Any, count: int, what: str) -> tuple[float, ...]:
+    try:
+        numbers = tuple(map(float, values))
+    except (TypeError, ValueError) as fault:
+        raise ModelError(f"{what}: expected {count} finite number(s), got {shown(values)}") from fault
+    if len(numbers) != count or not all(map(math.isfinite, numbers)):
+        raise ModelError(f"{what}: expected {count} finite number(s), got {shown(values)}")
+    return numbers
+
+
+def _direction(axis: Any) -> tuple[float, ...]:
+    vector = _finite(axis, 3, "axis")
+    if not any(vector):
+        raise ModelError(f"axis must not be zero, got {shown(vector)}")
+    if abs(math.hypot(*vector) - 1.0) > UNIT:
+        # Scaled first: a tiny or huge axis must neither underflow nor overflow.
+        largest = max(map(abs, vector))
+        vector = tuple(v / largest for v in vector)
+        length = math.hypot(*vector)
+        vector = tuple(v / length for v in vector)
+    x, y, z = vector
+    return x + 0.0, y + 0.0, z + 0.0
+
+
+def _interval(limits: Any) -> tuple[float, float]:
+    try:
+        lower, upper = map(float, limits)
+    except (TypeError, ValueError) as fault:
+        raise ModelError(f"limits must be two numbers, lower and upper, got {shown(limits)}") from fault
+    if not lower <= upper or lower == math.inf or upper == -math.inf:
+        raise ModelError(f"limits must be lower <= upper, got lower = {lower!r}, upper = {upper!r}")
+    return lower, upper
+
+
+def _pose(origin: Any) -> np.ndarray:
+    # The same test as for arrays of poses, but a robot is read without waiting for compiled code.
+    T = np.eye(4) if origin is None else shaped(origin, (4, 4), "origin").copy()
+    if T.ndim != 2:
+        raise ShapeError(f"origin: expected shape (4, 4), got {T.shape}")
+    *rows, last = T.tolist()
+    x, y, z = rows
+    for number, row in enumerate(rows):
+        if not all(map(math.isfinite, row)):
+            raise PoseError(f"origin must be finite, row {number} is {row}")
+    if not max(abs(last[0]), abs(last[1]), abs(last[2]), abs(last[3] - 1.0)) <= TOLERANCE:
+        raise PoseError(f"origin is no pose: its last row is {last}, expected [0, 0, 0, 1]")
+    lengths = (abs(dot(x, x) - 1.0), abs(dot(y, y) - 1.0), abs(dot(z, z) - 1.0))
+    defect = max(*lengths, abs(dot(x, y)), abs(dot(y, z)), abs(dot(z, x)))
+    if not defect <= TOLERANCE:
+        raise PoseError(
+            f"origin is no pose: its rotation misses orthonormality, max abs(R R^T - I) = {defect:.3g}, accepted up to"
+            f" {TOLERANCE:g}"
+        )
+    if dot(cross(x, y), z) < 0:
+        raise PoseError("origin is no pose: its rotation is a reflection")
+    if defect > EXACT:
+        U, _, V = np.linalg.svd(T[:3, :3])
+        T[:3, :3] = U @ V
+    T[3] = LAST_ROW
+    T += 0.0  # no negative zeros: equal origins have equal bytes
+    T.flags.writeable = False
+    return T

@@ -1,0 +1,62 @@
+"""The paper's local form with z-aligned link frames, computed from the screws alone.
+
+    f = M_1 e^{S x_1} M_2 e^{S x_2} ... M_n e^{S x_n} M_{n+1},  S = (0, 0, r; 0, 0, s)
+
+Where a link frame sits along its axis and how it is turned about it is free. Here its origin is the point of the axis
+nearest to the previous frame's origin and its axes are turned as little as possible: so the numbers stay small, and
+nothing blows up where axes are parallel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..groups.arrays import Array
+from . import screw
+
+
+@dataclass(frozen=True, eq=False)
+class LocalForm:
+    """Constant poses and z-aligned screws of a chain of n joints.
+
+    `frames` (n + 1, 4, 4) are M_1 ... M_{n+1} (m); joint i turns by rotates[i] x_i (rad) and slides by slides[i] x_i
+    (m) along its z axis. Source: Park 1994, Section IV, and DESIGN's trailing tool M_{n+1}.
+    """
+
+    frames: Array
+    rotates: Array
+    slides: Array
+
+
+def local_form(screws: Array, home: Array) -> LocalForm:
+    """The local form of checked screws (n, 6) in the base frame and the home pose (4, 4)."""
+    n = len(screws)
+    frames, rotates, slides = np.tile(np.eye(4), (n + 1, 1, 1)), np.empty(n), np.empty(n)
+    R, origin = np.eye(3), np.zeros(3)
+    for i, S in enumerate(screws):
+        rotates[i] = 1.0 if S[:3].any() else 0.0
+        slides[i] = screw.pitch_of(S) if rotates[i] else 1.0
+        z = S[:3] if rotates[i] else S[3:]
+        there = origin
+        if rotates[i]:
+            foot = np.cross(S[:3], S[3:])
+            there = foot + z * (z @ (origin - foot))
+        frames[i, :3, :3] = _turned_least(R.T @ z)
+        frames[i, :3, 3] = R.T @ (there - origin)
+        R, origin = R @ frames[i, :3, :3], there
+    frames[n, :3, :3] = R.T @ home[:3, :3]
+    frames[n, :3, 3] = R.T @ (home[:3, 3] - origin)
+    return LocalForm(frames, rotates, slides)
+
+
+def _turned_least(z: Array) -> Array:
+    """The rotation that takes (0, 0, 1) to the unit vector z by the smallest angle; by way of diag(1, -1, -1) where
+    z points down, so that it has no singularity.
+    """
+    z = z / np.linalg.norm(z)
+    flip = np.diag([1.0, 1.0, 1.0] if z[2] >= 0 else [1.0, -1.0, -1.0])
+    x, y, c = flip @ z
+    k = 1.0 / (1.0 + c)
+    return flip @ np.array([[1.0 - k * x * x, -k * x * y, x], [-k * x * y, 1.0 - k * y * y, y], [-x, -y, c]])

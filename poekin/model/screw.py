@@ -1,0 +1,123 @@
+"""Screws of joints: six numbers (omega; v), the angular part first, and the lines in space that they stand for.
+
+revolute   (z; -z x p)             z a unit vector along the axis, p any point on it
+helical    (z; -z x p + h z)       h the pitch in m per rad
+prismatic  (0; z)                  a direction; it has no place
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError, ScrewError, ShapeError
+from ..groups.arrays import Array, numbers, shaped
+
+__all__ = ["Axis", "axis_of", "checked", "helical", "pitch_of", "prismatic", "revolute"]
+
+UNIT = 1e-9  # how far from 1 the length of a screw's direction may be
+_EXACT = 4.5e-16  # two units in the last place of 1
+_NO_PITCH = 1e-13  # m per rad, relative to max(1 m, |v|): the rounding of a moved revolute screw
+
+
+class Axis(NamedTuple):
+    """The axis of a screw: unit direction (3,), its point nearest the origin (3,) in m, and the pitch in m per rad.
+
+    Of a prismatic joint point is None and pitch infinite: it has a direction and no place.
+    """
+
+    direction: Array
+    point: Array | None
+    pitch: float
+
+
+def _unit(axis: ArrayLike) -> Array:
+    z = shaped(axis, (3,), "axis")
+    if z.ndim != 1 or not np.isfinite(z).all():
+        raise InputError(f"axis: expected one finite vector (3,), got {z.tolist()}")
+    z = z / max(np.abs(z).max(), np.finfo(float).tiny)
+    length = float(np.linalg.norm(z))
+    if length == 0:
+        raise ScrewError("axis: expected a direction, got the zero vector")
+    return z / length
+
+
+def revolute(axis: ArrayLike, point: ArrayLike) -> Array:
+    """Screw (z; -z x p) of a revolute joint.
+
+    Parameters: axis (3,), any length but zero; point (3,), m, any point on the axis. Returns: (6,), per rad.
+    Raises: ScrewError, ShapeError, InputError. Accuracy: within 3 u max(1, |p|) in each entry, u = 2^-53.
+    Source: Park 1994, Section II.
+    """
+    return helical(axis, point, 0.0)
+
+
+def helical(axis: ArrayLike, point: ArrayLike, pitch: float) -> Array:
+    """Screw (z; -z x p + h z) of a helical joint.
+
+    Parameters: axis (3,), any length but zero; point (3,), m; pitch h, m per rad. Returns: (6,), per rad.
+    Raises: ScrewError, ShapeError, InputError. Accuracy: as `revolute`. Source: Park 1994, Section II.
+    """
+    z, p = _unit(axis), shaped(point, (3,), "point")
+    h = float(shaped(pitch, (), "pitch"))
+    if p.ndim != 1 or not np.isfinite([*p, h]).all():
+        raise InputError(f"expected a finite point (3,) and pitch, got point {p.tolist()} and pitch {h}")
+    return np.concatenate([z, np.cross(p, z) + h * z])
+
+
+def prismatic(axis: ArrayLike) -> Array:
+    """Screw (0; z) of a prismatic joint.
+
+    Parameters: axis (3,), any length but zero. Returns: (6,), per m. Raises: ScrewError, ShapeError, InputError.
+    Accuracy: within 2 u. Source: Park 1994, Section II.
+    """
+    return np.concatenate([np.zeros(3), _unit(axis)])
+
+
+def pitch_of(screw: Array) -> float:
+    """omega . v of a checked screw with omega != 0, in m per rad; exactly 0 where it is rounding."""
+    pitch = float(screw[:3] @ screw[3:])
+    return 0.0 if abs(pitch) <= _NO_PITCH * max(1.0, float(np.linalg.norm(screw[3:]))) else pitch
+
+
+def axis_of(screw: ArrayLike) -> Axis:
+    """Direction, point and pitch of a screw: the inverse of `revolute`, `prismatic` and `helical`.
+
+    The point is omega x v, the foot of the perpendicular from the origin.
+
+    Parameters: screw (6,). Returns: Axis. Raises: ScrewError, ShapeError, InputError. Accuracy: as `revolute`.
+    Source: Park 1994, Section II: "omega x v is a point on the axis" holds for |omega| = 1.
+    """
+    S = checked(shaped(screw, (6,), "screw")[None])[0]
+    if not S[:3].any():
+        return Axis(S[3:], None, np.inf)
+    return Axis(S[:3], np.cross(S[:3], S[3:]), pitch_of(S))
+
+
+def checked(screws: ArrayLike, names: tuple[str, ...] = ()) -> Array:
+    """Screws (n, 6) with |omega| = 1, or omega = 0 and |v| = 1, to the last digit.
+
+    Accepted where that holds to 1e-9; anything else is refused: rescaling it would rescale the user's q.
+
+    Parameters: screws (n, 6); names of the joints, for the message. Returns: a new array (n, 6).
+    Raises: ScrewError with the joint's name or index. Accuracy: within 2 u of unit length.
+    Source: Park 1994, Lemmas 1 and 2, which need it.
+    """
+    S = numbers(screws, "screws").copy() + 0.0
+    if S.shape == (0,):
+        S = S.reshape(0, 6)
+    if S.ndim != 2 or S.shape[1] != 6:
+        raise ShapeError(f"screws: expected shape (n, 6), one row (omega; v) a joint, got {S.shape}")
+    for i, row in enumerate(S):
+        where = f"screws[{i}]" + (f" (joint {names[i]!r})" if i < len(names) else "")
+        if not np.isfinite(row).all():
+            raise ScrewError(f"{where}: expected finite numbers, got {row.tolist()}")
+        part, what = (row[:3], "omega") if row[:3].any() else (row[3:], "v, where omega = 0,")
+        length = float(np.linalg.norm(part))
+        if abs(length - 1.0) > UNIT:
+            raise ScrewError(f"{where}: {what} must have length 1 to {UNIT:g}, got {length:.12g} in {row.tolist()}")
+        if abs(length - 1.0) > _EXACT:
+            part /= length
+    return S

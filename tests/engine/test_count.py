@@ -1,0 +1,159 @@
+"""The counting scalar: what it charges, and the paper's table by running the algorithms."""
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.algebra import adjoint, compose
+from poekin.analysis.count import METHODS
+from poekin.engine.count import Count, Counted, counted
+from poekin.formulas import dh_recursive, direct, exponential, forward, recursive
+
+POSE = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.1, 0.2, 0.3)
+
+
+def cost(formula, *arguments):
+    """Multiplications and additions of a formula of variables."""
+    total = Count()
+    formula(*(a if isinstance(a, (list, int)) else counted(a, total) for a in arguments))
+    return total.multiplications, total.additions
+
+
+def generic_arm(n, seed=0):
+    rng = np.random.default_rng(seed)
+    return pk.Chain([pk.screw.revolute(*rng.normal(size=(2, 3))) for _ in range(n)], pk.se3.exp(rng.normal(size=6)))
+
+
+TABLE = {
+    ("direct", "space"): lambda n: (60 * n - 96, 45 * n - 72),
+    ("direct", "body"): lambda n: (60 * n - 96, 45 * n - 72),
+    ("recursive", "body"): lambda n: (42 * n - 78, 30 * n - 57),
+    ("recursive_with_tool", "body"): lambda n: (42 * n - 42, 30 * n - 30),
+    ("dh_recursive", "body"): lambda n: (42 * n, 30 * n),
+}
+
+
+@pytest.mark.parametrize("n", range(2, 13))
+@pytest.mark.parametrize("method, frame", TABLE)
+def test_the_paper_s_table_comes_out_by_counting(method, frame, n):
+    total = pk.count(generic_arm(n), method=method, frame=frame)
+    assert (total.multiplications, total.additions) == TABLE[method, frame](n)
+
+
+def test_every_method_is_in_the_table():
+    assert set(METHODS) == set(TABLE)
+
+
+def test_a_product_and_an_adjoint_cost_what_the_paper_says():
+    assert cost(compose, POSE, POSE) == (36, 27)
+    assert cost(adjoint, POSE, POSE[:6]) == (24, 18)
+    assert cost(recursive.z_column, POSE, 1, 0) == (6, 3)
+
+
+def test_a_column_of_a_prismatic_joint_costs_nothing():
+    assert cost(recursive.z_column, POSE, 0, 1) == (0, 0)
+
+
+def test_the_v_recursion_costs_24_multiplications_a_joint_after_the_first():
+    n, total = 6, Count()
+    links, rates = counted([POSE] * n, total), counted([0.1] * n, total)
+    V = recursive.body_velocity(links, POSE, [1] * n, [0] * n, n, rates)
+    # the constant tool behind the last joint is one adjoint more
+    assert (total.multiplications - 24, len(V)) == (24 * n - 24, 6)
+
+
+def test_an_exponential_of_a_revolute_joint_costs_15_and_13_and_its_pitch_3_and_3():
+    total = Count()
+    q, s, c = counted((0.3, 0.1, 0.9), total)
+    exponential.joint((0.6, 0.0, 0.8), (0.1, 0.2, 0.3), q, s, c)
+    assert (total.multiplications, total.additions) == (15 + 3, 13 + 3)
+
+
+def test_constants_among_themselves_negation_and_structure_are_free():
+    total = Count()
+    x = Counted(2.0, total)
+    _ = -(x * 1) + 0 - 0 * x + (-1) * x
+    assert total == Count(additions=1)
+
+
+def test_a_float_one_is_a_number_like_any_other():
+    total = Count()
+    _ = Counted(2.0, total) * 1.0
+    assert total == Count(multiplications=1)
+
+
+def test_counting_sees_one_operation_more():
+    def padded(a, b):
+        return compose(a, b), a[0] * b[0]
+
+    assert cost(padded, POSE, POSE) == (37, 27)
+
+
+def test_the_table_needs_two_joints_and_a_known_method():
+    with pytest.raises(pk.errors.InputError, match="from 2 joints on, the chain has 1"):
+        pk.count(generic_arm(1))
+    with pytest.raises(pk.errors.InputError, match="'direct' in frame 'hybrid'; there are: direct in space"):
+        pk.count(generic_arm(3), method="direct", frame="hybrid")
+
+
+def random_dh_arm(n, rng):
+    """Random link constants and tool of a revolute arm in Paul's frames, and the same arm as a Chain."""
+    constants = [pk.se3.exp(rng.normal(size=6)) for _ in range(n)]
+    tool = pk.se3.exp(rng.normal(size=6))
+    F, screws = np.eye(4), []
+    for N in constants:
+        screws.append(pk.se3.adjoint(F) @ [0, 0, 1, 0, 0, 0])
+        F = F @ N
+    return constants, tool, pk.Chain(screws, F @ tool)
+
+
+def row(T):
+    return [*T[:3, :3].ravel().tolist(), *T[:3, 3].tolist()]
+
+
+@pytest.mark.parametrize("n", range(2, 13))
+def test_the_counted_algorithms_give_one_and_the_same_jacobian(n):
+    rng = np.random.default_rng(n)
+    constants, tool, arm = random_dh_arm(n, rng)
+    q = rng.uniform(-np.pi, np.pi, n)
+    expected = arm.jacobian(q, "body")
+    turns = [pk.se3.exp([0, 0, x, 0, 0, 0]) for x in q]
+    results = {}
+
+    def rows():
+        return [[0.0] * n for _ in range(6)]
+
+    J = results["dh_recursive"] = rows()
+    dh_recursive.body([row(Z @ N) for Z, N in zip(turns, constants, strict=True)], row(tool), [1] * n, [0] * n, n, J)
+    local = arm.local
+    links = [row(M @ Z) for M, Z in zip(local.frames, turns, strict=False)]
+    J = results["recursive_with_tool"] = rows()
+    recursive.body_with_tool(links, row(local.frames[n]), [1] * n, [0] * n, n, J)
+    bare = arm.retooled(pk.se3.inverse(local.frames[n]))
+    J = rows()
+    recursive.body(links, [1] * n, [0] * n, n, J)
+    np.testing.assert_allclose(J, bare.jacobian(q, "body"), atol=2e-14 * arm.reach)
+    J = results["direct body"] = rows()
+    direct.body(
+        arm.body.screws.tolist(), [row(pk.se3.exp(B * x)) for B, x in zip(arm.body.screws, q, strict=True)], n, J
+    )
+    for J in results.values():
+        np.testing.assert_allclose(J, expected, atol=2e-14 * arm.reach)
+    J = rows()
+    direct.space(arm.screws.tolist(), [row(pk.se3.exp(A * x)) for A, x in zip(arm.screws, q, strict=True)], n, J)
+    np.testing.assert_allclose(J, arm.jacobian(q, "space"), atol=2e-14 * arm.reach)
+
+
+def test_the_pose_comes_out_of_the_same_pass():
+    n, rng = 5, np.random.default_rng(3)
+    arm, q = generic_arm(n, 3), rng.normal(size=5)
+    E = [row(pk.se3.exp(A * x)) for A, x in zip(arm.screws, q, strict=True)]
+    product = direct.space(arm.screws.tolist(), E, n, [[0.0] * n for _ in range(6)])
+    np.testing.assert_allclose(compose(compose(product, E[-1]), row(arm.home)), row(arm.fk(q)), atol=1e-13)
+    links = [row(M @ pk.se3.exp([0, 0, x, 0, 0, 0])) for M, x in zip(arm.local.frames, q, strict=False)]
+    inner = recursive.body_with_tool(
+        links, row(arm.local.frames[n]), [1] * n, [0] * n, n, [[0.0] * n for _ in range(6)]
+    )
+    np.testing.assert_allclose(compose(links[0], inner), row(arm.fk(q)), atol=1e-13)
+    moved = forward.tip([row(M) for M in arm.local.frames], np.sin(q), np.cos(q), 0 * q, n)
+    np.testing.assert_allclose(moved, row(arm.fk(q)), atol=1e-13)

@@ -1,0 +1,212 @@
+"""URDF: what it means, and what is repaired with a warning."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from poekin.errors import PoekinWarning
+from poekin.formats import urdf
+from poekin.model.robot import Robot
+from tests.formats.texts import LIMIT, chain_of, one_joint
+
+
+def read(inside: str = LIMIT, kind: str = "revolute") -> Robot:
+    return urdf.read_text(one_joint(inside, kind), "x.urdf")
+
+
+def Rx(a: float) -> np.ndarray:
+    return np.array([[1, 0, 0], [0, math.cos(a), -math.sin(a)], [0, math.sin(a), math.cos(a)]])
+
+
+def Ry(a: float) -> np.ndarray:
+    return np.array([[math.cos(a), 0, math.sin(a)], [0, 1, 0], [-math.sin(a), 0, math.cos(a)]])
+
+
+def Rz(a: float) -> np.ndarray:
+    return np.array([[math.cos(a), -math.sin(a), 0], [math.sin(a), math.cos(a), 0], [0, 0, 1]])
+
+
+@given(*[st.floats(-7, 7)] * 3, st.lists(st.floats(-1e3, 1e3), min_size=3, max_size=3))
+def test_an_origin_is_a_place_and_turns_about_fixed_axes(roll, pitch, yaw, xyz):
+    place = " ".join(map(repr, xyz))
+    T = read(f'<origin xyz="{place}" rpy="{roll!r} {pitch!r} {yaw!r}"/>{LIMIT}').joints[0].origin
+    assert T[:3, 3].tolist() == xyz
+    assert np.abs(T[:3, :3] - Rz(yaw) @ Ry(pitch) @ Rx(roll)).max() <= 4e-16
+    assert np.abs(T[:3, :3] @ T[:3, :3].T - np.eye(3)).max() <= 1e-15
+
+
+@pytest.mark.parametrize("origin", ["", "<origin/>", '<origin xyz="0 0 0"/>', '<origin rpy="0 0 0"/>'])
+def test_what_an_origin_leaves_out_is_zero(origin):
+    assert (read(origin + LIMIT).joints[0].origin == np.eye(4)).all()
+
+
+@pytest.mark.parametrize("axis", ["", "<axis/>"])
+def test_a_missing_axis_is_x(axis):
+    assert read(axis + LIMIT).joints[0].axis == (1, 0, 0)
+
+
+def test_an_oblique_axis_stays_oblique():
+    assert read('<axis xyz="0.6 0 -0.8"/>' + LIMIT).joints[0].axis == (0.6, 0, -0.8)
+
+
+def test_numbers_may_be_apart_by_any_blanks():
+    T = read(f'<origin xyz="  1\t2\n 3e-1 "/>{LIMIT}').joints[0].origin
+    assert T[:3, 3].tolist() == [1, 2, 0.3]
+
+
+@pytest.mark.parametrize("off", [1e-9, 9e-7])
+def test_an_axis_off_by_rounding_is_normalised_in_silence(off):
+    assert read(f'<axis xyz="0 0 {1 + off!r}"/>{LIMIT}').joints[0].axis == (0, 0, 1)
+
+
+def test_an_axis_that_is_not_unit_is_normalised_with_one_warning():
+    joints = "\n".join(
+        f'<joint name="j{i}" type="continuous"><parent link="l{i}"/><child link="l{i + 1}"/>'
+        f'<axis xyz="0 {length} 0"/></joint>'
+        for i, length in enumerate([1, 1.001, 3, 1])
+    )
+    text = "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(5)) + joints + "</robot>"
+    with pytest.warns(
+        PoekinWarning, match=r"^f:3: the axis of joint 'j2' has length 3 .*worst of 2; .* on line 2\)"
+    ) as w:
+        robot = urdf.read_text(text, "f")
+    assert len(w) == 1
+    assert w[0].filename == __file__
+    assert {joint.axis for joint in robot.joints} == {(0, 1, 0)}
+
+
+@pytest.mark.parametrize("kind", ["fixed", "floating"])
+def test_the_axis_of_a_joint_that_has_none_is_not_looked_at(kind):
+    read('<axis xyz="0 0 0"/><limit lower="2" upper="1"/>', kind)
+
+
+@pytest.mark.parametrize("kind", ["revolute", "prismatic", "continuous", "fixed", "floating", "planar"])
+def test_every_kind_is_read(kind):
+    robot = read(LIMIT, kind)
+    assert robot.joints[0].kind == kind
+    assert robot.dof == (kind in ("revolute", "prismatic", "continuous"))
+
+
+def test_proper_limits_are_kept():
+    assert read('<limit lower="-0.5" upper="2.5"/>').limits.tolist() == [[-0.5, 2.5]]
+    assert read('<limit lower="-0.5" upper="2.5"/>', "prismatic").limits.tolist() == [[-0.5, 2.5]]
+
+
+INF = math.inf
+LIMITS = {
+    "": (-INF, INF),
+    '<limit effort="1" velocity="1"/>': (-INF, INF),
+    '<limit lower="0" upper="0"/>': (-INF, INF),
+    '<limit lower="0.3" upper="0.3"/>': (-INF, INF),
+    '<limit lower="-inf" upper="inf"/>': (-INF, INF),
+    '<limit lower="-1e16" upper="1e16"/>': (-INF, INF),
+    '<limit lower="-1e999" upper="2"/>': (-INF, 2),
+    '<limit lower="-2" upper="1e4"/>': (-2, INF),
+    '<limit upper="2"/>': (-INF, 2),
+    '<limit lower="2"/>': (2, INF),
+    '<limit lower="inf" upper="inf"/>': (-INF, INF),
+}
+
+
+@pytest.mark.parametrize("limit, expected", LIMITS.items())
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
+def test_limits_missing_equal_infinite_or_absurd_mean_unlimited_with_a_warning(limit, expected, kind):
+    with pytest.warns(PoekinWarning, match=r"^x\.urdf:[34]: .* unlimited: 'j' \(.*line [34]\)$"):
+        robot = read(limit, kind)
+    assert tuple(robot.limits[0]) == expected
+
+
+def test_all_unusable_limits_of_a_file_make_one_warning():
+    joints = "\n".join(
+        f'<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{i + 1}"/></joint>' for i in range(9)
+    )
+    text = "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(10)) + joints + "</robot>"
+    with pytest.warns(PoekinWarning, match=r"'j0' \(none; line 1\), 'j1' .* and 5 more$") as caught:
+        urdf.read_text(text)
+    assert len(caught) == 1
+
+
+def test_a_continuous_joint_has_no_limits_and_no_warning():
+    for limit in ("", '<limit lower="0" upper="0"/>', '<limit lower="1" upper="-1"/>'):
+        assert read(limit, "continuous").limits.tolist() == [[-INF, INF]]
+
+
+def test_mimic_joints_follow_their_masters():
+    robot = urdf.read_text(
+        chain_of('<mimic joint="j1" multiplier="-2" offset="0.5"/>', "", '<mimic joint="j0" multiplier="3"/>')
+    )
+    chain = robot.chain()
+    assert chain.q_names == ("j1",)
+    assert chain.coupling.tolist() == [[-2], [1], [-6]]
+    assert chain.offset.tolist() == [0.5, 0, 1.5]
+
+
+def test_a_mimic_of_a_missing_joint_stays_independent_with_a_warning():
+    text = chain_of('<mimic joint="gone"/>', "", '<mimic joint="j0"/>', '<mimic joint="lost"/>')
+    message = r"^f:2: joint 'j0' mimics 'gone', which does not exist, and stays independent \(.* 2; .* on line 5\)$"
+    with pytest.warns(PoekinWarning, match=message):
+        robot = urdf.read_text(text, "f")
+    assert robot.q_names == ("j0", "j1", "j3")
+
+
+def test_joints_may_come_in_any_order_and_before_links():
+    text = """<robot name="r"><joint name="low" type="fixed"><child link="c"/><parent link="b"/></joint>
+    <link name="c"/><link name="b"/>
+    <joint name="high" type="fixed"><parent link="a"/><child link="b"/></joint><link name="a"/></robot>"""
+    robot = urdf.read_text(text)
+    assert (robot.root, robot.leaves) == ("a", ("c",))
+    assert [joint.name for joint in robot.joints] == ["low", "high"]
+
+
+def test_only_the_robots_own_links_and_joints_count():
+    extra = """<material name="m"/><transmission name="t"><joint name="j"><hardwareInterface/></joint></transmission>
+    <gazebo reference="a"><link name="z"/><joint name="y" type="ball"/></gazebo><!-- <link name="c"/> -->
+    <?xml-stylesheet href="x"?><ros2_control><joint name="j"/></ros2_control>
+    <x:link xmlns:x="http://example.invalid/x" name="v"/>
+    <visual><geometry><mesh filename="/nowhere"/></geometry></visual>"""
+    robot = urdf.read_text(one_joint().replace("</robot>", extra + "</robot>"))
+    assert robot == urdf.read_text(one_joint())
+
+
+def test_a_namespace_of_the_whole_file_is_accepted():
+    assert urdf.read_text(one_joint().replace("<robot", '<robot xmlns="http://example.invalid/urdf"')).dof == 1
+
+
+def test_a_robot_without_a_name_is_called_after_its_file(tmp_path):
+    path = tmp_path / "arm.urdf"
+    path.write_text(one_joint().replace(' name="r"', ""), encoding="utf-8")
+    assert urdf.read(path).name == "arm"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-32", "iso-8859-1"])
+def test_any_encoding_that_the_file_declares_is_read(tmp_path, encoding):
+    path = tmp_path / "x.urdf"
+    declared = encoding.removesuffix("-sig")
+    text = f'<?xml version="1.0" encoding="{declared}"?>\n' + one_joint().replace('"a"', '"é"')
+    path.write_bytes(text.encode(encoding))
+    assert urdf.read(path).root == "é"
+    assert urdf.read_text(text).root == "é"  # text that is decoded already, whatever its first line says
+
+
+def test_a_robot_knows_where_it_was_read_from():
+    source = urdf.read_text(chain_of("", "", ""), "f").source
+    assert source is not None
+    assert (source.name, source.link_lines, source.joint_lines) == ("f", (1, 1, 1, 1), (2, 3, 4))
+
+
+def test_a_chain_of_a_hundred_thousand_links_is_read():
+    count = 100_000
+    parts = [f'<link name="l{i}"/>' for i in range(count)]
+    parts += [
+        f'<joint name="j{i}" type="fixed"><parent link="l{i}"/><child link="l{i + 1}"/><origin xyz="0 0 1e-3"/></joint>'
+        for i in range(count - 1)
+    ]
+    np.random.default_rng(0).shuffle(parts)
+    robot = urdf.read_text("<robot>" + "\n".join(parts) + "</robot>")
+    assert (robot.root, robot.leaves) == ("l0", (f"l{count - 1}",))
+    assert abs(robot.chain().home[2, 3] - (count - 1) * 1e-3) <= 1e-9

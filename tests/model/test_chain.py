@@ -1,0 +1,310 @@
+"""Chain: what it accepts, keeps and refuses. The laws of its kinematics stand in test_chain_laws.py."""
+
+import copy
+import pickle
+import threading
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import InputError, PoseError, ScrewError, ShapeError, UnknownName
+
+RZ = pk.screw.revolute([0, 0, 1], [0, 0, 0])
+RY = pk.screw.revolute([0, 1, 0], [0, 0, 0.5])
+PX = pk.screw.prismatic([1, 0, 0])
+HOME = pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3])
+
+
+def arm(**options):
+    return pk.Chain([RZ, RY, PX], HOME, joint_names=["pan", "lift", "slide"], **options)
+
+
+def test_example_1_of_the_paper():
+    L1, L2 = 0.7, 0.4
+    M = np.eye(4)
+    M[0, 3] = L1 + L2
+    screws = [[0, 0, 1, 0, 0, 0], [0, -1, 0, 0, 0, 0], [0, -1, 0, 0, 0, -L1]]
+    chain = pk.Chain(screws, M)
+    np.testing.assert_array_equal(pk.screw.revolute([0, -1, 0], [L1, 0, 0]), screws[2])
+    q1, q2, q3 = 0.3, -0.8, 1.1
+    R = pk.so3.exp([0, 0, q1]) @ pk.so3.exp([0, -(q2 + q3), 0])
+    reach, height = L1 * np.cos(q2) + L2 * np.cos(q2 + q3), L1 * np.sin(q2) + L2 * np.sin(q2 + q3)
+    T = chain.fk([q1, q2, q3])
+    np.testing.assert_allclose(T[:3, :3], R, atol=1e-15)
+    np.testing.assert_allclose(T[:3, 3], [reach * np.cos(q1), reach * np.sin(q1), height], atol=1e-15)
+    expected = np.zeros((6, 3))
+    expected[2, 0] = 1
+    # both elbow axes are (0, -1, 0) turned by q1; the third passes L1 out along the upper arm
+    axis = np.array([np.sin(q1), -np.cos(q1), 0])
+    elbow = L1 * np.array([np.cos(q2) * np.cos(q1), np.cos(q2) * np.sin(q1), np.sin(q2)])
+    expected[:3, 1] = expected[:3, 2] = axis
+    expected[3:, 2] = np.cross(elbow, axis)
+    np.testing.assert_allclose(chain.jacobian([q1, q2, q3], "space"), expected, atol=1e-15)
+
+
+def test_equal_chains_are_equal_and_hash_and_pickle_alike():
+    a = arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]])
+    for b in (arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]]), copy.deepcopy(a), pickle.loads(pickle.dumps(a))):
+        assert a == b
+        assert hash(a) == hash(b)
+    coupled = pk.Chain([RZ, RY, PX], HOME, coupling=[[1, 0], [-2, 0], [0, 1]], offset=[0, 0.1, 0])
+    assert pickle.loads(pickle.dumps(coupled)) == coupled
+    assert coupled != a
+
+
+@pytest.mark.parametrize("change", [{"base": "b"}, {"limits": [[-1, 1]] * 3}, {"offset": [0, 0, 1e-9]}])
+def test_chains_that_differ_are_not_equal(change):
+    assert arm() != arm(**change)
+    assert arm() != 1
+
+
+def test_minus_zero_makes_no_difference():
+    a, b = pk.Chain([[0, 0, 1, 0, 0, 0]], np.eye(4)), pk.Chain([[-0.0, -0.0, 1, -0.0, 0, 0]], np.eye(4))
+    assert a == b
+    assert hash(a) == hash(b)
+
+
+def test_making_exact_twice_changes_nothing():
+    rng = np.random.default_rng(0)
+    for _ in range(300):
+        w, p = rng.normal(size=(2, 3))
+        S = pk.screw.revolute(w, p) * (1 + rng.uniform(-1e-9, 1e-9) * 0.9)
+        M = pk.se3.exp(rng.normal(size=6))
+        M[:3, :3] += rng.uniform(-1e-7, 1e-7, (3, 3))
+        chain = pk.Chain([S], M)
+        again = pk.Chain(chain.screws, chain.home)
+        assert again == chain
+        assert (
+            np.abs(chain.home[:3, :3] @ chain.home[:3, :3].T - np.eye(3)).max() < 4e-15
+        )  # what the nearest rotation rounds to
+
+
+def test_nothing_of_a_chain_can_be_changed():
+    a = arm()
+    for array in (a.screws, a.home, a.limits, a.coupling, a.offset, *a.space, a.local.frames):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+    with pytest.raises(AttributeError, match="frozen"):
+        a.home = np.eye(4)
+    with pytest.raises(AttributeError, match="frozen"):
+        del a.home
+
+
+def test_the_arrays_given_are_copied():
+    screws, home = np.array([RZ]), np.eye(4)
+    chain = pk.Chain(screws, home)
+    screws[0, 0], home[0, 3] = 7, 7
+    assert chain == pk.Chain([RZ], np.eye(4))
+
+
+def test_the_repr_says_where_from_where_to_and_how_far():
+    assert repr(arm()) == "<Chain 'base' -> 'tool': 2 revolute, 1 prismatic joints, reach 4.85 m>"
+    assert repr(pk.Chain([], np.eye(4), tip="\x1b[31m")) == r"<Chain 'base' -> '\\x1b[31m': no joints, reach 1 m>"
+    coupled = pk.Chain([RZ, RY], HOME, coupling=[[1], [-1]])
+    assert "2 revolute joints, 1 coordinate," in repr(coupled)
+
+
+def test_a_chain_without_joints_is_legal():
+    chain = pk.Chain([], HOME)
+    assert chain.dof == 0
+    for q in ([], np.empty(0), {}):
+        np.testing.assert_array_equal(chain.fk(q), HOME)
+        assert chain.jacobian(q, "body").shape == (6, 0)
+        assert chain.fk_jacobian(q, "hybrid")[1].shape == (6, 0)
+    assert chain.fk(np.empty((3, 0))).shape == (3, 4, 4)
+    assert chain.joint_poses(np.empty((3, 0))).shape == (3, 0, 4, 4)
+    np.testing.assert_array_equal(chain.velocity([], [], "space"), np.zeros(6))
+    assert chain.random(0, 4).shape == (4, 0)
+    assert chain.rebased(HOME).retooled(HOME).rezeroed([]).dof == 0
+
+
+def test_a_dict_an_array_and_a_list_of_coordinates_mean_the_same():
+    a = arm()
+    T = a.fk(np.array([0.1, 0.2, 0.3]))
+    np.testing.assert_array_equal(a.fk({"slide": 0.3, "pan": 0.1, "lift": 0.2}), T)
+    np.testing.assert_array_equal(a.fk([0.1, 0.2, 0.3]), T)
+    np.testing.assert_array_equal(a.fk({"slide": [0.3, 0.3], "pan": 0.1, "lift": 0.2}), [T, T])
+
+
+@pytest.mark.parametrize(
+    "q, error, message",
+    [
+        (
+            [1, 2],
+            ShapeError,
+            r"q: expected 3 coordinates on the last axis \('pan', 'lift', 'slide'\), got shape \(2,\)",
+        ),
+        (np.zeros((3, 2)), ShapeError, r"got shape \(3, 2\)"),
+        (1.0, ShapeError, r"got shape \(\)"),
+        ({"pan": 1, "lfit": 2, "slide": 3}, UnknownName, "no coordinate 'lfit'; did you mean 'lift'?"),
+        ({"pan": 1}, InputError, "no value for 'lift', 'slide'"),
+        ({"pan": [1, 2], "lift": [1, 2, 3], "slide": 0}, ShapeError, "do not broadcast"),
+        (["a", "b", "c"], InputError, "expected real numbers, got"),
+        ([1j, 0, 0], InputError, "complex"),
+        ([[1, 2, 3], [1, 2]], ShapeError, "rows of different lengths"),
+        (None, InputError, "expected real numbers, got object"),
+        (np.array([True, False, True]), InputError, "bool"),
+    ],
+)
+def test_a_configuration_that_does_not_fit_is_refused(q, error, message):
+    a = arm()
+    for call in (a.fk, lambda q: a.jacobian(q, "body"), lambda q: a.fk_jacobian(q, "body"), a.joint_poses):
+        with pytest.raises(error, match=message):
+            call(q)
+
+
+@pytest.mark.parametrize("frame", ["spaec", 3, -1, None, 1.5, True, ["body"], np.zeros(2)])
+def test_a_frame_that_does_not_exist_is_refused(frame):
+    a, q = arm(), np.zeros(3)
+    for call in (a.jacobian, a.fk_jacobian, lambda q, f: a.velocity(q, q, f)):
+        with pytest.raises(
+            (InputError, UnknownName), match="expected 'space', 'body', 'hybrid' or the index of a joint"
+        ):
+            call(q, frame)
+
+
+@pytest.mark.parametrize(
+    "screw, message",
+    [
+        ([0, 0, 1.1, 0, 0, 0], r"screws\[1\] \(joint 'b'\): omega must have length 1 to 1e-09, got 1.1"),
+        ([0, 0, 0, 0, 0, 2], r"v, where omega = 0, must have length 1"),
+        ([0, 0, 0, 0, 0, 0], "length 1"),
+        ([0, 0, np.nan, 0, 0, 0], "finite"),
+        ([0, 0, 1 + 2e-9, 0, 0, 0], "length 1"),
+    ],
+)
+def test_six_numbers_that_are_no_screw_are_refused(screw, message):
+    with pytest.raises(ScrewError, match=message):
+        pk.Chain([RZ, screw], np.eye(4), joint_names=["a", "b"])
+
+
+@pytest.mark.parametrize(
+    "options, error, message",
+    [
+        ({"home": np.diag([2, 1, 1, 1])}, PoseError, "home is no pose: its rotation misses orthonormality"),
+        ({"home": np.diag([-1, 1, 1, 1])}, PoseError, "reflection, det R = -1"),
+        ({"home": np.eye(3)}, ShapeError, "expected shape"),
+        ({"home": np.full((4, 4), np.nan)}, InputError, "finite"),
+        ({"screws": np.zeros((2, 5))}, ShapeError, r"expected shape \(n, 6\)"),
+        ({"limits": [[0, 1]]}, ShapeError, r"expected shape \(3, 2\)"),
+        ({"limits": [[0, 1], [2, 1], [0, 1]]}, InputError, "lower <= upper for 'lift', got 2.0 and 1.0"),
+        ({"limits": [[0, 1], [np.nan, 1], [0, 1]]}, InputError, "'lift'"),
+        ({"joint_names": ["a", "b"]}, ShapeError, "expected 3 names"),
+        ({"joint_names": ["a", "b", "a"]}, InputError, "'a' appears more than once"),
+        ({"coupling": np.eye(2)}, ShapeError, r"expected shape \(3, m\)"),
+        ({"coupling": np.full((3, 1), np.inf)}, InputError, "finite"),
+        ({"offset": [1, 2]}, ShapeError, r"expected shape \(3,\)"),
+        ({"coupling": np.ones((3, 2)), "q_names": ["a"]}, ShapeError, "expected 2 names"),
+    ],
+)
+def test_data_that_make_no_chain_are_refused(options, error, message):
+    data = {"screws": [RZ, RY, PX], "home": HOME, "joint_names": ["pan", "lift", "slide"]} | options
+    with pytest.raises(error, match=message):
+        pk.Chain(**data)
+
+
+def test_results_go_into_the_arrays_that_are_given():
+    a, q = arm(), np.array([0.1, 0.2, 0.3])
+    for batch in ((), (5,), (2, 3)):
+        qs = np.broadcast_to(q, (*batch, 3))
+        T, J = np.empty((*batch, 4, 4)), np.empty((*batch, 6, 3))
+        assert a.fk(qs, out=T) is T
+        assert a.jacobian(qs, "body", out=J) is J
+        np.testing.assert_array_equal(T, a.fk(qs))
+        np.testing.assert_array_equal(J, a.jacobian(qs, "body"))
+        T[...], J[...] = 0, 0
+        got = a.fk_jacobian(qs, "body", out=(T, J))
+        assert got[0] is T
+        assert got[1] is J
+        np.testing.assert_array_equal(J, a.jacobian(qs, "body"))
+
+
+@pytest.mark.parametrize(
+    "T",
+    [np.empty((4, 3)), np.empty((4, 4), np.float32), np.empty((4, 4)).T[::-1], [[0.0] * 4] * 4, np.empty((1, 4, 4))],
+)
+def test_an_output_array_that_does_not_fit_is_refused(T):
+    a, q = arm(), np.zeros(3)
+    for call in (
+        lambda: a.fk(q, out=T),
+        lambda: a.fk_jacobian(q, "body", out=(T, np.empty((6, 3)))),
+        lambda: a.fk_jacobian(q, "body", out=(np.empty((4, 4)), T)),
+        lambda: a.jacobian(q, "body", out=T),
+    ):
+        with pytest.raises(InputError, match="out"):
+            call()
+    read_only = np.empty((4, 4))
+    read_only.flags.writeable = False
+    with pytest.raises(InputError, match="writable"):
+        a.fk(q, out=read_only)
+
+
+@pytest.mark.parametrize("at", [np.zeros(2), np.zeros((2, 3)), "here"])
+def test_a_point_of_the_tool_is_one_point_in_a_frame_where_it_matters(at):
+    a, q = arm(), np.zeros(3)
+    with pytest.raises(InputError):
+        a.jacobian(q, "body", at=at)
+    with pytest.raises(InputError, match="in the frames 'body' and 'hybrid' only, got frame 'space'"):
+        a.jacobian(q, "space", at=[0, 0, 1])
+
+
+def test_another_point_of_the_tool_moves_with_it():
+    a, q, p = arm(), np.array([0.1, 0.2, 0.3]), np.array([0.3, -0.2, 0.5])
+    T, J = a.fk_jacobian(q, "hybrid", at=p)
+    J0 = a.jacobian(q, "hybrid")
+    np.testing.assert_allclose(T, a.fk(q), atol=1e-15)
+    np.testing.assert_allclose(J[3:], J0[3:] + np.cross(J0[:3].T, T[:3, :3] @ p).T, atol=1e-14)
+
+
+def test_random_stays_within_the_limits_and_in_one_turn_where_there_are_none():
+    a = arm(limits=[[-np.inf, np.inf], [1, np.inf], [-np.inf, np.inf]])
+    q = a.random(np.random.default_rng(0), (2000,))
+    assert q.shape == (2000, 3)
+    assert np.abs(q[:, 0]).max() <= np.pi < np.abs(q[:, 0]).max() * 1.01
+    assert q[:, 1].min() >= 1
+    assert q[:, 1].max() <= 1 + 2 * np.pi
+    assert 0.99 < np.abs(q[:, 2]).max() <= 1
+    np.testing.assert_array_equal(a.random(7), a.random(7))
+    assert a.random(0, (2, 0, 3)).shape == (2, 0, 3, 3)
+    fixed = arm(limits=[[0.5, 0.5]] * 3)
+    np.testing.assert_array_equal(fixed.random(0), [0.5] * 3)
+
+
+def test_limits_move_with_the_zero():
+    a = arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]]).rezeroed([0.5, 1, 0.25])
+    np.testing.assert_array_equal(a.limits, [[-1.5, 0.5], [-3, np.inf], [-0.25, 0.25]])
+
+
+def test_threads_share_a_chain():
+    a = arm()
+    q = a.random(0, (200, 50))
+    expected, got = a.jacobian(q, "hybrid"), [None] * 8
+
+    def work(k):
+        got[k] = np.array([[a.fk_jacobian(row, "hybrid")[1] for row in block] for block in q[:20]])
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for result in got:
+        np.testing.assert_array_equal(result, expected[:20])
+
+
+def test_one_call_and_a_batch_give_the_same_bits():
+    a = arm()
+    q = a.random(0, 50)
+    T, J = a.fk_jacobian(q, "body")
+    for k in range(50):
+        one = a.fk_jacobian(q[k].copy(), "body")
+        np.testing.assert_allclose(one[0], T[k], atol=4e-16)
+        np.testing.assert_allclose(one[1], J[k], atol=1e-15)
+
+
+def test_a_hundred_thousand_joints_make_a_chain():
+    n = 100_000
+    chain = pk.Chain(np.tile(PX, (n, 1)), np.eye(4))
+    assert chain.dof == n
+    assert chain.fk(np.full(n, 1e-3))[0, 3] == pytest.approx(100)

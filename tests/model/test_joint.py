@@ -1,0 +1,138 @@
+"""A joint: data that is checked once."""
+
+from __future__ import annotations
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from poekin.errors import InputError, ModelError, PoekinError, PoseError, ShapeError
+from poekin.model.joint import KINDS, Joint, Mimic
+from poekin.testing.strategies import frozen, poses
+
+
+def joint(**fields) -> Joint:
+    return Joint(**{"name": "j", "kind": "revolute", "parent": "a", "child": "b", **fields})
+
+
+@given(origin=poses())
+def test_an_origin_is_kept_read_only_and_a_joint_equals_its_copies(origin):
+    one = joint(origin=origin, limits=(-1, 2), mimic=Mimic("k", 2, 3))
+    assert np.abs(one.origin - origin).max() <= 4e-15 * max(1.0, np.abs(origin).max())
+    assert not one.origin.flags.writeable
+    copy = pickle.loads(pickle.dumps(one))
+    assert copy == one
+    assert hash(copy) == hash(one)
+    assert not copy.origin.flags.writeable
+    assert one != joint(origin=origin, limits=(-1, 2), mimic=Mimic("k", 2, 4))
+    assert one != "j"
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=3, max_size=3))
+def test_an_axis_of_any_length_becomes_a_unit_vector_in_its_direction(vector):
+    if not any(vector):
+        with pytest.raises(ModelError, match=r"'j'.*axis must not be zero"):
+            joint(axis=vector)
+        return
+    axis = joint(axis=vector).axis
+    assert abs(math.hypot(*axis) - 1) <= 1e-15
+    assert joint(axis=axis).axis == axis
+    largest = max(map(abs, vector))
+    exact = np.array(vector) / largest
+    assert np.abs(np.array(axis) - exact / math.hypot(*exact)).max() <= 4e-16
+
+
+def test_an_origin_slightly_off_is_replaced_by_the_nearest_rotation():
+    off = np.eye(4)
+    off[0, 1] = 4e-6
+    R = joint(origin=off).origin[:3, :3]
+    assert np.abs(R @ R.T - np.eye(3)).max() <= 1e-15
+    assert np.abs(R - off[:3, :3]).max() <= 2.1e-6
+
+
+@pytest.mark.parametrize(
+    "kind, screw",
+    [
+        ("revolute", (0, 0, 1, 0, 0, 0)),
+        ("continuous", (0, 0, 1, 0, 0, 0)),
+        ("prismatic", (0, 0, 0, 0, 0, 1)),
+        ("helical", (0, 0, 1, 0, 0, 0.5)),
+        ("fixed", (0,) * 6),
+        ("floating", (0,) * 6),
+        ("planar", (0,) * 6),
+    ],
+)
+def test_a_joints_screw_is_its_kind_in_numbers(kind, screw):
+    pitch = 0.5 if kind == "helical" else 0.0
+    assert joint(kind=kind, axis=(0, 0, 2), pitch=pitch).screw == screw
+
+
+def test_a_continuous_joint_has_no_limits():
+    assert joint(kind="continuous", limits=(-1, 1)).limits == (-math.inf, math.inf)
+
+
+def test_a_joint_is_frozen():
+    with pytest.raises(AttributeError):
+        joint().name = "k"  # pyright: ignore[reportAttributeAccessIssue]
+
+
+FAULTS = {
+    "no name": ({"name": ""}, ModelError, "a name must be"),
+    "a name that is no string": ({"name": 7}, ModelError, "a name must be"),
+    "no parent": ({"parent": ""}, ModelError, "'j': parent"),
+    "no child": ({"child": None}, ModelError, "'j': child"),
+    "unknown kind": ({"kind": "ball"}, ModelError, "'j': kind must be one of revolute, .*'ball'"),
+    "NaN in the axis": ({"axis": (0, math.nan, 1)}, ModelError, "'j': axis: expected 3 finite"),
+    "two numbers for an axis": ({"axis": (0, 1)}, ModelError, "'j': axis: expected 3 finite"),
+    "text for an axis": ({"axis": "xyz"}, ModelError, "'j': axis"),
+    "lower above upper": ({"limits": (1, 0)}, ModelError, "'j': limits must be lower <= upper.*1.0.*0.0"),
+    "NaN in the limits": ({"limits": (math.nan, 0)}, ModelError, "lower <= upper"),
+    "one limit": ({"limits": (1,)}, ModelError, "two numbers"),
+    "a lower limit at infinity": ({"limits": (math.inf, math.inf)}, ModelError, "lower <= upper"),
+    "pitch of a revolute joint": ({"pitch": 0.1}, ModelError, "only a helical joint has a pitch"),
+    "infinite pitch": ({"kind": "helical", "pitch": math.inf}, ModelError, "pitch: expected 1 finite"),
+    "mimic by name": ({"mimic": "k"}, ModelError, "mimic must be a Mimic"),
+    "floating mimic": ({"kind": "floating", "mimic": Mimic("k")}, ModelError, "floating joint has no single value"),
+    "origin 3x3": ({"origin": np.eye(3)}, ShapeError, r"'j': origin.*\(3, 3\)"),
+    "many origins": ({"origin": np.zeros((2, 4, 4))}, ShapeError, r"\(2, 4, 4\)"),
+    "text in the origin": ({"origin": [["x"] * 4] * 4}, InputError, "'j': origin"),
+    "NaN in the origin": ({"origin": np.diag([1, 1, math.nan, 1])}, PoseError, "row 2"),
+    "skewed origin": ({"origin": np.diag([1, 1, 1.1, 1])}, PoseError, "0.21"),
+    "mirrored origin": ({"origin": np.diag([1, 1, -1, 1])}, PoseError, "reflection"),
+    "last row of the origin": ({"origin": np.diag([1, 1, 1, 2])}, PoseError, "last row"),
+}
+
+
+@pytest.mark.parametrize("fields, error, message", FAULTS.values(), ids=FAULTS)
+def test_what_is_no_joint_is_refused_by_name(fields, error, message):
+    with pytest.raises(error, match=message) as caught:
+        joint(**fields)
+    assert isinstance(caught.value, PoekinError)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("numbers", [("k", math.nan), ("k", 1, math.inf), ("k", "x"), ("",), (3,)])
+def test_what_is_no_mimic_is_refused(numbers):
+    with pytest.raises(ModelError, match="mimic"):
+        Mimic(*numbers)
+
+
+def test_every_kind_can_be_made():
+    assert [joint(kind=kind).kind for kind in KINDS] == list(KINDS)
+
+
+def test_hostile_names_are_shown_harmlessly():
+    text = repr(joint(name="\x1b[31m\u202e<b>[/b]\n"))
+    assert text.isprintable()
+    assert "\\x1b" in text
+
+
+def test_an_array_that_the_user_changes_later_changes_nothing():
+    mine = np.eye(4)
+    one = joint(origin=mine)
+    mine[0, 3] = 1
+    assert one == joint(origin=frozen(np.eye(4)))

@@ -1,0 +1,368 @@
+"""A robot: its tree, its coordinates, its chains in either direction, the poses of its links."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import pickle
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.linalg
+from hypothesis import given
+from hypothesis import strategies as st
+
+from poekin.errors import InputError, ModelError, PoekinWarning, PoseError, ShapeError, UnknownName
+from poekin.model.joint import FREE, Joint, Mimic
+from poekin.model.robot import Robot
+from poekin.model.source import Source
+from poekin.testing.strategies import axes, frozen, poses
+
+MOVING = ("revolute", "continuous", "prismatic", "helical")
+ROOMY = poses(lengths=st.floats(0, 2))
+
+
+@st.composite
+def robots(draw, kinds=(*MOVING, "fixed"), most=7) -> Robot:
+    """A robot of up to `most` joints of any kind in any order, some of them mimics of others."""
+    count = draw(st.integers(0, most))
+    joints = []
+    for child in range(1, count + 1):
+        kind = draw(st.sampled_from(kinds))
+        joints.append(
+            Joint(
+                f"j{child}",
+                kind,
+                f"l{draw(st.integers(0, child - 1))}",
+                f"l{child}",
+                draw(ROOMY),
+                draw(axes()),
+                pitch=draw(st.floats(-0.5, 0.5)) if kind == "helical" else 0.0,
+            )
+        )
+    followers = draw(st.permutations(range(count)))
+    for place, index in enumerate(followers):
+        # A joint mimics one that comes earlier in this order, so that no circle can arise.
+        if place and joints[index].kind not in FREE and draw(st.booleans()):
+            master = joints[followers[draw(st.integers(0, place - 1))]]
+            if master.kind not in FREE:
+                numbers = draw(st.floats(-2, 2)), draw(st.floats(-1, 1))
+                joints[index] = replace(joints[index], mimic=Mimic(master.name, *numbers))
+    links = draw(st.permutations([f"l{i}" for i in range(count + 1)]))
+    return Robot("r", links, draw(st.permutations(joints)))
+
+
+def value(robot: Robot, joint: Joint, q: dict[str, float]) -> float:
+    """The joint's value, by the definition of mimic."""
+    if joint.kind == "fixed":
+        return 0.0
+    if joint.mimic is None:
+        return q[joint.name]
+    return joint.mimic.multiplier * value(robot, robot.joint(joint.mimic.joint), q) + joint.mimic.offset
+
+
+def naive_poses(robot: Robot, q: dict[str, float], free: dict[str, np.ndarray] | None = None) -> dict[str, np.ndarray]:
+    """Poses of all links by walking down the tree with SciPy's matrix exponential."""
+    result = {robot.root: np.eye(4)}
+    todo = [robot.root]
+    while todo:
+        link = todo.pop()
+        for joint in robot.joints:
+            if joint.parent != link:
+                continue
+            if joint.kind in FREE:
+                moved = (free or {}).get(joint.name, np.eye(4))
+            else:
+                w, v, x = joint.screw[:3], joint.screw[3:], value(robot, joint, q)
+                X = np.array([[0, -w[2], w[1], v[0]], [w[2], 0, -w[0], v[1]], [-w[1], w[0], 0, v[2]], [0, 0, 0, 0]])
+                moved = scipy.linalg.expm(X * x)
+            result[joint.child] = result[link] @ joint.origin @ moved
+            todo.append(joint.child)
+    return result
+
+
+def random_q(robot: Robot, seed: int) -> dict[str, float]:
+    return dict(zip(robot.q_names, np.random.default_rng(seed).uniform(-3, 3, robot.dof).tolist(), strict=True))
+
+
+def inverse(T: np.ndarray) -> np.ndarray:
+    return np.linalg.inv(T)
+
+
+def size(robot: Robot) -> float:
+    """A length that bounds the robot: what errors of positions are measured by."""
+    return 1 + sum(np.abs(joint.origin[:3, 3]).sum() + 10 for joint in robot.joints)
+
+
+def worst_link_error(robot: Robot, subject: Robot, seed: int) -> float:
+    """How far the subject's link poses are from those that the definition gives for the robot."""
+    q = random_q(robot, seed)
+    expected, found = naive_poses(robot, q), subject.fk({name: q.get(name, 0.0) for name in subject.q_names})
+    return max(np.abs(found[link] - expected[link]).max() for link in robot.links) / size(robot)
+
+
+def worst_chain_error(robot: Robot, subject: Robot, seed: int) -> float:
+    """The same for the chains between every two links, seen from one and from the other."""
+    q = random_q(robot, seed)
+    expected = naive_poses(robot, q)
+    worst = 0.0
+    for base, tip in itertools.product(robot.links, repeat=2):
+        chain = subject.chain(base, tip)
+        T = chain.fk({name: q.get(name, 0.0) for name in chain.q_names})
+        worst = max(worst, np.abs(T - inverse(expected[base]) @ expected[tip]).max())
+    return worst / size(robot)
+
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+@given(robot=robots(), seed=seeds)
+def test_link_poses_are_those_of_the_definition(robot, seed):
+    assert worst_link_error(robot, robot, seed) <= 1e-13
+
+
+@given(robot=robots(most=5), seed=seeds)
+def test_a_chain_runs_between_any_two_links_in_either_direction(robot, seed):
+    assert worst_chain_error(robot, robot, seed) <= 1e-13
+
+
+def two_arms() -> Robot:
+    """A robot with every kind of moving joint, a fork and mimics: what the planted errors are planted in."""
+    turn = Joint("t", "fixed", "a", "b", scipy.linalg.expm(_generator([0.3, 0.2, 0.5, 0.1, 0.2, 0.3]))).origin
+    return Robot(
+        "two arms",
+        ["a", "b", "c", "d", "e"],
+        [
+            Joint("p", "prismatic", "b", "c", turn, (0, 1, 0), mimic=Mimic("r", 0.5, 0.25)),
+            Joint("r", "revolute", "a", "b", turn, (1, 2, 3)),
+            Joint("h", "helical", "b", "d", turn @ turn, (0, 0, 1), pitch=0.2),
+            Joint("m", "revolute", "d", "e", turn, (1, 0, 0), mimic=Mimic("p", -2.0, 0.125)),
+        ],
+    )
+
+
+def _generator(xi):
+    w, v = xi[:3], xi[3:]
+    return np.array([[0, -w[2], w[1], v[0]], [w[2], 0, -w[0], v[1]], [-w[1], w[0], 0, v[2]], [0, 0, 0, 0]])
+
+
+def planted(name: str, change: Callable[[Joint], Joint]) -> Robot:
+    robot = two_arms()
+    return Robot(robot.name, robot.links, [change(j) if j.name == name else j for j in robot.joints])
+
+
+PLANTED = {
+    "axis reversed": planted("r", lambda j: replace(j, axis=tuple(-a for a in j.axis))),
+    "origin inverted": planted("h", lambda j: replace(j, origin=inverse(j.origin))),
+    "pitch dropped": planted("h", lambda j: replace(j, kind="revolute", pitch=0.0)),
+    "slide taken for a turn": planted("p", lambda j: replace(j, kind="revolute")),
+    "mimic ignored": planted("p", lambda j: replace(j, mimic=None)),
+    "multiplier dropped": planted("p", lambda j: replace(j, mimic=Mimic("r", 1.0, 0.25))),
+    "offset dropped": planted("p", lambda j: replace(j, mimic=Mimic("r", 0.5))),
+    "mimic of mimic not composed": planted("m", lambda j: replace(j, mimic=Mimic("r", -2.0, 0.125))),
+    "a millionth of a turn": planted("r", lambda j: replace(j, axis=(1, 2, 3.00001))),
+}
+
+
+@pytest.mark.parametrize("wrong", PLANTED.values(), ids=PLANTED)
+@pytest.mark.parametrize("law", [worst_link_error, worst_chain_error])
+def test_planted_errors_are_found(law, wrong):
+    assert law(two_arms(), two_arms(), 1) <= 1e-14
+    assert law(two_arms(), wrong, 1) > 1e-9
+
+
+@given(robot=robots(most=5), data=st.data())
+def test_the_order_of_joints_and_links_changes_only_the_order_of_coordinates(robot, data):
+    other = Robot("r", data.draw(st.permutations(robot.links)), data.draw(st.permutations(robot.joints)))
+    assert set(other.q_names) == set(robot.q_names)
+    q = random_q(robot, 0)
+    mine, theirs = robot.fk(q), other.fk(q)
+    for link in robot.links:
+        assert (mine[link] == theirs[link]).all()
+
+
+@given(robot=robots(kinds=(*MOVING, "fixed", *FREE), most=5), T=poses(lengths=st.floats(0, 2)), seed=seeds)
+def test_floating_and_planar_joints_are_where_poses_says_and_at_identity_otherwise(robot, T, seed):
+    q = random_q(robot, seed)
+    free = [joint.name for joint in robot.joints if joint.kind in FREE]
+    for given_poses in ({}, dict.fromkeys(free, T), dict.fromkeys(free[:1], T)):
+        expected, found = naive_poses(robot, q, given_poses), robot.fk(q, given_poses)
+        for link in robot.links:
+            assert np.abs(found[link] - expected[link]).max() <= 1e-13 * (size(robot) + 20)
+
+
+def test_a_batch_of_configurations_meets_a_batch_of_poses():
+    robot = Robot("r", "abc", [Joint("f", "floating", "a", "b"), Joint("j", "revolute", "b", "c", axis=(0, 0, 1))])
+    T = np.tile(np.eye(4), (5, 1, 1, 1))
+    T[:, 0, 0, 3] = np.arange(5)
+    found = robot.fk({"j": np.arange(3.0)}, {"f": T})
+    assert found["c"].shape == (5, 3, 4, 4)
+    assert (found["c"][..., 0, 3] == np.arange(5)[:, None]).all()
+    assert np.allclose(found["c"][..., 1, 0], np.sin(np.arange(3)), rtol=0, atol=1e-15)
+    assert found["a"].shape == (5, 3, 4, 4)
+
+
+@pytest.mark.parametrize("batch", [(), (0,), (1,), (3, 1, 2)])
+def test_every_batch_shape_works_and_equals_its_elements(batch):
+    robot = two_arms()
+    q = frozen(np.random.default_rng(0).uniform(-1, 1, (*batch, robot.dof)))
+    found = robot.fk(q)
+    assert list(found) == list(robot.links)
+    for link, T in found.items():
+        assert T.shape == (*batch, 4, 4)
+        for index in np.ndindex(*batch):
+            assert (T[index] == robot.fk(q[index])[link]).all()
+
+
+def test_nan_in_one_configuration_stays_in_that_configuration():
+    robot = two_arms()
+    q = np.zeros((3, robot.dof))
+    q[1] = math.nan
+    found = robot.fk(q)
+    assert np.isnan(found["e"][1]).any()
+    assert np.isfinite(found["e"][[0, 2]]).all()
+
+
+@given(robot=robots(most=4))
+def test_copies_are_equal_and_read_only(robot):
+    copy = pickle.loads(pickle.dumps(robot))
+    assert copy == robot
+    assert hash(copy) == hash(robot)
+    assert copy.q_names == robot.q_names
+    assert not copy.limits.flags.writeable
+    assert robot == Robot(robot.name, list(robot.links), list(robot.joints), "elsewhere")
+    assert robot != Robot("other", robot.links, robot.joints)
+    with pytest.raises(AttributeError):
+        robot.name = "x"
+    for base, tip in itertools.product(robot.links[:2], repeat=2):
+        assert copy.chain(base, tip) == robot.chain(base, tip)
+
+
+def test_a_robot_of_one_link_has_one_chain_without_joints():
+    robot = Robot("stone", ["only"], [])
+    assert (robot.root, robot.leaves, robot.dof, robot.limits.shape) == ("only", ("only",), 0, (0, 2))
+    chain = robot.chain()
+    assert (chain.base, chain.tip, chain.dof) == ("only", "only", 0)
+    assert (chain.fk([]) == np.eye(4)).all()
+    assert (robot.fk([])["only"] == np.eye(4)).all()
+    assert robot.fk(np.empty((2, 0)))["only"].shape == (2, 4, 4)
+
+
+def test_a_repr_is_one_harmless_line():
+    assert repr(two_arms()) == "Robot('two arms': 5 links, 4 joints, dof 2, root 'a', 2 leaves: 'c', 'e')"
+    assert repr(Robot("\x1b[31m", ["a\nb"], [])).isprintable()
+
+
+def line(*joints: Joint, **fields) -> Robot:
+    return Robot("line", [joints[0].parent, *(j.child for j in joints)], joints, **fields)
+
+
+def revolute(name: str, parent: str, child: str, **fields) -> Joint:
+    return Joint(name, "revolute", parent, child, axis=(0, 0, 1), **fields)
+
+
+def test_coordinates_come_in_order_of_first_appearance_and_are_named_after_masters():
+    robot = line(
+        revolute("j1", "a", "b", mimic=Mimic("j3", 2)),
+        revolute("j2", "b", "c"),
+        revolute("j3", "c", "d"),
+    )
+    assert robot.q_names == ("j3", "j2")
+    forth, back = robot.chain("a", "d"), robot.chain("d", "a")
+    assert (forth.joint_names, forth.q_names) == (("j1", "j2", "j3"), ("j3", "j2"))
+    assert (back.joint_names, back.q_names) == (("j3", "j2", "j1"), ("j3", "j2"))
+    assert forth.coupling.tolist() == [[2, 0], [0, 1], [1, 0]]
+    assert robot.chain("a", "b").q_names == ("j3",)  # its master is off the way
+    assert robot.chain("a", "b").coupling.tolist() == [[2]]
+
+
+def test_a_mimic_of_a_mimic_composes_and_a_mimic_of_a_fixed_joint_is_constant():
+    robot = line(
+        revolute("j1", "a", "b"),
+        revolute("j2", "b", "c", mimic=Mimic("j1", 2, 0.5)),
+        revolute("j3", "c", "d", mimic=Mimic("j2", -3, 0.25)),
+        Joint("stop", "fixed", "d", "e"),
+        revolute("j4", "e", "f", mimic=Mimic("stop", 2, 0.125)),
+        revolute("j5", "f", "g", mimic=Mimic("j4", 2, 0.125)),
+        Joint("still", "fixed", "g", "h", mimic=Mimic("j1")),
+    )
+    chain = robot.chain()
+    assert (robot.dof, chain.q_names) == (1, ("j1",))
+    assert chain.coupling.tolist() == [[1], [2], [-6], [0], [0]]
+    assert chain.offset.tolist() == [0, 0.5, -1.25, 0.125, 0.375]
+
+
+def test_limits_are_intersected_over_all_joints_that_follow():
+    robot = line(
+        revolute("j1", "a", "b", limits=(-1, 1)),
+        revolute("j2", "b", "c", limits=(-1, 3), mimic=Mimic("j1", -2, 1)),
+        revolute("j3", "c", "d", limits=(-9, -8), mimic=Mimic("j1", 0, -8.5)),
+        revolute("j4", "d", "e"),
+    )
+    assert robot.limits.tolist() == [[-1, 1], [-math.inf, math.inf]]
+    tighter = line(robot.joints[0], replace(robot.joints[1], limits=(0, 2)), *robot.joints[2:])
+    assert tighter.limits.tolist() == [[-0.5, 0.5], [-math.inf, math.inf]]
+    assert tighter.chain().limits.tolist() == tighter.limits.tolist()
+    assert tighter.chain("a", "b").limits.tolist() == [[-1, 1]]
+    assert tighter.chain("b", "c").limits.tolist() == [[-0.5, 0.5]]
+    assert tighter.chain("c", "b").limits.tolist() == [[-0.5, 0.5]]
+
+
+@pytest.mark.parametrize("limits", [(2, 3), (1, 3)])
+def test_where_limits_contradict_each_other_the_masters_stand_with_a_warning(limits):
+    joints = revolute("j1", "a", "b", limits=(-1, 1)), revolute("j2", "b", "c", limits=limits, mimic=Mimic("j1"))
+    with pytest.warns(PoekinWarning, match=r"^f\.urdf:7: .*'j1' have no interval in common.*\[-1\.0, 1\.0\]") as caught:
+        robot = line(*joints, source=Source("f.urdf", (), (7, 9)))
+    assert caught[0].filename == __file__
+    assert robot.limits.tolist() == [[-1, 1]]
+    assert robot.chain().limits.tolist() == [[-1, 1]]
+    assert pickle.loads(pickle.dumps(robot)) == robot  # and this warns no more
+
+
+def test_a_locked_joint_keeps_its_one_value():
+    assert line(revolute("j", "a", "b", limits=(0.5, 0.5))).limits.tolist() == [[0.5, 0.5]]
+
+
+@pytest.mark.parametrize("kind", FREE)
+def test_a_chain_that_would_cross_a_free_joint_is_refused_by_name(kind):
+    robot = line(Joint("base", kind, "world", "body"), revolute("j", "body", "hand"), source="x.urdf")
+    with pytest.raises(ModelError, match=f"x.urdf: .*'world' to 'hand' crosses the {kind} joint 'base'"):
+        robot.chain()
+    with pytest.raises(ModelError, match=kind):
+        robot.chain("hand", "world")
+    assert robot.chain("body", "hand").dof == 1
+    assert robot.q_names == ("j",)
+
+
+def test_unknown_names_are_answered_with_the_closest():
+    robot = line(revolute("shoulder", "base_link", "upper_arm"))
+    with pytest.raises(UnknownName, match="no tip link 'uper_arm'; did you mean 'upper_arm'"):
+        robot.chain(tip="uper_arm")
+    with pytest.raises(UnknownName, match=r"no base link 'base'; .*'base_link'"):
+        robot.chain("base")
+    with pytest.raises(UnknownName, match="no tip link '7'"):
+        robot.chain(tip=7)  # pyright: ignore[reportArgumentType]
+    with pytest.raises(UnknownName, match="no joint 'sholder'; did you mean 'shoulder'"):
+        robot.joint("sholder")
+    with pytest.raises(UnknownName, match="'sholder'; did you mean 'shoulder'"):
+        robot.fk({"sholder": 0})
+    assert robot.joint("shoulder") is robot.joints[0]
+
+
+def test_a_tip_must_be_named_where_there_are_several_leaves():
+    with pytest.raises(InputError, match="tip must be given, there are several leaves: 'c', 'e'"):
+        two_arms().chain()
+
+
+def test_wrong_poses_of_free_joints_are_refused():
+    robot = line(Joint("base", "floating", "a", "b"), revolute("j", "b", "c"))
+    with pytest.raises(UnknownName, match=r"'j', which is no floating or planar joint; .*'base'"):
+        robot.fk([0], {"j": np.eye(4)})
+    with pytest.raises(ShapeError, match=r"'base'.*\(\.\.\., 4, 4\)"):
+        robot.fk([0], {"base": np.eye(3)})
+    with pytest.raises(PoseError, match="'base'"):
+        robot.fk([0], {"base": 2 * np.eye(4)})
+    with pytest.raises(ShapeError, match=r"'line'.* 1 coordinates.*'j'"):
+        robot.fk([0, 0])
