@@ -37,17 +37,14 @@ def _motions(table, q, sines, cosines, shifts):
         shifts[i] = table[i, SLIDES] * x
 
 
-@kernel("w2 w1 w2", returns="int")
+@kernel("w2 r1 w2", bare=True)
 def pose_one(table, q, T):
-    """f(q) of one configuration. Returns 0; 1, and nothing done, where q is not one number a joint or T not 4x4."""
+    """f(q) of one configuration of a chain that is not coupled."""
     n = table.shape[0] - 1
-    if table.shape[1] > OFFSET or len(q) != n or T.shape != (4, 4):
-        return 1
     table, q, T = borrowed(table), borrowed(q), borrowed(T)
     sines, cosines, shifts = _scratch(table)
     _motions(table, q, sines, cosines, shifts)
     store_matrix(T, forward.tip(table, sines, cosines, shifts, n))
-    return 0
 
 
 @kernel("w2 r2 w3")
@@ -60,14 +57,10 @@ def pose_many(table, q, T):
         store_matrix(T[k], forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
 
 
-@kernel("w2 w1 int w2 w2", returns="int")
+@kernel("w2 r1 int w2 w2", bare=True)
 def pose_jacobian_one(table, q, frame, T, J):
-    """f(q) and the Jacobian of one configuration in a named frame. Returns 0; 1, and nothing done, where q is not one
-    number a joint or T and J have not the shapes for it.
-    """
+    """f(q) and the Jacobian of one configuration, in a named frame, of a chain that is not coupled."""
     n = table.shape[0] - 1
-    if table.shape[1] > OFFSET or len(q) != n or T.shape != (4, 4) or J.shape != (6, n):
-        return 1
     table, q, T, J = borrowed(table), borrowed(q), borrowed(T), borrowed(J)
     # the rows of J serve as scratch: taking memory costs as much as three joints
     _motions(table, q, J[0], J[1], J[2])
@@ -77,7 +70,6 @@ def pose_jacobian_one(table, q, frame, T, J):
     columns.about_point(J, table[:, ROTATES], table[:, SLIDES], n, p)
     if frame == BODY:
         columns.turned_into(J, n, tip)
-    return 0
 
 
 def _pose_jacobian(table, q, frame, T, J_x):

@@ -80,18 +80,19 @@ def array_type(code: str):
     return types.Array(element, dimensions, "A", readonly=True, aligned=False)
 
 
-def compiled(function, arguments: str, returns: str = ""):
+def compiled(function, arguments: str, returns: str = "", bare: bool = False):
     """The machine code of `function` for one signature, from the cache or compiled now."""
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
     _register_functions(sys.modules[function.__module__])
-    dispatcher = numba.njit(nogil=True, error_model="numpy", fastmath={"contract"})(function)
+    dispatcher = numba.njit(nogil=not bare, error_model="numpy", fastmath={"contract"})(function)
     dispatcher._cache = KernelCache(function.__name__)  # type: ignore[attr-defined]
     result = types.int64 if returns == "int" else types.void
     signature = result(*(array_type(code) for code in arguments.split()))
     dispatcher.compile(signature)
     dispatcher.disable_compile()
-    return dispatcher
+    # the entry point unpacks its arguments without asking of what type they are
+    return dispatcher.overloads[signature.args].entry_point if bare else dispatcher
 
 
 _register()

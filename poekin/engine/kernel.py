@@ -6,22 +6,26 @@ from collections.abc import Callable
 
 
 class Kernel:
-    """Call `kernel.call(...)`: the first time this loads or compiles the function and puts the result in its place."""
+    """Call `kernel.call(...)`: the first time this loads or compiles the function and puts the result in its place.
 
-    __slots__ = ("arguments", "call", "function", "returns")
+    A call releases the interpreter's lock and refuses arguments of other types with a TypeError. A `bare` kernel does
+    neither, which makes a call of half a microsecond a third faster: its caller has checked every argument.
+    """
 
-    def __init__(self, function: Callable, arguments: str, returns: str = ""):
-        self.function, self.arguments, self.returns = function, arguments, returns
+    __slots__ = ("arguments", "bare", "call", "function", "returns")
+
+    def __init__(self, function: Callable, arguments: str, returns: str, bare: bool):
+        self.function, self.arguments, self.returns, self.bare = function, arguments, returns, bare
         self.call: Callable = self._first_call
 
     def _first_call(self, *arguments):
         # Numba takes longer to import than all the rest of poekin: whoever only reads a model does without
         from .compile import compiled
 
-        self.call = compiled(self.function, self.arguments, self.returns)
+        self.call = compiled(self.function, self.arguments, self.returns, self.bare)
         return self.call(*arguments)
 
 
-def kernel(arguments: str, returns: str = ""):
+def kernel(arguments: str, returns: str = "", bare: bool = False):
     """Decorator: make a function of arrays a `Kernel`; for the argument codes see `engine.compile.array_type`."""
-    return lambda function: Kernel(function, arguments, returns)
+    return lambda function: Kernel(function, arguments, returns, bare)

@@ -46,7 +46,7 @@ class Chain:
 
     __slots__ = (
         *("screws", "home", "joint_names", "q_names", "limits", "_coupling", "offset", "base", "tip", "kinds"),
-        *("local", "reach", "_table", "_jacobian_shape"),
+        *("local", "reach", "_table", "_one", "_jacobian_shape"),
     )
     screws: Array
     home: Array
@@ -61,6 +61,7 @@ class Chain:
     local: LocalForm
     reach: float
     _table: Array
+    _one: tuple[int, ...] | None
     _jacobian_shape: tuple[int, int]
 
     def __init__(
@@ -86,6 +87,7 @@ class Chain:
             raise ShapeError(f"offset: expected shape ({n},), one number a joint, got {c.shape}")
         names = _names(joints if q_names is None and m == n else q_names, m, "q_names", "q")
         form = local_form(A, _home(home))
+        table = _table(form, C, c)
         data = {
             "screws": A,
             "home": _home(home),
@@ -99,7 +101,9 @@ class Chain:
             "kinds": tuple(_kind(r, s) for r, s in zip(form.rotates, form.slides, strict=True)),
             "local": form,
             "reach": max(1.0, float(np.linalg.norm(form.frames[:, :3, 3], axis=1).sum() + (form.rotates == 0).sum())),
-            "_table": _table(form, C, c),
+            "_table": table,
+            # the shape of one configuration that needs no coupling
+            "_one": (m,) if table.shape[1] == chain_kernels.OFFSET else None,
             "_jacobian_shape": (6, m),
         }
         for name, array in (*data.items(), *vars(form).items()):

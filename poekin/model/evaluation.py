@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _FRAMES: dict[object, int] = {"space": chain_kernels.SPACE, "body": chain_kernels.BODY, "hybrid": chain_kernels.HYBRID}
 # Names looked up once: one call for a pose and a Jacobian takes about a microsecond in all.
-_ndarray, _empty, _POSE_SHAPE = np.ndarray, np.empty, (4, 4)
+_ndarray, _float64, _empty, _POSE_SHAPE = np.ndarray, np.dtype(np.float64), np.empty, (4, 4)
 _pose_jacobian_one, _pose_one = chain_kernels.pose_jacobian_one, chain_kernels.pose_one
 
 
@@ -32,13 +32,10 @@ def fk(self: Chain, q: Any, *, out: Array | None = None) -> Array:
     Accuracy: within 2e-14 reach (tests/analysis/test_validate.py, against Pinocchio).
     Source: Park 1994, eq. (1), by the local form of Section IV.
     """
-    if q.__class__ is _ndarray:
-        T = _empty(_POSE_SHAPE) if out is None else out
-        try:
-            if _pose_one.call(self._table, q, T) == 0:
-                return T
-        except TypeError:
-            pass  # not one float64 configuration: the general way takes it or says what is wrong
+    if q.__class__ is _ndarray and q.dtype is _float64 and q.shape == self._one:
+        T = _empty(_POSE_SHAPE) if out is None else checked_out(out, _POSE_SHAPE, "out")
+        _pose_one.call(self._table, q, T)
+        return T
     batch, rows = _rows(self, q)
     T = _result(out, (*batch, 4, 4), "out")
     chain_kernels.pose_many.call(self._table, rows, T.reshape(len(rows), 4, 4))
@@ -53,16 +50,16 @@ def fk_jacobian(
     Parameters: as `jacobian`; out = (T, J), arrays to write into. Returns: T_sb (..., 4, 4), J (..., 6, m).
     Raises, accuracy, source: as `fk` and `jacobian`.
     """
-    if q.__class__ is _ndarray and at is None:
-        try:
-            if out is None:
-                T, J = _empty(_POSE_SHAPE), _empty(self._jacobian_shape)
-            else:
-                T, J = out
-            if _pose_jacobian_one.call(self._table, q, _FRAMES[frame], T, J) == 0:
-                return T, J
-        except (TypeError, KeyError, ValueError):
-            pass  # not one float64 configuration in a named frame: the general way takes it or says what is wrong
+    plain = q.__class__ is _ndarray and q.dtype is _float64 and q.shape == self._one
+    if plain and at is None and frame.__class__ is str and frame in _FRAMES:
+        if out is None:
+            T, J = _empty(_POSE_SHAPE), _empty(self._jacobian_shape)
+        else:
+            T, J = _pair(out)
+            checked_out(T, _POSE_SHAPE, "out[0]")
+            checked_out(J, self._jacobian_shape, "out[1]")
+        _pose_jacobian_one.call(self._table, q, _FRAMES[frame], T, J)
+        return T, J
     if at is not None:
         T, J = _moved_tool(self, frame, at).fk_jacobian(q, frame, out=out)
         T[..., :3, 3] -= (T[..., :3, :3] @ np.asarray(at, float)[:, None])[..., 0]
@@ -179,11 +176,12 @@ def joint_index(chain: Chain, frame: object) -> int:
 
 def checked_out(out: Any, shape: tuple[int, ...], what: str) -> Array:
     """`out` itself where a kernel can write into it."""
+    if out.__class__ is _ndarray and out.dtype is _float64 and out.shape == shape and out.flags.carray:
+        return out
     if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape:
         got = f"{out.dtype} {out.shape}" if isinstance(out, np.ndarray) else type(out).__name__
         raise ShapeError(f"{what}: expected a float64 array of shape {shape}, got {got}")
-    flags = out.flags
-    if not (flags.c_contiguous and flags.writeable and flags.aligned):
+    if not out.flags.carray:
         raise InputError(f"{what}: expected a C-contiguous, writable, aligned array")
     return out
 
