@@ -11,12 +11,11 @@ from numpy.typing import ArrayLike
 from ..engine import chain_kernels
 from ..errors import InputError, ShapeError, shown
 from ..groups import se3
-from ..groups.arrays import Array, numbers, poses, shaped
+from ..groups.arrays import Array
 from . import evaluation, screw
 from .coordinates import coordinates
-from .local import LocalForm, local_form
-
-_EXACT = 4e-15  # a home pose whose rotation is off by more is replaced by the nearest rotation
+from .local import LocalForm, kernel_table, local_form
+from .parts import bounds, coupling_matrix, distinct_names, finite, one_pose
 
 
 class ScrewForm(NamedTuple):
@@ -79,21 +78,22 @@ class Chain:
     ):
         A = screw.checked(screws, tuple(joint_names or ()))
         n = len(A)
-        joints = _names(joint_names, n, "joint_names", "joint")
-        C = None if coupling is None else _coupling(coupling, n)
+        joints = distinct_names(joint_names, n, "joint_names", "joint")
+        C = None if coupling is None else coupling_matrix(coupling, n)
         m = n if C is None else C.shape[1]
-        c = np.zeros(n) if offset is None else _finite(offset, "offset")
+        c = np.zeros(n) if offset is None else finite(offset, "offset")
         if c.shape != (n,):
             raise ShapeError(f"offset: expected shape ({n},), one number a joint, got {c.shape}")
-        names = _names(joints if q_names is None and m == n else q_names, m, "q_names", "q")
-        form = local_form(A, _home(home))
-        table = _table(form, C, c)
+        names = distinct_names(joints if q_names is None and m == n else q_names, m, "q_names", "q")
+        M = one_pose(home)
+        form = local_form(A, M)
+        table = kernel_table(form, C, c)
         data = {
             "screws": A,
-            "home": _home(home),
+            "home": M,
             "joint_names": joints,
             "q_names": names,
-            "limits": _limits(limits, names),
+            "limits": bounds(limits, names),
             "_coupling": C,
             "offset": c,
             "base": str(base),
@@ -147,7 +147,7 @@ class Chain:
         Parameters: P (4, 4), the pose of the old base in the new one; base, its name. Returns: Chain.
         Raises: PoseError, ShapeError. Accuracy: within 10 u reach. Source: Park 1994, Section II, f' = P f Q.
         """
-        P = _home(P, "P")
+        P = one_pose(P, "P")
         return self._with(screws=self.screws @ se3.adjoint(P).T, home=P @ self.home, base=base or self.base)
 
     def retooled(self, Q: ArrayLike, tip: str | None = None) -> Chain:
@@ -156,7 +156,7 @@ class Chain:
         Parameters: Q (4, 4), the pose of the new tool in the old one; tip, its name. Returns: Chain.
         Raises: PoseError, ShapeError. Accuracy: within 10 u reach. Source: Park 1994, Section II, f' = P f Q.
         """
-        return self._with(home=self.home @ _home(Q, "Q"), tip=tip or self.tip)
+        return self._with(home=self.home @ one_pose(Q, "Q"), tip=tip or self.tip)
 
     def rezeroed(self, q0: Any) -> Chain:
         """f'(q) = f(q + q0): the same arm with its zero positions at q0.
@@ -242,69 +242,3 @@ def _rebuilt(data: dict[str, Any]) -> Chain:
 
 def _kind(rotates: float, slides: float) -> str:
     return "prismatic" if rotates == 0 else "helical" if slides else "revolute"
-
-
-def _finite(values: ArrayLike, what: str) -> Array:
-    array = numbers(values, what).copy() + 0.0
-    if not np.isfinite(array).all():
-        raise InputError(f"{what}: expected finite numbers, got {array.tolist()}")
-    return array
-
-
-def _home(T: ArrayLike, what: str = "home") -> Array:
-    """One finite pose, its rotation exact and its last row (0, 0, 0, 1)."""
-    T = poses(_finite(shaped(T, (4, 4), what), what), what)
-    if T.ndim != 2:
-        raise ShapeError(f"{what}: expected one pose (4, 4), got shape {T.shape}")
-    T[3] = [0.0, 0.0, 0.0, 1.0]
-    R = T[:3, :3]
-    if np.abs(R @ R.T - np.eye(3)).max() > _EXACT:
-        U, _, V = np.linalg.svd(R)
-        T[:3, :3] = U @ V
-    return T + 0.0
-
-
-def _names(names: Sequence[str] | None, count: int, what: str, letter: str) -> tuple[str, ...]:
-    if names is None:
-        return tuple(f"{letter}{i + 1}" for i in range(count))
-    if isinstance(names, str) or len(names) != count:
-        raise ShapeError(f"{what}: expected {count} names, got {names!r}")
-    if len(set(names)) != count:
-        twice = next(name for name in names if list(names).count(name) > 1)
-        raise InputError(f"{what}: {shown(twice)} appears more than once")
-    return tuple(map(str, names))
-
-
-def _limits(limits: ArrayLike | None, names: tuple[str, ...]) -> Array:
-    if limits is None:
-        return np.tile([-np.inf, np.inf], (len(names), 1))
-    L = numbers(limits, "limits").copy() + 0.0
-    if L.shape != (len(names), 2):
-        raise ShapeError(f"limits: expected shape ({len(names)}, 2), lower and upper of each coordinate, got {L.shape}")
-    for name, (lower, upper) in zip(names, L, strict=True):
-        if not lower <= upper or lower == np.inf or upper == -np.inf:
-            raise InputError(f"limits: expected lower <= upper for {shown(name)}, got {lower} and {upper}")
-    return L
-
-
-def _coupling(values: ArrayLike, n: int) -> Array | None:
-    """C as given, or None where it is the identity."""
-    C = _finite(values, "coupling")
-    if C.ndim != 2 or C.shape[0] != n:
-        raise ShapeError(f"coupling: expected shape ({n}, m), one row a joint, got {C.shape}")
-    return None if np.array_equal(C, np.eye(n)) else C
-
-
-def _table(form: LocalForm, coupling: Array | None, offset: Array) -> Array:
-    """The numbers of a chain as the kernels read them; see `poekin.engine.chain_kernels`."""
-    n = len(offset)
-    if coupling is None and offset.any():
-        coupling = np.eye(n)
-    width = chain_kernels.OFFSET if coupling is None else chain_kernels.COUPLING + coupling.shape[1]
-    table = np.zeros((n + 1, width))
-    table[:, :9] = form.frames[:, :3, :3].reshape(-1, 9)
-    table[:, 9:12] = form.frames[:, :3, 3]
-    table[:n, chain_kernels.ROTATES], table[:n, chain_kernels.SLIDES] = form.rotates, form.slides
-    if coupling is not None:
-        table[:n, chain_kernels.OFFSET], table[:n, chain_kernels.COUPLING :] = offset, coupling
-    return table

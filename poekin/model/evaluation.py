@@ -87,6 +87,8 @@ def jacobian(self: Chain, q: Any, frame: str | int, *, at: ArrayLike | None = No
     """
     if at is not None:
         return _moved_tool(self, frame, at).jacobian(q, frame, out=out)
+    if out is None and q.__class__ is _ndarray and q.ndim == 1:
+        return fk_jacobian(self, q, frame)[1]  # the shorter way in for one configuration
     code, (batch, rows) = _frame_code(self, frame), _rows(self, q)
     J = _result(out, (*batch, 6, self.dof), "out")
     _fill(self, rows, code, np.empty((1, 4, 4)), J)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..engine import chain_kernels
 from ..groups.arrays import Array
 from . import screw
 
@@ -60,3 +61,18 @@ def _turned_least(z: Array) -> Array:
     x, y, c = flip @ z
     k = 1.0 / (1.0 + c)
     return flip @ np.array([[1.0 - k * x * x, -k * x * y, x], [-k * x * y, 1.0 - k * y * y, y], [-x, -y, c]])
+
+
+def kernel_table(form: LocalForm, coupling: Array | None, offset: Array) -> Array:
+    """The numbers of a chain as the kernels read them; see `poekin.engine.chain_kernels`."""
+    n = len(offset)
+    if coupling is None and offset.any():
+        coupling = np.eye(n)
+    width = chain_kernels.OFFSET if coupling is None else chain_kernels.COUPLING + coupling.shape[1]
+    table = np.zeros((n + 1, width))
+    table[:, :9] = form.frames[:, :3, :3].reshape(-1, 9)
+    table[:, 9:12] = form.frames[:, :3, 3]
+    table[:n, chain_kernels.ROTATES], table[:n, chain_kernels.SLIDES] = form.rotates, form.slides
+    if coupling is not None:
+        table[:n, chain_kernels.OFFSET], table[:n, chain_kernels.COUPLING :] = offset, coupling
+    return table

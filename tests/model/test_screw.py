@@ -17,6 +17,7 @@ def test_a_revolute_screw_gives_back_its_axis_and_the_foot_of_the_perpendicular(
     axis = pk.screw.axis_of(pk.screw.revolute(z, p))
     n = z / np.linalg.norm(z)
     np.testing.assert_allclose(axis.direction, n, atol=1e-15)
+    assert axis.point is not None
     np.testing.assert_allclose(axis.point, p - n * (n @ p), atol=1e-13)
     assert axis.pitch == 0
 
@@ -59,7 +60,7 @@ def test_an_axis_may_have_any_length():
         (pk.screw.axis_of, ([0, 0, 2, 0, 0, 0],), ScrewError),
         (pk.screw.axis_of, ([0, 0, 1],), ShapeError),
     ],
-    ids=repr,
+    ids=lambda x: getattr(x, "__name__", None) or repr(x),
 )
 def test_what_makes_no_screw_is_refused(function, arguments, error):
     with pytest.raises(error):

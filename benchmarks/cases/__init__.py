@@ -1,0 +1,16 @@
+"""The topics of the report, in order; a new topic is one file here and one line below.
+
+Each is a module with `topic(quick, say) -> Topic`: quick asks for a shorter run, say prints a line of progress.
+"""
+
+from . import accuracy, exp_log, operation_counts, panda_hand, robots, robustness, start
+
+TOPICS = {
+    "robots": robots,
+    "accuracy": accuracy,
+    "operation_counts": operation_counts,
+    "panda_hand": panda_hand,
+    "exp_log": exp_log,
+    "start": start,
+    "robustness": robustness,
+}

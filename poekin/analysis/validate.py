@@ -1,0 +1,219 @@
+"""Validation of a robot against Pinocchio: every chain from root to leaf, pose and Jacobians in all three frames."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import pkgutil
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass, field
+
+import numpy as np
+
+from ..errors import FileError, InputError, shown
+from ..formats import catalogue, urdf
+from ..formats.load import load
+from ..model.chain import Chain
+from ..model.joint import FREE
+from ..model.robot import Robot
+from ..testing.pinocchio_oracle import PinocchioOracle
+
+BAR = 2e-14
+"""Largest error that passes, as a multiple of the chain's reach R."""
+
+FRAMES = ("space", "body", "hybrid")
+
+Progress = Callable[[int, int, str], None]
+"""Called before each chain with the number done, the number of all, and the chain's tip."""
+
+
+@dataclass(frozen=True)
+class ChainErrors:
+    """Worst errors of one chain, each ÷ R: the pose's and the Jacobian's in three frames; see `chain_errors`.
+
+    Attributes: base, tip (links); joints (n), dof (m); reach (R, in m); pose, space, body, hybrid (errors ÷ R);
+    configuration (coordinate -> value of the worst configuration, rad or m); note (what the reader ought to know).
+    """
+
+    base: str
+    tip: str
+    joints: int
+    dof: int
+    reach: float
+    pose: float
+    space: float
+    body: float
+    hybrid: float
+    configuration: dict[str, float] = field(default_factory=dict)
+    note: str = ""
+
+    @property
+    def worst(self) -> float:
+        """The largest of the four errors ÷ R; infinite where one is not a number."""
+        return max(e if math.isfinite(e) else math.inf for e in (self.pose, self.space, self.body, self.hybrid))
+
+
+@dataclass(frozen=True)
+class Validation:
+    """What `validate` found: one row a chain, and the bar that every row must hold.
+
+    Attributes: robot (its name), source (where it came from), rows, bar (largest error ÷ R that passes), samples
+    (random configurations a chain, beside the zero configuration), seed, pinocchio (the oracle's version).
+    """
+
+    robot: str
+    source: str
+    rows: tuple[ChainErrors, ...]
+    bar: float
+    samples: int
+    seed: int
+    pinocchio: str
+
+    @property
+    def worst(self) -> ChainErrors | None:
+        """The chain with the largest error, or None for a robot without a link to go to."""
+        return max(self.rows, key=lambda row: row.worst, default=None)
+
+    @property
+    def error(self) -> float:
+        """The largest error ÷ R of all chains."""
+        return max((row.worst for row in self.rows), default=0.0)
+
+    @property
+    def passed(self) -> bool:
+        """Whether there is a chain and every chain holds the bar; an error that is not a number never does."""
+        return bool(self.rows) and self.error <= self.bar
+
+    def as_dict(self) -> dict[str, object]:
+        """Everything as plain dicts, lists, strings and numbers; an infinite or absent number is None."""
+        rows = []
+        for row in self.rows:
+            values = {k: _finite(v) if isinstance(v, float) else v for k, v in asdict(row).items()}
+            rows.append(values | {"worst": _finite(row.worst), "passed": row.worst <= self.bar})
+        return {
+            "robot": self.robot,
+            "source": self.source,
+            "passed": self.passed,
+            "error": _finite(self.error),
+            "bar": self.bar,
+            "samples": self.samples,
+            "seed": self.seed,
+            "pinocchio": self.pinocchio,
+            "chains": rows,
+        }
+
+    def to_json(self) -> str:
+        """`as_dict` as JSON text."""
+        return json.dumps(self.as_dict(), indent=2, allow_nan=False)
+
+
+def validate(
+    robot: Robot | str | os.PathLike[str], *, samples: int = 100, seed: int = 0, progress: Progress | None = None
+) -> Validation:
+    """Poses and Jacobians of every chain from the root to a leaf, against Pinocchio.
+
+    Parameters: robot, anything `load` takes, or the text of a URDF (it begins with <), or a Robot that was loaded (its
+    URDF is read again, by Pinocchio);
+    samples, random configurations a chain, beside the zero configuration: revolute over ±π and prismatic over ±1 m
+    whatever the limits, *all* coordinates of the robot at once, so that one which a chain overlooks shows up too;
+    seed, of the generator; progress, called as (chains done, chains in all, tip).
+
+    A chain that would cross a floating or planar joint starts at the child link of the last such joint; its row's
+    note says so. The errors are defined in `chain_errors`; each must be at most `BAR` · R.
+
+    Raises: what `load` raises; MissingExtra without Pinocchio; ModelError where Pinocchio refuses the URDF; InputError
+    for a Robot that was built by hand (there is no text to give to the oracle).
+    """
+    if samples < 0:
+        raise InputError(f"samples: a number of configurations ≥ 0 expected, got {samples}")
+    model, oracle = _both(robot)
+    q = oracle.random(np.random.default_rng(seed), samples + 1)
+    for values in q.values():
+        values[0] = 0.0
+    rows = []
+    ways = list(routes(model))
+    for done, (base, tip, note) in enumerate(ways):
+        if progress is not None:
+            progress(done, len(ways), tip)
+        rows.append(chain_errors(model.chain(base=base, tip=tip), oracle, q, note=note))
+    return Validation(model.name, str(model.source), tuple(rows), BAR, samples, seed, oracle.version)
+
+
+def chain_errors(chain: Chain, oracle: PinocchioOracle, q: dict[str, np.ndarray], *, note: str = "") -> ChainErrors:
+    """Worst errors of one chain over configurations of *all* the robot's coordinates, by name, (N,) values each.
+
+    Every error is the largest absolute entry of a difference, ÷ R (the chain's reach) where it is a length:
+    the pose's rotation part as it is and its translation ÷ R; a Jacobian's angular rows as they are and its linear
+    rows ÷ R. This is never milder than the whole ÷ R, as R ≥ 1. Columns of coordinates that the chain does not have
+    are zero here, and so they must be in Pinocchio. A coordinate that Pinocchio does not know is an infinite error.
+    """
+    unknown = [name for name in chain.q_names if name not in oracle.coordinates]
+    if unknown:
+        return _row(chain, np.full((4, 1), np.inf), {}, f"Pinocchio has no coordinate {shown(unknown[0])}")
+    values = np.stack([np.asarray(q[n], float) for n in oracle.coordinates], -1) if oracle.coordinates else None
+    count = 1 if values is None else len(values)
+    own = [oracle.coordinates.index(name) for name in chain.q_names]
+    configurations = np.zeros((count, 0)) if values is None else np.ascontiguousarray(values[:, own])
+    expected, columns = oracle.evaluate(q, chain.tip, chain.base)
+    weight = np.array([1.0, 1.0, 1.0, 1 / chain.reach])
+    errors = [np.abs((chain.fk(configurations) - expected)[:, :3] * weight).max((1, 2))]
+    rows = np.array([1.0] * 3 + [1 / chain.reach] * 3)[:, None]
+    for frame in FRAMES:
+        J = np.zeros(columns[frame].shape)
+        J[..., own] = chain.jacobian(configurations, frame)
+        errors.append(np.abs((J - columns[frame]) * rows).max((1, 2), initial=0.0))
+    worst = int(np.argmax(np.nan_to_num(np.max(errors, axis=0), nan=np.inf)))
+    configuration = {name: float(configurations[worst, i]) for i, name in enumerate(chain.q_names)}
+    return _row(chain, np.array(errors), configuration, note)
+
+
+def _row(chain: Chain, errors: np.ndarray, configuration: dict[str, float], note: str) -> ChainErrors:
+    # np.max hands on a NaN, so that one wrong configuration cannot hide among right ones.
+    pose, space, body, hybrid = (float(e) for e in np.max(errors, axis=1))
+    n = len(chain.joint_names)
+    return ChainErrors(chain.base, chain.tip, n, chain.dof, chain.reach, pose, space, body, hybrid, configuration, note)
+
+
+def routes(robot: Robot) -> Iterator[tuple[str, str, str]]:
+    """(base, tip, note) of each chain: from the root, or from below the last joint that no chain can cross.
+
+    One chain a leaf, in the order of `robot.leaves`; the note names the joint that was not crossed, else it is empty.
+    """
+    above = {joint.child: joint for joint in robot.joints}
+    for leaf in robot.leaves:
+        link, base, note = leaf, robot.root, ""
+        while link in above:
+            joint = above[link]
+            if joint.kind in FREE:
+                base, note = link, f"starts below the {joint.kind} joint {shown(joint.name)}"
+                break
+            link = joint.parent
+        yield base, leaf, note
+
+
+def _both(robot: Robot | str | os.PathLike[str]) -> tuple[Robot, PinocchioOracle]:
+    """poekin's model and Pinocchio's, of the same text."""
+    if isinstance(robot, str) and robot.lstrip().startswith("<"):
+        return urdf.read_text(robot), PinocchioOracle(robot)
+    model = robot if isinstance(robot, Robot) else load(robot)
+    if model.source is None:
+        raise InputError(f"the robot {shown(model.name)} was not loaded from a file: Pinocchio needs its URDF")
+    try:
+        return model, PinocchioOracle(_text(model.source.name))
+    except OSError as error:
+        raise FileError(f"cannot read {model.source.place()} again for Pinocchio: {error.strerror}") from error
+
+
+def _text(name: str) -> bytes:
+    """What is in the file that a robot came from; an arm of the built-in catalogue need not be a file at all."""
+    folder, _, file = name.partition("/")
+    inside = pkgutil.get_data(catalogue.__name__, file) if folder == "catalogue" and not os.path.exists(name) else None
+    if inside is not None:
+        return inside
+    with open(name, "rb") as stream:
+        return stream.read()
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -1,0 +1,78 @@
+"""The command line `poekin`: info, fk, jacobian, validate.
+
+Exit codes: 0 done (validate: passed), 1 validation failed, 2 an error (one message on stderr), 130 interrupted,
+141 where the reader of the output went away.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+from ..errors import MissingExtra, PoekinError, PoekinWarning
+
+ERROR = 2
+INTERRUPTED = 130
+NOBODY_READS = 141
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """The entry point of the command `poekin`: runs it on the arguments (sys.argv) and exits with its code."""
+    if sys.stdout is None:  # started with a closed stdout
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  open until the process ends
+    for stream in (sys.stdout, sys.stderr):
+        # A terminal or pipe that cannot take a character gets its code: no name may end a command.
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+    sys.exit(run(arguments))
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """The exit code of one command; every error that a user can cause is one message on stderr and code 2."""
+    try:
+        try:
+            import rich  # noqa: F401  the commands' tables need it: say so at once, not in the middle
+            import typer
+        except ModuleNotFoundError as missing:
+            raise MissingExtra(missing.name or "typer", "cli", "the command line") from missing
+        from .commands import app
+        from .output import complain
+
+        def show(message: Warning | str, category: type[Warning], *_: object) -> None:
+            complain(f"warning: {message}")
+
+        with warnings.catch_warnings():
+            warnings.simplefilter("always", PoekinWarning)
+            warnings.showwarning = show  # type: ignore[assignment]
+            # The base of all usage errors: Click's own, or typer's where typer does without Click.
+            usage: Any = next(c for c in reversed(typer.BadParameter.__mro__) if hasattr(c, "format_message"))
+            try:
+                code = app(args=arguments, prog_name="poekin", standalone_mode=False)
+            except usage as error:
+                complain(f"error: {error.format_message()}")
+                return ERROR
+            except typer.Abort:
+                return INTERRUPTED
+            except SystemExit:  # typer's answer to a broken pipe, the one case in which it ends the process itself
+                return NOBODY_READS
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # Python flushes stdout once more at exit, which must find somewhere to write to.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return NOBODY_READS
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except MissingExtra as error:
+        # Without rich there is no output.py to print with, and nothing in this message comes out of a file.
+        print(f"poekin: error: {error}", file=sys.stderr)
+        return ERROR
+    except (PoekinError, OSError, MemoryError) as error:
+        from .output import complain
+
+        complain(f"error: {'there is not enough memory for this' if isinstance(error, MemoryError) else error}")
+        return ERROR
+    return int(code or 0)

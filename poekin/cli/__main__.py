@@ -1,0 +1,5 @@
+"""`python -m poekin.cli` is the command `poekin`."""
+
+from . import main
+
+main()

@@ -1,0 +1,214 @@
+"""Validation against Pinocchio: right robots pass, and every planted error fails, however small."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from poekin.analysis.validate import BAR, ChainErrors, Validation, chain_errors, routes, validate
+from poekin.errors import FileError, InputError, ModelError
+from poekin.formats import urdf
+from poekin.formats.load import load
+from poekin.model.chain import Chain
+from poekin.model.robot import Robot
+from poekin.testing.example_robots import example_robots
+from poekin.testing.pinocchio_oracle import PinocchioOracle
+
+URDF = """<robot name="r"><link name="root"/><link name="a"/><link name="b"/><link name="c"/><link name="tip"/>
+<joint name="turn" type="continuous"><parent link="root"/><child link="a"/><origin xyz="0.1 0.2 0.3" rpy="0.2 0 1"/>
+  <axis xyz="0.6 0 0.8"/></joint>
+<joint name="slide" type="prismatic"><parent link="a"/><child link="b"/><origin rpy="1 0.3 0"/><axis xyz="0 1 0"/>
+  <limit lower="0" upper="1" effort="1" velocity="1"/></joint>
+<joint name="bend" type="revolute"><parent link="b"/><child link="c"/><origin xyz="0 0.5 0"/><axis xyz="1 0 0"/>
+  <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<joint name="follow" type="revolute"><parent link="c"/><child link="tip"/><origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>
+  <limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="bend" multiplier="-2" offset="0.1"/></joint>
+</robot>"""
+
+
+@pytest.fixture(scope="module")
+def oracle() -> PinocchioOracle:
+    return PinocchioOracle(URDF)
+
+
+@pytest.fixture(scope="module")
+def chain() -> Chain:
+    return urdf.read_text(URDF).chain()
+
+
+@pytest.fixture(scope="module")
+def q(oracle):
+    return oracle.random(np.random.default_rng(0), 20)
+
+
+def _with(chain: Chain, **changes: Any) -> Chain:
+    data: dict[str, Any] = {
+        n: getattr(chain, n)
+        for n in ("screws", "home", "joint_names", "q_names", "limits", "coupling", "offset", "base", "tip")
+    }
+    return Chain(**{**data, **changes})
+
+
+def _add(array: np.ndarray, where: tuple[int, ...], amount: float) -> np.ndarray:
+    array = array.copy()
+    array[where] += amount
+    return array
+
+
+def test_a_right_chain_passes_in_pose_and_all_frames(chain, oracle, q):
+    row = chain_errors(chain, oracle, q)
+    assert 0 < row.worst <= BAR
+    assert (row.base, row.tip, row.joints, row.dof) == ("root", "tip", 4, 3)
+
+
+PLANTED = {
+    "a screw's moment by 1e-12": lambda c: _with(c, screws=_add(c.screws, (2, 3), 1e-12)),
+    "a screw's direction by 1e-12": lambda c: _with(c, screws=_add(c.screws, (0, 1), 1e-12)),
+    "a slide's direction by 1e-12": lambda c: _with(c, screws=_add(c.screws, (1, 4), 1e-12)),
+    "the home pose by 1e-12 m": lambda c: _with(c, home=_add(c.home, (0, 3), 1e-12)),
+    "a mimic's multiplier by 1e-12": lambda c: _with(c, coupling=_add(c.coupling, (3, 2), 1e-12)),
+    "a mimic's offset by 1e-12": lambda c: _with(c, offset=_add(c.offset, (3,), 1e-12)),
+    "a mimic that is not honoured": lambda c: _with(c, coupling=_add(c.coupling, (3, 2), 2.0), offset=np.zeros(4)),
+    "an axis the other way round": lambda c: _with(c, screws=c.screws * np.array([[-1], [1], [1], [1]])),
+    "two coordinates exchanged": lambda c: _with(c, q_names=("bend", "slide", "turn")),
+    "two joints exchanged": lambda c: _with(c, screws=c.screws[[0, 2, 1, 3]]),
+    "another tip": lambda c: urdf.read_text(URDF).chain(tip="c").retooled(np.eye(4), tip="tip"),
+    "a coordinate that does not exist": lambda c: _with(c, q_names=("turn", "slide", "bent")),
+    "a joint that is missing": lambda c: _with(
+        c, screws=c.screws[1:], joint_names=c.joint_names[1:], q_names=c.q_names[1:], limits=c.limits[1:],
+        coupling=c.coupling[1:, 1:], offset=c.offset[1:],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("plant", PLANTED.values(), ids=PLANTED.keys())
+def test_a_planted_error_fails(chain, oracle, q, plant):
+    assert chain_errors(plant(chain), oracle, q).worst > BAR
+
+
+class _Wrong:
+    """A chain whose Jacobian of one frame is another one's."""
+
+    def __init__(self, chain: Chain, wrong: str, other: str):
+        self._chain, self._swap = chain, {wrong: other}
+
+    def __getattr__(self, name):
+        return getattr(self._chain, name)
+
+    def jacobian(self, q, frame):
+        return self._chain.jacobian(q, str(self._swap.get(frame, frame)))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "other"), [(a, b) for a in ("space", "body", "hybrid") for b in ("space", "body", "hybrid") if a != b]
+)
+def test_a_jacobian_of_the_wrong_frame_fails_in_that_frame_only(chain, oracle, q, wrong, other):
+    row = chain_errors(_Wrong(chain, wrong, other), oracle, q)  # type: ignore[arg-type]
+    bad = {frame for frame in ("space", "body", "hybrid") if getattr(row, frame) > BAR}
+    assert bad == {wrong}
+    assert row.pose <= BAR
+
+
+def test_one_bad_configuration_among_good_ones_is_found_and_named(chain, oracle, q):
+    class Sick(_Wrong):
+        def fk(self, q):
+            T = self._chain.fk(q)
+            T[7, 0, 0] = np.nan
+            return T
+
+    row = chain_errors(Sick(chain, "", ""), oracle, q)  # type: ignore[arg-type]
+    assert math.isnan(row.pose)
+    assert row.worst == math.inf
+    assert row.configuration == {name: q[name][7] for name in chain.q_names}
+
+
+def test_a_row_that_is_no_number_never_passes():
+    row = ChainErrors("a", "b", 1, 1, 1.0, math.nan, 0.0, 0.0, 0.0)
+    v = Validation("r", "", (row,), BAR, 1, 0, "")
+    assert not v.passed
+    assert json.loads(v.to_json())["chains"][0]["pose"] is None
+    assert not Validation("r", "", (), BAR, 1, 0, "").passed
+
+
+def test_a_text_a_path_a_name_and_a_robot_are_validated_alike(tmp_path):
+    path = tmp_path / "r.urdf"
+    path.write_text(URDF)
+    results = [validate(given, samples=5) for given in (URDF, path, str(path), load(path))]
+    assert {v.error for v in results} == {results[0].error}
+    assert all(v.passed for v in results)
+    assert validate("panda", samples=5).passed
+
+
+def test_the_same_seed_gives_the_same_result_and_another_one_another():
+    first, again, other = validate(URDF, samples=5), validate(URDF, samples=5), validate(URDF, samples=5, seed=1)
+    assert first == again
+    assert first.rows[0].configuration != other.rows[0].configuration
+
+
+def test_configurations_ignore_the_limits(oracle):
+    q = oracle.random(np.random.default_rng(0), 1000)
+    assert np.abs(q["bend"]).max() > 3
+    assert 0.99 < np.abs(q["slide"]).max() <= 1
+
+
+@pytest.mark.parametrize("kind", ["floating", "planar"])
+def test_a_chain_starts_below_a_joint_that_it_cannot_cross(kind):
+    text = URDF.replace('type="revolute"', f'type="{kind}"', 1)
+    v = validate(text.replace('<mimic joint="bend" multiplier="-2" offset="0.1"/>', ""), samples=5)
+    (row,) = v.rows
+    assert v.passed
+    assert (row.base, row.tip, row.joints) == ("c", "tip", 1)
+    assert row.note == f"starts below the {kind} joint 'bend'"
+
+
+def test_progress_is_told_before_each_chain():
+    told = []
+    validate(URDF, samples=1, progress=lambda *words: told.append(words))
+    assert told == [(0, 1, "tip")]
+
+
+def test_a_robot_without_a_file_cannot_be_validated():
+    with pytest.raises(InputError, match="was not loaded from a file"):
+        validate(Robot("r", ["a"], []))
+
+
+def test_a_file_that_is_gone_is_an_error(tmp_path):
+    path = tmp_path / "r.urdf"
+    path.write_text(URDF)
+    robot = load(path)
+    path.unlink()
+    with pytest.raises(FileError, match="again for Pinocchio"):
+        validate(robot)
+
+
+def test_fewer_than_no_samples_are_refused():
+    with pytest.raises(InputError, match="samples"):
+        validate(URDF, samples=-1)
+
+
+@pytest.mark.filterwarnings("ignore::poekin.errors.PoekinWarning")
+def test_every_root_to_leaf_chain_of_every_example_robot_is_taken():
+    robots, empty = example_robots()
+    loaded = [load(path) for path in robots.values()]
+    chains = [robot.chain(base=base, tip=tip) for robot in loaded for base, tip, _ in routes(robot)]
+    assert (len(robots), list(empty)) == (68, ["ur3"])
+    assert len(chains) == 721
+    assert sum(c.dof == 0 and not c.joint_names for c in chains) == 136
+    assert max(len(c.joint_names) for c in chains) == 15
+
+
+@pytest.mark.filterwarnings("ignore::poekin.errors.PoekinWarning")
+@pytest.mark.parametrize("name", example_robots()[0])
+def test_every_example_robot_passes(name):
+    v = validate(f"erd:{name}", samples=5)
+    assert v.passed, v.worst
+
+
+def test_the_file_without_a_robot_is_refused():
+    (path,) = example_robots()[1].values()
+    with pytest.raises(ModelError, match="link"):
+        load(path)

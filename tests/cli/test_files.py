@@ -1,0 +1,70 @@
+"""An output file appears whole or not at all."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+from poekin.cli import files
+from poekin.errors import FileError
+
+
+def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
+    path = tmp_path / "T.csv"
+    path.write_text("old")
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(FileError, match="No space left"):
+        files.write_whole(path, b"new")
+    assert os.listdir(tmp_path) == ["T.csv"]
+    assert path.read_text() == "old"
+
+
+def test_an_interrupted_write_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
+    path = tmp_path / "T.csv"
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "replace", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        files.write_whole(path, b"new")
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_new_file_has_the_usual_mode_and_an_old_one_keeps_its_own(tmp_path):
+    mask = os.umask(0o022)
+    try:
+        files.write_whole(tmp_path / "new.csv", b"x")
+        (tmp_path / "old.csv").write_text("x")
+        (tmp_path / "old.csv").chmod(0o600)
+        files.write_whole(tmp_path / "old.csv", b"y")
+    finally:
+        os.umask(mask)
+    assert oct((tmp_path / "new.csv").stat().st_mode & 0o777) == "0o644"
+    assert oct((tmp_path / "old.csv").stat().st_mode & 0o777) == "0o600"
+
+
+def test_a_link_stays_a_link(tmp_path):
+    (tmp_path / "real.csv").write_text("old")
+    (tmp_path / "link.csv").symlink_to(tmp_path / "real.csv")
+    files.write_whole(tmp_path / "link.csv", b"new")
+    assert (tmp_path / "link.csv").is_symlink()
+    assert (tmp_path / "real.csv").read_text() == "new"
+
+
+def test_a_device_is_written_to_and_not_replaced(tmp_path):
+    (tmp_path / "null.csv").symlink_to(os.devnull)
+    files.write_whole(tmp_path / "null.csv", b"new")
+    assert not os.path.isfile(os.devnull)
+
+
+@pytest.mark.parametrize("name", ["x.csv", "missing/x.csv"])
+def test_a_place_that_cannot_be_written_is_refused_before_any_work(tmp_path, name):
+    (tmp_path / "x.csv").mkdir()
+    with pytest.raises(FileError, match="cannot write"):
+        files.check_writable(tmp_path / name)

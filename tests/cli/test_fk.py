@@ -1,0 +1,194 @@
+"""`poekin fk` and `poekin jacobian`: numbers on the command line, files in and out."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from poekin.formats.load import load
+
+
+@pytest.fixture
+def arm(crane):
+    return load(crane).chain(tip="hook")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--tip", "hook", "-0.5", "-.25"],
+        ["-0.5", "-.25", "--tip", "hook"],
+        ["-0.5", "--tip", "hook", "-2.5e-1"],
+        ["--tip=hook", "--", "-0.5", "-0.25"],
+    ],
+)
+def test_negative_numbers_are_numbers_wherever_they_stand(crane, as_json, arm, words):
+    if "--" in words:
+        words = ["--json", *words]
+        from poekin.cli import run
+
+        assert run(["fk", crane, *words]) == 0
+        return
+    result = as_json("fk", crane, *words)
+    np.testing.assert_array_equal(result["T"], arm.fk([-0.5, -0.25]))
+    assert (result["base"], result["tip"], result["q"]) == ("root", "hook", [-0.5, -0.25])
+
+
+def test_the_panda_of_the_catalogue_by_name(as_json):
+    q = [-0.5, 0, 0, -1, 0, 1, 0]
+    result = as_json("fk", "panda", "--tip", "panda_hand", *q)
+    np.testing.assert_array_equal(result["T"], load("panda").chain(tip="panda_hand").fk(np.array(q, float)))
+
+
+def test_a_base_may_be_any_link(crane, as_json):
+    result = as_json("fk", crane, "--tip", "lamp", "--base", "hook", 0.5)
+    np.testing.assert_array_equal(result["T"], load(crane).chain(base="hook", tip="lamp").fk([0.5]))
+
+
+@pytest.mark.parametrize("frame", ["space", "body", "hybrid", "1"])
+def test_each_frame_of_the_jacobian(crane, as_json, arm, frame):
+    result = as_json("jacobian", crane, "--tip", "hook", "--frame", frame, 0.3, -0.2)
+    which = int(frame) if frame.isdigit() else frame
+    np.testing.assert_array_equal(result["J"], arm.jacobian([0.3, -0.2], which))
+
+
+def test_a_pose_is_printed_as_a_matrix(crane, poekin):
+    code, out, err = poekin("fk", crane, "--tip", "hook", 0, 0)
+    assert (code, err) == (0, "")
+    assert "pose of hook in root (m), at\n  turn = 0\n  slide = 0\n" in out
+    assert len(out.splitlines()[-4].split()) == 4
+
+
+def test_a_jacobian_is_printed_with_the_names_of_rows_and_columns(crane, poekin):
+    code, out, _ = poekin("jacobian", crane, "--tip", "hook", "--frame", "hybrid", 0, 0)
+    lines = out.splitlines()
+    assert code == 0
+    assert lines[-7].split() == ["turn", "slide"]
+    assert [line.split()[0] for line in lines[-6:]] == ["wx", "wy", "wz", "vx", "vy", "vz"]
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".npy", ".json"])
+@pytest.mark.parametrize("source", [".csv", ".npy"])
+def test_many_configurations_go_through_files_to_the_last_bit(crane, poekin, arm, tmp_path, source, suffix):
+    q = np.random.default_rng(0).normal(size=(5, 2))
+    given, out = tmp_path / f"q{source}", tmp_path / f"T{suffix}"
+    np.save(given, q) if source == ".npy" else given.write_text("\n".join(f"{a!r},{b!r}" for a, b in q.tolist()))
+    code, text, _ = poekin("fk", crane, "--tip", "hook", "--input", given, "--output", out)
+    assert (code, text) == (0, f"5 × T written to '{out}'\n")
+    read = {
+        ".csv": lambda: np.loadtxt(out, delimiter=",", skiprows=1).reshape(-1, 4, 4),
+        ".npy": lambda: np.load(out),
+        ".json": lambda: np.array(json.loads(out.read_text())["T"]),
+    }
+    np.testing.assert_array_equal(read[suffix](), arm.fk(q))
+    assert not list(tmp_path.glob(".*"))
+
+
+def test_many_configurations_are_csv_on_stdout(crane, poekin, arm, tmp_path):
+    given = tmp_path / "q.csv"
+    given.write_text("0.1,0.2\n\n0.3,0.4\n")
+    code, out, err = poekin("jacobian", crane, "--tip", "hook", "--frame", "body", "--input", given)
+    lines = out.splitlines()
+    assert (code, err, len(lines)) == (0, "", 3)
+    assert lines[0].split(",")[:3] == ["wx turn", "wx slide", "wy turn"]
+    J = np.array([line.split(",") for line in lines[1:]], float).reshape(2, 6, 2)
+    np.testing.assert_array_equal(J, arm.jacobian([[0.1, 0.2], [0.3, 0.4]], "body"))
+
+
+def test_a_header_orders_the_columns(crane, as_json, tmp_path):
+    given = tmp_path / "q.csv"
+    given.write_text("slide, turn\n0.2,0.1\n")
+    assert as_json("fk", crane, "--tip", "hook", "--input", given)["q"] == [[0.1, 0.2]]
+
+
+def test_an_empty_batch_is_a_batch(crane, poekin, tmp_path):
+    np.save(tmp_path / "q.npy", np.zeros((0, 2)))
+    out = tmp_path / "T.npy"
+    assert poekin("fk", crane, "--tip", "hook", "--input", tmp_path / "q.npy", "--output", out)[0] == 0
+    assert np.load(out).shape == (0, 4, 4)
+
+
+def test_nan_gives_null_for_that_configuration_only(crane, as_json, tmp_path):
+    given = tmp_path / "q.csv"
+    given.write_text("nan,0\n0,0\n")
+    T = as_json("fk", crane, "--tip", "hook", "--input", given)["T"]
+    assert T[0][0][0] is None
+    assert T[1] == load(crane).chain(tip="hook").fk([0, 0]).tolist()
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("1,2\n3\n", ":2: 2 values expected (turn, slide), got 1"),
+        ("1,2\n3,x\n", ":2, column 2: a number expected, got 'x'"),
+        ("1,x\n", ":1, column 2: a number expected, got 'x'"),
+        ("turn,slyde\n1,2\n", ":1: 'slyde' is neither a number nor a coordinate; did you mean 'slide'?"),
+        ("turn\n1\n", ":1: the header has to name each of the 2 coordinates once; 'slide' is missing"),
+        ("turn,slide,turn\n1,2,3\n", ":1: the header has to name each of the 2 coordinates once; a name stands twice"),
+    ],
+)
+def test_a_bad_line_is_named_by_file_and_line(crane, refused, tmp_path, content, message):
+    given = tmp_path / "q.csv"
+    given.write_text(content)
+    assert f"'{given}'{message}" in refused("fk", crane, "--tip", "hook", "--input", given)
+
+
+def test_a_header_of_numbers_is_a_header_where_it_is_the_names(tmp_path, as_json, crane):
+    renamed = tmp_path / "numbers.urdf"
+    renamed.write_text(Path(crane).read_text().replace('"turn"', '"2"').replace('"slide"', '"1"'))
+    (tmp_path / "q.csv").write_text("1,2\n0.25,0.5\n")
+    assert as_json("fk", renamed, "--tip", "hook", "--input", tmp_path / "q.csv")["q"] == [[0.5, 0.25]]
+
+
+@pytest.mark.parametrize(
+    ("array", "message"),
+    [
+        (np.zeros((3, 5)), "an array of shape (N, 2) expected, got (3, 5)"),
+        (np.zeros((3, 2), complex), "an array of real numbers expected"),
+        (np.array([{}, {}], object), "is no .npy file of numbers"),
+    ],
+)
+def test_an_array_that_cannot_be_configurations_is_refused(crane, refused, tmp_path, array, message):
+    np.save(tmp_path / "q.npy", array)
+    assert message in refused("fk", crane, "--tip", "hook", "--input", tmp_path / "q.npy")
+
+
+@pytest.mark.parametrize("content", [b"", b"\x93NUMPY", b"PK\x03\x04junk", b"\x80\x04K\x01."])
+def test_a_damaged_npy_is_refused(crane, refused, tmp_path, content):
+    (tmp_path / "q.npy").write_bytes(content)
+    assert "q.npy" in refused("fk", crane, "--tip", "hook", "--input", tmp_path / "q.npy")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--tip", "hook", "1"], "2 coordinates expected (turn, slide), got 1"),
+        (["--tip", "hook"], "2 coordinates expected (turn, slide), got 0; or --input with a file"),
+        (["--tip", "hook", "1", "two"], "coordinate 2: a number expected (rad or m), got 'two'"),
+        (["--tip", "hok", "1", "2"], "did you mean 'hook'?"),
+        (["--tip", "hook", "--bse", "a", "1", "2"], "there is no option '--bse'; did you mean '--base'"),
+        (["1", "2"], "'hook', 'lamp'"),
+        (["--tip", "hook", "--input", "nowhere.csv"], "cannot read 'nowhere.csv': No such file or directory"),
+        (["--tip", "hook", "1", "--input", "q.csv"], "either coordinates or --input expected"),
+        (["--tip", "hook", "1", "2", "--output", "T.txt"], "a name that ends in .csv, .npy or .json expected"),
+        (["--tip", "hook", "1", "2", "--output", "no/T.csv"], "there is no directory 'no'"),
+    ],
+)
+def test_a_bad_command_line_is_one_message(crane, refused, words, message):
+    assert message in refused("fk", crane, *words)
+
+
+def test_the_frame_of_a_jacobian_has_no_default(crane, refused):
+    assert "--frame" in refused("jacobian", crane, "--tip", "hook", 0, 0)
+    assert "space, body, hybrid or the number of a joint" in refused(
+        "jacobian", crane, "--tip", "hook", "--frame", "tool", 0, 0
+    )
+
+
+def test_a_directory_or_a_text_that_is_no_text_is_refused(crane, refused, tmp_path):
+    assert "Is a directory" in refused("fk", crane, "--tip", "hook", "--input", tmp_path)
+    (tmp_path / "q.csv").write_bytes(b"\xff\xfe\x00")
+    assert "not UTF-8" in refused("fk", crane, "--tip", "hook", "--input", tmp_path / "q.csv")

@@ -1,0 +1,141 @@
+"""How the command ends: codes, messages, interrupts, pipes, and what is missing."""
+
+from __future__ import annotations
+
+import builtins
+import os
+import shlex
+import signal
+import subprocess
+import sys
+
+import pytest
+
+import poekin as pk
+from poekin import cli
+
+
+def test_the_version(poekin):
+    assert poekin("--version") == (0, f"poekin {pk.__version__}\n", "")
+
+
+@pytest.mark.parametrize(
+    "words", [["--help"], ["fk", "--help"], ["jacobian", "--help"], ["info", "--help"], ["validate", "--help"]]
+)
+def test_help_is_no_error(poekin, words):
+    code, out, err = poekin(*words)
+    assert (code, err) == (0, "")
+    assert "Usage: poekin" in out
+
+
+def test_an_unknown_command_is_one_message(refused):
+    assert "fks" in refused("fks")
+
+
+@pytest.mark.parametrize("command", ["info", "fk", "jacobian", "validate"])
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "empty"),
+        (b"<robot>\n<", ":2"),
+        (b"\x00\xff\xfe", "bad.urdf"),
+        (b"<robot name='r'/>", "<link>"),
+        (b'<!DOCTYPE r [<!ENTITY e "x">]><robot name="r"><link name="&e;"/></robot>', "bad.urdf"),
+    ],
+)
+def test_a_file_that_is_no_robot_is_one_message(poekin, tmp_path, command, content, message):
+    path = tmp_path / "bad.urdf"
+    path.write_bytes(content)
+    more = ["--frame", "body"] if command == "jacobian" else []
+    code, _, err = poekin(command, path, *more)
+    assert code == 2
+    assert err.startswith("poekin: error: ")
+    assert message in err
+    assert len(err.splitlines()) == 1
+
+
+def test_a_missing_package_of_the_command_line_is_named(monkeypatch, refused):
+    real = builtins.__import__
+
+    def without(name, *rest):
+        if name == "typer":
+            raise ModuleNotFoundError("No module named 'typer'", name="typer")
+        return real(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    assert "pip install 'poekin[cli]'" in refused("info", "panda")
+
+
+def test_memory_that_runs_out_is_one_message(monkeypatch, refused, crane):
+    from poekin.cli import arm
+
+    def out_of_memory(*_):
+        raise MemoryError
+
+    monkeypatch.setattr(arm, "load", out_of_memory)
+    assert "not enough memory" in refused("fk", crane, "0", "0", "--tip", "hook")
+
+
+def test_an_interrupt_ends_with_130_and_no_traceback(monkeypatch, poekin, crane):
+    from poekin.cli import info
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(info, "load", interrupt)
+    assert poekin("info", crane) == (cli.INTERRUPTED, "", "")
+
+
+def _command(*words):
+    return [sys.executable, "-m", "poekin.cli", *words]
+
+
+def test_a_reader_that_goes_away_is_no_error(tmp_path, crane):
+    (tmp_path / "q.csv").write_text("0.1,0.2\n" * 20_000)
+    words = _command("fk", crane, "--tip", "hook", "--input", str(tmp_path / "q.csv"))
+    # Unbuffered, Python 3.11 takes what a pipe did not accept for written, and there is nothing to notice.
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONUNBUFFERED"}
+    with subprocess.Popen(words, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.read(100)
+        process.stdout.close()
+        err = process.stderr.read()
+    assert process.returncode == cli.NOBODY_READS
+    assert b"Traceback" not in err
+    assert b"BrokenPipe" not in err
+
+
+def test_a_closed_stdout_is_no_error(crane):
+    words = f"exec {shlex.join(_command('info', crane))} >&-"
+    done = subprocess.run(["sh", "-c", words], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_an_encoding_that_lacks_a_character_is_no_error(crane):
+    environment = os.environ | {"PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(_command("info", crane), env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "turn (continuous) \\u2192 a" in done.stdout
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a disk that is full, as Linux has it")
+def test_a_full_disk_is_one_message(crane):
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(_command("info", crane), stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == 2
+    assert done.stderr == "poekin: error: [Errno 28] No space left on device\n"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes with a name, and signals, as POSIX has them")
+def test_ctrl_c_in_a_process_of_its_own(tmp_path, crane):
+    os.mkfifo(tmp_path / "q.csv")
+    words = _command("fk", crane, "--tip", "hook", "--input", str(tmp_path / "q.csv"))
+    # The pipe opens here when the command opens it there, which then waits for a line.
+    with (
+        subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process,
+        open(tmp_path / "q.csv", "w"),
+    ):
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, err) == (cli.INTERRUPTED, b"", b"")

@@ -1,0 +1,69 @@
+"""`poekin validate`: 0 pass, 1 fail, 2 error."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from poekin.cli import validate as command
+
+
+def test_a_right_robot_passes(crane, poekin):
+    code, out, err = poekin("validate", crane, "--samples", 5)
+    assert (code, err) == (0, "")
+    assert "crane" in out
+    assert out.endswith("1 of 1 robots pass\n")
+
+
+def test_json_has_every_chain(crane, as_json):
+    document = as_json("validate", crane, "--samples", 5)
+    assert document["passed"] is True
+    (robot,) = document["robots"]
+    assert {c["tip"]: c["joints"] for c in robot["chains"]} == {"hook": 3, "lamp": 1}
+    assert all(c["worst"] <= robot["bar"] for c in robot["chains"])
+
+
+def test_a_wrong_robot_fails_with_one_and_says_where(crane, poekin, monkeypatch):
+    import dataclasses
+
+    right = command.validate
+
+    def wrong(*args, **options):
+        v = right(*args, **options)
+        row = dataclasses.replace(v.rows[0], body=1e-3)
+        return dataclasses.replace(v, rows=(row, *v.rows[1:]))
+
+    monkeypatch.setattr(command, "validate", wrong)
+    code, out, _ = poekin("validate", crane, "--samples", 3)
+    assert code == 1
+    assert "FAIL" in out
+    assert "root → hook is off by 0.001 R; worst at turn = " in out
+    code, out, _ = poekin("validate", crane, "--samples", 3, "--json")
+    assert code == 1
+    assert json.loads(out)["passed"] is False
+
+
+def test_an_error_in_one_file_does_not_hide_the_others(crane, poekin, tmp_path):
+    (tmp_path / "bad.urdf").write_text("<robot")
+    code, out, err = poekin("validate", tmp_path / "bad.urdf", crane, "--samples", 3)
+    assert code == 2
+    assert out.endswith("1 of 1 robots pass\n")
+    assert err.startswith("poekin: error: ")
+    assert len(err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(("words", "message"), [([], "nothing to validate"), (["erd:no-such-robot"], "no-such-robot"),
+                                                (["--samples", "-1", "panda"], "samples")])  # fmt: skip
+def test_what_cannot_be_validated_is_an_error(poekin, words, message):
+    code, _, err = poekin("validate", *words)
+    assert code == 2
+    assert message in err
+
+
+def test_all_takes_every_robot_and_names_the_file_that_holds_none(poekin, monkeypatch):
+    monkeypatch.setattr(command, "example_robots", lambda: ({"double_pendulum": ""}, {"ur3": ""}))
+    code, out, _ = poekin("validate", "--all", "--samples", 2)
+    assert code == 0
+    assert "erd:ur3 is left out: there is no robot in it" in out
+    assert out.endswith("1 of 1 robots pass\n")
