@@ -105,7 +105,7 @@ def _near(q_v, stretch, w_near):
     turns = turns - turns % 1.0
     if turns > 0 and t < 1e-15 * reach:
         return scale(turns * _TAU / reach, w_near), turns * _TAU, True
-    if turns == 0 and t < 1.0:
+    if reach + t < 3.0 or t < 1e-300:  # less than half a turn apart on any line, or no line to speak of
         return w, t, False
     n = scale(1.0 / t, w)
     k = (dot(n, w_near) - t) / _TAU + 0.5

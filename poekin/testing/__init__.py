@@ -6,6 +6,7 @@
     pinocchio_oracle   poses and Jacobians of a URDF by Pinocchio
     strategies         Hypothesis strategies: angles, axes, twists, poses, noisy rotations
     chain_strategies   Hypothesis strategies: screws, chains, configurations
+    reader             random bytes read as numbers, which the strategies are made of
     laws, measures     LawViolation, and how an error is measured
     group, group_laws  SO(3) and SE(3) as plain functions, and their laws
     accuracy_laws      exp, log and the Jacobians of exp against `exact`
@@ -14,7 +15,8 @@
     change_laws        laws of a chain with another base, tool, zero position or link frames
     method_laws        the algorithms for the Jacobian agree
     hunting            shows that a battery of laws catches a planted error
-    accuracy           the worst errors of exp, log and the Jacobians, as rows of a report
+    accuracy           the worst errors of exp, log and the Jacobians, as rows of a report; `extended` and `suspects`
+                       find the cases for it
 
 Importing `poekin.testing` imports none of them: oracles and laws need mpmath, strategies and
 `hunting` hypothesis, and each says so with `MissingExtra` where it is absent (`pip install 'poekin[testing]'`).
@@ -24,6 +26,31 @@ from __future__ import annotations
 
 import importlib
 from types import ModuleType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from . import (
+        accuracy,
+        accuracy_laws,
+        attainable,
+        chain_laws,
+        chain_strategies,
+        change_laws,
+        differences,
+        exact,
+        extended,
+        group,
+        group_laws,
+        hunting,
+        laws,
+        measures,
+        method_laws,
+        near_laws,
+        pinocchio_oracle,
+        reader,
+        strategies,
+        suspects,
+    )
 
 __all__ = [
     "accuracy",
@@ -34,6 +61,7 @@ __all__ = [
     "change_laws",
     "differences",
     "exact",
+    "extended",
     "group",
     "group_laws",
     "hunting",
@@ -42,7 +70,9 @@ __all__ = [
     "method_laws",
     "near_laws",
     "pinocchio_oracle",
+    "reader",
     "strategies",
+    "suspects",
 ]
 
 

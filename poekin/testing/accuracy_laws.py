@@ -1,0 +1,94 @@
+"""Accuracy as laws: exp, log and the Jacobians of exp against `exact`, in every decade and across every switch.
+
+Each law takes a `Group` and unbatched arguments, returns error ÷ bound and raises LawViolation above 1.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import attainable, exact
+from .group import Group
+from .laws import Law, held
+
+EXP_LOG_BAR = 3.0
+"""exp and log may err by this many times what float64 can attain (`attainable`)."""
+JACOBIAN_BAR = 1e-15
+"""The Jacobians' 3×3 block, and their Q block ÷ ‖v‖, may err by this much (Frobenius)."""
+NOISE_BAR = 2e-15
+"""log of a noisy rotation may differ by this much (rad) from the log of its polar projection."""
+
+
+def exp_is_attained(group: Group, xi: np.ndarray) -> float:
+    """The exponential within EXP_LOG_BAR of what float64 can attain, |ω| up to 10."""
+    return held("exp is attained", (attainable.ratio_exp(xi, group.exp(xi)), EXP_LOG_BAR), xi=xi)
+
+
+def log_is_attained(group: Group, X: np.ndarray) -> float:
+    """The logarithm within EXP_LOG_BAR of what float64 can attain; no NaN, and no 0 for a rotation that is not I.
+
+    Below |ω| = 1e-150 squares underflow, and only the last two are asked for.
+    """
+    xi = group.log(X)
+    w = exact.log(X[:3, :3])
+    if 0 < exact.norm(w) < 1e-150:
+        ratio = 0.0 if np.all(np.isfinite(xi)) and np.any(xi[:3]) else np.inf
+    else:
+        ratio = attainable.ratio_log(X, xi)
+    return held("log is attained", (ratio, EXP_LOG_BAR), X=X)
+
+
+def log_forgives_noise(group: Group, X: np.ndarray) -> float:
+    """ω of log X is that of X's polar projection, to NOISE_BAR, for noise up to 1e-8; either sign within 8 u of π."""
+    w, truth = group.log(X)[:3], exact.log(X[:3, :3])
+    signs = (1, -1) if exact.mp.pi - exact.norm(truth) < attainable.BOTH_SIGNS else (1,)
+    error = min(float(exact.norm(exact.exactly(w) - sign * truth)) for sign in signs)
+    return held("log forgives noise", (error, NOISE_BAR), X=X)
+
+
+def left_jacobian_is_attained(group: Group, xi: np.ndarray) -> float:
+    """J_l(ξ) = Σ ad(ξ)^k / (k+1)!, to JACOBIAN_BAR, |ω| up to 10."""
+    return _jacobian_law("left_jacobian", group, xi)
+
+
+def right_jacobian_is_attained(group: Group, xi: np.ndarray) -> float:
+    """J_r(ξ) = J_l(-ξ), to JACOBIAN_BAR, |ω| up to 10."""
+    return _jacobian_law("right_jacobian", group, xi)
+
+
+def left_jacobian_inverse_is_attained(group: Group, xi: np.ndarray) -> float:
+    """J_l(ξ)⁻¹, to JACOBIAN_BAR, |ω| up to π."""
+    return _jacobian_law("left_jacobian_inverse", group, xi)
+
+
+def right_jacobian_inverse_is_attained(group: Group, xi: np.ndarray) -> float:
+    """J_r(ξ)⁻¹, to JACOBIAN_BAR, |ω| up to π."""
+    return _jacobian_law("right_jacobian_inverse", group, xi)
+
+
+ACCURACY_LAWS = (
+    Law(exp_is_attained, ("far_twist",)),
+    Law(log_is_attained, ("element",)),
+    Law(log_forgives_noise, ("noisy_element",)),
+    Law(left_jacobian_is_attained, ("far_twist",)),
+    Law(right_jacobian_is_attained, ("far_twist",)),
+    Law(left_jacobian_inverse_is_attained, ("twist",)),
+    Law(right_jacobian_inverse_is_attained, ("twist",)),
+)
+"""The battery: each law with the kinds of its arguments (`strategies.group_cases`)."""
+
+
+def jacobian_errors(J: np.ndarray, truth: np.ndarray, xi: np.ndarray) -> tuple[float, float]:
+    """Frobenius errors of a Jacobian of exp: of its 3×3 diagonal blocks (the worse), and of its Q block ÷ ‖v‖."""
+    error = exact.exactly(J) - truth
+    diagonal = float(exact.norm(error[:3, :3]))
+    if len(error) == 3:
+        return diagonal, 0.0
+    Q, v = exact.norm(error[3:, :3]), exact.norm(exact.exactly(xi[3:]))
+    diagonal = max(diagonal, float(exact.norm(error[3:, 3:])), float(exact.norm(error[:3, 3:])))
+    return diagonal, float(Q / v) if v else (0.0 if Q == 0 else float("inf"))
+
+
+def _jacobian_law(name: str, group: Group, xi: np.ndarray) -> float:
+    errors = jacobian_errors(getattr(group, name)(xi), getattr(exact, name)(xi), xi)
+    return held(name.replace("_", " ") + " is attained", *((error, JACOBIAN_BAR) for error in errors), xi=xi)

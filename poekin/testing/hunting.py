@@ -1,0 +1,58 @@
+"""Hunt for a case that breaks a law, outside any test: to show that a battery catches a planted error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from .laws import Law, LawViolation
+from .strategies import st
+
+# `strategies` has said what to install where hypothesis is missing.
+from hypothesis import HealthCheck, Phase, given, settings, target  # isort: skip
+
+# How fast cases come, and how many a strategy rejects, matters to a test; a hunt only looks for a violation.
+_UNCHECKED = [
+    HealthCheck.too_slow,
+    HealthCheck.data_too_large,
+    HealthCheck.filter_too_much,
+    HealthCheck.large_base_example,
+]
+Cases = st.SearchStrategy[tuple[Any, ...]]
+
+
+def hunt(check: Callable[..., float], cases: Cases, examples: int = 100) -> None:
+    """Call check(*case) -> error ÷ bound on drawn cases, steered towards the worst; the same cases in every run.
+
+    Raises LawViolation with the first case that breaks the law, as it was drawn (a test that uses the law shrinks it).
+    """
+
+    @settings(
+        max_examples=examples,
+        database=None,
+        deadline=None,
+        derandomize=True,
+        phases=(Phase.generate, Phase.target),
+        report_multiple_bugs=False,
+        suppress_health_check=_UNCHECKED,
+    )
+    @given(cases)
+    def one(case: tuple[Any, ...]) -> None:
+        target(check(*case))
+
+    one()
+
+
+def caught(
+    laws: Iterable[Law], check: Callable[..., float], cases: Callable[[tuple[str, ...]], Cases], examples: int = 100
+) -> LawViolation | None:
+    """The first violation that a battery finds in a subject, or None where the subject keeps every law.
+
+    `check(law, *case)` calls the law on the subject; `cases(law.kinds)` is the strategy of its arguments.
+    """
+    for law in laws:
+        try:
+            hunt(lambda *case, law=law: check(law, *case), cases(law.kinds), examples)
+        except LawViolation as violation:
+            return violation
+    return None

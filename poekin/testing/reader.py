@@ -1,0 +1,41 @@
+"""Random bytes read as numbers: evenly spread, and the smaller the bytes, the simpler the number."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TypeVar
+
+T = TypeVar("T")
+
+
+class Reader:
+    """Reads bytes in order; after the last one it reads zeros."""
+
+    __slots__ = ("_rest",)
+
+    def __init__(self, data: bytes):
+        self._rest = iter(data)
+
+    def byte(self) -> int:
+        """0 to 255."""
+        return next(self._rest, 0)
+
+    def pick(self, options: Sequence[T]) -> T:
+        """One of the options, each as often as any; the first one for a zero. Takes 1 byte."""
+        return options[self.byte() * len(options) // 256]
+
+    def fraction(self, low: float, high: float) -> float:
+        """A number from low to high, evenly spread between neighbouring whole numbers, ends included. Takes 3 bytes.
+
+        Zeros give the whole number next to 0.
+        """
+        wholes = range(math.floor(low), max(math.ceil(high), math.floor(low) + 1))
+        k = self.pick(sorted(wholes, key=abs))
+        first, last = max(float(k), low), min(k + 1.0, high)
+        return first + (last - first) * ((256 * self.byte() + self.byte()) / 65535)
+
+    def magnitude(self, smallest: float, largest: float) -> float:
+        """0 (one time in sixteen), or a number whose logarithm is spread from smallest to largest. Takes 4 bytes."""
+        nought, exponent = self.byte() < 16, self.fraction(math.log10(smallest), math.log10(largest))
+        return 0.0 if nought else min(max(10.0**exponent, smallest), largest)

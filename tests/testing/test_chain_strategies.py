@@ -1,0 +1,89 @@
+"""Chains, screws and configurations as they are drawn."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, Phase, find, given, settings
+from hypothesis import strategies as st
+
+from poekin.model.chain import Chain
+from poekin.testing import chain_strategies
+
+QUICK = settings(
+    max_examples=500, database=None, derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+
+
+def drawn(strategy: st.SearchStrategy, count: int) -> list:
+    cases = []
+
+    @settings(QUICK, max_examples=count, phases=[Phase.generate])
+    @given(strategy)
+    def collect(case):
+        cases.append(case)
+
+    collect()
+    return cases
+
+
+@pytest.fixture(scope="module")
+def chains() -> list:
+    return drawn(chain_strategies.chains(), 200)
+
+
+def test_chains_have_0_to_12_joints_of_every_kind(chains):
+    assert {len(chain.screws) for chain in chains} >= {0, 1, 12}
+    assert {kind for chain in chains for kind in chain.kinds} == set(chain_strategies.KINDS)
+
+
+def test_some_chains_are_coupled_and_some_joints_stand_still(chains):
+    coupled = [chain for chain in chains if chain.dof < len(chain.screws)]
+    assert 20 < len(coupled) < 180
+    assert any((~chain.coupling.any(axis=1)).any() for chain in coupled)
+    assert any(chain.offset.any() for chain in coupled)
+    assert all(chain.coupling.any(axis=0).all() for chain in chains), "every coordinate moves a joint"
+
+
+def test_what_is_asked_for_is_drawn():
+    for chain in drawn(chain_strategies.chains(3, 5, ("prismatic",), coupled=True, offsets=False), 30):
+        assert 3 <= len(chain.screws) <= 5
+        assert set(chain.kinds) == {"prismatic"}
+        assert not chain.offset.any()
+
+
+def test_a_chain_shrinks_to_no_joint_and_no_displacement():
+    chain = find(chain_strategies.chains(), lambda chain: True, settings=QUICK)
+    assert len(chain.screws) == 0
+    assert np.array_equal(chain.home[:3, 3], [0, 0, 0])
+
+
+def test_a_failing_chain_shrinks_to_the_joints_that_matter():
+    chain = find(chain_strategies.chains(max_joints=4), lambda chain: "helical" in chain.kinds, settings=QUICK)
+    assert chain.kinds == ("helical",)
+    assert np.array_equal(chain.screws, [[1, 0, 0, 0.001, 0, 0]])
+
+
+def test_axis_and_point_of_a_screw_are_independent():
+    screws = np.array(drawn(chain_strategies.screws(("revolute",)), 300))
+    assert np.abs(np.linalg.norm(screws[:, :3], axis=1) - 1).max() < 1e-9
+    assert np.abs(np.sum(screws[:, :3] * screws[:, 3:], axis=1)).max() < 1e-14
+    arms = np.linalg.norm(screws[:, 3:], axis=1)
+    assert (arms == 0).any()
+    assert 0 < arms[arms > 1e-9].min() < 0.1 < 1 < arms.max() <= 3.1
+
+
+def test_coordinates_hold_zeros_quarter_turns_and_all_between():
+    chain = Chain([[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]], np.eye(4))
+    q = np.concatenate(drawn(chain_strategies.coordinates(chain, (3,)), 100))
+    assert q.shape == (300, 2)
+    assert np.abs(q).max() <= math.pi
+    assert {0.0, math.pi / 2} <= set(q.ravel())
+    assert np.histogram(q, bins=8)[0].min() > 20
+
+
+def test_an_unknown_kind_of_argument_is_refused():
+    with pytest.raises(ValueError, match="speed"):
+        drawn(chain_strategies.chain_cases(("q", "speed")), 1)

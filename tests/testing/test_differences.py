@@ -1,0 +1,72 @@
+"""Finite differences on the group: against motions whose velocity is known, and as exact as they say."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from poekin.errors import InputError
+from poekin.testing import differences, exact
+
+SCREWS = np.array([[0, 0, 1, 0, 0, 0], [0.6, 0.8, 0, 0.16, -0.12, 0.3], [0, 0, 0, 0, 0.6, -0.8]])
+HOME = exact.rounded(exact.exp([0.3, -0.2, 2.0, 0.5, -0.6, 0.7]))
+Q = np.array([0.4, -1.3, 0.2])
+
+
+def pose(q: np.ndarray) -> np.ndarray:
+    return exact.rounded(exact.forward(SCREWS, HOME, q))
+
+
+def jacobians() -> dict[str, np.ndarray]:
+    """The exact Jacobians at Q, column by column out of the product of exponentials."""
+    T, columns = exact.exactly(np.eye(4)), []
+    for screw, x in zip(exact.exactly(SCREWS), exact.exactly(Q), strict=True):
+        columns.append(exact.adjoint(T) @ screw)
+        T = T @ exact.exp(screw * x)
+    T, space = T @ exact.exactly(HOME), np.stack(columns, axis=1)
+    turned = exact.exactly(np.eye(4))
+    turned[:3, :3] = T[:3, :3]
+    body = exact.adjoint(exact.inverse(T)) @ space
+    return {
+        "space": exact.rounded(space),
+        "body": exact.rounded(body),
+        "hybrid": exact.rounded(exact.adjoint(turned) @ body),
+    }
+
+
+@pytest.mark.parametrize("frame", ["space", "body", "hybrid"])
+def test_the_jacobian_of_three_joints_is_right_to_1e_13(frame):
+    J = jacobians()[frame]
+    assert np.abs(differences.jacobian(pose, Q, frame) - J).max() < 1e-13
+    dq = np.array([1.0, -2.0, 0.5])
+    assert np.abs(differences.velocity(pose, Q, dq, frame, rate=3.0) - J @ dq).max() < 2e-13
+
+
+def test_the_frames_differ_here():
+    J = jacobians()
+    assert min(np.abs(J[a] - J[b]).max() for a, b in (("space", "body"), ("body", "hybrid"), ("hybrid", "space"))) > 0.1
+
+
+@pytest.mark.parametrize("rate", [1.0, 10.0, 100.0])
+def test_a_faster_motion_keeps_its_digits_when_its_rate_is_given(rate):
+    error = differences.derivative(lambda q: np.sin(rate * q), [0.3], [1.0], rate) - rate * np.cos(0.3 * rate)
+    assert np.abs(error) < 1e-14 * rate
+
+
+def test_without_its_rate_a_fast_motion_is_wrong():
+    assert np.abs(differences.derivative(lambda q: np.sin(30 * q), [0.3], [1.0]) - 30 * np.cos(9)) > 1e-4
+
+
+def test_polynomials_up_to_order_12_are_differentiated_exactly():
+    q = np.array([0.7])
+    for k in range(13):
+        assert differences.derivative(lambda q, k=k: q**k, q, [1.0]) == pytest.approx(k * q ** max(k - 1, 0), abs=3e-14)
+
+
+def test_no_coordinate_gives_no_column():
+    assert differences.jacobian(lambda q: HOME, np.empty(0), "body").shape == (6, 0)
+
+
+def test_an_unknown_frame_is_refused():
+    with pytest.raises(InputError, match="hybrid"):
+        differences.velocity(pose, Q, Q, "world")

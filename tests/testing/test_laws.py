@@ -1,0 +1,101 @@
+"""How laws are measured and told."""
+
+from __future__ import annotations
+
+import math
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import strategies as st
+
+import poekin.testing
+from poekin.testing import hunting, measures
+from poekin.testing.laws import Law, LawViolation, held
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_a_law_returns_its_worst_error_over_bound():
+    assert held("a law", (0.1, 1.0), (3.0, 4.0), (0.0, 0.0)) == 0.75
+
+
+@pytest.mark.parametrize("pair", [(1.1, 1.0), (math.nan, 1.0), (math.inf, 1.0), (1e-300, 0.0), (0.5, math.nan)])
+def test_an_error_above_its_bound_is_a_violation(pair):
+    with pytest.raises(LawViolation, match="a law") as caught:
+        held("a law", (0.0, 1.0), pair, q=np.zeros(2))
+    assert caught.value.law == "a law"
+    assert caught.value.error == pytest.approx(pair[0], nan_ok=True)
+    assert "q = array([0., 0.])" in str(caught.value)
+    assert isinstance(caught.value, AssertionError)
+
+
+def test_a_violation_survives_pickling():
+    violation = LawViolation("a law", 2.0, 1.0, {"q": 3})
+    again = pickle.loads(pickle.dumps(violation))
+    assert (str(again), again.error, again.bound, again.seen) == (str(violation), 2.0, 1.0, {"q": 3})
+
+
+def below_a_million(limit: float, x: float) -> float:
+    return held("below", (x, limit), x=x)
+
+
+def test_a_hunt_climbs_to_a_case_that_sampling_would_miss():
+    cases = st.tuples(st.integers(0, 10**6).map(float))
+    with pytest.raises(LawViolation):
+        hunting.hunt(lambda x: below_a_million(999_000.0, x), cases, examples=300)
+    hunting.hunt(lambda x: below_a_million(1e6, x), cases, examples=300)
+
+
+def test_a_battery_names_the_law_that_caught_an_error():
+    laws = (Law(lambda subject, x: held("sound", (0.0, 1.0)), ("x",)), Law(below_a_million, ("x",)))
+    violation = hunting.caught(laws, lambda law, x: law.check(5.0, x), lambda kinds: st.tuples(st.floats(0, 100)))
+    assert violation is not None
+    assert violation.law == "below"
+    assert hunting.caught(laws, lambda law, x: law.check(500.0, x), lambda kinds: st.tuples(st.floats(0, 100))) is None
+
+
+def test_a_size_neither_underflows_nor_hides_nan():
+    assert measures.size(np.array([3e-200, 4e-200])) == pytest.approx(5e-200)
+    assert measures.size(np.array([5e-324, 0.0])) == 5e-324
+    assert measures.size(np.array([3e200, 4e200])) == pytest.approx(5e200)
+    assert math.isnan(measures.size(np.array([1.0, math.nan])))
+    assert measures.size(np.array([math.inf, 1.0])) == math.inf
+    assert measures.size(np.empty(0)) == 0
+
+
+def run(code: str) -> str:
+    command = f"import sys; sys.path.insert(0, {str(ROOT)!r})\n{code}"
+    return subprocess.run([sys.executable, "-I", "-c", command], capture_output=True, text=True, check=True).stdout
+
+
+def test_importing_the_room_imports_no_optional_package():
+    loaded = run("import poekin.testing\nprint({'hypothesis', 'mpmath', 'pinocchio'} & set(sys.modules) or 'none')")
+    assert loaded.strip() == "none"
+
+
+@pytest.mark.parametrize(
+    ("module", "package"),
+    [("exact", "mpmath"), ("accuracy", "mpmath"), ("strategies", "hypothesis"), ("hunting", "hypothesis")],
+)
+def test_a_missing_package_is_named_with_the_extra_that_brings_it(module, package):
+    said = run(
+        f"sys.modules[{package!r}] = None\nimport poekin.testing\nfrom poekin.errors import MissingExtra\n"
+        f"try: poekin.testing.{module}\nexcept MissingExtra as error: print(error)"
+    )
+    assert package in said
+    assert "poekin[testing]" in said
+
+
+@pytest.mark.parametrize("name", poekin.testing.__all__)
+def test_every_room_can_be_reached_by_name(name):
+    assert getattr(poekin.testing, name).__doc__
+    assert name in dir(poekin.testing)
+
+
+def test_an_unknown_room_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="nowhere"):
+        poekin.testing.nowhere  # noqa: B018

@@ -1,0 +1,129 @@
+"""The strategies: what they draw on purpose, that angle and length are independent, that they shrink."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, Phase, find, given, settings
+from hypothesis import strategies as st
+
+from poekin.formulas import coefficients
+from poekin.testing import strategies
+
+QUICK = settings(
+    max_examples=2000, database=None, derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+
+
+def drawn(strategy: st.SearchStrategy, count: int = 600) -> list:
+    cases = []
+
+    @settings(QUICK, max_examples=count, phases=[Phase.generate])
+    @given(strategy)
+    def collect(case):
+        cases.append(case)
+
+    collect()
+    return cases
+
+
+def test_the_switches_are_those_of_the_formulas():
+    assert math.sqrt(coefficients.SWITCH) in strategies.SWITCHES
+    assert 1.0 in strategies.SWITCHES
+
+
+@pytest.mark.parametrize(
+    "angle", [0.0, *strategies.around(1.0), *strategies.around(2.0), *strategies.around(math.pi)[:2], 2e-140]
+)
+def test_the_special_angles_are_drawn(angle):
+    assert find(strategies.angles(), lambda x: x == angle, settings=QUICK) == angle
+
+
+def test_angles_come_as_close_to_pi_as_floats_do():
+    gaps = math.pi - np.array(drawn(strategies.angles()))
+    assert {int(k) for k in np.log10(gaps[gaps > 0])} >= set(range(-15, 1))
+
+
+def test_no_angle_exceeds_the_largest():
+    assert max(drawn(strategies.angles())) <= math.pi
+    assert 9 < max(drawn(strategies.angles(10.0))) <= 10
+
+
+def test_angle_and_length_are_independent_and_log_uniform():
+    pairs = np.array([(np.linalg.norm(x[:3]), np.linalg.norm(x[3:])) for x in drawn(strategies.twists())])
+    pairs = np.log10(pairs[(pairs > 0).all(axis=1)])
+    assert abs(np.corrcoef(pairs.T)[0, 1]) < 0.25
+    for column, low, high in ((0, -100, 0), (1, -9, 2)):
+        assert pairs[:, column].min() < low
+        assert pairs[:, column].max() > high
+    small_turn_long_shift = (pairs[:, 0] < -6) & (pairs[:, 1] > 0)
+    assert small_turn_long_shift.sum() > 10
+
+
+@pytest.mark.parametrize("strategy", [strategies.twists(), strategies.poses(), strategies.noisy_rotations()])
+def test_arrays_are_read_only_float64(strategy):
+    (case,) = drawn(strategy, 1)
+    assert case.dtype == np.float64
+    assert not case.flags.writeable
+
+
+def test_twists_shrink_to_round_numbers():
+    xi = find(strategies.twists(), lambda x: math.hypot(*x[:3]) > 1e-3 and math.hypot(*x[3:]) > 1e-3, settings=QUICK)
+    assert np.count_nonzero(xi) == 2, xi
+    assert {float(x) for x in xi if x} <= {10.0**k for k in range(-3, 4)} | {2.0, math.pi}, xi
+
+
+def test_axes_are_unit_vectors_among_them_nearly_aligned_ones():
+    axes = np.array(drawn(strategies.axes()))
+    assert np.abs(np.linalg.norm(axes, axis=1) - 1).max() < 3e-16
+    second = np.sort(np.abs(axes), axis=1)[:, 1]
+    assert ((second > 0) & (second < 1e-6)).any()
+    assert (second == 0).any()
+    assert (second > 0.1).any()
+
+
+def test_rotations_are_rotations_and_noise_is_as_large_as_said():
+    for R in drawn(strategies.rotations(), 200):
+        assert np.abs(R @ R.T - np.eye(3)).max() < 3e-15
+    noise = [np.abs(R @ R.T - np.eye(3)).max() for R in drawn(strategies.noisy_rotations(), 300)]
+    assert 1e-9 < max(noise) < 5e-8
+    assert min(noise) < 1e-15
+
+
+@pytest.mark.parametrize("shape", [(), (0,), (1,), (3, 1, 2)])
+def test_batches_have_their_shape(shape):
+    (batch,) = drawn(strategies.batches(strategies.twists(), shape), 1)
+    assert batch.shape == (*shape, 6)
+    assert shape in drawn(strategies.batch_shapes(), 50)
+
+
+def gaussian_twists() -> st.SearchStrategy[np.ndarray]:
+    """What peers draw: angle and length scaled together."""
+    return st.builds(
+        lambda seed, size: size * np.random.default_rng(seed).normal(size=6),
+        st.integers(0, 2**32 - 1),
+        st.sampled_from([1.0, 1e-7]),
+    )
+
+
+def exp_with_v_as_r(xi: np.ndarray) -> np.ndarray:
+    """The translation of exp as two peers compute it: V := R below θ² = 1e-10."""
+    w, v = xi[:3], xi[3:]
+    t = math.hypot(*w)
+    if t * t >= 1e-10:
+        return (
+            v + 2 * (math.sin(t / 2) / t) ** 2 * np.cross(w, v) + (t - math.sin(t)) / t**3 * np.cross(w, np.cross(w, v))
+        )
+    return v + np.cross(w, v)
+
+
+def is_wrong(xi: np.ndarray) -> bool:
+    w, v = xi[:3], xi[3:]
+    return math.hypot(*w) < 1e-4 and np.abs(exp_with_v_as_r(xi) - v - np.cross(w, v) / 2).max() > 1e-9
+
+
+def test_independent_magnitudes_find_what_gaussian_samples_miss():
+    assert not any(map(is_wrong, drawn(gaussian_twists(), 200)))
+    assert any(map(is_wrong, drawn(strategies.twists(), 200)))
