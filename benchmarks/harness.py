@@ -1,5 +1,8 @@
 """How time is measured: two cases in turn, A B A B …, in one run, so that a slow moment of the machine hits both.
 
+Time is the processor's (`time.process_time`): while another process has the processor, it stands still. It adds up all
+threads of this process, so that no case gains by threads that the other one does not start.
+
 A case is a triple (setup, run, error): every row of speed has its error beside it, from the results of the same run.
 """
 
@@ -37,7 +40,7 @@ class Spread:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two cases measured in turn: seconds a run of each, the ratio first ÷ second of each pair, the errors of both."""
+    """Two cases measured in turn: processor seconds a run, ratio first ÷ second of each pair, the errors of both."""
 
     first: Spread
     second: Spread
@@ -55,7 +58,8 @@ def spread(values: list[float]) -> Spread:
 def compare(first: Case, second: Case, *, pairs: int = 31, slice_s: float = 0.02) -> Comparison:
     """Time two cases in turn and take the ratio within each pair; the order within a pair alternates.
 
-    Parameters: pairs, how often; slice_s, seconds that one measurement of a case lasts at least (fast runs repeat).
+    Parameters: pairs, how often; slice_s, seconds by the wall clock that one measurement of a case lasts at least
+    (fast runs repeat).
     """
     cases = [(case, case.setup()) for case in (first, second)]
     errors = [case.error(state, case.run(state)) for case, state in cases]  # also warms both up
@@ -69,17 +73,18 @@ def compare(first: Case, second: Case, *, pairs: int = 31, slice_s: float = 0.02
     return Comparison(spread(times[0]), spread(times[1]), spread(ratios), errors[0], errors[1])
 
 
-def _clock(run: Callable[[Any], Any], state: Any, loops: int) -> float:
+def _clock(run: Callable[[Any], Any], state: Any, loops: int, clock: Callable[[], float] = time.process_time) -> float:
     """Seconds a run, over so many runs in a row."""
     span = range(loops)
-    start = time.perf_counter()
+    start = clock()
     for _ in span:
         run(state)
-    return (time.perf_counter() - start) / loops
+    return (clock() - start) / loops
 
 
 def _loops(run: Callable[[Any], Any], state: Any, slice_s: float) -> int:
     loops = 1
-    while (taken := _clock(run, state, loops) * loops) < slice_s:
+    # By the wall clock: a run that waits would never use up its slice otherwise.
+    while (taken := _clock(run, state, loops, time.perf_counter) * loops) < slice_s:
         loops = max(loops + 1, int(loops * min(10.0, 1.2 * slice_s / max(taken, 1e-9))))
     return loops

@@ -64,10 +64,27 @@ class PoekinWarning(UserWarning):
     """Something in the input was repaired or ignored; says what and where."""
 
 
+def harmless(text: object, width: int | None = None, keep: str = "") -> str:
+    """Text with control and bidirectional characters and line breaks escaped, but for those in `keep`; cut at width."""
+    plain = "".join(c if c.isprintable() or c in keep else c.encode("unicode_escape").decode() for c in str(text))
+    return plain if width is None or len(plain) <= width else plain[: width - 1] + "…"
+
+
 def shown(name: object, width: int = 80) -> str:
-    """A name out of a file, made harmless for plain text: no control or bidirectional characters, no line break."""
-    text = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(name))
-    return repr(text if len(text) <= width else text[: width - 1] + "…")
+    """A name out of a file in quotes, made harmless for plain text: each character that is none escaped once."""
+    return f"'{harmless(name, width)}'"
+
+
+def told(value: object, width: int = 80) -> str:
+    """Any value as Python writes it, harmless and cut at width: what arrived where something else was expected."""
+    return harmless(repr(value), width)
+
+
+def listed(names: Iterable[object], most: int = 12) -> str:
+    """Names one after the other, the first of them where there are many, and how many more there are."""
+    every = list(names)
+    more = f" and {len(every) - most} more" if len(every) > most else ""
+    return ", ".join(map(shown, every[:most])) + more
 
 
 def closest(name: str, available: Iterable[str], most: int = 5) -> str:
@@ -78,5 +95,4 @@ def closest(name: str, available: Iterable[str], most: int = 5) -> str:
     close = difflib.get_close_matches(str(name), names, n=most, cutoff=0.6)
     if close:
         return "did you mean " + " or ".join(shown(c) for c in close) + "?"
-    more = f" and {len(names) - most} more" if len(names) > most else ""
-    return "available: " + ", ".join(shown(n) for n in names[:most]) + more
+    return "available: " + listed(names, most)

@@ -47,6 +47,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     return Topic(
         title,
         "Angles uniform from 0 to π about random axes, translations normal with 1 m. Both go to and from 4×4 matrices. "
+        "Time is the processor's, over all threads of the process, so that other processes do not disturb it. "
         f"The error is the largest entry that differs from the exact result (60 digits) over the first {JUDGED}.",
         figures=figures,
         tables=[Table("Time of each", ("what", "time (ns each)", "lower quartile", "upper quartile", "error"), rows)],

@@ -113,8 +113,8 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         "Both yield the same two arrays, 4×4 and 6×7, from Python. Pinocchio takes the faster of its two usual ways, "
         f"found in this run: {ways[faster].name} (the other takes {short(max(way_ratio, 1 / way_ratio))} times as "
         f"long). One call means {CALLS} calls in a row, each at another q. Runs alternate; the ratio is the median "
-        "over pairs. The error is the largest entry that differs from what 60 digits make of the URDF's text, lengths "
-        "÷ R.",
+        "over pairs. Time is the processor's, over all threads of the process, so that other processes do not disturb "
+        "it. The error is the largest entry that differs from what 60 digits make of the URDF's text, lengths ÷ R.",
         figures=[
             _figure("Panda's pose + hybrid Jacobian, one call from Python ÷ Pinocchio's Python", single, 0.8, "0.8"),
             _figure("the same, into arrays of the caller (out=)", reused),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..engine.count import Count, Counted, counted
-from ..errors import InputError
+from ..errors import InputError, told
 from ..formulas import dh_recursive, direct, recursive
 from ..model.chain import Chain
 
@@ -29,10 +29,13 @@ def count(chain: Chain, *, method: str = "recursive", frame: str = "body") -> Co
     Returns: Count, with .multiplications and .additions. Raises: InputError. Accuracy: exact, by running.
     Source: Park 1994, Section IV, the table: 60 n - 96 and 45 n - 72, 42 n - 78 and 30 n - 57, 42 n and 30 n.
     """
-    algorithm = METHODS.get((method, frame))
+    if not isinstance(chain, Chain):
+        raise InputError(f"expected a Chain, as Robot.chain makes it, got {told(chain)}")
+    words = isinstance(method, str) and isinstance(frame, str)
+    algorithm = METHODS.get((method, frame)) if words else None
     if algorithm is None:
         known = ", ".join(f"{m} in {f}" for m, f in METHODS)
-        raise InputError(f"no method {method!r} in frame {frame!r}; there are: {known}")
+        raise InputError(f"no method {told(method)} in frame {told(frame)}; there are: {known}")
     n = len(chain.joint_names)
     if n < 2:
         raise InputError(f"the paper's counts hold from 2 joints on, the chain has {n}")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import os
-import pkgutil
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field
 
@@ -15,14 +14,13 @@ from ..errors import FileError, InputError, shown
 from ..formats import catalogue, urdf
 from ..formats.load import load
 from ..model.chain import Chain
-from ..model.joint import FREE
+from ..model.evaluation import FRAME_NAMES
+from ..model.joint import FREE, MOVING, Joint
 from ..model.robot import Robot
 from ..testing.pinocchio_oracle import PinocchioOracle
 
 BAR = 2e-14
 """Largest error that passes, as a multiple of the chain's reach R."""
-
-FRAMES = ("space", "body", "hybrid")
 
 Progress = Callable[[int, int, str], None]
 """Called before each chain with the number done, the number of all, and the chain's tip."""
@@ -59,7 +57,8 @@ class Validation:
     """What `validate` found: one row a chain, and the bar that every row must hold.
 
     Attributes: robot (its name), source (where it came from), rows, bar (largest error ÷ R that passes), samples
-    (random configurations a chain, beside the zero configuration), seed, pinocchio (the oracle's version).
+    (random configurations a chain, beside the zero configuration), seed, pinocchio (the oracle's version), moving
+    (the joints of the robot that move).
     """
 
     robot: str
@@ -69,6 +68,7 @@ class Validation:
     samples: int
     seed: int
     pinocchio: str
+    moving: int = 0
 
     @property
     def worst(self) -> ChainErrors | None:
@@ -82,8 +82,12 @@ class Validation:
 
     @property
     def passed(self) -> bool:
-        """Whether there is a chain and every chain holds the bar; an error that is not a number never does."""
-        return bool(self.rows) and self.error <= self.bar
+        """Whether there is a chain and every chain holds the bar; an error that is not a number never does.
+
+        Where joints of the robot move, a chain without one proves nothing: there must be one that has some.
+        """
+        proof = any(row.joints for row in self.rows) if self.moving else bool(self.rows)
+        return proof and self.error <= self.bar
 
     def as_dict(self) -> dict[str, object]:
         """Everything as plain dicts, lists, strings and numbers; an infinite or absent number is None."""
@@ -100,6 +104,7 @@ class Validation:
             "samples": self.samples,
             "seed": self.seed,
             "pinocchio": self.pinocchio,
+            "moving": self.moving,
             "chains": rows,
         }
 
@@ -119,8 +124,9 @@ def validate(
     whatever the limits, *all* coordinates of the robot at once, so that one which a chain overlooks shows up too;
     seed, of the generator; progress, called as (chains done, chains in all, tip).
 
-    A chain that would cross a floating or planar joint starts at the child link of the last such joint; its row's
-    note says so. The errors are defined in `chain_errors`; each must be at most `BAR` · R.
+    A chain that would cross a floating or planar joint starts at the child link of the last such joint, and what moves
+    above that joint is a chain of its own (see `routes`); the notes of the rows say so. The errors are defined in
+    `chain_errors`; each must be at most `BAR` · R.
 
     Raises: what `load` raises; MissingExtra without Pinocchio; ModelError where Pinocchio refuses the URDF; InputError
     for a Robot that was built by hand (there is no text to give to the oracle).
@@ -137,7 +143,8 @@ def validate(
         if progress is not None:
             progress(done, len(ways), tip)
         rows.append(chain_errors(model.chain(base=base, tip=tip), oracle, q, note=note))
-    return Validation(model.name, str(model.source), tuple(rows), BAR, samples, seed, oracle.version)
+    moving = sum(joint.kind in MOVING for joint in model.joints)
+    return Validation(model.name, str(model.source), tuple(rows), BAR, samples, seed, oracle.version, moving)
 
 
 def chain_errors(chain: Chain, oracle: PinocchioOracle, q: dict[str, np.ndarray], *, note: str = "") -> ChainErrors:
@@ -159,7 +166,7 @@ def chain_errors(chain: Chain, oracle: PinocchioOracle, q: dict[str, np.ndarray]
     weight = np.array([1.0, 1.0, 1.0, 1 / chain.reach])
     errors = [np.abs((chain.fk(configurations) - expected)[:, :3] * weight).max((1, 2))]
     rows = np.array([1.0] * 3 + [1 / chain.reach] * 3)[:, None]
-    for frame in FRAMES:
+    for frame in FRAME_NAMES:
         J = np.zeros(columns[frame].shape)
         J[..., own] = chain.jacobian(configurations, frame)
         errors.append(np.abs((J - columns[frame]) * rows).max((1, 2), initial=0.0))
@@ -176,20 +183,38 @@ def _row(chain: Chain, errors: np.ndarray, configuration: dict[str, float], note
 
 
 def routes(robot: Robot) -> Iterator[tuple[str, str, str]]:
-    """(base, tip, note) of each chain: from the root, or from below the last joint that no chain can cross.
+    """(base, tip, note) of the chains that together have every joint that moves.
 
-    One chain a leaf, in the order of `robot.leaves`; the note names the joint that was not crossed, else it is empty.
+    First one a leaf, in the order of `robot.leaves`: from the root, or from below the last joint that no chain can
+    cross. Then, where a joint moves above a floating or planar joint and is in none of those, the chain that ends at
+    that joint's parent link. The note names the joints that were not crossed, else it is empty.
     """
     above = {joint.child: joint for joint in robot.joints}
+    covered: set[str] = set()
     for leaf in robot.leaves:
-        link, base, note = leaf, robot.root, ""
-        while link in above:
-            joint = above[link]
-            if joint.kind in FREE:
-                base, note = link, f"starts below the {joint.kind} joint {shown(joint.name)}"
-                break
-            link = joint.parent
+        base, moving, note = _way(robot, above, leaf)
+        covered.update(moving)
         yield base, leaf, note
+    # The longer of two comes first, as it may have all that is in the shorter one.
+    ends = [(*_way(robot, above, joint.parent), joint) for joint in robot.joints if joint.kind in FREE]
+    for base, moving, note, free in sorted(ends, key=lambda end: -len(end[1])):
+        if not covered.issuperset(moving):
+            covered.update(moving)
+            end = f"ends above the {free.kind} joint {shown(free.name)}"
+            yield base, free.parent, f"{note}, {end}" if note else end
+
+
+def _way(robot: Robot, above: dict[str, Joint], tip: str) -> tuple[str, list[str], str]:
+    """Where the longest chain to a link starts, its joints that move, and the note on where it starts."""
+    link, moving = tip, []
+    while link in above:
+        joint = above[link]
+        if joint.kind in FREE:
+            return link, moving, f"starts below the {joint.kind} joint {shown(joint.name)}"
+        if joint.kind in MOVING:
+            moving.append(joint.name)
+        link = joint.parent
+    return robot.root, moving, ""
 
 
 def _both(robot: Robot | str | os.PathLike[str]) -> tuple[Robot, PinocchioOracle]:
@@ -197,21 +222,20 @@ def _both(robot: Robot | str | os.PathLike[str]) -> tuple[Robot, PinocchioOracle
     if isinstance(robot, str) and robot.lstrip().startswith("<"):
         return urdf.read_text(robot), PinocchioOracle(robot)
     model = robot if isinstance(robot, Robot) else load(robot)
-    if model.source is None:
+    if model.source is None or not model.source.origin:
         raise InputError(f"the robot {shown(model.name)} was not loaded from a file: Pinocchio needs its URDF")
     try:
-        return model, PinocchioOracle(_text(model.source.name))
+        text = _text(model.source.origin)
     except OSError as error:
         raise FileError(f"cannot read {model.source.place()} again for Pinocchio: {error.strerror}") from error
+    return model, PinocchioOracle(text)
 
 
-def _text(name: str) -> bytes:
+def _text(origin: str) -> bytes:
     """What is in the file that a robot came from; an arm of the built-in catalogue need not be a file at all."""
-    folder, _, file = name.partition("/")
-    inside = pkgutil.get_data(catalogue.__name__, file) if folder == "catalogue" and not os.path.exists(name) else None
-    if inside is not None:
-        return inside
-    with open(name, "rb") as stream:
+    if not os.path.isabs(origin):
+        return catalogue.text(origin)
+    with open(origin, "rb") as stream:
         return stream.read()
 
 

@@ -22,8 +22,9 @@ NOBODY_READS = 141
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """The entry point of the command `poekin`: runs it on the arguments (sys.argv) and exits with its code."""
-    if sys.stdout is None:  # started with a closed stdout
-        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  open until the process ends
+    for stream in ("stdout", "stderr"):
+        if getattr(sys, stream) is None:  # started with it closed
+            setattr(sys, stream, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115  open until the process ends
     for stream in (sys.stdout, sys.stderr):
         # A terminal or pipe that cannot take a character gets its code: no name may end a command.
         if isinstance(stream, io.TextIOWrapper):
@@ -50,6 +51,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
             warnings.showwarning = show  # type: ignore[assignment]
             # The base of all usage errors: Click's own, or typer's where typer does without Click.
             usage: Any = next(c for c in reversed(typer.BadParameter.__mro__) if hasattr(c, "format_message"))
+            if not (sys.argv[1:] if arguments is None else arguments):
+                arguments = ["--help"]
             try:
                 code = app(args=arguments, prog_name="poekin", standalone_mode=False)
             except usage as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +13,7 @@ import typer
 
 from ..errors import InputError, closest, shown
 from ..formats.load import load
+from ..formats.numbers import real
 from ..model.chain import Chain
 from . import files
 from .output import Progress, as_json, matrix, name, number, say
@@ -20,7 +22,10 @@ File = Annotated[str, typer.Argument(metavar="FILE", help="A URDF file, a built-
 Tip = Annotated[str | None, typer.Option("--tip", help="The link whose motion it is (may be left out for one leaf).")]
 Base = Annotated[str | None, typer.Option("--base", help="The link it is seen from (default: the root).")]
 Numbers = Annotated[list[str] | None, typer.Argument(metavar="Q...", help="The coordinates, in rad or m.")]
-Input = Annotated[Path | None, typer.Option("--input", help="Many configurations: a .csv or .npy file.")]
+Input = Annotated[
+    str | None,
+    typer.Option("--input", metavar="FILE", help="Many configurations: a .csv or .npy file, or - (CSV on stdin)."),
+]
 Output = Annotated[Path | None, typer.Option("--output", help="Where the results go: a .csv, .npy or .json file.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
@@ -37,7 +42,7 @@ class Arm:
     single: bool
 
 
-def take(file: str, tip: str | None, base: str | None, q: Sequence[str] | None, given: Path | None) -> Arm:
+def take(file: str, tip: str | None, base: str | None, q: Sequence[str] | None, given: str | None) -> Arm:
     """The chain and the configurations that a command line names. Raises: what `load`, `Robot.chain` and reading do."""
     words = list(q or ())
     for word in words:
@@ -54,15 +59,15 @@ def take(file: str, tip: str | None, base: str | None, q: Sequence[str] | None, 
         return Arm(robot.name, chain, np.array(values, float).reshape(1, chain.dof), True)
     if values:
         raise InputError(f"either coordinates or --input expected, got both ({shown(words[0])} and {shown(given)})")
-    with Progress(f"reading {given.name}") as progress:
+    with Progress(f"reading {files.called(given)}") as progress:
         return Arm(robot.name, chain, files.read_configurations(given, chain.q_names, progress), False)
 
 
 def _value(word: str, index: int) -> float:
-    try:
-        return float(word)
-    except ValueError:
-        raise InputError(f"coordinate {index + 1}: a number expected (rad or m), got {shown(word)}") from None
+    value = real(word)
+    if value is None:
+        raise InputError(f"coordinate {index + 1}: a number expected (rad or m), got {shown(word)}")
+    return value
 
 
 def compute(arm: Arm, function: Callable[[np.ndarray], np.ndarray], shape: tuple[int, ...]) -> np.ndarray:
@@ -90,11 +95,13 @@ def give(
     def sheet() -> str:
         header = [f"{r} {c}".strip() if columns else r for r in rows for c in columns or [""]]
         with Progress("writing") as progress:
-            return files.csv_text(header, results.reshape(len(results), -1), progress)
+            # The width is said, not inferred: -1 means nothing where there is no configuration.
+            flat = results.reshape(len(results), math.prod(results.shape[1:]))
+            return files.csv_text(header, flat, progress)
 
     if output is not None:
         content = {".csv": lambda: sheet().encode(), ".npy": lambda: files.npy_bytes(results)}
-        files.write_whole(output, content.get(output.suffix, lambda: (document() + "\n").encode())())
+        files.write_whole(output, content.get(output.suffix.lower(), lambda: (document() + "\n").encode())())
         summary = {"written": str(output), "configurations": len(results)}
         say(as_json(summary) if json else f"{len(results)} × {what} written to {shown(output)}")
     elif json:

@@ -10,7 +10,6 @@ from . import fk, info, jacobian, validate
 
 app = typer.Typer(
     add_completion=False,
-    no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     help="Kinematics of robots by the product of exponentials: rad and m, twists (omega; v).",

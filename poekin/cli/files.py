@@ -6,6 +6,7 @@ import csv
 import io
 import os
 import stat
+import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -13,11 +14,20 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import FileError, InputError, UnknownName, closest, shown
+from ..formats.numbers import real
+from . import npy
 from .output import name
 
+STDIN = "-"
 
-def read_configurations(path: Path, q_names: Sequence[str], progress: Callable[[int, int], None]) -> np.ndarray:
-    """Configurations (N, m) out of a .npy file or, whatever else its name ends in, a CSV file.
+
+def called(given: str) -> str:
+    """The place that configurations come from, as messages call it."""
+    return "standard input" if given == STDIN else shown(given)
+
+
+def read_configurations(given: str, q_names: Sequence[str], progress: Callable[[int, int], None]) -> np.ndarray:
+    """Configurations (N, m) out of a .npy file or, whatever else its name ends in, a CSV file; "-" is CSV on stdin.
 
     A CSV file has one configuration a line, the m coordinates in the order of q_names, or in the order of a first line
     that names them all. Empty lines are passed over.
@@ -25,41 +35,32 @@ def read_configurations(path: Path, q_names: Sequence[str], progress: Callable[[
     Raises: FileError for a file that cannot be read; InputError with file and line for a line of the wrong length or
     a cell that is no number; UnknownName for a header with a name that is no coordinate.
     """
+    if given == STDIN and sys.stdin is None:
+        raise FileError("cannot read standard input: it is closed")
     try:
-        return _from_npy(path, len(q_names)) if path.suffix == ".npy" else _from_csv(path, q_names, progress)
+        if Path(given).suffix.lower() == ".npy":
+            return npy.configurations(Path(given).read_bytes(), len(q_names), called(given))
+        return _from_csv(given, q_names, progress)
     except UnicodeDecodeError as error:
-        raise FileError(f"{shown(path)} is no text file: byte {error.start} is not UTF-8") from error
+        raise FileError(f"{called(given)} is no text file: byte {error.start} is not UTF-8") from error
     except OSError as error:
         if isinstance(error, FileError):
             raise
-        raise FileError(f"cannot read {shown(path)}: {error.strerror or error}") from error
+        raise FileError(f"cannot read {called(given)}: {error.strerror or error}") from error
 
 
-def _from_npy(path: Path, m: int) -> np.ndarray:
-    try:
-        with open(path, "rb") as stream:
-            array = np.lib.format.read_array(stream, allow_pickle=False)
-    except (ValueError, EOFError) as error:
-        raise FileError(f"{shown(path)} is no .npy file of numbers: {error}") from error
-    if array.dtype.kind not in "fiu":
-        raise InputError(f"{shown(path)}: an array of real numbers expected")
-    array = array[None] if array.ndim == 1 else array
-    if array.ndim != 2 or array.shape[1] != m:
-        raise InputError(f"{shown(path)}: an array of shape (N, {m}) expected, got {array.shape}")
-    return array.astype(float)
-
-
-def _from_csv(path: Path, q_names: Sequence[str], progress: Callable[[int, int], None]) -> np.ndarray:
+def _from_csv(given: str, q_names: Sequence[str], progress: Callable[[int, int], None]) -> np.ndarray:
     rows: list[list[float]] = []
     order: list[int] | None = None
-    with open(path, newline="", encoding="utf-8-sig") as stream:
+    file = sys.stdin.fileno() if given == STDIN else given
+    with open(file, newline="", encoding="utf-8-sig", closefd=given != STDIN) as stream:
         size = os.fstat(stream.fileno()).st_size
         reader = csv.reader(stream)
         read = 0
         try:
             for cells in reader:
                 read += sum(map(len, cells)) + len(cells)
-                where = f"{shown(path)}:{reader.line_num}"
+                where = f"{called(given)}:{reader.line_num}"
                 if not any(cell.strip() for cell in cells):
                     continue
                 if not rows and order is None and _is_header(cells, q_names):
@@ -71,7 +72,7 @@ def _from_csv(path: Path, q_names: Sequence[str], progress: Callable[[int, int],
                 if len(rows) % 10_000 == 0:
                     progress(read, size)
         except csv.Error as error:
-            raise FileError(f"{shown(path)}:{reader.line_num}: not CSV: {error}") from error
+            raise FileError(f"{called(given)}:{reader.line_num}: not CSV: {error}") from error
     array = np.array(rows, float).reshape(len(rows), len(q_names))
     return array if order is None else array[:, order]
 
@@ -79,7 +80,7 @@ def _from_csv(path: Path, q_names: Sequence[str], progress: Callable[[int, int],
 def _is_header(cells: Sequence[str], q_names: Sequence[str]) -> bool:
     # A robot may call its joints 1, 2, 3: a line that is exactly the names is a header even so.
     words = [cell.strip() for cell in cells]
-    return sorted(words) == sorted(q_names) or not any(_is_real(word) for word in words)
+    return sorted(words) == sorted(q_names) or all(real(word) is None for word in words)
 
 
 def _order(words: Sequence[str], q_names: Sequence[str], where: str) -> list[int]:
@@ -93,19 +94,11 @@ def _order(words: Sequence[str], q_names: Sequence[str], where: str) -> list[int
     return [words.index(n) for n in q_names]
 
 
-def _is_real(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
-
 def _real(text: str, where: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise InputError(f"{where}: a number expected, got {shown(text)}") from None
+    value = real(text)
+    if value is None:
+        raise InputError(f"{where}: a number expected, got {shown(text)}")
+    return value
 
 
 def _listed(q_names: Sequence[str]) -> str:
@@ -132,7 +125,7 @@ def npy_bytes(array: np.ndarray) -> bytes:
 
 def check_writable(path: Path) -> None:
     """Refuse a place that cannot be written to before any work is done. Raises: FileError."""
-    if path.suffix not in (".csv", ".npy", ".json"):
+    if path.suffix.lower() not in (".csv", ".npy", ".json"):
         raise FileError(f"cannot write {shown(path)}: a name that ends in .csv, .npy or .json expected")
     if path.is_dir():
         raise FileError(f"cannot write {shown(path)}: it is a directory")

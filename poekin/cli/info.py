@@ -57,8 +57,9 @@ def _show_chain(chain: Chain) -> None:
 
 
 def _screw_rows(chain: Chain) -> Iterator[tuple[object, ...]]:
+    C = chain.coupling
     for i, joint in enumerate(chain.joint_names):
-        terms = [(chain.coupling[i, k], k) for k in range(chain.dof) if chain.coupling[i, k] != 0]
+        terms = [(float(C[i, k]), int(k)) for k in np.flatnonzero(C[i])]
         limits = chain.limits[terms[0][1]] if terms else np.zeros(2)
         yield (
             joint, chain.kinds[i], _coordinate(chain, terms, chain.offset[i]),

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated
 
 import typer
 
 from ..errors import InputError, shown
+from ..model.evaluation import FRAME_NAMES
 from . import files
 from .arm import Base, File, Input, Json, Numbers, Output, Tip, compute, give, take
 from .output import name
 
 TWIST = ("wx", "wy", "wz", "vx", "vy", "vz")
-FRAMES = ("space", "body", "hybrid")
 
-FRAME_HELP = "space | body | hybrid (base axes, the tip's origin) | K (z-aligned frame of joint K)."
+FRAME_HELP = "space | body | hybrid (base axes, the tip's origin) | K (z-aligned frame of joint K, counted from 0)."
 Frame = Annotated[str, typer.Option("--frame", help=FRAME_HELP)]
 
 
@@ -29,7 +30,9 @@ def command(
     arm = take(file, tip, base, q, given)
     chain = arm.chain
     columns = compute(arm, lambda some: chain.jacobian(some, which), (6, chain.dof))
-    title = f"{frame} Jacobian of {name(chain.tip)} relative to {name(chain.base)} (rows w rad/s, v m/s)"
+    kind = f"{which} Jacobian" if isinstance(which, str) else "Jacobian"
+    where = "" if isinstance(which, str) else f" in the frame of joint {which}, {name(chain.joint_names[which])}"
+    title = f"{kind} of {name(chain.tip)} relative to {name(chain.base)}{where} (rows w rad/s, v m/s)"
     give(
         arm, columns, "J", title=title, rows=TWIST, columns=chain.q_names,
         output=output, json=json, extra={"frame": which},
@@ -37,9 +40,9 @@ def command(
 
 
 def _frame(word: str) -> str | int:
-    if word in FRAMES:
+    if word in FRAME_NAMES:
         return word
-    try:
+    if re.fullmatch("-?[0-9]{1,18}", word):
         return int(word)
-    except ValueError:
-        raise InputError(f"--frame: {', '.join(FRAMES)} or the number of a joint expected, got {shown(word)}") from None
+    names = ", ".join(FRAME_NAMES)
+    raise InputError(f"--frame: {names} or the number of a joint (from 0) expected, got {shown(word)}")

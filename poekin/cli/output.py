@@ -90,7 +90,8 @@ class Progress:
     """How far long work has come, on stderr: one line that is rewritten on a terminal, else a line now and then.
 
     Parameters: what (the work's name); pause, seconds of silence between two lines where stderr is no terminal.
-    Short work shows nothing. Use it as a context manager; call it with (done, total, what is being done).
+    Short work shows nothing. Use it as a context manager; call it with (done, total, what is being done), total 0 where
+    nobody knows it.
     """
 
     def __init__(self, what: str, pause: float = 10.0):
@@ -104,7 +105,7 @@ class Progress:
         if now - self.last < (0.1 if self.shown and self.terminal else 0.5 if self.terminal else self.pause):
             return
         self.last, self.shown = now, True
-        line = name(f"{self.what}: {done} of {total}" + (f", {text}" if text else ""))
+        line = name(f"{self.what}: {done}" + (f" of {total}" if total else "") + (f", {text}" if text else ""))
         if self.terminal:
             print(f"\r\x1b[K{line[:100]}", end="", file=sys.stderr, flush=True)
         else:

@@ -6,8 +6,9 @@ from typing import Annotated
 
 import typer
 
-from ..analysis.validate import BAR, FRAMES, Validation, validate
+from ..analysis.validate import BAR, Validation, validate
 from ..errors import InputError, MissingExtra, PoekinError, shown
+from ..model.evaluation import FRAME_NAMES
 from ..testing.example_robots import example_robots
 from .arm import Json
 from .output import Progress, as_json, complain, number, say, table
@@ -50,7 +51,7 @@ def command(
     if json:
         print(as_json(_document(results, errors, skipped)))
     else:
-        _show(results, skipped)
+        _show(results, len(errors), skipped)
     for file, message in errors.items():
         where = "" if file in message else f"{shown(file, 400)[1:-1]}: "
         complain(f"error: {where}{message}")
@@ -62,10 +63,10 @@ def _document(results: list[Validation], errors: dict[str, str], skipped: list[s
     return {"passed": passed, "robots": [v.as_dict() for v in results], "errors": errors, "skipped": skipped}
 
 
-def _show(results: list[Validation], skipped: list[str]) -> None:
+def _show(results: list[Validation], unread: int, skipped: list[str]) -> None:
     rows = []
     for v in results:
-        errors = [number(max(getattr(row, what) for row in v.rows), 3) for what in ("pose", *FRAMES)]
+        errors = [number(max(getattr(row, what) for row in v.rows), 3) for what in ("pose", *FRAME_NAMES)]
         worst = v.worst
         way = f"{worst.base} → {worst.tip}" if worst else ""
         rows.append((v.robot, "pass" if v.passed else "FAIL", way, len(v.rows), *errors))
@@ -83,4 +84,5 @@ def _show(results: list[Validation], skipped: list[str]) -> None:
                 say(f"{v.robot}: {row.base} → {row.tip} {row.note}")
     for file in skipped:
         say(f"{file} is left out: there is no robot in it")
-    say(f"{sum(v.passed for v in results)} of {len(results)} robots pass")
+    rest = f"; {unread} could not be validated" if unread else ""
+    say(f"{sum(v.passed for v in results)} of {len(results) + unread} robots pass{rest}")

@@ -1,7 +1,8 @@
 """The one cache of compiled kernels, kept between runs in the user's cache directory.
 
-Its key covers all source of algebra, formulas and engine, and the versions of Numba, llvmlite, NumPy, Python and the
-processor: an edit anywhere in the formulas makes a new key. An entry is unpickled only after its SHA-256, its owner
+Its key covers all source of algebra, formulas and engine, Numba's options, and the versions of Numba, llvmlite, NumPy,
+Python and the processor: an edit anywhere in the formulas makes a new key. An entry is unpickled only after its
+SHA-256, its owner
 and its permissions have been checked. A place that is damaged, foreign, read-only or absent costs a compilation and
 one log line, never an error. `POEKIN_CACHE_DIR` names another place; empty, it switches the cache off.
 """
@@ -10,7 +11,6 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import itertools
 import logging
 import os
 import pickle
@@ -18,14 +18,18 @@ import platform
 import stat
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import llvmlite
 import numba
 import numpy as np
-from numba.core import serialize
+from numba.core import config, serialize
 from numba.core.compiler import CompileResult
 
+from . import source
+
+MONTH = 30 * 24 * 3600.0
 log = logging.getLogger("poekin")
 _said: set[str] = set()
 
@@ -41,7 +45,7 @@ def directory() -> Path | None:
     """Where kernels are kept: `POEKIN_CACHE_DIR`, else this user's cache directory; None for nowhere."""
     if "POEKIN_CACHE_DIR" in os.environ:
         named = os.environ["POEKIN_CACHE_DIR"]
-        return Path(named).absolute() if named else None
+        return Path(named).expanduser().absolute() if named else None
     try:
         if sys.platform == "win32":
             base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
@@ -54,24 +58,20 @@ def directory() -> Path | None:
     return base / "poekin" if base.is_absolute() else None
 
 
-def source_key() -> str:
-    """SHA-256 over everything that the machine code depends on except the signature and the processor."""
-    package = Path(__file__).parent.parent
-    digest = hashlib.sha256()
+def machine_key() -> str:
+    """SHA-256 over what machine code depends on besides its source, its signature and the processor."""
     versions = (numba.__version__, llvmlite.__version__, np.__version__, sys.version, platform.machine(), sys.platform)
-    digest.update(repr(versions).encode())
-    rooms = (sorted((package / room).glob("*.py")) for room in ("formulas", "engine"))
-    for path in [package / "algebra.py", *itertools.chain(*rooms)]:
-        text = path.read_bytes()
-        digest.update(f"{path.name} {len(text)} ".encode() + text)
-    return digest.hexdigest()
+    options = ("OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "BOUNDSCHECK", "DEBUGINFO_DEFAULT", "ENABLE_AVX")
+    return hashlib.sha256(repr((versions, [getattr(config, name, None) for name in options])).encode()).hexdigest()
 
 
 def _private(status: os.stat_result) -> bool:
     """Whether a file or directory belongs to this user and nobody else may write or read it."""
-    if not hasattr(os, "geteuid"):
-        return True
-    return status.st_uid == os.geteuid() and not stat.S_IMODE(status.st_mode) & 0o077
+    return _own(status) and (os.name == "nt" or not stat.S_IMODE(status.st_mode) & 0o077)
+
+
+def _own(status: os.stat_result) -> bool:
+    return not hasattr(os, "geteuid") or status.st_uid == os.geteuid()
 
 
 def _place() -> Path | None:
@@ -81,12 +81,15 @@ def _place() -> Path | None:
         return None
     try:
         place.mkdir(mode=0o700, parents=True, exist_ok=True)
-        status = place.lstat()
+        status = place.stat()
     except OSError as error:
         say_once("place", "kernels are compiled anew in each run: no cache in %s (%s)", place, error.strerror)
         return None
     if not stat.S_ISDIR(status.st_mode) or not _private(status):
-        say_once("place", "kernels are compiled anew in each run: %s is not this user's alone (mode 0700)", place)
+        reason = "others may read or write it" if _own(status) else "it belongs to another user"
+        say_once(
+            "place", "kernels are compiled anew in each run: %s is not used, %s (expected mode 0700)", place, reason
+        )
         return None
     return place
 
@@ -96,19 +99,13 @@ class KernelCache:
 
     def __init__(self, name: str):
         self.name = name
-        self._key = ""
 
     def _path(self, signature, codegen) -> Path | None:
         place = _place()
-        if place is None:
+        if place is None or source.LOADED is None:  # the package runs from where its source cannot be read
             return None
-        if not self._key:
-            try:
-                self._key = source_key()
-            except OSError:  # the package runs from where its source cannot be read
-                return None
-        entry = hashlib.sha256(repr((self._key, str(signature), codegen.magic_tuple())).encode()).hexdigest()
-        return place / f"{self.name}-{entry[:32]}.kernel"
+        key = (source.LOADED, machine_key(), str(signature), codegen.magic_tuple())
+        return place / f"{self.name}-{hashlib.sha256(repr(key).encode()).hexdigest()[:32]}.kernel"
 
     def load_overload(self, signature, target_context):
         """The kept machine code of this signature; None, after saying that it compiles, where there is none."""
@@ -149,11 +146,18 @@ class KernelCache:
             with os.fdopen(handle, "wb") as file:
                 file.write(hashlib.sha256(payload).digest() + payload)
             os.replace(partial, path)
+            self._forget_the_old(path.parent)
         except OSError as error:
             say_once("place", "kernels are compiled anew in each run: %s cannot be written (%s)", path, error.strerror)
             if partial is not None:
                 with contextlib.suppress(OSError):
                     os.unlink(partial)
+
+    def _forget_the_old(self, place: Path) -> None:
+        """Remove what this kernel was compiled to a month ago or earlier: from other versions or earlier source."""
+        for entry in place.glob(f"{self.name}-*"):
+            if time.time() - entry.stat().st_mtime > MONTH:
+                entry.unlink(missing_ok=True)
 
 
 def _without_following(path, flags):

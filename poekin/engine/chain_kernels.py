@@ -98,11 +98,11 @@ def _pose_jacobian(table, q, frame, T, J_x):
 def pose_jacobian_many(table, q, frame, T, J):
     """f(q) and the Jacobian of many configurations; a T of length 1 is scratch, used again and again."""
     if table.shape[1] > OFFSET:
-        J_x = np.empty((q.shape[0], 6, table.shape[0] - 1))
-        _pose_jacobian(table, q, frame, T, J_x)
-        coupling = table[:, COUPLING:]
+        J_x, coupling = np.empty((1, 6, table.shape[0] - 1)), table[:, COUPLING:]
         for k in range(q.shape[0]):
-            columns.coupled(J_x[k], coupling, table.shape[0] - 1, q.shape[1], J[k])
+            j = min(k, T.shape[0] - 1)
+            _pose_jacobian(table, q[k : k + 1], frame, T[j : j + 1], J_x)
+            columns.coupled(J_x[0], coupling, table.shape[0] - 1, q.shape[1], J[k])
     else:
         _pose_jacobian(table, q, frame, T, J)
 
@@ -113,8 +113,13 @@ def joint_poses(table, q, T):
     sines, cosines, shifts = _scratch(table)
     for k in range(q.shape[0]):
         _motions(table, q[k], sines, cosines, shifts)
+        frame = pose(table[0])
         for i in range(table.shape[0] - 1):
-            store_matrix(T[k, i], forward.frame(table, sines, cosines, shifts, i + 1))
+            if i == 0:
+                frame = turned_about_z(frame, sines[0], cosines[0], shifts[0])
+            else:
+                frame = forward.next_frame(frame, table[i], sines[i], cosines[i], shifts[i])
+            store_matrix(T[k, i], frame)
 
 
 @kernel("w2 r2 r2 w2")

@@ -52,6 +52,8 @@ def _register() -> None:
         _register_functions(module)
 
 
+# Products and sums may be fused; nothing else is reordered, and NaN and infinities are what they are.
+OPTIONS: dict = {"error_model": "numpy", "fastmath": {"contract"}}
 _registered: set[str] = set()
 
 
@@ -85,7 +87,7 @@ def compiled(function, arguments: str, returns: str = "", bare: bool = False):
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
     _register_functions(sys.modules[function.__module__])
-    dispatcher = numba.njit(nogil=not bare, error_model="numpy", fastmath={"contract"})(function)
+    dispatcher = numba.njit(nogil=not bare, **OPTIONS)(function)
     dispatcher._cache = KernelCache(function.__name__)  # type: ignore[attr-defined]
     result = types.int64 if returns == "int" else types.void
     signature = result(*(array_type(code) for code in arguments.split()))

@@ -59,7 +59,7 @@ def se3_log(T, xi):
 def se3_log_near(T, near, xi):
     """The log whose angular part is nearest to that of a given twist."""
     for k in range(xi.shape[0]):
-        store_row(xi[k], logarithm.se3_near(load_matrix(T[k]), angular(near[k])))
+        store_row(xi[k], logarithm.se3_near(load_matrix(T[k]), angular(near[k]), linear(near[k])))
 
 
 @kernel("r3 w3")
@@ -97,15 +97,18 @@ def se3_left_inverse(xi, J):
 @kernel("r3 w1", returns="int")
 def first_defect(M, found):
     """Index of the first matrix whose 3x3 corner misses a rotation by more than found[0], or of which the fourth row
-    is off, else -1; on return `found` holds the largest entry of abs(R R^T - I), det R and the fourth row's error.
+    is off; on return `found` holds the largest entry of abs(R R^T - I), det R and the fourth row's error. Else -1, or
+    -2 where there is a fourth row with NaN in it.
     """
-    limit = found[0]
+    limit, none = found[0], -1
     for k in range(M.shape[0]):
         R = load_rotation(M[k])
         off, sign, last = defect.orthonormality(R), defect.determinant(R), 0.0
         if M.shape[1] == 4:
-            last = max(abs(M[k][3][0]), abs(M[k][3][1]), abs(M[k][3][2]), abs(M[k][3][3] - 1.0))
+            last = abs(M[k][3][0]) + abs(M[k][3][1]) + abs(M[k][3][2]) + abs(M[k][3][3] - 1.0)
         if off > limit or sign < 0.0 or last > limit:
             store_row(found, (off, sign, last))
             return k
-    return -1
+        if last != last:
+            none = -2
+    return none

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
+
+from . import source  # noqa: F401  takes the key of the source as it is now
+
+_compiling = threading.RLock()
 
 
 class Kernel:
@@ -20,9 +25,11 @@ class Kernel:
 
     def _first_call(self, *arguments):
         # Numba takes longer to import than all the rest of poekin: whoever only reads a model does without
-        from .compile import compiled
+        with _compiling:
+            if self.call == self._first_call:  # and no other thread was quicker
+                from .compile import compiled
 
-        self.call = compiled(self.function, self.arguments, self.returns, self.bare)
+                self.call = compiled(self.function, self.arguments, self.returns, self.bare)
         return self.call(*arguments)
 
 

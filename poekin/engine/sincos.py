@@ -8,6 +8,7 @@ Absolute error at most 2.3e-16 (tests/engine/test_sincos.py).
 import math
 from fractions import Fraction
 
+from ..formulas import elementary
 from ..formulas.coefficients import polynomial
 
 MODERATE = 1e6  # rad; up to here k < 2^20
@@ -32,7 +33,7 @@ _COSINE = tuple(float(Fraction((-1) ** k, math.factorial(2 * k))) for k in range
 def sincos(x):
     """(sin x, cos x) of an angle in rad."""
     if not abs(x) <= MODERATE:
-        return math.sin(x), math.cos(x)
+        return elementary.sin(x), elementary.cos(x)
     k = (x * _PER_HALF_PI + _ROUND) - _ROUND
     r = ((x - k * _HIGH) - k * _MIDDLE) - k * _LOW
     z = r * r

@@ -6,6 +6,7 @@ import math
 
 from ..errors import ModelError, shown
 from ..model.source import Source
+from .numbers import real
 from .xml import Element
 
 
@@ -77,7 +78,7 @@ class Fields:
         text = self.element.get(attribute)
         if text is None:
             return None
-        value = _number(text)
+        value = real(text)
         if value is None or math.isnan(value) or (finite and math.isinf(value)):
             expected = "a finite number" if finite else "a number"
             raise self.fault(f"{attribute} must be {expected}, got {shown(text)}{_hint(text)}")
@@ -88,23 +89,13 @@ class Fields:
         text = self.element.get(attribute)
         if text is None:
             return None
-        values = [_number(part) for part in text.split()]
+        values = [real(part) for part in text.split()]
         if len(values) != 3:
             raise self.fault(f"{attribute} must be three numbers, got {len(values)}: {shown(text)}{_hint(text)}")
         x, y, z = values
         if x is None or y is None or z is None or not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
             raise self.fault(f"{attribute} must be three finite numbers, got {shown(text)}{_hint(text)}")
         return x, y, z
-
-
-def _number(text: str) -> float | None:
-    # Python would also take 1_000 and digits of other scripts, which no other reader of such files does.
-    if "_" in text or not text.isascii():
-        return None
-    try:
-        return float(text)
-    except ValueError:
-        return None
 
 
 def _hint(text: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from ..errors import FileError, InputError, UnknownName, closest, shown
+from ..errors import FileError, InputError, UnknownName, closest, harmless, shown
 from ..model.robot import Robot
 from . import catalogue, erd, urdf
 
@@ -36,7 +36,7 @@ def load(name: str | os.PathLike[str]) -> Robot:
     if _exists(name):
         return urdf.read(name)
     if "/" in name or os.sep in name or name.lower().endswith((".urdf", ".xml", ".xacro")):
-        raise FileError(f"{shown(name, 400)[1:-1]}: no such file")
+        raise FileError(f"{harmless(name, 400)}: no such file")
     known = catalogue.NAMES
     raise UnknownName(
         f"no file and no built-in arm is named {shown(name)}; {closest(name, known)} (built in: {', '.join(known)};"

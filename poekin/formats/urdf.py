@@ -1,7 +1,8 @@
 """URDF in, Robot out: only the text counts, no mesh, no ROS, no xacro.
 
 Source: the URDF specification (elements <robot>, <link>, <joint>). Where files depart from it, as real ones do:
-- a missing <axis> is (1, 0, 0); an axis that is not of unit length is normalised, with a warning above 1e-6;
+- a missing <axis> is (1, 0, 0), but one that is there must have xyz; an axis that is not of unit length is normalised,
+  with a warning above 1e-6;
 - limits that are missing, equal, infinite or absurd (1e4 and more) mean "unlimited", with one warning for the file. A
   bound that is missing alone is unlimited on its side. Continuous joints have no limits;
 - a joint that mimics one that does not exist stays independent, with a warning;
@@ -15,8 +16,9 @@ import os
 from dataclasses import replace
 from typing import NamedTuple
 
-from ..errors import ModelError, shown
+from ..errors import InputError, ModelError, shown, told
 from ..model.joint import FREE, KINDS, MOVING, Joint, Mimic
+from ..model.parts import LONGEST
 from ..model.robot import Robot
 from ..model.source import Source, warn
 from . import rpy, xml
@@ -54,11 +56,16 @@ def read(path: str | os.PathLike[str]) -> Robot:
     repaired (see the top of this module).
     Accuracy: origins to rounding, rotations orthonormal to 1e-15.
     """
-    return read_text(xml.read_bytes(path), os.fsdecode(path))
+    return read_text(xml.read_bytes(path), os.fsdecode(path), os.path.abspath(os.fsdecode(path)))
 
 
-def read_text(text: str | bytes, name: str = "<text>") -> Robot:
-    """The robot in the text of a URDF; `name` stands for the file in messages. Raises and warns as `read`."""
+def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robot:
+    """The robot in the text of a URDF; `name` stands for the file in messages; origin as in `Source`.
+
+    Raises and warns as `read`; InputError where text is neither str nor bytes, or name no str.
+    """
+    if not isinstance(name, str):
+        raise InputError(f"name: expected what to call the text in messages, a str, got {told(name)}")
     root = xml.parse(text, name)
     source = Source(name)
     top = Fields(root, source)
@@ -72,7 +79,7 @@ def read_text(text: str | bytes, name: str = "<text>") -> Robot:
     joints = [_joint(fields, repairs) for fields in elements]
     known = {joint.name for joint in joints}
     joints = [_with_known_master(joint, fields, known, repairs) for joint, fields in zip(joints, elements, strict=True)]
-    lines = Source(name, tuple(link.line for link in links), tuple(fields.line for fields in elements))
+    lines = Source(name, tuple(link.line for link in links), tuple(fields.line for fields in elements), origin)
     stem = os.path.splitext(os.path.basename(name))[0]
     robot = Robot(root.get("name") or stem, [link.name("name") for link in links], joints, lines)
     _warn(repairs, source)
@@ -93,6 +100,8 @@ def _joint(fields: Fields, repairs: Repairs) -> Joint:
     origin = fields.child("origin")
     xyz = origin.vector("xyz") if origin else None
     angles = origin.vector("rpy") if origin else None
+    if origin and xyz and max(map(abs, xyz)) > LONGEST:
+        raise origin.fault(f"xyz: expected lengths of at most {LONGEST:g} m, got {xyz}")
     return Joint(
         name,
         kind,
@@ -107,9 +116,11 @@ def _joint(fields: Fields, repairs: Repairs) -> Joint:
 
 def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
     element = fields.child("axis")
-    axis = element.vector("xyz") if element else None
-    if element is None or axis is None:
+    if element is None:
         return 1.0, 0.0, 0.0
+    axis = element.vector("xyz")
+    if axis is None:
+        raise element.fault('expected an attribute xyz="...", none there')
     if not any(axis):
         raise element.fault("xyz must not be zero")
     length = math.hypot(*axis)

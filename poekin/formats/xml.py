@@ -8,7 +8,7 @@ from typing import Any, Never
 
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
 
-from ..errors import FileError, ModelError, shown
+from ..errors import FileError, InputError, ModelError, shown, told
 from ..model.source import Source
 
 MAX_BYTES = 64 * 2**20
@@ -47,8 +47,10 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
     """The bytes of a file of text.
 
     Raises: FileError for a file that does not exist or cannot be read, a directory, a device, an empty file and one of
-    more than 64 MiB (which is not read).
+    more than 64 MiB (which is not read); InputError for what is no path.
     """
+    if not isinstance(path, (str, bytes, os.PathLike)):
+        raise InputError(f"expected the path of a file, got {told(path)}")
     name = Source(os.fsdecode(path)).place()
     try:
         status = os.stat(path)
@@ -74,10 +76,13 @@ def parse(data: str | bytes, name: str) -> Element:
     """The root element of an XML document.
 
     Parameters: data, the document; name, what to call it in messages.
-    Raises: ModelError, with file and line, for an empty text, one of more than 64 MiB, malformed XML, and any document
-    type declaration, which is refused before anything in it is read: no entity is ever expanded.
+    Raises: InputError where data is no text; ModelError, with file and line, for an empty text, one of more than 64
+    MiB, malformed XML, and any document type declaration, which is refused before anything in it is read: no entity is
+    ever expanded.
     """
     source = Source(name)
+    if not isinstance(data, (str, bytes, bytearray)):
+        raise InputError(f"{source.place()}: expected a text, str or bytes, got {told(data)}")
     # A str is text already: whatever encoding its first line declares is no longer true.
     encoding = "utf-8" if isinstance(data, str) else None
     content = data.encode("utf-8", "surrogatepass") if isinstance(data, str) else bytes(data)

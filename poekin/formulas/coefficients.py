@@ -3,9 +3,11 @@
     A = sin t / t        B = (1 - cos t) / t^2     C = (1 - A) / t^2
     E = (t/2) cot(t/2)   D = (1 - E) / t^2         and B'/t, C'/t, D'/t
 
-A, B and E cancel nowhere, so they need no switch. The others subtract nearly equal numbers when t is small: there they
-are one Taylor polynomial in t^2, below t = 2, where the closed form still loses a factor of 10. `Accuracy`: each is
-within 4 roundings of its value below t = 2; the closed forms err absolutely by 2 u at most (tests/formulas).
+A and E cancel nowhere, nor does B written with the half angle, which has more roundings than the plain form and so
+serves below t = 1 only. The others subtract nearly equal numbers when t is small: there they are one Taylor polynomial
+in t^2, below t = 2, where the closed form still loses a factor of 10.
+Accuracy: what it has to be for the bounds of exp, log and their Jacobians, which tests/groups/test_accuracy.py holds
+on both sides of every switch.
 """
 
 from fractions import Fraction
@@ -56,8 +58,10 @@ def a_of(t):
     return elementary.sin(t) / t if t != 0 else t + 1.0
 
 
-def b_of(t):
-    """B = (1 - cos t) / t^2, as 2 (sin(t/2) / t)^2."""
+def b_of(tt, t):
+    """B = (1 - cos t) / t^2 from t^2 and t, below t = 1 as 2 (sin(t/2) / t)^2."""
+    if t >= 1.0:
+        return (1.0 - elementary.cos(t)) / tt
     half = elementary.sin(0.5 * t) / t if t != 0 else t + 0.5
     return 2.0 * half * half
 

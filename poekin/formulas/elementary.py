@@ -1,11 +1,27 @@
 """The only functions beyond + - x / and comparison that the formulas use.
 
-Each looks up the functions of its argument's kind: `math` for floats; `provide` registers other kinds, and the engine
-maps each function to compiled code. This is why one formula runs in all of them.
+Each looks up the functions of its argument's kind: those of floats, unless `provide` has registered its kind. The
+engine maps each function to compiled code. This is why one formula runs in all kinds.
 """
 
 import math
+from types import SimpleNamespace
 
+
+def _float_sqrt(x):
+    return math.sqrt(x) if x >= 0 else math.nan
+
+
+def _float_sin(x):
+    return math.sin(x) if math.isfinite(x) else math.nan
+
+
+def _float_cos(x):
+    return math.cos(x) if math.isfinite(x) else math.nan
+
+
+# `math`, but NaN where it raises: compiled code gives that too
+_FLOATS = (SimpleNamespace(sqrt=_float_sqrt, sin=_float_sin, cos=_float_cos, atan2=math.atan2), True)
 _FUNCTIONS = {}
 
 
@@ -18,7 +34,7 @@ def provide(kind, functions, series=True):
 
 
 def _functions(x):
-    return _FUNCTIONS.get(type(x), (math, True))[0]
+    return _FUNCTIONS.get(type(x), _FLOATS)[0]
 
 
 def sqrt(x):
@@ -43,4 +59,4 @@ def atan2(y, x):
 
 def below(x, limit):
     """Whether x is so small, x < limit, that a closed form would cancel; for exact numbers only x = 0 is."""
-    return x < limit if _FUNCTIONS.get(type(x), (math, True))[1] else x == 0
+    return x < limit if _FUNCTIONS.get(type(x), _FLOATS)[1] else x == 0

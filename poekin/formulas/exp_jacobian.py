@@ -3,6 +3,8 @@
     J(w) = I + B [w] + C [w]^2            J(w)^-1 = I - [w]/2 + D [w]^2
 
 On SE(3) both diagonal 3x3 blocks are J(w) and the lower left one is its dual part: J(w + eps v) = J + eps Q.
+Accuracy: J(w) within 1e-15 and its dual part within 1e-15 |v|, Frobenius, for |w| <= 10; the inverses for |w| <= pi
+(tests/groups/test_accuracy.py).
 Source: Park 1994, Lemma 5 (J is the integral of exp [w] s over s in 0..1); the dual parts are derived from it.
 """
 
@@ -16,7 +18,7 @@ def left(w):
     """J(w), row by row: d exp[w] = [J(w) dw] exp[w]."""
     tt = dot(w, w)
     t = elementary.sqrt(tt)
-    return rotation(w, b_of(t), c_of(tt, a_of(t)))
+    return rotation(w, b_of(tt, t), c_of(tt, a_of(t)))
 
 
 def left_inverse(w):
@@ -42,7 +44,7 @@ def left_dual(w, v):
     """Q(w, v), the lower left block of the left Jacobian on SE(3), row by row."""
     tt = dot(w, w)
     t = elementary.sqrt(tt)
-    a, b = a_of(t), b_of(t)
+    a, b = a_of(t), b_of(tt, t)
     c = c_of(tt, a)
     return _dual(w, v, b, c, b_slope(tt, a, b), c_slope(tt, b, c))
 
@@ -52,4 +54,4 @@ def left_inverse_dual(w, v):
     tt = dot(w, w)
     t = elementary.sqrt(tt)
     e = e_of(t)
-    return _dual(w, v, -0.5, d_of(tt, e), 0.0, d_slope(tt, b_of(t), e))
+    return _dual(w, v, -0.5, d_of(tt, e), 0.0, d_slope(tt, b_of(tt, t), e))

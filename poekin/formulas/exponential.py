@@ -1,5 +1,7 @@
 """exp on SO(3) and SE(3), and Lemma 2's e^{Aq} of a joint: one body, other coefficients.
 
+Accuracy: with u = 2^-53 and theta = |w| <= 10 the rotation is within 3 u (1 + sqrt(2) theta) in the Frobenius norm,
+the translation p within 3 u (|p| + |v| + theta |dp/dw|) (tests/groups/test_accuracy.py). |w| beyond 1e154 overflows.
 Source: Park 1994, Lemmas 1 and 2.
 """
 
@@ -31,8 +33,9 @@ def displacement(a, along, b, across, c, beyond):
 
 def so3(w):
     """exp [w] = I + A [w] + B [w]^2 of a rotation vector w (rad)."""
-    t = elementary.sqrt(dot(w, w))
-    return rotation(w, a_of(t), b_of(t))
+    tt = dot(w, w)
+    t = elementary.sqrt(tt)
+    return rotation(w, a_of(t), b_of(tt, t))
 
 
 def se3(w, v):
@@ -43,7 +46,7 @@ def se3(w, v):
     """
     tt = dot(w, w)
     t = elementary.sqrt(tt)
-    a, b = a_of(t), b_of(t)
+    a, b = a_of(t), b_of(tt, t)
     c = c_of(tt, a)
     across = cross(w, v)
     if tt < 1.0:

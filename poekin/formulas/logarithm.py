@@ -2,10 +2,12 @@
 
 No acos and no division by sin theta: theta comes from the quaternion of R's polar projection, so it is as exact at pi
 as anywhere, and a defect d of R's orthonormality enters as d^2.
+Accuracy: with u = 2^-53 and k = (theta/2)/sin(theta/2), w is within 3 u (1 + 1.22 k min(1, 1/theta)) of its length and
+v within 3 u (|v| + k |p| + theta |dv/dw|) of the logarithm of R's polar projection (tests/groups/test_accuracy.py).
 Source: Park 1994, Lemmas 3 and 4 and Remark 1; the quaternion replaces the printed acos (NaN near 0, useless near pi).
 """
 
-from ..algebra import cross, dot, scale, translation, twist
+from ..algebra import add, cross, dot, scale, translation, twist
 from . import elementary
 from .coefficients import d_of
 from .exponential import displacement
@@ -15,29 +17,17 @@ _TAU = 6.283185307179586
 _NAN = float("nan")
 
 
-def _power_step(R, k):
-    """The k-th column of the symmetric 4x4 matrix that equals 4 q q^T for a rotation, multiplied once by the matrix."""
-    ww, xx, yy, zz = (
-        1.0 + R[0] + R[4] + R[8],
-        1.0 + R[0] - R[4] - R[8],
-        1.0 - R[0] + R[4] - R[8],
-        1.0 - R[0] - R[4] + R[8],
-    )
-    wx, wy, wz = R[7] - R[5], R[2] - R[6], R[3] - R[1]
-    xy, yz, zx = R[1] + R[3], R[5] + R[7], R[6] + R[2]
-    if k == 0:
-        w, x, y, z = ww, wx, wy, wz
-    elif k == 1:
-        w, x, y, z = wx, xx, xy, zx
-    elif k == 2:
-        w, x, y, z = wy, xy, yy, yz
-    else:
-        w, x, y, z = wz, zx, yz, zz
+def _power_step(pp, px, py, pz, xx, yy, zz, xy, yz, zx):
+    """The first column of a symmetric 4x4 matrix, multiplied once by the matrix and divided by its pivot pp.
+
+    The pivot's own share is the column itself, so the digits that it has are kept.
+    """
+    x, y, z = px / pp, py / pp, pz / pp
     return (
-        ww * w + wx * x + wy * y + wz * z,
-        wx * w + xx * x + xy * y + zx * z,
-        wy * w + xy * x + yy * y + yz * z,
-        wz * w + zx * x + yz * y + zz * z,
+        pp + (px * x + py * y + pz * z),
+        px + (xx * x + xy * y + zx * z),
+        py + (xy * x + yy * y + yz * z),
+        pz + (zx * x + yz * y + zz * z),
     )
 
 
@@ -48,14 +38,17 @@ def quaternion(R):
     (theta = pi) the component of largest magnitude is positive; this settles the sign that Remark 1 leaves open.
     """
     trace = R[0] + R[4] + R[8]
-    k, largest = 0, trace
-    if R[0] > largest:
-        k, largest = 1, R[0]
-    if R[4] > largest:
-        k, largest = 2, R[4]
-    if R[8] > largest:
-        k, largest = 3, R[8]
-    w, x, y, z = _power_step(R, k)
+    ww, xx, yy, zz = 1.0 + trace, 1.0 + R[0] - R[4] - R[8], 1.0 - R[0] + R[4] - R[8], 1.0 - R[0] - R[4] + R[8]
+    wx, wy, wz = R[7] - R[5], R[2] - R[6], R[3] - R[1]
+    xy, yz, zx = R[1] + R[3], R[5] + R[7], R[6] + R[2]
+    if trace >= R[0] and trace >= R[4] and trace >= R[8]:
+        w, x, y, z = _power_step(ww, wx, wy, wz, xx, yy, zz, xy, yz, zx)
+    elif R[0] >= R[4] and R[0] >= R[8]:
+        x, w, y, z = _power_step(xx, wx, xy, zx, ww, yy, zz, wy, yz, wz)
+    elif R[4] >= R[8]:
+        y, x, w, z = _power_step(yy, xy, wy, yz, xx, ww, zz, wx, wz, zx)
+    else:
+        z, x, y, w = _power_step(zz, zx, yz, wz, xx, yy, ww, xy, wy, wx)
     return (-w, -x, -y, -z) if w < 0 else (w, x, y, z)
 
 
@@ -93,7 +86,7 @@ def se3(T):
 
 
 def _near(q_v, stretch, w_near):
-    """(w, phi, free): the logarithm w = phi n of the rotation that is closest to w_near, phi = theta + 2 pi k.
+    """(w, phi, turned, free): the logarithm w = phi n that is closest to w_near, phi = theta + turned, turned = 2 pi k.
 
     A rotation that is the identity to rounding has logarithms of 2 pi k about any axis: then n is that of w_near and
     `free` is true.
@@ -104,13 +97,13 @@ def _near(q_v, stretch, w_near):
     turns = reach / _TAU + 0.5
     turns = turns - turns % 1.0
     if turns > 0 and t < 1e-15 * reach:
-        return scale(turns * _TAU / reach, w_near), turns * _TAU, True
-    if reach + t < 3.0 or t < 1e-300:  # less than half a turn apart on any line, or no line to speak of
-        return w, t, False
-    n = scale(1.0 / t, w)
+        return scale(turns * _TAU / reach, w_near), turns * _TAU, turns * _TAU, True
+    if reach + t < 3.0 or (turns == 0 and t < 1e-300):  # less than half a turn apart on any line, or no line
+        return w, t, 0.0, False
+    n = (w[0] / t, w[1] / t, w[2] / t)
     k = (dot(n, w_near) - t) / _TAU + 0.5
-    phi = t + (k - k % 1.0) * _TAU
-    return scale(phi, n), phi, False
+    turned = (k - k % 1.0) * _TAU
+    return scale(t + turned, n), t + turned, turned, False
 
 
 def so3_near(R, w_near):
@@ -119,20 +112,23 @@ def so3_near(R, w_near):
     return _near(q_v, stretch, w_near)[0]
 
 
-def se3_near(T, w_near):
+def se3_near(T, w_near, v_near):
     """Of all twists (w; v) with exp = T the one whose w is closest to w_near.
 
-    v is NaN where there is none: |w| = 2 pi k, k != 0, and p not along w.
+    Where |w| = 2 pi k, k != 0, a logarithm exists only if p is along w, to the rounding of exp at (w_near; v_near);
+    then the part of v across w is free, and v_near's is taken. v is NaN where there is none.
     """
     q_v, stretch, e = _angle(T)
-    w, phi, free = _near(q_v, stretch, w_near)
+    w, phi, turned, free = _near(q_v, stretch, w_near)
     p = translation(T)
+    if turned == 0:
+        return twist(w, _linear(w, p, dot(w, w), e))
+    n = (w[0] / phi, w[1] / phi, w[2] / phi)
+    along, p_across = scale(dot(n, p), n), cross(cross(n, p), n)
     if free:
-        off = cross(w, p)
-        along = dot(off, off) <= 1e-28 * (phi * phi) * dot(p, p)
-        return twist(w, p if along else scale(_NAN, p))
-    t = stretch * elementary.sqrt(dot(q_v, q_v))
-    if t != phi:
-        # (phi/2) cot(phi/2): the cotangent is that of theta/2, which has lost no digit
-        e = e / t * phi
-    return twist(w, _linear(w, p, phi * phi, e))
+        off, size, push = dot(p_across, p_across), dot(p, p), phi * phi * dot(v_near, v_near)
+        v_across = cross(cross(n, v_near), n)
+        return twist(w, add(along, v_across if off <= 1e-30 * (1.0 + size + push) else scale(_NAN, p)))
+    # (phi/2) cot(phi/2): the cotangent is that of theta/2, which has lost no digit; e p_across stays apart, for near
+    # a whole turn it is large
+    return twist(w, displacement(1.0, along, e / (phi - turned) * phi, p_across, -0.5, cross(w, p)))

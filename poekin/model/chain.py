@@ -15,7 +15,7 @@ from ..groups.arrays import Array
 from . import evaluation, screw
 from .coordinates import coordinates
 from .local import LocalForm, kernel_table, local_form
-from .parts import bounds, coupling_matrix, distinct_names, finite, one_pose
+from .parts import bounds, coupling_matrix, distinct_names, finite, frame_name, one_pose, ordered_names, read_only
 
 
 class ScrewForm(NamedTuple):
@@ -34,12 +34,14 @@ class Chain:
     home (4, 4): M, the pose of the tip at x = 0, m.
     joint_names, q_names: of the n joints and the m coordinates.
     limits (m, 2): lower and upper bound of each coordinate (rad or m); infinite means unlimited.
-    coupling (n, m), offset (n,): C and c; without them every joint is its own coordinate.
+    coupling (n, m), offset (n,): C and c; without them every joint is its own coordinate and gives it its name.
     base, tip: names of the two frames.
 
     Frozen: the arrays are read-only. Equal chains have equal numbers and names; hashable; pickles as its data.
-    Revolute, prismatic and helical joints differ only in their screws. A chain without joints is legal.
-    Raises: ScrewError, PoseError, ShapeError, InputError. Accuracy: the data are kept as given, to the last digit.
+    Revolute, prismatic and helical joints differ only in their screws; a pitch below 4e-15 max(1 m, |v|) per rad is the
+    rounding of a revolute one. A chain without joints is legal. Not made to be subclassed.
+    Raises: ScrewError, PoseError, ShapeError, InputError. Accuracy: the data are kept to the last digit, but for what
+    is made exact (unit length within 1e-9, the rotation of M within 1e-5).
     Source: Park 1994, eqs. (1) and (2).
     """
 
@@ -76,7 +78,7 @@ class Chain:
         base: str = "base",
         tip: str = "tool",
     ):
-        A = screw.checked(screws, tuple(joint_names or ()))
+        A = screw.checked(screws, ordered_names(joint_names, "joint_names"))
         n = len(A)
         joints = distinct_names(joint_names, n, "joint_names", "joint")
         C = None if coupling is None else coupling_matrix(coupling, n)
@@ -84,7 +86,7 @@ class Chain:
         c = np.zeros(n) if offset is None else finite(offset, "offset")
         if c.shape != (n,):
             raise ShapeError(f"offset: expected shape ({n},), one number a joint, got {c.shape}")
-        names = distinct_names(joints if q_names is None and m == n else q_names, m, "q_names", "q")
+        names = distinct_names(joints if q_names is None and C is None else q_names, m, "q_names", "q")
         M = one_pose(home)
         form = local_form(A, M)
         table = kernel_table(form, C, c)
@@ -96,8 +98,8 @@ class Chain:
             "limits": bounds(limits, names),
             "_coupling": C,
             "offset": c,
-            "base": str(base),
-            "tip": str(tip),
+            "base": frame_name(base, "base"),
+            "tip": frame_name(tip, "tip"),
             "kinds": tuple(_kind(r, s) for r, s in zip(form.rotates, form.slides, strict=True)),
             "local": form,
             "reach": max(1.0, float(np.linalg.norm(form.frames[:, :3, 3], axis=1).sum() + (form.rotates == 0).sum())),
@@ -106,12 +108,10 @@ class Chain:
             "_one": (m,) if table.shape[1] == chain_kernels.OFFSET else None,
             "_jacobian_shape": (6, m),
         }
-        for name, array in (*data.items(), *vars(form).items()):
-            # The kernels' own table stays writable: Numba takes half a microsecond longer over a read-only array.
-            if isinstance(array, np.ndarray) and name != "_table":
-                array.flags.writeable = False
         for name, value in data.items():
-            object.__setattr__(self, name, value)
+            # The kernels' own table stays writable: Numba takes half a microsecond longer over a read-only array.
+            frozen = isinstance(value, np.ndarray) and name != "_table"
+            object.__setattr__(self, name, read_only(value) if frozen else value)
 
     fk = evaluation.fk
     jacobian = evaluation.jacobian
@@ -128,8 +128,7 @@ class Chain:
     def coupling(self) -> Array:
         """C (n, m) of x = C q + c: made anew at each call where every joint is its own coordinate."""
         C = np.eye(self.dof) if self._coupling is None else self._coupling
-        C.flags.writeable = False
-        return C
+        return read_only(C)
 
     @property
     def space(self) -> ScrewForm:
@@ -145,7 +144,7 @@ class Chain:
         """f' = P f: the same arm seen from another base frame; A' = Ad(P) A, M' = P M.
 
         Parameters: P (4, 4), the pose of the old base in the new one; base, its name. Returns: Chain.
-        Raises: PoseError, ShapeError. Accuracy: within 10 u reach. Source: Park 1994, Section II, f' = P f Q.
+        Raises: PoseError, ShapeError. Accuracy: screws within 10 u reach. Source: Park 1994, Section II, f' = P f Q.
         """
         P = one_pose(P, "P")
         return self._with(screws=self.screws @ se3.adjoint(P).T, home=P @ self.home, base=base or self.base)
@@ -154,7 +153,7 @@ class Chain:
         """f' = f Q: the same arm with another tool frame; A' = A, M' = M Q, so B' = Ad(Q)^-1 B.
 
         Parameters: Q (4, 4), the pose of the new tool in the old one; tip, its name. Returns: Chain.
-        Raises: PoseError, ShapeError. Accuracy: within 10 u reach. Source: Park 1994, Section II, f' = P f Q.
+        Raises: PoseError, ShapeError. Accuracy: screws within 10 u reach. Source: Park 1994, Section II, f' = P f Q.
         """
         return self._with(home=self.home @ one_pose(Q, "Q"), tip=tip or self.tip)
 
@@ -212,9 +211,10 @@ class Chain:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Chain):
             return NotImplemented
-        mine, theirs = self._data(), other._data()
+        theirs = other._data()
         return all(
-            np.array_equal(a, theirs[k]) if isinstance(a, np.ndarray) else a == theirs[k] for k, a in mine.items()
+            type(a) is type(b) and np.array_equal(a, b)
+            for a, b in zip(self._data().values(), theirs.values(), strict=True)
         )
 
     def __hash__(self) -> int:

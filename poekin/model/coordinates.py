@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, ShapeError, UnknownName, closest, shown
+from ..errors import InputError, ShapeError, UnknownName, closest, listed, shown
 from ..groups.arrays import Array, numbers
 
 
@@ -19,7 +19,7 @@ def coordinates(q: Any, names: tuple[str, ...], what: str = "q") -> Array:
     """
     array = _from_dict(q, names, what) if isinstance(q, Mapping) else numbers(q, what)
     if array.ndim == 0 or array.shape[-1] != len(names):
-        expected = ", ".join(map(shown, names)) or "none"
+        expected = listed(names) or "none"
         raise ShapeError(
             f"{what}: expected {len(names)} coordinates on the last axis ({expected}), got shape {array.shape}"
         )
@@ -32,10 +32,10 @@ def _from_dict(q: Mapping, names: tuple[str, ...], what: str) -> Array:
             raise UnknownName(f"{what}: no coordinate {shown(name)}; {closest(name, names)}")
     missing = [name for name in names if name not in q]
     if missing:
-        raise InputError(f"{what}: no value for {', '.join(map(shown, missing))}")
+        raise InputError(f"{what}: no value for {listed(missing)}")
     values = [numbers(q[name], f"{what}[{shown(name)}]") for name in names]
     try:
         return np.stack(np.broadcast_arrays(*values), axis=-1) if values else np.empty(0)
     except ValueError as error:
-        shapes = ", ".join(str(value.shape) for value in values)
+        shapes = ", ".join(list(dict.fromkeys(str(value.shape) for value in values))[:12])
         raise ShapeError(f"{what}: the values' shapes do not broadcast: {shapes}") from error

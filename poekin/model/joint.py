@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ..algebra import cross, dot
-from ..errors import InputError, ModelError, PoseError, ShapeError, shown
-from ..groups.arrays import TOLERANCE, shaped
+from ..errors import InputError, ModelError, shown, told
+from . import screw
+from .parts import LONGEST, one_pose, read_only
 
 MOVING = ("revolute", "continuous", "prismatic", "helical")
 FREE = ("floating", "planar")
@@ -18,9 +18,6 @@ KINDS = (*MOVING, "fixed", *FREE)
 
 # A vector this close to unit length stays as it is, so that a joint made from a joint's own axis equals it.
 UNIT = 1e-15
-# A rotation that misses orthonormality by more is replaced by the nearest one, as in a chain's home pose.
-EXACT = 4e-15
-LAST_ROW = np.array([0.0, 0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +53,7 @@ class Joint:
     - pitch [m per rad]: of a helical joint.
 
     Frozen, and equal to a joint of the same numbers. Raises: ModelError that names the joint and the field;
-    ShapeError, InputError or PoseError for an origin that is no pose.
+    ShapeError, InputError or PoseError for an origin that is no pose; lengths above 1e100 m are refused.
     Accuracy: the axis is a unit vector to 1e-15, the origin's rotation orthonormal to 4e-15 (the nearest rotation to
     what is given); all else is kept as given.
     """
@@ -79,18 +76,20 @@ class Joint:
             raise type(fault)(f"joint {shown(self.name)}: {fault}") from fault.__cause__
 
     def _check(self) -> None:
-        if self.kind not in KINDS:
-            raise ModelError(f"kind must be one of {', '.join(KINDS)}, got {shown(self.kind)}")
+        if not isinstance(self.kind, str) or self.kind not in KINDS:
+            raise ModelError(f"kind must be one of {', '.join(KINDS)}, got {told(self.kind)}")
         _name(self.parent, "parent")
         _name(self.child, "child")
         _set(self, "origin", _pose(self.origin))
         _set(self, "axis", _direction(self.axis))
         _set(self, "limits", _interval(self.limits) if self.kind != "continuous" else (-math.inf, math.inf))
         _set(self, "pitch", _finite((self.pitch,), 1, "pitch")[0])
+        if abs(self.pitch) > LONGEST:
+            raise ModelError(f"pitch: expected at most {LONGEST:g} m per rad, got {self.pitch:g}")
         if self.pitch and self.kind != "helical":
             raise ModelError(f"only a helical joint has a pitch, and this one is {self.kind}")
         if self.mimic is not None and not isinstance(self.mimic, Mimic):
-            raise ModelError(f"mimic must be a Mimic or None, got {shown(self.mimic)}")
+            raise ModelError(f"mimic must be a Mimic or None, got {told(self.mimic)}")
         if self.mimic is not None and self.kind in FREE:
             raise ModelError(f"a {self.kind} joint has no single value and cannot mimic another joint")
 
@@ -127,29 +126,25 @@ def _set(self: object, field: str, value: object) -> None:
 
 def _name(value: object, what: str) -> None:
     if not isinstance(value, str) or not value:
-        raise ModelError(f"{what}: a name must be a string that is not empty, got {shown(repr(value))}")
+        raise ModelError(f"{what}: a name must be a string that is not empty, got {told(value)}")
 
 
 def _finite(values: Any, count: int, what: str) -> tuple[float, ...]:
     try:
         numbers = tuple(map(float, values))
-    except (TypeError, ValueError) as fault:
-        raise ModelError(f"{what}: expected {count} finite number(s), got {shown(values)}") from fault
+    except (TypeError, ValueError, OverflowError) as fault:
+        raise ModelError(f"{what}: expected {count} finite number(s), got {told(values)}") from fault
     if len(numbers) != count or not all(map(math.isfinite, numbers)):
-        raise ModelError(f"{what}: expected {count} finite number(s), got {shown(values)}")
+        raise ModelError(f"{what}: expected {count} finite number(s), got {told(values)}")
     return numbers
 
 
 def _direction(axis: Any) -> tuple[float, ...]:
     vector = _finite(axis, 3, "axis")
     if not any(vector):
-        raise ModelError(f"axis must not be zero, got {shown(vector)}")
+        raise ModelError(f"axis must not be zero, got {told(vector)}")
     if abs(math.hypot(*vector) - 1.0) > UNIT:
-        # Scaled first: a tiny or huge axis must neither underflow nor overflow.
-        largest = max(map(abs, vector))
-        vector = tuple(v / largest for v in vector)
-        length = math.hypot(*vector)
-        vector = tuple(v / length for v in vector)
+        vector = screw.prismatic(vector)[3:].tolist()
     x, y, z = vector
     return x + 0.0, y + 0.0, z + 0.0
 
@@ -157,38 +152,12 @@ def _direction(axis: Any) -> tuple[float, ...]:
 def _interval(limits: Any) -> tuple[float, float]:
     try:
         lower, upper = map(float, limits)
-    except (TypeError, ValueError) as fault:
-        raise ModelError(f"limits must be two numbers, lower and upper, got {shown(limits)}") from fault
+    except (TypeError, ValueError, OverflowError) as fault:
+        raise ModelError(f"limits must be two numbers, lower and upper, got {told(limits)}") from fault
     if not lower <= upper or lower == math.inf or upper == -math.inf:
         raise ModelError(f"limits must be lower <= upper, got lower = {lower!r}, upper = {upper!r}")
     return lower, upper
 
 
 def _pose(origin: Any) -> np.ndarray:
-    # The same test as for arrays of poses, but a robot is read without waiting for compiled code.
-    T = np.eye(4) if origin is None else shaped(origin, (4, 4), "origin").copy()
-    if T.ndim != 2:
-        raise ShapeError(f"origin: expected shape (4, 4), got {T.shape}")
-    *rows, last = T.tolist()
-    x, y, z = rows
-    for number, row in enumerate(rows):
-        if not all(map(math.isfinite, row)):
-            raise PoseError(f"origin must be finite, row {number} is {row}")
-    if not max(abs(last[0]), abs(last[1]), abs(last[2]), abs(last[3] - 1.0)) <= TOLERANCE:
-        raise PoseError(f"origin is no pose: its last row is {last}, expected [0, 0, 0, 1]")
-    lengths = (abs(dot(x, x) - 1.0), abs(dot(y, y) - 1.0), abs(dot(z, z) - 1.0))
-    defect = max(*lengths, abs(dot(x, y)), abs(dot(y, z)), abs(dot(z, x)))
-    if not defect <= TOLERANCE:
-        raise PoseError(
-            f"origin is no pose: its rotation misses orthonormality, max abs(R R^T - I) = {defect:.3g}, accepted up to"
-            f" {TOLERANCE:g}"
-        )
-    if dot(cross(x, y), z) < 0:
-        raise PoseError("origin is no pose: its rotation is a reflection")
-    if defect > EXACT:
-        U, _, V = np.linalg.svd(T[:3, :3])
-        T[:3, :3] = U @ V
-    T[3] = LAST_ROW
-    T += 0.0  # no negative zeros: equal origins have equal bytes
-    T.flags.writeable = False
-    return T
+    return read_only(np.eye(4) if origin is None else one_pose(origin, "origin"))

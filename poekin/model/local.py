@@ -16,6 +16,7 @@ import numpy as np
 from ..engine import chain_kernels
 from ..groups.arrays import Array
 from . import screw
+from .parts import read_only
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +50,7 @@ def local_form(screws: Array, home: Array) -> LocalForm:
         R, origin = R @ frames[i, :3, :3], there
     frames[n, :3, :3] = R.T @ home[:3, :3]
     frames[n, :3, 3] = R.T @ (home[:3, 3] - origin)
-    return LocalForm(frames, rotates, slides)
+    return LocalForm(read_only(frames), read_only(rotates), read_only(slides))
 
 
 def _turned_least(z: Array) -> Array:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..algebra import IDENTITY, adjoint, compose, inverse
-from ..errors import InputError, ModelError, UnknownName, closest, shown
+from ..errors import InputError, ModelError, ShapeError, UnknownName, closest, listed, shown, told
 from ..groups.arrays import poses as pose_arrays
 from .chain import Chain
 from .coordinates import coordinates
@@ -22,6 +22,8 @@ from .tree import Tree, path, tree_of
 
 # The twelve numbers of a pose (R, p), as algebra.py orders them, out of a flattened 4x4 matrix.
 TWELVE = [0, 1, 2, 4, 5, 6, 8, 9, 10, 3, 7, 11]
+# Entries of the largest coupling matrix that is made, half a gigabyte.
+LARGEST = 64_000_000
 
 
 @dataclass(init=False, frozen=True, slots=True, eq=False, repr=False)
@@ -60,7 +62,10 @@ class Robot:
     def __init__(
         self, name: str, links: Iterable[str], joints: Iterable[Joint], source: Source | str | None = None
     ) -> None:
-        torn = _build(self, name, tuple(links), tuple(joints), Source(source) if isinstance(source, str) else source)
+        read_from = Source(source) if isinstance(source, str) else source
+        if read_from is not None and not isinstance(read_from, Source):
+            raise ModelError(f"robot {shown(name)}: source must be a Source, a text or None, got {told(source)}")
+        torn = _build(self, name, _items(links, "links", name), _items(joints, "joints", name), read_from)
         warn_of_torn_limits(self._coupling, torn, self.joints, _source(self))
 
     @property
@@ -86,14 +91,15 @@ class Robot:
 
         Parameters: base, by default the root; tip, by default the only leaf.
         Raises: UnknownName with the closest names for an unknown link; InputError that lists the leaves when tip is
-        left out and there are several; ModelError when a floating or planar joint is on the way.
+        left out and there are several, and for a coupled chain whose matrix C would have more than 64 million
+        entries; ModelError when a floating or planar joint is on the way.
         Accuracy: rounding of the product of the origins, about 1e-16 of the reach per joint.
         """
         base = self.root if base is None else base
         if tip is None:
             if len(self.leaves) != 1:
-                listed = ", ".join(map(shown, self.leaves[:20])) + (", ..." if len(self.leaves) > 20 else "")
-                raise InputError(f"{_source(self).place()}: tip must be given, there are several leaves: {listed}")
+                leaves = listed(self.leaves, 20)
+                raise InputError(f"{_source(self).place()}: tip must be given, there are several leaves: {leaves}")
             tip = self.leaves[0]
         way = path(self._tree, _link(self, base, "base"), _link(self, tip, "tip"))
         screws, moving = [], []
@@ -126,6 +132,12 @@ class Robot:
         q_names = tuple(whole.q_names[k] for k in used)
         C = c = None
         if names != q_names:
+            if len(names) * len(q_names) > LARGEST:
+                raise InputError(
+                    f"{_source(self).place()}: the chain from {shown(base)} to {shown(tip)} has joints that follow"
+                    f" others, and its coupling matrix of {len(names)} x {len(q_names)} would be too large: at most"
+                    f" {LARGEST} entries are made (Robot.fk needs none)"
+                )
             column = {k: place for place, k in enumerate(used)}
             C, c = np.zeros((len(moving), len(used))), whole.shift[moving]
             for row, (k, ratio) in enumerate(zip(followed.tolist(), whole.ratio[moving].tolist(), strict=True)):
@@ -143,13 +155,14 @@ class Robot:
         floating or planar joint to its pose (..., 4, 4), which then stands at origin T; one that is left out is at
         identity.
         Returns: a dict from link to (..., 4, 4), in the order of `links`, the leading axes those of q and of poses.
-        Raises: ShapeError, InputError, UnknownName as `Chain.fk` for q; UnknownName or InputError for a name in poses
+        Raises: ShapeError, InputError, UnknownName as `Chain.fk` for q; ShapeError where the leading axes of q and
+        poses do not broadcast; InputError where poses is no dict; UnknownName or InputError for a name in poses
         that is no floating or planar joint, PoseError or ShapeError for a matrix that is no pose.
         Accuracy: rounding of the product of poses from the root, about 1e-16 of the distance per joint.
         """
         values = coordinates(q, self.q_names, f"robot {shown(self.name)}")
         free = _free_poses(self, {} if poses is None else poses)
-        batch = np.broadcast_shapes(values.shape[:-1], *(T.shape[:-2] for T in free.values()))
+        batch = _common_batch(self, values.shape[:-1], {joint: T.shape[:-2] for joint, T in free.items()})
         count = math.prod(batch)  # said, not inferred: -1 means nothing where an axis is empty
         flat = np.broadcast_to(values, (*batch, self.dof)).reshape(count, self.dof)
         free = {joint: np.broadcast_to(T, (*batch, 4, 4)).reshape(count, 4, 4) for joint, T in free.items()}
@@ -188,7 +201,7 @@ def _build(
     where = source or Source(f"robot {shown(name)}")
     for joint in joints:
         if not isinstance(joint, Joint):
-            raise ModelError(f"{where.place()}: joints must be Joint objects, got {shown(repr(joint))}")
+            raise ModelError(f"{where.place()}: joints must be Joint objects, got {told(joint)}")
     tree = tree_of(links, joints, where)
     coupling = coupling_of(joints, where)
     bounds = np.array([joint.limits for joint in joints]).reshape(-1, 2)
@@ -211,6 +224,13 @@ def _build(
     return torn
 
 
+def _items(values: Any, what: str, name: str) -> tuple[Any, ...]:
+    """Links or joints as a tuple; a text is not taken for its letters, nor a set for an order."""
+    if isinstance(values, (str, bytes, set, frozenset)) or not isinstance(values, Iterable):
+        raise ModelError(f"robot {shown(name)}: {what} must be a list, got {told(values)}")
+    return tuple(values)
+
+
 def _source(robot: Robot) -> Source:
     return robot.source or Source(f"robot {shown(robot.name)}")
 
@@ -223,6 +243,9 @@ def _link(robot: Robot, name: str, role: str) -> int:
 
 def _free_poses(robot: Robot, poses: Mapping[str, Any]) -> dict[int, np.ndarray]:
     """The poses of floating and planar joints, checked, by the number of the joint."""
+    if not isinstance(poses, Mapping):
+        where = _source(robot).place()
+        raise InputError(f"{where}: poses must be a dict from joint to pose (..., 4, 4), got {told(poses)}")
     free = {joint.name: number for number, joint in enumerate(robot.joints) if joint.kind in FREE} if poses else {}
     checked = {}
     for name, value in poses.items():
@@ -233,3 +256,18 @@ def _free_poses(robot: Robot, poses: Mapping[str, Any]) -> dict[int, np.ndarray]
             )
         checked[free[name]] = pose_arrays(value, f"pose of joint {shown(name)}")
     return checked
+
+
+def _common_batch(robot: Robot, q: tuple[int, ...], poses: Mapping[int, tuple[int, ...]]) -> tuple[int, ...]:
+    """The leading axes that those of q and of the poses broadcast to."""
+    batch = q
+    for joint, shape in poses.items():
+        try:
+            batch = np.broadcast_shapes(batch, shape)
+        except ValueError as fault:
+            named = shown(robot.joints[joint].name)
+            raise ShapeError(
+                f"{_source(robot).place()}: the leading axes of q and poses do not broadcast: the pose of joint {named}"
+                f" has {shape}, and what comes before it {batch}"
+            ) from fault
+    return batch

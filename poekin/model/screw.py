@@ -14,12 +14,13 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, ScrewError, ShapeError
 from ..groups.arrays import Array, numbers, shaped
+from .parts import LONGEST
 
 __all__ = ["Axis", "axis_of", "checked", "helical", "pitch_of", "prismatic", "revolute"]
 
 UNIT = 1e-9  # how far from 1 the length of a screw's direction may be
 _EXACT = 4.5e-16  # two units in the last place of 1
-_NO_PITCH = 1e-13  # m per rad, relative to max(1 m, |v|): the rounding of a moved revolute screw
+_NO_PITCH = 4e-15  # m per rad, relative to max(1 m, |v|): the rounding of a moved revolute screw
 
 
 class Axis(NamedTuple):
@@ -112,12 +113,12 @@ def checked(screws: ArrayLike, names: tuple[str, ...] = ()) -> Array:
         raise ShapeError(f"screws: expected shape (n, 6), one row (omega; v) a joint, got {S.shape}")
     for i, row in enumerate(S):
         where = f"screws[{i}]" + (f" (joint {names[i]!r})" if i < len(names) else "")
-        if not np.isfinite(row).all():
-            raise ScrewError(f"{where}: expected finite numbers, got {row.tolist()}")
+        if not (np.abs(row) <= LONGEST).all():
+            raise ScrewError(f"{where}: expected finite numbers of at most {LONGEST:g}, got {row.tolist()}")
         part, what = (row[:3], "omega") if row[:3].any() else (row[3:], "v, where omega = 0,")
         length = float(np.linalg.norm(part))
         if abs(length - 1.0) > UNIT:
             raise ScrewError(f"{where}: {what} must have length 1 to {UNIT:g}, got {length:.12g} in {row.tolist()}")
         if abs(length - 1.0) > _EXACT:
-            part /= length
+            row /= length  # all six, which leaves the line where it is
     return S

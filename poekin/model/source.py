@@ -14,12 +14,15 @@ class Source:
     """Where a robot was read from.
 
     Fields: name, a file or whatever else the text came from; link_lines and joint_lines, the line of each link and
-    joint in the robot's order, empty where there are no lines to speak of.
+    joint in the robot's order, empty where there are no lines to speak of; origin, where the text can be read again
+    whatever the working directory is by then: the absolute path of a file, the name of an arm that comes with poekin,
+    or "" where it cannot.
     """
 
     name: str
     link_lines: tuple[int, ...] = ()
     joint_lines: tuple[int, ...] = ()
+    origin: str = ""
 
     def __str__(self) -> str:
         return self.name

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ..errors import ModelError, closest, shown
+from ..errors import ModelError, closest, shown, told
 from .joint import Joint
 from .source import Source
 
@@ -98,7 +98,7 @@ def _unique(names: Sequence[str], what: str, place) -> dict[str, int]:
     numbers: dict[str, int] = {}
     for index, name in enumerate(names):
         if not isinstance(name, str) or not name:
-            raise ModelError(f"{place(index)}: a {what} needs a name that is not empty, got {shown(repr(name))}")
+            raise ModelError(f"{place(index)}: a {what} needs a name that is not empty, got {told(name)}")
         if name in numbers:
             first = place(numbers[name])
             raise ModelError(f"{place(index)}: the {what} name {shown(name)} is used twice (first: {first})")

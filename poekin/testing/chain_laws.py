@@ -14,12 +14,11 @@ from typing import Any
 
 import numpy as np
 
+from ..model.evaluation import FRAME_NAMES
 from . import differences, exact
 from .attainable import UNIT
 from .laws import Law, held
 from .measures import Pairs, size
-
-FRAMES = ("space", "body", "hybrid")
 
 
 def displacements(chain: Any, q: np.ndarray) -> np.ndarray:
@@ -71,7 +70,7 @@ def jacobian_is_the_derivative(chain: Any, q: np.ndarray, dq: np.ndarray) -> flo
     rate = float(np.abs(chain.local.rotates * (chain.coupling @ dq)).sum())
     angular, linear = (30 * max(rate, 1.0) * b for b in budget(chain, q))
     pairs = []
-    for frame in FRAMES:
+    for frame in FRAME_NAMES:
         error = chain.jacobian(q, frame) @ dq - differences.velocity(chain.fk, q, dq, frame, rate)
         pairs += [(size(error[:3]), angular), (size(error[3:]), linear)]
     return held("jacobian is the derivative", *pairs, q=q, dq=dq)
@@ -111,7 +110,7 @@ def jacobian_in_a_joints_frame_is_space_seen_from_it(chain: Any, q: np.ndarray, 
 def velocity_is_the_jacobian_times_rates(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
     """The V recursion yields J(q) dq, in every frame."""
     pairs = []
-    for frame in (*FRAMES, *range(len(chain.screws))):
+    for frame in (*FRAME_NAMES, *range(len(chain.screws))):
         error = chain.velocity(q, dq, frame) - chain.jacobian(q, frame) @ dq
         pairs += of_twists(chain, q, dq, error, 4.0 if isinstance(frame, int) else 1.0)
     return held("velocity is the jacobian times rates", *pairs, q=q, dq=dq)
@@ -120,7 +119,7 @@ def velocity_is_the_jacobian_times_rates(chain: Any, q: np.ndarray, dq: np.ndarr
 def one_pass_gives_both(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
     """fk_jacobian is fk and jacobian, in every frame."""
     pairs = []
-    for frame in (*FRAMES, *range(len(chain.screws))):
+    for frame in (*FRAME_NAMES, *range(len(chain.screws))):
         T, J = chain.fk_jacobian(q, frame)
         pairs += of_poses(chain, q, T, chain.fk(q))
         pairs += of_twists(chain, q, dq, (J - chain.jacobian(q, frame)) @ dq)
@@ -149,7 +148,7 @@ def batches_are_made_of_single_configurations(chain: Any, batch: np.ndarray) -> 
         (chain.fk, (4, 4)),
         (chain.joint_poses, (n, 4, 4)),
         (lambda q: chain.velocity(q, q, "body"), (6,)),
-        *((lambda q, frame=frame: chain.jacobian(q, frame), (6, m)) for frame in FRAMES),
+        *((lambda q, frame=frame: chain.jacobian(q, frame), (6, m)) for frame in FRAME_NAMES),
     ]
     for function, tail in functions:
         together = function(batch)

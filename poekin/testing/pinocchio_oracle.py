@@ -1,21 +1,28 @@
 """Pinocchio as an oracle: poses and Jacobians of a URDF by code that poekin shares nothing with.
 
-Only the text of the URDF goes in. Pinocchio parses it, the standard library's XML reader finds its `<mimic>` elements,
-and everything is addressed by name, so that neither poekin's reader nor its order of joints can hide an error here.
-This is the one file of poekin that imports Pinocchio.
+Only the text of the URDF goes in. Pinocchio parses it, its `<mimic>` elements are found apart from that, and everything
+is addressed by name, so that neither poekin's reader of robots nor its order of joints can hide an error here. XML is
+decoded, and refused where it is not safe, by `poekin.formats.xml`, which is lxml. This is the one file of poekin that
+imports Pinocchio.
 """
 
 from __future__ import annotations
 
 import functools
-import xml.etree.ElementTree as ElementTree
-from collections.abc import Mapping, Sequence
+import os
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Mapping, Sequence
 from types import ModuleType
 from typing import Any
 
 import numpy as np
+from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
 
 from ..errors import InputError, MissingExtra, ModelError, UnknownName, closest, shown
+from ..formats import xml
+from ..model.evaluation import FRAME_NAMES
 
 # Pinocchio's rows are (v; omega); poekin's are (omega; v).
 ANGULAR_FIRST = [3, 4, 5, 0, 1, 2]
@@ -37,7 +44,9 @@ def pinocchio() -> ModuleType:
 class PinocchioOracle:
     """One URDF in Pinocchio: poses and Jacobians between two links, as functions of named independent coordinates.
 
-    Parameters: text, the URDF itself (str or bytes); no mesh is read, and no file but what the text says is opened.
+    Parameters: text, the URDF itself (str, or bytes in the encoding that it declares); no mesh is read, and no file but
+    what the text says is opened. Pinocchio knows neither encodings nor namespaces: it gets the text decoded, with the
+    elements of the root's namespace under their plain names and those of others left out.
 
     Coordinates are the moving one-degree joints that mimic no other, by name, in rad or m. The model is built with
     mimic=False: x = C q + c, and J_q = J_x C, are applied here (mimic of mimic composes; a mimic of a fixed joint is
@@ -45,21 +54,20 @@ class PinocchioOracle:
     handed to Pinocchio as (cos, sin). Floating and planar joints stay at identity.
 
     Attributes: coordinates (names), slides (set of the coordinates in m), links (names), version (of Pinocchio).
-    Raises: MissingExtra without Pinocchio; ModelError when Pinocchio refuses the text.
+    Raises: MissingExtra without Pinocchio; ModelError for malformed XML, and when Pinocchio refuses the text, with what
+    it says about it, which goes to no other place.
     """
 
     def __init__(self, text: str | bytes):
         pin = pinocchio()
-        content = text.decode() if isinstance(text, bytes) else text
-        try:
-            self.model: Any = pin.buildModelFromXML(content)
-        except (ValueError, RuntimeError) as refusal:
-            raise ModelError(f"Pinocchio refuses this URDF: {shown(refusal, 300)}") from refusal
+        root = _plain(xml.parse(text, "<text>"))
+        content = etree.tostring(root, encoding="unicode")
+        self.model: Any = _built(lambda: pin.buildModelFromXML(content))
         self.data: Any = self.model.createData()
         self.version: str = pin.__version__
         self.links = tuple(f.name for f in self.model.frames if f.type == pin.FrameType.BODY)
         self._simple = {self.model.names[i]: i for i in range(1, self.model.njoints) if self.model.joints[i].nv == 1}
-        self.coordinates, self._coupling, self._offset = _coupling(content, tuple(self._simple))
+        self.coordinates, self._coupling, self._offset = _coupling(root, tuple(self._simple))
         self.slides = {name for name in self.coordinates if "JointModelP" in self._kind(name)}
 
     def _kind(self, joint: str) -> str:
@@ -124,7 +132,7 @@ class PinocchioOracle:
         configurations = self.configurations(q)
         count, m = len(configurations), len(self.coordinates)
         T = np.empty((count, 4, 4))
-        J = {frame: np.zeros((count, 6, m)) for frame in ("space", "body", "hybrid")}
+        J = {frame: np.zeros((count, 6, m)) for frame in FRAME_NAMES}
         velocity = [model.joints[i].idx_v for i in self._simple.values()]
         for k, configuration in enumerate(configurations):
             # Without a degree of freedom Pinocchio's getFrameJacobian ends the process: there is nothing to ask for.
@@ -169,9 +177,53 @@ class PinocchioOracle:
         return self.model.getFrameId(link, pinocchio().FrameType.BODY)
 
 
-def _coupling(text: str, joints: Sequence[str]) -> tuple[tuple[str, ...], np.ndarray, np.ndarray]:
+_stderr = threading.Lock()
+
+
+def _built(build: Callable[[], Any]) -> Any:
+    """What Pinocchio builds. Why it refuses a text it says on the process's own stderr, which is caught meanwhile."""
+    if sys.stderr is not None:
+        sys.stderr.flush()
+    # One at a time: of two that overlap, the second would put the first one's catch in the place of stderr for good.
+    with _stderr, tempfile.TemporaryFile() as said:
+        try:
+            before = os.dup(2)
+        except OSError:  # stderr is closed
+            before = None
+        if before is not None:
+            os.dup2(said.fileno(), 2)
+        try:
+            return build()
+        except (ValueError, RuntimeError, IndexError) as refusal:
+            said.seek(0)
+            lines = said.read().decode(errors="backslashreplace").splitlines()
+            reasons = [line.partition("Error:")[2].strip() for line in lines if line.startswith("Error:")]
+            raise ModelError(f"Pinocchio refuses this URDF: {shown('; '.join(reasons) or refusal, 300)}") from refusal
+        finally:
+            if before is not None:
+                os.dup2(before, 2)
+                os.close(before)
+
+
+def _plain(root: xml.Element) -> xml.Element:
+    """The elements of the root's namespace under their names without it, and no others."""
+    space, bracket, _ = root.tag.rpartition("}")
+
+    def parts(element: xml.Element) -> tuple[str, dict[str, str]]:
+        return element.tag.rpartition("}")[2], {k: v for k, v in element.attrib.items() if not k.startswith("{")}
+
+    plain = etree.Element(*parts(root))
+    copies = {root: plain}
+    for element in root.iterdescendants(f"{space}{bracket}*" if bracket else "{}*"):
+        above = copies.get(element.getparent())
+        if above is not None:  # else it is inside of an element of another namespace
+            copies[element] = etree.SubElement(above, *parts(element))
+    return plain
+
+
+def _coupling(root: xml.Element, joints: Sequence[str]) -> tuple[tuple[str, ...], np.ndarray, np.ndarray]:
     """Independent coordinates, C (n, m) and c (n,): x = C q + c for the moving joints, out of the `<mimic>` tags."""
-    elements = {e.get("name"): e for e in ElementTree.fromstring(text).findall("joint")}
+    elements = {e.get("name"): e for e in root.findall("joint")}
     mimics: dict[str, tuple[str, float, float]] = {}
     for name in joints:
         mimic = elements[name].find("mimic")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import pickle
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from poekin.errors import FileError, InputError, ModelError
 from poekin.formats import urdf
 from poekin.formats.load import load
 from poekin.model.chain import Chain
+from poekin.model.joint import Joint
 from poekin.model.robot import Robot
 from poekin.testing.example_robots import example_robots
 from poekin.testing.pinocchio_oracle import PinocchioOracle
@@ -159,10 +161,92 @@ def test_configurations_ignore_the_limits(oracle):
 def test_a_chain_starts_below_a_joint_that_it_cannot_cross(kind):
     text = URDF.replace('type="revolute"', f'type="{kind}"', 1)
     v = validate(text.replace('<mimic joint="bend" multiplier="-2" offset="0.1"/>', ""), samples=5)
-    (row,) = v.rows
+    below, above = v.rows
     assert v.passed
-    assert (row.base, row.tip, row.joints) == ("c", "tip", 1)
-    assert row.note == f"starts below the {kind} joint 'bend'"
+    assert (below.base, below.tip, below.joints) == ("c", "tip", 1)
+    assert below.note == f"starts below the {kind} joint 'bend'"
+    assert (above.base, above.tip, above.joints) == ("root", "b", 2)
+    assert above.note == f"ends above the {kind} joint 'bend'"
+
+
+def _tree(*joints: tuple[str, str, str]) -> Robot:
+    """Joints (kind, parent, child), named by parent and child."""
+    links = dict.fromkeys(link for _, parent, child in joints for link in (parent, child))
+    return Robot("t", links, [Joint(parent + child, kind, parent, child) for kind, parent, child in joints])
+
+
+def test_each_moving_joint_is_in_a_chain_and_no_chain_above_a_free_joint_is_idle():
+    moving_above = _tree(("revolute", "a", "b"), ("floating", "b", "c"))
+    assert list(routes(moving_above)) == [
+        ("c", "c", "starts below the floating joint 'bc'"), ("a", "b", "ends above the floating joint 'bc'"),
+    ]  # fmt: skip
+    assert [way[:2] for way in routes(_tree(("fixed", "a", "b"), ("floating", "b", "c")))] == [("c", "c")]
+    covered = _tree(("revolute", "a", "b"), ("floating", "b", "c"), ("revolute", "b", "d"))
+    assert [way[:2] for way in routes(covered)] == [("c", "c"), ("a", "d")]
+    nested = _tree(("revolute", "a", "b"), ("floating", "b", "c"), ("prismatic", "c", "d"), ("planar", "d", "e"))
+    assert [way[:2] for way in routes(nested)] == [("e", "e"), ("a", "b"), ("c", "d")]
+    assert [way[2] for way in routes(nested)][2] == (
+        "starts below the floating joint 'bc', ends above the planar joint 'de'"
+    )
+    short_first = _tree(("revolute", "a", "b"), ("floating", "b", "x"), ("revolute", "b", "c"), ("planar", "c", "y"))
+    assert [way[:2] for way in routes(short_first)] == [("x", "x"), ("y", "y"), ("a", "c")]
+
+
+def test_a_chain_without_a_joint_proves_nothing_about_a_robot_that_moves():
+    idle, busy = (ChainErrors("a", "b", n, n, 1.0, 0.0, 0.0, 0.0, 0.0) for n in (0, 1))
+    assert not Validation("r", "", (idle,), BAR, 1, 0, "", moving=1).passed
+    assert Validation("r", "", (idle, busy), BAR, 1, 0, "", moving=1).passed
+    assert Validation("r", "", (idle,), BAR, 1, 0, "", moving=0).passed
+
+
+def test_the_oracle_reads_what_was_read_wherever_the_process_stands_by_then(tmp_path, monkeypatch):
+    other = URDF.replace('xyz="0.1 0.2 0.3"', 'xyz="5 5 5"')
+    for place in ("here", "there", "there/catalogue"):
+        (tmp_path / place).mkdir()
+    (tmp_path / "here" / "r.urdf").write_text(URDF)
+    for shadow in ("there/r.urdf", "there/catalogue/panda.urdf", "there/panda"):
+        (tmp_path / shadow).write_text(other)
+    monkeypatch.chdir(tmp_path / "here")
+    relative, built_in = load("r.urdf"), load("panda")
+    monkeypatch.chdir(tmp_path / "there")
+    assert validate(relative, samples=3).passed
+    assert validate(built_in, samples=3).passed
+    (tmp_path / "there" / "panda").unlink()
+    assert validate("panda", samples=3).passed
+    assert relative.source is not None
+    assert relative.source.name == "r.urdf"
+    assert validate(pickle.loads(pickle.dumps(relative)), samples=3).passed
+
+
+def test_a_robot_out_of_a_text_that_is_called_like_a_file_is_not_read_from_that_file(tmp_path):
+    path = tmp_path / "r.urdf"
+    path.write_text(URDF)
+    with pytest.raises(InputError, match="was not loaded from a file"):
+        validate(urdf.read_text(URDF, str(path)))
+
+
+ENCODED = {
+    "ISO-8859-1": lambda t: ('<?xml version="1.0" encoding="ISO-8859-1"?>' + t).encode("latin-1"),
+    "UTF-16": lambda t: ('<?xml version="1.0" encoding="UTF-16"?>' + t).encode("utf-16"),
+    "UTF-8 with a mark": lambda t: ("\ufeff" + t).encode(),
+    "a namespace": lambda t: t.replace("<robot ", '<robot xmlns="http://x" ').encode(),
+    "a namespace with a prefix": lambda t: (
+        t.replace("</", "</u:").replace("<", "<u:").replace("<u:/u:", "</u:")
+        .replace("<u:robot ", '<u:robot xmlns:u="http://x" ').encode()
+    ),
+    "elements of another namespace": lambda t: (
+        t.replace("</robot>", '<o:joint xmlns:o="http://o" name="turn"><mimic joint="b"/></o:joint></robot>').encode()
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("encode", ENCODED.values(), ids=ENCODED.keys())
+def test_any_encoding_and_namespace_that_xml_allows_is_validated(tmp_path, encode):
+    path = tmp_path / "r.urdf"
+    path.write_bytes(encode(URDF.replace('"bend"', '"b\xe9nd"')))
+    v = validate(path, samples=3)
+    assert v.passed
+    assert (v.rows[0].joints, "b\xe9nd" in v.rows[0].configuration) == (4, True)
 
 
 def test_progress_is_told_before_each_chain():

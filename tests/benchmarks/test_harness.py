@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 
 import pytest
 
@@ -38,6 +39,11 @@ def test_setup_runs_once_and_outside_the_repetitions():
     case = Case("c", lambda: made.append(1), lambda _: None, lambda s, r: 0.0)
     compare(case, Case("d", lambda: None, lambda _: None, lambda s, r: 0.0), pairs=3, slice_s=0.0)
     assert made == [1]
+
+
+def test_time_without_the_processor_does_not_count():
+    waits = Case("waits", lambda: None, lambda _: time.sleep(0.05), lambda s, r: 0.0)
+    assert compare(waits, waits, pairs=2, slice_s=0.01).first.median < 0.04
 
 
 def test_spread_is_median_and_quartiles():

@@ -111,6 +111,31 @@ def test_an_empty_batch_is_a_batch(crane, poekin, tmp_path):
     assert np.load(out).shape == (0, 4, 4)
 
 
+@pytest.mark.parametrize("command", [["fk"], ["jacobian", "--frame", "body"]])
+def test_an_empty_batch_gives_a_header_and_no_line(crane, poekin, tmp_path, command):
+    (tmp_path / "q.csv").write_text("")
+    np.save(tmp_path / "q.npy", np.zeros((0, 2)))
+    for given in ("q.csv", "q.npy"):
+        code, out, err = poekin(*command, crane, "--tip", "hook", "--input", tmp_path / given)
+        assert (code, err, out.count("\n")) == (0, "", 1)
+        assert (
+            poekin(*command, crane, "--tip", "hook", "--input", tmp_path / given, "--output", tmp_path / "o.csv")[0]
+            == 0
+        )
+        assert (tmp_path / "o.csv").read_text() == out
+
+
+def test_the_case_of_a_suffix_does_not_matter(crane, poekin, arm, tmp_path):
+    with open(tmp_path / "Q.NPY", "wb") as stream:
+        np.save(stream, [[0.1, 0.2]])
+    for out in ("T.NPY", "T.CSV", "T.Json"):
+        words = ["--input", tmp_path / "Q.NPY", "--output", tmp_path / out]
+        assert poekin("fk", crane, "--tip", "hook", *words)[0] == 0
+    np.testing.assert_array_equal(np.load(tmp_path / "T.NPY"), arm.fk([[0.1, 0.2]]))
+    assert (tmp_path / "T.CSV").read_text().startswith("T00,T01")
+    assert json.loads((tmp_path / "T.Json").read_text())["T"] == arm.fk([[0.1, 0.2]]).tolist()
+
+
 def test_nan_gives_null_for_that_configuration_only(crane, as_json, tmp_path):
     given = tmp_path / "q.csv"
     given.write_text("nan,0\n0,0\n")
@@ -124,6 +149,8 @@ def test_nan_gives_null_for_that_configuration_only(crane, as_json, tmp_path):
     [
         ("1,2\n3\n", ":2: 2 values expected (turn, slide), got 1"),
         ("1,2\n3,x\n", ":2, column 2: a number expected, got 'x'"),
+        ("1,2\n3,1_0\n", ":2, column 2: a number expected, got '1_0'"),
+        ("1,2\n\u0661,1\n", ":2, column 1: a number expected, got '\u0661'"),
         ("1,x\n", ":1, column 2: a number expected, got 'x'"),
         ("turn,slyde\n1,2\n", ":1: 'slyde' is neither a number nor a coordinate; did you mean 'slide'?"),
         ("turn\n1\n", ":1: the header has to name each of the 2 coordinates once; 'slide' is missing"),
@@ -132,7 +159,7 @@ def test_nan_gives_null_for_that_configuration_only(crane, as_json, tmp_path):
 )
 def test_a_bad_line_is_named_by_file_and_line(crane, refused, tmp_path, content, message):
     given = tmp_path / "q.csv"
-    given.write_text(content)
+    given.write_text(content, encoding="utf-8")
     assert f"'{given}'{message}" in refused("fk", crane, "--tip", "hook", "--input", given)
 
 
@@ -147,6 +174,7 @@ def test_a_header_of_numbers_is_a_header_where_it_is_the_names(tmp_path, as_json
     ("array", "message"),
     [
         (np.zeros((3, 5)), "an array of shape (N, 2) expected, got (3, 5)"),
+        (np.zeros(0), "an array of shape (N, 2) expected, got (0,)"),
         (np.zeros((3, 2), complex), "an array of real numbers expected"),
         (np.array([{}, {}], object), "is no .npy file of numbers"),
     ],
@@ -168,6 +196,8 @@ def test_a_damaged_npy_is_refused(crane, refused, tmp_path, content):
         (["--tip", "hook", "1"], "2 coordinates expected (turn, slide), got 1"),
         (["--tip", "hook"], "2 coordinates expected (turn, slide), got 0; or --input with a file"),
         (["--tip", "hook", "1", "two"], "coordinate 2: a number expected (rad or m), got 'two'"),
+        (["--tip", "hook", "1", "1_0"], "coordinate 2: a number expected (rad or m), got '1_0'"),
+        (["--tip", "hook", "1", "\u0661"], "coordinate 2: a number expected (rad or m), got '\u0661'"),
         (["--tip", "hok", "1", "2"], "did you mean 'hook'?"),
         (["--tip", "hook", "--bse", "a", "1", "2"], "there is no option '--bse'; did you mean '--base'"),
         (["1", "2"], "'hook', 'lamp'"),
@@ -183,9 +213,20 @@ def test_a_bad_command_line_is_one_message(crane, refused, words, message):
 
 def test_the_frame_of_a_jacobian_has_no_default(crane, refused):
     assert "--frame" in refused("jacobian", crane, "--tip", "hook", 0, 0)
-    assert "space, body, hybrid or the number of a joint" in refused(
-        "jacobian", crane, "--tip", "hook", "--frame", "tool", 0, 0
+    for frame in ("tool", "1_0", "\u0661", "9" * 5000):
+        assert "space, body, hybrid or the number of a joint (from 0)" in refused(
+            "jacobian", crane, "--tip", "hook", "--frame", frame, 0, 0
+        )
+
+
+def test_the_frame_of_a_joint_is_named_by_number_and_joint(crane, poekin, refused):
+    out = poekin("jacobian", crane, "--tip", "hook", "--frame", "1", 0, 0)[1]
+    assert out.startswith(
+        "Jacobian of hook relative to root in the frame of joint 1, slide (rows w rad/s, v m/s), at\n"
     )
+    assert "hybrid Jacobian of hook" in poekin("jacobian", crane, "--tip", "hook", "--frame", "hybrid", 0, 0)[1]
+    assert "0 to 2" in refused("jacobian", crane, "--tip", "hook", "--frame", "3", 0, 0)
+    assert "counted from 0" in " ".join(poekin("jacobian", "--help")[1].split())
 
 
 def test_a_directory_or_a_text_that_is_no_text_is_refused(crane, refused, tmp_path):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from poekin.cli.info import tree
+from poekin.cli.info import _screw_rows, tree
 from poekin.formats.load import load
 from poekin.model.joint import Joint
 from poekin.model.robot import Robot
@@ -78,3 +78,18 @@ def test_a_deep_fork_at_every_link_does_not_recurse():
     lines = list(tree(Robot("comb", links[:1] + links[2:], joints)))
     assert len(lines) == 2401
     assert lines[-1] == "  " + "└ js0 (fixed) → s1"
+
+
+def test_screws_of_a_long_chain_ask_for_the_coupling_once():
+    n = 50
+    joints = [Joint(f"j{i}", "revolute", f"l{i}", f"l{i + 1}") for i in range(n)]
+    chain = Robot("line", [f"l{i}" for i in range(n + 1)], joints).chain()
+    asked = []
+
+    class Counted:
+        def __getattr__(self, name):
+            asked.append(name)
+            return getattr(chain, name)
+
+    assert len(list(_screw_rows(Counted()))) == n  # type: ignore[arg-type]
+    assert asked.count("coupling") == 1

@@ -28,6 +28,10 @@ def test_help_is_no_error(poekin, words):
     assert "Usage: poekin" in out
 
 
+def test_no_command_is_help(poekin):
+    assert poekin() == poekin("--help")
+
+
 def test_an_unknown_command_is_one_message(refused):
     assert "fks" in refused("fks")
 
@@ -110,6 +114,27 @@ def test_a_closed_stdout_is_no_error(crane):
     words = f"exec {shlex.join(_command('info', crane))} >&-"
     done = subprocess.run(["sh", "-c", words], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_closed_stderr_changes_neither_result_nor_code(crane):
+    for words, code in ((["info", crane], 0), (["fk", crane, "--tip", "no"], 2), (["validate", crane], 0)):
+        line = f"exec {shlex.join(_command(*words))} 2>&-"
+        done = subprocess.run(["sh", "-c", line], capture_output=True, text=True)
+        assert done.returncode == code
+        assert bool(done.stdout) == (code == 0)
+    line = f"exec {shlex.join(_command('info', 'nowhere.urdf'))} <&- >&- 2>&-"
+    assert subprocess.run(["sh", "-c", line]).returncode == 2
+
+
+def test_configurations_come_from_standard_input(crane):
+    words = _command("fk", crane, "--tip", "hook", "--input", "-")
+    done = subprocess.run(words, input="slide,turn\n0.2,0.1\n", capture_output=True, text=True)
+    assert (done.returncode, done.stderr, len(done.stdout.splitlines())) == (0, "", 2)
+    done = subprocess.run(words, input="0.2,0.1\n0.2,x\n", capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr == "poekin: error: standard input:2, column 2: a number expected, got 'x'\n"
+    done = subprocess.run(["sh", "-c", f"exec {shlex.join(words)} <&-"], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (2, "poekin: error: cannot read standard input: it is closed\n")
 
 
 def test_an_encoding_that_lacks_a_character_is_no_error(crane):

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 
+from poekin.cli import run
 from poekin.cli import validate as command
 
 
@@ -48,9 +50,40 @@ def test_an_error_in_one_file_does_not_hide_the_others(crane, poekin, tmp_path):
     (tmp_path / "bad.urdf").write_text("<robot")
     code, out, err = poekin("validate", tmp_path / "bad.urdf", crane, "--samples", 3)
     assert code == 2
-    assert out.endswith("1 of 1 robots pass\n")
+    assert out.endswith("1 of 2 robots pass; 1 could not be validated\n")
     assert err.startswith("poekin: error: ")
     assert len(err.splitlines()) == 1
+
+
+def test_what_pinocchio_refuses_is_one_message_with_its_reason(crane, tmp_path, capfd):
+    path = tmp_path / "no-limit.urdf"
+    path.write_text(
+        Path(crane).read_text().replace('<limit lower="0" upper="1" effort="1" velocity="1"/></joint>', "</joint>")
+    )
+    assert run(["validate", str(path)]) == 2
+    out, err = capfd.readouterr()
+    assert out == "0 of 1 robots pass; 1 could not be validated\n"
+    error = err.splitlines()[-1]
+    assert error.startswith(f"poekin: error: {path}: Pinocchio refuses this URDF: ")
+    assert "slide" in error
+    assert "urdf_parser" not in err
+    assert all(line.startswith("poekin: ") for line in err.splitlines())
+
+
+def test_what_moves_above_a_floating_joint_is_validated_and_listed(tmp_path, as_json, poekin):
+    path = tmp_path / "f.urdf"
+    path.write_text(
+        '<robot name="f"><link name="a"/><link name="b"/><link name="c"/><joint name="j" type="continuous">'
+        '<parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint><joint name="k" type="floating">'
+        '<parent link="b"/><child link="c"/></joint></robot>'
+    )
+    ways = [("c", "c", []), ("a", "b", ["j"])]
+    document = as_json("info", path)
+    assert [(c["base"], c["tip"], c["joint_names"]) for c in document["chains"]] == ways
+    assert document["chains"][1]["note"] == "ends above the floating joint 'k'"
+    assert poekin("info", path)[1].splitlines()[-1].split()[:3] == ["j", "revolute", "j"]
+    (robot,) = as_json("validate", path, "--samples", 3)["robots"]
+    assert [(c["base"], c["tip"], c["joints"]) for c in robot["chains"]] == [(b, t, len(j)) for b, t, j in ways]
 
 
 @pytest.mark.parametrize(("words", "message"), [([], "nothing to validate"), (["erd:no-such-robot"], "no-such-robot"),

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import poekin
-from poekin.engine import cache
+from poekin.engine.source import source_key
 
 PACKAGE = Path(poekin.__file__).parent
 PROGRAM = """
@@ -108,7 +108,7 @@ def test_a_directory_that_others_can_write_is_not_used(home):
     (home / ".cache" / "poekin").chmod(0o777)
     out, log = run(home)
     assert out == RIGHT
-    assert "not this user's alone (mode 0700)" in log
+    assert "others may read or write it (expected mode 0700)" in log
 
 
 PLACES = {
@@ -137,14 +137,13 @@ def test_no_home_at_all_costs_a_compilation(tmp_path):
 @pytest.mark.parametrize(
     "file", ["algebra.py", "formulas/exponential.py", "formulas/coefficients.py", "engine/rows.py"]
 )
-def test_an_edit_anywhere_in_the_formulas_makes_a_new_key(tmp_path, monkeypatch, file):
+def test_an_edit_anywhere_in_the_formulas_makes_a_new_key(tmp_path, file):
     copy = tmp_path / "poekin"
     shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(cache, "__file__", str(copy / "engine" / "cache.py"))
-    before = cache.source_key()
-    with (copy / file).open("a") as source:
-        source.write("\n")
-    assert cache.source_key() != before
+    before = source_key(copy)
+    with (copy / file).open("a") as text:
+        text.write("\n")
+    assert source_key(copy) != before
 
 
 def test_an_edit_in_algebra_changes_the_result_of_the_next_process(home, tmp_path):
@@ -154,6 +153,61 @@ def test_an_edit_in_algebra_changes_the_result_of_the_next_process(home, tmp_pat
     algebra = tmp_path / "poekin" / "algebra.py"
     algebra.write_text(algebra.read_text().replace("R[5], R[8], -p[0],", "R[5], R[8], 7.0 - p[0],"))
     assert run(home, program, tmp_path)[0] == "7.0"
+
+
+def test_an_edit_made_while_a_session_is_open_does_not_pass_for_the_code_it_runs(home, tmp_path):
+    shutil.copytree(PACKAGE, tmp_path / "poekin", ignore=shutil.ignore_patterns("__pycache__"))
+    algebra = tmp_path / "poekin" / "algebra.py"
+    edit = f"""
+from pathlib import Path
+from poekin.groups import se3
+import numpy
+algebra = Path({str(algebra)!r})
+algebra.write_text(algebra.read_text().replace("R[5], R[8], -p[0],", "R[5], R[8], 7.0 - p[0],"))
+print(se3.inverse(numpy.eye(4))[0, 3] + 0.0)
+"""
+    assert run(home, edit, tmp_path)[0] == "0.0"
+    after = "from poekin.groups import se3; import numpy; print(se3.inverse(numpy.eye(4))[0, 3] + 0.0)"
+    assert run(home, after, tmp_path)[0] == "7.0"
+
+
+def test_what_is_compiled_with_other_options_is_kept_apart(home):
+    _, log = run(home, NUMBA_OPT="0")
+    assert "compiling kernels" in log
+
+
+def test_entries_of_a_month_ago_are_forgotten(home):
+    (old,) = entries(home)
+    long_ago = old.with_name(f"{old.name.partition('-')[0]}-{'0' * 32}.kernel")
+    old.rename(long_ago)
+    os.utime(long_ago, (0, 0))
+    run(home)
+    assert long_ago not in entries(home)
+    assert len(entries(home)) == 1
+
+
+def test_a_link_to_a_private_directory_is_followed(home, tmp_path):
+    place = home / ".cache" / "poekin"
+    shutil.move(place, tmp_path / "kept")
+    place.symlink_to(tmp_path / "kept")
+    assert run(home) == (RIGHT, "")
+
+
+def test_threads_may_call_a_kernel_for_the_first_time_together(tmp_path):
+    program = """
+import sys, threading
+import numpy as np
+import poekin as pk
+sys.setswitchinterval(1e-6)
+arm, got = pk.load("panda").chain(tip="panda_hand"), []
+q = np.zeros(7)
+calls = [lambda: arm.fk(q), lambda: arm.joint_poses(q), lambda: arm.velocity(q, q, "body")]
+threads = [threading.Thread(target=lambda call=call: got.append(call())) for call in calls * 2]
+[t.start() for t in threads]
+[t.join() for t in threads]
+print(len(got))
+"""
+    assert run(tmp_path, program)[0] == "6"
 
 
 def test_without_compilation_everything_still_runs(tmp_path):

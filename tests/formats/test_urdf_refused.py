@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from poekin.errors import FileError, ModelError, PoekinError, PoekinWarning
+from poekin.errors import FileError, InputError, ModelError, PoekinError, PoekinWarning
 from poekin.formats import urdf, xml
 from poekin.model.robot import Robot
 from tests.formats.texts import LIMIT, chain_of, one_joint
@@ -103,6 +103,15 @@ REFUSED = {
     "too large": (one_joint('<origin xyz="0 0 1e999"/>'), "xyz must be three finite numbers"),
     "a xacro expression": (one_joint('<origin xyz="${x} 0 0"/>'), "unprocessed xacro"),
     "a zero axis": (one_joint('<axis xyz="0 0 -0.0"/>'), r"^x\.urdf:4: joint 'j': <axis>: xyz must not be zero"),
+    "an axis without xyz": (one_joint("<axis/>"), r"^x\.urdf:4: joint 'j': <axis>: expected an attribute xyz="),
+    "an axis by angles": (one_joint('<axis rpy="0 0 1"/>'), "<axis>: expected an attribute xyz="),
+    "an axis as text": (one_joint("<axis>0 0 1</axis>", "continuous"), "<axis>: expected an attribute xyz="),
+    "a planar axis without xyz": (one_joint("<axis/>", "planar"), "<axis>: expected an attribute xyz="),
+    "a length without a square": (
+        one_joint('<origin xyz="0 -1e155 0"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: xyz: expected lengths of at most 1e\+100 m, got .*-1e\+155",
+    ),
+    "the largest length of all": (one_joint('<origin xyz="1e308 0 0"/>', "fixed"), "lengths of at most"),
     "NaN in the axis": (one_joint('<axis xyz="0 0 nan"/>'), "<axis>: xyz must be three finite numbers"),
     "lower above upper": (
         one_joint('<limit lower="1" upper="-1"/>'),
@@ -145,6 +154,19 @@ def test_what_cannot_be_understood_is_refused_with_file_and_line(text, message, 
 
 def _no_network(*arguments: object) -> None:
     raise AssertionError("a URDF was about to open a connection")
+
+
+@pytest.mark.parametrize("text", [None, 5, ["<robot/>"]])
+def test_what_is_no_text_is_refused(text):
+    with pytest.raises(InputError, match=r"^x\.urdf: expected a text, str or bytes, got "):
+        urdf.read_text(text, "x.urdf")
+
+
+def test_what_is_no_name_or_path_is_refused():
+    with pytest.raises(InputError, match="a str, got None"):
+        urdf.read_text(one_joint(), None)  # pyright: ignore[reportArgumentType]
+    with pytest.raises(InputError, match="path of a file, got 5"):
+        urdf.read(5)  # pyright: ignore[reportArgumentType]
 
 
 def test_no_entity_is_ever_expanded_and_no_file_is_read(tmp_path):

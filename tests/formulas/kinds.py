@@ -40,8 +40,7 @@ def floats(formula, *arguments):
 
 def compiled(formula, *arguments):
     """Tuples stay tuples; lists, which are rows, become arrays."""
-    engine_compile.compiled  # noqa: B018  importing the module has registered every formula
-    function = _compiled.setdefault(formula, numba.njit(error_model="numpy")(formula))
+    function = _compiled.setdefault(formula, numba.njit(**engine_compile.OPTIONS)(formula))
     return _run(function, [np.array(a, dtype=float) if isinstance(a, list) else a for a in arguments])
 
 

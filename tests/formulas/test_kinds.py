@@ -43,7 +43,8 @@ ROTATES, SLIDES = [1.0, 0.0, 1.0, 1.0], [0.0, 1.0, 0.2, 0.0]
 RATES = rng.normal(size=N).tolist()
 COUPLING = rng.normal(size=(N, 2)).tolist()
 SIZES = (1.2, 2.9)  # on either side of the switch
-A, B, E = ({t: f(t) for t in SIZES} for f in (coefficients.a_of, coefficients.b_of, coefficients.e_of))
+A, E = ({t: f(t) for t in SIZES} for f in (coefficients.a_of, coefficients.e_of))
+B = {t: coefficients.b_of(t * t, t) for t in SIZES}
 
 
 def rows(count=N):
@@ -67,7 +68,8 @@ CASES = [
     (algebra.turned_about_z, T1, 0.6, 0.8, 0.3),
     (algebra.column, AXES, 2),
     (algebra.set_column, AXES, 2, X),
-    *[(f, t) for f in (coefficients.a_of, coefficients.b_of, coefficients.e_of) for t in (0.0, 0.4, 3.0)],
+    *[(f, t) for f in (coefficients.a_of, coefficients.e_of) for t in (0.0, 0.4, 3.0)],
+    *[(coefficients.b_of, t * t, t) for t in (0.0, 0.4, 3.0)],
     (coefficients.polynomial, (0.5, -0.25, 0.125), 0.3),
     *[(coefficients.c_of, t * t, A[t]) for t in SIZES],
     *[(coefficients.d_of, t * t, E[t]) for t in SIZES],
@@ -83,16 +85,18 @@ CASES = [
     *[(logarithm.so3, R) for R in (R1, R2, TURNED)],
     *[(logarithm.se3, T) for T in (T1, T2)],
     *[(logarithm.so3_near, R, w) for R in (R1, R2, TURNED) for w in (W, (2.5, -4.0, 4.0))],
-    *[(logarithm.se3_near, T, w) for T in (T1, T2) for w in (W, (2.5, -4.0, 4.0))],
+    *[(logarithm.se3_near, T, w, V) for T in (T1, T2) for w in (W, (2.5, -4.0, 4.0))],
     (
         logarithm.se3_near,
         algebra.pose_of((1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 2.0)),
         (0.0, 0.0, 6.0),
+        V,
     ),
     *[(f, w) for f in (exp_jacobian.left, exp_jacobian.left_inverse) for w in (W, LONG)],
     *[(f, w, V) for f in (exp_jacobian.left_dual, exp_jacobian.left_inverse_dual) for w in (W, LONG)],
     (forward.tip, *MOTION),
     (forward.frame, *MOTION[:4], 2),
+    (forward.next_frame, T1, T2, 0.6, 0.8, 0.3),
     (forward.tip_and_axes, *MOTION, rows()),
     (forward.child, T1, T2, X, 0.4, 0.3, 0.9),
     (columns.about_point, AXES, ROTATES, SLIDES, N, V),

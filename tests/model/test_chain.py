@@ -100,7 +100,7 @@ def test_the_arrays_given_are_copied():
 
 def test_the_repr_says_where_from_where_to_and_how_far():
     assert repr(arm()) == "<Chain 'base' -> 'tool': 2 revolute, 1 prismatic joints, reach 4.85 m>"
-    assert repr(pk.Chain([], np.eye(4), tip="\x1b[31m")) == r"<Chain 'base' -> '\\x1b[31m': no joints, reach 1 m>"
+    assert repr(pk.Chain([], np.eye(4), tip="\x1b[31m")) == r"<Chain 'base' -> '\x1b[31m': no joints, reach 1 m>"
     coupled = pk.Chain([RZ, RY], HOME, coupling=[[1], [-1]])
     assert "2 revolute joints, 1 coordinate," in repr(coupled)
 

@@ -14,10 +14,9 @@ import scipy.linalg
 from hypothesis import given
 from hypothesis import strategies as st
 
-from poekin.errors import InputError, ModelError, PoekinWarning, PoseError, ShapeError, UnknownName
+from poekin.errors import InputError
 from poekin.model.joint import FREE, Joint, Mimic
 from poekin.model.robot import Robot
-from poekin.model.source import Source
 from poekin.testing.strategies import axes, frozen, poses
 
 MOVING = ("revolute", "continuous", "prismatic", "helical")
@@ -194,7 +193,9 @@ def test_floating_and_planar_joints_are_where_poses_says_and_at_identity_otherwi
 
 
 def test_a_batch_of_configurations_meets_a_batch_of_poses():
-    robot = Robot("r", "abc", [Joint("f", "floating", "a", "b"), Joint("j", "revolute", "b", "c", axis=(0, 0, 1))])
+    robot = Robot(
+        "r", ["a", "b", "c"], [Joint("f", "floating", "a", "b"), Joint("j", "revolute", "b", "c", axis=(0, 0, 1))]
+    )
     T = np.tile(np.eye(4), (5, 1, 1, 1))
     T[:, 0, 0, 3] = np.arange(5)
     found = robot.fk({"j": np.arange(3.0)}, {"f": T})
@@ -255,114 +256,6 @@ def test_a_repr_is_one_harmless_line():
     assert repr(Robot("\x1b[31m", ["a\nb"], [])).isprintable()
 
 
-def line(*joints: Joint, **fields) -> Robot:
-    return Robot("line", [joints[0].parent, *(j.child for j in joints)], joints, **fields)
-
-
-def revolute(name: str, parent: str, child: str, **fields) -> Joint:
-    return Joint(name, "revolute", parent, child, axis=(0, 0, 1), **fields)
-
-
-def test_coordinates_come_in_order_of_first_appearance_and_are_named_after_masters():
-    robot = line(
-        revolute("j1", "a", "b", mimic=Mimic("j3", 2)),
-        revolute("j2", "b", "c"),
-        revolute("j3", "c", "d"),
-    )
-    assert robot.q_names == ("j3", "j2")
-    forth, back = robot.chain("a", "d"), robot.chain("d", "a")
-    assert (forth.joint_names, forth.q_names) == (("j1", "j2", "j3"), ("j3", "j2"))
-    assert (back.joint_names, back.q_names) == (("j3", "j2", "j1"), ("j3", "j2"))
-    assert forth.coupling.tolist() == [[2, 0], [0, 1], [1, 0]]
-    assert robot.chain("a", "b").q_names == ("j3",)  # its master is off the way
-    assert robot.chain("a", "b").coupling.tolist() == [[2]]
-
-
-def test_a_mimic_of_a_mimic_composes_and_a_mimic_of_a_fixed_joint_is_constant():
-    robot = line(
-        revolute("j1", "a", "b"),
-        revolute("j2", "b", "c", mimic=Mimic("j1", 2, 0.5)),
-        revolute("j3", "c", "d", mimic=Mimic("j2", -3, 0.25)),
-        Joint("stop", "fixed", "d", "e"),
-        revolute("j4", "e", "f", mimic=Mimic("stop", 2, 0.125)),
-        revolute("j5", "f", "g", mimic=Mimic("j4", 2, 0.125)),
-        Joint("still", "fixed", "g", "h", mimic=Mimic("j1")),
-    )
-    chain = robot.chain()
-    assert (robot.dof, chain.q_names) == (1, ("j1",))
-    assert chain.coupling.tolist() == [[1], [2], [-6], [0], [0]]
-    assert chain.offset.tolist() == [0, 0.5, -1.25, 0.125, 0.375]
-
-
-def test_limits_are_intersected_over_all_joints_that_follow():
-    robot = line(
-        revolute("j1", "a", "b", limits=(-1, 1)),
-        revolute("j2", "b", "c", limits=(-1, 3), mimic=Mimic("j1", -2, 1)),
-        revolute("j3", "c", "d", limits=(-9, -8), mimic=Mimic("j1", 0, -8.5)),
-        revolute("j4", "d", "e"),
-    )
-    assert robot.limits.tolist() == [[-1, 1], [-math.inf, math.inf]]
-    tighter = line(robot.joints[0], replace(robot.joints[1], limits=(0, 2)), *robot.joints[2:])
-    assert tighter.limits.tolist() == [[-0.5, 0.5], [-math.inf, math.inf]]
-    assert tighter.chain().limits.tolist() == tighter.limits.tolist()
-    assert tighter.chain("a", "b").limits.tolist() == [[-1, 1]]
-    assert tighter.chain("b", "c").limits.tolist() == [[-0.5, 0.5]]
-    assert tighter.chain("c", "b").limits.tolist() == [[-0.5, 0.5]]
-
-
-@pytest.mark.parametrize("limits", [(2, 3), (1, 3)])
-def test_where_limits_contradict_each_other_the_masters_stand_with_a_warning(limits):
-    joints = revolute("j1", "a", "b", limits=(-1, 1)), revolute("j2", "b", "c", limits=limits, mimic=Mimic("j1"))
-    with pytest.warns(PoekinWarning, match=r"^f\.urdf:7: .*'j1' have no interval in common.*\[-1\.0, 1\.0\]") as caught:
-        robot = line(*joints, source=Source("f.urdf", (), (7, 9)))
-    assert caught[0].filename == __file__
-    assert robot.limits.tolist() == [[-1, 1]]
-    assert robot.chain().limits.tolist() == [[-1, 1]]
-    assert pickle.loads(pickle.dumps(robot)) == robot  # and this warns no more
-
-
-def test_a_locked_joint_keeps_its_one_value():
-    assert line(revolute("j", "a", "b", limits=(0.5, 0.5))).limits.tolist() == [[0.5, 0.5]]
-
-
-@pytest.mark.parametrize("kind", FREE)
-def test_a_chain_that_would_cross_a_free_joint_is_refused_by_name(kind):
-    robot = line(Joint("base", kind, "world", "body"), revolute("j", "body", "hand"), source="x.urdf")
-    with pytest.raises(ModelError, match=f"x.urdf: .*'world' to 'hand' crosses the {kind} joint 'base'"):
-        robot.chain()
-    with pytest.raises(ModelError, match=kind):
-        robot.chain("hand", "world")
-    assert robot.chain("body", "hand").dof == 1
-    assert robot.q_names == ("j",)
-
-
-def test_unknown_names_are_answered_with_the_closest():
-    robot = line(revolute("shoulder", "base_link", "upper_arm"))
-    with pytest.raises(UnknownName, match="no tip link 'uper_arm'; did you mean 'upper_arm'"):
-        robot.chain(tip="uper_arm")
-    with pytest.raises(UnknownName, match=r"no base link 'base'; .*'base_link'"):
-        robot.chain("base")
-    with pytest.raises(UnknownName, match="no tip link '7'"):
-        robot.chain(tip=7)  # pyright: ignore[reportArgumentType]
-    with pytest.raises(UnknownName, match="no joint 'sholder'; did you mean 'shoulder'"):
-        robot.joint("sholder")
-    with pytest.raises(UnknownName, match="'sholder'; did you mean 'shoulder'"):
-        robot.fk({"sholder": 0})
-    assert robot.joint("shoulder") is robot.joints[0]
-
-
 def test_a_tip_must_be_named_where_there_are_several_leaves():
     with pytest.raises(InputError, match="tip must be given, there are several leaves: 'c', 'e'"):
         two_arms().chain()
-
-
-def test_wrong_poses_of_free_joints_are_refused():
-    robot = line(Joint("base", "floating", "a", "b"), revolute("j", "b", "c"))
-    with pytest.raises(UnknownName, match=r"'j', which is no floating or planar joint; .*'base'"):
-        robot.fk([0], {"j": np.eye(4)})
-    with pytest.raises(ShapeError, match=r"'base'.*\(\.\.\., 4, 4\)"):
-        robot.fk([0], {"base": np.eye(3)})
-    with pytest.raises(PoseError, match="'base'"):
-        robot.fk([0], {"base": 2 * np.eye(4)})
-    with pytest.raises(ShapeError, match=r"'line'.* 1 coordinates.*'j'"):
-        robot.fk([0, 0])

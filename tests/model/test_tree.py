@@ -42,6 +42,10 @@ NO_TREES = {
         "cycle of 2 joint.*: '[ab]' -> '[ab]'$",
     ),
     "no joint": (["a"], ["j"], "must be Joint objects"),
+    "one text for all links": ("a", [], "'r': links must be a list, got 'a'"),
+    "a number for links": (5, [], "'r': links must be a list, got 5"),
+    "links in no order": ({"a", "b"}, [], "'r': links must be a list"),
+    "nothing for joints": (["a"], None, "'r': joints must be a list, got None"),
     "mimic of an unknown joint": (
         ["a", "b"],
         [revolute("j", "a", "b", mimic=Mimic("k"))],
@@ -75,6 +79,11 @@ def test_what_is_no_tree_is_refused_by_name(links, joints, message):
     with pytest.raises(ModelError, match=message) as caught:
         Robot("r", links, joints)
     assert str(caught.value).isprintable()
+
+
+def test_a_source_that_is_none_is_refused():
+    with pytest.raises(ModelError, match="'r': source must be a Source, a text or None, got 5"):
+        Robot("r", ["a"], [], source=5)  # pyright: ignore[reportArgumentType]
 
 
 def test_a_chain_of_a_hundred_thousand_links_is_legal():

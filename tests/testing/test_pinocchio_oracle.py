@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -114,6 +116,23 @@ def test_what_is_unknown_is_named(oracle):
 def test_a_urdf_that_pinocchio_refuses_is_an_error():
     with pytest.raises(ModelError, match="Pinocchio refuses"):
         PinocchioOracle('<robot name="r"></robot>')
+    with pytest.raises(ModelError, match="malformed XML"):
+        PinocchioOracle("<robot")
+
+
+def test_why_pinocchio_refuses_is_in_the_message_and_nowhere_else(capfd):
+    with pytest.raises(
+        ModelError, match=r"refuses this URDF: 'Joint \[j\] is of type REVOLUTE but it does not specify limits"
+    ):
+        PinocchioOracle(TWO_LINKS.replace("continuous", "revolute"))
+    assert capfd.readouterr() == ("", "")
+
+
+def test_stderr_is_its_own_again_after_many_threads_at_once(capfd):
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(lambda _: PinocchioOracle(TWO_LINKS), range(40)))
+    os.write(2, b"here")
+    assert capfd.readouterr().err == "here"
 
 
 def test_a_missing_pinocchio_is_named_with_its_extra(monkeypatch):

@@ -12,4 +12,9 @@ NAMES = ("panda", "stanford", "ur5e")
 
 def read(name: str) -> Robot:
     """The arm of that name, one of `NAMES`."""
-    return urdf.read_text(pkgutil.get_data(__name__, f"{name}.urdf") or b"", f"catalogue/{name}.urdf")
+    return urdf.read_text(text(name), f"catalogue/{name}.urdf", name)
+
+
+def text(name: str) -> bytes:
+    """The URDF of the arm of that name, one of `NAMES`."""
+    return pkgutil.get_data(__name__, f"{name}.urdf") or b""

@@ -1,0 +1,77 @@
+"""Configurations out of the content of a .npy file, whose header is checked against what is there."""
+
+from __future__ import annotations
+
+import ast
+import math
+import re
+import warnings
+
+import numpy as np
+
+from ..errors import FileError, InputError
+
+MAGIC = b"\x93NUMPY"
+# NumPy's own limit on what it evaluates.
+LONGEST_HEADER = 10_000
+# No array has more rows: a shape whose other axis is 0 could otherwise claim any number of them.
+MOST_ROWS = 2**40
+
+
+def configurations(content: bytes, m: int, where: str) -> np.ndarray:
+    """The array (N, m), or (m,) for a single configuration, in the bytes of a .npy file, as float64 (N, m).
+
+    Parameters: content; m; where, the file as messages call it.
+    Raises: FileError, which names the file, for what is no .npy file of real numbers, whose header is damaged, or that
+    holds fewer bytes than its header says; InputError for another shape. Nothing is allocated before all that holds.
+    Source: the format's versions 1.0 to 3.0 as the documentation of numpy.lib.format describes them.
+    """
+    try:
+        dtype, column_major, shape, start = _header(content)
+    except ValueError as fault:
+        raise FileError(f"{where} is no .npy file of numbers: {fault}") from fault
+    if shape != (m,) and (len(shape) != 2 or shape[1] != m):
+        raise InputError(f"{where}: an array of shape (N, {m}) expected, got {shape}")
+    count, there = math.prod(shape), len(content) - start
+    if count * dtype.itemsize > there:
+        raise FileError(f"{where} is damaged: its header speaks of {count * dtype.itemsize} bytes, {there} are there")
+    # Where there is nothing to read NumPy does not look at an empty buffer.
+    flat = np.frombuffer(content, dtype, count, start) if count else np.zeros(0, dtype)
+    return flat.reshape(shape, order="F" if column_major else "C").astype(float).reshape(math.prod(shape[:-1]), m)
+
+
+def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:
+    """Type of the elements, whether the first axis runs fastest, shape, and where the elements start."""
+    if not content.startswith(MAGIC):
+        raise ValueError("it does not begin like one")
+    version = content[6:8]
+    if version not in (b"\1\0", b"\2\0", b"\3\0"):
+        raise ValueError("its version is unknown")
+    start = 10 if version == b"\1\0" else 12
+    length = int.from_bytes(content[8:start], "little")
+    text = content[start : start + length]
+    if len(content) < start or len(text) < length:
+        raise ValueError("it ends within its header")
+    if length > LONGEST_HEADER:
+        raise ValueError(f"its header is longer than {LONGEST_HEADER} bytes")
+    header = _literal(text, "utf-8" if version == b"\3\0" else "latin-1")
+    if not isinstance(header, dict) or set(header) != {"descr", "fortran_order", "shape"}:
+        raise ValueError("its header does not say descr, fortran_order and shape")
+    descr, column_major, shape = header["descr"], header["fortran_order"], header["shape"]
+    if not isinstance(descr, str) or not re.fullmatch("[<>|=]?(f2|f4|f8|f16|[iu][1248])", descr):
+        raise ValueError(f"an array of real numbers expected, its elements are {str(descr)[:40]!r}")
+    if not isinstance(column_major, bool):
+        raise ValueError("its header's fortran_order is neither True nor False")
+    if not isinstance(shape, tuple) or not all(type(size) is int and 0 <= size <= MOST_ROWS for size in shape):
+        raise ValueError("its header's shape is none")
+    return np.dtype(descr), column_major, shape, start + length
+
+
+def _literal(text: bytes, encoding: str) -> object:
+    """What a Python literal says."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", SyntaxWarning)
+            return ast.literal_eval(text.decode(encoding).strip())
+    except (ValueError, TypeError, SyntaxError, RecursionError, MemoryError) as fault:
+        raise ValueError("its header cannot be read") from fault

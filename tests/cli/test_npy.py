@@ -1,0 +1,99 @@
+"""A .npy file is read as NumPy wrote it, and a damaged one is refused before anything is allocated."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from poekin.cli.npy import configurations
+from poekin.errors import FileError, InputError
+
+
+def _file(header: str | bytes, data: bytes = b"", version: bytes = b"\1\0") -> bytes:
+    header = header.encode("latin-1") if isinstance(header, str) else header
+    return b"\x93NUMPY" + version + len(header).to_bytes(2 if version == b"\1\0" else 4, "little") + header + data
+
+
+def _saved(array: np.ndarray) -> bytes:
+    out = io.BytesIO()
+    np.save(out, array)
+    return out.getvalue()
+
+
+@pytest.mark.parametrize("dtype", ["<f8", ">f8", "<f4", "f2", "<i8", ">i2", "u1", np.longdouble])
+@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize("shape", [(5, 2), (1, 2), (0, 2), (2,)])
+def test_what_numpy_writes_is_read(dtype, order, shape):
+    array = np.asarray(np.arange(np.prod(shape)).reshape(shape), dtype, order=order)
+    read = configurations(_saved(array), 2, "q")
+    assert read.dtype == np.float64
+    np.testing.assert_array_equal(read, array.reshape(-1, 2))
+
+
+@pytest.mark.parametrize("version", [(1, 0), (2, 0), (3, 0)])
+def test_every_version_of_the_format_is_read(version):
+    out = io.BytesIO()
+    np.lib.format.write_array(out, np.ones((3, 2)), version)
+    np.testing.assert_array_equal(configurations(out.getvalue(), 2, "q"), np.ones((3, 2)))
+
+
+DAMAGED = {
+    "an open bracket": "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2",
+    "an open text": "{'descr': '<f8",
+    "a call": "__import__('os').abort()",
+    "nothing": "",
+    "zeros": "\0" * 60,
+    "brackets without end": "(" * 5000,
+    "minus signs without end": "-" * 9000 + "1",
+    "an escape that is none": "{'descr': '\\d', 'fortran_order': False, 'shape': (3, 2)}",
+    "a key that cannot be one": "{[]: 1}",
+    "a list": "[1, 2]",
+    "a key too few": "{'descr': '<f8', 'shape': (3, 2)}",
+    "a type that is none": "{'descr': '<f3', 'fortran_order': False, 'shape': (3, 2)}",
+    "a type of objects": "{'descr': '|O', 'fortran_order': False, 'shape': (3, 2)}",
+    "a type of parts": "{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (3, 2)}",
+    "a type that is empty": "{'descr': (), 'fortran_order': False, 'shape': (3, 2)}",
+    "an order that is none": "{'descr': '<f8', 'fortran_order': 2, 'shape': (3, 2)}",
+    "a shape that is a number": "{'descr': '<f8', 'fortran_order': False, 'shape': 3}",
+    "a shape of fractions": "{'descr': '<f8', 'fortran_order': False, 'shape': (3.0, 2)}",
+    "a shape of truths": "{'descr': '<f8', 'fortran_order': False, 'shape': (True, 2)}",
+    "a shape below 0": "{'descr': '<f8', 'fortran_order': False, 'shape': (-3, 2)}",
+    "a shape too large for C": "{'descr': '<f8', 'fortran_order': False, 'shape': (" + "9" * 40 + ", 2)}",
+    "more rows than memory": "{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000, 2)}",
+    "one row too many": "{'descr': '<f8', 'fortran_order': False, 'shape': (4, 2)}",
+    "a header without end": "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2)}" + " " * 20_000,
+}
+
+
+@pytest.mark.parametrize("header", DAMAGED.values(), ids=DAMAGED.keys())
+def test_a_damaged_header_is_one_error_that_names_the_file(header):
+    with pytest.raises(FileError, match=r"^'q\.npy' is "):
+        configurations(_file(header, bytes(48)), 2, "'q.npy'")
+
+
+@pytest.mark.parametrize(("content"), [_file("{}", version=b"\7\0"), _file(b"\xff{}", version=b"\3\0")])
+def test_an_unknown_version_and_a_header_that_is_no_text_are_refused(content):
+    with pytest.raises(FileError, match=r"^'q\.npy' is no \.npy file"):
+        configurations(content, 2, "'q.npy'")
+
+
+@given(st.integers(0, 127), st.binary(max_size=4), st.integers(0, 220))
+def test_a_byte_or_an_end_anywhere_is_read_or_refused(at, bytes_there, length):
+    content = _saved(np.ones((5, 2)))
+    content = content[:at] + bytes_there + content[at + len(bytes_there) :]
+    try:
+        outcome = configurations(content[:length], 2, "'q.npy'")
+    except (FileError, InputError) as error:
+        outcome = str(error)
+    assert "'q.npy'" in outcome if isinstance(outcome, str) else outcome.shape[1] == 2
+
+
+def test_the_command_names_the_file(tmp_path, crane, refused):
+    path = tmp_path / "q.npy"
+    path.write_bytes(_file(DAMAGED["more rows than memory"]))
+    message = refused("fk", crane, "--tip", "hook", "--input", path)
+    assert f"'{path}' is damaged: its header speaks of 16000000000000 bytes, 0 are there" in message

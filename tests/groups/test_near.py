@@ -1,0 +1,53 @@
+"""The branch of the logarithm that is asked for: followed through whole turns, refused where there is none."""
+
+import numpy as np
+import pytest
+
+from poekin.errors import BranchError
+from poekin.groups import se3, so3
+
+AXIS = np.array([1.0, 2.0, 3.0]) / np.sqrt(14)
+
+
+def test_a_joint_is_followed_through_two_turns():
+    S, xi = np.array([0, 0, 1, 0.2, -0.5, 0]), np.zeros(6)
+    for t in np.linspace(0, 4 * np.pi, 401):
+        xi = se3.log(se3.exp(S * t), near=xi)
+        assert np.abs(xi[:3] - [0, 0, t]).max() < 1e-14
+        assert np.abs(se3.exp(xi) - se3.exp(S * t)).max() < 2e-14
+
+
+def test_a_whole_turn_keeps_the_part_of_v_that_the_pose_does_not_show():
+    xi = np.array([0, 0, 2 * np.pi, 1.0, -2.0, 0.5])
+    np.testing.assert_allclose(se3.log(se3.exp(xi), near=xi), xi, atol=1e-14)
+
+
+@pytest.mark.parametrize("gap", [1e-2, 1e-6, -1e-6, 1e-10, 1e-12])
+def test_close_to_a_whole_turn_exp_gives_the_pose_back(gap):
+    xi = np.r_[AXIS * (2 * np.pi + gap), 2 * np.pi * np.array([0.3, -0.2, 0.5])]
+    T = se3.exp(xi)
+    np.testing.assert_allclose(se3.exp(se3.log(T, near=xi)), T, atol=4e-15)
+
+
+def test_a_translation_across_a_whole_turn_has_no_logarithm():
+    T = np.tile(np.eye(4), (2, 3, 1, 1))
+    T[1, 2, 0, 3] = 1.0
+    with pytest.raises(BranchError, match=r"T\[1, 2\] has no logarithm near omega = \[0.0, 0.0, 6.0\]"):
+        se3.log(T, near=[0, 0, 6, 0, 0, 0])
+    np.testing.assert_allclose(se3.log(T[1, 2], near=[6, 0, 0, 0, 0, 0]), [2 * np.pi, 0, 0, 1, 0, 0], atol=1e-15)
+
+
+@pytest.mark.parametrize("near", [np.nan, np.inf])
+def test_a_reference_that_is_no_number_gives_nan(near):
+    assert np.isnan(so3.log(np.eye(3), near=[near, 0, 0])).all()
+    assert np.isnan(so3.log(so3.exp([0.1, 0, 0]), near=[near, 0, 0])).all()
+    assert np.isnan(se3.log(np.eye(4), near=[near, 0, 0, 0, 0, 0])[:3]).all()
+
+
+@pytest.mark.parametrize("entry", range(4))
+def test_nan_in_the_last_row_of_a_pose_shows_in_the_result(entry):
+    T = np.tile(np.eye(4), (3, 1, 1))
+    T[1, 3, entry] = np.nan
+    for result in (se3.log(T), se3.inverse(T), se3.adjoint(T)):
+        assert np.isnan(result[1]).any()
+        assert np.isfinite(result[[0, 2]]).all()

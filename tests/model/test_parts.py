@@ -1,0 +1,114 @@
+"""What a chain is made of: names in an order, one pose, finite numbers; and messages no longer than they need to be."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from poekin.errors import InputError, PoseError, ShapeError
+from poekin.model.coordinates import coordinates
+from poekin.model.parts import LONGEST, distinct_names, finite, frame_name, one_pose, ordered_names
+from poekin.testing.strategies import poses
+
+MANY = tuple(f"coordinate_{i}" for i in range(1000))
+
+
+@pytest.mark.parametrize("names", [["b", "a"], ("b", "a"), np.array(["b", "a"])])
+def test_names_keep_their_order(names):
+    assert distinct_names(names, 2, "names", "q") == ("b", "a")
+    assert all(type(name) is str for name in ordered_names(names, "names"))
+
+
+def test_without_names_they_are_numbered():
+    assert distinct_names(None, 2, "names", "q") == ("q1", "q2")
+    assert ordered_names(None, "names") == ()
+
+
+@pytest.mark.parametrize(
+    "names, message",
+    [
+        ({"a", "b"}, "expected a list of names"),
+        ("ab", "expected a list of names, got 'ab'"),
+        (5, "expected a list of names, got 5"),
+        ((name for name in "ab"), "expected a list of names"),
+        (np.array("ab"), "expected a list of names"),
+        (["a", ""], r"names\[1\]: expected a name, a string that is not empty, got ''"),
+        (["a", None], r"names\[1\]: .* got None"),
+        ([1, "1"], r"names\[0\]: .* got 1"),
+        ([b"a", "b"], r"names\[0\]: .* got b'a'"),
+        (["a", "a"], "'a' appears more than once"),
+    ],
+)
+def test_what_are_no_names_is_refused(names, message):
+    with pytest.raises(InputError, match=message):
+        distinct_names(names, 2, "names", "q")
+
+
+@pytest.mark.parametrize("name", ["", None, 7, ["a"]])
+def test_a_frame_needs_a_name(name):
+    with pytest.raises(InputError, match="tip: expected a name, a string that is not empty, got "):
+        frame_name(name, "tip")
+    assert frame_name(np.str_("hand"), "tip") == "hand"
+
+
+@given(T=poses())
+def test_a_pose_made_exact_is_kept(T):
+    once = one_pose(T)
+    assert np.abs(once - T).max() <= 4e-15 * max(1.0, np.abs(T).max())
+    np.testing.assert_array_equal(one_pose(once), once)
+
+
+@pytest.mark.parametrize(
+    "T, error, message",
+    [
+        (np.diag([1, 1, np.nan, 1]), PoseError, "P: expected finite numbers, row 2"),
+        (np.diag([1, 1, 1.1, 1]), PoseError, r"P is no pose: its rotation misses orthonormality, .* = 0.21"),
+        (np.diag([1, 1, 1e200, 1]), PoseError, "P is no pose"),
+        (np.diag([1, 1, -1, 1]), PoseError, "P is no pose: its rotation is a reflection"),
+        (np.diag([1, 1, 1, 2]), PoseError, "P is no pose: its last row"),
+        (np.zeros((4, 4)), PoseError, "P is no pose"),
+        (np.zeros((2, 4, 4)), ShapeError, r"one pose \(4, 4\), got shape \(2, 4, 4\)"),
+    ],
+)
+def test_what_is_no_pose_is_refused(T, error, message):
+    with pytest.raises(error, match=message):
+        one_pose(T, "P")
+
+
+@pytest.mark.parametrize("length", [1e101, -1e155, 1e308])
+def test_a_place_out_of_all_reach_is_refused(length):
+    T = np.eye(4)
+    T[1, 3] = length
+    with pytest.raises(InputError, match=r"P: expected lengths of at most 1e\+100 m, got .* in row 1"):
+        one_pose(T, "P")
+    T[1, 3] = LONGEST
+    assert one_pose(T)[1, 3] == LONGEST
+
+
+def test_of_many_numbers_the_first_that_is_not_finite_is_named():
+    values = np.zeros((1000, 1000))
+    values[3, 5], values[700, 2] = np.inf, np.nan
+    with pytest.raises(InputError, match=r"^C\[3, 5\]: expected a finite number, got inf$"):
+        finite(values, "C")
+    with pytest.raises(InputError, match=r"^c: expected a finite number, got nan$"):
+        finite(np.nan, "c")
+
+
+def test_messages_do_not_grow_with_the_data():
+    with pytest.raises(ShapeError, match=r"expected 1000 coordinates .*'coordinate_11' and 988 more\)") as caught:
+        coordinates([0.0], MANY)
+    assert len(str(caught.value)) < 400
+    with pytest.raises(InputError, match=r"no value for 'coordinate_1', .* and 987 more") as caught:
+        coordinates({MANY[0]: 0.0}, MANY)
+    assert len(str(caught.value)) < 400
+    with pytest.raises(ShapeError, match=r"broadcast: \(2,\), \(3,\), \(\)$"):
+        coordinates(dict.fromkeys(MANY, 0.0) | {MANY[0]: [0, 0], MANY[1]: [0, 0, 0]}, MANY)
+    with pytest.raises(ShapeError, match=r"expected 3 names, got 1000: .* and 988 more") as caught:
+        distinct_names(MANY, 3, "names", "q")
+    assert len(str(caught.value)) < 400
+
+
+def test_a_dozen_coordinates_are_all_named():
+    with pytest.raises(ShapeError, match=r"'coordinate_0', .*'coordinate_11'\), got"):
+        coordinates([0.0], MANY[:12])
