@@ -15,7 +15,8 @@ import numpy as np
 from poekin.model.joint import Joint
 from poekin.model.robot import Robot
 
-from .chain_laws import FRAMES, adjoint, budget, inverse, of_poses
+from ..model.evaluation import FRAME_NAMES
+from .chain_laws import adjoint, budget, inverse, of_poses
 from .laws import Law, held
 from .measures import Pairs, size
 
@@ -55,7 +56,7 @@ def a_rezeroed_chain_starts_elsewhere(chain: Any, q: np.ndarray, q0: np.ndarray)
     other, there = chain.rezeroed(q0), q + q0
     pairs = of_poses(chain, there, other.fk(q), chain.fk(there))
     pairs += of_poses(chain, q0, other.fk(np.zeros_like(q)), chain.fk(q0))
-    errors = [(other.jacobian(q, frame) - chain.jacobian(there, frame)).T for frame in FRAMES]
+    errors = [(other.jacobian(q, frame) - chain.jacobian(there, frame)).T for frame in FRAME_NAMES]
     pairs += _of_screws(chain, there, errors)
     shifted = np.array_equal(other.limits, chain.limits - q0[:, None])
     grown = 4 * (1 + size(q) + size(q0))

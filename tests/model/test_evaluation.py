@@ -27,7 +27,7 @@ def test_an_output_array_that_shares_memory_with_q_is_refused():
 
 def test_a_subclass_is_no_output_array():
     class Tagged(np.ndarray):
-        shape = (4, 4)
+        shape = (4, 4)  # type: ignore[assignment]
 
     with pytest.raises(InputError, match="got float64"):
         ARM.fk(Q[0], out=np.empty(1).view(Tagged))
@@ -82,7 +82,9 @@ def test_a_small_pitch_is_kept():
 
 def test_a_screw_made_exact_keeps_its_line():
     S = pk.screw.revolute([0, 0, 1], [5, 0, 0])
-    np.testing.assert_allclose(pk.screw.axis_of((1 + 9e-10) * S).point, [5, 0, 0], atol=2e-15)
+    point = pk.screw.axis_of((1 + 9e-10) * S).point
+    assert point is not None
+    np.testing.assert_allclose(point, [5, 0, 0], atol=2e-15)
 
 
 @pytest.mark.filterwarnings("ignore::poekin.errors.PoekinWarning")
