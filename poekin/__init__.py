@@ -9,6 +9,7 @@ from . import errors
 from .analysis.count import count
 from .analysis.validate import validate
 from .errors import PoekinError, PoekinWarning
+from .formats import dh
 from .formats.load import load
 from .groups import se3, so3
 from .model import screw
@@ -26,6 +27,7 @@ __all__ = [
     "PoekinWarning",
     "Robot",
     "count",
+    "dh",
     "errors",
     "load",
     "screw",

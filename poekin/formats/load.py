@@ -6,7 +6,7 @@ import os
 
 from ..errors import FileError, InputError, UnknownName, closest, harmless, shown
 from ..model.robot import Robot
-from . import catalogue, erd, urdf
+from . import catalogue, dh, erd, urdf
 
 PREFIX = "erd:"
 
@@ -14,8 +14,9 @@ PREFIX = "erd:"
 def load(name: str | os.PathLike[str]) -> Robot:
     """The robot of that name.
 
-    Parameters: name, the path of an existing file; else the name of an arm that comes with poekin ("panda", "ur5e",
-    "stanford"); else "erd:" and the name of a robot of the package example-robot-data, as in "erd:talos_left_arm".
+    Parameters: name, the path of an existing file, a URDF or a DH table (.toml, .csv); else the name of an arm that
+    comes with poekin ("panda", "ur5e", "stanford"); else "erd:" and the name of a robot of the package
+    example-robot-data, as in "erd:talos_left_arm".
     A path object is always a path.
 
     Raises: FileError for a path that does not exist, is a directory, is empty or cannot be read; UnknownName with the
@@ -24,24 +25,30 @@ def load(name: str | os.PathLike[str]) -> Robot:
     Warns: PoekinWarning with file and line for what was repaired, as `poekin.formats.urdf` says.
     """
     if isinstance(name, os.PathLike):
-        return urdf.read(name)
+        return _read(name)
     if not isinstance(name, str):
         raise InputError(f"load: expected a name or a path, got {type(name).__name__}")
     if _exists(name) and not os.path.isdir(name):
-        return urdf.read(name)
+        return _read(name)
     if name in catalogue.NAMES:
         return catalogue.read(name)
     if name.startswith(PREFIX):
         return erd.read(name.removeprefix(PREFIX))
     if _exists(name):
         return urdf.read(name)
-    if "/" in name or os.sep in name or name.lower().endswith((".urdf", ".xml", ".xacro")):
+    if "/" in name or os.sep in name or name.lower().endswith((".urdf", ".xml", ".xacro", ".toml", ".csv")):
         raise FileError(f"{harmless(name, 400)}: no such file")
     known = catalogue.NAMES
     raise UnknownName(
         f"no file and no built-in arm is named {shown(name)}; {closest(name, known)} (built in: {', '.join(known)};"
         f' "{PREFIX}NAME" is for example-robot-data)'
     )
+
+
+def _read(path: str | os.PathLike[str]) -> Robot:
+    if os.fsdecode(path).lower().endswith((".toml", ".csv")):
+        return dh.to_robot(dh.read(path))
+    return urdf.read(path)
 
 
 def _exists(name: str) -> bool:

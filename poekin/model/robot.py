@@ -17,6 +17,7 @@ from .coordinates import coordinates
 from .coupling import Coupling, coupling_of, shared_limits, warn_of_torn_limits
 from .joint import FREE, Joint
 from .layout import Layout, layout_of, link_poses
+from .screw import without_pitch
 from .source import Source
 from .tree import Tree, path, tree_of
 
@@ -122,7 +123,9 @@ class Robot:
                 H = compose(H, inverse(origin))
         home = np.eye(4)
         home.ravel()[TWELVE] = H
-        return self._coupled_chain(np.array(screws).reshape(-1, 6), home, np.array(moving, dtype=np.int64), base, tip)
+        turning = np.array([self.joints[j].kind in ("revolute", "continuous") for j in moving], dtype=bool)
+        A = without_pitch(np.array(screws).reshape(-1, 6), turning)
+        return self._coupled_chain(A, home, np.array(moving, dtype=np.int64), base, tip)
 
     def _coupled_chain(self, screws: np.ndarray, home: np.ndarray, moving: np.ndarray, base: str, tip: str) -> Chain:
         whole = self._coupling

@@ -16,7 +16,7 @@ from ..errors import InputError, ScrewError, ShapeError
 from ..groups.arrays import Array, numbers, shaped
 from .parts import LONGEST
 
-__all__ = ["Axis", "axis_of", "checked", "helical", "pitch_of", "prismatic", "revolute"]
+__all__ = ["Axis", "axis_of", "checked", "helical", "pitch_of", "prismatic", "revolute", "without_pitch"]
 
 UNIT = 1e-9  # how far from 1 the length of a screw's direction may be
 _EXACT = 4.5e-16  # two units in the last place of 1
@@ -81,6 +81,16 @@ def pitch_of(screw: Array) -> float:
     """omega . v of a checked screw with omega != 0, in m per rad; exactly 0 where it is rounding."""
     pitch = float(screw[:3] @ screw[3:])
     return 0.0 if abs(pitch) <= _NO_PITCH * max(1.0, float(np.linalg.norm(screw[3:]))) else pitch
+
+
+def without_pitch(screws: Array, revolute: Array) -> Array:
+    """Screws (n, 6) of which those marked in `revolute` (n,) have omega . v = 0 to their own rounding.
+
+    A revolute screw moved by a far pose comes back with the rounding of that distance, which would pass for a pitch.
+    """
+    w, v = screws[:, :3], screws[:, 3:]
+    pitch = (w * v).sum(1, keepdims=True) / np.maximum((w * w).sum(1, keepdims=True), np.finfo(float).tiny)
+    return np.where(revolute[:, None], np.concatenate([w, v - pitch * w], axis=1), screws)
 
 
 def axis_of(screw: ArrayLike) -> Axis:

@@ -13,6 +13,7 @@ from poekin.formulas import (
     coefficients,
     columns,
     defect,
+    dh,
     dh_recursive,
     direct,
     elementary,
@@ -108,6 +109,8 @@ CASES = [
     (recursive.body_with_tool, LINKS, T1, ROTATES, SLIDES, N, rows()),
     (recursive.body_velocity, LINKS, T1, ROTATES, SLIDES, N, RATES),
     (dh_recursive.body, LINKS, T1, ROTATES, SLIDES, N, rows()),
+    (dh.link, 0.6, 0.8, 0.3, -0.2, 0.28, 0.96),
+    (dh.screws, LINKS, ROTATES, SLIDES, N, SCREWS),
     (defect.orthonormality, R1),
     (defect.determinant, R1),
 ]

@@ -259,3 +259,10 @@ def test_a_repr_is_one_harmless_line():
 def test_a_tip_must_be_named_where_there_are_several_leaves():
     with pytest.raises(InputError, match="tip must be given, there are several leaves: 'c', 'e'"):
         two_arms().chain()
+
+
+def test_a_far_revolute_joint_does_not_look_helical():
+    origin = np.eye(4)
+    origin[:3, 3] = [1e8, -3e7, 2e7]
+    joints = [Joint("far", "fixed", "a", "b", origin), Joint("j", "revolute", "b", "c", axis=(0.3, -0.4, 0.5))]
+    assert Robot("r", ["a", "b", "c"], joints).chain().kinds == ("revolute",)

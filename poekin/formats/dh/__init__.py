@@ -1,0 +1,8 @@
+"""Denavit-Hartenberg tables, standard (Paul) and modified (Craig): into screws and back, and as files."""
+
+from .files import read, write
+from .from_chain import FromChain, from_chain
+from .table import Row, Table
+from .to_chain import to_chain, to_robot
+
+__all__ = ["FromChain", "Row", "Table", "from_chain", "read", "to_chain", "to_robot", "write"]

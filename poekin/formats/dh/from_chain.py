@@ -1,0 +1,192 @@
+"""From a chain to a table of Denavit-Hartenberg parameters, and what was free to choose on the way."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from decimal import Decimal
+
+import numpy as np
+
+from ...algebra import add, cross, dot, scale, subtract
+from ...errors import InputError, shown
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from .normals import Normal, Vector, across, common_normal, digits, exact, length, parallel_normal, unit
+from .table import CONVENTIONS, Row, Table
+from .to_chain import to_chain
+
+UNIT = 2.0**-53
+FAR = 10
+"""Parameters beyond this many times the reach are worth a warning."""
+
+
+@dataclass(frozen=True)
+class FromChain:
+    """A chain as a DH table.
+
+    Attributes: table; gauge, what was free and how it was chosen, a line a choice; error, the largest pose error of
+    the table against the chain over random configurations (rotations absolute, lengths as multiples of the reach);
+    bound, what it may come to; warnings, with numbers, where DH is ill-conditioned.
+    """
+
+    table: Table
+    gauge: tuple[str, ...]
+    error: float
+    bound: float
+    warnings: tuple[str, ...]
+
+
+def from_chain(chain: Chain, *, convention: str = "standard", samples: int = 100, seed: int = 0) -> FromChain:
+    """The DH table of a chain of revolute and prismatic joints, in either convention.
+
+    The table's variables are the joints' own, x = C q + c of a coupled chain. Base and tool carry what the rows
+    cannot. Parallel axes: the common normal is taken at the previous frame's origin (d = 0); meeting axes: x is along
+    z_i x z_{i+1}; a prismatic axis, which has no place, goes through the previous origin, the first frame stands where
+    axis 1 is nearest to the base's origin, the last where axis n is nearest to the tool's. Axes so nearly parallel that
+    the table's rounding would cost more than their angle are taken as parallel, and that is said.
+
+    Parameters: chain; convention, "standard" or "modified"; samples and seed of the measured error.
+    Returns: FromChain. Raises: InputError for a helical joint, which DH cannot express, and an unknown convention.
+    Accuracy: `bound`: 20 u (n + 1) (reach + max(|d|, |a|)) over the reach, u = 2^-53, plus 2 delta for each angle delta
+    that was dropped (tests/formats/test_dh.py). Source: Park 1994, Section II; the geometry is that of the axes.
+    """
+    if convention not in CONVENTIONS:
+        raise InputError(f"convention: expected 'standard' or 'modified', got {convention!r:.60}")
+    for name, kind in zip(chain.joint_names, chain.kinds, strict=True):
+        if kind == "helical":
+            raise InputError(f"joint {shown(name)} is helical: Denavit-Hartenberg parameters cannot express its pitch")
+    with digits():
+        walk = _Walk(chain)
+        table = walk.table(convention)
+    largest = max([0.0, *np.abs(table.d).tolist(), *np.abs(table.a).tolist()])
+    n = len(table)
+    bound = 20 * UNIT * (n + 1) * (1 + largest / chain.reach) + 2 * sum(walk.dropped)
+    return FromChain(table, tuple(walk.gauge), _error(chain, table, samples, seed), bound, tuple(walk.warnings))
+
+
+class _Walk:
+    """From axis to axis: the rows' numbers, and the frames that base and tool take up."""
+
+    def __init__(self, chain: Chain):
+        self.chain = chain
+        self.gauge: list[str] = []
+        self.warnings: list[str] = []
+        self.dropped: list[float] = []
+        self.turns: list[tuple[float, float]] = []  # theta, d of joint i
+        self.normals: list[tuple[float, float]] = []  # a, alpha between joints i and i + 1
+        self.reach = Decimal(chain.reach)
+        n = len(chain.screws)
+        if not n:
+            return
+        z, o = self._axis(0, _ORIGIN)
+        x = unit(across(_AXES[0] if abs(z[0]) < Decimal("0.9") else _AXES[1], z))
+        self.base = (x, z, o)
+        self.gauge.append(f"zero of {self._name(0)} and place along its axis: nearest to the base frame")
+        for i in range(n - 1):
+            near = self._near(o, z)
+            if chain.kinds[i + 1] == "prismatic":
+                self.gauge.append(f"axis of {self._name(i + 1)} has no place: put through the origin before it")
+            z2, p2 = self._axis(i + 1, near)
+            normal, z2 = self._normal(i, near, z, p2, z2, x)
+            self.turns.append(_turn(x, normal.x, z, subtract(normal.foot, o)))
+            self.normals.append((float(normal.a), math.atan2(float(normal.sine), float(normal.cosine))))
+            x, z, o = normal.x, z2, add(normal.foot, scale(normal.a, normal.x))
+        along = dot(subtract(exact(chain.home[:3, 3]), o), z)
+        self.turns.append((0.0, float(along)))
+        self.gauge.append(f"last frame: on the axis of {self._name(n - 1)}, nearest to the tool, theta = 0")
+        self.last = (x, z, add(o, scale(Decimal(float(along)), z)))
+
+    def _near(self, o: Vector, z: Vector) -> Vector:
+        """The origin, or where that is far from the arm, the axis' point that is nearest to the base."""
+        return o if length(o) <= self.reach * FAR else subtract(o, scale(dot(o, z), z))
+
+    def _axis(self, i: int, origin: Vector) -> tuple[Vector, Vector]:
+        """Direction and a point of axis i, nearest to `origin`; a prismatic one passes through it."""
+        S = self.chain.screws[i]
+        if self.chain.kinds[i] == "prismatic":
+            return unit(exact(S[3:])), origin
+        w, v = exact(S[:3]), exact(S[3:])
+        z = unit(w)
+        foot = scale(1 / dot(w, w), cross(w, v))
+        return z, add(foot, scale(dot(subtract(origin, foot), z), z))
+
+    def _normal(self, i: int, o: Vector, z: Vector, p2: Vector, z2: Vector, x: Vector) -> tuple[Normal, Vector]:
+        """The common normal of axes i and i + 1, and the direction of axis i + 1 that the table will have."""
+        angle, nothing = length(cross(z, z2)), self.reach * Decimal("1e-16")
+        names = f"{self._name(i)} and {self._name(i + 1)}"
+        if angle == 0:
+            self.gauge.append(f"axes of {names} are parallel: their normal is taken at the origin before it")
+            return parallel_normal(o, z, p2, z2, x, nothing), z2
+        normal = common_normal(o, z, p2, z2)
+        away = max(length(subtract(normal.foot, o)), length(subtract(p2, normal.foot)))
+        if 2 * angle * self.reach <= Decimal(UNIT) * away:
+            self.dropped.append(float(angle))
+            self.warnings.append(
+                f"axes of {names} are taken as parallel: the angle of {float(angle):.3g} rad between them would put "
+                f"d at {float(away):.3g} m; a product of exponentials keeps it"
+            )
+            flat = z if dot(z, z2) > 0 else scale(Decimal(-1), z)
+            return parallel_normal(o, z, p2, z2, x, nothing), flat
+        if away > self.reach * FAR:
+            self.warnings.append(
+                f"axes of {names} are nearly parallel, {float(angle):.3g} rad: d is {float(away):.3g} m on an arm of "
+                f"{self.chain.reach:.3g} m, and its rounding {UNIT * float(away):.1g} m; a product of exponentials "
+                "has no such number"
+            )
+        if normal.a <= nothing:
+            self.gauge.append(f"axes of {names} meet: x is along z x z'")
+        return normal, z2
+
+    def _name(self, i: int) -> str:
+        return shown(self.chain.joint_names[i])
+
+    def table(self, convention: str) -> Table:
+        """The rows of the convention, base and tool."""
+        chain, n = self.chain, len(self.turns)
+        if not n:
+            return Table(convention, [], tool=chain.home, name=chain.tip)
+        links = [*self.normals, (0.0, 0.0)] if convention == "standard" else [(0.0, 0.0), *self.normals]
+        limits = [tuple(x) for x in chain.limits.tolist()] if chain.q_names == chain.joint_names else None
+        rows = [
+            Row(theta, d, a, alpha, chain.kinds[i], False, chain.joint_names[i], limits[i] if limits else _FREE)
+            for i, ((theta, d), (a, alpha)) in enumerate(zip(self.turns, links, strict=True))
+        ]
+        return Table(convention, rows, base=_pose(*self.base), tool=self._tool(), name=chain.tip)
+
+    def _tool(self) -> Array:
+        """F^-1 M with the last frame F."""
+        x, z, o = self.last
+        axes = (x, cross(z, x), z)
+        T = np.eye(4)
+        for row, axis in enumerate(axes):
+            for column in range(3):
+                T[row, column] = float(dot(axis, exact(self.chain.home[:3, column])))
+            T[row, 3] = float(dot(axis, subtract(exact(self.chain.home[:3, 3]), o)))
+        return T
+
+
+_ORIGIN = (Decimal(0), Decimal(0), Decimal(0))
+_AXES = ((Decimal(1), Decimal(0), Decimal(0)), (Decimal(0), Decimal(1), Decimal(0)))
+_FREE = (-math.inf, math.inf)
+
+
+def _turn(x: Vector, x2: Vector, z: Vector, along: Vector) -> tuple[float, float]:
+    """Angle from x to x2 about z, and how far along z."""
+    return math.atan2(float(dot(cross(x, x2), z)), float(dot(x, x2))), float(dot(along, z))
+
+
+def _pose(x: Vector, z: Vector, o: Vector) -> Array:
+    T = np.eye(4)
+    for column, axis in enumerate((x, cross(z, x), z, o)):
+        T[:3, column] = [float(value) for value in axis]
+    return T
+
+
+def _error(chain: Chain, table: Table, samples: int, seed: int) -> float:
+    """Of the joints' own values: one turn of revolute joints, 1 m of prismatic ones."""
+    joints = Chain(chain.screws, chain.home, joint_names=chain.joint_names)
+    x = joints.random(seed, samples)
+    difference = to_chain(table).fk(x) - joints.fk(x)
+    difference[:, :3, 3] /= chain.reach
+    return float(np.abs(difference).max(initial=0.0))

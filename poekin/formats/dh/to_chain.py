@@ -1,0 +1,82 @@
+"""From a table of Denavit-Hartenberg parameters to a chain or a robot, by the paper's own route."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...algebra import compose
+from ...errors import InputError
+from ...formulas import dh
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...model.joint import Joint
+from ...model.robot import Robot
+from ...model.screw import without_pitch
+from .table import Table
+
+
+def links_of(table: Table) -> list[tuple[float, ...]]:
+    """K_0 ... K_n of `formulas.dh`, twelve numbers each: f = K_0 e^{P_1 x_1} K_1 ... e^{P_n x_n} K_n."""
+    rows, base, tool = table.rows, _twelve(table.base), _twelve(table.tool)
+    if table.convention == "standard":
+        following = [(row.a, row.alpha) for row in rows]
+    else:
+        following = [(row.a, row.alpha) for row in rows[1:]] + [(0.0, 0.0)] if rows else []
+        if rows:
+            base = compose(base, _link(0.0, 0.0, rows[0].a, rows[0].alpha))
+    links = [base, *(_link(row.theta, row.d, a, alpha) for row, (a, alpha) in zip(rows, following, strict=True))]
+    links[-1] = compose(links[-1], tool)
+    return links
+
+
+def to_chain(table: Table) -> Chain:
+    """The chain of a table: A_i = Ad(K_0 ... K_{i-1}) P_i and M = K_0 ... K_n; a flipped joint's screw is reversed.
+
+    Parameters: table. Returns: Chain with the table's names and limits. Raises: InputError for what is no Table.
+    Accuracy: pose within 1e-13 reach where |d| and |a| are at most 10 reach, else within
+    100 u n (reach + max(|d|, |a|)), u = 2^-53 (tests/formats/test_dh.py). Source: Park 1994, Section II.
+    """
+    if not isinstance(table, Table):
+        raise InputError(f"to_chain: expected a dh.Table, got {type(table).__name__}")
+    signs = [-1.0 if flip else 1.0 for flip in table.flips]
+    rotates = [sign * (kind == "revolute") for sign, kind in zip(signs, table.kinds, strict=True)]
+    slides = [sign * (kind == "prismatic") for sign, kind in zip(signs, table.kinds, strict=True)]
+    A = np.zeros((len(table), 6))
+    home = _matrix(dh.screws(links_of(table), rotates, slides, len(table), A))
+    A = without_pitch(A, np.array([kind == "revolute" for kind in table.kinds], dtype=bool))
+    return Chain(A, home, joint_names=table.names, limits=table.limits)
+
+
+def _link(theta: float, d: float, a: float, alpha: float) -> tuple[float, ...]:
+    return dh.link(math.sin(theta), math.cos(theta), d, a, math.sin(alpha), math.cos(alpha))
+
+
+def _twelve(T: Array) -> tuple[float, ...]:
+    return (*T[:3, :3].ravel().tolist(), *T[:3, 3].tolist())
+
+
+def to_robot(table: Table) -> Robot:
+    """The robot of a table, one branch: a link for each joint, its z axis along the joint's, and `tool` behind them.
+
+    Parameters: table. Returns: Robot with links base, link1 ... tool. Raises: InputError for what is no Table.
+    Accuracy and source: as `to_chain`.
+    """
+    if not isinstance(table, Table):
+        raise InputError(f"to_robot: expected a dh.Table, got {type(table).__name__}")
+    links = ["base", *(f"link{i + 1}" for i in range(len(table))), "tool"]
+    origins = list(map(_matrix, links_of(table)))
+    joints = [
+        Joint(row.name, row.kind, parent, child, origin, (0.0, 0.0, -1.0 if row.flip else 1.0), row.limits)
+        for row, parent, child, origin in zip(table.rows, links, links[1:], origins, strict=False)
+    ]
+    fixed = next(name for name in ("tool_mount", "tool_mount_") if name not in table.names)
+    joints.append(Joint(fixed, "fixed", links[-2], "tool", origins[-1]))
+    return Robot(table.name, links, joints)
+
+
+def _matrix(K: tuple[float, ...]) -> Array:
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = np.reshape(K[:9], (3, 3)), K[9:]
+    return T

@@ -1,0 +1,128 @@
+"""DH tables as TOML and CSV files."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+import poekin as pk
+from poekin.errors import FileError, InputError, ModelError
+from poekin.formats.dh import Row, Table, files
+from tests.formats.test_dh import tables
+
+TOML = """
+convention = "modified"
+name = "two"
+tool = [[1, 0, 0, 0.1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+
+[[joint]]
+theta = 0.5
+d = 0.3
+a = 0
+alpha = 0
+
+[[joint]]
+name = "slide"
+kind = "prismatic"
+theta = 0
+d = 0.1
+a = 0.2
+alpha = -1.5707963267948966
+flip = true
+limits = [0, 0.5]
+"""
+CSV = """convention,name,kind,theta,d,a,alpha,flip,lower,upper,pose
+modified,,tool,,,,,,,,1 0 0 0.1 0 1 0 0 0 0 1 0
+modified,,revolute,0.5,0.3,0,0,,,,
+modified,slide,prismatic,0,0.1,0.2,-1.5707963267948966,true,0,0.5,
+"""
+
+
+@pytest.mark.parametrize("ending", [".toml", ".csv"])
+@settings(max_examples=30)
+@given(table=tables(most=4))
+def test_a_table_comes_back_from_its_file_to_the_last_digit(ending, table):
+    again = files.read_text(files.text_of(table, ending), f"arm{ending}")
+    assert again == table
+
+
+def test_both_files_say_the_same():
+    a, b = files.read_text(TOML, "two.toml"), files.read_text(CSV, "two.csv")
+    assert a == b
+    assert a.rows[1] == Row(0, 0.1, 0.2, -math.pi / 2, "prismatic", True, "slide", (0, 0.5))
+    assert a.tool[0, 3] == 0.1
+
+
+def test_a_file_is_written_read_and_loaded_as_a_robot(tmp_path):
+    table = files.read_text(TOML, "two.toml")
+    for name in ("two.toml", "two.CSV"):
+        pk.dh.write(table, tmp_path / name)
+        assert pk.dh.read(tmp_path / name) == table
+        robot = pk.load(tmp_path / name)
+        assert robot.q_names == ("joint1", "slide")
+        np.testing.assert_array_equal(robot.limits[1], [0, 0.5])
+        x = [0.4, 0.2]
+        np.testing.assert_allclose(robot.chain().fk(x), pk.dh.to_chain(table).fk(x), atol=1e-15)
+
+
+def test_columns_of_a_csv_may_stand_in_any_order():
+    text = "d,a,alpha,theta,convention\n0.1,0.2,0.3,0.4,standard\n"
+    assert files.read_text(text, "t.csv") == Table("standard", [Row(0.4, 0.1, 0.2, 0.3)], name="t")
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("theta,d,a,alpha\n", "t.csv:1: column convention is missing"),
+        ("convention,theta,d,a\n", "t.csv:1: column alpha is missing"),
+        ("convention,theta,d,a,alhpa\n", "t.csv:1: no such column: 'alhpa'; did you mean 'alpha'"),
+        ("convention,theta,d,a,alpha\nstandard,1,2,3\n", "t.csv:2: expected 5 columns"),
+        ("convention,theta,d,a,alpha\nstandard,1,2,3,4,5\n", "t.csv:2: expected 5 columns"),
+        ("convention,theta,d,a,alpha\nstandard,1,2,3,x\n", "t.csv:2: alpha: expected a number, got 'x'"),
+        ("convention,theta,d,a,alpha\nstandard,1,2,nan,1\n", "t.csv:2: a: expected a number, got 'nan'"),
+        ("convention,theta,d,a,alpha\nstandard,1,2,3,1\nmodified,1,2,3,1\n", "t.csv:3: mixed conventions"),
+        ("convention,theta,d,a,alpha\ncraig,1,2,3,1\n", "convention: expected 'standard' or 'modified', got 'craig'"),
+        ("convention,theta,d,a,alpha,kind,pose\nstandard,,,,,base,1 2\n", "t.csv:2: pose: expected twelve numbers"),
+        ("convention,theta,d,a,alpha,flip\nstandard,1,2,3,1,no\n", "t.csv:2: flip: expected true or false, got 'no'"),
+        ("convention,theta,d,a,alpha,kind\nstandard,1,2,3,1,ball\n", "kind must be 'revolute' or 'prismatic'"),
+        ('convention,theta,d,a,alpha\n"standard\n', "t.csv:1: unexpected end of data"),
+        ("", "column convention is missing"),
+    ],
+)
+def test_a_bad_csv_is_refused_with_its_line(text, message):
+    with pytest.raises(ModelError, match=message):
+        files.read_text(text, "t.csv")
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("convention =", "t.toml: not TOML"),
+        ("name = 'x'", "convention: expected 'standard' or 'modified'"),
+        ("convention = 'standard'\ncolour = 1", "no such column: 'colour'"),
+        ("convention = 'standard'\njoint = 3", r"expected \[\[joint\]\] tables"),
+        ("convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0", "t.toml: joint 1: alpha is missing"),
+        ("convention = 'standard'\n[[joint]]\ntheta = 'x'\nd = 0\na = 0\nalpha = 0", "theta: expected a number"),
+        ("convention = 'standard'\n[[joint]]\ntheta = 0\nd = nan\na = 0\nalpha = 0", r"d\[0\]: expected a finite"),
+        ("convention = 'standard'\nbase = [[1, 2], [3, 4]]", "base: expected shape"),
+        ("convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nlimits=[1]", "limits: expected"),
+        ("convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nflip=1", "flip: expected true or false"),
+        ("convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nkind=5", "kind must be"),
+        ("convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nname=5", "name"),
+    ],
+)
+def test_a_bad_toml_is_refused(text, message):
+    with pytest.raises(ModelError, match=message):
+        files.read_text(text, "t.toml")
+
+
+def test_a_place_that_cannot_be_written_and_an_ending_that_says_nothing_are_refused(tmp_path):
+    table = Table("standard", [Row()])
+    with pytest.raises(FileError, match="cannot be written"):
+        pk.dh.write(table, tmp_path / "none" / "t.csv")
+    with pytest.raises(InputError, match=r"ending in \.toml or \.csv"):
+        pk.dh.write(table, tmp_path / "t.txt")
+    (tmp_path / "t.csv").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(FileError, match="not UTF-8 at byte 0"):
+        pk.dh.read(tmp_path / "t.csv")
