@@ -7,16 +7,18 @@ import os
 from ..errors import FileError, InputError, UnknownName, closest, harmless, shown
 from ..model.robot import Robot
 from . import catalogue, dh, erd, urdf
+from .dh.published_tables import NAMES as TABLES
 
 PREFIX = "erd:"
+BUILT_IN = tuple(sorted({*catalogue.NAMES, *TABLES}))
 
 
 def load(name: str | os.PathLike[str]) -> Robot:
     """The robot of that name.
 
     Parameters: name, the path of an existing file, a URDF or a DH table (.toml, .csv); else the name of an arm that
-    comes with poekin ("panda", "ur5e", "stanford"); else "erd:" and the name of a robot of the package
-    example-robot-data, as in "erd:talos_left_arm".
+    comes with poekin, one of `BUILT_IN` ("panda", "ur5e", "puma560", ...); else "erd:" and the name of a robot of the
+    package example-robot-data, as in "erd:talos_left_arm".
     A path object is always a path.
 
     Raises: FileError for a path that does not exist, is a directory, is empty or cannot be read; UnknownName with the
@@ -32,13 +34,15 @@ def load(name: str | os.PathLike[str]) -> Robot:
         return _read(name)
     if name in catalogue.NAMES:
         return catalogue.read(name)
+    if name in TABLES:
+        return dh.to_robot(dh.published(name))
     if name.startswith(PREFIX):
         return erd.read(name.removeprefix(PREFIX))
     if _exists(name):
         return urdf.read(name)
     if "/" in name or os.sep in name or name.lower().endswith((".urdf", ".xml", ".xacro", ".toml", ".csv")):
         raise FileError(f"{harmless(name, 400)}: no such file")
-    known = catalogue.NAMES
+    known = BUILT_IN
     raise UnknownName(
         f"no file and no built-in arm is named {shown(name)}; {closest(name, known)} (built in: {', '.join(known)};"
         f' "{PREFIX}NAME" is for example-robot-data)'

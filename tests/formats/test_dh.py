@@ -185,7 +185,7 @@ def test_tables_are_values():
     assert table != Table("standard", table.rows, name="t")
     assert "theta 0 + x  d 1  a 2  alpha 0.5" in repr(table)
     with pytest.raises(AttributeError, match="frozen"):
-        table.d = [1]
+        table.d = [1]  # type: ignore[assignment]
     with pytest.raises(ValueError, match="read-only"):
         table.d[0] = 2
 

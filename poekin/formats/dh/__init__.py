@@ -2,7 +2,8 @@
 
 from .files import read, write
 from .from_chain import FromChain, from_chain
+from .published_tables import published
 from .table import Row, Table
 from .to_chain import to_chain, to_robot
 
-__all__ = ["FromChain", "Row", "Table", "from_chain", "read", "to_chain", "to_robot", "write"]
+__all__ = ["FromChain", "Row", "Table", "from_chain", "published", "read", "to_chain", "to_robot", "write"]

@@ -1,0 +1,27 @@
+"""Published DH tables that come with poekin: TOML files, each with its source, tool and zero position at the top."""
+
+from __future__ import annotations
+
+import pkgutil
+
+from ...errors import UnknownName, closest, shown
+from . import files
+from .table import Table
+
+CATALOGUE = "poekin.formats.catalogue"
+NAMES = (
+    *("cobra600", "iiwa14", "irb140", "jaco", "kr5", "panda", "puma560", "stanford"),
+    *("ur10", "ur10e", "ur16e", "ur3", "ur3e", "ur5", "ur5e"),
+)
+"""The arms whose tables come with poekin."""
+
+
+def published(name: str) -> Table:
+    """The published table of an arm, one of `NAMES`; its source, tool and zero position stand at the top of its file.
+
+    Raises: UnknownName with the closest names. Accuracy: as published. Source: the one in the file.
+    """
+    if name not in NAMES:
+        raise UnknownName(f"no published table is named {shown(name)}; {closest(str(name), NAMES)}")
+    data = pkgutil.get_data(CATALOGUE, f"{name}.toml") or b""
+    return files.read_text(data.decode("utf-8"), f"catalogue/{name}.toml")

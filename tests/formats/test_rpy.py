@@ -1,0 +1,111 @@
+"""Roll, pitch, yaw of a rotation: the three together are the rotation, at pitch ±90° as anywhere else."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import example, given, target
+from hypothesis import strategies as st
+
+from poekin.formats import rpy
+from poekin.testing.strategies import rotations
+
+BAR = 6e-16
+EYE = np.eye(3)
+
+anything = st.floats(-math.pi, math.pi)
+# Distances of the pitch from ±90°: exactly there, and every decade from where doubles end to a degree or so.
+near = st.builds(lambda k, m: m * 10.0**-k, st.integers(2, 18), st.sampled_from([-3.0, -1.0, 0.0, 1.0, 2.0]))
+
+
+def exact(roll: float, pitch: float, yaw: float) -> Any:
+    """Rz(yaw) Ry(pitch) Rx(roll) in 50 digits."""
+    with mpmath.workdps(50):
+        (a, b), (c, d), (e, f) = [(mpmath.sin(x), mpmath.cos(x)) for x in (roll, pitch, yaw)]
+        X = mpmath.matrix([[1, 0, 0], [0, b, -a], [0, a, b]])
+        Y = mpmath.matrix([[d, 0, c], [0, 1, 0], [-c, 0, d]])
+        Z = mpmath.matrix([[f, -e, 0], [e, f, 0], [0, 0, 1]])
+        return Z * Y * X
+
+
+def rounded(R: Any) -> np.ndarray:
+    return np.array(R.tolist(), dtype=float)
+
+
+def worn(R: np.ndarray) -> np.ndarray:
+    """The rotation after a turn there and back: each entry is off by some 1e-16, however small it is."""
+    turn = rpy.pose((0, 0, 0), (0.3, 0.5, 0.7))[:3, :3]
+    return turn @ (turn.T @ R)
+
+
+def defect(R: np.ndarray) -> float:
+    return float(np.abs(R @ R.T - EYE).max())
+
+
+def error(R: np.ndarray, angles: Callable = rpy.angles) -> float:
+    """How far the rotation of the angles is from R, in its worst entry."""
+    with mpmath.workdps(50):
+        return float(max(abs(x) for x in exact(*angles(R)) - mpmath.matrix(R.tolist())))
+
+
+@given(rotations())
+def test_the_angles_of_a_rotation_are_that_rotation(R):
+    # The strategy's rotations are orthonormal to a few units in the last place, no better.
+    assert error(R) <= BAR + defect(R)
+
+
+@given(anything, st.sampled_from([-1, 1]), near, anything)
+@example(0.0, 1, 0.0, 0.0)
+@example(0.0, -1, 0.0, 0.0)
+@example(1.0, 1, 1e-6, -2.0)
+@example(math.pi, 1, -1e-6, math.pi)
+def test_the_digits_stay_near_a_quarter_turn_of_pitch(roll, sign, off, yaw):
+    R = rounded(exact(roll, sign * (math.pi / 2 - off), yaw))
+    worst = error(R)
+    target(worst)
+    assert worst <= BAR
+    assert error(worn(R)) <= BAR + defect(worn(R))
+
+
+@given(anything, st.floats(-1.5, 1.5), anything)
+def test_away_from_there_each_angle_comes_back(roll, pitch, yaw):
+    found = rpy.angles(rpy.pose((0, 0, 0), (roll, pitch, yaw))[:3, :3])
+    turns = [(a - b + math.pi) % (2 * math.pi) - math.pi for a, b in zip(found, (roll, pitch, yaw), strict=True)]
+    assert max(map(abs, turns)) <= 2e-15 / math.cos(pitch)
+
+
+@pytest.mark.parametrize("angles", [(0, 0, 0), (math.pi / 2, 0, 0), (0, 0, -math.pi / 2), (math.pi / 2, 0, math.pi)])
+def test_right_angles_are_right_angles_and_no_zero_has_a_sign(angles):
+    R = np.round(rpy.pose((0, 0, 0), angles)[:3, :3])
+    found = rpy.angles(R)
+    assert found == angles
+    assert all(math.copysign(1, x) == 1 for x in found if x == 0)
+
+
+def plain(R):
+    return (
+        math.atan2(R[2][1], R[2][2]),
+        math.atan2(-R[2][0], math.hypot(R[2][1], R[2][2])),
+        math.atan2(R[1][0], R[0][0]),
+    )
+
+
+PLANTED = {
+    "three entries at a time": (plain, 1e-11),
+    "roll and yaw in each other's place": (lambda R: rpy.angles(R)[::-1], 0.1),
+    "the transposed rotation": (lambda R: rpy.angles(R.T), 0.1),
+    "pitch by asin": (lambda R: (rpy.angles(R)[0], math.asin(-R[2, 0]), rpy.angles(R)[2]), 1e-11),
+    "the sign of pitch": (lambda R: (rpy.angles(R)[0], -rpy.angles(R)[1], rpy.angles(R)[2]), 0.1),
+}
+
+
+@pytest.mark.parametrize(("wrong", "least"), PLANTED.values(), ids=PLANTED)
+def test_planted_errors_are_found(wrong, least):
+    cases = [worn(rounded(exact(r, s * (math.pi / 2 - 1e-6), 0.7))) for r in np.linspace(-3, 3, 13) for s in (-1, 1)]
+    assert max(error(R) - defect(R) for R in cases) <= BAR
+    assert max(error(R, wrong) for R in cases) > least

@@ -1,0 +1,223 @@
+"""URDF out: the same robot comes back, and Pinocchio sees the same kinematics in it."""
+
+from __future__ import annotations
+
+import math
+import re
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from poekin.analysis.validate import routes
+from poekin.errors import PoekinWarning
+from poekin.formats import urdf
+from poekin.formats.load import load
+from poekin.formats.serial import serial_robot
+from poekin.formats.urdf_text import to_urdf
+from poekin.model.chain import Chain
+from poekin.model.joint import FREE
+from poekin.model.robot import Robot
+from poekin.testing.chain_strategies import chains
+from poekin.testing.example_robots import example_robots
+from poekin.testing.pinocchio_oracle import PinocchioOracle
+from tests.model.test_robot import random_q, robots, seeds, size
+
+INF = math.inf
+SAMPLES = 5
+
+
+def quietly(make: Callable, *args, **options):
+    """What `make` makes, whatever it warns of."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", PoekinWarning)
+        return make(*args, **options)
+
+
+def again(model: Robot | Chain) -> Robot:
+    """The robot that is read from the model's text."""
+    return quietly(urdf.read_text, quietly(to_urdf, model))
+
+
+def differences(robot: Robot, other: Robot) -> list[str]:
+    """What a URDF says of a robot that is not the same of the other, to the last digit but for rotations."""
+    found = [
+        what for what in ("name", "links", "q_names", "root", "leaves") if getattr(robot, what) != getattr(other, what)
+    ] + ([] if np.array_equal(robot.limits, other.limits) else ["limits"])
+    for a, b in zip(robot.joints, other.joints, strict=True):
+        kind = "continuous" if a.kind == "revolute" and a.limits == (-INF, INF) else a.kind
+        wanted = (a.name, kind, a.parent, a.child, a.mimic, a.origin[:3, 3].tolist())
+        got = (b.name, b.kind, b.parent, b.child, b.mimic, b.origin[:3, 3].tolist())
+        same = wanted == got and np.abs(a.origin - b.origin).max() <= 1.5e-15
+        same &= kind in ("fixed", "floating") or a.axis == b.axis
+        same &= kind not in ("revolute", "prismatic") or a.limits == b.limits
+        found += [] if same else [f"joint {a.name}"]
+    return found
+
+
+def pose_error(robot: Robot, other: Robot, seed: int) -> float:
+    """How far the poses of links of the same name are apart, ÷ the robot's size."""
+    q = random_q(robot, seed)
+    mine, theirs = robot.fk(q), other.fk({name: q.get(name, 0.0) for name in other.q_names})
+    return max(np.abs(mine[link] - theirs[link]).max() for link in robot.links) / size(robot)
+
+
+def values_of(chain: Chain) -> list[tuple[str, float, float] | None]:
+    """For each coordinate the URDF's joint that stands for it, and its value in terms of q: ratio q + shift."""
+    result = []
+    for column in chain.coupling.T:
+        rows = [(float(r), chain.offset[i], i) for i, r in enumerate(column) if r]
+        if not rows:
+            result.append(None)
+            continue
+        r, c, i = min(rows, key=lambda row: (row[0] != 1 or row[1] != 0, row[0] != 1, row[0] != -1, row[2]))
+        result.append((chain.joint_names[i], *((1.0, 0.0) if abs(r) == 1 else (r, c))))
+    return result
+
+
+def pinocchio_error(chain: Chain, text: str, seed: int) -> float:
+    """The worst error of pose and Jacobians of a chain against what Pinocchio makes of a text, lengths ÷ reach."""
+    oracle, values = PinocchioOracle(text), values_of(chain)
+    q = np.random.default_rng(seed).uniform(-3, 3, (SAMPLES, chain.dof))
+    named = {v[0]: v[1] * q[:, k] + v[2] for k, v in enumerate(values) if v}
+    if set(named) - set(oracle.coordinates):
+        return INF
+    T, J = oracle.evaluate(named or dict.fromkeys(oracle.coordinates, np.zeros(SAMPLES)), chain.tip, chain.base)
+    weight = np.array([1, 1, 1, 1 / chain.reach])
+    worst = [np.abs((chain.fk(q)[: len(T)] - T)[:, :3] * weight).max()]
+    for frame, columns in J.items():
+        wanted = np.zeros((len(T), 6, chain.dof))
+        for k, v in enumerate(values):
+            if v:
+                wanted[:, :, k] = columns[:, :, oracle.coordinates.index(v[0])] * v[1]
+        off = (chain.jacobian(q, frame)[: len(T)] - wanted) * np.repeat([1, 1 / chain.reach], 3)[:, None]
+        worst.append(np.abs(off).max(initial=0.0))
+    return float(max(worst))
+
+
+@st.composite
+def limited(draw, **options) -> Robot:
+    """A robot as in the tests of robots, without pitch, with limits of all sorts."""
+    robot = draw(robots(("revolute", "continuous", "prismatic", "fixed", *FREE), **options))
+    bound = st.floats(-9999, 9999)
+    ends = st.one_of(
+        st.just((-INF, INF)), bound.map(lambda b: (b, INF)), bound.map(lambda b: (-INF, b)),
+        st.tuples(bound, bound).map(sorted).filter(lambda pair: pair[0] < pair[1]),
+    )  # fmt: skip
+    joints = [replace(j, limits=draw(ends)) for j in robot.joints]
+    return quietly(Robot, robot.name, robot.links, joints)
+
+
+@st.composite
+def scaled_chains(draw) -> Chain:
+    """Chains whose coordinates have any scale, some of them without a joint; no helical joints."""
+    chain = draw(chains(joint_kinds=("revolute", "prismatic")))
+    scale = [draw(st.sampled_from([1.0, -1.0, 0.5, -3.0, 0.0])) for _ in range(chain.dof)]
+    low = [draw(st.floats(-9, 9)) for _ in range(chain.dof)]
+    limits = [(-INF, INF) if draw(st.booleans()) else (a, a + draw(st.floats(1e-3, 9))) for a in low]
+    C = chain.coupling * (np.array(scale) if draw(st.booleans()) else 1.0)
+    names = [f"q{k}" for k in range(chain.dof)]
+    limits = np.reshape(limits, (chain.dof, 2))
+    return Chain(chain.screws, chain.home, q_names=names, limits=limits, coupling=C, offset=chain.offset)
+
+
+@given(robot=limited(), seed=seeds)
+def test_a_robot_comes_back_from_its_text(robot, seed):
+    back = again(robot)
+    assert differences(robot, back) == []
+    assert pose_error(robot, back, seed) <= 1e-14
+
+
+@given(chain=scaled_chains(), seed=seeds)
+def test_pinocchio_sees_a_chain_in_its_text(chain, seed):
+    assert pinocchio_error(chain, quietly(to_urdf, chain), seed) <= 1e-13
+
+
+@given(chain=chains(joint_kinds=("revolute", "prismatic"), offsets=False))
+def test_a_chain_comes_back_from_its_text_to_the_last_digit_of_all_but_its_frames(chain):
+    limits = np.random.default_rng(0).uniform(-1, 0, (chain.dof, 2)).cumsum(1)[:, ::-1]
+    masters = [v[0] for v in values_of(chain) if v]
+    limited = Chain(chain.screws, chain.home, limits=limits, coupling=chain.coupling, q_names=masters)
+    back = again(limited).chain(tip="tool")
+    still = [name for name, row in zip(limited.joint_names, limited.coupling, strict=True) if not row.any()]
+    rows = [i for i, name in enumerate(limited.joint_names) if name not in still]
+    order = [limited.q_names.index(name) for name in back.q_names]
+    assert back.joint_names == tuple(limited.joint_names[i] for i in rows)
+    assert sorted(back.q_names) == sorted(limited.q_names)
+    assert np.array_equal(back.coupling, limited.coupling[rows][:, order])
+    assert np.array_equal(back.limits, limited.limits[order])
+    q = limited.random(0, 3)
+    assert np.abs(back.fk(q[:, order]) - limited.fk(q)).max() <= 1e-13 * limited.reach
+
+
+ROBOTS = tuple(example_robots()[0])
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_every_example_robot_comes_back_and_pinocchio_sees_each_of_its_chains(name):
+    robot = quietly(load, f"erd:{name}")
+    text = to_urdf(robot)
+    back = quietly(urdf.read_text, text)
+    assert differences(robot, back) == []
+    q = random_q(robot, 1)
+    mine, theirs, peers = robot.fk(q), back.fk(q), PinocchioOracle(text).link_poses(q)
+    chains = [robot.chain(base, tip) for base, tip, _ in routes(robot)]
+    reach = max(chain.reach for chain in chains)
+    for link, T in mine.items():
+        assert np.abs(T - theirs[link]).max() <= 1e-14 * reach
+        assert np.abs(T - peers[link][0]).max() <= 1e-13 * reach
+    worst = max(pinocchio_error(chain, to_urdf(chain), seed) for seed, chain in enumerate(chains))
+    assert worst <= 1e-13
+
+
+def limb() -> Chain:
+    """A chain with all that the planted errors are planted in: no axis along another, a follower, a flip, an offset."""
+    rng = np.random.default_rng(3)
+    w = rng.normal(size=(5, 3))
+    w /= np.linalg.norm(w, axis=1)[:, None]
+    A = np.hstack([w, np.cross(rng.normal(size=(5, 3)), w)])
+    A[2] = [0, 0, 0, *w[2]]
+    C = np.array([[-1.0, 0, 0], [0, 1, 0], [0, -0.5, 0], [0, 0, 1], [0, 0, 1]])
+    home = urdf.rpy.pose((0.1, 0.2, 0.3), (0.4, 0.5, 0.6))
+    return Chain(A, home, coupling=C, offset=[0.25, 0, 0.125, 0, 0.5], q_names=["j1", "j2", "j4"])
+
+
+def sub(pattern: str, new: str | Callable, text: str) -> str:
+    changed = re.sub(pattern, new, text)
+    assert changed != text
+    return changed
+
+
+PLANTED = {
+    "axis sign lost": lambda t: sub('<axis xyz="0 0 -1"', '<axis xyz="0 0 1"', t),
+    "mimic offset lost": lambda t: sub(' offset="[^"]*"', "", t),
+    "multiplier lost": lambda t: sub(' multiplier="[^"]*"', "", t),
+    "mimic lost": lambda t: sub("<mimic .*", "", t),
+    "rpy swapped": lambda t: sub(r'rpy="(\S+) (\S+) (\S+)"', r'rpy="\3 \2 \1"', t),
+    "rpy lost": lambda t: sub('rpy="[^"]*"', "", t),
+    "tool lost": lambda t: sub(r'(?s)("tool_joint".*?xyz)="[^"]*"', r'\1="0 0 0"', t),
+    "a slide turned": lambda t: sub('type="prismatic"', 'type="revolute"', t),
+    "nine digits": lambda t: sub(r"(?<!version=.)-?\d+\.\d+", lambda number: f"{float(number[0]):.9g}", t),
+}
+
+
+@pytest.mark.parametrize("plant", PLANTED.values(), ids=PLANTED)
+def test_planted_errors_are_found_by_pinocchio(plant):
+    text = to_urdf(limb())
+    assert pinocchio_error(limb(), text, 0) <= 1e-13
+    assert pinocchio_error(limb(), plant(text), 0) > 1e-10
+
+
+@pytest.mark.parametrize("plant", PLANTED.values(), ids=PLANTED)
+def test_planted_errors_are_found_by_reading_back(plant):
+    robot = serial_robot(limb())
+    text = to_urdf(robot)
+    right, wrong = (quietly(urdf.read_text, t) for t in (text, plant(text)))
+    assert pose_error(robot, right, 0) <= 1e-14
+    assert pose_error(robot, wrong, 0) > 1e-11
+    assert differences(robot, right) == []
+    assert differences(robot, wrong)
