@@ -38,6 +38,8 @@ expect(np.allclose(R @ R.swapaxes(-1, -2), np.eye(3), rtol=0, atol=1e-14), "the 
 expect(np.allclose(arm.fk(np.zeros(arm.dof)), arm.home, rtol=0, atol=1e-14), "f(0) = M")
 expect(np.allclose(pk.se3.exp(pk.se3.log(T)), T, rtol=0, atol=1e-14), "exp(log T) = T")
 
+expect(len(pk.dh.published("puma560")) == 6, "the published tables are in the wheel")
+
 loaded = sorted(name for name in OPTIONAL if name in sys.modules)
 expect(not loaded, f"no optional package was imported (found: {', '.join(loaded)})")
 
