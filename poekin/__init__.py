@@ -11,6 +11,7 @@ from .analysis.validate import validate
 from .errors import PoekinError, PoekinWarning
 from .formats import dh
 from .formats.load import load
+from .formats.urdf_text import to_urdf
 from .groups import se3, so3
 from .model import screw
 from .model.chain import Chain
@@ -33,5 +34,6 @@ __all__ = [
     "screw",
     "se3",
     "so3",
+    "to_urdf",
     "validate",
 ]

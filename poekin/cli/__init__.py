@@ -1,4 +1,4 @@
-"""The command line `poekin`: info, fk, jacobian, validate.
+"""The command line `poekin`: info, fk, jacobian, urdf, validate.
 
 Exit codes: 0 done (validate: passed), 1 validation failed, 2 an error (one message on stderr), 130 interrupted,
 141 where the reader of the output went away.

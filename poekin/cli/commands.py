@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import fk, info, jacobian, validate
+from . import fk, info, jacobian, urdf, validate
 
 app = typer.Typer(
     add_completion=False,
@@ -22,6 +22,7 @@ app.command("info")(info.command)
 app.command("fk", context_settings=NUMBERS)(fk.command)
 app.command("jacobian", context_settings=NUMBERS)(jacobian.command)
 app.command("validate")(validate.command)
+app.command("urdf")(urdf.command)
 
 
 def _version(wanted: bool) -> None:

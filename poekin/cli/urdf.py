@@ -1,0 +1,33 @@
+"""`poekin urdf`: a model as URDF text."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..errors import shown
+from ..formats.load import load
+from ..formats.urdf_text import to_urdf
+from . import files
+from .arm import Base, File
+from .output import say
+
+Tip = Annotated[str | None, typer.Option("--tip", help="The last link of the one chain to write.")]
+Output = Annotated[Path | None, typer.Option("--output", help="Where the text goes (default: it is printed).")]
+
+
+def command(file: File, tip: Tip = None, base: Base = None, output: Output = None) -> None:
+    """URDF of the whole tree, or with --tip or --base of one chain; kinematics only, no meshes or masses."""
+    robot = load(file)
+    model = robot if tip is None and base is None else robot.chain(base=base, tip=tip)
+    text = to_urdf(model, name=robot.name)
+    if output is not None:
+        files.write_whole(output, text.encode())
+        say(f"URDF of {shown(robot.name)} written to {shown(output)}")
+    else:
+        # A stream that is not UTF-8 gets other characters by number: XML means the same by that.
+        ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
+        print(text.encode("ascii", "xmlcharrefreplace").decode() if ascii_only else text, end="")
