@@ -6,6 +6,8 @@ T_ab is the pose of frame b in frame a; twists are (omega; v), the angular part 
 """
 
 from . import errors
+from .analysis.axes import axes
+from .analysis.compare import compare
 from .analysis.count import count
 from .analysis.validate import validate
 from .errors import PoekinError, PoekinWarning
@@ -27,6 +29,8 @@ __all__ = [
     "PoekinError",
     "PoekinWarning",
     "Robot",
+    "axes",
+    "compare",
     "count",
     "dh",
     "errors",

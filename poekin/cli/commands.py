@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import fk, info, jacobian, urdf, validate
+from . import axes, compare, fk, info, jacobian, urdf, validate
 
 app = typer.Typer(
     add_completion=False,
@@ -23,6 +23,8 @@ app.command("fk", context_settings=NUMBERS)(fk.command)
 app.command("jacobian", context_settings=NUMBERS)(jacobian.command)
 app.command("validate")(validate.command)
 app.command("urdf")(urdf.command)
+app.command("compare")(compare.command)
+app.command("axes")(axes.command)
 
 
 def _version(wanted: bool) -> None:

@@ -1,0 +1,166 @@
+"""compare: where two models of one arm differ, joint by joint."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..errors import InputError, shown, told
+from ..groups import so3
+from ..groups.arrays import Array
+from ..model.chain import Chain
+from .comparison import Comparison, JointComparison, PoseErrors
+from .lines import at_rest, direction, sides
+from .search import Reading, read, search
+from .wording import differences, equivalents, frame_words
+
+__all__ = ["compare"]
+
+
+def compare(
+    a: Chain, b: Chain, *, strict: bool = False, tol_mm: float = 0.01, tol_deg: float = 0.001,
+    samples: int = 200, seed: int = 0,
+) -> Comparison:  # fmt: skip
+    """Two models of one arm: which joint differs, by how many millimetres and degrees.
+
+    Screws are lines in space, so nothing depends on where link frames stand. Joints are matched in order. What is a
+    free choice (base frame, tool frame, zero positions, joint directions) is aligned to the largest set of joints that
+    agree: of all readings the one that blames the fewest joints, then the one that leaves base and tool where they are.
+    One bad joint is so not smeared over its neighbours. A zero offset of the first joint is a turned base and one of
+    the last joint a turned tool; `equivalent` says so. With different numbers of joints the one is named that can be
+    dropped (at its zero position) so that the rest agree.
+
+    Parameters: a, b; strict, align nothing, frames and zero positions included; tol_mm, tol_deg, how near is the same
+    (an axis' place is judged at the point of it nearest to the arm's middle); samples and seed, random configurations
+    within a's limits for the pose errors.
+    Returns: Comparison. Raises: InputError.
+    Accuracy: one tilted or shifted axis, zero offset or flip is named and sized within 1 % (tests/analysis). Where all
+    joints differ by much the reading is a local one. Source: none, the lines' geometry.
+    """
+    for what, value in (("a", a), ("b", b)):
+        if not isinstance(value, Chain):
+            raise InputError(f"{what}: expected a Chain, as Robot.chain(tip=...) makes it, got {told(value)}")
+    for what, tol in (("tol_mm", tol_mm), ("tol_deg", tol_deg)):
+        real = isinstance(tol, (int, float, np.integer, np.floating)) and not isinstance(tol, bool)
+        if not real or not 0 < tol < math.inf:
+            raise InputError(f"{what}: a positive number expected, got {told(tol)}")
+    if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
+        raise InputError(f"samples: a number of configurations of at least 1 expected, got {told(samples)}")
+    tol_m, tol_rad = float(tol_mm) / 1e3, math.radians(tol_deg)
+    one, other = at_rest(a), at_rest(b)
+    x = a.random(seed, samples) @ a.coupling.T
+    extra = None
+    if len(one.screws) != len(other.screws):
+        k = _droppable(one, other, tol_m, tol_rad)
+        if k is None:
+            told_apart = f"{len(one.screws)} joints against {len(other.screws)}"
+            end = "no one joint can be dropped so that the rest agree"
+            return Comparison(
+                False, f"the models differ: {told_apart}, and {end}", (), None, None, None, None, (), None, strict,
+                float(tol_mm), float(tol_deg), int(samples), seed,
+            )  # fmt: skip
+        if len(one.screws) > len(other.screws):
+            extra, one, x = ("a", one.joint_names[k]), _without(one, k), np.delete(x, k, axis=1)
+        else:
+            extra, other = ("b", other.joint_names[k]), _without(other, k)
+    if strict:
+        reading, others = _as_it_is(one, other, tol_m, tol_rad), []
+    else:
+        reading, others = search(one, other, tol_m, tol_rad)
+    joints = _joints(one, other, reading, tol_rad)
+    same = not reading.moved.any() and (not strict or not (reading.blamed.any() or reading.frames))
+    return Comparison(
+        equal=same and extra is None,
+        verdict=_verdict(same, joints, reading, extra, strict, float(tol_mm), float(tol_deg)),
+        joints=joints,
+        base=reading.base,
+        tool=None if strict else reading.tool,
+        before=_pose_errors(one.fk(x), other.fk(x)),
+        after=None if strict else _pose_errors(
+            one.fk(x), reading.base @ other.fk(reading.directions * x + reading.zeros) @ reading.tool
+        ),
+        equivalent=tuple(() if strict else equivalents(one, other, reading, others, tol_m, tol_rad)),
+        extra=extra, strict=strict, tol_mm=float(tol_mm), tol_deg=float(tol_deg), samples=int(samples), seed=seed,
+    )  # fmt: skip
+
+
+def _as_it_is(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading:
+    pair = sides(a, b, tol_m, tol_rad)
+    base = np.eye(4)
+    base[:3, 3] = pair.b.hub - pair.a.hub
+    return read(pair, a, b, base, np.zeros(pair.n))
+
+
+def _droppable(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> int | None:
+    """The joint of the longer chain without which both agree, if there is one: the one that leaves least to align."""
+    long, short = (a, b) if len(a.screws) > len(b.screws) else (b, a)
+    if len(long.screws) != len(short.screws) + 1:
+        return None
+    rest = [(search(_without(long, k), short, tol_m, tol_rad)[0], k) for k in range(len(long.screws))]
+    fitting = [(reading.cost, k) for reading, k in rest if not reading.moved.any()]
+    return min(fitting)[1] if fitting else None
+
+
+def _without(chain: Chain, k: int) -> Chain:
+    names = chain.joint_names[:k] + chain.joint_names[k + 1 :]
+    return Chain(
+        np.delete(chain.screws, k, 0), chain.home, joint_names=names, limits=np.delete(chain.limits, k, 0),
+        base=chain.base, tip=chain.tip,
+    )  # fmt: skip
+
+
+def _joints(a: Chain, b: Chain, reading: Reading, tol_rad: float) -> tuple[JointComparison, ...]:
+    pair = sides(a, b, 1.0, tol_rad)
+    ours, theirs = direction(a.screws, a.kinds), direction(reading.axes, b.kinds)
+    rows = []
+    for i in range(pair.n):
+        s = float(reading.directions[i])
+        w, u = ours[i], s * theirs[i]
+        across = np.cross(w, u)
+        angle = math.atan2(float(np.linalg.norm(across)), float(w @ u))
+        normal = shift = None
+        if "prismatic" not in (a.kinds[i], b.kinds[i]):
+            place = pair.a.places[i] + pair.a.hub
+            foot = np.cross(reading.axes[i, :3], reading.axes[i, 3:])
+            gap = foot - place
+            shift = 1e3 * float(np.linalg.norm(gap - u * (u @ gap)))
+            normal = shift if angle <= tol_rad else 1e3 * abs(float(gap @ across)) / float(np.linalg.norm(across))
+        scale = 1e3 if b.kinds[i] == "prismatic" else 180 / math.pi
+        zero = float(reading.zeros[i])
+        mapped = np.sort(s * (b.limits[i] - zero))
+        # Infinite less infinite is no difference.
+        limits = [0.0 if p == q else float(scale * (p - q)) for p, q in zip(mapped, a.limits[i], strict=True)]
+        rows.append(JointComparison(
+            i + 1, a.joint_names[i], b.joint_names[i], a.kinds[i], b.kinds[i], math.degrees(angle), normal, shift,
+            scale * zero, s < 0, (limits[0], limits[1]), bool(reading.moved[i]), bool(reading.offset[i]),
+        ))  # fmt: skip
+    return tuple(rows)
+
+
+def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:
+    mm = 1e3 * np.linalg.norm(ours[:, :3, 3] - theirs[:, :3, 3], axis=1)
+    deg = np.degrees(np.linalg.norm(so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ theirs[:, :3, :3]), axis=1))
+    return PoseErrors(float(mm.max()), float(mm.mean()), float(deg.max()), float(deg.mean()))
+
+
+def _verdict(
+    same: bool, joints: tuple[JointComparison, ...], reading: Reading, extra: tuple[str, str] | None, strict: bool,
+    tol_mm: float, tol_deg: float,
+) -> str:  # fmt: skip
+    tol = tol_mm / 1e3, math.radians(tol_deg)
+    found = differences(joints, tol_mm, tol_deg)
+    tool = frame_words("home pose's" if strict else "tool", reading.tool, *tol)
+    if extra is not None:
+        found.insert(0, f"model {extra[0]} has one joint more, {shown(extra[1])}")
+    if strict:
+        return "; ".join(["the models are the same as they stand" if same and extra is None else "the models differ",
+                          *found, *([tool] if tool else [])])  # fmt: skip
+    aligned = [words for words in (frame_words("base", reading.base, *tol), tool) if words]
+    if not same or extra is not None:
+        head = "the models differ"
+    elif found or aligned:
+        head = "the models are the same arm, up to free choices"
+    else:
+        head = "the models are the same"
+    return "; ".join([head, *found, *([f"aligned: {' and '.join(aligned)}"] if aligned else [])])

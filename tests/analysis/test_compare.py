@@ -1,0 +1,271 @@
+"""compare names the joint that differs and its size, blames nothing else, and knows what is a free choice."""
+
+from __future__ import annotations
+
+import functools
+import json
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from poekin.analysis.compare import compare
+from poekin.errors import InputError, PoekinWarning
+from poekin.formats.load import load
+from poekin.groups import se3
+from poekin.model import screw
+from poekin.model.chain import Chain
+
+ARMS = {
+    "panda": "panda_hand", "ur5e": "tool0", "erd:ur3_robot": "tool0", "erd:ur5_robot": "tool0",
+    "erd:ur10_robot": "tool0", "erd:kinova": "j2s6s200_end_effector", "erd:xarm7": "link_eef", "erd:so100": "jaw",
+    "erd:z1": "gripperMover", "erd:b1-z1": "gripperMover", "erd:baxter": "right_hand_camera_link",
+    "erd:centauro": "arm1_8", "erd:alex_nub_hands": "LeftShoulderYawIMULink",
+    "erd:talos_left_arm": "gripper_left_motor_double_link", "erd:romeo": "l_sole", "erd:icub": "l_sole",
+    "random 6a": "", "random 6b": "", "random 7a": "", "random 7b": "",
+}  # fmt: skip
+CHANGES = ("tilt", "shift", "zero", "flip")
+
+
+def random_arm(seed, kinds=("revolute",) * 6):
+    rng = np.random.default_rng(seed)
+    rows = [
+        screw.prismatic(rng.normal(size=3)) if kind == "prismatic" else screw.revolute(rng.normal(size=3), p)
+        for kind, p in zip(kinds, 0.3 * rng.normal(size=(len(kinds), 3)), strict=True)
+    ]
+    return Chain(rows, se3.exp(rng.normal(size=6)))
+
+
+@functools.cache
+def arm(name):
+    if name.startswith("random"):
+        return random_arm(ord(name[-1]), ("revolute",) * int(name[7]))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", PoekinWarning)
+        robot = load(name)
+    return robot.chain(tip=ARMS[name] if ARMS[name] in robot.links else None)
+
+
+def planted(chain, change, k, rng):
+    """The arm with one change in joint k: 0.1 deg, 1 mm across the axis, 0.5 deg of zero offset, or its direction."""
+    S, limits = chain.screws.copy(), chain.limits.copy()
+    if change == "zero":
+        return chain.rezeroed(np.where(np.arange(chain.dof) == k, np.radians(0.5), 0.0))
+    w, p = S[k, :3], np.cross(S[k, :3], S[k, 3:])
+    across = np.cross(w, rng.normal(size=3))
+    across /= np.linalg.norm(across)
+    if change == "tilt":
+        S[k] = screw.revolute(np.cos(np.radians(0.1)) * w + np.sin(np.radians(0.1)) * across, p)
+    elif change == "shift":
+        S[k] = screw.revolute(w, p + 1e-3 * across)
+    else:
+        S[k], limits[k] = -S[k], -limits[k, ::-1]
+    return Chain(S, chain.home, joint_names=chain.joint_names, limits=limits)
+
+
+def fault(result, change, k):
+    """What is wrong with a comparison of an arm with one change planted in joint k; empty where it is right."""
+    if [j.number for j in result.differing] != [k + 1]:
+        return f"blames {[j.number for j in result.differing]}"
+    j = result.joints[k]
+    if (j.axis_differs, j.zero_differs, j.flipped) != (change in ("tilt", "shift"), change == "zero", change == "flip"):
+        return f"says {result.verdict}"
+    size = {"tilt": (j.angle, 0.1), "shift": (j.normal, 1.0), "zero": (-j.zero, 0.5), "flip": (1, 1)}[change]
+    if not abs(size[0] - size[1]) <= 0.01 * size[1]:
+        return f"size {size}"
+    if change == "tilt" and j.normal > 0.01:
+        return f"tilt shifted by {j.normal}"
+    if result.equal != (change in ("zero", "flip")) or f"joint {k + 1} " not in result.verdict:
+        return f"verdict {result.verdict}"
+    if result.base is None or result.tool is None:
+        return "matches nothing"
+    if not (np.allclose(result.base, np.eye(4), atol=1e-6) and np.allclose(result.tool, np.eye(4), atol=1e-6)):
+        return "moves base or tool"
+    return ""
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_one_change_in_an_interior_joint_is_named_and_sized_and_nothing_else_is_blamed(name):
+    chain, rng = arm(name), np.random.default_rng(3)
+    assert chain.kinds in (("revolute",) * 6, ("revolute",) * 7)
+    faults = {
+        (change, k): fault(compare(chain, planted(chain, change, k, rng), samples=1), change, k)
+        for change in CHANGES
+        for k in range(1, chain.dof - 1)
+    }
+    assert {case: words for case, words in faults.items() if words} == {}
+
+
+def test_the_battery_catches_a_wrong_joint_a_wrong_size_and_a_smeared_change():
+    chain, rng = arm("random 6a"), np.random.default_rng(0)
+    result = compare(chain, planted(chain, "shift", 2, rng), samples=1)
+    assert fault(result, "shift", 2) == ""
+    assert "blames" in fault(result, "shift", 3)
+    assert fault(result, "tilt", 2).startswith("size")
+    assert fault(result, "flip", 2).startswith("says")
+    S = chain.screws.copy()
+    S[2] = screw.revolute(S[2, :3], np.cross(S[2, :3], S[2, 3:]) + 1.02e-3 * np.cross(S[2, :3], S[0, :3]))
+    assert fault(compare(chain, Chain(S, chain.home), samples=1), "shift", 2).startswith("size")
+    assert "blames" in fault(compare(chain, chain.rezeroed([0, 0.01, 0.01, 0, 0, 0]), samples=1), "zero", 1)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_a_moved_base_and_tool_are_alignment_only(name):
+    chain, rng = arm(name), np.random.default_rng(4)
+    P, Q = se3.exp(rng.normal(size=(2, 6)))
+    for moved, base, tool in (
+        (chain.rebased(P), se3.inverse(P), np.eye(4)),
+        (chain.retooled(Q), np.eye(4), se3.inverse(Q)),
+        (chain.rebased(P).retooled(Q), se3.inverse(P), se3.inverse(Q)),
+    ):
+        result = compare(chain, moved, samples=5)
+        assert (result.equal, result.differing) == (True, ())
+        assert "aligned" in result.verdict
+        assert result.base is not None
+        assert result.tool is not None
+        np.testing.assert_allclose(result.base, base, atol=1e-7)
+        np.testing.assert_allclose(result.tool, tool, atol=1e-7)
+        assert result.after is not None
+        assert result.after.worst_mm < 1e-4
+
+
+@settings(deadline=None, max_examples=15)
+@given(st.integers(0, 10**6), st.sampled_from(["rrrrrr", "rrprr", "prrr", "rrrp", "rrr", "rr"]))
+def test_two_conventions_of_one_arm_are_equal_and_the_alignment_maps_one_onto_the_other(seed, kinds):
+    rng = np.random.default_rng(seed)
+    chain = random_arm(seed, ["prismatic" if kind == "p" else "revolute" for kind in kinds])
+    other = chain.rezeroed(rng.uniform(-1.2, 1.2, chain.dof)).rebased(se3.exp(rng.normal(size=6)))
+    signs = rng.choice([-1.0, 1.0], chain.dof)
+    result = compare(chain, Chain(other.screws * signs[:, None], other.home @ se3.exp(rng.normal(size=6))))
+    assert result.equal, result.verdict
+    assert result.after is not None
+    assert result.after.worst_mm < 0.2
+    assert result.after.worst_deg < 0.02
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_shifted_axis_is_named_even_where_zeros_and_directions_differ_too(seed):
+    rng = np.random.default_rng(seed)
+    chain = arm("panda")
+    other = chain.rezeroed(rng.normal(size=7)).rebased(se3.exp(rng.normal(size=6)))
+    flipped = Chain(other.screws * rng.choice([-1.0, 1.0], 7)[:, None], other.home)
+    result = compare(chain, planted(flipped, "shift", 3, rng))
+    (moved,) = [j for j in result.joints if j.axis_differs]
+    assert (moved.number, moved.normal) == (4, pytest.approx(1.0, rel=0.01))
+
+
+def test_two_shifted_axes_are_both_named():
+    chain, rng = arm("random 7a"), np.random.default_rng(1)
+    result = compare(
+        chain, planted(planted(chain, "shift", 2, rng), "tilt", 4, rng).rebased(se3.exp(rng.normal(size=6)))
+    )
+    assert [j.number for j in result.joints if j.axis_differs] == [3, 5]
+    assert (result.joints[2].normal, result.joints[4].angle) == (
+        pytest.approx(1, rel=1e-2),
+        pytest.approx(0.1, rel=1e-2),
+    )
+
+
+def test_a_zero_offset_of_an_end_joint_is_a_turned_base_or_tool_and_both_readings_are_given():
+    chain = arm("ur5e")
+    first, last = (compare(chain, chain.rezeroed(q)) for q in ([0.1, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0.2]))
+    assert (first.equal, first.differing, last.equal, last.differing) == (True, (), True, ())
+    assert "zero offset of -5.73°" in first.equivalent[0]
+    assert "joint 1" in first.equivalent[0]
+    assert "zero offset of -11.46°" in last.equivalent[0]
+    assert "joint 6" in last.equivalent[0]
+
+
+def test_a_tilt_that_is_also_a_zero_offset_is_read_as_what_leaves_the_base_and_the_other_reading_is_given():
+    # At its zero position the panda's axes 1 and 3 are one line: axis 2 turned about it is a zero offset of joint 3.
+    chain = arm("panda")
+    S = chain.screws.copy()
+    S[1] = se3.adjoint(se3.exp(S[0] * np.radians(0.1))) @ S[1]
+    tilted = compare(chain, Chain(S, chain.home, joint_names=chain.joint_names))
+    assert [j.number for j in tilted.differing] == [2]
+    assert any(
+        "zero offset of 0.1° of joint 3" in words or "of -0.1° of joint 3" in words for words in tilted.equivalent
+    )
+
+
+def test_the_extra_joint_is_named_where_one_can_be_dropped():
+    chain = arm("panda")
+    names = [*chain.joint_names[:4], "extra", *chain.joint_names[4:]]
+    longer = Chain(
+        np.insert(chain.screws, 4, screw.revolute([1, 2, 0], [0.1, 0.3, 0.2]), 0), chain.home, joint_names=names
+    )
+    for pair, side in (((chain, longer), "b"), ((longer, chain), "a")):
+        result = compare(*pair)
+        assert (result.equal, result.extra, result.differing) == (False, (side, "extra"), ())
+        assert "'extra'" in result.verdict
+    lost = compare(arm("ur5e"), chain)
+    assert (lost.equal, lost.extra, lost.joints, lost.base) == (False, None, (), None)
+    assert "6 joints against 7" in lost.verdict
+    json.loads(lost.to_json())
+
+
+def test_strict_aligns_nothing():
+    chain = arm("ur5e")
+    assert compare(chain, chain, strict=True).equal
+    base = compare(chain, chain.rebased(se3.exp([0, 0, 0, 1e-3, 0, 0])), strict=True)
+    assert not base.equal
+    tool = compare(chain, chain.retooled(se3.exp([0, 0, 0, 1e-3, 0, 0])), strict=True)
+    assert (tool.equal, tool.differing) == (False, ())
+    assert "home pose" in tool.verdict
+    assert not compare(chain, planted(chain, "flip", 2, np.random.default_rng(0)), strict=True).equal
+    assert not compare(chain, planted(chain, "zero", 2, np.random.default_rng(0)), strict=True).equal
+
+
+def test_limits_are_compared_in_the_other_models_zero_and_direction_and_decide_nothing():
+    chain = arm("ur5e")
+    limits = chain.limits.copy()
+    limits[2, 1] -= np.radians(10)
+    result = compare(chain, Chain(chain.screws, chain.home, limits=limits))
+    assert result.equal
+    assert result.joints[2].limits == pytest.approx((0, -10))
+    flipped = compare(chain, planted(chain, "flip", 2, np.random.default_rng(0)))
+    assert flipped.joints[2].limits == pytest.approx((0, 0))
+
+
+def test_another_kind_of_joint_is_said():
+    chain = random_arm(1)
+    S = chain.screws.copy()
+    S[2] = screw.prismatic(S[2, :3])
+    result = compare(chain, Chain(S, chain.home))
+    assert (result.equal, [j.number for j in result.differing]) == (False, [3])
+    assert "is revolute in one model and prismatic in the other" in result.verdict
+
+
+def test_tolerances_are_millimetres_and_degrees():
+    chain, rng = arm("random 6b"), np.random.default_rng(0)
+    assert compare(chain, planted(chain, "shift", 2, rng), tol_mm=1.01).equal
+    assert not compare(chain, planted(chain, "shift", 2, rng), tol_mm=0.1).equal
+
+
+def test_chains_without_joints_and_with_one_compare():
+    none = Chain(np.zeros((0, 6)), np.eye(4))
+    assert compare(none, none.retooled(se3.exp([1, 0, 0, 1, 0, 0]))).equal
+    one = Chain([screw.revolute([0, 0, 1], [1, 0, 0])], np.eye(4))
+    assert compare(one, one.rebased(se3.exp([1, 2, 0, 1, 0, 0]))).equal
+
+
+def test_json_is_plain_and_complete():
+    document = json.loads(compare(arm("ur5e"), arm("erd:ur5_robot")).to_json())
+    assert document["equal"] is False
+    assert len(document["joints"]) == 6
+    assert {"angle", "normal", "zero", "unit", "differs", "limits"} <= set(document["joints"][0])
+
+
+@pytest.mark.parametrize(
+    "options", [{"tol_mm": 0}, {"tol_deg": -1}, {"tol_mm": float("nan")}, {"samples": 0}, {"tol_deg": "x"}]
+)
+def test_options_out_of_range_are_refused(options):
+    with pytest.raises(InputError, match=next(iter(options))):
+        compare(random_arm(0), random_arm(0), **options)
+
+
+def test_a_robot_is_no_chain():
+    with pytest.raises(InputError, match="chain"):
+        compare(load("panda"), arm("panda"))  # type: ignore[arg-type]
