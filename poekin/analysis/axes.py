@@ -13,6 +13,7 @@ from ..groups.arrays import Array
 from ..model.chain import Chain
 from .lines import at_rest, direction
 from .shapes import Shape, shapes
+from .tolerances import check_tolerances
 
 __all__ = ["AxesReport", "AxisPair", "axes"]
 
@@ -104,10 +105,7 @@ def axes(chain: Chain, *, tol_mm: float = 0.01, tol_deg: float = 0.001) -> AxesR
     """
     if not isinstance(chain, Chain):
         raise InputError(f"expected a Chain, as Robot.chain(tip=...) makes it, got {told(chain)}")
-    for what, tol in (("tol_mm", tol_mm), ("tol_deg", tol_deg)):
-        real = isinstance(tol, (int, float, np.integer, np.floating)) and not isinstance(tol, bool)
-        if not real or not 0 < tol < math.inf:
-            raise InputError(f"{what}: a positive number expected, got {told(tol)}")
+    check_tolerances(tol_mm, tol_deg)
     rest = at_rest(chain)
     ways = direction(rest.screws, rest.kinds)
     places = [

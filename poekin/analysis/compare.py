@@ -13,6 +13,7 @@ from ..model.chain import Chain
 from .comparison import Comparison, JointComparison, PoseErrors
 from .lines import at_rest, direction, sides
 from .search import Reading, read, search
+from .tolerances import check_tolerances
 from .wording import differences, equivalents, frame_words
 
 __all__ = ["compare"]
@@ -41,10 +42,7 @@ def compare(
     for what, value in (("a", a), ("b", b)):
         if not isinstance(value, Chain):
             raise InputError(f"{what}: expected a Chain, as Robot.chain(tip=...) makes it, got {told(value)}")
-    for what, tol in (("tol_mm", tol_mm), ("tol_deg", tol_deg)):
-        real = isinstance(tol, (int, float, np.integer, np.floating)) and not isinstance(tol, bool)
-        if not real or not 0 < tol < math.inf:
-            raise InputError(f"{what}: a positive number expected, got {told(tol)}")
+    check_tolerances(tol_mm, tol_deg)
     if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
         raise InputError(f"samples: a number of configurations of at least 1 expected, got {told(samples)}")
     tol_m, tol_rad = float(tol_mm) / 1e3, math.radians(tol_deg)

@@ -8,7 +8,7 @@ formula's structure (a revolute joint's r = 1, s = 0), while the float 1.0 is a 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 from ..formulas import elementary
@@ -25,9 +25,6 @@ class Count:
     sines: int = 0
     cosines: int = 0
     arctangents: int = 0
-
-    def __sub__(self, other: Count) -> Count:
-        return Count(*(getattr(self, f.name) - getattr(other, f.name) for f in fields(self)))
 
 
 class Counted:

@@ -6,27 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, Phase, find, given, settings
-from hypothesis import strategies as st
+from hypothesis import find, settings
 
 from poekin.model.chain import Chain
 from poekin.testing import chain_strategies
+from tests.testing.drawing import QUICK, drawn
 
-QUICK = settings(
-    max_examples=500, database=None, derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
-)
-
-
-def drawn(strategy: st.SearchStrategy, count: int) -> list:
-    cases = []
-
-    @settings(QUICK, max_examples=count, phases=[Phase.generate])
-    @given(strategy)
-    def collect(case):
-        cases.append(case)
-
-    collect()
-    return cases
+QUICK = settings(QUICK, max_examples=500)
 
 
 @pytest.fixture(scope="module")

@@ -6,27 +6,12 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, Phase, find, given, settings
+from hypothesis import find
 from hypothesis import strategies as st
 
 from poekin.formulas import coefficients
 from poekin.testing import strategies
-
-QUICK = settings(
-    max_examples=2000, database=None, derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
-)
-
-
-def drawn(strategy: st.SearchStrategy, count: int = 600) -> list:
-    cases = []
-
-    @settings(QUICK, max_examples=count, phases=[Phase.generate])
-    @given(strategy)
-    def collect(case):
-        cases.append(case)
-
-    collect()
-    return cases
+from tests.testing.drawing import QUICK, drawn
 
 
 def test_the_switches_are_those_of_the_formulas():

@@ -1,0 +1,20 @@
+"""Many examples of a strategy, always the same ones, to look at what it draws."""
+
+from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import strategies as st
+
+QUICK = settings(
+    max_examples=2000, database=None, derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+
+
+def drawn(strategy: st.SearchStrategy, count: int = 600) -> list:
+    cases = []
+
+    @settings(QUICK, max_examples=count, phases=[Phase.generate])
+    @given(strategy)
+    def collect(case):
+        cases.append(case)
+
+    collect()
+    return cases
