@@ -11,9 +11,12 @@ from .analysis.compare import compare
 from .analysis.count import count
 from .analysis.validate import validate
 from .errors import PoekinError, PoekinWarning
-from .formats import dh
+from .formats import dh, ur
 from .formats.load import load
+from .formats.objects import from_object
+from .formats.relink import relinked
 from .formats.urdf_text import to_urdf
+from .formats.xacro import xacro
 from .groups import se3, so3
 from .model import screw
 from .model.chain import Chain
@@ -34,10 +37,14 @@ __all__ = [
     "count",
     "dh",
     "errors",
+    "from_object",
     "load",
+    "relinked",
     "screw",
     "se3",
     "so3",
     "to_urdf",
+    "ur",
     "validate",
+    "xacro",
 ]

@@ -26,7 +26,20 @@ CORE = {"numpy", "numba", "llvmlite", "lxml"}
 
 # An optional package is imported in one file only, or in the files of one room.
 OPTIONAL: dict[str, str | None] = dict.fromkeys(
-    ("pinocchio", "scipy", "mpmath", "sympy", "matplotlib", "jinja2", "yaml", "tomli_w", "mujoco", "xacrodoc", "eaik")
+    (
+        "pinocchio",
+        "scipy",
+        "mpmath",
+        "sympy",
+        "matplotlib",
+        "jinja2",
+        "yaml",
+        "tomli_w",
+        "mujoco",
+        "xacrodoc",
+        "xacro",
+        "eaik",
+    )
 )
 OPTIONAL |= {"hypothesis": "poekin/testing/", "typer": "poekin/cli/", "rich": "poekin/cli/"}
 

@@ -3,11 +3,25 @@
 Each is a module with `topic(quick, say) -> Topic`: quick asks for a shorter run, say prints a line of progress.
 """
 
-from . import accuracy, exp_log, operation_counts, panda_hand, robots, robustness, start
+from . import (
+    accuracy,
+    exp_log,
+    model_truth_compare,
+    model_truth_robots,
+    model_truth_tables,
+    operation_counts,
+    panda_hand,
+    robots,
+    robustness,
+    start,
+)
 
 TOPICS = {
     "robots": robots,
     "accuracy": accuracy,
+    "model_truth_tables": model_truth_tables,
+    "model_truth_robots": model_truth_robots,
+    "model_truth_compare": model_truth_compare,
     "operation_counts": operation_counts,
     "panda_hand": panda_hand,
     "exp_log": exp_log,

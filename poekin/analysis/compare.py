@@ -11,6 +11,7 @@ from ..groups import so3
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from .comparison import Comparison, JointComparison, PoseErrors
+from .extra import droppable, without
 from .lines import at_rest, direction, sides
 from .search import Reading, read, search
 from .tolerances import check_tolerances
@@ -29,8 +30,8 @@ def compare(
     free choice (base frame, tool frame, zero positions, joint directions) is aligned to the largest set of joints that
     agree: of all readings the one that blames the fewest joints, then the one that leaves base and tool where they are.
     One bad joint is so not smeared over its neighbours. A zero offset of the first joint is a turned base and one of
-    the last joint a turned tool; `equivalent` says so. With different numbers of joints the one is named that can be
-    dropped (at its zero position) so that the rest agree.
+    the last joint a turned tool; `equivalent` says so. With different numbers of joints the one or two are named that
+    can be dropped (at their zero positions) so that the rest agree.
 
     Parameters: a, b; strict, align nothing, frames and zero positions included; tol_mm, tol_deg, how near is the same
     (an axis' place is judged at the point of it nearest to the arm's middle); samples and seed, random configurations
@@ -50,18 +51,22 @@ def compare(
     x = a.random(seed, samples) @ a.coupling.T
     extra = None
     if len(one.screws) != len(other.screws):
-        k = _droppable(one, other, tol_m, tol_rad)
-        if k is None:
-            told_apart = f"{len(one.screws)} joints against {len(other.screws)}"
-            end = "no one joint can be dropped so that the rest agree"
+        ks = droppable(one, other, float(tol_mm), float(tol_deg))
+        if ks is None:
+            counts = len(one.screws), len(other.screws)
+            told_apart = f"{counts[0]} joints against {counts[1]}"
+            which = {1: "no one joint can", 2: "no two joints can"}.get(
+                abs(counts[0] - counts[1]), "more than two must"
+            )
+            end = f"{which} be dropped so that the rest agree"
             return Comparison(
                 False, f"the models differ: {told_apart}, and {end}", (), None, None, None, None, (), None, strict,
                 float(tol_mm), float(tol_deg), int(samples), seed,
             )  # fmt: skip
         if len(one.screws) > len(other.screws):
-            extra, one, x = ("a", one.joint_names[k]), _without(one, k), np.delete(x, k, axis=1)
+            extra, one, x = ("a", *_names(one, ks)), without(one, ks), np.delete(x, ks, axis=1)
         else:
-            extra, other = ("b", other.joint_names[k]), _without(other, k)
+            extra, other = ("b", *_names(other, ks)), without(other, ks)
     if strict:
         reading, others = _as_it_is(one, other, tol_m, tol_rad), []
     else:
@@ -90,22 +95,8 @@ def _as_it_is(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading:
     return read(pair, a, b, base, np.zeros(pair.n))
 
 
-def _droppable(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> int | None:
-    """The joint of the longer chain without which both agree, if there is one: the one that leaves least to align."""
-    long, short = (a, b) if len(a.screws) > len(b.screws) else (b, a)
-    if len(long.screws) != len(short.screws) + 1:
-        return None
-    rest = [(search(_without(long, k), short, tol_m, tol_rad)[0], k) for k in range(len(long.screws))]
-    fitting = [(reading.cost, k) for reading, k in rest if not reading.moved.any()]
-    return min(fitting)[1] if fitting else None
-
-
-def _without(chain: Chain, k: int) -> Chain:
-    names = chain.joint_names[:k] + chain.joint_names[k + 1 :]
-    return Chain(
-        np.delete(chain.screws, k, 0), chain.home, joint_names=names, limits=np.delete(chain.limits, k, 0),
-        base=chain.base, tip=chain.tip,
-    )  # fmt: skip
+def _names(chain: Chain, ks: tuple[int, ...]) -> tuple[str, ...]:
+    return tuple(chain.joint_names[k] for k in ks)
 
 
 def _joints(a: Chain, b: Chain, reading: Reading, tol_rad: float) -> tuple[JointComparison, ...]:
@@ -143,14 +134,16 @@ def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:
 
 
 def _verdict(
-    same: bool, joints: tuple[JointComparison, ...], reading: Reading, extra: tuple[str, str] | None, strict: bool,
+    same: bool, joints: tuple[JointComparison, ...], reading: Reading, extra: tuple[str, ...] | None, strict: bool,
     tol_mm: float, tol_deg: float,
 ) -> str:  # fmt: skip
     tol = tol_mm / 1e3, math.radians(tol_deg)
     found = differences(joints, tol_mm, tol_deg)
     tool = frame_words("home pose's" if strict else "tool", reading.tool, *tol)
     if extra is not None:
-        found.insert(0, f"model {extra[0]} has one joint more, {shown(extra[1])}")
+        model, *names = extra
+        count = "one joint" if len(names) == 1 else "two joints"
+        found.insert(0, f"model {model} has {count} more, {' and '.join(map(shown, names))}")
     if strict:
         return "; ".join(["the models are the same as they stand" if same and extra is None else "the models differ",
                           *found, *([tool] if tool else [])])  # fmt: skip

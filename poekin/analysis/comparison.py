@@ -73,7 +73,8 @@ class Comparison:
     verdict: the same in words. joints: one `JointComparison` each. base (4, 4): pose of b's base frame in a's; tool
         (4, 4): pose of a's tool frame in b's; m; None where the models could not be matched.
     before, after: `PoseErrors` at the same joint values, as the models stand and under the alignment. strict.
-    equivalent: other readings that say the same. extra: the joint that only one model has, and which ("a" or "b").
+    equivalent: other readings that say the same. extra: which model ("a" or "b") has joints that the other has not, and
+        their names, one or two; None where both have as many, or no joints can be dropped so that the rest agree.
     tol_mm, tol_deg, samples, seed: as asked.
     """
 
@@ -85,7 +86,7 @@ class Comparison:
     before: PoseErrors | None
     after: PoseErrors | None
     equivalent: tuple[str, ...]
-    extra: tuple[str, str] | None
+    extra: tuple[str, ...] | None
     strict: bool
     tol_mm: float
     tol_deg: float

@@ -13,6 +13,7 @@ import numpy as np
 from ..errors import FileError, InputError, shown
 from ..formats import catalogue, urdf
 from ..formats.load import load
+from ..formats.urdf_text import to_urdf
 from ..model.chain import Chain
 from ..model.evaluation import FRAME_NAMES
 from ..model.joint import FREE, MOVING, Joint
@@ -118,8 +119,9 @@ def validate(
 ) -> Validation:
     """Poses and Jacobians of every chain from the root to a leaf, against Pinocchio.
 
-    Parameters: robot, anything `load` takes, or the text of a URDF (it begins with <), or a Robot that was loaded (its
-    URDF is read again, by Pinocchio);
+    Parameters: robot, anything `load` takes, or the text of a URDF (it begins with <), or a Robot; where it came
+    from a URDF file, Pinocchio reads that file again. Any other (a DH table, MJCF, xacro, a Robot built by hand) goes
+    to Pinocchio as the text of `to_urdf`: then what was read is not judged, but all that is computed from it;
     samples, random configurations a chain, beside the zero configuration: revolute over ±π and prismatic over ±1 m
     whatever the limits, *all* coordinates of the robot at once, so that one which a chain overlooks shows up too;
     seed, of the generator; progress, called as (chains done, chains in all, tip).
@@ -129,7 +131,7 @@ def validate(
     `chain_errors`; each must be at most `BAR` · R.
 
     Raises: what `load` raises; MissingExtra without Pinocchio; ModelError where Pinocchio refuses the URDF; InputError
-    for a Robot that was built by hand (there is no text to give to the oracle).
+    for a Robot that did not come from a URDF and cannot be written as one (helical joints).
     """
     if samples < 0:
         raise InputError(f"samples: a number of configurations ≥ 0 expected, got {samples}")
@@ -218,12 +220,12 @@ def _way(robot: Robot, above: dict[str, Joint], tip: str) -> tuple[str, list[str
 
 
 def _both(robot: Robot | str | os.PathLike[str]) -> tuple[Robot, PinocchioOracle]:
-    """poekin's model and Pinocchio's, of the same text."""
+    """poekin's model and Pinocchio's, of the same text; of the model's own as URDF where it did not come from one."""
     if isinstance(robot, str) and robot.lstrip().startswith("<"):
         return urdf.read_text(robot), PinocchioOracle(robot)
     model = robot if isinstance(robot, Robot) else load(robot)
     if model.source is None or not model.source.origin:
-        raise InputError(f"the robot {shown(model.name)} was not loaded from a file: Pinocchio needs its URDF")
+        return model, PinocchioOracle(to_urdf(model))
     try:
         text = _text(model.source.origin)
     except OSError as error:

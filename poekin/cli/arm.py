@@ -12,13 +12,15 @@ import numpy as np
 import typer
 
 from ..errors import InputError, closest, shown
-from ..formats.load import load
 from ..formats.numbers import real
+from ..formats.whole import write_whole
 from ..model.chain import Chain
 from . import files
+from .model import OPTIONS, model
 from .output import Progress, as_json, matrix, name, number, say
 
-File = Annotated[str, typer.Argument(metavar="FILE", help="A URDF file, a built-in name (panda), or erd:NAME.")]
+FILE_HELP = "A URDF, MJCF or DH table file, a built-in name (panda), or erd:NAME."
+File = Annotated[str, typer.Argument(metavar="FILE", help=FILE_HELP)]
 Tip = Annotated[str | None, typer.Option("--tip", help="The link whose motion it is (may be left out for one leaf).")]
 Base = Annotated[str | None, typer.Option("--base", help="The link it is seen from (default: the root).")]
 Numbers = Annotated[list[str] | None, typer.Argument(metavar="Q...", help="The coordinates, in rad or m.")]
@@ -43,14 +45,14 @@ class Arm:
 
 
 def take(file: str, tip: str | None, base: str | None, q: Sequence[str] | None, given: str | None) -> Arm:
-    """The chain and the configurations that a command line names. Raises: what `load`, `Robot.chain` and reading do."""
+    """The chain and configurations that a command line names. Raises: what `model`, `Robot.chain` and reading do."""
     words = list(q or ())
     for word in words:
         if word.startswith("--"):  # it came through as a number might
-            options = ("--tip", "--base", "--frame", "--input", "--output", "--json")
+            options = ("--tip", "--base", "--frame", "--input", "--output", "--json", *OPTIONS)
             raise InputError(f"there is no option {shown(word)}; {closest(word, options)}")
     values = [_value(word, i) for i, word in enumerate(words)]
-    robot = load(file)
+    robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     if given is None:
         if len(values) != chain.dof:
@@ -101,7 +103,7 @@ def give(
 
     if output is not None:
         content = {".csv": lambda: sheet().encode(), ".npy": lambda: files.npy_bytes(results)}
-        files.write_whole(output, content.get(output.suffix.lower(), lambda: (document() + "\n").encode())())
+        write_whole(output, content.get(output.suffix.lower(), lambda: (document() + "\n").encode())())
         summary = {"written": str(output), "configurations": len(results)}
         say(as_json(summary) if json else f"{len(results)} × {what} written to {shown(output)}")
     elif json:

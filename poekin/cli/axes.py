@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 
 from ..analysis.axes import axes
-from ..formats.load import load
 from .arm import Base, File, Json, Tip
+from .model import model
 from .output import as_json, name, number, say, table
 
 TolMm = Annotated[float, typer.Option("--tol-mm", help="Axes that pass each other by up to this intersect, mm.")]
@@ -19,7 +19,7 @@ def command(
     file: File, tip: Tip = None, base: Base = None, tol_mm: TolMm = 0.01, tol_deg: TolDeg = 0.001, json: Json = False
 ) -> None:
     """Pairs of axes: parallel, perpendicular, intersecting, or by how much they miss it; spherical wrist, Pieper, …"""
-    chain = load(file).chain(base=base, tip=tip)
+    chain = model(file).chain(base=base, tip=tip)
     report = axes(chain, tol_mm=tol_mm, tol_deg=tol_deg)
     if json:
         print(as_json({"base": chain.base, "tip": chain.tip} | report.as_dict()))

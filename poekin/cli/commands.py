@@ -6,7 +6,8 @@ from typing import Annotated
 
 import typer
 
-from . import axes, compare, fk, info, jacobian, urdf, validate
+from . import axes, compare, dh, fk, info, jacobian, urdf, validate
+from .model import takes_models
 
 app = typer.Typer(
     add_completion=False,
@@ -18,13 +19,14 @@ app = typer.Typer(
 # Unknown options pass through to q, so that -0.5 is a number; there are no one-letter options that it could be.
 NUMBERS = {"ignore_unknown_options": True}
 
-app.command("info")(info.command)
-app.command("fk", context_settings=NUMBERS)(fk.command)
-app.command("jacobian", context_settings=NUMBERS)(jacobian.command)
-app.command("validate")(validate.command)
-app.command("urdf")(urdf.command)
-app.command("compare")(compare.command)
-app.command("axes")(axes.command)
+app.command("info")(takes_models(info.command))
+app.command("fk", context_settings=NUMBERS)(takes_models(fk.command))
+app.command("jacobian", context_settings=NUMBERS)(takes_models(jacobian.command))
+app.command("validate")(takes_models(validate.command))
+app.command("urdf")(takes_models(urdf.command))
+app.command("compare")(takes_models(compare.command))
+app.command("axes")(takes_models(axes.command))
+app.command("dh")(takes_models(dh.command))
 
 
 def _version(wanted: bool) -> None:

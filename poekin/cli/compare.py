@@ -9,14 +9,14 @@ import typer
 from ..analysis.compare import compare
 from ..analysis.comparison import Comparison, PoseErrors
 from ..errors import InputError, listed, shown
-from ..formats.load import load
 from ..model.chain import Chain
-from .arm import Base, Json, Tip
+from .arm import FILE_HELP, Base, Json, Tip
+from .model import model
 from .output import as_json, name, number, say, table
 
 DIFFER = 1
 
-A = Annotated[str, typer.Argument(metavar="A", help="A model file, a built-in name (panda), or erd:NAME.")]
+A = Annotated[str, typer.Argument(metavar="A", help=FILE_HELP)]
 B = Annotated[str, typer.Argument(metavar="B", help="The model that it is compared with.")]
 TipB = Annotated[str | None, typer.Option("--tip-b", help="The link in B (default: as --tip where B has that link).")]
 BaseB = Annotated[str | None, typer.Option("--base-b", help="B's base (default: as --base where B has that link).")]
@@ -44,7 +44,7 @@ def command(
 def _chain(
     file: str, base: str | None, tip: str | None, base_like: str | None = None, tip_like: str | None = None
 ) -> Chain:
-    robot = load(file)
+    robot = model(file)
     if base is None and base_like in robot.links:
         base = base_like
     if tip is None and tip_like in robot.links:

@@ -5,9 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import os
-import stat
 import sys
-import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -131,30 +129,3 @@ def check_writable(path: Path) -> None:
         raise FileError(f"cannot write {shown(path)}: it is a directory")
     if not path.parent.is_dir():
         raise FileError(f"cannot write {shown(path)}: there is no directory {shown(path.parent)}")
-
-
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file so that it appears whole or not at all; one that was there stays until the new one is complete.
-
-    Raises: FileError.
-    """
-    try:
-        target = Path(os.path.realpath(path))
-        if target.exists() and not stat.S_ISREG(target.stat().st_mode):
-            target.write_bytes(content)  # a device or a pipe: there is nothing to replace
-            return
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:50]}.", suffix=".part")
-        try:
-            with open(handle, "wb") as stream:
-                stream.write(content)
-                stream.flush()
-                os.fsync(stream.fileno())
-            mask = os.umask(0)
-            os.umask(mask)
-            os.chmod(temporary, stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~mask)
-            os.replace(temporary, target)
-        finally:
-            if os.path.exists(temporary):
-                os.unlink(temporary)
-    except OSError as error:
-        raise FileError(f"cannot write {shown(path)}: {error.strerror or error}") from error

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..analysis.validate import routes
-from ..formats.load import load
 from ..model.chain import Chain
 from ..model.joint import Joint
 from ..model.robot import Robot
 from .arm import Base, File, Json, Tip
+from .model import model
 from .output import as_json, matrix, name, number, say, table
 
 SCREW = ("wx", "wy", "wz", "vx", "vy", "vz")
@@ -19,7 +19,7 @@ SCREW = ("wx", "wy", "wz", "vx", "vy", "vz")
 
 def command(file: File, tip: Tip = None, base: Base = None, json: Json = False) -> None:
     """The tree, its chains from root to leaf, and every joint's screw at home; of one chain with --tip or --base."""
-    robot = load(file)
+    robot = model(file)
     if tip is None and base is None:
         chains = [(robot.chain(base=b, tip=t), note) for b, t, note in routes(robot)]
         print(as_json(_robot(robot, chains))) if json else _show_robot(robot, chains)

@@ -9,10 +9,10 @@ from typing import Annotated
 import typer
 
 from ..errors import shown
-from ..formats.load import load
 from ..formats.urdf_text import to_urdf
-from . import files
+from ..formats.whole import write_whole
 from .arm import Base, File
+from .model import model
 from .output import say
 
 Tip = Annotated[str | None, typer.Option("--tip", help="The last link of the one chain to write.")]
@@ -21,11 +21,11 @@ Output = Annotated[Path | None, typer.Option("--output", help="Where the text go
 
 def command(file: File, tip: Tip = None, base: Base = None, output: Output = None) -> None:
     """URDF of the whole tree, or with --tip or --base of one chain; kinematics only, no meshes or masses."""
-    robot = load(file)
-    model = robot if tip is None and base is None else robot.chain(base=base, tip=tip)
-    text = to_urdf(model, name=robot.name)
+    robot = model(file)
+    written = robot if tip is None and base is None else robot.chain(base=base, tip=tip)
+    text = to_urdf(written, name=robot.name)
     if output is not None:
-        files.write_whole(output, text.encode())
+        write_whole(output, text.encode())
         say(f"URDF of {shown(robot.name)} written to {shown(output)}")
     else:
         # A stream that is not UTF-8 gets other characters by number: XML means the same by that.

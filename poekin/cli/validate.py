@@ -11,11 +11,12 @@ from ..errors import InputError, MissingExtra, PoekinError, shown
 from ..model.evaluation import FRAME_NAMES
 from ..testing.example_robots import example_robots
 from .arm import Json
+from .model import model
 from .output import Progress, as_json, complain, number, say, table
 
 FAILED, ERROR = 1, 2
 
-Files = Annotated[list[str] | None, typer.Argument(metavar="FILE...", help="URDF files, built-in names, or erd:NAME.")]
+Files = Annotated[list[str] | None, typer.Argument(metavar="FILE...", help="Model files, built-in names, or erd:NAME.")]
 Every = Annotated[bool, typer.Option("--all", help="Every robot of the package example-robot-data.")]
 Samples = Annotated[int, typer.Option("--samples", help="Random configurations a chain.", min=0)]
 Seed = Annotated[int, typer.Option("--seed", help="Seed of the random configurations.", min=0)]
@@ -42,7 +43,7 @@ def command(
                 progress(done, len(names), f"{file}: chain {chain} of {chains}, {tip}")
 
             try:
-                results.append(validate(file, samples=samples, seed=seed, progress=tell))
+                results.append(validate(model(file), samples=samples, seed=seed, progress=tell))
             except MissingExtra:
                 raise
             except (PoekinError, OSError) as error:

@@ -94,6 +94,57 @@ def _place() -> Path | None:
     return place
 
 
+def entry(name: str, key: object) -> Path | None:
+    """Where what is known by a name and a key is kept; None for nowhere."""
+    place = _place()
+    if place is None or source.LOADED is None:  # the package runs from where its source cannot be read
+        return None
+    whole = (source.LOADED, machine_key(), key)
+    return place / f"{name}-{hashlib.sha256(repr(whole).encode()).hexdigest()[:32]}.kernel"
+
+
+def read(path: Path) -> bytes | None:
+    """What an entry holds; None where there is none, or none that can be trusted."""
+    try:
+        with open(path, "rb", opener=_without_following) as file:
+            trusted = _private(os.fstat(file.fileno()))
+            data = file.read()
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        say_once("entry", "a kernel is compiled anew: %s cannot be read (%s)", path, error.strerror)
+        return None
+    digest, payload = data[:32], data[32:]
+    if not trusted or hashlib.sha256(payload).digest() != digest:
+        say_once("entry", "a kernel is compiled anew: %s is damaged or not this user's alone", path)
+        return None
+    return payload
+
+
+def write(path: Path, payload: bytes) -> None:
+    """Keep an entry; the file appears whole or not at all."""
+    partial = None
+    try:
+        # mkstemp gives mode 0600
+        handle, partial = tempfile.mkstemp(dir=path.parent, prefix=path.name)
+        with os.fdopen(handle, "wb") as file:
+            file.write(hashlib.sha256(payload).digest() + payload)
+        os.replace(partial, path)
+        _forget_the_old(path)
+    except OSError as error:
+        say_once("place", "kernels are compiled anew in each run: %s cannot be written (%s)", path, error.strerror)
+        if partial is not None:
+            with contextlib.suppress(OSError):
+                os.unlink(partial)
+
+
+def _forget_the_old(path: Path) -> None:
+    """Remove entries of this name that are a month old or older: from other versions or earlier source."""
+    for old in path.parent.glob(f"{path.name.rpartition('-')[0]}-*"):
+        if time.time() - old.stat().st_mtime > MONTH:
+            old.unlink(missing_ok=True)
+
+
 class KernelCache:
     """What a Numba dispatcher asks for machine code and hands it to, for one kernel."""
 
@@ -101,63 +152,24 @@ class KernelCache:
         self.name = name
 
     def _path(self, signature, codegen) -> Path | None:
-        place = _place()
-        if place is None or source.LOADED is None:  # the package runs from where its source cannot be read
-            return None
-        key = (source.LOADED, machine_key(), str(signature), codegen.magic_tuple())
-        return place / f"{self.name}-{hashlib.sha256(repr(key).encode()).hexdigest()[:32]}.kernel"
+        return entry(self.name, (str(signature), codegen.magic_tuple()))
 
     def load_overload(self, signature, target_context):
         """The kept machine code of this signature; None, after saying that it compiles, where there is none."""
         target_context.refresh()
         path = self._path(signature, target_context.codegen())
-        kept = None if path is None else self._load(path, target_context)
+        kept = None if path is None else read(path)
         if kept is None:
             where = "not kept" if path is None else f"kept in {path.parent}"
             say_once("compiling", "compiling kernels for this machine, a few seconds each (%s)", where)
-        return kept
-
-    def _load(self, path: Path, target_context):
-        try:
-            with open(path, "rb", opener=_without_following) as file:
-                trusted = _private(os.fstat(file.fileno()))
-                data = file.read()
-        except FileNotFoundError:
             return None
-        except OSError as error:
-            say_once("entry", "a kernel is compiled anew: %s cannot be read (%s)", path, error.strerror)
-            return None
-        digest, payload = data[:32], data[32:]
-        if not trusted or hashlib.sha256(payload).digest() != digest:
-            say_once("entry", "a kernel is compiled anew: %s is damaged or not this user's alone", path)
-            return None
-        return CompileResult._rebuild(target_context, *pickle.loads(payload))
+        return CompileResult._rebuild(target_context, *pickle.loads(kept))
 
     def save_overload(self, signature, compiled) -> None:
-        """Keep the machine code of this signature; the file appears whole or not at all."""
+        """Keep the machine code of this signature."""
         path = self._path(signature, compiled.codegen)
-        if path is None:
-            return
-        payload = serialize.dumps(compiled._reduce())
-        partial = None
-        try:
-            # mkstemp gives mode 0600
-            handle, partial = tempfile.mkstemp(dir=path.parent, prefix=path.name)
-            with os.fdopen(handle, "wb") as file:
-                file.write(hashlib.sha256(payload).digest() + payload)
-            os.replace(partial, path)
-            self._forget_the_old(path.parent)
-        except OSError as error:
-            say_once("place", "kernels are compiled anew in each run: %s cannot be written (%s)", path, error.strerror)
-            if partial is not None:
-                with contextlib.suppress(OSError):
-                    os.unlink(partial)
-
-    def _forget_the_old(self, place: Path) -> None:
-        """Remove what this kernel was compiled to a month ago or earlier: from other versions or earlier source."""
-        for entry in place.glob(f"{self.name}-*"):
-            if time.time() - entry.stat().st_mtime > MONTH:
-                entry.unlink(missing_ok=True)
+        if path is not None:
+            write(path, serialize.dumps(compiled._reduce()))
 
 
 def _without_following(path, flags):

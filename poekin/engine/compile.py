@@ -82,12 +82,12 @@ def array_type(code: str):
     return types.Array(element, dimensions, "A", readonly=True, aligned=False)
 
 
-def compiled(function, arguments: str, returns: str = "", bare: bool = False):
-    """The machine code of `function` for one signature, from the cache or compiled now."""
+def compiled(function, arguments: str, returns: str = "", quick: bool = False, bare: bool = False):
+    """The machine code of `function` for one signature, from the cache or compiled now; see `engine.kernel.Kernel`."""
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
     _register_functions(sys.modules[function.__module__])
-    dispatcher = numba.njit(nogil=not bare, **OPTIONS)(function)
+    dispatcher = numba.njit(nogil=not (quick or bare), **OPTIONS)(function)
     dispatcher._cache = KernelCache(function.__name__)  # type: ignore[attr-defined]
     result = types.int64 if returns == "int" else types.void
     signature = result(*(array_type(code) for code in arguments.split()))

@@ -13,26 +13,31 @@ _compiling = threading.RLock()
 class Kernel:
     """Call `kernel.call(...)`: the first time this loads or compiles the function and puts the result in its place.
 
-    A call releases the interpreter's lock and refuses arguments of other types with a TypeError. A `bare` kernel does
-    neither, which makes a call of half a microsecond a third faster: its caller has checked every argument.
+    A call releases the interpreter's lock and refuses arguments of other types with a TypeError. A `quick` kernel keeps
+    the lock, and a `bare` one checks nothing either, which makes a call of half a microsecond a third faster: its
+    caller has checked every argument.
     """
 
-    __slots__ = ("arguments", "bare", "call", "function", "returns")
+    __slots__ = ("arguments", "bare", "call", "function", "quick", "returns")
 
-    def __init__(self, function: Callable, arguments: str, returns: str, bare: bool):
-        self.function, self.arguments, self.returns, self.bare = function, arguments, returns, bare
+    def __init__(self, function: Callable, arguments: str, returns: str, quick: bool, bare: bool):
+        self.function, self.arguments, self.returns, self.quick, self.bare = function, arguments, returns, quick, bare
         self.call: Callable = self._first_call
 
-    def _first_call(self, *arguments):
+    def ready(self) -> Callable:
+        """The compiled function itself."""
         # Numba takes longer to import than all the rest of poekin: whoever only reads a model does without
         with _compiling:
             if self.call == self._first_call:  # and no other thread was quicker
                 from .compile import compiled
 
-                self.call = compiled(self.function, self.arguments, self.returns, self.bare)
-        return self.call(*arguments)
+                self.call = compiled(self.function, self.arguments, self.returns, self.quick, self.bare)
+        return self.call
+
+    def _first_call(self, *arguments):
+        return self.ready()(*arguments)
 
 
-def kernel(arguments: str, returns: str = "", bare: bool = False):
+def kernel(arguments: str, returns: str = "", quick: bool = False, bare: bool = False):
     """Decorator: make a function of arrays a `Kernel`; for the argument codes see `engine.compile.array_type`."""
-    return lambda function: Kernel(function, arguments, returns, bare)
+    return lambda function: Kernel(function, arguments, returns, quick, bare)

@@ -1,4 +1,4 @@
-"""Sine and cosine of one angle together, without a table and almost without a branch: a third of the library's time.
+"""Sine and cosine of one angle together, without a table: a third of the library's time.
 
 The angle loses a multiple k of pi/2, which stands here in three parts of which k times the first two is exact; what
 is left, |r| <= pi/4, goes through both Taylor polynomials. Beyond `MODERATE` the library's functions serve.
@@ -25,7 +25,7 @@ def _split(x):
 
 _HIGH, _MIDDLE, _LOW = _split(_HALF_PI)
 _PER_HALF_PI = float(1 / _HALF_PI)
-_ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds to the nearest integer
+_ROUND = 6755399441055744.0  # 1.5 * 2^52: there the last digit of a float is 1
 _SINE = tuple(float(Fraction((-1) ** k, math.factorial(2 * k + 1))) for k in range(1, 9))
 _COSINE = tuple(float(Fraction((-1) ** k, math.factorial(2 * k))) for k in range(2, 10))
 
@@ -34,11 +34,22 @@ def sincos(x):
     """(sin x, cos x) of an angle in rad."""
     if not abs(x) <= MODERATE:
         return elementary.sin(x), elementary.cos(x)
-    k = (x * _PER_HALF_PI + _ROUND) - _ROUND
+    return moderate(x)
+
+
+def moderate(x):
+    """(sin x, cos x) where abs(x) <= MODERATE: without a branch, so that a loop over many angles takes four at once."""
+    k = rounded(x * _PER_HALF_PI)
     r = ((x - k * _HIGH) - k * _MIDDLE) - k * _LOW
     z = r * r
     s = r + r * (z * polynomial(_SINE, z))
     c = 1.0 - (0.5 * z - z * z * polynomial(_COSINE, z))
-    quadrant = int(k) & 3
-    sine, cosine = (c, s) if quadrant & 1 else (s, c)
-    return (-sine if quadrant & 2 else sine), (-cosine if (quadrant + 1) & 2 else cosine)
+    half = rounded(0.5 * k - 0.25)  # k = 2 half + odd
+    odd = k - 2.0 * half
+    sign = 1.0 - 2.0 * (half - 2.0 * rounded(0.5 * half - 0.25))
+    return sign * (c if odd > 0.0 else s), sign * (-s if odd > 0.0 else c)
+
+
+def rounded(x):
+    """The integer nearest to x, abs(x) < 2^51, as a float."""
+    return (x + _ROUND) - _ROUND

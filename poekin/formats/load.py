@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import os
 
-from ..errors import FileError, InputError, UnknownName, closest, harmless, shown
+from ..errors import FileError, InputError, ModelError, UnknownName, closest, harmless, shown
 from ..model.robot import Robot
-from . import catalogue, dh, erd, urdf
+from . import catalogue, dh, erd, mjcf, ur, urdf
 from .dh.published_tables import NAMES as TABLES
 
 PREFIX = "erd:"
 BUILT_IN = tuple(sorted({*catalogue.NAMES, *TABLES}))
+ENDINGS = (".urdf", ".xml", ".xacro", ".toml", ".csv", ".yaml", ".yml")
+"""What ends so is meant as the name of a file, whether there is one or not."""
 
 
 def load(name: str | os.PathLike[str]) -> Robot:
     """The robot of that name.
 
-    Parameters: name, the path of an existing file, a URDF or a DH table (.toml, .csv); else the name of an arm that
-    comes with poekin, one of `BUILT_IN` ("panda", "ur5e", "puma560", ...); else "erd:" and the name of a robot of the
-    package example-robot-data, as in "erd:talos_left_arm".
+    Parameters: name, the path of an existing file, a URDF, an MJCF (.xml with the root <mujoco>, extra `mjcf`), a DH
+    table (.toml, .csv) or a calibration of Universal Robots (.yaml, .yml; see `poekin.formats.ur`); else the name of an
+    arm that comes with poekin, one of `BUILT_IN` ("panda", "ur5e", "puma560", ...); else "erd:" and the name of a robot
+    of the package example-robot-data, as in "erd:talos_left_arm". Xacro is refused: see `poekin.xacro`.
     A path object is always a path.
 
     Raises: FileError for a path that does not exist, is a directory, is empty or cannot be read; UnknownName with the
@@ -40,7 +43,7 @@ def load(name: str | os.PathLike[str]) -> Robot:
         return erd.read(name.removeprefix(PREFIX))
     if _exists(name):
         return urdf.read(name)
-    if "/" in name or os.sep in name or name.lower().endswith((".urdf", ".xml", ".xacro", ".toml", ".csv")):
+    if "/" in name or os.sep in name or name.lower().endswith(ENDINGS):
         raise FileError(f"{harmless(name, 400)}: no such file")
     known = BUILT_IN
     raise UnknownName(
@@ -52,6 +55,15 @@ def load(name: str | os.PathLike[str]) -> Robot:
 def _read(path: str | os.PathLike[str]) -> Robot:
     if os.fsdecode(path).lower().endswith((".toml", ".csv")):
         return dh.to_robot(dh.read(path))
+    if os.fsdecode(path).lower().endswith((".yaml", ".yml")):
+        return ur.read(path).to_robot()
+    if os.fsdecode(path).lower().endswith(".xml") and mjcf.is_mjcf(path):
+        return mjcf.read(path)
+    if os.fsdecode(path).lower().endswith(".xacro"):
+        raise ModelError(
+            f"{harmless(os.fsdecode(path), 400)}: xacro evaluates expressions that are in the file, which load never"
+            " does: pk.xacro(path) does, and --xacro on the command line"
+        )
     return urdf.read(path)
 
 

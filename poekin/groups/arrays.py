@@ -9,13 +9,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..engine import group_kernels
 from ..errors import InputError, PoseError, ShapeError
+from .objects import plain
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-5  # the largest accepted entry of abs(R R^T - I)
 
 
 def numbers(values: ArrayLike, what: str) -> Array:
-    """Values as a float64 array; refuses text, objects and complex numbers."""
+    """Values as a float64 array; poses of other libraries as `objects.plain` has them.
+
+    Refuses text, other objects and complex numbers.
+    """
+    if type(values) is not np.ndarray:
+        values = plain(values, what)
     try:
         array = np.asarray(values)
     except ValueError as error:

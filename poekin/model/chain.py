@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,10 +12,13 @@ from ..engine import chain_kernels
 from ..errors import InputError, ShapeError, shown
 from ..groups import se3
 from ..groups.arrays import Array
-from . import evaluation, screw
+from . import evaluation, idealise, screw
 from .coordinates import coordinates
 from .local import LocalForm, kernel_table, local_form
 from .parts import bounds, coupling_matrix, distinct_names, finite, frame_name, one_pose, ordered_names, read_only
+
+if TYPE_CHECKING:
+    from .compiled import CompiledChain
 
 
 class ScrewForm(NamedTuple):
@@ -118,6 +121,9 @@ class Chain:
     fk_jacobian = evaluation.fk_jacobian
     velocity = evaluation.velocity
     joint_poses = evaluation.joint_poses
+    _fill_poses, _fill_both, _fill_jacobians = evaluation.fill_poses, evaluation.fill_both, evaluation.fill_jacobians
+    _frame_code = evaluation.frame_code
+    idealised = idealise.idealised
 
     @property
     def dof(self) -> int:
@@ -139,6 +145,16 @@ class Chain:
     def body(self) -> ScrewForm:
         """B_i = Ad(M)^-1 A_i in the tool frame and M: f = M e^{B_1 x_1} ... e^{B_n x_n}."""
         return ScrewForm(self.screws @ se3.adjoint(se3.inverse(self.home)).T, self.home)
+
+    def compile(self, *, parallel: bool = False) -> CompiledChain:
+        """The same arm with machine code made for its numbers: methods `fk`, `jacobian`, `fk_jacobian` as here, faster.
+
+        Parameters: parallel, whether large batches are shared out among threads. Returns: CompiledChain, see there.
+        Raises: InputError. Accuracy: as `fk`. Source: Park 1994, Section IV, two planar rotations a link.
+        """
+        from .compiled import CompiledChain
+
+        return CompiledChain(self, parallel)
 
     def rebased(self, P: ArrayLike, base: str | None = None) -> Chain:
         """f' = P f: the same arm seen from another base frame; A' = Ad(P) A, M' = P M.
@@ -184,12 +200,17 @@ class Chain:
         """
         rng = np.random.default_rng(rng)
         size = (size,) if isinstance(size, (int, np.integer)) else tuple(size)
+        low, high = self._range()
+        return low + (high - low) * rng.random((*size, self.dof))
+
+    def _range(self) -> tuple[Array, Array]:
+        """Least and greatest value (m,) that `random` draws of each coordinate."""
         turn = np.array([np.pi if self._turns(k) else 1.0 for k in range(self.dof)])
         lower, upper = self.limits.T
         bounded = np.isfinite(lower), np.isfinite(upper)
         low = np.where(bounded[0], lower, np.where(bounded[1], upper - 2 * turn, -turn))
         high = np.where(bounded[1], upper, np.where(bounded[0], lower + 2 * turn, turn))
-        return low + (high - low) * rng.random((*size, self.dof))
+        return low, high
 
     def _turns(self, k: int) -> bool:
         """Whether coordinate k is an angle: the first joint that follows it turns."""

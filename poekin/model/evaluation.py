@@ -16,6 +16,7 @@ from .coordinates import coordinates
 
 if TYPE_CHECKING:
     from .chain import Chain
+    from .compiled import CompiledChain
 
 FRAME_NAMES = ("space", "body", "hybrid")
 _FRAMES: dict[object, int] = {"space": chain_kernels.SPACE, "body": chain_kernels.BODY, "hybrid": chain_kernels.HYBRID}
@@ -38,10 +39,7 @@ def fk(self: Chain, q: Any, *, out: Array | None = None) -> Array:
         T = _empty(_POSE_SHAPE) if out is None else _checked_out(out, _POSE_SHAPE, "out", q)
         _pose_one.call(self._table, q, T)
         return T
-    batch, rows = _rows(self, q)
-    T = _empty((*batch, 4, 4)) if out is None else _checked_out(out, (*batch, 4, 4), "out", q)
-    chain_kernels.pose_many.call(self._table, rows, T.reshape(len(rows), 4, 4))
-    return T
+    return fk_of_many(self, q, out)
 
 
 def fk_jacobian(
@@ -60,13 +58,7 @@ def fk_jacobian(
             T, J = _checked_pair(out, _POSE_SHAPE, self._jacobian_shape, q)
         _pose_jacobian_one.call(self._table, q, _FRAMES[frame], T, J)
         return T, J
-    code, point, (batch, rows) = _frame_code(self, frame), _point(frame, at), _rows(self, q)
-    shapes = (*batch, 4, 4), (*batch, 6, self.dof)
-    T, J = (_empty(shapes[0]), _empty(shapes[1])) if out is None else _checked_pair(out, *shapes, q)
-    _fill(self, rows, code, T.reshape(len(rows), 4, 4), J)
-    if point is not None:
-        _move(J, point, None if frame == "body" else T)
-    return T, J
+    return fk_jacobian_of_many(self, q, frame, at, out)
 
 
 def jacobian(self: Chain, q: Any, frame: str | int, *, at: ArrayLike | None = None, out: Array | None = None) -> Array:
@@ -85,14 +77,7 @@ def jacobian(self: Chain, q: Any, frame: str | int, *, at: ArrayLike | None = No
     """
     if out is None and (at is not None or (type(q) is _ndarray and q.ndim == 1)):
         return fk_jacobian(self, q, frame, at=at)[1]  # the shorter way in for one configuration
-    code, point, (batch, rows) = _frame_code(self, frame), _point(frame, at), _rows(self, q)
-    shape = (*batch, 6, self.dof)
-    J = _empty(shape) if out is None else _checked_out(out, shape, "out", q)
-    if point is None:
-        _fill(self, rows, code, _empty((1, 4, 4)), J)
-    else:
-        fk_jacobian(self, rows.reshape(*batch, self.dof), frame, at=at, out=(_empty((*batch, 4, 4)), J))
-    return J
+    return jacobian_of_many(self, q, frame, at, out)
 
 
 def velocity(self: Chain, q: Any, dq: Any, frame: str | int) -> Array:
@@ -102,7 +87,7 @@ def velocity(self: Chain, q: Any, dq: Any, frame: str | int) -> Array:
     Raises: ShapeError, UnknownName, InputError. Accuracy: within 2e-14 reach |dq| (tests/model/test_chain_laws.py).
     Source: Park 1994, Section IV; the recursion yields the body velocity, the other frames are reached from it.
     """
-    code = _frame_code(self, frame)
+    code = self._frame_code(frame)
     q, dq = coordinates(q, self.q_names), coordinates(dq, self.q_names, "dq")
     try:
         batch = np.broadcast_shapes(q.shape, dq.shape)
@@ -136,19 +121,65 @@ def joint_poses(self: Chain, q: Any) -> Array:
     return T.reshape(*batch, len(self.joint_names), 4, 4)
 
 
-def _rows(chain: Chain, q: Any) -> tuple[tuple[int, ...], Array]:
+def fk_of_many(arm: Chain | CompiledChain, q: Any, out: Array | None) -> Array:
+    """`fk` of whatever a user may give as q."""
+    batch, rows = _rows(arm, q)
+    T = _empty((*batch, 4, 4)) if out is None else _checked_out(out, (*batch, 4, 4), "out", q)
+    arm._fill_poses(rows, T.reshape(len(rows), 4, 4))
+    return T
+
+
+def fk_jacobian_of_many(
+    arm: Chain | CompiledChain, q: Any, frame: str | int, at: ArrayLike | None, out: tuple[Array, Array] | None
+) -> tuple[Array, Array]:
+    """`fk_jacobian` of whatever a user may give as q."""
+    code, point, (batch, rows) = arm._frame_code(frame), _point(frame, at), _rows(arm, q)
+    shapes = (*batch, 4, 4), (*batch, 6, arm.dof)
+    T, J = (_empty(shapes[0]), _empty(shapes[1])) if out is None else _checked_pair(out, *shapes, q)
+    arm._fill_both(rows, code, T.reshape(len(rows), 4, 4), J.reshape(len(rows), 6, arm.dof))
+    if point is not None:
+        _move(J, point, None if frame == "body" else T)
+    return T, J
+
+
+def jacobian_of_many(
+    arm: Chain | CompiledChain, q: Any, frame: str | int, at: ArrayLike | None, out: Array | None
+) -> Array:
+    """`jacobian` of whatever a user may give as q."""
+    code, point, (batch, rows) = arm._frame_code(frame), _point(frame, at), _rows(arm, q)
+    shape = (*batch, 6, arm.dof)
+    J = _empty(shape) if out is None else _checked_out(out, shape, "out", q)
+    if point is None:
+        arm._fill_jacobians(rows, code, J.reshape(len(rows), 6, arm.dof))
+    else:
+        fk_jacobian_of_many(arm, rows.reshape(*batch, arm.dof), frame, at, (_empty((*batch, 4, 4)), J))
+    return J
+
+
+def fill_poses(self: Chain, rows: Array, T: Array) -> None:
+    """The poses of configurations (N, m) into T (N, 4, 4)."""
+    chain_kernels.pose_many.call(self._table, rows, T)
+
+
+def fill_both(self: Chain, rows: Array, code: int, T: Array, J: Array) -> None:
+    """The poses into T, and the Jacobians in the frame of that code into J (N, 6, m)."""
+    chain_kernels.pose_jacobian_many.call(self._table, rows, code, T, J)
+
+
+def fill_jacobians(self: Chain, rows: Array, code: int, J: Array) -> None:
+    """The Jacobians in the frame of that code into J (N, 6, m)."""
+    chain_kernels.pose_jacobian_many.call(self._table, rows, code, _empty((1, 4, 4)), J)
+
+
+def _rows(chain: Chain | CompiledChain, q: Any) -> tuple[tuple[int, ...], Array]:
     """The batch shape of q and its configurations as rows."""
     q = coordinates(q, chain.q_names)
     return q.shape[:-1], q.reshape(math.prod(q.shape[:-1]), chain.dof)
 
 
-def _fill(chain: Chain, rows: Array, code: int, T: Array, J: Array) -> None:
-    count = len(rows)
-    chain_kernels.pose_jacobian_many.call(chain._table, rows, code, T, J.reshape(count, 6, chain.dof))
-
-
-def _frame_code(chain: Chain, frame: object) -> int:
-    return _FRAMES[frame] if isinstance(frame, str) and frame in _FRAMES else joint_index(chain, frame)
+def frame_code(self: Chain, frame: object) -> int:
+    """What a frame is to the kernels."""
+    return _FRAMES[frame] if isinstance(frame, str) and frame in _FRAMES else joint_index(self, frame)
 
 
 def _point(frame: str | int, at: ArrayLike | None) -> Array | None:

@@ -45,7 +45,7 @@ def local_form(screws: Array, home: Array) -> LocalForm:
         if rotates[i]:
             foot = np.cross(S[:3], S[3:])
             there = foot + z * (z @ (origin - foot))
-        frames[i, :3, :3] = _turned_least(R.T @ z)
+        frames[i, :3, :3] = turned_least(R.T @ z)
         frames[i, :3, 3] = R.T @ (there - origin)
         R, origin = R @ frames[i, :3, :3], there
     frames[n, :3, :3] = R.T @ home[:3, :3]
@@ -53,7 +53,7 @@ def local_form(screws: Array, home: Array) -> LocalForm:
     return LocalForm(read_only(frames), read_only(rotates), read_only(slides))
 
 
-def _turned_least(z: Array) -> Array:
+def turned_least(z: Array) -> Array:
     """The rotation that takes (0, 0, 1) to the unit vector z by the smallest angle; by way of diag(1, -1, -1) where
     z points down, so that it has no singularity.
     """

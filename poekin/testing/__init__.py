@@ -6,6 +6,7 @@
     pinocchio_oracle   poses and Jacobians of a URDF by Pinocchio
     strategies         Hypothesis strategies: angles, axes, twists, poses, noisy rotations
     chain_strategies   Hypothesis strategies: screws, chains, configurations
+    dh_strategies      Hypothesis strategies: Denavit-Hartenberg tables
     reader             random bytes read as numbers, which the strategies are made of
     laws, measures     LawViolation, and how an error is measured
     group, group_laws  SO(3) and SE(3) as plain functions, and their laws
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
         chain_laws,
         chain_strategies,
         change_laws,
+        dh_strategies,
         differences,
         exact,
         extended,
@@ -59,6 +61,7 @@ __all__ = [
     "chain_laws",
     "chain_strategies",
     "change_laws",
+    "dh_strategies",
     "differences",
     "exact",
     "extended",

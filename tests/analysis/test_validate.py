@@ -221,8 +221,9 @@ def test_the_oracle_reads_what_was_read_wherever_the_process_stands_by_then(tmp_
 def test_a_robot_out_of_a_text_that_is_called_like_a_file_is_not_read_from_that_file(tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text(URDF)
-    with pytest.raises(InputError, match="was not loaded from a file"):
-        validate(urdf.read_text(URDF, str(path)))
+    assert validate(urdf.read_text(URDF.replace('"turn"', '"twist"'), str(path)), samples=3).rows[0].configuration == (
+        validate(URDF.replace('"turn"', '"twist"'), samples=3).rows[0].configuration
+    )
 
 
 ENCODED = {
@@ -255,9 +256,13 @@ def test_progress_is_told_before_each_chain():
     assert told == [(0, 1, "tip")]
 
 
-def test_a_robot_without_a_file_cannot_be_validated():
-    with pytest.raises(InputError, match="was not loaded from a file"):
-        validate(Robot("r", ["a"], []))
+def test_a_robot_that_came_from_no_urdf_is_validated_by_the_text_that_it_is_written_as():
+    v = validate("puma560", samples=3)
+    assert v.passed
+    assert v.moving == 6
+    assert validate(Robot("r", ["a"], []), samples=3).passed
+    with pytest.raises(InputError, match=r"helical joints, and these are: 'j'"):
+        validate(Robot("r", ["a", "b"], [Joint("j", "helical", "a", "b", pitch=0.1)]))
 
 
 def test_a_file_that_is_gone_is_an_error(tmp_path):

@@ -8,6 +8,7 @@ import pytest
 
 from poekin.cli import files
 from poekin.errors import FileError
+from poekin.formats.whole import write_whole
 
 
 def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
@@ -19,7 +20,7 @@ def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monke
 
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(FileError, match="No space left"):
-        files.write_whole(path, b"new")
+        write_whole(path, b"new")
     assert os.listdir(tmp_path) == ["T.csv"]
     assert path.read_text() == "old"
 
@@ -32,17 +33,17 @@ def test_an_interrupted_write_leaves_the_old_file_and_nothing_else(tmp_path, mon
 
     monkeypatch.setattr(os, "replace", interrupt)
     with pytest.raises(KeyboardInterrupt):
-        files.write_whole(path, b"new")
+        write_whole(path, b"new")
     assert os.listdir(tmp_path) == []
 
 
 def test_a_new_file_has_the_usual_mode_and_an_old_one_keeps_its_own(tmp_path):
     mask = os.umask(0o022)
     try:
-        files.write_whole(tmp_path / "new.csv", b"x")
+        write_whole(tmp_path / "new.csv", b"x")
         (tmp_path / "old.csv").write_text("x")
         (tmp_path / "old.csv").chmod(0o600)
-        files.write_whole(tmp_path / "old.csv", b"y")
+        write_whole(tmp_path / "old.csv", b"y")
     finally:
         os.umask(mask)
     assert oct((tmp_path / "new.csv").stat().st_mode & 0o777) == "0o644"
@@ -52,14 +53,14 @@ def test_a_new_file_has_the_usual_mode_and_an_old_one_keeps_its_own(tmp_path):
 def test_a_link_stays_a_link(tmp_path):
     (tmp_path / "real.csv").write_text("old")
     (tmp_path / "link.csv").symlink_to(tmp_path / "real.csv")
-    files.write_whole(tmp_path / "link.csv", b"new")
+    write_whole(tmp_path / "link.csv", b"new")
     assert (tmp_path / "link.csv").is_symlink()
     assert (tmp_path / "real.csv").read_text() == "new"
 
 
 def test_a_device_is_written_to_and_not_replaced(tmp_path):
     (tmp_path / "null.csv").symlink_to(os.devnull)
-    files.write_whole(tmp_path / "null.csv", b"new")
+    write_whole(tmp_path / "null.csv", b"new")
     assert not os.path.isfile(os.devnull)
 
 

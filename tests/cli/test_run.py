@@ -76,7 +76,7 @@ def test_memory_that_runs_out_is_one_message(monkeypatch, refused, crane):
     def out_of_memory(*_):
         raise MemoryError
 
-    monkeypatch.setattr(arm, "load", out_of_memory)
+    monkeypatch.setattr(arm, "model", out_of_memory)
     assert "not enough memory" in refused("fk", crane, "0", "0", "--tip", "hook")
 
 
@@ -86,7 +86,7 @@ def test_an_interrupt_ends_with_130_and_no_traceback(monkeypatch, poekin, crane)
     def interrupt(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(info, "load", interrupt)
+    monkeypatch.setattr(info, "model", interrupt)
     assert poekin("info", crane) == (cli.INTERRUPTED, "", "")
 
 

@@ -25,10 +25,10 @@ from poekin.model.robot import Robot
 from poekin.testing.chain_strategies import chains
 from poekin.testing.example_robots import example_robots
 from poekin.testing.pinocchio_oracle import PinocchioOracle
+from poekin.testing.urdf_errors import pinocchio_error, values_of
 from tests.model.test_robot import random_q, robots, seeds, size
 
 INF = math.inf
-SAMPLES = 5
 
 
 def quietly(make: Callable, *args, **options):
@@ -64,39 +64,6 @@ def pose_error(robot: Robot, other: Robot, seed: int) -> float:
     q = random_q(robot, seed)
     mine, theirs = robot.fk(q), other.fk({name: q.get(name, 0.0) for name in other.q_names})
     return max(np.abs(mine[link] - theirs[link]).max() for link in robot.links) / size(robot)
-
-
-def values_of(chain: Chain) -> list[tuple[str, float, float] | None]:
-    """For each coordinate the URDF's joint that stands for it, and its value in terms of q: ratio q + shift."""
-    result = []
-    for column in chain.coupling.T:
-        rows = [(float(r), chain.offset[i], i) for i, r in enumerate(column) if r]
-        if not rows:
-            result.append(None)
-            continue
-        r, c, i = min(rows, key=lambda row: (row[0] != 1 or row[1] != 0, row[0] != 1, row[0] != -1, row[2]))
-        result.append((chain.joint_names[i], *((1.0, 0.0) if abs(r) == 1 else (r, c))))
-    return result
-
-
-def pinocchio_error(chain: Chain, text: str, seed: int) -> float:
-    """The worst error of pose and Jacobians of a chain against what Pinocchio makes of a text, lengths ÷ reach."""
-    oracle, values = PinocchioOracle(text), values_of(chain)
-    q = np.random.default_rng(seed).uniform(-3, 3, (SAMPLES, chain.dof))
-    named = {v[0]: v[1] * q[:, k] + v[2] for k, v in enumerate(values) if v}
-    if set(named) - set(oracle.coordinates):
-        return INF
-    T, J = oracle.evaluate(named or dict.fromkeys(oracle.coordinates, np.zeros(SAMPLES)), chain.tip, chain.base)
-    weight = np.array([1, 1, 1, 1 / chain.reach])
-    worst = [np.abs((chain.fk(q)[: len(T)] - T)[:, :3] * weight).max()]
-    for frame, columns in J.items():
-        wanted = np.zeros((len(T), 6, chain.dof))
-        for k, v in enumerate(values):
-            if v:
-                wanted[:, :, k] = columns[:, :, oracle.coordinates.index(v[0])] * v[1]
-        off = (chain.jacobian(q, frame)[: len(T)] - wanted) * np.repeat([1, 1 / chain.reach], 3)[:, None]
-        worst.append(np.abs(off).max(initial=0.0))
-    return float(max(worst))
 
 
 @st.composite

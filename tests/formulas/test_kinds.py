@@ -22,6 +22,7 @@ from poekin.formulas import (
     forward,
     logarithm,
     recursive,
+    structured,
 )
 from tests.formulas.kinds import KINDS, floats
 
@@ -50,6 +51,20 @@ B = {t: coefficients.b_of(t * t, t) for t in SIZES}
 
 def rows(count=N):
     return [[0.0] * count for _ in range(6)]
+
+
+def rows12():
+    return [[0.0] * 12 for _ in range(N)]
+
+
+def pairs():
+    return [[0.0] * 2 for _ in range(N)]
+
+
+ALPHAS = rng.normal(size=N)
+TWISTS = [[math.sin(t), math.cos(t), a, b] for t, a, b in zip(ALPHAS, *rng.normal(size=(2, N)), strict=True)]
+WALK = (structured.axes(T2), TWISTS, RATES, [0, 0, 1, 0], SINES, COSINES)
+SEEN = rng.normal(size=(N, 2)).tolist()
 
 
 CASES = [
@@ -111,6 +126,18 @@ CASES = [
     (dh_recursive.body, LINKS, T1, ROTATES, SLIDES, N, rows()),
     (dh.link, 0.6, 0.8, 0.3, -0.2, 0.28, 0.96),
     (dh.screws, LINKS, ROTATES, SLIDES, N, SCREWS),
+    (structured.outward, *WALK, 0, N, rows12()),
+    (structured.inward, *WALK, N - 1, rows12()),
+    *[(structured.seen_outward, V, *WALK[1:], begin, N, pairs()) for begin in (0, 2)],
+    (structured.seen_inward, V, *WALK[1:], N - 1, pairs()),
+    (structured.tip_seen, V, *WALK[1:], N, pairs()),
+    (structured.columns_of_axes, LINKS, SEEN, ROTATES, SLIDES, 1, N, AXES),
+    (structured.link, TWISTS[0]),
+    (structured.turn, 0.3, -0.2, 0.6, 0.8),
+    (structured.turned, W, V, 0.6, 0.8),
+    (structured.write, list(T1), W, V, LONG, V),
+    (structured.axes, T1),
+    (structured.pose, structured.axes(T1)),
     (defect.orthonormality, R1),
     (defect.determinant, R1),
 ]

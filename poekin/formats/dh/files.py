@@ -22,6 +22,7 @@ from ...errors import FileError, InputError, MissingExtra, ModelError, PoekinErr
 from ...groups.arrays import Array
 from .. import xml
 from ..numbers import real
+from ..whole import write_whole
 from .table import COLUMNS, CONVENTIONS, Row, Table
 
 TOP: tuple[str, ...] = ("convention", "name", "source", "base", "tool", "joint")
@@ -53,15 +54,12 @@ def read_text(text: str, name: str) -> Table:
 def write(table: Table, path: str | os.PathLike[str]) -> None:
     """Write a table as .toml (extra `formats`) or .csv; numbers keep all their digits.
 
+    The file appears whole or not at all; one that was there stays until the new one is complete.
     Raises: FileError where the file cannot be written; MissingExtra without tomli-w for .toml.
     """
     name = os.fsdecode(path)
     text = text_of(table, os.path.splitext(name)[1])
-    try:
-        with open(path, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-    except OSError as fault:
-        raise FileError(f"{harmless(name, 400)}: cannot be written: {fault.strerror}") from fault
+    write_whole(path, text.encode())
 
 
 def text_of(table: Table, ending: str) -> str:

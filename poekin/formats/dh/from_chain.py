@@ -12,7 +12,18 @@ from ...algebra import add, cross, dot, scale, subtract
 from ...errors import InputError, shown
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from .normals import Normal, Vector, across, common_normal, digits, exact, length, parallel_normal, unit
+from ...model.normals import (
+    Normal,
+    Vector,
+    across,
+    axis_near,
+    common_normal,
+    digits,
+    exact,
+    length,
+    parallel_normal,
+    unit,
+)  # fmt: skip
 from .table import CONVENTIONS, Row, Table
 from .to_chain import to_chain
 
@@ -103,13 +114,7 @@ class _Walk:
 
     def _axis(self, i: int, origin: Vector) -> tuple[Vector, Vector]:
         """Direction and a point of axis i, nearest to `origin`; a prismatic one passes through it."""
-        S = self.chain.screws[i]
-        if self.chain.kinds[i] == "prismatic":
-            return unit(exact(S[3:])), origin
-        w, v = exact(S[:3]), exact(S[3:])
-        z = unit(w)
-        foot = scale(1 / dot(w, w), cross(w, v))
-        return z, add(foot, scale(dot(subtract(origin, foot), z), z))
+        return axis_near(self.chain.screws[i], self.chain.kinds[i] == "prismatic", origin)
 
     def _normal(self, i: int, o: Vector, z: Vector, p2: Vector, z2: Vector, x: Vector) -> tuple[Normal, Vector]:
         """The common normal of axes i and i + 1, and the direction of axis i + 1 that the table will have."""

@@ -11,7 +11,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from decimal import Context, Decimal, localcontext
 
-from ...algebra import add, cross, dot, scale, subtract
+import numpy as np
+
+from ..algebra import add, cross, dot, scale, subtract
 
 Vector = tuple[Decimal, Decimal, Decimal]
 ZERO = Decimal(0)
@@ -43,6 +45,16 @@ def unit(a: Vector) -> Vector:
 def across(a: Vector, z: Vector) -> Vector:
     """The part of a that is perpendicular to the unit vector z."""
     return subtract(a, scale(dot(a, z), z))
+
+
+def axis_near(S: np.ndarray, slides: bool, origin: Vector) -> tuple[Vector, Vector]:
+    """Direction of a screw's axis and its point nearest to `origin`, which is that itself where a joint only slides."""
+    w, v = exact(S[:3]), exact(S[3:])
+    if slides:
+        return unit(v), origin
+    z = unit(w)
+    foot = scale(1 / dot(w, w), cross(w, v))
+    return z, add(foot, scale(dot(subtract(origin, foot), z), z))
 
 
 @dataclass(frozen=True)

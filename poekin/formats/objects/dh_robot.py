@@ -1,0 +1,52 @@
+"""Robotics Toolbox's DHRobot: links with alpha, a, d, theta, offset, sigma, mdh, isflip and qlim."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ...errors import InputError
+from ..dh.table import Row, Table
+from .attributes import has, items_of, type_name
+
+_LINK = ("alpha", "a", "d", "theta", "offset", "sigma", "mdh")
+
+
+def fits(obj: Any) -> bool:
+    """Whether an object has links with Denavit-Hartenberg parameters."""
+    links = items_of(getattr(obj, "links", None))
+    return bool(links) and all(has(link, *_LINK) for link in links)
+
+
+def table_of(robot: Any) -> Table:
+    """The table of a Robotics Toolbox DHRobot: convention, rows, directions, limits, base, tool and name.
+
+    As its `fkine` does: a revolute joint's angle is q + offset, its `theta` does not count; a prismatic joint's length
+    is q + offset, its `d` does not; -q in place of q where `isflip` is true.
+
+    Parameters: robot, a DHRobot or whatever has its attributes. Returns: `pk.dh.Table`, joints joint1, joint2, ...
+    Raises: InputError for an object without such links, for links of both conventions and for symbols in place of
+    numbers; ShapeError, PoseError for base and tool. Accuracy: the numbers as they are.
+    Source: the toolbox's documentation of DHLink.
+    """
+    if not fits(robot):
+        raise InputError(f"expected a DHRobot with links that have {', '.join(_LINK)}, got {type_name(robot)}")
+    links = items_of(robot.links)
+    if len({bool(link.mdh) for link in links}) > 1:
+        raise InputError(f"{type_name(robot)}: its links mix the standard and the modified convention")
+    return Table(
+        "modified" if links[0].mdh else "standard",
+        [_row(link) for link in links],
+        base=getattr(robot, "base", None),
+        tool=getattr(robot, "tool", None),
+        name=str(getattr(robot, "name", "") or "arm"),
+    )
+
+
+def _row(link: Any) -> Row:
+    qlim = getattr(link, "qlim", None)
+    limits = (-math.inf, math.inf) if qlim is None else tuple(qlim)
+    flip = bool(getattr(link, "isflip", False))
+    if link.sigma:
+        return Row(link.theta, link.offset, link.a, link.alpha, "prismatic", flip, limits=limits)
+    return Row(link.offset, link.d, link.a, link.alpha, "revolute", flip, limits=limits)

@@ -1,0 +1,8 @@
+"""Universal Robots' factory calibrations: the ROS driver's YAML, DH tables, and nominal tables with deltas."""
+
+from .calibration import JOINTS, LINKS, Calibration, apply
+from .conf import read_deltas
+from .files import read, write
+from .tables import deltas, from_dh
+
+__all__ = ["JOINTS", "LINKS", "Calibration", "apply", "deltas", "from_dh", "read", "read_deltas", "write"]

@@ -1,0 +1,126 @@
+"""Calibrations out of DH tables: the arm's own, or the nominal one and what its controller keeps, the deltas."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...algebra import compose
+from ...errors import InputError, listed, shown
+from ...model.parts import finite
+from ...model.robot import TWELVE
+from ...model.source import warn
+from .. import dh
+from ..dh import Table
+from ..dh.table import COLUMNS
+from ..dh.to_chain import links_of
+from ..relink import relinked
+from .calibration import JOINTS, LINKS, Calibration
+
+FAR = 0.02
+"""A calibration that moves a link by more than this [m] is hardly one of that arm: 2 to 7 mm are usual."""
+
+
+def deltas(
+    table: Table,
+    *,
+    delta_theta: ArrayLike | None = None,
+    delta_a: ArrayLike | None = None,
+    delta_d: ArrayLike | None = None,
+    delta_alpha: ArrayLike | None = None,
+) -> Table:
+    """The table with deltas added to its columns: an arm's own parameters from the nominal ones.
+
+    Parameters: table, as `pk.dh.published("ur10e")`; the deltas (n,), one a joint [rad, m], none for none: as the
+    controller keeps them in calibration.conf (`read_deltas`). Returns: Table of the same convention, base and tool.
+    Raises: InputError for deltas of another number of joints or not finite, and for what is no Table.
+    Accuracy: one rounding. A controller takes π/2 to be 1.570796327, which is 2e-10 rad more than in the published
+    tables of poekin, so its own alpha differs from this one by as much.
+    Source: Universal Robots ROS 2 driver, ur_calibration/test/calibration_test.cpp, which adds them so.
+    """
+    if not isinstance(table, Table):
+        raise InputError(f"deltas: expected a dh.Table, got {type(table).__name__}")
+    given = dict(zip(COLUMNS, (delta_theta, delta_d, delta_a, delta_alpha), strict=True))
+    columns: dict[str, list[float]] = {}
+    for column, values in given.items():
+        change = np.zeros(len(table)) if values is None else finite(values, f"delta_{column}")
+        if change.shape != (len(table),):
+            raise InputError(
+                f"delta_{column}: expected {len(table)} numbers, one a joint of the table {shown(table.name)}, got"
+                f" {change.size if change.ndim == 1 else f'shape {change.shape}'}: the calibration of another arm?"
+            )
+        columns[column] = (getattr(table, column) + change).tolist()
+    rows = [
+        replace(row, **{column: values[i] for column, values in columns.items()}) for i, row in enumerate(table.rows)
+    ]
+    return Table(table.convention, rows, base=table.base, tool=table.tool, name=table.name)
+
+
+def from_dh(table: Table, *, nominal: Table, hash: str = "") -> Calibration:
+    """The calibration of an arm from its own DH table, its link frames as near as may be to those of the nominal one.
+
+    Of two nearly parallel axes DH puts the frames where their common normal is, hundreds of metres away. Here each
+    frame is the one on its joint's axis that is nearest to the nominal link (`poekin.formats.relink`); the last one is
+    the flange itself, so that f(q) is the table's.
+
+    Parameters: table, the arm's, as the controller reports it or `deltas` makes it; nominal, the same model's published
+    table, as `pk.dh.published("ur10e")`; hash, as in `Calibration`. Returns: Calibration.
+    Raises: InputError for another number or kind of joints than six revolute ones that are not flipped, and for a
+    flange that is off the last axis (a or alpha of the last joint, or a tool), for which the form has no place.
+    Warns: PoekinWarning where a link moves by more than 2 cm: the calibration of another arm, most likely.
+    Accuracy: pose as `pk.dh.to_chain`; tests/formats/test_ur.py has the figures of a real arm. Source: the driver's
+    ur_calibration/doc/algorithm.rst says why frames must be moved back; where they go is decided here.
+    """
+    for each in (table, nominal):
+        _six(each)
+    before = _frames(nominal).to_robot()
+    chain = dh.to_chain(table)
+    after = relinked(before, chain, tip=f"{LINKS[-1]}_link")
+    joints = [after.joint(name) for name in JOINTS]
+    for joint in joints:
+        if joint.axis[2] < 0:
+            raise InputError(
+                f"the axis of {shown(joint.name)} points the other way in the table {shown(table.name)} than in"
+                f" {shown(nominal.name)}: they are not of the same arm"
+            )
+    _warn_if_far(before.fk(np.zeros(6)), after.fk(np.zeros(6)), table, nominal)
+    return Calibration(np.array([joint.origin for joint in joints]), hash)
+
+
+def _frames(table: Table) -> Calibration:
+    """The frames of a nominal table as ur_description places them: behind theta and d of their own joint."""
+    halves = [half for r in table.rows for half in (dh.Row(theta=r.theta, d=r.d), dh.Row(a=r.a, alpha=r.alpha))]
+    K = links_of(Table("standard", halves, base=table.base))
+    poses = np.tile(np.eye(4), (len(table), 1, 1))
+    for i, T in enumerate(poses):
+        T[:3].ravel()[TWELVE] = compose(K[2 * i], K[2 * i + 1])
+    return Calibration(poses)
+
+
+def _six(table: Table) -> None:
+    if not isinstance(table, Table):
+        raise InputError(f"from_dh: expected a dh.Table, got {type(table).__name__}")
+    name = shown(table.name)
+    if len(table) != len(JOINTS):
+        raise InputError(
+            f"an arm of Universal Robots has {len(JOINTS)} joints, the table {name} has {len(table)}:"
+            f" {listed(table.names) or 'none'}"
+        )
+    for joint, kind, flip in zip(table.names, table.kinds, table.flips, strict=True):
+        if kind != "revolute" or flip:
+            what = "flipped" if flip else kind
+            raise InputError(f"table {name}: joint {shown(joint)} is {what}; a calibration has turning joints about +z")
+    if table.convention != "standard":
+        raise InputError(f"table {name}: expected the standard convention, as Universal Robots uses it, got 'modified'")
+
+
+def _warn_if_far(before: dict, after: dict, table: Table, nominal: Table) -> None:
+    moved = {link: float(np.linalg.norm(after[link][:3, 3] - before[link][:3, 3])) for link in before}
+    worst = max(moved, key=lambda link: moved[link])
+    if moved[worst] > FAR:
+        warn(
+            f"table {shown(table.name)} moves {shown(worst)} by {moved[worst] * 1e3:.3g} mm from where the"
+            f" nominal {shown(nominal.name)} has it: the calibration of another arm?"
+        )

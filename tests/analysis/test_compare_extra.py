@@ -1,0 +1,123 @@
+"""compare where one model has joints that the other has not, and where joints are helical."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from poekin.analysis import extra
+from poekin.analysis.compare import compare
+from poekin.groups import se3
+from poekin.model import screw
+from poekin.model.chain import Chain
+from poekin.testing.planted_changes import arm, random_arm
+
+
+def longer_by(chain, places, rng):
+    """The chain with revolute joints that it did not have before the joints at some places, and their names."""
+    rows, names, added = list(chain.screws), list(chain.joint_names), []
+    for k in sorted(places, reverse=True):
+        rows.insert(k, screw.revolute(rng.normal(size=3), 0.3 * rng.normal(size=3)))
+        names.insert(k, f"extra{k}")
+        added.insert(0, f"extra{k}")
+    return Chain(rows, chain.home, joint_names=names), tuple(added)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.integers(0, 10**6), st.sampled_from([(2,), (5,), (0, 3), (1, 2), (4, 6)]), st.booleans())
+def test_one_or_two_extra_joints_are_named_wherever_they_are(seed, places, swapped):
+    rng = np.random.default_rng(seed)
+    chain = random_arm(seed)
+    other, added = longer_by(chain, places, rng)
+    moved = other.rebased(se3.exp(rng.normal(size=6))).retooled(se3.exp(rng.normal(size=6)))
+    result = compare(moved, chain, samples=5) if swapped else compare(chain, moved, samples=5)
+    assert result.extra == ("a" if swapped else "b", *added)
+    assert (result.equal, result.differing) == (False, ())
+    assert all(f"'{name}'" in result.verdict for name in added)
+    assert f"{'two joints' if len(added) == 2 else 'one joint'} more" in result.verdict
+    assert result.after is not None
+    assert result.after.worst_mm < 0.01
+    json.loads(result.to_json())
+
+
+def test_two_extra_joints_of_the_panda_are_named_under_other_zeros_too():
+    chain, rng = arm("panda"), np.random.default_rng(2)
+    other, added = longer_by(chain, (3, 5), rng)
+    q0 = np.where([name in added for name in other.joint_names], 0.0, 0.3 * rng.normal(size=9))
+    result = compare(chain, other.rezeroed(q0))
+    assert result.extra == ("b", *added)
+
+
+@pytest.mark.parametrize("joints, words", [(6, "no one joint"), (5, "no two joints"), (4, "more than two must")])
+def test_where_no_joints_can_be_dropped_that_is_said(joints, words):
+    result = compare(random_arm(1, ("revolute",) * joints), random_arm(2, ("revolute",) * 7))
+    assert (result.equal, result.extra, result.joints, result.base) == (False, None, (), None)
+    assert f"{joints} joints against 7, and {words}" in result.verdict
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 10**6), st.lists(st.floats(-1, 1), min_size=6, max_size=6))
+def test_the_quick_look_lets_every_pair_of_models_that_agree_pass(seed, wobble):
+    # Every axis off by half a tolerance in direction and in place, base and zeros moved: the search would agree.
+    rng = np.random.default_rng(seed)
+    chain = random_arm(seed)
+    rows = []
+    for S, part in zip(chain.screws, wobble, strict=True):
+        z, p = S[:3], np.cross(S[:3], S[3:])
+        across = np.cross(z, rng.normal(size=3))
+        across *= 0.5 * part / np.linalg.norm(across)
+        rows.append(screw.revolute(z + np.radians(1e-3) * across, p + 1e-5 * across))
+    other = Chain(rows, chain.home).rezeroed(rng.normal(size=6)).rebased(se3.exp(rng.normal(size=6)))
+    assert extra._may_agree(chain, other, 0.01, 1e-3)
+    assert not extra._may_agree(chain, random_arm(seed + 1), 0.01, 1e-3)
+
+
+def bolt(pitch=0.02, sign=1.0):
+    """An arm of five joints of which the third is helical."""
+    rng = np.random.default_rng(0)
+    rows = [screw.revolute(z, 0.3 * p) for z, p in rng.normal(size=(5, 2, 3))]
+    rows[2] = sign * screw.helical(rows[2][:3], np.cross(rows[2][:3], rows[2][3:]), pitch)
+    return Chain(rows, se3.exp(rng.normal(size=6)))
+
+
+def test_helical_joints_agree_under_any_convention():
+    rng, chain = np.random.default_rng(5), bolt()
+    moved = chain.rezeroed(rng.uniform(-1, 1, 5)).rebased(se3.exp(rng.normal(size=6)))
+    result = compare(chain, moved.retooled(se3.exp(rng.normal(size=6))))
+    assert result.equal, result.verdict
+    assert result.after is not None
+    assert result.after.worst_mm < 0.2
+    flipped = compare(chain, bolt(sign=-1.0))
+    assert (flipped.equal, [j.number for j in flipped.differing if j.flipped]) == (True, [3])
+
+
+def test_a_zero_offset_of_a_helical_joint_is_named_and_sized():
+    chain = bolt()
+    result = compare(chain, chain.rezeroed([0, 0, 0.1, 0, 0]))
+    (joint,) = result.differing
+    assert (joint.number, joint.axis_differs, joint.unit) == (3, False, "deg")
+    assert joint.zero == pytest.approx(-np.degrees(0.1), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "pitch, words",
+    [
+        (0.021, "has another pitch"),
+        (-0.02, "has another pitch"),
+        (0.0, "is helical in one model and revolute in the other"),
+    ],
+)
+def test_another_pitch_is_named_and_nothing_else_is_blamed(pitch, words):
+    result = compare(bolt(), bolt(pitch))
+    assert (result.equal, [j.number for j in result.differing]) == (False, [3])
+    assert "joint 3 ('joint3') " in result.verdict
+    assert words in result.verdict
+
+
+def test_a_pitch_that_shows_less_than_the_tolerance_after_a_turn_is_the_same():
+    assert compare(bolt(), bolt(0.02 + 1e-6), tol_mm=0.01).equal
+    assert not compare(bolt(), bolt(0.02 + 2e-6), tol_mm=0.01).equal

@@ -1,0 +1,92 @@
+"""`poekin dh`: any arm as a DH table on the terminal and as a file."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import poekin as pk
+
+
+def test_the_table_is_printed_with_base_tool_choices_error_and_bound(poekin):
+    code, out, err = poekin("dh", "panda", "--tip", "panda_hand", "--convention", "modified")
+    assert (code, err) == (0, "")
+    assert "modified DH parameters of panda_link0 → panda_hand: Tx(a) Rx(alpha) Rz(theta) Tz(d)" in out
+    row = next(line.split() for line in out.splitlines() if "panda_joint5" in line)
+    assert row == [
+        "5",
+        "panda_joint5",
+        "revolute",
+        "3.14159265",
+        "+",
+        "x",
+        "0.384",
+        "0.0825",
+        "1.57079633",
+        "-2.8973",
+        "2.8973",
+    ]
+    assert "Tool:" in out
+    assert "Free choice: axes of 'panda_joint1' and 'panda_joint2' meet: x is along z x z'" in out
+    assert "Pose error ÷ reach" in out
+    assert "Warning" not in out
+
+
+def test_json_is_the_table_and_what_is_said_about_it(as_json):
+    document = as_json("dh", "panda", "--tip", "panda_hand", "--convention", "modified")
+    assert (document["convention"], document["written"], document["warnings"]) == ("modified", None, [])
+    rows = [pk.dh.Row(**{**joint, "limits": tuple(joint["limits"])}) for joint in document["joints"]]
+    table = pk.dh.Table("modified", rows, base=document["base_pose"], tool=document["tool_pose"])
+    chain = pk.load("panda").chain(tip="panda_hand")
+    q = chain.random(0, 20)
+    np.testing.assert_allclose(pk.dh.to_chain(table).fk(q), chain.fk(q), atol=1e-14)
+    assert document["error"] <= document["bound"] < 1e-13
+
+
+@pytest.mark.parametrize("ending", ["toml", "csv"])
+def test_the_file_is_a_model_that_can_be_read_again(tmp_path, poekin, ending):
+    place = tmp_path / f"arm.{ending}"
+    code, out, _ = poekin("dh", "ur5e", "--tip", "tool0", "--output", place)
+    assert code == 0
+    assert f"written to '{place}'" in out
+    chain, again = pk.load("ur5e").chain(tip="tool0"), pk.load(place).chain()
+    q = chain.random(0, 20)
+    np.testing.assert_allclose(again.fk(q), chain.fk(q), atol=1e-14)
+    np.testing.assert_array_equal(again.limits, chain.limits)
+
+
+def test_joints_without_limits_and_joints_that_follow_others(crane, poekin, as_json):
+    code, out, _ = poekin("dh", crane, "--tip", "hook")
+    assert code == 0
+    assert "x are the joints' own values" in out
+    assert "has no place" in out
+    assert as_json("dh", crane, "--tip", "hook")["joints"][0]["limits"] == [None, None]
+
+
+def test_an_ill_conditioned_table_is_warned_of(tmp_path, poekin):
+    lean = 1e-5
+    joint = (
+        '<joint name="{0}" type="continuous"><parent link="{1}"/><child link="{2}"/><origin xyz="{3} 0 0"/>{4}</joint>'
+    )
+    text = "".join([
+        '<robot name="leaning">', *(f'<link name="{link}"/>' for link in "abc"),
+        joint.format("one", "a", "b", 0, '<axis xyz="0 0 1"/>'),
+        joint.format("two", "b", "c", 0.4, f'<axis xyz="{math.sin(lean)} 0 {math.cos(lean)}"/>'), "</robot>",
+    ])  # fmt: skip
+    place = tmp_path / "leaning.urdf"
+    place.write_text(text, encoding="utf-8")
+    code, out, _ = poekin("dh", place)
+    assert code == 0
+    assert "Warning: axes of 'one' and 'two' are nearly parallel, 1e-05 rad: d is 4e+04 m" in out
+
+
+def test_what_cannot_be_is_refused(crane, refused, tmp_path):
+    assert "hook" in refused("dh", crane)
+    assert "'standard' or 'modified', got 'craig'" in refused(
+        "dh", "panda", "--tip", "panda_hand", "--convention", "craig"
+    )
+    assert ".toml or .csv" in refused("dh", "panda", "--tip", "panda_hand", "--output", tmp_path / "t.txt")
+    assert "No such file" in refused("dh", "panda", "--tip", "panda_hand", "--output", tmp_path / "none" / "t.csv")
+    assert list(tmp_path.iterdir()) == [tmp_path / "crane.urdf"]

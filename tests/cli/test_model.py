@@ -1,0 +1,89 @@
+"""What a FILE may be: a URDF, MJCF, table or built-in name everywhere, and xacro where --xacro says so."""
+
+from __future__ import annotations
+
+import importlib.util
+
+import pytest
+
+needs_xacro = pytest.mark.skipif(importlib.util.find_spec("xacrodoc") is None, reason="xacrodoc is not installed")
+needs_mujoco = pytest.mark.skipif(importlib.util.find_spec("mujoco") is None, reason="mujoco is not installed")
+needs_pin = pytest.mark.skipif(importlib.util.find_spec("pinocchio") is None, reason="pin is not installed")
+
+XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="length" default="${1/2}"/>
+<link name="a"/><link name="b"/><joint name="j" type="continuous"><parent link="a"/><child link="b"/>
+<origin xyz="$(arg length) 0 0"/><axis xyz="0 0 1"/></joint></robot>"""
+
+MJCF = """<mujoco model="m"><worldbody><body name="a" pos="1 0 0"><geom size="1"/>
+<joint name="j" axis="0 0 1" pos="0.5 0 0" ref="30"/></body></worldbody></mujoco>"""
+
+COMMANDS = {
+    "info": ([], []), "fk": ([], ["0.5"]), "jacobian": ([], ["--frame", "body", "0.5"]), "urdf": ([], []),
+    "axes": ([], []), "compare": (["puma560"], []), "validate": ([], ["--samples", "2"]),
+}  # fmt: skip
+
+
+@pytest.fixture
+def arm(tmp_path):
+    """The path of a xacro file."""
+    path = tmp_path / "arm.urdf.xacro"
+    path.write_text(XACRO)
+    return path
+
+
+@pytest.mark.parametrize("command", [c for c in COMMANDS if c != "validate"])
+def test_no_command_evaluates_xacro_unasked(command, refused, arm):
+    before, after = COMMANDS[command]
+    assert "xacro evaluates expressions" in refused(command, *before, arm, *after)
+
+
+def test_validate_does_not_either(poekin, arm):
+    code, _, err = poekin("validate", arm)
+    assert code == 2
+    assert "xacro evaluates expressions" in err
+
+
+@needs_xacro
+@needs_pin
+@pytest.mark.parametrize("command", [c for c in COMMANDS if c != "compare"])
+def test_every_command_takes_xacro_when_asked(command, poekin, arm):
+    before, after = COMMANDS[command]
+    code, out, err = poekin(command, *before, arm, "--xacro", *after)
+    assert (code, err) == (0, "")
+    assert out
+
+
+@needs_xacro
+def test_arguments_go_to_xacro_and_only_for_that_command(as_json, refused, arm):
+    def place(*words):
+        return as_json("fk", arm, "0", *words)["T"][0][3]
+
+    assert place("--xacro") == 0.5
+    assert place("--xacro", "--xacro-arg", "length=0.25") == 0.25
+    assert "xacro evaluates expressions" in refused("info", arm)
+    assert "--xacro-arg: expected together with --xacro only" in refused("info", arm, "--xacro-arg", "length=1")
+    for bad in ("length", "=1"):
+        assert f"--xacro-arg: expected NAME=VALUE, got '{bad}'" in refused("info", arm, "--xacro", "--xacro-arg", bad)
+    assert "division by zero" in refused("info", arm, "--xacro", "--xacro-arg", "length=${1/0}")
+
+
+@needs_xacro
+def test_compare_reads_xacro_beside_other_models(poekin, arm, tmp_path):
+    code, text, _ = poekin("urdf", arm, "--xacro")
+    assert code == 0
+    (tmp_path / "arm.urdf").write_text(text)
+    assert poekin("compare", arm, tmp_path / "arm.urdf", "--xacro", "--samples", 3)[0] == 0
+    assert "is a tree" in poekin("compare", arm, "panda", "--xacro")[2]
+
+
+@needs_mujoco
+@needs_pin
+def test_validate_takes_mjcf_tables_and_built_in_names(poekin, as_json, tmp_path):
+    (tmp_path / "m.xml").write_text(MJCF)
+    (tmp_path / "t.csv").write_text("convention,theta,d,a,alpha\nstandard,0,1,0.5,1\nstandard,1,0,0.5,0\n")
+    code, out, err = poekin("validate", tmp_path / "m.xml", tmp_path / "t.csv", "puma560", "--samples", 3)
+    assert (code, err) == (0, "")
+    assert out.endswith("3 of 3 robots pass\n")
+    (robot,) = as_json("validate", tmp_path / "m.xml", "--samples", 3)["robots"]
+    assert (robot["robot"], robot["moving"]) == ("m", 1)
+    assert as_json("fk", tmp_path / "m.xml", "0.5235987755982988")["T"][0][3] == pytest.approx(1, abs=1e-15)

@@ -1,0 +1,35 @@
+"""A program run statement by statement: what the chain's general kernels compute."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from poekin.engine import interpret
+from poekin.testing import chain_strategies
+
+
+@settings(max_examples=max(settings().max_examples // 3, 20))
+@given(data=st.data())
+def test_a_program_run_by_statements_is_the_chain(data):
+    chain = data.draw(chain_strategies.chains(max_joints=7))
+    frame = data.draw(st.sampled_from(["space", "body", "hybrid", *range(len(chain.kinds))]))
+    q = data.draw(chain_strategies.coordinates(chain, (3,)))
+    outputs = interpret.evaluate(chain.compile().program(frame, pose=True), q)
+    T, J = chain.fk_jacobian(q, frame)
+    # what `Chain.fk` promises, once for each side
+    x = np.abs(q @ chain.coupling.T + chain.offset).sum(axis=1).max()
+    within = 2 * 2.0**-53 * (8 * (len(chain.kinds) + 1) + 4 * x) * chain.reach
+    wanted = np.concatenate([T[:, :3, :3].reshape(3, 9), T[:, :3, 3], J.reshape(3, -1)], axis=1)
+    assert outputs.shape == wanted.shape
+    assert np.abs(outputs - wanted).max() <= within
+
+
+@pytest.mark.parametrize("size", [0, 1, 2])
+def test_there_may_be_any_number_of_configurations(size):
+    import poekin as pk
+
+    chain = pk.load("panda").chain(tip="panda_hand")
+    assert interpret.evaluate(chain.compile().program(None), np.zeros((size, 7))).shape == (size, 12)

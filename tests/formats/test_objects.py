@@ -1,0 +1,174 @@
+"""Objects of other libraries: Modern Robotics' pairs, what is refused, and the lines that give poekin's models back."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from poekin.errors import InputError, PoseError, ScrewError, ShapeError
+from poekin.formats.objects import from_object
+from poekin.testing.chain_strategies import chain_cases
+from tests.groups.test_objects import Spatial, library
+
+CASES = chain_cases(("q",), coupled=False)
+# The matrices of up to a dozen joints multiplied in another order, each rounding by u of the reach, times the turn.
+ROUNDING = 1e-13
+
+
+@given(CASES)
+def test_home_and_screws_as_columns_are_a_chain(case):
+    chain, _ = case
+    made = from_object((chain.home, chain.screws.T))
+    np.testing.assert_array_equal(made.screws, chain.screws)
+    np.testing.assert_array_equal(made.home, chain.home)
+    assert made.kinds == chain.kinds
+
+
+@given(CASES)
+def test_home_and_body_screws_are_the_same_chain(case):
+    chain, q = case
+    made = from_object((chain.home, chain.body.screws.T), frame="body")
+    assert np.abs(made.fk(q) - chain.fk(q)).max() <= ROUNDING * chain.reach
+
+
+@given(CASES)
+def test_a_pair_moves_as_modern_robotics_says(case):
+    chain, q = case
+    mr = library("modern_robotics")
+    M, Slist, Blist = chain.home, chain.screws.T, chain.body.screws.T
+    space, body = from_object((M, Slist)), from_object((M, Blist), frame="body")
+    q = np.where(np.abs(q) < 1e-3, 0.0, q)  # below 1e-6 its exponential is the identity
+    assert np.abs(space.fk(q) - mr.FKinSpace(M, Slist, q)).max() <= ROUNDING * chain.reach
+    assert np.abs(body.fk(q) - mr.FKinBody(M, Blist, q)).max() <= ROUNDING * chain.reach
+
+
+def test_one_screw_may_be_a_vector_and_the_home_pose_an_object():
+    one = from_object([Spatial(np.eye(4)), [0, 0, 1, 0, 0, 0]])
+    assert one.screws.tolist() == [[0, 0, 1, 0, 0, 0]]
+
+
+@pytest.mark.parametrize(
+    ("pair", "frame", "error", "message"),
+    [
+        ((np.eye(4), np.zeros((3, 6))), None, ShapeError, r"expected shape \(6, n\), .*got \(3, 6\): transpose it"),
+        ((np.eye(4), np.zeros((4, 4))), None, ShapeError, r"expected shape \(6, n\), .*got \(4, 4\)$"),
+        ((np.eye(4), [[0, 0, 2, 0, 0, 0]] * 6), None, ScrewError, r"screws\[0\]"),
+        ((np.ones((4, 4)), np.eye(6)[:, 2:3]), None, PoseError, r"home"),
+        ((np.eye(4), np.eye(6)), "tool", InputError, r"frame: expected 'space' or 'body', got 'tool'"),
+    ],
+    ids=["transposed", "two poses", "no unit screw", "no pose", "no such frame"],
+)
+def test_a_pair_that_makes_no_sense_is_refused(pair, frame, error, message):
+    with pytest.raises(error, match=message):
+        from_object(pair, frame=frame)
+
+
+@pytest.mark.parametrize(
+    ("thing", "name"),
+    [
+        (3, "int"),
+        ("arm.urdf", "str"),
+        (np.eye(4), r"numpy\.ndarray"),
+        ([], "list"),
+        ({}, "dict"),
+        (SimpleNamespace(links=[]), r"types\.SimpleNamespace"),
+        (SimpleNamespace(links=3), r"types\.SimpleNamespace"),
+    ],
+    ids=["number", "text", "array", "list", "dict", "no links", "links that are none"],
+)
+def test_what_is_not_known_is_refused_by_its_type_and_told_what_is(thing, name):
+    message = rf"expected a Pinocchio Model, .*DHRobot, .*ETS, or Modern Robotics' pair \(M, Slist\), got {name};"
+    with pytest.raises(InputError, match=message):
+        from_object(thing)
+
+
+def test_a_frame_is_that_of_a_pair():
+    joint = SimpleNamespace(isjoint=True, axis="Rz", A=None)
+    with pytest.raises(InputError, match=r"frame: it is that of a pair \(M, screws\), and this is a .*ETS"):
+        from_object([joint], frame="body")
+
+
+def test_no_other_library_is_imported_for_it():
+    code = (
+        "import sys, numpy as np; from poekin.formats.objects import from_object;"
+        "from_object((np.eye(4), np.eye(6)[:, 2:3]));"
+        "print([m for m in ('pinocchio', 'roboticstoolbox', 'spatialmath', 'modern_robotics') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+# The documentation's lines *to* other libraries, executed as they stand there: what they need, the line, what it makes.
+GIVEN = """
+import numpy as np
+import poekin as pk
+arm = pk.load("ur5e").chain(tip="tool0")
+q = np.array([0.3, -1.2, 1.5, -0.4, 0.7, 0.2])
+T, J = arm.fk_jacobian(q, frame="hybrid")
+"""
+LINES = {
+    "pinocchio": (
+        "model = pinocchio.buildModelFromXML(pk.to_urdf(arm))",
+        "frame = model.getFrameId(arm.tip); data = model.createData()\n"
+        "pinocchio.framesForwardKinematics(model, data, q); found, expected = data.oMf[frame].homogeneous, T",
+    ),
+    "pinocchio motion": (
+        "motion = pinocchio.Motion(pk.se3.linear_first(J[:, 0]))",
+        "found, expected = np.append(motion.angular, motion.linear), J[:, 0]",
+    ),
+    "roboticstoolbox": (
+        "table = pk.dh.from_chain(arm).table\n"
+        "links = [roboticstoolbox.RevoluteDH(r.d, r.a, r.alpha, r.theta, r.limits, r.flip) for r in table.rows]\n"
+        "robot = roboticstoolbox.DHRobot(links, base=SE3(table.base), tool=SE3(table.tool))",
+        "found, expected = robot.fkine(q).A, T",
+    ),
+    "roboticstoolbox jacobian": (
+        "table = pk.dh.from_chain(arm, convention='modified').table\n"
+        "links = [roboticstoolbox.RevoluteMDH(r.d, r.a, r.alpha, r.theta, r.limits, r.flip) for r in table.rows]\n"
+        "robot = roboticstoolbox.DHRobot(links, base=SE3(table.base), tool=SE3(table.tool))",
+        "found, expected = robot.jacob0(q), pk.se3.linear_first(J, axis=-2)",
+    ),
+    "roboticstoolbox prismatic": (
+        "table = pk.dh.published('stanford')\n"
+        "links = [\n"
+        "    roboticstoolbox.RevoluteDH(r.d, r.a, r.alpha, r.theta, r.limits, r.flip) if r.kind == 'revolute'\n"
+        "    else roboticstoolbox.PrismaticDH(r.theta, r.a, r.alpha, r.d, r.limits, r.flip) for r in table.rows]\n"
+        "robot = roboticstoolbox.DHRobot(links, base=SE3(table.base), tool=SE3(table.tool))",
+        "found, expected = robot.fkine(q).A, pk.dh.to_chain(table).fk(q)",
+    ),
+    "modern_robotics": (
+        "M, Slist = arm.home, arm.screws.T",
+        "found, expected = modern_robotics.FKinSpace(M, Slist, q), T",
+    ),
+    "modern_robotics body": (
+        "M, Blist = arm.body.home, arm.body.screws.T",
+        "found, expected = modern_robotics.FKinBody(M, Blist, q), T",
+    ),
+    "spatialmath": ("pose = spatialmath.SE3(T)", "found, expected = pose.A, T"),
+    "scipy": (
+        "rotation = Rotation.from_matrix(T[:3, :3])",
+        "found, expected = rotation.as_matrix(), T[:3, :3]",
+    ),
+}
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+@pytest.mark.parametrize("name", LINES)
+def test_a_documented_line_to_another_library_makes_the_same_arm_there(name):
+    package = name.split()[0]
+    scope: dict[str, Any] = {package: library(package)}
+    if package == "roboticstoolbox":
+        scope["SE3"] = library("spatialmath").SE3
+    if package == "scipy":
+        scope["Rotation"] = library("scipy.spatial.transform").Rotation
+    line, check = LINES[name]
+    for code in (GIVEN, line, check):
+        exec(code, scope)
+    # Six joints, reach 1 m and a half; Pinocchio reads the roll, pitch and yaw of a text.
+    np.testing.assert_allclose(scope["found"], scope["expected"], rtol=0, atol=1e-14)

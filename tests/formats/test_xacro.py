@@ -1,0 +1,154 @@
+"""Xacro: evaluated only when asked for, relative to the file, and refused in one line."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+
+import pytest
+
+from poekin.errors import FileError, InputError, MissingExtra, ModelError, PoekinWarning
+from poekin.formats.load import load
+from poekin.formats.xacro import is_xacro, xacro
+
+needs_xacro = pytest.mark.skipif(importlib.util.find_spec("xacrodoc") is None, reason="xacrodoc is not installed")
+
+HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+ARM = (
+    HEAD + '<xacro:arg name="length" default="0.5"/><xacro:include filename="parts/link.xacro"/>'
+    '<xacro:body n="a"/><xacro:body n="b"/><joint name="j" type="continuous"><parent link="a"/><child link="b"/>'
+    '<origin xyz="$(arg length) ${height} 0" rpy="${pi/2} 0 0"/></joint></robot>'
+)
+
+
+@pytest.fixture
+def arm(tmp_path):
+    """A xacro file that includes another one, which includes a third from its own folder."""
+    parts = tmp_path / "parts"
+    parts.mkdir()
+    (tmp_path / "arm.xacro").write_text(ARM)
+    (parts / "link.xacro").write_text(
+        HEAD + '<xacro:macro name="body" params="n"><link name="${n}"/></xacro:macro>'
+        '<xacro:include filename="size.xacro"/></robot>'
+    )
+    (parts / "size.xacro").write_text(HEAD + '<xacro:property name="height" value="0.75"/></robot>')
+    return tmp_path / "arm.xacro"
+
+
+@needs_xacro
+def test_a_file_is_evaluated_with_its_arguments_and_includes_of_its_own_folder(arm):
+    robot = xacro(arm)
+    assert (robot.name, robot.links) == ("r", ("a", "b"))
+    assert robot.joints[0].origin[:3, 3].tolist() == [0.5, 0.75, 0]
+    assert xacro(arm, length=0.25).joints[0].origin[0, 3] == 0.25
+    assert xacro(str(arm), length="0.25") == xacro(arm, length=0.25)
+
+
+@needs_xacro
+def test_truth_values_are_xacros(tmp_path):
+    path = tmp_path / "t.xacro"
+    path.write_text(
+        HEAD + '<xacro:arg name="x" default="false"/><link name="a"/><xacro:if value="$(arg x)">'
+        '<link name="b"/></xacro:if></robot>'
+    )
+    assert xacro(path).links == xacro(path, x=False).links == ("a",)
+    with pytest.raises(ModelError, match="has one root, but 2 links have no parent"):
+        xacro(path, x=True)
+    with pytest.raises(InputError, match=r"xacro: x: expected a text, number or truth value, got \[1\]"):
+        xacro(path, x=[1])  # type: ignore[arg-type]
+
+
+@needs_xacro
+def test_a_path_of_special_characters_is_a_path(tmp_path):
+    folder = tmp_path / 'a [1] ${x} $(find y) "q" & *'
+    folder.mkdir()
+    (folder / "r.xacro").write_text(HEAD + '<link name="a"/></robot>')
+    assert xacro(folder / "r.xacro").links == ("a",)
+
+
+@needs_xacro
+def test_a_package_is_found_above_the_file_and_is_not_that_of_the_next_file(tmp_path):
+    for name, length in (("one", "1"), ("two", "2")):
+        (tmp_path / name / "urdf").mkdir(parents=True)
+        (tmp_path / name / "package.xml").write_text("<package><name>some_arm</name></package>")
+        (tmp_path / name / "urdf" / "p.xacro").write_text(HEAD + f'<link name="l{length}"/></robot>')
+        (tmp_path / name / "urdf" / "r.xacro").write_text(
+            HEAD + '<xacro:include filename="$(find some_arm)/urdf/p.xacro"/></robot>'
+        )
+    assert [xacro(tmp_path / name / "urdf" / "r.xacro").links for name in ("one", "two", "one")] == [
+        ("l1",), ("l2",), ("l1",),
+    ]  # fmt: skip
+
+
+REFUSED = {
+    "an unknown package": ('<link name="$(find nopkg)"/>', r"xacro: there is no package 'nopkg' in the folders above"),
+    "an expression": ('<link name="${1/0}"/>', r"xacro: division by zero when evaluating expression '1/0'$"),
+    "an unknown name": ('<link name="${nope}"/>', r"xacro: name 'nope' is not defined"),
+    "an unknown macro": ("<xacro:nope/>", r"xacro: unknown macro name: xacro:nope$"),
+    "an unknown argument": ('<link name="$(arg u)"/>', r"xacro: Undefined substitution argument u$"),
+    "an unknown variable": ('<link name="$(env PK_NOPE)"/>', r"xacro: environment variable 'PK_NOPE' is not set$"),
+    "a macro of itself": ('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', r"xacro: it goes round in circ"),
+    "a missing attribute": ("<xacro:if/>", r"xacro: xacro:if: missing attribute 'value'$"),
+    "a name that a terminal would obey": ('<link name="$(arg \x9b31m)"/>', r"argument \\x9b31m$"),
+    "no robot in it": ('<link name="${1}"/><joint/>', r"\(evaluated\):\d+: <joint>: expected an attribute name"),
+    "malformed": ("<link", r"x:1: malformed XML"),
+}
+
+
+@needs_xacro
+@pytest.mark.parametrize(("text", "message"), REFUSED.values(), ids=REFUSED.keys())
+def test_what_cannot_be_evaluated_is_refused_in_one_line(tmp_path, text, message):
+    path = tmp_path / "x"
+    path.write_text(HEAD + text + "</robot>", encoding="utf-8")
+    with pytest.raises(ModelError, match=message) as caught:
+        xacro(path)
+    assert str(caught.value).startswith(str(path))
+    assert str(caught.value).isprintable()
+
+
+@needs_xacro
+def test_what_xacro_warns_of_is_a_warning_once_and_harmless(tmp_path, capfd):
+    path = tmp_path / "w.xacro"
+    path.write_text(HEAD + '<link name="a"/><xacro:include filename="no\x9b31m*.xacro"/></robot>', encoding="utf-8")
+    with pytest.warns(
+        PoekinWarning, match=r"w\.xacro: xacro: Include tag's filename .*no\\x9b31m.* no files"
+    ) as caught:
+        assert xacro(path).links == ("a",)
+    assert len(caught) == 1
+    assert capfd.readouterr().err == ""
+
+
+def test_a_dtd_is_refused_before_anything_is_evaluated(tmp_path):
+    path = tmp_path / "x.xacro"
+    path.write_text('<!DOCTYPE robot [<!ENTITY a "b">]>' + HEAD + "</robot>")
+    with pytest.raises(ModelError, match="document type declaration"):
+        xacro(path)
+    with pytest.raises(FileError, match="No such file"):
+        xacro(tmp_path / "gone.xacro")
+
+
+def test_load_evaluates_nothing_and_says_what_does(tmp_path):
+    for name in ("arm.xacro", "arm.urdf.XACRO"):
+        (tmp_path / name).write_text(HEAD + '<link name="a"/></robot>')
+        with pytest.raises(
+            ModelError, match=r"(?i)arm.*\.xacro: xacro evaluates .*pk\.xacro\(path\) does, and --xacro"
+        ):
+            load(tmp_path / name)
+    with pytest.raises(FileError, match="no such file"):
+        load("gone.xacro")
+
+
+def test_a_xacro_file_is_known_by_its_ending_or_its_namespace(tmp_path):
+    for name, text, answer in (("a.xacro", "<robot/>", True), ("b.urdf", HEAD, True), ("c.urdf", "<robot/>", False)):
+        (tmp_path / name).write_text(text)
+        assert is_xacro(tmp_path / name) is answer
+
+
+def test_without_xacrodoc_the_extra_is_named(tmp_path, monkeypatch):
+    (tmp_path / "a.xacro").write_text(HEAD + '<link name="a"/></robot>')
+    monkeypatch.setitem(sys.modules, "xacrodoc", None)
+    monkeypatch.setitem(sys.modules, "xacro", None)
+    with pytest.raises(
+        MissingExtra, match=r"evaluating xacro needs the package xacrodoc: pip install 'poekin\[xacro\]"
+    ):
+        xacro(tmp_path / "a.xacro")

@@ -1,0 +1,47 @@
+"""The strategies for DH tables: what they draw on purpose, and what they shrink to."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from hypothesis import find
+
+from poekin.formats.dh import Row
+from poekin.testing import dh_strategies
+from tests.testing.drawing import QUICK, drawn
+
+
+def test_quarter_turns_are_drawn_and_missed_by_a_little():
+    angles = np.array(drawn(dh_strategies.angles()))
+    off = np.abs(angles[:, None] - np.array(dh_strategies.QUARTERS)).min(1)
+    assert set(dh_strategies.QUARTERS) <= set(angles)
+    # Near π the smallest misses are rounded to multiples of 4e-16.
+    assert {round(k) for k in np.log10(off[off > 0])} >= set(range(-11, -3))
+    assert off.max() > 0.5
+
+
+def test_lengths_are_zero_tiny_and_up_to_two_metres():
+    lengths = np.abs(drawn(dh_strategies.lengths()))
+    assert (lengths == 0).any()
+    assert ((lengths > 0) & (lengths < 1e-6)).any()
+    assert 1.5 < lengths.max() <= 2
+
+
+def test_tables_are_of_both_conventions_and_kinds_with_flips_base_and_tool():
+    tables = drawn(dh_strategies.tables(), 200)
+    rows = [row for table in tables for row in table.rows]
+    assert {table.convention for table in tables} == set(dh_strategies.CONVENTIONS)
+    assert {(row.kind, row.flip) for row in rows} == {(k, f) for k in ("revolute", "prismatic") for f in (False, True)}
+    lengths = [len(table) for table in tables]
+    assert (min(lengths), max(lengths) >= 6) == (1, True)
+    assert any((table.base != np.eye(4)).any() and (table.tool != np.eye(4)).any() for table in tables)
+    assert {table.convention for table in drawn(dh_strategies.tables(conventions=("modified",)), 20)} == {"modified"}
+
+
+def test_a_table_shrinks_to_one_row_of_zeros():
+    table = find(dh_strategies.tables(), lambda _: True, settings=QUICK)
+    assert (table.convention, len(table)) == ("standard", 1)
+    assert table.rows[0] == Row(name="joint1")
+    twisted = find(dh_strategies.tables(), lambda t: math.sin(t.alpha[0]) > 0.5, settings=QUICK)
+    assert twisted.alpha[0] == math.pi / 2
