@@ -11,7 +11,7 @@ from .analysis.compare import compare
 from .analysis.count import count
 from .analysis.validate import validate
 from .errors import PoekinError, PoekinWarning
-from .formats import dh, ur
+from .formats import dh, emit, ur
 from .formats.load import load
 from .formats.objects import from_object
 from .formats.relink import relinked
@@ -36,6 +36,7 @@ __all__ = [
     "compare",
     "count",
     "dh",
+    "emit",
     "errors",
     "from_object",
     "load",

@@ -1,4 +1,4 @@
-"""The command line `poekin`: axes, compare, fk, info, jacobian, urdf, validate.
+"""The command line `poekin`: axes, compare, count, dh, emit, fk, info, jacobian, urdf, validate.
 
 Exit codes: 0 done (validate: passed, compare: equal), 1 validation failed or the models differ, 2 an error (one
 message on stderr), 130 interrupted, 141 where the reader of the output went away.

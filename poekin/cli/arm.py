@@ -105,7 +105,7 @@ def give(
         content = {".csv": lambda: sheet().encode(), ".npy": lambda: files.npy_bytes(results)}
         write_whole(output, content.get(output.suffix.lower(), lambda: (document() + "\n").encode())())
         summary = {"written": str(output), "configurations": len(results)}
-        say(as_json(summary) if json else f"{len(results)} × {what} written to {shown(output)}")
+        say(as_json(summary) if json else f"{len(results)} × {what} written to {shown(output, 400)}")
     elif json:
         print(document())
     elif arm.single:

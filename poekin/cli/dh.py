@@ -40,7 +40,7 @@ def command(
     else:
         _show(chain, result)
         if output is not None:
-            say(f"Table of {shown(robot.name)} written to {shown(output)}")
+            say(f"Table of {shown(robot.name)} written to {shown(output, 400)}")
 
 
 def _document(chain: Chain, result: dh.FromChain, output: Path | None) -> dict[str, object]:

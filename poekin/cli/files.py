@@ -21,7 +21,7 @@ STDIN = "-"
 
 def called(given: str) -> str:
     """The place that configurations come from, as messages call it."""
-    return "standard input" if given == STDIN else shown(given)
+    return "standard input" if given == STDIN else shown(given, 400)
 
 
 def read_configurations(given: str, q_names: Sequence[str], progress: Callable[[int, int], None]) -> np.ndarray:
@@ -124,8 +124,8 @@ def npy_bytes(array: np.ndarray) -> bytes:
 def check_writable(path: Path) -> None:
     """Refuse a place that cannot be written to before any work is done. Raises: FileError."""
     if path.suffix.lower() not in (".csv", ".npy", ".json"):
-        raise FileError(f"cannot write {shown(path)}: a name that ends in .csv, .npy or .json expected")
+        raise FileError(f"cannot write {shown(path, 400)}: a name that ends in .csv, .npy or .json expected")
     if path.is_dir():
-        raise FileError(f"cannot write {shown(path)}: it is a directory")
+        raise FileError(f"cannot write {shown(path, 400)}: it is a directory")
     if not path.parent.is_dir():
-        raise FileError(f"cannot write {shown(path)}: there is no directory {shown(path.parent)}")
+        raise FileError(f"cannot write {shown(path, 400)}: there is no directory {shown(path.parent, 400)}")

@@ -26,7 +26,7 @@ def command(file: File, tip: Tip = None, base: Base = None, output: Output = Non
     text = to_urdf(written, name=robot.name)
     if output is not None:
         write_whole(output, text.encode())
-        say(f"URDF of {shown(robot.name)} written to {shown(output)}")
+        say(f"URDF of {shown(robot.name)} written to {shown(output, 400)}")
     else:
         # A stream that is not UTF-8 gets other characters by number: XML means the same by that.
         ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..engine import chain_kernels, threads
+from ..engine import chain_kernels, interpret, threads
+from ..engine.kernel import Kernel
 from ..engine.program import Program
 from ..engine.specialise import Structure, cheapest_frame, placed, specialised
 from ..errors import InputError, told
@@ -65,11 +66,13 @@ class CompiledChain:
     def __init__(self, chain: Chain, parallel: bool = False):
         if not isinstance(parallel, bool):
             raise InputError(f"parallel: expected True or False, got {told(parallel)}")
-        from ..engine import arm_kernels  # imports Numba
+        from numba.core import config  # after all that only reads a model
+
+        from ..engine import arm_kernels
 
         self.chain, self.parallel = chain, parallel
         self.joint_names, self.q_names, self.dof = chain.joint_names, chain.q_names, chain.dof
-        self._kernels = arm_kernels
+        self._kernels, self._interpreted = arm_kernels, bool(config.DISABLE_JIT)  # type: ignore[attr-defined]
         self._shape = (6, chain.dof)
         self._arms: dict[tuple[int, bool, bool], Arm] = {}
         # The kernel and the arm that one configuration needs, by the frame as the user says it. A kernel refuses what
@@ -88,7 +91,7 @@ class CompiledChain:
                 return T
         except (KeyError, TypeError, AttributeError):
             pass
-        self._poses[None] = self._kernels.pose_one.ready(), self._arm(POSE_ONLY, True, False).address
+        self._prepare(self._poses, None, POSE_ONLY, self._kernels.pose_one, True, False)
         return evaluation.fk_of_many(self, q, out)
 
     def jacobian(self, q: Any, frame: str | int, *, at: ArrayLike | None = None, out: Array | None = None) -> Array:
@@ -100,8 +103,7 @@ class CompiledChain:
                 return J
         except (KeyError, TypeError, AttributeError):
             pass
-        arm = self._arm(self._frame_code(frame), False, True)
-        self._jacobians[frame] = self._kernels.jacobian_one.ready(), arm.address
+        self._prepare(self._jacobians, frame, self._frame_code(frame), self._kernels.jacobian_one, False, True)
         return evaluation.jacobian_of_many(self, q, frame, at, out)
 
     def fk_jacobian(
@@ -115,8 +117,7 @@ class CompiledChain:
                 return T, J
         except (KeyError, TypeError, ValueError, AttributeError):
             pass
-        arm = self._arm(self._frame_code(frame), True, True)
-        self._both[frame] = self._kernels.pose_jacobian_one.ready(), arm.address
+        self._prepare(self._both, frame, self._frame_code(frame), self._kernels.pose_jacobian_one, True, True)
         return evaluation.fk_jacobian_of_many(self, q, frame, at, out)
 
     @cached_property
@@ -148,6 +149,11 @@ class CompiledChain:
             return specialised(placed(self.structure, k, h), k, pose)
         return specialised(self.structure, _NAMES.get(code, code), pose)
 
+    def _prepare(self, calls: _Calls, frame: object, code: int, kernel: Kernel, pose: bool, jacobian: bool) -> None:
+        """From now on one configuration goes straight to its kernel."""
+        if not self._interpreted:
+            calls[frame] = kernel.ready(), self._arm(code, pose, jacobian).address
+
     def _arm(self, code: int, pose: bool, jacobian: bool) -> Arm:
         """The machine code for a frame."""
         with _making:
@@ -165,20 +171,34 @@ class CompiledChain:
         return MIDDLE if isinstance(frame, str) and frame == "middle" else self.chain._frame_code(frame)
 
     def _fill_poses(self, rows: Array, T: Array) -> None:
-        self._run(self._kernels.pose_many, self._arm(POSE_ONLY, True, False), rows, T)
+        self._run(self._kernels.pose_many, POSE_ONLY, rows, T, None)
 
     def _fill_both(self, rows: Array, code: int, T: Array, J: Array) -> None:
-        self._run(self._kernels.pose_jacobian_many, self._arm(code, True, True), rows, T, J)
+        self._run(self._kernels.pose_jacobian_many, code, rows, T, J)
 
     def _fill_jacobians(self, rows: Array, code: int, J: Array) -> None:
-        self._run(self._kernels.jacobian_many, self._arm(code, False, True), rows, J)
+        self._run(self._kernels.jacobian_many, code, rows, None, J)
 
-    def _run(self, kernel: Any, arm: Arm, rows: Array, *results: Array) -> None:
-        rows = np.require(rows, np.float64, ["C", "A", "W"])  # the kernels take no other array
+    def _run(self, kernel: Kernel, code: int, rows: Array, T: Array | None, J: Array | None) -> None:
+        if self._interpreted:
+            self._interpret(code, rows, T, J)
+            return
+        arm = self._arm(code, T is not None, J is not None)
+        arrays = [np.require(rows, np.float64, ["C", "A", "W"]), *(a for a in (T, J) if a is not None)]
         if self.parallel:
-            threads.share_out(lambda *part: kernel.call(arm.address, *part), rows, *results)
+            threads.share_out(lambda *part: kernel.call(arm.address, *part), *arrays)
         else:
-            kernel.call(arm.address, rows, *results)
+            kernel.call(arm.address, *arrays)
+
+    def _interpret(self, code: int, rows: Array, T: Array | None, J: Array | None) -> None:
+        """The same without machine code, where Numba is told to compile nothing."""
+        values = interpret.evaluate(self._program(code, T is not None), rows)
+        if T is not None:
+            T[:, :3, :3], T[:, :3, 3] = values[:, :9].reshape(-1, 3, 3), values[:, 9:12]
+            T[:, 3] = 0.0, 0.0, 0.0, 1.0
+            values = values[:, 12:]
+        if J is not None:
+            J[...] = values.reshape(J.shape)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, CompiledChain):

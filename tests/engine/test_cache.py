@@ -18,6 +18,13 @@ print(so3.hat([1, 2, 3])[0].tolist(), so3.exp([0.0, 0.0, 0.0]).tolist())
 """
 RIGHT = "[0.0, -3.0, 2.0] [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]"
 
+ARM = """
+from poekin.model.chain import Chain
+chain = Chain([[0, 0, 1, 0, 0, 0], [0, 1, 0, 0, 0, -1]], [[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+print((chain.compile().fk([[0.0, 0.0]])[0, 0] + 0.0).tolist())
+"""
+TIP = "[1.0, 0.0, 0.0, 2.0]"
+
 
 def run(home: Path, program: str = PROGRAM, path: Path = PACKAGE.parent, **environment: str):
     """A fresh process whose home and cache are below `home`; returns what it prints and what it logs."""
@@ -85,6 +92,28 @@ def test_a_damaged_entry_is_compiled_anew_with_one_log_line_and_mended(home, dam
     assert log.count("is damaged or not this user's alone") == 1
     assert not list(home.glob("owned"))
     assert run(home) == (RIGHT, "")
+
+
+@pytest.fixture(scope="module")
+def with_arm(tmp_path_factory):
+    """A home in which an arm has been compiled once."""
+    home = tmp_path_factory.mktemp("arm")
+    assert run(home, ARM)[0] == TIP
+    return home
+
+
+def test_an_arm_s_machine_code_is_kept_and_a_damaged_one_made_anew(with_arm, tmp_path):
+    home = tmp_path / "home"
+    shutil.copytree(with_arm, home)
+    assert run(home, ARM) == (TIP, "")
+    (arm,) = (home / ".cache" / "poekin").glob("arm-*")
+    for damage in DAMAGE.values():
+        arm.write_bytes(damage(arm.read_bytes()))
+        out, log = run(home, ARM)
+        assert out == TIP
+        assert log.count("is damaged or not this user's alone") == 1
+    assert run(home, ARM) == (TIP, "")
+    assert run(home, ARM, POEKIN_CACHE_DIR="/nonexistent/cache")[0] == TIP
 
 
 def test_an_entry_that_others_can_write_is_not_read(home):
@@ -212,3 +241,9 @@ print(len(got))
 
 def test_without_compilation_everything_still_runs(tmp_path):
     assert run(tmp_path, NUMBA_DISABLE_JIT="1") == (RIGHT, "")
+
+
+def test_without_compiling_an_arm_s_program_is_interpreted(tmp_path):
+    program = ARM + "print([chain.compile().jacobian([0.3, 0.4], f)[0].round(3).tolist() for f in ('body', 'middle')])"
+    expected, _ = run(tmp_path, program)
+    assert run(tmp_path, program, NUMBA_DISABLE_JIT="1") == (expected, "")

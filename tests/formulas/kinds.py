@@ -10,6 +10,9 @@ import numpy as np
 
 from poekin.engine import compile as engine_compile
 from poekin.engine.count import Count, counted
+from poekin.engine.interpret import evaluate
+from poekin.engine.program import Angles, program
+from poekin.engine.trace import Graph
 from poekin.formulas import elementary
 
 DIGITS = 60
@@ -53,6 +56,20 @@ def counted_floats(value, count):
     return _mapped(value, lambda x: counted(x, count))
 
 
+def traced(formula, *arguments):
+    """Recorded on numbers that are all unknown, then computed from what was recorded."""
+    graph, values = Graph(), []
+
+    def recorded(x):
+        values.append(x)
+        return graph.input(-len(values))
+
+    arguments = _mapped(list(arguments), recorded)
+    result = formula(*arguments)
+    outputs = [x + 0.0 if isinstance(x, int) else x for x in _flat(result) + _flat(_written(arguments))]
+    return evaluate(program(graph, Angles(graph), outputs), np.array([values]))[0].tolist()
+
+
 def exact(formula, *arguments):
     with mpmath.workdps(DIGITS):
         return _run(formula, _mapped(list(arguments), mpmath.mpf))
@@ -61,8 +78,11 @@ def exact(formula, *arguments):
 def _run(function, arguments) -> list[float]:
     """The result and whatever was written into rows, flattened."""
     result = function(*arguments)
-    written = [a for a in arguments if isinstance(a, (list, np.ndarray))]
-    return [float(x) for x in _flat(result) + _flat(written)]
+    return [float(x) for x in _flat(result) + _flat(_written(arguments))]
+
+
+def _written(arguments) -> list:
+    return [a for a in arguments if isinstance(a, (list, np.ndarray))]
 
 
 KINDS = {"compiled": compiled, "counting": counting, "exact": exact}

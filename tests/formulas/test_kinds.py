@@ -24,7 +24,7 @@ from poekin.formulas import (
     recursive,
     structured,
 )
-from tests.formulas.kinds import KINDS, floats
+from tests.formulas.kinds import KINDS, floats, traced
 
 rng = np.random.default_rng(1994)
 W, V = (0.3, -0.4, 0.5), (1.0, -2.0, 0.5)
@@ -156,6 +156,18 @@ def test_a_formula_gives_the_same_in_every_kind(case, kind):
     # from floats by their rounding: products of up to four poses with entries of up to about 10.
     tolerance = 0.0 if kind == "counting" else 1e-13
     np.testing.assert_allclose(got, expected, rtol=tolerance, atol=tolerance)
+
+
+# exp, log and what belongs to them divide and compare: they are not traced, but for what they share with the chains.
+DIVIDE = (coefficients, exponential, logarithm, exp_jacobian, defect)
+CHAIN_CASES = [case for case in CASES if inspect.getmodule(case[0]) not in DIVIDE or case[0] is exponential.joint]
+
+
+@pytest.mark.parametrize("case", CHAIN_CASES, ids=[f"{_name(case)}-{i}" for i, case in enumerate(CHAIN_CASES)])
+def test_a_chain_formula_recorded_and_computed_gives_the_same(case):
+    formula, *arguments = case
+    # the same sums and products, but for constants that meet: none do here, as every number is recorded as unknown
+    np.testing.assert_allclose(traced(formula, *arguments), floats(formula, *arguments), rtol=1e-13, atol=1e-13)
 
 
 def test_every_formula_is_among_the_cases():

@@ -1,0 +1,161 @@
+"""An arm's kinematics as C99 for a controller: one header, one source, and a program that tests them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...errors import InputError, told
+from ...model.chain import Chain
+from .c_selftest import selftest
+from .statements import Literal, Statements, by_outputs, double, single, statements
+from .vectors import vectors
+from .words import Task, about, angle_words, compiled, identifier, tasks
+
+KINDS: dict[str, tuple[Literal, type[np.floating]]] = {"double": (double, np.float64), "float": (single, np.float32)}
+
+
+@dataclass(frozen=True)
+class CSource:
+    """Three texts in ASCII: `header`, `source` and `selftest`, which includes NAME.h; `name` begins all their names.
+
+    `files` are the three by the names that they ought to have.
+    """
+
+    name: str
+    header: str
+    source: str
+    selftest: str
+
+    @property
+    def files(self) -> dict[str, str]:
+        """File name -> text."""
+        return {f"{self.name}.h": self.header, f"{self.name}.c": self.source, f"{self.name}_selftest.c": self.selftest}
+
+
+def c(chain: Chain, frame: str | int, *, name: str = "arm", real: str = "double") -> CSource:
+    """C99 of a chain's pose and Jacobian: straight-line, without allocation, dependent on math.h alone.
+
+    Parameters: chain; frame, "space", "body", "hybrid", "middle" or the index of a joint, as in
+    `CompiledChain.jacobian`; name, of which the C names are made (only a-z, 0-9 and _ are kept); real, "double" or
+    "float". Returns: CSource with functions NAME_fk, NAME_jacobian_FRAME, NAME_fk_jacobian_FRAME of q; each also as
+    ..._angles and ..._sincos, for who has sines and cosines of the angles. T row by row (16), J row by row (6 m).
+    Raises: InputError, UnknownName. Accuracy: that of `Chain.fk` in the arithmetic of `real`
+    (tests/formats/test_emit_c.py). Source: Park 1994, Section IV, two planar rotations a link.
+    """
+    if real not in KINDS:
+        raise InputError(f"real: expected 'double' or 'float', got {told(real)}")
+    if not isinstance(name, str):
+        raise InputError(f"name: expected a text, got {told(name)}")
+    literal, kind = KINDS[real]
+    arm, word = compiled(chain, frame), identifier(name)
+    functions = [_Function(word, real, literal, task, chain.dof) for task in tasks(arm, frame)]
+    head = [
+        f"{word}: the kinematics of one serial arm as straight-line C99, in {real}. Generated: change the arm instead.",
+        "",
+        *(f"{word}_{function.task.cost}" for function in functions),
+    ]
+    return CSource(
+        word,
+        _header(word, [*head, "", *about(arm, frame)], functions),
+        "\n".join([_comment(head), f'#include "{word}.h"', "", "#include <math.h>", *(f.text() for f in functions)]),
+        selftest(word, real, literal, [function.task for function in functions], vectors(arm, frame, kind)),
+    )
+
+
+class _Function:
+    """The C of one task: its angles, its statements, and both together."""
+
+    def __init__(self, word: str, real: str, literal: Literal, task: Task, dof: int):
+        self.task, self.real, self.literal, self.dof = task, real, literal, dof
+        self.name = f"{word}_{task.name}"
+        self.count = len(task.program.angles)
+        self.results = [*(["T"] if task.pose else []), *(["J"] if task.jacobian else [])]
+        parameters = "".join(f", {real} *{result}" for result in self.results)
+        self.heads = (
+            f"void {self.name}_angles(const {real} *q, {real} *x)",
+            f"void {self.name}_sincos(const {real} *s, const {real} *c, const {real} *q{parameters})",
+            f"void {self.name}(const {real} *q{parameters})",
+        )
+
+    def declared(self) -> str:
+        """The declarations, and what they are."""
+        sizes = ", ".join({"T": "T[16]", "J": f"J[{6 * self.dof}]"}[result] for result in self.results)
+        words = [
+            f"{self.name}: from q[{self.dof}] to {sizes}; they may overlap q.",
+            f"..._sincos: the same from s[{self.count}] = sin x and c[{self.count}] = cos x, where the angles x are",
+            *(f"  {line}" for line in angle_words(self.task)),
+            "..._angles: those angles from q.",
+        ]
+        angles, sincos, whole = (f"{head};" for head in self.heads)
+        return "\n".join([_comment(words), whole, sincos, angles, ""])
+
+    def text(self) -> str:
+        """The definitions."""
+        program = statements(self.task.program, self.literal)
+        angles, sincos, whole = self.heads
+        return "\n".join([
+            "", angles, "{", *self._angles(program), "}",
+            "", sincos, "{", *self._statements(program), "}",
+            "", whole, "{", *self._whole(), "}", "",
+        ])  # fmt: skip
+
+    def _angles(self, program: Statements) -> list[str]:
+        unused = [name for name, used in (("q", program.angle_reads), ("x", program.angles)) if not used]
+        return [
+            *self._locals((name, f"{array}[{k}]") for name, array, k in program.angle_reads),
+            *self._locals((f"x{j}", text) for j, text in enumerate(program.angles)),
+            *(f"    (void){name};" for name in unused),
+            *(f"    x[{j}] = x{j};" for j in range(self.count)),
+        ]
+
+    def _statements(self, program: Statements) -> list[str]:
+        used = {array for _, array, _ in program.reads}
+        T, J = by_outputs(program.outputs, self.task.pose)
+        places = [
+            f"    {name}[{k}] = {x if isinstance(x, str) else self.literal(x)};"
+            for name, values in (("T", T), ("J", J))
+            for k, x in enumerate(values)
+        ]
+        unused = [array for array in "scq" if array not in used] + ["J"] * (self.task.jacobian and not J)
+        return [
+            *self._locals((name, f"{array}[{k}]") for name, array, k in program.reads),
+            *self._locals(program.lines),
+            *(f"    (void){array};" for array in unused),
+            *places,
+        ]
+
+    def _whole(self) -> list[str]:
+        results = "".join(f", {result}" for result in self.results)
+        if not self.count:
+            return [f"    {self.name}_sincos(q, q, q{results});"]
+        sine, cosine = ("sin", "cos") if self.real == "double" else ("sinf", "cosf")
+        return [
+            f"    {self.real} s[{self.count}], c[{self.count}];",
+            "    int j;",
+            f"    {self.name}_angles(q, s);",
+            f"    for (j = 0; j < {self.count}; j++) {{",
+            f"        const {self.real} x = s[j];",
+            f"        s[j] = {sine}(x);",
+            f"        c[j] = {cosine}(x);",
+            "    }",
+            f"    {self.name}_sincos(s, c, q{results});",
+        ]
+
+    def _locals(self, pairs) -> list[str]:
+        return [f"    const {self.real} {name} = {text};" for name, text in pairs]
+
+
+def _header(word: str, lines: list[str], functions: list[_Function]) -> str:
+    guard = f"{word.upper()}_H_INCLUDED"
+    return "\n".join([
+        _comment(lines), f"#ifndef {guard}", f"#define {guard}", "",
+        "#ifdef __cplusplus", 'extern "C" {', "#endif", "",
+        *(function.declared() for function in functions),
+        "#ifdef __cplusplus", "}", "#endif", "", "#endif", "",
+    ])  # fmt: skip
+
+
+def _comment(lines: list[str]) -> str:
+    return "\n".join(["/*", *(f" * {line}".rstrip() for line in lines), " */"])

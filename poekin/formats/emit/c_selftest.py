@@ -1,0 +1,93 @@
+"""The program that tests an emitted C source: numbers of the chain's general kernels against those that it computes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .statements import Literal, double
+from .vectors import Vectors
+from .words import Task
+
+TEXT = """/*
+ * Tests {word}.c: compile both, link with the mathematical library, run. It prints the worst error and the error
+ * allowed, which is {tolerance} (1, m or m per rad), and exits with 0 if that is kept, else with 1.
+ */
+#include "{word}.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define VECTORS {count}
+#define ALLOWED {tolerance}
+
+static const {real} Q[VECTORS][{width}] = {{
+{q}
+}};
+static const double T_EXPECTED[VECTORS][16] = {{
+{T}
+}};
+static const double J_EXPECTED[VECTORS][{columns}] = {{
+{J}
+}};
+
+static double worst = 0.0;
+static int failed = 0;
+
+static void compare(const {real} *got, const double *expected, int count)
+{{
+    int k;
+    for (k = 0; k < count; k++) {{
+        const double error = fabs((double)got[k] - expected[k]);
+        if (!(error <= ALLOWED)) {{
+            failed = 1;
+        }}
+        if (error > worst) {{
+            worst = error;
+        }}
+    }}
+}}
+
+int main(void)
+{{
+    {real} T[16], J[{columns}];
+    int i;
+    for (i = 0; i < VECTORS; i++) {{
+{calls}
+    }}
+    printf("{word}: worst error %.3g, allowed %.3g: %s\\n", worst, ALLOWED, failed ? "FAILED" : "passed");
+    return failed;
+}}
+"""
+
+
+def selftest(word: str, real: str, literal: Literal, tasks: Sequence[Task], wanted: Vectors) -> str:
+    """The text of the program."""
+    dof = wanted.q.shape[1]
+    return TEXT.format(
+        word=word,
+        real=real,
+        count=len(wanted.q),
+        width=max(dof, 1),
+        columns=max(6 * dof, 1),
+        tolerance=f"{wanted.tolerance:.3g}",
+        q=_rows(wanted.q, literal),
+        T=_rows(wanted.T, double),
+        J=_rows(wanted.J, double),
+        calls="\n".join(line for task in tasks for line in _calls(word, task, dof)),
+    )
+
+
+def _calls(word: str, task: Task, dof: int) -> list[str]:
+    results = "".join(f", {result}" for result, wanted in (("T", task.pose), ("J", task.jacobian)) if wanted)
+    return [
+        f"        {word}_{task.name}(Q[i]{results});",
+        *(["        compare(T, T_EXPECTED[i], 16);"] if task.pose else []),
+        *([f"        compare(J, J_EXPECTED[i], {6 * dof});"] if task.jacobian else []),
+    ]
+
+
+def _rows(values: np.ndarray, literal: Literal) -> str:
+    flat = values.reshape(len(values), -1) if values.size else np.zeros((len(values), 1))
+    return ",\n".join("    {" + ", ".join(literal(x) for x in row) + "}" for row in flat.tolist())

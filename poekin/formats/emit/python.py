@@ -1,0 +1,101 @@
+"""An arm's kinematics as plain Python functions for NumPy, JAX and PyTorch arrays."""
+
+from __future__ import annotations
+
+import textwrap
+
+from ...model.chain import Chain
+from .statements import Statements, by_outputs, double, statements
+from .words import Task, about, angle_words, compiled, tasks
+
+
+def python(chain: Chain, frame: str | int) -> str:
+    """The text of a Python module: pose and Jacobian of a chain, straight-line, dependent on nothing.
+
+    Parameters: chain; frame, "space", "body", "hybrid", "middle" or the index of a joint, as in
+    `CompiledChain.jacobian`. Returns: a text in ASCII with the functions fk, jacobian_FRAME, fk_jacobian_FRAME of
+    (q, xp), q (..., m) an array of the module xp: numpy, jax.numpy or torch; each also as ..._angles(q, xp) and
+    ..._sincos(sines, cosines, q, xp). Nothing is written in place, so vmap, jit and gradients go through.
+    Raises: InputError, UnknownName. Accuracy: that of `Chain.fk` in the arithmetic of q
+    (tests/formats/test_emit_python.py). Source: Park 1994, Section IV, two planar rotations a link.
+    """
+    arm = compiled(chain, frame)
+    functions = tasks(arm, frame)
+    head = [
+        '"""The kinematics of one serial arm as straight-line code. Generated: change the arm instead.',
+        "",
+        *(task.cost for task in functions),
+        "",
+        *about(arm, frame),
+        "",
+        "q is (..., m), an array of floats of the module xp: numpy, jax.numpy, torch.",
+        '"""',
+        "",
+    ]
+    return "\n".join([*(line.rstrip() for line in head), *(_functions(task, chain.dof) for task in functions)])
+
+
+def _functions(task: Task, dof: int) -> str:
+    program = statements(task.program, double)
+    shapes = {"T": "T (..., 4, 4)", "J": f"J (..., 6, {dof})"}
+    results = [*(["T"] if task.pose else []), *(["J"] if task.jacobian else [])]
+    what = ", ".join(shapes[result] for result in results)
+    return "\n".join([
+        "",
+        f"def {task.name}(q, xp):",
+        f'    """{what} at q (..., {dof})."""',
+        f"    x = {task.name}_angles(q, xp)",
+        f"    return {task.name}_sincos(xp.sin(x), xp.cos(x), q, xp)",
+        "", "",
+        f"def {task.name}_sincos(sines, cosines, q, xp):",
+        f'    """{what} from sines and cosines (..., {len(program.angles)}) of the angles, and from q (..., {dof})."""',
+        *_statements(program, task, dof),
+        f"    return {', '.join(results)}",
+        "", "",
+        f"def {task.name}_angles(q, xp):",
+        *_doc(f"The angles x (..., {len(program.angles)}) whose sines and cosines are needed.", angle_words(task)),
+        *_angles(program),
+        "",
+    ])  # fmt: skip
+
+
+def _doc(first: str, more: list[str]) -> list[str]:
+    if not more:
+        return [f'    """{first}"""']
+    return [f'    """{first}', "", *(f"    {line}" for line in more), '    """']
+
+
+def _angles(program: Statements) -> list[str]:
+    if not program.angles:
+        return ["    return q[..., :0]"]
+    return [
+        *(f"    {name} = q[..., {k}]" for name, _, k in program.angle_reads),
+        *(f"    x{j} = {text}" for j, text in enumerate(program.angles)),
+        *_call("return xp.stack", [f"x{j}" for j in range(len(program.angles))], ", -1)"),
+    ]
+
+
+def _statements(program: Statements, task: Task, dof: int) -> list[str]:
+    arrays = {"s": "sines", "c": "cosines", "q": "q"}
+    T, J = by_outputs(program.outputs, task.pose)
+    lines = [f"    {name} = {arrays[array]}[..., {k}]" for name, array, k in program.reads]
+    lines += [f"    {name} = {text}" for name, text in program.lines]
+    constants = dict.fromkeys(x for x in (*T, *J) if not isinstance(x, str))
+    names = {x: f"k{i}" for i, x in enumerate(constants)}
+    if names:
+        lines.append("    zero = xp.sum(q[..., :0], -1)")  # of the batch's shape, on q's device, even where m = 0
+        lines += [f"    {name} = xp.full_like(zero, {double(x)})" for x, name in names.items()]
+    if task.pose:
+        lines += _call("T = xp.stack", [x if isinstance(x, str) else names[x] for x in T], ", -1)")
+        lines.append("    T = xp.reshape(T, tuple(q.shape[:-1]) + (4, 4))")
+    if task.jacobian and dof:
+        lines += _call("J = xp.stack", [x if isinstance(x, str) else names[x] for x in J], ", -1)")
+    if task.jacobian:
+        lines.append(f"    J = xp.reshape({'J' if dof else 'q'}, tuple(q.shape[:-1]) + (6, {dof}))")
+    return lines
+
+
+def _call(head: str, parts: list[str], tail: str) -> list[str]:
+    """One call over a list, in lines of no more than 110 characters."""
+    body = textwrap.wrap(", ".join(parts), 102, break_long_words=False, break_on_hyphens=False)
+    return [f"    {head}([", *(f"        {line}" for line in body), f"    ]{tail}"]
