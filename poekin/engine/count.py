@@ -8,7 +8,7 @@ formula's structure (a revolute joint's r = 1, s = 0), while the float 1.0 is a 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from ..formulas import elementary
@@ -25,6 +25,15 @@ class Count:
     sines: int = 0
     cosines: int = 0
     arctangents: int = 0
+
+    @property
+    def sine_cosine_pairs(self) -> int:
+        """How many angles' sines and cosines are needed: one routine gives both."""
+        return max(self.sines, self.cosines)
+
+    def as_dict(self) -> dict[str, int]:
+        """All numbers by name, the pairs too."""
+        return asdict(self) | {"sine_cosine_pairs": self.sine_cosine_pairs}
 
 
 class Counted:

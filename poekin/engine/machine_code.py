@@ -3,11 +3,12 @@
 The program is handed to LLVM as it is: nothing is left in it to be found out, so this takes a tenth of a second where a
 compiler of Python would take a few. Products and sums may be fused; nothing else is reordered.
 
+    angles(q, sines, stride)
     one(sines, cosines, stride, q, width, T, J)    four(...)
 
-read sine and cosine of angle j at [stride j + lane], and coordinate k at q[width lane + k] where joints slide; they
-write the pose's 16 numbers at T[16 lane], and the Jacobian's 6 m at J[6 m lane]. What the program does not have is not
-written.
+`angles` writes the angle j of one configuration to sines[stride j]: it becomes its sine there. The others read sine and
+cosine of angle j at [stride j + lane], and coordinate k at q[width lane + k] where joints slide; they write the pose's
+16 numbers at T[16 lane], and the Jacobian's 6 m at J[6 m lane]. What the program does not have is not written.
 """
 
 # pyright: reportCallIssue=false
@@ -24,6 +25,7 @@ LANES = 4
 CONTRACT = ("contract",)
 _DOUBLE, _INT, _INDEX = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
 _POINTER = _DOUBLE.as_pointer()
+ANGLES = ir.FunctionType(ir.VoidType(), [_POINTER, _POINTER, _INT])
 SIGNATURE = ir.FunctionType(ir.VoidType(), [_POINTER, _POINTER, _INT, _POINTER, _INT, _POINTER, _POINTER])
 
 
@@ -42,6 +44,7 @@ def object_code(program: Program, pose: bool) -> bytes:
     """The machine code of a program whose outputs begin with a pose or not."""
     module = ir.Module("arm")
     module.triple = binding.get_default_triple()
+    _write_angles(module, program)
     for name, lanes in (("one", 1), ("four", LANES)):
         _Function(module, name, lanes).write(program, pose)
     parsed = binding.parse_assembly(str(module))
@@ -50,14 +53,35 @@ def object_code(program: Program, pose: bool) -> bytes:
 
 
 class Loaded:
-    """Machine code in memory: the addresses `one` and `four` hold as long as this object lives."""
+    """Machine code in memory: the addresses `angles`, `one` and `four` hold as long as this object lives."""
 
     def __init__(self, code: bytes):
         target = target_machine()
         self._engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target)
         self._engine.add_object_file(binding.ObjectFileRef.from_data(code))
         self._engine.finalize_object()
-        self.one, self.four = (self._engine.get_function_address(name) for name in ("one", "four"))
+        self.angles, self.one, self.four = map(self._engine.get_function_address, ("angles", "one", "four"))
+
+
+def _write_angles(module: ir.Module, program: Program) -> None:
+    function = ir.Function(module, ANGLES, "angles")
+    build = ir.IRBuilder(function.append_basic_block())
+    q, sines, stride = function.args
+    values: list[Any] = []
+    for angle in program.angles:
+        parts = [] if angle.base is None else [values[angle.base]]
+        for k, factor in angle.terms:
+            x = build.load(build.gep(q, [_INT(k)]), align=8)
+            parts.append(x if factor == 1 else build.fneg(x) if factor == -1 else build.fmul(_DOUBLE(factor), x))
+        if angle.offset:
+            parts.append(_DOUBLE(angle.offset))
+        total = parts[0]
+        for part in parts[1:]:
+            total = build.fadd(total, part)
+        values.append(total)
+    for j, value in enumerate(values):
+        build.store(value, build.gep(sines, [build.mul(stride, _INT(j))]), align=8)
+    build.ret_void()
 
 
 class _Function:

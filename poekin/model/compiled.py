@@ -163,7 +163,7 @@ class CompiledChain:
                 chain, digest = self.chain, hashlib.sha256()
                 for numbers in (chain.screws, chain.home, chain.coupling, chain.offset):
                     digest.update(repr(numbers.shape).encode() + numbers.tobytes())
-                key = digest.hexdigest(), code
+                key = digest.hexdigest(), code, jacobian
                 self._arms[code, pose, jacobian] = arm(key, lambda: self._program(code, pose), self.dof, pose)
             return self._arms[code, pose, jacobian]
 
