@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from poekin.errors import MissingExtra
 
 from .report import Picture
 
 INK, PALE = "#222222", "#9a9a9a"
+
+
+class Panel(NamedTuple):
+    """One of several plots with a common y axis, both axes logarithmic: curves over x; falling: x runs downwards."""
+
+    x_label: str
+    x: Sequence[float]
+    curves: Mapping[str, Sequence[float]]
+    falling: bool = False
 
 
 def _axes(width: float, height: float):  # type: ignore[no-untyped-def]
@@ -37,16 +46,26 @@ def _svg(figure) -> str:  # type: ignore[no-untyped-def]
 
 
 def lines(
-    caption: str, x: Sequence[float], curves: dict[str, Sequence[float]], *, x_label: str, y_label: str
+    caption: str,
+    x: Sequence[float],
+    curves: Mapping[str, Sequence[float]],
+    *,
+    x_label: str,
+    y_label: str,
+    log: bool = False,
 ) -> Picture:
-    """Curves over x; each has its own line style and marker, as colour alone may not be seen."""
+    """Curves over x; each has its own line style and marker, as colour alone may not be seen. log: on both axes."""
     figure, axes = _axes(7.2, 3.4)
     styles = [("-", "o"), ("--", "s"), (":", "^"), ("-.", "D"), ("-", "v"), ("--", "x")]
     for (label, y), (line, marker) in zip(curves.items(), styles, strict=False):
         axes.plot(x, y, line + marker, markersize=4, color=INK, linewidth=1.1, markerfacecolor="white", label=label)
     axes.set_xlabel(x_label)
     axes.set_ylabel(y_label)
-    axes.set_xticks(list(x))
+    if log:
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+    else:
+        axes.set_xticks(list(x))
     axes.legend(frameon=False)
     return Picture(caption, _svg(figure))
 
@@ -62,4 +81,40 @@ def dots(caption: str, values: Sequence[float], bar: float, *, x_label: str, y_l
     axes.set_ylim(floor / 1.5, bar * 3)
     axes.set_xlabel(x_label)
     axes.set_ylabel(y_label)
+    return Picture(caption, _svg(figure))
+
+
+def panels(caption: str, parts: Sequence[Panel], *, y_label: str, bar: float, off_scale: str) -> Picture:
+    """Plots beside each other with the bar across; the first curve is bold. An infinite value is a cross at the top
+    edge, where off_scale says what it means; a NaN is a gap.
+    """  # fmt: skip
+    figure, _ = _axes(9.0, 3.9)
+    figure.clear()
+    plots = figure.subplots(1, len(parts), sharey=True, squeeze=False)[0]
+    values = [y for part in parts for curve in part.curves.values() for y in curve if math.isfinite(y)]
+    floor, top = min(values) / 3, max([*values, bar]) * 30
+    styles = [("-", ""), ("--", "s"), (":", "^"), ("-.", "D"), ("-", "v"), ("--", "x"), (":", "o"), ("-.", "+")]
+    for axes, part in zip(plots, parts, strict=True):
+        for number, (label, curve) in enumerate(part.curves.items()):
+            line, marker = styles[number % len(styles)]
+            finite = [y if math.isfinite(y) else math.nan for y in curve]
+            lost = [x for x, y in zip(part.x, curve, strict=True) if math.isinf(y)]
+            every = (number % 4, 4)
+            axes.plot(part.x, finite, line, marker=marker or None, markevery=every, markersize=4.5, color=INK,
+                      linewidth=1.0 if number else 2.6, markerfacecolor="white", label=label)  # fmt: skip
+            axes.plot(lost, [top] * len(lost), marker=marker or "o", linestyle="", color=INK, markersize=5)
+        axes.axhline(bar, color=PALE, linewidth=1.2)
+        axes.set(xscale="log", yscale="log", xlabel=part.x_label, ylim=(floor, top * 3))
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.grid(axis="y", color="#dddddd", linewidth=0.6)
+        axes.set_axisbelow(True)
+        if part.falling:
+            axes.invert_xaxis()
+        if any(math.isinf(y) for curve in part.curves.values() for y in curve):
+            axes.axhline(top / 3, color=PALE, linewidth=0.8, linestyle=":")
+            axes.annotate(off_scale, (0.02, 1.0), xycoords="axes fraction", va="bottom", fontsize=9, color="#444444")
+    plots[0].set_ylabel(y_label)
+    plots[0].annotate(f"bar {bar:g}", (0.01, bar), xycoords=("axes fraction", "data"), xytext=(0, 3),
+                      textcoords="offset points", fontsize=9)  # fmt: skip
+    figure.legend(*plots[0].get_legend_handles_labels(), loc="outside upper center", ncols=6, frameon=False)
     return Picture(caption, _svg(figure))

@@ -48,6 +48,13 @@ class Figure:
         return self.bar_shown or ("" if self.bar is None else f"≤ {short(self.bar)} {self.unit}".strip())
 
 
+def side_by_side(what: str, found: Sequence[int], bars: Sequence[int], *, error: str = "", note: str = "") -> Figure:
+    """A figure of several numbers, each with a bar of its own: its value is the largest share of a bar that is used."""
+    value = max(number / bar for number, bar in zip(found, bars, strict=True))
+    shown, bar_shown = ("/".join(map(str, numbers)) for numbers in (found, bars))
+    return Figure(what, value, 1, shown=shown, bar_shown=f"≤ {bar_shown}", error=error, note=note)
+
+
 @dataclass(frozen=True)
 class Table:
     """A table: its caption, its column heads (with units), and rows of texts or numbers; folded until asked for."""

@@ -9,6 +9,7 @@ from . import errors
 from .analysis.axes import axes
 from .analysis.compare import compare
 from .analysis.count import count
+from .analysis.count_table import count_table
 from .analysis.validate import validate
 from .errors import PoekinError, PoekinWarning
 from .formats import dh, emit, ur
@@ -35,6 +36,7 @@ __all__ = [
     "axes",
     "compare",
     "count",
+    "count_table",
     "dh",
     "emit",
     "errors",

@@ -50,7 +50,7 @@ ARM = pk.Chain([pk.screw.revolute([0, 0, 1], [i, 0, 0]) for i in range(2)], np.e
     "call, message",
     [
         (lambda: pk.count("panda"), "expected a Chain, .* got 'panda'"),  # pyright: ignore[reportArgumentType]
-        (lambda: pk.count(ARM, method=[]), r"no method \[\] in frame 'body'"),  # pyright: ignore[reportArgumentType]
+        (lambda: pk.count(ARM, method=[]), r"no method \[\]; there are: direct"),  # pyright: ignore[reportArgumentType]
         (lambda: pk.count(ARM, frame={}), r"no method 'recursive' in frame \{\}"),  # pyright: ignore[reportArgumentType]
     ],
 )

@@ -6,6 +6,7 @@ Each is a module with `topic(quick, say) -> Topic`: quick asks for a shorter run
 from . import (
     accuracy,
     exp_log,
+    exponential_table,
     model_truth_compare,
     model_truth_robots,
     model_truth_tables,
@@ -23,6 +24,7 @@ TOPICS = {
     "model_truth_robots": model_truth_robots,
     "model_truth_compare": model_truth_compare,
     "operation_counts": operation_counts,
+    "exponential_table": exponential_table,
     "panda_hand": panda_hand,
     "exp_log": exp_log,
     "start": start,

@@ -1,93 +1,130 @@
-"""What a Jacobian costs, found by running its algorithm on scalars that count."""
+"""What a Jacobian costs, found by running its algorithm on scalars that count or record."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
 
-from ..engine.count import Count, Counted, counted
+from ..engine.count import Count
+from ..engine.specialise import specialised
 from ..errors import InputError, told
-from ..formulas import dh_recursive, direct, recursive
 from ..model.chain import Chain
+from . import count_methods as methods
+from . import count_scalars as scalars
 
-__all__ = ["METHODS", "count"]
+__all__ = ["CHARGED", "METHODS", "Count", "count"]
+
+CHARGED = ("paper", "needed", "everything")
 
 
-def count(chain: Chain, *, method: str = "recursive", frame: str = "body") -> Count:
-    """Operations of one Jacobian of a chain of this many joints, as the paper charges them.
+Run = Callable[[Chain, Any, str, bool], Count]
 
-    The algorithm itself runs, on scalars that count; every number that depends on q counts as variable, and so does
-    every entry of a link's pose, whatever its value. Making the links' poses (sines, cosines, exponentials) is not
-    charged, as in the paper's table.
+
+@dataclass(frozen=True)
+class Method:
+    """A way to count a chain's Jacobian in some frames: run(chain, frame, charged, pose); what may be charged."""
+
+    run: Run
+    frames: tuple[str, ...] = ("body",)
+    charged: tuple[str, ...] = CHARGED
+
+
+def _general(algorithm: scalars.Algorithm, form: scalars.Form) -> Run:
+    """An algorithm on links of a form."""
+
+    def run(chain: Chain, frame: Any, charged: str, pose: bool) -> Count:
+        if charged == "paper":
+            return scalars.as_charged(algorithm, chain, pose)
+        if charged == "needed":
+            return scalars.as_needed(algorithm, chain, pose)
+        return scalars.with_everything(algorithm, form, chain, pose)
+
+    return run
+
+
+def _structured(chain: Chain, frame: Any, charged: str, pose: bool) -> Count:
+    return specialised(scalars.generic_structure(chain, tool=charged == "everything"), frame, pose).count
+
+
+def _specialised(chain: Chain, frame: Any, charged: str, pose: bool) -> Count:
+    return chain.compile().program(frame, pose=pose).count
+
+
+METHODS: dict[str, tuple[Method, ...]] = {
+    "direct": (
+        Method(_general(methods.direct_body, scalars.exponential)),
+        Method(_general(methods.direct_space, scalars.exponential), ("space",)),
+    ),
+    "recursive": (Method(_general(methods.z_aligned, scalars.z_link)),),
+    "recursive_with_tool": (Method(_general(methods.with_tool, scalars.z_link)),),
+    "recursive_by_cross": (Method(_general(methods.by_cross, scalars.z_link)),),
+    "recursive_general_frames": (Method(_general(methods.general_frames, scalars.general_link)),),
+    "dh_recursive": (Method(_general(methods.orin_schrader, scalars.paul_link)),),
+    "dh_paul": (Method(_general(methods.paul, scalars.paul_link)),),
+    "dh_modified": (Method(_general(methods.z_aligned, scalars.craig_link)),),
+    "structured": (Method(_structured, ("body", "space", "hybrid"), ("needed", "everything")),),
+    "specialised": (Method(_specialised, ("body", "space", "hybrid", "middle"), ("everything",)),),
+}
+
+
+def count(
+    chain: Chain,
+    *,
+    method: str = "recursive",
+    frame: str | int | None = "body",
+    charged: str | None = None,
+    pose: bool = False,
+) -> Count:
+    """Operations of one Jacobian, found by running the algorithm: nothing here is a formula in n.
+
+    All methods but "specialised" are about any chain of joints like these: of `chain` they take the kinds of the joints
+    and the coupling, and every constant is general.
 
     Parameters
     ----------
-    chain: of n >= 2 joints; its joints' kinds matter (a column of a prismatic joint costs less).
-    method: "direct" (Section III), "recursive" (Section IV, z-aligned frames, the tool in the last link's frame),
-        "recursive_with_tool" (with the constant tool behind it) or "dh_recursive" (Orin and Schrader).
-    frame: "body", or "space" for the direct method.
+    chain: of n >= 2 joints (any number for "specialised").
+    method: "direct" (Section III); "recursive" (Section IV, z-aligned frames, the tool in the last link's frame), and
+        the same "recursive_with_tool" (a constant tool behind), "recursive_by_cross" (third columns of rotations as
+        cross products) or "recursive_general_frames" (link frames attached anywhere); "dh_recursive" (Orin and Schrader
+        on Paul's frames, with a tool); with the bookkeeping of "recursive" "dh_paul" (Paul's frames) and "dh_modified"
+        (Craig's); "structured" (two planar rotations a link, `formulas.structured`); "specialised" (the straight-line
+        program of this very arm, `Chain.compile`).
+    frame: "body"; "space" for "direct"; "structured" has "hybrid" too, "specialised" those, "middle", each joint's
+        index k, and None, which is the pose alone.
+    charged: "paper": all that the algorithm does, but not the making of the links' poses; "needed": only what reaches
+        an output; "everything": that and sines, cosines, links' poses, the coupling, and for "structured" a tool.
+        By default "paper", for "structured" "needed", for "specialised" "everything".
+    pose: the tool's pose too, out of the same pass.
 
-    Returns: Count, with .multiplications and .additions. Raises: InputError. Accuracy: exact, by running.
+    Returns: Count: multiplications, additions (subtractions among them), sines, cosines; divisions and square roots are
+    0. A constant times a constant and a change of sign cost nothing; adding angles costs additions.
+    Raises: InputError, UnknownName for a frame. Accuracy: exact, by running (tests/analysis/test_count.py).
     Source: Park 1994, Section IV, the table: 60 n - 96 and 45 n - 72, 42 n - 78 and 30 n - 57, 42 n and 30 n.
     """
     if not isinstance(chain, Chain):
         raise InputError(f"expected a Chain, as Robot.chain makes it, got {told(chain)}")
-    words = isinstance(method, str) and isinstance(frame, str)
-    algorithm = METHODS.get((method, frame)) if words else None
-    if algorithm is None:
-        known = ", ".join(f"{m} in {f}" for m, f in METHODS)
-        raise InputError(f"no method {told(method)} in frame {told(frame)}; there are: {known}")
+    if not isinstance(pose, bool):
+        raise InputError(f"pose: expected True or False, got {told(pose)}")
+    way = _way(method, frame)
+    if charged is None:
+        charged = way.charged[0]
+    elif not isinstance(charged, str) or charged not in way.charged:
+        raise InputError(f"charged: expected {' or '.join(way.charged)} for method {method!r}, got {told(charged)}")
     n = len(chain.joint_names)
-    if n < 2:
-        raise InputError(f"the paper's counts hold from 2 joints on, the chain has {n}")
-    total = Count()
-    algorithm(chain, n, total)
-    return total
+    if n < 2 and method != "specialised":
+        raise InputError(f"method {method!r} counts from 2 joints on, the chain has {n}")
+    return way.run(chain, frame, charged, pose)
 
 
-def _poses(n: int, total: Count) -> list[tuple[Counted, ...]]:
-    """n poses whose twelve numbers are variables; the algorithms never look at a value."""
-    return [counted((1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.1, 0.2, 0.3), total) for _ in range(n)]
-
-
-def _structure(chain: Chain) -> tuple[list, list]:
-    """r and s of the joints, 0 and 1 as integers."""
-    rows = (chain.local.rotates, chain.local.slides)
-    return tuple([int(x) if x in (0.0, 1.0) else float(x) for x in row] for row in rows)  # type: ignore[return-value]
-
-
-def _rows(n: int) -> list[list]:
-    return [[0.0] * n for _ in range(6)]
-
-
-def _direct_space(chain: Chain, n: int, total: Count) -> None:
-    direct.space(chain.space.screws.tolist(), _poses(n, total), n, _rows(n))
-
-
-def _direct_body(chain: Chain, n: int, total: Count) -> None:
-    direct.body(chain.body.screws.tolist(), _poses(n, total), n, _rows(n))
-
-
-def _recursive(chain: Chain, n: int, total: Count) -> None:
-    recursive.body(_poses(n, total), *_structure(chain), n, _rows(n))
-
-
-def _recursive_with_tool(chain: Chain, n: int, total: Count) -> None:
-    recursive.body_with_tool(_poses(n, total), _tool(chain), *_structure(chain), n, _rows(n))
-
-
-def _dh_recursive(chain: Chain, n: int, total: Count) -> None:
-    dh_recursive.body(_poses(n, total), _tool(chain), *_structure(chain), n, _rows(n))
-
-
-def _tool(chain: Chain) -> tuple[float, ...]:
-    T = chain.local.frames[-1]
-    return (*T[:3, :3].ravel().tolist(), *T[:3, 3].tolist())
-
-
-METHODS: dict[tuple[str, str], Callable[[Chain, int, Count], None]] = {
-    ("direct", "space"): _direct_space,
-    ("direct", "body"): _direct_body,
-    ("recursive", "body"): _recursive,
-    ("recursive_with_tool", "body"): _recursive_with_tool,
-    ("dh_recursive", "body"): _dh_recursive,
-}
+def _way(method: object, frame: object) -> Method:
+    ways = METHODS.get(method) if isinstance(method, str) else None
+    if ways is None:
+        raise InputError(f"no method {told(method)}; there are: {', '.join(METHODS)}")
+    if method == "specialised":
+        return ways[0]  # its program knows its frames, the joints' indices among them
+    for way in ways:
+        if isinstance(frame, str) and frame in way.frames:
+            return way
+    known = ", ".join(frame for way in ways for frame in way.frames)
+    raise InputError(f"no method {method!r} in frame {told(frame)}; its frames: {known}")

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import axes, compare, dh, emit, fk, info, jacobian, urdf, validate
+from . import axes, compare, count, dh, emit, fk, info, jacobian, urdf, validate
 from .model import takes_models
 
 app = typer.Typer(
@@ -27,6 +27,7 @@ app.command("urdf")(takes_models(urdf.command))
 app.command("compare")(takes_models(compare.command))
 app.command("axes")(takes_models(axes.command))
 app.command("dh")(takes_models(dh.command))
+app.command("count")(takes_models(count.command))
 app.command("emit")(takes_models(emit.command))
 
 

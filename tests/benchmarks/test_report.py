@@ -27,12 +27,12 @@ def test_the_report_is_written_and_says_where_it_is(monkeypatch, tmp_path, capsy
     assert _run(monkeypatch, tmp_path, "--quick", "--only", "operation_counts") == 0
     out = capsys.readouterr().out
     assert out.splitlines()[-1] == f"The report: {tmp_path / 'report' / 'index.html'}"
-    assert "1 of 1 bars hold." in out
+    assert "12 of 12 bars hold." in out
     page = (tmp_path / "report" / "index.html").read_text(encoding="utf-8")
     assert "<svg" in page
     assert not any(word in page for word in ("<script", "<link", "@import", "src="))
     document = json.loads((tmp_path / "report" / "results.json").read_text(encoding="utf-8"))
-    (counts,) = (t for topic in document["topics"] for t in topic["tables"])
+    counts, *_ = (t for topic in document["topics"] for t in topic["tables"])
     assert counts["rows"][0][:7] == [2, 24, 18, 6, 3, 84, 60]
     assert document["machine"]["versions"]["numpy"]
 

@@ -23,7 +23,7 @@ from ...groups.arrays import Array
 from .. import xml
 from ..numbers import real
 from ..whole import write_whole
-from .table import COLUMNS, CONVENTIONS, Row, Table
+from .table import COLUMNS, CONVENTIONS, KINDS, Row, Table
 
 TOP: tuple[str, ...] = ("convention", "name", "source", "base", "tool", "joint")
 FIELDS: tuple[str, ...] = ("name", "kind", *COLUMNS, "flip", "limits")
@@ -58,13 +58,13 @@ def write(table: Table, path: str | os.PathLike[str]) -> None:
     Raises: FileError where the file cannot be written; MissingExtra without tomli-w for .toml.
     """
     name = os.fsdecode(path)
-    text = text_of(table, os.path.splitext(name)[1])
+    text = _reader(name, os.path.splitext(name)[1], _WRITERS)(table)
     write_whole(path, text.encode())
 
 
 def text_of(table: Table, ending: str) -> str:
     """A table as the text of a .toml or .csv file."""
-    return _reader(ending, ending, {".toml": _to_toml, ".csv": _to_csv})(table)
+    return _reader(ending, ending, _WRITERS)(table)
 
 
 def _reader(name: str, ending: str, known: dict[str, Callable]) -> Callable:
@@ -76,8 +76,10 @@ def _reader(name: str, ending: str, known: dict[str, Callable]) -> Callable:
 def _from_toml(text: str, place: str, stem: str) -> Table:
     try:
         data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as fault:
-        raise ModelError(f"{place}: not TOML: {fault}") from fault
+    except RecursionError as fault:
+        raise ModelError(f"{place}: not a table: its brackets are nested too deeply") from fault
+    except ValueError as fault:  # an integer of more than 4300 digits, too, which is no TOMLDecodeError
+        raise ModelError(f"{place}: not TOML: {harmless(fault, 200)}") from fault
     _only(data, TOP, place)
     joints = data.get("joint", [])
     if not isinstance(joints, list) or not all(isinstance(joint, dict) for joint in joints):
@@ -91,15 +93,36 @@ def _row(joint: dict[str, Any], place: str) -> Row:
     for column in COLUMNS:
         if column not in joint:
             raise ModelError(f"{place}: {column} is missing; needed are {', '.join(COLUMNS)}")
-        if isinstance(joint[column], bool) or not isinstance(joint[column], (int, float)):
-            raise ModelError(f"{place}: {column}: expected a number, got {shown(joint[column])}")
+        if not math.isfinite(_float(joint[column])):
+            raise ModelError(f"{place}: {column}: expected a finite number, got {shown(joint[column])}")
     limits = joint.get("limits", [-math.inf, math.inf])
-    if not isinstance(limits, list) or len(limits) != 2 or not all(type(x) in (int, float) for x in limits):
+    if not isinstance(limits, list) or len(limits) != 2 or any(map(math.isnan, map(_float, limits))):
         raise ModelError(f"{place}: limits: expected [lower, upper], got {shown(limits)}")
     if not isinstance(joint.get("flip", False), bool):
         raise ModelError(f"{place}: flip: expected true or false, got {shown(joint['flip'])}")
-    lower, upper = map(float, limits)
-    return Row(**{**joint, "limits": (lower, upper)})
+    if not isinstance(joint.get("name", ""), str):
+        raise ModelError(f"{place}: name: expected a text, got {shown(joint['name'])}")
+    numbers = {column: _float(joint[column]) for column in COLUMNS}
+    return _checked(Row(**{**joint, **numbers, "limits": (_float(limits[0]), _float(limits[1]))}), place)
+
+
+def _float(value: Any) -> float:
+    """A number of TOML, NaN for all that is none, and for an integer that no float can hold."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return math.nan
+    try:
+        return float(value)
+    except OverflowError:
+        return math.nan
+
+
+def _checked(row: Row, place: str) -> Row:
+    """The row, if it can stand in a table: here the place of it is known."""
+    if row.kind not in KINDS:
+        raise ModelError(f"{place}: kind: expected 'revolute' or 'prismatic', got {shown(row.kind)}")
+    if not row.limits[0] <= row.limits[1]:
+        raise ModelError(f"{place}: limits: expected lower <= upper, got {row.limits[0]} and {row.limits[1]}")
+    return row
 
 
 def _from_csv(text: str, place: str, stem: str) -> Table:
@@ -108,29 +131,39 @@ def _from_csv(text: str, place: str, stem: str) -> Table:
     poses: dict[str, Array] = {}
     convention = None
     try:
-        _only(dict.fromkeys(reader.fieldnames or ()), CSV_COLUMNS, f"{place}:1")
+        header = list(reader.fieldnames or ())
+        _only(dict.fromkeys(header), CSV_COLUMNS, f"{place}:1")
+        if twice := [column for column in header if header.count(column) > 1]:
+            raise ModelError(f"{place}:1: column {twice[0]} is there {header.count(twice[0])} times, expected once")
         for column in ("convention", *COLUMNS):
-            if column not in (reader.fieldnames or ()):
+            if column not in header:
                 raise ModelError(f"{place}:1: column {column} is missing; needed are convention, {', '.join(COLUMNS)}")
         for record in reader:
             line = f"{place}:{reader.line_num}"
             if None in record or None in record.values():
-                raise ModelError(f"{line}: expected {len(reader.fieldnames or ())} columns as in the header")
+                got = len(record.get(None, ())) + sum(record[column] is not None for column in header)
+                raise ModelError(f"{line}: expected {len(header)} columns as in the header, got {got}")
             kind = record.get("kind") or "revolute"
-            if kind in ("base", "tool"):
+            posed = kind in ("base", "tool")
+            if not (posed and not record["convention"]):  # of a pose it may be left out
+                if convention not in (None, record["convention"]):
+                    told_apart = f"{shown(record['convention'])} after {shown(convention)}"
+                    raise ModelError(f"{line}: mixed conventions: {told_apart}")
+                convention = record["convention"]
+            if posed:
+                if kind in poses:
+                    raise ModelError(f"{line}: a second row of the kind {kind}, expected one at most")
                 poses[kind] = _pose(record.get("pose", ""), f"{line}: pose")
                 continue
-            if convention not in (None, record["convention"]):
-                raise ModelError(f"{line}: mixed conventions: {shown(record['convention'])} after {shown(convention)}")
-            convention = record["convention"]
             theta, d, a, alpha = (_number(record[column], f"{line}: {column}") for column in COLUMNS)
             flip = {"": False, "false": False, "true": True}.get((record.get("flip") or "").lower())
             if flip is None:
                 raise ModelError(f"{line}: flip: expected true or false, got {shown(record['flip'])}")
             bounds = [_number(record.get(side) or default, f"{line}: {side}", True) for side, default in _SIDES]
-            rows.append(Row(theta, d, a, alpha, kind, flip, record.get("name") or "", (bounds[0], bounds[1])))
+            row = Row(theta, d, a, alpha, kind, flip, record.get("name") or "", (bounds[0], bounds[1]))
+            rows.append(_checked(row, line))
     except csv.Error as fault:
-        raise ModelError(f"{place}:{reader.line_num}: {fault}") from fault
+        raise ModelError(f"{place}:{max(reader.line_num, 1)}: {fault}") from fault
     return _table(place, convention, rows, poses.get("base"), poses.get("tool"), stem)
 
 
@@ -140,7 +173,7 @@ _SIDES = (("lower", "-inf"), ("upper", "inf"))
 def _number(text: str, place: str, infinite: bool = False) -> float:
     value = real(text.strip())
     if value is None or (not infinite and not math.isfinite(value)):
-        raise ModelError(f"{place}: expected a number, got {shown(text)}")
+        raise ModelError(f"{place}: expected a {'' if infinite else 'finite '}number, got {shown(text)}")
     return value
 
 
@@ -195,3 +228,6 @@ def _to_csv(table: Table) -> str:
         rest = {"name": r.name, "kind": r.kind, "flip": str(r.flip).lower(), "lower": lower, "upper": upper}
         writer.writerow({"convention": table.convention, **numbers, **rest})
     return out.getvalue()
+
+
+_WRITERS: dict[str, Callable] = {".toml": _to_toml, ".csv": _to_csv}

@@ -94,9 +94,11 @@ class Table:
         }
         for column in COLUMNS:
             values[column] = read_only(finite([getattr(row, column) for row in listed], column))
-        worst = float(np.abs(values["alpha"]).max(initial=0.0))
-        if worst > 2 * math.pi:
-            warnings.warn(f"alpha = {worst:g} is more than a turn: degrees?", PoekinWarning, stacklevel=2)
+        large = [i for i, alpha in enumerate(values["alpha"].tolist()) if abs(alpha) > 2 * math.pi]
+        if large:
+            first = f"alpha = {values['alpha'][large[0]]:g} of joint {shown(names[large[0]])}"
+            message = f"table {shown(str(name))}: {first} is more than a turn: degrees? Expected are rad"
+            warnings.warn(message, PoekinWarning, stacklevel=2)
         for field, value in values.items():
             object.__setattr__(self, field, value)
 

@@ -1,0 +1,172 @@
+"""An algorithm run on scalars that count, or on scalars that record, with generic numbers in place of an arm's own.
+
+Of the user's chain only the kinds of its joints and its coupling are taken: zeros and right angles that one arm happens
+to have are the business of its specialised program.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..algebra import compose, pose, turned_about_z
+from ..engine.count import Count, counted
+from ..engine.program import Angles, program
+from ..engine.specialise import Structure
+from ..engine.trace import Graph
+from ..formulas import columns, dh
+from ..formulas.exponential import joint
+from ..groups import se3
+from ..model import screw
+from ..model.chain import Chain
+from .count_methods import Arm, Result, Row, Rows
+
+Algorithm = Callable[[Arm], Result]
+
+
+class Motion(NamedTuple):
+    """Joint i as it moves: x = C q + c, sin r x, cos r x, and s x."""
+
+    kind: str
+    x: Any
+    sine: Any
+    cosine: Any
+    shift: Any
+
+
+Form = Callable[[Motion, np.random.Generator], Row]
+
+
+def as_charged(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
+    """What an algorithm does, whether its result needs it or not; the links' poses are given."""
+    total = Count()
+    poses = counted([pose((1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.1, 0.2, 0.3)) for _ in chain.kinds], total)
+    _, finish = algorithm(_arm(chain, poses))
+    if with_pose:
+        finish()
+    return total
+
+
+def as_needed(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
+    """What an algorithm's result needs; the links' poses are given."""
+    graph = Graph()
+    poses = [tuple(graph.input(-1 - 12 * i - j) for j in range(12)) for i in range(len(chain.kinds))]
+    J, finish = algorithm(_arm(chain, poses))
+    return _count(graph, Angles(graph), finish() if with_pose else (), J)
+
+
+def with_everything(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bool) -> Count:
+    """What an algorithm's result needs from q on: sines, cosines, the links' poses in their form, and the coupling."""
+    graph = Graph()
+    angles, rng, C = Angles(graph), np.random.default_rng(0), chain.coupling
+    rotates, slides = structure(chain)
+    poses = []
+    for kind, r, s, row, c in zip(chain.kinds, rotates, slides, C, chain.offset.tolist(), strict=True):
+        x: Any = c
+        for k, factor in enumerate(row):
+            x = x + graph.scaled(graph.input(-1 - k), float(factor))
+        sine, cosine = angles.sine_cosine([float(r * factor) for factor in row], r * c, 0)
+        poses.append(form(Motion(kind, x, sine, cosine, s * x), rng))
+    J, finish = algorithm(_arm(chain, poses))
+    T = finish() if with_pose else ()
+    if C.shape[0] != C.shape[1] or (np.eye(len(C)) != C).any():
+        J_q: Rows = [[0.0] * chain.dof for _ in range(6)]
+        columns.coupled(J, C.tolist(), len(C), chain.dof, J_q)
+        J = J_q
+    return _count(graph, angles, T, J)
+
+
+def exponential(motion: Motion, rng: np.random.Generator) -> Row:
+    """e^{A x} of a general screw: 15 multiplications and 13 additions of a revolute joint."""
+    A = generic_screw(motion.kind, rng)
+    return joint(A[:3], A[3:], motion.x, motion.sine, motion.cosine)
+
+
+def general_link(motion: Motion, rng: np.random.Generator) -> Row:
+    """M e^{S x} in link frames that are attached anywhere."""
+    return compose(generic_pose(rng), exponential(motion, rng))
+
+
+def z_link(motion: Motion, rng: np.random.Generator) -> Row:
+    """M e^{S x} in z-aligned link frames: 12 multiplications and 6 additions of a revolute joint."""
+    return turned_about_z(generic_pose(rng), motion.sine, motion.cosine, motion.shift)
+
+
+def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
+    """Rz(theta) Tz(d) Tx(a) Rx(alpha), the joint before its link."""
+    d, a, alpha, theta = rng.uniform(0.2, 1.2, 4)
+    slides_only = motion.kind == "prismatic"
+    sine, cosine = (math.sin(theta), math.cos(theta)) if slides_only else (motion.sine, motion.cosine)
+    return dh.link(sine, cosine, float(d) + motion.shift, float(a), math.sin(alpha), math.cos(alpha))
+
+
+def craig_link(motion: Motion, rng: np.random.Generator) -> Row:
+    """Tx(a) Rx(alpha) Rz(theta) Tz(d), the joint behind its link."""
+    d, a, alpha, theta = rng.uniform(0.2, 1.2, 4)
+    fixed = theta if motion.kind == "prismatic" else 0.0
+    link = dh.link(0.0, 1.0, 0.0, float(a), math.sin(alpha), math.cos(alpha))
+    return turned_about_z(
+        turned_about_z(link, math.sin(fixed), math.cos(fixed), float(d)), motion.sine, motion.cosine, motion.shift
+    )
+
+
+def generic_structure(chain: Chain, tool: bool) -> Structure:
+    """A chain of the same joints with general alpha, a and d, as the structured formulas take it.
+
+    Base and tip are the frames of the first and last joint, but for a tool.
+    """
+    n, rng = len(chain.kinds), np.random.default_rng(0)
+    links = [(0.0, 1.0, 0.0, 0.0)]
+    for d, alpha in rng.uniform(0.2, 1.2, (n - 1, 2)).tolist():
+        links.append((math.sin(alpha), math.cos(alpha), d, 0.0))
+    here = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+    return Structure(
+        links=tuple(links),
+        alongs=tuple(rng.uniform(0.2, 1.2, n).tolist()),
+        parallel=(0,) * n,
+        rotates=tuple(chain.local.rotates.tolist()),
+        slides=tuple(chain.local.slides.tolist()),
+        coupling=tuple(map(tuple, chain.coupling.tolist())),
+        shift=tuple(chain.offset.tolist()),
+        offsets=(0.0,) * n,
+        quarters=(0,) * n,
+        base=generic_pose(rng) if tool else here,
+        tool=generic_pose(rng) if tool else here,
+        frames=(here,) * n,
+        coordinates=chain.dof,
+    )
+
+
+def generic_pose(rng: np.random.Generator) -> tuple[float, ...]:
+    """A pose without any structure."""
+    T = se3.exp(rng.uniform(0.3, 1.2, 6))
+    return (*T[:3, :3].ravel().tolist(), *T[:3, 3].tolist())
+
+
+def generic_screw(kind: str, rng: np.random.Generator) -> Row:
+    """A joint's screw without any structure but its kind's: a prismatic joint's omega is zero."""
+    axis, point = rng.uniform(0.3, 1.2, (2, 3))
+    if kind == "prismatic":
+        return (0, 0, 0, *screw.prismatic(axis)[3:].tolist())
+    return tuple((screw.helical(axis, point, 0.1) if kind == "helical" else screw.revolute(axis, point)).tolist())
+
+
+def structure(chain: Chain) -> tuple[Sequence[float], Sequence[float]]:
+    """r and s of the joints, 0 and 1 as integers."""
+    rows = (chain.local.rotates.tolist(), chain.local.slides.tolist())
+    rotates, slides = ([int(x) if x in (0.0, 1.0) else x for x in row] for row in rows)
+    return rotates, slides
+
+
+def _arm(chain: Chain, poses: Sequence[Row]) -> Arm:
+    rng = np.random.default_rng(1)
+    rotates, slides = structure(chain)
+    screws = [generic_screw(kind, rng) for kind in chain.kinds]
+    return Arm(len(poses), rotates, slides, screws, poses, generic_pose(rng))
+
+
+def _count(graph: Graph, angles: Angles, T: Row, J: Rows) -> Count:
+    return program(graph, angles, [*T, *(x for row in J for x in row)]).count
