@@ -12,6 +12,7 @@ from ..groups.arrays import Array
 from ..model.chain import Chain
 from .comparison import Comparison, JointComparison, PoseErrors
 from .extra import droppable, without
+from .followers import follows
 from .lines import at_rest, direction, sides
 from .search import Reading, read, search
 from .tolerances import check_tolerances
@@ -29,9 +30,11 @@ def compare(
     Screws are lines in space, so nothing depends on where link frames stand. Joints are matched in order. What is a
     free choice (base frame, tool frame, zero positions, joint directions) is aligned to the largest set of joints that
     agree: of all readings the one that blames the fewest joints, then the one that leaves base and tool where they are.
-    One bad joint is so not smeared over its neighbours. A zero offset of the first joint is a turned base and one of
+    One bad joint is so not smeared over its neighbours. Where all axes behind a joint moved together, the verdict names
+    the link (`a` or `alpha` of a DH row); the rows of `joints` then say it of each of these axes. A zero offset of the first joint is a turned base and one of
     the last joint a turned tool; `equivalent` says so. With different numbers of joints the one or two are named that
-    can be dropped (at their zero positions) so that the rest agree.
+    can be dropped (at their zero positions) so that the rest agree. A joint that follows another one otherwise in the
+    other model, or there on its own, differs, however well the axes agree.
 
     Parameters: a, b; strict, align nothing, frames and zero positions included; tol_mm, tol_deg, how near is the same
     (an axis' place is judged at the point of it nearest to the arm's middle); samples and seed, random configurations
@@ -49,7 +52,7 @@ def compare(
     tol_m, tol_rad = float(tol_mm) / 1e3, math.radians(tol_deg)
     one, other = at_rest(a), at_rest(b)
     x = a.random(seed, samples) @ a.coupling.T
-    extra = None
+    extra, dropped = None, ()
     if len(one.screws) != len(other.screws):
         ks = droppable(one, other, float(tol_mm), float(tol_deg))
         if ks is None:
@@ -67,12 +70,21 @@ def compare(
             extra, one, x = ("a", *_names(one, ks)), without(one, ks), np.delete(x, ks, axis=1)
         else:
             extra, other = ("b", *_names(other, ks)), without(other, ks)
+        dropped = ks
     if strict:
         reading, others = _as_it_is(one, other, tol_m, tol_rad), []
     else:
         reading, others = search(one, other, tol_m, tol_rad)
-    joints = _joints(one, other, reading, tol_rad)
-    same = not reading.moved.any() and (not strict or not (reading.blamed.any() or reading.frames))
+    C_a, C_b = (
+        np.delete(c.coupling, dropped, axis=0) if extra and extra[0] == which else c.coupling
+        for which, c in (("a", a), ("b", b))
+    )
+    joints = _joints(one, other, reading, tol_rad, follows(C_a, C_b, one, other, reading, tol_m, tol_rad))
+    same = (
+        not reading.moved.any()
+        and not any(joint.coupling_differs for joint in joints)
+        and (not strict or not (reading.blamed.any() or reading.frames))
+    )
     return Comparison(
         equal=same and extra is None,
         verdict=_verdict(same, joints, reading, extra, strict, float(tol_mm), float(tol_deg)),
@@ -99,7 +111,9 @@ def _names(chain: Chain, ks: tuple[int, ...]) -> tuple[str, ...]:
     return tuple(chain.joint_names[k] for k in ks)
 
 
-def _joints(a: Chain, b: Chain, reading: Reading, tol_rad: float) -> tuple[JointComparison, ...]:
+def _joints(
+    a: Chain, b: Chain, reading: Reading, tol_rad: float, coupled: list[tuple[str, str, bool]]
+) -> tuple[JointComparison, ...]:
     pair = sides(a, b, 1.0, tol_rad)
     ours, theirs = direction(a.screws, a.kinds), direction(reading.axes, b.kinds)
     rows = []
@@ -123,6 +137,7 @@ def _joints(a: Chain, b: Chain, reading: Reading, tol_rad: float) -> tuple[Joint
         rows.append(JointComparison(
             i + 1, a.joint_names[i], b.joint_names[i], a.kinds[i], b.kinds[i], math.degrees(angle), normal, shift,
             scale * zero, s < 0, (limits[0], limits[1]), bool(reading.moved[i]), bool(reading.offset[i]),
+            *coupled[i],
         ))  # fmt: skip
     return tuple(rows)
 
@@ -138,7 +153,7 @@ def _verdict(
     tol_mm: float, tol_deg: float,
 ) -> str:  # fmt: skip
     tol = tol_mm / 1e3, math.radians(tol_deg)
-    found = differences(joints, tol_mm, tol_deg)
+    found = differences(joints, tol_mm, tol_deg, reading.link)
     tool = frame_words("home pose's" if strict else "tool", reading.tool, *tol)
     if extra is not None:
         model, *names = extra

@@ -25,6 +25,8 @@ class JointComparison:
     zero: where b's joint stands when a's is at 0, deg (mm of a prismatic joint). flipped: b counts the other way.
     limits: b's lower and upper limit, in a's zero and direction, less a's; deg or mm; 0 where both are unlimited.
     axis_differs, zero_differs: beyond tolerance (or another kind or pitch).
+    follows_a, follows_b: how the joint follows others of its model, in words; "" where it moves by itself.
+    coupling_differs: whether they do so differently.
     """
 
     number: int
@@ -40,11 +42,14 @@ class JointComparison:
     limits: tuple[float, float]
     axis_differs: bool
     zero_differs: bool
+    follows_a: str = ""
+    follows_b: str = ""
+    coupling_differs: bool = False
 
     @property
     def differs(self) -> bool:
-        """Whether anything but limits and name differs: axis, kind, zero position or direction."""
-        return self.axis_differs or self.zero_differs or self.flipped
+        """Whether anything but limits and name differs: axis, kind, zero position, direction, or what it follows."""
+        return self.axis_differs or self.zero_differs or self.flipped or self.coupling_differs
 
     @property
     def unit(self) -> str:
@@ -95,7 +100,7 @@ class Comparison:
 
     @property
     def differing(self) -> tuple[JointComparison, ...]:
-        """The joints of which axis, kind, zero position or direction differ."""
+        """The joints of which axis, kind, zero position, direction or coupling differ."""
         return tuple(joint for joint in self.joints if joint.differs)
 
     def as_dict(self) -> dict[str, object]:

@@ -1,8 +1,8 @@
 """The reading of two models' difference that blames the fewest joints.
 
-Each hypothesis, nothing differs, one zero offset, one axis, one joint, all zero offsets, all of them and one axis, is
-fitted by least squares over the axes that it holds to agree. What is then beyond tolerance is blamed; the fewest
-blamed joints win, then the base and tool that stay where they are, then the fewest changes. So one bad joint is
+Each hypothesis, nothing differs, one zero offset, one axis, one joint, one link, all zero offsets, all of them and one
+axis, is fitted by least squares over the axes that it holds to agree. What is then beyond tolerance is blamed; the
+fewest blamed joints win, then the base and tool that stay where they are, then the fewest changes. So one bad joint is
 not smeared over its neighbours.
 """
 
@@ -28,7 +28,8 @@ class Reading:
     Attributes: base (4, 4), b's base in a's; tool (4, 4), a's tool in b's; zeros (n), rad or m, where b stands when a
     is at 0; directions (n), +1 or -1; moved (n, bool), axes beyond tolerance; offset (n, bool), zeros beyond it;
     axes (n, 6), b's screws without pitch as they then stand in a's base; misses (n), of each, in tolerances;
-    frames, how many of base and tool moved.
+    frames, how many of base and tool moved; link, k > 0 where the axes behind joint k moved together, by a link that is
+    another one: then the tool is the one behind them.
     """
 
     base: Array
@@ -40,6 +41,7 @@ class Reading:
     axes: Array
     misses: Array
     frames: int
+    link: int = 0
 
     @property
     def blamed(self) -> Marks:
@@ -52,14 +54,17 @@ class Reading:
 
         One change in one joint comes first, whatever it is: base and tool that stay where they are decide, then
         a zero offset rather than a moved axis. One moved axis is likelier than two zero offsets; but where conventions
-        differ they differ in many joints, and each more says little. Of several moved axes it counts how
-        far they are: the few that agree by chance under a wild alignment prove nothing.
+        differ they differ in many joints, and each more says little. One other link, which moves all axes behind it, is
+        likelier than a moved axis that zero offsets help. Of several moved axes it counts how far they are: the few
+        that agree by chance under a wild alignment prove nothing.
         """
         conventions = int((self.offset | (self.directions < 0)).sum())
         moved, changes = int(self.moved.sum()), int(self.offset.sum() + (self.directions < 0).sum())
         near = float(np.minimum(self.misses, 10.0).sum())
         if moved + changes <= 1:
             return (2.5 * (moved + changes), self.frames, moved, near)
+        if self.link:
+            return (5.25, self.frames, moved, near)
         weight = (0.0, 2.5, 3.5)[conventions] if conventions < 3 else 3.25 + 0.25 * conventions
         far = float((self.misses[self.moved] ** 0.25).sum()) * (1.0 if moved > 1 else 0.05)
         return (3.0 * moved + far + weight, self.frames, changes, near)
@@ -89,7 +94,10 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, l
     def readings(starts: Iterable[tuple[Array, Array]], free: Marks, used: Marks) -> list[Reading]:
         return [read(pair, a, b, *fit(pair, P, z, free, used)) for P, z in starts]
 
-    found = [read(pair, a, b, rigid[0][0], nothing), *readings(best(pair, rigid), none, every)]
+    found = [read(pair, a, b, rigid[0][0], nothing)]
+    if not found[0].cost[0] and not found[0].frames:  # the same as they stand: nothing is to be aligned
+        return found[0], []
+    found += readings(best(pair, rigid), none, every)
     if min(found, key=_cost).cost[0] == 0:
         return min(found, key=_cost), []
     for k in range(n):
@@ -99,15 +107,39 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, l
             alone = np.arange(n) == k
             found += readings(starts, alone, every)
             found += readings(starts[:2], alone, every & ~alone)
+    found += _links(pair, a, b, [D for _, _, D in poses])
     # Where several axes differ, those that most starts agree on.
     for P, z in best(pair, rigid):
-        agree = misses(pair, P, z) <= 10.0
-        if agree.sum() >= 3:
-            found += readings([(P, z)], none, agree)
+        as_it_starts = read(pair, a, b, P, z)
+        if as_it_starts.moved.sum() > 1:  # one bad axis is looked for above; of three, any two can be made to agree
+            found.append(as_it_starts)
+        for near in (10.0, 1.0):
+            agree = misses(pair, P, z) <= near
+            if agree.sum() >= 3:
+                found += readings([(P, z)], none, agree)
     if min(found, key=_cost).blamed.sum() > 1:
         found += _conventions(pair, a, b)
     first = min(found, key=_cost)
     return first, _others(first, found)
+
+
+def _links(pair: Sides, a: Chain, b: Chain, poses: list[Array]) -> list[Reading]:
+    """Readings in which one link is another: the axes before it agree under one pose, those behind under another."""
+    nothing, found = np.zeros(pair.n), []
+    agree = np.array([
+        (misses(pair, D, nothing) <= 1.0) & (signs(pair, carried(pair, D, nothing)[1]) > 0) for D in poses
+    ])  # fmt: skip
+    for k in range(2, pair.n - 1):
+        before, behind = agree[:, :k].all(1), agree[:, k:].all(1)
+        if before.any() and behind.any():
+            P, last = poses[int(before.argmax())], _unhubbed(pair, poses[int(behind.argmax())])
+            reading = read(pair, a, b, P, nothing)
+            if reading.blamed.sum() < 2:
+                continue
+            tool = se3.inverse(last @ b.home) @ a.home
+            frames = sum(not still(T, pair.tol_m, pair.tol_rad) for T in (reading.base, tool))
+            found.append(replace(reading, tool=tool, frames=frames, link=k))
+    return found
 
 
 def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Reading]:

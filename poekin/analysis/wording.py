@@ -36,13 +36,25 @@ def joint_words(joint: JointComparison, tol_mm: float, tol_deg: float) -> str:
             words.append("has another pitch")
     if joint.zero_differs:
         words.append(f"has its zero position {amount(abs(joint.zero), joint.unit)} from the other model's")
-    if joint.flipped:
+    if joint.flipped and joint.kind_a == joint.kind_b:
         words.append("counts in the other direction")
+    if joint.coupling_differs:
+        one, other = (said or "moves by itself" for said in (joint.follows_a, joint.follows_b))
+        words.append(f"{one} in one model and {other} in the other")
     return " and ".join(words)
 
 
-def differences(joints: tuple[JointComparison, ...], tol_mm: float, tol_deg: float) -> list[str]:
-    """One clause a joint that differs: "joint 4 ('elbow') has an axis that is 3.2 mm from the other model's"."""
+def differences(joints: tuple[JointComparison, ...], tol_mm: float, tol_deg: float, link: int = 0) -> list[str]:
+    """One clause a joint that differs: "joint 4 ('elbow') has an axis that is 3.2 mm from the other model's"; where the
+    axes behind joint `link` moved together, one clause for them.
+    """  # fmt: skip
+    if link and not any(joint.coupling_differs for joint in joints):
+        first = next(joint for joint in joints[link:] if joint.axis_differs)
+        return [
+            f"the link between joint {link} ({shown(joints[link - 1].name_a)}) and joint {link + 1} "
+            f"({shown(joints[link].name_a)}) differs: from joint {first.number} on the axes have moved together, and "
+            f"joint {first.number} {joint_words(first, tol_mm, tol_deg)}"
+        ]
     named = ((j, joint_words(j, tol_mm, tol_deg)) for j in joints)
     return [f"joint {j.number} ({shown(j.name_a)}) {words}" for j, words in named if words]
 
@@ -52,7 +64,9 @@ def frame_words(what: str, T: Array, tol_m: float, tol_rad: float) -> str:
     if still(T, tol_m, tol_rad):
         return ""
     mm, deg = float(np.linalg.norm(T[:3, 3])) * 1e3, float(np.degrees(np.linalg.norm(so3.log(T[:3, :3]))))
-    return f"the {what} frame is moved by {amount(mm, 'mm')} and turned by {amount(deg, 'deg')}"
+    moved = [f"moved by {amount(mm, 'mm')}"] if mm > 1e3 * tol_m else []
+    turned = [f"turned by {amount(deg, 'deg')}"] if np.radians(deg) > tol_rad else []
+    return f"the {what} frame is {' and '.join(moved + turned)}"
 
 
 def equivalents(a: Chain, b: Chain, first: Reading, others: list[Reading], tol_m: float, tol_rad: float) -> list[str]:

@@ -74,6 +74,10 @@ def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robo
     links = top.all("link")
     if not links:
         raise top.fault(f"expected at least one <link>, there is none{_xacro(root)}")
+    for element in root:
+        if "xacro" in element.tag:
+            what = f"<xacro:{Fields(element, source).tag}> is xacro that was not processed yet, which may hold joints"
+            raise ModelError(f"{source.place(element.sourceline)}: {what}: pk.xacro(path) evaluates it, and --xacro")
     repairs = Repairs([], [], [])
     elements = top.all("joint")
     joints = [_joint(fields, repairs) for fields in elements]

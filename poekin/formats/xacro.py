@@ -38,8 +38,9 @@ def xacro(path: str | os.PathLike[str], /, **arguments: str | float) -> Robot:
     InputError for an argument that is no text, number or truth value; MissingExtra without the package xacrodoc.
     Warns: PoekinWarning for what xacro warns of, and as `formats.urdf`.
     """
+    data = xml.read_bytes(path)
     name = os.fsdecode(path)
-    root = xml.parse(xml.read_bytes(path), name)  # refuses what is not safe before it is evaluated
+    root = xml.parse(data, name)  # refuses what is not safe before it is evaluated
     values = {key: _text(key, value) for key, value in arguments.items()}
     return urdf.read_text(_evaluated(name, root.get("name"), values), f"{name} (evaluated)")
 

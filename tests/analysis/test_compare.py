@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 
 from poekin.analysis.compare import compare
 from poekin.errors import InputError
+from poekin.formats import dh
 from poekin.formats.load import load
 from poekin.groups import se3
 from poekin.model import screw
@@ -158,6 +160,80 @@ def test_another_kind_of_joint_is_said():
     result = compare(chain, Chain(S, chain.home))
     assert (result.equal, [j.number for j in result.differing]) == (False, [3])
     assert "is revolute in one model and prismatic in the other" in result.verdict
+    assert "direction" not in result.verdict
+
+
+def test_axes_that_agree_exactly_share_the_blame_of_no_other_axis():
+    # Their tables differ in a_2 by 0.7 mm, a_2 + a_3 by 0.05, d_4 by 10.209, d_5 by 4.15, d_1 (base) and d_6 (tool).
+    result = compare(load("ur10").chain(), load("ur10e").chain(), samples=1)
+    assert [j.number for j in result.differing] == [3, 4, 5, 6]
+    assert [j.shift for j in result.differing] == pytest.approx(
+        [0.7, 0.05, np.hypot(10.209, 0.05), np.hypot(4.15, 0.05)], rel=1e-6
+    )
+    assert "°" not in result.verdict
+
+
+@pytest.mark.parametrize("k, column", [(1, "a"), (2, "a"), (1, "alpha")])
+def test_one_link_of_another_length_or_twist_is_named_and_no_zero_offset_is_made_of_it(k, column):
+    table = dh.published("ur5")
+    rows = list(table.rows)
+    rows[k] = replace(rows[k], **{column: getattr(rows[k], column) + 0.005})
+    result = compare(dh.to_chain(table), dh.to_chain(dh.Table(table.convention, rows)), samples=5)
+    assert not result.equal
+    assert f"the link between joint {k + 1} (" in result.verdict
+    assert "zero position" not in result.verdict
+    size = "5 mm" if column == "a" else "0.2865°"
+    assert size in result.verdict
+    assert result.base == pytest.approx(np.eye(4))
+    assert result.tool == pytest.approx(np.eye(4), abs=1e-9)
+
+
+def test_what_is_the_same_within_tolerance_as_it_stands_is_not_aligned():
+    chain, rng = arm("random 6b"), np.random.default_rng(0)
+    result = compare(chain, planted(chain, "shift", 2, rng), tol_mm=1.01)
+    assert (result.base, result.tool) == (pytest.approx(np.eye(4)), pytest.approx(np.eye(4), abs=1e-12))
+    assert result.after is not None
+    assert result.before is not None
+    assert result.after.worst_mm == pytest.approx(result.before.worst_mm, rel=1e-9)
+
+
+def _coupled(C, c=None):
+    chain = arm("ur5e")
+    return Chain(
+        chain.screws, chain.home, joint_names=chain.joint_names, coupling=C, offset=c,
+        q_names=[f"q{k}" for k in range(np.shape(C)[1])],
+    )  # fmt: skip
+
+
+def test_joints_that_follow_others_differently_differ_though_all_axes_agree():
+    C = np.delete(np.eye(6), 2, 1)
+    ratio = {r: C.copy() for r in (1.0, -1.0, 2.0)}
+    for r, matrix in ratio.items():
+        matrix[2, 1] = r
+    for one, other in ((1.0, -1.0), (1.0, 2.0)):
+        result = compare(_coupled(ratio[one]), _coupled(ratio[other]), samples=1)
+        assert (result.equal, [j.number for j in result.differing]) == (False, [3])
+        assert f"follows {one:g} × 'shoulder_lift_joint' in one model and follows {other:g} × " in result.verdict
+        assert compare(_coupled(ratio[one]), _coupled(ratio[one]), samples=1).equal
+        assert not compare(_coupled(ratio[one]), _coupled(ratio[other]), samples=1, strict=True).equal
+    alone = compare(_coupled(ratio[1.0]), _coupled(np.eye(6)), samples=1)
+    assert not alone.equal
+    assert "and moves by itself in the other" in alone.verdict
+    # A flipped joint that follows by the opposite ratio moves as before.
+    chain = _coupled(ratio[2.0])
+    S = chain.screws * np.array([1, 1, -1, 1, 1, 1])[:, None]
+    C = np.diag([1.0, 1.0, -1.0, 1.0, 1.0, 1.0]) @ ratio[2.0]
+    turned = Chain(S, chain.home, joint_names=chain.joint_names, coupling=C, q_names=chain.q_names)
+    result = compare(chain, turned, samples=1)
+    assert result.equal
+    assert not any(j.coupling_differs for j in result.joints)
+
+
+def test_a_ratio_to_a_coordinate_whose_joint_is_not_on_the_chain_is_compared():
+    scaled = np.eye(6)
+    scaled[4, 4] = 2.0
+    result = compare(_coupled(np.eye(6)), _coupled(scaled), samples=1)
+    assert (result.equal, [j.number for j in result.differing]) == (False, [5])
 
 
 def test_tolerances_are_millimetres_and_degrees():

@@ -14,6 +14,8 @@ from poekin.analysis.validate import routes
 from poekin.errors import InputError, PoekinWarning, ShapeError
 from poekin.formats import dh
 from poekin.formats.dh import Row, Table
+from poekin.model import screw
+from poekin.model.chain import Chain
 from poekin.model.joint import MOVING
 from poekin.testing import dh_strategies
 from poekin.testing.dh_strategies import tables
@@ -179,11 +181,30 @@ def test_what_makes_no_table_is_refused(rows, error, message):
         Table("standard", rows)
 
 
+def test_a_table_of_a_coupled_chain_keeps_the_limits_of_the_joints_own_values():
+    S = [screw.revolute([0, 0, 1], [0, 0, 0]), screw.revolute([0, 1, 0], [0.4, 0, 0]), screw.prismatic([1, 0, 0])]
+    chain = Chain(
+        S, np.eye(4), coupling=[[1, 0], [-2, 0], [0, 1]], offset=[0, 0.5, 0], q_names=["q", "r"],
+        limits=[[-1, 2], [0, 0.3]],
+    )  # fmt: skip
+    assert dh.from_chain(chain).table.limits.tolist() == [[-1, 2], [-3.5, 2.5], [0, 0.3]]
+
+
+def test_what_is_no_chain_is_refused():
+    for wrong in (None, Table("standard", [Row()])):
+        with pytest.raises(
+            InputError, match=r"from_chain: expected a Chain, as Robot\.chain\(tip=\.\.\.\) makes it, got"
+        ):
+            dh.from_chain(wrong)  # pyright: ignore[reportArgumentType]
+    with pytest.raises(ShapeError, match="rows: expected a list of Rows or dicts, one a joint, got 5"):
+        Table("standard", 5)  # pyright: ignore[reportArgumentType]
+
+
 def test_a_convention_is_named_and_degrees_are_suspected():
     with pytest.raises(InputError, match="expected 'standard' or 'modified'"):
         Table("craig", [])
-    with pytest.warns(PoekinWarning, match="alpha = 90 is more than a turn: degrees?"):
-        Table("standard", [Row(alpha=90.0)])
+    with pytest.warns(PoekinWarning, match="table 'arm': alpha = 90 of joint 'elbow' is more than a turn: degrees"):
+        Table("standard", [Row(), Row(alpha=90.0, name="elbow")])
 
 
 PLANTED = {

@@ -71,6 +71,11 @@ def test_columns_of_a_csv_may_stand_in_any_order():
     assert files.read_text(text, "t.csv") == Table("standard", [Row(0.4, 0.1, 0.2, 0.3)], name="t")
 
 
+POSED = "convention,theta,d,a,alpha,kind,pose\n"
+UNIT = "1 0 0 0 0 1 0 0 0 0 1 0"
+JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\n"
+
+
 @pytest.mark.parametrize(
     "text, message",
     [
@@ -79,13 +84,21 @@ def test_columns_of_a_csv_may_stand_in_any_order():
         ("convention,theta,d,a,alhpa\n", "t.csv:1: no such column: 'alhpa'; did you mean 'alpha'"),
         ("convention,theta,d,a,alpha\nstandard,1,2,3\n", "t.csv:2: expected 5 columns"),
         ("convention,theta,d,a,alpha\nstandard,1,2,3,4,5\n", "t.csv:2: expected 5 columns"),
-        ("convention,theta,d,a,alpha\nstandard,1,2,3,x\n", "t.csv:2: alpha: expected a number, got 'x'"),
-        ("convention,theta,d,a,alpha\nstandard,1,2,nan,1\n", "t.csv:2: a: expected a number, got 'nan'"),
+        ("convention,theta,d,a,alpha\nstandard,1,2,3,x\n", "t.csv:2: alpha: expected a finite number, got 'x'"),
+        ("convention,theta,d,a,alpha\nstandard,1,2,nan,1\n", "t.csv:2: a: expected a finite number, got 'nan'"),
         ("convention,theta,d,a,alpha\nstandard,1,2,3,1\nmodified,1,2,3,1\n", "t.csv:3: mixed conventions"),
         ("convention,theta,d,a,alpha\ncraig,1,2,3,1\n", "convention: expected 'standard' or 'modified', got 'craig'"),
         ("convention,theta,d,a,alpha,kind,pose\nstandard,,,,,base,1 2\n", "t.csv:2: pose: expected twelve numbers"),
         ("convention,theta,d,a,alpha,flip\nstandard,1,2,3,1,no\n", "t.csv:2: flip: expected true or false, got 'no'"),
-        ("convention,theta,d,a,alpha,kind\nstandard,1,2,3,1,ball\n", "kind must be 'revolute' or 'prismatic'"),
+        (
+            "convention,theta,d,a,alpha,kind\nstandard,1,2,3,1,ball\n",
+            "t.csv:2: kind: expected 'revolute' or 'prismatic', got 'ball'",
+        ),
+        ("convention,theta,d,a,alpha,lower,upper\nstandard,1,2,3,1,2,1\n", "t.csv:2: limits: expected lower <= upper"),
+        ("convention,theta,theta,d,a,alpha\nstandard,1,2,3,4,5\n", "t.csv:1: column theta is there 2 times"),
+        (f"{POSED}modified,1,2,3,1,,\nstandard,,,,,base,{UNIT}\n", "t.csv:3: mixed conventions"),
+        (f"{POSED}standard,,,,,tool,{UNIT}\n,,,,,tool,{UNIT}\n", "t.csv:3: a second row of the kind tool"),
+        ("convention,theta\rstandard,1\r", "t.csv:1: new-line character"),
         ('convention,theta,d,a,alpha\n"standard\n', "t.csv:1: unexpected end of data"),
         ("", "column convention is missing"),
     ],
@@ -103,13 +116,24 @@ def test_a_bad_csv_is_refused_with_its_line(text, message):
         ("convention = 'standard'\ncolour = 1", "no such column: 'colour'"),
         ("convention = 'standard'\njoint = 3", r"expected \[\[joint\]\] tables"),
         ("convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0", "t.toml: joint 1: alpha is missing"),
-        ("convention = 'standard'\n[[joint]]\ntheta = 'x'\nd = 0\na = 0\nalpha = 0", "theta: expected a number"),
-        ("convention = 'standard'\n[[joint]]\ntheta = 0\nd = nan\na = 0\nalpha = 0", r"d\[0\]: expected a finite"),
+        ("convention = 'standard'\n[[joint]]\ntheta = 'x'\nd = 0\na = 0\nalpha = 0", "theta: expected a finite number"),
+        (
+            "convention = 'standard'\n[[joint]]\ntheta = 0\nd = nan\na = 0\nalpha = 0",
+            "joint 1: d: expected a finite number",
+        ),
+        (
+            f"convention = 'standard'\n[[joint]]\ntheta = {'9' * 400}\nd = 0\na = 0\nalpha = 0",
+            "joint 1: theta: expected",
+        ),
+        (f"convention = 'standard'\n[[joint]]\ntheta = {'9' * 5000}\nd = 0\na = 0\nalpha = 0", "t.toml: not TOML"),
+        (f"{JOINT}limits = [0, {'9' * 400}]", "joint 1: limits: expected"),
+        (f"{JOINT}limits = [1, 0]", "joint 1: limits: expected lower <= upper"),
+        (f"convention = {'[' * 5000}", "t.toml: .*nested too deeply"),
         ("convention = 'standard'\nbase = [[1, 2], [3, 4]]", "base: expected shape"),
         ("convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nlimits=[1]", "limits: expected"),
         ("convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nflip=1", "flip: expected true or false"),
-        ("convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nkind=5", "kind must be"),
-        ("convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nname=5", "name"),
+        ("convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nkind=5", "joint 1: kind: expected"),
+        ("convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nname=5", "joint 1: name: expected a text"),
     ],
 )
 def test_a_bad_toml_is_refused(text, message):
@@ -121,8 +145,13 @@ def test_a_place_that_cannot_be_written_and_an_ending_that_says_nothing_are_refu
     table = Table("standard", [Row()])
     with pytest.raises(FileError, match=r"cannot write .*No such file or directory"):
         pk.dh.write(table, tmp_path / "none" / "t.csv")
-    with pytest.raises(InputError, match=r"ending in \.toml or \.csv"):
+    with pytest.raises(InputError, match=r"t\.txt: expected a file ending in \.toml or \.csv"):
         pk.dh.write(table, tmp_path / "t.txt")
+    with pytest.raises(InputError, match=r"expected a dh\.Table, got"):
+        pk.dh.write(pk.dh.to_chain(table), tmp_path / "t.csv")  # pyright: ignore[reportArgumentType]
+    for call in (pk.dh.read, lambda path: pk.dh.write(table, path)):
+        with pytest.raises(InputError, match="expected the path of a file, got 5"):
+            call(5)  # pyright: ignore[reportArgumentType]
     (tmp_path / "t.csv").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(FileError, match="not UTF-8 at byte 0"):
         pk.dh.read(tmp_path / "t.csv")

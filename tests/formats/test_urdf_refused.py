@@ -53,6 +53,10 @@ REFUSED = {
     "another root": ("<sdf><robot/></sdf>", r"^x\.urdf:1: expected the root element <robot>, got 'sdf'"),
     "no links": ('\n<robot name="r"/>', r"^x\.urdf:2: robot 'r': expected at least one <link>"),
     "xacro": ('<robot xmlns:x="http://ros.org/xacro"><x:macro/></robot>', r"at least one <link>.*xacro"),
+    "xacro among links": (
+        '<robot xmlns:x="http://www.ros.org/wiki/xacro">\n<link name="a"/>\n<x:arm prefix="left"/></robot>',
+        r"^x\.urdf:3: <xacro:arm> is xacro that was not processed yet.*pk\.xacro",
+    ),
     "a nameless link": ("<robot>\n<link/></robot>", r"^x\.urdf:2: <link>: expected an attribute name"),
     "an empty name": ('<robot>\n<link name=""/></robot>', r"^x\.urdf:2: <link>: .*name.* it is empty"),
     "a link twice": ('<robot>\n<link name="a"/>\n<link name="a"/></robot>', r"^x\.urdf:3: .*'a' is used twice.*:2\)"),

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import FileError, InputError, MissingExtra, ModelError, PoekinError, closest, harmless, shown
+from ...errors import FileError, InputError, MissingExtra, ModelError, PoekinError, closest, harmless, shown, told
 from ...groups.arrays import Array
 from .. import xml
 from ..numbers import real
@@ -36,7 +36,7 @@ def read(path: str | os.PathLike[str]) -> Table:
     Raises: FileError for a file that cannot be read; ModelError with the file, and the line of a CSV, for a column that
     is missing or misspelt, mixed conventions, and numbers that are none. Accuracy: numbers as they are written.
     """
-    name = os.fsdecode(path)
+    name = _path(path)
     try:
         text = xml.read_bytes(path).decode("utf-8-sig")
     except UnicodeDecodeError as fault:
@@ -57,7 +57,9 @@ def write(table: Table, path: str | os.PathLike[str]) -> None:
     The file appears whole or not at all; one that was there stays until the new one is complete.
     Raises: FileError where the file cannot be written; MissingExtra without tomli-w for .toml.
     """
-    name = os.fsdecode(path)
+    if not isinstance(table, Table):
+        raise InputError(f"write: expected a dh.Table, got {told(table)}: dh.from_chain(chain).table makes one")
+    name = _path(path)
     text = _reader(name, os.path.splitext(name)[1], _WRITERS)(table)
     write_whole(path, text.encode())
 
@@ -65,6 +67,12 @@ def write(table: Table, path: str | os.PathLike[str]) -> None:
 def text_of(table: Table, ending: str) -> str:
     """A table as the text of a .toml or .csv file."""
     return _reader(ending, ending, _WRITERS)(table)
+
+
+def _path(path: str | os.PathLike[str]) -> str:
+    if not isinstance(path, (str, bytes, os.PathLike)):
+        raise InputError(f"expected the path of a file, got {told(path)}")
+    return os.fsdecode(path)
 
 
 def _reader(name: str, ending: str, known: dict[str, Callable]) -> Callable:

@@ -9,7 +9,7 @@ from decimal import Decimal
 import numpy as np
 
 from ...algebra import add, cross, dot, scale, subtract
-from ...errors import InputError, shown
+from ...errors import InputError, shown, told
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.normals import (
@@ -62,6 +62,8 @@ def from_chain(chain: Chain, *, convention: str = "standard", samples: int = 100
     Accuracy: `bound`: 20 u (n + 1) (reach + max(|d|, |a|)) over the reach, u = 2^-53, plus 2 delta for each angle delta
     that was dropped (tests/formats/test_dh.py). Source: Park 1994, Section II; the geometry is that of the axes.
     """
+    if not isinstance(chain, Chain):
+        raise InputError(f"from_chain: expected a Chain, as Robot.chain(tip=...) makes it, got {told(chain)}")
     if convention not in CONVENTIONS:
         raise InputError(f"convention: expected 'standard' or 'modified', got {convention!r:.60}")
     for name, kind in zip(chain.joint_names, chain.kinds, strict=True):
@@ -152,9 +154,9 @@ class _Walk:
         if not n:
             return Table(convention, [], tool=chain.home, name=chain.tip)
         links = [*self.normals, (0.0, 0.0)] if convention == "standard" else [(0.0, 0.0), *self.normals]
-        limits = [tuple(x) for x in chain.limits.tolist()] if chain.q_names == chain.joint_names else None
+        limits = _limits(chain)
         rows = [
-            Row(theta, d, a, alpha, chain.kinds[i], False, chain.joint_names[i], limits[i] if limits else _FREE)
+            Row(theta, d, a, alpha, chain.kinds[i], False, chain.joint_names[i], limits[i])
             for i, ((theta, d), (a, alpha)) in enumerate(zip(self.turns, links, strict=True))
         ]
         return Table(convention, rows, base=_pose(*self.base), tool=self._tool(), name=chain.tip)
@@ -174,6 +176,16 @@ class _Walk:
 _ORIGIN = (Decimal(0), Decimal(0), Decimal(0))
 _AXES = ((Decimal(1), Decimal(0), Decimal(0)), (Decimal(0), Decimal(1), Decimal(0)))
 _FREE = (-math.inf, math.inf)
+
+
+def _limits(chain: Chain) -> list[tuple[float, float]]:
+    """Those of the joints' own values, where one coordinate alone sets them."""
+    found = []
+    for row, shift in zip(chain.coupling, chain.offset.tolist(), strict=True):
+        (ks,) = row.nonzero()
+        ends = [_FREE] if len(ks) != 1 else [sorted(float(row[k] * x) + shift for x in chain.limits[k]) for k in ks]
+        found.append((ends[0][0], ends[0][1]))
+    return found
 
 
 def _turn(x: Vector, x2: Vector, z: Vector, along: Vector) -> tuple[float, float]:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, PoekinWarning, ShapeError, shown
+from ...errors import InputError, PoekinWarning, ShapeError, shown, told
 from ...groups.arrays import Array
 from ...model.parts import bounds, distinct_names, finite, one_pose, read_only
 
@@ -75,6 +75,8 @@ class Table:
     ):
         if convention not in CONVENTIONS:
             raise InputError(f"convention: expected 'standard' or 'modified', got {convention!r:.60}")
+        if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
+            raise ShapeError(f"rows: expected a list of Rows or dicts, one a joint, got {told(rows)}")
         listed = [_row(row, i) for i, row in enumerate(rows)]
         for i, row in enumerate(listed):
             if row.kind not in KINDS:
