@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 from poekin.errors import MissingExtra
 
+from .page import plain
 from .report import Picture
 
 INK, PALE = "#222222", "#9a9a9a"
@@ -66,7 +69,10 @@ def lines(
         axes.set_yscale("log")
     else:
         axes.set_xticks(list(x))
-    axes.legend(frameon=False)
+    if log:
+        figure.legend(loc="outside upper center", ncols=3, frameon=False)
+    else:
+        axes.legend(frameon=False)
     return Picture(caption, _svg(figure))
 
 
@@ -84,15 +90,57 @@ def dots(caption: str, values: Sequence[float], bar: float, *, x_label: str, y_l
     return Picture(caption, _svg(figure))
 
 
+def bars(caption: str, rows: Mapping[str, Mapping[str, float | None]], *, x_label: str) -> Picture:
+    """Horizontal bars on a logarithmic scale: rows {label: {series: value}}, None for a bar that there is not.
+
+    A series is known by its hatching, and each value stands at the end of its bar.
+    """
+    series = list(dict.fromkeys(name for row in rows.values() for name in row))
+    figure, axes = _axes(7.2, 0.9 + 0.27 * sum(len(row) for row in rows.values()))
+    looks: list[dict[str, Any]] = [
+        {"color": INK},
+        {"facecolor": "white", "edgecolor": INK, "hatch": "////"},
+        {"color": PALE},
+    ]
+    thickness = 0.8 / max(len(series), 1)
+    values = [value for row in rows.values() for value in row.values() if value]
+    least, most = min(values, default=1.0), max(values, default=1.0)
+    for number, name in enumerate(series):
+        there, places = [], []
+        for k, row in enumerate(rows.values()):
+            if value := row.get(name):
+                mates = [other for other in series if row.get(other)]
+                there.append((k, value))
+                places.append(k + (mates.index(name) - (len(mates) - 1) / 2) * thickness)
+        lengths = [value for _, value in there]
+        axes.barh(places, lengths, 0.85 * thickness, label=name, linewidth=0.8, **looks[number % len(looks)])
+        for place, value in zip(places, lengths, strict=True):
+            axes.annotate(f"{value:.3g}", (value, place), xytext=(3, 0), textcoords="offset points", va="center",
+                          fontsize=8.5)  # fmt: skip
+    # A label is data: a dollar sign in it is no formula.
+    axes.set_yticks(range(len(rows)), [" ".join(plain(label).split()) for label in rows], parse_math=False)
+    axes.invert_yaxis()
+    axes.set_xscale("log")
+    axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.set_xlim(least / 2, most * 3)
+    axes.set_xlabel(x_label)
+    axes.grid(axis="y", visible=False)
+    axes.grid(axis="x", color="#dddddd", linewidth=0.6)
+    figure.legend(loc="outside upper right", ncols=len(series), frameon=False)
+    return Picture(caption, _svg(figure))
+
+
 def panels(caption: str, parts: Sequence[Panel], *, y_label: str, bar: float, off_scale: str) -> Picture:
-    """Plots beside each other with the bar across; the first curve is bold. An infinite value is a cross at the top
-    edge, where off_scale says what it means; a NaN is a gap.
-    """  # fmt: skip
+    """Plots beside each other with the bar across; the first curve is bold.
+
+    An infinite value is its curve's marker at the top edge, where off_scale says what it means; a NaN is a gap; what is
+    below bar ÷ 300 is left out.
+    """
     figure, _ = _axes(9.0, 3.9)
     figure.clear()
     plots = figure.subplots(1, len(parts), sharey=True, squeeze=False)[0]
     values = [y for part in parts for curve in part.curves.values() for y in curve if math.isfinite(y)]
-    floor, top = min(values) / 3, max([*values, bar]) * 30
+    floor, top = max(min(values) / 3, bar / 300), max([*values, bar]) * 30
     styles = [("-", ""), ("--", "s"), (":", "^"), ("-.", "D"), ("-", "v"), ("--", "x"), (":", "o"), ("-.", "+")]
     for axes, part in zip(plots, parts, strict=True):
         for number, (label, curve) in enumerate(part.curves.items()):

@@ -1,4 +1,4 @@
-"""Poses and hybrid Jacobians straight from a URDF's text in 60 digits: what both poekin and its peers are judged by."""
+"""Poses and hybrid Jacobians from a URDF's text, or from screws, in 60 digits: by these all are judged."""
 
 from __future__ import annotations
 
@@ -24,6 +24,16 @@ def hybrid(text: str, tip: str, configurations: Iterable[np.ndarray]) -> tuple[n
         link = _link(joints[link], "parent")
     fixed = [(_origin(joint), _axis(joint) if joint.get("type") != "fixed" else None) for joint in way]
     results = [_one(fixed, q) for q in configurations]
+    return np.stack([T for T, _ in results]), np.stack([J for _, J in results])
+
+
+def of_screws(
+    screws: np.ndarray, home: np.ndarray, configurations: Iterable[np.ndarray]
+) -> tuple[np.ndarray, np.ndarray]:
+    """The same of the product of exponentials of screws (n, 6) and home (4, 4), taken as the floats that they are."""
+    still = exact.exactly(np.eye(4))
+    joints = [(still, exact.exactly(screw)) for screw in screws]
+    results = [_one([*joints, (exact.exactly(home), None)], q) for q in configurations]
     return np.stack([T for T, _ in results]), np.stack([J for _, J in results])
 
 

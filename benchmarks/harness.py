@@ -3,6 +3,8 @@
 Time is the processor's (`time.process_time`): while another process has the processor, it stands still. It adds up all
 threads of this process, so that no case gains by threads that the other one does not start.
 
+Where threads are meant, the clock is the wall's (`clock=time.perf_counter`), and the machine has to be idle otherwise.
+
 A case is a triple (setup, run, error): every row of speed has its error beside it, from the results of the same run.
 """
 
@@ -10,9 +12,11 @@ from __future__ import annotations
 
 import statistics
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
+
+Clock = Callable[[], float]
 
 
 @dataclass(frozen=True)
@@ -39,6 +43,16 @@ class Spread:
 
 
 @dataclass(frozen=True)
+class Timed:
+    """One case measured: seconds a run, each of them in order, and the error of its result."""
+
+    name: str
+    time: Spread
+    each: tuple[float, ...]
+    error: float
+
+
+@dataclass(frozen=True)
 class Comparison:
     """Two cases measured in turn: processor seconds a run, ratio first ÷ second of each pair, the errors of both."""
 
@@ -55,25 +69,46 @@ def spread(values: list[float]) -> Spread:
     return Spread(statistics.median(values), lower, upper)
 
 
-def compare(first: Case, second: Case, *, pairs: int = 31, slice_s: float = 0.02) -> Comparison:
+def compare(
+    first: Case,
+    second: Case,
+    *,
+    pairs: int = 31,
+    slice_s: float = 0.02,
+    clock: Clock = time.process_time,
+) -> Comparison:
     """Time two cases in turn and take the ratio within each pair; the order within a pair alternates.
 
     Parameters: pairs, how often; slice_s, seconds by the wall clock that one measurement of a case lasts at least
-    (fast runs repeat).
+    (fast runs repeat); clock, the processor's or the wall's.
     """
-    cases = [(case, case.setup()) for case in (first, second)]
-    errors = [case.error(state, case.run(state)) for case, state in cases]  # also warms both up
-    loops = [_loops(case.run, state, slice_s) for case, state in cases]
-    times: list[list[float]] = [[], []]
-    for pair in range(pairs):
-        for which in (0, 1) if pair % 2 == 0 else (1, 0):
-            case, state = cases[which]
-            times[which].append(_clock(case.run, state, loops[which]))
-    ratios = [a / b for a, b in zip(*times, strict=True)]
-    return Comparison(spread(times[0]), spread(times[1]), spread(ratios), errors[0], errors[1])
+    a, b = in_turn([first, second], rounds=pairs, slice_s=slice_s, clock=clock)
+    return Comparison(a.time, b.time, ratio(a, b), a.error, b.error)
 
 
-def _clock(run: Callable[[Any], Any], state: Any, loops: int, clock: Callable[[], float] = time.process_time) -> float:
+def in_turn(
+    cases: Sequence[Case], *, rounds: int = 31, slice_s: float = 0.02, clock: Clock = time.process_time
+) -> list[Timed]:
+    """Time any number of cases in turn, there and back: A B C C B A A B C …; parameters as `compare`."""
+    states = [case.setup() for case in cases]
+    errors = [case.error(state, case.run(state)) for case, state in zip(cases, states, strict=True)]  # warms up, too
+    loops = [_loops(case.run, state, slice_s) for case, state in zip(cases, states, strict=True)]
+    times: list[list[float]] = [[] for _ in cases]
+    for number in range(rounds):
+        for which in range(len(cases)) if number % 2 == 0 else reversed(range(len(cases))):
+            times[which].append(_clock(cases[which].run, states[which], loops[which], clock))
+    return [
+        Timed(case.name, spread(each), tuple(each), error)
+        for case, each, error in zip(cases, times, errors, strict=True)
+    ]
+
+
+def ratio(first: Timed, second: Timed) -> Spread:
+    """Of two cases that were measured in turn: the ratio of each pair, first ÷ second."""
+    return spread([a / b for a, b in zip(first.each, second.each, strict=True)])
+
+
+def _clock(run: Callable[[Any], Any], state: Any, loops: int, clock: Clock = time.process_time) -> float:
     """Seconds a run, over so many runs in a row."""
     span = range(loops)
     start = clock()

@@ -11,7 +11,11 @@ from pathlib import Path
 
 from poekin import __version__
 
-PACKAGES = ("numpy", "numba", "lxml", "pin", "scipy", "example-robot-data", "mpmath", "matplotlib")
+PACKAGES = (
+    "numpy", "numba", "llvmlite", "lxml", "pin", "scipy", "roboticstoolbox-python", "spatialmath-python",
+    "modern-robotics", "mujoco", "pytorch-kinematics", "torch", "jaxlie", "jax", "pytransform3d", "example-robot-data",
+    "mpmath", "matplotlib",
+)  # fmt: skip
 
 
 def machine() -> dict[str, object]:

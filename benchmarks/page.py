@@ -120,12 +120,14 @@ def _topic(number: int, topic: Topic) -> str:
 
 
 def _table(table: Table) -> str:
-    numeric = [not any(isinstance(row[i], str) for row in table.rows) for i in range(len(table.columns))]
+    # Numbers that were not measured are empty, and leave a column one of numbers.
+    numeric = [not any(isinstance(row[i], str) and row[i] for row in table.rows) for i in range(len(table.columns))]
     heads = zip(table.columns, numeric, strict=True)
     head = "".join(f'<th class="{"number" if right else "word"}">{escape(c)}</th>' for c, right in heads)
     body = ""
     for row in table.rows:
-        cells = (f'<td class="{"word" if isinstance(c, str) else "number"}">{escape(_text(c))}</td>' for c in row)
+        kinds = ("number" if right or not isinstance(c, str) else "word" for c, right in zip(row, numeric, strict=True))
+        cells = (f'<td class="{kind}">{escape(_text(c))}</td>' for c, kind in zip(row, kinds, strict=True))
         body += f"<tr>{''.join(cells)}</tr>\n"
     inner = f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>'
     caption = escape(table.caption)

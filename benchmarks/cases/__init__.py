@@ -5,6 +5,10 @@ Each is a module with `topic(quick, say) -> Topic`: quick asks for a shorter run
 
 from . import (
     accuracy,
+    accuracy_by_angle,
+    compile_time,
+    compiled,
+    compiled_robots,
     exp_log,
     exponential_table,
     model_truth_compare,
@@ -12,19 +16,27 @@ from . import (
     model_truth_tables,
     operation_counts,
     panda_hand,
+    peers,
     robots,
     robustness,
+    scaling,
     start,
 )
 
 TOPICS = {
     "robots": robots,
     "accuracy": accuracy,
+    "accuracy_by_angle": accuracy_by_angle,
     "model_truth_tables": model_truth_tables,
     "model_truth_robots": model_truth_robots,
     "model_truth_compare": model_truth_compare,
     "operation_counts": operation_counts,
     "exponential_table": exponential_table,
+    "compiled": compiled,
+    "compile_time": compile_time,
+    "compiled_robots": compiled_robots,
+    "peers": peers,
+    "scaling": scaling,
     "panda_hand": panda_hand,
     "exp_log": exp_log,
     "start": start,

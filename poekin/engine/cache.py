@@ -26,6 +26,7 @@ import numba
 import numpy as np
 from numba.core import config, serialize
 from numba.core.compiler import CompileResult
+from numba.core.runtime import rtsys
 
 from . import source
 
@@ -140,9 +141,10 @@ def write(path: Path, payload: bytes) -> None:
 
 def _forget_the_old(path: Path) -> None:
     """Remove entries of this name that are a month old or older: from other versions or earlier source."""
-    for old in path.parent.glob(f"{path.name.rpartition('-')[0]}-*"):
-        if time.time() - old.stat().st_mtime > MONTH:
-            old.unlink(missing_ok=True)
+    for old in path.parent.glob(f"{path.name.rpartition('-')[0]}-*.kernel"):
+        with contextlib.suppress(FileNotFoundError):  # another process was quicker
+            if time.time() - old.stat().st_mtime > MONTH:
+                old.unlink()
 
 
 class KernelCache:
@@ -156,13 +158,15 @@ class KernelCache:
 
     def load_overload(self, signature, target_context):
         """The kept machine code of this signature; None, after saying that it compiles, where there is none."""
-        target_context.refresh()
         path = self._path(signature, target_context.codegen())
         kept = None if path is None else read(path)
         if kept is None:
             where = "not kept" if path is None else f"kept in {path.parent}"
             say_once("compiling", "compiling kernels for this machine, a few seconds each (%s)", where)
             return None
+        # Of what Numba loads before it compiles, code that is complete needs the runtime alone, which counts references;
+        # all of it takes four times as long as the rest, more so where SciPy is installed.
+        rtsys.initialize(target_context)
         return CompileResult._rebuild(target_context, *pickle.loads(kept))
 
     def save_overload(self, signature, compiled) -> None:

@@ -18,13 +18,13 @@ _pools: dict[int, ThreadPoolExecutor] = {}
 _making = threading.Lock()
 
 
-def share_out(run: Callable[..., Any], *arrays: Any) -> None:
-    """run(*parts) for parts of all arrays along their first axis, by as many threads as there are processors."""
-    starts = range(0, len(arrays[0]), ROWS_AT_ONCE)
+def share_out(run: Callable[..., Any], *arrays: Any, rows: int = ROWS_AT_ONCE) -> None:
+    """run(*parts) for parts of all arrays, `rows` along their first axis, by a thread for each processor."""
+    starts = range(0, len(arrays[0]), rows)
     if len(starts) < 2:
         run(*arrays)
         return
-    parts = ([a[start : start + ROWS_AT_ONCE] for a in arrays] for start in starts)
+    parts = ([a[start : start + rows] for a in arrays] for start in starts)
     tasks = [_pool().submit(run, *part) for part in parts]
     for task in tasks:
         task.result()

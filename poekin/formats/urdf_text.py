@@ -52,8 +52,8 @@ def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
     helical = [joint.name for joint in robot.joints if joint.kind == "helical" and joint.pitch]
     if helical:
         raise InputError(f"URDF has no helical joints, and these are: {listed(helical)}")
-    lines = ['<?xml version="1.0"?>', f"<robot name={_quoted(robot.name if name is None else name, 'robot')}>"]
-    lines += [f"  <link name={_quoted(link, 'link')}/>" for link in robot.links]
+    lines = ['<?xml version="1.0"?>', f"<robot name={quoted(robot.name if name is None else name, 'robot')}>"]
+    lines += [f"  <link name={quoted(link, 'link')}/>" for link in robot.links]
     for joint in robot.joints:
         lines += _joint(joint)
     return "\n".join([*lines, "</robot>", ""])
@@ -63,9 +63,9 @@ def _joint(joint: Joint) -> Iterator[str]:
     kind = "revolute" if joint.kind == "helical" else joint.kind
     if kind == "revolute" and joint.limits == (-math.inf, math.inf):
         kind = "continuous"
-    yield f'  <joint name={_quoted(joint.name, "joint")} type="{kind}">'
-    yield f"    <parent link={_quoted(joint.parent, 'link')}/>"
-    yield f"    <child link={_quoted(joint.child, 'link')}/>"
+    yield f'  <joint name={quoted(joint.name, "joint")} type="{kind}">'
+    yield f"    <parent link={quoted(joint.parent, 'link')}/>"
+    yield f"    <child link={quoted(joint.child, 'link')}/>"
     T = joint.origin
     yield f'    <origin xyz="{_numbers(*T[:3, 3])}" rpy="{_numbers(*rpy.angles(T[:3, :3]))}"/>'
     if kind not in ("fixed", "floating"):
@@ -75,7 +75,7 @@ def _joint(joint: Joint) -> Iterator[str]:
         yield f'    <limit lower="{lower}" upper="{upper}" effort="{most}" velocity="{most}"/>'
     if joint.mimic is not None:
         multiplier, offset = map(_numbers, (joint.mimic.multiplier, joint.mimic.offset))
-        master = _quoted(joint.mimic.joint, "joint")
+        master = quoted(joint.mimic.joint, "joint")
         yield f'    <mimic joint={master} multiplier="{multiplier}" offset="{offset}"/>'
     yield "  </joint>"
 
@@ -86,7 +86,7 @@ def _numbers(*values: float) -> str:
                     for v in values)  # fmt: skip
 
 
-def _quoted(name: str, what: str) -> str:
+def quoted(name: str, what: str) -> str:
     """A name as the value of an attribute, whatever is in it; what no eye would see, by its number."""
     bad = _IMPOSSIBLE.search(name)
     if bad:

@@ -11,12 +11,12 @@ from contextlib import contextmanager, redirect_stderr
 from types import ModuleType
 from typing import Any
 from xml.parsers.expat import ExpatError
-from xml.sax.saxutils import quoteattr
 
 from ..errors import InputError, MissingExtra, ModelError, harmless, told
 from ..model.robot import Robot
 from ..model.source import Source, warn
 from . import urdf, xml
+from .urdf_text import quoted
 
 # The packages xacro and xacrodoc keep what they are at in variables of their modules.
 _one_at_a_time = threading.Lock()
@@ -63,8 +63,8 @@ def _evaluated(name: str, robot: str | None, values: dict[str, str]) -> str:
     # what stands for other characters in patterns must not mean anything there.
     whole = glob.escape(os.path.abspath(name)).replace("${", "$${").replace("$(", "$$(")
     namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
-    include = f"<xacro:include filename={quoteattr(whole)}/>"
-    text = f"<robot name={quoteattr(robot or '')} {namespace}>{include}</robot>"
+    include = f"<xacro:include filename={quoted(whole, 'file')}/>"
+    text = f"<robot name={quoted(robot or '', 'robot')} {namespace}>{include}</robot>"
     refusals = (
         xacro_.XacroException, xacrodoc.packages.PackageNotFoundError, ValueError, LookupError, TypeError,
         AttributeError, RuntimeError, OSError, SyntaxError, ArithmeticError, ExpatError,

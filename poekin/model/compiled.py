@@ -34,6 +34,7 @@ _NAMES: dict[int, str | None] = {
 }
 _Calls = dict[object, tuple[Callable, int]]
 _empty, _POSE_SHAPE, _float64 = np.empty, (4, 4), np.dtype(np.float64)
+_NOT_PLAIN = (AttributeError, KeyError, TypeError, ValueError)
 _making = threading.RLock()
 
 
@@ -58,7 +59,8 @@ class CompiledChain:
     Machine code is made at the first use of a frame, in a fraction of a second, and kept in the cache. Pickles as its
     chain and options, never as code; works in threads and in forked workers.
 
-    Attributes: chain; parallel, whether large batches are shared out among threads; joint_names, q_names, dof.
+    Attributes: chain; parallel, whether large batches are shared out among threads; joint_names, q_names, dof; memory,
+    what functions of the arm keep with it.
     Accuracy: that of `Chain.fk` (tests/model/test_compiled.py). An entry that does not depend on a coordinate is a
     number even where that coordinate is NaN. Source: Park 1994, Section IV, each link as two planar rotations.
     """
@@ -74,10 +76,11 @@ class CompiledChain:
         self.joint_names, self.q_names, self.dof = chain.joint_names, chain.q_names, chain.dof
         self._kernels, self._interpreted = arm_kernels, bool(config.DISABLE_JIT)  # type: ignore[attr-defined]
         self._shape = (6, chain.dof)
+        self.memory: dict[Any, Any] = {}
         self._arms: dict[tuple[int, bool, bool], Arm] = {}
         # The kernel and the arm that one configuration needs, by the frame as the user says it. A kernel refuses what
-        # is not exactly one float64 configuration and its results: then, and at a first call, the longer way is taken,
-        # which takes everything and says what is wrong. Only the order of a number's bytes is no matter to Numba.
+        # is not exactly one float64 configuration and its results; then the longer way is taken, which takes everything
+        # and says what is wrong. Only the order of a number's bytes is no matter to Numba.
         self._poses: _Calls = {}
         self._jacobians: _Calls = {}
         self._both: _Calls = {}
@@ -85,25 +88,26 @@ class CompiledChain:
     def fk(self, q: Any, *, out: Array | None = None) -> Array:
         """T_sb (..., 4, 4), as `Chain.fk`."""
         try:
-            kernel, arm = self._poses[None]
-            T = _empty(_POSE_SHAPE) if out is None else out
-            if q.dtype is T.dtype is _float64 and kernel(arm, q, T):
-                return T
-        except (KeyError, TypeError, AttributeError):
+            if q.ndim == 1:
+                kernel, arm = self._poses.get(None) or self._prepare(self._poses, None, "pose_one", True, False)
+                T = _empty(_POSE_SHAPE) if out is None else out
+                if q.dtype is T.dtype is _float64 and kernel(arm, q, T):
+                    return T
+        except _NOT_PLAIN:
             pass
-        self._prepare(self._poses, None, POSE_ONLY, self._kernels.pose_one, True, False)
         return evaluation.fk_of_many(self, q, out)
 
     def jacobian(self, q: Any, frame: str | int, *, at: ArrayLike | None = None, out: Array | None = None) -> Array:
         """J (..., 6, m), as `Chain.jacobian`; frame may be "middle" too."""
         try:
-            kernel, arm = self._jacobians[frame]
-            J = _empty(self._shape) if out is None else out
-            if at is None and q.dtype is J.dtype is _float64 and kernel(arm, q, J):
-                return J
-        except (KeyError, TypeError, AttributeError):
+            if q.ndim == 1 and at is None:
+                calls = self._jacobians
+                kernel, arm = calls.get(frame) or self._prepare(calls, frame, "jacobian_one", False, True)
+                J = _empty(self._shape) if out is None else out
+                if q.dtype is J.dtype is _float64 and kernel(arm, q, J):
+                    return J
+        except _NOT_PLAIN:
             pass
-        self._prepare(self._jacobians, frame, self._frame_code(frame), self._kernels.jacobian_one, False, True)
         return evaluation.jacobian_of_many(self, q, frame, at, out)
 
     def fk_jacobian(
@@ -111,19 +115,25 @@ class CompiledChain:
     ) -> tuple[Array, Array]:
         """T_sb and J in one pass, as `Chain.fk_jacobian`; frame may be "middle" too."""
         try:
-            kernel, arm = self._both[frame]
-            T, J = (_empty(_POSE_SHAPE), _empty(self._shape)) if out is None else out
-            if at is None and q.dtype is T.dtype is J.dtype is _float64 and kernel(arm, q, T, J):
-                return T, J
-        except (KeyError, TypeError, ValueError, AttributeError):
+            if q.ndim == 1 and at is None:
+                calls = self._both
+                kernel, arm = calls.get(frame) or self._prepare(calls, frame, "pose_jacobian_one", True, True)
+                T, J = (_empty(_POSE_SHAPE), _empty(self._shape)) if out is None else out
+                if q.dtype is T.dtype is J.dtype is _float64 and kernel(arm, q, T, J):
+                    return T, J
+        except _NOT_PLAIN:
             pass
-        self._prepare(self._both, frame, self._frame_code(frame), self._kernels.pose_jacobian_one, True, True)
         return evaluation.fk_jacobian_of_many(self, q, frame, at, out)
 
     @cached_property
     def structure(self) -> Structure:
         """The chain as the formulas that are specialised take it."""
         return structure(self.chain)
+
+    @property
+    def hybrid_address(self) -> int:
+        """The machine code of pose and hybrid Jacobian, as kernels of the engine take it; as long as this lives."""
+        return self._arm(chain_kernels.HYBRID, True, True).address
 
     @cached_property
     def middle(self) -> Middle:
@@ -149,10 +159,13 @@ class CompiledChain:
             return specialised(placed(self.structure, k, h), k, pose)
         return specialised(self.structure, _NAMES.get(code, code), pose)
 
-    def _prepare(self, calls: _Calls, frame: object, code: int, kernel: Kernel, pose: bool, jacobian: bool) -> None:
-        """From now on one configuration goes straight to its kernel."""
-        if not self._interpreted:
-            calls[frame] = kernel.ready(), self._arm(code, pose, jacobian).address
+    def _prepare(self, calls: _Calls, frame: object, kernel: str, pose: bool, jacobian: bool) -> tuple[Callable, int]:
+        """The kernel and the arm for a frame, from now on in `calls`."""
+        if self._interpreted:
+            return _refusing, 0
+        code = POSE_ONLY if frame is None else self._frame_code(frame)
+        calls[frame] = getattr(self._kernels, kernel).ready(), self._arm(code, pose, jacobian).address
+        return calls[frame]
 
     def _arm(self, code: int, pose: bool, jacobian: bool) -> Arm:
         """The machine code for a frame."""
@@ -213,3 +226,8 @@ class CompiledChain:
 
     def __repr__(self) -> str:
         return f"<CompiledChain of {self.chain!r}{', parallel' * self.parallel}>"
+
+
+def _refusing(*arguments: object) -> int:
+    """A kernel that takes nothing."""
+    return 0

@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from benchmarks.harness import Case, compare, spread
+from benchmarks.harness import Case, Timed, compare, in_turn, ratio, spread
 from benchmarks.page import html, markdown, plain_table, results, summary
 from benchmarks.report import Figure, Table, Topic, short
 
@@ -25,6 +25,31 @@ def test_cases_run_in_turn_and_the_order_alternates():
     cases = [Case(n, lambda: None, lambda _, n=n: order.append(n), lambda s, r: 0.0) for n in "AB"]
     compare(*cases, pairs=4, slice_s=0.0)
     assert "".join(order[-8:]) == "ABBAABBA"
+
+
+def test_any_number_of_cases_goes_there_and_back():
+    order: list[str] = []
+    cases = [Case(n, lambda: None, lambda _, n=n: order.append(n), lambda s, r: 0.0) for n in "ABC"]
+    timed = in_turn(cases, rounds=3, slice_s=0.0)
+    assert "".join(order[-9:]) == "ABCCBAABC"
+    assert [(t.name, len(t.each)) for t in timed] == [("A", 3), ("B", 3), ("C", 3)]
+
+
+def test_a_ratio_is_taken_within_each_round():
+    def timed(*each: float) -> Timed:
+        return Timed("t", spread(list(each)), each, 0.0)
+
+    assert ratio(timed(1.0, 2.0, 30.0), timed(2.0, 4.0, 60.0)).__dict__ == {"median": 0.5, "lower": 0.5, "upper": 0.5}
+
+
+def test_a_clock_of_the_wall_counts_waiting():
+    waits = Case("waits", lambda: None, lambda _: time.sleep(0.05), lambda s, r: 0.0)
+    assert in_turn([waits], rounds=2, slice_s=0.01, clock=time.perf_counter)[0].time.median >= 0.05
+
+
+def test_numbers_that_were_not_measured_leave_a_column_one_of_numbers():
+    topic = Topic("t", tables=[Table("c", ["what", "time"], [["a", 1.5], ["b", ""]])])
+    assert html([topic], ABOUT, 1.0).count('class="number"') == 3
 
 
 def test_each_row_of_speed_has_the_error_of_its_own_result():
