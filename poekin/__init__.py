@@ -10,6 +10,8 @@ from .analysis.axes import axes
 from .analysis.compare import compare
 from .analysis.count import count
 from .analysis.count_table import count_table
+from .analysis.manipulability import manipulability, manipulability_gradient
+from .analysis.singularity import singularity
 from .analysis.validate import validate
 from .errors import PoekinError, PoekinWarning
 from .formats import dh, emit, ur
@@ -23,6 +25,8 @@ from .model import screw
 from .model.chain import Chain
 from .model.joint import Joint, Mimic
 from .model.robot import Robot
+from .solve.ik import ik
+from .solve.ik_all import ik_all
 
 __version__ = "0.1.0"
 
@@ -41,10 +45,15 @@ __all__ = [
     "emit",
     "errors",
     "from_object",
+    "ik",
+    "ik_all",
     "load",
+    "manipulability",
+    "manipulability_gradient",
     "relinked",
     "screw",
     "se3",
+    "singularity",
     "so3",
     "to_urdf",
     "ur",

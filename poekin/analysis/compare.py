@@ -31,10 +31,10 @@ def compare(
     free choice (base frame, tool frame, zero positions, joint directions) is aligned to the largest set of joints that
     agree: of all readings the one that blames the fewest joints, then the one that leaves base and tool where they are.
     One bad joint is so not smeared over its neighbours. Where all axes behind a joint moved together, the verdict names
-    the link (`a` or `alpha` of a DH row); the rows of `joints` then say it of each of these axes. A zero offset of the first joint is a turned base and one of
-    the last joint a turned tool; `equivalent` says so. With different numbers of joints the one or two are named that
-    can be dropped (at their zero positions) so that the rest agree. A joint that follows another one otherwise in the
-    other model, or there on its own, differs, however well the axes agree.
+    the link (`a` or `alpha` of a DH row); the rows of `joints` then say it of each of these axes. A zero offset of the
+    first joint is a turned base and one of the last joint a turned tool; `equivalent` says so. With different numbers
+    of joints the one or two are named that can be dropped (at their zero positions) so that the rest agree. A joint
+    that follows another one otherwise in the other model, or there on its own, differs, however well the axes agree.
 
     Parameters: a, b; strict, align nothing, frames and zero positions included; tol_mm, tol_deg, how near is the same
     (an axis' place is judged at the point of it nearest to the arm's middle); samples and seed, random configurations

@@ -164,8 +164,8 @@ class KernelCache:
             where = "not kept" if path is None else f"kept in {path.parent}"
             say_once("compiling", "compiling kernels for this machine, a few seconds each (%s)", where)
             return None
-        # Of what Numba loads before it compiles, code that is complete needs the runtime alone, which counts references;
-        # all of it takes four times as long as the rest, more so where SciPy is installed.
+        # Of what Numba loads before it compiles, code that is complete needs the runtime alone, which counts
+        # references; all of it takes four times as long as the rest, more so where SciPy is installed.
         rtsys.initialize(target_context)
         return CompileResult._rebuild(target_context, *pickle.loads(kept))
 

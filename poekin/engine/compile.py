@@ -66,6 +66,14 @@ def _register_functions(module) -> None:
                 register_jitable(function)
 
 
+def _used_by(module):
+    """A module of kernels, and those of the engine whose plain functions it has imported."""
+    yield module
+    for value in list(vars(module).values()):
+        if inspect.isfunction(value) and value.__module__.startswith(f"{__package__}."):
+            yield sys.modules[value.__module__]
+
+
 def array_type(code: str):
     """Numba's type of one argument: "r2" reads and "w2" writes a 2-dimensional float64 array, "i1" reads integers,
     "int" is an integer.
@@ -86,7 +94,8 @@ def compiled(function, arguments: str, returns: str = "", quick: bool = False, b
     """The machine code of `function` for one signature, from the cache or compiled now; see `engine.kernel.Kernel`."""
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
-    _register_functions(sys.modules[function.__module__])
+    for module in _used_by(sys.modules[function.__module__]):
+        _register_functions(module)
     dispatcher = numba.njit(nogil=not (quick or bare), **OPTIONS)(function)
     dispatcher._cache = KernelCache(function.__name__)  # type: ignore[attr-defined]
     result = types.int64 if returns == "int" else types.void

@@ -12,7 +12,7 @@ from ..engine import chain_kernels
 from ..errors import InputError, ShapeError, shown
 from ..groups import se3
 from ..groups.arrays import Array
-from . import evaluation, idealise, screw
+from . import analytic, derivatives, evaluation, hp, idealise, screw
 from .coordinates import coordinates
 from .local import LocalForm, kernel_table, local_form
 from .parts import bounds, coupling_matrix, distinct_names, finite, frame_name, one_pose, ordered_names, read_only
@@ -50,7 +50,7 @@ class Chain:
 
     __slots__ = (
         *("screws", "home", "joint_names", "q_names", "limits", "_coupling", "offset", "base", "tip", "kinds"),
-        *("local", "reach", "_table", "_one", "_jacobian_shape"),
+        *("local", "reach", "_table", "_one", "_jacobian_shape", "_compiled"),
     )
     screws: Array
     home: Array
@@ -67,6 +67,7 @@ class Chain:
     _table: Array
     _one: tuple[int, ...] | None
     _jacobian_shape: tuple[int, int]
+    _compiled: CompiledChain | None
 
     def __init__(
         self,
@@ -110,6 +111,7 @@ class Chain:
             # the shape of one configuration that needs no coupling
             "_one": (m,) if table.shape[1] == chain_kernels.OFFSET else None,
             "_jacobian_shape": (6, m),
+            "_compiled": None,
         }
         for name, value in data.items():
             # The kernels' own table stays writable: Numba takes half a microsecond longer over a read-only array.
@@ -121,9 +123,18 @@ class Chain:
     fk_jacobian = evaluation.fk_jacobian
     velocity = evaluation.velocity
     joint_poses = evaluation.joint_poses
+    joint_velocities = derivatives.joint_velocities
+    jacobian_rate = derivatives.jacobian_rate
+    hessian = derivatives.hessian
+    acceleration = derivatives.acceleration
+    screw_derivatives = derivatives.screw_derivatives
+    jacobian_screw_derivatives = derivatives.jacobian_screw_derivatives
+    pose_coordinates = analytic.pose_coordinates
+    analytic_jacobian = analytic.analytic_jacobian
     _fill_poses, _fill_both, _fill_jacobians = evaluation.fill_poses, evaluation.fill_both, evaluation.fill_jacobians
     _frame_code = evaluation.frame_code
     idealised = idealise.idealised
+    to_hp = hp.to_hp
 
     @property
     def dof(self) -> int:
@@ -154,7 +165,11 @@ class Chain:
         """
         from .compiled import CompiledChain
 
-        return CompiledChain(self, parallel)
+        if parallel is not False:
+            return CompiledChain(self, parallel)
+        if self._compiled is None:
+            object.__setattr__(self, "_compiled", CompiledChain(self))
+        return self._compiled  # type: ignore[return-value]
 
     def rebased(self, P: ArrayLike, base: str | None = None) -> Chain:
         """f' = P f: the same arm seen from another base frame; A' = Ad(P) A, M' = P M.
@@ -203,9 +218,14 @@ class Chain:
         low, high = self._range()
         return low + (high - low) * rng.random((*size, self.dof))
 
+    def _turn_range(self) -> tuple[Array, Array]:
+        """Least and greatest value (m,) that `random` draws of coordinates without limits."""
+        turn = np.array([np.pi if self._turns(k) else 1.0 for k in range(self.dof)])
+        return -turn, turn
+
     def _range(self) -> tuple[Array, Array]:
         """Least and greatest value (m,) that `random` draws of each coordinate."""
-        turn = np.array([np.pi if self._turns(k) else 1.0 for k in range(self.dof)])
+        turn = self._turn_range()[1]
         lower, upper = self.limits.T
         bounded = np.isfinite(lower), np.isfinite(upper)
         low = np.where(bounded[0], lower, np.where(bounded[1], upper - 2 * turn, -turn))

@@ -13,6 +13,7 @@ from poekin.formulas import (
     coefficients,
     columns,
     defect,
+    derivatives,
     dh,
     dh_recursive,
     direct,
@@ -20,8 +21,10 @@ from poekin.formulas import (
     exp_jacobian,
     exponential,
     forward,
+    least_squares,
     logarithm,
     recursive,
+    screw_changes,
     structured,
 )
 from tests.formulas.kinds import KINDS, floats, traced
@@ -57,14 +60,31 @@ def rows12():
     return [[0.0] * 12 for _ in range(N)]
 
 
+def block(*sizes):
+    """Nested lists of zeros, in six rows."""
+    return [block_of(sizes) for _ in range(6)]
+
+
+def block_of(sizes):
+    return [block_of(sizes[1:]) for _ in range(sizes[0])] if sizes else 0.0
+
+
+def square():
+    return [[0.0] * N for _ in range(N)]
+
+
 def pairs():
     return [[0.0] * 2 for _ in range(N)]
 
 
+SQUARE = [list(map(float, row)) for row in 5 * np.eye(N) + rng.normal(size=(N, N))]
 ALPHAS = rng.normal(size=N)
 TWISTS = [[math.sin(t), math.cos(t), a, b] for t, a, b in zip(ALPHAS, *rng.normal(size=(2, N)), strict=True)]
 WALK = (structured.axes(T2), TWISTS, RATES, [0, 0, 1, 0], SINES, COSINES)
 SEEN = rng.normal(size=(N, 2)).tolist()
+SLOPES = [list(map(float, row)) for row in np.random.default_rng(5).normal(size=(6, N))]
+PRODUCTS = [list(map(float, exponential.se3(tuple(0.4 * k for k in W), V))) for _ in range(N + 2)]
+MOVED = np.random.default_rng(6).normal(size=(6, N + 1, 6)).tolist()
 
 
 CASES = [
@@ -126,6 +146,8 @@ CASES = [
     (dh_recursive.body, LINKS, T1, ROTATES, SLIDES, N, rows()),
     (dh.link, 0.6, 0.8, 0.3, -0.2, 0.28, 0.96),
     (dh.screws, LINKS, ROTATES, SLIDES, N, SCREWS),
+    (least_squares.normal_equations, AXES, list(X), ROTATES + SLIDES, 0.3, [1.0, 0.0, 1.0, 1.0], 6, N, square(), SINES),
+    (least_squares.solve, SQUARE, ANGLES.tolist(), N),
     (structured.outward, *WALK, 0, N, rows12()),
     (structured.inward, *WALK, N - 1, rows12()),
     *[(structured.seen_outward, V, *WALK[1:], begin, N, pairs()) for begin in (0, 2)],
@@ -138,6 +160,25 @@ CASES = [
     (structured.write, list(T1), W, V, LONG, V),
     (structured.axes, T1),
     (structured.pose, structured.axes(T1)),
+    *[(f, X, (*V, *LONG)) for f in (derivatives.bracket, derivatives.total, derivatives.difference)],
+    (derivatives.times, 0.3, X),
+    (derivatives.at_point, X, LONG),
+    (derivatives.running, AXES, RATES, N, rows()),
+    *[(f, AXES, RATES, N, rows()) for f in (derivatives.space_rate, derivatives.body_rate, derivatives.hybrid_rate)],
+    (derivatives.acceleration, AXES, SLOPES, RATES, ANGLES.tolist(), N),
+    (derivatives.set_derivative, block(N, N), 2, 1, X),
+    *[
+        (f, AXES, N, block(N, N))
+        for f in (derivatives.space_hessian, derivatives.body_hessian, derivatives.hybrid_hessian)
+    ],
+    (screw_changes.pose_row, rows12(), 2, T1),
+    (screw_changes.products, LINKS, T1, N, [[0.0] * 12 for _ in range(N + 2)]),
+    (screw_changes.pose_changes, PRODUCTS, N, block(N + 1, 6)),
+    *[(screw_changes.column_change, AXES, PRODUCTS, MOVED, k, 1, 4) for k in (0, 1, 2)],
+    *[
+        (f, AXES, PRODUCTS, MOVED, N, block(N, N + 1, 6))
+        for f in (screw_changes.space_changes, screw_changes.body_changes, screw_changes.hybrid_changes)
+    ],
     (defect.orthonormality, R1),
     (defect.determinant, R1),
 ]
@@ -159,7 +200,7 @@ def test_a_formula_gives_the_same_in_every_kind(case, kind):
 
 
 # exp, log and what belongs to them divide and compare: they are not traced, but for what they share with the chains.
-DIVIDE = (coefficients, exponential, logarithm, exp_jacobian, defect)
+DIVIDE = (least_squares, coefficients, exponential, logarithm, exp_jacobian, defect)
 CHAIN_CASES = [case for case in CASES if inspect.getmodule(case[0]) not in DIVIDE or case[0] is exponential.joint]
 
 

@@ -1,0 +1,1 @@
+"""Functions of a chain that solve for its joints."""

@@ -1,0 +1,83 @@
+"""What an arm does with joints to spare: steps in the null space of its task, each followed by a new solve."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engine import ik_codes as codes
+from ..errors import InputError, told
+from ..groups.arrays import Array
+
+if TYPE_CHECKING:
+    from .solver import Solver
+
+AIMS = ("middle", "nearest", "manipulability")
+STEPS = 25
+STEP = 0.5  # of the way that the aim asks for
+DIFFERENCE = 1e-6  # rad or m, for the gradient of the manipulability: its error is far below what a step needs
+
+
+def check_aim(aim: Any, q0: Any) -> None:
+    """Raises InputError for what is no aim, and for "nearest" to nothing."""
+    if aim is not None and (not isinstance(aim, str) or aim not in AIMS):
+        raise InputError(f"aim: expected one of {', '.join(AIMS)}, got {told(aim)}")
+    if aim == "nearest" and q0 is None:
+        raise InputError("aim: 'nearest' needs q0, what to be near to")
+
+
+def improved(solver: Solver, targets: Array, q: Array, q0: Array, aim: str) -> Array:
+    """Solutions that serve the aim better, of those targets that are solved already."""
+    q0 = np.where(np.isnan(q0), q, q0)
+    best, value = q.copy(), _value(solver, q, q0, aim)
+    step = np.full(len(q), STEP)
+    for _ in range(STEPS):
+        tried = _moved(solver, best, q0, aim, step)
+        found, said = solver.solve(targets, np.arange(len(q), dtype=float), tried, restarts=0)
+        new = _value(solver, found, q0, aim)
+        better = (said[:, codes.AT_STATE] == codes.SOLVED) & (new < value)
+        best[better], value[better] = found[better], new[better]
+        step = np.where(better, step, 0.5 * step)
+    return best
+
+
+def _value(solver: Solver, q: Array, q0: Array, aim: str) -> Array:
+    """What the aim makes small."""
+    if aim == "manipulability":
+        J = solver.fast.jacobian(q, "hybrid")
+        return -np.linalg.slogdet(J @ np.swapaxes(J, 1, 2))[1]
+    return ((q - _goal(solver, q0, aim)) ** 2 * _weights(solver, aim)).sum(axis=1)
+
+
+def _moved(solver: Solver, q: Array, q0: Array, aim: str, step: Array) -> Array:
+    """Downhill in the null space of the task's Jacobian."""
+    if aim == "manipulability":
+        z = np.empty_like(q)
+        for k in range(q.shape[1]):
+            h = np.zeros(q.shape[1])
+            h[k] = DIFFERENCE
+            z[:, k] = _value(solver, q - h, q0, aim) - _value(solver, q + h, q0, aim)
+        z *= 0.5 / DIFFERENCE
+        z /= np.maximum(np.linalg.norm(z, axis=1, keepdims=True), 1.0)
+    else:
+        z = (_goal(solver, q0, aim) - q) * _weights(solver, aim)
+    z[:, solver.room.fixed != 0] = 0.0
+    J = solver.fast.jacobian(q, "hybrid")[:, solver.options[codes.WEIGHTS :] > 0]
+    moved = q + step[:, None] * (z - (np.linalg.pinv(J) @ (J @ z[..., None]))[..., 0])
+    return np.clip(moved, *solver.room.limits.T)
+
+
+def _goal(solver: Solver, q0: Array, aim: str) -> Array:
+    lower, upper = solver.room.limits.T
+    both = np.isfinite(lower) & np.isfinite(upper)
+    middle = np.where(both, 0.5 * (np.where(both, lower, 0) + np.where(both, upper, 0)), q0)
+    return q0 if aim == "nearest" else np.broadcast_to(middle, q0.shape)
+
+
+def _weights(solver: Solver, aim: str) -> Array:
+    lower, upper = solver.room.limits.T
+    both = np.isfinite(lower) & np.isfinite(upper) & (upper > lower)
+    if aim == "nearest":
+        return np.ones(len(lower))
+    return np.where(both, 1.0, 0.0)

@@ -1,0 +1,100 @@
+"""Joints in closed form by EAIK, where the axes of an arm allow it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..errors import MissingExtra
+from ..groups.arrays import Array
+from ..model.chain import Chain
+from ..model.hp import HPForm
+from ..model.idealise import Idealised
+
+EXACT = 1e-5
+"""rad and m: an arm whose axes are parallel or meet within this is solved as if they were so, to start from there."""
+
+
+_SLANT, _PARALLEL = 0.01, 1e-13  # sines of angles
+_ASKED, _FOUND = 8, 1e-3  # poses, and rad: roots of a polynomial may be as bad, and are starts only
+
+
+class ClosedForm:
+    """EAIK's solver of one arm: starts that are solutions to rounding, or of an arm that is nearly the given one.
+
+    Attributes: family, the name that EAIK has for the arm's kind; position_bound, rotation_bound, how far (m, rad) the
+    arm that is solved is from the given one: 0 where it is the same.
+    Source: Ostermeier, Külz and Althoff 2025, Automatic Geometric Decomposition for Analytical Inverse Kinematics.
+    """
+
+    def __init__(self, form: HPForm, solver: Any, position_bound: float, rotation_bound: float):
+        self._R_tn, self._solver = form.R_nt.T, solver
+        self.family: str = solver.getKinematicFamily()
+        self.position_bound, self.rotation_bound = position_bound, rotation_bound
+
+    def said(self) -> str:
+        """How the solutions are found, in words."""
+        if not self.position_bound and not self.rotation_bound:
+            return f"closed form (EAIK, {self.family})"
+        return (
+            f"closed form (EAIK, {self.family}) of the arm made exact, at most {self.position_bound:.1g} m and "
+            f"{self.rotation_bound:.1g} rad away, tried down to the target"
+        )
+
+    def starts(self, T: Array) -> Array:
+        """Configurations (s, m) for one target (4, 4), s = 0 and more: solutions, and nearest ones where there are none
+        (EAIK's least squares), which the caller has to try and to check.
+        """
+        target = T.copy()
+        target[:3, :3] = T[:3, :3] @ self._R_tn
+        Q = np.asarray(self._solver.IK(target).Q, np.float64)
+        width = len(self._solver.getOriginal_H().T)
+        Q = Q.reshape(-1, width) if Q.size else np.empty((0, width))
+        return Q[np.isfinite(Q).all(axis=1)]
+
+
+def closed_form(chain: Chain) -> ClosedForm | None:
+    """The closed form of an arm, or None where EAIK knows none; first for the arm itself, then for the arm with its
+    geometry made exact within `EXACT` (`Chain.idealised`).
+
+    Raises: MissingExtra without EAIK; InputError, as `Chain.to_hp`, for joints that are not revolute or are coupled.
+    """
+    try:
+        from eaik.IK_HP import HPRobot
+    except ImportError as missing:
+        raise MissingExtra("EAIK", "ik", "inverse kinematics in closed form") from missing
+    if chain.dof != 6:
+        chain.to_hp()  # says what else is in the way
+        return None
+    for near in (Idealised(chain, 0.0, 0.0, ()), chain.idealised(EXACT)):
+        form = near.chain.to_hp()
+        if not _is_safe(form):
+            continue
+        solver = HPRobot(form.H, form.P)
+        # it calls a class that it does not know a known one where there are five joints, and has no solutions then
+        if solver.hasKnownDecomposition() and "unknown" not in solver.getKinematicFamily().lower():
+            found = ClosedForm(form, solver, near.position_bound, near.rotation_bound)
+            if _finds_what_is_known(found, near.chain):
+                return found
+    return None
+
+
+def _is_safe(form: HPForm) -> bool:
+    """Whether the last three axes meet in a point, or the second to fourth are parallel.
+
+    Other arms EAIK turns round and looks at again; some have ended the process that way (1.2.2), as arms of less than
+    six joints have.
+    """
+    H, P = form.H, form.P
+    sines = np.linalg.norm(np.cross(H[:-1], H[1:]), axis=1)
+    return bool((not P[4:6].any() and sines[3:].min() > _SLANT) or sines[1:3].max() < _PARALLEL)
+
+
+def _finds_what_is_known(solver: ClosedForm, chain: Chain) -> bool:
+    """Whether the configurations that poses were made of are among the starts for them."""
+    for q in np.random.default_rng(0).uniform(-np.pi, np.pi, (_ASKED, chain.dof)):
+        off = (solver.starts(chain.fk(q)) - q + np.pi) % (2 * np.pi) - np.pi
+        if not (np.abs(off).max(axis=1, initial=0.0) < _FOUND).any():
+            return False
+    return True

@@ -1,0 +1,176 @@
+"""A solver for one arm and one way of asking, kept with the arm: one call costs little more than the solving."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..engine import ik_codes as codes
+from ..engine import threads
+from ..errors import InputError, told
+from ..groups.arrays import Array
+from ..model.compiled import CompiledChain
+from . import aims, reasons
+from .solution import SOLVED, Solution
+from .starts import Room, first_tries, room_of
+from .task import Task, check_joints, task_of
+
+AT_ONCE = 20_000
+"""Targets between two calls of `progress`."""
+
+KEPT = 64
+"""So many ways of asking are kept with an arm, the latest ones."""
+
+NEAREST_OF = 16
+"""So many tries for each target are looked at for the one nearest to `nearest_to`."""
+
+
+class Settings(NamedTuple):
+    """What `ik` is asked, but for the targets and where to begin; arrays as tuples."""
+
+    task: Any
+    axis: Any
+    limits: Any
+    tol_position: Any
+    tol_rotation: Any
+    lock: Any
+    weights: Any
+    restarts: Any
+    iterations: Any
+    seed: Any
+    parallel: Any
+
+
+def solver_of(fast: CompiledChain, settings: Settings) -> Solver:
+    """The arm's solver for these settings. Raises: InputError, UnknownName, ShapeError for settings that are none."""
+    try:
+        kept = fast.memory.get(settings)
+    except TypeError:  # something that is no number, and so no key: the checks say what
+        kept = None
+    if kept is None:
+        while len(fast.memory) >= KEPT:
+            fast.memory.pop(next(iter(fast.memory)), None)
+        kept = fast.memory[settings] = Solver(fast, settings)
+    return kept
+
+
+class Solver:
+    """The kernel with all that does not change from target to target."""
+
+    def __init__(self, fast: CompiledChain, settings: Settings):
+        _check_numbers(settings)
+        self.fast, self.settings = fast, settings
+        self.task: Task = task_of(settings.task, settings.axis, settings.weights)
+        self.room: Room = room_of(fast.chain, settings.lock, settings.limits)
+        check_joints(fast.chain, self.task, int((self.room.fixed == 0).sum()))
+        from ..engine import ik_kernels  # imports Numba
+
+        self._solve, self._judge = ik_kernels.solve_many, ik_kernels.judge
+        self.options = np.zeros(codes.OPTIONS)
+        # A little less than asked for: the errors are computed anew by other kernels, whose rounding is another.
+        self.options[codes.TOL_POSITION] = 0.9 * settings.tol_position
+        self.options[codes.TOL_ROTATION] = 0.9 * settings.tol_rotation
+        self.options[codes.ITERATIONS], self.options[codes.RESTARTS] = settings.iterations, settings.restarts
+        self.options[codes.TASK] = self.task.code
+        self.options[codes.AXIS : codes.AXIS + 3], self.options[codes.WEIGHTS :] = self.task.axis, self.task.weights
+
+    def run(self, T: Array, q0: Any, nearest_to: Any, aim: str | None,
+            progress: Callable[[int, int], None] | None) -> Solution:  # fmt: skip
+        """The solutions of targets (..., 4, 4)."""
+        batch, rows = T.shape[:-2], np.ascontiguousarray(T.reshape(-1, 4, 4))
+        count, room = len(rows), self.room
+        first = first_tries(self.fast.chain, room, batch, q0 if nearest_to is None else nearest_to)
+        q, info = np.empty((count, self.fast.dof)), np.empty((count, codes.INFO))
+        for start in range(0, count, AT_ONCE):
+            part = slice(start, min(start + AT_ONCE, count))
+            numbers = np.arange(part.start, part.stop, dtype=float)
+            q[part], info[part] = self.solve(rows[part], numbers, first[part])
+            if nearest_to is not None:
+                q[part], info[part] = self.nearest(rows[part], q[part], info[part], first[part])
+            if aim is not None:
+                q[part] = aims.improved(self, rows[part], q[part], first[part], aim)
+            if progress is not None:
+                progress(part.stop, count)
+        if room.winds and nearest_to is None:
+            q = room.unwound(q)
+        errors = np.empty((count, 2))
+        self._judge.call(self.fast.chain._table, q, rows, self.task.code, self.task.axis, errors)
+        success = (errors[:, 0] <= self.settings.tol_position) & (errors[:, 1] <= self.settings.tol_rotation)
+        reason = np.full(count, SOLVED, dtype=reasons.KIND)
+        beyond, blocked = np.zeros(count), ()
+        if not success.all():
+            reason, beyond, blocked = reasons.of(self, rows, q, info, success)
+        return Solution(
+            q.reshape(*batch, self.fast.dof),
+            success.reshape(batch),
+            reason.reshape(batch),
+            errors[:, 0].reshape(batch),
+            errors[:, 1].reshape(batch),
+            info[:, codes.AT_ITERATIONS].astype(np.int64).reshape(batch),
+            info[:, codes.AT_RESTARTS].astype(np.int64).reshape(batch),
+            beyond.reshape(batch),
+            blocked,
+        )
+
+    def solve(self, targets: Array, numbers: Array, q0: Array, *, restarts: int | None = None,
+              limits: Array | None = None, ranges: Array | None = None) -> tuple[Array, Array]:  # fmt: skip
+        """q and info of targets, whose numbers in the batch are given, from q0; NaN there means anywhere."""
+        options = self.options
+        if restarts is not None:
+            options = options.copy()
+            options[codes.RESTARTS] = restarts
+        q, info = np.empty((len(targets), self.fast.dof)), np.empty((len(targets), codes.INFO))
+        limits = self.room.limits if limits is None else limits
+        ranges = self.room.ranges if ranges is None else ranges
+        arm, fixed, seed = self.fast.hybrid_address, self.room.fixed, self.settings.seed
+        if self.settings.parallel:
+
+            def run(targets: Array, q0: Array, numbers: Array, q: Array, info: Array) -> None:
+                self._solve.call(arm, targets, q0, limits, ranges, fixed, options, numbers, seed, q, info)
+
+            threads.share_out(run, targets, q0, numbers, q, info, rows=256)
+        else:
+            self._solve.call(arm, targets, q0, limits, ranges, fixed, options, numbers, seed, q, info)
+        return q, info
+
+    def nearest(self, targets: Array, q: Array, info: Array, near: Array) -> tuple[Array, Array]:
+        """Of some tries for each target, the solution nearest to a configuration."""
+        best, kept = self.room.unwound(q, near), info.copy()
+        distance = _distance(best, near, info)
+        rng = np.random.default_rng(self.settings.seed)
+        low, high = self.room.ranges.T
+        numbers = np.arange(len(targets), dtype=float)
+        for attempt in range(NEAREST_OF):
+            q0 = np.where(self.room.fixed != 0, near, low + (high - low) * rng.random(near.shape))
+            if attempt % 2 == 0:  # every other one from not far away
+                q0 = near + 0.25 * (q0 - near)
+            other, said = self.solve(targets, numbers, q0, restarts=0)
+            other = self.room.unwound(other, near)
+            far = _distance(other, near, said)
+            nearer = far < distance
+            best[nearer], distance[nearer] = other[nearer], far[nearer]
+            kept[:, codes.AT_ITERATIONS] += said[:, codes.AT_ITERATIONS]
+            kept[nearer, codes.AT_STATE] = codes.SOLVED
+        return best, kept
+
+
+def _distance(q: Array, near: Array, info: Array) -> Array:
+    """How far solutions are from a configuration; infinitely where they are none."""
+    return np.where(info[:, codes.AT_STATE] == codes.SOLVED, np.linalg.norm(q - near, axis=1), np.inf)
+
+
+def _check_numbers(settings: Settings) -> None:
+    for what in ("tol_position", "tol_rotation"):
+        tol = getattr(settings, what)
+        real = isinstance(tol, (int, float, np.integer, np.floating)) and not isinstance(tol, bool)
+        if not real or not 0 < tol < np.inf:
+            raise InputError(f"{what}: expected a positive number, got {told(tol)}")
+    for what, least in (("restarts", 0), ("iterations", 1), ("seed", 0)):
+        number = getattr(settings, what)
+        if not isinstance(number, (int, np.integer)) or isinstance(number, bool) or not least <= number < 2**62:
+            raise InputError(f"{what}: expected a whole number from {least} on, got {told(number)}")
+    for what in ("limits", "parallel"):
+        if not isinstance(getattr(settings, what), (bool, np.bool_)):
+            raise InputError(f"{what}: expected True or False, got {told(getattr(settings, what))}")

@@ -1,0 +1,100 @@
+"""Where coordinates may go, and where the tries begin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError, ShapeError, UnknownName, closest, listed, shown, told
+from ..groups.arrays import Array
+from ..model.chain import Chain
+from ..model.coordinates import coordinates
+from ..model.source import warn
+
+
+@dataclass(frozen=True)
+class Room:
+    """limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie; fixed (m), 1 where a
+    coordinate is locked, and held (m), its value there; turns (m), whether q_k + 2 pi is the same configuration;
+    winds, whether any such coordinate has no limits.
+    """
+
+    limits: Array
+    ranges: Array
+    fixed: Array
+    held: Array
+    turns: np.ndarray
+    winds: bool
+
+    def unwound(self, q: Array, near: Array | None = None) -> Array:
+        """The same configurations with whole turns taken off: nearest to `near` within the limits; without `near`, a
+        coordinate without limits within ±pi.
+        """
+        lower, upper = self.limits.T
+        free = self.turns & (self.fixed == 0)
+        if near is None:
+            free = free & np.isinf(lower) & np.isinf(upper)
+        turn = 2 * np.pi * np.round(((0.0 if near is None else near) - q) / (2 * np.pi))
+        moved = q + np.where(free, turn, 0.0)
+        return np.where((moved >= lower) & (moved <= upper), moved, q)
+
+
+def room_of(chain: Chain, lock: Any, limits: bool) -> Room:
+    """The room of a chain's coordinates. Raises: InputError, UnknownName."""
+    m = chain.dof
+    bounds = chain.limits.copy() if limits else np.tile([-np.inf, np.inf], (m, 1))
+    low, high = chain._range() if limits else chain._turn_range()
+    fixed, held = np.zeros(m), np.zeros(m)
+    for k, value in _locked(chain, lock, bounds):
+        fixed[k], held[k] = 1.0, value
+    turns = np.array([chain._turns(k) for k in range(m)], bool)
+    C = chain.coupling
+    # a slide is no turn, and of a joint that goes half as fast, a turn is only half a one
+    turns &= (np.round(C) == C).all(axis=0) & ~(C[chain.local.slides != 0] != 0).any(axis=0)
+    winds = bool((turns & np.isinf(bounds).all(axis=1)).any())
+    return Room(bounds, np.stack([low, high], axis=1), fixed, held, turns, winds)
+
+
+def first_tries(chain: Chain, room: Room, batch: tuple[int, ...], q0: Any) -> Array:
+    """Where the first try of each target begins (N, m): at q0 within the limits, NaN for anywhere.
+
+    Raises: InputError, ShapeError, UnknownName. Warns where q0 is moved.
+    """
+    shape = (*batch, chain.dof)
+    if q0 is None:
+        first = np.full((int(np.prod(batch)), chain.dof), np.nan)
+    else:
+        given = coordinates(q0, chain.q_names, "q0")
+        if not np.isfinite(given).all():
+            raise InputError(f"q0: expected finite numbers, got {told(q0)}")
+        try:
+            first = np.broadcast_to(given, shape).reshape(-1, chain.dof).copy()
+        except ValueError as error:
+            raise ShapeError(f"q0: shape {given.shape} does not fit the targets' {shape}") from error
+        within = np.clip(first, *room.limits.T)
+        moved = (within != first).any(axis=0)
+        if moved.any():
+            names = listed(name for name, far in zip(chain.q_names, moved, strict=True) if far)
+            warn(f"ik: q0 is outside the limits of {names} and is moved to them")
+        first = within
+    if room.fixed.any():
+        first[:, room.fixed != 0] = room.held[room.fixed != 0]
+    return first
+
+
+def _locked(chain: Chain, lock: Any, limits: Array):
+    """Index and value of each coordinate that is locked; lock are pairs of name and value."""
+    if lock is None:
+        return
+    if not isinstance(lock, tuple):
+        raise InputError(f"lock: expected a dict of names and values, got {told(lock)}")
+    for name, value in lock:
+        if name not in chain.q_names:
+            raise UnknownName(f"lock: no coordinate {shown(name)}; {closest(str(name), chain.q_names)}")
+        k = chain.q_names.index(name)
+        real = isinstance(value, (int, float, np.integer, np.floating)) and np.isfinite(value)
+        if not real or not limits[k, 0] <= value <= limits[k, 1]:
+            raise InputError(f"lock: {shown(name)}: expected a number within {limits[k].tolist()}, got {told(value)}")
+        yield k, float(value)

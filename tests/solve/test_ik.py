@@ -1,0 +1,286 @@
+"""Inverse kinematics: solved means solved, and where it is not, the reason is the right one."""
+
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.errors import InputError, PoekinWarning, PoseError, ShapeError, UnknownName
+from poekin.model import screw
+from poekin.solve.ik import ik
+from poekin.solve.solution import REASONS
+from poekin.testing import chain_strategies
+
+PANDA = pk.load("panda").chain(tip="panda_hand")
+UR5 = pk.load("ur5").chain()
+PUMA = pk.load("puma560").chain()
+ARMS = {"panda": PANDA, "ur5": UR5, "puma560": PUMA}
+TOLERANCE = 1e-9
+
+
+def true_errors(chain, q, T):
+    """|p* - p| and the angle between, by numpy alone."""
+    found = chain.fk(q)
+    position = np.linalg.norm(found[..., :3, 3] - T[..., :3, 3], axis=-1)
+    # |R - S|_F = 2 sqrt(2) sin(angle / 2)
+    chord = np.linalg.norm(found[..., :3, :3] - T[..., :3, :3], axis=(-2, -1)) / (2 * np.sqrt(2))
+    return position, 2 * np.arcsin(np.minimum(chord, 1))
+
+
+def within(chain, q):
+    lower, upper = chain.limits.T
+    return ((q >= lower) & (q <= upper)).all(axis=-1)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_reachable_poses_are_solved_within_limits_to_the_tolerance(name):
+    arm = ARMS[name]
+    T = arm.fk(arm.random(11, 1000))
+    found = ik(arm, T, seed=1)
+    # a pose in thousands may need more than 100 restarts
+    assert found.success.mean() >= 0.998
+    position, rotation = true_errors(arm, found.q[found.success], T[found.success])
+    # what the check itself rounds
+    assert max(position.max(), rotation.max()) <= TOLERANCE + 1e-14
+    assert within(arm, found.q).all()
+    assert set(found.reason[found.success]) == {"solved"}
+
+
+@settings(max_examples=max(settings().max_examples // 10, 5))
+@given(st.data())
+def test_success_is_never_claimed_beyond_the_tolerance(data):
+    chain = data.draw(chain_strategies.chains(min_joints=6, max_joints=8, coupled=False))
+    T = chain.fk(data.draw(chain_strategies.coordinates(chain, (3,))))
+    T[1, :3, 3] += data.draw(st.sampled_from([0.0, 1e-8, 0.5, 100.0]))
+    tolerance = data.draw(st.sampled_from([1e-9, 1e-5]))
+    found = ik(chain, T, restarts=2, iterations=20, tol_position=tolerance, tol_rotation=tolerance)
+    position, rotation = true_errors(chain, found.q, T)
+    # for arms of some metres, lengths in micrometres and up
+    rounding = 1e-13 * chain.reach * (1 + np.abs(found.q).max())
+    assert (position[found.success] <= tolerance + rounding).all()
+    assert (rotation[found.success] <= tolerance + rounding).all()
+    np.testing.assert_allclose(found.position_error, position, atol=rounding)
+    np.testing.assert_allclose(found.rotation_error, rotation, atol=1e-7)  # the chord's own digits near pi
+
+
+def test_the_same_seed_gives_the_same_result_and_another_one_another():
+    T = PANDA.fk(PANDA.random(3, 50))
+    a, b, c = (ik(PANDA, T, seed=seed).q for seed in (5, 5, 6))
+    np.testing.assert_array_equal(a, b)
+    assert np.abs(a - c).max() > 0.1
+    np.testing.assert_array_equal(ik(PANDA, T, seed=5, parallel=True).q, a)
+
+
+def test_a_target_s_result_does_not_depend_on_its_batch_s_shape():
+    T = PANDA.fk(PANDA.random(3, 6))
+    flat, square = ik(PANDA, T), ik(PANDA, T.reshape(2, 3, 4, 4))
+    np.testing.assert_array_equal(square.q.reshape(6, 7), flat.q)
+    assert square.success.shape == (2, 3)
+    assert square.why(1, 2) == flat.why(5)
+    one = ik(PANDA, T[0])
+    assert one.q.shape == (7,)
+    assert one.success.shape == ()
+    np.testing.assert_array_equal(one.q, flat.q[0])
+
+
+def test_it_starts_at_q0():
+    q = PANDA.random(4, 20)
+    found = ik(PANDA, PANDA.fk(q), q0=q)
+    assert found.success.all()
+    assert (found.iterations == 0).all()
+    np.testing.assert_array_equal(found.q, q)
+    near = ik(PANDA, PANDA.fk(q), q0=q + 1e-3)
+    # seven joints for six numbers: not the same, but near
+    assert np.abs(near.q - q).max() < 0.1
+
+
+def test_an_arm_beyond_its_reach_says_by_how_much():
+    T = np.eye(4)
+    T[0, 3] = 5.0
+    found = ik(UR5, T)
+    assert not found.success
+    assert found.reason == "unreachable"
+    # the links' lengths and offsets laid out end to end
+    longest = np.linalg.norm(UR5.local.frames[1:, :3, 3], axis=1).sum()
+    assert found.beyond == pytest.approx(np.linalg.norm(T[:3, 3] - UR5.local.frames[0][:3, 3]) - longest, rel=1e-9)
+    assert "farther than the arm's reach by" in found.why()
+    assert f"{1e3 * found.position_error:.4g} mm" in found.why()
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_no_pose_of_the_arm_is_beyond_its_reach(name):
+    arm = ARMS[name]
+    assert (ik(arm, arm.fk(arm.random(0, 300)), restarts=0, iterations=1).beyond == 0).all()
+
+
+def test_limits_that_are_in_the_way_are_named():
+    q = np.array([0.3, -0.5, 0.2, -1.5, 0.4, 1.0, 0.1])
+    limits = np.stack([q - 0.2, q + 0.2], axis=1)
+    arm = pk.Chain(PANDA.screws, PANDA.home, limits=limits, joint_names=PANDA.joint_names)
+    q_far = q.copy()
+    q_far[3] -= 1.0
+    found = ik(arm, PANDA.fk(q_far))
+    assert found.reason == "limits"
+    assert within(arm, found.q)
+    assert found.blocked[0]
+    assert all(name in found.why() for name in found.blocked[0])
+    assert ik(arm, PANDA.fk(q_far), limits=False).success
+
+
+def test_nan_in_one_target_is_nan_in_its_solution_only():
+    T = PANDA.fk(PANDA.random(0, 3))
+    T[1, 0, 3] = np.nan
+    found = ik(PANDA, T)
+    assert found.success.tolist() == [True, False, True]
+    assert found.reason[1] == "bad target"
+    assert np.isnan(found.q[1]).all()
+    assert "finite" in found.why(1)
+
+
+def test_a_target_that_is_no_pose_is_named():
+    T = UR5.fk(UR5.random(0, 3))
+    T[2, 0, 0] += 0.1
+    with pytest.raises(PoseError, match=r"T\[2\] is no pose: its rotation misses orthonormality"):
+        ik(UR5, T)
+
+
+def test_an_empty_batch_is_an_empty_solution():
+    found = ik(UR5, np.empty((0, 4, 4)))
+    assert found.q.shape == (0, 6)
+    assert found.success.shape == (0,)
+
+
+@pytest.mark.parametrize("task", ["position", "rotation", "direction"])
+def test_a_part_of_the_pose_is_enough_for_its_task(task):
+    T = UR5.fk(UR5.random(5, 100))
+    axis = [1.0, 2.0, -2.0] if task == "direction" else None
+    found = ik(UR5, T, task=task, axis=axis)
+    assert found.success.all()
+    got = UR5.fk(found.q)
+    if task != "rotation":
+        assert np.abs(got[:, :3, 3] - T[:, :3, 3]).max() <= TOLERANCE
+    if task == "rotation":
+        assert true_errors(UR5, found.q, T)[1].max() <= TOLERANCE + 1e-14
+    if task == "direction":
+        a = np.array(axis) / 3
+        assert np.abs(got[:, :3, :3] @ a - T[:, :3, :3] @ a).max() <= TOLERANCE + 1e-14
+    assert true_errors(UR5, found.q, T)[1 if task != "rotation" else 0].max() > 0.01
+
+
+def test_five_joints_are_too_few_for_a_pose_and_enough_for_a_direction():
+    five = pk.Chain(UR5.screws[:5], UR5.home)
+    T = five.fk(five.random(0))
+    with pytest.raises(InputError, match=r"takes hold of 6 numbers, and the chain has 5 .*what fits: 'position', 'rot"):
+        ik(five, T)
+    assert ik(five, T, task="direction").success
+
+
+def test_locked_coordinates_stay():
+    q = PANDA.random(8, 20)
+    found = ik(PANDA, PANDA.fk(q), lock={"panda_joint3": 0.25}, q0=q)
+    assert (found.q[:, 2] == 0.25).all()
+    assert found.success.mean() > 0.5
+    with pytest.raises(InputError, match="has 7 coordinates, 2 of them locked"):
+        ik(PANDA, PANDA.fk(q), lock={"panda_joint3": 0.25, "panda_joint5": 0.0})
+    with pytest.raises(UnknownName, match="no coordinate 'joint3'; did you mean"):
+        ik(PANDA, PANDA.fk(q), lock={"joint3": 0.25})
+    with pytest.raises(InputError, match="'panda_joint3': expected a number within"):
+        ik(PANDA, PANDA.fk(q), lock={"panda_joint3": 9.0})
+
+
+def test_the_solution_nearest_to_a_configuration_is_found():
+    q = UR5.random(2, 30)
+    q[:, 4] = np.where(np.abs(np.sin(q[:, 4])) < 0.2, 1.0, q[:, 4])  # away from the wrist's singularity
+    q[:, 2] = np.where(np.abs(np.sin(q[:, 2])) < 0.2, 1.0, q[:, 2])
+    found = ik(UR5, UR5.fk(q), nearest_to=q + 0.02)
+    assert np.abs(found.q - q).max() < 1e-6
+
+
+@pytest.mark.parametrize("aim", ["middle", "nearest", "manipulability"])
+def test_joints_to_spare_serve_the_aim(aim):
+    q, q0 = PANDA.random(6, 10), PANDA.random(7, 10)
+    T, middle = PANDA.fk(q), PANDA.limits.mean(axis=1)
+
+    def cost(q):
+        if aim == "manipulability":
+            return -np.linalg.slogdet(np.einsum("kij,klj->kil", *(2 * [PANDA.jacobian(q, "space")])))[1]
+        return np.linalg.norm(q - (q0 if aim == "nearest" else middle), axis=1)
+
+    plain, served = ik(PANDA, T, q0=q0), ik(PANDA, T, q0=q0, aim=aim)
+    assert served.success.all()
+    assert (cost(served.q) <= cost(plain.q) + 1e-6).all()
+    assert cost(served.q).mean() < cost(plain.q).mean() - 0.05
+    assert within(PANDA, served.q).all()
+
+
+def test_q0_outside_the_limits_is_moved_with_a_warning_that_names_the_joints():
+    q0 = np.zeros(7)
+    with pytest.warns(PoekinWarning, match="q0 is outside the limits of 'panda_joint4'"):
+        found = ik(PANDA, PANDA.fk(PANDA.random(0)), q0=q0)
+    assert found.success
+
+
+def test_coupled_and_helical_and_sliding_joints_are_solved():
+    z, rng = [0.0, 0.0, 1.0], np.random.default_rng(0)
+    joints = [screw.revolute(z, [0, 0, 0]), screw.prismatic([0, 1, 0]), screw.helical([1, 0, 0], [0, 0, 0.3], 0.1),
+              screw.revolute([0, 1, 0], [0.4, 0, 0.3]), screw.revolute(z, [0.5, 0.1, 0.3]),
+              screw.revolute([1, 0, 0], [0, 0.1, 0.6]), screw.revolute([0, 1, 0], [0.6, 0, 0.6])]  # fmt: skip
+    C = np.eye(7)[:, :6]
+    C[6, 3] = -0.5
+    chain = pk.Chain(joints, pk.se3.exp([0.1, 0.2, 0.3, 0.5, 0, 0.8]), coupling=C, q_names=list("abcdef"),
+                     limits=[[-2, 2], [-0.5, 0.5], [-2, 2], [-2, 2], [-2, 2], [-2, 2]])  # fmt: skip
+    T = chain.fk(chain.random(rng, 200))
+    found = ik(chain, T)
+    assert found.success.mean() > 0.95
+    assert within(chain, found.q).all()
+    assert max(e.max() for e in true_errors(chain, found.q[found.success], T[found.success])) <= 1e-9 + 1e-14
+
+
+def test_coordinates_without_limits_come_within_a_turn():
+    arm = pk.Chain(PUMA.screws, PUMA.home)
+    found = ik(arm, arm.fk(arm.random(0, 200)))
+    assert np.abs(found.q).max() <= np.pi + 1e-12
+
+
+@pytest.mark.parametrize("options, error, message", [
+    ({"task": "pos"}, InputError, "task: expected one of pose, position, rotation, direction, got 'pos'"),
+    ({"axis": [0, 0, 1]}, InputError, "axis: only the task 'direction'"),
+    ({"task": "direction", "axis": [0, 0, 0]}, InputError, "axis: expected a direction"),
+    ({"tol_position": 0}, InputError, "tol_position: expected a positive number, got 0"),
+    ({"tol_rotation": "1e-9"}, InputError, "tol_rotation: expected a positive number"),
+    ({"restarts": -1}, InputError, "restarts: expected a whole number from 0 on, got -1"),
+    ({"iterations": 0}, InputError, "iterations: expected a whole number from 1 on"),
+    ({"seed": 1.5}, InputError, "seed: expected a whole number"),
+    ({"limits": "no"}, InputError, "limits: expected True or False, got 'no'"),
+    ({"weights": [1, 2]}, ShapeError, r"weights: expected shape \(..., 6\)"),
+    ({"weights": [1, 1, 1, 1, 1, 0]}, InputError, "weights: expected six positive numbers"),
+    ({"aim": "top"}, InputError, "aim: expected one of middle, nearest, manipulability, got 'top'"),
+    ({"aim": "nearest"}, InputError, "'nearest' needs q0"),
+    ({"q0": [0, 0]}, ShapeError, "q0: expected 7 coordinates"),
+    ({"q0": np.zeros((3, 7))}, ShapeError, r"q0: shape \(3, 7\) does not fit"),
+    ({"lock": ["panda_joint1"]}, InputError, "lock: expected a dict"),
+], ids=lambda v: str(v) if isinstance(v, dict) else "")  # fmt: skip
+def test_mistakes_are_told(options, error, message):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", PoekinWarning)
+        with pytest.raises(error, match=message):
+            ik(PANDA, PANDA.home, **options)
+
+
+def test_what_is_no_arm_is_told():
+    with pytest.raises(InputError, match="ik: expected a Chain, got 'panda'"):
+        ik("panda", np.eye(4))  # pyright: ignore[reportArgumentType]
+
+
+def test_progress_and_words():
+    told = []
+    found = ik(UR5, UR5.fk(UR5.random(0, 30)), progress=lambda done, total: told.append((done, total)))
+    assert told == [(30, 30)]
+    assert repr(found) == "<Solution 30 of 30 solved>"
+    assert found.why(0).startswith("solved: ")
+    with pytest.raises(ShapeError, match="why: expected an index of 1 numbers, got 0"):
+        found.why()
+    assert REASONS == ("solved", "unreachable", "limits", "iterations", "bad target")

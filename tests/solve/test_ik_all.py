@@ -1,0 +1,427 @@
+"""ik_all: every listed solution is one, none is missing, and what cannot be listed is said."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.errors import InputError, MissingExtra, PoseError
+from poekin.solve import closed_form as closed_form_module
+from poekin.solve import ik_all as module
+from poekin.solve.ik_all import ik_all
+from poekin.testing import chain_strategies
+
+TOL = 1e-10  # m and rad: what is promised of every solution
+NEAR = 1e-6  # rad or m: two solvers' ends of one solution, whose poses are 1e-10 off, away from singular ones
+
+
+def errors(chain, Q, T):
+    """Largest distance (m) and angle (rad) of the poses of Q from a target, by `fk` and `so3.log`."""
+    ours = chain.fk(Q)
+    turn = pk.so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ T[:3, :3])
+    return np.linalg.norm(ours[:, :3, 3] - T[:3, 3], axis=1).max(initial=0), np.linalg.norm(turn, axis=1).max(initial=0)
+
+
+def apart(a, b):
+    """Largest difference of angles between each of a and each of b, by the shorter way round."""
+    return np.abs((a[:, None] - b[None] + np.pi) % (2 * np.pi) - np.pi).max(axis=-1, initial=0)
+
+
+def same_sets(a, b, near=NEAR):
+    """Whether two lists hold the same configurations of turning joints, each once."""
+    if len(a) != len(b):
+        return False
+    d = apart(a, b) <= near
+    return bool((d.sum(axis=0) == 1).all() and (d.sum(axis=1) == 1).all())
+
+
+def arm(name):
+    return pk.load(name).chain()
+
+
+def targets(chain, seed, count):
+    q = np.random.default_rng(seed).uniform(-np.pi, np.pi, (count, chain.dof))
+    return q, chain.fk(q)
+
+
+SIX = ("puma560", "ur5", "ur5e", "irb140", "jaco")
+
+
+@pytest.mark.parametrize("method", ["auto", "search"])
+@pytest.mark.parametrize("name", SIX)
+def test_every_solution_reaches_its_target_and_the_known_one_is_among_them(name, method):
+    chain = arm(name)
+    q, T = targets(chain, 1, 200)
+    result = ik_all(chain, T, method=method, limits=False)
+    for k in range(len(T)):
+        assert max(errors(chain, result.solutions[k], T[k])) <= TOL
+    # nearly singular arms are known less well, and where a search has trouble it says so
+    known = [apart(q[k : k + 1], result.solutions[k]).min(initial=np.inf) <= 1e-5 for k in range(len(T))]
+    assert np.mean(known) >= 0.995
+    assert all(known | (result.chance > 1e-2))
+    assert result.position_error.max() <= TOL
+    assert result.rotation_error.max() <= TOL
+    assert (result.count == [len(Q) for Q in result.solutions]).all()
+
+
+@given(st.data())
+@settings(max_examples=max(settings().max_examples // 4, 12))  # each makes machine code for a new arm
+def test_of_any_arm_the_known_solution_is_found_or_is_singular(data):
+    chain = data.draw(chain_strategies.chains(1, 6, ("revolute", "prismatic"), coupled=False))
+    q = data.draw(chain_strategies.coordinates(chain))
+    T = chain.fk(q)
+    result = ik_all(chain, T, limits=False, often=40, method="search")
+    assert max(errors(chain, result.solutions, T)) <= TOL
+    sizes = np.linalg.svd(chain.jacobian(q, frame="hybrid"), compute_uv=False)
+    if sizes[-1] > 1e-3 * sizes[0]:
+        turns = np.array([kind == "revolute" for kind in chain.kinds])
+        d = result.solutions - q
+        d[:, turns] = (d[:, turns] + np.pi) % (2 * np.pi) - np.pi
+        assert np.abs(d).max(axis=1).min(initial=np.inf) <= NEAR
+
+
+@given(st.data())
+@settings(max_examples=max(settings().max_examples // 4, 12))
+def test_of_coupled_and_helical_joints_every_solution_reaches_the_target(data):
+    chain = data.draw(chain_strategies.chains(1, 6).filter(lambda chain: chain.dof))
+    T = chain.fk(data.draw(chain_strategies.coordinates(chain)))
+    result = ik_all(chain, T, restarts=200)
+    Q = np.reshape(result.solutions, (-1, chain.dof))
+    assert max(errors(chain, Q, T)) <= TOL
+    assert len(Q) <= 40
+
+
+def test_a_long_arm_has_solutions_as_exact_as_its_poses():
+    chain = arm("ur5")
+    D = np.diag([1, 1, 1, 1e5, 1e5, 1e5])
+    home = chain.home.copy()
+    home[:3, 3] *= 1e5
+    long = pk.Chain(chain.screws @ D, home)
+    T = long.fk([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
+    for method in ("auto", "search"):
+        result = ik_all(long, T, method=method)
+        assert result.count == 8
+        assert max(errors(long, result.solutions, T)) <= 1e-12 * long.reach
+
+
+@pytest.mark.parametrize("name", ["puma560", "irb140", "kr5"])
+def test_a_spherical_wrist_turned_over_is_a_solution_too(name):
+    chain = arm(name)
+    _, T = targets(chain, 2, 100)
+    for Q in ik_all(chain, T, method="search", limits=False).solutions:
+        assert same_sets(Q, Q * [1, 1, 1, 1, -1, 1] + [0, 0, 0, np.pi, 0, np.pi])
+
+
+def eaik_solutions(chain, T):
+    """EAIK's own solutions of a target, those that are near it."""
+    solver = pytest.importorskip("eaik.IK_HP", reason="needs EAIK").HPRobot(*chain.to_hp()[:2])
+    target = T.copy()
+    target[:3, :3] = T[:3, :3] @ chain.home[:3, :3].T
+    Q = solver.IK(target).Q
+    return Q[np.abs(chain.fk(Q) - T).max(axis=(1, 2)) < 1e-7]
+
+
+@pytest.mark.parametrize("method", ["closed", "search"])
+@pytest.mark.parametrize("name", ["puma560", "ur5"])
+def test_the_solutions_are_those_of_eaik(name, method):
+    chain = arm(name)
+    _, T = targets(chain, 3, 200)
+    theirs = [eaik_solutions(chain, target) for target in T]
+    result = ik_all(chain, T, method=method, limits=False)
+    equal = [same_sets(a, b, 1e-5) for a, b in zip(result.solutions, theirs, strict=True)]
+    # one in 200 may be so near a double solution that the two differ about it
+    assert np.mean(equal) >= 0.995
+    assert result.method == {"closed": "closed form", "search": "search"}[method]
+
+
+@pytest.mark.parametrize("plant", ["one missing", "one moved", "one twice"])
+def test_a_planted_difference_of_two_sets_is_seen(plant):
+    chain = arm("ur5")
+    _, T = targets(chain, 4, 1)
+    Q = ik_all(chain, T[0], method="search", limits=False).solutions
+    assert same_sets(Q, Q[::-1] + 2 * np.pi)
+    other = {"one missing": Q[1:], "one moved": Q + 1e-4 * np.eye(len(Q), 6), "one twice": Q[[0, *range(len(Q) - 1)]]}
+    assert not same_sets(Q, other[plant])
+
+
+@pytest.mark.parametrize("plant", ["no solutions", "wrong ones", "not a number"])
+def test_a_closed_form_that_errs_makes_no_false_solution(plant, monkeypatch):
+    pytest.importorskip("eaik", reason="needs EAIK")
+    rows = {
+        "no solutions": np.empty((0, 6)),
+        "wrong ones": np.linspace(-3.0, 3.0, 48).reshape(8, 6),
+        "not a number": np.full((3, 6), np.nan),
+    }[plant]
+    monkeypatch.setattr(closed_form_module.ClosedForm, "starts", lambda self, T: rows)
+    monkeypatch.setattr(closed_form_module, "_finds_what_is_known", lambda solver, chain: True)
+    monkeypatch.setattr(module, "_closed_form", closed_form_module.closed_form)
+    chain = arm("ur5")
+    _, T = targets(chain, 5, 1)
+    Q = ik_all(chain, T[0], method="closed", limits=False).solutions
+    assert max(errors(chain, Q, T[0])) <= TOL
+    assert len(Q) < 8
+
+
+def test_a_closed_form_that_misses_known_solutions_is_not_used(monkeypatch):
+    pytest.importorskip("eaik", reason="needs EAIK")
+    whole = closed_form_module.ClosedForm.starts
+    monkeypatch.setattr(closed_form_module.ClosedForm, "starts", lambda self, T: whole(self, T)[:3])
+    assert closed_form_module.closed_form(arm("ur5")) is None
+
+
+def test_an_arm_with_rounded_right_angles_has_a_closed_form_and_its_own_solutions():
+    pytest.importorskip("eaik", reason="needs EAIK")
+    whole = arm("ur5")
+    tilt = pk.se3.adjoint(pk.se3.exp([2e-7, -3e-7, 0.0, 1e-7, 0.0, 2e-7]))
+    chain = pk.Chain([*whole.screws[:2], tilt @ whole.screws[2], *whole.screws[3:]], whole.home)
+    assert closed_form_module.closed_form(chain) is not None
+    _, T = targets(chain, 6, 50)
+    closed, search = (ik_all(chain, T, method=method, limits=False) for method in ("closed", "search"))
+    assert "of the arm made exact, at most " in closed.sure[0]
+    for k in range(len(T)):
+        assert max(errors(chain, closed.solutions[k], T[k])) <= TOL
+        assert same_sets(closed.solutions[k], search.solutions[k], 1e-5)
+
+
+def test_limits_are_kept_and_all_places_a_turn_apart_are_counted_or_listed():
+    chain = arm("puma560")
+    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-1.5 * np.pi, 2 * np.pi], (6, 1)))
+    _, T = targets(wide, 7, 30)
+    result, every = ik_all(wide, T), ik_all(wide, T, copies=True)
+    for k in range(len(T)):
+        Q = every.solutions[k]
+        assert (wide.limits[:, 0] <= Q).all()
+        assert (wide.limits[:, 1] >= Q).all()
+        assert max(errors(wide, Q, T[k])) <= TOL
+        assert len(np.unique(np.round(Q, 6), axis=0)) == len(Q) == result.copies[k].sum()
+        assert (every.copies[k] == 1).all()
+        # by hand: how many of q - 2 pi, q, q + 2 pi are within the limits
+        by_hand = [
+            np.prod([sum(-1.5 * np.pi <= x + 2 * np.pi * t <= 2 * np.pi for t in (-2, -1, 0, 1, 2)) for x in q])
+            for q in result.solutions[k]
+        ]
+        assert result.copies[k].tolist() == by_hand
+
+
+def test_solutions_outside_the_limits_are_left_out_and_said():
+    chain = arm("puma560")
+    result = ik_all(chain, chain.fk([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]))
+    anywhere = ik_all(chain, chain.fk([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]), limits=False)
+    assert len(anywhere.solutions) == result.anywhere == 8
+    inside = ((anywhere.solutions >= chain.limits[:, 0]) & (anywhere.solutions <= chain.limits[:, 1])).all(axis=1)
+    assert 0 < inside.sum() <= len(result.solutions) < 8
+    assert f"8 solutions, {len(result.solutions)} of them within the limits: " in result.sure
+
+
+def test_a_solution_at_a_limit_is_within_it():
+    chain = arm("ur5")
+    q = np.array([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
+    below, above = np.array([0, 1, 1, 1, 1, 1]), np.array([1, 0, 1, 1, 1, 1])
+    tight = pk.Chain(chain.screws, chain.home, limits=np.stack([q - below, q + above], axis=1))
+    result = ik_all(tight, tight.fk(q))
+    assert apart(q[None], result.solutions).min() <= 1e-9
+    assert (result.solutions >= tight.limits[:, 0]).all()
+    assert (result.solutions <= tight.limits[:, 1]).all()
+
+
+@pytest.mark.parametrize("method", ["auto", "search"])
+@pytest.mark.parametrize(
+    ("name", "q", "moving"),
+    [
+        pytest.param("puma560", [0.1, -0.7, 0.5, 0.3, 0.0, 0.2], {"joint4", "joint6"}, id="straight wrist"),
+        pytest.param(
+            "ur5",
+            [0.1, -0.7, 0.5, 0.3, 0.0, 0.2],
+            {"shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_3_joint"},
+            id="four parallel axes",
+        ),
+    ],
+)
+def test_infinitely_many_solutions_are_said_and_one_is_listed(name, q, moving, method):
+    chain = arm(name)
+    result = ik_all(chain, chain.fk(q), method=method, limits=False)
+    assert result.continuum
+    assert np.isnan(result.chance)
+    assert all(f"'{joint}'" in result.sure for joint in moving)
+    assert "infinitely many solutions" in result.sure
+    sizes = np.linalg.svd(chain.jacobian(result.solutions, "hybrid"), compute_uv=False)
+    assert (sizes[:, -1] < 1e-6).sum() == 1
+    assert max(errors(chain, result.solutions, chain.fk(q))) <= TOL
+
+
+@pytest.mark.parametrize("method", ["auto", "search"])
+def test_a_double_solution_is_one_and_no_continuum(method):
+    # Puma's elbow stretched: elbow up and elbow down are the same
+    chain = arm("puma560")
+    q = np.array([0.3, -0.4, 0.0, 0.8, 0.9, -0.2])
+    q[2] = -np.pi / 2 + np.arctan2(0.0203, 0.4318)
+    sizes = np.linalg.svd(chain.jacobian(q, "hybrid"), compute_uv=False)
+    q[2] = q[2] if sizes[-1] < 1e-3 else np.pi / 2 + np.arctan2(0.0203, 0.4318)
+    result = ik_all(chain, chain.fk(q), method=method, limits=False)
+    assert not result.continuum
+    assert result.count == 4
+    assert apart(q[None], result.solutions).min() <= 1e-4  # the square root of the pose's error
+
+
+@pytest.mark.parametrize("method", ["auto", "search"])
+def test_of_an_unreachable_target_none_is_claimed(method):
+    T = np.eye(4)
+    T[0, 3] = 9.0
+    result = ik_all(arm("ur5"), T, method=method)
+    assert result.solutions.shape == (0, 6)
+    assert result.sure.startswith("0 solutions: ")
+    assert np.isnan(result.position_error)
+
+
+@pytest.mark.parametrize("name", ["cobra600", "stanford"])
+def test_an_arm_with_a_slide_is_searched(name):
+    chain = arm(name)
+    q = chain.random(8, 20)
+    result = ik_all(chain, chain.fk(q))
+    assert result.method == "search"
+    for k in range(len(q)):
+        assert np.abs(result.solutions[k] - q[k]).max(axis=1).min() <= 1e-5
+
+
+@pytest.mark.parametrize("joints", [1, 2, 3, 4, 5])
+def test_an_arm_of_fewer_joints_has_its_solutions_where_it_reaches(joints):
+    chain = arm("puma560")
+    short = pk.Chain(chain.screws[:joints], chain.home)
+    q, T = targets(short, 9, 20)
+    for method in ("auto", "search"):
+        result = ik_all(short, T, method=method)
+        for k in range(len(q)):
+            assert apart(q[k : k + 1], result.solutions[k]).min(initial=np.inf) <= 1e-5
+            assert max(errors(short, result.solutions[k], T[k])) <= TOL
+    far = T[0].copy()
+    far[2, 3] += 0.1
+    assert ik_all(short, far).count == 0 or joints > 3
+
+
+@pytest.mark.parametrize("shape", [(), (0,), (1,), (3, 1, 2)], ids=str)
+def test_batches_of_any_shape(shape):
+    chain = arm("ur5")
+    T = chain.fk(chain.random(10, shape))
+    result = ik_all(chain, T)
+    for array in (result.count, result.anywhere, result.continuum, result.chance, result.position_error):
+        assert array.shape == shape
+    if shape:
+        assert len(result.solutions) == len(result.sure) == len(result.copies) == int(np.prod(shape))
+    for index in np.ndindex(*shape):
+        assert max(errors(chain, result.of(*index), T[index])) <= TOL
+        assert len(result.of(*index)) == result.count[index]
+
+
+def test_nan_in_one_target_is_that_targets_own_affair():
+    chain = arm("ur5")
+    _, T = targets(chain, 11, 3)
+    T[1, 0, 3] = np.nan
+    result = ik_all(chain, T, limits=False)
+    assert result.count[1] == 0
+    assert "bad target" in result.sure[1]
+    assert result.count[0] > 0 < result.count[2]
+
+
+def test_a_search_repeats_and_another_seed_finds_the_same():
+    chain = arm("jaco")
+    _, T = targets(chain, 12, 20)
+    first, again, other = (ik_all(chain, T, seed=seed, limits=False, often=40) for seed in (0, 0, 5))
+    for a, b, c in zip(first.solutions, again.solutions, other.solutions, strict=True):
+        assert np.array_equal(a, b)
+        assert same_sets(a, c, 1e-5)
+
+
+def test_the_words_of_a_search_say_how_sure_it_is():
+    chain = arm("ur5")
+    _, T = targets(chain, 13, 1)
+    result = ik_all(chain, T[0], method="search", limits=False)
+    assert 0 < result.chance < 2e-3
+    assert "each found 1" in result.sure
+    assert f"is missing with a chance of {result.chance:.1g}" in result.sure
+    assert ik_all(chain, T[0], method="search", limits=False, often=60).chance < 1e-6
+
+
+def test_a_compiled_arm_serves():
+    chain = arm("ur5")
+    _, T = targets(chain, 14, 2)
+    for a, b in zip(ik_all(chain, T).solutions, ik_all(chain.compile(), T).solutions, strict=True):
+        assert np.array_equal(a, b)
+
+
+def without_eaik(monkeypatch):
+    monkeypatch.setitem(sys.modules, "eaik", None)
+    monkeypatch.setitem(sys.modules, "eaik.IK_HP", None)
+    monkeypatch.setattr(module, "_closed_form", closed_form_module.closed_form)
+
+
+def test_without_eaik_the_search_serves(monkeypatch):
+    without_eaik(monkeypatch)
+    chain = arm("puma560")
+    _, T = targets(chain, 15, 3)
+    result = ik_all(chain, T, limits=False)
+    assert result.method == "search"
+    assert (result.count == 8).all()
+
+
+def test_without_eaik_a_closed_form_is_refused_and_the_extra_named(monkeypatch):
+    without_eaik(monkeypatch)
+    with pytest.raises(MissingExtra, match=r"poekin\[ik\]"):
+        ik_all(arm("puma560"), np.eye(4), method="closed")
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        pytest.param("jaco", r"no closed form that EAIK knows", id="jaco"),
+        pytest.param("stanford", r"'joint3' is prismatic", id="stanford"),
+    ],
+)
+def test_a_closed_form_that_does_not_exist_is_refused(name, message):
+    pytest.importorskip("eaik", reason="needs EAIK")
+    with pytest.raises(InputError, match=message):
+        ik_all(arm(name), np.eye(4), method="closed")
+
+
+def test_a_redundant_arm_is_refused_and_told_what_to_use():
+    chain = pk.load("panda").chain(tip="panda_hand")
+    with pytest.raises(InputError, match=r"got 7 .*infinitely many solutions; ik finds one"):
+        ik_all(chain, np.eye(4))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        pytest.param({"method": "eaik"}, r"method: expected one of auto, closed, search, got 'eaik'", id="method"),
+        pytest.param({"limits": 1}, r"limits: expected True or False, got 1", id="limits"),
+        pytest.param({"copies": None}, r"copies: expected True or False", id="copies"),
+        pytest.param({"often": 0}, r"often: expected a whole number from 1 on, got 0", id="often"),
+        pytest.param({"seed": -1}, r"seed: expected a whole number from 0 on", id="seed"),
+        pytest.param({"restarts": 1.5}, r"restarts: expected a whole number", id="restarts"),
+    ],
+)
+def test_options_that_are_none_are_refused(options, message):
+    with pytest.raises(InputError, match=message):
+        ik_all(arm("ur5"), np.eye(4), **options)
+
+
+def test_more_places_than_anybody_reads_are_refused():
+    chain = arm("ur5")
+    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-9 * np.pi, 9 * np.pi], (6, 1)))
+    _, T = targets(wide, 16, 1)
+    assert ik_all(wide, T[0]).copies.min() == 9**6
+    with pytest.raises(InputError, match=r"copies: \d+ places for one target"):
+        ik_all(wide, T[0], copies=True)
+
+
+def test_what_is_no_arm_and_what_is_no_pose_is_refused():
+    with pytest.raises(InputError, match=r"ik_all: expected a Chain, got 'ur5'"):
+        ik_all("ur5", np.eye(4))  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"the chain has none"):
+        ik_all(pk.Chain(np.empty((0, 6)), np.eye(4)), np.eye(4))
+    with pytest.raises(PoseError, match=r"T\[1\] is no pose"):
+        ik_all(arm("ur5"), [np.eye(4), 2 * np.eye(4)])
