@@ -25,6 +25,8 @@ from .model import screw
 from .model.chain import Chain
 from .model.joint import Joint, Mimic
 from .model.robot import Robot
+from .solve import motion
+from .solve.follow import follow
 from .solve.ik import ik
 from .solve.ik_all import ik_all
 
@@ -44,12 +46,14 @@ __all__ = [
     "dh",
     "emit",
     "errors",
+    "follow",
     "from_object",
     "ik",
     "ik_all",
     "load",
     "manipulability",
     "manipulability_gradient",
+    "motion",
     "relinked",
     "screw",
     "se3",

@@ -12,6 +12,7 @@ from . import (
     derivatives,
     exp_log,
     exponential_table,
+    follow,
     ik_all,
     model_truth_compare,
     model_truth_robots,
@@ -43,6 +44,7 @@ TOPICS = {
     "panda_hand": panda_hand,
     "exp_log": exp_log,
     "ik_all": ik_all,
+    "follow": follow,
     "start": start,
     "robustness": robustness,
 }

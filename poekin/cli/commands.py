@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from . import axes, compare, count, dh, emit, fk, info, jacobian, singularity, urdf, validate
+from . import axes, compare, count, dh, emit, fk, follow, ik, info, jacobian, singularity, urdf, validate
 from .model import takes_models
 
 app = typer.Typer(
@@ -23,6 +23,8 @@ app.command("info")(takes_models(info.command))
 app.command("fk", context_settings=NUMBERS)(takes_models(fk.command))
 app.command("jacobian", context_settings=NUMBERS)(takes_models(jacobian.command))
 app.command("singularity", context_settings=NUMBERS)(takes_models(singularity.command))
+app.command("ik", context_settings=NUMBERS)(takes_models(ik.command))
+app.command("follow")(takes_models(follow.command))
 app.command("validate")(takes_models(validate.command))
 app.command("urdf")(takes_models(urdf.command))
 app.command("compare")(takes_models(compare.command))

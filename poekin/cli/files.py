@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from ..errors import FileError, InputError, UnknownName, closest, shown
-from ..formats.numbers import real
+from ..errors import FileError, shown
+from ..formats import csv_rows
+from ..formats.csv_rows import text as csv_text
 from . import npy
-from .output import name
+
+__all__ = ["STDIN", "called", "check_writable", "csv_text", "npy_bytes", "read_configurations", "read_rows"]
 
 STDIN = "-"
+Rows = tuple[np.ndarray, np.ndarray | None]
 
 
 def called(given: str) -> str:
@@ -24,7 +26,7 @@ def called(given: str) -> str:
     return "standard input" if given == STDIN else shown(given, 400)
 
 
-def read_configurations(given: str, q_names: Sequence[str], progress: Callable[[int, int], None]) -> np.ndarray:
+def read_configurations(given: str, q_names: Sequence[str], progress: csv_rows.Progress) -> np.ndarray:
     """Configurations (N, m) out of a .npy file or, whatever else its name ends in, a CSV file; "-" is CSV on stdin.
 
     A CSV file has one configuration a line, the m coordinates in the order of q_names, or in the order of a first line
@@ -33,12 +35,21 @@ def read_configurations(given: str, q_names: Sequence[str], progress: Callable[[
     Raises: FileError for a file that cannot be read; InputError with file and line for a line of the wrong length or
     a cell that is no number; UnknownName for a header with a name that is no coordinate.
     """
+    return read_rows(given, q_names, "coordinate", progress)[0]
+
+
+def read_rows(
+    given: str, names: Sequence[str], what: str, progress: csv_rows.Progress, *, tail: tuple[int, ...] = ()
+) -> Rows:
+    """Rows (N, k) of named columns, as `read_configurations` reads them, and the line of each in a CSV file, None for a
+    .npy file; what is a column's kind; tail, how an array may have its last axes instead of (k,).
+    """
     if given == STDIN and sys.stdin is None:
         raise FileError("cannot read standard input: it is closed")
     try:
         if Path(given).suffix.lower() == ".npy":
-            return npy.configurations(Path(given).read_bytes(), len(q_names), called(given))
-        return _from_csv(given, q_names, progress)
+            return npy.configurations(Path(given).read_bytes(), len(names), called(given), tail), None
+        return _from_csv(given, names, what, progress)
     except UnicodeDecodeError as error:
         raise FileError(f"{called(given)} is no text file: byte {error.start} is not UTF-8") from error
     except OSError as error:
@@ -47,71 +58,10 @@ def read_configurations(given: str, q_names: Sequence[str], progress: Callable[[
         raise FileError(f"cannot read {called(given)}: {error.strerror or error}") from error
 
 
-def _from_csv(given: str, q_names: Sequence[str], progress: Callable[[int, int], None]) -> np.ndarray:
-    rows: list[list[float]] = []
-    order: list[int] | None = None
+def _from_csv(given: str, names: Sequence[str], what: str, progress: csv_rows.Progress) -> Rows:
     file = sys.stdin.fileno() if given == STDIN else given
     with open(file, newline="", encoding="utf-8-sig", closefd=given != STDIN) as stream:
-        size = os.fstat(stream.fileno()).st_size
-        reader = csv.reader(stream)
-        read = 0
-        try:
-            for cells in reader:
-                read += sum(map(len, cells)) + len(cells)
-                where = f"{called(given)}:{reader.line_num}"
-                if not any(cell.strip() for cell in cells):
-                    continue
-                if not rows and order is None and _is_header(cells, q_names):
-                    order = _order([cell.strip() for cell in cells], q_names, where)
-                    continue
-                if len(cells) != len(q_names):
-                    raise InputError(f"{where}: {len(q_names)} values expected{_listed(q_names)}, got {len(cells)}")
-                rows.append([_real(cell, f"{where}, column {i + 1}") for i, cell in enumerate(cells)])
-                if len(rows) % 10_000 == 0:
-                    progress(read, size)
-        except csv.Error as error:
-            raise FileError(f"{called(given)}:{reader.line_num}: not CSV: {error}") from error
-    array = np.array(rows, float).reshape(len(rows), len(q_names))
-    return array if order is None else array[:, order]
-
-
-def _is_header(cells: Sequence[str], q_names: Sequence[str]) -> bool:
-    # A robot may call its joints 1, 2, 3: a line that is exactly the names is a header even so.
-    words = [cell.strip() for cell in cells]
-    return sorted(words) == sorted(q_names) or all(real(word) is None for word in words)
-
-
-def _order(words: Sequence[str], q_names: Sequence[str], where: str) -> list[int]:
-    for word in words:
-        if word not in q_names:
-            raise UnknownName(f"{where}: {shown(word)} is neither a number nor a coordinate; {closest(word, q_names)}")
-    missing = [n for n in q_names if n not in words]
-    if missing or len(words) != len(q_names):
-        what = f"{shown(missing[0])} is missing" if missing else "a name stands twice"
-        raise InputError(f"{where}: the header has to name each of the {len(q_names)} coordinates once; {what}")
-    return [words.index(n) for n in q_names]
-
-
-def _real(text: str, where: str) -> float:
-    value = real(text)
-    if value is None:
-        raise InputError(f"{where}: a number expected, got {shown(text)}")
-    return value
-
-
-def _listed(q_names: Sequence[str]) -> str:
-    return f" ({', '.join(name(n) for n in q_names)})" if q_names else ""
-
-
-def csv_text(header: Sequence[str], rows: np.ndarray, progress: Callable[[int, int], None]) -> str:
-    """CSV of a header and rows (N, k); every number in the shortest form that reads back as the same float."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([name(h) for h in header])
-    for start in range(0, len(rows), 10_000):
-        progress(start, len(rows))
-        writer.writerows(rows[start : start + 10_000].tolist())
-    return out.getvalue()
+        return csv_rows.read(stream, names, called(given), what, progress, os.fstat(stream.fileno()).st_size)
 
 
 def npy_bytes(array: np.ndarray) -> bytes:

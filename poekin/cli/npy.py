@@ -18,10 +18,11 @@ LONGEST_HEADER = 10_000
 MOST_ROWS = 2**40
 
 
-def configurations(content: bytes, m: int, where: str) -> np.ndarray:
+def configurations(content: bytes, m: int, where: str, tail: tuple[int, ...] = ()) -> np.ndarray:
     """The array (N, m), or (m,) for a single configuration, in the bytes of a .npy file, as float64 (N, m).
 
-    Parameters: content; m; where, the file as messages call it.
+    Parameters: content; m; where, the file as messages call it; tail, last axes of m numbers, as (4, 4) for m = 16,
+    that an array may have instead of (m,).
     Raises: FileError, which names the file, for what is no .npy file of real numbers, whose header is damaged, or that
     holds fewer bytes than its header says; InputError for another shape. Nothing is allocated before all that holds.
     Source: the format's versions 1.0 to 3.0 as the documentation of numpy.lib.format describes them.
@@ -30,14 +31,17 @@ def configurations(content: bytes, m: int, where: str) -> np.ndarray:
         dtype, column_major, shape, start = _header(content)
     except ValueError as fault:
         raise FileError(f"{where} is no .npy file of numbers: {fault}") from fault
-    if shape != (m,) and (len(shape) != 2 or shape[1] != m):
+    last = tail if tail and tail in (shape, shape[1:]) else (m,)
+    if shape != last and (len(shape) != 1 + len(last) or shape[1:] != last):
         raise InputError(f"{where}: an array of shape (N, {m}) expected, got {shape}")
     count, there = math.prod(shape), len(content) - start
     if count * dtype.itemsize > there:
         raise FileError(f"{where} is damaged: its header speaks of {count * dtype.itemsize} bytes, {there} are there")
     # Where there is nothing to read NumPy does not look at an empty buffer.
     flat = np.frombuffer(content, dtype, count, start) if count else np.zeros(0, dtype)
-    return flat.reshape(shape, order="F" if column_major else "C").astype(float).reshape(math.prod(shape[:-1]), m)
+    return (
+        flat.reshape(shape, order="F" if column_major else "C").astype(float).reshape(math.prod(shape[: -len(last)]), m)
+    )
 
 
 def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:

@@ -63,7 +63,7 @@ def analytic_jacobian(self: Chain, q: Any, kind: str) -> Array:
     if kind == "rotation_vector":
         rates = so3.left_jacobian_inverse(so3.log(R))
     elif kind == "quaternion_wxyz":
-        rates = _quaternion_rates(_quaternion(R))
+        rates = _quaternion_rates(quaternion_wxyz(R))
     else:
         rates = _rpy_rates(R)
     return np.concatenate([rates @ J[..., :3, :], J[..., 3:, :]], axis=-2)
@@ -78,10 +78,10 @@ def _checked(kind: object) -> str:
 def _numbers(R: Array, kind: str) -> Array:
     if kind == "rotation_vector":
         return so3.log(R)
-    return _quaternion(R) if kind == "quaternion_wxyz" else rpy.angles(R)
+    return quaternion_wxyz(R) if kind == "quaternion_wxyz" else rpy.angles(R)
 
 
-def _quaternion(R: Array) -> Array:
+def quaternion_wxyz(R: Array) -> Array:
     """(w, x, y, z) from the logarithm, which has the right branch and all its digits at half a turn too."""
     w = so3.log(R)
     half = 0.5 * np.linalg.norm(w, axis=-1, keepdims=True)

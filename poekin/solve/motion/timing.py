@@ -1,0 +1,160 @@
+"""Time scaling: s(t) from 0 to 1 with its rates, at rest at both ends, and the shortest one that keeps given limits."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import InputError, ShapeError, told
+from ...groups.arrays import Array, numbers
+
+LAWS = ("cubic", "quintic", "trapezoidal")
+_PEAKS = {"cubic": (1.5, 6.0), "quintic": (1.875, 10 / math.sqrt(3))}  # of s' (1/T) and |s''| (1/T^2)
+_INSTANT = 1e-100  # s: what takes less takes no time, as its rates would be no numbers
+_SPARE = 1 + 4e-15  # so that what is computed of a timing keeps the limits to the last digit
+
+
+class Moment(NamedTuple):
+    """s, its rate ds (1/s) and the rate of that dds (1/s^2), each of the shape of t.
+
+    Of a path x(s) that is even in s, x' = ds dx/ds and x'' = dds dx/ds.
+    """
+
+    s: Array
+    ds: Array
+    dds: Array
+
+
+@dataclass(frozen=True)
+class Timing:
+    """s(t) over 0 <= t <= duration (s), at rest before and after. `law` is one of `LAWS`; `ramp`, of the trapezoidal
+    law, the part of the duration that it speeds up, and slows down, for.
+
+    A call with t (...), s, gives the `Moment` there. s' is symmetric about the middle: s(T - t) = 1 - s(t).
+    - cubic: s = 3 u^2 - 2 u^3, u = t / T: at most s' = 1.5 / T in the middle, |s''| = 6 / T^2 at the ends
+    - quintic: s = 10 u^3 - 15 u^4 + 6 u^5: s'' = 0 at the ends; at most s' = 1.875 / T, |s''| = 5.78 / T^2
+    - trapezoidal: s'' = ±1 / (r (1 - r) T^2) for r T at either end, r = ramp, and s' = 1 / ((1 - r) T) between
+    """
+
+    law: str
+    duration: float
+    ramp: float = 0.5
+
+    def __call__(self, t: ArrayLike) -> Moment:
+        """s, s' and s'' at t (...), s. Raises: InputError."""
+        t = numbers(t, "t")
+        if self.duration == 0:
+            s = np.where(np.isnan(t), np.nan, np.where(t < 0, 0.0, 1.0))
+            return Moment(s, 0.0 * s, 0.0 * s)
+        u = np.clip(t / self.duration, 0.0, 1.0)
+        h = np.minimum(u, 1.0 - u)  # the first half: the other one is its mirror, so that s ends at 1 exactly
+        s, ds, dds = self._half(h)
+        late, moving = u > 0.5, (t >= 0) & (t <= self.duration)
+        s = np.where(late, 1.0 - s, s)
+        dds = np.where(late, -dds, dds)
+        rest = np.where(np.isnan(t), np.nan, 0.0)
+        return Moment(
+            s, np.where(moving, ds / self.duration, rest), np.where(moving, dds / self.duration / self.duration, rest)
+        )  # fmt: skip
+
+    def _half(self, h: Array) -> tuple[Array, Array, Array]:
+        """s, s' and s'' over u = t / T, for u <= 1/2."""
+        if self.law == "cubic":
+            return h * h * (3 - 2 * h), 6 * h * (1 - h), 6 - 12 * h
+        if self.law == "quintic":
+            return (
+                h**3 * (10 + h * (6 * h - 15)), 30 * (h * (1 - h)) ** 2, 60 * h * (1 - h) * (1 - 2 * h)
+            )  # fmt: skip
+        r = self.ramp
+        top, speeding = 1 / (1 - r), h <= r
+        s = np.where(speeding, 0.5 * top / r * h * h, top * (h - 0.5 * r))
+        # where there is no even part, the middle belongs to both ramps
+        return s, np.where(speeding, top / r * h, top), np.where(speeding, top / r, 0.0)
+
+
+def cubic(duration: float) -> Timing:
+    """s = 3 u^2 - 2 u^3 with u = t / duration (s): at rest at both ends. Returns: Timing. Raises: InputError."""
+    return Timing("cubic", _duration(duration))
+
+
+def quintic(duration: float) -> Timing:
+    """s = 10 u^3 - 15 u^4 + 6 u^5, u = t / duration (s): at rest and without acceleration at both ends.
+
+    Returns: Timing. Raises: InputError.
+    """
+    return Timing("quintic", _duration(duration))
+
+
+def trapezoidal(duration: float, ramp: float = 0.25) -> Timing:
+    """s' rises evenly for ramp · duration (s), stays, and falls as it rose. ramp: above 0, at most 1/2.
+
+    Returns: Timing. Raises: InputError.
+    """
+    if not _real(ramp) or not 0 < ramp <= 0.5:
+        raise InputError(f"ramp: expected a number above 0 and at most 0.5, got {told(ramp)}")
+    return Timing("trapezoidal", _duration(duration), float(ramp))
+
+
+def fastest(
+    law: str, distance: ArrayLike, *, speed: ArrayLike | None = None, acceleration: ArrayLike | None = None
+) -> Timing:
+    """The shortest timing of a law with |distance| s' <= speed and |distance| |s''| <= acceleration, each of them.
+
+    For joints, distance = q_1 - q_0 (m,); for poses, `lengths(T_s0, T_s1)`, the way (m) and the angle (rad). For a
+    screw motion the acceleration is that along the helix of the tool's origin.
+
+    Parameters: law "cubic", "quintic" or "trapezoidal"; distance (...), rad or m; speed, acceleration, positive, per s
+    and s^2, broadcast against it, infinite or left out where there is no limit. The trapezoidal law needs the latter.
+    Returns: Timing, of the duration 0 where every distance is (next to) 0. Raises: InputError, ShapeError.
+    Accuracy: longer than the shortest by 1e-14 of it, so that the limits hold in float64 too.
+    Source: cubic and quintic from their greatest rates, see `Timing`; trapezoidal: a triangle where the speed is not
+    reached, v^2 >= a |distance|.
+    """
+    if not isinstance(law, str) or law not in LAWS:
+        raise InputError(f"law: expected one of {', '.join(LAWS)}, got {told(law)}")
+    way = np.abs(numbers(distance, "distance"))
+    if not np.isfinite(way).all():
+        raise InputError(f"distance: expected finite numbers, got {told(distance)}")
+    if speed is None and acceleration is None:
+        raise InputError("fastest: expected a limit of speed, of acceleration, or of both, got none")
+    a, b = _least(way, speed, "speed"), _least(way, acceleration, "acceleration")
+    if law in _PEAKS:
+        top, rise = _PEAKS[law]
+        duration, ramp = max(top * a, math.sqrt(rise * b)), 0.5
+    elif acceleration is None or (b == 0 and a > 0):
+        raise InputError("acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time")
+    else:
+        even = b <= a * a
+        ramp = max(b / (a * a + b), 1e-15) if even and a > 0 else 0.5
+        duration = a + b / a if even and a > 0 else 2 * math.sqrt(b)
+    if duration == math.inf:
+        raise InputError("fastest: the limits are so small that there is no finite duration")
+    return Timing(law, float(duration * _SPARE) if duration >= _INSTANT else 0.0, float(ramp))
+
+
+def _least(way: Array, limit: Any, what: str) -> float:
+    """The largest quotient of ways and limits."""
+    if limit is None:
+        return 0.0
+    limits = numbers(limit, what)
+    if not (limits > 0).all():
+        raise InputError(f"{what}: expected positive limits, got {told(limit)}")
+    try:
+        with np.errstate(over="ignore"):
+            return float(np.max(way / limits, initial=0.0))
+    except ValueError as error:
+        raise ShapeError(f"{what}: shape {limits.shape} does not fit the distances' {way.shape}") from error
+
+
+def _duration(duration: Any) -> float:
+    if not _real(duration) or not _INSTANT <= duration < math.inf:
+        raise InputError(f"duration: expected a positive number of seconds, got {told(duration)}")
+    return float(duration)
+
+
+def _real(value: Any) -> bool:
+    return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)

@@ -1,0 +1,305 @@
+"""Motions from pose to pose, time scaling, and their files and picture."""
+
+from __future__ import annotations
+
+import math
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.errors import FileError, InputError, MissingExtra, PoseError, ShapeError, UnknownName
+from poekin.groups import se3, so3
+from poekin.solve import motion
+
+U = 2.0**-53
+parts = st.floats(0, 1)
+lengths = st.floats(1e-3, 1e3)
+three = st.lists(lengths, min_size=3, max_size=3)
+duration = st.floats(1e-3, 1e3)
+
+
+def vector(size: float) -> st.SearchStrategy[np.ndarray]:
+    return st.lists(st.floats(-size, size), min_size=3, max_size=3).map(np.array)
+
+
+@st.composite
+def poses(draw) -> np.ndarray:  # type: ignore[no-untyped-def]
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = so3.exp(draw(vector(1.8))), draw(vector(2.0))
+    return T
+
+
+PATHS = [motion.screw, motion.line]
+
+
+@pytest.mark.parametrize("path", PATHS, ids=lambda f: f.__name__)
+@given(T_s0=poses(), T_s1=poses())
+def test_a_path_ends_exactly_at_its_poses(path, T_s0, T_s1):
+    ends = path(T_s0, T_s1, [0.0, 1.0])
+    np.testing.assert_array_equal(ends, [T_s0, T_s1])
+
+
+@pytest.mark.parametrize("path", PATHS, ids=lambda f: f.__name__)
+@given(T_s0=poses(), T_s1=poses())
+def test_a_path_comes_to_its_last_pose_and_is_not_put_there(path, T_s0, T_s1):
+    near = path(T_s0, T_s1, 1 - 2 * U)
+    # rotations by up to 3.2 rad each and positions of a few metres: some tens of roundings
+    np.testing.assert_allclose(near, T_s1, atol=200 * U)
+
+
+@given(T_s0=poses(), T_s1=poses(), s=parts, ds=st.floats(0.01, 0.5))
+def test_a_screw_motion_has_a_constant_body_twist(T_s0, T_s1, s, ds):
+    a, b = motion.screw(T_s0, T_s1, [s, s + ds])
+    xi = se3.log(se3.inverse(T_s0) @ T_s1)
+    # the log of a part is as exact as the product of poses, some metres and so some 10 roundings; ÷ ds
+    np.testing.assert_allclose(se3.log(se3.inverse(a) @ b) / ds, xi, atol=500 * U / ds)
+
+
+@given(T_s0=poses(), T_s1=poses(), s=parts)
+def test_a_line_is_straight_and_turns_evenly_about_one_axis(T_s0, T_s1, s):
+    T = motion.line(T_s0, T_s1, s)
+    np.testing.assert_allclose(T[:3, 3], (1 - s) * T_s0[:3, 3] + s * T_s1[:3, 3], atol=20 * U)
+    w = so3.log(T_s0[:3, :3].T @ T_s1[:3, :3])
+    np.testing.assert_allclose(T[:3, :3], T_s0[:3, :3] @ so3.exp(s * w), atol=50 * U)
+
+
+@given(T_s0=poses(), T_s1=poses())
+def test_lengths_are_those_of_a_path_cut_into_pieces(T_s0, T_s1):
+    s = np.linspace(0, 1, 400)
+    for along, path in (("line", motion.line), ("screw", motion.screw)):
+        T = path(T_s0, T_s1, s)
+        way = np.linalg.norm(np.diff(T[:, :3, 3], axis=0), axis=1).sum()
+        turn = np.linalg.norm(so3.log(np.swapaxes(T[:-1, :3, :3], 1, 2) @ T[1:, :3, :3]), axis=1).sum()
+        # a chord of an arc of pi / 400 is shorter than it by (pi / 400)^2 / 24 = 2.6e-6 of it
+        np.testing.assert_allclose([way, turn], motion.lengths(T_s0, T_s1, along), rtol=3e-6, atol=1e-12)
+
+
+@given(q_0=vector(3), q_1=vector(3), s=parts)
+def test_the_space_of_joints_is_crossed_on_a_straight_line(q_0, q_1, s):
+    np.testing.assert_array_equal(motion.joint(q_0, q_1, [0, 1]), [q_0, q_1])
+    np.testing.assert_allclose(motion.joint(q_0, q_1, s), (1 - s) * q_0 + s * q_1, atol=20 * U)
+
+
+@pytest.mark.parametrize("batch", [(), (0,), (1,), (3, 1, 2)], ids=str)
+@pytest.mark.parametrize("path", PATHS, ids=lambda f: f.__name__)
+def test_leading_axes_are_the_batch(path, batch):
+    T_s0, T_s1 = se3.exp(np.random.default_rng(0).normal(size=(2, *batch, 6)))
+    T = path(T_s0, T_s1, 0.3)
+    assert T.shape == (*batch, 4, 4)
+    assert path(np.eye(4), np.eye(4), np.zeros((5, *batch))).shape == (5, *batch, 4, 4)
+    for i in np.ndindex(batch):
+        np.testing.assert_array_equal(T[i], path(T_s0[i], T_s1[i], 0.3))
+
+
+def test_nan_stays_in_its_element_and_a_bad_pose_is_named():
+    T = np.tile(np.eye(4), (3, 1, 1))
+    T[1, 0, 3] = np.nan
+    result = motion.screw(T, np.eye(4), 0.5)
+    np.testing.assert_array_equal(np.isnan(result).any((1, 2)), [False, True, False])
+    T[1] = 2 * np.eye(4)
+    with pytest.raises(PoseError, match=r"T_s1\[1\] is no pose"):
+        motion.line(np.eye(4), T, 0.5)
+    with pytest.raises(ShapeError, match=r"do not broadcast: T_s0 \(3, 4, 4\)"):
+        motion.line(T[[0, 0, 0]], T[[0, 0]], 0.5)
+    with pytest.raises(ShapeError, match=r"same m, got \(2,\) and \(3,\)"):
+        motion.joint([0, 0], [0, 0, 0], 0.5)
+
+
+def test_two_poses_that_each_miss_by_what_is_accepted_are_accepted_together():
+    T = np.eye(4)
+    T[:3, :3] *= 1 + 4.9e-6
+    assert np.isfinite(motion.screw(T, T, 0.5)).all()
+
+
+def timings() -> st.SearchStrategy[motion.Timing]:
+    return st.one_of(
+        duration.map(motion.cubic),
+        duration.map(motion.quintic),
+        st.tuples(duration, st.floats(1e-3, 0.5)).map(lambda x: motion.trapezoidal(*x)),
+    )
+
+
+@given(timing=timings())
+def test_a_timing_begins_and_ends_at_rest(timing):
+    T = timing.duration
+    s, ds, _ = timing([0.0, T])
+    np.testing.assert_array_equal([s, ds], [[0, 1], [0, 0]])
+    s, ds, dds = timing([-T, 2 * T])
+    np.testing.assert_array_equal([s, ds, dds], [[0, 1], [0, 0], [0, 0]])
+
+
+@given(timing=timings())
+def test_s_never_goes_back_and_its_rates_are_its_rates(timing):
+    t = np.linspace(0, timing.duration, 2001)
+    s, ds, dds = timing(t)
+    assert (np.diff(s) >= 0).all()
+    assert (s.min(), s.max()) == (0, 1)
+    h, size = timing.duration / 2000, 1 / timing.duration
+    # the mean rate of a step is that at its middle to h^2 s''' / 24, of a trapezoid's corner to h s''
+    rough = h * np.abs(dds).max()
+    np.testing.assert_allclose(np.diff(s) / h, 0.5 * (ds[1:] + ds[:-1]), atol=rough + 1e-9 * size)
+    corner = np.abs(dds).max() if timing.law == "trapezoidal" else 0.01 * np.abs(dds).max()
+    np.testing.assert_allclose(np.diff(ds) / h, 0.5 * (dds[1:] + dds[:-1]), atol=corner + 1e-9 * size**2)
+
+
+@pytest.mark.parametrize("law", ["cubic", "quintic", "trapezoidal"])
+@example(distance=np.array([0.0, 0.0, 2e-313]), speed=[1.0] * 3, acceleration=[1.0] * 3)
+@given(distance=vector(3), speed=three, acceleration=three)
+def test_the_fastest_timing_keeps_every_limit_and_reaches_one(law, distance, speed, acceleration):
+    timing = motion.fastest(law, distance, speed=speed, acceleration=acceleration)
+    if timing.duration == 0:
+        assert np.abs(distance).max() < 1e-90
+        return
+    # the peaks: the middle, the ends, where a quintic's acceleration is greatest, and a grid
+    u = np.concatenate([np.linspace(0, 1, 999), [0.5 - math.sqrt(3) / 6, timing.ramp]])
+    _, ds, dds = timing(u * timing.duration)
+    used = np.stack([np.abs(distance) * ds.max() / speed, np.abs(distance) * np.abs(dds).max() / acceleration])
+    assert used.max() <= 1
+    if np.abs(distance).max() > 1e-100:
+        assert used.max() > 1 - 1e-9
+
+
+@pytest.mark.parametrize(("law", "missing"), [("cubic", "speed"), ("quintic", "speed"), ("trapezoidal", "speed"),
+                                              ("cubic", "acceleration"), ("quintic", "acceleration")])  # fmt: skip
+def test_one_limit_is_enough(law, missing):
+    given = {"speed": 2.0, "acceleration": 3.0}
+    del given[missing]
+    timing = motion.fastest(law, [1.0, -2.0], **given)
+    _, ds, dds = timing(np.linspace(0, timing.duration, 1001))
+    for name, x in (("speed", ds), ("acceleration", dds)):
+        if name in given:
+            assert 2 * np.abs(x).max() == pytest.approx(given[name], rel=1e-4)
+
+
+def test_a_trapezoid_is_a_triangle_where_the_speed_is_not_reached():
+    timing = motion.fastest("trapezoidal", 1.0, speed=10.0, acceleration=4.0)
+    assert (timing.ramp, timing.duration) == (0.5, pytest.approx(1.0, rel=1e-14))
+    timing = motion.fastest("trapezoidal", 1.0, speed=1.0, acceleration=4.0)
+    assert timing.duration == pytest.approx(1.25, rel=1e-14)
+
+
+def test_no_way_takes_no_time():
+    timing = motion.fastest("cubic", [0.0, 0.0], speed=1.0)
+    assert timing.duration == 0
+    np.testing.assert_array_equal(timing([-1, 0, 1]).s, [0, 1, 1])
+
+
+def test_limits_for_way_and_angle_of_a_pose():
+    T_s0, T_s1 = np.eye(4), se3.exp([0, 0, 1.0, 0, 0, 0.5])
+    timing = motion.fastest("quintic", motion.lengths(T_s0, T_s1), speed=[0.25, 10.0])
+    assert timing.duration == pytest.approx(1.875 * 0.5 / 0.25)
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: motion.cubic(0), r"duration: expected a positive number of seconds, got 0"),
+        (lambda: motion.quintic(math.nan), r"duration: .* got nan"),
+        (lambda: motion.trapezoidal(1, 0.6), r"ramp: .* at most 0\.5, got 0\.6"),
+        (lambda: motion.fastest("linear", 1, speed=1), r"law: expected one of cubic, .*, got 'linear'"),
+        (lambda: motion.fastest("cubic", 1), r"expected a limit of speed, of acceleration, or of both"),
+        (lambda: motion.fastest("cubic", math.inf, speed=1), r"distance: expected finite"),
+        (lambda: motion.fastest("cubic", 1, speed=0), r"speed: expected positive limits, got 0"),
+        (lambda: motion.fastest("cubic", 1, speed=math.nan), r"speed: expected positive limits"),
+        (lambda: motion.fastest("cubic", [1, 2], speed=[1, 2, 3]), r"speed: shape \(3,\) does not fit"),
+        (lambda: motion.fastest("trapezoidal", 1, speed=1), r"acceleration: the trapezoidal law needs a finite one"),
+        (lambda: motion.lengths(np.eye(4), np.eye(4), "arc"), r"along: expected 'line' or 'screw', got 'arc'"),
+    ],
+    ids=["zero", "nan", "ramp", "law", "no-limit", "far", "no-speed", "nan-speed", "shape", "trapezoid", "along"],
+)  # fmt: skip
+def test_what_is_no_timing_is_refused(call, says):
+    with pytest.raises(InputError, match=says):
+        call()
+
+
+FORMATS = [("12", None), ("16", None), ("7", "wxyz"), ("7", "xyzw")]
+
+
+@pytest.mark.parametrize(("format", "order"), FORMATS, ids=str)
+@given(Ts=st.lists(poses(), max_size=4))
+def test_poses_go_through_a_csv_file(format, order, Ts, tmp_path_factory):
+    path, T = tmp_path_factory.mktemp("csv") / "T.csv", np.array(Ts).reshape(-1, 4, 4)
+    motion.write_poses(path, T, format, quaternion=order)
+    back = motion.read_poses(path, format, quaternion=order)
+    # a matrix is written to the last bit; a quaternion's log and exp take some roundings
+    np.testing.assert_allclose(back, T, atol=0 if order is None else 40 * U, rtol=0)
+
+
+def test_a_header_orders_the_quaternion(tmp_path):
+    path = tmp_path / "T.csv"
+    path.write_text("x,y,z,qx,qy,qz,qw\n1,2,3,1,0,0,0\n")
+    np.testing.assert_array_equal(
+        motion.read_poses(path, "7", quaternion="wxyz"), motion.read_poses(path, "7", quaternion="xyzw")
+    )
+    T = motion.read_poses(path, "7", quaternion="wxyz")[0]
+    np.testing.assert_allclose(T[:3, :3], np.diag([1, -1, -1]), atol=2 * U)  # sin(pi) is 1.2e-16 in float64
+
+
+@pytest.mark.parametrize(
+    ("text", "format", "order", "kind", "says"),
+    [
+        ("1,2,3,0,0,0,1", "7", None, InputError, r"needs the order of its quaternion, wxyz or xyzw; it is not said"),
+        ("1,2,3,0,0,0,1", "7", "xyz", InputError, r"wxyz or xyzw; got 'xyz'"),
+        ("1,2,3,0,0,0,1", "12", "xyzw", InputError, r"the format 12 has none"),
+        ("1,2,3", "8", None, InputError, r"expected one of 12, 16, 7 \(numbers a pose\), got '8'"),
+        ("1,2,3,0,0,0,1\n1,2,3,0,0,0,2", "7", "xyzw", PoseError, r"T\.csv:2: the quaternion's length is 2, expected 1"),
+        ("1,2,3,0,0,0,0", "7", "xyzw", PoseError, r"T\.csv:1: the quaternion's length is 0"),
+        ("\n" + ",".join("1" * 12), "12", None, PoseError, r"T\.csv:2: its rotation misses orthonormality"),
+        ("1,2", "7", "xyzw", InputError, r"T\.csv:1: 7 values expected"),
+        ("1,2,3,0,0,0,one", "7", "xyzw", InputError, r"T\.csv:1, column 7: a number expected, got 'one'"),
+        ("x,y,z,w,a,b,c", "7", "xyzw", UnknownName, r"T\.csv:1: 'w' is neither a number nor a column"),
+    ],
+    ids=["unsaid", "order", "useless", "format", "length", "zero", "matrix", "short", "word", "header"],
+)  # fmt: skip
+def test_a_bad_file_of_poses_is_refused_with_its_line(text, format, order, kind, says, tmp_path):
+    (tmp_path / "T.csv").write_text(text)
+    with pytest.raises(kind, match=says):
+        motion.read_poses(tmp_path / "T.csv", format, quaternion=order)
+
+
+def test_joints_and_times_go_through_a_csv_file_to_the_last_bit(tmp_path):
+    arm, path = pk.load("panda").chain(tip="panda_hand"), tmp_path / "q.csv"
+    q, t = arm.random(0, 5), np.arange(5) / 3
+    motion.write_joints(path, q, arm)
+    back, none = motion.read_joints(path, arm)
+    np.testing.assert_array_equal(back, q)
+    assert none is None
+    motion.write_joints(path, q, arm, times=t)
+    back, times = motion.read_joints(path, arm.q_names)
+    np.testing.assert_array_equal(back, q)
+    np.testing.assert_array_equal(times, t)
+
+
+def test_what_cannot_be_read_or_written_is_said(tmp_path):
+    with pytest.raises(FileError, match=r"cannot read .*no\.csv: No such file"):
+        motion.read_poses(tmp_path / "no.csv", "12")
+    with pytest.raises(FileError, match=r"cannot write .*no/T\.csv"):
+        motion.write_poses(tmp_path / "no" / "T.csv", np.eye(4)[None], "12")
+    (tmp_path / "b.csv").write_bytes(b"\xff\xfe")
+    with pytest.raises(FileError, match=r"b\.csv is no text file: byte 0"):
+        motion.read_joints(tmp_path / "b.csv", ["a"])
+    with pytest.raises(ShapeError, match=r"expected shape \(N, 2\), got \(3,\)"):
+        motion.write_joints(tmp_path / "q.csv", [1, 2, 3], ["a", "b"])
+    with pytest.raises(InputError, match=r"names: expected a chain or names"):
+        motion.write_joints(tmp_path / "q.csv", [[1.0]], "a")
+
+
+def test_a_plot_is_svg_with_names_made_harmless(tmp_path):
+    pytest.importorskip("matplotlib")
+    arm = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4), joint_names=["<b>$x^$\n"])
+    text = motion.plot_joints([[0.0], [1.0], [2.0], [np.nan]], arm, breaks=[2], path=tmp_path / "q.svg")
+    assert text.startswith("<svg")
+    assert "<b>" not in text
+    assert "&lt;b&gt;$x^$\\n (rad)" in text
+    assert (tmp_path / "q.svg").read_text(encoding="utf-8").endswith(text)
+    assert text == motion.plot_joints([[0.0], [1.0], [2.0], [np.nan]], arm, breaks=[2])
+
+
+def test_a_plot_without_matplotlib_names_the_extra(monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(MissingExtra, match=r"pip install 'poekin\[report\]'"):
+        motion.plot_joints([[0.0]], pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4)))
