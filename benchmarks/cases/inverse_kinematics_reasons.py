@@ -8,6 +8,7 @@ from poekin import Chain, so3
 
 from .inverse_kinematics_peers import ClosedForm, outside
 
+ROUNDS = 20
 CLEARLY = 1e-6  # rad: a solution nearer to a limit than this decides nothing
 
 
@@ -33,10 +34,12 @@ def blocked_poses(chain: Chain, rng: np.random.Generator, count: int) -> tuple[n
     """Poses (count, 4, 4) of an arm none of whose solutions by EAIK lies within its limits, whatever turns are added;
     and how many were passed over because EAIK did not find the configuration that they were made of.
 
-    Raises: ValueError where EAIK has no closed form for the arm.
+    Raises: ValueError where EAIK has no closed form for the arm, and where the limits block too few.
     """
     form, found, passed = ClosedForm(chain), [], 0
-    while len(found) < count:
+    for _ in range(ROUNDS):
+        if len(found) >= count:
+            return np.stack(found[:count]), passed
         q = rng.uniform(-np.pi, np.pi, (count, chain.dof))
         T = chain.fk(q)
         for own, pose, target in zip(q, T, form.native(T), strict=True):
@@ -46,4 +49,4 @@ def blocked_poses(chain: Chain, rng: np.random.Generator, count: int) -> tuple[n
                 passed += 1
             elif outside(chain.limits, each)[0].min() > CLEARLY:
                 found.append(pose)
-    return np.stack(found[:count]), passed
+    raise ValueError(f"only {len(found)} of {ROUNDS * count} poses are blocked by the limits, {count} were asked for")

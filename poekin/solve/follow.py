@@ -75,7 +75,7 @@ def follow(
     )  # fmt: skip
     most = per_coordinate(max_step, chain, "max_step")
     when, limit_v, limit_a = _timing(times, speed, acceleration, chain, len(targets))
-    start = None if q0 is None else first_tries(chain, solver.room, (), q0)[0]
+    start = None if q0 is None else first_tries(chain, solver.room, (), 1, q0)[0]
     finite = np.isfinite(targets).all(axis=(1, 2))
     follower = Follower(solver, np.ascontiguousarray(targets[finite]), most, progress)
     found, broken = follower.run(start)

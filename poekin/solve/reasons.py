@@ -14,6 +14,7 @@ from .task import Task
 
 if TYPE_CHECKING:
     from .solver import Solver
+    from .starts import Room
 
 KIND = "<U12"  # of an array of reasons
 AT_LIMIT = 1e-9  # rad or m
@@ -22,7 +23,10 @@ AT_LIMIT = 1e-9  # rad or m
 def of(
     solver: Solver, targets: Array, q: Array, info: Array, success: np.ndarray
 ) -> tuple[np.ndarray, Array, tuple[tuple[str, ...], ...]]:
-    """The reason of each target, how far it is beyond the reach, and which limits are in the way."""
+    """The reason of each target, how far it is beyond the reach, and which limits are in the way.
+
+    A target that is solved within the limits after all, from other starts, gets that solution in q.
+    """
     chain, room, count = solver.fast.chain, solver.room, len(q)
     reason = np.full(count, UNREACHABLE, dtype=KIND)
     blocked: list[tuple[str, ...]] = [()] * count
@@ -38,7 +42,11 @@ def of(
         other, said = solver.solve(targets[open_ones], open_ones.astype(float), anywhere, limits=free, ranges=ranges)
         for found, k, ended in zip(other, open_ones, said[:, codes.AT_STATE], strict=True):
             if ended == codes.SOLVED:
-                reason[k], blocked[k] = LIMITS, _in_the_way(solver, q[k], found)
+                within = room.unwound(found, np.clip(found, *room.limits.T))
+                if ((within >= room.limits[:, 0]) & (within <= room.limits[:, 1])).all():
+                    q[k], reason[k] = within, SOLVED
+                else:
+                    reason[k], blocked[k] = LIMITS, _in_the_way(room, q[k], within, solver.fast.q_names)
     return reason, beyond, tuple(blocked)
 
 
@@ -59,12 +67,9 @@ def beyond_reach(chain: Chain, task: Task, targets: Array, limits: Array) -> Arr
     return np.maximum(far - length * (1 + 1e-12), 0.0) if np.isfinite(length) else np.zeros(len(targets))
 
 
-def _in_the_way(solver: Solver, q: Array, found: Array) -> tuple[str, ...]:
-    """Coordinates at a limit in the nearest pose within them; else those outside in the solution without them."""
-    names, (lower, upper) = solver.fast.q_names, solver.room.limits.T
+def _in_the_way(room: Room, q: Array, found: Array, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Coordinates at a limit in the nearest pose within them, and those outside in the solution without them."""
+    lower, upper = room.limits.T
     at = (np.abs(q - lower) <= AT_LIMIT) | (np.abs(q - upper) <= AT_LIMIT)
-    if not at.any():
-        unwound = np.where(solver.room.turns, np.remainder(found - lower, 2 * np.pi) + lower, found)
-        unwound = np.where(np.isfinite(lower), unwound, found)
-        at = (unwound < lower) | (unwound > upper)
-    return tuple(name for name, stops in zip(names, at, strict=True) if stops)
+    outside = (found < lower) | (found > upper)
+    return tuple(name for name, stops in zip(names, at if at.any() else outside, strict=True) if stops)

@@ -68,6 +68,7 @@ class Solver:
         from ..engine import ik_kernels  # imports Numba
 
         self._solve, self._judge = ik_kernels.solve_many, ik_kernels.judge
+        self._arm = fast.hybrid_address
         self.options = np.zeros(codes.OPTIONS)
         # A little less than asked for: the errors are computed anew by other kernels, whose rounding is another.
         self.options[codes.TOL_POSITION] = 0.9 * settings.tol_position
@@ -81,27 +82,20 @@ class Solver:
         """The solutions of targets (..., 4, 4)."""
         batch, rows = T.shape[:-2], np.ascontiguousarray(T.reshape(-1, 4, 4))
         count, room = len(rows), self.room
-        first = first_tries(self.fast.chain, room, batch, q0 if nearest_to is None else nearest_to)
-        q, info = np.empty((count, self.fast.dof)), np.empty((count, codes.INFO))
-        for start in range(0, count, AT_ONCE):
-            part = slice(start, min(start + AT_ONCE, count))
-            numbers = np.arange(part.start, part.stop, dtype=float)
-            q[part], info[part] = self.solve(rows[part], numbers, first[part])
-            if nearest_to is not None:
-                q[part], info[part] = self.nearest(rows[part], q[part], info[part], first[part])
-            if aim is not None:
-                q[part] = aims.improved(self, rows[part], q[part], first[part], aim)
-            if progress is not None:
-                progress(part.stop, count)
+        first = first_tries(self.fast.chain, room, batch, count, q0 if nearest_to is None else nearest_to)
+        numbers = np.arange(count, dtype=float)
+        if count <= AT_ONCE and nearest_to is None and aim is None and progress is None:
+            q, info = self.solve(rows, numbers, first)
+        else:
+            q, info = self._in_parts(rows, numbers, first, nearest_to is not None, aim, progress)
         if room.winds and nearest_to is None:
             q = room.unwound(q)
-        errors = np.empty((count, 2))
-        self._judge.call(self.fast.chain._table, q, rows, self.task.code, self.task.axis, errors)
-        success = (errors[:, 0] <= self.settings.tol_position) & (errors[:, 1] <= self.settings.tol_rotation)
+        errors, success = self.judged(rows, q)
         reason = np.full(count, SOLVED, dtype=reasons.KIND)
         beyond, blocked = np.zeros(count), ()
         if not success.all():
             reason, beyond, blocked = reasons.of(self, rows, q, info, success)
+            errors, success = self.judged(rows, q)
         return Solution(
             q.reshape(*batch, self.fast.dof),
             success.reshape(batch),
@@ -114,6 +108,28 @@ class Solver:
             blocked,
         )
 
+    def judged(self, targets: Array, q: Array) -> tuple[Array, np.ndarray]:
+        """The errors of q (N, 2) in m and rad by the kernels of any chain, and whether the tolerances hold."""
+        errors = np.empty((len(q), 2))
+        self._judge.call(self.fast.chain._table, q, targets, self.task.code, self.task.axis, errors)
+        return errors, (errors[:, 0] <= self.settings.tol_position) & (errors[:, 1] <= self.settings.tol_rotation)
+
+    def _in_parts(self, rows: Array, numbers: Array, first: Array, nearest: bool, aim: str | None,
+                  progress: Callable[[int, int], None] | None) -> tuple[Array, Array]:  # fmt: skip
+        """q and info of many targets, some at a time, each with all that is asked of it."""
+        count = len(rows)
+        q, info = np.empty((count, self.fast.dof)), np.empty((count, codes.INFO))
+        for start in range(0, count, AT_ONCE):
+            part = slice(start, min(start + AT_ONCE, count))
+            q[part], info[part] = self.solve(rows[part], numbers[part], first[part])
+            if nearest:
+                q[part], info[part] = self.nearest(rows[part], q[part], info[part], first[part])
+            if aim is not None:
+                q[part] = aims.improved(self, rows[part], q[part], first[part], aim)
+            if progress is not None:
+                progress(part.stop, count)
+        return q, info
+
     def solve(self, targets: Array, numbers: Array, q0: Array, *, restarts: int | None = None,
               limits: Array | None = None, ranges: Array | None = None) -> tuple[Array, Array]:  # fmt: skip
         """q and info of targets, whose numbers in the batch are given, from q0; NaN there means anywhere."""
@@ -124,7 +140,7 @@ class Solver:
         q, info = np.empty((len(targets), self.fast.dof)), np.empty((len(targets), codes.INFO))
         limits = self.room.limits if limits is None else limits
         ranges = self.room.ranges if ranges is None else ranges
-        arm, fixed, seed = self.fast.hybrid_address, self.room.fixed, self.settings.seed
+        arm, fixed, seed = self._arm, self.room.fixed, self.settings.seed
         if self.settings.parallel:
 
             def run(targets: Array, q0: Array, numbers: Array, q: Array, info: Array) -> None:

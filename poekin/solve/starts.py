@@ -18,7 +18,7 @@ from ..model.source import warn
 class Room:
     """limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie; fixed (m), 1 where a
     coordinate is locked, and held (m), its value there; turns (m), whether q_k + 2 pi is the same configuration;
-    winds, whether any such coordinate has no limits.
+    winds, whether any such coordinate has no limits; locks, whether any is locked.
     """
 
     limits: Array
@@ -27,6 +27,7 @@ class Room:
     held: Array
     turns: np.ndarray
     winds: bool
+    locks: bool
 
     def unwound(self, q: Array, near: Array | None = None) -> Array:
         """The same configurations with whole turns taken off: nearest to `near` within the limits; without `near`, a
@@ -54,32 +55,31 @@ def room_of(chain: Chain, lock: Any, limits: bool) -> Room:
     # a slide is no turn, and of a joint that goes half as fast, a turn is only half a one
     turns &= (np.round(C) == C).all(axis=0) & ~(C[chain.local.slides != 0] != 0).any(axis=0)
     winds = bool((turns & np.isinf(bounds).all(axis=1)).any())
-    return Room(bounds, np.stack([low, high], axis=1), fixed, held, turns, winds)
+    return Room(bounds, np.stack([low, high], axis=1), fixed, held, turns, winds, bool(fixed.any()))
 
 
-def first_tries(chain: Chain, room: Room, batch: tuple[int, ...], q0: Any) -> Array:
-    """Where the first try of each target begins (N, m): at q0 within the limits, NaN for anywhere.
+def first_tries(chain: Chain, room: Room, batch: tuple[int, ...], count: int, q0: Any) -> Array:
+    """Where the first try of each of `count` targets begins (N, m): at q0 within the limits, NaN for anywhere.
 
     Raises: InputError, ShapeError, UnknownName. Warns where q0 is moved.
     """
-    shape = (*batch, chain.dof)
     if q0 is None:
-        first = np.full((int(np.prod(batch)), chain.dof), np.nan)
+        first = np.full((count, chain.dof), np.nan)
     else:
         given = coordinates(q0, chain.q_names, "q0")
         if not np.isfinite(given).all():
             raise InputError(f"q0: expected finite numbers, got {told(q0)}")
         try:
-            first = np.broadcast_to(given, shape).reshape(-1, chain.dof).copy()
+            first = np.broadcast_to(given, (*batch, chain.dof)).reshape(count, chain.dof).copy()
         except ValueError as error:
-            raise ShapeError(f"q0: shape {given.shape} does not fit the targets' {shape}") from error
+            raise ShapeError(f"q0: shape {given.shape} does not fit the targets' {(*batch, chain.dof)}") from error
         within = np.clip(first, *room.limits.T)
         moved = (within != first).any(axis=0)
         if moved.any():
             names = listed(name for name, far in zip(chain.q_names, moved, strict=True) if far)
             warn(f"ik: q0 is outside the limits of {names} and is moved to them")
         first = within
-    if room.fixed.any():
+    if room.locks:
         first[:, room.fixed != 0] = room.held[room.fixed != 0]
     return first
 

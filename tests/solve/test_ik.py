@@ -130,6 +130,15 @@ def test_limits_that_are_in_the_way_are_named():
     assert ik(arm, PANDA.fk(q_far), limits=False).success
 
 
+def test_who_says_limits_names_them():
+    tight = pk.Chain(UR5.screws, UR5.home, limits=np.tile([-1.5, 1.0], (6, 1)), joint_names=UR5.joint_names)
+    found = ik(tight, UR5.fk(UR5.random(1, 200)), restarts=3)
+    assert (found.reason == "limits").sum() > 100
+    for reason, names in zip(found.reason, found.blocked, strict=True):
+        assert bool(names) == (reason == "limits")
+    assert within(tight, found.q).all()
+
+
 def test_nan_in_one_target_is_nan_in_its_solution_only():
     T = PANDA.fk(PANDA.random(0, 3))
     T[1, 0, 3] = np.nan
