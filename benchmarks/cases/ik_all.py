@@ -51,7 +51,7 @@ def equal(a: np.ndarray, b: np.ndarray) -> bool:
 
 def eaik_sets(chain: Chain, T: np.ndarray) -> tuple[list[np.ndarray], float]:
     """EAIK's solutions of each target, each once, and its own time (processor seconds) for all of them."""
-    from eaik.IK_HP import HPRobot  # pyright: ignore[reportMissingImports]
+    from eaik.IK_HP import HPRobot
 
     form = chain.to_hp()
     robot = HPRobot(form.H, form.P)
@@ -101,7 +101,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     count = 100 if quick else COUNT
     title = "Every solution of a pose (`ik_all`)"
     try:
-        import eaik  # noqa: F401  # pyright: ignore[reportMissingImports]
+        import eaik  # noqa: F401
     except ImportError:
         missing = Figure("search alone against EAIK's solution sets", None, note="EAIK is not installed", holds=False)
         return Topic(title, "EAIK is the judge of this topic.", figures=[missing], tables=[])

@@ -61,7 +61,7 @@ def closed_form(chain: Chain) -> ClosedForm | None:
     Raises: MissingExtra without EAIK; InputError, as `Chain.to_hp`, for joints that are not revolute or are coupled.
     """
     try:
-        from eaik.IK_HP import HPRobot  # pyright: ignore[reportMissingImports]
+        from eaik.IK_HP import HPRobot
     except ImportError as missing:
         raise MissingExtra("EAIK", "ik", "inverse kinematics in closed form") from missing
     if chain.dof != 6:
