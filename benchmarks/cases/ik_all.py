@@ -99,7 +99,7 @@ def judged(name: str, count: int) -> Judged:
 
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     count = 100 if quick else COUNT
-    title = "Every solution of a pose (`ik_all`)"
+    title = "Every solution of a pose"
     try:
         import eaik  # noqa: F401
     except ImportError:
