@@ -44,8 +44,13 @@ class Arm:
     single: bool
 
 
-def take(file: str, tip: str | None, base: str | None, q: Sequence[str] | None, given: str | None) -> Arm:
-    """The chain and configurations that a command line names. Raises: what `model`, `Robot.chain` and reading do."""
+def take(
+    file: str, tip: str | None, base: str | None, q: Sequence[str] | None, given: str | None, *, many: bool = True
+) -> Arm:
+    """The chain and configurations that a command line names; many: whether the command has --input.
+
+    Raises: what `model`, `Robot.chain` and reading do.
+    """
     words = list(q or ())
     for word in words:
         if word.startswith("--"):  # it came through as a number might
@@ -57,7 +62,8 @@ def take(file: str, tip: str | None, base: str | None, q: Sequence[str] | None, 
     if given is None:
         if len(values) != chain.dof:
             names = ", ".join(name(n) for n in chain.q_names)
-            raise InputError(f"{chain.dof} coordinates expected ({names}), got {len(values)}; or --input with a file")
+            other = "; or --input with a file" if many else ""
+            raise InputError(f"{chain.dof} coordinates expected ({names}), got {len(values)}{other}")
         return Arm(robot.name, chain, np.array(values, float).reshape(1, chain.dof), True)
     if values:
         raise InputError(f"either coordinates or --input expected, got both ({shown(words[0])} and {shown(given)})")

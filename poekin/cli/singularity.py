@@ -42,7 +42,7 @@ def command(
     words = [] if at is None else at.replace(",", " ").split()
     if at is not None and not words:
         raise InputError("--at: coordinates expected, got nothing")
-    arm = take(file, tip, base, [*words, *(q or ())], None)
+    arm = take(file, tip, base, [*words, *(q or ())], None, many=False)
     chain, here = arm.chain, arm.q[0]
     result = singularity(chain, here, part=part.value, tolerance=tolerance)
     measures = manipulability(chain, here)
