@@ -12,6 +12,7 @@ from poekin.errors import InputError, PoekinWarning, PoseError, ShapeError, Unkn
 from poekin.model import screw
 from poekin.solve.ik import ik
 from poekin.solve.solution import REASONS
+from poekin.solve.solver import Settings, solver_of
 from poekin.testing import chain_strategies
 
 PANDA = pk.load("panda").chain(tip="panda_hand")
@@ -64,6 +65,17 @@ def test_success_is_never_claimed_beyond_the_tolerance(data):
     assert (rotation[found.success] <= tolerance + rounding).all()
     np.testing.assert_allclose(found.position_error, position, atol=rounding)
     np.testing.assert_allclose(found.rotation_error, rotation, atol=1e-7)  # the chord's own digits near pi
+
+
+@pytest.mark.parametrize("axis", [3, 0])
+@pytest.mark.parametrize("off, held", [(0.9e-9, True), (1.1e-9, False), (1e-7, False)])
+def test_the_judgement_is_by_the_tolerance_itself(axis, off, held):
+    settings = Settings("pose", None, True, TOLERANCE, TOLERANCE, None, None, 0, 1, 0, False)
+    q = UR5.random(9, 20)
+    T = UR5.fk(q) @ pk.se3.exp(np.eye(6)[axis] * off)
+    errors, success = solver_of(UR5.compile(), settings).judged(T, q)
+    assert (success == held).all()
+    np.testing.assert_allclose(errors[:, 0 if axis == 3 else 1], off, atol=1e-14)
 
 
 def test_the_same_seed_gives_the_same_result_and_another_one_another():
