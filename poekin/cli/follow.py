@@ -37,8 +37,9 @@ Plot = Annotated[Path | None, typer.Option("--plot", help="Draw the joints over 
 def command(
     file: File, tip: Tip = None, base: Base = None, given: poses.Input = None,
     format: poses.Format = None, quaternion: poses.Quaternion = None, q0: Start = None, duration: Duration = None,
-    speed: Speed = None, acceleration: Acceleration = None, max_step: Step = 0.1, no_limits: poses.NoLimits = False,
-    seed: poses.Seed = 0, output: poses.Output = None, plot: Plot = None, json: Json = False,
+    speed: Speed = None, acceleration: Acceleration = None, max_step: Step = 0.1, task: poses.Task = "pose",
+    no_limits: poses.NoLimits = False, seed: poses.Seed = 0, output: poses.Output = None, plot: Plot = None,
+    json: Json = False,
 ) -> None:  # fmt: skip
     """Joints along the path of poses in --input, without a jump where there is such a way.
 
@@ -51,14 +52,17 @@ def command(
         _check_plot(plot, output)
     if given is None:
         raise InputError("--input: a file of poses expected, got none")
+    poses.check_apart(given, output)
+    if duration is None and (speed is not None or acceleration is not None):
+        raise InputError("--speed and --acceleration: expected together with --duration, got none")
     T = poses.read(None, given, format, quaternion)
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     with Progress("following") as progress:
         path = follow(
             chain, T, q0=poses.coordinates(q0, chain, "--q0"), times=_times(duration, len(T)),
-            speed=poses.for_each(speed, chain, "--speed"), max_step=max_step, limits=not no_limits, seed=seed,
-            acceleration=poses.for_each(acceleration, chain, "--acceleration"), progress=progress,
+            speed=poses.for_each(speed, chain, "--speed"), max_step=max_step, task=task, limits=not no_limits,
+            acceleration=poses.for_each(acceleration, chain, "--acceleration"), seed=seed, progress=progress,
         )  # fmt: skip
     svg = None if plot is None else path.plot()
     _give(robot.name, chain, path, output, json)

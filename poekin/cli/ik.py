@@ -32,17 +32,21 @@ ERRORS = ("success", "position_error", "rotation_error")
 def command(
     file: File, words: poses.Poses = None, tip: Tip = None, base: Base = None, given: poses.Input = None,
     format: poses.Format = None, quaternion: poses.Quaternion = None, q0: Start = None, nearest_to: Nearest = None,
-    no_limits: poses.NoLimits = False, seed: poses.Seed = 0, output: poses.Output = None, json: Json = False,
+    task: poses.Task = "pose", no_limits: poses.NoLimits = False, seed: poses.Seed = 0, output: poses.Output = None,
+    json: Json = False,
 ) -> None:  # fmt: skip
     """Joints with which the link --tip has a pose in the link --base. Exit code 0 all solved, 1 some not, 2 error."""
     if output is not None:
         files.check_writable(output)
+    poses.check_apart(given, output)
     T = poses.read(words, given, format, quaternion)
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     start, near = (poses.coordinates(q, chain, o) for q, o in ((q0, "--q0"), (nearest_to, "--nearest-to")))
     with Progress("solving") as progress:
-        found = ik(chain, T, q0=start, nearest_to=near, limits=not no_limits, seed=seed, progress=progress)
+        found = ik(
+            chain, T, q0=start, nearest_to=near, task=task, limits=not no_limits, seed=seed, progress=progress
+        )  # fmt: skip
     _give(robot.name, chain, found, given is None, output, json)
     raise typer.Exit(0 if found.success.all() else poses.UNSOLVED)
 

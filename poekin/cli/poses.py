@@ -34,6 +34,10 @@ Input = Annotated[
 ]
 Output = Annotated[Path | None, typer.Option("--output", help="Where the joints go: a .csv, .npy or .json file.")]
 Seed = Annotated[int, typer.Option("--seed", min=0, help="Of the random starts: the same seed gives the same result.")]
+Task = Annotated[
+    str,
+    typer.Option("--task", help="What to hold: pose, position, rotation, or direction (position and tool's z axis)."),
+]
 NoLimits = Annotated[bool, typer.Option("--no-limits", help="Let the joints leave their limits.")]
 
 UNSOLVED = 1
@@ -44,7 +48,8 @@ def read(words: Sequence[str] | None, given: str | None, format: str | None, qua
     """The poses (N, 4, 4) that a command line names; NaN where a row is not finite. Raises: InputError, PoseError,
     FileError, with file and line.
     """
-    own = ("--tip", "--base", "--input", "--format", "--quaternion", "--q0", "--output", "--json", "--seed", *OPTIONS)
+    own = ("--tip", "--base", "--input", "--format", "--quaternion", "--q0", "--nearest-to", "--task", "--no-limits",
+           "--output", "--json", "--seed", *OPTIONS)  # fmt: skip
     for word in words or ():
         if word.startswith("--"):  # it came through as a number might
             raise InputError(f"there is no option {shown(word)}; {closest(word, own)}")
@@ -95,6 +100,12 @@ def for_each(text: str | None, chain: Chain, option: str) -> Array | float | Non
     if text is not None and len(text.replace(",", " ").split()) == 1:
         return float(numbers(text.replace(",", " ").split(), f"{option}: number")[0])
     return coordinates(text, chain, option)
+
+
+def check_apart(given: str | None, output: Path | None) -> None:
+    """Refuse to write the joints over the poses. Raises: FileError."""
+    if output is not None and given is not None and output.resolve() == Path(given).resolve():
+        raise FileError(f"cannot write {shown(output, 400)}: it is the file of the poses")
 
 
 def same_file(output: Path | None, other: Path | None) -> None:

@@ -1,8 +1,9 @@
 """Inverse kinematics of one arm: damped least squares from random starts, over the arm's own machine code.
 
 Each step solves (J^T W J + E I) dq = J^T W e with the hybrid Jacobian and the error e = (rotation vector, p* - p) in
-the axes of the base; the damping is the error's own size, E = 0.1 e^T W e / 2: far from the target the step is careful,
-near it Newton's. A coordinate at a limit that the step would push further stays there, and the others go on without it.
+the axes of the base; the damping is the error's own size, E = 0.1 e^T W e / 2 (of a slide no more than its column's):
+far from the target the step is careful, near it Newton's. A coordinate at a limit that the step would push further
+stays there, and the others go on without it.
 Source: Chan and Lawrence 1988 (error-scaled damping), as in Sugihara 2011.
 
 Importing this module imports Numba.
@@ -42,6 +43,7 @@ from .rows import store_matrix
 
 _SLOW = 0.9  # a step that leaves more than this of the error hardly moves
 _PATIENCE = 3  # such steps one after the other end a try
+_REGULAR = 1e-14  # of the largest: some ten times the rounding
 _DAMPING = 0.1  # by trial: fewest steps over Panda, UR5 and Puma 560, within limits
 
 
@@ -96,6 +98,9 @@ def _direction_error(T, target, axis):
     n = cross(a, b)
     sine, cosine = math.sqrt(dot(n, n)), dot(a, b)
     half = 2.0 * math.sin(0.5 * math.atan2(sine, cosine))
+    if sine == 0.0 and cosine < 0.0:  # opposite: half a turn about anything across, here about the longer of two
+        n = cross(a, (1.0, 0.0, 0.0) if abs(a[0]) < 0.6 else (0.0, 1.0, 0.0))
+        sine = math.sqrt(dot(n, n))
     k = half / sine if sine > 0.0 else 0.0
     return a, (k * n[0], k * n[1], k * n[2])
 
@@ -125,6 +130,28 @@ def _errors(task, axis, T, target, J, e):
     if task == ROTATION:
         position = 0.0
     return position, rotation
+
+
+def _ease_slides(J, weights, damping, free, H):
+    """Take the damping off a coordinate that slides, as far as it is more than 1 and than the column's own size.
+
+    Care is for turns, whose columns change on the way: over many metres a slide would hardly move.
+    """
+    for i in range(J.shape[1]):
+        if damping > 1.0 and free[i] != 0.0 and J[0, i] == 0.0 and J[1, i] == 0.0 and J[2, i] == 0.0:
+            own = 0.0
+            for r in range(3, 6):
+                own += weights[r] * J[r, i] * J[r, i]
+            H[i, i] -= max(damping - max(own, 1.0), 0.0)
+
+
+def _keep_regular(free, H):
+    """Add to the diagonal some times what its numbers are rounded by: with joints to spare J^T W J is singular."""
+    top = 0.0
+    for i in range(H.shape[0]):
+        top = max(top, free[i] * H[i, i])
+    for i in range(H.shape[0]):
+        H[i, i] += _REGULAR * top
 
 
 def _descend(arm, target, q, limits, fixed, options, work, T, J, H):
@@ -158,7 +185,9 @@ def _descend(arm, target, q, limits, fixed, options, work, T, J, H):
                 pull += J[r, i] * weights[r] * e[r]
             stuck = (q[i] <= limits[i, 0] and pull < 0.0) or (q[i] >= limits[i, 1] and pull > 0.0)
             free[i] = 0.0 if stuck or fixed[i] != 0.0 else 1.0
-        least_squares.normal_equations(J, e, weights, _DAMPING * size + 1e-14, free, 6, m, H, g)
+        least_squares.normal_equations(J, e, weights, _DAMPING * size, free, 6, m, H, g)
+        _ease_slides(J, weights, _DAMPING * size, free, H)
+        _keep_regular(free, H)
         least_squares.solve(H, g, m)
         for i in range(m):
             q[i] = min(max(q[i] + g[i], limits[i, 0]), limits[i, 1])
@@ -202,7 +231,7 @@ def solve_many(arm, targets, q0, limits, ranges, fixed, options, indices, seed, 
                     trial[i] = ranges[i, 0] + part * (ranges[i, 1] - ranges[i, 0])
             ended, position, rotation, taken = _descend(arm, target, trial, limits, fixed, options, work, T, J, H)
             total += taken
-            if position + rotation < best or attempt == 0:
+            if position + rotation < best or best != best or attempt == 0:
                 best = position + rotation
                 row[AT_POSITION], row[AT_ROTATION], row[AT_STATE] = position, rotation, ended
                 for i in range(m):

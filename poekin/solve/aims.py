@@ -29,6 +29,11 @@ def check_aim(aim: Any, q0: Any) -> None:
 
 def improved(solver: Solver, targets: Array, q: Array, q0: Array, aim: str) -> Array:
     """Solutions that serve the aim better, of those targets that are solved already."""
+    known = ~np.isnan(q).any(axis=1)
+    if not known.all():  # of a bad target nothing is known
+        best = q.copy()
+        best[known] = improved(solver, targets[known], q[known], q0[known], aim)
+        return best
     q0 = np.where(np.isnan(q0), q, q0)
     best, value = q.copy(), _value(solver, q, q0, aim)
     step = np.full(len(q), STEP)
@@ -43,10 +48,11 @@ def improved(solver: Solver, targets: Array, q: Array, q0: Array, aim: str) -> A
 
 
 def _value(solver: Solver, q: Array, q0: Array, aim: str) -> Array:
-    """What the aim makes small."""
+    """What the aim makes small; of the manipulability that of the task, by the coordinates that may move."""
     if aim == "manipulability":
-        J = solver.fast.jacobian(q, "hybrid")
-        return -np.linalg.slogdet(J @ np.swapaxes(J, 1, 2))[1]
+        sizes = np.linalg.svd(_jacobian(solver, q), compute_uv=False)[:, : solver.task.holds]
+        with np.errstate(divide="ignore"):
+            return -np.log(sizes).sum(axis=1)
     return ((q - _goal(solver, q0, aim)) ** 2 * _weights(solver, aim)).sum(axis=1)
 
 
@@ -57,15 +63,22 @@ def _moved(solver: Solver, q: Array, q0: Array, aim: str, step: Array) -> Array:
         for k in range(q.shape[1]):
             h = np.zeros(q.shape[1])
             h[k] = DIFFERENCE
-            z[:, k] = _value(solver, q - h, q0, aim) - _value(solver, q + h, q0, aim)
-        z *= 0.5 / DIFFERENCE
+            with np.errstate(invalid="ignore"):  # infinite less infinite, at a singularity: no way is better there
+                z[:, k] = _value(solver, q - h, q0, aim) - _value(solver, q + h, q0, aim)
+        z = np.where(np.isfinite(z), z, 0.0) * (0.5 / DIFFERENCE)
         z /= np.maximum(np.linalg.norm(z, axis=1, keepdims=True), 1.0)
     else:
         z = (_goal(solver, q0, aim) - q) * _weights(solver, aim)
     z[:, solver.room.fixed != 0] = 0.0
-    J = solver.fast.jacobian(q, "hybrid")[:, solver.options[codes.WEIGHTS :] > 0]
+    J = _jacobian(solver, q)
     moved = q + step[:, None] * (z - (np.linalg.pinv(J) @ (J @ z[..., None]))[..., 0])
-    return np.clip(moved, *solver.room.limits.T)
+    return np.where(solver.room.fixed != 0, q, np.clip(moved, *solver.room.limits.T))
+
+
+def _jacobian(solver: Solver, q: Array) -> Array:
+    """The Jacobian of what the task takes hold of; what is locked moves nothing."""
+    J = solver.task.jacobian(*solver.fast.fk_jacobian(q, "hybrid"))[:, solver.task.weights > 0]
+    return np.where(solver.room.fixed != 0, 0.0, J)
 
 
 def _goal(solver: Solver, q0: Array, aim: str) -> Array:

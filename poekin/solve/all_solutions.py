@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import ShapeError, listed
+from ..errors import listed
 from ..groups.arrays import Array
 from .ik_all_search import Found
+from .solution import place
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,10 +38,9 @@ class AllSolutions:
     rotation_error: Array
 
     def of(self, *index: int) -> Array:
-        """Solutions (s, m) of one target of a batch. Raises: ShapeError."""
-        if len(index) != self.count.ndim:
-            raise ShapeError(f"of: expected an index of {self.count.ndim} numbers, got {len(index)}")
-        return self.solutions[int(np.ravel_multi_index(index, self.count.shape))] if index else self.solutions
+        """Solutions (s, m) of one target of a batch. Raises: ShapeError, IndexError."""
+        flat = place(index, self.count.shape, "of")
+        return self.solutions[flat] if index else self.solutions
 
     def __repr__(self) -> str:
         if self.count.ndim == 0:

@@ -17,7 +17,7 @@ from .followed import Followed
 from .follower import Follower
 from .reasons import KIND
 from .solution import BAD_TARGET, SOLVED, Solution
-from .solver import Settings, solver_of
+from .solver import Settings, hashable, items, solver_of
 from .starts import first_tries
 
 
@@ -68,11 +68,9 @@ def follow(
     if fast is None:
         raise InputError(f"follow: expected a Chain, got {told(arm)}")
     chain, targets = fast.chain, _path(poses)
-    axis = tuple(np.ravel(axis).tolist()) if isinstance(axis, (list, tuple, np.ndarray)) else axis
-    locked = tuple(lock.items()) if isinstance(lock, Mapping) else lock
-    solver = solver_of(
-        fast, Settings(task, axis, limits, tol_position, tol_rotation, locked, None, 100, 30, seed, False)
-    )  # fmt: skip
+    solver = solver_of(fast, Settings(
+        task, hashable(axis, "axis"), limits, tol_position, tol_rotation, items(lock), None, 100, 30, seed, False
+    ))  # fmt: skip
     most = per_coordinate(max_step, chain, "max_step")
     when, limit_v, limit_a = _timing(times, speed, acceleration, chain, len(targets))
     start = None if q0 is None else first_tries(chain, solver.room, (), 1, q0)[0]

@@ -17,8 +17,8 @@ from ..model.chain import Chain
 from .motion.files import write_joints
 from .motion.plot import plot_joints
 from .reasons import AT_LIMIT
-from .solution import Solution
-from .task import TASKS, Task
+from .solution import BAD_TARGET, Solution
+from .task import Task
 
 NEAR_SINGULAR = 1e-2
 """Smallest ÷ largest singular value of the Jacobian, lengths ÷ reach, below which a singularity is met: the rates of
@@ -139,13 +139,9 @@ class Followed:
 
         Computed when it is first asked for, which takes longer than to follow the path.
         """
-        J = self.chain.jacobian(self.q, "hybrid")
-        part = {"position": "translation", "rotation": "rotation"}.get(self.task.name, "pose")
-        if self.task.name == "direction":
-            a = self.chain.fk(self.q)[..., :3, :3] @ self.task.axis
-            J[..., :3, :] -= a[..., :, None] * (a[..., None, :] @ J[..., :3, :])
-        s = svd(scaled(J, -2, part, self.chain.reach))[1]
-        last = min(TASKS[self.task.name][1], self.chain.dof) - 1
+        J = self.task.jacobian(*self.chain.fk_jacobian(self.q, "hybrid"))
+        s = svd(scaled(J, -2, self._part(), self.chain.reach))[1]
+        last = min(self.task.holds, self.chain.dof) - 1
         return np.divide(s[..., last], s[..., 0], out=np.zeros(len(s)), where=s[..., 0] != 0)
 
     @cached_property
@@ -175,7 +171,8 @@ class Followed:
             f"largest step {self.largest_step:.3g} (rad or m)"
         ]
         size = np.nan_to_num(self.position_error + self.rotation_error)
-        for first, last in _runs(~self.success):
+        bad = self.reason == BAD_TARGET
+        for first, last in sorted(_runs(bad) + _runs(~self.success & ~bad)):
             worst = first + int(np.argmax(size[first : last + 1]))
             where = "" if first == last else f", least of all {worst}"
             said.append(f"{_points(first, last)} not reached{where}: {self.why(worst)}")

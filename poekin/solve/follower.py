@@ -7,7 +7,6 @@ from collections.abc import Callable
 import numpy as np
 
 from ..engine import ik_codes as codes
-from ..groups import so3
 from ..groups.arrays import Array
 from .motion import paths
 from .solution import ITERATIONS, Solution
@@ -22,6 +21,9 @@ ROUNDS, TRIES = 4, 8
 NEAR = 30
 """Steps towards a pose that is out of reach."""
 
+REGULAR = 1e-13
+"""The least damping of such a step, of the largest number on the diagonal: J^T W J may be singular to its rounding."""
+
 
 class Follower:
     """One path of finite poses, and what is known of it."""
@@ -31,7 +33,7 @@ class Follower:
     ):  # fmt: skip
         from ..engine import follow_kernels, ik_kernels  # imports Numba
 
-        self._kernel, self._judge = follow_kernels.follow, ik_kernels.judge
+        self._kernel, self._judge, self._errors = follow_kernels.follow, ik_kernels.judge, ik_kernels._errors
         self.solver, self.targets, self.most, self.progress = solver, targets, most, progress
         self.dof, self.room = solver.fast.dof, solver.room
         self._known: tuple[int, Solution] | None = None
@@ -140,7 +142,8 @@ class Follower:
         q, damping = last, 1e-3
         size, H, g = self._slope(k, q)
         for _ in range(NEAR):
-            tried = np.clip(q + np.linalg.solve(H + damping * np.eye(self.dof), g), low, high)
+            least = REGULAR * H.diagonal().max()
+            tried = np.clip(q + np.linalg.solve(H + max(damping, least) * np.eye(self.dof), g), low, high)
             new = self._slope(k, tried)
             if new[0] < size:
                 gain = size - new[0]
@@ -152,14 +155,9 @@ class Follower:
         return q[None]
 
     def _slope(self, k: int, q: Array) -> tuple[float, Array, Array]:
-        """e^T W e, J^T W J and J^T W e at pose k."""
-        T, J = self.solver.fast.fk_jacobian(q, "hybrid")
-        task, target = self.solver.task, self.targets[k]
-        turn = so3.log(target[:3, :3] @ T[:3, :3].T)
-        if task.name == "direction":
-            a, b = T[:3, :3] @ task.axis, target[:3, :3] @ task.axis
-            turn, J[:3] = np.cross(a, b), J[:3] - np.outer(a, a @ J[:3])
-        e = np.concatenate([turn, target[:3, 3] - T[:3, 3]], dtype=np.float64)
+        """e^T W e, J^T W J and J^T W e at pose k, with the error of the compiled descent."""
+        (T, J), task, e = self.solver.fast.fk_jacobian(q, "hybrid"), self.solver.task, np.empty(6)
+        self._errors(task.code, task.axis, T, self.targets[k], J, e)
         return float(task.weights @ e**2), (J.T * task.weights) @ J, (J.T * task.weights) @ e
 
     def _solutions(self, k: int, turn: int, last: Array | None) -> Array:

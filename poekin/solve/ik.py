@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, told
@@ -14,7 +13,7 @@ from ..model.chain import Chain
 from ..model.compiled import CompiledChain
 from .aims import check_aim
 from .solution import Solution
-from .solver import Settings, solver_of
+from .solver import Settings, hashable, items, solver_of
 
 
 def ik(
@@ -46,14 +45,15 @@ def ik(
     ----------
     arm: a `Chain`, or what its `compile` gives. T (..., 4, 4): poses of the tip in the base frame, m.
     q0 (m,), (..., m) or a dict: the first try begins there (outside the limits it is moved to them, with a warning);
-        without it at random.
+        without it at `nearest_to`, or else at random.
     task: "pose"; "position" or "rotation" alone; "direction": the position, and the direction of the tool's `axis`
         (in the tool frame, by default its z axis), for arms of five joints.
     limits: whether q has to lie within the chain's limits.
     tol_position (m), tol_rotation (rad): what is solved, by |p* - p| and by the angle of the rotation between the two.
-    nearest_to (m,) or (..., m) or a dict: of several solutions, the one nearest to it.
+    nearest_to (m,), (..., m) or a dict, within the limits or not: of the solutions that some fifty tries find, the one
+        with the least |q - nearest_to|; `ik_all` finds them all.
     aim: of an arm with more joints than the task needs, what to do with the rest: "middle" (of the limits), "nearest"
-        (to q0), "manipulability".
+        (to q0), "manipulability" (Yoshikawa's measure of what the task asks, in rad and m).
     lock: names of coordinates and the values that they keep.
     weights (6,): of the error's parts (rotation; position) in the axes of the base, while it is made small.
     restarts, iterations: the most tries after the first, and the most steps of a try. seed: of the random starts; the
@@ -69,18 +69,9 @@ def ik(
     if fast is None:
         raise InputError(f"ik: expected a Chain, got {told(arm)}")
     settings = Settings(
-        task, _hashable(axis), limits, tol_position, tol_rotation, _items(lock), _hashable(weights), restarts,
-        iterations, seed, parallel,
+        task, hashable(axis, "axis"), limits, tol_position, tol_rotation, items(lock), hashable(weights, "weights"),
+        restarts, iterations, seed, parallel,
     )  # fmt: skip
     if aim is not None:
         check_aim(aim, q0)
     return solver_of(fast, settings).run(poses(T, "T"), q0, nearest_to, aim, progress)
-
-
-def _hashable(values: Any) -> Any:
-    """What a user gives as an array, so that it can be part of a key; what is none is told later."""
-    return tuple(np.ravel(values).tolist()) if isinstance(values, (list, tuple, np.ndarray)) else values
-
-
-def _items(lock: Any) -> Any:
-    return tuple(lock.items()) if isinstance(lock, Mapping) else lock

@@ -30,8 +30,9 @@ def of(
     chain, room, count = solver.fast.chain, solver.room, len(q)
     reason = np.full(count, UNREACHABLE, dtype=KIND)
     blocked: list[tuple[str, ...]] = [()] * count
-    beyond = beyond_reach(chain, solver.task, targets, room.limits)
     state = info[:, codes.AT_STATE]
+    beyond = beyond_reach(chain, solver.task, targets, room.limits)
+    beyond[state == codes.BAD_TARGET] = 0.0
     reason[(state == codes.OUT_OF_ITERATIONS) & (beyond == 0)] = ITERATIONS
     reason[state == codes.BAD_TARGET], reason[success] = BAD_TARGET, SOLVED
     open_ones = np.flatnonzero(~success & (state != codes.BAD_TARGET) & (beyond == 0))
@@ -43,7 +44,7 @@ def of(
         for found, k, ended in zip(other, open_ones, said[:, codes.AT_STATE], strict=True):
             if ended == codes.SOLVED:
                 within = room.unwound(found, np.clip(found, *room.limits.T))
-                if ((within >= room.limits[:, 0]) & (within <= room.limits[:, 1])).all():
+                if room.holds(within):
                     q[k], reason[k] = within, SOLVED
                 else:
                     reason[k], blocked[k] = LIMITS, _in_the_way(room, q[k], within, solver.fast.q_names)
@@ -70,6 +71,6 @@ def beyond_reach(chain: Chain, task: Task, targets: Array, limits: Array) -> Arr
 def _in_the_way(room: Room, q: Array, found: Array, names: tuple[str, ...]) -> tuple[str, ...]:
     """Coordinates at a limit in the nearest pose within them, and those outside in the solution without them."""
     lower, upper = room.limits.T
-    at = (np.abs(q - lower) <= AT_LIMIT) | (np.abs(q - upper) <= AT_LIMIT)
+    at = ((np.abs(q - lower) <= AT_LIMIT) | (np.abs(q - upper) <= AT_LIMIT)) & (room.fixed == 0)
     outside = (found < lower) | (found > upper)
     return tuple(name for name, stops in zip(names, at if at.any() else outside, strict=True) if stops)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,13 @@ SOLVED, UNREACHABLE, LIMITS, ITERATIONS, BAD_TARGET = REASONS = (
 - "iterations": the nearest try was still moving when its iterations ended
 - "bad target": the target holds NaN, or infinity
 """
+
+
+def place(index: tuple[int, ...], shape: tuple[int, ...], what: str) -> int:
+    """Where an element of a batch stands when the batch is made flat. Raises: ShapeError, IndexError."""
+    if len(index) != len(shape):
+        raise ShapeError(f"{what}: expected an index of {len(shape)} numbers, got {len(index)}")
+    return int(np.arange(math.prod(shape)).reshape(shape)[index])
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,10 +52,8 @@ class Solution:
     blocked: tuple[tuple[str, ...], ...] = ()
 
     def why(self, *index: int) -> str:
-        """The reason in words, with its numbers; index of the target in the batch. Raises: ShapeError."""
-        if len(index) != self.success.ndim:
-            raise ShapeError(f"why: expected an index of {self.success.ndim} numbers, got {len(index)}")
-        reason, flat = str(self.reason[index]), int(np.ravel_multi_index(index, self.success.shape)) if index else 0
+        """The reason in words, with its numbers; index of the target in the batch. Raises: ShapeError, IndexError."""
+        flat, reason = place(index, self.success.shape, "why"), str(self.reason[index])
         position, rotation = float(self.position_error[index]), float(self.rotation_error[index])
         off = f"{1e3 * position:.4g} mm and {1e3 * rotation:.4g} mrad off"
         if reason == SOLVED:

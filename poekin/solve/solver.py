@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,11 +10,11 @@ import numpy as np
 from ..engine import ik_codes as codes
 from ..engine import threads
 from ..errors import InputError, told
-from ..groups.arrays import Array
+from ..groups.arrays import Array, numbers
 from ..model.compiled import CompiledChain
 from . import aims, reasons
-from .solution import SOLVED, Solution
-from .starts import Room, first_tries, room_of
+from .solution import SOLVED, UNREACHABLE, Solution
+from .starts import Room, first_tries, for_targets, room_of
 from .task import Task, check_joints, task_of
 
 AT_ONCE = 20_000
@@ -23,7 +23,7 @@ AT_ONCE = 20_000
 KEPT = 64
 """So many ways of asking are kept with an arm, the latest ones."""
 
-NEAREST_OF = 16
+NEAREST_OF = 48
 """So many tries for each target are looked at for the one nearest to `nearest_to`."""
 
 
@@ -41,6 +41,21 @@ class Settings(NamedTuple):
     iterations: Any
     seed: Any
     parallel: Any
+
+
+def hashable(values: Any, what: str) -> Any:
+    """What a user gives as an array, so that it can be part of a key; what is no vector is told by `task_of`."""
+    if isinstance(values, (list, tuple, np.ndarray)):
+        values = numbers(values, what)
+        return tuple(values.tolist()) if values.ndim == 1 else values
+    return values
+
+
+def items(lock: Any) -> Any:
+    """The names and values that a user gives as a dict, so that they can be part of a key. Raises: InputError."""
+    if lock is not None and not isinstance(lock, Mapping):
+        raise InputError(f"lock: expected a dict of names and values, got {told(lock)}")
+    return None if lock is None else tuple(lock.items())
 
 
 def solver_of(fast: CompiledChain, settings: Settings) -> Solver:
@@ -81,13 +96,16 @@ class Solver:
             progress: Callable[[int, int], None] | None) -> Solution:  # fmt: skip
         """The solutions of targets (..., 4, 4)."""
         batch, rows = T.shape[:-2], np.ascontiguousarray(T.reshape(-1, 4, 4))
+        if not (rows.flags.writeable and rows.flags.aligned):  # the kernels take no others
+            rows = rows.copy()
         count, room = len(rows), self.room
-        first = first_tries(self.fast.chain, room, batch, count, q0 if nearest_to is None else nearest_to)
-        numbers = np.arange(count, dtype=float)
-        if count <= AT_ONCE and nearest_to is None and aim is None and progress is None:
-            q, info = self.solve(rows, numbers, first)
+        first = first_tries(self.fast.chain, room, batch, count, q0)
+        near = None if nearest_to is None else for_targets(self.fast.chain, batch, count, nearest_to, "nearest_to")
+        indices = np.arange(count, dtype=float)
+        if count <= AT_ONCE and near is None and aim is None and progress is None:
+            q, info = self.solve(rows, indices, first)
         else:
-            q, info = self._in_parts(rows, numbers, first, nearest_to is not None, aim, progress)
+            q, info = self._in_parts(rows, indices, first, near, aim, progress)
         if room.winds and nearest_to is None:
             q = room.unwound(q)
         errors, success = self.judged(rows, q)
@@ -96,6 +114,7 @@ class Solver:
         if not success.all():
             reason, beyond, blocked = reasons.of(self, rows, q, info, success)
             errors, success = self.judged(rows, q)
+            reason[(reason == SOLVED) & ~success] = UNREACHABLE  # by a rounding, where the tolerance is no larger
         return Solution(
             q.reshape(*batch, self.fast.dof),
             success.reshape(batch),
@@ -114,25 +133,26 @@ class Solver:
         self._judge.call(self.fast.chain._table, q, targets, self.task.code, self.task.axis, errors)
         return errors, (errors[:, 0] <= self.settings.tol_position) & (errors[:, 1] <= self.settings.tol_rotation)
 
-    def _in_parts(self, rows: Array, numbers: Array, first: Array, nearest: bool, aim: str | None,
+    def _in_parts(self, rows: Array, indices: Array, first: Array, near: Array | None, aim: str | None,
                   progress: Callable[[int, int], None] | None) -> tuple[Array, Array]:  # fmt: skip
         """q and info of many targets, some at a time, each with all that is asked of it."""
         count = len(rows)
         q, info = np.empty((count, self.fast.dof)), np.empty((count, codes.INFO))
         for start in range(0, count, AT_ONCE):
             part = slice(start, min(start + AT_ONCE, count))
-            q[part], info[part] = self.solve(rows[part], numbers[part], first[part])
-            if nearest:
-                q[part], info[part] = self.nearest(rows[part], q[part], info[part], first[part])
+            if near is None:
+                q[part], info[part] = self.solve(rows[part], indices[part], first[part])
+            else:
+                q[part], info[part] = self.nearest(rows[part], indices[part], first[part], near[part])
             if aim is not None:
                 q[part] = aims.improved(self, rows[part], q[part], first[part], aim)
             if progress is not None:
                 progress(part.stop, count)
         return q, info
 
-    def solve(self, targets: Array, numbers: Array, q0: Array, *, restarts: int | None = None,
+    def solve(self, targets: Array, indices: Array, q0: Array, *, restarts: int | None = None,
               limits: Array | None = None, ranges: Array | None = None) -> tuple[Array, Array]:  # fmt: skip
-        """q and info of targets, whose numbers in the batch are given, from q0; NaN there means anywhere."""
+        """q and info of targets, whose indices in the batch are given, from q0; NaN there means anywhere."""
         options = self.options
         if restarts is not None:
             options = options.copy()
@@ -143,28 +163,33 @@ class Solver:
         arm, fixed, seed = self._arm, self.room.fixed, self.settings.seed
         if self.settings.parallel:
 
-            def run(targets: Array, q0: Array, numbers: Array, q: Array, info: Array) -> None:
-                self._solve.call(arm, targets, q0, limits, ranges, fixed, options, numbers, seed, q, info)
+            def run(targets: Array, q0: Array, indices: Array, q: Array, info: Array) -> None:
+                self._solve.call(arm, targets, q0, limits, ranges, fixed, options, indices, seed, q, info)
 
-            threads.share_out(run, targets, q0, numbers, q, info, rows=256)
+            threads.share_out(run, targets, q0, indices, q, info, rows=256)
         else:
-            self._solve.call(arm, targets, q0, limits, ranges, fixed, options, numbers, seed, q, info)
+            self._solve.call(arm, targets, q0, limits, ranges, fixed, options, indices, seed, q, info)
         return q, info
 
-    def nearest(self, targets: Array, q: Array, info: Array, near: Array) -> tuple[Array, Array]:
-        """Of some tries for each target, the solution nearest to a configuration."""
-        best, kept = self.room.unwound(q, near), info.copy()
-        distance = _distance(best, near, info)
+    def nearest(self, targets: Array, indices: Array, q0: Array, near: Array) -> tuple[Array, Array]:
+        """Of some tries for each target, the first from q0 or, where that is anywhere, from `near` within the limits:
+        the solution nearest to the configuration `near`.
+        """
+        within = np.where(self.room.fixed != 0, self.room.held, np.clip(near, *self.room.limits.T))
+        q, kept = self.solve(targets, indices, np.where(np.isnan(q0), within, q0))
+        best = self.room.unwound(q, near)
+        distance = _distance(best, near, kept)
         rng = np.random.default_rng(self.settings.seed)
         low, high = self.room.ranges.T
-        numbers = np.arange(len(targets), dtype=float)
         for attempt in range(NEAREST_OF):
-            q0 = np.where(self.room.fixed != 0, near, low + (high - low) * rng.random(near.shape))
+            start = np.where(self.room.fixed != 0, within, low + (high - low) * rng.random(near.shape))
             if attempt % 2 == 0:  # every other one from not far away
-                q0 = near + 0.25 * (q0 - near)
-            other, said = self.solve(targets, numbers, q0, restarts=0)
+                start = within + 0.25 * (start - within)
+            # half of them without limits: more of them arrive, and many within the limits but for whole turns
+            free = np.full_like(self.room.limits, [-np.inf, np.inf]) if attempt % 4 >= 2 else None
+            other, said = self.solve(targets, indices, start, restarts=0, limits=free)
             other = self.room.unwound(other, near)
-            far = _distance(other, near, said)
+            far = np.where(self.room.holds(other), _distance(other, near, said), np.inf)
             nearer = far < distance
             best[nearer], distance[nearer] = other[nearer], far[nearer]
             kept[:, codes.AT_ITERATIONS] += said[:, codes.AT_ITERATIONS]

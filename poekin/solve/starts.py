@@ -13,6 +13,8 @@ from ..model.chain import Chain
 from ..model.coordinates import coordinates
 from ..model.source import warn
 
+TURN = 2 * np.pi
+
 
 @dataclass(frozen=True)
 class Room:
@@ -29,6 +31,10 @@ class Room:
     winds: bool
     locks: bool
 
+    def holds(self, q: Array) -> np.ndarray:
+        """Whether configurations (..., m) are within the limits (...)."""
+        return np.asarray(((q >= self.limits[:, 0]) & (q <= self.limits[:, 1])).all(axis=-1))
+
     def unwound(self, q: Array, near: Array | None = None) -> Array:
         """The same configurations with whole turns taken off: nearest to `near` within the limits; without `near`, a
         coordinate without limits within ±pi.
@@ -37,8 +43,9 @@ class Room:
         free = self.turns & (self.fixed == 0)
         if near is None:
             free = free & np.isinf(lower) & np.isinf(upper)
-        turn = 2 * np.pi * np.round(((0.0 if near is None else near) - q) / (2 * np.pi))
-        moved = q + np.where(free, turn, 0.0)
+        turns = np.round(((0.0 if near is None else near) - q) / TURN)
+        turns = np.clip(turns, np.ceil((lower - q) / TURN), np.floor((upper - q) / TURN))
+        moved = q + np.where(free, TURN * turns, 0.0)
         return np.where((moved >= lower) & (moved <= upper), moved, q)
 
 
@@ -66,31 +73,34 @@ def first_tries(chain: Chain, room: Room, batch: tuple[int, ...], count: int, q0
     if q0 is None:
         first = np.full((count, chain.dof), np.nan)
     else:
-        given = coordinates(q0, chain.q_names, "q0")
-        if not np.isfinite(given).all():
-            raise InputError(f"q0: expected finite numbers, got {told(q0)}")
-        try:
-            first = np.broadcast_to(given, (*batch, chain.dof)).reshape(count, chain.dof).copy()
-        except ValueError as error:
-            raise ShapeError(f"q0: shape {given.shape} does not fit the targets' {(*batch, chain.dof)}") from error
-        within = np.clip(first, *room.limits.T)
-        moved = (within != first).any(axis=0)
+        given = for_targets(chain, batch, count, q0, "q0")
+        first = np.clip(given, *room.limits.T)
+        moved = ((first != given) & (room.fixed == 0)).any(axis=0)
         if moved.any():
             names = listed(name for name, far in zip(chain.q_names, moved, strict=True) if far)
-            warn(f"ik: q0 is outside the limits of {names} and is moved to them")
-        first = within
+            warn(f"q0 is outside the limits of {names} and is moved to them")
     if room.locks:
         first[:, room.fixed != 0] = room.held[room.fixed != 0]
     return first
 
 
+def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: str) -> Array:
+    """A configuration for each of `count` targets (N, m), as a user gives it, finite.
+
+    Raises: InputError, ShapeError, UnknownName.
+    """
+    given = coordinates(q, chain.q_names, what)
+    if not np.isfinite(given).all():
+        raise InputError(f"{what}: expected finite numbers, got {told(q)}")
+    try:
+        return np.broadcast_to(given, (*batch, chain.dof)).reshape(count, chain.dof).copy()
+    except ValueError as error:
+        raise ShapeError(f"{what}: shape {given.shape} does not fit the targets' {(*batch, chain.dof)}") from error
+
+
 def _locked(chain: Chain, lock: Any, limits: Array):
     """Index and value of each coordinate that is locked; lock are pairs of name and value."""
-    if lock is None:
-        return
-    if not isinstance(lock, tuple):
-        raise InputError(f"lock: expected a dict of names and values, got {told(lock)}")
-    for name, value in lock:
+    for name, value in lock or ():
         if name not in chain.q_names:
             raise UnknownName(f"lock: no coordinate {shown(name)}; {closest(str(name), chain.q_names)}")
         k = chain.q_names.index(name)

@@ -24,7 +24,7 @@ TASKS = {
 @dataclass(frozen=True)
 class Task:
     """name, one of `TASKS`; axis (3,), the unit direction in the tool frame that the task "direction" aligns;
-    weights (6,) of the error's parts (rotation; position), 0 for those that the task leaves free.
+    weights (6,) of the error's parts (rotation; position), the largest 1, 0 for those that the task leaves free.
     """
 
     name: str
@@ -36,6 +36,19 @@ class Task:
         """The task as the kernel knows it."""
         return TASKS[self.name][0]
 
+    @property
+    def holds(self) -> int:
+        """Of how many numbers it takes hold."""
+        return TASKS[self.name][1]
+
+    def jacobian(self, T: Array, J: Array) -> Array:
+        """Hybrid Jacobians J (..., 6, m) at poses T (..., 4, 4), of a direction without the turn about it."""
+        if self.name != "direction":
+            return J
+        a = T[..., :3, :3] @ self.axis
+        turns = J[..., :3, :] - a[..., :, None] * (a[..., None, :] @ J[..., :3, :])
+        return np.concatenate([turns, J[..., 3:, :]], axis=-2)
+
 
 def task_of(name: Any, axis: Any, weights: Any) -> Task:
     """A task as a user names it. Raises: InputError."""
@@ -44,8 +57,9 @@ def task_of(name: Any, axis: Any, weights: Any) -> Task:
     if axis is not None and name != "direction":
         raise InputError(f"axis: only the task 'direction' has one, the task is {name!r}")
     a = shaped([0.0, 0.0, 1.0] if axis is None else axis, (3,), "axis")
-    if a.ndim != 1 or not np.isfinite(a).all() or not np.linalg.norm(a) > 0:
+    if a.ndim != 1 or not np.isfinite(a).all() or not a.any():
         raise InputError(f"axis: expected a direction (3,) that is not zero, got {told(axis)}")
+    a = a / np.abs(a).max()  # so that no square of it overflows
     w = shaped(np.ones(6) if weights is None else weights, (6,), "weights").copy()
     if w.ndim != 1 or not np.isfinite(w).all() or (w <= 0).any():
         raise InputError(f"weights: expected six positive numbers (rotation; position), got {told(weights)}")
@@ -53,12 +67,12 @@ def task_of(name: Any, axis: Any, weights: Any) -> Task:
         w[:3] = 0.0
     if name == "rotation":
         w[3:] = 0.0
-    return Task(name, a / np.linalg.norm(a), w)
+    return Task(name, a / np.linalg.norm(a), w / w.max())
 
 
 def check_joints(chain: Chain, task: Task, free: int) -> None:
     """Raises InputError where a chain has too few coordinates for a task; says which tasks fit."""
-    needed = TASKS[task.name][1]
+    needed = task.holds
     if free < needed:
         fit = [name for name, (_, number) in TASKS.items() if number <= free]
         others = f"; what fits: {', '.join(map(repr, fit))}" if fit else ""

@@ -138,7 +138,8 @@ def test_what_cannot_be_done_is_refused_at_once(call, says, refused):
     [
         (["--duration", "-1"], "--duration: a positive number of seconds expected, got -1"),
         (["--duration", "nan"], "--duration: a positive"),
-        (["--speed", "1"], "expected together with times"),
+        (["--speed", "1"], "--speed and --acceleration: expected together with --duration"),
+        (["--acceleration", "1"], "--speed and --acceleration: expected together with --duration"),
         (["--duration", "1", "--speed", "0"], "speed: expected positive numbers"),
         (["--duration", "1", "--speed", "1,2"], "--speed: 7 coordinates expected"),
         (["--q0", "1"], "--q0: 7 coordinates expected"),
@@ -148,3 +149,11 @@ def test_what_cannot_be_done_is_refused_at_once(call, says, refused):
 )
 def test_options_that_make_no_sense_are_refused(words, says, refused, given):
     assert says in refused(*PANDA, *given, *words)
+
+
+@pytest.mark.parametrize("command", ["follow", "ik"])
+def test_the_poses_are_not_written_over(command, refused, given):
+    before = given[1].read_bytes()
+    said = refused(command, *PANDA[1:], *given, "--output", given[1].parent / "." / "T.csv")
+    assert "it is the file of the poses" in said
+    assert given[1].read_bytes() == before

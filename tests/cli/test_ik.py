@@ -131,6 +131,8 @@ def test_an_empty_file_is_an_empty_batch(poekin, tmp_path):
         (["--format", 7, "--quaternion", "wxyz", 0, 0, 0, 2, 0, 0, 0], "the pose: the quaternion's length is 2"),
         (["--format", 12, *range(12)], "the pose: its rotation misses orthonormality"),
         (["--format", 12, "--inptu", "x"], "there is no option '--inptu'; did you mean '--input'"),
+        (["--format", 12, "--no-limit", "x"], "there is no option '--no-limit'; did you mean '--no-limits'"),
+        (["--format", 12, "--task", "pos", *[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "task: expected one of pose, pos"),
         (["--format", 12, "--input", "T.csv", 1], "either a pose or --input expected, got both"),
         (["--format", 12, "--input", "no.csv"], "cannot read 'no.csv'"),
         (["--format", 12, "--q0", "1,2", *[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "--q0: 7 coordinates expected"),
@@ -170,3 +172,23 @@ def test_a_bad_row_of_an_array_is_named_with_its_number(refused, tmp_path):
 def test_an_arm_of_too_few_joints_says_what_fits(crane, refused):
     row = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]
     assert "the chain has 2 coordinates" in refused("ik", crane, "--tip", "hook", "--format", 12, *row)
+
+
+SCARA = """<robot name="scara"><link name="base"/><link name="a"/><link name="b"/><link name="tool"/>
+<joint name="j1" type="continuous"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/></joint>
+<joint name="j2" type="continuous"><parent link="a"/><child link="b"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/></joint>
+<joint name="lift" type="prismatic"><parent link="b"/><child link="tool"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>
+"""
+
+
+def test_what_fits_an_arm_of_few_joints_can_be_asked_for(poekin, as_json, refused, tmp_path):
+    urdf, given = tmp_path / "scara.urdf", tmp_path / "T.csv"
+    urdf.write_text(SCARA)
+    T = pk.se3.exp([0.3, 0.2, 0.1, 0.5, 0.6, 0.2])
+    motion.write_poses(given, T[None], "12")
+    words = [urdf, "--input", given, "--format", 12]
+    assert "what fits: 'position', 'rotation'" in refused("ik", *words)
+    q = as_json("ik", *words, "--task", "position")["q"][0]
+    np.testing.assert_allclose(pk.load(urdf).chain().fk(q)[:3, 3], T[:3, 3], atol=2e-9)
+    assert as_json("follow", *words, "--task", "position")["solved"] == 1

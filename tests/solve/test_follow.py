@@ -326,3 +326,37 @@ def test_rotations_by_more_than_half_a_turn_are_followed(ur5):
     q = UR5_Q + np.linspace(0, 1, 400)[:, None] * [0, 0, 0, 0, 0, 2 * np.pi - 0.1]
     path = follow(ur5, ur5.fk(q), q0=q[0])
     np.testing.assert_allclose(path.q, q, atol=1e-7)
+
+
+@pytest.mark.parametrize("seed", [20, 185])
+def test_a_path_out_of_reach_ends_in_numbers_where_the_arm_is_singular(seed):
+    rng = np.random.default_rng(seed)
+    axes = [pk.screw.revolute(np.eye(3)[rng.integers(3)], rng.integers(-1, 2, 3) * 0.5) for _ in range(6)]
+    home = np.eye(4)
+    home[:3, 3] = rng.integers(-2, 3, 3) * 0.5
+    arm = pk.Chain(axes, home)
+    T_s0 = arm.fk(arm.random(rng))
+    T_s1 = T_s0.copy()
+    T_s1[:3, 3] += [5, 1, 2]
+    path = follow(arm, motion.line(T_s0, T_s1, np.linspace(0, 1, 12)), limits=False)
+    assert path.success[0]
+    assert not path.success[-1]
+    assert np.isfinite(path.q).all()
+
+
+def test_a_tool_that_cannot_turn_far_enough_turns_as_far_as_it_can():
+    slides = [pk.screw.prismatic(axis) for axis in np.eye(3)]
+    tilts = [pk.screw.revolute(axis, [0, 0, 0]) for axis in ([0, 1, 0], [1, 0, 0])]
+    arm = pk.Chain([*slides, *tilts], np.eye(4), limits=[*[[-1, 1]] * 3, [-0.5, 1.0], [-0.1, 0.1]])
+    target = pk.se3.exp([0, 2.5, 0, 0.2, 0.1, 0])  # 2.5 rad: farther off than a right angle
+    path = follow(arm, np.tile(target, (15, 1, 1)), q0=np.zeros(5), task="direction")
+    assert set(path.reason) == {"limits"}
+    np.testing.assert_allclose(path.q[-1, 3], 1.0, atol=1e-9)
+
+
+def test_bad_targets_are_told_apart_from_poses_that_are_not_reached(ur5):
+    T = np.tile(ur5.fk(UR5_Q), (4, 1, 1))
+    T[1], T[2, 0, 3] = np.nan, 9.0
+    said = str(follow(ur5, T, q0=UR5_Q))
+    assert "pose 1 not reached: bad target" in said
+    assert "pose 2 not reached: unreachable" in said

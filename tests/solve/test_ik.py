@@ -11,8 +11,10 @@ import poekin as pk
 from poekin.errors import InputError, PoekinWarning, PoseError, ShapeError, UnknownName
 from poekin.model import screw
 from poekin.solve.ik import ik
+from poekin.solve.ik_all import ik_all
 from poekin.solve.solution import REASONS
 from poekin.solve.solver import Settings, solver_of
+from poekin.solve.starts import room_of
 from poekin.testing import chain_strategies
 
 PANDA = pk.load("panda").chain(tip="panda_hand")
@@ -158,6 +160,7 @@ def test_nan_in_one_target_is_nan_in_its_solution_only():
     assert found.success.tolist() == [True, False, True]
     assert found.reason[1] == "bad target"
     assert np.isnan(found.q[1]).all()
+    assert found.beyond[1] == 0
     assert "finite" in found.why(1)
 
 
@@ -283,6 +286,7 @@ def test_coordinates_without_limits_come_within_a_turn():
     ({"q0": [0, 0]}, ShapeError, "q0: expected 7 coordinates"),
     ({"q0": np.zeros((3, 7))}, ShapeError, r"q0: shape \(3, 7\) does not fit"),
     ({"lock": ["panda_joint1"]}, InputError, "lock: expected a dict"),
+    ({"lock": ("panda_joint1", 0.5)}, InputError, "lock: expected a dict"),
 ], ids=lambda v: str(v) if isinstance(v, dict) else "")  # fmt: skip
 def test_mistakes_are_told(options, error, message):
     with warnings.catch_warnings():
@@ -305,3 +309,183 @@ def test_progress_and_words():
     with pytest.raises(ShapeError, match="why: expected an index of 1 numbers, got 0"):
         found.why()
     assert REASONS == ("solved", "unreachable", "limits", "iterations", "bad target")
+
+
+def upright(n):
+    """n joints with vertical axes, 0.2 m apart: the tool's z axis is up for good."""
+    home = np.eye(4)
+    home[0, 3] = 0.2 * n
+    return pk.Chain([screw.revolute([0.0, 0.0, 1.0], [0.2 * k, 0, 0]) for k in range(n)], home)
+
+
+def test_a_tool_that_points_the_opposite_way_is_not_taken_for_solved():
+    arm = upright(5)
+    T = arm.fk(arm.random(0, 20))
+    T[:, :3, :3] @= np.diag([1.0, -1.0, -1.0])
+    found = ik(arm, T, task="direction", restarts=3)
+    assert not found.success.any()
+    np.testing.assert_allclose(found.rotation_error, np.pi, atol=1e-12)
+
+
+def test_from_the_opposite_direction_a_tool_is_turned_over():
+    q = UR5.random(5, 20)
+    T = UR5.fk(q)
+    T[:, :3, :3] @= np.diag([1.0, -1.0, -1.0])
+    found = ik(UR5, T, task="direction", q0=q, restarts=0)
+    assert found.success.mean() > 0.5  # not all can be reached so
+    z = UR5.fk(found.q)[:, :3, 2]
+    np.testing.assert_allclose(z[found.success], T[found.success, :3, 2], atol=2e-9)
+
+
+@pytest.mark.parametrize("size", [1e200, 1e-200])
+def test_a_direction_may_be_of_any_length(size):
+    T, options = UR5.fk(UR5.random(0, 5)), {"task": "direction", "seed": 3}
+    np.testing.assert_array_equal(
+        ik(UR5, T, axis=[3 * size, 0, 4 * size], **options).q, ik(UR5, T, axis=[3, 0, 4], **options).q
+    )
+
+
+def test_targets_may_be_read_only_or_without_alignment():
+    T = UR5.fk(UR5.random(0, 3))
+    expected = ik(UR5, T).q
+    frozen = T.copy()
+    frozen.flags.writeable = False
+    crooked = np.frombuffer(b"\0" + T.tobytes(), np.float64, offset=1).reshape(T.shape)
+    for form in (frozen, crooked, np.asfortranarray(T), T.tolist()):
+        np.testing.assert_array_equal(ik(UR5, form).q, expected)
+    assert ik(UR5, UR5.home).success
+
+
+@pytest.mark.parametrize("aim", ["middle", "nearest", "manipulability"])
+def test_an_aim_leaves_bad_targets_alone(aim):
+    T, q0 = PANDA.fk(PANDA.random(0, 3)), PANDA.random(1, 3)
+    found = ik(PANDA, np.where(np.arange(3)[:, None, None] == 1, np.nan, T), aim=aim, q0=q0)
+    assert found.reason.tolist() == ["solved", "bad target", "solved"]
+    np.testing.assert_array_equal(found.q[[0, 2]], ik(PANDA, T, aim=aim, q0=q0).q[[0, 2]])
+
+
+@pytest.mark.parametrize("aim", ["middle", "nearest", "manipulability"])
+def test_an_aim_moves_no_locked_coordinate(aim):
+    T = PANDA.fk(PANDA.random(3, 20))
+    found = ik(PANDA, T, task="position", aim=aim, lock={"panda_joint3": 0.5}, q0=PANDA.random(1))
+    assert found.success.all()
+    assert (found.q[:, 2] == 0.5).all()
+
+
+def test_a_direction_leaves_the_turn_about_it_to_the_aim():
+    arm, q0 = UR5.retooled(pk.se3.exp([0.5, 0.3, 0, 0, 0, 0])), UR5.random(4, 50)
+    T, middle = arm.fk(arm.random(3, 50)), arm.limits.mean(axis=1)
+    plain, served = ik(arm, T, task="direction", q0=q0), ik(arm, T, task="direction", q0=q0, aim="middle")
+    assert served.success.all()
+    far = [np.linalg.norm(found.q - middle, axis=1) for found in (plain, served)]
+    assert far[1].mean() < far[0].mean() - 0.5
+
+
+def test_an_arm_of_few_joints_improves_the_manipulability_of_its_position():
+    y = [0.0, 1.0, 0.0]
+    axes = [screw.revolute([0.0, 0.0, 1.0], [0, 0, 0]), *(screw.revolute(y, [x, 0, 0]) for x in (0, 0.4, 0.8))]
+    arm = pk.Chain(axes, pk.se3.exp([0, 0, 0, 1.2, 0, 0]))
+    q0 = arm.random(2, 50)
+    T = arm.fk(arm.random(1, 50))
+    plain, served = (ik(arm, T, task="position", q0=q0, aim=aim) for aim in (None, "manipulability"))
+    assert served.success.all()
+    w = [pk.manipulability(arm, found.q).translation.yoshikawa for found in (plain, served)]
+    assert (w[1] >= w[0] * (1 - 1e-6)).all()
+    assert w[1].mean() > 1.1 * w[0].mean()
+
+
+@pytest.mark.parametrize("arm, tolerance", [(PANDA, 3e-16), (UR5, 1e-16)], ids=["panda", "ur5"])
+def test_the_reason_is_solved_where_success_is_claimed_and_nowhere_else(arm, tolerance):
+    found = ik(arm, arm.fk(arm.random(0, 300)), tol_position=tolerance, tol_rotation=tolerance, restarts=3)
+    assert not found.success.all()
+    np.testing.assert_array_equal(found.reason == "solved", found.success)
+
+
+def test_weights_are_relative_to_each_other():
+    T = UR5.fk(UR5.random(0, 50))
+    assert ik(UR5, T, weights=np.full(6, 1e-12)).success.all()
+
+
+def test_a_bad_nearest_to_is_named_and_q0_beside_it_is_looked_at():
+    T = PANDA.home
+    with pytest.raises(InputError, match="nearest_to: expected finite numbers"):
+        ik(PANDA, T, nearest_to=np.full(7, np.nan))
+    with pytest.raises(ShapeError, match=r"nearest_to: shape \(3, 7\) does not fit"):
+        ik(PANDA, T, nearest_to=np.zeros((3, 7)))
+    with pytest.raises(ShapeError, match="q0: expected 7 coordinates"):
+        ik(PANDA, T, nearest_to=PANDA.random(0), q0=[1, 2])
+
+
+def test_nearest_to_is_measured_from_where_it_is_said_outside_the_limits_too():
+    arm = pk.Chain(UR5.screws, UR5.home, limits=[[-1.5, 4.5]] * 6)
+    T, near = arm.fk(arm.random(5, 60)), np.full(6, -2.0)
+    found, every = ik(arm, T, nearest_to=near), ik_all(arm, T, method="search", copies=True)
+    least = np.array([np.linalg.norm(Q - near, axis=1).min() for Q in every.solutions])
+    assert found.success.all()
+    assert np.mean(np.linalg.norm(found.q - near, axis=1) <= least + 1e-6) >= 0.9  # it is a search
+
+
+@pytest.mark.parametrize("arm", [UR5, PUMA], ids=["ur5", "puma560"])
+def test_the_nearest_solution_is_the_nearest_of_all(arm):
+    T, near = arm.fk(arm.random(5, 100)), arm.random(6, 100)
+    every = ik_all(arm, T, method="search", copies=True)
+    least = np.array([np.linalg.norm(Q - n, axis=1).min() for Q, n in zip(every.solutions, near, strict=True)])
+    # it is a search, of some fifty tries: with sixteen it was nine in ten
+    assert np.mean(np.linalg.norm(ik(arm, T, nearest_to=near).q - near, axis=1) <= least + 1e-6) >= 0.97
+
+
+def test_turns_are_taken_off_to_the_nearest_place_within_the_limits():
+    room = room_of(UR5, None, True)  # ±2 pi
+    np.testing.assert_allclose(room.unwound(np.full((1, 6), -6.0), np.full((1, 6), 6.0)), 2 * np.pi - 6, atol=1e-14)
+    narrow = room_of(pk.Chain(UR5.screws, UR5.home, limits=[[-np.pi, 3.0]] * 6), None, True)
+    np.testing.assert_allclose(narrow.unwound(np.full((1, 6), 10.0), np.full((1, 6), 3.0)), 10 - 4 * np.pi, atol=1e-14)
+
+
+def test_a_locked_coordinate_is_not_said_to_be_in_the_way():
+    T = PANDA.fk(PANDA.random(3, 50))
+    T[:, :3, 3] *= 1.25
+    found = ik(PANDA, T, lock={"panda_joint1": PANDA.limits[0, 1]})
+    named = {name for names in found.blocked for name in names}
+    assert named
+    assert "panda_joint1" not in named
+
+
+def test_a_long_way_to_slide_is_gone():
+    gantry = pk.Chain([screw.prismatic(axis) for axis in np.eye(3)], np.eye(4))
+    far = [500.0, -300.0, 1000.0]
+    np.testing.assert_allclose(ik(gantry, gantry.fk(far), task="position").q, far, atol=1e-9)
+    rail = pk.Chain(np.vstack([screw.prismatic([1, 0, 0]), UR5.screws]), UR5.home, limits=[[0, 1000], *UR5.limits])
+    T = rail.fk(rail.random(0, 100))
+    assert ik(rail, T, q0=np.zeros(7), restarts=20).success.all()
+
+
+def test_an_element_is_named_from_the_end_too():
+    found = ik(UR5, UR5.fk(UR5.random(0, 6)).reshape(2, 3, 4, 4))
+    assert found.why(-1, -2) == found.why(1, 1)
+    with pytest.raises(IndexError, match="out of bounds"):
+        found.why(2, 0)
+
+
+@pytest.mark.parametrize("axis, error, message", [
+    ([[0, 0, 1]], InputError, r"axis: expected a direction \(3,\)"),
+    ([[0], 1], ShapeError, "axis: expected an array of numbers, got rows of different lengths"),
+    ("z", InputError, "axis: expected real numbers"),
+], ids=["rows", "ragged", "text"])  # fmt: skip
+def test_an_axis_that_is_none_is_told(axis, error, message):
+    with pytest.raises(error, match=message):
+        ik(UR5, UR5.home, task="direction", axis=axis)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("size", [1.0, 500.0])
+def test_long_arms_with_joints_to_spare_give_numbers(size, seed):
+    rng, n = np.random.default_rng(seed), 7 + seed
+    axes = [screw.revolute(np.eye(3)[rng.integers(3)], size * rng.integers(-1, 2, 3)) for _ in range(n)]
+    home = np.eye(4)
+    home[:3, 3] = size * rng.integers(-2, 3, 3)
+    arm = pk.Chain(axes, home, limits=np.tile([-1.0, 1.0], (n, 1)))
+    T = arm.fk(arm.random(rng, 30))
+    found = ik(arm, T, restarts=1)
+    assert np.isfinite(found.q).all()
+    assert np.isfinite(found.position_error + found.rotation_error).all()
+    assert ik(arm, T).success.mean() >= 0.6

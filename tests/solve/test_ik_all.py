@@ -425,3 +425,11 @@ def test_what_is_no_arm_and_what_is_no_pose_is_refused():
         ik_all(pk.Chain(np.empty((0, 6)), np.eye(4)), np.eye(4))
     with pytest.raises(PoseError, match=r"T\[1\] is no pose"):
         ik_all(arm("ur5"), [np.eye(4), 2 * np.eye(4)])
+
+
+def test_a_target_is_named_from_the_end_too():
+    chain = arm("ur5")
+    found = ik_all(chain, targets(chain, 3, 4)[1].reshape(2, 2, 4, 4))
+    np.testing.assert_array_equal(found.of(-1, 0), found.of(1, 0))
+    with pytest.raises(IndexError, match="out of bounds"):
+        found.of(0, 2)

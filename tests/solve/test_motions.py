@@ -203,13 +203,16 @@ def test_limits_for_way_and_angle_of_a_pose():
         (lambda: motion.fastest("linear", 1, speed=1), r"law: expected one of cubic, .*, got 'linear'"),
         (lambda: motion.fastest("cubic", 1), r"expected a limit of speed, of acceleration, or of both"),
         (lambda: motion.fastest("cubic", math.inf, speed=1), r"distance: expected finite"),
+        (lambda: motion.fastest("cubic", [1, 0], speed=[math.inf, 1]), r"expected a finite limit for some distance"),
+        (lambda: motion.fastest("trapezoidal", 1, speed=math.inf, acceleration=math.inf), r"expected a finite limit"),
         (lambda: motion.fastest("cubic", 1, speed=0), r"speed: expected positive limits, got 0"),
         (lambda: motion.fastest("cubic", 1, speed=math.nan), r"speed: expected positive limits"),
         (lambda: motion.fastest("cubic", [1, 2], speed=[1, 2, 3]), r"speed: shape \(3,\) does not fit"),
         (lambda: motion.fastest("trapezoidal", 1, speed=1), r"acceleration: the trapezoidal law needs a finite one"),
         (lambda: motion.lengths(np.eye(4), np.eye(4), "arc"), r"along: expected 'line' or 'screw', got 'arc'"),
     ],
-    ids=["zero", "nan", "ramp", "law", "no-limit", "far", "no-speed", "nan-speed", "shape", "trapezoid", "along"],
+    ids=["zero", "nan", "ramp", "law", "no-limit", "far", "infinite", "both", "no-speed", "nan-speed", "shape",
+         "trapezoid", "along"],
 )  # fmt: skip
 def test_what_is_no_timing_is_refused(call, says):
     with pytest.raises(InputError, match=says):

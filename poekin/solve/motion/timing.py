@@ -122,6 +122,8 @@ def fastest(
     if speed is None and acceleration is None:
         raise InputError("fastest: expected a limit of speed, of acceleration, or of both, got none")
     a, b = _least(way, speed, "speed"), _least(way, acceleration, "acceleration")
+    if a == b == 0 and way.max(initial=0.0) >= _INSTANT:
+        raise InputError("fastest: expected a finite limit for some distance that is not 0, got none")
     if law in _PEAKS:
         top, rise = _PEAKS[law]
         duration, ramp = max(top * a, math.sqrt(rise * b)), 0.5
