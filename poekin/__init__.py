@@ -25,7 +25,8 @@ from .model import screw
 from .model.chain import Chain
 from .model.joint import Joint, Mimic
 from .model.robot import Robot
-from .solve import motion
+from .solve import calibration, motion
+from .solve.calibration import calibrate, choose_poses
 from .solve.follow import follow
 from .solve.ik import ik
 from .solve.ik_all import ik_all
@@ -40,6 +41,9 @@ __all__ = [
     "PoekinWarning",
     "Robot",
     "axes",
+    "calibrate",
+    "calibration",
+    "choose_poses",
     "compare",
     "count",
     "count_table",

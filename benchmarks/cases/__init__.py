@@ -6,6 +6,8 @@ Each is a module with `topic(quick, say) -> Topic`: quick asks for a shorter run
 from . import (
     accuracy,
     accuracy_by_angle,
+    calibration_claim,
+    calibration_poses,
     compile_time,
     compiled,
     compiled_robots,
@@ -47,6 +49,8 @@ TOPICS = {
     "exp_log": exp_log,
     "ik_all": ik_all,
     "follow": follow,
+    "calibration_claim": calibration_claim,
+    "calibration_poses": calibration_poses,
     "start": start,
     "robustness": robustness,
 }

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import io
-from collections.abc import Callable, Iterable, Sequence
+import itertools
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TextIO
 
 import numpy as np
 
@@ -12,6 +16,27 @@ from ..errors import FileError, InputError, UnknownName, closest, harmless, show
 from .numbers import real
 
 Progress = Callable[[int, int], None]
+Line = tuple[int, list[str]]
+AT_ONCE = 10_000
+"""Lines that are made an array together: more are never held as Python's numbers."""
+
+
+@contextlib.contextmanager
+def opened(path: str | os.PathLike[str]) -> Iterator[tuple[TextIO, str, int]]:
+    """A file opened for reading as UTF-8 text, its name as messages call it, and its size in bytes.
+
+    Raises: FileError for what cannot be read, also while the file is being read.
+    """
+    where = harmless(os.fsdecode(path), 400)
+    try:
+        with open(path, newline="", encoding="utf-8-sig") as stream:
+            yield stream, where, os.fstat(stream.fileno()).st_size
+    except UnicodeDecodeError as error:
+        raise FileError(f"{where} is no text file: byte {error.start} is not UTF-8") from error
+    except (OSError, ValueError) as error:
+        if isinstance(error, (FileError, InputError)):
+            raise
+        raise FileError(f"cannot read {where}: {getattr(error, 'strerror', None) or error}") from error
 
 
 def read(
@@ -24,29 +49,73 @@ def read(
     ("coordinate"); progress(characters read, size). Raises: FileError for what is no CSV; InputError with file and line
     for a line of the wrong length or a cell that is no number; UnknownName for a header with a name that is none.
     """
-    rows: list[list[float]] = []
-    lines: list[int] = []
-    order: list[int] | None = None
-    reader, done = csv.reader(stream), 0
+    lines, order = _lines(stream, where), None
+    for line, cells in lines:
+        if _is_header(cells, names):
+            order = _order([cell.strip() for cell in cells], names, f"{where}:{line}", what)
+        else:
+            lines = itertools.chain([(line, cells)], lines)
+        break
+    array, numbers = _rows(lines, range(len(names)), len(names), where, _listed(names), progress, size)
+    return array if order is None else array[:, order], numbers
+
+
+def read_chosen(
+    stream: Iterable[str],
+    choose: Callable[[list[str], str], Sequence[int]],
+    where: str,
+    progress: Progress | None = None,
+    size: int = 0,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Rows (N, k) of chosen columns, and the number of each row's line in the file (N,); other columns may hold text.
+
+    The first line that is not empty names the columns. choose(names, where): the indices of the columns that are read,
+    in the order in which they are returned; the other parameters and errors are those of `read`.
+    Raises also: InputError for a file without a line.
+    """
+    lines = _lines(stream, where)
+    line, cells = next(lines, (0, []))
+    if not cells:
+        raise InputError(f"{where}: a first line that names the columns expected, the file is empty")
+    chosen = choose([cell.strip() for cell in cells], f"{where}:{line}")
+    return _rows(lines, chosen, len(cells), where, ", as the header has", progress, size)
+
+
+def _lines(stream: Iterable[str], where: str) -> Iterator[Line]:
+    """Number and cells of each line that is not empty."""
+    reader = csv.reader(stream)
     try:
         for cells in reader:
-            done += sum(map(len, cells)) + len(cells)
-            here = f"{where}:{reader.line_num}"
-            if not any(cell.strip() for cell in cells):
-                continue
-            if not rows and order is None and _is_header(cells, names):
-                order = _order([cell.strip() for cell in cells], names, here, what)
-                continue
-            if len(cells) != len(names):
-                raise InputError(f"{here}: {len(names)} values expected{_listed(names)}, got {len(cells)}")
-            rows.append([_real(cell, f"{here}, column {i + 1}") for i, cell in enumerate(cells)])
-            lines.append(reader.line_num)
-            if progress is not None and len(rows) % 10_000 == 0:
-                progress(done, size)
+            if any(cell.strip() for cell in cells):
+                yield reader.line_num, cells
     except csv.Error as error:
         raise FileError(f"{where}:{reader.line_num}: not CSV: {error}") from error
-    array = np.array(rows, float).reshape(len(rows), len(names))
-    return array if order is None else array[:, order], np.array(lines, int)
+
+
+def _rows(
+    lines: Iterable[Line],
+    chosen: Sequence[int],
+    width: int,
+    where: str,
+    names: str,
+    progress: Progress | None,
+    size: int,
+) -> tuple[np.ndarray, np.ndarray]:
+    """The chosen columns (N, k) of lines of `width` cells, and the lines' numbers; names is said with `width`."""
+    parts, rows, numbers, done = [np.empty((0, len(chosen)))], [], [], 0
+    for line, cells in lines:
+        done += sum(map(len, cells)) + len(cells)
+        if len(cells) != width:
+            raise InputError(f"{where}:{line}: {width} values expected{names}, got {len(cells)}")
+        rows.append([_real(cells[i], f"{where}:{line}, column {i + 1}") for i in chosen])
+        numbers.append(line)
+        if len(rows) == AT_ONCE:
+            parts.append(np.array(rows, float).reshape(len(rows), len(chosen)))
+            rows = []
+            if progress is not None:
+                progress(done, size)
+    parts.append(np.array(rows, float).reshape(len(rows), len(chosen)))
+    return np.concatenate(parts), np.array(numbers, int)
 
 
 def text(header: Sequence[str], rows: np.ndarray, progress: Progress | None = None) -> str:
@@ -54,10 +123,10 @@ def text(header: Sequence[str], rows: np.ndarray, progress: Progress | None = No
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow([harmless(h) for h in header])
-    for start in range(0, len(rows), 10_000):
+    for start in range(0, len(rows), AT_ONCE):
         if progress is not None:
             progress(start, len(rows))
-        writer.writerows(rows[start : start + 10_000].tolist())
+        writer.writerows(rows[start : start + AT_ONCE].tolist())
     return out.getvalue()
 
 

@@ -6,7 +6,7 @@ import os
 
 from ..errors import FileError, InputError, ModelError, UnknownName, closest, harmless, shown
 from ..model.robot import Robot
-from . import catalogue, dh, erd, mjcf, ur, urdf
+from . import catalogue, chain_toml, dh, erd, mjcf, ur, urdf
 from .dh.published_tables import NAMES as TABLES
 
 PREFIX = "erd:"
@@ -19,10 +19,11 @@ def load(name: str | os.PathLike[str]) -> Robot:
     """The robot of that name.
 
     Parameters: name, the path of an existing file, a URDF, an MJCF (.xml with the root <mujoco>, extra `mjcf`), a DH
-    table (.toml, .csv) or a calibration of Universal Robots (.yaml, .yml; see `poekin.formats.ur`); else the name of an
-    arm that comes with poekin, one of `BUILT_IN` ("panda", "ur5e", "puma560", ...); else "erd:" and the name of a robot
-    of the package example-robot-data, as in "erd:talos_left_arm". Xacro is refused: see `poekin.xacro`.
-    A path object is always a path.
+    table (.toml, .csv), a file of `Calibration.save` (.toml; the calibrated chain) or a calibration of Universal Robots
+    (.yaml, .yml; see `poekin.formats.ur`); else the name of an arm that comes with poekin, one of `BUILT_IN` ("panda",
+    "ur5e", "puma560", ...); else "erd:" and the name of a robot of the package example-robot-data, as in
+    "erd:talos_left_arm". Xacro is refused: see `poekin.xacro`.
+    A path object is always a path. Returns: Robot.
 
     Raises: FileError for a path that does not exist, is a directory, is empty or cannot be read; UnknownName with the
     closest names; MissingExtra when example-robot-data is asked for and not installed; ModelError, with file and line,
@@ -53,6 +54,8 @@ def load(name: str | os.PathLike[str]) -> Robot:
 
 
 def _read(path: str | os.PathLike[str]) -> Robot:
+    if os.fsdecode(path).lower().endswith(".toml") and chain_toml.is_calibration(path):
+        return chain_toml.read(path)
     if os.fsdecode(path).lower().endswith((".toml", ".csv")):
         return dh.to_robot(dh.read(path))
     if os.fsdecode(path).lower().endswith((".yaml", ".yml")):

@@ -12,15 +12,14 @@ import csv
 import io
 import math
 import os
-import tomllib
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from ...errors import FileError, InputError, MissingExtra, ModelError, PoekinError, closest, harmless, shown, told
+from ...errors import FileError, InputError, ModelError, PoekinError, closest, harmless, shown, told
 from ...groups.arrays import Array
-from .. import xml
+from .. import toml_text, xml
 from ..numbers import real
 from ..whole import write_whole
 from .table import COLUMNS, CONVENTIONS, KINDS, Row, Table
@@ -33,6 +32,7 @@ CSV_COLUMNS: tuple[str, ...] = ("convention", "name", "kind", *COLUMNS, "flip", 
 def read(path: str | os.PathLike[str]) -> Table:
     """The table in a .toml or .csv file.
 
+    Parameters: path, of the file. Returns: Table.
     Raises: FileError for a file that cannot be read; ModelError with the file, and the line of a CSV, for a column that
     is missing or misspelt, mixed conventions, and numbers that are none. Accuracy: numbers as they are written.
     """
@@ -55,7 +55,9 @@ def write(table: Table, path: str | os.PathLike[str]) -> None:
     """Write a table as .toml (extra `formats`) or .csv; numbers keep all their digits.
 
     The file appears whole or not at all; one that was there stays until the new one is complete.
-    Raises: FileError where the file cannot be written; MissingExtra without tomli-w for .toml.
+    Parameters: table; path, of the file, whose ending says which kind it is. Returns: nothing.
+    Raises: InputError for what is no Table; FileError where the file cannot be written; MissingExtra without tomli-w
+    for .toml.
     """
     if not isinstance(table, Table):
         raise InputError(f"write: expected a dh.Table, got {told(table)}: dh.from_chain(chain).table makes one")
@@ -82,12 +84,7 @@ def _reader(name: str, ending: str, known: dict[str, Callable]) -> Callable:
 
 
 def _from_toml(text: str, place: str, stem: str) -> Table:
-    try:
-        data = tomllib.loads(text)
-    except RecursionError as fault:
-        raise ModelError(f"{place}: not a table: its brackets are nested too deeply") from fault
-    except ValueError as fault:  # an integer of more than 4300 digits, too, which is no TOMLDecodeError
-        raise ModelError(f"{place}: not TOML: {harmless(fault, 200)}") from fault
+    data = toml_text.parse(text, place)
     _only(data, TOP, place)
     joints = data.get("joint", [])
     if not isinstance(joints, list) or not all(isinstance(joint, dict) for joint in joints):
@@ -208,10 +205,6 @@ def _table(place: str, convention: Any, rows: list[Row], base: Any, tool: Any, n
 
 
 def _to_toml(table: Table) -> str:
-    try:
-        import tomli_w
-    except ImportError as missing:
-        raise MissingExtra("tomli-w", "formats", "writing TOML") from missing
     data: dict[str, Any] = {"convention": table.convention, "name": table.name}
     data |= {key: T.tolist() for key, T in (("base", table.base), ("tool", table.tool)) if (np.eye(4) != T).any()}
     data["joint"] = [
@@ -219,7 +212,7 @@ def _to_toml(table: Table) -> str:
         | ({} if r.limits == (-math.inf, math.inf) else {"limits": list(r.limits)})
         for r in table.rows
     ]
-    return tomli_w.dumps(data)
+    return toml_text.text_of(data)
 
 
 def _to_csv(table: Table) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import FileError, InputError, ShapeError, harmless, told
+from ...errors import InputError, ShapeError, told
 from ...formats import csv_rows, pose_rows
 from ...formats.whole import write_whole
 from ...groups.arrays import Array, numbers, poses
@@ -83,16 +83,8 @@ def _names(names: Any) -> tuple[str, ...]:
 
 
 def _read(path: Path, names: Sequence[str], what: str) -> tuple[Array, np.ndarray, str]:
-    where = harmless(os.fsdecode(path), 400)
-    try:
-        with open(path, newline="", encoding="utf-8-sig") as stream:
-            return *csv_rows.read(stream, names, where, what), where
-    except UnicodeDecodeError as error:
-        raise FileError(f"{where} is no text file: byte {error.start} is not UTF-8") from error
-    except (OSError, ValueError) as error:
-        if isinstance(error, (FileError, InputError)):
-            raise
-        raise FileError(f"cannot read {where}: {getattr(error, 'strerror', None) or error}") from error
+    with csv_rows.opened(path) as (stream, where, _):
+        return *csv_rows.read(stream, names, where, what), where
 
 
 def _first_line_has_time(path: Path) -> bool:

@@ -1,0 +1,120 @@
+"""choose_poses: 30 of 2000 configurations against random ones, by each criterion, for arms of the catalogue."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy as np
+
+from poekin import load, so3
+from poekin.model.chain import Chain
+from poekin.solve.calibration import Points, Poses, calibrate
+from poekin.solve.calibration.choice import Figures
+from poekin.solve.calibration.choose import Choice, choose_poses
+from poekin.solve.calibration.exchange import CRITERIA
+
+from ..report import Figure, Table, Topic, short
+
+CHOSEN, CANDIDATES, BAR = 30, 2000, 1.5
+NOISE = 1e-4  # rad, and reaches
+ARMS = (
+    ("puma560", None),
+    ("panda", "panda_hand"),
+    ("ur5e", None),
+    ("iiwa14", None),
+    ("jaco", None),
+    ("stanford", None),
+)
+TOOL = (0.05, 0.0, 0.1)  # m, in the tip frame: off the last axis, so that all of the arm can be seen
+KINDS = {"full poses": "poses", "one point of the tool": Points([[0, 0, 0]], points=TOOL)}
+
+TEXT = (
+    f"poekin chooses {CHOSEN} of {CANDIDATES} configurations, drawn within the limits, for calibrating all screws and "
+    "the home pose, from full poses and from the positions of one point. Each criterion is compared with the median "
+    f"of 100 random choices of {CHOSEN} of the same candidates: how many times better, for the condition and for the "
+    "errors how many times smaller. Angles in rad, lengths in reaches.\n\n"
+    "The noise amplification index (Nahvi and Hollerbach 1996) judges by the combination of parameters that is seen "
+    "worst, against the one that is seen best: configurations that show all the others less better it too, and the "
+    "poses may hardly depend on the worst. The prediction is how much smaller the error is that noise leaves in the "
+    "calibrated arm, over all candidates; below 1 it is larger than after a random choice. Where the accuracy of the "
+    "arm is what matters, choose by the prediction or by O1."
+)
+
+
+def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
+    figures: list[Figure] = []
+    rows: list[tuple[Any, ...]] = []
+    slowest = 0.0
+    for name, tip in ARMS:
+        arm = load(name).chain(tip=tip)
+        for kind, example in KINDS.items():
+            for by in CRITERIA[:1] if quick else CRITERIA:
+                start = time.process_time()
+                choice = choose_poses(arm, CHOSEN, CANDIDATES, measurements=example, by=by)
+                slowest = max(slowest, seconds := time.process_time() - start)
+                rows.append((name, kind, choice.rank, by, *(f"{gain:.2f}" for gain in choice.gains), short(seconds)))
+                if by == "amplification":
+                    figures.append(_figure(f"{name}, {kind}", choice))
+        say(f"{name}: × {figures[-2].shown} and × {figures[-1].shown}")
+    figures.append(Figure("a choice and the 100 random ones it is compared with, the slowest", slowest, unit="s",
+                          note="processor time, all threads"))  # fmt: skip
+    simulated = _simulated(*ARMS[0], repeats=5 if quick else 40, say=say)
+    return Topic(
+        "The configurations that see most",
+        TEXT,
+        figures=figures,
+        tables=[
+            Table("By how much a choice is better than the median random choice",
+                  ("arm", "measured", "parameters", "chosen by", *(f"{name} ×" for name in Figures._fields),
+                   "time (s)"), rows),
+            Table(f"{ARMS[0][0]}, calibrated from {CHOSEN} full poses with noise of {NOISE:g} rad and {NOISE:g} "
+                  "reaches: error over 500 fresh configurations, rms of all calibrations",
+                  ("configurations", "position (mm)", "rotation (mrad)", "foretold ÷ random", "found ÷ random"),
+                  simulated),
+        ],
+    )  # fmt: skip
+
+
+def _figure(what: str, choice: Choice) -> Figure:
+    return Figure(
+        f"{what}: noise amplification index, times better than the median of {choice.compare} random choices",
+        1 / choice.gain, shown=f"{choice.gain:.2f}", bar_shown=f"≥ {BAR}", holds=choice.gain >= BAR,
+        note=f"the best random choice: {choice.best.amplification / choice.random.amplification:.2f}; the error that "
+        f"noise leaves over all candidates: {1 / choice.gains.prediction:.2f} times that of a random choice",
+    )  # fmt: skip
+
+
+def _simulated(name: str, tip: str | None, repeats: int, say) -> list[tuple[Any, ...]]:  # type: ignore[no-untyped-def]
+    """Errors of calibrated arms that noise alone makes wrong, after random and chosen configurations."""
+    arm = load(name).chain(tip=tip)
+    candidates, fresh, rng = arm.random(0, CANDIDATES), arm.random(1, 500), np.random.default_rng(2)
+    chosen = {
+        f"chosen by {by}": choose_poses(arm, CHOSEN, candidates, by=by) for by in ("amplification", "O1", "prediction")
+    }
+    found = {}
+    for what in ("random, new each time", *chosen):
+        squares = []
+        for _ in range(repeats):
+            at_random = candidates[rng.choice(CANDIDATES, CHOSEN, replace=False)]
+            squares.append(_off(arm, chosen[what].q if what in chosen else at_random, fresh, rng))
+        found[what] = np.sqrt(np.mean(squares, axis=0))
+        say(f"{what}: {short(1e3 * found[what][0])} mm on fresh configurations")
+    whole = {what: float(np.hypot(p / arm.reach, r)) for what, (p, r) in found.items()}
+    return [
+        (what, short(1e3 * p), short(1e3 * r), short(1 / chosen[what].gains.prediction) if what in chosen else "1",
+         short(whole[what] / whole["random, new each time"]))
+        for what, (p, r) in found.items()
+    ]  # fmt: skip
+
+
+def _off(arm: Chain, q: np.ndarray, fresh: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Mean squares of the position's (m^2) and the rotation's errors (rad^2) of an arm calibrated from noisy poses."""
+    T = arm.fk(q)
+    T[:, :3, :3] = so3.exp(NOISE * rng.normal(size=(len(q), 3))) @ T[:, :3, :3]
+    T[:, :3, 3] += NOISE * arm.reach * rng.normal(size=(len(q), 3))
+    covariance = np.diag(np.repeat([NOISE, NOISE * arm.reach], 3) ** 2)
+    found, true = calibrate(arm, q, Poses(T, covariance=covariance), folds=0).chain.fk(fresh), arm.fk(fresh)
+    turns = so3.log(found[:, :3, :3] @ np.swapaxes(true[:, :3, :3], 1, 2))
+    shifts = found[:, :3, 3] - true[:, :3, 3]
+    return np.array([np.mean(np.sum(shifts**2, axis=1)), np.mean(np.sum(turns**2, axis=1))])

@@ -1,0 +1,75 @@
+"""A chain as a table of TOML, to the last bit; and the robot of the calibrated chain in the file of a calibration."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from ..errors import ModelError, PoekinError, harmless
+from ..model.chain import Chain
+from ..model.robot import Robot
+from . import toml_text
+from .serial import serial_robot
+from .toml_text import Keys
+
+FORMAT, VERSION = "poekin calibration", 1
+"""What `format` and `version` say in the file of a calibration (`poekin.solve.calibration.files`)."""
+CALIBRATED = "calibrated"
+"""The key of the calibrated chain in it."""
+_KEYS = ("base", "tip", "joint_names", "q_names", "screws", "home", "limits", "offset", "coupling")
+
+
+def to_data(chain: Chain) -> dict[str, Any]:
+    """A chain as a table: its two frames, names, screws, home pose, limits, offset and, where it has one, coupling."""
+    data: dict[str, Any] = {
+        "base": chain.base, "tip": chain.tip, "joint_names": list(chain.joint_names), "q_names": list(chain.q_names),
+        "screws": chain.screws.tolist(), "home": chain.home.tolist(), "limits": chain.limits.tolist(),
+        "offset": chain.offset.tolist(),
+    }  # fmt: skip
+    return data if chain._coupling is None else data | {"coupling": chain._coupling.tolist()}
+
+
+def to_chain(keys: Keys) -> Chain:
+    """The chain in a table. Raises: ModelError with file and key. Accuracy: equal to the chain that was written."""
+    keys = Keys(keys.data, keys.place, _KEYS)
+    joints, names = keys.texts("joint_names"), keys.texts("q_names")
+    n, m = len(joints), len(names)
+    coupling = keys.array("coupling", (n, m)) if "coupling" in keys.data else None
+    try:
+        return Chain(
+            keys.array("screws", (n, 6)), keys.array("home", (4, 4)), joint_names=joints, q_names=names,
+            limits=keys.array("limits", (m, 2), finite=False), offset=keys.array("offset", (n,)), coupling=coupling,
+            base=keys.text("base"), tip=keys.text("tip"),
+        )  # fmt: skip
+    except PoekinError as fault:
+        raise fault if isinstance(fault, ModelError) else ModelError(f"{keys.place}: {fault}") from fault
+
+
+def is_calibration(path: str | os.PathLike[str]) -> bool:
+    """Whether a .toml file says that it is a calibration; what cannot be read is none."""
+    try:
+        return toml_text.read(path).get("format") == FORMAT
+    except PoekinError:
+        return False
+
+
+def opened(path: str | os.PathLike[str]) -> Keys:
+    """The file of a calibration, of a version that is known. Raises: FileError; ModelError with file and key."""
+    keys = Keys(toml_text.read(path), harmless(os.fsdecode(path), 400))
+    keys.text("format", (FORMAT,))
+    if keys.whole("version") != VERSION:
+        raise keys.fault("version", f"expected {VERSION}, got {keys.whole('version')}: another version of poekin's")
+    return keys
+
+
+def read(path: str | os.PathLike[str]) -> Robot:
+    """The robot of one branch that moves as the calibrated chain in the file of a calibration.
+
+    Raises: FileError; ModelError with file and key. Warns: as `serial_robot`, where q is not that of the chain.
+    """
+    keys = opened(path)
+    chain = to_chain(keys.table(CALIBRATED))
+    try:
+        return serial_robot(chain)
+    except PoekinError as fault:
+        raise ModelError(f"{keys.place}: {CALIBRATED}: {fault}") from fault

@@ -1,0 +1,58 @@
+"""Data kept aside: each part of the readings is judged by a calibration from the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from ...errors import InputError, told
+from ...groups.arrays import Array
+from .fitting import fitted, frames_only
+from .measurement import Indices
+from .problem import Problem
+from .residuals import Residuals, joined, residuals
+
+Progress = Callable[[int, int], None]
+
+
+class HeldOut(NamedTuple):
+    """Residuals on data kept aside, pooled over the folds: with unknown frames fitted only, and calibrated."""
+
+    before: Residuals
+    after: Residuals
+    folds: int
+
+
+def held_out(
+    problem: Problem, free: Array, name: str, prior: Array | None, folds: int, seed: int, progress: Progress | None
+) -> HeldOut:
+    """The readings in `folds` parts drawn at random; unknown frames are those of the other parts, too."""
+    order = np.random.default_rng(seed).permutation(len(problem.q))
+    before, after = [], []
+    for k, chosen in enumerate(np.array_split(order, folds)):
+        if progress is not None:
+            progress(k, folds)
+        chosen = np.sort(chosen)
+        training = problem.part(np.setdiff1d(order, chosen))
+        test = problem.part(chosen)
+        p, _ = frames_only(training, name)
+        before.append(_judged(test, p, chosen))
+        after.append(_judged(test, fitted(training, free, name, p, prior).p, chosen))
+    if progress is not None:
+        progress(folds, folds)
+    return HeldOut(joined(before), joined(after), folds)
+
+
+def _judged(test: Problem, p: Array, chosen: Indices) -> Residuals:
+    return residuals(test.sets, [chosen[rows] for rows in test.rows], test.errors(p))
+
+
+def checked(folds: object, count: int) -> int:
+    """How many folds, 0 for none. Raises: InputError."""
+    if not isinstance(folds, (int, np.integer)) or isinstance(folds, bool) or folds < 0 or folds == 1:
+        raise InputError(f"folds: expected 0 for none, or 2 and more, got {told(folds)}")
+    if folds > count:
+        raise InputError(f"folds: {folds} parts of {count} readings")
+    return int(folds)

@@ -1,0 +1,129 @@
+"""What measurements can tell is counted rightly, and what they cannot is named."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.errors import InputError
+from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identify
+
+CHAINS = ("R", "RR", "RRR", "RRRRRR", "RRRRRRR", "RRP", "PPP", "RRPR", "RPRPRR")
+PUMA = pk.load("puma560").chain()
+PANDA = pk.load("panda").chain(tip="panda_link8")
+POINT = (0.11, -0.07, 0.23)
+
+
+def random_chain(letters: str, seed: int) -> pk.Chain:
+    """Axes anywhere, with no two alike."""
+    rng = np.random.default_rng(seed)
+    A = []
+    for letter in letters:
+        axis, point = rng.normal(size=3), rng.uniform(-1, 1, 3)
+        A.append(pk.screw.revolute(axis, point) if letter == "R" else pk.screw.prismatic(axis))
+    return pk.Chain(A, pk.se3.exp(rng.normal(size=6)))
+
+
+@pytest.mark.parametrize("letters", CHAINS)
+@settings(max_examples=10)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_rank_is_4r_2p_6_from_poses_and_4r_2p_3_from_one_point(letters, seed):
+    arm = random_chain(letters, seed)
+    q = np.random.default_rng(seed).uniform(-2, 2, (40, arm.dof))
+    least = 4 * letters.count("R") + 2 * letters.count("P")
+    T = arm.fk(q)
+    full, point = identify(arm, q, Poses(T)), identify(arm, q, Points(T[:, :3, 3], POINT))
+    assert (full.rank, full.expected, full.size) == (least + 6,) * 3
+    assert (point.rank, point.expected, point.size) == (least + 3, least + 3, least + 6)
+    assert full.held == full.unseen == point.unseen == ()
+    assert np.isfinite([full.condition, point.condition]).all()
+
+
+def test_offsets_tell_nothing_that_the_screws_do_not():
+    q = PUMA.random(0, 40)
+    found = identify(PUMA, q, PUMA.fk(q), parameters=("screws", "home", "offsets"))
+    assert (found.size, found.rank, found.expected) == (36, 30, 30)
+    alone = identify(PUMA, q, PUMA.fk(q), parameters=("offsets",))
+    assert (alone.size, alone.rank) == (6, 6)
+
+
+def test_gains_and_pitches_are_seen():
+    q = PUMA.random(0, 40)
+    found = identify(PUMA, q, PUMA.fk(q), parameters=("screws", "home", "gains", "pitch"))
+    assert (found.size, found.rank) == (42, 42)
+
+
+def test_what_a_point_never_sees_is_held_and_named():
+    q = PUMA.random(0, 40)
+    found = identify(PUMA, q, PUMA.fk(q)[:, :3, 3])
+    assert found.rank == found.expected == 21
+    assert "home: turn about x, turn about y, turn about z" in found.held
+    assert found.unseen == ()
+
+
+def test_camera_and_board_take_up_what_the_arm_shares_with_them():
+    q = PANDA.random(0, 40)
+    found = identify(PANDA, q, EyeInHand(PANDA.fk(q)))
+    assert (found.size, found.rank, found.expected) == (46, 34, 34)
+    assert len(found.held) == 1
+    assert "T_base_board and T_tip_camera may move, the arm does not" in found.held[0]
+
+
+def test_a_joint_that_did_not_move_is_named():
+    q = PUMA.random(0, 40)
+    q[:, 4] = 0.0
+    found = identify(PUMA, q, PUMA.fk(q))
+    assert (found.rank, found.expected) == (26, 30)
+    assert found.unseen == ("all 4 of joint5",)
+
+
+def test_a_joint_held_at_an_angle_is_named_among_those_it_moves_with():
+    q = PUMA.random(0, 40)
+    q[:, 2] = 0.4
+    found = identify(PUMA, q, PUMA.fk(q))
+    assert found.rank == 26
+    assert "joint3" in " ".join(found.unseen)
+
+
+@pytest.mark.parametrize(
+    ("measured", "words"),
+    [
+        (lambda q: PUMA.fk(q), r"24 numbers were measured, and 30 parameters are to be found: measure at least 30"),
+        (lambda q: PUMA.fk(q)[:, :3, 3], r"12 numbers were measured, and 21 parameters"),
+        (lambda q: Distances(np.ones(4), [1, 1, 0]), r"4 numbers were measured"),
+    ],
+    ids=["poses", "points", "distances"],
+)
+def test_too_few_measurements_are_refused_with_how_many_it_takes(measured, words):
+    q = PUMA.random(0, 4)
+    with pytest.raises(InputError, match=words):
+        calibrate(PUMA, q, measured(q), folds=0)
+
+
+def test_what_is_not_seen_is_refused_by_name_or_held_when_asked():
+    true = PUMA.retooled(pk.se3.exp([1e-3, 0, 2e-3, 0, 1e-3, 0]))
+    q = PUMA.random(0, 40)
+    q[:, 4] = 0.0
+    with pytest.raises(InputError, match=r"see 26 of 30 parameters\. Not seen: all 4 of joint5\."):
+        calibrate(PUMA, q, true.fk(q))
+    found = calibrate(PUMA, q, true.fk(q), deficient="hold", folds=0)
+    assert found.success
+    np.testing.assert_allclose(found.chain.fk(q), true.fk(q), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(found.chain.screws[4], PUMA.screws[4], rtol=0, atol=1e-12)
+
+
+def test_the_condition_does_not_depend_on_units_of_the_arm():
+    scale = np.array([1, 1, 1, 1e3, 1e3, 1e3])
+    home = PUMA.home.copy()
+    home[:3, 3] *= 1e3
+    # reach is at least 1 m: of two large arms one is a thousand times the other
+    large = pk.Chain(PUMA.screws * scale, home)
+    larger_home = home.copy()
+    larger_home[:3, 3] *= 1e3
+    larger = pk.Chain(PUMA.screws * [1, 1, 1, 1e6, 1e6, 1e6], larger_home)
+    q = PUMA.random(0, 30)
+    a, b = identify(large, q, large.fk(q)), identify(larger, q, larger.fk(q))
+    np.testing.assert_allclose(a.singular_values, b.singular_values, rtol=1e-9)

@@ -1,0 +1,161 @@
+"""Each kind of measurement: errors zero where the model is right, slopes those of the errors, bad input refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.errors import InputError, PoseError, ShapeError
+from poekin.solve.calibration.measurement import Measurement
+from poekin.solve.calibration.parameters import Arm
+from poekin.solve.calibration.points import Distances, Points
+from poekin.solve.calibration.poses import EyeInHand, EyeToHand, Poses
+from poekin.solve.calibration.problem import Problem, readings, sets_of
+
+ARM = pk.load("panda").chain(tip="panda_link8")
+Q = ARM.random(5, 12)
+T = ARM.fk(Q)
+X = pk.se3.exp([0.3, -0.5, 0.2, 1.0, 0.4, -0.3])
+Z = pk.se3.exp([-0.1, 0.2, 1.4, 0.05, -0.08, 0.1])
+TOOL = np.array([[0.1, 0.02, 0.05], [-0.03, 0.2, 0.1]])
+AT = TOOL @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
+CENTRE = np.array([1.5, -0.4, 0.3])
+TRUE = {
+    "Poses": (lambda: Poses(T), []),
+    "one point": (lambda: Points(AT[:, 0], TOOL[0]), []),
+    "two points": (lambda: Points(AT, TOOL), []),
+    "points in a device's frame": (
+        lambda: Points((AT - X[:3, 3]) @ X[:3, :3], TOOL, frame="unknown"), [X],
+    ),
+    "distances": (lambda: Distances(np.linalg.norm(AT[:, 0] - CENTRE, axis=1), CENTRE, TOOL[0]), []),
+    "distances from somewhere": (lambda: Distances(np.linalg.norm(AT[:, 0] - CENTRE, axis=1), None, TOOL[0]), [CENTRE]),
+    "EyeInHand": (lambda: EyeInHand(pk.se3.inverse(X) @ T @ Z), [X, Z]),
+    "EyeToHand": (lambda: EyeToHand(pk.se3.inverse(X) @ T @ Z), [X, Z]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", TRUE)
+def test_the_errors_of_a_true_model_are_rounding_and_unknown_frames_are_guessed(kind):
+    make, places = TRUE[kind]
+    problem = Problem(Arm(ARM, ("home",), None), Q, [make()])
+    assert len(problem.places) == len(places)
+    for found, true in zip(problem.places, places, strict=True):
+        np.testing.assert_allclose(found, true, rtol=0, atol=1e-11)
+    (errors,) = problem.errors(np.zeros(problem.size))
+    assert errors.shape == (12, problem.sets[0].width)
+    np.testing.assert_allclose(errors, 0, rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("kind", TRUE)
+@settings(max_examples=10)
+@given(seed=st.integers(0, 2**16))
+def test_the_slopes_are_those_of_the_errors_away_from_the_truth_too(kind, seed):
+    make, places = TRUE[kind]
+    problem = Problem(Arm(ARM, ("screws", "home", "gains"), None), Q, [make()], places)
+    p = 0.05 * np.random.default_rng(seed).normal(size=problem.size)
+    (linear,) = problem.linearised(p)
+    np.testing.assert_array_equal(linear.errors, problem.errors(p)[0])
+    for k in range(problem.size):
+        step = 1e-5 * np.eye(problem.size)[k]
+        slope = (problem.errors(p + step)[0] - problem.errors(p - step)[0]) / 2e-5
+        # truncation h² times third derivatives of up to some tens, rounding u / h
+        np.testing.assert_allclose(linear.slopes[..., k], slope, rtol=0, atol=1e-7)
+
+
+def test_a_planted_error_in_each_slope_would_be_seen():
+    class Wrong(Poses):
+        def slopes(self, T, places, errors, D):
+            slopes, others = super().slopes(T, places, 0 * errors, D)
+            return slopes, others
+
+    problem = Problem(Arm(ARM, ("home",), None), Q, [Wrong(T)])
+    p = np.full(6, 0.05)
+    right = Problem(problem.arm, Q, [Poses(T)]).linearised(p)[0].slopes
+    assert np.abs(problem.linearised(p)[0].slopes - right).max() > 1e-3
+
+
+def test_an_errors_rotation_comes_first_and_is_in_base_axes():
+    turned = T.copy()
+    turn = pk.so3.exp([0, 0, 0.01])
+    turned[:, :3, :3] = turn.T @ T[:, :3, :3]
+    turned[:, :3, 3] -= [0, 0.002, 0]
+    (errors,) = Problem(Arm(ARM, ("home",), None), Q, [Poses(turned)]).errors(np.zeros(6))
+    np.testing.assert_allclose(errors, np.tile([0, 0, 0.01, 0, 0.002, 0], (12, 1)), rtol=0, atol=1e-14)
+
+
+def test_rows_say_which_readings_a_set_belongs_to():
+    rows = np.array([7, 2, 2])
+    problem = Problem(Arm(ARM, ("home",), None), Q, [Poses(T[rows], rows=rows), Points(T[:, :3, 3])])
+    one, two = problem.errors(np.zeros(6))
+    assert (one.shape, two.shape) == ((3, 6), (12, 3))
+    np.testing.assert_allclose(one, 0, atol=1e-14)
+    part = problem.part(np.array([2, 5]))
+    assert [len(s) for s in part.sets] == [2, 2]
+    np.testing.assert_allclose(np.concatenate([e.ravel() for e in part.errors(np.zeros(6))]), 0, atol=1e-14)
+
+
+def test_a_bare_array_is_poses_or_points():
+    assert [type(s) for s in sets_of(T, 12)] == [Poses]
+    assert [type(s) for s in sets_of(T[:, :3, 3], 12)] == [Points]
+
+
+def nan(array):
+    array = array.copy()
+    array[3] = np.nan
+    return array
+
+
+BAD: dict[str, tuple] = {
+    "T of the wrong shape": (lambda: Poses(T[0]), ShapeError, r"T: expected poses \(N, 4, 4\), got shape \(4, 4\)"),
+    "NaN in a pose": (lambda: Poses(nan(T)), InputError, r"T\[3\]: expected finite numbers, got NaN"),
+    "no pose": (lambda: Poses(2 * T), PoseError, r"T\[0\] is no pose"),
+    "NaN in a point": (lambda: Points(nan(AT[:, 0])), InputError, r"p\[3\]: expected finite"),
+    "as many points as are said": (lambda: Points(AT, TOOL[0]), ShapeError, r"expected positions \(N, 1, 3\), of 1 p"),
+    "a frame": (lambda: Points(AT[:, 0], frame="device"), InputError, r"frame: expected 'base' or 'unknown'"),
+    "a negative distance": (lambda: Distances([1.0, -1.0]), InputError, r"d\[1\]: expected a distance above 0, got -1"),
+    "a centre": (lambda: Distances([1.0], centre=[0, 0]), ShapeError, r"centre: expected three finite numbers"),
+    "a covariance's shape": (lambda: Poses(T, np.eye(3)), ShapeError, r"covariance: expected shape \(6, 6\)"),
+    "a negative variance": (
+        lambda: Poses(T, np.diag([1, 1, 1, 1, -1, 1.0])), InputError, r"not positive definite: its diagonal",
+    ),
+    "an indefinite covariance": (
+        lambda: Points(T[:, :3, 3], covariance=[[1, 2, 0], [2, 1, 0], [0, 0, 1]]),
+        InputError, r"not positive definite: scaled to a unit diagonal, its least eigenvalue is -1",
+    ),
+    "one of many covariances": (
+        lambda: Points(T[:, :3, 3], covariance=[*[np.eye(3)] * 11, np.zeros((3, 3))]), InputError, r"covariance\[11\]",
+    ),
+    "a covariance that is not symmetric": (
+        lambda: Points(T[:, :3, 3], covariance=[[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]), InputError, r"not symmetric",
+    ),
+    "a negative row": (lambda: Poses(T, rows=np.arange(12) - 1), InputError, r"counted from 0, got -1"),
+    "too few rows": (lambda: Poses(T, rows=[0]), ShapeError, r"rows: expected 12 whole numbers"),
+    "a row beyond q": (lambda: sets_of(Poses(T, rows=np.arange(12) + 1), 12), InputError, r"row 12 of q, which has 12"),
+    "another number of rows": (lambda: sets_of(T[:5], 12), ShapeError, r"5 Poses for 12 rows of q"),
+    "a guess": (lambda: EyeInHand(T, board=np.eye(3)), ShapeError, r"T_base_board: expected shape"),
+    "no measurements": (lambda: sets_of("poses", 12), ShapeError, r"expected Poses, Points, Distances"),
+    "a wrong member": (lambda: sets_of([Poses(T), T], 12), InputError, r"measurements\[1\]: expected Poses"),
+    "the number of joints": (lambda: readings(ARM, Q[:, :6]), ShapeError, r"expected 7 coordinates"),
+    "one configuration": (lambda: readings(ARM, Q[0]), ShapeError, r"expected readings \(N, 7\)"),
+    "NaN in q": (lambda: readings(ARM, nan(Q)), InputError, r"q\[3\]: expected finite numbers"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", BAD)
+def test_bad_input_is_refused_and_said_where(what):
+    make, error, words = BAD[what]
+    with pytest.raises(error, match=words):
+        make()
+
+
+def test_measurements_are_frozen_copies():
+    given = T.copy()
+    poses = Poses(given)
+    given[0] = 0
+    np.testing.assert_array_equal(poses.T, T)
+    with pytest.raises(ValueError, match="read-only"):
+        poses.T[0] = 0
+    assert isinstance(poses, Measurement)

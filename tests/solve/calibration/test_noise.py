@@ -1,0 +1,77 @@
+"""Losses, spreads and residuals by their definitions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.solve.calibration.losses import LOSSES, chi_square, loss
+from poekin.solve.calibration.noise import Noise, spreads
+from poekin.solve.calibration.poses import Poses
+
+# Table of chi-square: degrees of freedom, probability as a quantile of the normal distribution, the point.
+TABLE = [(1, 1.959964, 5.02389), (3, 1.959964, 9.34840), (6, 1.644854, 12.59159), (6, 3.0902323, 22.45774)]
+ARM = pk.load("puma560").chain()
+
+
+@pytest.mark.parametrize("name", LOSSES)
+@given(s=st.floats(0, 1e6), width=st.sampled_from([1, 3, 6]))
+def test_weight_and_bend_are_the_slopes_of_rho(name, s, width):
+    step = 1e-6 * max(1.0, s)
+    ahead, here, back = (loss(name, np.array([max(x, 0.0)]), width) for x in (s + step, s, s - step))
+    between = here.weight[0] * step + here.rho[0]
+    # second order; at Huber's and Tukey's thresholds rho'' jumps, which makes it the first order of rho'
+    assert abs(ahead.rho[0] - between) <= 1e-5 * step + 1e-9 * abs(between)
+    if s > 2 * step and np.sign(back.bend[0]) == np.sign(ahead.bend[0]):
+        slope = (ahead.weight[0] - back.weight[0]) / (2 * step)
+        assert abs(here.bend[0] - slope) <= 1e-4 * max(abs(slope), 1e-3)
+
+
+@pytest.mark.parametrize("name", LOSSES)
+def test_a_loss_is_the_square_for_small_errors_and_never_more(name):
+    s = np.geomspace(1e-12, 1e6, 200)
+    rho = loss(name, s, 6)
+    assert (rho.rho <= s * (1 + 1e-12)).all()
+    assert (rho.weight <= 1).all()
+    np.testing.assert_allclose(rho.rho[:10], s[:10], rtol=1e-9)
+    none = loss(name, np.zeros(1), 6)
+    assert (none.rho[0], none.weight[0]) == (0.0, 1.0)
+
+
+@pytest.mark.parametrize(("width", "quantile", "point"), TABLE, ids=lambda x: f"{x:g}")
+def test_chi_square_agrees_with_the_table_to_its_accuracy(width, quantile, point):
+    assert chi_square(width, quantile) == pytest.approx(point, rel=0.04 if width == 1 else 0.01)
+
+
+@pytest.mark.parametrize("robust", [False, True], ids=["rms", "median"])
+def test_spreads_are_those_of_normal_errors(robust):
+    rng = np.random.default_rng(0)
+    q = ARM.random(0, 4000)
+    errors = rng.normal(size=(4000, 6)) * ([2e-3] * 3 + [5e-4] * 3)
+    (found,) = spreads([Poses(ARM.fk(q))], [errors], 0, robust, 1.0)
+    assert found is not None
+    # 12 000 numbers: the rms is known to 0.65 %, the median to 1.1 %; four deviations
+    assert found.angle == pytest.approx(2e-3, rel=0.045)
+    assert found.length == pytest.approx(5e-4, rel=0.045)
+
+
+def test_outliers_do_not_move_the_robust_spread_much():
+    rng = np.random.default_rng(0)
+    errors = rng.normal(size=(1000, 6)) * 1e-3
+    errors[:50] += 1.0
+    (found,) = spreads([Poses(ARM.fk(ARM.random(0, 1000)))], [errors], 0, True, 1.0)
+    assert found is not None
+    assert found.length == pytest.approx(1e-3, rel=0.15)
+
+
+def test_a_covariance_whitens_errors_that_have_it():
+    rng = np.random.default_rng(0)
+    L = np.tril(rng.normal(size=(6, 6))) + 3 * np.eye(6)
+    poses = Poses(ARM.fk(ARM.random(0, 5000)), L @ L.T)
+    errors = rng.normal(size=(5000, 6)) @ L.T
+    white = Noise([poses], [None]).whitened(0, errors[..., None])[..., 0]
+    # 5000 samples: variances to 2 %, correlations to 1.4 %; four deviations
+    np.testing.assert_allclose(np.cov(white.T), np.eye(6), rtol=0, atol=0.08)

@@ -1,0 +1,197 @@
+"""The report of a calibration: one page that needs nothing else, with all that was found and no name that is code."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+import sys
+import warnings
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import FileError, MissingExtra, ShapeError
+from poekin.groups import se3
+from poekin.solve.calibration import Distances, Points, calibrate, changes, page
+from poekin.solve.calibration.simulated import simulated
+
+pytest.importorskip("matplotlib")
+
+HOSTILE = ["<script>alert(1)</script>", "a\u202eb\x1b[31m", '"><img src=x onerror=alert(1)>', "$\\frac{1}{0}$ & $x^$"]
+ARM = pk.Chain(
+    [
+        pk.screw.revolute([0, 0, 1], [0, 0, 0]),
+        pk.screw.revolute([0, 1, 0], [0.3, 0, 0.5]),
+        pk.screw.prismatic([0, 0.6, 0.8]),
+        pk.screw.revolute([1, 0, 0], [0.5, 0.1, 0.4]),
+    ],
+    se3.exp([0.1, -0.2, 0.3, 0.9, 0.1, 0.4]),
+    joint_names=HOSTILE,
+    base="<b>base</b>",
+    tip="${tip}",
+)
+
+
+@pytest.fixture(scope="module")
+def found():
+    s = simulated(ARM, 60, kind="eye-in-hand", outliers=0.1, seed=3)
+    return calibrate(ARM, s.q, s.measurements, loss="tukey", folds=3)
+
+
+@pytest.fixture(scope="module")
+def text(found):
+    return page.html(found, title="<i>title</i> $x", sources=[f"<u>data</u>.csv:{i + 2}" for i in range(60)])
+
+
+class Tags(HTMLParser):
+    """All tags and attributes of a page, and what is left open at its end."""
+
+    VOID = ("meta", "br", "link", "img", "input")
+
+    def __init__(self, text):
+        super().__init__()
+        self.found, self.attributes, self.open = set(), [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.found.add(tag)
+        self.attributes += attrs
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_startendtag(self, tag, attrs):
+        self.found.add(tag)
+        self.attributes += attrs
+
+
+def test_the_page_is_well_formed_runs_nothing_and_fetches_nothing(text):
+    tags = Tags(text)
+    assert tags.open == []
+    assert not tags.found & {"script", "img", "link", "iframe", "object", "image", "b", "i", "u", "a", "foreignobject"}
+    assert not [name for name, _ in tags.attributes if name.startswith("on")]
+    asked = [value for name, value in tags.attributes if name in ("href", "xlink:href", "src")]
+    assert all(value.startswith("#") for value in asked)
+    assert "@import" not in text
+    assert set(re.findall(r"url\((.)", text)) <= {"#"}
+
+
+def test_names_out_of_files_stand_there_as_text(text):
+    for words in (
+        "&lt;script&gt;alert(1)",
+        "&lt;u&gt;data&lt;/u&gt;.csv:",
+        "&lt;i&gt;title&lt;/i&gt; $x",
+        "a\\u202eb\\x1b[31m",
+    ):
+        assert words in text
+    assert "\u202e" not in text
+    assert "\x1b" not in text
+
+
+def test_the_page_tells_what_was_found(found, text):
+    assert changes.sentence(found) in text
+    assert changes.sentence(found).startswith("On data kept aside, the median position error goes from ")
+    assert f"{found.identification.numbers} numbers were measured for {found.identification.size} parameters" in text
+    assert "Held, as no measurement of this kind sees it: " in text
+    assert text.count("<svg") == 4
+    assert "T_base_board" in text
+    gross = {o.row for o in found.outliers}
+    assert gross
+    for row in gross:
+        assert f"&lt;u&gt;data&lt;/u&gt;.csv:{row + 2}</td>" in text
+
+
+def test_the_same_calibration_gives_the_same_page(found):
+    assert page.html(found) == page.html(found)
+
+
+def test_a_page_of_many_measurements_is_below_1_mb():
+    arm = pk.load("panda").chain(tip="panda_link8")
+    s = simulated(arm, 5000, outliers=0.3)
+    found = calibrate(arm, s.q, s.measurements, loss="huber", folds=0)
+    text = page.html(found, title="x" * 10**7, sources=["y" * 10**5] * 5000)
+    assert len(text.encode()) < 10**6
+    assert "No data were kept aside" in text
+
+
+def test_lengths_alone_and_several_sets_have_a_page_too():
+    rng = np.random.default_rng(0)
+    q = ARM.random(rng, 80)
+    T = ARM.fk(q)
+    first, last = np.arange(40), np.arange(40, 80)
+    d = np.linalg.norm(T[40:, :3, 3] - [1, 2, 3], axis=1)
+    sets = [Points(T[:40, :3, 3] + 1e-4 * rng.normal(size=(40, 3)), rows=first), Distances(d, rows=last)]
+    found = calibrate(ARM, q, sets, deficient="hold")
+    text = page.html(found)
+    assert "rotation error (mrad)" not in text
+    assert "set 1, calibrated" in text
+    assert "centre of measurement set 1" in text
+    assert "mrad" not in changes.sentence(found)
+
+
+def test_exact_data_have_a_page_too():
+    """Residuals, steps and uncertainties of rounding, which logarithms and bins have to survive."""
+    q = ARM.random(0, 30)
+    found = calibrate(ARM, q, ARM.fk(q), folds=0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        page.html(found)
+        page.html(dataclasses.replace(found, covariance=0 * found.covariance, steps=()))
+
+
+def test_parameters_without_screws_have_a_page_too():
+    q = ARM.random(0, 30)
+    text = page.html(calibrate(ARM, q, ARM.fk(q + 1e-3), parameters="offsets", folds=0))
+    assert text.count("<svg") == 3
+    assert "tilt (mrad)" not in text
+
+
+def test_a_search_that_did_not_converge_is_told_first():
+    s = simulated(ARM, 40, tilt=0.1, shift=0.1)
+    found = calibrate(ARM, s.q, s.measurements, folds=0, max_iterations=1)
+    assert not found.success
+    assert '<p class="lead">The search did NOT converge: this is the best that was found.' in page.html(found)
+
+
+def test_the_change_of_a_joint_is_its_length_and_its_95_percent():
+    s = simulated(ARM, 400, noise=(1e-4, 1e-4), seed=5)
+    found = calibrate(ARM, s.q, s.measurements, folds=0)
+    joints = changes.joints(found)
+    assert [j.name for j in joints] == HOSTILE
+    assert [len(j.shift.values) for j in joints] == [2, 2, 0, 2]
+    k = 0
+    for j in joints:
+        for change in (j.tilt, j.shift):
+            mine = slice(k, k + len(change.values))
+            np.testing.assert_array_equal(change.values, found.values[mine])
+            np.testing.assert_array_equal(change.margins, changes.TWO_SIGMA * found.deviations[mine])
+            if len(change.values):
+                assert change.size == np.linalg.norm(found.values[mine])
+                least, most = changes.TWO_SIGMA * np.sqrt(np.linalg.eigvalsh(change.covariance))
+                # the deviation along the change lies between those of the ellipse's axes; 1e-9 is for rounding
+                assert least * (1 - 1e-9) <= change.margin <= most * (1 + 1e-9)
+            else:
+                assert np.isnan(change.size)
+                assert np.isnan(change.margin)
+            k += len(change.values)
+
+
+def test_the_report_is_a_file_whole_or_not_at_all(found, tmp_path):
+    found.report(tmp_path / "page.html", title="mine")
+    assert (tmp_path / "page.html").read_text(encoding="utf-8") == page.html(found, "mine")
+    with pytest.raises(FileError, match=r"cannot write"):
+        found.report(tmp_path / "none" / "page.html")
+    with pytest.raises(ShapeError, match=r"sources: expected what each of 60 rows of q came from, got 59"):
+        found.report(tmp_path / "other.html", sources=["a"] * 59)
+    assert [path.name for path in tmp_path.iterdir()] == ["page.html"]
+
+
+def test_a_report_without_matplotlib_names_the_extra(monkeypatch, found, tmp_path):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(MissingExtra, match=r"pip install 'poekin\[report\]'"):
+        found.report(tmp_path / "page.html")
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,138 @@
+"""An arm's parameters move its screws as the equations say, and the slopes are those of the poses."""
+
+from __future__ import annotations
+
+import ast
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.errors import InputError, UnknownName
+from poekin.solve.calibration.parameters import KINDS, Arm
+from poekin.testing import chain_strategies
+
+FEW = settings(max_examples=max(settings().max_examples // 3, 20))
+PUMA = pk.load("puma560").chain()
+
+
+def drawn(data, **options) -> tuple[pk.Chain, Arm, np.ndarray, np.ndarray]:
+    """A chain, all its parameters, values of up to some hundredths, and three configurations."""
+    chain = data.draw(chain_strategies.chains(min_joints=1, max_joints=5, **options))
+    kinds = data.draw(st.lists(st.sampled_from(KINDS), min_size=1, unique=True))
+    arm = Arm(chain, kinds, None)
+    rng = np.random.default_rng(data.draw(st.integers(0, 2**16)))
+    return chain, arm, 0.05 * rng.normal(size=len(arm.parameters)), rng.uniform(-2, 2, (3, chain.dof))
+
+
+@FEW
+@given(data=st.data())
+def test_the_slopes_are_those_of_the_poses(data):
+    chain, arm, p, q = drawn(data)
+    T, D = arm.changes(p, q)
+    assert D.shape == (3, 6, len(p))
+    np.testing.assert_array_equal(T, arm.poses(p, q))
+    step = 1e-5
+    for k in range(len(p)):
+        ahead, back = (arm.poses(p + sign * step * np.eye(len(p))[k], q) for sign in (1, -1))
+        slope = pk.se3.log(ahead @ pk.se3.inverse(back)) / (2 * step)
+        # truncation h² f‴ and rounding u/h, lengths and products of up to five joints' displacements
+        np.testing.assert_allclose(D[..., k], slope, rtol=0, atol=1e-8 * (chain.reach + np.abs(q).max() * 5) ** 3)
+
+
+@FEW
+@given(data=st.data())
+def test_the_chain_has_the_poses_of_its_parameters(data):
+    chain, arm, p, q = drawn(data)
+    found = arm.chain(p)
+    np.testing.assert_allclose(found.fk(q), arm.poses(p, q), rtol=0, atol=1e-12 * (chain.reach + 10.0))
+    assert (found.joint_names, found.q_names, found.base, found.tip) == (
+        chain.joint_names, chain.q_names, chain.base, chain.tip,
+    )  # fmt: skip
+    np.testing.assert_array_equal(found.limits, chain.limits)
+
+
+@FEW
+@given(data=st.data())
+def test_without_a_change_the_arm_is_the_nominal_one_to_the_last_digit(data):
+    chain, arm, p, _ = drawn(data)
+    found = arm.chain(0 * p)
+    for name in ("coupling", "offset", "limits"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(chain, name))
+    np.testing.assert_allclose(found.screws, chain.screws, rtol=0, atol=4e-15 * np.abs(chain.screws).max())
+    np.testing.assert_array_equal(found.home, chain.home)
+
+
+@FEW
+@given(data=st.data())
+def test_axes_stay_unit_and_pitches_what_they_are(data):
+    chain = data.draw(chain_strategies.chains(min_joints=1, max_joints=6))
+    arm = Arm(chain, ("screws", "home"), None)
+    p = 0.3 * np.random.default_rng(1).normal(size=len(arm.parameters))
+    found = arm.chain(p)
+    assert found.kinds == chain.kinds
+    turns = chain.local.rotates != 0
+    size = np.where(turns, np.linalg.norm(found.screws[:, :3], axis=1), np.linalg.norm(found.screws[:, 3:], axis=1))
+    np.testing.assert_allclose(size, 1.0, rtol=0, atol=1e-15)
+    pitch = np.sum(found.screws[:, :3] * found.screws[:, 3:], axis=1)
+    old = np.sum(chain.screws[:, :3] * chain.screws[:, 3:], axis=1)
+    np.testing.assert_allclose(pitch, old, rtol=0, atol=4e-15 * max(1.0, np.abs(found.screws[:, 3:]).max()))
+
+
+def test_a_revolute_joint_has_four_parameters_a_prismatic_one_two_and_the_home_pose_six():
+    A = [[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 1, 0], [1, 0, 0, 0.3, 0.5, 0.1]]
+    arm = Arm(pk.Chain(A, np.eye(4), joint_names=["turn", "slide", "screw"]), ("screws", "home"), None)
+    owners = [p.owner for p in arm.parameters]
+    assert [owners.count(name) for name in ("turn", "slide", "screw", "home")] == [4, 2, 4, 6]
+    turns, slides = ["rad", "rad", "m", "m"], ["rad", "rad"]
+    assert [p.unit for p in arm.parameters] == [*turns, *slides, *turns, "rad", "rad", "rad", "m", "m", "m"]
+
+
+def test_a_tilt_turns_the_axis_about_what_it_says_and_a_shift_moves_it():
+    arm = Arm(PUMA, ("screws",), ["joint3"])
+    assert [p.what.split(" ")[0] for p in arm.parameters] == ["tilt", "tilt", "shift", "shift"]
+    z, foot = PUMA.screws[2, :3], np.cross(PUMA.screws[2, :3], PUMA.screws[2, 3:])
+    for k, parameter in enumerate(arm.parameters):
+        axis = np.array(ast.literal_eval(parameter.what.split(" ", 2)[2]))
+        found = arm.chain(1e-3 * np.eye(4)[k]).screws[2]
+        turned = np.cross(axis, z) * 1e-3 if "tilt" in parameter.what else 0.0
+        np.testing.assert_allclose(found[:3], z + turned, rtol=0, atol=1e-6)
+        if "shift" in parameter.what:
+            np.testing.assert_allclose(np.cross(found[:3], found[3:]), foot + 1e-3 * axis, rtol=0, atol=1e-9)
+
+
+def test_offsets_and_gains_are_read_as_q_times_one_plus_g_plus_o():
+    arm = Arm(PUMA, ("offsets", "gains"), ["joint2", "joint5"])
+    assert [p.name for p in arm.parameters] == [
+        "joint2: offset", "joint5: offset", "joint2: gain", "joint5: gain",
+    ]  # fmt: skip
+    q = PUMA.random(0, 4)
+    read = q * [1, 1.003, 1, 1, 1.004, 1] + [0, 0.01, 0, 0, 0.02, 0]
+    found = arm.chain(np.array([0.01, 0.02, 0.003, 0.004]))
+    np.testing.assert_allclose(found.fk(q), PUMA.fk(read), rtol=0, atol=1e-14)
+
+
+def test_a_pitch_makes_the_joint_helical():
+    arm = Arm(PUMA, ("pitch",), ["joint1"])
+    found = arm.chain(np.array([1e-3]))
+    assert found.kinds == ("helical",) + ("revolute",) * 5
+    q = np.array([0.7, 0, 0, 0, 0, 0])
+    moved = found.fk(q)[:3, 3] - PUMA.fk(q)[:3, 3]
+    np.testing.assert_allclose(moved, 0.7e-3 * PUMA.screws[0, :3], rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("kinds", "joints", "error", "words"),
+    [
+        (("screws", "zeros"), None, InputError, r"expected some of 'screws', 'home', 'offsets', .*, got 'zeros'"),
+        ((), None, InputError, r"nothing to calibrate"),
+        (("screws", "gains"), [], InputError, r"'screws', 'gains' of these joints: nothing to calibrate"),
+        (("screws",), ["joint7"], UnknownName, r"no joint 'joint7'; did you mean"),
+    ],
+    ids=["a kind that is none", "none", "of no joint", "no such joint"],
+)
+def test_what_cannot_be_free_is_refused(kinds, joints, error, words):
+    with pytest.raises(error, match=words):
+        Arm(PUMA, kinds, joints)

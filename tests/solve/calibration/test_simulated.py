@@ -1,0 +1,184 @@
+"""Simulated measurements: an arm whose axes are moved and stay axes, noise of the size that is said, known outliers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.errors import InputError, ShapeError
+from poekin.groups import so3
+from poekin.solve.calibration.data import KINDS
+from poekin.solve.calibration.simulated import GROSS_SHIFT, GROSS_TURN, Simulated, simulated
+from poekin.testing import chain_strategies
+
+PANDA = pk.load("panda").chain(tip="panda_link8")
+TOOL = np.array([[0.1, 0, 0], [0, 0.2, 0], [0, 0, 0.3]])
+seeds = st.integers(0, 2**32)
+WAYS = [(kind, unknown) for kind in KINDS for unknown in (False, True)]
+U = 2.0**-53
+
+
+def errors(made: Simulated) -> np.ndarray:
+    """Model minus measurement (N, width), written out: X^-1 f Z, X^-1 p, |p - c| of the truth."""
+    m: Any = made.measurements
+    T = made.truth.fk(made.q)
+    X = np.eye(4) if made.X is None else made.X
+    Z = np.eye(4) if made.Z is None else made.Z
+    G = np.linalg.inv(X) @ T @ Z
+    if hasattr(m, "T"):
+        w = so3.log(G[:, :3, :3] @ np.swapaxes(m.T[:, :3, :3], 1, 2))
+        return np.hstack([w, G[:, :3, 3] - m.T[:, :3, 3]])
+    assert made.points is not None
+    points = np.hstack([made.points, np.ones((len(made.points), 1))])
+    there = np.einsum("nij,kj->nki", G, points)[..., :3]
+    if hasattr(m, "p"):
+        return (there - m.p).reshape(len(T), -1)
+    centre = made.frames.get("centre", m.centre)
+    return (np.linalg.norm(there[:, 0] - centre, axis=1) - m.d)[:, None]
+
+
+@given(arm=chain_strategies.chains(), seed=seeds, tilt=st.floats(0, 0.5), shift=st.floats(0, 0.5))
+def test_moved_axes_stay_unit_and_keep_their_pitch(arm, seed, tilt, shift):
+    truth = simulated(arm, 1, seed=seed, tilt=tilt, shift=shift).truth
+    assert truth.kinds == arm.kinds
+    turning = np.array([kind != "prismatic" for kind in arm.kinds], bool)
+    w, v = truth.screws[:, :3], truth.screws[:, 3:]
+    np.testing.assert_allclose(np.linalg.norm(np.where(turning[:, None], w, v), axis=1), 1, atol=4 * U, rtol=0)
+    assert not w[~turning].any()
+    before = (arm.screws[:, :3] * arm.screws[:, 3:]).sum(1)
+    # a pitch is a difference of products of the size of |v|, moved by two products of 6x6 matrices
+    rounding = 100 * U * (1 + np.linalg.norm(arm.screws[:, 3:], axis=1) + np.linalg.norm(v, axis=1))
+    assert (np.abs((w * v).sum(1) - before) <= rounding).all()
+    revolute = np.array([kind == "revolute" for kind in arm.kinds], bool)
+    assert (np.abs((w * v).sum(1))[revolute] <= 4 * U * (1 + np.linalg.norm(v[revolute], axis=1))).all()
+
+
+@given(arm=chain_strategies.chains(), seed=seeds)
+def test_without_tilt_and_shift_the_truth_is_the_arm_itself(arm, seed):
+    made = simulated(arm, 1, seed=seed, tilt=0, shift=0)
+    assert not made.parameters.any()
+    np.testing.assert_allclose(made.truth.screws, arm.screws, atol=20 * U * arm.reach, rtol=4 * U)
+    np.testing.assert_allclose(made.truth.home, arm.home, atol=4 * U * arm.reach)
+
+
+def test_axes_are_tilted_and_shifted_by_what_is_said():
+    n = 400
+    line = pk.Chain([pk.screw.revolute([0, 0, 1], [0.01 * i, 0, 0]) for i in range(n)], np.eye(4))
+    tilted = simulated(line, 1, tilt=1e-3, shift=0).truth.screws[:, :3]
+    shifted = simulated(line, 1, tilt=0, shift=1e-3).truth.screws
+    np.testing.assert_array_equal(shifted[:, :3], line.screws[:, :3])
+    feet = np.cross(shifted[:, :3], shifted[:, 3:]) - np.cross(line.screws[:, :3], line.screws[:, 3:])
+    for off in (tilted[:, :2], feet[:, :2]):
+        # the standard deviation of 800 numbers is known to 1 / sqrt(1600) = 2.5 %: four times that
+        assert np.sqrt(np.mean(off**2)) == pytest.approx(1e-3, rel=0.1)
+
+
+def test_errors_grow_with_what_is_said_and_stay_the_same_otherwise():
+    one, two = (simulated(PANDA, 1, tilt=k * 1e-3, shift=k * 1e-4).parameters for k in (1, 2))
+    np.testing.assert_array_equal(2 * one, two)
+    assert len(one) == 4 * 7 + 6
+
+
+@pytest.mark.parametrize(("kind", "unknown"), WAYS)
+def test_without_noise_the_truth_explains_all(kind, unknown):
+    made = simulated(PANDA, 20, kind=kind, unknown=unknown, noise=(0, 0), points=TOOL)
+    assert made.measurements.covariance is None
+    # a handful of products of poses of a metre or two
+    np.testing.assert_allclose(errors(made), 0, atol=50 * U)
+
+
+@pytest.mark.parametrize(("kind", "unknown"), WAYS)
+def test_noise_has_the_covariance_that_the_measurements_say(kind, unknown):
+    made = simulated(PANDA, 4000, kind=kind, unknown=unknown, noise=(3e-4, 2e-5), points=TOOL, seed=1)
+    e, C = errors(made), made.measurements.covariance
+    assert C is not None
+    found = e.T @ e / len(e) / np.sqrt(np.outer(np.diag(C[0]), np.diag(C[0])))
+    # a covariance of 4000 is known to sqrt(2 / 4000) = 2.2 %, the largest of 81 to four times that
+    np.testing.assert_allclose(found, np.eye(len(found)), atol=0.09)
+
+
+@pytest.mark.parametrize(("kind", "unknown"), WAYS)
+def test_the_outliers_are_those_that_are_said_and_gross(kind, unknown):
+    made = simulated(PANDA, 200, kind=kind, unknown=unknown, outliers=0.05, noise=(1e-4, 1e-4), points=TOOL)
+    e = np.abs(errors(made))
+    assert made.outliers.sum() == 10
+    assert e[~made.outliers].max() < 1e-3
+    gross = e[made.outliers]
+    if gross.shape[1] == 6:
+        angles = np.linalg.norm(gross[:, :3], axis=1)
+        assert GROSS_TURN[0] - 1e-3 < angles.min() < angles.max() < GROSS_TURN[1] + 1e-3
+        gross = gross[:, 3:]
+    far = np.linalg.norm(gross[:, :3], axis=1) / PANDA.reach
+    assert GROSS_SHIFT[0] - 1e-3 < far.min() < far.max() < GROSS_SHIFT[1] + 1e-3
+
+
+@pytest.mark.parametrize(("kind", "unknown"), WAYS)
+def test_the_frames_are_those_that_the_measurements_do_not_know(kind, unknown):
+    made = simulated(PANDA, 3, kind=kind, unknown=unknown)
+    assert {u.name: (u.size,) for u in made.measurements.unknowns} == {
+        name: (6,) if T.shape == (4, 4) else T.shape for name, T in made.frames.items()
+    }
+    assert len(made.measurements) == 3
+
+
+@given(seed=seeds, kind=st.sampled_from(list(KINDS)))
+def test_a_seed_gives_the_same_truth_and_readings_whatever_is_measured(seed, kind):
+    one = simulated(PANDA, 5, seed=seed)
+    two = simulated(PANDA, 9, seed=seed, kind=kind, noise=(0, 1e-3), outliers=0.3)
+    assert one.truth == two.truth
+    np.testing.assert_array_equal(one.q, two.q[:5])
+    lower, upper = PANDA.limits.T
+    assert ((lower <= two.q) & (two.q <= upper)).all()
+    assert not np.array_equal(one.parameters, simulated(PANDA, 1, seed=seed + 1).parameters)
+
+
+def test_q_may_be_given():
+    q = PANDA.random(3, 4)
+    made = simulated(PANDA, 4, q=q, noise=(0, 0))
+    np.testing.assert_array_equal(made.q, q)
+    np.testing.assert_allclose(made.measurements.T, made.truth.fk(q), atol=20 * U)  # type: ignore[attr-defined]
+
+
+def test_a_distance_never_becomes_negative():
+    here = pk.Chain([], np.eye(4))
+    for seed in range(50):
+        centre = simulated(here, 1, kind="distances", unknown=True, seed=seed).frames["centre"]
+        made = simulated(here, 20, kind="distances", outliers=0.9, seed=seed, tilt=0, shift=0, points=1.05 * centre)
+        d = made.measurements.d  # type: ignore[attr-defined]
+        np.testing.assert_allclose(d[~made.outliers], 0.1, atol=1e-3)
+        assert (d > 0).all()
+
+
+def test_the_arm_the_noise_and_the_frames_are_drawn_apart():
+    made = simulated(PANDA, 7, tilt=1, shift=1, noise=(1, 1), kind="distances", seed=5)
+    drawn = [made.parameters[:7], errors(made)[:, 0], made.q[0]]
+    for i, x in enumerate(drawn):
+        for y in drawn[:i]:
+            assert not np.isclose(np.abs(x), np.abs(y)).any()
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "says"),
+    [
+        ({"n": 0}, InputError, r"n: expected a whole number of at least 1, got 0"),
+        ({"n": True}, InputError, r"n: expected a whole number"),
+        ({"seed": -1}, InputError, r"seed: expected a whole number of at least 0, got -1"),
+        ({"kind": "pose"}, InputError, r"kind: expected one of poses, .*, got 'pose'"),
+        ({"tilt": -1e-3}, InputError, r"tilt: expected a finite number of at least 0, got -0\.001"),
+        ({"shift": np.nan}, InputError, r"shift: expected a finite number"),
+        ({"noise": 1e-4}, ShapeError, r"noise: expected two standard deviations, \(rad, m\), got 0\.0001"),
+        ({"noise": (1e-4, np.inf)}, InputError, r"noise\[1\]: expected a finite number"),
+        ({"outliers": 5}, InputError, r"outliers: .* 0 <= outliers < 1, got 5"),
+        ({"q": np.zeros((3, 7))}, ShapeError, r"q: expected finite \(4, 7\), got shape \(3, 7\)"),
+        ({"points": [1, 2]}, ShapeError, r"points: expected finite \(3,\) or \(k, 3\)"),
+    ],
+    ids=["none", "bool", "seed", "kind", "tilt", "shift", "noise", "noisy", "outliers", "q", "points"],
+)
+def test_what_cannot_be_simulated_is_refused(options, error, says):
+    with pytest.raises(error, match=says):
+        simulated(PANDA, **{"n": 4, **options})
