@@ -133,14 +133,25 @@ class Calibration:
         lines = [
             f"{len(self.parameters)} parameters, {len(self.after)} measurements, {state} in {len(self.steps)} steps",
             str(self.identification),
-            f"before: {self.before}",
-            f"after: {self.after}",
+            *_table(self),
         ]
-        if self.held_out is not None:
-            lines.append(f"on data kept aside ({self.held_out.folds} folds), before: {self.held_out.before}")
-            lines.append(f"on data kept aside ({self.held_out.folds} folds), after: {self.held_out.after}")
         if self.outliers:
             rows = ", ".join(str(o.row) for o in self.outliers[:MOST_OUTLIERS])
             more = len(self.outliers) - MOST_OUTLIERS
             lines.append(f"outliers: rows {rows}" + (f" and {more} more" if more > 0 else ""))
         return "\n".join(harmless(line, keep="\n") for line in lines)
+
+
+def _table(found: Calibration) -> list[str]:
+    """Residuals before and after, on all measurements and on those kept aside."""
+    kept = found.held_out
+    rows = [("before", found.before), ("after", found.after)]
+    if kept is not None:
+        rows += [(f"kept aside ({kept.folds} folds), before", kept.before), ("kept aside, after", kept.after)]
+    angles = not np.isnan(found.before.angle).all()
+    heads = ["median mm", "rms mm"] + ["median mrad", "rms mrad"] * angles
+    lines = [" " * 29 + "".join(f"{head:>13}" for head in heads)]
+    for name, r in rows:
+        values = [r.median_length, r.rms_length] + [r.median_angle, r.rms_angle] * angles
+        lines.append(f"{name:29}" + "".join(f"{1e3 * value:13.3g}" for value in values))
+    return lines

@@ -33,6 +33,9 @@ def directions(problem: Problem, N: Array) -> list[str]:
         words = f"{left} combinations" if left > 1 else "a combination"
         return [*said, f"{words} of what moves {_list(owners)}"]
     often = f"{left} directions in which" if left > 1 else "the direction in which"
+    joints = {p.owner for p in problem.arm.parameters} - {"home"}
+    if len(joints) > 2 and joints <= set(owners):
+        owners = ["the arm as a whole", *(o for o in owners if o not in joints and o != "home")]
     return [*said, f"{often} {_list(owners)} move together" + _common(problem, owners)]
 
 

@@ -254,7 +254,7 @@ def test_the_result_says_what_it_is_and_goes_on_to_other_forms(tmp_path):
     q = arm.random(0, 60)
     found = calibrate(arm, q, moved(arm, 1, 1e-3).fk(q))
     words = str(found)
-    for part in ("34 parameters", "converged", "rank 34 of 34", "kept aside (5 folds)", "mm rms", "mrad"):
+    for part in ("34 parameters", "converged", "rank 34 of 34", "kept aside (5 folds)", "rms mm", "median mrad"):
         assert part in words
     path = tmp_path / "panda.urdf"
     path.write_text(found.to_urdf(robot))
