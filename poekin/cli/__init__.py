@@ -1,7 +1,7 @@
 """The command line `poekin`; its commands are listed in `commands`.
 
-Exit codes: 0 done (validate: passed, compare: equal, singularity: regular, ik and follow: all solved), 1 not so, 2 an
-error (one message on stderr), 130 interrupted, 141 where the reader of the output went away.
+Exit codes: 0 done (validate: passed, compare: equal, singularity: regular, ik and follow: all solved, calibrate:
+converged), 1 not so, 2 an error (one message on stderr), 130 interrupted, 141 where the reader of the output went away.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ from . import files
 from .model import OPTIONS, model
 from .output import Progress, as_json, matrix, name, number, say
 
-FILE_HELP = "A URDF, MJCF or DH table file, a built-in name (panda), or erd:NAME."
+FILE_HELP = "A URDF, MJCF, DH table or calibration file, a built-in name (panda), or erd:NAME."
 File = Annotated[str, typer.Argument(metavar="FILE", help=FILE_HELP)]
 Tip = Annotated[str | None, typer.Option("--tip", help="The link whose motion it is (may be left out for one leaf).")]
 Base = Annotated[str | None, typer.Option("--base", help="The link it is seen from (default: the root).")]

@@ -6,7 +6,22 @@ from typing import Annotated
 
 import typer
 
-from . import axes, compare, count, dh, emit, fk, follow, ik, info, jacobian, singularity, urdf, validate
+from . import (
+    axes,
+    calibrate,
+    compare,
+    count,
+    dh,
+    emit,
+    fk,
+    follow,
+    ik,
+    info,
+    jacobian,
+    singularity,
+    urdf,
+    validate,
+)
 from .model import takes_models
 
 app = typer.Typer(
@@ -25,6 +40,7 @@ app.command("jacobian", context_settings=NUMBERS)(takes_models(jacobian.command)
 app.command("singularity", context_settings=NUMBERS)(takes_models(singularity.command))
 app.command("ik", context_settings=NUMBERS)(takes_models(ik.command))
 app.command("follow")(takes_models(follow.command))
+app.command("calibrate")(takes_models(calibrate.command))
 app.command("validate")(takes_models(validate.command))
 app.command("urdf")(takes_models(urdf.command))
 app.command("compare")(takes_models(compare.command))

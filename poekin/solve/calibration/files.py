@@ -37,10 +37,10 @@ _AGREE = 1e-9  # reaches: how near the calibrated chain is to what its parameter
 
 def save(found: Calibration, path: str | os.PathLike[str]) -> None:
     """Write a calibration, whole or not at all; see `Calibration.save`."""
-    kinds, joints = asked(found.arm)
     data: dict[str, Any] = {
         "format": FORMAT, "version": VERSION, "success": bool(found.success), "loss": found.loss,
-        "kinds": kinds, "joints": joints, "outliers": [list(map(int, o)) for o in found.outliers],
+        "kinds": list(found.arm.kinds), "joints": list(found.arm.moving),
+        "outliers": [list(map(int, o)) for o in found.outliers],
         "covariance": found.covariance.tolist(),
         "nominal": chain_toml.to_data(found.nominal), CALIBRATED: chain_toml.to_data(found.chain),
         "identification": _identification(found.identification),
@@ -102,31 +102,6 @@ def _check_sets(keys: Keys, found: Calibration) -> None:
         rows = after.row[after.set == o.set]
         if o.index >= len(rows) or rows[o.index] != o.row:
             raise keys.fault("outliers", f"expected set, index and row of a measurement, got {list(o)}")
-
-
-def asked(arm: Arm) -> tuple[list[str], list[str]]:
-    """Kinds of parameters and names of joints that make this arm again out of its nominal chain.
-
-    Not always those that were asked for: without screws, also joints that add no parameter.
-    """
-    every = np.arange(len(arm.nominal.joint_names))
-    moved = np.union1d(arm._offset, arm._gain)
-    kinds = {
-        "screws": arm._free.any(), "home": arm._home, "offsets": len(arm._offset), "gains": len(arm._gain),
-        "pitch": len(arm._pitched),
-    }  # fmt: skip
-    if kinds["screws"]:
-        chosen = np.flatnonzero(arm._free.any(axis=1))
-    elif len(moved):
-        other = np.setdiff1d(np.arange(arm.nominal.dof), moved)
-        chosen = every[~arm.nominal.coupling[:, other].any(axis=1)]
-        if kinds["pitch"]:
-            straight = [i for i in chosen if arm.nominal.kinds[i] == "prismatic"]
-            chosen = np.union1d(arm._pitched, straight)
-    else:
-        chosen = arm._pitched
-    # an arm without parameters is made by choosing no joint
-    return [k for k, there in kinds.items() if there] or ["screws"], [arm.nominal.joint_names[int(i)] for i in chosen]
 
 
 def _arm(keys: Keys, nominal: Chain) -> Arm:

@@ -43,14 +43,15 @@ class Parameter(NamedTuple):
 class Arm:
     """A chain and those of its parameters p that are free; p = 0 is the chain itself.
 
-    `parameters` in the order of p. Joints whose axes may move, coordinates whose zero or gain may, are those in
-    `joints` (names of joints; all where None).
+    `parameters` in the order of p; `kinds` and `moving`, names of joints, as they were asked for. Joints whose axes may
+    move, coordinates whose zero or gain may, are those in `joints` (all where None).
     """
 
     def __init__(self, nominal: Chain, kinds: Sequence[str], joints: Sequence[str] | None):
         kinds = _kinds(kinds)
         chosen = _joints(nominal, joints)
-        self.nominal = nominal
+        self.nominal, self.kinds = nominal, kinds
+        self.moving = tuple(name for name, is_one in zip(nominal.joint_names, chosen, strict=True) if is_one)
         self._turns = nominal.local.rotates != 0
         self._frames = np.empty((len(self._turns), 4, 4))
         F = np.eye(4)

@@ -6,7 +6,7 @@ import ast
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
 import poekin as pk
@@ -22,7 +22,10 @@ def drawn(data, **options) -> tuple[pk.Chain, Arm, np.ndarray, np.ndarray]:
     """A chain, all its parameters, values of up to some hundredths, and three configurations."""
     chain = data.draw(chain_strategies.chains(min_joints=1, max_joints=5, **options))
     kinds = data.draw(st.lists(st.sampled_from(KINDS), min_size=1, unique=True))
-    arm = Arm(chain, kinds, None)
+    try:
+        arm = Arm(chain, kinds, None)
+    except InputError:  # pitches of prismatic joints alone, and the like
+        reject()
     rng = np.random.default_rng(data.draw(st.integers(0, 2**16)))
     return chain, arm, 0.05 * rng.normal(size=len(arm.parameters)), rng.uniform(-2, 2, (3, chain.dof))
 
