@@ -21,12 +21,13 @@ ifneq ($(SETUP_OF),$(CURDIR))
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help report test lint style types wheel-check
+.PHONY: help report test lint style types wheel-check docs
 
 help:
 	@echo "make test         run all tests"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
 	@echo "make lint         check style (ruff) and types (pyright)"
+	@echo "make docs         build the pages of docs/ and print where they are"
 	@echo "make wheel-check  build the wheel and use it where the source tree cannot be imported"
 	@echo "Each sets up $(VENV) first if need be. With another interpreter: make test PYTHON=python3.12"
 
@@ -45,6 +46,10 @@ style: $(VENV)/lint
 types: $(VENV)/lint
 	$(PY) -m pyright
 
+docs: $(VENV)/docs
+	@$(PY) -m sphinx -q -W --keep-going -E -a -b html docs docs/_build
+	@echo "The pages: $(CURDIR)/docs/_build/index.html"
+
 wheel-check: $(VENV)/dev
 	@$(PY) tools/wheel_check.py
 
@@ -62,4 +67,9 @@ $(VENV)/dev: pyproject.toml constraints.txt
 $(VENV)/lint: $(VENV)/dev
 	@echo "Setting up: ruff and pyright into $(VENV)"
 	@$(PIP) --no-build-isolation -e '.[lint]'
+	@touch $@
+
+$(VENV)/docs: $(VENV)/dev
+	@echo "Setting up: Sphinx into $(VENV)"
+	@$(PIP) --no-build-isolation -e '.[docs]'
 	@touch $@

@@ -47,7 +47,7 @@ def faults_of_sdist(names: Iterable[str]) -> list[str]:
         "poekin/__init__.py",
         "tests/conftest.py",
     )
-    folders = ("tests/", "benchmarks/", "notebooks/", "tools/")
+    folders = ("tests/", "benchmarks/", "docs/", "notebooks/", "tools/")
     return [f"not in the source distribution: {n}" for n in wanted if n not in inside] + [
         f"nothing of {f} in the source distribution" for f in folders if not any(n.startswith(f) for n in inside)
     ]

@@ -70,7 +70,7 @@ class AxesReport:
 
     def has(self, kind: str) -> bool:
         """Whether a shape of that kind was found: "spherical wrist", "spherical shoulder", "three parallel axes",
-        "Pieper", "S-R-S".
+        "Pieper", "S-R-S". Raises: nothing; of another kind there is none.
         """  # fmt: skip
         return any(shape.kind == kind for shape in self.shapes)
 

@@ -76,7 +76,7 @@ class CountTable:
         return tuple(dict.fromkeys(row.group for row in self.rows))
 
     def of(self, group: str) -> tuple[CountRow, ...]:
-        """The rows under a heading."""
+        """The rows under a heading, `group`; none where there is no such heading. Raises: nothing."""
         return tuple(row for row in self.rows if row.group == group)
 
     def as_dict(self) -> dict[str, Any]:

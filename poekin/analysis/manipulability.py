@@ -29,7 +29,7 @@ class Measures(NamedTuple):
 
 
 class Manipulability(NamedTuple):
-    """The measures of all six rows, of the three of translation (m/s), and of the three of rotation (rad/s)."""
+    """Measures of all six rows, `pose`, of the three of translation (m/s), and of the three of rotation (rad/s)."""
 
     pose: Measures
     translation: Measures

@@ -32,7 +32,7 @@ def xacro(path: str | os.PathLike[str], /, **arguments: str | float) -> Robot:
     Parameters: path, of the file; arguments, values of its <xacro:arg>, as in xacro("arm.urdf.xacro", prefix="left_").
     True and False become "true" and "false". Files to include are relative to the file that includes them. Packages,
     `$(find NAME)`, are looked for in the folders above the file, then where ROS has them (ROS_PACKAGE_PATH, ament),
-    and where `xacrodoc.packages.look_in` was told to. Meshes need not be there.
+    and where `xacrodoc.packages.look_in` was told to. Meshes need not be there. Returns: Robot.
     Raises: FileError for a file that cannot be read; ModelError, with the file, for what xacro refuses, with its own
     words, and what `formats.urdf` does not understand of the result: lines are then those of the evaluated text;
     InputError for an argument that is no text, number or truth value; MissingExtra without the package xacrodoc.

@@ -171,8 +171,9 @@ def linear_first(x: ArrayLike, axis: int = -1) -> Array:
 
     It is its own inverse. Rows of a Jacobian: axis=-2; both axes of a 6x6 matrix: apply it twice.
 
-    Parameters: x, array with x.shape[axis] == 6. Returns: the same shape. Raises: ShapeError, InputError.
-    Accuracy: exact. Source: Pinocchio and Robotics Toolbox write (v; omega); see the README.
+    Parameters: x, an array of any shape with x.shape[axis] == 6; axis. Returns: the same shape.
+    Raises: ShapeError, InputError. Accuracy: exact.
+    Source: Pinocchio and Robotics Toolbox write (v; omega); see the README.
     """
     x = numbers(x, "x")
     if not -x.ndim <= axis < x.ndim or x.shape[axis] != 6:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class ScrewForm(NamedTuple):
-    """One global form of the product of exponentials: screws (n, 6) in one frame, and the home pose (4, 4)."""
+    """One global form of the product of exponentials: screws (n, 6), per rad or m, in one frame; home (4, 4), m."""
 
     screws: Array
     home: Array

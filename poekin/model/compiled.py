@@ -60,7 +60,7 @@ class CompiledChain:
     chain and options, never as code; works in threads and in forked workers.
 
     Attributes: chain; parallel, whether large batches are shared out among threads; joint_names, q_names, dof; memory,
-    what functions of the arm keep with it.
+    what functions of the arm keep with it. Raises: InputError where parallel is no truth value.
     Accuracy: that of `Chain.fk` (tests/model/test_compiled.py). An entry that does not depend on a coordinate is a
     number even where that coordinate is NaN. Source: Park 1994, Section IV, each link as two planar rotations.
     """

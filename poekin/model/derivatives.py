@@ -29,6 +29,7 @@ _CODES = dict(
 class PoseChanges(NamedTuple):
     """What a change of the model does to the pose: df f^-1, a space twist (omega; v), per unit of each parameter.
 
+    Rows in base axes, rad and m.
     screws (..., 6, n, 6): [..., :, i, e] of component e of joint i's six; home (..., 6, 6): of component e of the home
     pose's eta, M <- M e^eta.
     """
@@ -40,6 +41,7 @@ class PoseChanges(NamedTuple):
 class JacobianChanges(NamedTuple):
     """What a change of the model does to the Jacobian, per unit of each parameter of `PoseChanges`.
 
+    Rows (omega; v), rad/s and m/s, in the frame of that Jacobian.
     screws (..., 6, m, n, 6): [..., :, k, i, e] is the change of column k; home (..., 6, m, 6).
     """
 

@@ -23,8 +23,8 @@ from .parts import read_only
 class LocalForm:
     """Constant poses and z-aligned screws of a chain of n joints.
 
-    `frames` (n + 1, 4, 4) are M_1 ... M_{n+1} (m); joint i turns by rotates[i] x_i (rad) and slides by slides[i] x_i
-    (m) along its z axis. Source: Park 1994, Section IV, and DESIGN's trailing tool M_{n+1}.
+    `frames` (n + 1, 4, 4) are M_1 ... M_{n+1} (m). rotates (n,), slides (n,): joint i turns by rotates[i] x_i (rad)
+    and slides by slides[i] x_i (m) along its z axis. Source: Park 1994, Section IV, with a trailing tool M_{n+1}.
     """
 
     frames: Array

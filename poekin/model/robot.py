@@ -90,7 +90,7 @@ class Robot:
         named after that master. Limits are intersected over the joints on the way that follow a coordinate; where
         nothing is left, the master's own stand.
 
-        Parameters: base, by default the root; tip, by default the only leaf.
+        Parameters: base, by default the root; tip, by default the only leaf. Returns: Chain.
         Raises: UnknownName with the closest names for an unknown link; InputError that lists the leaves when tip is
         left out and there are several, and for a coupled chain whose matrix C would have more than 64 million
         entries; ModelError when a floating or planar joint is on the way.
@@ -162,6 +162,7 @@ class Robot:
         poses do not broadcast; InputError where poses is no dict; UnknownName or InputError for a name in poses
         that is no floating or planar joint, PoseError or ShapeError for a matrix that is no pose.
         Accuracy: rounding of the product of poses from the root, about 1e-16 of the distance per joint.
+        Source: T_pc(x) = origin e^{S x} along the tree, with e^{S x} of Park 1994, Lemma 2.
         """
         values = coordinates(q, self.q_names, f"robot {shown(self.name)}")
         free = _free_poses(self, {} if poses is None else poses)

@@ -1,5 +1,7 @@
 """Screws of joints: six numbers (omega; v), the angular part first, and the lines in space that they stand for.
 
+A screw is in the frame in which its direction and point are given; a chain wants those of its base.
+
 revolute   (z; -z x p)             z a unit vector along the axis, p any point on it
 helical    (z; -z x p + h z)       h the pitch in m per rad
 prismatic  (0; z)                  a direction; it has no place
@@ -78,7 +80,11 @@ def prismatic(axis: ArrayLike) -> Array:
 
 
 def pitch_of(screw: Array) -> float:
-    """omega . v of a checked screw with omega != 0, in m per rad; exactly 0 where it is rounding."""
+    """omega . v of a checked screw (6,) with omega != 0, in m per rad; exactly 0 where it is rounding.
+
+    Parameters: screw (6,), as `checked` gives it. Returns: the pitch. Raises: nothing, it looks at nothing else.
+    Accuracy: what is rounding is below 4e-15 max(1 m, |v|). Source: Park 1994, Section II.
+    """
     pitch = float(screw[:3] @ screw[3:])
     return 0.0 if abs(pitch) <= _NO_PITCH * max(1.0, float(np.linalg.norm(screw[3:]))) else pitch
 
@@ -87,6 +93,9 @@ def without_pitch(screws: Array, revolute: Array) -> Array:
     """Screws (n, 6) of which those marked in `revolute` (n,) have omega . v = 0 to their own rounding.
 
     A revolute screw moved by a far pose comes back with the rounding of that distance, which would pass for a pitch.
+
+    Parameters: screws (n, 6), in any one frame; revolute (n,), True where the pitch is to go. Returns: (n, 6), rad, m.
+    Raises: nothing of its own. Accuracy: one rounding of omega . v. Source: Park 1994, Section II.
     """
     w, v = screws[:, :3], screws[:, 3:]
     pitch = (w * v).sum(1, keepdims=True) / np.maximum((w * w).sum(1, keepdims=True), np.finfo(float).tiny)
@@ -108,7 +117,7 @@ def axis_of(screw: ArrayLike) -> Axis:
 
 
 def checked(screws: ArrayLike, names: tuple[str, ...] = ()) -> Array:
-    """Screws (n, 6) with |omega| = 1, or omega = 0 and |v| = 1, to the last digit.
+    """Screws (n, 6), all in one frame, with |omega| = 1, or omega = 0 and |v| = 1, to the last digit.
 
     Accepted where that holds to 1e-9; anything else is refused: rescaling it would rescale the user's q.
 

@@ -19,6 +19,7 @@ NAMES = (
 def published(name: str) -> Table:
     """The published table of an arm, one of `NAMES`; its source, tool and zero position stand at the top of its file.
 
+    Parameters: name, as "puma560". Returns: Table, rad and m.
     Raises: UnknownName with the closest names. Accuracy: as published. Source: the one in the file.
     """
     if name not in NAMES:

@@ -52,6 +52,7 @@ class Calibration:
     def to_robot(self, name: str = "ur") -> Robot:
         """The robot of this calibration, its link frames those of the calibration.
 
+        Parameters: name, of the robot. Raises: InputError for a name that is none.
         Returns: Robot with links base, shoulder_link ... wrist_3_link and tool0, which is wrist_3_link again, and
         joints `JOINTS`: the names of ur_description. Limits are none, a calibration has none: see `apply`.
         """

@@ -37,8 +37,9 @@ def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
     For `deltas`: `pk.ur.deltas(pk.dh.published("ur10e"), **pk.ur.read_deltas("calibration.conf"))`.
 
     The file has lines `delta_a = [ 1e-4, ... ]` under [mounting], and others that do not matter here.
-    Returns: dict of six numbers each. Raises: FileError for a file that cannot be read or is larger than 64 KiB;
-    ModelError with file and line for a delta that is missing, there twice, not six numbers or not finite.
+    Parameters: path, of the file. Returns: dict of six numbers each.
+    Raises: FileError for a file that cannot be read or is larger than 64 KiB; ModelError with file
+    and line for a delta that is missing, there twice, not six numbers or not finite.
     Accuracy: numbers as they are written. Source: such files as owners of arms show them in the forum of Universal
     Robots, as "Calibrated kinamatics info"; there is no published description.
     """

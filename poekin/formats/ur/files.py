@@ -75,6 +75,7 @@ def write(calibration: Calibration, path: str | os.PathLike[str], *, rpy: str = 
     With "fixed", ur_description's URDF is this calibration to the last digits, as one made from the driver's own file
     is not (see the top of this module). A file of either kind reads back as the same calibration.
 
+    Parameters: calibration; path, of the file; rpy. Returns: nothing.
     Raises: FileError where it cannot be written, and then nothing is; InputError. Accuracy: lengths keep all their
     digits, rotations come back within 1e-15. A hash is written as it is: the driver compares it with the arm's.
     """

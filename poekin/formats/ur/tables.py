@@ -33,8 +33,9 @@ def deltas(
 ) -> Table:
     """The table with deltas added to its columns: an arm's own parameters from the nominal ones.
 
-    Parameters: table, as `pk.dh.published("ur10e")`; the deltas (n,), one a joint [rad, m], none for none: as the
-    controller keeps them in calibration.conf (`read_deltas`). Returns: Table of the same convention, base and tool.
+    Parameters: table, as `pk.dh.published("ur10e")`; delta_theta, delta_alpha (n,) [rad], delta_a,
+    delta_d (n,) [m], one number a joint, none for none: as the controller keeps them in calibration.conf
+    (`read_deltas`). Returns: Table of the same convention, base and tool.
     Raises: InputError for deltas of another number of joints or not finite, and for what is no Table.
     Accuracy: one rounding. A controller takes π/2 to be 1.570796327, which is 2e-10 rad more than in the published
     tables of poekin, so its own alpha differs from this one by as much.

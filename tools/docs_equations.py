@@ -1,0 +1,114 @@
+"""The paper's equations (Park 1994, proof-read), in LaTeX, by the full name of what computes them.
+
+They stand over the docstrings in the reference. A formula that is not the paper's has its own equation, and its
+docstring says where it is from.
+"""
+
+_B, _C = r"\frac{1-\cos\theta}{\theta^2}", r"\frac{\theta-\sin\theta}{\theta^3}"
+_D = r"\frac{1 - \frac{\theta}{2}\cot\frac{\theta}{2}}{\theta^2}"
+_J = rf"I + {_B}[\omega] + {_C}[\omega]^2"
+_HAT = (
+    r"[\omega] = \begin{bmatrix} 0 & -\omega_3 & \omega_2 \\ \omega_3 & 0 & -\omega_1 \\ "
+    r"-\omega_2 & \omega_1 & 0 \end{bmatrix}"
+)
+_SO3_EXP = rf"e^{{[\omega]}} = I + \frac{{\sin\theta}}{{\theta}}[\omega] + {_B}[\omega]^2, \quad \theta = \|\omega\|"
+_SE3_EXP = (
+    r"e^{[\xi]} = \begin{bmatrix} e^{[\omega]} & J(\omega)\,v \\ 0 & 1 \end{bmatrix}, \quad "
+    rf"J(\omega) = {_J}"
+)
+_SO3_LOG = (
+    r"\log R = \frac{\theta}{2\sin\theta}\,(R - R^T), \quad 1 + 2\cos\theta = \operatorname{tr} R, "
+    r"\quad 0 \le \theta \le \pi"
+)
+_SE3_LOG = (
+    r"\log T = \begin{bmatrix} [\omega] & J(\omega)^{-1} p \\ 0 & 0 \end{bmatrix}, \quad [\omega] = \log R, \quad "
+    rf"J(\omega)^{{-1}} = I - \frac{{1}}{{2}}[\omega] + {_D}[\omega]^2"
+)
+_LEFT = rf"J(\omega) = \int_0^1 e^{{[\omega]s}}\,ds = {_J}"
+_LEFT_INVERSE = rf"J(\omega)^{{-1}} = I - \frac{{1}}{{2}}[\omega] + {_D}[\omega]^2"
+_POE = r"f(q) = e^{A_1 q_1} e^{A_2 q_2} \cdots e^{A_n q_n} M"
+_BODY = r"f(q) = M e^{B_1 q_1} e^{B_2 q_2} \cdots e^{B_n q_n}, \quad B_i = M^{-1} A_i M"
+_LOCAL = r"f(q) = M_1 e^{S_1 q_1} M_2 e^{S_2 q_2} \cdots M_n e^{S_n q_n} M_{n+1}"
+_ADJOINT = r"\operatorname{Ad}(T) = \begin{bmatrix} R & 0 \\ [p]R & R \end{bmatrix}"
+_AD = r"\operatorname{ad}(\xi) = \begin{bmatrix} [\omega] & 0 \\ [v] & [\omega] \end{bmatrix}"
+_COLUMN = (
+    r"J_s = \begin{bmatrix} A_1 & \operatorname{Ad}(e^{A_1 q_1}) A_2 & \cdots & "
+    r"\operatorname{Ad}(e^{A_1 q_1} \cdots e^{A_{n-1} q_{n-1}}) A_n \end{bmatrix}"
+)
+_PAUL = (
+    r"f = \prod_{i=1}^{n} R_z(\theta_i)\,T_z(d_i)\,T_x(a_i)\,R_x(\alpha_i) = \prod_{i=1}^{n} e^{P_i q_i} M_i, \quad "
+    r"A_i = (M_1 \cdots M_{i-1})\,P_i\,(M_1 \cdots M_{i-1})^{-1}"
+)
+
+EQUATIONS: dict[str, str] = {
+    # so3 and se3
+    "poekin.so3.hat": _HAT,
+    "poekin.so3.exp": _SO3_EXP,
+    "poekin.so3.log": _SO3_LOG,
+    "poekin.so3.left_jacobian": _LEFT,
+    "poekin.so3.left_jacobian_inverse": _LEFT_INVERSE,
+    "poekin.se3.hat": r"[\xi] = \begin{bmatrix} [\omega] & v \\ 0 & 0 \end{bmatrix}",
+    "poekin.se3.exp": _SE3_EXP,
+    "poekin.se3.log": _SE3_LOG,
+    "poekin.se3.inverse": r"T^{-1} = \begin{bmatrix} R^T & -R^T p \\ 0 & 1 \end{bmatrix}",
+    "poekin.se3.adjoint": _ADJOINT,
+    "poekin.se3.ad": _AD,
+    "poekin.se3.left_jacobian": r"J(\xi) = \int_0^1 \operatorname{Ad}(e^{[\xi]s})\,ds",
+    # chains
+    "poekin.Chain": _POE,
+    "poekin.Chain.fk": _POE,
+    "poekin.Chain.jacobian": _COLUMN,
+    "poekin.Chain.velocity": r"V_i = \operatorname{Ad}(f_{i-1,i})^{-1} V_{i-1} + S_i \dot{q}_i, \quad V_0 = 0",
+    "poekin.Chain.joint_poses": r"f_k = M_1 e^{S_1 q_1} \cdots M_k e^{S_k q_k}",
+    "poekin.Chain.space": _POE,
+    "poekin.Chain.body": _BODY,
+    "poekin.Chain.rebased": r"f' = P f Q: \quad A_i' = P A_i P^{-1}, \quad B_i' = Q^{-1} B_i Q, \quad M' = P M Q",
+    "poekin.Chain.retooled": r"f' = P f Q: \quad A_i' = P A_i P^{-1}, \quad B_i' = Q^{-1} B_i Q, \quad M' = P M Q",
+    "poekin.screw.revolute": r"A = (\omega; v), \quad v = -\omega \times p, \quad \|\omega\| = 1",
+    "poekin.screw.prismatic": r"A = (0; v), \quad \|v\| = 1",
+    "poekin.screw.helical": r"A = (\omega; v), \quad v = -\omega \times p + h\,\omega, \quad \|\omega\| = 1",
+    "poekin.screw.axis_of": r"p = \omega \times v, \quad h = \omega \cdot v",
+    "poekin.dh.to_chain": _PAUL,
+    # one for each module of formulas
+    "poekin.formulas.exponential": _SE3_EXP,
+    "poekin.formulas.exponential.so3": _SO3_EXP,
+    "poekin.formulas.exponential.joint": (
+        r"e^{Aq} = \begin{bmatrix} e^{[\omega]q} & "
+        r"(q I + (1-\cos q)[\omega] + (q - \sin q)[\omega]^2)\,v \\ 0 & 1 \end{bmatrix}, \quad \|\omega\| = 1"
+    ),
+    "poekin.formulas.logarithm": _SE3_LOG,
+    "poekin.formulas.logarithm.so3": _SO3_LOG,
+    "poekin.formulas.exp_jacobian": _LEFT,
+    "poekin.formulas.exp_jacobian.left_inverse": _LEFT_INVERSE,
+    "poekin.formulas.coefficients": _LEFT_INVERSE,
+    "poekin.formulas.forward": _LOCAL,
+    "poekin.formulas.columns": r"V_h = \begin{bmatrix} I & 0 \\ -[p] & I \end{bmatrix} V_s",
+    "poekin.formulas.direct": _COLUMN,
+    "poekin.formulas.recursive": (
+        r"J_b = \begin{bmatrix} \operatorname{Ad}(f_{1,2} \cdots f_{n-1,n})^{-1} S_1 & \cdots & "
+        r"\operatorname{Ad}(f_{n-1,n})^{-1} S_{n-1} & S_n \end{bmatrix}, \quad f_{i-1,i} = M_i e^{S_i q_i}"
+    ),
+    "poekin.formulas.recursive.body_velocity": (
+        r"V_i = \operatorname{Ad}(f_{i-1,i})^{-1} V_{i-1} + S_i \dot{q}_i, \quad V_n = f^{-1}\dot{f}"
+    ),
+    "poekin.formulas.dh": _PAUL,
+    "poekin.formulas.dh_recursive": (
+        r"f = e^{S q_1} N_1\, e^{S q_2} N_2 \cdots e^{S q_n} N_n, \quad N_i = T_z(d_i)\,T_x(a_i)\,R_x(\alpha_i)"
+    ),
+    "poekin.formulas.structured": (
+        r"F_i = F_{i-1}\, T_x(a_i)\, T_y(b_i)\, R_x(\alpha_i)\, R_z(\theta_i)\, T_z(d_i + s_i q_i)"
+    ),
+    "poekin.formulas.derivatives": (
+        r"\frac{\partial s_i}{\partial q_j} = [s_j, s_i] = \operatorname{ad}(s_j)\,s_i \quad (j < i), \quad "
+        r"\dot{V} = J \ddot{q} + \dot{J} \dot{q}"
+    ),
+    "poekin.formulas.screw_changes": (
+        r"df\,f^{-1} = \sum_{i=1}^{n} (\operatorname{Ad}(P_{i-1}) - \operatorname{Ad}(P_i))\,\eta_i "
+        r"+ \operatorname{Ad}(f)\,\eta, \quad P_i = e^{A_1 q_1} \cdots e^{A_i q_i}"
+    ),
+    "poekin.formulas.least_squares": r"(J^T W J + \lambda I)\,x = J^T W e",
+    "poekin.formulas.defect": r"\|R^T R - I\|, \quad \det R",
+}
+
+# Modules of formulas that have no equation, each with its reason.
+WITHOUT: dict[str, str] = {"poekin.formulas.elementary": "square root, sine, cosine and arctangent themselves"}

@@ -1,0 +1,193 @@
+"""The public names, what each is called in full, and on which page of the reference it stands."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import inspect
+import pkgutil
+import types
+from collections.abc import Iterator
+
+import poekin
+from poekin import formulas
+
+from .docs_render import rest
+
+# Page of the reference: its title, and the names of `poekin.__all__` on it, modules with all that they hold.
+PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
+    "models": ("Models: read, make, write", (
+        "load", "xacro", "from_object", "to_urdf", "relinked", "Robot", "Joint", "Mimic",
+    )),
+    "chain": ("Chain: poses, Jacobians, derivatives", ("Chain",)),
+    "screw": ("screw: the axes of joints", ("screw",)),
+    "so3": ("so3: rotations", ("so3",)),
+    "se3": ("se3: poses and twists", ("se3",)),
+    "dh": ("dh: Denavit–Hartenberg tables", ("dh",)),
+    "ur": ("ur: factory calibrations of Universal Robots", ("ur",)),
+    "compare": ("Compare and judge models", ("compare", "axes", "validate")),
+    "dexterity": ("Manipulability and singularities", ("manipulability", "manipulability_gradient", "singularity")),
+    "solve": ("Inverse kinematics", ("ik", "ik_all", "follow")),
+    "motion": ("motion: paths and timing", ("motion",)),
+    "calibration": ("Calibration", ("calibrate", "choose_poses", "calibration")),
+    "emit": ("emit: source code of an arm", ("emit",)),
+    "count": ("Operation counts", ("count", "count_table")),
+    "errors": ("Errors and warnings", ("PoekinError", "PoekinWarning", "errors")),
+}  # fmt: skip
+
+# What functions and methods return, where the class itself is in no public module: where it is, and its page.
+RESULTS: dict[str, str] = {
+    "poekin.model.chain.ScrewForm": "chain",
+    "poekin.model.local.LocalForm": "chain",
+    "poekin.model.compiled.CompiledChain": "chain",
+    "poekin.model.derivatives.PoseChanges": "chain",
+    "poekin.model.derivatives.JacobianChanges": "chain",
+    "poekin.model.idealise.Idealised": "chain",
+    "poekin.model.hp.HPForm": "chain",
+    "poekin.analysis.comparison.Comparison": "compare",
+    "poekin.analysis.comparison.JointComparison": "compare",
+    "poekin.analysis.axes.AxesReport": "compare",
+    "poekin.analysis.axes.AxisPair": "compare",
+    "poekin.analysis.validate.Validation": "compare",
+    "poekin.analysis.validate.ChainErrors": "compare",
+    "poekin.analysis.manipulability.Manipulability": "dexterity",
+    "poekin.analysis.singularity.Singularity": "dexterity",
+    "poekin.solve.solution.Solution": "solve",
+    "poekin.solve.all_solutions.AllSolutions": "solve",
+    "poekin.solve.followed.Followed": "solve",
+    "poekin.analysis.count_table.CountTable": "count",
+}
+
+
+def own(thing: object) -> bool:
+    return (getattr(thing, "__module__", None) or "").split(".")[0] == "poekin"
+
+
+def of_module(module: types.ModuleType) -> list[str]:
+    """The public names of a module: `__all__`, or, of the errors, the classes that it defines."""
+    if hasattr(module, "__all__"):
+        return list(module.__all__)
+    return [n for n, x in vars(module).items() if inspect.isclass(x) and x.__module__ == module.__name__]
+
+
+def members(owner: type) -> Iterator[tuple[str, object]]:
+    """Public methods and properties of a class and of its bases in poekin; a property as its function."""
+    seen = set()
+    for base in owner.__mro__:
+        if not own(base):
+            continue
+        for name, member in vars(base).items():
+            ways = ("fget", "func", "__func__")  # of a property, a cached property, a class method
+            inner = next((x for w in ways if (x := getattr(member, w, None)) is not None), member)
+            if not name.startswith("_") and name not in seen and inspect.isfunction(inner):
+                seen.add(name)
+                yield name, inner
+
+
+def resolved(dotted: str) -> object:
+    """What a full name stands for: the longest part of it that is a module, then attributes."""
+    parts = dotted.split(".")
+    for length in range(len(parts), 0, -1):
+        try:
+            found: object = importlib.import_module(".".join(parts[:length]))
+        except ModuleNotFoundError:
+            continue
+        for name in parts[length:]:
+            found = getattr(found, name)
+        return found
+    raise ModuleNotFoundError(dotted)
+
+
+def pages() -> dict[str, tuple[str, tuple[str, ...]]]:
+    """`PAGES` with the names that exist."""
+    return {page: (title, tuple(n for n in names if n in poekin.__all__)) for page, (title, names) in PAGES.items()}
+
+
+@functools.cache
+def documented() -> dict[str, str]:
+    """Full name of every function, class, method and property of the reference, and the page that it is on."""
+    found: dict[str, str] = {}
+
+    def add(dotted: str, thing: object, page: str) -> None:
+        found[dotted] = page
+        if inspect.isclass(thing):
+            for name, _ in members(thing):
+                found[f"{dotted}.{name}"] = page
+
+    for page, (_, names) in pages().items():
+        for name in names:
+            thing = getattr(poekin, name)
+            if isinstance(thing, types.ModuleType):
+                for inner in of_module(thing):
+                    if inspect.isroutine(getattr(thing, inner)) or inspect.isclass(getattr(thing, inner)):
+                        add(f"poekin.{name}.{inner}", getattr(thing, inner), page)
+            else:
+                add(f"poekin.{name}", thing, page)
+    for dotted, page in RESULTS.items():
+        add(dotted, resolved(dotted), page)
+    return found
+
+
+def formula_modules() -> list[str]:
+    return [f"{formulas.__name__}.{info.name}" for info in pkgutil.iter_modules(formulas.__path__)]
+
+
+def links(name: str) -> dict[str, str]:
+    """What may stand in the backquotes of the docstring of `name`, and what it is called in full."""
+    found: dict[str, str] = {}
+    for dotted in documented():
+        parts = dotted.split(".")
+        if not dotted.startswith(("poekin.model.", "poekin.analysis.", "poekin.solve.")):
+            found[".".join(parts[1:])] = found["pk." + ".".join(parts[1:])] = found[dotted] = dotted
+        else:
+            place = next(i for i, p in enumerate(parts) if p[0].isupper())
+            found[".".join(parts[place:])] = dotted
+    scope = name
+    while "." in scope:  # names beside it, and beside its class, go without what they belong to
+        scope = scope.rsplit(".", 1)[0]
+        if scope != "poekin":
+            found |= {d[len(scope) + 1 :]: d for d in documented() if d.startswith(scope + ".")}
+    return found
+
+
+def reference() -> dict[str, str]:
+    """File name and text of each page of the reference; the docstrings fill them in."""
+    made = {}
+    for page, (title, names) in pages().items():
+        lines = [title, "=" * len(title), ""]
+        for name in names:
+            thing = getattr(poekin, name)
+            if isinstance(thing, types.ModuleType):
+                text = rest((inspect.getdoc(thing) or "").splitlines(), {})
+                lines += [f".. py:module:: poekin.{name}", "", *text, ""]
+                inner = [n for n in of_module(thing) if f"poekin.{name}.{n}" in documented()]
+                lines += [line for n in inner for line in directive(f"poekin.{name}.{n}", getattr(thing, n))]
+            else:
+                lines += directive(f"poekin.{name}", thing)
+        results = [d for d, p in RESULTS.items() if p == page]
+        if results:
+            lines += ["What they return", "----------------", ""]
+            lines += [line for d in results for line in directive(d, resolved(d))]
+        made[f"{page}.rst"] = "\n".join(lines) + "\n"
+    title = "Formulas"
+    lines = [title, "=" * len(title), "", FORMULAS, ""]
+    for module in formula_modules():
+        short = module.removeprefix("poekin.formulas.")
+        lines += [short, "-" * len(short), "", f".. automodule:: {module}", "   :members:", ""]
+    made["formulas.rst"] = "\n".join(lines) + "\n"
+    return made
+
+
+FORMULAS = (
+    "The mathematics itself, each formula once: plain Python over tuples of scalars of any kind. The same function is "
+    "compiled, counted, traced into the code of one arm, and run in 60 digits. Each module begins with the paper's "
+    "equation; where it departs from the print, it says how."
+)
+
+
+def directive(dotted: str, thing: object) -> list[str]:
+    if inspect.isclass(thing):
+        if issubclass(thing, BaseException):
+            return [f".. autoexception:: {dotted}", "   :show-inheritance:", ""]
+        return [f".. autoclass:: {dotted}", "   :members:", "   :inherited-members: tuple", ""]
+    return [f".. autofunction:: {dotted}", ""]
