@@ -20,11 +20,6 @@ import pytest
 
 from tools import docs_names
 
-# What public names begin with that need not say all that, and why.
-EXEMPT: dict[str, str] = dict.fromkeys(
-    ("poekin.ik", "poekin.motion.", "poekin.calibrat", "poekin.solve."), "being written"
-)
-
 SHAPE = (
     r"\((?:\d+|[a-zA-Z]{1,2})\)|\((?:\.\.\.|\*?\w+(?: [-+*] \w+)?)?(?:, ?(?:\.\.\.|\w+(?: [-+*] \w+)?)?)+\)|\(\.\.\.\)"
 )
@@ -147,8 +142,7 @@ def faults(name: Name) -> list[str]:
 def test_every_public_name_says_shapes_units_frame_errors_and_source():
     names = public()
     assert len(names) > 200, "hardly anything was checked"
-    checked = [n for n in names if not n.dotted.startswith(tuple(EXEMPT))]
-    assert [fault for name in checked for fault in faults(name)] == []
+    assert [fault for name in names for fault in faults(name)] == []
 
 
 def test_every_public_name_is_on_exactly_one_page_of_the_reference():

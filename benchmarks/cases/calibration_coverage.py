@@ -149,7 +149,7 @@ def seen(nominal: Chain, q: np.ndarray, kind: str) -> np.ndarray:
     """Orthonormal directions (P, k), in rad and reaches, of the arm's parameters that such measurements can see."""
     exact = measured(nominal.fk(q), np.zeros((len(q), 6)), None, kind)
     problem = Problem(Arm(nominal, simulated.KINDS, None), q, [exact])
-    free = judged(problem)[2][: problem.arm_size]
+    free = judged(problem)[1][: problem.arm_size]
     U, s, _ = np.linalg.svd(free, full_matrices=False)
     return U[:, s > 1e-3]
 

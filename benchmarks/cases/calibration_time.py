@@ -120,7 +120,7 @@ def problem_of(task: Task) -> Problem:
 def prepared(task: Task) -> tuple[Problem, np.ndarray]:
     """The problem and its free directions."""
     problem = problem_of(task)
-    return problem, judged(problem)[2]
+    return problem, judged(problem)[1]
 
 
 def fit_alone(state: tuple[Problem, np.ndarray]):  # type: ignore[no-untyped-def]

@@ -112,7 +112,8 @@ def command(
 
 _ENDINGS = (".toml", ".urdf", ".csv")
 _OPTIONS = {
-    "deficient='hold'": "--hold", "parameters=": "--parameters", "joints=": "--joints", "ignore=": "--ignore ",
+    "deficient='hold'": "--hold", "covariance=": "--sigma-angle and --sigma-length", "folds=0": "--folds 0",
+    "parameters=": "--parameters", "joints=": "--joints", "ignore=": "--ignore ",
     "prior['rad']": "--prior-angle", "prior['m']": "--prior-length",
 }  # fmt: skip
 _NAMES = {"points": "--point"} | {w: f"--{w}" for w in ("kind", "parameters", "joints", "loss", "folds", "seed")}

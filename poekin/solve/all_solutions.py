@@ -38,7 +38,11 @@ class AllSolutions:
     rotation_error: Array
 
     def of(self, *index: int) -> Array:
-        """Solutions (s, m) of one target of a batch. Raises: ShapeError, IndexError."""
+        """Solutions (s, m), rad or m, of one target of a batch.
+
+        Parameters: index, of the target in the batch. Returns: (s, m). Raises: ShapeError, IndexError.
+        Source: `ik_all`.
+        """
         flat = place(index, self.count.shape, "of")
         return self.solutions[flat] if index else self.solutions
 

@@ -47,7 +47,7 @@ def ik(
     q0 (m,), (..., m) or a dict: the first try begins there (outside the limits it is moved to them, with a warning);
         without it at `nearest_to`, or else at random.
     task: "pose"; "position" or "rotation" alone; "direction": the position, and the direction of the tool's `axis`
-        (in the tool frame, by default its z axis), for arms of five joints.
+        (3,) (in the tool frame, by default its z axis), for arms of five joints.
     limits: whether q has to lie within the chain's limits.
     tol_position (m), tol_rotation (rad): what is solved, by |p* - p| and by the angle of the rotation between the two.
     nearest_to (m,), (..., m) or a dict, within the limits or not: of the solutions that some fifty tries find, the one

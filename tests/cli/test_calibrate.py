@@ -186,6 +186,10 @@ def test_what_python_calls_its_parameters_is_told_as_options(refused, measured, 
     said = refused(*ARM, few)
     assert "34 parameters are to be found" in said
     assert "(--parameters, --joints), or hold what is not seen (--hold)" in said
+    assert "or say it with --sigma-angle and --sigma-length\n" in refused(*ARM, few, "--hold")
+    assert "folds: 9 parts of 5 readings; --folds 0 keeps none aside" in refused(
+        *ARM, few, "--hold", "--folds", 9, "--sigma-angle", 1e-3, "--sigma-length", 1e-3
+    )
     text = few.read_text().replace("\n", ",time\n", 1)
     few.write_text(text)
     assert "--ignore ['time'] passes it over" in refused(*ARM, few)

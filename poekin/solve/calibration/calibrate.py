@@ -11,7 +11,7 @@ from ...errors import InputError, told
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from . import folds as aside
-from . import units
+from . import misfit, noise, units
 from .calibration import Calibration, Outlier
 from .fitting import fitted, frames_only, outliers
 from .identification import checked, judged
@@ -53,17 +53,21 @@ def calibrate(
     coordinate: q <- (1 + g) q + o), "pitch" (one a revolute joint). joints: names of the joints that may change, all by
     default. A joint offset tells nothing that screws and home pose do not: it is for calibrating offsets alone.
     loss: "linear", or robust: "huber", "cauchy", "tukey" (see `losses`); a measurement counts as one.
-    prior: standard deviations of the arm's parameters about the nominal model by unit, {"rad": 1e-3, "m": 1e-3}.
+    prior: standard deviations of the arm's parameters about the nominal model by unit, {"rad": 1e-3, "m": 1e-3}. What
+    it tells something of is not held.
     deficient: "refuse" measurements that do not see all the parameters that their kind could see, or "hold" those at
     nominal values. What no measurement of that kind sees is always held, and `identification.held` says what.
-    folds: parts of the readings that are kept aside in turn, to be judged by a calibration from the others; 0 for none.
-    seed: of the drawing of these parts. progress(done, folds).
+    folds: parts of the readings that are kept aside in turn, to be judged by a calibration from the others; 0 for none,
+    as where the others were too few. seed: of the drawing of these parts. progress(done, folds).
+    max_iterations: of each fit, all rounds in which spreads are estimated together.
 
     Returns: Calibration; `success` is False where the search did not converge: then it holds the best that was found.
-    Raises: ShapeError, InputError, UnknownName: data that do not fit the arm, are not finite or not in SI units; too
-    few measurements; parameters that are not seen.
+    Raises: ShapeError, InputError, UnknownName: data that do not fit the arm, are not finite or not in SI units, or are
+    explained by no arm near the nominal one; too few measurements, or so few without covariances that nothing says how
+    far they scatter; parameters that are not seen.
     Accuracy: with exact data the pose of the calibrated arm is right to 1e-12 m; axes stay unit and pitches what they
-    are to 1e-15 (tests/solve/calibration).
+    are to 1e-15 (tests/solve/calibration). What can be seen is judged at the nominal arm: where that is special, as a
+    measured point on its last axis, what the true arm shows in second order only is held.
     Source: Park 1994, Section V, the POE as the smooth parametrisation for calibration; Okamura and Park 1996 for
     moving screws by conjugation; 4 r + 2 p + 6 parameters: Everett and Hsu 1988.
     """
@@ -77,20 +81,23 @@ def calibrate(
         raise InputError(f"max_iterations: expected a whole number from 1 on, got {told(max_iterations)}")
     problem = units.built(Arm(arm, parameters, joints), q, sets)
     spread = _prior(prior, problem)
-    identification, _, free = judged(problem)
-    if spread is not None:
-        free = np.eye(problem.size)
-    else:
+    identification, free = judged(problem)
+    if spread is None:
         checked(identification, deficient)
-    folds = aside.checked(folds, len(q))
+    else:
+        both, free = judged(problem, np.isfinite(spread))
+        checked(both, deficient)
+    noise.check(sets, problem.numbers, free.shape[1])
+    folds = aside.checked(folds, len(q), seed)
     start, _ = frames_only(problem, loss)
     units.check(problem, start)
     before = _residuals(problem, start)
     fit = fitted(problem, free, loss, start, spread, max_iterations)
+    misfit.check(problem, fit)
     training = problem.numbers * (folds - 1) // max(folds, 1)
     kept = None
     if folds and training > free.shape[1]:
-        kept = aside.held_out(problem, free, loss, spread, folds, seed, progress)
+        kept = aside.held_out(problem, free, loss, spread, folds, seed, max_iterations, progress)
     off = [
         Outlier(k, int(i), int(problem.rows[k][i]))
         for k, found in enumerate(outliers(problem, fit.noise, fit.p))

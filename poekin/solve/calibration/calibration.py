@@ -99,7 +99,7 @@ class Calibration:
         return relinked(robot, self.chain, base=self.chain.base, tip=self.chain.tip)
 
     def to_urdf(self, robot: Robot) -> str:
-        """URDF of `to_robot(robot)`, as text."""
+        """URDF of `to_robot(robot)`, as text. Raises: as `to_robot` and `pk.to_urdf`."""
         return to_urdf(self.to_robot(robot))
 
     def to_dh(self, convention: str = "standard") -> FromChain:
@@ -110,6 +110,7 @@ class Calibration:
         """Write all of it as TOML (extra `formats`), whole or not at all.
 
         `calibration.load` reads it back to the last bit, and `pk.load` the calibrated chain as a robot.
+        Parameters: path, of the file.
         Raises: FileError; MissingExtra without tomli-w.
         """
         from .files import save
@@ -121,7 +122,8 @@ class Calibration:
     ) -> None:
         """Write a page that tells and shows all of it: one HTML file, no scripts, nothing fetched (extra `report`).
 
-        title: of the page; sources: what each row of q came from, such as file and line, to name outliers by.
+        path: of the file; title: of the page; sources: what each row of q came from, such as file and line,
+        to name outliers by.
         Raises: ShapeError, FileError; MissingExtra without Matplotlib.
         """
         from .page import write

@@ -14,7 +14,7 @@ SMALLER = ("condition", "prediction")
 
 
 class Figures(NamedTuple):
-    """How much a set of configurations shows: the indices of `indices.Indices`, and the prediction.
+    """How much a set of configurations shows: O1, condition, smallest and amplification, see `indices`.
 
     prediction: the rms error that noise leaves in the calibrated model, over all candidates, ÷ that of one measurement.
     """

@@ -67,7 +67,7 @@ def save(found: Calibration, path: str | os.PathLike[str]) -> None:
 def load(path: str | os.PathLike[str]) -> Calibration:
     """The calibration in a file that `Calibration.save` wrote.
 
-    Returns: Calibration, equal to the one that was saved to the last bit.
+    Parameters: path, of the file. Returns: Calibration, equal to the one that was saved to the last bit.
     Raises: FileError for a file that cannot be read; ModelError with file and key for one that is no calibration, of
     another version, or that does not fit together.
     """

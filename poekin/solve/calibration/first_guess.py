@@ -185,7 +185,7 @@ def _check_turns(R: Array, scatter: float) -> None:
         raise InputError(
             f"no two frames fit: they leave {scatter:.2g} rad between the measured rotations and the arm's in the "
             "median; is q in rad, does it belong to these rows, and is each pose that of the frame it is said to be, "
-            "not its inverse?"
+            "not its inverse? Of an arm that is so far off, give both frames"
         )
     if w[1] > max(FLAT, scatter):
         return

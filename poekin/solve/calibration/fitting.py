@@ -9,12 +9,13 @@ import numpy as np
 from ...groups.arrays import Array
 from .losses import OUTLIER, chi_square, loss
 from .measurement import Indices
-from .minimise import STEPS, Outcome, Step, minimise
-from .noise import Noise, spreads
+from .minimise import STEPS, Outcome, Step, minimise, regular
+from .noise import EVEN, Noise, spreads
 from .problem import Problem
 from .tall import triangle
 
 _ROUNDS = 10
+_FIRST = 1e-2  # how even the spreads of angles and lengths are taken to be before anything was fitted
 _SAME = 1e-2  # spreads that change by less are settled: they are known to some per cent only
 
 
@@ -39,23 +40,26 @@ def frames_only(problem: Problem, name: str, most: int = STEPS) -> tuple[Array, 
 
 
 def fitted(problem: Problem, free: Array, name: str, p: Array, prior: Array | None, most: int = STEPS) -> Fit:
-    """The fit from p on. A robust loss begins as Huber's, which has no minima but one where errors are small."""
+    """The fit from p on, of so many steps at most. A robust loss begins as Huber's, which has one minimum near p."""
     robust = name != "linear"
     reach, k = problem.arm.nominal.reach, free.shape[1]
 
-    def noise_at(p: Array, free: int) -> Noise:
-        return Noise(problem.sets, spreads(problem.sets, problem.errors(p), free, robust, reach))
+    def noise_at(p: Array, free: int, even: float = EVEN) -> Noise:
+        return Noise(problem.sets, spreads(problem.sets, problem.errors(p), free, robust, reach, even))
 
-    noise, steps = noise_at(p, 0), []
+    noise, steps = noise_at(p, 0, _FIRST), []
     for number in range(_ROUNDS):
         for one in ("huber", name) if robust and number == 0 and name != "huber" else (name,):
-            outcome = minimise(problem, free, noise, one, p, prior, most)
+            outcome = minimise(problem, free, noise, one, p, prior, most - len(steps))
             p = outcome.p
             steps += outcome.steps
         if not noise.estimated:
             break
         before, noise = noise, noise_at(p, k)
         if _change(before, noise) < _SAME:
+            break
+        if len(steps) >= most:
+            outcome = outcome._replace(converged=False)
             break
     return Fit(p, _covariance(problem, free, outcome, noise, name, prior), outcome.converged, steps, noise)
 
@@ -91,8 +95,8 @@ def _covariance(problem: Problem, free: Array, outcome: Outcome, noise: Noise, n
     if prior is not None:
         A = np.concatenate([A, (1.0 / prior)[:, None] * B])
     R = triangle(A)
-    half = np.linalg.lstsq(R, np.eye(len(R)), rcond=None)[0]
-    covariance = B @ (half @ half.T) @ B.T
+    half = B @ (np.linalg.inv(R) if regular(R) else np.linalg.lstsq(R, np.eye(len(R)), rcond=None)[0])
+    covariance = half @ half.T  # a product with its own transpose is symmetric to the last bit
     if name == "linear":
         return covariance
     spent, bends, total = 0.0, 0.0, 0

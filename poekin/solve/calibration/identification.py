@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...errors import InputError
 from ...groups.arrays import Array
@@ -28,7 +29,8 @@ class Identification:
     All of it is about the identification matrix at the nominal arm: d errors / d parameters, angles in rad, lengths in
     reaches, row and column. size: parameters; expected: how many combinations of them any measurements of this kind can
     see; rank: how many these can; numbers: how many numbers were measured. held: what no measurement of this kind can
-    see, held where it is nominal; unseen: what others of this kind would see. condition, smallest (singular value),
+    see, held where it is nominal; unseen: what others of this kind would see. singular_values (P,);
+    condition, smallest (singular value),
     O1 and amplification: observability on the space that is seen, see `indices`.
     """
 
@@ -79,17 +81,19 @@ def normalised(problem: Problem, q: Array | None = None) -> Array:
     return np.concatenate(rows) if rows else np.empty((0, problem.size))
 
 
-def judged(problem: Problem) -> tuple[Identification, Array, Array]:
-    """The identification, and bases (P, k) in rad and reaches of what any measurements of this kind can move, and of
-    what these can: what is not in them is held.
+def judged(problem: Problem, known: NDArray[np.bool_] | None = None) -> tuple[Identification, Array]:
+    """The identification, and a basis (P, k) in rad and reaches of what these measurements can move: the rest is held.
 
     Of a direction in which an unknown frame and the arm move together, the frame's part is free and the arm's is held.
+    known (P,): parameters that a prior tells something of, as a measurement of each would.
     """
-    J = normalised(problem)
-    s, seen = _space(J)
-    least = max(1, -(-3 * problem.size // max(sum(m.width for m in problem.sets), 1)))
-    _, any_seen = _space(normalised(problem, _anywhere(problem.arm.nominal, least)))
-    rank = seen.shape[1]
+    told = np.eye(problem.size)[np.zeros(problem.size, bool) if known is None else known]
+    s, seen = _space(np.concatenate([normalised(problem), told]))
+    rank, any_seen = seen.shape[1], seen
+    if rank < problem.size:
+        least = max(1, -(-3 * problem.size // max(sum(m.width for m in problem.sets), 1)))
+        anywhere = normalised(problem, _anywhere(problem.arm.nominal, least))
+        _, any_seen = _space(np.concatenate([anywhere, told]))
     seen_by = indices.of_singular_values(s[:rank], max(sum(map(len, problem.sets)), 1)) if rank else None
     blind = _rest(any_seen)
     lost = _rest(seen)
@@ -100,14 +104,14 @@ def judged(problem: Problem) -> tuple[Identification, Array, Array]:
         rank=rank,
         numbers=problem.numbers,
         held=tuple(wording.directions(problem, blind)),
-        unseen=tuple(wording.directions(problem, _span(lost, any_seen.shape[1] - rank))),
+        unseen=tuple(wording.unseen(problem, _span(lost, any_seen.shape[1] - rank), blind)),
         singular_values=s[:rank],
         condition=float(seen_by.condition) if seen_by else np.inf,
         smallest=float(seen_by.smallest) if seen_by else 0.0,
         O1=float(seen_by.O1) if seen_by else 0.0,
         amplification=float(seen_by.amplification) if seen_by else 0.0,
     )
-    return identification, _free(problem, blind), _free(problem, _rest(seen))
+    return identification, _free(problem, _rest(seen))
 
 
 def checked(identification: Identification, deficient: str) -> None:
@@ -117,13 +121,13 @@ def checked(identification: Identification, deficient: str) -> None:
     if identification.numbers < identification.expected:
         raise InputError(
             f"{identification.numbers} numbers were measured, and {identification.expected} parameters are to be found:"
-            f" measure at least {identification.expected}, better three times as many; or find less (parameters=, "
-            "joints=), or hold what is not seen (deficient='hold')"
+            f" measure at least {identification.expected} (a pose tells 6, a point 3, a distance 1), better three times"
+            " as many; or find less (parameters=, joints=), or hold what is not seen (deficient='hold')"
         )
     words = "; ".join(identification.unseen)
     raise InputError(
         f"these measurements see {identification.rank} of {identification.expected} parameters. Not seen: {words}."
-        " Measure where these joints move, or solve the rest only with deficient='hold'"
+        " Measure with these joints in more positions, or solve the rest only with deficient='hold'"
     )
 
 

@@ -43,19 +43,33 @@ class Measurement:
         raise NotImplementedError
 
     def errors(self, T: Array, places: Sequence[Array]) -> Array:
-        """Model minus measurement (N, width)."""
+        """Model minus measurement (N, width), rad and m.
+
+        Parameters: T (N, 4, 4), poses of the tip in the base frame, m; places, a pose (4, 4) or point (3,) for each of
+        `unknowns`. Returns: (N, width). Raises: nothing, it checks nothing. Source: the class's equation.
+        """
         raise NotImplementedError
 
     def slopes(self, T: Array, places: Sequence[Array], errors: Array, D: Array) -> tuple[Array, list[Array]]:
-        """The change of the errors (N, width, P) with the arm's parameters, and (N, width, size) with each unknown."""
+        """The change of the errors (N, width, P) with the arm's parameters, and (N, width, size) with each unknown.
+
+        Parameters: T (N, 4, 4) and places as `errors`, poses (4, 4) or points (3,); errors (N, width),
+        what that gave; D (N, 6, P), space twists of T, (omega; v), rad and m, per unit of each parameter.
+        Returns: an array, and one for each of `unknowns`.
+        Raises: nothing, it checks nothing. Source: the class's equation, differentiated.
+        """
         raise NotImplementedError
 
     def guesses(self, T: Array) -> list[Array]:
-        """First values of the unknown frames, given the nominal poses T (N, 4, 4)."""
+        """First values of the unknown frames, given the nominal poses T (N, 4, 4).
+
+        Parameters: T (N, 4, 4), in the base frame, m. Returns: a pose (4, 4) or point (3,) for each of `unknowns`.
+        Raises: InputError where they cannot be had from these. Source: see each kind.
+        """
         return []
 
     def taken(self, chosen: Indices) -> Measurement:
-        """The measurements of these indices (k,) into it, as a set of their own."""
+        """The measurements of the indices `chosen` (k,) into it, as a set of their own. Raises: nothing of its own."""
         other = object.__new__(type(self))
         for name, value in vars(self).items():
             along = name in self._along or (name == "covariance" and value is not None)
@@ -63,7 +77,7 @@ class Measurement:
         return other
 
     def scaled(self, unit: float) -> Measurement:
-        """The same with all measured lengths times `unit`, and nothing said about how they scatter."""
+        """The same with all measured lengths times `unit`, and nothing said about how they scatter. Raises: nothing."""
         other = self.taken(np.arange(len(self)))
         measured = getattr(other, self._along[0]).copy()
         lengths = measured[:, :3, 3] if measured.shape[1:] == (4, 4) else measured

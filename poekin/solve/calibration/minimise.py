@@ -17,9 +17,10 @@ from .noise import Noise
 from .problem import Problem
 from .tall import times, triangle
 
-STEPS = 50
+STEPS = 100
+"""Of a fit in all, each time that its spreads are estimated anew included."""
 _ENOUGH = 1e-10  # a step that would gain less than this part of the cost is not worth another one
-_ROUNDING = 1e-13  # a step shorter than this, in rad and reaches, is rounding
+_ROUNDING = 1e-13  # a step or an error smaller than this, in rad and reaches, is rounding
 _REGULAR = 1e-8  # of a triangle's diagonal, least to largest: below it, the shortest solution is taken
 _FIRST_DAMPING, _MOST_DAMPING = 1e-4, 1e12
 
@@ -57,30 +58,33 @@ def minimise(
     cost = _cost(problem, noise, name, p, inverse)
     while True:
         A, b, slopes = _rows(problem, noise, name, p, B)
+        if cost == 0.0 or len(steps) >= most:
+            return Outcome(p, cost == 0.0, steps, slopes)
         if kept.any():
             A, b = np.concatenate([A, (inverse[:, None] * B)[kept]]), np.concatenate([b, (inverse * p)[kept]])
         both = triangle(np.column_stack([A, b]))
         R, c = both[: free.shape[1], :-1], both[: free.shape[1], -1]
+        z = _solved(R, c, 0.0)
+        # of the full step: a damped one promises little wherever it is
+        done = c @ c - np.sum((R @ z + c) ** 2) <= _ENOUGH * cost or np.linalg.norm(z) <= _ROUNDING
         while True:
-            z = _solved(R, c, damping)
-            gain, length = float(c @ c - np.sum((R @ z + c) ** 2)), float(np.linalg.norm(z))
-            done = gain <= _ENOUGH * cost or length <= _ROUNDING
+            if damping > 0.0:
+                z = _solved(R, c, damping)
             new = p + B @ z
             after = _cost(problem, noise, name, new, inverse) if np.isfinite(z).all() else np.inf
             if after <= cost:
                 break
+            done = bool(done or _exact(problem, p))
             if done or damping > _MOST_DAMPING:
                 # what is left cannot be told from rounding, or no direction leads down
                 return Outcome(p, done, steps, slopes)
             damping = max(_FIRST_DAMPING, 10.0 * damping)
-        steps.append(Step(cost, length, damping))
+        steps.append(Step(cost, float(np.linalg.norm(z)), damping))
         p, cost = new, after
         damping = damping / 10.0 if damping > _FIRST_DAMPING else 0.0
         if done:
             # the step was too short to change the slopes
             return Outcome(p, True, steps, slopes)
-        if cost == 0.0 or len(steps) >= most:
-            return Outcome(p, cost == 0.0, steps, _rows(problem, noise, name, p, B)[2])
 
 
 def _solved(R: Array, c: Array, damping: float) -> Array:
@@ -88,11 +92,25 @@ def _solved(R: Array, c: Array, damping: float) -> Array:
     if damping > 0.0:
         more = np.sqrt(damping) * np.maximum(np.linalg.norm(R, axis=0), np.finfo(float).tiny)
         R, c = np.concatenate([R, np.diag(more)]), np.concatenate([c, np.zeros(len(more))])
-    else:
-        diagonal = np.abs(np.diag(R))
-        if len(R) == len(diagonal) and diagonal.min(initial=1.0) > _REGULAR * diagonal.max(initial=0.0):
-            return np.linalg.solve(R, -c).astype(float, copy=False)
+    elif regular(R):
+        return np.linalg.solve(R, -c).astype(float, copy=False)
     return np.linalg.lstsq(R, -c, rcond=None)[0].astype(float, copy=False)
+
+
+def regular(R: Array) -> bool:
+    """Whether a triangle (k, k) is far from singular."""
+    diagonal = np.abs(np.diag(R))
+    return R.shape[0] == R.shape[1] and bool(diagonal.min(initial=np.inf) > _REGULAR * diagonal.max(initial=0.0))
+
+
+def _exact(problem: Problem, p: Array) -> bool:
+    """Whether all errors are rounding."""
+    reach = problem.arm.nominal.reach
+    return all(
+        np.abs(e[:, : s.angular]).max(initial=0.0) <= _ROUNDING
+        and np.abs(e[:, s.angular :]).max(initial=0.0) <= _ROUNDING * reach
+        for s, e in zip(problem.sets, problem.errors(p), strict=True)
+    )
 
 
 def _cost(problem: Problem, noise: Noise, name: str, p: Array, inverse: Array) -> float:

@@ -7,12 +7,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...errors import InputError
 from ...groups.arrays import Array
 from .measurement import Measurement
 
 _NORMAL = 0.6744897501960817  # the median of the absolute value of a normal number
 LEAST = 1e-15
 """Spreads below it, of angles in rad and of lengths in reaches, are rounding."""
+
+
+EVEN = 1e-6
+"""Angles that fit without error, such as those of an arm that does not turn, would leave the lengths no weight."""
 
 
 class Spread(NamedTuple):
@@ -49,12 +54,25 @@ class Noise:
         return any(spread is not None for spread in self.spreads)
 
 
+def check(sets: Sequence[Measurement], numbers: int, free: int) -> None:
+    """Refuse to estimate spreads from residuals that the fit brings to zero: all would seem known without error.
+
+    Raises: InputError.
+    """
+    if numbers <= free and any(s.covariance is None for s in sets):
+        raise InputError(
+            f"{numbers} numbers for {free} parameters leave nothing to tell from how far they scatter: measure more, "
+            "or say it with covariance="
+        )
+
+
 def spreads(
-    sets: Sequence[Measurement], errors: Sequence[Array], free: int, robust: bool, reach: float
+    sets: Sequence[Measurement], errors: Sequence[Array], free: int, robust: bool, reach: float, even: float = EVEN
 ) -> list[Spread | None]:
     """The spread of each set without covariances, from its errors (N, d) with `free` parameters fitted to all of them.
 
-    Root mean square, or, robust, the median of absolute values made to agree with it for normal errors.
+    Root mean square, or, robust, the median of absolute values made to agree with it for normal errors. That of angles
+    in rad is at least `even` times that of lengths in reaches, and the other way round.
     """
     numbers = sum(e.size for e in errors)
     more = (numbers / max(numbers - free, 1)) ** 0.5
@@ -64,10 +82,10 @@ def spreads(
             found.append(None)
             continue
         angles, lengths = e[:, : s.angular], e[:, s.angular :]
-        angle = more * _size(angles, robust) if s.angular else None
-        found.append(
-            Spread(None if angle is None else max(angle, LEAST), max(more * _size(lengths, robust), LEAST * reach))
-        )
+        angle = more * _size(angles, robust)
+        length = more * _size(lengths, robust) / reach
+        of_angles, of_lengths = max(angle, even * length, LEAST), max(length, even * angle * bool(s.angular), LEAST)
+        found.append(Spread(of_angles if s.angular else None, of_lengths * reach))
     return found
 
 

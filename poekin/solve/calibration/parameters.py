@@ -9,8 +9,9 @@ prismatic one. They are taken in the joint's z-aligned frame of the local form, 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +29,7 @@ _MOTIONS = ("turn about x", "turn about y", "turn about z", "shift along x", "sh
 
 
 class Parameter(NamedTuple):
-    """One number that a calibration finds: whose it is (a joint, a coordinate, "home", a frame), what, and its unit."""
+    """One number that a calibration finds: its owner (a joint, a coordinate, "home", a frame), what, and its unit."""
 
     owner: str
     what: str
@@ -72,15 +73,23 @@ class Arm:
         self.parameters = tuple(self._named())
         if not self.parameters:
             raise InputError(f"parameters: {', '.join(map(repr, kinds))} of these joints: nothing to calibrate")
-        self._ends = np.cumsum([free.sum(), len(self._pitched), 6 * self._home, len(self._offset), len(self._gain)])
+        counts = [free.sum(), len(self._pitched), 6 * self._home, len(self._offset), len(self._gain)]
+        self._parts = list(pairwise(np.cumsum([0, *counts]).tolist()))
+        self._plain = nominal._coupling is None and not nominal.offset.any()
+        self._named_as: dict[str, Any] = {
+            "joint_names": nominal.joint_names, "q_names": nominal.q_names, "limits": nominal.limits,
+            "offset": nominal.offset, "base": nominal.base, "tip": nominal.tip,
+        }  # fmt: skip
         self._moved: tuple[bytes, Chain] | None = None
+        self._posed: tuple[bytes, bytes, Array] | None = None
         self._changed: tuple[bytes, bytes, Array, Array] | None = None
 
     def _named(self) -> list[Parameter]:
         names, found = self.nominal.joint_names, []
-        for i, k in np.argwhere(self._free):
-            what, axis = ("tilt about", "shift along")[k // 2], self._frames[i, :3, k % 2]
-            along = ", ".join(f"{a + 0.0:.3g}" for a in np.round(axis, 6))
+        axes = (np.round(self._frames[:, :3, :2], 6) + 0.0).tolist()
+        for i, k in np.argwhere(self._free).tolist():
+            what = ("tilt about", "shift along")[k // 2]
+            along = ", ".join(f"{row[k % 2]:.3g}" for row in axes[i])
             found.append(Parameter(names[i], f"{what} ({along})", ("rad", "m")[k // 2]))
         found += [Parameter(names[i], "pitch", "m/rad") for i in self._pitched]
         if self._home:
@@ -92,7 +101,7 @@ class Arm:
 
     def _split(self, p: Array) -> tuple[Array, Array, Array, Array, Array]:
         """eta_i (n, 6), pitches (n,), eta of the home pose (6,), offsets (m,), gains (m,)."""
-        moves, pitches, home, offsets, gains = np.split(p, self._ends)[:5]
+        moves, pitches, home, offsets, gains = (p[a:b] for a, b in self._parts)
         across = np.zeros(self._free.shape)
         across[self._free] = moves
         h, o, g = np.zeros(len(self._turns)), np.zeros(self.nominal.dof), np.zeros(self.nominal.dof)
@@ -100,8 +109,8 @@ class Arm:
         return (self._across @ across[..., None])[..., 0], h, home if self._home else np.zeros(6), o, g
 
     def joints(self, p: Array) -> Chain:
-        """The moved screws and home pose as a chain of joint values x: no coupling, no limits. The last is kept."""
-        if not p.any() and self.nominal._coupling is None and not self.nominal.offset.any():
+        """The moved screws and home pose as a chain of joint values x, without coupling. The last is kept."""
+        if self._plain and not p.any():
             return self.nominal
         kept, key = self._moved, p.tobytes()
         if kept is not None and kept[0] == key:
@@ -110,7 +119,7 @@ class Arm:
         A = (se3.adjoint(se3.exp(eta)) @ self.nominal.screws[..., None])[..., 0]
         A = screw.without_pitch(A, np.array(self.nominal.kinds, "U9") == "revolute")
         A[:, 3:] += h[:, None] * A[:, :3]
-        moved = Chain(A, self.nominal.home @ se3.exp(home))
+        moved = Chain(A, self.nominal.home @ se3.exp(home), **(self._named_as if self._plain else {}))
         self._moved = key, moved
         return moved
 
@@ -126,12 +135,10 @@ class Arm:
 
         Offsets go into screws and home pose (f(q + o), `Chain.rezeroed`), gains into C.
         """
-        joints, nominal = self.joints(p), self.nominal
+        joints, nominal, same = self.joints(p), self.nominal, self._named_as
         _, _, _, o, g = self._split(p)
-        same = {
-            "joint_names": nominal.joint_names, "q_names": nominal.q_names, "limits": nominal.limits,
-            "offset": nominal.offset, "base": nominal.base, "tip": nominal.tip,
-        }  # fmt: skip
+        if self._plain and not o.any() and not g.any():
+            return joints
         arm = Chain(joints.screws, joints.home, coupling=nominal._coupling, **same)
         if o.any():
             arm = arm.rezeroed(o)
@@ -140,7 +147,12 @@ class Arm:
 
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""
-        return self.joints(p).fk(self.values(p, q))
+        kept, keys = self._posed, (p.tobytes(), q.tobytes())
+        if kept is not None and kept[:2] == keys:
+            return kept[2]
+        T = read_only(self.joints(p).fk(self.values(p, q)))
+        self._posed = *keys, T
+        return T
 
     def changes(self, p: Array, q: Array) -> tuple[Array, Array]:
         """T_base_tip (N, 4, 4), and the space twists dT T^-1 (N, 6, P) per unit of each parameter.
@@ -158,7 +170,7 @@ class Arm:
         across, each = np.zeros((n, 6, n, 4)), np.arange(n)
         across[each, :, each] = se3.left_jacobian(eta) @ self._across
         free = across[:, :, self._free].reshape(6 * n, -1)
-        parts = [times(D.screws.reshape(N * 6, 6 * n), free).reshape(N, 6, -1)]
+        parts = [times(D.screws.reshape(N * 6, 6 * n), free).reshape(N, 6, free.shape[1])]
         if len(self._pitched) or len(self._offset) or len(self._gain):
             J = joints.jacobian(x, frame="space")
             slides = np.concatenate([np.zeros((N, 3, n)), J[:, :3] * x[:, None]], axis=1)
@@ -168,13 +180,13 @@ class Arm:
             parts.append(D.home @ se3.right_jacobian(home))
         if len(self._offset) or len(self._gain):
             parts += [J_q[..., self._offset], J_q[..., self._gain] * q[:, None, self._gain]]
-        T, changes = read_only(joints.fk(x)), read_only(np.concatenate(parts, axis=2))
+        T, changes = self.poses(p, q), read_only(np.concatenate(parts, axis=2))
         self._changed = *keys, T, changes
         return T, changes
 
 
 def _kinds(kinds: Sequence[str]) -> tuple[str, ...]:
-    every = (kinds,) if isinstance(kinds, str) else tuple(kinds)
+    every = _several(kinds, "parameters")
     for kind in every:
         if kind not in KINDS:
             known = ", ".join(map(repr, KINDS))
@@ -184,11 +196,19 @@ def _kinds(kinds: Sequence[str]) -> tuple[str, ...]:
     return every
 
 
+def _several(names: Sequence[str], what: str) -> tuple[str, ...]:
+    if isinstance(names, str):
+        return (names,)
+    if not isinstance(names, Iterable):
+        raise InputError(f"{what}: expected names, got {told(names)}")
+    return tuple(names)
+
+
 def _joints(chain: Chain, joints: Sequence[str] | None) -> NDArray[np.bool_]:
     """Which joints are chosen (n,), of all where None."""
     if joints is None:
         return np.ones(len(chain.joint_names), bool)
-    named = (joints,) if isinstance(joints, str) else tuple(joints)
+    named = _several(joints, "joints")
     for name in named:
         if name not in chain.joint_names:
             raise UnknownName(f"joints: no joint {shown(name)}; {closest(str(name), chain.joint_names)}")

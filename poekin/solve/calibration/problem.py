@@ -133,10 +133,12 @@ class Problem:
 
 
 def readings(arm: Chain, q: object) -> Array:
-    """q (N, m), finite. Raises: ShapeError with the number of joints; InputError with the row that is not finite."""
+    """q (N, m), finite, N > 0. Raises: ShapeError with the number of joints; InputError with the row not finite."""
     array = coordinates(q, arm.q_names)
     if array.ndim != 2:
         raise ShapeError(f"q: expected readings (N, {arm.dof}), one row a measurement, got shape {array.shape}")
+    if not len(array):
+        raise InputError("q: expected readings, got none")
     good = np.isfinite(array).all(1)
     if not good.all():
         raise InputError(f"q[{int(np.argmin(good))}]: expected finite numbers, got {array[np.argmin(good)].tolist()}")
@@ -150,7 +152,7 @@ def sets_of(measurements: Any, count: int) -> list[Measurement]:
     elif isinstance(measurements, (list, tuple)) and measurements and isinstance(measurements[0], Measurement):
         sets = list(measurements)
     else:
-        shape = np.shape(measurements)
+        shape = _shape(measurements)
         kind = {(4, 4): Poses, (3,): Points}.get(shape[1:])
         if kind is None:
             raise ShapeError(
@@ -166,4 +168,14 @@ def sets_of(measurements: Any, count: int) -> list[Measurement]:
             raise ShapeError(f"{where}: {len(s)} {s.what} for {count} rows of q; say which with rows=")
         if s.rows is not None and len(s) and s.rows.max() >= count:
             raise InputError(f"{where}: rows names row {int(s.rows.max())} of q, which has {count}")
+        if not len(s):
+            raise InputError(f"{where}: expected {s.what}, got none")
     return sets
+
+
+def _shape(values: Any) -> tuple[int, ...]:
+    """The shape of an array; () of what is none, such as a list of unlike things."""
+    try:
+        return np.shape(values)
+    except ValueError:
+        return ()

@@ -30,8 +30,9 @@ class Simulated:
 
     truth, the Chain that was measured; parameters (P,), its errors in the order of `calibrate`'s "screws" and "home",
     rad and m; q (n, m), the readings; measurements, one set with its covariance; frames, the true value of each frame
-    or point that the set does not know, by its name (T_base_board, T_tip_camera, ..., centre); points (k, 3), of the
-    tool, m, in the tip frame, None where poses are measured; outliers (n,), True for the rows that are grossly wrong.
+    (4, 4) or point (3,) that the set does not know, by name (T_base_board, T_tip_camera, ..., centre); points (k, 3),
+    of the tool, m, in the tip frame, None where poses are measured; outliers (n,), True for the rows that are
+    grossly wrong.
     """
 
     truth: Chain

@@ -20,11 +20,13 @@ TIME = "time"
 
 
 def read_poses(path: Path, format: str, *, quaternion: str | None = None) -> Array:
-    """Poses (N, 4, 4), m, out of a CSV file with one pose a line.
+    """Poses (N, 4, 4), m, out of a CSV file with one pose a line, all in one frame.
 
+    Parameters: path;
     format: "12", the first three rows of T, row by row (T00 T01 T02 T03 T10 ... T23); "16", all four rows; "7": x y z
     and a unit quaternion, whose order has to be said: quaternion "wxyz" or "xyzw". A first line may name the columns
     (T00 ..., or x y z qw qx qy qz) and so order them. A line with nan gives a pose of NaN.
+    Returns: T (N, 4, 4). Source: none, a format of poekin's own.
     Raises: FileError; PoseError and InputError with file and line; UnknownName for a header with another name.
     """
     names = pose_rows.columns(format, quaternion)
@@ -35,8 +37,10 @@ def read_poses(path: Path, format: str, *, quaternion: str | None = None) -> Arr
 def write_poses(path: Path, T: ArrayLike, format: str, *, quaternion: str | None = None) -> None:
     """Write poses (N, 4, 4) as `read_poses` reads them, with a header; the file appears whole or not at all.
 
-    Numbers are written in the shortest form that reads back as the same float. Raises: PoseError, ShapeError,
-    InputError, FileError.
+    Numbers are written in the shortest form that reads back as the same float.
+
+    Parameters: path; T (N, 4, 4), m, in any one frame; format and quaternion, as `read_poses`.
+    Raises: PoseError, ShapeError, InputError, FileError. Source: none, a format of poekin's own.
     """
     T = poses(T)
     if T.ndim != 3:
@@ -48,9 +52,11 @@ def write_poses(path: Path, T: ArrayLike, format: str, *, quaternion: str | None
 def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array | None]:
     """q (N, m), rad or m, out of a CSV file with one configuration a line, and times (N,), s, where it has them.
 
-    names: of the coordinates, or the chain that has them. A first line may name the columns, in any order; with a
+    Parameters: path; names, of the coordinates, or the chain that has them.
+    A first line may name the columns, in any order; with a
     further column `time`, the first or in any place that the header says, there are times. Returns: q and times or
     None. Raises: FileError; InputError with file and line; UnknownName for a header with another name.
+    Source: none, a format of poekin's own.
     """
     names = _names(names)
     timed = TIME not in names and _first_line_has_time(path)
@@ -61,7 +67,8 @@ def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array 
 def write_joints(path: Path, q: ArrayLike, names: Chain | Sequence[str], *, times: ArrayLike | None = None) -> None:
     """Write q (N, m) as `read_joints` reads it, with a header and, where given, times (N,) in the first column.
 
-    The file appears whole or not at all. Raises: ShapeError, InputError, FileError.
+    The file appears whole or not at all. Parameters: path; q, times; names, as `read_joints`.
+    Raises: ShapeError, InputError, FileError. Source: none, a format of poekin's own.
     """
     names, q = _names(names), numbers(q, "q")
     if q.ndim != 2 or q.shape[1] != len(names):

@@ -46,7 +46,7 @@ def joint(q_0: ArrayLike, q_1: ArrayLike, s: ArrayLike) -> Array:
     """q(s) = q_0 + s (q_1 - q_0): a straight line in the space of the coordinates, without taking turns off.
 
     Parameters: q_0, q_1 (..., m), rad or m; s (...), broadcast against their leading axes. Returns: (..., m), q_0 and
-    q_1 themselves at s = 0 and 1. Raises: ShapeError, InputError. Accuracy: three roundings.
+    q_1 themselves at s = 0 and 1. Raises: ShapeError, InputError. Accuracy: three roundings. Source: none, a line.
     """
     q_0, q_1, s = numbers(q_0, "q_0"), numbers(q_1, "q_1"), numbers(s, "s")[..., None]
     if not q_0.ndim or not q_1.ndim or q_0.shape[-1] != q_1.shape[-1]:

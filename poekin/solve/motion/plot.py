@@ -27,8 +27,11 @@ def plot_joints(
     """Each coordinate over time, or over the number of the point, one below the other, as the text of an SVG.
 
     The shaded part of a plot is within the coordinate's limits, where they are not far off; dotted lines stand at
-    `breaks`, numbers of points before which the path is broken (`Followed.changes`). q (N, m); times (N,), s; path: a
-    file that it is written to, whole or not at all. The same numbers give the same text.
+    `breaks`, numbers of points before which the path is broken (`Followed.changes`). The same
+    numbers give the same text.
+
+    Parameters: q (N, m), rad or m; arm; times (N,), s; breaks; path: a file that it is written to, whole or not at all.
+    Returns: the text. Source: none, a drawing.
     Raises: MissingExtra without Matplotlib (extra `report`); ShapeError, InputError, FileError.
     """
     q = numbers(q, "q")

@@ -72,12 +72,25 @@ def test_camera_and_board_take_up_what_the_arm_shares_with_them():
     assert "T_base_board and T_tip_camera may move, the arm does not" in found.held[0]
 
 
+@pytest.mark.parametrize(
+    ("at", "words"), [(0.0, "all 4 parameters of panda_joint4 "), (-1.0, "4 combined changes of ")]
+)
+def test_a_joint_that_did_not_move_is_named_with_a_camera_too(at, words):
+    q = PANDA.random(0, 40)
+    q[:, 3] = at
+    found = identify(PANDA, q, EyeInHand(PANDA.fk(q)))
+    assert (found.rank, found.expected) == (30, 34)
+    assert len(found.unseen) == 1
+    assert found.unseen[0].startswith(words)
+    assert found.unseen[0].endswith("(panda_joint4 is the same in all readings)")
+
+
 def test_a_joint_that_did_not_move_is_named():
     q = PUMA.random(0, 40)
     q[:, 4] = 0.0
     found = identify(PUMA, q, PUMA.fk(q))
     assert (found.rank, found.expected) == (26, 30)
-    assert found.unseen == ("all 4 of joint5",)
+    assert found.unseen == ("all 4 parameters of joint5 (joint5 is the same in all readings)",)
 
 
 def test_a_joint_held_at_an_angle_is_named_among_those_it_moves_with():
@@ -107,7 +120,7 @@ def test_what_is_not_seen_is_refused_by_name_or_held_when_asked():
     true = PUMA.retooled(pk.se3.exp([1e-3, 0, 2e-3, 0, 1e-3, 0]))
     q = PUMA.random(0, 40)
     q[:, 4] = 0.0
-    with pytest.raises(InputError, match=r"see 26 of 30 parameters\. Not seen: all 4 of joint5\."):
+    with pytest.raises(InputError, match=r"see 26 of 30 parameters\. Not seen: all 4 parameters of joint5 "):
         calibrate(PUMA, q, true.fk(q))
     found = calibrate(PUMA, q, true.fk(q), deficient="hold", folds=0)
     assert found.success

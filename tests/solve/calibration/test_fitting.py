@@ -1,0 +1,123 @@
+"""A fit ends where it says that it does, and its covariance is one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.groups import se3
+from poekin.solve import calibration
+from poekin.solve.calibration import EyeInHand, Poses, calibrate
+from poekin.solve.calibration.fitting import frames_only
+from poekin.solve.calibration.identification import judged
+from poekin.solve.calibration.minimise import minimise
+from poekin.solve.calibration.noise import Noise, Spread
+from poekin.solve.calibration.parameters import Arm
+from poekin.solve.calibration.problem import Problem
+
+PUMA = pk.load("puma560").chain()
+X, Z = se3.exp([0.3, -0.5, 0.2, 1.0, 0.4, -0.3]), se3.exp([-0.1, 0.2, 1.4, 0.05, -0.08, 0.1])
+GANTRY = pk.Chain(
+    [pk.screw.prismatic([1, 0, 0]), pk.screw.prismatic([0, 1, 0]), pk.screw.prismatic([0, 0, 1])],
+    se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
+)
+
+
+def off(arm: pk.Chain, seed: int = 1, size: float = 2e-3) -> pk.Chain:
+    parameters = Arm(arm, ("screws", "home"), None)
+    return parameters.chain(size * np.random.default_rng(seed).normal(size=len(parameters.parameters)))
+
+
+def noisy(count: int = 40) -> tuple[np.ndarray, np.ndarray]:
+    rng = np.random.default_rng(2)
+    q = PUMA.random(rng, count)
+    return q, off(PUMA).fk(q) @ se3.exp(2e-4 * rng.normal(size=(count, 6)))
+
+
+@pytest.mark.parametrize("loss", ["linear", "huber", "tukey"])
+@pytest.mark.parametrize("most", [1, 2, 4])
+def test_the_most_steps_are_those_of_all_rounds_together(loss, most):
+    q, T = noisy()
+    found = calibrate(PUMA, q, T, loss=loss, folds=0, max_iterations=most)
+    assert len(found.steps) <= most + (loss == "tukey")
+    assert not found.success
+
+
+def test_the_folds_make_no_more_steps_either():
+    q, T = noisy()
+    few, many = (calibrate(PUMA, q, T, max_iterations=most).held_out for most in (1, 100))
+    assert few is not None
+    assert many is not None
+    assert few.after.rms_length != many.after.rms_length
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rotations_that_fit_from_the_start_do_not_keep_a_gantry_from_its_axes(seed):
+    """Nothing turns: the estimated spread of angles is rounding, and every step that tilts an axis would break it."""
+    q = GANTRY.random(0, 30)
+    T = se3.inverse(X) @ off(GANTRY, seed, 2e-2).fk(q) @ Z
+    found = calibrate(GANTRY, q, EyeInHand(T, board=X, camera=Z), folds=0)
+    assert found.success
+    assert found.before.rms_length > 1e-3
+    assert found.after.rms_length < 1e-12
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("loss", ["linear", "huber"])
+def test_noise_of_places_alone_is_estimated_beside_rotations_without_any(loss, seed):
+    rng = np.random.default_rng(seed)
+    q = GANTRY.random(rng, 200)
+    T = se3.inverse(X) @ off(GANTRY, seed, 1e-2).fk(q) @ Z
+    T[:, :3, :3] = T[0, :3, :3]
+    T[:, :3, 3] += 1e-4 * rng.normal(size=(200, 3))
+    found = calibrate(GANTRY, q, EyeInHand(T, board=X, camera=Z), folds=0, loss=loss)
+    assert found.success
+    (spread,) = found.spreads
+    assert spread is not None
+    # 600 numbers: the rms is known to 3 %, the median to 5 %; four deviations
+    assert spread.length == pytest.approx(1e-4, rel=0.2)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_search_that_only_damped_steps_go_on_in_has_not_converged(seed):
+    """Down a valley so narrow that steps are damped until they promise hardly anything, far above its floor, 0."""
+    q = GANTRY.random(0, 30)
+    sets = [EyeInHand(se3.inverse(X) @ off(GANTRY, seed, 2e-2).fk(q) @ Z, board=X, camera=Z)]
+    problem = Problem(Arm(GANTRY, ("screws", "home"), None), q, sets)
+    start = frames_only(problem, "linear")[0]
+    narrow = Noise(sets, [Spread(1e-15, 1e-2)])
+    found = minimise(problem, judged(problem)[1], narrow, "linear", start, None)
+    assert not found.converged or np.abs(problem.errors(found.p)[0]).max() < 1e-9
+
+
+def test_a_base_a_kilometre_away_converges_to_rounding():
+    rng = np.random.default_rng(7)
+    there = se3.exp([0, 0, 0, 1000.0, 1000.0, 1000.0])
+    screws = [pk.screw.revolute(rng.normal(size=3), rng.uniform(-1, 1, 3)) for _ in range(7)]
+    arm = pk.Chain(np.array(screws) @ se3.adjoint(there).T, there @ se3.exp(rng.normal(size=6)))
+    q = rng.uniform(-1.5, 1.5, (30, 7))
+    true = off(arm)
+    found = calibrate(arm, q, true.fk(q)[:, :3, 3], folds=0)
+    assert found.success
+    assert found.after.rms_length < 1e-13 * arm.reach
+
+
+def test_a_covariance_with_hardly_any_of_what_is_held_is_read_again(tmp_path):
+    """Rotations without noise, and a joint that stands still: variances of rounding beside those of 0.1 mm."""
+    rng = np.random.default_rng(5)
+    q = PUMA.random(rng, 40)
+    q[:, 5] = 0.3
+    T = off(PUMA).fk(q)
+    T[:, :3, 3] += 1e-4 * rng.normal(size=(40, 3))
+    camera = se3.inverse(X) @ T @ Z
+    found = calibrate(PUMA, q, [Poses(T), EyeInHand(camera)], folds=0, deficient="hold", loss="huber")
+    np.testing.assert_array_equal(found.covariance, found.covariance.T)
+    found.save(tmp_path / "arm.toml")
+    again = calibration.load(tmp_path / "arm.toml")
+    np.testing.assert_array_equal(again.covariance, found.covariance)
+
+
+def test_no_configurations_have_no_pose_covariances():
+    q, T = noisy()
+    assert calibrate(PUMA, q, T, folds=0).pose_covariance(q[:0]).shape == (0, 6, 6)

@@ -1,0 +1,138 @@
+"""`calibrate` refuses data that cannot give what is asked for, each time in words that say what is wrong."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import InputError, ShapeError
+from poekin.groups import se3
+from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identify
+from poekin.solve.calibration.parameters import Arm
+
+PUMA = pk.load("puma560").chain()
+TRUE = Arm(PUMA, ("screws", "home"), None).chain(2e-3 * np.random.default_rng(0).normal(size=30))
+Q = PUMA.random(0, 40)
+T = TRUE.fk(Q)
+X, Z = se3.exp([0.3, -0.5, 0.2, 1.0, 0.4, -0.3]), se3.exp([-0.1, 0.2, 1.4, 0.05, -0.08, 0.1])
+GANTRY = pk.Chain(
+    [pk.screw.prismatic([1, 0, 0]), pk.screw.prismatic([0, 1, 0]), pk.screw.prismatic([0, 0, 1])],
+    se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
+)
+
+
+def off(arm: pk.Chain, seed: int = 1) -> pk.Chain:
+    parameters = Arm(arm, ("screws", "home"), None)
+    return parameters.chain(2e-3 * np.random.default_rng(seed).normal(size=len(parameters.parameters)))
+
+
+@pytest.mark.parametrize("ask", [calibrate, identify])
+def test_no_readings_and_no_measurements_are_refused(ask):
+    with pytest.raises(InputError, match=r"q: expected readings, got none"):
+        ask(PUMA, Q[:0], T[:0])
+    with pytest.raises(InputError, match=r"measurements\[1\]: expected Points, got none"):
+        ask(PUMA, Q, [Poses(T), Points(np.empty((0, 3)), rows=np.empty(0, int))])
+
+
+def test_a_list_of_unlike_things_is_no_measurement():
+    for unlike in ([[1, 2], [3]], [T, Poses(T)]):
+        with pytest.raises(ShapeError, match=r"measurements: expected Poses, .*, got list of shape \(\)"):
+            calibrate(PUMA, Q, unlike)
+
+
+NO_NAMES = {
+    "parameters": ({"parameters": 3}, r"parameters: expected names, got 3"),
+    "joints": ({"joints": 3}, r"joints: expected names, got 3"),
+    "a seed below 0": ({"seed": -1}, r"seed: expected a whole number from 0 on, got -1"),
+    "a seed in words": ({"seed": "x"}, r"seed: expected a whole number from 0 on, got 'x'"),
+    "folds": ({"folds": 41}, r"folds: 41 parts of 40 readings; folds=0 keeps none aside"),
+}
+
+
+@pytest.mark.parametrize("what", NO_NAMES)
+def test_what_is_no_name_and_no_number_is_refused(what):
+    given, words = NO_NAMES[what]
+    with pytest.raises(InputError, match=words):
+        calibrate(PUMA, Q, T, **given)
+
+
+def test_as_many_numbers_as_parameters_do_not_make_the_arm_known_without_error():
+    words = r"30 numbers for 30 parameters leave nothing to tell from how far they scatter: .*covariance="
+    with pytest.raises(InputError, match=words):
+        calibrate(PUMA, Q[:5], T[:5], folds=0)
+    with pytest.raises(InputError, match=r"6 numbers for 6 parameters leave nothing"):
+        calibrate(PUMA, Q[:1], T[:1], folds=0, deficient="hold")
+    found = calibrate(PUMA, Q[:5], Poses(T[:5], 1e-8 * np.eye(6)), folds=0)
+    assert (found.deviations > 1e-5).all()
+
+
+@pytest.mark.parametrize(("prior", "seen"), [({"m/rad": 1e-3}, 26), ({"rad": 1e-3}, 28)], ids=["of none", "of tilts"])
+def test_a_prior_does_not_hide_what_it_tells_nothing_of(prior, seen):
+    q = Q.copy()
+    q[:, 4] = 0.0
+    with pytest.raises(InputError, match=rf"see {seen} of 30 parameters\. Not seen: "):
+        calibrate(PUMA, q, Poses(TRUE.fk(q), 1e-8 * np.eye(6)), prior=prior, folds=0)
+    held = calibrate(PUMA, q, Poses(TRUE.fk(q), 1e-8 * np.eye(6)), prior=prior, folds=0, deficient="hold")
+    shifts = [k for k, p in enumerate(held.parameters) if p.owner == "joint5" and p.unit == "m"]
+    np.testing.assert_allclose(held.values[shifts], 0.0, atol=1e-12)
+
+
+def test_readings_of_sliding_joints_in_millimetres_are_told():
+    q = GANTRY.random(0, 30)
+    measured = off(GANTRY).fk(q)
+    with pytest.raises(InputError, match=r"readings of sliding joints look like millimetres"):
+        calibrate(GANTRY, 1e3 * q, measured)
+    measured[:, :3, 3] *= 1e3
+    with pytest.raises(InputError, match=r"all lengths look like millimetres, those of sliding joints, too"):
+        calibrate(GANTRY, 1e3 * q, measured)
+    with pytest.raises(InputError, match=r"where the lengths look like millimetres"):
+        calibrate(GANTRY, q, measured)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_an_arm_that_is_far_off_is_not_called_one_in_other_units(seed):
+    """Lengths made a thousandth are off by a thousandth, as the frames of camera and board are found for them."""
+    rng = np.random.default_rng(seed)
+    far = Arm(PUMA, ("screws", "home"), None).chain(0.1 * rng.normal(size=30))
+    camera = EyeInHand(se3.inverse(X) @ far.fk(Q) @ Z, board=X, camera=Z)
+    found = calibrate(PUMA, Q, camera, folds=0)
+    assert found.success
+    assert found.before.median_length > 0.1 * PUMA.reach
+    assert found.after.rms_length < 1e-12
+
+
+OTHER = {
+    "rows of other readings": (np.roll(T, 1, axis=0), r"no arm near the nominal one explains these Poses"),
+    "poses the other way round": (se3.inverse(T), r"does each row of q belong to its measurement"),
+    "positions of other readings": (
+        np.roll(T, 1, axis=0)[:, :3, 3],
+        r"explains these Points: the best that was found is off",
+    ),
+    "one set of two": ([Poses(T), Distances(np.full(40, 9.0), [1, 0, 0])], r"measurement set 1 \(Distances\)"),
+}
+
+
+@pytest.mark.parametrize("what", OTHER)
+def test_measurements_that_do_not_belong_to_the_readings_are_told(what):
+    measured, words = OTHER[what]
+    with pytest.raises(InputError, match=words):
+        calibrate(PUMA, Q, measured, folds=0)
+
+
+def test_what_was_said_to_be_noise_is_no_misfit():
+    """Rotations of a tracker that tells only positions: any, with a covariance that says so."""
+    rng = np.random.default_rng(0)
+    measured = T.copy()
+    measured[:, :3, :3] = pk.so3.exp(rng.normal(size=(40, 3))) @ measured[:, :3, :3]
+    C = np.diag([4.0] * 3 + [1e-10] * 3)
+    found = calibrate(PUMA, Q, Poses(measured, C), folds=0)
+    assert found.after.median_angle > 0.5
+    assert found.after.median_length < 1e-3
+
+
+def test_few_measurements_with_given_frames_are_solved_where_that_is_asked_for():
+    camera = EyeInHand((se3.inverse(X) @ T @ Z)[:1], 1e-8 * np.eye(6), board=X, camera=Z)
+    found = calibrate(PUMA, Q[:1], camera, folds=0, deficient="hold")
+    assert found.identification.rank == 6
+    assert found.after.rms_length < 1e-9
