@@ -10,6 +10,7 @@ from . import (
     axes,
     calibrate,
     compare,
+    conform,
     count,
     dh,
     emit,
@@ -44,6 +45,7 @@ app.command("calibrate")(takes_models(calibrate.command))
 app.command("validate")(takes_models(validate.command))
 app.command("urdf")(takes_models(urdf.command))
 app.command("compare")(takes_models(compare.command))
+app.command("conform")(conform.command)
 app.command("axes")(takes_models(axes.command))
 app.command("dh")(takes_models(dh.command))
 app.command("count")(takes_models(count.command))

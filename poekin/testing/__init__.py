@@ -6,6 +6,7 @@
     pinocchio_oracle   poses and Jacobians of a URDF by Pinocchio
     strategies         Hypothesis strategies: angles, axes, twists, poses, noisy rotations
     chain_strategies   Hypothesis strategies: screws, chains, configurations
+    configuration_strategies  Hypothesis strategies: configurations within and at limits, singular ones
     dh_strategies      Hypothesis strategies: Denavit-Hartenberg tables
     reader             random bytes read as numbers, which the strategies are made of
     laws, measures     LawViolation, and how an error is measured
@@ -16,6 +17,7 @@
     change_laws        laws of a chain with another base, tool, zero position or link frames
     method_laws        the algorithms for the Jacobian agree
     hunting            shows that a battery of laws catches a planted error
+    conform            holds any library to the laws, and grades it: `poekin conform`
     accuracy           the worst errors of exp, log and the Jacobians, as rows of a report; `extended` and `suspects`
                        find the cases for it
 
@@ -37,6 +39,8 @@ if TYPE_CHECKING:
         chain_laws,
         chain_strategies,
         change_laws,
+        configuration_strategies,
+        conform,
         dh_strategies,
         differences,
         exact,
@@ -61,6 +65,8 @@ __all__ = [
     "chain_laws",
     "chain_strategies",
     "change_laws",
+    "configuration_strategies",
+    "conform",
     "dh_strategies",
     "differences",
     "exact",

@@ -1,0 +1,65 @@
+"""Calls of somebody else's function: whatever it does, the run goes on, and what it did is a text."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...errors import harmless
+
+
+class Attempt:
+    """A block whose exceptions end it, and nothing else: `fault` says in one line what was raised, "" where nothing.
+
+    What a subject may raise cannot be listed, and each exception of its own is a finding, not an error of the run.
+    KeyboardInterrupt and the like pass.
+    """
+
+    def __init__(self) -> None:
+        self.fault = ""
+
+    def __enter__(self) -> Attempt:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> bool:
+        if not isinstance(error, Exception):
+            return False
+        self.fault = f"{type(error).__name__}: {harmless(' '.join(str(error).split()), 200)}"
+        return True
+
+
+class Result(NamedTuple):
+    """What came of a call, or None and the fault."""
+
+    value: Any
+    fault: str = ""
+
+
+def made(call: Callable[[], Any]) -> Result:
+    """Anything that a call of a subject's returns, or None and the fault, which is an exception. Warnings are none."""
+    value: Any = None
+    with Attempt() as attempt, warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore")
+        value = call()
+    return Result(value, attempt.fault)
+
+
+def called(function: Callable[..., Any], shape: tuple[int, ...], *arguments: np.ndarray) -> Result:
+    """The array of finite numbers, in the shape expected, that a function makes of copies of the arguments.
+
+    A fault is an exception, another shape, what is no array of real numbers, NaN and infinite.
+    """
+    value, fault = made(lambda: np.array(function(*(np.array(x) for x in arguments)), dtype=float))
+    if fault:
+        return Result(None, fault)
+    if value.shape != shape:
+        return Result(None, f"shape {value.shape} where {shape} was expected")
+    if np.isnan(value).any():
+        return Result(None, "NaN")
+    return Result(value) if np.isfinite(value).all() else Result(None, "infinite")

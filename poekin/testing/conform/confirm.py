@@ -1,0 +1,144 @@
+"""The second oracle: whether the truth that a finding was judged by stands against mpmath's own matrix exponential.
+
+No formula of `exact` is used: exp is mpmath's `expm`, which squares and sums; the Jacobians of exp are blocks of the
+exponential of a larger matrix; derivatives of an arm are differences; log is judged by its exponential. To 60 digits,
+in proportion to what is compared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from .. import exact
+
+_mp: Any = exact.mp.clone()
+_mp.dps = 100
+AGREE = 1e-60
+
+
+def of_exp(xi: np.ndarray) -> bool:
+    """Whether `exact.exp` of ω (3,) or (ω; v) (6,) is mpmath's."""
+    return _near(_expm(xi), exact.exp(xi))
+
+
+def of_log(X: np.ndarray) -> bool:
+    """Whether e^(`exact.log` X) has X's translation and X's polar factor P for rotation, |ω| ≤ π.
+
+    P is the polar factor where Pᵀ R is symmetric and P is near R.
+    """
+    truth = exact.log(X)
+    E, given = _expm(truth), _matrix(exact.exactly(X))
+    S = E[:3, :3].T * given[:3, :3]
+    sound = _largest(S - S.T) < AGREE and _largest(E[:3, :3] - given[:3, :3]) < 1e-4
+    if len(X) == 4:
+        scale = 1 + max(_largest(given[:3, 3]), max(abs(_mp.mpf(v)) for v in truth[3:]))
+        sound = sound and _largest(E[:3, 3] - given[:3, 3]) < AGREE * scale
+    return bool(sound and _mp.norm([_mp.mpf(w) for w in truth[:3]]) <= _mp.pi * (1 + AGREE))
+
+
+def of_adjoint(T: np.ndarray) -> bool:
+    """Whether T [ξ] = [Ad(T) ξ] T for each unit twist ξ, to 14 digits: T is a pose to no more."""
+    X, Ad = _matrix(exact.exactly(T)), exact.adjoint(T)
+    # T's rotation is one only to rounding, and so is the identity.
+    scale = 1 + _largest(X)
+    error = max(_largest(X * _hat(e) - _hat(Ad[:, k]) * X) for k, e in enumerate(np.eye(6)))
+    return bool(error < 1e-14 * scale**2)
+
+
+def of_jacobian(name: str, xi: np.ndarray) -> bool:
+    """Whether a Jacobian of exp of `exact` is ∫ e^{± s ad ξ} ds, 0 ≤ s ≤ 1, or the inverse of that.
+
+    The integral is the upper right block of the exponential of [± ad ξ, I; 0, 0].
+    """
+    n, sign = len(xi), -1 if name.startswith("right") else 1
+    big = _mp.zeros(2 * n)
+    big[:n, :n] = sign * _ad(xi)
+    big[:n, n:] = _mp.eye(n)
+    J = _mp.expm(big)[:n, n:]
+    truth = _matrix(getattr(exact, name)(xi))
+    scale = 1 + max(abs(_mp.mpf(float(x))) for x in xi)
+    if name.endswith("_inverse"):
+        return bool(_largest(J * truth - _mp.eye(n)) < AGREE * scale**2)
+    return bool(_largest(J - truth) < AGREE * scale)
+
+
+def of_pose(screws: Any, home: Any, x: Any) -> bool:
+    """Whether `exact.forward` is the product of mpmath's exponentials."""
+    return _near(product(screws, home, x), exact.forward(screws, home, x))
+
+
+def of_velocities(screws: Any, home: Any, x: Any, columns: np.ndarray) -> bool:
+    """Whether space twists (6, n) are Ṫ T⁻¹ of the product of exponentials, by a difference of step 1e-30."""
+    T, step = product(screws, home, x), _mp.mpf(10) ** -30
+    back, truth = _mp.inverse(T), exact.exactly(columns)
+    scale = 1 + _largest(_matrix(truth)) if truth.size else 1
+    for k in range(len(x)):
+        ahead, behind = (_shifted(x, k, sign * step) for sign in (1, -1))
+        X = (product(screws, home, ahead) - product(screws, home, behind)) / (2 * step) * back
+        if not _largest(X - _hat(truth[:, k])) < 1e-50 * scale**2:
+            return False
+    return True
+
+
+def product(screws: Any, home: Any, x: Any) -> Any:
+    """e^{A_1 x_1} ⋯ e^{A_n x_n} M as an mpmath matrix."""
+    T = _mp.eye(4)
+    for screw, amount in zip(exact.exactly(screws), exact.exactly(x), strict=True):
+        T = T * _expm(screw * amount)
+    return T * _matrix(exact.exactly(home))
+
+
+def chain_of(factors: Sequence[Any]) -> Any:
+    """The product of exponentials of twists (6,), as an mpmath matrix."""
+    T = _mp.eye(4)
+    for xi in factors:
+        T = T * _expm(xi)
+    return T
+
+
+def near(T: Any, truth: np.ndarray) -> bool:
+    """Whether an mpmath matrix and an array of `exact` are the same to 60 digits of the largest entry."""
+    return _near(T, truth)
+
+
+def _shifted(x: Any, k: int, by: Any) -> np.ndarray:
+    moved = exact.exactly(x).copy()
+    moved[k] = moved[k] + exact.mp.mpf(by)
+    return moved
+
+
+def _near(X: Any, truth: np.ndarray) -> bool:
+    other = _matrix(truth)
+    return bool(_largest(X - other) < AGREE * (1 + _largest(other)))
+
+
+def _expm(xi: Any) -> Any:
+    return _mp.expm(_hat(xi))
+
+
+def _hat(xi: Any) -> Any:
+    x, y, z = (_mp.mpf(c) for c in list(xi)[:3])
+    rows = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
+    if len(xi) == 6:
+        rows = [[*row, _mp.mpf(v)] for row, v in zip(rows, list(xi)[3:], strict=True)] + [[0, 0, 0, 0]]
+    return _mp.matrix(rows)
+
+
+def _ad(xi: Any) -> Any:
+    if len(xi) == 3:
+        return _hat(xi)
+    A = _mp.zeros(6)
+    A[:3, :3] = A[3:, 3:] = _hat(xi[:3])
+    A[3:, :3] = _hat(xi[3:])
+    return A
+
+
+def _matrix(X: np.ndarray) -> Any:
+    return _mp.matrix([[_mp.mpf(x) for x in row] for row in X.tolist()])
+
+
+def _largest(M: Any) -> Any:
+    return max(abs(x) for x in M)

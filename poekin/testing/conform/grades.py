@@ -1,0 +1,101 @@
+"""Grades: how well a function of somebody else's keeps a law, from its measured errors.
+
+    exact    every error ≤ 3 × what float64 can attain
+    good     ≤ 1e-10
+    poor     ≤ 1e-6
+    broken   worse; NaN or infinite; an exception; a wrong shape
+
+Rotations are judged by their angle in rad (‖ΔR‖ ÷ √2, Frobenius); rotation vectors and 3×3 blocks are taken as they
+are; translations, v and Q blocks in proportion to the lengths that went in. Which of two signs at π, or which branch,
+is an error like any other.
+"""
+
+from __future__ import annotations
+
+import enum
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from ..accuracy_laws import EXP_LOG_BAR
+from ..laws import LawViolation
+
+GOOD, POOR = 1e-10, 1e-6
+
+
+class Grade(enum.IntEnum):
+    """The four grades; the larger, the worse."""
+
+    EXACT = 0
+    GOOD = 1
+    POOR = 2
+    BROKEN = 3
+
+    @property
+    def word(self) -> str:
+        """As it is printed."""
+        return self.name.lower()
+
+
+class Part(NamedTuple):
+    """One measured error: what it is of, its size, the scale it is in proportion to, and what float64 can attain.
+
+    `attainable` is called only where `error` exceeds 3 × `least`, a lower bound of it that costs nothing.
+    """
+
+    what: str
+    error: float
+    scale: float
+    least: float
+    attainable: Callable[[], float]
+
+    @property
+    def size(self) -> float:
+        """error ÷ scale; where the scale is 0, an error of 0 is 0 and any other infinite."""
+        return self.error / self.scale if self.scale else (0.0 if self.error == 0 else math.inf)
+
+    @property
+    def bound(self) -> float:
+        """The largest error that is exact."""
+        return EXP_LOG_BAR * (self.least if self.error <= EXP_LOG_BAR * self.least else self.attainable())
+
+    @property
+    def grade(self) -> Grade:
+        """Of this error alone; NaN is broken."""
+        if self.error <= self.bound:
+            return Grade.EXACT
+        return Grade.GOOD if self.size <= GOOD else Grade.POOR if self.size <= POOR else Grade.BROKEN
+
+
+class Verdict(NamedTuple):
+    """What came of one case: its grade, the error ÷ scale that decided it, of what, and the fault where it is none."""
+
+    grade: Grade
+    size: float
+    what: str
+    fault: str = ""
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """To find the worst of many."""
+        return self.grade, self.size
+
+
+def judged(law: str, parts: Sequence[Part] | str, at_most: Grade = Grade.BROKEN, **seen: object) -> Verdict:
+    """The verdict on a case: that of the worst of its parts, or on a fault (a text: no result at all).
+
+    Raises: LawViolation, with the error and its bound, where the grade is worse than `at_most`; so `at_most` broken
+    measures, and never raises.
+    """
+    if isinstance(parts, str):
+        verdict, error, bound = Verdict(Grade.BROKEN, math.inf, "no result", parts), math.inf, 0.0
+        seen = {"fault": parts, **seen}
+    else:
+        worst = max(parts, key=lambda part: (part.grade, part.size))
+        verdict = Verdict(worst.grade, worst.size, worst.what)
+        error, bound = worst.size, {Grade.GOOD: GOOD, Grade.POOR: POOR}.get(at_most, 0.0)
+        if at_most is Grade.EXACT:
+            error, bound = worst.error, worst.bound
+    if verdict.grade > at_most:
+        raise LawViolation(law, error, bound, seen)
+    return verdict

@@ -1,0 +1,63 @@
+"""A law that a subject can be held to, and the cases it is tried on: numbers that shrink towards zero."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..strategies import st
+from .grades import Verdict
+
+if TYPE_CHECKING:
+    from .subject import Subject
+
+
+class Case(NamedTuple):
+    """Arguments of a law as float64 numbers (k,), 0 where nothing is, and the layout that says what they belong to.
+
+    Of a group's law the numbers are exponential coordinates, ω or (ω; v).
+    """
+
+    numbers: np.ndarray
+    layout: Hashable = ()
+
+
+class Shown(NamedTuple):
+    """A case for people: in words, as Python to paste, and what ought to come of it (None where it is no one array)."""
+
+    words: str
+    paste: str
+    expected: np.ndarray | None
+
+
+def nothing_simpler(case: Case) -> Iterable[Case]:
+    """For cases that have no parts which could be left out."""
+    return ()
+
+
+class Law(NamedTuple):
+    """One law: `check(subject, case)` measures, `confirm(subject, case)` asks the second oracle about the truth.
+
+    name: as on the command line; says: what is held, in words; needs: the function of the subject that it is about;
+    cases(subject): what it is tried on; show(subject, case): for people; simpler(case): cases with a part left out;
+    triples: where among the numbers three are a vector, each one's first place; allowed: what a simpler case must be.
+    """
+
+    name: str
+    says: str
+    needs: str
+    cases: Callable[[Subject], st.SearchStrategy[Case]]
+    check: Callable[[Subject, Case], Verdict]
+    confirm: Callable[[Subject, Case], bool]
+    show: Callable[[Subject, Case], Shown]
+    simpler: Callable[[Case], Iterable[Case]] = nothing_simpler
+    triples: Callable[[Case], Iterable[int]] = lambda case: range(0, len(case.numbers) - 2, 3)
+    allowed: Callable[[Case], bool] = lambda case: True
+    applies: Callable[[Subject], bool] = lambda subject: True
+
+
+def typed(x: Any) -> str:
+    """An array as Python text, to the last digit; zeros short."""
+    return repr((np.asarray(x, dtype=float) + 0.0).tolist()).replace("0.0,", "0,").replace("0.0]", "0]")

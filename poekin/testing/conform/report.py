@@ -1,0 +1,119 @@
+"""What came of holding a subject to the laws: law by law a grade, a counterexample, and whether it was confirmed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...errors import harmless
+from .grades import Grade
+from .law import Case
+
+FEW = 100
+"""Fewer examples than these say little of a law that seems to hold."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One law and one subject.
+
+    grade; worst: the largest size of an error met (inf: no result), of `what`; examples: how many were tried. Of a
+    finding (poor or broken) also the shrunk case with its numbers; its error, or its fault (a text) where there was no
+    result; the case in words, as Python to paste, and what ought to come of it; a hint.
+    unconfirmed: why it is no finding, where its truth did not stand against the second oracle, or the subject did not
+    do it again; the grade says nothing then.
+    """
+
+    law: str
+    says: str
+    grade: Grade
+    worst: float
+    what: str
+    examples: int
+    error: float = 0.0
+    fault: str = ""
+    case: Case | None = None
+    words: str = ""
+    paste: str = ""
+    expected: np.ndarray | None = None
+    hint: str = ""
+    unconfirmed: str = ""
+
+    @property
+    def finding(self) -> bool:
+        """Whether it is to be printed with its counterexample."""
+        return self.grade >= Grade.POOR and not self.unconfirmed
+
+    @property
+    def numbers(self) -> int:
+        """How many numbers of the counterexample are not zero."""
+        return 0 if self.case is None else int(np.count_nonzero(self.case.numbers))
+
+    @property
+    def word(self) -> str:
+        """The grade as it is printed."""
+        return "not judged" if self.unconfirmed else self.grade.word
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data; an infinite error is None."""
+        plain: dict[str, Any] = {
+            "law": self.law, "says": self.says, "grade": self.word, "worst": self.worst, "of": self.what,
+            "examples": self.examples,
+        }  # fmt: skip
+        if self.unconfirmed:
+            return plain | {"unconfirmed": self.unconfirmed}
+        if self.finding:
+            plain |= {"error": self.error, "fault": self.fault, "counterexample": self.words, "python": self.paste}
+            plain |= {"numbers": [] if self.case is None else self.case.numbers, "expected": self.expected}
+            plain |= {"hint": self.hint}
+        return plain
+
+    def __str__(self) -> str:
+        head = f"{self.word:10} {self.law}: {self.says}"
+        if self.unconfirmed:
+            return f"{head}\n           {self.unconfirmed}"
+        size = f"worst {self.worst:.2g} of {self.what}" if np.isfinite(self.worst) else "worst: no result, or no bound"
+        few = "; more with more seconds" if self.examples < FEW and not self.finding else ""
+        head = f"{head}\n           {size}; {self.examples} examples{few}"
+        if not self.finding:
+            return head
+        error = f"{self.error:.2g} of {self.what}" if np.isfinite(self.error) else f"{self.what} is not 0, and must be"
+        lines = [f"{self.fault or error} at {self.words}", self.paste]
+        if self.expected is not None:
+            lines.append(f"# exact: {(self.expected + 0.0).tolist()}")
+        lines += [self.hint] if self.hint else []
+        return head + "".join(f"\n           {line}" for line in lines)
+
+
+@dataclass(frozen=True)
+class Report:
+    """All outcomes of one subject. `conforms`: nothing is poor or broken."""
+
+    subject: str
+    outcomes: tuple[Outcome, ...]
+
+    @property
+    def findings(self) -> tuple[Outcome, ...]:
+        """The outcomes that are poor or broken, and confirmed."""
+        return tuple(outcome for outcome in self.outcomes if outcome.finding)
+
+    @property
+    def conforms(self) -> bool:
+        """Whether there are no findings."""
+        return not self.findings
+
+    def __getitem__(self, law: str) -> Outcome:
+        for outcome in self.outcomes:
+            if outcome.law == law:
+                return outcome
+        raise KeyError(law)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, as `poekin conform --json` prints it."""
+        laws = [outcome.as_dict() for outcome in self.outcomes]
+        return {"subject": self.subject, "conforms": self.conforms, "laws": laws}
+
+    def __str__(self) -> str:
+        return "\n".join([harmless(self.subject, 200), *(harmless(outcome, keep="\n") for outcome in self.outcomes)])

@@ -1,0 +1,97 @@
+"""Smaller counterexamples: fewer parts, fewer numbers that are not zero, numbers with fewer digits.
+
+Hypothesis shrinks the bytes that a case was read from, which are not its numbers; here the numbers themselves shrink.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from .law import Case, Law
+
+BUDGET = 1500
+"""How many cases are tried at most."""
+
+
+def shrunk(law: Law, case: Case, fails: Callable[[Case], bool], budget: int = BUDGET) -> Case:
+    """The simplest case found, from this one on, that fails as well; the case itself where there is none."""
+    spent, improved = 0, True
+    while improved:
+        improved = False
+        for candidate in _simpler(law, case):
+            if not cost(candidate) < cost(case) or not law.allowed(candidate):
+                continue
+            if spent >= budget:
+                return case
+            spent += 1
+            if fails(candidate):
+                case, improved = candidate, True
+                break
+    return case
+
+
+def cost(case: Case) -> tuple[float, ...]:
+    """What makes a case less simple, the gravest first: numbers at all, not zero, digits, signs, late places."""
+    x = case.numbers
+    places = np.flatnonzero(x)
+    digits = sum(_digits(float(value)) for value in x[places])
+    return len(x), len(places), digits, int(np.sum(x < 0)), float(places.sum()), float(np.sum(_magnitude(x[places])))
+
+
+def _simpler(law: Law, case: Case) -> Iterator[Case]:
+    yield from law.simpler(case)
+    x = case.numbers
+    starts = [k for k in law.triples(case) if np.any(x[k : k + 3])]
+    for k in starts:  # a whole vector away
+        yield _with(case, k, np.zeros(3))
+    for k in np.flatnonzero(x).tolist():
+        yield _with(case, k, 0.0)
+    for k in starts:  # a vector along an axis
+        length = math.hypot(*x[k : k + 3])
+        for value in (length, *_rounder(length)):
+            for axis in range(3):
+                yield _with(case, k, value * np.eye(3)[axis])
+    for k in np.flatnonzero(x).tolist():
+        for value in _rounder(float(x[k])):
+            yield _with(case, k, value)
+
+
+def _rounder(value: float) -> Iterator[float]:
+    """Values with fewer digits near a number, the simplest first."""
+    yield from (1.0, -1.0, math.pi, math.copysign(10.0 ** round(math.log10(abs(value))), value) if value else 0.0)
+    for digits in range(1, 17):
+        short = float(f"{value:.{digits - 1}e}")
+        yield from (short, abs(short))
+    # Towards π the digits that matter are those of the gap.
+    gap = math.pi - abs(value)
+    if 0 < gap < 0.1:
+        yield math.pi - 10.0 ** round(math.log10(gap))
+
+
+def _digits(value: float) -> int:
+    # π is one number to people, and so is what is a power of ten short of it.
+    if abs(value) == math.pi:
+        return 1
+    gap = math.pi - abs(value)
+    if 0 < gap < 0.1 and abs(value) == math.pi - 10.0 ** round(math.log10(gap)):
+        return 2
+    return len(f"{value:.17e}".split("e")[0].strip("-0.").replace(".", "")) if value == 0 else _significant(value)
+
+
+def _significant(value: float) -> int:
+    mantissa = repr(abs(value)).split("e")[0].replace(".", "").strip("0")
+    return max(len(mantissa), 1)
+
+
+def _magnitude(x: np.ndarray) -> np.ndarray:
+    """How far from 1 numbers are, in powers of ten."""
+    return np.abs(np.log10(np.abs(x)))
+
+
+def _with(case: Case, k: int, value: float | np.ndarray) -> Case:
+    x = case.numbers.copy()
+    x[k : k + np.size(value)] = value
+    return case._replace(numbers=x)

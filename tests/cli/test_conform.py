@@ -1,0 +1,67 @@
+"""`poekin conform`: 0 nothing poor or broken, 1 something is, 2 error."""
+
+from __future__ import annotations
+
+import json
+
+HEAD = """
+import numpy as np
+import poekin as pk
+
+class Sound:
+    so3_exp = staticmethod(pk.so3.exp)
+
+class Faulty:
+    twist_order = "angular first"
+    exp = staticmethod(pk.se3.exp)
+    def so3_exp(self, w):
+        return pk.so3.exp(w) if np.linalg.norm(w) > 1e-6 else np.eye(3)
+
+class Undeclared:
+    exp = staticmethod(pk.se3.exp)
+"""
+
+
+def module(tmp_path, monkeypatch, name):
+    (tmp_path / f"{name}.py").write_text(HEAD, encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+
+
+def test_a_sound_subject_is_exact(tmp_path, monkeypatch, poekin):
+    module(tmp_path, monkeypatch, "sound_subjects")
+    code, out, err = poekin("conform", "sound_subjects:Sound", "--examples", "20")
+    assert (code, err) == (0, "")
+    assert out.startswith("Sound\nexact      so3_exp: ")
+    assert "20 examples; more with more seconds" in out
+
+
+def test_a_faulty_one_is_1_and_its_counterexample_can_be_pasted(tmp_path, monkeypatch, poekin):
+    module(tmp_path, monkeypatch, "faulty_subjects")
+    arguments = ("conform", "faulty_subjects:Faulty", "--law", "so3_exp", "--examples", "200")
+    code, out, err = poekin(*arguments)
+    assert (code, err) == (1, "")
+    assert "from faulty_subjects import Faulty; print(Faulty().so3_exp(np.array([" in out
+    code, out, _ = poekin(*arguments, "--json")
+    assert code == 1
+    document = json.loads(out)
+    assert (document["subject"], document["conforms"], len(document["laws"])) == ("Faulty", False, 1)
+    assert document["laws"][0]["grade"] in ("poor", "broken")
+    assert sum(x != 0 for x in document["laws"][0]["numbers"]) == 1
+
+
+def test_only_the_laws_that_are_named_are_run(tmp_path, monkeypatch, poekin):
+    module(tmp_path, monkeypatch, "named_subjects")
+    code, out, _ = poekin("conform", "named_subjects:Faulty", "--law", "exp", "--examples", "10", "--json")
+    assert code == 0
+    assert [law["law"] for law in json.loads(out)["laws"]] == ["exp"]
+
+
+def test_what_cannot_be_used_is_refused(tmp_path, monkeypatch, refused):
+    module(tmp_path, monkeypatch, "refused_subjects")
+    assert "does not declare twist_order" in refused("conform", "refused_subjects:Undeclared")
+    assert "there is no law 'so3'" in refused("conform", "refused_subjects:Sound", "--law", "so3")
+    assert "expected MODULE:CLASS" in refused("conform", "refused_subjects")
+    assert "has no 'Other'" in refused("conform", "refused_subjects:Other")
+    (tmp_path / "broken_subjects.py").write_text("raise RuntimeError('\\x1b[31mred')", encoding="utf-8")
+    assert "RuntimeError: \\x1b[31mred" in refused("conform", "broken_subjects:X")
+    assert "--seconds" in refused("conform", "refused_subjects:Sound", "--seconds", "0")

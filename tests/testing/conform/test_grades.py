@@ -1,0 +1,49 @@
+"""Grades: where one ends and the next begins, and what is no number is broken."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from poekin.testing.conform.grades import Grade, Part, judged
+from poekin.testing.laws import LawViolation
+
+
+def part(error, scale=1.0, least=0.0, attainable=1e-16):
+    return Part("x", error, scale, least, lambda: attainable)
+
+
+@pytest.mark.parametrize(
+    ("error", "grade"),
+    [
+        (0.0, Grade.EXACT), (3e-16, Grade.EXACT), (3.1e-16, Grade.GOOD), (1e-10, Grade.GOOD), (1.1e-10, Grade.POOR),
+        (1e-6, Grade.POOR), (1.1e-6, Grade.BROKEN), (math.inf, Grade.BROKEN), (math.nan, Grade.BROKEN),
+    ],
+)  # fmt: skip
+def test_a_grade_ends_where_it_is_said_to(error, grade):
+    assert part(error).grade is grade
+    assert judged("law", [part(0.0), part(error)]).grade is grade
+
+
+def test_what_float64_can_attain_is_asked_only_where_the_lower_bound_does_not_do():
+    def never():
+        raise AssertionError
+
+    assert Part("x", 3e-16, 1.0, 1e-16, never).grade is Grade.EXACT
+
+
+def test_an_error_goes_in_proportion_to_its_scale_and_no_scale_allows_no_error():
+    assert part(1e-8, scale=1e3).grade is Grade.GOOD
+    assert part(1e-8, scale=0.0, attainable=0.0).size == math.inf
+    assert part(0.0, scale=0.0, attainable=0.0).grade is Grade.EXACT
+
+
+def test_a_violation_carries_the_error_and_the_bound_of_the_grade_asked_for():
+    for at_most, error, bound in [(Grade.EXACT, 1e-7, 3e-16), (Grade.GOOD, 1e-7, 1e-10), (Grade.POOR, 1e-5, 1e-6)]:
+        with pytest.raises(LawViolation, match=r"^law: error") as caught:
+            judged("law", [part(error)], at_most, x=1)
+        assert (caught.value.error, caught.value.bound) == pytest.approx((error, bound), rel=1e-12)
+    with pytest.raises(LawViolation, match=r"fault = 'NaN'"):
+        judged("law", "NaN", Grade.POOR)
+    assert judged("law", "NaN").fault == "NaN"

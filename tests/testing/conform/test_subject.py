@@ -1,0 +1,156 @@
+"""What a subject declares: twist order and frame are never guessed, and what is missing is said."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from benchmarks.subjects import Angular, Linear, Poekin
+from poekin.errors import InputError, UnknownName
+from poekin.testing.conform import LAWS, Grade, Subject, applicable, conform, loaded
+from tests.testing.drawing import drawn
+
+LAWS_OF = {law.name: law for law in LAWS}
+
+
+def kind(**members):
+    return type("Mine", (), members)
+
+
+def one(self, x):
+    return x
+
+
+@pytest.mark.parametrize(
+    ("members", "words"),
+    [
+        ({}, r"Mine has none of the functions of a subject: so3_exp, "),
+        (
+            {"exp": one},
+            r'Mine has exp, and does not declare twist_order: expected twist_order = "angular first" or "li',
+        ),
+        ({"exp": one, "twist_order": "v first"}, r"twist_order: expected .* got 'v first'"),
+        ({"fk": lambda self, A, M, q: M}, r"Mine has fk, and does not declare twist_order"),
+        ({"jacobian": lambda self, A, M, q: M, "twist_order": "angular first"}, r"does not declare jacobian_frame"),
+        (
+            {"jacobian": lambda self, A, M, q: M, "twist_order": "angular first", "jacobian_frame": "world"},
+            r'jacobian_frame: expected "space" or "body" or "hybrid", got \'world\'',
+        ),
+        ({"fk": one, "twist_order": "angular first"}, r"fk: expected parameters \(screws, home, q\) \(declare `arm`"),
+        ({"so3_log": one, "noise": 1.0}, r"noise: expected a number from 0 to 1e-5"),
+        ({"fk": one, "arm": "ur5e"}, r"arm: expected a poekin.Chain, got 'ur5e'"),
+        ({"read_urdf": one, "jacobian_frame": "body"}, r"does not declare twist_order"),
+    ],
+    ids=["nothing", "no order", "wrong order", "arms", "no frame", "wrong frame", "one arm", "noise", "arm", "reader"],
+)
+def test_what_is_not_declared_is_refused_with_what_to_declare(members, words):
+    with pytest.raises(InputError, match=words):
+        Subject(kind(**members))
+
+
+def test_functions_of_rotations_need_no_declaration():
+    assert Subject(kind(so3_exp=one)).functions == ("so3_exp",)
+
+
+def test_an_order_is_swapped_on_the_way_in_and_out():
+    xi = np.array([0.1, 0.2, 0.3, 4.0, 5.0, 6.0])
+    first, last = Subject(Angular), Subject(Linear)
+    for name, x in [(n, xi) for n in ("exp", "left_jacobian")] + [(n, pk.se3.exp(xi)) for n in ("log", "adjoint")]:
+        np.testing.assert_array_equal(first.function(name)(x), last.function(name)(x))
+        np.testing.assert_allclose(first.function(name)(x), getattr(pk.se3, name)(x), rtol=0, atol=1e-14)
+
+
+def test_only_laws_of_functions_that_are_there_apply():
+    assert [law.name for law in applicable(Subject(kind(so3_exp=one)))] == ["so3_exp"]
+    batched = Subject(kind(so3_exp=one, batch=True))
+    assert [law.name for law in applicable(batched)] == ["so3_exp", "so3_exp of batches"]
+    assert len(applicable(Subject(Poekin))) == len(LAWS)
+
+
+def test_a_law_that_does_not_exist_or_apply_is_refused():
+    with pytest.raises(UnknownName, match=r"no law 'so3_expp'; did you mean 'so3_exp'"):
+        conform(Poekin, ["so3_expp"])
+    with pytest.raises(InputError, match=r"none of these laws applies; those that do: so3_exp"):
+        conform(kind(so3_exp=one), ["log"])
+    with pytest.raises(InputError, match=r"examples ≥ 1 and seconds > 0 expected"):
+        conform(Poekin, seconds=0)
+
+
+def test_an_object_is_a_subject_as_well_as_a_class():
+    assert conform(Poekin(), ["so3_exp"], examples=20).conforms
+
+
+class Turntable:
+    arm = pk.load("panda").chain(tip="panda_hand")
+    twist_order = "linear first"
+    jacobian_frame = "hybrid"
+
+    def fk(self, q):
+        return self.arm.fk(q)
+
+    def jacobian(self, q):
+        return pk.se3.linear_first(self.arm.jacobian(q, frame="hybrid"), axis=-2)
+
+
+def test_one_arm_of_its_own_is_held_to_poekins_model_of_it():
+    report = conform(Turntable, examples=40)
+    assert [(outcome.law, outcome.grade) for outcome in report.outcomes] == [
+        ("fk", Grade.EXACT), ("jacobian", Grade.EXACT),
+    ]  # fmt: skip
+
+    (q,) = [np.array(case.numbers) for case in drawn(LAWS_OF["fk"].cases(Subject(Turntable)), 1)]
+    assert np.all(q >= Turntable.arm.limits[:, 0])
+
+    class Strict(Turntable):
+        def fk(self, q):
+            if np.any(q < self.arm.limits[:, 0]) or np.any(q > self.arm.limits[:, 1]):
+                raise ValueError("beyond the limits")
+            T = super().fk(q)
+            T[0, 3] += 1e-3
+            return T
+
+    (outcome,) = conform(Strict, ["fk"], examples=20).findings
+    assert outcome.fault == ""
+
+    class Longer(Turntable):
+        def fk(self, q):
+            T = super().fk(q)
+            T[2, 3] += 1e-8
+            return T
+
+    (outcome,) = conform(Longer, ["fk"], examples=40).findings
+    assert outcome.grade is Grade.POOR
+    # The panda's fourth and sixth joints cannot be at 0.
+    assert outcome.numbers <= 2
+
+
+@pytest.mark.parametrize(
+    ("row", "what"), [(1, "v of a column ÷ the arm's lengths"), (4, "ω of a column")], ids=["v", "omega"]
+)
+def test_an_error_in_one_row_of_the_last_column_of_a_jacobian_is_seen(row, what):
+    class Off(Turntable):
+        def jacobian(self, q):
+            J = super().jacobian(q)
+            J[row, -1] += 1e-7
+            return J
+
+    (outcome,) = conform(Off, ["jacobian"], examples=20).findings
+    assert (outcome.what, outcome.grade) == (what, Grade.POOR)
+
+
+def test_a_subject_is_found_by_its_name():
+    assert loaded("benchmarks.subjects:Poekin") is Poekin
+    for text, words in [
+        ("benchmarks.subjects", r"expected MODULE:CLASS, such as"),
+        ("nowhere:X", r"'nowhere' cannot be imported: ModuleNotFoundError"),
+        ("benchmarks.subjects.own:X", r"'benchmarks.subjects.own' has no 'X'; classes in it: .*'Poekin'"),
+    ]:
+        with pytest.raises(InputError, match=words):
+            loaded(text)
+
+
+def test_ten_cases_are_tried_however_little_time_there_is():
+    report = conform(Poekin, ["so3_exp", "urdf"], seconds=1e-6)
+    assert [outcome.examples for outcome in report.outcomes] == [10, 10]
+    assert str(report).count("more with more seconds") == 2
