@@ -21,13 +21,15 @@ ifneq ($(SETUP_OF),$(CURDIR))
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help report test lint style types wheel-check docs
+.PHONY: help report test lint style types wheel-check docs mutate fuzz
 
 help:
 	@echo "make test         run all tests"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
 	@echo "make lint         check style (ruff) and types (pyright)"
 	@echo "make docs         build the pages of docs/ and print where they are"
+	@echo "make mutate       plant every error of 10 000 and say which the tests catch; SAMPLE=200 plants that many"
+	@echo "make fuzz         give the readers 10⁶ broken files; COUNT=10000 gives the URDF reader that many, others a tenth"
 	@echo "make wheel-check  build the wheel and use it where the source tree cannot be imported"
 	@echo "Each sets up $(VENV) first if need be. With another interpreter: make test PYTHON=python3.12"
 
@@ -49,6 +51,12 @@ types: $(VENV)/lint
 docs: $(VENV)/docs
 	@$(PY) -m sphinx -q -W --keep-going -E -a -b html docs docs/_build
 	@echo "The pages: $(CURDIR)/docs/_build/index.html"
+
+mutate: $(VENV)/dev
+	@$(PY) -m tools.mutate $(if $(SAMPLE),--sample $(SAMPLE) --afresh)
+
+fuzz: $(VENV)/dev
+	@$(PY) -m tools.fuzz $(if $(COUNT),--count $(COUNT))
 
 wheel-check: $(VENV)/dev
 	@$(PY) tools/wheel_check.py

@@ -92,7 +92,9 @@ def closest(name: str, available: Iterable[str], most: int = 5) -> str:
     names = list(available)
     if not names:
         return "there are none"
-    close = difflib.get_close_matches(str(name), names, n=most, cutoff=0.6)
+    # difflib takes time as the square of a name's length, for each name: of long names only the first are looked at.
+    near = names[: 2_000_000 // max(len(str(name)), 1) ** 2]
+    close = difflib.get_close_matches(str(name), near, n=most, cutoff=0.6)
     if close:
         return "did you mean " + " or ".join(shown(c) for c in close) + "?"
     return "available: " + listed(names, most)

@@ -43,6 +43,14 @@ def test_a_long_list_ends_with_how_many_more_there_are():
     assert closest("x", "abcdefgh") == "available: 'a', 'b', 'c', 'd', 'e' and 3 more"
 
 
+def test_of_long_names_only_the_first_are_looked_at():
+    names = ["x" * 190 + str(i) for i in range(1000)]
+    assert closest(names[0] + "y", names).startswith("did you mean")
+    assert closest(names[-1], names).startswith("did you mean")
+    assert closest("y" * 190 + "999", [*names, "y" * 190 + "998"]).startswith("available: ")
+    assert closest("joint_x", [f"joint_{i}" for i in range(20_000)]).startswith("did you mean 'joint_")
+
+
 ARM = pk.Chain([pk.screw.revolute([0, 0, 1], [i, 0, 0]) for i in range(2)], np.eye(4))
 
 

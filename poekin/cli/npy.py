@@ -39,9 +39,9 @@ def configurations(content: bytes, m: int, where: str, tail: tuple[int, ...] = (
         raise FileError(f"{where} is damaged: its header speaks of {count * dtype.itemsize} bytes, {there} are there")
     # Where there is nothing to read NumPy does not look at an empty buffer.
     flat = np.frombuffer(content, dtype, count, start) if count else np.zeros(0, dtype)
-    return (
-        flat.reshape(shape, order="F" if column_major else "C").astype(float).reshape(math.prod(shape[: -len(last)]), m)
-    )
+    with np.errstate(all="ignore"):  # a signalling NaN becomes a quiet one, and what is too large infinite
+        values = flat.reshape(shape, order="F" if column_major else "C").astype(float)
+    return values.reshape(math.prod(shape[: -len(last)]), m)
 
 
 def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:

@@ -21,9 +21,9 @@ Source: the MJCF reference of MuJoCo; its function mj_kinematics for the order o
 from __future__ import annotations
 
 import os
-import re
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import ModuleType
 from typing import Any
 
@@ -33,6 +33,7 @@ from ..errors import InputError, MissingExtra, ModelError, PoekinError, harmless
 from ..model.robot import Robot
 from ..model.source import Source, warn
 from . import xml
+from .mjcf_files import look_through
 from .mjcf_robot import robot_of
 
 # What is named first refers to what comes after it.
@@ -40,22 +41,21 @@ WITHOUT_KINEMATICS = (
     "keys", "sensors", "actuators", "tendons", "pairs", "excludes", "tuples", "skins", "flexes", "cameras", "lights",
     "materials", "textures", "meshes", "hfields", "numerics", "texts", "plugins",
 )  # fmt: skip
-NOT_A_NUMBER = re.compile(r"(?:^|\s)[+-]?nan(?:$|\s)", re.IGNORECASE)
-NUMBERS = ("pos", "quat", "axis", "axisangle", "xyaxes", "zaxis", "euler", "fromto", "range", "ref", "polycoef")
 
 
 def read(path: str | os.PathLike[str]) -> Robot:
     """The robot in an MJCF file, as MuJoCo reads it (extra `mjcf`); its q is MuJoCo's qpos, in the order of the joints.
 
     Raises: FileError for a file that cannot be read, is empty, a directory or larger than 64 MiB; ModelError for a
-    root other than <mujoco>, a document type declaration, a file to include that is not there, and whatever MuJoCo
-    refuses, with its own words (a plugin that is not loaded, too); MissingExtra without the package mujoco.
+    root other than <mujoco>, a document type declaration, a file to include that is not there, a model that attaches
+    itself, <replicate> that makes more than 5000 elements, and whatever MuJoCo refuses, with its own words (a plugin
+    that is not loaded, too); MissingExtra without the package mujoco.
     Warns: PoekinWarning for what is left out or not what it was (see the top of this module).
     Accuracy: poses within 1e-13 reach of MuJoCo's own (tests/formats/test_mjcf.py).
     """
     data = xml.read_bytes(path)
     name = os.fsdecode(path)
-    return _read(data, name, lambda MjSpec: MjSpec.from_file(os.path.abspath(name)))
+    return _read(data, name, lambda MjSpec: MjSpec.from_file(os.path.abspath(name)), os.path.abspath(name))
 
 
 def read_text(text: str | bytes, name: str = "<text>") -> Robot:
@@ -77,18 +77,17 @@ def is_mjcf(path: str | os.PathLike[str]) -> bool:
     return xml.parse(xml.read_bytes(path), os.fsdecode(path)).tag == "mujoco"
 
 
-def _read(data: str | bytes, name: str, spec_of: Callable[[Any], Any]) -> Robot:
+def _read(data: str | bytes, name: str, spec_of: Callable[[Any], Any], path: str = "") -> Robot:
     source = Source(name)
     root = xml.parse(data, name)
     if root.tag != "mujoco":
         raise ModelError(f"{source.place(root.sourceline)}: expected the root element <mujoco>, got {shown(root.tag)}")
-    _refuse_nan(root, source)
+    look_through(root, source, os.path.dirname(path) or os.getcwd(), path)
     mujoco = _mujoco()
     try:
-        spec = spec_of(mujoco.MjSpec)
-        other = _bare(spec, mujoco)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", UserWarning)  # what MuJoCo warns of here is physics
+        with _unsaid(mujoco):
+            spec = spec_of(mujoco.MjSpec)
+            other = _bare(spec, mujoco)
             model = spec.compile()
     except (ValueError, RuntimeError, mujoco.FatalError) as refusal:
         said = "; ".join(line.strip() for line in str(refusal).splitlines() if line.strip())
@@ -97,11 +96,10 @@ def _read(data: str | bytes, name: str, spec_of: Callable[[Any], Any]) -> Robot:
     try:
         bodies, sites = (_poses(getattr(model, f"{what}_pos"), getattr(model, f"{what}_quat"), mujoco)
                          for what in ("body", "site"))  # fmt: skip
-        robot, said = robot_of(model, bodies, sites, title, source, other)
-    except ModelError:
-        raise
+        with np.errstate(all="ignore"):  # what comes of numbers too large is refused as a joint's origin
+            robot, said = robot_of(model, bodies, sites, title, source, other)
     except PoekinError as fault:
-        raise ModelError(f"{source.place()}: {fault}") from fault
+        raise ModelError(f"{source.place()}: {str(fault).removeprefix(f'{source.place()}: ')}") from fault
     for message in said:
         warn(f"{source.place()}: {message}")
     return robot
@@ -115,18 +113,23 @@ def _mujoco() -> ModuleType:
     return mujoco
 
 
-def _refuse_nan(root: xml.Element, source: Source) -> None:
-    # MuJoCo takes one for a number, and writes a log file about it into the working directory.
-    for element in root.iter():
-        for attribute in NUMBERS:
-            text = element.get(attribute)
-            if text and NOT_A_NUMBER.search(text):
-                where = source.place(element.sourceline)
-                raise ModelError(f"{where}: <{element.tag}>: {attribute} must be finite numbers, got {shown(text)}")
+@contextmanager
+def _unsaid(mujoco: ModuleType) -> Iterator[None]:
+    """What MuJoCo warns of meanwhile is physics, and it would write a log file about it into the working directory."""
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda message: None)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)
+            yield
+    finally:
+        mujoco.set_mju_user_warning(before)
 
 
 def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
     """Take out of the spec what is no kinematics; returns what the constraints were that are no joint equalities."""
+    for element in (*spec.geoms, *spec.bodies):
+        element.plugin.active = False  # before the plugins go: MuJoCo reads them once more otherwise, and dies of it
     for kind in WITHOUT_KINEMATICS:
         for element in list(getattr(spec, kind)):
             spec.delete(element)
@@ -140,14 +143,13 @@ def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
     for geom in spec.geoms:  # as they need no file any more; deleting them one by one takes MuJoCo minutes
         geom.type, geom.size, geom.fromto = mujoco.mjtGeom.mjGEOM_SPHERE, [1.0] * 3, [np.nan] * 6
         geom.meshname = geom.hfieldname = geom.material = ""
-        geom.plugin.active = False
     for site in spec.sites:
         site.material = ""
+    spec.nkey = 0  # MuJoCo is slow to make keyframes, and makes as many as are asked for
     spec.compiler.fusestatic = False
     spec.compiler.inertiafromgeom = int(mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE)
     for body in spec.bodies:
         # A body that moves needs a mass, and the geoms that gave it one are gone.
-        body.plugin.active = False
         body.explicitinertial = True
         body.mass, body.inertia, body.fullinertia = 1.0, [1.0] * 3, [np.nan] * 6
         body.ipos, body.iquat = [0.0] * 3, [1.0, 0.0, 0.0, 0.0]

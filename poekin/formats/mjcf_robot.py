@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import listed
+from ..errors import ModelError, listed
 from ..formulas import exponential
 from ..model.joint import Joint, Mimic
 from ..model.robot import TWELVE, Robot
@@ -196,6 +196,8 @@ def _shift(by: np.ndarray) -> np.ndarray:
 
 def _moved(kind: str, axis: list[float], x: float) -> np.ndarray:
     """e^{S x} of a joint in its own frame."""
+    if not math.isfinite(x):
+        raise ModelError(f"ref and equality: expected a finite coordinate, got {x}")
     still = (0.0, 0.0, 0.0)
     w, v = (axis, still) if kind == "revolute" else (still, axis)
     T = np.eye(4)

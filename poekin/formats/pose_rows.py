@@ -50,7 +50,8 @@ def to_poses(rows: Array, format: str, quaternion: str | None, where: Any) -> Ar
     good = np.isfinite(rows).all(axis=1)
     if format == "7":
         Q = rows[:, 3:] if quaternion == "wxyz" else rows[:, [6, 3, 4, 5]]
-        size = np.linalg.norm(Q, axis=1)
+        with np.errstate(over="ignore"):  # of numbers whose squares are none
+            size = np.linalg.norm(Q, axis=1)
         for i in np.flatnonzero(good & ~(np.abs(size - 1) <= NORM))[:1]:
             raise PoseError(f"{where(i)}: the quaternion's length is {size[i]:.6g}, expected 1 within {NORM:g}")
         T[good] = np.eye(4)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -25,14 +26,35 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
         raise FileError(f"{place}: not UTF-8 at byte {fault.start}") from fault
 
 
+_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*"""
+_DEEP_KEY = re.compile(rf"(?<![\w-])(?:{_PART}){{32}}")
+_LARGEST = 10**4300
+"""What Python does not write as decimal digits any more; tomllib reads it in the other notations."""
+
+
 def parse(text: str, place: str) -> dict[str, Any]:
-    """The content of a TOML text; place is what messages call it. Raises: ModelError."""
+    """The content of a TOML text; place is what messages call it.
+
+    Raises: ModelError for what is no TOML, a key of more than 32 parts (tomllib takes the square of their number, in
+    time), and a whole number of more than 4300 digits.
+    """
+    if deep := _DEEP_KEY.search(text):
+        line = text.count("\n", 0, deep.start()) + 1
+        raise ModelError(f"{place}:{line}: expected keys of at most 32 parts, a.b.c has three, got a longer one")
     try:
-        return tomllib.loads(text)
+        data = tomllib.loads(text)
     except RecursionError as fault:
         raise ModelError(f"{place}: not TOML: its brackets are nested too deeply") from fault
     except ValueError as fault:  # an integer of more than 4300 digits, too, which is no TOMLDecodeError
         raise ModelError(f"{place}: not TOML: {harmless(fault, 200)}") from fault
+    ahead: list[Any] = [data]
+    while ahead:
+        value = ahead.pop()
+        if isinstance(value, int) and not -_LARGEST < value < _LARGEST:
+            raise ModelError(f"{place}: expected whole numbers of at most 4300 digits, got a longer one")
+        if isinstance(value, (dict, list)):
+            ahead.extend(value.values() if isinstance(value, dict) else value)
+    return data
 
 
 def text_of(data: Mapping[str, Any]) -> str:

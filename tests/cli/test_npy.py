@@ -34,6 +34,14 @@ def test_what_numpy_writes_is_read(dtype, order, shape):
     np.testing.assert_array_equal(read, array.reshape(-1, 2))
 
 
+def test_a_signalling_nan_and_what_is_too_large_are_read_without_a_warning():
+    signalling = np.frombuffer(b"\x01\x00\xa0\x7f" * 2, "<f4")
+    assert np.isnan(configurations(_saved(signalling), 2, "q")).all()
+    large = np.array([np.finfo(np.longdouble).max, -np.finfo(np.longdouble).max])
+    if large.dtype.itemsize > 8:
+        assert configurations(_saved(large), 2, "q").tolist() == [[np.inf, -np.inf]]
+
+
 @pytest.mark.parametrize("version", [(1, 0), (2, 0), (3, 0)])
 def test_every_version_of_the_format_is_read(version):
     out = io.BytesIO()

@@ -12,6 +12,7 @@ import csv
 import io
 import math
 import os
+from collections import Counter
 from collections.abc import Callable
 from typing import Any
 
@@ -138,8 +139,9 @@ def _from_csv(text: str, place: str, stem: str) -> Table:
     try:
         header = list(reader.fieldnames or ())
         _only(dict.fromkeys(header), CSV_COLUMNS, f"{place}:1")
-        if twice := [column for column in header if header.count(column) > 1]:
-            raise ModelError(f"{place}:1: column {twice[0]} is there {header.count(twice[0])} times, expected once")
+        for column, times in Counter(header).items():
+            if times > 1:
+                raise ModelError(f"{place}:1: column {column} is there {times} times, expected once")
         for column in ("convention", *COLUMNS):
             if column not in header:
                 raise ModelError(f"{place}:1: column {column} is missing; needed are convention, {', '.join(COLUMNS)}")

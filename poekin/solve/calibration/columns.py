@@ -73,17 +73,19 @@ def _fault(rest: list[str], here: str) -> InputError | UnknownName:
     """What is wrong with columns that make no measurement."""
     if not rest:
         return InputError(f"{here}: no column of a measurement; expected {_LAYOUTS}")
-    every = [layout for layout in (*_FIXED, _points(set(rest))) if layout.columns]
-    whole = [layout for layout in every if set(layout.columns) <= set(rest)]
+    there = set(rest)
+    every = [layout for layout in (*_FIXED, _points(there)) if layout.columns]
+    whole = [layout for layout in every if set(layout.columns) <= there]
     if whole:
         most = max(whole, key=lambda layout: len(layout.columns))
-        extra = shown(next(word for word in rest if word not in most.columns))
+        known = set(most.columns)
+        extra = shown(next(word for word in rest if word not in known))
         return UnknownName(
             f"{here}: the column {extra} is neither a coordinate nor one of {said(most)}; ignore=[{extra}] passes it "
             "over"
         )
-    begun = max(every, key=lambda layout: len(set(layout.columns) & set(rest)) / len(layout.columns))
-    missing = [name for name in begun.columns if name not in rest]
+    begun = max(every, key=lambda layout: len(set(layout.columns) & there) / len(layout.columns))
+    missing = [name for name in begun.columns if name not in there]
     if len(missing) < len(begun.columns):
         return InputError(f"{here}: of the columns {said(begun)}, {shown(missing[0])} is missing")
     close = closest(rest[0], [name for layout in _FIXED for name in layout.columns], 3)

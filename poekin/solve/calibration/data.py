@@ -67,7 +67,8 @@ def read(
             raise InputError(f"{here}: {those}, and kind is {told(kind)}")
         layouts.append(layout)
         names = (*joints, *layout.columns)
-        return [header.index(name) for name in names]
+        places = {word: i for i, word in enumerate(header)}
+        return [places[name] for name in names]
 
     with csv_rows.opened(path) as (stream, where, size):
         rows, lines = csv_rows.read_chosen(stream, choose, where, progress, size)

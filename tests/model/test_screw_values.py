@@ -1,0 +1,162 @@
+"""Screws by their numbers: what is accepted, what is made exact, and what is said where it is not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import InputError, ScrewError, ShapeError
+from poekin.model import screw
+
+Z, P = np.array([2.0, -3.0, 6.0]) / 7, np.array([0.3, -1.2, 2.5])
+AXIS = np.array([2.0, -3.0, 6.0])
+
+
+def test_a_screw_is_its_axis_and_the_moment_of_its_point_and_its_pitch_along_the_axis():
+    np.testing.assert_allclose(screw.revolute(AXIS, P), [*Z, *-np.cross(Z, P)], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(screw.helical(AXIS, P, 0.4), [*Z, *(-np.cross(Z, P) + 0.4 * Z)], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(screw.prismatic(AXIS), [0, 0, 0, *Z], rtol=0, atol=1e-15)
+
+
+def test_an_axis_keeps_its_direction_at_any_length():
+    for length in (5e-324, 1e-308, 1e-160, 1.0, 1e160, 1.7e308):
+        np.testing.assert_array_equal(screw.prismatic([0, -length, 0]), [0, 0, 0, 0, -1, 0])
+        near = screw.prismatic([length, length, 0])
+        np.testing.assert_allclose(near[3:], [0.5**0.5, 0.5**0.5, 0], rtol=0, atol=3e-16)
+
+
+def test_the_axis_of_a_screw_is_its_line():
+    foot = P - Z * (Z @ P)
+    for pitch in (0.0, 0.4, -2.0):
+        axis = screw.axis_of(screw.helical(AXIS, P, pitch))
+        np.testing.assert_allclose(axis.direction, Z, rtol=0, atol=1e-15)
+        assert axis.point is not None
+        np.testing.assert_allclose(axis.point, foot, rtol=0, atol=2e-15)
+        assert axis.pitch == pytest.approx(pitch, abs=2e-15)
+    slide = screw.axis_of(screw.prismatic(AXIS))
+    assert (slide.point, slide.pitch) == (None, np.inf)
+    np.testing.assert_allclose(slide.direction, Z, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("axis", [(1, 0, 0), (0, -1, 0), (0, 0, 1)], ids=str)
+def test_an_axis_along_a_coordinate_is_no_slide(axis):
+    found = screw.axis_of(screw.helical(axis, P, 0.5))
+    assert np.array_equal(found.direction, axis)
+    assert found.point is not None
+    np.testing.assert_allclose(found.point, np.where(axis, 0.0, P), rtol=0, atol=1e-15)
+    assert found.pitch == pytest.approx(0.5, abs=1e-15)
+    with pytest.raises(ScrewError, match=r"omega must have length 1"):
+        screw.checked([[*(2.0 * np.array(axis)), 0, 0, 0]])
+
+
+@pytest.mark.parametrize("far", [0.0, 1.0, 3.0, 1000.0])
+def test_a_pitch_is_nothing_up_to_4e_15_of_the_distance(far):
+    """Relative to 1 m or to |v|, whichever is larger; one hair above it is a pitch."""
+    limit = 4e-15 * max(1.0, far)
+    for pitch, seen in ((0.9 * limit, False), (-0.9 * limit, False), (1.1 * limit, True), (-1.1 * limit, True)):
+        S = np.array([0, 0, 1, far, 0, pitch])
+        assert screw.pitch_of(S) == (pitch if seen else 0.0)
+    assert screw.pitch_of(np.array([0, 0, 1, 0, 0, 4e-15])) == 0.0
+
+
+def test_a_pitch_is_taken_out_where_that_is_asked_for_and_nowhere_else():
+    S = np.array([[*Z, *(np.cross(P, Z) + 0.3 * Z)], [*Z, *(np.cross(P, Z) + 0.3 * Z)], [0, 0, 0, *Z]])
+    out = screw.without_pitch(S, np.array([True, False, True]))
+    np.testing.assert_allclose(out[0], [*Z, *np.cross(P, Z)], rtol=0, atol=2e-15)
+    assert np.array_equal(out[1:], S[1:])
+    longer = screw.without_pitch(np.array([[*(3 * Z), *(np.cross(P, Z) + 0.3 * Z)]]), np.array([True]))
+    np.testing.assert_allclose(longer[0, 3:], np.cross(P, Z), rtol=0, atol=2e-15)
+
+
+@pytest.mark.parametrize("off", [9e-10, -9e-10, 1e-12, -1e-14])
+def test_a_screw_of_nearly_unit_length_is_made_exact_and_stays_on_its_line(off):
+    S = np.array([*Z, *(np.cross(P, Z) + 0.3 * Z)]) * (1 + off)
+    (exact,) = screw.checked([S])
+    assert abs(np.linalg.norm(exact[:3]) - 1) <= 2.3e-16
+    np.testing.assert_allclose(exact, S / (1 + off), rtol=1e-15, atol=1e-15)
+    (slide,) = screw.checked([[0, 0, 0, *(Z * (1 + off))]])
+    np.testing.assert_allclose(slide[3:], Z, rtol=0, atol=3e-16)
+
+
+def test_a_screw_of_unit_length_is_kept_to_the_last_bit():
+    S = np.array([[0.6, 0.0, 0.8, 0.1, 0.2, 0.3], [0, 0, 0, 0.6, 0.0, 0.8], [*Z, *P]])
+    S[2, :3] /= np.linalg.norm(S[2, :3])
+    assert abs(np.linalg.norm(S[2, :3]) - 1) <= 2.3e-16
+    assert np.array_equal(screw.checked(S), S)
+    # a length one unit in the last place above 1 is rounding, and dividing by it would only add to it
+    up = np.array([[1 + 2**-52, 0, 0, 0.1, 0.7, 0.3]])
+    assert np.array_equal(screw.checked(up), up)
+    lengths = 1 + np.array([2, 3, 4]) * 2.0**-52
+    kept = [screw.checked([[0, x, 0, 0.1, 0, 0.3]])[0, 1] for x in lengths]
+    assert kept == [lengths[0], 1.0, 1.0]
+
+
+def test_minus_zero_becomes_zero_and_the_argument_stays_as_it_was():
+    given = np.array([[-0.0, 0, 1, 0, -0.0, 0]])
+    found = screw.checked(given)
+    assert not np.signbit(found).any()
+    found[0, 2] = 7.0
+    assert np.signbit(given[0, 0])
+    assert given[0, 2] == 1.0
+
+
+def test_no_screws_are_screws_too():
+    assert screw.checked([]).shape == (0, 6)
+    assert screw.checked(np.zeros((0, 6))).shape == (0, 6)
+
+
+REFUSED = [
+    ([[0, 0, 1, 0, 0]], ShapeError, r"screws: expected shape \(n, 6\), one row \(omega; v\) a joint, got \(1, 5\)"),
+    ([0, 0, 1, 0, 0, 0], ShapeError, r"got \(6,\)"),
+    (np.zeros((2, 2, 6)), ShapeError, r"got \(2, 2, 6\)"),
+    (5.0, ShapeError, r"got \(\)"),
+    ([[0, 0, 1, 0, 0, 0, 0]], ShapeError, r"got \(1, 7\)"),
+    (np.zeros((2, 6, 6)), ShapeError, r"got \(2, 6, 6\)"),
+    (np.zeros((0, 5)), ShapeError, r"got \(0, 5\)"),
+    ([[0, 0, 1 + 1.1e-9, 0, 0, 0]], ScrewError, r"screws\[0\]: omega must have length 1 to 1e-09, got 1.0000000011"),
+    ([[0, 0, 1 - 1.1e-9, 0, 0, 0]], ScrewError, r"screws\[0\]: omega must have length 1 to 1e-09, got 0.9999999989"),
+    ([[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 2, 0]], ScrewError, r"screws\[1\]: v, where omega = 0, must have .* got 2 "),
+    ([[0, 0, 0, 0, 0, 0]], ScrewError, r"v, where omega = 0, must have length 1 .* got 0 in"),
+    ([[1e-12, 0, 0, 0, 1, 0]], ScrewError, r"omega must have length 1 .* got 1e-12"),
+    ([[0, 0, 1, 0, np.nan, 0]], ScrewError, r"screws\[0\]: expected finite numbers of at most 1e\+100, got \[0.0, "),
+    ([[0, 0, 1, -np.inf, 0, 0]], ScrewError, r"expected finite numbers"),
+    ([[0, 0, 1, -1.01e100, 0, 0]], ScrewError, r"expected finite numbers of at most 1e\+100"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("screws, error, message", REFUSED, ids=[f"{i}" for i in range(len(REFUSED))])
+def test_what_is_no_screw_is_said(screws, error, message):
+    with pytest.raises(error, match=message):
+        screw.checked(screws)
+
+
+def test_the_longest_number_is_still_one():
+    assert screw.checked([[0, 0, 1, 1e100, -1e100, 0]])[0, 3] == 1e100
+
+
+def test_the_joint_is_named_where_its_name_is_known():
+    bad = [[0, 0, 2, 0, 0, 0]]
+    with pytest.raises(ScrewError, match=r"screws\[0\] \(joint 'elbow'\): omega"):
+        screw.checked(bad, ("elbow",))
+    with pytest.raises(ScrewError, match=r"screws\[1\]: omega"):
+        screw.checked([[0, 0, 1, 0, 0, 0], *bad], ("elbow",))
+
+
+@pytest.mark.parametrize(
+    "call, error, message",
+    [
+        (lambda: pk.screw.prismatic([0, 0, 0]), ScrewError, r"axis: expected a direction, got the zero vector"),
+        (lambda: pk.screw.prismatic([[0, 0, 1]]), InputError, r"axis: expected one finite vector \(3,\), got \[\["),
+        (lambda: pk.screw.prismatic([0, np.inf, 0]), InputError, r"axis: expected one finite vector"),
+        (lambda: pk.screw.revolute(Z, [[0, 0, 0]]), InputError, r"expected a finite point \(3,\) and pitch, got point"),
+        (lambda: pk.screw.revolute(Z, [0, 0]), ShapeError, r"point: expected shape \(..., 3\), got \(2,\)"),
+        (lambda: pk.screw.helical(Z, P, np.nan), InputError, r"and pitch, got point .* and pitch nan"),
+        (lambda: pk.screw.helical(Z, [np.nan, 0, 0], 1.0), InputError, r"expected a finite point"),
+        (lambda: pk.screw.axis_of([0, 0, 1]), ShapeError, r"screw: expected shape \(..., 6\), got \(3,\)"),
+    ],
+    ids=["zero", "two axes", "infinite", "two points", "short point", "pitch", "point", "short screw"],
+)
+def test_what_makes_no_screw_is_said(call, error, message):
+    with pytest.raises(error, match=message):
+        call()

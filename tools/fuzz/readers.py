@@ -1,0 +1,123 @@
+"""The readers that are fuzzed: how each is called, what makes its inputs, and what is done with what it returns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import poekin as pk
+from poekin.cli import npy
+from poekin.errors import PoekinError
+from poekin.formats import urdf
+from poekin.solve import motion
+from poekin.solve.calibration import data, files
+
+from . import seeds, table_grammar, xml_grammar
+from .draw import Draw
+
+
+@dataclass(frozen=True)
+class Reader:
+    """A reader under test.
+
+    Fields: name, in the table; file, what the input is called when it is read; read(path), which returns what the file
+    holds or raises; grammar, a document out of nothing; seeds(), real documents, at least one of them readable; use,
+    what is done with what was read; share, how many inputs it has, as a part of those of the URDF reader.
+    """
+
+    name: str
+    file: str
+    read: Callable[[str], Any]
+    grammar: Callable[[Draw], str | bytes]
+    seeds: Callable[[], Sequence[bytes]]
+    use: Callable[[Any], None] = lambda read: None
+    share: float = 0.1
+
+
+def of_name(name: str) -> Reader:
+    """One of `READERS` by its name, or the one that "module:attribute" is."""
+    if ":" in name:
+        module, _, attribute = name.partition(":")
+        return getattr(import_module(module), attribute)
+    return READERS[name]
+
+
+def move(robot: pk.Robot) -> None:
+    """The poses of all links, and chains to the first leaves with their poses and Jacobians, at 0 and at ±0.5."""
+    repr(robot)
+    robot.fk(np.zeros(robot.dof))
+    for leaf in robot.leaves[:3]:
+        chain = robot.chain(tip=leaf)
+        q = np.stack([np.zeros(chain.dof), np.tile([0.5, -0.5], chain.dof)[: chain.dof]])
+        chain.fk(q)
+        chain.jacobian(q, "body")
+
+
+def _text(path: str) -> pk.Robot:
+    return urdf.read_text(Path(path).read_bytes().decode("utf-8", "surrogateescape"))
+
+
+def _poses(path: str) -> Any:
+    """In each format: the file does not say which it is."""
+    return _first(lambda said: motion.read_poses(path, said[0], quaternion=said[1]),
+                  [("12", None), ("16", None), ("7", "wxyz"), ("7", "xyzw")])  # fmt: skip
+
+
+def _measured(path: str) -> Any:
+    return _first(lambda kind: data.read(path, seeds.chain(), kind=kind, ignore="x"), [None, *data.KINDS])
+
+
+def _first(read: Callable[[Any], Any], ways: Sequence[Any]) -> Any:
+    """What is read in the first of the ways in which something is; all are tried."""
+    found, refused = [], None
+    for way in ways:
+        try:
+            found.append(read(way))
+        except PoekinError as fault:
+            refused = fault
+    if not found and refused is not None:
+        raise refused
+    return found[0]
+
+
+def _npy(path: str) -> Any:
+    return npy.configurations(Path(path).read_bytes(), 3, "input.npy")
+
+
+def _saved(d: Draw) -> str:
+    return table_grammar.jittered(d, d.pick(seeds.written()["arm"]).decode())
+
+
+READERS: dict[str, Reader] = {
+    reader.name: reader
+    for reader in (
+        Reader("URDF", "input.urdf", pk.load, xml_grammar.urdf, seeds.urdf, move, share=1.0),
+        Reader("URDF as str", "input.urdf", _text, xml_grammar.urdf, seeds.urdf, move),
+        Reader("MJCF", "input.xml", pk.load, xml_grammar.mjcf, seeds.mjcf, move),
+        Reader("xacro", "input.xacro", pk.xacro, xml_grammar.xacro, seeds.xacro, move),
+        Reader("DH TOML", "input.toml", pk.load, table_grammar.dh_toml, seeds.dh_toml, move),
+        Reader("DH CSV", "input.csv", pk.load, table_grammar.dh_csv, seeds.dh_csv, move),
+        Reader("UR YAML", "input.yaml", pk.load, table_grammar.ur_yaml, seeds.ur_yaml, move),
+        Reader("UR conf", "input.conf", pk.ur.read_deltas, table_grammar.ur_conf, seeds.ur_conf),
+        Reader("poses CSV", "input.csv", _poses, table_grammar.poses_csv, lambda: seeds.written()["poses"]),
+        Reader(
+            "joints CSV", "input.csv", lambda path: motion.read_joints(path, seeds.chain()),
+            table_grammar.joints_csv, lambda: seeds.written()["joints"],
+        ),
+        Reader("npy", "input.npy", _npy, table_grammar.npy, lambda: seeds.written()["npy"]),
+        Reader(
+            "measured CSV", "input.csv", _measured, table_grammar.measurements_csv, lambda: seeds.written()["measured"]
+        ),
+        Reader(
+            "calibration TOML", "input.toml", files.load, _saved, lambda: seeds.written()["arm"]
+        ),
+        Reader(
+            "calibrated arm", "input.toml", pk.load, _saved, lambda: seeds.written()["arm"], move
+        ),
+    )
+}  # fmt: skip

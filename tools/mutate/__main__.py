@@ -1,0 +1,119 @@
+"""The command line: run mutants, all or a seeded sample, and say what the suite caught.
+
+Outcomes are kept in build/mutants/results.jsonl; a run that is begun again goes on where it ended, and tries again
+those that survived. A mutant's key holds the text of its module: after an edit there its mutants are new.
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+import sys
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+
+from . import equivalent
+from .campaign import BrokenSuite, Campaign, Outcome, kept
+from .mutants import Mutant, mutants_of, paths
+from .report import caught_of, kind, table, told
+
+ROOT = Path(__file__).resolve().parents[2]
+BAR, MOST_EQUIVALENT = 0.97, 0.05
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Exit code 0 where the bars are held, 1 where they are not, 2 where the suite fails by itself."""
+    parser = argparse.ArgumentParser(prog="python -m tools.mutate", description=__doc__)
+    parser.add_argument("--sample", type=int, help="this many, drawn from all by the seed")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--module", action="append", help="only modules whose path holds this (may be repeated)")
+    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--afresh", action="store_true", help="forget what earlier runs found")
+    parser.add_argument("--quick", action="store_true", help="try survivors on the tests beside their module only")
+    parser.add_argument("--report", action="store_true", help="run nothing: say what is known")
+    parser.add_argument("--count", action="store_true", help="run nothing: count the mutants")
+    said = parser.parse_args(arguments)
+
+    sources = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
+    every = [mutant for path, source in sources.items() for mutant in mutants_of(path, source)]
+    listed, stale = equivalent.listed(every, equivalent.entries())
+    chosen = [m for m in every if not said.module or any(part in m.path for part in said.module)]
+    if said.sample is not None and said.sample < len(chosen):
+        drawn = set(random.Random(said.seed).sample(range(len(chosen)), said.sample))
+        chosen = [mutant for k, mutant in enumerate(chosen) if k in drawn]
+
+    file = ROOT / "build" / "mutants" / "results.jsonl"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    if said.afresh:
+        file.unlink(missing_ok=True)
+    outcomes = kept(file)
+    if not (said.report or said.count):
+        waiting = [m for m in chosen if m.key not in outcomes or outcomes[m.key]["outcome"] == "passed"]
+        try:
+            _run(waiting, sources, set(listed), file, outcomes, said)
+        except BrokenSuite as fault:
+            print(f"the tests do not hold by themselves, so they prove nothing: {fault}", file=sys.stderr)
+            return 2
+    if said.count:
+        outcomes = {}
+    return _judged(chosen, every, outcomes, listed, stale)
+
+
+def _run(
+    waiting: list[Mutant],
+    sources: dict[str, str],
+    listed: set[str],
+    file: Path,
+    outcomes: dict[str, Outcome],
+    said: argparse.Namespace,
+) -> None:
+    start = last = time.monotonic()
+    done = 0
+
+    def finished(mutant: Mutant, outcome: Outcome) -> None:
+        nonlocal done, last
+        done += 1
+        outcomes[mutant.key] = outcome
+        if outcome["outcome"] == "passed" and mutant.key not in listed:
+            print(f"survived: {told(mutant)}", flush=True)
+        if time.monotonic() - last > 60:
+            last = time.monotonic()
+            print(f"{done} of {len(waiting)} in {last - start:.0f} s", flush=True)
+
+    with tempfile.TemporaryDirectory(prefix="mutants-") as place:
+        campaign = Campaign(ROOT, Path(place), sources, listed, file, said.quick)
+        campaign.run(waiting, max(1, min(said.workers, len(waiting))) if waiting else 0, finished)
+    print(f"{done} mutants in {time.monotonic() - start:.0f} s, {said.workers} at a time")
+
+
+def _judged(
+    chosen: list[Mutant],
+    every: list[Mutant],
+    outcomes: dict[str, Outcome],
+    listed: dict[str, str],
+    stale: list[equivalent.Entry],
+) -> int:
+    kinds = {m.key: kind(m, outcomes, listed) for m in chosen}
+    for mutant in chosen:
+        if kinds[mutant.key] == "survived":
+            print(told(mutant))
+        if kinds[mutant.key] == "wrong":
+            print(f"listed as equivalent, but {outcomes[mutant.key]['by']} catches it: {told(mutant)}")
+    for entry in stale:
+        print(f"listed as equivalent, but no mutant: {entry.path}: {entry.definition}: {entry.old} -> {entry.new}")
+    print(table(chosen, outcomes, listed))
+    count = Counter(kinds.values())
+    rest = count.total() - count["not run"] - count["equivalent"]
+    share = caught_of(count) / rest if rest else 1.0
+    print(
+        f"caught {100 * share:.2f} % of all that are not listed as equivalent (at least {100 * BAR:g} %); listed"
+        f" {len(listed)} of {len(every)}, {100 * len(listed) / len(every):.2f} % (at most {100 * MOST_EQUIVALENT:g} %)"
+    )
+    sound = share >= BAR and len(listed) <= MOST_EQUIVALENT * len(every) and not stale and not count["wrong"]
+    return 0 if sound else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,141 @@
+"""What can be changed in a module, one mutant a place: the operators are cosmic-ray's, and so is its reading of source.
+
+cosmic-ray writes a mutant by walking the whole tree once more; here the changed node's text is put into the source,
+which gives the same text (a test compares them) and takes milliseconds for all mutants of a module.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import cosmic_ray.plugins
+from cosmic_ray.ast import ast_nodes, get_ast
+from cosmic_ray.ast.ast_query import ASTQuery
+
+FILES = ("poekin/algebra.py", "poekin/model/screw.py")
+FOLDERS = ("poekin/formulas", "poekin/groups", "poekin/formats/dh")
+
+_ARITHMETIC = {"arith_expr", "term", "power", "shift_expr", "expr", "and_expr", "xor_expr"}
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change: where it is, what made it, the first line that differs, and the span of the source it replaces."""
+
+    path: str
+    operator: str
+    occurrence: int
+    line: int
+    definition: str
+    old: str
+    new: str
+    key: str
+    start: int
+    end: int
+    text: str
+
+    def applied(self, source: str) -> str:
+        """The source of the whole module with this change in it."""
+        return source[: self.start] + self.text + source[self.end :]
+
+
+def paths(root: Path) -> list[str]:
+    """The modules under test, relative to the root of the repository."""
+    found = [file for folder in FOLDERS for file in (root / folder).glob("*.py")]
+    return sorted([*FILES, *(file.relative_to(root).as_posix() for file in found)])
+
+
+def mutants_of(path: str, source: str) -> list[Mutant]:
+    """Every mutant of a module, by place; two changes that give the same text count once."""
+    tree, lines, silent = get_ast(source), source.split("\n"), hints(source)
+    begins = [0, *itertools.accumulate(len(line) + 1 for line in lines)]
+    found: dict[str, tuple[tuple[int, int], Mutant]] = {}
+    for name, operator in operators():
+        positions = ((node, start) for node in ast_nodes(tree) for start, _ in operator.mutation_positions(node))
+        indices: dict[int, int] = {}  # how many changes of this node were made already
+        for occurrence, (node, start) in enumerate(positions):
+            index = indices.get(id(node), 0)
+            indices[id(node)] = index + 1
+            if any(first <= start < last for first, last in silent) or _no_operation(name, node):
+                continue
+            row, column = node.get_start_pos_of_prefix()
+            begin = begins[row - 1] + column
+            end, text = begin + len(node.get_code()), changed(operator, node, index)
+            whole = source[:begin] + text + source[end:]
+            key = hashlib.sha256(f"{path}\0{whole}".encode()).hexdigest()[:16]
+            after = whole.split("\n")
+            at = _differs(lines, after, start[0] - 1)
+            if at is None:
+                continue
+            definition = ASTQuery(node).get_definition_name() or ""
+            old, new = lines[at].strip(), after[at].strip()
+            mutant = Mutant(path, name, occurrence, at + 1, definition, old, new, key, begin, end, text)
+            found.setdefault(key, (start, mutant))
+    return [mutant for _, mutant in sorted(found.values(), key=lambda pair: (pair[0], pair[1].operator, pair[1].key))]
+
+
+def _differs(lines: list[str], after: list[str], place: int) -> int | None:
+    """The line of the place where something was changed, or the first one that differs; None where none does."""
+    pairs = list(zip(lines, after, strict=False))
+    if place < len(pairs) and pairs[place][0] != pairs[place][1]:
+        return place
+    return next((k for k, (old, new) in enumerate(pairs) if old != new), None)
+
+
+@cache
+def operators() -> tuple[tuple[str, Any], ...]:
+    """cosmic-ray's operators by name, but for those that want to be told which variables to exchange."""
+    names = sorted(cosmic_ray.plugins.operator_names())
+    classes = [(name, cosmic_ray.plugins.get_operator(name)) for name in names]
+    return tuple((name, operator()) for name, operator in classes if not operator.arguments())
+
+
+def changed(operator: Any, node: Any, index: int) -> str:
+    """The text of a node after an operator's change number `index`; the node is left as it was."""
+    parts = [node, *getattr(node, "children", ())]
+    saved = [(part, part.value) for part in parts if hasattr(part, "value")]
+    children = list(node.children) if hasattr(node, "children") else None
+    result = operator.mutate(node, index)
+    text = "" if result is None else result.get_code()
+    for part, value in saved:
+        part.value = value
+    if children is not None:
+        node.children = children
+    return text
+
+
+def hints(source: str) -> list[tuple[tuple[int, int], tuple[int, int]]]:
+    """Where the annotations of a module stand: with `from __future__ import annotations` nothing there ever runs."""
+    tree = ast.parse(source)
+    if not any(isinstance(node, ast.ImportFrom) and node.module == "__future__" for node in tree.body):
+        return []
+    return [
+        ((node.lineno, column(source, node)), (node.end_lineno or 0, column(source, node, end=True)))
+        for node in _hint_nodes(tree)
+    ]
+
+
+def _hint_nodes(tree: ast.AST) -> Iterator[ast.expr]:
+    for node in ast.walk(tree):
+        hint = node.returns if isinstance(node, ast.FunctionDef) else getattr(node, "annotation", None)
+        if hint is not None:
+            yield hint
+
+
+def column(source: str, node: ast.expr, end: bool = False) -> int:
+    """The column of a node's begin or end in characters; Python's own counts bytes."""
+    line, offset = (node.end_lineno, node.end_col_offset) if end else (node.lineno, node.col_offset)
+    text = source.split("\n")[(line or 1) - 1]
+    return len(text.encode()[:offset].decode())
+
+
+def _no_operation(name: str, node: Any) -> bool:
+    """Whether a `*`, `**` or `/` is no operation of two numbers: that of a signature or of a display."""
+    return "BinaryOperator" in name and node.parent.type not in _ARITHMETIC

@@ -1,0 +1,128 @@
+"""The process that runs mutants: it has the libraries loaded, and forks a child for each run of pytest.
+
+It works in its own copy of the tree (the current directory), where it writes a mutant and takes it back. One job a line
+comes in as JSON, one answer goes out.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import importlib
+import json
+import os
+import resource
+import select
+import signal
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+LIBRARIES = (
+    "csv", "lxml.etree", "numpy", "numpy.testing", "llvmlite.binding", "numba", "numba.extending",
+    "numba.core.serialize", "mpmath", "hypothesis", "hypothesis.strategies", "hypothesis.extra.numpy", "pytest",
+    "_pytest.assertion.rewrite", "scipy.linalg", "scipy.optimize", "scipy.spatial.transform", "pinocchio", "yaml",
+    "tomli_w", "typer", "rich", "spatialmath", "example_robot_data",
+)  # fmt: skip
+# what they do at the end of a run takes longer than most runs
+_NOT_NEEDED = ("cacheprovider", "faulthandler", "unraisableexception", "threadexception")
+SETTINGS = {
+    "NUMBA_DISABLE_JIT": "1",
+    "POEKIN_CACHE_DIR": "",
+    "CI": "1",
+    "PYTHONHASHSEED": "0",
+    "OPENBLAS_NUM_THREADS": "1",
+    "OMP_NUM_THREADS": "1",
+    "JUPYTER_PLATFORM_DIRS": "1",
+    "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
+}
+PLUGINS = ("_hypothesis_pytestplugin", "pytest_timeout", *(f"no:{name}" for name in _NOT_NEEDED))
+EPOCH = 1_000_000_000  # when the files of a copy were written: no bytecode of theirs can pass for that of a mutant
+_MEMORY = 4 * 2**30
+_WALL = 1800.0  # s, of one run of pytest: only a child that sleeps gets there
+
+
+def main() -> None:
+    """Answer jobs until the input ends."""
+    for name in LIBRARIES:
+        with contextlib.suppress(ImportError):  # what the tests do without, or skip
+            importlib.import_module(name)
+    gc.freeze()
+    for line in sys.stdin:
+        job = json.loads(line)
+        print(json.dumps(answered(Path.cwd(), job["path"], job["source"], job["sessions"])), flush=True)
+
+
+def answered(tree: Path, path: str, source: str | None, sessions: list[list[str]]) -> dict[str, Any]:
+    """The outcome of the sessions, run in order up to the first that fails, with the mutant in place of its module."""
+    file = tree / path if source is not None else None
+    original = file.read_bytes() if file else b""
+    start = time.monotonic()
+    try:
+        if file and source is not None:
+            file.write_text(source, encoding="utf-8")
+        answer = {"outcome": "passed", "by": ""}
+        for arguments in sessions:
+            found = _session(tree, arguments, source is not None)
+            if found["outcome"] != "passed":
+                answer = found
+                break
+    finally:
+        if file:
+            file.write_bytes(original)
+            os.utime(file, (EPOCH, EPOCH))
+    return {**answer, "seconds": round(time.monotonic() - start, 2)}
+
+
+def _session(tree: Path, arguments: list[str], mutated: bool) -> dict[str, str]:
+    """One run of pytest in a child: what came of it, and by which test."""
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(reading)
+        _judge(tree, arguments, mutated, writing)
+    os.close(writing)
+    in_time = bool(select.select([reading], [], [], _WALL)[0])
+    message = os.read(reading, 1 << 16) if in_time else b""  # whole: it is shorter than what a pipe takes at once
+    os.close(reading)
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(child, signal.SIGKILL)  # and whatever its tests have started
+    status = os.waitpid(child, 0)[1]
+    if message:
+        return json.loads(message)
+    signalled = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
+    if not in_time or signalled == signal.SIGXCPU:
+        return {"outcome": "timeout", "by": "the whole run"}
+    return {"outcome": "caught", "by": f"the interpreter ended (status {status})"}
+
+
+def _judge(tree: Path, arguments: list[str], mutated: bool, writing: int) -> None:
+    """In the child: run pytest, send what came of it, and end."""
+    os.setsid()
+    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+    said = os.open(tree / "last_run.txt", os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+    os.dup2(said, 1)
+    os.dup2(said, 2)
+    sys.dont_write_bytecode = mutated
+    sys.path.insert(0, str(tree))
+
+    def send(outcome: str, by: str) -> None:
+        os.write(writing, json.dumps({"outcome": outcome, "by": by}).encode())
+        os._exit(0)
+
+    import pytest
+
+    from .plugin import Judge
+
+    options = ["-q", "-W", "ignore::pytest.PytestAssertRewriteWarning"]
+    options += [word for plugin in PLUGINS for word in ("-p", plugin)]
+    code = int(pytest.main([*options, *arguments], plugins=[Judge(send)]))
+    if code in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
+        send("passed", "")
+    send("caught", f"pytest itself (exit code {code})")
+
+
+if __name__ == "__main__":
+    main()
