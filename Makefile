@@ -68,7 +68,7 @@ $(VENV)/dev: pyproject.toml constraints.txt
 	@if [ -n "$(SETUP_OF)" -a "$(SETUP_OF)" != "$(CURDIR)" ] || ! $(PY) -c $(USABLE) 2>/dev/null; then \
 	  echo "Setting up: a new environment in $(VENV), $$($(PYTHON) --version)"; $(PYTHON) -m venv --clear $(VENV); fi
 	@echo "Setting up: the packages of constraints.txt into $(VENV) (the first time takes minutes)"
-	@$(PIP) hatchling
+	@$(PIP) hatchling setuptools wheel
 	@$(PIP) --no-build-isolation -e '.[dev]'
 	@pwd > $@
 
