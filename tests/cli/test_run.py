@@ -153,13 +153,18 @@ def test_a_full_disk_is_one_message(crane):
     assert done.stderr == "poekin: error: [Errno 28] No space left on device\n"
 
 
+def _heed_interrupts() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.skipif(os.name != "posix", reason="pipes with a name, and signals, as POSIX has them")
 def test_ctrl_c_in_a_process_of_its_own(tmp_path, crane):
     os.mkfifo(tmp_path / "q.csv")
     words = _command("fk", crane, "--tip", "hook", "--input", str(tmp_path / "q.csv"))
     # The pipe opens here when the command opens it there, which then waits for a line.
     with (
-        subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process,
+        # a test run in the background hands on that SIGINT is ignored
+        subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=_heed_interrupts) as process,
         open(tmp_path / "q.csv", "w"),
     ):
         # Python itself may lose a signal while it opens a file: by now it waits for the line.
