@@ -131,12 +131,23 @@ def test_the_error_is_measured_at_as_many_places_as_are_asked_for():
     assert dh.from_chain(wrong).error != dh.from_chain(wrong, seed=1).error
 
 
-def test_the_error_s_lengths_are_multiples_of_the_reach():
+@pytest.mark.parametrize("about", range(3))
+def test_the_error_s_lengths_are_multiples_of_the_reach(about):
     tilt = 0.5 * math.sqrt(0.2 * UNIT / 50)
-    chain = two(tilt, far=50.0)  # the tool is 50 m up: a tilt of it is a length of 50 tilt, and 50 m are the reach
+    # the tool is 50 m away: a tilt of it is a length of 50 tilt, and 50 m are the reach
+    chain = two(tilt, far=50.0).rebased(turn(about, math.pi / 2))
     assert chain.reach >= 50
     result = dh.from_chain(chain)
     assert 0 < result.error <= 2.1 * tilt
+
+
+@pytest.mark.parametrize("times, parallel", [(1.01, 0), (0.99, 1)])
+def test_how_long_an_arm_is_counts_in_what_its_axes_angle_is_worth(times, parallel):
+    """2 angle reach <= u 0.4 / angle: the same test of an arm of 50 m."""
+    reach = two(1e-10, far=50.0).reach
+    result = dh.from_chain(two(times * math.sqrt(0.2 * UNIT / reach), far=50.0))
+    assert len(result.warnings) == 1
+    assert ("taken as parallel" in result.warnings[0]) == parallel
 
 
 def test_limits_go_with_the_joints_and_are_free_where_two_coordinates_share_one():
@@ -250,6 +261,30 @@ def test_a_turn_of_alpha_is_taken_and_more_of_it_warned_about(recwarn):
         Table("standard", [Row(), Row(alpha=-6.3), Row(alpha=90)])
 
 
+def test_the_warning_of_degrees_points_to_the_line_that_made_the_table():
+    with pytest.warns(pk.PoekinWarning, match=r"degrees\?") as warned:
+        Table("standard", [Row(alpha=90)])
+    assert warned[0].filename == __file__
+
+
+def test_of_columns_that_are_unknown_or_missing_the_first_is_named():
+    with pytest.raises(InputError, match=r"^row 0: no column 'x'; there are theta, d, a, alpha, "):
+        Table("standard", [{"x": 1, "y": 2}])  # pyright: ignore[reportArgumentType]
+    with pytest.raises(InputError, match=r"^row 0: column d is missing; needed are theta, d, a, alpha$"):
+        Table("standard", [{"theta": 1}])  # pyright: ignore[reportArgumentType]
+
+
+def test_a_kind_is_what_it_says_whoever_made_the_word():
+    made = "".join(["revo", "lute"])
+    assert repr(Table("standard", [Row(kind=made)])) == repr(Table("standard", [Row()]))
+
+
+@pytest.mark.parametrize("ending", [".toml", ".csv"])
+def test_a_base_moved_back_is_written_too(ending):
+    table = Table("standard", [Row()], base=shift(-0.5, -0.2), tool=shift(-0.1, 0.0), name="t")
+    assert files.read_text(files.text_of(table, ending), f"t{ending}") == table
+
+
 def test_the_words_of_a_file_follow_the_format():
     table = Table("modified", ROWS[:2], base=shift(0.5, 0.0), name="t")
     assert files.text_of(table, ".csv") == (
@@ -345,6 +380,14 @@ def test_a_far_base_makes_no_pitch_of_its_rounding(convention):
     assert chain.kinds == table.kinds
     turns = np.array(chain.kinds) == "revolute"
     assert np.abs((chain.screws[turns, :3] * chain.screws[turns, 3:]).sum(1)).max() < 1e-9
+
+
+def test_an_arm_of_a_micrometre_has_the_screws_of_a_large_one():
+    """Nothing of the size of a metre is added and taken away."""
+    rows = [Row(0.3, d, a, 1.0) for d, a in ((0.5, 0.25), (0.75, 0.5), (0.0, 1.0))]
+    small = [Row(row.theta, row.d * 2.0**-20, row.a * 2.0**-20, row.alpha, flip=True) for row in rows]
+    large, tiny = (dh.to_chain(Table("standard", table)).screws for table in (rows, small))
+    np.testing.assert_allclose(-tiny[:, 3:] * 2.0**20, large[:, 3:], rtol=0, atol=1e-14)
 
 
 def test_the_first_frame_stands_where_its_axis_is_nearest_to_the_base():
