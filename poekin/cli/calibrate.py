@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
@@ -113,9 +114,10 @@ def command(
 _ENDINGS = (".toml", ".urdf", ".csv")
 _OPTIONS = {
     "deficient='hold'": "--hold", "covariance=": "--sigma-angle and --sigma-length", "folds=0": "--folds 0",
-    "parameters=": "--parameters", "joints=": "--joints", "ignore=": "--ignore ",
+    "parameters=": "--parameters", "joints=": "--joints",
     "prior['rad']": "--prior-angle", "prior['m']": "--prior-length",
 }  # fmt: skip
+_IGNORED = re.compile(r"ignore=\[('([\w.:/+-]+)'|'.*')\] passes it over")
 _NAMES = {"points": "--point"} | {w: f"--{w}" for w in ("kind", "parameters", "joints", "loss", "folds", "seed")}
 
 
@@ -123,6 +125,9 @@ def _as_options(message: str) -> str:
     """What the library says of its parameters, said of the options."""
     for word, option in _OPTIONS.items():
         message = message.replace(word, option)
+    if column := _IGNORED.search(message):
+        # a plain name as it is to be typed; any other in quotes, which a shell takes off
+        message = message.replace(column[0], f"--ignore {column[2] or column[1]} passes it over")
     what, colon, rest = message.partition(":")
     return _NAMES.get(what, what) + colon + rest
 
@@ -190,7 +195,8 @@ def _document(found: Calibration, robot: Robot, given: Measured, written: list[s
         ],
         "frames": dict(found.frames),
         "spreads": [None if s is None else s._asdict() for s in found.spreads],
-        "outliers": [o._asdict() | {"source": given.sources[o.row]} for o in found.outliers], "written": written,
+        "outliers": [o._asdict() | {"source": given.sources[o.row]} for o in found.outliers],
+        "warnings": list(found.warnings), "remarks": list(found.remarks), "written": written,
     }  # fmt: skip
 
 
@@ -201,6 +207,8 @@ def _show(found: Calibration, robot: Robot, given: Measured) -> None:
         f" {can.rank} of {can.expected} parameters seen, condition {number(can.condition, 3)}"
     )
     say(f"{changes.sentence(found)}\n")
+    for words in found.remarks:
+        say(f"{words}\n")
     heads = ("", "position rms (mm)", "median", "rotation rms (mrad)", "median")
     lines = [
         (words, *(milli(x) for x in (r.rms_length, r.median_length, r.rms_angle, r.median_angle)))

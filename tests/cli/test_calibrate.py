@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+import shlex
 
 import numpy as np
 import pytest
@@ -93,6 +94,30 @@ def test_cameras_and_boards_are_solved_along(kind, as_json, tmp_path):
     for name, T in s.frames.items():
         # a frame is only known up to what the arm's held directions leave: 2 mm and 2 mrad of them, seven joints
         np.testing.assert_allclose(result["frames"][name], T, atol=0.03)
+
+
+def test_camera_poses_of_a_forgotten_kind_are_warned_of(poekin, tmp_path):
+    s = simulated(PANDA, 40, kind="eye-in-hand", seed=3)
+    data.write(tmp_path / "m.csv", PANDA, s.q, s.measurements)
+    given = [*ARM, tmp_path / "m.csv", "--folds", 0, "-o", tmp_path / "arm.toml"]
+    code, out, err = poekin(*given, "--json")
+    assert code == 0
+    said = json.loads(out)
+    (words,) = said["warnings"]
+    assert err == f"poekin: warning: {words}\n"
+    assert "base moved by 0.92" in words
+    assert "kind eye-in-hand or eye-to-hand" in words
+    assert said["remarks"] == []
+    assert files.load(tmp_path / "arm.toml").warnings == (words,)
+
+
+def test_a_base_that_is_elsewhere_is_told_and_not_warned_of(poekin, measured, tmp_path):
+    T = pk.se3.exp([0.3, -0.5, 0.2, 2.0, 1.4, -0.3]) @ measured.truth.fk(measured.q)
+    data.write(tmp_path / "m.csv", PANDA, measured.q, pk.calibration.Poses(T))
+    code, out, err = poekin(*ARM, tmp_path / "m.csv", "--folds", 0)
+    assert (code, err) == (0, "")
+    assert "\nthe nominal arm is off by " in out
+    assert ": base moved by " in out
 
 
 def test_several_files_make_one_calibration(as_json, tmp_path):
@@ -190,9 +215,19 @@ def test_what_python_calls_its_parameters_is_told_as_options(refused, measured, 
     assert "folds: 9 parts of 5 readings; --folds 0 keeps none aside" in refused(
         *ARM, few, "--hold", "--folds", 9, "--sigma-angle", 1e-3, "--sigma-length", 1e-3
     )
-    text = few.read_text().replace("\n", ",time\n", 1)
-    few.write_text(text)
-    assert "--ignore ['time'] passes it over" in refused(*ARM, few)
+
+
+@pytest.mark.parametrize(
+    ("column", "typed"),
+    [("q8", "q8"), ("t.0:a/b+c-d_e", "t.0:a/b+c-d_e"), ("room air", "'room air'"), ("$(ls)", "'$(ls)'")],
+    ids=["plain", "signs", "blank", "shell"],
+)
+def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(column, typed, poekin, refused, csv):
+    head, _, rows = csv.read_text().partition("\n")
+    csv.write_text(f"{head},{column}\n" + "".join(f"{row},x\n" for row in rows.splitlines()))
+    assert f"; --ignore {typed} passes it over\n" in refused(*ARM, csv)
+    quick = ["--folds", 0, "--parameters", "home"]
+    assert poekin(*ARM, csv, *quick, "--ignore", shlex.split(typed)[0])[0] == 0
 
 
 @pytest.mark.parametrize(

@@ -10,16 +10,18 @@ import numpy as np
 from ...errors import InputError, told
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...model.source import warn
+from . import explanation, misfit, noise, units
 from . import folds as aside
-from . import misfit, noise, units
 from .calibration import Calibration, Outlier
-from .fitting import fitted, frames_only, outliers
+from .fitting import frames_only, outliers
 from .identification import checked, judged
 from .losses import LOSSES
 from .minimise import STEPS
 from .parameters import Arm
 from .problem import Problem, readings, sets_of
 from .residuals import Residuals, residuals
+from .second_look import settled
 
 _UNITS = ("rad", "m", "1", "m/rad")
 _DEFICIENT = ("refuse", "hold")
@@ -62,12 +64,14 @@ def calibrate(
     max_iterations: of each fit, all rounds in which spreads are estimated together.
 
     Returns: Calibration; `success` is False where the search did not converge: then it holds the best that was found.
+    A PoekinWarning, and `warnings`, say where only another tool or another arm explains the measurements, such as poses
+    between a camera and a board given as `Poses`.
     Raises: ShapeError, InputError, UnknownName: data that do not fit the arm, are not finite or not in SI units, or are
     explained by no arm near the nominal one; too few measurements, or so few without covariances that nothing says how
     far they scatter; parameters that are not seen.
     Accuracy: with exact data the pose of the calibrated arm is right to 1e-12 m; axes stay unit and pitches what they
-    are to 1e-15 (tests/solve/calibration). What can be seen is judged at the nominal arm: where that is special, as a
-    measured point on its last axis, what the true arm shows in second order only is held.
+    are to 1e-15 (tests/solve/calibration). Where the nominal arm is special, as with a measured
+    point on its last axis, what the true arm shows in second order only is found too, as far as it is more than noise.
     Source: Park 1994, Section V, the POE as the smooth parametrisation for calibration; Okamura and Park 1996 for
     moving screws by conjugation; 4 r + 2 p + 6 parameters: Everett and Hsu 1988.
     """
@@ -92,7 +96,9 @@ def calibrate(
     start, _ = frames_only(problem, loss)
     units.check(problem, start)
     before = _residuals(problem, start)
-    fit = fitted(problem, free, loss, start, spread, max_iterations)
+    fit = settled(problem, free, loss, start, spread, max_iterations)
+    if fit.free is not free:
+        identification, _ = judged(problem, p=fit.p)
     misfit.check(problem, fit)
     training = problem.numbers * (folds - 1) // max(folds, 1)
     kept = None
@@ -103,6 +109,10 @@ def calibrate(
         for k, found in enumerate(outliers(problem, fit.noise, fit.p))
         for i in found
     ]  # fmt: skip
+    after = _residuals(problem, fit.p)
+    said = explanation.told(problem, before, after)
+    for words in said.warnings:
+        warn(words)
     return Calibration(
         nominal=arm,
         chain=problem.arm.chain(fit.p[: problem.arm_size]),
@@ -114,12 +124,14 @@ def calibrate(
         success=fit.converged,
         steps=tuple(fit.steps),
         before=before,
-        after=_residuals(problem, fit.p),
+        after=after,
         held_out=kept,
         outliers=tuple(off),
         spreads=fit.noise.spreads,
         loss=loss,
         arm=problem.arm,
+        warnings=said.warnings,
+        remarks=said.remarks,
     )
 
 

@@ -50,7 +50,8 @@ class Calibration:
     (3,) by name, m. identification: what the measurements can tell. success: whether the search converged; steps: its
     history. before, after: residuals on all measurements, with unknown frames fitted only and calibrated; held_out: on
     data kept aside, None where none was. outliers. spreads: the standard deviations estimated for each set without
-    covariances, None for the others. loss: its name.
+    covariances, None for the others. loss: its name. warnings: the tool, or the arm itself, is another one than the
+    nominal, which was off by more than a tenth of its reach; remarks: it is off by as much, as its base is elsewhere.
     """
 
     nominal: Chain
@@ -69,6 +70,8 @@ class Calibration:
     spreads: tuple[Spread | None, ...]
     loss: str
     arm: Arm = field(repr=False)
+    warnings: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
 
     @property
     def deviations(self) -> Array:
@@ -141,6 +144,7 @@ class Calibration:
             rows = ", ".join(str(o.row) for o in self.outliers[:MOST_OUTLIERS])
             more = len(self.outliers) - MOST_OUTLIERS
             lines.append(f"outliers: rows {rows}" + (f" and {more} more" if more > 0 else ""))
+        lines += [*(f"warning: {words}" for words in self.warnings), *self.remarks]
         return "\n".join(harmless(line, keep="\n") for line in lines)
 
 

@@ -24,9 +24,10 @@ from .noise import Spread
 from .parameters import Arm, Parameter
 from .residuals import Residuals
 
+_SAID = ("warnings", "remarks")  # where there are any
 _TOP = (
     "format", "version", "success", "loss", "kinds", "joints", "outliers", "covariance", "nominal", CALIBRATED,
-    "identification", "frames", "steps", "before", "after", "held_out", "parameter", "spread",
+    "identification", "frames", "steps", "before", "after", "held_out", "parameter", "spread", *_SAID,
 )  # fmt: skip
 _COUNTS = ("size", "expected", "rank", "numbers")
 _FIGURES = ("condition", "smallest", "O1", "amplification")
@@ -51,6 +52,7 @@ def save(found: Calibration, path: str | os.PathLike[str]) -> None:
     if found.held_out is not None:
         parts = {name: _residuals(getattr(found.held_out, name)) for name in ("before", "after")}
         data["held_out"] = {"folds": int(found.held_out.folds)} | parts
+    data |= {name: list(getattr(found, name)) for name in _SAID if getattr(found, name)}
     data["parameter"] = [
         {"owner": p.owner, "what": p.what, "unit": p.unit, "value": value, "deviation": deviation}
         for p, value, deviation in zip(
@@ -85,7 +87,7 @@ def load(path: str | os.PathLike[str]) -> Calibration:
         before=_residual(keys, "before"), after=_residual(keys, "after"), held_out=_held_out(keys),
         outliers=tuple(Outlier(*map(int, o)) for o in keys.wholes("outliers", (None, 3))),
         spreads=tuple(map(_spread, keys.tables("spread", ("length", "angle")))), loss=keys.text("loss", LOSSES),
-        arm=arm,
+        arm=arm, **{name: keys.texts(name) for name in _SAID if name in keys.data},
     )  # fmt: skip
     _check_sets(keys, found)
     return found
@@ -107,8 +109,10 @@ def _check_sets(keys: Keys, found: Calibration) -> None:
 def _arm(keys: Keys, nominal: Chain) -> Arm:
     try:
         return Arm(nominal, keys.texts("kinds"), keys.texts("joints"))
+    except ModelError:
+        raise
     except PoekinError as fault:
-        raise fault if isinstance(fault, ModelError) else ModelError(f"{keys.place}: {fault}") from fault
+        raise ModelError(f"{keys.place}: {fault}") from fault
 
 
 def _place(frames: Keys, name: str) -> Array:

@@ -111,8 +111,8 @@ def centre(p: ArrayLike, d: ArrayLike) -> Array:
     if _within(_spread(p[kept] - p[kept].mean(axis=0)), 2, float(np.median(off))):
         raise InputError(
             "a first guess of the centre of distances needs points that are not in one plane, these are "
-            f"({_reach(p[kept], 2)}): the centre and its mirror image fit alike; give the centre, or measure out of "
-            "the plane"
+            f"({_reach(p[kept], 2)}): the centre and its mirror image fit alike; give the centre, or a rough "
+            "one (guess=), or measure out of the plane"
         )
     return c
 

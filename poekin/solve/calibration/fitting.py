@@ -20,13 +20,16 @@ _SAME = 1e-2  # spreads that change by less are settled: they are known to some 
 
 
 class Fit(NamedTuple):
-    """Parameters p with covariance (P, P), in the parameters' units; whether it converged; the steps; the noise."""
+    """Parameters p with covariance (P, P), in the parameters' units; whether it converged; the steps; the noise; the
+    directions (P, k) that were free, in rad and reaches.
+    """
 
     p: Array
     covariance: Array
     converged: bool
     steps: list[Step]
     noise: Noise
+    free: Array
 
 
 def frames_only(problem: Problem, name: str, most: int = STEPS) -> tuple[Array, bool]:
@@ -61,7 +64,7 @@ def fitted(problem: Problem, free: Array, name: str, p: Array, prior: Array | No
         if len(steps) >= most:
             outcome = outcome._replace(converged=False)
             break
-    return Fit(p, _covariance(problem, free, outcome, noise, name, prior), outcome.converged, steps, noise)
+    return Fit(p, _covariance(problem, free, outcome, noise, name, prior), outcome.converged, steps, noise, free)
 
 
 def _change(a: Noise, b: Noise) -> float:

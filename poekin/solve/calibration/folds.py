@@ -9,10 +9,11 @@ import numpy as np
 
 from ...errors import InputError, told
 from ...groups.arrays import Array
-from .fitting import fitted, frames_only
+from .fitting import frames_only
 from .measurement import Indices
 from .problem import Problem
 from .residuals import Residuals, joined, residuals
+from .second_look import settled
 
 Progress = Callable[[int, int], None]
 
@@ -40,7 +41,7 @@ def held_out(
         test = problem.part(chosen)
         p, _ = frames_only(training, name)
         before.append(_judged(test, p, chosen))
-        after.append(_judged(test, fitted(training, free, name, p, prior, most).p, chosen))
+        after.append(_judged(test, settled(training, free, name, p, prior, most).p, chosen))
     if progress is not None:
         progress(folds, folds)
     return HeldOut(joined(before), joined(after), folds)

@@ -19,6 +19,9 @@ from .tall import triangle
 
 RANK = 1e-9
 """Singular values below this part of the largest are those of directions that cannot be seen: rounding is 1e-14."""
+THERE = 1e-5
+"""The same where a fit ended: errors of some mm and mrad in a direction that is seen less do not come to a micrometre,
+and rounding of the normal equations is 1e-8."""
 _LIGHT = 1e-6  # weight of unknown frames where a direction is shared: they give way, and the arm stays nominal
 
 
@@ -26,12 +29,12 @@ _LIGHT = 1e-6  # weight of unknown frames where a direction is shared: they give
 class Identification:
     """What the measurements at hand can tell, before anything is solved.
 
-    All of it is about the identification matrix at the nominal arm: d errors / d parameters, angles in rad, lengths in
-    reaches, row and column. size: parameters; expected: how many combinations of them any measurements of this kind can
-    see; rank: how many these can; numbers: how many numbers were measured. held: what no measurement of this kind can
-    see, held where it is nominal; unseen: what others of this kind would see. singular_values (P,);
-    condition, smallest (singular value),
-    O1 and amplification: observability on the space that is seen, see `indices`.
+    All of it is about the identification matrix at the nominal arm (at the calibrated one, where that shows more):
+    d errors / d parameters, angles in rad, lengths in reaches, row and column. size: parameters; expected: how many
+    combinations of them any measurements of this kind can see; rank: how many these can; numbers: how many numbers were
+    measured. held: what no measurement of this kind can see, held where it is nominal; unseen: what others of this kind
+    would see. singular_values (rank,); condition, smallest (singular value), O1 and amplification: observability on the
+    space that is seen, see `indices`.
     """
 
     size: int
@@ -71,29 +74,44 @@ def identify(
     return judged(problem)[0]
 
 
-def normalised(problem: Problem, q: Array | None = None) -> Array:
-    """The identification matrix (M, P) at the nominal arm: angles in rad, lengths in reaches, row and column."""
+def normalised(problem: Problem, q: Array | None = None, p: Array | None = None) -> Array:
+    """The identification matrix (M, P) at the nominal arm, or p: angles in rad, lengths in reaches, row and column."""
     reach = problem.arm.nominal.reach
     rows = []
-    for s, slopes in zip(problem.sets, problem.slopes(np.zeros(problem.size), q), strict=True):
+    for s, slopes in zip(problem.sets, problem.slopes(np.zeros(problem.size) if p is None else p, q), strict=True):
         unit = np.array([1.0] * s.angular + [reach] * (s.width - s.angular))
         rows.append((slopes * problem.scale / unit[:, None]).reshape(-1, problem.size))
     return np.concatenate(rows) if rows else np.empty((0, problem.size))
 
 
-def judged(problem: Problem, known: NDArray[np.bool_] | None = None) -> tuple[Identification, Array]:
+def seen_at(problem: Problem, p: Array) -> int:
+    """How many directions these measurements see at p, by the eigenvalues of the normal equations, which are quick."""
+    J = normalised(problem, p=p)
+    eigenvalues = np.linalg.eigvalsh(J.T @ J)
+    return int(np.sum(eigenvalues > THERE**2 * eigenvalues[-1]))
+
+
+def movable_at(problem: Problem, p: Array, known: NDArray[np.bool_] | None = None) -> Array:
+    """What these measurements can move at p, where a fit ended: a basis (P, k) as of `judged`."""
+    _, seen = _space(np.concatenate([normalised(problem, p=p), _told(problem, known)]), THERE)
+    return _free(problem, _rest(seen))
+
+
+def judged(
+    problem: Problem, known: NDArray[np.bool_] | None = None, p: Array | None = None
+) -> tuple[Identification, Array]:
     """The identification, and a basis (P, k) in rad and reaches of what these measurements can move: the rest is held.
 
     Of a direction in which an unknown frame and the arm move together, the frame's part is free and the arm's is held.
-    known (P,): parameters that a prior tells something of, as a measurement of each would.
+    known (P,): parameters that a prior tells something of, as a measurement of each would. p: where a fit ended.
     """
-    told = np.eye(problem.size)[np.zeros(problem.size, bool) if known is None else known]
-    s, seen = _space(np.concatenate([normalised(problem), told]))
+    least, told = RANK if p is None else THERE, _told(problem, known)
+    s, seen = _space(np.concatenate([normalised(problem, p=p), told]), least)
     rank, any_seen = seen.shape[1], seen
     if rank < problem.size:
-        least = max(1, -(-3 * problem.size // max(sum(m.width for m in problem.sets), 1)))
-        anywhere = normalised(problem, _anywhere(problem.arm.nominal, least))
-        _, any_seen = _space(np.concatenate([anywhere, told]))
+        count = max(1, -(-3 * problem.size // max(sum(m.width for m in problem.sets), 1)))
+        anywhere = normalised(problem, _anywhere(problem.arm.nominal, count), p)
+        _, any_seen = _space(np.concatenate([anywhere, told]), least)
     seen_by = indices.of_singular_values(s[:rank], max(sum(map(len, problem.sets)), 1)) if rank else None
     blind = _rest(any_seen)
     lost = _rest(seen)
@@ -131,18 +149,23 @@ def checked(identification: Identification, deficient: str) -> None:
     )
 
 
+def _told(problem: Problem, known: NDArray[np.bool_] | None) -> Array:
+    """A row for each parameter that a prior tells something of."""
+    return np.eye(problem.size)[np.zeros(problem.size, bool) if known is None else known]
+
+
 def _anywhere(arm: Chain, count: int) -> Array:
     """Configurations with every coordinate moving, within limits or not."""
     low, high = arm._turn_range()
     return np.random.default_rng(0).uniform(low, high, (count, arm.dof))
 
 
-def _space(J: Array) -> tuple[Array, Array]:
-    """Singular values, and the right singular vectors (P, rank) of those that count."""
+def _space(J: Array, least: float) -> tuple[Array, Array]:
+    """Singular values, and the right singular vectors (P, rank) of those above `least` of the largest."""
     P = J.shape[1]
     R = triangle(J) if len(J) > P else J
     _, s, Vt = np.linalg.svd(R, full_matrices=False)
-    rank = int(np.sum(s > RANK * s[0])) if len(s) and s[0] > 0 else 0
+    rank = int(np.sum(s > least * s[0])) if len(s) and s[0] > 0 else 0
     return s, Vt[:rank].T
 
 

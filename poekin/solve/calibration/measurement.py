@@ -17,11 +17,14 @@ Indices = NDArray[np.integer]
 
 
 class Unknown(NamedTuple):
-    """A frame (6 parameters, T <- T e^eta) or a point (3 parameters, m) that is solved along; guess: where, if said."""
+    """A frame (6 parameters, T <- T e^eta) or a point (3 parameters, m) that is solved along; guess: where, if said;
+    shared: the name under which sets have it in common, if any.
+    """
 
     name: str
     size: int
     guess: Array | None
+    shared: str | None = None
 
 
 class Measurement:
@@ -126,14 +129,18 @@ def pose_rows(T: ArrayLike, what: str) -> Array:
     return poses(array, what).copy()
 
 
-def guess_of(T: ArrayLike | None, what: str) -> Array | None:
-    """One finite pose (4, 4), or None."""
-    if T is None:
-        return None
-    array = poses(T, what)
+def unknown_frame(name: str, said: ArrayLike | str | None) -> Unknown:
+    """A frame to be solved along: said by a rough pose (4, 4), by a name that sets have in common, or not at all."""
+    if said is None:
+        return Unknown(name, 6, None)
+    if isinstance(said, str):
+        if not said:
+            raise InputError(f"{name}: expected a pose, a name or None, got ''")
+        return Unknown(name, 6, None, said)
+    array = poses(said, name)
     if array.shape != (4, 4) or not np.isfinite(array).all():
-        raise PoseError(f"{what}: expected one finite pose (4, 4) or None, got shape {array.shape}")
-    return array.copy()
+        raise PoseError(f"{name}: expected one finite pose (4, 4) or None, got shape {array.shape}")
+    return Unknown(name, 6, array.copy())
 
 
 def covariances(values: ArrayLike | None, count: int, width: int, what: str) -> Array | None:

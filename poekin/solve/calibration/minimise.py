@@ -6,7 +6,6 @@ slopes are exact, so that a step costs one QR factorisation.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -23,8 +22,6 @@ _ENOUGH = 1e-10  # a step that would gain less than this part of the cost is not
 _ROUNDING = 1e-13  # a step or an error smaller than this, in rad and reaches, is rounding
 _REGULAR = 1e-8  # of a triangle's diagonal, least to largest: below it, the shortest solution is taken
 _FIRST_DAMPING, _MOST_DAMPING = 1e-4, 1e12
-
-Progress = Callable[[int, int], None]
 
 
 class Step(NamedTuple):

@@ -57,6 +57,8 @@ def html(found: Calibration, title: str | None = None, sources: Sequence[str] | 
 
 def _residuals(found: Calibration) -> Iterable[str]:
     aside, rows = found.held_out, changes.errors(found)
+    yield from (_p(f"Warning: {words}.") for words in found.warnings)
+    yield from (_p(f"{words}.") for words in found.remarks)
     if aside is None:
         yield _p("No data were kept aside: these figures are of the measurements that the arm was fitted to.")
     else:

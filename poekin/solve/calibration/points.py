@@ -89,7 +89,8 @@ class Distances(Measurement):
     """Distances d = |p(q) - c| of a point of the tool from a point that stands still: a wire sensor, a ball bar.
 
     d (N,), m; centre c (3,) in the base frame, m (None: solved along); point (3,) in the tip frame, m; covariance:
-    the variance of d, a number or (N,), m^2 (None: estimated from the residuals); rows (N,) as `Poses`.
+    the variance of d, a number or (N,), m^2 (None: estimated from the residuals); rows (N,) as `Poses`; guess (3,): a
+    rough centre where it is solved along, for points in one plane, on both sides of which one would fit alike.
     Raises: ShapeError, InputError.
     """
 
@@ -98,6 +99,7 @@ class Distances(Measurement):
     point: Any = (0.0, 0.0, 0.0)
     covariance: Any = None
     rows: Any = None
+    guess: Any = None
 
     what = "Distances"
     width = 1
@@ -109,12 +111,12 @@ class Distances(Measurement):
             raise ShapeError(f"d: expected distances (N,), got shape {d.shape}")
         if (d <= 0).any():
             raise InputError(f"d[{int(np.argmax(d <= 0))}]: expected a distance above 0, got {d[d <= 0][0]:g}")
-        for value, name in ((point, "point"), (self.centre, "centre")):
+        for value, name in ((point, "point"), (self.centre, "centre"), (self.guess, "guess")):
             if value is not None and (np.shape(value) != (3,) or not np.isfinite(numbers(value, name)).all()):
                 raise ShapeError(f"{name}: expected three finite numbers, got {told(value)}")
-        centre = None if self.centre is None else numbers(self.centre, "centre").copy()
+        centre, guess = (None if c is None else numbers(c, "centre").copy() for c in (self.centre, self.guess))
         C = covariances(self.covariance, len(d), 1, self.what)
-        unknowns = () if centre is not None else (Unknown("centre", 3, None),)
+        unknowns = () if centre is not None else (Unknown("centre", 3, guess),)
         settled = {"d": d.copy(), "centre": centre, "point": point.copy(), "covariance": C}
         self._settle(**settled, rows=rows_of(self.rows, len(d)), unknowns=unknowns)
 
@@ -138,7 +140,9 @@ class Distances(Measurement):
         return u @ _moved(D, y), [-u] if places else []
 
     def guesses(self, T: Array) -> list[Array]:
-        """The point whose distances to the nominal positions are nearest to the measured ones."""
+        """The point as given, or that whose distances to the nominal positions are nearest to the measured ones."""
         if not self.unknowns:
             return []
+        if self.unknowns[0].guess is not None:
+            return [self.unknowns[0].guess]
         return [first_guess.centre(T[:, :3, :3] @ self.point + T[:, :3, 3], self.d)]

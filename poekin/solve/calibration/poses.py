@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ...groups import se3, so3
 from ...groups.arrays import Array
 from . import first_guess
-from .measurement import Measurement, Unknown, carried, covariances, guess_of, pose_rows, rows_of
+from .measurement import Measurement, carried, covariances, pose_rows, rows_of, unknown_frame
 
 
 def pose_errors(T: Array, measured: Array) -> Array:
@@ -71,11 +71,12 @@ class _HandEye(Measurement):
     _along = ("T", "rows")
     T: Array
 
-    def _set(self, T: ArrayLike, name: str, X: Unknown, Z: Unknown) -> None:
+    def _set(self, T: ArrayLike, name: str, **said: ArrayLike | str | None) -> None:
+        """Keep T, and what is said of X and Z, in this order, by the names of these frames."""
         poses = pose_rows(T, name)
         C = covariances(self.covariance, len(poses), 6, self.what)
-        guesses = tuple(u._replace(guess=guess_of(u.guess, u.name)) for u in (X, Z))
-        self._settle(T=poses, covariance=C, rows=rows_of(self.rows, len(poses)), unknowns=guesses)
+        unknowns = tuple(unknown_frame(frame, value) for frame, value in said.items())
+        self._settle(T=poses, covariance=C, rows=rows_of(self.rows, len(poses)), unknowns=unknowns)
 
     def __len__(self) -> int:
         return len(self.T)
@@ -112,7 +113,8 @@ class EyeInHand(_HandEye):
     """A camera on the tip that sees a board which stands still: T_board_camera = T_base_board^-1 f(q) T_tip_camera.
 
     T_board_camera (N, 4, 4), m; covariance and rows as `Poses`, the errors in the board's axes; board, camera: rough
-    T_base_board and T_tip_camera where known, else a linear first guess is made. Raises: as `Poses`.
+    T_base_board and T_tip_camera where known, else a linear first guess is made; or a name, such as "wrist": sets in
+    which it is the same have this frame in common. Raises: as `Poses`.
     """
 
     T_board_camera: Any
@@ -124,8 +126,7 @@ class EyeInHand(_HandEye):
     what = "EyeInHand"
 
     def __post_init__(self):
-        board, camera = Unknown("T_base_board", 6, self.board), Unknown("T_tip_camera", 6, self.camera)
-        self._set(self.T_board_camera, "T_board_camera", board, camera)
+        self._set(self.T_board_camera, "T_board_camera", T_base_board=self.board, T_tip_camera=self.camera)
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +134,8 @@ class EyeToHand(_HandEye):
     """A camera that stands still and sees a board on the tip: T_camera_board = T_base_camera^-1 f(q) T_tip_board.
 
     T_camera_board (N, 4, 4), m; covariance and rows as `Poses`, the errors in the camera's axes; camera, board: rough
-    T_base_camera and T_tip_board where known, else a linear first guess is made. Raises: as `Poses`.
+    T_base_camera and T_tip_board where known, else a linear first guess is made; or names, as of `EyeInHand`.
+    Raises: as `Poses`.
     """
 
     T_camera_board: Any
@@ -145,5 +147,4 @@ class EyeToHand(_HandEye):
     what = "EyeToHand"
 
     def __post_init__(self):
-        camera, board = Unknown("T_base_camera", 6, self.camera), Unknown("T_tip_board", 6, self.board)
-        self._set(self.T_camera_board, "T_camera_board", camera, board)
+        self._set(self.T_camera_board, "T_camera_board", T_base_camera=self.camera, T_tip_board=self.board)

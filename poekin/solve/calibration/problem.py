@@ -37,21 +37,32 @@ class Problem:
     def __init__(self, arm: Arm, q: Array, sets: Sequence[Measurement], places: Sequence[Array] | None = None):
         self.arm, self.q, self.sets = arm, q, tuple(sets)
         self.rows: list[Indices] = [np.arange(len(q)) if s.rows is None else s.rows for s in self.sets]
-        unknowns = [(k, u) for k, s in enumerate(self.sets) for u in s.unknowns]
-        several = len(self.sets) > 1
-        self.place_names = [f"{u.name} of measurement set {k}" if several else u.name for k, u in unknowns]
+        unknowns: dict[str, int] = {}
+        self._own: list[list[int]] = []  # which of all unknown frames those of each set are
+        for k, s in enumerate(self.sets):
+            which = f" of measurement set {k}" if len(self.sets) > 1 else ""
+            names = [u.name + (which if u.shared is None else f" of {u.shared!r}") for u in s.unknowns]
+            unknowns |= {name: u.size for name, u in zip(names, s.unknowns, strict=True)}
+            self._own.append([list(unknowns).index(name) for name in names])
+        self.place_names, sizes = list(unknowns), list(unknowns.values())
         named = list(arm.parameters)
-        for name, (_, unknown) in zip(self.place_names, unknowns, strict=True):
-            turns = _TURNS if unknown.size == 6 else ()
+        for name, size in unknowns.items():
+            turns = _TURNS if size == 6 else ()
             named += [Parameter(name, what, "rad") for what in turns] + [Parameter(name, s, "m") for s in _SHIFTS]
         self.parameters = tuple(named)
-        sizes = [u.size for _, u in unknowns]
         self._ends = len(arm.parameters) + np.concatenate([[0], np.cumsum(sizes)]).astype(int)
         self.scale = np.where([p.unit in ("m", "m/rad") for p in named], arm.nominal.reach, 1.0)
-        if places is None:
-            T = arm.nominal.fk(q)
-            places = [g for s, rows in zip(self.sets, self.rows, strict=True) for g in s.guesses(T[rows])]
-        self.places = tuple(places)
+        self.places = self._guesses() if places is None else tuple(places)
+
+    def _guesses(self) -> tuple[Array, ...]:
+        """First values of the unknown frames: of what sets share, by the largest of them."""
+        T, found = self.arm.nominal.fk(self.q), dict[int, Array]()
+        for k in sorted(range(len(self.sets)), key=lambda k: -len(self.sets[k])):
+            s, own = self.sets[k].taken(np.arange(len(self.sets[k]))), self._own[k]
+            known = tuple(u._replace(guess=found.get(i, u.guess)) for i, u in zip(own, s.unknowns, strict=True))
+            object.__setattr__(s, "unknowns", known)
+            found |= dict(zip(own, s.guesses(T[self.rows[k]]), strict=True))
+        return tuple(found[i] for i in range(len(found)))
 
     @property
     def size(self) -> int:
@@ -78,10 +89,10 @@ class Problem:
 
     def errors(self, p: Array) -> list[Array]:
         """The errors (N, d) of each set."""
-        T, places = self.arm.poses(p[: self.arm_size], self.q), iter(self.placed(p))
+        T, places = self.arm.poses(p[: self.arm_size], self.q), self.placed(p)
         return [
-            s.errors(T[rows], [next(places) for _ in s.unknowns])
-            for s, rows in zip(self.sets, self.rows, strict=True)
+            s.errors(T[rows], [places[i] for i in own])
+            for s, rows, own in zip(self.sets, self.rows, self._own, strict=True)
         ]  # fmt: skip
 
     def linearised(self, p: Array) -> list[Linear]:
@@ -100,18 +111,17 @@ class Problem:
         return [linear.slopes for linear in self._linearised(p, seen, measured=False)]
 
     def _linearised(self, p: Array, seen: Sequence[tuple[Array, Array]], measured: bool) -> list[Linear]:
-        places, found, k = self.placed(p), [], 0
-        for s, (T, D) in zip(self.sets, seen, strict=True):
-            mine = places[k : k + len(s.unknowns)]
+        places, found = self.placed(p), []
+        for s, (T, D), own in zip(self.sets, seen, self._own, strict=True):
+            mine = [places[i] for i in own]
             errors = s.errors(T, mine) if measured else np.zeros((len(T), s.width))
             arm, others = s.slopes(T, mine, errors, D)
             slopes = np.zeros((*errors.shape, self.size))
             slopes[..., : self.arm_size] = arm
-            for slope in others:
-                a, b = self._ends[k], self._ends[k + 1]
+            for i, slope in zip(own, others, strict=True):
+                a, b = self._ends[i], self._ends[i + 1]
                 # at T e^eta with eta != 0 the frame moves by J_r(eta) d eta
                 slopes[..., a:b] = slope @ se3.right_jacobian(p[a:b]) if b - a == 6 else slope
-                k += 1
             found.append(Linear(errors, slopes))
         return found
 

@@ -150,11 +150,14 @@ def test_parameters_without_screws_have_a_page_too():
     assert "tilt (mrad)" not in text
 
 
-def test_a_search_that_did_not_converge_is_told_first():
-    s = simulated(ARM, 40, tilt=0.1, shift=0.1)
+def test_a_search_that_did_not_converge_is_told_first_and_then_warnings_and_remarks():
+    s = simulated(ARM, 40, tilt=0.02, shift=0.02)
     found = calibrate(ARM, s.q, s.measurements, folds=0, max_iterations=1)
     assert not found.success
-    assert '<p class="lead">The search did NOT converge: this is the best that was found.' in page.html(found)
+    text = page.html(dataclasses.replace(found, warnings=("a <b> tool",), remarks=("another base",)))
+    assert '<p class="lead">The search did NOT converge: this is the best that was found.' in text
+    residuals = text.partition("<h2>Residuals</h2>")[2]
+    assert residuals.startswith("\n<p>Warning: a &lt;b&gt; tool.</p>\n<p>another base.</p>\n")
 
 
 def test_the_change_of_a_joint_is_its_length_and_its_95_percent():

@@ -1,0 +1,159 @@
+"""Measurements of another tool or another arm are told with figures; a base that stands elsewhere is no fault."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import InputError
+from poekin.groups import se3
+from poekin.solve.calibration import Calibration, Distances, EyeInHand, Points, Poses, calibrate, files
+from poekin.solve.calibration.simulated import simulated
+
+PANDA = pk.load("panda").chain(tip="panda_link8")
+X, Z = se3.exp([0.3, -0.5, 0.2, 2.0, 1.4, -0.3]), se3.exp([-0.1, 0.2, 1.4, 0.05, -0.08, 0.1])
+TOOL = np.array([0.2, 0.1, 0.4])  # 0.458 m
+ARMS = {
+    "ur5": pk.load("ur5").chain(),
+    "stanford": pk.load("stanford").chain(),
+    "scara": pk.Chain(
+        [
+            pk.screw.revolute([0, 0, 1], [0, 0, 0]),
+            pk.screw.revolute([0, 0, 1], [0.4, 0, 0]),
+            pk.screw.prismatic([0, 0, 1]),
+            pk.screw.revolute([0, 0, 1], [0.7, 0, 0]),
+        ],
+        se3.exp([0, 0, 0, 0.7, 0, 0.2]),
+    ),
+}
+
+
+def warned(arm, q, measurements, **options) -> tuple[Calibration, str]:
+    """A calibration that warns, once, and what it says."""
+    with pytest.warns(pk.PoekinWarning) as caught:
+        found = calibrate(arm, q, measurements, folds=0, **options)
+    assert [str(one.message) for one in caught] == list(found.warnings)
+    (words,) = found.warnings
+    assert found.remarks == ()
+    return found, words
+
+
+@pytest.mark.parametrize("kind", ["eye-in-hand", "eye-to-hand"])
+def test_camera_poses_given_as_poses_of_the_tip_are_told_with_how_far_base_and_tool_are(kind, tmp_path):
+    s = simulated(PANDA, 40, kind=kind, seed=3)
+    found, words = warned(PANDA, s.q, Poses(s.measurements.T))  # type: ignore[attr-defined]
+    assert found.success
+    moved = re.search(r"base moved by ([\d.]+) m and ([\d.]+) rad, tool by ([\d.]+) m and ([\d.]+) rad; ", words)
+    assert moved is not None
+    true = [size(T) for T in (s.X, s.Z)]
+    # an arm that is off by 2 mrad and 1 mm in each of 34 parameters: a base and tool off by some 10
+    np.testing.assert_allclose(np.array(moved.groups(), float).reshape(2, 2), true, rtol=0, atol=0.02)
+    assert "EyeInHand or EyeToHand (kind eye-in-hand or eye-to-hand)" in words
+    assert f"\nwarning: {words}" in str(found)
+    found.save(tmp_path / "arm.toml")
+    assert files.load(tmp_path / "arm.toml").warnings == (words,)
+    assert calibrate(PANDA, s.q, s.measurements, folds=0).warnings == ()
+
+
+def size(T: np.ndarray | None) -> tuple[float, float]:
+    assert T is not None
+    return float(np.linalg.norm(T[:3, 3])), float(np.linalg.norm(pk.so3.log(T[:3, :3])))
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_a_base_that_is_elsewhere_is_a_remark_and_no_warning(name, tmp_path):
+    arm = ARMS[name]
+    s = simulated(arm, 40, seed=1)
+    T = se3.inverse(X) @ s.measurements.T  # type: ignore[attr-defined]
+    found = calibrate(arm, s.q, T, folds=0)
+    assert found.success
+    assert found.warnings == ()
+    (words,) = found.remarks
+    assert "base moved by 2.4" in words
+    assert words in str(found)
+    found.save(tmp_path / "arm.toml")
+    assert files.load(tmp_path / "arm.toml").remarks == (words,)
+    assert "tool by " in warned(arm, s.q, T @ Z)[1]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_nothing_is_said_of_an_arm_that_is_off_by_a_centimetre(seed):
+    s = simulated(PANDA, 40, tilt=1e-2, shift=1e-2, seed=seed)
+    found = calibrate(PANDA, s.q, s.measurements, folds=0)
+    assert (found.warnings, found.remarks) == ((), ())
+
+
+def test_another_tool_is_told_where_the_base_stays():
+    s = simulated(PANDA, 40, seed=1)
+    T = s.measurements.T  # type: ignore[attr-defined]
+    for tool, words in (
+        (se3.exp([0, 0, 1.57, 0, 0, 0]), "mm and 1.57 rad; "),
+        (se3.exp([0, 0, 0, 0, 0, 0.3]), "tool by 0.30"),
+    ):
+        said = warned(PANDA, s.q, T @ tool)[1]
+        assert words in said
+        assert said.endswith("take the tip whose pose was measured, or put the tool on that it has (retooled)")
+
+
+POINTS = {
+    "in the base": (
+        lambda p: Points(p),
+        r": base moved by \d(\.\d+)? mm and .* mrad, tool by 0.4[56]\d* m; .*points= says",
+    ),
+    "of a device": (
+        lambda p: Points((p - X[:3, 3]) @ X[:3, :3], frame="unknown"),
+        r": tool moved by 0.4[56]\d* m; .*points= says",
+    ),
+    "distances": (
+        lambda p: Distances(np.linalg.norm(p - [0.2, 0.1, 2.0], axis=1), [0.2, 0.1, 2.0]),
+        r"tool by 0.4[56]\d* m; .*point= says",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", POINTS)
+def test_a_point_of_the_tool_that_was_not_said_is_told(what):
+    made, words = POINTS[what]
+    s = simulated(PANDA, 80, noise=(0, 0), seed=1)
+    T = s.truth.fk(s.q)
+    found, said = warned(PANDA, s.q, made(T[:, :3, :3] @ TOOL + T[:, :3, 3]))
+    assert found.after.median_length < 1e-9
+    assert re.search(words, said)
+
+
+def test_another_arm_is_told_as_no_base_and_tool_explain_it():
+    ur5, ur3 = ARMS["ur5"], pk.load("ur3").chain()
+    q = ur5.random(0, 40)
+    T = ur3.fk(q)
+    for measured in (T, EyeInHand(se3.inverse(X) @ T @ Z)):
+        assert "no other base and tool explain it: is it this arm" in warned(ur5, q, measured)[1]
+
+
+def test_of_several_sets_the_one_is_named():
+    s = simulated(PANDA, 40, seed=1)
+    T = s.measurements.T  # type: ignore[attr-defined]
+    beside = EyeInHand(se3.inverse(X) @ T @ Z)
+    tool = T @ se3.exp([0, 0, 0, 0, 0, 0.3])
+    assert warned(PANDA, s.q, [beside, Poses(tool)])[1].startswith("measurement set 1 (Poses): the nominal arm is off")
+
+
+def test_what_is_refused_is_told_with_the_base_and_tool_that_explain_it():
+    s = simulated(PANDA, 40, kind="eye-in-hand", seed=3)
+    words = (
+        r"no arm near the nominal one explains these Poses.* With base moved by 0.92\d m and .* rad, tool by 0.1\d* m"
+        r" and .* rad, the nominal arm is off by \d.* mm and .* mrad only: poses between a camera and a board"
+    )
+    with pytest.raises(InputError, match=words):
+        calibrate(PANDA, s.q, s.measurements.T, parameters=["offsets"], folds=0)  # type: ignore[attr-defined]
+
+
+def test_nothing_is_claimed_of_lengths_from_which_no_place_can_be_told():
+    """A planar arm's distances: the place they are from, were it not the one that was said, cannot be found."""
+    arm = pk.Chain([pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 0.4, 0.7)], se3.exp([0, 0, 0, 0.9, 0, 0]))
+    q = arm.random(0, 60)
+    d = np.linalg.norm(arm.fk(q)[:, :3, 3] - [0.0, 2.0, 0.5], axis=1)
+    said = warned(arm, q, Distances(d, [1.0, 1.5, 0.5]), deficient="hold")[1]
+    assert re.search(r"the calibrated one by [\d.]+ mm: is it this arm, ", said)
