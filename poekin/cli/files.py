@@ -15,9 +15,21 @@ from ..formats import csv_rows
 from ..formats.csv_rows import text as csv_text
 from . import npy
 
-__all__ = ["STDIN", "called", "check_writable", "csv_text", "npy_bytes", "read_configurations", "read_rows"]
+__all__ = [
+    "ERRORS",
+    "STDIN",
+    "TIME",
+    "called",
+    "check_writable",
+    "csv_text",
+    "npy_bytes",
+    "read_configurations",
+    "read_rows",
+]
 
 STDIN = "-"
+TIME, ERRORS = "time", ("success", "position_error", "rotation_error")
+"""Columns that `ik` and `follow` write beside the coordinates."""
 Rows = tuple[np.ndarray, np.ndarray | None]
 
 
@@ -30,26 +42,33 @@ def read_configurations(given: str, q_names: Sequence[str], progress: csv_rows.P
     """Configurations (N, m) out of a .npy file or, whatever else its name ends in, a CSV file; "-" is CSV on stdin.
 
     A CSV file has one configuration a line, the m coordinates in the order of q_names, or in the order of a first line
-    that names them all. Empty lines are passed over.
+    that names them all, and maybe what `ik` and `follow` write beside them. Empty lines are passed over.
 
     Raises: FileError for a file that cannot be read; InputError with file and line for a line of the wrong length or
     a cell that is no number; UnknownName for a header with a name that is no coordinate.
     """
-    return read_rows(given, q_names, "coordinate", progress)[0]
+    return read_rows(given, q_names, "coordinate", progress, besides=(TIME, *ERRORS))[0]
 
 
 def read_rows(
-    given: str, names: Sequence[str], what: str, progress: csv_rows.Progress, *, tail: tuple[int, ...] = ()
+    given: str,
+    names: Sequence[str],
+    what: str,
+    progress: csv_rows.Progress,
+    *,
+    tail: tuple[int, ...] = (),
+    besides: Sequence[str] = (),
 ) -> Rows:
     """Rows (N, k) of named columns, as `read_configurations` reads them, and the line of each in a CSV file, None for a
-    .npy file; what is a column's kind; tail, how an array may have its last axes instead of (k,).
+    .npy file; what is a column's kind; tail, how an array may have its last axes instead of (k,); besides, columns that
+    are passed over.
     """
     if given == STDIN and sys.stdin is None:
         raise FileError("cannot read standard input: it is closed")
     try:
         if Path(given).suffix.lower() == ".npy":
             return npy.configurations(Path(given).read_bytes(), len(names), called(given), tail), None
-        return _from_csv(given, names, what, progress)
+        return _from_csv(given, names, what, progress, besides)
     except UnicodeDecodeError as error:
         raise FileError(f"{called(given)} is no text file: byte {error.start} is not UTF-8") from error
     except OSError as error:
@@ -58,10 +77,11 @@ def read_rows(
         raise FileError(f"cannot read {called(given)}: {error.strerror or error}") from error
 
 
-def _from_csv(given: str, names: Sequence[str], what: str, progress: csv_rows.Progress) -> Rows:
+def _from_csv(given: str, names: Sequence[str], what: str, progress: csv_rows.Progress, besides: Sequence[str]) -> Rows:
     file = sys.stdin.fileno() if given == STDIN else given
     with open(file, newline="", encoding="utf-8-sig", closefd=given != STDIN) as stream:
-        return csv_rows.read(stream, names, called(given), what, progress, os.fstat(stream.fileno()).st_size)
+        size = os.fstat(stream.fileno()).st_size
+        return csv_rows.read(stream, names, called(given), what, progress, size, besides=besides)
 
 
 def npy_bytes(array: np.ndarray) -> bytes:

@@ -97,7 +97,7 @@ def _give(robot: str, chain: Chain, path: Followed, output: Path | None, json: b
     def sheet() -> str:
         if path.times is None:
             return csv_rows.text(chain.q_names, path.q)
-        return csv_rows.text(["time", *chain.q_names], np.column_stack([path.times, path.q]))
+        return csv_rows.text([files.TIME, *chain.q_names], np.column_stack([path.times, path.q]))
 
     if output is not None:
         content = {".csv": lambda: sheet().encode(), ".npy": lambda: files.npy_bytes(path.q)}

@@ -26,7 +26,6 @@ Start = Annotated[
 Nearest = Annotated[
     str | None, typer.Option("--nearest-to", metavar="Q,...", help="Of several solutions, the one nearest to this.")
 ]
-ERRORS = ("success", "position_error", "rotation_error")
 
 
 def command(
@@ -68,7 +67,7 @@ def _give(robot: str, chain: Chain, found: Solution, single: bool, output: Path 
 
     def sheet() -> str:
         rows = np.column_stack([found.q, found.success, found.position_error, found.rotation_error])
-        return csv_rows.text([*chain.q_names, *ERRORS], rows)
+        return csv_rows.text([*chain.q_names, *files.ERRORS], rows)
 
     if output is not None:
         content = {".csv": lambda: sheet().encode(), ".npy": lambda: files.npy_bytes(found.q)}

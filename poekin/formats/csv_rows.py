@@ -40,24 +40,34 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[TextIO, str, int]]:
 
 
 def read(
-    stream: Iterable[str], names: Sequence[str], where: str, what: str, progress: Progress | None = None, size: int = 0
+    stream: Iterable[str],
+    names: Sequence[str],
+    where: str,
+    what: str,
+    progress: Progress | None = None,
+    size: int = 0,
+    *,
+    besides: Sequence[str] = (),
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows (N, k) in the order of the names, and the number of each row's line in the file (N,).
 
     One row a line, in the order of `names` or of a first line that names them all; empty lines are passed over.
     Parameters: stream, a text opened with newline=""; where, the file as messages call it; what, a column's kind
-    ("coordinate"); progress(characters read, size). Raises: FileError for what is no CSV; InputError with file and line
-    for a line of the wrong length or a cell that is no number; UnknownName for a header with a name that is none.
+    ("coordinate"); progress(characters read, size); besides, columns that such a first line may name, too: they are
+    passed over. Raises: FileError for what is no CSV; InputError with file and line for a line of the wrong length or a
+    cell that is no number; UnknownName for a header with a name that is none.
     """
-    lines, order = _lines(stream, where), None
+    lines, said = _lines(stream, where), _listed(names)
+    chosen, width = range(len(names)), len(names)
     for line, cells in lines:
-        if _is_header(cells, names):
-            order = _order([cell.strip() for cell in cells], names, f"{where}:{line}", what)
+        words = [cell.strip() for cell in cells]
+        if _is_header(words, names):
+            chosen, width = _order(words, names, besides, f"{where}:{line}", what), len(words)
+            said = said if width == len(names) else ", as the header has"
         else:
             lines = itertools.chain([(line, cells)], lines)
         break
-    array, numbers = _rows(lines, range(len(names)), len(names), where, _listed(names), progress, size)
-    return array if order is None else array[:, order], numbers
+    return _rows(lines, chosen, width, where, said, progress, size)
 
 
 def read_chosen(
@@ -130,18 +140,17 @@ def text(header: Sequence[str], rows: np.ndarray, progress: Progress | None = No
     return out.getvalue()
 
 
-def _is_header(cells: Sequence[str], names: Sequence[str]) -> bool:
+def _is_header(words: Sequence[str], names: Sequence[str]) -> bool:
     # A robot may call its joints 1, 2, 3: a line that is exactly the names is a header even so.
-    words = [cell.strip() for cell in cells]
     return sorted(words) == sorted(names) or all(real(word) is None for word in words)
 
 
-def _order(words: Sequence[str], names: Sequence[str], where: str, what: str) -> list[int]:
+def _order(words: Sequence[str], names: Sequence[str], besides: Sequence[str], where: str, what: str) -> Sequence[int]:
     for word in words:
-        if word not in names:
+        if word not in names and word not in besides:
             raise UnknownName(f"{where}: {shown(word)} is neither a number nor a {what}; {closest(word, names)}")
     missing = [n for n in names if n not in words]
-    if missing or len(words) != len(names):
+    if missing or len(set(words)) != len(words):
         fault = f"{shown(missing[0])} is missing" if missing else "a name stands twice"
         raise InputError(f"{where}: the header has to name each of the {len(names)} {what}s once; {fault}")
     return [words.index(n) for n in names]

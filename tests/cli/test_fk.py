@@ -104,6 +104,27 @@ def test_a_header_orders_the_columns(crane, as_json, tmp_path):
     assert as_json("fk", crane, "--tip", "hook", "--input", given)["q"] == [[0.1, 0.2]]
 
 
+def test_what_ik_and_follow_write_beside_the_coordinates_is_passed_over(crane, as_json, poekin, tmp_path):
+    given = tmp_path / "q.csv"
+    given.write_text("time,turn,slide,success,position_error,rotation_error\n0.5,0.1,0.2,1.0,x,1e-9\n")
+    assert as_json("fk", crane, "--tip", "hook", "--input", given)["q"] == [[0.1, 0.2]]
+    given.write_text("time,turn,slide,turn\n0.5,0.1,0.2,1.0\n")
+    code, _, err = poekin("fk", crane, "--tip", "hook", "--input", given)
+    assert (code, "a name stands twice" in err) == (2, True)
+    given.write_text("time,turn,slide\n0.5,0.1\n")
+    code, _, err = poekin("fk", crane, "--tip", "hook", "--input", given)
+    assert (code, ":2: 3 values expected, as the header has, got 2" in err) == (2, True)
+
+
+def test_a_file_of_ik_is_read_by_fk(poekin, as_json, tmp_path):
+    q, T, back = (tmp_path / name for name in ("q.csv", "T.csv", "back.csv"))
+    q.write_text("0.1,-1.2,1.3,-0.4,0.5,0.6\n")
+    poekin("fk", "ur5e", "--tip", "tool0", "--input", q, "--output", T)
+    assert poekin("ik", "ur5e", "--tip", "tool0", "--input", T, "--format", "16", "--output", back)[0] == 0
+    again = as_json("fk", "ur5e", "--tip", "tool0", "--input", back)["T"][0]
+    np.testing.assert_allclose(np.ravel(again), np.loadtxt(T, delimiter=",", skiprows=1), atol=1e-6)
+
+
 def test_an_empty_batch_is_a_batch(crane, poekin, tmp_path):
     np.save(tmp_path / "q.npy", np.zeros((0, 2)))
     out = tmp_path / "T.npy"
