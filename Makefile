@@ -21,10 +21,11 @@ ifneq ($(SETUP_OF),$(CURDIR))
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help report test lint style types wheel-check docs mutate fuzz
+.PHONY: help report test test-deep lint style types wheel-check docs mutate fuzz
 
 help:
 	@echo "make test         run all tests"
+	@echo "make test-deep    run them with twenty times the examples (hours); ONLY=tests/groups runs those alone"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
 	@echo "make lint         check style (ruff) and types (pyright)"
 	@echo "make docs         build the pages of docs/ and print where they are"
@@ -35,6 +36,10 @@ help:
 
 test: $(VENV)/dev
 	@$(PY) -m pytest -n 2 --dist worksteal --durations=10
+
+# A test may take twenty times as long as in make test, where it is stopped after ten minutes.
+test-deep: $(VENV)/dev
+	@HYPOTHESIS_PROFILE=deep $(PY) -m pytest -n 2 --dist worksteal --durations=10 --timeout=12000 $(ONLY)
 
 report: $(VENV)/dev
 	@$(PY) -m benchmarks

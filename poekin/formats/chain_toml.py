@@ -41,8 +41,10 @@ def to_chain(keys: Keys) -> Chain:
             limits=keys.array("limits", (m, 2), finite=False), offset=keys.array("offset", (n,)), coupling=coupling,
             base=keys.text("base"), tip=keys.text("tip"),
         )  # fmt: skip
+    except ModelError:
+        raise
     except PoekinError as fault:
-        raise fault if isinstance(fault, ModelError) else ModelError(f"{keys.place}: {fault}") from fault
+        raise ModelError(f"{keys.place}: {fault}") from fault
 
 
 def is_calibration(path: str | os.PathLike[str]) -> bool:

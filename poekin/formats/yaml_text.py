@@ -71,7 +71,9 @@ def parse(text: str, place: str) -> Mapping:
                     open_ones.append(value)
                     if len(open_ones) > DEEPEST:
                         raise ModelError(f"{where}: expected at most {DEEPEST} levels, got more")
-    except yaml.YAMLError as fault:
+    except ModelError:
+        raise
+    except (yaml.YAMLError, ValueError, OverflowError) as fault:  # "\U00110000": it calls chr() unchecked
         mark: Any = getattr(fault, "problem_mark", None)
         line = f":{mark.line + 1}" if mark else ""
         reason = getattr(fault, "problem", None) or str(fault)

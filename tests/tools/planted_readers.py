@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 import warnings
 from pathlib import Path
 
@@ -54,6 +55,22 @@ def _eat() -> None:
         eaten.append(np.zeros(2**23))
 
 
+def _wait() -> None:
+    time.sleep(0.1)
+
+
+def _starve() -> None:
+    try:
+        raise MemoryError
+    except MemoryError as fault:
+        raise InputError("expected something smaller") from fault
+
+
+def _circular() -> None:
+    fault = InputError("it is its own cause")
+    raise fault from fault
+
+
 def _warn() -> None:
     warnings.warn("overflow", RuntimeWarning, stacklevel=2)
 
@@ -66,6 +83,10 @@ raw_message = _planted(_raise(InputError("\x1b[31mred")))
 endless_message = _planted(_raise(InputError("x" * 10**6)))
 foreign_warning = _planted(_warn)
 hang = _planted(_hang)
+waiting = _planted(_wait)
+starved = _planted(_starve)
+circular = _planted(_circular)
+starved_in_words = _planted(_raise(InputError("the library said: Out of memory")))
 memory = _planted(_eat)
 memory_at_once = _planted(lambda: bytearray(2**31))
 left_file = _planted(lambda: Path("log.txt").write_text("7"))

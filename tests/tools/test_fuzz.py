@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import importlib.util
+import signal
 
 import pytest
 
+from tools.fuzz import child as harness
 from tools.fuzz.__main__ import main, table, told
 from tools.fuzz.campaign import CHUNK, Row, counts_of, run
 from tools.fuzz.child import Job
@@ -13,9 +15,10 @@ from tools.fuzz.inputs import make
 from tools.fuzz.mutate import LARGEST
 from tools.fuzz.readers import READERS, of_name
 from tools.fuzz.shrink import smallest
+from tools.fuzz.trial import attempt
 from tools.fuzz.watch import Child, Tally
 
-EACH = 720
+EACH = 670
 """Inputs to each reader: 10⁴ to all."""
 SEED = 7
 PACKAGES = {"MJCF": "mujoco", "xacro": "xacrodoc", "UR YAML": "yaml"}
@@ -62,6 +65,7 @@ FOUND = {
     "an infinite anchor": ("MJCF", b'<mujoco><worldbody><body><joint pos="7 1 inf"/></body></worldbody></mujoco>'),
     "an infinite ref": ("MJCF", b'<mujoco><worldbody><body><joint ref="inf"/></body></worldbody></mujoco>'),
     "a NaN that is no place": ("MJCF", b'<mujoco><option timestep="nan"/></mujoco>'),
+    "a stack as small as the model asks": ("MJCF", b'<mujoco><size memory="1"/></mujoco>'),
     "a folder to include": ("MJCF", b'<mujoco><include file="."/></mujoco>'),
     "many long names that are much alike": (
         "URDF",
@@ -80,6 +84,8 @@ FOUND = {
         + b"\n"
         + b"\x01\x00\xa0\x7f" * 3,
     ),
+    "a character beyond Unicode": ("UR YAML", rb'"\U00110000"'),
+    "a character beyond all numbers": ("UR YAML", rb'kinematics: "\UFFFFFFFF"'),
     "a quaternion without a square": ("poses CSV", b"5,3,1,1e308,9,1,2"),
 }
 
@@ -121,6 +127,29 @@ def test_a_planted_fault_is_found_and_made_small(name, what):
     assert found.again
     assert found.data == b"7"
     assert f"attempt(of_name('{HERE}:{name}'), b'7')" in told(row, found, 3)
+
+
+def test_a_reader_that_waits_hangs_though_it_uses_no_processor(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(harness, "SLOW", 0.05)
+    monkeypatch.setattr(signal, "setitimer", lambda *_: None)
+    failure = harness._timed(of_name(f"{HERE}:waiting"), b"7", False).failure
+    assert failure is not None
+    assert (failure.what, failure.trace.endswith("s of waiting; trace.txt has where, if it was the processor")) == (
+        "hang", True
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [("starved", "memory refused"), ("starved_in_words", "memory refused"), ("circular", "its own cause")],
+    ids=["starved", "starved_in_words", "circular"],
+)
+def test_a_refusal_that_the_limit_of_memory_or_itself_brought_about_is_none(name, what, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    failure = attempt(of_name(f"{HERE}:{name}"), b"7").failure
+    assert failure is not None
+    assert failure.what == what
 
 
 def test_a_sound_reader_has_no_failure():

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import random
+import runpy
+import sys
 import textwrap
 from collections import Counter
 from pathlib import Path
@@ -11,9 +13,10 @@ import cosmic_ray.plugins
 import pytest
 from cosmic_ray.mutating import mutate_code
 
+from tools.mutate import __main__ as command
 from tools.mutate import equivalent, report, suites
 from tools.mutate.campaign import BrokenSuite, Campaign, Outcome, kept
-from tools.mutate.mutants import Mutant, mutants_of, paths
+from tools.mutate.mutants import FILES, Mutant, mutants_of, paths
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
@@ -216,3 +219,26 @@ def test_the_table_counts_every_kind():
     assert lines[3] == ["all", "7", "5", "3", "1", "1", "1", "75.00", "%"]
     assert report.kind(mutants[4], outcomes, listed) == "wrong"
     assert report.told(mutants[0]) == "a.py:3: in f\n  - x = 1\n  + x = 2"
+
+
+def test_a_sample_run_afresh_leaves_what_is_known_of_the_others(tmp_path, monkeypatch, capsys):
+    for path in FILES:
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(CALCULATOR, encoding="utf-8")
+    known = [m.key for path in FILES for m in mutants_of(path, CALCULATOR)]
+    results = tmp_path / "build" / "mutants" / "results.jsonl"
+    results.parent.mkdir(parents=True)
+    results.write_text("".join(f'{{"key": "{key}", "outcome": "caught", "by": ""}}\n' for key in known))
+    monkeypatch.setattr(command, "ROOT", tmp_path)
+    monkeypatch.setattr(equivalent, "entries", list)
+    assert command.main(["--report", "--sample", "3"]) == 0
+    assert "3 of 3 were caught in earlier runs" in capsys.readouterr().out
+    assert command.main(["--report", "--sample", "3", "--afresh"]) == 0
+    assert "earlier runs" not in capsys.readouterr().out
+    assert set(kept(results)) == set(known)
+
+
+def test_without_cosmic_ray_the_extra_that_has_it_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "cosmic_ray", None)
+    with pytest.raises(SystemExit, match=r"needs the package cosmic-ray: pip install -e '\.\[dev\]'"):
+        runpy.run_path(str(ROOT / "tools" / "mutate" / "__main__.py"))

@@ -103,7 +103,8 @@ def _timed(reader: Reader, data: bytes, use: bool) -> Trial:
         signal.setitimer(signal.ITIMER_PROF, SLOW)
         trial = attempt(reader, data, use)
         signal.setitimer(signal.ITIMER_PROF, 0)
-        if trial.seconds <= SLOW:
+        if max(trial.seconds, trial.waited) <= SLOW:
             return trial
-    slow = Failure("hang", reader.name, f"{trial.seconds:.1f} s of the processor; {TRACE} has where")
+    took = f"{trial.seconds:.1f} s of the processor and {trial.waited:.1f} s of waiting"
+    slow = Failure("hang", reader.name, f"{took}; {TRACE} has where, if it was the processor")
     return trial._replace(failure=trial.failure or slow)

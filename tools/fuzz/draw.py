@@ -45,9 +45,13 @@ class Draw:
     def pick(self, values: Sequence[Any]) -> Any:
         return values[int(self.source.random() * len(values))]
 
+    def odd_number(self) -> str:
+        """One of `NUMBERS`."""
+        return self.pick(NUMBERS)
+
     def number(self) -> str:
         if self.chance(self.odd):
-            return self.pick(NUMBERS)
+            return self.odd_number()
         return self.pick(PLAIN) if self.chance(0.7) else repr(self.source.uniform(-3, 3))
 
     def numbers(self, count: int, between: str = " ") -> str:
@@ -58,6 +62,8 @@ class Draw:
 
     def axis(self) -> str:
         """A direction, most of them of unit length."""
+        if self.chance(self.odd):
+            return self.pick(("0 0 0", "-0 0 0.0", "1e-200 0 1e-200", "1.7e308 0 -1.7e308", "5e-324 0 0", "2 0 0"))
         return self.pick(("0 0 1", "0 1 0", "1 0 0", "0 0 -1", "0 0.6 0.8")) if self.chance(0.8) else self.numbers(3)
 
     def text(self, plain: str) -> str:
@@ -71,9 +77,11 @@ class Draw:
         return text if self.chance(probability) else ""
 
     def size(self, usual: int = 6) -> int:
-        """How many of something: a few; none or thousands where it is odd."""
+        """How many of something: a few; none or hundreds where it is odd, and then little else is, or none is read."""
         if self.chance(self.odd / 4):
-            return self.pick((0, 1, 40, 300, 900))
+            size = self.pick((0, 1, 40, 300, 900))
+            self.odd /= max(1, size)
+            return size
         return 1 + self.below(usual)
 
     def shuffled(self, values: list[Any]) -> list[Any]:

@@ -13,6 +13,7 @@ LARGEST = 128 * 2**10
 _NUMBER = re.compile(rb"[-+]?\d[\d.]*(?:e[-+]?\d+)?")
 _QUOTED = re.compile(rb"\"[^\"<]*\"|'[^'<]*'")
 _NAME = re.compile(rb"[A-Za-z_]\w*")
+_VALUE = re.compile(rb"(?<=[=:] )[^\n<>]+")
 _TAG = re.compile(rb"<[^<>]{1,200}>|\[\[?\w+\]?\]|\n")
 
 Mutation = Callable[[Draw, bytes], bytes]
@@ -73,6 +74,18 @@ def quoted(d: Draw, data: bytes) -> bytes:
     return data[: match.start() + 1] + encoded(d.pick(TEXTS)) + data[match.end() - 1 :]
 
 
+OTHERS = (
+    "1", "-1", "0.5", "true", '"x"', "x", "''", "[]", "{}", "[[]]", "[1]", '["a"]', "[[1, 2], [3, 4]]", "[1, [2]]",
+    "{a = 1}", "{a: 1}", "1979-05-27T07:32:00Z", "07:32:00", "nan", "-inf", "~", "\n    a: 1", "",
+)  # fmt: skip
+
+
+def value(d: Draw, data: bytes) -> bytes:
+    """What stands behind `=` or `:` on a line, for something of another kind."""
+    match = _one(_VALUE, d, data)
+    return data if match is None else data[: match.start()] + encoded(d.pick(OTHERS)) + data[match.end() :]
+
+
 def rename(d: Draw, data: bytes) -> bytes:
     """A name for another one of the text, in one place or in all of them."""
     match, other = _one(_NAME, d, data), _one(_NAME, d, data)
@@ -104,7 +117,7 @@ def line(d: Draw, data: bytes) -> bytes:
 
 
 def nest(d: Draw, data: bytes) -> bytes:
-    match, depth = _one(_TAG, d, data), d.pick((3, 100, 260, 3000))
+    match, depth = _one(_TAG, d, data), d.pick((3, 100, 240, 260, 3000))
     opened, closed = d.pick(((b"<a>", b"</a>"), (b"<link>", b"</link>"), (b"[", b"]"), (b"{a: ", b"}"), (b"- ", b"")))
     at = match.end() if match else 0
     return data[:at] + opened * depth + closed * (depth if d.chance(0.8) else depth // 2) + data[at:]
@@ -130,8 +143,8 @@ def declare(d: Draw, data: bytes) -> bytes:
 
 
 MUTATIONS: tuple[Mutation, ...] = (
-    flip, delete, repeat, swap, truncate, insert, number, number, number, quoted, quoted, rename, rename, element,
-    element, line, nest, encode, declare,
+    flip, delete, repeat, swap, truncate, insert, number, number, number, quoted, quoted, value, value, rename,
+    rename, element, element, line, nest, encode, declare,
 )  # fmt: skip
 # What leaves little of a document to be read is done last, and rarely.
 _ROUGH = (truncate, nest, encode, declare, flip)

@@ -13,7 +13,7 @@ import numpy as np
 import poekin as pk
 from poekin.cli import npy
 from poekin.errors import PoekinError
-from poekin.formats import urdf
+from poekin.formats import mjcf, urdf
 from poekin.solve import motion
 from poekin.solve.calibration import data, files
 
@@ -27,7 +27,8 @@ class Reader:
 
     Fields: name, in the table; file, what the input is called when it is read; read(path), which returns what the file
     holds or raises; grammar, a document out of nothing; seeds(), real documents, at least one of them readable; use,
-    what is done with what was read; share, how many inputs it has, as a part of those of the URDF reader.
+    what is done with what was read; share, how many inputs it has, as a part of those of the URDF reader; beside, names
+    and contents of files in the same folder, of which an input may speak.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Reader:
     seeds: Callable[[], Sequence[bytes]]
     use: Callable[[Any], None] = lambda read: None
     share: float = 0.1
+    beside: tuple[tuple[str, bytes], ...] = ()
 
 
 def of_name(name: str) -> Reader:
@@ -59,7 +61,28 @@ def move(robot: pk.Robot) -> None:
 
 
 def _text(path: str) -> pk.Robot:
-    return urdf.read_text(Path(path).read_bytes().decode("utf-8", "surrogateescape"))
+    return urdf.read_text(_as_text(path))
+
+
+def _mjcf_text(path: str) -> pk.Robot:
+    """As str and as bytes, which are read in different ways."""
+    return _first(mjcf.read_text, [_as_text(path), Path(path).read_bytes()])
+
+
+def _as_text(path: str) -> str:
+    return Path(path).read_bytes().decode("utf-8", "surrogateescape")
+
+
+def _nearest(deltas: Any) -> None:
+    """The calibration that deltas of a DH table make."""
+    nominal = pk.dh.published("ur10e")
+    move(pk.ur.from_dh(pk.ur.deltas(nominal, **deltas), nominal=nominal).to_robot())
+
+
+def _ur_yaml(path: str) -> pk.Robot:
+    """As the file says, and as the driver would mean it."""
+    pk.ur.read(path, rpy="moving")
+    return pk.load(path)
 
 
 def _poses(path: str) -> Any:
@@ -69,7 +92,9 @@ def _poses(path: str) -> Any:
 
 
 def _measured(path: str) -> Any:
-    return _first(lambda kind: data.read(path, seeds.chain(), kind=kind, ignore="x"), [None, *data.KINDS])
+    """As each kind; and as two points, of which the file does not say where they are."""
+    ways: list[dict[str, Any]] = [{"kind": kind} for kind in (None, *data.KINDS)]
+    return _first(lambda known: data.read(path, seeds.chain(), ignore="x", **known), [*ways, {"points": np.eye(2, 3)}])
 
 
 def _first(read: Callable[[Any], Any], ways: Sequence[Any]) -> Any:
@@ -86,7 +111,9 @@ def _first(read: Callable[[Any], Any], ways: Sequence[Any]) -> Any:
 
 
 def _npy(path: str) -> Any:
-    return npy.configurations(Path(path).read_bytes(), 3, "input.npy")
+    """As configurations, and as the poses of the format 16."""
+    content = Path(path).read_bytes()
+    return _first(lambda way: npy.configurations(content, way[0], "input.npy", way[1]), [(3, ()), (16, (4, 4))])
 
 
 def _saved(d: Draw) -> str:
@@ -98,12 +125,13 @@ READERS: dict[str, Reader] = {
     for reader in (
         Reader("URDF", "input.urdf", pk.load, xml_grammar.urdf, seeds.urdf, move, share=1.0),
         Reader("URDF as str", "input.urdf", _text, xml_grammar.urdf, seeds.urdf, move),
-        Reader("MJCF", "input.xml", pk.load, xml_grammar.mjcf, seeds.mjcf, move),
-        Reader("xacro", "input.xacro", pk.xacro, xml_grammar.xacro, seeds.xacro, move),
+        Reader("MJCF", "input.xml", pk.load, xml_grammar.mjcf, seeds.mjcf, move, beside=xml_grammar.INCLUDED),
+        Reader("MJCF as text", "input.xml", _mjcf_text, xml_grammar.mjcf, seeds.mjcf, move),
+        Reader("xacro", "input.xacro", pk.xacro, xml_grammar.xacro, seeds.xacro, move, beside=xml_grammar.INCLUDED),
         Reader("DH TOML", "input.toml", pk.load, table_grammar.dh_toml, seeds.dh_toml, move),
         Reader("DH CSV", "input.csv", pk.load, table_grammar.dh_csv, seeds.dh_csv, move),
-        Reader("UR YAML", "input.yaml", pk.load, table_grammar.ur_yaml, seeds.ur_yaml, move),
-        Reader("UR conf", "input.conf", pk.ur.read_deltas, table_grammar.ur_conf, seeds.ur_conf),
+        Reader("UR YAML", "input.yaml", _ur_yaml, table_grammar.ur_yaml, seeds.ur_yaml, move),
+        Reader("UR conf", "input.conf", pk.ur.read_deltas, table_grammar.ur_conf, seeds.ur_conf, _nearest),
         Reader("poses CSV", "input.csv", _poses, table_grammar.poses_csv, lambda: seeds.written()["poses"]),
         Reader(
             "joints CSV", "input.csv", lambda path: motion.read_joints(path, seeds.chain()),

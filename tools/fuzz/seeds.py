@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import io
 import re
 import tempfile
@@ -45,7 +46,11 @@ def _shorter(text: bytes) -> bytes:
 
 @cache
 def mjcf() -> tuple[bytes, ...]:
-    """Documents with every element that the reader looks at, and most that it does not."""
+    """Documents with every element that the reader looks at, and most that it does not; and MuJoCo's own, if it is
+    installed.
+    """
+    package = importlib.util.find_spec("mujoco")
+    own = Path(package.origin).parent / "testdata" / "model.xml" if package and package.origin else None
     return (
         b"""<mujoco model="arm"><compiler angle="degree" eulerseq="XYZ" autolimits="true"/>
 <default><joint axis="0 0 1" range="-90 90"/><default class="slide"><joint type="slide" range="0 0.5"/></default>
@@ -70,6 +75,7 @@ height="4"/><material name="mat" texture="t"/></asset><worldbody><replicate coun
 </body></worldbody><contact><exclude body1="world" body2="target"/></contact>
 <tendon><spatial><site site="goal"/><site site="foot0"/></spatial></tendon></mujoco>""",
         *urdf()[:3],
+        *((own.read_bytes(),) if own and own.is_file() else ()),
     )
 
 
@@ -121,21 +127,35 @@ def chain() -> pk.Chain:
 
 @cache
 def written() -> dict[str, tuple[bytes, ...]]:
-    """What poekin itself writes of that chain: poses, configurations, measurements, and a calibration."""
+    """What poekin itself writes of that chain: poses, configurations, measurements; and calibrations: of it, of one
+    with the frame of a device and with folds, and of one with a coupled joint and outliers.
+    """
     from poekin.solve import motion
-    from poekin.solve.calibration import Poses, data
+    from poekin.solve.calibration import Points, Poses, data
 
     arm, found = chain(), {}
-    q = arm.random(0, 24)
+    q = arm.random(0, 12)
     T = arm.fk(q)
+    coupled = pk.Chain(
+        arm.screws, arm.home, joint_names=["a", "b", "c"], q_names=["a", "b"], coupling=[[1, 0], [0, 1], [0, -0.5]],
+        offset=[0, 0, 0.1],
+    )  # fmt: skip
+    q2, X = coupled.random(0, 12), pk.se3.exp([0.1, 0.2, 0.3, 0.1, 0.2, 0.3])
+    p = coupled.fk(q2 * 1.001 + 0.01)[:, :3, 3]
+    p[3] += 0.2
     with tempfile.TemporaryDirectory() as folder:
         for format, order in (("12", None), ("16", None), ("7", "wxyz")):
             motion.write_poses(f"{folder}/poses{format}.csv", T[:5], format, quaternion=order)
         motion.write_joints(f"{folder}/joints.csv", q[:5], arm, times=np.arange(5.0))
         data.write(f"{folder}/measured.csv", arm, q[:5], Poses(T[:5]))
-        pk.calibrate(arm, q * 1.001 + 0.01, Poses(T), parameters=("offsets", "gains"), folds=0).save(
-            f"{folder}/arm.toml"
-        )
+        made = (
+            pk.calibrate(arm, q * 1.001 + 0.01, Poses(T), parameters=("offsets", "gains"), folds=0),
+            pk.calibrate(arm, q, Points((pk.se3.inverse(X) @ T)[:, :3, 3], frame="unknown"), parameters=("offsets",),
+                         folds=2, deficient="hold"),
+            pk.calibrate(coupled, q2, Points(p), parameters=("offsets", "gains"), folds=0, loss="huber"),
+        )  # fmt: skip
+        for k, calibration in enumerate(made):
+            calibration.save(f"{folder}/arm{k}.toml")
         for file in sorted(Path(folder).iterdir()):
             kind = re.sub(r"\d+$", "", file.stem)
             found[kind] = (*found.get(kind, ()), file.read_bytes())

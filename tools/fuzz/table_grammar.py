@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from . import mutate
 from .draw import Draw
 
 COLUMNS = ("theta", "d", "a", "alpha")
@@ -22,7 +23,8 @@ def dh_toml(d: Draw) -> str:
         row = [f"{column} = {d.number() or 0}" for column in COLUMNS]
         extra = {
             "kind": _quoted(d, d.word("revolute", "prismatic")), "name": _quoted(d, d.text(f"j{i}")),
-            "flip": d.word("true", "false"), "limits": f"[{d.word('-1.0', '-inf')}, {d.number()}]",
+            "flip": d.word("true", "false"),
+            "limits": f"[{d.word('-1.0', '-inf')}, {d.word('2.5', 'inf', d.number())}]",
             d.text("x"): d.number(),
         }  # fmt: skip
         row += [f"{key} = {value}" for key, value in list(extra.items())[: None if d.chance(d.odd) else 4]
@@ -100,7 +102,9 @@ def ur_yaml(d: Draw) -> str:
         if d.chance(d.odd / 3):
             numbers[d.below(6)] = d.pick(NO_NUMBERS)
         lines += d.shuffled(numbers)
-    lines.append(d.maybe(f"  hash: {d.text('calib_1')}"))
+    lines.append(d.maybe(f"  hash: {d.text('calib_1')}") if not d.chance(d.odd) else "  hash:\n    a: 1")
+    if d.chance(d.odd):
+        return d.pick(("kinematics: 1", "kinematics:", "rpy:\n  a: 1\n" + "\n".join(lines), "rpy: x\nkinematics: {}"))
     if d.chance(d.odd / 3):
         nested = d.pick((5, 9, 500, 5000))
         lines.append(d.pick((
@@ -142,7 +146,11 @@ def measurements_csv(d: Draw) -> str:
 
 
 def jittered(d: Draw, text: str) -> str:
-    """A document with some of its numbers off by a few roundings, and as odd as the rest something else for one."""
+    """A document with some of its numbers off by a few roundings, and as odd as the rest something else for one, or
+    for all that a key has.
+    """
+    if d.chance(3 * d.odd):
+        text = mutate.value(d, text.encode()).decode("utf-8", "replace")
 
     def other(match: re.Match[str]) -> str:
         if d.chance(d.odd / 10):
@@ -157,6 +165,8 @@ def _rows(d: Draw, names: list[str], row: str, headed: float) -> str:
     if d.chance(headed):
         header = [d.text(name) for name in names]
         lines.append(",".join(d.shuffled(header) if not row else header))
+    if not row and d.chance(d.odd / 3):  # more lines than are held at once
+        lines += [",".join("1" * len(names))] * 10_001
     for _ in range(d.size()):
         lines.append(_line(d, row.split(",")) if row and not d.chance(d.odd) else _line(d, [d.number() for _ in names]))
     return _lines(d, lines)
@@ -164,14 +174,15 @@ def _rows(d: Draw, names: list[str], row: str, headed: float) -> str:
 
 def npy(d: Draw) -> bytes:
     rows = d.size()
-    shape = f"({d.text(str(rows))}, {d.text('3')})" if d.chance(0.9) else f"({d.numbers(d.below(4), ', ')})"
-    keys = {"descr": f"'{d.word('<f8', '<f4', '>f8', '<i4', '|u1', '<f2', '|O', '<c16', '<U4')}'",
-            "fortran_order": d.word("False", "True"), "shape": shape}  # fmt: skip
+    last, width = d.pick((("3", 3), ("3", 3), ("4, 4", 16), ("16", 16)))
+    shape = f"({d.text(str(rows))}, {last})" if d.chance(0.9) else f"({d.numbers(d.below(4), ', ')})"
+    descr = d.word("|O", "<c16", "<U4", "<f16") if d.chance(0.1) else d.word("<f8", "<f4", ">f8", "<i4", "|u1", "<f2")
+    keys = {"descr": f"'{descr}'", "fortran_order": d.word("False", "True"), "shape": shape}
     header = ("{" + ", ".join(f"'{d.text(k)}': {v}" for k, v in keys.items()) + "}").encode("utf-8", "surrogatepass")
     if d.chance(d.odd):
         header = d.pick((b"(" * 200, b"[" * 5000, b"-" * 5000, b"{1:" * 900, b"1" * 9000, b"\\", b"\xff", b"''" * 2000))
     header = header.ljust(d.pick((118, 54, 0))) + b"\n"
-    version = d.pick((b"\1\0", b"\1\0", b"\2\0", b"\3\0", b"\0\0"))
+    version = d.pick((b"\1\0", b"\1\0", b"\2\0", b"\3\0")) if not d.chance(d.odd) else b"\0\0"
     size = d.pick((0, 1, 2**16 - 1)) if d.chance(d.odd) else min(len(header), 2**16 - 1)
     magic = b"\x93NUMPY" + version + size.to_bytes(2 if version == b"\1\0" else 4, "little")
-    return magic + header + bytes(d.source.randrange(256) for _ in range(min(rows, 40) * d.pick((24, 24, 12, 6, 3))))
+    return magic + header + d.source.randbytes(min(rows, 40) * width * d.pick((8, 8, 8, 4, 2, 1)))

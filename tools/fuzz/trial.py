@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import resource
 import time
 import traceback
@@ -17,11 +18,16 @@ from poekin.errors import PoekinError, PoekinWarning
 from .readers import Reader
 
 SLOW = 1.0
-"""Seconds of the processor that an input may take."""
+"""Seconds that an input may take: of the processor, and again of waiting, as for a lock, a pipe or a clock."""
 MEMORY = 2**30
 """Bytes that a process may hold, poekin and all that it uses among them."""
 LONGEST = 20_000
 """Characters of a message that somebody may still read."""
+
+# In the words of libxml2, of MuJoCo and of C++; a stack of a size that the model itself asks for is another matter.
+_NO_MEMORY = re.compile(
+    r"(?<!mj_stackAlloc: )out of memory|(cannot|could not|failed to) allocate|bad_alloc", re.IGNORECASE
+)
 
 
 class Failure(NamedTuple):
@@ -34,11 +40,14 @@ class Failure(NamedTuple):
 
 
 class Trial(NamedTuple):
-    """accepted: whether something was read; seconds of the processor; failure, or None."""
+    """accepted: whether something was read; seconds of the processor; failure, or None; waited: seconds of neither
+    having nor wanting a processor.
+    """
 
     accepted: bool
     seconds: float
     failure: Failure | None
+    waited: float = 0.0
 
 
 def attempt(reader: Reader, data: bytes, use: bool = True) -> Trial:
@@ -46,10 +55,11 @@ def attempt(reader: Reader, data: bytes, use: bool = True) -> Trial:
 
     A warning of poekin's own is none of its failures; any other is, as it would be in a test run of its users.
     """
-    Path(reader.file).write_bytes(data)
+    for name, content in (*reader.beside, (reader.file, data)):
+        Path(name).write_bytes(content)
     there = os.listdir()
     accepted, failure = False, None
-    peak, start = _peak(), time.process_time()
+    peak, start, idle = _peak(), time.process_time(), _idle()
     with _warnings_said() as said:
         try:
             read = reader.read(reader.file)
@@ -58,9 +68,10 @@ def attempt(reader: Reader, data: bytes, use: bool = True) -> Trial:
                 reader.use(read)
         except PoekinError as fault:
             said.append(str(fault))
+            failure = _refused_badly(fault)
         except BaseException as fault:  # noqa: BLE001  whatever it is, it is what is looked for
             failure = Failure(type(fault).__name__, _place(fault), "".join(traceback.format_exception(fault)))
-    seconds = time.process_time() - start
+    seconds, waited = time.process_time() - start, _idle() - idle
     if failure is None:
         failure = next(filter(None, map(_unreadable, said)), None)
     if left := set(os.listdir()).difference(there):
@@ -69,7 +80,7 @@ def attempt(reader: Reader, data: bytes, use: bool = True) -> Trial:
         failure = failure or Failure("left a file", reader.name, ", ".join(left))
     if failure is None and peak < _peak() >= 0.9 * MEMORY:
         failure = Failure("memory", reader.name, f"the process has held {_peak() / 2**20:.0f} MiB")
-    return Trial(accepted, seconds, failure)
+    return Trial(accepted, seconds, failure, waited)
 
 
 @contextmanager
@@ -92,6 +103,20 @@ def _unreadable(message: str) -> Failure | None:
     return None
 
 
+def _refused_badly(fault: BaseException) -> Failure | None:
+    """A refusal that is no more than the limit of this process, as elsewhere the reader would have gone on eating; or
+    one that is its own cause, so that whoever looks for the first cause goes round for ever.
+    """
+    chain: list[BaseException] = [fault]
+    while (cause := chain[-1].__cause__ or chain[-1].__context__) is not None:
+        if cause in chain:
+            return Failure("its own cause", _place(fault), traceback.format_exc())
+        chain.append(cause)
+    if any(isinstance(one, MemoryError) or _NO_MEMORY.search(str(one)) for one in chain):
+        return Failure("memory refused", _place(fault), traceback.format_exc())
+    return None
+
+
 def _start(message: str) -> str:
     return " ".join(message.split(": ")[1:3])[:40]
 
@@ -101,6 +126,12 @@ def _place(fault: BaseException) -> str:
     frames = [(f.filename, f.name) for f in traceback.extract_tb(fault.__traceback__)]
     inside = [(file, name) for file, name in frames if "/poekin/" in file] or frames[-1:]
     return f"{inside[-1][0].rpartition('/poekin/')[2]} {inside[-1][1]}" if inside else ""
+
+
+def _idle() -> float:
+    """Seconds of the clock less those on a processor or in the queue for one: a busy machine makes nobody wait."""
+    on, queued = map(int, Path("/proc/thread-self/schedstat").read_text().split()[:2])
+    return time.monotonic() - (on + queued) / 1e9
 
 
 def _peak() -> int:

@@ -1,18 +1,25 @@
 """The command line: run mutants, all or a seeded sample, and say what the suite caught.
 
 Outcomes are kept in build/mutants/results.jsonl; a run that is begun again goes on where it ended, and tries again
-those that survived. A mutant's key holds the text of its module: after an edit there its mutants are new.
+those that survived. A mutant's key holds the text of its module: after an edit there its mutants are new. An edit
+elsewhere makes none new: what was caught by a test that has been weakened or removed since still counts as caught, and
+so does what was caught while another module was as it was. The run says how many outcomes are of earlier runs; a figure
+to be relied upon is of one run with --afresh, which runs all the chosen ones again.
 """
 
 from __future__ import annotations
 
 import argparse
+import importlib.util
 import random
 import sys
 import tempfile
 import time
 from collections import Counter
 from pathlib import Path
+
+if importlib.util.find_spec("cosmic_ray") is None:
+    sys.exit("mutation testing needs the package cosmic-ray: pip install -e '.[dev]', or make mutate, installs it")
 
 from . import equivalent
 from .campaign import BrokenSuite, Campaign, Outcome, kept
@@ -30,7 +37,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--module", action="append", help="only modules whose path holds this (may be repeated)")
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--afresh", action="store_true", help="forget what earlier runs found")
+    parser.add_argument("--afresh", action="store_true", help="run again what earlier runs have tried")
     parser.add_argument("--quick", action="store_true", help="try survivors on the tests beside their module only")
     parser.add_argument("--report", action="store_true", help="run nothing: say what is known")
     parser.add_argument("--count", action="store_true", help="run nothing: count the mutants")
@@ -46,9 +53,11 @@ def main(arguments: list[str] | None = None) -> int:
 
     file = ROOT / "build" / "mutants" / "results.jsonl"
     file.parent.mkdir(parents=True, exist_ok=True)
-    if said.afresh:
-        file.unlink(missing_ok=True)
     outcomes = kept(file)
+    if said.afresh:  # a sample's own: the others stay what they are, as they have taken hours
+        for mutant in chosen:
+            outcomes.pop(mutant.key, None)
+    earlier = sum(m.key in outcomes and outcomes[m.key]["outcome"] != "passed" for m in chosen)
     if not (said.report or said.count):
         waiting = [m for m in chosen if m.key not in outcomes or outcomes[m.key]["outcome"] == "passed"]
         try:
@@ -58,6 +67,8 @@ def main(arguments: list[str] | None = None) -> int:
             return 2
     if said.count:
         outcomes = {}
+    elif earlier:
+        print(f"{earlier} of {len(chosen)} were caught in earlier runs, by the tests of then; --afresh runs them again")
     return _judged(chosen, every, outcomes, listed, stale)
 
 

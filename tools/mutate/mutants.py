@@ -91,7 +91,10 @@ def _differs(lines: list[str], after: list[str], place: int) -> int | None:
 
 @cache
 def operators() -> tuple[tuple[str, Any], ...]:
-    """cosmic-ray's operators by name, but for those that want to be told which variables to exchange."""
+    """cosmic-ray's operators by name, all but two: VariableReplacer and VariableInserter want to be told of which
+    variables, and put a random number in their place or an operation drawn at random beside them, so that no two runs
+    would plant the same.
+    """
     names = sorted(cosmic_ray.plugins.operator_names())
     classes = [(name, cosmic_ray.plugins.get_operator(name)) for name in names]
     return tuple((name, operator()) for name, operator in classes if not operator.arguments())

@@ -150,7 +150,7 @@ def _parameters(keys: Keys, arm: Arm, frames: dict[str, Array]) -> tuple[tuple[P
         raise keys.fault("covariance", "expected a symmetric matrix with a diagonal that is not negative")
     for row, variance in zip(rows, variances, strict=True):
         if abs(row.number("deviation") - variance**0.5) > 1e-12 * variance**0.5:
-            raise row.fault("deviation", f"expected {variance**0.5!r}, as the covariance says")
+            raise row.fault("deviation", f"expected {float(variance**0.5)!r}, as the covariance says")
     return found, values, covariance
 
 
