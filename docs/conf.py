@@ -28,6 +28,8 @@ smartquotes = False  # f' is a derivative and ... are dots
 
 autodoc_typehints = "none"  # the docstrings give shapes and units
 autodoc_member_order = "bysource"
+autodoc_preserve_defaults = True  # methods=METHODS, not all that is in it
+autodoc_docstring_signature = False  # a first line may look like a call, and is an equation
 autodoc_class_signature = "mixed"
 add_module_names = False
 python_maximum_signature_line_length = 88
@@ -58,15 +60,20 @@ def skip(app, what, name, obj, skipped, options):
     return True if type(obj).__name__ == "_tuplegetter" else skipped
 
 
+def mathml(text, **kind):
+    """An equation as MathML, which browsers draw by themselves; the bars of a norm no higher than what is in them."""
+    return latex2mathml.tex2mathml(text, **kind).replace("<mo>‖</mo>", '<mo stretchy="false">‖</mo>')
+
+
 def visit_math(self, node):
-    """An equation as MathML, which browsers draw by themselves."""
-    self.body.append(latex2mathml.tex2mathml(node.astext()))
+    """An equation in a line of text."""
+    self.body.append(mathml(node.astext()))
     raise SkipNode
 
 
 def visit_displaymath(self, node):
     """The same on a line of its own."""
-    self.body.append(f'<div class="equation">{latex2mathml.tex2mathml(node.astext(), as_block=True)}</div>')
+    self.body.append(f'<div class="equation">{mathml(node.astext(), as_block=True)}</div>')
     raise SkipNode
 
 

@@ -71,6 +71,20 @@ def test_a_planted_fault_on_a_page_is_caught(text, fault, tmp_path):
         run_page("docs/p.md", text, tmp_path)
 
 
+def anchors(text: str) -> set[str]:
+    """What links to the headings of a page: lower case, without punctuation, hyphens for spaces."""
+    plain = re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+    headings = re.findall(r"^#+ (.*)$", plain, re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def lost_anchors(page: Path) -> list[str]:
+    """Links to headings that do not exist, on this page or on another."""
+    links = re.findall(r"\]\(([^)\s#:]*)#([^)\s]+)\)", page.read_text(encoding="utf-8"))
+    targets = [(page if not file else page.parent / file, anchor) for file, anchor in links]
+    return [anchor for file, anchor in targets if anchor not in anchors(file.read_text(encoding="utf-8"))]
+
+
 def dead(page: Path) -> list[str]:
     """Links and figures of a page that lead nowhere; what is made at the build counts as there."""
     text = page.read_text(encoding="utf-8")
@@ -93,6 +107,11 @@ def test_a_page_links_to_what_exists(page):
     assert dead(ROOT / page) == []
 
 
+@pytest.mark.parametrize("page", [*PAGES, *BESIDE, "README.md"])
+def test_a_link_to_a_heading_finds_it(page):
+    assert lost_anchors(ROOT / page) == []
+
+
 def test_every_page_is_in_the_index():
     index = (DOCS / "index.md").read_text(encoding="utf-8")
     assert [p for p in PAGES if p.removeprefix("docs/").removesuffix(".md") not in index and p != "docs/index.md"] == []
@@ -104,6 +123,13 @@ def test_a_dead_link_is_caught(tmp_path):
         "[a](gone.md)\n:::{figure} ../gone.svg\n:::\n:::{toctree}\n:hidden:\n\npage\nlost\n:::\n", encoding="utf-8"
     )
     assert dead(tmp_path / "page.md") == ["gone.md", "../gone.svg", "lost"]
+
+
+def test_a_link_to_a_heading_that_is_gone_is_caught(tmp_path):
+    (tmp_path / "a.md").write_text("# One (two): `x`\n```sh\n# no heading\n```\n[x](#one-two-x)", encoding="utf-8")
+    (tmp_path / "b.md").write_text("[x](a.md#one-two-x) [y](a.md#no-heading) [z](#here)", encoding="utf-8")
+    assert lost_anchors(tmp_path / "a.md") == []
+    assert lost_anchors(tmp_path / "b.md") == ["no-heading", "here"]
 
 
 # The architecture page: made from the floors, and what it names exists.
@@ -208,20 +234,26 @@ Parameters: q (..., m). Returns: T (..., 4, 4). Raises, accuracy: as `fk`.
 - "body": one
   thing
 
+one  two words
+three  four
+
 Parameters
 ----------
 q, dq (..., m): rad,
 and more. other: no
-T: m.
+T: m (extra `fk`). a_b (3,), c(done): yes. Where c is told: no
 """.splitlines()
-    rest = docs_render.rest(doc, {"fk": "poekin.Chain.fk"}, {"q", "dq", "T"})
+    rest = docs_render.rest(doc, {"fk": "poekin.Chain.fk"}, {"q", "dq", "T", "a_b", "c"})
     assert [line for line in rest if line] == [
         "\\ A\\_i \\|x\\| \\*q\\* of \\ :py:obj:`fk <poekin.Chain.fk>`\\  and x\\_ as they stand.",
         "::", "        f = e^{A_1 x_1} *",
         ":Parameters: \\ q (..., m).", ":Returns: \\ T (..., 4, 4).",
         ":Raises, accuracy: \\ as \\ :py:obj:`fk <poekin.Chain.fk>`\\ .",
         '* \\ "body": one thing',
-        ":Parameters:", "    * **q, dq**\\ \\ (..., m): rad, and more. other: no", "    * **T**\\ \\ : m.",
+        "::", "    one  two words", "    three  four",
+        ":Parameters:", "    * **q**\\ , **dq** \\ (..., m): rad, and more. other: no",
+        "    * **T**\\ : m (extra \\ ``fk``\\ ).",
+        "    * **a\\_b** \\ (3,), **c**\\ (done): yes. Where c is told: no",
     ]  # fmt: skip
 
 
@@ -274,8 +306,13 @@ def test_a_drawing_is_an_image_within_its_own_borders(name):
         for element in picture.iter()
         for pair in element.attrib.get("points", "").split()
     ]
-    points += [(float(e.attrib["x"]), float(e.attrib["y"])) for e in picture.iter() if e.tag.endswith("text")]
     assert len(points) > 20
+    for words in (e for e in picture.iter() if e.tag.endswith("text")):
+        # A letter is at most 0.6 of the size wide, rises 0.8 of it over its line and hangs 0.3 below.
+        x, y, size = float(words.attrib["x"]), float(words.attrib["y"]), float(picture.attrib["font-size"])
+        wide = 0.6 * size * len(words.text or "")
+        left = x - wide * {"start": 0, "middle": 0.5, "end": 1}[words.attrib["text-anchor"]]
+        points += [(left, y - 0.8 * size), (left + wide, y + 0.3 * size)]
     assert all(0 <= x <= width and 0 <= y <= height for x, y in points)
 
 

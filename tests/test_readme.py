@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import linecache
 import os
 import re
 import shlex
@@ -25,6 +26,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 
+SOURCE = "<README.md>"
 RUN = ("poekin", "python")
 NOT_CODE = ("text", "math", "bibtex")
 SET_UP = (
@@ -64,15 +66,16 @@ def blocks(text: str) -> Iterator[Block]:
 
 def printed_by(block: Block, namespace: dict) -> str:
     """What a Python block prints, with warnings as errors; a failure names the line of README.md."""
-    out = io.StringIO()
+    out, code = io.StringIO(), "\n" * (block.line - 1) + block.text
+    # Who asks for the source of a function, as Hypothesis does, gets this block and not a file of that name.
+    linecache.cache[SOURCE] = (len(code), None, code.splitlines(keepends=True), SOURCE)
     try:
         with warnings.catch_warnings(), contextlib.redirect_stdout(out):
             warnings.simplefilter("error")
-            lines = "\n" * (block.line - 1) + block.text
-            exec(compile(lines, "README.md", "exec", dont_inherit=True), namespace)
+            exec(compile(code, SOURCE, "exec", dont_inherit=True), namespace)
     except Exception as error:
         frames = traceback.extract_tb(error.__traceback__)
-        within = [frame.lineno for frame in frames if frame.filename == "README.md"]
+        within = [frame.lineno for frame in frames if frame.filename == SOURCE]
         line = error.lineno if isinstance(error, SyntaxError) else within[-1]
         raise AssertionError(f"README.md:{line}: {type(error).__name__}: {error}") from error
     return out.getvalue()
@@ -208,6 +211,14 @@ def test_a_planted_fault_is_caught(text, message, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(AssertionError, match=re.escape(message)):
         run(text, tmp_path)
+
+
+def test_the_source_of_a_function_on_a_page_is_that_of_its_block(tmp_path):
+    run(
+        "text\n```python\nimport inspect\n\n\ndef f():\n    return (1,\n            2)\n\n\n"
+        "print(inspect.getsource(f).count('\\n'))\n```\n```text\n3\n```",
+        tmp_path,
+    )
 
 
 def test_a_sound_readme_is_accepted(tmp_path, monkeypatch):

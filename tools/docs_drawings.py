@@ -25,7 +25,7 @@ class Drawing:
         self.scale, self.origin = scale, np.array(origin, dtype=float)
         self.parts = [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
-            f'height="{height}" role="img" font-family="sans-serif" font-size="14">',
+            f'height="{height}" role="img" font-family="sans-serif" font-size="16">',
             f"<title>{title}</title>",
             f'<rect width="{width}" height="{height}" fill="#ffffff"/>',
         ]
@@ -75,17 +75,17 @@ class Drawing:
 
 def screws() -> str:
     """A revolute, a helical and a prismatic joint: what the same point does when q runs."""
-    drawing = Drawing(720, 275, (110, 195), 100, "Three screws and the paths of a point")
+    drawing = Drawing(600, 256, (88, 166), 100, "Three screws and the paths of a point")
     z = np.array([0.0, 0.0, 1.0])
     start = np.array([0.65, -0.15, 0.0, 1.0])
     kinds = (
-        ("revolute: (ω; −ω × p)", lambda p: pk.screw.revolute(z, p), np.linspace(0, 5.2, 90)),
-        ("helical: (ω; −ω × p + hω)", lambda p: pk.screw.helical(z, p, 0.09), np.linspace(0, 11.5, 180)),
-        ("prismatic: (0; v)", lambda p: pk.screw.prismatic(z), np.linspace(0, 1.2, 20)),
+        ("revolute", "(ω; −ω × p)", lambda p: pk.screw.revolute(z, p), np.linspace(0, 5.2, 90)),
+        ("helical", "(ω; −ω × p + hω)", lambda p: pk.screw.helical(z, p, 0.09), np.linspace(0, 11.5, 180)),
+        ("prismatic", "(0; v)", lambda p: pk.screw.prismatic(z), np.linspace(0, 1.2, 20)),
     )
-    for number, (name, screw, q) in enumerate(kinds):
+    for number, (name, numbers, screw, q) in enumerate(kinds):
         # Beside each other on the page: along the direction that the projection shows as horizontal.
-        p = 2.45 * number * VIEW[0]
+        p = 2.05 * number * VIEW[0]
         A = screw(p)
         path = (pk.se3.exp(q[:, None] * A) @ np.add(start, [*p, 0]))[:, :3]
         prismatic = number == 2
@@ -99,7 +99,8 @@ def screws() -> str:
             drawing.dot(p, AXIS)
             drawing.text(p, "p", -10, 14, AXIS, "end")
         drawing.dot(path[0], MOVED)
-        drawing.text(p - 0.35 * z, name, 0, 30, INK, "middle")
+        drawing.text(p - 0.35 * z, name, 0, 26, INK, "middle")
+        drawing.text(p - 0.35 * z, numbers, 0, 46, INK, "middle")
     return drawing.done()
 
 
@@ -112,16 +113,16 @@ def arm() -> str:
     chain = pk.Chain(
         [pk.screw.revolute(z, [0, 0, 0]), pk.screw.revolute(y, [0, 0, 0]), pk.screw.revolute(y, [L1, 0, 0])], home
     )
-    drawing = Drawing(560, 300, (110, 180), 230, "Example 1 of the paper: three screws and the home pose")
+    drawing = Drawing(600, 300, (80, 172), 230, "Example 1 of the paper: three screws and the home pose")
     joints = np.array([[0, 0, 0], [L1, 0, 0], [L1 + L2, 0, 0]])
     drawing.line(joints, "#aaaaaa", 7)
-    for screw, name, dx, dy in zip(chain.screws, ("A₁", "A₂", "A₃"), (8, -12, 8), (4, 14, 4), strict=True):
+    for screw, name, dx, dy in zip(chain.screws, ("A₁", "A₂", "A₃"), (8, -6, -6), (4, 18, 18), strict=True):
         axis = pk.screw.axis_of(screw)
         point = axis.point if axis.point is not None else np.zeros(3)
         drawing.line([point - 0.3 * axis.direction, point + 0.55 * axis.direction], AXIS, 1.3)
         drawing.arrow(point + 0.4 * axis.direction, point + 0.55 * axis.direction, AXIS)
         drawing.text(point + 0.55 * axis.direction, name, dx, dy, AXIS)
-    drawing.frame(home, 0.22, "M", 30, 22)
+    drawing.frame(home, 0.22, "M", 4, 26)
 
     q = np.array([0.35, 0.75, -0.95])
     J = chain.jacobian(q, frame="space")
@@ -132,7 +133,7 @@ def arm() -> str:
     axis = pk.screw.axis_of(J[:, 2])
     drawing.arrow(bent[1] - 0.25 * axis.direction, bent[1] + 0.4 * axis.direction, MOVED, 1.5)
     drawing.text(bent[1] - 0.25 * axis.direction, "A₃, carried along by q₁ and q₂", 8, -2, MOVED)
-    drawing.frame(chain.fk(q), 0.22, "f(q)", 34, 4)
+    drawing.frame(chain.fk(q), 0.22, "f(q)", 12, 28)
     drawing.frame(np.eye(4), 0.22, "s", -10, 16)
     for point in (*joints[:2], bent[1]):
         drawing.dot(point)
@@ -141,7 +142,7 @@ def arm() -> str:
 
 def frames() -> str:
     """One motion of a tool, and the point whose velocity each frame's v is."""
-    drawing = Drawing(700, 260, (60, 190), 230, "Space, body and hybrid: which point v belongs to")
+    drawing = Drawing(680, 250, (40, 180), 205, "Space, body and hybrid: which point v belongs to")
     T = pk.se3.exp([0, 0, 0, 1.75, 0.35, 0.35]) @ pk.se3.exp([0.35, 0, 0.75, 0, 0, 0])
     screw = pk.screw.revolute([0, 0, 1], [0.75, 0.3, 0])  # the tool turns about this line
     drawing.line([[0.75, 0.3, -0.25], [0.75, 0.3, 0.85]], AXIS, 1.5)

@@ -58,7 +58,7 @@ EQUATIONS: dict[str, str] = {
     "poekin.Chain": _POE,
     "poekin.Chain.fk": _POE,
     "poekin.Chain.jacobian": _COLUMN,
-    "poekin.Chain.velocity": r"V_i = \operatorname{Ad}(f_{i-1,i})^{-1} V_{i-1} + S_i \dot{q}_i, \quad V_0 = 0",
+    "poekin.Chain.velocity": r"V_i = \operatorname{Ad}(f_{i-1,i})^{-1} V_{i-1} + S_i \dot{q}{}_i, \quad V_0 = 0",
     "poekin.Chain.joint_poses": r"f_k = M_1 e^{S_1 q_1} \cdots M_k e^{S_k q_k}",
     "poekin.Chain.space": _POE,
     "poekin.Chain.body": _BODY,
@@ -89,7 +89,7 @@ EQUATIONS: dict[str, str] = {
         r"\operatorname{Ad}(f_{n-1,n})^{-1} S_{n-1} & S_n \end{bmatrix}, \quad f_{i-1,i} = M_i e^{S_i q_i}"
     ),
     "poekin.formulas.recursive.body_velocity": (
-        r"V_i = \operatorname{Ad}(f_{i-1,i})^{-1} V_{i-1} + S_i \dot{q}_i, \quad V_n = f^{-1}\dot{f}"
+        r"V_i = \operatorname{Ad}(f_{i-1,i})^{-1} V_{i-1} + S_i \dot{q}{}_i, \quad V_n = f^{-1}\dot{f}"
     ),
     "poekin.formulas.dh": _PAUL,
     "poekin.formulas.dh_recursive": (

@@ -35,6 +35,21 @@ PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "errors": ("Errors and warnings", ("PoekinError", "PoekinWarning", "errors")),
 }  # fmt: skip
 
+# Pages of `poekin.testing`: title, and modules, each with its text and its functions.
+TESTING: dict[str, tuple[str, tuple[str, ...]]] = {
+    "testing_strategies": ("poekin.testing: strategies", (
+        "strategies", "near_strategies", "chain_strategies", "configuration_strategies", "robot_strategies",
+        "dh_strategies", "reader",
+    )),
+    "testing_laws": ("poekin.testing: laws", (
+        "laws", "group", "group_laws", "accuracy_laws", "near_laws", "chain_laws", "change_laws", "derivative_laws",
+        "method_laws", "measures",
+    )),
+    "testing_oracles": ("poekin.testing: oracles", (
+        "exact", "attainable", "differences", "pinocchio_oracle", "pinocchio_derivatives", "accuracy",
+    )),
+}  # fmt: skip
+
 # What functions and methods return, where the class itself is in no public module: where it is, and its page.
 RESULTS: dict[str, str] = {
     "poekin.model.chain.ScrewForm": "chain",
@@ -59,15 +74,22 @@ RESULTS: dict[str, str] = {
 }
 
 
+def testing_modules() -> dict[str, str]:
+    """Full name of each module of `TESTING`, and its page."""
+    return {f"poekin.testing.{name}": page for page, (_, names) in TESTING.items() for name in names}
+
+
 def own(thing: object) -> bool:
     return (getattr(thing, "__module__", None) or "").split(".")[0] == "poekin"
 
 
 def of_module(module: types.ModuleType) -> list[str]:
-    """The public names of a module: `__all__`, or, of the errors, the classes that it defines."""
+    """The public names of a module: `__all__`, or, of the errors, its classes; of testing, its functions as well."""
     if hasattr(module, "__all__"):
         return list(module.__all__)
-    return [n for n, x in vars(module).items() if inspect.isclass(x) and x.__module__ == module.__name__]
+    told = module.__name__ in testing_modules()
+    defined = {n: x for n, x in vars(module).items() if inspect.isclass(x) or (told and inspect.isroutine(x))}
+    return [n for n, x in defined.items() if not n.startswith("_") and x.__module__ == module.__name__]
 
 
 def members(owner: type) -> Iterator[tuple[str, object]]:
@@ -114,15 +136,20 @@ def documented() -> dict[str, str]:
             for name, _ in members(thing):
                 found[f"{dotted}.{name}"] = page
 
+    def add_module(dotted: str, module: types.ModuleType, page: str) -> None:
+        for inner in of_module(module):
+            if inspect.isroutine(getattr(module, inner)) or inspect.isclass(getattr(module, inner)):
+                add(f"{dotted}.{inner}", getattr(module, inner), page)
+
     for page, (_, names) in pages().items():
         for name in names:
             thing = getattr(poekin, name)
             if isinstance(thing, types.ModuleType):
-                for inner in of_module(thing):
-                    if inspect.isroutine(getattr(thing, inner)) or inspect.isclass(getattr(thing, inner)):
-                        add(f"poekin.{name}.{inner}", getattr(thing, inner), page)
+                add_module(f"poekin.{name}", thing, page)
             else:
                 add(f"poekin.{name}", thing, page)
+    for dotted, page in testing_modules().items():
+        add_module(dotted, importlib.import_module(dotted), page)
     for dotted, page in RESULTS.items():
         add(dotted, resolved(dotted), page)
     return found
@@ -158,16 +185,19 @@ def reference() -> dict[str, str]:
         for name in names:
             thing = getattr(poekin, name)
             if isinstance(thing, types.ModuleType):
-                text = rest((inspect.getdoc(thing) or "").splitlines(), {})
-                lines += [f".. py:module:: poekin.{name}", "", *text, ""]
-                inner = [n for n in of_module(thing) if f"poekin.{name}.{n}" in documented()]
-                lines += [line for n in inner for line in directive(f"poekin.{name}.{n}", getattr(thing, n))]
+                lines += section(f"poekin.{name}", thing)
             else:
                 lines += directive(f"poekin.{name}", thing)
         results = [d for d, p in RESULTS.items() if p == page]
         if results:
             lines += ["What they return", "----------------", ""]
             lines += [line for d in results for line in directive(d, resolved(d))]
+        made[f"{page}.rst"] = "\n".join(lines) + "\n"
+    for page, (title, names) in TESTING.items():
+        lines = [title, "=" * len(title), ""]
+        for name in names:
+            dotted = f"poekin.testing.{name}"
+            lines += [name, "-" * len(name), "", *section(dotted, importlib.import_module(dotted))]
         made[f"{page}.rst"] = "\n".join(lines) + "\n"
     title = "Formulas"
     lines = [title, "=" * len(title), "", FORMULAS, ""]
@@ -183,6 +213,16 @@ FORMULAS = (
     "compiled, counted, traced into the code of one arm, and run in 60 digits. Each module begins with the paper's "
     "equation; where it departs from the print, it says how."
 )
+
+
+def section(dotted: str, module: types.ModuleType) -> list[str]:
+    """A module: its text, and all that is documented of it."""
+    # Of the modules of testing the texts name each other's functions; elsewhere they name other pages.
+    near = links(f"{dotted}.") if dotted in testing_modules() else {}
+    text = rest((inspect.getdoc(module) or "").splitlines(), near)
+    inner = [name for name in of_module(module) if f"{dotted}.{name}" in documented()]
+    found = [line for name in inner for line in directive(f"{dotted}.{name}", getattr(module, name))]
+    return [f".. py:module:: {dotted}", "", *text, "", *found]
 
 
 def directive(dotted: str, thing: object) -> list[str]:

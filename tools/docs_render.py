@@ -1,8 +1,8 @@
 """The house's docstrings as reStructuredText: they are plain text, so all markup characters are escaped.
 
-What is told apart: paragraphs; indented blocks (equations and tables, kept letter by letter); lists of "- "; and what
-begins with one of the labels "Parameters:", "Returns:", "Raises:", "Accuracy:", "Source:" and the like, which becomes
-a field. `names in backquotes` become links where there is such a name, else code.
+What is told apart: paragraphs; indented blocks and columns (equations and tables, kept letter by letter); lists of
+"- "; and what begins with one of the labels "Parameters:", "Returns:", "Raises:", "Accuracy:", "Source:" and the like,
+which becomes a field. `names in backquotes` become links where there is such a name, else code.
 """
 
 from __future__ import annotations
@@ -17,6 +17,9 @@ LABEL = re.compile(
 )
 HEADED = ("Parameters", "Returns", "Raises", "Fields", "Further fields", "Attributes")
 ITEM = re.compile(r"([A-Za-z_]\w*)(?:[ ,(][^:]*)?:\s")
+ONE = r"[A-Za-z_]\w*(?: ?\([^)]*\))?"  # a name, and what stands in brackets behind it
+NAMES = re.compile(rf"{ONE}(?:, {ONE})*(?=:| \([^)]*\)[:,]| = [^:]*:)")
+COLUMNS = re.compile(r"\S {2,}\S")
 
 
 def prose(text: str, links: Mapping[str, str]) -> str:
@@ -27,7 +30,9 @@ def prose(text: str, links: Mapping[str, str]) -> str:
     out = []
     for number, part in enumerate(parts):
         if number % 2 and part.strip() == part and part:
-            code = f":py:obj:`{part} <{links[part]}>`" if part in links else f"``{part}``"
+            # The names of extras are no functions.
+            link = part in links and not parts[number - 1].endswith("extra ")
+            code = f":py:obj:`{part} <{links[part]}>`" if link else f"``{part}``"
             # A letter or a figure right beside it would keep it from being markup.
             out.append(f"\\ {code}\\ ")
         else:
@@ -72,12 +77,28 @@ def listed(lines: list[str], starts, links: Mapping[str, str]) -> list[str]:
 
 
 def named(entry: str, links: Mapping[str, str]) -> str:
-    """An entry, the names that it begins with in bold: "q, dq (..., m): ..." or "- kind: ..."."""
-    match = re.match(r"([A-Za-z_]\w*(?:, [A-Za-z_]\w*)*)(?=:| \([^)]*\)[:,]| = [^:]*:)", entry)
+    """An entry, the names that it begins with in bold: "q (..., m), out: ..." or "- kind: ..."."""
+    match = NAMES.match(entry)
     if not match:
         return prose(entry, links)
-    bold = match[1].replace("_", "\\_")
-    return f"**{bold}**\\ {prose(entry[match.end() :], links)}"
+    out, end = "", 0
+    for name in re.finditer(r"(?:^|(?<=, ))[A-Za-z_]\w*(?![^(]*\))", match[0]):
+        out += spaced(entry[end : name.start()], links) + "**" + name[0].replace("_", "\\_") + "**"
+        end = name.end()
+    return out + spaced(entry[end:], links)
+
+
+def spaced(text: str, links: Mapping[str, str]) -> str:
+    """What stands behind a name, or between two."""
+    before, after = (" " if edge else "" for edge in (text.startswith(" "), text.endswith(" ")))
+    return f"{before}{prose(text, links)}{after}" if text.strip() else text
+
+
+def apart(lines: list[str], names: Collection[str]) -> list[str]:
+    """Lines of parameters, cut also where in one line a sentence ends and another parameter's name begins."""
+    known = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
+    begin = re.compile(rf"(?<=[.;]) +(?=(?:{known})(?: ?\([^)]*\))?(?:, [a-z_]\w*(?: ?\([^)]*\))?)*: )")
+    return [part for line in lines for part in begin.split(line)] if names else lines
 
 
 def text_and_fields(text: str, links: Mapping[str, str]) -> list[str]:
@@ -96,7 +117,7 @@ def rest(lines: Iterable[str], links: Mapping[str, str], names: Collection[str] 
     """
     out: list[str] = []
     for paragraph in paragraphs(headings([line.rstrip() for line in lines])):
-        if paragraph[0].startswith("  "):
+        if paragraph[0].startswith("  ") or (len(paragraph) > 1 and all(map(COLUMNS.search, paragraph))):
             out += ["::", "", *(f"    {line}" for line in paragraph), ""]
         elif paragraph[0].rstrip(":") in HEADED and paragraph[0].endswith(":"):
             bullets = paragraph[1].startswith("- ")
@@ -107,7 +128,8 @@ def rest(lines: Iterable[str], links: Mapping[str, str], names: Collection[str] 
                 match = ITEM.match(line)
                 return line.strip(), bool(match) and (not names or match[1] in names)
 
-            out += [f":{paragraph[0][:-1]}:", *(f"    {line}" for line in listed(paragraph[1:], item, links)), ""]
+            body = paragraph[1:] if bullets else apart(paragraph[1:], names)
+            out += [f":{paragraph[0][:-1]}:", *(f"    {line}" for line in listed(body, item, links)), ""]
         else:
             out += mixed(paragraph, links)
     return out

@@ -1,23 +1,31 @@
 """Hypothesis strategies, laws and oracles, for poekin's own tests and for other projects' tests.
 
-    exact              so(3) and se(3) in 60 digits and more (mpmath); shares no code with the package
-    attainable         what float64 can attain for exp and log, and how far a result is from it
-    differences        finite differences on the group
-    pinocchio_oracle   poses and Jacobians of a URDF by Pinocchio
-    strategies         Hypothesis strategies: angles, axes, twists, poses, noisy rotations
-    chain_strategies   Hypothesis strategies: screws, chains, configurations
-    configuration_strategies  Hypothesis strategies: configurations within and at limits, singular ones
-    dh_strategies      Hypothesis strategies: Denavit-Hartenberg tables
-    reader             random bytes read as numbers, which the strategies are made of
+Strategies: what to try
+    strategies         angles, axes, vectors, rotations, noisy rotations, twists, poses; batches and their shapes
+    near_strategies    the same close to 0, to π or to any other angle
+    chain_strategies   screws, chains, coordinates
+    configuration_strategies  configurations within and at limits, singular ones
+    robot_strategies   robots: whole trees, with mimic joints, limits and several leaves
+    dh_strategies      Denavit-Hartenberg tables
+    reader             random bytes read as numbers, to write strategies like these
+
+Laws: what must hold, as plain functions that raise LawViolation with the error and its bound
     laws, measures     LawViolation, and how an error is measured
     group, group_laws  SO(3) and SE(3) as plain functions, and their laws
     accuracy_laws      exp, log and the Jacobians of exp against `exact`
     near_laws          the branches of log
     chain_laws         laws of a serial chain
     change_laws        laws of a chain with another base, tool, zero position or link frames
+    derivative_laws    laws of the Jacobian's derivatives
     method_laws        the algorithms for the Jacobian agree
     hunting            shows that a battery of laws catches a planted error
     conform            holds any library to the laws, and grades it: `poekin conform`
+
+Oracles: what is true, by code that shares nothing with what it judges
+    exact              so(3) and se(3) in 60 digits and more (mpmath)
+    attainable         what float64 can attain for exp and log, and how far a result is from it
+    differences        finite differences on the group
+    pinocchio_oracle, pinocchio_derivatives  poses, Jacobians and their derivatives of a URDF by Pinocchio
     accuracy           the worst errors of exp, log and the Jacobians, as rows of a report; `extended` and `suspects`
                        find the cases for it
 
@@ -41,6 +49,7 @@ if TYPE_CHECKING:
         change_laws,
         configuration_strategies,
         conform,
+        derivative_laws,
         dh_strategies,
         differences,
         exact,
@@ -52,8 +61,11 @@ if TYPE_CHECKING:
         measures,
         method_laws,
         near_laws,
+        near_strategies,
+        pinocchio_derivatives,
         pinocchio_oracle,
         reader,
+        robot_strategies,
         strategies,
         suspects,
     )
@@ -67,6 +79,7 @@ __all__ = [
     "change_laws",
     "configuration_strategies",
     "conform",
+    "derivative_laws",
     "dh_strategies",
     "differences",
     "exact",
@@ -78,8 +91,11 @@ __all__ = [
     "measures",
     "method_laws",
     "near_laws",
+    "near_strategies",
+    "pinocchio_derivatives",
     "pinocchio_oracle",
     "reader",
+    "robot_strategies",
     "strategies",
     "suspects",
 ]

@@ -28,7 +28,12 @@ _SWITCHES = (2e-140, 1.0, 2.0)
 
 
 class Row(NamedTuple):
-    """A line of the report: what was measured, its worst error, the bar, over how many cases, and the worst case."""
+    """A line of the report.
+
+    Fields: what was measured; error, the worst, and bar, what it may be, both in the unit that `what` names (rad, or
+    multiples of what float64 can attain); cases, over how many; worst, the case: a twist (6,), a pose (4, 4) in the
+    base frame, or a rotation (3, 3).
+    """
 
     what: str
     error: float
@@ -50,7 +55,8 @@ def accuracy(
     Parameters: seed of the random cases; samples, how many random ones of each kind; sweep, among how many more the
     worst are picked; rotation and pose, what is judged: modules (or objects) with the functions of `poekin.so3` and
     `poekin.se3`, over arrays. Returns: rows, in the order of the report; their `cases` are those judged in 60 digits.
-    Takes about half a minute. Accuracy: errors are right to all that is shown.
+    Raises: whatever the judged functions raise, and their floating-point warnings. Takes about half a minute. Source:
+    the definitions, in 60 digits (`exact`). Accuracy: errors are right to all that is shown.
     """
     rng = np.random.default_rng(seed)
     far, principal = (_twists(rng, _angles(rng, largest, samples)) for largest in (_LARGEST_EXP, math.pi))

@@ -9,6 +9,9 @@ The terms are the rounding of the result and the result's response to a relative
 of exp is that of the float64 argument, and the truth of log is the exact logarithm of the float64 matrix as it stands
 (of its polar projection). ∂t/∂ω is at fixed v, ∂v/∂ω at fixed t.
 
+Parameters: xi, the twist (6,), (ω; v) in rad and m, or rotation vector (3,); T, the pose (4, 4) in the base frame, or
+rotation (3, 3), that goes with it. Returns: ratios are pure numbers; 1 is as good as float64 can be.
+Raises: ShapeError where the two do not go together; as `exact`. Source: the first-order response to rounding.
 Accuracy: the ratios are right to many more digits than anybody reads; tests/testing/test_attainable.py holds the
 derivatives to differences in high precision.
 """
@@ -21,6 +24,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..errors import ShapeError
 from . import exact
 from .exact import mp, norm
 
@@ -30,14 +34,14 @@ BOTH_SIGNS = 8 * UNIT
 
 
 class Bound(NamedTuple):
-    """The largest error that float64 cannot avoid, of the angular and of the linear part of a result."""
+    """The largest error that float64 cannot avoid, of a result. Fields: angular [rad], linear [m], mpmath numbers."""
 
     angular: Any
     linear: Any
 
 
 def exp_bound(xi: ArrayLike) -> Bound:
-    """The attainable ‖ΔR‖ and ‖Δt‖ of exp at the twist (6,) or rotation vector (3,) (then the second is 0)."""
+    """The attainable ‖ΔR‖ and ‖Δt‖ of exp at xi (6,) or (3,) (then the second is 0)."""
     x = exact.exactly(xi)
     theta = norm(x[:3])
     angular = UNIT * (1 + mp.sqrt(2) * theta)
@@ -49,7 +53,7 @@ def exp_bound(xi: ArrayLike) -> Bound:
 
 
 def log_bound(xi: ArrayLike) -> Bound:
-    """The attainable ‖Δω‖ and ‖Δv‖ of log where the exact logarithm is the twist (6,) or rotation vector (3,)."""
+    """The attainable ‖Δω‖ and ‖Δv‖ of log where the exact logarithm is xi (6,) or (3,)."""
     x = exact.exactly(xi)
     theta = norm(x[:3])
     kappa = theta / 2 / mp.sin(theta / 2) if theta else mp.one
@@ -68,6 +72,7 @@ def ratio_exp(xi: ArrayLike, T: ArrayLike) -> float:
 
     xi (6,) and T (4, 4), or xi (3,) and T (3, 3).
     """
+    _together(xi, T)
     if not np.all(np.isfinite(np.asarray(T, dtype=float))):
         return math.inf
     x, X = exact.exactly(xi), exact.exactly(T)
@@ -84,17 +89,24 @@ def ratio_log(T: ArrayLike, xi: ArrayLike) -> float:
     T (4, 4) and xi (6,), or T (3, 3) and xi (3,). Where π - θ < 8 u both signs of ω are right, with the v that goes
     with each.
     """
+    _together(xi, T)
     return ratio_to(exact.log(T), xi)
 
 
 def ratio_to(truth: np.ndarray, xi: ArrayLike) -> float:
-    """`ratio_log` where the exact logarithm of T is known."""
+    """As `ratio_log` where the exact logarithm of T, truth (6,) or (3,), is known; xi (6,) or (3,)."""
     if not np.all(np.isfinite(np.asarray(xi, dtype=float))):
         return math.inf
     x, candidates = exact.exactly(xi), [truth]
     if mp.pi - norm(truth[:3]) < BOTH_SIGNS:
         candidates.append(_other_sign(truth))
     return min(_log_ratio(x, candidate) for candidate in candidates)
+
+
+def _together(xi: ArrayLike, T: ArrayLike) -> None:
+    shapes = np.shape(xi), np.shape(T)
+    if shapes not in (((3,), (3, 3)), ((6,), (4, 4))):
+        raise ShapeError(f"expected xi (6,) with T (4, 4), or xi (3,) with T (3, 3), got {shapes[0]} with {shapes[1]}")
 
 
 def _log_ratio(x: np.ndarray, truth: np.ndarray) -> float:

@@ -1,7 +1,13 @@
 """Laws of a serial chain as plain functions, and `CHAIN_LAWS`, the battery of them.
 
-A law takes a chain (`poekin.Chain`, or anything with its attributes and methods), then arguments as its kinds say;
-it returns error ÷ bound and raises LawViolation above 1. Truth is the product of exponentials in 60 digits, finite
+For functions of one's own that know nothing of chains, see `conform.of_arms`.
+
+Parameters: chain, `poekin.Chain` or what has its attributes and methods, with as many of them replaced as one likes;
+q, dq (m,), coordinates and rates, rad or m, and per s; batch (*shape, m); point (3,), of the tool's frame, m; joint,
+its number; the frames of Jacobians are "space", "body", "hybrid" or a joint's.
+Returns: error ÷ bound, 0 to 1; a pure number. Raises: LawViolation above 1, with the law, the error, its bound, the
+arguments, and the chain's screws and home pose.
+Truth is the product of exponentials in 60 digits, finite
 differences on the group, and the laws that tie one function to another. Rotations and translations, ω and v, are held
 apart; bounds are those of `budget` times a small number.
 Source: Park 1994, Sections II to IV; f' = P f Q and the laws that follow from it.
@@ -22,7 +28,7 @@ from .measures import Pairs, size
 
 
 def displacements(chain: Any, q: np.ndarray) -> np.ndarray:
-    """x = C q + c (n,), rad or m."""
+    """x = C q + c (n,), rad or m. Returns: x. Raises: nothing."""
     return chain.coupling @ q + chain.offset
 
 
@@ -31,6 +37,7 @@ def budget(chain: Any, q: np.ndarray) -> tuple[float, float]:
 
     u (8 (n + 1) + 4 Σ |x_i|), and that times the reach and what the joints slide beyond it. What the home pose's
     rotation misses orthonormality by is added: each form of the chain makes something else of it.
+    Returns: both, in rad and in m. Raises: nothing.
     """
     x, R = displacements(chain, q), chain.home[:3, :3]
     unit = UNIT * (8 * (len(x) + 1) + 4 * float(np.abs(x).sum())) + size(R @ R.T - np.eye(3))
@@ -39,14 +46,16 @@ def budget(chain: Any, q: np.ndarray) -> tuple[float, float]:
 
 def fk_is_the_product_of_exponentials(chain: Any, q: np.ndarray) -> float:
     """f(q) = e^{A_1 x_1} ⋯ e^{A_n x_n} M, in 60 digits."""
-    return held("fk is the product of exponentials", *of_poses(chain, q, chain.fk(q), _exact_pose(chain, q)), q=q)
+    return kept(
+        "fk is the product of exponentials", chain, *of_poses(chain, q, chain.fk(q), _exact_pose(chain, q)), q=q
+    )
 
 
 def home_is_where_zero_leads(chain: Any) -> float:
-    """f(0) = M where c = 0, and for any c the pose of the joints at c."""
+    """f(0) = M where c = 0, and for any c the pose of the joints at c. Raises: LawViolation."""
     q = np.zeros(chain.dof)
     expected = _exact_pose(chain, q) if np.any(chain.offset) else chain.home
-    return held("home is where zero leads", *of_poses(chain, q, chain.fk(q), expected))
+    return kept("home is where zero leads", chain, *of_poses(chain, q, chain.fk(q), expected))
 
 
 def forms_agree(chain: Any, q: np.ndarray) -> float:
@@ -58,7 +67,7 @@ def forms_agree(chain: Any, q: np.ndarray) -> float:
     for r, s, amount, M in zip(chain.local.rotates, chain.local.slides, x, chain.local.frames[1:], strict=True):
         local = local @ exact.exp(exact.exactly([0, 0, r, 0, 0, s]) * amount) @ exact.exactly(M)
     pairs = [pair for form in (space, body, local) for pair in of_poses(chain, q, f, form)]
-    return held("forms agree", *pairs, q=q)
+    return kept("forms agree", chain, *pairs, q=q)
 
 
 def jacobian_is_the_derivative(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
@@ -73,20 +82,20 @@ def jacobian_is_the_derivative(chain: Any, q: np.ndarray, dq: np.ndarray) -> flo
     for frame in FRAME_NAMES:
         error = chain.jacobian(q, frame) @ dq - differences.velocity(chain.fk, q, dq, frame, rate)
         pairs += [(size(error[:3]), angular), (size(error[3:]), linear)]
-    return held("jacobian is the derivative", *pairs, q=q, dq=dq)
+    return kept("jacobian is the derivative", chain, *pairs, q=q, dq=dq)
 
 
 def space_jacobian_is_not_hybrid(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
     """The space Jacobian's linear part is ḃ - ω × b, not ḃ: it misses the hybrid one's by ω × b."""
     V, H = chain.jacobian(q, "space") @ dq, chain.jacobian(q, "hybrid") @ dq
     expected = np.concatenate([H[:3], H[3:] - np.cross(H[:3], chain.fk(q)[:3, 3])])
-    return held("space jacobian is not hybrid", *of_twists(chain, q, dq, V - expected), q=q, dq=dq)
+    return kept("space jacobian is not hybrid", chain, *of_twists(chain, q, dq, V - expected), q=q, dq=dq)
 
 
 def body_jacobian_is_space_seen_from_the_tool(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
     """J_b = Ad(f⁻¹) J_s, that is J_s = Ad(f) J_b."""
     error = chain.jacobian(q, "space") - adjoint(chain.fk(q)) @ chain.jacobian(q, "body")
-    return held("body jacobian is space seen from the tool", *of_twists(chain, q, dq, error @ dq), q=q, dq=dq)
+    return kept("body jacobian is space seen from the tool", chain, *of_twists(chain, q, dq, error @ dq), q=q, dq=dq)
 
 
 def joint_poses_are_partial_products(chain: Any, q: np.ndarray, joint: int) -> float:
@@ -97,14 +106,14 @@ def joint_poses_are_partial_products(chain: Any, q: np.ndarray, joint: int) -> f
     x = _exact_displacements(chain, q)[: joint + 1]
     expected = exact.forward(chain.screws[: joint + 1], home, x)
     pairs = of_poses(chain, q, chain.joint_poses(q)[joint], expected)
-    return held("joint poses are partial products", *pairs, q=q, joint=joint)
+    return kept("joint poses are partial products", chain, *pairs, q=q, joint=joint)
 
 
 def jacobian_in_a_joints_frame_is_space_seen_from_it(chain: Any, q: np.ndarray, dq: np.ndarray, joint: int) -> float:
     """J_k = Ad(T_k⁻¹) J_s with T_k the pose of joint k's frame."""
     error = chain.jacobian(q, "space") - adjoint(chain.joint_poses(q)[joint]) @ chain.jacobian(q, joint)
     pairs = of_twists(chain, q, dq, error @ dq, 4.0)
-    return held("jacobian in a joint's frame is space seen from it", *pairs, q=q, dq=dq, joint=joint)
+    return kept("jacobian in a joint's frame is space seen from it", chain, *pairs, q=q, dq=dq, joint=joint)
 
 
 def velocity_is_the_jacobian_times_rates(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
@@ -113,7 +122,7 @@ def velocity_is_the_jacobian_times_rates(chain: Any, q: np.ndarray, dq: np.ndarr
     for frame in (*FRAME_NAMES, *range(len(chain.screws))):
         error = chain.velocity(q, dq, frame) - chain.jacobian(q, frame) @ dq
         pairs += of_twists(chain, q, dq, error, 4.0 if isinstance(frame, int) else 1.0)
-    return held("velocity is the jacobian times rates", *pairs, q=q, dq=dq)
+    return kept("velocity is the jacobian times rates", chain, *pairs, q=q, dq=dq)
 
 
 def one_pass_gives_both(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
@@ -123,7 +132,7 @@ def one_pass_gives_both(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
         T, J = chain.fk_jacobian(q, frame)
         pairs += of_poses(chain, q, T, chain.fk(q))
         pairs += of_twists(chain, q, dq, (J - chain.jacobian(q, frame)) @ dq)
-    return held("one pass gives both", *pairs, q=q, dq=dq)
+    return kept("one pass gives both", chain, *pairs, q=q, dq=dq)
 
 
 def a_point_moves_as_the_tools_origin_would(chain: Any, q: np.ndarray, dq: np.ndarray, point: np.ndarray) -> float:
@@ -136,7 +145,7 @@ def a_point_moves_as_the_tools_origin_would(chain: Any, q: np.ndarray, dq: np.nd
         error = np.stack([chain.jacobian(q, frame, at=point) @ dq - expected, J @ dq - expected])
         pairs += [(e, b * (1 + size(point))) for row in error for e, b in of_twists(chain, q, dq, row, 4.0)]
         pairs += [(e, b * (1 + size(point))) for e, b in of_poses(chain, q, T, chain.fk(q))]
-    return held("a point moves as the tool's origin would", *pairs, q=q, dq=dq, point=point)
+    return kept("a point moves as the tool's origin would", chain, *pairs, q=q, dq=dq, point=point)
 
 
 def batches_are_made_of_single_configurations(chain: Any, batch: np.ndarray) -> float:
@@ -153,23 +162,36 @@ def batches_are_made_of_single_configurations(chain: Any, batch: np.ndarray) -> 
     for function, tail in functions:
         together = function(batch)
         if together.shape != (*shape, *tail):
-            return held("batches have their shape", (np.inf, 0.0), shape=together.shape, expected=(*shape, *tail))
+            return kept(
+                "batches have their shape", chain, (np.inf, 0.0), shape=together.shape, expected=(*shape, *tail)
+            )
         for row, part in zip(rows, together.reshape(len(rows), *tail), strict=True):
             pairs.append((size(part - function(row)), budget(chain, row)[1] * (1 + size(row))))
-    return held("batches are made of single configurations", *pairs, batch=batch)
+    return kept("batches are made of single configurations", chain, *pairs, batch=batch)
 
 
 def adjoint(T: np.ndarray) -> np.ndarray:
-    """Ad(T) = [R 0; [t] R R] (6, 6), of floats, by NumPy alone."""
+    """Ad(T) = [R 0; [t] R R] (6, 6) of a pose T (4, 4), of floats, by NumPy alone. Returns: this. Raises: nothing."""
     R, (x, y, z) = T[:3, :3], T[:3, 3]
     corner = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]) @ R
     return np.block([[R, np.zeros((3, 3))], [corner, R]])
 
 
 def inverse(T: np.ndarray) -> np.ndarray:
-    """The inverse of a pose (4, 4), of floats, by NumPy alone."""
+    """The inverse (4, 4) of a pose T (4, 4), of floats, by NumPy alone. Returns: this. Raises: nothing."""
     R = T[:3, :3].T
     return np.block([[R, -(R @ T[:3, 3:])], [np.zeros((1, 3)), np.ones((1, 1))]])
+
+
+def kept(law: str, chain: Any, *measured: tuple[float, float], **seen: object) -> float:
+    """As `held`, with the chain's numbers among what a violation says: without them nobody could repeat it.
+
+    Parameters: law, its name; chain; measured, pairs (error, bound); seen, arguments by name. Returns: error ÷ bound.
+    """
+    seen = {**seen, "screws": chain.screws, "home": chain.home}
+    if np.shape(chain.coupling) != (chain.dof, chain.dof) or np.any(chain.coupling != np.eye(chain.dof)):
+        seen |= {"coupling": chain.coupling, "offset": chain.offset}
+    return held(law, *measured, **seen)
 
 
 CHAIN_LAWS = (
@@ -198,14 +220,20 @@ def _exact_pose(chain: Any, q: np.ndarray) -> np.ndarray:
 
 
 def of_poses(chain: Any, q: np.ndarray, T: np.ndarray, expected: np.ndarray) -> Pairs:
-    """The errors of R and t, and of the last row, with their bounds."""
+    """The errors of R and t, and of the last row, with their bounds: of T (4, 4) against expected (4, 4).
+
+    Returns: pairs (error, bound), rad and m. Raises: nothing.
+    """
     angular, linear = budget(chain, q)
     error = T - np.asarray(expected, dtype=float)
     return [(size(error[:3, :3]), angular), (size(error[:3, 3]), linear), (size(error[3]), 0.0)]
 
 
 def of_twists(chain: Any, q: np.ndarray, dq: np.ndarray, error: np.ndarray, factor: float = 1.0) -> Pairs:
-    """The errors of ω and v, with `factor` times the budget times the joints' rates as bounds."""
+    """The errors of ω and v, of error (6,), with `factor` times the budget times the joints' rates as bounds.
+
+    Returns: pairs (error, bound), rad/s and m/s. Raises: nothing.
+    """
     angular, linear = budget(chain, q)
     rates = chain.coupling @ dq
     turning, sliding = size(chain.local.rotates * rates), size(chain.local.slides * rates)

@@ -1,4 +1,13 @@
-"""Hypothesis strategies for serial chains: screws of all joint kinds, chains with and without coupling, coordinates."""
+"""Hypothesis strategies for serial chains: screws of all joint kinds, chains with and without coupling, coordinates.
+
+Twists and screws are (ω; v) in the base frame, lengths in m, angles in rad; arrays are float64 and read-only. Whole
+trees are drawn by `robot_strategies`, configurations within limits by `configuration_strategies`.
+
+Parameters of several: kinds or joint_kinds, of `KINDS`; min_joints, max_joints, how many, each number as often as any.
+Returns: a strategy. Raises: InputError, at the call, for kinds, numbers of joints or shapes that there are not.
+Accuracy: a screw's axis has unit length, and v of a revolute one is at right angles to it, to rounding.
+Source: Park 1994, Section II: f(q) = e^{A_1 x_1} ⋯ e^{A_n x_n} M, x = C q + c.
+"""
 
 from __future__ import annotations
 
@@ -11,25 +20,38 @@ import numpy as np
 
 from poekin.model.chain import Chain
 
+from . import arguments
 from .reader import Reader
-from .strategies import Arrays, axes, frozen, poses, read, st, vectors
+from .strategies import Arrays, axes, batch_shapes, frozen, poses, read, st, vectors
 
 KINDS = ("revolute", "prismatic", "helical")
+"""What a chain's joints may be; a continuous joint is a revolute one without limits."""
 REACHES = (1e-3, 3.0)
+"""The smallest distance in m of an arm's points, beside 0, and the largest."""
 QUARTERS = (0.0, math.pi / 2, -math.pi / 2, math.pi)
+"""Values of coordinates that one in four has."""
 RATIOS = (1.0, -1.0, 0.5, -2.0, 0.0)
+"""By which coupled joints follow a coordinate."""
+PARTS = ("q", "dq", "batch", "pose", "point", "joint", "frames")
+"""What a law of a chain may ask for."""
 
 
 @functools.cache
 def points() -> Arrays:
-    """Points of an arm (3,) in m: the origin, or at a log-uniform distance of 1 mm to 3 m."""
+    """Points of an arm (3,) in m, in the base frame: the origin, or at a log-uniform distance of 1 mm to 3 m."""
     return vectors(REACHES)
 
 
-@functools.cache
-def screws(kinds: tuple[str, ...] = KINDS) -> Arrays:
-    """Screws (6,) of joints: axis, point and pitch (1 mm to 1 m per rad, either sign) independent of each other."""
+def screws(kinds: Sequence[str] = KINDS) -> Arrays:
+    """Screws (6,) of joints: axis, point and pitch (1 mm to 1 m per rad, either sign) independent of each other.
 
+    Shrinks to a revolute joint about x through the origin.
+    """
+    return _screws(arguments.some("kinds", kinds, KINDS))
+
+
+@functools.cache
+def _screws(kinds: tuple[str, ...]) -> Arrays:
     def screw(kind: str, axis: np.ndarray, point: np.ndarray, pitch: float) -> np.ndarray:
         if kind == "prismatic":
             return frozen([0, 0, 0, *axis])
@@ -45,22 +67,29 @@ def placements() -> Arrays:
     return poses(REACHES)
 
 
-@st.composite
 def chains(
-    draw: st.DrawFn,
     min_joints: int = 0,
     max_joints: int = 12,
-    joint_kinds: tuple[str, ...] = KINDS,
+    joint_kinds: Sequence[str] = KINDS,
     coupled: bool | None = None,
     offsets: bool = True,
-) -> Chain:
-    """Chains of any joint kinds; shrinks towards no joint, revolute joints about x through the origin, and M = I.
+) -> st.SearchStrategy[Chain]:
+    """Chains (`poekin.Chain`) of any kinds of joints, and any home pose; without limits.
 
-    coupled: joints may follow a coordinate by a ratio (also 0: they stand still), with an offset unless `offsets` is
-    False; None draws both coupled and uncoupled chains.
+    Parameters: min_joints, max_joints; joint_kinds; coupled, whether joints may follow a coordinate by a ratio (also 0:
+    they stand still), where None draws both coupled and uncoupled chains; offsets, whether they also do so with one.
+    Shrinks to no joint; to those that matter, revolute about x through the origin, and M = I.
     """
-    n = draw(read(1, lambda r: r.pick(range(min_joints, max_joints + 1))))
-    A = [draw(screws(joint_kinds)) for _ in range(n)]
+    bounds = arguments.counts(min_joints, max_joints)
+    return _chains(bounds, arguments.some("joint_kinds", joint_kinds, KINDS), coupled, offsets)
+
+
+@st.composite
+def _chains(
+    draw: st.DrawFn, bounds: tuple[int, int], kinds: tuple[str, ...], coupled: bool | None, offsets: bool
+) -> Chain:
+    n = draw(read(1, lambda r: r.pick(range(bounds[0], bounds[1] + 1))))
+    A = [draw(_screws(kinds)) for _ in range(n)]
     home = draw(placements())
     if n == 0 or not (draw(st.booleans()) if coupled is None else coupled):
         return Chain(np.reshape(A, (n, 6)), home)
@@ -74,40 +103,48 @@ def chains(
     return Chain(A, home, coupling=C[order], offset=c[order])
 
 
-def coordinates(chain: Chain, shape: Sequence[int] = ()) -> Arrays:
-    """Configurations (*shape, m) of a chain: 0, quarter turns, and anything up to ±π (rad or m)."""
-    count = math.prod(shape) * chain.dof
+def coordinates(chain: Any, shape: Sequence[int] = ()) -> Arrays:
+    """Configurations (*shape, m): 0 and quarter turns (1 of 4), and anything up to ±π, rad or m; shrinks to 0.
+
+    Parameters: chain, or a robot, of which only `dof` is asked: limits are none here; shape, of the leading axes.
+    """
+    m, shape = arguments.moves(chain), arguments.shape(shape)
+    count = math.prod(shape) * m
 
     def value(r: Reader) -> float:
         return r.pick(QUARTERS) if r.byte() < 64 else r.fraction(-math.pi, math.pi)
 
-    return read(4 * count, lambda r: frozen(np.reshape([value(r) for _ in range(count)], (*shape, chain.dof))))
+    return read(4 * count, lambda r: frozen(np.reshape([value(r) for _ in range(count)], (*shape, m))))
+
+
+def chain_cases(kinds: Sequence[str], **options: Any) -> st.SearchStrategy[tuple[Any, ...]]:
+    """A chain and the arguments of its law by their kinds (`laws.Law`).
+
+    Parameters: kinds, of `PARTS`: "q", "dq", configuration and rates (m,); "batch", configurations (*shape, m);
+    "pose", a pose (4, 4); "point", a point (3,); "joint", the number of a joint (of a chain that has one); "frames",
+    poses (n, 2, 4, 4), to re-attach the frame of each joint and of each link; options, as of `chains`.
+    Returns: a strategy of tuples, the chain first.
+    """
+    parts = arguments.some("kinds", kinds, PARTS) if kinds else ()
+    return _cases(parts, chains(**{"min_joints": 1, **options} if "joint" in parts else options))
 
 
 @st.composite
-def chain_cases(draw: st.DrawFn, kinds: Sequence[str], **options: Any) -> tuple[Any, ...]:
-    """A chain (`chains(**options)`) and the arguments of its law by their kinds (`laws.Law`).
-
-    "q", "dq": configuration and rates (m,); "batch": configurations (*shape, m); "pose": a pose (4, 4); "point": a
-    point (3,); "joint": the number of a joint (of a chain that has one); "frames": poses (n, 2, 4, 4), to re-attach
-    the frame of each joint and of each link.
-    """
-    chain = draw(chains(**{"min_joints": 1, **options} if "joint" in kinds else options))
+def _cases(draw: st.DrawFn, kinds: tuple[str, ...], some: st.SearchStrategy[Chain]) -> tuple[Any, ...]:
+    chain = draw(some)
     n = len(chain.screws)
     drawn: list[Any] = []
     for kind in kinds:
         if kind in ("q", "dq"):
             drawn.append(draw(coordinates(chain)))
         elif kind == "batch":
-            drawn.append(draw(coordinates(chain, draw(st.sampled_from([(), (0,), (1,), (3, 1, 2)])))))
+            drawn.append(draw(coordinates(chain, draw(batch_shapes()))))
         elif kind == "pose":
             drawn.append(draw(placements()))
         elif kind == "point":
             drawn.append(draw(points()))
         elif kind == "joint":
             drawn.append(draw(st.integers(0, n - 1)))
-        elif kind == "frames":
-            drawn.append(frozen(np.reshape([draw(placements()) for _ in range(2 * n)], (n, 2, 4, 4))))
         else:
-            raise ValueError(f"no such kind of argument: {kind!r}")
+            drawn.append(frozen(np.reshape([draw(placements()) for _ in range(2 * n)], (n, 2, 4, 4))))
     return (chain, *drawn)

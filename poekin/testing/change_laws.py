@@ -2,6 +2,11 @@
 
 f' = P f Q makes A' = Ad(P) A, B' = Ad(Q)⁻¹ B and M' = P M Q; f'(q) = f(q + q0) moves the zero position; and where the
 link frames sit changes neither A nor M: that is the paper's uniqueness.
+Parameters: chain, `poekin.Chain` or what has its attributes and methods, with as many of them replaced as one likes;
+q (m,), coordinates, rad or m; q0 (m,), added to them; P, Q (4, 4), poses of the old base in the new one, and of the
+new tool in the old one, m; frames (n, 2, 4, 4), poses of joints and links in the base frame.
+Returns: error ÷ bound, 0 to 1; a pure number. Raises: LawViolation above 1, with the law, the error, its bound, the
+arguments, and the chain's screws and home pose.
 Source: Park 1994, Section II.
 """
 
@@ -16,8 +21,8 @@ from poekin.model.joint import Joint
 from poekin.model.robot import Robot
 
 from ..model.evaluation import FRAME_NAMES
-from .chain_laws import adjoint, budget, inverse, of_poses
-from .laws import Law, held
+from .chain_laws import adjoint, budget, inverse, kept, of_poses
+from .laws import Law
 from .measures import Pairs, size
 
 
@@ -33,7 +38,7 @@ def a_rebased_chain_is_seen_from_another_base(chain: Any, q: np.ndarray, P: np.n
         (other.jacobian(q, "body") - chain.jacobian(q, "body")).T,
     )
     pairs += _of_screws(chain, q, errors)
-    return held("a rebased chain is seen from another base", *((e, grown * b) for e, b in pairs), q=q, P=P)
+    return kept("a rebased chain is seen from another base", chain, *((e, grown * b) for e, b in pairs), q=q, P=P)
 
 
 def a_retooled_chain_carries_another_tool(chain: Any, q: np.ndarray, Q: np.ndarray) -> float:
@@ -48,7 +53,7 @@ def a_retooled_chain_carries_another_tool(chain: Any, q: np.ndarray, Q: np.ndarr
         (adjoint(Q) @ other.jacobian(q, "body") - chain.jacobian(q, "body")).T,
     )
     pairs += _of_screws(chain, q, errors)
-    return held("a retooled chain carries another tool", *((e, grown * b) for e, b in pairs), q=q, Q=Q)
+    return kept("a retooled chain carries another tool", chain, *((e, grown * b) for e, b in pairs), q=q, Q=Q)
 
 
 def a_rezeroed_chain_starts_elsewhere(chain: Any, q: np.ndarray, q0: np.ndarray) -> float:
@@ -61,7 +66,7 @@ def a_rezeroed_chain_starts_elsewhere(chain: Any, q: np.ndarray, q0: np.ndarray)
     shifted = np.array_equal(other.limits, chain.limits - q0[:, None])
     grown = 4 * (1 + size(q) + size(q0))
     measured = [(e, grown * b) for e, b in pairs]
-    return held("a rezeroed chain starts elsewhere", *measured, (float(not shifted), 0.0), q=q, q0=q0)
+    return kept("a rezeroed chain starts elsewhere", chain, *measured, (float(not shifted), 0.0), q=q, q0=q0)
 
 
 def link_frames_do_not_matter(
@@ -76,9 +81,10 @@ def link_frames_do_not_matter(
     unit, linear = budget(chain, np.zeros(chain.dof))
     grown = 8 * linear * (1 + size(places))
     if other.screws.shape != chain.screws.shape:
-        return held("link frames do not matter", (np.inf, 0.0), frames=frames)
-    return held(
+        return kept("link frames do not matter", chain, (np.inf, 0.0), frames=frames)
+    return kept(
         "link frames do not matter",
+        chain,
         (size(other.screws[:, :3] - chain.screws[:, :3]), 8 * unit),
         (size(other.screws[:, 3:] - chain.screws[:, 3:]), grown),
         (size(other.home[:3, :3] - chain.home[:3, :3]), 8 * unit),
@@ -92,6 +98,7 @@ def reattached(chain: Any, frames: np.ndarray) -> Any:
 
     frames (n, 2, 4, 4), poses in the base at home: of each joint's frame, which is shifted onto the axis where the
     joint turns, and of the link behind it. Between the two lies a fixed joint.
+    Returns: `poekin.Chain`. Raises: nothing.
     """
     joints, links, at = [], ["base"], np.eye(4)
     for k, (S, kind, (P, G)) in enumerate(zip(chain.screws, chain.kinds, frames, strict=True)):

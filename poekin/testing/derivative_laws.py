@@ -3,6 +3,11 @@
 Truth is the definition in 80 digits, differentiated by a central difference of step 1e-20: its own error is 1e-39.
 Nothing is asked of the chain but its screws, home pose and coupling. Bounds are those of `chain_laws.budget` times the
 rates and a small number.
+Parameters: chain, `poekin.Chain` or what has its attributes and methods, with as many of them replaced as one likes;
+q, dq (m,), coordinates and rates, rad or m, and per s; batch (*shape, m); joint, its number;
+the frames of Jacobians are "space", "body" and "hybrid".
+Returns: error ÷ bound, 0 to 1; a pure number. Raises: LawViolation above 1, with the law, the error, its bound, the
+arguments, and the chain's screws and home pose.
 Source: Park 1994, Sections II to IV, by definition.
 """
 
@@ -15,8 +20,8 @@ import numpy as np
 
 from ..model.evaluation import FRAME_NAMES
 from . import exact
-from .chain_laws import budget
-from .laws import Law, held
+from .chain_laws import budget, kept
+from .laws import Law
 from .measures import Pairs, size
 
 STEP = exact.mp.mpf(10) ** -20
@@ -27,7 +32,7 @@ def jacobian_rate_is_the_derivative(chain: Any, q: np.ndarray, dq: np.ndarray) -
     pairs, truth = [], slope(lambda t: exact_jacobians(chain, line(t, q, dq)))
     for frame, rate in zip(FRAME_NAMES, truth, strict=True):
         pairs += _of_columns(chain, q, chain.jacobian_rate(q, dq, frame) - rate, _size(chain, dq))
-    return held("jacobian rate is the derivative", *pairs, q=q, dq=dq)
+    return kept("jacobian rate is the derivative", chain, *pairs, q=q, dq=dq)
 
 
 def hessian_is_the_derivative(chain: Any, q: np.ndarray) -> float:
@@ -37,14 +42,14 @@ def hessian_is_the_derivative(chain: Any, q: np.ndarray) -> float:
         truth = slope(lambda t, d=direction: exact_jacobians(chain, line(t, q, d)))
         for H, rate in zip(found, truth, strict=True):
             pairs += _of_columns(chain, q, H[:, :, j] - rate, _size(chain, direction))
-    return held("hessian is the derivative", *pairs, q=q)
+    return kept("hessian is the derivative", chain, *pairs, q=q)
 
 
 def hessian_of_a_point_is_symmetric(chain: Any, q: np.ndarray) -> float:
     """The linear rows of the hybrid Hessian are second derivatives of p: to the last bit where nothing is coupled."""
     v = chain.hessian(q, "hybrid")[3:]
     bound = 0.0 if chain._coupling is None else 8 * budget(chain, q)[1] * (1 + size(chain.coupling) ** 2)
-    return held("hessian of a point is symmetric", (size(v - np.swapaxes(v, 1, 2)), bound), q=q)
+    return kept("hessian of a point is symmetric", chain, (size(v - np.swapaxes(v, 1, 2)), bound), q=q)
 
 
 def acceleration_is_the_derivative_of_the_velocity(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
@@ -59,7 +64,7 @@ def acceleration_is_the_derivative_of_the_velocity(chain: Any, q: np.ndarray, dq
     for frame, truth in zip(FRAME_NAMES, slope(velocities), strict=True):
         error = chain.acceleration(q, dq, ddq, frame) - truth
         pairs += _of_columns(chain, q, error[:, None], grown)
-    return held("acceleration is the derivative of the velocity", *pairs, q=q, dq=dq)
+    return kept("acceleration is the derivative of the velocity", chain, *pairs, q=q, dq=dq)
 
 
 def joint_velocities_are_those_of_the_joint_poses(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
@@ -81,7 +86,7 @@ def joint_velocities_are_those_of_the_joint_poses(chain: Any, q: np.ndarray, dq:
         truth = exact.rounded(_seen(_vee(dT @ exact.inverse(T))[:, None], T))
         for V, twist in zip(found.values(), truth, strict=True):
             pairs += _of_columns(chain, q, V[k][:, None] - twist, _size(chain, dq))
-    return held("joint velocities are those of the joint poses", *pairs, q=q, dq=dq)
+    return kept("joint velocities are those of the joint poses", chain, *pairs, q=q, dq=dq)
 
 
 def screw_derivatives_are_differences_on_the_group(chain: Any, q: np.ndarray, joint: int) -> float:
@@ -106,7 +111,7 @@ def screw_derivatives_are_differences_on_the_group(chain: Any, q: np.ndarray, jo
         # per unit of a twist, which at arm's length is as much as the reach
         bound = 16 * weight * reach
         pairs += [(size(error[:3]), bound * angular), (size(error[3:]), bound * linear)]
-    return held("screw derivatives are differences on the group", *pairs, q=q, joint=joint)
+    return kept("screw derivatives are differences on the group", chain, *pairs, q=q, joint=joint)
 
 
 class Changes(NamedTuple):
@@ -122,7 +127,10 @@ class Changes(NamedTuple):
 
 
 def exact_changes(chain: Any, q: np.ndarray, joint: int) -> Changes:
-    """What unit changes of one screw and of the home pose do, by central differences on the group in 80 digits."""
+    """What unit changes of one screw and of the home pose do, by central differences on the group in 80 digits.
+
+    Returns: `Changes`, as floats. Raises: nothing.
+    """
     x, A, M = _displacements(chain, exact.exactly(q)), exact.exactly(chain.screws), exact.exactly(chain.home)
     back = exact.inverse(exact.forward(A, M, x))
 
@@ -167,26 +175,31 @@ def derivatives_of_batches_are_those_of_single_configurations(chain: Any, batch:
     for function, tail in functions:
         together = function(batch)
         if together.shape != (*shape, *tail):
-            return held("batches have their shape", (np.inf, 0.0), shape=together.shape, expected=(*shape, *tail))
+            return kept(
+                "batches have their shape", chain, (np.inf, 0.0), shape=together.shape, expected=(*shape, *tail)
+            )
         for index in np.ndindex(shape):
             # products of matrices may be summed in another order in a batch
             one = function(batch[index])
             pairs.append((size(together[index] - one), 1e-14 * (1 + size(one))))
-    return held("derivatives of batches are those of single configurations", *pairs, batch=batch)
+    return kept("derivatives of batches are those of single configurations", chain, *pairs, batch=batch)
 
 
 def exact_jacobians(chain: Any, q: np.ndarray) -> np.ndarray:
-    """J(q) (3, 6, m), a frame of FRAME_NAMES each, in 80 digits: screws carried by the exponentials before them."""
+    """J(q) (3, 6, m), a frame of FRAME_NAMES each, in 80 digits: screws carried by the exponentials before them.
+
+    Returns: numbers of `exact`. Raises: nothing.
+    """
     return _exact_columns(chain, chain.screws, chain.home, _displacements(chain, q))
 
 
 def line(t: Any, q: np.ndarray, dq: np.ndarray) -> np.ndarray:
-    """q + t dq in 80 digits."""
+    """q + t dq (m,) in 80 digits. Returns: numbers of `exact`. Raises: nothing."""
     return exact.exactly(q) + t * exact.exactly(dq)
 
 
 def slope(f: Callable[[Any], np.ndarray]) -> np.ndarray:
-    """df/dt at 0 of a function in 80 digits, as floats."""
+    """df/dt at 0 of a function f of one number in 80 digits. Returns: floats (...), f's shape. Raises: nothing."""
     return exact.rounded((f(STEP) - f(-STEP)) / (2 * STEP))
 
 

@@ -2,20 +2,28 @@
 
 Angles are quarter turns, quarter turns missed by 1e-12 to 1e-3 rad (nearly parallel, nearly meeting axes), and anything
 up to 3 rad; lengths are 0, up to 2 m either way, and 1e-12 to 1e-3 m.
+
+Returns: a strategy; arrays are float64 and read-only, poses those of a frame in the frame before it. Raises:
+InputError, at the call, for conventions or numbers of joints that there are not.
+Source: where DH numbers are ill-conditioned: parallel axes, and axes that meet (`formats.dh`).
 """
 
 from __future__ import annotations
 
 import functools
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from ..formats.dh import Row, Table
+from . import arguments
 from .strategies import Arrays, poses, st
 
 CONVENTIONS = ("standard", "modified")
+"""Paul's and Craig's."""
 QUARTERS = (0.0, math.pi / 2, -math.pi / 2, math.pi)
+"""Angles in rad that one in three is, and of which one in three falls short."""
 
 
 @functools.cache
@@ -47,11 +55,19 @@ def mounts() -> Arrays:
     return poses(lengths=(1e-3, 2.0))
 
 
-@st.composite
 def tables(
-    draw: st.DrawFn, min_joints: int = 1, max_joints: int = 10, conventions: tuple[str, ...] = CONVENTIONS
-) -> Table:
-    """Tables of either convention with base and tool; shrinks towards one row of zeros in standard convention."""
-    drawn = draw(st.lists(rows(), min_size=min_joints, max_size=max_joints))
+    min_joints: int = 1, max_joints: int = 10, conventions: Sequence[str] = CONVENTIONS
+) -> st.SearchStrategy[Table]:
+    """Tables (`poekin.dh.Table`) with base and tool; shrinks towards one row of zeros in standard convention.
+
+    Parameters: min_joints, max_joints, how many rows; conventions, of `CONVENTIONS`.
+    """
+    bounds = arguments.counts(min_joints, max_joints)
+    return _tables(bounds, arguments.some("conventions", conventions, CONVENTIONS))
+
+
+@st.composite
+def _tables(draw: st.DrawFn, bounds: tuple[int, int], conventions: tuple[str, ...]) -> Table:
+    drawn = draw(st.lists(rows(), min_size=bounds[0], max_size=bounds[1]))
     base, tool = np.asarray(draw(mounts())), np.asarray(draw(mounts()))
     return Table(draw(st.sampled_from(conventions)), drawn, base=base, tool=tool)

@@ -5,6 +5,11 @@ is. Coefficients are power series below |ω| = 1, so no digit is lost towards 0;
 Σ ad(ξ)^k / (k+1)!; log first projects onto the rotations (polar factor), with as many digits as the smallest rotation
 in its argument asks for (380 at |ω| = 1e-300).
 
+    exact.rounded(exact.exp([0.3, 0, 0, 1, 2, 3]))     the pose (4, 4), each number the float next to the truth
+
+Twists are (ω; v) in rad and m, poses those of a frame in the base frame, and none of the functions takes a batch.
+Returns: arrays of mpmath numbers, but for `rounded`. Raises: ShapeError for another shape; InputError for what is no
+number. NaN in gives NaN out.
 Accuracy: 60 digits relative to the norm of each result (of ω and of v separately), held by tests/testing/test_exact.py
 against mpmath's own matrix exponential. Source: Park 1994, Lemmas 1 to 4, as series.
 """
@@ -16,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from poekin.errors import MissingExtra
+from poekin.errors import InputError, MissingExtra, ShapeError, told
 
 try:
     import mpmath
@@ -33,22 +38,28 @@ _to_float = np.frompyfunc(float, 1, 1)
 
 
 def exactly(x: ArrayLike) -> np.ndarray:
-    """The same numbers as this context's mpmath numbers; floats and its own numbers are not rounded."""
-    return np.asarray(_to_mpf(np.asarray(x)), dtype=object)
+    """The same numbers x, of any shape (...), as this context's mpmath numbers; floats and its own are not rounded."""
+    try:
+        # A NaN among them is no reason to warn.
+        with np.errstate(invalid="ignore"):
+            return np.asarray(_to_mpf(np.asarray(x)), dtype=object)
+    except (TypeError, ValueError) as fault:
+        raise InputError(f"expected numbers, got {told(x)}") from fault
 
 
 def rounded(x: np.ndarray) -> np.ndarray:
-    """The nearest float64 of each number."""
-    return np.asarray(_to_float(x), dtype=float)
+    """The nearest float64 of each number of x, any shape (...)."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(_to_float(x), dtype=float)
 
 
 def norm(x: np.ndarray) -> Any:
-    """√Σ x², over all entries (Euclidean for vectors, Frobenius for matrices), as an mpmath number."""
+    """√Σ x², over all entries of x (...) (Euclidean for vectors, Frobenius for matrices), as an mpmath number."""
     return mp.sqrt(mp.fsum(np.ravel(x), squared=True))
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """The cross product a × b."""
+    """The cross product a × b of a, b (3,)."""
     return np.array(
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]],
         dtype=object,
@@ -56,8 +67,8 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def hat(w: ArrayLike) -> np.ndarray:
-    """[ω], the matrix of ω ×: (3,) -> (3, 3); and [[ω] v; 0 0] of a twist: (6,) -> (4, 4)."""
-    x = exactly(w)
+    """[ω], the matrix of w ×: w (3,) -> (3, 3); and [[ω] v; 0 0] of a twist: w (6,) -> (4, 4)."""
+    x = _vector(w)
     if len(x) == 6:
         return _stack(hat(x[:3]), x[3:], last=0)
     zero = mp.zero
@@ -65,20 +76,20 @@ def hat(w: ArrayLike) -> np.ndarray:
 
 
 def ad(xi: ArrayLike) -> np.ndarray:
-    """ad(ξ) = [[ω] 0; [v] [ω]]: (6,) -> (6, 6), or [ω] of a rotation vector: (3,) -> (3, 3)."""
-    x = exactly(xi)
+    """ad(ξ) = [[ω] 0; [v] [ω]]: xi (6,) -> (6, 6), or [ω] of a rotation vector: xi (3,) -> (3, 3)."""
+    x = _vector(xi)
     return hat(x) if len(x) == 3 else _lower(hat(x[:3]), hat(x[3:]))
 
 
 def adjoint(T: ArrayLike) -> np.ndarray:
-    """Ad(T) = [R 0; [t] R R]: (4, 4) -> (6, 6), or R itself: (3, 3) -> (3, 3)."""
-    X = exactly(T)
+    """Ad(T) = [R 0; [t] R R]: T (4, 4) -> (6, 6), or R itself: T (3, 3) -> (3, 3)."""
+    X = _element(T)
     return X if len(X) == 3 else _lower(X[:3, :3], hat(X[:3, 3]) @ X[:3, :3])
 
 
 def inverse(T: ArrayLike) -> np.ndarray:
-    """The inverse of a rotation or pose as it stands, orthonormal or not: (3, 3) or (4, 4)."""
-    X = exactly(T)
+    """The inverse of a rotation or pose as it stands, orthonormal or not: T (3, 3) or (4, 4) -> the same."""
+    X = _element(T)
     if len(X) == 3:
         return _inverse3(X)
     R = _inverse3(X[:3, :3])
@@ -86,8 +97,8 @@ def inverse(T: ArrayLike) -> np.ndarray:
 
 
 def exp(xi: ArrayLike) -> np.ndarray:
-    """e^[ω], (3,) -> (3, 3), or e^ξ, (6,) -> (4, 4)."""
-    x = exactly(xi)
+    """e^[ω], xi (3,) -> (3, 3), or e^ξ, xi (6,) -> (4, 4)."""
+    x = _vector(xi)
     w, W = x[:3], hat(x[:3])
     a, b, c = _coefficients(w @ w)
     R = _identity(3) + a * W + b * (W @ W)
@@ -99,27 +110,29 @@ def exp(xi: ArrayLike) -> np.ndarray:
 
 
 def polar(R: ArrayLike) -> np.ndarray:
-    """The rotation nearest to a matrix (its polar factor), by Newton's X <- (X + X⁻ᵀ)/2: (3, 3) -> (3, 3).
+    """The rotation nearest to a matrix (its polar factor), by Newton's X <- (X + X⁻ᵀ)/2: R (3, 3) -> (3, 3).
 
-    The determinant must be positive; ValueError otherwise.
+    Raises: ShapeError; InputError where the determinant is not positive, or is NaN.
     """
-    X = exactly(R)
-    if not _determinant(X) > 0:
-        raise ValueError("only a matrix of positive determinant has a rotation as its polar factor")
+    X = _shaped(R, (3, 3))
+    if not (determinant := _determinant(X)) > 0:
+        raise InputError(
+            f"only a matrix of positive determinant has a rotation as its polar factor, got {float(determinant):.3g}"
+        )
     for _ in range(60):
         step = (_inverse3(X).T - X) / 2
         X = X + step
         if norm(step) ** 2 < mp.mpf(10) ** -mp.dps:
             return X
-    raise ValueError("the matrix is too close to a singular one")
+    raise InputError("the matrix is too close to a singular one to have a polar factor")
 
 
 def log(T: ArrayLike) -> np.ndarray:
-    """The principal logarithm of the polar projection: (3, 3) -> (3,), or (4, 4) -> (6,); 0 <= |ω| <= π.
+    """The principal logarithm of the polar projection: T (3, 3) -> (3,), or T (4, 4) -> (6,); 0 <= |ω| <= π.
 
-    At |ω| = π exactly both signs are logarithms, and this returns either.
+    At |ω| = π exactly both signs are logarithms, and this returns either. Raises: as `polar`.
     """
-    X = exactly(T)
+    X = _element(T)
     w = _log3(X[:3, :3])
     if len(X) == 3:
         return w
@@ -127,8 +140,8 @@ def log(T: ArrayLike) -> np.ndarray:
 
 
 def left_jacobian(xi: ArrayLike) -> np.ndarray:
-    """J with (d e^ξ) e^-ξ = J dξ, which is Σ ad(ξ)^k / (k+1)!: (3,) -> (3, 3) or (6,) -> (6, 6)."""
-    x = exactly(xi)
+    """J with (d e^ξ) e^-ξ = J dξ, which is Σ ad(ξ)^k / (k+1)!: xi (3,) -> (3, 3) or xi (6,) -> (6, 6)."""
+    x = _vector(xi)
     W = hat(x[:3])
     if len(x) == 3:
         _, b, c = _coefficients(x @ x)
@@ -144,29 +157,46 @@ def left_jacobian(xi: ArrayLike) -> np.ndarray:
 
 
 def left_jacobian_inverse(xi: ArrayLike) -> np.ndarray:
-    """The inverse of `left_jacobian`, |ω| < 2π: (3,) -> (3, 3) or (6,) -> (6, 6)."""
+    """The inverse of `left_jacobian`, |ω| < 2π: xi (3,) -> (3, 3) or xi (6,) -> (6, 6)."""
     J = left_jacobian(xi)
     P = _inverse3(J[:3, :3])
     return P if len(J) == 3 else _lower(P, -(P @ J[3:, :3] @ P))
 
 
 def right_jacobian(xi: ArrayLike) -> np.ndarray:
-    """J with e^-ξ (d e^ξ) = J dξ, which is the left Jacobian of -ξ."""
-    return left_jacobian(-exactly(xi))
+    """J with e^-ξ (d e^ξ) = J dξ, which is the left Jacobian of -ξ: xi (3,) -> (3, 3) or xi (6,) -> (6, 6)."""
+    return left_jacobian(-_vector(xi))
 
 
 def right_jacobian_inverse(xi: ArrayLike) -> np.ndarray:
-    """The inverse of `right_jacobian`, |ω| < 2π."""
-    return left_jacobian_inverse(-exactly(xi))
+    """The inverse of `right_jacobian`, |ω| < 2π: xi (3,) -> (3, 3) or xi (6,) -> (6, 6)."""
+    return left_jacobian_inverse(-_vector(xi))
 
 
 def forward(screws: ArrayLike, home: ArrayLike, x: ArrayLike) -> np.ndarray:
-    """e^{A1 x1} ⋯ e^{An xn} M: screws (n, 6) in the base frame, home (4, 4), displacements (n,) -> (4, 4)."""
+    """e^{A1 x1} ⋯ e^{An xn} M: screws (n, 6) in the base frame, home (4, 4), displacements x (n,) -> (4, 4)."""
     A, shift = exactly(screws), exactly(x)
+    if A.shape != (len(shift), 6):
+        raise ShapeError(f"expected screws (n, 6) and x (n,), got {A.shape} and {shift.shape}")
     T = _identity(4)
     for screw, amount in zip(A, shift, strict=True):
         T = T @ exp(screw * amount)
-    return T @ exactly(home)
+    return T @ _shaped(home, (4, 4))
+
+
+def _vector(x: ArrayLike) -> np.ndarray:
+    return _shaped(x, (3,), (6,))
+
+
+def _element(x: ArrayLike) -> np.ndarray:
+    return _shaped(x, (3, 3), (4, 4))
+
+
+def _shaped(x: ArrayLike, *shapes: tuple[int, ...]) -> np.ndarray:
+    X = exactly(x)
+    if X.shape not in shapes:
+        raise ShapeError(f"expected shape {' or '.join(map(str, shapes))}, got {X.shape}; of a batch, one at a time")
+    return X
 
 
 def _coefficients(s: Any) -> tuple[Any, Any, Any]:

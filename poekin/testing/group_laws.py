@@ -1,8 +1,14 @@
 """Laws of SO(3) and SE(3) as plain functions of a subject's functions, and `GROUP_LAWS`, the battery of them.
 
-Every law takes a `Group` and unbatched arguments, returns error ÷ bound and raises LawViolation above 1. Bounds are
-multiples of u = 2⁻⁵³ times the size of what is computed. How exact each function is by itself is the matter of
-`accuracy_laws`. Source of the laws: Park 1994, Lemmas 1 to 5.
+    exp_adds_along_a_line(Group(6, exp=my_exp), xi)
+
+Parameters: group, the functions under test (`group.Group`, of which a law uses those that its equation names); twists
+xi, eta, zeta (6,), (ω; v) in rad and m, or rotation vectors (3,); X, Y, poses (4, 4) of a frame in the base frame, or
+rotations (3, 3). Returns: error ÷ bound, 0 to 1; a pure number.
+Raises: LawViolation above 1, with the law, the error, its bound and the arguments; InputError where the group lacks a
+function that the law needs.
+Bounds are multiples of u = 2⁻⁵³ times the size of what is computed. How exact each function is by itself is the matter
+of `accuracy_laws`. Source: Park 1994, Lemmas 1 to 5.
 """
 
 from __future__ import annotations

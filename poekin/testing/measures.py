@@ -2,6 +2,11 @@
 
 One number for both halves would let a large translation hide a wrong angle. Every function returns pairs
 (error, bound), as `laws.held` takes them; those without their own bound get 12 u times a size.
+
+Parameters: x, any array (...); xi, error, a twist (6,), (ω; v), or rotation vector (3,); X, Y, poses (4, 4) in one
+frame, or rotations (3, 3); of_blocks takes error (6, 6) or (3, 3); angular, linear, diagonal, lower: bounds, or sizes
+that they are in proportion to. Returns: floats in rad and m, or pairs of them. Raises: nothing.
+Source: u = 2⁻⁵³, half the distance from 1 to the next float.
 """
 
 from __future__ import annotations

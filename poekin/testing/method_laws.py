@@ -1,5 +1,9 @@
 """Every algorithm for the Jacobian is one Jacobian: `METHODS`, each as floats, and the law that they agree.
 
+Parameters: chain, a `poekin.Chain` with a joint at least; x (n,), displacements of its joints, q, dq (m,), coordinates
+and rates, rad or m, and per s; joint, not used; methods, by their names. Returns: of a method the pose (4, 4) of the
+tool in the base frame, and the body Jacobian (6, n); of the law error ÷ bound, 0 to 1.
+Raises: LawViolation above 1, with the law, the error, its bound, the arguments, and the chain's numbers.
 Source: Park 1994, Sections III and IV: the direct method, the recursion on z-aligned link frames (with the trailing
 tool, and without), and the recursion of Orin and Schrader on the frames of Denavit and Hartenberg.
 """
@@ -16,8 +20,8 @@ import numpy as np
 from poekin import algebra
 from poekin.formulas import dh_recursive, direct, exponential, recursive
 
-from .chain_laws import adjoint, displacements, inverse, of_poses, of_twists
-from .laws import Law, held
+from .chain_laws import adjoint, displacements, inverse, kept, of_poses, of_twists
+from .laws import Law
 from .measures import Pairs
 
 Method = Callable[[Any, np.ndarray], tuple[np.ndarray, np.ndarray]]
@@ -89,7 +93,7 @@ def methods_agree(
     tool = _twelve(chain.local.frames[-1])
     recursion = recursive.body_velocity(links, tool, rotates, slides, len(x), rates.tolist())
     pairs += of_twists(chain, q, dq, np.array(recursion) - V, 4.0)
-    return held("methods agree", *pairs, q=q, dq=dq, joint=joint)
+    return kept("methods agree", chain, *pairs, q=q, dq=dq, joint=joint)
 
 
 METHOD_LAWS = (Law(methods_agree, ("q", "dq", "joint")),)

@@ -1,6 +1,11 @@
 """Laws of the branches of the logarithm, `log(X, near=…)`; and `NEAR_LAWS`, the battery of them.
 
 Of the logarithms ω (1 + 2πk/|ω|) of a rotation the one closest to ω_near is meant; of a pose, the twist with that ω.
+Parameters: group, the functions under test (`group.Group`, of which a law uses those that its equation names); twists
+xi, near (6,), (ω; v) in rad and m, or rotation vectors (3,); X, Y, poses (4, 4) of a frame in the base frame, or
+rotations (3, 3). Returns: error ÷ bound, 0 to 1; a pure number.
+Raises: LawViolation above 1, with the law, the error, its bound and the arguments; InputError where the group lacks a
+function that the law needs; `log` must take the argument near.
 Source: Park 1994, Remark 1: every (2k + 1) π is a logarithm's angle at π, and so it is elsewhere with 2πk added.
 """
 

@@ -1,6 +1,7 @@
 """Pinocchio as an oracle of derivatives: rate and Hessian of the Jacobian, and acceleration, of a chain of a URDF.
 
 What `PinocchioOracle` is for poses and Jacobians, by functions of the same model and under the same names.
+Source: Pinocchio, https://github.com/stack-of-tasks/pinocchio, release 4.
 """
 
 from __future__ import annotations
@@ -44,7 +45,8 @@ def derivatives(
     Parameters: oracle; q, values (N,) for each of `oracle.coordinates`; dq, ddq (N, m), in the order of these; tip,
     base, links. A base that is not the root must stand still in the root: what moves it gets a column of zeros, and
     rates and accelerations that are not zero for it are refused.
-    Accuracy: Pinocchio's own rounding. Raises: as `PinocchioOracle.evaluate`; InputError for a base that moves.
+    Returns: `Derivatives`. Accuracy: Pinocchio's own rounding.
+    Raises: as `PinocchioOracle.evaluate`; InputError for a base that moves.
     """
     pin, model, data = pinocchio(), oracle.model, oracle.data
     configurations = oracle.configurations(q)
@@ -116,7 +118,7 @@ def _base(
 
 
 class DerivativeErrors(NamedTuple):
-    """Worst errors of one chain, each ÷ R where it is a length: of dJ/dt, of the Hessian, of the acceleration."""
+    """Worst errors of one chain, each ÷ R where it is a length. Fields: rate (of dJ/dt), hessian, acceleration."""
 
     rate: float
     hessian: float
@@ -129,11 +131,12 @@ class DerivativeErrors(NamedTuple):
 
 
 def derivative_errors(chain: Any, oracle: PinocchioOracle, samples: int, seed: int = 0) -> DerivativeErrors:
-    """A chain of the oracle's robot against `derivatives`, in all three frames.
+    """A chain of the oracle's robot against `derivatives`, in all three frames, at `samples` configurations.
 
     Configurations are those of `PinocchioOracle.random`, the first all zeros; rates and accelerations of the chain's
     coordinates are uniform in ±1 (rad or m per s, per s²). An error is the largest absolute entry of a difference, its
     linear rows ÷ R, R the chain's reach; columns of coordinates that the chain does not have must be zero.
+    Parameters: chain; oracle; samples; seed, of what is drawn. Returns: `DerivativeErrors`.
     Raises: UnknownName for a coordinate of the chain that Pinocchio does not know, and as `derivatives`.
     """
     rng, m = np.random.default_rng(seed), len(oracle.coordinates)

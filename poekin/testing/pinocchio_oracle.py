@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
 
-from ..errors import InputError, MissingExtra, ModelError, UnknownName, closest, shown
+from ..errors import InputError, MissingExtra, ModelError, UnknownName, closest, shown, told
 from ..formats import xml
 from ..model.evaluation import FRAME_NAMES
 
@@ -55,11 +55,14 @@ class PinocchioOracle:
 
     Attributes: coordinates (names), slides (set of the coordinates in m), links (names), version (of Pinocchio).
     Raises: MissingExtra without Pinocchio; ModelError for malformed XML, and when Pinocchio refuses the text, with what
-    it says about it, which goes to no other place.
+    it says about it, which goes to no other place; InputError for a path.
+    Source: Pinocchio, https://github.com/stack-of-tasks/pinocchio, release 4.
     """
 
     def __init__(self, text: str | bytes):
         pin = pinocchio()
+        if isinstance(text, str) and "<" not in text:
+            raise InputError(f"text: expected a URDF itself, not where it is: Path(...).read_text(); got {told(text)}")
         root = _plain(xml.parse(text, "<text>"))
         content = etree.tostring(root, encoding="unicode")
         self.model: Any = _built(lambda: pin.buildModelFromXML(content))
@@ -76,15 +79,18 @@ class PinocchioOracle:
     def random(self, rng: np.random.Generator, size: int) -> dict[str, np.ndarray]:
         """Configurations for every coordinate: revolute within ±π, prismatic within ±1 m, whatever the limits say.
 
-        Returns: a dict from coordinate to (size,) values [rad or m].
+        Parameters: rng, NumPy's generator; size. Returns: a dict from coordinate to (size,) values [rad or m].
         """
         return {name: rng.uniform(-1, 1, size) * (1.0 if name in self.slides else np.pi) for name in self.coordinates}
 
     def configurations(self, q: Mapping[str, Any]) -> np.ndarray:
         """Pinocchio's own configurations (N, nq) for coordinates by name; one that is not named stands at 0.
 
-        Raises: UnknownName for a name that is no coordinate; InputError for values of different lengths.
+        Parameters: q, a dict from coordinate to a number or N of them. Returns: (N, nq), Pinocchio's order.
+        Raises: UnknownName for a name that is no coordinate; InputError for values of different lengths, or no numbers.
         """
+        if not isinstance(q, Mapping):
+            raise InputError(f"q: expected a dict from coordinate to value(s), got {told(q)}")
         for name in q:
             if name not in self.coordinates:
                 raise UnknownName(f"Pinocchio has no coordinate {shown(name)}; {closest(name, self.coordinates)}")
@@ -93,7 +99,10 @@ class PinocchioOracle:
             raise InputError(f"values of one length for every coordinate expected, got lengths {sorted(lengths)}")
         values = np.zeros((lengths.pop(), len(self.coordinates)))
         for name, value in q.items():
-            values[:, self.coordinates.index(name)] = value
+            try:
+                values[:, self.coordinates.index(name)] = value
+            except (TypeError, ValueError) as fault:
+                raise InputError(f"q: expected number(s) for {shown(name)}, got {told(value)}") from fault
         x = values @ self._coupling.T + self._offset
         result = np.tile(pinocchio().neutral(self.model), (len(values), 1))
         for column, index in enumerate(self._simple.values()):
@@ -107,12 +116,13 @@ class PinocchioOracle:
     def poses(self, q: Mapping[str, Any], tip: str, base: str | None = None) -> np.ndarray:
         """Poses T_base,tip (N, 4, 4) [m] at N configurations; base is the root link when it is not given.
 
+        Parameters: q, as of `configurations`; tip, base, links. Returns: these.
         Raises: as `configurations`; UnknownName for an unknown link.
         """
         return self.evaluate(q, tip, base, jacobians=False)[0]
 
     def link_poses(self, q: Mapping[str, Any]) -> dict[str, np.ndarray]:
-        """Poses (N, 4, 4) [m] of every link in the root link's frame."""
+        """Poses (N, 4, 4) [m] of every link in the root link's frame. Parameters, returns, raises: as `poses`."""
         return {link: self.poses(q, link) for link in self.links}
 
     def evaluate(
@@ -124,6 +134,7 @@ class PinocchioOracle:
         joints off the way are zero). Space: base axes, the point at base's origin; body: tip axes, tip's origin;
         hybrid: base axes, tip's origin. Motion is relative to base, which may itself move in the tree.
 
+        Parameters: q, tip, base, as of `poses`; jacobians, False where only poses are wanted. Returns: both.
         Accuracy: Pinocchio's own rounding; where base is the root link its arrays pass through unchanged.
         Raises: as `poses`.
         """

@@ -1,9 +1,15 @@
-"""Hypothesis strategies for kinematics: angles, axes, twists, poses, noisy rotations; chains are in `chain_strategies`.
+"""Hypothesis strategies for kinematics: angles, axes, twists, rotations, poses and batches of them.
 
-The one idea: magnitudes are log-uniform and **independent**, an angle never scaled together with a length. With that
+The one idea: magnitudes are log-uniform and independent, an angle never scaled together with a length. With that
 a logarithm or exponential that is wrong in some decade is found within a few hundred cases; with Gaussian samples it
 is not. 0, every switch point of the package's formulas ± 1 ulp, π - 10⁻ᵏ and π itself are drawn on purpose.
-Everything shrinks, towards 0 and the x axis. All arrays are float64 and read-only.
+Everything shrinks, towards 0 and the x axis. All arrays are float64 and read-only, in rad and m, twists (ω; v), poses
+of a frame in the base frame; what is drawn is no more exact than its rounding.
+
+Parameters of many: largest and smallest, of |ω| in rad beside 0; lengths, (smallest, largest) of |v| or |t| in m beside
+0. Returns: a strategy, to be given to `hypothesis.given` or drawn from in a composite one.
+Raises: InputError, at the call, for bounds that are no finite numbers, or not 0 < smallest <= largest.
+Source: how peers' tests miss what these find is measured in tests/testing/test_strategies.py.
 """
 
 from __future__ import annotations
@@ -15,19 +21,25 @@ from typing import TypeVar
 
 import numpy as np
 
-from poekin.errors import MissingExtra
+from poekin.errors import InputError, MissingExtra, told
 
 try:
     from hypothesis import strategies as st
 except ImportError as error:
     raise MissingExtra("hypothesis", "testing", "poekin.testing.strategies") from error
 
+from . import arguments, decoders
+from .decoders import SMALLEST, SWITCHES, around
 from .reader import Reader
 
-SWITCHES = (2e-140, 1.0, 2.0)
-"""Angles in rad at which the package's formulas for exp, log and the Jacobians of exp change their form."""
+__all__ = ["BATCH_SHAPES", "KINDS", "LENGTHS", "SMALLEST", "SWITCHES", "angles", "around", "axes", "batch_shapes",
+           "batches", "frozen", "group_cases", "magnitudes", "noisy_rotations", "pose", "poses", "read",
+           "rotation_vectors", "rotations", "twists", "vectors"]  # fmt: skip
+
 LENGTHS = (1e-12, 1e3)
 """The smallest length in m that is drawn beside 0, and the largest."""
+BATCH_SHAPES = ((), (1,), (0,), (3, 1, 2))
+"""The shapes of leading axes that a function of batches has to know: none, one, an empty one, several."""
 
 T = TypeVar("T")
 Arrays = st.SearchStrategy[np.ndarray]
@@ -35,14 +47,14 @@ Reals = st.SearchStrategy[float]
 
 
 def frozen(x: object) -> np.ndarray:
-    """A read-only float64 array."""
+    """A read-only float64 array of the numbers x, of any shape (...)."""
     array = np.array(x, dtype=float)
     array.flags.writeable = False
     return array
 
 
 def read(size: int, decode: Callable[[Reader], T]) -> st.SearchStrategy[T]:
-    """What `decode` makes of `size` random bytes.
+    """What `decode` makes of `size` random bytes, which it gets as a `Reader`: to write strategies like these.
 
     Hypothesis spreads bytes evenly; of its numbers it draws most next to 0, and of a case made of several choices it
     tries many with one of them set to its simplest, where nothing is learnt here. As bytes a case is one choice.
@@ -50,137 +62,126 @@ def read(size: int, decode: Callable[[Reader], T]) -> st.SearchStrategy[T]:
     return st.binary(min_size=size, max_size=size).map(lambda data: decode(Reader(data)))
 
 
-def magnitudes(smallest: float = 1e-150, largest: float = 1e3) -> Reals:
-    """0, or log-uniform from smallest to largest; shrinks to 0, then to 1 and to powers of 10."""
-    return read(4, lambda r: r.magnitude(smallest, largest))
+def magnitudes(smallest: float = SMALLEST, largest: float = 1e3) -> Reals:
+    """0 (one time in sixteen), or log-uniform from smallest to largest; shrinks to 0, then to 1 and powers of 10."""
+    bounds = arguments.magnitudes("smallest, largest", (smallest, largest))
+    return read(4, lambda r: r.magnitude(*bounds))
 
 
-def around(x: float) -> tuple[float, float, float]:
-    """The number x and the floats on both sides of it."""
-    return x, math.nextafter(x, -math.inf), math.nextafter(x, math.inf)
-
-
-def angles(largest: float = math.pi, smallest: float = 1e-150) -> Reals:
-    """Rotation angles in rad, 0 to largest: log-uniform, uniform, and the special ones.
+def angles(largest: float = math.pi, smallest: float = SMALLEST) -> Reals:
+    """Rotation angles in rad, 0 to largest: log-uniform, uniform, and the special ones; shrinks to 0.
 
     Special are the switches ± 1 ulp, π/2, π - 10⁻ᵏ, π and 2π. Log-uniform ones are mostly above 1e-12, where most
-    formulas go wrong.
+    formulas go wrong. Of 24 angles one lies within 1e-12 of π; for all of them there, see `near_strategies`.
     """
-    return read(6, functools.partial(_angle, largest=largest, smallest=smallest))
+    smallest, largest = _turning(largest, smallest)
+    return read(6, functools.partial(decoders.angle, largest=largest, smallest=smallest))
 
 
 @functools.cache
 def axes() -> Arrays:
-    """Unit vectors (3,): along an axis of the frame, nearly so, or anywhere."""
-    return read(12, lambda r: frozen(_axis(r)))
+    """Unit vectors (3,): along an axis of the frame (1 of 4), nearly so (1 of 4), or anywhere; shrinks to x."""
+    return read(12, lambda r: frozen(decoders.axis(r)))
 
 
 def vectors(lengths: tuple[float, float] = LENGTHS) -> Arrays:
-    """Vectors (3,): 0 or a log-uniform length within the bounds, times an independent direction."""
-    return read(16, lambda r: frozen(_vector(r, lengths)))
+    """Vectors (3,) in m: 0 or a log-uniform length within the bounds, times an independent direction as in `axes`."""
+    bounds = arguments.magnitudes("lengths", lengths)
+    return read(16, lambda r: frozen(decoders.vector(r, bounds)))
 
 
-def rotation_vectors(largest: float = math.pi, smallest: float = 1e-150) -> Arrays:
-    """Rotation vectors ω (3,) in rad, |ω| as in `angles` (to the rounding of |ω|)."""
-    return read(18, lambda r: frozen(_angle(r, largest, smallest) * _axis(r)))
+def rotation_vectors(largest: float = math.pi, smallest: float = SMALLEST) -> Arrays:
+    """Rotation vectors ω (3,) in rad, |ω| as in `angles` (to the rounding of |ω|), its axis as in `axes`."""
+    smallest, largest = _turning(largest, smallest)
+    return read(18, lambda r: frozen(decoders.angle(r, largest, smallest) * decoders.axis(r)))
 
 
-def twists(largest: float = math.pi, lengths: tuple[float, float] = LENGTHS, smallest: float = 1e-150) -> Arrays:
-    """Twists (ω; v) (6,): |ω| as in `angles`, |v| as in `vectors`, the two independent."""
-    return read(34, lambda r: frozen(np.concatenate([_angle(r, largest, smallest) * _axis(r), _vector(r, lengths)])))
+def twists(largest: float = math.pi, lengths: tuple[float, float] = LENGTHS, smallest: float = SMALLEST) -> Arrays:
+    """Twists (ω; v) (6,): |ω| as in `angles`, |v| as in `vectors`, each with its own direction; all independent."""
+    smallest, largest = _turning(largest, smallest)
+    bounds = arguments.magnitudes("lengths", lengths)
+
+    def twist(r: Reader) -> np.ndarray:
+        w = decoders.angle(r, largest, smallest) * decoders.axis(r)
+        return frozen(np.concatenate([w, decoders.vector(r, bounds)]))
+
+    return read(34, twist)
 
 
 @functools.cache
 def rotations() -> Arrays:
-    """Rotations (3, 3), orthonormal to a few roundings: e^{[n]θ} of a unit n, by NumPy alone."""
-    return read(18, lambda r: frozen(_rotation(r)))
+    """Rotations (3, 3), orthonormal to a few roundings: e^{[n]θ} by NumPy alone, θ as in `angles`, n as in `axes`."""
+    return read(18, lambda r: frozen(decoders.rotation(r)))
 
 
 def noisy_rotations(noise: tuple[float, float] = (1e-17, 1e-8)) -> Arrays:
-    """Rotations (3, 3), each entry off by up to a size that is 0 or within the bounds."""
+    """Rotations (3, 3) as in `rotations`, each entry off by up to a size that is 0, or log-uniform between the bounds.
+
+    Parameters: noise, (smallest, largest) of that size. Shrinks to no noise.
+    """
+    bounds = arguments.magnitudes("noise", noise)
 
     def noisy(r: Reader) -> np.ndarray:
-        R, size = _rotation(r), r.magnitude(*noise)
+        R, size = decoders.rotation(r), r.magnitude(*bounds)
         return frozen(R + size * np.reshape([r.fraction(-1.0, 1.0) for _ in range(9)], (3, 3)))
 
     return read(49, noisy)
 
 
 def poses(lengths: tuple[float, float] = LENGTHS) -> Arrays:
-    """Poses (4, 4) with any rotation and an independent translation as in `vectors`."""
-    return read(34, lambda r: pose(_rotation(r), _vector(r, lengths)))
+    """Poses (4, 4) with a rotation as in `rotations` and an independent translation as in `vectors`."""
+    bounds = arguments.magnitudes("lengths", lengths)
+    return read(34, lambda r: pose(decoders.rotation(r), decoders.vector(r, bounds)))
 
 
 def pose(R: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """The read-only pose (4, 4) of a rotation and a translation."""
+    """The read-only pose (4, 4) of a rotation R (3, 3) and a translation t (3,) in m, in the same frame."""
     T = np.eye(4)
     T[:3, :3], T[:3, 3] = R, t
     return frozen(T)
 
 
 def batch_shapes() -> st.SearchStrategy[tuple[int, ...]]:
-    """Shapes of leading axes: none, an empty one, one, several."""
-    return st.sampled_from([(), (1,), (0,), (3, 1, 2)])
+    """Shapes of leading axes, `BATCH_SHAPES`, each as often as any: none, one, an empty one, several; shrinks to ()."""
+    return st.sampled_from(BATCH_SHAPES)
 
 
 def batches(elements: Arrays, shape: Sequence[int]) -> Arrays:
-    """Arrays (*shape, ...) of the elements; where the shape holds none, one element is drawn for its own shape."""
-    count = math.prod(shape)
+    """Arrays (*shape, ...) of elements drawn independently of each other.
+
+    Parameters: elements, a strategy of arrays of one shape (...) each; shape, of the leading axes, such as
+    `batch_shapes` draws: `batch_shapes().flatmap(lambda shape: batches(twists(), shape))`. Where the shape holds
+    none, one element is drawn for its own shape.
+    """
+    sizes = arguments.shape(shape)
+    if not isinstance(elements, st.SearchStrategy):
+        raise InputError(f"elements: expected a strategy of arrays, got {told(elements)}")
+    count = math.prod(sizes)
     drawn = st.lists(elements, min_size=max(count, 1), max_size=max(count, 1))
-    return drawn.map(lambda x: frozen(np.stack(x)[:count].reshape(*shape, *x[0].shape)))
+    return drawn.map(lambda x: frozen(np.stack(x)[:count].reshape(*sizes, *np.shape(x[0]))))
+
+
+KINDS = ("twist", "far_twist", "element", "noisy_element")
+"""What a law of a group may ask for."""
 
 
 def group_cases(kinds: Sequence[str], size: int) -> st.SearchStrategy[tuple[np.ndarray, ...]]:
     """Arguments of a group's law by their kinds (`laws.Law`), for SO(3) (size 3) or SE(3) (size 6).
 
-    "twist" is principal (|ω| up to π), "far_twist" has |ω| up to 10, "element" is a rotation or pose, and
-    "noisy_element" one with a defect of up to 1e-8 an entry.
+    Parameters: kinds, of `KINDS`: "twist" is principal (|ω| up to π), "far_twist" has |ω| up to 10, "element" is a
+    rotation (3, 3) or pose (4, 4), and "noisy_element" one with a defect of up to 1e-8 an entry; size, 3 or 6.
+    Returns: a strategy of tuples of twists (size,) and elements, one for each kind. Raises: InputError for others.
     """
     if size == 3:
-        arguments = {"twist": rotation_vectors(), "far_twist": rotation_vectors(10.0)}
-        arguments |= {"element": rotations(), "noisy_element": noisy_rotations()}
+        known = {"twist": rotation_vectors(), "far_twist": rotation_vectors(10.0)}
+        known |= {"element": rotations(), "noisy_element": noisy_rotations()}
+    elif size == 6:
+        known = {"twist": twists(), "far_twist": twists(10.0)}
+        known |= {"element": poses(), "noisy_element": st.builds(pose, noisy_rotations(), vectors())}
     else:
-        arguments = {"twist": twists(), "far_twist": twists(10.0)}
-        arguments |= {"element": poses(), "noisy_element": st.builds(pose, noisy_rotations(), vectors())}
-    return st.tuples(*(arguments[kind] for kind in kinds))
+        raise InputError(f"size: expected 3 for SO(3) or 6 for SE(3), got {told(size)}")
+    return st.tuples(*(known[kind] for kind in arguments.some("kinds", kinds, KINDS)))
 
 
-@functools.cache
-def _marks(largest: float, smallest: float) -> list[float]:
-    marks = [*(x for s in SWITCHES for x in around(s)), math.pi]
-    marks += [x for centre in (math.pi, math.pi / 2, 2 * math.pi) for x in around(centre)]
-    return [x for x in marks if smallest <= x <= largest]
-
-
-def _angle(r: Reader, largest: float, smallest: float) -> float:
-    kind, fresh = r.byte() % 12, min(max(smallest, 1e-12), largest)
-    if kind < 5:
-        return r.magnitude(fresh, largest)
-    if kind < 6:
-        return r.magnitude(smallest, max(smallest, 1e-12))
-    if kind < 8 and (marks := _marks(largest, smallest)):
-        return r.pick(marks)
-    if kind < 10 and largest >= math.pi:
-        return max(math.pi - 10.0 ** -r.fraction(0.0, 16.0), 0.0)
-    return r.fraction(0.0, largest)
-
-
-def _axis(r: Reader) -> np.ndarray:
-    kind, place, sign = r.byte() % 4, r.byte(), 1.0 if r.byte() < 128 else -1.0
-    n = np.array([sign, 0.0, 0.0])
-    if kind == 1:
-        n[1:] = [10.0 ** -r.fraction(1.0, 17.0), -(10.0 ** -r.fraction(1.0, 17.0))]
-    elif kind > 1:
-        anywhere = np.array([r.fraction(-1.0, 1.0) for _ in range(3)])
-        n = anywhere if math.hypot(*anywhere) > 0.1 else n
-    return np.roll(n / math.hypot(*n), place % 3)
-
-
-def _vector(r: Reader, lengths: tuple[float, float]) -> np.ndarray:
-    return r.magnitude(*lengths) * _axis(r)
-
-
-def _rotation(r: Reader) -> np.ndarray:
-    n, angle = _axis(r), _angle(r, math.pi, 1e-150)
-    N = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
-    return np.eye(3) + math.sin(angle) * N + 2 * math.sin(angle / 2) ** 2 * (N @ N)
+def _turning(largest: float, smallest: float) -> tuple[float, float]:
+    return arguments.magnitudes("smallest, largest (|ω| in rad)", (smallest, largest))

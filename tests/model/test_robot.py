@@ -17,40 +17,15 @@ from hypothesis import strategies as st
 from poekin.errors import InputError
 from poekin.model.joint import FREE, Joint, Mimic
 from poekin.model.robot import Robot
-from poekin.testing.strategies import axes, frozen, poses
+from poekin.testing import robot_strategies
+from poekin.testing.strategies import frozen, poses
 
 MOVING = ("revolute", "continuous", "prismatic", "helical")
 ROOMY = poses(lengths=(1e-9, 2.0))
 
 
-@st.composite
-def robots(draw, kinds=(*MOVING, "fixed"), most=7) -> Robot:
-    """A robot of up to `most` joints of any kind in any order, some of them mimics of others."""
-    count = draw(st.integers(0, most))
-    joints = []
-    for child in range(1, count + 1):
-        kind = draw(st.sampled_from(kinds))
-        joints.append(
-            Joint(
-                f"j{child}",
-                kind,
-                f"l{draw(st.integers(0, child - 1))}",
-                f"l{child}",
-                draw(ROOMY),
-                draw(axes()),
-                pitch=draw(st.floats(-0.5, 0.5)) if kind == "helical" else 0.0,
-            )
-        )
-    followers = draw(st.permutations(range(count)))
-    for place, index in enumerate(followers):
-        # A joint mimics one that comes earlier in this order, so that no circle can arise.
-        if place and joints[index].kind not in FREE and draw(st.booleans()):
-            master = joints[followers[draw(st.integers(0, place - 1))]]
-            if master.kind not in FREE:
-                numbers = draw(st.floats(-2, 2)), draw(st.floats(-1, 1))
-                joints[index] = replace(joints[index], mimic=Mimic(master.name, *numbers))
-    links = draw(st.permutations([f"l{i}" for i in range(count + 1)]))
-    return Robot("r", links, draw(st.permutations(joints)))
+def robots(kinds=(*MOVING, "fixed"), max_joints=7):
+    return robot_strategies.robots(kinds, 0, max_joints, limits=False, still=True)
 
 
 def value(robot: Robot, joint: Joint, q: dict[str, float]) -> float:
@@ -122,7 +97,7 @@ def test_link_poses_are_those_of_the_definition(robot, seed):
     assert worst_link_error(robot, robot, seed) <= 1e-13
 
 
-@given(robot=robots(most=5), seed=seeds)
+@given(robot=robots(max_joints=5), seed=seeds)
 def test_a_chain_runs_between_any_two_links_in_either_direction(robot, seed):
     assert worst_chain_error(robot, robot, seed) <= 1e-13
 
@@ -172,7 +147,7 @@ def test_planted_errors_are_found(law, wrong):
     assert law(two_arms(), wrong, 1) > 1e-9
 
 
-@given(robot=robots(most=5), data=st.data())
+@given(robot=robots(max_joints=5), data=st.data())
 def test_the_order_of_joints_and_links_changes_only_the_order_of_coordinates(robot, data):
     other = Robot("r", data.draw(st.permutations(robot.links)), data.draw(st.permutations(robot.joints)))
     assert set(other.q_names) == set(robot.q_names)
@@ -182,7 +157,7 @@ def test_the_order_of_joints_and_links_changes_only_the_order_of_coordinates(rob
         assert (mine[link] == theirs[link]).all()
 
 
-@given(robot=robots(kinds=(*MOVING, "fixed", *FREE), most=5), T=ROOMY, seed=seeds)
+@given(robot=robots(kinds=(*MOVING, "fixed", *FREE), max_joints=5), T=ROOMY, seed=seeds)
 def test_floating_and_planar_joints_are_where_poses_says_and_at_identity_otherwise(robot, T, seed):
     q = random_q(robot, seed)
     free = [joint.name for joint in robot.joints if joint.kind in FREE]
@@ -226,7 +201,7 @@ def test_nan_in_one_configuration_stays_in_that_configuration():
     assert np.isfinite(found["e"][[0, 2]]).all()
 
 
-@given(robot=robots(most=4))
+@given(robot=robots(max_joints=4))
 def test_copies_are_equal_and_read_only(robot):
     copy = pickle.loads(pickle.dumps(robot))
     assert copy == robot

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from poekin.errors import ShapeError
 from poekin.testing import attainable, exact
 from poekin.testing.attainable import UNIT
 from poekin.testing.exact import mp, norm
@@ -104,3 +105,12 @@ def test_both_signs_are_right_within_8_u_of_pi_only(gap, both, size):
     assert attainable.ratio_log(element, exact.rounded(truth[:size])) <= 1
     ratio = attainable.ratio_log(element, exact.rounded(other[:size]))
     assert ratio <= 1 if both else ratio > 1e14
+
+
+@pytest.mark.parametrize(
+    ("xi", "T"), [(np.zeros(6), np.eye(3)), (np.zeros(3), np.eye(4)), (np.zeros((1, 6)), np.eye(4))]
+)
+def test_a_twist_and_an_element_that_do_not_go_together_are_refused(xi, T):
+    for call in (lambda: attainable.ratio_exp(xi, T), lambda: attainable.ratio_log(T, xi)):
+        with pytest.raises(ShapeError, match=r"expected xi \(6,\) with T \(4, 4\), or xi \(3,\) with T \(3, 3\), got"):
+            call()

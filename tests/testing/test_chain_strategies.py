@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import find, settings
 
+from poekin.errors import InputError
 from poekin.model.chain import Chain
 from poekin.testing import chain_strategies
 from tests.testing.drawing import QUICK, drawn
@@ -71,5 +72,5 @@ def test_coordinates_hold_zeros_quarter_turns_and_all_between():
 
 
 def test_an_unknown_kind_of_argument_is_refused():
-    with pytest.raises(ValueError, match="speed"):
-        drawn(chain_strategies.chain_cases(("q", "speed")), 1)
+    with pytest.raises(InputError, match="speed"):
+        chain_strategies.chain_cases(("q", "speed"))

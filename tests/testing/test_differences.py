@@ -67,6 +67,31 @@ def test_no_coordinate_gives_no_column():
     assert differences.jacobian(lambda q: HOME, np.empty(0), "body").shape == (6, 0)
 
 
+def test_a_function_may_return_lists():
+    lists = differences.jacobian(lambda q: pose(q).tolist(), Q.tolist(), "space")
+    np.testing.assert_array_equal(lists, differences.jacobian(pose, Q, "space"))
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (
+            lambda: differences.jacobian(pose, [Q, Q], "space"),
+            r"q: expected shape \(m,\), one configuration, got \(2, 3\)",
+        ),
+        (lambda: differences.velocity(pose, Q, Q[:2], "space"), r"one shape \(m,\), got \(3,\) and \(2,\)"),
+        (lambda: differences.velocity(pose, Q, ["a"], "space"), r"dq: expected numbers \(m,\), got \['a'\]"),
+        (lambda: differences.velocity(HOME, Q, Q, "space"), r"f: expected a function of q, got array"),  # pyright: ignore
+        (lambda: differences.jacobian(lambda q: q, Q, "space"), r"f: expected a pose \(4, 4\) at q, got shape \(3,\)"),
+        (lambda: differences.derivative(pose, Q, Q, np.nan), r"rate: expected a number from 0 .* got nan"),
+    ],
+    ids=["batch", "rates", "text", "array", "vector", "rate"],
+)
+def test_what_is_no_argument_is_refused(call, message):
+    with pytest.raises(InputError, match=message):
+        call()
+
+
 def test_an_unknown_frame_is_refused():
     with pytest.raises(InputError, match="hybrid"):
         differences.velocity(pose, Q, Q, "world")

@@ -6,6 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from poekin.errors import InputError
 from poekin.testing import exact
 from poekin.testing.exact import mp, norm
 
@@ -183,3 +184,28 @@ def check_everything_once() -> None:
 
 def test_without_a_planted_error_everything_passes():
     check_everything_once()
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: exact.exp(np.zeros(5)), r"expected shape \(3,\) or \(6,\), got \(5,\)"),
+        (lambda: exact.left_jacobian(np.zeros((2, 6))), r"got \(2, 6\); of a batch, one at a time"),
+        (lambda: exact.hat(np.zeros(4)), r"expected shape \(3,\) or \(6,\)"),
+        (lambda: exact.log(np.zeros(6)), r"expected shape \(3, 3\) or \(4, 4\), got \(6,\)"),
+        (lambda: exact.adjoint(np.zeros((6, 6))), r"expected shape \(3, 3\) or \(4, 4\)"),
+        (lambda: exact.forward(np.zeros((2, 6)), np.eye(4), [1.0]), r"screws \(n, 6\) and x \(n,\), got \(2, 6\)"),
+        (lambda: exact.forward(np.zeros((1, 6)), np.eye(3), [1.0]), r"expected shape \(4, 4\), got \(3, 3\)"),
+        (lambda: exact.exp(["a", 0, 0]), r"expected numbers, got \['a', 0, 0\]"),
+        (lambda: exact.log(-np.eye(3)), r"positive determinant .* got -1"),
+        (lambda: exact.log(np.full((3, 3), np.nan)), r"positive determinant .* got nan"),
+    ],
+    ids=["exp", "batch", "hat", "log", "adjoint", "forward", "home", "text", "reflection", "nan"],
+)
+def test_what_is_no_argument_is_refused(call, message):
+    with pytest.raises(InputError, match=message):
+        call()
+
+
+def test_nan_in_is_nan_out_without_a_warning():
+    assert np.isnan(exact.rounded(exact.exp([np.nan, 0, 0]))).all()

@@ -6,6 +6,7 @@ import math
 import pickle
 import subprocess
 import sys
+import types
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,11 @@ import pytest
 from hypothesis import strategies as st
 
 import poekin.testing
-from poekin.testing import hunting, measures
+from poekin.errors import InputError
+from poekin.groups import se3
+from poekin.model.chain import Chain
+from poekin.testing import chain_laws, group_laws, hunting, measures
+from poekin.testing.group import Group, group_of
 from poekin.testing.laws import Law, LawViolation, held
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -29,8 +34,48 @@ def test_an_error_above_its_bound_is_a_violation(pair):
         held("a law", (0.0, 1.0), pair, q=np.zeros(2))
     assert caught.value.law == "a law"
     assert caught.value.error == pytest.approx(pair[0], nan_ok=True)
-    assert "q = array([0., 0.])" in str(caught.value)
+    assert "q = np.array([0.0, 0.0])" in str(caught.value)
     assert isinstance(caught.value, AssertionError)
+
+
+def test_the_arguments_of_a_violation_can_be_pasted_to_the_last_digit():
+    xi, none, long = np.array([[1 / 3, -0.0], [5e-324, np.pi]]), np.zeros((0, 6)), np.zeros(1001)
+    said = str(LawViolation("a law", 2.0, 1.0, {"xi": xi, "none": none, "long": long, "k": 3}))
+    lines = dict(line.split(" = ") for line in said.splitlines() if " = " in line)
+    assert eval(lines["  xi"], {"np": np}).tobytes() == xi.tobytes()
+    assert eval(lines["  none"], {"np": np}).shape == (0, 6)
+    assert lines["  k"] == "3"
+    assert "long = array([0., 0., 0., ..., 0., 0., 0." in said
+
+
+def test_a_chain_that_breaks_a_law_is_in_the_message_with_its_numbers():
+    rows = [[0, 0, 1, 1 / 3, 0, 0], [0, 1, 0, 0, 0, 0]]
+    arm = Chain(rows, np.eye(4), coupling=[[1], [2]], offset=[0, 0.5], q_names=["q"])
+    with pytest.raises(LawViolation, match=r"coupling = np\.array\(\[\[1\.0\], \[2\.0\]\]\)") as caught:
+        chain_laws.kept("a law", arm, (2.0, 1.0), q=np.zeros(1))
+    assert "screws = np.array([[0.0, 0.0, 1.0, 0.3333333333333333, 0.0, 0.0], " in str(caught.value)
+    assert list(caught.value.seen) == ["q", "screws", "home", "coupling", "offset"]
+    with pytest.raises(LawViolation) as plain:
+        chain_laws.kept("a law", Chain(rows, np.eye(4)), (2.0, 1.0))
+    assert list(plain.value.seen) == ["screws", "home"]
+
+
+def test_a_law_asks_by_name_for_a_function_that_is_not_there():
+    alone = Group(6, exp=se3.exp)
+    xi = np.array([0.1, 0.2, 0.3, 1.0, 2.0, 3.0])
+    assert group_laws.exp_adds_along_a_line(alone, xi) <= 1
+    with pytest.raises(InputError, match="needs the function log"):
+        group_laws.log_undoes_exp(alone, xi)
+    assert group_laws.log_undoes_exp(alone._replace(log=se3.log), xi) <= 1
+
+
+def test_a_group_is_made_of_the_functions_that_an_object_has():
+    assert group_of(se3, 6) == Group(6, *(getattr(se3, name) for name in Group._fields[1:]))
+    assert group_of(types.SimpleNamespace(exp=se3.exp, log=3), 6) == Group(6, exp=se3.exp)
+    with pytest.raises(InputError, match="none of the functions of a group: hat, vee, exp"):
+        group_of(types, 6)
+    with pytest.raises(InputError, match=r"expected 3 for SO\(3\) or 6 for SE\(3\), got 4"):
+        group_of(se3, 4)
 
 
 def test_a_violation_survives_pickling():

@@ -113,6 +113,15 @@ def test_what_is_unknown_is_named(oracle):
         oracle.poses({"bend": np.zeros(2), "turn": np.zeros(3)}, "e")
 
 
+def test_what_is_no_argument_is_refused(oracle):
+    with pytest.raises(InputError, match=r"expected a URDF itself, not where it is: Path.* got 'arm\.urdf'"):
+        PinocchioOracle("arm.urdf")
+    with pytest.raises(InputError, match=r"q: expected a dict from coordinate to value\(s\), got \[0\.1\]"):
+        oracle.poses([0.1], "e")
+    with pytest.raises(InputError, match=r"q: expected number\(s\) for 'bend', got 'up'"):
+        oracle.poses({"bend": "up"}, "e")
+
+
 def test_a_urdf_that_pinocchio_refuses_is_an_error():
     with pytest.raises(ModelError, match="Pinocchio refuses"):
         PinocchioOracle('<robot name="r"></robot>')

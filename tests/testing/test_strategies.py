@@ -10,29 +10,41 @@ from hypothesis import find
 from hypothesis import strategies as st
 
 from poekin.formulas import coefficients
-from poekin.testing import strategies
+from poekin.testing import decoders, strategies
 from tests.testing.drawing import QUICK, drawn
 
 
 def test_the_switches_are_those_of_the_formulas():
-    assert math.sqrt(coefficients.SWITCH) in strategies.SWITCHES
-    assert 1.0 in strategies.SWITCHES
+    assert math.sqrt(coefficients.SWITCH) in decoders.SWITCHES
+    assert 1.0 in decoders.SWITCHES
 
 
 @pytest.mark.parametrize(
-    "angle", [0.0, *strategies.around(1.0), *strategies.around(2.0), *strategies.around(math.pi)[:2], 2e-140]
+    "angle", [0.0, *decoders.around(1.0), *decoders.around(2.0), *decoders.around(math.pi)[:2], 2e-140]
 )
 def test_the_special_angles_are_drawn(angle):
     assert find(strategies.angles(), lambda x: x == angle, settings=QUICK) == angle
 
 
-def test_angles_come_as_close_to_pi_as_floats_do():
-    gaps = math.pi - np.array(drawn(strategies.angles()))
+@pytest.fixture(scope="module")
+def angles() -> np.ndarray:
+    return np.array(drawn(strategies.angles(), 1000))
+
+
+def test_angles_come_as_close_to_pi_as_floats_do(angles):
+    gaps = math.pi - angles
     assert {int(k) for k in np.log10(gaps[gaps > 0])} >= set(range(-15, 1))
 
 
-def test_no_angle_exceeds_the_largest():
-    assert max(drawn(strategies.angles())) <= math.pi
+def test_one_angle_in_24_lies_within_1e_12_of_pi_and_one_in_12_at_a_switch(angles):
+    # 1000 draws scatter by 0.01.
+    assert np.mean(math.pi - angles <= 1e-12) > 1 / 24
+    marks = [x for s in decoders.SWITCHES for x in decoders.around(s)]
+    assert 1 / 14 < np.mean(np.isin(angles, marks)) < 1 / 6
+
+
+def test_no_angle_exceeds_the_largest(angles):
+    assert max(angles) <= math.pi
     assert 9 < max(drawn(strategies.angles(10.0))) <= 10
 
 
@@ -65,7 +77,9 @@ def test_axes_are_unit_vectors_among_them_nearly_aligned_ones():
     assert np.abs(np.linalg.norm(axes, axis=1) - 1).max() < 3e-16
     second = np.sort(np.abs(axes), axis=1)[:, 1]
     assert ((second > 0) & (second < 1e-6)).any()
-    assert (second == 0).any()
+    # One time in four each, of 600.
+    assert 0.2 < np.mean(second == 0) < 0.35
+    assert 0.15 < np.mean((second > 0) & (second < 0.1)) < 0.35
     assert (second > 0.1).any()
 
 
