@@ -42,6 +42,7 @@ OPTIONAL: dict[str, str | None] = dict.fromkeys(
     )
 )
 OPTIONAL |= {"hypothesis": "poekin/testing/", "typer": "poekin/cli/", "rich": "poekin/cli/"}
+OPTIONAL |= {"pytest": "poekin/testing/conform/plugin.py"}  # which pytest alone loads
 
 # Files of the package that may be longer than 300 lines, each with its reason.
 LONG: dict[str, str] = {}

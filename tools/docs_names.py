@@ -35,7 +35,7 @@ PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "errors": ("Errors and warnings", ("PoekinError", "PoekinWarning", "errors")),
 }  # fmt: skip
 
-# Pages of `poekin.testing`: title, and modules, each with its text and its functions.
+# Pages of `poekin.testing`: title, and modules (of conform, what `__all__` has), each with its text and its functions.
 TESTING: dict[str, tuple[str, tuple[str, ...]]] = {
     "testing_strategies": ("poekin.testing: strategies", (
         "strategies", "near_strategies", "chain_strategies", "configuration_strategies", "robot_strategies",
@@ -43,10 +43,13 @@ TESTING: dict[str, tuple[str, tuple[str, ...]]] = {
     )),
     "testing_laws": ("poekin.testing: laws", (
         "laws", "group", "group_laws", "accuracy_laws", "near_laws", "chain_laws", "change_laws", "derivative_laws",
-        "method_laws", "measures",
+        "method_laws", "measures", "hunting",
     )),
     "testing_oracles": ("poekin.testing: oracles", (
         "exact", "attainable", "differences", "pinocchio_oracle", "pinocchio_derivatives", "accuracy",
+    )),
+    "testing_conform": ("poekin.testing.conform", (
+        "conform", "conform.of_groups", "conform.of_arms", "conform.plugin",
     )),
 }  # fmt: skip
 

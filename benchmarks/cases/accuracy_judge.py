@@ -15,19 +15,16 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-import mpmath
 import numpy as np
 
 from poekin.testing import attainable, exact, suspects
+from poekin.testing.conform import confirm
 
 FUNCTIONS = {"exp_so3": "exp SO(3)", "log_so3": "log SO(3)", "exp_se3": "exp SE(3)", "log_se3": "log SE(3)"}
 SHAPES = {"exp_so3": (3, 3), "log_so3": (3,), "exp_se3": (4, 4), "log_se3": (6,)}
 ORDINARY = np.array([0.7, -0.5, 0.8, 0.3, -0.2, 0.6])
 FOREIGN = 1e6
 """Who errs by more than this at the ordinary twist (1e-10 or so) does not err: it computes something else."""
-
-_own: Any = mpmath.mp.clone()
-_own.dps = 80
 
 
 class Band(NamedTuple):
@@ -188,15 +185,8 @@ def confirmed(case: Case) -> bool:
     exp: they agree. log: |ω| <= π, the exponential of the logarithm has the translation of the argument and is its
     polar factor P (Pᵀ R is symmetric, and P is near R).
     """
-    if case.truth.ndim == 2:
-        return _largest(_expm(case.argument) - _own.matrix(case.truth.tolist())) < 1e-40 * _scale(case.argument)
-    E, X = _expm(case.truth), _own.matrix(case.argument.tolist())
-    P, R = E[:3, :3], X[:3, :3]
-    S = P.T * R
-    polar = _largest(S - S.T) < 1e-40 and _largest(P - R) < 1e-14
-    if len(case.truth) == 6:
-        polar = polar and _largest(E[:3, 3] - X[:3, 3]) < 1e-40 * _scale(case.truth)
-    return bool(polar and _own.norm(list(case.truth[:3])) <= _own.pi)
+    judge = confirm.is_exp if case.truth.ndim == 2 else confirm.is_log
+    return judge(case.argument, case.truth)
 
 
 def _finding(who: str, name: str, function: Callable[[np.ndarray], Any], cases: list[Case]) -> Finding:
@@ -238,19 +228,3 @@ def _called(function: Callable[[np.ndarray], Any], argument: np.ndarray, shape: 
 
 def _quotient(error: Any, bound: Any) -> float:
     return float(error / bound) if bound else (0.0 if error == 0 else math.inf)
-
-
-def _expm(xi: np.ndarray) -> Any:
-    x, y, z = (_own.mpf(c) for c in xi[:3])
-    rows = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
-    if len(xi) == 6:
-        rows = [[*row, _own.mpf(v)] for row, v in zip(rows, xi[3:], strict=True)] + [[0, 0, 0, 0]]
-    return _own.expm(_own.matrix(rows))
-
-
-def _largest(M: Any) -> float:
-    return float(max(abs(x) for x in M))
-
-
-def _scale(xi: np.ndarray) -> float:
-    return 1 + float(max(abs(x) for x in xi))

@@ -53,11 +53,11 @@ TEXTS = {
          "log_se3": "np.roll(jaxlie.SE3.from_matrix(x).log(), 3)"},
     ),
     "pytransform3d": (
-        "from pytransform3d import rotations, trajectories",
+        "from pytransform3d import rotations, transformations",
         {"exp_so3": "rotations.matrix_from_compact_axis_angle(x)",
          "log_so3": "rotations.compact_axis_angle_from_matrix(x)",
-         "exp_se3": "trajectories.transforms_from_exponential_coordinates(x[None])[0]",
-         "log_se3": "trajectories.exponential_coordinates_from_transforms(x[None])[0]"},
+         "exp_se3": "transformations.transform_from_exponential_coordinates(x)",
+         "log_se3": "transformations.exponential_coordinates_from_transform(x)"},
     ),
 }  # fmt: skip
 """Of each library by name: the line before, and the call of each function."""

@@ -28,11 +28,11 @@ STANDARD: dict[str, Peer] = {
     "robotics_toolbox": robotics_toolbox.PEER,
     "modern_robotics": modern_robotics.PEER,
     "mujoco": mujoco.PEER,
+    "jaxlie": jaxlie.PEER,
+    "pytransform3d": pytransform3d.PEER,
 }
 OPTIONAL: dict[str, Peer] = {
     "pytorch_kinematics": pytorch_kinematics.PEER,
-    "jaxlie": jaxlie.PEER,
-    "pytransform3d": pytransform3d.PEER,
 }
 
 _chosen: list[Peer] = list(STANDARD.values())

@@ -1,4 +1,4 @@
-"""pytorch_kinematics: poses and Jacobians of whole batches in PyTorch, in double precision; twists (v; omega)."""
+"""pytorch_kinematics: poses and Jacobians of whole batches in PyTorch; twists (v; omega). No exp and log of poses."""
 
 from __future__ import annotations
 
@@ -8,23 +8,11 @@ import numpy as np
 
 from poekin.testing.pinocchio_oracle import ANGULAR_FIRST
 
-from .peer import Arm, Arrays, Group, Kinematics, Peer, module
-
-
-def group() -> Group:
-    """exp and log of batches of matrices."""
-    torch, se3 = module("torch"), module("pytorch_kinematics.transforms.se3")
-    return Group(
-        se3.se3_exp_map,
-        se3.se3_log_map,
-        linear_first=True,
-        batch=True,
-        native=lambda x: torch.from_numpy(np.ascontiguousarray(x)),
-    )
+from .peer import Arm, Arrays, Kinematics, Peer, module
 
 
 def kinematics(arm: Arm) -> Kinematics:
-    """A serial chain out of the URDF's text, on the processor."""
+    """A serial chain out of the URDF's text, on the processor, turned to double precision as its documentation does."""
     torch, library = module("torch"), module("pytorch_kinematics")
     chain = library.build_serial_chain_from_urdf(arm.urdf.encode(), arm.chain.tip)
     chain = chain.to(dtype=torch.float64, device="cpu")
@@ -44,7 +32,8 @@ def kinematics(arm: Arm) -> Kinematics:
     return Kinematics(
         "hybrid", fk, fk_jacobian, pose=lambda T: T.numpy(), arrays=arrays,
         native=lambda q: torch.from_numpy(np.ascontiguousarray(q)), batch=True,
+        note="its reader rounds the URDF's numbers to float32 before they are turned to float64",
     )  # fmt: skip
 
 
-PEER = Peer("pytorch_kinematics", "pytorch-kinematics", "pytorch_kinematics", group, kinematics)
+PEER = Peer("pytorch_kinematics", "pytorch-kinematics", "pytorch_kinematics", None, kinematics)

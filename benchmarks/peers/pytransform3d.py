@@ -1,4 +1,4 @@
-"""pytransform3d: exp and log of whole arrays, twists (omega; v); poses of a URDF's frames, and no Jacobian."""
+"""pytransform3d: exp and log of one pose, twists (omega; v); poses of a URDF's frames, and no Jacobian."""
 
 from __future__ import annotations
 
@@ -8,13 +8,12 @@ from .peer import Arm, Array, Group, Kinematics, Peer, module
 
 
 def group() -> Group:
-    """Its functions for trajectories, which take batches."""
-    trajectories = module("pytransform3d.trajectories")
+    """Its functions of one argument; those for batches, in `trajectories`, have other formulas and lose digits."""
+    transformations = module("pytransform3d.transformations")
     return Group(
-        trajectories.transforms_from_exponential_coordinates,
-        trajectories.exponential_coordinates_from_transforms,
+        transformations.transform_from_exponential_coordinates,
+        transformations.exponential_coordinates_from_transform,
         linear_first=False,
-        batch=True,
     )
 
 

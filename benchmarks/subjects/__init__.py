@@ -15,10 +15,11 @@ from .libraries import (
     Pinocchio,
     PinocchioMimic,
     Pytransform3d,
+    Pytransform3dBatches,
     RoboticsToolbox,
     SciPy,
 )
 from .own import Poekin
 
 __all__ = ["FAULTS", "LIBRARIES", "Angular", "Jaxlie", "Linear", "ModernRobotics", "MuJoCo", "Pinocchio",
-           "PinocchioMimic", "Poekin", "Pytransform3d", "RoboticsToolbox", "SciPy"]  # fmt: skip
+           "PinocchioMimic", "Poekin", "Pytransform3d", "Pytransform3dBatches", "RoboticsToolbox", "SciPy"]  # fmt: skip

@@ -14,6 +14,7 @@ import numpy as np
 
 from poekin import Chain
 from poekin.testing.pinocchio_oracle import ANGULAR_FIRST
+from poekin.testing.strategies import pose
 
 from ..peers import links
 from ..peers.peer import module
@@ -29,6 +30,14 @@ class Arm:
     jacobian: Callable[[Any], Any] | None = None
 
 
+@dataclass(frozen=True)
+class Whole:
+    """What a reader of URDFs read: its coordinates, and the pose of each link in the root."""
+
+    names: Sequence[str]
+    poses: Callable[[Any], Mapping[str, Any]]
+
+
 class SciPy(ByText):
     """Rotation and RigidTransform."""
 
@@ -40,6 +49,7 @@ class ModernRobotics(ByText):
 
     library = "Modern Robotics"
     jacobian_frame = "space"
+    helical = True
 
     def fk(self, screws: np.ndarray, home: np.ndarray, q: np.ndarray) -> np.ndarray:
         return module("modern_robotics").FKinSpace(home, screws.T, q)
@@ -61,32 +71,49 @@ class Pinocchio(ByText):
     jacobian_frame = "hybrid"
     options: Mapping[str, bool] = MappingProxyType({})
 
-    def read_urdf(self, text: str, base: str, tip: str) -> Arm:
+    def _placed(self, text: str) -> tuple[Any, Any, list[str], Callable[[Any], np.ndarray]]:
+        """Model, data, the coordinates, and what places all frames for their values and returns Pinocchio's q."""
         pin = module("pinocchio")
         model = pin.buildModelFromXML(text, **self.options)
-        data, frame = model.createData(), model.getFrameId(tip)
+        data = model.createData()
         joints = [
             (name, joint) for name, joint in zip(model.names[1:], list(model.joints)[1:], strict=True) if joint.nv
         ]
 
-        def configuration(q: np.ndarray) -> np.ndarray:
+        def place(q: np.ndarray) -> np.ndarray:
             full = pin.neutral(model)
             for value, (_, joint) in zip(q, joints, strict=True):
                 # A continuous joint is a point of the unit circle.
                 own = [value] if joint.nq == 1 else [np.cos(value), np.sin(value)]
                 full[joint.idx_q : joint.idx_q + joint.nq] = own
+            pin.framesForwardKinematics(model, data, full)
             return full
 
+        return model, data, [name for name, _ in joints], place
+
+    def read_urdf(self, text: str, base: str, tip: str) -> Arm:
+        model, data, names, place = self._placed(text)
+        pin, frame = module("pinocchio"), model.getFrameId(tip)
+
         def fk(q: np.ndarray) -> np.ndarray:
-            pin.forwardKinematics(model, data, configuration(q))
-            return pin.updateFramePlacement(model, data, frame).homogeneous
+            place(q)
+            return data.oMf[frame].homogeneous
 
         def jacobian(q: np.ndarray) -> np.ndarray:
-            J = pin.computeFrameJacobian(model, data, configuration(q), frame, pin.LOCAL_WORLD_ALIGNED)
-            order = [joint.idx_v for _, joint in joints]
+            J = pin.computeFrameJacobian(model, data, place(q), frame, pin.LOCAL_WORLD_ALIGNED)
+            order = [model.joints[model.getJointId(name)].idx_v for name in names]
             return np.reshape(J, (6, model.nv))[np.ix_(ANGULAR_FIRST, order)]
 
-        return Arm([name for name, _ in joints], fk, jacobian)
+        return Arm(names, fk, jacobian)
+
+    def read_robot(self, text: str) -> Whole:
+        model, data, names, place = self._placed(text)
+
+        def poses(q: np.ndarray) -> dict[str, np.ndarray]:
+            place(q)
+            return {frame.name: T.homogeneous for frame, T in zip(model.frames, data.oMf, strict=True)}
+
+        return Whole(names, poses)
 
 
 class PinocchioMimic(Pinocchio):
@@ -121,7 +148,7 @@ class RoboticsToolbox(ByText):
     def jacobian(self, screws: np.ndarray, home: np.ndarray, q: np.ndarray) -> np.ndarray:
         return np.asarray(self._sequence(screws, home).jacob0(q))[ANGULAR_FIRST]
 
-    def read_urdf(self, text: str, base: str, tip: str) -> Arm:
+    def _robot(self, text: str) -> tuple[Any, list[str]]:
         # It takes a file only.
         with tempfile.NamedTemporaryFile("w", suffix=".urdf", delete=False, encoding="utf-8") as file:
             file.write(text)
@@ -130,11 +157,20 @@ class RoboticsToolbox(ByText):
         finally:
             os.unlink(file.name)
         moving = sorted((link for link in robot.links if link.isjoint), key=lambda link: link.jindex)
+        return robot, [link._joint_name for link in moving]
+
+    def read_urdf(self, text: str, base: str, tip: str) -> Arm:
+        robot, names = self._robot(text)
         return Arm(
-            [link._joint_name for link in moving],
+            names,
             lambda q: robot.fkine(q, end=tip, start=base).A,
             lambda q: np.asarray(robot.jacob0(q, end=tip, start=base))[ANGULAR_FIRST],
         )
+
+    def read_robot(self, text: str) -> Whole:
+        robot, names = self._robot(text)
+        links = [link.name for link in robot.links if link.parent is not None]
+        return Whole(names, lambda q: {link: robot.fkine(q, end=link).A for link in links})
 
 
 class Pytransform3d(ByText):
@@ -155,37 +191,69 @@ class Pytransform3d(ByText):
         return Arm(names, fk)
 
 
+class Pytransform3dBatches(ByText):
+    """Its functions for batches, which have formulas of their own."""
+
+    library, texts = "pytransform3d", "pytransform3d, batches"
+    title = texts
+    batch = True
+
+
 class MuJoCo(ByText):
     """Its reader of URDFs, and the kinematics at the head of its simulator."""
 
     library = "MuJoCo"
     jacobian_frame = "hybrid"
-    leaves_out = MappingProxyType({"urdf mimic": "a constraint of its dynamics, which kinematics alone does not solve"})
+    leaves_out = MappingProxyType(
+        dict.fromkeys(
+            ("urdf mimic", "urdf mimic across", "robot mimic"),
+            "a constraint of its dynamics, which kinematics alone does not solve",
+        )
+    )
 
-    def read_urdf(self, text: str, base: str, tip: str) -> Arm:
+    def _placed(self, text: str) -> tuple[Any, Any, list[str], Callable[[Any], None]]:
+        """Model, data, the coordinates, and what places all bodies for their values."""
         mujoco = module("mujoco")
         # It merges links that stand still, and wants every other one to have a mass.
         mass = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
         text = re.sub(r'<link name="([^"]*)"/>', lambda found: f'<link name="{found[1]}">{mass}</link>', text)
         text = text.replace("><link", '><mujoco><compiler fusestatic="false"/></mujoco><link', 1)
         model = mujoco.MjModel.from_xml_string(text)
-        data, body = mujoco.MjData(model), model.body(tip).id
+        data = mujoco.MjData(model)
+
+        def place(q: np.ndarray) -> None:
+            data.qpos[:] = q
+            mujoco.mj_kinematics(model, data)
+
+        return model, data, [model.joint(k).name for k in range(model.njnt)], place
+
+    def read_urdf(self, text: str, base: str, tip: str) -> Arm:
+        mujoco = module("mujoco")
+        model, data, names, place = self._placed(text)
+        body = model.body(tip).id
         linear, angular = np.zeros((3, model.nv)), np.zeros((3, model.nv))
 
         def fk(q: np.ndarray) -> np.ndarray:
-            data.qpos[:] = q
-            mujoco.mj_kinematics(model, data)
-            T = np.eye(4)
-            T[:3, :3], T[:3, 3] = data.xmat[body].reshape(3, 3), data.xpos[body]
-            return T
+            place(q)
+            return pose(data.xmat[body].reshape(3, 3), data.xpos[body])
 
         def jacobian(q: np.ndarray) -> np.ndarray:
-            fk(q)
+            place(q)
             mujoco.mj_comPos(model, data)
             mujoco.mj_jacBody(model, data, linear, angular, body)
             return np.concatenate([angular, linear])
 
-        return Arm([model.joint(k).name for k in range(model.njnt)], fk, jacobian)
+        return Arm(names, fk, jacobian)
+
+    def read_robot(self, text: str) -> Whole:
+        model, data, names, place = self._placed(text)
+        links = [model.body(k).name for k in range(model.nbody)]
+
+        def poses(q: np.ndarray) -> dict[str, np.ndarray]:
+            place(q)
+            return {link: pose(data.xmat[k].reshape(3, 3), data.xpos[k]) for k, link in enumerate(links)}
+
+        return Whole(names, poses)
 
 
 LIBRARIES: dict[str, Sequence[type[ByText]]] = {
@@ -195,6 +263,6 @@ LIBRARIES: dict[str, Sequence[type[ByText]]] = {
     "modern_robotics": (ModernRobotics,),
     "mujoco": (MuJoCo,),
     "jaxlie": (Jaxlie,),
-    "pytransform3d": (Pytransform3d,),
+    "pytransform3d": (Pytransform3d, Pytransform3dBatches),
 }
 """The subjects by the names of the peers."""

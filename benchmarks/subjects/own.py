@@ -19,7 +19,7 @@ class Poekin:
     version = pk.__version__
     twist_order = "angular first"
     jacobian_frame = "body"
-    batch = True
+    batch = helical = True
     noise = 1e-8
 
     exp, log, adjoint = staticmethod(pk.se3.exp), staticmethod(pk.se3.log), staticmethod(pk.se3.adjoint)
@@ -38,9 +38,7 @@ class Poekin:
         return pk.Chain(screws, home).jacobian(q, frame="body")
 
     def read_urdf(self, text: str, base: str, tip: str) -> Any:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", PoekinWarning)
-            chain = read_text(text).chain(base=base, tip=tip)
+        chain = _read(text).chain(base=base, tip=tip)
 
         class Arm:
             names = chain.q_names
@@ -52,3 +50,20 @@ class Poekin:
                 return chain.jacobian(q, frame="body")
 
         return Arm()
+
+    def read_robot(self, text: str) -> Any:
+        robot = _read(text)
+
+        class Whole:
+            names = robot.q_names
+
+            def poses(self, q: np.ndarray) -> dict[str, np.ndarray]:
+                return robot.fk(q)
+
+        return Whole()
+
+
+def _read(text: str) -> pk.Robot:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", PoekinWarning)
+        return read_text(text)

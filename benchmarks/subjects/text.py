@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from poekin.testing.conform.subject import printed
+
 from .. import peers
 from ..cases.accuracy_peers import TEXTS
 
@@ -23,9 +25,15 @@ MORE: Mapping[str, tuple[str, Mapping[str, str]]] = {
     ),
     "Robotics Toolbox": (f"from spatialmath import base; {SWAP}", {"adjoint": "swap(base.tr2adjoint(x))"}),
     "Modern Robotics": ("import modern_robotics as mr", {"adjoint": "mr.Adjoint(x)"}),
+    # jlog is of an element, which at |ω| = π has two logarithms: `turn` makes the one that has ω.
+    # The translation is poekin's, as jaxlie's own exp has an error that jlog is not to be blamed for.
     "jaxlie": (
-        f"import jax; jax.config.update('jax_enable_x64', True); import jaxlie; {SWAP}",
-        {"adjoint": "swap(np.asarray(jaxlie.SE3.from_matrix(x).adjoint()))"},
+        f"import jax; jax.config.update('jax_enable_x64', True); import jaxlie; import poekin as pk; {SWAP}; "
+        "turn = lambda w: jaxlie.SO3(jaxlie.SO3.exp(w).wxyz.at[0].max(1e-300))",
+        {"adjoint": "swap(np.asarray(jaxlie.SE3.from_matrix(x).adjoint()))",
+         "so3_right_jacobian_inverse": "turn(x).jlog()",
+         "right_jacobian_inverse": "swap(np.asarray("
+         "jaxlie.SE3.from_rotation_and_translation(turn(x[:3]), pk.se3.exp(x)[:3, 3]).jlog()))"},
     ),
     "pytransform3d": (
         "from pytransform3d import rotations, transformations",
@@ -35,16 +43,22 @@ MORE: Mapping[str, tuple[str, Mapping[str, str]]] = {
          "so3_left_jacobian": "rotations.left_jacobian_SO3(x)",
          "so3_left_jacobian_inverse": "rotations.left_jacobian_SO3_inv(x)"},
     ),
+    "pytransform3d, batches": (
+        "from pytransform3d import batch_rotations, trajectories",
+        {"so3_exp": "batch_rotations.matrices_from_compact_axis_angles(x)",
+         "exp": "trajectories.transforms_from_exponential_coordinates(x)",
+         "log": "trajectories.exponential_coordinates_from_transforms(x)"},
+    ),
 }  # fmt: skip
 
 
 class ByText:
-    """A subject made of texts; `library` is the peer's name, as in the tables above.
+    """A subject made of texts; `library` is the peer's name, and that in the tables above unless `texts` is another.
 
     leaves_out: laws that the library does not claim to keep, each with the reason.
     """
 
-    library = ""
+    library = texts = ""
     twist_order = "angular first"
     leaves_out: Mapping[str, str] = MappingProxyType({})
 
@@ -54,10 +68,10 @@ class ByText:
         self.version = self.peer.version
         self.paste: dict[str, str] = {}
         for table, names in ((TEXTS, NAMES), (MORE, {})):
-            before, calls = table.get(self.library, ("", {}))
+            before, calls = table.get(self.texts or self.library, ("", {}))
             for key, call in calls.items():
                 name = names.get(key, key)
-                self.paste[name] = f"{before}; print(np.asarray({call}))"
+                self.paste[name] = f"{before}; {printed(call)}"
                 setattr(self, name, _function(before, call))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from typing import Annotated
 
@@ -36,12 +37,13 @@ def command(
     nothing is poor or broken, 1 something is, 2 error.
     """
     # It needs the extra `testing`, which the other commands do without.
-    from ..testing.conform import conform, loaded
+    from ..testing.conform import conform
 
     if "" not in sys.path:
         sys.path.insert(0, "")
-    with Progress("laws") as progress:
-        report = conform(loaded(subject), law or (), examples, seconds, progress)
+    # What the module prints is not the report.
+    with Progress("laws") as progress, contextlib.redirect_stdout(sys.stderr):
+        report = conform(subject, law or (), examples, seconds, progress)
     if json:
         print(as_json(report.as_dict()))
     else:

@@ -1,4 +1,9 @@
-"""Hunt for a case that breaks a law, outside any test: to show that a battery catches a planted error."""
+"""Hunt for a case that breaks a law, outside any test: to show that a battery catches a planted error.
+
+Parameters: check, which returns error ÷ bound; cases, a strategy of tuples of its arguments; laws, a battery; examples,
+how many are tried of each law. Returns: settings, nothing, or a violation. Raises: LawViolation, where it says so.
+Source: Hypothesis, targeted search.
+"""
 
 from __future__ import annotations
 
@@ -9,16 +14,30 @@ from .laws import Law, LawViolation
 from .strategies import st
 
 # `strategies` has said what to install where hypothesis is missing.
-from hypothesis import HealthCheck, Phase, given, settings, target  # isort: skip
+from hypothesis import HealthCheck, Phase, Verbosity, given, settings, target  # isort: skip
 
-# How fast cases come, and how many a strategy rejects, matters to a test; a hunt only looks for a violation.
-_UNCHECKED = [
-    HealthCheck.too_slow,
-    HealthCheck.data_too_large,
-    HealthCheck.filter_too_much,
-    HealthCheck.large_base_example,
-]
 Cases = st.SearchStrategy[tuple[Any, ...]]
+
+
+def repeatable(examples: int) -> settings:
+    """Settings of a hunt: the same cases in every run, steered towards what is worst; nothing is stored or shrunk."""
+    return settings(
+        max_examples=examples,
+        database=None,
+        deadline=None,
+        derandomize=True,
+        phases=(Phase.generate, Phase.target),
+        report_multiple_bugs=False,
+        print_blob=False,
+        verbosity=Verbosity.quiet,
+        # How fast cases come, and how many a strategy rejects, matters to a test; a hunt only looks for a violation.
+        suppress_health_check=[
+            HealthCheck.too_slow,
+            HealthCheck.data_too_large,
+            HealthCheck.filter_too_much,
+            HealthCheck.large_base_example,
+        ],
+    )
 
 
 def hunt(check: Callable[..., float], cases: Cases, examples: int = 100) -> None:
@@ -27,15 +46,7 @@ def hunt(check: Callable[..., float], cases: Cases, examples: int = 100) -> None
     Raises LawViolation with the first case that breaks the law, as it was drawn (a test that uses the law shrinks it).
     """
 
-    @settings(
-        max_examples=examples,
-        database=None,
-        deadline=None,
-        derandomize=True,
-        phases=(Phase.generate, Phase.target),
-        report_multiple_bugs=False,
-        suppress_health_check=_UNCHECKED,
-    )
+    @repeatable(examples)
     @given(cases)
     def one(case: tuple[Any, ...]) -> None:
         target(check(*case))

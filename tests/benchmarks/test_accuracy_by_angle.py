@@ -25,7 +25,7 @@ from benchmarks.cases.accuracy_judge import (
     referenced,
 )
 from benchmarks.cases.accuracy_peers import Library
-from benchmarks.peers import STANDARD, Found, Peer, find
+from benchmarks.peers import OPTIONAL, STANDARD, Found, Peer, find
 from poekin.testing import attainable, exact
 
 AMONG = [*bands(1)[::3], Band(1e-4, 1e-3, False), Band(1e-16, 5e-16, True)]
@@ -36,7 +36,7 @@ SOUND = {
     "log_so3": lambda x: exact.rounded(exact.log(x)),
     "log_se3": lambda x: exact.rounded(exact.log(x)),
 }
-INSTALLED = [found for found in find(STANDARD.values()) if found.peer.group is not None and not found.problem]
+INSTALLED = [found for found in find((STANDARD | OPTIONAL).values()) if found.peer.group and not found.problem]
 
 
 @pytest.fixture
@@ -244,7 +244,8 @@ def test_the_oracle_shares_no_code_with_what_is_judged():
     for file, allowed in {
         testing / "exact.py": {"poekin.errors"},
         testing / "attainable.py": {"exact"},
-        Path(accuracy_judge.__file__): {"poekin.testing"},
+        testing / "conform" / "confirm.py": {"exact"},
+        Path(accuracy_judge.__file__): {"poekin.testing", "poekin.testing.conform"},
     }.items():
         tree = list(ast.walk(ast.parse(file.read_text(encoding="utf-8"))))
         imported = {node.module or node.names[0].name for node in tree if isinstance(node, ast.ImportFrom)}

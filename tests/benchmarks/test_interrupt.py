@@ -66,8 +66,8 @@ def test_ctrl_c_while_a_page_is_written_leaves_the_page_that_was_there(run, tmp_
 
 
 def test_the_peers_of_a_run_are_chosen_on_the_command_line(run, capsys):
-    assert run("--only", "first", "--peers", "standard", "jaxlie") == 0
-    assert [found.peer.name for found in peers.chosen()][-1] == "jaxlie"
+    assert run("--only", "first", "--peers", "standard", "pytorch_kinematics") == 0
+    assert [found.peer.name for found in peers.chosen()][-1] == "pytorch_kinematics"
     with pytest.raises(SystemExit):
         run("--peers", "rbdl")
     assert "invalid choice: 'rbdl'" in capsys.readouterr().err

@@ -45,13 +45,16 @@ ARMS = {
     "mixed": arm("revolute", "prismatic", "revolute", "revolute"),
     "seven": arm(*["revolute"] * 7),
 }
+# A few roundings of numbers up to 10, and those of roll, pitch and yaw in the URDF. pytorch_kinematics rounds what it
+# reads to float32, a unit of 6e-8: that times 7 joints times 10.
+DIGITS = {"pytorch_kinematics": 5e-6}
 
 
 @pytest.mark.parametrize("name", EVERY)
 def test_exp_and_log_of_a_peer_are_those_of_poekin_in_order_and_meaning(name):
     peer = usable(name)
     if peer.group is None:
-        assert name == "mujoco"
+        assert name in ("mujoco", "pytorch_kinematics")
         return
     group = peer.group()
     xi = np.random.default_rng(0).normal(size=(4, 6)) / 2
@@ -68,16 +71,15 @@ def test_pose_and_jacobian_of_a_peer_are_those_of_the_chain(name, which):
     assert make is not None
     k = make(peers.Arm(chain))
     q = np.random.default_rng(2).uniform(-1, 1, (3, chain.dof))
-    native = k.native(q)
+    native, atol = k.native(q), DIGITS.get(name, 1e-13)
     for i, x in enumerate(q):
         one = native[i : i + 1] if k.batch else native[i]
-        # A few roundings of numbers up to 10, and those of roll, pitch and yaw in the URDF.
-        np.testing.assert_allclose(np.reshape(k.pose(k.fk(one)), (4, 4)), chain.fk(x), rtol=0, atol=1e-13)
+        np.testing.assert_allclose(np.reshape(k.pose(k.fk(one)), (4, 4)), chain.fk(x), rtol=0, atol=atol)
         if k.fk_jacobian is not None:
             T, J = k.arrays(*k.fk_jacobian(one))
-            np.testing.assert_allclose(np.reshape(T, (4, 4)), chain.fk(x), rtol=0, atol=1e-13)
+            np.testing.assert_allclose(np.reshape(T, (4, 4)), chain.fk(x), rtol=0, atol=atol)
             J_own = chain.jacobian(x, k.frame)
-            np.testing.assert_allclose(np.reshape(J, J_own.shape), J_own, rtol=0, atol=1e-13)
+            np.testing.assert_allclose(np.reshape(J, J_own.shape), J_own, rtol=0, atol=atol)
 
 
 @pytest.mark.parametrize("name", ["robotics_toolbox", "mujoco", "modern_robotics"])

@@ -19,11 +19,23 @@ class Faulty:
 
 class Undeclared:
     exp = staticmethod(pk.se3.exp)
+
+class Needs(Sound):
+    def __init__(self, robot):
+        pass
+"""
+CHATTY = """
+print("imported")
+
+class Chatty(Sound):
+    def so3_exp(self, w):
+        print("called")
+        return pk.so3.exp(w)
 """
 
 
-def module(tmp_path, monkeypatch, name):
-    (tmp_path / f"{name}.py").write_text(HEAD, encoding="utf-8")
+def module(tmp_path, monkeypatch, name, text=HEAD):
+    (tmp_path / f"{name}.py").write_text(text, encoding="utf-8")
     monkeypatch.syspath_prepend(tmp_path)
 
 
@@ -32,7 +44,7 @@ def test_a_sound_subject_is_exact(tmp_path, monkeypatch, poekin):
     code, out, err = poekin("conform", "sound_subjects:Sound", "--examples", "20")
     assert (code, err) == (0, "")
     assert out.startswith("Sound\nexact      so3_exp: ")
-    assert "20 examples; more with more seconds" in out
+    assert "20 examples, which say little" in out
 
 
 def test_a_faulty_one_is_1_and_its_counterexample_can_be_pasted(tmp_path, monkeypatch, poekin):
@@ -40,7 +52,7 @@ def test_a_faulty_one_is_1_and_its_counterexample_can_be_pasted(tmp_path, monkey
     arguments = ("conform", "faulty_subjects:Faulty", "--law", "so3_exp", "--examples", "200")
     code, out, err = poekin(*arguments)
     assert (code, err) == (1, "")
-    assert "from faulty_subjects import Faulty; print(Faulty().so3_exp(np.array([" in out
+    assert "from faulty_subjects import Faulty; print(np.asarray(Faulty().so3_exp(np.array([" in out
     code, out, _ = poekin(*arguments, "--json")
     assert code == 1
     document = json.loads(out)
@@ -56,6 +68,13 @@ def test_only_the_laws_that_are_named_are_run(tmp_path, monkeypatch, poekin):
     assert [law["law"] for law in json.loads(out)["laws"]] == ["exp"]
 
 
+def test_what_the_subject_prints_is_not_the_report(tmp_path, monkeypatch, poekin):
+    module(tmp_path, monkeypatch, "chatty_subjects", HEAD + CHATTY)
+    code, out, err = poekin("conform", "chatty_subjects:Chatty", "--examples", "2", "--json")
+    assert (code, err) == (0, "imported\n" + 2 * "called\n")
+    assert json.loads(out)["subject"] == "Chatty"
+
+
 def test_what_cannot_be_used_is_refused(tmp_path, monkeypatch, refused):
     module(tmp_path, monkeypatch, "refused_subjects")
     assert "does not declare twist_order" in refused("conform", "refused_subjects:Undeclared")
@@ -64,4 +83,7 @@ def test_what_cannot_be_used_is_refused(tmp_path, monkeypatch, refused):
     assert "has no 'Other'" in refused("conform", "refused_subjects:Other")
     (tmp_path / "broken_subjects.py").write_text("raise RuntimeError('\\x1b[31mred')", encoding="utf-8")
     assert "RuntimeError: \\x1b[31mred" in refused("conform", "broken_subjects:X")
+    (tmp_path / "ending_subjects.py").write_text("raise SystemExit(4)", encoding="utf-8")
+    assert "cannot be imported: SystemExit: 4" in refused("conform", "ending_subjects:X")
+    assert "Needs cannot be made as Needs()" in refused("conform", "refused_subjects:Needs")
     assert "--seconds" in refused("conform", "refused_subjects:Sound", "--seconds", "0")

@@ -8,15 +8,16 @@
         def exp(self, xi):
             return ...  # (4, 4)
 
-    report = conform(Mine)              # or `poekin conform my_module:Mine`
+    report = conform(Mine)              # or conform("my_module:Mine"), or `poekin conform my_module:Mine`
     print(report)
 
     subject    what a subject may have, and what it must declare
+    named      a subject by its name
     grades     exact, good, poor, broken: how errors are graded
-    of_groups, of_arms   the laws as plain functions, for anybody's own tests
+    of_groups, of_arms, of_urdf   the laws as plain functions, for anybody's own tests
     group_cases, arm_cases, urdf_cases   what each law is tried on
     confirm    the second oracle, which every finding must stand against
-    plugin     the argument `conform` of pytest's tests
+    plugin     pytest's fixture `conform`
 
 Every truth has 80 digits, and shares no code with the subject. Cases draw angles and lengths independently, and
 log-uniformly. Needs the extra `testing`.
@@ -26,9 +27,10 @@ from __future__ import annotations
 
 from .grades import Grade, Part, Verdict
 from .law import Case, Law
+from .named import loaded
 from .report import Outcome, Report
 from .run import LAWS, applicable, conform
-from .subject import FUNCTIONS, Subject, loaded
+from .subject import FUNCTIONS, Subject
 
 __all__ = ["FUNCTIONS", "LAWS", "Case", "Grade", "Law", "Outcome", "Part", "Report", "Subject", "Verdict",
            "applicable", "conform", "loaded"]  # fmt: skip

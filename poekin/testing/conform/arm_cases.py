@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,15 +14,18 @@ from ..configuration_strategies import at_limits, bounds, within_limits
 from ..derivative_laws import exact_jacobians
 from ..strategies import angles, axes, frozen, magnitudes, st, twists, vectors
 from . import confirm, of_arms
+from .calls import real
 from .grades import Grade, Verdict
 from .group_cases import coordinates, element
 from .law import Case, Law, Shown, typed
 from .of_arms import Arm
 from .subject import Subject
 
-EACH = 7
-"""Numbers of a joint: axis, a point on it, q; six more at the end are the home pose's ω and v."""
+EACH = 8
+"""Numbers of a joint: axis, a point on it, q, pitch; six more at the end are the home pose's ω and v."""
 LENGTHS = (1e-3, 3.0)
+PITCHES = (1e-3, 1.0)
+KINDS = ("revolute", "prismatic")
 
 
 class Limits(NamedTuple):
@@ -32,8 +35,8 @@ class Limits(NamedTuple):
     upper: tuple[float, ...]
 
 
-def cases(subject: Subject) -> st.SearchStrategy[Case]:
-    """Arms of one to four revolute and prismatic joints, and configurations; of a declared arm, the latter only.
+def cases(subject: Subject, kinds: tuple[str, ...] = KINDS) -> st.SearchStrategy[Case]:
+    """Arms of one to four joints of these kinds, and configurations; of a declared arm, the latter only.
 
     These stay within its limits: a driver may refuse others.
     """
@@ -41,16 +44,26 @@ def cases(subject: Subject) -> st.SearchStrategy[Case]:
         limits = Limits(*(tuple(side) for side in bounds(subject.arm).T.tolist()))
         inside = st.one_of(within_limits(subject.arm), at_limits(subject.arm))
         return inside.map(lambda q: Case(np.asarray(q), limits))
-    return st.lists(_joints(), min_size=1, max_size=4).flatmap(
+    return st.lists(_joints(kinds), min_size=1, max_size=4).flatmap(
         lambda joints: twists(math.pi, LENGTHS).map(lambda home: _case(joints, np.asarray(home)))
     )
 
 
-def _joints() -> st.SearchStrategy[tuple[str, np.ndarray]]:
-    signed = st.builds(lambda x, sign: x * sign, angles(), st.sampled_from([1.0, -1.0]))
-    turning = st.builds(lambda n, p, q: ("revolute", frozen([*n, *p, q])), axes(), vectors(LENGTHS), signed)
-    sliding = st.builds(lambda n, q: ("prismatic", frozen([*n, 0, 0, 0, q])), axes(), magnitudes(1e-6, 2.0))
-    return st.one_of(turning, sliding)
+def _joints(kinds: tuple[str, ...]) -> st.SearchStrategy[tuple[str, np.ndarray]]:
+    signs = st.sampled_from([1.0, -1.0])
+    turns = st.builds(lambda x, sign: x * sign, angles(), signs)
+    pitches = st.builds(lambda x, sign: x * sign, magnitudes(*PITCHES), signs)
+    nought = st.just(0.0)
+    one = {
+        "revolute": st.builds(_numbers, axes(), vectors(LENGTHS), turns, nought),
+        "prismatic": st.builds(_numbers, axes(), st.just(np.zeros(3)), magnitudes(1e-6, 2.0), nought),
+        "helical": st.builds(_numbers, axes(), vectors(LENGTHS), turns, pitches),
+    }
+    return st.one_of(*(st.tuples(st.just(kind), one[kind]) for kind in kinds))
+
+
+def _numbers(axis: np.ndarray, point: np.ndarray, q: float, pitch: float) -> np.ndarray:
+    return frozen([*axis, *point, q, pitch])
 
 
 def _case(joints: list[tuple[str, np.ndarray]], home: np.ndarray) -> Case:
@@ -63,7 +76,7 @@ def drawn(case: Case) -> tuple[Arm, np.ndarray]:
     screws = np.zeros((len(rows), 6))
     for kind, row, screw in zip(kinds, rows, screws, strict=True):
         n = row[:3] / math.hypot(*row[:3])
-        screw[:] = [*n, *np.cross(row[3:6], n)] if kind == "revolute" else [0, 0, 0, *n]
+        screw[:] = [0, 0, 0, *n] if kind == "prismatic" else [*n, *(np.cross(row[3:6], n) + row[7] * n)]
     return of_arms.arm(screws, element(case.numbers[-6:])), rows[:, 6]
 
 
@@ -112,7 +125,7 @@ def _check_jacobian(subject: Subject, case: Case) -> Verdict:
     first = _arguments(subject, arm)
 
     def jacobian(q: np.ndarray) -> np.ndarray:
-        J = np.asarray(subject.own.jacobian(*map(np.array, first), q), dtype=float)
+        J = real(subject.own.jacobian(*map(np.array, first), q))
         return subject.rows(J) if J.ndim == 2 and len(J) == 6 else J
 
     return of_arms.jacobian_is_the_derivative(jacobian, subject.frame, arm, q, Grade.BROKEN)
@@ -135,27 +148,43 @@ def _show(name: str, subject: Subject, case: Case) -> Shown:
     if len(values) > 1:
         screws = "; ".join(f"{kind} ({coordinates(S)})" for kind, S in zip(_kinds(case), arm.screws, strict=True))
         words = f"screws {screws}; M = e^ξ of {coordinates(case.numbers[-6:])}; {words}"
-    expected = exact.rounded(of_arms.pose(arm, q))
-    if name == "jacobian":
-        truth = exact_jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(subject.frame)]
-        expected = subject.rows(exact.rounded(truth))
-    return Shown(words, subject.own_text(name, **dict(zip(names, values, strict=True))), expected)
+    expected = truth(subject, arm, q, name == "jacobian")
+    return Shown(words, subject.call(name, **dict(zip(names, values, strict=True))), expected)
+
+
+def truth(subject: Subject, arm: Any, q: np.ndarray, jacobian: bool) -> np.ndarray:
+    """The exact pose, or the Jacobian as the subject has it, in floats; what is 0 to 60 digits of the largest is 0."""
+    found = of_arms.pose(arm, q)
+    if jacobian:
+        found = exact_jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(subject.frame)]
+    x = exact.rounded(found)
+    x = np.where(np.abs(x) < 1e-60 * np.max(np.abs(x), initial=0.0), 0.0, x)
+    return subject.rows(x) if jacobian else x
 
 
 def _kinds(case: Case) -> tuple[str, ...]:
     return case.layout if isinstance(case.layout, tuple) and not isinstance(case.layout, Limits) else ()
 
 
+def _law(function: str, says: str, check: Callable[[Subject, Case], Verdict], helical: bool = False) -> Law:
+    jacobian = function == "jacobian"
+    kinds = (*KINDS, "helical") if helical else KINDS
+
+    def about(case: Case) -> bool:
+        return not helical or bool(np.any(case.numbers[:-6].reshape(-1, EACH)[:, 7]))
+
+    return Law(
+        f"{function} helical" if helical else function, says, function, lambda subject: cases(subject, kinds), check,
+        lambda subject, case: confirmed(*_of(subject, case), jacobian),
+        lambda subject, case: _show(function, subject, case), simpler, triples, allowed,
+        lambda subject: not helical or (subject.helical and subject.arm is None), about,
+    )  # fmt: skip
+
+
 ARM_LAWS = (
-    Law(
-        "fk", "fk is the product of exponentials", "fk", cases, _check_fk,
-        lambda subject, case: confirmed(*_of(subject, case), jacobian=False),
-        lambda subject, case: _show("fk", subject, case), simpler, triples, allowed,
-    ),
-    Law(
-        "jacobian", "the Jacobian is the derivative of the product of exponentials", "jacobian", cases,
-        _check_jacobian, lambda subject, case: confirmed(*_of(subject, case), jacobian=True),
-        lambda subject, case: _show("jacobian", subject, case), simpler, triples, allowed,
-    ),
-)  # fmt: skip
+    _law("fk", "fk is the product of exponentials", _check_fk),
+    _law("jacobian", "the Jacobian is the derivative of the product of exponentials", _check_jacobian),
+    _law("fk", "a joint with a pitch turns and slides at once", _check_fk, True),
+    _law("jacobian", "the Jacobian of joints with a pitch is the derivative", _check_jacobian, True),
+)
 """The battery for poses and Jacobians of arms."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Callable
 from types import TracebackType
@@ -11,16 +12,18 @@ import numpy as np
 
 from ...errors import harmless
 
+HERE = os.path.dirname(__file__)
+
 
 class Attempt:
     """A block whose exceptions end it, and nothing else: `fault` says in one line what was raised, "" where nothing.
 
-    What a subject may raise cannot be listed, and each exception of its own is a finding, not an error of the run.
-    KeyboardInterrupt and the like pass.
+    What a subject may raise cannot be listed, and each exception of its own is a finding, not an error of the run; so
+    is that it wants to end Python. KeyboardInterrupt and the like pass. `place` is the file and line of what raised.
     """
 
     def __init__(self) -> None:
-        self.fault = ""
+        self.fault = self.place = ""
 
     def __enter__(self) -> Attempt:
         return self
@@ -28,9 +31,15 @@ class Attempt:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> bool:
-        if not isinstance(error, Exception):
+        if not isinstance(error, Exception | SystemExit):
             return False
-        self.fault = f"{type(error).__name__}: {harmless(' '.join(str(error).split()), 200)}"
+        said = harmless(" ".join(str(error).split()), 200)
+        self.fault = f"{type(error).__name__}: {said}" if said else type(error).__name__
+        while trace is not None:
+            file = trace.tb_frame.f_code.co_filename
+            if not file.startswith(HERE) and "importlib" not in file:
+                self.place = f"{os.path.basename(file)}, line {trace.tb_lineno}"
+            trace = trace.tb_next
         return True
 
 
@@ -55,7 +64,7 @@ def called(function: Callable[..., Any], shape: tuple[int, ...], *arguments: np.
 
     A fault is an exception, another shape, what is no array of real numbers, NaN and infinite.
     """
-    value, fault = made(lambda: np.array(function(*(np.array(x) for x in arguments)), dtype=float))
+    value, fault = made(lambda: real(function(*(np.array(x) for x in arguments))))
     if fault:
         return Result(None, fault)
     if value.shape != shape:
@@ -63,3 +72,14 @@ def called(function: Callable[..., Any], shape: tuple[int, ...], *arguments: np.
     if np.isnan(value).any():
         return Result(None, "NaN")
     return Result(value) if np.isfinite(value).all() else Result(None, "infinite")
+
+
+def real(value: Any) -> np.ndarray:
+    """A copy of an array of real numbers, as floats; other objects than NumPy's are converted if they can be.
+
+    Raises: TypeError for complex numbers that are not real, and for texts: NumPy would convert both.
+    """
+    array = np.asarray(value)
+    if array.dtype.kind in "SU" or (array.dtype.kind == "c" and np.any(np.imag(array))):
+        raise TypeError(f"real numbers expected, got {array.dtype.name}")
+    return np.array(np.real(array), dtype=float)

@@ -21,15 +21,24 @@ AGREE = 1e-60
 
 def of_exp(xi: np.ndarray) -> bool:
     """Whether `exact.exp` of ω (3,) or (ω; v) (6,) is mpmath's."""
-    return _near(_expm(xi), exact.exp(xi))
+    return is_exp(xi, exact.exp(xi))
+
+
+def is_exp(xi: np.ndarray, truth: np.ndarray) -> bool:
+    """Whether a matrix is mpmath's exponential of ω (3,) or (ω; v) (6,)."""
+    return _near(_expm(xi), truth)
 
 
 def of_log(X: np.ndarray) -> bool:
-    """Whether e^(`exact.log` X) has X's translation and X's polar factor P for rotation, |ω| ≤ π.
+    """Whether `is_log` holds of `exact.log` X."""
+    return is_log(X, exact.log(X))
+
+
+def is_log(X: np.ndarray, truth: np.ndarray) -> bool:
+    """Whether e^truth has X's translation and X's polar factor P for rotation, |ω| ≤ π.
 
     P is the polar factor where Pᵀ R is symmetric and P is near R.
     """
-    truth = exact.log(X)
     E, given = _expm(truth), _matrix(exact.exactly(X))
     S = E[:3, :3].T * given[:3, :3]
     sound = _largest(S - S.T) < AGREE and _largest(E[:3, :3] - given[:3, :3]) < 1e-4

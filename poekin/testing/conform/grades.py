@@ -21,6 +21,8 @@ from ..accuracy_laws import EXP_LOG_BAR
 from ..laws import LawViolation
 
 GOOD, POOR = 1e-10, 1e-6
+NO_RESULT = "no result"
+"""What a verdict is of where there is nothing to measure."""
 
 
 class Grade(enum.IntEnum):
@@ -57,7 +59,8 @@ class Part(NamedTuple):
     @property
     def bound(self) -> float:
         """The largest error that is exact."""
-        return EXP_LOG_BAR * (self.least if self.error <= EXP_LOG_BAR * self.least else self.attainable())
+        cheap = EXP_LOG_BAR * self.least
+        return cheap if self.error <= cheap else max(cheap, EXP_LOG_BAR * self.attainable())
 
     @property
     def grade(self) -> Grade:
@@ -68,7 +71,7 @@ class Part(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """What came of one case: its grade, the error ÷ scale that decided it, of what, and the fault where it is none."""
+    """What came of one case. Fields: grade; size, the error ÷ scale that decided it; what, of what; fault, if any."""
 
     grade: Grade
     size: float
@@ -88,7 +91,7 @@ def judged(law: str, parts: Sequence[Part] | str, at_most: Grade = Grade.BROKEN,
     measures, and never raises.
     """
     if isinstance(parts, str):
-        verdict, error, bound = Verdict(Grade.BROKEN, math.inf, "no result", parts), math.inf, 0.0
+        verdict, error, bound = Verdict(Grade.BROKEN, math.inf, NO_RESULT, parts), math.inf, 0.0
         seen = {"fault": parts, **seen}
     else:
         worst = max(parts, key=lambda part: (part.grade, part.size))
@@ -97,5 +100,5 @@ def judged(law: str, parts: Sequence[Part] | str, at_most: Grade = Grade.BROKEN,
         if at_most is Grade.EXACT:
             error, bound = worst.error, worst.bound
     if verdict.grade > at_most:
-        raise LawViolation(law, error, bound, seen)
+        raise LawViolation(f"{law}: {verdict.what}", error, bound, seen)
     return verdict

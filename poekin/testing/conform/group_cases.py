@@ -12,13 +12,14 @@ from ..measures import size
 from ..strategies import Arrays, batch_shapes, batches, noisy_rotations, rotation_vectors, st, twists
 from . import confirm, of_groups
 from .calls import called
-from .grades import Verdict
+from .grades import Grade, Part, Verdict, judged
 from .law import Case, Law, Shown, typed
 from .subject import JACOBIANS, SE3, SO3, Subject
 
 FAR = 10.0
 """The largest |ω| in rad that exp and the Jacobians of exp are tried at; log, and inverses, to π."""
 
+NOTHING = Part("empty batch", 0.0, 1.0, 0.0, lambda: 0.0)
 Checked = Callable[..., Verdict]
 
 
@@ -91,7 +92,7 @@ def _group_law(name: str) -> Law:
         x, truth = (_in_order(subject, name, y) for y in (_argument(name, case.numbers), _truth(name, case.numbers)))
         words = coordinates(case.numbers)
         words = f"e^ξ, rounded, of {words}" if _takes_element(name) else words
-        return Shown(words, subject.own_text(name, x=f"np.array({typed(x)})"), truth)
+        return Shown(words, subject.call(name, x=f"np.array({typed(x)})"), truth)
 
     return Law(
         name=name,
@@ -100,14 +101,13 @@ def _group_law(name: str) -> Law:
         ),
         needs=name,
         cases=lambda subject: _numbers(name).map(Case),
-        check=lambda subject, case: check(subject.function(name), _argument(name, case.numbers), BROKEN),
+        check=lambda subject, case: check(subject.function(name), _argument(name, case.numbers), Grade.BROKEN),
         confirm=lambda subject, case: _confirmed(name, case.numbers),
         show=show,
         allowed=lambda case: size(case.numbers[:3]) <= largest,
     )
 
 
-BROKEN = of_groups.Grade.BROKEN
 SAYS = {
     "exp": "exp ξ = e^ξ, |ω| up to {largest}",
     "so3_log": "log of a rotation is its principal logarithm, |ω| up to {largest}",
@@ -128,11 +128,11 @@ def _noise_law() -> Law:
         return case.numbers.reshape(3, 3)
 
     def show(subject: Subject, case: Case) -> Shown:
-        text = subject.own_text("so3_log", x=f"np.array({typed(R(case))})")
+        text = subject.call("so3_log", x=f"np.array({typed(R(case))})")
         return Shown("a rotation with noise", text, exact.rounded(exact.log(R(case))))
 
     def check(subject: Subject, case: Case) -> Verdict:
-        return of_groups.log_forgives_noise(subject.function("so3_log"), R(case), BROKEN)
+        return of_groups.log_forgives_noise(subject.function("so3_log"), R(case), Grade.BROKEN)
 
     return Law(
         "noise", "log of a rotation with noise is that of the nearest rotation", "so3_log", cases, check,
@@ -163,11 +163,11 @@ def _batch_law(name: str) -> Law:
         tail = _truth(name, np.zeros(count)).shape
         result, fault = called(subject.function(name), (*_shape(case), *tail), x)
         if fault:
-            return of_groups.judged(f"batches of {name}", fault)
+            return judged(f"batches of {name}", fault)
         rows = result.reshape(-1, *tail)
         flat = x.reshape(-1, *x.shape[len(_shape(case)) :])
-        verdicts = [check(lambda _, row=row: row, one, BROKEN) for one, row in zip(flat, rows, strict=True)]
-        return max(verdicts, key=lambda v: v.rank, default=of_groups.judged(f"batches of {name}", [NOTHING]))
+        verdicts = [check(lambda _, row=row: row, one, Grade.BROKEN) for one, row in zip(flat, rows, strict=True)]
+        return max(verdicts, key=lambda v: v.rank, default=judged(f"batches of {name}", [NOTHING]))
 
     def show(subject: Subject, case: Case) -> Shown:
         x = _in_order(subject, name, arguments(case))
@@ -175,9 +175,7 @@ def _batch_law(name: str) -> Law:
         truth = np.reshape([_truth(name, row) for row in case.numbers.reshape(-1, count)] or np.zeros(0), -1)
         tail = _truth(name, np.zeros(count)).shape
         words = f"a batch {_shape(case)} of " + "; ".join(map(coordinates, case.numbers.reshape(-1, count)))
-        return Shown(
-            words, subject.own_text(name, x=text), _in_order(subject, name, truth.reshape(*_shape(case), *tail))
-        )
+        return Shown(words, subject.call(name, x=text), _in_order(subject, name, truth.reshape(*_shape(case), *tail)))
 
     return Law(
         f"{name} of batches", f"{name} of a batch is {name} of each, in shapes (), (1,), (0,), (3, 1, 2)", name, cases,
@@ -185,9 +183,6 @@ def _batch_law(name: str) -> Law:
         allowed=lambda case: all(size(row[:3]) <= _largest(name) for row in case.numbers.reshape(-1, count)),
         applies=lambda subject: subject.batch,
     )  # fmt: skip
-
-
-NOTHING = of_groups.Part("empty batch", 0.0, 1.0, 0.0, lambda: 0.0)
 
 
 def _shape(case: Case) -> tuple[int, ...]:

@@ -42,7 +42,8 @@ class Law(NamedTuple):
 
     name: as on the command line; says: what is held, in words; needs: the function of the subject that it is about;
     cases(subject): what it is tried on; show(subject, case): for people; simpler(case): cases with a part left out;
-    triples: where among the numbers three are a vector, each one's first place; allowed: what a simpler case must be.
+    triples: where among the numbers three are a vector, each one's first place; allowed: what a simpler case must be;
+    about(case): whether what the law is about is in it at all; applies(subject): whether it is to be held to it.
     """
 
     name: str
@@ -56,8 +57,11 @@ class Law(NamedTuple):
     triples: Callable[[Case], Iterable[int]] = lambda case: range(0, len(case.numbers) - 2, 3)
     allowed: Callable[[Case], bool] = lambda case: True
     applies: Callable[[Subject], bool] = lambda subject: True
+    about: Callable[[Case], bool] = lambda case: True
 
 
 def typed(x: Any) -> str:
-    """An array as Python text, to the last digit; zeros short."""
-    return repr((np.asarray(x, dtype=float) + 0.0).tolist()).replace("0.0,", "0,").replace("0.0]", "0]")
+    """An array as Python text, to the last digit; zeros short, but never all of them: it is an array of floats."""
+    text = repr((np.asarray(x, dtype=float) + 0.0).tolist())
+    short = text.replace("0.0,", "0,").replace("0.0]", "0]")
+    return short if "." in short or "e" in short else text

@@ -3,6 +3,12 @@
 What float64 can attain of a pose of n joints is taken as u (2 + n + √2 Σ |angle|) for R: each factor and the result are
 rounded once, and so is each angle, of joints and of the arm's own; and that times the arm's lengths for t: all that go
 into it, and what slides. The same holds for the columns of the Jacobian.
+
+Parameters: fk, jacobian, the functions under test, of q (m,) in rad or m; arm, an `Arm` or a `poekin.Chain`; screws
+(n, 6), (ω; v), and home (4, 4) in the base frame; q (m,); T (4, 4), J (6, m), what came of it; frame, "space", "body"
+or "hybrid"; at_most, the worst `Grade` that is let pass. Returns: `Verdict`, or the parts that it is made of.
+Raises: LawViolation where the grade is worse than `at_most`.
+Source: Park 1994, eqs. (1) and (11), in 80 digits (`exact`).
 """
 
 from __future__ import annotations
@@ -25,6 +31,8 @@ Function = Callable[[np.ndarray], Any]
 
 class Arm(NamedTuple):
     """An arm as data, in floats or in numbers of `exact`: screws (n, 6) and home (4, 4) in the base frame, x = C q + c.
+
+    Further fields: coupling (n, m) and offset (n,), C and c; dof, m.
 
     It has what is asked of a `poekin.Chain` here. reach: the lengths that went into it, in m; a pose's translation may
     come out much smaller, and then no better than theirs. turned: the angles in rad that went into it beside q.
@@ -52,7 +60,7 @@ def displacements(arm: Any, q: np.ndarray) -> np.ndarray:
 
 
 def pose(arm: Any, q: np.ndarray) -> np.ndarray:
-    """e^{A_1 x_1} ⋯ e^{A_n x_n} M, exactly."""
+    """e^{A_1 x_1} ⋯ e^{A_n x_n} M (4, 4), exactly."""
     return exact.forward(arm.screws, arm.home, displacements(arm, q))
 
 

@@ -3,6 +3,11 @@
 Each law is a plain function of a subject's function with twists (omega; v), and of an argument: it returns the verdict,
 and raises LawViolation where that is worse than `at_most`. What float64 can attain is `attainable`'s for exp and log,
 and a third of `accuracy_laws.JACOBIAN_BAR` for the Jacobians.
+
+Parameters: the function under test; xi, the twist (6,), (ω; v) in rad and m, or rotation vector (3,); X, T, a pose
+(4, 4) of a frame in the base frame, or R, X, a rotation (3, 3); at_most, the worst `Grade` that is let pass; name, of
+one of `subject.JACOBIANS`. Returns: `Verdict`, or the parts that it is made of.
+Raises: LawViolation where the grade is worse than `at_most`. Source: Park 1994, Lemmas 1 to 5, in 80 digits (`exact`).
 """
 
 from __future__ import annotations

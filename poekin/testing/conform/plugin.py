@@ -1,6 +1,6 @@
-"""For pytest: a test with the argument `conform` holds a subject to the laws, and fails with the counterexamples.
+"""For pytest: the fixture `conform` holds a subject to the laws, and its test fails with the counterexamples.
 
-In conftest.py, or with -p on the command line:
+In the conftest.py at the top of the tests, or with -p on the command line:
 
     pytest_plugins = ["poekin.testing.conform.plugin"]
 
@@ -9,22 +9,24 @@ and then
     def test_my_kinematics_keep_the_laws(conform):
         conform(Mine)
 
-It is not loaded unasked, so that `conform` means nothing in a project that does not ask for it.
+It is not loaded unasked, so that `conform` means nothing in a project that does not ask for it. Only pytest loads it,
+and nothing else of poekin imports pytest.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
+
+import pytest
 
 from ..laws import LawViolation
 from .grades import GOOD, POOR, Grade
 from .report import Report
-from .run import EXAMPLES, SECONDS
-from .run import conform as graded
+from .run import EXAMPLES, SECONDS, conform
 
 
-def conform(
+def held(
     thing: Any,
     laws: Sequence[str] = (),
     examples: int = EXAMPLES,
@@ -33,21 +35,23 @@ def conform(
 ) -> Report:
     """Hold a subject to the laws, as `run.conform` does, and return the report.
 
+    Parameters: thing, laws, examples, seconds, as of `run.conform`; at_most, the worst `Grade` that is let pass.
+    Returns: Report.
     Raises: LawViolation, with every counterexample, where a confirmed grade is worse than `at_most`; as `run.conform`.
     """
-    report = graded(thing, laws, examples, seconds)
-    wrong = [outcome for outcome in report.outcomes if outcome.grade > at_most and not outcome.unconfirmed]
+    report = conform(thing, laws, examples, seconds)
+    wrong = tuple(outcome for outcome in report.outcomes if outcome.grade > at_most and not outcome.unconfirmed)
     if wrong:
         bound = {Grade.GOOD: GOOD, Grade.POOR: POOR}.get(at_most, 0.0)
         worst = max(wrong, key=lambda outcome: (outcome.grade, outcome.worst))
         seen = {outcome.law: outcome.words or "see the report" for outcome in wrong}
         violation = LawViolation(f"{report.subject} does not conform", worst.worst, bound, seen)
-        violation.add_note("\n".join(map(str, wrong)))
+        violation.add_note(str(Report(report.subject, wrong)))
         raise violation
     return report
 
 
-def pytest_generate_tests(metafunc: Any) -> None:
-    """Give `conform` to each test that has it as an argument."""
-    if "conform" in metafunc.fixturenames:
-        metafunc.parametrize("conform", [conform], ids=["laws"])
+@pytest.fixture(name="conform", scope="session")
+def _conform() -> Callable[..., Report]:
+    """`held`: call it with a subject, and it fails the test where the subject does not keep the laws."""
+    return held

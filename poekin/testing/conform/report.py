@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from ...errors import harmless
-from .grades import Grade
+from .grades import NO_RESULT, Grade
 from .law import Case
 
 FEW = 100
@@ -20,10 +22,11 @@ class Outcome:
     """One law and one subject.
 
     grade; worst: the largest size of an error met (inf: no result), of `what`; examples: how many were tried. Of a
-    finding (poor or broken) also the shrunk case with its numbers; its error, or its fault (a text) where there was no
-    result; the case in words, as Python to paste, and what ought to come of it; a hint.
-    unconfirmed: why it is no finding, where its truth did not stand against the second oracle, or the subject did not
-    do it again; the grade says nothing then.
+    finding (poor or broken) also the shrunk case with its numbers; its error, `error_of` what, or its fault (a text)
+    where there was no result; the case in words, as Python to paste (`paste`), and what ought to
+    come of it (`expected`, any shape); a hint.
+    unconfirmed: why it is no finding, where its truth did not stand against the second oracle; the grade says nothing
+    then.
     """
 
     law: str
@@ -33,6 +36,7 @@ class Outcome:
     what: str
     examples: int
     error: float = 0.0
+    error_of: str = ""
     fault: str = ""
     case: Case | None = None
     words: str = ""
@@ -65,26 +69,39 @@ class Outcome:
         if self.unconfirmed:
             return plain | {"unconfirmed": self.unconfirmed}
         if self.finding:
-            plain |= {"error": self.error, "fault": self.fault, "counterexample": self.words, "python": self.paste}
+            plain |= {"error": self.error, "error_of": self.error_of, "fault": self.fault}
+            plain |= {"counterexample": self.words, "python": self.paste}
             plain |= {"numbers": [] if self.case is None else self.case.numbers, "expected": self.expected}
             plain |= {"hint": self.hint}
         return plain
 
     def __str__(self) -> str:
-        head = f"{self.word:10} {self.law}: {self.says}"
+        return self.told()
+
+    def told(self, before: Mapping[str, str] = MappingProxyType({})) -> str:
+        """The outcome in a few lines; Python that another law printed `before`, as {Python: law}, is not repeated.
+
+        Returns: the text. Raises: nothing.
+        """
+        lines = [f"{self.says}", f"worst {self.worst:.2g} of {self.what}"]
+        if not np.isfinite(self.worst):
+            lines[1] = "worst: no result" if self.what == NO_RESULT else f"worst: {self.what} is not 0, and must be"
+        lines[1] += f"; {self.examples} examples"
         if self.unconfirmed:
-            return f"{head}\n           {self.unconfirmed}"
-        size = f"worst {self.worst:.2g} of {self.what}" if np.isfinite(self.worst) else "worst: no result, or no bound"
-        few = "; more with more seconds" if self.examples < FEW and not self.finding else ""
-        head = f"{head}\n           {size}; {self.examples} examples{few}"
-        if not self.finding:
-            return head
-        error = f"{self.error:.2g} of {self.what}" if np.isfinite(self.error) else f"{self.what} is not 0, and must be"
-        lines = [f"{self.fault or error} at {self.words}", self.paste]
-        if self.expected is not None:
-            lines.append(f"# exact: {(self.expected + 0.0).tolist()}")
-        lines += [self.hint] if self.hint else []
-        return head + "".join(f"\n           {line}" for line in lines)
+            lines[1:] = [self.unconfirmed]
+        elif not self.finding:
+            lines[1] += ", which say little" if self.examples < FEW else ""
+        else:
+            error = f"{self.error:.2g} of {self.error_of}"
+            error = error if np.isfinite(self.error) else f"{self.error_of} is not 0, and must be"
+            lines.append(f"{self.fault or error} at {self.words}")
+            if self.paste in before:
+                lines.append(f"# the Python is that of {before[self.paste]}, above")
+            else:
+                exact = [] if self.expected is None else [f"# exact: {(self.expected + 0.0).tolist()}"]
+                lines += [self.paste, *exact]
+            lines += [self.hint] if self.hint else []
+        return f"{self.word:10} {self.law}: " + "\n           ".join(lines)
 
 
 @dataclass(frozen=True)
@@ -116,4 +133,8 @@ class Report:
         return {"subject": self.subject, "conforms": self.conforms, "laws": laws}
 
     def __str__(self) -> str:
-        return "\n".join([harmless(self.subject, 200), *(harmless(outcome, keep="\n") for outcome in self.outcomes)])
+        lines, before = [harmless(self.subject, 200)], dict[str, str]()
+        for outcome in self.outcomes:
+            lines.append(harmless(outcome.told(before), keep="\n"))
+            before.setdefault(outcome.paste, outcome.law)
+        return "\n".join(lines)

@@ -7,14 +7,14 @@ import time
 from typing import NamedTuple
 
 from ...errors import InputError
-from ..hunting import _UNCHECKED
+from ..hunting import repeatable
 from .grades import Grade, Verdict
 from .law import Case, Law
 from .shrink import shrunk
 from .subject import Subject
 
 # `law` has said what to install where hypothesis is missing.
-from hypothesis import Phase, Verbosity, given, settings, target  # isort: skip
+from hypothesis import given, target  # isort: skip
 
 ENOUGH = 100
 """Examples after which nothing is gained by more, once something is broken."""
@@ -25,13 +25,12 @@ SHRINKING = 30.0
 
 
 class Found(NamedTuple):
-    """How many cases of a law were tried, the worst one, its verdict, and both shrunk where it is a finding."""
+    """How many cases of a law were tried, the worst one, its verdict, and the shrunk case where it is a finding."""
 
     examples: int
     case: Case
     verdict: Verdict
     shrunk: Case | None = None
-    shrunk_verdict: Verdict | None = None
 
 
 class _Over(Exception):
@@ -41,22 +40,13 @@ class _Over(Exception):
 def worst(law: Law, subject: Subject, examples: int, seconds: float) -> Found:
     """Hunt the worst case, towards larger errors, and shrink it where its grade is poor or broken.
 
-    A shrunk case has the grade of the worst one.
+    A shrunk case has the grade of the worst one. What the law is about stays in it as long as anything else can go: who
+    errs in two ways shows the one that is the law's.
     """
     end, count = time.monotonic() + seconds, 0
     top: tuple[Case, Verdict] | None = None
 
-    @settings(
-        max_examples=examples,
-        database=None,
-        deadline=None,
-        derandomize=True,
-        phases=(Phase.generate, Phase.target),
-        report_multiple_bugs=False,
-        print_blob=False,
-        verbosity=Verbosity.quiet,
-        suppress_health_check=_UNCHECKED,
-    )
+    @repeatable(examples)
     @given(law.cases(subject))
     def one(case: Case) -> None:
         nonlocal count, top
@@ -83,5 +73,5 @@ def worst(law: Law, subject: Subject, examples: int, seconds: float) -> Found:
     def fails(other: Case) -> bool:
         return time.monotonic() < end and law.check(subject, other).grade >= verdict.grade
 
-    small = shrunk(law, case, fails)
-    return Found(count, case, verdict, small, law.check(subject, small))
+    own = law._replace(allowed=lambda other: law.allowed(other) and law.about(other))
+    return Found(count, case, verdict, shrunk(law, shrunk(own, case, fails), fails))

@@ -5,6 +5,7 @@ Hypothesis shrinks the bytes that a case was read from, which are not its number
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterator
 
@@ -21,8 +22,9 @@ def shrunk(law: Law, case: Case, fails: Callable[[Case], bool], budget: int = BU
     spent, improved = 0, True
     while improved:
         improved = False
-        for candidate in _simpler(law, case):
-            if not cost(candidate) < cost(case) or not law.allowed(candidate):
+        numbers = (candidate for candidate in _smaller(law, case) if cost(candidate) < cost(case))
+        for candidate in itertools.chain(law.simpler(case), numbers):
+            if not law.allowed(candidate):
                 continue
             if spent >= budget:
                 return case
@@ -41,8 +43,7 @@ def cost(case: Case) -> tuple[float, ...]:
     return len(x), len(places), digits, int(np.sum(x < 0)), float(places.sum()), float(np.sum(_magnitude(x[places])))
 
 
-def _simpler(law: Law, case: Case) -> Iterator[Case]:
-    yield from law.simpler(case)
+def _smaller(law: Law, case: Case) -> Iterator[Case]:
     x = case.numbers
     starts = [k for k in law.triples(case) if np.any(x[k : k + 3])]
     for k in starts:  # a whole vector away
@@ -72,18 +73,14 @@ def _rounder(value: float) -> Iterator[float]:
 
 
 def _digits(value: float) -> int:
+    """How many digits a number that is not 0 has to be written with."""
     # π is one number to people, and so is what is a power of ten short of it.
     if abs(value) == math.pi:
         return 1
     gap = math.pi - abs(value)
     if 0 < gap < 0.1 and abs(value) == math.pi - 10.0 ** round(math.log10(gap)):
         return 2
-    return len(f"{value:.17e}".split("e")[0].strip("-0.").replace(".", "")) if value == 0 else _significant(value)
-
-
-def _significant(value: float) -> int:
-    mantissa = repr(abs(value)).split("e")[0].replace(".", "").strip("0")
-    return max(len(mantissa), 1)
+    return len(repr(abs(value)).split("e")[0].replace(".", "").strip("0"))
 
 
 def _magnitude(x: np.ndarray) -> np.ndarray:

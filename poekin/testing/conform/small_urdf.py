@@ -20,9 +20,8 @@ from .of_arms import Arm
 EACH = 12
 LIMIT = 10.0
 """Limits are ± this, in rad or m, beyond every q that is drawn."""
-SIDE = "side"
-"""The joint beside the way from base to tip, where there is one; who reads the whole tree has its coordinate."""
-SIDE_VALUE = 0.5
+TIP = -1
+"""The place of the joint that has the link tip: the last one."""
 
 
 class Joint(NamedTuple):
@@ -35,11 +34,16 @@ class Joint(NamedTuple):
 
 
 class Layout(NamedTuple):
-    """The joints from base to tip, the order in which the file has them, and whether another one branches off."""
+    """The joints, each with the one before it in `after` (-1: it begins at the base), and the file's order of them."""
 
     joints: tuple[Joint, ...]
     order: tuple[int, ...]
-    side: bool = False
+    after: tuple[int, ...]
+
+
+def chain(joints: tuple[Joint, ...], order: tuple[int, ...] = ()) -> Layout:
+    """Joints one after the other, in the file in that order or another one."""
+    return Layout(joints, order or tuple(range(len(joints))), tuple(range(-1, len(joints) - 1)))
 
 
 def layout_of(case: Case) -> Layout:
@@ -59,8 +63,22 @@ def moving(case: Case) -> list[int]:
     return [k for k, joint in enumerate(layout_of(case).joints) if joint.kind != "fixed" and joint.follows < 0]
 
 
+def link(case: Case, k: int) -> str:
+    """The name of the link behind a joint; -1 is none: the root's."""
+    return "base" if k < 0 else "tip" if k == len(layout_of(case).joints) - 1 else f"link{k + 1}"
+
+
+def path(case: Case, k: int) -> list[int]:
+    """The places of the joints from the base to the link behind a joint."""
+    after = layout_of(case).after
+    places = [k % len(after)]
+    while after[places[0]] >= 0:
+        places.insert(0, after[places[0]])
+    return places
+
+
 def coordinates(case: Case) -> dict[str, float]:
-    """q by the names of the joints that have one of their own, from base to tip."""
+    """q by the names of the joints that have one of their own."""
     layout, rows = layout_of(case), rows_of(case)
     return {layout.joints[k].name: float(rows[k, 11]) for k in moving(case)}
 
@@ -68,15 +86,9 @@ def coordinates(case: Case) -> dict[str, float]:
 def text(case: Case) -> str:
     """The URDF."""
     layout, rows = layout_of(case), rows_of(case)
-    links = ["base", *(f"link{k}" for k in range(1, len(rows))), "tip"]
-    elements = [_joint(layout, k, rows[k], links[k], links[k + 1]) for k in layout.order]
-    if layout.side:
-        links.append("beside")
-        limits = '<limit lower="-10" upper="10" effort="1" velocity="1"/>'
-        elements.insert(
-            0, f'<joint name="{SIDE}" type="revolute"><parent link="base"/><child link="beside"/>{limits}</joint>'
-        )
-    content = [*(f'<link name="{link}"/>' for link in links), *elements]
+    names = [link(case, k) for k in range(-1, len(rows))]
+    content = [f'<link name="{name}"/>' for name in names]
+    content += [_joint(layout, k, rows[k], names[layout.after[k] + 1], names[k + 1]) for k in layout.order]
     return f'<robot name="small">{"".join(content)}</robot>'
 
 
@@ -101,63 +113,74 @@ def _numbers(x: np.ndarray) -> str:
     return " ".join(repr(value + 0.0).removesuffix(".0") for value in x.tolist())
 
 
-def factors(case: Case) -> list[np.ndarray]:
-    """Twists whose exponentials, in order, are the pose of the tip in the base: of origins and of joints, exactly.
+def factors(case: Case, tip: int = TIP) -> list[np.ndarray]:
+    """Twists whose exponentials, in order, are the pose of the link behind a joint: of origins and of joints, exactly.
 
     Roll, pitch and yaw are Rz(yaw) Ry(pitch) Rx(roll).
     """
-    result = []
-    for k, x in enumerate(_values(case)):
+    result, values = [], _values(case)
+    for k in path(case, tip):
         origin, screw = _link(case, k)
-        result += [*origin, *([] if screw is None else [screw * x])]
+        result += [*origin, *([] if screw is None else [screw * values[k]])]
     return result
 
 
-def arm(case: Case) -> tuple[Arm, np.ndarray, list[str]]:
-    """The arm in exact numbers, q, and the names of its coordinates: those of `coordinates`, in that order."""
-    named = coordinates(case)
-    names, own = list(named), moving(case)
-    layout = layout_of(case)
+def arm(case: Case, tip: int = TIP) -> tuple[Arm, np.ndarray, list[str]]:
+    """The arm to the link behind a joint in exact numbers, q, and the names of its coordinates.
+
+    These are those of `coordinates`, in that order, which the pose depends on.
+    """
+    layout, rows, on = layout_of(case), rows_of(case), path(case, tip)
+    masters = {k: layout.joints[k].follows if layout.joints[k].follows >= 0 else k for k in on}
+    own = [k for k in moving(case) if k in masters.values()]
     T, screws, coupling, offset = exact.exactly(np.eye(4)), [], [], []
-    for k, joint in enumerate(layout.joints):
+    for k in on:
         origin, screw = _link(case, k)
         for xi in origin:
             T = T @ exact.exp(xi)
         if screw is None:
             continue
         screws.append(exact.adjoint(T) @ screw)
-        master = joint.follows if joint.follows >= 0 else k
-        row = rows_of(case)[k]
-        factor, shift = (1 + row[9], row[10]) if joint.follows >= 0 else (1.0, 0.0)
-        coupling.append([factor if at == own.index(master) else 0.0 for at in range(len(names))])
-        offset.append(shift)
-    n, m = len(screws), len(names)
-    A, rows = np.array(screws, dtype=object).reshape(n, 6), rows_of(case)
-    C, c = np.reshape(coupling, (n, m)), np.array(offset, dtype=float)
-    reach, turned = sum(map(size, rows[:, 3:6])), float(np.abs(rows[:, 6:9]).sum())
+        follows = layout.joints[k].follows >= 0
+        coupling.append([(1 + rows[k, 9] if follows else 1.0) if at == masters[k] else 0.0 for at in own])
+        offset.append(rows[k, 10] if follows else 0.0)
+    n, m = len(screws), len(own)
+    A, C, c = np.array(screws, dtype=object).reshape(n, 6), np.reshape(coupling, (n, m)), np.array(offset, dtype=float)
     # A fixed joint is a factor, too.
-    turned += len(rows)
-    return Arm(A, T, C, c, m, reach, turned), np.array([*named.values()]), names
+    reach, turned = sum(map(size, rows[on, 3:6])), float(np.abs(rows[on, 6:9]).sum()) + len(on)
+    return Arm(A, T, C, c, m, reach, turned), rows[own, 11], [layout.joints[k].name for k in own]
 
 
 def simpler(case: Case) -> Iterable[Case]:
-    """With a joint less, with the file in order, without what branches off."""
+    """With a joint or a mimic less, with the file in order, one joint after the other, with all axes written."""
     layout, rows = layout_of(case), rows_of(case)
-    if layout.side:
-        yield case._replace(layout=layout._replace(side=False))
     for k in range(len(rows)):
         if len(rows) == 1 or any(joint.follows == k for joint in layout.joints):
             continue
+
+        def moved(j: int, k: int = k) -> int:
+            return j - (j > k)
+
         kept = [j for j in range(len(rows)) if j != k]
-        joints = tuple(
-            joint._replace(follows=joint.follows - (joint.follows > k))
-            for j, joint in enumerate(layout.joints)
-            if j != k
+        joints = (layout.joints[j] for j in kept)
+        after = (layout.after[k] if layout.after[j] == k else layout.after[j] for j in kept)
+        yield Case(
+            rows[kept].ravel(),
+            Layout(
+                tuple(joint._replace(follows=moved(joint.follows)) for joint in joints),
+                tuple(moved(j) for j in layout.order if j != k),
+                tuple(map(moved, after)),
+            ),
         )
-        order = tuple(j - (j > k) for j in layout.order if j != k)
-        yield Case(rows[kept].ravel(), Layout(joints, order, layout.side))
-    if layout.order != tuple(range(len(rows))):
-        yield case._replace(layout=layout._replace(order=tuple(range(len(rows)))))
+    for k, joint in enumerate(layout.joints):
+        if joint.follows >= 0:
+            free = (*layout.joints[:k], joint._replace(follows=-1), *layout.joints[k + 1 :])
+            places = np.arange(len(case.numbers)) - EACH * k
+            yield Case(np.where((places == 9) | (places == 10), 0.0, case.numbers), layout._replace(joints=free))
+    plain, written = chain(layout.joints), tuple(joint._replace(axis=True) for joint in layout.joints)
+    for other in (plain, layout._replace(order=plain.order), layout._replace(joints=written)):
+        if other != layout:
+            yield case._replace(layout=other)
 
 
 def allowed(case: Case) -> bool:

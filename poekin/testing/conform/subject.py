@@ -14,13 +14,18 @@ What a subject may have, each with unbatched arrays in and out, rad and m:
         the same with _inverse: these need `twist_order`
     fk(screws, home, q): screws (n, 6) in the base frame, home (4, 4), q (n,) -> T_sb (4, 4): `twist_order`
     jacobian(screws, home, q) -> (6, n): `twist_order` and `jacobian_frame`
-    read_urdf(text, base, tip) -> an object with `names` (its coordinates in order), `fk(q)` -> the pose (4, 4) of the
-        link tip in the link base; where `jacobian_frame` is declared, also `jacobian(q)` (6, len(names))
+    read_urdf(text, base, tip) -> an object with `names` (of coordinates, in the order of q: those that the pose depends
+        on, or more), `fk(q)` -> the pose (4, 4) of the link tip in the link base; where `jacobian_frame` is declared,
+        also `jacobian(q)` (6, len(names))
+    read_robot(text) -> an object with `names`, and `poses(q)` -> of each link by its name the pose (4, 4) in the root
 
 With `arm`, a `poekin.Chain`, declared, fk(q) and jacobian(q) are those of this one arm. More declarations: `batch`,
-True where exp, log and the Jacobians of exp take leading axes; `noise`, up to which the entries of a rotation may be
-off for log to return the logarithm of the nearest rotation (0: not asked); `name` and `version`, for the report;
-`paste`, of a function by its name, a Python text that makes the same call of an argument `x`.
+True where exp, log and the Jacobians of exp take leading axes; `helical`, True where fk and jacobian take screws with a
+pitch; `noise`, up to which the entries of a rotation may be off for log to return the logarithm of the nearest rotation
+(0: not asked); `name` and `version`, for the report; `paste`, of a function by its name, a Python text that makes the
+same call of an argument `x`.
+
+Arguments are copies: whether a function writes into them is not judged.
 """
 
 from __future__ import annotations
@@ -31,17 +36,20 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, shown, told
+from ...errors import InputError, told
 from ...groups import se3
 from ...model.chain import Chain
 from ...model.evaluation import FRAME_NAMES
+from .calls import made, real
+from .named import Source, loaded, source
 
 ORDERS = ("angular first", "linear first")
 JACOBIANS = tuple(f"{side}_jacobian{inverse}" for inverse in ("", "_inverse") for side in ("left", "right"))
 SO3 = ("so3_exp", "so3_log", *(f"so3_{name}" for name in JACOBIANS))
 SE3 = ("exp", "log", "adjoint", *JACOBIANS)
 ARMS = ("fk", "jacobian")
-FUNCTIONS = (*SO3, *SE3, *ARMS, "read_urdf")
+PARAMETERS = {"so3_log": "R", "log": "T", "adjoint": "T", "read_urdf": "text, base, tip", "read_robot": "text"}
+FUNCTIONS = (*SO3, *SE3, *ARMS, "read_urdf", "read_robot")
 
 Function = Callable[..., Any]
 
@@ -49,57 +57,94 @@ Function = Callable[..., Any]
 class Subject:
     """A subject's functions with twists as (omega; v), and its declarations, checked.
 
-    Parameters: thing, a class without parameters or an object, as the module's text says.
-    Raises: InputError where it has none of the functions, or a declaration is missing or none of the words expected.
+    Parameters: thing, a class without parameters or an object, as the module's text says, or "MODULE:NAME" of one.
+    Raises: InputError where it cannot be made, has none of the functions or one with other parameters, or a
+    declaration is missing or none of the words expected; as `named.loaded`.
     """
 
     def __init__(self, thing: Any):
-        self.own: Any = thing() if inspect.isclass(thing) else thing
-        kind = thing if inspect.isclass(thing) else type(thing)
-        self.title = kind.__name__
-        self.module = kind.__module__
-        self.functions = tuple(name for name in FUNCTIONS if callable(getattr(self.own, name, None)))
+        where = thing if isinstance(thing, str) else ""
+        thing = loaded(where) if where else thing
+        self.source: Source = source(thing, where)
+        self.title = (thing if inspect.isclass(thing) else type(thing)).__name__
+        self.own: Any = thing
+        if inspect.isclass(thing):
+            self.own, fault = made(thing)
+            if fault:
+                raise InputError(f"{self.title} cannot be made as {self.title}(): {fault}")
+        self.functions = tuple(name for name in FUNCTIONS if callable(self._attribute(name)))
         if not self.functions:
             raise InputError(f"{self.title} has none of the functions of a subject: {', '.join(FUNCTIONS)}")
-        self.name = str(getattr(self.own, "name", self.title))
-        self.version = str(getattr(self.own, "version", ""))
-        self.noise = _number(self, "noise")
-        self.batch = getattr(self.own, "batch", False) is True
-        self.arm: Chain | None = getattr(self.own, "arm", None)
+        self.name = str(self._attribute("name") or self.title)
+        self.version = str(self._attribute("version") or "")
+        self.noise = self._noise()
+        self.batch, self.helical = self._flag("batch"), self._flag("helical")
+        self.arm: Chain | None = self._attribute("arm")
         if not isinstance(self.arm, Chain | None):
             raise InputError(f"{self.title}: arm: expected a poekin.Chain, got {told(self.arm)}")
+        for name in self.functions:
+            self._check_parameters(name)
         twisted = [name for name in self.functions if name in SE3 or name in ARMS]
         if twisted == ["fk"] and self.arm is not None:
             twisted = []  # of one arm, known to poekin: no twist goes in or comes out
-        self.linear_first = bool(twisted) and self._declared("twist_order", ORDERS, twisted[0]) == "linear first"
-        read = "read_urdf" in self.functions and getattr(self.own, "jacobian_frame", None) is not None
+        read = "read_urdf" in self.functions and self._attribute("jacobian_frame") is not None
         if read and not twisted:  # what it reads has a Jacobian
-            self.linear_first = self._declared("twist_order", ORDERS, "jacobian_frame") == "linear first"
+            twisted = ["jacobian_frame"]
+        self.linear_first = bool(twisted) and self._declared("twist_order", ORDERS, twisted[0]) == "linear first"
         framed = read or "jacobian" in self.functions
         self.frame = self._declared("jacobian_frame", FRAME_NAMES, "jacobian") if framed else ""
-        for name in ARMS:
-            self._check_parameters(name)
+
+    def _attribute(self, name: str) -> Any:
+        value, fault = made(lambda: getattr(self.own, name, None))
+        if fault:
+            raise InputError(f"{self.title}: {name}: {fault}")
+        return value
 
     def _declared(self, what: str, words: tuple[str, ...], function: str) -> str:
-        value = getattr(self.own, what, None)
+        value = self._attribute(what)
         choice = " or ".join(f'"{word}"' for word in words)
         if value is None:
             raise InputError(f"{self.title} has {function}, and does not declare {what}: expected {what} = {choice}")
-        if value not in words:
+        if not isinstance(value, str) or value not in words:
             raise InputError(f"{self.title}: {what}: expected {choice}, got {told(value)}")
-        return str(value)
+        return value
+
+    def _flag(self, what: str) -> bool:
+        value = self._attribute(what)
+        if not isinstance(value, bool | None):
+            raise InputError(f"{self.title}: {what}: expected True or False, got {told(value)}")
+        return bool(value)
+
+    def _noise(self) -> float:
+        value = self._attribute("noise")
+        if value is None:
+            return 0.0
+        if not isinstance(value, int | float) or not 0 <= value <= 1e-5:
+            raise InputError(f"{self.title}: noise: expected a number from 0 to 1e-5, got {told(value)}")
+        return float(value)
 
     def _check_parameters(self, name: str) -> None:
-        if name not in self.functions:
-            return
-        expected = "q" if self.arm is not None else "screws, home, q"
+        hint = ""
+        if name in ARMS:
+            expected = "q" if self.arm is not None else "screws, home, q"
+            hint = " with `arm` declared" if self.arm is not None else " (declare `arm` for fk(q) of one arm)"
+        else:
+            expected = {
+                "so3_log": "R",
+                "log": "T",
+                "adjoint": "T",
+                "read_urdf": "text, base, tip",
+                "read_robot": "text",
+            }.get(name, "w" if name in SO3 else "xi")
+        function = getattr(self.own, name)
         try:
-            inspect.signature(getattr(self.own, name)).bind(*expected.split(", "))
+            given = inspect.signature(function)
+            given.bind(*expected.split(", "))
         except TypeError:
-            hint = "with `arm` declared" if self.arm is not None else "(declare `arm` for fk(q) of one arm)"
-            raise InputError(f"{self.title}: {name}: expected parameters ({expected}) {hint}") from None
-        except ValueError:  # compiled, without a signature
-            return
+            raise InputError(f"{self.title}: {name}: expected parameters ({expected}){hint}, got {given}") from None
+        except ValueError:  # compiled, without a signature; or a method that does not even take itself
+            if inspect.ismethod(function):
+                raise InputError(f"{self.title}: {name}: expected parameters (self, {expected}), got none") from None
 
     @property
     def label(self) -> str:
@@ -107,19 +152,28 @@ class Subject:
         return f"{self.name} {self.version}".strip()
 
     def twist(self, x: np.ndarray) -> np.ndarray:
-        """(omega; v), on the last axis, in the subject's order, and back."""
+        """Twists x (..., 6), (omega; v), of any frame, in the subject's order, and back.
+
+        Returns: the same shape. Source: `poekin.se3.linear_first`.
+        """
         return se3.linear_first(x) if self.linear_first else x
 
     def square(self, X: np.ndarray) -> np.ndarray:
-        """A matrix (..., 6, 6) between twists in the subject's order, and back."""
+        """A matrix X (..., 6, 6) between twists of one frame in the subject's order, and back.
+
+        Returns: the same shape. Source: `poekin.se3.linear_first`.
+        """
         return se3.linear_first(se3.linear_first(X, axis=-2)) if self.linear_first else X
 
     def rows(self, J: np.ndarray) -> np.ndarray:
-        """A Jacobian (6, m), its rows in the subject's order, and back."""
+        """A Jacobian J (6, m), of any frame, its rows in the subject's order, and back.
+
+        Returns: the same shape. Source: `poekin.se3.linear_first`.
+        """
         return se3.linear_first(J, axis=-2) if self.linear_first else J
 
     def function(self, name: str) -> Function:
-        """A function of a group with twists as (omega; v)."""
+        """The function of a group of that name, with twists as (omega; v)."""
         own = getattr(self.own, name)
         if name in SO3:
             return own
@@ -128,47 +182,25 @@ class Subject:
         size = {"exp": (4, 4), "log": (6,)}.get(name, (6, 6))
 
         def ordered(x: np.ndarray) -> Any:
-            result = np.asarray(own(enters(x)), dtype=float)
+            result = real(own(enters(x)))
             # A wrong shape is for the judge to see, as it came.
             return leaves(result) if result.shape[-len(size) :] == size else result
 
         return ordered
 
-    def own_text(self, name: str, **arguments: str) -> str:
-        """Python that calls a function of the subject; the values of the arguments are Python texts."""
+    def call(self, name: str, **arguments: str) -> str:
+        """Python that calls a function of the subject and prints its result.
+
+        Parameters: name, of the function; arguments, Python texts by their names. Returns: the text.
+        """
         text = getattr(self.own, "paste", {}).get(name)
         if text is not None:
             lines = [f"{key} = {value}" for key, value in arguments.items()]
             return "; ".join(["import numpy as np", *lines, str(text)])
         values = ", ".join(arguments.values())
-        return f"import numpy as np; from {self.module} import {self.title}; print({self.title}().{name}({values}))"
+        return "; ".join(["import numpy as np", *self.source.lines, printed(f"{self.source.made}.{name}({values})")])
 
 
-def _number(subject: Subject, what: str) -> float:
-    value = getattr(subject.own, what, 0.0)
-    if not isinstance(value, int | float) or not 0 <= value <= 1e-5:
-        raise InputError(f"{subject.title}: {what}: expected a number from 0 to 1e-5, got {told(value)}")
-    return float(value)
-
-
-def loaded(text: str) -> Any:
-    """The class or object that "MODULE:NAME" names.
-
-    Raises: InputError where it cannot be imported, with what the import says.
-    """
-    import importlib
-
-    from .calls import Attempt
-
-    module, colon, name = text.partition(":")
-    if not colon or not module or not name:
-        raise InputError(f"expected MODULE:CLASS, such as my_arm:Kinematics, got {shown(text)}")
-    found: Any = None
-    with Attempt() as attempt:
-        found = importlib.import_module(module)
-    if attempt.fault:
-        raise InputError(f"the module {shown(module)} cannot be imported: {attempt.fault}")
-    if not hasattr(found, name):
-        classes = [key for key, value in vars(found).items() if inspect.isclass(value)]
-        raise InputError(f"{shown(module)} has no {shown(name)}; classes in it: {', '.join(map(shown, classes))}")
-    return getattr(found, name)
+def printed(text: str) -> str:
+    """Python that prints the array of a Python text as lists, to the last digit."""
+    return f"print(np.asarray({text}).tolist())"

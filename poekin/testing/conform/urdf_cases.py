@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from ...model.evaluation import FRAME_NAMES
-from .. import exact
-from ..derivative_laws import exact_jacobians
+from ..measures import size
 from ..strategies import Arrays, angles, axes, frozen, magnitudes, st, vectors
-from . import arm_cases, confirm, of_arms, small_urdf
-from .calls import called, made
-from .grades import Verdict, judged
-from .law import Case, Law, Shown, typed
+from . import of_urdf, small_urdf
+from .law import Case, Law
 from .small_urdf import EACH, Joint, Layout
-from .subject import Subject
 
 NAMES = ("j0", "j1", "j2")
 LENGTHS = (1e-3, 3.0)
@@ -65,130 +59,161 @@ def arms(
 
     def make(sorts: tuple[str, ...], rows: tuple[np.ndarray, ...]) -> Case:
         joints = tuple(Joint(kind, name, axis_written) for kind, name in zip(sorts, NAMES, strict=False))
-        return Case(np.concatenate(rows), Layout(joints, tuple(range(len(joints)))))
+        return Case(np.concatenate(rows), small_urdf.chain(joints))
 
     return st.integers(1, 3).flatmap(of)
+
+
+def _followers() -> Arrays:
+    return _row(frame_axes(), signed_angles(), mimic=True)
+
+
+def _numbers(layout: Layout, rows: Iterable[np.ndarray]) -> Case:
+    """The case of these joints: multiplier and offset of those that follow another, q of the others."""
+    places = np.arange(EACH)
+    own = [(places != 11) if joint.follows >= 0 else (places < 9) | (places == 11) for joint in layout.joints]
+    return Case(np.concatenate([row * mask for row, mask in zip(rows, own, strict=False)]), layout)
 
 
 def mimics() -> st.SearchStrategy[Case]:
     """Two joints, one of which follows the other one, whichever comes first."""
 
-    def make(first: int, kind: str, rows: tuple[np.ndarray, np.ndarray]) -> Case:
+    def make(first: int, kind: str, rows: tuple[np.ndarray, ...]) -> Case:
         joints = [Joint(kind, NAMES[0]), Joint(kind, NAMES[1])]
         joints[1 - first] = joints[1 - first]._replace(follows=first)
-        numbers = [row * (np.arange(EACH) < 9) + row * (np.arange(EACH) == 11) for row in rows]
-        numbers[1 - first] = rows[1 - first] * (np.arange(EACH) < 11)
-        return Case(np.concatenate(numbers), Layout(tuple(joints), (0, 1)))
+        return _numbers(small_urdf.chain(tuple(joints)), rows)
 
-    rows = st.tuples(*(_row(frame_axes(), signed_angles(), mimic=True) for _ in range(2)))
-    return st.builds(make, st.integers(0, 1), st.sampled_from(["revolute", "prismatic"]), rows)
+    kinds = st.sampled_from(["revolute", "prismatic"])
+    return st.builds(make, st.integers(0, 1), kinds, st.tuples(_followers(), _followers()))
+
+
+def trees(mimic: bool = False) -> st.SearchStrategy[Case]:
+    """Three or four joints of a tree with two branches or more, the file in any order.
+
+    mimic: the last joint follows the last but one, which is on another branch.
+    """
+
+    def make(kinds: tuple[str, ...], places: tuple[int, ...], order: list[int], rows: tuple[np.ndarray, ...]) -> Case:
+        last = len(order) - 1
+        after = [-1, *(min(place, k) for k, place in enumerate(places))][: last + 1]
+        after[last] = min(after[last], last - 2)
+        joints = [Joint(kind, f"j{k}") for k, kind in enumerate(kinds[: last + 1])]
+        if mimic:
+            joints[last] = Joint(joints[last - 1].kind, joints[last].name, follows=last - 1)
+        return _numbers(Layout(tuple(joints), tuple(order), tuple(after)), rows)
+
+    kinds = st.sampled_from(["revolute", "prismatic", *([] if mimic else ["fixed"])])
+    files = st.sampled_from([3, 4]).flatmap(lambda count: st.permutations(range(count)))
+    places = st.tuples(*[st.integers(-1, 2)] * 3)
+    return st.builds(make, st.tuples(*[kinds] * 4), places, files, st.tuples(*[_followers()] * 4))
 
 
 def orders() -> st.SearchStrategy[Case]:
-    """Two or three joints whose order in the file, and by name, is not that from base to tip; one may branch off."""
+    """Two to four joints whose order in the file, and by name, is not that from base to tip; one may branch off."""
 
-    def make(names: tuple[str, ...], order: tuple[int, ...], side: bool, rows: tuple[np.ndarray, ...]) -> Case:
+    def make(names: list[str], order: list[int], side: bool, rows: tuple[np.ndarray, ...]) -> Case:
         count = len(order)
-        joints = tuple(Joint("revolute", names[k]) for k in range(count))
-        return Case(np.concatenate(rows[:count]), Layout(joints, order, side))
+        layout = small_urdf.chain(tuple(Joint("revolute", name) for name in names[:count]), tuple(order))
+        if side and count > 2:  # the first one goes nowhere, and the second one begins at the base
+            layout = layout._replace(after=(-1, -1, *range(1, count - 1)))
+        return _numbers(layout, rows)
 
-    files = [order for count in (2, 3) for order in itertools.permutations(range(count))]
-    rows = st.tuples(*(_row(frame_axes(), signed_angles()) for _ in range(3)))
-    return st.builds(make, st.permutations(NAMES).map(tuple), st.sampled_from(files), st.booleans(), rows)
-
-
-def check(subject: Subject, case: Case, jacobian: bool = False) -> Verdict:
-    """Whether what the subject reads out of the URDF has the pose, or the Jacobian, of the definition."""
-    law = "read_urdf"
-    read, fault = made(lambda: subject.own.read_urdf(small_urdf.text(case), "base", "tip"))
-    if fault:
-        return judged(law, fault)
-    arm, q, names = small_urdf.arm(case)
-    (found, fault) = made(lambda: [str(name) for name in read.names])
-    if fault:
-        return judged(law, f"`names` of what was read: {fault}")
-    lost = [name for name in names if name not in found]
-    if lost:
-        return judged(law, f"no coordinate {', '.join(lost)} among those read: {', '.join(found) or 'none'}")
-    given = {**dict(zip(names, q, strict=True)), small_urdf.SIDE: small_urdf.SIDE_VALUE}
-    values = np.array([given.get(name, 0.0) for name in found])
-    if not jacobian:
-        T, fault = called(read.fk, (4, 4), values)
-        return judged(law, fault or of_arms.pose_parts(arm, q, T))
-    J, fault = called(read.jacobian, (6, len(found)), values)
-    if fault:
-        return judged(law, fault)
-    J = subject.rows(J)[:, [found.index(name) for name in names]]
-    return judged(law, of_arms.jacobian_parts(subject.frame, arm, q, J))
+    files = st.sampled_from([2, 3, 4]).flatmap(lambda count: st.permutations(range(count)))
+    rows = st.tuples(*[_row(frame_axes(), signed_angles())] * 4)
+    return st.builds(make, st.permutations([*NAMES, "side"]), files, st.booleans(), rows)
 
 
-def confirmed(case: Case, jacobian: bool = False) -> bool:
-    """Whether the exact pose, and Jacobian, stand against the second oracle."""
-    arm, q, _ = small_urdf.arm(case)
-    pose = confirm.near(confirm.chain_of(small_urdf.factors(case)), of_arms.pose(arm, q))
-    return pose and arm_cases.confirmed(arm, q, jacobian)
+About = Callable[[Case], bool]
 
 
-def show(subject: Subject, case: Case, jacobian: bool = False) -> Shown:
-    """The URDF and the values of its joints, as Python."""
-    arm, q, names = small_urdf.arm(case)
-    text, values = small_urdf.text(case), dict(zip(names, q.tolist(), strict=True))
-    expected = exact.rounded(of_arms.pose(arm, q))
-    if jacobian:
-        expected = subject.rows(exact.rounded(exact_jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(subject.frame)]))
-    call = "jacobian" if jacobian else "fk"
-    paste = (
-        f"from {subject.module} import {subject.title}; arm = {subject.title}().read_urdf({text!r}, 'base', 'tip'); "
-        f"q = {values!r}; print(arm.{call}([q.get(name, 0.0) for name in arm.names]))"
-    )
-    return Shown(f"q = {values}, {_words(case)}", paste, expected)
-
-
-def _words(case: Case) -> str:
-    """Each joint in a few words."""
-    layout, rows = small_urdf.layout_of(case), small_urdf.rows_of(case)
-    said = []
-    for joint, row in zip(layout.joints, rows, strict=True):
-        words = f"{joint.name} {joint.kind}"
-        if joint.kind != "fixed":
-            words += f", axis {typed(row[:3])}" if joint.axis else ", no axis written (which means x)"
-        words += f", xyz {typed(row[3:6])}" if np.any(row[3:6]) else ""
-        words += f", rpy {typed(row[6:9])}" if np.any(row[6:9]) else ""
-        if joint.follows >= 0:
-            words += f", mimics {layout.joints[joint.follows].name} × {1 + row[9]:g} + {row[10]:g}"
-        said.append(words)
-    return "; ".join(said)
-
-
-def _law(name: str, says: str, cases: Callable[[], st.SearchStrategy[Case]], jacobian: bool = False) -> Law:
+def _law(
+    name: str, says: str, cases: Callable[[], st.SearchStrategy[Case]], about: About = lambda case: True,
+    jacobian: bool = False,
+) -> Law:  # fmt: skip
     return Law(
         name, says, "read_urdf", lambda subject: cases(),
-        lambda subject, case: check(subject, case, jacobian), lambda subject, case: confirmed(case, jacobian),
-        lambda subject, case: show(subject, case, jacobian), small_urdf.simpler, small_urdf.triples,
-        small_urdf.allowed, lambda subject: not jacobian or bool(subject.frame),
+        lambda subject, case: of_urdf.check(subject, case, jacobian),
+        lambda subject, case: of_urdf.confirmed(case, jacobian),
+        lambda subject, case: of_urdf.show(subject, case, "jacobian" if jacobian else "fk"), small_urdf.simpler,
+        small_urdf.triples, small_urdf.allowed, lambda subject: not jacobian or bool(subject.frame), about,
     )  # fmt: skip
 
 
+def _robot_law(name: str, says: str, mimic: bool, about: About) -> Law:
+    return Law(
+        name, says, "read_robot", lambda subject: trees(mimic), of_urdf.check_robot,
+        lambda subject, case: of_urdf.confirmed(case, links=range(len(small_urdf.rows_of(case)))),
+        lambda subject, case: of_urdf.show(subject, case, "poses"), small_urdf.simpler, small_urdf.triples,
+        small_urdf.allowed, about=about,
+    )  # fmt: skip
+
+
+def _axes(case: Case) -> np.ndarray:
+    moving = [joint.kind != "fixed" for joint in small_urdf.layout_of(case).joints]
+    return small_urdf.rows_of(case)[moving, :3]
+
+
+def _oblique(case: Case) -> bool:
+    return bool(np.any(np.count_nonzero(_axes(case), axis=1) > 1))
+
+
+def _long(case: Case) -> bool:
+    return any(abs(size(axis) - 1) > 1e-9 for axis in _axes(case))
+
+
+def _missing(case: Case) -> bool:
+    return any(not joint.axis for joint in small_urdf.layout_of(case).joints)
+
+
+def _many_turns(case: Case) -> bool:
+    return bool(np.any(np.abs(small_urdf.rows_of(case)[:, 11]) > math.pi))
+
+
+def _mimic(case: Case) -> bool:
+    return any(joint.follows >= 0 for joint in small_urdf.layout_of(case).joints)
+
+
+def _mimic_across(case: Case) -> bool:
+    on = small_urdf.path(case, small_urdf.TIP)
+    joints = small_urdf.layout_of(case).joints
+    return any(joints[k].follows not in (-1, *on) for k in on)
+
+
+def _branches(case: Case) -> bool:
+    layout = small_urdf.layout_of(case)
+    return layout.after != small_urdf.chain(layout.joints).after
+
+
+def _disordered(case: Case) -> bool:
+    layout = small_urdf.layout_of(case)
+    names = [joint.name for joint in layout.joints]
+    return layout.order != tuple(range(len(names))) or names != sorted(names) or _branches(case)
+
+
+MOVING = ("revolute", "prismatic")
 URDF_LAWS = (
     _law(
         "urdf", "axes along x, y, z; origins anywhere; revolute, prismatic and fixed joints", lambda: arms(frame_axes())
     ),
-    _law("urdf oblique axis", "an axis may point anywhere", lambda: arms(axes(), ("revolute", "prismatic"))),
-    _law(
-        "urdf long axis", "an axis of any length is its direction", lambda: arms(long_axes(), ("revolute", "prismatic"))
-    ),
+    _law("urdf oblique axis", "an axis may point anywhere", lambda: arms(axes(), MOVING), _oblique),
+    _law("urdf long axis", "an axis of any length is its direction", lambda: arms(long_axes(), MOVING), _long),
     _law(
         "urdf missing axis",
         "a joint without an axis has x",
-        lambda: arms(st.just(frozen([1, 0, 0])), ("revolute", "prismatic"), False),
+        lambda: arms(st.just(frozen([1, 0, 0])), MOVING, False),
+        _missing,
     ),
     _law(
         "urdf continuous",
         "a continuous joint turns any number of times",
         lambda: arms(frame_axes(), ("continuous",), largest=10.0),
+        _many_turns,
     ),
-    _law("urdf mimic", "a joint that mimics another moves with it", mimics),
-    _law("urdf order", "joints are known by name, not by their place in the file", orders),
-    _law("urdf jacobian", "the Jacobian is the derivative", lambda: arms(axes(), ("revolute", "prismatic")), True),
+    _law("urdf mimic", "a joint that mimics another moves with it", mimics, _mimic),
+    _law("urdf mimic across", "it may mimic one of another branch", lambda: trees(mimic=True), _mimic_across),
+    _law("urdf order", "joints are known by name, not by their place in the file", orders, _disordered),
+    _law("urdf jacobian", "the Jacobian is the derivative", lambda: arms(axes(), MOVING), jacobian=True),
+    _robot_law("robot", "the pose of each link of a tree", False, _branches),
+    _robot_law("robot mimic", "of each link, where a joint mimics one of another branch", True, _mimic),
 )
 """The battery for URDF readers."""

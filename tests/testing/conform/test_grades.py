@@ -41,7 +41,7 @@ def test_an_error_goes_in_proportion_to_its_scale_and_no_scale_allows_no_error()
 
 def test_a_violation_carries_the_error_and_the_bound_of_the_grade_asked_for():
     for at_most, error, bound in [(Grade.EXACT, 1e-7, 3e-16), (Grade.GOOD, 1e-7, 1e-10), (Grade.POOR, 1e-5, 1e-6)]:
-        with pytest.raises(LawViolation, match=r"^law: error") as caught:
+        with pytest.raises(LawViolation, match=r"^law: x: error") as caught:
             judged("law", [part(error)], at_most, x=1)
         assert (caught.value.error, caught.value.bound) == pytest.approx((error, bound), rel=1e-12)
     with pytest.raises(LawViolation, match=r"fault = 'NaN'"):

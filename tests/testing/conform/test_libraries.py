@@ -13,14 +13,15 @@ from benchmarks.cases import conformance
 from benchmarks.page import html
 from benchmarks.report import Topic
 from benchmarks.subjects import FAULTS, LIBRARIES, Poekin
+from benchmarks.subjects.__main__ import main
 from poekin.testing.conform import LAWS, Case, Grade, Subject, applicable, conform
-from poekin.testing.conform.small_urdf import Joint, Layout
+from poekin.testing.conform.small_urdf import Joint, chain
 from poekin.testing.conform.subject import SO3
 
 XI = np.array([0.7, -0.5, 0.8, 0.3, -0.2, 0.6])
-ARM = Case(np.array([0, 0, 1, 0.3, 0.1, 0, 0.5, 0, 1, 0, 0, 0, 0, 0.2, *XI]), ("revolute", "prismatic"))
+ARM = Case(np.array([0, 0, 1, 0.3, 0.1, 0, 0.5, 0, 0, 1, 0, 0, 0, 0, 0.2, 0, *XI]), ("revolute", "prismatic"))
 ROW = [0, 0, 1, 0.3, 0.1, 0.2, 0, 0, math.pi / 2, 0, 0, 0.5]
-URDF = Case(np.array([*ROW, *ROW]), Layout((Joint("revolute", "j0"), Joint("prismatic", "j1")), (0, 1)))
+URDF = Case(np.array([*ROW, *ROW]), chain((Joint("revolute", "j0"), Joint("prismatic", "j1"))))
 NAMES = [(name, kind) for name, kinds in LIBRARIES.items() for kind in kinds]
 
 
@@ -28,7 +29,7 @@ def ordinary(law):
     """A case in the middle of the law's range, without what the law is about where that is one thing of a URDF."""
     if law.needs in SO3:
         return Case(XI[:3])
-    return {"fk": ARM, "jacobian": ARM, "read_urdf": URDF}.get(law.needs, Case(XI))
+    return {"fk": ARM, "jacobian": ARM, "read_urdf": URDF, "read_robot": URDF}.get(law.needs, Case(XI))
 
 
 @pytest.mark.parametrize(("name", "kind"), NAMES, ids=lambda x: getattr(x, "__name__", x))
@@ -69,15 +70,17 @@ def test_the_page_shows_grades_counterexamples_and_what_could_not_be_run():
     assert "ExpOfNothing().so3_exp" in page
 
 
-def test_the_false_findings_are_counted_over_so_many_examples(monkeypatch):
+def test_the_false_findings_are_counted_over_so_many_examples(monkeypatch, capsys):
     laws = [law for law in LAWS if law.name in ("so3_exp", "fk")]
     monkeypatch.setattr(conformance, "LAWS", laws)
     said = []
-    total, false, not_exact = conformance._false_findings(20, said.append)
+    total, false, not_exact = conformance.false_findings(20, said.append)
     assert total >= 20
     assert (false, not_exact) == (0, 0)
+    assert main(["1"]) == 0
     monkeypatch.setattr(subjects, "Angular", FAULTS["d"][0])
-    assert conformance._false_findings(200, said.append)[1] == 1
+    assert main(["200"]) == 1
+    assert "poor so3_exp" in capsys.readouterr().out
 
 
 def test_a_subject_that_cannot_be_made_is_said_and_ends_nothing():

@@ -11,6 +11,7 @@ from benchmarks.subjects import Poekin
 from poekin.testing.conform import LAWS, Case, Subject
 from poekin.testing.conform.arm_cases import ARM_LAWS
 from poekin.testing.conform.shrink import cost, shrunk
+from poekin.testing.conform.small_urdf import chain, layout_of
 from poekin.testing.conform.urdf_cases import URDF_LAWS
 from tests.testing.drawing import drawn
 
@@ -59,3 +60,20 @@ def test_arms_shrink_to_one_joint_and_keep_their_axes(law):
         assert cost(small) <= cost(case)
         assert law.allowed(small)
         assert np.count_nonzero(small.numbers) == 1
+
+
+def test_what_does_not_matter_of_a_tree_goes_and_its_joints_stay():
+    law = next(law for law in URDF_LAWS if law.name == "robot mimic")
+    for case in drawn(law.cases(Subject(Poekin)), 3):
+        count = len(layout_of(case).joints)
+        small = layout_of(shrunk(law, case, lambda other, count=count: len(layout_of(other).joints) == count))
+        assert small == chain(small.joints)
+        assert all(joint.follows < 0 for joint in small.joints)
+
+
+def test_axes_that_are_missing_are_written_where_that_is_not_the_point():
+    law = next(law for law in URDF_LAWS if law.name == "urdf missing axis")
+    (case,) = drawn(law.cases(Subject(Poekin)), 1)
+    assert law.about(case)
+    assert not law.about(shrunk(law, case, lambda other: True))
+    assert law.about(shrunk(law._replace(allowed=law.about), case, lambda other: True))

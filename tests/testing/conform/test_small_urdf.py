@@ -28,10 +28,14 @@ def test_what_the_numbers_say_is_what_pinocchio_and_poekin_read(law):
         truth = exact.rounded(of_arms.pose(arm, q))
         text = small_urdf.text(case)
         oracle = PinocchioOracle(text)
-        given = {name: [value] for name, value in zip(names, q, strict=True)}
-        if small_urdf.layout_of(case).side:
-            given[small_urdf.SIDE] = [small_urdf.SIDE_VALUE]
+        given = {name: [value] for name, value in small_urdf.coordinates(case).items()}
         assert set(given) == set(oracle.coordinates)
+        assert [given[name] for name in names] == [[value] for value in q]
+        if law.needs == "read_robot":
+            for k in range(len(small_urdf.rows_of(case))):
+                own, values, _ = small_urdf.arm(case, k)
+                found = oracle.poses(given, small_urdf.link(case, k), "base")[0]
+                np.testing.assert_allclose(found, exact.rounded(of_arms.pose(own, values)), rtol=0, atol=1e-13)
         # The lengths go up to 3 m a joint, and more by 10 m that a joint may slide.
         np.testing.assert_allclose(oracle.poses(given, "tip", "base")[0], truth, rtol=0, atol=1e-13)
         with warnings.catch_warnings():
@@ -51,6 +55,12 @@ def test_each_law_draws_what_its_name_says():
     assert all(j.get("type") == "continuous" for _, found in joints("urdf continuous") for j in found)
     turned = [abs(value) for case, _ in joints("urdf continuous") for value in small_urdf.coordinates(case).values()]
     assert max(turned) > np.pi
+    for case, found in joints("robot mimic"):
+        (master,) = [mimic.get("joint") for j in found for mimic in j.iter("mimic")]
+        assert master not in [small_urdf.layout_of(case).joints[k].name for k in small_urdf.path(case, small_urdf.TIP)]
+    trees = [small_urdf.layout_of(case) for case, _ in joints("robot")]
+    assert all(tree.after != tuple(range(-1, len(tree.joints) - 1)) for tree in trees)
+    assert len({tree.after for tree in trees}) > 3
     orders = {tuple(j.get("name") for j in found) for _, found in joints("urdf order")}
     assert len(orders) > 5
     lengths = [np.linalg.norm(case.numbers[:3]) for case, _ in joints("urdf long axis")]
