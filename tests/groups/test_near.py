@@ -37,6 +37,17 @@ def test_a_translation_across_a_whole_turn_has_no_logarithm():
     np.testing.assert_allclose(se3.log(T[1, 2], near=[6, 0, 0, 0, 0, 0]), [2 * np.pi, 0, 0, 1, 0, 0], atol=1e-15)
 
 
+@pytest.mark.parametrize("angle", [1e-8, 1e-20, 1e-160])
+@pytest.mark.parametrize("away", [0.0, 1.0, 2.9, 3.1])
+def test_a_tiny_rotation_keeps_its_digits_near_a_reference_of_less_than_half_a_turn(angle, away):
+    np.testing.assert_allclose(so3.log(so3.exp(AXIS * angle), near=[away, 0, 0]), AXIS * angle, rtol=1e-15, atol=0)
+
+
+@pytest.mark.parametrize("away", [0.0, 2.9, 3.1])
+def test_the_identity_has_the_logarithm_zero_near_a_reference_of_less_than_half_a_turn(away):
+    assert so3.log(np.eye(3), near=[away, 0, 0]).tolist() == [0, 0, 0]
+
+
 @pytest.mark.parametrize("near", [np.nan, np.inf])
 def test_a_reference_that_is_no_number_gives_nan(near):
     assert np.isnan(so3.log(np.eye(3), near=[near, 0, 0])).all()
