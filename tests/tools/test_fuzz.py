@@ -18,8 +18,8 @@ from tools.fuzz.shrink import smallest
 from tools.fuzz.trial import attempt
 from tools.fuzz.watch import Child, Tally
 
-EACH = 670
-"""Inputs to each reader: 10⁴ to all."""
+EACH = 250
+"""Inputs to each reader; CI gives them 10⁴ more (`make fuzz COUNT=10000`)."""
 SEED = 7
 PACKAGES = {"MJCF": "mujoco", "xacro": "xacrodoc", "UR YAML": "yaml"}
 HERE = "tests.tools.planted_readers"
@@ -119,7 +119,8 @@ INPUTS = 12
 
 @pytest.mark.parametrize(("name", "what"), PLANTED.items(), ids=PLANTED.keys())
 def test_a_planted_fault_is_found_and_made_small(name, what):
-    count = INPUTS * (5 if name == "in_use" else 1)  # not everything that is read is used
+    # not everything that is read is used
+    count = INPUTS * (5 if name == "in_use" else 1)
     row = run({f"{HERE}:{name}": count}, seed=3, workers=1)[0]
     assert row.tally.inputs == count, "it goes on behind the input that ended the child"
     assert [found.first.what for found in row.found.values()] == [what]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import random
 import runpy
 import sys
@@ -20,8 +21,17 @@ from tools.mutate.mutants import FILES, Mutant, mutants_of, paths
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
-MUTANTS = {path: mutants_of(path, source) for path, source in SOURCES.items()}
-ALL = [mutant for found in MUTANTS.values() for mutant in found]
+
+
+@functools.cache
+def every() -> list[Mutant]:
+    """All mutants there are: seconds, which collecting the tests does not have to wait for."""
+    return [mutant for path, source in SOURCES.items() for mutant in mutants_of(path, source)]
+
+
+def of(path: str) -> list[Mutant]:
+    return [mutant for mutant in every() if mutant.path == path]
+
 
 ODD = '''\
 from __future__ import annotations
@@ -44,7 +54,7 @@ def f(a: int | None, *rest: int, b: float = -1.0, **more: str) -> int | str:
 
 
 def test_the_text_of_a_mutant_is_that_of_cosmic_ray():
-    drawn = random.Random(5).sample([m for m in ALL if len(SOURCES[m.path]) < 4000], 25)
+    drawn = random.Random(5).sample([m for m in every() if len(SOURCES[m.path]) < 4000], 25)
     pairs = [(m, SOURCES[m.path]) for m in drawn] + [(m, ODD) for m in mutants_of("odd.py", ODD)]
     for mutant, source in pairs:
         operator = cosmic_ray.plugins.get_operator(mutant.operator)()
@@ -73,20 +83,20 @@ def test_without_the_future_import_annotations_run_and_are_changed():
 
 
 def test_two_changes_that_give_the_same_text_count_once():
-    assert len({m.key for m in ALL}) == len(ALL)
-    assert len({(m.path, m.applied(SOURCES[m.path])) for m in MUTANTS["poekin/formulas/defect.py"]}) == 84
+    assert len({m.key for m in every()}) == len(every())
+    assert len({(m.path, m.applied(SOURCES[m.path])) for m in of("poekin/formulas/defect.py")}) == 84
 
 
 def test_the_modules_named_are_all_there():
     assert len(SOURCES) == 31
     for part in ("algebra", "formulas/logarithm", "groups/se3", "formats/dh/from_chain", "model/screw"):
-        assert len(MUTANTS[f"poekin/{part}.py"]) > 200
+        assert len(of(f"poekin/{part}.py")) > 200
 
 
 def test_the_list_of_equivalents_holds_mutants_alone_and_few_of_them():
-    listed, stale = equivalent.listed(ALL, equivalent.entries())
+    listed, stale = equivalent.listed(every(), equivalent.entries())
     assert stale == []
-    assert len(listed) <= 0.05 * len(ALL)
+    assert len(listed) <= 0.05 * len(every())
     assert all(len(reason) > 20 for reason in listed.values())
 
 
