@@ -32,7 +32,7 @@ def test_close_to_a_whole_turn_exp_gives_the_pose_back(gap):
 def test_a_translation_across_a_whole_turn_has_no_logarithm():
     T = np.tile(np.eye(4), (2, 3, 1, 1))
     T[1, 2, 0, 3] = 1.0
-    with pytest.raises(BranchError, match=r"T\[1, 2\] has no logarithm near omega = \[0.0, 0.0, 6.0\]"):
+    with pytest.raises(BranchError, match=r"T\[1, 2\] has .* near omega = \[0.0, 0.0, 6.0\].* p = \[1.0, 0.0, 0.0\]$"):
         se3.log(T, near=[0, 0, 6, 0, 0, 0])
     np.testing.assert_allclose(se3.log(T[1, 2], near=[6, 0, 0, 0, 0, 0]), [2 * np.pi, 0, 0, 1, 0, 0], atol=1e-15)
 

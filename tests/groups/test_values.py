@@ -157,6 +157,7 @@ def test_a_sound_array_is_taken_as_it_is():
         (lambda: shaped(np.zeros(4), (4, 4), "x"), ShapeError, r"x: expected shape \(\.\.\., 4, 4\), got \(4,\)"),
         (lambda: shaped(np.zeros((3, 4)), (4, 4), "x"), ShapeError, r"got \(3, 4\)"),
         (lambda: se3.linear_first(XI, axis=1), ShapeError, r"x: expected length 6 along axis 1, got shape \(6,\)"),
+        (lambda: se3.linear_first(XI, axis=3), ShapeError, r"x: expected length 6 along axis 3"),
         (lambda: se3.linear_first(XI, axis=-2), ShapeError, r"x: expected length 6 along axis -2"),
         (lambda: se3.linear_first(1.0), ShapeError, r"x: expected length 6 along axis -1, got shape \(\)"),
         (lambda: se3.linear_first(np.zeros((6, 7))), ShapeError, r"got shape \(6, 7\)"),

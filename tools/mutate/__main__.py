@@ -118,8 +118,9 @@ def _judged(
     count = Counter(kinds.values())
     rest = count.total() - count["not run"] - count["equivalent"]
     share = caught_of(count) / rest if rest else 1.0
+    caught = f"caught {100 * share:.2f} %" if rest else "caught nothing, as none was run,"
     print(
-        f"caught {100 * share:.2f} % of all that are not listed as equivalent (at least {100 * BAR:g} %); listed"
+        f"{caught} of all that are not listed as equivalent (at least {100 * BAR:g} %); listed"
         f" {len(listed)} of {len(every)}, {100 * len(listed) / len(every):.2f} % (at most {100 * MOST_EQUIVALENT:g} %)"
     )
     sound = share >= BAR and len(listed) <= MOST_EQUIVALENT * len(every) and not stale and not count["wrong"]
