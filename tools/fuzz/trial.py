@@ -24,9 +24,9 @@ MEMORY = 2**30
 LONGEST = 20_000
 """Characters of a message that somebody may still read."""
 
-# In the words of libxml2, of MuJoCo and of C++; a stack of a size that the model itself asks for is another matter.
+# In the words of libxml2, of MuJoCo and of C++; a stack or an arena whose size the model itself asks for is none.
 _NO_MEMORY = re.compile(
-    r"(?<!mj_stackAlloc: )out of memory|(cannot|could not|failed to) allocate|bad_alloc", re.IGNORECASE
+    r"(?<!mj_stackAlloc: )out of memory|(cannot|could not|failed to) allocate(?! mjData arena)|bad_alloc", re.IGNORECASE
 )
 
 
