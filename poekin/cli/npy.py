@@ -14,6 +14,8 @@ from ..errors import FileError, InputError
 MAGIC = b"\x93NUMPY"
 # NumPy's own limit on what it evaluates.
 LONGEST_HEADER = 10_000
+# Brackets and signs of a header: one of numbers has four.
+NESTED = 100
 # No array has more rows: a shape whose other axis is 0 could otherwise claim any number of them.
 MOST_ROWS = 2**40
 
@@ -73,6 +75,8 @@ def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:
 
 def _literal(text: bytes, encoding: str) -> object:
     """What a Python literal says."""
+    if sum(map(text.count, (b"(", b"[", b"{", b"-"))) > NESTED:  # Python's parser calls that a want of memory
+        raise ValueError("its header cannot be read")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", SyntaxWarning)
