@@ -219,14 +219,12 @@ def _exact_pose(chain: Any, q: np.ndarray) -> np.ndarray:
     return exact.rounded(exact.forward(chain.screws, chain.home, _exact_displacements(chain, q)))
 
 
-def of_poses(chain: Any, q: np.ndarray, T: np.ndarray, expected: np.ndarray, factor: float = 1.0) -> Pairs:
-    """The errors of R and t, and of the last row, of T (4, 4) against expected (4, 4).
-
-    The bounds are `factor` times the budget.
+def of_poses(chain: Any, q: np.ndarray, T: np.ndarray, expected: np.ndarray) -> Pairs:
+    """The errors of R and t, and of the last row, with their bounds: of T (4, 4) against expected (4, 4).
 
     Returns: pairs (error, bound), rad and m. Raises: nothing.
     """
-    angular, linear = (factor * part for part in budget(chain, q))
+    angular, linear = budget(chain, q)
     error = T - np.asarray(expected, dtype=float)
     return [(size(error[:3, :3]), angular), (size(error[:3, 3]), linear), (size(error[3]), 0.0)]
 

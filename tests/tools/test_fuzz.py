@@ -66,7 +66,7 @@ FOUND = {
     "an infinite ref": ("MJCF", b'<mujoco><worldbody><body><joint ref="inf"/></body></worldbody></mujoco>'),
     "a NaN that is no place": ("MJCF", b'<mujoco><option timestep="nan"/></mujoco>'),
     "a stack as small as the model asks": ("MJCF", b'<mujoco><size memory="1"/></mujoco>'),
-    "a header of brackets": ("npy", b"\x93NUMPY\1\0" + (2000).to_bytes(2, "little") + b"(" * 2000),
+    "a header of brackets": ("npy", b"\x93NUMPY\1\0" + (596).to_bytes(2, "little") + b"{1{" + b"{1:" * 197 + b"{1"),
     "no arena at all, as the model asks": ("MJCF", b'<mujoco><size memory="0"/></mujoco>'),
     "a folder to include": ("MJCF", b'<mujoco><include file="."/></mujoco>'),
     "many long names that are much alike": (
