@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import InputError, told
 from ..groups.arrays import Array
 from ..model.chain import Chain
-from .lines import at_rest, direction
+from .lines import at_rest, cross, direction
 from .shapes import Shape, shapes
 from .tolerances import check_tolerances
 
@@ -108,9 +108,7 @@ def axes(chain: Chain, *, tol_mm: float = 0.01, tol_deg: float = 0.001) -> AxesR
     check_tolerances(tol_mm, tol_deg)
     rest = at_rest(chain)
     ways = direction(rest.screws, rest.kinds)
-    places = [
-        None if k == "prismatic" else np.cross(S[:3], S[3:]) for S, k in zip(rest.screws, rest.kinds, strict=True)
-    ]
+    places = [None if k == "prismatic" else cross(S[:3], S[3:]) for S, k in zip(rest.screws, rest.kinds, strict=True)]
     n = len(rest.kinds)
     pairs = []
     for i, j in [(i, i + step) for i in range(n) for step in (1, 2) if i + step < n]:
@@ -124,7 +122,7 @@ def axes(chain: Chain, *, tol_mm: float = 0.01, tol_deg: float = 0.001) -> AxesR
 
 def _between(w: Array, p: Array | None, u: Array, r: Array | None, tol_deg: float) -> tuple[float, float | None]:
     """Angle (0 to 90 deg) and common normal (mm) of two lines; of parallel ones their distance."""
-    across = np.cross(w, u)
+    across = cross(w, u)
     sine = float(np.linalg.norm(across))
     angle = math.degrees(math.atan2(sine, abs(float(w @ u))))
     if p is None or r is None:

@@ -13,7 +13,7 @@ from ..model.chain import Chain
 from .comparison import Comparison, JointComparison, PoseErrors
 from .extra import droppable, without
 from .followers import follows
-from .lines import at_rest, direction, sides
+from .lines import at_rest, cross, direction, sides
 from .search import Reading, read, search
 from .tolerances import check_tolerances
 from .wording import differences, equivalents, frame_words
@@ -104,7 +104,7 @@ def _as_it_is(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading:
     pair = sides(a, b, tol_m, tol_rad)
     base = np.eye(4)
     base[:3, 3] = pair.b.hub - pair.a.hub
-    return read(pair, a, b, base, np.zeros(pair.n))
+    return read(pair, a, b, base[None], np.zeros((1, pair.n)))[0]
 
 
 def _names(chain: Chain, ks: tuple[int, ...]) -> tuple[str, ...]:
@@ -120,12 +120,12 @@ def _joints(
     for i in range(pair.n):
         s = float(reading.directions[i])
         w, u = ours[i], s * theirs[i]
-        across = np.cross(w, u)
+        across = cross(w, u)
         angle = math.atan2(float(np.linalg.norm(across)), float(w @ u))
         normal = shift = None
         if "prismatic" not in (a.kinds[i], b.kinds[i]):
             place = pair.a.places[i] + pair.a.hub
-            foot = np.cross(reading.axes[i, :3], reading.axes[i, 3:])
+            foot = cross(reading.axes[i, :3], reading.axes[i, 3:])
             gap = foot - place
             shift = 1e3 * float(np.linalg.norm(gap - u * (u @ gap)))
             normal = shift if angle <= tol_rad else 1e3 * abs(float(gap @ across)) / float(np.linalg.norm(across))

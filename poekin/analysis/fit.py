@@ -3,66 +3,73 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..groups import se3
 from ..groups.arrays import Array
-from .lines import Marks, Sides, carried, hinge_screw, residuals, signs, weighted
+from .lines import Marks, Sides, carried, hinge_screw, residuals, signs
 
 STEPS = 60
 
 
 def fit(pair: Sides, P: Array, z: Array, free: Marks, used: Marks) -> tuple[Array, Array]:
-    """The base pose P (4, 4) and zero offsets z (n,) that bring b's axes nearest to a's.
+    """The base poses P (m, 4, 4) and zero offsets z (m, n) that bring b's axes nearest to a's, from m starts.
 
-    Least squares of direction and place, each in tolerances, over the axes in `used` (n, bool); zero offsets move
-    where `free` (n, bool) says so. What the axes leave free stays where it starts.
+    Least squares of direction and place, each in tolerances, over the axes in `used` (n) or (m, n, bool); zero offsets
+    move where `free` (n) or (m, n, bool) says so. What the axes leave free stays where it starts. All starts are
+    stepped at once, each with a damping of its own and until it is done.
     """
-    index = np.flatnonzero(free)
-    used = used & pair.alike
     P, z = P.copy(), z.copy()
-    r, J = _linearised(pair, P, z, index, used)
-    cost, damping = float(r @ r), 1e-6
+    free, used = np.broadcast_to(free, z.shape), np.broadcast_to(used & pair.alike, z.shape)
+    r, J = _linearised(pair, P, z, free, used)
+    cost, damping = (r * r).sum(1), np.full(len(z), 1e-6)
+    going = cost >= 1e-16
     for _ in range(STEPS):
-        if cost < 1e-16:
+        (live,) = np.nonzero(going)
+        if not len(live):
             break
-        scale = np.linalg.norm(J, axis=0)
-        scale[scale < 1e-6 * scale.max(initial=1e-300)] = scale.max(initial=1.0)
-        system = np.concatenate([J, np.sqrt(damping) * np.diag(scale)])
-        step = np.linalg.lstsq(system, np.concatenate([-r, np.zeros(len(scale))]), rcond=1e-14)[0]
-        P_new, z_new = se3.exp(step[:6]) @ P, z.copy()
-        z_new[index] += step[6:]
-        r_new, J_new = _linearised(pair, P_new, z_new, index, used)
-        cost_new = float(r_new @ r_new)
-        if cost_new < cost:
-            done = cost - cost_new < 1e-12 * cost
-            P, z, r, J, cost = P_new, z_new, r_new, J_new, cost_new
-            damping = max(damping / 10, 1e-14)
-            if done:
-                break
-        elif damping > 1e3:
-            break
-        else:
-            damping *= 10
+        step = _step(r[live], J[live], damping[live])
+        P_new, z_new = se3.exp(step[:, :6]) @ P[live], z[live] + step[:, 6:]
+        r_new, J_new = _linearised(pair, P_new, z_new, free[live], used[live])
+        cost_new, old = (r_new * r_new).sum(1), cost[live]
+        better = cost_new < old
+        going[live] = np.where(better, (old - cost_new >= 1e-12 * old) & (cost_new >= 1e-16), damping[live] <= 1e3)
+        damping[live] = np.where(better, np.maximum(damping[live] / 10, 1e-14), damping[live] * 10)
+        won = live[better]
+        P[won], z[won], r[won], J[won], cost[won] = (
+            new[better] for new in (P_new, z_new, r_new, J_new, cost_new)
+        )  # fmt: skip
     return P, z
 
 
-def _linearised(pair: Sides, P: Array, z: Array, index: NDArray[np.intp], used: Marks) -> tuple[Array, Array]:
-    """Residuals, and their derivatives with respect to a turn and move of the base and to the free zero offsets."""
+def _step(r: Array, J: Array, damping: Array) -> Array:
+    """The steps (m, 6 + n) that lessen residuals r (m, rows) most, held back in proportion to the damping (m,)."""
+    scale = np.linalg.norm(J, axis=1)
+    most = scale.max(axis=1, initial=1e-300, keepdims=True)
+    scale = np.where(scale < 1e-6 * most, np.where(most > 1e-300, most, 1.0), scale)
+    held = (np.sqrt(damping)[:, None] * scale)[:, None] * np.eye(scale.shape[1])
+    system = np.concatenate([J, held], axis=1)
+    right = np.concatenate([-r, np.zeros_like(scale)], axis=1)
+    # The factor R of the system beside its right side holds both triangular.
+    R = np.asarray(np.linalg.qr(np.concatenate([system, right[..., None]], axis=2), mode="r"))
+    return np.linalg.solve(R[:, :-1, :-1], R[:, :-1, -1:])[..., 0]
+
+
+def _linearised(pair: Sides, P: Array, z: Array, free: Marks, used: Marks) -> tuple[Array, Array]:
+    """Residuals (m, 6 n), and their derivatives (m, 6 n, 6 + n) with respect to a turn and move of the base and to the
+    zero offsets; none of axes that are not used and of zero offsets that are not free.
+    """
     screws, axes = carried(pair, P, z)
-    s = signs(pair, axes)[:, None]
-    columns = np.zeros((pair.n, 6, 6 + len(index)))
-    columns[:, :, :6] = -se3.ad(axes)  # d Ad(e^xi) S = ad(xi) S = -ad(S) xi
-    for c, k in enumerate(index):
-        turner = hinge_screw(pair, screws[k]) if k == pair.hinge else screws[k]
-        columns[k + 1 :, :, 6 + c] = axes[k + 1 :] @ se3.ad(turner).T
-    if pair.hinge >= 0:
+    s, n, k = signs(pair, axes), pair.n, pair.hinge
+    base = (s[..., None, None] * pair.weights) @ -se3.ad(axes)  # d Ad(e^xi) S = ad(xi) S = -ad(S) xi
+    if k >= 0:
+        screws[:, k] = hinge_screw(pair, screws[:, k])
+    # A zero offset turns what is behind it as a turn of the base about the joint's axis would.
+    columns = base @ np.swapaxes(screws, 1, 2)[:, None]
+    if k >= 0:
         # Behind the hinge every change further in front is itself turned about a's axis.
-        turn = se3.adjoint(se3.exp(hinge_screw(pair, screws[pair.hinge]) * z[pair.hinge]))
-        behind = slice(pair.hinge + 1, None)
-        columns[behind, :, :6] = columns[behind, :, :6] @ turn
-        for c, k in enumerate(index):
-            if k < pair.hinge:
-                columns[behind, :, 6 + c] = axes[behind] @ se3.ad(turn @ screws[k]).T
-    J = weighted(pair, s[:, :, None] * columns)
-    return residuals(pair, axes)[used].ravel(), J[used].reshape(-1, columns.shape[2])
+        base[:, k + 1 :] @= se3.adjoint(se3.exp(screws[:, k] * z[:, k, None]))[:, None]
+        columns[:, k + 1 :, :, :k] = base[:, k + 1 :] @ np.swapaxes(screws[:, :k], 1, 2)[:, None]
+    columns *= (free[:, None] & np.tri(n, k=-1, dtype=bool))[:, :, None]
+    J = np.concatenate([base, columns], axis=3) * used[..., None, None]
+    r = residuals(pair, axes) * used[..., None]
+    return r.reshape(len(z), 6 * n), J.reshape(len(z), 6 * n, 6 + n)

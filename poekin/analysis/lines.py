@@ -2,7 +2,8 @@
 
 A screw is carried by a pose D as Ad(D) S. Model b's base stands at P in model a's, and b's joint k reads z_k where a's
 reads 0; so b's axis i is carried by D_i = P e^{B_1 z_1} ... e^{B_{i-1} z_{i-1}}. All is computed about each arm's hub,
-the point nearest to all its axes, so that a far base frame costs no digits.
+the point nearest to all its axes, so that a far base frame costs no digits. Leading axes are the batch: many alignments
+(P, z) at once, P (..., 4, 4) and z (..., n).
 """
 
 from __future__ import annotations
@@ -24,12 +25,14 @@ Marks = NDArray[np.bool_]
 class Lines:
     """The axes of one arm at rest about its hub.
 
-    Attributes: screws (n, 6); axes (n, 6), the same without pitch; kinds (n); pitches (n), m per rad; places (n, 3),
-    the point of each axis nearest the hub (zero for prismatic joints, which have no place); hub (3,), in the own base.
+    Attributes: screws (n, 6); axes (n, 6), the same without pitch; ways (n, 3), their unit directions; kinds (n);
+    pitches (n), m per rad; places (n, 3), the point of each axis nearest the hub (zero for prismatic joints, which have
+    no place); hub (3,), in the own base.
     """
 
     screws: Array
     axes: Array
+    ways: Array
     kinds: tuple[str, ...]
     pitches: Array
     places: Array
@@ -40,8 +43,10 @@ class Lines:
 class Sides:
     """Both arms' lines, and how near is near enough: tol_m (m) and tol_rad (rad).
 
-    `alike` (n,): same kind and pitch. `hinge`: a joint of b whose axis is held to be wrong, so that its zero offset
-    turns what is behind it about a's axis instead; -1 for none.
+    `alike` (n,): same kind and pitch. `weights` (n, 6, 6): what makes of a change of an axis how far it moves, in
+    tolerances: direction, then place at a's place on it. `ways` (n, 6): a's directions, as what b's axis has for one.
+    `zero_tolerance` (n,): of a zero offset, an angle, or for a prismatic joint a length. `hinge`: a joint of b whose
+    axis is held to be wrong, so that its zero offset turns what is behind it about a's axis instead; -1 for none.
     """
 
     a: Lines
@@ -49,17 +54,15 @@ class Sides:
     tol_m: float
     tol_rad: float
     alike: Marks
+    weights: Array
+    ways: Array
+    zero_tolerance: Array
     hinge: int = -1
 
     @property
     def n(self) -> int:
         """Number of joints."""
         return len(self.a.kinds)
-
-    @property
-    def zero_tolerance(self) -> Array:
-        """Tolerance (n,) of a zero offset: an angle, or for a prismatic joint a length."""
-        return np.array([self.tol_m if kind == "prismatic" else self.tol_rad for kind in self.b.kinds])
 
 
 _NEXT, _LAST = [1, 2, 0], [2, 0, 1]
@@ -73,6 +76,8 @@ def cross(x: Array, y: Array) -> Array:
 def at_rest(chain: Chain) -> Chain:
     """The chain with every joint its own coordinate x, x = 0 where q = 0, and limits where one coordinate sets them."""
     C = chain.coupling
+    if np.array_equal(C, np.eye(len(C))) and not chain.offset.any():
+        return chain
     limits = np.tile([-np.inf, np.inf], (len(C), 1))
     for i, row in enumerate(C):
         (ks,) = np.nonzero(row)
@@ -90,7 +95,8 @@ def lines(chain: Chain) -> Lines:
     pitches = np.array([pitch_of(S) if kind == "helical" else 0.0 for S, kind in zip(screws, chain.kinds, strict=True)])
     axes = screws.copy()
     axes[:, 3:] -= pitches[:, None] * screws[:, :3]
-    return Lines(screws, axes, chain.kinds, pitches, cross(axes[:, :3], axes[:, 3:]), hub)
+    places = cross(axes[:, :3], axes[:, 3:])
+    return Lines(screws, axes, direction(axes, chain.kinds), chain.kinds, pitches, places, hub)
 
 
 def sides(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Sides:
@@ -101,41 +107,48 @@ def sides(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Sides:
         k == j and abs(g - h) * 2 * np.pi <= tol_m
         for k, j, g, h in zip(one.kinds, other.kinds, one.pitches, other.pitches, strict=True)
     ]
-    return Sides(one, other, tol_m, tol_rad, np.array(alike, bool))
+    ours, theirs = (np.array(side.kinds) == "prismatic" for side in (one, other))
+    weights = np.zeros((len(alike), 6, 6))
+    weights[:, :3, :3] = np.eye(3) / tol_rad
+    weights[:, 3:, :3], weights[:, 3:, 3:] = -so3.hat(one.places), np.eye(3)
+    weights[:, 3:] /= np.where(ours, tol_rad, tol_m)[:, None, None]
+    ways = np.concatenate([one.ways, one.ways], axis=1) * np.repeat(np.stack([~theirs, theirs], axis=1), 3, axis=1)
+    zero_tolerance = np.where(theirs, tol_m, tol_rad)
+    return Sides(one, other, tol_m, tol_rad, np.array(alike, bool), weights, ways, zero_tolerance)
 
 
 def carriers(pair: Sides, P: Array, z: Array) -> Array:
-    """D_1 ... D_{n+1} (n + 1, 4, 4): D_i = P e^{B_1 z_1} ... e^{B_{i-1} z_{i-1}}, about the hubs."""
-    D = np.empty((pair.n + 1, 4, 4))
+    """D_1 ... D_{n+1} (..., n + 1, 4, 4): D_i = P e^{B_1 z_1} ... e^{B_{i-1} z_{i-1}}, about the hubs."""
+    D = np.empty((*z.shape[:-1], pair.n + 1, 4, 4))
     here = P
     for i in range(pair.n):
-        D[i] = here
-        if z[i]:
+        D[..., i, :, :] = here
+        if z[..., i].any():
+            turn = z[..., i, None]
             if i == pair.hinge:
-                here = se3.exp(hinge_screw(pair, se3.adjoint(here) @ pair.b.screws[i]) * z[i]) @ here
+                here = se3.exp(hinge_screw(pair, se3.adjoint(here) @ pair.b.screws[i]) * turn) @ here
             else:
-                here = here @ se3.exp(pair.b.screws[i] * z[i])
-    D[pair.n] = here
+                here = here @ se3.exp(pair.b.screws[i] * turn)
+    D[..., pair.n, :, :] = here
     return D
 
 
 def hinge_screw(pair: Sides, carried: Array) -> Array:
-    """a's screw (6,) of the joint that is held to be wrong, turning the way that b's carried one does."""
+    """a's screw (..., 6) of the joint that is held to be wrong, turning the way that b's carried one (..., 6) does."""
     own = pair.a.screws[pair.hinge]
     part = slice(3, 6) if pair.a.kinds[pair.hinge] == "prismatic" else slice(0, 3)
-    return -own if own[part] @ carried[part] < 0 else own
+    return np.where((carried[..., part] @ own[part] < 0)[..., None], -own, own)
 
 
 def carried(pair: Sides, P: Array, z: Array) -> tuple[Array, Array]:
-    """Model b's screws and pitch-free axes (n, 6) in model a's base, about a's hub."""
-    Ad = se3.adjoint(carriers(pair, P, z)[:-1] if z.any() else P)
+    """Model b's screws and pitch-free axes (..., n, 6) in model a's base, about a's hub."""
+    Ad = se3.adjoint(carriers(pair, P, z)[..., :-1, :, :] if z.any() else P[..., None, :, :])
     return (Ad @ pair.b.screws[..., None])[..., 0], (Ad @ pair.b.axes[..., None])[..., 0]
 
 
 def signs(pair: Sides, axes: Array) -> Array:
-    """+1 or -1 (n,): whether each of b's carried axes points the same way as a's."""
-    own = direction(pair.a.axes, pair.a.kinds)
-    return np.where((own * direction(axes, pair.b.kinds)).sum(1) < 0, -1.0, 1.0)
+    """+1 or -1 (..., n): whether each of b's carried axes (..., n, 6) points the same way as a's."""
+    return np.where((pair.ways * axes).sum(-1) < 0, -1.0, 1.0)
 
 
 def direction(axes: Array, kinds: tuple[str, ...]) -> Array:
@@ -144,26 +157,15 @@ def direction(axes: Array, kinds: tuple[str, ...]) -> Array:
 
 
 def residuals(pair: Sides, axes: Array) -> Array:
-    """How far b's carried axes are from a's, in tolerances (n, 6): direction, then place at a's place on its axis."""
-    return weighted(pair, signs(pair, axes)[:, None] * axes - pair.a.axes)
+    """How far b's carried axes are from a's, in tolerances (..., n, 6): direction, then place at a's place on each."""
+    change = signs(pair, axes)[..., None] * axes - pair.a.axes
+    return (pair.weights @ change[..., None])[..., 0]
 
 
-def weighted(pair: Sides, change: Array) -> Array:
-    """Changes of the axes (n, 6) or (n, 6, columns) seen at their places, in tolerances; rows like `residuals`."""
-    turn, move = change[:, :3], change[:, 3:]
-    if change.ndim == 2:
-        at_place = move + cross(turn, pair.a.places)
-    else:
-        at_place = move - so3.hat(pair.a.places) @ turn
-    slides = np.array([kind == "prismatic" for kind in pair.a.kinds])
-    wide = slides.reshape(-1, *[1] * (change.ndim - 1))
-    return np.concatenate([turn / pair.tol_rad, at_place / np.where(wide, pair.tol_rad, pair.tol_m)], axis=1)
-
-
-def misses(pair: Sides, P: Array, z: Array) -> Array:
-    """Tolerances (n,) that each of b's axes misses a's by, in direction or place; inf where kinds differ."""
-    r = residuals(pair, carried(pair, P, z)[1])
-    worst = np.maximum(np.linalg.norm(r[:, :3], axis=1), np.linalg.norm(r[:, 3:], axis=1))
+def misses(pair: Sides, axes: Array) -> Array:
+    """Tolerances (..., n) by which each of b's carried axes is off in direction or place; inf where kinds differ."""
+    r = residuals(pair, axes)
+    worst = np.linalg.norm(r.reshape(*r.shape[:-1], 2, 3), axis=-1).max(-1)
     return np.where(pair.alike, worst, np.inf)
 
 

@@ -8,16 +8,16 @@ not smeared over its neighbours.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..groups import se3, so3
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from .fit import fit
-from .lines import Marks, Sides, carried, carriers, misses, sides, signs
+from .lines import Marks, Sides, carried, carriers, cross, misses, sides, signs
 from .starts import best, one_by_one, one_turn, rigid_poses
 
 
@@ -70,70 +70,79 @@ class Reading:
         return (3.0 * moved + far + weight, self.frames, changes, near)
 
 
-def read(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> Reading:
-    """The reading that an alignment of a's and b's axes (both at rest) stands for."""
-    miss = misses(pair, P, z)
+def read(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Reading]:
+    """The readings that alignments (P, z) of a's and b's axes (both at rest), (m, 4, 4) and (m, n), stand for."""
     axes = carried(pair, P, z)[1]
-    base, last = _unhubbed(pair, P), _unhubbed(pair, carriers(pair, P, z)[-1])
+    miss, s = misses(pair, axes), signs(pair, axes)
+    base, last = _unhubbed(pair, P), _unhubbed(pair, carriers(pair, P, z)[:, -1])
     tool = se3.inverse(last @ b.home) @ a.home
-    axes = axes.copy()
-    axes[:, 3:] -= np.cross(axes[:, :3], pair.a.hub)
-    s = signs(pair, axes)
-    frames = sum(not still(T, pair.tol_m, pair.tol_rad) for T in (base, tool))
-    return Reading(base, tool, z, s, miss > 1.0, abs(z) > pair.zero_tolerance, axes, np.minimum(miss, 1e9), frames)
+    axes[..., 3:] -= cross(axes[..., :3], pair.a.hub)
+    frames = (~still(np.stack([base, tool]), pair.tol_m, pair.tol_rad)).sum(0)
+    moved, offset, far = miss > 1.0, abs(z) > pair.zero_tolerance, np.minimum(miss, 1e9)
+    return [
+        Reading(base[i], tool[i], z[i], s[i], moved[i], offset[i], axes[i], far[i], int(frames[i]))
+        for i in range(len(z))
+    ]
 
 
 def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, list[Reading]]:
     """The best reading of the difference of two chains at rest, and the others that blame one joint only."""
     pair = sides(a, b, tol_m, tol_rad)
-    n, nothing = pair.n, np.zeros(pair.n)
+    n, alone = pair.n, np.eye(pair.n, dtype=bool)
     every, none = np.ones(n, bool), np.zeros(n, bool)
     poses = rigid_poses(pair)
-    rigid = [(D, nothing) for _, _, D in poses]
+    rigid = poses[1], np.zeros((len(poses[1]), n))
 
-    def readings(starts: Iterable[tuple[Array, Array]], free: Marks, used: Marks) -> list[Reading]:
-        return [read(pair, a, b, *fit(pair, P, z, free, used)) for P, z in starts]
+    def readings(P: Array, z: Array, free: Marks, used: Marks) -> list[Reading]:
+        return read(pair, a, b, *fit(pair, P, z, free, used))
 
-    found = [read(pair, a, b, rigid[0][0], nothing)]
+    found = read(pair, a, b, rigid[0][:1], rigid[1][:1])
     if not found[0].cost[0] and not found[0].frames:  # the same as they stand: nothing is to be aligned
         return found[0], []
-    found += readings(best(pair, rigid), none, every)
-    if min(found, key=_cost).cost[0] == 0:
-        return min(found, key=_cost), []
-    for k in range(n):
-        found += readings(best(pair, rigid, 2), none, every & (np.arange(n) != k))
-        if 0 < k < n - 1:
-            starts = one_turn(pair, poses, k)
-            alone = np.arange(n) == k
-            found += readings(starts, alone, every)
-            found += readings(starts[:2], alone, every & ~alone)
-    found += _links(pair, a, b, [D for _, _, D in poses])
-    # Where several axes differ, those that most starts agree on.
-    for P, z in best(pair, rigid):
-        as_it_starts = read(pair, a, b, P, z)
-        if as_it_starts.moved.sum() > 1:  # one bad axis is looked for above; of three, any two can be made to agree
-            found.append(as_it_starts)
-        for near in (10.0, 1.0):
-            agree = misses(pair, P, z) <= near
-            if agree.sum() >= 3:
-                found += readings([(P, z)], none, agree)
-    if min(found, key=_cost).blamed.sum() > 1:
-        found += _conventions(pair, a, b)
+    P, z = best(pair, *rigid)
+    found += readings(P, z, none, every)
     first = min(found, key=_cost)
+    if first.cost[0] == 0:
+        return first, []
+    two = len(z[:2])
+    found += readings(np.tile(P[:2], (n, 1, 1)), np.tile(z[:2], (n, 1)), none, ~alone.repeat(two, 0))
+    if n > 2:
+        found += _one_joint(pair, a, b, poses)
+    found += _links(pair, a, b, poses[1])
+    # Where several axes differ, those that most starts agree on; one bad axis is looked for above.
+    found += [as_it_starts for as_it_starts in read(pair, a, b, P, z) if as_it_starts.moved.sum() > 1]
+    miss = misses(pair, carried(pair, P, z)[1])
+    agree = np.concatenate([miss <= 10.0, miss <= 1.0])
+    enough = agree.sum(1) >= 3  # of three, any two can be made to agree
+    found += readings(np.tile(P, (2, 1, 1))[enough], np.tile(z, (2, 1))[enough], none, agree[enough])
+    first = min(found, key=_cost)
+    if first.blamed.sum() > 1:
+        found += _conventions(pair, a, b)
+        first = min(found, key=_cost)
     return first, _others(first, found)
 
 
-def _links(pair: Sides, a: Chain, b: Chain, poses: list[Array]) -> list[Reading]:
+def _one_joint(pair: Sides, a: Chain, b: Chain, poses: tuple[NDArray[np.intp], Array]) -> list[Reading]:
+    """Readings in which one inner joint alone has a zero offset, its axis agreeing, or held to be wrong."""
+    alone = np.eye(pair.n, dtype=bool)
+    starts = [(one_turn(pair, poses, k), alone[k]) for k in range(1, pair.n - 1)]
+    # Of each joint all the starts with its axis, then the two best without it.
+    tries = [(P[i], z[i], own, used) for (P, z), own in starts for most, used in ((4, own | True), (2, ~own))
+             for i in range(len(z[:most]))]  # fmt: skip
+    P, z, free, used = (np.array(column) for column in zip(*tries, strict=True))
+    return read(pair, a, b, *fit(pair, P, z, free, used))
+
+
+def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Reading]:
     """Readings in which one link is another: the axes before it agree under one pose, those behind under another."""
-    nothing, found = np.zeros(pair.n), []
-    agree = np.array([
-        (misses(pair, D, nothing) <= 1.0) & (signs(pair, carried(pair, D, nothing)[1]) > 0) for D in poses
-    ])  # fmt: skip
+    nothing, found = np.zeros((len(poses), pair.n)), []
+    axes = carried(pair, poses, nothing)[1]
+    agree = (misses(pair, axes) <= 1.0) & (signs(pair, axes) > 0)
     for k in range(2, pair.n - 1):
         before, behind = agree[:, :k].all(1), agree[:, k:].all(1)
         if before.any() and behind.any():
-            P, last = poses[int(before.argmax())], _unhubbed(pair, poses[int(behind.argmax())])
-            reading = read(pair, a, b, P, nothing)
+            P, last = poses[before][:1], _unhubbed(pair, poses[behind][0])
+            (reading,) = read(pair, a, b, P, nothing[:1])
             if reading.blamed.sum() < 2:
                 continue
             tool = se3.inverse(last @ b.home) @ a.home
@@ -146,45 +155,43 @@ def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Reading]:
     """Readings in which every zero offset is free: with no bad axis, with each one, and with those that then miss."""
     n = pair.n
     inner = (np.arange(n) > 0) & (np.arange(n) < n - 1)
-    found = []
-    starts = one_by_one(pair)[:8]
-    fitted = [fit(pair, P, z, inner, np.ones(n, bool)) for P, z in starts]
-    for P, z in fitted:
-        found.append(_simplest(pair, a, b, P, z))
+    P, z = (rows[:8] for rows in one_by_one(pair))
+    fitted = fit(pair, P, z, inner, np.ones(n, bool))
+    found = _simplest(pair, a, b, *fitted)
     if min(found, key=_cost).moved.any():
-        for P, z in [*starts[:4], *best(pair, starts + fitted, 2)]:
-            for k in np.flatnonzero(pair.alike) if pair.alike.all() else np.flatnonzero(~pair.alike):
-                used = np.arange(n) != k
-                for held in (pair, replace(pair, hinge=int(k))):
-                    trial = fit(held, P, z, inner, used)
-                    if not (misses(held, *trial)[used] > 1.0).any():
-                        found.append(_simplest(held, a, b, *trial))
+        tried = best(pair, np.concatenate([P, fitted[0]]), np.concatenate([z, fitted[1]]), 2)
+        P, z = np.concatenate([P[:4], tried[0]]), np.concatenate([z[:4], tried[1]])
+        for k in np.flatnonzero(pair.alike) if pair.alike.all() else np.flatnonzero(~pair.alike):
+            used = np.arange(n) != k
+            for held in (pair, replace(pair, hinge=int(k))):
+                trial = fit(held, P, z, inner, used)
+                fits = ~(misses(held, carried(held, *trial)[1])[:, used] > 1.0).any(1)
+                found += _simplest(held, a, b, trial[0][fits], trial[1][fits])
     return found
 
 
-def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> Reading:
-    """The reading of an alignment with as many zero offsets put back to 0 as the agreeing axes allow."""
-    z = np.array([x if kind == "prismatic" else np.arctan2(np.sin(x), np.cos(x)) if kind == "revolute" else x
-                  for x, kind in zip(z, pair.b.kinds, strict=True)])  # fmt: skip
-    agree = misses(pair, P, z) <= 1.0
-    free = abs(z) > 0
-    if agree.sum() >= 2:
-        for k in np.argsort(abs(z)):
-            if not free[k]:
-                continue
-            without = z.copy()
-            without[k] = 0.0
-            rest = free & (np.arange(pair.n) != k)
-            trial = fit(pair, P, without, rest, agree)
-            if not (misses(pair, *trial)[agree] > 1.0).any():
-                P, z = trial
-                free = rest
+def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Reading]:
+    """The readings of alignments with as many zero offsets put back to 0, least first, as the agreeing axes allow."""
+    kinds = np.array(pair.b.kinds)
+    z = np.where(kinds == "revolute", np.arctan2(np.sin(z), np.cos(z)), z)
+    P = P.copy()
+    agree = misses(pair, carried(pair, P, z)[1]) <= 1.0
+    free, rows = abs(z) > 0, np.flatnonzero(agree.sum(1) >= 2)
+    for ks in np.argsort(abs(z[rows]), axis=1).T:
+        now = free[rows, ks]
+        row, k = rows[now], ks[now]
+        rest, without = free[row], z[row]
+        rest[np.arange(len(row)), k], without[np.arange(len(row)), k] = False, 0.0
+        trial = fit(pair, P[row], without, rest, agree[row])
+        fits = ~((misses(pair, carried(pair, *trial)[1]) > 1.0) & agree[row]).any(1)
+        P[row[fits]], z[row[fits]], free[row[fits]] = trial[0][fits], trial[1][fits], rest[fits]
     return read(pair, a, b, P, z)
 
 
-def still(T: Array, tol_m: float, tol_rad: float) -> bool:
-    """Whether a pose is the identity within tolerance."""
-    return bool(np.linalg.norm(T[:3, 3]) <= tol_m and np.linalg.norm(so3.log(T[:3, :3])) <= tol_rad)
+def still(T: Array, tol_m: float, tol_rad: float) -> Marks:
+    """Whether poses (..., 4, 4) are the identity within tolerance (...)."""
+    moved, turned = np.linalg.norm(T[..., :3, 3], axis=-1), np.linalg.norm(so3.log(T[..., :3, :3]), axis=-1)
+    return (moved <= tol_m) & (turned <= tol_rad)
 
 
 def _cost(reading: Reading) -> tuple[float, ...]:
@@ -197,9 +204,9 @@ def _others(first: Reading, found: list[Reading]) -> list[Reading]:
     if first.blamed.sum() != 1:
         return kept
     seen = {_signature(first)}
-    for reading in sorted(found, key=_cost):
-        changes = int(reading.moved.sum() + reading.offset.sum() + (reading.directions < 0).sum())
-        if reading.blamed.sum() == 1 and changes == 1 and _signature(reading) not in seen:
+    single = [r for r in found if r.moved.sum() + r.offset.sum() + (r.directions < 0).sum() == 1]
+    for reading in sorted(single, key=_cost):
+        if _signature(reading) not in seen:
             seen.add(_signature(reading))
             kept.append(reading)
     return kept
@@ -210,7 +217,7 @@ def _signature(reading: Reading) -> bytes:
 
 
 def _unhubbed(pair: Sides, P: Array) -> Array:
-    """The pose between the arms' own bases, of the one between their hubs."""
+    """The poses (..., 4, 4) between the arms' own bases, of those between their hubs."""
     T = P.copy()
-    T[:3, 3] += pair.a.hub - P[:3, :3] @ pair.b.hub
+    T[..., :3, 3] += pair.a.hub - P[..., :3, :3] @ pair.b.hub
     return T

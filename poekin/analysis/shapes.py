@@ -9,6 +9,7 @@ import numpy as np
 
 from ..groups.arrays import Array
 from ..model.chain import Chain
+from .lines import cross
 
 __all__ = ["Shape", "shapes"]
 
@@ -71,7 +72,7 @@ def shapes(chain: Chain, tol_mm: float, tol_deg: float) -> tuple[Shape, ...]:
 def _apart(screws: Array) -> float:
     """The largest angle between any two axes, as lines, in deg."""
     return max(
-        math.degrees(math.atan2(float(np.linalg.norm(np.cross(a[:3], b[:3]))), abs(float(a[:3] @ b[:3]))))
+        math.degrees(math.atan2(float(np.linalg.norm(cross(a[:3], b[:3]))), abs(float(a[:3] @ b[:3]))))
         for i, a in enumerate(screws)
         for b in screws[i + 1 :]
     )
@@ -79,7 +80,7 @@ def _apart(screws: Array) -> float:
 
 def _meeting(screws: Array) -> float:
     """The largest distance in mm of the axes from the point that is nearest to all of them."""
-    feet = np.cross(screws[:, :3], screws[:, 3:])
+    feet = cross(screws[:, :3], screws[:, 3:])
     across = np.eye(3) - screws[:, :3, None] * screws[:, None, :3]
     start = feet.mean(axis=0)
     right = (across @ (feet - start)[:, :, None]).reshape(-1)

@@ -1,146 +1,173 @@
-"""Where an alignment may start: poses that bring two of b's axes onto a's, and turns that bring one more."""
+"""Where an alignment may start: poses that bring two of b's axes onto a's, and turns that bring one more.
+
+Alignments come as arrays, P (m, 4, 4) and z (m, n), all of them weighed at once.
+"""
 
 from __future__ import annotations
 
-from itertools import product
+from collections.abc import Iterable
+from itertools import combinations, product
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..groups import se3
 from ..groups.arrays import Array
-from .lines import Sides, cross, direction, misses
+from .lines import Lines, Sides, carried, cross, misses
 
 # An axis within about a degree of parallel counts as parallel, as the common normal flies about there.
 PARALLEL = 0.02
 BEAM = 24
+MOST = 600
+"""Beyond so many alignments, each pose is tried with one turn only."""
 
 
-def pair_poses(pair: Sides, i: int, j: int) -> list[Array]:
-    """Poses D (4, 4) that carry b's axes i and j to a's, one for each way round that the axes can be taken.
+def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> tuple[NDArray[np.intp], Array]:
+    """Pairs i < j of joints (m, 2), of those asked for, and poses D (m, 4, 4) that carry b's axes i and j to a's, one
+    for each way round that the axes can be taken.
 
     Two axes that are not parallel fix D up to that; parallel ones leave a slide along them, which stays near the hubs.
-    Empty where the pairs differ by more than about a degree.
+    There is none where the pairs differ by more than about a degree.
     """
-    ours = _frame(pair, pair.a.axes, pair.a.kinds, i, j, 1.0, 1.0)
-    if ours is None:
-        return []
-    poses = []
-    for s, t in product((1.0, -1.0), repeat=2):
-        theirs = _frame(pair, pair.b.axes, pair.b.kinds, i, j, s, t)
-        if theirs is not None and abs(theirs[1] - ours[1]) < 2 * PARALLEL:
-            poses.append(ours[0] @ se3.inverse(theirs[0]))
-    return poses
+    found, ours, theirs = [], [], []
+    for i, j in joints:
+        one, other = _frame(pair.a, i, j), _frame(pair.b, i, j)
+        if one is None or other is None:
+            continue
+        (T_a, cosine_a, parallel_a), (T_b, cosine_b, parallel_b) = one, other
+        if parallel_a and cosine_a < 0:
+            continue
+        for s, t in product((1.0, -1.0), repeat=2):
+            if parallel_b and s != t * np.sign(cosine_b):
+                continue
+            if abs(s * t * cosine_b - cosine_a) < 2 * PARALLEL:
+                found.append((i, j))
+                ours.append(T_a)
+                # Axes taken s and t times their way: z turns with the one, a common normal with both.
+                theirs.append(T_b * [1.0 if parallel_b else s * t, s if parallel_b else t, s, 1.0])
+    if not found:
+        return np.empty((0, 2), np.intp), np.empty((0, 4, 4))
+    return np.array(found), np.array(ours) @ se3.inverse(np.array(theirs))
 
 
-def rigid_poses(pair: Sides) -> list[tuple[int, int, Array]]:
-    """(i, j, D) of all pairs of joints of the same kinds, and the base as it is."""
+def rigid_poses(pair: Sides) -> tuple[NDArray[np.intp], Array]:
+    """Pairs (i, j) and poses D of all pairs of joints of the same kinds; first, as (-1, -1), the base as it is."""
     as_it_is = np.eye(4)
     as_it_is[:3, 3] = pair.b.hub - pair.a.hub
-    found = [(-1, -1, as_it_is)]
-    for i in range(pair.n):
-        for j in range(i + 1, pair.n):
-            if pair.alike[i] and pair.alike[j]:
-                found += [(i, j, D) for D in pair_poses(pair, i, j)]
-    return found
+    joints, poses = pair_poses(pair, combinations(np.flatnonzero(pair.alike).tolist(), 2))
+    return np.concatenate([[[-1, -1]], joints]), np.concatenate([as_it_is[None], poses])
 
 
-def turns(screw: Array, axis: Array, target: Array) -> list[float]:
-    """Motions z of a joint (its screw (6,)) that bring an axis (6,) nearest to a target; [0] where none is better."""
-    w, p = screw[:3], cross(screw[:3], screw[3:])
-    slides_axis, slides_target = not axis[:3].any(), not target[:3].any()
-    d = axis[3:] if slides_axis else axis[:3]
-    e = target[3:] if slides_target else target[:3]
-    gap = cross(target[:3], target[3:]) - cross(axis[:3], axis[3:])
+def turns(screw: Array, axis: Array, target: Array) -> Array:
+    """Motions z (..., 2) of a joint (its screw (..., 6)) that bring an axis (..., 6) nearest to a target (..., 6).
+
+    The second is NaN where there is but one; 0 where none is better.
+    """
+    w, p = screw[..., :3], _place(screw)
+    turns_axis, turns_target = axis[..., :3].any(-1, keepdims=True), target[..., :3].any(-1, keepdims=True)
+    d = np.where(turns_axis, axis[..., :3], axis[..., 3:])
+    e = np.where(turns_target, target[..., :3], target[..., 3:])
+    here, there, placed = _place(axis), _place(target), turns_axis & turns_target
     if not w.any():
-        slide = screw[3:] - d * (d @ screw[3:])
-        if slides_axis or slides_target or slide @ slide < PARALLEL**2:
-            return [0.0]
-        return [float(slide @ gap / (slide @ slide))]
-    u, v = d - w * (w @ d), e - w * (w @ e)
-    if min(u @ u, v @ v) > PARALLEL**2:
-        z = float(np.arctan2(w @ cross(u, v), u @ v))
-        return [z, z - np.pi if z > 0 else z + np.pi]
-    if slides_axis or slides_target:
-        return [0.0]
-    u, v = cross(axis[:3], axis[3:]) - p, cross(target[:3], target[3:]) - p
-    u, v = u - w * (w @ u), v - w * (w @ v)
-    if min(u @ u, v @ v) < 1e-8:
-        return [0.0]
-    return [float(np.arctan2(w @ cross(u, v), u @ v))]
+        slide = screw[..., 3:] - d * _dot(d, screw[..., 3:])
+        long = _dot(slide, slide)
+        moves = placed & (long >= PARALLEL**2)
+        z = np.where(moves, _dot(slide, there - here) / np.where(moves, long, 1.0), 0.0)
+        return np.concatenate([z, np.full_like(z, np.nan)], axis=-1)
+    z, size = _angle(w, d, e)
+    about, radius = _angle(w, here - p, there - p)
+    turned = size > PARALLEL**2
+    other = np.where(turned, np.where(z > 0, z - np.pi, z + np.pi), np.nan)
+    return np.concatenate([np.where(turned, z, np.where(placed & (radius >= 1e-8), about, 0.0)), other], axis=-1)
 
 
-def one_turn(pair: Sides, rigid: list[tuple[int, int, Array]], k: int) -> list[tuple[Array, Array]]:
+def one_turn(pair: Sides, rigid: tuple[NDArray[np.intp], Array], k: int) -> tuple[Array, Array]:
     """Alignments (P, z) in which joint k alone has a zero offset, best first, from the `rigid_poses` of both."""
-    found = []
-    for i, j, D in rigid:
-        if i < 0 or j <= k:  # D is the base's pose; the next axis behind k that is not k's own line tells the offset
-            others, back = range(k + 1, pair.n), False
-        elif i >= k:  # D stands behind joint k
-            others, back = range(k), True
-        else:
-            continue
-        T, axes = se3.adjoint(D) @ pair.b.screws[k], pair.b.axes @ se3.adjoint(D).T
-        for other in others:
-            for turn in turns(T, axes[other], pair.a.axes[other]):
-                z = np.zeros(pair.n)
-                z[k] = -turn if back else turn
-                found.append((D @ se3.exp(pair.b.screws[k] * turn) if back else D, z))
-            if len(found) > 600:
-                break
-    return best(pair, found)
+    (i, j), D = rigid[0].T, rigid[1]
+    front, back = (i < 0) | (j <= k), i >= k  # D is the base's pose, or stands behind joint k
+    Ad = se3.adjoint(D)
+    turn = turns((Ad @ pair.b.screws[k])[:, None], pair.b.axes @ np.swapaxes(Ad, 1, 2), pair.a.axes)
+    # The next axis on the other side of k that is not k's own line tells the offset.
+    others = np.arange(pair.n)
+    good = ~np.isnan(turn) & (front[:, None] & (others > k) | back[:, None] & (others < k))[..., None]
+    each = good.sum(-1)
+    before = (np.cumsum(each) - each.ravel()).reshape(each.shape)
+    good &= ((before <= MOST) | (others == np.where(back, 0, k + 1)[:, None]))[..., None]
+    which, turn = np.nonzero(good)[0], turn[good]
+    z, P = np.zeros((len(turn), pair.n)), D[which]
+    behind = back[which]
+    z[:, k] = np.where(behind, -turn, turn)
+    P[behind] @= se3.exp(pair.b.screws[k] * turn[behind, None])
+    return best(pair, P, z)
 
 
-def one_by_one(pair: Sides) -> list[tuple[Array, Array]]:
+def one_by_one(pair: Sides) -> tuple[Array, Array]:
     """Alignments (P, z) found joint after joint, each zero offset bringing the next axis into its place; best first."""
-    starts = pair_poses(pair, 0, 1) if pair.n > 1 else []
-    rows = [(D, D, np.zeros(pair.n), 0.0) for D in starts or [D for _, _, D in rigid_poses(pair)]]
+    P = pair_poses(pair, [(0, 1)] if pair.n > 1 else [])[1]
+    if not len(P):
+        P = rigid_poses(pair)[1]
+    D, z, loss = P, np.zeros((len(P), pair.n)), np.zeros(len(P))
     for k in range(1, pair.n - 1):
-        grown = []
-        for P, D, z, loss in rows:
-            T, axis = se3.adjoint(D) @ pair.b.screws[k], pair.b.axes[k + 1]
-            for turn in {0.0, *turns(T, se3.adjoint(D) @ axis, pair.a.axes[k + 1])}:
-                moved, after = z.copy(), D @ se3.exp(pair.b.screws[k] * turn)
-                moved[k] = turn
-                miss = misses(pair, P, moved)[k + 1]
-                grown.append((P, after, moved, loss + min(miss, 1e4) ** 0.5 + (abs(turn) > pair.zero_tolerance[k])))
-        rows = sorted(grown, key=lambda row: row[3])[:BEAM]
-    return [(P, z) for P, _, z, _ in rows]
+        Ad = se3.adjoint(D)
+        turn = turns(Ad @ pair.b.screws[k], Ad @ pair.b.axes[k + 1], pair.a.axes[k + 1])
+        turn = np.concatenate([np.zeros((len(turn), 1)), np.where(turn == 0, np.nan, turn)], axis=1)
+        good = ~np.isnan(turn)
+        row, turn = np.nonzero(good)[0], turn[good]
+        P, D, z = P[row], D[row] @ se3.exp(pair.b.screws[k] * turn[:, None]), z[row]
+        z[:, k] = turn
+        miss = misses(pair, carried(pair, P, z)[1])[:, k + 1]
+        loss = loss[row] + np.minimum(miss, 1e4) ** 0.5 + (abs(turn) > pair.zero_tolerance[k])
+        kept = np.argsort(loss, kind="stable")[:BEAM]
+        P, D, z, loss = P[kept], D[kept], z[kept], loss[kept]
+    return P, z
 
 
-def best(pair: Sides, alignments: list[tuple[Array, Array]], most: int = 4) -> list[tuple[Array, Array]]:
+def best(pair: Sides, P: Array, z: Array, most: int = 4) -> tuple[Array, Array]:
     """The alignments under which most axes agree best: a far miss counts little more than a near one."""
-    loss = [
-        float(np.log1p(np.minimum(misses(pair, P, z), 1e6)).sum() + 0.01 * (abs(z) > 0).sum()) for P, z in alignments
-    ]
-    return [alignments[i] for i in np.argsort(loss, kind="stable")[:most]]
+    miss = misses(pair, carried(pair, P, z)[1])
+    loss = np.log1p(np.minimum(miss, 1e6)).sum(1) + 0.01 * (abs(z) > 0).sum(1)
+    first = np.argsort(loss, kind="stable")[:most]
+    return P[first], z[first]
 
 
-def _frame(
-    pair: Sides, axes: Array, kinds: tuple[str, ...], i: int, j: int, s: float, t: float
-) -> tuple[Array, float] | None:
-    """The frame of two axes, taken s and t times their way: z along i, x along the common normal; their cosine."""
-    ways = direction(axes, kinds)
-    z, other = s * ways[i], t * ways[j]
-    x = cross(z, other)
-    places = [None if kinds[k] == "prismatic" else cross(axes[k, :3], axes[k, 3:]) for k in (i, j)]
-    p, r = places
-    origin = p if p is not None else np.zeros(3)
-    if np.linalg.norm(x) > PARALLEL:
-        if p is not None and r is not None:
-            # p + z h is the foot of the common normal: the gap's part across the normal and axis j vanishes.
-            side = cross(x, other)
-            origin = p + z * (side @ (r - p)) / (side @ z)
-        elif r is not None:
-            origin = r
-    elif p is not None and r is not None and s == t * np.sign(ways[i] @ ways[j]) and np.linalg.norm(r - p) > 1e-5:
-        x = r - p - z * (z @ (r - p))
-    else:
-        return None
+def _frame(lines: Lines, i: int, j: int) -> tuple[Array, float, bool] | None:
+    """The frame (4, 4) of two axes, z along i, x along the common normal; their cosine; and whether they are parallel,
+    x then being the way from i to j. None where there is none: parallel axes on one line, or one without a place.
+    """
+    z, other = lines.ways[i], lines.ways[j]
+    p, r = lines.places[i], lines.places[j]
+    has_p, has_r = lines.kinds[i] != "prismatic", lines.kinds[j] != "prismatic"
+    x, origin = cross(z, other), p if has_p else r
+    parallel = not x @ x > PARALLEL**2
+    if parallel:
+        if not has_p or not has_r or (r - p) @ (r - p) <= 1e-10:
+            return None
+        x = r - p
+    elif has_p and has_r:
+        # p + z h is the foot of the common normal: the gap's part across the normal and axis j vanishes.
+        side = cross(x, other)
+        origin = p + z * (side @ (r - p)) / (side @ z)
     x = x - z * (z @ x)
-    if np.linalg.norm(x) < 1e-6:
+    length = np.sqrt(x @ x)
+    if length < 1e-6:
         return None
-    x = x / np.linalg.norm(x)
+    x = x / length
     frame = np.eye(4)
     frame[:3, :3] = np.stack([x, cross(z, x), z], axis=1)
     frame[:3, 3] = origin
-    return frame, float(z @ other)
+    return frame, float(z @ other), parallel
+
+
+def _angle(w: Array, u: Array, v: Array) -> tuple[Array, Array]:
+    """The angle (..., 1) about w from u to v (..., 3), and the lesser of their squared lengths across w."""
+    u, v = u - w * _dot(w, u), v - w * _dot(w, v)
+    return np.arctan2(_dot(w, cross(u, v)), _dot(u, v)), np.minimum(_dot(u, u), _dot(v, v))
+
+
+def _place(axis: Array) -> Array:
+    return cross(axis[..., :3], axis[..., 3:])
+
+
+def _dot(x: Array, y: Array) -> Array:
+    """x . y over the last axis, which stays, of length 1."""
+    return (x * y).sum(-1, keepdims=True)

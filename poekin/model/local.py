@@ -36,6 +36,7 @@ def local_form(screws: Array, home: Array) -> LocalForm:
     """The local form of checked screws (n, 6) in the base frame and the home pose (4, 4)."""
     n = len(screws)
     frames, rotates, slides = np.tile(np.eye(4), (n + 1, 1, 1)), np.empty(n), np.empty(n)
+    feet = np.cross(screws[:, :3], screws[:, 3:])
     R, origin = np.eye(3), np.zeros(3)
     for i, S in enumerate(screws):
         rotates[i] = 1.0 if S[:3].any() else 0.0
@@ -43,8 +44,7 @@ def local_form(screws: Array, home: Array) -> LocalForm:
         z = S[:3] if rotates[i] else S[3:]
         there = origin
         if rotates[i]:
-            foot = np.cross(S[:3], S[3:])
-            there = foot + z * (z @ (origin - foot))
+            there = feet[i] + z * (z @ (origin - feet[i]))
         frames[i, :3, :3] = turned_least(R.T @ z)
         frames[i, :3, 3] = R.T @ (there - origin)
         R, origin = R @ frames[i, :3, :3], there
@@ -57,11 +57,12 @@ def turned_least(z: Array) -> Array:
     """The rotation that takes (0, 0, 1) to the unit vector z by the smallest angle; by way of diag(1, -1, -1) where
     z points down, so that it has no singularity.
     """
-    z = z / np.linalg.norm(z)
-    flip = np.diag([1.0, 1.0, 1.0] if z[2] >= 0 else [1.0, -1.0, -1.0])
-    x, y, c = flip @ z
+    x, y, c = (z / np.linalg.norm(z)).tolist()
+    s = 1.0 if c >= 0 else -1.0
+    y, c = s * y, s * c
     k = 1.0 / (1.0 + c)
-    return flip @ np.array([[1.0 - k * x * x, -k * x * y, x], [-k * x * y, 1.0 - k * y * y, y], [-x, -y, c]])
+    rows = [[1.0 - k * x * x, -k * x * y, x], [-s * k * x * y, s - s * k * y * y, s * y], [-s * x, -s * y, s * c]]
+    return np.array(rows) + 0.0  # no zero with a sign
 
 
 def kernel_table(form: LocalForm, coupling: Array | None, offset: Array) -> Array:
