@@ -13,7 +13,8 @@ Source: Park 1994, Sections II to IV, by definition.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import functools
+from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -57,7 +58,7 @@ def acceleration_is_the_derivative_of_the_velocity(chain: Any, q: np.ndarray, dq
     ddq = dq[::-1] + q
 
     def velocities(t: Any) -> np.ndarray:
-        J = exact_jacobians(chain, line(t, q, dq) + t * t / 2 * exact.exactly(ddq))
+        J = exact_jacobians(chain, line(t, q, dq) + exact.exactly(ddq) * (t * t / 2))
         return J @ line(t, dq, ddq) if chain.dof else exact.exactly(np.zeros((3, 6)))
 
     pairs, grown = [], _size(chain, dq) ** 2 + _size(chain, ddq)
@@ -132,7 +133,10 @@ def exact_changes(chain: Any, q: np.ndarray, joint: int) -> Changes:
     Returns: `Changes`, as floats. Raises: nothing.
     """
     x, A, M = _displacements(chain, exact.exactly(q)), exact.exactly(chain.screws), exact.exactly(chain.home)
-    back = exact.inverse(exact.forward(A, M, x))
+    turns = _exponentials(A, x)
+    before, after = _product(turns[:joint]), _product(turns[joint + 1 :]) @ M
+    pose = before @ turns[joint] @ after
+    back = exact.inverse(pose)
 
     def twist(pose: Callable[[Any], np.ndarray]) -> np.ndarray:
         return exact.rounded(_vee((pose(STEP) - pose(-STEP)) / (2 * STEP) @ back))
@@ -140,16 +144,22 @@ def exact_changes(chain: Any, q: np.ndarray, joint: int) -> Changes:
     def one(unit: np.ndarray) -> tuple[np.ndarray, ...]:
         e = exact.exactly(unit)
 
-        def screws(t: Any, conjugated: bool) -> np.ndarray:
-            S = exact.adjoint(exact.exp(e * t)) @ A[joint] if conjugated else A[joint] + e * t
-            return np.concatenate([A[:joint], S[None], A[joint + 1 :]])
+        def carried(t: Any) -> np.ndarray:
+            return exact.adjoint(exact.exp(e * t)) @ A[joint]
+
+        def turn(screw: np.ndarray) -> np.ndarray:
+            return exact.exp(screw * x[joint])
+
+        def columns(screw: np.ndarray) -> np.ndarray:
+            screws = [*A[:joint], screw, *A[joint + 1 :]]
+            return _exact_columns(chain, screws, [*turns[:joint], turn(screw), *turns[joint + 1 :]], M)
 
         return (
-            twist(lambda t: exact.forward(screws(t, True), M, x)),
-            twist(lambda t: exact.forward(screws(t, False), M, x)),
-            twist(lambda t: exact.forward(A, M @ exact.exp(e * t), x)),
-            slope(lambda t: _exact_columns(chain, screws(t, True), M, x)),
-            slope(lambda t: _exact_columns(chain, A, M @ exact.exp(e * t), x)),
+            twist(lambda t: before @ turn(carried(t)) @ after),
+            twist(lambda t: before @ turn(A[joint] + e * t) @ after),
+            twist(lambda t: pose @ exact.exp(e * t)),
+            slope(lambda t: columns(carried(t))),
+            slope(lambda t: _exact_columns(chain, A, turns, M @ exact.exp(e * t))),
         )
 
     return Changes(*(np.stack(parts, axis=-1) for parts in zip(*map(one, np.eye(6)), strict=True)))
@@ -190,12 +200,13 @@ def exact_jacobians(chain: Any, q: np.ndarray) -> np.ndarray:
 
     Returns: numbers of `exact`. Raises: nothing.
     """
-    return _exact_columns(chain, chain.screws, chain.home, _displacements(chain, q))
+    A = exact.exactly(chain.screws)
+    return _exact_columns(chain, A, _exponentials(A, _displacements(chain, q)), exact.exactly(chain.home))
 
 
 def line(t: Any, q: np.ndarray, dq: np.ndarray) -> np.ndarray:
     """q + t dq (m,) in 80 digits. Returns: numbers of `exact`. Raises: nothing."""
-    return exact.exactly(q) + t * exact.exactly(dq)
+    return exact.exactly(q) + exact.exactly(dq) * t
 
 
 def slope(f: Callable[[Any], np.ndarray]) -> np.ndarray:
@@ -203,14 +214,24 @@ def slope(f: Callable[[Any], np.ndarray]) -> np.ndarray:
     return exact.rounded((f(STEP) - f(-STEP)) / (2 * STEP))
 
 
-def _exact_columns(chain: Any, A: np.ndarray, home: np.ndarray, x: np.ndarray) -> np.ndarray:
+def _exponentials(A: np.ndarray, x: np.ndarray) -> list[np.ndarray]:
+    return [exact.exp(screw * amount) for screw, amount in zip(A, x, strict=True)]
+
+
+def _product(poses: Iterable[np.ndarray]) -> np.ndarray:
+    return functools.reduce(np.matmul, poses, exact.exactly(np.eye(4)))
+
+
+def _exact_columns(
+    chain: Any, screws: Iterable[np.ndarray], turns: Iterable[np.ndarray], home: np.ndarray
+) -> np.ndarray:
     T, columns = exact.exactly(np.eye(4)), []
-    for screw, amount in zip(exact.exactly(A), x, strict=True):
+    for screw, turn in zip(screws, turns, strict=True):
         columns.append(exact.adjoint(T) @ screw)
-        T = T @ exact.exp(screw * amount)
+        T = T @ turn
     if not chain.dof:
         return exact.exactly(np.zeros((3, 6, 0)))
-    return _seen(np.array(columns, dtype=object).T @ exact.exactly(chain.coupling), T @ exact.exactly(home))
+    return _seen(np.array(columns, dtype=object).T @ exact.exactly(chain.coupling), T @ home)
 
 
 def _displacements(chain: Any, q: np.ndarray) -> np.ndarray:

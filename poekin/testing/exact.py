@@ -33,6 +33,7 @@ mp: Any = mpmath.mp.clone()
 """The oracle's own mpmath context: nobody else's precision is changed, and nobody changes its."""
 mp.dps = DIGITS
 
+# Below, array times number in this order: an mpmath number asked first writes the whole array into an error of its own.
 _to_mpf = np.frompyfunc(lambda x: x if isinstance(x, mp.mpf) else mp.mpf(x), 1, 1)
 _to_float = np.frompyfunc(float, 1, 1)
 
@@ -101,12 +102,12 @@ def exp(xi: ArrayLike) -> np.ndarray:
     x = _vector(xi)
     w, W = x[:3], hat(x[:3])
     a, b, c = _coefficients(w @ w)
-    R = _identity(3) + a * W + b * (W @ W)
+    R = _identity(3) + W * a + (W @ W) * b
     if len(x) == 3:
         return R
     v = x[3:]
     wv = cross(w, v)
-    return _stack(R, v + b * wv + c * cross(w, wv), last=1)
+    return _stack(R, v + wv * b + cross(w, wv) * c, last=1)
 
 
 def polar(R: ArrayLike) -> np.ndarray:
@@ -145,13 +146,13 @@ def left_jacobian(xi: ArrayLike) -> np.ndarray:
     W = hat(x[:3])
     if len(x) == 3:
         _, b, c = _coefficients(x @ x)
-        return _identity(3) + b * W + c * (W @ W)
+        return _identity(3) + W * b + (W @ W) * c
     # X = ad(ξ) obeys X⁵ = -2θ² X³ - θ⁴ X, so every power, and the series, is a sum of X, X², X³ and X⁴.
     V = hat(x[3:])
     sum_P, sum_Q = _identity(3), 0 * V
     P, Q = W, V
     for factor in _jacobian_series(x[:3] @ x[:3]):
-        sum_P, sum_Q = sum_P + factor * P, sum_Q + factor * Q
+        sum_P, sum_Q = sum_P + P * factor, sum_Q + Q * factor
         P, Q = W @ P, W @ Q + V @ P
     return _lower(sum_P, sum_Q)
 
@@ -204,11 +205,11 @@ def _coefficients(s: Any) -> tuple[Any, Any, Any]:
     if s >= 1:
         t = mp.sqrt(s)
         return mp.sin(t) / t, (1 - mp.cos(t)) / s, (t - mp.sin(t)) / (s * t)
-    sums = []
+    sums, least = [], mp.mpf(10) ** -mp.dps
     for first in (1, 2, 3):
         term = mp.one / mp.factorial(first)
         total, k = term, first
-        while abs(term) > mp.mpf(10) ** -mp.dps:
+        while abs(term) > least:
             term = -term * s / ((k + 1) * (k + 2))
             total, k = total + term, k + 2
         sums.append(total)
@@ -218,9 +219,9 @@ def _coefficients(s: Any) -> tuple[Any, Any, Any]:
 def _jacobian_series(s: Any) -> list[Any]:
     """The factors of X, X², X³, X⁴ in Σ X^k / (k+1)!, k >= 1, where X⁵ = -2s X³ - s² X."""
     power = [mp.one, mp.zero, mp.zero, mp.zero]
-    sums, weight, k = [mp.zero] * 4, mp.one / 2, 1
+    sums, weight, k, least = [mp.zero] * 4, mp.one / 2, 1, mp.mpf(10) ** -(mp.dps + 10)
     # The entries of `power` grow as k θ^k, which (k+1)! soon overtakes; below k = 8 some are 0 by their form.
-    while k < 8 or max(map(abs, power)) * weight > mp.mpf(10) ** -(mp.dps + 10):
+    while k < 8 or max(map(abs, power)) * weight > least:
         sums = [total + weight * p for total, p in zip(sums, power, strict=True)]
         power = [-s * s * power[3], power[0], power[1] - 2 * s * power[3], power[2]]
         k += 1
@@ -248,7 +249,7 @@ def _axis_angle(R: np.ndarray, s: np.ndarray, sine: Any, cosine: Any) -> np.ndar
     if cosine >= 0:
         return s if sine == 0 else s * (angle / sine)
     # (R + Rᵀ)/2 - cos θ I = (1 - cos θ) n nᵀ: its largest column is the axis, also where the sine vanishes.
-    N = (R + R.T) / 2 - cosine * _identity(3)
+    N = (R + R.T) / 2 - _identity(3) * cosine
     column = N[:, int(np.argmax(rounded(np.diag(N))))]
     if s @ column < 0:
         column = -column
