@@ -7,9 +7,10 @@ import signal
 
 import pytest
 
+from tools.fuzz import campaign
 from tools.fuzz import child as harness
 from tools.fuzz.__main__ import main, table, told
-from tools.fuzz.campaign import CHUNK, Row, counts_of, run
+from tools.fuzz.campaign import Row, counts_of, run
 from tools.fuzz.child import Job
 from tools.fuzz.inputs import make
 from tools.fuzz.mutate import LARGEST
@@ -119,24 +120,44 @@ PLANTED = {
 INPUTS = 12
 
 
+SEED_OF_TWO = 6  # inputs 2 and 5 have the fault, and 12 are made
+COUNTS = {f"{HERE}:{name}": INPUTS * (5 if name == "in_use" else 1) for name in PLANTED}  # what is read is seldom used
+
+
+@pytest.fixture(scope="module")
+def planted():
+    """What came of all planted readers, by name: of the one that hangs soon, of all others in one campaign."""
+    hang = f"{HERE}:hang"
+    others = run({name: count for name, count in COUNTS.items() if name != hang}, SEED_OF_TWO, workers=1)
+    return {row.reader: row for row in (*others, *run({hang: COUNTS[hang]}, SEED_OF_TWO, workers=1, slow=0.05))}
+
+
 @pytest.mark.parametrize(("name", "what"), PLANTED.items(), ids=PLANTED.keys())
-def test_a_planted_fault_is_found_and_made_small(name, what):
-    # not everything that is read is used
-    count = INPUTS * (5 if name == "in_use" else 1)
-    row = run({f"{HERE}:{name}": count}, seed=3, workers=1)[0]
-    assert row.tally.inputs == count, "it goes on behind the input that ended the child"
+def test_a_planted_fault_is_found_and_made_small(planted, name, what):
+    row = planted[f"{HERE}:{name}"]
+    assert row.tally.inputs == COUNTS[row.reader], "it goes on behind the input that ended the child"
     assert [found.first.what for found in row.found.values()] == [what]
     (found,) = row.found.values()
     assert found.again
     assert found.data == b"7"
-    assert f"attempt(of_name('{HERE}:{name}'), b'7')" in told(row, found, 3)
+    assert f"attempt(of_name('{HERE}:{name}'), b'7')" in told(row, found, SEED_OF_TWO)
+    if name in ("hang", "crash"):
+        assert found.count == 2, "the first of them is not the last of all"
+        assert "planted_readers.py" in found.first.trace
+
+
+def test_an_input_has_a_second_where_nothing_else_is_said(monkeypatch):
+    started = []
+    monkeypatch.setattr(Child, "run", lambda child, *_: started.append(child.slow) or Tally())
+    run({f"{HERE}:sound": 1}, seed=0, workers=1)
+    run({f"{HERE}:sound": 1}, seed=0, workers=1, slow=0.5)
+    assert started == [1.0, 0.5]
 
 
 def test_a_reader_that_waits_hangs_though_it_uses_no_processor(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(harness, "SLOW", 0.05)
     monkeypatch.setattr(signal, "setitimer", lambda *_: None)
-    failure = harness._timed(of_name(f"{HERE}:waiting"), b"7", False).failure
+    failure = harness._timed(of_name(f"{HERE}:waiting"), b"7", False, slow=0.05).failure
     assert failure is not None
     assert (failure.what, failure.trace.endswith("s of waiting; trace.txt has where, if it was the processor")) == (
         "hang", True
@@ -161,24 +182,27 @@ def test_a_sound_reader_has_no_failure():
     assert 0 < row.tally.accepted < row.tally.inputs == 12
 
 
-def test_the_same_seed_gives_the_same_inputs_whatever_the_workers():
+def test_the_same_seed_gives_the_same_inputs_whatever_the_workers(monkeypatch):
     for name in READERS:
         inputs = [make(of_name(name), 3, i) for i in range(30)]
         assert inputs == [make(of_name(name), 3, i) for i in range(30)]
         assert inputs != [make(of_name(name), 4, i) for i in range(30)]
         assert max(map(len, inputs)) <= LARGEST
-    count = {"UR conf": CHUNK + 1, "joints CSV": CHUNK - 1}
-    alone, together = (run(count, seed=5, workers=workers) for workers in (1, 2))
+    monkeypatch.setattr(campaign, "CHUNK", 60)
+    count = {f"{HERE}:sound": 61, f"{HERE}:in_use": 59}
+    alone, together = (run(count, seed=5, workers=workers, shrink=False) for workers in (1, 2))
+    assert 0 < alone[1].failures == together[1].failures
     assert [row.tally[:2] for row in alone] == [row.tally[:2] for row in together]
     assert [row.tally.inputs for row in alone] == list(count.values())
 
 
-def test_an_interrupted_campaign_tells_what_there_is():
+def test_an_interrupted_campaign_tells_what_there_is(monkeypatch):
     def interrupt(row: Row, count: int) -> None:
         raise KeyboardInterrupt
 
-    row, rest = run({"UR conf": 3 * CHUNK, "npy": CHUNK}, seed=5, workers=1, progress=interrupt)
-    assert (row.tally.inputs, rest.tally.inputs) == (CHUNK, 0)
+    monkeypatch.setattr(campaign, "CHUNK", 60)
+    row, rest = run({f"{HERE}:sound": 180, f"{HERE}:in_use": 60}, seed=5, workers=1, progress=interrupt)
+    assert (row.tally.inputs, rest.tally.inputs) == (60, 0)
 
 
 @pytest.mark.parametrize(

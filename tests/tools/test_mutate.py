@@ -15,7 +15,7 @@ import pytest
 from cosmic_ray.mutating import mutate_code
 
 from tools.mutate import __main__ as command
-from tools.mutate import equivalent, report, suites
+from tools.mutate import campaign, equivalent, report, suites
 from tools.mutate.campaign import BrokenSuite, Campaign, Outcome, kept
 from tools.mutate.mutants import FILES, Mutant, mutants_of, paths
 
@@ -168,6 +168,7 @@ def small(tmp_path, monkeypatch):
     (root / "tools").symlink_to(ROOT / "tools")
     monkeypatch.setattr(suites, "near", lambda path: [["tests/test_calculator.py"]])
     monkeypatch.setattr(suites, "whole", lambda path: ["tests"])
+    monkeypatch.setattr(campaign, "LIBRARIES", ("hypothesis", "pytest", "not_installed"))  # what it needs, and more
     return root
 
 

@@ -13,7 +13,7 @@ from . import inputs
 from .child import Job
 from .readers import of_name
 from .shrink import smallest
-from .trial import Failure
+from .trial import SLOW, Failure
 from .watch import STALLED, Child, Tally
 
 CHUNK = 500
@@ -68,12 +68,14 @@ def run(
     workers: int = 2,
     *,
     stalled: float = STALLED,
+    slow: float = SLOW,
     shrink: bool = True,
     progress: Callable[[Row, int], None] | None = None,
 ) -> list[Row]:
     """Inputs 0 ... count - 1 of each reader; the same seed gives the same inputs, whatever the workers.
 
-    progress(row, count) is called after each job. Interrupted from the keyboard, it returns what there is.
+    slow: seconds that an input may take. progress(row, count) is called after each job. Interrupted from the keyboard,
+    it returns what there is.
     """
     rows = {name: Row(name) for name in counts}
     jobs: SimpleQueue[Job] = SimpleQueue()
@@ -84,7 +86,7 @@ def run(
     interrupted, one_at_a_time = Event(), Lock()
 
     def work() -> None:
-        with Child(stalled) as child:
+        with Child(stalled, slow) as child:
             while not interrupted.is_set():
                 try:
                     job = jobs.get_nowait()
@@ -110,7 +112,7 @@ def run(
             if not isinstance(fault, KeyboardInterrupt):
                 raise
     if shrink:
-        with Child(stalled) as child:
+        with Child(stalled, slow) as child:
             for row in rows.values():
                 for found in row.found.values():
                     _shrink(child, row.reader, seed, found)

@@ -11,16 +11,18 @@ import traceback
 from collections.abc import Iterator
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import IO, Any, NamedTuple
 
 from . import inputs
 from .readers import Reader, of_name
-from .trial import MEMORY, SLOW, Failure, Trial, attempt
+from .trial import MEMORY, Failure, Trial, attempt
 
 TRACE = "trace.txt"
 """Where the traceback of a hang or crash is written, in the child's own directory."""
-AT, ACCEPTED, SLOWEST, SLOWEST_AT = range(4)
-"""What the shared counters hold: the input under way, how many were accepted, the most microseconds, and of which."""
+AT, ACCEPTED, SLOWEST, SLOWEST_AT, WRITTEN = range(5)
+"""What the shared counters hold: the input under way, how many were accepted, the most microseconds, and of which; and
+the bytes of traceback that there were before that input.
+"""
 
 
 class Job(NamedTuple):
@@ -33,8 +35,11 @@ class Job(NamedTuple):
     data: bytes | None = None
 
 
-def serve(connection: Connection, counters: Any, folder: str) -> None:
-    """Do the jobs that come in, until there are no more: a Failure is sent back for each, and None at a job's end."""
+def serve(connection: Connection, counters: Any, folder: str, slow: float) -> None:
+    """Do the jobs that come in, until there are no more: a Failure is sent back for each, and None at a job's end.
+
+    slow: seconds that an input may take, in place of SLOW.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # what comes from the keyboard is for the watcher
     os.chdir(folder)
     quiet = os.open(os.devnull, os.O_RDWR)
@@ -47,7 +52,7 @@ def serve(connection: Connection, counters: Any, folder: str) -> None:
     try:
         while (job := connection.recv()) is not None:
             reader = _ready(job.reader)
-            for failure in _failures(reader, job, counters):
+            for failure in _failures(reader, job, counters, trace, slow):
                 connection.send(failure)
             connection.send(None)
     except EOFError:  # the watcher is gone
@@ -82,11 +87,12 @@ def _limit(memory: int | None) -> None:
     resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
 
 
-def _failures(reader: Reader, job: Job, counters: Any) -> Iterator[Failure]:
+def _failures(reader: Reader, job: Job, counters: Any, trace: IO[bytes], slow: float) -> Iterator[Failure]:
     for index in range(job.start, job.stop):
         data = inputs.make(reader, job.seed, index) if job.data is None else job.data
+        counters[WRITTEN] = os.fstat(trace.fileno()).st_size
         counters[AT] = index
-        trial = _timed(reader, data, job.data is not None or index % 4 == 0)
+        trial = _timed(reader, data, job.data is not None or index % 4 == 0, slow)
         counters[ACCEPTED] += trial.accepted
         if trial.seconds * 1e6 > counters[SLOWEST]:
             counters[SLOWEST], counters[SLOWEST_AT] = int(trial.seconds * 1e6), index
@@ -94,17 +100,17 @@ def _failures(reader: Reader, job: Job, counters: Any) -> Iterator[Failure]:
             yield trial.failure._replace(index=index)
 
 
-def _timed(reader: Reader, data: bytes, use: bool) -> Trial:
+def _timed(reader: Reader, data: bytes, use: bool, slow: float) -> Trial:
     """A trial under the clock: when time is up the traceback is written, and the watcher waits no longer.
 
     What was too long once has to be so again: the first time something may have been imported or compiled.
     """
     for _ in range(2):
-        signal.setitimer(signal.ITIMER_PROF, SLOW)
+        signal.setitimer(signal.ITIMER_PROF, slow)
         trial = attempt(reader, data, use)
         signal.setitimer(signal.ITIMER_PROF, 0)
-        if max(trial.seconds, trial.waited) <= SLOW:
+        if max(trial.seconds, trial.waited) <= slow:
             return trial
     took = f"{trial.seconds:.1f} s of the processor and {trial.waited:.1f} s of waiting"
-    slow = Failure("hang", reader.name, f"{took}; {TRACE} has where, if it was the processor")
-    return trial._replace(failure=trial.failure or slow)
+    hang = Failure("hang", reader.name, f"{took}; {TRACE} has where, if it was the processor")
+    return trial._replace(failure=trial.failure or hang)

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from . import suites
 from .mutants import Mutant
-from .server import EPOCH, SETTINGS
+from .server import EPOCH, LIBRARIES, SETTINGS
 
 Outcome = dict[str, object]
 _LEFT_OUT = shutil.ignore_patterns(".git", ".venv", "build", "dist", "_build", "__pycache__", ".*_cache", ".hypothesis")
@@ -36,7 +36,7 @@ class Server:
             os.utime(file, (EPOCH, EPOCH))
         kept = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "tools.mutate.server"],
+            [sys.executable, "-m", "tools.mutate.server", *LIBRARIES],
             cwd=place,
             env={**kept, **SETTINGS, "PYTHONPATH": str(place)},
             stdin=subprocess.PIPE,

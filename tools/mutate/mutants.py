@@ -56,9 +56,10 @@ def mutants_of(path: str, source: str) -> list[Mutant]:
     """Every mutant of a module, by place; two changes that give the same text count once."""
     tree, lines, silent = get_ast(source), source.split("\n"), hints(source)
     begins = [0, *itertools.accumulate(len(line) + 1 for line in lines)]
+    nodes = list(ast_nodes(tree))
     found: dict[str, tuple[tuple[int, int], Mutant]] = {}
     for name, operator in operators():
-        positions = ((node, start) for node in ast_nodes(tree) for start, _ in operator.mutation_positions(node))
+        positions = ((node, start) for node in nodes for start, _ in operator.mutation_positions(node))
         indices: dict[int, int] = {}  # how many changes of this node were made already
         for occurrence, (node, start) in enumerate(positions):
             index = indices.get(id(node), 0)
