@@ -7,6 +7,7 @@ It is run on this repository, and on a planted package for each of the ways to b
 from __future__ import annotations
 
 import ast
+import functools
 import sys
 from collections.abc import Callable, Iterator
 from importlib.util import resolve_name
@@ -54,7 +55,13 @@ def sources(root: Path) -> Iterator[tuple[str, str, ast.Module]]:
     """Path relative to root, text and syntax tree of each file of the package."""
     for file in sorted((root / "poekin").rglob("*.py")):
         text = file.read_text(encoding="utf-8")
-        yield file.relative_to(root).as_posix(), text, ast.parse(text)
+        yield file.relative_to(root).as_posix(), text, parsed(text)
+
+
+@functools.cache
+def parsed(text: str) -> ast.Module:
+    """The syntax tree of a text, which no rule changes."""
+    return ast.parse(text)
 
 
 def imports(path: str, tree: ast.Module, root: Path) -> Iterator[tuple[int, str]]:

@@ -20,7 +20,6 @@ def silent(_: str) -> None:
 
 
 ROWS = [Row(0.3, 0.1, 0.2, 1.0, flip=True), Row(0.5, 0.2, 0.1, -0.7, "prismatic"), Row(0.7, 0.3, 0.4, 0.2)]
-BASE, TOOL = pk.se3.exp([[0.1, 0.2, 0.3, 0.4, 0.5, 0.6], [0.3, 0.1, 0.2, 0.1, 0.2, 0.3]])
 X = np.array([0.4, -0.3, 0.9])
 
 
@@ -42,10 +41,11 @@ def test_the_product_of_links_is_what_one_sees_on_paper(table, position):
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 @pytest.mark.parametrize("lost", ["flip", "kind", "theta", "base", "tool", "convention"])
 def test_the_product_of_links_sees_what_is_lost(convention, lost):
-    table = Table(convention, ROWS, base=BASE, tool=TOOL)
+    base, tool = pk.se3.exp([[0.1, 0.2, 0.3, 0.4, 0.5, 0.6], [0.3, 0.1, 0.2, 0.1, 0.2, 0.3]])
+    table = Table(convention, ROWS, base=base, tool=tool)
     changed = {"standard": "modified", "modified": "standard"}[convention] if lost == "convention" else convention
     rows = [dataclasses.replace(r, **{lost: getattr(Row(), lost)}) for r in ROWS] if hasattr(Row(), lost) else ROWS
-    wrong = Table(changed, rows, base=None if lost == "base" else BASE, tool=None if lost == "tool" else TOOL)
+    wrong = Table(changed, rows, base=None if lost == "base" else base, tool=None if lost == "tool" else tool)
     expected = dh_judge.product(table, X)
     assert dh_judge.error(pk.dh.to_chain(table).fk(X), expected, 1.0) < 1e-15
     assert dh_judge.error(pk.dh.to_chain(wrong).fk(X), expected, 1.0) > 1e-3

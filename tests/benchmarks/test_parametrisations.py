@@ -37,11 +37,16 @@ def at_a_thousandth():
 
 
 @pytest.mark.parametrize(
-    "table",
-    [table_with(0.3), dh.from_chain(tilted(0.1)).table, dh.from_chain(NOMINAL.rebased(tilted(0.2).home)).table],
+    "make",
+    [
+        lambda: table_with(0.3),
+        lambda: dh.from_chain(tilted(0.1)).table,
+        lambda: dh.from_chain(NOMINAL.rebased(tilted(0.2).home)).table,
+    ],
     ids=["twisted", "tilted", "on a base"],
 )
-def test_link_parameters_are_the_table_s_arm(table):
+def test_link_parameters_are_the_table_s_arm(make):
+    table = make()
     # 34 products of numbers of up to 5 m
     np.testing.assert_allclose(link_parameters(table).poses(Q), dh.to_chain(table).fk(Q), atol=34 * 5 * 2.0**-52)
 

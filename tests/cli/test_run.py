@@ -127,13 +127,15 @@ def test_a_closed_stderr_changes_neither_result_nor_code(crane):
     assert subprocess.run(["sh", "-c", line]).returncode == 2
 
 
-def test_configurations_come_from_standard_input(crane):
+def test_configurations_come_from_standard_input(crane, refused, tmp_path, monkeypatch):
     words = _command("fk", crane, "--tip", "hook", "--input", "-")
     done = subprocess.run(words, input="slide,turn\n0.2,0.1\n", capture_output=True, text=True)
     assert (done.returncode, done.stderr, len(done.stdout.splitlines())) == (0, "", 2)
-    done = subprocess.run(words, input="0.2,0.1\n0.2,x\n", capture_output=True, text=True)
-    assert done.returncode == 2
-    assert done.stderr == "poekin: error: standard input:2, column 2: a number expected, got 'x'\n"
+    (tmp_path / "q.csv").write_text("0.2,0.1\n0.2,x\n")
+    with open(tmp_path / "q.csv") as given:
+        monkeypatch.setattr(sys, "stdin", given)
+        said = refused("fk", crane, "--tip", "hook", "--input", "-")
+    assert said == "poekin: error: standard input:2, column 2: a number expected, got 'x'\n"
     done = subprocess.run(["sh", "-c", f"exec {shlex.join(words)} <&-"], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (2, "poekin: error: cannot read standard input: it is closed\n")
 

@@ -1,4 +1,8 @@
-"""The cache of kernels: whatever happens to it, results are right and no call raises."""
+"""The cache of kernels: whatever happens to it, results are right and no call raises.
+
+What one process leaves and the next one finds, and what is fixed when a process begins, is asked of fresh processes;
+all else of a `session`: a kernel of this process's own, made as if nothing had been loaded or said before.
+"""
 
 import os
 import shutil
@@ -6,24 +10,29 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+from numba.core import config
 
 import poekin
+from poekin.engine import cache, group_kernels
+from poekin.engine.kernel import Kernel
 from poekin.engine.source import source_key
+from poekin.model.chain import Chain
 
 PACKAGE = Path(poekin.__file__).parent
-PROGRAM = """
+SCREWS, HOME = [[0, 0, 1, 0, 0, 0], [0, 1, 0, 0, 0, -1]], [[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+PROGRAM = f"""
 from poekin.groups import so3
-print(so3.hat([1, 2, 3])[0].tolist(), so3.exp([0.0, 0.0, 0.0]).tolist())
-"""
-RIGHT = "[0.0, -3.0, 2.0] [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]"
-
-ARM = """
 from poekin.model.chain import Chain
-chain = Chain([[0, 0, 1, 0, 0, 0], [0, 1, 0, 0, 0, -1]], [[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+print(so3.hat([1, 2, 3])[0].tolist(), so3.exp([0.0, 0.0, 0.0]).tolist())
+chain = Chain({SCREWS}, {HOME})
 print((chain.compile().fk([[0.0, 0.0]])[0, 0] + 0.0).tolist())
 """
-TIP = "[1.0, 0.0, 0.0, 2.0]"
+RIGHT = "[0.0, -3.0, 2.0] [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]\n[1.0, 0.0, 0.0, 2.0]"
+
+COMPILING = "compiling kernels for this machine"
+DAMAGED = "is damaged or not this user's alone"
 
 
 def run(home: Path, program: str = PROGRAM, path: Path = PACKAGE.parent, **environment: str):
@@ -42,8 +51,8 @@ def run(home: Path, program: str = PROGRAM, path: Path = PACKAGE.parent, **envir
     return done.stdout.strip(), done.stderr
 
 
-def entries(home: Path) -> list[Path]:
-    return sorted((home / ".cache" / "poekin").glob("*.kernel"))
+def entries(home: Path, name: str = "*") -> list[Path]:
+    return sorted((home / ".cache" / "poekin").glob(f"{name}-*.kernel"))
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +62,7 @@ def filled(tmp_path_factory):
     out, log = run(home)
     assert out == RIGHT
     assert log.count("\n") == 1
-    assert "compiling kernels" in log
+    assert COMPILING in log
     return home
 
 
@@ -63,13 +72,59 @@ def home(filled, tmp_path):
     return tmp_path / "home"
 
 
-def test_the_second_process_compiles_nothing(home):
-    assert run(home) == (RIGHT, "")
+class Session:
+    """Calls as the first ones of a process: each returns what was logged, and sees that the result is right."""
+
+    def __init__(self, monkeypatch, caplog):
+        self.monkeypatch, self.caplog = monkeypatch, caplog
+
+    def kernel(self) -> list[str]:
+        """exp on SO(3), by a kernel that has to be loaded or compiled."""
+        self._begin()
+        known, R = group_kernels.so3_exp, np.full((1, 3, 3), np.nan)
+        new = Kernel(known.function, known.arguments, known.returns, known.quick, known.bare)
+        new.call(np.zeros((1, 3)), R)
+        np.testing.assert_array_equal(R, np.eye(3)[None])
+        return self.caplog.messages
+
+    def arm(self) -> list[str]:
+        """The pose of an arm whose machine code has to be loaded or made."""
+        self._begin()
+        T = Chain(SCREWS, HOME).compile().fk([[0.0, 0.0]])
+        np.testing.assert_array_equal(T[0], HOME)
+        return self.caplog.messages
+
+    def _begin(self) -> None:
+        self.caplog.clear()
+        self.monkeypatch.setattr(cache, "_said", set())
+
+
+@pytest.fixture
+def session(home, tmp_path, monkeypatch, caplog):
+    """Sessions of this process in that home."""
+    for name in ("POEKIN_CACHE_DIR", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("HOME", str(home))
+    monkeypatch.chdir(tmp_path)
+    made = Session(monkeypatch, caplog)
+    assert made.arm() == []  # the kernel that runs arms is loaded: what is logged from here on is of the arm
+    return made
+
+
+def test_the_second_process_compiles_nothing(filled):
+    kept = {entry: entry.read_bytes() for entry in entries(filled)}
+    assert run(filled) == (RIGHT, "")
+    assert {entry: entry.read_bytes() for entry in entries(filled)} == kept
+
+
+def test_a_session_compiles_nothing_either(session):
+    assert session.kernel() == session.arm() == []
 
 
 def test_what_is_kept_belongs_to_the_user_alone(filled):
     assert (filled / ".cache" / "poekin").stat().st_mode & 0o777 == 0o700
-    assert entries(filled)
+    for name in ("so3_exp", "arm"):
+        assert entries(filled, name)
     assert all(entry.stat().st_mode & 0o777 == 0o600 for entry in entries(filled))
 
 
@@ -83,84 +138,95 @@ DAMAGE = {
 }
 
 
-@pytest.mark.parametrize("damage", DAMAGE)
-def test_a_damaged_entry_is_compiled_anew_with_one_log_line_and_mended(home, damage):
-    for entry in entries(home):
+def test_several_damaged_entries_are_made_anew_in_one_process_with_one_log_line(home):
+    for name, damage in (("so3_exp", "another pickle"), ("arm", "one bit flipped")):
+        (entry,) = entries(home, name)
         entry.write_bytes(DAMAGE[damage](entry.read_bytes()))
     out, log = run(home)
     assert out == RIGHT
-    assert log.count("is damaged or not this user's alone") == 1
+    assert log.count(DAMAGED) == 1
     assert not list(home.glob("owned"))
     assert run(home) == (RIGHT, "")
 
 
-@pytest.fixture(scope="module")
-def with_arm(tmp_path_factory):
-    """A home in which an arm has been compiled once."""
-    home = tmp_path_factory.mktemp("arm")
-    assert run(home, ARM)[0] == TIP
-    return home
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_a_damaged_entry_is_compiled_anew_with_one_log_line_and_mended(session, home, tmp_path, damage):
+    (entry,) = entries(home, "so3_exp")
+    entry.write_bytes(DAMAGE[damage](entry.read_bytes()))
+    damaged, compiling = session.kernel()
+    assert DAMAGED in damaged
+    assert COMPILING in compiling
+    assert not list(tmp_path.rglob("owned"))
+    assert session.kernel() == []
 
 
-def test_an_arm_s_machine_code_is_kept_and_a_damaged_one_made_anew(with_arm, tmp_path):
-    home = tmp_path / "home"
-    shutil.copytree(with_arm, home)
-    assert run(home, ARM) == (TIP, "")
-    (arm,) = (home / ".cache" / "poekin").glob("arm-*")
-    for damage in DAMAGE.values():
-        arm.write_bytes(damage(arm.read_bytes()))
-        out, log = run(home, ARM)
-        assert out == TIP
-        assert log.count("is damaged or not this user's alone") == 1
-    assert run(home, ARM) == (TIP, "")
-    assert run(home, ARM, POEKIN_CACHE_DIR="/nonexistent/cache")[0] == TIP
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_an_arm_s_machine_code_that_is_damaged_is_made_anew_with_one_log_line_and_mended(session, home, damage):
+    (entry,) = entries(home, "arm")
+    whole = entry.read_bytes()
+    entry.write_bytes(DAMAGE[damage](whole))
+    (damaged,) = session.arm()
+    assert DAMAGED in damaged
+    assert entry.read_bytes() == whole
+    assert session.arm() == []
 
 
-def test_an_entry_that_others_can_write_is_not_read(home):
+def test_an_entry_that_others_can_write_is_not_read(session, home):
     for entry in entries(home):
         entry.chmod(0o666)
-    out, log = run(home)
-    assert out == RIGHT
-    assert "not this user's alone" in log
+    for log in (session.kernel(), session.arm()):
+        assert DAMAGED in log[0]
 
 
-def test_an_entry_that_is_a_link_is_not_followed(home, tmp_path):
+def test_an_entry_that_is_a_link_is_not_followed(session, home, tmp_path):
     for entry in entries(home):
         shutil.move(entry, tmp_path / entry.name)
         entry.symlink_to(tmp_path / entry.name)
-    out, log = run(home)
-    assert out == RIGHT
-    assert "cannot be read" in log
+    for log in (session.kernel(), session.arm()):
+        assert "cannot be read" in log[0]
 
 
-def test_a_directory_that_others_can_write_is_not_used(home):
+def test_a_directory_that_others_can_write_is_not_used(session, home):
     (home / ".cache" / "poekin").chmod(0o777)
-    out, log = run(home)
-    assert out == RIGHT
-    assert "others may read or write it (expected mode 0700)" in log
+    for log in (session.kernel(), session.arm()):
+        assert "others may read or write it (expected mode 0700)" in log[0]
 
 
 PLACES = {
-    "a file in place of the directory": lambda home: (home / "place").write_text(""),
-    "a place below a file": lambda home: (home / "place").write_text(""),
-    "no place at all": lambda home: None,
+    "a file in place of the directory": lambda place: str(place),
+    "a place below a file": lambda place: str(place / "below"),
+    "no place at all": lambda place: "",
 }
 
 
 @pytest.mark.parametrize("place", PLACES)
-def test_a_place_that_cannot_be_made_costs_a_compilation(tmp_path, place):
-    PLACES[place](tmp_path)
-    named = {"a place below a file": str(tmp_path / "place" / "below"), "no place at all": ""}
-    out, log = run(tmp_path, POEKIN_CACHE_DIR=named.get(place, str(tmp_path / "place")))
-    assert out == RIGHT
-    assert "compiling kernels" in log
-    assert "Traceback" not in log
+def test_a_place_that_cannot_be_made_costs_a_compilation(session, tmp_path, monkeypatch, place):
+    (tmp_path / "place").write_text("")
+    monkeypatch.setenv("POEKIN_CACHE_DIR", PLACES[place](tmp_path / "place"))
+    nowhere = [] if place == "no place at all" else ["in each run: no cache in"]
+    for log, said in ((session.kernel(), [*nowhere, COMPILING]), (session.arm(), nowhere)):
+        assert [part for part, message in zip(said, log, strict=True) if part not in message] == []
 
 
-def test_no_home_at_all_costs_a_compilation(tmp_path):
-    out, log = run(tmp_path, HOME="/nonexistent")
-    assert out == RIGHT
-    assert "Traceback" not in log
+def test_a_home_that_cannot_be_made_costs_a_compilation(session, tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("HOME", str(tmp_path / "file" / "home"))
+    nowhere, compiling = session.kernel()
+    assert "in each run: no cache in" in nowhere
+    assert COMPILING in compiling
+    assert len(session.arm()) == 1
+
+
+def test_no_home_at_all_costs_a_compilation(session, monkeypatch):
+    def unknown(_):
+        raise KeyError("uid not found")
+
+    pwd = pytest.importorskip("pwd", reason="without it nobody's home is looked up there")
+    monkeypatch.delenv("HOME")
+    monkeypatch.setattr(pwd, "getpwuid", unknown)
+    (compiling,) = session.kernel()
+    assert f"{COMPILING}, a few seconds each (not kept)" in compiling
+    assert session.arm() == []
 
 
 @pytest.mark.parametrize(
@@ -175,75 +241,90 @@ def test_an_edit_anywhere_in_the_formulas_makes_a_new_key(tmp_path, file):
     assert source_key(copy) != before
 
 
-def test_an_edit_in_algebra_changes_the_result_of_the_next_process(home, tmp_path):
-    program = "from poekin.groups import se3; import numpy; print(se3.inverse(numpy.eye(4))[0, 3] + 0.0)"
-    shutil.copytree(PACKAGE, tmp_path / "poekin", ignore=shutil.ignore_patterns("__pycache__"))
-    assert run(home, program, tmp_path)[0] == "0.0"
-    algebra = tmp_path / "poekin" / "algebra.py"
-    algebra.write_text(algebra.read_text().replace("R[5], R[8], -p[0],", "R[5], R[8], 7.0 - p[0],"))
-    assert run(home, program, tmp_path)[0] == "7.0"
-
-
-def test_an_edit_made_while_a_session_is_open_does_not_pass_for_the_code_it_runs(home, tmp_path):
-    shutil.copytree(PACKAGE, tmp_path / "poekin", ignore=shutil.ignore_patterns("__pycache__"))
+def test_an_edit_even_while_a_session_is_open_changes_the_result_of_the_next_process_alone(home, tmp_path):
+    # an edited file has another length, so its bytecode is not taken for the original's
+    shutil.copytree(PACKAGE, tmp_path / "poekin", ignore=shutil.ignore_patterns("*.pyc.*"))
     algebra = tmp_path / "poekin" / "algebra.py"
     edit = f"""
 from pathlib import Path
-from poekin.groups import se3
-import numpy
+from poekin.groups import so3
 algebra = Path({str(algebra)!r})
-algebra.write_text(algebra.read_text().replace("R[5], R[8], -p[0],", "R[5], R[8], 7.0 - p[0],"))
-print(se3.inverse(numpy.eye(4))[0, 3] + 0.0)
+text = algebra.read_text()
+algebra.write_text(text.replace("return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]", "return 0.0 * a[0]"))
+assert algebra.read_text() != text
 """
-    assert run(home, edit, tmp_path)[0] == "0.0"
-    after = "from poekin.groups import se3; import numpy; print(se3.inverse(numpy.eye(4))[0, 3] + 0.0)"
-    assert run(home, after, tmp_path)[0] == "7.0"
+    call = """
+from poekin.groups import so3
+print(so3.exp([0.0, 0.0, 1.0])[0, 0])
+"""
+    assert run(home, edit + call, tmp_path) == ("0.5403023058681398", "")
+    edited, log = run(home, call, tmp_path)
+    assert edited == "0.5"
+    assert COMPILING in log
 
 
-def test_what_is_compiled_with_other_options_is_kept_apart(home):
-    _, log = run(home, NUMBA_OPT="0")
-    assert "compiling kernels" in log
+def test_what_is_compiled_with_other_options_is_kept_apart(session, home, monkeypatch):
+    monkeypatch.setenv("NUMBA_OPT", "0")
+    config.reload_config()
+    try:
+        (compiling,) = session.kernel()
+        assert session.kernel() == []
+    finally:
+        monkeypatch.delenv("NUMBA_OPT")
+        config.reload_config()
+    assert COMPILING in compiling
+    assert len(entries(home, "so3_exp")) == 2
+    assert session.kernel() == []
 
 
-def test_entries_of_a_month_ago_are_forgotten(home):
-    (old,) = entries(home)
-    long_ago = old.with_name(f"{old.name.partition('-')[0]}-{'0' * 32}.kernel")
+def test_entries_of_a_month_ago_are_forgotten(session, home):
+    (old,) = entries(home, "so3_exp")
+    long_ago = old.with_name(f"so3_exp-{'0' * 32}.kernel")
+    young = old.with_name(f"so3_exp-{'1' * 32}.kernel")
+    shutil.copy2(old, young)
     old.rename(long_ago)
     os.utime(long_ago, (0, 0))
-    run(home)
-    assert long_ago not in entries(home)
-    assert len(entries(home)) == 1
+    others = set(entries(home)) - {long_ago, young}
+    session.kernel()
+    assert entries(home, "so3_exp") == sorted([old, young])
+    assert set(entries(home)) == others | {old, young}
 
 
-def test_a_link_to_a_private_directory_is_followed(home, tmp_path):
+def test_a_link_to_a_private_directory_is_followed(session, home, tmp_path):
     place = home / ".cache" / "poekin"
     shutil.move(place, tmp_path / "kept")
     place.symlink_to(tmp_path / "kept")
-    assert run(home) == (RIGHT, "")
+    assert session.kernel() == session.arm() == []
 
 
-def test_threads_may_call_a_kernel_for_the_first_time_together(tmp_path):
-    program = """
+def test_threads_may_call_a_kernel_for_the_first_time_together(home):
+    # two kernels and an arm that are kept, and two kernels that are not
+    program = (
+        PROGRAM.partition("print")[0]
+        + f"""
 import sys, threading
 import numpy as np
-import poekin as pk
+from poekin.groups import se3
 sys.setswitchinterval(1e-6)
-arm, got = pk.load("panda").chain(tip="panda_hand"), []
-q = np.zeros(7)
-calls = [lambda: arm.fk(q), lambda: arm.joint_poses(q), lambda: arm.velocity(q, q, "body")]
+arm, q, got = Chain({SCREWS}, {HOME}), np.zeros(2), []
+calls = [lambda: so3.left_jacobian(q @ np.zeros((2, 3))), lambda: so3.exp(np.zeros(3)), lambda: arm.compile().fk([q]),
+         lambda: arm.joint_poses(q)]
 threads = [threading.Thread(target=lambda call=call: got.append(call())) for call in calls * 2]
 [t.start() for t in threads]
 [t.join() for t in threads]
 print(len(got))
 """
-    assert run(tmp_path, program)[0] == "6"
+    )
+    out, log = run(home, program)
+    assert out == "8"
+    assert log.count("\n") == 1, log
 
 
-def test_without_compilation_everything_still_runs(tmp_path):
-    assert run(tmp_path, NUMBA_DISABLE_JIT="1") == (RIGHT, "")
-
-
-def test_without_compiling_an_arm_s_program_is_interpreted(tmp_path):
-    program = ARM + "print([chain.compile().jacobian([0.3, 0.4], f)[0].round(3).tolist() for f in ('body', 'middle')])"
-    expected, _ = run(tmp_path, program)
-    assert run(tmp_path, program, NUMBA_DISABLE_JIT="1") == (expected, "")
+def test_without_compiling_everything_still_runs_and_an_arm_s_program_is_interpreted(tmp_path):
+    program = (
+        PROGRAM + "print([chain.compile().jacobian([0.3, 0.4], f)[0].round(3).tolist() for f in ('body', 'middle')])"
+    )
+    arm = Chain(SCREWS, HOME).compile()
+    compiled = [arm.jacobian([0.3, 0.4], frame)[0].round(3).tolist() for frame in ("body", "middle")]
+    assert run(tmp_path, program, NUMBA_DISABLE_JIT="1") == (f"{RIGHT}\n{compiled}", "")
+    assert not (tmp_path / ".cache" / "poekin").exists()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import re
 import shutil
 import subprocess
@@ -33,20 +34,42 @@ def cc():
     return found
 
 
+class Built:
+    """What is built of an emitted text as it is asked for; each unit is compiled once."""
+
+    def __init__(self, cc: str, folder: Path, source: emit.CSource, options: tuple[str, ...]):
+        self.cc, self.folder, self.name, self.options = cc, folder, source.name, (*options, "-fPIC")
+        for file_name, text in source.files.items():
+            (folder / file_name).write_text(text, encoding="ascii")
+
+    @functools.cached_property
+    def library(self) -> Path:
+        """The shared library."""
+        return self._linked("library.so", self._unit, "-shared")
+
+    @functools.cached_property
+    def program(self) -> Path:
+        """The self-test program."""
+        return self._linked("selftest", self._unit, self._object("_selftest"))
+
+    @functools.cached_property
+    def _unit(self) -> str:
+        return self._object("")
+
+    def _object(self, end: str) -> str:
+        unit = self.folder / f"{self.name}{end}.c"
+        compiled(self.cc, *self.options, "-c", str(unit), "-o", str(unit.with_suffix(".o")))
+        return str(unit.with_suffix(".o"))
+
+    def _linked(self, name: str, *words: str) -> Path:
+        compiled(self.cc, *self.options, *words, "-o", str(self.folder / name), "-lm")
+        return self.folder / name
+
+
 @pytest.fixture
 def build(cc, tmp_path):
-    """Compile an emitted text: (path of the self-test program, path of the shared library)."""
-
-    def run(source: emit.CSource, *options: str) -> tuple[Path, Path]:
-        for file_name, text in source.files.items():
-            (tmp_path / file_name).write_text(text, encoding="ascii")
-        program, library = tmp_path / "selftest", tmp_path / "library.so"
-        units = [str(tmp_path / f"{source.name}{end}.c") for end in ("", "_selftest")]
-        compiled(cc, *options, *units, "-o", str(program), "-lm")
-        compiled(cc, *options, "-shared", "-fPIC", units[0], "-o", str(library), "-lm")
-        return program, library
-
-    return run
+    """Compile an emitted text."""
+    return lambda source, *options: Built(cc, tmp_path, source, options)
 
 
 def compiled(compiler: str, *words: str) -> None:
@@ -71,7 +94,7 @@ def called(library: Path, name: str, *arrays: np.ndarray) -> None:
 @pytest.mark.parametrize(("name", "frame"), CASES)
 def test_it_is_the_emitted_python_to_the_last_bit_given_the_same_sines(name, frame, build):
     chain = arm(name)
-    _, library = build(emit.c(chain, frame, name="bits"), "-ffp-contract=off")
+    library = build(emit.c(chain, frame, name="bits"), "-ffp-contract=off").library
     python = module(emit.python(chain, frame))
     for function in ("fk", f"jacobian_{suffix(frame)}", f"fk_jacobian_{suffix(frame)}"):
         for q in chain.random(5, 20):
@@ -91,17 +114,17 @@ def test_it_is_the_emitted_python_to_the_last_bit_given_the_same_sines(name, fra
 @pytest.mark.parametrize(("name", "frame"), CASES)
 def test_from_q_it_is_the_chain_within_1e_14_reach_and_its_own_test_passes(name, frame, build):
     chain = arm(name)
-    program, library = build(emit.c(chain, frame, name="from_q"))
-    code, verdict, worst = ran(program)
+    built = build(emit.c(chain, frame, name="from_q"))
+    code, verdict, worst = ran(built.program)
     assert (code, verdict) == (0, "passed")
     assert worst <= 1e-14 * chain.reach
     for q in chain.random(6, 20):
         wanted = expected(chain, frame, q)
         T, J = np.empty((4, 4)), np.empty((6, chain.dof))
-        called(library, f"from_q_fk_jacobian_{suffix(frame)}", q, T, J)
+        called(built.library, f"from_q_fk_jacobian_{suffix(frame)}", q, T, J)
         alone_T, alone_J = np.empty((4, 4)), np.empty((6, chain.dof))
-        called(library, "from_q_fk", q, alone_T)
-        called(library, f"from_q_jacobian_{suffix(frame)}", q, alone_J)
+        called(built.library, "from_q_fk", q, alone_T)
+        called(built.library, f"from_q_jacobian_{suffix(frame)}", q, alone_J)
         for got, w in zip((T, J, alone_T, alone_J), (*wanted, *wanted), strict=True):
             assert np.abs(got - w).max(initial=0.0) <= 1e-14 * chain.reach
 
@@ -110,11 +133,11 @@ def test_from_q_it_is_the_chain_within_1e_14_reach_and_its_own_test_passes(name,
 def test_in_single_precision_it_keeps_the_bound_of_single_precision(name, build):
     # u = 2^-24 in the place of 2^-53: the arm's constants are rounded to it too, which is the second half of `bound`
     chain = arm(name)
-    program, library = build(emit.c(chain, "hybrid", name="single", real="float"))
-    assert ran(program)[:2] == (0, "passed")
+    built = build(emit.c(chain, "hybrid", name="single", real="float"))
+    assert ran(built.program)[:2] == (0, "passed")
     for q in chain.random(7, 20).astype(np.float32):
         T, J = np.empty((4, 4), np.float32), np.empty((6, chain.dof), np.float32)
-        called(library, "single_fk_jacobian_hybrid", q, T, J)
+        called(built.library, "single_fk_jacobian_hybrid", q, T, J)
         exact = q.astype(float)
         for got, wanted in zip((T, J), expected(chain, "hybrid", exact), strict=True):
             assert np.abs(got - wanted).max(initial=0.0) <= bound(chain, exact, 2.0**-24)
@@ -122,7 +145,7 @@ def test_in_single_precision_it_keeps_the_bound_of_single_precision(name, build)
 
 def test_results_may_overlap_q(build):
     chain = arm("mixed")
-    _, library = build(emit.c(chain, "body", name="lap"))
+    library = build(emit.c(chain, "body", name="lap")).library
     q, memory, T = chain.random(8), np.empty(16), np.empty(16)
     called(library, "lap_fk", q, T)
     memory[:5] = q
@@ -135,7 +158,7 @@ def test_its_own_test_fails_where_one_digit_of_the_arm_is_wrong(real, build):
     source = emit.c(arm("panda"), "hybrid", name="wrong", real=real)
     assert source.source.count("0.333") == 2
     planted = emit.CSource(source.name, source.header, source.source.replace("0.333", "0.334", 1), source.selftest)
-    code, verdict, worst = ran(build(planted)[0])
+    code, verdict, worst = ran(build(planted).program)
     assert (code, verdict) == (1, "FAILED")
     assert worst == pytest.approx(1e-3, rel=1e-3)
 
@@ -144,14 +167,14 @@ def test_its_own_test_fails_where_a_result_is_no_number(build):
     source = emit.c(arm("panda"), "hybrid", name="nan")
     text = re.sub(r"J\[41\] = [^;]+;", "J[41] = sqrt(-1.0 - c[0] * c[0]);", source.source)
     assert text != source.source
-    assert ran(build(emit.CSource(source.name, source.header, text, source.selftest))[0])[:2] == (1, "FAILED")
+    assert ran(build(emit.CSource(source.name, source.header, text, source.selftest)).program)[:2] == (1, "FAILED")
 
 
 def test_a_c_plus_plus_program_can_use_the_header(build, tmp_path):
     compiler = shutil.which("c++") or shutil.which("g++") or shutil.which("clang++")
     if compiler is None:
         pytest.skip("no C++ compiler: the header was not compiled as C++")
-    _, library = build(emit.c(arm("one joint"), "body", name="plus"))
+    library = build(emit.c(arm("one joint"), "body", name="plus")).library
     unit = tmp_path / "use.cpp"
     unit.write_text(
         '#include "plus.h"\n#include "plus.h"\nint main() { double q[1] = {0}, T[16]; plus_fk(q, T); return 0; }\n'
@@ -170,7 +193,7 @@ def test_a_hostile_name_stays_in_its_comment(name, build):
     assert without == plain
     assert not any("??" in text for text in source.files.values())  # a trigraph is a character of its own
     assert all(text.isascii() and "\\" not in text.replace("\\n", "") for text in source.files.values())
-    assert ran(build(source)[0])[:2] == (0, "passed")
+    assert ran(build(source).program)[:2] == (0, "passed")
 
 
 @pytest.mark.parametrize(

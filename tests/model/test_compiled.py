@@ -47,20 +47,22 @@ LAWS = {law.name: law for law in CHAIN_LAWS}
 @FEW
 @given(data=st.data())
 def test_machine_code_keeps_the_laws_of_chains(name, data):
-    chain, *arguments = data.draw(chain_strategies.chain_cases(LAWS[name].kinds, max_joints=8))
+    chain, *arguments = data.draw(chain_strategies.chain_cases(LAWS[name].kinds, max_joints=5))
     LAWS[name].check(Swapped(chain), *arguments)
 
 
-def differences(chain, q, frames):
-    """Largest difference from the chain's own results, lengths in reaches."""
+def differences(chain, q, frames, alone=True):
+    """Largest difference from the chain's own results, lengths in reaches; of pose and Jacobian `alone` too."""
     fast, size = chain.compile(), np.array([1.0] * 3 + [chain.reach] * 3)[:, None]
-    yield np.abs(fast.fk(q) - chain.fk(q))[..., :3, :] / [1, 1, 1, chain.reach]
+    if alone:
+        yield np.abs(fast.fk(q) - chain.fk(q))[..., :3, :] / [1, 1, 1, chain.reach]
     for frame in frames:
         T, J = fast.fk_jacobian(q, frame)
         expected = chain.fk_jacobian(q, frame)
         yield np.abs(T - expected[0])[..., :3, :] / [1, 1, 1, chain.reach]
         yield np.abs(J - expected[1]) / size
-        yield np.abs(fast.jacobian(q, frame) - expected[1]) / size
+        if alone:
+            yield np.abs(fast.jacobian(q, frame) - expected[1]) / size
 
 
 @FEW
@@ -93,7 +95,7 @@ def test_nearly_parallel_axes_do_not_blow_up(tilts, sign, seed):
     lengths = [*(x for link in arm.links for x in link[2:]), *arm.alongs]
     assert np.abs(lengths).max() <= chain.reach * (1 + LONGER)
     # a d that long is rounded that much more coarsely
-    for difference in differences(chain, rng.uniform(-3, 3, (20, chain.dof)), NAMED):
+    for difference in differences(chain, rng.uniform(-3, 3, (20, chain.dof)), NAMED, alone=False):
         assert difference.max() <= NEAR * (1 + LONGER)
 
 

@@ -52,8 +52,10 @@ def as_measured(kind, arm, q):  # type: ignore[no-untyped-def]
     return (EyeToHand(x, camera=X, board=Z) for x in (seen[:1], seen))
 
 
-@pytest.mark.parametrize(("name", "tip"), [("puma560", None), ("panda", "panda_hand"), ("jaco", None)])
-@pytest.mark.parametrize("kind", ["poses", "point"])
+@pytest.mark.parametrize(
+    ("name", "tip", "kind"),
+    [("puma560", None, "poses"), ("panda", "panda_hand", "point"), ("jaco", None, "poses")],
+)
 def test_thirty_of_2000_beat_the_median_random_choice_by_half_in_the_noise_amplification_index(name, tip, kind):
     arm = pk.load(name).chain(tip=tip)
     example = "poses" if kind == "poses" else Points([[0, 0, 0]], points=TOOL)
