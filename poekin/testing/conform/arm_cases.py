@@ -116,7 +116,7 @@ def _check_fk(subject: Subject, case: Case) -> Verdict:
     arm, q = _of(subject, case)
     first = _arguments(subject, arm)
     return of_arms.fk_is_the_product_of_exponentials(
-        lambda q: subject.own.fk(*map(np.array, first), q), arm, q, Grade.BROKEN
+        lambda q: subject.plain("fk")(*map(np.array, first), q), arm, q, Grade.BROKEN
     )
 
 
@@ -125,7 +125,7 @@ def _check_jacobian(subject: Subject, case: Case) -> Verdict:
     first = _arguments(subject, arm)
 
     def jacobian(q: np.ndarray) -> np.ndarray:
-        J = real(subject.own.jacobian(*map(np.array, first), q))
+        J = real(subject.plain("jacobian")(*map(np.array, first), q))
         return subject.rows(J) if J.ndim == 2 and len(J) == 6 else J
 
     return of_arms.jacobian_is_the_derivative(jacobian, subject.frame, arm, q, Grade.BROKEN)

@@ -43,6 +43,10 @@ class Attempt:
         return True
 
 
+class ArgumentChanged(Exception):
+    """A function wrote into an argument, which is its caller's."""
+
+
 class Result(NamedTuple):
     """What came of a call, or None and the fault."""
 
@@ -59,12 +63,28 @@ def made(call: Callable[[], Any]) -> Result:
     return Result(value, attempt.fault)
 
 
+def untouched(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The function, which raises ArgumentChanged where it leaves other numbers in an array than it was given."""
+
+    def call(*arguments: np.ndarray) -> Any:
+        before = [np.array(x) for x in arguments]
+        result = function(*arguments)
+        for place, (x, was) in enumerate(zip(arguments, before, strict=True), 1):
+            if not np.array_equal(x, was):
+                which = f"argument {place} of {len(before)}" if len(before) > 1 else "argument"
+                raise ArgumentChanged(f"it writes into its {which}")
+        return result
+
+    return call
+
+
 def called(function: Callable[..., Any], shape: tuple[int, ...], *arguments: np.ndarray) -> Result:
     """The array of finite numbers, in the shape expected, that a function makes of copies of the arguments.
 
-    A fault is an exception, another shape, what is no array of real numbers, NaN and infinite.
+    A fault is an exception, another shape, what is no array of real numbers, NaN and infinite, and an argument that
+    other numbers are left in.
     """
-    value, fault = made(lambda: real(function(*(np.array(x) for x in arguments))))
+    value, fault = made(lambda: real(untouched(function)(*(np.array(x) for x in arguments))))
     if fault:
         return Result(None, fault)
     if value.shape != shape:

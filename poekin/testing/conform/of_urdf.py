@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import arm_cases, confirm, of_arms, small_urdf
-from .calls import called, made
+from .calls import called, made, untouched
 from .grades import Verdict, judged
 from .law import Case, Shown, typed
 from .subject import Subject, printed
@@ -43,7 +43,7 @@ def check_robot(subject: Subject, case: Case) -> Verdict:
     values, _, fault = _given(case, robot, small_urdf.coordinates(case))
     if fault:
         return judged(law, fault)
-    poses, fault = made(lambda: dict(robot.poses(values.copy())))
+    poses, fault = made(lambda: dict(untouched(robot.poses)(values.copy())))
     if fault:
         return judged(law, fault)
     verdicts = []

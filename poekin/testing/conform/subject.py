@@ -25,7 +25,7 @@ pitch; `noise`, up to which the entries of a rotation may be off for log to retu
 (0: not asked); `name` and `version`, for the report; `paste`, of a function by its name, a Python text that makes the
 same call of an argument `x`.
 
-Arguments are copies: whether a function writes into them is not judged.
+A function that writes into an argument is broken: an array is its caller's.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from ...errors import InputError, told
 from ...groups import se3
 from ...model.chain import Chain
 from ...model.evaluation import FRAME_NAMES
-from .calls import made, real
+from .calls import made, real, untouched
 from .named import Source, loaded, source
 
 ORDERS = ("angular first", "linear first")
@@ -172,9 +172,17 @@ class Subject:
         """
         return se3.linear_first(J, axis=-2) if self.linear_first else J
 
+    def plain(self, name: str) -> Function:
+        """A function as the subject has it, but that it raises ArgumentChanged where it writes into an argument.
+
+        Parameters: name, one of `FUNCTIONS`. Returns: the function, in the subject's own order. Raises: AttributeError
+        where the subject has none.
+        """
+        return untouched(getattr(self.own, name))
+
     def function(self, name: str) -> Function:
         """The function of a group of that name, with twists as (omega; v)."""
-        own = getattr(self.own, name)
+        own = self.plain(name)
         if name in SO3:
             return own
         enters = (lambda x: x) if name in ("log", "adjoint") else self.twist

@@ -116,10 +116,24 @@ class NotANumber:
 
 
 class Writes:
-    def so3_exp(self, w):
-        R = Poekin.so3_exp(w)
-        w[:] = 7.0
-        return R
+    """poekin, but what it was given last is 1 more afterwards."""
+
+    def __init__(self, own=None):
+        self._own = own or Poekin()
+
+    def __getattr__(self, name):
+        value = getattr(self._own, name)
+        if not callable(value):
+            return value
+
+        def call(*arguments):
+            result = value(*arguments)
+            if isinstance(arguments[-1], str):
+                return Writes(result)
+            arguments[-1][...] += 1.0
+            return result
+
+        return call
 
 
 @pytest.mark.parametrize(
@@ -142,8 +156,13 @@ def test_what_is_no_result_is_broken_and_says_what_it_was(kind, words):
     assert outcome.numbers <= 1
 
 
-def test_a_subject_that_writes_into_its_argument_harms_nobody_else():
-    assert conform(Writes, examples=50).conforms
+def test_who_writes_into_an_argument_is_broken_whatever_the_function_and_order():
+    every = conform(Writes, examples=2)
+    assert len(every.outcomes) == len(applicable(Subject(Poekin)))
+    turned = conform(type("Turned", (Writes,), {"twist_order": "linear first"}), ["exp", "left_jacobian"], examples=2)
+    for outcome in (*every.outcomes, *turned.outcomes):
+        assert outcome.grade is Grade.BROKEN
+        assert re.fullmatch(r"ArgumentChanged: it writes into its argument( 3 of 3)?", outcome.fault)
 
 
 def test_a_warning_is_no_fault_even_where_warnings_are_errors():
