@@ -52,17 +52,19 @@ class Reading:
     def cost(self) -> tuple[float, ...]:
         """What makes one reading better than another: the smaller, the better.
 
-        One change in one joint comes first, whatever it is: base and tool that stay where they are decide, then
-        a zero offset rather than a moved axis. One moved axis is likelier than two zero offsets; but where conventions
-        differ they differ in many joints, and each more says little. One other link, which moves all axes behind it, is
-        likelier than a moved axis that zero offsets help. Of several moved axes it counts how far they are: the few
-        that agree by chance under a wild alignment prove nothing.
+        One change in one joint comes first, whatever it is: base and tool that stay where they are decide, then a zero
+        offset rather than a moved axis. One moved axis is likelier than two zero offsets; but where conventions differ
+        they differ in many joints, and each more says little: where base and tool both moved, other zeros and
+        directions alone come before one moved axis. One other link, which moves all axes behind it, is likelier than a
+        moved axis that zero offsets help. Of several moved axes it counts how far they are: the few that agree by
+        chance under a wild alignment prove nothing.
         """
         conventions = int((self.offset | (self.directions < 0)).sum())
         moved, changes = int(self.moved.sum()), int(self.offset.sum() + (self.directions < 0).sum())
         near = float(np.minimum(self.misses, 10.0).sum())
         if moved + changes <= 1:
-            return (2.5 * (moved + changes), self.frames, moved, near)
+            alone = 4.9 if moved and self.frames == 2 else 2.5 * (moved + changes)
+            return (alone, self.frames, moved, near)
         if self.link:
             return (5.25, self.frames, moved, near)
         weight = (0.0, 2.5, 3.5)[conventions] if conventions < 3 else 3.25 + 0.25 * conventions

@@ -58,18 +58,13 @@ def test_a_moved_base_and_tool_are_alignment_only(name):
 
 @settings(deadline=None, max_examples=15)
 @example(62020, "rrr")
-@given(st.integers(0, 10**6), st.sampled_from(["rrrrrr", "rrprr", "prrr", "rrrp", "rrr", "rr"]))
+@given(st.integers(0, 10**6), st.sampled_from(["rrrrrr", "rrprr", "prrr", "rrrp", "rrr", "rrp", "rr"]))
 def test_two_conventions_of_one_arm_are_equal_and_the_alignment_maps_one_onto_the_other(seed, kinds):
     rng = np.random.default_rng(seed)
     chain = random_arm(seed, ["prismatic" if kind == "p" else "revolute" for kind in kinds])
     other = chain.rezeroed(rng.uniform(-1.2, 1.2, chain.dof)).rebased(se3.exp(rng.normal(size=6)))
     signs = rng.choice([-1.0, 1.0], chain.dof)
     result = compare(chain, Chain(other.screws * signs[:, None], other.home @ se3.exp(rng.normal(size=6))))
-    if kinds == "rrr" and not result.equal:
-        # Two axes of three always agree: one other axis at an end may say less than a zero offset and flips do.
-        assert [j.number for j in result.differing] in ([1], [3])
-        assert (signs < 0).any()
-        return
     assert result.equal, result.verdict
     assert result.after is not None
     assert result.after.worst_mm < 0.2
