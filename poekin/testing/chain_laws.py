@@ -35,13 +35,15 @@ def displacements(chain: Any, q: np.ndarray) -> np.ndarray:
 def budget(chain: Any, q: np.ndarray) -> tuple[float, float]:
     """What the rounding of a pose may come to: its rotation's, and its translation's, which grows with the arm.
 
-    u (8 (n + 1) + 4 Σ |x_i|), and that times the reach and what the joints slide beyond it. What the home pose's
-    rotation misses orthonormality by is added: each form of the chain makes something else of it.
+    u (8 (n + 1) + 4 Σ |x_i|), and that times the reach and what the joints slide beyond it. Where the home pose's
+    rotation R misses being one by δ = |R Rᵀ - I|, the forms are different motions: M e^{B x}, whose B = Ad(M)⁻¹ A takes
+    Rᵀ for the inverse, turns otherwise by up to δ (1 + Σ |x_i|/2), and moves by up to δ (2 + Σ |x_i|/2) times the same.
     Returns: both, in rad and in m. Raises: nothing.
     """
     x, R = displacements(chain, q), chain.home[:3, :3]
-    unit = UNIT * (8 * (len(x) + 1) + 4 * float(np.abs(x).sum())) + size(R @ R.T - np.eye(3))
-    return unit, unit * (chain.reach + float(np.abs(chain.local.slides * x).sum()))
+    turned, missed = float(np.abs(x).sum()), size(R @ R.T - np.eye(3))
+    angular = UNIT * (8 * (len(x) + 1) + 4 * turned) + missed * (1 + turned / 2)
+    return angular, (angular + missed) * (chain.reach + float(np.abs(chain.local.slides * x).sum()))
 
 
 def fk_is_the_product_of_exponentials(chain: Any, q: np.ndarray) -> float:

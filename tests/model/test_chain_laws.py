@@ -29,6 +29,19 @@ def test_chains_keep_the_law(name, data):
     target(LAWS[name].check(*data.draw(chain_strategies.chain_cases(LAWS[name].kinds))))
 
 
+def test_methods_agree_where_the_home_pose_is_turned_by_no_exact_rotation():
+    R = [
+        [-0.9926931592388943, 0.12015119179235847, 0.011134752407684486],
+        [0.12012144058298033, 0.9752393783084397, 0.18568520271911168],
+        [0.011451249389218323, 0.18566595301089525, -0.9825461937130402],
+    ]
+    home = np.vstack([np.c_[R, [5.253805835942181e-11, -8.628119445893364e-11, -2.4077806466076623]], [0, 0, 0, 1]])
+    assert np.linalg.norm(home[:3, :3] @ home[:3, :3].T - np.eye(3)) > 1.7e-15
+    chain = Chain([[1.0, 0, 0, 0, -0.06345643296552192, 0.03801836574876627]], home)
+    # M e^{B x} moves the tool by 4.8 m and back, along directions that are that far off.
+    LAWS["methods_agree"].check(chain, np.array([-3.01684376787039]), np.array([-1.3431296253910125]), 0)
+
+
 @pytest.mark.parametrize("kinds", [("revolute",), ("prismatic",), ("helical",)], ids=lambda k: k[0])
 @settings(max_examples=max(settings().max_examples // 10, 5))
 @given(data=st.data())
