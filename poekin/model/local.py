@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .. import algebra
 from ..engine import chain_kernels
 from ..groups.arrays import Array
 from . import screw
@@ -36,7 +37,7 @@ def local_form(screws: Array, home: Array) -> LocalForm:
     """The local form of checked screws (n, 6) in the base frame and the home pose (4, 4)."""
     n = len(screws)
     frames, rotates, slides = np.tile(np.eye(4), (n + 1, 1, 1)), np.empty(n), np.empty(n)
-    feet = np.cross(screws[:, :3], screws[:, 3:])
+    feet = np.stack(algebra.cross(screws[:, :3].T, screws[:, 3:].T), axis=1)
     R, origin = np.eye(3), np.zeros(3)
     for i, S in enumerate(screws):
         rotates[i] = 1.0 if S[:3].any() else 0.0

@@ -148,6 +148,7 @@ def test_s_never_goes_back_and_its_rates_are_its_rates(timing):
 
 @pytest.mark.parametrize("law", ["cubic", "quintic", "trapezoidal"])
 @example(distance=np.array([0.0, 0.0, 2e-313]), speed=[1.0] * 3, acceleration=[1.0] * 3)
+@example(distance=np.array([5e-324, 0.0, 0.0]), speed=[1.0] * 3, acceleration=[2.0, 1.0, 1.0])
 @given(distance=vector(3), speed=three, acceleration=three)
 def test_the_fastest_timing_keeps_every_limit_and_reaches_one(law, distance, speed, acceleration):
     timing = motion.fastest(law, distance, speed=speed, acceleration=acceleration)

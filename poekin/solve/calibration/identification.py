@@ -113,9 +113,8 @@ def judged(
         anywhere = normalised(problem, _anywhere(problem.arm.nominal, count), p)
         _, any_seen = _space(np.concatenate([anywhere, told]), least)
     seen_by = indices.of_singular_values(s[:rank], max(sum(map(len, problem.sets)), 1)) if rank else None
-    blind = _rest(any_seen)
-    lost = _rest(seen)
-    lost = lost - blind @ (blind.T @ lost)
+    blind, unseen = _rest(any_seen), _rest(seen)
+    lost = unseen - blind @ (blind.T @ unseen)
     identification = Identification(
         size=problem.size,
         expected=any_seen.shape[1],
@@ -129,7 +128,7 @@ def judged(
         O1=float(seen_by.O1) if seen_by else 0.0,
         amplification=float(seen_by.amplification) if seen_by else 0.0,
     )
-    return identification, _free(problem, _rest(seen))
+    return identification, _free(problem, unseen)
 
 
 def checked(identification: Identification, deficient: str) -> None:
@@ -171,7 +170,10 @@ def _space(J: Array, least: float) -> tuple[Array, Array]:
 
 def _rest(V: Array) -> Array:
     """An orthonormal basis of what is orthogonal to the columns of V (P, k)."""
-    return np.linalg.qr(V, mode="complete")[0][:, V.shape[1] :]
+    P, k = V.shape
+    if k in (0, P):  # all or nothing, as where everything is seen
+        return np.eye(P)[:, k:]
+    return np.linalg.qr(V, mode="complete")[0][:, k:]
 
 
 def _span(N: Array, count: int) -> Array:

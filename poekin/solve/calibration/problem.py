@@ -12,6 +12,7 @@ from ...groups import se3
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
+from ...model.parts import read_only
 from .measurement import Indices, Measurement
 from .parameters import Arm, Parameter
 from .points import Points
@@ -53,6 +54,7 @@ class Problem:
         self._ends = len(arm.parameters) + np.concatenate([[0], np.cumsum(sizes)]).astype(int)
         self.scale = np.where([p.unit in ("m", "m/rad") for p in named], arm.nominal.reach, 1.0)
         self.places = self._guesses() if places is None else tuple(places)
+        self._erred: tuple[bytes, list[Array]] | None = None
 
     def _guesses(self) -> tuple[Array, ...]:
         """First values of the unknown frames: of what sets share, by the largest of them."""
@@ -88,12 +90,17 @@ class Problem:
         ]
 
     def errors(self, p: Array) -> list[Array]:
-        """The errors (N, d) of each set."""
+        """The errors (N, d) of each set. The last are kept: a fit asks for each several times."""
+        kept, key = self._erred, p.tobytes()
+        if kept is not None and kept[0] == key:
+            return kept[1]
         T, places = self.arm.poses(p[: self.arm_size], self.q), self.placed(p)
-        return [
-            s.errors(T[rows], [places[i] for i in own])
+        found = [
+            read_only(s.errors(T[rows], [places[i] for i in own]))
             for s, rows, own in zip(self.sets, self.rows, self._own, strict=True)
         ]  # fmt: skip
+        self._erred = key, found
+        return found
 
     def linearised(self, p: Array) -> list[Linear]:
         """The errors of each set and their slopes."""
@@ -112,9 +119,9 @@ class Problem:
 
     def _linearised(self, p: Array, seen: Sequence[tuple[Array, Array]], measured: bool) -> list[Linear]:
         places, found = self.placed(p), []
-        for s, (T, D), own in zip(self.sets, seen, self._own, strict=True):
+        for k, (s, (T, D), own) in enumerate(zip(self.sets, seen, self._own, strict=True)):
             mine = [places[i] for i in own]
-            errors = s.errors(T, mine) if measured else np.zeros((len(T), s.width))
+            errors = self.errors(p)[k] if measured else np.zeros((len(T), s.width))
             arm, others = s.slopes(T, mine, errors, D)
             slopes = np.zeros((*errors.shape, self.size))
             slopes[..., : self.arm_size] = arm

@@ -122,17 +122,18 @@ def fastest(
     if speed is None and acceleration is None:
         raise InputError("fastest: expected a limit of speed, of acceleration, or of both, got none")
     a, b = _least(way, speed, "speed"), _least(way, acceleration, "acceleration")
-    if a == b == 0 and way.max(initial=0.0) >= _INSTANT:
+    still = way.max(initial=0.0) < _INSTANT  # then limits may vanish in what underflows
+    if a == b == 0 and not still:
         raise InputError("fastest: expected a finite limit for some distance that is not 0, got none")
     if law in _PEAKS:
         top, rise = _PEAKS[law]
         duration, ramp = max(top * a, math.sqrt(rise * b)), 0.5
-    elif acceleration is None or (b == 0 and a > 0):
+    elif acceleration is None or (b == 0 and a > 0 and not still):
         raise InputError("acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time")
     else:
-        even = b <= a * a
-        ramp = max(b / (a * a + b), 1e-15) if even and a > 0 else 0.5
-        duration = a + b / a if even and a > 0 else 2 * math.sqrt(b)
+        even = 0 < b <= a * a
+        ramp = max(b / (a * a + b), 1e-15) if even else 0.5
+        duration = a + b / a if even else 2 * math.sqrt(b)
     if duration == math.inf:
         raise InputError("fastest: the limits are so small that there is no finite duration")
     return Timing(law, float(duration * _SPARE) if duration >= _INSTANT else 0.0, float(ramp))
