@@ -87,15 +87,25 @@ def compare(
 
 
 def in_turn(
-    cases: Sequence[Case], *, rounds: int = 31, slice_s: float = 0.02, clock: Clock = time.process_time
+    cases: Sequence[Case],
+    *,
+    rounds: int = 31,
+    slice_s: float = 0.02,
+    clock: Clock = time.process_time,
+    rest_s: float = 0.0,
 ) -> list[Timed]:
-    """Time any number of cases in turn, there and back: A B C C B A A B C …; parameters as `compare`."""
+    """Time any number of cases in turn, there and back: A B C C B A A B C …; parameters as `compare`.
+
+    rest_s: seconds to wait before each slice. Threads of a library that the last case has started use the processor for
+    some hundredths of a second more, waiting for work, and that would be the next one's time.
+    """
     states = [case.setup() for case in cases]
     errors = [case.error(state, case.run(state)) for case, state in zip(cases, states, strict=True)]  # warms up, too
     loops = [_loops(case.run, state, slice_s) for case, state in zip(cases, states, strict=True)]
     times: list[list[float]] = [[] for _ in cases]
     for number in range(rounds):
         for which in range(len(cases)) if number % 2 == 0 else reversed(range(len(cases))):
+            time.sleep(rest_s)
             times[which].append(_clock(cases[which].run, states[which], loops[which], clock))
     return [
         Timed(case.name, spread(each), tuple(each), error)

@@ -35,6 +35,14 @@ def test_any_number_of_cases_goes_there_and_back():
     assert [(t.name, len(t.each)) for t in timed] == [("A", 3), ("B", 3), ("C", 3)]
 
 
+def test_a_rest_is_taken_before_each_slice(monkeypatch):
+    order: list[str] = []
+    monkeypatch.setattr(time, "sleep", lambda seconds: order.append(f"rest {seconds}"))
+    case = Case("case", lambda: None, lambda _: order.append("run"), lambda s, r: 0.0)
+    in_turn([case], rounds=2, slice_s=0.0, rest_s=0.5)
+    assert order[-4:] == ["rest 0.5", "run"] * 2
+
+
 def test_a_ratio_is_taken_within_each_round():
     def timed(*each: float) -> Timed:
         return Timed("t", spread(list(each)), each, 0.0)
