@@ -63,7 +63,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         WORDS,
         figures=[
             figure(f"{OBSERVATIONS} observations, 7 joints, one fit ÷ the same by SciPy", as_usual[1], as_usual, BAR),
-            figure("the whole of `calibrate` ÷ SciPy's fit", as_usual[0], as_usual),
+            figure("the whole of `calibrate` ÷ SciPy's fit", as_usual[0], as_usual, BAR),
             figure("linear algebra in one thread: one fit ÷ the same by SciPy", alone[1], alone, BAR),
             figure("linear algebra in one thread: the whole of `calibrate` ÷ SciPy's fit", alone[0], alone),
             Figure("largest difference between poekin's parameters and SciPy's", float(max(apart)), 1e-8, "rad, m",
