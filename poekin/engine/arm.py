@@ -6,10 +6,9 @@ from collections.abc import Callable
 
 import llvmlite
 import numpy as np
-from llvmlite import binding
 
 from . import cache
-from .machine_code import Loaded, object_code
+from .machine_code import Loaded, object_code, processor
 from .program import Program
 
 
@@ -26,8 +25,7 @@ class Arm:
 
 def arm(key: object, make: Callable[[], Program], coordinates: int, pose: bool) -> Arm:
     """The machine code of the program that `make` makes. key: all that it depends on besides poekin's source."""
-    processor = binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten(), llvmlite.__version__
-    path = cache.entry("arm", (key, pose, processor))
+    path = cache.entry("arm", (key, pose, processor(), llvmlite.__version__))
     kept = None if path is None else cache.read(path)
     if kept is None:
         program = make()

@@ -18,6 +18,7 @@ from __future__ import annotations
 from typing import Any
 
 from llvmlite import binding, ir
+from numba.core import codegen, config
 
 from .program import Program
 
@@ -29,15 +30,19 @@ ANGLES = ir.FunctionType(ir.VoidType(), [_POINTER, _POINTER, _INT])
 SIGNATURE = ir.FunctionType(ir.VoidType(), [_POINTER, _POINTER, _INT, _POINTER, _INT, _POINTER, _POINTER])
 
 
+def processor() -> tuple[str, str]:
+    """LLVM's name and features of the processor: the host's, or those of NUMBA_CPU_NAME and NUMBA_CPU_FEATURES."""
+    name, features = config.CPU_NAME, config.CPU_FEATURES  # type: ignore[attr-defined]
+    return name or binding.get_host_cpu_name(), codegen.get_host_cpu_features() if features is None else features
+
+
 def target_machine() -> Any:
-    """The machine that runs here, as LLVM sees it."""
+    """The machine that the code is made for."""
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
-    features = binding.get_host_cpu_features().flatten()
+    name, features = processor()
     target = binding.Target.from_default_triple()
-    return target.create_target_machine(
-        cpu=binding.get_host_cpu_name(), features=features, opt=3, jit=True, codemodel="jitdefault"
-    )
+    return target.create_target_machine(cpu=name, features=features, opt=3, jit=True, codemodel="jitdefault")
 
 
 def object_code(program: Program, pose: bool) -> bytes:
