@@ -25,7 +25,7 @@ endif
 
 help:
 	@echo "make test         run all tests"
-	@echo "make test-deep    run them with twenty times the examples (hours); ONLY=tests/groups runs those alone"
+	@echo "make test-deep    run them with twenty times as many new examples (hours); ONLY=tests/groups runs those alone"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
 	@echo "make lint         check style (ruff) and types (pyright)"
 	@echo "make docs         build the pages of docs/ and print where they are"
@@ -39,7 +39,9 @@ test: $(VENV)/dev
 
 # A test may take twenty times as long as in make test, where it is stopped after ten minutes.
 test-deep: $(VENV)/dev
-	@HYPOTHESIS_PROFILE=deep $(PY) -m pytest -n 2 --dist worksteal --durations=10 --timeout=12000 $(ONLY)
+	@seed=$(or $(SEED),$$RANDOM$$RANDOM); echo "The same examples again: make test-deep SEED=$$seed"; \
+	HYPOTHESIS_PROFILE=deep $(PY) -m pytest -n 2 --dist worksteal --durations=10 --timeout=12000 \
+	  --hypothesis-seed=$$seed $(ONLY)
 
 report: $(VENV)/dev
 	@$(PY) -m benchmarks
