@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from .count import Count
-from .trace import FOLDED, Graph, Node, Traced
+from .trace import Graph, Node, Traced, folded
 
 HALF_PI = math.pi / 2
 
@@ -90,7 +90,7 @@ def program(graph: Graph, angles: Angles, outputs: Sequence[Traced | float]) -> 
         if node.kind == "input" and node.first >= 0:
             node = Node("input", 2 * place[int(node.first) // 2] + int(node.first) % 2)
         steps.append((number, node))
-    ends = tuple((x.number, float(x.sign)) if isinstance(x, Traced) else (None, _constant(x)) for x in outputs)
+    ends = tuple((x.number, float(x.sign)) if isinstance(x, Traced) else (None, folded(x)) for x in outputs)
     return Program(tuple(chosen), tuple(steps), ends, _count(chosen, steps))
 
 
@@ -98,12 +98,6 @@ def _operands(node: Node) -> list[int]:
     if node.kind == "scaled":
         return [node.second]
     return [int(node.first), node.second] if node.kind in ("product", "sum") else []
-
-
-def _constant(x: float) -> float:
-    """A constant output; what is within rounding of 0 or +-1 is that."""
-    near = round(x) if abs(x) < 2 else x
-    return float(near) if near in (-1, 0, 1) and abs(x - near) <= FOLDED else float(x)
 
 
 def _sums(forms) -> tuple[list[Angle], list[int]]:

@@ -1,6 +1,6 @@
 """A scalar that records: run a formula on it and get the expression graph of what it computes.
 
-A product with 0 or +-1 and a sum with 0 are never recorded (within 1e-15, no more), equal nodes are one node, signs
+A product with 0 or +-1 and a sum with 0 are never recorded (`FOLDED` says how near), equal nodes are one node, signs
 stand beside nodes and cost nothing, and constants that meet are multiplied beforehand. What no output needs is left out
 when the graph is read.
 """
@@ -9,8 +9,14 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-FOLDED = 1e-15
-"""What differs from 0 or +-1 by up to this counts as it: the rounding of a cosine of a right angle, and no more."""
+FOLDED = 2.0**-52
+"""A constant that differs from 0 or +-1 by at most this, the rounding of a cosine of a right angle, counts as it."""
+
+
+def folded(value: float) -> float:
+    """A constant; one that is 0 or +-1 but for rounding is that."""
+    near = round(value) if abs(value) < 2 else value
+    return float(near) if near in (-1, 0, 1) and abs(value - near) <= FOLDED else float(value)
 
 
 class Node(NamedTuple):
@@ -42,15 +48,14 @@ class Graph:
 
     def scaled(self, x: Traced, factor: float) -> Traced | float:
         """A constant times a scalar."""
-        if abs(factor) <= FOLDED:
+        factor = folded(factor)
+        size, number, node = abs(factor), x.number, self.nodes[x.number]
+        if node.kind == "scaled":
+            size, number = node.first * size, node.second
+        if size == 0.0:
             return 0.0
         sign = x.sign if factor > 0 else -x.sign
-        size, node = abs(factor), self.nodes[x.number]
-        if abs(size - 1.0) <= FOLDED:
-            return Traced(self, x.number, sign)
-        if node.kind == "scaled":
-            return self.scaled(Traced(self, node.second, sign), node.first * size)
-        return self._node(Node("scaled", size, x.number), sign)
+        return Traced(self, number, sign) if size == 1.0 else self._node(Node("scaled", size, number), sign)
 
     def product(self, x: Traced, y: Traced) -> Traced:
         """x y."""

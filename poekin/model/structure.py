@@ -28,7 +28,7 @@ SLANT = 0.1
 
 
 def structure(chain: Chain) -> Structure:
-    """The structure of a chain. Its kinematics are the chain's within 1e-15 reach a joint."""
+    """The structure of a chain. Its kinematics are the chain's within 1e-15 reach a joint (see `trace.FOLDED`)."""
     with digits():
         return _structure(chain)
 

@@ -27,7 +27,7 @@ def test_a_product_with_zero_and_a_sum_with_zero_are_never_recorded(zero):
     assert cost(graph, x + zero, zero - x, zero + x * 1.0) == (0, 0)
 
 
-@pytest.mark.parametrize("one", [1.0, 1, 1 + FOLDED / 2, 1 - FOLDED / 2, -1.0, -1])
+@pytest.mark.parametrize("one", [1.0, 1, 1 + FOLDED, 1 - FOLDED, -1.0, -1])
 def test_a_product_with_one_is_the_number_itself_or_its_negative(one):
     graph, x, _, _ = traced()
     result = x * one
@@ -36,7 +36,7 @@ def test_a_product_with_one_is_the_number_itself_or_its_negative(one):
     assert cost(graph, result) == (0, 0)
 
 
-@pytest.mark.parametrize("near", [1e-14, 1 + 1e-14, -1 + 1e-14])
+@pytest.mark.parametrize("near", [2 * FOLDED, 1 + 2 * FOLDED, -1 + 2 * FOLDED])
 def test_what_is_near_zero_or_one_but_not_within_rounding_stays(near):
     graph, x, _, _ = traced()
     assert cost(graph, x * near) == (1, 0)
@@ -44,7 +44,13 @@ def test_what_is_near_zero_or_one_but_not_within_rounding_stays(near):
 
 def test_a_sum_with_a_number_that_is_not_quite_zero_is_an_addition():
     graph, x, _, _ = traced()
-    assert cost(graph, x + 1e-14) == (0, 1)
+    assert cost(graph, x + 2 * FOLDED) == (0, 1)
+
+
+def test_constants_that_meet_are_0_or_1_only_exactly():
+    graph, x, _, _ = traced()
+    assert cost(graph, x * 1e-9 * 1e-9, x * 3.0 * ((1 + FOLDED) / 3.0)) == (2, 0)
+    assert cost(graph, x * 1e-200 * 1e-200, x * 0.5 * 2.0) == (0, 0)
 
 
 def test_equal_nodes_are_one_node_whatever_their_order_and_sign():
