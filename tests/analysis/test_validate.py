@@ -140,7 +140,9 @@ def test_a_text_a_path_a_name_and_a_robot_are_validated_alike(tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text(URDF)
     results = [validate(given, samples=5) for given in (URDF, path, str(path), load(path))]
-    assert {v.error for v in results} == {results[0].error}
+    # not their errors: to the last bit these are the processor's
+    rows = [[(row.base, row.tip, row.joints, row.dof, row.reach) for row in v.rows] for v in results]
+    assert rows == [rows[0]] * 4
     assert all(v.passed for v in results)
     assert validate("panda", samples=5).passed
 
@@ -221,9 +223,9 @@ def test_the_oracle_reads_what_was_read_wherever_the_process_stands_by_then(tmp_
 def test_a_robot_out_of_a_text_that_is_called_like_a_file_is_not_read_from_that_file(tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text(URDF)
-    assert validate(urdf.read_text(URDF.replace('"turn"', '"twist"'), str(path)), samples=3).rows[0].configuration == (
-        validate(URDF.replace('"turn"', '"twist"'), samples=3).rows[0].configuration
-    )
+    named_like_it = validate(urdf.read_text(URDF.replace('"turn"', '"twist"'), str(path)), samples=3)
+    assert named_like_it.passed
+    assert set(named_like_it.rows[0].configuration) == {"twist", "slide", "bend"}
 
 
 ENCODED = {

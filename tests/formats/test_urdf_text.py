@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from poekin.analysis.validate import routes
@@ -22,10 +22,11 @@ from poekin.formats.urdf_text import to_urdf
 from poekin.model.chain import Chain
 from poekin.model.joint import FREE
 from poekin.model.robot import Robot
+from poekin.testing.attainable import UNIT
 from poekin.testing.chain_strategies import chains
 from poekin.testing.example_robots import example_robots
 from poekin.testing.pinocchio_oracle import PinocchioOracle
-from poekin.testing.urdf_errors import pinocchio_error, values_of
+from poekin.testing.urdf_errors import SAMPLES, pinocchio_error, values_of
 from tests.model.test_robot import random_q, robots, seeds, size
 
 INF = math.inf
@@ -92,6 +93,13 @@ def scaled_chains(draw) -> Chain:
     return Chain(chain.screws, chain.home, q_names=names, limits=limits, coupling=C, offset=chain.offset)
 
 
+def pull() -> Chain:
+    """Twelve turning joints in one another's line that all follow one coordinate, three times as fast."""
+    place = [[0, 0, 1, 3 * np.sin(k), -3 * np.cos(k), 0] for k in range(12)]
+    ratios = [3.0, -6.0, 1.5] * 4
+    return Chain(place, np.eye(4), coupling=np.reshape(ratios, (12, 1)), offset=np.linspace(-1, 1, 12))
+
+
 @given(robot=limited(), seed=seeds)
 def test_a_robot_comes_back_from_its_text(robot, seed):
     back = again(robot)
@@ -99,9 +107,26 @@ def test_a_robot_comes_back_from_its_text(robot, seed):
     assert pose_error(robot, back, seed) <= 1e-14
 
 
+def rounding(chain: Chain, seed: int) -> float:
+    """What `pinocchio_error` may come to by rounding alone; u = 2^-53, n joints, X = sum |C| |q| + |c|.
+
+    A pose is off by u (8 (n + 1) + 4 X) by poekin and, as much again, by Pinocchio. The text turns each frame by up to
+    1e-15 an entry, 27 u in Frobenius' norm, and each reader does so again, as it takes sines of its angles.
+    A follower's multiplier m and offset o, of |m| <= 4 and |o| <= 5 here, and m y + o are rounded: 24 u a joint.
+    A column is the sum of its joints' columns, each an axis and its moment: twice what a pose is off by, times the sum
+    of the ratios. Lengths grow with what joints slide.
+    """
+    q = np.random.default_rng(seed).uniform(-3, 3, (SAMPLES, chain.dof))
+    X, n = np.abs(q) @ np.abs(chain.coupling).T + np.abs(chain.offset), len(chain.screws)
+    far = 1 + (X @ np.abs(chain.local.slides)).max() / chain.reach
+    driven = max(1.0, np.abs(chain.coupling).sum(axis=0).max(initial=0))
+    return UNIT * (94 * (n + 1) + 8 * X.sum(axis=1).max()) * far * 2 * driven
+
+
 @given(chain=scaled_chains(), seed=seeds)
+@example(pull(), 0)
 def test_pinocchio_sees_a_chain_in_its_text(chain, seed):
-    assert pinocchio_error(chain, quietly(to_urdf, chain), seed) <= 1e-13
+    assert pinocchio_error(chain, quietly(to_urdf, chain), seed) <= rounding(chain, seed)
 
 
 @given(chain=chains(joint_kinds=("revolute", "prismatic"), offsets=False))
@@ -137,8 +162,8 @@ def test_every_example_robot_comes_back_and_pinocchio_sees_each_of_its_chains(na
     for link, T in mine.items():
         assert np.abs(T - theirs[link]).max() <= 1e-14 * reach
         assert np.abs(T - peers[link][0]).max() <= 1e-13 * reach
-    worst = max(pinocchio_error(chain, to_urdf(chain), seed) for seed, chain in enumerate(chains))
-    assert worst <= 1e-13
+    for seed, chain in enumerate(chains):
+        assert pinocchio_error(chain, to_urdf(chain), seed) <= rounding(chain, seed)
 
 
 def limb() -> Chain:
@@ -175,7 +200,7 @@ PLANTED = {
 @pytest.mark.parametrize("plant", PLANTED.values(), ids=PLANTED)
 def test_planted_errors_are_found_by_pinocchio(plant):
     text = to_urdf(limb())
-    assert pinocchio_error(limb(), text, 0) <= 1e-13
+    assert pinocchio_error(limb(), text, 0) <= rounding(limb(), 0) < 1e-12
     assert pinocchio_error(limb(), plant(text), 0) > 1e-10
 
 
