@@ -1,6 +1,6 @@
 """Kernels of SO(3) and SE(3): each maps one formula over the rows of an array."""
 
-from ..algebra import angular, inverse, linear
+from ..algebra import angular, cross, inverse, linear, translation
 from ..formulas import defect, exp_jacobian, exponential, logarithm
 from .kernel import kernel
 from .rows import load_matrix, load_rotation, store_matrix, store_rotation, store_row
@@ -76,6 +76,16 @@ def _store_blocks(J, diagonal, corner):
             J[r][c] = J[r + 3][c + 3] = diagonal[3 * r + c]
             J[r + 3][c] = corner[3 * r + c]
             J[r][c + 3] = 0.0
+
+
+@kernel("r3 w3")
+def se3_adjoint(T_ab, Ad):
+    """Ad of poses: [p] R is p x each column of R."""
+    for k in range(T_ab.shape[0]):
+        T = load_matrix(T_ab[k])
+        R, p = T[:9], translation(T)
+        x, y, z = cross(p, (R[0], R[3], R[6])), cross(p, (R[1], R[4], R[7])), cross(p, (R[2], R[5], R[8]))
+        _store_blocks(Ad[k], R, (x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]))
 
 
 @kernel("r2 w3")

@@ -109,12 +109,7 @@ def adjoint(T_ab: ArrayLike) -> Array:
     Parameters: T_ab (..., 4, 4). Returns: (..., 6, 6). Raises: PoseError, ShapeError, InputError.
     Accuracy: within 2 u |p| in each entry. Source: Park 1994, eq. (3).
     """
-    T = poses(T_ab)
-    R = T[..., :3, :3]
-    Ad = np.zeros((*T.shape[:-2], 6, 6))
-    Ad[..., :3, :3] = Ad[..., 3:, 3:] = R
-    Ad[..., 3:, :3] = so3.hat(T[..., :3, 3]) @ R
-    return Ad
+    return mapped(group_kernels.se3_adjoint, 2, (6, 6), poses(T_ab))
 
 
 def ad(xi: ArrayLike) -> Array:
