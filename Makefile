@@ -21,11 +21,12 @@ ifneq ($(SETUP_OF),$(CURDIR))
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help report test test-deep lint style types wheel-check docs mutate fuzz
+.PHONY: help report test test-deep test-processors lint style types wheel-check docs mutate fuzz
 
 help:
 	@echo "make test         run all tests"
 	@echo "make test-deep    run them with twenty times as many new examples (hours); ONLY=tests/groups runs those alone"
+	@echo "make test-processors  run the numeric tests as older processors would; ONLY='nehalem haswell' takes those"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
 	@echo "make lint         check style (ruff) and types (pyright)"
 	@echo "make docs         build the pages of docs/ and print where they are"
@@ -42,6 +43,9 @@ test-deep: $(VENV)/dev
 	@seed=$(or $(SEED),$$RANDOM$$RANDOM); echo "The same examples again: make test-deep SEED=$$seed"; \
 	HYPOTHESIS_PROFILE=deep $(PY) -m pytest -n 2 --dist worksteal --durations=10 --timeout=12000 \
 	  --hypothesis-seed=$$seed $(ONLY)
+
+test-processors: $(VENV)/dev
+	@$(PY) -m tools.processors $(ONLY)
 
 report: $(VENV)/dev
 	@$(PY) -m benchmarks

@@ -23,6 +23,7 @@ test as @example(...), with the values printed; where st.data() drew it, write t
 Until then @reproduce_failure(...) repeats it alone, and the next run of the deep profile tries it first."""
 
 settings.register_profile("quick", max_examples=100, derandomize=True, **COMMON)
+settings.register_profile("few", max_examples=20, derandomize=True, **COMMON)
 settings.register_profile("deep", max_examples=2000, **COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
