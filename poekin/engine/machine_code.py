@@ -52,7 +52,8 @@ def object_code(program: Program, pose: bool) -> bytes:
     _write_angles(module, program)
     for name, lanes in (("one", 1), ("four", LANES)):
         _Function(module, name, lanes).write(program, pose)
-    parsed = binding.parse_assembly(str(module))
+    # LLVM keeps constants as long as their context: in the global one those of every arm would stay
+    parsed = binding.parse_assembly(str(module), binding.create_context())
     parsed.verify()
     return target_machine().emit_object(parsed)
 
