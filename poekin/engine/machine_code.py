@@ -23,6 +23,8 @@ from numba.core import codegen, config
 from .program import Program
 
 LANES = 4
+LONGEST = 512
+"""Steps and stores in a block of LLVM's, whose scheduling takes time as the square of a block's length."""
 CONTRACT = ("contract",)
 _DOUBLE, _INT, _INDEX = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
 _POINTER = _DOUBLE.as_pointer()
@@ -96,13 +98,14 @@ class _Function:
     def __init__(self, module: ir.Module, name: str, lanes: int):
         self.function = ir.Function(module, SIGNATURE, name)
         self.build = ir.IRBuilder(self.function.append_basic_block())
-        self.lanes = lanes
+        self.lanes, self.length = lanes, 0
         self.type = _DOUBLE if lanes == 1 else ir.VectorType(_DOUBLE, lanes)
 
     def write(self, program: Program, pose: bool) -> None:
         """All of it: inputs, steps, outputs."""
         build, values = self.build, {}
         for number, node in program.steps:
+            self._lengthen()
             if node.kind == "input":
                 values[number] = self._input(int(node.first))
             elif node.kind == "constant":
@@ -122,6 +125,18 @@ class _Function:
             self._store(T, [*R[:3], p[0], *R[3:6], p[1], *R[6:], p[2], zero, zero, zero, self._constant(1.0)])
         self._store(J, outputs[12:] if pose else outputs)
         build.ret_void()
+
+    def _lengthen(self, by: int = 1) -> None:
+        """Count steps of the block, and begin another where it is long enough."""
+        self.length += by
+        if self.length > LONGEST:
+            self.length = by
+            following = self.function.append_basic_block()
+            # a branch that is always taken, which LLVM cannot know: it would make one block of two otherwise
+            with self.build.if_then(self.build.icmp_signed("<=", self.function.args[2], _INT(0)), likely=False):
+                self.build.ret_void()
+            self.build.branch(following)
+            self.build.position_at_end(following)
 
     def _constant(self, value: float):
         return _DOUBLE(value) if self.lanes == 1 else ir.Constant(self.type, [value] * self.lanes)
@@ -146,6 +161,7 @@ class _Function:
         build, size = self.build, len(values)
         for i in range(0, size, LANES):
             group = values[i : i + LANES]
+            self._lengthen(len(group))
             if self.lanes == 1:
                 for k, value in enumerate(group):
                     build.store(value, build.gep(start, [_INT(i + k)]), align=8)

@@ -104,10 +104,11 @@ def _sums(forms) -> tuple[list[Angle], list[int]]:
     """The angles, each from an earlier one where that saves additions; and which form each one is."""
     order = sorted(range(len(forms)), key=lambda j: (len(forms[j][0]), j))
     chosen: list[Angle] = []
+    having: dict[int, list[int]] = {}  # the angles so far that have a coordinate: no other one saves an addition
     for position, j in enumerate(order):
         terms, offset = forms[j]
         best = Angle(None, terms, offset)
-        for base in range(position):
+        for base in sorted({base for k, _ in terms for base in having.get(k, ())}):
             known, known_offset = forms[order[base]]
             rest = dict(terms)
             for k, factor in known:
@@ -117,6 +118,8 @@ def _sums(forms) -> tuple[list[Angle], list[int]]:
             if sum(candidate.cost()) < sum(best.cost()):
                 best = candidate
         chosen.append(best)
+        for k, _ in terms:
+            having.setdefault(k, []).append(position)
     return chosen, order
 
 

@@ -94,6 +94,7 @@ class _Trace:
         self.arm, self.n = arm, len(arm.links)
         self.graph = Graph()
         self.angles = Angles(self.graph)
+        self.driven_by = [[(k, factor) for k, factor in enumerate(row) if factor] for row in arm.coupling]
         self.alongs = [d + self._slide(i) for i, d in enumerate(arm.alongs)]
         self.rows: list[list[Any]] = [[0.0] * 12 for _ in range(self.n)]
         self.points: list[list[Any]] = [[0.0] * 2 for _ in range(self.n)]
@@ -167,8 +168,9 @@ class _Trace:
     def _slide(self, i: int):
         """s x_i, what joint i slides."""
         shift: Any = self.arm.slides[i] * self.arm.shift[i]
-        for k, factor in enumerate(self.arm.coupling[i]):
-            shift = shift + self.graph.scaled(self.graph.input(-1 - k), self.arm.slides[i] * factor)
+        if self.arm.slides[i]:
+            for k, factor in self.driven_by[i]:
+                shift = shift + self.graph.scaled(self.graph.input(-1 - k), self.arm.slides[i] * factor)
         return shift
 
     def _outward_angles(self, begin: int) -> tuple[list, list]:
@@ -190,7 +192,10 @@ class _Trace:
     def _sine_cosine(self, joints: range):
         """Of the sum of the joints' angles."""
         arm = self.arm
-        factors = [sum(arm.rotates[i] * arm.coupling[i][k] for i in joints) for k in range(arm.coordinates)]
+        factors = [0.0] * arm.coordinates
+        for i in joints:
+            for k, factor in self.driven_by[i]:
+                factors[k] += arm.rotates[i] * factor
         offset = sum(arm.rotates[i] * arm.shift[i] + arm.offsets[i] for i in joints)
         quarters = sum(arm.quarters[i] for i in joints)
         whole = round(offset / HALF_PI)

@@ -1,11 +1,13 @@
-"""One arm's machine code: its memory, which goes with the object that owns it."""
+"""One arm's machine code: its memory, which goes with the object that owns it, and its blocks."""
 
 import ctypes
 import gc
 
 import numpy as np
 import pytest
+from llvmlite import binding
 
+from poekin.engine import arm_kernels, machine_code
 from poekin.engine.arm import Arm
 from poekin.engine.machine_code import object_code
 from poekin.model.chain import Chain
@@ -49,3 +51,26 @@ def test_the_memory_of_an_arm_s_machine_code_is_freed_with_the_arm():
     before = _in_use()
     use(programs[8:])
     assert _in_use() - before < 12 * 4096
+
+
+def test_a_long_program_is_compiled_in_blocks_and_computes_the_same(monkeypatch):
+    # LLVM's scheduling takes time as the square of a block's length: 13 s for 200 joints in one block
+    rng = np.random.default_rng(0)
+    screws = rng.normal(size=(5, 6))
+    screws[:, :3] /= np.linalg.norm(screws[:, :3], axis=1)[:, None]
+    screws[3] = 0, 0, 0, 1, 0, 0
+    chain, q = Chain(screws, np.eye(4)), rng.normal(size=(7, 5))
+    program = chain.compile().program("hybrid", pose=True)
+    texts = []
+    parse = binding.parse_assembly
+    monkeypatch.setattr(machine_code, "LONGEST", 60)
+    monkeypatch.setattr(binding, "parse_assembly", lambda text, *more: texts.append(text) or parse(text, *more))
+    arm = Arm(object_code(program, True), len(program.angles), 5)
+    T, J = np.empty((7, 4, 4)), np.empty((7, 6, 5))
+    arm_kernels.pose_jacobian_many.call(arm.address, q, T, J)  # four at once, and three one at a time
+    # rounding: fused or not, in another order; the arm reaches less than 20 m
+    for got, expected in zip((T, J), chain.fk_jacobian(q, "hybrid"), strict=True):
+        np.testing.assert_allclose(got, expected, rtol=0, atol=5e-14)
+    blocks = [[sum(1 for _ in block.instructions) for block in f.blocks] for f in parse(texts[0]).functions]
+    assert min(map(len, blocks[1:])) > 4
+    assert max(map(max, blocks)) < 16 * 60  # of four lanes, a step may take that many instructions

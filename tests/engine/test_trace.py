@@ -108,6 +108,15 @@ def test_a_sum_of_angles_is_made_from_the_sum_before_it():
     assert program(graph, angles, outputs).count.additions == 2
 
 
+def test_a_sum_of_scaled_angles_is_made_from_another_one_where_that_saves_multiplications():
+    graph = Graph()
+    angles = Angles(graph)
+    outputs = [angles.sine_cosine(f, 0.0, 0)[0] for f in ([1.0, 2.0], [2.0, 3.0], [0.0, 0.0, 1.0])]
+    made = program(graph, angles, outputs)
+    assert [angle.base for angle in made.angles] == [None, None, 1]
+    assert (made.count.multiplications, made.count.additions) == (1, 3)
+
+
 def test_an_offset_that_is_no_right_angle_costs_an_addition():
     graph = Graph()
     angles = Angles(graph)
