@@ -40,7 +40,7 @@ def without(chain: Chain, ks: tuple[int, ...]) -> Chain:
     names = tuple(name for k, name in enumerate(chain.joint_names) if k not in ks)
     return Chain(
         np.delete(chain.screws, ks, 0), chain.home, joint_names=names, limits=np.delete(chain.limits, ks, 0),
-        base=chain.base, tip=chain.tip,
+        base=chain.base, tip=chain.tip, pitches=np.delete(chain.pitches, ks),
     )  # fmt: skip
 
 

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from ..groups import se3, so3
 from ..groups.arrays import Array
 from ..model.chain import Chain
-from ..model.screw import pitch_of
 
 Marks = NDArray[np.bool_]
 
@@ -83,7 +82,10 @@ def at_rest(chain: Chain) -> Chain:
         (ks,) = np.nonzero(row)
         if len(ks) == 1:
             limits[i] = np.sort(row[ks[0]] * chain.limits[ks[0]]) + chain.offset[i]
-    bare = Chain(chain.screws, chain.home, joint_names=chain.joint_names, limits=limits, base=chain.base, tip=chain.tip)
+    bare = Chain(
+        chain.screws, chain.home, joint_names=chain.joint_names, limits=limits, base=chain.base, tip=chain.tip,
+        pitches=chain.pitches,
+    )  # fmt: skip
     return bare.rezeroed(chain.offset) if chain.offset.any() else bare
 
 
@@ -92,11 +94,10 @@ def lines(chain: Chain) -> Lines:
     hub = _hub(chain)
     screws = chain.screws.copy()
     screws[:, 3:] += cross(screws[:, :3], hub)
-    pitches = np.array([pitch_of(S) if kind == "helical" else 0.0 for S, kind in zip(screws, chain.kinds, strict=True)])
     axes = screws.copy()
-    axes[:, 3:] -= pitches[:, None] * screws[:, :3]
+    axes[:, 3:] -= chain.pitches[:, None] * screws[:, :3]
     places = cross(axes[:, :3], axes[:, 3:])
-    return Lines(screws, axes, direction(axes, chain.kinds), chain.kinds, pitches, places, hub)
+    return Lines(screws, axes, direction(axes, chain.kinds), chain.kinds, chain.pitches, places, hub)
 
 
 def sides(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Sides:

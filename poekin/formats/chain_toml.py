@@ -16,17 +16,23 @@ FORMAT, VERSION = "poekin calibration", 1
 """What `format` and `version` say in the file of a calibration (`poekin.solve.calibration.files`)."""
 CALIBRATED = "calibrated"
 """The key of the calibrated chain in it."""
-_KEYS = ("base", "tip", "joint_names", "q_names", "screws", "home", "limits", "offset", "coupling")
+_KEYS = ("base", "tip", "joint_names", "q_names", "screws", "home", "limits", "offset", "coupling", "pitches")
 
 
 def to_data(chain: Chain) -> dict[str, Any]:
-    """A chain as a table: its two frames, names, screws, home pose, limits, offset and, where it has one, coupling."""
+    """A chain as a table: its two frames, names, screws, home pose, limits and offset; coupling and pitches, where it
+    has such.
+    """
     data: dict[str, Any] = {
         "base": chain.base, "tip": chain.tip, "joint_names": list(chain.joint_names), "q_names": list(chain.q_names),
         "screws": chain.screws.tolist(), "home": chain.home.tolist(), "limits": chain.limits.tolist(),
         "offset": chain.offset.tolist(),
     }  # fmt: skip
-    return data if chain._coupling is None else data | {"coupling": chain._coupling.tolist()}
+    if chain._coupling is not None:
+        data["coupling"] = chain._coupling.tolist()
+    if chain.pitches.any():
+        data["pitches"] = chain.pitches.tolist()
+    return data
 
 
 def to_chain(keys: Keys) -> Chain:
@@ -35,11 +41,12 @@ def to_chain(keys: Keys) -> Chain:
     joints, names = keys.texts("joint_names"), keys.texts("q_names")
     n, m = len(joints), len(names)
     coupling = keys.array("coupling", (n, m)) if "coupling" in keys.data else None
+    pitches = keys.array("pitches", (n,)) if "pitches" in keys.data else None
     try:
         return Chain(
             keys.array("screws", (n, 6)), keys.array("home", (4, 4)), joint_names=joints, q_names=names,
             limits=keys.array("limits", (m, 2), finite=False), offset=keys.array("offset", (n,)), coupling=coupling,
-            base=keys.text("base"), tip=keys.text("tip"),
+            base=keys.text("base"), tip=keys.text("tip"), pitches=pitches,
         )  # fmt: skip
     except ModelError:
         raise

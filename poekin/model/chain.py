@@ -39,18 +39,21 @@ class Chain:
     limits (m, 2): lower and upper bound of each coordinate (rad or m); infinite means unlimited.
     coupling (n, m), offset (n,): C and c; without them every joint is its own coordinate and gives it its name.
     base, tip: names of the two frames.
+    pitches (n,): m per rad, 0 for a revolute joint and for a prismatic one. Without them the pitch is omega . v of the
+        screw, 0 where that is its rounding, below 4e-15 max(1 m, |v|); with them v is made exact, so that omega . v is
+        the pitch. `rebased`, `retooled` and `rezeroed` keep them: the kind of a joint is not found again.
 
     Frozen: the arrays are read-only. Equal chains have equal numbers and names; hashable; pickles as its data.
-    Revolute, prismatic and helical joints differ only in their screws; a pitch below 4e-15 max(1 m, |v|) per rad is the
-    rounding of a revolute one. A chain without joints is legal. Not made to be subclassed.
+    Revolute, prismatic and helical joints differ only in their screws. A chain without joints is legal. Not made to be
+    subclassed.
     Raises: ScrewError, PoseError, ShapeError, InputError. Accuracy: the data are kept to the last digit, but for what
     is made exact (unit length within 1e-9, the rotation of M within 1e-5).
     Source: Park 1994, eqs. (1) and (2).
     """
 
     __slots__ = (
-        *("screws", "home", "joint_names", "q_names", "limits", "_coupling", "offset", "base", "tip", "kinds"),
-        *("local", "reach", "_table", "_one", "_jacobian_shape", "_compiled"),
+        *("screws", "home", "joint_names", "q_names", "limits", "_coupling", "offset", "base", "tip", "pitches"),
+        *("kinds", "local", "reach", "_table", "_one", "_jacobian_shape", "_compiled"),
     )
     screws: Array
     home: Array
@@ -61,6 +64,7 @@ class Chain:
     offset: Array
     base: str
     tip: str
+    pitches: Array
     kinds: tuple[str, ...]
     local: LocalForm
     reach: float
@@ -81,9 +85,12 @@ class Chain:
         offset: ArrayLike | None = None,
         base: str = "base",
         tip: str = "tool",
+        pitches: ArrayLike | None = None,
     ):
         A = screw.checked(screws, ordered_names(joint_names, "joint_names"))
         n = len(A)
+        h = screw.pitches_of(A, pitches, ordered_names(joint_names, "joint_names"))
+        A = A if pitches is None else screw.with_pitches(A, h)
         joints = distinct_names(joint_names, n, "joint_names", "joint")
         C = None if coupling is None else coupling_matrix(coupling, n)
         m = n if C is None else C.shape[1]
@@ -92,7 +99,7 @@ class Chain:
             raise ShapeError(f"offset: expected shape ({n},), one number a joint, got {c.shape}")
         names = distinct_names(joints if q_names is None and C is None else q_names, m, "q_names", "q")
         M = one_pose(home)
-        form = local_form(A, M)
+        form = local_form(A, M, h)
         table = kernel_table(form, C, c)
         data = {
             "screws": A,
@@ -104,6 +111,7 @@ class Chain:
             "offset": c,
             "base": frame_name(base, "base"),
             "tip": frame_name(tip, "tip"),
+            "pitches": h,
             "kinds": tuple(_kind(r, s) for r, s in zip(form.rotates, form.slides, strict=True)),
             "local": form,
             "reach": max(1.0, float(np.linalg.norm(form.frames[:, :3, 3], axis=1).sum() + (form.rotates == 0).sum())),
@@ -273,7 +281,7 @@ class Chain:
         )
 
 
-_DATA = ("screws", "home", "joint_names", "q_names", "limits", "offset", "base", "tip")
+_DATA = ("screws", "home", "joint_names", "q_names", "limits", "offset", "base", "tip", "pitches")
 _KINDS = ("revolute", "prismatic", "helical")
 
 

@@ -16,7 +16,6 @@ import numpy as np
 from .. import algebra
 from ..engine import chain_kernels
 from ..groups.arrays import Array
-from . import screw
 from .parts import read_only
 
 
@@ -33,15 +32,15 @@ class LocalForm:
     slides: Array
 
 
-def local_form(screws: Array, home: Array) -> LocalForm:
-    """The local form of checked screws (n, 6) in the base frame and the home pose (4, 4)."""
+def local_form(screws: Array, home: Array, pitches: Array) -> LocalForm:
+    """The local form of checked screws (n, 6) in the base frame, the home pose (4, 4) and the pitches (n,)."""
     n = len(screws)
     frames, rotates, slides = np.tile(np.eye(4), (n + 1, 1, 1)), np.empty(n), np.empty(n)
     feet = np.stack(algebra.cross(screws[:, :3].T, screws[:, 3:].T), axis=1)
     R, origin = np.eye(3), np.zeros(3)
     for i, S in enumerate(screws):
         rotates[i] = 1.0 if S[:3].any() else 0.0
-        slides[i] = screw.pitch_of(S) if rotates[i] else 1.0
+        slides[i] = pitches[i] if rotates[i] else 1.0
         z = S[:3] if rotates[i] else S[3:]
         there = origin
         if rotates[i]:

@@ -17,7 +17,6 @@ from .coordinates import coordinates
 from .coupling import Coupling, coupling_of, shared_limits, warn_of_torn_limits
 from .joint import FREE, Joint
 from .layout import Layout, layout_of, link_poses
-from .screw import without_pitch
 from .source import Source
 from .tree import Tree, path, tree_of
 
@@ -123,9 +122,7 @@ class Robot:
                 H = compose(H, inverse(origin))
         home = np.eye(4)
         home.ravel()[TWELVE] = H
-        turning = np.array([self.joints[j].kind in ("revolute", "continuous") for j in moving], dtype=bool)
-        A = without_pitch(np.array(screws).reshape(-1, 6), turning)
-        return self._coupled_chain(A, home, np.array(moving, dtype=np.int64), base, tip)
+        return self._coupled_chain(np.reshape(screws, (-1, 6)), home, np.array(moving, dtype=np.int64), base, tip)
 
     def _coupled_chain(self, screws: np.ndarray, home: np.ndarray, moving: np.ndarray, base: str, tip: str) -> Chain:
         whole = self._coupling
@@ -148,8 +145,9 @@ class Robot:
                     C[row, column[k]] = ratio
         limits = shared_limits(whole, self._bounds, moving)[0][used]
         return Chain(
-            screws, home, joint_names=names, q_names=q_names, limits=limits, coupling=C, offset=c, base=base, tip=tip
-        )
+            screws, home, joint_names=names, q_names=q_names, limits=limits, coupling=C, offset=c, base=base, tip=tip,
+            pitches=[self.joints[j].pitch for j in moving],
+        )  # fmt: skip
 
     def fk(self, q: Any, poses: Mapping[str, Any] | None = None) -> dict[str, np.ndarray]:
         """Pose of every link in the root link's frame [m].

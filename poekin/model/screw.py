@@ -14,15 +14,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, ScrewError, ShapeError
+from ..errors import InputError, ScrewError, ShapeError, shown
 from ..groups.arrays import Array, numbers, shaped
-from .parts import LONGEST
+from .parts import LONGEST, finite
 
-__all__ = ["Axis", "axis_of", "checked", "helical", "pitch_of", "prismatic", "revolute", "without_pitch"]
+__all__ = ["Axis", "axis_of", "checked", "helical", "pitch_of", "pitches_of", "prismatic", "revolute", "with_pitches"]
 
 UNIT = 1e-9  # how far from 1 the length of a screw's direction may be
 _EXACT = 4.5e-16  # two units in the last place of 1
-_NO_PITCH = 4e-15  # m per rad, relative to max(1 m, |v|): the rounding of a moved revolute screw
+_NO_PITCH = 4e-15  # m per rad, relative to max(1 m, |v|): the rounding of omega . v
 
 
 class Axis(NamedTuple):
@@ -67,7 +67,10 @@ def helical(axis: ArrayLike, point: ArrayLike, pitch: float) -> Array:
     h = float(shaped(pitch, (), "pitch"))
     if p.ndim != 1 or not np.isfinite([*p, h]).all():
         raise InputError(f"expected a finite point (3,) and pitch, got point {p.tolist()} and pitch {h}")
-    return np.concatenate([z, np.cross(p, z) + h * z])
+    # The cross product with a far point has the rounding of that distance along z too, which would pass for a pitch.
+    (S,) = with_pitches(np.concatenate([z, np.cross(p, z)])[None], np.zeros(1))
+    S[3:] += h * z
+    return S
 
 
 def prismatic(axis: ArrayLike) -> Array:
@@ -89,17 +92,45 @@ def pitch_of(screw: Array) -> float:
     return 0.0 if abs(pitch) <= _NO_PITCH * max(1.0, float(np.linalg.norm(screw[3:]))) else pitch
 
 
-def without_pitch(screws: Array, revolute: Array) -> Array:
-    """Screws (n, 6) of which those marked in `revolute` (n,) have omega . v = 0 to their own rounding.
+def pitches_of(screws: Array, given: ArrayLike | None = None, names: tuple[str, ...] = ()) -> Array:
+    """Pitches (n,) of checked screws (n, 6), in m per rad; 0 for a prismatic joint, which has none.
 
-    A revolute screw moved by a far pose comes back with the rounding of that distance, which would pass for a pitch.
+    Parameters: screws; given (n,), the pitches where they are known, else `pitch_of` finds them; names of the joints,
+    for the message. Returns: a new array (n,). Raises: ShapeError; ScrewError for a pitch of a prismatic joint or one
+    above 1e100; InputError for one that is not finite. Accuracy: as `pitch_of`. Source: Park 1994, Section II.
+    """
+    turns = np.any(screws[:, :3], axis=1)
+    if given is None:
+        return np.array([pitch_of(S) if turning else 0.0 for S, turning in zip(screws, turns, strict=True)])
+    pitches = finite(given, "pitches")
+    if pitches.shape != (len(screws),):
+        raise ShapeError(f"pitches: expected shape ({len(screws)},), one number a joint, got {pitches.shape}")
+    for i, (pitch, turning) in enumerate(zip(pitches.tolist(), turns, strict=True)):
+        where = f"pitches[{i}]" + (f" (joint {shown(names[i])})" if i < len(names) else "")
+        if abs(pitch) > LONGEST:
+            raise ScrewError(f"{where}: expected at most {LONGEST:g} m per rad, got {pitch:g}")
+        if pitch and not turning:
+            raise ScrewError(f"{where}: expected 0 for a prismatic joint, which has no pitch, got {pitch:g}")
+    return pitches
 
-    Parameters: screws (n, 6), in any one frame; revolute (n,), True where the pitch is to go. Returns: (n, 6), rad, m.
-    Raises: nothing of its own. Accuracy: one rounding of omega . v. Source: Park 1994, Section II.
+
+def with_pitches(screws: Array, pitches: Array) -> Array:
+    """Screws (n, 6) on the same lines whose omega . v is the pitch, to their own rounding.
+
+    A screw moved by a far pose comes back with the rounding of that distance, which would pass for a pitch. A screw
+    that has its pitch already stays as it is, to the last bit, and so does a prismatic one.
+
+    Parameters: screws (n, 6), |omega| = 1 or omega = 0; pitches (n,), m per rad. Returns: a new array (n, 6).
+    Raises: nothing of its own. Accuracy: omega . v is within 4e-15 max(1 m, |v|) of the pitch.
+    Source: Park 1994, Section II.
     """
     w, v = screws[:, :3], screws[:, 3:]
-    pitch = (w * v).sum(1, keepdims=True) / np.maximum((w * w).sum(1, keepdims=True), np.finfo(float).tiny)
-    return np.where(revolute[:, None], np.concatenate([w, v - pitch * w], axis=1), screws)
+    missing = pitches - (w * v).sum(1)
+    far = np.maximum(1.0, np.linalg.norm(v, axis=1))
+    put = np.any(w, axis=1) & (np.abs(missing) > _NO_PITCH * far)
+    out = screws.copy()
+    out[put, 3:] += missing[put, None] * w[put]
+    return out
 
 
 def axis_of(screw: ArrayLike) -> Axis:

@@ -373,13 +373,19 @@ def test_limits_that_are_no_pair_of_numbers_are_refused(limits):
 
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 def test_a_far_base_makes_no_pitch_of_its_rounding(convention):
-    """Ad of a pose 1e5 m away leaves omega . v = 1e-11 m per rad, of which a revolute joint has none."""
+    """Ad of a pose 1e5 m away leaves omega . v = 1e-11 m per rad, of which a revolute joint has none.
+
+    That is more than the rounding of v where the pose is far away along the axis: there v is small.
+    """
     base = pk.se3.exp([0.4, -0.7, 0.3, 1e5, -2e5, 3e5])
-    table = Table(convention, [Row(d=0.3, alpha=1.0), Row(a=0.2, alpha=0.7), *ROWS], base=base)
-    chain = dh.to_chain(table)
-    assert chain.kinds == table.kinds
-    turns = np.array(chain.kinds) == "revolute"
-    assert np.abs((chain.screws[turns, :3] * chain.screws[turns, 3:]).sum(1)).max() < 1e-9
+    turned = pk.se3.exp([0.4, -0.7, 0.3, 0, 0, 0])
+    for table in (
+        Table(convention, [Row(d=0.3, alpha=1.0), Row(a=0.2, alpha=0.7), *ROWS], base=base),
+        Table(convention, [Row(d=1e5), Row(d=0.3), *ROWS], base=turned),
+    ):
+        chain = dh.to_chain(table)
+        assert chain.kinds == table.kinds
+        assert pk.screw.pitches_of(chain.screws).tolist() == chain.pitches.tolist() == [0.0] * len(table)
 
 
 def test_an_arm_of_a_micrometre_has_the_screws_of_a_large_one():

@@ -188,6 +188,11 @@ def test_coordinates_of_an_ets_are_in_the_order_of_jindex_and_shared_ones_have_w
     assert chain.kinds == ("revolute", "prismatic", "revolute")
 
 
+def test_a_joint_far_along_its_axis_is_revolute():
+    chain = from_object([et("Rx", 0.7), et("Ry", 0.4), et("tz", 1e6), et("Rz", jindex=0), et("tz", jindex=1)])
+    assert chain.kinds == ("revolute", "prismatic")
+
+
 def test_one_elementary_transform_is_a_chain_too():
     assert from_object(et("Ry")).screws.tolist() == [[0, 1, 0, 0, 0, 0]]
     assert from_object([et("tx", 0.3)]).dof == 0

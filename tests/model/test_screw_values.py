@@ -60,13 +60,33 @@ def test_a_pitch_is_nothing_up_to_4e_15_of_the_distance(far):
     assert screw.pitch_of(np.array([0, 0, 1, 0, 0, 4e-15])) == 0.0
 
 
-def test_a_pitch_is_taken_out_where_that_is_asked_for_and_nowhere_else():
-    S = np.array([[*Z, *(np.cross(P, Z) + 0.3 * Z)], [*Z, *(np.cross(P, Z) + 0.3 * Z)], [0, 0, 0, *Z]])
-    out = screw.without_pitch(S, np.array([True, False, True]))
-    np.testing.assert_allclose(out[0], [*Z, *np.cross(P, Z)], rtol=0, atol=2e-15)
-    assert np.array_equal(out[1:], S[1:])
-    longer = screw.without_pitch(np.array([[*(3 * Z), *(np.cross(P, Z) + 0.3 * Z)]]), np.array([True]))
-    np.testing.assert_allclose(longer[0, 3:], np.cross(P, Z), rtol=0, atol=2e-15)
+def test_screws_are_given_their_pitches_and_those_that_have_them_stay_to_the_last_bit():
+    line, slide = np.array([*Z, *np.cross(P, Z)]), np.array([0, 0, 0, *Z])
+    bolt = line + 0.3 * np.array([0, 0, 0, *Z])
+    out = screw.with_pitches(np.array([bolt, bolt, line, slide]), np.array([0.0, 0.3, -0.2, 0.0]))
+    np.testing.assert_allclose(out[0], line, rtol=0, atol=2e-15)
+    np.testing.assert_allclose(out[2], [*Z, *(np.cross(P, Z) - 0.2 * Z)], rtol=0, atol=2e-15)
+    assert np.array_equal(out[[1, 3]], [bolt, slide])
+    far = np.array([[0, 0, 1, 1000.0, 0, 3.9e-12], [0, 0, 1, 1000.0, 0, 4.1e-12]])
+    assert screw.with_pitches(far, np.zeros(2))[:, 5].tolist() == [3.9e-12, 0.0]
+
+
+@pytest.mark.parametrize("far", [10.0, 1e3, 1e8])
+def test_a_point_far_along_or_beside_the_axis_makes_no_pitch(far):
+    rng = np.random.default_rng(0)
+    for axis, aside in rng.normal(size=(200, 2, 3)):
+        for point in (far * aside, far * axis + aside):
+            assert screw.axis_of(screw.revolute(axis, point)).pitch == 0.0
+            pitch = screw.axis_of(screw.helical(axis, point, 0.1)).pitch
+            assert pitch == pytest.approx(0.1, abs=4e-15 * max(1.0, float(np.linalg.norm(point))))
+
+
+def test_the_pitches_of_screws_are_those_given_or_those_that_they_have():
+    S = np.array([[*Z, *np.cross(P, Z)], [*Z, *(np.cross(P, Z) + 0.3 * Z)], [0, 0, 0, *Z]])
+    assert screw.pitches_of(S) == pytest.approx([0.0, 0.3, 0.0], abs=1e-15)
+    assert screw.pitches_of(S)[[0, 2]].tolist() == [0.0, 0.0]
+    assert screw.pitches_of(S, [1e-20, -1, 0]).tolist() == [1e-20, -1.0, 0.0]
+    assert screw.pitches_of(np.zeros((0, 6)), []).shape == (0,)
 
 
 @pytest.mark.parametrize("off", [9e-10, -9e-10, 1e-12, -1e-14])

@@ -13,7 +13,6 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.joint import Joint
 from ...model.robot import Robot
-from ...model.screw import without_pitch
 from .table import Table
 
 
@@ -45,8 +44,7 @@ def to_chain(table: Table) -> Chain:
     slides = [sign * (kind == "prismatic") for sign, kind in zip(signs, table.kinds, strict=True)]
     A = np.zeros((len(table), 6))
     home = _matrix(dh.screws(links_of(table), rotates, slides, len(table), A))
-    A = without_pitch(A, np.array([kind == "revolute" for kind in table.kinds], dtype=bool))
-    return Chain(A, home, joint_names=table.names, limits=table.limits)
+    return Chain(A, home, joint_names=table.names, limits=table.limits, pitches=np.zeros(len(table)))
 
 
 def _link(theta: float, d: float, a: float, alpha: float) -> tuple[float, ...]:

@@ -14,7 +14,6 @@ from ...model.chain import Chain
 from ...model.joint import Joint, Mimic
 from ...model.parts import one_pose
 from ...model.robot import Robot
-from ...model.screw import without_pitch
 from .attributes import free_name, has, items_of
 
 _ET = ("isjoint", "axis", "A")
@@ -63,11 +62,12 @@ def chain_of(ets: Any) -> Chain:
     used = sorted({step.coordinate for step in steps})
     C = np.array([[float(step.coordinate == k) for k in used] for step in steps]).reshape(len(steps), len(used))
     return Chain(
-        without_pitch(screws, np.array([step.kind == "revolute" for step in steps], dtype=bool)),
+        screws,
         T @ last,
         coupling=C,
         q_names=[f"q{k}" for k in used],
         limits=[_shared(steps, k) for k in used] if used else None,
+        pitches=np.zeros(len(steps)),
     )
 
 

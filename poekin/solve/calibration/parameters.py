@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from ...errors import InputError, UnknownName, closest, shown, told
 from ...groups import se3
 from ...groups.arrays import Array
-from ...model import screw
 from ...model.chain import Chain
 from ...model.parts import read_only
 from .tall import times
@@ -117,9 +116,8 @@ class Arm:
             return kept[1]
         eta, h, home, _, _ = self._split(p)
         A = (se3.adjoint(se3.exp(eta)) @ self.nominal.screws[..., None])[..., 0]
-        A = screw.without_pitch(A, np.array(self.nominal.kinds, "U9") == "revolute")
-        A[:, 3:] += h[:, None] * A[:, :3]
-        moved = Chain(A, self.nominal.home @ se3.exp(home), **(self._named_as if self._plain else {}))
+        named, pitches = self._named_as if self._plain else {}, self.nominal.pitches + h
+        moved = Chain(A, self.nominal.home @ se3.exp(home), pitches=pitches, **named)
         self._moved = key, moved
         return moved
 
@@ -139,11 +137,13 @@ class Arm:
         _, _, _, o, g = self._split(p)
         if self._plain and not o.any() and not g.any():
             return joints
-        arm = Chain(joints.screws, joints.home, coupling=nominal._coupling, **same)
+        arm = Chain(joints.screws, joints.home, coupling=nominal._coupling, pitches=joints.pitches, **same)
         if o.any():
             arm = arm.rezeroed(o)
         coupling = nominal.coupling * (1.0 + g) if g.any() else nominal._coupling
-        return Chain(arm.screws, arm.home, coupling=coupling, **same) if o.any() or g.any() else arm
+        if not o.any() and not g.any():
+            return arm
+        return Chain(arm.screws, arm.home, coupling=coupling, pitches=arm.pitches, **same)
 
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""

@@ -16,7 +16,7 @@ import pytest
 
 from benchmarks.subjects import FAULTS, Poekin
 from benchmarks.subjects.faulty import NoMimic, _Reader
-from poekin.model.screw import without_pitch
+from poekin.model.screw import with_pitches
 from poekin.testing.conform import LAWS, Grade, Report, Subject, applicable, conform
 from poekin.testing.laws import LawViolation
 
@@ -306,7 +306,7 @@ def test_joints_with_a_pitch_are_asked_of_those_who_declare_them():
 
         @staticmethod
         def flat(screws):
-            return without_pitch(screws, np.any(screws[:, :3], axis=1))
+            return with_pitches(screws, np.zeros(len(screws)))
 
     report = conform(Flat, examples=10)
     assert [(outcome.law, outcome.finding) for outcome in report.outcomes] == [
