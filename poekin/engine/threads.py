@@ -26,8 +26,12 @@ def share_out(run: Callable[..., Any], *arrays: Any, rows: int = ROWS_AT_ONCE) -
         return
     parts = ([a[start : start + rows] for a in arrays] for start in starts)
     tasks = [_pool().submit(run, *part) for part in parts]
-    for task in tasks:
-        task.result()
+    try:
+        for task in tasks:
+            task.result()
+    finally:  # an interrupt, or an error of one of them, ends the others too
+        for task in tasks:
+            task.cancel()
 
 
 def _pool() -> ThreadPoolExecutor:

@@ -13,6 +13,7 @@ from ..errors import InputError, told
 from ..groups.arrays import Array, numbers
 from ..model.compiled import CompiledChain
 from . import aims, reasons
+from .memory import keep
 from .solution import SOLVED, UNREACHABLE, Solution
 from .starts import Room, first_tries, for_targets, room_of
 from .task import Task, check_joints, task_of
@@ -20,8 +21,8 @@ from .task import Task, check_joints, task_of
 AT_ONCE = 20_000
 """Targets between two calls of `progress`."""
 
-KEPT = 64
-"""So many ways of asking are kept with an arm, the latest ones."""
+STEPS = 800_000
+"""The most steps that one call of a kernel takes, which no interrupt ends: some tenths of a second."""
 
 NEAREST_OF = 48
 """So many tries for each target are looked at for the one nearest to `nearest_to`."""
@@ -60,15 +61,12 @@ def items(lock: Any) -> Any:
 
 def solver_of(fast: CompiledChain, settings: Settings) -> Solver:
     """The arm's solver for these settings. Raises: InputError, UnknownName, ShapeError for settings that are none."""
+    key = settings, *map(type, settings)  # 1 == True, and 100.0 == 100: what is no setting must find none
     try:
-        kept = fast.memory.get(settings)
+        kept = fast.memory.get(key)
     except TypeError:  # something that is no number, and so no key: the checks say what
         kept = None
-    if kept is None:
-        while len(fast.memory) >= KEPT:
-            fast.memory.pop(next(iter(fast.memory)), None)
-        kept = fast.memory[settings] = Solver(fast, settings)
-    return kept
+    return keep(fast, key, Solver(fast, settings)) if kept is None else kept
 
 
 class Solver:
@@ -89,6 +87,7 @@ class Solver:
         self.options[codes.TOL_POSITION] = 0.9 * settings.tol_position
         self.options[codes.TOL_ROTATION] = 0.9 * settings.tol_rotation
         self.options[codes.ITERATIONS], self.options[codes.RESTARTS] = settings.iterations, settings.restarts
+        self._rows = _rows(settings.restarts, settings.iterations)
         self.options[codes.TASK] = self.task.code
         self.options[codes.AXIS : codes.AXIS + 3], self.options[codes.WEIGHTS :] = self.task.axis, self.task.weights
 
@@ -153,22 +152,27 @@ class Solver:
     def solve(self, targets: Array, indices: Array, q0: Array, *, restarts: int | None = None,
               limits: Array | None = None, ranges: Array | None = None) -> tuple[Array, Array]:  # fmt: skip
         """q and info of targets, whose indices in the batch are given, from q0; NaN there means anywhere."""
-        options = self.options
+        options, rows = self.options, self._rows
         if restarts is not None:
             options = options.copy()
             options[codes.RESTARTS] = restarts
+            rows = _rows(restarts, self.settings.iterations)
         q, info = np.empty((len(targets), self.fast.dof)), np.empty((len(targets), codes.INFO))
         limits = self.room.limits if limits is None else limits
         ranges = self.room.ranges if ranges is None else ranges
         arm, fixed, seed = self._arm, self.room.fixed, self.settings.seed
-        if self.settings.parallel:
-
-            def run(targets: Array, q0: Array, indices: Array, q: Array, info: Array) -> None:
-                self._solve.call(arm, targets, q0, limits, ranges, fixed, options, indices, seed, q, info)
-
-            threads.share_out(run, targets, q0, indices, q, info, rows=256)
-        else:
+        if len(targets) <= rows:
             self._solve.call(arm, targets, q0, limits, ranges, fixed, options, indices, seed, q, info)
+            return q, info
+
+        def run(targets: Array, q0: Array, indices: Array, q: Array, info: Array) -> None:
+            self._solve.call(arm, targets, q0, limits, ranges, fixed, options, indices, seed, q, info)
+
+        if self.settings.parallel:
+            threads.share_out(run, targets, q0, indices, q, info, rows=min(rows, 256))
+        else:
+            for start in range(0, len(targets), rows):
+                run(*(a[start : start + rows] for a in (targets, q0, indices, q, info)))
         return q, info
 
     def nearest(self, targets: Array, indices: Array, q0: Array, near: Array) -> tuple[Array, Array]:
@@ -195,6 +199,11 @@ class Solver:
             kept[:, codes.AT_ITERATIONS] += said[:, codes.AT_ITERATIONS]
             kept[nearer, codes.AT_STATE] = codes.SOLVED
         return best, kept
+
+
+def _rows(restarts: int, iterations: int) -> int:
+    """How many targets are solved in one call of a kernel."""
+    return int(max(STEPS // ((restarts + 1) * iterations), 1))
 
 
 def _distance(q: Array, near: Array, info: Array) -> Array:

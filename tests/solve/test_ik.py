@@ -1,6 +1,9 @@
 """Inverse kinematics: solved means solved, and where it is not, the reason is the right one."""
 
+import threading
+import time
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,10 +13,12 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError, PoekinWarning, PoseError, ShapeError, UnknownName
 from poekin.model import screw
+from poekin.model.compiled import CompiledChain
 from poekin.solve.ik import ik
 from poekin.solve.ik_all import ik_all
+from poekin.solve.memory import KEPT
 from poekin.solve.solution import REASONS
-from poekin.solve.solver import Settings, solver_of
+from poekin.solve.solver import STEPS, Settings, solver_of
 from poekin.solve.starts import room_of
 from poekin.testing import chain_strategies
 
@@ -489,3 +494,76 @@ def test_long_arms_with_joints_to_spare_give_numbers(size, seed):
     assert np.isfinite(found.q).all()
     assert np.isfinite(found.position_error + found.rotation_error).all()
     assert ik(arm, T).success.mean() >= 0.6
+
+
+@pytest.mark.parametrize("options, message", [
+    ({"limits": 1}, "limits: expected True or False, got 1"),
+    ({"seed": False}, "seed: expected a whole number"),
+    ({"parallel": 0}, "parallel: expected True or False, got 0"),
+    ({"restarts": 100.0}, "restarts: expected a whole number"),
+    ({"iterations": 30.0}, "iterations: expected a whole number"),
+    ({"tol_position": True}, "tol_position: expected a positive number, got True"),
+], ids=str)  # fmt: skip
+def test_a_setting_that_is_none_is_told_after_its_equal_was_accepted(options, message):
+    T = UR5.fk(UR5.random(0))
+    assert ik(UR5, T).success
+    ik(UR5, T, tol_position=1)
+    with pytest.raises(InputError, match=message):
+        ik(UR5, T, **options)
+
+
+def test_a_setting_of_another_type_is_another_solver_and_the_same_result():
+    T = UR5.fk(UR5.random(0))
+    expected = ik(UR5, T, restarts=7).q
+    np.testing.assert_array_equal(
+        ik(UR5, T, restarts=np.int64(7), limits=np.True_, tol_position=np.float64(1e-9)).q, expected
+    )
+
+
+class Interrupted(dict):
+    """A dict that other threads get their turn of while one begins to look through it."""
+
+    def __iter__(self):
+        looking = super().__iter__()
+        time.sleep(1e-3)
+        return looking
+
+
+def test_threads_may_ask_one_arm_in_more_ways_than_are_kept():
+    fast = CompiledChain(UR5)
+    fast.memory = Interrupted()
+    T, wrong = UR5.fk(UR5.random(0)), []
+
+    def ask(first):
+        try:
+            for seed in range(first, first + KEPT):
+                assert ik(fast, T, seed=seed).success
+        except RuntimeError as error:
+            wrong.append(error)
+
+    threads = [threading.Thread(target=ask, args=(first,)) for first in range(0, 4 * KEPT, KEPT)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert wrong == []
+    assert len(fast.memory) == KEPT
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+def test_an_interrupt_is_seen_between_some_of_many_targets(parallel, monkeypatch):
+    T = np.tile(np.eye(4), (1000, 1, 1))
+    T[:, 0, 3] = 5.0  # out of reach
+    solver = solver_of(UR5.compile(), Settings("pose", None, True, 1e-9, 1e-9, None, None, 100, 30, 0, parallel))
+    whole, sizes = solver._solve.call, []
+
+    def call(arm, targets, *arguments):
+        sizes.append(len(targets))
+        if len(sizes) == 3:
+            raise KeyboardInterrupt
+        whole(arm, targets, *arguments)
+
+    monkeypatch.setattr(solver, "_solve", SimpleNamespace(call=call))
+    with pytest.raises(KeyboardInterrupt):
+        ik(UR5, T, parallel=parallel)
+    assert max(sizes) * 101 * 30 <= STEPS  # of the most tries and iterations
