@@ -18,8 +18,8 @@ class AllSolutions:
     """Every solution of each target.
 
     Of one target: solutions (s, m), rad or m, sorted; copies (s,), how many places within the limits each stands for,
-    being a whole turn of some coordinates apart (a coordinate without limits counts once); sure, in words. Of a batch:
-    lists of these, its targets in C order. method: "closed form" or "search".
+    being a whole turn of some joints apart (a coordinate without limits counts once; 2^63 - 1 stands for more, too);
+    sure, in words. Of a batch: lists of these, its targets in C order. method: "closed form" or "search".
     Arrays over the batch (...): count, the number of solutions; anywhere, the same without limits; continuum, whether
     there are infinitely many (then one of them is listed, and those that stand alone); chance, of a solution missing:
     0 for the closed form, NaN where nothing was found or there is a continuum; position_error (m) and rotation_error

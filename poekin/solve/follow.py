@@ -55,7 +55,8 @@ def follow(
         others, and of them the one whose largest step is smallest.
     times (N,), s, ascending: when each pose is to be reached. speed, acceleration: limits of each coordinate, a number,
         (m,) or a dict, per s and s^2; they are compared with what the differences of q over `times` say.
-    max_step: rad or m, a number, (m,) or a dict: how far a coordinate may move between two poses, or pieces.
+    max_step: how far a coordinate may move between two poses, or pieces: a number, in rad or m of the joint that it
+        moves most, or (m,) or a dict, in its own unit.
     task, axis, limits, lock, tol_position (m), tol_rotation (rad), seed: as `ik`.
     progress(done, total): called from time to time.
 
@@ -72,11 +73,14 @@ def follow(
         task, hashable(axis, "axis"), limits, tol_position, tol_rotation, items(lock), None, 100, 30, seed, False
     ))  # fmt: skip
     most = per_coordinate(max_step, chain, "max_step")
+    if isinstance(max_step, Mapping) or np.ndim(max_step):
+        most = np.abs(solver.units.of(most))
     when, limit_v, limit_a = _timing(times, speed, acceleration, chain, len(targets))
-    start = None if q0 is None else first_tries(chain, solver.room, (), 1, q0)[0]
+    start = None if q0 is None else first_tries(solver.units, solver.room, (), 1, q0)[0]
     finite = np.isfinite(targets).all(axis=(1, 2))
     follower = Follower(solver, np.ascontiguousarray(targets[finite]), most, progress)
-    found, broken = follower.run(start)
+    joints, broken = follower.run(start)
+    found = solver.coordinates(joints)
 
     at, count = np.flatnonzero(finite), len(targets)
     q, reason, errors = (
@@ -84,7 +88,7 @@ def follow(
         np.full(count, BAD_TARGET, KIND),
         np.full((count, 2), np.nan),
     )
-    q[at], errors[at] = found, follower.errors(found)
+    q[at], errors[at] = found, solver.judged(targets[finite], found)[0]
     success = (errors[:, 0] <= tol_position) & (errors[:, 1] <= tol_rotation)
     reason[success] = SOLVED
     beyond = np.zeros(count)
@@ -94,7 +98,8 @@ def follow(
     nothing = np.zeros(count, np.int64)
     solution = Solution(q, success, reason, errors[:, 0], errors[:, 1], nothing, nothing, beyond, tuple(blocked))
     changes = tuple(int(at[k]) for k in broken)
-    return Followed(chain, solution, changes, solver.task, solver.room.limits, when, limit_v, limit_a)
+    bounds = chain.limits if limits else np.full_like(chain.limits, [-np.inf, np.inf])
+    return Followed(chain, solution, changes, solver.task, bounds, when, limit_v, limit_a)
 
 
 def per_coordinate(value: Any, chain: Chain, what: str) -> Array:

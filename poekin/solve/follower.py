@@ -26,14 +26,14 @@ REGULAR = 1e-13
 
 
 class Follower:
-    """One path of finite poses, and what is known of it."""
+    """One path of finite poses, and what is known of it; all joints are in joint units (`joint_units`)."""
 
     def __init__(
         self, solver: Solver, targets: Array, most: Array, progress: Callable[[int, int], None] | None
     ):  # fmt: skip
         from ..engine import follow_kernels, ik_kernels  # imports Numba
 
-        self._kernel, self._judge, self._errors = follow_kernels.follow, ik_kernels.judge, ik_kernels._errors
+        self._kernel, self._errors = follow_kernels.follow, ik_kernels._errors
         self.solver, self.targets, self.most, self.progress = solver, targets, most, progress
         self.dof, self.room = solver.fast.dof, solver.room
         self._known: tuple[int, Solution] | None = None
@@ -99,12 +99,6 @@ class Follower:
             return ITERATIONS, 0.0, ()
         return str(solution.reason[at]), float(solution.beyond[at]), solution.blocked[at]
 
-    def errors(self, q: Array) -> Array:
-        """|p* - p| (m) and the angle (rad) (N, 2) of joints (N, m), computed anew."""
-        errors, task = np.empty((len(q), 2)), self.solver.task
-        self._judge.call(self.solver.fast.chain._table, q, self.targets, task.code, task.axis, errors)
-        return errors
-
     def _descend(self, targets: Array, start: Array, q: Array, anywhere: bool = False) -> int:
         """How many targets are followed from `start`; where `anywhere`, the first of them at any distance from it."""
         info, count = np.empty((len(targets), codes.INFO)), 0
@@ -136,7 +130,7 @@ class Follower:
         """
         if last is None:
             _, solution, at = self._solution_of(k)
-            return solution.q[[at]]
+            return self.solver.units.of(solution.q[[at]])
         low, high = np.clip(last - self.most, *self.room.limits.T), np.clip(last + self.most, *self.room.limits.T)
         low, high = (np.where(self.room.fixed != 0, last, bound) for bound in (low, high))
         q, damping = last, 1e-3
@@ -169,11 +163,11 @@ class Follower:
         if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are
             q = self.room.unwound(q, self.room.ranges.mean(axis=1) if last is None else last)
         if last is not None and turn == 0:
-            near = self.solver.run(self.targets[k], None, last, None, None)
-            q = np.concatenate([near.q[None][: int(near.success)], q])
+            near = self.solver.run(self.targets[k], None, self.solver.coordinates(last), None, None)
+            q = np.concatenate([self.solver.units.of(near.q[None])[: int(near.success)], q])
         if not len(q):
             success, solution, at = self._solution_of(k)
-            q = solution.q[[at]][: int(success)]
+            q = self.solver.units.of(solution.q[[at]])[: int(success)]
         return q
 
     def _solution_of(self, k: int) -> tuple[bool, Solution, int]:

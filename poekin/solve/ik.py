@@ -51,7 +51,7 @@ def ik(
     limits: whether q has to lie within the chain's limits.
     tol_position (m), tol_rotation (rad): what is solved, by |p* - p| and by the angle of the rotation between the two.
     nearest_to (m,), (..., m) or a dict, within the limits or not: of the solutions that some fifty tries find, the one
-        with the least |q - nearest_to|; `ik_all` finds them all.
+        with the least distance from it, in rad and m of the joints; `ik_all` finds them all.
     aim: of an arm with more joints than the task needs, what to do with the rest: "middle" (of the limits), "nearest"
         (to q0), "manipulability" (Yoshikawa's measure of what the task asks, in rad and m).
     lock: names of coordinates and the values that they keep.

@@ -16,12 +16,15 @@ from ..model.compiled import CompiledChain
 from .all_solutions import AllSolutions, chance_of_more, in_words
 from .closed_form import ClosedForm, closed_form
 from .ik_all_search import Found, Rule, accepted, periods, pose_errors, search, turns_within
+from .joint_units import joint_units
 
 METHODS = ("auto", "closed", "search")
 
 MOST = 4096
 """The most places that `copies=True` lists for one target."""
 
+_ANYWHERE = np.array([[-np.inf, np.inf]])  # limits that are none
+_MANY = 2**63 - 1  # the largest number of `copies`
 _BARREN = 200  # tries without any solution, after which a search gives up
 
 
@@ -63,7 +66,8 @@ def ik_all(
     fast = arm if isinstance(arm, CompiledChain) else arm.compile() if isinstance(arm, Chain) else None
     if fast is None:
         raise InputError(f"ik_all: expected a Chain, got {told(arm)}")
-    chain = fast.chain
+    given, units = fast.chain, joint_units(fast)
+    fast, chain = units.fast, units.fast.chain
     _check_chain(chain)
     _check_options(limits, method, copies)
     for what, number, least in (
@@ -89,7 +93,11 @@ def ik_all(
         again = search(fast, good[unsure], [starts[k] for k in unsure], thorough, int(seed), limits)
         for k, f in zip(unsure, again, strict=True):
             found[k] = f
-    return _result(chain, good, finite, batch, found, _places(chain, found, limits, copies), solver)
+    places = _places(chain, found, limits, copies)
+    order = _order(places.q if units.scale is None else places.q * np.sign(units.scale), places.owner)
+    q = units.coordinates(places.q[order], given.limits if limits else _ANYWHERE)
+    places = _Places(q, places.owner[order], places.number[order], places.within)
+    return _result(given, good, finite, batch, found, places, solver)
 
 
 def _check_chain(chain: Chain) -> None:
@@ -165,7 +173,7 @@ def _places(chain: Chain, found: list[Found], limits: bool, copies: bool) -> _Pl
     bounded = np.isfinite(first) & np.isfinite(last)
     within = np.bincount(owner, minlength=len(found))
     nearest = np.clip(np.zeros_like(Q), first, last)
-    with np.errstate(invalid="ignore"):  # infinite less infinite
+    with np.errstate(invalid="ignore", over="ignore"):  # infinite less infinite
         number = np.where(bounded, last - first + 1, 1.0).prod(axis=1)
     if copies:
         most = np.bincount(owner, number, minlength=1).max(initial=0)
@@ -180,7 +188,13 @@ def _places(chain: Chain, found: list[Found], limits: bool, copies: bool) -> _Pl
         each = [len(w) for w in ways]
         nearest = np.array(list(itertools.chain(*ways))).reshape(-1, chain.dof)
         Q, owner, number = np.repeat(Q, each, axis=0), np.repeat(owner, each), np.ones(sum(each))
-    return _Places(np.clip(Q + turn * nearest, low, high) + 0.0, owner, number.astype(np.int64), within)
+    counts = np.array([int(min(n, _MANY)) for n in number], np.int64)
+    return _Places(np.clip(Q + turn * nearest, low, high) + 0.0, owner, counts, within)
+
+
+def _order(q: Array, owner: np.ndarray) -> np.ndarray:
+    """The order of solutions (S, m): target by target, sorted; what differs by rounding alone, by later coordinates."""
+    return np.lexsort((*np.round(q, 9).T[::-1], owner))
 
 
 def _result(
@@ -192,10 +206,9 @@ def _result(
     places: _Places,
     solver: ClosedForm | None,
 ) -> AllSolutions:
-    """What is handed out, every solution looked at by `Chain.fk`."""
+    """What is handed out of places in order, every solution looked at by `Chain.fk`."""
     position, rotation = pose_errors(chain, places.q, T[places.owner]).T
     good = np.flatnonzero((position <= accepted(chain)) & (rotation <= accepted(chain)))
-    good = good[np.lexsort((*np.round(places.q[good], 9).T[::-1], places.owner[good]))]
     Q, owner, number = places.q[good], places.owner[good], places.number[good]
     ends = np.searchsorted(owner, np.arange(len(found) + 1))
     solutions: list[Array] = []

@@ -1,4 +1,7 @@
-"""All ends of many tries: what the kernel finds for each target, and which of it is a continuum."""
+"""All ends of many tries: what the kernel finds for each target, and which of it is a continuum.
+
+Arms and configurations are in joint units (`joint_units`).
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ from ..engine import ik_codes
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.compiled import CompiledChain
-from .starts import room_of
+from .joint_units import period
 
 
 def accepted(chain: Chain) -> float:
@@ -22,7 +25,7 @@ def accepted(chain: Chain) -> float:
 _EDGE = 1e-12  # rad or m: a solution that is outside the limits by less is at them
 _AIM = 1e-13  # m per metre of reach, and rad: where a try ends, some 100 times the rounding of a pose
 _ROOM = 40  # solutions of one target that are kept: isolated ones of six revolute joints are at most 16
-_AT_ONCE = 1024  # targets whose solutions are held at a time
+_AT_ONCE = 32  # targets between which an interrupt is seen
 _SINGULAR = 1e-5  # of the largest singular value: below it a solution may be one of a continuum
 _MOVES = 0.02  # of the largest change: what changes by less does not move along a continuum
 _STEP = 0.05  # rad or m: how far a walk along a continuum goes
@@ -60,12 +63,12 @@ class Rule:
 
 
 def periods(chain: Chain) -> Array:
-    """After how much each coordinate has all its joints where they were (m,): a turn, or 0 for never."""
-    return np.where(room_of(chain, None, True).turns, 2 * np.pi, 0.0)
+    """After how much each coordinate has all its joints where they were (m,): whole turns, or 0 for never."""
+    return np.array([period(chain, k) for k in range(chain.dof)])
 
 
 def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
-    """The fewest and the most turns (S, m) that may be added to configurations within the limits: more than the most
+    """The fewest and the most periods (S, m) that may be added to configurations within the limits: more than the most
     where there is no way, infinite where there is no limit.
     """
     turn = periods(chain)
@@ -105,7 +108,7 @@ def _search(fast: CompiledChain, T: Array, starts: Sequence[Array], rule: Rule, 
     turn = periods(chain)
     # a coordinate that turns is free, and brought into its limits at the end; another one has only its own range
     low, high = chain._range()
-    ranges = np.where(turn[:, None] > 0, [-np.pi, np.pi], np.stack([low, high], axis=1))
+    ranges = np.where(turn[:, None] > 0, turn[:, None] * [-0.5, 0.5], np.stack([low, high], axis=1))
     options = np.zeros(ik_codes.OPTIONS)
     options[ik_codes.TOL_POSITION], options[ik_codes.TOL_ROTATION] = _AIM * chain.reach, _AIM
     options[ik_codes.ITERATIONS], options[ik_codes.TASK] = rule.iterations, ik_codes.POSE

@@ -10,6 +10,7 @@ from ..engine import ik_codes as codes
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from .solution import BAD_TARGET, ITERATIONS, LIMITS, SOLVED, UNREACHABLE
+from .starts import free_ranges
 from .task import Task
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def of(
     open_ones = np.flatnonzero(~success & (state != codes.BAD_TARGET) & (beyond == 0))
     if len(open_ones) and np.isfinite(room.limits).any():
         free = np.tile([-np.inf, np.inf], (chain.dof, 1))
-        ranges = np.stack(chain._turn_range(), axis=1)
+        ranges = free_ranges(chain)
         anywhere = np.where(room.fixed != 0, room.held, np.full((len(open_ones), chain.dof), np.nan))
         other, said = solver.solve(targets[open_ones], open_ones.astype(float), anywhere, limits=free, ranges=ranges)
         for found, k, ended in zip(other, open_ones, said[:, codes.AT_STATE], strict=True):

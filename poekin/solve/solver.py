@@ -13,6 +13,7 @@ from ..errors import InputError, told
 from ..groups.arrays import Array, numbers
 from ..model.compiled import CompiledChain
 from . import aims, reasons
+from .joint_units import joint_units
 from .memory import keep
 from .solution import SOLVED, UNREACHABLE, Solution
 from .starts import Room, first_tries, for_targets, room_of
@@ -74,9 +75,10 @@ class Solver:
 
     def __init__(self, fast: CompiledChain, settings: Settings):
         _check_numbers(settings)
-        self.fast, self.settings = fast, settings
+        self.settings, self.given, self.units = settings, fast.chain, joint_units(fast)
+        self.fast = fast = self.units.fast
         self.task: Task = task_of(settings.task, settings.axis, settings.weights)
-        self.room: Room = room_of(fast.chain, settings.lock, settings.limits)
+        self.room: Room = room_of(self.units, settings.lock, settings.limits)
         check_joints(fast.chain, self.task, int((self.room.fixed == 0).sum()))
         from ..engine import ik_kernels  # imports Numba
 
@@ -98,20 +100,24 @@ class Solver:
         if not (rows.flags.writeable and rows.flags.aligned):  # the kernels take no others
             rows = rows.copy()
         count, room = len(rows), self.room
-        first = first_tries(self.fast.chain, room, batch, count, q0)
-        near = None if nearest_to is None else for_targets(self.fast.chain, batch, count, nearest_to, "nearest_to")
+        first = first_tries(self.units, room, batch, count, q0)
+        near = None
+        if nearest_to is not None:
+            near = self.units.of(for_targets(self.given, batch, count, nearest_to, "nearest_to"))
         indices = np.arange(count, dtype=float)
         if count <= AT_ONCE and near is None and aim is None and progress is None:
-            q, info = self.solve(rows, indices, first)
+            u, info = self.solve(rows, indices, first)
         else:
-            q, info = self._in_parts(rows, indices, first, near, aim, progress)
+            u, info = self._in_parts(rows, indices, first, near, aim, progress)
         if room.winds and nearest_to is None:
-            q = room.unwound(q)
+            u = room.unwound(u)
+        q = u if self.units.scale is None else self.coordinates(u)
         errors, success = self.judged(rows, q)
         reason = np.full(count, SOLVED, dtype=reasons.KIND)
         beyond, blocked = np.zeros(count), ()
         if not success.all():
-            reason, beyond, blocked = reasons.of(self, rows, q, info, success)
+            reason, beyond, blocked = reasons.of(self, rows, u, info, success)
+            q = self.coordinates(u)
             errors, success = self.judged(rows, q)
             reason[(reason == SOLVED) & ~success] = UNREACHABLE  # by a rounding, where the tolerance is no larger
         return Solution(
@@ -126,10 +132,19 @@ class Solver:
             blocked,
         )
 
+    def coordinates(self, u: Array) -> Array:
+        """The user's coordinates q (..., m) of joint units u (..., m); the rest of a solver works with u alone."""
+        if self.units.scale is None:
+            return u
+        q = self.units.coordinates(u, self.given.limits) if self.settings.limits else u / self.units.scale
+        for name, value in self.settings.lock or ():  # to the last digit
+            q[..., self.given.q_names.index(name)] = np.where(np.isnan(q).any(axis=-1), np.nan, value)
+        return q
+
     def judged(self, targets: Array, q: Array) -> tuple[Array, np.ndarray]:
         """The errors of q (N, 2) in m and rad by the kernels of any chain, and whether the tolerances hold."""
         errors = np.empty((len(q), 2))
-        self._judge.call(self.fast.chain._table, q, targets, self.task.code, self.task.axis, errors)
+        self._judge.call(self.given._table, q, targets, self.task.code, self.task.axis, errors)
         return errors, (errors[:, 0] <= self.settings.tol_position) & (errors[:, 1] <= self.settings.tol_rotation)
 
     def _in_parts(self, rows: Array, indices: Array, first: Array, near: Array | None, aim: str | None,

@@ -12,22 +12,22 @@ from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.coordinates import coordinates
 from ..model.source import warn
-
-TURN = 2 * np.pi
+from .joint_units import JointUnits, period
 
 
 @dataclass(frozen=True)
 class Room:
     """limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie; fixed (m), 1 where a
-    coordinate is locked, and held (m), its value there; turns (m), whether q_k + 2 pi is the same configuration;
-    winds, whether any such coordinate has no limits; locks, whether any is locked.
+    coordinate is locked, and held (m), its value there; periods (m), after how much of a coordinate the configuration
+    is the same, 0 for never; winds, whether any coordinate with a period has no limits; locks, whether any is locked.
+    All in the units of the joints.
     """
 
     limits: Array
     ranges: Array
     fixed: Array
     held: Array
-    turns: np.ndarray
+    periods: Array
     winds: bool
     locks: bool
 
@@ -36,44 +36,54 @@ class Room:
         return np.asarray(((q >= self.limits[:, 0]) & (q <= self.limits[:, 1])).all(axis=-1))
 
     def unwound(self, q: Array, near: Array | None = None) -> Array:
-        """The same configurations with whole turns taken off: nearest to `near` within the limits; without `near`, a
-        coordinate without limits within ±pi.
+        """The same configurations with whole periods taken off: nearest to `near` within the limits; without `near`, a
+        coordinate without limits within half a period of 0.
         """
         lower, upper = self.limits.T
-        free = self.turns & (self.fixed == 0)
+        free = (self.periods > 0) & (self.fixed == 0)
         if near is None:
             free = free & np.isinf(lower) & np.isinf(upper)
-        turns = np.round(((0.0 if near is None else near) - q) / TURN)
-        turns = np.clip(turns, np.ceil((lower - q) / TURN), np.floor((upper - q) / TURN))
-        moved = q + np.where(free, TURN * turns, 0.0)
+        period = np.where(free, self.periods, 1.0)
+        times = np.round(((0.0 if near is None else near) - q) / period)
+        times = np.clip(times, np.ceil((lower - q) / period), np.floor((upper - q) / period))
+        moved = q + np.where(free, period * times, 0.0)
         return np.where((moved >= lower) & (moved <= upper), moved, q)
 
 
-def room_of(chain: Chain, lock: Any, limits: bool) -> Room:
-    """The room of a chain's coordinates. Raises: InputError, UnknownName."""
+def room_of(units: JointUnits, lock: Any, limits: bool) -> Room:
+    """The room of an arm's coordinates; `lock` is in the user's units. Raises: InputError, UnknownName."""
+    chain = units.fast.chain
     m = chain.dof
     bounds = chain.limits.copy() if limits else np.tile([-np.inf, np.inf], (m, 1))
-    low, high = chain._range() if limits else chain._turn_range()
+    periods = np.array([period(chain, k) for k in range(m)])
+    ranges = np.stack(chain._range(), axis=1) if limits else free_ranges(chain)
+    unlimited = np.isinf(bounds).all(axis=1)
+    ranges[unlimited] = free_ranges(chain)[unlimited]
     fixed, held = np.zeros(m), np.zeros(m)
-    for k, value in _locked(chain, lock, bounds):
+    for k, value in _locked(units, lock, bounds):
         fixed[k], held[k] = 1.0, value
-    turns = np.array([chain._turns(k) for k in range(m)], bool)
-    C = chain.coupling
-    # a slide is no turn, and of a joint that goes half as fast, a turn is only half a one
-    turns &= (np.round(C) == C).all(axis=0) & ~(C[chain.local.slides != 0] != 0).any(axis=0)
-    winds = bool((turns & np.isinf(bounds).all(axis=1)).any())
-    return Room(bounds, np.stack([low, high], axis=1), fixed, held, turns, winds, bool(fixed.any()))
+    winds = bool(((periods > 0) & unlimited).any())
+    return Room(bounds, ranges, fixed, held, periods, winds, bool(fixed.any()))
 
 
-def first_tries(chain: Chain, room: Room, batch: tuple[int, ...], count: int, q0: Any) -> Array:
-    """Where the first try of each of `count` targets begins (N, m): at q0 within the limits, NaN for anywhere.
+def free_ranges(chain: Chain) -> Array:
+    """Where random starts lie (m, 2) without limits: a whole period, else a turn, or 1 m either way."""
+    half = np.array([0.5 * period(chain, k) for k in range(chain.dof)])
+    half = np.where(half > 0, half, chain._turn_range()[1])
+    return np.stack([-half, half], axis=1)
+
+
+def first_tries(units: JointUnits, room: Room, batch: tuple[int, ...], count: int, q0: Any) -> Array:
+    """Where the first try of each of `count` targets begins (N, m), in joint units: at q0 within the limits, NaN for
+    anywhere.
 
     Raises: InputError, ShapeError, UnknownName. Warns where q0 is moved.
     """
+    chain = units.fast.chain
     if q0 is None:
         first = np.full((count, chain.dof), np.nan)
     else:
-        given = for_targets(chain, batch, count, q0, "q0")
+        given = units.of(for_targets(chain, batch, count, q0, "q0"))
         first = np.clip(given, *room.limits.T)
         moved = ((first != given) & (room.fixed == 0)).any(axis=0)
         if moved.any():
@@ -98,13 +108,16 @@ def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: 
         raise ShapeError(f"{what}: shape {given.shape} does not fit the targets' {(*batch, chain.dof)}") from error
 
 
-def _locked(chain: Chain, lock: Any, limits: Array):
-    """Index and value of each coordinate that is locked; lock are pairs of name and value."""
+def _locked(units: JointUnits, lock: Any, limits: Array):
+    """Index and value, in joint units, of each coordinate that is locked; lock are pairs of name and value."""
+    names = units.fast.q_names
     for name, value in lock or ():
-        if name not in chain.q_names:
-            raise UnknownName(f"lock: no coordinate {shown(name)}; {closest(str(name), chain.q_names)}")
-        k = chain.q_names.index(name)
+        if name not in names:
+            raise UnknownName(f"lock: no coordinate {shown(name)}; {closest(str(name), names)}")
+        k = names.index(name)
+        scale = 1.0 if units.scale is None else float(units.scale[k])
         real = isinstance(value, (int, float, np.integer, np.floating)) and np.isfinite(value)
-        if not real or not limits[k, 0] <= value <= limits[k, 1]:
-            raise InputError(f"lock: {shown(name)}: expected a number within {limits[k].tolist()}, got {told(value)}")
-        yield k, float(value)
+        if not real or not limits[k, 0] <= scale * value <= limits[k, 1]:
+            within = sorted((limits[k] / scale).tolist())
+            raise InputError(f"lock: {shown(name)}: expected a number within {within}, got {told(value)}")
+        yield k, scale * float(value)

@@ -4,6 +4,7 @@ import threading
 import time
 import warnings
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from poekin.model import screw
 from poekin.model.compiled import CompiledChain
 from poekin.solve.ik import ik
 from poekin.solve.ik_all import ik_all
+from poekin.solve.joint_units import joint_units
 from poekin.solve.memory import KEPT
 from poekin.solve.solution import REASONS
 from poekin.solve.solver import STEPS, Settings, solver_of
@@ -440,9 +442,10 @@ def test_the_nearest_solution_is_the_nearest_of_all(arm):
 
 
 def test_turns_are_taken_off_to_the_nearest_place_within_the_limits():
-    room = room_of(UR5, None, True)  # ±2 pi
+    room = room_of(joint_units(UR5.compile()), None, True)  # ±2 pi
     np.testing.assert_allclose(room.unwound(np.full((1, 6), -6.0), np.full((1, 6), 6.0)), 2 * np.pi - 6, atol=1e-14)
-    narrow = room_of(pk.Chain(UR5.screws, UR5.home, limits=[[-np.pi, 3.0]] * 6), None, True)
+    arm = pk.Chain(UR5.screws, UR5.home, limits=[[-np.pi, 3.0]] * 6)
+    narrow = room_of(joint_units(arm.compile()), None, True)
     np.testing.assert_allclose(narrow.unwound(np.full((1, 6), 10.0), np.full((1, 6), 3.0)), 10 - 4 * np.pi, atol=1e-14)
 
 
@@ -514,10 +517,8 @@ def test_a_setting_that_is_none_is_told_after_its_equal_was_accepted(options, me
 
 def test_a_setting_of_another_type_is_another_solver_and_the_same_result():
     T = UR5.fk(UR5.random(0))
-    expected = ik(UR5, T, restarts=7).q
-    np.testing.assert_array_equal(
-        ik(UR5, T, restarts=np.int64(7), limits=np.True_, tol_position=np.float64(1e-9)).q, expected
-    )
+    options: dict[str, Any] = {"restarts": np.int64(7), "limits": np.True_, "tol_position": np.float64(1e-9)}
+    np.testing.assert_array_equal(ik(UR5, T, **options).q, ik(UR5, T, restarts=7).q)
 
 
 class Interrupted(dict):

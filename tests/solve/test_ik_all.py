@@ -418,6 +418,26 @@ def test_more_places_than_anybody_reads_are_refused():
         ik_all(wide, T[0], copies=True)
 
 
+@pytest.mark.parametrize(
+    ("bound", "places"),
+    [
+        pytest.param(90.0, None, id="counted"),
+        pytest.param(9000.0, 2**63 - 1, id="2865 turns of six joints"),
+        pytest.param(1e300, 2**63 - 1, id="any turns"),
+    ],
+)
+def test_wide_limits_have_many_places_and_never_less_than_none(bound, places):
+    chain = arm("ur5")
+    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-bound, bound], (6, 1)))
+    q, T = targets(wide, 16, 1)
+    result = ik_all(wide, T[0])
+    assert apart(q, result.solutions).min() <= 1e-5
+    for k, numbers in enumerate(result.copies):
+        each = [len(np.arange(np.ceil((-bound - x) / (2 * np.pi)), np.floor((bound - x) / (2 * np.pi)) + 1))
+                for x in result.solutions[k]] if places is None else []  # fmt: skip
+        assert numbers == (places or np.prod(each))
+
+
 def test_what_is_no_arm_and_what_is_no_pose_is_refused():
     with pytest.raises(InputError, match=r"ik_all: expected a Chain, got 'ur5'"):
         ik_all("ur5", np.eye(4))  # type: ignore[arg-type]
