@@ -16,7 +16,7 @@ EXACT = 1e-5
 """rad and m: an arm whose axes are parallel or meet within this is solved as if they were so, to start from there."""
 
 
-_SLANT, _PARALLEL = 0.01, 1e-13  # sines of angles
+_SLANT, _PARALLEL, _TILT = 0.01, 1e-14, 1e-4  # sines of angles
 _ASKED, _FOUND = 8, 1e-3  # poses, and rad: roots of a polynomial may be as bad, and are starts only
 
 
@@ -44,7 +44,7 @@ class ClosedForm:
 
     def starts(self, T: Array) -> Array:
         """Configurations (s, m) for one target (4, 4), s = 0 and more: solutions, and nearest ones where there are none
-        (EAIK's least squares), which the caller has to try and to check.
+        (EAIK's least squares), which the caller has to try and to check. Raises: RuntimeError where EAIK gives up.
         """
         target = T.copy()
         target[:3, :3] = T[:3, :3] @ self._R_tn
@@ -67,28 +67,39 @@ def closed_form(chain: Chain) -> ClosedForm | None:
     if chain.dof != 6:
         chain.to_hp()  # says what else is in the way
         return None
-    for near in (Idealised(chain, 0.0, 0.0, ()), chain.idealised(EXACT)):
-        form = near.chain.to_hp()
-        if not _is_safe(form):
-            continue
+    exact = Idealised(chain, 0.0, 0.0, ())
+    return _of(exact, HPRobot) or _of(chain.idealised(EXACT), HPRobot)
+
+
+def _of(near: Idealised, HPRobot: Any) -> ClosedForm | None:
+    form = near.chain.to_hp()
+    if not _is_safe(form):
+        return None
+    try:
         solver = HPRobot(form.H, form.P)
         # it calls a class that it does not know a known one where there are five joints, and has no solutions then
-        if solver.hasKnownDecomposition() and "unknown" not in solver.getKinematicFamily().lower():
-            found = ClosedForm(form, solver, near.position_bound, near.rotation_bound)
-            if _finds_what_is_known(found, near.chain):
-                return found
-    return None
+        if not solver.hasKnownDecomposition() or "unknown" in solver.getKinematicFamily().lower():
+            return None
+        found = ClosedForm(form, solver, near.position_bound, near.rotation_bound)
+        return found if _finds_what_is_known(found, near.chain) else None
+    except RuntimeError:  # of axes that it takes to meet and cannot say where
+        return None
 
 
 def _is_safe(form: HPForm) -> bool:
-    """Whether the last three axes meet in a point, or the second to fourth are parallel.
+    """Whether EAIK sees at once that the last three axes meet in a point, or that the second to fourth are parallel.
 
-    Other arms EAIK turns round and looks at again; some have ended the process that way (1.2.2), as arms of less than
-    six joints have.
+    Other arms it turns round and looks at again, and those whose two ways round look alike, by a rounding, for ever:
+    that ends the process (1.2.2). It does not where it has an answer before: for three parallel axes, all sines below
+    1e-13 by its own reckoning, and for a wrist, whose two steps are exactly 0 and stay so, with slanted axes, so that
+    no three of the last four are parallel. Two axes that are neither parallel nor clearly slanted (a sine below 3e-5)
+    it may take to meet and then refuses.
     """
     H, P = form.H, form.P
     sines = np.linalg.norm(np.cross(H[:-1], H[1:]), axis=1)
-    return bool((not P[4:6].any() and sines[3:].min() > _SLANT) or sines[1:3].max() < _PARALLEL)
+    clear = ((sines <= _PARALLEL) | (sines >= _TILT)).all()
+    wrist = not P[4:6].any() and sines[3:].min() > _SLANT
+    return bool(clear and (wrist or sines[1:3].max() <= _PARALLEL))
 
 
 def _finds_what_is_known(solver: ClosedForm, chain: Chain) -> bool:

@@ -86,10 +86,10 @@ def ik_all(
     if solver is None:
         found = search(fast, good, [np.empty((0, chain.dof))] * len(good), thorough, int(seed), limits)
     else:
-        starts = [solver.starts(target) for target in good]
+        starts, given_up = _starts(solver, good)
         found = search(fast, good, starts, Rule(1, 0, iterations, 0), 0, limits)
         # where solutions become one or infinitely many, a closed form may lose them
-        unsure = [k for k, f in enumerate(found) if f.singular]
+        unsure = [k for k, f in enumerate(found) if f.singular or k in given_up]
         again = search(fast, good[unsure], [starts[k] for k in unsure], thorough, int(seed), limits)
         for k, f in zip(unsure, again, strict=True):
             found[k] = f
@@ -145,6 +145,19 @@ def _solver(chain: Chain, method: str) -> ClosedForm | None:
             "needs them); method='search' finds the solutions"
         )
     return solver
+
+
+def _starts(solver: ClosedForm, targets: Array) -> tuple[list[Array], set[int]]:
+    """The closed form's solutions of each target, and the numbers of those for which it gives up."""
+    starts: list[Array] = []
+    given_up = set()
+    for k, target in enumerate(targets):
+        try:
+            starts.append(solver.starts(target))
+        except RuntimeError:
+            starts.append(np.empty((0, 6)))
+            given_up.add(k)
+    return starts, given_up
 
 
 _closed_form = lru_cache(maxsize=32)(closed_form)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, MissingExtra, PoseError
+from poekin.model.hp import HPForm
 from poekin.solve import closed_form as closed_form_module
 from poekin.solve import ik_all as module
 from poekin.solve.ik_all import ik_all
@@ -186,6 +187,85 @@ def test_an_arm_with_rounded_right_angles_has_a_closed_form_and_its_own_solution
     for k in range(len(T)):
         assert max(errors(chain, closed.solutions[k], T[k])) <= TOL
         assert same_sets(closed.solutions[k], search.solutions[k], 1e-5)
+
+
+@pytest.mark.parametrize("tilt", [1e-12, 1e-8, 3e-5])
+@pytest.mark.parametrize("joint", [0, 1])
+def test_axes_that_are_parallel_but_for_a_rounding_are_solved(joint, tilt):
+    # EAIK takes such axes to meet and then refuses to say where
+    home = pk.se3.exp([0.1, 0.2, 0.3, 0.5, 0, 0.8])
+    turned = [np.sin(tilt), np.cos(tilt), 0]
+    first = [[0, 1, 0], turned, [1, 0, 0]] if joint == 0 else [[0, 0, 1], [0, 1, 0], turned]
+    wrist = [pk.screw.revolute(z, [0.9, 0, 0.3]) for z in ([1, 0, 0], [0, 1, 0], [1, 0, 0])]
+    places = ([0, 0, 0], [0.1, 0, 0.2], [0.5, 0, 0.25])
+    chain = pk.Chain([*map(pk.screw.revolute, first, places), *wrist], home)
+    q, T = targets(chain, 21, 3)
+    found, searched = (ik_all(chain, T, method=method) for method in ("auto", "search"))
+    for k in range(3):
+        assert same_sets(found.solutions[k], searched.solutions[k], 1e-5)
+        assert apart(q[k : k + 1], found.solutions[k]).min() <= 1e-5
+    assert found.method == ("search" if 1e-5 < tilt < 1e-4 else "closed form")
+
+
+@pytest.mark.parametrize("cross", [[1.0, 0.0, 0.0], [0.6, 0.8, 0.0]], ids=["square", "slanted"])
+def test_an_arm_that_eaik_turns_round_for_ever_is_searched(cross):
+    # of the two ways round of this arm, each looks as if the other were the one to solve: the process ends
+    z, y = [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]
+    axes = [
+        (z, [0, 0, 0]),
+        (cross, [0, 0, 0]),
+        (cross, [0, 0, 0]),
+        (z, [0, 0.4, 0]),
+        (z, [0, 0.4, 0]),
+        (y, [0, 0.4, 0]),
+    ]
+    chain = pk.Chain([pk.screw.revolute(*axis) for axis in axes], pk.se3.exp([0.1, 0.2, 0.3, 0.5, 0, 0.8]))
+    assert not closed_form_module._is_safe(chain.to_hp())
+    assert closed_form_module.closed_form(chain) is None
+    T = chain.fk([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    assert max(errors(chain, ik_all(chain, T).solutions, T)) <= TOL
+
+
+@pytest.mark.parametrize("bad", [{"steps": 4}, {"steps": 5}, {"sine": 3, "to": 0.009}, {"sine": 4, "to": 0.009},
+                                 {"sine": 1, "to": 1e-13}, {"sine": 0, "to": 9e-5}], ids=str)  # fmt: skip
+def test_the_closed_form_is_asked_of_exact_wrists_only(bad):
+    H = np.array([[0, 0, 1.0], [0, 1, 0], [0, 1, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0]])
+    P = np.array([[0, 0, 0.3], [0, 0, 0.1], [0.4, 0, 0], [0.4, 0, 0], [0, 0, 0], [0, 0, 0], [0.1, 0, 0]])
+    assert closed_form_module._is_safe(HPForm(H, P, np.eye(3)))
+    if "steps" in bad:
+        P[bad["steps"], 0] = 1e-300
+    else:
+        k, angle = bad["sine"], np.arcsin(bad["to"])
+        u = np.cross(H[k], [0.6, 0.0, 0.8] if H[k, 1] else [0, 1.0, 0.0])
+        H[k + 1] = np.cos(angle) * H[k] + np.sin(angle) * u / np.linalg.norm(u)
+    assert not closed_form_module._is_safe(HPForm(H, P, np.eye(3)))
+
+
+@pytest.mark.parametrize("middle", [1e-15, 1e-13])
+def test_the_closed_form_is_asked_of_exactly_parallel_axes_only(middle):
+    H = np.array([[0, 0, 1.0], [0, 1, 0], [0, 1, middle], [0, 1, 0], [0, 0, 1], [0, 1, 0]])
+    P = np.arange(21.0).reshape(7, 3)
+    assert closed_form_module._is_safe(HPForm(H, P, np.eye(3))) == (middle < 1e-14)
+
+
+def test_a_target_that_the_closed_form_gives_up_is_searched(monkeypatch):
+    pytest.importorskip("eaik", reason="needs EAIK")
+    chain = arm("ur5")
+    _, T = targets(chain, 5, 3)
+    whole = closed_form_module.ClosedForm.starts
+
+    def starts(self, target):
+        if np.array_equal(target, T[1]):
+            raise RuntimeError("no valid solution found")
+        return whole(self, target)
+
+    expected = ik_all(chain, T, limits=False)
+    monkeypatch.setattr(closed_form_module.ClosedForm, "starts", starts)
+    found = ik_all(chain, T, limits=False)
+    for a, b in zip(found.solutions, expected.solutions, strict=True):
+        assert same_sets(a, b, 1e-5)
+    assert "search, " in found.sure[1]
+    assert "search, " not in found.sure[0]
 
 
 def test_limits_are_kept_and_all_places_a_turn_apart_are_counted_or_listed():
