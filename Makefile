@@ -30,7 +30,7 @@ help:
 	@echo "make report       validate every robot, count, measure, and print where the page is"
 	@echo "make lint         check style (ruff) and types (pyright)"
 	@echo "make docs         build the pages of docs/ and print where they are"
-	@echo "make mutate       plant every error of 10 000 and say which the tests catch; SAMPLE=200 plants that many"
+	@echo "make mutate       plant every error of 70 000 and say which the tests catch (days); SAMPLE=300 plants that many"
 	@echo "make fuzz         give the readers 10⁶ broken files; COUNT=10000 gives the URDF reader that many, others a tenth"
 	@echo "make wheel-check  build the wheel and use it where the source tree cannot be imported"
 	@echo "Each sets up $(VENV) first if need be. With another interpreter: make test PYTHON=python3.12"
@@ -64,7 +64,7 @@ docs: $(VENV)/docs
 	@echo "The pages: $(CURDIR)/docs/_build/index.html"
 
 mutate: $(VENV)/dev
-	@$(PY) -m tools.mutate $(if $(SAMPLE),--sample $(SAMPLE) --afresh)
+	@$(PY) -m tools.mutate $(if $(SAMPLE),--sample $(SAMPLE) --afresh) $(if $(SEED),--seed $(SEED)) $(if $(ROOM),--room $(ROOM))
 
 fuzz: $(VENV)/dev
 	@$(PY) -m tools.fuzz $(if $(COUNT),--count $(COUNT))

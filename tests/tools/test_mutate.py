@@ -12,25 +12,22 @@ from pathlib import Path
 
 import cosmic_ray.plugins
 import pytest
+import scipy.stats
 from cosmic_ray.mutating import mutate_code
 
 from tools.mutate import __main__ as command
-from tools.mutate import campaign, equivalent, report, suites
+from tools.mutate import campaign, equivalent, kernels, report, sample, suites
 from tools.mutate.campaign import BrokenSuite, Campaign, Outcome, kept
-from tools.mutate.mutants import FILES, Mutant, mutants_of, paths
+from tools.mutate.mutants import Mutant, mutants_of, paths, room
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
 
 
 @functools.cache
-def every() -> list[Mutant]:
-    """All mutants there are: seconds, which collecting the tests does not have to wait for."""
-    return [mutant for path, source in SOURCES.items() for mutant in mutants_of(path, source)]
-
-
 def of(path: str) -> list[Mutant]:
-    return [mutant for mutant in every() if mutant.path == path]
+    """The mutants of a module; all of the package would take many seconds."""
+    return mutants_of(path, SOURCES[path])
 
 
 ODD = '''\
@@ -53,8 +50,13 @@ def f(a: int | None, *rest: int, b: float = -1.0, **more: str) -> int | str:
 '''
 
 
+def _of_cosmic_ray(path: str) -> list[Mutant]:
+    return [m for m in of(path) if m.operator.startswith("core/")]
+
+
 def test_the_text_of_a_mutant_is_that_of_cosmic_ray():
-    drawn = random.Random(5).sample([m for m in every() if len(SOURCES[m.path]) < 4000], 25)
+    modules = random.Random(5).sample([path for path in SOURCES if 500 < len(SOURCES[path]) < 4000], 8)
+    drawn = [m for path in modules for m in random.Random(path).sample(_of_cosmic_ray(path), 3)]
     pairs = [(m, SOURCES[m.path]) for m in drawn] + [(m, ODD) for m in mutants_of("odd.py", ODD)]
     for mutant, source in pairs:
         operator = cosmic_ray.plugins.get_operator(mutant.operator)()
@@ -83,20 +85,47 @@ def test_without_the_future_import_annotations_run_and_are_changed():
 
 
 def test_two_changes_that_give_the_same_text_count_once():
-    assert len({m.key for m in every()}) == len(every())
+    some = [m for path in SOURCES if room(path) == "groups" for m in of(path)]
+    assert len({m.key for m in some}) == len(some)
     assert len({(m.path, m.applied(SOURCES[m.path])) for m in of("poekin/formulas/defect.py")}) == 84
 
 
-def test_the_modules_named_are_all_there():
-    assert len(SOURCES) == 31
-    for part in ("algebra", "formulas/logarithm", "groups/se3", "formats/dh/from_chain", "model/screw"):
+def test_every_module_of_the_package_is_changed():
+    assert set(SOURCES) == {file.relative_to(ROOT).as_posix() for file in (ROOT / "poekin").rglob("*.py")}
+    rooms = {folder.name for folder in (ROOT / "poekin").iterdir() if list(folder.glob("*.py"))}
+    assert {room(path) for path in SOURCES} == {*rooms, "errors"}
+    assert set(sample.BARS) <= rooms
+    for part in ("algebra", "formulas/logarithm", "groups/se3", "formats/urdf", "engine/ik_kernels"):
         assert len(of(f"poekin/{part}.py")) > 200
 
 
-def test_the_list_of_equivalents_holds_mutants_alone_and_few_of_them():
-    listed, stale = equivalent.listed(every(), equivalent.entries())
+SAID = '''\
+"""Of 3 joints."""
+def f(a, b):
+    """Of 4 joints."""
+    print(f"joint {a!r} of {b:.3f} m, at most 7 of them")
+    print(f"{a}", "version 1.5 of 12 parts", "of7", b"of 7 bytes", r"of 7 \\d", "%7d of")
+'''
+
+
+def test_a_message_loses_a_field_swaps_two_and_counts_one_more():
+    found = {(m.operator.split("/")[1], m.new) for m in mutants_of("f.py", SAID) if m.operator.startswith("messages/")}
+    rest = '"of7", b"of 7 bytes", r"of 7 \\d", "%7d of")'
+    assert found == {
+        ("FieldRemover", 'print(f"joint  of {b:.3f} m, at most 7 of them")'),
+        ("FieldRemover", 'print(f"joint {a!r} of  m, at most 7 of them")'),
+        ("FieldSwapper", 'print(f"joint {b:.3f} of {a!r} m, at most 7 of them")'),
+        ("SentenceNumber", 'print(f"joint {a!r} of {b:.3f} m, at most 8 of them")'),
+        ("FieldRemover", f'print(f"", "version 1.5 of 12 parts", {rest}'),
+        ("SentenceNumber", f'print(f"{{a}}", "version 1.5 of 13 parts", {rest}'),
+    }
+
+
+def test_the_list_of_equivalents_holds_mutants_alone():
+    entries = equivalent.entries()
+    mutants = [m for path in {entry.path for entry in entries} for m in of(path)]
+    listed, stale = equivalent.listed(mutants, entries)
     assert stale == []
-    assert len(listed) <= 0.05 * len(every())
     assert all(len(reason) > 20 for reason in listed.values())
 
 
@@ -132,12 +161,75 @@ def test_an_entry_without_a_reason_or_twice_is_refused(text, error, message):
         equivalent.entries(text)
 
 
+def files_of(words: list[str]) -> list[str]:
+    return [word.split("=")[-1].split("::")[0] for word in words]
+
+
 def test_every_module_has_tests_that_exist():
     for path in SOURCES:
-        named = [word for part in (*suites.near(path), suites.whole(path)) for word in part]
-        files = [word.split("=")[-1].split("::")[0] for word in named]
-        assert len(files) > 3
+        files = [file for part in (*suites.near(path), suites.whole(path)) for file in files_of(part)]
+        assert len(files) > 1
         assert [file for file in files if not (ROOT / file).exists()] == []
+
+
+@pytest.mark.parametrize(
+    "module, test",
+    [
+        ("formats/urdf", "formats/test_urdf"),
+        ("formats/emit/c", "formats/test_emit_c"),
+        ("solve/followed", "solve/test_follow"),  # by what imports it
+        ("testing/planted_changes", "analysis/test_compare"),  # by the tests that import it
+        ("engine/machine_code", "model/test_compiled"),
+        ("solve/calibration/measurement", "solve/calibration/test_measurements"),
+    ],
+)
+def test_the_tests_near_a_module_are_found_by_name_and_by_import(module, test):
+    assert suites.near(f"poekin/{module}.py")[0][0] == f"tests/{test}.py"
+
+
+@pytest.mark.parametrize(
+    "module, mode",
+    [
+        ("algebra", "interpreted"),
+        ("formulas/logarithm", "interpreted"),
+        ("engine/chain_kernels", "interpreted"),
+        ("engine/ik_kernels", "cold"),  # there is an intrinsic in it, which the interpreter does not know
+        ("engine/source", "cold"),
+        ("model/structure", "warm"),
+        ("solve/ik", "warm"),
+    ],
+)
+def test_a_module_runs_as_it_can(module, mode):
+    assert suites.mode(f"poekin/{module}.py").value == mode
+
+
+def test_a_mutant_finds_no_kernel_of_another(tmp_path):
+    known = tmp_path / "known"
+    known.mkdir()
+    for name in ("so3_log-1.kernel", "arm-2.kernel"):
+        (known / name).write_text(name)
+    (known / "arm-2.kernel").unlink()
+    for mode, found in ((suites.Mode.WARM, {"so3_log-1.kernel"}), (suites.Mode.COLD, set())):
+        with kernels.offered(known, mode, tmp_path / "job") as place:
+            assert {file.name for file in Path(place).iterdir()} == found
+            (Path(place) / "new.kernel").write_text("a mutant's")
+            (Path(place) / "other").write_text("a mutant's")
+            (Path(place) / "other").replace(Path(place) / "so3_log-1.kernel")
+        assert not Path(place).exists()
+        assert {file.name: file.read_text() for file in known.iterdir()} == {"so3_log-1.kernel": "so3_log-1.kernel"}
+    with kernels.offered(known, suites.Mode.INTERPRETED, tmp_path / "job") as place:
+        assert place == ""
+
+
+def test_of_this_user_s_cache_no_arm_s_code_is_taken(tmp_path, monkeypatch):
+    own = tmp_path / "own"
+    own.mkdir()
+    for name in ("so3_log-1.kernel", "arm-2.kernel", "notes.txt"):
+        (own / name).write_text(name)
+    monkeypatch.setattr(kernels, "_user_cache", lambda root: own)
+    monkeypatch.setattr(kernels.subprocess, "run", lambda *arguments, **more: None)
+    place = kernels.prepared(tmp_path, tmp_path / "known")
+    assert [file.name for file in place.iterdir()] == ["so3_log-1.kernel"]
 
 
 CALCULATOR = "def double(x):\n    return x * 2\n\n\ndef forever(n):\n    while n > 0:\n        n -= 1\n    return n\n"
@@ -168,6 +260,7 @@ def small(tmp_path, monkeypatch):
     (root / "tools").symlink_to(ROOT / "tools")
     monkeypatch.setattr(suites, "near", lambda path: [["tests/test_calculator.py"]])
     monkeypatch.setattr(suites, "whole", lambda path: ["tests"])
+    monkeypatch.setattr(suites, "mode", lambda path: suites.Mode.INTERPRETED)
     monkeypatch.setattr(campaign, "LIBRARIES", ("hypothesis", "pytest", "not_installed"))  # what it needs, and more
     return root
 
@@ -224,7 +317,8 @@ def test_the_table_counts_every_kind():
         k: {"outcome": o} for k, o in zip("abcde", ("caught", "timeout", "passed", "passed", "caught"), strict=True)
     }
     listed = {"d": "it does the same", "e": "so it was thought"}
-    lines = [line.split() for line in report.table(mutants, outcomes, listed).splitlines()]
+    counts = report.counted(mutants, outcomes, listed, lambda m: m.path)
+    lines = [line.split() for line in report.table(counts, "module").splitlines()]
     assert lines[1] == ["a.py", "6", "5", "3", "1", "1", "1", "75.00", "%"]
     assert lines[2] == ["b.py", "1", "0", "0", "0", "0", "0"]
     assert lines[3] == ["all", "7", "5", "3", "1", "1", "1", "75.00", "%"]
@@ -232,16 +326,69 @@ def test_the_table_counts_every_kind():
     assert report.told(mutants[0]) == "a.py:3: in f\n  - x = 1\n  + x = 2"
 
 
-def test_a_sample_run_afresh_leaves_what_is_known_of_the_others(tmp_path, monkeypatch, capsys):
-    for path in FILES:
-        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / path).write_text(CALCULATOR, encoding="utf-8")
-    known = [m.key for path in FILES for m in mutants_of(path, CALCULATOR)]
+def of_rooms(**sizes: int) -> list[Mutant]:
+    return [mutant(f"{name}{k}", f"poekin/{name}/a.py") for name, size in sizes.items() for k in range(size)]
+
+
+def test_a_sample_holds_of_each_room_in_proportion_and_the_same_for_a_seed():
+    mutants = of_rooms(solve=600, groups=25, cli=75)
+    counts = Counter(m.room for m in sample.drawn(mutants, 70, 0))
+    assert counts == {"solve": 60, "cli": 8, "groups": 2}  # 7.5 and 2.5: of equal remainders the first by name
+    assert sample.drawn(mutants, 70, 0) == sample.drawn(mutants, 70, 0) != sample.drawn(mutants, 70, 1)
+    assert sample.drawn(mutants, 700, 0) == mutants
+
+
+def test_the_chance_of_so_many_survivors_is_that_of_the_binomial_distribution():
+    for size, survivors in ((20, 0), (20, 3), (60, 9)):
+        assert sample.chance(survivors, {"solve": size}) == pytest.approx(
+            scipy.stats.binom.sf(survivors - 1, size, 0.05), rel=1e-12
+        )
+    apart = [sample.chance(k, {"solve": 8}) - sample.chance(k + 1, {"solve": 8}) for k in range(9)]
+    together = sum(p * sample.chance(max(2 - k, 0), {"model": 5}) for k, p in enumerate(apart))
+    assert sample.chance(2, {"solve": 8, "model": 5}) == pytest.approx(together, rel=1e-12)
+
+
+def test_a_sample_fails_where_its_survivors_are_too_many_for_the_bar():
+    assert not sample.room_is_sound("solve", 6, 100, whole=True)  # all were run: the bar itself
+    assert sample.room_is_sound("solve", 5, 100, whole=True)
+    assert sample.most("solve", 100) == 13  # 14 would be seen in less than one sample of a thousand
+    assert sample.room_is_sound("solve", 13, 100, whole=False)
+    assert not sample.room_is_sound("solve", 14, 100, whole=False)
+
+
+@pytest.mark.parametrize("survivors, code", [(0, 0), (40, 1)])
+def test_the_exit_code_and_the_table_say_what_the_sample_proves(survivors, code, tmp_path, monkeypatch, capsys):
+    _project(tmp_path, monkeypatch)
+    assert command.main(["--report", "--sample", "60"]) == 0
+    chosen = sample.drawn([m for path in FILES for m in mutants_of(path, CALCULATOR)], 60, 0)
     results = tmp_path / "build" / "mutants" / "results.jsonl"
+    with results.open("a") as file:
+        file.writelines(f'{{"key": "{m.key}", "outcome": "passed", "by": ""}}\n' for m in chosen[:survivors])
+    assert command.main(["--report", "--sample", "60"]) == code
+    said = capsys.readouterr().out
+    assert ("FAILED: all: 40 of 60 survived" in said) == bool(code)
+
+
+FILES = ("poekin/solve/a.py", "poekin/solve/b.py", "poekin/cli/c.py", "poekin/algebra.py")
+
+
+def _project(root: Path, monkeypatch) -> list[str]:
+    """A package of the calculator, several times, of which every mutant was caught; the mutants' keys."""
+    for path in FILES:
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text(CALCULATOR, encoding="utf-8")
+    known = [m.key for path in FILES for m in mutants_of(path, CALCULATOR)]
+    results = root / "build" / "mutants" / "results.jsonl"
     results.parent.mkdir(parents=True)
     results.write_text("".join(f'{{"key": "{key}", "outcome": "caught", "by": ""}}\n' for key in known))
-    monkeypatch.setattr(command, "ROOT", tmp_path)
+    monkeypatch.setattr(command, "ROOT", root)
     monkeypatch.setattr(equivalent, "entries", list)
+    return known
+
+
+def test_a_sample_run_afresh_leaves_what_is_known_of_the_others(tmp_path, monkeypatch, capsys):
+    known = _project(tmp_path, monkeypatch)
+    results = tmp_path / "build" / "mutants" / "results.jsonl"
     assert command.main(["--report", "--sample", "3"]) == 0
     assert "3 of 3 were caught in earlier runs" in capsys.readouterr().out
     assert command.main(["--report", "--sample", "3", "--afresh"]) == 0

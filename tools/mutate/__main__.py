@@ -5,13 +5,13 @@ those that survived. A mutant's key holds the text of its module: after an edit 
 elsewhere makes none new: what was caught by a test that has been weakened or removed since still counts as caught, and
 so does what was caught while another module was as it was. The run says how many outcomes are of earlier runs; a figure
 to be relied upon is of one run with --afresh, which runs all the chosen ones again.
+A sample holds of each room in proportion; `sample.py` says when it fails.
 """
 
 from __future__ import annotations
 
 import argparse
 import importlib.util
-import random
 import sys
 import tempfile
 import time
@@ -21,13 +21,13 @@ from pathlib import Path
 if importlib.util.find_spec("cosmic_ray") is None:
     sys.exit("mutation testing needs the package cosmic-ray: pip install -e '.[dev]', or make mutate, installs it")
 
-from . import equivalent
+from . import equivalent, sample
 from .campaign import BrokenSuite, Campaign, Outcome, kept
 from .mutants import Mutant, mutants_of, paths
-from .report import caught_of, kind, table, told
+from .report import counted, kind, table, told
 
 ROOT = Path(__file__).resolve().parents[2]
-BAR, MOST_EQUIVALENT = 0.97, 0.05
+MODULES_TOLD = 12  # up to here the table is by module too
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -36,6 +36,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--sample", type=int, help="this many, drawn from all by the seed")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--module", action="append", help="only modules whose path holds this (may be repeated)")
+    parser.add_argument("--room", action="append", help="only this room of the package (may be repeated)")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--afresh", action="store_true", help="run again what earlier runs have tried")
     parser.add_argument("--quick", action="store_true", help="try survivors on the tests beside their module only")
@@ -47,9 +48,9 @@ def main(arguments: list[str] | None = None) -> int:
     every = [mutant for path, source in sources.items() for mutant in mutants_of(path, source)]
     listed, stale = equivalent.listed(every, equivalent.entries())
     chosen = [m for m in every if not said.module or any(part in m.path for part in said.module)]
-    if said.sample is not None and said.sample < len(chosen):
-        drawn = set(random.Random(said.seed).sample(range(len(chosen)), said.sample))
-        chosen = [mutant for k, mutant in enumerate(chosen) if k in drawn]
+    chosen = [m for m in chosen if not said.room or m.room in said.room]
+    if said.sample is not None:
+        chosen = sample.drawn(chosen, said.sample, said.seed)
 
     file = ROOT / "build" / "mutants" / "results.jsonl"
     file.parent.mkdir(parents=True, exist_ok=True)
@@ -106,25 +107,50 @@ def _judged(
     listed: dict[str, str],
     stale: list[equivalent.Entry],
 ) -> int:
-    kinds = {m.key: kind(m, outcomes, listed) for m in chosen}
     for mutant in chosen:
-        if kinds[mutant.key] == "survived":
+        found = kind(mutant, outcomes, listed)
+        if found == "survived":
             print(told(mutant))
-        if kinds[mutant.key] == "wrong":
+        if found == "wrong":
             print(f"listed as equivalent, but {outcomes[mutant.key]['by']} catches it: {told(mutant)}")
     for entry in stale:
         print(f"listed as equivalent, but no mutant: {entry.path}: {entry.definition}: {entry.old} -> {entry.new}")
-    print(table(chosen, outcomes, listed))
-    count = Counter(kinds.values())
-    rest = count.total() - count["not run"] - count["equivalent"]
-    share = caught_of(count) / rest if rest else 1.0
-    caught = f"caught {100 * share:.2f} %" if rest else "caught nothing, as none was run,"
-    print(
-        f"{caught} of all that are not listed as equivalent (at least {100 * BAR:g} %); listed"
-        f" {len(listed)} of {len(every)}, {100 * len(listed) / len(every):.2f} % (at most {100 * MOST_EQUIVALENT:g} %)"
-    )
-    sound = share >= BAR and len(listed) <= MOST_EQUIVALENT * len(every) and not stale and not count["wrong"]
-    return 0 if sound else 1
+    counts, rooms = counted(chosen, outcomes, listed), counted(every, {}, listed)
+    if len({m.path for m in chosen}) <= MODULES_TOLD:
+        print(table(counted(chosen, outcomes, listed, lambda m: m.path), "module"))
+    print(table(counts))
+    faults = _faults(counts, {name: count.total() for name, count in rooms.items()})
+    for name, number in Counter(m.room for m in every if m.key in listed).items():
+        total = rooms[name].total()
+        if number > sample.MOST_EQUIVALENT * total:
+            faults.append(f"{name}: {number} of {total} mutants are listed as equivalent (at most 3 %)")
+    wrong = sum(count["wrong"] for count in counts.values())
+    print(f"listed as equivalent: {len(listed)} of {len(every)}, {100 * len(listed) / len(every):.2f} %")
+    for fault in faults:
+        print(f"FAILED: {fault}")
+    return 1 if faults or stale or wrong else 0
+
+
+def _faults(counts: dict[str, Counter[str]], mutants: dict[str, int]) -> list[str]:
+    """What the outcomes say against the bars."""
+    faults, sizes, survivors = [], {}, 0
+    for name, count in counts.items():
+        survived = count["survived"]
+        size = count.total() - count["not run"] - count["equivalent"]
+        whole = count.total() == mutants[name] and not count["not run"]
+        if not sample.room_is_sound(name, survived, size, whole):
+            allowed = "" if whole else f", where a sample of {size} may have {sample.most(name, size)}"
+            faults.append(
+                f"{name}: {survived} of {size} survived (caught at least {100 * sample.bar(name):g} %{allowed})"
+            )
+        sizes[name] = size
+        survivors += survived
+    if (likely := sample.chance(survivors, sizes)) < sample.RARE:
+        faults.append(
+            f"all: {survivors} of {sum(sizes.values())} survived; with each room at its bar that many would be seen in"
+            f" {100 * likely:.2g} % of the samples (at least {100 * sample.RARE:g} %)"
+        )
+    return faults
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from . import suites
+from . import kernels, suites
 from .mutants import Mutant
 from .server import EPOCH, LIBRARIES, SETTINGS
 
@@ -29,14 +29,14 @@ class BrokenSuite(Exception):
 class Server:
     """A copy of the tree and the process that runs mutants in it."""
 
-    def __init__(self, root: Path, place: Path):
+    def __init__(self, root: Path, place: Path, known: Path | None):
         self.tree = place
         shutil.copytree(root, place, ignore=_LEFT_OUT)
         for file in place.rglob("*"):
             os.utime(file, (EPOCH, EPOCH))
         kept = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "tools.mutate.server", *LIBRARIES],
+            [sys.executable, "-m", "tools.mutate.server", str(known or ""), *LIBRARIES],
             cwd=place,
             env={**kept, **SETTINGS, "PYTHONPATH": str(place)},
             stdin=subprocess.PIPE,
@@ -45,10 +45,11 @@ class Server:
         )
 
     def ask(self, path: str, source: str | None, sessions: list[list[str]]) -> Outcome:
-        """The outcome of the sessions with that source in place of the module's."""
+        """The outcome of the sessions with that source in place of the module's, or as it is where that is None."""
         assert self._process.stdin
         assert self._process.stdout
-        self._process.stdin.write(json.dumps({"path": path, "source": source, "sessions": sessions}) + "\n")
+        job = {"path": path, "source": source, "sessions": sessions, "mode": suites.mode(path).value}
+        self._process.stdin.write(json.dumps(job) + "\n")
         self._process.stdin.flush()
         line = self._process.stdout.readline()
         if not line:
@@ -78,6 +79,7 @@ class Campaign:
         self.root, self.place, self.sources, self.listed, self.file = root, place, sources, listed, file
         self.quick = quick
         self._jobs: queue.SimpleQueue[Mutant] = queue.SimpleQueue()
+        self._known: Path | None = None
         self._killers: dict[tuple[str, str], list[str]] = {}
         self._sound: set[str] = set()
         self._lock = threading.Lock()
@@ -85,6 +87,8 @@ class Campaign:
 
     def run(self, mutants: list[Mutant], workers: int, finished: Callable[[Mutant, Outcome], None]) -> None:
         """Run all of them. Raises BrokenSuite when the tests fail by themselves."""
+        if any(suites.mode(mutant.path) is suites.Mode.WARM for mutant in mutants):
+            self._known = kernels.prepared(self.root, self.place / "kernels")
         for mutant in mutants:
             self._jobs.put(mutant)
         threads = [threading.Thread(target=self._work, args=(k, finished)) for k in range(workers)]
@@ -97,7 +101,7 @@ class Campaign:
 
     def _work(self, number: int, finished: Callable[[Mutant, Outcome], None]) -> None:
         try:
-            with contextlib.closing(Server(self.root, self.place / f"tree{number}")) as server:
+            with contextlib.closing(Server(self.root, self.place / f"tree{number}", self._known)) as server:
                 for mutant in self._taken():
                     outcome = self._judged(server, mutant)
                     with self._lock, self.file.open("a", encoding="utf-8") as file:
@@ -121,18 +125,18 @@ class Campaign:
             outcome = server.ask(mutant.path, source, sessions)
         if outcome["outcome"] != "passed":
             by = str(outcome["by"])
-            self._hold(server, by, sessions)
+            self._hold(server, mutant.path, by, sessions)
             if "::" in by:
                 killers[:] = [by, *(other for other in killers if other != by)][:_KEPT]
         return {"key": mutant.key, "path": mutant.path, "line": mutant.line, "new": mutant.new, **outcome}
 
-    def _hold(self, server: Server, by: str, sessions: list[list[str]]) -> None:
-        """See once that what has caught a mutant passes without one."""
+    def _hold(self, server: Server, path: str, by: str, sessions: list[list[str]]) -> None:
+        """See once that what has caught a mutant passes without one, run in the same way."""
         alone = [by] if "::" in by else [by, "--collect-only"] if by.endswith(".py") else None
-        what = str(alone or sessions)
+        what = f"{suites.mode(path).value}: {alone or sessions}"
         if what in self._sound:
             return
-        outcome = server.ask("", None, [alone] if alone else sessions)
+        outcome = server.ask(path, None, [alone] if alone else sessions)
         if outcome["outcome"] != "passed":
             raise BrokenSuite(f"without any mutant {outcome['by'] or by}: {outcome['outcome']}")
         self._sound.add(what)

@@ -1,4 +1,5 @@
-"""What can be changed in a module, one mutant a place: the operators are cosmic-ray's, and so is its reading of source.
+"""What can be changed in a module, one mutant a place: the operators are cosmic-ray's, and so is its reading of source;
+those of `messages` change what is said.
 
 cosmic-ray writes a mutant by walking the whole tree once more; here the changed node's text is put into the source,
 which gives the same text (a test compares them) and takes milliseconds for all mutants of a module.
@@ -9,7 +10,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import itertools
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -19,8 +20,9 @@ import cosmic_ray.plugins
 from cosmic_ray.ast import ast_nodes, get_ast
 from cosmic_ray.ast.ast_query import ASTQuery
 
-FILES = ("poekin/algebra.py", "poekin/model/screw.py")
-FOLDERS = ("poekin/formulas", "poekin/groups", "poekin/formats/dh")
+from . import messages
+
+PACKAGE = "poekin"
 
 _ARITHMETIC = {"arith_expr", "term", "power", "shift_expr", "expr", "and_expr", "xor_expr"}
 
@@ -41,15 +43,25 @@ class Mutant:
     end: int
     text: str
 
+    @property
+    def room(self) -> str:
+        """The room of the package that its module stands in."""
+        return room(self.path)
+
     def applied(self, source: str) -> str:
         """The source of the whole module with this change in it."""
         return source[: self.start] + self.text + source[self.end :]
 
 
 def paths(root: Path) -> list[str]:
-    """The modules under test, relative to the root of the repository."""
-    found = [file for folder in FOLDERS for file in (root / folder).glob("*.py")]
-    return sorted([*FILES, *(file.relative_to(root).as_posix() for file in found)])
+    """The modules of the package, relative to the root of the repository."""
+    return sorted(file.relative_to(root).as_posix() for file in (root / PACKAGE).rglob("*.py"))
+
+
+def room(path: str) -> str:
+    """The folder below the package; the algebra is of the formulas, other single files are of "errors"."""
+    first, *rest = path.split("/")[1:]
+    return first if rest else "formulas" if first == "algebra.py" else "errors"
 
 
 def mutants_of(path: str, source: str) -> list[Mutant]:
@@ -57,9 +69,10 @@ def mutants_of(path: str, source: str) -> list[Mutant]:
     tree, lines, silent = get_ast(source), source.split("\n"), hints(source)
     begins = [0, *itertools.accumulate(len(line) + 1 for line in lines)]
     nodes = list(ast_nodes(tree))
+    ends, asked = [*begins[1:], len(source) + 1], _asked(nodes)
     found: dict[str, tuple[tuple[int, int], Mutant]] = {}
     for name, operator in operators():
-        positions = ((node, start) for node in nodes for start, _ in operator.mutation_positions(node))
+        positions = ((node, start) for node in asked(name) for start, _ in operator.mutation_positions(node))
         indices: dict[int, int] = {}  # how many changes of this node were made already
         for occurrence, (node, start) in enumerate(positions):
             index = indices.get(id(node), 0)
@@ -67,19 +80,30 @@ def mutants_of(path: str, source: str) -> list[Mutant]:
             if any(first <= start < last for first, last in silent) or _no_operation(name, node):
                 continue
             row, column = node.get_start_pos_of_prefix()
-            begin = begins[row - 1] + column
+            begin, last = begins[row - 1] + column, min(node.end_pos[0] + 2, len(lines))
             end, text = begin + len(node.get_code()), changed(operator, node, index)
-            whole = source[:begin] + text + source[end:]
-            key = hashlib.sha256(f"{path}\0{whole}".encode()).hexdigest()[:16]
-            after = whole.split("\n")
-            at = _differs(lines, after, start[0] - 1)
-            if at is None:
+            # the lines of the change and two more: those before are as they were, and those after are seldom asked for
+            after = (source[begins[row - 1] : begin] + text + source[end : ends[last - 1] - 1]).split("\n")
+            found_at = _differs(lines[row - 1 : last], after, start[0] - row)
+            if found_at is None:
                 continue
+            at = found_at + row - 1
+            whole = f"{path}\0{source[:begin]}{text}{source[end:]}"
+            key = hashlib.sha256(whole.encode()).hexdigest()[:16]
             definition = ASTQuery(node).get_definition_name() or ""
-            old, new = lines[at].strip(), after[at].strip()
+            old, new = lines[at].strip(), after[found_at].strip()
             mutant = Mutant(path, name, occurrence, at + 1, definition, old, new, key, begin, end, text)
             found.setdefault(key, (start, mutant))
     return [mutant for _, mutant in sorted(found.values(), key=lambda pair: (pair[0], pair[1].operator, pair[1].key))]
+
+
+def _asked(nodes: list[Any]) -> Callable[[str], list[Any]]:
+    """The nodes that an operator can change, by its name: of 213 operators 196 replace a sign by another one."""
+    signs = [node for node in nodes if node.type == "operator" and node.value not in "()[]{},.:;="]
+    comparisons = [node for node in nodes if node.type == "comparison"]
+    unary = [node for node in nodes if node.type in ("factor", "not_test")]
+    kinds = {"BinaryOperator": signs, "ComparisonOperator": comparisons, "UnaryOperator": unary}
+    return lambda name: next((found for kind, found in kinds.items() if kind in name), nodes)
 
 
 def _differs(lines: list[str], after: list[str], place: int) -> int | None:
@@ -92,13 +116,14 @@ def _differs(lines: list[str], after: list[str], place: int) -> int | None:
 
 @cache
 def operators() -> tuple[tuple[str, Any], ...]:
-    """cosmic-ray's operators by name, all but two: VariableReplacer and VariableInserter want to be told of which
-    variables, and put a random number in their place or an operation drawn at random beside them, so that no two runs
-    would plant the same.
+    """cosmic-ray's operators by name, and those of `messages`; all but two.
+
+    VariableReplacer and VariableInserter want to be told of which variables, and put a random number in their place or
+    an operation drawn at random beside them, so that no two runs would plant the same.
     """
     names = sorted(cosmic_ray.plugins.operator_names())
     classes = [(name, cosmic_ray.plugins.get_operator(name)) for name in names]
-    return tuple((name, operator()) for name, operator in classes if not operator.arguments())
+    return (*((name, operator()) for name, operator in classes if not operator.arguments()), *messages.OPERATORS)
 
 
 def changed(operator: Any, node: Any, index: int) -> str:
@@ -141,5 +166,9 @@ def column(source: str, node: ast.expr, end: bool = False) -> int:
 
 
 def _no_operation(name: str, node: Any) -> bool:
-    """Whether a `*`, `**` or `/` is no operation of two numbers: that of a signature or of a display."""
+    """Whether a `*`, `**` or `/` is no operation of two numbers: that of a signature or of a display. And whether an
+    exception has a dotted name, which cosmic-ray's ExceptionReplacer cannot write.
+    """
+    if name == "core/ExceptionReplacer":
+        return "." in node.children[1].get_code()
     return "BinaryOperator" in name and node.parent.type not in _ARITHMETIC

@@ -1,14 +1,14 @@
-"""What came of the mutants: a table by module, and each survivor as the change that nobody saw."""
+"""What came of the mutants: a table by room or by module, and each survivor as the change that nobody saw."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from .campaign import Outcome
 from .mutants import Mutant
 
-HEAD = ("module", "mutants", "run", "caught", "by time", "equivalent", "survived", "caught of the rest")
+HEAD = ("mutants", "run", "caught", "by time", "equivalent", "survived", "caught of the rest")
 
 
 def kind(mutant: Mutant, outcomes: Mapping[str, Outcome], listed: Mapping[str, str]) -> str:
@@ -21,14 +21,24 @@ def kind(mutant: Mutant, outcomes: Mapping[str, Outcome], listed: Mapping[str, s
     return "wrong" if mutant.key in listed else str(outcome["outcome"])
 
 
-def table(mutants: Sequence[Mutant], outcomes: Mapping[str, Outcome], listed: Mapping[str, str]) -> str:
-    """One line a module and one for all."""
+def counted(
+    mutants: Sequence[Mutant],
+    outcomes: Mapping[str, Outcome],
+    listed: Mapping[str, str],
+    group: Callable[[Mutant], str] = lambda mutant: mutant.room,
+) -> dict[str, Counter[str]]:
+    """How many of each kind there are, by room or by another group."""
     counts: dict[str, Counter[str]] = {}
     for mutant in mutants:
-        counts.setdefault(mutant.path, Counter())[kind(mutant, outcomes, listed)] += 1
-    lines = [HEAD, *(_line(path, count) for path, count in sorted(counts.items()))]
+        counts.setdefault(group(mutant), Counter())[kind(mutant, outcomes, listed)] += 1
+    return dict(sorted(counts.items()))
+
+
+def table(counts: Mapping[str, Counter[str]], title: str = "room") -> str:
+    """One line a room and one for all."""
+    lines = [(title, *HEAD), *(_line(name, count) for name, count in counts.items())]
     lines.append(_line("all", sum(counts.values(), Counter())))
-    widths = [max(len(line[k]) for line in lines) for k in range(len(HEAD))]
+    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
     return "\n".join(
         "  ".join(cell.rjust(w) if k else cell.ljust(w) for k, (cell, w) in enumerate(zip(line, widths, strict=True)))
         for line in lines

@@ -1,7 +1,7 @@
 """The process that runs mutants: it has the libraries loaded, and forks a child for each run of pytest.
 
 It works in its own copy of the tree (the current directory), where it writes a mutant and takes it back. One job a line
-comes in as JSON, one answer goes out.
+comes in as JSON, one answer goes out. The first argument is the place of the kernels that are compiled already, or "".
 """
 
 from __future__ import annotations
@@ -19,6 +19,9 @@ import time
 from pathlib import Path
 from typing import Any
 
+from . import kernels
+from .suites import Mode
+
 LIBRARIES = (
     "csv", "lxml.etree", "numpy", "numpy.testing", "llvmlite.binding", "numba", "numba.extending",
     "numba.core.serialize", "mpmath", "hypothesis", "hypothesis.strategies", "hypothesis.extra.numpy", "pytest",
@@ -28,8 +31,6 @@ LIBRARIES = (
 # what they do at the end of a run takes longer than most runs
 _NOT_NEEDED = ("cacheprovider", "faulthandler", "unraisableexception", "threadexception")
 SETTINGS = {
-    "NUMBA_DISABLE_JIT": "1",
-    "POEKIN_CACHE_DIR": "",
     "CI": "1",
     "PYTHONHASHSEED": "0",
     "OPENBLAS_NUM_THREADS": "1",
@@ -45,16 +46,23 @@ _WALL = 1800.0  # s, of one run of pytest: only a child that sleeps gets there
 
 def main() -> None:
     """Answer jobs until the input ends, with the libraries loaded that the command line names."""
-    for name in sys.argv[1:]:
+    known = Path(sys.argv[1]) if sys.argv[1] else None
+    for name in sys.argv[2:]:
         with contextlib.suppress(ImportError):  # what the tests do without, or skip
             importlib.import_module(name)
     gc.freeze()
     for line in sys.stdin:
         job = json.loads(line)
-        print(json.dumps(answered(Path.cwd(), job["path"], job["source"], job["sessions"])), flush=True)
+        mode = Mode(job["mode"])
+        with kernels.offered(known, mode, Path(f"{Path.cwd()}-kernels")) as place:
+            compiling = {"POEKIN_CACHE_DIR": place, "NUMBA_DISABLE_JIT": str(int(mode is Mode.INTERPRETED))}
+            answer = answered(Path.cwd(), job["path"], job["source"], job["sessions"], compiling)
+        print(json.dumps(answer), flush=True)
 
 
-def answered(tree: Path, path: str, source: str | None, sessions: list[list[str]]) -> dict[str, Any]:
+def answered(
+    tree: Path, path: str, source: str | None, sessions: list[list[str]], settings: dict[str, str]
+) -> dict[str, Any]:
     """The outcome of the sessions, run in order up to the first that fails, with the mutant in place of its module."""
     file = tree / path if source is not None else None
     original = file.read_bytes() if file else b""
@@ -64,7 +72,7 @@ def answered(tree: Path, path: str, source: str | None, sessions: list[list[str]
             file.write_text(source, encoding="utf-8")
         answer = {"outcome": "passed", "by": ""}
         for arguments in sessions:
-            found = _session(tree, arguments, source is not None)
+            found = _session(tree, arguments, source is not None, settings)
             if found["outcome"] != "passed":
                 answer = found
                 break
@@ -75,13 +83,14 @@ def answered(tree: Path, path: str, source: str | None, sessions: list[list[str]
     return {**answer, "seconds": round(time.monotonic() - start, 2)}
 
 
-def _session(tree: Path, arguments: list[str], mutated: bool) -> dict[str, str]:
+def _session(tree: Path, arguments: list[str], mutated: bool, settings: dict[str, str]) -> dict[str, str]:
     """One run of pytest in a child: what came of it, and by which test."""
     reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
         os.close(reading)
-        _judge(tree, arguments, mutated, writing)
+        _set(settings, mutated)
+        _judge(tree, arguments, writing)
     os.close(writing)
     in_time = bool(select.select([reading], [], [], _WALL)[0])
     message = os.read(reading, 1 << 16) if in_time else b""  # whole: it is shorter than what a pipe takes at once
@@ -97,7 +106,19 @@ def _session(tree: Path, arguments: list[str], mutated: bool) -> dict[str, str]:
     return {"outcome": "caught", "by": f"the interpreter ended (status {status})"}
 
 
-def _judge(tree: Path, arguments: list[str], mutated: bool, writing: int) -> None:
+def _set(settings: dict[str, str], mutated: bool) -> None:
+    """In the child: the environment of what it runs and starts; no bytecode of a mutant is kept."""
+    os.environ.update(settings)
+    if mutated:
+        sys.dont_write_bytecode = True
+        os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+    with contextlib.suppress(ImportError):
+        from numba.core import config
+
+        config.reload_config()
+
+
+def _judge(tree: Path, arguments: list[str], writing: int) -> None:
     """In the child: run pytest, send what came of it, and end."""
     os.setsid()
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
@@ -105,7 +126,6 @@ def _judge(tree: Path, arguments: list[str], mutated: bool, writing: int) -> Non
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     os.dup2(said, 1)
     os.dup2(said, 2)
-    sys.dont_write_bytecode = mutated
     sys.path.insert(0, str(tree))
 
     def send(outcome: str, by: str) -> None:

@@ -1,0 +1,73 @@
+"""Compiled kernels for mutants: made once from the source as it is, handed out by links, and never taken from a mutant.
+
+The cache's key covers the source of algebra, formulas and engine, so a mutant there finds nothing of the others; it is
+given an empty place. Any other mutant is given a place of its own with Numba's kernels, whose whole source is in their
+key. The code of an arm is not among them: it depends on what the model makes of an arm, and so on the mutant.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import os
+import pkgutil
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from .suites import Mode
+
+_OF_AN_ARM = "arm-"
+
+
+def main() -> None:
+    """Make every kernel of the package ready, in the cache that POEKIN_CACHE_DIR names."""
+    from poekin import engine
+    from poekin.engine.kernel import Kernel
+
+    for info in pkgutil.iter_modules(engine.__path__):
+        for value in vars(importlib.import_module(f"{engine.__name__}.{info.name}")).values():
+            if isinstance(value, Kernel):
+                value.ready()
+
+
+def prepared(root: Path, place: Path) -> Path:
+    """A cache in `place` with every kernel of the package; what this user's own cache has is copied."""
+    place.mkdir(mode=0o700)
+    known = _user_cache(root)
+    for entry in known.glob("*.kernel") if known else ():
+        if not entry.name.startswith(_OF_AN_ARM):
+            with contextlib.suppress(OSError):
+                shutil.copy2(entry, place)
+    settings = {**os.environ, "POEKIN_CACHE_DIR": str(place), "PYTHONPATH": str(root)}
+    subprocess.run([sys.executable, "-m", "tools.mutate.kernels"], cwd=root, env=settings, check=True)
+    return place
+
+
+def _user_cache(root: Path) -> Path | None:
+    said = subprocess.run(
+        [sys.executable, "-c", "from poekin.engine.cache import directory; print(directory() or '')"],
+        cwd=root, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    return Path(said.stdout.strip()) if said.stdout.strip() else None
+
+
+@contextlib.contextmanager
+def offered(known: Path | None, mode: Mode, place: Path) -> Iterator[str]:
+    """What POEKIN_CACHE_DIR is for one job: nothing, or a place that the job has for itself."""
+    if mode is Mode.INTERPRETED:
+        yield ""
+        return
+    place.mkdir(mode=0o700)
+    try:
+        for entry in known.iterdir() if known and mode is Mode.WARM else ():
+            os.link(entry, place / entry.name)  # an entry is never written to, only replaced
+        yield str(place)
+    finally:
+        shutil.rmtree(place, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    main()
