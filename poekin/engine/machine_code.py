@@ -170,9 +170,10 @@ class _Function:
                     build.store(row, self._wide(build.gep(start, [_INT(lane * size + i)]), row.type), align=8)
 
     def _transposed(self, group):
-        """Of up to four vectors, for each lane the vector of what they have there."""
-        if len(group) == 1:
-            return [self.build.extract_element(group[0], _INDEX(lane)) for lane in range(LANES)]
+        """Of four vectors, or of two, for each lane the vector of what they have there.
+
+        A pose has 16 numbers and a Jacobian 6 m: there is never one left, nor three.
+        """
         if len(group) == LANES:
             (even, odd), (even2, odd2) = self._even_odd(*group[:2]), self._even_odd(*group[2:])
             return [
@@ -180,14 +181,7 @@ class _Function:
                 for mask in ([0, 1, 4, 5], [2, 3, 6, 7])
                 for a, b in ((even, even2), (odd, odd2))
             ]
-        if len(group) == 2:
-            return [self._mixed(*group, [lane, LANES + lane]) for lane in range(LANES)]
-        # three: two of them, then the third behind
-        rows = [self._mixed(*group[:2], [lane, LANES + lane, lane]) for lane in range(LANES)]
-        return [
-            self.build.insert_element(row, self.build.extract_element(group[2], _INDEX(lane)), _INDEX(2))
-            for lane, row in enumerate(rows)
-        ]
+        return [self._mixed(*group, [lane, LANES + lane]) for lane in range(LANES)]
 
     def _even_odd(self, a, b):
         return self._mixed(a, b, [0, 4, 2, 6]), self._mixed(a, b, [1, 5, 3, 7])

@@ -340,6 +340,14 @@ def test_joints_that_follow_and_slide_and_turn_backwards():
         assert difference.max() <= near(chain, q)
 
 
+def test_an_angle_made_from_another_keeps_its_own_offset():
+    # three parallel axes: the angles q2, q2 + q3 and q2 + q3 + q4, each with an offset
+    arm = pk.load("ur5e").chain().rezeroed([0.0, 0.1, 0.2, 0.3, 0.0, 0.0])
+    assert any(angle.base is not None and angle.offset for angle in arm.compile().program("hybrid").angles)
+    for difference in differences(arm, arm.random(0, 9), (*NAMED, 3, 5)):
+        assert difference.max() <= NEAR
+
+
 @pytest.mark.parametrize("name, tip, nominal, middle", [
     ("puma560", None, (55, 26, 5), (15, 3, 4)),
     ("ur5", None, (46, 21, 5), (10, 5, 4)),
