@@ -197,7 +197,8 @@ def test_names_kinds_and_limits_are_those_of_the_file():
 
 COUPLED = model_of(
     f'<body name="a">{G}<joint name="x" ref="0.3"/></body><body name="b">{G}<joint name="y" type="slide" ref="0.1"/>'
-    f'</body><body name="c">{G}<joint name="z"/></body><body name="d">{G}<joint name="w" axis="1 0 0"/></body>',
+    f'</body><body name="c">{G}<joint name="z" ref="0.4"/></body>'
+    f'<body name="d">{G}<joint name="w" axis="1 0 0" ref="0.2"/></body>',
     '<equality><joint joint1="y" joint2="x" polycoef="0.2 -1.5 0 0 0"/><joint joint1="z" polycoef="0.7 0 0 0 0"/>'
     '<joint joint1="w" joint2="z" polycoef="0.1 2 0 0 0"/></equality>',
     '<compiler angle="radian"/>',
@@ -213,7 +214,7 @@ def test_linear_equalities_hold_in_mujoco_where_poekin_puts_the_joints():
     follow = robot.joint("y").mimic
     assert follow is not None
     for x in (-1.0, 0.0, 0.4):
-        data.qpos[:] = [x, follow.multiplier * x + follow.offset, 0.7, 0.1 + 2 * 0.7]
+        data.qpos[:] = [x, follow.multiplier * x + follow.offset, 0.4 + 0.7, 0.2 + 0.1 + 2 * 0.7]
         mujoco.mj_forward(model, data)
         assert np.abs(data.efc_pos[: model.neq]).max() <= 1e-15  # the residuals of the equalities, of numbers below 2
         found = robot.fk([x])

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import pickle
+import re
+import warnings
 
 import numpy as np
 import pytest
@@ -181,6 +183,33 @@ def test_a_controller_s_file_is_read_and_moves_a_ur10_by_three_millimetres(tmp_p
     assert max(moved(nominal_robot(nominal), robot).values()) == pytest.approx(3.245e-3, abs=1e-6)
     with pytest.warns(PoekinWarning, match=r"moves '\w+' by \d+ mm from where the nominal 'ur5' has it: the calibra"):
         ur.from_dh(table, nominal=pk.dh.published("ur5"))
+
+
+@pytest.mark.parametrize("by, said", [(0.019, False), (0.021, True), (0.1, True)])
+def test_a_table_that_moves_a_link_by_more_than_two_centimetres_is_said(by, said):
+    table = ur.deltas(NOMINAL, delta_d=[by, 0, 0, 0, 0, 0])
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        ur.from_dh(table, nominal=NOMINAL)
+    messages = [str(w.message) for w in caught]
+    assert len(messages) == said
+    what = rf"table 'ur10e' moves '\w+' by {by * 1e3:g} mm from where the nominal 'ur10e' has it"
+    assert all(re.match(what, message) for message in messages)
+
+
+@pytest.mark.parametrize("names, first", [
+    (("base", "base_link_inertia"), 0), (("base_link_inertia", "base"), 1), (("pedestal", "base_link_inertia"), 1),
+])  # fmt: skip
+def test_the_controller_s_base_is_called_base_else_base_link_inertia(names, first):
+    plain = ur.from_dh(NOMINAL, nominal=NOMINAL).to_robot()
+    poses = [np.eye(4), pk.se3.exp([0, 0, 0.3, 0.1, 0.2, 0.3])]
+    arm = [pk.Joint(j.name, j.kind, {"base": names[0]}.get(j.parent, j.parent), j.child, j.origin, j.axis)
+           for j in plain.joints]  # fmt: skip
+    stands = [pk.Joint(f"world-{name}", "fixed", "world", name, T) for name, T in zip(names, poses, strict=True)]
+    robot = Robot("arm", ["world", *names, *plain.links[1:]], [*stands, *arm])
+    calibration = ur.from_dh(UR10E, nominal=NOMINAL)
+    pose = ur.apply(robot, calibration).chain(names[first], "tool0").fk(ZERO)
+    assert np.abs(pose - calibration.to_chain().fk(ZERO)).max() <= 1e-14
 
 
 def test_a_calibration_of_ur_description_s_urdf_keeps_its_tree_and_its_tool():

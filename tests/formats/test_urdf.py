@@ -63,6 +63,12 @@ def test_an_axis_off_by_rounding_is_normalised_in_silence(off):
     assert read(f'<axis xyz="0 0 {1 + off!r}"/>{LIMIT}').joints[0].axis == (0, 0, 1)
 
 
+@pytest.mark.parametrize("length", [0.5, 1 - 1.1e-6, 1 + 1.1e-6, 1e-12])
+def test_an_axis_shorter_or_longer_than_that_is_normalised_and_said(length):
+    with pytest.warns(PoekinWarning, match=rf"the axis of joint 'j' has length {length:.9g} and was normalised$"):
+        assert read(f'<axis xyz="0 0 {length!r}"/>{LIMIT}').joints[0].axis == (0, 0, 1)
+
+
 def test_an_axis_that_is_not_unit_is_normalised_with_one_warning():
     joints = "\n".join(
         f'<joint name="j{i}" type="continuous"><parent link="l{i}"/><child link="l{i + 1}"/>'
