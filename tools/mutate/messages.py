@@ -76,7 +76,7 @@ def _fields(node: Any) -> list[int]:
 
 
 def _with(node: Any, changed: dict[int, str]) -> Text:
-    return Text("".join(changed.get(k, child.get_code()) for k, child in enumerate(node.children)))
+    return Text("".join(changed[k] if k in changed else child.get_code() for k, child in enumerate(node.children)))
 
 
 def _numbers(node: Any) -> list[re.Match[str]]:
