@@ -12,12 +12,13 @@ from ...model.evaluation import FRAME_NAMES
 from .. import exact
 from ..configuration_strategies import at_limits, bounds, within_limits
 from ..derivative_laws import exact_jacobians
-from ..strategies import angles, axes, frozen, magnitudes, st, twists, vectors
+from ..measures import size
+from ..strategies import SMALLEST, angles, axes, frozen, magnitudes, st, twists, vectors
 from . import confirm, of_arms
 from .calls import real
 from .grades import Grade, Verdict
 from .group_cases import coordinates, element
-from .law import Case, Law, Shown, typed
+from .law import Case, Law, Shown, drawable, typed, unit
 from .of_arms import Arm
 from .subject import Subject
 
@@ -25,6 +26,7 @@ EACH = 8
 """Numbers of a joint: axis, a point on it, q, pitch; six more at the end are the home pose's ω and v."""
 LENGTHS = (1e-3, 3.0)
 PITCHES = (1e-3, 1.0)
+TRAVELS = (1e-6, 2.0)
 KINDS = ("revolute", "prismatic")
 
 
@@ -56,7 +58,7 @@ def _joints(kinds: tuple[str, ...]) -> st.SearchStrategy[tuple[str, np.ndarray]]
     nought = st.just(0.0)
     one = {
         "revolute": st.builds(_numbers, axes(), vectors(LENGTHS), turns, nought),
-        "prismatic": st.builds(_numbers, axes(), st.just(np.zeros(3)), magnitudes(1e-6, 2.0), nought),
+        "prismatic": st.builds(_numbers, axes(), st.just(np.zeros(3)), magnitudes(*TRAVELS), nought),
         "helical": st.builds(_numbers, axes(), vectors(LENGTHS), turns, pitches),
     }
     return st.one_of(*(st.tuples(st.just(kind), one[kind]) for kind in kinds))
@@ -90,18 +92,32 @@ def simpler(case: Case) -> Iterable[Case]:
 
 
 def allowed(case: Case) -> bool:
-    """No axis may vanish, and a declared arm stays within its limits."""
+    """Axes keep their length, and all numbers their range; a declared arm stays within its limits."""
     if isinstance(case.layout, Limits):
         return bool(np.all(case.numbers >= case.layout.lower) and np.all(case.numbers <= case.layout.upper))
-    kinds = _kinds(case)
-    return all(np.any(case.numbers[EACH * k : EACH * k + 3]) for k in range(len(kinds)))
+    angle = size(case.numbers[-6:-3])
+    length = size(case.numbers[-3:])
+    if angle > math.pi or not (drawable(angle, (SMALLEST, math.pi)) and drawable(length, LENGTHS)):
+        return False
+    rows = case.numbers[:-6].reshape(-1, EACH)
+    return all(_allowed(kind, row) for kind, row in zip(_kinds(case), rows, strict=True))
+
+
+def _allowed(kind: str, row: np.ndarray) -> bool:
+    amounts = TRAVELS if kind == "prismatic" else (SMALLEST, math.pi)
+    fits = drawable(row[6], amounts) and drawable(row[7], PITCHES) and drawable(size(row[3:6]), LENGTHS)
+    return unit(row[:3]) and fits
 
 
 def triples(case: Case) -> Iterable[int]:
-    """Axes, points, and the home pose's halves."""
+    """Points on the axes, and the home pose's halves."""
     n = EACH * len(_kinds(case))
-    starts = [at for k in range(0, n, EACH) for at in (k, k + 3)]
-    return [*starts, n, n + 3] if n else []
+    return [*range(3, n, EACH), n, n + 3] if n else []
+
+
+def directions(case: Case) -> Iterable[int]:
+    """Axes."""
+    return range(0, EACH * len(_kinds(case)), EACH)
 
 
 def _of(subject: Subject, case: Case) -> tuple[Any, np.ndarray]:
@@ -176,7 +192,7 @@ def _law(function: str, says: str, check: Callable[[Subject, Case], Verdict], he
     return Law(
         f"{function} helical" if helical else function, says, function, lambda subject: cases(subject, kinds), check,
         lambda subject, case: confirmed(*_of(subject, case), jacobian),
-        lambda subject, case: _show(function, subject, case), simpler, triples, allowed,
+        lambda subject, case: _show(function, subject, case), simpler, triples, directions, allowed,
         lambda subject: not helical or (subject.helical and subject.arm is None), about,
     )  # fmt: skip
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import enum
 import math
+import re
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
@@ -77,6 +78,12 @@ class Verdict(NamedTuple):
     size: float
     what: str
     fault: str = ""
+
+    @property
+    def manner(self) -> tuple[Grade, str]:
+        """How the case failed: the grade, and the kind of fault without its particulars."""
+        fault = re.sub(r"^of link \w+: ", "", self.fault)
+        return self.grade, " ".join(re.split(r"[:(]", fault)[0].split()[:2])
 
     @property
     def rank(self) -> tuple[int, float]:

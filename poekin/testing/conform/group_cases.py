@@ -9,11 +9,11 @@ import numpy as np
 
 from .. import exact
 from ..measures import size
-from ..strategies import Arrays, batch_shapes, batches, noisy_rotations, rotation_vectors, st, twists
+from ..strategies import LENGTHS, SMALLEST, Arrays, batch_shapes, batches, noisy_rotations, rotation_vectors, st, twists
 from . import confirm, of_groups
 from .calls import called
 from .grades import Grade, Part, Verdict, judged
-from .law import Case, Law, Shown, typed
+from .law import Case, Law, Shown, drawable, typed
 from .subject import JACOBIANS, SE3, SO3, Subject
 
 FAR = 10.0
@@ -34,6 +34,11 @@ def _largest(name: str) -> float:
 
 def _numbers(name: str) -> Arrays:
     return rotation_vectors(_largest(name)) if name in SO3 else twists(_largest(name))
+
+
+def _drawable(name: str, xi: np.ndarray) -> bool:
+    angle = size(xi[:3])
+    return drawable(angle, (SMALLEST, math.inf)) and angle <= _largest(name) and drawable(size(xi[3:]), LENGTHS)
 
 
 def _takes_element(name: str) -> bool:
@@ -104,7 +109,7 @@ def _group_law(name: str) -> Law:
         check=lambda subject, case: check(subject.function(name), _argument(name, case.numbers), Grade.BROKEN),
         confirm=lambda subject, case: _confirmed(name, case.numbers),
         show=show,
-        allowed=lambda case: size(case.numbers[:3]) <= largest,
+        allowed=lambda case: _drawable(name, case.numbers),
     )
 
 
@@ -180,7 +185,7 @@ def _batch_law(name: str) -> Law:
     return Law(
         f"{name} of batches", f"{name} of a batch is {name} of each, in shapes (), (1,), (0,), (3, 1, 2)", name, cases,
         together, lambda subject, case: all(_confirmed(name, row) for row in case.numbers.reshape(-1, count)), show,
-        allowed=lambda case: all(size(row[:3]) <= _largest(name) for row in case.numbers.reshape(-1, count)),
+        allowed=lambda case: all(_drawable(name, row) for row in case.numbers.reshape(-1, count)),
         applies=lambda subject: subject.batch,
     )  # fmt: skip
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..measures import size
 from ..strategies import st
 from .grades import Verdict
 
@@ -42,8 +43,9 @@ class Law(NamedTuple):
 
     name: as on the command line; says: what is held, in words; needs: the function of the subject that it is about;
     cases(subject): what it is tried on; show(subject, case): for people; simpler(case): cases with a part left out;
-    triples: where among the numbers three are a vector, each one's first place; allowed: what a simpler case must be;
-    about(case): whether what the law is about is in it at all; applies(subject): whether it is to be held to it.
+    triples: where among the numbers three are a vector, each one's first place; directions: the same of unit vectors;
+    allowed(case): whether the law could have drawn it; about(case): whether what the law is about is in it at all;
+    applies(subject): whether it is to be held to it.
     """
 
     name: str
@@ -55,9 +57,24 @@ class Law(NamedTuple):
     show: Callable[[Subject, Case], Shown]
     simpler: Callable[[Case], Iterable[Case]] = nothing_simpler
     triples: Callable[[Case], Iterable[int]] = lambda case: range(0, len(case.numbers) - 2, 3)
+    directions: Callable[[Case], Iterable[int]] = lambda case: ()
     allowed: Callable[[Case], bool] = lambda case: True
     applies: Callable[[Subject], bool] = lambda subject: True
     about: Callable[[Case], bool] = lambda case: True
+
+
+SLACK = 1e-9
+"""By how much in proportion a number may lie beyond what is drawn: a length comes from rounded components."""
+
+
+def drawable(x: float, bounds: tuple[float, float]) -> bool:
+    """Whether a magnitude is 0 or lies within the bounds of what is drawn."""
+    return x == 0 or bounds[0] * (1 - SLACK) <= abs(x) <= bounds[1] * (1 + SLACK)
+
+
+def unit(x: np.ndarray) -> bool:
+    """Whether a vector has length 1, to rounding."""
+    return abs(size(x) - 1) <= SLACK
 
 
 def typed(x: Any) -> str:

@@ -38,11 +38,7 @@ class _Over(Exception):
 
 
 def worst(law: Law, subject: Subject, examples: int, seconds: float) -> Found:
-    """Hunt the worst case, towards larger errors, and shrink it where its grade is poor or broken.
-
-    A shrunk case has the grade of the worst one. What the law is about stays in it as long as anything else can go: who
-    errs in two ways shows the one that is the law's.
-    """
+    """Hunt the worst case, towards larger errors, and shrink it where its grade is poor or broken (`simplest`)."""
     end, count = time.monotonic() + seconds, 0
     top: tuple[Case, Verdict] | None = None
 
@@ -68,10 +64,19 @@ def worst(law: Law, subject: Subject, examples: int, seconds: float) -> Found:
     case, verdict = top
     if verdict.grade < Grade.POOR:
         return Found(count, case, verdict)
+    return Found(count, case, verdict, simplest(law, subject, case, verdict))
+
+
+def simplest(law: Law, subject: Subject, case: Case, verdict: Verdict) -> Case:
+    """The simplest case found that fails in the manner of this one.
+
+    It has the grade and the kind of fault of the verdict, on what the law could have drawn. What the law is about stays
+    in it as long as anything else can go: who errs in two ways shows the one that is the law's.
+    """
     end = time.monotonic() + SHRINKING
 
     def fails(other: Case) -> bool:
-        return time.monotonic() < end and law.check(subject, other).grade >= verdict.grade
+        return time.monotonic() < end and law.check(subject, other).manner == verdict.manner
 
     own = law._replace(allowed=lambda other: law.allowed(other) and law.about(other))
-    return Found(count, case, verdict, shrunk(law, shrunk(own, case, fails), fails))
+    return shrunk(law, shrunk(own, case, fails), fails)

@@ -10,11 +10,15 @@ import numpy as np
 from ..measures import size
 from ..strategies import Arrays, angles, axes, frozen, magnitudes, st, vectors
 from . import of_urdf, small_urdf
-from .law import Case, Law
+from .law import Case, Law, drawable, unit
 from .small_urdf import EACH, Joint, Layout
 
 NAMES = ("j0", "j1", "j2")
 LENGTHS = (1e-3, 3.0)
+ANGLES = (1e-9, math.pi)
+AXIS_LENGTHS = (1e-3, 1e3)
+TURNS = 10.0
+"""How far a continuous joint turns at most, in rad."""
 _SIGNS = (1.0, -1.0)
 FRAME_AXES = np.concatenate([np.eye(3), 0.0 - np.eye(3)])
 
@@ -26,12 +30,12 @@ def frame_axes() -> Arrays:
 
 def long_axes() -> Arrays:
     """Axes of the frame of a length from 1e-3 to 1e3."""
-    return st.builds(lambda n, length: frozen(n * (length or 2.0)), frame_axes(), magnitudes(1e-3, 1e3))
+    return st.builds(lambda n, length: frozen(n * (length or 2.0)), frame_axes(), magnitudes(*AXIS_LENGTHS))
 
 
 def signed_angles(largest: float = math.pi) -> st.SearchStrategy[float]:
     """Angles in rad, either way."""
-    return st.builds(lambda x, sign: sign * x, angles(largest, 1e-9), st.sampled_from(_SIGNS))
+    return st.builds(lambda x, sign: sign * x, angles(largest, ANGLES[0]), st.sampled_from(_SIGNS))
 
 
 def turns() -> Arrays:
@@ -124,19 +128,54 @@ def orders() -> st.SearchStrategy[Case]:
 
 
 About = Callable[[Case], bool]
+Fits = Callable[[np.ndarray], bool]
+
+
+def _along(axis: np.ndarray) -> bool:
+    return np.count_nonzero(axis) == 1
+
+
+def _frame_axis(axis: np.ndarray) -> bool:
+    return _along(axis) and unit(axis)
+
+
+def _long_axis(axis: np.ndarray) -> bool:
+    return _along(axis) and drawable(size(axis), AXIS_LENGTHS)
+
+
+def _allowed(axis: Fits, largest: float = math.pi) -> About:
+    """Whether a law could have drawn a case: its axes, lengths, angles and values of joints up to `largest`."""
+
+    def allowed(case: Case) -> bool:
+        return small_urdf.allowed(case) and all(map(fits, small_urdf.rows_of(case)))
+
+    def fits(row: np.ndarray) -> bool:
+        turned = all(drawable(angle, ANGLES) for angle in row[6:9])
+        return (
+            axis(row[:3]) and drawable(size(row[3:6]), LENGTHS) and turned and drawable(row[11], (ANGLES[0], largest))
+        )
+
+    return allowed
 
 
 def _law(
     name: str, says: str, cases: Callable[[], st.SearchStrategy[Case]], about: About = lambda case: True,
-    jacobian: bool = False,
+    axis: Fits = _frame_axis, largest: float = math.pi, jacobian: bool = False,
 ) -> Law:  # fmt: skip
     return Law(
         name, says, "read_urdf", lambda subject: cases(),
         lambda subject, case: of_urdf.check(subject, case, jacobian),
         lambda subject, case: of_urdf.confirmed(case, jacobian),
         lambda subject, case: of_urdf.show(subject, case, "jacobian" if jacobian else "fk"), small_urdf.simpler,
-        small_urdf.triples, small_urdf.allowed, lambda subject: not jacobian or bool(subject.frame), about,
+        _vectors_too if axis is _long_axis else small_urdf.triples,
+        (lambda case: ()) if axis is _long_axis else small_urdf.axes,
+        _allowed(axis, largest), lambda subject: not jacobian or bool(subject.frame), about,
     )  # fmt: skip
+
+
+def _vectors_too(case: Case) -> Iterable[int]:
+    """Where an axis has any length, it is a vector like others."""
+    return [*small_urdf.axes(case), *small_urdf.triples(case)]
 
 
 def _robot_law(name: str, says: str, mimic: bool, about: About) -> Law:
@@ -144,7 +183,7 @@ def _robot_law(name: str, says: str, mimic: bool, about: About) -> Law:
         name, says, "read_robot", lambda subject: trees(mimic), of_urdf.check_robot,
         lambda subject, case: of_urdf.confirmed(case, links=range(len(small_urdf.rows_of(case)))),
         lambda subject, case: of_urdf.show(subject, case, "poses"), small_urdf.simpler, small_urdf.triples,
-        small_urdf.allowed, about=about,
+        small_urdf.axes, _allowed(_frame_axis), about=about,
     )  # fmt: skip
 
 
@@ -195,8 +234,10 @@ URDF_LAWS = (
     _law(
         "urdf", "axes along x, y, z; origins anywhere; revolute, prismatic and fixed joints", lambda: arms(frame_axes())
     ),
-    _law("urdf oblique axis", "an axis may point anywhere", lambda: arms(axes(), MOVING), _oblique),
-    _law("urdf long axis", "an axis of any length is its direction", lambda: arms(long_axes(), MOVING), _long),
+    _law("urdf oblique axis", "an axis may point anywhere", lambda: arms(axes(), MOVING), _oblique, unit),
+    _law(
+        "urdf long axis", "an axis of any length is its direction", lambda: arms(long_axes(), MOVING), _long, _long_axis
+    ),
     _law(
         "urdf missing axis",
         "a joint without an axis has x",
@@ -206,13 +247,14 @@ URDF_LAWS = (
     _law(
         "urdf continuous",
         "a continuous joint turns any number of times",
-        lambda: arms(frame_axes(), ("continuous",), largest=10.0),
+        lambda: arms(frame_axes(), ("continuous",), largest=TURNS),
         _many_turns,
+        largest=TURNS,
     ),
     _law("urdf mimic", "a joint that mimics another moves with it", mimics, _mimic),
     _law("urdf mimic across", "it may mimic one of another branch", lambda: trees(mimic=True), _mimic_across),
     _law("urdf order", "joints are known by name, not by their place in the file", orders, _disordered),
-    _law("urdf jacobian", "the Jacobian is the derivative", lambda: arms(axes(), MOVING), jacobian=True),
+    _law("urdf jacobian", "the Jacobian is the derivative", lambda: arms(axes(), MOVING), axis=unit, jacobian=True),
     _robot_law("robot", "the pose of each link of a tree", False, _branches),
     _robot_law("robot mimic", "of each link, where a joint mimics one of another branch", True, _mimic),
 )

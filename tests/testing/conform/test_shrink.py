@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
 
 from benchmarks.subjects import Poekin
-from poekin.testing.conform import LAWS, Case, Subject
+from benchmarks.subjects.faulty import _Reader
+from poekin.testing.conform import LAWS, Case, Grade, Subject
 from poekin.testing.conform.arm_cases import ARM_LAWS
+from poekin.testing.conform.grades import judged
+from poekin.testing.conform.search import simplest
 from poekin.testing.conform.shrink import cost, shrunk
-from poekin.testing.conform.small_urdf import chain, layout_of
+from poekin.testing.conform.small_urdf import Joint, chain, layout_of
 from poekin.testing.conform.urdf_cases import URDF_LAWS
 from tests.testing.drawing import drawn
 
@@ -77,3 +81,77 @@ def test_axes_that_are_missing_are_written_where_that_is_not_the_point():
     assert law.about(case)
     assert not law.about(shrunk(law, case, lambda other: True))
     assert law.about(shrunk(law._replace(allowed=law.about), case, lambda other: True))
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: law.name)
+def test_a_law_may_shrink_to_what_it_draws(law):
+    for case in drawn(law.cases(Subject(Poekin)), 20) if law.name != "noise" else ():
+        # A rotation by π may be drawn a rounding beyond it.
+        assert law.allowed(case._replace(numbers=case.numbers * (1 - 1e-12)))
+
+
+class DropsSmallComponents(_Reader):
+    """Takes components of an axis below 1e-8 for 0, and refuses an axis that is short."""
+
+    def edited(self, text):
+        def straight(found):
+            axis = np.array([float(x) for x in found[1].split()])
+            if np.linalg.norm(axis) < 1e-6:
+                raise ValueError(f"axis of length {np.linalg.norm(axis):g}")
+            return f'<axis xyz="{" ".join(repr(x if abs(x) > 1e-8 else 0.0) for x in axis.tolist())}"/>'
+
+        return re.sub(r'<axis xyz="([^"]*)"/>', straight, text)
+
+
+class RaisesTwice:
+    """Refuses rotations about two axes or more, and, by another exception, those about x."""
+
+    def so3_exp(self, w):
+        if np.count_nonzero(w) > 1:
+            raise NotImplementedError("about two axes")
+        if w[0]:
+            raise ZeroDivisionError
+        return Poekin.so3_exp(w)
+
+
+def test_a_poor_case_stays_poor_and_does_not_slide_to_what_the_law_does_not_draw():
+    law = next(law for law in URDF_LAWS if law.name == "urdf oblique axis")
+    subject = Subject(DropsSmallComponents)
+    row = [0, 3e-9, 1, 0.3, 0, 0, 0, 0, 0.2, 0, 0, 2.0]
+    case = Case(np.array(row), chain((Joint("revolute", "j0"),)))
+    verdict = law.check(subject, case)
+    assert verdict.grade is Grade.POOR
+    small = simplest(law, subject, case, verdict)
+    assert law.check(subject, small).manner == (Grade.POOR, "")
+    np.testing.assert_array_equal(small.numbers[3:11], 0)
+    assert sorted(small.numbers[:3]) in ([0, 1e-9, 1], [0, 3e-9, 1])
+
+
+def test_a_fault_does_not_shrink_to_one_of_another_kind():
+    law = next(law for law in LAWS if law.name == "so3_exp")
+    subject, case = Subject(RaisesTwice), Case(np.array([0.3, 0.2, -0.7]))
+    verdict = law.check(subject, case)
+    assert verdict.manner == (Grade.BROKEN, "NotImplementedError")
+    small = simplest(law, subject, case, verdict)
+    assert np.count_nonzero(small.numbers) == 2
+
+
+@pytest.mark.parametrize(
+    ("fault", "kind"),
+    [
+        ("of link tip: KeyError: 'tip'", "KeyError"),
+        ("shape (4, 4) where (3, 3) was expected", "shape"),
+        ("NaN", "NaN"),
+        ("no coordinate j0 among those read: none", "no coordinate"),
+    ],
+)
+def test_the_kind_of_a_fault_leaves_out_its_particulars(fault, kind):
+    assert judged("law", fault).manner == (Grade.BROKEN, kind)
+
+
+def test_oblique_axes_are_shown_in_round_numbers():
+    law = next(law for law in ARM_LAWS if law.name == "fk")
+    every = drawn(law.cases(Subject(Poekin)), 60)
+    case = next(case for case in every if np.count_nonzero(case.numbers[:3]) == 3)
+    small = shrunk(law, case, lambda other: bool(np.count_nonzero(other.numbers[:3]) > 1))
+    assert sorted(small.numbers[:3]) == [0, 0.6, 0.8]
