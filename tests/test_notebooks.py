@@ -73,10 +73,36 @@ def own_folders(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.fixture
+def checkout(tmp_path):
+    """A source tree without the package: where one has installed it from, and opens a notebook."""
+    (tmp_path / "checkout" / "notebooks").mkdir(parents=True)
+    (tmp_path / "checkout" / "benchmarks").symlink_to(ROOT / "benchmarks", target_is_directory=True)
+    return tmp_path / "checkout"
+
+
+def code(file: Path) -> str:
+    """The sources of a notebook's cells of code, with a NUL between them."""
+    cells = nbformat.read(file, as_version=4).cells
+    return "\0".join(cell.source for cell in cells if cell.cell_type == "code")
+
+
 @pytest.mark.usefixtures("own_folders")
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda f: f.name)
-def test_a_notebook_runs_without_a_warning(file, tmp_path):
-    assert faults_in_a_run(nbformat.read(file, as_version=4), tmp_path) == []
+def test_a_notebook_runs_without_a_warning_and_leaves_nothing_behind(file, checkout):
+    assert faults_in_a_run(nbformat.read(file, as_version=4), checkout / "notebooks") == []
+    assert list((checkout / "notebooks").iterdir()) == []
+
+
+@pytest.mark.usefixtures("own_folders")
+@pytest.mark.parametrize("file", [f for f in NOTEBOOKS if "benchmarks" in code(f)], ids=lambda f: f.name)
+def test_benchmarks_are_those_of_the_notebook_s_own_checkout(file, checkout):
+    finding = next(source for source in code(file).split("\0") if "benchmarks" in source).partition("from benchmarks")[
+        0
+    ]
+    book = notebook(f"{finding}\nimport benchmarks\nprint(benchmarks.__file__)")
+    assert faults_in_a_run(book, checkout / "notebooks") == []
+    assert book.cells[0].outputs[0].text.startswith(str(checkout))
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda f: f.name)
