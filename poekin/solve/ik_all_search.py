@@ -141,6 +141,7 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
         return result
     owner = np.repeat(np.arange(len(found)), [len(f.solutions) for f in found])
     J = fast.chain.jacobian(np.concatenate([f.solutions for f in found]), frame="hybrid")
+    J[:, 3:] /= _size(fast.chain)  # so that the unit of length is of no matter
     sizes = np.linalg.svd(J, compute_uv=False)
     singular = sizes[:, -1] < _SINGULAR * sizes[:, 0]
     for k in np.unique(owner[singular]):
@@ -156,6 +157,11 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
             names = tuple(name for name, size in zip(fast.q_names, most, strict=True) if size > _MOVES)
             result[k] = replace(f, solutions=f.solutions[alone], hits=f.hits[alone], moving=names)
     return result
+
+
+def _size(chain: Chain) -> float:
+    """How long the links are together (m), 1 where all are points."""
+    return float(np.linalg.norm(chain.local.frames[1:, :3, 3], axis=1).sum()) or 1.0
 
 
 def _way_along(fast: CompiledChain, T: Array, q: Array, J: Array) -> Array | None:

@@ -349,6 +349,23 @@ def test_a_double_solution_is_one_and_no_continuum(method):
 
 
 @pytest.mark.parametrize("method", ["auto", "search"])
+def test_a_continuum_does_not_depend_on_the_unit_of_length(method):
+    chain = arm("ur5e")
+    D = np.diag([1, 1, 1, 0.02, 0.02, 0.02])
+    home = chain.home.copy()
+    home[:3, 3] *= 0.02
+    small = pk.Chain(chain.screws @ D, home)
+    right = np.pi / 4
+    # two solutions that lie close together, an ordinary pose, and one of a continuum
+    q = np.array([[3 * right, right, -4 * right, 2 * right, right, 2 * right],
+                  [0.1, -1.0, 1.2, 0.4, 0.9, -0.3], [0.1, -0.7, 0.5, 0.3, 0, 0]])  # fmt: skip
+    found, expected = (ik_all(a, a.fk(q), method=method, limits=False) for a in (small, chain))
+    np.testing.assert_array_equal(found.count, expected.count)
+    np.testing.assert_array_equal(found.continuum, expected.continuum)
+    assert expected.continuum.tolist() == [False, False, True]
+
+
+@pytest.mark.parametrize("method", ["auto", "search"])
 def test_of_an_unreachable_target_none_is_claimed(method):
     T = np.eye(4)
     T[0, 3] = 9.0
