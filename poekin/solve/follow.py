@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, ShapeError, told
-from ..groups.arrays import Array, numbers, poses
+from ..groups.arrays import Array, numbers
 from ..model.chain import Chain
 from ..model.compiled import CompiledChain
 from ..model.coordinates import coordinates
@@ -19,6 +19,7 @@ from .reasons import KIND
 from .solution import BAD_TARGET, SOLVED, Solution
 from .solver import Settings, hashable, items, solver_of
 from .starts import first_tries
+from .task import targets
 
 
 def follow(
@@ -68,27 +69,27 @@ def follow(
     fast = arm if isinstance(arm, CompiledChain) else arm.compile() if isinstance(arm, Chain) else None
     if fast is None:
         raise InputError(f"follow: expected a Chain, got {told(arm)}")
-    chain, targets = fast.chain, _path(poses)
+    chain, path = fast.chain, _path(poses)
     solver = solver_of(fast, Settings(
         task, hashable(axis, "axis"), limits, tol_position, tol_rotation, items(lock), None, 100, 30, seed, False
     ))  # fmt: skip
     most = per_coordinate(max_step, chain, "max_step")
     if isinstance(max_step, Mapping) or np.ndim(max_step):
         most = np.abs(solver.units.of(most))
-    when, limit_v, limit_a = _timing(times, speed, acceleration, chain, len(targets))
+    when, limit_v, limit_a = _timing(times, speed, acceleration, chain, len(path))
     start = None if q0 is None else first_tries(solver.units, solver.room, (), 1, q0)[0]
-    finite = np.isfinite(targets).all(axis=(1, 2))
-    follower = Follower(solver, np.ascontiguousarray(targets[finite]), most, progress)
+    finite = np.isfinite(path).all(axis=(1, 2))
+    follower = Follower(solver, np.ascontiguousarray(path[finite]), most, progress)
     joints, broken = follower.run(start)
     found = solver.coordinates(joints)
 
-    at, count = np.flatnonzero(finite), len(targets)
+    at, count = np.flatnonzero(finite), len(path)
     q, reason, errors = (
         np.full((count, chain.dof), np.nan),
         np.full(count, BAD_TARGET, KIND),
         np.full((count, 2), np.nan),
     )
-    q[at], errors[at] = found, solver.judged(targets[finite], found)[0]
+    q[at], errors[at] = found, solver.judged(path[finite], found)[0]
     success = (errors[:, 0] <= tol_position) & (errors[:, 1] <= tol_rotation)
     reason[success] = SOLVED
     beyond = np.zeros(count)
@@ -115,10 +116,10 @@ def per_coordinate(value: Any, chain: Chain, what: str) -> Array:
 
 
 def _path(T: ArrayLike) -> Array:
-    targets = poses(T, "poses")
-    if targets.ndim != 3:
-        raise ShapeError(f"poses: expected a path (N, 4, 4), got shape {targets.shape}")
-    return targets
+    path = targets(T, "poses")
+    if path.ndim != 3:
+        raise ShapeError(f"poses: expected a path (N, 4, 4), got shape {path.shape}")
+    return path
 
 
 def _timing(

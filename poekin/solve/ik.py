@@ -8,12 +8,12 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, told
-from ..groups.arrays import poses
 from ..model.chain import Chain
 from ..model.compiled import CompiledChain
 from .aims import check_aim
 from .solution import Solution
 from .solver import Settings, hashable, items, solver_of
+from .task import targets
 
 
 def ik(
@@ -61,7 +61,7 @@ def ik(
     progress(done, total): called from time to time on a long batch.
 
     Returns: Solution. Raises: PoseError that says which element is no pose and by how much; InputError, ShapeError,
-    UnknownName. NaN in a target gives NaN in its q, the reason "bad target", and no error.
+    UnknownName. NaN or infinity in a target gives NaN in its q, the reason "bad target", and no error.
     Accuracy: `success` means what `tol_position` and `tol_rotation` say of `Chain.fk(q)`: the errors are computed anew.
     Source: Chan and Lawrence 1988, Sugihara 2011 (error-scaled damping).
     """
@@ -74,4 +74,4 @@ def ik(
     )  # fmt: skip
     if aim is not None:
         check_aim(aim, q0)
-    return solver_of(fast, settings).run(poses(T, "T"), q0, nearest_to, aim, progress)
+    return solver_of(fast, settings).run(targets(T, "T"), q0, nearest_to, aim, progress)

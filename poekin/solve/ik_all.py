@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, MissingExtra, listed, told
-from ..groups.arrays import Array, poses
+from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.compiled import CompiledChain
 from .all_solutions import AllSolutions, chance_of_more, in_words
 from .closed_form import ClosedForm, closed_form
 from .ik_all_search import Found, Rule, accepted, periods, pose_errors, search, turns_within
 from .joint_units import joint_units
+from .task import targets
 
 METHODS = ("auto", "closed", "search")
 
@@ -56,7 +57,8 @@ def ik_all(
         the same result.
 
     Returns: AllSolutions; how sure it is that these are all is in `sure`. A target with infinitely many solutions (at
-    some singular poses) is said to be one: one of them is listed. No solution: `ik` says why. NaN in a target has none.
+    some singular poses) is said to be one: one of them is listed. No solution: `ik` says why. A target that is not
+    finite has none.
     Raises: InputError for an arm of more than six coordinates, which has infinitely many solutions, or of none, and for
     "closed" where the arm has no closed form; MissingExtra for "closed" without EAIK; PoseError, ShapeError.
     Accuracy: every solution is within 1e-10 m and 1e-10 rad of its target by `Chain.fk` (of arms with a reach of more
@@ -77,8 +79,8 @@ def ik_all(
         ("seed", seed, 0),
     ):
         _check_whole(what, number, least)
-    targets = poses(T, "T")
-    batch, rows = targets.shape[:-2], np.ascontiguousarray(targets.reshape(-1, 4, 4))
+    wanted = targets(T, "T")
+    batch, rows = wanted.shape[:-2], np.ascontiguousarray(wanted.reshape(-1, 4, 4))
     finite: np.ndarray = np.isfinite(rows).all(axis=(1, 2)).reshape(-1)
     good = rows[finite]
     solver = _solver(chain, method)
@@ -147,11 +149,11 @@ def _solver(chain: Chain, method: str) -> ClosedForm | None:
     return solver
 
 
-def _starts(solver: ClosedForm, targets: Array) -> tuple[list[Array], set[int]]:
+def _starts(solver: ClosedForm, T: Array) -> tuple[list[Array], set[int]]:
     """The closed form's solutions of each target, and the numbers of those for which it gives up."""
     starts: list[Array] = []
     given_up = set()
-    for k, target in enumerate(targets):
+    for k, target in enumerate(T):
         try:
             starts.append(solver.starts(target))
         except RuntimeError:

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..engine import ik_codes as codes
-from ..errors import InputError, told
-from ..groups.arrays import Array, shaped
+from ..errors import InputError, PoseError, told
+from ..groups.arrays import Array, poses, shaped
 from ..model.chain import Chain
 
 TASKS = {
@@ -48,6 +49,16 @@ class Task:
         a = T[..., :3, :3] @ self.axis
         turns = J[..., :3, :] - a[..., :, None] * (a[..., None, :] @ J[..., :3, :])
         return np.concatenate([turns, J[..., 3:, :]], axis=-2)
+
+
+def targets(T: ArrayLike, what: str) -> Array:
+    """Poses (..., 4, 4); what is infinite is no error, but NaN. Raises: PoseError, ShapeError, InputError."""
+    try:
+        return poses(T, what)
+    except PoseError:
+        rows = shaped(T, (4, 4), what).copy()
+        rows[~np.isfinite(rows).all(axis=(-2, -1))] = np.nan
+        return poses(rows, what)
 
 
 def task_of(name: Any, axis: Any, weights: Any) -> Task:

@@ -15,6 +15,7 @@ import poekin as pk
 from poekin.errors import InputError, PoekinWarning, PoseError, ShapeError, UnknownName
 from poekin.model import screw
 from poekin.model.compiled import CompiledChain
+from poekin.solve.follow import follow
 from poekin.solve.ik import ik
 from poekin.solve.ik_all import ik_all
 from poekin.solve.joint_units import joint_units
@@ -169,6 +170,24 @@ def test_nan_in_one_target_is_nan_in_its_solution_only():
     assert np.isnan(found.q[1]).all()
     assert found.beyond[1] == 0
     assert "finite" in found.why(1)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("at", [(0, 0), (1, 2), (0, 3), (2, 3), (3, 0), (3, 3)])
+def test_a_target_that_is_not_finite_is_its_own_affair(at, bad):
+    T = UR5.fk(UR5.random(0, 3))
+    expected, every = ik(UR5, T).q, ik_all(UR5, T, limits=False).count
+    T[1][at] = bad
+    found = ik(UR5, T)
+    assert found.reason.tolist() == ["solved", "bad target", "solved"]
+    np.testing.assert_array_equal(found.q[[0, 2]], expected[[0, 2]])
+    assert np.isnan(found.q[1]).all()
+    assert ik(UR5, T[1]).reason == "bad target"
+    assert ik_all(UR5, T, limits=False).count.tolist() == [every[0], 0, every[2]]
+    assert follow(UR5, T).reason.tolist()[1] == "bad target"
+    T[2, 0, 0] += 0.5
+    with pytest.raises(PoseError, match=r"T\[2\] is no pose"):
+        ik(UR5, T)
 
 
 def test_a_target_that_is_no_pose_is_named():
