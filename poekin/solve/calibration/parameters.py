@@ -80,8 +80,8 @@ class Arm:
             "offset": nominal.offset, "base": nominal.base, "tip": nominal.tip,
         }  # fmt: skip
         self._moved: tuple[bytes, Chain] | None = None
-        self._posed: tuple[bytes, bytes, Array] | None = None
-        self._changed: tuple[bytes, bytes, Array, Array] | None = None
+        self._posed: tuple[_Key, Array] | None = None
+        self._changed: tuple[_Key, Array, Array] | None = None
 
     def _named(self) -> list[Parameter]:
         names, found = self.nominal.joint_names, []
@@ -147,11 +147,11 @@ class Arm:
 
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""
-        kept, keys = self._posed, (p.tobytes(), q.tobytes())
-        if kept is not None and kept[:2] == keys:
-            return kept[2]
+        kept, key = self._posed, _key(p, q)
+        if kept is not None and kept[0] == key:
+            return kept[1]
         T = read_only(self.joints(p).fk(self.values(p, q)))
-        self._posed = *keys, T
+        self._posed = key, T
         return T
 
     def changes(self, p: Array, q: Array) -> tuple[Array, Array]:
@@ -160,16 +160,16 @@ class Arm:
         At p the motion of joint i is e^eta_i with d(e^eta) e^-eta = J_l(eta) d eta, and the home pose's M e^eta with
         J_r(eta); a pitch slides along the joint's moved axis. The last are kept: a fit asks for each several times.
         """
-        kept, keys = self._changed, (p.tobytes(), q.tobytes())
-        if kept is not None and kept[:2] == keys:
-            return kept[2:]
+        kept, key = self._changed, _key(p, q)
+        if kept is not None and kept[0] == key:
+            return kept[1:]
         joints, x = self.joints(p), self.values(p, q)
         eta, _, home, _, _ = self._split(p)
         n, N = len(self._turns), len(x)
         D = joints.screw_derivatives(x)
         across, each = np.zeros((n, 6, n, 4)), np.arange(n)
         across[each, :, each] = se3.left_jacobian(eta) @ self._across
-        free = across[:, :, self._free].reshape(6 * n, -1)
+        free = across[:, :, self._free].reshape(6 * n, int(self._free.sum()))
         parts = [times(D.screws.reshape(N * 6, 6 * n), free).reshape(N, 6, free.shape[1])]
         if len(self._pitched) or len(self._offset) or len(self._gain):
             J = joints.jacobian(x, frame="space")
@@ -181,8 +181,16 @@ class Arm:
         if len(self._offset) or len(self._gain):
             parts += [J_q[..., self._offset], J_q[..., self._gain] * q[:, None, self._gain]]
         T, changes = self.poses(p, q), read_only(np.concatenate(parts, axis=2))
-        self._changed = *keys, T, changes
+        self._changed = key, T, changes
         return T, changes
+
+
+_Key = tuple[bytes, int, bytes]
+
+
+def _key(p: Array, q: Array) -> _Key:
+    """What tells parameters and readings (N, m) from others; without coordinates N is all that there is of these."""
+    return p.tobytes(), len(q), q.tobytes()
 
 
 def _kinds(kinds: Sequence[str]) -> tuple[str, ...]:

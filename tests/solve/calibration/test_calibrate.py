@@ -12,7 +12,16 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError
 from poekin.groups import se3
-from poekin.solve.calibration import Distances, EyeInHand, EyeToHand, Points, Poses, calibrate
+from poekin.solve.calibration import (
+    Distances,
+    EyeInHand,
+    EyeToHand,
+    Points,
+    Poses,
+    calibrate,
+    choose_poses,
+    identify,
+)
 from poekin.solve.calibration.parameters import Arm
 
 PUMA = pk.load("puma560").chain().retooled(se3.exp([0.1, 0.2, -0.1, 0.05, 0.03, 0.2]))
@@ -320,3 +329,19 @@ def test_progress_counts_the_folds():
     told: list[tuple[int, int]] = []
     calibrate(PUMA, q, T, folds=4, progress=lambda done, total: told.append((done, total)))
     assert told == [(0, 4), (1, 4), (2, 4), (3, 4), (4, 4)]
+
+
+@pytest.mark.parametrize("folds", [0, 4])
+def test_an_arm_without_joints_has_its_constant_pose_calibrated(folds):
+    fixed, rng = pk.Chain(np.empty((0, 6)), np.eye(4)), np.random.default_rng(0)
+    home, q = se3.exp([0.01, 0.02, -0.01, 0.04, 0.02, 0.03]), np.empty((12, 0))
+    T = home @ se3.exp(1e-4 * rng.normal(size=(12, 6)))
+    found = calibrate(fixed, q, T, folds=folds)
+    # the mean of twelve: its error is a standard deviation / sqrt(12), each of six within five of these
+    assert np.abs(se3.log(se3.inverse(found.chain.home) @ home)).max() <= 5e-4 / np.sqrt(12)
+    assert [p.owner for p in found.parameters] == ["home"] * 6
+    assert identify(fixed, q, T).rank == 6
+    assert choose_poses(fixed, 4, q).rows.shape == (4,)
+    for ask in (calibrate, identify):
+        with pytest.raises(InputError, match="nothing to calibrate"):
+            ask(fixed, q, T, parameters="screws")
