@@ -65,7 +65,7 @@ def calibrate(
 
     Returns: Calibration; `success` is False where the search did not converge: then it holds the best that was found.
     A PoekinWarning, and `warnings`, say where only another tool or another arm explains the measurements, such as poses
-    between a camera and a board given as `Poses`.
+    between a camera and a board given as `Poses`, and where residuals are larger than a given covariance says.
     Raises: ShapeError, InputError, UnknownName: data that do not fit the arm, are not finite or not in SI units, or are
     explained by no arm near the nominal one; too few measurements, or so few without covariances that nothing says how
     far they scatter; parameters that are not seen.
@@ -111,7 +111,9 @@ def calibrate(
     ]  # fmt: skip
     after = _residuals(problem, fit.p)
     said = explanation.told(problem, before, after)
-    for words in said.warnings:
+    doubts = misfit.contradicted(problem, fit)
+    warnings = (*said.warnings, *(words for times, words in doubts if times > 1))
+    for words in warnings:
         warn(words)
     return Calibration(
         nominal=arm,
@@ -130,8 +132,8 @@ def calibrate(
         spreads=fit.noise.spreads,
         loss=loss,
         arm=problem.arm,
-        warnings=said.warnings,
-        remarks=said.remarks,
+        warnings=warnings,
+        remarks=(*said.remarks, *(words for times, words in doubts if times < 1)),
     )
 
 

@@ -51,7 +51,8 @@ class Calibration:
     history. before, after: residuals on all measurements, with unknown frames fitted only and calibrated; held_out: on
     data kept aside, None where none was. outliers. spreads: the standard deviations estimated for each set without
     covariances, None for the others. loss: its name. warnings: the tool, or the arm itself, is another one than the
-    nominal, which was off by more than a tenth of its reach; remarks: it is off by as much, as its base is elsewhere.
+    nominal, which was off by more than a tenth of its reach, or residuals are larger than a covariance that was given;
+    remarks: it is off by as much, as its base is elsewhere, or residuals are smaller than a covariance.
     """
 
     nominal: Chain

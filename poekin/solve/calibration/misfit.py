@@ -1,4 +1,6 @@
-"""Measurements that no arm near the nominal one explains: they belong to other readings, another arm or frame."""
+"""Measurements that no arm near the nominal one explains, as those of other readings, of another arm or frame; and
+covariances that what is left contradicts.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +12,12 @@ from .fitting import Fit, squared
 from .losses import OUTLIER, chi_square
 from .problem import Problem
 from .residuals import residuals
+
+TIMES = 3.0
+"""Standard deviations that are given are contradicted by residuals this many times as large, or as small."""
+
+ENOUGH = 30
+"""Numbers, beyond the parameters, from which that is told: of 30 right ones it is said with a chance of 3e-5."""
 
 
 def check(problem: Problem, fit: Fit) -> None:
@@ -33,3 +41,24 @@ def check(problem: Problem, fit: Fit) -> None:
             "it this arm, does each row of q belong to its measurement, are the joints in order and their signs right, "
             f"and is each measured in the frame and of the point that it is said to be?{near}"
         )
+
+
+def contradicted(problem: Problem, fit: Fit) -> list[tuple[float, str]]:
+    """How many times as large as each covariance says the residuals of a fit that converged are, by their median, and
+    that in words; of covariances that they contradict.
+    """
+    spare = (problem.numbers - fit.free.shape[1]) * fit.converged
+    said = []
+    for k, (s, squares) in enumerate(zip(problem.sets, squared(problem, fit.noise, fit.p), strict=True)):
+        if s.covariance is None or min(spare, squares.size * s.width) < ENOUGH:
+            continue
+        times = float(np.sqrt(np.median(squares) / chi_square(s.width, 0.0) * problem.numbers / spare))
+        if 1.0 / TIMES <= times <= TIMES:
+            continue
+        which = f"measurement set {k} ({s.what})" if len(problem.sets) > 1 else f"the {s.what}"
+        said.append((
+            times,
+            f"{which}: the residuals are {times:.2g} times as large as covariance= says, and the deviations of the "
+            "parameters are wrong by as much; without it they are estimated from the residuals",
+        ))  # fmt: skip
+    return said

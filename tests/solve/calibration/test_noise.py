@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import poekin as pk
+from poekin.solve.calibration import calibrate
 from poekin.solve.calibration.losses import LOSSES, chi_square, loss
 from poekin.solve.calibration.noise import Noise, spreads
 from poekin.solve.calibration.poses import Poses
@@ -75,3 +78,34 @@ def test_a_covariance_whitens_errors_that_have_it():
     white = Noise([poses], [None]).whitened(0, errors[..., None])[..., 0]
     # 5000 samples: variances to 2 %, correlations to 1.4 %; four deviations
     np.testing.assert_allclose(np.cov(white.T), np.eye(6), rtol=0, atol=0.08)
+
+
+@pytest.mark.parametrize("loss", ["linear", "huber"])
+@pytest.mark.parametrize(("times", "said"), [(0.1, "remark"), (1.0, None), (1.5, None), (10.0, "warning")])
+def test_a_covariance_that_the_residuals_contradict_is_named(times, said, loss):
+    arm, rng = pk.load("puma560").chain(), np.random.default_rng(3)
+    q = arm.random(rng, 60)
+    noise = 1e-4 * rng.normal(size=(60, 6))
+    T = arm.fk(q) @ pk.se3.exp(noise)
+    measured = Poses(T, covariance=(1e-4 / times) ** 2 * np.eye(6))
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        found = calibrate(arm, q, measured, loss=loss, folds=0)
+    words = [w for w in (*found.warnings, *found.remarks) if "covariance=" in w]
+    assert len(words) == bool(said)
+    assert (
+        [w for w in found.warnings if "covariance=" in w]
+        == words * (said == "warning")
+        == [str(w.message) for w in heard if "covariance=" in str(w.message)]
+    )
+    if said:
+        stated = float(words[0].split("residuals are ")[1].split(" times")[0])
+        assert stated == pytest.approx(times, rel=0.25)  # of 60 measurements
+
+
+def test_few_numbers_contradict_no_covariance():
+    arm, rng = pk.load("puma560").chain(), np.random.default_rng(3)
+    q = arm.random(rng, 9)
+    T = arm.fk(q) @ pk.se3.exp(1e-4 * rng.normal(size=(9, 6)))
+    found = calibrate(arm, q, Poses(T, covariance=1e-10 * np.eye(6)), folds=0)  # 54 numbers for 30 parameters
+    assert not found.warnings
