@@ -15,6 +15,8 @@ import pytest
 import scipy.stats
 from cosmic_ray.mutating import mutate_code
 
+from poekin.engine import follow_kernels
+from poekin.engine.kernel import Kernel
 from tools.mutate import __main__ as command
 from tools.mutate import campaign, equivalent, kernels, report, sample, suites
 from tools.mutate.campaign import BrokenSuite, Campaign, Outcome, kept
@@ -193,7 +195,7 @@ def test_the_tests_near_a_module_are_found_by_name_and_by_import(module, test):
         ("algebra", "interpreted"),
         ("formulas/logarithm", "interpreted"),
         ("engine/chain_kernels", "interpreted"),
-        ("engine/ik_kernels", "cold"),  # there is an intrinsic in it, which the interpreter does not know
+        ("engine/ik_kernels", "shared"),  # there is an intrinsic in it, which the interpreter does not know
         ("engine/source", "cold"),
         ("model/structure", "warm"),
         ("solve/ik", "warm"),
@@ -210,6 +212,8 @@ def test_a_mutant_finds_no_kernel_of_another(tmp_path):
         (known / name).write_text(name)
     (known / "arm-2.kernel").unlink()
     for mode, found in ((suites.Mode.WARM, {"so3_log-1.kernel"}), (suites.Mode.COLD, set())):
+        with kernels.offered(known, mode, tmp_path / "job", ["so3_log"]) as place:
+            assert list(Path(place).iterdir()) == []
         with kernels.offered(known, mode, tmp_path / "job") as place:
             assert {file.name for file in Path(place).iterdir()} == found
             (Path(place) / "new.kernel").write_text("a mutant's")
@@ -219,6 +223,13 @@ def test_a_mutant_finds_no_kernel_of_another(tmp_path):
         assert {file.name: file.read_text() for file in known.iterdir()} == {"so3_log-1.kernel": "so3_log-1.kernel"}
     with kernels.offered(known, suites.Mode.INTERPRETED, tmp_path / "job") as place:
         assert place == ""
+
+
+def test_a_mutant_of_the_engine_finds_no_kernel_that_it_is_compiled_into():
+    assert suites.kernels_of("poekin/engine/arm.py") == []
+    own = set(suites.kernels_of("poekin/engine/follow_kernels.py"))
+    assert own == {name for name, value in vars(follow_kernels).items() if isinstance(value, Kernel)}
+    assert own < set(suites.kernels_of("poekin/engine/ik_kernels.py"))  # which it calls
 
 
 def test_of_this_user_s_cache_no_arm_s_code_is_taken(tmp_path, monkeypatch):

@@ -48,7 +48,9 @@ class Server:
         """The outcome of the sessions with that source in place of the module's, or as it is where that is None."""
         assert self._process.stdin
         assert self._process.stdout
-        job = {"path": path, "source": source, "sessions": sessions, "mode": suites.mode(path).value}
+        mode = suites.mode(path)
+        without = suites.kernels_of(path) if mode is suites.Mode.SHARED else []
+        job = {"path": path, "source": source, "sessions": sessions, "mode": mode.value, "without": without}
         self._process.stdin.write(json.dumps(job) + "\n")
         self._process.stdin.flush()
         line = self._process.stdout.readline()
@@ -87,7 +89,7 @@ class Campaign:
 
     def run(self, mutants: list[Mutant], workers: int, finished: Callable[[Mutant, Outcome], None]) -> None:
         """Run all of them. Raises BrokenSuite when the tests fail by themselves."""
-        if any(suites.mode(mutant.path) is suites.Mode.WARM for mutant in mutants):
+        if any(suites.mode(mutant.path) in kernels.TAKING for mutant in mutants):
             self._known = kernels.prepared(self.root, self.place / "kernels")
         for mutant in mutants:
             self._jobs.put(mutant)

@@ -1,8 +1,10 @@
 """Compiled kernels for mutants: made once from the source as it is, handed out by links, and never taken from a mutant.
 
-The cache's key covers the source of algebra, formulas and engine, so a mutant there finds nothing of the others; it is
-given an empty place. Any other mutant is given a place of its own with Numba's kernels, whose whole source is in their
-key. The code of an arm is not among them: it depends on what the model makes of an arm, and so on the mutant.
+The cache's key covers the source of algebra, formulas and engine, so a mutant there finds nothing of the others. Where
+it takes part in compiling it is given an empty place. Any other mutant is given a place of its own with the kernels of
+Numba, whose whole source is in their key, but not with the code of an arm, which depends on what the model makes of the
+arm, and so on the mutant. To use kernels with a mutant of the engine, its process is told the key of the source as it
+is, and the kernels that the mutant is compiled into are not among them either.
 """
 
 from __future__ import annotations
@@ -14,11 +16,12 @@ import pkgutil
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from .suites import Mode
 
+TAKING = (Mode.WARM, Mode.SHARED)
 _OF_AN_ARM = "arm-"
 
 
@@ -55,15 +58,16 @@ def _user_cache(root: Path) -> Path | None:
 
 
 @contextlib.contextmanager
-def offered(known: Path | None, mode: Mode, place: Path) -> Iterator[str]:
-    """What POEKIN_CACHE_DIR is for one job: nothing, or a place that the job has for itself."""
+def offered(known: Path | None, mode: Mode, place: Path, without: Iterable[str] = ()) -> Iterator[str]:
+    """What POEKIN_CACHE_DIR is for one job: nothing, or a place of its own, without the kernels of these names."""
     if mode is Mode.INTERPRETED:
         yield ""
         return
     place.mkdir(mode=0o700)
     try:
-        for entry in known.iterdir() if known and mode is Mode.WARM else ():
-            os.link(entry, place / entry.name)  # an entry is never written to, only replaced
+        for entry in known.iterdir() if known and mode in TAKING else ():
+            if entry.name.rpartition("-")[0] not in without:
+                os.link(entry, place / entry.name)  # an entry is never written to, only replaced
         yield str(place)
     finally:
         shutil.rmtree(place, ignore_errors=True)

@@ -24,6 +24,8 @@ from . import messages
 
 PACKAGE = "poekin"
 
+# Whether two equal values are one object is the interpreter's affair, and no claim of a module.
+_UNDEFINED = ("core/ReplaceComparisonOperator_Eq_Is", "core/ReplaceComparisonOperator_NotEq_IsNot")
 _ARITHMETIC = {"arith_expr", "term", "power", "shift_expr", "expr", "and_expr", "xor_expr"}
 
 
@@ -116,12 +118,13 @@ def _differs(lines: list[str], after: list[str], place: int) -> int | None:
 
 @cache
 def operators() -> tuple[tuple[str, Any], ...]:
-    """cosmic-ray's operators by name, and those of `messages`; all but two.
+    """cosmic-ray's operators by name, and those of `messages`; all but four.
 
     VariableReplacer and VariableInserter want to be told of which variables, and put a random number in their place or
-    an operation drawn at random beside them, so that no two runs would plant the same.
+    an operation drawn at random beside them, so that no two runs would plant the same. `==` does not become `is`, nor
+    `!=` `is not`: for small integers and most strings they do the same.
     """
-    names = sorted(cosmic_ray.plugins.operator_names())
+    names = sorted(set(cosmic_ray.plugins.operator_names()) - set(_UNDEFINED))
     classes = [(name, cosmic_ray.plugins.get_operator(name)) for name in names]
     return (*((name, operator()) for name, operator in classes if not operator.arguments()), *messages.OPERATORS)
 

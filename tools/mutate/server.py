@@ -14,6 +14,7 @@ import os
 import resource
 import select
 import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -38,6 +39,7 @@ SETTINGS = {
     "JUPYTER_PLATFORM_DIRS": "1",
     "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
 }
+KEY = "MUTANTS_SOURCE_KEY"
 PLUGINS = ("_hypothesis_pytestplugin", "pytest_timeout", *(f"no:{name}" for name in _NOT_NEEDED))
 EPOCH = 1_000_000_000  # when the files of a copy were written: no bytecode of theirs can pass for that of a mutant
 _MEMORY = 4 * 2**30
@@ -54,10 +56,19 @@ def main() -> None:
     for line in sys.stdin:
         job = json.loads(line)
         mode = Mode(job["mode"])
-        with kernels.offered(known, mode, Path(f"{Path.cwd()}-kernels")) as place:
+        with kernels.offered(known, mode, Path(f"{Path.cwd()}-kernels"), job["without"]) as place:
             compiling = {"POEKIN_CACHE_DIR": place, "NUMBA_DISABLE_JIT": str(int(mode is Mode.INTERPRETED))}
-            answer = answered(Path.cwd(), job["path"], job["source"], job["sessions"], compiling)
+            shared = _source_key(Path.cwd()) if mode is Mode.SHARED else ""
+            answer = answered(Path.cwd(), job["path"], job["source"], job["sessions"], {**compiling, KEY: shared})
         print(json.dumps(answer), flush=True)
+
+
+def _source_key(tree: Path) -> str:
+    """The cache's key of the source as it is; asked in a child, as this process is to load nothing of the package."""
+    ask = "from poekin.engine.source import LOADED; print(LOADED)"
+    return subprocess.run(
+        [sys.executable, "-c", ask], cwd=tree, capture_output=True, text=True, check=True
+    ).stdout.strip()
 
 
 def answered(
@@ -136,6 +147,9 @@ def _judge(tree: Path, arguments: list[str], writing: int) -> None:
 
     from .plugin import Judge
 
+    if os.environ.get(KEY):
+        with contextlib.suppress(Exception):  # what cannot be imported, the tests will find
+            importlib.import_module("poekin.engine.source").LOADED = os.environ[KEY]
     options = ["-q", "-W", "ignore::pytest.PytestAssertRewriteWarning"]
     options += [word for plugin in PLUGINS for word in ("-p", plugin)]
     code = int(pytest.main([*options, *arguments], plugins=[Judge(send)]))

@@ -28,12 +28,15 @@ class Mode(Enum):
     """Everything is compiled anew for each mutant, as the mutant is part of what compiles."""
     WARM = "warm"
     """Numba's kernels, whose source is not the mutant's, come from the cache; the code of an arm is made anew."""
+    SHARED = "shared"
+    """As WARM for a part of the engine, whose text is in the cache's key: all kernels but those that its text is in."""
 
 
 _INTERPRETED = (
     "chain_kernels", "count", "derivative_kernels", "group_kernels", "interpret", "program", "rows", "sincos",
     "specialise", "trace", "tree_kernels",
 )  # fmt: skip
+_COMPILING = tuple(f"poekin/engine/{name}.py" for name in ("__init__", "cache", "compile", "kernel", "source"))
 _FORMULAS = ("poekin/algebra.py", "poekin/formulas/", *(f"poekin/engine/{name}.py" for name in _INTERPRETED))
 
 _MATRICES = "tests/formulas/test_algebra_matrices.py"
@@ -126,7 +129,26 @@ def mode(path: str) -> Mode:
     """How the tests of a module's mutants run."""
     if path.startswith(_FORMULAS):
         return Mode.INTERPRETED
-    return Mode.COLD if room(path) == "engine" else Mode.WARM
+    if path in _COMPILING:
+        return Mode.COLD
+    return Mode.SHARED if room(path) == "engine" else Mode.WARM
+
+
+def kernels_of(path: str) -> list[str]:
+    """The kernels that a module of the engine is compiled into: its own, and those of the modules that import it."""
+    seen, row = {path}, [path]
+    while row:
+        row = [other for module in row for other in importers().get(module, ()) if other not in seen]
+        row = [other for other in row if room(other) == "engine"]
+        seen.update(row)
+    return sorted(name for module in seen for name in _kernels_in(module))
+
+
+def _kernels_in(path: str) -> Iterator[str]:
+    for node in ast.parse((ROOT / path).read_text(encoding="utf-8")).body:
+        calls = [call.func for call in getattr(node, "decorator_list", ()) if isinstance(call, ast.Call)]
+        if isinstance(node, ast.FunctionDef) and any(isinstance(f, ast.Name) and f.id == "kernel" for f in calls):
+            yield node.name
 
 
 def near(path: str) -> list[list[str]]:
