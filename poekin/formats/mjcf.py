@@ -82,7 +82,7 @@ def _read(data: str | bytes, name: str, spec_of: Callable[[Any], Any], path: str
     root = xml.parse(data, name)
     if root.tag != "mujoco":
         raise ModelError(f"{source.place(root.sourceline)}: expected the root element <mujoco>, got {shown(root.tag)}")
-    look_through(root, source, os.path.dirname(path) or os.getcwd(), path)
+    look_through(root, source, os.path.dirname(path), path)
     mujoco = _mujoco()
     try:
         with _unsaid(mujoco):

@@ -36,8 +36,8 @@ class _Opened(NamedTuple):
 def look_through(root: xml.Element, source: Source, folder: str, path: str = "") -> None:
     """Refuse what MuJoCo must not be given.
 
-    Parameters: root <mujoco> of a document; source, what to call it; folder, in which files are that it names; path, of
-    the document where it is a file.
+    Parameters: root <mujoco> of a document; source, what to call it; folder, in which files are that it names, "" for
+    the working directory; path, of the document where it is a file.
     Raises: ModelError with file and line; FileError for a file named in it that cannot be read. One that does not exist
     is for MuJoCo to refuse.
     """

@@ -77,6 +77,14 @@ def test_what_is_included_is_looked_through_as_well(folder):
         load(there / "a.xml")
 
 
+def test_a_file_is_looked_for_beside_the_model_wherever_the_process_stands(folder, tmp_path, monkeypatch):
+    there = folder(sub__a='<include file="b.xml"/>', sub__b='<worldbody><body pos="0 nan 0"/></worldbody>', b="")
+    for place, name in ((tmp_path, "sub/a.xml"), (tmp_path, str(there / "sub" / "a.xml")), (there / "sub", "a.xml")):
+        monkeypatch.chdir(place)
+        with pytest.raises(ModelError, match=r"sub.b\.xml:1: <body>: pos must be finite"):
+            load(name)
+
+
 def test_a_folder_or_device_that_is_included_is_refused(folder):
     for name in (".", "/dev/zero", "&#xE000;.xml"):
         there = folder(a=f'<include file="{name}"/>')

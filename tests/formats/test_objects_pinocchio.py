@@ -329,4 +329,5 @@ def test_each_part_of_a_joint_of_several_degrees_of_freedom_has_its_own_limits()
     model.lowerPositionLimit, model.upperPositionLimit = [-1, -2, -3], [4, 5, 1e5]
     robot = from_object(model)
     assert robot.q_names == ("j_1", "j_2", "j_3")
+    assert [joint.child for joint in robot.joints[:2]] == ["j_1", "j_2"]
     assert robot.limits.tolist() == [[-1, 4], [-2, 5], [-3, math.inf]]

@@ -59,6 +59,14 @@ def test_limits_of_a_dh_robot_survive_and_a_missing_base_or_tool_is_the_identity
     np.testing.assert_array_equal(table_of(robot).base, np.eye(4))
 
 
+def test_a_link_that_does_not_say_isflip_is_not_flipped():
+    table = pk.dh.published("puma560")
+    robot = robot_of(table)
+    for link in robot.links:
+        del link.isflip
+    assert table_of(robot) == table
+
+
 def toolbox():
     return library("roboticstoolbox")
 

@@ -233,6 +233,7 @@ FLOATING = Robot("r", ["a", "b"], [Joint("free", "floating", "a", "b")])
     ("make", "error", "message"),
     [
         (lambda: relinked(ANY_CHAIN, SIX), InputError, r"expected a Robot and a Chain, got Chain and Chain"),
+        (lambda: relinked(ANY_CHAIN, ANY_ROBOT), InputError, r"expected a Robot and a Chain, got Chain and Robot"),
         (lambda: relinked(UR5E, ANY_ROBOT), InputError, r"expected a Robot and a Chain, got Robot and Robot"),
         (lambda: relinked(UR5E, SIX, tip="tool"), UnknownName, r"no tip link 'tool'; did you mean 'tool0'"),
         (

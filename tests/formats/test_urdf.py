@@ -69,6 +69,37 @@ def test_an_axis_shorter_or_longer_than_that_is_normalised_and_said(length):
         assert read(f'<axis xyz="0 0 {length!r}"/>{LIMIT}').joints[0].axis == (0, 0, 1)
 
 
+@pytest.mark.parametrize(
+    "others, listed", [(10, "3, 4, 5, 6, 7, 8, 9, 10, 11, 12"), (11, "3, 4, 5, 6, 7, 8, 9, 10, 11, 12, ...")]
+)
+def test_of_many_axes_the_worst_is_named_and_the_lines_of_ten_others(others, listed):
+    joints = "".join(
+        f'\n<joint name="j{i}" type="continuous"><parent link="l{i}"/><child link="l{i + 1}"/>'
+        f'<axis xyz="0 {0.5 if i == 0 else 0.9} 0"/></joint>'
+        for i in range(others + 1)
+    )
+    text = "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(others + 2)) + joints + "</robot>"
+    with pytest.warns(PoekinWarning) as caught:
+        urdf.read_text(text, "f")
+    assert str(caught[0].message) == (
+        "f:2: the axis of joint 'j0' has length 0.5 and was normalised"
+        f" (the worst of {others + 1}; the others on line {listed})"
+    )
+
+
+@pytest.mark.parametrize("unlimited, more", [(4, ""), (6, " and 2 more")])
+def test_of_many_joints_without_limits_four_are_named(unlimited, more):
+    joints = "".join(
+        f'\n<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{i + 1}"/></joint>'
+        for i in range(unlimited)
+    )
+    text = "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(unlimited + 1)) + joints + "</robot>"
+    with pytest.warns(PoekinWarning) as caught:
+        urdf.read_text(text, "f")
+    named = ", ".join(f"'j{i}' (none; line {i + 2})" for i in range(4))
+    assert str(caught[0].message) == f"f:2: joints without usable limits are taken as unlimited: {named}{more}"
+
+
 def test_an_axis_that_is_not_unit_is_normalised_with_one_warning():
     joints = "\n".join(
         f'<joint name="j{i}" type="continuous"><parent link="l{i}"/><child link="l{i + 1}"/>'

@@ -270,3 +270,16 @@ def test_a_text_over_the_limit_is_refused(monkeypatch):
     monkeypatch.setattr(xml, "MAX_BYTES", 100)
     with pytest.raises(ModelError, match="expected at most"):
         urdf.read_text(one_joint())
+
+
+def test_a_file_that_has_grown_since_it_was_measured_is_refused_and_not_cut(tmp_path, monkeypatch):
+    path, before = tmp_path / "a.urdf", tmp_path / "before.urdf"
+    path.write_text(one_joint())
+    before.write_text("<robot/>")
+    status = before.stat()
+    monkeypatch.setattr(xml, "MAX_BYTES", len(one_joint()) - 1)
+    with monkeypatch.context() as patched:
+        patched.setattr(xml.os, "stat", lambda path: status)
+        data = xml.read_bytes(path)
+    with pytest.raises(ModelError, match="expected at most"):
+        urdf.read_text(data)
