@@ -5,6 +5,7 @@ Python and the processor: an edit anywhere in the formulas makes a new key. An e
 SHA-256, its owner
 and its permissions have been checked. A place that is damaged, foreign, read-only or absent costs a compilation and
 one log line, never an error. `POEKIN_CACHE_DIR` names another place; empty, it switches the cache off.
+`POEKIN_CACHE_SIZE` is the most that it may hold, in MiB, 100 unless it is set; see `cache_size`.
 """
 
 from __future__ import annotations
@@ -12,13 +13,13 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import logging
+import math
 import os
 import pickle
 import platform
 import stat
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import llvmlite
@@ -28,9 +29,12 @@ from numba.core import config, serialize
 from numba.core.compiler import CompileResult
 from numba.core.runtime.nrt import rtsys
 
-from . import source
+from . import cache_size, source
 
-MONTH = 30 * 24 * 3600.0
+MIB = 2**20
+LARGEST = 64 * MIB
+"""Bytes of an entry: a larger one is none."""
+USUAL_SIZE = 100 * MIB
 log = logging.getLogger("poekin")
 _said: set[str] = set()
 
@@ -46,7 +50,11 @@ def directory() -> Path | None:
     """Where kernels are kept: `POEKIN_CACHE_DIR`, else this user's cache directory; None for nowhere."""
     if "POEKIN_CACHE_DIR" in os.environ:
         named = os.environ["POEKIN_CACHE_DIR"]
-        return Path(named).expanduser().absolute() if named else None
+        try:
+            return Path(named).expanduser().absolute() if named else None
+        except (RuntimeError, OSError) as error:  # a user who is not known, or no working directory any more
+            say_once("place", "kernels are compiled anew in each run: no cache in %s (%s)", named, error)
+            return None
     try:
         if sys.platform == "win32":
             base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
@@ -57,6 +65,20 @@ def directory() -> Path | None:
     except RuntimeError:  # no home directory can be found
         return None
     return base / "poekin" if base.is_absolute() else None
+
+
+def most() -> float:
+    """The bytes that all entries together may take: `POEKIN_CACHE_SIZE` in MiB."""
+    said = os.environ.get("POEKIN_CACHE_SIZE", "").strip()
+    try:
+        size = float(said) * MIB if said else USUAL_SIZE
+    except ValueError:
+        size = math.nan
+    if size >= 0:
+        return size
+    usual = USUAL_SIZE // MIB
+    say_once("size", "POEKIN_CACHE_SIZE=%.80s is no number of MiB from 0 on: %d are taken", said, usual)
+    return USUAL_SIZE
 
 
 def machine_key() -> str:
@@ -107,9 +129,10 @@ def entry(name: str, key: object) -> Path | None:
 def read(path: Path) -> bytes | None:
     """What an entry holds; None where there is none, or none that can be trusted."""
     try:
-        with open(path, "rb", opener=_without_following) as file:
-            trusted = _private(os.fstat(file.fileno()))
-            data = file.read()
+        with open(path, "rb", opener=_as_it_is) as file:
+            status = os.fstat(file.fileno())
+            trusted = stat.S_ISREG(status.st_mode) and status.st_size <= LARGEST and _private(status)
+            data = file.read(LARGEST) if trusted else b""
     except FileNotFoundError:
         return None
     except OSError as error:
@@ -119,6 +142,8 @@ def read(path: Path) -> bytes | None:
     if not trusted or hashlib.sha256(payload).digest() != digest:
         say_once("entry", "a kernel is compiled anew: %s is damaged or not this user's alone", path)
         return None
+    with contextlib.suppress(OSError):  # in a directory that is read-only
+        os.utime(path)  # it is in use: the last that the bound on the cache's size removes
     return payload
 
 
@@ -131,20 +156,12 @@ def write(path: Path, payload: bytes) -> None:
         with os.fdopen(handle, "wb") as file:
             file.write(hashlib.sha256(payload).digest() + payload)
         os.replace(partial, path)
-        _forget_the_old(path)
+        cache_size.bound(path.parent, len(payload) + 32, most())
     except OSError as error:
         say_once("place", "kernels are compiled anew in each run: %s cannot be written (%s)", path, error.strerror)
         if partial is not None:
             with contextlib.suppress(OSError):
                 os.unlink(partial)
-
-
-def _forget_the_old(path: Path) -> None:
-    """Remove entries of this name that are a month old or older: from other versions or earlier source."""
-    for old in path.parent.glob(f"{path.name.rpartition('-')[0]}-*.kernel"):
-        with contextlib.suppress(FileNotFoundError):  # another process was quicker
-            if time.time() - old.stat().st_mtime > MONTH:
-                old.unlink()
 
 
 class KernelCache:
@@ -176,5 +193,6 @@ class KernelCache:
             write(path, serialize.dumps(compiled._reduce()))
 
 
-def _without_following(path, flags):
-    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0))
+def _as_it_is(path, flags):
+    """Opened without following a link, and without waiting where it is a pipe."""
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))

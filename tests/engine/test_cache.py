@@ -8,6 +8,8 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -206,6 +208,129 @@ def test_a_place_that_cannot_be_made_costs_a_compilation(session, tmp_path, monk
     nowhere = [] if place == "no place at all" else ["in each run: no cache in"]
     for log, said in ((session.kernel(), [*nowhere, COMPILING]), (session.arm(), nowhere)):
         assert [part for part, message in zip(said, log, strict=True) if part not in message] == []
+
+
+NO_PLACES = {
+    "the home of nobody": lambda folder: "~nobody of that name/kernels",
+    "a place in a working directory that is gone": lambda folder: folder.rmdir() or "kernels",
+    "a pipe": lambda folder: os.mkfifo(folder / "pipe") or str(folder / "pipe"),
+}
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with a name, and a directory in use stays")
+@pytest.mark.parametrize("place", NO_PLACES)
+def test_what_names_no_place_is_one_log_line(tmp_path, monkeypatch, caplog, place):
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr(cache, "_said", set())
+    monkeypatch.setenv("POEKIN_CACHE_DIR", NO_PLACES[place](folder))
+    assert cache.entry("arm", 0) is None
+    assert cache.entry("arm", 1) is None
+    (said,) = caplog.messages
+    assert "kernels are compiled anew in each run: no cache in" in said
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch, caplog):
+    """A cache that is empty."""
+    monkeypatch.setenv("POEKIN_CACHE_DIR", str(tmp_path / "kernels"))
+    monkeypatch.setattr(cache, "_said", set())
+    return tmp_path / "kernels"
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with a name")
+def test_an_entry_that_is_a_pipe_is_not_waited_for_and_is_replaced(place, caplog):
+    entry = cache.entry("arm", 0)
+    assert entry is not None
+    os.mkfifo(entry, 0o600)
+    reader = threading.Thread(target=cache.read, args=[entry], daemon=True)
+    reader.start()
+    reader.join(20)
+    waits = reader.is_alive()
+    if waits:
+        os.close(os.open(entry, os.O_WRONLY | os.O_NONBLOCK))  # it ends
+    assert not waits
+    assert DAMAGED in caplog.text
+    cache.write(entry, b"code")
+    assert cache.read(entry) == b"code"
+
+
+def test_an_entry_larger_than_any_is_not_read(place, monkeypatch, caplog):
+    entry = cache.entry("arm", 0)
+    assert entry is not None
+    cache.write(entry, bytes(68))
+    monkeypatch.setattr(cache, "LARGEST", 100)
+    assert cache.read(entry) == bytes(68)
+    cache.write(entry, bytes(69))
+    assert cache.read(entry) is None
+    assert DAMAGED in caplog.text
+
+
+def kept(place: Path) -> list[str]:
+    """The names of all entries, the sizes of which are together within the bound."""
+    files = list(place.iterdir())
+    assert sum(file.stat().st_size for file in files) <= cache.most()
+    return sorted(file.name.partition(".")[0] for file in files)
+
+
+def filled_up(place: Path, names: str, of: str = "exp") -> None:
+    """Entries of 90 kB, one second older than the other."""
+    place.mkdir(mode=0o700, exist_ok=True)
+    for age, name in zip(range(len(names), 0, -1), names, strict=True):
+        entry = place / f"{of}-{name}.kernel"
+        cache.write(entry, bytes(90_000))
+        if entry.exists():
+            os.utime(entry, (time.time() - age, time.time() - age))
+
+
+def test_what_was_not_used_for_the_longest_time_is_removed_where_the_cache_is_too_large(place, monkeypatch):
+    monkeypatch.setenv("POEKIN_CACHE_SIZE", "1")
+    filled_up(place, "abcdefghij")
+    assert kept(place) == [f"exp-{name}" for name in "abcdefghij"]
+    assert cache.read(place / "exp-b.kernel") is not None  # it is in use
+    cache.write(place / "exp-k.kernel", bytes(90_000))
+    cache.write(place / "exp-l.kernel", bytes(90_000))
+    assert kept(place) == [f"exp-{name}" for name in "bdefghijkl"]
+
+
+def test_the_code_of_many_arms_does_not_remove_what_all_arms_need(place, monkeypatch):
+    monkeypatch.setenv("POEKIN_CACHE_SIZE", "1")
+    filled_up(place, "abcde")
+    filled_up(place, "fghijklmnopqrst", of="arm")
+    assert kept(place) == [*(f"arm-{name}" for name in "pqrst"), *(f"exp-{name}" for name in "abcde")]
+
+
+def test_what_a_process_left_half_written_is_removed_in_its_turn(place, monkeypatch):
+    filled_up(place, "a")
+    left = place / "exp-b.kernelx1y2z3"
+    left.write_bytes(bytes(10))
+    os.utime(left, (0, 0))
+    monkeypatch.setenv("POEKIN_CACHE_SIZE", "0.2")
+    filled_up(place, "c")
+    assert kept(place) == ["exp-a", "exp-c"]
+
+
+@pytest.mark.parametrize(("said", "size"), [("", 100), ("0", 0), ("2.5", 2.5), (" 7 ", 7), ("inf", np.inf)])
+def test_the_size_of_the_cache_is_the_user_s_in_mib(monkeypatch, caplog, said, size):
+    monkeypatch.setenv("POEKIN_CACHE_SIZE", said)
+    assert cache.most() == size * 2**20
+    assert not caplog.messages
+
+
+@pytest.mark.parametrize("said", ["-1", "nan", "much", "1 GiB"])
+def test_a_size_that_is_none_is_one_log_line_and_the_usual_size(monkeypatch, caplog, said):
+    monkeypatch.setattr(cache, "_said", set())
+    monkeypatch.setenv("POEKIN_CACHE_SIZE", said)
+    assert cache.most() == cache.most() == 100 * 2**20
+    (message,) = caplog.messages
+    assert f"POEKIN_CACHE_SIZE={said} is no number of MiB from 0 on: 100 are taken" in message
+
+
+def test_a_size_of_0_keeps_nothing(place, monkeypatch):
+    monkeypatch.setenv("POEKIN_CACHE_SIZE", "0")
+    filled_up(place, "ab")
+    assert kept(place) == []
 
 
 def test_a_home_that_cannot_be_made_costs_a_compilation(session, tmp_path, monkeypatch):
