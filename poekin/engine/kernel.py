@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 
 from . import source  # noqa: F401  takes the key of the source as it is now
-
-_compiling = threading.RLock()
+from .locks import COMPILING
 
 
 class Kernel:
@@ -27,7 +25,7 @@ class Kernel:
     def ready(self) -> Callable:
         """The compiled function itself."""
         # Numba takes longer to import than all the rest of poekin: whoever only reads a model does without
-        with _compiling:
+        with COMPILING:
             if self.call == self._first_call:  # and no other thread was quicker
                 from .compile import compiled
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import threading
 from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..engine import chain_kernels, interpret, threads
 from ..engine.kernel import Kernel
+from ..engine.locks import COMPILING
 from ..engine.program import Program
 from ..engine.specialise import Structure, cheapest_frame, placed, specialised
 from ..errors import InputError, told
@@ -35,7 +35,6 @@ _NAMES: dict[int, str | None] = {
 _Calls = dict[object, tuple[Callable, int]]
 _empty, _POSE_SHAPE, _float64 = np.empty, (4, 4), np.dtype(np.float64)
 _NOT_PLAIN = (AttributeError, KeyError, TypeError, ValueError)
-_making = threading.RLock()
 
 
 class Middle(NamedTuple):
@@ -71,9 +70,10 @@ class CompiledChain:
     def __init__(self, chain: Chain, parallel: bool = False):
         if not isinstance(parallel, bool):
             raise InputError(f"parallel: expected True or False, got {told(parallel)}")
-        from numba.core import config  # after all that only reads a model
+        with COMPILING:  # the import of Numba, after all that only reads a model
+            from numba.core import config
 
-        from ..engine import arm_kernels
+            from ..engine import arm_kernels
 
         self.chain, self.parallel = chain, parallel
         self.joint_names, self.q_names, self.dof = chain.joint_names, chain.q_names, chain.dof
@@ -172,7 +172,7 @@ class CompiledChain:
 
     def _arm(self, code: int, pose: bool, jacobian: bool) -> Arm:
         """The machine code for a frame."""
-        with _making:
+        with COMPILING:
             if (code, pose, jacobian) not in self._arms:
                 from ..engine.arm import arm
 
