@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
+import secrets
 import stat
-import tempfile
 from pathlib import Path
 
 from ..errors import FileError, shown
@@ -13,22 +13,25 @@ from ..errors import FileError, shown
 def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
     """Write a file so that it appears whole or not at all; one that was there stays until the new one is complete.
 
+    A new file has the mode that the process's umask leaves of 0666; one that was there keeps its own.
     A device or a pipe, of which there is nothing to replace, is written to. Raises: FileError.
     """
     try:
         target = Path(os.path.realpath(path))
-        if target.exists() and not stat.S_ISREG(target.stat().st_mode):
+        old = target.stat().st_mode if target.exists() else None
+        if old is not None and not stat.S_ISREG(old):
             target.write_bytes(content)
             return
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:50]}.", suffix=".part")
+        temporary = target.parent / f".{target.name[:50]}.{secrets.token_hex(8)}.part"
+        # The umask is the kernel's to apply: it can be read only by changing it, for all threads.
+        handle = os.open(temporary, _NEW, 0o666 if old is None else 0o600)
         try:
             with open(handle, "wb") as stream:
                 stream.write(content)
                 stream.flush()
                 os.fsync(stream.fileno())
-            mask = os.umask(0)
-            os.umask(mask)
-            os.chmod(temporary, stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~mask)
+            if old is not None:
+                os.chmod(temporary, stat.S_IMODE(old))
             os.replace(temporary, target)
         finally:
             if os.path.exists(temporary):
@@ -36,3 +39,6 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
     except (OSError, ValueError) as fault:
         reason = fault.strerror if isinstance(fault, OSError) and fault.strerror else fault
         raise FileError(f"cannot write {shown(os.fsdecode(path), 400)}: {reason}") from fault
+
+
+_NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)

@@ -37,17 +37,38 @@ def test_an_interrupted_write_leaves_the_old_file_and_nothing_else(tmp_path, mon
     assert os.listdir(tmp_path) == []
 
 
-def test_a_new_file_has_the_usual_mode_and_an_old_one_keeps_its_own(tmp_path):
-    mask = os.umask(0o022)
+@pytest.mark.skipif(os.name == "nt", reason="there are no modes")
+@pytest.mark.parametrize(("mask", "mode"), [(0o022, 0o644), (0o077, 0o600), (0, 0o666)])
+def test_a_new_file_has_the_usual_mode_and_an_old_one_keeps_its_own(tmp_path, mask, mode):
+    before = os.umask(mask)
     try:
         write_whole(tmp_path / "new.csv", b"x")
         (tmp_path / "old.csv").write_text("x")
-        (tmp_path / "old.csv").chmod(0o600)
+        (tmp_path / "old.csv").chmod(0o640)
         write_whole(tmp_path / "old.csv", b"y")
     finally:
-        os.umask(mask)
-    assert oct((tmp_path / "new.csv").stat().st_mode & 0o777) == "0o644"
-    assert oct((tmp_path / "old.csv").stat().st_mode & 0o777) == "0o600"
+        os.umask(before)
+    assert oct((tmp_path / "new.csv").stat().st_mode & 0o777) == oct(mode)
+    assert oct((tmp_path / "old.csv").stat().st_mode & 0o777) == "0o640"
+
+
+def test_the_umask_of_the_process_is_not_touched(tmp_path, monkeypatch):
+    # it holds for all threads: a file that another one makes meanwhile could be read or written by anybody
+    monkeypatch.setattr(os, "umask", None)
+    write_whole(tmp_path / "new.csv", b"x")
+    write_whole(tmp_path / "new.csv", b"y")
+    assert (tmp_path / "new.csv").read_text() == "y"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there are no modes")
+def test_what_replaces_a_private_file_can_be_read_by_nobody_else_at_any_time(tmp_path, monkeypatch):
+    path, modes = tmp_path / "private.csv", []
+    path.write_text("old")
+    path.chmod(0o600)
+    sync = os.fsync
+    monkeypatch.setattr(os, "fsync", lambda handle: modes.append(os.fstat(handle).st_mode & 0o777) or sync(handle))
+    write_whole(path, b"new")
+    assert modes == [0o600]
 
 
 def test_a_link_stays_a_link(tmp_path):
