@@ -14,7 +14,8 @@ from .comparison import Comparison, JointComparison, PoseErrors
 from .extra import droppable, without
 from .followers import follows
 from .lines import at_rest, cross, direction, sides
-from .search import Reading, read, search
+from .reading import Reading, read
+from .search import search
 from .tolerances import check_tolerances
 from .wording import differences, equivalents, frame_words
 

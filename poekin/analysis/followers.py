@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import shown
 from ..groups.arrays import Array
 from ..model.chain import Chain
-from .search import Reading
+from .reading import Reading
 
 __all__ = ["follows"]
 

@@ -8,83 +8,20 @@ not smeared over its neighbours.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..groups import se3, so3
+from ..groups import se3
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from .fit import fit
-from .lines import Marks, Sides, carried, carriers, cross, misses, sides, signs
+from .lines import Marks, Sides, carried, misses, sides, signs
+from .reached import poses_agree
+from .reading import ONE, Reading, read, still, unhubbed
 from .starts import best, one_by_one, one_turn, rigid_poses
-
-
-@dataclass(frozen=True, eq=False)
-class Reading:
-    """One way to read the difference: f_a(x) = base f_b(direction x + zeros) tool, but for the axes that moved.
-
-    Attributes: base (4, 4), b's base in a's; tool (4, 4), a's tool in b's; zeros (n), rad or m, where b stands when a
-    is at 0; directions (n), +1 or -1; moved (n, bool), axes beyond tolerance; offset (n, bool), zeros beyond it;
-    axes (n, 6), b's screws without pitch as they then stand in a's base; misses (n), of each, in tolerances;
-    frames, how many of base and tool moved; link, k > 0 where the axes behind joint k moved together, by a link that is
-    another one: then the tool is the one behind them.
-    """
-
-    base: Array
-    tool: Array
-    zeros: Array
-    directions: Array
-    moved: Marks
-    offset: Marks
-    axes: Array
-    misses: Array
-    frames: int
-    link: int = 0
-
-    @property
-    def blamed(self) -> Marks:
-        """Joints (n, bool) that differ in anything."""
-        return self.moved | self.offset | (self.directions < 0)
-
-    @property
-    def cost(self) -> tuple[float, ...]:
-        """What makes one reading better than another: the smaller, the better.
-
-        One change in one joint comes first, whatever it is: base and tool that stay where they are decide, then a zero
-        offset rather than a moved axis. One moved axis is likelier than two zero offsets; but where conventions differ
-        they differ in many joints, and each more says little: where base and tool both moved, other zeros and
-        directions alone come before one moved axis. One other link, which moves all axes behind it, is likelier than a
-        moved axis that zero offsets help. Of several moved axes it counts how far they are: the few that agree by
-        chance under a wild alignment prove nothing.
-        """
-        conventions = int((self.offset | (self.directions < 0)).sum())
-        moved, changes = int(self.moved.sum()), int(self.offset.sum() + (self.directions < 0).sum())
-        near = float(np.minimum(self.misses, 10.0).sum())
-        if moved + changes <= 1:
-            alone = 4.9 if moved and self.frames == 2 else 2.5 * (moved + changes)
-            return (alone, self.frames, moved, near)
-        if self.link:
-            return (5.25, self.frames, moved, near)
-        weight = (0.0, 2.5, 3.5)[conventions] if conventions < 3 else 3.25 + 0.25 * conventions
-        far = float((self.misses[self.moved] ** 0.25).sum()) * (1.0 if moved > 1 else 0.05)
-        return (3.0 * moved + far + weight, self.frames, changes, near)
-
-
-def read(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Reading]:
-    """The readings that alignments (P, z) of a's and b's axes (both at rest), (m, 4, 4) and (m, n), stand for."""
-    axes = carried(pair, P, z)[1]
-    miss, s = misses(pair, axes), signs(pair, axes)
-    base, last = _unhubbed(pair, P), _unhubbed(pair, carriers(pair, P, z)[:, -1])
-    tool = se3.inverse(last @ b.home) @ a.home
-    axes[..., 3:] -= cross(axes[..., :3], pair.a.hub)
-    frames = (~still(np.stack([base, tool]), pair.tol_m, pair.tol_rad)).sum(0)
-    moved, offset, far = miss > 1.0, abs(z) > pair.zero_tolerance, np.minimum(miss, 1e9)
-    return [
-        Reading(base[i], tool[i], z[i], s[i], moved[i], offset[i], axes[i], far[i], int(frames[i]))
-        for i in range(len(z))
-    ]
 
 
 def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, list[Reading]]:
@@ -117,11 +54,12 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, l
     agree = np.concatenate([miss <= 10.0, miss <= 1.0])
     enough = agree.sum(1) >= 3  # of three, any two can be made to agree
     found += readings(np.tile(P, (2, 1, 1))[enough], np.tile(z, (2, 1))[enough], none, agree[enough])
-    first = min(found, key=_cost)
-    if first.blamed.sum() > 1:
+    if min(found, key=_cost).cost[0] > ONE:
         found += _conventions(pair, a, b)
-        first = min(found, key=_cost)
-    return first, _others(first, found)
+    # The reading of the models as they stand holds, and so there is one that does.
+    found.sort(key=_cost)
+    holding = (r for r in found if r.moved.any() or poses_agree(pair, a, b, r))
+    return (first := next(holding)), _others(first, holding)
 
 
 def _one_joint(pair: Sides, a: Chain, b: Chain, poses: tuple[NDArray[np.intp], Array]) -> list[Reading]:
@@ -143,7 +81,7 @@ def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Reading]:
     for k in range(2, pair.n - 1):
         before, behind = agree[:, :k].all(1), agree[:, k:].all(1)
         if before.any() and behind.any():
-            P, last = poses[before][:1], _unhubbed(pair, poses[behind][0])
+            P, last = poses[before][:1], unhubbed(pair, poses[behind][0])
             (reading,) = read(pair, a, b, P, nothing[:1])
             if reading.blamed.sum() < 2:
                 continue
@@ -190,25 +128,19 @@ def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Readi
     return read(pair, a, b, P, z)
 
 
-def still(T: Array, tol_m: float, tol_rad: float) -> Marks:
-    """Whether poses (..., 4, 4) are the identity within tolerance (...)."""
-    moved, turned = np.linalg.norm(T[..., :3, 3], axis=-1), np.linalg.norm(so3.log(T[..., :3, :3]), axis=-1)
-    return (moved <= tol_m) & (turned <= tol_rad)
-
-
 def _cost(reading: Reading) -> tuple[float, ...]:
     return reading.cost
 
 
-def _others(first: Reading, found: list[Reading]) -> list[Reading]:
-    """Readings as short as the first that blame another joint, or the same one for something else; each once."""
+def _others(first: Reading, behind: Iterable[Reading]) -> list[Reading]:
+    """Of the readings behind the first those as short that blame another joint, or it for something else; each once."""
     kept: list[Reading] = []
     if first.blamed.sum() != 1:
         return kept
     seen = {_signature(first)}
-    single = [r for r in found if r.moved.sum() + r.offset.sum() + (r.directions < 0).sum() == 1]
-    for reading in sorted(single, key=_cost):
-        if _signature(reading) not in seen:
+    for reading in behind:
+        single = reading.moved.sum() + reading.offset.sum() + (reading.directions < 0).sum() == 1
+        if single and _signature(reading) not in seen:
             seen.add(_signature(reading))
             kept.append(reading)
     return kept
@@ -216,10 +148,3 @@ def _others(first: Reading, found: list[Reading]) -> list[Reading]:
 
 def _signature(reading: Reading) -> bytes:
     return np.stack([reading.moved, reading.offset, reading.directions < 0]).tobytes()
-
-
-def _unhubbed(pair: Sides, P: Array) -> Array:
-    """The poses (..., 4, 4) between the arms' own bases, of those between their hubs."""
-    T = P.copy()
-    T[..., :3, 3] += pair.a.hub - P[..., :3, :3] @ pair.b.hub
-    return T

@@ -104,8 +104,7 @@ def one_turn(pair: Sides, rigid: tuple[NDArray[np.intp], Array], k: int) -> tupl
 def one_by_one(pair: Sides) -> tuple[Array, Array]:
     """Alignments (P, z) found joint after joint, each zero offset bringing the next axis into its place; best first."""
     P = pair_poses(pair, [(0, 1)] if pair.n > 1 else [])[1]
-    if not len(P):
-        P = rigid_poses(pair)[1]
+    P = _on_the_first_turning_axis(pair, P if len(P) else rigid_poses(pair)[1])
     D, z, loss = P, np.zeros((len(P), pair.n)), np.zeros(len(P))
     for k in range(1, pair.n - 1):
         Ad = se3.adjoint(D)
@@ -120,6 +119,34 @@ def one_by_one(pair: Sides) -> tuple[Array, Array]:
         kept = np.argsort(loss, kind="stable")[:BEAM]
         P, D, z, loss = P[kept], D[kept], z[kept], loss[kept]
     return P, z
+
+
+def _on_the_first_turning_axis(pair: Sides, P: Array) -> Array:
+    """The poses P (m, 4, 4) moved along slides, which have no place, to where the first axis that turns has its own.
+
+    That place is where a link that no zero offset changes has it, and not the point nearest the hub.
+    """
+    turning = [k for k, kind in enumerate(pair.a.kinds) if kind != "prismatic"]
+    if not turning or turning[0] == 0:
+        return P
+    ours, theirs = (_anchor(side, turning[0]) for side in (pair.a, pair.b))
+    if ours is None or theirs is None:
+        return P
+    P = P.copy()
+    P[:, :3, 3] += ours - (P[:, :3, :3] @ theirs + P[:, :3, 3])
+    return P
+
+
+def _anchor(lines: Lines, k: int) -> Array | None:
+    """The point of axis k that is level with the foot of the next common normal of neighbours that are not parallel."""
+    for m in range(k, len(lines.kinds) - 1):
+        if "prismatic" in lines.kinds[m : m + 2]:
+            return None
+        frame = _frame(lines, m, m + 1)
+        if frame is not None and not frame[2]:
+            way, foot = lines.ways[k], frame[0][:3, 3]
+            return lines.places[k] + way * (way @ (foot - lines.places[k]))
+    return None
 
 
 def best(pair: Sides, P: Array, z: Array, most: int = 4) -> tuple[Array, Array]:

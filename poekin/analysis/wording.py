@@ -9,7 +9,7 @@ from ..groups import se3, so3
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from .comparison import JointComparison
-from .search import Reading, still
+from .reading import Reading, still
 
 
 def amount(value: float, unit: str) -> str:
