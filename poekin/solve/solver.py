@@ -212,7 +212,6 @@ class Solver:
             nearer = far < distance
             best[nearer], distance[nearer] = other[nearer], far[nearer]
             kept[:, codes.AT_ITERATIONS] += said[:, codes.AT_ITERATIONS]
-            kept[nearer, codes.AT_STATE] = codes.SOLVED
         return best, kept
 
 

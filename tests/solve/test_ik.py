@@ -587,3 +587,30 @@ def test_an_interrupt_is_seen_between_some_of_many_targets(parallel, monkeypatch
     with pytest.raises(KeyboardInterrupt):
         ik(UR5, T, parallel=parallel)
     assert max(sizes) * 101 * 30 <= STEPS  # of the most tries and iterations
+
+
+@pytest.mark.parametrize("scale", [1.0, 100.0])
+def test_the_nearest_solution_of_an_arm_without_limits_is_turns_away_from_zero(scale):
+    arm = pk.Chain(UR5.screws, UR5.home, coupling=None if scale == 1 else np.eye(6) / scale, q_names=UR5.joint_names)
+    turns = np.array([2, -3, 1, 0, -1, 5])
+    q = np.array([0.3, -1.1, 1.3, 0.4, 0.9, -0.2]) + 2 * np.pi * turns
+    near = scale * (q + 0.01)
+    found = ik(arm, arm.fk(scale * q), nearest_to=near)
+    np.testing.assert_allclose(found.q, scale * q, atol=1e-6 * scale)
+    assert np.abs(ik(arm, arm.fk(scale * q)).q).max() <= scale * np.pi + 1e-12
+
+
+def test_the_manipulability_of_a_direction_is_that_of_its_five_numbers():
+    arm, q0 = UR5.retooled(pk.se3.exp([0.5, 0.3, 0, 0, 0, 0.1])), UR5.random(4, 20)
+    T = arm.fk(arm.random(3, 20))
+
+    def yoshikawa(q):
+        P, J = arm.fk_jacobian(q, "hybrid")
+        tool = np.swapaxes(P[:, :3, :3], 1, 2) @ J[:, :3]  # turns about the tool's axes, of which x and y move its z
+        five = np.concatenate([tool[:, :2], J[:, 3:]], axis=1)
+        return np.sqrt(np.linalg.det(five @ np.swapaxes(five, 1, 2)))
+
+    plain, served = (ik(arm, T, task="direction", q0=q0, aim=aim) for aim in (None, "manipulability"))
+    assert served.success.all()
+    assert (yoshikawa(served.q) >= yoshikawa(plain.q) * (1 - 1e-6)).all()
+    assert yoshikawa(served.q).mean() > 1.1 * yoshikawa(plain.q).mean()

@@ -535,6 +535,43 @@ def test_wide_limits_have_many_places_and_never_less_than_none(bound, places):
         assert numbers == (places or np.prod(each))
 
 
+def test_as_many_places_are_listed_as_are_said_to_be_the_most(monkeypatch):
+    chain = arm("ur5")
+    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-2 * np.pi, 2 * np.pi], (6, 1)))
+    _, T = targets(wide, 16, 1)
+    most = int(ik_all(wide, T[0]).copies.sum())
+    monkeypatch.setattr(module, "MOST", most)
+    assert ik_all(wide, T[0], copies=True).count == most
+    monkeypatch.setattr(module, "MOST", most - 1)
+    with pytest.raises(InputError, match=rf"copies: {most} places for one target, more than {most - 1}"):
+        ik_all(wide, T[0], copies=True)
+
+
+@pytest.mark.parametrize("joint", [0, 5])
+@pytest.mark.parametrize("turns", [1e8, 1e12])
+def test_a_solution_so_many_turns_away_that_its_pose_is_lost_is_not_listed(joint, turns):
+    # the last joint turns the tool about its own origin, the first one moves it, too
+    chain = arm("ur5")
+    limits = np.tile([-np.pi, np.pi], (6, 1))
+    limits[joint] += 2 * np.pi * turns
+    far = pk.Chain(chain.screws, chain.home, limits=limits)
+    T = chain.fk([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
+    result = ik_all(far, T)
+    assert result.anywhere == 8
+    assert max(errors(far, result.solutions, T)) <= TOL
+
+
+def test_a_place_that_is_lost_by_so_many_turns_alone_is_not_listed_either():
+    # two parallel axes that turn against each other: only the position shows it
+    axes = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 0.5)]
+    bounds = 2 * np.pi * 1e8 + np.array([[-np.pi, np.pi]])
+    chain = pk.Chain(axes, pk.se3.exp([0, 0, 0, 0.7, 0, 0]), coupling=[[1.0], [-1.0]], q_names=["a"], limits=bounds)
+    T = chain.fk([0.3])
+    result = ik_all(chain, T)
+    assert result.anywhere == 1
+    assert max(errors(chain, result.solutions, T)) <= TOL
+
+
 def test_what_is_no_arm_and_what_is_no_pose_is_refused():
     with pytest.raises(InputError, match=r"ik_all: expected a Chain, got 'ur5'"):
         ik_all("ur5", np.eye(4))  # type: ignore[arg-type]

@@ -183,6 +183,19 @@ def test_a_trapezoid_is_a_triangle_where_the_speed_is_not_reached():
     assert timing.duration == pytest.approx(1.25, rel=1e-14)
 
 
+@pytest.mark.parametrize("distance, speed, acceleration", [(1.0, 1.0, 1e13), (1.0, 1.0, 1e20), (3.0, 0.1, 1e300),
+                                                           (1e-12, 1e-3, 1.7e308)])  # fmt: skip
+def test_a_ramp_of_next_to_no_time_keeps_the_limits_too(distance, speed, acceleration):
+    timing = motion.fastest("trapezoidal", distance, speed=speed, acceleration=acceleration)
+    assert timing.duration == pytest.approx(distance / speed, rel=1e-12)
+    u = np.array([0.0, 0.5 * timing.ramp, timing.ramp, 0.5, 1 - timing.ramp, 1.0])
+    s, ds, dds = timing(u * timing.duration)
+    assert np.isfinite([s, ds, dds]).all()
+    assert s[-1] == 1
+    assert distance * ds.max() <= speed
+    assert distance * np.abs(dds).max() <= acceleration
+
+
 def test_no_way_takes_no_time():
     timing = motion.fastest("cubic", [0.0, 0.0], speed=1.0)
     assert timing.duration == 0

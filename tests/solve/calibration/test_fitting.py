@@ -11,7 +11,7 @@ from poekin.solve import calibration
 from poekin.solve.calibration import EyeInHand, Poses, calibrate
 from poekin.solve.calibration.fitting import frames_only
 from poekin.solve.calibration.identification import judged
-from poekin.solve.calibration.minimise import minimise
+from poekin.solve.calibration.minimise import _exact, minimise
 from poekin.solve.calibration.noise import Noise, Spread
 from poekin.solve.calibration.parameters import Arm
 from poekin.solve.calibration.problem import Problem
@@ -121,3 +121,16 @@ def test_a_covariance_with_hardly_any_of_what_is_held_is_read_again(tmp_path):
 def test_no_configurations_have_no_pose_covariances():
     q, T = noisy()
     assert calibrate(PUMA, q, T, folds=0).pose_covariance(q[:0]).shape == (0, 6, 6)
+
+
+@pytest.mark.parametrize("reach", [1.0, 1000.0])
+@pytest.mark.parametrize(("times", "exact"), [(0.5, True), (2.0, False)])
+@pytest.mark.parametrize("part", [0, 5])
+def test_an_error_is_rounding_by_the_angle_and_by_the_arm_s_reach(part, times, exact, reach):
+    home = se3.exp([0, 0, 0, reach, 0, 0])
+    arm = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], home)
+    size = 1e-13 * times * (1.0 if part == 0 else reach)
+    T = se3.exp(size * np.eye(6)[part]) @ home  # what the home pose is off by, seen from the base
+    T[:3, 3] = home[:3, 3] + size * np.eye(3)[2] * (part == 5)
+    problem = Problem(Arm(arm, ("home",), None), np.zeros((1, 1)), [Poses(T[None])])
+    assert _exact(problem, np.zeros(6)) == exact
