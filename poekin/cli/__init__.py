@@ -64,8 +64,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
                 return NOBODY_READS
         sys.stdout.flush()
     except BrokenPipeError:
-        # Python flushes stdout once more at exit, which must find somewhere to write to.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _write_no_more()
         return NOBODY_READS
     except KeyboardInterrupt:
         return INTERRUPTED
@@ -77,5 +76,14 @@ def run(arguments: Sequence[str] | None = None) -> int:
         from .output import complain
 
         complain(f"error: {'there is not enough memory for this' if isinstance(error, MemoryError) else error}")
+        try:
+            sys.stdout.flush()
+        except OSError:  # a full disk
+            _write_no_more()
         return ERROR
     return int(code or 0)
+
+
+def _write_no_more() -> None:
+    """Python flushes stdout once more at exit, which must find somewhere to write to."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

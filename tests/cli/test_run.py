@@ -148,9 +148,12 @@ def test_an_encoding_that_lacks_a_character_is_no_error(crane):
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a disk that is full, as Linux has it")
-def test_a_full_disk_is_one_message(crane):
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_full_disk_is_one_message(crane, unbuffered):
+    environment = os.environ | {"PYTHONUNBUFFERED": unbuffered}
+    words = _command("info", crane)
     with open("/dev/full", "w") as full:
-        done = subprocess.run(_command("info", crane), stdout=full, stderr=subprocess.PIPE, text=True)
+        done = subprocess.run(words, stdout=full, stderr=subprocess.PIPE, text=True, env=environment)
     assert done.returncode == 2
     assert done.stderr == "poekin: error: [Errno 28] No space left on device\n"
 
