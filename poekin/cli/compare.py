@@ -32,7 +32,7 @@ def command(
     tol_deg: TolDeg = 0.001, strict: Strict = False, samples: Samples = 200, seed: Seed = 0, json: Json = False,
 ) -> None:  # fmt: skip
     """Two models of one arm, joint by joint: axes, zero positions, directions. Exit code 0 equal, 1 differ, 2 error."""
-    one, other = _chain(a, base, tip), _chain(b, base_b, tip_b, base, tip)
+    one, other = _chain(a, "--tip", base, tip), _chain(b, "--tip-b", base_b, tip_b, base, tip)
     result = compare(one, other, strict=strict, tol_mm=tol_mm, tol_deg=tol_deg, samples=samples, seed=seed)
     if json:
         print(as_json({"a": _where(a, one), "b": _where(b, other)} | result.as_dict()))
@@ -42,7 +42,12 @@ def command(
 
 
 def _chain(
-    file: str, base: str | None, tip: str | None, base_like: str | None = None, tip_like: str | None = None
+    file: str,
+    option: str,
+    base: str | None,
+    tip: str | None,
+    base_like: str | None = None,
+    tip_like: str | None = None,
 ) -> Chain:
     robot = model(file)
     if base is None and base_like in robot.links:
@@ -50,7 +55,6 @@ def _chain(
     if tip is None and tip_like in robot.links:
         tip = tip_like
     if tip is None and len(robot.leaves) > 1:
-        option = "--tip" if tip_like is None else "--tip-b"
         raise InputError(f"{shown(file, 400)} is a tree: say which tip with {option}; tips: {listed(robot.leaves)}")
     return robot.chain(base=base, tip=tip)
 

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 import json
 
+import pytest
+
+from poekin.analysis.compare import compare
+from poekin.formats.load import load
+
 URDF = """<robot name="three"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
 <joint name="one" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
   <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
@@ -62,3 +67,49 @@ def test_an_extra_joint_is_named(tmp_path, poekin):
     code, out, _ = poekin("compare", "panda", "panda", "--tip", "panda_link7", "--tip-b", "panda_leftfinger")
     assert code == 1
     assert "one joint more, 'panda_finger_joint1'" in out
+
+
+CHANGED = URDF.replace('name="one" type="revolute"', 'name="uno" type="revolute"').replace(
+    '<axis xyz="1 0 0"/>', '<axis xyz="-1 0.01 0"/>'
+).replace("<limit lower=\"-1\" upper=\"1\"", "<limit lower=\"-0.5\" upper=\"1\"", 1)  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore:.*was normalised")
+def test_the_table_has_the_numbers_of_the_function_in_the_order_of_its_heads(tmp_path, poekin):
+    a, path = written(tmp_path, "a.urdf", 0), tmp_path / "b.urdf"
+    path.write_text(CHANGED.format(x=0.02).replace('name="three"><link', 'name="other"><link'), encoding="utf-8")
+    b = str(path)
+    code, out, _ = poekin("compare", a, b, "--samples", 50, "--seed", 3, "--base", "a", "--tip", "c")
+    assert code == 1
+    assert out.startswith("A: a → c; B: a → c\n\n")
+    _, out, _ = poekin("compare", a, b, "--samples", 50, "--seed", 3)
+    result = compare(load(a).chain(), load(b).chain(), samples=50, seed=3)
+    lines = out.splitlines()
+    at = next(i for i, line in enumerate(lines) if "angle (deg)" in line)
+    assert lines[at].split("  ")[-1].strip() == "limits"
+    titles, rows = ["one / uno", "two[b]", "three"], lines[at + 2 : at + 5]
+    for title, joint, row in zip(titles, result.joints, rows, strict=True):
+        words = [word.strip() for word in row.split("  ") if word.strip()]
+        lengths = ["" if x is None else f"{x if abs(x) > 1e-8 else 0:.4g}" for x in (joint.normal, joint.shift)]
+        tol = result.tol_mm if joint.unit == "mm" else result.tol_deg
+        ends = " ".join(f"{x if abs(x) >= 1e-6 * tol else 0:.4g}" for x in joint.limits)
+        assert words == [word for word in (
+            str(joint.number), title, joint.kind_a, "DIFFERS" if joint.axis_differs else "same",
+            f"{joint.angle if abs(joint.angle) >= 1e-9 else 0:.4g}", *lengths,
+            f"{joint.zero if abs(joint.zero) >= 1e-6 * tol else 0:.4g} {joint.unit}",
+            "flipped" if joint.flipped else "same", ends,
+        ) if word]  # fmt: skip
+    assert any(joint.flipped for joint in result.joints)
+    for title, errors in (("as they stand", result.before), ("aligned", result.after)):
+        assert errors is not None
+        assert (
+            f"Pose error {title}: worst {errors.worst_mm:.3g} mm, {errors.worst_deg:.3g}°;"
+            f" mean {errors.mean_mm:.3g} mm, {errors.mean_deg:.3g}°" in lines
+        )
+    assert lines[-1].lower() == result.verdict.lower()
+
+
+def test_a_tree_is_refused_by_the_name_of_its_file_and_the_option_that_helps(crane, tmp_path, refused):
+    said = f"'{crane}' is a tree: say which tip with {{}}; tips: 'hook', 'lamp'\n"
+    assert refused("compare", crane, crane) == "poekin: error: " + said.format("--tip")
+    assert refused("compare", written(tmp_path, "a.urdf", 0), crane) == "poekin: error: " + said.format("--tip-b")
