@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from poekin.cli.info import _screw_rows, tree
+from poekin.cli.info import _coordinate, _screw_rows, tree
 from poekin.formats.load import load
+from poekin.model.chain import Chain
 from poekin.model.joint import Joint
 from poekin.model.robot import Robot
 
@@ -42,6 +43,55 @@ def test_json_has_every_number_to_the_last_bit(crane, as_json):
     assert document["limits"][robot.q_names.index("turn")] == [None, None]
     one = as_json("info", crane, "--tip", "hook")
     assert one == document["chains"][0]
+
+
+def test_json_says_of_every_joint_and_chain_what_the_robot_says(crane, as_json):
+    document, robot = as_json("info", crane), load(crane)
+    assert (document["robot"], document["root"], document["links"]) == ("crane", "root", list(robot.links))
+    assert [(j["name"], j["kind"], j["parent"], j["child"]) for j in document["joints"]] == [
+        (j.name, j.kind, j.parent, j.child) for j in robot.joints
+    ]
+    assert [j["mimic"] for j in document["joints"]] == [
+        None, None, {"joint": "slide", "multiplier": 0.5, "offset": 0.1}, None,
+    ]  # fmt: skip
+    assert [(c["base"], c["tip"]) for c in document["chains"]] == [("root", "hook"), ("root", "lamp")]
+    chain, said = robot.chain(tip="hook"), document["chains"][0]
+    assert "note" not in said
+    assert (said["reach"], said["joint_names"], said["kinds"], said["q_names"]) == (
+        chain.reach, list(chain.joint_names), list(chain.kinds), list(chain.q_names),
+    )  # fmt: skip
+    assert (said["coupling"], said["offset"]) == (chain.coupling.tolist(), chain.offset.tolist())
+    assert said["limits"] == [[None, None], [0, 1]]
+
+
+def test_the_tables_of_chains_and_screws_have_the_numbers_of_the_robot(crane, poekin):
+    _, out, _ = poekin("info", crane)
+    lines, robot = out.splitlines(), load(crane)
+    at = lines.index("Chains from root to leaf")
+    for line, tip in zip(lines[at + 3 : at + 5], ("hook", "lamp"), strict=True):
+        chain = robot.chain(tip=tip)
+        assert line.split() == ["root", tip, str(len(chain.joint_names)), str(chain.dof), f"{chain.reach:.6g}"]
+    _, out, _ = poekin("info", crane, "--tip", "hook")
+    chain, lines = robot.chain(tip="hook"), out.splitlines()
+    assert lines[0] == f"root → hook: 3 joints, 2 coordinates, reach {chain.reach:.6g} m"
+    at = lines.index("Screws (w; v) at home, seen from root (rad, m)")
+    bounds = {"turn": ["-inf", "inf"], "slide": ["0", "1"], "lower": ["0", "1"]}
+    for line, joint, S in zip(lines[at + 3 : at + 6], chain.joint_names, chain.screws, strict=True):
+        words = line.split()
+        assert words[0] == joint
+        assert words[-8:] == [*(f"{x + 0.0:.6g}" for x in S), *bounds[joint]]
+    matrix = [line.split() for line in lines[lines.index("Home pose of hook in root (m)") + 1 :]]
+    np.testing.assert_allclose(np.array(matrix[:4], float), chain.home, rtol=1e-8)
+
+
+def test_a_joint_s_coordinate_is_written_with_factor_and_offset():
+    assert _coordinate(CHAIN, [(1.0, 0)], 0.0) == "a"
+    assert _coordinate(CHAIN, [(-0.5, 1)], 0.1) == "-0.5 b + 0.1"
+    assert _coordinate(CHAIN, [(1.0, 0), (2.0, 1)], 0.0) == "a + 2 b"
+    assert _coordinate(CHAIN, [], 0.0) == "0"
+
+
+CHAIN = Chain(np.tile([0, 0, 1.0, 0, 0, 0], (2, 1)), np.eye(4), q_names=["a", "b"], coupling=np.eye(2))
 
 
 def test_a_chain_below_a_floating_joint_says_so(tmp_path, crane, poekin):
