@@ -59,16 +59,18 @@ def test_a_file_that_is_no_robot_is_one_message(poekin, tmp_path, command, conte
     assert len(err.splitlines()) == 1
 
 
-def test_a_missing_package_of_the_command_line_is_named(monkeypatch, refused):
+@pytest.mark.parametrize("package", ["typer", "rich"])
+def test_a_missing_package_of_the_command_line_is_named(package, monkeypatch, refused):
     real = builtins.__import__
 
     def without(name, *rest):
-        if name == "typer":
-            raise ModuleNotFoundError("No module named 'typer'", name="typer")
+        if name == package:
+            raise ModuleNotFoundError(f"No module named '{package}'", name=package)
         return real(name, *rest)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    assert "pip install 'poekin[cli]'" in refused("info", "panda")
+    said = f"the command line needs the package {package}: pip install 'poekin[cli]'"
+    assert refused("info", "panda") == f"poekin: error: {said}\n"
 
 
 def test_memory_that_runs_out_is_one_message(monkeypatch, refused, crane):
