@@ -97,7 +97,9 @@ def _run(
     with tempfile.TemporaryDirectory(prefix="mutants-") as place:
         campaign = Campaign(ROOT, Path(place), sources, listed, file, said.quick)
         campaign.run(waiting, max(1, min(said.workers, len(waiting))) if waiting else 0, finished)
-    print(f"{done} mutants in {time.monotonic() - start:.0f} s, {said.workers} at a time")
+    used = sum(float(str(outcomes[m.key].get("processor", 0))) for m in waiting if m.key in outcomes)
+    each = f", {used / done:.1f} s of a processor each" if done else ""
+    print(f"{done} mutants in {time.monotonic() - start:.0f} s, {said.workers} at a time{each}")
 
 
 def _judged(

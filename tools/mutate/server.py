@@ -77,7 +77,7 @@ def answered(
     """The outcome of the sessions, run in order up to the first that fails, with the mutant in place of its module."""
     file = tree / path if source is not None else None
     original = file.read_bytes() if file else b""
-    start = time.monotonic()
+    start, before = time.monotonic(), _of_children()
     try:
         if file and source is not None:
             file.write_text(source, encoding="utf-8")
@@ -91,7 +91,14 @@ def answered(
         if file:
             file.write_bytes(original)
             os.utime(file, (EPOCH, EPOCH))
-    return {**answer, "seconds": round(time.monotonic() - start, 2)}
+    used = round(_of_children() - before, 2)
+    return {**answer, "seconds": round(time.monotonic() - start, 2), "processor": used}
+
+
+def _of_children() -> float:
+    """Seconds of the processor that children took."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def _session(tree: Path, arguments: list[str], mutated: bool, settings: dict[str, str]) -> dict[str, str]:
