@@ -54,8 +54,9 @@ def _held(kind: type, examples: int, seconds: float, say, name: str = "") -> Rep
     """The report of a subject, or in one line why there is none."""
 
     def run() -> Report:
-        laws = [law.name for law in applicable(Subject(kind)) if law.name not in getattr(kind, "leaves_out", {})]
-        return conform(kind, laws, examples, seconds)
+        # By its name: what has threads in this process does not survive a fork.
+        own = f"{subjects.__name__}:{kind.__name__}" if kind in vars(subjects).values() else kind
+        return conform(own, (), examples, seconds, leave_out=list(getattr(kind, "leaves_out", ())))
 
     report, problem = peers.attempt(run)
     if report is None:
@@ -149,7 +150,8 @@ def _tables(found: Sequence[Report | str], caught: Sequence[tuple[str, str, Outc
 def _cell(report: Report, law: str) -> str:
     """A grade and its error; empty where the law was not asked."""
     outcome = next((outcome for outcome in report.outcomes if outcome.law == law), None)
-    return "" if outcome is None else f"{outcome.word} {_size(outcome.worst)}"
+    late = " (the time ran out)" if outcome is not None and outcome.late else ""
+    return "" if outcome is None else f"{outcome.word} {_size(outcome.worst)}{late}"
 
 
 def _finding(outcome: Outcome) -> tuple[str, str, str, str]:

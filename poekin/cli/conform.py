@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
+import enum
 import sys
 from typing import Annotated
 
@@ -22,28 +22,60 @@ Subject = Annotated[
 Laws = Annotated[
     list[str] | None, typer.Option("--law", help="Hold it to this law only; may be repeated (default: all that apply).")
 ]
-Examples = Annotated[int, typer.Option("--examples", help="Cases of each law at most.", min=1)]
+Without = Annotated[list[str] | None, typer.Option("--except", help="Leave out this law; may be repeated.")]
+Examples = Annotated[
+    int | None, typer.Option("--examples", help="Cases of each law (default: 100 to 400, each law its own).", min=1)
+]
 Seconds = Annotated[
-    float, typer.Option("--seconds", help="Time for all laws together; shrinking a finding comes on top.", min=0.1)
+    float,
+    typer.Option(
+        "--seconds",
+        help="Time for all laws together; shrinking a finding comes on top. Said where it runs out.",
+        min=0.1,
+    ),
+]
+Limit = Annotated[
+    float, typer.Option("--limit", help="Seconds that one call may take, with what it compiles.", min=0.1)
 ]
 
 
+class Bar(enum.StrEnum):
+    """Grades, as the command line has them."""
+
+    EXACT = "exact"
+    GOOD = "good"
+    POOR = "poor"
+
+
+AtMost = Annotated[Bar, typer.Option("--at-most", help="The worst grade that is let pass with exit code 0.")]
+
+
 def command(
-    subject: Subject, law: Laws = None, examples: Examples = 1000, seconds: Seconds = 50.0, json: Json = False
+    subject: Subject,
+    law: Laws = None,
+    without: Without = None,
+    at_most: AtMost = Bar.GOOD,
+    examples: Examples = None,
+    seconds: Seconds = 600.0,
+    limit: Limit = 60.0,
+    json: Json = False,
 ) -> None:
     """Law by law a grade: exact, good, poor or broken, and a counterexample to paste. This imports and runs MODULE.
 
-    What the class may have and must declare is in the documentation of poekin.testing.conform.subject. Exit code 0
-    nothing is poor or broken, 1 something is, 2 error.
+    It runs in a process of its own, so that a crash or a hang is a finding like others. What the class may have and
+    must declare is in the documentation of poekin.testing.conform.subject. Exit code 0 nothing is worse than --at-most,
+    1 something is, 2 error.
     """
     # It needs the extra `testing`, which the other commands do without.
-    from ..testing.conform import conform
+    from ..testing.conform import Grade, Limits, conform
 
     if "" not in sys.path:
         sys.path.insert(0, "")
-    # What the module prints is not the report.
-    with Progress("laws") as progress, contextlib.redirect_stdout(sys.stderr):
-        report = conform(subject, law or (), examples, seconds, progress)
+    with Progress("laws") as progress:
+        report = conform(
+            subject, law or (), examples, seconds, progress,
+            leave_out=without or (), at_most=Grade[at_most.name], limits=Limits(limit),
+        )  # fmt: skip
     if json:
         print(as_json(report.as_dict()))
     else:

@@ -24,14 +24,6 @@ class Needs(Sound):
     def __init__(self, robot):
         pass
 """
-CHATTY = """
-print("imported")
-
-class Chatty(Sound):
-    def so3_exp(self, w):
-        print("called")
-        return pk.so3.exp(w)
-"""
 
 
 def module(tmp_path, monkeypatch, name, text=HEAD):
@@ -68,11 +60,16 @@ def test_only_the_laws_that_are_named_are_run(tmp_path, monkeypatch, poekin):
     assert [law["law"] for law in json.loads(out)["laws"]] == ["exp"]
 
 
-def test_what_the_subject_prints_is_not_the_report(tmp_path, monkeypatch, poekin):
-    module(tmp_path, monkeypatch, "chatty_subjects", HEAD + CHATTY)
-    code, out, err = poekin("conform", "chatty_subjects:Chatty", "--examples", "2", "--json")
-    assert (code, err) == (0, "imported\n" + 2 * "called\n")
-    assert json.loads(out)["subject"] == "Chatty"
+def test_a_law_is_left_out_and_another_bar_is_set(tmp_path, monkeypatch, poekin):
+    module(tmp_path, monkeypatch, "barred_subjects")
+    arguments = ("conform", "barred_subjects:Faulty", "--examples", "200")
+    code, out, _ = poekin(*arguments, "--except", "so3_exp", "--examples", "5", "--json")
+    document = json.loads(out)
+    assert (code, [law["law"] for law in document["laws"]]) == (0, ["exp"])
+    assert "left out, as asked for: so3_exp" in document["notes"]
+    code, out, _ = poekin(*arguments, "--law", "so3_exp", "--at-most", "poor")
+    assert (code, out.split()[1]) == (0, "poor")
+    assert "Faulty().so3_exp" in out
 
 
 def test_what_cannot_be_used_is_refused(tmp_path, monkeypatch, refused):

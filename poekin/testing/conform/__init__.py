@@ -13,6 +13,7 @@
 
     subject    what a subject may have, and what it must declare
     named      a subject by its name
+    limits, child, worker   the process that it runs in
     grades     exact, good, poor, broken: how errors are graded
     of_groups, of_arms, of_urdf   the laws as plain functions, for anybody's own tests
     group_cases, arm_cases, urdf_cases   what each law is tried on
@@ -25,12 +26,38 @@ log-uniformly. Needs the extra `testing`.
 
 from __future__ import annotations
 
-from .grades import Grade, Part, Verdict
-from .law import Case, Law
-from .named import loaded
-from .report import Outcome, Report
-from .run import LAWS, applicable, conform
-from .subject import FUNCTIONS, Subject
+import importlib
+from typing import TYPE_CHECKING, Any
 
-__all__ = ["FUNCTIONS", "LAWS", "Case", "Grade", "Law", "Outcome", "Part", "Report", "Subject", "Verdict",
+if TYPE_CHECKING:
+    from .grades import Grade, Part, Verdict
+    from .law import Case, Law
+    from .limits import Limits
+    from .named import loaded
+    from .report import Outcome, Report
+    from .run import LAWS, applicable, conform
+    from .subject import FUNCTIONS, Subject
+
+__all__ = ["FUNCTIONS", "LAWS", "Case", "Grade", "Law", "Limits", "Outcome", "Part", "Report", "Subject", "Verdict",
            "applicable", "conform", "loaded"]  # fmt: skip
+_HOMES = {
+    "grades": ("Grade", "Part", "Verdict"),
+    "law": ("Case", "Law"),
+    "limits": ("Limits",),
+    "named": ("loaded",),
+    "report": ("Outcome", "Report"),
+    "run": ("LAWS", "applicable", "conform"),
+    "subject": ("FUNCTIONS", "Subject"),
+}
+
+
+def __getattr__(name: str) -> Any:
+    # Imported when asked for: the process that a subject runs in has no use for laws and oracles.
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(importlib.import_module(f"{__name__}.{home}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -194,6 +194,7 @@ def _law(function: str, says: str, check: Callable[[Subject, Case], Verdict], he
         lambda subject, case: confirmed(*_of(subject, case), jacobian),
         lambda subject, case: _show(function, subject, case), simpler, triples, directions, allowed,
         lambda subject: not helical or (subject.helical and subject.arm is None), about,
+        "helical = True is not declared, or an arm is", 150,
     )  # fmt: skip
 
 

@@ -12,6 +12,9 @@ import numpy as np
 
 from ...errors import harmless
 
+ENDED = "ended the process"
+UNANSWERED = "no answer in"
+LOST = "cannot be made again"
 HERE = os.path.dirname(__file__)
 
 
@@ -33,6 +36,9 @@ class Attempt:
     ) -> bool:
         if not isinstance(error, Exception | SystemExit):
             return False
+        if isinstance(error, Fault):
+            self.fault = str(error)
+            return True
         said = harmless(" ".join(str(error).split()), 200)
         self.fault = f"{type(error).__name__}: {said}" if said else type(error).__name__
         while trace is not None:
@@ -41,6 +47,14 @@ class Attempt:
                 self.place = f"{os.path.basename(file)}, line {trace.tb_lineno}"
             trace = trace.tb_next
         return True
+
+
+class Fault(Exception):
+    """A fault that is said already: of a call in another process, or of that process."""
+
+
+class Undeclared(Exception):
+    """A law that a subject declares to be asked, and does not have what it is asked of."""
 
 
 class ArgumentChanged(Exception):
@@ -84,7 +98,7 @@ def called(function: Callable[..., Any], shape: tuple[int, ...], *arguments: np.
     A fault is an exception, another shape, what is no array of real numbers, NaN and infinite, and an argument that
     other numbers are left in.
     """
-    value, fault = made(lambda: real(untouched(function)(*(np.array(x) for x in arguments))))
+    value, fault = made(lambda: real(untouched(function)(*(np.array(x) for x in arguments))).astype(float))
     if fault:
         return Result(None, fault)
     if value.shape != shape:
@@ -95,11 +109,12 @@ def called(function: Callable[..., Any], shape: tuple[int, ...], *arguments: np.
 
 
 def real(value: Any) -> np.ndarray:
-    """A copy of an array of real numbers, as floats; other objects than NumPy's are converted if they can be.
+    """A copy of an array of real numbers, as floats of their own precision; other objects are converted if they can be.
 
     Raises: TypeError for complex numbers that are not real, and for texts: NumPy would convert both.
     """
     array = np.asarray(value)
     if array.dtype.kind in "SU" or (array.dtype.kind == "c" and np.any(np.imag(array))):
         raise TypeError(f"real numbers expected, got {array.dtype.name}")
-    return np.array(np.real(array), dtype=float)
+    own = array.dtype.kind == "f" and array.dtype.itemsize <= 8
+    return np.array(np.real(array), dtype=array.dtype if own else float)

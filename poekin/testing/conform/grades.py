@@ -20,6 +20,7 @@ from typing import NamedTuple
 
 from ..accuracy_laws import EXP_LOG_BAR
 from ..laws import LawViolation
+from .calls import ENDED, LOST, UNANSWERED
 
 GOOD, POOR = 1e-10, 1e-6
 NO_RESULT = "no result"
@@ -84,6 +85,11 @@ class Verdict(NamedTuple):
         """How the case failed: the grade, and the kind of fault without its particulars."""
         fault = re.sub(r"^of link \w+: ", "", self.fault)
         return self.grade, " ".join(re.split(r"[:(]", fault)[0].split()[:2])
+
+    @property
+    def ended(self) -> bool:
+        """Whether the subject's process ended, or had to be ended: nothing is worse."""
+        return self.fault.startswith((ENDED, UNANSWERED, LOST))
 
     @property
     def rank(self) -> tuple[int, float]:

@@ -18,7 +18,8 @@ from .subject import JACOBIANS, SE3, SO3, Subject
 
 FAR = 10.0
 """The largest |ω| in rad that exp and the Jacobians of exp are tried at; log, and inverses, to π."""
-
+EXAMPLES = 400
+"""Cases of a law that costs a few milliseconds each."""
 NOTHING = Part("empty batch", 0.0, 1.0, 0.0, lambda: 0.0)
 Checked = Callable[..., Verdict]
 
@@ -110,6 +111,7 @@ def _group_law(name: str) -> Law:
         confirm=lambda subject, case: _confirmed(name, case.numbers),
         show=show,
         allowed=lambda case: _drawable(name, case.numbers),
+        examples=EXAMPLES,
     )
 
 
@@ -144,6 +146,7 @@ def _noise_law() -> Law:
         lambda subject, case: confirm.of_log(R(case)), show,
         # Shrinking would leave the neighbourhood of the rotations.
         triples=lambda case: (), allowed=lambda case: False, applies=lambda subject: subject.noise > 0,
+        unless="noise is not declared", examples=EXAMPLES,
     )  # fmt: skip
 
 
@@ -186,7 +189,7 @@ def _batch_law(name: str) -> Law:
         f"{name} of batches", f"{name} of a batch is {name} of each, in shapes (), (1,), (0,), (3, 1, 2)", name, cases,
         together, lambda subject, case: all(_confirmed(name, row) for row in case.numbers.reshape(-1, count)), show,
         allowed=lambda case: all(_drawable(name, row) for row in case.numbers.reshape(-1, count)),
-        applies=lambda subject: subject.batch,
+        applies=lambda subject: subject.batch, unless="batch = True is not declared",
     )  # fmt: skip
 
 

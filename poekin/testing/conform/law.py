@@ -45,7 +45,7 @@ class Law(NamedTuple):
     cases(subject): what it is tried on; show(subject, case): for people; simpler(case): cases with a part left out;
     triples: where among the numbers three are a vector, each one's first place; directions: the same of unit vectors;
     allowed(case): whether the law could have drawn it; about(case): whether what the law is about is in it at all;
-    applies(subject): whether it is to be held to it.
+    applies(subject): whether it is to be held to it; unless, why it is not; examples, how many cases it is tried on.
     """
 
     name: str
@@ -61,6 +61,8 @@ class Law(NamedTuple):
     allowed: Callable[[Case], bool] = lambda case: True
     applies: Callable[[Subject], bool] = lambda subject: True
     about: Callable[[Case], bool] = lambda case: True
+    unless: str = ""
+    examples: int = 100
 
 
 SLACK = 1e-9

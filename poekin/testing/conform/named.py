@@ -19,11 +19,8 @@ class Source(NamedTuple):
     made: str
 
 
-def loaded(text: str) -> Any:
-    """The class or object that a text "MODULE:NAME" names; NAME may be OUTER.INNER.
-
-    Raises: InputError where it cannot be imported, with what the import says.
-    """
+def parted(text: str) -> tuple[str, str]:
+    """MODULE and NAME of a text "MODULE:NAME". Raises: InputError, with what may have been meant."""
     module, colon, name = text.partition(":")
     if not colon or not module or not name:
         raise InputError(f"expected MODULE:CLASS, such as my_arm:Kinematics, got {shown(text)}")
@@ -33,6 +30,15 @@ def loaded(text: str) -> Any:
         raise InputError(
             f"expected MODULE:CLASS as Python imports it from this directory, such as {meant}; got {shown(text)}"
         )
+    return module, name
+
+
+def loaded(text: str) -> Any:
+    """The class or object that a text "MODULE:NAME" names; NAME may be OUTER.INNER.
+
+    Raises: InputError where it cannot be imported, with what the import says.
+    """
+    module, name = parted(text)
     thing: Any = None
     with Attempt() as attempt:
         thing = importlib.import_module(module)

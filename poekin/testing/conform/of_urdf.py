@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
 from . import arm_cases, confirm, of_arms, small_urdf
-from .calls import called, made, untouched
+from .calls import Undeclared, called, made, untouched
 from .grades import Verdict, judged
 from .law import Case, Shown, typed
 from .subject import Subject, printed
@@ -27,6 +27,9 @@ def check(subject: Subject, case: Case, jacobian: bool = False) -> Verdict:
     if not jacobian:
         T, fault = called(lambda q: read.fk(q), (4, 4), values)
         return judged(law, fault or of_arms.pose_parts(arm, q, T))
+    function, fault = made(lambda: getattr(read, "jacobian", None))
+    if function is None and not fault:
+        raise Undeclared("what read_urdf returns has no `jacobian`, though the subject declares jacobian_frame")
     J, fault = called(lambda q: read.jacobian(q), (6, len(found)), values)
     if fault:
         return judged(law, fault)
@@ -43,7 +46,7 @@ def check_robot(subject: Subject, case: Case) -> Verdict:
     values, _, fault = _given(case, robot, small_urdf.coordinates(case))
     if fault:
         return judged(law, fault)
-    poses, fault = made(lambda: dict(untouched(robot.poses)(values.copy())))
+    poses, fault = made(lambda: _mapping(untouched(robot.poses)(values.copy())))
     if fault:
         return judged(law, fault)
     verdicts = []
@@ -53,6 +56,10 @@ def check_robot(subject: Subject, case: Case) -> Verdict:
         verdict = judged(law, f"of link {name}: {fault}" if fault else of_arms.pose_parts(arm, q, T))
         verdicts.append(verdict if fault else verdict._replace(what=f"{verdict.what}, of {name}"))
     return max(verdicts, key=lambda verdict: verdict.rank)
+
+
+def _mapping(poses: Any) -> Mapping[str, Any]:
+    return poses if isinstance(poses, Mapping) else dict(poses)
 
 
 def _given(case: Case, read: Any, names: Iterable[str]) -> tuple[np.ndarray, list[str], str]:

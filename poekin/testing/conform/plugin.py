@@ -23,23 +23,24 @@ import pytest
 from ..laws import LawViolation
 from .grades import GOOD, POOR, Grade
 from .report import Report
-from .run import EXAMPLES, SECONDS, conform
+from .run import SECONDS, conform
 
 
 def held(
     thing: Any,
     laws: Sequence[str] = (),
-    examples: int = EXAMPLES,
+    examples: int | None = None,
     seconds: float = SECONDS,
     at_most: Grade = Grade.GOOD,
+    leave_out: Sequence[str] = (),
 ) -> Report:
     """Hold a subject to the laws, as `run.conform` does, and return the report.
 
-    Parameters: thing, laws, examples, seconds, as of `run.conform`; at_most, the worst `Grade` that is let pass.
+    Parameters: thing, laws, examples, seconds, leave_out, as of `run.conform`; at_most, the worst `Grade` let pass.
     Returns: Report.
     Raises: LawViolation, with every counterexample, where a confirmed grade is worse than `at_most`; as `run.conform`.
     """
-    report = conform(thing, laws, examples, seconds)
+    report = conform(thing, laws, examples, seconds, leave_out=leave_out, at_most=at_most)
     wrong = tuple(outcome for outcome in report.outcomes if outcome.grade > at_most and not outcome.unconfirmed)
     if wrong:
         bound = {Grade.GOOD: GOOD, Grade.POOR: POOR}.get(at_most, 0.0)

@@ -21,10 +21,10 @@ FEW = 100
 class Outcome:
     """One law and one subject.
 
-    grade; worst: the largest size of an error met (inf: no result), of `what`; examples: how many were tried. Of a
-    finding (poor or broken) also the shrunk case with its numbers; its error, `error_of` what, or its fault (a text)
-    where there was no result; the case in words, as Python to paste (`paste`), and what ought to
-    come of it (`expected`, any shape); a hint.
+    grade; worst: the largest size of an error met (inf: no result), of `what`; examples: how many were tried; late:
+    whether there was no time for all of them. Of a finding (poor or broken, or worse than was asked for) also the
+    shrunk case with its numbers; its error, `error_of` what, or its fault (a text) where there was no result; the case
+    in words, as Python to paste (`paste`), and what ought to come of it (`expected`, any shape); a hint.
     unconfirmed: why it is no finding, where its truth did not stand against the second oracle; the grade says nothing
     then.
     """
@@ -44,11 +44,12 @@ class Outcome:
     expected: np.ndarray | None = None
     hint: str = ""
     unconfirmed: str = ""
+    late: bool = False
 
     @property
     def finding(self) -> bool:
         """Whether it is to be printed with its counterexample."""
-        return self.grade >= Grade.POOR and not self.unconfirmed
+        return self.case is not None and not self.unconfirmed
 
     @property
     def numbers(self) -> int:
@@ -64,7 +65,7 @@ class Outcome:
         """Plain data; an infinite error is None."""
         plain: dict[str, Any] = {
             "law": self.law, "says": self.says, "grade": self.word, "worst": self.worst, "of": self.what,
-            "examples": self.examples,
+            "examples": self.examples, "time_ran_out": self.late,
         }  # fmt: skip
         if self.unconfirmed:
             return plain | {"unconfirmed": self.unconfirmed}
@@ -91,6 +92,7 @@ class Outcome:
             lines[1:] = [self.unconfirmed]
         elif not self.finding:
             lines[1] += ", which say little" if self.examples < FEW else ""
+            lines[1] += "; the time ran out" if self.late else ""
         else:
             error = f"{self.error:.2g} of {self.error_of}"
             error = error if np.isfinite(self.error) else f"{self.error_of} is not 0, and must be"
@@ -106,20 +108,26 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Report:
-    """All outcomes of one subject. `conforms`: nothing is poor or broken."""
+    """All outcomes of one subject, and what else is to be known of them.
+
+    notes: laws that it was not held to, names that are none of a subject's, and the like; at_most: the worst grade that
+    conforms.
+    """
 
     subject: str
     outcomes: tuple[Outcome, ...]
+    notes: tuple[str, ...] = ()
+    at_most: Grade = Grade.GOOD
 
     @property
     def findings(self) -> tuple[Outcome, ...]:
-        """The outcomes that are poor or broken, and confirmed."""
+        """The outcomes with a counterexample, which was confirmed: poor, broken, or worse than `at_most`."""
         return tuple(outcome for outcome in self.outcomes if outcome.finding)
 
     @property
     def conforms(self) -> bool:
-        """Whether there are no findings."""
-        return not self.findings
+        """Whether nothing that was confirmed is worse than `at_most`."""
+        return all(outcome.grade <= self.at_most or outcome.unconfirmed for outcome in self.outcomes)
 
     def __getitem__(self, law: str) -> Outcome:
         for outcome in self.outcomes:
@@ -130,11 +138,12 @@ class Report:
     def as_dict(self) -> dict[str, Any]:
         """Plain data, as `poekin conform --json` prints it."""
         laws = [outcome.as_dict() for outcome in self.outcomes]
-        return {"subject": self.subject, "conforms": self.conforms, "laws": laws}
+        return {"subject": self.subject, "conforms": self.conforms, "laws": laws, "notes": list(self.notes)}
 
     def __str__(self) -> str:
         lines, before = [harmless(self.subject, 200)], dict[str, str]()
         for outcome in self.outcomes:
             lines.append(harmless(outcome.told(before), keep="\n"))
             before.setdefault(outcome.paste, outcome.law)
+        lines += [f"note: {harmless(note)}" for note in self.notes]
         return "\n".join(lines)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import time
 from collections.abc import Callable, Sequence
@@ -10,78 +11,129 @@ from typing import Any
 from ...errors import InputError, UnknownName, closest, shown
 from ...model.evaluation import FRAME_NAMES
 from .arm_cases import ARM_LAWS
-from .grades import Grade
+from .calls import UNANSWERED, Undeclared
+from .child import isolated, obstacle
+from .grades import NO_RESULT, Grade
 from .group_cases import GROUP_LAWS
 from .law import Case, Law
+from .limits import Limits
 from .report import Outcome, Report
 from .search import Found, worst
-from .subject import ORDERS, Subject
+from .subject import FUNCTIONS, ORDERS, Subject
 from .urdf_cases import URDF_LAWS
 
 LAWS: tuple[Law, ...] = (*GROUP_LAWS, *ARM_LAWS, *URDF_LAWS)
 """Every law there is, in the order of the report."""
-EXAMPLES, SECONDS = 1000, 50.0
+SECONDS = 600.0
+LIMITS = Limits()
 
 
-def applicable(subject: Subject, names: Sequence[str] = ()) -> list[Law]:
-    """The laws that a subject can be held to; with names, of these only. Returns: a list of `law.Law`.
+def applicable(subject: Subject, names: Sequence[str] = (), leave_out: Sequence[str] = ()) -> list[Law]:
+    """The laws that a subject can be held to; with names, of these only, and without those to `leave_out`.
 
-    Raises: UnknownName for a name that is no law; InputError where none of those named applies.
+    Returns: a list of `law.Law`. Raises: UnknownName for a name that is no law; InputError where one of those named
+    does not apply, or none is left.
     """
-    for name in names:
+    for name in (*names, *leave_out):
         if name not in {law.name for law in LAWS}:
             raise UnknownName(f"there is no law {shown(name)}; {closest(name, [law.name for law in LAWS])}")
-    every = [law for law in LAWS if law.needs in subject.functions and law.applies(subject)]
-    chosen = [law for law in every if not names or law.name in names]
+    every = [law for law in LAWS if not reason(law, subject)]
+    those = f"those that do: {', '.join(law.name for law in every)}"
+    for law in LAWS:
+        if law.name in names and law not in every:
+            raise InputError(f"{subject.title}: the law {law.name} does not apply: {reason(law, subject)}; {those}")
+    chosen = [law for law in every if (not names or law.name in names) and law.name not in leave_out]
     if not chosen:
-        raise InputError(
-            f"{subject.title}: none of these laws applies; those that do: {', '.join(x.name for x in every)}"
-        )
+        raise InputError(f"{subject.title}: no law that applies is left; {those}")
     return chosen
+
+
+def reason(law: Law, subject: Subject) -> str:
+    """Why a subject is not held to a law; "" where it is."""
+    if law.needs not in subject.functions:
+        return f"there is no {law.needs}"
+    return "" if law.applies(subject) else law.unless
+
+
+def remarks(subject: Subject, laws: Sequence[str], leave_out: Sequence[str]) -> list[str]:
+    """What a subject is not held to, where nobody chose the laws, and which of its names are known to no law."""
+    notes = [f"left out, as asked for: {', '.join(leave_out)}"] if leave_out else []
+    notes += subject.misspelt
+    if laws:
+        return notes
+    absent = [name for name in FUNCTIONS if name not in subject.functions]
+    if absent:
+        notes.append(f"no law of what is not there: {', '.join(absent)}")
+    undeclared: dict[str, list[str]] = {}
+    for law in LAWS:
+        if law.needs in subject.functions and not law.applies(subject):
+            undeclared.setdefault(law.unless, []).append(law.name)
+    notes += [f"{why}, so there is no law of {', '.join(names)}" for why, names in undeclared.items()]
+    return notes
 
 
 def conform(
     thing: Any,
     laws: Sequence[str] = (),
-    examples: int = EXAMPLES,
+    examples: int | None = None,
     seconds: float = SECONDS,
     say: Callable[[int, int, str], object] = lambda done, total, name: None,
+    *,
+    leave_out: Sequence[str] = (),
+    at_most: Grade = Grade.GOOD,
+    limits: Limits | None = LIMITS,
 ) -> Report:
     """Hold a subject (`subject`) to the laws, and report each with a grade (`grades`).
 
     Parameters: thing, a class or object of functions, or "MODULE:NAME" of one; laws, names, or one name, all that apply
-    by default; examples of each law at most; seconds for all of them together, shrinking (half a minute a finding at
-    most) and confirming not counted; say(done, total, law), of progress. Returns: Report. The same cases in every run,
-    as many as there is time for, and ten of each law at least.
+    by default; examples of each law, by default as many as are its own, so that a grade does not depend on the
+    machine; seconds for all laws together, shrinking (half a minute a finding at most) and confirming not counted: a
+    law for which they do not suffice is graded by ten examples at least, and the report says so; say(done, total,
+    law), of progress; leave_out, names of laws that it is not held to; at_most, the worst `Grade` that conforms;
+    limits, of each call in a process of its own (`limits.Limits`), or None for calls in this one.
+    Returns: Report, of the same cases in every run.
     Every finding was confirmed by the second oracle (`confirm`).
-    Raises: InputError for a subject that cannot be used or does not declare what is needed; UnknownName for a law that
-    does not exist.
+    Raises: InputError for a subject that cannot be used or does not declare what is needed, and for laws that do not
+    apply; UnknownName for a law that does not exist.
     """
-    if examples < 1 or not seconds > 0:
+    if (examples is not None and examples < 1) or not seconds > 0:
         raise InputError(f"examples ≥ 1 and seconds > 0 expected, got {examples} and {seconds}")
-    subject = Subject(thing)
-    chosen = applicable(subject, [laws] if isinstance(laws, str) else laws)
-    left, outcomes = float(seconds), []
-    for done, law in enumerate(chosen):
-        say(done, len(chosen), law.name)
-        start = time.monotonic()
-        found = worst(law, subject, examples, left / (len(chosen) - done))
-        left = max(left - (time.monotonic() - start), 0.1)
-        outcomes.append(outcome(law, subject, found))
-    return Report(subject.label, tuple(outcomes))
+    laws, leave_out = ([names] if isinstance(names, str) else names for names in (laws, leave_out))
+    here = obstacle(thing) if limits else ""
+    with contextlib.nullcontext(Subject(thing)) if here or not limits else isolated(thing, limits.checked()) as subject:
+        chosen = applicable(subject, laws, leave_out)
+        left, outcomes = float(seconds), []
+        for done, law in enumerate(chosen):
+            say(done, len(chosen), law.name)
+            start = time.monotonic()
+            try:
+                found = worst(law, subject, examples or law.examples, left / (len(chosen) - done), at_most)
+            except Undeclared as error:
+                outcomes.append(Outcome(law.name, law.says, Grade.EXACT, 0.0, NO_RESULT, 0, unconfirmed=str(error)))
+                continue
+            left = max(left - (time.monotonic() - start), 0.1)
+            outcomes.append(outcome(law, subject, found))
+    notes = remarks(subject, laws, leave_out)
+    late = [outcome.law for outcome in outcomes if outcome.late]
+    if late:
+        notes.append(f"the time ran out: fewer examples than there should be of {', '.join(late)}")
+    if here:
+        notes.append(f"run in this process, with no limit on its calls: {here}; MODULE:CLASS is run in its own")
+    return Report(subject.label, tuple(outcomes), tuple(notes), at_most)
 
 
 def outcome(law: Law, subject: Subject, found: Found) -> Outcome:
     """What is reported of a hunt: a finding only where the two oracles agree on what is exact."""
     verdict, case = found.verdict, found.shrunk
     if case is None:
-        return Outcome(law.name, law.says, verdict.grade, verdict.size, verdict.what, found.examples)
-    again = law.check(subject, case)
+        return Outcome(law.name, law.says, verdict.grade, verdict.size, verdict.what, found.examples, late=found.late)
+    # Who did not answer was asked again while it was shrunk.
+    again = verdict if verdict.fault.startswith(UNANSWERED) else law.check(subject, case)
     steady = again.grade >= verdict.grade
     fault, hint = again.fault, ""
     if not law.about(case):
         hint = "nothing that this law is about is in it: what is wrong is something else"
-    elif steady and again.grade is Grade.BROKEN:
+    elif steady and again.grade is Grade.BROKEN and not again.ended:
         hint = _declared_otherwise(law, subject, found.case, case)
     if not steady:
         fault = f"another result from one call to the next: {verdict.grade.word} once, then {again.grade.word}"
@@ -90,7 +142,7 @@ def outcome(law: Law, subject: Subject, found: Found) -> Outcome:
     return Outcome(
         law.name, law.says, max(verdict.grade, again.grade), worst.size, worst.what, found.examples,
         again.size, again.what, fault, case, display.words, display.paste, display.expected, hint,
-        "" if law.confirm(subject, case) else "the two oracles do not agree on the exact result",
+        "" if law.confirm(subject, case) else "the two oracles do not agree on the exact result", found.late,
     )  # fmt: skip
 
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from ...errors import InputError
 from ..hunting import repeatable
+from .calls import UNANSWERED
 from .grades import Grade, Verdict
 from .law import Case, Law
 from .shrink import shrunk
@@ -22,32 +23,39 @@ LEAST = 10
 """So many examples are tried however long they take."""
 SHRINKING = 30.0
 """Seconds that shrinking may take."""
+SHORT = 2.0
+"""Seconds after which a call that is not answered is given up while shrinking."""
 
 
 class Found(NamedTuple):
-    """How many cases of a law were tried, the worst one, its verdict, and the shrunk case where it is a finding."""
+    """How many cases of a law were tried, the worst one, its verdict, and the shrunk case where it is a finding.
+
+    late: whether there was no time for the others.
+    """
 
     examples: int
     case: Case
     verdict: Verdict
     shrunk: Case | None = None
+    late: bool = False
 
 
 class _Over(Exception):
     """The time is up, or enough was seen."""
 
 
-def worst(law: Law, subject: Subject, examples: int, seconds: float) -> Found:
-    """Hunt the worst case, towards larger errors, and shrink it where its grade is poor or broken (`simplest`)."""
-    end, count = time.monotonic() + seconds, 0
+def worst(law: Law, subject: Subject, examples: int, seconds: float, at_most: Grade = Grade.GOOD) -> Found:
+    """Hunt the worst case, towards larger errors; shrink it where it is poor or broken, or worse than `at_most`."""
+    end, count, late = time.monotonic() + seconds, 0, False
     top: tuple[Case, Verdict] | None = None
 
     @repeatable(examples)
     @given(law.cases(subject))
     def one(case: Case) -> None:
-        nonlocal count, top
+        nonlocal count, late, top
+        late = late or (time.monotonic() > end and count >= LEAST)
         broken = top is not None and top[1].grade is Grade.BROKEN
-        if (time.monotonic() > end and count >= LEAST) or (broken and count >= ENOUGH):
+        if late or (broken and count >= ENOUGH) or (top and top[1].ended):
             raise _Over
         verdict = law.check(subject, case)
         count += 1
@@ -62,9 +70,8 @@ def worst(law: Law, subject: Subject, examples: int, seconds: float) -> Found:
     if top is None:
         raise InputError(f"{law.name}: no case of this law could be drawn")
     case, verdict = top
-    if verdict.grade < Grade.POOR:
-        return Found(count, case, verdict)
-    return Found(count, case, verdict, simplest(law, subject, case, verdict))
+    wrong = verdict.grade > min(at_most, Grade.GOOD)
+    return Found(count, case, verdict, simplest(law, subject, case, verdict) if wrong else None, late)
 
 
 def simplest(law: Law, subject: Subject, case: Case, verdict: Verdict) -> Case:
@@ -79,4 +86,9 @@ def simplest(law: Law, subject: Subject, case: Case, verdict: Verdict) -> Case:
         return time.monotonic() < end and law.check(subject, other).manner == verdict.manner
 
     own = law._replace(allowed=lambda other: law.allowed(other) and law.about(other))
-    return shrunk(law, shrunk(own, case, fails), fails)
+    if not verdict.fault.startswith(UNANSWERED):
+        return shrunk(law, shrunk(own, case, fails), fails)
+    with subject.own.within(SHORT):
+        small = shrunk(law, shrunk(own, case, fails), fails)
+    # What takes longer than that may still be answered.
+    return small if law.check(subject, small).manner == verdict.manner else case

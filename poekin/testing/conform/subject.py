@@ -31,7 +31,7 @@ A function that writes into an argument is broken: an array is its caller's.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -41,6 +41,7 @@ from ...groups import se3
 from ...model.chain import Chain
 from ...model.evaluation import FRAME_NAMES
 from .calls import made, real, untouched
+from .misspelt import misspelt
 from .named import Source, loaded, source
 
 ORDERS = ("angular first", "linear first")
@@ -50,6 +51,7 @@ SE3 = ("exp", "log", "adjoint", *JACOBIANS)
 ARMS = ("fk", "jacobian")
 PARAMETERS = {"so3_log": "R", "log": "T", "adjoint": "T", "read_urdf": "text, base, tip", "read_robot": "text"}
 FUNCTIONS = (*SO3, *SE3, *ARMS, "read_urdf", "read_robot")
+DECLARATIONS = ("twist_order", "jacobian_frame", "arm", "batch", "helical", "noise", "name", "version", "paste")
 
 Function = Callable[..., Any]
 
@@ -73,11 +75,14 @@ class Subject:
             if fault:
                 raise InputError(f"{self.title} cannot be made as {self.title}(): {fault}")
         self.functions = tuple(name for name in FUNCTIONS if callable(self._attribute(name)))
+        self.misspelt = misspelt(self.own, (*FUNCTIONS, *DECLARATIONS))
         if not self.functions:
-            raise InputError(f"{self.title} has none of the functions of a subject: {', '.join(FUNCTIONS)}")
+            names = "; ".join([", ".join(FUNCTIONS), *self.misspelt])
+            raise InputError(f"{self.title} has none of the functions of a subject: {names}")
         self.name = str(self._attribute("name") or self.title)
         self.version = str(self._attribute("version") or "")
         self.noise = self._noise()
+        self.pastes = self._pastes()
         self.batch, self.helical = self._flag("batch"), self._flag("helical")
         self.arm: Chain | None = self._attribute("arm")
         if not isinstance(self.arm, Chain | None):
@@ -93,6 +98,16 @@ class Subject:
         self.linear_first = bool(twisted) and self._declared("twist_order", ORDERS, twisted[0]) == "linear first"
         framed = read or "jacobian" in self.functions
         self.frame = self._declared("jacobian_frame", FRAME_NAMES, "jacobian") if framed else ""
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What another process is told of a subject: all but the subject itself.
+        return {key: value for key, value in vars(self).items() if key != "own"}
+
+    def _pastes(self) -> dict[str, str]:
+        value = self._attribute("paste")
+        if not isinstance(value, Mapping | None):
+            raise InputError(f"{self.title}: paste: expected a text for each function, got {told(value)}")
+        return {str(name): str(text) for name, text in (value or {}).items()}
 
     def _attribute(self, name: str) -> Any:
         value, fault = made(lambda: getattr(self.own, name, None))
@@ -201,7 +216,7 @@ class Subject:
 
         Parameters: name, of the function; arguments, Python texts by their names. Returns: the text.
         """
-        text = getattr(self.own, "paste", {}).get(name)
+        text = self.pastes.get(name)
         if text is not None:
             lines = [f"{key} = {value}" for key, value in arguments.items()]
             return "; ".join(["import numpy as np", *lines, str(text)])

@@ -170,6 +170,7 @@ def _law(
         _vectors_too if axis is _long_axis else small_urdf.triples,
         (lambda case: ()) if axis is _long_axis else small_urdf.axes,
         _allowed(axis, largest), lambda subject: not jacobian or bool(subject.frame), about,
+        "jacobian_frame is not declared",
     )  # fmt: skip
 
 

@@ -84,8 +84,12 @@ def test_a_law_that_does_not_exist_or_apply_is_refused():
         conform(Poekin, ["so3_expp"])
     with pytest.raises(UnknownName, match=r"no law 'so3_expp'"):
         conform(Poekin, "so3_expp")
-    with pytest.raises(InputError, match=r"none of these laws applies; those that do: so3_exp"):
+    with pytest.raises(InputError, match=r"Mine: the law log does not apply: there is no log; those that do: so3_exp"):
         conform(kind(so3_exp=one), ["log"])
+    with pytest.raises(InputError, match=r"Mine: no law that applies is left"):
+        conform(kind(so3_exp=one), leave_out="so3_exp")
+    with pytest.raises(UnknownName, match=r"no law 'so3'"):
+        conform(kind(so3_exp=one), leave_out=["so3"])
     with pytest.raises(InputError, match=r"examples ≥ 1 and seconds > 0 expected"):
         conform(Poekin, seconds=0)
 
