@@ -26,11 +26,15 @@ class Case(NamedTuple):
 
 
 class Shown(NamedTuple):
-    """A case for people: in words, as Python to paste, and what ought to come of it (None where it is no one array)."""
+    """A case for people: in words, as Python to paste, and what ought to come of it (None where it is no one array).
+
+    names: of the coordinates that a URDF has to be read with, which the Python prints first.
+    """
 
     words: str
     paste: str
     expected: np.ndarray | None
+    names: tuple[str, ...] = ()
 
 
 def nothing_simpler(case: Case) -> Iterable[Case]:

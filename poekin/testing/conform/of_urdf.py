@@ -85,19 +85,23 @@ def confirmed(case: Case, jacobian: bool = False, links: Iterable[int] = (small_
 
 
 def show(subject: Subject, case: Case, function: str) -> Shown:
-    """The URDF and the values of its joints, as Python; the function is fk, jacobian or poses, of what was read."""
+    """The URDF and the values of its joints, as Python; the function is fk, jacobian or poses, of what was read.
+
+    The names that were read are printed as well: the pose is the exact one where only a name is wrong or missing.
+    """
     values, text = small_urdf.coordinates(case), small_urdf.text(case)
     links = [small_urdf.link(case, k) for k in range(len(small_urdf.rows_of(case)))]
     whole = function == "poses"
     read = f"read_robot({text!r})" if whole else f"read_urdf({text!r}, 'base', 'tip')"
     lines = [
         "import numpy as np", *subject.source.lines, f"read = {subject.source.made}.{read}",
-        f"q = np.array([{values!r}.get(name, 0.0) for name in read.names])",
+        "print(list(read.names))", f"q = np.array([{values!r}.get(name, 0.0) for name in read.names])",
         printed(f"[read.poses(q)[link] for link in {links!r}]" if whole else f"read.{function}(q)"),
     ]  # fmt: skip
     arms = [small_urdf.arm(case, k)[:2] for k in (range(len(links)) if whole else [small_urdf.TIP])]
     expected = np.array([arm_cases.truth(subject, arm, q, function == "jacobian") for arm, q in arms])
-    return Shown(f"q = {values}, {_words(case)}", "; ".join(lines), expected if whole else expected[0])
+    names = tuple(values) if whole else tuple(small_urdf.arm(case)[2])
+    return Shown(f"q = {values}, {_words(case)}", "; ".join(lines), expected if whole else expected[0], names)
 
 
 def _words(case: Case) -> str:

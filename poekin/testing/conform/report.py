@@ -24,7 +24,8 @@ class Outcome:
     grade; worst: the largest size of an error met (inf: no result), of `what`; examples: how many were tried; late:
     whether there was no time for all of them. Of a finding (poor or broken, or worse than was asked for) also the
     shrunk case with its numbers; its error, `error_of` what, or its fault (a text) where there was no result; the case
-    in words, as Python to paste (`paste`), and what ought to come of it (`expected`, any shape); a hint.
+    in words, as Python to paste (`paste`), and what ought to come of it (`expected`, any shape; `names`, those that a
+    URDF has to be read with); a hint.
     unconfirmed: why it is no finding, where its truth did not stand against the second oracle; the grade says nothing
     then.
     """
@@ -45,6 +46,7 @@ class Outcome:
     hint: str = ""
     unconfirmed: str = ""
     late: bool = False
+    names: tuple[str, ...] = ()
 
     @property
     def finding(self) -> bool:
@@ -73,7 +75,7 @@ class Outcome:
             plain |= {"error": self.error, "error_of": self.error_of, "fault": self.fault}
             plain |= {"counterexample": self.words, "python": self.paste}
             plain |= {"numbers": [] if self.case is None else self.case.numbers, "expected": self.expected}
-            plain |= {"hint": self.hint}
+            plain |= {"names": list(self.names), "hint": self.hint}
         return plain
 
     def __str__(self) -> str:
@@ -100,7 +102,8 @@ class Outcome:
             if self.paste in before:
                 lines.append(f"# the Python is that of {before[self.paste]}, above")
             else:
-                exact = [] if self.expected is None else [f"# exact: {(self.expected + 0.0).tolist()}"]
+                exact = [f"# names: {', '.join(self.names)}, or more"] if self.names else []
+                exact += [] if self.expected is None else [f"# exact: {(self.expected + 0.0).tolist()}"]
                 lines += [self.paste, *exact]
             lines += [self.hint] if self.hint else []
         return f"{self.word:10} {self.law}: " + "\n           ".join(lines)

@@ -143,6 +143,7 @@ def outcome(law: Law, subject: Subject, found: Found) -> Outcome:
         law.name, law.says, max(verdict.grade, again.grade), worst.size, worst.what, found.examples,
         again.size, again.what, fault, case, display.words, display.paste, display.expected, hint,
         "" if law.confirm(subject, case) else "the two oracles do not agree on the exact result", found.late,
+        display.names,
     )  # fmt: skip
 
 

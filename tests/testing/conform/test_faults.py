@@ -54,7 +54,7 @@ def test_a_counterexample_runs_where_it_is_pasted_and_shows_the_error(letter):
     with contextlib.redirect_stdout(printed):
         exec(outcome.paste, {})
     assert outcome.expected is not None
-    error = np.linalg.norm(np.array(json.loads(printed.getvalue())) - outcome.expected)
+    error = np.linalg.norm(np.array(json.loads(printed.getvalue().splitlines()[-1])) - outcome.expected)
     # A part of the error, in proportion to a length, is not the whole.
     assert error > 0.1 * outcome.error
 
@@ -260,6 +260,27 @@ def test_the_same_counterexample_is_printed_once():
     text = str(Report("x", (first, dataclasses.replace(first, law="again"))))
     assert text.count("read_urdf(") == 1
     assert text.endswith("# the Python is that of urdf, above")
+
+
+class RenamesJoints(_Reader):
+    """Reads a joint j1 as joint1, and its pose as it is."""
+
+    def read_urdf(self, text, base, tip):
+        read = super().read_urdf(text, base, tip)
+        read.names = tuple(name.replace("j1", "joint1") for name in read.names)
+        return read
+
+
+def test_what_is_wrong_with_names_alone_is_printed_by_the_python_to_paste():
+    (outcome,) = conform(RenamesJoints, ["urdf order"], examples=15).findings
+    assert outcome.fault.startswith("no coordinate j1 among those read: ")
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(outcome.paste, {})
+    assert "joint1" in printed.getvalue().splitlines()[0]
+    assert "j1" in outcome.names
+    assert "# names: " in str(outcome)
+    assert outcome.as_dict()["names"] == list(outcome.names)
 
 
 @pytest.mark.parametrize(
