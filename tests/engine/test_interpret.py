@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from poekin.engine import interpret
 from poekin.testing import chain_strategies
+from tests.model.test_compiled import near
 
 
 @settings(max_examples=max(settings().max_examples // 3, 20))
@@ -19,12 +20,9 @@ def test_a_program_run_by_statements_is_the_chain(data):
     q = data.draw(chain_strategies.coordinates(chain, (3,)))
     outputs = interpret.evaluate(chain.compile().program(frame, pose=True), q)
     T, J = chain.fk_jacobian(q, frame)
-    # what `Chain.fk` promises, once for each side
-    x = np.abs(q @ chain.coupling.T + chain.offset).sum(axis=1).max()
-    within = 2 * 2.0**-53 * (8 * (len(chain.kinds) + 1) + 4 * x) * chain.reach
     wanted = np.concatenate([T[:, :3, :3].reshape(3, 9), T[:, :3, 3], J.reshape(3, -1)], axis=1)
     assert outputs.shape == wanted.shape
-    assert np.abs(outputs - wanted).max() <= within
+    assert np.abs(outputs - wanted).max() <= near(chain, q) * chain.reach
 
 
 @pytest.mark.parametrize("size", [0, 1, 2])

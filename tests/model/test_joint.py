@@ -39,11 +39,13 @@ def test_an_axis_of_any_length_becomes_a_unit_vector_in_its_direction(vector):
             joint(axis=vector)
         return
     axis = joint(axis=vector).axis
-    assert abs(math.hypot(*axis) - 1) <= 1e-15
+    # u = 2^-53: a quotient by the largest, the length and the quotient by it are four roundings of each entry, and of
+    # its squares; the length of what comes out has three of its own
+    assert abs(math.hypot(*axis) - 1) <= 8 * 2.0**-53
     assert joint(axis=axis).axis == axis
     largest = max(map(abs, vector))
     exact = np.array(vector) / largest
-    assert np.abs(np.array(axis) - exact / math.hypot(*exact)).max() <= 4e-16
+    assert np.abs(np.array(axis) - exact / math.hypot(*exact)).max() <= 2 * 4 * 2.0**-53
 
 
 def test_an_origin_slightly_off_is_replaced_by_the_nearest_rotation():

@@ -70,11 +70,33 @@ def size(robot: Robot) -> float:
     return 1 + sum(np.abs(joint.origin[:3, 3]).sum() + 10 for joint in robot.joints)
 
 
+def rounding(robot: Robot, q: dict[str, float]) -> float:
+    """What two ways of computing poses of a robot may differ by, lengths ÷ `size`; u = 2^-53, X the sum of all |x|.
+
+    Each joint's e^{S x} by SciPy is off by 8 u (1 + |x|), as its scaling by powers of 2 squares |S x| times; a product
+    of two poses by 8 u; a chain's own pose by u (8 (n + 1) + 4 X). A value composed of multipliers and offsets is off
+    by u times the sum of their absolute values, counted in X, for each of n mimics in a row. To see one link from
+    another takes an inverse, and both of their poses: twice.
+    """
+
+    def most(joint: Joint) -> float:
+        """The value, had all its parts one sign."""
+        if joint.kind in ("fixed", *FREE):
+            return 0.0
+        if joint.mimic is None:
+            return abs(q[joint.name])
+        return abs(joint.mimic.multiplier) * most(robot.joint(joint.mimic.joint)) + abs(joint.mimic.offset)
+
+    n, X = len(robot.joints), sum(map(most, robot.joints))
+    slides = sum(most(joint) for joint in robot.joints if joint.kind in ("prismatic", "helical"))
+    return 2 * 2.0**-53 * (24 * (n + 1) + (12 + n) * X) * (1 + slides / size(robot))
+
+
 def worst_link_error(robot: Robot, subject: Robot, seed: int) -> float:
-    """How far the subject's link poses are from those that the definition gives for the robot."""
+    """How far the subject's link poses are from those that the definition gives for the robot, ÷ `rounding`."""
     q = random_q(robot, seed)
     expected, found = naive_poses(robot, q), subject.fk({name: q.get(name, 0.0) for name in subject.q_names})
-    return max(np.abs(found[link] - expected[link]).max() for link in robot.links) / size(robot)
+    return max(np.abs(found[link] - expected[link]).max() for link in robot.links) / size(robot) / rounding(robot, q)
 
 
 def worst_chain_error(robot: Robot, subject: Robot, seed: int) -> float:
@@ -86,7 +108,7 @@ def worst_chain_error(robot: Robot, subject: Robot, seed: int) -> float:
         chain = subject.chain(base, tip)
         T = chain.fk({name: q.get(name, 0.0) for name in chain.q_names})
         worst = max(worst, np.abs(T - inverse(expected[base]) @ expected[tip]).max())
-    return worst / size(robot)
+    return worst / size(robot) / rounding(robot, q)
 
 
 seeds = st.integers(0, 2**32 - 1)
@@ -94,12 +116,12 @@ seeds = st.integers(0, 2**32 - 1)
 
 @given(robot=robots(), seed=seeds)
 def test_link_poses_are_those_of_the_definition(robot, seed):
-    assert worst_link_error(robot, robot, seed) <= 1e-13
+    assert worst_link_error(robot, robot, seed) <= 1
 
 
 @given(robot=robots(max_joints=5), seed=seeds)
 def test_a_chain_runs_between_any_two_links_in_either_direction(robot, seed):
-    assert worst_chain_error(robot, robot, seed) <= 1e-13
+    assert worst_chain_error(robot, robot, seed) <= 1
 
 
 def two_arms() -> Robot:
@@ -143,8 +165,8 @@ PLANTED = {
 @pytest.mark.parametrize("wrong", PLANTED.values(), ids=PLANTED)
 @pytest.mark.parametrize("law", [worst_link_error, worst_chain_error])
 def test_planted_errors_are_found(law, wrong):
-    assert law(two_arms(), two_arms(), 1) <= 1e-14
-    assert law(two_arms(), wrong, 1) > 1e-9
+    assert law(two_arms(), two_arms(), 1) <= 1
+    assert law(two_arms(), wrong, 1) > 1e4
 
 
 @given(robot=robots(max_joints=5), data=st.data())
@@ -164,7 +186,9 @@ def test_floating_and_planar_joints_are_where_poses_says_and_at_identity_otherwi
     for given_poses in ({}, dict.fromkeys(free, T), dict.fromkeys(free[:1], T)):
         expected, found = naive_poses(robot, q, given_poses), robot.fk(q, given_poses)
         for link in robot.links:
-            assert np.abs(found[link] - expected[link]).max() <= 1e-13 * (size(robot) + 20)
+            # one more product a free joint, of poses of up to 2 m
+            within = (size(robot) + 2 * len(free)) * (rounding(robot, q) + 16 * 2.0**-53 * len(free))
+            assert np.abs(found[link] - expected[link]).max() <= within
 
 
 def test_a_batch_of_configurations_meets_a_batch_of_poses():
