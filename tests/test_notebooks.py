@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import runpy
 import sys
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import pytest
 from jupyter_client.kernelspec import KernelSpec, KernelSpecManager
 from jupyter_client.manager import AsyncKernelManager
 from nbclient.exceptions import CellExecutionError
+from traitlets.config import Config
 
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
@@ -103,6 +105,23 @@ def test_benchmarks_are_those_of_the_notebook_s_own_checkout(file, checkout):
     book = notebook(f"{finding}\nimport benchmarks\nprint(benchmarks.__file__)")
     assert faults_in_a_run(book, checkout / "notebooks") == []
     assert book.cells[0].outputs[0].text.startswith(str(checkout))
+
+
+@pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda f: f.name)
+def test_the_formulas_of_a_page_need_no_network(file):
+    config = Config()
+    runpy.run_path(str(ROOT / "notebooks" / "pages.py"), {"get_config": lambda: config})
+    (mathml,) = config.HTMLExporter.preprocessors
+    before = nbformat.read(file, as_version=4)
+    after, _ = mathml(nbformat.read(file, as_version=4), {})
+    for old, new in zip(before.cells, after.cells, strict=True):
+        if old.cell_type == "code":
+            assert new == old
+        else:
+            assert "$" not in re.sub(r"`[^`]*`", "", new.source)
+            drawn = new.source.count("<math"), new.source.count("</math>")
+            assert drawn == (old.source.replace("$$", "$").count("$") // 2,) * 2
+    assert config.HTMLExporter.mathjax_url == ""
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda f: f.name)
