@@ -120,8 +120,12 @@ def directions(case: Case) -> Iterable[int]:
     return range(0, EACH * len(_kinds(case)), EACH)
 
 
-def _of(subject: Subject, case: Case) -> tuple[Any, np.ndarray]:
-    return drawn(case) if subject.arm is None else (subject.arm, case.numbers)
+def _of(subject: Subject, name: str, case: Case) -> tuple[Any, np.ndarray]:
+    if subject.arm is not None:
+        return subject.arm, case.numbers
+    arm, q = drawn(case)
+    rounded = subject.precision(name).rounded
+    return of_arms.arm(rounded(arm.screws), rounded(arm.home)), q
 
 
 def _arguments(subject: Subject, arm: Any) -> tuple[np.ndarray, ...]:
@@ -129,22 +133,24 @@ def _arguments(subject: Subject, arm: Any) -> tuple[np.ndarray, ...]:
 
 
 def _check_fk(subject: Subject, case: Case) -> Verdict:
-    arm, q = _of(subject, case)
+    arm, q = _of(subject, "fk", case)
     first = _arguments(subject, arm)
     return of_arms.fk_is_the_product_of_exponentials(
-        lambda q: subject.plain("fk")(*map(np.array, first), q), arm, q, Grade.BROKEN
+        lambda q: subject.plain("fk")(*map(np.array, first), q), arm, q, Grade.BROKEN, subject.precision("fk")
     )
 
 
 def _check_jacobian(subject: Subject, case: Case) -> Verdict:
-    arm, q = _of(subject, case)
+    arm, q = _of(subject, "jacobian", case)
     first = _arguments(subject, arm)
 
     def jacobian(q: np.ndarray) -> np.ndarray:
         J = real(subject.plain("jacobian")(*map(np.array, first), q))
         return subject.rows(J) if J.ndim == 2 and len(J) == 6 else J
 
-    return of_arms.jacobian_is_the_derivative(jacobian, subject.frame, arm, q, Grade.BROKEN)
+    return of_arms.jacobian_is_the_derivative(
+        jacobian, subject.frame, arm, q, Grade.BROKEN, subject.precision("jacobian")
+    )
 
 
 def confirmed(arm: Any, q: np.ndarray, jacobian: bool) -> bool:
@@ -157,7 +163,7 @@ def confirmed(arm: Any, q: np.ndarray, jacobian: bool) -> bool:
 
 
 def _show(name: str, subject: Subject, case: Case) -> Shown:
-    arm, q = _of(subject, case)
+    arm, q = _of(subject, name, case)
     values = [f"np.array({typed(x)})" for x in (*_arguments(subject, arm), q)]
     names = ["q"] if len(values) == 1 else ["screws", "home", "q"]
     words = f"q = {typed(q)}"
@@ -191,7 +197,7 @@ def _law(function: str, says: str, check: Callable[[Subject, Case], Verdict], he
 
     return Law(
         f"{function} helical" if helical else function, says, function, lambda subject: cases(subject, kinds), check,
-        lambda subject, case: confirmed(*_of(subject, case), jacobian),
+        lambda subject, case: confirmed(*_of(subject, function, case), jacobian),
         lambda subject, case: _show(function, subject, case), simpler, triples, directions, allowed,
         lambda subject: not helical or (subject.helical and subject.arm is None), about,
         "helical = True is not declared, or an arm is", 150,

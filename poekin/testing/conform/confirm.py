@@ -48,13 +48,13 @@ def is_log(X: np.ndarray, truth: np.ndarray) -> bool:
     return bool(sound and _mp.norm([_mp.mpf(w) for w in truth[:3]]) <= _mp.pi * (1 + AGREE))
 
 
-def of_adjoint(T: np.ndarray) -> bool:
-    """Whether T [ξ] = [Ad(T) ξ] T for each unit twist ξ, to 14 digits: T is a pose to no more."""
+def of_adjoint(T: np.ndarray, within: float = 1e-14) -> bool:
+    """Whether T [ξ] = [Ad(T) ξ] T for each unit twist ξ, to 14 digits, or `within`: T is a pose to no more."""
     X, Ad = _matrix(exact.exactly(T)), exact.adjoint(T)
     # T's rotation is one only to rounding, and so is the identity.
     scale = 1 + _largest(X)
     error = max(_largest(X * _hat(e) - _hat(Ad[:, k]) * X) for k, e in enumerate(np.eye(6)))
-    return bool(error < 1e-14 * scale**2)
+    return bool(error < within * scale**2)
 
 
 def of_jacobian(name: str, xi: np.ndarray) -> bool:

@@ -5,6 +5,8 @@
     poor     ≤ 1e-6
     broken   worse; NaN or infinite; an exception; a wrong shape
 
+Of a subject in float32: 3 × what float32 can attain, 1e-5, and 1e-3 (`precision`).
+
 Rotations are judged by their angle in rad (‖ΔR‖ ÷ √2, Frobenius); rotation vectors and 3×3 blocks are taken as they
 are; translations, v and Q blocks in proportion to the lengths that went in. Which of two signs at π, or which branch,
 is an error like any other.
@@ -21,8 +23,8 @@ from typing import NamedTuple
 from ..accuracy_laws import EXP_LOG_BAR
 from ..laws import LawViolation
 from .calls import ENDED, LOST, UNANSWERED
+from .precision import DOUBLE, Precision
 
-GOOD, POOR = 1e-10, 1e-6
 NO_RESULT = "no result"
 """What a verdict is of where there is nothing to measure."""
 
@@ -42,7 +44,7 @@ class Grade(enum.IntEnum):
 
 
 class Part(NamedTuple):
-    """One measured error: what it is of, its size, the scale it is in proportion to, and what float64 can attain.
+    """One measured error: what it is of, its size, the scale it is in proportion to, and what floats can attain.
 
     `attainable` is called only where `error` exceeds 3 × `least`, a lower bound of it that costs nothing.
     """
@@ -52,6 +54,7 @@ class Part(NamedTuple):
     scale: float
     least: float
     attainable: Callable[[], float]
+    precision: Precision = DOUBLE
 
     @property
     def size(self) -> float:
@@ -69,7 +72,9 @@ class Part(NamedTuple):
         """Of this error alone; NaN is broken."""
         if self.error <= self.bound:
             return Grade.EXACT
-        return Grade.GOOD if self.size <= GOOD else Grade.POOR if self.size <= POOR else Grade.BROKEN
+        if self.size <= self.precision.good:
+            return Grade.GOOD
+        return Grade.POOR if self.size <= self.precision.poor else Grade.BROKEN
 
 
 class Verdict(NamedTuple):
@@ -109,7 +114,8 @@ def judged(law: str, parts: Sequence[Part] | str, at_most: Grade = Grade.BROKEN,
     else:
         worst = max(parts, key=lambda part: (part.grade, part.size))
         verdict = Verdict(worst.grade, worst.size, worst.what)
-        error, bound = worst.size, {Grade.GOOD: GOOD, Grade.POOR: POOR}.get(at_most, 0.0)
+        ends = {Grade.GOOD: worst.precision.good, Grade.POOR: worst.precision.poor}
+        error, bound = worst.size, ends.get(at_most, 0.0)
         if at_most is Grade.EXACT:
             error, bound = worst.error, worst.bound
     if verdict.grade > at_most:

@@ -46,8 +46,8 @@ def _takes_element(name: str) -> bool:
     return name.endswith("log") or name == "adjoint"
 
 
-def _argument(name: str, xi: np.ndarray) -> np.ndarray:
-    return element(xi) if _takes_element(name) else xi
+def _argument(subject: Subject, name: str, xi: np.ndarray) -> np.ndarray:
+    return subject.precision(name).rounded(element(xi)) if _takes_element(name) else xi
 
 
 def _checked(name: str) -> Checked:
@@ -61,19 +61,21 @@ def _checked(name: str) -> Checked:
     }[plain]
 
 
-def _confirmed(name: str, xi: np.ndarray) -> bool:
+def _confirmed(subject: Subject, name: str, xi: np.ndarray) -> bool:
     plain = name.removeprefix("so3_")
     if plain in JACOBIANS:
         return confirm.of_jacobian(plain, xi)
     if plain == "exp":
         return confirm.of_exp(xi)
-    X = element(xi)
+    X = _argument(subject, name, xi)
     # The argument itself stands on exp: it is confirmed too.
-    return confirm.of_exp(xi) and (confirm.of_log(X) if plain == "log" else confirm.of_adjoint(X))
+    return confirm.of_exp(xi) and (
+        confirm.of_log(X) if plain == "log" else confirm.of_adjoint(X, 100 * subject.precision(name).unit)
+    )
 
 
-def _truth(name: str, xi: np.ndarray) -> np.ndarray:
-    return exact.rounded(getattr(exact, name.removeprefix("so3_"))(_argument(name, xi)))
+def _truth(subject: Subject, name: str, xi: np.ndarray) -> np.ndarray:
+    return exact.rounded(getattr(exact, name.removeprefix("so3_"))(_argument(subject, name, xi)))
 
 
 def _in_order(subject: Subject, name: str, x: np.ndarray) -> np.ndarray:
@@ -94,8 +96,14 @@ def coordinates(xi: np.ndarray) -> str:
 def _group_law(name: str) -> Law:
     check, largest = _checked(name), _largest(name)
 
+    def measured(subject: Subject, case: Case) -> Verdict:
+        x = _argument(subject, name, case.numbers)
+        return check(subject.function(name), x, Grade.BROKEN, subject.precision(name))
+
     def show(subject: Subject, case: Case) -> Shown:
-        x, truth = (_in_order(subject, name, y) for y in (_argument(name, case.numbers), _truth(name, case.numbers)))
+        x, truth = (
+            _in_order(subject, name, y) for y in (of(subject, name, case.numbers) for of in (_argument, _truth))
+        )
         words = coordinates(case.numbers)
         words = f"e^ξ, rounded, of {words}" if _takes_element(name) else words
         return Shown(words, subject.call(name, x=f"np.array({typed(x)})"), truth)
@@ -107,8 +115,8 @@ def _group_law(name: str) -> Law:
         ),
         needs=name,
         cases=lambda subject: _numbers(name).map(Case),
-        check=lambda subject, case: check(subject.function(name), _argument(name, case.numbers), Grade.BROKEN),
-        confirm=lambda subject, case: _confirmed(name, case.numbers),
+        check=measured,
+        confirm=lambda subject, case: _confirmed(subject, name, case.numbers),
         show=show,
         allowed=lambda case: _drawable(name, case.numbers),
         examples=EXAMPLES,
@@ -139,7 +147,8 @@ def _noise_law() -> Law:
         return Shown("a rotation with noise", text, exact.rounded(exact.log(R(case))))
 
     def check(subject: Subject, case: Case) -> Verdict:
-        return of_groups.log_forgives_noise(subject.function("so3_log"), R(case), Grade.BROKEN)
+        precision = subject.precision("so3_log")
+        return of_groups.log_forgives_noise(subject.function("so3_log"), R(case), Grade.BROKEN, precision)
 
     return Law(
         "noise", "log of a rotation with noise is that of the nearest rotation", "so3_log", cases, check,
@@ -160,34 +169,39 @@ def _batch_law(name: str) -> Law:
 
         return batch_shapes().flatmap(of)
 
-    def arguments(case: Case) -> np.ndarray:
+    def arguments(subject: Subject, case: Case) -> np.ndarray:
         rows = case.numbers.reshape(-1, count)
-        made = [_argument(name, row) for row in rows]
-        tail = _argument(name, np.zeros(count)).shape
+        made = [_argument(subject, name, row) for row in rows]
+        tail = _argument(subject, name, np.zeros(count)).shape
         return np.reshape(made, (*_shape(case), *tail))
 
     def together(subject: Subject, case: Case) -> Verdict:
-        x = arguments(case)
-        tail = _truth(name, np.zeros(count)).shape
+        x = arguments(subject, case)
+        tail = _truth(subject, name, np.zeros(count)).shape
         result, fault = called(subject.function(name), (*_shape(case), *tail), x)
         if fault:
             return judged(f"batches of {name}", fault)
         rows = result.reshape(-1, *tail)
         flat = x.reshape(-1, *x.shape[len(_shape(case)) :])
-        verdicts = [check(lambda _, row=row: row, one, Grade.BROKEN) for one, row in zip(flat, rows, strict=True)]
+        precision = subject.precision(name)
+        pairs = zip(flat, rows, strict=True)
+        verdicts = [check(lambda _, row=row: row, one, Grade.BROKEN, precision) for one, row in pairs]
         return max(verdicts, key=lambda v: v.rank, default=judged(f"batches of {name}", [NOTHING]))
 
     def show(subject: Subject, case: Case) -> Shown:
-        x = _in_order(subject, name, arguments(case))
+        x = _in_order(subject, name, arguments(subject, case))
         text = f"np.reshape({typed(x.ravel())}, {x.shape})"
-        truth = np.reshape([_truth(name, row) for row in case.numbers.reshape(-1, count)] or np.zeros(0), -1)
-        tail = _truth(name, np.zeros(count)).shape
+        truth = np.reshape([_truth(subject, name, row) for row in case.numbers.reshape(-1, count)] or np.zeros(0), -1)
+        tail = _truth(subject, name, np.zeros(count)).shape
         words = f"a batch {_shape(case)} of " + "; ".join(map(coordinates, case.numbers.reshape(-1, count)))
         return Shown(words, subject.call(name, x=text), _in_order(subject, name, truth.reshape(*_shape(case), *tail)))
 
+    def confirmed(subject: Subject, case: Case) -> bool:
+        return all(_confirmed(subject, name, row) for row in case.numbers.reshape(-1, count))
+
     return Law(
         f"{name} of batches", f"{name} of a batch is {name} of each, in shapes (), (1,), (0,), (3, 1, 2)", name, cases,
-        together, lambda subject, case: all(_confirmed(name, row) for row in case.numbers.reshape(-1, count)), show,
+        together, confirmed, show,
         allowed=lambda case: all(_drawable(name, row) for row in case.numbers.reshape(-1, count)),
         applies=lambda subject: subject.batch, unless="batch = True is not declared",
     )  # fmt: skip

@@ -25,16 +25,16 @@ def check(subject: Subject, case: Case, jacobian: bool = False) -> Verdict:
     if fault:
         return judged(law, fault)
     if not jacobian:
-        T, fault = called(lambda q: read.fk(q), (4, 4), values)
-        return judged(law, fault or of_arms.pose_parts(arm, q, T))
+        T, fault = called(lambda q: subject.noted(law, read.fk(q)), (4, 4), values)
+        return judged(law, fault or of_arms.pose_parts(arm, q, T, subject.precision(law)))
     function, fault = made(lambda: getattr(read, "jacobian", None))
     if function is None and not fault:
         raise Undeclared("what read_urdf returns has no `jacobian`, though the subject declares jacobian_frame")
-    J, fault = called(lambda q: read.jacobian(q), (6, len(found)), values)
+    J, fault = called(lambda q: subject.noted(law, read.jacobian(q)), (6, len(found)), values)
     if fault:
         return judged(law, fault)
     J = subject.rows(J)[:, [found.index(name) for name in names]]
-    return judged(law, of_arms.jacobian_parts(subject.frame, arm, q, J))
+    return judged(law, of_arms.jacobian_parts(subject.frame, arm, q, J, subject.precision(law)))
 
 
 def check_robot(subject: Subject, case: Case) -> Verdict:
@@ -52,8 +52,10 @@ def check_robot(subject: Subject, case: Case) -> Verdict:
     verdicts = []
     for k in range(len(small_urdf.rows_of(case))):
         name, (arm, q, _) = small_urdf.link(case, k), small_urdf.arm(case, k)
-        T, fault = called(lambda name=name: poses[name], (4, 4))
-        verdict = judged(law, f"of link {name}: {fault}" if fault else of_arms.pose_parts(arm, q, T))
+        T, fault = called(lambda name=name: subject.noted(law, poses[name]), (4, 4))
+        verdict = judged(
+            law, f"of link {name}: {fault}" if fault else of_arms.pose_parts(arm, q, T, subject.precision(law))
+        )
         verdicts.append(verdict if fault else verdict._replace(what=f"{verdict.what}, of {name}"))
     return max(verdicts, key=lambda verdict: verdict.rank)
 

@@ -21,7 +21,8 @@ from typing import Any
 import pytest
 
 from ..laws import LawViolation
-from .grades import GOOD, POOR, Grade
+from .grades import Grade
+from .precision import PRECISIONS
 from .report import Report
 from .run import SECONDS, conform
 
@@ -43,8 +44,9 @@ def held(
     report = conform(thing, laws, examples, seconds, leave_out=leave_out, at_most=at_most)
     wrong = tuple(outcome for outcome in report.outcomes if outcome.grade > at_most and not outcome.unconfirmed)
     if wrong:
-        bound = {Grade.GOOD: GOOD, Grade.POOR: POOR}.get(at_most, 0.0)
         worst = max(wrong, key=lambda outcome: (outcome.grade, outcome.worst))
+        precision = PRECISIONS[worst.precision]
+        bound = {Grade.GOOD: precision.good, Grade.POOR: precision.poor}.get(at_most, 0.0)
         seen = {outcome.law: outcome.words or "see the report" for outcome in wrong}
         violation = LawViolation(f"{report.subject} does not conform", worst.worst, bound, seen)
         violation.add_note(str(Report(report.subject, wrong)))

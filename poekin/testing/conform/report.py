@@ -25,7 +25,7 @@ class Outcome:
     whether there was no time for all of them. Of a finding (poor or broken, or worse than was asked for) also the
     shrunk case with its numbers; its error, `error_of` what, or its fault (a text) where there was no result; the case
     in words, as Python to paste (`paste`), and what ought to come of it (`expected`, any shape; `names`, those that a
-    URDF has to be read with); a hint.
+    URDF has to be read with); a hint; precision, the floats that the subject computes in.
     unconfirmed: why it is no finding, where its truth did not stand against the second oracle; the grade says nothing
     then.
     """
@@ -47,6 +47,7 @@ class Outcome:
     unconfirmed: str = ""
     late: bool = False
     names: tuple[str, ...] = ()
+    precision: str = "float64"
 
     @property
     def finding(self) -> bool:
@@ -68,6 +69,7 @@ class Outcome:
         plain: dict[str, Any] = {
             "law": self.law, "says": self.says, "grade": self.word, "worst": self.worst, "of": self.what,
             "examples": self.examples, "time_ran_out": self.late,
+            "precision": self.precision,
         }  # fmt: skip
         if self.unconfirmed:
             return plain | {"unconfirmed": self.unconfirmed}
@@ -89,7 +91,7 @@ class Outcome:
         lines = [f"{self.says}", f"worst {self.worst:.2g} of {self.what}"]
         if not np.isfinite(self.worst):
             lines[1] = "worst: no result" if self.what == NO_RESULT else f"worst: {self.what} is not 0, and must be"
-        lines[1] += f"; {self.examples} examples"
+        lines[1] += f"; {self.examples} examples" + (" in float32" if self.precision == "float32" else "")
         if self.unconfirmed:
             lines[1:] = [self.unconfirmed]
         elif not self.finding:

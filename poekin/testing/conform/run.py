@@ -125,8 +125,10 @@ def conform(
 def outcome(law: Law, subject: Subject, found: Found) -> Outcome:
     """What is reported of a hunt: a finding only where the two oracles agree on what is exact."""
     verdict, case = found.verdict, found.shrunk
+    precision = subject.precision(law.needs).name
     if case is None:
-        return Outcome(law.name, law.says, verdict.grade, verdict.size, verdict.what, found.examples, late=found.late)
+        return Outcome(law.name, law.says, verdict.grade, verdict.size, verdict.what, found.examples, late=found.late,
+                       precision=precision)  # fmt: skip
     # Who did not answer was asked again while it was shrunk.
     again = verdict if verdict.fault.startswith(UNANSWERED) else law.check(subject, case)
     steady = again.grade >= verdict.grade
@@ -143,7 +145,7 @@ def outcome(law: Law, subject: Subject, found: Found) -> Outcome:
         law.name, law.says, max(verdict.grade, again.grade), worst.size, worst.what, found.examples,
         again.size, again.what, fault, case, display.words, display.paste, display.expected, hint,
         "" if law.confirm(subject, case) else "the two oracles do not agree on the exact result", found.late,
-        display.names,
+        display.names, precision,
     )  # fmt: skip
 
 

@@ -57,6 +57,9 @@ def worst(law: Law, subject: Subject, examples: int, seconds: float, at_most: Gr
         broken = top is not None and top[1].grade is Grade.BROKEN
         if late or (broken and count >= ENOUGH) or (top and top[1].ended):
             raise _Over
+        if not subject.knows_precision(law.needs):
+            law.check(subject, case)  # its result says in which floats the subject computes
+        case = rounded(law, subject, case)
         verdict = law.check(subject, case)
         count += 1
         if top is None or verdict.rank > top[1].rank:
@@ -74,6 +77,11 @@ def worst(law: Law, subject: Subject, examples: int, seconds: float, at_most: Gr
     return Found(count, case, verdict, simplest(law, subject, case, verdict) if wrong else None, late)
 
 
+def rounded(law: Law, subject: Subject, case: Case) -> Case:
+    """The case in floats of the precision that the law's function computes in, which can tell no others apart."""
+    return case._replace(numbers=subject.precision(law.needs).rounded(case.numbers))
+
+
 def simplest(law: Law, subject: Subject, case: Case, verdict: Verdict) -> Case:
     """The simplest case found that fails in the manner of this one.
 
@@ -83,12 +91,12 @@ def simplest(law: Law, subject: Subject, case: Case, verdict: Verdict) -> Case:
     end = time.monotonic() + SHRINKING
 
     def fails(other: Case) -> bool:
-        return time.monotonic() < end and law.check(subject, other).manner == verdict.manner
+        return time.monotonic() < end and law.check(subject, rounded(law, subject, other)).manner == verdict.manner
 
     own = law._replace(allowed=lambda other: law.allowed(other) and law.about(other))
     if not verdict.fault.startswith(UNANSWERED):
-        return shrunk(law, shrunk(own, case, fails), fails)
+        return rounded(law, subject, shrunk(law, shrunk(own, case, fails), fails))
     with subject.own.within(SHORT):
-        small = shrunk(law, shrunk(own, case, fails), fails)
+        small = rounded(law, subject, shrunk(law, shrunk(own, case, fails), fails))
     # What takes longer than that may still be answered.
     return small if law.check(subject, small).manner == verdict.manner else case

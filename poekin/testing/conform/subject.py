@@ -22,8 +22,9 @@ What a subject may have, each with unbatched arrays in and out, rad and m:
 With `arm`, a `poekin.Chain`, declared, fk(q) and jacobian(q) are those of this one arm. More declarations: `batch`,
 True where exp, log and the Jacobians of exp take leading axes; `helical`, True where fk and jacobian take screws with a
 pitch; `noise`, up to which the entries of a rotation may be off for log to return the logarithm of the nearest rotation
-(0: not asked); `name` and `version`, for the report; `paste`, of a function by its name, a Python text that makes the
-same call of an argument `x`.
+(0: not asked); `precision`, "float64" or "float32", what it computes in (default: the type of its results: one in
+float32 gets arguments that float32 can hold, and bounds with u = 2⁻²⁴); `name` and `version`, for the report; `paste`,
+of a function by its name, a Python text that makes the same call of an argument `x`.
 
 A function that writes into an argument is broken: an array is its caller's.
 """
@@ -43,6 +44,7 @@ from ...model.evaluation import FRAME_NAMES
 from .calls import made, real, untouched
 from .misspelt import misspelt
 from .named import Source, loaded, source
+from .precision import DOUBLE, PRECISIONS, Precision, seen
 
 ORDERS = ("angular first", "linear first")
 JACOBIANS = tuple(f"{side}_jacobian{inverse}" for inverse in ("", "_inverse") for side in ("left", "right"))
@@ -51,7 +53,18 @@ SE3 = ("exp", "log", "adjoint", *JACOBIANS)
 ARMS = ("fk", "jacobian")
 PARAMETERS = {"so3_log": "R", "log": "T", "adjoint": "T", "read_urdf": "text, base, tip", "read_robot": "text"}
 FUNCTIONS = (*SO3, *SE3, *ARMS, "read_urdf", "read_robot")
-DECLARATIONS = ("twist_order", "jacobian_frame", "arm", "batch", "helical", "noise", "name", "version", "paste")
+DECLARATIONS = (
+    "twist_order",
+    "jacobian_frame",
+    "arm",
+    "batch",
+    "helical",
+    "noise",
+    "precision",
+    "name",
+    "version",
+    "paste",
+)
 
 Function = Callable[..., Any]
 
@@ -83,6 +96,11 @@ class Subject:
         self.version = str(self._attribute("version") or "")
         self.noise = self._noise()
         self.pastes = self._pastes()
+        precision = self._attribute("precision")
+        self.declared = (
+            None if precision is None else PRECISIONS[self._declared("precision", (*PRECISIONS,), "results")]
+        )
+        self._seen: dict[str, Precision] = {}
         self.batch, self.helical = self._flag("batch"), self._flag("helical")
         self.arm: Chain | None = self._attribute("arm")
         if not isinstance(self.arm, Chain | None):
@@ -161,6 +179,19 @@ class Subject:
             if inspect.ismethod(function):
                 raise InputError(f"{self.title}: {name}: expected parameters (self, {expected}), got none") from None
 
+    def precision(self, name: str) -> Precision:
+        """The precision of a function: as declared, else that of its results so far."""
+        return self.declared or self._seen.get(name, DOUBLE)
+
+    def noted(self, name: str, value: Any) -> Any:
+        """The result of a function, whose precision is remembered."""
+        self._seen.setdefault(name, seen(value))
+        return value
+
+    def knows_precision(self, name: str) -> bool:
+        """Whether the precision of a function is declared, or was seen."""
+        return self.declared is not None or name in self._seen
+
     @property
     def label(self) -> str:
         """Name and version."""
@@ -193,7 +224,8 @@ class Subject:
         Parameters: name, one of `FUNCTIONS`. Returns: the function, in the subject's own order. Raises: AttributeError
         where the subject has none.
         """
-        return untouched(getattr(self.own, name))
+        function = untouched(getattr(self.own, name))
+        return lambda *arguments: self.noted(name, function(*arguments))
 
     def function(self, name: str) -> Function:
         """The function of a group of that name, with twists as (omega; v)."""
