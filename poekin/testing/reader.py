@@ -43,6 +43,14 @@ class Reader:
         first, last = max(float(k), low), min(k + 1.0, high)
         return first + (last - first) * ((256 * self.byte() + self.byte()) / 65535)
 
+    def decimal(self, low: float, high: float) -> float:
+        """A number from low to high with few digits: three decimals, or one, to which it shrinks. Takes 4 bytes.
+
+        Parameters: low, high. Returns: the number, within the bounds. Raises: nothing.
+        """
+        decimals = 1 if self.byte() < 128 else 3
+        return min(max(round(self.fraction(low, high), decimals), low), high)
+
     def magnitude(self, smallest: float, largest: float) -> float:
         """0 (one time in sixteen), or a number whose logarithm is spread evenly between two. Takes 4 bytes.
 

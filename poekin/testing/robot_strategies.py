@@ -23,7 +23,7 @@ from .strategies import pose, read, st
 URDF_KINDS = ("revolute", "continuous", "prismatic", "fixed")
 """The kinds that every reader of URDF has to know."""
 TRAVEL = {"revolute": math.pi, "helical": math.pi, "prismatic": 1.0}
-"""How far from 0 a lower limit lies at most, and how far from it the upper one, in rad or m."""
+"""How far from 0 a lower limit lies at most, in rad or m; the upper one lies 0.1 to 3 from it, of what slides to 2."""
 
 
 def robots(
@@ -42,6 +42,8 @@ def robots(
     follows any other one that moves, above it, below it or beside, by a ratio (also 0 and negative) and an offset,
     also by way of a third. Limits hold 0 or not, and are missing on continuous joints; those of a mimic joint may be
     narrower than what follows from its master, and always leave something of it.
+
+    Multipliers, offsets, limits and pitches have one decimal or three, and shrink to 0, 1 or one decimal.
 
     Parameters: kinds, of `poekin.model.joint.KINDS`; min_joints, max_joints, how many, fixed ones included; mimics,
     whether there are any; limits, whether revolute, prismatic and helical joints have some; still, whether fixed
@@ -75,7 +77,7 @@ class _Row(NamedTuple):
     pitch: float
 
 
-_BYTES = 80
+_BYTES = 87
 
 
 def _row(r: Reader, kinds: tuple[str, ...]) -> _Row:
@@ -86,16 +88,21 @@ def _row(r: Reader, kinds: tuple[str, ...]) -> _Row:
         parent=r.byte(),
         follows=r.byte() >= 128,
         master=r.byte(),
-        multiplier=r.pick(RATIOS) if r.byte() < 128 else r.fraction(-2.0, 2.0),
-        offset=r.fraction(-1.0, 1.0),
-        limits=(r.fraction(-1.0, 1.0), r.fraction(0.1, 1.0)),
-        margins=(r.fraction(0.05, 2.0), r.fraction(0.05, 2.0)),
+        multiplier=r.pick(RATIOS) if r.byte() < 128 else r.decimal(-2.0, 2.0),
+        offset=r.decimal(-1.0, 1.0),
+        limits=(r.decimal(-1.0, 1.0), r.decimal(-0.9, 1.0)),
+        margins=(r.decimal(-0.9, 1.0), r.decimal(-0.9, 1.0)),
         rank=r.byte(),
         places=(r.byte(), r.byte(), r.byte()),
         origin=pose(decoders.rotation(r), decoders.vector(r, REACHES)),
         axis=decoders.axis(r),
-        pitch=r.fraction(-0.5, 0.5),
+        pitch=r.decimal(-0.5, 0.5),
     )
+
+
+def _width(share: float, travel: float) -> float:
+    """A width or margin in rad or m, 0.1 to 3, of what slides to 2; 1 for 0."""
+    return 1.0 + share * (2.0 if travel > 1 and share > 0 else 1.0)
 
 
 def _robot(rows: list[_Row], mimics: bool, limits: bool, still: bool) -> Robot:
@@ -125,12 +132,12 @@ def _limited(joints: list[Joint], rows: list[_Row], order: list[int]) -> list[Jo
         joint, travel = joints[k], TRAVEL.get(joints[k].kind, 0.0)
         if joint.mimic is not None and joint.kind != "fixed":
             middle = joint.mimic.multiplier * middles[joint.mimic.joint] + joint.mimic.offset
-            lower, upper = (middle + sign * travel * x for sign, x in zip((-1, 1), rows[k].margins, strict=True))
+            lower, upper = (middle + sign * _width(x, travel) for sign, x in zip((-1, 1), rows[k].margins, strict=True))
         else:
             lower = travel * rows[k].limits[0]
-            upper = lower + travel * rows[k].limits[1]
+            upper = lower + _width(rows[k].limits[1], travel)
             middle = (lower + upper) / 2
         middles[joint.name] = middle
         if travel:
-            result[k] = replace(joint, limits=(lower, upper))
+            result[k] = replace(joint, limits=(round(lower, 3), round(upper, 3)))
     return result

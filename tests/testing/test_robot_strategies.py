@@ -11,6 +11,7 @@ from poekin.formats.urdf_text import to_urdf
 from poekin.model.joint import KINDS, Mimic
 from poekin.model.robot import Robot
 from poekin.testing import configuration_strategies, robot_strategies
+from poekin.testing.chain_strategies import RATIOS
 from tests.testing.drawing import QUICK, drawn
 
 QUICK = settings(QUICK, max_examples=20)
@@ -115,3 +116,25 @@ def test_a_robot_shrinks_to_one_link_and_a_failing_one_to_what_matters():
     assert all(np.array_equal(joint.origin, np.eye(4)) for joint in small.joints)
     (follower,) = (joint for joint in small.joints if joint.mimic)
     assert follower.mimic in (Mimic("j1", 1.0, 0.0), Mimic("j2", 1.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    "matters",
+    [
+        lambda joint: joint.limits[1] > 1.3,
+        lambda joint: joint.mimic and joint.mimic.multiplier not in RATIOS,
+        lambda joint: joint.mimic and joint.mimic.offset > 0.3,
+        lambda joint: any(joint.origin[:3, 3]),
+    ],
+    ids=["limits", "multiplier", "offset", "origin"],
+)
+def test_a_robot_shrinks_to_round_numbers(matters):
+    several = settings(QUICK, max_examples=300)
+    robot = find(robot_strategies.robots(), lambda robot: any(map(matters, robot.joints)), settings=several)
+    assert len(robot.joints) <= 2
+    for joint in robot.joints:
+        values = np.array([*joint.limits, *joint.axis, *joint.origin.ravel()])
+        if joint.mimic:
+            values = np.append(values, [joint.mimic.multiplier, joint.mimic.offset])
+        values = values[np.isfinite(values)]
+        np.testing.assert_array_equal(values, np.round(values, 2))
