@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -160,3 +160,49 @@ def test_a_planar_pose_is_refused_and_does_not_pass_for_a_rotation():
 def test_an_object_that_is_no_pose_is_refused_as_before():
     with pytest.raises(InputError, match=r"T: expected real numbers, got object \(SimpleNamespace\)"):
         pk.se3.log(SimpleNamespace())  # pyright: ignore[reportArgumentType]
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        np.ma.array(np.eye(4), mask=np.eye(4) == 1),
+        [np.ma.array(np.eye(4)), np.ma.array(np.eye(4), mask=np.eye(4) == 1)],
+    ],
+    ids=["one", "in a list"],
+)
+def test_a_masked_array_is_refused_where_something_is_masked(values):
+    with pytest.raises(InputError, match=r"^T: expected numbers, got a masked array of which some are masked"):
+        pk.se3.log(values)
+    unmasked = np.ma.array(np.eye(4))
+    assert np.array_equal(pk.se3.inverse(unmasked), np.eye(4))
+    assert np.array_equal(pk.se3.inverse([unmasked, unmasked]), [np.eye(4)] * 2)
+
+
+def test_a_table_whose_columns_have_names_is_no_array_and_one_that_numbers_them_is():
+    class DataFrame:
+        A = N = homogeneous = np.zeros(4)  # as pandas has columns of these names
+
+        def __init__(self, names):
+            self.names = names
+
+        @property
+        def columns(self):
+            return self.names
+
+        def to_numpy(self):
+            return np.eye(4)
+
+    with pytest.raises(InputError, match=r"^T: expected an array, got a DataFrame with the labels 'A', 'N', 'x', 'y'"):
+        pk.se3.log(cast(Any, DataFrame(["A", "N", "x", "y"])))
+    assert np.array_equal(pk.se3.inverse(cast(Any, DataFrame(range(4)))), np.eye(4))
+
+
+def test_a_method_called_index_makes_no_labels():
+    class Column:
+        def index(self, value):
+            return 0
+
+        def to_numpy(self):
+            return np.zeros(3)
+
+    assert np.array_equal(pk.so3.exp(cast(Any, Column())), np.eye(3))
