@@ -52,8 +52,7 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, l
     found += [as_it_starts for as_it_starts in read(pair, a, b, P, z) if as_it_starts.moved.sum() > 1]
     miss = misses(pair, carried(pair, P, z)[1])
     agree = np.concatenate([miss <= 10.0, miss <= 1.0])
-    enough = agree.sum(1) >= 3  # of three, any two can be made to agree
-    found += readings(np.tile(P, (2, 1, 1))[enough], np.tile(z, (2, 1))[enough], none, agree[enough])
+    found += readings(np.tile(P, (2, 1, 1)), np.tile(z, (2, 1)), none, agree)
     if min(found, key=_cost).cost[0] > ONE:
         found += _conventions(pair, a, b)
     # The reading of the models as they stand holds, and so there is one that does.
@@ -116,10 +115,10 @@ def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Readi
     z = np.where(kinds == "revolute", np.arctan2(np.sin(z), np.cos(z)), z)
     P = P.copy()
     agree = misses(pair, carried(pair, P, z)[1]) <= 1.0
-    free, rows = abs(z) > 0, np.flatnonzero(agree.sum(1) >= 2)
-    for ks in np.argsort(abs(z[rows]), axis=1).T:
-        now = free[rows, ks]
-        row, k = rows[now], ks[now]
+    free = abs(z) > 0
+    for ks in np.argsort(abs(z), axis=1).T:
+        (row,) = np.nonzero(free[np.arange(len(z)), ks])
+        k = ks[row]
         rest, without = free[row], z[row]
         rest[np.arange(len(row)), k], without[np.arange(len(row)), k] = False, 0.0
         trial = fit(pair, P[row], without, rest, agree[row])
