@@ -14,6 +14,7 @@ from ..analysis.singularity import singularity
 from ..errors import shown
 from ..groups.arrays import Array
 from ..model.chain import Chain
+from .joint_units import joint_units
 from .motion.files import write_joints
 from .motion.plot import plot_joints
 from .reasons import AT_LIMIT
@@ -135,11 +136,13 @@ class Followed:
 
     @cached_property
     def regularity(self) -> Array:
-        """(N,): smallest ÷ largest singular value of the Jacobian of what the task asks, lengths ÷ reach; 0: singular.
+        """(N,): smallest ÷ largest singular value of the Jacobian of what the task asks, in rad and m of the joints,
+        lengths ÷ reach; 0: singular.
 
         Computed when it is first asked for, which takes longer than to follow the path.
         """
-        J = self.task.jacobian(*self.chain.fk_jacobian(self.q, "hybrid"))
+        units = joint_units(self.chain.compile())
+        J = self.task.jacobian(*units.fast.chain.fk_jacobian(units.of(self.q), "hybrid"))
         s = svd(scaled(J, -2, self._part(), self.chain.reach))[1]
         last = min(self.task.holds, self.chain.dof) - 1
         return np.divide(s[..., last], s[..., 0], out=np.zeros(len(s)), where=s[..., 0] != 0)

@@ -131,6 +131,7 @@ def test_follow_goes_the_same_way_in_every_unit(scale):
         found = follow(other, T, q0=None if start is None else start * sizes)
         np.testing.assert_allclose(found.q / sizes, expected.q, atol=1e-6)
         assert found.changes == expected.changes
+        np.testing.assert_allclose(found.regularity, expected.regularity, rtol=1e-3)
         assert found.ok
     steps = follow(other, T, q0=q[0] * sizes, max_step=0.1 * np.abs(sizes))
     np.testing.assert_array_equal(steps.q, follow(other, T, q0=q[0] * sizes, max_step=0.1).q)
