@@ -1,5 +1,8 @@
 """The counting scalar: what it charges, and the paper's table by running the algorithms."""
 
+import math
+import operator
+
 import numpy as np
 import pytest
 
@@ -8,7 +11,7 @@ from poekin.algebra import adjoint, compose, turned_about_z
 from poekin.analysis.count import METHODS
 from poekin.analysis.count_methods import product_by_cross
 from poekin.engine.count import Count, Counted, counted
-from poekin.formulas import dh_recursive, direct, exponential, forward, recursive
+from poekin.formulas import dh_recursive, direct, elementary, exponential, forward, recursive
 
 POSE = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.1, 0.2, 0.3)
 
@@ -83,6 +86,71 @@ def test_constants_among_themselves_negation_and_structure_are_free():
     x = Counted(2.0, total)
     _ = -(x * 1) + 0 - 0 * x + (-1) * x
     assert total == Count(additions=1)
+
+
+OPERATIONS = {
+    "a + b": (lambda a, b: a + b, "additions"),
+    "a - b": (lambda a, b: a - b, "additions"),
+    "a * b": (lambda a, b: a * b, "multiplications"),
+    "a / b": (lambda a, b: a / b, "divisions"),
+    "a % b": (lambda a, b: a % b, "divisions"),
+    "atan2": (elementary.atan2, "arctangents"),
+}
+FUNCTIONS = {
+    "sqrt": (elementary.sqrt, math.sqrt, "square_roots"),
+    "sin": (elementary.sin, math.sin, "sines"),
+    "cos": (elementary.cos, math.cos, "cosines"),
+    "abs": (abs, abs, None),
+    "-": (operator.neg, operator.neg, None),
+}
+
+
+@pytest.mark.parametrize("name", OPERATIONS)
+@pytest.mark.parametrize("kinds", [(True, True), (True, False), (False, True)])
+def test_an_operation_of_counting_numbers_gives_what_floats_give_and_costs_one(name, kinds):
+    operation, charged = OPERATIONS[name]
+    total = Count()
+    a, b = (Counted(x, total) if counting else x for x, counting in zip((7.5, -2.25), kinds, strict=True))
+    if name in ("a % b", "atan2") and not kinds[0]:
+        pytest.skip("no formula has a plain number there")
+    result = operation(a, b)
+    assert (float(result), total) == (operation(7.5, -2.25), Count(**{charged: 1}))
+    assert result.count is total
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_function_of_a_counting_number_gives_what_it_gives_of_a_float_and_costs_one_or_nothing(name):
+    function, plain, charged = FUNCTIONS[name]
+    total = Count()
+    value = -0.75 if charged != "square_roots" else 0.75
+    assert float(function(Counted(value, total))) == plain(value)
+    assert total == Count(**({charged: 1} if charged else {}))
+
+
+@pytest.mark.parametrize("name", ["lt", "le", "gt", "ge", "eq", "ne"])
+@pytest.mark.parametrize("other", [1.0, 2.0, 3.0])
+def test_counting_numbers_compare_as_floats_and_for_nothing(name, other):
+    total, compare = Count(), getattr(operator, name)
+    a, b = Counted(2.0, total), Counted(other, total)
+    assert compare(a, b) == compare(a, other) == compare(2.0, other)
+    assert compare(other, a) == compare(other, 2.0)
+    assert total == Count()
+
+
+def test_zero_minus_a_number_and_zero_plus_it_are_free():
+    total = Count()
+    x = Counted(2.0, total)
+    assert float(0 - x) == -2.0
+    assert (0 + x, x - 0, x + 0) == (x, x, x)
+    assert total == Count()
+
+
+def test_counting_numbers_in_lists_and_tuples_are_of_one_count():
+    total = Count()
+    found = counted([(1.0, 2.0), [3.0]], total)
+    assert [type(part) for part in found] == [tuple, list]
+    assert [float(x) for part in found for x in part] == [1, 2, 3]
+    assert {id(x.count) for part in found for x in part} == {id(total)}
 
 
 def test_a_moved_link_pose_costs_12_and_6():

@@ -1,4 +1,4 @@
-"""Work that is shared out among threads."""
+"""Rows shared out among threads: each row once, and what one of the threads raises is raised here."""
 
 from __future__ import annotations
 
@@ -7,17 +7,36 @@ import threading
 import numpy as np
 import pytest
 
-from poekin.engine.threads import share_out
+from poekin.engine import threads
 
 
-def test_every_part_is_run_once():
-    x, y = np.arange(1000.0), np.zeros(1000)
+@pytest.mark.parametrize("size", [0, 1, 3, 4, 5, 8, 9])
+def test_every_row_is_handed_out_once_with_its_partner(size):
+    a, b, seen = np.arange(size), np.arange(size) * 10.0, []
 
-    def run(a, b):
-        b += a
+    def run(x, y):
+        assert len(x) <= 4
+        seen.append((x.tolist(), y.tolist(), threading.current_thread() is threading.main_thread()))
 
-    share_out(run, x, y, rows=7)
-    np.testing.assert_array_equal(y, x)
+    threads.share_out(run, a, b, rows=4)
+    assert sorted(x for part, _, _ in seen for x in part) == list(range(size))
+    assert all([10.0 * x for x in part] == others for part, others, _ in seen)
+    assert {here for _, _, here in seen} == {size <= 4}  # a single part needs no thread
+
+
+def test_parts_are_of_so_many_rows_where_nothing_is_said():
+    sizes = []
+    threads.share_out(lambda a: sizes.append(len(a)), np.zeros(threads.ROWS_AT_ONCE + 1))
+    assert sorted(sizes) == [1, threads.ROWS_AT_ONCE]
+
+
+def test_what_a_part_raises_is_raised():
+    def run(part):
+        if part[0] == 4:
+            raise ValueError("in the second part")
+
+    with pytest.raises(ValueError, match="in the second part"):
+        threads.share_out(run, np.arange(12), rows=4)
 
 
 def test_an_error_in_one_part_takes_those_that_wait_off_the_list():
@@ -30,7 +49,7 @@ def test_an_error_in_one_part_takes_those_that_wait_off_the_list():
         release.wait(10)
 
     with pytest.raises(KeyboardInterrupt):
-        share_out(run, np.arange(500), rows=1)
+        threads.share_out(run, np.arange(500), rows=1)
     release.set()
-    share_out(lambda part: None, np.arange(2), rows=1)  # behind all that waits
+    threads.share_out(lambda part: None, np.arange(2), rows=1)  # behind all that waits
     assert len(begun) < 250

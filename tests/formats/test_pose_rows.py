@@ -44,7 +44,7 @@ def test_the_columns_of_a_format_are_in_the_order_of_its_numbers(form):
     rows = np.column_stack([there[name] for name in COLUMNS[form].split()])
     # SciPy and poekin each round some ten times on the way between R and a quaternion, by 2^-53 of numbers below 4
     np.testing.assert_allclose(pose_rows.to_rows(T, *form), rows, rtol=0, atol=4e-15)
-    np.testing.assert_allclose(pose_rows.to_poses(rows, *form, str), T, rtol=0, atol=4e-15)
+    np.testing.assert_allclose(pose_rows.to_poses(rows, form[0], form[1], str), T, rtol=0, atol=4e-15)
 
 
 REFUSED = {
