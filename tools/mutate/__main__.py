@@ -37,6 +37,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--module", action="append", help="only modules whose path holds this (may be repeated)")
     parser.add_argument("--room", action="append", help="only this room of the package (may be repeated)")
+    parser.add_argument("--operator", help="only operators whose name holds this, as messages/")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--afresh", action="store_true", help="run again what earlier runs have tried")
     parser.add_argument("--quick", action="store_true", help="try survivors on the tests beside their module only")
@@ -49,6 +50,7 @@ def main(arguments: list[str] | None = None) -> int:
     listed, stale = equivalent.listed(every, equivalent.entries())
     chosen = [m for m in every if not said.module or any(part in m.path for part in said.module)]
     chosen = [m for m in chosen if not said.room or m.room in said.room]
+    chosen = [m for m in chosen if not said.operator or said.operator in m.operator]
     if said.sample is not None:
         chosen = sample.drawn(chosen, said.sample, said.seed)
 
