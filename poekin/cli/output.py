@@ -15,6 +15,9 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+PAUSE = 10.0
+"""Seconds of silence between two lines of progress where stderr is no terminal."""
+
 
 def plain(text: object) -> str:
     """Text without anything a terminal would obey: control and bidirectional characters escaped, line breaks kept."""
@@ -89,20 +92,19 @@ def as_json(value: Any) -> str:
 class Progress:
     """How far long work has come, on stderr: one line that is rewritten on a terminal, else a line now and then.
 
-    Parameters: what (the work's name); pause, seconds of silence between two lines where stderr is no terminal.
-    Short work shows nothing. Use it as a context manager; call it with (done, total, what is being done), total 0 where
-    nobody knows it.
+    Parameters: what (the work's name). Short work shows nothing. Use it as a context manager; call it with
+    (done, total, what is being done), total 0 where nobody knows it.
     """
 
-    def __init__(self, what: str, pause: float = 10.0):
-        self.what, self.pause = what, pause
+    def __init__(self, what: str):
+        self.what = what
         self.terminal = sys.stderr.isatty()
         self.shown, self.last = False, time.monotonic()
 
     def __call__(self, done: int, total: int, text: str = "") -> None:
         """Say how far the work is, if it is time to say something."""
         now = time.monotonic()
-        if now - self.last < (0.1 if self.shown and self.terminal else 0.5 if self.terminal else self.pause):
+        if now - self.last < (0.1 if self.shown and self.terminal else 0.5 if self.terminal else PAUSE):
             return
         self.last, self.shown = now, True
         line = name(f"{self.what}: {done}" + (f" of {total}" if total else "") + (f", {text}" if text else ""))

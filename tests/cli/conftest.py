@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+import math
 
 import pytest
 
-from poekin.cli import run
+from poekin.cli import output, run
 
 URDF = """<robot name="crane">
 <link name="root"/><link name="a"/><link name="b"/><link name="hook"/><link name="lamp"/>
@@ -28,8 +29,9 @@ def crane(tmp_path):
 
 
 @pytest.fixture
-def poekin(capsys):
-    """Run a command line: (exit code, stdout, stderr)."""
+def poekin(capsys, monkeypatch):
+    """Run a command line: (exit code, stdout, stderr); on stderr no word of progress, however slow the machine is."""
+    monkeypatch.setattr(output, "PAUSE", math.inf)
 
     def call(*words):
         code = run([str(w) for w in words])
