@@ -23,6 +23,7 @@ from ..solve.calibration.changes import milli
 from ..solve.calibration.residuals import Residuals
 from . import measured
 from .arm import Base, File, Json, Tip
+from .files import check_apart
 from .measured import Measured, Said
 from .model import model
 from .output import Progress, as_json, complain, name, number, say, table
@@ -81,7 +82,8 @@ def command(
 ) -> None:  # fmt: skip
     """The axes and home pose of an arm as measurements say they are. Exit code 0 done, 1 not converged, 2 error."""
     outputs = list(output or ())
-    _check_places(outputs, report, files)
+    _check_places(outputs, report)
+    check_apart([*outputs, report], model=file, measurements=files)
     if convention not in CONVENTIONS:
         raise InputError(f"--dh: expected standard or modified, got {shown(convention)}")
     robot = model(file)
@@ -137,19 +139,15 @@ def _listed(words: Sequence[str] | None) -> list[str] | None:
     return None if words is None else [part.strip() for word in words for part in word.split(",")]
 
 
-def _check_places(outputs: Sequence[Path], report: Path | None, given: Sequence[str]) -> None:
-    """Refuse places that cannot be written to, or must not be, before any work is done. Raises: FileError."""
+def _check_places(outputs: Sequence[Path], report: Path | None) -> None:
+    """Refuse places that cannot be written to before any work is done. Raises: FileError."""
     ends = [(path, _ENDINGS) for path in outputs] + ([(report, (".html", ".htm"))] if report else [])
-    taken = {Path(word).resolve() for word in given}
     for path, endings in ends:
         where = f"cannot write {shown(path, 400)}"
         if path.suffix.lower() not in endings:
             raise FileError(f"{where}: a name that ends in {' or '.join(endings)} expected")
         if path.is_dir() or not path.parent.is_dir():
             raise FileError(f"{where}: it is a directory, or there is none for it")
-        if path.resolve() in taken:
-            raise FileError(f"{where}: it is named twice")
-        taken.add(path.resolve())
 
 
 def _write(

@@ -12,6 +12,7 @@ import typer
 from ..errors import shown
 from ..formats import dh
 from ..model.chain import Chain
+from . import files
 from .arm import Base, File, Json, Tip
 from .model import model
 from .output import as_json, matrix, name, number, say, table
@@ -30,6 +31,7 @@ def command(
     json: Json = False,
 ) -> None:  # fmt: skip
     """DH parameters of one chain, with base and tool, what was free to choose, and how exact the table is."""
+    files.check_apart([output], model=file)
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     result = dh.from_chain(chain, convention=convention)

@@ -15,6 +15,7 @@ from ..formats.emit.words import identifier
 from ..formats.whole import write_whole
 from ..model.chain import Chain
 from ..model.evaluation import FRAME_NAMES
+from . import files
 from .arm import Base, File, Tip
 from .model import model
 from .output import say
@@ -50,6 +51,7 @@ def command(
     else:
         places = {output / file_name: text for file_name, text in texts.items()}
         directory = output
+    files.check_apart(places, model=file)
     _write(places, directory, force)
     for line in next(iter(texts.values())).splitlines():
         if re.search(r"\d+ multiplications", line):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import io
 import os
+import stat
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ __all__ = [
     "STDIN",
     "TIME",
     "called",
+    "check_apart",
     "check_writable",
     "csv_text",
     "npy_bytes",
@@ -99,3 +101,29 @@ def check_writable(path: Path) -> None:
         raise FileError(f"cannot write {shown(path, 400)}: it is a directory")
     if not path.parent.is_dir():
         raise FileError(f"cannot write {shown(path, 400)}: there is no directory {shown(path.parent, 400)}")
+
+
+def check_apart(results: Iterable[Path | None], **read: str | Sequence[str] | None) -> None:
+    """Refuse to write over a file that is read, or two results into one file, whatever names and links lead there.
+
+    Parameters: results, the places to write to; read, the files that are read, by what they hold. Raises: FileError.
+    """
+    taken: dict[object, str] = {}
+    for what, given in read.items():
+        for name in [given] if isinstance(given, str) else given or ():
+            taken[_there(name)] = f"it is the file of the {what}"
+    taken.pop(None, None)
+    for path in filter(None, results):
+        place = _there(path) or os.path.realpath(path)
+        if place in taken:
+            raise FileError(f"cannot write {shown(path, 400)}: {taken[place]}")
+        taken[place] = "it is named twice"
+
+
+def _there(name: str | Path) -> tuple[int, int] | None:
+    """What every name of one regular file has in common; None for a device or a pipe, and where there is no file."""
+    try:
+        status = os.fstat(sys.stdin.fileno()) if name == STDIN else os.stat(name)
+    except (OSError, ValueError, AttributeError):  # among others a stdin that is closed or no file
+        return None
+    return (status.st_dev, status.st_ino) if stat.S_ISREG(status.st_mode) else None

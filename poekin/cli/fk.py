@@ -17,6 +17,7 @@ def command(
     """Pose (4×4, in m) of the link --tip in the link --base, at Q or at every line of --input."""
     if output is not None:
         files.check_writable(output)
+    files.check_apart([output], model=file, configurations=given)
     arm = take(file, tip, base, q, given)
     poses = compute(arm, arm.chain.fk, (4, 4))
     title = f"pose of {name(arm.chain.tip)} in {name(arm.chain.base)} (m)"

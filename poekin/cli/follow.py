@@ -49,10 +49,10 @@ def command(
     if output is not None:
         files.check_writable(output)
     if plot is not None:
-        _check_plot(plot, output)
+        _check_plot(plot)
     if given is None:
         raise InputError("--input: a file of poses expected, got none")
-    poses.check_apart(given, output)
+    files.check_apart([output, plot], model=file, poses=given)
     if duration is None and (speed is not None or acceleration is not None):
         raise InputError("--speed and --acceleration: expected together with --duration, got none")
     T = poses.read(None, given, format, quaternion)
@@ -81,12 +81,11 @@ def _times(duration: float | None, count: int) -> np.ndarray | None:
     return np.linspace(0, duration, count)
 
 
-def _check_plot(plot: Path, output: Path | None) -> None:
+def _check_plot(plot: Path) -> None:
     if plot.suffix.lower() != ".svg":
         raise FileError(f"cannot write {shown(plot, 400)}: a name that ends in .svg expected")
     if plot.is_dir() or not plot.parent.is_dir():
         raise FileError(f"cannot write {shown(plot, 400)}: it is a directory, or there is none for it")
-    poses.same_file(output, plot)
 
 
 def _give(robot: str, chain: Chain, path: Followed, output: Path | None, json: bool) -> None:

@@ -26,6 +26,7 @@ def command(
     """Jacobian (6×m, rows omega then v, in rad/s and m/s per unit rate) of the link --tip relative to --base."""
     if output is not None:
         files.check_writable(output)
+    files.check_apart([output], model=file, configurations=given)
     which = _frame(frame)
     arm = take(file, tip, base, q, given)
     chain = arm.chain

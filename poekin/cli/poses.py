@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ..errors import FileError, InputError, closest, shown
+from ..errors import InputError, closest, shown
 from ..formats import pose_rows
 from ..formats.numbers import real
 from ..groups.arrays import Array
@@ -100,15 +100,3 @@ def for_each(text: str | None, chain: Chain, option: str) -> Array | float | Non
     if text is not None and len(text.replace(",", " ").split()) == 1:
         return float(numbers(text.replace(",", " ").split(), f"{option}: number")[0])
     return coordinates(text, chain, option)
-
-
-def check_apart(given: str | None, output: Path | None) -> None:
-    """Refuse to write the joints over the poses. Raises: FileError."""
-    if output is not None and given is not None and output.resolve() == Path(given).resolve():
-        raise FileError(f"cannot write {shown(output, 400)}: it is the file of the poses")
-
-
-def same_file(output: Path | None, other: Path | None) -> None:
-    """Refuse two results for one place. Raises: FileError."""
-    if output is not None and other is not None and output.absolute() == other.absolute():
-        raise FileError(f"cannot write {shown(output, 400)}: it is named twice")

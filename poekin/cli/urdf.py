@@ -11,6 +11,7 @@ import typer
 from ..errors import shown
 from ..formats.urdf_text import to_urdf
 from ..formats.whole import write_whole
+from . import files
 from .arm import Base, File
 from .model import model
 from .output import say
@@ -21,6 +22,7 @@ Output = Annotated[Path | None, typer.Option("--output", help="Where the text go
 
 def command(file: File, tip: Tip = None, base: Base = None, output: Output = None) -> None:
     """URDF of the whole tree, or with --tip or --base of one chain; kinematics only, no meshes or masses."""
+    files.check_apart([output], model=file)
     robot = model(file)
     written = robot if tip is None and base is None else robot.chain(base=base, tip=tip)
     text = to_urdf(written, name=robot.name)

@@ -265,7 +265,7 @@ def test_wrong_options_are_refused(words, message, refused, csv, monkeypatch, tm
 
 def test_measurements_are_never_written_over(refused, csv):
     before = csv.read_bytes()
-    assert "it is named twice" in refused(*ARM, csv, "-o", csv)
+    assert "it is the file of the measurements" in refused(*ARM, csv, "-o", csv)
     assert csv.read_bytes() == before
 
 
