@@ -69,7 +69,7 @@ def read_rows(
         raise FileError("cannot read standard input: it is closed")
     try:
         if Path(given).suffix.lower() == ".npy":
-            return npy.configurations(Path(given).read_bytes(), len(names), called(given), tail), None
+            return npy.configurations(_content(given), len(names), called(given), tail), None
         return _from_csv(given, names, what, progress, besides)
     except UnicodeDecodeError as error:
         raise FileError(f"{called(given)} is no text file: byte {error.start} is not UTF-8") from error
@@ -77,6 +77,17 @@ def read_rows(
         if isinstance(error, FileError):
             raise
         raise FileError(f"cannot read {called(given)}: {error.strerror or error}") from error
+
+
+def _content(given: str) -> bytes:
+    """The bytes of a file; out of a pipe or a device, which need not have an end, no more than `csv_rows.MOST`."""
+    with open(given, "rb") as stream:
+        if stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+            return stream.read()
+        content = stream.read(csv_rows.MOST + 1)
+    if len(content) > csv_rows.MOST:
+        raise FileError(f"{called(given)}: at most {csv_rows.MOST} bytes expected out of a pipe; a file may be larger")
+    return content
 
 
 def _from_csv(given: str, names: Sequence[str], what: str, progress: csv_rows.Progress, besides: Sequence[str]) -> Rows:

@@ -6,7 +6,9 @@ import contextlib
 import csv
 import io
 import itertools
+import math
 import os
+import stat
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TextIO
 
@@ -19,6 +21,10 @@ Progress = Callable[[int, int], None]
 Line = tuple[int, list[str]]
 AT_ONCE = 10_000
 """Lines that are made an array together: more are never held as Python's numbers."""
+LONGEST = 2**20
+"""Characters in a line: what has no line breaks is no CSV, and might have no end."""
+MOST = 2**28
+"""Characters out of a pipe or a device, which need not have an end."""
 
 
 @contextlib.contextmanager
@@ -40,7 +46,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[TextIO, str, int]]:
 
 
 def read(
-    stream: Iterable[str],
+    stream: TextIO,
     names: Sequence[str],
     where: str,
     what: str,
@@ -71,7 +77,7 @@ def read(
 
 
 def read_chosen(
-    stream: Iterable[str],
+    stream: TextIO,
     choose: Callable[[list[str], str], Sequence[int]],
     where: str,
     progress: Progress | None = None,
@@ -91,9 +97,34 @@ def read_chosen(
     return _rows(lines, chosen, len(cells), where, ", as the header has", progress, size)
 
 
-def _lines(stream: Iterable[str], where: str) -> Iterator[Line]:
+def _bounded(stream: TextIO, where: str) -> Iterator[str]:
+    """The lines of a text, none of which is too long, nor all together where they do not come out of a file."""
+    left = math.inf if _is_file(stream) else MOST
+    for number in itertools.count(1):
+        line = stream.readline(LONGEST + 1)
+        left -= len(line)
+        if not line:
+            return
+        if len(line) > LONGEST:
+            raise FileError(
+                f"{where}:{number}: not CSV: a line of at most {LONGEST} characters expected, this is longer"
+            )
+        if left < 0:
+            raise FileError(f"{where}:{number}: at most {MOST} characters expected out of a pipe; a file may be larger")
+        yield line
+
+
+def _is_file(stream: TextIO) -> bool:
+    """Whether a text is in memory or a regular file, the size of which is known."""
+    try:
+        return stat.S_ISREG(os.fstat(stream.fileno()).st_mode)
+    except (OSError, AttributeError):
+        return True
+
+
+def _lines(stream: TextIO, where: str) -> Iterator[Line]:
     """Number and cells of each line that is not empty."""
-    reader = csv.reader(stream)
+    reader = csv.reader(_bounded(stream, where))
     try:
         for cells in reader:
             if any(cell.strip() for cell in cells):
@@ -112,7 +143,7 @@ def _rows(
     size: int,
 ) -> tuple[np.ndarray, np.ndarray]:
     """The chosen columns (N, k) of lines of `width` cells, and the lines' numbers; names is said with `width`."""
-    parts, rows, numbers, done = [np.empty((0, len(chosen)))], [], [], 0
+    parts, places, rows, numbers, done = [np.empty((0, len(chosen)))], [np.empty(0, int)], [], [], 0
     for line, cells in lines:
         done += sum(map(len, cells)) + len(cells)
         if len(cells) != width:
@@ -121,11 +152,12 @@ def _rows(
         numbers.append(line)
         if len(rows) == AT_ONCE:
             parts.append(np.array(rows, float).reshape(len(rows), len(chosen)))
-            rows = []
+            places.append(np.array(numbers, int))
+            rows, numbers = [], []
             if progress is not None:
                 progress(done, size)
     parts.append(np.array(rows, float).reshape(len(rows), len(chosen)))
-    return np.concatenate(parts), np.array(numbers, int)
+    return np.concatenate(parts), np.concatenate([*places, np.array(numbers, int)])
 
 
 def text(header: Sequence[str], rows: np.ndarray, progress: Progress | None = None) -> str:

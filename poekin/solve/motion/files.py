@@ -98,6 +98,6 @@ def _first_line_has_time(path: Path) -> bool:
     """Whether a first line names a column `time`; what cannot be read is said when the rows are."""
     try:
         with open(path, encoding="utf-8-sig") as stream:
-            return TIME in (word.strip().strip('"') for word in stream.readline().split(","))
+            return TIME in (word.strip().strip('"') for word in stream.readline(csv_rows.LONGEST).split(","))
     except (OSError, ValueError):
         return False
