@@ -1,9 +1,18 @@
 # Each target sets up .venv by itself, with the versions of constraints.txt; `make` alone lists them.
 
 PYTHON ?= python3
-VENV := .venv
+CONSTRAINTS ?= constraints.txt
+
+# Another interpreter or other versions, where named, have an environment of their own beside .venv: .venv-3.12,
+# .venv-lowest, .venv-3.12-lowest.
+VERSION := 'import sys; print("%d.%d" % sys.version_info[:2])'
+OF_PYTHON := $(if $(filter file,$(origin PYTHON)),,-$(shell $(PYTHON) -c $(VERSION)))
+OF_VERSIONS := $(patsubst constraints%,%,$(basename $(notdir $(CONSTRAINTS))))
+VENV := .venv$(OF_PYTHON)$(OF_VERSIONS)
+# JAX and Robotics Toolbox, which poekin is measured against, need NumPy 2.
+EXTRAS := $(if $(filter -lowest,$(OF_VERSIONS)),dev,dev,peers)
 PY := $(VENV)/bin/python
-PIP := $(PY) -m pip install -qq --disable-pip-version-check -c constraints.txt
+PIP := $(PY) -m pip install -qq --disable-pip-version-check -c $(CONSTRAINTS)
 SHELL := /bin/bash
 RECENT := 'import sys; sys.exit(sys.version_info < (3, 11))'
 USABLE := 'import sys, pip; sys.exit(sys.version_info < (3, 11))'
@@ -24,7 +33,7 @@ endif
 .PHONY: help report test test-deep test-processors lint style types wheel-check docs mutate fuzz
 
 help:
-	@echo "make test         run all tests"
+	@echo "make test         run all tests; ONLY=tests/groups runs those alone"
 	@echo "make test-deep    run them with twenty times as many new examples (hours); ONLY=tests/groups runs those alone"
 	@echo "make test-processors  run the numeric tests as older processors would; ONLY='nehalem haswell' takes those"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
@@ -34,9 +43,10 @@ help:
 	@echo "make fuzz         give the readers 10⁶ broken files; COUNT=10000 gives the URDF reader that many, others a tenth"
 	@echo "make wheel-check  build the wheel and use it where the source tree cannot be imported"
 	@echo "Each sets up $(VENV) first if need be. With another interpreter: make test PYTHON=python3.12"
+	@echo "With the lowest versions that poekin takes: make test CONSTRAINTS=constraints-lowest.txt"
 
 test: $(VENV)/dev
-	@$(PY) -m pytest -n 2 --dist worksteal --durations=10
+	@$(PY) -m pytest -n 2 --dist worksteal --durations=10 $(ONLY)
 
 # A test may take twenty times as long as in make test, where it is stopped after ten minutes.
 test-deep: $(VENV)/dev
@@ -57,7 +67,7 @@ style: $(VENV)/lint
 	$(PY) -m ruff format --check
 
 types: $(VENV)/lint
-	$(PY) -m pyright
+	$(PY) -m pyright --pythonpath $(PY)
 
 docs: $(VENV)/docs
 	@$(PY) -m sphinx -q -W --keep-going -E -a -b html docs docs/_build
@@ -72,15 +82,16 @@ fuzz: $(VENV)/dev
 wheel-check: $(VENV)/dev
 	@$(PY) tools/wheel_check.py
 
-$(VENV)/dev: pyproject.toml constraints.txt
+$(VENV)/dev: pyproject.toml $(CONSTRAINTS)
 	@$(PYTHON) -c $(RECENT) || { \
 	  echo "poekin needs Python 3.11 or newer; $(PYTHON) is $$($(PYTHON) --version 2>&1)." \
 	       "Name another one: make $(firstword $(MAKECMDGOALS)) PYTHON=python3.12" >&2; exit 1; }
 	@if [ -n "$(SETUP_OF)" -a "$(SETUP_OF)" != "$(CURDIR)" ] || ! $(PY) -c $(USABLE) 2>/dev/null; then \
 	  echo "Setting up: a new environment in $(VENV), $$($(PYTHON) --version)"; $(PYTHON) -m venv --clear $(VENV); fi
-	@echo "Setting up: the packages of constraints.txt into $(VENV) (the first time takes minutes)"
+	@echo "Setting up: the packages of $(CONSTRAINTS) into $(VENV) (the first time takes minutes)"
 	@$(PIP) hatchling setuptools wheel
-	@$(PIP) --no-build-isolation -e '.[dev]'
+	@$(PIP) --no-build-isolation -e '.[$(EXTRAS)]'
+	@echo $(CONSTRAINTS) > $(VENV)/constraints
 	@pwd > $@
 
 $(VENV)/lint: $(VENV)/dev

@@ -4,13 +4,17 @@
 """
 
 import gc
+import importlib.metadata
 import os
 
 # Two workers with two threads each for small matrices wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
+
+from poekin.errors import MissingExtra
 
 # Time decides nothing: a kernel may be compiled within an example, and the machine may be busy.
 COMMON = {
@@ -52,3 +56,31 @@ def pytest_collection_finish():
     gc.collect()
     gc.freeze()
     gc.set_threshold(50_000, 20, 50)
+
+
+def _skip_without_its_package():
+    """A test that wants a package which is not installed, as Pinocchio is not to be had on Windows, is skipped."""
+    try:
+        return (yield)
+    except MissingExtra as missing:
+        if _installed(missing.package):
+            raise
+        pytest.skip(f"the package {missing.package} is not installed (extra {missing.extra})")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_setup(item):
+    return (yield from _skip_without_its_package())
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item):
+    return (yield from _skip_without_its_package())
+
+
+def _installed(package: str) -> bool:
+    try:
+        importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return False
+    return True

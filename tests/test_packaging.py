@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib.metadata
 import re
+import sys
 import tomllib
 from pathlib import Path
 
@@ -57,9 +58,19 @@ def needed(requirements: list[str]) -> set[str]:
     return set(found) - {"poekin"}
 
 
+def constraints_of_this_environment() -> str:
+    """The file whose versions make has installed; a skip where something else has made the environment."""
+    if not (Path(sys.prefix) / "dev").exists():
+        pytest.skip("make did not set up this environment: its packages are not those of a constraints file")
+    said = Path(sys.prefix) / "constraints"
+    return said.read_text(encoding="utf-8").strip() if said.exists() else "constraints.txt"
+
+
 def test_every_package_of_the_tests_and_the_report_has_the_pinned_version():
-    pinned = pins((ROOT / "constraints.txt").read_text(encoding="utf-8"))
-    wanted = needed([*PROJECT["dependencies"], *EXTRAS["dev"]])
+    file = constraints_of_this_environment()
+    pinned = pins((ROOT / file).read_text(encoding="utf-8"))
+    extras = ["dev"] if file == "constraints-lowest.txt" else ["dev", "peers"]
+    wanted = needed([*PROJECT["dependencies"], *(r for extra in extras for r in EXTRAS[extra])])
     assert len(wanted) > 50
     assert wanted - set(pinned) == set()
     assert {n for n in wanted if importlib.metadata.version(n) != pinned[n]} == set()
@@ -77,6 +88,45 @@ def test_the_tools_of_lint_are_pinned():
 def test_a_line_that_is_no_exact_pin_is_caught(line):
     with pytest.raises(ValueError, match=r"no exact pin|pinned twice"):
         pins(line)
+
+
+def lowest_faults(requirements: list[str], pinned: dict[str, str]) -> list[str]:
+    """Where a pin of the lowest versions is not the lower bound, to as many places as the bound is written with."""
+    faults = []
+    for requirement in map(Requirement, requirements):
+        name = canonicalize_name(requirement.name)
+        bounds = [s.version for s in requirement.specifier if s.operator == ">="]
+        if name == "poekin":
+            continue
+        if len(bounds) != 1:
+            faults.append(f"{requirement}: expected one lower bound")
+        elif name not in pinned:
+            faults.append(f"{requirement}: not pinned")
+        elif not f"{pinned[name]}.".startswith(f"{bounds[0]}."):
+            faults.append(f"{requirement}: pinned to {pinned[name]}")
+    return faults
+
+
+def test_the_lowest_versions_are_the_lower_bounds_of_the_core_and_of_the_extras():
+    pinned = pins((ROOT / "constraints-lowest.txt").read_text(encoding="utf-8"))
+    without = {"peers", "docs", "lint"}
+    requirements = [r for extra, brought in EXTRAS.items() if extra not in without for r in brought]
+    assert lowest_faults([*PROJECT["dependencies"], *requirements], pinned) == []
+
+
+def test_a_lowest_version_that_is_no_lower_bound_is_caught():
+    pinned = {"numpy": "1.26.4", "numba": "0.61.0"}
+    assert lowest_faults(["numpy>=1.26", "Numba>=0.61; python_version < '4'", "poekin[cli]"], pinned) == []
+    assert lowest_faults(["numpy>=1.25"], pinned) == ["numpy>=1.25: pinned to 1.26.4"]
+    assert lowest_faults(["numpy>=1.2"], pinned) == ["numpy>=1.2: pinned to 1.26.4"]
+    assert lowest_faults(["numba"], pinned) == ["numba: expected one lower bound"]
+    assert lowest_faults(["lxml>=5.0"], pinned) == ["lxml>=5.0: not pinned"]
+
+
+def test_the_versions_of_python_are_said_without_a_gap():
+    said = [c.rsplit(" ", 1)[1] for c in PROJECT["classifiers"] if re.search(r":: 3\.\d+$", c)]
+    assert PROJECT["requires-python"] == f">={said[0]}"
+    assert said == [f"3.{11 + i}" for i in range(len(said))]
 
 
 def extras_named(tree: ast.Module) -> list[tuple[int, str | None, str | None]]:

@@ -26,7 +26,10 @@ ROUNDING = 1e-14
 
 
 def pinocchio():
-    return library("pinocchio")
+    module = library("pinocchio")
+    if module.__version__.startswith("2."):
+        pytest.skip("Pinocchio 2 is installed: from_object takes models of Pinocchio 3 or newer")
+    return module
 
 
 def configuration(model, robot, x) -> np.ndarray:
@@ -261,6 +264,13 @@ def test_a_stand_in_with_the_same_attributes_is_a_model():
     assert (robot.name, robot.links, robot.q_names) == ("one", ("ground", "arm", "end"), ("j",))
     assert robot.limits.tolist() == [[-1, 2]]
     np.testing.assert_allclose(robot.fk([math.pi / 2])["end"][:3, 3], [1, 2, 0], rtol=0, atol=1e-15)
+
+
+def test_a_model_of_pinocchio_2_is_refused():
+    model = stand_in()
+    del model.frames[3].parentFrame
+    with pytest.raises(ModelError, match=r"a model of Pinocchio 3 or newer; its frame 'arm' has no parentFrame"):
+        from_object(model)
 
 
 @pytest.mark.parametrize("limits", [(-1e16, 1e16), (-math.inf, math.inf), (-1.7e308, 1.7e308)])

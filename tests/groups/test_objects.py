@@ -47,7 +47,10 @@ def of_pinocchio(T):
 
 
 def of_scipy(T):
-    return library("scipy.spatial.transform").RigidTransform.from_matrix(T)
+    transform = library("scipy.spatial.transform")
+    if not hasattr(transform, "RigidTransform"):
+        pytest.skip("SciPy 1.16 or newer is not installed: it has no RigidTransform before")
+    return transform.RigidTransform.from_matrix(T)
 
 
 def of_spatialmath(T):
@@ -113,11 +116,11 @@ def test_an_object_or_a_list_of_several_poses_is_a_batch(several):
 
 def test_the_objects_of_several_poses_are_batches():
     T = pk.se3.exp(np.random.default_rng(0).normal(size=(3, 6)))
-    spatialmath, scipy = library("spatialmath"), library("scipy.spatial.transform")
+    spatialmath = library("spatialmath")
     np.testing.assert_array_equal(pk.se3.log(spatialmath.SE3(list(T))), pk.se3.log(T))
     np.testing.assert_array_equal(pk.se3.log([spatialmath.SE3(t) for t in T]), pk.se3.log(T))
     assert pk.se3.log(spatialmath.SE3.Empty()).shape == (0, 6)
-    moved = scipy.RigidTransform.from_matrix(T)
+    moved = of_scipy(T)
     np.testing.assert_array_equal(pk.se3.log(moved), pk.se3.log(moved.as_matrix()))
 
 

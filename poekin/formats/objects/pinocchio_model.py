@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import shown
+from ...errors import ModelError, shown
 from ...groups import se3
 from ...groups.arrays import Array
 from ...model.joint import Joint, Mimic
@@ -57,7 +57,8 @@ def robot_of(model: Any) -> Robot:
     does so here. Limits of 1e4 and more bound nothing; nor do equal ones, with a PoekinWarning, as in a URDF.
 
     Parameters: model. Returns: Robot; its q is in the order of the model's.
-    Raises: ModelError that names the joint where Robot has no such kind: spherical, ellipsoid.
+    Raises: ModelError that names the joint where Robot has no such kind: spherical, ellipsoid, and for a model
+    of Pinocchio 2.
     Accuracy: placements as they are; that of a frame on another one within 4 u of their distances from the joint.
     Source: Pinocchio's documentation of Model and Frame.
     """
@@ -96,6 +97,8 @@ def robot_of(model: Any) -> Robot:
 def _frame(frame: Any, i: int) -> Frame:
     kind = str(getattr(frame.type, "name", frame.type))
     pose = one_pose(frame.placement, f"placement of frame {shown(frame.name)}")
+    if not hasattr(frame, "parentFrame"):
+        raise ModelError(f"expected a model of Pinocchio 3 or newer; its frame {shown(frame.name)} has no parentFrame")
     above = int(frame.parentFrame)
     return Frame(str(frame.name) or f"frame{i}", kind, int(frame.parentJoint), pose, above if 0 <= above < i else i)
 
