@@ -34,7 +34,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 # Hypothesis also draws the numbers in the source of the modules loaded so far: they differ by worker, by the tests that
 # are chosen, and by the name of the directory.
 if hasattr(providers, "_get_local_constants"):
-    no_constants = type(providers._get_local_constants())()
+    no_constants = type(providers._local_constants)()
     providers._get_local_constants = lambda: no_constants
 
 
