@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 import pytest
 
@@ -12,7 +14,7 @@ NAMES = ("a", "b", "c")
 
 
 def read(text: str, **more) -> tuple[list, list]:
-    rows, lines = csv_rows.read(text.splitlines(keepends=True), NAMES, "f.csv", "coordinate", **more)
+    rows, lines = csv_rows.read(io.StringIO(text), NAMES, "f.csv", "coordinate", **more)
     return rows.tolist(), lines.tolist()
 
 
@@ -44,12 +46,12 @@ def test_a_line_that_is_refused_is_named_with_what_was_expected_and_what_arrived
 
 def test_a_file_of_chosen_columns_has_a_first_line():
     choose = lambda words, where: [words.index("b"), words.index("a")]  # noqa: E731
-    rows, lines = csv_rows.read_chosen(["\n", "a,name,b\n", "1,x,2\n"], choose, "f.csv")
+    rows, lines = csv_rows.read_chosen(io.StringIO("\na,name,b\n1,x,2\n"), choose, "f.csv")
     assert (rows.tolist(), lines.tolist()) == ([[2, 1]], [3])
     with pytest.raises(InputError, match=r"^f\.csv: a first line that names the columns expected, the file is empty$"):
-        csv_rows.read_chosen([], choose, "f.csv")
+        csv_rows.read_chosen(io.StringIO(""), choose, "f.csv")
     with pytest.raises(InputError, match=r"^f\.csv:2: 3 values expected, as the header has, got 1$"):
-        csv_rows.read_chosen(["a,name,b\n", "1\n"], choose, "f.csv")
+        csv_rows.read_chosen(io.StringIO("a,name,b\n1\n"), choose, "f.csv")
 
 
 @pytest.mark.parametrize(
