@@ -13,10 +13,10 @@ from poekin.engine.machine_code import object_code, processor
 from poekin.formats.load import load
 
 
-def named(monkeypatch, name: str) -> None:
+def named(monkeypatch, name: str | None) -> None:
     """As with NUMBA_CPU_NAME=name and NUMBA_CPU_FEATURES empty, which leaves the features that the name implies."""
     monkeypatch.setattr(config, "CPU_NAME", name)
-    monkeypatch.setattr(config, "CPU_FEATURES", "")
+    monkeypatch.setattr(config, "CPU_FEATURES", "" if name else None)
 
 
 @pytest.fixture(scope="module")
@@ -25,8 +25,7 @@ def program():
 
 
 def test_the_processor_is_this_one_where_none_is_named(monkeypatch):
-    monkeypatch.setattr(config, "CPU_NAME", None)
-    monkeypatch.setattr(config, "CPU_FEATURES", None)
+    named(monkeypatch, None)
     monkeypatch.setattr(config, "ENABLE_AVX", True)
     assert processor() == (binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
 
@@ -43,7 +42,7 @@ def test_machine_code_is_that_of_the_processor_named(monkeypatch, program):
 
 def test_the_code_of_each_processor_is_kept_by_itself(monkeypatch, tmp_path, program):
     monkeypatch.setenv("POEKIN_CACHE_DIR", str(tmp_path / "cache"))
-    arm("key", lambda: program, 6, True)
-    named(monkeypatch, "generic")
-    arm("key", lambda: program, 6, True)
+    for name in (None, "generic"):
+        named(monkeypatch, name)
+        arm("key", lambda: program, 6, True)
     assert len(list((tmp_path / "cache").glob("arm-*.kernel"))) == 2
