@@ -45,13 +45,13 @@ class Processor(NamedTuple):
 PROCESSORS = {
     "generic": Processor("generic", "Prescott", 1),
     "nehalem": Processor("nehalem", "Nehalem", 4),
-    "sandybridge": Processor("sandybridge", "Sandybridge", 1, AVX, ("avx",)),
+    "sandybridge": Processor("sandybridge", "Sandybridge", 4, AVX, ("avx",)),
     "haswell": Processor("haswell", "Haswell", 2, FMA, ("avx2", "fma")),
     "zen2": Processor("znver2", "Zen", 1, FMA, ("avx2", "fma")),
     "skylake-avx512": Processor("skylake-avx512", "SkylakeX", 1, FMA | AVX512 | {"X86_V4", "AVX512CD", "AVX512_SKX"},
                                 ("avx512f", "avx512dq", "avx512bw", "avx512vl", "avx512cd")),
 }  # fmt: skip
-USUAL = ("generic", "nehalem", "sandybridge", "haswell")
+USUAL = ("generic", "sandybridge", "haswell")
 """The ones that run where none is named: without and with each of AVX and fused multiply-add, one thread and many."""
 
 
