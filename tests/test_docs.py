@@ -20,6 +20,7 @@ import poekin as pk
 from tests import test_readme as readme
 from tests.test_architecture import FLOORS
 from tests.test_packaging import pins
+from tests.versions import SHRINKS, needs
 from tools import docs_drawings, docs_equations, docs_floors, docs_names, docs_render
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -42,9 +43,19 @@ def run_page(name: str, text: str, place: Path) -> dict[str, int]:
         raise AssertionError(str(error).replace("README.md", name)) from error
 
 
+# What a page needs besides what poekin itself does; it prints what Hypothesis shrinks a counterexample to.
+NEEDS = {
+    "docs/explanation/frames.md": ("modern-robotics", "1.1"),
+    "docs/howto/conform.md": ("hypothesis", SHRINKS),
+    "docs/howto/testing.md": ("hypothesis", SHRINKS),
+}
+
+
 @pytest.mark.parametrize("page", PAGES + BESIDE)
 def test_a_page_runs_and_prints_what_it_says(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    if page in NEEDS:
+        needs(*NEEDS[page])
     run_page(page, (ROOT / page).read_text(encoding="utf-8"), tmp_path)
 
 

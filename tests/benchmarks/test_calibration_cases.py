@@ -15,6 +15,7 @@ from benchmarks.cases import calibration_franka as franka
 from benchmarks.cases import calibration_outliers as outliers
 from benchmarks.cases import calibration_time as timing
 from poekin.solve import calibration as cal
+from tests.versions import needs
 
 UR5 = pk.load("ur5").chain()
 
@@ -142,6 +143,7 @@ def test_a_draw_of_the_folds_that_misses_one_bar_is_counted():
 
 @pytest.mark.parametrize("method", list(timing.METHODS))
 def test_scipy_and_poekin_solve_the_same_task(method):
+    needs("scipy", "1.16")
     task = timing.simulated_task()
     found = timing.minimised(method)(timing.residuals(task))
     own = timing.calibrated(task)

@@ -12,6 +12,7 @@ from benchmarks.cases import peers as topic
 from benchmarks.page import html, markdown
 from benchmarks.peers.peer import Group, Kinematics, Peer
 from poekin import se3
+from tests.versions import needs
 
 HOSTILE = '<script>alert("x")</script>\n| \x1b[31m $x$'
 EVERY = peers.STANDARD | peers.OPTIONAL
@@ -29,6 +30,8 @@ def usable(name: str) -> Peer:
     (found,) = peers.find([EVERY[name]])
     if found.problem:
         pytest.skip(f"{name} is {found.problem}")
+    if name == "scipy":
+        needs("scipy", "1.16")
     return found.peer
 
 

@@ -18,6 +18,7 @@ from poekin.formats.objects import from_object
 from poekin.testing import strategies
 from poekin.testing.example_robots import example_robots
 from tests.groups.test_objects import library
+from tests.versions import needs
 
 POSES = strategies.poses(lengths=(1e-3, 2.0))
 HALF = [0.6, 0.8, 0.0]
@@ -26,10 +27,8 @@ ROUNDING = 1e-14
 
 
 def pinocchio():
-    module = library("pinocchio")
-    if module.__version__.startswith("2."):
-        pytest.skip("Pinocchio 2 is installed: from_object takes models of Pinocchio 3 or newer")
-    return module
+    needs("pin", "3")
+    return library("pinocchio")
 
 
 def configuration(model, robot, x) -> np.ndarray:

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError, ShapeError
 from poekin.testing import strategies
+from tests.versions import needs
 
 POSES = strategies.poses(lengths=(1e-3, 3.0))
 
@@ -47,10 +48,8 @@ def of_pinocchio(T):
 
 
 def of_scipy(T):
-    transform = library("scipy.spatial.transform")
-    if not hasattr(transform, "RigidTransform"):
-        pytest.skip("SciPy 1.16 or newer is not installed: it has no RigidTransform before")
-    return transform.RigidTransform.from_matrix(T)
+    needs("scipy", "1.16")
+    return library("scipy.spatial.transform").RigidTransform.from_matrix(T)
 
 
 def of_spatialmath(T):

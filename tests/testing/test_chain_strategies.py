@@ -12,6 +12,7 @@ from poekin.errors import InputError
 from poekin.model.chain import Chain
 from poekin.testing import chain_strategies
 from tests.testing.drawing import QUICK, drawn
+from tests.versions import SHRINKS, needs
 
 QUICK = settings(QUICK, max_examples=500)
 
@@ -42,12 +43,14 @@ def test_what_is_asked_for_is_drawn():
 
 
 def test_a_chain_shrinks_to_no_joint_and_no_displacement():
+    needs("hypothesis", SHRINKS)
     chain = find(chain_strategies.chains(), lambda chain: True, settings=QUICK)
     assert len(chain.screws) == 0
     assert np.array_equal(chain.home[:3, 3], [0, 0, 0])
 
 
 def test_a_failing_chain_shrinks_to_the_joints_that_matter():
+    needs("hypothesis", SHRINKS)
     chain = find(chain_strategies.chains(max_joints=4), lambda chain: "helical" in chain.kinds, settings=QUICK)
     assert chain.kinds == ("helical",)
     assert np.array_equal(chain.screws, [[1, 0, 0, 0.001, 0, 0]])

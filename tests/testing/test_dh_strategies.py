@@ -10,6 +10,7 @@ from hypothesis import find
 from poekin.formats.dh import Row
 from poekin.testing import dh_strategies
 from tests.testing.drawing import QUICK, drawn
+from tests.versions import SHRINKS, needs
 
 
 def test_quarter_turns_are_drawn_and_missed_by_a_little():
@@ -40,6 +41,7 @@ def test_tables_are_of_both_conventions_and_kinds_with_flips_base_and_tool():
 
 
 def test_a_table_shrinks_to_one_row_of_zeros():
+    needs("hypothesis", SHRINKS)
     table = find(dh_strategies.tables(), lambda _: True, settings=QUICK)
     assert (table.convention, len(table)) == ("standard", 1)
     assert table.rows[0] == Row(name="joint1")

@@ -13,6 +13,7 @@ from poekin.model.robot import Robot
 from poekin.testing import configuration_strategies, robot_strategies
 from poekin.testing.chain_strategies import RATIOS
 from tests.testing.drawing import QUICK, drawn
+from tests.versions import SHRINKS, needs
 
 QUICK = settings(QUICK, max_examples=20)
 
@@ -104,6 +105,7 @@ def test_as_urdf_they_are_read_back(robots):
 
 
 def test_a_robot_shrinks_to_one_link_and_a_failing_one_to_what_matters():
+    needs("hypothesis", SHRINKS)
     alone = find(robot_strategies.robots(max_joints=1), lambda robot: True, settings=QUICK)
     assert (alone.links, alone.joints) == (("l0",), ())
     small = find(

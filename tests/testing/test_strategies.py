@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from poekin.formulas import coefficients
 from poekin.testing import decoders, strategies
 from tests.testing.drawing import QUICK, drawn
+from tests.versions import SHRINKS, needs
 
 
 def test_the_switches_are_those_of_the_formulas():
@@ -67,6 +68,7 @@ def test_arrays_are_read_only_float64(strategy):
 
 
 def test_twists_shrink_to_round_numbers():
+    needs("hypothesis", SHRINKS)
     xi = find(strategies.twists(), lambda x: math.hypot(*x[:3]) > 1e-3 and math.hypot(*x[3:]) > 1e-3, settings=QUICK)
     assert np.count_nonzero(xi) == 2, xi
     assert {float(x) for x in xi if x} <= {10.0**k for k in range(-3, 4)} | {2.0, math.pi}, xi

@@ -132,7 +132,8 @@ def value(N: Array, by: str, mean: Array) -> Array:
     mean (L, L): the mean information of a candidate, for "prediction".
     """
     if by == "prediction":
-        return -_log(np.trace(np.linalg.solve(N, mean), axis1=-2, axis2=-1), np.inf)
+        # NumPy 1 takes one matrix beside many for a stack of vectors.
+        return -_log(np.trace(np.linalg.solve(N, np.broadcast_to(mean, N.shape)), axis1=-2, axis2=-1), np.inf)
     eigenvalues = np.linalg.eigvalsh(N)
     floor = np.maximum(np.finfo(float).eps * eigenvalues[..., -1:], np.finfo(float).tiny)
     logs = np.log(np.maximum(eigenvalues, floor))

@@ -17,11 +17,14 @@ from benchmarks.subjects.__main__ import main
 from poekin.testing.conform import LAWS, Case, Grade, Subject, applicable, conform
 from poekin.testing.conform.small_urdf import Joint, chain
 from poekin.testing.conform.subject import SO3
+from tests.versions import needs
 
 XI = np.array([0.7, -0.5, 0.8, 0.3, -0.2, 0.6])
 ARM = Case(np.array([0, 0, 1, 0.3, 0.1, 0, 0.5, 0, 0, 1, 0, 0, 0, 0, 0.2, 0, *XI]), ("revolute", "prismatic"))
 ROW = [0, 0, 1, 0.3, 0.1, 0.2, 0, 0, math.pi / 2, 0, 0, 0.5]
 URDF = Case(np.array([*ROW, *ROW]), chain((Joint("revolute", "j0"), Joint("prismatic", "j1"))))
+# The versions that the report measures, where tests are run with older ones.
+MEASURED = {"scipy": [("scipy", "1.16")], "pinocchio": [("pin", "4")]}
 NAMES = [(name, kind) for name, kinds in LIBRARIES.items() for kind in kinds]
 
 
@@ -37,6 +40,8 @@ def test_a_library_computes_what_its_adapter_says_at_an_ordinary_case(name, kind
     (found,) = peers.find([(peers.STANDARD | peers.OPTIONAL)[name]])
     if found.problem:
         pytest.skip(f"{name} is {found.problem}")
+    for package, least in MEASURED.get(name, ()):
+        needs(package, least)
     subject = Subject(kind)
     assert subject.version not in ("", "absent")
     laws = applicable(subject)
