@@ -30,7 +30,7 @@ ifneq ($(SETUP_OF),$(CURDIR))
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help report test test-deep test-processors lint style types wheel-check docs mutate fuzz
+.PHONY: help report test test-deep test-processors lint style types wheel-check release-check docs mutate fuzz
 
 help:
 	@echo "make test         run all tests; ONLY=tests/groups runs those alone"
@@ -41,6 +41,7 @@ help:
 	@echo "make docs         build the pages of docs/ and print where they are"
 	@echo "make mutate       plant every error of 70 000 and say which the tests catch (days); SAMPLE=300 plants that many"
 	@echo "make fuzz         give the readers 10⁶ broken files; COUNT=10000 gives the URDF reader that many, others a tenth"
+	@echo "make release-check build the source distribution and the wheel twice, check them and leave them in dist/"
 	@echo "make wheel-check  build the wheel and use it where the source tree cannot be imported"
 	@echo "Each sets up $(VENV) first if need be. With another interpreter: make test PYTHON=python3.12"
 	@echo "With the lowest versions that poekin takes: make test CONSTRAINTS=constraints-lowest.txt"
@@ -82,6 +83,9 @@ fuzz: $(VENV)/dev
 wheel-check: $(VENV)/dev
 	@$(PY) tools/wheel_check.py
 
+release-check: $(VENV)/release
+	@$(PY) tools/release_check.py
+
 $(VENV)/dev: pyproject.toml $(CONSTRAINTS)
 	@$(PYTHON) -c $(RECENT) || { \
 	  echo "poekin needs Python 3.11 or newer; $(PYTHON) is $$($(PYTHON) --version 2>&1)." \
@@ -102,4 +106,9 @@ $(VENV)/lint: $(VENV)/dev
 $(VENV)/docs: $(VENV)/dev
 	@echo "Setting up: Sphinx into $(VENV)"
 	@$(PIP) --no-build-isolation -e '.[docs]'
+	@touch $@
+
+$(VENV)/release: $(VENV)/dev
+	@echo "Setting up: twine into $(VENV)"
+	@$(PIP) --no-build-isolation -e '.[release]'
 	@touch $@

@@ -13,6 +13,7 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+from tools.release_check import faults_of_metadata, faults_of_two
 from tools.wheel_check import faults_of_sdist, faults_of_wheel
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -109,7 +110,7 @@ def lowest_faults(requirements: list[str], pinned: dict[str, str]) -> list[str]:
 
 def test_the_lowest_versions_are_the_lower_bounds_of_the_core_and_of_the_extras():
     pinned = pins((ROOT / "constraints-lowest.txt").read_text(encoding="utf-8"))
-    without = {"peers", "docs", "lint"}
+    without = {"peers", "docs", "lint", "release"}
     requirements = [r for extra, brought in EXTRAS.items() if extra not in without for r in brought]
     assert lowest_faults([*PROJECT["dependencies"], *requirements], pinned) == []
 
@@ -121,6 +122,39 @@ def test_a_lowest_version_that_is_no_lower_bound_is_caught():
     assert lowest_faults(["numpy>=1.2"], pinned) == ["numpy>=1.2: pinned to 1.26.4"]
     assert lowest_faults(["numba"], pinned) == ["numba: expected one lower bound"]
     assert lowest_faults(["lxml>=5.0"], pinned) == ["lxml>=5.0: not pinned"]
+
+
+@pytest.mark.parametrize(
+    ("file", "said"),
+    [
+        ("CITATION.cff", r"^version: (.+)$"),
+        ("recipe/recipe.yaml", r'^  version: "(.+)"$'),
+        ("CHANGELOG.md", r"^## (\S+)"),
+    ],
+)
+def test_the_version_is_the_same_everywhere(file, said):
+    found = re.search(said, (ROOT / file).read_text(encoding="utf-8"), re.MULTILINE)
+    assert found and found[1] == PROJECT["version"]  # noqa: PT018  (the types want both at once)
+
+
+def recipe_faults(text: str) -> list[str]:
+    """Requirements of the conda recipe that differ from those of pyproject.toml; conda has other names for some."""
+    extras = [r for extra in ("cli", "report", "testing", "formats") for r in EXTRAS[extra]]
+    wanted = {Requirement(r).name: Requirement(r) for r in [*PROJECT["dependencies"], *extras]}
+    names = {"matplotlib": "matplotlib-base"}
+    faults = []
+    for name, requirement in wanted.items():
+        line = f"- {names.get(name, name)} {requirement.specifier}"
+        if line not in [each.strip() for each in text.splitlines()]:
+            faults.append(line)
+    return faults
+
+
+def test_the_conda_recipe_wants_what_pyproject_wants():
+    text = (ROOT / "recipe" / "recipe.yaml").read_text(encoding="utf-8")
+    assert recipe_faults(text) == []
+    assert f"- python {PROJECT['requires-python']}" in text
+    assert recipe_faults(text.replace("numba >=0.61", "numba >=0.60")) == ["- numba >=0.61"]
 
 
 def test_the_versions_of_python_are_said_without_a_gap():
@@ -187,3 +221,22 @@ def test_a_source_distribution_without_tests_is_caught():
     faults = faults_of_sdist(["poekin-1/pyproject.toml", "poekin-1/poekin/__init__.py"])
     assert "not in the source distribution: tests/conftest.py" in faults
     assert "nothing of benchmarks/ in the source distribution" in faults
+
+
+def test_builds_that_differ_in_a_byte_or_in_name_are_caught(tmp_path):
+    (tmp_path / "x").mkdir()
+    for path, content in (("a", b"1"), ("x/a", b"1"), ("b", b"1"), ("x/b", b"2")):
+        (tmp_path / path).write_bytes(content)
+    assert faults_of_two(tmp_path / "a", tmp_path / "x" / "a") == []
+    assert faults_of_two(tmp_path / "b", tmp_path / "x" / "b") != []
+    assert faults_of_two(tmp_path / "a", tmp_path / "b") != []
+
+
+def test_metadata_that_say_something_else_are_caught():
+    lines = [f"Name: {PROJECT['name']}", f"Version: {PROJECT['version']}", "Description-Content-Type: text/markdown"]
+    lines += [f"Requires-Python: {PROJECT['requires-python']}", f"License-Expression: {PROJECT['license']}"]
+    lines += [f"Classifier: {c}" for c in PROJECT["classifiers"]] + [f"Provides-Extra: {e}" for e in EXTRAS]
+    assert faults_of_metadata("\n".join([*lines, "", "text"]), PROJECT) == []
+    assert faults_of_metadata("\n".join([*lines, "", ""]), PROJECT) == ["metadata: no description"]
+    for line in lines:
+        assert len(faults_of_metadata("\n".join([*(x for x in lines if x != line), "", "text"]), PROJECT)) == 1, line

@@ -116,6 +116,9 @@ def fault_of_set_up(command: str, root: Path) -> str | None:
         return f"no such make target: {', '.join(missing)}" if missing else None
     if "pip" in words:
         project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+        named = [re.split(r"[\[<>=!~; ]", word)[0] for word in words[words.index("install") + 1 :] if word[0] != "-"]
+        if foreign := [name for name in named if name not in (project["name"], ".")]:
+            return f"neither {project['name']} nor this checkout: {', '.join(foreign)}"
         wanted = re.findall(r"(?:poekin|\.)\[([\w,-]+)\]", command)
         missing = [e for extras in wanted for e in extras.split(",") if e not in project["optional-dependencies"]]
         return f"no such extra: {', '.join(missing)}" if missing else None
@@ -197,6 +200,7 @@ PLANTED = [
     ("```\nx = 1\n```", "README.md:2: a block of ''"),
     ("```sh\nmake test\nmake tset\n```", "README.md:3: no such make target: tset"),
     ("```sh\npip install 'poekin[everything]'\n```", "no such extra: everything"),
+    ("```sh\npip install poekn\n```", "neither poekin nor this checkout: poekn"),
     ("```sh\nrm -r poekin\n```", "README.md:2: neither run"),
     ("```sh\ngit clone there && rm -r poekin\n```", "README.md:2: neither run"),
     ("```sh\npython -c 'raise SystemExit(3)'\n```", "exit code 3"),

@@ -44,6 +44,10 @@ def faults_of_sdist(names: Iterable[str]) -> list[str]:
         "LICENSE",
         "Makefile",
         "constraints.txt",
+        "constraints-lowest.txt",
+        "CITATION.cff",
+        "SECURITY.md",
+        "recipe/recipe.yaml",
         "poekin/__init__.py",
         "tests/conftest.py",
     )
