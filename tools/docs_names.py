@@ -39,7 +39,7 @@ PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
 TESTING: dict[str, tuple[str, tuple[str, ...]]] = {
     "testing_strategies": ("poekin.testing: strategies", (
         "strategies", "near_strategies", "chain_strategies", "configuration_strategies", "robot_strategies",
-        "dh_strategies", "reader",
+        "urdf_strategies", "dh_strategies", "reader",
     )),
     "testing_laws": ("poekin.testing: laws", (
         "laws", "group", "group_laws", "accuracy_laws", "near_laws", "chain_laws", "change_laws", "derivative_laws",

@@ -6,6 +6,7 @@ Strategies: what to try
     chain_strategies   screws, chains, coordinates
     configuration_strategies  configurations within and at limits, singular ones
     robot_strategies   robots: whole trees, with mimic joints, limits and several leaves
+    urdf_strategies    URDF texts with what files in the wild have in them
     dh_strategies      Denavit-Hartenberg tables
     reader             random bytes read as numbers, to write strategies like these
 
@@ -68,6 +69,7 @@ if TYPE_CHECKING:
         robot_strategies,
         strategies,
         suspects,
+        urdf_strategies,
     )
 
 __all__ = [
@@ -98,6 +100,7 @@ __all__ = [
     "robot_strategies",
     "strategies",
     "suspects",
+    "urdf_strategies",
 ]
 
 

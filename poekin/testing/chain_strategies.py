@@ -32,6 +32,8 @@ QUARTERS = (0.0, math.pi / 2, -math.pi / 2, math.pi)
 """Values of coordinates that one in four has."""
 RATIOS = (1.0, -1.0, 0.5, -2.0, 0.0)
 """By which coupled joints follow a coordinate."""
+LIMITS = ("none", "both", "both", "both", "equal", "lower", "upper")
+"""Which limits coordinates of a chain have, each as often as any."""
 PARTS = ("q", "dq", "batch", "pose", "point", "joint", "frames")
 """What a law of a chain may ask for."""
 
@@ -73,15 +75,33 @@ def chains(
     joint_kinds: Sequence[str] = KINDS,
     coupled: bool | None = None,
     offsets: bool = True,
+    limits: bool = False,
 ) -> st.SearchStrategy[Chain]:
-    """Chains (`poekin.Chain`) of any kinds of joints, and any home pose; without limits.
+    """Chains (`poekin.Chain`) of any kinds of joints, and any home pose.
 
     Parameters: min_joints, max_joints; joint_kinds; coupled, whether joints may follow a coordinate by a ratio (also 0:
-    they stand still), where None draws both coupled and uncoupled chains; offsets, whether they also do so with one.
+    they stand still), where None draws both coupled and uncoupled chains; offsets, whether they also do so with one;
+    limits, whether coordinates have some: two, equal ones, a lower or an upper one alone, or none, in rad or m.
     Shrinks to no joint; to those that matter, revolute about x through the origin, and M = I.
     """
     bounds = arguments.counts(min_joints, max_joints)
-    return _chains(bounds, arguments.some("joint_kinds", joint_kinds, KINDS), coupled, offsets)
+    plain = _chains(bounds, arguments.some("joint_kinds", joint_kinds, KINDS), coupled, offsets)
+    return plain.flatmap(_limited) if limits else plain
+
+
+def _limited(chain: Chain) -> st.SearchStrategy[Chain]:
+    """The chain with limits."""
+
+    def pair(r: Reader) -> tuple[float, float]:
+        kind, lower, width = r.pick(LIMITS), r.decimal(-3.0, 3.0), r.decimal(0.1, 3.0)
+        upper = lower if kind == "equal" else lower + width
+        return (-math.inf if kind in ("none", "upper") else lower, math.inf if kind in ("none", "lower") else upper)
+
+    def limited(r: Reader) -> Chain:
+        pairs = np.reshape([pair(r) for _ in range(chain.dof)], (chain.dof, 2))
+        return Chain(chain.screws, chain.home, coupling=chain.coupling, offset=chain.offset, limits=pairs)
+
+    return read(9 * chain.dof, limited)
 
 
 @st.composite

@@ -32,9 +32,30 @@ from . import arguments, decoders
 from .decoders import SMALLEST, SWITCHES, around
 from .reader import Reader
 
-__all__ = ["BATCH_SHAPES", "KINDS", "LENGTHS", "SMALLEST", "SWITCHES", "angles", "around", "axes", "batch_shapes",
-           "batches", "frozen", "group_cases", "magnitudes", "noisy_rotations", "pose", "poses", "read",
-           "rotation_vectors", "rotations", "twists", "vectors"]  # fmt: skip
+__all__ = [
+    "BATCH_SHAPES",
+    "KINDS",
+    "LENGTHS",
+    "SMALLEST",
+    "SWITCHES",
+    "angles",
+    "around",
+    "axes",
+    "batch_shapes",
+    "batches",
+    "frozen",
+    "group_cases",
+    "magnitudes",
+    "noisy_rotations",
+    "pose",
+    "poses",
+    "quaternions_wxyz",
+    "read",
+    "rotation_vectors",
+    "rotations",
+    "twists",
+    "vectors",
+]  # fmt: skip
 
 LENGTHS = (1e-12, 1e3)
 """The smallest length in m that is drawn beside 0, and the largest."""
@@ -132,6 +153,21 @@ def poses(lengths: tuple[float, float] = LENGTHS) -> Arrays:
     """Poses (4, 4) with a rotation as in `rotations` and an independent translation as in `vectors`."""
     bounds = arguments.magnitudes("lengths", lengths)
     return read(34, lambda r: pose(decoders.rotation(r), decoders.vector(r, bounds)))
+
+
+@functools.cache
+def quaternions_wxyz() -> Arrays:
+    """Unit quaternions (4,), w first: (cos θ/2, n sin θ/2), θ as in `angles`, n as in `axes`; of both signs.
+
+    Of length 1 to rounding, and near w = 0 where θ is near π. x y z w is `np.roll(q, -1)`. Shrinks to (1, 0, 0, 0).
+    """
+
+    def quaternion(r: Reader) -> np.ndarray:
+        n, theta = decoders.axis(r), decoders.angle(r, math.pi, SMALLEST)
+        sign = -1.0 if r.byte() >= 128 else 1.0
+        return frozen(sign * np.array([math.cos(theta / 2), *(math.sin(theta / 2) * n)]))
+
+    return read(19, quaternion)
 
 
 def pose(R: np.ndarray, t: np.ndarray) -> np.ndarray:

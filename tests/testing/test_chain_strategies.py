@@ -77,3 +77,15 @@ def test_coordinates_hold_zeros_quarter_turns_and_all_between():
 def test_an_unknown_kind_of_argument_is_refused():
     with pytest.raises(InputError, match="speed"):
         chain_strategies.chain_cases(("q", "speed"))
+
+
+def test_chains_have_limits_of_every_kind_where_they_are_asked_for():
+    every = drawn(chain_strategies.chains(max_joints=5, limits=True), 120)
+    lower, upper = np.concatenate([chain.limits for chain in every]).T
+    assert np.all(lower <= upper)
+    kinds = {
+        "equal" if a == b else (bool(np.isfinite(a)), bool(np.isfinite(b))) for a, b in zip(lower, upper, strict=True)
+    }
+    assert kinds == {"equal", (False, False), (True, True), (True, False), (False, True)}
+    assert any(np.any(chain.coupling != np.eye(*chain.coupling.shape)) for chain in every)
+    assert np.all(np.isinf(np.concatenate([chain.limits for chain in drawn(chain_strategies.chains(), 20)])))

@@ -128,3 +128,18 @@ def is_wrong(xi: np.ndarray) -> bool:
 def test_independent_magnitudes_find_what_gaussian_samples_miss():
     assert not any(map(is_wrong, drawn(gaussian_twists(), 200)))
     assert any(map(is_wrong, drawn(strategies.twists(), 200)))
+
+
+def test_quaternions_are_those_of_rotations_with_either_sign():
+    every = drawn(strategies.quaternions_wxyz(), 300)
+    for q in every:
+        assert abs(np.linalg.norm(q) - 1) < 4e-16
+        w, v = q[0], q[1:]
+        V = np.cross(np.eye(3), -v)
+        R = np.eye(3) + 2 * w * V + 2 * V @ V
+        np.testing.assert_allclose(R @ R.T, np.eye(3), rtol=0, atol=4e-15)
+    assert {bool(q[0] < 0) for q in every} == {True, False}
+    assert min(abs(q[0]) for q in every) < 1e-8
+    assert 0 < min(np.linalg.norm(q[1:]) for q in every if q[1:].any()) < 1e-8
+    simplest = find(strategies.quaternions_wxyz(), lambda q: True, settings=QUICK)
+    np.testing.assert_array_equal(simplest, [1, 0, 0, 0])

@@ -14,6 +14,7 @@
     subject    what a subject may have, and what it must declare
     named      a subject by its name
     limits, child, worker   the process that it runs in
+    precision  float64 and float32: what errors are held to
     grades     exact, good, poor, broken: how errors are graded
     of_groups, of_arms, of_urdf   the laws as plain functions, for anybody's own tests
     group_cases, arm_cases, urdf_cases   what each law is tried on
@@ -34,19 +35,21 @@ if TYPE_CHECKING:
     from .law import Case, Law
     from .limits import Limits
     from .named import loaded
+    from .precision import DOUBLE, SINGLE
     from .report import Outcome, Report
-    from .run import LAWS, applicable, conform
+    from .run import LAWS, applicable, conform, law_names
     from .subject import FUNCTIONS, Subject
 
-__all__ = ["FUNCTIONS", "LAWS", "Case", "Grade", "Law", "Limits", "Outcome", "Part", "Report", "Subject", "Verdict",
-           "applicable", "conform", "loaded"]  # fmt: skip
+__all__ = ["DOUBLE", "FUNCTIONS", "LAWS", "SINGLE", "Case", "Grade", "Law", "Limits", "Outcome", "Part", "Report",
+           "Subject", "Verdict", "applicable", "conform", "law_names", "loaded"]  # fmt: skip
 _HOMES = {
     "grades": ("Grade", "Part", "Verdict"),
     "law": ("Case", "Law"),
     "limits": ("Limits",),
     "named": ("loaded",),
     "report": ("Outcome", "Report"),
-    "run": ("LAWS", "applicable", "conform"),
+    "run": ("LAWS", "applicable", "conform", "law_names"),
+    "precision": ("DOUBLE", "SINGLE"),
     "subject": ("FUNCTIONS", "Subject"),
 }
 

@@ -48,6 +48,23 @@ def applicable(subject: Subject, names: Sequence[str] = (), leave_out: Sequence[
     return chosen
 
 
+def law_names(thing: Any, leave_out: Sequence[str] = (), limits: Limits | None = LIMITS) -> list[str]:
+    """The names of the laws that a subject can be held to: for `pytest.mark.parametrize`, a test each.
+
+    Parameters: thing, leave_out, limits, as of `conform`. Returns: the names. Raises: as `conform`.
+    """
+    leave_out = [leave_out] if isinstance(leave_out, str) else leave_out
+    with opened(thing, limits) as subject:
+        return [law.name for law in applicable(subject, (), leave_out)]
+
+
+def opened(thing: Any, limits: Limits | None) -> contextlib.AbstractContextManager[Subject]:
+    """The subject in a process of its own where that can be, and was not declined, else in this one."""
+    if limits is None or obstacle(thing):
+        return contextlib.nullcontext(Subject(thing))
+    return isolated(thing, limits.checked())
+
+
 def reason(law: Law, subject: Subject) -> str:
     """Why a subject is not held to a law; "" where it is."""
     if law.needs not in subject.functions:
@@ -100,7 +117,7 @@ def conform(
         raise InputError(f"examples ≥ 1 and seconds > 0 expected, got {examples} and {seconds}")
     laws, leave_out = ([names] if isinstance(names, str) else names for names in (laws, leave_out))
     here = obstacle(thing) if limits else ""
-    with contextlib.nullcontext(Subject(thing)) if here or not limits else isolated(thing, limits.checked()) as subject:
+    with opened(thing, limits) as subject:
         chosen = applicable(subject, laws, leave_out)
         left, outcomes = float(seconds), []
         for done, law in enumerate(chosen):

@@ -180,16 +180,25 @@ class Subject:
                 raise InputError(f"{self.title}: {name}: expected parameters (self, {expected}), got none") from None
 
     def precision(self, name: str) -> Precision:
-        """The precision of a function: as declared, else that of its results so far."""
+        """The precision of a function: as declared, else that of its results so far.
+
+        Parameters: name, one of `FUNCTIONS`. Returns: `precision.Precision`. Raises: nothing.
+        """
         return self.declared or self._seen.get(name, DOUBLE)
 
     def noted(self, name: str, value: Any) -> Any:
-        """The result of a function, whose precision is remembered."""
+        """The result of a function, whose precision is remembered.
+
+        Parameters: name, one of `FUNCTIONS`; value, the result. Returns: the value. Raises: nothing.
+        """
         self._seen.setdefault(name, seen(value))
         return value
 
     def knows_precision(self, name: str) -> bool:
-        """Whether the precision of a function is declared, or was seen."""
+        """Whether the precision of a function is declared, or was seen.
+
+        Parameters: name, one of `FUNCTIONS`. Returns: True or False. Raises: nothing.
+        """
         return self.declared is not None or name in self._seen
 
     @property

@@ -8,7 +8,7 @@ import pytest
 import poekin as pk
 from benchmarks.subjects import Angular, Linear, Poekin
 from poekin.errors import InputError, UnknownName
-from poekin.testing.conform import LAWS, Grade, Subject, applicable, conform
+from poekin.testing.conform import LAWS, Grade, Subject, applicable, conform, law_names
 from tests.testing.drawing import drawn
 
 LAWS_OF = {law.name: law for law in LAWS}
@@ -160,3 +160,43 @@ def test_ten_cases_are_tried_however_little_time_there_is():
     report = conform(Poekin, ["so3_exp", "urdf"], seconds=1e-6)
     assert [outcome.examples for outcome in report.outcomes] == [10, 10]
     assert str(report).count("which say little") == 2
+
+
+def test_the_names_of_laws_are_a_list_for_parametrize():
+    mine = kind(so3_exp=one, so3_log=one, batch=True)
+    assert law_names(mine, "so3_log") == ["so3_exp", "so3_exp of batches", "so3_log of batches"]
+    assert law_names("benchmarks.subjects:Poekin") == [law.name for law in LAWS]
+
+
+def test_a_name_that_looks_misspelt_is_said_with_what_may_be_meant():
+    misspelt = {
+        "exp_so3": one,
+        "left_jacobain": one,
+        "Batch": True,
+        "helper": staticmethod(one),
+        "size": 3,
+        "_own": one,
+    }
+    notes = " ".join(Subject(kind(so3_exp=one, **misspelt)).misspelt)
+    for name, meant in [("exp_so3", "so3_exp"), ("left_jacobain", "left_jacobian"), ("Batch", "batch")]:
+        assert f"'{name}' is no name of a subject's; did you mean '{meant}'?" in notes
+    assert notes.endswith("no function of a subject's, and held to nothing: 'helper'")
+    with pytest.raises(InputError, match=r"none of the functions of a subject: .*did you mean 'so3_exp'"):
+        Subject(kind(so3exp=one))
+    assert "note: 'exp_so3' is no name" in str(conform(kind(so3_exp=one, exp_so3=one), ["so3_exp"], examples=2))
+
+
+def test_laws_that_do_not_apply_are_said_with_the_reason():
+    notes = conform(kind(so3_log=lambda self, R: np.zeros(3)), examples=2, leave_out=["exp"]).notes
+    assert notes[0] == "left out, as asked for: exp"
+    assert notes[1].startswith("no law of what is not there: so3_exp, so3_left_jacobian, ")
+    assert "noise is not declared, so there is no law of noise" in notes
+    assert "batch = True is not declared, so there is no law of so3_log of batches" in notes
+
+
+def test_where_the_time_runs_out_the_report_says_so():
+    report = conform(Poekin, ["so3_exp"], seconds=1e-6)
+    assert report["so3_exp"].late
+    assert "10 examples, which say little; the time ran out" in str(report)
+    assert "note: the time ran out: fewer examples than there should be of so3_exp" in str(report)
+    assert not conform(Poekin, ["so3_exp"], examples=12)["so3_exp"].late
