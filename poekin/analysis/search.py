@@ -105,7 +105,9 @@ def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Reading]:
             for held in (pair, replace(pair, hinge=int(k))):
                 trial = fit(held, P, z, inner, used)
                 fits = ~(misses(held, carried(held, *trial)[1])[:, used] > 1.0).any(1)
-                found += _simplest(held, a, b, trial[0][fits], trial[1][fits])
+                readings = _simplest(held, a, b, trial[0][fits], trial[1][fits])
+                # Zero offsets about a's axis k say nothing of b's, unless that is another one.
+                found += [reading for reading in readings if held.hinge < 0 or reading.moved[k]]
     return found
 
 

@@ -70,12 +70,25 @@ def shifted(chain, k, size):
 def test_no_slide_far_outside_its_limits_makes_up_for_an_axis_that_is_elsewhere(chain, k):
     # An axis 8.5 mm off was "the same arm", its slide's zero position 926 m away.
     rng = np.random.default_rng(1)
-    for size in (0.2e-3, 2.7e-3, 8.5e-3):
+    for size in (0.08e-3, 0.2e-3, 2.7e-3, 8.5e-3):
         other = in_other_conventions(shifted(chain, k, size), rng)
         for one, two in ((chain, other), (other, chain)):
             result = compare(one, two, samples=5)
             assert not result.equal, result.verdict
             assert all(joint.unit == "deg" or abs(joint.zero) < 5e3 for joint in result.joints)
+
+
+def test_a_slide_that_is_tilted_within_tolerance_makes_up_for_no_axis_that_is_elsewhere():
+    # Half a tolerance of tilt makes up for half a millimetre, 57 m away.
+    other = shifted(COBRA, 3, 0.5e-3)
+    S, way = other.screws.copy(), np.cross(other.screws[3, :3], other.screws[3, 3:])
+    way = way / np.linalg.norm(way)
+    S[2] = screw.prismatic(S[2, 3:] + 0.5 * TOL[1] * way)
+    other = Chain(S, other.home, limits=other.limits)
+    moved = other.rebased(se3.exp([0.1, -0.4, 0.2, 1, 2, 3])).retooled(se3.exp([0.3, 0, 0.1, 0.5, 0, 0]))
+    for one, two in ((COBRA, moved), (moved, COBRA)):
+        result = compare(one, two, samples=5)
+        assert (result.equal, [j.number for j in result.joints if j.axis_differs]) == (False, [4]), result.verdict
 
 
 def as_it_stands(chain, other, zeros=(0.0,)):
