@@ -32,7 +32,8 @@ def fk(self: Chain, q: Any, *, out: Array | None = None) -> Array:
     array of the result's shape to write into. Returns: T_sb (..., 4, 4), the pose of the tip in the base frame, m.
     NaN in a configuration gives NaN in its pose. Raises: ShapeError, UnknownName, InputError.
     Accuracy: for up to 20 joints, a turn and 1 m each, within 2e-14 reach (tests/analysis/test_validate.py, against
-    Pinocchio); in general within u (8 (n + 1) + 4 sum |x|) of it, u = 2^-53 (tests/model/test_chain_laws.py).
+    Pinocchio); in general within u (8 (n + 1) + 4 sum |x|) (reach + sum |s|), u = 2^-53, s what a prismatic or
+    helical joint slides (tests/model/test_chain_laws.py, tests/model/test_pitches.py).
     Source: Park 1994, eq. (1), by the local form of Section IV.
     """
     if type(q) is _ndarray and q.dtype is _float64 and q.shape == self._one:

@@ -91,6 +91,30 @@ def test_what_is_told_of_axes_that_meet_far_away_has_its_numbers():
     )
 
 
+def test_an_angle_that_is_dropped_far_from_the_arm_counts_with_its_lever():
+    """The first two axes have their common normal 8 m away, and there the third is taken as parallel to the second."""
+    z = np.array([math.sin(0.06), 0, math.cos(0.06)])
+    rows = [
+        pk.screw.revolute([0, 0, 1], [0, 0, 0]),
+        pk.screw.revolute(z, [0.5, 0.2, 0]),
+        pk.screw.revolute([z[0], 1e-10, z[2]], [0.5, 0.4, 0]),
+    ]
+    chain = pk.Chain(rows, np.eye(4))
+    result = dh.from_chain(chain)
+    assert "taken as parallel" in result.warnings[0]
+    assert 5e-10 < result.error <= result.bound  # with 2 delta alone the bound would be 2e-10
+    table = result.table
+    lengths = np.abs(table.d).sum() + np.abs(table.a).sum() + np.linalg.norm(table.tool[:3, 3])
+    assert result.bound == pytest.approx(2e-10 * lengths / chain.reach, rel=1e-4)
+    slide = pk.Chain([*rows, pk.screw.prismatic(z)], np.eye(4))
+    more = dh.from_chain(slide)
+    assert more.error <= more.bound
+    assert more.bound * slide.reach == pytest.approx(
+        2e-10 * (np.abs(more.table.d).sum() + np.abs(more.table.a).sum() + np.linalg.norm(more.table.tool[:3, 3]) + 1),
+        rel=1e-4,
+    )
+
+
 def test_axes_are_taken_as_parallel_where_the_rounding_of_d_would_cost_more_than_their_angle():
     """2 angle reach <= u away, and away = 0.4 / angle: that is at sqrt(0.2 u) = 4.7e-9 rad."""
     switch = math.sqrt(0.2 * UNIT)

@@ -12,6 +12,7 @@ from poekin.errors import InputError, ScrewError, ShapeError
 from poekin.formats import chain_toml
 from poekin.formats.toml_text import Keys
 from poekin.model.joint import Joint
+from poekin.testing.chain_laws import fk_is_the_product_of_exponentials
 
 UR5E = pk.load("ur5e").chain(tip="tool0")
 
@@ -114,3 +115,12 @@ def test_the_joints_of_a_robot_say_what_the_pitches_are_however_far_away_they_st
     for chain, bolt in ((robot.chain(), 1), (robot.chain(base="e", tip="a"), 1)):
         assert sorted(chain.kinds) == ["helical", "prismatic", "revolute"]
         assert chain.pitches[bolt] == 1e-9
+
+
+@pytest.mark.parametrize("pitch", [1e-3, 1.0, 1e3, 1e6])
+def test_a_pitch_far_beyond_the_reach_is_in_the_bound_of_fk(pitch):
+    rng = np.random.default_rng(0)
+    for place in rng.normal(size=(10, 3)):
+        chain = pk.Chain([pk.screw.helical([1, 2, 3], place, pitch), UR5E.screws[1]], UR5E.home, pitches=[pitch, 0])
+        fk_is_the_product_of_exponentials(chain, rng.uniform(-20, 20, 2))
+        fk_is_the_product_of_exponentials(chain.rebased(pk.se3.exp(rng.normal(size=6))), rng.uniform(-20, 20, 2))

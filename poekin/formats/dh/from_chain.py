@@ -59,8 +59,9 @@ def from_chain(chain: Chain, *, convention: str = "standard", samples: int = 100
 
     Parameters: chain; convention, "standard" or "modified"; samples and seed of the measured error.
     Returns: FromChain. Raises: InputError for a helical joint, which DH cannot express, and an unknown convention.
-    Accuracy: `bound`: 20 u (n + 1) (reach + max(|d|, |a|)) over the reach, u = 2^-53, plus 2 delta for each angle delta
-    that was dropped (tests/formats/test_dh.py). Source: Park 1994, Section II; the geometry is that of the axes.
+    Accuracy: `bound`: 20 u (n + 1) (reach + max(|d|, |a|)) over the reach, u = 2^-53, plus 2 delta max(1, l / reach)
+    for each angle delta that was dropped, l the sum of the table's lengths, as the table may have the axis far from the
+    tool (tests/formats/test_dh.py). Source: Park 1994, Section II; the geometry is that of the axes.
     """
     if not isinstance(chain, Chain):
         raise InputError(f"from_chain: expected a Chain, as Robot.chain(tip=...) makes it, got {told(chain)}")
@@ -72,9 +73,13 @@ def from_chain(chain: Chain, *, convention: str = "standard", samples: int = 100
     with digits():
         walk = _Walk(chain)
         table = walk.table(convention)
-    largest = max([0.0, *np.abs(table.d).tolist(), *np.abs(table.a).tolist()])
-    n = len(table)
-    bound = 20 * UNIT * (n + 1) * (1 + largest / chain.reach) + 2 * sum(walk.dropped)
+    lengths = [0.0, *np.abs(table.d).tolist(), *np.abs(table.a).tolist()]
+    bound = 20 * UNIT * (len(table) + 1) * (1 + max(lengths) / chain.reach)
+    if walk.dropped:
+        # A joint that turns about an axis off by delta turns what is behind it by at most 2 delta more or less, and
+        # moves the tool by that times its distance: the lengths behind, and the metre that each slide is measured over.
+        away = sum(lengths) + float(np.linalg.norm(table.tool[:3, 3])) + chain.kinds.count("prismatic")
+        bound += 2 * sum(walk.dropped) * max(1.0, away / chain.reach)
     return FromChain(table, tuple(walk.gauge), _error(chain, table, samples, seed), bound, tuple(walk.warnings))
 
 
