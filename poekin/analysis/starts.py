@@ -34,12 +34,8 @@ def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> tuple[NDArray[
         one, other = _frame(pair.a, i, j), _frame(pair.b, i, j)
         if one is None or other is None:
             continue
-        (T_a, cosine_a, parallel_a), (T_b, cosine_b, parallel_b) = one, other
-        if parallel_a and cosine_a < 0:
-            continue
+        (T_a, cosine_a, _), (T_b, cosine_b, parallel_b) = one, other
         for s, t in product((1.0, -1.0), repeat=2):
-            if parallel_b and s != t * np.sign(cosine_b):
-                continue
             if abs(s * t * cosine_b - cosine_a) < 2 * PARALLEL:
                 found.append((i, j))
                 ours.append(T_a)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from poekin.analysis.compare import compare
 from poekin.analysis.lines import carried, lines, misses, sides
 from poekin.analysis.starts import one_turn, pair_poses, rigid_poses, turns
 from poekin.groups import se3
@@ -70,3 +71,16 @@ def test_a_turn_brings_an_axis_onto_its_target_whether_it_slants_or_is_parallel_
         assert np.isnan(z[1]) == (ways == 1)
     assert turns(S, S, S)[0] == 0
     assert turns(S, screw.prismatic(S[:3]), screw.prismatic(S[:3]))[0] == 0
+
+
+@pytest.mark.parametrize("ways", [(1, -1), (1, -1, 1), (1, -1, -1)], ids=str)
+@pytest.mark.parametrize(
+    "xi", [(np.pi, 0, 0, 0.3, 0.1, 0.2), (0, np.pi, 0, 0, 0, 0), (0.3, 1.0, -0.4, 2, 0, 1)], ids=str
+)
+def test_parallel_axes_that_point_opposite_ways_are_turned_with_the_base(ways, xi):
+    places = [0.0, 0.5, 1.2]
+    rows = [screw.revolute([0, 0, way], [x, 0, 0]) for way, x in zip(ways, places, strict=False)]
+    chain = Chain(rows, np.eye(4))
+    result = compare(chain, chain.rebased(se3.exp(xi)), samples=1)
+    assert (result.equal, result.differing, result.tool) == (True, (), pytest.approx(np.eye(4), abs=1e-9))
+    assert result.base == pytest.approx(se3.inverse(se3.exp(xi)), abs=1e-9)
