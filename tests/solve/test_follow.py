@@ -201,7 +201,10 @@ def test_limits_in_the_way_are_the_reason():
     assert list(path.reason) == ["solved", "solved", "limits", "limits"]
     assert path.position_error[2] == pytest.approx(0.2, abs=1e-6)
     assert "in the way are those of 'lift'" in path.why(2)
-    assert follow(arm, T, limits=False, task="position").ok
+    free = follow(arm, T, limits=False, task="position")
+    assert free.ok
+    np.testing.assert_array_equal(free.limits, np.tile([-np.inf, np.inf], (arm.dof, 1)))
+    np.testing.assert_array_equal(follow(arm, T, task="position").limits, arm.limits)
 
 
 def test_speed_and_acceleration_that_are_exceeded_are_named_with_their_place():

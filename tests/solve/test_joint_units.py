@@ -139,7 +139,7 @@ def test_follow_goes_the_same_way_in_every_unit(scale):
 
 @pytest.mark.parametrize("ratios, turns", [
     ([1.0], 1), ([-1.0], 1), ([1.0, -0.5], 2), ([1 / 3, 1.0], 3), ([1.0, 0.5, 1 / 3], 6),
-    ([1.0, 0.3333], 0), ([1.0, 1 / (MOST_TURNS + 1)], 0), ([2.0, 4.0], 2),
+    ([1.0, 0.3333], 0), ([1.0, 1 / (MOST_TURNS + 1)], 0), ([1.0, 1 / MOST_TURNS], MOST_TURNS), ([2.0, 4.0], 2),
 ])  # fmt: skip
 def test_the_period_of_a_coordinate_brings_every_joint_back(ratios, turns):
     axes = [pk.screw.revolute([0, 0, 1], [0.3 * k, 0, 0]) for k in range(len(ratios))]
