@@ -58,6 +58,9 @@ def test_reachable_poses_are_solved_within_limits_to_the_tolerance(name):
     assert max(position.max(), rotation.max()) <= TOLERANCE + 1e-14
     assert within(arm, found.q).all()
     assert set(found.reason[found.success]) == {"solved"}
+    easy = ik(arm, T[found.success][:5], seed=1)
+    assert easy.success.all()
+    assert (easy.beyond == 0).all()
 
 
 @settings(max_examples=max(settings().max_examples // 10, 5))
@@ -247,6 +250,7 @@ def test_the_solution_nearest_to_a_configuration_is_found():
     q[:, 2] = np.where(np.abs(np.sin(q[:, 2])) < 0.2, 1.0, q[:, 2])
     found = ik(UR5, UR5.fk(q), nearest_to=q + 0.02)
     assert np.abs(found.q - q).max() < 1e-6
+    assert (found.iterations > 48).all()  # those of all the tries
 
 
 @pytest.mark.parametrize("aim", ["middle", "nearest", "manipulability"])
@@ -614,3 +618,12 @@ def test_the_manipulability_of_a_direction_is_that_of_its_five_numbers():
     assert served.success.all()
     assert (yoshikawa(served.q) >= yoshikawa(plain.q) * (1 - 1e-6)).all()
     assert yoshikawa(served.q).mean() > 1.1 * yoshikawa(plain.q).mean()
+
+
+@pytest.mark.parametrize("task", ["position", "rotation"])
+def test_a_wide_tolerance_is_kept_by_every_target_too(task):
+    T = UR5.fk(UR5.random(12, 500))
+    found = ik(UR5, T, task=task, tol_position=0.1, tol_rotation=0.1)
+    assert found.success.all()
+    # they end where they are good enough, not at rounding
+    assert np.median(found.position_error + found.rotation_error) > 1e-3

@@ -137,6 +137,25 @@ def test_follow_goes_the_same_way_in_every_unit(scale):
     np.testing.assert_array_equal(steps.q, follow(other, T, q0=q[0] * sizes, max_step=0.1).q)
 
 
+@pytest.mark.parametrize("start", [None, [1.0, -1.0, 0.0]], ids=["free", "q0"])
+def test_follow_changes_its_branch_and_comes_as_near_in_every_unit(start, scale):
+    # two links in a plane and a lift: bent one way the shoulder's limit is in the way, and the end is out of reach
+    axes = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1)]
+    limits = [[-0.2, 3.0], [-2.5, 2.5], [-1, 1]]
+    arm = pk.Chain([*axes, pk.screw.prismatic([0, 0, 1])], pk.se3.exp([0, 0, 0, 2, 0, 0]), limits=limits)
+    other, sizes = geared(arm, scale)
+    T = arm.fk(np.linspace([0.0, 1.0, 0.0], [2.9, 1.0, 0.0], 60))
+    T[50:, :3, 3] += np.linspace(0, 1, 10)[:, None] * [-1.0, 0, 0]
+    q0 = None if start is None else np.array(start)
+    expected = follow(arm, T, q0=q0, task="position")
+    found = follow(other, T, q0=None if q0 is None else q0 * sizes, task="position")
+    assert found.changes == expected.changes
+    assert bool(found.changes) == (start is not None)
+    np.testing.assert_array_equal(found.reason, expected.reason)
+    assert set(found.reason) == {"solved", "unreachable"}
+    np.testing.assert_allclose(found.q / sizes, expected.q, atol=1e-6)
+
+
 @pytest.mark.parametrize("ratios, turns", [
     ([1.0], 1), ([-1.0], 1), ([1.0, -0.5], 2), ([1 / 3, 1.0], 3), ([1.0, 0.5, 1 / 3], 6),
     ([1.0, 0.3333], 0), ([1.0, 1 / (MOST_TURNS + 1)], 0), ([1.0, 1 / MOST_TURNS], MOST_TURNS), ([2.0, 4.0], 2),
