@@ -227,6 +227,20 @@ def test_it_needs_math_h_alone_and_no_memory(real, mathematical):
         assert real == "double" or not re.search(r"\bdouble\b|[0-9]\.[0-9]+(e-?[0-9]+)?(?![0-9ef])", code)
 
 
+def test_the_header_says_the_sizes_of_all_arrays():
+    arm = pk.load("ur5e").chain().rezeroed([0.0, 0.1, 0.2, 0.3, 0.0, 0.0])
+    header = emit.c(arm, "body", name="a").header
+    for task, results, n in (
+        ("fk", "T[16]", 6),
+        ("jacobian_body", "J[36]", 5),
+        ("fk_jacobian_body", "T[16], J[36]", 6),
+    ):
+        first = f" * a_{task}: from q[6] to {results}; they may overlap q.\n"
+        assert (
+            f"{first} * ..._sincos: the same from s[{n}] = sin x and c[{n}] = cos x, where the angles x are\n" in header
+        )
+
+
 def test_the_first_comment_says_what_it_costs():
     chain = arm("panda")
     source = emit.c(chain, "middle", name="p")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 
 import numpy as np
 import pytest
@@ -92,6 +93,38 @@ def test_panda_s_middle_frame_is_the_one_its_docstring_gives():
     after = text.split("base frame at q = 0, (R, p):\n")[1].splitlines()[:3]
     T = chain.joint_poses(np.zeros(7))[middle.joint] @ middle.T_km
     np.testing.assert_array_equal([[float(x) for x in line.split()] for line in after], T[:3])
+
+
+OFF_ZERO = pk.load("ur5e").chain().rezeroed([0.0, 0.1, 0.2, 0.3, 0.0, 0.0])  # J in the tip's frame has five angles
+
+
+@pytest.mark.parametrize("task, results", [
+    ("fk", "T (..., 4, 4)"), ("jacobian_body", "J (..., 6, 6)"), ("fk_jacobian_body", "T (..., 4, 4), J (..., 6, 6)"),
+])  # fmt: skip
+def test_its_functions_say_what_they_take_and_give(task, results):
+    made = module(emit.python(OFF_ZERO, "body"))
+    q = OFF_ZERO.random(0)
+    x = getattr(made, f"{task}_angles")(q, np)
+    assert getattr(made, task).__doc__ == f"{results} at q (..., 6)."
+    takes = f"from sines and cosines (..., {len(x)}) of the angles, and from q (..., 6)."
+    assert getattr(made, f"{task}_sincos").__doc__ == f"{results} {takes}"
+    first, *equations = [line.strip() for line in getattr(made, f"{task}_angles").__doc__.split("\n") if line.strip()]
+    assert first == f"The angles x (..., {len(x)}) whose sines and cosines are needed."
+    assert len(equations) == len(x) == (5 if task == "jacobian_body" else 6)
+    for equation in equations:  # numbers are written to six digits
+        left, right = equation.split(" = ")
+        right = re.sub(r"(\d) q", r"\1 * q", right)
+        assert abs(eval(left, {"x": x}) - eval(right, {"x": x, "q": q})) <= 1e-5
+
+
+def test_its_first_lines_say_which_arm_it_is():
+    text = emit.python(OFF_ZERO, "body")
+    assert "Base frame 'base', tip frame 'tool0'; 6 joints, 6 coordinates. Units: rad, m.\n" in text
+    for k, (name, (lower, upper)) in enumerate(zip(OFF_ZERO.q_names, OFF_ZERO.limits.tolist(), strict=True)):
+        assert f"\n  q[{k}]  rad  '{name}', {lower:.6g} ... {upper:.6g}\n" in text
+    assert "J, 6 x 6 row by row: V = J dq. Rows omega x, y, z (rad/s), then v x, y, z (m/s), per unit of dq.\n" in text
+    slides = pk.load("stanford").chain()
+    assert re.findall(r"\n  q\[\d\]  (\w+)  ", emit.python(slides, "body")) == ["rad", "rad", "m", "rad", "rad", "rad"]
 
 
 def test_float32_stays_float32():
