@@ -123,6 +123,7 @@ def test_its_first_lines_say_which_arm_it_is():
     for k, (name, (lower, upper)) in enumerate(zip(OFF_ZERO.q_names, OFF_ZERO.limits.tolist(), strict=True)):
         assert f"\n  q[{k}]  rad  '{name}', {lower:.6g} ... {upper:.6g}\n" in text
     assert "J, 6 x 6 row by row: V = J dq. Rows omega x, y, z (rad/s), then v x, y, z (m/s), per unit of dq.\n" in text
+    assert "T = (R, p; 0, 1), 4 x 4 row by row: the pose of the tip in the base frame; p in m.\n" in text
     slides = pk.load("stanford").chain()
     assert re.findall(r"\n  q\[\d\]  (\w+)  ", emit.python(slides, "body")) == ["rad", "rad", "m", "rad", "rad", "rad"]
 

@@ -181,7 +181,7 @@ def test_every_module_has_tests_that_exist():
         ("formats/emit/c", "formats/test_emit_c"),
         ("solve/followed", "solve/test_follow"),  # by what imports it
         ("testing/planted_changes", "analysis/test_compare"),  # by the tests that import it
-        ("engine/machine_code", "model/test_compiled"),
+        ("engine/follow_kernels", "solve/test_follow"),
         ("solve/calibration/measurement", "solve/calibration/test_measurements"),
     ],
 )
@@ -378,6 +378,31 @@ def test_the_exit_code_and_the_table_say_what_the_sample_proves(survivors, code,
     assert command.main(["--report", "--sample", "60"]) == code
     said = capsys.readouterr().out
     assert ("FAILED: all: 40 of 60 survived" in said) == bool(code)
+
+
+@pytest.mark.parametrize("let_through, tries", [(0, 1), (2, 1), (30, 2)])
+def test_what_the_near_tests_let_through_is_tried_on_all_only_where_the_sample_fails_else(
+    let_through, tries, tmp_path, monkeypatch
+):
+    keys = _project(tmp_path, monkeypatch)
+    ran: list[tuple[int, bool]] = []
+
+    def run(waiting, *, outcomes, quick, **_):
+        ran.append((len(waiting), quick))
+        for k, mutant in enumerate(waiting):
+            outcomes[mutant.key] = {"outcome": "passed" if quick and k < let_through else "caught", "by": ""}
+
+    monkeypatch.setattr(command, "_run", run)
+    assert command.main(["--sample", "60", "--afresh"]) == 0
+    assert ran == [(60, True), (let_through, False)][:tries]
+    ran.clear()
+    assert command.main(["--sample", str(len(keys) + 1), "--afresh"]) == 0  # all: each is tried on all tests
+    assert ran == [(len(keys), False)]
+
+
+def test_a_large_sample_is_judged_as_well():
+    assert sample.chance(800, {"solve": 16_000}) == pytest.approx(0.5, abs=0.02)
+    assert sample.chance(0, {}) == 1
 
 
 FILES = ("poekin/solve/a.py", "poekin/solve/b.py", "poekin/cli/c.py", "poekin/algebra.py")

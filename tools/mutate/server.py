@@ -156,7 +156,7 @@ def _judge(tree: Path, arguments: list[str], writing: int) -> None:
 
     if os.environ.get(KEY):
         with contextlib.suppress(Exception):  # what cannot be imported, the tests will find
-            importlib.import_module("poekin.engine.source").LOADED = os.environ[KEY]
+            vars(importlib.import_module("poekin.engine.source"))["LOADED"] = os.environ[KEY]
     options = ["-q", "-W", "ignore::pytest.PytestAssertRewriteWarning"]
     options += [word for plugin in PLUGINS for word in ("-p", plugin)]
     code = int(pytest.main([*options, *arguments], plugins=[Judge(send)]))

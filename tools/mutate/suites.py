@@ -77,6 +77,8 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/engine/specialise.py": ("tests/engine/test_interpret.py", "tests/engine/test_count.py",
                                     "tests/model/test_compiled.py"),
     "poekin/engine/source.py": ("tests/engine/test_cache.py",),
+    **{f"poekin/formats/emit/{name}.py": ("tests/formats/test_emit_python.py", "tests/formats/test_emit_c.py",
+                                          "tests/cli/test_emit.py") for name in ("statements", "vectors", "words")},
     "poekin/formats/dh/": (*_DH, "tests/formats/test_dh_calibrated.py", f"--deselect={_DH[2]}::{_SLOW}"),
     "poekin/model/screw.py": (
         "tests/model/test_screw_values.py", "tests/model/test_screw.py", "tests/model/test_parts.py", *_CHAINS),
@@ -97,6 +99,12 @@ _ALL_FORMULAS = (
 )  # fmt: skip
 _ALL_DH = (*_DH, "tests/formats/test_dh_calibrated.py", "tests/cli/test_dh.py")
 _COMPILED_ARMS = ("tests/model/test_compiled.py", "tests/formats/test_emit_c.py", "tests/formats/test_emit_python.py")
+_BY_MODEL = (
+    *(f"tests/formats/test_{name}.py" for name in ("dh", "mjcf", "objects", "relink", "rpy", "serial", "ur", "urdf")),
+    *(f"tests/analysis/test_{name}.py" for name in ("axes", "compare_extra")),
+    "tests/testing/test_chain_strategies.py",
+    "tests/cli/test_info.py",
+)
 _BY_ARMS = ("tests/solve/test_ik.py", "tests/solve/test_ik_all.py", "tests/solve/test_follow.py")
 WHOLE: dict[str, tuple[str, ...]] = {
     "poekin/": ("tests/test_errors.py", "tests/test_public_names.py", "tests/cli", "tests/formats"),
@@ -105,8 +113,8 @@ WHOLE: dict[str, tuple[str, ...]] = {
     "poekin/groups/": _ALL_FORMULAS,
     "poekin/engine/": ("tests/engine", *_COMPILED_ARMS, *_BY_ARMS, *_CHAINS, *_GROUPS),
     **{f"poekin/engine/{name}.py": _ALL_FORMULAS for name in _INTERPRETED},
-    "poekin/model/": ("tests/model", *_COMPILED_ARMS, "tests/formats", "tests/analysis", "tests/cli/test_info.py"),
-    "poekin/formats/": ("tests/formats", "tests/cli", "tests/model"),
+    "poekin/model/": ("tests/model", *_COMPILED_ARMS, *_BY_MODEL),
+    "poekin/formats/": ("tests/formats", "tests/cli"),
     "poekin/formats/dh/": _ALL_DH,
     "poekin/analysis/": ("tests/analysis", "tests/cli"),
     "poekin/solve/": ("tests/solve", "tests/cli"),
