@@ -83,6 +83,76 @@ def test_a_damaged_header_is_one_error_that_names_the_file(header):
         configurations(_file(header, bytes(48)), 2, "'q.npy'")
 
 
+KEYS = "its header does not say descr, fortran_order and shape"
+REASONS = {
+    "a call": "its header cannot be read",
+    "nothing": "its header cannot be read",
+    "minus signs without end": "its header cannot be read",
+    "a key that cannot be one": "its header cannot be read",
+    "a list": KEYS,
+    "a key too few": KEYS,
+    "a type that is none": "an array of real numbers expected, its elements are '<f3'",
+    "a type of objects": "an array of real numbers expected, its elements are '|O'",
+    "an order that is none": "its header's fortran_order is neither True nor False",
+    "a shape that is a number": "its header's shape is none",
+    "a shape of truths": "its header's shape is none",
+    "a shape below 0": "its header's shape is none",
+    "a shape too large for C": "its header's shape is none",
+    "a header without end": "its header is longer than 10000 bytes",
+}
+
+
+@pytest.mark.parametrize("name", REASONS)
+def test_what_is_wrong_with_a_header_is_said(name):
+    with pytest.raises(FileError) as caught:
+        configurations(_file(DAMAGED[name], bytes(48)), 2, "'q.npy'")
+    assert str(caught.value) == f"'q.npy' is no .npy file of numbers: {REASONS[name]}"
+
+
+def test_what_is_wrong_with_the_whole_is_said():
+    good = _saved(np.ones((3, 2)))
+    for content, reason in (
+        (b"PK\3\4" + good, "it does not begin like one"),
+        (good[:6] + b"\7\0" + good[8:], "its version is unknown"),
+        (good[:100], "it ends within its header"),
+        (good[:9], "it ends within its header"),
+    ):
+        with pytest.raises(FileError) as caught:
+            configurations(content, 2, "q")
+        assert str(caught.value) == f"q is no .npy file of numbers: {reason}"
+    with pytest.raises(FileError, match=r"^q is damaged: its header speaks of 48 bytes, 47 are there$"):
+        configurations(good[:-1], 2, "q")
+    with pytest.raises(InputError, match=r"^q: an array of shape \(N, 3\) expected, got \(3, 2\)$"):
+        configurations(good, 3, "q")
+
+
+def test_what_is_as_long_as_it_may_be_is_read():
+    header = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2)}"
+    assert configurations(_file(header.ljust(10_000), bytes(48)), 2, "q").shape == (3, 2)
+    with pytest.raises(FileError, match="longer than 10000 bytes"):
+        configurations(_file(header.ljust(10_001), bytes(48)), 2, "q")
+    many = header.replace("(3, 2)", f"({2**40}, 0)")
+    assert configurations(_file(many), 0, "q").shape == (2**40, 0)
+    with pytest.raises(FileError, match="its header's shape is none"):
+        configurations(_file(header.replace("(3, 2)", f"({2**40 + 1}, 0)")), 0, "q")
+    long = header.replace("'<f8'", f"'{'x' * 50}'")
+    with pytest.raises(FileError, match=rf"its elements are '{'x' * 40}'$"):
+        configurations(_file(long), 2, "q")
+    nested = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2)}" + " #" + "(" * 97
+    assert configurations(_file(nested + "-", bytes(48)), 2, "q").shape == (3, 2)  # a hundred in all
+    with pytest.raises(FileError, match="its header cannot be read"):
+        configurations(_file(nested + "--", bytes(48)), 2, "q")
+
+
+def test_last_axes_that_make_up_a_row_are_taken_where_they_are_said():
+    T = np.arange(32.0).reshape(2, 4, 4)
+    np.testing.assert_array_equal(configurations(_saved(T), 16, "q", (4, 4)), T.reshape(2, 16))
+    np.testing.assert_array_equal(configurations(_saved(T[1]), 16, "q", (4, 4)), T[1].reshape(1, 16))
+    np.testing.assert_array_equal(configurations(_saved(T.reshape(2, 16)), 16, "q", (4, 4)), T.reshape(2, 16))
+    with pytest.raises(InputError, match=r"^q: an array of shape \(N, 16\) expected, got \(1, 2, 4, 4\)$"):
+        configurations(_saved(T[None]), 16, "q", (4, 4))
+
+
 @pytest.mark.parametrize(("content"), [_file("{}", version=b"\7\0"), _file(b"\xff{}", version=b"\3\0")])
 def test_an_unknown_version_and_a_header_that_is_no_text_are_refused(content):
     with pytest.raises(FileError, match=r"^'q\.npy' is no \.npy file"):
