@@ -283,3 +283,47 @@ def test_a_file_that_has_grown_since_it_was_measured_is_refused_and_not_cut(tmp_
         data = xml.read_bytes(path)
     with pytest.raises(ModelError, match="expected at most"):
         urdf.read_text(data)
+
+
+SENTENCES = {
+    "root": ("<mujoco/>", "x.urdf:1: expected the root element <robot>, got 'mujoco'"),
+    "empty name": ('<robot>\n<link name=""/></robot>',
+                   "x.urdf:2: <link>: expected an attribute name=\"...\", it is empty"),
+    "no type": (joint_of('name="j"'), "x.urdf:3: joint 'j': expected an attribute type=\"...\", none there"),
+    "type": (joint_of('name="j" type="ball"'),
+             "x.urdf:3: joint 'j': type must be one of revolute, continuous, prismatic, fixed, floating, planar,"
+             " got 'ball'"),
+    "no child": (joint_of(ends='<parent link="a"/>'),
+                 "x.urdf:3: joint 'j': expected an element <child link=\"...\"/>, none there"),
+    "two": (joint_of(ends='<parent link="a"/><child link="b"/><child link="b"/>'),
+            "x.urdf:4: joint 'j': <child>: it is there 2 times, expected once"),
+    "count": (one_joint('<origin xyz="0 1"/>'),
+              "x.urdf:4: joint 'j': <origin>: xyz must be three numbers, got 2: '0 1'"),
+    "xacro": (one_joint('<origin rpy="${x} 0 0"/>'),
+              "x.urdf:4: joint 'j': <origin>: rpy must be three finite numbers, got '${x} 0 0'"
+              " (an unprocessed xacro expression?)"),
+    "far": (one_joint('<origin xyz="0 -1e155 0"/>'),
+            "x.urdf:4: joint 'j': <origin>: xyz: expected lengths of at most 1e+100 m, got (0.0, -1e+155, 0.0)"),
+    "axis": (one_joint("<axis/>"), "x.urdf:4: joint 'j': <axis>: expected an attribute xyz=\"...\", none there"),
+    "limits": (one_joint('<limit lower="1" upper="-1.5"/>'),
+               "x.urdf:4: joint 'j': <limit>: lower must not be above upper, got lower = 1.0, upper = -1.5"),
+    "limit": (one_joint('<limit lower="0" upper="high"/>'),
+              "x.urdf:4: joint 'j': <limit>: upper must be a number, got 'high'"),
+    "multiplier": (one_joint(LIMIT + '<mimic joint="j" multiplier="inf"/>'),
+                   "x.urdf:4: joint 'j': <mimic>: multiplier must be a finite number, got 'inf'"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", SENTENCES)
+def test_a_refusal_says_file_line_element_what_was_expected_and_what_arrived(case):
+    text, message = SENTENCES[case]
+    with pytest.raises(ModelError) as caught:
+        urdf.read_text(text, "x.urdf")
+    assert str(caught.value) == message
+
+
+def test_a_mimic_of_a_joint_that_does_not_exist_is_said_with_both_names():
+    text = one_joint(LIMIT + '<mimic joint="k"/>')
+    with pytest.warns(PoekinWarning) as caught:
+        urdf.read_text(text, "x.urdf")
+    assert str(caught[0].message) == "x.urdf:4: joint 'j' mimics 'k', which does not exist, and stays independent"
