@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from poekin.errors import FileError, InputError, MissingExtra, ModelError, PoekinWarning, UnknownName
 from poekin.formats import catalogue, erd, load
+from poekin.formats.dh.published_tables import NAMES as TABLES
 from poekin.model.robot import Robot
 from tests.formats.texts import one_joint
 
@@ -136,8 +137,29 @@ def test_an_unknown_name_is_answered_with_those_that_exist(name):
     with pytest.raises(UnknownName, match=r"built in: cobra600, .*panda, .*ur5e; \"erd:NAME\"") as caught:
         load(name)
     assert str(caught.value).isprintable()
-    with pytest.raises(UnknownName, match="did you mean 'panda'"):
+    with pytest.raises(UnknownName) as caught:
         load("pandaa")
+    assert str(caught.value) == (
+        "no file and no built-in arm is named 'pandaa'; did you mean 'panda'?"
+        f' (built in: {", ".join(sorted({*catalogue.NAMES, *TABLES}))}; "erd:NAME" is for example-robot-data)'
+    )
+
+
+def test_a_file_is_named_in_what_is_wrong_with_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(FileError, match=r"^gone\.urdf: no such file$"):
+        load("gone.urdf")
+    with pytest.raises(InputError, match=r"^load: expected a name or a path, got bytes$"):
+        load(b"panda")  # type: ignore[arg-type]
+    (tmp_path / "a.xacro").write_text(one_joint(), encoding="utf-8")
+    with pytest.raises(
+        ModelError, match=r"^a\.xacro: xacro evaluates expressions that are in the file, which load nev"
+    ):
+        load("a.xacro")
+    long = "x" * 240 + "/" + "y" * 240 + ".urdf"
+    with pytest.raises(FileError) as caught:
+        load(long)
+    assert str(caught.value) == f"{long[:399]}…: no such file"
 
 
 @pytest.mark.parametrize("name", [7, None, b"panda", ["panda"]])
