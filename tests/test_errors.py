@@ -2,13 +2,30 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import poekin as pk
-from poekin.errors import InputError, closest, harmless, listed, shown, told
+from poekin.errors import (
+    BranchError,
+    FileError,
+    InputError,
+    MissingExtra,
+    ModelError,
+    PoekinError,
+    PoseError,
+    ShapeError,
+    UnknownName,
+    closest,
+    harmless,
+    listed,
+    shown,
+    told,
+)  # fmt: skip
 
 
 @given(st.text(), st.integers(2, 100))
@@ -41,6 +58,55 @@ def test_a_long_list_ends_with_how_many_more_there_are():
     assert listed("abc", 2) == "'a', 'b' and 1 more"
     assert listed(()) == ""
     assert closest("x", "abcdefgh") == "available: 'a', 'b', 'c', 'd', 'e' and 3 more"
+
+
+@pytest.mark.parametrize("length", [79, 80, 81])
+def test_what_is_too_long_is_cut_at_eighty_characters(length):
+    text = "x" * min(length, 80) if length <= 80 else "x" * 79 + "…"
+    assert shown("x" * length) == f"'{text}'"
+    assert harmless("x" * length, 80) == text
+    assert told(["x"] * 100) == repr(["x"] * 100)[:79] + "…"
+    assert harmless("x" * length) == "x" * length
+
+
+def test_a_dozen_names_are_listed_and_five_offered():
+    assert listed(range(12)) == ", ".join(f"'{i}'" for i in range(12))
+    assert listed(range(13)) == ", ".join(f"'{i}'" for i in range(12)) + " and 1 more"
+    near = [f"joint{i}" for i in range(6)]
+    assert closest("joint", near).count("'joint") == 5
+    assert closest("joint", near, 2).count("'joint") == 2
+    assert closest("joint", []) == "there are none"
+
+
+@pytest.mark.parametrize("name, meant", [("abcdefghij", False), ("abcdefghxx", True), ("abcdexxxxx", False)])
+def test_a_name_is_meant_where_three_fifths_of_it_are_there(name, meant):
+    # of two names of ten characters, 2 × 8 ÷ 20 = 0.8 are there in the second case, 0.5 in the third
+    found = closest(name, ["abcdefghyy" if name != "abcdefghij" else "klmnopqrst"])
+    assert found.startswith("did you mean" if meant else "available: ")
+
+
+@pytest.mark.parametrize(
+    "error, also",
+    [
+        (InputError("x"), ValueError), (ShapeError("x"), ValueError), (PoseError("x"), ValueError),
+        (BranchError("x"), ValueError), (ModelError("x"), ValueError), (UnknownName("x"), KeyError),
+        (FileError("x"), OSError), (MissingExtra("a", "b", "c"), ImportError),
+    ],
+)  # fmt: skip
+def test_an_error_of_poekin_s_is_also_the_one_that_python_s_users_expect(error, also):
+    assert isinstance(error, PoekinError)
+    assert isinstance(error, also)
+    again = pickle.loads(pickle.dumps(error))
+    assert (type(again), str(again)) == (type(error), str(error))
+    assert not isinstance(PoekinError("x"), (ValueError, KeyError, OSError, ImportError))
+
+
+def test_what_an_error_says_is_what_it_was_given():
+    assert str(UnknownName("no link 'a'")) == "no link 'a'"
+    assert str(UnknownName()) == ""
+    missing = MissingExtra("mujoco", "mjcf", "reading MJCF")
+    assert str(missing) == "reading MJCF needs the package mujoco: pip install 'poekin[mjcf]'"
+    assert (missing.package, missing.extra, missing.purpose) == ("mujoco", "mjcf", "reading MJCF")
 
 
 def test_of_long_names_only_the_first_are_looked_at():
