@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -43,6 +44,26 @@ def test_json_is_the_table_and_what_is_said_about_it(as_json):
     q = chain.random(0, 20)
     np.testing.assert_allclose(pk.dh.to_chain(table).fk(q), chain.fk(q), atol=1e-14)
     assert document["error"] <= document["bound"] < 1e-13
+
+
+def test_the_words_have_the_numbers_of_the_function_and_x_stands_where_the_joint_moves(poekin, as_json):
+    chain = pk.load("stanford").chain()
+    result = pk.dh.from_chain(chain, convention="standard")
+    document = as_json("dh", "stanford")
+    assert (document["base"], document["tip"], document["reach"]) == (chain.base, chain.tip, chain.reach)
+    assert (document["gauge"], document["error"], document["bound"]) == (list(result.gauge), result.error, result.bound)
+    code, out, _ = poekin("dh", "stanford")
+    assert code == 0
+    for i, (row, kind) in enumerate(zip(result.table.rows, chain.kinds, strict=True), 1):
+        line = next(line for line in out.splitlines() if line.startswith(f"{i} "))
+        nothing = result.bound * chain.reach
+        theta, d, a, alpha = (f"{0.0 if abs(x) < nothing else x:.9g}" for x in (row.theta, row.d, row.a, row.alpha))
+        moving = [f"{theta} + x", d] if kind == "revolute" else [theta, f"{d} + x"]
+        assert re.split(r"\s{2,}", line.strip())[:7] == [str(i), row.name, kind, *moving, a, alpha]
+    assert out.endswith(
+        f"Pose error ÷ reach ({chain.reach:.3g} m): {result.error:.2g} over random configurations;"
+        f" at most {result.bound:.2g}\n"
+    )
 
 
 @pytest.mark.parametrize("ending", ["toml", "csv"])
