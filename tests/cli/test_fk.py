@@ -87,6 +87,32 @@ def test_many_configurations_go_through_files_to_the_last_bit(crane, poekin, arm
     assert not list(tmp_path.glob(".*"))
 
 
+def test_a_single_configuration_is_printed_to_nine_digits_and_the_jacobian_by_its_rows(crane, poekin, arm):
+    q = [1.23456789, -0.987654321]
+    lines = poekin("jacobian", crane, "--tip", "hook", "--frame", "hybrid", *q)[1].splitlines()
+    assert lines[1:3] == ["  turn = 1.23456789", "  slide = -0.987654321"]
+    J = np.array([line.split()[1:] for line in lines[-6:]], float)
+    np.testing.assert_allclose(J, arm.jacobian(q, "hybrid"), rtol=1e-8)  # nine digits, more at least than 1e-8
+
+
+def test_a_single_configuration_is_in_a_file_what_many_are(crane, poekin, arm, tmp_path):
+    out = tmp_path / "T.json"
+    assert poekin("fk", crane, "--tip", "hook", 0.3, 0.4, "--output", out)[0] == 0
+    document = json.loads(out.read_text())
+    assert document["q"] == [[0.3, 0.4]]
+    np.testing.assert_array_equal(document["T"], arm.fk([[0.3, 0.4]]))
+
+
+def test_more_configurations_than_are_computed_at_once_are_in_their_order(crane, poekin, arm, tmp_path, monkeypatch):
+    from poekin.cli import arm as arms
+
+    monkeypatch.setattr(arms, "ROWS_AT_ONCE", 2)
+    q = np.random.default_rng(0).normal(size=(5, 2))
+    np.save(tmp_path / "q.npy", q)
+    assert poekin("fk", crane, "--tip", "hook", "--input", tmp_path / "q.npy", "--output", tmp_path / "T.npy")[0] == 0
+    np.testing.assert_allclose(np.load(tmp_path / "T.npy"), arm.fk(q), atol=1e-15)  # in another batch
+
+
 def test_many_configurations_are_csv_on_stdout(crane, poekin, arm, tmp_path):
     given = tmp_path / "q.csv"
     given.write_text("0.1,0.2\n\n0.3,0.4\n")
@@ -215,6 +241,7 @@ def test_a_damaged_npy_is_refused(crane, refused, tmp_path, content):
     ("words", "message"),
     [
         (["--tip", "hook", "1"], "2 coordinates expected (turn, slide), got 1"),
+        (["--tip", "hook", "1", "2", "3"], "2 coordinates expected (turn, slide), got 3"),
         (["--tip", "hook"], "2 coordinates expected (turn, slide), got 0; or --input with a file"),
         (["--tip", "hook", "1", "two"], "coordinate 2: a number expected (rad or m), got 'two'"),
         (["--tip", "hook", "1", "1_0"], "coordinate 2: a number expected (rad or m), got '1_0'"),
@@ -223,7 +250,10 @@ def test_a_damaged_npy_is_refused(crane, refused, tmp_path, content):
         (["--tip", "hook", "--bse", "a", "1", "2"], "there is no option '--bse'; did you mean '--base'"),
         (["1", "2"], "'hook', 'lamp'"),
         (["--tip", "hook", "--input", "nowhere.csv"], "cannot read 'nowhere.csv': No such file or directory"),
-        (["--tip", "hook", "1", "--input", "q.csv"], "either coordinates or --input expected"),
+        (
+            ["--tip", "hook", "1", "--input", "q.csv"],
+            "either coordinates or --input expected, got both ('1' and 'q.csv')",
+        ),
         (["--tip", "hook", "1", "2", "--output", "T.txt"], "a name that ends in .csv, .npy or .json expected"),
         (["--tip", "hook", "1", "2", "--output", "no/T.csv"], "there is no directory 'no'"),
     ],
