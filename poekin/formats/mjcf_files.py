@@ -68,6 +68,10 @@ def _named(element: xml.Element, opened: _Opened) -> _Opened | None:
     whole = element.tag == "model"  # by itself, so that its includes are relative to its own folder
     if "\0" in name or not name.lower().endswith(".xml"):
         return None
+    try:
+        os.fsencode(name)
+    except UnicodeEncodeError:  # no file can have this name here
+        return None
     for folder in (opened.folder,) if whole else (opened.top, opened.folder):
         path = os.path.realpath(os.path.join(folder, name))
         if os.path.isfile(path):

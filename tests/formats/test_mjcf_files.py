@@ -93,6 +93,17 @@ def test_a_folder_or_device_that_is_included_is_refused(folder):
         assert os.listdir(there) == ["a.xml"]
 
 
+def test_a_name_that_no_file_can_have_here_is_no_file(folder, monkeypatch):
+    def latin_1(name):
+        return name.encode("latin-1")
+
+    there = folder(a='<include file="&#x10D;.xml"/>')
+    monkeypatch.setattr(os, "fsencode", latin_1)  # as where the locale is not UTF-8
+    monkeypatch.setattr(os.path, "isfile", latin_1)
+    with pytest.raises(ModelError, match="MuJoCo refuses this model"):
+        load(there / "a.xml")
+
+
 @pytest.mark.parametrize("count", [MOST_COPIES + 1, 10**9, "9" * 5000], ids=["one too many", "10^9", "10^5000"])
 def test_copies_without_measure_are_refused(count):
     inner = f'<replicate count="{count}"><body/></replicate>'

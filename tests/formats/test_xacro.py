@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import locale
 import sys
 
 import pytest
@@ -11,6 +12,9 @@ from poekin.errors import FileError, InputError, MissingExtra, ModelError, Poeki
 from poekin.formats.load import load
 from poekin.formats.xacro import is_xacro, xacro
 
+needs_utf8 = pytest.mark.skipif(
+    locale.getpreferredencoding(False).upper() != "UTF-8", reason="xacro reads files in the encoding of the locale"
+)
 needs_xacro = pytest.mark.skipif(importlib.util.find_spec("xacrodoc") is None, reason="xacrodoc is not installed")
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
@@ -96,6 +100,7 @@ REFUSED = {
 
 
 @needs_xacro
+@needs_utf8
 @pytest.mark.parametrize(("text", "message"), REFUSED.values(), ids=REFUSED.keys())
 def test_what_cannot_be_evaluated_is_refused_in_one_line(tmp_path, text, message):
     path = tmp_path / "x"
@@ -107,6 +112,7 @@ def test_what_cannot_be_evaluated_is_refused_in_one_line(tmp_path, text, message
 
 
 @needs_xacro
+@needs_utf8
 def test_what_xacro_warns_of_is_a_warning_once_and_harmless(tmp_path, capfd):
     path = tmp_path / "w.xacro"
     path.write_text(HEAD + '<link name="a"/><xacro:include filename="no\x9b31m*.xacro"/></robot>', encoding="utf-8")
