@@ -132,7 +132,9 @@ def test_a_closed_stderr_changes_neither_result_nor_code(crane):
 def test_configurations_come_from_standard_input(crane, refused, tmp_path, monkeypatch):
     words = _command("fk", crane, "--tip", "hook", "--input", "-")
     done = subprocess.run(words, input="slide,turn\n0.2,0.1\n", capture_output=True, text=True)
-    assert (done.returncode, done.stderr, len(done.stdout.splitlines())) == (0, "", 2)
+    # a new machine, or one that keeps nothing, compiles kernels and says so
+    said = [line for line in done.stderr.splitlines() if "kernels" not in line]
+    assert (done.returncode, said, len(done.stdout.splitlines())) == (0, [], 2)
     (tmp_path / "q.csv").write_text("0.2,0.1\n0.2,x\n")
     with open(tmp_path / "q.csv") as given:
         monkeypatch.setattr(sys, "stdin", given)
