@@ -85,34 +85,25 @@ def chains(
     Shrinks to no joint; to those that matter, revolute about x through the origin, and M = I.
     """
     bounds = arguments.counts(min_joints, max_joints)
-    plain = _chains(bounds, arguments.some("joint_kinds", joint_kinds, KINDS), coupled, offsets)
-    return plain.flatmap(_limited) if limits else plain
+    return _chains(bounds, arguments.some("joint_kinds", joint_kinds, KINDS), coupled, offsets, limits)
 
 
-def _limited(chain: Chain) -> st.SearchStrategy[Chain]:
-    """The chain with limits."""
-
-    def pair(r: Reader) -> tuple[float, float]:
-        kind, lower, width = r.pick(LIMITS), r.decimal(-3.0, 3.0), r.decimal(0.1, 3.0)
-        upper = lower if kind == "equal" else lower + width
-        return (-math.inf if kind in ("none", "upper") else lower, math.inf if kind in ("none", "lower") else upper)
-
-    def limited(r: Reader) -> Chain:
-        pairs = np.reshape([pair(r) for _ in range(chain.dof)], (chain.dof, 2))
-        return Chain(chain.screws, chain.home, coupling=chain.coupling, offset=chain.offset, limits=pairs)
-
-    return read(9 * chain.dof, limited)
+def _limits(r: Reader) -> tuple[float, float]:
+    kind, lower, width = r.pick(LIMITS), r.decimal(-3.0, 3.0), r.decimal(0.1, 3.0)
+    upper = lower if kind == "equal" else lower + width
+    return (-math.inf if kind in ("none", "upper") else lower, math.inf if kind in ("none", "lower") else upper)
 
 
 @st.composite
 def _chains(
-    draw: st.DrawFn, bounds: tuple[int, int], kinds: tuple[str, ...], coupled: bool | None, offsets: bool
+    draw: st.DrawFn, bounds: tuple[int, int], kinds: tuple[str, ...], coupled: bool | None, offsets: bool, limits: bool
 ) -> Chain:
     n = draw(read(1, lambda r: r.pick(range(bounds[0], bounds[1] + 1))))
     A = [draw(_screws(kinds)) for _ in range(n)]
     home = draw(placements())
     if n == 0 or not (draw(st.booleans()) if coupled is None else coupled):
-        return Chain(np.reshape(A, (n, 6)), home)
+        pairs = draw(read(9 * n, lambda r: [_limits(r) for _ in range(n)])) if limits else None
+        return Chain(np.reshape(A, (n, 6)), home, limits=pairs or None)
     m = draw(st.integers(1, n))
     C, c = np.zeros((n, m)), np.zeros(n)
     # The first m joints are masters in an order of their own; the others follow one of them.
@@ -120,7 +111,8 @@ def _chains(
         C[i, i if i < m else draw(st.integers(0, m - 1))] = 1.0 if i < m else draw(st.sampled_from(RATIOS))
         c[i] = draw(read(3, lambda r: r.fraction(-1.0, 1.0))) if offsets else 0.0
     order = list(draw(st.permutations(range(n))))
-    return Chain(A, home, coupling=C[order], offset=c[order])
+    pairs = draw(read(9 * m, lambda r: [_limits(r) for _ in range(m)])) if limits else None
+    return Chain(A, home, coupling=C[order], offset=c[order], limits=pairs)
 
 
 def coordinates(chain: Any, shape: Sequence[int] = ()) -> Arrays:
