@@ -9,7 +9,7 @@ import numpy as np
 
 from ..model.chain import Chain
 from .axes import axes
-from .search import search
+from .search import agreeing
 
 __all__ = ["droppable", "without"]
 
@@ -29,8 +29,8 @@ def droppable(a: Chain, b: Chain, tol_mm: float, tol_deg: float) -> tuple[int, .
     for ks in combinations(range(len(long.screws)), more):
         rest = without(long, ks)
         if _may_agree(rest, short, tol_mm, tol_deg):
-            reading, _ = search(rest, short, tol_mm / 1e3, math.radians(tol_deg))
-            if not reading.moved.any():
+            reading = agreeing(rest, short, tol_mm / 1e3, math.radians(tol_deg))
+            if reading is not None:
                 fitting.append((reading.cost, ks))
     return min(fitting)[1] if fitting else None
 

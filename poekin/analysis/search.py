@@ -61,6 +61,20 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, l
     return (first := next(holding)), _others(first, holding)
 
 
+def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading | None:
+    """The best reading of two chains at rest under which all axes agree, or None: `search` without what differs."""
+    pair = sides(a, b, tol_m, tol_rad)
+    none, every = np.zeros(pair.n, bool), np.ones(pair.n, bool)
+    poses = rigid_poses(pair)[1]
+    nothing = np.zeros((len(poses), pair.n))
+    found = read(pair, a, b, poses[:1], nothing[:1])
+    found += read(pair, a, b, *fit(pair, *best(pair, poses, nothing), none, every))
+    if min(found, key=_cost).cost[0]:
+        found += _simplest(pair, a, b, *_other_zeros(pair)[2:])
+    holding = (r for r in sorted(found, key=_cost) if not r.moved.any() and poses_agree(pair, a, b, r))
+    return next(holding, None)
+
+
 def _one_joint(pair: Sides, a: Chain, b: Chain, poses: tuple[NDArray[np.intp], Array]) -> list[Reading]:
     """Readings in which one inner joint alone has a zero offset, its axis agreeing, or held to be wrong."""
     alone = np.eye(pair.n, dtype=bool)
@@ -92,13 +106,11 @@ def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Reading]:
 
 def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Reading]:
     """Readings in which every zero offset is free: with no bad axis, with each one, and with those that then miss."""
-    n = pair.n
-    inner = (np.arange(n) > 0) & (np.arange(n) < n - 1)
-    P, z = (rows[:8] for rows in one_by_one(pair))
-    fitted = fit(pair, P, z, inner, np.ones(n, bool))
-    found = _simplest(pair, a, b, *fitted)
+    n, inner = pair.n, _inner(pair)
+    P, z, P_fitted, z_fitted = _other_zeros(pair)
+    found = _simplest(pair, a, b, P_fitted, z_fitted)
     if min(found, key=_cost).moved.any():
-        tried = best(pair, np.concatenate([P, fitted[0]]), np.concatenate([z, fitted[1]]), 2)
+        tried = best(pair, np.concatenate([P, P_fitted]), np.concatenate([z, z_fitted]), 2)
         P, z = np.concatenate([P[:4], tried[0]]), np.concatenate([z[:4], tried[1]])
         for k in np.flatnonzero(pair.alike) if pair.alike.all() else np.flatnonzero(~pair.alike):
             used = np.arange(n) != k
@@ -109,6 +121,17 @@ def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Reading]:
                 # Zero offsets about a's axis k say nothing of b's, unless that is another one.
                 found += [reading for reading in readings if held.hinge < 0 or reading.moved[k]]
     return found
+
+
+def _inner(pair: Sides) -> Marks:
+    """The joints (n,) whose zero offsets are no turn of the base or the tool."""
+    return (np.arange(pair.n) > 0) & (np.arange(pair.n) < pair.n - 1)
+
+
+def _other_zeros(pair: Sides) -> tuple[Array, Array, Array, Array]:
+    """Alignments (P, z) with zero offsets found joint after joint, and the same fitted to all axes with them free."""
+    P, z = (rows[:8] for rows in one_by_one(pair))
+    return P, z, *fit(pair, P, z, _inner(pair), np.ones(pair.n, bool))
 
 
 def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Reading]:

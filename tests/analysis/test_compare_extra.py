@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from poekin.analysis import extra
 from poekin.analysis.compare import compare
+from poekin.analysis.search import agreeing, search
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
@@ -121,3 +122,27 @@ def test_another_pitch_is_named_and_nothing_else_is_blamed(pitch, words):
 def test_a_pitch_that_shows_less_than_the_tolerance_after_a_turn_is_the_same():
     assert compare(bolt(), bolt(0.02 + 1e-6), tol_mm=0.01).equal
     assert not compare(bolt(), bolt(0.02 + 2e-6), tol_mm=0.01).equal
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_agrees_is_found_without_looking_for_what_differs(seed):
+    rng = np.random.default_rng(seed)
+    chain = random_arm(seed, ("revolute", "revolute", "prismatic", "revolute", "revolute")[: 3 + seed % 3])
+    tol = 1e-5, np.radians(1e-3)
+    other = chain.rezeroed(rng.normal(size=chain.dof)).rebased(se3.exp(rng.normal(size=6)))
+    for two in (chain, chain.rebased(se3.exp(rng.normal(size=6))), other):
+        found, _ = search(chain, two, *tol)
+        reading = agreeing(chain, two, *tol)
+        assert reading is not None
+        assert not reading.moved.any()
+        assert reading.cost[0] == found.cost[0]
+    if chain.dof > 3:
+        assert agreeing(chain, random_arm(seed + 9, chain.kinds), *tol) is None
+
+
+def test_an_axis_three_tolerances_off_does_not_agree_though_the_poses_nearly_do():
+    chain = random_arm(3)
+    S = chain.screws.copy()
+    across = np.cross(S[2, :3], S[0, :3])
+    S[2, 3:] += np.cross(3e-5 * across / np.linalg.norm(across), S[2, :3])
+    assert agreeing(chain, Chain(S, chain.home), 1e-5, np.radians(1e-3)) is None
