@@ -21,7 +21,7 @@ from poekin.solve.ik_all import ik_all
 from poekin.solve.joint_units import joint_units
 from poekin.solve.memory import KEPT
 from poekin.solve.solution import REASONS
-from poekin.solve.solver import STEPS, Settings, solver_of
+from poekin.solve.solver import STEPS, Settings, Solver, solver_of
 from poekin.solve.starts import room_of
 from poekin.testing import chain_strategies
 
@@ -141,6 +141,19 @@ def test_no_pose_of_the_arm_is_beyond_its_reach(name):
     assert (ik(arm, arm.fk(arm.random(0, 300)), restarts=0, iterations=1).beyond == 0).all()
 
 
+def test_the_reach_of_a_slide_begins_at_its_offset():
+    axes = [screw.prismatic(axis) for axis in np.eye(3)]
+    gantry = pk.Chain(axes, np.eye(4), offset=[5.0, 0.0, -3.0], limits=[[-1, 1]] * 3)
+    T = gantry.fk(gantry.random(0, 50))
+    assert (ik(gantry, T, task="position", restarts=0, iterations=1).beyond == 0).all()
+    far = np.eye(4)
+    far[0, 3] = 5.0 + 3.0 + 3.0 + 0.5  # all slides and offsets one after the other, and half a metre
+    for iterations in (1, 30):
+        found = ik(gantry, far, task="position", iterations=iterations)
+        assert found.beyond == pytest.approx(0.5, abs=1e-9)
+        assert found.reason == "unreachable"
+
+
 def test_limits_that_are_in_the_way_are_named():
     q = np.array([0.3, -0.5, 0.2, -1.5, 0.4, 1.0, 0.1])
     limits = np.stack([q - 0.2, q + 0.2], axis=1)
@@ -151,6 +164,8 @@ def test_limits_that_are_in_the_way_are_named():
     assert found.reason == "limits"
     assert within(arm, found.q)
     assert found.blocked[0]
+    at = np.abs(found.q[:, None] - arm.limits).min(axis=1) <= 1e-9
+    assert found.blocked[0] == tuple(np.array(PANDA.joint_names)[at])
     assert all(name in found.why() for name in found.blocked[0])
     assert ik(arm, PANDA.fk(q_far), limits=False).success
 
@@ -627,3 +642,17 @@ def test_a_wide_tolerance_is_kept_by_every_target_too(task):
     assert found.success.all()
     # they end where they are good enough, not at rounding
     assert np.median(found.position_error + found.rotation_error) > 1e-3
+
+
+@pytest.mark.parametrize("given", [True, False])
+def test_the_first_try_for_the_nearest_begins_at_q0_or_else_at_what_is_to_be_near(given, monkeypatch):
+    q = UR5.random(2, 3)
+    q0, near, begun, whole = q + 0.1, q - 0.2, [], Solver.solve
+
+    def solve(self, targets, indices, q0, **options):
+        begun.append(q0.copy())
+        return whole(self, targets, indices, q0, **options)
+
+    monkeypatch.setattr(Solver, "solve", solve)
+    ik(UR5, UR5.fk(q), q0=q0 if given else None, nearest_to=near)
+    np.testing.assert_array_equal(begun[0], np.clip(q0 if given else near, *UR5.limits.T))

@@ -104,6 +104,25 @@ def test_a_locked_coordinate_keeps_its_value_to_the_last_digit_in_every_unit(sca
         ik(other, T, lock={PANDA.q_names[2]: far})
 
 
+def test_what_is_at_a_limit_is_within_it_in_every_unit(scale):
+    q = np.array([0.3, -0.5, 0.2, -1.5, 0.4, 1.0, 0.1])
+    tight = pk.Chain(PANDA.screws, PANDA.home, limits=np.stack([q - 0.17, q + 0.13], axis=1))
+    other, _ = geared(tight, scale)
+    found = ik(other, PANDA.fk(PANDA.random(3, 60)), restarts=2)
+    lower, upper = other.limits.T
+    assert ((found.q >= lower) & (found.q <= upper)).all()
+    assert ((found.q == lower) | (found.q == upper)).any()
+
+
+def test_of_a_bad_target_not_even_a_locked_coordinate_is_known(scale):
+    other, sizes = geared(PANDA, scale)
+    T = PANDA.fk(PANDA.random(8, 2))
+    T[1, 0, 0] = np.nan
+    found = ik(other, T, lock={PANDA.q_names[2]: 0.3 * float(sizes[2])})
+    assert np.isnan(found.q[1]).all()
+    assert not np.isnan(found.q[0]).any()
+
+
 @pytest.mark.parametrize("method", ["auto", "search"])
 @pytest.mark.parametrize("name", ["ur5e", "coupled"])
 def test_ik_all_lists_the_same_solutions_in_every_unit(name, method, scale):
