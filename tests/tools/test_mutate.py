@@ -182,6 +182,7 @@ def test_every_module_has_tests_that_exist():
         ("solve/followed", "solve/test_follow"),  # by what imports it
         ("testing/planted_changes", "analysis/test_compare"),  # by the tests that import it
         ("engine/follow_kernels", "solve/test_follow"),
+        ("model/walk", "model/test_idealised"),
         ("solve/calibration/measurement", "solve/calibration/test_measurements"),
     ],
 )

@@ -195,7 +195,7 @@ def _own_tests(path: str) -> Iterator[str]:
         names = [f"{folder.name}_{names[0]}", *names[:1], folder.name]
         folder = folder.parent
     for word in names:
-        for pattern in (f"test_{word}.py", f"test_{word}_*.py", f"test_{word}s.py"):
+        for pattern in (f"test_{word}.py", f"test_{word}_*.py", f"test_{word}?.py"):
             yield from (file.relative_to(ROOT).as_posix() for file in sorted(folder.glob(pattern)))
 
 
