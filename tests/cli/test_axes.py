@@ -2,12 +2,29 @@
 
 from __future__ import annotations
 
+import pytest
+
+from poekin.analysis.axes import axes
+from poekin.formats.load import load
+
 
 def test_pairs_and_shapes_are_said(poekin):
     code, out, err = poekin("axes", "panda", "--tip", "panda_hand")
     assert (code, err) == (0, "")
     assert "perpendicular, 82.5 mm from intersecting" in out
     assert "spherical shoulder" in out
+
+
+def test_the_table_has_angle_and_distance_of_each_pair(poekin):
+    lines = poekin("axes", "panda", "--tip", "panda_hand", "--tol-mm", "0.1", "--tol-deg", "0.01")[1].splitlines()
+    report = axes(load("panda").chain(tip="panda_hand"), tol_mm=0.1, tol_deg=0.01)
+    assert any(not pair.fixed for pair in report.pairs)
+    for pair in report.pairs:
+        (line,) = [x for x in lines if x.split()[:4] == [str(pair.first), pair.name_first, str(pair.second),
+                                                         pair.name_second]]  # fmt: skip
+        numbers = [pair.angle] if pair.distance is None else [pair.angle, pair.distance]
+        assert [float(x) for x in line.split()[-len(numbers) :]] == pytest.approx(numbers, rel=1e-5)
+        assert ("(at q = 0)" in line) == (not pair.fixed)
 
 
 def test_json_has_every_pair(as_json):

@@ -3,6 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
+from pathlib import Path
+
+import pytest
+
+from poekin.analysis.compare import compare
+from poekin.formats.load import load
 
 import pytest
 
@@ -42,6 +49,28 @@ def test_a_different_model_is_one_and_is_said_in_words_and_json(tmp_path, poekin
     document = json.loads(out)
     assert (document["equal"], len(document["joints"]), document["a"]["tip"]) == (False, 3, "d")
     assert poekin("compare", a, b, "--tol-mm", "50")[0] == 0
+
+
+def test_the_table_and_the_pose_errors_are_those_of_the_comparison(tmp_path, poekin):
+    a, b = written(tmp_path, "a.urdf", 0), written(tmp_path, "b.urdf", 0.02)
+    text = Path(b).read_text()
+    Path(b).write_text(text.replace('<axis xyz="1 0 0"/>', '<axis xyz="-1 0 0"/>'))
+    result = compare(load(a).chain(), load(b).chain())
+    lines = poekin("compare", a, b)[1].splitlines()
+    for words, errors in (("as they stand", result.before), ("aligned", result.after)):
+        (line,) = [line for line in lines if line.startswith(f"Pose error {words}: ")]
+        assert errors is not None
+        wanted = [errors.worst_mm, errors.worst_deg, errors.mean_mm, errors.mean_deg]
+        numbers = [float(x) for x in re.findall(r"[-+.e\d]+(?= mm|°)", line)]
+        assert numbers == pytest.approx(wanted, rel=5e-3, abs=1e-9)
+    for joint in result.joints:
+        (row,) = [line.split() for line in lines if joint.name_a in line and "revolute" in line]
+        assert row[3] == ("DIFFERS" if joint.axis_differs else "same")
+        assert ("flipped" in row) == joint.flipped
+        shown = [joint.angle, joint.normal, joint.shift, joint.zero]
+        tiny = 1e-6 * 0.01  # what is far below tolerance is shown as 0
+        values = [0.0 if abs(x) < tiny else x for x in shown if x is not None]
+        assert [float(x) for x in row[4 : 4 + len(values)]] == pytest.approx(values, rel=1e-3)
 
 
 def test_strict_counts_the_frames(tmp_path, poekin):
