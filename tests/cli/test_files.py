@@ -85,6 +85,18 @@ def test_a_device_is_written_to_and_not_replaced(tmp_path):
     assert not os.path.isfile(os.devnull)
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with a name")
+def test_a_pipe_gets_the_whole_content_and_stays_a_pipe(tmp_path):
+    os.mkfifo(tmp_path / "pipe.csv")
+    out = os.open(tmp_path / "pipe.csv", os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        write_whole(tmp_path / "pipe.csv", b"1,2\n3,4\n")
+        assert os.read(out, 100) == b"1,2\n3,4\n"
+    finally:
+        os.close(out)
+    assert (tmp_path / "pipe.csv").is_fifo()
+
+
 @pytest.mark.parametrize("name", ["x.csv", "missing/x.csv"])
 def test_a_place_that_cannot_be_written_is_refused_before_any_work(tmp_path, name):
     (tmp_path / "x.csv").mkdir()
