@@ -3,9 +3,9 @@
     A = sin t / t        B = (1 - cos t) / t^2     C = (1 - A) / t^2
     E = (t/2) cot(t/2)   D = (1 - E) / t^2         and B'/t, C'/t, D'/t
 
-A and E cancel nowhere, nor does B written with the half angle, which has more roundings than the plain form and so
-serves below t = 1 only. The others subtract nearly equal numbers when t is small: there they are one Taylor polynomial
-in t^2, below t = 2, where the closed form still loses a factor of 10.
+A and E cancel nowhere. The others subtract nearly equal numbers when t is small: there they are one Taylor polynomial
+in t^2, B below t = 1, the rest below t = 2, where the closed form still loses a factor of 10. exp takes the polynomials
+of B and C below t = 1 alone, which are shorter there.
 Accuracy: what it has to be for the bounds of exp, log and their Jacobians, which tests/groups/test_accuracy.py holds
 on both sides of every switch.
 """
@@ -15,6 +15,7 @@ from math import comb, factorial
 
 from . import elementary
 
+NEAR = 1.0  # t^2 below which B is its polynomial too
 SWITCH = 4.0  # t^2 at which the polynomials take over, that is t = 2
 _NEGLIGIBLE = Fraction(1, 10**20)  # relative to the first term, at the switch
 
@@ -28,17 +29,24 @@ def _bernoulli(most):
     return numbers
 
 
-def _series(term):
-    """Coefficients of t^0, t^2, ... as the nearest floats, as far as they matter at the switch."""
+def _series(term, most=SWITCH):
+    """Coefficients of t^0, t^2, ... as the nearest floats, as far as they matter where t^2 is `most`."""
     terms, k = [term(0)], 1
-    while abs(term(k)) * int(SWITCH) ** k > _NEGLIGIBLE * abs(terms[0]):
+    while abs(term(k)) * int(most) ** k > _NEGLIGIBLE * abs(terms[0]):
         terms.append(term(k))
         k += 1
     return tuple(float(value) for value in terms)
 
 
 _B = _bernoulli(60)
-C_SERIES = _series(lambda k: Fraction((-1) ** k, factorial(2 * k + 3)))
+
+
+def _c(k):
+    return Fraction((-1) ** k, factorial(2 * k + 3))
+
+
+B_NEAR = _series(lambda k: Fraction((-1) ** k, factorial(2 * k + 2)), NEAR)
+C_NEAR, C_SERIES = _series(_c, NEAR), _series(_c)
 D_SERIES = _series(lambda k: abs(_B[2 * k + 2]) / factorial(2 * k + 2))
 B_SLOPE_SERIES = _series(lambda k: Fraction((-1) ** (k + 1) * 2 * (k + 1), factorial(2 * k + 4)))
 C_SLOPE_SERIES = _series(lambda k: Fraction((-1) ** (k + 1) * 2 * (k + 1), factorial(2 * k + 5)))
@@ -58,12 +66,19 @@ def a_of(t):
     return elementary.sin(t) / t if t != 0 else t + 1.0
 
 
+def b_near(tt):
+    """B from t^2 < 1."""
+    return polynomial(B_NEAR, tt)
+
+
+def c_near(tt):
+    """C from t^2 < 1."""
+    return polynomial(C_NEAR, tt)
+
+
 def b_of(tt, t):
-    """B = (1 - cos t) / t^2 from t^2 and t, below t = 1 as 2 (sin(t/2) / t)^2."""
-    if t >= 1.0:
-        return (1.0 - elementary.cos(t)) / tt
-    half = elementary.sin(0.5 * t) / t if t != 0 else t + 0.5
-    return 2.0 * half * half
+    """B = (1 - cos t) / t^2 from t^2 and t."""
+    return b_near(tt) if elementary.below(tt, NEAR) else (1.0 - elementary.cos(t)) / tt
 
 
 def e_of(t):

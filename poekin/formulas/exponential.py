@@ -1,13 +1,14 @@
 """exp on SO(3) and SE(3), and Lemma 2's e^{Aq} of a joint: one body, other coefficients.
 
-Accuracy: with u = 2^-53 and theta = |w| <= 10 the rotation is within 3 u (1 + sqrt(2) theta) in the Frobenius norm,
-the translation p within 3 u (|p| + |v| + theta |dp/dw|) (tests/groups/test_accuracy.py). |w| beyond 1e154 overflows.
+Accuracy: with u = 2^-53 and theta = |w| <= 10 the rotation is within 1.5 u (1 + sqrt(2) theta) in the Frobenius norm,
+the translation p within 1.5 u (|p| + |v| + theta |dp/dw|) (tests/groups/test_accuracy.py). |w| beyond 1e154 overflows.
 Source: Park 1994, Lemmas 1 and 2.
 """
 
-from ..algebra import cross, dot, pose_of, scale, subtract
+from ..algebra import add, cross, dot, pose_of, scale, subtract
 from . import elementary
-from .coefficients import a_of, b_of, c_of
+from .coefficients import NEAR, b_near, c_near
+from .compensated import quotient_rest, square_rest
 
 
 def rotation(w, a, b):
@@ -31,29 +32,59 @@ def displacement(a, along, b, across, c, beyond):
     )
 
 
+def turned(w, a, b, cosine):
+    """cos theta I + a [w] + b w w^T, row by row: the same as I + a [w] + b [w]^2 where theta is large."""
+    xy, yz, zx = b * (w[0] * w[1]), b * (w[1] * w[2]), b * (w[2] * w[0])
+    x, y, z = a * w[0], a * w[1], a * w[2]
+    return (
+        *(cosine + b * (w[0] * w[0]), xy - z, zx + y),
+        *(xy + z, cosine + b * (w[1] * w[1]), yz - x),
+        *(zx - y, yz + x, cosine + b * (w[2] * w[2])),
+    )
+
+
+def _closed(w, tt):
+    """(A, B, cos theta) of a rotation vector, theta >= 1, from tt = |w|^2 to rounding.
+
+    What rounding took from tt and from its root is put back to first order: else it would count sqrt(2) theta times in
+    the rotation.
+    """
+    t = elementary.sqrt(tt)
+    rest = square_rest(w, t, tt)
+    inverse = 1.0 / t
+    dt = 0.5 * inverse * (rest + quotient_rest(tt, t, t))
+    sine, cosine = elementary.sin(t), elementary.cos(t)
+    versine = 1.0 - cosine
+    a = (sine + dt * (cosine - sine * inverse)) / t
+    b = (versine + (dt * sine - versine * (inverse * inverse) * rest)) / tt
+    return a, b, cosine - dt * sine
+
+
 def so3(w):
     """exp [w] = I + A [w] + B [w]^2 of a rotation vector w (rad)."""
     tt = dot(w, w)
-    t = elementary.sqrt(tt)
-    return rotation(w, a_of(t), b_of(tt, t))
+    if elementary.below(tt, NEAR):
+        return rotation(w, 1.0 - tt * c_near(tt), b_near(tt))
+    return turned(w, *_closed(w, tt))
 
 
 def se3(w, v):
     """exp of the twist (w; v): the pose (R, p).
 
-    p = v + B w x v + C w x (w x v) where theta < 1, and A v + B w x v + C (w . v) w elsewhere: the first has no
-    cancellation near theta = 0, the second none near 2 pi k.
+    p = v + B w x v + C w x (w x v) where theta < 1, and v_along + A v_across + B w x v elsewhere: v_along is the part
+    of v along w, v_across the rest. The first has no cancellation near theta = 0, the second none near 2 pi k.
     """
     tt = dot(w, w)
-    t = elementary.sqrt(tt)
-    a, b = a_of(t), b_of(tt, t)
-    c = c_of(tt, a)
     across = cross(w, v)
-    if tt < 1.0:
-        p = displacement(1.0, v, b, across, c, cross(w, across))
-    else:
-        p = displacement(a, v, b, across, c, scale(dot(w, v), w))
-    return pose_of(rotation(w, a, b), p)
+    if elementary.below(tt, NEAR):
+        b, c = b_near(tt), c_near(tt)
+        return pose_of(rotation(w, 1.0 - tt * c, b), displacement(1.0, v, c, cross(w, across), b, across))
+    a, b, cosine = _closed(w, tt)
+    k = dot(w, v) / tt
+    v_across = subtract(v, scale(k, w))
+    more = dot(w, v_across) / tt  # of v_across, what rounding left along w
+    p = add(scale(k, w), displacement(a, v_across, (1.0 - a) * more, w, b, across))
+    return pose_of(turned(w, a, b, cosine), p)
 
 
 def joint(w, v, q, sine, cosine):

@@ -20,7 +20,9 @@ BOUNDS = {
     "D'/t": (3, 120),
 }  # fmt: skip
 SERIES = {
+    "B": coefficients.B_NEAR,
     "C": coefficients.C_SERIES,
+    "C near": coefficients.C_NEAR,
     "D": coefficients.D_SERIES,
     "B'/t": coefficients.B_SLOPE_SERIES,
     "C'/t": coefficients.C_SLOPE_SERIES,
@@ -104,7 +106,7 @@ def exact_series(count=40):
         E.append(cosine[k] / 4**k - sum(E[i] * sine[k - i] / 4 ** (k - i) for i in range(k)))
     B, C, D = ([-x for x in series[1:]] for series in (cosine, sine, E))
     slopes = [[2 * k * x for k, x in enumerate(series)][1:] for series in (B, C, D)]
-    return dict(zip(("C", "D", "B'/t", "C'/t", "D'/t"), (C, D, *slopes), strict=True))
+    return dict(zip(("B", "C", "C near", "D", "B'/t", "C'/t", "D'/t"), (B, C, C, D, *slopes), strict=True))
 
 
 EXACT = exact_series()
@@ -118,9 +120,10 @@ def test_each_number_of_a_series_is_the_nearest_float(name):
 
 @pytest.mark.parametrize("name", SERIES)
 def test_a_series_ends_where_its_terms_no_longer_matter(name):
-    """At the switch, t = 2, every term above 1e-20 of the first is there, and one more at most."""
+    """At its switch every term above 1e-20 of the first is there, and one more at most."""
     n, first = len(SERIES[name]), abs(EXACT[name][0])
-    sizes = [abs(x) * 4**k / first for k, x in enumerate(EXACT[name])]
+    square = 1 if name.endswith("near") or name == "B" else 4
+    sizes = [abs(x) * square**k / first for k, x in enumerate(EXACT[name])]
     assert sizes[n] <= Fraction(1, 10**20) < sizes[n - 1]
 
 

@@ -12,6 +12,7 @@ from poekin import algebra, formulas
 from poekin.formulas import (
     coefficients,
     columns,
+    compensated,
     defect,
     derivatives,
     dh,
@@ -106,6 +107,11 @@ CASES = [
     (algebra.set_column, AXES, 2, X),
     *[(f, t) for f in (coefficients.a_of, coefficients.e_of) for t in (0.0, 0.4, 3.0)],
     *[(coefficients.b_of, t * t, t) for t in (0.0, 0.4, 3.0)],
+    *[(f, 0.7) for f in (coefficients.b_near, coefficients.c_near)],
+    (compensated.upper, 0.375, 0.5),  # few digits: the exact kind keeps them all
+    (compensated.square_rest, W, math.sqrt(0.5), 0.5),
+    (compensated.quotient_rest, 0.7, 0.7 / 0.3, 0.3),
+    (compensated.sum_rest, 0.7, -0.3, 0.7 - 0.3),
     (coefficients.polynomial, (0.5, -0.25, 0.125), 0.3),
     *[(coefficients.c_of, t * t, A[t]) for t in SIZES],
     *[(coefficients.d_of, t * t, E[t]) for t in SIZES],
@@ -113,6 +119,7 @@ CASES = [
     *[(coefficients.c_slope, t * t, B[t], coefficients.c_of(t * t, A[t])) for t in SIZES],
     *[(coefficients.d_slope, t * t, B[t], E[t]) for t in SIZES],
     (exponential.rotation, W, 0.3, 0.2),
+    (exponential.turned, W, 0.3, 0.2, 0.1),
     (exponential.displacement, 0.3, W, 0.2, V, 0.1, LONG),
     *[(exponential.so3, w) for w in (W, LONG, (0.0, 0.0, 0.0))],
     *[(exponential.se3, w, V) for w in (W, LONG, (0.0, 0.0, 0.0))],
@@ -200,7 +207,7 @@ def test_a_formula_gives_the_same_in_every_kind(case, kind):
 
 
 # exp, log and what belongs to them divide and compare: they are not traced, but for what they share with the chains.
-DIVIDE = (least_squares, coefficients, exponential, logarithm, exp_jacobian, defect)
+DIVIDE = (least_squares, coefficients, compensated, exponential, logarithm, exp_jacobian, defect)
 CHAIN_CASES = [case for case in CASES if inspect.getmodule(case[0]) not in DIVIDE or case[0] is exponential.joint]
 
 
