@@ -9,7 +9,7 @@ import numpy as np
 
 from poekin import se3
 from poekin.testing import exact, extended, suspects
-from poekin.testing.accuracy_laws import EXP_LOG_BAR
+from poekin.testing.accuracy_laws import REPORT_BAR
 
 from ..draw import Panel, panels
 from ..report import Figure, Picture, Table, Topic, short
@@ -114,7 +114,7 @@ def figures(found: Findings) -> list[Figure]:
     rows = [
         Figure(
             "exp and log of SO(3) and SE(3): poekin's worst error ÷ attainable",
-            place.figure, EXP_LOG_BAR, note=f"{FUNCTIONS[place.function]}; {len(place.ratios)} cases of each function",
+            place.figure, REPORT_BAR, note=f"{FUNCTIONS[place.function]}; {len(place.ratios)} cases of each function",
         )
     ]  # fmt: skip
     for group in ("se3", "so3"):
@@ -154,7 +154,7 @@ def table(found: Findings, cases: Cases) -> Table:
             "worst ratio",
             "at θ (rad)",
             "π − θ (rad)",
-            f"cases above {EXP_LOG_BAR:g}",
+            f"cases above {REPORT_BAR:g}",
             "remarks",
         ),
         rows,
@@ -164,7 +164,7 @@ def table(found: Findings, cases: Cases) -> Table:
 def _row(finding: Finding, cases: list[Case]) -> tuple[str | int | float, ...]:
     if finding.not_judged:
         return "", "", "", "", f"not judged: {finding.not_judged}"
-    above = f"{int(np.sum(finding.ratios > EXP_LOG_BAR))} of {len(cases)}"
+    above = f"{int(np.sum(finding.ratios > REPORT_BAR))} of {len(cases)}"
     remarks = [_faults(finding, cases)] if finding.faults else []
     worst = finding.worst
     if worst is None:
@@ -172,7 +172,7 @@ def _row(finding: Finding, cases: list[Case]) -> tuple[str | int | float, ...]:
     case = cases[worst]
     if not confirmed(case):
         return "not printed", "", "", above, "the exact result could not be confirmed"
-    if finding.ratios[worst] > EXP_LOG_BAR and other_sign(case, finding.results[worst]):
+    if finding.ratios[worst] > REPORT_BAR and other_sign(case, finding.results[worst]):
         remarks.append("ω has the other sign")
     return _number(finding.ratios[worst]), f"{case.angle:.4g}", f"{case.gap:.2g}", above, "; ".join(remarks)
 
@@ -199,7 +199,7 @@ def counterexamples(found: Findings, cases: Cases) -> Table:
     for library, findings in found:
         for name, finding in findings.items():
             worst = finding.worst
-            if worst is None or finding.ratios[worst] <= EXP_LOG_BAR or not confirmed(cases[name][worst]):
+            if worst is None or finding.ratios[worst] <= REPORT_BAR or not confirmed(cases[name][worst]):
                 continue
             case, result = cases[name][worst], finding.results[worst]
             again = libraries.replayed(library.name, name, case.argument)
@@ -212,7 +212,7 @@ def counterexamples(found: Findings, cases: Cases) -> Table:
             off = f"[{', '.join(map(str, entry))}]: {float(result[entry])!r}, exact {float(truth[entry])!r}"
             rows.append((library.name, FUNCTIONS[name], _number(finding.ratios[worst]), off, text))
     return Table(
-        f"Counterexamples to paste: the worst case of each that is above {EXP_LOG_BAR:g}",
+        f"Counterexamples to paste: the worst case of each that is above {REPORT_BAR:g}",
         ("library", "function", "ratio", "entry that is furthest off", "Python"),
         rows,
         folded=True,
@@ -231,7 +231,7 @@ def picture(name: str, found: Findings, cases: Cases, among: list[Band]) -> Pict
         }
         parts.append(Panel(label, [band.place for band in here], curves, falling=before_pi))
     caption = f"{FUNCTIONS[name]}: worst error ÷ attainable in each band of angles; right: on the way to π"
-    return panels(caption, parts, y_label="error ÷ attainable", bar=EXP_LOG_BAR, off_scale="above: NaN, exception")
+    return panels(caption, parts, y_label="error ÷ attainable", bar=REPORT_BAR, off_scale="above: NaN, exception")
 
 
 def _worst(finding: Finding) -> str:

@@ -18,7 +18,7 @@ import numpy as np
 from poekin.groups import se3, so3
 
 from . import attainable, exact, extended, suspects
-from .accuracy_laws import EXP_LOG_BAR, JACOBIAN_BAR, NOISE_BAR, jacobian_errors
+from .accuracy_laws import JACOBIAN_BAR, NOISE_BAR, REPORT_BAR, jacobian_errors
 from .attainable import BOTH_SIGNS, UNIT
 
 SIGN_BAR = 9e-16
@@ -70,7 +70,7 @@ def accuracy(
         xi = np.concatenate([far, suspects.of_exp(pose, many_far)])
         T = np.concatenate([poses, suspects.of_log(pose, many_poses)])
         return [
-            _worst("exp: error ÷ attainable", EXP_LOG_BAR, xi, _exp_ratios(rotation, pose, xi)),
+            _worst("exp: error ÷ attainable", REPORT_BAR, xi, _exp_ratios(rotation, pose, xi)),
             *_log_rows(rotation, pose, T),
             _worst("log of a noisy rotation: error", NOISE_BAR, noisy, _noise_errors(rotation, noisy)),
             *_jacobian_rows("jacobian", pose, far, many_far),
@@ -117,7 +117,7 @@ def _log_rows(rotation: Any, pose: Any, T: np.ndarray) -> list[Row]:
         wrong = truth[:3] @ exact.exactly(xi[:3]) < 0 or truth[:3] @ exact.exactly(w) < 0
         gaps.append(float(exact.mp.pi - exact.norm(truth[:3])) if wrong else 0.0)
     return [
-        _worst("log: error ÷ attainable", EXP_LOG_BAR, T, ratios),
+        _worst("log: error ÷ attainable", REPORT_BAR, T, ratios),
         _worst("log: largest π - θ with a wrong sign", SIGN_BAR, T, gaps),
     ]
 

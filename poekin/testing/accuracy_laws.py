@@ -19,6 +19,8 @@ from .laws import Law, held
 
 EXP_LOG_BAR = 3.0
 """exp and log may err by this many times what float64 can attain (`attainable`)."""
+REPORT_BAR = 1.5
+"""What the report asks of exp and log, as multiples of the same (`accuracy`)."""
 JACOBIAN_BAR = 1e-15
 """The Jacobians' 3×3 block, and their Q block ÷ ‖v‖, may err by this much (Frobenius)."""
 NOISE_BAR = 2e-15
