@@ -11,7 +11,7 @@ from typing import Any
 from ...errors import InputError, UnknownName, closest, shown
 from ...model.evaluation import FRAME_NAMES
 from .arm_cases import ARM_LAWS
-from .calls import UNANSWERED, Undeclared
+from .calls import LOST, UNANSWERED, Undeclared
 from .child import isolated, obstacle
 from .grades import NO_RESULT, Grade
 from .group_cases import GROUP_LAWS
@@ -148,6 +148,7 @@ def outcome(law: Law, subject: Subject, found: Found) -> Outcome:
                        precision=precision)  # fmt: skip
     # Who did not answer was asked again while it was shrunk.
     again = verdict if verdict.fault.startswith(UNANSWERED) else law.check(subject, case)
+    again = verdict if again.fault.startswith(LOST) else again
     steady = again.grade >= verdict.grade
     fault, hint = again.fault, ""
     if not law.about(case):

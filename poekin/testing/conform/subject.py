@@ -194,13 +194,6 @@ class Subject:
         self._seen.setdefault(name, seen(value))
         return value
 
-    def knows_precision(self, name: str) -> bool:
-        """Whether the precision of a function is declared, or was seen.
-
-        Parameters: name, one of `FUNCTIONS`. Returns: True or False. Raises: nothing.
-        """
-        return self.declared is not None or name in self._seen
-
     @property
     def label(self) -> str:
         """Name and version."""
