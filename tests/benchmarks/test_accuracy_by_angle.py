@@ -187,7 +187,7 @@ def test_the_report_has_the_bar_the_best_peer_and_the_absent_one():
     some = [accuracy_peers.poekin(), worse, absent, Library("best", "1", SOUND)]
     topic = accuracy_by_angle.report(some, CASES, AMONG, nothing)
     own, pose, rotation = topic.figures
-    assert own.bar == 3
+    assert own.bar == 1.5
     assert own.verdict
     assert pose.verdict is None
     assert pose.note.startswith("best 1; the others: worse ")
