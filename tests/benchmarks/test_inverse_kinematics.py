@@ -19,6 +19,7 @@ from benchmarks.cases.inverse_kinematics_judge import Judgement, judged
 from benchmarks.cases.inverse_kinematics_rows import peer_row
 from benchmarks.page import html, markdown
 from poekin.solve.ik import ik
+from tests.versions import needs
 
 UR5 = pk.load("ur5").chain()
 ABOUT = {"when": "now", "commit": "c", "processor": "p", "cores": 2, "load": 0.0, "system": "s", "python": "3",
@@ -117,6 +118,7 @@ def test_the_page_of_the_true_solver_claims_nothing_false_and_holds_what_time_do
 
 
 def test_a_solver_that_lies_is_caught_in_every_figure_of_truth(monkeypatch):
+    needs("roboticstoolbox-python", "1.5")  # whose time its own stands beside
     page = page_of(liar, monkeypatch)
     for words in ("solved to 1e-9", "the arm with the fewest", "success claimed", "bear out"):
         assert not any(verdicts(page, words)), words
