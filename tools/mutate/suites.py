@@ -236,7 +236,7 @@ def _imports(path: str) -> Iterator[str]:
         elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith(PACKAGE):
             base = (node.module or "").replace(".", "/")
             yield f"{base}.py"
-            yield from (f"{base}/{alias.name}.py" for alias in node.names)
+            yield from (f"{base}/{alias.name}{end}" for alias in node.names for end in (".py", "/__init__.py"))
 
 
 def _longest(known: Iterable[str], path: str) -> str:
