@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import FileError, InputError, MissingExtra, ModelError, PoekinError
 from poekin.formats import ur
+from poekin.formats.ur import conf
 from poekin.formats.ur.files import read_text, text_of
 
 NOMINAL = pk.dh.published("ur10e")
@@ -225,3 +226,12 @@ def test_a_fault_in_a_controller_s_file_is_said_with_its_line(text, message, tmp
     (tmp_path / "c.conf").write_text(text, encoding="utf-8")
     with pytest.raises(ModelError, match=message):
         ur.read_deltas(tmp_path / "c.conf")
+
+
+def test_a_file_of_64_kib_is_read_and_a_longer_one_is_not(tmp_path):
+    path = tmp_path / "c.conf"
+    path.write_bytes(b"#" * 2**16)
+    assert conf.read_text_file(path) == ("#" * 2**16, str(path))
+    path.write_bytes(b"#" * (2**16 + 1))
+    with pytest.raises(FileError, match=r"c\.conf: expected a calibration of at most 64 KiB, the file has 64 KiB$"):
+        conf.read_text_file(path)
