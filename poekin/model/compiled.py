@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -176,10 +175,8 @@ class CompiledChain:
             if (code, pose, jacobian) not in self._arms:
                 from ..engine.arm import arm
 
-                chain, digest = self.chain, hashlib.sha256()
-                for numbers in (chain.screws, chain.home, chain.coupling, chain.offset):
-                    digest.update(repr(numbers.shape).encode() + numbers.tobytes())
-                key = digest.hexdigest(), code, jacobian
+                # the structure, not the chain's numbers: it also holds what the modules of this room make of them
+                key = self.structure, code, jacobian
                 self._arms[code, pose, jacobian] = arm(key, lambda: self._program(code, pose), self.dof, pose)
             return self._arms[code, pose, jacobian]
 

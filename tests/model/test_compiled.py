@@ -4,6 +4,7 @@ import multiprocessing
 import pickle
 import threading
 from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, PoekinError, ShapeError, UnknownName
-from poekin.model import screw
+from poekin.model import compiled, screw
 from poekin.model.structure import structure
 from poekin.testing import chain_laws, chain_strategies
 from poekin.testing.attainable import UNIT
@@ -362,3 +363,14 @@ def test_nominal_arms_cost_no_more_than(name, tip, nominal, middle):
 
     assert within(("space", "body"), nominal)
     assert within(("middle", *range(len(arm.joint_names))), middle)
+
+
+def test_the_code_that_is_kept_is_that_of_the_arm_s_structure(monkeypatch, tmp_path):
+    # what `structure` makes of the same chain may change with poekin's version
+    monkeypatch.setenv("POEKIN_CACHE_DIR", str(tmp_path / "cache"))
+    chain = pk.load("puma560").chain()
+    before = chain.compile().fk(chain.random(0))
+    longer = replace(structure(chain), tool=(*structure(chain).tool[:9], 1.0, 2.0, 3.0))
+    monkeypatch.setattr(compiled, "structure", lambda chain: longer)
+    again = type(chain)(chain.screws, chain.home, joint_names=chain.joint_names, limits=chain.limits)
+    assert np.abs(again.compile().fk(chain.random(0)) - before).max() > 1.0
