@@ -111,4 +111,7 @@ EQUATIONS: dict[str, str] = {
 }
 
 # Modules of formulas that have no equation, each with its reason.
-WITHOUT: dict[str, str] = {"poekin.formulas.elementary": "square root, sine, cosine and arctangent themselves"}
+WITHOUT: dict[str, str] = {
+    "poekin.formulas.compensated": "the rounding errors of a length, a quotient and a sum",
+    "poekin.formulas.elementary": "square root, sine, cosine and arctangent themselves",
+}

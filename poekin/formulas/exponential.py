@@ -32,14 +32,20 @@ def displacement(a, along, b, across, c, beyond):
     )
 
 
+def _diagonal(b, along, across, cosine):
+    """cos theta + b along = 1 - b across, along + across = theta^2: of the smaller square, so 1 about a frame axis."""
+    return 1.0 - b * across if across < along else cosine + b * along
+
+
 def turned(w, a, b, cosine):
     """cos theta I + a [w] + b w w^T, row by row: the same as I + a [w] + b [w]^2 where theta is large."""
+    xx, yy, zz = w[0] * w[0], w[1] * w[1], w[2] * w[2]
     xy, yz, zx = b * (w[0] * w[1]), b * (w[1] * w[2]), b * (w[2] * w[0])
     x, y, z = a * w[0], a * w[1], a * w[2]
     return (
-        *(cosine + b * (w[0] * w[0]), xy - z, zx + y),
-        *(xy + z, cosine + b * (w[1] * w[1]), yz - x),
-        *(zx - y, yz + x, cosine + b * (w[2] * w[2])),
+        *(_diagonal(b, xx, yy + zz, cosine), xy - z, zx + y),
+        *(xy + z, _diagonal(b, yy, zz + xx, cosine), yz - x),
+        *(zx - y, yz + x, _diagonal(b, zz, xx + yy, cosine)),
     )
 
 

@@ -77,3 +77,11 @@ def test_near_goes_the_other_way_round_where_that_is_closer(sign):
     w = sign * np.array([0.14453346, 0.0, 0.0])
     found = so3.log(so3.exp(w), near=[-3.0 * sign, 0.0, 0.0])
     assert np.abs(found - [sign * (0.14453346 - 2 * np.pi), 0.0, 0.0]).max() < 2e-15
+
+
+@pytest.mark.parametrize("k", range(3))
+def test_exp_leaves_a_frame_axis_that_it_turns_about_where_it_is_to_the_last_bit(k):
+    axis = np.eye(3)[k]
+    R = so3.exp(np.linspace(-10, 10, 401)[:, None] * axis)
+    np.testing.assert_array_equal(R[:, k], np.tile(axis, (401, 1)))
+    np.testing.assert_array_equal(R[:, :, k], np.tile(axis, (401, 1)))
