@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..groups import se3
 from ..groups.arrays import Array
-from .lines import Lines, Sides, carried, cross, misses
+from .lines import Lines, Sides, carried, cross, misses, signs
 
 # An axis within about a degree of parallel counts as parallel, as the common normal flies about there.
 PARALLEL = 0.02
@@ -146,9 +146,13 @@ def _anchor(lines: Lines, k: int) -> Array | None:
 
 
 def best(pair: Sides, P: Array, z: Array, most: int = 4) -> tuple[Array, Array]:
-    """The alignments under which most axes agree best: a far miss counts little more than a near one."""
-    miss = misses(pair, carried(pair, P, z)[1])
-    loss = np.log1p(np.minimum(miss, 1e6)).sum(1) + 0.01 * (abs(z) > 0).sum(1)
+    """The alignments under which most axes agree best: a far miss counts little more than a near one.
+
+    Of alignments that differ by rounding alone those with fewer zero offsets and fewer reversed axes come first.
+    """
+    axes = carried(pair, P, z)[1]
+    changes = (abs(z) > 0).sum(1) + (signs(pair, axes) < 0).sum(1)
+    loss = np.log1p(np.minimum(misses(pair, axes), 1e6)).sum(1) + 0.01 * changes
     first = np.argsort(loss, kind="stable")[:most]
     return P[first], z[first]
 
