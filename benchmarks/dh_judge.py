@@ -47,6 +47,12 @@ def ceiling(table: dh.Table, reach: float) -> float:
     return 100 * UNIT * max(len(table), 1) * (1 + largest(table, reach))
 
 
+def lever(table: dh.Table, chain: Chain) -> float:
+    """How far an angle that was dropped reaches ÷ R: over all lengths of the table and of its tool, at least R."""
+    lengths = np.abs(table.d).sum() + np.abs(table.a).sum() + np.linalg.norm(table.tool[:3, 3])
+    return max(1.0, float(lengths + chain.kinds.count("prismatic")) / chain.reach)
+
+
 @dataclass(frozen=True)
 class Trip:
     """Screws → table → screws.
@@ -70,6 +76,6 @@ def there_and_back(chain: Chain, convention: str, q: np.ndarray) -> Trip:
     # What a table dropped has to be said in its warnings, in three digits: read there, as a user would.
     said = [re.search(r"the angle of (\S+) rad between", words) for words in result.warnings]
     dropped = tuple(float(found[1]) for found in said if found)
-    most = ceiling(result.table, chain.reach) + 2 * 1.005 * sum(dropped)
+    most = ceiling(result.table, chain.reach) + 2 * 1.005 * sum(dropped) * lever(result.table, chain)
     well = largest(result.table, chain.reach) <= FAR and not dropped
     return Trip(off, result.bound, most, well, dropped)
