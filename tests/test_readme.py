@@ -36,6 +36,7 @@ SET_UP = (
     r"(source|\.) \S+/bin/activate",
     r"(python3? -m )?pip install .+",
     r"make( .+)?",
+    r"\.venv/bin/python -m tools\.processors .+",
 )
 
 

@@ -11,11 +11,6 @@ import pytest
 from poekin.analysis.compare import compare
 from poekin.formats.load import load
 
-import pytest
-
-from poekin.analysis.compare import compare
-from poekin.formats.load import load
-
 URDF = """<robot name="three"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
 <joint name="one" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
   <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import poekin as pk
 from poekin.cli import arm, poses
-from poekin.errors import FileError, InputError
+from poekin.errors import InputError
 
 CHAIN = pk.load("stanford").chain()
 NAMES = ", ".join(CHAIN.q_names)
@@ -64,23 +62,6 @@ def test_numbers_are_taken_in_their_order():
     assert np.array_equal(poses.for_each("1,2,3,4,5,6", CHAIN, "--speed"), [1, 2, 3, 4, 5, 6])  # type: ignore[arg-type]
     given = arm.take("stanford", None, None, ["1", "2", "3", "4", "5", "6"], None)
     assert (given.robot, given.single, given.q.tolist()) == ("stanford", True, [[1, 2, 3, 4, 5, 6]])
-
-
-def test_a_result_goes_to_no_file_that_is_read_or_written_already(tmp_path):
-    here, other = tmp_path / "T.csv", tmp_path / "q.csv"
-    here.touch()
-    poses.check_apart(str(here), other)
-    poses.check_apart(str(here), None)
-    poses.check_apart(None, other)
-    poses.same_file(here, other)
-    poses.same_file(None, None)
-    poses.same_file(here, None)
-    with pytest.raises(FileError) as caught:
-        poses.check_apart(str(tmp_path / "." / "T.csv"), here)
-    assert str(caught.value) == f"cannot write '{here}': it is the file of the poses"
-    with pytest.raises(FileError) as caught:
-        poses.same_file(other, Path(str(other)))
-    assert str(caught.value) == f"cannot write '{other}': it is named twice"
 
 
 @pytest.mark.parametrize("rows", [0, 1, 4, 5])
