@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,11 +14,12 @@ from ..model.chain import Chain
 from .comparison import Comparison, JointComparison, PoseErrors
 from .extra import droppable, without
 from .followers import follows
+from .length_unit import length_ratio, to_one_unit
 from .lines import at_rest, cross, direction, sides
 from .reading import Reading, read
 from .search import search
 from .tolerances import check_tolerances
-from .wording import differences, equivalents, frame_words
+from .wording import differences, equivalents, frame_words, unit_words
 
 __all__ = ["compare"]
 
@@ -36,6 +38,8 @@ def compare(
     first joint is a turned base and one of the last joint a turned tool; `equivalent` says so. With different numbers
     of joints the one or two are named that can be dropped (at their zero positions) so that the rest agree. A joint
     that follows another one otherwise in the other model, or there on its own, differs, however well the axes agree.
+    Where one model is in millimetres that were read as metres, the verdict says so and the joints are compared in one
+    unit.
 
     Parameters: a, b; strict, align nothing, frames and zero positions included; tol_mm, tol_deg, how near is the same
     (an axis' place is judged at the point of it nearest to the arm's middle); samples and seed, random configurations
@@ -50,12 +54,27 @@ def compare(
     check_tolerances(tol_mm, tol_deg)
     if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
         raise InputError(f"samples: a number of configurations of at least 1 expected, got {told(samples)}")
-    tol_m, tol_rad = float(tol_mm) / 1e3, math.radians(tol_deg)
+    options = strict, float(tol_mm), float(tol_deg), int(samples), seed
+    result, moved = _compared(a, b, 1.0, *options)
+    ratio = length_ratio(a, b) if moved else 1.0
+    if ratio != 1:
+        in_one_unit, left = _compared(*to_one_unit(a, b, ratio), ratio, *options)
+        # Other arms of unlike size agree in an axis or two by chance.
+        if left < moved and 3 * left <= len(in_one_unit.joints):
+            return replace(in_one_unit, before=result.before)
+    return result
+
+
+def _compared(
+    a: Chain, b: Chain, ratio: float, strict: bool, tol_mm: float, tol_deg: float, samples: int, seed: int
+) -> tuple[Comparison, int]:
+    """The comparison of two chains in one length unit, and how many axes or links differ; `ratio` is to be told."""
+    tol_m, tol_rad = tol_mm / 1e3, math.radians(tol_deg)
     one, other = at_rest(a), at_rest(b)
     x = a.random(seed, samples) @ a.coupling.T
     extra, dropped = None, ()
     if len(one.screws) != len(other.screws):
-        ks = droppable(one, other, float(tol_mm), float(tol_deg))
+        ks = droppable(one, other, tol_mm, tol_deg)
         if ks is None:
             counts = len(one.screws), len(other.screws)
             told_apart = f"{counts[0]} joints against {counts[1]}"
@@ -65,8 +84,8 @@ def compare(
             end = f"{which} be dropped so that the rest agree"
             return Comparison(
                 False, f"the models differ: {told_apart}, and {end}", (), None, None, None, None, (), None, strict,
-                float(tol_mm), float(tol_deg), int(samples), seed,
-            )  # fmt: skip
+                tol_mm, tol_deg, samples, seed,
+            ), max(counts)  # fmt: skip
         if len(one.screws) > len(other.screws):
             extra, one, x = ("a", *_names(one, ks)), without(one, ks), np.delete(x, ks, axis=1)
         else:
@@ -87,8 +106,8 @@ def compare(
         and (not strict or not (reading.blamed.any() or reading.frames))
     )
     return Comparison(
-        equal=same and extra is None,
-        verdict=_verdict(same, joints, reading, extra, strict, float(tol_mm), float(tol_deg)),
+        equal=same and extra is None and ratio == 1,
+        verdict=_verdict(same, joints, reading, extra, ratio, strict, tol_mm, tol_deg),
         joints=joints,
         base=reading.base,
         tool=None if strict else reading.tool,
@@ -97,8 +116,8 @@ def compare(
             one.fk(x), reading.base @ other.fk(reading.directions * x + reading.zeros) @ reading.tool
         ),
         equivalent=tuple(() if strict else equivalents(one, other, reading, others, tol_m, tol_rad)),
-        extra=extra, strict=strict, tol_mm=float(tol_mm), tol_deg=float(tol_deg), samples=int(samples), seed=seed,
-    )  # fmt: skip
+        extra=extra, strict=strict, tol_mm=tol_mm, tol_deg=tol_deg, samples=samples, seed=seed, length_ratio=ratio,
+    ), 1 if reading.link else int(reading.moved.sum())  # fmt: skip
 
 
 def _as_it_is(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading:
@@ -150,8 +169,8 @@ def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:
 
 
 def _verdict(
-    same: bool, joints: tuple[JointComparison, ...], reading: Reading, extra: tuple[str, ...] | None, strict: bool,
-    tol_mm: float, tol_deg: float,
+    same: bool, joints: tuple[JointComparison, ...], reading: Reading, extra: tuple[str, ...] | None, ratio: float,
+    strict: bool, tol_mm: float, tol_deg: float,
 ) -> str:  # fmt: skip
     tol = tol_mm / 1e3, math.radians(tol_deg)
     found = differences(joints, tol_mm, tol_deg, reading.link)
@@ -160,11 +179,14 @@ def _verdict(
         model, *names = extra
         count = "one joint" if len(names) == 1 else "two joints"
         found.insert(0, f"model {model} has {count} more, {' and '.join(map(shown, names))}")
+    same = same and extra is None and ratio == 1
+    if ratio != 1:
+        found.insert(0, unit_words(ratio))
     if strict:
-        return "; ".join(["the models are the same as they stand" if same and extra is None else "the models differ",
+        return "; ".join(["the models are the same as they stand" if same else "the models differ",
                           *found, *([tool] if tool else [])])  # fmt: skip
     aligned = [words for words in (frame_words("base", reading.base, *tol), tool) if words]
-    if not same or extra is not None:
+    if not same:
         head = "the models differ"
     elif found or aligned:
         head = "the models are the same arm, up to free choices"

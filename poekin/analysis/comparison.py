@@ -80,7 +80,8 @@ class Comparison:
     before, after: `PoseErrors` at the same joint values, as the models stand and under the alignment. strict.
     equivalent: other readings that say the same. extra: which model ("a" or "b") has joints that the other has not, and
         their names, one or two; None where both have as many, or no joints can be dropped so that the rest agree.
-    tol_mm, tol_deg, samples, seed: as asked.
+    tol_mm, tol_deg, samples, seed: as asked. length_ratio: b's lengths by a's, 1000 or 0.001 where one model is in
+        millimetres and the other in metres, then all but `before` is of both in one unit; 1 otherwise.
     """
 
     equal: bool
@@ -97,6 +98,7 @@ class Comparison:
     tol_deg: float
     samples: int
     seed: int
+    length_ratio: float = 1.0
 
     @property
     def differing(self) -> tuple[JointComparison, ...]:

@@ -69,6 +69,12 @@ def frame_words(what: str, T: Array, tol_m: float, tol_rad: float) -> str:
     return f"the {what} frame is {' and '.join(moved + turned)}"
 
 
+def unit_words(ratio: float) -> str:
+    """Which model's lengths are 1000 times the other's: ratio is b's by a's."""
+    larger, smaller, times = ("b", "a", ratio) if ratio > 1 else ("a", "b", 1 / ratio)
+    return f"lengths of model {larger} are {times:.4g} times those of model {smaller} (millimetres against metres?)"
+
+
 def equivalents(a: Chain, b: Chain, first: Reading, others: list[Reading], tol_m: float, tol_rad: float) -> list[str]:
     """Other readings of the same difference: frames turned about an end joint, other joints that may be blamed."""
     said = []
