@@ -99,7 +99,7 @@ def trip_figures(what: str, trips: list[Trip]) -> list[Figure]:
             error=f"{short(max(t.error for t in rest))} R" if rest else "",
         ),
         Figure(
-            f"{what}: that bound ÷ (100 u n (R + max(|d|, |a|)) + 2 δ L for angles δ dropped, L the sum of all lengths)",
+            f"{what}: that bound ÷ (100 u n (R + max(|d|, |a|)) + 2 δ L for angles δ dropped, L the lengths)",
             max((t.bound / t.ceiling for t in rest), default=None), 1, note=f"{len(rest)} tables",
         ),
     ]  # fmt: skip
