@@ -94,3 +94,7 @@ def test_many_rows_are_read_and_written_in_parts_and_each_part_is_told(monkeypat
     assert (rows, lines) == (numbers.tolist(), [2, 3, 4, 5, 6])
     ends = np.cumsum([len(line) for line in text.splitlines(keepends=True)])
     assert told == [(ends[2] - ends[0], len(text)), (ends[4] - ends[0], len(text))]  # the characters of the rows
+
+
+def test_a_name_in_the_header_obeys_no_terminal_and_breaks_no_line():
+    assert csv_rows.text(["a\nb", "\x1b[31m", "c,d"], np.ones((1, 3))) == 'a\\nb,\\x1b[31m,"c,d"\n1.0,1.0,1.0\n'
