@@ -69,7 +69,6 @@ def _moved(solver: Solver, q: Array, q0: Array, aim: str, step: Array) -> Array:
         z /= np.maximum(np.linalg.norm(z, axis=1, keepdims=True), 1.0)
     else:
         z = (_goal(solver, q0, aim) - q) * _weights(solver, aim)
-    z[:, solver.room.fixed != 0] = 0.0
     J = _jacobian(solver, q)
     moved = q + step[:, None] * (z - (np.linalg.pinv(J) @ (J @ z[..., None]))[..., 0])
     return np.where(solver.room.fixed != 0, q, np.clip(moved, *solver.room.limits.T))
@@ -90,7 +89,7 @@ def _goal(solver: Solver, q0: Array, aim: str) -> Array:
 
 def _weights(solver: Solver, aim: str) -> Array:
     lower, upper = solver.room.limits.T
-    both = np.isfinite(lower) & np.isfinite(upper) & (upper > lower)
+    both = np.isfinite(lower) & np.isfinite(upper)
     if aim == "nearest":
         return np.ones(len(lower))
     return np.where(both, 1.0, 0.0)

@@ -207,6 +207,14 @@ def test_axes_that_are_parallel_but_for_a_rounding_are_solved(joint, tilt):
     assert found.method == ("search" if 1e-5 < tilt < 1e-4 else "closed form")
 
 
+def test_where_solutions_become_one_the_closed_form_is_not_taken_at_its_word():
+    pytest.importorskip("eaik", reason="needs EAIK")
+    chain = arm("ur5")
+    usual, straight = ik_all(chain, chain.fk([[0.3, -1, 1.2, 0.4, 0.9, 0.1], [0.3, -1, 0, 0.4, 0.9, 0.1]])).chance
+    assert usual == 0
+    assert 0 < straight < 2e-3  # of a search
+
+
 @pytest.mark.parametrize("cross", [[1.0, 0.0, 0.0], [0.6, 0.8, 0.0]], ids=["square", "slanted"])
 def test_an_arm_that_eaik_turns_round_for_ever_is_searched(cross):
     # of the two ways round of this arm, each looks as if the other were the one to solve: the process ends
