@@ -163,6 +163,7 @@ def reading(moved=(), offset=(), flipped=(), frames=0, link=0, far=100.0):
     (reading(link=2, moved=[2, 3, 4, 5], frames=1), reading(moved=[3], offset=[2, 4])),
     (reading(offset=[1, 2, 3, 4], flipped=[1, 3], frames=2), reading(moved=[2], frames=2)),
     (reading(moved=[2, 3], far=50.0), reading(moved=[2, 3], far=500.0)),
+    (reading(moved=[2], offset=[4], far=1000.0), reading(moved=[2, 3], far=2.0)),  # one axis, however far it moved
 ])  # fmt: skip
 def test_one_reading_is_better_than_another(better, worse):
     assert better.cost < worse.cost
