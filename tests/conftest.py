@@ -12,7 +12,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 from hypothesis import HealthCheck, settings
-from hypothesis.internal.conjecture import providers
+from hypothesis.internal import conjecture
 
 from poekin.errors import MissingExtra
 
@@ -33,7 +33,8 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
 # Hypothesis also draws the numbers in the source of the modules loaded so far: they differ by worker, by the tests that
 # are chosen, and by the name of the directory.
-if hasattr(providers, "_get_local_constants"):
+providers = getattr(conjecture, "providers", None)  # in newer versions of Hypothesis
+if providers is not None and hasattr(providers, "_get_local_constants"):
     no_constants = type(providers._local_constants)()
     providers._get_local_constants = lambda: no_constants
 
