@@ -36,7 +36,7 @@ def compare(
     One bad joint is so not smeared over its neighbours. Where all axes behind a joint moved together, the verdict names
     the link (`a` or `alpha` of a DH row); the rows of `joints` then say it of each of these axes. A zero offset of the
     first joint is a turned base and one of the last joint a turned tool; `equivalent` says so. With different numbers
-    of joints the one or two are named that can be dropped (at their zero positions) so that the rest agree. A joint
+    of joints the one or two are named that can be dropped (each held at some position) so that the rest agree. A joint
     that follows another one otherwise in the other model, or there on its own, differs, however well the axes agree.
     Where one model is in millimetres that were read as metres, the verdict says so and the joints are compared in one
     unit.
@@ -74,8 +74,8 @@ def _compared(
     x = a.random(seed, samples) @ a.coupling.T
     extra, dropped = None, ()
     if len(one.screws) != len(other.screws):
-        ks = droppable(one, other, tol_mm, tol_deg)
-        if ks is None:
+        found = droppable(one, other, tol_mm, tol_deg)
+        if found is None:
             counts = len(one.screws), len(other.screws)
             told_apart = f"{counts[0]} joints against {counts[1]}"
             which = {1: "no one joint can", 2: "no two joints can"}.get(
@@ -86,10 +86,11 @@ def _compared(
                 False, f"the models differ: {told_apart}, and {end}", (), None, None, None, None, (), None, strict,
                 tol_mm, tol_deg, samples, seed,
             ), max(counts)  # fmt: skip
+        ks, held = found
         if len(one.screws) > len(other.screws):
-            extra, one, x = ("a", *_names(one, ks)), without(one, ks), np.delete(x, ks, axis=1)
+            extra, one, x = ("a", *_names(one, ks)), without(one, ks, held), np.delete(x, ks, axis=1)
         else:
-            extra, other = ("b", *_names(other, ks)), without(other, ks)
+            extra, other = ("b", *_names(other, ks)), without(other, ks, held)
         dropped = ks
     if strict:
         reading, others = _as_it_is(one, other, tol_m, tol_rad), []

@@ -45,12 +45,42 @@ def test_one_or_two_extra_joints_are_named_wherever_they_are(seed, places, swapp
     json.loads(result.to_json())
 
 
-def test_two_extra_joints_of_the_panda_are_named_under_other_zeros_too():
+@pytest.mark.parametrize("places", [(3,), (3, 5)])
+def test_extra_joints_of_the_panda_are_named_under_other_zeros_too(places):
     chain, rng = arm("panda"), np.random.default_rng(2)
-    other, added = longer_by(chain, (3, 5), rng)
-    q0 = np.where([name in added for name in other.joint_names], 0.0, 0.3 * rng.normal(size=9))
-    result = compare(chain, other.rezeroed(q0))
+    other, added = longer_by(chain, places, rng)
+    result = compare(chain, other.rezeroed(0.3 * rng.normal(size=other.dof)), samples=5)
     assert result.extra == ("b", *added)
+    assert not any(j.axis_differs for j in result.joints)
+    assert result.after is not None
+    assert result.after.worst_mm < 0.01
+
+
+@pytest.mark.parametrize(
+    "extra_joint",
+    [
+        lambda S: screw.prismatic([1, 2, 3]),  # that moves the axes behind it without turning them
+        lambda S: screw.revolute(S[2, :3], [0.1, 0.2, 0]),  # parallel to the axis before it: no angle tells where
+        lambda S: screw.helical([1, 2, 0], [0.1, 0.3, 0.2], 0.02),
+    ],
+    ids=["prismatic", "parallel to a neighbour", "helical"],
+)
+def test_an_extra_joint_of_any_kind_is_named_at_another_zero(extra_joint):
+    chain = random_arm(3, ("revolute",) * 5)
+    rows = np.insert(chain.screws, 3, extra_joint(chain.screws), 0)
+    names = [*chain.joint_names[:3], "extra", *chain.joint_names[3:]]
+    other = Chain(rows, chain.home, joint_names=names).rezeroed([0.2, -0.1, 0.3, 0.4, -0.2, 0.1])
+    # The joint behind it counts the other way.
+    other = Chain(other.screws * np.array([1, 1, 1, 1, -1, 1])[:, None], other.home, joint_names=names)
+    for pair, side in (((chain, other), "b"), ((other, chain), "a")):
+        result = compare(*pair, samples=5)
+        assert result.extra == (side, "extra")
+        assert result.after is not None
+        assert result.after.worst_mm < 0.01
+    # An axis that is elsewhere as well is no matter of where the joint is held.
+    S = np.array(other.screws)
+    S[1] = se3.adjoint(se3.exp(np.array([0.01, 0, 0, 0, 0.01, 0]))) @ S[1]
+    assert compare(chain, Chain(S, other.home, joint_names=names), samples=1).extra is None
 
 
 @pytest.mark.parametrize("joints, words", [(6, "no one joint"), (5, "no two joints"), (4, "more than two must")])
