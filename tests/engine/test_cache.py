@@ -267,6 +267,41 @@ def test_an_entry_larger_than_any_is_not_read(place, monkeypatch, caplog):
     assert DAMAGED in caplog.text
 
 
+@pytest.mark.skipif(os.name == "nt", reason="there are no modes")
+@pytest.mark.parametrize("mode", [0o640, 0o604, 0o620, 0o602, 0o601])
+def test_an_entry_that_anybody_else_may_read_or_write_is_not_read(place, caplog, mode):
+    entry = cache.entry("arm", 0)
+    assert entry is not None
+    cache.write(entry, b"code")
+    assert cache.read(entry) == b"code"
+    entry.chmod(mode)
+    assert cache.read(entry) is None
+    assert DAMAGED in caplog.text
+
+
+def test_the_bound_counts_the_bytes_of_the_file_written(place, monkeypatch):
+    told = []
+    monkeypatch.setattr(cache.cache_size, "bound", lambda *of: told.append(of))
+    entry = cache.entry("arm", 0)
+    assert entry is not None
+    cache.write(entry, b"code")
+    assert told == [(place, entry.stat().st_size, cache.most())]
+
+
+def test_an_entry_is_kept_by_name_key_source_versions_and_options(place, monkeypatch):
+    entries = [cache.entry("arm", 0), cache.entry("exp", 0), cache.entry("arm", 1)]
+    assert [entry.name.partition("-")[0] for entry in entries if entry] == ["arm", "exp", "arm"]
+    monkeypatch.setattr(cache.source, "LOADED", "edited")
+    entries.append(cache.entry("arm", 0))
+    versions = [(module, "__version__", "another") for module in (np, cache.numba, cache.llvmlite)]
+    python = [(sys, "version", "another"), (cache.platform, "machine", lambda: "another"), (sys, "platform", "linux2")]
+    options = [(config, name, "another") for name in ("OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "BOUNDSCHECK")]
+    for module, what, value in [*versions, *python, *options]:
+        monkeypatch.setattr(module, what, value)
+        entries.append(cache.entry("arm", 0))
+    assert len({str(entry) for entry in entries}) == len(entries)
+
+
 def kept(place: Path) -> list[str]:
     """The names of all entries, the sizes of which are together within the bound."""
     files = list(place.iterdir())
