@@ -38,10 +38,10 @@ def test_what_was_not_used_for_a_month_is_removed(tmp_path, put):
 
 
 def test_entries_that_just_fit_are_kept_and_the_oldest_that_does_not_is_removed(tmp_path, put):
-    for days, name in enumerate("abcd"):
-        put(name, 500, days)
-    cache_size.bound(tmp_path, 500, MOST)
-    assert left(tmp_path) == {"a", "b", "c"}
+    for days, name in enumerate("abcdefghijklmnop"):
+        put(name, 100, days)
+    cache_size.bound(tmp_path, 100, MOST)
+    assert left(tmp_path) == set("abcdefghijklmno")  # a sixteenth is free until the next look
 
 
 def test_arms_that_just_fit_into_half_of_the_room_are_kept(tmp_path, put):
