@@ -247,7 +247,7 @@ def test_a_file_that_cannot_be_read_is_refused_by_name(tmp_path):
         (tmp_path, "this is a directory"),
         (empty, "the file is empty"),
         (large, "at most 64 MiB, the file has 64.0 MiB"),
-        (str(tmp_path / "a\0b"), "cannot be read: embedded null byte"),
+        (str(tmp_path / "a\0b"), "cannot be read: .*embedded null"),
         (str(tmp_path / ("x" * 5000)), "cannot be read: File name too long"),
     ]
     for path, message in cases:
