@@ -12,6 +12,7 @@ import pytest
 import poekin as pk
 from poekin.cli import calibrate as command
 from poekin.solve.calibration import Distances, Points, calibrate, data, files
+from poekin.solve.calibration.calibration import MOST_OUTLIERS
 from poekin.solve.calibration.simulated import simulated
 
 PANDA = pk.load("panda").chain(tip="panda_link8")
@@ -280,3 +281,10 @@ def test_wrong_points_and_angles_of_lengths_are_refused(refused, tmp_path):
     }
     for words, message in cases.items():
         assert message in refused(*ARM, path, *words)
+
+
+def test_outliers_beyond_the_first_are_counted():
+    sources = [f"{'ab'[k % 2]}.csv:{k}" for k in range(MOST_OUTLIERS + 2)]
+    here = {file: ", ".join(str(k) for k in range(first, MOST_OUTLIERS, 2)) for first, file in enumerate(("a", "b"))}
+    assert command._places(sources) == f"a.csv:{here['a']}; b.csv:{here['b']} and 2 more"
+    assert command._places(sources[:1]) == "a.csv:0"
