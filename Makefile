@@ -75,7 +75,8 @@ docs: $(VENV)/docs
 	@echo "The pages: $(CURDIR)/docs/_build/index.html"
 
 mutate: $(VENV)/dev
-	@$(PY) -m tools.mutate $(if $(SAMPLE),--sample $(SAMPLE) --afresh) $(if $(SEED),--seed $(SEED)) $(if $(ROOM),--room $(ROOM))
+	@$(PY) -m tools.mutate $(if $(SAMPLE),--sample $(SAMPLE) --afresh) $(if $(SEED),--seed $(SEED)) $(if $(ROOM),--room $(ROOM)) \
+	  $(addprefix --module ,$(MODULES))
 
 fuzz: $(VENV)/dev
 	@$(PY) -m tools.fuzz $(if $(COUNT),--count $(COUNT))
