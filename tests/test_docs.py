@@ -47,6 +47,7 @@ def run_page(name: str, text: str, place: Path) -> dict[str, int]:
 NEEDS = {
     "docs/explanation/frames.md": ("modern-robotics", "1.1"),
     "docs/howto/conform.md": ("hypothesis", SHRINKS),
+    "docs/howto/convert.md": ("modern-robotics", "1.1"),
     "docs/howto/testing.md": ("hypothesis", SHRINKS),
 }
 

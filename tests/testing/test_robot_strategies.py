@@ -131,6 +131,7 @@ def test_a_robot_shrinks_to_one_link_and_a_failing_one_to_what_matters():
     ids=["limits", "multiplier", "offset", "origin"],
 )
 def test_a_robot_shrinks_to_round_numbers(matters):
+    needs("hypothesis", SHRINKS)
     several = settings(QUICK, max_examples=300)
     robot = find(robot_strategies.robots(), lambda robot: any(map(matters, robot.joints)), settings=several)
     assert len(robot.joints) <= 2

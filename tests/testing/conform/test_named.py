@@ -110,7 +110,7 @@ def test_a_module_that_cannot_be_imported_is_refused_with_file_and_line(tmp_path
 def test_what_is_printed_can_be_pasted_however_the_subject_was_given(somebodys, given, expression):
     thing = loaded(given)
     for subject in (given, thing):
-        (outcome,) = conform(subject, examples=3).findings
+        (outcome,) = conform(subject, examples=20).findings
         assert f"{expression}.so3_exp(np.array([" in outcome.paste
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
