@@ -2,9 +2,8 @@
 
 Its key covers all source of algebra, formulas and engine, Numba's options, and the versions of Numba, llvmlite, NumPy,
 Python and the processor: an edit anywhere in the formulas makes a new key. An entry is unpickled only after its
-SHA-256, its owner
-and its permissions have been checked. A place that is damaged, foreign, read-only or absent costs a compilation and
-one log line, never an error. `POEKIN_CACHE_DIR` names another place; empty, it switches the cache off.
+SHA-256, its owner and its permissions have been checked. A place that is damaged, foreign, read-only or absent costs a
+compilation and one log line, never an error. `POEKIN_CACHE_DIR` names another place; empty, it switches the cache off.
 `POEKIN_CACHE_SIZE` is the most that it may hold, in MiB, 100 unless it is set; see `cache_size`.
 """
 

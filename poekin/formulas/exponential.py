@@ -1,8 +1,8 @@
 """exp on SO(3) and SE(3), and Lemma 2's e^{Aq} of a joint: one body, other coefficients.
 
 Accuracy: with u = 2^-53 and theta = |w| <= 10 the rotation is within 1.5 u (1 + sqrt(2) theta) in the Frobenius norm,
-the translation p within 1.5 u (|p| + |v| + theta |dp/dw|), in the cases of tests/groups/test_accuracy.py; twice 1.5 is
-held in all that are drawn. |w| beyond 1e154 overflows.
+the translation p within 1.5 u (|p| + |v| + theta |dp/dw|), in the cases of tests/groups/test_accuracy.py,
+and within twice that in every case that the property tests draw. |w| beyond 1e154 overflows.
 Source: Park 1994, Lemmas 1 and 2.
 """
 
