@@ -58,7 +58,8 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, l
     # The reading of the models as they stand holds, and so there is one that does.
     found.sort(key=_cost)
     holding = (r for r in found if r.moved.any() or poses_agree(pair, a, b, r))
-    return (first := next(holding)), _others(first, holding)
+    first = next(holding)
+    return _simpler(first, found), _others(first, holding)
 
 
 def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading | None:
@@ -79,11 +80,20 @@ def _one_joint(pair: Sides, a: Chain, b: Chain, poses: tuple[NDArray[np.intp], A
     """Readings in which one inner joint alone has a zero offset, its axis agreeing, or held to be wrong."""
     alone = np.eye(pair.n, dtype=bool)
     starts = [(one_turn(pair, poses, k), alone[k]) for k in range(1, pair.n - 1)]
-    # Of each joint all the starts with its axis, then the two best without it.
+    # Of each joint all the starts with its axis, then the two best without it, then the two with what agrees alone.
     tries = [(P[i], z[i], own, used) for (P, z), own in starts for most, used in ((4, own | True), (2, ~own))
              for i in range(len(z[:most]))]  # fmt: skip
+    for (P, z), own in starts:
+        agree = misses(pair, carried(pair, P[:2], z[:2])[1]) <= 1.0
+        tries += [(P[i], z[i], own, used) for i, used in enumerate(agree)]
     P, z, free, used = (np.array(column) for column in zip(*tries, strict=True))
     return read(pair, a, b, *fit(pair, P, z, free, used))
+
+
+def _simpler(first: Reading, found: list[Reading]) -> Reading:
+    """The best reading, or one that blames fewer joints and leaves base and tool where they are, which it does not."""
+    fewer = (r for r in found if not r.frames and r.moved.any() and r.blamed.sum() < first.blamed.sum())
+    return next(fewer, first) if first.frames and not first.link else first
 
 
 def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Reading]:

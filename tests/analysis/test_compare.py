@@ -94,6 +94,31 @@ def test_two_shifted_axes_are_both_named():
     )
 
 
+@pytest.mark.parametrize("swapped", [False, True], ids=["a b", "b a"])
+@pytest.mark.parametrize(
+    "kinds, changes",
+    [
+        ("rrrrrrr", {3: "shift", 4: "tilt", 5: "zero"}),
+        # Zero offsets of the slides, with base or tool elsewhere, would make up for one of the shifts.
+        ("rprprrr", {1: "shift", 3: "shift"}),
+        ("rrrpprr", {1: "flip", 6: "shift", 7: "shift"}),
+    ],
+)
+def test_of_several_changes_no_other_joint_is_blamed(kinds, changes, swapped):
+    chain = random_arm(0, [{"r": "revolute", "p": "prismatic"}[kind] for kind in kinds])
+    other, rng = chain, np.random.default_rng(0)
+    for number, change in changes.items():
+        other = planted(other, change, number - 1, rng)
+    result = compare(*((other, chain) if swapped else (chain, other)), samples=1)
+    assert [j.number for j in result.differing] == list(changes)
+    assert [j.number for j in result.joints if j.axis_differs] == [
+        number for number, change in changes.items() if change in ("shift", "tilt")
+    ]
+    assert [j.number for j in result.joints if j.zero_differs] == [
+        number for number, change in changes.items() if change == "zero"
+    ]
+
+
 def test_a_zero_offset_of_an_end_joint_is_a_turned_base_or_tool_and_both_readings_are_given():
     chain = arm("ur5e")
     first, last = (compare(chain, chain.rezeroed(q)) for q in ([0.1, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0.2]))
