@@ -9,11 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import InputError, shown
-from ..formats import csv_rows
 from ..groups.arrays import Array
 from ..model.chain import Chain
-from ..solve.calibration import columns, data
-from ..solve.calibration.columns import Layout
+from ..solve.calibration import data
 from ..solve.calibration.measurement import Measurement
 from . import poses
 from .output import Progress
@@ -51,31 +49,19 @@ def read(paths: Sequence[str], chain: Chain, said: Said) -> Measured:
     kinds = list(said.kind) * (len(paths) if len(said.kind) == 1 else 1) or [None] * len(paths)
     if len(kinds) != len(paths):
         raise InputError(f"--kind: expected one for all files or one for each of {len(paths)}, got {len(kinds)}")
-    readings, sets, sources = [np.empty((0, chain.dof))], [], []
-    layouts = [_look(path, chain, said.ignore) for path in paths]
-    made = [kind or layout.kinds[0] for kind, (layout, _) in zip(kinds, layouts, strict=True)]
-    _check_fit(said, made)
-    for path, kind, (layout, places) in zip(paths, made, layouts, strict=True):
-        known = _known(said, kind, len(layout.columns) // 3)
+    tables = []
+    for path, kind in zip(paths, kinds, strict=True):
         with Progress(f"reading {shown(path, 400)}") as progress:
-            q, measured = data.read(path, chain, kind=kind, ignore=said.ignore, progress=progress, **known)
-        readings.append(q)
-        sets.append(replace(measured, rows=np.arange(len(q)) + len(sources)))  # type: ignore[type-var]
-        sources += places
+            tables.append(data.read_table(path, chain, kind=kind, ignore=said.ignore, progress=progress))
+    made = [kind or table.layout.kinds[0] for kind, table in zip(kinds, tables, strict=True)]
+    _check_fit(said, made)
+    readings, sets, sources = [np.empty((0, chain.dof))], [], []
+    for kind, table in zip(made, tables, strict=True):
+        measured = data.measurement_of(table, kind, _known(said, kind, len(table.layout.columns) // 3))
+        readings.append(table.q)
+        sets.append(replace(measured, rows=np.arange(len(table.q)) + len(sources)))  # type: ignore[type-var]
+        sources += table.places
     return Measured(np.concatenate(readings), sets, sources)
-
-
-def _look(path: str, chain: Chain, ignore: Sequence[str]) -> tuple[Layout, list[str]]:
-    """What a file's columns make, and the file and line of each row; no number is read yet."""
-    layouts: list[Layout] = []
-
-    def choose(header: list[str], here: str) -> list[int]:
-        layouts.append(columns.understood(header, chain.q_names, tuple(ignore), here)[1])
-        return []
-
-    with csv_rows.opened(path) as (stream, where, _):
-        _, lines = csv_rows.read_chosen(stream, choose, where)
-    return layouts[0], [f"{where}:{line}" for line in lines]
 
 
 def _check_fit(said: Said, kinds: Sequence[str]) -> None:

@@ -54,19 +54,24 @@ def read(
     size: int = 0,
     *,
     besides: Sequence[str] = (),
+    first: Sequence[str] = (),
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows (N, k) in the order of the names, and the number of each row's line in the file (N,).
 
     One row a line, in the order of `names` or of a first line that names them all; empty lines are passed over.
     Parameters: stream, a text opened with newline=""; where, the file as messages call it; what, a column's kind
     ("coordinate"); progress(characters read, size); besides, columns that such a first line may name, too: they are
-    passed over. Raises: FileError for what is no CSV; InputError with file and line for a line of the wrong length or a
+    passed over; first, columns that it may name together, too: where it does, rows (N, len(first) + k) begin with
+    them. Raises: FileError for what is no CSV; InputError with file and line for a line of the wrong length or a
     cell that is no number; UnknownName for a header with a name that is none.
     """
     lines, said = _lines(stream, where), _listed(names)
     chosen, width = range(len(names)), len(names)
     for line, cells in lines:
         words = [cell.strip() for cell in cells]
+        if first and set(first) <= set(words):
+            names = (*first, *names)
+            said = _listed(names)
         if _is_header(words, names):
             chosen, width = _order(words, names, besides, f"{where}:{line}", what), len(words)
             said = said if width == len(names) else ", as the header has"

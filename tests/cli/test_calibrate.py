@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+import os
 import shlex
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 
 import poekin as pk
 from poekin.cli import calibrate as command
+from poekin.cli.measured import Said, read
 from poekin.solve.calibration import Distances, Points, calibrate, data, files
 from poekin.solve.calibration.calibration import MOST_OUTLIERS
 from poekin.solve.calibration.simulated import simulated
@@ -43,6 +45,21 @@ def test_the_summary_begins_with_data_kept_aside(poekin, measured, csv):
     assert names == ["nominal, kept aside", "calibrated, kept aside", "nominal, all data", "calibrated, all data"]
     wrong = np.flatnonzero(measured.outliers) + 2
     assert f"Outliers: {csv}:{', '.join(map(str, wrong))}" in lines
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/fd"), reason="an open pipe has no name here")
+def test_measurements_come_out_of_a_pipe_as_out_of_a_file(csv):
+    reading, writing = os.pipe()
+    pipe, nothing = f"/dev/fd/{reading}", Said([], [], None, None, None, None, [])
+    with open(reading), open(writing, "wb") as stream:
+        stream.write(csv.read_bytes())
+        stream.close()
+        piped = read([pipe], PANDA, nothing)
+    expected = read([str(csv)], PANDA, nothing)
+    np.testing.assert_array_equal(piped.q, expected.q)
+    np.testing.assert_array_equal(piped.sets[0].T, expected.sets[0].T)
+    assert piped.sources == [f"{pipe}:{line}" for line in range(2, 52)]
+    assert expected.sources == [f"{csv}:{line}" for line in range(2, 52)]
 
 
 def test_every_output_holds_the_same_arm(poekin, measured, csv, tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import sys
 
 import numpy as np
@@ -291,6 +292,35 @@ def test_joints_and_times_go_through_a_csv_file_to_the_last_bit(tmp_path):
     np.testing.assert_array_equal(times, t)
 
 
+@pytest.mark.parametrize(
+    "text, q, times",
+    [
+        ("1,2\n3,4", [[1, 2], [3, 4]], None),
+        ("b,a\n1,2", [[2, 1]], None),
+        ("time,a,b\n0.5,1,2", [[1, 2]], [0.5]),
+        ("\n b , time,a\n1,0.5,2\n", [[2, 1]], [0.5]),
+    ],
+    ids=["no header", "other order", "times", "a blank line first"],
+)  # fmt: skip
+@pytest.mark.skipif(not os.path.exists("/dev/fd"), reason="an open pipe has no name here")
+def test_joints_come_out_of_a_pipe_as_out_of_a_file(text, q, times, tmp_path):
+    (tmp_path / "q.csv").write_text(text)
+    reading, writing = os.pipe()
+    with open(reading), open(writing, "w") as stream:
+        stream.write(text)
+        stream.close()
+        for path in (tmp_path / "q.csv", f"/dev/fd/{reading}"):
+            found = motion.read_joints(path, ["a", "b"])
+            np.testing.assert_array_equal(found[0], q)
+            assert times is None if found[1] is None else found[1].tolist() == times
+
+
+def test_a_coordinate_called_time_is_no_time(tmp_path):
+    (tmp_path / "q.csv").write_text("b,time\n1,2")
+    q, times = motion.read_joints(tmp_path / "q.csv", ["time", "b"])
+    assert (q.tolist(), times) == ([[2.0, 1.0]], None)
+
+
 def test_what_cannot_be_read_or_written_is_said(tmp_path):
     with pytest.raises(FileError, match=r"cannot read .*no\.csv: No such file"):
         motion.read_poses(tmp_path / "no.csv", "12")
@@ -303,6 +333,9 @@ def test_what_cannot_be_read_or_written_is_said(tmp_path):
         motion.write_joints(tmp_path / "q.csv", [1, 2, 3], ["a", "b"])
     with pytest.raises(InputError, match=r"names: expected a chain or names"):
         motion.write_joints(tmp_path / "q.csv", [[1.0]], "a")
+    (tmp_path / "t.csv").write_text("time,a,b\n0,1\n")
+    with pytest.raises(InputError, match=r"t\.csv:2: 3 values expected \(time, a, b\), got 2"):
+        motion.read_joints(tmp_path / "t.csv", ["a", "b"])
 
 
 def test_a_plot_is_svg_with_names_made_harmless(tmp_path):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import fields
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -31,6 +31,17 @@ KINDS: dict[str, type[Measurement]] = {
 }
 
 
+class Table(NamedTuple):
+    """The rows of a file of measurements: joint readings q (N, m), the measured values (N, k) in the order of the
+    layout's columns, and the file and line of each row.
+    """
+
+    q: Array
+    values: Array
+    layout: Layout
+    places: list[str]
+
+
 def read(
     path: Path,
     chain: Chain,
@@ -54,6 +65,21 @@ def read(
     twice, for a kind that does not fit, and with file and line for a cell that is empty, no number or not finite;
     PoseError with file and line. Accuracy: the numbers in the file. Source: none, a format of poekin's own.
     """
+    table = read_table(path, chain, kind=kind, ignore=ignore, progress=progress)
+    return table.q, measurement_of(table, kind, known)
+
+
+def read_table(
+    path: Path,
+    chain: Chain,
+    *,
+    kind: str | None = None,
+    ignore: Iterable[str] = (),
+    progress: csv_rows.Progress | None = None,
+) -> Table:
+    """The numbers of a file of measurements, before anything is made of them; the file is read once, so it may be a
+    pipe. Parameters and errors: those of `read`.
+    """
     if kind is not None and kind not in KINDS:
         raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {told(kind)}")
     ignore = (ignore,) if isinstance(ignore, str) else tuple(ignore)
@@ -72,15 +98,14 @@ def read(
 
     with csv_rows.opened(path) as (stream, where, size):
         rows, lines = csv_rows.read_chosen(stream, choose, where, progress, size)
-    layout: Layout = layouts[0]
     if not np.isfinite(rows).all():
         i, k = np.argwhere(~np.isfinite(rows))[0]
         raise InputError(
             f"{where}:{lines[i]}, column {shown(names[k])}: expected a finite number, got {rows[i, k]}; leave the line "
             "out where nothing was measured"
         )
-    q, values = rows[:, : chain.dof], rows[:, chain.dof :]
-    return q, _measurement(kind or layout.kinds[0], layout, values, lambda i: f"{where}:{lines[i]}", known)
+    places = [f"{where}:{line}" for line in lines]
+    return Table(rows[:, : chain.dof], rows[:, chain.dof :], layouts[0], places)
 
 
 def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
@@ -104,14 +129,17 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
     write_whole(path, csv_rows.text((*names, *measured), np.column_stack([q[rows], values])).encode())
 
 
-def _measurement(kind: str, layout: Layout, values: Array, where: Any, known: dict[str, Any]) -> Measurement:
+def measurement_of(table: Table, kind: str | None, known: dict[str, Any]) -> Measurement:
+    """The measurement that a table holds. Parameters: kind and known, as those of `read`; so are the errors."""
+    _, values, layout, places = table
+    kind = kind or layout.kinds[0]
     made = KINDS[kind]
     first, *others = (field.name for field in fields(made) if field.name != "rows")  # type: ignore[arg-type]
     for name in known:
         if name not in others:
             raise UnknownName(f"{shown(name)} is nothing that {kind} have; {closest(name, others)}")
     if layout.format:
-        T = pose_rows.to_poses(values, layout.format, "wxyz" if layout.format == "7" else None, where)
+        T = pose_rows.to_poses(values, layout.format, "wxyz" if layout.format == "7" else None, places.__getitem__)
         return made(**{first: T}, **known)
     if kind == "points":
         count = len(layout.columns) // 3
@@ -119,7 +147,7 @@ def _measurement(kind: str, layout: Layout, values: Array, where: Any, known: di
             raise InputError(f"points: the file has {count} points a line; say where they are in the tip frame, (k, 3)")
         return made(**{first: values.reshape(-1, count, 3)}, **known)
     for i in np.flatnonzero(values[:, 0] <= 0)[:1]:
-        raise InputError(f"{where(i)}: expected a distance above 0, got {values[i, 0]:g}")
+        raise InputError(f"{places[i]}: expected a distance above 0, got {values[i, 0]:g}")
     return made(**{first: values[:, 0]}, **known)
 
 

@@ -59,9 +59,8 @@ def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array 
     Source: none, a format of poekin's own.
     """
     names = _names(names)
-    timed = TIME not in names and _first_line_has_time(path)
-    rows, _, _ = _read(path, (TIME, *names) if timed else names, "coordinate")
-    return (rows[:, 1:], rows[:, 0]) if timed else (rows, None)
+    rows, _, _ = _read(path, names, "coordinate", () if TIME in names else (TIME,))
+    return (rows[:, 1:], rows[:, 0]) if rows.shape[1] > len(names) else (rows, None)
 
 
 def write_joints(path: Path, q: ArrayLike, names: Chain | Sequence[str], *, times: ArrayLike | None = None) -> None:
@@ -89,15 +88,6 @@ def _names(names: Any) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _read(path: Path, names: Sequence[str], what: str) -> tuple[Array, np.ndarray, str]:
+def _read(path: Path, names: Sequence[str], what: str, first: Sequence[str] = ()) -> tuple[Array, np.ndarray, str]:
     with csv_rows.opened(path) as (stream, where, _):
-        return *csv_rows.read(stream, names, where, what), where
-
-
-def _first_line_has_time(path: Path) -> bool:
-    """Whether a first line names a column `time`; what cannot be read is said when the rows are."""
-    try:
-        with open(path, encoding="utf-8-sig") as stream:
-            return TIME in (word.strip().strip('"') for word in stream.readline(csv_rows.LONGEST).split(","))
-    except (OSError, ValueError):
-        return False
+        return *csv_rows.read(stream, names, where, what, first=first), where
