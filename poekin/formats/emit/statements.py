@@ -11,6 +11,7 @@ from ...engine.program import Angle, Program
 from ...errors import InputError
 
 Literal = Callable[[float], str]
+_OF_SIGN = {1: "+", -1: "-"}
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ def statements(program: Program, literal: Literal) -> Statements:
         if node.kind == "scaled":
             expression = f"{literal(node.first)} * {names[node.second]}"
         else:
-            operation = "*" if node.kind == "product" else "+" if node.sign > 0 else "-"
+            operation = "*" if node.kind == "product" else _OF_SIGN[node.sign]
             expression = f"{names[int(node.first)]} {operation} {names[node.second]}"
         names[number] = f"v{len(lines)}"
         lines.append((names[number], expression))

@@ -1,0 +1,88 @@
+"""What emitted texts say about an arm: sizes, units, limits, frames, angles, and names that cannot end a comment."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.formats.emit import words
+from poekin.formats.emit.statements import by_outputs
+from poekin.formats.emit.words import about, angle_words, quoted, tasks
+
+from .emitted import arm
+
+LIMITS = [[-1, 2.5], [-np.inf, np.inf], [0.12345678, np.inf]]
+CRANE = pk.Chain(
+    [[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 0, 1], [0, 0, 1, 0, -2, 0]],
+    np.eye(4),
+    limits=LIMITS,
+    joint_names=["a", "b", "c"],
+    base="w",
+    tip="t",
+)
+
+
+def test_the_arm_is_told_line_by_line():
+    assert about(CRANE.compile(), "space") == [
+        "Base frame 'w', tip frame 't'; 3 joints, 3 coordinates. Units: rad, m.",
+        "",
+        "  q[0]  rad  'a', -1 ... 2.5",
+        "  q[1]  m  'b'",
+        "  q[2]  rad  'c', 0.123457 ... inf",
+        "",
+        "T = (R, p; 0, 1), 4 x 4 row by row: the pose of the tip in the base frame; p in m.",
+        "J, 6 x 3 row by row: V = J dq. Rows omega x, y, z (rad/s), then v x, y, z (m/s), per unit of dq.",
+        "J is the space Jacobian: axes of the base, v of the tip's point that passes the origin of the base.",
+    ]
+    none, one = about(arm("no joint").compile(), "body"), about(arm("one joint").compile(), "body")
+    assert none[0] == "Base frame 'base', tip frame 'tool'; 0 joints, 0 coordinates. Units: rad, m."
+    assert none[1:3] == ["", one[4]]
+    assert one[0] == "Base frame 'base', tip frame 'tool'; 1 joint, 1 coordinate. Units: rad, m."
+    assert one[1:4] == ["", "  q[0]  rad  'joint1'", ""]
+
+
+@pytest.mark.parametrize("frame, says", [
+    ("body", ["J is the body Jacobian: axes of the tip, v of the origin of the tip."]),
+    ("hybrid", ["J is the hybrid Jacobian: axes of the base, v of the origin of the tip."]),
+    (2, ["J is the Jacobian in a frame that moves with joint 2 (counted from 0), 'c', and",
+         "has its z axis along that joint's: axes of that frame, v of the tip's point that passes its origin.",
+         "The frame's pose in the base frame at q = 0, (R, p):",
+         "   1   0   0   2", "   0   1   0   0", "   0   0   1   0"]),
+])  # fmt: skip
+def test_the_frame_of_the_jacobian_is_told(frame, says):
+    assert about(CRANE.compile(), frame)[8:] == says
+
+
+def test_angles_are_sums_of_a_base_coordinates_and_an_offset():
+    coupled = tasks(arm("coupled").compile(), "body")
+    assert angle_words(coupled[0]) == ["x[0] = q[0] + 0.626388", "x[1] = 2 q[0] + -1 q[1] + 0.0267391"]
+    assert [task.name for task in coupled] == ["fk", "jacobian_body", "fk_jacobian_body"]
+    assert [(task.pose, task.jacobian) for task in coupled] == [(True, False), (False, True), (True, True)]
+    assert [task.name for task in tasks(CRANE.compile(), 1)] == ["fk", "jacobian_joint1", "fk_jacobian_joint1"]
+    ur = tasks(pk.load("ur5e").chain().compile(), "body")[0]
+    assert angle_words(ur)[4:] == ["x[4] = q[1] + q[2]", "x[5] = x[4] + q[3]"]
+
+
+def test_a_name_is_cut_after_eighty_characters_and_cannot_end_a_comment():
+    assert quoted("x" * 80) == f"'{'x' * 80}'"
+    assert quoted("x" * 81) == f"'{'x' * 77}...'"
+    assert quoted("a b_~!*?\\\"'`\n\u00fc") == (
+        "'a b_~!<U+002A><U+003F><U+005C><U+0022><U+0027><U+0060><U+000A><U+00FC>'"
+    )
+
+
+def test_the_pose_is_written_row_by_row_and_the_jacobian_after_it():
+    outputs = list("abcdefghijklmn")
+    assert by_outputs(outputs, True) == ([*"abcjdefkghil", 0.0, 0.0, 0.0, 1.0], ["m", "n"])
+    assert by_outputs(outputs, False) == ([], outputs)
+
+
+def test_the_middle_frame_has_its_pose_in_the_frame_of_its_joint():
+    fast = arm("panda").compile()
+    k, T = words.jacobian_frame(fast, "middle")
+    assert k == fast.middle.joint
+    np.testing.assert_array_equal(T, fast.middle.T_km)
+    k, T = words.jacobian_frame(fast, 3)
+    assert k == 3
+    np.testing.assert_array_equal(T, np.eye(4))
