@@ -77,9 +77,11 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/engine/specialise.py": ("tests/engine/test_interpret.py", "tests/engine/test_count.py",
                                     "tests/model/test_compiled.py"),
     "poekin/engine/source.py": ("tests/engine/test_cache.py",),
-    **{f"poekin/formats/emit/{name}.py": (f"tests/formats/test_emit_{first}.py", "tests/formats/test_emit_python.py",
-                                          "tests/formats/test_emit_c.py", "tests/cli/test_emit.py")
-       for name, first in (("statements", "words"), ("vectors", "vectors"), ("words", "words"))},
+    **{f"poekin/formats/emit/{name}.py": (f"tests/formats/test_emit_{first}.py", "tests/formats/test_emit_words.py",
+                                          "tests/formats/test_emit_python.py", "tests/formats/test_emit_c.py",
+                                          "tests/cli/test_emit.py")
+       for name, first in (("c", "text"), ("c_selftest", "text"), ("python", "text"), ("statements", "text"),
+                           ("vectors", "vectors"), ("words", "words"))},
     "poekin/formats/dh/": (*_DH, "tests/formats/test_dh_calibrated.py", f"--deselect={_DH[2]}::{_SLOW}"),
     "poekin/model/screw.py": (
         "tests/model/test_screw_values.py", "tests/model/test_screw.py", "tests/model/test_parts.py", *_CHAINS),
