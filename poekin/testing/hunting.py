@@ -7,25 +7,32 @@ Source: Hypothesis, targeted search.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import contextlib
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from .laws import Law, LawViolation
 from .strategies import st
 
 # `strategies` has said what to install where hypothesis is missing.
-from hypothesis import HealthCheck, Phase, Verbosity, given, settings, target  # isort: skip
+from hypothesis import HealthCheck, Phase, Verbosity, given, seed, settings, target  # isort: skip
+from hypothesis.internal import conjecture  # isort: skip
 
 Cases = st.SearchStrategy[tuple[Any, ...]]
 
 
-def repeatable(examples: int) -> settings:
-    """Settings of a hunt: the same cases in every run, steered towards what is worst; nothing is stored or shrunk."""
-    return settings(
+def for_each(cases: st.SearchStrategy[Any], examples: int, check: Callable[[Any], object]) -> None:
+    """Call check(case) on drawn cases, steered by `hypothesis.target`; nothing is stored or shrunk.
+
+    The cases are the same in every run and in every program, whatever it has imported. A seed says which ones, as those
+    of `derandomize` depend on the text of the function.
+    """
+
+    @seed(0)
+    @settings(
         max_examples=examples,
         database=None,
         deadline=None,
-        derandomize=True,
         phases=(Phase.generate, Phase.target),
         report_multiple_bugs=False,
         print_blob=False,
@@ -38,6 +45,31 @@ def repeatable(examples: int) -> settings:
             HealthCheck.large_base_example,
         ],
     )
+    @given(cases)
+    def one(case: Any) -> None:
+        check(case)
+
+    with _without_constants_of_modules():
+        one()
+
+
+@contextlib.contextmanager
+def _without_constants_of_modules() -> Iterator[None]:
+    """Hypothesis draws no numbers out of the source of loaded modules, as it does since 6.131.
+
+    There is no setting for it. Modules outside of site-packages are looked at, so that cases would differ between a
+    program and an interactive session, and between a checkout of this package and its wheel.
+    """
+    providers: Any = getattr(conjecture, "providers", None)
+    if not hasattr(providers, "CONSTANTS_CACHE"):
+        yield
+        return
+    none, before = type(providers._local_constants)(), (providers._get_local_constants, providers.CONSTANTS_CACHE)
+    providers._get_local_constants, providers.CONSTANTS_CACHE = (lambda: none), {}
+    try:
+        yield
+    finally:
+        providers._get_local_constants, providers.CONSTANTS_CACHE = before
 
 
 def hunt(check: Callable[..., float], cases: Cases, examples: int = 100) -> None:
@@ -45,13 +77,7 @@ def hunt(check: Callable[..., float], cases: Cases, examples: int = 100) -> None
 
     Raises LawViolation with the first case that breaks the law, as it was drawn (a test that uses the law shrinks it).
     """
-
-    @repeatable(examples)
-    @given(cases)
-    def one(case: tuple[Any, ...]) -> None:
-        target(check(*case))
-
-    one()
+    for_each(cases, examples, lambda case: target(check(*case)))
 
 
 def caught(

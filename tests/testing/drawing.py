@@ -3,8 +3,14 @@
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
+# All that decides about the examples, whatever the profile is: tools/mutate has one that does not shrink.
 QUICK = settings(
-    max_examples=2000, database=None, derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+    max_examples=2000,
+    database=None,
+    derandomize=True,
+    deadline=None,
+    phases=[Phase.generate, Phase.target, Phase.shrink],
+    suppress_health_check=[HealthCheck.too_slow],
 )
 
 

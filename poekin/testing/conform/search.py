@@ -7,7 +7,7 @@ import time
 from typing import NamedTuple
 
 from ...errors import InputError
-from ..hunting import repeatable
+from ..hunting import for_each
 from .calls import UNANSWERED
 from .grades import Grade, Verdict
 from .law import Case, Law
@@ -15,7 +15,7 @@ from .shrink import shrunk
 from .subject import Subject
 
 # `law` has said what to install where hypothesis is missing.
-from hypothesis import given, target  # isort: skip
+from hypothesis import target  # isort: skip
 from hypothesis.errors import Flaky  # isort: skip
 
 ENOUGH = 100
@@ -50,8 +50,6 @@ def worst(law: Law, subject: Subject, examples: int, seconds: float, at_most: Gr
     end, count, late = time.monotonic() + seconds, 0, False
     top: tuple[Case, Verdict] | None = None
 
-    @repeatable(examples)
-    @given(law.cases(subject))
     def one(case: Case) -> None:
         nonlocal count, late, top
         late = late or (time.monotonic() > end and count >= LEAST)
@@ -70,7 +68,7 @@ def worst(law: Law, subject: Subject, examples: int, seconds: float, at_most: Gr
         target(math.log10(min(max(verdict.size, 1e-30), 1e30)))
 
     try:
-        one()
+        for_each(law.cases(subject), examples, one)
     except (_Over, Flaky):  # Hypothesis may try a case again that there was time for before
         pass
     if top is None:

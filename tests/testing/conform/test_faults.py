@@ -332,7 +332,7 @@ def test_joints_with_a_pitch_are_asked_of_those_who_declare_them():
         def flat(screws):
             return with_pitches(screws, np.zeros(len(screws)))
 
-    report = conform(Flat, examples=10)
+    report = conform(Flat, examples=25)  # of ten the worst is poor: right to six digits where the joint hardly turns
     assert [(outcome.law, outcome.finding) for outcome in report.outcomes] == [
         ("fk", False), ("jacobian", False), ("fk helical", True), ("jacobian helical", True),
     ]  # fmt: skip
