@@ -130,6 +130,7 @@ WHOLE: dict[str, tuple[str, ...]] = {
 # Tests that say something about compiled code, and fail in the interpreter without any mutant.
 APART = (
     "tests/engine/test_compile.py",
+    "tests/engine/test_program.py::test_machine_code_gives_what_was_recorded",
     # the scalars of a NumPy row warn where compiled code quietly gives NaN
     "tests/groups/test_near.py::test_a_reference_that_is_no_number_gives_nan",
     "tests/model/test_parts.py::test_what_is_no_pose_is_refused",
