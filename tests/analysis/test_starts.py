@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from poekin.analysis import starts
 from poekin.analysis.compare import compare
 from poekin.analysis.lines import carried, lines, misses, sides
 from poekin.analysis.starts import one_turn, pair_poses, rigid_poses, turns
@@ -16,6 +17,7 @@ from poekin.testing.planted_changes import random_arm
 PARALLEL = Chain([screw.revolute([0, 0, 1], [x, 0.1 * x * x, 0]) for x in (0.0, 0.4, 0.7)], np.eye(4))
 RNG = np.random.default_rng(0)
 BASE = se3.exp(RNG.normal(size=6))
+BEST = starts.best
 
 
 def test_an_axis_misses_by_its_angle_and_by_its_distance_at_the_place_of_the_other():
@@ -84,3 +86,149 @@ def test_parallel_axes_that_point_opposite_ways_are_turned_with_the_base(ways, x
     result = compare(chain, chain.rebased(se3.exp(xi)), samples=1)
     assert (result.equal, result.differing, result.tool) == (True, (), pytest.approx(np.eye(4), abs=1e-9))
     assert result.base == pytest.approx(se3.inverse(se3.exp(xi)), abs=1e-9)
+
+
+def two_lines(cosine, gap=0.5):
+    """An axis along z, and one at `gap` along x whose direction has this cosine to it."""
+    way = [0, np.sqrt(1 - cosine * cosine), cosine]
+    return Chain([screw.revolute([0, 0, 1], [0, 0, 0]), screw.revolute(way, [gap, 0, 0])], np.eye(4))
+
+
+@pytest.mark.parametrize("cosine, poses", [(0.5, 2), (0.535, 2), (0.465, 2), (0.545, 0), (0.455, 0), (-0.5, 2)])
+def test_axes_at_another_angle_are_not_carried_onto_each_other(cosine, poses):
+    joints, D = pair_poses(sides(two_lines(0.5), two_lines(cosine), 1e-6, 1e-6), [(0, 1)])
+    assert (joints.shape, D.shape) == ((poses, 2), (poses, 4, 4))
+
+
+SKEW = lines(Chain([screw.revolute([0, 0, 2], [1, 2, 0]), screw.revolute([0, 1, 1], [1.5, 7, 4])], np.eye(4)))
+
+
+def test_the_frame_of_two_axes_stands_on_the_first_where_their_common_normal_begins():
+    # The second axis comes by x = 1.5, y = 2 at z = -1.
+    one, other = starts._frame(SKEW, 0, 1), starts._frame(SKEW, 1, 0)
+    assert one is not None
+    assert other is not None
+    frame, cosine, parallel = one
+    assert frame[:3, 3] + SKEW.hub == pytest.approx([1, 2, -1])
+    assert frame[:3, 2] == pytest.approx([0, 0, 1])
+    assert frame[:3, 0] == pytest.approx([-1, 0, 0])  # z cross the other's direction
+    assert np.linalg.det(frame[:3, :3]) == pytest.approx(1)
+    assert (cosine, parallel) == (pytest.approx(np.sqrt(0.5)), False)
+    back = other[0]
+    assert back[:3, 3] + SKEW.hub == pytest.approx([1.5, 2, -1])
+    assert back[:3, 2] == pytest.approx(np.sqrt([0, 0.5, 0.5]))
+
+
+@pytest.mark.parametrize("tilt, gap, found", [
+    (0.0, 0.5, True), (0.019, 0.5, True), (0.0, 1.1e-5, True), (0.0, 0.9e-5, False), (0.019, 0.0, False),
+    (0.021, 0.5, False), (0.021, 0.0, False),
+])  # fmt: skip
+def test_the_frame_of_parallel_axes_looks_from_the_one_to_the_other(tilt, gap, found):
+    side = lines(two_lines(np.cos(tilt), gap))
+    found_frame = starts._frame(side, 0, 1)
+    assert (found_frame is not None and found_frame[2]) == found
+    assert (found_frame is not None) == (found or tilt > starts.PARALLEL)
+    if found_frame is not None and found:
+        assert found_frame[0][:3, :3] == pytest.approx(np.eye(3), abs=0.02)
+        assert (found_frame[0][:3, 3] == side.places[0]).all()
+
+
+def test_the_frame_of_a_slide_stands_on_the_axis_beside_it_and_two_slides_have_one_only_where_they_cross():
+    slide, turn = screw.prismatic([1, 0, 0]), screw.revolute([0, 0, 1], [0, 3, 0])
+    for rows, i, j in (([slide, turn], 0, 1), ([turn, slide], 0, 1)):
+        side = lines(Chain(rows, np.eye(4)))
+        found = starts._frame(side, i, j)
+        assert found is not None
+        assert found[0][:3, 3] + side.hub == pytest.approx([0, 3, 0])
+        assert found[0][:3, 2] == pytest.approx(side.ways[0])
+    assert starts._frame(lines(Chain([slide, screw.prismatic([1, 1e-3, 0])], np.eye(4))), 0, 1) is None
+    assert starts._frame(lines(Chain([slide, screw.revolute([1, 0, 0], [0, 3, 0])], np.eye(4))), 0, 1) is None
+    crossing = starts._frame(lines(Chain([slide, screw.prismatic([0, 1, 0])], np.eye(4))), 0, 1)
+    assert crossing is not None
+    assert (crossing[0][:3, 3] == 0).all()
+
+
+def test_an_axis_behind_slides_is_anchored_where_the_next_links_that_turn_have_it():
+    slide, here, level = screw.prismatic([0, 1, 0]), [1, 2, 0], [3, 2, 5]
+    first, beside = screw.revolute([0, 0, 1], here), screw.revolute([0, 0, -1], level)
+    across = screw.revolute([0, 1, 0], [4, 0, -7])
+    for rows, k, expected in (
+        ([slide, first, across], 1, [1, 2, -7]),
+        ([slide, first, beside, across], 1, [1, 2, -7]),
+        ([slide, first, slide, across], 1, None),
+        ([slide, first, beside], 1, None),
+        ([slide, first, beside, slide, across], 1, None),
+    ):
+        side = lines(Chain(rows, np.eye(4)))
+        anchor = starts._anchor(side, k)
+        assert (anchor is None) == (expected is None)
+        if anchor is not None:
+            assert anchor + side.hub == pytest.approx(expected)
+
+
+def test_both_turns_that_make_an_axis_parallel_to_its_target_are_within_half_a_turn():
+    S, axis = screw.revolute([0, 0, 1], [0.3, 0, 0]), screw.revolute([1, 0.3, 0.4], [0, 0.2, 0.5])
+    for angle in (0.6, -0.6, 3.0):
+        one, other = turns(S, axis, se3.adjoint(se3.exp(angle * S)) @ axis)
+        assert one == pytest.approx(angle)
+        assert other == pytest.approx(angle - np.copysign(np.pi, angle))
+
+
+def test_a_slide_along_an_axis_moves_it_nowhere():
+    for slant, expected in ((0.01, 0.0), (0.03, 0.4)):
+        slide, axis = screw.prismatic([slant, 0, 1]), screw.revolute([0, 0, 1], [1, 2, 3])
+        z = turns(slide, axis, se3.adjoint(se3.exp(0.4 * slide)) @ axis)
+        assert z[0] == pytest.approx(expected)
+    assert turns(slide, screw.prismatic([0, 0, 1]), axis)[0] == 0
+
+
+def test_the_best_alignments_are_those_under_which_most_axes_agree_and_fewest_things_change():
+    chain = random_arm(3, ("revolute",) * 4)
+    pair = sides(chain, chain, 1e-5, 1e-5)
+    away = [np.eye(4), *(se3.exp(np.array([0, 0, 0, size, 0, 0])) for size in (1e-7, 5e-3, 5.0))]
+    z = np.zeros((5, 4))
+    z[0, 3] = 0.5  # moves no axis
+    P = np.stack([away[i] for i in (0, 3, 2, 1, 0)])
+    found = starts.best(pair, P, z, 5)
+    assert [np.flatnonzero((P == D).all((1, 2)) & (z == x).all(1)).tolist() for D, x in zip(*found, strict=True)] == [
+        [4], [0], [3], [2], [1]
+    ]  # fmt: skip
+    assert starts.best(pair, P, z)[1].shape == (4, 4)
+
+
+def test_one_axis_far_off_counts_less_than_several_that_miss():
+    chain = random_arm(3, ("revolute",) * 4)
+    S = chain.screws.copy()
+    S[3] = screw.prismatic([0, 0, 1])  # another kind, so that it never agrees
+    pair = sides(Chain(S, chain.home), chain, 1e-5, 1e-5)
+    hubs = np.eye(4)
+    hubs[:3, 3] = pair.b.hub - pair.a.hub
+    P = np.stack([se3.exp(np.array([0, 0, 0, 5e-4, 0, 0])) @ hubs, hubs])
+    assert starts.best(pair, P, np.zeros((2, 4)), 1)[0][0] == pytest.approx(hubs)
+
+
+def test_two_axes_are_aligned_as_one_pair():
+    chain = two_lines(0.3)
+    pair = sides(chain, chain.rebased(BASE), 1e-6, 1e-6)
+    P, z = starts.one_by_one(pair)
+    assert pytest.approx(pair_poses(pair, [(0, 1)])[1]) == P
+    assert (z == np.zeros((2, 2))).all()
+    alone = Chain(chain.screws[:1], chain.home)
+    assert starts.one_by_one(sides(alone, alone, 1e-6, 1e-6))[0] == pytest.approx(np.eye(4)[None])
+
+
+@pytest.mark.parametrize("k", [1, 2, 3, 4])
+@pytest.mark.parametrize("behind", [False, True])
+def test_beyond_many_alignments_each_pose_is_tried_with_the_turns_of_one_axis(k, behind, monkeypatch):
+    chain = random_arm(4)
+    offset = np.where(np.arange(6) == k, 0.7, 0.0)
+    pair = sides(chain, chain.rezeroed(offset).rebased(BASE), 1e-6, 1e-6)
+    joints, D = rigid_poses(pair)
+    some = joints[:, 0] >= k if behind else (joints[:, 0] >= 0) & (joints[:, 1] <= k)
+    if some.any():
+        kept = []
+        monkeypatch.setattr(starts, "MOST", -1)
+        monkeypatch.setattr(starts, "best", lambda pair, P, z: kept.append(len(z)) or BEST(pair, P, z))
+        P, z = one_turn(pair, (joints[some], D[some]), k)
+        assert kept == [2 * some.sum()]
+        assert misses(pair, carried(pair, P[:1], z[:1])[1]).max() < 1e-3
