@@ -30,6 +30,7 @@ MISFIT = 0.2
 FLAT = 1e-6
 """How far a set of points or rotations has to reach out of a line or plane, in units of its length (rad for angles)."""
 _ROUNDING = 1e-13
+_SHORT = 1e-3  # m: of lengths that are all shorter, rounding is taken to be that of one so long
 
 Solution = TypeVar("Solution")
 
@@ -57,7 +58,7 @@ def hand_eye(T_base_tip: ArrayLike, T_fixed_moving: ArrayLike) -> tuple[Array, A
     # unknowns t_Z, t_X; a design of rotations alone: no row has more leverage than another
     design = np.concatenate([R_A, np.broadcast_to(-np.eye(3), R_A.shape)], axis=2)
     there, here = B[:, :3, 3] @ R_X.T, A[:, :3, 3]
-    size = max(float(np.median(np.abs(there))), float(np.median(np.abs(here))), 1e-3)
+    size = max(float(np.median(np.abs(there))), float(np.median(np.abs(here))), _SHORT)
     t, _, _ = _robust(lambda w: _linear(design, there - here, kept * w), len(A), 3, _ROUNDING * size)
     return _pose(R_X, t[3:]), _pose(R_Z, t[:3])
 
@@ -75,7 +76,7 @@ def registration(a: ArrayLike, b: ArrayLike) -> Array:
     """
     a, b = _finite(numbers(a, "a"), "a", 3), _finite(numbers(b, "b"), "b", 3)
     _check_counts(3, "the frame of points", "a and b", a, b)
-    size = max(float(np.abs(a).max()), float(np.abs(b).max()))
+    size = max(float(np.abs(a).max()), float(np.abs(b).max()), _SHORT)
     T, off, kept = _robust(lambda w: _rigid(a, b, w), len(a), 3, _ROUNDING * size)
     for points in (b[kept], a[kept]):
         if _within(_spread(points - points.mean(axis=0)), 1, float(np.median(off))):
@@ -104,7 +105,7 @@ def centre(p: ArrayLike, d: ArrayLike) -> Array:
     _check_counts(4, "the centre of distances", "p and d", p, d)
     if (d < 0).any():
         raise InputError(f"d: expected distances of at least 0 m, got {d.min():g}")
-    size = max(float(np.abs(p - p.mean(axis=0)).max()), float(np.median(d)))
+    size = max(float(np.abs(p - p.mean(axis=0)).max()), float(np.median(d)), _SHORT)
     linear = _robust(lambda w: _multilateral(p, d, w), len(p), 4, _ROUNDING * size)
     nearer = _robust(lambda w: _nearer(p, d, w, linear[0]), len(p), 4, _ROUNDING * size)
     c, off, kept = min(linear, nearer, key=lambda guess: float(np.median(guess[1])))
@@ -136,7 +137,7 @@ def mean_pose(T: ArrayLike) -> Array:
         mean = w @ t / w.sum()
         return mean, np.linalg.norm(t - mean, axis=1)
 
-    size = max(float(np.abs(t).max()), 1e-3)
+    size = max(float(np.abs(t).max()), _SHORT)
     return _pose(_robust(turn, len(T), 1, _ROUNDING)[0], _robust(place, len(T), 1, _ROUNDING * size)[0])
 
 
