@@ -8,8 +8,8 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError, ShapeError, UnknownName
 from poekin.solve.calibration import Distances, EyeInHand, EyeToHand, Points, Poses, calibrate, identify
-from poekin.solve.calibration.choice import Figures, _over
-from poekin.solve.calibration.choose import choose_poses
+from poekin.solve.calibration.choice import Choice, Figures, _over
+from poekin.solve.calibration.choose import _enough, _figures, choose_poses
 from poekin.solve.calibration.exchange import CRITERIA
 
 TOOL = (0.05, 0.0, 0.1)  # off the last axis, so that all of it can be seen
@@ -218,3 +218,43 @@ def test_what_cannot_be_chosen_from_is_refused(puma, candidates, changed, error,
 )
 def test_a_random_choice_that_shows_nothing_is_beaten_without_end(a, b, ratio):
     assert _over(a, b) == ratio
+
+
+def shows(*directions, size=3, times=2):
+    """The blocks of candidates each of which sees one direction, in several rows."""
+    blocks = np.zeros((len(directions), times, size))
+    blocks[np.arange(len(directions)), :, directions] = 1.0
+    return blocks
+
+
+@pytest.mark.parametrize("n, needed", [(1, 3), (2, 3), (3, None)])
+def test_as_many_configurations_are_needed_as_show_the_last_direction(n, needed):
+    blocks = shows(0, 0, 1, 2, 1)
+    if needed is None:
+        _enough(blocks, n)
+    else:
+        with pytest.raises(InputError, match=f"n: {n} configurations of 2 numbers each are too few for 3 parameters: "
+                           f"expected at least {needed}, better three times as many"):  # fmt: skip
+            _enough(blocks, n)
+
+
+def test_a_choice_that_leaves_a_direction_unseen_is_worth_nothing():
+    blocks = shows(0, 0, 1, 2)
+    for rows in ([0], [0, 1], [0, 2], [1, 2]):
+        assert _figures(blocks, np.array(rows)) == (0, np.inf, 0, 0, np.inf)
+    found = _figures(blocks, np.array([0, 2, 3]))
+    # Each direction is seen twice: singular values of sqrt(2), and what two numbers tell is known to sqrt(1/2) of one.
+    assert found.condition == pytest.approx(1)
+    assert found.smallest == pytest.approx(np.sqrt(2))
+    assert found.prediction == pytest.approx(np.sqrt(0.5))
+
+
+def test_a_choice_says_its_figure_the_median_s_and_the_best_s_and_what_noise_leaves():
+    own, median, best = Figures(1.0, 20.0, 0.3, 0.04, 5.0), Figures(0.5, 60.0, 0.1, 0.01, 9.0), Figures(6, 7, 8, 9, 10)
+    choice = Choice(np.zeros((3, 2)), np.arange(3), "condition", own, median, best, 12, 13, ("'a' alone", "'b'"), 40, 7)
+    assert choice.gains == pytest.approx((2, 3, 3, 4, 1.8))
+    assert str(choice) == (
+        "3 of 40 configurations for 12 parameters: condition 20, 3.00 times better than the median of 7 random choices "
+        "(60, the best of them 7); noise leaves 0.56 times the error in the calibrated arm that it leaves after those; "
+        "not seen from any of them: 'a' alone; not seen from any of them: 'b'"
+    )

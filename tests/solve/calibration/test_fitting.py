@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 import poekin as pk
 from poekin.groups import se3
 from poekin.solve import calibration
-from poekin.solve.calibration import EyeInHand, Poses, calibrate
+from poekin.solve.calibration import EyeInHand, Poses, calibrate, fitting, losses
 from poekin.solve.calibration.fitting import frames_only
 from poekin.solve.calibration.identification import judged
 from poekin.solve.calibration.minimise import _exact, minimise
@@ -134,3 +137,68 @@ def test_an_error_is_rounding_by_the_angle_and_by_the_arm_s_reach(part, times, e
     T[:3, 3] = home[:3, 3] + size * np.eye(3)[2] * (part == 5)
     problem = Problem(Arm(arm, ("home",), None), np.zeros((1, 1)), [Poses(T[None])])
     assert _exact(problem, np.zeros(6)) == exact
+
+
+@pytest.mark.parametrize("before, after, change", [
+    ([Spread(1.0, 2.0)], [Spread(1.0, 2.2)], 0.1), ([Spread(1.0, 2.0)], [Spread(0.7, 2.2)], 0.3),
+    ([Spread(None, 2.0)], [Spread(None, 1.0)], 0.5), ([None], [None], 0.0),
+    ([Spread(0.0, 0.0)], [Spread(1.0, 0.0)], 0.0),
+    ([Spread(1.0, 1.0), None, Spread(None, 2.0)], [Spread(1.0, 1.0), None, Spread(None, 3.0)], 0.5),
+])  # fmt: skip
+def test_spreads_change_by_the_most_that_one_of_them_does(before, after, change):
+    one: Any = SimpleNamespace(spreads=before)
+    other: Any = SimpleNamespace(spreads=after)
+    assert fitting._change(one, other) == pytest.approx(change)
+
+
+@pytest.mark.parametrize("loss, names", [
+    ("linear", ["linear"]), ("huber", ["huber"]), ("tukey", ["huber", "tukey"]), ("cauchy", ["huber", "cauchy"]),
+])  # fmt: skip
+def test_a_loss_that_may_have_several_minima_begins_with_one_that_has_one_and_goes_on_from_there(
+    loss, names, monkeypatch
+):
+    asked, ends, counts = [], [], []
+
+    def recorded(problem, free, noise, name, p, prior, most):
+        asked.append((name, most, any(p is end for end in ends)))
+        found = minimise(problem, free, noise, name, p, prior, most)
+        ends.append(found.p)
+        counts.append(len(found.steps))
+        return found
+
+    monkeypatch.setattr(fitting, "minimise", recorded)
+    q, T = noisy()
+    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T)])
+    found = fitting.fitted(problem, judged(problem)[1], loss, np.zeros(problem.size), None)
+    assert [name for name, _, _ in asked] == [*names, *[loss] * (len(asked) - len(names))]
+    assert len(asked) > len(names)
+    assert [goes_on for _, _, goes_on in asked] == [False, *[True] * (len(asked) - 1)]
+    left = [most for _, most, _ in asked]
+    assert left == [100 - sum(counts[:k]) for k in range(len(asked))]
+    assert len(found.steps) == sum(counts)
+
+
+def test_the_covariance_of_a_robust_loss_is_huber_s():
+    q, T = noisy()
+    T[:3] = T[:3] @ se3.exp([0, 0, 0, 0.01, 0, 0])
+    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T)])
+    free = judged(problem)[1]
+    for loss in ("huber", "tukey"):
+        fit = fitting.fitted(problem, free, loss, np.zeros(problem.size), None)
+        J = np.concatenate([
+            fit.noise.whitened(0, slopes).reshape(-1, problem.size) for _, slopes in problem.linearised(fit.p)
+        ]) @ (problem.scale[:, None] * free)  # fmt: skip
+        e = fit.noise.whitened(0, problem.errors(fit.p)[0][..., None])[..., 0]
+
+        def psi(e, loss=loss):
+            return e * np.sqrt(losses.loss(loss, (e**2).sum(1), 6).weight[:, None]) ** 2
+
+        # psi(e) = w e of all six numbers of a measurement, its divergence by differences
+        h = 1e-5
+        slope = sum((psi(e + h * d)[:, i] - psi(e - h * d)[:, i]).mean() / (2 * h) for i, d in enumerate(np.eye(6))) / 6
+        spent = np.sum(psi(e) ** 2) / (e.size - free.shape[1])
+        B = problem.scale[:, None] * free
+        expected = B @ np.linalg.inv(J.T @ J) @ B.T * spent / slope**2
+        size = np.sqrt(np.diag(expected))
+        # The slopes are whitened by the spreads of the last search, which by then have changed by 1 % at most.
+        assert fit.covariance / np.outer(size, size) == pytest.approx(expected / np.outer(size, size), abs=0.03)

@@ -10,9 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import poekin as pk
+from poekin.errors import InputError
 from poekin.solve.calibration import calibrate
 from poekin.solve.calibration.losses import LOSSES, chi_square, loss
-from poekin.solve.calibration.noise import Noise, spreads
+from poekin.solve.calibration.noise import EVEN, LEAST, Noise, Spread, check, spreads
+from poekin.solve.calibration.points import Points
 from poekin.solve.calibration.poses import Poses
 
 # Table of chi-square: degrees of freedom, probability as a quantile of the normal distribution, the point.
@@ -109,3 +111,63 @@ def test_few_numbers_contradict_no_covariance():
     T = arm.fk(q) @ pk.se3.exp(1e-4 * rng.normal(size=(9, 6)))
     found = calibrate(arm, q, Poses(T, covariance=1e-10 * np.eye(6)), folds=0)  # 54 numbers for 30 parameters
     assert not found.warnings
+
+
+ONE = np.tile(np.eye(4), (2, 1, 1))
+
+
+def test_a_spread_is_the_root_mean_square_or_the_median_of_all_numbers_of_its_kind_for_each_parameter_fitted():
+    errors = np.array([[1.0, -2, 3, 10, 20, -30], [-4, 5, 6, -40, 50, 60]])
+    measured, rms = [Poses(ONE)], np.sqrt(91 / 6)
+    assert spreads(measured, [errors], 0, False, 7.0) == [pytest.approx(Spread(rms, 10 * rms))]
+    # 12 numbers for 9 parameters: each of the residuals is half as large as the noise.
+    assert spreads(measured, [errors], 9, False, 7.0) == [pytest.approx(Spread(2 * rms, 20 * rms))]
+    all_fitted = 12**0.5 * rms
+    assert spreads(measured, [errors], 12, False, 7.0) == [pytest.approx(Spread(all_fitted, 10 * all_fitted))]
+    median = 3.5 / 0.6744897501960817
+    assert spreads(measured, [errors], 0, True, 7.0) == [pytest.approx(Spread(median, 10 * median))]
+    points = [Points(np.zeros((2, 3))), Poses(ONE, np.eye(6)), Poses(ONE)]
+    lengths, given, poses = spreads(points, [errors[:, :3], errors, errors], 12, False, 7.0)
+    more = (30 / 18) ** 0.5  # 30 numbers for 12 parameters
+    assert lengths == (None, pytest.approx(more * rms))
+    assert given is None
+    assert poses == pytest.approx((more * rms, 10 * more * rms))
+
+
+@pytest.mark.parametrize("angle, length, expected", [
+    (1.0, 1e-7, (1.0, EVEN)), (1e-7, 1.0, (EVEN, 1.0)), (1.0, 0.5, (1.0, 0.5)), (0.0, 0.0, (LEAST, LEAST)),
+    (1e-20, 1e-20, (LEAST, LEAST)),
+])  # fmt: skip
+def test_angles_and_lengths_in_reaches_are_not_taken_to_be_more_uneven_than_that(angle, length, expected):
+    reach = 7.0
+    errors = np.repeat([[angle, length * reach]], 3, axis=1).repeat(2, axis=0)
+    (found,) = spreads([Poses(ONE)], [errors], 0, False, reach)
+    assert found == pytest.approx((expected[0], expected[1] * reach), rel=1e-12, abs=0)
+    (even,) = spreads([Poses(ONE)], [errors], 0, False, reach, even=0.5)
+    assert even is not None
+    assert even.length / reach >= 0.5 * (even.angle or 0)
+    assert (even.angle or 0) >= 0.5 * even.length / reach
+    (lengths,) = spreads([Points(np.zeros((2, 3)))], [errors[:, 3:]], 0, False, reach)
+    assert lengths == (None, pytest.approx(max(length, LEAST) * reach, rel=1e-12, abs=0))
+
+
+def test_errors_are_whitened_by_their_spreads_or_their_covariance():
+    C = np.diag([1.0, 4, 9, 16, 25, 36])
+    noise = Noise([Poses(ONE), Points(np.zeros((2, 3))), Poses(ONE, C)], [Spread(2.0, 5.0), Spread(None, 4.0), None])
+    ones = np.ones((2, 6, 1))
+    assert noise.whitened(0, ones)[1, :, 0] == pytest.approx([1 / 2] * 3 + [1 / 5] * 3)
+    assert noise.whitened(1, ones[:, :3])[0, :, 0] == pytest.approx([1 / 4] * 3)
+    assert noise.whitened(2, ones)[1, :, 0] == pytest.approx(1 / np.arange(1, 7))
+    assert noise.estimated
+    assert not Noise([Poses(ONE, C)], [None]).estimated
+
+
+def test_spreads_are_not_estimated_from_no_more_numbers_than_parameters():
+    both = [Poses(ONE, np.eye(6)), Poses(ONE)]
+    check(both, 13, 12)
+    check(both[:1], 12, 12)
+    for numbers in (11, 12):
+        with pytest.raises(
+            InputError, match=f"^{numbers} numbers for 12 parameters leave nothing to tell from how far"
+        ):
+            check(both, numbers, 12)
