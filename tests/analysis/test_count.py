@@ -214,10 +214,12 @@ def test_the_program_that_is_counted_computes_the_arm_s_jacobian_and_pose(name, 
         assert done == counts(chain, "specialised", frame, "everything", pose=pose)
         # 30 roundings of numbers up to the reach, in another order than the chain's own
         tolerance = 30 * 2.0**-52 * chain.reach
-        np.testing.assert_allclose(values[-6 * chain.dof :].reshape(6, -1), chain.jacobian(q, frame), atol=tolerance)
+        np.testing.assert_allclose(
+            values[-6 * chain.dof :].reshape(6, -1), chain.jacobian(q, frame), rtol=0, atol=tolerance
+        )
         if pose:
             T = chain.fk(q)
-            np.testing.assert_allclose(values[:12], [*T[:3, :3].ravel(), *T[:3, 3]], atol=tolerance)
+            np.testing.assert_allclose(values[:12], [*T[:3, :3].ravel(), *T[:3, 3]], rtol=0, atol=tolerance)
 
 
 def row(T):
@@ -252,8 +254,8 @@ def test_the_variants_compute_one_and_the_same_jacobian(n):
         J, finish = algorithm(arm_)
         # n products and as many columns, a few roundings each
         tolerance = 20 * n * 2.0**-52 * chain.reach
-        np.testing.assert_allclose(J, expected.jacobian(q, "body"), atol=tolerance)
-        np.testing.assert_allclose(finish(), row(expected.fk(q)), atol=tolerance)
+        np.testing.assert_allclose(J, expected.jacobian(q, "body"), rtol=0, atol=tolerance)
+        np.testing.assert_allclose(finish(), row(expected.fk(q)), rtol=0, atol=tolerance)
 
 
 def test_the_forms_of_links_are_poses():
@@ -265,7 +267,7 @@ def test_the_forms_of_links_are_poses():
             sine, cosine = (math.sin(x), math.cos(x)) if turns else (0.0, 1.0)
             T = getattr(count_scalars, form)(count_scalars.Motion(kind, x, sine, cosine, shift), rng)
             R = np.array(T[:9], float).reshape(3, 3)
-            np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-14)
+            np.testing.assert_allclose(R @ R.T, np.eye(3), rtol=0, atol=1e-14)
 
 
 def test_the_table_has_every_column_and_is_plain_data():

@@ -25,7 +25,7 @@ def test_yoshikawa_of_a_planar_arm_is_l1_l2_sin_q2():
     # its 2 × 2 Jacobian has the determinant l1 l2 sin q2; the third row of translation is zero, the two rates are not
     q = np.random.default_rng(0).uniform(-3, 3, (20, 2))
     np.testing.assert_allclose(
-        manipulability(planar(0.4, 0.3), q).translation.yoshikawa, np.abs(0.12 * np.sin(q[:, 1])), atol=1e-15
+        manipulability(planar(0.4, 0.3), q).translation.yoshikawa, np.abs(0.12 * np.sin(q[:, 1])), rtol=0, atol=1e-15
     )
 
 
@@ -61,7 +61,7 @@ def test_the_gradient_is_the_derivative(data, part):
 @pytest.mark.parametrize(("q2", "slope"), [(0.0, 0.12), (np.pi, -0.12), (np.pi / 2, 0.0)])
 def test_at_a_singularity_the_gradient_is_the_slope_of_one_side(q2, slope):
     found = manipulability_gradient(planar(0.4, 0.3), [0.7, q2], part="translation")
-    np.testing.assert_allclose(np.abs(found), [0, abs(slope)], atol=1e-15)
+    np.testing.assert_allclose(np.abs(found), [0, abs(slope)], rtol=0, atol=1e-15)
 
 
 def test_a_gradient_with_half_of_the_hessian_is_seen(monkeypatch):

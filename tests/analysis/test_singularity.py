@@ -34,7 +34,7 @@ def test_a_stretched_arm_cannot_move_along_itself():
     assert s.rank == 5
     assert s.distance <= 1e-15
     np.testing.assert_allclose(np.abs(s.lost[3:] @ along), s.length, rtol=1e-14)
-    np.testing.assert_allclose(s.lost[:3], np.zeros(3), atol=1e-14)
+    np.testing.assert_allclose(s.lost[:3], np.zeros(3), rtol=0, atol=1e-14)
     assert "the tool cannot move by moving along (" in s.words
     # and the rates that do nothing do nothing
     assert np.abs(arm.jacobian(ELBOW, "hybrid") @ s.idle).max() < 1e-14
@@ -48,7 +48,7 @@ def test_aligned_wrist_axes_lose_a_turn_about_what_is_square_to_them():
     # the tool's origin is where the axes meet; to keep it still is part of what the other joints cannot do as well
     for joint in (3, 4, 5):
         assert abs(s.lost[:3] @ T[joint, :3, 2]) < 1e-14
-    np.testing.assert_allclose(np.abs(s.idle[[3, 5]]), math.sqrt(0.5), atol=1e-14)
+    np.testing.assert_allclose(np.abs(s.idle[[3, 5]]), math.sqrt(0.5), rtol=0, atol=1e-14)
     assert "turning about" in s.words
     assert "The rates 'joint" in s.words
 
@@ -60,7 +60,7 @@ def test_the_distance_is_how_far_the_elbow_is_bent(off):
     s = singularity(elbow_arm(), q)
     # to first order: the relative error is of the order of the distance
     assert s.distance == pytest.approx(abs(off), rel=10 * abs(off) + 1e-6)
-    np.testing.assert_allclose(s.towards, [0, 0, -np.sign(off), 0, 0, 0], atol=10 * abs(off))
+    np.testing.assert_allclose(s.towards, [0, 0, -np.sign(off), 0, 0, 0], rtol=0, atol=10 * abs(off))
     assert s.singular == (abs(off) < 5e-3)
 
 

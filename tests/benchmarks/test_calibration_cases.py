@@ -28,14 +28,14 @@ def test_simulated_errors_are_those_that_the_calibration_will_see():
     rng = np.random.default_rng(0)
     T, noise = UR5.fk(UR5.random(rng, 20)), simulated.white(rng, 20)
     # log and exp round at 1e-16
-    np.testing.assert_allclose(cal.Poses(simulated.noisy(T, noise)).errors(T, []), noise, atol=1e-15)
+    np.testing.assert_allclose(cal.Poses(simulated.noisy(T, noise)).errors(T, []), noise, rtol=0, atol=1e-15)
 
 
 def test_a_displaced_arm_has_the_parameters_that_it_is_said_to_have():
     true, p = simulated.displaced(UR5, np.random.default_rng(1))
     q = UR5.random(2, 40)
     found = cal.calibrate(UR5, q, true.fk(q), folds=0)
-    np.testing.assert_allclose(found.values, p, atol=1e-12)  # noise-free: what the calibration is good for
+    np.testing.assert_allclose(found.values, p, rtol=0, atol=1e-12)  # noise-free: what the calibration is good for
     assert simulated.errors(true, true, q) == (0.0, 0.0)
     position, rotation = simulated.errors(UR5, true, q)
     assert 1e-3 < position < 1e-1
@@ -85,7 +85,7 @@ def test_what_is_judged_is_what_can_be_seen(kind):
     directions = coverage.seen(UR5, UR5.random(0, 40), kind)
     # eye in hand, board and camera take up 6 of the home pose and 6 of where the base stands
     assert directions.shape == (30, {"poses": 30, "point": 27, "eye": 18}[kind])
-    np.testing.assert_allclose(directions.T @ directions, np.eye(directions.shape[1]), atol=1e-14)
+    np.testing.assert_allclose(directions.T @ directions, np.eye(directions.shape[1]), rtol=0, atol=1e-14)
 
 
 def test_outliers_ruin_least_squares_and_no_robust_loss():
@@ -148,6 +148,6 @@ def test_scipy_and_poekin_solve_the_same_task(method):
     found = timing.minimised(method)(timing.residuals(task))
     own = timing.calibrated(task)
     # differences of 1e-8 in each parameter leave 1e-10 of a step that ends at 1e-8 of the cost
-    np.testing.assert_allclose(found.x, own.values, atol=1e-9)
-    np.testing.assert_allclose(timing.fit_alone(timing.prepared(task)).p, own.values, atol=1e-15)
+    np.testing.assert_allclose(found.x, own.values, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(timing.fit_alone(timing.prepared(task)).p, own.values, rtol=0, atol=1e-15)
     assert timing.off(task, own.values) < timing.off(task, np.zeros(len(own.values))) / 20

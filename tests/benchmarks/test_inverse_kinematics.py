@@ -142,7 +142,7 @@ def test_targets_beyond_the_reach_are_beyond_the_sum_of_the_links():
     assert (far > UR5.reach).all()
     assert far.min() < UR5.reach * (1 + 1e-4)  # some of them barely
     np.testing.assert_allclose(
-        T[:, :3, :3] @ T[:, :3, :3].transpose(0, 2, 1), np.tile(np.eye(3), (200, 1, 1)), atol=1e-14
+        T[:, :3, :3] @ T[:, :3, :3].transpose(0, 2, 1), np.tile(np.eye(3), (200, 1, 1)), rtol=0, atol=1e-14
     )
 
 
@@ -150,7 +150,7 @@ def test_whole_turns_bring_an_angle_into_the_limits_where_they_can():
     limits = np.array([[-6.0, 6.0], [3.0, 4.0], [-np.inf, np.inf]])
     beyond, turned = ik_peers.outside(limits, np.array([[-5.0, -3.0, 9.0], [1.0, 1.0, 0.0], [1.0, 4.5, 0.0]]))
     # -3 + 2 pi = 3.28 is within; 1 is 2 below 3, and 1 + 2 pi is 3.28 above 4.
-    np.testing.assert_allclose(beyond, [0.0, 2.0, 0.5], atol=1e-14)
+    np.testing.assert_allclose(beyond, [0.0, 2.0, 0.5], rtol=0, atol=1e-14)
     np.testing.assert_allclose(turned[0, :2], [-5.0, 2 * np.pi - 3.0])
 
 
@@ -221,7 +221,7 @@ def test_the_named_list_has_arms_of_five_to_seven_joints_and_none_twice():
     # Twins have the same axes in the same frame of the first joint, and the same limits.
     prints = [_print(arm.chain) for arm in found]
     same = [(a.name, b.name) for i, a in enumerate(found) for j, b in enumerate(found[:i])
-            if len(prints[i]) == len(prints[j]) and np.allclose(prints[i], prints[j], atol=2e-3)]  # fmt: skip
+            if len(prints[i]) == len(prints[j]) and np.allclose(prints[i], prints[j], rtol=0, atol=2e-3)]  # fmt: skip
     assert same == []
 
 

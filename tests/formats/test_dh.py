@@ -105,9 +105,9 @@ def test_a_tilt_in_the_plane_of_two_axes_throws_d_far_and_moves_the_screw_by_no_
 
 def test_the_panda_comes_out_as_franka_publishes_it():
     table = dh.from_chain(pk.load("panda").chain(tip="panda_link8"), convention="modified").table
-    np.testing.assert_allclose(table.a, [0, 0, 0, 0.0825, 0.0825, 0, 0.088], atol=1e-15)
-    np.testing.assert_allclose(np.abs(table.alpha), [0, *[np.pi / 2] * 6], atol=1e-15)
-    np.testing.assert_allclose(np.abs(table.d), [0.333, 0, 0.316, 0, 0.384, 0, 0.107], atol=1e-15)
+    np.testing.assert_allclose(table.a, [0, 0, 0, 0.0825, 0.0825, 0, 0.088], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(np.abs(table.alpha), [0, *[np.pi / 2] * 6], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(np.abs(table.d), [0.333, 0, 0.316, 0, 0.384, 0, 0.107], rtol=0, atol=1e-15)
 
 
 @pytest.mark.parametrize("convention", ["standard", "modified"])

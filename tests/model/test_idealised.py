@@ -82,8 +82,8 @@ def test_exact_geometry_comes_back_from_a_rounded_one(pair):
     exact, noisy = pair
     result = noisy.idealised(TOL)
     # The exact table's own screws carry the rounding of their sines.
-    np.testing.assert_allclose(ways(result.chain), ways(exact), atol=2e-15)
-    np.testing.assert_allclose(result.chain.home[:3, :3], exact.home[:3, :3], atol=2e-15)
+    np.testing.assert_allclose(ways(result.chain), ways(exact), rtol=0, atol=2e-15)
+    np.testing.assert_allclose(result.chain.home[:3, :3], exact.home[:3, :3], rtol=0, atol=2e-15)
     before, after = axes(exact, tol_mm=1e-9), axes(result.chain, tol_mm=1e-9)
     for old, new in zip(before.pairs, after.pairs, strict=True):
         # Axes with one between them may also meet by chance, by lengths that are not 0 and stay as they are.
@@ -200,11 +200,11 @@ def test_a_tilt_beyond_the_tolerance_stays_and_nearly_parallel_axes_throw_nothin
     result = pk.Chain(screws, np.eye(4)).idealised(1e-3)
     one, two, three = ways(result.chain)
     np.testing.assert_array_equal(one, [0, 0, 1])
-    np.testing.assert_allclose(two, [math.sin(lean), 0, math.cos(lean)], atol=2e-10)  # 1e-5 squared, what y had
+    np.testing.assert_allclose(two, [math.sin(lean), 0, math.cos(lean)], rtol=0, atol=2e-10)  # 1e-5 squared, what y had
     np.testing.assert_array_equal(two, three)
     assert result.position_bound < 1e-4
     alone = pk.Chain(screws[:2], np.eye(4))
-    np.testing.assert_allclose(ways(alone.idealised(1e-6).chain), ways(alone), atol=2e-16)
+    np.testing.assert_allclose(ways(alone.idealised(1e-6).chain), ways(alone), rtol=0, atol=2e-16)
 
 
 def test_far_away_and_very_small_numbers_are_no_trouble():

@@ -85,7 +85,7 @@ def test_a_quaternion_is_read_by_its_names(tmp_path):
     for columns, row in (("qw,qx,qy,qz", [half, 0, 0, half]), ("qx,qy,qz,qw", [0, 0, half, half])):
         text = f"q1,x,y,z,{columns}\n0,0,0,0,{','.join(map(str, row))}\n"
         T = np.asarray(data.read(file(tmp_path, text), ONE)[1].T)  # type: ignore[attr-defined]
-        np.testing.assert_allclose(T[0, :3, :3], [[0, -1, 0], [1, 0, 0], [0, 0, 1]], atol=1e-15)
+        np.testing.assert_allclose(T[0, :3, :3], [[0, -1, 0], [1, 0, 0], [0, 0, 1]], rtol=0, atol=1e-15)
 
 
 @pytest.mark.parametrize(("kind", "expected"), [("eye-in-hand", EyeInHand), ("eye-to-hand", EyeToHand)])

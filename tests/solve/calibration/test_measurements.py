@@ -91,10 +91,10 @@ def test_rows_say_which_readings_a_set_belongs_to():
     problem = Problem(Arm(ARM, ("home",), None), Q, [Poses(T[rows], rows=rows), Points(T[:, :3, 3])])
     one, two = problem.errors(np.zeros(6))
     assert (one.shape, two.shape) == ((3, 6), (12, 3))
-    np.testing.assert_allclose(one, 0, atol=1e-14)
+    np.testing.assert_allclose(one, 0, rtol=0, atol=1e-14)
     part = problem.part(np.array([2, 5]))
     assert [len(s) for s in part.sets] == [2, 2]
-    np.testing.assert_allclose(np.concatenate([e.ravel() for e in part.errors(np.zeros(6))]), 0, atol=1e-14)
+    np.testing.assert_allclose(np.concatenate([e.ravel() for e in part.errors(np.zeros(6))]), 0, rtol=0, atol=1e-14)
 
 
 def test_a_bare_array_is_poses_or_points():
