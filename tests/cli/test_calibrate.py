@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import os
+import re
 import shlex
 
 import numpy as np
@@ -13,8 +14,9 @@ import pytest
 import poekin as pk
 from poekin.cli import calibrate as command
 from poekin.cli.measured import Said, read
-from poekin.solve.calibration import Distances, Points, calibrate, data, files
+from poekin.solve.calibration import Distances, Points, calibrate, changes, data, files
 from poekin.solve.calibration.calibration import MOST_OUTLIERS
+from poekin.solve.calibration.changes import milli
 from poekin.solve.calibration.simulated import simulated
 
 PANDA = pk.load("panda").chain(tip="panda_link8")
@@ -50,12 +52,12 @@ def test_the_summary_begins_with_data_kept_aside(poekin, measured, csv):
 @pytest.mark.skipif(not os.path.exists("/dev/fd"), reason="an open pipe has no name here")
 def test_measurements_come_out_of_a_pipe_as_out_of_a_file(csv):
     reading, writing = os.pipe()
-    pipe, nothing = f"/dev/fd/{reading}", Said([], [], None, None, None, None, [])
+    pipe = f"/dev/fd/{reading}"
     with open(reading), open(writing, "wb") as stream:
         stream.write(csv.read_bytes())
         stream.close()
-        piped = read([pipe], PANDA, nothing)
-    expected = read([str(csv)], PANDA, nothing)
+        piped = read([pipe], PANDA, SAID)
+    expected = read([str(csv)], PANDA, SAID)
     np.testing.assert_array_equal(piped.q, expected.q)
     np.testing.assert_array_equal(piped.sets[0].T, expected.sets[0].T)
     assert piped.sources == [f"{pipe}:{line}" for line in range(2, 52)]
@@ -88,6 +90,73 @@ def test_every_output_holds_the_same_arm(poekin, measured, csv, tmp_path):
     page = report.read_text(encoding="utf-8")
     assert "<h1>Calibration of panda: panda_link0 to panda_link8</h1>" in page
     assert f"{csv}:{np.flatnonzero(measured.outliers)[0] + 2}</td>" in page
+
+
+SAID = Said([], [], None, None, None, None, [])
+
+
+def test_deviations_points_and_frames_reach_the_measurements_of_their_kind(tmp_path):
+    sets = {
+        "poses": simulated(PANDA, 3, seed=1),
+        "points": simulated(PANDA, 4, kind="points", points=[[0, 0, 0.1], [0, 0.2, 0.1]], seed=2),
+        "distances": simulated(PANDA, 5, kind="distances", points=[0, 0, 0.1], seed=3),
+    }
+    for kind, s in sets.items():
+        data.write(tmp_path / f"{kind}.csv", PANDA, s.q, s.measurements)
+    points = ["0,0.25,0.5", "1 2 3"]
+    said = SAID._replace(
+        point=points, sigma_angle=0.5, sigma_length=0.25, frame="unknown", centre="1,2,4", ignore=["x"]
+    )
+    found = read([str(tmp_path / f"{kind}.csv") for kind in sets], PANDA, said)
+    poses, some, distances = found.sets
+    np.testing.assert_array_equal(poses.covariance, [np.diag([0.25] * 3 + [0.0625] * 3)] * 3)
+    np.testing.assert_array_equal(some.covariance, [0.0625 * np.eye(6)] * 4)
+    np.testing.assert_array_equal(some.points, [[0, 0.25, 0.5], [1, 2, 3]])
+    assert some.frame == "unknown"
+    np.testing.assert_array_equal(distances.covariance, np.full((5, 1, 1), 0.0625))
+    np.testing.assert_array_equal(distances.point, [0, 0.25, 0.5])
+    np.testing.assert_array_equal(distances.centre, [1, 2, 4])
+    assert [s.rows.tolist() for s in found.sets] == [[0, 1, 2], [3, 4, 5, 6], [7, 8, 9, 10, 11]]
+    np.testing.assert_array_equal(found.q, np.concatenate([s.q for s in sets.values()]))
+    bare = read([str(tmp_path / "distances.csv")], PANDA, SAID).sets[0]
+    assert (bare.covariance, bare.centre) == (None, None)
+
+
+def test_text_and_json_hold_the_figures_of_the_library(poekin, as_json, measured, csv):
+    expected = calibrate(PANDA, measured.q, data.read(csv, PANDA)[1], loss="huber", folds=2)
+    result = as_json(*ARM, csv, "--loss", "huber")
+    aside = expected.held_out
+    assert aside is not None
+    for said, figures in (
+        (result["before"], expected.before),
+        (result["after"], expected.after),
+        (result["held_out"]["before"], aside.before),
+        (result["held_out"]["after"], aside.after),
+    ):
+        assert said == {
+            name: getattr(figures, name) for name in ("rms_length", "median_length", "rms_angle", "median_angle")
+        }
+    assert [result[name] for name in ("robot", "base", "tip", "loss")] == [
+        "panda", "panda_link0", "panda_link8", "huber",
+    ]  # fmt: skip
+    assert result["steps"] == len(expected.steps)
+    assert result["identification"]["condition"] == expected.identification.condition
+    assert [(p["owner"], p["value"], p["deviation"]) for p in result["parameters"]] == [
+        (p.owner, v, d) for p, v, d in zip(expected.parameters, expected.values, expected.deviations, strict=True)
+    ]
+    lines = [re.split(r" {2,}", line) for line in poekin(*ARM, csv, "--loss", "huber")[1].splitlines()]
+    rows = {line[0]: line[1:] for line in lines if len(line) == 5}
+    for title, figures in (
+        ("nominal, kept aside", aside.before), ("calibrated, kept aside", aside.after),
+        ("nominal, all data", expected.before), ("calibrated, all data", expected.after),
+    ):  # fmt: skip
+        lengths = (figures.rms_length, figures.median_length, figures.rms_angle, figures.median_angle)
+        assert [float(word) for word in rows[title]] == [float(milli(x)) for x in lengths]
+    moved = changes.joints(expected)
+    assert {j.name for j in moved} <= set(PANDA.joint_names)
+    for j in moved:
+        numbers = (j.tilt.size, j.tilt.margin, j.shift.size, j.shift.margin)
+        assert rows[j.name] == [milli(x) for x in numbers]
 
 
 def test_json_holds_all_of_it(as_json, measured, csv):

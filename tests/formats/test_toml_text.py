@@ -65,7 +65,7 @@ def test_what_a_key_holds_is_given_as_what_it_is():
     assert keys.tables("none", []) == []
 
 
-@pytest.mark.parametrize("number, whole", [(2**53 - 1, True), (2**53, False)])
+@pytest.mark.parametrize("number, whole", [(0, True), (2**53 - 1, True), (2**53, False)])
 def test_a_whole_number_is_one_that_a_float_holds(number, whole):
     keys = toml_text.Keys({"n": number}, "f")
     if whole:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from typing import Any
 
 from ...errors import harmless
@@ -14,10 +14,8 @@ def has(obj: Any, *names: str) -> bool:
 
 
 def items_of(obj: Any) -> list[Any]:
-    """The items of a sequence that is not empty, else none."""
-    if isinstance(obj, (str, bytes, dict)) or not isinstance(obj, Iterable) or not has(obj, "__len__"):
-        return []
-    return list(obj)
+    """The items of a sequence; none of anything else."""
+    return list(obj) if isinstance(obj, Sequence) else []
 
 
 def type_name(obj: Any) -> str:
