@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 
 import pytest
 
@@ -69,6 +70,14 @@ def test_what_replaces_a_private_file_can_be_read_by_nobody_else_at_any_time(tmp
     monkeypatch.setattr(os, "fsync", lambda handle: modes.append(os.fstat(handle).st_mode & 0o777) or sync(handle))
     write_whole(path, b"new")
     assert modes == [0o600]
+
+
+def test_a_file_that_is_being_written_is_hidden_and_called_like_it(tmp_path, monkeypatch):
+    found = []
+    monkeypatch.setattr(os, "fsync", lambda handle: found.extend(path.name for path in tmp_path.iterdir()))
+    write_whole(tmp_path / f"{'x' * 200}.csv", b"new")
+    assert len(found) == 1
+    assert re.fullmatch(r"\.x{50}\.[0-9a-f]{16}\.part", found[0])
 
 
 def test_a_link_stays_a_link(tmp_path):
