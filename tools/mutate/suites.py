@@ -48,6 +48,8 @@ _CHAINS = ("tests/model/test_chain.py", "tests/model/test_chain_laws.py")
 _DH = tuple(f"tests/formats/test_{name}.py" for name in ("dh_values", "dh_files", "dh", "dh_published"))
 _SLOW = "test_every_chain_of_the_real_robots_has_a_table"  # left for the end
 _SMALL_ANGLES = (_GROUP_MATRICES, "tests/formulas/test_coefficients.py", *_GROUPS)
+_BY_LAWS = ("tests/testing/test_laws.py", "tests/groups/test_planted.py")
+_CONFORM = tuple(f"tests/testing/conform/test_{name}.py" for name in ("shrink", "false_findings", "subject", "faults"))
 
 NEAR: dict[str, tuple[str, ...]] = {
     "poekin/algebra.py": (_MATRICES, _KINDS, _CHAIN_MATRICES, *_GROUPS, *_CHAINS),
@@ -83,6 +85,36 @@ NEAR: dict[str, tuple[str, ...]] = {
        for name, first in (("c", "text"), ("c_selftest", "text"), ("python", "text"), ("statements", "text"),
                            ("vectors", "vectors"), ("words", "words"))},
     "poekin/formats/dh/": (*_DH, "tests/formats/test_dh_calibrated.py", f"--deselect={_DH[2]}::{_SLOW}"),
+    "poekin/testing/exact.py": ("tests/testing/test_exact.py", "tests/testing/test_attainable.py"),
+    "poekin/testing/extended.py": ("tests/testing/test_extended.py", "tests/groups/test_accuracy.py"),
+    "poekin/testing/suspects.py": ("tests/groups/test_accuracy.py", "tests/testing/test_attainable.py"),
+    "poekin/testing/accuracy.py": ("tests/groups/test_accuracy.py", "tests/testing/test_attainable.py"),
+    "poekin/testing/group_laws.py": ("tests/testing/test_group_laws.py", *_BY_LAWS),
+    "poekin/testing/near_laws.py": ("tests/testing/test_group_laws.py", *_BY_LAWS, "tests/groups/test_near.py"),
+    "poekin/testing/measures.py": ("tests/testing/test_laws.py", "tests/testing/test_group_laws.py", *_BY_LAWS),
+    "poekin/testing/chain_laws.py": ("tests/testing/test_chain_laws.py", "tests/model/test_chain_laws.py"),
+    "poekin/testing/change_laws.py": ("tests/testing/test_chain_laws.py", "tests/model/test_chain_laws.py"),
+    "poekin/testing/method_laws.py": ("tests/testing/test_chain_laws.py", "tests/model/test_chain_laws.py"),
+    "poekin/testing/derivative_laws.py": ("tests/testing/test_chain_laws.py", "tests/model/test_derivatives.py"),
+    "poekin/testing/conform/": _CONFORM,
+    **{f"poekin/testing/conform/{name}.py": (f"tests/testing/conform/test_{name}.py", *_CONFORM) for name in (
+        "child", "confirm", "grades", "named", "of_groups", "plugin", "precision", "small_urdf", "subject")},
+    "poekin/testing/conform/calls.py": ("tests/testing/conform/test_child.py", *_CONFORM),
+    "poekin/testing/conform/limits.py": ("tests/testing/conform/test_child.py",),
+    "poekin/testing/conform/misspelt.py": ("tests/testing/conform/test_subject.py",),
+    "poekin/testing/conform/urdf_cases.py": ("tests/testing/conform/test_small_urdf.py", *_CONFORM),
+    "poekin/testing/conform/of_urdf.py": ("tests/testing/conform/test_small_urdf.py", *_CONFORM),
+    "poekin/testing/conform/report.py": (
+        *_CONFORM, "tests/testing/conform/test_plugin.py", "tests/cli/test_conform.py"),
+    "poekin/testing/conform/worker.py": ("tests/testing/conform/test_child.py",),
+    "poekin/engine/rows.py": ("tests/groups/test_batches.py", *_CHAINS),
+    "poekin/engine/sincos.py": ("tests/engine/test_sincos.py", "tests/engine/test_interpret.py"),
+    "poekin/engine/interpret.py": (
+        "tests/engine/test_interpret.py", "tests/engine/test_program.py", "tests/model/test_compiled.py"),
+    "poekin/engine/trace.py": (
+        "tests/engine/test_trace.py", "tests/engine/test_program.py", "tests/analysis/test_count.py",
+        "tests/model/test_compiled.py"),
+    "poekin/engine/tree_kernels.py": ("tests/model/test_tree.py", "tests/model/test_robot.py"),
     "poekin/model/screw.py": (
         "tests/model/test_screw_values.py", "tests/model/test_screw.py", "tests/model/test_parts.py", *_CHAINS),
 }  # fmt: skip
