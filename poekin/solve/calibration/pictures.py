@@ -47,7 +47,6 @@ def residuals(curves: Sequence[Curve]) -> str:
             axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
             axes.grid(color="#dddddd", linewidth=0.6)
             axes.axhline(50, color=PALE, linewidth=0.8)
-            axes.set_axisbelow(True)
             figures.plain(axes)
         panels[0].set(ylabel="share of measurements (%)", ylim=(0, 103))
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper left", ncols=3, frameon=False)
@@ -79,7 +78,6 @@ def joints(found: Sequence[Joint]) -> str:
                 )  # fmt: skip
             axes.set_xlabel(label)
             axes.grid(axis="x", color="#dddddd", linewidth=0.6)
-            axes.set_axisbelow(True)
             figures.plain(axes)
         panels[0].set_yticks(range(len(found)), [figures.label(j.name, 28) for j in found])
         panels[0].set_ylim(len(found) - 0.5, -0.5)
