@@ -203,7 +203,8 @@ class Followed:
         return "\n".join(self.sentences())
 
     def __repr__(self) -> str:
-        changed = f", {len(self.changes)} changes of branch" if self.changes else ""
+        count = len(self.changes)
+        changed = f", {count} change{'s' * (count > 1)} of branch" if count else ""
         solved = f"{int(self.success.sum())} of {len(self.q)} poses"
         return f"<Followed {solved}, largest step {self.largest_step:.3g}{changed}>"
 

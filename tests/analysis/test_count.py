@@ -226,24 +226,41 @@ def row(T):
     return [*T[:3, :3].ravel().tolist(), *T[:3, 3].tolist()]
 
 
-@pytest.mark.parametrize("n", JOINTS)
-def test_the_variants_compute_one_and_the_same_jacobian(n):
+@pytest.mark.parametrize("kinds", [*("r" * n for n in JOINTS), "rp", "prrp", "rprrr"])
+def test_the_variants_compute_one_and_the_same_jacobian(kinds):
+    n = len(kinds)
     rng = np.random.default_rng(n)
-    chain, q = arm("r" * n, n), rng.uniform(-np.pi, np.pi, n)
-    turns = [pk.se3.exp([0, 0, x, 0, 0, 0]) for x in q]
+    chain, q = arm(kinds, n), rng.uniform(-np.pi, np.pi, n)
+    rotates, slides = ([int(kind == letter) for kind in kinds] for letter in "rp")
+    turns = [pk.se3.exp([0, 0, r * x, 0, 0, p * x]) for x, r, p in zip(q, rotates, slides, strict=True)]
     local = chain.local
     links = [row(M @ Z) for M, Z in zip(local.frames, turns, strict=False)]
-    ones, zeros = [1] * n, [0] * n
     bare = chain.retooled(pk.se3.inverse(local.frames[n]))
-    given = count_methods.Arm(n, ones, zeros, (), links, row(local.frames[n]))
+    given = count_methods.Arm(n, rotates, slides, (), links, row(local.frames[n]))
     # link frames attached anywhere: M_i = G_{i-1}^-1 G_i, S_i = Ad(G_i)^-1 A_i, the last one being the tool's
     G = [np.eye(4), *(pk.se3.exp(rng.normal(size=6)) for _ in range(n - 1)), chain.home]
     S = [pk.se3.adjoint(pk.se3.inverse(g)) @ A for g, A in zip(G[1:], chain.screws, strict=True)]
     moved = [row(pk.se3.inverse(a) @ b @ pk.se3.exp(s * x)) for a, b, s, x in zip(G, G[1:], S, q, strict=False)]
     general = count_methods.Arm(n, (), (), [s.tolist() for s in S], moved, ())
     # Paul's frames: the joint before its link, no tool
-    paul = count_methods.Arm(n, ones, zeros, (), [row(Z @ M) for Z, M in zip(turns, local.frames[1:], strict=True)], ())
+    behind = [row(Z @ M) for Z, M in zip(turns, local.frames[1:], strict=True)]
+    paul = count_methods.Arm(n, rotates, slides, (), behind, ())
     from_first = chain.rebased(pk.se3.inverse(local.frames[0]))
+    in_space, in_body = (
+        count_methods.Arm(n, (), (), screws.tolist(), [row(pk.se3.exp(S * x)) for S, x in zip(screws, q, strict=True)],
+                          row(chain.home))
+        for screws in (chain.screws, chain.screws @ pk.se3.adjoint(pk.se3.inverse(chain.home)).T)
+    )  # fmt: skip
+    for direct, arm_, frame in ((count_methods.direct_space, in_space, "space"),
+                                (count_methods.direct_body, in_body, "body")):  # fmt: skip
+        J, finish = direct(arm_)
+        np.testing.assert_allclose(J, chain.jacobian(q, frame), atol=1e-13 * chain.reach)
+        np.testing.assert_allclose(finish(), row(chain.fk(q)), atol=1e-13 * chain.reach)
+    with_end = count_methods.Arm(n, rotates, slides, (), behind, row(pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3])))
+    J, finish = count_methods.orin_schrader(with_end)
+    tooled = from_first.retooled(pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3]))
+    np.testing.assert_allclose(J, tooled.jacobian(q, "body"), atol=1e-13 * tooled.reach)
+    np.testing.assert_allclose(finish(), row(tooled.fk(q)), atol=1e-13 * tooled.reach)
     for algorithm, arm_, expected in (
         (count_methods.z_aligned, given, bare),
         (count_methods.by_cross, given, bare),
