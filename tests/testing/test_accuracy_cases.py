@@ -1,0 +1,226 @@
+"""The cases that the report on accuracy judges: what they cover, and that of many the worst are picked."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from poekin.groups import se3, so3
+from poekin.testing import accuracy, exact, extended, suspects
+from poekin.testing.attainable import BOTH_SIGNS, UNIT
+
+MANY = 20_000
+
+
+def spread(x: np.ndarray) -> list[float]:
+    """The smallest, the quarters and the largest."""
+    return np.quantile(x, [0, 0.25, 0.5, 0.75, 1]).tolist()
+
+
+def evenly(low: float, high: float) -> Any:
+    """The spread of many numbers that lie evenly between two, to many deviations of a quarter."""
+    return pytest.approx([low + k * (high - low) / 4 for k in range(5)], abs=0.02 * (high - low))
+
+
+def size(x: np.ndarray) -> np.ndarray:
+    return np.linalg.norm(x, axis=-1)
+
+
+def test_angles_are_a_grid_and_three_kinds_of_random_ones():
+    angles = accuracy._angles(np.random.default_rng(0), 10.0, 8000)
+    grid, wide, usual, even = np.split(angles, [len(angles) - 8000, -6000, -2000])
+    marks = {0.0, 1.0, 1e-1, 1e-9, 1e-16, 1e-20, 1e-30, 1e-150, math.pi, 10.0, 2 * math.pi, 3 * math.pi}
+    marks |= {math.pi - 0.1, math.pi - 1e-8, math.pi - 1e-15}
+    for switch in (2e-140, 1.0, 2.0):
+        marks |= {math.nextafter(switch, 0), switch, math.nextafter(switch, 9)}
+    assert marks <= set(grid)
+    assert len(grid) == 17 + 14 + 9 + 15 + 5
+    assert spread(np.log10(wide)) == evenly(-150, 1)
+    assert spread(np.log10(usual)) == evenly(-10, 1)
+    assert spread(even) == evenly(0, 10)
+    principal = accuracy._angles(np.random.default_rng(0), math.pi, 100)
+    assert principal.max() == math.pi
+    assert principal.min() == 0
+    assert len(principal) == 100 + len(grid) - 2  # 2π and 3π are beyond
+
+
+def test_lengths_do_not_depend_on_angles():
+    angles = np.geomspace(1e-9, 10, MANY)
+    xi = accuracy._twists(np.random.default_rng(0), angles)
+    assert size(xi[:, :3]) == pytest.approx(angles, rel=1e-14)
+    assert spread(np.log10(size(xi[:, 3:]))) == evenly(-9, 3)
+    assert abs(np.corrcoef(np.log(angles), np.log(size(xi[:, 3:])))[0, 1]) < 0.03
+
+
+def test_towards_pi_are_poses_from_the_last_bit_to_1e_12():
+    poses = accuracy._near_pi(np.random.default_rng(0), 200)
+    gaps = np.array([float(exact.mp.pi - exact.norm(exact.log(T)[:3])) for T in poses])
+    assert poses.shape == (200, 4, 4)
+    assert gaps.max() == pytest.approx(1e-12, rel=0.3)
+    assert np.median(gaps) < 2e-14
+    drawn: list[tuple[Any, ...]] = []
+
+    class Least:
+        def uniform(self, low: float, high: float, count: int) -> np.ndarray:
+            drawn.append((low, high, count))
+            return np.full(count, low)
+
+        def integers(self, low: int, high: int, count: int) -> np.ndarray:
+            drawn.append((low, high, count))
+            return np.arange(count) % 3
+
+    kept: dict[str, np.ndarray] = {}
+
+    def twists(rng: Any, angles: np.ndarray) -> np.ndarray:
+        kept["gaps"] = math.pi - angles
+        return np.zeros((len(angles), 6))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(accuracy, "_twists", twists)
+        accuracy._near_pi(Least(), 3)  # type: ignore[arg-type]
+    assert drawn == [(-16, -12, 3), (0, 3, 3)]
+    assert kept["gaps"] == pytest.approx([0, 8 * UNIT, 16 * UNIT], abs=4 * UNIT)  # 1e-16 rounds to no gap
+
+
+def test_noise_is_of_every_size_up_to_1e_8():
+    R = np.zeros((MANY, 3, 3))
+    noise = np.abs(accuracy._noisy(np.random.default_rng(0), R)).max(axis=(1, 2))
+    assert np.quantile(np.log10(noise), [0.25, 0.5, 0.75]) == pytest.approx([-14.8, -12.55, -10.3], abs=0.2)
+    assert 0.9e-8 < noise.max() < 1e-8
+    signs = accuracy._noisy(np.random.default_rng(0), R)
+    assert abs(np.mean(signs > 0) - 0.5) < 0.01
+    ones = np.broadcast_to(np.eye(3), (MANY, 3, 3))
+    assert np.array_equal(accuracy._noisy(np.random.default_rng(0), ones), ones + signs)
+
+
+def test_axes_are_anywhere_or_along_an_axis_or_nearly_so():
+    n = suspects.axes(np.random.default_rng(0), MANY)
+    assert size(n) == pytest.approx(np.ones(MANY), rel=1e-15)
+    tilt = np.sort(np.abs(n), axis=1)[:, 1]
+    exactly = tilt == 0
+    assert np.mean(exactly) == pytest.approx(1 / 6, abs=0.01)
+    assert np.mean(exactly | (tilt < 1e-3)) == pytest.approx(1 / 6 + 14 / 16 / 6, abs=0.01)
+    small = np.log10(tilt[~exactly & (tilt < 1e-3)])
+    assert small.min() < -16.5
+    assert np.median(small) == pytest.approx(-10, abs=0.4)
+    for k in range(3):
+        assert np.mean(np.abs(n[exactly, k])) == pytest.approx(1 / 3, abs=0.03)
+        assert np.mean(n[~exactly, k] > 0) == pytest.approx(0.5, abs=0.16)
+
+
+def test_twists_to_pick_from_have_every_angle_length_and_direction():
+    xi = suspects.twists(np.random.default_rng(0), MANY, 4.0)
+    w, v = xi[:, :3], xi[:, 3:]
+    assert spread(size(w)) == evenly(0.05, 4)
+    assert spread(np.log10(size(v))) == evenly(-2, 2)
+    across = size(np.cross(w, v)) / size(w) / size(v)
+    assert np.mean(across < 0.9) > 0.5
+    assert np.mean(across < 1e-3) == pytest.approx(1 / 8, abs=0.06)
+    assert 1e-5 < np.quantile(across, 0.08) < 1e-3
+
+
+def planted(truth: Any, rng: np.random.Generator) -> Any:
+    """A function that is wrong by about 1e-3, differently in each number of each case."""
+    return lambda x: (truth(x) + 1e-3 * rng.normal(size=truth(x).shape)).astype(float)
+
+
+XI = suspects.twists(np.random.default_rng(1), 300, 3.0)
+POSES = se3.exp(XI)
+
+
+def worst(*errors: np.ndarray) -> list[int]:
+    return sorted({int(k) for error in errors for k in np.argsort(error)[-suspects.PICKED :]})
+
+
+def test_of_exp_the_worst_rotations_and_translations_are_picked():
+    T = planted(extended.exp, np.random.default_rng(2))(XI)
+    error = (T - extended.exp(XI)).astype(float)
+    R = size(error[:, :3, :3].reshape(-1, 9)) / (1 + math.sqrt(2) * size(XI[:, :3]))
+    t = size(error[:, :3, 3]) / (size(extended.exp(XI)[:, :3, 3].astype(float)) + size(XI[:, 3:]))
+    assert np.array_equal(suspects.of_exp(SimpleNamespace(exp=lambda xi: T), XI), XI[worst(R, t)])
+
+
+def test_of_log_the_worst_halves_are_picked():
+    xi, truth = planted(extended.log, np.random.default_rng(2))(POSES), extended.log(POSES).astype(float)
+    theta = size(truth[:, :3])
+    kappa = theta / 2 / np.sin(theta / 2)
+    w = size((xi - truth)[:, :3]) / (theta * (1 + 1.22 * kappa * np.minimum(1, 1 / theta)))
+    v = size((xi - truth)[:, 3:]) / (size(truth[:, 3:]) + kappa * size(POSES[:, :3, 3]))
+    assert np.array_equal(suspects.of_log(SimpleNamespace(log=lambda T: xi), POSES), POSES[worst(w, v)])
+
+
+def test_of_a_jacobian_the_worst_blocks_are_picked():
+    J = planted(extended.left_jacobian, np.random.default_rng(2))(XI)
+    error = (J - extended.left_jacobian(XI)).astype(float)
+    P, Q = size(error[:, :3, :3].reshape(-1, 9)), size(error[:, 3:, :3].reshape(-1, 9)) / size(XI[:, 3:])
+    pose = SimpleNamespace(left_jacobian=lambda xi: J)
+    assert np.array_equal(suspects.of_jacobian(pose, "left_jacobian", XI), XI[worst(P, Q)])
+
+
+def test_nan_is_the_worst_of_all():
+    cases, errors = np.arange(100), np.linspace(1, 2, 100)
+    errors[5] = np.nan
+    assert suspects._picked(cases, errors).tolist() == [5, *range(85, 100)]
+    assert suspects._picked(cases, errors, -errors).tolist() == [*range(16), *range(85, 100)]
+    row = accuracy._worst("an error", 1.0, cases, errors)
+    assert (row.error, row.passed, row.cases, row.worst) == (math.inf, False, 100, 5)
+    row = accuracy._worst("an error", 2.0, cases, np.arange(2.0, -98.0, -1))
+    assert (row.what, row.error, row.passed, row.worst) == ("an error", 2.0, True, 0)
+
+
+def test_a_wrong_sign_of_log_is_reported_with_its_gap():
+    gaps = np.array([1e-3, 1e-2])
+    n = np.array([0.6, 0.0, 0.8])
+    xi = np.concatenate([(math.pi - gaps)[:, None] * n, np.ones((2, 3))], axis=1)
+    T = se3.exp(xi)
+
+    def flipped(function: Any, which: int) -> Any:
+        signs = np.where(np.arange(2) == which, -1.0, 1.0)[:, None]
+        return SimpleNamespace(log=lambda X: function(X) * signs)
+
+    for rotation, pose, gap in (
+        (so3, se3, 0.0), (flipped(so3.log, 0), se3, 1e-3), (so3, flipped(se3.log, 1), 1e-2)
+    ):  # fmt: skip
+        errors, signs = accuracy._log_rows(rotation, pose, T)
+        assert errors.passed == (gap == 0)
+        assert signs.error == pytest.approx(gap, rel=1e-9)
+        assert signs.bar == accuracy.SIGN_BAR
+
+
+def test_a_subject_that_leaves_out_a_result_is_not_judged_by_the_others():
+    short = SimpleNamespace(exp=lambda xi: se3.exp(xi)[:2], log=lambda T: se3.log(T)[:2])
+    with pytest.raises(ValueError, match="shorter"):
+        accuracy._exp_ratios(so3, short, XI[:3])
+    with pytest.raises(ValueError, match="shorter"):
+        accuracy._log_rows(so3, short, POSES[:3])
+    rotation = SimpleNamespace(exp=lambda w: so3.exp(w)[:2], log=lambda R: so3.log(R)[:2])
+    with pytest.raises(ValueError, match="shorter"):
+        accuracy._exp_ratios(rotation, se3, XI[:3])
+    with pytest.raises(ValueError, match="shorter"):
+        accuracy._log_rows(rotation, se3, POSES[:3])
+    with pytest.raises(ValueError, match="shorter"):
+        accuracy._noise_errors(rotation, POSES[:3, :3, :3])
+
+
+def test_of_log_and_exp_the_worse_of_rotation_and_pose_counts():
+    exact_poses = SimpleNamespace(exp=lambda xi: np.stack([exact.rounded(exact.exp(x)) for x in xi]))
+    wrong = SimpleNamespace(exp=lambda xi: exact_poses.exp(xi) + 1e-3)
+    few = XI[:3]
+    fine = accuracy._exp_ratios(exact_poses, exact_poses, few)
+    assert max(fine) < 1
+    assert min(accuracy._exp_ratios(wrong, exact_poses, few)) > 1e9
+    assert accuracy._exp_ratios(exact_poses, wrong, few) == [math.inf] * 3  # the last row is wrong too
+
+
+def test_noise_within_the_last_bits_of_pi_may_have_either_sign():
+    n = np.array([0.6, 0.0, 0.8])
+    for gap, either in ((BOTH_SIGNS / 4, True), (1e-10, False)):
+        R = exact.rounded(exact.exp(exact.exactly(n) * (exact.mp.pi - exact.mp.mpf(gap))))
+        for sign in (1, -1):
+            rotation = SimpleNamespace(log=lambda R, sign=sign: sign * exact.rounded(exact.log(R[0]))[None])
+            (error,) = accuracy._noise_errors(rotation, R[None])
+            assert (error < 1e-14) == (either or sign == 1)
