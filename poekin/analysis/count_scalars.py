@@ -20,6 +20,7 @@ from ..engine.trace import Graph
 from ..formulas import columns, dh
 from ..formulas.exponential import joint
 from ..groups import se3
+from ..groups.arrays import Array
 from ..model import screw
 from ..model.chain import Chain
 from .count_methods import Arm, Result, Row, Rows
@@ -61,7 +62,7 @@ def as_needed(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
 def with_everything(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bool) -> Count:
     """What an algorithm's result needs from q on: sines, cosines, the links' poses in their form, and the coupling."""
     graph = Graph()
-    angles, rng, C = Angles(graph), np.random.default_rng(0), chain.coupling
+    angles, rng, C = Angles(graph), generator(), chain.coupling
     rotates, slides = structure(chain)
     poses = []
     for kind, r, s, row, c in zip(chain.kinds, rotates, slides, C, chain.offset.tolist(), strict=True):
@@ -97,7 +98,7 @@ def z_link(motion: Motion, rng: np.random.Generator) -> Row:
 
 def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
     """Rz(theta) Tz(d) Tx(a) Rx(alpha), the joint before its link."""
-    d, a, alpha, theta = rng.uniform(0.2, 1.2, 4)
+    d, a, alpha, theta = generic(rng, 4)
     slides_only = motion.kind == "prismatic"
     sine, cosine = (math.sin(theta), math.cos(theta)) if slides_only else (motion.sine, motion.cosine)
     return dh.link(sine, cosine, float(d) + motion.shift, float(a), math.sin(alpha), math.cos(alpha))
@@ -105,7 +106,7 @@ def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
 
 def craig_link(motion: Motion, rng: np.random.Generator) -> Row:
     """Tx(a) Rx(alpha) Rz(theta) Tz(d), the joint behind its link."""
-    d, a, alpha, theta = rng.uniform(0.2, 1.2, 4)
+    d, a, alpha, theta = generic(rng, 4)
     fixed = theta if motion.kind == "prismatic" else 0.0
     link = dh.link(0.0, 1.0, 0.0, float(a), math.sin(alpha), math.cos(alpha))
     return turned_about_z(
@@ -118,14 +119,14 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
 
     Base and tip are the frames of the first and last joint, but for a tool.
     """
-    n, rng = len(chain.kinds), np.random.default_rng(0)
+    n, rng = len(chain.kinds), generator()
     links = [(0.0, 1.0, 0.0, 0.0)]
-    for d, alpha in rng.uniform(0.2, 1.2, (n - 1, 2)).tolist():
+    for d, alpha in generic(rng, n - 1, 2).tolist():
         links.append((math.sin(alpha), math.cos(alpha), d, 0.0))
     here = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
     return Structure(
         links=tuple(links),
-        alongs=tuple(rng.uniform(0.2, 1.2, n).tolist()),
+        alongs=tuple(generic(rng, n).tolist()),
         parallel=(0,) * n,
         rotates=tuple(chain.local.rotates.tolist()),
         slides=tuple(chain.local.slides.tolist()),
@@ -140,15 +141,25 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
     )
 
 
+def generator() -> np.random.Generator:
+    """Where generic numbers come from: the same at every call."""
+    return np.random.default_rng(0)
+
+
+def generic(rng: np.random.Generator, *shape: int) -> Array:
+    """Numbers (...) that are neither 0 nor 1 nor like another."""
+    return rng.uniform(0.2, 0.9, shape)
+
+
 def generic_pose(rng: np.random.Generator) -> tuple[float, ...]:
     """A pose without any structure."""
-    T = se3.exp(rng.uniform(0.3, 1.2, 6))
+    T = se3.exp(generic(rng, 6))
     return (*T[:3, :3].ravel().tolist(), *T[:3, 3].tolist())
 
 
 def generic_screw(kind: str, rng: np.random.Generator) -> Row:
     """A joint's screw without any structure but its kind's: a prismatic joint's omega is zero."""
-    axis, point = rng.uniform(0.3, 1.2, (2, 3))
+    axis, point = generic(rng, 2, 3)
     if kind == "prismatic":
         return (0, 0, 0, *screw.prismatic(axis)[3:].tolist())
     return tuple((screw.helical(axis, point, 0.1) if kind == "helical" else screw.revolute(axis, point)).tolist())
@@ -162,7 +173,7 @@ def structure(chain: Chain) -> tuple[Sequence[float], Sequence[float]]:
 
 
 def _arm(chain: Chain, poses: Sequence[Row]) -> Arm:
-    rng = np.random.default_rng(1)
+    rng = generator()
     rotates, slides = structure(chain)
     screws = [generic_screw(kind, rng) for kind in chain.kinds]
     return Arm(len(poses), rotates, slides, screws, poses, generic_pose(rng))

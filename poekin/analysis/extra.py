@@ -104,7 +104,8 @@ def _held(long: Chain, short: Chain, k: int, i: int) -> list[float]:
             if slides:
                 return [part * math.copysign(1.0, B) for part in parts]
             turns = [math.acos(max(-1.0, min(1.0, part))) for part in parts if abs(part) < 1 + LEAST]
-            return [math.atan2(C, B) + sign * turn for turn in turns for sign in (1.0, -1.0)]
+            top = math.atan2(C, B)
+            return [x for turn in turns for x in (top + turn, top - turn)]
     return []
 
 

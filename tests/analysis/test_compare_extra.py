@@ -176,3 +176,95 @@ def test_an_axis_three_tolerances_off_does_not_agree_though_the_poses_nearly_do(
     across = np.cross(S[2, :3], S[0, :3])
     S[2, 3:] += np.cross(3e-5 * across / np.linalg.norm(across), S[2, :3])
     assert agreeing(chain, Chain(S, chain.home), 1e-5, np.radians(1e-3)) is None
+
+
+KINDS = [(a, k, b) for a in "rph" for k in "rph" for b in "rph"]
+
+
+def arm_of(letters, seed=0):
+    """An arm of these joints, r, p or h, that stand anyhow."""
+    rng = np.random.default_rng(seed)
+    make = {"r": screw.revolute, "h": lambda z, p: screw.helical(z, p, 0.05), "p": lambda z, p: screw.prismatic(z)}
+    return Chain([make[letter](z, 0.4 * p) for letter, (z, p) in zip(letters, rng.normal(size=(len(letters), 2, 3)),
+                                                                    strict=True)], np.eye(4))  # fmt: skip
+
+
+def off(x, y):
+    """How far two angles are apart."""
+    return abs(np.angle(np.exp(1j * (x - y))))
+
+
+@pytest.mark.parametrize("kinds", KINDS, ids="".join)
+@pytest.mark.parametrize("held", [0.4, -1.1, 2.5])
+def test_the_position_at_which_a_joint_is_held_is_among_those_that_its_neighbours_tell(kinds, held):
+    chain = arm_of(("r", *kinds, "p"))
+    short = extra.without(chain, (2,), [held])
+    found = extra._held(chain, short, 2, 1)
+    if kinds[1] == "p" and (kinds[0], kinds[2]) != ("r", "r"):
+        assert found == []  # what slides changes no angle, and a place that tells only turning axes have
+    else:
+        assert min(abs(x - held) if kinds[1] == "p" else off(x, held) for x in found) < 1e-9
+        assert len(found) in (2, 4)
+
+
+def test_a_joint_parallel_to_a_neighbour_is_held_where_the_moment_of_the_axes_beside_it_says():
+    chain = arm_of("rrrr")
+    rows = chain.screws.copy()
+    way = rows[1, :3]
+    rows[2] = screw.revolute(way, [0.3, -0.2, 0.1])
+    chain = Chain(rows, np.eye(4))
+    short = extra.without(chain, (2,), [0.8])
+    found = extra._held(chain, short, 2, 1)
+    assert min(off(x, 0.8) for x in found) < 1e-9
+    # No position tells where neither angle nor moment changes: a joint on the line of its neighbour.
+    rows[2] = rows[1]
+    assert extra._held(Chain(rows, np.eye(4)), short, 2, 1) == []
+
+
+def test_joints_at_the_ends_and_neighbours_that_both_go_are_held_at_zero_alone():
+    chain = arm_of("rrrrrrr")
+
+    def positions(ks, held):
+        short = extra.without(chain, ks, held)
+        return list(extra._positions(chain, short, ks, 0.01, 0.001))
+
+    assert positions((0,), [0.5]) == positions((6,), [0.5]) == [(0.0,)]
+    assert positions((2, 3), [0.5, 0.3]) == [(0.0, 0.0)]
+    one = positions((3,), [0.5])
+    assert one[0] == (0.0,)
+    assert min(off(x, 0.5) for (x,) in one) < 1e-9
+    both = positions((2, 4), [0.5, -0.3])
+    assert both[0] == (0.0, 0.0)
+    assert min(max(map(off, x, (0.5, -0.3))) for x in both) < 1e-9
+    assert len(set(both)) == len(both)
+    end = positions((0, 3), [0.7, 0.5])
+    assert all(first == 0.0 for first, _ in end)
+    assert min(off(x, 0.5) for _, x in end) < 1e-9
+    # Where other neighbours do not agree, no position helps, and none but 0 is tried.
+    other = arm_of("rrrrrr", seed=1)
+    assert list(extra._positions(chain, other, (3,), 0.01, 0.001)) == [(0.0,)]
+
+
+def test_what_is_left_of_a_chain_without_joints_keeps_its_names_limits_and_poses():
+    chain = Chain(arm_of("rphr").screws, se3.exp([0.1, 0.2, 0.3, 1, 2, 3]), joint_names=list("abcd"),
+                  limits=[[-1, 1], [-2, 2], [-3, 3], [-4, 4]], base="floor", tip="hand")  # fmt: skip
+    rest = extra.without(chain, (1, 3), [0.3, -0.2])
+    assert (rest.joint_names, rest.base, rest.tip) == (("a", "c"), "floor", "hand")
+    assert rest.limits.tolist() == [[-1, 1], [-3, 3]]
+    assert rest.pitches == pytest.approx([0, 0.05])
+    assert rest.fk([0.4, 0.7]) == pytest.approx(chain.fk([0.4, 0.3, 0.7, -0.2]), abs=1e-14)
+
+
+@pytest.mark.parametrize("change, agree", [
+    ({"angle": 3.9e-3}, True), ({"angle": 4.1e-3}, False), ({"gap": 0.03}, True), ({"gap": 0.3}, False),
+])  # fmt: skip
+def test_the_quick_look_lets_four_tolerances_pass(change, agree):
+    def crossing(angle, gap):
+        slant = screw.revolute([0, np.sin(angle), np.cos(angle)], [1 + 1e-3 * gap, 0, 0])
+        return Chain([screw.revolute([0, 0, 1], [0, 0, 0]), slant], np.eye(4))
+
+    angle = 0.9 + np.radians(change.get("angle", 0))
+    a, b = crossing(0.9, 0.0), crossing(angle, change.get("gap", 0))
+    assert extra._may_agree(a, b, 0.01, 1e-3) == extra._may_agree(b, a, 0.01, 1e-3) == agree
+    assert extra._may_agree(a, b, 0.01, 1e-3, but=(0,))
+    assert not extra._may_agree(a, Chain([a.screws[0], screw.prismatic([0, 0, 1])], np.eye(4)), 0.01, 1e-3)

@@ -385,3 +385,68 @@ def test_the_paper_s_methods_count_from_two_joints_on():
         count_table(robot)
     with pytest.raises(pk.errors.InputError, match=r"tol"):
         count_table(arm("rrr"), idealise=1.0)
+
+
+def test_generic_numbers_are_neither_0_nor_1_nor_alike_and_the_same_every_time():
+    some, again = (count_scalars.generic(count_scalars.generator(), 4, 50).ravel() for _ in range(2))
+    assert some.tolist() == again.tolist()
+    assert 0.2 <= some.min() < 0.25
+    assert 0.85 < some.max() < 0.9
+    assert len(set(some.tolist())) == 200
+
+
+@pytest.mark.parametrize("tool", [False, True])
+def test_a_generic_arm_has_the_joints_and_the_coupling_of_the_user_s_and_links_of_its_own(tool):
+    chain = arm("rphr", coupling=[[1, 0, 0], [0, 1, 0], [0.5, 0, 2], [0, 0, 1]], offset=[0, 0.5, 0, 1])
+    found = count_scalars.generic_structure(chain, tool)
+    assert (found.rotates, found.slides) == ((1, 0, 1, 1), (0, 1, pytest.approx(0.1), 0))
+    assert found.coupling == ((1, 0, 0), (0, 1, 0), (0.5, 0, 2), (0, 0, 1))
+    assert (found.shift, found.coordinates) == ((0, 0.5, 0, 1), 3)
+    assert (found.parallel, found.quarters, found.offsets) == ((0,) * 4, (0,) * 4, (0,) * 4)
+    assert found.links[0] == (0, 1, 0, 0)
+    for sine, cosine, d, rest in found.links[1:]:
+        assert (np.hypot(sine, cosine), rest) == (pytest.approx(1), 0)
+        assert 0.2 <= d <= 0.9
+        assert 0.2 <= np.arctan2(sine, cosine) <= 0.9
+    assert len({*found.alongs, *(link[2] for link in found.links[1:])}) == 7
+    here = (*np.eye(3).ravel(), 0, 0, 0)
+    assert found.frames == (here,) * 4
+    assert (found.base == here, found.tool == here) == (not tool, not tool)
+    if tool:
+        assert found.base != found.tool
+        assert np.linalg.det(np.reshape(found.base[:9], (3, 3))) == pytest.approx(1)
+
+
+@pytest.mark.parametrize("kind", ["revolute", "prismatic", "helical"])
+def test_a_generic_screw_is_one_of_its_kind(kind):
+    S = np.array(count_scalars.generic_screw(kind, count_scalars.generator()))
+    w, v = S[:3], S[3:]
+    assert np.linalg.norm(v if kind == "prismatic" else w) == pytest.approx(1)
+    assert w.any() == (kind != "prismatic")
+    if kind != "prismatic":
+        assert w @ v == pytest.approx(0.1 * (kind == "helical"), abs=1e-15)
+        assert np.linalg.norm(np.cross(w, v)) > 0.1  # away from the origin
+
+
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
+def test_the_links_of_a_form_turn_or_slide_as_their_joint_does(kind):
+    def link(form, x):
+        turns = kind == "revolute"
+        sine, cosine, shift = (math.sin(x), math.cos(x), 0.0) if turns else (0.0, 1.0, x)
+        T = np.eye(4)
+        flat = getattr(count_scalars, form)(
+            count_scalars.Motion(kind, x, sine, cosine, shift), count_scalars.generator()
+        )
+        T[:3, :3], T[:3, 3] = np.reshape(flat[:9], (3, 3)), flat[9:]
+        return T
+
+    z = [0, 0, 0.7, 0, 0, 0] if kind == "revolute" else [0, 0, 0, 0, 0, 0.7]
+    for form, before in (("z_link", False), ("craig_link", False), ("paul_link", True)):
+        at_rest, moved = link(form, 0.2), link(form, 0.9)
+        expected = pk.se3.exp(z) @ at_rest if before else at_rest @ pk.se3.exp(z)
+        np.testing.assert_allclose(moved, expected, atol=1e-15)
+    for form in ("exponential", "general_link"):
+        moved = pk.se3.inverse(link(form, 0.2)) @ link(form, 0.9)
+        assert np.linalg.norm(pk.se3.log(moved)[slice(0, 3) if kind == "revolute" else slice(3, 6)]) == pytest.approx(
+            0.7
+        )
