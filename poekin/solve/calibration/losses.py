@@ -32,7 +32,8 @@ class Loss(NamedTuple):
 def chi_square(width: int, quantile: float) -> float:
     """The point of chi-square with `width` degrees of freedom at a quantile given as one of the normal distribution.
 
-    Source: Wilson and Hilferty, 1931: (chi^2/d)^(1/3) is nearly normal. Accuracy: 1 % for 3 and more, 4 % for 1.
+    Source: Wilson and Hilferty, 1931: (chi^2/d)^(1/3) is nearly normal. Accuracy: from the median to the quantile 3
+    1.6 % for 3 and more and 4 % for 1, at 3.719 4 % and 8 %, at 4.536 7 % and 14 %.
     """
     k = 2.0 / (9.0 * width)
     return width * (1.0 - k + quantile * k**0.5) ** 3
@@ -40,16 +41,25 @@ def chi_square(width: int, quantile: float) -> float:
 
 def loss(name: str, s: Array, width: int) -> Loss:
     """The loss of that name for squared errors s (N,) of measurements of `width` numbers."""
-    one, none = np.ones_like(s), np.zeros_like(s)
     if name == "linear":
-        return Loss(s, one, none)
-    c = chi_square(width, _QUANTILE[name])
-    if name == "cauchy":
-        weight = 1.0 / (1.0 + s / c)
-        return Loss(c * np.log1p(s / c), weight, -(weight**2) / c)
+        return Loss(s, np.ones_like(s), np.zeros_like(s))
+    return _BY_NAME[name](s, chi_square(width, _QUANTILE[name]))
+
+
+def _huber(s: Array, c: float) -> Loss:
     near = s <= c
-    if name == "huber":
-        root = np.sqrt(np.where(near, 1.0, s / c))
-        return Loss(np.where(near, s, c * (2.0 * root - 1.0)), 1.0 / root, np.where(near, 0.0, -0.5 / (c * root**3)))
+    root = np.sqrt(np.where(near, 1.0, s / c))
+    return Loss(np.where(near, s, c * (2.0 * root - 1.0)), 1.0 / root, np.where(near, 0.0, -0.5 / (c * root**3)))
+
+
+def _cauchy(s: Array, c: float) -> Loss:
+    weight = 1.0 / (1.0 + s / c)
+    return Loss(c * np.log1p(s / c), weight, -(weight**2) / c)
+
+
+def _tukey(s: Array, c: float) -> Loss:
     u = np.minimum(s / c, 1.0)
     return Loss(c * u * (1.0 - u + u * u / 3.0), (1.0 - u) ** 2, -2.0 * (1.0 - u) / c)
+
+
+_BY_NAME = {"huber": _huber, "cauchy": _cauchy, "tukey": _tukey}

@@ -18,7 +18,11 @@ from poekin.solve.calibration.points import Points
 from poekin.solve.calibration.poses import Poses
 
 # Table of chi-square: degrees of freedom, probability as a quantile of the normal distribution, the point.
-TABLE = [(1, 1.959964, 5.02389), (3, 1.959964, 9.34840), (6, 1.644854, 12.59159), (6, 3.0902323, 22.45774)]
+TABLE = [
+    (1, 1.959964, 5.02389), (3, 1.959964, 9.34840), (6, 1.644854, 12.59159), (6, 3.0902323, 22.45774),
+    (1, 0.0, 0.454936), (3, 0.0, 2.365974), (6, 0.0, 5.348121),
+]  # fmt: skip
+FAR = [(1, 3.719, 15.1366, 0.08), (3, 3.719, 21.1075, 0.04), (1, 4.536, 21.9042, 0.14)]
 ARM = pk.load("puma560").chain()
 
 
@@ -49,6 +53,11 @@ def test_a_loss_is_the_square_for_small_errors_and_never_more(name):
 @pytest.mark.parametrize(("width", "quantile", "point"), TABLE, ids=lambda x: f"{x:g}")
 def test_chi_square_agrees_with_the_table_to_its_accuracy(width, quantile, point):
     assert chi_square(width, quantile) == pytest.approx(point, rel=0.04 if width == 1 else 0.01)
+
+
+@pytest.mark.parametrize(("width", "quantile", "point", "accuracy"), FAR, ids=lambda x: f"{x:g}")
+def test_far_out_chi_square_is_less_exact_and_never_too_small(width, quantile, point, accuracy):
+    assert point < chi_square(width, quantile) < (1 + accuracy) * point
 
 
 @pytest.mark.parametrize("robust", [False, True], ids=["rms", "median"])
@@ -171,3 +180,29 @@ def test_spreads_are_not_estimated_from_no_more_numbers_than_parameters():
             InputError, match=f"^{numbers} numbers for 12 parameters leave nothing to tell from how far"
         ):
             check(both, numbers, 12)
+
+
+# Holland and Welsch 1977, table 1: where each begins to doubt for 95 % efficiency, as the square of a normal number.
+DOUBTS = {"huber": 1.345**2, "cauchy": 2.385**2, "tukey": 4.685**2}
+
+
+@pytest.mark.parametrize("name", DOUBTS)
+def test_a_loss_of_one_number_doubts_from_where_it_is_95_percent_efficient(name):
+    c = chi_square(1, {"huber": 0.917, "cauchy": 2.121, "tukey": 4.536}[name])
+    assert c == pytest.approx(DOUBTS[name], rel=0.14 if name == "tukey" else 0.03)  # as exact as chi_square is there
+    s = np.array([0.0, 0.5 * c, c, 1.5 * c, 4 * c])
+    found = loss(name, s, 1)
+    u = s / c
+    inside = np.minimum(u, 1)
+    expected = {
+        "huber": (np.where(u <= 1, s, 2 * np.sqrt(s * c) - c), 1 / np.sqrt(np.maximum(u, 1))),
+        "cauchy": (c * np.log(1 + u), 1 / (1 + u)),
+        "tukey": (c / 3 * (1 - (1 - inside) ** 3), (1 - inside) ** 2),
+    }[name]
+    np.testing.assert_allclose(found.rho, expected[0], rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(found.weight, expected[1], rtol=1e-12, atol=1e-12)
+    kinks = {"huber": [0, 0, 0, -0.5 / (c * 1.5**1.5), -0.5 / (8 * c)], "cauchy": -(1 / c) / (1 + u) ** 2,
+             "tukey": [-2 / c, -1 / c, 0, 0, 0]}[name]  # fmt: skip
+    np.testing.assert_allclose(found.bend, kinks, rtol=1e-12, atol=1e-15)
+    squares = loss("linear", s, 1)
+    assert (squares.rho.tolist(), squares.weight.tolist(), squares.bend.tolist()) == (s.tolist(), [1.0] * 5, [0.0] * 5)
