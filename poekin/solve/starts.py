@@ -15,7 +15,7 @@ from ..model.source import warn
 from .joint_units import JointUnits, period
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Room:
     """limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie; fixed (m), 1 where a
     coordinate is locked, and held (m), its value there; periods (m), after how much of a coordinate the configuration

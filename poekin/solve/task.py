@@ -22,7 +22,7 @@ TASKS = {
 """Each task's code, and of how many numbers it takes hold: what a chain needs at least as many free coordinates for."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Task:
     """name, one of `TASKS`; axis (3,), the unit direction in the tool frame that the task "direction" aligns;
     weights (6,) of the error's parts (rotation; position), the largest 1, 0 for those that the task leaves free.

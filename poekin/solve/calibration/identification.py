@@ -25,7 +25,7 @@ and rounding of the normal equations is 1e-8."""
 _LIGHT = 1e-6  # weight of unknown frames where a direction is shared: they give way, and the arm stays nominal
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Identification:
     """What the measurements at hand can tell, before anything is solved.
 

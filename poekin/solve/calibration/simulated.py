@@ -124,7 +124,7 @@ def simulated(
     return Simulated(truth, read_only(p), read_only(q), measured, frames, tool, read_only(gross))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Made:
     """Measurements at true poses T (N, 4, 4), with noise and gross errors."""
 
