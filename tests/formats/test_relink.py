@@ -16,6 +16,8 @@ from poekin.errors import InputError, ModelError, PoekinError, UnknownName
 from poekin.formats.relink import relinked
 from poekin.model.joint import Joint, Mimic
 from poekin.model.robot import Robot
+from poekin.testing.attainable import UNIT
+from poekin.testing.chain_laws import budget
 from poekin.testing.chain_strategies import placements, screws
 from poekin.testing.strategies import axes
 
@@ -73,37 +75,68 @@ def at_zero(robot: Robot) -> dict[str, np.ndarray]:
     return free.fk(np.zeros(free.dof))
 
 
+def rounding(robot: Robot) -> float:
+    """How far a link's frame may be off by rounding alone, in rad and in reaches; u = 2^-53.
+
+    It is a product of the origins of the branch, each of them an inverse and a product, made the nearest rotation:
+    24 u a joint, fixed ones and the tool counted.
+    """
+    return 24 * UNIT * sum(not joint.name.startswith("b") for joint in robot.joints)
+
+
+def off(case: tuple[Robot, pk.Chain], seed: int, rows: int = 3) -> np.ndarray:
+    """How far the relinked branch is from the chain ÷ what it may be by rounding, at so many configurations.
+
+    `fk` of either is within its budget. A screw of the branch is off as its frame is, and moves what is behind it by
+    that times its x. The way to a link's nominal place and back is longer than the chain: both count.
+    """
+    robot, chain = case
+    branch = relinked(robot, chain, base="l0", tip="tip").chain("l0", "tip")
+    q = np.random.default_rng(seed).uniform(-2, 2, (rows, chain.dof))
+    x = np.abs(q @ chain.coupling.T + chain.offset)
+    size = chain.reach + robot.chain("l0", "tip").reach + x @ np.abs(chain.local.slides)
+    angular, linear = np.transpose([np.add(budget(chain, row), budget(branch, row)) for row in q])
+    frames = rounding(robot) * (1 + x.sum(axis=1))
+    error = np.abs(branch.fk(q) - chain.fk(q))
+    turned, moved = error[:, :3, :3].max(axis=(1, 2)), error[:, :3, 3].max(axis=1)
+    return np.maximum(turned / (angular + frames), moved / (linear + frames * size))
+
+
 @given(case=cases(), seed=st.integers(0, 2**32))
 def test_the_branch_moves_as_the_chain_says(case, seed):
-    robot, chain = case
-    result = relinked(robot, chain, base="l0", tip="tip")
-    q = np.random.default_rng(seed).uniform(-2, 2, (3, chain.dof))
-    got = result.chain("l0", "tip").fk(q)
-    # The way to a link's nominal place and back is longer than the chain: both count.
-    size = chain.reach + robot.chain("l0", "tip").reach
-    assert np.abs(got - chain.fk(q)).max() <= 2e-14 * size
+    assert off(case, seed).max() <= 1
 
 
-@given(case=cases())
-def test_each_frame_stands_on_its_axis_where_that_is_nearest_and_is_turned_by_the_axes_angle(case):
+def frames_off(case: tuple[Robot, pk.Chain]) -> float:
+    """How far frames are from where they belong ÷ `rounding`: on the new axis, nearest, and turned the least."""
     robot, chain = case
     result = relinked(robot, chain, base="l0", tip="tip")
-    branch = robot.chain("l0", "tip")
+    reach = chain.reach + robot.chain("l0", "tip").reach
     old = Robot("free", robot.links, [replace(joint, mimic=None) for joint in robot.joints])
     before, after = at_zero(old), at_zero(result)
+    worst = 0.0
     for i, joint in enumerate(moved_links(robot)):
         H, G = before[joint.child], after[joint.child]
         moving = result.joint(joint.name)
         turns = chain.kinds[i] != "prismatic"
         w = chain.screws[i, :3] if turns else chain.screws[i, 3:]
-        assert np.abs(G[:3, :3] @ moving.axis - w).max() <= 1e-14
         nominal = H[:3, :3] @ joint.axis
         angle = math.atan2(np.linalg.norm(np.cross(nominal, w)), abs(nominal @ w))
         turned = np.linalg.norm(pk.so3.log(H[:3, :3].T @ G[:3, :3]))
-        assert turned == pytest.approx(angle, abs=1e-13)
         p, foot = H[:3, 3], np.cross(w, chain.screws[i, 3:]) if turns else H[:3, 3]
         distance = np.linalg.norm(np.cross(p - foot, w)) if turns else 0.0
-        assert np.linalg.norm(G[:3, 3] - p) == pytest.approx(distance, abs=1e-14 * (chain.reach + branch.reach))
+        worst = max(
+            worst,
+            np.abs(G[:3, :3] @ moving.axis - w).max(),
+            abs(turned - angle) / 2,  # both frames are off
+            abs(np.linalg.norm(G[:3, 3] - p) - distance) / (2 * reach),
+        )
+    return float(worst) / rounding(robot)
+
+
+@given(case=cases())
+def test_each_frame_stands_on_its_axis_where_that_is_nearest_and_is_turned_by_the_axes_angle(case):
+    assert frames_off(case) <= 1
 
 
 @given(case=cases())
@@ -123,12 +156,14 @@ def test_all_else_stays_what_it_was(case):
             assert old == new
 
 
-@given(robot=arms(), seed=st.integers(0, 2**32))
-def test_its_own_chain_leaves_a_robot_as_it_is(robot, seed):
+@given(robot=arms())
+def test_its_own_chain_leaves_a_robot_as_it_is(robot):
     chain = robot.chain("l0", "tip")
     result = relinked(robot, chain, base="l0", tip="tip")
     before, after = at_zero(robot), at_zero(result)
-    assert max(np.abs(before[link] - after[link]).max() for link in robot.links) <= 1e-14 * chain.reach
+    # the brackets are off the branch, up to 3 m from a link that is off
+    within = 2 * rounding(robot) * (chain.reach + 3)
+    assert max(np.abs(before[link] - after[link]).max() for link in robot.links) <= within
     assert all(a.axis == b.axis for a, b in zip(robot.joints, result.joints, strict=True))
 
 

@@ -19,6 +19,8 @@ from poekin.errors import InputError, PoekinWarning
 from poekin.formats import catalogue, dh
 from poekin.formats.dh import Row, Table, published_tables
 from poekin.testing import chain_strategies
+from poekin.testing.attainable import UNIT
+from poekin.testing.chain_laws import budget
 from poekin.testing.example_robots import example_robots
 
 TOL = 1e-4
@@ -28,19 +30,32 @@ LENGTHS = st.one_of(st.just(0.0), st.floats(0.05, 1.0), st.floats(-1.0, -0.05))
 ROWS = st.builds(Row, MULTIPLES, LENGTHS, LENGTHS, MULTIPLES, st.sampled_from(["revolute", "revolute", "prismatic"]))
 
 
-def pose_errors(a, b, q):
-    """Largest distance [m] and angle [rad] between two chains' tips."""
+def apart(a, b, q):
+    """Distances [m] and angles [rad] between two chains' tips at configurations (rows, m)."""
     ours, theirs = a.fk(q), b.fk(q)
     turn = pk.so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ theirs[:, :3, :3])
-    return np.linalg.norm((ours - theirs)[:, :3, 3], axis=1).max(), np.linalg.norm(turn, axis=1).max()
+    return np.linalg.norm((ours - theirs)[:, :3, 3], axis=1), np.linalg.norm(turn, axis=1)
+
+
+def pose_errors(a, b, q):
+    """Largest distance [m] and angle [rad] between two chains' tips."""
+    far, turned = apart(a, b, q)
+    return far.max(), turned.max()
+
+
+def shares(chain, result, q):
+    """Error ÷ what is allowed at configurations (rows, m): the bound, and the rounding of both chains' `fk`.
+
+    The product of two rotations, and its logarithm, are off by 8 u more.
+    """
+    far, turned = apart(chain, result.chain, q)
+    angular, linear = np.transpose([np.add(budget(chain, row), budget(result.chain, row)) for row in q])
+    return np.maximum(far / (result.position_bound + linear), turned / (result.rotation_bound + angular + 8 * UNIT))
 
 
 def excess(chain, result, samples=200):
-    """Worst error over configurations, as a part of what is allowed: the bound, and what fk's own rounding may add."""
-    far, turned = pose_errors(chain, result.chain, chain.random(1, samples))
-    # fk of either chain is within 2e-14 R (the bar of `validate`).
-    rounding = 4e-14 * max(chain.reach, np.abs(chain.fk(chain.random(1, samples))[:, :3, 3]).max(initial=0))
-    return max(far / (result.position_bound + rounding), turned / (result.rotation_bound + 4e-14))
+    """The worst of the shares at random configurations."""
+    return shares(chain, result, chain.random(1, samples)).max()
 
 
 def ways(chain):
