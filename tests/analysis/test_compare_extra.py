@@ -83,6 +83,48 @@ def test_an_extra_joint_of_any_kind_is_named_at_another_zero(extra_joint):
     assert compare(chain, Chain(S, other.home, joint_names=names), samples=1).extra is None
 
 
+def scara():
+    """Three parallel axes and a quill along them."""
+    turning = [screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 0.4, 0.7)]
+    return Chain([*turning[:2], screw.prismatic([0, 0, -1]), turning[2]], se3.exp([0, 0, 0, 0.7, 0, 0.3]))
+
+
+ALONG = screw.revolute([0, 0, 1], [0.2, 0.3, 0])
+ACROSS = screw.revolute([0.3, -1, 0.4], [0.1, 0.2, -0.3])
+OTHER = screw.revolute([1, 0.5, -0.2], [-0.2, 0.3, 0.1])
+SLIDE = screw.prismatic([1, 2, 3])
+
+
+@pytest.mark.parametrize(
+    "chain, k, extra_joints",
+    [
+        (random_arm(4), 3, [ACROSS, OTHER]),
+        (random_arm(4), 3, [SLIDE, OTHER]),
+        (random_arm(1, ("revolute", "prismatic", "revolute", "revolute")), 1, [ACROSS, OTHER]),
+        (random_arm(1, ("revolute", "prismatic", "revolute", "revolute")), 2, [OTHER]),
+        (scara(), 1, [ALONG]),  # parallel to both neighbours: a distance alone tells where
+        (scara(), 2, [ALONG]),  # the same across a slide
+        (scara(), 3, [SLIDE]),
+        (scara(), 1, [ALONG, screw.revolute([0, 0, 1], [0.4, 0.1, 0])]),  # held anywhere that leaves the distance
+        (random_arm(2, ("revolute",) * 5), 2, [screw.helical([1, 2, 0], [0.1, 0.3, 0.2], 0.02)]),  # a turn away
+    ],
+    ids=["two", "two, one slides", "two behind a turning axis and before a slide", "behind a slide", "parallel",
+         "parallel, before a slide", "a slide between parallel axes", "two parallel", "helical"],
+)  # fmt: skip
+def test_extra_joints_beside_each_other_and_beside_parallel_axes_are_named_at_other_zeros(chain, k, extra_joints):
+    added = [f"extra{i}" for i in range(len(extra_joints))]
+    names = [*chain.joint_names[:k], *added, *chain.joint_names[k:]]
+    rows = np.concatenate([chain.screws[:k], extra_joints, chain.screws[k:]])
+    other = Chain(rows, chain.home, joint_names=names)
+    q = np.where(np.array(other.kinds) == "prismatic", 0.1, 0.7) * np.resize([1, -1, 0.8], len(names))
+    q[k] -= 2 * np.pi if other.kinds[k] == "helical" else 0.0
+    result = compare(chain, other.rezeroed(q).rebased(se3.exp([0.2, 0.5, -0.3, 0.1, 0.2, 0.3])), samples=5)
+    assert result.extra == ("b", *added)
+    assert not any(j.axis_differs for j in result.joints)
+    assert result.after is not None
+    assert result.after.worst_mm < 0.01
+
+
 @pytest.mark.parametrize("joints, words", [(6, "no one joint"), (5, "no two joints"), (4, "more than two must")])
 def test_where_no_joints_can_be_dropped_that_is_said(joints, words):
     result = compare(random_arm(1, ("revolute",) * joints), random_arm(2, ("revolute",) * 7))
