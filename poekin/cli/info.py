@@ -38,10 +38,10 @@ def _show_robot(robot: Robot, chains: list[tuple[Chain, str]]) -> None:
     rows = [(c.base, c.tip, len(c.joint_names), c.dof, number(c.reach), note)[:shown] for c, note in chains]
     table(heads[:shown], rows, left=2)
     # A screw seen from the root is the same in every chain that has its joint.
-    seen: dict[tuple[str, str], tuple[object, ...]] = {}
+    seen: dict[tuple[str, object], tuple[object, ...]] = {}
     for chain, _ in chains:
-        for joint, row in zip(chain.joint_names, _screw_rows(chain), strict=True):
-            seen.setdefault((chain.base, joint), row)
+        for joint, *row in _screw_rows(chain):
+            seen.setdefault((chain.base, joint), (joint, *row))
     if seen:
         say("\nScrews (w; v) at home, seen from each chain's base (rad, m)")
         table(("joint", "kind", "coordinate", *SCREW, "lower", "upper"), seen.values(), left=3)

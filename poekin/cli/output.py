@@ -58,7 +58,7 @@ def table(columns: Sequence[str], rows: Iterable[Sequence[object]], *, left: int
         grid.add_row(*(Text(name(cell)) for cell in row))
     # Its own console each time: stdout may be another one by now, as in tests.
     width = None if sys.stdout.isatty() else 100_000
-    Console(width=width, highlight=False, emoji=False, markup=False).print(grid)
+    Console(width=width).print(grid)
 
 
 def matrix(values: np.ndarray, labels: Sequence[str] = (), columns: Sequence[str] = ()) -> None:
@@ -111,7 +111,7 @@ class Progress:
         if self.terminal:
             print(f"\r\x1b[K{line[:100]}", end="", file=sys.stderr, flush=True)
         else:
-            print(line, file=sys.stderr, flush=True)
+            print(line, file=sys.stderr)
 
     def __enter__(self) -> Progress:
         return self

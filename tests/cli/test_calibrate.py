@@ -14,7 +14,7 @@ import pytest
 import poekin as pk
 from poekin.cli import calibrate as command
 from poekin.cli.measured import Said, read
-from poekin.solve.calibration import Distances, Points, calibrate, changes, data, files
+from poekin.solve.calibration import Distances, Points, Poses, calibrate, changes, data, files
 from poekin.solve.calibration.calibration import MOST_OUTLIERS
 from poekin.solve.calibration.changes import milli
 from poekin.solve.calibration.simulated import simulated
@@ -50,7 +50,7 @@ def test_the_summary_begins_with_data_kept_aside(poekin, measured, csv):
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/fd"), reason="an open pipe has no name here")
-def test_measurements_come_out_of_a_pipe_as_out_of_a_file(csv):
+def test_measurements_come_out_of_a_pipe_as_out_of_a_file(measured, csv):
     reading, writing = os.pipe()
     pipe = f"/dev/fd/{reading}"
     with open(reading), open(writing, "wb") as stream:
@@ -59,7 +59,9 @@ def test_measurements_come_out_of_a_pipe_as_out_of_a_file(csv):
         piped = read([pipe], PANDA, SAID)
     expected = read([str(csv)], PANDA, SAID)
     np.testing.assert_array_equal(piped.q, expected.q)
-    np.testing.assert_array_equal(piped.sets[0].T, expected.sets[0].T)
+    for found in (piped, expected):
+        assert isinstance(found.sets[0], Poses)
+        np.testing.assert_array_equal(found.sets[0].T, measured.measurements.T)
     assert piped.sources == [f"{pipe}:{line}" for line in range(2, 52)]
     assert expected.sources == [f"{csv}:{line}" for line in range(2, 52)]
 
@@ -109,6 +111,9 @@ def test_deviations_points_and_frames_reach_the_measurements_of_their_kind(tmp_p
     )
     found = read([str(tmp_path / f"{kind}.csv") for kind in sets], PANDA, said)
     poses, some, distances = found.sets
+    assert isinstance(poses, Poses)
+    assert isinstance(some, Points)
+    assert isinstance(distances, Distances)
     np.testing.assert_array_equal(poses.covariance, [np.diag([0.25] * 3 + [0.0625] * 3)] * 3)
     np.testing.assert_array_equal(some.covariance, [0.0625 * np.eye(6)] * 4)
     np.testing.assert_array_equal(some.points, [[0, 0.25, 0.5], [1, 2, 3]])
@@ -116,9 +121,12 @@ def test_deviations_points_and_frames_reach_the_measurements_of_their_kind(tmp_p
     np.testing.assert_array_equal(distances.covariance, np.full((5, 1, 1), 0.0625))
     np.testing.assert_array_equal(distances.point, [0, 0.25, 0.5])
     np.testing.assert_array_equal(distances.centre, [1, 2, 4])
-    assert [s.rows.tolist() for s in found.sets] == [[0, 1, 2], [3, 4, 5, 6], [7, 8, 9, 10, 11]]
+    assert [np.asarray(s.rows).tolist() for s in found.sets] == [[0, 1, 2], [3, 4, 5, 6], [7, 8, 9, 10, 11]]
     np.testing.assert_array_equal(found.q, np.concatenate([s.q for s in sets.values()]))
+    one = read([str(tmp_path / "poses.csv")] * 2, PANDA, SAID._replace(kind=["eye-in-hand"]))
+    assert [type(s).__name__ for s in one.sets] == ["EyeInHand"] * 2
     bare = read([str(tmp_path / "distances.csv")], PANDA, SAID).sets[0]
+    assert isinstance(bare, Distances)
     assert (bare.covariance, bare.centre) == (None, None)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.cli.output import as_json as as_json_text
 from poekin.solve import motion
 
 PANDA = ["follow", "panda", "--tip", "panda_hand"]
@@ -52,6 +53,29 @@ def test_json_holds_the_whole_report(as_json, given):
     assert result["largest_step"] < 0.1
     assert len(result["q"]) == 50
     assert result["words"][0].startswith("50 of 50")
+
+
+def test_numbers_and_options_are_those_of_the_library(poekin, arm, T, given):
+    speed, acceleration = np.linspace(0.05, 0.1, 7), 0.02
+    words = ["--duration", 2, "--speed", ",".join(map(str, speed)), "--acceleration", acceleration, "--seed", 2]
+    more = ["--q0", ",".join(map(str, Q0)), "--max-step", 0.002, "--task", "position", "--no-limits"]
+    expected = pk.follow(
+        arm, T, q0=Q0, times=np.linspace(0, 2, 50), speed=speed, acceleration=acceleration, max_step=0.002,
+        task="position", limits=False, seed=2,
+    )  # fmt: skip
+    code, out, _ = poekin(*PANDA, *given, *words, *more, "--json")
+    result = json.loads(out)
+    assert (code, result["ok"]) == (1, False)
+    assert [result[name] for name in ("robot", "base", "tip")] == ["panda", "panda_link0", "panda_hand"]
+    assert expected.too_fast
+    assert expected.too_hard
+    for name in ("q", "success", "reason", "position_error", "rotation_error"):
+        assert result[name] == getattr(expected, name).tolist()
+    for name in ("at_limits", "too_fast", "too_hard", "near_singular"):
+        assert result[name] == json.loads(as_json_text([s._asdict() for s in getattr(expected, name)]))
+    assert result["changes"] == list(expected.changes)
+    assert result["largest_step"] == expected.largest_step
+    assert result["words"] == expected.sentences()
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".npy", ".json"])

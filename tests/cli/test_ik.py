@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.cli import ik as command
 from poekin.solve import motion
 
 PANDA = ["ik", "panda", "--tip", "panda_hand"]
@@ -25,7 +27,7 @@ def T(arm):
     return arm.fk(arm.random(rng, 5))
 
 
-def words(row):  # type: ignore[no-untyped-def]
+def words_of(row):  # type: ignore[no-untyped-def]
     return [repr(float(x)) for x in row]
 
 
@@ -55,7 +57,7 @@ def test_what_fk_writes_ik_reads(poekin, as_json, arm, tmp_path):
 
 
 def test_one_pose_on_the_command_line(poekin, as_json, arm, T):
-    row = words(T[0, :3].ravel())
+    row = words_of(T[0, :3].ravel())
     code, out, err = poekin(*PANDA, "--format", 12, *row)
     assert (code, err) == (0, "")
     assert out.startswith("panda_hand in panda_link0: solved, ")
@@ -64,11 +66,40 @@ def test_one_pose_on_the_command_line(poekin, as_json, arm, T):
     np.testing.assert_allclose(arm.fk(q), T[0], rtol=0, atol=3e-9)
 
 
+def test_numbers_and_options_are_those_of_the_library(poekin, as_json, arm, T, tmp_path):
+    given, options = tmp_path / "T.csv", {"seed": 3, "task": "position", "limits": False}
+    motion.write_poses(given, T, "12")
+    words = [*PANDA, "--input", given, "--format", 12, "--seed", 3, "--task", "position", "--no-limits"]
+    expected, result = pk.ik(arm, T, **options), as_json(*words)
+    for name in ("q", "success", "reason", "position_error", "rotation_error", "iterations", "restarts"):
+        assert result[name] == getattr(expected, name).tolist()
+    assert [result[name] for name in ("robot", "base", "tip")] == ["panda", "panda_link0", "panda_hand"]
+    columns = [expected.q, expected.success, expected.position_error, expected.rotation_error]
+    for suffix in (".csv", None):
+        out = tmp_path / "q.csv"
+        text = poekin(*words, *(["--output", out] if suffix else []))[1]
+        rows = np.loadtxt((out.read_text() if suffix else text).splitlines(), delimiter=",", skiprows=1)
+        np.testing.assert_array_equal(rows, np.column_stack(columns))
+    q0 = arm.random(4)
+    start = as_json(*PANDA, "--format", 12, "--q0", ",".join(words_of(q0)), *words_of(T[0, :3].ravel()))
+    assert start["q"] == pk.ik(arm, T[0], q0=q0).q.tolist()
+
+
+def test_what_is_missed_is_told_in_mm_and_mrad(poekin, arm, T, monkeypatch):
+    found = replace(pk.ik(arm, T[:1]), position_error=np.array([0.00123]), rotation_error=np.array([0.00456]))
+    monkeypatch.setattr(command, "ik", lambda *_, **__: found)
+    _, out, _ = poekin(*PANDA, "--format", 12, *words_of(T[0, :3].ravel()))
+    assert out.splitlines() == [
+        "panda_hand in panda_link0: solved, 1.2 mm and 4.6 mrad off",
+        *(f"  {name} = {x:.9g}" for name, x in zip(arm.q_names, found.q[0], strict=True)),
+    ]
+
+
 def test_q0_and_nearest_to_are_taken(as_json, arm):
     q = np.array([0.1, -0.5, 0.2, -2.0, 0.1, 1.6, 0.8])
-    row = words(arm.fk(q)[:3].ravel())
+    row = words_of(arm.fk(q)[:3].ravel())
     for option in ("--q0", "--nearest-to"):
-        result = as_json(*PANDA, "--format", 12, option, ",".join(words(q)), *row)
+        result = as_json(*PANDA, "--format", 12, option, ",".join(words_of(q)), *row)
         np.testing.assert_allclose(result["q"], q, rtol=0, atol=0.2)
 
 

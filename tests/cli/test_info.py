@@ -94,6 +94,14 @@ def test_a_joint_s_coordinate_is_written_with_factor_and_offset():
 CHAIN = Chain(np.tile([0, 0, 1.0, 0, 0, 0], (2, 1)), np.eye(4), q_names=["a", "b"], coupling=np.eye(2))
 
 
+def test_a_joint_has_the_limits_of_the_coordinate_that_it_follows():
+    limits = [[-1, 2], [-3, 4]]
+    swapped = Chain(CHAIN.screws, np.eye(4), coupling=[[0, 1], [2, 0]], limits=limits, joint_names=["x", "y"])
+    assert [(row[0], row[2], row[-2:]) for row in _screw_rows(swapped)] == [
+        ("x", "q2", ("-3", "4")), ("y", "2 q1", ("-1", "2")),
+    ]  # fmt: skip
+
+
 def test_a_chain_below_a_floating_joint_says_so(tmp_path, crane, poekin):
     path = tmp_path / "floating.urdf"
     path.write_text(Path(crane).read_text().replace("continuous", "floating"))

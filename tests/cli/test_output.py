@@ -67,8 +67,13 @@ def test_json_has_null_for_what_is_no_finite_number_and_keeps_the_kinds_of_the_o
 
 
 class Terminal(io.StringIO):
+    seen = ""
+
     def isatty(self) -> bool:
         return True
+
+    def flush(self) -> None:
+        self.seen = self.getvalue()
 
 
 @pytest.fixture
@@ -94,6 +99,8 @@ def test_progress_on_a_terminal_is_one_line_that_goes_away(clock, monkeypatch):
         for time, done in ((100.4, 1), (100.5, 2), (100.59, 3), (100.61, 4)):
             clock[0] = time
             progress(done, 7)
+            assert sys.stderr.seen == sys.stderr.getvalue()  # type: ignore[attr-defined]  a line without an end
+    assert sys.stderr.seen == sys.stderr.getvalue()  # type: ignore[attr-defined]
     clear = "\r\x1b[K"
     assert sys.stderr.getvalue() == f"{clear}reading: 2 of 7{clear}reading: 4 of 7{clear}"  # type: ignore[attr-defined]
 

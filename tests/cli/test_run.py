@@ -93,6 +93,21 @@ def test_an_interrupt_ends_with_130_and_no_traceback(monkeypatch, poekin, crane)
     assert poekin("info", crane) == (cli.INTERRUPTED, "", "")
 
 
+def test_a_fault_of_poekin_s_own_ends_with_python_s_traceback(monkeypatch, poekin, capsys, crane):
+    from poekin.cli import info
+
+    def fault(*_):
+        raise RuntimeError("a fault")
+
+    monkeypatch.setattr(info, "model", fault)
+    monkeypatch.setattr(sys, "excepthook", sys.excepthook)  # typer puts its own in that place
+    with pytest.raises(RuntimeError) as caught:
+        poekin("info", crane)
+    sys.excepthook(caught.type, caught.value, caught.tb)
+    lines = capsys.readouterr().err.splitlines()
+    assert (lines[0], lines[-1]) == ("Traceback (most recent call last):", "RuntimeError: a fault")
+
+
 def _command(*words):
     return [sys.executable, "-m", "poekin.cli", *words]
 
@@ -129,7 +144,7 @@ def test_a_closed_stderr_changes_neither_result_nor_code(crane):
     assert subprocess.run(["sh", "-c", line]).returncode == 2
 
 
-def test_configurations_come_from_standard_input(crane, refused, tmp_path, monkeypatch):
+def test_configurations_come_from_standard_input(crane, poekin, refused, tmp_path, monkeypatch):
     words = _command("fk", crane, "--tip", "hook", "--input", "-")
     done = subprocess.run(words, input="slide,turn\n0.2,0.1\n", capture_output=True, text=True)
     # a new machine, or one that keeps nothing, compiles kernels and says so
@@ -142,6 +157,11 @@ def test_configurations_come_from_standard_input(crane, refused, tmp_path, monke
     assert said == "poekin: error: standard input:2, column 2: a number expected, got 'x'\n"
     done = subprocess.run(["sh", "-c", f"exec {shlex.join(words)} <&-"], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (2, "poekin: error: cannot read standard input: it is closed\n")
+    monkeypatch.setattr(sys, "stdin", None)  # closed, and a file needs none
+    monkeypatch.chdir(tmp_path)
+    for name in ("q.csv", "+.csv"):
+        (tmp_path / name).write_text("0.2,0.1\n")
+        assert poekin("fk", crane, "--tip", "hook", "--input", name)[0] == 0
 
 
 def test_an_encoding_that_lacks_a_character_is_no_error(crane):

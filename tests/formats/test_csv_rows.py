@@ -29,6 +29,8 @@ REFUSED = {
     "too few": ("1,2,3\n1,2\n", InputError, "f.csv:2: 3 values expected (a, b, c), got 2"),
     "too few by the header": ("t,a,b,c\n1,2,3\n", InputError, "f.csv:2: 4 values expected, as the header has, got 3"),
     "no number": ("1,2,3\n\n4,x,6\n", InputError, "f.csv:3, column 2: a number expected, got 'x'"),
+    "no number in a column of the file": ("t,c,b,a\n0,3,x,1\n", InputError,
+                                          "f.csv:2, column 3: a number expected, got 'x'"),
     "unknown": ("a,b,cc\n", UnknownName, "f.csv:1: 'cc' is neither a number nor a coordinate; did you mean 'c'?"),
     "missing": ("a,b\n", InputError, "f.csv:1: the header has to name each of the 3 coordinates once; 'c' is missing"),
     "twice": ("a,b,c,b\n", InputError,

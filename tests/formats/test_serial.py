@@ -78,8 +78,17 @@ def test_a_chain_from_a_link_to_itself_is_one_link():
 
 
 def test_a_joint_that_follows_several_coordinates_is_refused_by_name():
-    with pytest.raises(InputError, match="joint 'a' follows several coordinates, 'p', 'q'"):
-        to_urdf(two([[1, 0.5], [0, 1]], q_names=["p", "q"]))
+    for coupling, joint in (([[1, 0.5], [0, 1]], "a"), ([[1, 0], [2, 1]], "b")):
+        with pytest.raises(InputError, match=f"^joint '{joint}' follows several coordinates, 'p', 'q': a robot's "):
+            to_urdf(two(coupling, q_names=["p", "q"]))
+
+
+def test_a_helical_joint_keeps_the_sign_of_its_pitch():
+    A = [[0, 0, 1, 0, 0, -0.3], [0, 1, 0, 0, 0.2, 0]]
+    chain = Chain(A, np.eye(4), coupling=[[1], [-2]], offset=[0.1, 0.4], q_names=["q"])
+    robot = serial_robot(chain)
+    assert [joint.pitch for joint in robot.joints] == [-0.3, 0.2, 0.0]
+    assert np.abs(robot.chain().fk([0.7]) - chain.fk([0.7])).max() <= 1e-15
 
 
 def test_a_chain_whose_base_and_tip_are_one_name_for_two_frames_is_refused():

@@ -173,13 +173,12 @@ def test_a_continuous_joint_has_no_limits_and_no_warning():
 
 
 def test_mimic_joints_follow_their_masters():
-    robot = urdf.read_text(
-        chain_of('<mimic joint="j1" multiplier="-2" offset="0.5"/>', "", '<mimic joint="j0" multiplier="3"/>')
-    )
-    chain = robot.chain()
+    both, slope, shift = 'multiplier="-2" offset="0.5"', 'multiplier="3"', 'offset="0.25"'
+    followers = [f'<mimic joint="j{k}" {rest}/>' for k, rest in ((1, both), (0, slope), (1, shift), (1, ""))]
+    chain = urdf.read_text(chain_of(followers[0], "", *followers[1:])).chain()
     assert chain.q_names == ("j1",)
-    assert chain.coupling.tolist() == [[-2], [1], [-6]]
-    assert chain.offset.tolist() == [0.5, 0, 1.5]
+    assert chain.coupling.tolist() == [[-2], [1], [-6], [1], [1]]
+    assert chain.offset.tolist() == [0.5, 0, 1.5, 0.25, 0]
 
 
 def test_a_mimic_of_a_missing_joint_stays_independent_with_a_warning():
