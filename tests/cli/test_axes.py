@@ -27,9 +27,22 @@ def test_the_table_has_angle_and_distance_of_each_pair(poekin):
         assert ("(at q = 0)" in line) == (not pair.fixed)
 
 
+def test_each_shape_is_said_or_that_there_is_none(poekin, crane):
+    report = axes(load("panda").chain(tip="panda_hand"))
+    lines = poekin("axes", "panda", "--tip", "panda_hand")[1].splitlines()
+    assert lines[0] == "Axes of panda_link0 → panda_hand at q = 0"
+    assert lines[-len(report.shapes) :] == [shape.words for shape in report.shapes]
+    for pair in report.pairs:
+        words = pair.words if pair.fixed else f"{pair.words} (at q = 0)"
+        ends = [str(pair.first), pair.name_first, str(pair.second), pair.name_second, *words.split()]
+        assert any(line.split()[: len(ends)] == ends for line in lines)
+    assert poekin("axes", crane, "--tip", "hook")[1].endswith("\nno spherical joint and no three parallel axes\n")
+
+
 def test_json_has_every_pair(as_json):
     document = as_json("axes", "panda", "--tip", "panda_hand")
     assert len(document["pairs"]) == 11
+    assert (document["base"], document["tip"]) == ("panda_link0", "panda_hand")
     assert document["shapes"][0]["kind"] == "spherical shoulder"
     assert document["shapes"][0]["joints"] == [1, 2, 3]
 

@@ -6,6 +6,9 @@ import json
 
 import pytest
 
+from poekin.analysis.count_table import MEANING, count_table
+from poekin.formats.load import load
+
 NAMES = ["[bold]x[/bold]", "[/b]", "<b>&amp;", "\u202eevil", "%s{0}", "=1+1", "ü"]
 URDF = """<robot name="{n}r"><link name="{n}root"/><link name="{n}mid"/><link name="{n}tip"/>
 <joint name="{n}j" type="continuous"><parent link="{n}root"/><child link="{n}mid"/><axis xyz="0 0 1"/></joint>
@@ -37,6 +40,30 @@ def test_the_idealised_arm_is_counted_with_what_that_costs(poekin, tmp_path):
     # the tip's rotation about the first axis, 1e-5 rad
     assert "The idealised arm's pose is within" in out
     assert "1e-05 rad of the arm's" in out
+
+
+def test_every_count_is_in_its_column_and_every_heading_has_its_meaning(poekin, tmp_path):
+    path = tmp_path / "rounded.urdf"
+    path.write_text(URDF.format(n=""), encoding="utf-8")
+    table = count_table(load(path).chain(), idealise=1e-3)
+    lines = poekin("count", path, "--idealise", 1e-3)[1].splitlines()
+    assert lines[0] == "Operations of one Jacobian of root → tip: 2 joints, 2 coordinates"
+    rows = iter(" ".join(line.split()) for line in lines[4:])
+    for group in table.groups:
+        assert next(rows) == group[0].upper() + group[1:]
+        for row in table.of(group):
+            costs = [row.jacobian] + ([] if row.with_pose is None else [row.with_pose])
+            numbers = [n for c in costs for n in (c.multiplications, c.additions, c.sine_cosine_pairs)]
+            assert next(rows) == " ".join([*row.what.split(), str(row.frame), *map(str, numbers)])
+        assert f"{group[0].upper() + group[1:]}: {MEANING[group]}" in lines
+    ideal = table.idealised
+    assert ideal is not None
+    assert ideal.changes
+    at = lines.index(
+        f"The idealised arm's pose is within {ideal.position_bound:.2g} m and {ideal.rotation_bound:.2g} rad of the"
+        " arm's"
+    )
+    assert lines[at + 1 :] == [*(f"  {words}" for words in ideal.changes), *table.verdict]
 
 
 def test_json_has_every_row(as_json):

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
 
 import numpy as np
 import pytest
 
+from poekin.analysis.manipulability import manipulability
 from poekin.analysis.singularity import singularity
 from poekin.formats.load import load
 
@@ -46,6 +48,24 @@ def test_json_has_the_numbers_of_the_function(poekin):
     assert said["lost"] == result.lost.tolist()
     assert said["words"] == result.words
     assert said["manipulability"]["pose"]["condition"] is None or said["manipulability"]["pose"]["condition"] > 1e12
+
+
+def test_words_and_measures_are_those_of_the_functions(poekin):
+    q = [float(x) for x in AWAY]
+    chain = load("panda").chain(tip="panda_hand")
+    measures = manipulability(chain, q)
+    words = singularity(chain, q, part="rotation", tolerance=0.01).words
+    lines = poekin(*panda("--part", "rotation", "--tolerance", 0.01, *AWAY))[1].splitlines()
+    assert lines[0] == f"panda_hand in panda_link0: {words}"
+    assert [re.split(r" {2,}", line) for line in lines[-3:]] == [
+        [part, *(f"{float(x):.4g}" for x in of)] for part, of in measures._asdict().items()
+    ]
+    said = json.loads(poekin(*panda("--json", *AWAY))[1])
+    assert (said["robot"], said["base"], said["tip"], said["q"]) == ("panda", "panda_link0", "panda_hand", q)
+    assert said["q_names"] == list(chain.q_names)
+    assert said["manipulability"] == {
+        part: {name: float(x) for name, x in of._asdict().items()} for part, of in measures._asdict().items()
+    }
 
 
 @pytest.mark.parametrize(

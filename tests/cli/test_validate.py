@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
+import re
 from pathlib import Path
 
 import pytest
 
+from poekin.analysis.validate import BAR, ChainErrors, Validation
 from poekin.cli import run
 from poekin.cli import validate as command
 
@@ -44,6 +47,39 @@ def test_a_wrong_robot_fails_with_one_and_says_where(crane, poekin, monkeypatch)
     code, out, _ = poekin("validate", crane, "--samples", 3, "--json")
     assert code == 1
     assert json.loads(out)["passed"] is False
+
+
+def test_the_table_and_the_lines_have_the_errors_and_notes_of_each_chain(capsys):
+    rows = (
+        ChainErrors("a", "b", 2, 2, 1.5, 1e-15, 2e-15, 3e-15, 4e-15),
+        ChainErrors("a", "c", 1, 1, 1.5, 5e-15, 1e-3, 3.3e-15, math.inf, {"q": 0.25, "p": -1 / 3}, "ends above 'x'"),
+        ChainErrors("a", "d", 0, 0, 1.5, 2.5e-14, 0.0, 0.0, 0.0),
+        ChainErrors("a", "e", 1, 1, 1.5, 0.0, 0.0, 0.0, 0.0, {}, "starts below 'y'"),
+    )
+    results = [Validation("two", "", rows, BAR, 5, 0, "4"), Validation("one", "", rows[:1], BAR, 5, 0, "4")]
+    command._show(results, 3, ["erd:ur3"])
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].endswith(" against Pinocchio, each ÷ R; the bar is 2e-14")
+    assert [re.split(r" {2,}", line) for line in lines[3:5]] == [
+        ["two", "FAIL", "a → c", "4", "2.5e-14", "0.001", "3.3e-15", "inf"],
+        ["one", "pass", "a → b", "1", "1e-15", "2e-15", "3e-15", "4e-15"],
+    ]
+    assert lines[5:] == [
+        "two: a → c is off by inf R (ends above 'x'); worst at q = 0.25, p = -0.333333333",
+        "two: a → d is off by 2.5e-14 R; worst at home",
+        "two: a → e starts below 'y'",
+        "erd:ur3 is left out: there is no robot in it",
+        "1 of 5 robots pass; 3 could not be validated",
+    ]
+
+
+def test_progress_says_which_chain_of_which_file_it_is_at(crane, poekin, monkeypatch):
+    told = []
+    monkeypatch.setattr(command.Progress, "__call__", lambda _, *words: told.append(words))
+    assert poekin("validate", crane, "panda", "--samples", 1)[0] == 0
+    assert told[:2] == [(0, 2, f"{crane}: chain 0 of 2, hook"), (0, 2, f"{crane}: chain 1 of 2, lamp")]
+    assert told[2][0] == 1
+    assert told[2][2].startswith("panda: chain 0 of ")
 
 
 def test_an_error_in_one_file_does_not_hide_the_others(crane, poekin, tmp_path):
