@@ -6,6 +6,7 @@ angular velocity in base axes, the rows of the hybrid Jacobian, by a map for eac
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +18,6 @@ from ..groups.arrays import Array
 if TYPE_CHECKING:
     from .chain import Chain
 
-KINDS = ("rotation_vector", "quaternion_wxyz", "rpy")
 GIMBAL = 1e-8
 """Least cos(pitch) at which roll and yaw have rates: there they turn 1e8 times as fast as the tool, and half of their
 digits are left.
@@ -36,8 +36,9 @@ def pose_coordinates(self: Chain, q: Any, kind: str) -> Array:
     Raises: ShapeError, UnknownName, InputError. Accuracy: that of `fk` in R; roll and yaw apart from each other lose
     1/cos(pitch). Source: Park 1994, Lemma 3; the URDF specification for rpy.
     """
+    numbers, _ = _functions(kind)
     T = self.fk(q)
-    return np.concatenate([_numbers(T[..., :3, :3], _checked(kind)), T[..., :3, 3]], axis=-1)
+    return np.concatenate([numbers(T[..., :3, :3]), T[..., :3, 3]], axis=-1)
 
 
 def analytic_jacobian(self: Chain, q: Any, kind: str) -> Array:
@@ -57,28 +58,16 @@ def analytic_jacobian(self: Chain, q: Any, kind: str) -> Array:
     Source: Park 1994, Lemma 4 for the rotation vector; the kinematic equation of unit quaternions; R of rpy
     differentiated.
     """
-    kind = _checked(kind)
+    _, rates = _functions(kind)
     T, J = self.fk_jacobian(q, "hybrid")
-    R = T[..., :3, :3]
-    if kind == "rotation_vector":
-        rates = so3.left_jacobian_inverse(so3.log(R))
-    elif kind == "quaternion_wxyz":
-        rates = _quaternion_rates(quaternion_wxyz(R))
-    else:
-        rates = _rpy_rates(R)
-    return np.concatenate([rates @ J[..., :3, :], J[..., 3:, :]], axis=-2)
+    return np.concatenate([rates(T[..., :3, :3]) @ J[..., :3, :], J[..., 3:, :]], axis=-2)
 
 
-def _checked(kind: object) -> str:
-    if isinstance(kind, str) and kind in KINDS:
-        return kind
+def _functions(kind: object) -> tuple[Callable[[Array], Array], Callable[[Array], Array]]:
+    """The numbers (..., k) of a rotation R, and the map (..., k, 3) from omega in base axes to their rates."""
+    if isinstance(kind, str) and kind in _FUNCTIONS:
+        return _FUNCTIONS[kind]
     raise InputError(f"kind: expected one of {', '.join(map(repr, KINDS))}, got {told(kind)}")
-
-
-def _numbers(R: Array, kind: str) -> Array:
-    if kind == "rotation_vector":
-        return so3.log(R)
-    return quaternion_wxyz(R) if kind == "quaternion_wxyz" else rpy.angles(R)
 
 
 def quaternion_wxyz(R: Array) -> Array:
@@ -90,8 +79,14 @@ def quaternion_wxyz(R: Array) -> Array:
     return np.concatenate([np.maximum(np.cos(half), 0.0), 0.5 * np.sinc(half / np.pi) * w], axis=-1)
 
 
-def _quaternion_rates(Q: Array) -> Array:
+def _vector_rates(R: Array) -> Array:
+    """The map (..., 3, 3) from omega in base axes to dw/dt."""
+    return so3.left_jacobian_inverse(so3.log(R))
+
+
+def _quaternion_rates(R: Array) -> Array:
     """The map (..., 4, 3) from omega in base axes to dQ/dt."""
+    Q = quaternion_wxyz(R)
     w, v = Q[..., :1, None], Q[..., 1:]
     return 0.5 * np.concatenate([-v[..., None, :], w * np.eye(3) - so3.hat(v)], axis=-2)
 
@@ -114,3 +109,11 @@ def _rpy_rates(R: Array) -> Array:
     tangent = sine / cosine
     rows = [[c / cosine, s / cosine, zero], [-s, c, zero], [c * tangent, s * tangent, one]]
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+_FUNCTIONS = {
+    "rotation_vector": (so3.log, _vector_rates),
+    "quaternion_wxyz": (quaternion_wxyz, _quaternion_rates),
+    "rpy": (rpy.angles, _rpy_rates),
+}
+KINDS = tuple(_FUNCTIONS)
