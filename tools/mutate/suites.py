@@ -98,7 +98,10 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/testing/derivative_laws.py": ("tests/testing/test_chain_laws.py", "tests/model/test_derivatives.py"),
     "poekin/testing/conform/": _CONFORM,
     **{f"poekin/testing/conform/{name}.py": (f"tests/testing/conform/test_{name}.py", *_CONFORM) for name in (
-        "child", "confirm", "grades", "named", "of_groups", "plugin", "precision", "small_urdf", "subject")},
+        "arm_cases", "child", "confirm", "grades", "named", "plugin", "precision", "small_urdf",
+        "subject")},
+    **{f"poekin/testing/conform/{name}.py": ("tests/testing/conform/test_parts.py", *_CONFORM) for name in (
+        "of_arms", "of_groups")},
     "poekin/testing/conform/calls.py": ("tests/testing/conform/test_child.py", *_CONFORM),
     "poekin/testing/conform/limits.py": ("tests/testing/conform/test_child.py",),
     "poekin/testing/conform/misspelt.py": ("tests/testing/conform/test_subject.py",),
