@@ -48,6 +48,7 @@ _CHAINS = ("tests/model/test_chain.py", "tests/model/test_chain_laws.py")
 _DH = tuple(f"tests/formats/test_{name}.py" for name in ("dh_values", "dh_files", "dh", "dh_published"))
 _SLOW = "test_every_chain_of_the_real_robots_has_a_table"  # left for the end
 _SMALL_ANGLES = (_GROUP_MATRICES, "tests/formulas/test_coefficients.py", *_GROUPS)
+_BY_ARMS = ("tests/solve/test_ik.py", "tests/solve/test_ik_all.py", "tests/solve/test_follow.py")
 _BY_LAWS = ("tests/testing/test_laws.py", "tests/groups/test_planted.py")
 _CONFORM = tuple(f"tests/testing/conform/test_{name}.py" for name in ("shrink", "false_findings", "subject", "faults"))
 
@@ -79,6 +80,9 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/engine/specialise.py": ("tests/engine/test_interpret.py", "tests/engine/test_count.py",
                                     "tests/model/test_compiled.py"),
     "poekin/engine/source.py": ("tests/engine/test_cache.py",),
+    "poekin/engine/ik_kernels.py": ("tests/engine/test_ik_kernels.py", *_BY_ARMS, "tests/solve/test_aims.py"),
+    "poekin/engine/ik_all_kernel.py": ("tests/engine/test_ik_kernels.py", "tests/solve/test_ik_all.py"),
+    "poekin/engine/follow_kernels.py": ("tests/engine/test_ik_kernels.py", "tests/solve/test_follow.py"),
     **{f"poekin/formats/emit/{name}.py": (f"tests/formats/test_emit_{first}.py", "tests/formats/test_emit_words.py",
                                           "tests/formats/test_emit_python.py", "tests/formats/test_emit_c.py",
                                           "tests/cli/test_emit.py")
@@ -143,7 +147,6 @@ _BY_MODEL = (
     "tests/testing/test_chain_strategies.py",
     "tests/cli/test_info.py",
 )
-_BY_ARMS = ("tests/solve/test_ik.py", "tests/solve/test_ik_all.py", "tests/solve/test_follow.py")
 WHOLE: dict[str, tuple[str, ...]] = {
     "poekin/": ("tests/test_errors.py", "tests/test_public_names.py", "tests/cli", "tests/formats"),
     "poekin/algebra.py": _ALL_FORMULAS,
