@@ -42,6 +42,7 @@ def test_angles_are_a_grid_and_three_kinds_of_random_ones():
     assert spread(np.log10(wide)) == evenly(-150, 1)
     assert spread(np.log10(usual)) == evenly(-10, 1)
     assert spread(even) == evenly(0, 10)
+    assert angles.min() == 0
     principal = accuracy._angles(np.random.default_rng(0), math.pi, 100)
     assert principal.max() == math.pi
     assert principal.min() == 0

@@ -49,6 +49,7 @@ _DH = tuple(f"tests/formats/test_{name}.py" for name in ("dh_values", "dh_files"
 _SLOW = "test_every_chain_of_the_real_robots_has_a_table"  # left for the end
 _SMALL_ANGLES = (_GROUP_MATRICES, "tests/formulas/test_coefficients.py", *_GROUPS)
 _BY_ARMS = ("tests/solve/test_ik.py", "tests/solve/test_ik_all.py", "tests/solve/test_follow.py")
+_BY_BYTES = ("tests/testing/test_bytes_read.py", "tests/testing/test_arguments.py", "tests/testing/test_strategies.py")
 _BY_LAWS = ("tests/testing/test_laws.py", "tests/groups/test_planted.py")
 _CONFORM = tuple(f"tests/testing/conform/test_{name}.py" for name in ("shrink", "false_findings", "subject", "faults"))
 
@@ -100,6 +101,8 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/testing/change_laws.py": ("tests/testing/test_chain_laws.py", "tests/model/test_chain_laws.py"),
     "poekin/testing/method_laws.py": ("tests/testing/test_chain_laws.py", "tests/model/test_chain_laws.py"),
     "poekin/testing/derivative_laws.py": ("tests/testing/test_chain_laws.py", "tests/model/test_derivatives.py"),
+    **{f"poekin/testing/{name}.py": (f"tests/testing/test_{name}.py", *_BY_BYTES) for name in (
+        "chain_strategies", "configuration_strategies", "near_strategies", "robot_strategies", "strategies")},
     "poekin/testing/conform/": _CONFORM,
     **{f"poekin/testing/conform/{name}.py": (f"tests/testing/conform/test_{name}.py", *_CONFORM) for name in (
         "arm_cases", "child", "confirm", "grades", "named", "plugin", "precision", "small_urdf",
