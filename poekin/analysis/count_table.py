@@ -214,7 +214,7 @@ def _verdict(chain: Chain) -> Iterator[str]:
 
     def gap(a: Count, b: Count) -> str:
         x, y = a.multiplications - b.multiplications, a.additions - b.additions
-        return f"{x} multiplications and {y} additions" if x or y else "nothing"
+        return f"{x} multiplications and {y} additions" if (x, y) != (0, 0) else "nothing"
 
     poe, dh, craig, paul = of("recursive"), of("dh_recursive"), of("dh_modified"), of("dh_paul")
     yield f"The paper's way of counting gives POE an advantage of {gap(dh, poe)} over DH."

@@ -324,6 +324,26 @@ def test_the_verdict_is_in_the_arm_s_own_numbers():
     assert "an advantage of 72 multiplications and 54 additions" in " ".join(count_table(arm("rrrrrp")).verdict)
 
 
+def test_each_row_says_what_it_is_of_which_joint():
+    rows = count_table(arm("rrr", joint_names=["a", "b", "c"])).rows
+    assert [row.what for row in rows[:3]] == [
+        "POE, direct: 60n - 96 and 45n - 72", "POE, recursive: 42n - 78 and 30n - 57", "DH, recursive: 42n and 30n",
+    ]  # fmt: skip
+    *programs, cheapest = [row for row in rows if row.group == "this arm's own program"]
+    assert [row.what for row in programs] == [
+        "space Jacobian", "body Jacobian", "hybrid Jacobian",
+        *(f"J in the frame of {name}" for name in "abc"),
+    ]  # fmt: skip
+    best = min(programs[3:], key=lambda row: row.jacobian.multiplications + row.jacobian.additions)
+    assert cheapest.what == f"J in the cheapest frame, that of {best.what[-1]}"
+    assert cheapest.jacobian.multiplications < best.jacobian.multiplications  # it may stand anywhere on that axis
+    for row in programs:
+        assert row.with_pose is not None
+        assert row.with_pose.multiplications > row.jacobian.multiplications
+    assert count_table(arm("r")).verdict == ()
+    assert count_table(arm("")).middle is None
+
+
 def test_formulas_of_revolute_joints_are_not_printed_for_other_chains():
     tied = arm("rrr", coupling=[[1.0, 0.0], [0.0, 1.0], [0.0, 1.0]])
     for chain in (arm("rpr"), tied, arm("h" * 3), arm("r")):

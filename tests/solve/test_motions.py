@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import sys
 
 import numpy as np
@@ -353,3 +354,87 @@ def test_a_plot_without_matplotlib_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(MissingExtra, match=r"pip install 'poekin\[report\]'"):
         motion.plot_joints([[0.0]], pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4)))
+
+
+@pytest.mark.parametrize("T", [1.0, 2.5])
+def test_each_law_is_its_formula(T):
+    u = np.array([0.0, 0.1, 0.3, 0.5, 0.6, 0.95, 1.0])
+    s, ds, dds = motion.cubic(T)(u * T)
+    np.testing.assert_allclose(s, 3 * u**2 - 2 * u**3, atol=1e-15)
+    np.testing.assert_allclose(ds, np.where(u < 1, 6 * u - 6 * u**2, 0) / T, atol=1e-14)
+    np.testing.assert_allclose(dds, (6 - 12 * u) / T**2, atol=1e-14)
+    s, ds, dds = motion.quintic(T)(u * T)
+    np.testing.assert_allclose(s, 10 * u**3 - 15 * u**4 + 6 * u**5, atol=1e-15)
+    np.testing.assert_allclose(ds, 30 * u**2 * (1 - u) ** 2 / T, atol=1e-14)
+    np.testing.assert_allclose(dds, (60 * u - 180 * u**2 + 120 * u**3) / T**2, atol=1e-13)
+    s, ds, dds = motion.trapezoidal(T, 0.2)(u * T)
+    top = 1 / 0.8
+    np.testing.assert_allclose(s, [0, top * 0.025, top * 0.2, 0.5, top * 0.5, 1 - top * 0.00625, 1], atol=1e-15)
+    np.testing.assert_allclose(ds * T, [0, top / 2, top, top, top, top / 4, 0], atol=1e-14)
+    np.testing.assert_allclose(dds * T**2, [5 * top, 5 * top, 0, 0, 0, -5 * top, -5 * top], atol=1e-13)
+
+
+def test_a_timing_holds_nan_apart_and_rests_outside():
+    for timing in (
+        motion.cubic(2.0),
+        motion.quintic(2.0),
+        motion.trapezoidal(2.0),
+        motion.fastest("cubic", 0, speed=1),
+    ):
+        s, ds, dds = timing([np.nan, -1.0, 3.0])
+        assert np.isnan([s[0], ds[0], dds[0]]).all()
+        np.testing.assert_array_equal([s[1:], ds[1:], dds[1:]], [[0, 1], [0, 0], [0, 0]])
+        assert timing(1.0).s.shape == ()
+    assert (motion.trapezoidal(2.0).ramp, motion.trapezoidal(2.0, 0.5).ramp) == (0.25, 0.5)
+    assert motion.cubic(np.float32(2.0)) == motion.Timing("cubic", 2.0)
+
+
+@pytest.mark.parametrize("law, speed, acceleration, duration, ramp", [
+    ("cubic", 3.0, None, 1.5 * 6 / 3, 0.5), ("cubic", None, 4.0, math.sqrt(6 * 6 / 4), 0.5),
+    ("cubic", 3.0, 4.0, 3.0, 0.5), ("cubic", 4.0, 1.0, 6.0, 0.5),
+    ("quintic", 3.0, None, 1.875 * 2, 0.5), ("quintic", None, 4.0, math.sqrt(10 / math.sqrt(3) * 1.5), 0.5),
+    ("trapezoidal", 2.0, 4.0, 3 + 0.5, 0.5 / 3.5), ("trapezoidal", 6.0, 6.0, 2.0, 0.5),
+    ("trapezoidal", 7.0, 6.0, 2.0, 0.5), ("trapezoidal", math.inf, 6.0, 2.0, 0.5), ("trapezoidal", None, 6.0, 2.0, 0.5),
+])  # fmt: skip
+def test_the_fastest_timing_over_six_units_is_known(law, speed, acceleration, duration, ramp):
+    for distance in (6.0, -6.0, [1.0, -6.0, 2.0]):
+        timing = motion.fastest(law, distance, speed=speed, acceleration=acceleration)
+        assert (timing.law, timing.duration, timing.ramp) == (law, pytest.approx(duration), pytest.approx(ramp))
+        assert timing.duration >= duration * (1 - 1e-15)
+
+
+def test_each_joint_has_its_own_limits():
+    timing = motion.fastest("cubic", [2.0, 3.0], speed=[1.0, 2.0], acceleration=[100.0, math.inf])
+    assert timing.duration == pytest.approx(1.5 * 2.0)
+    timing = motion.fastest("trapezoidal", [2.0, 3.0], speed=[math.inf, 1.0], acceleration=[1.0, math.inf])
+    assert (timing.duration, timing.ramp) == (pytest.approx(3 + 2 / 3), pytest.approx(2 / 11))
+
+
+@pytest.mark.parametrize("call, says", [
+    (lambda: motion.cubic(math.inf), "duration: expected a positive number of seconds, got inf"),
+    (lambda: motion.cubic(True), "duration: expected a positive number of seconds, got True"),
+    (lambda: motion.cubic(1e-101), "duration: expected a positive number of seconds, got 1e-101"),
+    (lambda: motion.cubic("1"), "duration: expected a positive number of seconds, got '1'"),
+    (lambda: motion.trapezoidal(1, 0), "ramp: expected a number above 0 and at most 0.5, got 0"),
+    (lambda: motion.trapezoidal(1, True), "ramp: expected a number above 0 and at most 0.5, got True"),
+    (lambda: motion.fastest("cubic", [0, 1], acceleration=[1, -1]),
+     "acceleration: expected positive limits, got [1, -1]"),
+    (lambda: motion.fastest("cubic", 1e300, acceleration=1e-300),
+     "fastest: the limits are so small that there is no finite duration"),
+    (lambda: motion.fastest("trapezoidal", 1, speed=1, acceleration=math.inf),
+     "acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time"),
+    (lambda: motion.fastest("cubic", [1, 2], acceleration=[1, 2, 3]),
+     "acceleration: shape (3,) does not fit the distances' (2,)"),
+    (lambda: motion.fastest(3, 1, speed=1), "law: expected one of cubic, quintic, trapezoidal, got 3"),
+])  # fmt: skip
+def test_why_there_is_no_timing_is_said_whole(call, says):
+    with pytest.raises(InputError, match=f"^{re.escape(says)}$"):
+        call()
+
+
+def test_limits_may_vanish_where_nothing_moves():
+    for law in ("cubic", "quintic", "trapezoidal"):
+        assert motion.fastest(law, [0.0, 1e-101], speed=1e300, acceleration=1e300).duration == 0
+        assert motion.fastest(law, 0.0, speed=math.inf, acceleration=math.inf).duration == 0
+        assert motion.fastest(law, [], speed=1, acceleration=1).duration == 0
+    assert motion.fastest("cubic", 1e-99, speed=1.0).duration == pytest.approx(1.5e-99)
