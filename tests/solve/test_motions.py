@@ -386,7 +386,7 @@ def test_a_timing_holds_nan_apart_and_rests_outside():
         np.testing.assert_array_equal([s[1:], ds[1:], dds[1:]], [[0, 1], [0, 0], [0, 0]])
         assert timing(1.0).s.shape == ()
     assert (motion.trapezoidal(2.0).ramp, motion.trapezoidal(2.0, 0.5).ramp) == (0.25, 0.5)
-    assert motion.cubic(np.float32(2.0)) == motion.Timing("cubic", 2.0)
+    assert motion.cubic(np.float64(2.0)) == motion.Timing("cubic", 2.0)
 
 
 @pytest.mark.parametrize("law, speed, acceleration, duration, ramp", [
@@ -414,7 +414,8 @@ def test_each_joint_has_its_own_limits():
     (lambda: motion.cubic(math.inf), "duration: expected a positive number of seconds, got inf"),
     (lambda: motion.cubic(True), "duration: expected a positive number of seconds, got True"),
     (lambda: motion.cubic(1e-101), "duration: expected a positive number of seconds, got 1e-101"),
-    (lambda: motion.cubic("1"), "duration: expected a positive number of seconds, got '1'"),
+    (lambda: motion.cubic("1"),  # type: ignore[arg-type]
+     "duration: expected a positive number of seconds, got '1'"),
     (lambda: motion.trapezoidal(1, 0), "ramp: expected a number above 0 and at most 0.5, got 0"),
     (lambda: motion.trapezoidal(1, True), "ramp: expected a number above 0 and at most 0.5, got True"),
     (lambda: motion.fastest("cubic", [0, 1], acceleration=[1, -1]),
@@ -425,7 +426,8 @@ def test_each_joint_has_its_own_limits():
      "acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time"),
     (lambda: motion.fastest("cubic", [1, 2], acceleration=[1, 2, 3]),
      "acceleration: shape (3,) does not fit the distances' (2,)"),
-    (lambda: motion.fastest(3, 1, speed=1), "law: expected one of cubic, quintic, trapezoidal, got 3"),
+    (lambda: motion.fastest(3, 1, speed=1),  # type: ignore[arg-type]
+     "law: expected one of cubic, quintic, trapezoidal, got 3"),
 ])  # fmt: skip
 def test_why_there_is_no_timing_is_said_whole(call, says):
     with pytest.raises(InputError, match=f"^{re.escape(says)}$"):
