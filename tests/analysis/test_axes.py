@@ -93,3 +93,73 @@ def test_tolerances_out_of_range_are_refused(options):
         axes(made(*PLANE), **options)
     with pytest.raises(InputError, match="Chain"):
         axes(load("panda"))  # type: ignore[arg-type]
+
+
+def test_every_shape_names_its_joints_and_by_how_much_it_misses():
+    assert [(s.kind, s.joints, s.words) for s in axes(made(*PLANE, *WRIST)).shapes] == [
+        ("three parallel axes", (1, 2, 3), "joints 1, 2 and 3: three parallel axes (within 0°)"),
+        ("three parallel axes", (2, 3, 4), "joints 2, 3 and 4: three parallel axes (within 0°)"),
+        ("spherical wrist", (4, 5, 6), "joints 4, 5 and 6: spherical wrist, the axes meet in one point (within 0 mm)"),
+        ("Pieper", (4, 5, 6), "Pieper: joints 4, 5 and 6: three axes meet in one point, so that the inverse kinematics "
+         "has a closed form"),
+    ]  # fmt: skip
+    (parallel, pieper) = axes(load("ur5e").chain(), tol_deg=0.01).shapes
+    assert (parallel.joints, pieper.joints) == ((2, 3, 4), (2, 3, 4))
+    assert pieper.words.startswith("Pieper: joints 2, 3 and 4: three axes are parallel, so that")
+    arm = made(*SHOULDER, *ELBOW, *WRIST)
+    kinds = {s.kind: s.joints for s in axes(arm).shapes}
+    assert (kinds["spherical shoulder"], kinds["spherical wrist"]) == ((1, 2, 3), (5, 6, 7))
+    assert kinds["S-R-S"] == (1, 2, 3, 4, 5, 6, 7)
+    assert axes(arm).shapes[-1].words == "S-R-S: a spherical shoulder, an elbow and a spherical wrist, like a human arm"
+    assert "Pieper" not in kinds
+    middle = made(PLANE[0], *SHOULDER, PLANE[1])
+    assert [(s.kind, s.joints) for s in axes(middle).shapes if s.kind.startswith("spherical")] == [
+        ("spherical joint", (2, 3, 4))
+    ]
+
+
+@pytest.mark.parametrize("tol_mm, found", [(0.35, False), (0.36, True)])
+def test_axes_meet_that_pass_one_point_within_the_tolerance(tol_mm, found):
+    # Along x, y and z, each 0.5 mm from the others: the nearest point is 0.25 mm off each in two directions.
+    far = 5e-4
+    three = made(((1, 0, 0), (0, 0, far)), ((0, 1, 0), (far, 0, 0)), ((0, 0, 1), (0, far, 0)))
+    shapes = axes(three, tol_mm=tol_mm).shapes
+    assert bool(shapes) == found
+    if found:
+        assert (shapes[0].kind, shapes[0].error) == ("spherical wrist", pytest.approx(0.25 * np.sqrt(2)))
+
+
+@pytest.mark.parametrize("tilt, found", [(0.9, True), (1.1, False)])
+def test_three_axes_are_parallel_whichever_way_they_point_within_the_tolerance(tilt, found):
+    angle = np.radians(tilt)
+    three = made(((0, 0, 1), (0, 0, 0)), ((0, 0, -1), (1, 0, 0)), ((0, np.sin(angle), np.cos(angle)), (2, 0, 0)))
+    shapes = axes(three, tol_deg=1.0).shapes
+    assert [s.kind for s in shapes] == ["three parallel axes"] * found
+    if found:
+        assert shapes[0].error == pytest.approx(tilt)
+        assert shapes[0].words.endswith("(within 0.9°)")
+
+
+def test_what_slides_makes_no_shape_and_neighbours_on_one_line_no_spherical_joint():
+    z, y = ((0, 0, 1), (0, 0, 0)), ((0, 1, 0), (0, 0, 0))
+    assert not axes(made(z, z, y)).shapes
+    assert not axes(made(y, z, z)).shapes
+    assert axes(made(z, y, z)).shapes[0].kind == "spherical wrist"
+    slide = Chain([screw.prismatic([1, 0, 0]), *made(z, y, z).screws], np.eye(4))
+    assert [s.joints for s in axes(slide).shapes] == [(2, 3, 4)]
+    assert not axes(Chain([*made(z, y).screws, screw.prismatic([1, 0, 0]), *made(z).screws], np.eye(4))).shapes
+
+
+@pytest.mark.parametrize("angle, gap, words", [
+    (30.0, 0.25, "30° from parallel, 250 mm from intersecting"), (44.5, 0.0, "44.5° from parallel, intersecting"),
+    (45.5, 0.0, "44.5° from perpendicular, intersecting"), (150.0, 0.0, "30° from parallel, intersecting"),
+    (90.0, 0.25, "perpendicular, 250 mm from intersecting"), (0.0, 0.25, "parallel, 250 mm apart"),
+    (180.0, 0.0, "coaxial"),
+])  # fmt: skip
+def test_the_relation_of_two_axes_is_said_in_degrees_and_mm(angle, gap, words):
+    turned = np.radians(angle)
+    (pair,) = axes(made(((0, 0, 1), (0, 0, 0)), ((0, np.sin(turned), np.cos(turned)), (gap, 0, 0)))).pairs
+    assert pair.words == words
+    assert pair.angle == pytest.approx(min(angle, 180 - angle), abs=1e-12)
+    assert pair.distance == pytest.approx(1e3 * gap, abs=1e-12)
+    assert str(axes(made(((0, 0, 1), (0, 0, 0)), ((0, 0, 1), (1, 0, 0))))) == "joint1 - joint2: parallel, 1000 mm apart"

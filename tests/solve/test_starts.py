@@ -109,7 +109,7 @@ def test_the_first_try_is_at_q0_within_the_limits_or_anywhere_and_at_what_is_loc
     with pytest.warns(pk.PoekinWarning, match=r"^q0 is outside the limits of 'b' and is moved to them$"):
         moved = first_tries(units, free, (2,), 2, [[0.5, 0.5], [1.0, -3.0]])
     np.testing.assert_array_equal(moved, [[0.5, 0.5], [1, -2]])
-    with pytest.warns(pk.PoekinWarning, match="limits of 'a' and 'b' and"):
+    with pytest.warns(pk.PoekinWarning, match="limits of 'a', 'b' and"):
         first_tries(units, free, (), 1, [2, 3])
 
 
