@@ -197,3 +197,136 @@ def test_a_report_without_matplotlib_names_the_extra(monkeypatch, found, tmp_pat
     with pytest.raises(MissingExtra, match=r"pip install 'poekin\[report\]'"):
         found.report(tmp_path / "page.html")
     assert list(tmp_path.iterdir()) == []
+
+
+class Tables(HTMLParser):
+    """The tables of a page, as rows of words, by the heading that they stand under."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.found, self._title, self._words = {}, "", None
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        if tag in ("h2", "td", "th"):
+            self._words = ""
+        if tag == "table":
+            self.found.setdefault(self._title, []).append([])
+        if tag == "tr":
+            self.found[self._title][-1].append([])
+
+    def handle_data(self, data):
+        if self._words is not None:
+            self._words += data
+
+    def handle_endtag(self, tag):
+        if tag == "h2":
+            self._title = self._words
+        if tag in ("td", "th"):
+            self.found[self._title][-1][-1].append(self._words)
+        if tag in ("h2", "td", "th"):
+            self._words = None
+
+
+@pytest.fixture(scope="module")
+def tables(text):
+    return Tables(text).found
+
+
+def milli(*values):
+    return [f"{1e3 * value:.3g}" for value in values]
+
+
+def test_residuals_stand_under_their_names_in_mm_and_mrad(found, tables):
+    (table,) = tables["Residuals"]
+    heads, *rows = table
+    assert heads == ["", "position rms (mm)", "median", "largest", "rotation rms (mrad)", "median", "largest"]
+    aside = found.held_out
+    those = [("nominal, kept aside", aside.before), ("calibrated, kept aside", aside.after),
+             ("nominal, all data", found.before), ("calibrated, all data", found.after)]  # fmt: skip
+    assert rows == [
+        [name, *milli(r.rms_length, r.median_length, r.length.max(), r.rms_angle, r.median_angle, r.angle.max())]
+        for name, r in those
+    ]
+
+
+def test_what_was_measured_and_what_it_can_tell_stands_there_in_numbers(found, tables, text):
+    sets, frames = tables["What was measured, and what it can tell"]
+    (spread,) = found.spreads
+    scatter = "as given" if spread is None else f"{milli(spread.length)[0]} mm, {milli(spread.angle)[0]} mrad"
+    assert sets[1:] == [["0", "60", "positions and rotations", scatter]]
+    for (name, T), row in zip(found.frames.items(), frames[1:], strict=True):
+        turn = ", ".join(f"{w:.5f}" for w in pk.so3.log(T[:3, :3]))
+        assert row == [name, *(f"{x:.6f}" for x in T[:3, 3]), turn]
+    can = found.identification
+    assert (
+        f"Measurements of this kind can see {can.expected} combinations of them, and these see {can.rank}, with "
+        f"condition {can.condition:.3g} (angles in rad, lengths in reaches of {ARM.reach:.3g} m; smallest singular value "
+        f"{can.smallest:.3g}, O1 {can.O1:.3g}, noise amplification index {can.amplification:.3g})."
+    ) in text
+
+
+def test_what_changed_stands_in_the_row_of_its_joint(found, tables):
+    axes, compared = tables["What changed"]
+    assert axes[0] == ["joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %"]
+    assert [row[1:] for row in axes[1:]] == [
+        [
+            *milli(j.tilt.size, j.tilt.margin),
+            *("" if np.isnan(x) else milli(x)[0] for x in (j.shift.size, j.shift.margin)),
+        ]
+        for j in changes.joints(found)
+    ]
+    assert compared[0] == ["joint", "angle of the axes (°)", "common normal (mm)", "at the arm (mm)", "zero"]
+    result = found.compare()
+    lines = sorted(result.joints, key=lambda j: -max(j.shift or 0.0, j.normal or 0.0, j.angle))
+    seen = lambda x: "" if x is None else f"{0.0 if abs(x) < 1e-9 else x:.3g}"  # noqa: E731
+    assert [row[1:] for row in compared[1:]] == [
+        [seen(j.angle), seen(j.normal), seen(j.shift), f"{seen(j.zero)} {'mm' if j.kind_b == 'prismatic' else '°'}"]
+        for j in lines
+    ]
+
+
+def test_outliers_and_parameters_stand_in_rows_with_their_errors_and_sources(found, tables, text):
+    (table,) = tables["Outliers"]
+    assert table[0] == ["row", "set", "position error (mm)", "rotation error (mrad)", "from"]
+    assert table[1:] == [
+        [str(o.row), "0", *milli(found.after.length[o.index], found.after.angle[o.index]), WORDS["sources"][o.row]]
+        for o in found.outliers
+    ]
+    assert (
+        f"<p>{len(found.outliers)} of 60 measurements are off by more than one good one in 10 000 would be.</p>" in text
+    )
+    (table,) = tables["All parameters"]
+    assert table[0] == ["of", "what", "value", "standard deviation", "unit"]
+    assert [row[1:] for row in table[1:]] == [
+        [p.what, f"{v:.6g}", f"{d:.2g}", p.unit]
+        for p, v, d in zip(found.parameters, found.values, np.sqrt(np.diag(found.covariance)), strict=True)
+    ]
+    assert f"<summary>{len(found.parameters)} parameters</summary>" in text
+    assert f"The search with the loss tukey converged in {len(found.steps)} steps, counted over all its rounds." in text
+
+
+def test_how_well_the_pose_is_known_is_said_in_mm_and_mrad(found, text):
+    C = found.pose_covariance(ARM.random(0, 1000))
+    sizes = [np.sqrt(np.trace(C[:, k, k], axis1=1, axis2=2)) for k in (slice(3, 6), slice(0, 3))]
+    mm, mrad = (milli(np.median(x), x.max()) for x in sizes)
+    assert (
+        f"a standard deviation of {mm[0]} mm in the median and {mm[1]} mm at most, its rotation of {mrad[0]} and "
+        f"{mrad[1]} mrad"
+    ) in text
+
+
+def test_print_says_before_and_after_of_all_and_of_what_was_kept_aside(found):
+    lines = str(found).split("\n")
+    at = next(i for i, line in enumerate(lines) if "median mm" in line)
+    assert lines[at].split() == ["median", "mm", "rms", "mm", "median", "mrad", "rms", "mrad"]
+    aside = found.held_out
+    assert aside is not None
+    for line, name, r in zip(
+        lines[at + 1 : at + 5], ("before", "after", "kept aside (3 folds), before", "kept aside, after"),
+        (found.before, found.after, aside.before, aside.after), strict=True,
+    ):  # fmt: skip
+        assert line[:29].strip() == name
+        assert line[29:].split() == milli(r.median_length, r.rms_length, r.median_angle, r.rms_angle)
+    assert lines[0] == f"{len(found.parameters)} parameters, 60 measurements, converged in {len(found.steps)} steps"
+    assert f"outliers: rows {', '.join(str(o.row) for o in found.outliers)}" in lines
