@@ -261,8 +261,8 @@ def test_what_was_measured_and_what_it_can_tell_stands_there_in_numbers(found, t
     can = found.identification
     assert (
         f"Measurements of this kind can see {can.expected} combinations of them, and these see {can.rank}, with "
-        f"condition {can.condition:.3g} (angles in rad, lengths in reaches of {ARM.reach:.3g} m; smallest singular value "
-        f"{can.smallest:.3g}, O1 {can.O1:.3g}, noise amplification index {can.amplification:.3g})."
+        f"condition {can.condition:.3g} (angles in rad, lengths in reaches of {ARM.reach:.3g} m; smallest singular "
+        f"value {can.smallest:.3g}, O1 {can.O1:.3g}, noise amplification index {can.amplification:.3g})."
     ) in text
 
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
 import poekin as pk
 from poekin.errors import InputError, ShapeError
 from poekin.groups import se3
-from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identify
+from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identify, units
 from poekin.solve.calibration.parameters import Arm
+from poekin.solve.calibration.problem import Problem
 
 PUMA = pk.load("puma560").chain()
 TRUE = Arm(PUMA, ("screws", "home"), None).chain(2e-3 * np.random.default_rng(0).normal(size=30))
@@ -137,3 +140,44 @@ def test_few_measurements_with_given_frames_are_solved_where_that_is_asked_for()
     found = calibrate(PUMA, Q[:1], camera, folds=0, deficient="hold")
     assert found.identification.rank == 6
     assert found.after.rms_length < 1e-9
+
+
+def test_other_units_are_told_with_how_far_the_arm_is_off_in_metres_either_way():
+    measured = T.copy()
+    measured[:, :3, 3] *= 1e3
+    p, true = PUMA.fk(Q)[:, :3, 3], T[:, :3, 3]
+    away, best = (float(np.median(np.linalg.norm(p - x, axis=1))) for x in (1e3 * true, true))
+    assert best < 0.02
+    words = f"the nominal arm is off by {away:.3g} m (median) as the data stand, and by {best:.3g} m where the lengths "
+    with pytest.raises(InputError, match=f"^{re.escape(words)}"):
+        calibrate(PUMA, Q, measured, folds=0)
+    degrees = np.degrees(Q)
+    stands = float(np.median(np.linalg.norm(PUMA.fk(degrees)[:, :3, 3] - true, axis=1)))
+    words = (f"the nominal arm is off by {stands:.3g} m (median) as the data stand, and by {best:.3g} m where the "
+             "joint angles look like degrees: give radians")  # fmt: skip
+    with pytest.raises(InputError, match=f"^{re.escape(words)}"):
+        calibrate(PUMA, degrees, T, folds=0)
+
+
+@pytest.mark.parametrize("away, told", [(0.05, False), (0.15, True)])
+def test_units_are_looked_at_from_a_tenth_of_the_reach_or_four_turns_on(away, told, monkeypatch):
+    tried = []
+    monkeypatch.setattr(units, "_tried", lambda *given: tried.append(given) or np.inf)
+    moved = T.copy()
+    moved[:, :3, 3] = PUMA.fk(Q)[:, :3, 3] + [0, 0, away * PUMA.reach]
+    problem = Problem(Arm(PUMA, ("screws", "home"), None), Q, [Poses(moved)])
+    units.check(problem, np.zeros(problem.size))
+    assert bool(tried) == told
+    for turns, looked in ((3.9, told), (4.1, True)):
+        q = Q.copy()
+        q[0, 5] = 2 * np.pi * turns
+        tried.clear()
+        problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(moved)])
+        units.check(problem, np.zeros(problem.size))
+        assert bool(tried) == looked
+
+
+def test_readings_are_converted_by_what_their_joints_are():
+    arm = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([0, 0, 1])], np.eye(4))
+    np.testing.assert_allclose(units.converted(arm, np.ones((2, 2)), angle=3.0, length=5.0), [[3, 5], [3, 5]])
+    assert pytest.approx(np.pi / 180) == units._DEGREE
