@@ -17,7 +17,7 @@ from numba.core import cgutils, config, types
 from numba.extending import intrinsic, overload, register_jitable
 
 from .. import algebra, formulas
-from ..formulas import compensated, elementary, exponential, logarithm
+from ..formulas import arctangent, compensated, elementary, exponential, logarithm, quaternion
 from . import rows, sincos
 from .cache import KernelCache
 
@@ -28,7 +28,10 @@ def _modules():
         yield importlib.import_module(f"{formulas.__name__}.{info.name}")
 
 
-_OVERLOADED = (elementary.sqrt, elementary.sin, elementary.cos, elementary.atan2, elementary.below, rows.borrowed)
+_OVERLOADED = (
+    *(elementary.sqrt, elementary.sin, elementary.cos, elementary.atan2),
+    *(elementary.takes_series, elementary.below, rows.borrowed),
+)
 
 
 @intrinsic
@@ -46,6 +49,7 @@ def _register() -> None:
     overload(elementary.sin)(lambda x: lambda x: math.sin(x))
     overload(elementary.cos)(lambda x: lambda x: math.cos(x))
     overload(elementary.atan2)(lambda y, x: lambda y, x: math.atan2(y, x))
+    overload(elementary.takes_series)(lambda x: lambda x: True)
     overload(elementary.below)(lambda x, limit: lambda x, limit: x < limit)
     overload(rows.borrowed)(lambda array: lambda array: _without_references(array))  # type: ignore[call-arg]
     for module in _modules():
@@ -55,7 +59,7 @@ def _register() -> None:
 # Products and sums may be fused; nothing else is reordered, and NaN and infinities are what they are.
 OPTIONS: dict = {"error_model": "numpy", "fastmath": {"contract"}}
 # Called once for each element of a batch: as functions of their own they would cost a third more.
-_INLINED = (compensated, exponential, logarithm)
+_INLINED = (arctangent, compensated, exponential, logarithm, quaternion)
 _registered: set[str] = set()
 
 

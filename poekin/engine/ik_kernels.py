@@ -14,7 +14,7 @@ import math
 import numpy as np
 
 from ..algebra import cross, dot
-from ..formulas import forward, least_squares, logarithm
+from ..formulas import forward, least_squares, quaternion
 from .arm_kernels import _one
 from .chain_kernels import _motions, _scratch
 from .ik_codes import (
@@ -78,7 +78,7 @@ def _rotation_error(R, S):
         S[2, 0] * R[1, 0] + S[2, 1] * R[1, 1] + S[2, 2] * R[1, 2],
         S[2, 0] * R[2, 0] + S[2, 1] * R[2, 1] + S[2, 2] * R[2, 2],
     )
-    w, x, y, z = logarithm.quaternion(product)
+    w, x, y, z = quaternion.quaternion(product)
     k = 2.0 / math.sqrt(w * w + x * x + y * y + z * z)
     return k * x, k * y, k * z
 

@@ -57,6 +57,11 @@ def atan2(y, x):
     return _functions(y).atan2(y, x)
 
 
+def takes_series(x):
+    """Whether a polynomial serves for x; numbers of many digits do without."""
+    return _FUNCTIONS.get(type(x), _FLOATS)[1]
+
+
 def below(x, limit):
     """Whether x is so small, x < limit, that a closed form would cancel; for exact numbers only x = 0 is."""
-    return x < limit if _FUNCTIONS.get(type(x), _FLOATS)[1] else x == 0
+    return x < limit if takes_series(x) else x == 0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from poekin.formulas import exp_jacobian, exponential, logarithm
+from poekin.formulas import exp_jacobian, exponential, logarithm, quaternion
 
 AXES = [np.array(a) / np.linalg.norm(a) for a in ((3, 2, 1), (1, -3, 2), (-2, 1, 3), (1, 1, -0.2))]
 V, NEAR_V = np.array([0.7, -1.1, 0.4]), np.array([0.2, 0.5, -0.3])
@@ -79,10 +79,10 @@ def test_the_logarithm_asked_for_is_found(turns, t):
 def test_the_quaternion_is_that_of_the_angle_and_at_pi_its_largest_component_is_positive():
     for axis in AXES:
         for t in ANGLES:
-            q = np.array(logarithm.quaternion(expm(hat(axis * t)).ravel()))
+            q = np.array(quaternion.quaternion(expm(hat(axis * t)).ravel()))
             same(q / np.linalg.norm(q), np.r_[math.cos(t / 2), math.sin(t / 2) * axis])
         half_turn = 2 * np.outer(axis, axis) - np.eye(3)
-        q = np.array(logarithm.quaternion(half_turn.ravel()))
+        q = np.array(quaternion.quaternion(half_turn.ravel()))
         same(q / np.linalg.norm(q), np.r_[0.0, axis * np.sign(axis[np.abs(axis).argmax()])])
 
 

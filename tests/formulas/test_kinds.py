@@ -10,6 +10,7 @@ import pytest
 
 from poekin import algebra, formulas
 from poekin.formulas import (
+    arctangent,
     coefficients,
     columns,
     compensated,
@@ -24,6 +25,7 @@ from poekin.formulas import (
     forward,
     least_squares,
     logarithm,
+    quaternion,
     recursive,
     screw_changes,
     structured,
@@ -112,6 +114,7 @@ CASES = [
     (compensated.square_rest, W, math.sqrt(0.5), 0.5),
     (compensated.quotient_rest, 0.7, 0.7 / 0.3, 0.3),
     (compensated.sum_rest, 0.7, -0.3, 0.7 - 0.3),
+    *[(arctangent.angle, y, 0.8) for y in (0.1, 0.7, 5.0)],
     (coefficients.polynomial, (0.5, -0.25, 0.125), 0.3),
     *[(coefficients.c_of, t * t, A[t]) for t in SIZES],
     *[(coefficients.d_of, t * t, E[t]) for t in SIZES],
@@ -124,7 +127,7 @@ CASES = [
     *[(exponential.so3, w) for w in (W, LONG, (0.0, 0.0, 0.0))],
     *[(exponential.se3, w, V) for w in (W, LONG, (0.0, 0.0, 0.0))],
     *[(exponential.joint, w, V, 0.4, math.sin(0.4), math.cos(0.4)) for w in ((0.6, 0.0, 0.8), (0.0, 0.0, 0.0))],
-    *[(logarithm.quaternion, R) for R in (R1, R2, TURNED)],
+    *[(f, R) for f in (quaternion.parts, quaternion.quaternion) for R in (R1, R2, TURNED)],
     *[(logarithm.so3, R) for R in (R1, R2, TURNED)],
     *[(logarithm.se3, T) for T in (T1, T2)],
     *[(logarithm.so3_near, R, w) for R in (R1, R2, TURNED) for w in (W, (2.5, -4.0, 4.0))],
@@ -207,7 +210,17 @@ def test_a_formula_gives_the_same_in_every_kind(case, kind):
 
 
 # exp, log and what belongs to them divide and compare: they are not traced, but for what they share with the chains.
-DIVIDE = (least_squares, coefficients, compensated, exponential, logarithm, exp_jacobian, defect)
+DIVIDE = (
+    least_squares,
+    coefficients,
+    arctangent,
+    compensated,
+    exponential,
+    quaternion,
+    logarithm,
+    exp_jacobian,
+    defect,
+)
 CHAIN_CASES = [case for case in CASES if inspect.getmodule(case[0]) not in DIVIDE or case[0] is exponential.joint]
 
 

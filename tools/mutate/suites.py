@@ -58,6 +58,8 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/formulas/": (_CHAIN_MATRICES, _KINDS, *_CHAINS, *_GROUPS),
     "poekin/formulas/coefficients.py": ("tests/formulas/test_coefficients.py", *_SMALL_ANGLES, _KINDS),
     "poekin/formulas/logarithm.py": (*_SMALL_ANGLES, _KINDS),
+    "poekin/formulas/quaternion.py": ("tests/formulas/test_quaternion.py", *_SMALL_ANGLES, _KINDS),
+    "poekin/formulas/arctangent.py": ("tests/formulas/test_arctangent.py", *_SMALL_ANGLES, _KINDS),
     "poekin/formulas/exponential.py": (_MATRICES, _CHAIN_MATRICES, *_SMALL_ANGLES, _KINDS),
     "poekin/formulas/exp_jacobian.py": (*_SMALL_ANGLES, _KINDS),
     "poekin/formulas/elementary.py": (_KINDS, *_SMALL_ANGLES),
