@@ -183,11 +183,11 @@ def test_every_module_has_tests_that_exist():
     "module, test",
     [
         ("formats/urdf", "formats/test_urdf"),
-        ("formats/emit/c", "formats/test_emit_c"),
+        ("formats/ur/files", "formats/test_ur_files"),
         ("solve/followed", "solve/test_follow"),  # by what imports it
         ("testing/planted_changes", "analysis/test_compare"),  # by the tests that import it
         ("engine/follow_kernels", "solve/test_follow"),
-        ("model/walk", "model/test_idealised"),
+        ("model/layout", "model/test_robot"),
         ("solve/calibration/measurement", "solve/calibration/test_measurements"),
     ],
 )

@@ -127,6 +127,15 @@ NEAR: dict[str, tuple[str, ...]] = {
         "tests/engine/test_trace.py", "tests/engine/test_program.py", "tests/analysis/test_count.py",
         "tests/model/test_compiled.py"),
     "poekin/engine/tree_kernels.py": ("tests/model/test_tree.py", "tests/model/test_robot.py"),
+    "poekin/model/chain.py": (*_CHAINS, "tests/model/test_coordinates.py", "tests/model/test_pitches.py"),
+    "poekin/model/local.py": (*_CHAINS, "tests/model/test_pitches.py", "tests/model/test_idealised.py"),
+    "poekin/model/walk.py": ("tests/model/test_walk.py", "tests/model/test_idealised.py"),
+    "poekin/model/idealise.py": ("tests/model/test_walk.py", "tests/model/test_idealised.py"),
+    "poekin/model/normals.py": ("tests/model/test_walk.py", "tests/model/test_idealised.py", "tests/model/test_hp.py",
+                                _DH[0], _DH[2]),
+    "poekin/model/evaluation.py": ("tests/model/test_evaluation.py", *_CHAINS),
+    "poekin/model/compiled.py": ("tests/model/test_compiled.py", "tests/model/test_chain_laws.py"),
+    "poekin/model/structure.py": ("tests/model/test_compiled.py", "tests/formulas/test_structured_matrices.py"),
     "poekin/model/screw.py": (
         "tests/model/test_screw_values.py", "tests/model/test_screw.py", "tests/model/test_parts.py", *_CHAINS),
 }  # fmt: skip
