@@ -135,7 +135,7 @@ NEAR: dict[str, tuple[str, ...]] = {
                                 _DH[0], _DH[2]),
     "poekin/model/evaluation.py": ("tests/model/test_evaluation.py", *_CHAINS),
     "poekin/model/compiled.py": ("tests/model/test_compiled.py", "tests/model/test_chain_laws.py"),
-    "poekin/model/structure.py": ("tests/model/test_compiled.py", "tests/formulas/test_structured_matrices.py"),
+    "poekin/model/structure.py": ("tests/model/test_structure.py", "tests/model/test_compiled.py"),
     "poekin/model/screw.py": (
         "tests/model/test_screw_values.py", "tests/model/test_screw.py", "tests/model/test_parts.py", *_CHAINS),
 }  # fmt: skip
