@@ -10,8 +10,7 @@ import poekin as pk
 from poekin.errors import FileError, InputError, ModelError
 from poekin.formats.dh import Row, Table, files
 from poekin.testing.dh_strategies import tables
-
-from .texts import says
+from tests.messages import says
 
 TOML = """
 convention = "modified"

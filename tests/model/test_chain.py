@@ -271,6 +271,28 @@ def test_random_stays_within_the_limits_and_in_one_turn_where_there_are_none():
     np.testing.assert_array_equal(fixed.random(0), [0.5] * 3)
 
 
+@pytest.mark.parametrize("limits, low, high", [
+    ([-np.inf, np.inf], [-np.pi, -1], [np.pi, 1]),
+    ([-0.5, np.inf], [-0.5, -0.5], [2 * np.pi - 0.5, 1.5]),
+    ([-np.inf, 0.25], [0.25 - 2 * np.pi, -1.75], [0.25, 0.25]),
+    ([-9.0, 8.0], [-9, -9], [8, 8]),
+])  # fmt: skip
+def test_a_coordinate_without_a_limit_is_drawn_within_one_turn_or_two_metres(limits, low, high):
+    turn, slide = [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]
+    chain = pk.Chain([turn, slide], np.eye(4), limits=[limits] * 2)
+    # of two joints on one coordinate the first says what it is
+    coupled = pk.Chain(
+        [turn, slide, slide, turn], np.eye(4), limits=[limits] * 2, coupling=[[1, 0], [2, 0], [0, 1], [0, 2]],
+        q_names=["a", "b"],
+    )  # fmt: skip
+    for each in (chain, coupled):
+        q = each.random(1, 2000)
+        np.testing.assert_allclose(q.min(axis=0), low, atol=0.02)
+        np.testing.assert_allclose(q.max(axis=0), high, atol=0.02)
+        assert (q >= low).all()
+        assert (q <= high).all()
+
+
 def test_limits_move_with_the_zero():
     a = arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]]).rezeroed([0.5, 1, 0.25])
     np.testing.assert_array_equal(a.limits, [[-1.5, 0.5], [-3, np.inf], [-0.25, 0.25]])

@@ -169,6 +169,26 @@ def test_batches_of_every_shape_go_straight_through(shape, frame):
     assert FAST.fk(q, out=out[0]) is out[0]
 
 
+@pytest.mark.skipif(FAST._interpreted, reason="nothing is compiled")
+def test_one_plain_configuration_goes_straight_to_the_machine_code(monkeypatch):
+    for name in ("fk_of_many", "jacobian_of_many", "fk_jacobian_of_many"):
+        monkeypatch.setattr(compiled.evaluation, name, None)  # the way that takes everything, and longer
+    q, T, J = Q[0].copy(), np.empty((4, 4)), np.empty((6, 7))
+    assert FAST.fk(q, out=T) is T
+    np.testing.assert_array_equal(FAST.fk(q), T)
+    for frame in (*NAMED, 0, "middle"):
+        assert FAST.jacobian(q, frame, out=J) is J
+        np.testing.assert_array_equal(FAST.jacobian(q, frame), J)
+        both = FAST.fk_jacobian(q, frame)
+        results = FAST.fk_jacobian(q, frame, out=(T, J))
+        assert results[0] is T
+        assert results[1] is J
+        np.testing.assert_array_equal(both[0], T)
+        np.testing.assert_array_equal(both[1], J)
+    with pytest.raises(TypeError):
+        FAST.fk(q.astype(np.float32))
+
+
 def test_the_middle_frame_is_where_it_says():
     k, _, T_km = FAST.middle
     np.testing.assert_allclose(pk.se3.adjoint(T_km) @ FAST.jacobian(Q, "middle"), ARM.jacobian(Q, k), rtol=0, atol=NEAR)

@@ -14,6 +14,7 @@ from poekin.errors import InputError, ModelError, PoekinError, PoseError, ShapeE
 from poekin.model.joint import KINDS, Joint, Mimic
 from poekin.model.parts import one_pose
 from poekin.testing.strategies import frozen, poses
+from tests.messages import says
 
 
 def joint(**fields) -> Joint:
@@ -90,44 +91,117 @@ def test_a_joint_is_frozen():
 
 
 FAULTS = {
-    "no name": ({"name": ""}, ModelError, "a name must be"),
-    "a name that is no string": ({"name": 7}, ModelError, "a name must be"),
-    "no parent": ({"parent": ""}, ModelError, "'j': parent"),
-    "no child": ({"child": None}, ModelError, "'j': child"),
-    "unknown kind": ({"kind": "ball"}, ModelError, "'j': kind must be one of revolute, .*'ball'"),
-    "NaN in the axis": ({"axis": (0, math.nan, 1)}, ModelError, "'j': axis: expected 3 finite"),
-    "two numbers for an axis": ({"axis": (0, 1)}, ModelError, "'j': axis: expected 3 finite"),
-    "text for an axis": ({"axis": "xyz"}, ModelError, "'j': axis"),
-    "lower above upper": ({"limits": (1, 0)}, ModelError, "'j': limits must be lower <= upper.*1.0.*0.0"),
-    "NaN in the limits": ({"limits": (math.nan, 0)}, ModelError, "lower <= upper"),
-    "one limit": ({"limits": (1,)}, ModelError, "two numbers"),
-    "a lower limit at infinity": ({"limits": (math.inf, math.inf)}, ModelError, "lower <= upper"),
-    "pitch of a revolute joint": ({"pitch": 0.1}, ModelError, "only a helical joint has a pitch"),
-    "infinite pitch": ({"kind": "helical", "pitch": math.inf}, ModelError, "pitch: expected 1 finite"),
-    "endless pitch": ({"kind": "helical", "pitch": -1e101}, ModelError, r"'j': pitch: expected at most 1e\+100"),
-    "an integer beyond all floats": ({"axis": (0, 0, 10**400)}, ModelError, "'j': axis: expected 3 finite"),
-    "a kind that is no word": ({"kind": []}, ModelError, r"kind must be one of .* got \[\]"),
+    "no name": ({"name": ""}, ModelError, "a joint: a name must be a string that is not empty, got ''"),
+    "a name that is no string": ({"name": 7}, ModelError, "a joint: a name must be a string that is not empty, got 7"),
+    "no parent": ({"parent": ""}, ModelError, "joint 'j': parent: a name must be a string that is not empty, got ''"),
+    "no child": ({"child": None}, ModelError, "joint 'j': child: a name must be a string that is not empty, got None"),
+    "unknown kind": (
+        {"kind": "ball"},
+        ModelError,
+        "joint 'j': kind must be one of revolute, continuous, prismatic, helical, fixed, floating, planar, got 'ball'",
+    ),
+    "NaN in the axis": (
+        {"axis": (0, math.nan, 1)},
+        ModelError,
+        "joint 'j': axis: expected 3 finite number(s), got (0, nan, 1)",
+    ),
+    "two numbers for an axis": (
+        {"axis": (0, 1)},
+        ModelError,
+        "joint 'j': axis: expected 3 finite number(s), got (0, 1)",
+    ),
+    "text for an axis": ({"axis": "xyz"}, ModelError, "joint 'j': axis: expected 3 finite number(s), got 'xyz'"),
+    "lower above upper": (
+        {"limits": (1, 0)},
+        ModelError,
+        "joint 'j': limits must be lower <= upper, got lower = 1.0, upper = 0.0",
+    ),
+    "NaN in the limits": (
+        {"limits": (math.nan, 0)},
+        ModelError,
+        "joint 'j': limits must be lower <= upper, got lower = nan, upper = 0.0",
+    ),
+    "one limit": ({"limits": (1,)}, ModelError, "joint 'j': limits must be two numbers, lower and upper, got (1,)"),
+    "a lower limit at infinity": (
+        {"limits": (math.inf, math.inf)},
+        ModelError,
+        "joint 'j': limits must be lower <= upper, got lower = inf, upper = inf",
+    ),
+    "pitch of a revolute joint": (
+        {"pitch": 0.1},
+        ModelError,
+        "joint 'j': only a helical joint has a pitch, and this one is revolute",
+    ),
+    "infinite pitch": (
+        {"kind": "helical", "pitch": math.inf},
+        ModelError,
+        "joint 'j': pitch: expected 1 finite number(s), got (inf,)",
+    ),
+    "endless pitch": (
+        {"kind": "helical", "pitch": -1e101},
+        ModelError,
+        "joint 'j': pitch: expected at most 1e+100 m per rad, got -1e+101",
+    ),
+    "an integer beyond all floats": (
+        {"axis": (0, 0, 10**400)},
+        ModelError,
+        "joint 'j': axis: expected 3 finite number(s), got (0, 0, 10000...",
+    ),
+    "a kind that is no word": (
+        {"kind": []},
+        ModelError,
+        "joint 'j': kind must be one of revolute, continuous, prismatic, helical, fixed, floating, planar, got []",
+    ),
     "an origin out of reach": (
         {"origin": [[1, 0, 0, 0], [0, 1, 0, -1e155], [0, 0, 1, 0], [0, 0, 0, 1]]},
         InputError,
-        r"'j': origin: expected lengths of at most 1e\+100 m, got -1e\+155 in row 1",
+        "joint 'j': origin: expected lengths of at most 1e+100 m, got -1e+155 in row 1",
     ),
-    "mimic by name": ({"mimic": "k"}, ModelError, "mimic must be a Mimic"),
-    "floating mimic": ({"kind": "floating", "mimic": Mimic("k")}, ModelError, "floating joint has no single value"),
-    "origin 3x3": ({"origin": np.eye(3)}, ShapeError, r"'j': origin.*\(3, 3\)"),
-    "many origins": ({"origin": np.zeros((2, 4, 4))}, ShapeError, r"\(2, 4, 4\)"),
-    "text in the origin": ({"origin": [["x"] * 4] * 4}, InputError, "'j': origin"),
-    "NaN in the origin": ({"origin": np.diag([1, 1, math.nan, 1])}, PoseError, "row 2"),
-    "skewed origin": ({"origin": np.diag([1, 1, 1.1, 1])}, PoseError, "0.21"),
-    "mirrored origin": ({"origin": np.diag([1, 1, -1, 1])}, PoseError, "reflection"),
-    "last row of the origin": ({"origin": np.diag([1, 1, 1, 2])}, PoseError, "last row"),
+    "mimic by name": ({"mimic": "k"}, ModelError, "joint 'j': mimic must be a Mimic or None, got 'k'"),
+    "floating mimic": (
+        {"kind": "floating", "mimic": Mimic("k")},
+        ModelError,
+        "joint 'j': a floating joint has no single value and cannot mimic another joint",
+    ),
+    "origin 3x3": ({"origin": np.eye(3)}, ShapeError, "joint 'j': origin: expected shape (..., 4, 4), got (3, 3)"),
+    "many origins": (
+        {"origin": np.zeros((2, 4, 4))},
+        ShapeError,
+        "joint 'j': origin: expected one pose (4, 4), got shape (2, 4, 4)",
+    ),
+    "text in the origin": (
+        {"origin": [["x"] * 4] * 4},
+        InputError,
+        "joint 'j': origin: expected real numbers, got str32 (list)",
+    ),
+    "NaN in the origin": (
+        {"origin": np.diag([1, 1, math.nan, 1])},
+        PoseError,
+        "joint 'j': origin: expected finite numbers, row 2 is [0.0, 0.0, nan, 0.0]",
+    ),
+    "skewed origin": (
+        {"origin": np.diag([1, 1, 1.1, 1])},
+        PoseError,
+        "joint 'j': origin is no pose: its rotation misses orthonormality, max abs(R R^T - I) = 0.21, ...",
+    ),
+    "mirrored origin": (
+        {"origin": np.diag([1, 1, -1, 1])},
+        PoseError,
+        "joint 'j': origin is no pose: its rotation is a reflection, det R = -1, expected 1",
+    ),
+    "last row of the origin": (
+        {"origin": np.diag([1, 1, 1, 2])},
+        PoseError,
+        "joint 'j': origin is no pose: its last row is [0.0, 0.0, 0.0, 2.0], expected [0, 0, 0, 1]",
+    ),
 }
 
 
 @pytest.mark.parametrize("fields, error, message", FAULTS.values(), ids=FAULTS)
 def test_what_is_no_joint_is_refused_by_name(fields, error, message):
-    with pytest.raises(error, match=message) as caught:
+    with pytest.raises(error) as caught:
         joint(**fields)
+    assert says(caught.value, message)
     assert isinstance(caught.value, PoekinError)
     assert "\n" not in str(caught.value)
 

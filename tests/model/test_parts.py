@@ -69,18 +69,27 @@ def test_a_pose_made_exact_is_kept(R, t):
 @pytest.mark.parametrize(
     "T, error, message",
     [
-        (np.diag([1, 1, np.nan, 1]), PoseError, "P: expected finite numbers, row 2"),
-        (np.diag([1, 1, 1.1, 1]), PoseError, r"P is no pose: its rotation misses orthonormality, .* = 0.21"),
-        (np.diag([1, 1, 1e200, 1]), PoseError, "P is no pose"),
-        (np.diag([1, 1, -1, 1]), PoseError, "P is no pose: its rotation is a reflection"),
-        (np.diag([1, 1, 1, 2]), PoseError, "P is no pose: its last row"),
-        (np.zeros((4, 4)), PoseError, "P is no pose"),
-        (np.zeros((2, 4, 4)), ShapeError, r"one pose \(4, 4\), got shape \(2, 4, 4\)"),
+        (np.diag([1, 1, np.nan, 1]), PoseError, "P: expected finite numbers, row 2 is [0.0, 0.0, nan, 0.0]"),
+        (
+            np.diag([1, 1, 1.1, 1]),
+            PoseError,
+            "P is no pose: its rotation misses orthonormality, max abs(R R^T - I) = 0.21, accepted up to 1e-05",
+        ),
+        (
+            np.diag([1, 1, 1e200, 1]),
+            PoseError,
+            "P is no pose: its rotation misses orthonormality, max abs(R R^T - I) = inf, accepted up to 1e-05",
+        ),
+        (np.diag([1, 1, -1, 1]), PoseError, "P is no pose: its rotation is a reflection, det R = -1, expected 1"),
+        (np.diag([1, 1, 1, 2]), PoseError, "P is no pose: its last row is [0.0, 0.0, 0.0, 2.0], expected [0, 0, 0, 1]"),
+        (np.zeros((4, 4)), PoseError, "P is no pose: its last row is [0.0, 0.0, 0.0, 0.0], expected [0, 0, 0, 1]"),
+        (np.zeros((2, 4, 4)), ShapeError, "P: expected one pose (4, 4), got shape (2, 4, 4)"),
     ],
 )
 def test_what_is_no_pose_is_refused(T, error, message):
-    with pytest.raises(error, match=message):
+    with pytest.raises(error) as caught:
         one_pose(T, "P")
+    assert str(caught.value) == message
 
 
 @pytest.mark.parametrize("length", [1e101, -1e155, 1e308])

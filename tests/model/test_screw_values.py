@@ -127,28 +127,61 @@ def test_no_screws_are_screws_too():
 
 
 REFUSED = [
-    ([[0, 0, 1, 0, 0]], ShapeError, r"screws: expected shape \(n, 6\), one row \(omega; v\) a joint, got \(1, 5\)"),
-    ([0, 0, 1, 0, 0, 0], ShapeError, r"got \(6,\)"),
-    (np.zeros((2, 2, 6)), ShapeError, r"got \(2, 2, 6\)"),
-    (5.0, ShapeError, r"got \(\)"),
-    ([[0, 0, 1, 0, 0, 0, 0]], ShapeError, r"got \(1, 7\)"),
-    (np.zeros((2, 6, 6)), ShapeError, r"got \(2, 6, 6\)"),
-    (np.zeros((0, 5)), ShapeError, r"got \(0, 5\)"),
-    ([[0, 0, 1 + 1.1e-9, 0, 0, 0]], ScrewError, r"screws\[0\]: omega must have length 1 to 1e-09, got 1.0000000011"),
-    ([[0, 0, 1 - 1.1e-9, 0, 0, 0]], ScrewError, r"screws\[0\]: omega must have length 1 to 1e-09, got 0.9999999989"),
-    ([[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 2, 0]], ScrewError, r"screws\[1\]: v, where omega = 0, must have .* got 2 "),
-    ([[0, 0, 0, 0, 0, 0]], ScrewError, r"v, where omega = 0, must have length 1 .* got 0 in"),
-    ([[1e-12, 0, 0, 0, 1, 0]], ScrewError, r"omega must have length 1 .* got 1e-12"),
-    ([[0, 0, 1, 0, np.nan, 0]], ScrewError, r"screws\[0\]: expected finite numbers of at most 1e\+100, got \[0.0, "),
-    ([[0, 0, 1, -np.inf, 0, 0]], ScrewError, r"expected finite numbers"),
-    ([[0, 0, 1, -1.01e100, 0, 0]], ScrewError, r"expected finite numbers of at most 1e\+100"),
-]  # fmt: skip
+    ([[0, 0, 1, 0, 0]], ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (1, 5)"),
+    ([0, 0, 1, 0, 0, 0], ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (6,)"),
+    (np.zeros((2, 2, 6)), ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (2, 2, 6)"),
+    (5.0, ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got ()"),
+    ([[0, 0, 1, 0, 0, 0, 0]], ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (1, 7)"),
+    (np.zeros((2, 6, 6)), ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (2, 6, 6)"),
+    (np.zeros((0, 5)), ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (0, 5)"),
+    (
+        [[0, 0, 1 + 1.1e-9, 0, 0, 0]],
+        ScrewError,
+        "screws[0]: omega must have length 1 to 1e-09, got 1.0000000011 in [0.0, 0.0, 1.0000000011, 0.0, 0.0, 0.0]",
+    ),
+    (
+        [[0, 0, 1 - 1.1e-9, 0, 0, 0]],
+        ScrewError,
+        "screws[0]: omega must have length 1 to 1e-09, got 0.9999999989 in [0.0, 0.0, 0.9999999989, 0.0, 0.0, 0.0]",
+    ),
+    (
+        [[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 2, 0]],
+        ScrewError,
+        "screws[1]: v, where omega = 0, must have length 1 to 1e-09, got 2 in [0.0, 0.0, 0.0, 0.0, 2.0, 0.0]",
+    ),
+    (
+        [[0, 0, 0, 0, 0, 0]],
+        ScrewError,
+        "screws[0]: v, where omega = 0, must have length 1 to 1e-09, got 0 in [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]",
+    ),
+    (
+        [[1e-12, 0, 0, 0, 1, 0]],
+        ScrewError,
+        "screws[0]: omega must have length 1 to 1e-09, got 1e-12 in [1e-12, 0.0, 0.0, 0.0, 1.0, 0.0]",
+    ),
+    (
+        [[0, 0, 1, 0, np.nan, 0]],
+        ScrewError,
+        "screws[0]: expected finite numbers of at most 1e+100, got [0.0, 0.0, 1.0, 0.0, nan, 0.0]",
+    ),
+    (
+        [[0, 0, 1, -np.inf, 0, 0]],
+        ScrewError,
+        "screws[0]: expected finite numbers of at most 1e+100, got [0.0, 0.0, 1.0, -inf, 0.0, 0.0]",
+    ),
+    (
+        [[0, 0, 1, -1.01e100, 0, 0]],
+        ScrewError,
+        "screws[0]: expected finite numbers of at most 1e+100, got [0.0, 0.0, 1.0, -1.01e+100, 0.0, 0.0]",
+    ),
+]
 
 
 @pytest.mark.parametrize("screws, error, message", REFUSED, ids=[f"{i}" for i in range(len(REFUSED))])
 def test_what_is_no_screw_is_said(screws, error, message):
-    with pytest.raises(error, match=message):
+    with pytest.raises(error) as caught:
         screw.checked(screws)
+    assert str(caught.value) == message
 
 
 def test_the_longest_number_is_still_one():
@@ -166,17 +199,38 @@ def test_the_joint_is_named_where_its_name_is_known():
 @pytest.mark.parametrize(
     "call, error, message",
     [
-        (lambda: pk.screw.prismatic([0, 0, 0]), ScrewError, r"axis: expected a direction, got the zero vector"),
-        (lambda: pk.screw.prismatic([[0, 0, 1]]), InputError, r"axis: expected one finite vector \(3,\), got \[\["),
-        (lambda: pk.screw.prismatic([0, np.inf, 0]), InputError, r"axis: expected one finite vector"),
-        (lambda: pk.screw.revolute(Z, [[0, 0, 0]]), InputError, r"expected a finite point \(3,\) and pitch, got point"),
-        (lambda: pk.screw.revolute(Z, [0, 0]), ShapeError, r"point: expected shape \(..., 3\), got \(2,\)"),
-        (lambda: pk.screw.helical(Z, P, np.nan), InputError, r"and pitch, got point .* and pitch nan"),
-        (lambda: pk.screw.helical(Z, [np.nan, 0, 0], 1.0), InputError, r"expected a finite point"),
-        (lambda: pk.screw.axis_of([0, 0, 1]), ShapeError, r"screw: expected shape \(..., 6\), got \(3,\)"),
+        (lambda: pk.screw.prismatic([0, 0, 0]), ScrewError, "axis: expected a direction, got the zero vector"),
+        (
+            lambda: pk.screw.prismatic([[0, 0, 1]]),
+            InputError,
+            "axis: expected one finite vector (3,), got [[0.0, 0.0, 1.0]]",
+        ),
+        (
+            lambda: pk.screw.prismatic([0, np.inf, 0]),
+            InputError,
+            "axis: expected one finite vector (3,), got [0.0, inf, 0.0]",
+        ),
+        (
+            lambda: pk.screw.revolute(Z, [[0, 0, 0]]),
+            InputError,
+            "expected a finite point (3,) and pitch, got point [[0.0, 0.0, 0.0]] and pitch 0.0",
+        ),
+        (lambda: pk.screw.revolute(Z, [0, 0]), ShapeError, "point: expected shape (..., 3), got (2,)"),
+        (
+            lambda: pk.screw.helical(Z, P, np.nan),
+            InputError,
+            "expected a finite point (3,) and pitch, got point [0.3, -1.2, 2.5] and pitch nan",
+        ),
+        (
+            lambda: pk.screw.helical(Z, [np.nan, 0, 0], 1.0),
+            InputError,
+            "expected a finite point (3,) and pitch, got point [nan, 0.0, 0.0] and pitch 1.0",
+        ),
+        (lambda: pk.screw.axis_of([0, 0, 1]), ShapeError, "screw: expected shape (..., 6), got (3,)"),
     ],
     ids=["zero", "two axes", "infinite", "two points", "short point", "pitch", "point", "short screw"],
 )
 def test_what_makes_no_screw_is_said(call, error, message):
-    with pytest.raises(error, match=message):
+    with pytest.raises(error) as caught:
         call()
+    assert str(caught.value) == message

@@ -10,6 +10,7 @@ import pytest
 from poekin.errors import ModelError
 from poekin.model.joint import Joint, Mimic
 from poekin.model.robot import Robot
+from tests.messages import says
 
 
 def revolute(name: str, parent: str, child: str, **fields) -> Joint:
@@ -17,50 +18,70 @@ def revolute(name: str, parent: str, child: str, **fields) -> Joint:
 
 
 NO_TREES = {
-    "no links": ([], [], "at least one link"),
-    "a link twice": (["a", "a"], [], "link name 'a' is used twice"),
+    "no links": ([], [], "robot 'r': a robot needs at least one link, this one has none"),
+    "a link twice": (["a", "a"], [], "robot 'r': the link name 'a' is used twice (first: robot 'r')"),
     "a joint twice": (
         ["a", "b", "c"],
         [revolute("j", "a", "b"), revolute("j", "b", "c")],
-        "joint name 'j' is used twice",
+        "robot 'r': the joint name 'j' is used twice (first: robot 'r')",
     ),
-    "a nameless link": ([""], [], "a link needs a name"),
-    "a link that is no name": ([7], [], "a link needs a name"),
-    "an unknown parent": (["left", "b"], [revolute("j", "lift", "b")], "'j': its parent link 'lift' .* 'left'"),
-    "an unknown child": (["a", "right"], [revolute("j", "a", "rigth")], "'j': its child link 'rigth' .* 'right'"),
-    "two roots": (["a", "b", "c"], [revolute("j", "a", "b")], "2 links have no parent: 'a' .*'c'"),
+    "a nameless link": ([""], [], "robot 'r': a link needs a name that is not empty, got ''"),
+    "a link that is no name": ([7], [], "robot 'r': a link needs a name that is not empty, got 7"),
+    "an unknown parent": (
+        ["left", "b"],
+        [revolute("j", "lift", "b")],
+        "robot 'r': joint 'j': its parent link 'lift' does not exist; did you mean 'left'?",
+    ),
+    "an unknown child": (
+        ["a", "right"],
+        [revolute("j", "a", "rigth")],
+        "robot 'r': joint 'j': its child link 'rigth' does not exist; did you mean 'right'?",
+    ),
+    "two roots": (
+        ["a", "b", "c"],
+        [revolute("j", "a", "b")],
+        "robot 'r': a robot has one root, but 2 links have no parent: 'a' (robot 'r'), 'c' (robot 'r')",
+    ),
     "two parents": (
         ["a", "b", "c"],
         [revolute("i", "a", "c"), revolute("j", "b", "c")],
-        "'c' has two parents.*'j'.*'i'",
+        "robot 'r': link 'c' has two parents: joint 'j' and joint 'i' (robot 'r')",
     ),
-    "a joint onto itself": (["a", "b"], [revolute("j", "b", "b")], "cycle of 1 joint"),
-    "nothing but a cycle": (["a", "b"], [revolute("i", "a", "b"), revolute("j", "b", "a")], "cycle of 2 joint"),
+    "a joint onto itself": (
+        ["a", "b"],
+        [revolute("j", "b", "b")],
+        "robot 'r': the links form a cycle of 1 joint(s): 'b'",
+    ),
+    "nothing but a cycle": (
+        ["a", "b"],
+        [revolute("i", "a", "b"), revolute("j", "b", "a")],
+        "robot 'r': the links form a cycle of 2 joint(s): 'a' -> 'b'",
+    ),
     "a cycle beside the tree": (
         ["o", "a", "b", "c"],
         [revolute("i", "a", "b"), revolute("j", "b", "a"), revolute("k", "b", "c")],
-        "cycle of 2 joint.*: '[ab]' -> '[ab]'$",
+        "robot 'r': the links form a cycle of 2 joint(s): 'a' -> 'b'",
     ),
-    "no joint": (["a"], ["j"], "must be Joint objects"),
-    "one text for all links": ("a", [], "'r': links must be a list, got 'a'"),
-    "a number for links": (5, [], "'r': links must be a list, got 5"),
-    "links in no order": ({"a", "b"}, [], "'r': links must be a list"),
-    "nothing for joints": (["a"], None, "'r': joints must be a list, got None"),
+    "no joint": (["a"], ["j"], "robot 'r': joints must be Joint objects, got 'j'"),
+    "one text for all links": ("a", [], "robot 'r': links must be a list, got 'a'"),
+    "a number for links": (5, [], "robot 'r': links must be a list, got 5"),
+    "links in no order": ({"a", "b"}, [], "robot 'r': links must be a list, got {..."),
+    "nothing for joints": (["a"], None, "robot 'r': joints must be a list, got None"),
     "mimic of an unknown joint": (
         ["a", "b"],
         [revolute("j", "a", "b", mimic=Mimic("k"))],
-        "mimics 'k', which does not exist",
+        "robot 'r': joint 'j' mimics 'k', which does not exist; available: 'j'",
     ),
-    "mimic of itself": (["a", "b"], [revolute("j", "a", "b", mimic=Mimic("j"))], "'j' mimics itself$"),
+    "mimic of itself": (["a", "b"], [revolute("j", "a", "b", mimic=Mimic("j"))], "robot 'r': joint 'j' mimics itself"),
     "mimics in a circle": (
         ["a", "b", "c"],
         [revolute("i", "a", "b", mimic=Mimic("j")), revolute("j", "b", "c", mimic=Mimic("i"))],
-        "mimics itself, through others",
+        "robot 'r': joint 'i' mimics itself, through others",
     ),
     "mimic of a floating joint": (
         ["a", "b", "c"],
         [Joint("f", "floating", "a", "b"), revolute("j", "b", "c", mimic=Mimic("f"))],
-        "'j' mimics 'f', but a floating joint has no single value",
+        "robot 'r': joint 'j' mimics 'f', but a floating joint has no single value",
     ),
     "multipliers without end": (
         ["a", "b", "c", "d"],
@@ -69,15 +90,16 @@ NO_TREES = {
             revolute("j", "b", "c", mimic=Mimic("i", 1e200)),
             revolute("k", "c", "d", mimic=Mimic("j", 1e200)),
         ],
-        "'k': the product of its chain of multipliers is not finite",
+        "robot 'r': joint 'k': the product of its chain of multipliers is not finite",
     ),
 }
 
 
 @pytest.mark.parametrize("links, joints, message", NO_TREES.values(), ids=NO_TREES)
 def test_what_is_no_tree_is_refused_by_name(links, joints, message):
-    with pytest.raises(ModelError, match=message) as caught:
+    with pytest.raises(ModelError) as caught:
         Robot("r", links, joints)
+    assert says(caught.value, message)
     assert str(caught.value).isprintable()
 
 
