@@ -85,6 +85,16 @@ def test_a_file_is_looked_for_beside_the_model_wherever_the_process_stands(folde
             load(name)
 
 
+def test_includes_are_looked_for_beside_the_model_first_and_models_beside_the_file_that_names_them(folder):
+    bad = '<worldbody><body pos="0 nan 0"/></worldbody>'
+    there = folder(a='<include file="sub/b.xml"/>', sub__b='<include file="c.xml"/>', c=bad)
+    with pytest.raises(ModelError, match=r"c\.xml:1: <body>: pos must be finite"):
+        load(there / "a.xml")
+    there = folder(a='<include file="sub/b.xml"/>', sub__b=model("c"), c=model("a"), sub__c=bad)
+    with pytest.raises(ModelError, match=r"sub.c\.xml:1: <body>: pos must be finite"):
+        load(there / "a.xml")
+
+
 def test_a_folder_or_device_that_is_included_is_refused(folder):
     for name in (".", "/dev/zero", "&#xE000;.xml"):
         there = folder(a=f'<include file="{name}"/>')
