@@ -105,6 +105,8 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/testing/derivative_laws.py": ("tests/testing/test_chain_laws.py", "tests/model/test_derivatives.py"),
     **{f"poekin/testing/{name}.py": (f"tests/testing/test_{name}.py", *_BY_BYTES) for name in (
         "chain_strategies", "configuration_strategies", "near_strategies", "robot_strategies", "strategies")},
+    "poekin/testing/decoders.py": _BY_BYTES,
+    "poekin/testing/reader.py": _BY_BYTES,
     "poekin/testing/conform/": _CONFORM,
     **{f"poekin/testing/conform/{name}.py": (f"tests/testing/conform/test_{name}.py", *_CONFORM) for name in (
         "arm_cases", "child", "confirm", "grades", "named", "plugin", "precision", "small_urdf",

@@ -62,3 +62,61 @@ def test_the_adjoint_and_velocities_are_confirmed_and_a_wrong_one_is_not(monkeyp
     true = exact.adjoint
     monkeypatch.setattr(exact, "adjoint", lambda T: true(T) + exact.mp.mpf(10) ** -10)
     assert not confirm.of_adjoint(T)
+
+
+FAR = np.concatenate([XI[:3], 1000 * XI[3:]])  # |v| of 2000
+
+
+def _off(x: np.ndarray, place: int, by: float) -> np.ndarray:
+    other = np.array(x, dtype=object)
+    other.flat[place] += exact.mp.mpf(by)
+    return other
+
+
+@pytest.mark.parametrize("place", range(16))
+def test_60_digits_of_the_largest_number_are_asked_for_of_each(place):
+    truth = exact.exp(FAR)
+    limit = 1e-60 * (1 + float(max(abs(x) for x in truth.flat)))
+    for by, near in ((0.9 * limit, True), (-0.9 * limit, True), (1.1 * limit, False), (-1.1 * limit, False)):
+        assert confirm.is_exp(FAR, _off(truth, place, by)) == near
+    assert not confirm.is_exp(XI[:3], _off(exact.exp(XI[:3]), place % 9, 3e-60))
+
+
+def test_a_logarithm_is_held_to_60_digits_of_the_rotation_and_of_the_lengths():
+    X = exact.rounded(exact.exp(FAR))
+    truth = exact.log(X)
+    assert confirm.is_log(X, truth)
+    for k in range(6):
+        assert not confirm.is_log(X, _off(truth, k, 1e-55))
+    for k in range(3):
+        assert confirm.is_log(X, _off(truth, 3 + k, 1e-58))  # of 2000
+        assert not confirm.is_log(X[:3, :3], _off(truth[:3], k, 1e-58))
+    assert confirm.is_log(X[:3, :3], truth[:3])
+
+
+def test_a_half_turn_is_a_logarithm_and_more_is_none():
+    R = np.diag([1.0, -1.0, -1.0])
+    pi = exact.mp.pi
+    assert confirm.is_log(R, exact.exactly([1, 0, 0]) * pi)
+    assert confirm.is_log(R, exact.exactly([-1, 0, 0]) * pi)
+    assert not confirm.is_log(R, exact.exactly([3, 0, 0]) * pi)
+    # a rotation that leaves a symmetric factor, but is not near
+    assert not confirm.is_log(R, exact.exactly([0, 0, 0]))
+
+
+def test_velocities_are_asked_of_every_joint_and_number():
+    columns = exact.exactly(np.zeros((6, 2)))
+    columns[:, 0], columns[:, 1] = SCREWS[0], exact.adjoint(exact.exp(SCREWS[0] * X[0])) @ SCREWS[1]
+    assert confirm.of_velocities(SCREWS, HOME, X, columns)
+    for place in range(12):
+        assert not confirm.of_velocities(SCREWS, HOME, X, _off(columns, place, 1e-45))
+    assert confirm.of_velocities(SCREWS[:0], HOME, X[:0], columns[:, :0])
+    assert confirm.near(confirm.chain_of([SCREWS[0] * X[0], SCREWS[1] * X[1]]), exact.forward(SCREWS, np.eye(4), X))
+
+
+def test_each_number_of_an_adjoint_is_asked_for(monkeypatch):
+    true = exact.adjoint(T)
+    for place in range(36):
+        monkeypatch.setattr(exact, "adjoint", lambda T, place=place: _off(true, place, 1e-10))
+        assert not confirm.of_adjoint(T)
+        assert confirm.of_adjoint(T, 1e-9)
