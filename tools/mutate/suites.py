@@ -51,7 +51,8 @@ _SMALL_ANGLES = (_GROUP_MATRICES, "tests/formulas/test_coefficients.py", *_GROUP
 _BY_ARMS = ("tests/solve/test_ik.py", "tests/solve/test_ik_all.py", "tests/solve/test_follow.py")
 _BY_BYTES = ("tests/testing/test_bytes_read.py", "tests/testing/test_arguments.py", "tests/testing/test_strategies.py")
 _BY_LAWS = ("tests/testing/test_laws.py", "tests/groups/test_planted.py")
-_CONFORM = tuple(f"tests/testing/conform/test_{name}.py" for name in ("shrink", "false_findings", "subject", "faults"))
+_CASES = tuple(f"tests/testing/conform/test_{name}.py" for name in ("shrink", "false_findings", "subject"))
+_CONFORM = (*_CASES, "tests/testing/conform/test_faults.py")
 
 NEAR: dict[str, tuple[str, ...]] = {
     "poekin/algebra.py": (_MATRICES, _KINDS, _CHAIN_MATRICES, *_GROUPS, *_CHAINS),
@@ -106,12 +107,13 @@ NEAR: dict[str, tuple[str, ...]] = {
     **{f"poekin/testing/{name}.py": (f"tests/testing/test_{name}.py", *_BY_BYTES) for name in (
         "chain_strategies", "configuration_strategies", "near_strategies", "robot_strategies", "strategies")},
     "poekin/testing/decoders.py": _BY_BYTES,
+    "poekin/testing/planted_changes.py": ("tests/testing/test_planting.py", "tests/analysis/test_compare.py"),
     "poekin/testing/reader.py": _BY_BYTES,
     "poekin/testing/conform/": _CONFORM,
-    **{f"poekin/testing/conform/{name}.py": (f"tests/testing/conform/test_{name}.py", *_CONFORM) for name in (
+    **{f"poekin/testing/conform/{name}.py": (f"tests/testing/conform/test_{name}.py", *_CASES) for name in (
         "arm_cases", "child", "confirm", "grades", "named", "plugin", "precision", "small_urdf",
         "subject")},
-    **{f"poekin/testing/conform/{name}.py": ("tests/testing/conform/test_parts.py", *_CONFORM) for name in (
+    **{f"poekin/testing/conform/{name}.py": ("tests/testing/conform/test_parts.py", *_CASES) for name in (
         "of_arms", "of_groups")},
     "poekin/testing/conform/calls.py": ("tests/testing/conform/test_child.py", *_CONFORM),
     "poekin/testing/conform/limits.py": ("tests/testing/conform/test_child.py",),
