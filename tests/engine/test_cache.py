@@ -488,3 +488,13 @@ def test_without_compiling_everything_still_runs_and_an_arm_s_program_is_interpr
     compiled = [arm.jacobian([0.3, 0.4], frame)[0].round(3).tolist() for frame in ("body", "middle")]
     assert run(tmp_path, program, NUMBA_DISABLE_JIT="1") == (f"{RIGHT}\n{compiled}", "")
     assert not (tmp_path / ".cache" / "poekin").exists()
+
+
+def test_where_a_system_has_no_flags_for_links_and_pipes_files_are_opened_as_they_are(monkeypatch):
+    opened: list[int] = []
+    monkeypatch.setattr(os, "open", lambda path, flags: opened.append(flags))
+    cache._as_it_is("file", os.O_RDONLY)
+    monkeypatch.delattr(os, "O_NOFOLLOW", raising=False)
+    monkeypatch.delattr(os, "O_NONBLOCK", raising=False)
+    cache._as_it_is("file", os.O_RDWR)
+    assert opened[1] == os.O_RDWR

@@ -5,9 +5,11 @@ import time
 
 import numpy as np
 import pytest
+from numba.core import types
 
 import poekin as pk
 from poekin.engine import chain_kernels, group_kernels, tree_kernels
+from poekin.engine.compile import array_type
 from poekin.engine.kernel import Kernel
 
 ARM = pk.load("panda").chain(tip="panda_hand")
@@ -105,3 +107,11 @@ def test_nan_stays_in_its_element():
         assert np.isfinite(T[k]).all() == (k not in (2, 4))
         assert np.isfinite(J[k]).all() == (k not in (2, 4))
     assert np.isnan(ARM.fk(q[2])).any()
+
+
+def test_the_code_of_an_argument_says_what_it_is_and_how_many_axes_it_has():
+    assert array_type("int") == types.int64
+    for code, element, axes in (("i1", types.int64, 1), ("r1", types.float64, 1), ("r3", types.float64, 3)):
+        assert array_type(code) == types.Array(element, axes, "A", readonly=True, aligned=False)
+    for axes in (1, 5):
+        assert array_type(f"w{axes}") == types.Array(types.float64, axes, "C")

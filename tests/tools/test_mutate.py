@@ -186,7 +186,7 @@ def test_every_module_has_tests_that_exist():
         ("formats/ur/files", "formats/test_ur_files"),
         ("solve/followed", "solve/test_follow"),  # by what imports it
         ("testing/urdf_errors", "formats/test_urdf_text"),  # by the tests that import it
-        ("engine/follow_kernels", "solve/test_follow"),
+        ("engine/ik_codes", "engine/test_ik_kernels"),
         ("model/layout", "model/test_robot"),
         ("solve/calibration/measurement", "solve/calibration/test_measurements"),
     ],
