@@ -167,3 +167,18 @@ def reading(moved=(), offset=(), flipped=(), frames=0, link=0, far=100.0):
 ])  # fmt: skip
 def test_one_reading_is_better_than_another(better, worse):
     assert better.cost < worse.cost
+
+
+def test_each_joint_has_the_name_and_the_kind_of_either_model():
+    a, b = random_arm(2), random_arm(2)
+    S = b.screws.copy()
+    S[4] = screw.prismatic(S[4, :3])
+    a, b = (
+        Chain(rows, a.home, joint_names=[f"{name}{k}" for k in range(6)]) for rows, name in ((a.screws, "a"), (S, "b"))
+    )
+    joints = compare(a, b, samples=1).joints
+    assert [(j.number, j.name_a, j.name_b) for j in joints] == [(k + 1, f"a{k}", f"b{k}") for k in range(6)]
+    assert [(j.kind_a, j.kind_b, j.unit) for j in joints[3:5]] == [("revolute", "revolute", "deg"),
+                                                                   ("revolute", "prismatic", "deg")]  # fmt: skip
+    assert (joints[4].normal, joints[4].shift) == (None, None)
+    assert compare(b, a, samples=1).joints[4].unit == "mm"

@@ -139,6 +139,64 @@ def test_a_motion_in_words(twist, words):
     assert motion_words(np.array(twist, float)) == words
 
 
+@pytest.mark.parametrize(("twist", "words"), [
+    ([0, 0, 2.0, 0.039, 0, 0], "turning about the base's z axis"),
+    ([0, 0, 1.0, 0.021, 0, 0], "turning about the base's z axis while its origin is moving along the base's x axis by "
+     "0.021 m per rad"),
+    ([0, 0.039, 0, 2.0, 0, 0], "moving along the base's x axis"),
+    ([0, 0.021, 0, 1.0, 0, 0], "moving along the base's x axis while turning about the base's y axis by 0.021 rad per "
+     "m"),
+    ([0, np.sin(0.017), np.cos(0.017), 0, 0, 0], "turning about the base's z axis"),
+    ([0, np.sin(0.018), -np.cos(0.018), 0, 0, 0], "turning about (0.00, 0.02, -1.00)"),
+    ([-0.6, 0, 0.8, 0, 0, 0], "turning about (-0.60, 0.00, 0.80)"),
+])  # fmt: skip
+def test_a_motion_is_about_or_along_an_axis_of_the_base_within_a_degree(twist, words):
+    assert motion_words(np.array(twist, float)) == words
+
+
+def planar(lengths=(1.0, 1.0), slides=False):
+    """Two links in a plane, of which the second may slide instead."""
+    second = pk.screw.prismatic([1, 0, 0]) if slides else pk.screw.revolute([0, 0, 1], [lengths[0], 0, 0])
+    return pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0]), second], pk.se3.exp([0, 0, 0, sum(lengths), 0, 0]),
+                    joint_names=["one", "two"])  # fmt: skip
+
+
+def test_what_is_lost_is_in_metres_of_the_length_and_the_rates_have_their_signs():
+    # Stretched, two links of 1 m cannot move along themselves, and -1 at one with 2 at two leaves the tip.
+    rows = [*planar().screws, pk.screw.prismatic([0, 0, 1])]
+    arm = pk.Chain(rows, planar().home, joint_names=["one", "two", "up"])
+    found = singularity(arm, [0, 0, 0], part="translation", length=3.0)
+    np.testing.assert_allclose(found.lost, [0, 0, 0, 3, 0, 0], atol=1e-15)
+    np.testing.assert_allclose(found.idle, np.array([-1, 2, 0]) / np.sqrt(5), atol=1e-15)
+    np.testing.assert_allclose(found.singular_values, [np.sqrt(5), 1, 0], atol=1e-15)
+    assert (found.rank, found.distance) == (2, 0)
+    assert found.words.endswith(
+        "the tool cannot move by moving along the base's x axis. The rates 'two' +0.89, 'one' -0.45 leave it where it "
+        "is."
+    )
+    bent = singularity(arm, [0.0, 1e-3, 0], part="translation", length=3.0)
+    assert bent.distance == pytest.approx(1e-3, rel=1e-3)
+    np.testing.assert_allclose(bent.towards, [0, -1, 0], atol=1e-3)
+    assert bent.words.endswith("The rates 'two' +0.89, 'one' -0.45 leave it where it is, nearly.")
+    regular = singularity(arm, [0.0, 0.5, 0], part="translation")
+    quotient, rates = regular.smallest / regular.singular_values[0], {"one": regular.idle[0], "two": regular.idle[1]}
+    assert regular.condition == pytest.approx(1 / quotient)
+    assert regular.words == (
+        f"regular (smallest ÷ largest singular value {quotient:.3g}, tolerance 0.001): the nearest singularity is "
+        f"about {regular.distance:.2g} (rad and m) away, most of it in 'two'. What would be lost there: "
+        f"{motion_words(regular.lost)}; the rates for it: 'two' {rates['two']:+.2f}, 'one' {rates['one']:+.2f}."
+    )
+
+
+@pytest.mark.parametrize("slides, unit", [(False, "rad"), (True, "(rad and m)")])
+def test_the_distance_is_told_in_the_unit_of_the_coordinates(slides, unit):
+    arm = planar(slides=slides)
+    found = singularity(arm, [0.3, 1.2], part="pose")
+    assert f" {unit} away" in found.words or f"no singularity is within 1 {unit}" in found.words
+    slide = pk.Chain([pk.screw.prismatic([1, 0, 0])], np.eye(4))
+    assert "): to first order no singularity is within 1 m. What" in singularity(slide, [0.0]).words
+
+
 def test_it_is_a_dict_and_json():
     s = singularity(elbow_arm(), ELBOW)
     assert json.loads(s.to_json()) == s.as_dict()

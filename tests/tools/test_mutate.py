@@ -91,6 +91,13 @@ def test_without_the_future_import_annotations_run_and_are_changed():
     }
 
 
+def test_a_length_that_numpy_takes_for_whatever_is_left_is_no_mutant():
+    assert {m.new for m in mutants_of("f.py", "a = b.reshape(-1, 2)\n")} == {
+        f"a = b.reshape({first}, {second})"
+        for first, second in (("+1", 2), ("not 1", 2), ("1", 2), ("- 0", 2), ("-1", "1"), ("-1", "3"))
+    }
+
+
 def test_two_changes_that_give_the_same_text_count_once():
     some = [m for path in SOURCES if room(path) == "groups" for m in of(path)]
     assert len({m.key for m in some}) == len(some)

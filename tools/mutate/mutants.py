@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import itertools
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -26,6 +27,8 @@ PACKAGE = "poekin"
 
 # Whether two equal values are one object is the interpreter's affair, and no claim of a module.
 _UNDEFINED = ("core/ReplaceComparisonOperator_Eq_Is", "core/ReplaceComparisonOperator_NotEq_IsNot")
+# `reshape(-2)` is `reshape(-1)` to NumPy, which does not say so.
+_LENGTH = re.compile(r"reshape\((~\s*1|-\s*2)\b")
 _ARITHMETIC = {"arith_expr", "term", "power", "shift_expr", "expr", "and_expr", "xor_expr"}
 
 
@@ -94,6 +97,8 @@ def mutants_of(path: str, source: str) -> list[Mutant]:
             key = hashlib.sha256(whole.encode()).hexdigest()[:16]
             definition = ASTQuery(node).get_definition_name() or ""
             old, new = lines[at].strip(), after[found_at].strip()
+            if _LENGTH.search(new):
+                continue
             mutant = Mutant(path, name, occurrence, at + 1, definition, old, new, key, begin, end, text)
             found.setdefault(key, (start, mutant))
     return [mutant for _, mutant in sorted(found.values(), key=lambda pair: (pair[0], pair[1].operator, pair[1].key))]

@@ -90,8 +90,8 @@ def _solved(R: Array, c: Array, damping: float) -> Array:
         more = np.sqrt(damping) * np.maximum(np.linalg.norm(R, axis=0), np.finfo(float).tiny)
         R, c = np.concatenate([R, np.diag(more)]), np.concatenate([c, np.zeros(len(more))])
     elif regular(R):
-        return np.linalg.solve(R, -c).astype(float, copy=False)
-    return np.linalg.lstsq(R, -c, rcond=None)[0].astype(float, copy=False)
+        return np.asarray(np.linalg.solve(R, -c), float)
+    return np.asarray(np.linalg.lstsq(R, -c, rcond=None)[0], float)
 
 
 def regular(R: Array) -> bool:

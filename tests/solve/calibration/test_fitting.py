@@ -14,7 +14,7 @@ from poekin.solve import calibration
 from poekin.solve.calibration import EyeInHand, Poses, calibrate, fitting, losses
 from poekin.solve.calibration.fitting import frames_only
 from poekin.solve.calibration.identification import judged
-from poekin.solve.calibration.minimise import _exact, minimise
+from poekin.solve.calibration.minimise import _exact, _solved, minimise, regular
 from poekin.solve.calibration.noise import Noise, Spread
 from poekin.solve.calibration.parameters import Arm
 from poekin.solve.calibration.problem import Problem
@@ -202,3 +202,43 @@ def test_the_covariance_of_a_robust_loss_is_huber_s():
         size = np.sqrt(np.diag(expected))
         # The slopes are whitened by the spreads of the last search, which by then have changed by 1 % at most.
         assert fit.covariance / np.outer(size, size) == pytest.approx(expected / np.outer(size, size), abs=0.03)
+
+
+@pytest.mark.parametrize("size", [1e-5, 1e-3])
+def test_a_prior_draws_every_step_as_much_as_the_data_do(size):
+    q, T = noisy(10)
+    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T)])
+    free, noise = np.eye(problem.size), Noise(problem.sets, [Spread(1e-3, 1e-3)])
+    prior = np.where(np.arange(problem.size) % 3 > 0, size, np.inf)  # nothing is said of every third
+    found = minimise(problem, free, noise, "linear", np.zeros(problem.size), prior)
+    assert found.converged
+    assert len(found.steps) <= 6
+    assert all(step.damping == 0 for step in found.steps)
+    errors = noise.whitened(0, problem.errors(found.p)[0][..., None]).ravel()
+    slopes = np.concatenate([noise.whitened(0, D).reshape(-1, problem.size) for _, D in problem.linearised(found.p)])
+    pull = np.abs(slopes.T @ errors)
+    np.testing.assert_allclose(slopes.T @ errors + found.p / prior**2, 0, atol=1e-6 * pull.max())
+    assert pull[prior < np.inf].max() > 1
+    assert found.steps[0].cost == pytest.approx(
+        np.sum(noise.whitened(0, problem.errors(0 * found.p)[0][..., None]) ** 2)
+    )
+
+
+def test_a_triangle_is_regular_whose_diagonal_is_not_much_smaller_somewhere():
+    assert regular(np.diag([1.0, -2e-8]))
+    assert not regular(np.diag([1.0, 0.9e-8]))
+    assert not regular(np.diag([0.0]))
+    assert not regular(np.ones((1, 2)))
+    assert regular(np.empty((0, 0)))
+
+
+@pytest.mark.parametrize("damping", [0.0, 1e-3, 10.0])
+def test_a_damped_step_is_held_back_in_proportion_to_its_columns(damping):
+    rng = np.random.default_rng(0)
+    R, c = np.triu(rng.normal(size=(4, 4))) + np.diag([1, 10, 100, 1e3]), rng.normal(size=4)
+    z = _solved(R, c, damping)
+    held = damping * np.diag(np.sum(R**2, axis=0))
+    np.testing.assert_allclose((R.T @ R + held) @ z, -R.T @ c, rtol=1e-9)
+    # Of a singular one the shortest solution, and none of a column of nothing.
+    R[:, 2] = 0.0
+    assert _solved(R, c, damping)[2] == 0

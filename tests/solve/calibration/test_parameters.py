@@ -139,3 +139,20 @@ def test_a_pitch_makes_the_joint_helical():
 def test_what_cannot_be_free_is_refused(kinds, joints, error, words):
     with pytest.raises(error, match=words):
         Arm(PUMA, kinds, joints)
+
+
+def test_offsets_are_in_rad_or_m_as_their_coordinates_are_and_gains_in_neither():
+    turn, slide = pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([1, 0, 0])
+    chain = pk.Chain([turn, slide, turn], np.eye(4), joint_names=["turn", "slide", "last"])
+    found = Arm(chain, ("offsets", "gains", "pitch"), None).parameters
+    assert [(p.owner, p.what, p.unit) for p in found] == [
+        ("turn", "pitch", "m/rad"), ("last", "pitch", "m/rad"),
+        ("turn", "offset", "rad"), ("slide", "offset", "m"), ("last", "offset", "rad"),
+        ("turn", "gain", "1"), ("slide", "gain", "1"), ("last", "gain", "1"),
+    ]  # fmt: skip
+    home = Arm(chain, ("home",), None).parameters
+    assert [p.name for p in home] == [f"home: {how} {axis}" for how in ("turn about", "shift along") for axis in "xyz"]
+    # A coordinate that moves several joints is one offset of its own.
+    tied = pk.Chain([turn, slide, turn], np.eye(4), coupling=[[1, 0], [0, 1], [0.5, 0]], q_names=["a", "b"])
+    assert [p.name for p in Arm(tied, ("offsets",), None).parameters] == ["a: offset", "b: offset"]
+    assert [p.name for p in Arm(tied, ("offsets",), [tied.joint_names[2]]).parameters] == ["a: offset"]
