@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 import warnings
@@ -23,11 +24,13 @@ from poekin.model.chain import Chain
 from poekin.model.joint import FREE
 from poekin.model.robot import Robot
 from poekin.testing.attainable import UNIT
+from poekin.testing.chain_laws import budget
 from poekin.testing.chain_strategies import chains
 from poekin.testing.example_robots import example_robots
 from poekin.testing.pinocchio_oracle import PinocchioOracle
 from poekin.testing.urdf_errors import SAMPLES, pinocchio_error, values_of
 from tests.model.test_robot import random_q, robots, seeds, size
+from tests.model.test_robot import rounding as poses_rounding
 
 INF = math.inf
 
@@ -60,11 +63,17 @@ def differences(robot: Robot, other: Robot) -> list[str]:
     return found
 
 
-def pose_error(robot: Robot, other: Robot, seed: int) -> float:
-    """How far the poses of links of the same name are apart, ÷ the robot's size."""
-    q = random_q(robot, seed)
+def text_off(robot: Robot, other: Robot, seed: int, rows: int = 1) -> np.ndarray:
+    """How far the poses of links of the same name are apart ÷ what they may be, at so many configurations.
+
+    The text turns the frame of each of n joints by up to 1e-15 an entry, 27 u in Frobenius' norm, and all that is
+    behind it; the poses themselves are computed twice.
+    """
+    q = random_q(robot, seed, rows)
     mine, theirs = robot.fk(q), other.fk({name: q.get(name, 0.0) for name in other.q_names})
-    return max(np.abs(mine[link] - theirs[link]).max() for link in robot.links) / size(robot)
+    within = poses_rounding(robot, q) + 27 * UNIT * len(robot.joints)
+    worst = functools.reduce(np.maximum, (np.abs(mine[link] - theirs[link]).max(axis=(-2, -1)) for link in robot.links))
+    return np.atleast_1d(worst / size(robot) / within)
 
 
 @st.composite
@@ -104,7 +113,7 @@ def pull() -> Chain:
 def test_a_robot_comes_back_from_its_text(robot, seed):
     back = again(robot)
     assert differences(robot, back) == []
-    assert pose_error(robot, back, seed) <= 1e-14
+    assert text_off(robot, back, seed).max() <= 1
 
 
 def rounding(chain: Chain, seed: int) -> float:
@@ -123,10 +132,15 @@ def rounding(chain: Chain, seed: int) -> float:
     return UNIT * (94 * (n + 1) + 8 * X.sum(axis=1).max()) * far * 2 * driven
 
 
+def pinocchio_off(chain: Chain, seed: int) -> float:
+    """How far Pinocchio's poses and Jacobians of a chain's text are from the chain's ÷ `rounding`."""
+    return pinocchio_error(chain, quietly(to_urdf, chain), seed) / rounding(chain, seed)
+
+
 @given(chain=scaled_chains(), seed=seeds)
 @example(pull(), 0)
 def test_pinocchio_sees_a_chain_in_its_text(chain, seed):
-    assert pinocchio_error(chain, quietly(to_urdf, chain), seed) <= rounding(chain, seed)
+    assert pinocchio_off(chain, seed) <= 1
 
 
 @given(chain=chains(joint_kinds=("revolute", "prismatic"), offsets=False))
@@ -142,8 +156,14 @@ def test_a_chain_comes_back_from_its_text_to_the_last_digit_of_all_but_its_frame
     assert sorted(back.q_names) == sorted(limited.q_names)
     assert np.array_equal(back.coupling, limited.coupling[rows][:, order])
     assert np.array_equal(back.limits, limited.limits[order])
-    q = limited.random(0, 3)
-    assert np.abs(back.fk(q[:, order]) - limited.fk(q)).max() <= 1e-13 * limited.reach
+    # both chains' budgets, and for each frame the text's turn, the reader's sines and two products: 70 u
+    for q in limited.random(0, 3):
+        own = 70 * UNIT * (len(limited.screws) + 1)
+        far = limited.reach + np.abs(limited.local.slides * (limited.coupling @ q)).sum()
+        angular, linear = np.add(budget(limited, q), budget(back, q[order]))
+        off = np.abs(back.fk(q[order]) - limited.fk(q))
+        assert off[:3, :3].max() <= angular + own
+        assert off[:3, 3].max() <= linear + own * far
 
 
 ROBOTS = tuple(example_robots()[0])
@@ -209,7 +229,7 @@ def test_planted_errors_are_found_by_reading_back(plant):
     robot = serial_robot(limb())
     text = to_urdf(robot)
     right, wrong = (quietly(urdf.read_text, t) for t in (text, plant(text)))
-    assert pose_error(robot, right, 0) <= 1e-14
-    assert pose_error(robot, wrong, 0) > 1e-11
+    assert text_off(robot, right, 0).max() <= 1
+    assert text_off(robot, wrong, 0).max() > 10
     assert differences(robot, right) == []
     assert differences(robot, wrong)
