@@ -1,0 +1,1 @@
+"""Hunt for draws that break derived bounds: `python -m tools.hunt`."""

@@ -1,0 +1,187 @@
+"""The bounds that are hunted: cases, and the test's own function that measures error ÷ bound.
+
+One case holds many draws where the test's arithmetic is that of arrays; drawing by Hypothesis takes milliseconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from hypothesis import reject
+from hypothesis import strategies as st
+
+from poekin.errors import InputError
+from poekin.formats.dh import to_chain
+from poekin.formats.dh.from_chain import FromChain, from_chain
+from poekin.groups import se3
+from poekin.testing import chain_strategies, decoders, dh_strategies
+from poekin.testing.reader import Reader
+from tests.engine import test_interpret
+from tests.formats import test_dh, test_relink, test_urdf_text
+from tests.model import (
+    test_analytic,
+    test_compiled,
+    test_hp,
+    test_idealised,
+    test_joint,
+    test_robot,
+    test_screw,
+)
+from tests.solve import test_motions
+from tests.solve.calibration import test_parameters
+
+Cases = st.SearchStrategy[tuple[Any, ...]]
+NUMBERS = st.integers(0, 2**64 - 1)
+ROWS = 1000
+
+
+class Bound(NamedTuple):
+    """Cases, and error ÷ bound of each draw that one of them holds."""
+
+    cases: Cases
+    ratios: Callable[..., Any]
+
+
+def configurations(chain: Any, number: int, rows: int) -> np.ndarray:
+    """As `chain_strategies.coordinates` draws them, (rows, m): one in four a quarter turn or 0, the others up to ±π."""
+    rng = np.random.default_rng(number)
+    q = rng.uniform(-np.pi, np.pi, (rows, chain.dof))
+    return np.where(rng.random(q.shape) < 0.25, rng.choice(chain_strategies.QUARTERS, q.shape), q)
+
+
+def with_frames(chain: Any) -> Cases:
+    return st.tuples(st.just(chain), st.sampled_from([*test_compiled.NAMED, *range(len(chain.kinds))]), NUMBERS)
+
+
+@st.composite
+def with_parameters(draw: st.DrawFn) -> tuple[Any, ...]:
+    chain = draw(chain_strategies.chains(min_joints=1, max_joints=5))
+    kinds = draw(st.lists(st.sampled_from(test_parameters.KINDS), min_size=1, unique=True))
+    try:
+        arm = test_parameters.Arm(chain, kinds, None)
+    except InputError:
+        reject()
+    rng = np.random.default_rng(draw(NUMBERS))
+    return arm, 0.05 * rng.normal(size=len(arm.parameters)), rng.uniform(-2, 2, (50, chain.dof))
+
+
+PARAMETERS = with_parameters()
+
+
+def each(size: int, decode: Callable[[Reader], tuple[Any, ...]], ratio: Callable[..., float]) -> Bound:
+    """A bound of cases that are read off `size` random bytes each, five hundred at a time."""
+
+    def ratios(number: int) -> list[float]:
+        rng = np.random.default_rng(number)
+        return [ratio(*decode(Reader(rng.bytes(size)))) for _ in range(500)]
+
+    return Bound(st.tuples(NUMBERS), ratios)
+
+
+def axis(r: Reader) -> np.ndarray:
+    """A vector of any direction and length, from where floats end; never 0."""
+    return decoders.axis(r) * 10.0 ** r.fraction(*r.pick([(-3.0, 3.0), (-300.0, -290.0), (-3.0, 150.0)]))
+
+
+def point(r: Reader) -> np.ndarray:
+    return decoders.vector(r, (1e-12, 1e5))
+
+
+def pitch(r: Reader) -> float:
+    return r.pick([0.0, 1.0, -1.0]) * r.magnitude(1e-6, 10.0)
+
+
+def pairs(number: int) -> tuple[np.ndarray, np.ndarray]:
+    """Two poses each, the turn from one to the other near 0, near half a turn, or any; 1e-6 to 1e3 m."""
+    rng = np.random.default_rng(number)
+
+    def some() -> np.ndarray:
+        w, places = rng.normal(size=(2, ROWS, 3))
+        small, kind = 10.0 ** rng.uniform(-16, 0, ROWS), rng.integers(0, 3, ROWS)
+        angles = np.choose(kind, [small, np.pi - small, rng.uniform(0, np.pi, ROWS)])
+        lengths = 10.0 ** rng.uniform(-6, 3, (ROWS, 1))
+        return se3.exp(np.hstack([w * (angles / np.linalg.norm(w, axis=1))[:, None], places * lengths]))
+
+    first, turn = some(), some()
+    return first, np.where(rng.random((ROWS, 1, 1)) < 0.5, some(), first @ turn)
+
+
+def parts(number: int, rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """A part of a path, and how much further it goes."""
+    rng = np.random.default_rng(number)
+    return rng.uniform(0, 1, rows), rng.uniform(0.01, 0.5, rows)
+
+
+def share(result: FromChain) -> float:
+    return result.error / result.bound
+
+
+PAIRS = NUMBERS.map(pairs)
+BOUNDS = {
+    "machine code": Bound(
+        chain_strategies.chains(min_joints=1, max_joints=6).flatmap(with_frames),
+        lambda chain, frame, n: test_compiled.apart(chain, configurations(chain, n, 2000), (frame,), alone=False),
+    ),
+    "program": Bound(
+        chain_strategies.chains(max_joints=7).flatmap(with_frames),
+        lambda chain, frame, n: test_interpret.apart(chain, frame, configurations(chain, n, 200)),
+    ),
+    "link poses": Bound(
+        st.tuples(test_robot.robots(), NUMBERS),
+        lambda robot, n: test_robot.link_errors(robot, robot, n, 500),
+    ),
+    "chains between links": Bound(
+        st.tuples(test_robot.robots(max_joints=5), NUMBERS),
+        lambda robot, n: test_robot.chain_errors(robot, robot, n, 500),
+    ),
+    "directions and steps": Bound(
+        st.tuples(test_hp.REVOLUTE, NUMBERS),
+        lambda chain, n: test_hp.excess(chain, chain.to_hp(), configurations(chain, n, 500)),
+    ),
+    "idealised geometry": Bound(
+        st.tuples(chain_strategies.chains(), st.sampled_from([1e-9, 1e-5, 1e-3, 0.05]), NUMBERS),
+        lambda chain, tol, n: test_idealised.shares(chain, chain.idealised(tol), chain.random(n, 500)),
+    ),
+    "relinked branch": Bound(
+        st.tuples(test_relink.cases(), NUMBERS), lambda case, n: test_relink.off(case, n, rows=500)
+    ),
+    "relinked frames": Bound(st.tuples(test_relink.cases()), test_relink.frames_off),
+    "maps of rates": Bound(
+        st.tuples(chain_strategies.chains(max_joints=6), NUMBERS),
+        lambda chain, n: test_analytic.maps_off(chain, configurations(chain, n, 500)),
+    ),
+    "numbers of a pose": Bound(
+        st.tuples(chain_strategies.chains(max_joints=6), NUMBERS),
+        lambda chain, n: test_analytic.numbers_off(chain, configurations(chain, n, 500)),
+    ),
+    "parameters' slopes": Bound(PARAMETERS, lambda arm, p, q: test_parameters.slopes_off(arm, p, q, np.arange(len(p)))),
+    "parameters' chain": Bound(PARAMETERS, test_parameters.chain_off),
+    "robot out of its text": Bound(
+        st.tuples(test_urdf_text.limited(), NUMBERS),
+        lambda robot, n: test_urdf_text.text_off(robot, test_urdf_text.again(robot), n, 200),
+    ),
+    "chain in its text": Bound(st.tuples(test_urdf_text.scaled_chains(), NUMBERS), test_urdf_text.pinocchio_off),
+    "table's screws": Bound(st.tuples(dh_strategies.tables(), NUMBERS), test_dh.screws_off),
+    "chain's table": Bound(
+        st.tuples(
+            chain_strategies.chains(joint_kinds=("revolute", "prismatic")) | dh_strategies.tables().map(to_chain),
+            test_dh.CONVENTIONS,
+        ),
+        lambda chain, convention: share(from_chain(chain, convention=convention)),
+    ),
+    "screw of an axis": each(60, lambda r: (axis(r), point(r), pitch(r)), test_screw.made_off),
+    "axis of a screw": each(60, lambda r: (axis(r), point(r), pitch(r)), test_screw.read_off),
+    "point on an axis": each(60, lambda r: (axis(r), point(r), r.fraction(-7.0, 7.0)), test_screw.moved_off),
+    "joint's axis": each(40, lambda r: (axis(r).tolist(),), test_joint.axis_off),
+    "path's end": Bound(
+        st.tuples(st.sampled_from(test_motions.PATHS), PAIRS), lambda f, T: test_motions.end_off(f, T[0], T[1])
+    ),
+    "screw motion's twist": Bound(
+        st.tuples(PAIRS, NUMBERS), lambda T, n: test_motions.twist_off(T[0], T[1], *parts(n, ROWS))
+    ),
+    "straight line": Bound(
+        st.tuples(PAIRS, NUMBERS), lambda T, n: test_motions.line_off(T[0], T[1], parts(n, ROWS)[0])
+    ),
+}
