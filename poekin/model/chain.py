@@ -183,7 +183,9 @@ class Chain:
         """f' = P f: the same arm seen from another base frame; A' = Ad(P) A, M' = P M.
 
         Parameters: P (4, 4), the pose of the old base in the new one; base, its name. Returns: Chain.
-        Raises: PoseError, ShapeError. Accuracy: screws within 10 u reach. Source: Park 1994, Section II, f' = P f Q.
+        Raises: PoseError, ShapeError.
+        Accuracy: screws within 10 u (reach + |p|), u = 2^-53, p the translation of P (tests/model/test_chain.py).
+        Source: Park 1994, Section II, f' = P f Q.
         """
         P = one_pose(P, "P")
         return self._with(screws=self.screws @ se3.adjoint(P).T, home=P @ self.home, base=base or self.base)
@@ -192,7 +194,7 @@ class Chain:
         """f' = f Q: the same arm with another tool frame; A' = A, M' = M Q, so B' = Ad(Q)^-1 B.
 
         Parameters: Q (4, 4), the pose of the new tool in the old one; tip, its name. Returns: Chain.
-        Raises: PoseError, ShapeError. Accuracy: screws within 10 u reach. Source: Park 1994, Section II, f' = P f Q.
+        Raises: PoseError, ShapeError. Accuracy: screws as they are. Source: Park 1994, Section II, f' = P f Q.
         """
         return self._with(home=self.home @ one_pose(Q, "Q"), tip=tip or self.tip)
 

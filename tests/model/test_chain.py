@@ -6,9 +6,13 @@ import threading
 
 import numpy as np
 import pytest
+from hypothesis import given
 
 import poekin as pk
 from poekin.errors import InputError, PoseError, ScrewError, ShapeError, UnknownName
+from poekin.testing import chain_strategies, exact
+from poekin.testing.attainable import UNIT
+from poekin.testing.strategies import poses
 
 RZ = pk.screw.revolute([0, 0, 1], [0, 0, 0])
 RY = pk.screw.revolute([0, 1, 0], [0, 0, 0.5])
@@ -18,6 +22,29 @@ HOME = pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3])
 
 def arm(**options):
     return pk.Chain([RZ, RY, PX], HOME, joint_names=["pan", "lift", "slide"], **options)
+
+
+def rebased_off(chain, P):
+    """How far the screws of a rebased chain are from Ad(P) A ÷ what `rebased` says.
+
+    An entry of [p] R is off by 2 u |p|, and a sum of six products by 6 u (|p| + |v|) in m and 6 u in rad.
+    """
+    off = np.abs(chain.rebased(P).screws - exact.rounded(exact.exactly(chain.screws) @ exact.adjoint(P).T))
+    return max(off[:, :3].max(), off[:, 3:].max() / (chain.reach + np.linalg.norm(P[:3, 3]))) / (10 * UNIT)
+
+
+@given(chain_strategies.chains(min_joints=1, max_joints=4), poses(lengths=(1e-3, 1e6)))
+def test_a_rebased_chain_is_as_exact_as_the_way_is_long(chain, P):
+    assert rebased_off(chain, P) <= 1
+
+
+def test_a_chain_that_comes_back_from_far_has_the_rounding_of_the_way():
+    """Neither the reach of the one nor that of the other chain bounds it."""
+    there = pk.se3.exp([0.1, 0.2, 0.3, 1e5, -2e5, 3e5])
+    back = arm().rebased(there)
+    P = pk.se3.inverse(there)
+    assert back.rebased(P).reach < 10
+    assert 1e-3 < rebased_off(back, P) <= 1
 
 
 def test_example_1_of_the_paper():

@@ -18,10 +18,12 @@ from poekin.formats.dh.from_chain import FromChain, from_chain
 from poekin.groups import se3
 from poekin.testing import chain_strategies, decoders, dh_strategies
 from poekin.testing.reader import Reader
+from poekin.testing.strategies import poses
 from tests.engine import test_interpret
 from tests.formats import test_dh, test_relink, test_urdf_text
 from tests.model import (
     test_analytic,
+    test_chain,
     test_compiled,
     test_hp,
     test_idealised,
@@ -170,6 +172,10 @@ BOUNDS = {
             test_dh.CONVENTIONS,
         ),
         lambda chain, convention: share(from_chain(chain, convention=convention)),
+    ),
+    "rebased screws": Bound(
+        st.tuples(chain_strategies.chains(min_joints=1, max_joints=4), poses(lengths=(1e-3, 1e6))),
+        test_chain.rebased_off,
     ),
     "screw of an axis": each(60, lambda r: (axis(r), point(r), pitch(r)), test_screw.made_off),
     "axis of a screw": each(60, lambda r: (axis(r), point(r), pitch(r)), test_screw.read_off),

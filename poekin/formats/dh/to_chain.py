@@ -34,8 +34,8 @@ def to_chain(table: Table) -> Chain:
     """The chain of a table: A_i = Ad(K_0 ... K_{i-1}) P_i and M = K_0 ... K_n; a flipped joint's screw is reversed.
 
     Parameters: table. Returns: Chain with the table's names and limits. Raises: InputError for what is no Table.
-    Accuracy: pose within 1e-13 reach where |d| and |a| are at most 10 reach, else within
-    100 u n (reach + max(|d|, |a|)), u = 2^-53 (tests/formats/test_dh.py). Source: Park 1994, Section II.
+    Accuracy: pose within 8 u (n + 1) (2 + sum |x|) of the reach and what slides, u = 2^-53, where |d| and |a| are at
+    most the reach; longer ones count in place of it (tests/formats/test_dh.py). Source: Park 1994, Section II.
     """
     if not isinstance(table, Table):
         raise InputError(f"to_chain: expected a dh.Table, got {type(table).__name__}")
