@@ -191,10 +191,10 @@ def test_every_module_has_tests_that_exist():
     [
         ("formats/urdf", "formats/test_urdf"),
         ("formats/ur/files", "formats/test_ur_files"),
-        ("solve/followed", "solve/test_follow"),  # by what imports it
+        ("solve/followed", "solve/test_followed"),
         ("testing/urdf_errors", "formats/test_urdf_text"),  # by the tests that import it
         ("engine/ik_codes", "engine/test_ik_kernels"),
-        ("model/layout", "model/test_robot"),
+        ("model/layout", "model/test_robot"),  # by what imports it
         ("solve/calibration/measurement", "solve/calibration/test_measurements"),
     ],
 )
