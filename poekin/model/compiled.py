@@ -207,7 +207,7 @@ class CompiledChain:
         """The same without machine code, where Numba is told to compile nothing."""
         values = interpret.evaluate(self._program(code, T is not None), rows)
         if T is not None:
-            T[:, :3, :3], T[:, :3, 3] = values[:, :9].reshape(-1, 3, 3), values[:, 9:12]
+            T[:, :3, :3], T[:, :3, 3] = values[:, :9].reshape(len(T), 3, 3), values[:, 9:12]
             T[:, 3] = 0.0, 0.0, 0.0, 1.0
             values = values[:, 12:]
         if J is not None:

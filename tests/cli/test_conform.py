@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+from types import SimpleNamespace
+
+from poekin.testing import conform
 
 HEAD = """
 import numpy as np
@@ -51,6 +54,22 @@ def test_a_faulty_one_is_1_and_its_counterexample_can_be_pasted(tmp_path, monkey
     assert (document["subject"], document["conforms"], len(document["laws"])) == ("Faulty", False, 1)
     assert document["laws"][0]["grade"] in ("poor", "broken")
     assert sum(x != 0 for x in document["laws"][0]["numbers"]) == 1
+
+
+def test_options_reach_the_function_and_its_report_the_exit_code(monkeypatch, poekin):
+    asked = []
+
+    def told(*words, **options):
+        asked.append((*words[:4], options))
+        return SimpleNamespace(conforms=len(asked) == 1, as_dict=dict, __str__=lambda: "")
+
+    monkeypatch.setattr(conform, "conform", told)
+    words = ["--law", "exp", "--law", "log", "--except", "so3_exp", "--examples", 7, "--seconds", 2.5, "--limit", 3]
+    assert poekin("conform", "m:A", *words, "--at-most", "poor", "--json")[:2] == (0, "{}\n")
+    assert poekin("conform", "m:B", "--json")[0] == 1
+    grades = {"leave_out": ["so3_exp"], "at_most": conform.Grade.POOR, "limits": conform.Limits(3.0)}
+    usual = {"leave_out": (), "at_most": conform.Grade.GOOD, "limits": conform.Limits(60.0)}
+    assert asked == [("m:A", ["exp", "log"], 7, 2.5, grades), ("m:B", (), None, 600.0, usual)]
 
 
 def test_only_the_laws_that_are_named_are_run(tmp_path, monkeypatch, poekin):

@@ -60,10 +60,28 @@ def test_the_words_have_the_numbers_of_the_function_and_x_stands_where_the_joint
         theta, d, a, alpha = (f"{0.0 if abs(x) < nothing else x:.9g}" for x in (row.theta, row.d, row.a, row.alpha))
         moving = [f"{theta} + x", d] if kind == "revolute" else [theta, f"{d} + x"]
         assert re.split(r"\s{2,}", line.strip())[:7] == [str(i), row.name, kind, *moving, a, alpha]
+    assert "x are the joints' own values" not in out
     assert out.endswith(
         f"Pose error ÷ reach ({chain.reach:.3g} m): {result.error:.2g} over random configurations;"
         f" at most {result.bound:.2g}\n"
     )
+
+
+def test_limits_base_and_tool_are_printed_where_there_are_such(poekin, tmp_path):
+    T = pk.se3.exp([0, 0, np.pi / 2, 0.5, 0, 0.25])
+    rows = [pk.dh.Row(a=0.3, limits=(-0.5, 1.25)), pk.dh.Row(d=0.2, alpha=0.7, kind="prismatic")]
+    pk.dh.write(pk.dh.Table("standard", rows, base=T, name="two"), tmp_path / "two.csv")
+    lines = poekin("dh", tmp_path / "two.csv")[1].splitlines()
+    one, two = (re.split(r"\s{2,}", line.strip()) for line in lines if line.startswith(("1 ", "2 ")))
+    assert one[-2:] == ["-0.5", "1.25"]
+    assert len(two) == len(one) - 2  # without limits
+    found = pk.dh.from_chain(pk.load(tmp_path / "two.csv").chain()).table
+    for what, T in (("Base:", found.base), ("Tool:", found.tool)):
+        at = lines.index(what)
+        shown = np.array([line.split() for line in lines[at + 1 : at + 5]], float)
+        np.testing.assert_allclose(shown, T, atol=1e-9)
+        assert (np.eye(4) != T).any()
+    assert "Base:" not in poekin("dh", "stanford")[1].splitlines()
 
 
 @pytest.mark.parametrize("ending", ["toml", "csv"])
