@@ -104,6 +104,7 @@ def test_an_error_of_poekin_s_is_also_the_one_that_python_s_users_expect(error, 
 def test_what_an_error_says_is_what_it_was_given():
     assert str(UnknownName("no link 'a'")) == "no link 'a'"
     assert str(UnknownName()) == ""
+    assert str(UnknownName("what", "more")) == "what"
     missing = MissingExtra("mujoco", "mjcf", "reading MJCF")
     assert str(missing) == "reading MJCF needs the package mujoco: pip install 'poekin[mjcf]'"
     assert (missing.package, missing.extra, missing.purpose) == ("mujoco", "mjcf", "reading MJCF")

@@ -28,6 +28,10 @@ class Coupling(NamedTuple):
     shift: np.ndarray
 
 
+_Value = tuple[int, float, float]
+"""The master's number of a joint, or -1 where it stands still, and its ratio and shift."""
+
+
 def coupling_of(joints: Sequence[Joint], source: Source) -> Coupling:
     """The coupling of a robot's joints, in linear time and without recursion.
 
@@ -35,20 +39,20 @@ def coupling_of(joints: Sequence[Joint], source: Source) -> Coupling:
     itself or in a circle, of a floating or planar joint, and for multipliers whose product is not finite.
     """
     numbers = {joint.name: index for index, joint in enumerate(joints)}
-    known: list[tuple[int, float, float] | None] = [None] * len(joints)
+    known: dict[int, _Value] = {}
     for start in range(len(joints)):
         _resolve(start, joints, numbers, known, source)
+    values = [known[index] for index in range(len(joints))]
     coordinates: dict[int, int] = {}
-    master_of = [entry[0] if entry else -1 for entry in known]
-    for master in master_of:
+    for master, _, _ in values:
         if master >= 0:
             coordinates.setdefault(master, len(coordinates))
     return Coupling(
         tuple(joints[master].name for master in coordinates),
         _frozen(list(coordinates), np.int64),
-        _frozen([coordinates.get(master, -1) for master in master_of], np.int64),
-        _frozen([entry[1] if entry else 0.0 for entry in known], np.float64),
-        _frozen([entry[2] if entry else 0.0 for entry in known], np.float64),
+        _frozen([coordinates.get(master, -1) for master, _, _ in values], np.int64),
+        _frozen([ratio for _, ratio, _ in values], np.float64),
+        _frozen([shift for _, _, shift in values], np.float64),
     )
 
 
@@ -87,13 +91,13 @@ def _resolve(
     start: int,
     joints: Sequence[Joint],
     numbers: dict[str, int],
-    known: list[tuple[int, float, float] | None],
+    known: dict[int, _Value],
     source: Source,
 ) -> None:
     # Up the mimics to the first joint that is settled or follows none, then back down, composing.
     walk: dict[int, None] = {}
     index = start
-    while known[index] is None:
+    while index not in known:
         joint = joints[index]
         if index in walk:
             through = ", through others" if len(walk) > 1 else ""
@@ -112,17 +116,14 @@ def _resolve(
             where = _where(index, joints, source)
             raise ModelError(f"{where} mimics {name}, but a {kind} joint has no single value")
         index = master
-    for index in reversed(list(walk)):
+    for index in reversed(walk):
         joint = joints[index]
         if joint.mimic is None:
-            continue
-        settled = known[numbers[joint.mimic.joint]]
-        if settled is None:
             continue
         if joint.kind == "fixed":
             known[index] = (-1, 0.0, 0.0)
             continue
-        master, ratio, shift = settled
+        master, ratio, shift = known[numbers[joint.mimic.joint]]
         ratio, shift = joint.mimic.multiplier * ratio, joint.mimic.multiplier * shift + joint.mimic.offset
         if not (math.isfinite(ratio) and math.isfinite(shift)):
             where = _where(index, joints, source)

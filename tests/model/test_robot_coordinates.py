@@ -81,6 +81,21 @@ def test_where_limits_contradict_each_other_the_masters_stand_with_a_warning(lim
     assert pickle.loads(pickle.dumps(robot)) == robot  # and this warns no more
 
 
+@pytest.mark.parametrize("count, more", [(1, ""), (2, " (nor do those of 1 more coordinates)"),
+                                         (3, " (nor do those of 2 more coordinates)")])  # fmt: skip
+def test_one_warning_counts_the_coordinates_whose_limits_contradict_each_other(count, more):
+    masters = [revolute(f"j{k}", f"l{k}", f"l{k + 1}", limits=(k, k + 1)) for k in range(3)]
+    followers = [
+        revolute(f"f{k}", f"l{k + 3}", f"l{k + 4}", limits=(-1, -0.5), mimic=Mimic(f"j{2 - k}")) for k in range(count)
+    ]
+    with pytest.warns(PoekinWarning) as caught:
+        line(*masters, *followers, source="f.urdf")
+    assert [str(warning.message) for warning in caught] == [
+        f"f.urdf: the limits of the joints that follow 'j{3 - count}' have no interval in common{more}:"
+        f" its own limits {[3.0 - count, 4.0 - count]} stand"
+    ]
+
+
 def test_a_locked_joint_keeps_its_one_value():
     assert line(revolute("j", "a", "b", limits=(0.5, 0.5))).limits.tolist() == [[0.5, 0.5]]
 
