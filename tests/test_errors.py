@@ -56,6 +56,7 @@ def test_what_arrived_is_told_as_python_writes_it(value, plain):
 def test_a_long_list_ends_with_how_many_more_there_are():
     assert listed("abc") == "'a', 'b', 'c'"
     assert listed("abc", 2) == "'a', 'b' and 1 more"
+    assert listed("abcdefg", 2) == "'a', 'b' and 5 more"
     assert listed(()) == ""
     assert closest("x", "abcdefgh") == "available: 'a', 'b', 'c', 'd', 'e' and 3 more"
 

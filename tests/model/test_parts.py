@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 
 from poekin.errors import InputError, PoseError, ShapeError
+from poekin.model import parts
 from poekin.model.coordinates import coordinates
 from poekin.model.parts import LONGEST, distinct_names, finite, frame_name, one_pose, ordered_names
 from poekin.testing.attainable import UNIT
@@ -128,3 +129,53 @@ def test_messages_do_not_grow_with_the_data():
 def test_a_dozen_coordinates_are_all_named():
     with pytest.raises(ShapeError, match=r"'coordinate_0', .*'coordinate_11'\), got"):
         coordinates([0.0], MANY[:12])
+
+
+INF = np.inf
+
+
+def test_limits_are_kept_as_they_are_given():
+    given = [[-1, -1], [-INF, INF], [-INF, 0.5], [-0.0, INF]]
+    found = parts.bounds(given, tuple("abcd"))
+    assert found.tolist() == [[-1, -1], [-INF, INF], [-INF, 0.5], [0, INF]]
+    assert not np.signbit(found[3, 0])
+    assert parts.bounds(None, ("a", "b")).tolist() == [[-INF, INF]] * 2
+
+
+@pytest.mark.parametrize(
+    "limits, message",
+    [
+        ([[0, 1], [1, 0]], "limits: expected lower <= upper for 'b', got 1.0 and 0.0"),
+        ([[INF, INF], [0, 1]], "limits: expected lower <= upper for 'a', got inf and inf"),
+        ([[0, 1], [-INF, -INF]], "limits: expected lower <= upper for 'b', got -inf and -inf"),
+        ([[0, 1], [np.nan, 1]], "limits: expected lower <= upper for 'b', got nan and 1.0"),
+        ([[0, 1], [0, np.nan]], "limits: expected lower <= upper for 'b', got 0.0 and nan"),
+        ([[0, 1]], "limits: expected shape (2, 2), lower and upper of each coordinate, got (1, 2)"),
+    ],
+)
+def test_limits_that_leave_nothing_are_refused_by_name(limits, message):
+    with pytest.raises(InputError) as caught:
+        parts.bounds(limits, ("a", "b"))
+    assert str(caught.value) == message
+
+
+def test_a_coupling_that_is_the_identity_is_none_and_one_of_another_shape_is_refused():
+    assert parts.coupling_matrix(np.eye(3), 3) is None
+    assert parts.coupling_matrix([[1, 0], [0, 2]], 2).tolist() == [[1, 0], [0, 2]]  # type: ignore[union-attr]
+    for C, shape in (([1, 2], (2,)), (np.eye(3), (3, 3))):
+        with pytest.raises(ShapeError) as caught:
+            parts.coupling_matrix(C, 2)
+        assert str(caught.value) == f"coupling: expected shape (2, m), one row a joint, got {shape}"
+
+
+@pytest.mark.parametrize("off, kept", [(0.9e-5, True), (1.1e-5, False)])
+def test_a_pose_that_is_off_by_a_hundred_thousandth_is_made_exact(off, kept):
+    turned, row = np.eye(4), np.eye(4)
+    turned[0, 0] += off / 2  # R R^T is off by twice as much
+    row[3, 2] = -off
+    for T in (turned, row):
+        if kept:
+            np.testing.assert_allclose(one_pose(T), np.eye(4), atol=2e-16)
+            continue
+        with pytest.raises(PoseError):
+            one_pose(T)
