@@ -112,6 +112,8 @@ def test_what_an_error_says_is_what_it_was_given():
 
 
 def test_of_long_names_only_the_first_are_looked_at():
+    assert closest("x" * 1000, ["y" * 1000, "x" * 1000]).startswith("did you mean")  # the second of two
+    assert closest("x" * 1000, ["y" * 1000] * 2 + ["x" * 1000]).startswith("available: ")
     names = ["x" * 190 + str(i) for i in range(1000)]
     assert closest(names[0] + "y", names).startswith("did you mean")
     assert closest(names[-1], names).startswith("did you mean")

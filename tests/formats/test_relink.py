@@ -267,34 +267,56 @@ FLOATING = Robot("r", ["a", "b"], [Joint("free", "floating", "a", "b")])
 @pytest.mark.parametrize(
     ("make", "error", "message"),
     [
-        (lambda: relinked(ANY_CHAIN, SIX), InputError, r"expected a Robot and a Chain, got Chain and Chain"),
-        (lambda: relinked(ANY_CHAIN, ANY_ROBOT), InputError, r"expected a Robot and a Chain, got Chain and Robot"),
-        (lambda: relinked(UR5E, ANY_ROBOT), InputError, r"expected a Robot and a Chain, got Robot and Robot"),
-        (lambda: relinked(UR5E, SIX, tip="tool"), UnknownName, r"no tip link 'tool'; did you mean 'tool0'"),
+        (lambda: relinked(ANY_CHAIN, SIX), InputError, "relinked: expected a Robot and a Chain, got Chain and Chain"),
+        (
+            lambda: relinked(ANY_CHAIN, ANY_ROBOT),
+            InputError,
+            "relinked: expected a Robot and a Chain, got Chain and Robot",
+        ),
+        (lambda: relinked(UR5E, ANY_ROBOT), InputError, "relinked: expected a Robot and a Chain, got Robot and Robot"),
+        (
+            lambda: relinked(UR5E, SIX, tip="tool"),
+            UnknownName,
+            "catalogue/ur5e.urdf: no tip link 'tool'; did you mean 'tool0'?",
+        ),
         (
             lambda: relinked(UR5E, pk.Chain(SIX.screws, SIX.home, joint_names=BACK)),
             InputError,
-            r"the joints come in another order: the robot's are 'shoulder_pan_joint', .* the chain's 'wrist_3_joint'",
+            (
+                "the joints come in another order: the robot's are 'shoulder_pan_joint', "
+                "'shoulder_lift_joint', 'elbow_joint', 'wrist_1_joint', 'wrist_2_joint', "
+                "'wrist_3_joint', the chain's 'wrist_3_joint', 'wrist_2_joint', 'wrist_1_joint', "
+                "'elbow_joint', 'shoulder_lift_joint', 'shoulder_pan_joint'"
+            ),
         ),
-        (lambda: relinked(UR5E, COUPLED), InputError, r"x = C q \+ c differs"),
-        (lambda: relinked(FLOATING, SIX), ModelError, r"crosses the floating joint 'free'"),
+        (
+            lambda: relinked(UR5E, COUPLED),
+            InputError,
+            ("the chain's joints follow its coordinates otherwise than the robot's: x = C q + c differs"),
+        ),
+        (
+            lambda: relinked(FLOATING, SIX),
+            ModelError,
+            ("robot 'r': the way from 'a' to 'b' crosses the floating joint 'free'; a chain cannot"),
+        ),
         (
             lambda: relinked(UR5E, UR5E.chain("tool0", "base"), base="tool0", tip="base"),
             InputError,
-            r"joint 'wrist_3_joint' lies between 'tool0' and the root: choose a base above it",
+            "joint 'wrist_3_joint' lies between 'tool0' and the root: choose a base above it",
         ),
         (
             lambda: relinked(UR5E, pk.Chain([], np.eye(4)), base="wrist_3_link"),
             InputError,
-            r"no joint moves between 'wrist_3_link' and 'tool0'",
+            "no joint moves between 'wrist_3_link' and 'tool0'",
         ),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
 def test_what_cannot_be_relinked_is_refused_by_name(make, error, message):
-    with pytest.raises(PoekinError, match=message) as caught:
+    with pytest.raises(PoekinError) as caught:
         make()
     assert isinstance(caught.value, error)
+    assert str(caught.value) == message
 
 
 def test_a_calibrated_arm_as_urdf_keeps_its_links():

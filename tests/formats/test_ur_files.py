@@ -15,6 +15,7 @@ from poekin.errors import FileError, InputError, MissingExtra, ModelError, Poeki
 from poekin.formats import ur
 from poekin.formats.ur import conf
 from poekin.formats.ur.files import read_text, text_of
+from tests.messages import says
 
 NOMINAL = pk.dh.published("ur10e")
 CALIBRATION = ur.from_dh(NOMINAL, nominal=NOMINAL, hash="calib_1")
@@ -56,52 +57,108 @@ def test_a_file_says_about_which_axes_its_angles_turn_and_a_caller_may_know_bett
 
 
 BAD = {
-    "empty": ("", r"f.yaml: the text is empty"),
-    "comment": ("# nothing\n", r"f.yaml: the text is empty"),
-    "a word": ("kinematics\n", r"f.yaml:1: expected a mapping, as in \"kinematics:\", got 'kinematics'"),
-    "a list": ("- 1\n- 2\n", r"f.yaml:1: expected names and numbers, got a list"),
-    "no yaml": ("kinematics: {\n", r"f.yaml:2: not YAML: "),
-    "tab": ("kinematics:\n\tshoulder: 1\n", r"f.yaml:2: not YAML: found character '\\t'"),
-    "control character": ("kinematics: \x01\n", r"f.yaml: not YAML: unacceptable character"),
-    "no kinematics": ("joints:\n  a: 1\n", r"f.yaml:1: the file: 'joints' is not expected, only kinematics, rpy"),
-    "misspelt kinematics": (changed("kinematics", "kinematcs"), r"'kinematcs' is not expected.*mean 'kinematics'"),
-    "kinematics of nothing": ("kinematics:\n", r"f.yaml:1: kinematics: expected shoulder, upper_arm, .* hash below"),
-    "rpy of nothing known": ("rpy: zyx\n" + TEXT, r"f.yaml:1: rpy: expected moving or fixed"),
-    "rpy alone": ("rpy: fixed\n", r"f.yaml:1: the file: kinematics missing; expected are kinematics, rpy"),
-    "misspelt link": (changed("forearm", "fore_arm"), r"f.yaml:16: kinematics: 'fore_arm' is not .* mean 'forearm'"),
-    "missing link": (TEXT.replace("\n".join(LINES[36:43]) + "\n", ""), r"f.yaml:2: kinematics: wrist_3 missing; ex"),
-    "seventh link": (changed("  hash", "  wrist_4:\n    x: 1\n  hash"), r"f.yaml:44: kinematics: 'wrist_4' is not exp"),
-    "link of nothing": ("kinematics:\n  shoulder:\n" + "\n".join(LINES[8:]), r"f.yaml:2: shoulder: expected x, y, z,"),
-    "misspelt key": (changed("pitch", "ptich"), r"f.yaml:7: shoulder: 'ptich' is not expected.* mean 'pitch'"),
-    "missing key": (changed("    yaw: .*\n", ""), r"f.yaml:3: shoulder: yaw missing; expected are x, y, z, roll"),
-    "key twice": (changed("    y: ", "    x: "), r"f.yaml:4: 'x' is there twice \(first: line 3\)"),
-    "link twice": (changed("upper_arm", "shoulder"), r"f.yaml:9: 'shoulder' is there twice \(first: line 2\)"),
-    "kinematics twice": (TEXT + TEXT, r"f.yaml:45: 'kinematics' is there twice \(first: line 1\)"),
-    "nan": (changed("z: .*", "z: .nan"), r"f.yaml:5: shoulder: z: expected a finite number, got '.nan'"),
-    "NaN": (changed("z: .*", "z: nan"), r"f.yaml:5: shoulder: z: expected a finite number, got 'nan'"),
-    "infinite": (changed("z: .*", "z: 1e999"), r"f.yaml:5: shoulder: z: expected a finite number, got '1e999'"),
-    "text": (changed("z: .*", "z: 18 cm"), r"f.yaml:5: shoulder: z: expected a finite number, got '18 cm'"),
-    "nothing": (changed("z: .*", "z:"), r"f.yaml:5: shoulder: z: expected a finite number, got ''"),
-    "a mapping": (changed("z: .*", "z: {a: 1}"), r"f.yaml:5: shoulder: z: expected a finite number, got 'more keys'"),
-    "far away": (changed("z: .*", "z: 1e200"), r"f.yaml: pose of shoulder: expected lengths of at most 1e\+100 m"),
-    "a list of numbers": (changed("z: .*", "z: [1, 2]"), r"f.yaml:5: expected names and numbers, got a list"),
-    "a mapping for a key": ("? {a: 1}\n: 2\n", r"f.yaml:1: expected the name of a key, got a mapping"),
-    "hash of keys": (changed("hash: .*", "hash: {a: 1}"), r"f.yaml:44: hash: expected a text"),
-    "anchor": (changed("z: ", "z: &a "), r"f.yaml:5: tags and anchors are refused, got 'a'"),
-    "alias": (changed("z: .*", "z: *a"), r"f.yaml:5: expected names and numbers, got an alias"),
-    "a tag": (changed("z: .*", "z: !!python/object/apply:os.system [id]"), r"f.yaml:5: expected names and numbers"),
-    "a tagged scalar": (changed("z: .*", "z: !!python/name:os.system ''"), r"f.yaml:5: tags and anchors are refused"),
-    "two documents": (TEXT + "---\na: 1\n", r"f.yaml:45: expected one document, a second one begins here"),
-    "merge": (changed("    y: .*\n", "    <<: 1\n"), r"f.yaml:4: shoulder: '<<' is not expected"),
-    "nine levels": ("".join(f"{'  ' * i}a:\n" for i in range(10)), r"f.yaml:9: expected at most 8 levels"),
-    "a terminal's name": ('"\\e[31m": 1\n', r"f.yaml:1: the file: '\\x1b\[31m' is not expected"),
-}  # fmt: skip
+    "empty": ("", "f.yaml: the text is empty"),
+    "comment": ("# nothing\n", "f.yaml: the text is empty"),
+    "a word": ("kinematics\n", "f.yaml:1: expected a mapping, as in \"kinematics:\", got 'kinematics'"),
+    "a list": ("- 1\n- 2\n", "f.yaml:1: expected names and numbers, got a list"),
+    "no yaml": ("kinematics: {\n", "f.yaml:2: not YAML: ..."),
+    "tab": ("kinematics:\n\tshoulder: 1\n", "f.yaml:2: not YAML: ..."),
+    "control character": ("kinematics: \x01\n", "f.yaml: not YAML: ..."),
+    "no kinematics": (
+        "joints:\n  a: 1\n",
+        ("f.yaml:1: the file: 'joints' is not expected, only kinematics, rpy; available: 'kinematics', 'rpy'"),
+    ),
+    "misspelt kinematics": (
+        changed("kinematics", "kinematcs"),
+        ("f.yaml:1: the file: 'kinematcs' is not expected, only kinematics, rpy; did you mean 'kinematics'?"),
+    ),
+    "kinematics of nothing": (
+        "kinematics:\n",
+        ("f.yaml:1: kinematics: expected shoulder, upper_arm, forearm, wrist_1, wrist_2, wrist_3 and hash below it"),
+    ),
+    "rpy of nothing known": ("rpy: zyx\n" + TEXT, "f.yaml:1: rpy: expected moving or fixed"),
+    "rpy alone": ("rpy: fixed\n", "f.yaml:1: the file: kinematics missing; expected are kinematics, rpy"),
+    "misspelt link": (
+        changed("forearm", "fore_arm"),
+        (
+            "f.yaml:16: kinematics: 'fore_arm' is not expected, only shoulder, upper_arm, "
+            "forearm, wrist_1, wrist_2, wrist_3, hash; did you mean 'forearm'?"
+        ),
+    ),
+    "missing link": (
+        TEXT.replace("\n".join(LINES[36:43]) + "\n", ""),
+        (
+            "f.yaml:2: kinematics: wrist_3 missing; expected are shoulder, upper_arm, "
+            "forearm, wrist_1, wrist_2, wrist_3, hash"
+        ),
+    ),
+    "seventh link": (
+        changed("  hash", "  wrist_4:\n    x: 1\n  hash"),
+        (
+            "f.yaml:44: kinematics: 'wrist_4' is not expected, only shoulder, upper_arm, "
+            "forearm, wrist_1, wrist_2, wrist_3, hash; did you mean 'wrist_3' or 'wrist_2' "
+            "or 'wrist_1'?"
+        ),
+    ),
+    "link of nothing": (
+        "kinematics:\n  shoulder:\n" + "\n".join(LINES[8:]),
+        "f.yaml:2: shoulder: expected x, y, z, roll, pitch, yaw below it, got ''",
+    ),
+    "misspelt key": (
+        changed("pitch", "ptich"),
+        ("f.yaml:7: shoulder: 'ptich' is not expected, only x, y, z, roll, pitch, yaw; did you mean 'pitch'?"),
+    ),
+    "missing key": (
+        changed("    yaw: .*\n", ""),
+        "f.yaml:3: shoulder: yaw missing; expected are x, y, z, roll, pitch, yaw",
+    ),
+    "key twice": (changed("    y: ", "    x: "), "f.yaml:4: 'x' is there twice (first: line 3)"),
+    "link twice": (changed("upper_arm", "shoulder"), "f.yaml:9: 'shoulder' is there twice (first: line 2)"),
+    "kinematics twice": (TEXT + TEXT, "f.yaml:45: 'kinematics' is there twice (first: line 1)"),
+    "nan": (changed("z: .*", "z: .nan"), "f.yaml:5: shoulder: z: expected a finite number, got '.nan'"),
+    "NaN": (changed("z: .*", "z: nan"), "f.yaml:5: shoulder: z: expected a finite number, got 'nan'"),
+    "infinite": (changed("z: .*", "z: 1e999"), "f.yaml:5: shoulder: z: expected a finite number, got '1e999'"),
+    "text": (changed("z: .*", "z: 18 cm"), "f.yaml:5: shoulder: z: expected a finite number, got '18 cm'"),
+    "nothing": (changed("z: .*", "z:"), "f.yaml:5: shoulder: z: expected a finite number, got ''"),
+    "a mapping": (changed("z: .*", "z: {a: 1}"), "f.yaml:5: shoulder: z: expected a finite number, got 'more keys'"),
+    "far away": (
+        changed("z: .*", "z: 1e200"),
+        ("f.yaml: pose of shoulder: expected lengths of at most 1e+100 m, got 1e+200 in row 2"),
+    ),
+    "a list of numbers": (changed("z: .*", "z: [1, 2]"), "f.yaml:5: expected names and numbers, got a list"),
+    "a mapping for a key": ("? {a: 1}\n: 2\n", "f.yaml:1: expected the name of a key, got a mapping"),
+    "hash of keys": (changed("hash: .*", "hash: {a: 1}"), "f.yaml:44: hash: expected a text"),
+    "anchor": (changed("z: ", "z: &a "), "f.yaml:5: tags and anchors are refused, got 'a'"),
+    "alias": (changed("z: .*", "z: *a"), "f.yaml:5: expected names and numbers, got an alias"),
+    "a tag": (
+        changed("z: .*", "z: !!python/object/apply:os.system [id]"),
+        "f.yaml:5: expected names and numbers, got a list",
+    ),
+    "a tagged scalar": (
+        changed("z: .*", "z: !!python/name:os.system ''"),
+        ("f.yaml:5: tags and anchors are refused, got 'tag:yaml.org,2002:python/name:os.system'"),
+    ),
+    "two documents": (TEXT + "---\na: 1\n", "f.yaml:45: expected one document, a second one begins here"),
+    "merge": (
+        changed("    y: .*\n", "    <<: 1\n"),
+        (
+            "f.yaml:4: shoulder: '<<' is not expected, only x, y, z, roll, pitch, yaw; "
+            "available: 'x', 'y', 'z', 'roll', 'pitch' and 1 more"
+        ),
+    ),
+    "nine levels": ("".join(f"{'  ' * i}a:\n" for i in range(10)), "f.yaml:9: expected at most 8 levels, got more"),
+    "a terminal's name": (
+        '"\\e[31m": 1\n',
+        ("f.yaml:1: the file: '\\x1b[31m' is not expected, only kinematics, rpy; available: 'kinematics', 'rpy'"),
+    ),
+}
 
 
 @pytest.mark.parametrize(("text", "message"), BAD.values(), ids=BAD)
 def test_a_fault_in_a_file_is_said_with_its_line(text, message):
-    with pytest.raises(ModelError, match=message) as caught:
+    with pytest.raises(ModelError) as caught:
         read_text(text, "f.yaml")
+    assert says(caught.value, message)
     assert str(caught.value).isprintable()
 
 
