@@ -225,3 +225,58 @@ def test_noise_within_the_last_bits_of_pi_may_have_either_sign():
             rotation = SimpleNamespace(log=lambda R, sign=sign: sign * exact.rounded(exact.log(R[0]))[None])
             (error,) = accuracy._noise_errors(rotation, R[None])
             assert (error < 1e-14) == (either or sign == 1)
+
+
+@pytest.mark.parametrize(("samples", "near_pi"), [(12, 20), (84, 21)])
+def test_the_report_judges_a_grid_random_cases_and_the_worst_of_many(samples, near_pi, monkeypatch):
+    seen: dict[str, Any] = {}
+
+    def rows(name: str) -> Any:
+        def judged(*arguments: Any) -> list[accuracy.Row]:
+            seen[name if isinstance(arguments[0], SimpleNamespace) else arguments[0]] = arguments
+            return [accuracy.Row(name, 0.0, 1.0, 1, np.zeros(6))]
+
+        return judged
+
+    def some_near_pi(rng: Any, count: int) -> np.ndarray:
+        seen["near π"] = count
+        return np.full((count, 4, 4), 7.0)
+
+    monkeypatch.setattr(accuracy.exact, "exp", lambda x: np.eye(4))
+    monkeypatch.setattr(accuracy, "_near_pi", some_near_pi)
+    monkeypatch.setattr(accuracy, "_noisy", lambda rng, R: seen.setdefault("noisy", R))
+    monkeypatch.setattr(accuracy, "_log_rows", rows("log"))
+    monkeypatch.setattr(accuracy, "_jacobian_rows", rows("jacobians"))
+    monkeypatch.setattr(accuracy, "_exp_ratios", lambda rotation, pose, xi: seen.setdefault("exp", xi)[:, 0])
+    monkeypatch.setattr(accuracy, "_noise_errors", lambda rotation, R: R[:, 0, 0])
+    monkeypatch.setattr(suspects, "of_exp", lambda pose, many: seen.setdefault("many far", many)[:2])
+    monkeypatch.setattr(suspects, "of_log", lambda pose, many: seen.setdefault("many poses", many)[:3])
+    subject = SimpleNamespace()
+    found = accuracy.accuracy(seed=1, samples=samples, sweep=50, rotation=subject, pose=subject)
+    grid = 60
+    assert [row.what for row in found] == [
+        "exp: error ÷ attainable", "log", "log of a noisy rotation: error", "jacobians", "jacobians"
+    ]  # fmt: skip
+    assert seen["near π"] == near_pi
+    assert len(seen["exp"]) == grid + samples + 2
+    assert np.array_equal(seen["exp"][-2:], seen["many far"][:2])
+    assert size(seen["exp"][:, :3]).max() == pytest.approx(10, rel=1e-12)
+    T = seen["log"][2]
+    assert len(T) == grid - 2 + samples + near_pi + 3
+    assert np.array_equal(T[-3:], seen["many poses"][:3])
+    assert np.count_nonzero(T[:, 0, 0] == 7) == near_pi
+    assert seen["noisy"].shape == (samples, 3, 3)
+    assert 0 < np.count_nonzero(seen["noisy"][:, 0, 0] == 7) < samples, "of both"
+    for name, largest, count in (("jacobian", 10.0, grid), ("jacobian_inverse", math.pi, grid - 2)):
+        _, _, cases, many = seen[name]
+        assert len(cases) == count + samples
+        assert len(many) == 50
+        assert size(cases[:, :3]).max() == pytest.approx(largest, rel=1e-12)
+        assert 0.9 * largest < size(many[:, :3]).max() < largest
+    assert np.array_equal(seen["many far"], seen["jacobian"][3])
+    assert np.allclose(seen["many poses"], extended.exp(seen["jacobian_inverse"][3]).astype(float), atol=1e-15)
+
+
+def test_warnings_of_what_is_judged_are_errors():
+    with pytest.raises(FloatingPointError):
+        accuracy.accuracy(samples=4, sweep=4, pose=SimpleNamespace(exp=lambda xi: 1 / np.zeros((len(xi), 4, 4))))

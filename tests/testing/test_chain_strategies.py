@@ -90,3 +90,18 @@ def test_chains_have_limits_of_every_kind_where_they_are_asked_for():
     assert kinds == {"equal", (False, False), (True, True), (True, False), (False, True)}
     assert any(np.any(chain.coupling != np.eye(*chain.coupling.shape)) for chain in every)
     assert np.all(np.isinf(np.concatenate([chain.limits for chain in drawn(chain_strategies.chains(), 20)])))
+
+
+def test_the_arguments_of_a_law_are_drawn_by_their_kinds():
+    for chain, q, dq, batch, pose, point, joint, frames in drawn(
+        chain_strategies.chain_cases(chain_strategies.PARTS), 40
+    ):
+        n, m = len(chain.screws), chain.dof
+        assert q.shape == dq.shape == (m,)
+        assert batch.shape[-1:] == (m,)
+        assert (pose.shape, point.shape, frames.shape) == ((4, 4), (3,), (n, 2, 4, 4))
+        assert 0 <= joint < n
+        assert np.array_equal(frames[..., 3, :], np.broadcast_to([0, 0, 0, 1], (n, 2, 4)))
+    (chain, frames), *_ = drawn(chain_strategies.chain_cases(("frames",), min_joints=3, max_joints=3), 1)
+    assert frames.shape == (3, 2, 4, 4)
+    assert {case[-1] for case in drawn(chain_strategies.chain_cases(("joint",), max_joints=3), 60)} == {0, 1, 2}

@@ -118,12 +118,16 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/testing/conform/calls.py": ("tests/testing/conform/test_child.py", *_CONFORM),
     "poekin/testing/conform/limits.py": ("tests/testing/conform/test_child.py",),
     "poekin/testing/conform/misspelt.py": ("tests/testing/conform/test_subject.py",),
-    "poekin/testing/conform/urdf_cases.py": ("tests/testing/conform/test_small_urdf.py", *_CONFORM),
+    "poekin/testing/conform/urdf_cases.py": (
+        "tests/testing/conform/test_urdf_cases.py", "tests/testing/conform/test_small_urdf.py", *_CASES),
+    "poekin/testing/conform/law.py": ("tests/testing/conform/test_urdf_cases.py", *_CASES),
     "poekin/testing/conform/of_urdf.py": ("tests/testing/conform/test_small_urdf.py", *_CONFORM),
     "poekin/testing/conform/report.py": (
         *_CONFORM, "tests/testing/conform/test_plugin.py", "tests/cli/test_conform.py"),
     "poekin/testing/conform/worker.py": ("tests/testing/conform/test_child.py",),
     "poekin/engine/rows.py": ("tests/groups/test_batches.py", *_CHAINS),
+    "poekin/engine/derivative_kernels.py": (
+        "tests/model/test_derivatives.py", "tests/model/test_derivatives_pinocchio.py", "tests/model/test_chain.py"),
     "poekin/engine/sincos.py": ("tests/engine/test_sincos.py", "tests/engine/test_interpret.py"),
     "poekin/engine/interpret.py": (
         "tests/engine/test_interpret.py", "tests/engine/test_program.py", "tests/model/test_compiled.py"),

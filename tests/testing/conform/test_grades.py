@@ -30,7 +30,8 @@ def test_what_float64_can_attain_is_asked_only_where_the_lower_bound_does_not_do
     def never():
         raise AssertionError
 
-    assert Part("x", 3e-16, 1.0, 1e-16, never).grade is Grade.EXACT
+    for error in (0.0, 2e-16, 3e-16):
+        assert Part("x", error, 1.0, 1e-16, never).grade is Grade.EXACT
 
 
 def test_an_error_goes_in_proportion_to_its_scale_and_no_scale_allows_no_error():
