@@ -133,8 +133,7 @@ def _products(table, screws, home, q, x, sines, cosines, shifts, exponentials, P
         if table.shape[1] > OFFSET:
             x[i] += table[i, OFFSET]
         A = screws[i]
-        sine, cosine = (sines[i], cosines[i]) if table[i, ROTATES] != 0.0 else (0.0, 1.0)
-        store_row(exponentials[i], exponential.joint(angular(A), linear(A), x[i], sine, cosine))
+        store_row(exponentials[i], exponential.joint(angular(A), linear(A), x[i], sines[i], cosines[i]))
     screw_changes.products(exponentials, home, n, P)
 
 
