@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -596,3 +594,24 @@ def test_a_target_is_named_from_the_end_too():
     np.testing.assert_array_equal(found.of(-1, 0), found.of(1, 0))
     with pytest.raises(IndexError, match="out of bounds"):
         found.of(0, 2)
+
+
+def test_the_errors_are_the_largest_of_the_listed_solutions_in_place_and_in_direction(monkeypatch):
+    chain = arm("ur5")
+    _, T = targets(chain, 15, 3)
+    T[1] = np.nan
+    right = module.pose_errors
+
+    def known(chain, q, wanted):
+        assert right(chain, q, wanted).max() < 1e-10
+        return np.arange(1.0, len(q) + 1)[:, None] * [1e-13, -2e-13] + [0, 1e-11]
+
+    monkeypatch.setattr(module, "pose_errors", known)
+    found = ik_all(chain, T, method="search", limits=False)
+    first, _, last = (len(some) for some in found.solutions)
+    np.testing.assert_allclose(found.position_error, [first * 1e-13, np.nan, (first + last) * 1e-13])
+    np.testing.assert_allclose(found.rotation_error, [1e-11 - 2e-13, np.nan, 1e-11 - 2e-13 * (first + 1)])
+    np.testing.assert_array_equal(found.count, [first, 0, last])
+    np.testing.assert_array_equal(found.anywhere, [first, 0, last])
+    assert np.isnan(found.chance[1])
+    assert found.sure[1] == "0 solutions: bad target, it is not made of finite numbers"
