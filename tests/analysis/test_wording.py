@@ -150,3 +150,27 @@ def test_other_readings_say_which_joint_is_to_blame_instead_and_for_what():
         f"{words}{end}" for words in ("another axis", "the other direction", "a zero offset of 5.73°",
                                       "another axis of 5.73°")
     ]  # fmt: skip
+
+
+def test_the_verdict_says_what_is_the_same_what_differs_and_what_was_aligned():
+    base, tool = pk.se3.exp([0, 0, np.radians(10), 0, 0, 0]), pk.se3.exp([0, 0, 0, 0.05, 0, 0])
+    S = UR.screws.copy()
+    S[2, 3:] += np.cross([0, 0, 0.003], S[2, :3])
+    bent = Chain(S, UR.home, joint_names=UR.joint_names)
+    name = UR.joint_names[2]
+    third = f"joint 3 ('{name}') has an axis that is 3 mm from the other model's"
+
+    def said(b, **options):
+        return compare(UR, b, samples=1, **options).verdict
+
+    assert said(UR) == "the models are the same"
+    assert said(UR, strict=True) == "the models are the same as they stand"
+    aligned = "aligned: the base frame is turned by 10° and the tool frame is moved by 50 mm"
+    assert said(UR.rebased(base).retooled(tool)) == f"the models are the same arm, up to free choices; {aligned}"
+    assert said(bent) == f"the models differ; {third}"
+    assert said(bent.retooled(tool)) == f"the models differ; {third}; aligned: the tool frame is moved by 50 mm"
+    assert said(bent, strict=True) == f"the models differ; {third}"
+    assert said(UR.retooled(tool), strict=True) == "the models differ; the home pose's frame is moved by 50 mm"
+    zero = said(UR.rezeroed([0, 0, 0.1, 0, 0, 0]))
+    words = f"joint 3 ('{name}') has its zero position 5.73° from the other model's"
+    assert zero == f"the models are the same arm, up to free choices; {words}"

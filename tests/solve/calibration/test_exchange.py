@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from poekin.solve.calibration import exchange as search
 from poekin.solve.calibration.exchange import CRITERIA, exchange, greedy
 
+EPS = np.finfo(float).eps
 EXTREMES = ("amplification", "condition", "smallest")
 
 
@@ -172,3 +173,29 @@ def test_an_exchange_that_turns_out_worse_is_not_made(monkeypatch):
 
     monkeypatch.setattr(search, "best_exchange", wrong)
     assert exchange(blocks, 6, progress=no_end).tolist() == start
+
+
+@pytest.mark.parametrize("by, expected", [
+    ("smallest", np.log(EPS * 1e6)), ("condition", np.log(EPS)), ("amplification", 2 * np.log(EPS * 1e6) - np.log(1e6)),
+    ("O1", np.log(EPS * 1e6) + np.log(100.0) + np.log(1e6)),
+])  # fmt: skip
+def test_what_is_not_seen_counts_as_rounding_of_what_is_seen_best(by, expected):
+    N, mean = np.diag([0.0, 100.0, 1e6]), np.eye(3)
+    assert float(search.value(N, by, mean)) == pytest.approx(expected)
+    assert float(search.value(np.diag([-1e-9, 100.0, 1e6]), by, mean)) == pytest.approx(expected)
+    assert np.isfinite(search.value(np.zeros((3, 3)), by, mean))
+    both = search.value(np.stack([N, np.diag([4.0, 2.0, 1.0])]), by, mean)
+    at_best = {"smallest": 0.0, "condition": -np.log(4), "amplification": -np.log(4), "O1": np.log(8)}[by]
+    np.testing.assert_allclose(both, [expected, at_best], atol=1e-12)
+
+
+def test_the_prediction_is_the_mean_variance_over_the_candidates():
+    N, mean = np.diag([4.0, 2.0]), np.array([[3.0, 0.5], [0.5, 5.0]])
+    assert float(search.value(N, "prediction", mean)) == pytest.approx(-np.log(3 / 4 + 5 / 2))
+
+
+def test_all_is_said_to_take_nine_steps_for_each_of_the_chosen_at_first_and_never_less_than_was_done():
+    said = []
+    exchange(np.random.default_rng(3).normal(size=(50, 2, 8)), 6, progress=lambda *step: said.append(step))
+    assert said[0] == (1, 54)
+    assert all(total >= done + 6 for done, total in said[:-1])
