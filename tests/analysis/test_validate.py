@@ -115,17 +115,20 @@ def test_a_jacobian_of_the_wrong_frame_fails_in_that_frame_only(chain, oracle, q
     assert row.pose <= BAR
 
 
-def test_one_bad_configuration_among_good_ones_is_found_and_named(chain, oracle, q):
+@pytest.mark.parametrize("base", ["root", "a", "b"])
+def test_one_bad_configuration_among_good_ones_is_found_and_named(base, oracle, q):
     class Sick(_Wrong):
         def fk(self, q):
             T = self._chain.fk(q)
             T[7, 0, 0] = np.nan
             return T
 
+    chain = urdf.read_text(URDF).chain(base=base, tip="tip")  # of all coordinates, of the last two, and of the last
     row = chain_errors(Sick(chain, "", ""), oracle, q)  # type: ignore[arg-type]
     assert math.isnan(row.pose)
     assert row.worst == math.inf
     assert row.configuration == {name: q[name][7] for name in chain.q_names}
+    assert (row.base, row.tip, row.dof) == (base, "tip", chain.dof)
 
 
 def test_a_row_that_is_no_number_never_passes():

@@ -266,7 +266,7 @@ def test_what_was_measured_and_what_it_can_tell_stands_there_in_numbers(found, t
     ) in text
 
 
-def test_what_changed_stands_in_the_row_of_its_joint(found, tables):
+def test_what_changed_stands_in_the_row_of_its_joint(found, tables, text):
     axes, compared = tables["What changed"]
     assert axes[0] == ["joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %"]
     assert [row[1:] for row in axes[1:]] == [
@@ -278,6 +278,12 @@ def test_what_changed_stands_in_the_row_of_its_joint(found, tables):
     ]
     assert compared[0] == ["joint", "angle of the axes (°)", "common normal (mm)", "at the arm (mm)", "zero"]
     result = found.compare()
+    e = result.before
+    assert e is not None
+    assert (
+        f"the two differ by up to {e.worst_mm:.3g} mm and {e.worst_deg:.3g}° over {result.samples} random configurations, "
+        f"on average by {e.mean_mm:.3g} mm and {e.mean_deg:.3g}°."
+    ) in text
     lines = sorted(result.joints, key=lambda j: -max(j.shift or 0.0, j.normal or 0.0, j.angle))
     seen = lambda x: "" if x is None else f"{0.0 if abs(x) < 1e-9 else x:.3g}"  # noqa: E731
     assert [row[1:] for row in compared[1:]] == [
