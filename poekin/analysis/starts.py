@@ -80,7 +80,7 @@ def turns(screw: Array, axis: Array, target: Array) -> Array:
 def one_turn(pair: Sides, rigid: tuple[NDArray[np.intp], Array], k: int) -> tuple[Array, Array]:
     """Alignments (P, z) in which joint k alone has a zero offset, best first, from the `rigid_poses` of both."""
     (i, j), D = rigid[0].T, rigid[1]
-    front, back = (i < 0) | (j <= k), i >= k  # D is the base's pose, or stands behind joint k
+    front, back = j <= k, i >= k  # D is the base's pose, or stands behind joint k
     Ad = se3.adjoint(D)
     turn = turns((Ad @ pair.b.screws[k])[:, None], pair.b.axes @ np.swapaxes(Ad, 1, 2), pair.a.axes)
     # The next axis on the other side of k that is not k's own line tells the offset.

@@ -11,7 +11,7 @@ import pytest
 import poekin as pk
 from poekin.groups import se3
 from poekin.solve import calibration
-from poekin.solve.calibration import EyeInHand, Poses, calibrate, fitting, losses
+from poekin.solve.calibration import EyeInHand, Points, Poses, calibrate, fitting, losses
 from poekin.solve.calibration.fitting import frames_only
 from poekin.solve.calibration.identification import judged
 from poekin.solve.calibration.minimise import _exact, _solved, minimise, regular
@@ -242,3 +242,13 @@ def test_a_damped_step_is_held_back_in_proportion_to_its_columns(damping):
     # Of a singular one the shortest solution, and none of a column of nothing.
     R[:, 2] = 0.0
     assert _solved(R, c, damping)[2] == 0
+
+
+def test_an_outlier_is_named_by_its_set_its_place_there_and_its_row_of_the_readings():
+    q, T = noisy()
+    rows = np.arange(39, -1, -1)
+    p = T[rows, :3, 3] + 1e-4 * np.random.default_rng(0).normal(size=(40, 3))
+    p[5] += 0.3
+    T[7, :3, 3] += 0.3
+    found = calibrate(PUMA, q, [Poses(T), Points(p, rows=rows)], folds=0, loss="tukey")
+    assert [tuple(o) for o in found.outliers] == [(0, 7, 7), (1, 5, 34)]

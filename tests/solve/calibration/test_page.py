@@ -281,8 +281,8 @@ def test_what_changed_stands_in_the_row_of_its_joint(found, tables, text):
     e = result.before
     assert e is not None
     assert (
-        f"the two differ by up to {e.worst_mm:.3g} mm and {e.worst_deg:.3g}° over {result.samples} random configurations, "
-        f"on average by {e.mean_mm:.3g} mm and {e.mean_deg:.3g}°."
+        f"the two differ by up to {e.worst_mm:.3g} mm and {e.worst_deg:.3g}° over {result.samples} random "
+        f"configurations, on average by {e.mean_mm:.3g} mm and {e.mean_deg:.3g}°."
     ) in text
     lines = sorted(result.joints, key=lambda j: -max(j.shift or 0.0, j.normal or 0.0, j.angle))
     seen = lambda x: "" if x is None else f"{0.0 if abs(x) < 1e-9 else x:.3g}"  # noqa: E731
