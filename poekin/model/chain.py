@@ -205,7 +205,8 @@ class Chain:
         move by -q0.
 
         Parameters: q0 (m,) or a dict. Returns: Chain. Raises: ShapeError, UnknownName, InputError.
-        Accuracy: within 10 u n reach. Source: Park 1994, Section II.
+        Accuracy: screws and M within u (10 (n + 1) + 4 sum |d|) of the reach and what d slides, u = 2^-53, the sum over
+        joints that turn (tests/model/test_chain.py). Source: Park 1994, Section II.
         """
         q0 = coordinates(q0, self.q_names, "q0")
         if q0.ndim != 1 or not np.isfinite(q0).all():

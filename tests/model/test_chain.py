@@ -6,7 +6,8 @@ import threading
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, PoseError, ScrewError, ShapeError, UnknownName
@@ -45,6 +46,36 @@ def test_a_chain_that_comes_back_from_far_has_the_rounding_of_the_way():
     P = pk.se3.inverse(there)
     assert back.rebased(P).reach < 10
     assert 1e-3 < rebased_off(back, P) <= 1
+
+
+def rezeroed_off(chain, q0):
+    """How far screws and home pose of a rezeroed chain are from their definition in 60 digits ÷ what `rezeroed` says.
+
+    A product of poses and of an adjoint with a screw is off by 10 u a joint; the exponential of A d, where it turns, by
+    4 u |d| more.
+    """
+    T, A, found = exact.exactly(np.eye(4)), [], chain.rezeroed(q0)
+    shifts = chain.coupling @ q0
+    for S, d in zip(chain.screws, shifts, strict=True):
+        A.append(exact.adjoint(T) @ exact.exactly(S))
+        T = T @ exact.exp(exact.exactly(S) * exact.exactly(d)[()])
+    off = np.abs(found.screws - exact.rounded(np.array(A)))
+    home = np.abs(found.home - exact.rounded(T @ exact.exactly(chain.home)))
+    within = UNIT * (10 * (len(A) + 1) + 4 * np.abs(chain.local.rotates * shifts).sum())
+    far = chain.reach + np.abs(chain.local.slides * shifts).sum()
+    turned, moved = max(off[:, :3].max(), home[:3, :3].max()), max(off[:, 3:].max(), home[:3, 3].max())
+    return max(turned, moved / far) / within
+
+
+FAR = st.floats(-1, 4).map(lambda power: 10.0**power)
+
+
+@given(chain_strategies.chain_cases(("q",), min_joints=1, max_joints=4), FAR)
+@example((pk.Chain([PX, RY, RZ], HOME), np.array([1.0, 2.0, 3.0])), 1e4)
+@example((pk.Chain([pk.screw.helical([0, 0, 1], [1, 0, 0], 0.5), RY], HOME), np.array([1.0, -2.0])), 1e3)
+def test_a_rezeroed_chain_is_as_exact_as_the_way_is_long(case, times):
+    chain, q = case
+    assert rezeroed_off(chain, q * times) <= 1
 
 
 def test_example_1_of_the_paper():

@@ -177,6 +177,10 @@ BOUNDS = {
         st.tuples(chain_strategies.chains(min_joints=1, max_joints=4), poses(lengths=(1e-3, 1e6))),
         test_chain.rebased_off,
     ),
+    "rezeroed screws": Bound(
+        st.tuples(chain_strategies.chain_cases(("q",), min_joints=1, max_joints=4), test_chain.FAR),
+        lambda case, times: test_chain.rezeroed_off(case[0], case[1] * times),
+    ),
     "screw of an axis": each(60, lambda r: (axis(r), point(r), pitch(r)), test_screw.made_off),
     "axis of a screw": each(60, lambda r: (axis(r), point(r), pitch(r)), test_screw.read_off),
     "point on an axis": each(60, lambda r: (axis(r), point(r), r.fraction(-7.0, 7.0)), test_screw.moved_off),
