@@ -85,7 +85,8 @@ def velocity(self: Chain, q: Any, dq: Any, frame: str | int) -> Array:
     """Twist V = J(q) dq of the tool by the paper's V recursion, without forming J.
 
     Parameters: q, dq (..., m), broadcast against each other; frame as in `jacobian`. Returns: V (..., 6), rad/s, m/s.
-    Raises: ShapeError, UnknownName, InputError. Accuracy: within 2e-14 reach |dq| (tests/model/test_chain_laws.py).
+    Raises: ShapeError, UnknownName, InputError.
+    Accuracy: that of `fk` times (n + 1) |C dq|, n the joints (tests/model/test_chain_laws.py).
     Source: Park 1994, Section IV; the recursion yields the body velocity, the other frames are reached from it.
     """
     code = self._frame_code(frame)
