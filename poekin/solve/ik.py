@@ -53,7 +53,8 @@ def ik(
     nearest_to (m,), (..., m) or a dict, within the limits or not: of the solutions that some fifty tries find, the one
         with the least distance from it, in rad and m of the joints; `ik_all` finds them all.
     aim: of an arm with more joints than the task needs, what to do with the rest: "middle" (of the limits), "nearest"
-        (to q0), "manipulability" (Yoshikawa's measure of what the task asks, in rad and m).
+        (to q0), "manipulability" (Yoshikawa's measure of what the task asks, in rad and m). It is served as far as the
+        arm can move within limits from the first solution, the tool at rest; other q0 may lead to a better one.
     lock: names of coordinates and the values that they keep.
     weights (6,): of the error's parts (rotation; position) in the axes of the base, while it is made small.
     restarts, iterations: the most tries after the first, and the most steps of a try. seed: of the random starts; the
