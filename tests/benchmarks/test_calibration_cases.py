@@ -143,7 +143,9 @@ def test_a_draw_of_the_folds_that_misses_one_bar_is_counted():
 
 @pytest.mark.parametrize("method", list(timing.METHODS))
 def test_scipy_and_poekin_solve_the_same_task(method):
-    needs("scipy", "1.16")
+    if method == "lm":
+        # Before, MINPACK's own differences: steps of 1.5e-8 |x|, 1e-11 here, and a Jacobian that is off by 3e-5.
+        needs("scipy", "1.16")
     task = timing.simulated_task()
     found = timing.minimised(method)(timing.residuals(task))
     own = timing.calibrated(task)
