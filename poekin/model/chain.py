@@ -219,7 +219,7 @@ class Chain:
         return self._with(screws=A, home=P @ self.home, limits=self.limits - q0[:, None])
 
     def random(self, rng: np.random.Generator | int, size: int | tuple[int, ...] = ()) -> Array:
-        """Configurations drawn uniformly within the limits; one turn (or 1 m either way) where there is none.
+        """Configurations drawn uniformly within the limits; without, one turn (1 m either way) of the fastest joint.
 
         Parameters: rng, a NumPy generator or a seed; size, the batch shape. Returns: (*size, m), rad or m.
         Raises: nothing of its own. Accuracy and source: none, it draws.
@@ -231,8 +231,14 @@ class Chain:
 
     def _turn_range(self) -> tuple[Array, Array]:
         """Least and greatest value (m,) that `random` draws of coordinates without limits."""
-        turn = np.array([np.pi if self._turns(k) else 1.0 for k in range(self.dof)])
+        turn = np.array([(np.pi if self._turns(k) else 1.0) / abs(self._ratio(k)) for k in range(self.dof)])
         return -turn, turn
+
+    def _ratio(self, k: int) -> float:
+        """The ratio of largest size to coordinate k, of joints that turn where it is an angle and slide where not."""
+        slides = np.array(self.kinds) == "prismatic"
+        ratios = self.coupling[slides != self._turns(k), k]
+        return float(ratios[np.argmax(np.abs(ratios))]) if ratios.any() else 1.0
 
     def _range(self) -> tuple[Array, Array]:
         """Least and greatest value (m,) that `random` draws of each coordinate."""

@@ -46,19 +46,11 @@ def joint_units(fast: CompiledChain) -> JointUnits:
 
 def _joint_units(fast: CompiledChain) -> JointUnits:
     chain = fast.chain
-    scale = np.array([_scale(chain, k) for k in range(chain.dof)])
+    scale = np.array([chain._ratio(k) for k in range(chain.dof)])
     if (scale == 1.0).all():
         return JointUnits(fast, None)
     scaled = chain._with(coupling=chain.coupling / scale, limits=np.sort(chain.limits * scale[:, None], axis=1))
     return JointUnits(scaled.compile(), scale)
-
-
-def _scale(chain: Chain, k: int) -> float:
-    """The entry of largest size in column k of the coupling, of joints that turn where the coordinate is an angle."""
-    ratios = chain.coupling[:, k]
-    slides = np.array([kind == "prismatic" for kind in chain.kinds])
-    ratios = ratios[slides != chain._turns(k)]
-    return float(ratios[np.argmax(np.abs(ratios))]) if ratios.any() else 1.0
 
 
 def period(chain: Chain, k: int) -> float:

@@ -351,6 +351,18 @@ def test_a_coordinate_without_a_limit_is_drawn_within_one_turn_or_two_metres(lim
         assert (q <= high).all()
 
 
+def test_random_of_a_geared_coordinate_without_limits_is_one_turn_of_the_fastest_joint():
+    plain = arm(limits=[[-np.inf, np.inf], [1, np.inf], [-np.inf, np.inf]])
+    units = np.array([100.0, 1e-3, 1e3])
+    geared = pk.Chain(plain.screws, plain.home, coupling=np.diag(1 / units), q_names=["a", "b", "c"],
+                      limits=plain.limits * units[:, None])  # fmt: skip
+    # low + (high - low) r of numbers up to 8, each factor rounded once more: within 8 · 8 u
+    np.testing.assert_allclose(geared.random(3, 50) / units, plain.random(3, 50), rtol=0, atol=64 * 2.0**-53)
+    one = pk.Chain(plain.screws, plain.home, coupling=[[0.5], [-2.0], [30.0]], q_names=["a"])  # the last slides
+    q = one.random(3, 2000)
+    assert 0.99 * np.pi / 2 < np.abs(q).max() <= np.pi / 2
+
+
 def test_limits_move_with_the_zero():
     a = arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]]).rezeroed([0.5, 1, 0.25])
     np.testing.assert_array_equal(a.limits, [[-1.5, 0.5], [-3, np.inf], [-0.25, 0.25]])
