@@ -77,6 +77,7 @@ def test_a_dozen_names_are_listed_and_five_offered():
     assert closest("joint", near).count("'joint") == 5
     assert closest("joint", near, 2).count("'joint") == 2
     assert closest("joint", []) == "there are none"
+    assert closest("", ["a"]) == "available: 'a'"
 
 
 @pytest.mark.parametrize("name, meant", [("abcdefghij", False), ("abcdefghxx", True), ("abcdexxxxx", False)])
