@@ -72,7 +72,7 @@ def kernel_table(form: LocalForm, coupling: Array | None, offset: Array) -> Arra
         coupling = np.eye(n)
     width = chain_kernels.OFFSET if coupling is None else chain_kernels.COUPLING + coupling.shape[1]
     table = np.zeros((n + 1, width))
-    table[:, :9] = form.frames[:, :3, :3].reshape(-1, 9)
+    table[:, :9] = form.frames[:, :3, :3].reshape(n + 1, 9)
     table[:, 9:12] = form.frames[:, :3, 3]
     table[:n, chain_kernels.ROTATES], table[:n, chain_kernels.SLIDES] = form.rotates, form.slides
     if coupling is not None:

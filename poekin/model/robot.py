@@ -206,7 +206,7 @@ def _build(
             raise ModelError(f"{where.place()}: joints must be Joint objects, got {told(joint)}")
     tree = tree_of(links, joints, where)
     coupling = coupling_of(joints, where)
-    bounds = np.array([joint.limits for joint in joints]).reshape(-1, 2)
+    bounds = np.array([joint.limits for joint in joints]).reshape(len(joints), 2)
     limits, torn = shared_limits(coupling, bounds, np.arange(len(joints)))
     limits.flags.writeable = bounds.flags.writeable = False
     parents = {joint.parent for joint in joints}

@@ -89,5 +89,5 @@ def _calls(word: str, task: Task, dof: int) -> list[str]:
 
 
 def _rows(values: np.ndarray, literal: Literal) -> str:
-    flat = values.reshape(len(values), -1) if values.size else np.zeros((len(values), 1))
-    return ",\n".join("    {" + ", ".join(literal(x) for x in row) + "}" for row in flat.tolist())
+    rows = [row.ravel().tolist() or [0.0] for row in values]  # C has no empty arrays
+    return ",\n".join("    {" + ", ".join(map(literal, row)) + "}" for row in rows)

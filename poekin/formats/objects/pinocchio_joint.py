@@ -78,7 +78,7 @@ def motions(joint: Any, name: str) -> list[Motion]:
 def _by_subspace(joint: Any, bare: Any, name: str, kind: str | None) -> Motion:
     """Of a joint whose axis Pinocchio tells by its motion subspace S = (v; omega) only, which is constant."""
     scaling = float(getattr(bare, "scaling", 1.0))
-    S = np.asarray(joint.createData().S, dtype=float).reshape(-1)
+    S = np.asarray(joint.createData().S, dtype=float).ravel()
     v, w = S[:3], S[3:]
     if S.shape != (6,) or not S.any():
         raise ModelError(
