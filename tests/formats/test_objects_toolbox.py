@@ -209,21 +209,30 @@ def test_one_elementary_transform_is_a_chain_too():
 @pytest.mark.parametrize(
     ("ets", "error", "message"),
     [
-        ([et("Rz", 0.1), et("R")], InputError, r"ETS, transform 1: expected one of Rx, Ry, Rz, tx, ty, tz, got 'R'"),
-        ([et("Rz", offset="a")], InputError, r"ETS, transform 0: offset: expected real numbers"),
+        ([et("Rz", 0.1), et("R")], InputError, "ETS, transform 1: expected one of Rx, Ry, Rz, tx, ty, tz, got 'R'"),
+        ([et("Rz", offset="a")], InputError, "ETS, transform 0: offset: expected real numbers, got str32 (str)"),
         (
             [SimpleNamespace(isjoint=False, axis="SE2", A=lambda: np.eye(3))],
             ShapeError,
-            r"ETS, transform 0: .*\(3, 3\)",
+            "ETS, transform 0: expected shape (..., 4, 4), got (3, 3)",
         ),
-        ([SimpleNamespace(isjoint=False, axis="SE3", A=lambda: np.ones((4, 4)))], PoseError, r"ETS, transform 0"),
-        ([et("Rz", jindex=0, qlim=[1, 2]), et("Rz", jindex=0, qlim=[3, 4])], InputError, r"lower <= upper for 'q0'"),
+        (
+            [SimpleNamespace(isjoint=False, axis="SE3", A=lambda: np.ones((4, 4)))],
+            PoseError,
+            ("ETS, transform 0 is no pose: its last row is [1.0, 1.0, 1.0, 1.0], expected [0, 0, 0, 1]"),
+        ),
+        (
+            [et("Rz", jindex=0, qlim=[1, 2]), et("Rz", jindex=0, qlim=[3, 4])],
+            InputError,
+            "limits: expected lower <= upper for 'q0', got 3.0 and 2.0",
+        ),
     ],
     ids=["planar joint", "text for offset", "planar constant", "no pose", "nothing left of the limits"],
 )
 def test_a_sequence_that_makes_no_sense_is_refused_with_the_place(ets, error, message):
-    with pytest.raises(error, match=message):
+    with pytest.raises(error) as caught:
         from_object(ets)
+    assert str(caught.value) == message
 
 
 def tree() -> Any:

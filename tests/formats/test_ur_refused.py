@@ -28,39 +28,91 @@ UPSIDE = ur.deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: ur.from_dh(SEVEN, nominal=NOMINAL), r"has 6 joints, the table 'seven' has 7: 'joint1', 'joint2'"),
-        (lambda: ur.from_dh(UR10E, nominal=SEVEN), r"has 6 joints, the table 'seven' has 7"),
-        (lambda: ur.from_dh(FLIPPED, nominal=NOMINAL), r"table 'flipped': joint 'elbow_joint' is flipped"),
-        (lambda: ur.from_dh(SLIDING, nominal=NOMINAL), r"joint 'shoulder_lift_joint' is prismatic"),
-        (lambda: ur.from_dh(TOOLED, nominal=NOMINAL), r"'wrist_3_link' is the tip .* off that joint's axis, by 100 mm"),
-        (lambda: ur.from_dh(UPSIDE, nominal=NOMINAL), r"axis of 'shoulder_lift_joint' points the other way"),
-        (lambda: ur.from_dh(pk.dh.published("panda"), nominal=NOMINAL), r"the table 'panda' has 7"),
-        (lambda: ur.from_dh(UR10E, nominal=ANY), r"expected a dh.Table, got str"),
-        (lambda: ur.deltas(ANY), r"deltas: expected a dh.Table, got str"),
+        (
+            lambda: ur.from_dh(SEVEN, nominal=NOMINAL),
+            (
+                "an arm of Universal Robots has 6 joints, the table 'seven' has 7: 'joint1', "
+                "'joint2', 'joint3', 'joint4', 'joint5', 'joint6', 'joint7'"
+            ),
+        ),
+        (
+            lambda: ur.from_dh(UR10E, nominal=SEVEN),
+            (
+                "an arm of Universal Robots has 6 joints, the table 'seven' has 7: 'joint1', "
+                "'joint2', 'joint3', 'joint4', 'joint5', 'joint6', 'joint7'"
+            ),
+        ),
+        (
+            lambda: ur.from_dh(FLIPPED, nominal=NOMINAL),
+            ("table 'flipped': joint 'elbow_joint' is flipped; a calibration has turning joints about +z"),
+        ),
+        (
+            lambda: ur.from_dh(SLIDING, nominal=NOMINAL),
+            ("table 'sliding': joint 'shoulder_lift_joint' is prismatic; a calibration has turning joints about +z"),
+        ),
+        (
+            lambda: ur.from_dh(TOOLED, nominal=NOMINAL),
+            (
+                "link 'wrist_3_link' is the tip and what joint 'wrist_3_joint' moves, and the "
+                "chain's tip is off that joint's axis, by 100 mm and 0°: the tip must be a link "
+                "that is fixed to it"
+            ),
+        ),
+        (
+            lambda: ur.from_dh(UPSIDE, nominal=NOMINAL),
+            (
+                "the axis of 'shoulder_lift_joint' points the other way in the table 'ur10e' "
+                "than in 'ur10e': they are not of the same arm"
+            ),
+        ),
+        (
+            lambda: ur.from_dh(pk.dh.published("panda"), nominal=NOMINAL),
+            (
+                "an arm of Universal Robots has 6 joints, the table 'panda' has 7: "
+                "'panda_joint1', 'panda_joint2', 'panda_joint3', 'panda_joint4', 'panda_joint5', "
+                "'panda_joint6', 'panda_joint7'"
+            ),
+        ),
+        (lambda: ur.from_dh(UR10E, nominal=ANY), "from_dh: expected a dh.Table, got str"),
+        (lambda: ur.deltas(ANY), "deltas: expected a dh.Table, got str"),
         (
             lambda: ur.deltas(NOMINAL, delta_a=[0.0] * 7),
-            r"delta_a: expected 6 numbers.* got 7: the calibration of anot",
+            ("delta_a: expected 6 numbers, one a joint of the table 'ur10e', got 7: the calibration of another arm?"),
         ),
-        (lambda: ur.deltas(NOMINAL, delta_a=[[0.0] * 6]), r"delta_a: expected 6 numbers.* got shape \(1, 6\)"),
+        (
+            lambda: ur.deltas(NOMINAL, delta_a=[[0.0] * 6]),
+            (
+                "delta_a: expected 6 numbers, one a joint of the table 'ur10e', got shape (1, "
+                "6): the calibration of another arm?"
+            ),
+        ),
         (
             lambda: ur.deltas(NOMINAL, delta_d=[0, 0, math.nan, 0, 0, 0]),
-            r"delta_d\[2\]: expected a finite number, got nan",
+            "delta_d[2]: expected a finite number, got nan",
         ),
-        (lambda: ur.apply(nominal_robot(), ANY), r"apply: expected a Calibration, got str"),
+        (lambda: ur.apply(nominal_robot(), ANY), "apply: expected a Calibration, got str"),
         (
             lambda: ur.apply(pk.load("panda"), ur.from_dh(UR10E, nominal=NOMINAL), tip="panda_hand"),
-            r"has 7 joints from",
+            (
+                "the robot has 7 joints from 'panda_link0' to 'panda_hand': 'panda_joint1', "
+                "'panda_joint2', 'panda_joint3', 'panda_joint4', 'panda_joint5', 'panda_joint6', "
+                "'panda_joint7'; the chain has 6: 'shoulder_pan_joint', 'shoulder_lift_joint', "
+                "'elbow_joint', 'wrist_1_joint', 'wrist_2_joint', 'wrist_3_joint'"
+            ),
         ),
         (
             lambda: ur.Calibration(np.eye(4)[None].repeat(7, 0)),
-            r"expected shape \(6, 4, 4\), one pose a link, got \(7,",
+            "poses: expected shape (6, 4, 4), one pose a link, got (7, 4, 4)",
         ),
-        (lambda: ur.Calibration(np.eye(4)[None].repeat(6, 0) * 2), r"pose of shoulder is no pose: its last row is"),
-        (lambda: ur.Calibration(np.eye(4)[None].repeat(6, 0), SEVENTH), r"hash: expected a text, got 7"),
+        (
+            lambda: ur.Calibration(np.eye(4)[None].repeat(6, 0) * 2),
+            "pose of shoulder is no pose: its last row is [0.0, 0.0, 0.0, 2.0], expected [0, 0, 0, 1]",
+        ),
+        (lambda: ur.Calibration(np.eye(4)[None].repeat(6, 0), SEVENTH), "hash: expected a text, got 7"),
     ],
-    ids=lambda value: value if isinstance(value, str) else "",
 )
 def test_what_is_no_calibration_of_this_arm_is_refused(make, message):
-    with pytest.raises(PoekinError, match=message) as caught:
+    with pytest.raises(PoekinError) as caught:
         make()
+    assert str(caught.value) == message
     assert isinstance(caught.value, ValueError)
