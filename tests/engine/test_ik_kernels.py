@@ -571,3 +571,27 @@ def test_solutions_are_within_a_period(monkeypatch):
 
     turn = 2 * math.pi
     assert Far(monkeypatch, []).q[0, 0] == pytest.approx([7 - turn, 8.0, turn - 7, 9.0], abs=1e-12)
+
+
+@pytest.mark.parametrize("row", range(6))
+@pytest.mark.parametrize("side", [0, 1])
+def test_each_part_of_the_error_decides_whether_a_coordinate_is_pushed_beyond_its_limit(row, side, monkeypatch):
+    sign = (-1.0, 1.0)[side]
+
+    def one(arm: Any, q: np.ndarray, T: np.ndarray, J: np.ndarray, scratch: np.ndarray) -> None:
+        e = 1e-3 * sign * np.eye(6)[row]
+        T[:], J[:] = np.eye(4), 0.0
+        T[:3, :3], T[:3, 3] = so3.exp(-e[:3]), -e[3:]
+        J[row, :2] = 1.0
+        J[(row + 1) % 3, :2] = 1e-9  # it turns
+
+    monkeypatch.setattr(ik_kernels, "_one", one)
+    limits = WIDE.copy()
+    limits[0, side] = Q[0]
+    q, _ = descended(Q, np.eye(4), limits=limits, ITERATIONS=1, weights=WEIGHTS)
+    # alone the second one goes the whole way, where both went half of it each
+    assert q[1] - Q[1] == pytest.approx(1e-3 * sign, rel=1e-4)
+    assert q[0] == Q[0]
+    limits[0, side], limits[0, 1 - side] = WIDE[0, side], Q[0]
+    q, _ = descended(Q, np.eye(4), limits=limits, ITERATIONS=1, weights=WEIGHTS)
+    assert q[:2] - Q[:2] == pytest.approx([5e-4 * sign] * 2, rel=1e-4)

@@ -111,7 +111,7 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/testing/reader.py": _BY_BYTES,
     "poekin/testing/conform/": _CONFORM,
     **{f"poekin/testing/conform/{name}.py": (f"tests/testing/conform/test_{name}.py", *_CASES) for name in (
-        "arm_cases", "child", "confirm", "grades", "named", "plugin", "precision", "small_urdf",
+        "arm_cases", "child", "confirm", "grades", "group_cases", "named", "plugin", "precision", "small_urdf",
         "subject")},
     **{f"poekin/testing/conform/{name}.py": ("tests/testing/conform/test_parts.py", *_CASES) for name in (
         "of_arms", "of_groups")},
@@ -120,6 +120,7 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/testing/conform/misspelt.py": ("tests/testing/conform/test_subject.py",),
     "poekin/testing/conform/urdf_cases.py": (
         "tests/testing/conform/test_urdf_cases.py", "tests/testing/conform/test_small_urdf.py", *_CASES),
+    "poekin/testing/conform/search.py": ("tests/testing/conform/test_precision.py", *_CASES),
     "poekin/testing/conform/law.py": ("tests/testing/conform/test_urdf_cases.py", *_CASES),
     "poekin/testing/conform/of_urdf.py": ("tests/testing/conform/test_small_urdf.py", *_CONFORM),
     "poekin/testing/conform/report.py": (

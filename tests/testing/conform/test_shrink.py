@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 
@@ -10,7 +11,7 @@ import pytest
 
 from benchmarks.subjects import Poekin
 from benchmarks.subjects.faulty import _Reader
-from poekin.testing.conform import LAWS, Case, Grade, Subject
+from poekin.testing.conform import LAWS, Case, Grade, Subject, shrink
 from poekin.testing.conform.arm_cases import ARM_LAWS
 from poekin.testing.conform.grades import judged
 from poekin.testing.conform.search import simplest
@@ -155,3 +156,91 @@ def test_oblique_axes_are_shown_in_round_numbers():
     case = next(case for case in every if np.count_nonzero(case.numbers[:3]) == 3)
     small = shrunk(law, case, lambda other: bool(np.count_nonzero(other.numbers[:3]) > 1))
     assert sorted(small.numbers[:3]) == [0, 0.6, 0.8]
+
+
+def test_a_case_costs_its_numbers_then_what_is_not_zero_digits_signs_places_and_sizes():
+    assert cost(Case(np.array([0, -0.25, 0, 100.0]))) == (4, 2, 3, 1, 4.0, pytest.approx(2 + math.log10(4)))
+    assert cost(Case(np.zeros(0))) == (0, 0, 0, 0, 0.0, 0.0)
+    rising = ([0.0, 0.0], [1.0, 0.0], [10.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [1.5, 0.0], [1.0, 1.0], [0.0, 0.0, 0.0])
+    costs = [cost(Case(np.array(numbers))) for numbers in rising]
+    assert costs == sorted(costs)
+    assert len(set(costs)) == len(costs)
+
+
+@pytest.mark.parametrize(
+    ("value", "digits"),
+    [
+        (1.0, 1), (-2.0, 1), (0.5, 1), (100.0, 1), (1e-12, 1), (1.5, 2), (0.25, 2), (-0.125, 3), (1.25e-7, 3),
+        (math.pi, 1), (-math.pi, 1), (math.pi - 1e-9, 2), (-(math.pi - 1e-3), 2), (3.0, 1), (math.pi - 1.5e-9, 16),
+        (math.pi - 0.1, 17), (math.pi + 1e-3, 16),
+    ],
+)  # fmt: skip
+def test_digits_are_those_that_people_write(value, digits):
+    assert shrink._digits(value) == pytest.approx(digits, abs=digits > 10)
+
+
+def test_rounder_numbers_come_the_simplest_first():
+    found = list(shrink._rounder(-0.037654))
+    assert found[:4] == [1.0, -1.0, math.pi, -0.1]  # the nearest power of ten, on a scale of logarithms
+    assert found[4:10] == [-0.04, 0.04, -0.038, 0.038, -0.0377, 0.0377]
+    assert found[-2:] == [-0.037654, 0.037654]
+    assert len(found) == 4 + 32
+    assert list(shrink._rounder(0.0))[3] == 0.0
+    assert list(shrink._rounder(200.0))[3] == 100.0
+    towards = list(shrink._rounder(-(math.pi - 2e-5)))
+    assert len(towards) == 37
+    assert towards[-1] == math.pi - 1e-5
+    assert len(list(shrink._rounder(math.pi - 0.1001))) == len(list(shrink._rounder(math.pi))) == 36
+    assert list(shrink._rounder(math.pi - 0.099))[-1] == math.pi - 0.1
+
+
+def test_directions_become_axes_then_planes_then_nearly_axes():
+    n = np.array([0.28, -0.96, 0.0])
+    found = [direction.tolist() for direction in shrink._simpler_directions(n)]
+    units = np.eye(3).tolist()
+    assert found[:3] == units
+    assert np.array_equal(found[3:6], -np.eye(3))
+    assert sorted(map(tuple, found[6:12])) == sorted(itertools.permutations((0.6, 0.8, 0.0)))
+    assert found[12:] == [[0, -1, 0], [0.28, 1, 0]]
+    tilted = [direction.tolist() for direction in shrink._simpler_directions(np.array([3e-7, 1.0, -2e-3]))]
+    assert tilted[12] == pytest.approx([0, 1 / math.hypot(1, 2e-3), -2e-3 / math.hypot(1, 2e-3)], rel=1e-15)
+    assert tilted[13:15] == [[1e-7, 1, -2e-3], [3e-7, 1, -2e-3]]  # the nearest power of ten, without its sign
+    assert tilted[15] == pytest.approx([3e-7, 1, 0], rel=1e-12)
+    assert tilted[16:] == [[3e-7, 1, -2e-3]]
+    assert len(list(shrink._simpler_directions(np.array([0.9e-4, 1.0, 0])))) == 12 + 3 + 1
+    assert len(list(shrink._simpler_directions(np.array([1.1e-4, 1.0, 0])))) == 12 + 1 + 1
+
+
+def test_smaller_cases_are_vectors_and_numbers_away_then_rounder():
+    law = EXP._replace(directions=lambda case: (), triples=lambda case: (3,))
+    case = Case(np.array([0, 2.5, 0, 3.0, 0, -4.0, 0.5]))
+    found = [other.numbers.tolist() for other in shrink._smaller(law, case)]
+    assert found[:5] == [
+        [0, 2.5, 0, 0, 0, 0, 0.5], [0, 0, 0, 3, 0, -4, 0.5], [0, 2.5, 0, 0, 0, -4, 0.5], [0, 2.5, 0, 3, 0, 0, 0.5],
+        [0, 2.5, 0, 3, 0, -4, 0],
+    ]  # fmt: skip
+    assert found[5:8] == [[0, 2.5, 0, *np.eye(3)[k] * 5, 0.5] for k in range(3)]
+    assert [0, 2.5, 0, 0, 1, 0, 0.5] in found
+    assert found[-1] == [0, 2.5, 0, 3, 0, -4, 0.5]
+    assert case.numbers.tolist() == [0, 2.5, 0, 3, 0, -4, 0.5]
+    directed = EXP._replace(directions=lambda case: (0,), triples=lambda case: ())
+    case = Case(np.array([0, 0.6, 0.8, 2.0]))
+    found = [other.numbers.tolist() for other in shrink._smaller(directed, case)]
+    assert found[0] == [0, 0.6, 0.8, 0], "an axis is no number of its own"
+    assert found[1:4] == [[*np.eye(3)[k], 2.0] for k in range(3)]
+    assert all(other[3] == 2 for other in found[1:15])
+    assert not list(shrink._smaller(law, Case(np.zeros(7))))
+
+
+def test_no_more_cases_are_tried_than_are_allowed():
+    tried: list[Case] = []
+
+    def fails(case: Case) -> bool:
+        tried.append(case)
+        return False
+
+    assert shrunk(EXP, XI, fails, budget=7) is XI
+    assert len(tried) == 7
+    calls = len(tried)
+    shrunk(EXP._replace(allowed=lambda case: False), XI, fails)
+    assert len(tried) == calls

@@ -8,7 +8,7 @@ import pytest
 import poekin as pk
 from benchmarks.subjects import Angular, Linear, Poekin
 from poekin.errors import InputError, UnknownName
-from poekin.testing.conform import LAWS, Grade, Subject, applicable, conform, law_names
+from poekin.testing.conform import LAWS, Case, Grade, Subject, Verdict, applicable, conform, law_names, run, search
 from tests.testing.drawing import drawn
 
 LAWS_OF = {law.name: law for law in LAWS}
@@ -201,3 +201,21 @@ def test_where_the_time_runs_out_the_report_says_so():
     assert "10 examples, which say little; the time ran out" in str(report)
     assert "note: the time ran out: fewer examples than there should be of so3_exp" in str(report)
     assert not conform(Poekin, ["so3_exp"], examples=12)["so3_exp"].late
+
+
+def test_the_time_that_is_left_is_shared_by_the_laws_that_are_left(monkeypatch):
+    clock, shares = [100.0], []
+
+    def worst(law, subject, examples, seconds, at_most):
+        shares.append((law.name, examples, seconds))
+        clock[0] += 4.0 if len(shares) == 1 else 100.0
+        return search.Found(1, Case(np.zeros(3)), Verdict(Grade.EXACT, 0.0, "x"))
+
+    monkeypatch.setattr(run, "worst", worst)
+    monkeypatch.setattr(run.time, "monotonic", lambda: clock[0])
+    laws = ["so3_exp", "so3_log", "fk"]
+    said: list[tuple] = []
+    run.conform(Poekin, laws, seconds=30.0, limits=None, say=lambda *words: said.append(words))
+    assert [share[2] for share in shares] == [10.0, 13.0, 0.1]
+    assert [share[1] for share in shares] == [next(law.examples for law in run.LAWS if law.name == n) for n in laws]
+    assert said == [(0, 3, "so3_exp"), (1, 3, "so3_log"), (2, 3, "fk")]
