@@ -137,3 +137,11 @@ def test_of_angles_and_nodes_those_that_no_output_needs_are_left_out():
     assert made.angles == (Angle(None, ((1, 1.0),), 0.0),)
     assert [(node.kind, node.first) for _, node in made.steps] == [("input", 1)]
     assert (made.count.sines, made.count.cosines, made.count.multiplications) == (1, 1, 0)
+
+
+def test_operations_of_angles_and_of_steps_are_counted_together():
+    graph = Graph()
+    angles = Angles(graph)
+    s, c = angles.sine_cosine([0.5, 1.0], 0.0, 0)
+    count = program(graph, angles, [s * c + s]).count
+    assert (count.multiplications, count.additions, count.sines, count.cosines) == (2, 2, 1, 1)
