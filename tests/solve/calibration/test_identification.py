@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,7 +11,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError
-from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identify
+from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identification, identify
 
 CHAINS = ("R", "RR", "RRR", "RRRRRR", "RRRRRRR", "RRP", "PPP", "RRPR", "RPRPRR")
 PUMA = pk.load("puma560").chain()
@@ -140,3 +142,55 @@ def test_the_condition_does_not_depend_on_units_of_the_arm():
     q = PUMA.random(0, 30)
     a, b = identify(large, q, large.fk(q)), identify(larger, q, larger.fk(q))
     np.testing.assert_allclose(a.singular_values, b.singular_values, rtol=1e-9)
+
+
+def test_what_is_seen_and_what_is_left_span_all_directions():
+    J = np.array([[3.0, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1e-7, 0]])
+    for least, rank in ((1e-9, 3), (1e-6, 2)):
+        for rows in (J, np.concatenate([J, J, J])):
+            s, seen = identification._space(rows, least)
+            assert seen.shape == (4, rank)
+            np.testing.assert_allclose(s[0], np.linalg.norm(rows, 2))
+            left = identification._rest(seen)
+            both = np.concatenate([seen, left], axis=1)
+            np.testing.assert_allclose(both.T @ both, np.eye(4), atol=1e-12)
+            np.testing.assert_allclose(np.abs(left[3]).max(), 1, atol=1e-12)
+    assert identification._space(np.zeros((3, 4)), 1e-9)[1].shape == (4, 0)
+    assert identification._space(np.zeros((0, 4)), 1e-9)[1].shape == (4, 0)
+    np.testing.assert_array_equal(identification._rest(np.zeros((4, 0))), np.eye(4))
+    assert identification._rest(np.eye(4)).shape == (4, 0)
+
+
+def test_a_span_is_of_the_directions_that_most_point_in():
+    N = np.array([[1.0, 1, 0], [0, 1e-9, 0], [0, 0, 0.5]])
+    for count, expected in ((2, [0, 2]), (1, [0]), (0, []), (-1, [])):
+        span = identification._span(N, count)
+        assert span.shape == (3, len(expected))
+        assert np.abs(span).argmax(axis=0).tolist() == expected
+
+
+def test_where_a_frame_moves_with_the_arm_the_frame_gives_way():
+    shared = np.array([1.0, 0, 0, 1]) / np.sqrt(2)  # of two parameters of the arm and two of a frame
+
+    class Small:
+        size, arm_size = 4, 2
+
+    problem: Any = Small()
+    free = identification._free(problem, shared[:, None])
+    assert free.shape == (4, 3)
+    np.testing.assert_allclose(free.T @ free, np.eye(3), atol=1e-12)
+    np.testing.assert_allclose(np.abs(free[0]).max(), 0, atol=1e-5)
+    np.testing.assert_allclose(np.linalg.norm(free[1:], axis=1), 1, atol=1e-5)
+
+
+def test_what_is_told_is_a_row_for_each_known_parameter_and_anywhere_every_coordinate_moves():
+    class Three:
+        size = 3
+
+    three: Any = Three()
+    assert identification._told(three, None).shape == (0, 3)
+    np.testing.assert_array_equal(identification._told(three, np.array([True, False, True])), np.eye(3)[[0, 2]])
+    q = identification._anywhere(PUMA, 50)
+    assert q.shape == (50, 6)
+    assert (np.ptp(q, axis=0) > np.pi).all()
+    assert len(np.unique(q)) == 300

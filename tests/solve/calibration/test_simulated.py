@@ -182,3 +182,40 @@ def test_the_arm_the_noise_and_the_frames_are_drawn_apart():
 def test_what_cannot_be_simulated_is_refused(options, error, says):
     with pytest.raises(error, match=says):
         simulated(PANDA, **{"n": 4, **options})
+
+
+def test_frames_stand_where_an_arm_can_be_measured_from():
+    turns = []
+    for seed in range(40):
+        made = simulated(PANDA, 1, kind="eye-in-hand", seed=seed)
+        assert made.X is not None
+        assert made.Z is not None
+        for T, far in ((made.X, 0.7), (made.Z, 0.1)):
+            assert np.linalg.norm(T[:3, 3]) == pytest.approx(far * PANDA.reach)
+            turns.append(float(np.linalg.norm(so3.log(T[:3, :3]))))
+        centre = simulated(PANDA, 1, kind="distances", unknown=True, seed=seed).frames["centre"]
+        assert np.linalg.norm(centre) == pytest.approx(2 * PANDA.reach)
+        assert not np.allclose(made.X[:3, 3] / 0.7, centre / 2)
+    assert 0.5 <= min(turns) < 0.7
+    assert 2.3 < max(turns) <= 2.5
+    assert (made.X is made.frames["T_base_board"], made.Z is made.frames["T_tip_camera"]) == (True, True)
+    plain = simulated(PANDA, 1)
+    assert (plain.X, plain.Z, plain.points, plain.frames) == (None, None, None, {})
+    assert simulated(PANDA, 1, kind="distances", points=TOOL).points is not None
+
+
+def test_gross_errors_lie_all_over_their_bounds_in_every_direction():
+    made = simulated(PANDA, 4000, outliers=0.5, noise=(0, 0), seed=1)
+    e = errors(made)[made.outliers]
+    assert len(e) == 2000
+    assert np.abs(errors(made)[~made.outliers]).max() < 1e-13
+    for part, (low, high) in ((e[:, :3], GROSS_TURN), (e[:, 3:] / PANDA.reach, GROSS_SHIFT)):
+        size = np.linalg.norm(part, axis=1)
+        # Even between them: the mean of 2000 is known to 1 / sqrt(12 * 2000) = 0.65 % of the range, five times that.
+        assert np.mean((size - low) / (high - low)) == pytest.approx(0.5, abs=0.035)
+        assert (low <= size).all()
+        assert (size <= high).all()
+        # Even over the sphere: each component's mean 0, its mean square 1/3, to 1/sqrt(3 * 2000) and 0.3/sqrt(2000).
+        u = part / size[:, None]
+        np.testing.assert_allclose(u.mean(axis=0), 0, atol=0.065)
+        np.testing.assert_allclose((u**2).mean(axis=0), 1 / 3, atol=0.035)
