@@ -182,3 +182,18 @@ def test_each_joint_has_the_name_and_the_kind_of_either_model():
                                                                    ("revolute", "prismatic", "deg")]  # fmt: skip
     assert (joints[4].normal, joints[4].shift) == (None, None)
     assert compare(b, a, samples=1).joints[4].unit == "mm"
+
+
+def test_a_zero_offset_that_no_agreeing_axis_needs_is_put_back_though_another_axis_disagrees():
+    chain = random_arm(3)
+    S = chain.screws.copy()
+    across = np.cross(S[2, :3], S[0, :3])
+    S[2, 3:] += np.cross(1e-3 * across / np.linalg.norm(across), S[2, :3])
+    other = Chain(S, chain.home)
+    pair = sides(chain, other, *TOL)
+    P, z = np.eye(4)[None].copy(), np.zeros((1, 6))
+    P[0, :3, 3] = pair.b.hub - pair.a.hub
+    z[0, 5] = 0.4
+    (found,) = searching._simplest(pair, chain, other, P, z)
+    assert found.zeros.tolist() == [0.0] * 6
+    assert found.moved.sum() >= 1

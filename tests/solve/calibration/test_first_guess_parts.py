@@ -193,3 +193,11 @@ def test_a_chord_is_twice_the_sine_of_half_the_angle():
     angles = np.array([0.0, 0.3, 2.0, np.pi])
     R = so3.exp(angles[:, None] * np.array([0.6, 0, 0.8]))
     assert first_guess._chord(R - np.eye(3)) == pytest.approx(2 * np.sin(angles / 2))
+
+
+def test_a_linear_solution_counts_each_row_by_its_weight_and_misses_by_its_length():
+    rng = np.random.default_rng(4)
+    design, rhs, w = rng.normal(size=(9, 3, 4)), rng.normal(size=(9, 3)), rng.uniform(0.1, 1, 9)
+    x, off = first_guess._linear(design, rhs, w)
+    least(lambda x: float(w @ np.sum((design @ x - rhs) ** 2, axis=1)), x)
+    assert off == pytest.approx(np.linalg.norm(design @ x - rhs, axis=1))

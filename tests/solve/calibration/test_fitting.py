@@ -12,6 +12,7 @@ import poekin as pk
 from poekin.groups import se3
 from poekin.solve import calibration
 from poekin.solve.calibration import EyeInHand, Points, Poses, calibrate, fitting, losses
+from poekin.solve.calibration import minimise as minimising
 from poekin.solve.calibration.fitting import frames_only
 from poekin.solve.calibration.identification import judged
 from poekin.solve.calibration.minimise import _exact, _solved, minimise, regular
@@ -252,3 +253,25 @@ def test_an_outlier_is_named_by_its_set_its_place_there_and_its_row_of_the_readi
     T[7, :3, 3] += 0.3
     found = calibrate(PUMA, q, [Poses(T), Points(p, rows=rows)], folds=0, loss="tukey")
     assert [tuple(o) for o in found.outliers] == [(0, 7, 7), (1, 5, 34)]
+
+
+def test_damping_grows_tenfold_with_each_step_that_fails_and_falls_with_each_that_does_not(monkeypatch):
+    q, T = noisy(10)
+    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T)])
+    noise, calls, cost = Noise(problem.sets, [Spread(1e-3, 1e-3)]), [], minimising._cost
+
+    def failing(*given):
+        calls.append(given)
+        return np.inf if len(calls) in (2, 3) else cost(*given)  # the first is of the start
+
+    monkeypatch.setattr(minimising, "_cost", failing)
+    found = minimise(problem, judged(problem)[1], noise, "linear", np.zeros(problem.size), None)
+    assert found.converged
+    assert [step.damping for step in found.steps[:3]] == pytest.approx([1e-3, 1e-4, 0.0])
+    assert found.steps[0].cost > found.steps[1].cost
+    calls.clear()
+    monkeypatch.setattr(minimising, "_cost", lambda *given: calls.append(given) or (1.0 if len(calls) == 1 else np.inf))
+    stuck = minimise(problem, judged(problem)[1], noise, "linear", np.zeros(problem.size), None)
+    assert not stuck.converged
+    assert (stuck.steps, stuck.p.tolist()) == ([], [0.0] * problem.size)
+    assert len(calls) == 20  # the start, the full step, and damped by 1e-4 up to the first above 1e12

@@ -159,7 +159,7 @@ def test_other_units_are_told_with_how_far_the_arm_is_off_in_metres_either_way()
         calibrate(PUMA, degrees, T, folds=0)
 
 
-@pytest.mark.parametrize("away, told", [(0.05, False), (0.15, True)])
+@pytest.mark.parametrize("away, told", [(0.098, False), (0.102, True)])
 def test_units_are_looked_at_from_a_tenth_of_the_reach_or_four_turns_on(away, told, monkeypatch):
     tried = []
     monkeypatch.setattr(units, "_tried", lambda *given: tried.append(given) or np.inf)
