@@ -160,7 +160,7 @@ def chain_errors(chain: Chain, oracle: PinocchioOracle, q: dict[str, np.ndarray]
     unknown = [name for name in chain.q_names if name not in oracle.coordinates]
     if unknown:
         return _row(chain, np.full((4, 1), np.inf), {}, f"Pinocchio has no coordinate {shown(unknown[0])}")
-    values = np.stack([np.asarray(q[n], float) for n in oracle.coordinates], -1) if oracle.coordinates else None
+    values = np.column_stack([np.asarray(q[n], float) for n in oracle.coordinates]) if oracle.coordinates else None
     count = 1 if values is None else len(values)
     own = [oracle.coordinates.index(name) for name in chain.q_names]
     configurations = np.zeros((count, 0)) if values is None else np.ascontiguousarray(values[:, own])

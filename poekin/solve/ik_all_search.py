@@ -73,10 +73,11 @@ def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
     """
     turn = periods(chain)
     low, high = chain.limits.T if limits else np.tile([[-np.inf], [np.inf]], (1, chain.dof))
-    step = np.where(turn > 0, turn, 1.0)
+    turns = turn > 0
+    step = np.where(turns, turn, 1.0)
     first, last = np.ceil((low - _EDGE - Q) / step), np.floor((high + _EDGE - Q) / step)
     inside = (low - _EDGE <= Q) & (high + _EDGE >= Q)
-    return np.where(turn > 0, first, np.where(inside, 0.0, 1.0)), np.where(turn > 0, last, 0.0)
+    return np.where(turns, first, np.where(inside, 0.0, 1.0)), np.where(turns, last, 0.0)
 
 
 def pose_errors(chain: Chain, q: Array, T: Array) -> Array:

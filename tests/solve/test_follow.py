@@ -13,6 +13,7 @@ from poekin.solve import follower, motion
 from poekin.solve.follow import follow
 from poekin.solve.followed import NEAR_SINGULAR
 from poekin.solve.ik import ik
+from poekin.solve.solver import Settings, solver_of
 
 TOL = 1e-9
 PANDA_Q = np.array([0, -0.5, 0, -2.0, 0, 1.6, 0.8])
@@ -363,3 +364,54 @@ def test_bad_targets_are_told_apart_from_poses_that_are_not_reached(ur5):
     said = str(follow(ur5, T, q0=UR5_Q))
     assert "pose 1 not reached: bad target" in said
     assert "pose 2 not reached: unreachable" in said
+
+
+def follower_of(arm, T, most=0.1, **options):  # type: ignore[no-untyped-def]
+    """What follows a path, before it does."""
+    settings = {"task": "pose", "axis": None, "limits": True, "tol_position": TOL, "tol_rotation": TOL, "lock": None,
+                "weights": None, "restarts": 100, "iterations": 30, "seed": 0, "parallel": False}  # fmt: skip
+    solver = solver_of(arm, Settings(**{**settings, **options}))
+    return follower.Follower(solver, np.ascontiguousarray(T), np.full(arm.dof, most), None)
+
+
+@pytest.mark.parametrize("lock", [None, (("panda_joint3", 0.3),)])
+def test_starts_are_several_solutions_of_their_pose_with_what_is_locked_where_it_is(panda, lock):
+    q = np.where(np.arange(7) == 2, 0.3, PANDA_Q)
+    T = panda.fk(q)[None]
+    one = follower_of(panda, T, lock=lock)
+    for turn in (0, 1):
+        found = one._solutions(0, turn, None)
+        assert len(found) > 1
+        assert off(panda, found, np.tile(T, (len(found), 1, 1))) <= TOL
+        assert lock is None or (found[:, 2] == 0.3).all()
+    nearest = one._solutions(0, 0, q)[0]
+    np.testing.assert_allclose(nearest, q, atol=1e-6)
+
+
+def test_a_step_towards_a_pose_out_of_reach_goes_no_farther_than_is_allowed_and_down():
+    arm = planar().compile()
+    T = np.tile(np.eye(4), (1, 1, 1))
+    T[0, :3, 3] = 3.0, 0.5, 0
+    one, last = follower_of(arm, T, most=0.05, task="position"), np.array([0.4, -0.9, 0.0])
+    (q,) = one._near(0, last)
+    assert (np.abs(q - last) <= 0.05 + 1e-15).all()
+    before, after = (np.linalg.norm(arm.fk(x)[:3, 3] - T[0, :3, 3]) for x in (last, q))
+    assert after < before - 0.01
+    (far,) = follower_of(arm, T, most=10.0, task="position")._near(0, last)
+    assert np.linalg.norm(arm.fk(far)[:3, 3] - T[0, :3, 3]) == pytest.approx(np.hypot(3, 0.5) - 2, abs=1e-5)
+    e2, H, g = one._slope(0, last)
+    error = T[0, :3, 3] - arm.fk(last)[:3, 3]
+    J = arm.chain.jacobian(last, "hybrid")[3:]
+    assert e2 == pytest.approx(error @ error)
+    np.testing.assert_allclose(H, J.T @ J, atol=1e-14)
+    np.testing.assert_allclose(g, J.T @ error, atol=1e-14)
+
+
+def test_it_is_said_of_a_pose_that_is_reached_after_all_that_the_steps_ended(ur5):
+    T = ur5.fk(np.array([UR5_Q, UR5_Q]))
+    T[1, 0, 3] += 9
+    one = follower_of(ur5, T)
+    assert one.said(0) == ("iterations", 0.0, ())
+    reason, beyond, blocked = one.said(1)
+    assert (reason, blocked) == ("unreachable", ())
+    assert 7 < beyond < 9
