@@ -75,6 +75,7 @@ class Child:
         self._thing, self._limits = thing, limits
         self._process: _Forked | _Fresh | None = None
         self._lost = ""
+        self._answered = False
         self.seconds = limits.seconds
         self.subject = self._started()
         self.subject.own = Remote(self)
@@ -88,7 +89,15 @@ class Child:
                 self._lost = f"{LOST}: {error}"
         if self._lost:
             raise Fault(self._lost)
-        reply = self._received(self.seconds, request)
+        try:
+            reply = self._received(self.seconds, request)
+        except Fault as fault:
+            if self._answered or not str(fault).startswith(UNANSWERED):
+                raise
+            # The first call of all may have compiled for so long, and kept for the next process what it did.
+            self._answered = True
+            return self.ask(*request)
+        self._answered = True
         if reply.interrupted:
             raise KeyboardInterrupt
         if reply.fault:

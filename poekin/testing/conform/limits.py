@@ -16,8 +16,8 @@ STARTING = 120.0
 class Limits(NamedTuple):
     """Limits of a subject's process.
 
-    seconds: that one call may take, the first one with what it compiles; memory: bytes that it may take beyond those of
-    its start (Linux).
+    seconds: that one call may take, the first one with what it compiles: late, it is made again once; memory: bytes
+    that the process may take beyond those of its start (Linux).
     """
 
     seconds: float = 60.0

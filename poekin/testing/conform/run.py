@@ -151,7 +151,9 @@ def outcome(law: Law, subject: Subject, found: Found) -> Outcome:
     again = verdict if again.fault.startswith(LOST) else again
     steady = again.grade >= verdict.grade
     fault, hint = again.fault, ""
-    if not law.about(case):
+    if again.fault.startswith(ModuleNotFoundError.__name__):
+        hint = "a package that the subject imports is not installed: nothing was judged"
+    elif not law.about(case):
         hint = "nothing that this law is about is in it: what is wrong is something else"
     elif steady and again.grade is Grade.BROKEN and not again.ended:
         hint = _declared_otherwise(law, subject, found.case, case)

@@ -54,6 +54,20 @@ class Eats(Sound):
     def _fails(self):
         self.kept = np.ones(2**34)
 
+class Compiles(Sound):
+    def __init__(self):
+        pk.so3.exp(np.zeros(3))
+    def so3_exp(self, w):
+        if not os.path.exists(__file__ + ".compiled"):
+            open(__file__ + ".compiled", "w").close()
+            time.sleep(1000)
+        return pk.so3.exp(w)
+
+class Imports(Sound):
+    def so3_exp(self, w):
+        import no_such_package
+        return no_such_package.exp(w)
+
 class Prints(Sound):
     def so3_exp(self, w):
         print("from Python")
@@ -152,6 +166,17 @@ def test_a_subject_that_cannot_be_made_again_says_so(module):
     assert report["so3_log"].fault.startswith(
         "cannot be made again: MadeOnce cannot be made as MadeOnce(): RuntimeError"
     )
+
+
+def test_a_first_call_that_compiles_for_too_long_is_asked_again(module):
+    (outcome,) = conform(f"{module}:Compiles", ["so3_exp"], examples=3, limits=Limits(2.0)).outcomes
+    assert (outcome.grade, outcome.fault) == (Grade.EXACT, "")
+
+
+def test_of_a_missing_package_it_is_said_that_nothing_was_judged(module):
+    (outcome,) = conform(f"{module}:Imports", ["so3_exp"], examples=3).findings
+    assert outcome.fault == "ModuleNotFoundError: No module named 'no_such_package'"
+    assert outcome.hint == "a package that the subject imports is not installed: nothing was judged"
 
 
 def test_limits_are_positive_numbers():
