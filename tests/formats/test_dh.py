@@ -37,10 +37,6 @@ def largest(table):
     return max(np.abs(table.d).max(initial=0), np.abs(table.a).max(initial=0))
 
 
-def far(table, chain):
-    return largest(table) > 10 * chain.reach
-
-
 def rounding(chain, x):
     """What the poses of a table's matrices and of its screws may differ by, lengths ÷ reach.
 
@@ -132,7 +128,7 @@ def test_every_chain_of_the_real_robots_has_a_table(convention):
             chain = robot.chain(base=base, tip=tip)
             result = dh.from_chain(chain, convention=convention, samples=20)
             dropped = [w for w in result.warnings if "taken as parallel" in w]
-            assert result.error <= (result.bound if dropped or far(result.table, chain) else 1e-13), (name, tip)
+            assert result.error <= result.bound, (name, tip)
             if not dropped:
                 n = len(result.table) + 1
                 assert result.bound <= 100 * UNIT * n * (1 + largest(result.table) / chain.reach), (name, tip)
@@ -151,7 +147,7 @@ def test_a_coupled_chain_gives_the_table_of_its_joints():
     chain = pk.load("panda").chain(tip="panda_rightfinger")
     result = dh.from_chain(chain)
     assert result.table.names == chain.joint_names
-    assert result.error <= 1e-13
+    assert result.error <= result.bound
 
 
 def test_a_chain_without_joints_is_a_tool():
