@@ -78,6 +78,13 @@ EQUATIONS: dict[str, str] = {
     ),
     "poekin.formulas.logarithm": _SE3_LOG,
     "poekin.formulas.logarithm.so3": _SO3_LOG,
+    "poekin.formulas.quaternion": (
+        r"4 q q^T = \begin{bmatrix} p & q_v^T \\ q_v & M \end{bmatrix}, \quad p = 1 + \operatorname{tr} R, \quad "
+        r"q_v = \operatorname{vee}(R - R^T)"
+    ),
+    "poekin.formulas.arctangent": (
+        r"\arctan t = \sum_{n \ge 0} \frac{2 (-1)^n p^{2n+1}}{2n+1}\,T_{2n+1}(2t), \quad p = \sqrt{5} - 2"
+    ),
     "poekin.formulas.exp_jacobian": _LEFT,
     "poekin.formulas.exp_jacobian.left_inverse": _LEFT_INVERSE,
     "poekin.formulas.coefficients": _LEFT_INVERSE,

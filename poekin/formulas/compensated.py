@@ -7,6 +7,8 @@ Accuracy: a result is right to 2^-24 of itself and 2^-76 of what it was taken fr
 Source: Dekker 1971, but split at a common unit, where the squares of three numbers add up without rounding.
 """
 
+from . import elementary
+
 _HALF = 134217728.0  # 2^27: half of the 53 digits
 
 
@@ -33,3 +35,10 @@ def sum_rest(a, b, total):
     """a + b - total where total is a + b to rounding."""
     of_b = total - a
     return (a - (total - of_b)) + (b - of_b)
+
+
+def length(w, tt):
+    """(t, dt, rest): t = sqrt(tt), where tt is |w|^2 to rounding; t + dt is |w|, and tt + rest its square."""
+    t = elementary.sqrt(tt)
+    rest = square_rest(w, t, tt)
+    return t, 0.5 / t * (rest + quotient_rest(tt, t, t)), rest

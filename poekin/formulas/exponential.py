@@ -9,7 +9,7 @@ Source: Park 1994, Lemmas 1 and 2.
 from ..algebra import add, cross, dot, pose_of, scale, subtract
 from . import elementary
 from .coefficients import NEAR, b_near, c_near
-from .compensated import quotient_rest, square_rest
+from .compensated import length
 
 
 def rotation(w, a, b):
@@ -50,20 +50,18 @@ def turned(w, a, b, cosine):
     )
 
 
-def _closed(w, tt):
+def closed(w, tt):
     """(A, B, cos theta) of a rotation vector, theta >= 1, from tt = |w|^2 to rounding.
 
     What rounding took from tt and from its root is put back to first order: else it would count sqrt(2) theta times in
     the rotation.
     """
-    t = elementary.sqrt(tt)
-    rest = square_rest(w, t, tt)
+    t, dt, rest = length(w, tt)
     inverse = 1.0 / t
-    dt = 0.5 * inverse * (rest + quotient_rest(tt, t, t))
     sine, cosine = elementary.sin(t), elementary.cos(t)
     versine = 1.0 - cosine
     a = (sine + dt * (cosine - sine * inverse)) / t
-    b = (versine + (dt * sine - versine * (inverse * inverse) * rest)) / tt
+    b = (versine + ((1.0 - versine - cosine) + dt * sine - versine * (inverse * inverse) * rest)) / tt
     return a, b, cosine - dt * sine
 
 
@@ -72,7 +70,7 @@ def so3(w):
     tt = dot(w, w)
     if elementary.below(tt, NEAR):
         return rotation(w, 1.0 - tt * c_near(tt), b_near(tt))
-    return turned(w, *_closed(w, tt))
+    return turned(w, *closed(w, tt))
 
 
 def se3(w, v):
@@ -86,7 +84,7 @@ def se3(w, v):
     if elementary.below(tt, NEAR):
         b, c = b_near(tt), c_near(tt)
         return pose_of(rotation(w, 1.0 - tt * c, b), displacement(1.0, v, c, cross(w, across), b, across))
-    a, b, cosine = _closed(w, tt)
+    a, b, cosine = closed(w, tt)
     k = dot(w, v) / tt
     v_across = subtract(v, scale(k, w))
     more = dot(w, v_across) / tt  # of v_across, what rounding left along w

@@ -76,7 +76,7 @@ def _linear(w, n, p, e):
     tt = dot(w, w)
     across = cross(w, p)
     if elementary.below(tt, SWITCH):
-        return displacement(1.0, p, d_of(tt, e), cross(w, across), -0.5, across)
+        return displacement(1.0, p, d_of(tt), cross(w, across), -0.5, across)
     k = dot(n, p)
     p_across = subtract(p, scale(k, n))
     more = dot(n, p_across)  # of p_across, what rounding left along n

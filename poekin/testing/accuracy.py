@@ -18,7 +18,7 @@ import numpy as np
 from poekin.groups import se3, so3
 
 from . import attainable, exact, extended, suspects
-from .accuracy_laws import JACOBIAN_BAR, NOISE_BAR, REPORT_BAR, jacobian_errors
+from .accuracy_laws import JACOBIAN_REPORT_BAR, NOISE_BAR, REPORT_BAR, jacobian_errors
 from .attainable import BOTH_SIGNS, UNIT
 
 SIGN_BAR = 9e-16
@@ -144,8 +144,8 @@ def _jacobian_rows(name: str, pose: Any, cases: np.ndarray, many: np.ndarray) ->
     rows = []
     for side, pairs in errors.items():
         what = f"{side} {name.replace('_', ' ')}"
-        rows.append(_worst(f"{what}: 3×3 block", JACOBIAN_BAR, xi, (block for block, _ in pairs)))
-        rows.append(_worst(f"{what}: Q block ÷ ‖v‖", JACOBIAN_BAR, xi, (corner for _, corner in pairs)))
+        rows.append(_worst(f"{what}: 3×3 block", JACOBIAN_REPORT_BAR, xi, (block for block, _ in pairs)))
+        rows.append(_worst(f"{what}: Q block ÷ ‖v‖", JACOBIAN_REPORT_BAR, xi, (corner for _, corner in pairs)))
     return rows
 
 

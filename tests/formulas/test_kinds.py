@@ -51,7 +51,7 @@ ROTATES, SLIDES = [1.0, 0.0, 1.0, 1.0], [0.0, 1.0, 0.2, 0.0]
 RATES = rng.normal(size=N).tolist()
 COUPLING = rng.normal(size=(N, 2)).tolist()
 SIZES = (1.2, 2.9)  # on either side of the switch
-A, E = ({t: f(t) for t in SIZES} for f in (coefficients.a_of, coefficients.e_of))
+A = {t: coefficients.a_of(t) for t in SIZES}
 B = {t: coefficients.b_of(t * t, t) for t in SIZES}
 
 
@@ -113,17 +113,20 @@ CASES = [
     (compensated.upper, 0.375, 0.5),  # few digits: the exact kind keeps them all
     (compensated.square_rest, W, math.sqrt(0.5), 0.5),
     (compensated.quotient_rest, 0.7, 0.7 / 0.3, 0.3),
+    (compensated.length, W, 0.5),
     (compensated.sum_rest, 0.7, -0.3, 0.7 - 0.3),
     *[(arctangent.angle, y, 0.8) for y in (0.1, 0.7, 5.0)],
     (coefficients.polynomial, (0.5, -0.25, 0.125), 0.3),
     *[(coefficients.c_of, t * t, A[t]) for t in SIZES],
-    *[(coefficients.d_of, t * t, E[t]) for t in SIZES],
+    *[(coefficients.d_of, t * t) for t in SIZES],
+    *[(coefficients.d_and_e, t * t, 1e-15) for t in SIZES],
     *[(coefficients.b_slope, t * t, A[t], B[t]) for t in SIZES],
     *[(coefficients.c_slope, t * t, B[t], coefficients.c_of(t * t, A[t])) for t in SIZES],
-    *[(coefficients.d_slope, t * t, B[t], E[t]) for t in SIZES],
+    *[(coefficients.d_slope, t * t) for t in SIZES],
     (exponential.rotation, W, 0.3, 0.2),
     (exponential.turned, W, 0.3, 0.2, 0.1),
     (exponential.displacement, 0.3, W, 0.2, V, 0.1, LONG),
+    (exponential.closed, LONG, 5.46),
     *[(exponential.so3, w) for w in (W, LONG, (0.0, 0.0, 0.0))],
     *[(exponential.se3, w, V) for w in (W, LONG, (0.0, 0.0, 0.0))],
     *[(exponential.joint, w, V, 0.4, math.sin(0.4), math.cos(0.4)) for w in ((0.6, 0.0, 0.8), (0.0, 0.0, 0.0))],
