@@ -6,6 +6,7 @@ Each is a module with `topic(quick, say) -> Topic`: quick asks for a shorter run
 from . import (
     accuracy,
     accuracy_by_angle,
+    accuracy_hunted,
     calibration,
     calibration_claim,
     calibration_coverage,
@@ -39,6 +40,7 @@ TOPICS = {
     "robots": robots,
     "accuracy": accuracy,
     "accuracy_by_angle": accuracy_by_angle,
+    "accuracy_hunted": accuracy_hunted,
     "conformance": conformance,
     "model_truth_tables": model_truth_tables,
     "model_truth_robots": model_truth_robots,
