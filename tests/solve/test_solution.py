@@ -13,8 +13,8 @@ def made(reason, position=2e-3, rotation=3e-4, beyond=0.0, blocked=((),)):
     reason = np.array(reason)
     shape, zero = reason.shape, np.zeros(reason.shape, int)
     return Solution(
-        np.ones((*shape, 2)), reason == "solved", reason, np.full(shape, position), np.full(shape, rotation), zero, zero,
-        np.full(shape, beyond), blocked,
+        np.ones((*shape, 2)), reason == "solved", reason, np.full(shape, position), np.full(shape, rotation), zero,
+        zero, np.full(shape, beyond), blocked,
     )  # fmt: skip
 
 
