@@ -229,10 +229,9 @@ class Chain:
         low, high = self._range()
         return low + (high - low) * rng.random((*size, self.dof))
 
-    def _turn_range(self) -> tuple[Array, Array]:
-        """Least and greatest value (m,) that `random` draws of coordinates without limits."""
-        turn = np.array([(np.pi if self._turns(k) else 1.0) / abs(self._ratio(k)) for k in range(self.dof)])
-        return -turn, turn
+    def _half_range(self) -> Array:
+        """The greatest value (m,) that `random` draws of coordinates without limits; the least is its opposite."""
+        return np.array([(np.pi if self._turns(k) else 1.0) / abs(self._ratio(k)) for k in range(self.dof)])
 
     def _ratio(self, k: int) -> float:
         """The ratio of largest size to coordinate k, of joints that turn where it is an angle and slide where not."""
@@ -242,7 +241,7 @@ class Chain:
 
     def _range(self) -> tuple[Array, Array]:
         """Least and greatest value (m,) that `random` draws of each coordinate."""
-        turn = self._turn_range()[1]
+        turn = self._half_range()
         lower, upper = self.limits.T
         bounded = np.isfinite(lower), np.isfinite(upper)
         low = np.where(bounded[0], lower, np.where(bounded[1], upper - 2 * turn, -turn))
@@ -269,11 +268,8 @@ class Chain:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Chain):
             return NotImplemented
-        theirs = other._data()
-        return all(
-            type(a) is type(b) and np.array_equal(a, b)
-            for a, b in zip(self._data().values(), theirs.values(), strict=True)
-        )
+        pairs = zip(self._data().values(), other._data().values(), strict=True)
+        return all(type(a) is type(b) and np.array_equal(a, b) for a, b in pairs)
 
     def __hash__(self) -> int:
         return hash(tuple(a.tobytes() if isinstance(a, np.ndarray) else a for a in self._data().values()))

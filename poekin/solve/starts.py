@@ -69,7 +69,7 @@ def room_of(units: JointUnits, lock: Any, limits: bool) -> Room:
 def free_ranges(chain: Chain) -> Array:
     """Where random starts lie (m, 2) without limits: a whole period, else a turn, or 1 m either way."""
     half = np.array([0.5 * period(chain, k) for k in range(chain.dof)])
-    half = np.where(half > 0, half, chain._turn_range()[1])
+    half = np.where(half > 0, half, chain._half_range())
     return np.stack([-half, half], axis=1)
 
 

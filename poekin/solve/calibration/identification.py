@@ -155,8 +155,8 @@ def _told(problem: Problem, known: NDArray[np.bool_] | None) -> Array:
 
 def _anywhere(arm: Chain, count: int) -> Array:
     """Configurations with every coordinate moving, within limits or not."""
-    low, high = arm._turn_range()
-    return np.random.default_rng(0).uniform(low, high, (count, arm.dof))
+    half = arm._half_range()
+    return np.random.default_rng(0).uniform(-half, half, (count, arm.dof))
 
 
 def _space(J: Array, least: float) -> tuple[Array, Array]:
