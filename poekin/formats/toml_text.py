@@ -50,7 +50,7 @@ def parse(text: str, place: str) -> dict[str, Any]:
     ahead: list[Any] = [data]
     while ahead:
         value = ahead.pop()
-        if isinstance(value, int) and not -_LARGEST < value < _LARGEST:
+        if isinstance(value, int) and value >= _LARGEST:  # hexadecimal: tomllib refuses a decimal that long
             raise ModelError(f"{place}: expected whole numbers of at most 4300 digits, got a longer one")
         if isinstance(value, (dict, list)):
             ahead.extend(value.values() if isinstance(value, dict) else value)

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..errors import InputError, ModelError, shown, told
 from ..model.joint import FREE, KINDS, MOVING, Joint, Mimic
@@ -106,16 +106,13 @@ def _joint(fields: Fields, repairs: Repairs) -> Joint:
     angles = origin.vector("rpy") if origin else None
     if origin and xyz and max(map(abs, xyz)) > LONGEST:
         raise origin.fault(f"xyz: expected lengths of at most {LONGEST:g} m, got {xyz}")
-    return Joint(
-        name,
-        kind,
-        ends[0],
-        ends[1],
-        rpy.pose(xyz or (0.0, 0.0, 0.0), angles or (0.0, 0.0, 0.0)),
-        _axis(fields, repairs) if kind in MOVING or kind == "planar" else (1.0, 0.0, 0.0),
-        _limits(fields, name, repairs) if kind in ("revolute", "prismatic") else (-math.inf, math.inf),
-        _mimic(fields, kind),
-    )
+    pose = rpy.pose(xyz or (0.0, 0.0, 0.0), angles or (0.0, 0.0, 0.0))
+    moving: dict[str, Any] = {}
+    if kind in MOVING or kind == "planar":
+        moving["axis"] = _axis(fields, repairs)
+    if kind in ("revolute", "prismatic"):
+        moving["limits"] = _limits(fields, name, repairs)
+    return Joint(name, kind, ends[0], ends[1], pose, mimic=_mimic(fields, kind), **moving)
 
 
 def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
