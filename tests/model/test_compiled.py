@@ -187,6 +187,7 @@ def test_one_plain_configuration_goes_straight_to_the_machine_code(monkeypatch):
         np.testing.assert_array_equal(both[1], J)
     with pytest.raises(TypeError):
         FAST.fk(q.astype(np.float32))
+    assert FAST.hybrid_address == FAST._both["hybrid"][1] > 0  # the same code, as other kernels take it
 
 
 def test_the_middle_frame_is_where_it_says():
