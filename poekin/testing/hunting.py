@@ -1,7 +1,7 @@
 """Hunt for a case that breaks a law, outside any test: to show that a battery catches a planted error.
 
 Parameters: check, which returns error ÷ bound; cases, a strategy of tuples of its arguments; laws, a battery; examples,
-how many are tried of each law. Returns: settings, nothing, or a violation. Raises: LawViolation, where it says so.
+how many are tried of each law. Returns: nothing, or a violation. Raises: LawViolation, where it says so.
 Source: Hypothesis, targeted search.
 """
 

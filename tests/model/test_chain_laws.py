@@ -285,7 +285,7 @@ PLANTED: dict[str, tuple[str, Callable[[Chain], Any]]] = {
 }
 
 
-# A hunt ends with what it finds, mostly at once; it draws on constants of all modules loaded, and so it may be late.
+# A hunt ends with what it finds, mostly at once.
 MOST = 400
 
 
