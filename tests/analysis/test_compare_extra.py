@@ -279,7 +279,7 @@ def test_joints_at_the_ends_alone_are_held_at_zero_alone():
     one = positions((3,), [0.5])
     assert one[0] == (0.0,)
     assert min(off(x, 0.5) for (x,) in one) < 1e-9
-    for pair in ((2, 4), (2, 3)):
+    for pair in ((2, 4), (2, 3), (1, 2)):
         both = positions(pair, [0.5, -0.3])
         assert both[0] == (0.0, 0.0)
         assert min(max(map(off, x, (0.5, -0.3))) for x in both) < 1e-9
