@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from poekin.analysis.compare import compare
-from poekin.analysis.length_unit import length_ratio, rescaled
+from poekin.analysis.length_unit import length_ratio, rescaled, to_one_unit
+from poekin.analysis.lines import lines
 from poekin.formats.load import load
 from poekin.groups import se3
 from poekin.model import screw
@@ -112,3 +113,16 @@ def test_a_rescaled_chain_reaches_the_same_poses_with_lengths_multiplied():
     C[1, 0] = 0.6
     geared = Chain(rows, chain.home, coupling=C, offset=c, q_names=["slide", "turn"])
     assert [j.number for j in compare(geared, large, samples=1).differing] == [2]
+
+
+@pytest.mark.parametrize("times", [(1.0, 1000.0), (1000.0, 1.0), (1.0, 0.001), (0.001, 1.0)])
+def test_of_two_models_the_one_is_rescaled_whose_lengths_are_the_less_likely_in_metres(times):
+    chain = random_arm(2, ("revolute",) * 4)
+    size = np.linalg.norm(lines(chain).places)
+    assert 0.1 < size < 2
+    a, b = (rescaled(chain, factor) for factor in times)
+    ratio = length_ratio(a, b)
+    assert ratio == pytest.approx(times[1] / times[0])
+    for one, given, factor in zip(to_one_unit(a, b, ratio), (a, b), times, strict=True):
+        assert np.linalg.norm(lines(one).places) == pytest.approx(size)
+        assert (one is given) == (factor == 1.0)
