@@ -197,3 +197,8 @@ def test_a_zero_offset_that_no_agreeing_axis_needs_is_put_back_though_another_ax
     (found,) = searching._simplest(pair, chain, other, P, z)
     assert found.zeros.tolist() == [0.0] * 6
     assert found.moved.sum() >= 1
+
+
+def test_zero_offsets_of_inner_joints_alone_are_no_turn_of_base_or_tool():
+    pair = sides(random_arm(1), random_arm(1), *TOL)
+    assert searching._inner(pair).tolist() == [False, True, True, True, True, False]

@@ -159,3 +159,11 @@ def test_measurements_are_frozen_copies():
     with pytest.raises(ValueError, match="read-only"):
         poses.T[0] = 0
     assert isinstance(poses, Measurement)
+
+
+def test_unknown_frames_are_named_by_their_set_where_there_are_several():
+    home, camera = Arm(ARM, ("home",), None), EyeInHand(pk.se3.inverse(X) @ T @ Z)
+    assert Problem(home, Q, [camera]).place_names == ["T_base_board", "T_tip_camera"]
+    assert Problem(home, Q, [Poses(T), camera]).place_names == [
+        "T_base_board of measurement set 1", "T_tip_camera of measurement set 1"
+    ]  # fmt: skip
