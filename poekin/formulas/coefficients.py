@@ -75,6 +75,14 @@ def polynomial(coefficients, x):
     return total
 
 
+def _two_chains(coefficients, x):
+    """The same sum by Horner's rule for even and odd k apart: two short chains of operations for a long one."""
+    return polynomial(coefficients[0], x * x) + x * polynomial(coefficients[1], x * x)
+
+
+_D_CHAINS, _D_SLOPE_CHAINS = ((series[0::2], series[1::2]) for series in (D_SERIES, D_SLOPE_SERIES))
+
+
 def a_of(t):
     """A = sin t / t."""
     return elementary.sin(t) / t if t != 0 else t + 1.0
@@ -108,7 +116,7 @@ def c_of(tt, a):
 
 def _beside_poles(tt, rest):
     """What D = 2 / ((2 pi)^2 - t^2 - rest) + ... has as its first term, and the sum of the others."""
-    return 2.0 / (FIRST - tt + (FIRST_REST - rest)), 2.0 / (SECOND - tt) + polynomial(D_SERIES, tt)
+    return 2.0 / (FIRST - tt + (FIRST_REST - rest)), 2.0 / (SECOND - tt) + _two_chains(_D_CHAINS, tt)
 
 
 def d_of(tt):
@@ -144,4 +152,4 @@ def d_slope(tt):
         t = elementary.sqrt(tt)
         return (0.5 / b_of(tt, t) + e_of(t) - 2.0) / (tt * tt) if tt != 0 else (tt + 1.0) / 360.0
     first, second = 2.0 / (FIRST - tt + FIRST_REST), 2.0 / (SECOND - tt)
-    return first * first + (second * second + polynomial(D_SLOPE_SERIES, tt))
+    return first * first + (second * second + _two_chains(_D_SLOPE_CHAINS, tt))
