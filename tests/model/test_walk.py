@@ -96,6 +96,8 @@ def test_what_rounding_makes_is_put_right_and_not_listed(off, listed):
     far = pk.Chain(screws, np.eye(4)).idealised(TOL)
     assert [len(result.changes) for result in (turned, moved)] == [listed] * 2
     assert far.changes == ()  # lengths are seen beside the reach, 20 m
+    # axis and tool are moved by `off`; the numbers are rounded beside the 40 m to joint 2 and from there to the tip
+    assert far.position_bound == pytest.approx(2 * off + 8 * 2.0**-53 * 4 * 40, rel=0.02)
     for result in (turned, moved):
         np.testing.assert_array_equal(result.chain.home, np.eye(4))
 
