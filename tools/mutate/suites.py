@@ -146,7 +146,8 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/model/compiled.py": ("tests/model/test_compiled.py", "tests/model/test_chain_laws.py"),
     "poekin/model/structure.py": ("tests/model/test_structure.py", "tests/model/test_compiled.py"),
     "poekin/model/screw.py": (
-        "tests/model/test_screw_values.py", "tests/model/test_screw.py", "tests/model/test_parts.py", *_CHAINS),
+        "tests/model/test_screw_values.py", "tests/model/test_screw.py", "tests/model/test_pitches.py",
+        "tests/model/test_parts.py", *_CHAINS),
 }  # fmt: skip
 _FACE = "poekin/__init__.py"  # imports everything, and says nothing of what is near
 _MOST_NEAR = 6  # files of tests that are found by name
