@@ -43,6 +43,7 @@ def test_the_first_independent_joints_lead_and_the_others_say_what_they_follow()
         ("follows 3 × its coordinate", "follows 3 × its coordinate", False),
         ("follows 2 × 'a1'", "follows -0.5 × 'b1'", True),
     ]
+    assert compared([[0.5]], [[1.0]], "r") == [("follows 0.5 × its coordinate", "", True)]
     assert [words for words, _, _ in compared([[2.0, 1.0]], [[1.0, 0]], "r")] == [""]
 
 

@@ -95,8 +95,9 @@ def test_what_cannot_be_is_refused_and_nothing_is_written(refused, tmp_path, wor
 
 def test_places_that_cannot_be_written_are_refused(refused, tmp_path):
     (tmp_path / "file").write_text("mine", encoding="ascii")
-    assert "cannot make the directory" in refused(*PANDA, "--lang", "c", "--output", tmp_path / "none" / "deeper")
-    assert "cannot make the directory" in refused(*PANDA, "--lang", "c", "--output", tmp_path / "file")
+    for place, reason in (("none/deeper", "No such file or directory"), ("file", "File exists")):
+        said = refused(*PANDA, "--lang", "c", "--output", tmp_path / place)
+        assert f"cannot make the directory '{tmp_path / place}': {reason}" in said
     (tmp_path / "arm.py").mkdir()
     assert "cannot write" in refused(*PANDA, "--lang", "python", "--force", "--output", tmp_path / "arm.py")
 

@@ -253,6 +253,10 @@ def test_only_a_table_is_one():
     for function in (dh.to_chain, dh.to_robot):
         with pytest.raises(InputError, match=rf"^{function.__name__}: expected a dh.Table, got int$"):
             function(5)  # pyright: ignore[reportArgumentType]
+    with pytest.raises(
+        InputError, match=r"^write: expected a dh.Table, got 5: dh.from_chain\(chain\).table makes one$"
+    ):
+        dh.write(5, "arm.toml")  # pyright: ignore[reportArgumentType]
 
 
 def test_a_table_is_printed_with_what_moves():

@@ -27,7 +27,8 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/formulas/logarithm.py": (*_SMALL_ANGLES, _KINDS),
     "poekin/formulas/quaternion.py": ("tests/formulas/test_quaternion.py", *_SMALL_ANGLES, _KINDS),
     "poekin/formulas/arctangent.py": ("tests/formulas/test_arctangent.py", *_SMALL_ANGLES, _KINDS),
-    "poekin/formulas/exponential.py": (_MATRICES, _CHAIN_MATRICES, *_SMALL_ANGLES, _KINDS),
+    "poekin/formulas/exponential.py": (
+        "tests/formulas/test_exponential_closed.py", _MATRICES, _CHAIN_MATRICES, *_SMALL_ANGLES, _KINDS),
     "poekin/formulas/exp_jacobian.py": (*_SMALL_ANGLES, _KINDS),
     "poekin/formulas/elementary.py": (_KINDS, *_SMALL_ANGLES),
     "poekin/formulas/defect.py": (_MATRICES, "tests/groups/test_batches.py", *_SMALL_ANGLES),
