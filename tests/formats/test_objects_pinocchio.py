@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import poekin as pk
-from poekin.errors import ModelError, PoekinWarning
+from poekin.errors import ModelError, PoekinWarning, PoseError
 from poekin.formats import urdf
 from poekin.formats.objects import from_object
 from poekin.testing import strategies
@@ -331,6 +331,13 @@ def test_a_joint_s_frame_that_is_not_in_the_joint_s_place_is_a_link_on_it():
     model.frames[2].placement = placed(0.5)
     place = {link: T[0, 3] for link, T in from_object(model).fk([0.0]).items()}
     assert place == {"ground": 0, "j": 1.5, "arm": 1, "end": 3, "j_": 1}
+
+
+def test_a_placement_that_is_no_pose_is_refused_with_its_frame():
+    model = stand_in()
+    model.frames[2].placement = np.eye(4) * 2
+    with pytest.raises(PoseError, match=rf"^placement of frame '{model.frames[2].name}' is no pose: "):
+        from_object(model)
 
 
 def test_each_part_of_a_joint_of_several_degrees_of_freedom_has_its_own_limits():

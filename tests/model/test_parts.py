@@ -30,16 +30,16 @@ def test_without_names_they_are_numbered():
 @pytest.mark.parametrize(
     "names, message",
     [
-        ({"a", "b"}, "expected a list of names"),
-        ("ab", "expected a list of names, got 'ab'"),
-        (5, "expected a list of names, got 5"),
-        ((name for name in "ab"), "expected a list of names"),
-        (np.array("ab"), "expected a list of names"),
+        ({"a", "b"}, "^names: expected a list of names"),
+        ("ab", "^names: expected a list of names, got 'ab'"),
+        (5, "^names: expected a list of names, got 5"),
+        ((name for name in "ab"), "^names: expected a list of names"),
+        (np.array("ab"), "^names: expected a list of names"),
         (["a", ""], r"names\[1\]: expected a name, a string that is not empty, got ''"),
         (["a", None], r"names\[1\]: .* got None"),
         ([1, "1"], r"names\[0\]: .* got 1"),
         ([b"a", "b"], r"names\[0\]: .* got b'a'"),
-        (["a", "a"], "'a' appears more than once"),
+        (["a", "a"], "^names: 'a' appears more than once"),
     ],
 )
 def test_what_are_no_names_is_refused(names, message):
@@ -101,6 +101,10 @@ def test_a_place_out_of_all_reach_is_refused(length):
         one_pose(T, "P")
     T[1, 3] = LONGEST
     assert one_pose(T)[1, 3] == LONGEST
+
+
+def test_no_zero_keeps_a_sign():
+    assert not np.signbit(finite([-0.0, 0.0], "C")).any()
 
 
 def test_of_many_numbers_the_first_that_is_not_finite_is_named():
