@@ -56,6 +56,14 @@ def test_a_failing_chain_shrinks_to_the_joints_that_matter():
     assert np.array_equal(chain.screws, [[1, 0, 0, 0.001, 0, 0]])
 
 
+def test_points_of_an_arm_are_at_the_origin_or_from_a_millimetre_to_three_metres_off():
+    lengths = np.array([np.linalg.norm(p) for p in drawn(chain_strategies.points())])
+    assert (lengths == 0).any()
+    off = lengths[lengths > 0]
+    assert 1e-3 <= off.min() * (1 + 1e-15) < 2e-3  # the length of a rounded vector
+    assert 2 < off.max() <= 3 * (1 + 1e-15)
+
+
 def test_axis_and_point_of_a_screw_are_independent():
     screws = np.array(drawn(chain_strategies.screws(("revolute",)), 300))
     assert np.abs(np.linalg.norm(screws[:, :3], axis=1) - 1).max() < 1e-9

@@ -204,3 +204,15 @@ def test_what_is_near_a_whole_turn_has_no_bound(monkeypatch):
         assert bool(measured("a_logarithm_is_nearest_to_itself", GROUPS[6], monkeypatch, xi)) == looked_at
     beyond = measured("a_logarithm_is_nearest_to_itself", GROUPS[6], monkeypatch, XI * 2)
     assert [bound for _, bound in beyond] == pytest.approx([64 * U * 5, 512 * U * 6**2 * 14], rel=1e-12)
+
+
+@pytest.mark.parametrize("turns", range(-4, 5))
+def test_of_all_branches_up_to_four_turns_off_the_closest_is_asked_for(turns):
+    xi, near = XI[:3], (2.5 + 2 * math.pi * turns + 0.4) * N
+    near_laws.near_picks_the_closest_branch(GROUPS[3], xi, near)
+    for off in (-1, 1):
+        beside = GROUPS[3]._replace(
+            log=lambda R, near=None, off=off: so3.log(R, near=near if near is None else near + off * 2 * math.pi * N)
+        )
+        with pytest.raises(AssertionError, match="near picks the closest branch"):
+            near_laws.near_picks_the_closest_branch(beside, xi, near)

@@ -310,8 +310,12 @@ def test_who_declares_a_frame_and_reads_no_jacobian_is_told_so(limits):
     class Reads(_Reader):
         twist_order, jacobian_frame = "angular first", "body"
 
-    report = conform(Reads, ["urdf jacobian"], examples=5, limits=limits)
+        def read_robot(self, text):
+            return Poekin().read_robot(text)
+
+    report = conform(Reads, ["urdf jacobian", "robot"], examples=5, limits=limits)
     assert report.conforms
+    assert report["robot"].word == "exact"
     assert report["urdf jacobian"].word == "not judged"
     assert "has no `jacobian`, though the subject declares jacobian_frame" in str(report)
 
