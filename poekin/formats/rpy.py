@@ -29,7 +29,7 @@ def pose(xyz: Sequence[float], turns: Sequence[float]) -> np.ndarray:
 
 
 def angles(R: Sequence[Sequence[float]] | np.ndarray) -> tuple[float, float, float]:
-    """(roll, pitch, yaw) [rad] of a rotation (3, 3), or of a pose (4, 4), as `poekin.groups.rpy.angles` finds them.
+    """(roll, pitch, yaw) [rad] of a rotation (3, 3), as `poekin.groups.rpy.angles` finds them.
 
     Accuracy: as there. Source: the URDF specification, element <origin>.
     """

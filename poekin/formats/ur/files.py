@@ -91,7 +91,8 @@ def text_of(calibration: Calibration, *, rpy: str = "fixed") -> str:
     lines.append("kinematics:")
     for link, T in zip(LINKS, calibration.poses, strict=True):
         # R of moving axes, turned round, is R of fixed axes with all signs turned: (Rx Ry Rz)^T = Rz' Ry' Rx'.
-        turns = angles.angles(T) if rpy == "fixed" else [-a + 0.0 for a in angles.angles(T.T)]
+        R = T[:3, :3]
+        turns = angles.angles(R) if rpy == "fixed" else [-a + 0.0 for a in angles.angles(R.T)]
         lines.append(f"  {link}:")
         lines += [f"    {key}: {float(value)!r}" for key, value in zip(KEYS, (*T[:3, 3], *turns), strict=True)]
     return "\n".join([*lines, f"  hash: {_quoted(calibration.hash)}", ""])
