@@ -24,7 +24,7 @@ def near(seed, count):
     return pair, P, z, rng.random((count, 5)) < 0.4, rng.random((count, 5)) < 0.8
 
 
-@pytest.mark.parametrize("hinge", [-1, 1, 2, 3])
+@pytest.mark.parametrize("hinge", [-1, 0, 1, 2, 3])
 def test_the_derivatives_are_those_of_the_residuals(hinge):
     pair, P, z, free, used = near(0, 4)
     pair, h = replace(pair, hinge=hinge), 1e-6
