@@ -78,7 +78,7 @@ def _write(places: dict[Path, str], directory: Path, force: bool) -> None:
     """All files, or none where one exists already and `force` is not set. Raises: FileError."""
     there = [place for place in places if os.path.lexists(place)]
     if there and not force:
-        raise FileError(f"{', '.join(map(shown, there))}: exists already; --force replaces it")
+        raise FileError(f"{', '.join(shown(place, 400) for place in there)}: exists already; --force replaces it")
     try:
         directory.mkdir(exist_ok=True)
     except OSError as error:
