@@ -60,9 +60,10 @@ def law_names(thing: Any, leave_out: Sequence[str] = (), limits: Limits | None =
 
 def opened(thing: Any, limits: Limits | None) -> contextlib.AbstractContextManager[Subject]:
     """The subject in a process of its own where that can be, and was not declined, else in this one."""
-    if limits is None or obstacle(thing):
+    if limits is None:
         return contextlib.nullcontext(Subject(thing))
-    return isolated(thing, limits.checked())
+    limits.checked()
+    return contextlib.nullcontext(Subject(thing)) if obstacle(thing) else isolated(thing, limits)
 
 
 def reason(law: Law, subject: Subject) -> str:

@@ -179,7 +179,9 @@ def test_of_a_missing_package_it_is_said_that_nothing_was_judged(module):
     assert outcome.hint == "a package that the subject imports is not installed: nothing was judged"
 
 
-def test_limits_are_positive_numbers():
+@pytest.mark.parametrize("loaded", ["torch", "no_library"])
+def test_limits_are_positive_numbers(loaded, monkeypatch):
+    monkeypatch.setitem(sys.modules, loaded, ModuleType(loaded))  # a class that is there runs here beside torch
     for limits in (Limits(0.0), Limits(1.0, -1), Limits(float("nan"))):
         with pytest.raises(InputError, match=r"expected a positive number, got"):
             conform(Poekin, ["so3_exp"], limits=limits)
