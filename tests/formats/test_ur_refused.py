@@ -35,12 +35,11 @@ UPSIDE = ur.deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
                 "'joint2', 'joint3', 'joint4', 'joint5', 'joint6', 'joint7'"
             ),
         ),
-        (
+        pytest.param(
             lambda: ur.from_dh(UR10E, nominal=SEVEN),
-            (
-                "an arm of Universal Robots has 6 joints, the table 'seven' has 7: 'joint1', "
-                "'joint2', 'joint3', 'joint4', 'joint5', 'joint6', 'joint7'"
-            ),
+            "an arm of Universal Robots has 6 joints, the table 'seven' has 7: 'joint1', "
+            "'joint2', 'joint3', 'joint4', 'joint5', 'joint6', 'joint7'",
+            id="nominal table of seven joints",
         ),
         (
             lambda: ur.from_dh(FLIPPED, nominal=NOMINAL),
