@@ -121,8 +121,8 @@ def test_the_changes_of_each_joint_stand_in_its_row_with_their_intervals(drawn):
             (figures.INK, "white"), strict=True,
         ):  # fmt: skip
             rows = np.arange(len(values))
-            assert np.asarray(points.get_xdata()) == pytest.approx(np.array(values))
-            assert np.asarray(points.get_ydata()) == pytest.approx(rows + shift)
+            assert np.asarray(points.get_xdata(), float) == pytest.approx(np.array(values))
+            assert np.asarray(points.get_ydata(), float) == pytest.approx(rows + shift)
             assert (points.get_marker(), points.get_markerfacecolor()) == ("s" if shift > 0 else "o", face)
             margin = 1e3 * TWO_SIGMA * (1e-4 if shift < 0 else 2e-4)
             for (left, right), x, y in zip(bars.get_segments(), values, rows + shift, strict=True):
