@@ -201,6 +201,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("cases", type=int, nargs="?", default=1_000_000, help="random cases of each quantity")
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args(arguments)
+    if options.cases < 5:
+        parser.error(f"cases: expected 5 or more, of which a fifth are hunted, got {options.cases}")
     for quantity in QUANTITIES:
         rng = np.random.default_rng(options.seed)
         worst = hunt(quantity, getattr(se3, quantity.function), Effort(options.cases, 25), rng)

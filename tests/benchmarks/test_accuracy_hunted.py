@@ -104,3 +104,10 @@ def test_the_command_says_the_worst_of_each(capsys):
     hunt.main(["100"])
     lines = capsys.readouterr().out.splitlines()
     assert [line.split(":")[0] for line in lines] == NAMES
+
+
+def test_too_few_cases_are_refused(capsys):
+    with pytest.raises(SystemExit) as ended:
+        hunt.main(["4"])
+    assert ended.value.code == 2
+    assert "cases: expected 5 or more, of which a fifth are hunted, got 4" in capsys.readouterr().err

@@ -449,3 +449,10 @@ def test_without_cosmic_ray_the_extra_that_has_it_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "cosmic_ray", None)
     with pytest.raises(SystemExit, match=r"needs the package cosmic-ray: pip install -e '\.\[dev\]'"):
         runpy.run_path(str(ROOT / "tools" / "mutate" / "__main__.py"))
+
+
+def test_a_room_that_is_none_is_refused_with_those_that_are(capsys):
+    with pytest.raises(SystemExit) as ended:
+        command.main(["--room", "nowhere", "--count"])
+    assert ended.value.code == 2
+    assert "no room called 'nowhere'; there are analysis, cli, engine, errors, formats" in capsys.readouterr().err

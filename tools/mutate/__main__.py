@@ -50,6 +50,8 @@ def main(arguments: list[str] | None = None) -> int:
     sources = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
     every = [mutant for path, source in sources.items() for mutant in mutants_of(path, source)]
     listed, stale = equivalent.listed(every, equivalent.entries())
+    if unknown := sorted(set(said.room or ()) - {m.room for m in every}):
+        parser.error(f"no room called {unknown[0]!r}; there are {', '.join(sorted({m.room for m in every}))}")
     chosen = [m for m in every if not said.module or any(part in m.path for part in said.module)]
     chosen = [m for m in chosen if not said.room or m.room in said.room]
     chosen = [m for m in chosen if not said.operator or said.operator in m.operator]
