@@ -96,6 +96,9 @@ OTHER = screw.revolute([1, 0.5, -0.2], [-0.2, 0.3, 0.1])
 SLIDE = screw.prismatic([1, 2, 3])
 
 
+TWO_PARALLEL = [ALONG, screw.revolute([0, 0, 1], [0.4, 0.1, 0])]
+
+
 @pytest.mark.parametrize(
     "chain, k, extra_joints",
     [
@@ -106,7 +109,7 @@ SLIDE = screw.prismatic([1, 2, 3])
         (scara(), 1, [ALONG]),  # parallel to both neighbours: a distance alone tells where
         (scara(), 2, [ALONG]),  # the same across a slide
         (scara(), 3, [SLIDE]),
-        (scara(), 1, [ALONG, screw.revolute([0, 0, 1], [0.4, 0.1, 0])]),  # held anywhere that leaves the distance
+        (scara(), 1, TWO_PARALLEL),  # held anywhere that leaves the distance
         (random_arm(2, ("revolute",) * 5), 2, [screw.helical([1, 2, 0], [0.1, 0.3, 0.2], 0.02)]),  # a turn away
     ],
     ids=["two", "two, one slides", "two behind a turning axis and before a slide", "behind a slide", "parallel",
@@ -120,7 +123,13 @@ def test_extra_joints_beside_each_other_and_beside_parallel_axes_are_named_at_ot
     q = np.where(np.array(other.kinds) == "prismatic", 0.1, 0.7) * np.resize([1, -1, 0.8], len(names))
     q[k] -= 2 * np.pi if other.kinds[k] == "helical" else 0.0
     result = compare(chain, other.rezeroed(q).rebased(se3.exp([0.2, 0.5, -0.3, 0.1, 0.2, 0.3])), samples=5)
-    assert result.extra == ("b", *added)
+    if extra_joints is TWO_PARALLEL:  # of five parallel axes any two between the others may be the extra ones
+        assert result.extra is not None
+        assert result.extra[0] == "b"
+        assert len(set(result.extra[1:]) - {names[0]}) == 2
+        assert set(result.extra) <= {"b", *names}
+    else:
+        assert result.extra == ("b", *added)
     assert not any(j.axis_differs for j in result.joints)
     assert result.after is not None
     assert result.after.worst_mm < 0.01
