@@ -36,10 +36,12 @@ def droppable(a: Chain, b: Chain, tol_mm: float, tol_deg: float) -> tuple[tuple[
             if _may_agree(rest, short, tol_mm, tol_deg):
                 reading = agreeing(rest, short, tol_mm / 1e3, math.radians(tol_deg))
                 if reading is not None:
-                    fitting.append((reading.cost, ks, held))
+                    *changes, near = reading.cost
+                    # Of choices that fit exactly, as parallel joints leave, the first one, and not rounding's.
+                    fitting.append((changes, round(near, 3), ks, held))
     if not fitting:
         return None
-    _, ks, held = min(fitting)
+    *_, ks, held = min(fitting)
     return ks, np.array(held)
 
 
