@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError, ModelError, PoseError, ShapeError
 from poekin.formats.objects import from_object, table_of
+from poekin.formats.objects.attributes import items_of
 from poekin.testing import strategies
 from tests.formats.test_dh import largest, tables
 from tests.groups.test_objects import Spatial, library
@@ -204,6 +205,29 @@ def test_a_joint_far_along_its_axis_is_revolute():
 def test_one_elementary_transform_is_a_chain_too():
     assert from_object(et("Ry")).screws.tolist() == [[0, 1, 0, 0, 0, 0]]
     assert from_object([et("tx", 0.3)]).dof == 0
+
+
+class Listed:
+    """What is like a list and is none."""
+
+    def __init__(self, items: list[Any]):
+        self.items = items
+
+    def __iter__(self) -> Any:
+        return iter(self.items)
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+
+def test_transforms_come_in_whatever_is_like_a_list_and_not_as_a_text():
+    steps = [et("Rz"), et("tx", 0.3), et("Ry")]
+    array = np.empty(3, dtype=object)
+    array[:] = steps
+    for sequence in (steps, tuple(steps), array, Listed(steps)):
+        assert from_object(sequence).dof == 2
+    for text in ("Rz", b"Rz", {"Rz": 1}):
+        assert items_of(text) == []
 
 
 @pytest.mark.parametrize(

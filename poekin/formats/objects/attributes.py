@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import Any
 
 from ...errors import harmless
@@ -14,8 +14,10 @@ def has(obj: Any, *names: str) -> bool:
 
 
 def items_of(obj: Any) -> list[Any]:
-    """The items of a sequence; none of anything else."""
-    return list(obj) if isinstance(obj, Sequence) else []
+    """The items of what has an order and a length, as a list, an array or a class that is like one; none of a text."""
+    if isinstance(obj, (str, bytes, dict)) or not isinstance(obj, Iterable) or not has(obj, "__len__"):
+        return []
+    return list(obj)
 
 
 def type_name(obj: Any) -> str:
