@@ -7,7 +7,7 @@ import pytest
 
 import poekin as pk
 from poekin.errors import ShapeError
-from poekin.solve import figures, motion
+from poekin.solve import motion
 
 pytest.importorskip("matplotlib")
 
@@ -17,27 +17,12 @@ ARM = pk.Chain(
 )  # fmt: skip
 
 
-@pytest.fixture
-def figure(monkeypatch):
-    found, svg = [], figures.svg
-
-    def kept(width, height, purpose, draw):
-        def both(drawn):
-            draw(drawn)
-            found.append(drawn)
-
-        return svg(width, height, purpose, both)
-
-    monkeypatch.setattr(figures, "svg", kept)
-    return found
-
-
-def test_each_coordinate_is_drawn_over_time_and_not_joined_across_a_break(figure):
+def test_each_coordinate_is_drawn_over_time_and_not_joined_across_a_break(drawn_figures):
     q = np.array([[0, 0], [1, 1], [2, 2], [10, 0], [12, 1.0]])
     times = np.array([0, 1, 3, 4, 8.0])
     motion.plot_joints(q, ARM, times=times, breaks=[0, 3, 5])
     motion.plot_joints(q, ARM)
-    timed, numbered = figure
+    timed, numbered = drawn_figures
     assert timed.get_size_inches() == pytest.approx([7.2, 2.7])
     for k, axes in enumerate(timed.axes):
         first, last, gap = axes.lines
@@ -53,9 +38,9 @@ def test_each_coordinate_is_drawn_over_time_and_not_joined_across_a_break(figure
     np.testing.assert_array_equal(numbered.axes[1].lines[0].get_xdata(), np.arange(5))
 
 
-def test_what_is_within_the_limits_is_shaded_behind_the_curve_and_limits_far_off_do_not_squeeze_it(figure):
+def test_what_is_within_the_limits_is_shaded_behind_the_curve_and_limits_far_off_do_not_squeeze_it(drawn_figures):
     motion.plot_joints([[0, 0], [1, 1.0]], ARM)
-    (drawn,) = figure
+    (drawn,) = drawn_figures
     for axes, (low, high) in zip(drawn.axes, ((-1.15, 2.15), (0.25, 1.5)), strict=True):
         (shade,) = axes.patches
         assert (shade.get_y(), shade.get_y() + shade.get_height()) == pytest.approx((low, high))
@@ -63,10 +48,10 @@ def test_what_is_within_the_limits_is_shaded_behind_the_curve_and_limits_far_off
         assert axes.get_ylim() == pytest.approx((-0.05, 1.05))
 
 
-def test_an_arm_without_joints_has_an_empty_picture(figure):
+def test_an_arm_without_joints_has_an_empty_picture(drawn_figures):
     motion.plot_joints(np.zeros((3, 0)), pk.Chain(np.zeros((0, 6)), np.eye(4)))
-    assert figure[0].get_size_inches() == pytest.approx([7.2, 1.6])
-    assert len(figure[0].axes) == 1
+    assert drawn_figures[0].get_size_inches() == pytest.approx([7.2, 1.6])
+    assert len(drawn_figures[0].axes) == 1
 
 
 @pytest.mark.parametrize("q, times, words", [

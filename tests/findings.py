@@ -1,0 +1,28 @@
+"""What was found cannot be changed by accident, and findings of arrays are not compared number by number."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+
+ARRAYS = ("Array", "Marks", "ndarray", "Any")
+
+
+def dataclasses_of(package: str, names: str) -> list[type]:
+    """The dataclasses that modules of a package define, none of them in vain; a function may have a module's name."""
+    found: list[type] = []
+    for name in names.split():
+        module = importlib.import_module(f"{package}.{name}")
+        own = [kind for kind in vars(module).values() if isinstance(kind, type) and kind.__module__ == module.__name__]
+        chosen = [kind for kind in own if dataclasses.is_dataclass(kind)]
+        assert chosen, f"{package}.{name} has no dataclass"
+        found += chosen
+    return found
+
+
+def frozen_and_equal_only_where_its_parts_can_be(kind: type) -> bool:
+    """Whether a dataclass is frozen, and has an == of its own unless it holds arrays."""
+    parts = [str(part.type) for part in dataclasses.fields(kind)]  # type: ignore[arg-type]
+    arrays = any(word in said for said in parts for word in ARRAYS)
+    parameters = kind.__dataclass_params__  # type: ignore[attr-defined]
+    return (parameters.frozen, parameters.eq) == (True, not arrays)
