@@ -115,7 +115,7 @@ class _Reader:
             elif kind != "floating":
                 T = T @ _moved(KINDS[number], axis, -ref)
             else:
-                limits = (-math.inf, math.inf)
+                axis, limits = [1.0, 0.0, 0.0], (-math.inf, math.inf)  # as a joint without an axis has
             last = j == first + count - 1 and not anchor.any()
             child = link if last else self.free("link", f"{link}_after_{self.names[j]}")
             if not last:

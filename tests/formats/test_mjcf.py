@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from poekin.errors import FileError, InputError, MissingExtra, ModelError, PoekinWarning
 from poekin.formats import mjcf
 from poekin.formats.load import load
+from poekin.formats.urdf_text import to_urdf
 from poekin.model.robot import Robot
 
 mujoco = pytest.importorskip("mujoco", reason="the package mujoco is not installed")
@@ -344,3 +345,10 @@ def test_bodies_that_mujoco_would_fuse_stay_in_attached_models_too(tmp_path):
     assert robot.links == ("world", "a", "L_b", "L_still")
     assert robot.limits.tolist() == [[-1, 1]]
     assert robot.fk([0.3])["L_still"][:3, 3].tolist() == [1, 0, 1]
+
+
+def test_a_floating_joint_is_the_one_that_its_urdf_gives(tmp_path):
+    robot, _ = read(model_of(f'<body name="b">{G}<freejoint name="f"/></body>'))
+    (tmp_path / "a.urdf").write_text(to_urdf(robot), encoding="ascii")
+    (ours,), (theirs,) = robot.joints, load(tmp_path / "a.urdf").joints
+    assert (ours.kind, ours.axis, ours.limits) == (theirs.kind, theirs.axis, theirs.limits)
