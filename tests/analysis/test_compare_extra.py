@@ -96,6 +96,9 @@ OTHER = screw.revolute([1, 0.5, -0.2], [-0.2, 0.3, 0.1])
 SLIDE = screw.prismatic([1, 2, 3])
 
 
+OPPOSITE = [screw.revolute([0, 0, 1], [0, 0, 0]), screw.revolute([0, 0, -1], [0.3, 0, 0])]
+
+
 @pytest.mark.parametrize(
     "chain, k, extra_joints",
     [
@@ -104,13 +107,14 @@ SLIDE = screw.prismatic([1, 2, 3])
         (random_arm(1, ("revolute", "prismatic", "revolute", "revolute")), 1, [ACROSS, OTHER]),
         (random_arm(1, ("revolute", "prismatic", "revolute", "revolute")), 2, [OTHER]),
         (scara(), 1, [ALONG]),  # parallel to both neighbours: a distance alone tells where
+        (Chain([*OPPOSITE, ACROSS, OTHER], np.eye(4)), 1, [ALONG]),  # one of them the other way round
         (scara(), 2, [ALONG]),  # the same across a slide
         (scara(), 3, [SLIDE]),
         (scara(), 1, [ALONG, screw.revolute([0, 0, 1], [0.4, 0.1, 0])]),  # held anywhere that leaves the distance
         (random_arm(2, ("revolute",) * 5), 2, [screw.helical([1, 2, 0], [0.1, 0.3, 0.2], 0.02)]),  # a turn away
     ],
     ids=["two", "two, one slides", "two behind a turning axis and before a slide", "behind a slide", "parallel",
-         "parallel, before a slide", "a slide between parallel axes", "two parallel", "helical"],
+         "opposite", "parallel, before a slide", "a slide between parallel axes", "two parallel", "helical"],
 )  # fmt: skip
 def test_extra_joints_beside_each_other_and_beside_parallel_axes_are_named_at_other_zeros(chain, k, extra_joints):
     added = [f"extra{i}" for i in range(len(extra_joints))]

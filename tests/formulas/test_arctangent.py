@@ -49,7 +49,8 @@ def test_from_1_rad_on_it_is_right_to_half_a_unit(function):
     assert max(error(function, float(y), 1.0)[0] for y in TANGENTS if y > math.tan(1.0)) < 0.5 * UNIT
 
 
-def test_on_the_axes_it_is_exact(function):
+def test_on_the_axes_and_between_them_it_is_exact(function):
+    assert function(0.3, 0.3) == (math.pi / 4, 6.123233995736766e-17 / 2)
     assert function(0.0, 0.3) == (0.0, 0.0)
     assert function(0.3, 0.0) == (math.pi / 2, 6.123233995736766e-17)
 
