@@ -11,7 +11,7 @@ from poekin import Chain, load, to_urdf
 from poekin.analysis.validate import routes
 from poekin.errors import PoekinError, PoekinWarning
 from poekin.testing.example_robots import example_robots
-from poekin.testing.urdf_errors import pinocchio_error
+from poekin.testing.urdf_errors import pinocchio_errors
 
 from ..dh_judge import WELL, Trip, there_and_back
 from ..draw import dots
@@ -102,7 +102,7 @@ def way(robot: str, chain: Chain, note: str) -> Way:
     urdf, refusal = None, ""
     try:
         trips = tuple(there_and_back(chain, convention, q) for convention in ("standard", "modified"))
-        urdf = pinocchio_error(chain, to_urdf(chain), seed=0)
+        urdf = float(pinocchio_errors(chain, to_urdf(chain), seed=0).max())
     except PoekinError as error:
         refusal = str(error)
     return Way(robot, chain.tip, len(chain.joint_names), trips, urdf, refusal, note)

@@ -25,25 +25,26 @@ def values_of(chain: Chain) -> list[tuple[str, float, float] | None]:
     return result
 
 
-def pinocchio_error(chain: Chain, text: str, seed: int, samples: int = SAMPLES) -> float:
-    """The worst error of pose and Jacobians of a chain against what Pinocchio makes of a text, lengths ÷ reach.
+def pinocchio_errors(chain: Chain, text: str, seed: int, samples: int = SAMPLES) -> np.ndarray:
+    """Errors of pose and Jacobians of a chain against what Pinocchio makes of a text, lengths ÷ reach.
 
-    Parameters: chain; text, its URDF; seed, of `samples` random configurations within ±3 rad or m. Infinite where a
-    coordinate of the chain has no joint in the text.
+    Parameters: chain; text, its URDF; seed, of `samples` random configurations within ±3 rad or m. Returns: the worst
+    of each configuration, one alone where nothing moves; infinite where a coordinate of the chain has no joint in the
+    text.
     """
     oracle, values = PinocchioOracle(text), values_of(chain)
     q = np.random.default_rng(seed).uniform(-3, 3, (samples, chain.dof))
     named = {v[0]: v[1] * q[:, k] + v[2] for k, v in enumerate(values) if v}
     if set(named) - set(oracle.coordinates):
-        return math.inf
+        return np.array([math.inf])
     T, J = oracle.evaluate(named or dict.fromkeys(oracle.coordinates, np.zeros(samples)), chain.tip, chain.base)
     weight = np.array([1, 1, 1, 1 / chain.reach])
-    worst = [np.abs((chain.fk(q)[: len(T)] - T)[:, :3] * weight).max()]
+    worst = np.abs((chain.fk(q)[: len(T)] - T)[:, :3] * weight).max(axis=(1, 2))
     for frame, columns in J.items():
         wanted = np.zeros((len(T), 6, chain.dof))
         for k, v in enumerate(values):
             if v:
                 wanted[:, :, k] = columns[:, :, oracle.coordinates.index(v[0])] * v[1]
         off = (chain.jacobian(q, frame)[: len(T)] - wanted) * np.repeat([1, 1 / chain.reach], 3)[:, None]
-        worst.append(np.abs(off).max(initial=0.0))
-    return float(max(worst))
+        worst = np.maximum(worst, np.abs(off).max(axis=(1, 2), initial=0.0))
+    return worst

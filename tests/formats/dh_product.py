@@ -1,4 +1,4 @@
-"""The oracle of DH tables: the product of their matrices in 50 digits, written out as in the books."""
+"""The oracle of DH tables: the product of their matrices, written out as in the books, in 50 digits or long doubles."""
 
 from __future__ import annotations
 
@@ -6,40 +6,46 @@ import mpmath
 import numpy as np
 
 DIGITS = 50
+EXACT = np.frompyfunc(mpmath.mpf, 1, 1), np.frompyfunc(mpmath.cos, 1, 1), np.frompyfunc(mpmath.sin, 1, 1)
+LONG = np.longdouble, np.cos, np.sin
 
 
-def frames(table, x):
-    """Frames in which the joints' axes are z, and at last the tool's, all in the base frame, as mpmath matrices.
+def frames(table, x, arithmetic=EXACT):
+    """Frames in which the joints' axes are z, and at last the tool's, all in the base frame: x (..., n) -> (..., 4, 4).
 
     In Paul's convention joint i turns about z of frame i - 1, in Craig's about that of frame i before its own turn.
     """
+    number, cos, sin = arithmetic
 
     def about(axis, angle):
-        c, s = mpmath.cos(angle), mpmath.sin(angle)
-        rows = {"x": [[1, 0, 0], [0, c, -s], [0, s, c]], "z": [[c, -s, 0], [s, c, 0], [0, 0, 1]]}[axis]
-        return mpmath.matrix([[*row, 0] for row in rows] + [[0, 0, 0, 1]])
+        c, s, o, one = cos(angle), sin(angle), 0 * angle, 0 * angle + 1
+        rows = {"x": [[one, o, o], [o, c, -s], [o, s, c]], "z": [[c, -s, o], [s, c, o], [o, o, one]]}[axis]
+        return matrix([[*row, o] for row in rows] + [[o, o, o, one]])
 
     def shift(a, d):
-        T = mpmath.eye(4)
-        T[0, 3], T[2, 3] = a, d
-        return T
+        o, one = 0 * a, 0 * a + 1
+        return matrix([[one, o, o, a], [o, one, o, o], [o, o, one, d], [o, o, o, one]])
+
+    def matrix(entries):
+        return np.moveaxis(np.array(entries), (0, 1), (-2, -1))
 
     with mpmath.workdps(DIGITS):
-        found, T = [], mpmath.matrix(table.base.tolist())
-        for row, value in zip(table.rows, map(mpmath.mpf, map(float, x)), strict=True):
+        found, T = [], number(table.base)
+        for row, value in zip(table.rows, np.moveaxis(number(x), -1, 0), strict=True):
             moved = -value if row.flip else value
             turns = row.kind == "revolute"
             theta, d = row.theta + moved * turns, row.d + moved * (not turns)
-            around, along = about("z", theta) * shift(0, d), shift(row.a, 0) * about("x", row.alpha)
+            along = shift(number(row.a), number(0)) @ about("x", number(row.alpha))
+            around = about("z", theta) @ shift(0 * d, d)
             if table.convention == "standard":
                 found.append(T)
-                T = T * around * along
+                T = T @ around @ along
             else:
-                found.append(T * along)
-                T = T * along * around
-        return [*found, T * mpmath.matrix(table.tool.tolist())]
+                found.append(T @ along)
+                T = T @ along @ around
+        return [*found, T @ number(table.tool)]
 
 
-def pose(table, x):
-    """The tool's pose (4, 4), rounded once."""
-    return np.array(frames(table, x)[-1].tolist(), dtype=float)
+def pose(table, x, arithmetic=EXACT):
+    """The tool's poses (..., 4, 4), rounded once."""
+    return frames(table, x, arithmetic)[-1].astype(float)

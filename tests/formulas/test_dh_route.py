@@ -83,7 +83,7 @@ def test_the_body_screws_are_the_same_lines_seen_from_the_tool(table):
 
 
 def _seen_from(tool, T):
-    return mpmath.inverse(tool) * T
+    return mpmath.inverse(mpmath.matrix(tool.tolist())) * mpmath.matrix(T.tolist())
 
 
 @FEW

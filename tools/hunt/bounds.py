@@ -5,22 +5,26 @@ One case holds many draws where the test's arithmetic is that of arrays; drawing
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from hypothesis import reject
 from hypothesis import strategies as st
 
+import poekin as pk
 from poekin.errors import InputError
 from poekin.formats.dh import to_chain
 from poekin.formats.dh.from_chain import FromChain, from_chain
 from poekin.groups import se3
+from poekin.model import screw
+from poekin.model.robot import Robot
 from poekin.testing import chain_strategies, decoders, dh_strategies
 from poekin.testing.reader import Reader
-from poekin.testing.strategies import poses
+from poekin.testing.strategies import pose
 from tests.engine import test_interpret
-from tests.formats import test_dh, test_relink, test_urdf_text
+from tests.formats import dh_product, test_dh, test_relink, test_urdf_text
 from tests.model import (
     test_analytic,
     test_chain,
@@ -120,7 +124,57 @@ def share(result: FromChain) -> float:
     return result.error / result.bound
 
 
+def placed(r: Reader, lengths: tuple[float, float] = chain_strategies.REACHES) -> np.ndarray:
+    return pose(decoders.rotation(r), decoders.vector(r, lengths))
+
+
+def turns(r: Reader, count: int) -> np.ndarray:
+    """Values of coordinates, as `chain_strategies.coordinates` draws them."""
+    return np.array(
+        [r.pick(chain_strategies.QUARTERS) if r.byte() < 64 else r.fraction(-np.pi, np.pi) for _ in range(count)]
+    )
+
+
+def redrawn(chain: pk.Chain, r: Reader) -> pk.Chain:
+    """A chain of the same joints and couplings whose screws and home pose are others."""
+
+    def made(kind: str) -> np.ndarray:
+        w, p = decoders.axis(r), decoders.vector(r, chain_strategies.REACHES)
+        if kind == "prismatic":
+            return screw.prismatic(w)
+        return screw.helical(w, p, r.pick([0.1, 1e-3, -0.5])) if kind == "helical" else screw.revolute(w, p)
+
+    A = [made(kind) for kind in chain.kinds]
+    return pk.Chain(
+        np.reshape(A, (-1, 6)), placed(r), coupling=chain.coupling, offset=chain.offset, joint_names=chain.joint_names,
+        q_names=chain.q_names,
+    )  # fmt: skip
+
+
+def each_of(chains: st.SearchStrategy[pk.Chain], ratio: Callable[..., float]) -> Bound:
+    """A bound of chains: each that Hypothesis draws, and two hundred with its joints' kinds and couplings."""
+
+    def ratios(chain: pk.Chain, number: int) -> list[float]:
+        rng = np.random.default_rng(number)
+        readers = [Reader(rng.bytes(1000)) for _ in range(200)]
+        return [ratio(chain, readers[0]), *(ratio(redrawn(chain, r), r) for r in readers)]
+
+    return Bound(st.tuples(chains, NUMBERS), ratios)
+
+
+def relinkings(case: tuple[Robot, pk.Chain], number: int) -> Iterator[tuple[Robot, pk.Chain]]:
+    """A robot and a chain for its branch, and fifty of the same joints that stand elsewhere."""
+    yield case
+    robot, chain = case
+    rng = np.random.default_rng(number)
+    for _ in range(50):
+        r = Reader(rng.bytes(1000))
+        joints = [replace(joint, origin=placed(r), axis=decoders.axis(r)) for joint in robot.joints]
+        yield Robot(robot.name, robot.links, joints), redrawn(chain, r)
+
+
 PAIRS = NUMBERS.map(pairs)
+FOUR = chain_strategies.chains(min_joints=1, max_joints=4)
 BOUNDS = {
     "machine code": Bound(
         chain_strategies.chains(min_joints=1, max_joints=6).flatmap(with_frames),
@@ -149,7 +203,10 @@ BOUNDS = {
     "relinked branch": Bound(
         st.tuples(test_relink.cases(), NUMBERS), lambda case, n: test_relink.off(case, n, rows=500)
     ),
-    "relinked frames": Bound(st.tuples(test_relink.cases()), test_relink.frames_off),
+    "relinked frames": Bound(
+        st.tuples(test_relink.cases(), NUMBERS),
+        lambda case, n: np.concatenate([test_relink.frames_off(one) for one in relinkings(case, n)]),
+    ),
     "maps of rates": Bound(
         st.tuples(chain_strategies.chains(max_joints=6), NUMBERS),
         lambda chain, n: test_analytic.maps_off(chain, configurations(chain, n, 500)),
@@ -164,22 +221,25 @@ BOUNDS = {
         st.tuples(test_urdf_text.limited(), NUMBERS),
         lambda robot, n: test_urdf_text.text_off(robot, test_urdf_text.again(robot), n, 200),
     ),
-    "chain in its text": Bound(st.tuples(test_urdf_text.scaled_chains(), NUMBERS), test_urdf_text.pinocchio_off),
-    "table's screws": Bound(st.tuples(dh_strategies.tables(), NUMBERS), test_dh.screws_off),
-    "chain's table": Bound(
-        st.tuples(
-            chain_strategies.chains(joint_kinds=("revolute", "prismatic")) | dh_strategies.tables().map(to_chain),
-            test_dh.CONVENTIONS,
-        ),
+    "chain in its text": Bound(
+        st.tuples(test_urdf_text.scaled_chains(), NUMBERS),
+        lambda chain, n: test_urdf_text.pinocchio_off(chain, n, 500),
+    ),
+    "table's screws": Bound(
+        st.tuples(dh_strategies.tables(), NUMBERS),
+        lambda table, n: test_dh.screws_off(table, n, (1000,), dh_product.LONG),
+    ),
+    "chain's table": each_of(
+        chain_strategies.chains(joint_kinds=("revolute", "prismatic")),
+        lambda chain, r: share(from_chain(chain, convention=r.pick(dh_strategies.CONVENTIONS))),
+    ),
+    "table of a table's chain": Bound(
+        st.tuples(dh_strategies.tables().map(to_chain), test_dh.CONVENTIONS),
         lambda chain, convention: share(from_chain(chain, convention=convention)),
     ),
-    "rebased screws": Bound(
-        st.tuples(chain_strategies.chains(min_joints=1, max_joints=4), poses(lengths=(1e-3, 1e6))),
-        test_chain.rebased_off,
-    ),
-    "rezeroed screws": Bound(
-        st.tuples(chain_strategies.chain_cases(("q",), min_joints=1, max_joints=4), test_chain.FAR),
-        lambda case, times: test_chain.rezeroed_off(case[0], case[1] * times),
+    "rebased screws": each_of(FOUR, lambda chain, r: test_chain.rebased_off(chain, placed(r, (1e-3, 1e6)))),
+    "rezeroed screws": each_of(
+        FOUR, lambda chain, r: test_chain.rezeroed_off(chain, turns(r, chain.dof) * 10.0 ** r.fraction(-1.0, 4.0))
     ),
     "screw of an axis": each(60, lambda r: (axis(r), point(r), pitch(r)), test_screw.made_off),
     "axis of a screw": each(60, lambda r: (axis(r), point(r), pitch(r)), test_screw.read_off),
