@@ -87,7 +87,8 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/testing/conform/misspelt.py": ("tests/testing/conform/test_subject.py",),
     "poekin/testing/conform/urdf_cases.py": (
         "tests/testing/conform/test_urdf_cases.py", "tests/testing/conform/test_small_urdf.py", *_CASES),
-    "poekin/testing/conform/search.py": ("tests/testing/conform/test_precision.py", *_CASES),
+    "poekin/testing/conform/search.py": (
+        "tests/testing/conform/test_search.py", "tests/testing/conform/test_precision.py", *_CASES),
     "poekin/testing/conform/law.py": ("tests/testing/conform/test_urdf_cases.py", *_CASES),
     "poekin/testing/conform/of_urdf.py": ("tests/testing/conform/test_small_urdf.py", *_CONFORM),
     "poekin/testing/conform/report.py": (

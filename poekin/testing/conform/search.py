@@ -16,7 +16,7 @@ from .subject import Subject
 
 # `law` has said what to install where hypothesis is missing.
 from hypothesis import target  # isort: skip
-from hypothesis.errors import Flaky  # isort: skip
+from hypothesis.errors import Flaky, Unsatisfiable  # isort: skip
 
 ENOUGH = 100
 """Examples after which nothing is gained by more, once something is broken."""
@@ -37,8 +37,8 @@ class Found(NamedTuple):
     examples: int
     case: Case
     verdict: Verdict
-    shrunk: Case | None = None
-    late: bool = False
+    shrunk: Case | None
+    late: bool
 
 
 class _Over(Exception):
@@ -69,7 +69,7 @@ def worst(law: Law, subject: Subject, examples: int, seconds: float, at_most: Gr
 
     try:
         for_each(law.cases(subject), examples, one)
-    except (_Over, Flaky):  # Hypothesis may try a case again that there was time for before
+    except (_Over, Flaky, Unsatisfiable):  # Hypothesis may try a case again that there was time for before
         pass
     if top is None:
         raise InputError(f"{law.name}: no case of this law could be drawn")

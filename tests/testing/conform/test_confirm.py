@@ -120,3 +120,84 @@ def test_each_number_of_an_adjoint_is_asked_for(monkeypatch):
         monkeypatch.setattr(exact, "adjoint", lambda T, place=place: _off(true, place, 1e-10))
         assert not confirm.of_adjoint(T)
         assert confirm.of_adjoint(T, 1e-9)
+
+
+def edge(agrees, limit: float) -> None:
+    """Errors up to the limit are let pass, and larger ones are not."""
+    assert agrees(0.9 * limit)
+    assert not agrees(1.1 * limit)
+
+
+W_SMALL, W_LARGE = [0.0, 0.0, 0.0], [0.0, 0.0, 3.0]
+# v is turned by up to 1.5 rad: of its entries and those of the translation each is the largest once.
+LOGARITHMS = [
+    (W_SMALL, [0.1, 0, 0]), (W_SMALL, [0, 0, 0]), (W_LARGE, [0.1, 0.05, 0.02]), (W_SMALL, [5.0, 1, 2]),
+    (W_SMALL, [1, 5.0, 2]), (W_SMALL, [1, 2, 5.0]), ([0, 0, 1.57], [700.0, 700, 0]), ([1.57, 0, 0], [0, 700.0, 700]),
+    ([0, 1.57, 0], [700.0, 0, 700]), ([0, 0, 3.1], [900.0, 1, 1]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("w", "v"), LOGARITHMS)
+def test_a_translation_is_held_in_proportion_to_the_lengths(w, v):
+    truth = exact.exactly([*w, *v])
+    X = exact.exp(truth)
+    limit = 1e-60 * (1 + max(abs(float(x)) for x in (*v, *X[:3, 3])))
+    for place in (3, 7, 11):
+        edge(lambda by, place=place: confirm.is_log(_off(X, place, by), truth), limit)
+
+
+def test_a_rotation_is_held_to_60_digits_and_its_angle_to_pi():
+    for k in range(3):
+        # E - E^T is twice the angle.
+        edge(lambda by, k=k: confirm.is_log(np.eye(3), exact.exactly(by * np.eye(3)[k])), 0.5e-60)
+        n = exact.exactly(np.eye(3)[k])
+        for rest in ([], [2.0, 3.0, 4.0]):
+
+            def of_angle(by: float, n=n, rest=rest) -> bool:
+                truth = np.concatenate([n * (exact.mp.pi + exact.mp.mpf(by)), exact.exactly(rest)])
+                return confirm.is_log(exact.exp(truth), truth)
+
+            edge(of_angle, 1e-60)
+    n = exact.exactly([1, 1, 1]) / exact.mp.sqrt(3)
+    assert not confirm.is_log(np.eye(3), n * exact.mp.pi), "symmetric, and a half turn away"
+
+
+@pytest.mark.parametrize(("length", "scale"), [(0.0, 2), (0.25, 2), (1e3, 1001)])
+def test_an_adjoint_is_held_to_14_digits_of_the_square_of_what_is_in_it(length, scale, monkeypatch):
+    pose = np.eye(4)
+    pose[1, 3] = length
+    true = exact.adjoint(pose)
+    for place in range(18, 36):  # the lower half, in which a twist's v comes out
+
+        def agrees(by: float, *within: float, place=place) -> bool:
+            monkeypatch.setattr(exact, "adjoint", lambda T: _off(true, place, by))
+            return confirm.of_adjoint(pose, *within)
+
+        edge(agrees, 1e-14 * scale**2)
+        edge(lambda by, agrees=agrees: agrees(by, 1e-7), 1e-7 * scale**2)
+
+
+@pytest.mark.parametrize("name", ["left_jacobian", "right_jacobian", "left_jacobian_inverse", "right_jacobian_inverse"])
+@pytest.mark.parametrize("length", [0.0, 0.25, 1e3])
+def test_a_jacobian_of_exp_is_held_to_60_digits_of_what_is_in_it(name, length, monkeypatch):
+    xi = np.array([0, 0, 0, 0, -length, 0])
+    limit = 1e-60 * (1 + length) ** (2 if name.endswith("inverse") else 1)
+    true = getattr(exact, name)(xi)
+    for place in (18, 25, 35):  # in the lower half J is [.. I]: an error of its inverse comes out as it is
+
+        def agrees(by: float, place=place) -> bool:
+            monkeypatch.setattr(exact, name, lambda xi: _off(true, place, by))
+            return confirm.of_jacobian(name, xi)
+
+        edge(agrees, limit)
+
+
+@pytest.mark.parametrize(("column", "scale"), [([0, 0, 1, 0, 0, 0], 2), ([0, 0.25, 0, 0.5, 0, 0], 1.5),
+                                               ([0, 0, 1, 0, -1e3, 0], 1001)])  # fmt: skip
+def test_a_velocity_is_held_to_50_digits_of_the_square_of_its_column(column, scale):
+    for place in range(6):
+
+        def agrees(by: float, place=place) -> bool:
+            return confirm.of_velocities([column], np.eye(4), [0.5], _off(exact.exactly(column), place, by)[:, None])
+
+        edge(agrees, 1e-50 * scale**2)
