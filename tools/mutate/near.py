@@ -80,8 +80,9 @@ NEAR: dict[str, tuple[str, ...]] = {
     **{f"poekin/testing/conform/{name}.py": (f"tests/testing/conform/test_{name}.py", *_CASES) for name in (
         "arm_cases", "child", "confirm", "grades", "group_cases", "named", "plugin", "precision", "small_urdf",
         "subject")},
-    **{f"poekin/testing/conform/{name}.py": ("tests/testing/conform/test_parts.py", *_CASES) for name in (
-        "of_arms", "of_groups")},
+    "poekin/testing/conform/of_arms.py": ("tests/testing/conform/test_parts.py", *_CASES),
+    "poekin/testing/conform/of_groups.py": (
+        "tests/testing/conform/test_parts.py", "tests/testing/conform/test_of_groups.py", *_CASES),
     "poekin/testing/conform/calls.py": ("tests/testing/conform/test_child.py", *_CONFORM),
     "poekin/testing/conform/limits.py": ("tests/testing/conform/test_child.py",),
     "poekin/testing/conform/misspelt.py": ("tests/testing/conform/test_subject.py",),

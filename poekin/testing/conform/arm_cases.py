@@ -95,9 +95,8 @@ def allowed(case: Case) -> bool:
     """Axes keep their length, and all numbers their range; a declared arm stays within its limits."""
     if isinstance(case.layout, Limits):
         return bool(np.all(case.numbers >= case.layout.lower) and np.all(case.numbers <= case.layout.upper))
-    angle = size(case.numbers[-6:-3])
-    length = size(case.numbers[-3:])
-    if angle > math.pi or not (drawable(angle, (SMALLEST, math.pi)) and drawable(length, LENGTHS)):
+    angle, length = size(case.numbers[-6:-3]), size(case.numbers[-3:])
+    if not (drawable(angle, (SMALLEST, math.pi)) and drawable(length, LENGTHS)):
         return False
     rows = case.numbers[:-6].reshape(-1, EACH)
     return all(_allowed(kind, row) for kind, row in zip(_kinds(case), rows, strict=True))
@@ -146,7 +145,7 @@ def _check_jacobian(subject: Subject, case: Case) -> Verdict:
 
     def jacobian(q: np.ndarray) -> np.ndarray:
         J = real(subject.plain("jacobian")(*map(np.array, first), q))
-        return subject.rows(J) if J.ndim == 2 and len(J) == 6 else J
+        return subject.rows(J) if J.shape == (6, len(q)) else J
 
     return of_arms.jacobian_is_the_derivative(
         jacobian, subject.frame, arm, q, Grade.BROKEN, subject.precision("jacobian")
@@ -158,7 +157,7 @@ def confirmed(arm: Any, q: np.ndarray, jacobian: bool) -> bool:
     x = of_arms.displacements(arm, q)
     if not confirm.of_pose(arm.screws, arm.home, x):
         return False
-    every = Arm(arm.screws, arm.home, np.eye(len(x)), np.zeros(len(x)), len(x), 1.0)
+    every = of_arms.arm(arm.screws, arm.home)
     return not jacobian or confirm.of_velocities(arm.screws, arm.home, x, exact_jacobians(every, x)[0])
 
 

@@ -80,6 +80,16 @@ ALLOWED = {
     "a point too far": ({"_19": 3.0}, False),
     "a point too near": ({"_3": 1e-4, "_4": 0.0, "_5": 0.0}, False),
     "home turned by more than π": ({"_24": 3.14}, False),
+    "home turned by more than π about z": ({"_26": 3.14}, False),
+    "home turned by π": ({"_24": math.pi, "_25": 0.0, "_26": 0.0}, True),
+    "home 2 mm away": ({"_27": 0.0, "_28": 0.0, "_29": 2e-3}, True),
+    "a point too far up": ({"_21": 3.0}, False),
+    "a point 2 mm away": ({"_3": 0.0, "_4": 2e-3, "_5": 0.0}, True),
+    "a slide of 1e-5": ({"_14": 1e-5}, True),
+    "a pitch of 2 mm": ({"_23": 2e-3}, True),
+    "a turn of 3 rad about a screw": ({"_22": 3.0}, True),
+    "a turn of 1e-8 rad about a screw": ({"_22": 1e-8}, True),
+    "a turn of 4 rad about a screw": ({"_22": 4.0}, False),
     "home turned by a tiny angle": ({"_24": 1e-200, "_25": 0.0, "_26": 0.0}, False),
     "home too far": ({"_27": 2.9}, False),
     "home too near": ({"_27": 1e-4, "_28": 0.0, "_29": 0.0}, False),
@@ -180,3 +190,16 @@ def test_zeros_to_rounding_are_shown_as_zeros():
     assert quarter[0, 0] == pytest.approx(6.1e-17, rel=0.01)  # cos of the float next to π/2
     assert arm_cases.truth(SUBJECT, arm, np.array([1e-61]), False)[1, 0] == 0
     assert arm_cases.truth(SUBJECT, arm, np.array([1e-59]), False)[1, 0] == 1e-59
+
+
+@pytest.mark.parametrize("shape", [(6,), (5, 2), (7, 2), (6, 1), (6, 3), (6, 2, 1), (2, 6, 2)])
+@pytest.mark.parametrize("order", ["angular first", "linear first"])
+def test_a_jacobian_of_another_shape_is_told_as_it_came(shape, order):
+    class Wrong:
+        twist_order, jacobian_frame = order, "space"
+
+        def jacobian(self, screws: np.ndarray, home: np.ndarray, q: np.ndarray) -> np.ndarray:
+            return np.zeros(shape)
+
+    case = Case(np.array([*REVOLUTE, *PRISMATIC, *HOME]), ("revolute", "prismatic"))
+    assert LAWS["jacobian"].check(Subject(Wrong), case).fault == f"shape {shape} where (6, 2) was expected"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -10,13 +11,14 @@ import pytest
 from poekin.testing import attainable, exact
 from poekin.testing.conform import of_arms, of_groups
 from poekin.testing.conform.precision import DOUBLE, SINGLE
+from poekin.testing.laws import LawViolation
 
 U = 2.0**-53
 N = np.array([2.0, 3.0, -6.0]) / 7
 XI = np.concatenate([2.5 * N, [2.0, 3.0, 6.0]])
 POSE = exact.rounded(exact.exp(XI))
-# A revolute joint whose |v| is 1.5, a prismatic and a helical one of pitch 0.25; |t| of the home pose is 7.
-SCREWS = np.array([[0, 0, 1.0, 0.9, 1.2, 0], [0, 0, 0, 0.36, 0.48, 0.8], [0, 1.0, 0, 0.6, 0.25, 0.6]])
+# A revolute joint whose |v| is 1.5, a prismatic and a helical one of pitch -0.25; |t| of the home pose is 7.
+SCREWS = np.array([[0, 0, 1.0, 0.9, 1.2, 0], [0, 0, 0, 0.36, 0.48, 0.8], [0, -1.0, 0, 0.6, 0.25, 0.6]])
 HOME = exact.rounded(exact.exp(np.concatenate([0.5 * N, np.zeros(3)])))
 HOME[:3, 3] = [2.0, 3.0, 6.0]
 ARM, Q = of_arms.arm(SCREWS, HOME), np.array([0.7, -1.3, 0.4])
@@ -52,6 +54,7 @@ def test_each_number_of_a_pose_is_in_its_part(precision):
         assert [part.least for part in parts] == [angular, angular * lengths, 0.0]
         assert [part.attainable() for part in parts] == [angular, 0.0, 0.0]
         assert {part.precision for part in parts} == {precision}
+        assert [part.what for part in parts] == ["R (rad)", "t ÷ the arm's lengths", "last row"]
 
 
 @pytest.mark.parametrize("frame", ["space", "body", "hybrid"])
@@ -72,6 +75,11 @@ def test_the_worst_column_of_a_jacobian_counts(frame):
     turning = of_arms.arm(SCREWS[[0, 2]], HOME)
     J = exact.rounded(of_arms.exact_jacobians(turning, exact.exactly(Q[:2])))[0]
     assert of_arms.jacobian_parts("space", turning, Q[:2], J)[1].scale == 2 * turning.reach
+    fixed = ARM._replace(coupling=np.zeros((3, 0)), dof=0)
+    parts = of_arms.jacobian_parts("space", fixed, np.zeros(0), np.zeros((6, 0)))
+    assert [(part.what, part.error) for part in parts] == [
+        ("ω of a column", 0.0), ("v of a column ÷ the arm's lengths", 0.0)
+    ]  # fmt: skip
 
 
 def test_each_number_of_exp_is_in_its_part():
@@ -166,9 +174,63 @@ def test_each_block_of_a_jacobian_of_exp_is_in_its_part():
             law(lambda xi, J=J: J, XI)
             P, Q = found[-1]
             expected = [14.0 * (i < 3 or j >= 3), 2.0 * (i >= 3 > j)]
+            assert [P.what, Q.what] == ["3×3 block", "Q block ÷ |v|"]
             assert [P.error, Q.error] == pytest.approx(expected, abs=1e-13)
         law(lambda xi: right[:3, :3], XI[:3], precision=SINGLE)
         (alone,) = found[-1]
     assert [part.scale for part in (P, Q, alone)] == [1.0, 1.0, 1.0]
     assert P.least == Q.least == P.attainable() == Q.attainable() == of_groups.JACOBIAN_BAR / of_groups.EXP_LOG_BAR
     assert alone.least == alone.attainable() == pytest.approx(2.0**29 * P.least, rel=1e-15)
+
+
+def wrong(size: tuple[int, ...]):
+    return lambda x: np.full(size, 7.0)
+
+
+def laws():
+    """Each law as a function of the subject's function, the shape of what that has to return, and its names."""
+    group = {name: (of_groups.jacobian_of_exp(name), XI, 6) for name in ("left_jacobian", "right_jacobian_inverse")}
+    laws = {
+        "exp is e to the xi: R (rad)": (of_groups.exp_is_e_to_the_xi, {3: XI[:3], 4: XI}),
+        "log is the principal logarithm: ω (rad)": (
+            of_groups.log_is_the_principal_logarithm, {(3,): POSE[:3, :3], (6,): POSE}),
+        "adjoint is its matrix: R": (of_groups.adjoint_is_its_matrix, {6: POSE}),
+        "log forgives noise: ω (rad)": (of_groups.log_forgives_noise, {(3,): POSE[:3, :3]}),
+        **{f"{name.replace('_', ' ')} is attained: 3×3 block": (law, {3: XI[:3], 6: XI})
+           for name, (law, _, _) in group.items()},
+    }  # fmt: skip
+    for message, (law, arguments) in laws.items():
+        for shape, x in arguments.items():
+            yield message, law, shape if isinstance(shape, tuple) else (shape, shape), x
+
+
+@pytest.mark.parametrize(
+    ("message", "law", "shape", "x"), list(laws()), ids=[f"{m.split(':')[0]}, {s}" for m, _, s, _ in laws()]
+)
+def test_a_violation_says_which_law_and_a_wrong_shape_is_none_of_its_numbers(message, law, shape, x):
+    with pytest.raises(LawViolation, match=rf"^{re.escape(message)}: error"):
+        law(wrong(shape), x)
+    other = (*shape[:-1], shape[-1] + 1)
+    verdict = law(wrong(other), x, of_groups.Grade.BROKEN)
+    assert verdict.fault == f"shape {other} where {shape} was expected"
+
+
+def test_a_law_of_a_jacobian_is_called_after_it():
+    law = of_groups.jacobian_of_exp("left_jacobian")
+    assert law.__name__ == "left_jacobian_is_attained"
+    assert str(law.__doc__).startswith("left_jacobian of a twist (6,) or rotation vector (3,): ")
+
+
+@pytest.mark.parametrize(("law", "columns"), [("fk", 4), ("jacobian", 3)])
+def test_a_law_of_an_arm_says_which_and_a_wrong_shape_is_none_of_its_numbers(law, columns):
+    def held(function, grade):
+        if law == "fk":
+            return of_arms.fk_is_the_product_of_exponentials(function, ARM, Q, grade)
+        return of_arms.jacobian_is_the_derivative(function, "body", ARM, Q, grade)
+
+    shape = (4, 4) if law == "fk" else (6, 3)
+    said = {"fk": "fk is the product of exponentials", "jacobian": "jacobian is the derivative"}[law]
+    with pytest.raises(LawViolation, match=rf"^{said}: .*error"):
+        held(wrong(shape), of_groups.Grade.EXACT)
+    for other in ((shape[0] + 1, columns), (shape[0], columns + 1)):
+        assert held(wrong(other), of_groups.Grade.BROKEN).fault == f"shape {other} where {shape} was expected"

@@ -172,7 +172,7 @@ def test_a_case_costs_its_numbers_then_what_is_not_zero_digits_signs_places_and_
     [
         (1.0, 1), (-2.0, 1), (0.5, 1), (100.0, 1), (1e-12, 1), (1.5, 2), (0.25, 2), (-0.125, 3), (1.25e-7, 3),
         (math.pi, 1), (-math.pi, 1), (math.pi - 1e-9, 2), (-(math.pi - 1e-3), 2), (3.0, 1), (math.pi - 1.5e-9, 16),
-        (math.pi - 0.1, 17), (math.pi + 1e-3, 16),
+        (math.pi - 0.1, 17), (math.pi + 1e-3, 16), (math.pi - 7e-10, 16),
     ],
 )  # fmt: skip
 def test_digits_are_those_that_people_write(value, digits):
@@ -192,6 +192,7 @@ def test_rounder_numbers_come_the_simplest_first():
     assert towards[-1] == math.pi - 1e-5
     assert len(list(shrink._rounder(math.pi - 0.1001))) == len(list(shrink._rounder(math.pi))) == 36
     assert list(shrink._rounder(math.pi - 0.099))[-1] == math.pi - 0.1
+    assert len(list(shrink._rounder(math.pi + 1e-3))) == 36
 
 
 def test_directions_become_axes_then_planes_then_nearly_axes():
@@ -208,7 +209,8 @@ def test_directions_become_axes_then_planes_then_nearly_axes():
     assert tilted[15] == pytest.approx([3e-7, 1, 0], rel=1e-12)
     assert tilted[16:] == [[3e-7, 1, -2e-3]]
     assert len(list(shrink._simpler_directions(np.array([0.9e-4, 1.0, 0])))) == 12 + 3 + 1
-    assert len(list(shrink._simpler_directions(np.array([1.1e-4, 1.0, 0])))) == 12 + 1 + 1
+    for tilt in (1e-4, 1.1e-4):
+        assert len(list(shrink._simpler_directions(np.array([tilt, 1.0, 0])))) == 12 + 1 + 1
 
 
 def test_smaller_cases_are_vectors_and_numbers_away_then_rounder():
@@ -230,6 +232,35 @@ def test_smaller_cases_are_vectors_and_numbers_away_then_rounder():
     assert found[1:4] == [[*np.eye(3)[k], 2.0] for k in range(3)]
     assert all(other[3] == 2 for other in found[1:15])
     assert not list(shrink._smaller(law, Case(np.zeros(7))))
+    directed = directed._replace(directions=lambda case: (1,))
+    found = [other.numbers.tolist() for other in shrink._smaller(directed, Case(np.array([5.0, 0.6, 0.8, 0, 2.0])))]
+    assert found[:2] == [[0, 0.6, 0.8, 0, 2], [5, 0.6, 0.8, 0, 0]]
+    assert found[2] == [5, 1, 0, 0, 2]
+    last = EXP._replace(directions=lambda case: (), triples=lambda case: (0, 3))
+    found = [other.numbers.tolist() for other in shrink._smaller(last, Case(np.array([0, 0, 0, 0, 0, 4.0])))]
+    assert found[:2] == [[0] * 6, [0] * 6], "the vector away, and the number"
+    assert found[2] == [0, 0, 0, 4, 0, 0]
+
+
+@pytest.mark.parametrize(
+    "keeps", [lambda x: x[1] != 0, lambda x: abs(x[0]) > 0.2, lambda x: np.any(x[3:])], ids=["place", "size", "vector"]
+)
+def test_each_step_is_the_first_simpler_case_that_fails(keeps):
+    def candidates(case: Case) -> list[Case]:
+        smaller = [other for other in shrink._smaller(EXP, case) if cost(other) < cost(case)]
+        return [other for other in smaller if EXP.allowed(other)]
+
+    now, ahead = XI, candidates(XI)
+
+    def fails(case: Case) -> bool:
+        nonlocal now, ahead
+        assert case.numbers.tolist() == ahead.pop(0).numbers.tolist()
+        if keeps(case.numbers):
+            now, ahead = case, candidates(case)
+        return bool(keeps(case.numbers))
+
+    assert shrunk(EXP, XI, fails).numbers.tolist() == now.numbers.tolist()
+    assert not ahead
 
 
 def test_no_more_cases_are_tried_than_are_allowed():
@@ -241,6 +272,8 @@ def test_no_more_cases_are_tried_than_are_allowed():
 
     assert shrunk(EXP, XI, fails, budget=7) is XI
     assert len(tried) == 7
+    assert shrunk(EXP, XI, fails, budget=270) is XI
+    assert len(tried) == 277
     calls = len(tried)
     shrunk(EXP._replace(allowed=lambda case: False), XI, fails)
     assert len(tried) == calls
