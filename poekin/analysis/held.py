@@ -32,14 +32,13 @@ MOST = 16
 class _Relation:
     """How an axis A behind the joints ought to lie to one before them: C A = goal, and |A_v - centre|² = square.
 
-    Attributes: place, of A in the axes behind; C (k, 6), goal (k,); centre (3,) and square where axes are parallel.
+    Attributes: place, of A in the axes behind; C (k, 6), goal (k,); sphere, centre (3,) and square, of parallel axes.
     """
 
     place: int
     C: Array
     goal: Array
-    centre: Array | None = None
-    square: float = 0.0
+    sphere: tuple[Array, float] | None = None
 
 
 def held_positions(
@@ -147,7 +146,7 @@ def _apart(axis: Array, first: Array, second: Array, place: int) -> _Relation:
         moment = np.concatenate([axis[3:], axis[:3]])
         return _Relation(place, moment[None], np.array([first[:3] @ second[3:] + first[3:] @ second[:3]]))
     gap = second[3:] - sign * first[3:]
-    return _Relation(place, np.zeros((0, 6)), np.zeros(0), sign * axis[3:], float(gap @ gap))
+    return _Relation(place, np.zeros((0, 6)), np.zeros(0), (sign * axis[3:], float(gap @ gap)))
 
 
 def _misfit(
@@ -167,16 +166,17 @@ def _misfit(
         A, dA = axes[:, relation.place], changes[:, relation.place]
         r.append(A @ relation.C.T - relation.goal)
         J.append(relation.C @ dA)
-        if relation.centre is not None:
-            apart = A[:, 3:] - relation.centre
-            r.append((apart * apart).sum(1, keepdims=True) - relation.square)
+        if relation.sphere is not None:
+            centre, square = relation.sphere
+            apart = A[:, 3:] - centre
+            r.append((apart * apart).sum(1, keepdims=True) - square)
             J.append(2.0 * apart[:, None] @ dA[:, 3:])
     return np.concatenate(r, 1), np.concatenate(J, 1)
 
 
 def _step(r: Array, J: Array) -> Array:
-    """The steps (m, r) of Levenberg-Marquardt, damped by |r|² (Fan and Yuan 2005), of 1 at most."""
+    """The steps (m, r) of Levenberg-Marquardt, damped by |r|² (Fan and Yuan 2005), of 1/2 at most."""
     normal = np.swapaxes(J, 1, 2) @ J
     damping = (r * r).sum(1) + 1e-14 * np.trace(normal, axis1=1, axis2=2) + 1e-30
-    step = np.linalg.solve(normal + damping[:, None, None] * np.eye(J.shape[2]), np.swapaxes(J, 1, 2) @ -r[..., None])
-    return np.clip(step[..., 0], -1.0, 1.0)
+    damped = normal + damping[:, None, None] * np.eye(J.shape[2])
+    return np.linalg.solve(damped, np.swapaxes(J, 1, 2) @ -r[..., None])[..., 0]
