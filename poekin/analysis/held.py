@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,8 +28,7 @@ MOST = 16
 """Positions tried where the axes leave a continuum of them, as parallel ones do."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Relation:
+class _Relation(NamedTuple):
     """How an axis A behind the joints ought to lie to one before them: C A = goal, and |A_v - centre|² = square.
 
     Attributes: place, of A in the axes behind; C (k, 6), goal (k,); sphere, centre (3,) and square, of parallel axes.

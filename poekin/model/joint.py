@@ -38,7 +38,7 @@ class Mimic:
         _set(self, "offset", _finite((self.offset,), 1, "mimic: offset")[0])
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
+@dataclass(frozen=True, slots=True)
 class Joint:
     """The child link's pose in the parent link's frame, T_pc(x) = origin e^{S x}, S the joint's screw in its own frame.
 

@@ -9,7 +9,7 @@ nothing blows up where axes are parallel.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,8 +19,7 @@ from ..groups.arrays import Array
 from .parts import read_only
 
 
-@dataclass(frozen=True, eq=False)
-class LocalForm:
+class LocalForm(NamedTuple):
     """Constant poses and z-aligned screws of a chain of n joints.
 
     `frames` (n + 1, 4, 4) are M_1 ... M_{n+1} (m). rotates (n,), slides (n,): joint i turns by rotates[i] x_i (rad)

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from decimal import Context, Decimal, localcontext
+from typing import NamedTuple
 
 import numpy as np
 
@@ -57,8 +57,7 @@ def axis_near(S: np.ndarray, slides: bool, origin: Vector) -> tuple[Vector, Vect
     return z, add(foot, scale(dot(subtract(origin, foot), z), z))
 
 
-@dataclass(frozen=True)
-class Normal:
+class Normal(NamedTuple):
     """The common normal of two lines: its foot on the first, the unit direction x from the first to the second, the
     distance a along x, the sine and cosine of the angle alpha from one direction to the other about x.
     """

@@ -26,7 +26,7 @@ TWELVE = [0, 1, 2, 4, 5, 6, 8, 9, 10, 3, 7, 11]
 LARGEST = 64_000_000
 
 
-@dataclass(init=False, frozen=True, slots=True, eq=False, repr=False)
+@dataclass(frozen=True, slots=True)
 class Robot:
     """Links joined into a tree; a joint's child link stands at T_pc(x) = origin e^{S x} in its parent link.
 

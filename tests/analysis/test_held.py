@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from poekin.analysis import extra
-from poekin.analysis.held import _apart, _angle, _misfit, _placed, _relations, _side, _starts, _step, held_positions
+from poekin.analysis.held import _angle, _apart, _misfit, _placed, _relations, _side, _starts, _step, held_positions
 from poekin.analysis.lines import lines
-from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
 
@@ -77,7 +76,7 @@ def test_a_misfit_is_what_angle_and_place_of_the_axes_miss():
         return _misfit(ours, [1], [2], [relation], turned)[0]
 
     assert miss(_angle(Y, X, Y, 0, slice(0, 3)))[:, 0] == pytest.approx([0, 1, 0.5])
-    assert miss(_angle(Y, X, [0.8, 0.6, 0], 0, slice(0, 3)))[:, 0] == pytest.approx([-0.8, 0.2, -0.3])
+    assert miss(_angle(Y, X, np.array([0.8, 0.6, 0]), 0, slice(0, 3)))[:, 0] == pytest.approx([-0.8, 0.2, -0.3])
     parallel = miss(_angle(Y, X, -X, 0, slice(0, 3)))
     assert np.linalg.norm(parallel, axis=1) == pytest.approx([1, 0, np.sqrt(0.75)])
     # The mutual moment of skew lines is their distance by the sine of their angle.
@@ -141,7 +140,7 @@ def test_an_axis_behind_a_slide_has_a_place_where_it_slides_along_itself(rows, p
     ("rprrr", 2, 2),
     ("rprpr", 2, 4),
 ])  # fmt: skip
-def test_every_axis_before_has_its_angle_to_every_one_behind_and_the_nearest_with_places_their_moment(letters, k, count):
+def test_axes_before_have_their_angles_to_those_behind_and_the_nearest_with_places_their_moment(letters, k, count):
     ours = lines(arm_of(letters))
     front, behind = _side(ours, range(k - 1, -1, -1), []), _side(ours, range(k + 1, len(letters)), [])
     relations = _relations(ours, front, behind, dict(enumerate(ours.axes)))
@@ -165,6 +164,36 @@ def test_the_other_model_s_axes_may_point_either_way(letters, flipped):
     assert all(abs(x) <= np.pi for (x,) in found)
 
 
+@pytest.mark.parametrize("letters, run", [
+    ("rrrr", (1,)), ("rrrr", (2,)), ("rpprrr", (3,)), ("rprprr", (3,)), ("rrrppr", (2,)), ("rprpr", (2,)),
+    ("rrrprpr", (4,)), ("rpprpppr", (3,)), ("rprppprr", (2,)), ("rprrrpr", (2, 4)),
+])  # fmt: skip
+def test_more_axes_than_needed_leave_one_position(letters, run):
+    chain, held = arm_of(letters, seed=4), np.array([0.7, -0.4])[: len(run)]
+    short = extra.without(chain, run, held)
+    for k, x in zip(run, held, strict=True):
+        # Each of two that are apart is looked for where the other one is held.
+        others = [j for j in run if j != k]
+        known = chain.rezeroed(np.where(np.isin(range(chain.dof), others), np.resize(held[::-1], chain.dof), 0.0))
+        found = held_positions(known, short, (k,), run, *TOL)
+        assert len(found) == 1
+        assert found[0][0] == pytest.approx(x, abs=1e-9)
+
+
+@pytest.mark.parametrize("share, found", [(0.99, True), (1.01, False)])
+@pytest.mark.parametrize("size", [0.5, 4.0])
+def test_a_length_may_be_missed_by_ten_tolerances_of_length_and_of_angle_by_the_arm_s_size(share, found, size):
+    # The axis behind is carried about joint 2, and is 1.5 size from the one before at most; the other model's is more.
+    def arm(far):
+        return [revolving(Z), revolving(Z, [0.5 * size, 0, 0]), revolving(X, [0, -far, 0])]
+
+    chain = Chain(arm(size), np.eye(4))
+    scale = float(np.linalg.norm(lines(chain).places))
+    short = Chain(np.delete(arm((1.5 + 0.4 * share) * size), 1, 0), np.eye(4))
+    tol_m, tol_rad = 0.03 * size, 0.01 * size / scale
+    assert bool(held_positions(chain, short, (1,), (1,), tol_m, tol_rad)) == found
+
+
 def test_of_a_continuum_of_positions_sixteen_are_tried_that_differ():
     chain = Chain([revolving(Z, [x, 0, 0]) for x in (0.0, 0.4, 0.6, 0.7, 1.0)], np.eye(4))
     found = positions(chain, (1, 2), (1, 2), [0.5, -0.9])
@@ -181,7 +210,7 @@ def test_ten_tolerances_of_angle_and_of_length_by_the_arm_s_size_may_be_missed(s
         return [screw.prismatic(first), revolving(Z), revolving(way, [0, metres, 0])]
 
     chain = Chain(arm(np.cos(0.2)), np.eye(4))
-    size = np.linalg.norm(lines(chain).places)
+    size = float(np.linalg.norm(lines(chain).places))
     assert size == pytest.approx(metres / np.sqrt(2))
     short = Chain(np.delete(arm(np.cos(0.2) + 0.019 * share), 1, 0), np.eye(4))
     assert bool(held_positions(chain, short, (1,), (1,), 9e-4 * size, 1e-3)) == found

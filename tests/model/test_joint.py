@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pickle
+from dataclasses import FrozenInstanceError
 
 import numpy as np
 import pytest
@@ -13,6 +14,8 @@ from hypothesis import strategies as st
 from poekin.errors import InputError, ModelError, PoekinError, PoseError, ShapeError
 from poekin.model.joint import KINDS, Joint, Mimic
 from poekin.model.parts import one_pose
+from poekin.model.robot import Robot
+from poekin.model.source import Source
 from poekin.testing.strategies import frozen, poses
 from tests.messages import says
 
@@ -214,6 +217,13 @@ def test_what_is_no_mimic_is_refused(numbers):
 
 def test_every_kind_can_be_made():
     assert [joint(kind=kind).kind for kind in KINDS] == list(KINDS)
+
+
+@pytest.mark.parametrize("record", [Mimic("k"), Source("arm.urdf"), joint(), Robot("r", ["a"], [])], ids=repr)
+def test_a_record_of_a_model_is_frozen_and_holds_its_fields_alone(record):
+    with pytest.raises(FrozenInstanceError):
+        setattr(record, record.__slots__[0], "other")
+    assert not hasattr(record, "__dict__")
 
 
 def test_hostile_names_are_shown_harmlessly():

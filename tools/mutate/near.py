@@ -18,6 +18,7 @@ BY_ARMS = ("tests/solve/test_ik.py", "tests/solve/test_ik_all.py", "tests/solve/
 _BY_BYTES = ("tests/testing/test_bytes_read.py", "tests/testing/test_arguments.py", "tests/testing/test_strategies.py")
 _BY_LAWS = ("tests/testing/test_laws.py", "tests/groups/test_planted.py")
 _CASES = tuple(f"tests/testing/conform/test_{name}.py" for name in ("shrink", "false_findings", "subject"))
+_COMPARES = tuple(f"tests/analysis/test_{name}.py" for name in ("compare", "compare_figures", "compare_slides"))
 _CONFORM = (*_CASES, "tests/testing/conform/test_faults.py")
 
 NEAR: dict[str, tuple[str, ...]] = {
@@ -105,6 +106,17 @@ NEAR: dict[str, tuple[str, ...]] = {
         "tests/engine/test_trace.py", "tests/engine/test_program.py", "tests/analysis/test_count.py",
         "tests/model/test_compiled.py"),
     "poekin/engine/tree_kernels.py": ("tests/model/test_tree.py", "tests/model/test_robot.py"),
+    **{f"poekin/analysis/{name}.py": (f"tests/analysis/test_{first}.py", "tests/analysis/test_results.py", *_COMPARES)
+       for name, first in (("comparison", "wording"), ("lines", "lines"), ("reading", "reading"))},
+    **{f"poekin/analysis/{name}.py": ("tests/analysis/test_axes.py", "tests/analysis/test_results.py",
+                                      "tests/cli/test_axes.py", "tests/analysis/test_compare_extra.py")
+       for name in ("axes", "shapes")},
+    **{f"poekin/analysis/{name}.py": ("tests/analysis/test_count.py", "tests/analysis/test_results.py",
+                                      "tests/cli/test_count.py")
+       for name in ("count", "count_methods", "count_scalars", "count_table")},
+    **{f"poekin/analysis/{name}.py": (f"tests/analysis/test_{name}.py", "tests/analysis/test_results.py",
+                                      f"tests/cli/test_{name}.py")
+       for name in ("singularity", "validate")},
     "poekin/model/chain.py": (*CHAINS, "tests/model/test_coordinates.py", "tests/model/test_pitches.py"),
     "poekin/model/local.py": (*CHAINS, "tests/model/test_pitches.py", "tests/model/test_idealised.py"),
     "poekin/model/walk.py": ("tests/model/test_walk.py", "tests/model/test_idealised.py"),
