@@ -32,24 +32,25 @@ class Arm:
     poses: Sequence[Row]
     tool: Row
 
-    def rows(self) -> Rows:
-        """Six empty rows."""
-        return [[0.0] * self.n for _ in range(6)]
-
 
 Result = tuple[Rows, Callable[[], Row]]
 
 
+def empty_rows(columns: int) -> Rows:
+    """Six rows of zeros, to be written into."""
+    return [[0.0] * columns for _ in range(6)]
+
+
 def direct_space(arm: Arm) -> Result:
     """Section III in the base frame. The pose takes two products more."""
-    J = arm.rows()
+    J = empty_rows(arm.n)
     T = direct.space(arm.screws, arm.poses, arm.n, J)
     return J, lambda: compose(compose(T, arm.poses[-1]), arm.tool)
 
 
 def direct_body(arm: Arm) -> Result:
     """Section III in the tool's frame. The pose takes two products more."""
-    J = arm.rows()
+    J = empty_rows(arm.n)
     T = direct.body(arm.screws, arm.poses, arm.n, J)
     return J, lambda: compose(arm.tool, compose(arm.poses[0], T))
 
@@ -59,48 +60,48 @@ def general_frames(arm: Arm) -> Result:
 
     That is the direct method's own loop with S_i in place of B_i and f_{i-1,i} in place of e^{B_i x_i}.
     """
-    J = arm.rows()
+    J = empty_rows(arm.n)
     T = direct.body(arm.screws, arm.poses, arm.n, J)
     return J, lambda: compose(arm.poses[0], T)
 
 
 def z_aligned(arm: Arm) -> Result:
     """Section IV's recursion in z-aligned frames, the tool in the last link's frame."""
-    J = arm.rows()
+    J = empty_rows(arm.n)
     T = recursive.body(arm.poses, arm.rotates, arm.slides, arm.n, J)
     return J, lambda: compose(arm.poses[0], T)
 
 
 def with_tool(arm: Arm) -> Result:
     """The same with the constant tool behind the last link."""
-    J = arm.rows()
+    J = empty_rows(arm.n)
     T = recursive.body_with_tool(arm.poses, arm.tool, arm.rotates, arm.slides, arm.n, J)
     return J, lambda: compose(arm.poses[0], T)
 
 
 def orin_schrader(arm: Arm) -> Result:
     """The recursion on Paul's frames as the paper charges Denavit and Hartenberg: tool and first link included."""
-    J = arm.rows()
+    J = empty_rows(arm.n)
     T = dh_recursive.body(arm.poses, arm.tool, arm.rotates, arm.slides, arm.n, J)
     return J, lambda: T
 
 
 def paul(arm: Arm) -> Result:
     """The same without a tool: J in the last link's frame, as the POE recursion of the paper's table has it."""
-    J = arm.rows()
+    J = empty_rows(arm.n)
     T = dh_recursive.body(arm.poses, IDENTITY, arm.rotates, arm.slides, arm.n, J)
     return J, lambda: T
 
 
 def by_cross(arm: Arm) -> Result:
     """Section IV's recursion, z-aligned, each product's third column of R as the cross product of the first two."""
-    J, n = arm.rows(), arm.n
-    set_column(J, n - 1, (0.0, 0.0, arm.rotates[n - 1], 0.0, 0.0, arm.slides[n - 1]))
-    T = pose(arm.poses[n - 1])
-    for i in range(n - 2, -1, -1):
-        if i < n - 2:
-            T = product_by_cross(arm.poses[i + 1], T)
+    J = empty_rows(arm.n)
+    set_column(J, -1, (0.0, 0.0, arm.rotates[-1], 0.0, 0.0, arm.slides[-1]))
+    T = pose(arm.poses[-1])
+    for i in reversed(range(arm.n - 1)):
         set_column(J, i, recursive.z_column(T, arm.rotates[i], arm.slides[i]))
+        if i:
+            T = product_by_cross(arm.poses[i], T)
     return J, lambda: product_by_cross(arm.poses[0], T)
 
 

@@ -6,13 +6,14 @@ to have are the business of its specialised program.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..algebra import compose, pose, turned_about_z
+from ..algebra import IDENTITY, compose, turned_about_z
 from ..engine.count import Count, counted
 from ..engine.program import Angles, program
 from ..engine.specialise import Structure
@@ -23,7 +24,7 @@ from ..groups import se3
 from ..groups.arrays import Array
 from ..model import screw
 from ..model.chain import Chain
-from .count_methods import Arm, Result, Row, Rows
+from .count_methods import Arm, Result, Row, Rows, empty_rows
 
 Algorithm = Callable[[Arm], Result]
 
@@ -44,7 +45,7 @@ Form = Callable[[Motion, np.random.Generator], Row]
 def as_charged(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
     """What an algorithm does, whether its result needs it or not; the links' poses are given."""
     total = Count()
-    poses = counted([pose([0.0] * 12) for _ in chain.kinds], total)  # what is counted does not depend on the numbers
+    poses = counted([IDENTITY for _ in chain.kinds], total)  # what is counted does not depend on the numbers
     _, finish = algorithm(_arm(chain, poses))
     if with_pose:
         finish()
@@ -53,8 +54,8 @@ def as_charged(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
 
 def as_needed(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
     """What an algorithm's result needs; the links' poses are given."""
-    graph = Graph()
-    poses = [tuple(graph.input(-1 - 12 * i - j) for j in range(12)) for i in range(len(chain.kinds))]
+    graph, numbers = Graph(), itertools.count(1)
+    poses = [tuple(graph.input(-next(numbers)) for _ in IDENTITY) for _ in chain.kinds]  # from 0 on they are of angles
     J, finish = algorithm(_arm(chain, poses))
     return _count(graph, Angles(graph), finish() if with_pose else (), J)
 
@@ -64,17 +65,18 @@ def with_everything(algorithm: Algorithm, form: Form, chain: Chain, with_pose: b
     graph = Graph()
     angles, rng, C = Angles(graph), generator(), chain.coupling
     rotates, slides = structure(chain)
+    coordinates = [graph.input(-k) for k, _ in enumerate(chain.q_names, 1)]
     poses = []
     for kind, r, s, row, c in zip(chain.kinds, rotates, slides, C, chain.offset.tolist(), strict=True):
         x: Any = c
-        for k, factor in enumerate(row):
-            x = x + graph.scaled(graph.input(-1 - k), float(factor))
+        for q, factor in zip(coordinates, row, strict=True):
+            x = x + graph.scaled(q, float(factor))
         sine, cosine = angles.sine_cosine([float(r * factor) for factor in row], r * c, 0)
         poses.append(form(Motion(kind, x, sine, cosine, s * x), rng))
     J, finish = algorithm(_arm(chain, poses))
     T = finish() if with_pose else ()
-    if C.shape[0] != C.shape[1] or (np.eye(len(C)) != C).any():
-        J_q: Rows = [[0.0] * chain.dof for _ in range(6)]
+    if not np.array_equal(C, np.eye(len(C))):
+        J_q = empty_rows(chain.dof)
         columns.coupled(J, C.tolist(), len(C), chain.dof, J_q)
         J = J_q
     return _count(graph, angles, T, J)
@@ -123,7 +125,6 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
     links = [(0.0, 1.0, 0.0, 0.0)]
     for d, alpha in generic(rng, n - 1, 2).tolist():
         links.append((math.sin(alpha), math.cos(alpha), d, 0.0))
-    here = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
     return Structure(
         links=tuple(links),
         alongs=tuple(generic(rng, n).tolist()),
@@ -134,9 +135,9 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
         shift=tuple(chain.offset.tolist()),
         offsets=(0.0,) * n,
         quarters=(0,) * n,
-        base=generic_pose(rng) if tool else here,
-        tool=generic_pose(rng) if tool else here,
-        frames=(here,) * n,
+        base=generic_pose(rng) if tool else IDENTITY,
+        tool=generic_pose(rng) if tool else IDENTITY,
+        frames=(IDENTITY,) * n,
         coordinates=chain.dof,
     )
 
