@@ -8,9 +8,6 @@ from tests import findings
 
 FOUND = [
     *findings.dataclasses_of("poekin.solve", "all_solutions followed ik_all_search solution starts task"),
-    *findings.dataclasses_of(
-        "poekin.solve.calibration", "calibration choice identification points poses residuals simulated"
-    ),
     *findings.dataclasses_of("poekin.solve.motion", "timing"),
 ]
 

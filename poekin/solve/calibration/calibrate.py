@@ -100,9 +100,8 @@ def calibrate(
     if fit.free is not free:
         identification, _ = judged(problem, p=fit.p)
     misfit.check(problem, fit)
-    training = problem.numbers * (folds - 1) // max(folds, 1)
     kept = None
-    if folds and training > free.shape[1]:
+    if folds and problem.numbers * (folds - 1) // folds > free.shape[1]:
         kept = aside.held_out(problem, free, loss, spread, folds, seed, max_iterations, progress)
     off = [
         Outlier(k, int(i), int(problem.rows[k][i]))

@@ -180,7 +180,7 @@ def _enough(blocks: Array, n: int) -> None:
         return len(s) == size and s[-1] > RANK * s[0]
 
     if not shows(n):
-        needed = next((k for k in range(n + 1, len(start)) if shows(k)), len(start))
+        needed = next(filter(shows, range(n, len(start))), len(start))
         raise InputError(
             f"n: {n} configurations of {blocks.shape[1]} numbers each are too few for {size} parameters: expected at"
             f" least {needed}, better three times as many; or calibrate less (parameters=, joints=)"

@@ -118,7 +118,7 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
     measured, values = _columns(measurement)
     q = coordinates(q, chain.q_names)
     rows = np.arange(len(values)) if measurement.rows is None else measurement.rows
-    if q.ndim != 2 or (measurement.rows is None and len(q) != len(values)) or rows.max(initial=-1) >= len(q):
+    if q.ndim != 2 or (measurement.rows is None and len(q) != len(values)) or (rows >= len(q)).any():
         raise ShapeError(f"q: expected shape (N, {chain.dof}) with a row for each of {len(values)}, got {q.shape}")
     if not np.isfinite(q).all():
         raise InputError(f"q[{np.argmin(np.isfinite(q).all(axis=1))}]: expected finite numbers, got NaN or infinity")
@@ -146,7 +146,7 @@ def measurement_of(table: Table, kind: str | None, known: dict[str, Any]) -> Mea
         if count > 1 and "points" not in known:
             raise InputError(f"points: the file has {count} points a line; say where they are in the tip frame, (k, 3)")
         return made(**{first: values.reshape(-1, count, 3)}, **known)
-    for i in np.flatnonzero(values[:, 0] <= 0)[:1]:
+    for i in np.flatnonzero(values[:, 0] <= 0):
         raise InputError(f"{places[i]}: expected a distance above 0, got {values[i, 0]:g}")
     return made(**{first: values[:, 0]}, **known)
 

@@ -54,8 +54,7 @@ def exchange(
     Source: Fedorov 1972 ("Theory of optimal experiments"), one of the chosen after the other; the greedy start and the
     exchange are those of DETMAX (Mitchell 1974), which Daney, Papegay and Madeline 2005 use for the poses of robots.
     """
-    if blocks.shape[1] > blocks.shape[2]:  # the triangle holds the same information in fewer rows
-        blocks = np.asarray(np.linalg.qr(blocks, mode="r"))
+    blocks = np.asarray(np.linalg.qr(blocks, mode="r"))  # the same information in min(r, L) rows
     done, total = 0, 9 * n
 
     def tick() -> None:

@@ -37,7 +37,7 @@ def write(
 
 def html(found: Calibration, title: str | None = None, sources: Sequence[str] | None = None) -> str:
     """The page as text. Raises: ShapeError where sources do not name all rows; MissingExtra."""
-    rows = int(found.after.row.max(initial=-1)) + 1
+    rows = int(found.after.row.max()) + 1
     if sources is not None and len(sources) < rows:
         raise ShapeError(f"sources: expected what each of {rows} rows of q came from, got {len(sources)}")
     named = f"Calibration: {found.chain.base} to {found.chain.tip}" if title is None else title

@@ -66,7 +66,7 @@ class Points(Measurement):
     def errors(self, T: Array, places: Sequence[Array]) -> Array:
         """p_model - p_measured (N, 3k), in the frame in which p stands."""
         T = se3.inverse(places[0]) @ T if places else T
-        return (self._at(T) - self.p).reshape(len(T), -1)
+        return (self._at(T) - self.p).reshape(len(T), self.width)
 
     def slopes(self, T: Array, places: Sequence[Array], errors: Array, D: Array) -> tuple[Array, list[Array]]:
         """Points move by v + omega x p; T_base_device <- T_base_device e^xi by -xi, seen from the device."""

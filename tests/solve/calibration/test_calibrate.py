@@ -23,6 +23,7 @@ from poekin.solve.calibration import (
     identify,
 )
 from poekin.solve.calibration.parameters import Arm
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 PUMA = pk.load("puma560").chain().retooled(se3.exp([0.1, 0.2, -0.1, 0.05, 0.03, 0.2]))
 PANDA = pk.load("panda").chain(tip="panda_link8")
@@ -345,3 +346,8 @@ def test_an_arm_without_joints_has_its_constant_pose_calibrated(folds):
     for ask in (calibrate, identify):
         with pytest.raises(InputError, match="nothing to calibrate"):
             ask(fixed, q, T, parameters="screws")
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.solve.calibration", "calibration"))
+def test_a_calibration_cannot_be_changed_and_is_equal_to_itself_alone(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

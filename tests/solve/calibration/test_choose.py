@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from poekin.solve.calibration import Distances, EyeInHand, EyeToHand, Points, Po
 from poekin.solve.calibration.choice import Choice, Figures, _over
 from poekin.solve.calibration.choose import _enough, _figures, choose_poses
 from poekin.solve.calibration.exchange import CRITERIA
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 TOOL = (0.05, 0.0, 0.1)  # off the last axis, so that all of it can be seen
 
@@ -168,10 +171,11 @@ def test_too_few_configurations_for_the_parameters_are_refused_with_how_many_are
 
 
 def test_a_candidate_outside_the_limits_is_refused_with_its_row(puma, candidates):
-    name, upper = puma.q_names[4], puma.limits[4, 1]
+    name, (lower, upper) = puma.q_names[4], puma.limits[4]
     off = candidates.copy()
     off[17, 4] = upper + 0.01
-    with pytest.raises(InputError, match=rf"candidates\[17\]: '{name}' = .* is outside its limits .* to {upper:.6g}$"):
+    said = f"candidates[17]: '{name}' = {upper + 0.01:.6g} is outside its limits {lower:.6g} to {upper:.6g}"
+    with pytest.raises(InputError, match=f"^{re.escape(said)}$"):
         choose_poses(puma, 20, off)
     off[20] = np.nan
     with pytest.raises(InputError, match=r"2 of the 300 candidates cannot be taken"):
@@ -258,3 +262,8 @@ def test_a_choice_says_its_figure_the_median_s_and_the_best_s_and_what_noise_lea
         "(60, the best of them 7); noise leaves 0.56 times the error in the calibrated arm that it leaves after those; "
         "not seen from any of them: 'a' alone; not seen from any of them: 'b'"
     )
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.solve.calibration", "choice"))
+def test_a_choice_cannot_be_changed_and_is_equal_to_itself_alone(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

@@ -199,3 +199,41 @@ def test_all_is_said_to_take_nine_steps_for_each_of_the_chosen_at_first_and_neve
     exchange(np.random.default_rng(3).normal(size=(50, 2, 8)), 6, progress=lambda *step: said.append(step))
     assert said[0] == (1, 54)
     assert all(total >= done + 6 for done, total in said[:-1])
+
+
+def test_the_progress_of_a_search_of_many_steps_stays_a_choice_s_length_ahead_of_what_was_done(monkeypatch):
+    """From the worst of 30 candidates to the next better one at a time: 1 greedy step, 29 exchanges, 1 idle step."""
+    blocks, said = np.arange(1.0, 31.0)[:, None, None], []
+    monkeypatch.setattr(search, "greedy", lambda blocks, n, tick: tick() or [0])
+    monkeypatch.setattr(
+        search, "best_exchange", lambda blocks, chosen, *given: int(chosen[0]) + 1 if chosen[0] < 29 else None
+    )
+    assert exchange(blocks, 1, progress=lambda *step: said.append(step)) == [29]
+    assert said == [(k, max(9, k + 1)) for k in range(1, 32)] + [(31, 31)]
+
+
+@pytest.mark.parametrize("by", CRITERIA)
+@pytest.mark.parametrize("together", [1, 3, 32])
+def test_the_best_exchange_is_the_best_of_all_however_many_are_valued_together(by, together, monkeypatch):
+    monkeypatch.setattr(search, "TOGETHER", together)
+    blocks = np.random.default_rng(4).normal(size=(90, 2, 6))
+    mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
+    for seed in range(8):
+        chosen = np.random.default_rng(seed).choice(90, 4, replace=False)
+        state = search.seen(blocks, chosen, by, mean)
+        others = [j for j in range(90) if j not in chosen]
+        values = [search.seen(blocks, np.array([chosen[0], j, *chosen[2:]]), by, mean).value for j in others]
+        expected = others[int(np.argmax(values))] if max(values) > state.value else None
+        assert search.best_exchange(blocks, chosen, 1, by, state) == expected
+
+
+def test_the_greedy_start_takes_what_shows_a_new_direction_before_what_shows_an_old_one_well():
+    """One candidate shows the first direction alone, by far the best; fifty show both, the first one hardly."""
+    blocks = np.tile([[1e-3, 0.0], [0.0, 1.0]], (51, 1, 1))
+    blocks[7] = [[10.0, 0.0], [0.0, 0.0]]
+    assert 7 not in greedy(blocks, 1)
+    assert greedy(blocks, 2)[1] == 7
+
+
+def test_the_logarithm_of_what_is_not_positive_is_what_is_said():
+    assert search._log(np.array([-2.0, 0.0, 1.0, np.e]), 7.0) == pytest.approx([7, 7, 0, 1])

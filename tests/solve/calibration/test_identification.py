@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError
 from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identification, identify
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 CHAINS = ("R", "RR", "RRR", "RRRRRR", "RRRRRRR", "RRP", "PPP", "RRPR", "RPRPRR")
 PUMA = pk.load("puma560").chain()
@@ -194,3 +195,8 @@ def test_what_is_told_is_a_row_for_each_known_parameter_and_anywhere_every_coord
     assert q.shape == (50, 6)
     assert (np.ptp(q, axis=0) > np.pi).all()
     assert len(np.unique(q)) == 300
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.solve.calibration", "identification"))
+def test_an_identification_cannot_be_changed_and_is_equal_to_itself_alone(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

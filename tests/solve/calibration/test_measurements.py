@@ -14,6 +14,7 @@ from poekin.solve.calibration.parameters import Arm
 from poekin.solve.calibration.points import Distances, Points
 from poekin.solve.calibration.poses import EyeInHand, EyeToHand, Poses
 from poekin.solve.calibration.problem import Problem, readings, sets_of
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 ARM = pk.load("panda").chain(tip="panda_link8")
 Q = ARM.random(5, 12)
@@ -167,3 +168,8 @@ def test_unknown_frames_are_named_by_their_set_where_there_are_several():
     assert Problem(home, Q, [Poses(T), camera]).place_names == [
         "T_base_board of measurement set 1", "T_tip_camera of measurement set 1"
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.solve.calibration", "points poses"))
+def test_measurements_cannot_be_changed_and_are_equal_to_themselves_alone(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

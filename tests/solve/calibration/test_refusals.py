@@ -177,7 +177,37 @@ def test_units_are_looked_at_from_a_tenth_of_the_reach_or_four_turns_on(away, to
         assert bool(tried) == looked
 
 
+MIXED = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([0, 0, 1])], np.eye(4))
+LIKE = {
+    "the lengths look like millimetres: give metres (divide by 1000)": ([1, 1], 1e-3),
+    "the joint angles look like degrees: give radians (numpy.deg2rad)": ([np.pi / 180, 1], 1.0),
+    "the readings of sliding joints look like millimetres: give metres (divide by 1000)": ([1, 1e-3], 1.0),
+    "all lengths look like millimetres, those of sliding joints, too: give metres (divide by 1000)": ([1, 1e-3], 1e-3),
+    "the lengths look like millimetres and the joint angles like degrees: give metres and radians": (
+        [np.pi / 180, 1], 1e-3,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("words", LIKE)
+def test_other_units_are_told_that_explain_the_data_more_than_four_times_better(words, monkeypatch):
+    """A model whose distance is `left`, in the units as they stand, in these units alone, and 10 m in all others."""
+    q, (factors, unit), left = np.ones((3, 2)), LIKE[words], 0.0
+
+    def tried(problem, readings, scale):
+        return scale * (left if np.allclose(readings, q * factors) and scale == unit else 10.0)
+
+    monkeypatch.setattr(units, "_tried", tried)
+    monkeypatch.setattr(units, "_off", lambda *given: 8.0)
+    problem = Problem(Arm(MIXED, ("screws",), None), q, [Poses(np.tile(np.eye(4), (3, 1, 1)))])
+    left = 8.0 / 4.1
+    said = f"the nominal arm is off by 8 m (median) as the data stand, and by {unit * left:.3g} m where {words}"
+    with pytest.raises(InputError, match=f"^{re.escape(said)}$"):
+        units.check(problem, np.zeros(problem.size))
+    left = 8.0 / 3.9
+    units.check(problem, np.zeros(problem.size))
+
+
 def test_readings_are_converted_by_what_their_joints_are():
-    arm = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([0, 0, 1])], np.eye(4))
-    np.testing.assert_allclose(units.converted(arm, np.ones((2, 2)), angle=3.0, length=5.0), [[3, 5], [3, 5]])
+    np.testing.assert_allclose(units.converted(MIXED, np.ones((2, 2)), angle=3.0, length=5.0), [[3, 5], [3, 5]])
     assert pytest.approx(np.pi / 180) == units._DEGREE

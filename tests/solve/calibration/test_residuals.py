@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from poekin.solve.calibration.residuals import Residuals, joined, residuals
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 POSES: Any = SimpleNamespace(width=6, angular=3)
 POINTS: Any = SimpleNamespace(width=6, angular=0)  # two points
@@ -45,3 +46,8 @@ def test_parts_are_joined_in_the_order_of_set_and_row():
     assert found.row.tolist() == [3, 7, 9, 2, 5]
     assert found.length.tolist() == [3, 7, 9, 2, 5]
     assert found.angle.tolist() == [-3, -7, -9, -2, -5]
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.solve.calibration", "residuals"))
+def test_residuals_cannot_be_changed_and_are_equal_to_themselves_alone(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)

@@ -15,6 +15,7 @@ from poekin.groups import so3
 from poekin.solve.calibration.data import KINDS
 from poekin.solve.calibration.simulated import GROSS_SHIFT, GROSS_TURN, Simulated, simulated
 from poekin.testing import chain_strategies
+from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 PANDA = pk.load("panda").chain(tip="panda_link8")
 TOOL = np.array([[0.1, 0, 0], [0, 0.2, 0], [0, 0, 0.3]])
@@ -219,3 +220,8 @@ def test_gross_errors_lie_all_over_their_bounds_in_every_direction():
         u = part / size[:, None]
         np.testing.assert_allclose(u.mean(axis=0), 0, atol=0.065)
         np.testing.assert_allclose((u**2).mean(axis=0), 1 / 3, atol=0.035)
+
+
+@pytest.mark.parametrize("kind", dataclasses_of("poekin.solve.calibration", "simulated"))
+def test_what_was_simulated_cannot_be_changed_and_is_equal_to_itself_alone(kind):
+    assert frozen_and_equal_only_where_its_parts_can_be(kind)
