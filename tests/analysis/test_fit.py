@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from poekin.analysis.fit import _linearised, fit
+from poekin.analysis import fit as fitting
+from poekin.analysis.fit import _linearised, _step, fit
 from poekin.analysis.lines import carried, misses, sides
 from poekin.groups import se3
 from poekin.testing.planted_changes import planted, random_arm
@@ -61,3 +62,45 @@ def test_a_fit_takes_the_base_and_the_free_zero_offsets_to_where_the_used_axes_a
     base[:3, 3] = pair.b.hub - pair.a.hub
     assert fitted[0] == pytest.approx(np.tile(base, (3, 1, 1)), abs=1e-9)
     assert fitted[1] == pytest.approx(np.zeros((3, 5)), abs=1e-9)
+
+
+def test_a_step_lessens_residuals_held_back_by_each_coordinate_s_own_size():
+    rng = np.random.default_rng(0)
+    r, J, damping = rng.normal(size=(4, 9)), rng.normal(size=(4, 9, 3)) * [1, 50, 0.02], np.array([0, 1e-6, 0.1, 7.0])
+    for step, e, D, held in zip(_step(r, J, damping), r, J, damping, strict=True):
+        damped = np.concatenate([D, np.sqrt(held) * np.diag(np.linalg.norm(D, axis=0))])
+        assert step == pytest.approx(np.linalg.lstsq(damped, -np.append(e, np.zeros(3)))[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("size, held", [(2e-6, 2e-6), (0.5e-6, 1.0), (0.0, 1.0)])
+def test_a_coordinate_that_moves_nothing_is_held_back_by_the_size_of_the_largest(size, held):
+    J = 1e-3 * np.diag([1.0, size])[None]  # beside the largest, a millionth is nothing
+    step = _step(np.array([[1.0, 1.0]]), J, np.array([0.25]))[0]
+    assert 1e-3 * step == pytest.approx([-1 / 1.25, -size / (size * size + 0.25 * held * held)])
+    assert (_step(np.ones((1, 2)), np.zeros((1, 2, 2)), np.array([0.25])) == 0).all()
+
+
+def counted(monkeypatch, most, *arguments):
+    """What a fit of so many steps at most finds, and how many it takes."""
+    taken = []
+    monkeypatch.setattr(fitting, "STEPS", most)
+    monkeypatch.setattr(fitting, "_linearised", lambda *x: taken.append(1) or _linearised(*x))
+    return fit(*arguments), len(taken) - 1
+
+
+def test_a_fit_that_starts_near_takes_few_steps_and_ends_where_none_helps(monkeypatch):
+    pair, P, z, _, _ = near(2, 3)
+    free, used = np.array([False, True, True, True, False]), np.arange(5) != 3
+    (Q, y), taken = counted(monkeypatch, 60, pair, P, z * free, free, used)
+    assert taken <= 6
+    # The error squares itself: from 100 tolerances beyond 1e-9 in four steps.
+    fitted, _ = counted(monkeypatch, 4, pair, P, z * free, free, used)
+    assert misses(pair, carried(pair, *fitted)[1])[:, used].max() < 1e-8
+    # With the axis that differs too, the least squares are none that vanish: from there no step helps, and until the
+    # damping has grown from 1e-6 beyond 1e3 ten are tried.
+    least, _ = counted(monkeypatch, 60, pair, P, z * free, free, used | True)
+    again, taken = counted(monkeypatch, 60, pair, *least, free, used | True)
+    assert again[0] == pytest.approx(least[0], abs=1e-9)
+    assert 1 <= taken <= 14
+    # And of one that is there already none at all.
+    assert counted(monkeypatch, 60, pair, Q, y, free, used)[1] <= 1

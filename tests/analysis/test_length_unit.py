@@ -126,3 +126,19 @@ def test_of_two_models_the_one_is_rescaled_whose_lengths_are_the_less_likely_in_
     for one, given, factor in zip(to_one_unit(a, b, ratio), (a, b), times, strict=True):
         assert np.linalg.norm(lines(one).places) == pytest.approx(size)
         assert (one is given) == (factor == 1.0)
+
+
+@pytest.mark.parametrize("size, kept", [(5.2e-3, 5.2), (5.5e-3, 5.5e-3)])
+def test_the_sizes_that_are_told_apart_are_as_far_from_17_cm_by_their_logarithm(size, kept):
+    chain = random_arm(2, ("revolute",) * 4)
+    small = rescaled(chain, size / np.linalg.norm(lines(chain).places))
+    pair = to_one_unit(small, rescaled(small, 1000.0), 1000.0)
+    assert [np.linalg.norm(lines(one).places) for one in pair] == pytest.approx([kept, kept])
+
+
+@pytest.mark.parametrize("factor, ratio", [
+    (195, 1), (205, 1000), (4900, 1000), (5100, 1), (1 / 195, 1), (1 / 205, 0.001), (1 / 4900, 0.001), (1 / 5100, 1),
+])  # fmt: skip
+def test_a_wrong_unit_is_suspected_within_a_factor_of_5_of_1000(factor, ratio):
+    chain = random_arm(2, ("revolute",) * 4)
+    assert length_ratio(chain, rescaled(chain, factor)) == ratio
