@@ -20,11 +20,11 @@ from poekin.groups import se3, so3
 from . import attainable, exact, extended, suspects
 from .accuracy_laws import JACOBIAN_REPORT_BAR, NOISE_BAR, REPORT_BAR, jacobian_errors
 from .attainable import BOTH_SIGNS, UNIT
+from .decoders import SMALLEST, SWITCHES, around
 
 SIGN_BAR = 9e-16
 """The sign of log must be right where π - θ is at least this."""
-_SMALLEST, _LARGEST_EXP = 1e-150, 10.0
-_SWITCHES = (2e-140, 1.0, 2.0)
+_LARGEST_EXP = 10.0
 
 
 class Row(NamedTuple):
@@ -80,9 +80,9 @@ def accuracy(
 
 def _angles(rng: np.random.Generator, largest: float, samples: int) -> np.ndarray:
     marks = [0.0, *(10.0**-k for k in range(17)), *(10.0**-k for k in range(20, 151, 10)), math.pi, largest]
-    marks += [math.nextafter(s, end) for s in _SWITCHES for end in (-1.0, s, 20.0)]
+    marks += [x for s in SWITCHES for x in sorted(around(s))]
     marks += [math.pi - 10.0**-k for k in range(1, 16)] + [2 * math.pi, 3 * math.pi]
-    low, high = math.log(_SMALLEST), math.log(largest)
+    low, high = math.log(SMALLEST), math.log(largest)
     wide, usual = rng.uniform(low, high, samples // 4), rng.uniform(math.log(1e-10), high, samples // 2)
     even = rng.uniform(0, largest, samples - samples // 4 - samples // 2)
     return np.concatenate([[x for x in marks if x <= largest], np.exp(wide), np.exp(usual), even]).clip(0, largest)

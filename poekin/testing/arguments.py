@@ -31,7 +31,7 @@ def magnitudes(what: str, value: Any) -> tuple[float, float]:
     except (TypeError, ValueError) as fault:
         raise InputError(expected) from fault
     pair = [x for x in (smallest, largest) if isinstance(x, numbers.Real) and not isinstance(x, bool)]
-    if len(pair) < 2 or not 0 < smallest <= largest < math.inf:
+    if len(pair) < 2 or not (0 < smallest <= largest and math.isfinite(largest)):
         raise InputError(expected)
     return float(smallest), float(largest)
 

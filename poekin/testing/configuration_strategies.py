@@ -58,7 +58,7 @@ def at_limits(chain: Any) -> Arrays:
 def _inside(r: Reader, lower: float, upper: float) -> float:
     at_nought = r.byte() < 32 and lower <= 0.0 <= upper
     # Of low and high rounded, the sum may be beyond.
-    return 0.0 if at_nought else min(max(lower + (upper - lower) * r.fraction(0.0, 1.0), lower), upper)
+    return 0.0 if at_nought else min(lower + (upper - lower) * r.fraction(0.0, 1.0), upper)
 
 
 def singular_cases(min_joints: int = 2, max_joints: int = 7) -> st.SearchStrategy[tuple[Chain, np.ndarray]]:
@@ -78,6 +78,7 @@ def _singular_cases(draw: st.DrawFn, bounds: tuple[int, int]) -> tuple[Chain, np
     q = np.asarray(draw(coordinates(Chain(A, home))))
     i = draw(st.integers(0, n - 2))
     j = draw(st.integers(i + 1, n - 1))
-    between = functools.reduce(np.matmul, (se3.exp(A[k] * q[k]) for k in range(i + 1, j)), np.eye(4))
+    # Joint i's own turn, which leaves its screw as it is, may be among them.
+    between = functools.reduce(np.matmul, (se3.exp(A[k] * q[k]) for k in range(i, j)), np.eye(4))
     A[j] = se3.adjoint(se3.inverse(between)) @ A[i]
     return Chain(A, home), frozen(q)

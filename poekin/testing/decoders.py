@@ -34,7 +34,7 @@ def angle(r: Reader, largest: float, smallest: float) -> float:
     if kind < 8 and (marks := _marks(largest, smallest)):
         return r.pick(marks)
     if kind < 10 and largest >= math.pi:
-        return max(math.pi - 10.0 ** -r.fraction(0.0, 16.0), 0.0)
+        return math.pi - 10.0 ** -r.fraction(0.0, 16.0)
     return r.fraction(0.0, largest)
 
 

@@ -11,19 +11,19 @@ Source: where DH numbers are ill-conditioned: parallel axes, and axes that meet 
 from __future__ import annotations
 
 import functools
-import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from ..formats.dh import Row, Table
 from . import arguments
+from .chain_strategies import QUARTERS
 from .strategies import Arrays, poses, st
 
 CONVENTIONS = ("standard", "modified")
 """Paul's and Craig's."""
-QUARTERS = (0.0, math.pi / 2, -math.pi / 2, math.pi)
-"""Angles in rad that one in three is, and of which one in three falls short."""
+POWERS = (-12, -3)
+"""Powers of 10 between which lie the rad that quarter turns are missed by, and the tiny lengths in m."""
 
 
 @functools.cache
@@ -31,7 +31,7 @@ def angles() -> st.SearchStrategy[float]:
     """Angles of a table in rad: quarter turns, those by 1e-12 to 1e-3 off, or any from -3 to 3; shrinks towards 0."""
     quarters = st.sampled_from(QUARTERS)
     missed = st.builds(
-        lambda quarter, sign, power: quarter + sign * 10**power, quarters, st.sampled_from([1, -1]), st.floats(-12, -3)
+        lambda quarter, sign, power: quarter + sign * 10**power, quarters, st.sampled_from([1, -1]), st.floats(*POWERS)
     )
     return st.one_of(quarters, missed, st.floats(-3, 3))
 
@@ -39,7 +39,7 @@ def angles() -> st.SearchStrategy[float]:
 @functools.cache
 def lengths() -> st.SearchStrategy[float]:
     """Lengths of a table in m: 0, from -2 to 2, or 1e-12 to 1e-3; shrinks towards 0."""
-    return st.one_of(st.just(0.0), st.floats(-2, 2), st.floats(-12, -3).map(lambda power: 10.0**power))
+    return st.one_of(st.just(0.0), st.floats(-2, 2), st.floats(*POWERS).map(lambda power: 10.0**power))
 
 
 @functools.cache

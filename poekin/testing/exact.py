@@ -3,7 +3,7 @@
 Arrays are NumPy arrays of mpmath numbers (dtype object); a float64 that comes in is taken as the exact number that it
 is. Coefficients are power series below |ω| = 1, so no digit is lost towards 0; the 6×6 Jacobians of exp are the series
 Σ ad(ξ)^k / (k+1)!; log first projects onto the rotations (polar factor), with as many digits as the smallest rotation
-in its argument asks for (380 at |ω| = 1e-300).
+in its argument asks for (640 at |ω| = 1e-300).
 
     exact.rounded(exact.exp([0.3, 0, 0, 1, 2, 3]))     the pose (4, 4), each number the float next to the truth
 
@@ -123,7 +123,7 @@ def polar(R: ArrayLike) -> np.ndarray:
     for _ in range(60):
         step = (_inverse3(X).T - X) / 2
         X = X + step
-        if norm(step) ** 2 < mp.mpf(10) ** -mp.dps:
+        if norm(step) ** 2 < _least():
             return X
     raise InputError("the matrix is too close to a singular one to have a polar factor")
 
@@ -205,23 +205,28 @@ def _coefficients(s: Any) -> tuple[Any, Any, Any]:
     if s >= 1:
         t = mp.sqrt(s)
         return mp.sin(t) / t, (1 - mp.cos(t)) / s, (t - mp.sin(t)) / (s * t)
-    sums, least = [], mp.mpf(10) ** -mp.dps
+    sums = []
     for first in (1, 2, 3):
         term = mp.one / mp.factorial(first)
         total, k = term, first
-        while abs(term) > least:
+        while abs(term) > _least():
             term = -term * s / ((k + 1) * (k + 2))
             total, k = total + term, k + 2
         sums.append(total)
     return sums[0], sums[1], sums[2]
 
 
+def _least() -> Any:
+    """Up to here a term is of no account."""
+    return mp.mpf(10) ** -mp.dps
+
+
 def _jacobian_series(s: Any) -> list[Any]:
     """The factors of X, X², X³, X⁴ in Σ X^k / (k+1)!, k >= 1, where X⁵ = -2s X³ - s² X."""
     power = [mp.one, mp.zero, mp.zero, mp.zero]
-    sums, weight, k, least = [mp.zero] * 4, mp.one / 2, 1, mp.mpf(10) ** -(mp.dps + 10)
-    # The entries of `power` grow as k θ^k, which (k+1)! soon overtakes; below k = 8 some are 0 by their form.
-    while k < 8 or max(map(abs, power)) * weight > least:
+    sums, weight, k = [mp.zero] * 4, mp.one / 2, 1
+    # The entries of `power` grow as k θ^k, which (k+1)! soon overtakes.
+    while max(map(abs, power)) * weight > _least():
         sums = [total + weight * p for total, p in zip(sums, power, strict=True)]
         power = [-s * s * power[3], power[0], power[1] - 2 * s * power[3], power[2]]
         k += 1
@@ -230,7 +235,7 @@ def _jacobian_series(s: Any) -> list[Any]:
 
 
 def _log3(X: np.ndarray) -> np.ndarray:
-    symmetric = X[0, 1] == X[1, 0] and X[0, 2] == X[2, 0] and X[1, 2] == X[2, 1]
+    symmetric = np.array_equal(X, X.T)
     digits = DIGITS
     while True:
         with mp.workdps(digits):
@@ -241,7 +246,7 @@ def _log3(X: np.ndarray) -> np.ndarray:
             sine, cosine = norm(s), (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2
             if symmetric or sine > mp.mpf(10) ** (DIGITS - 10 - digits) or digits > 1000:
                 return _axis_angle(R, s, sine, cosine)
-        digits = 2 * digits if sine == 0 else digits + max(20, 10 - int(mp.log10(sine)))
+        digits *= 2
 
 
 def _axis_angle(R: np.ndarray, s: np.ndarray, sine: Any, cosine: Any) -> np.ndarray:

@@ -67,7 +67,7 @@ def _closest(group: Group, X: np.ndarray, principal: np.ndarray, near: np.ndarra
     extent = 1 + angle(found)
     off_line = size(np.cross(n, found[:3]))
     # Near a multiple of 2π the translation of a logarithm has no bound: it is 1/sin(θ/2) times that of the pose.
-    stretch = 1 / max(abs(math.sin(theta / 2)), 1e-300) if angle(found) > math.pi + 1e-9 else 1.0
+    stretch = 1 / abs(math.sin(theta / 2)) if angle(found) > math.pi + 1e-9 else 1.0
     pairs = of_elements(group.exp(found), X, 2 * extent, 4 * extent**2 * stretch * shift(X))
     excess = size(found[:3] - near[:3]) - min(distances)
     bound = 16 * UNIT * extent

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import re
 from collections.abc import Callable
@@ -20,6 +21,7 @@ from poekin.testing import (
     near_strategies,
     robot_strategies,
     strategies,
+    urdf_strategies,
 )
 
 # Whatever the types say.
@@ -66,6 +68,28 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
 def test_what_is_no_argument_is_refused_at_the_call(call, message):
     with pytest.raises(InputError, match=re.escape(message)):
         call()
+
+
+def test_an_infinite_bound_is_refused_whoever_made_it():
+    for infinite in (float("inf"), np.float64("inf"), np.inf):
+        with pytest.raises(InputError, match="finite numbers"):
+            arguments.magnitudes("lengths", (1.0, infinite))
+
+
+@pytest.mark.parametrize(
+    ("strategy", "fewest", "most"),
+    [
+        (chain_strategies.chains, 0, 12),
+        (configuration_strategies.singular_cases, 2, 7),
+        (dh_strategies.tables, 1, 10),
+        (robot_strategies.robots, 0, 7),
+        (urdf_strategies.odd_urdfs, None, 4),
+    ],
+)
+def test_so_many_joints_are_drawn_unless_others_are_asked_for(strategy, fewest, most):
+    parameters = inspect.signature(strategy).parameters
+    assert parameters["max_joints"].default == most
+    assert fewest is None or parameters["min_joints"].default == fewest
 
 
 def test_numpy_numbers_lists_and_single_words_are_taken():

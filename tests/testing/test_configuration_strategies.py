@@ -10,6 +10,7 @@ import pytest
 import poekin as pk
 from poekin.testing import configuration_strategies as strategies
 from poekin.testing.configuration_strategies import bounds
+from poekin.testing.reader import Reader
 from tests.testing.drawing import drawn
 
 PANDA = pk.load("panda").chain(tip="panda_hand")
@@ -36,6 +37,30 @@ def test_within_limits_0_is_drawn_where_it_lies_within_and_at_limits_both_limits
 def test_a_coordinate_without_limits_turns_once():
     np.testing.assert_array_equal(bounds(FREE), [[-math.pi, math.pi]] * 2)
     assert np.abs(np.array(drawn(strategies.within_limits(FREE), 100))).max() <= math.pi
+
+
+def test_a_limit_up_to_a_million_is_one():
+    for far in (999_999.5, -999_999.5, 1_000_000.5, -1_000_000.5):
+        chain = pk.Chain(FREE.screws, np.eye(4), limits=[[min(far, 0), max(far, 0)], [-1, 2]])
+        wide = [-math.pi, 0.0] if far < 0 else [0.0, math.pi]
+        expected = sorted((far, 0.0)) if abs(far) < 1e6 else wide
+        np.testing.assert_array_equal(bounds(chain), [expected, [-1, 2]])
+
+
+def inside(lower: float, upper: float, *values: int) -> float:
+    return strategies._inside(Reader(bytes(values)), lower, upper)
+
+
+def test_a_coordinate_within_is_0_for_one_byte_in_eight_else_evenly_spread():
+    for lower, upper in ((0.0, 0.5), (-0.5, 0.0), (-0.5, 0.5), (0.0, 0.0)):
+        assert inside(lower, upper, 31, 0, 255, 255) == 0
+        assert inside(lower, upper, 32, 0, 255, 255) == upper
+        assert inside(lower, upper, 32) == lower
+        assert inside(lower, upper, 255, 0, 128, 0) == pytest.approx(lower + (upper - lower) * 32768 / 65535)
+    assert [inside(2.0, 5.0, 0, 0, x, x) for x in (0, 255)] == [2, 5]
+    assert [inside(-5.0, -2.0, 0, 0, x, x) for x in (0, 255)] == [-5, -2]
+    assert 0.3 + (0.9 - 0.3) > 0.9
+    assert inside(0.3, 0.9, 32, 0, 255, 255) == 0.9
 
 
 def test_a_singular_case_is_one():

@@ -10,7 +10,22 @@ from poekin.errors import InputError
 from poekin.testing import exact
 from poekin.testing.exact import mp, norm
 
-ANGLES = [0.0, 1e-300, 1e-150, 1e-8, 0.5, float(np.nextafter(1, 0)), 1.0, 2.0, 3.0, np.pi - 1e-15, np.pi, 6.2, 10.0]
+ANGLES = [
+    0.0,
+    1e-300,
+    1e-150,
+    1e-38,
+    1e-8,
+    0.5,
+    float(np.nextafter(1, 0)),
+    1.0,
+    2.0,
+    3.0,
+    np.pi - 1e-15,
+    np.pi,
+    6.2,
+    10.0,
+]
 DIGITS = mp.mpf(10) ** -60
 N = np.array([0.6, -0.64, 0.48])
 V = np.array([0.3, 2.0, -1.1])
@@ -98,8 +113,34 @@ def test_log_at_pi_has_the_axis_up_to_sign(axis):
     assert min(norm(w - mp.pi * n), norm(w + mp.pi * n)) < DIGITS
 
 
+STRETCH = np.eye(3) + 1e-3 * np.outer([1, 2, 3], [1, 2, 3])
+
+
 def test_log_of_a_symmetric_matrix_near_the_identity_is_zero():
     assert not any(exact.log(np.eye(3) + 1e-9 * np.outer([1, 2, 3], [1, 2, 3])))
+    assert not any(exact.log(STRETCH))
+
+
+@pytest.mark.parametrize("angle", ["1e-300", "1e-150", "1e-60", "1e-25", "1e-9", "2"])
+def test_log_keeps_the_digits_of_a_rotation_however_small_it_is_beside_the_stretch(angle):
+    with mp.workdps(800):
+        w = exact.exactly(N) * mp.mpf(angle)
+        X = exact.exp(w) @ exact.exactly(STRETCH)
+    assert wrong_by(exact.log(X), w) < DIGITS
+
+
+@pytest.mark.parametrize(("i", "j"), [(0, 1), (1, 2), (2, 0)])
+def test_one_entry_that_differs_from_its_mirror_image_makes_a_rotation(i, j):
+    X = STRETCH.copy()
+    X[i, j] += 1e-12
+    assert any(exact.log(X))
+
+
+def test_log_of_a_stretched_half_turn_has_its_axis_up_to_sign():
+    n = exact.exactly([2, -6, 3]) / 7
+    R = 2 * np.outer(n, n) - exact.exactly(np.eye(3))
+    w = exact.log(R @ exact.exactly(STRETCH))
+    assert min(norm(w - mp.pi * n), norm(w + mp.pi * n)) < DIGITS
 
 
 @pytest.mark.parametrize("noise", [0.0, 1e-16, 1e-8, 1e-3, 0.3])
@@ -112,6 +153,13 @@ def test_polar_is_the_rotation_that_leaves_a_positive_symmetric_factor(noise):
     assert norm(P - P.T) < DIGITS
     assert np.linalg.eigvalsh(exact.rounded(P)).min() > 0
     assert wrong_by(exact.exp(exact.log(X)), R) < DIGITS
+
+
+def test_a_matrix_next_to_a_singular_one_has_no_polar_rotation():
+    identity = exact.exactly(np.eye(3))
+    assert norm(exact.polar(np.diag([1e-8, 1e-8, 1.0])) - identity) < DIGITS
+    with pytest.raises(InputError, match="too close to a singular one"):
+        exact.polar(np.diag([1e-40, 1e-40, 1.0]))
 
 
 def test_a_reflection_has_no_polar_rotation():

@@ -206,6 +206,44 @@ def test_what_is_near_a_whole_turn_has_no_bound(monkeypatch):
     assert [bound for _, bound in beyond] == pytest.approx([64 * U * 5, 512 * U * 6**2 * 14], rel=1e-12)
 
 
+@pytest.mark.parametrize(("angle", "factor"), [(3.0, 24), (math.pi - 5e-10, 24), (math.pi + 5e-10, 24), (4.0, 64)])
+def test_beyond_half_a_turn_a_logarithm_may_err_more(angle, factor, monkeypatch):
+    ((_, bound),) = measured("a_logarithm_is_nearest_to_itself", GROUPS[3], monkeypatch, angle * N)
+    assert bound == pytest.approx(factor * U * angle, rel=1e-12)
+
+
+def test_near_what_lies_on_the_line_too_the_bounds_are_those_of_the_branch_that_is_found(monkeypatch):
+    asked: list[np.ndarray] = []
+
+    def log(X: np.ndarray, near: np.ndarray | None = None) -> np.ndarray:
+        asked.extend([] if near is None else [near])
+        return se3.log(X, near=near)
+
+    group = GROUPS[6]._replace(log=log)
+    found = iter(measured("near_picks_the_closest_branch", group, monkeypatch, XI, ETA))
+    n = np.concatenate([N, np.zeros(3)])
+    along = [0.75 * n, 3.0 * n, 6.0 * n]
+    assert asked == pytest.approx(np.array([ETA, *along, *(-x for x in along)]), rel=1e-12)
+    branches = 2.5 + 2 * math.pi * np.arange(-4, 5)
+    seen = set()
+    for near in asked:
+        angle = abs(branches[np.argmin(np.abs(branches - near[:3] @ N))])
+        extent, shift = 1 + angle, measures.shift(se3.exp(XI))
+        stretch = 1 / math.sin(1.25) if angle > math.pi else 1
+        bounds = [24 * U * extent, 48 * U * extent**2 * stretch * shift, 16 * U * extent, 64 * U * extent]
+        assert [next(found)[1] for _ in bounds] == pytest.approx(bounds, rel=1e-12)
+        seen.add(round(angle, 1))
+    assert seen == {2.5, 3.8, 8.8}
+    assert not list(found)
+
+
+def test_a_rotation_that_is_hardly_one_has_no_closest_branch(monkeypatch):
+    for angle, pairs in ((1e-13, 0), (1e-11, 28)):
+        xi = np.array([angle, 0, 0, 0, 1.0, 0])
+        assert len(measured("near_picks_the_closest_branch", GROUPS[6], monkeypatch, xi, ETA)) == pairs
+    assert near_laws.near_picks_the_closest_branch(GROUPS[6], np.array([1e-13, 0, 0, 0, 1.0, 0]), ETA) == 0
+
+
 @pytest.mark.parametrize("turns", range(-4, 5))
 def test_of_all_branches_up_to_four_turns_off_the_closest_is_asked_for(turns):
     xi, near = XI[:3], (2.5 + 2 * math.pi * turns + 0.4) * N

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import math
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import find, settings
 
 from poekin.formats import urdf
 from poekin.formats.urdf_text import to_urdf
+from poekin.groups import se3
 from poekin.model.joint import KINDS, Mimic
 from poekin.model.robot import Robot
 from poekin.testing import configuration_strategies, robot_strategies
 from poekin.testing.chain_strategies import RATIOS
+from poekin.testing.reader import Reader
 from tests.testing.drawing import QUICK, drawn
 from tests.versions import SHRINKS, needs
 
@@ -95,6 +100,105 @@ def test_what_is_asked_for_is_drawn():
     mimics = [(robot, joint) for robot in still for joint in robot.joints if joint.mimic]
     assert any(joint.kind == "fixed" for _, joint in mimics)
     assert any(joint.mimic and robot.joint(joint.mimic.joint).kind == "fixed" for robot, joint in mimics)
+
+
+# The bytes of a row: 0 or 255 for the choices, then the lowest or the highest of each number.
+LOW, HIGH = [0, 255, 0, 0], [255, 0, 255, 255]
+
+
+def row(*values: int) -> Any:
+    return robot_strategies._row(Reader(bytes(values)), ("revolute", "fixed"))
+
+
+def test_zeros_are_the_simplest_row():
+    simplest = row()
+    assert simplest[:11] == ("revolute", False, 0, False, 0, 1.0, 0.0, (0.0, 0.0), (0.0, 0.0), 0, (0, 0, 0))
+    assert np.array_equal(simplest.origin, np.eye(4))
+    assert simplest.axis.tolist() == [1, 0, 0]
+    assert simplest.pitch == 0
+
+
+def test_a_row_is_read_off_its_bytes_in_order():
+    origin = [0, 0, 0, 10, 0, 128, 0, 255, 0, 255, 255, 0, 0, 0]  # turned about x, 3 m along x
+    angle = 32768 / 65535
+    low = row(128, 128, 7, 128, 9, 128, *LOW, *LOW, *LOW * 2, *LOW * 2, 11, 13, 17, 19, *origin, 0, 1, 0, *LOW)
+    assert low[:5] == ("fixed", True, 7, True, 9)
+    assert low[5:9] == (-2.0, -1.0, (-1.0, -0.9), (-0.9, -0.9))
+    assert low[9:11] == (11, (13, 17, 19))
+    assert low.origin == pytest.approx(se3.exp([angle, 0, 0, 0, 0, 0]) + 3.0 * np.eye(4, k=3), abs=1e-15)
+    assert low.axis.tolist() == [0, 1, 0]
+    assert low.pitch == -0.5
+    high = row(
+        127, 127, 0, 127, 0, 128, 0, 130, 255, 255, *HIGH, *HIGH * 2, *HIGH * 2, *[0] * 4, *[0] * 15, *[0] * 3, *HIGH
+    )
+    assert high[:5] == ("revolute", False, 0, False, 0)
+    assert high[5:9] == (2.0, 1.0, (1.0, 1.0), (1.0, 1.0))
+    assert high.pitch == 0.5
+    assert [row(0, 0, 0, 0, 0, 127, k).multiplier for k in (0, 52, 103, 154, 255)] == list(RATIOS)
+
+
+def names(robot: Robot) -> list[tuple[str, str, str]]:
+    return [(joint.name, joint.parent, joint.child) for joint in robot.joints]
+
+
+def robot_of(rows: list[Any], mimics: bool = True, limits: bool = True, still: bool = False) -> Robot:
+    return robot_strategies._robot(rows, mimics, limits, still)
+
+
+def test_a_joint_goes_on_from_the_link_before_or_branches_off_any_above():
+    for parents, links in (((255, 255, 255), (0, 1, 2)), ((0, 127, 85), (0, 0, 0)), ((9, 128, 86), (0, 1, 1))):
+        rows = [row()._replace(branches=True, parent=parent) for parent in parents]
+        assert [parent for _, parent, _ in names(robot_of(rows))] == [f"l{k}" for k in links]
+        rows = [row()._replace(parent=parent) for parent in parents]
+        assert names(robot_of(rows)) == [("j1", "l0", "l1"), ("j2", "l1", "l2"), ("j3", "l2", "l3")]
+
+
+def test_links_and_joints_are_put_in_the_order_that_is_drawn():
+    rows = [row()._replace(places=(3 - k, (k + 1) % 3, first)) for k, first in enumerate((171, 0, 0))]
+    robot = robot_of(rows)
+    assert robot.links == ("l3", "l2", "l0", "l1")
+    assert [joint.name for joint in robot.joints] == ["j3", "j1", "j2"]
+    for first, place in ((0, 0), (85, 0), (86, 1), (170, 1), (255, 2)):
+        rows[0] = row()._replace(places=(0, 0, first))
+        assert robot_of(rows).links.index("l0") == place
+
+
+def test_a_joint_follows_any_one_of_an_earlier_rank():
+    ranks = (5, 3, 9, 7)  # j2, j1, j4, j3
+    for masters, followed in ((0, "222"), (127, "221"), (128, "211"), (255, "214")):
+        rows = [row()._replace(rank=rank, follows=True, master=masters, multiplier=-0.5, offset=0.2) for rank in ranks]
+        robot = robot_of(rows)
+        assert [joint.mimic for joint in robot.joints if joint.name == "j2"] == [None]
+        found = [robot.joint(name).mimic for name in ("j1", "j3", "j4")]
+        assert found == [Mimic(f"j{k}", -0.5, 0.2) for k in (followed[0], followed[2], followed[1])]
+        assert not any(joint.mimic for joint in robot_of(rows, mimics=False).joints)
+    rows[0] = rows[0]._replace(follows=False)
+    assert robot_of(rows).joint("j1").mimic is None
+    rows = [row()._replace(kind=kind, follows=True) for kind in ("fixed", "revolute", "fixed", "prismatic")]
+    assert [bool(joint.mimic) for joint in robot_of(rows).joints] == [False, False, False, True]
+    assert [bool(joint.mimic) for joint in robot_of(rows, still=True).joints] == [False, True, True, True]
+
+
+def test_only_a_helical_joint_has_a_pitch():
+    rows = [row()._replace(kind=kind, pitch=0.5) for kind in KINDS if kind in ("revolute", "helical", "prismatic")]
+    assert {joint.kind: joint.pitch for joint in robot_of(rows).joints} == {
+        "revolute": 0.0, "helical": 0.5, "prismatic": 0.0
+    }  # fmt: skip
+
+
+def test_limits_are_as_wide_as_what_is_drawn_and_hold_what_is_followed():
+    def limits(kind: str, first: tuple[float, float], margins: tuple[float, float], still: bool = False) -> list[Any]:
+        master = row()._replace(kind=kind, limits=first, margins=(0.7, 0.7))
+        follower = row()._replace(kind=kind, follows=True, rank=1, multiplier=-2.0, offset=0.5, margins=margins)
+        return [joint.limits for joint in robot_of([master, follower], still=still).joints]
+
+    # The follower's middle is -2 times the master's and 0.5 more; its margins are 1 and what is drawn.
+    assert limits("prismatic", (-1.0, 0.5), (0.0, 1.0)) == [(-1.0, 0.5), (0.0, 3.0)]
+    assert limits("prismatic", (0.5, -0.9), (1.0, -0.9)) == [(0.5, 0.6), (-2.6, -0.5)]
+    assert limits("revolute", (0.0, 1.0), (1.0, -0.5)) == [(0.0, 3.0), (-5.5, -2.0)]
+    assert limits("helical", (1.0, -0.5), (0.5, 0.5))[0] == (3.142, 3.642)
+    assert robot_of([row()._replace(limits=(1.0, 1.0))], limits=False).joints[0].limits == (-math.inf, math.inf)
+    assert robot_of([row()._replace(kind="continuous")]).joints[0].limits == (-math.inf, math.inf)
 
 
 def test_as_urdf_they_are_read_back(robots):
