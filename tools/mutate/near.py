@@ -92,9 +92,11 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/testing/conform/search.py": (
         "tests/testing/conform/test_search.py", "tests/testing/conform/test_precision.py", *_CASES),
     "poekin/testing/conform/law.py": ("tests/testing/conform/test_urdf_cases.py", *_CASES),
-    "poekin/testing/conform/of_urdf.py": ("tests/testing/conform/test_small_urdf.py", *_CONFORM),
+    "poekin/testing/conform/of_urdf.py": (
+        "tests/testing/conform/test_of_urdf.py", "tests/testing/conform/test_small_urdf.py", *_CONFORM),
     "poekin/testing/conform/report.py": (
-        *_CONFORM, "tests/testing/conform/test_plugin.py", "tests/cli/test_conform.py"),
+        "tests/testing/conform/test_report.py", *_CONFORM, "tests/testing/conform/test_plugin.py",
+        "tests/cli/test_conform.py"),
     "poekin/testing/conform/worker.py": ("tests/testing/conform/test_child.py",),
     "poekin/engine/rows.py": ("tests/groups/test_batches.py", *CHAINS),
     "poekin/engine/derivative_kernels.py": (

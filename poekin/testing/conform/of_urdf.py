@@ -14,7 +14,7 @@ from .law import Case, Shown, typed
 from .subject import Subject, printed
 
 
-def check(subject: Subject, case: Case, jacobian: bool = False) -> Verdict:
+def check(subject: Subject, case: Case, jacobian: bool) -> Verdict:
     """Whether what the subject reads out of the URDF has the pose, or the Jacobian, of the definition."""
     law = "read_urdf"
     read, fault = made(lambda: subject.own.read_urdf(small_urdf.text(case), "base", "tip"))
@@ -68,15 +68,15 @@ def _given(case: Case, read: Any, names: Iterable[str]) -> tuple[np.ndarray, lis
     """The values of what was read, in its order, and its names; or the fault: one of these names is none of its."""
     found, fault = made(lambda: [str(name) for name in read.names])
     if fault:
-        return np.zeros(0), [], f"`names` of what was read: {fault}"
+        return np.array([]), [], f"`names` of what was read: {fault}"
     lost = [name for name in names if name not in found]
     if lost:
-        return np.zeros(0), [], f"no coordinate {', '.join(lost)} among those read: {', '.join(found) or 'none'}"
+        return np.array([]), [], f"no coordinate {', '.join(lost)} among those read: {', '.join(found) or 'none'}"
     given = small_urdf.coordinates(case)
     return np.array([given.get(name, 0.0) for name in found]), found, ""
 
 
-def confirmed(case: Case, jacobian: bool = False, links: Iterable[int] = (small_urdf.TIP,)) -> bool:
+def confirmed(case: Case, jacobian: bool, links: Iterable[int] = (small_urdf.TIP,)) -> bool:
     """Whether the exact poses of links, and the Jacobian, stand against the second oracle."""
     for k in links:
         arm, q, _ = small_urdf.arm(case, k)

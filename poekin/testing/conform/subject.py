@@ -162,13 +162,7 @@ class Subject:
             expected = "q" if self.arm is not None else "screws, home, q"
             hint = " with `arm` declared" if self.arm is not None else " (declare `arm` for fk(q) of one arm)"
         else:
-            expected = {
-                "so3_log": "R",
-                "log": "T",
-                "adjoint": "T",
-                "read_urdf": "text, base, tip",
-                "read_robot": "text",
-            }.get(name, "w" if name in SO3 else "xi")
+            expected = PARAMETERS.get(name, "w" if name in SO3 else "xi")
         function = getattr(self.own, name)
         try:
             given = inspect.signature(function)
@@ -234,9 +228,10 @@ class Subject:
         own = self.plain(name)
         if name in SO3:
             return own
+        if name == "exp":
+            return lambda x: own(self.twist(x))
         enters = (lambda x: x) if name in ("log", "adjoint") else self.twist
-        leaves = {"exp": lambda x: x, "log": self.twist}.get(name, self.square)
-        size = {"exp": (4, 4), "log": (6,)}.get(name, (6, 6))
+        leaves, size = (self.twist, (6,)) if name == "log" else (self.square, (6, 6))
 
         def ordered(x: np.ndarray) -> Any:
             result = real(own(enters(x)))

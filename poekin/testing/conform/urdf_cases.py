@@ -182,7 +182,7 @@ def _vectors_too(case: Case) -> Iterable[int]:
 def _robot_law(name: str, says: str, mimic: bool, about: About) -> Law:
     return Law(
         name, says, "read_robot", lambda subject: trees(mimic), of_urdf.check_robot,
-        lambda subject, case: of_urdf.confirmed(case, links=range(len(small_urdf.rows_of(case)))),
+        lambda subject, case: of_urdf.confirmed(case, False, range(len(small_urdf.rows_of(case)))),
         lambda subject, case: of_urdf.show(subject, case, "poses"), small_urdf.simpler, small_urdf.triples,
         small_urdf.axes, _allowed(_frame_axis), about=about,
     )  # fmt: skip

@@ -73,6 +73,12 @@ def _off(x: np.ndarray, place: int, by: float) -> np.ndarray:
     return other
 
 
+def edge(agrees, limit: float) -> None:
+    """Errors up to the limit are let pass, and larger ones are not."""
+    assert agrees(0.9 * limit)
+    assert not agrees(1.1 * limit)
+
+
 @pytest.mark.parametrize("place", range(16))
 def test_60_digits_of_the_largest_number_are_asked_for_of_each(place):
     truth = exact.exp(FAR)
@@ -80,6 +86,7 @@ def test_60_digits_of_the_largest_number_are_asked_for_of_each(place):
     for by, near in ((0.9 * limit, True), (-0.9 * limit, True), (1.1 * limit, False), (-1.1 * limit, False)):
         assert confirm.is_exp(FAR, _off(truth, place, by)) == near
     assert not confirm.is_exp(XI[:3], _off(exact.exp(XI[:3]), place % 9, 3e-60))
+    edge(lambda by: confirm.is_exp(np.zeros(6), _off(np.eye(4), place, by)), 2e-60)
 
 
 def test_a_logarithm_is_held_to_60_digits_of_the_rotation_and_of_the_lengths():
@@ -120,12 +127,6 @@ def test_each_number_of_an_adjoint_is_asked_for(monkeypatch):
         monkeypatch.setattr(exact, "adjoint", lambda T, place=place: _off(true, place, 1e-10))
         assert not confirm.of_adjoint(T)
         assert confirm.of_adjoint(T, 1e-9)
-
-
-def edge(agrees, limit: float) -> None:
-    """Errors up to the limit are let pass, and larger ones are not."""
-    assert agrees(0.9 * limit)
-    assert not agrees(1.1 * limit)
 
 
 W_SMALL, W_LARGE = [0.0, 0.0, 0.0], [0.0, 0.0, 3.0]

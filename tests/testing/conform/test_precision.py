@@ -95,3 +95,15 @@ def test_a_precision_is_that_of_the_type_of_the_result():
     assert seen(Tensor()) is SINGLE
     assert seen(np.zeros(3, np.float32)) is SINGLE
     assert seen(np.zeros(3)) is seen([1.0]) is DOUBLE
+
+
+def test_numbers_are_rounded_to_what_is_no_subnormal_of_the_precision():
+    x = np.array([1 / 3, -1e-29, 1e-31, -1e-31, 0.0, 2.0])
+    assert DOUBLE.rounded(x) is x
+    assert SINGLE.rounded(x).tolist() == [float(np.float32(1 / 3)), float(np.float32(-1e-29)), 0.0, 0.0, 0.0, 2.0]
+    assert (DOUBLE.coarser, SINGLE.coarser) == (1.0, 2.0**29)
+
+
+def test_the_smallest_angle_has_a_square_that_is_no_subnormal():
+    for precision, kind in ((DOUBLE, np.float64), (SINGLE, np.float32)):
+        assert 1 <= precision.smallest**2 / np.finfo(kind).tiny < 1e8

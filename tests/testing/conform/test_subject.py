@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 
 import poekin as pk
 from benchmarks.subjects import Angular, Linear, Poekin
 from poekin.errors import InputError, UnknownName
-from poekin.testing.conform import LAWS, Case, Grade, Subject, Verdict, applicable, conform, law_names, run, search
+from poekin.testing.conform import (
+    FUNCTIONS,
+    LAWS,
+    Case,
+    Grade,
+    Subject,
+    Verdict,
+    applicable,
+    conform,
+    law_names,
+    run,
+    search,
+)
 from tests.testing.drawing import drawn
 
 LAWS_OF = {law.name: law for law in LAWS}
@@ -58,6 +72,115 @@ def one(self, x):
 def test_what_is_not_declared_is_refused_with_what_to_declare(members, words):
     with pytest.raises(InputError, match=words):
         Subject(kind(**members))
+
+
+ORDER = 'expected twist_order = "angular first" or "linear first"'
+
+
+def arms_function(self, A, M, q):
+    return M
+
+
+@pytest.mark.parametrize(
+    ("members", "said"),
+    [
+        ({"exp": one, "log": lambda self, T: T}, f"Mine has exp, and does not declare twist_order: {ORDER}"),
+        ({"fk": arms_function, "jacobian": arms_function}, f"Mine has fk, and does not declare twist_order: {ORDER}"),
+        (
+            {"read_urdf": arms_function, "jacobian_frame": "body"},
+            f"Mine has jacobian_frame, and does not declare twist_order: {ORDER}",
+        ),
+        (
+            {"read_urdf": arms_function, "jacobian_frame": "body", "adjoint": lambda self, T: T},
+            f"Mine has adjoint, and does not declare twist_order: {ORDER}",
+        ),
+        (
+            {"fk": lambda self, q: q, "exp": one, "arm": pk.load("panda").chain(tip="panda_hand")},
+            f"Mine has exp, and does not declare twist_order: {ORDER}",
+        ),
+        (
+            {"so3_exp": one, "twist_order": 1, "log": lambda self, T: T},
+            'Mine: twist_order: expected "angular first" or "linear first", got 1',
+        ),
+        ({"so3_exp": one, "precision": "half"}, 'Mine: precision: expected "float64" or "float32", got \'half\''),
+        (
+            {"jacobian": arms_function, "twist_order": "angular first"},
+            'Mine has jacobian, and does not declare jacobian_frame: '
+            'expected jacobian_frame = "space" or "body" or "hybrid"',
+        ),
+        ({"so3_exp": one, "paste": "x"}, "Mine: paste: expected a text for each function, got 'x'"),
+        ({"so3_exp": one, "helical": "yes"}, "Mine: helical: expected True or False, got 'yes'"),
+        ({"so3_exp": one, "noise": 1.1e-5}, "Mine: noise: expected a number from 0 to 1e-5, got 1.1e-05"),
+        ({"so3_exp": one, "noise": -1e-9}, "Mine: noise: expected a number from 0 to 1e-5, got -1e-09"),
+        ({"so3_exp": one, "noise": "no"}, "Mine: noise: expected a number from 0 to 1e-5, got 'no'"),
+        ({"so3_exp": one, "arm": "ur5e"}, "Mine: arm: expected a poekin.Chain, got 'ur5e'"),
+        (
+            {"fk": arms_function, "arm": pk.load("panda").chain(tip="panda_hand")},
+            "Mine: fk: expected parameters (q) with `arm` declared, got (A, M, q)",
+        ),
+        ({"fk": one}, "Mine: fk: expected parameters (screws, home, q) (declare `arm` for fk(q) of one arm), got (x)"),
+        ({"log": arms_function}, "Mine: log: expected parameters (T), got (A, M, q)"),
+        ({"adjoint": arms_function}, "Mine: adjoint: expected parameters (T), got (A, M, q)"),
+        ({"so3_log": arms_function}, "Mine: so3_log: expected parameters (R), got (A, M, q)"),
+        ({"exp": arms_function}, "Mine: exp: expected parameters (xi), got (A, M, q)"),
+        ({"read_robot": arms_function}, "Mine: read_robot: expected parameters (text), got (A, M, q)"),
+        ({"so3_exp": lambda: None}, "Mine: so3_exp: expected parameters (self, w), got none"),
+        ({"so3_exp": property(lambda self: 1 / 0)}, "Mine: so3_exp: ZeroDivisionError: division by zero"),
+        ({"so3_exp": one, "__init__": lambda self: 1 / 0},
+         "Mine cannot be made as Mine(): ZeroDivisionError: division by zero"),
+        ({"size": 3}, f"Mine has none of the functions of a subject: {', '.join(FUNCTIONS)}"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_said_with_the_name_and_what_was_expected(members, said):
+    with pytest.raises(InputError) as raised:
+        Subject(kind(**members))
+    assert str(raised.value) == said
+
+
+def test_what_is_not_declared_is_nothing():
+    subject = Subject(kind(so3_exp=one))
+    assert (subject.noise, subject.batch, subject.helical, subject.arm) == (0.0, False, False, None)
+    assert (subject.name, subject.version, subject.label, subject.title) == ("Mine", "", "Mine", "Mine")
+    assert (subject.linear_first, subject.frame, subject.pastes, subject.declared) == (False, "", {}, None)
+    for noise in (0, 1e-5, 1e-9):
+        assert Subject(kind(so3_exp=one, noise=noise)).noise == noise
+    named = Subject(kind(so3_exp=one, name="Other", version=2, paste={"so3_exp": "f(x)"}, batch=True, helical=True))
+    assert (named.label, named.title, named.batch, named.helical) == ("Other 2", "Mine", True, True)
+    assert named.pastes == {"so3_exp": "f(x)"}
+
+
+class Both:
+    twist_order = "linear first"
+    jacobian_frame = "hybrid"
+    fk = jacobian = arms_function
+    exp = so3_exp = one
+
+
+def test_a_subject_is_sent_with_all_but_itself():
+    subject = Subject(Both)
+    sent = pickle.loads(pickle.dumps(subject))
+    assert vars(sent) == {key: value for key, value in vars(subject).items() if key != "own"}
+    assert (sent.linear_first, sent.frame, sent.functions) == (True, "hybrid", ("so3_exp", "exp", "fk", "jacobian"))
+
+
+def test_a_call_is_written_as_it_was_asked_to_be_and_else_as_a_call_of_the_class():
+    subject = Subject(Both)
+    lines = "import numpy as np; from tests.testing.conform.test_subject import Both; "
+    assert subject.call("so3_exp", x="[1, 2, 3]") == lines + "print(np.asarray(Both().so3_exp([1, 2, 3])).tolist())"
+    assert subject.call("fk", screws="A", home="M", q="q") == lines + "print(np.asarray(Both().fk(A, M, q)).tolist())"
+    subject.pastes = {"fk": "print(library.fk(screws, home, q))"}
+    assert subject.call("fk", screws="A", home="M", q="[0]") == (
+        "import numpy as np; screws = A; home = M; q = [0]; print(library.fk(screws, home, q))"
+    )
+
+
+@pytest.mark.parametrize("shape", [(), (1,), (5,), (6,), (7,), (5, 6), (6, 5), (6, 7), (7, 6), (2, 5, 6), (2, 3, 3)])
+@pytest.mark.parametrize("name", ["log", "left_jacobian", "adjoint", "exp"])
+def test_a_result_of_another_shape_comes_as_it_was_made(name, shape):
+    made = np.arange(float(np.prod(shape, dtype=int))).reshape(shape)
+    subject = Subject(kind(**{name: lambda self, x: made}, twist_order="linear first"))
+    turned = name == "log" and shape[-1:] == (6,)  # twists, one or more
+    assert np.array_equal(subject.function(name)(np.zeros(6)), pk.se3.linear_first(made) if turned else made)
 
 
 def test_functions_of_rotations_need_no_declaration():
