@@ -17,7 +17,7 @@ from ..formats.whole import write_whole
 from ..model.chain import Chain
 from . import files
 from .model import OPTIONS, model
-from .output import Progress, as_json, matrix, name, number, say
+from .output import Progress, as_json, matrix, name, number, path_text, say
 
 FILE_HELP = "A URDF, MJCF, DH table or calibration file, a built-in name (panda), or erd:NAME."
 File = Annotated[str, typer.Argument(metavar="FILE", help=FILE_HELP)]
@@ -111,7 +111,7 @@ def give(
         content = {".csv": lambda: sheet().encode(), ".npy": lambda: files.npy_bytes(results)}
         write_whole(output, content.get(output.suffix.lower(), lambda: (document() + "\n").encode())())
         summary = {"written": str(output), "configurations": len(results)}
-        say(as_json(summary) if json else f"{len(results)} × {what} written to {shown(output, 400)}")
+        say(as_json(summary) if json else f"{len(results)} × {what} written to {path_text(output)}")
     elif json:
         print(document())
     elif arm.single:

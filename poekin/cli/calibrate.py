@@ -26,7 +26,7 @@ from .arm import Base, File, Json, Tip
 from .files import check_apart
 from .measured import Measured, Said
 from .model import model
-from .output import Progress, as_json, complain, name, number, say, table
+from .output import Progress, as_json, complain, name, number, path_text, say, table
 
 NOT_CONVERGED = 1
 KIND = (
@@ -107,7 +107,7 @@ def command(
     else:
         _show(found, robot, given)
         for path in written:
-            say(f"written: {shown(path, 400)}")
+            say(f"written: {path_text(path)}")
     if not found.success:
         complain("the search did not converge: this is the best that was found")
     raise typer.Exit(0 if found.success else NOT_CONVERGED)
@@ -143,7 +143,7 @@ def _check_places(outputs: Sequence[Path], report: Path | None) -> None:
     """Refuse places that cannot be written to before any work is done. Raises: FileError."""
     ends = [(path, _ENDINGS) for path in outputs] + ([(report, (".html", ".htm"))] if report else [])
     for path, endings in ends:
-        where = f"cannot write {shown(path, 400)}"
+        where = f"cannot write {path_text(path)}"
         if path.suffix.lower() not in endings:
             raise FileError(f"{where}: a name that ends in {' or '.join(endings)} expected")
         if path.is_dir() or not path.parent.is_dir():

@@ -8,11 +8,11 @@ import typer
 
 from ..analysis.compare import compare
 from ..analysis.comparison import Comparison, PoseErrors
-from ..errors import InputError, listed, shown
+from ..errors import InputError, listed
 from ..model.chain import Chain
 from .arm import FILE_HELP, Base, Json, Tip
 from .model import model
-from .output import as_json, name, number, say, table
+from .output import as_json, name, number, path_text, say, table
 
 DIFFER = 1
 
@@ -55,7 +55,7 @@ def _chain(
     if tip is None and tip_like in robot.links:
         tip = tip_like
     if tip is None and len(robot.leaves) > 1:
-        raise InputError(f"{shown(file, 400)} is a tree: say which tip with {option}; tips: {listed(robot.leaves)}")
+        raise InputError(f"{path_text(file)} is a tree: say which tip with {option}; tips: {listed(robot.leaves)}")
     return robot.chain(base=base, tip=tip)
 
 

@@ -15,7 +15,7 @@ from ..model.chain import Chain
 from . import files
 from .arm import Base, File, Json, Tip
 from .model import model
-from .output import as_json, matrix, name, number, say, table
+from .output import as_json, matrix, name, number, path_text, say, table
 
 Convention = Annotated[str, typer.Option("--convention", help="standard (Paul, distal) or modified (Craig, proximal).")]
 Output = Annotated[Path | None, typer.Option("--output", help="Where the table goes: a .toml or .csv file.")]
@@ -42,7 +42,7 @@ def command(
     else:
         _show(chain, result)
         if output is not None:
-            say(f"Table of {shown(robot.name)} written to {shown(output, 400)}")
+            say(f"Table of {shown(robot.name)} written to {path_text(output)}")
 
 
 def _document(chain: Chain, result: dh.FromChain, output: Path | None) -> dict[str, object]:

@@ -18,7 +18,7 @@ from ..model.evaluation import FRAME_NAMES
 from . import files
 from .arm import Base, File, Tip
 from .model import model
-from .output import say
+from .output import path_text, say
 
 FRAMES = (*FRAME_NAMES, "middle")
 FRAME_HELP = "The Jacobian's: space | body | hybrid | middle (the one that costs least) | K (of joint K, from 0)."
@@ -56,7 +56,7 @@ def command(
     for line in next(iter(texts.values())).splitlines():
         if re.search(r"\d+ multiplications", line):
             say(line.removeprefix(" * "))
-    say(f"Written: {', '.join(shown(place, 400) for place in places)}")
+    say(f"Written: {', '.join(path_text(place) for place in places)}")
 
 
 def _frame(word: str) -> str | int:
@@ -78,10 +78,10 @@ def _write(places: dict[Path, str], directory: Path, force: bool) -> None:
     """All files, or none where one exists already and `force` is not set. Raises: FileError."""
     there = [place for place in places if os.path.lexists(place)]
     if there and not force:
-        raise FileError(f"{', '.join(shown(place, 400) for place in there)}: exists already; --force replaces it")
+        raise FileError(f"{', '.join(path_text(place) for place in there)}: exists already; --force replaces it")
     try:
         directory.mkdir(exist_ok=True)
     except OSError as error:
-        raise FileError(f"cannot make the directory {shown(directory, 400)}: {error.strerror or error}") from error
+        raise FileError(f"cannot make the directory {path_text(directory)}: {error.strerror or error}") from error
     for place, text in places.items():
         write_whole(place, text.encode("ascii"))

@@ -11,10 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import FileError, shown
+from ..errors import FileError
 from ..formats import csv_rows
 from ..formats.csv_rows import text as csv_text
 from . import npy
+from .output import path_text
 
 __all__ = [
     "ERRORS",
@@ -37,7 +38,7 @@ Rows = tuple[np.ndarray, np.ndarray | None]
 
 def called(given: str) -> str:
     """The place that configurations come from, as messages call it."""
-    return "standard input" if given == STDIN else shown(given, 400)
+    return "standard input" if given == STDIN else path_text(given)
 
 
 def read_configurations(given: str, q_names: Sequence[str], progress: csv_rows.Progress) -> np.ndarray:
@@ -107,11 +108,11 @@ def npy_bytes(array: np.ndarray) -> bytes:
 def check_writable(path: Path) -> None:
     """Refuse a place that cannot be written to before any work is done. Raises: FileError."""
     if path.suffix.lower() not in (".csv", ".npy", ".json"):
-        raise FileError(f"cannot write {shown(path, 400)}: a name that ends in .csv, .npy or .json expected")
+        raise FileError(f"cannot write {path_text(path)}: a name that ends in .csv, .npy or .json expected")
     if path.is_dir():
-        raise FileError(f"cannot write {shown(path, 400)}: it is a directory")
+        raise FileError(f"cannot write {path_text(path)}: it is a directory")
     if not path.parent.is_dir():
-        raise FileError(f"cannot write {shown(path, 400)}: there is no directory {shown(path.parent, 400)}")
+        raise FileError(f"cannot write {path_text(path)}: there is no directory {path_text(path.parent)}")
 
 
 def check_apart(results: Iterable[Path | None], **read: str | Sequence[str] | None) -> None:
@@ -127,7 +128,7 @@ def check_apart(results: Iterable[Path | None], **read: str | Sequence[str] | No
     for path in filter(None, results):
         place = _there(path) or os.path.realpath(path)
         if place in taken:
-            raise FileError(f"cannot write {shown(path, 400)}: {taken[place]}")
+            raise FileError(f"cannot write {path_text(path)}: {taken[place]}")
         taken[place] = "it is named twice"
 
 

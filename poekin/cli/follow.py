@@ -8,7 +8,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ..errors import FileError, InputError, shown
+from ..errors import FileError, InputError
 from ..formats import csv_rows
 from ..formats.whole import write_whole
 from ..model.chain import Chain
@@ -17,7 +17,7 @@ from ..solve.followed import Followed, Stretch
 from . import files, poses
 from .arm import Base, File, Json, Tip
 from .model import model
-from .output import Progress, as_json, complain, say
+from .output import Progress, as_json, complain, path_text, say
 
 Start = Annotated[
     str | None,
@@ -69,7 +69,7 @@ def command(
     if plot is not None and svg is not None:
         write_whole(plot, svg.encode())
         if not json:
-            say(f"joints drawn in {shown(plot, 400)}")
+            say(f"joints drawn in {path_text(plot)}")
     raise typer.Exit(0 if path.ok else poses.UNSOLVED)
 
 
@@ -83,9 +83,9 @@ def _times(duration: float | None, count: int) -> np.ndarray | None:
 
 def _check_plot(plot: Path) -> None:
     if plot.suffix.lower() != ".svg":
-        raise FileError(f"cannot write {shown(plot, 400)}: a name that ends in .svg expected")
+        raise FileError(f"cannot write {path_text(plot)}: a name that ends in .svg expected")
     if plot.is_dir() or not plot.parent.is_dir():
-        raise FileError(f"cannot write {shown(plot, 400)}: it is a directory, or there is none for it")
+        raise FileError(f"cannot write {path_text(plot)}: it is a directory, or there is none for it")
 
 
 def _give(robot: str, chain: Chain, path: Followed, output: Path | None, json: bool) -> None:
@@ -104,7 +104,7 @@ def _give(robot: str, chain: Chain, path: Followed, output: Path | None, json: b
         if json:
             print(as_json({"written": str(output)} | _report(path)))
         else:
-            say(f"{len(path.q)} × q written to {shown(output, 400)}")
+            say(f"{len(path.q)} × q written to {path_text(output)}")
             say(path)
     elif json:
         print(document())

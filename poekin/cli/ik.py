@@ -8,7 +8,6 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ..errors import shown
 from ..formats import csv_rows
 from ..formats.whole import write_whole
 from ..model.chain import Chain
@@ -17,7 +16,7 @@ from ..solve.solution import Solution
 from . import files, poses
 from .arm import Base, File, Json, Tip
 from .model import model
-from .output import Progress, as_json, complain, name, number, say
+from .output import Progress, as_json, complain, name, number, path_text, say
 
 MOST_TOLD = 20
 Start = Annotated[
@@ -75,7 +74,7 @@ def _give(robot: str, chain: Chain, found: Solution, single: bool, output: Path 
         if json:
             print(as_json({"written": str(output), "poses": count, "solved": solved}))
         else:
-            say(f"{count} × q written to {shown(output, 400)}, {solved} of {count} solved")
+            say(f"{count} × q written to {path_text(output)}, {solved} of {count} solved")
     elif json:
         print(document())
     elif single:

@@ -8,13 +8,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, shown
+from ..errors import InputError
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..solve.calibration import data
 from ..solve.calibration.measurement import Measurement
 from . import poses
-from .output import Progress
+from .output import Progress, path_text
 
 
 class Said(NamedTuple):
@@ -51,7 +51,7 @@ def read(paths: Sequence[str], chain: Chain, said: Said) -> Measured:
         raise InputError(f"--kind: expected one for all files or one for each of {len(paths)}, got {len(kinds)}")
     tables = []
     for path, kind in zip(paths, kinds, strict=True):
-        with Progress(f"reading {shown(path, 400)}") as progress:
+        with Progress(f"reading {path_text(path)}") as progress:
             tables.append(data.read_table(path, chain, kind=kind, ignore=said.ignore, progress=progress))
     made = [kind or table.layout.kinds[0] for kind, table in zip(kinds, tables, strict=True)]
     _check_fit(said, made)

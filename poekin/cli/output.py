@@ -15,6 +15,9 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from ..errors import shown
+
+LONGEST_PATH = 400
 PAUSE = 10.0
 """Seconds of silence between two lines of progress where stderr is no terminal."""
 
@@ -27,6 +30,11 @@ def plain(text: object) -> str:
 def name(text: object) -> str:
     """A name out of a file, on one line."""
     return plain(text).replace("\n", "\\n")
+
+
+def path_text(path: object) -> str:
+    """A path in quotes, cut where it is very long."""
+    return shown(path, LONGEST_PATH)
 
 
 def number(value: float, digits: int = 6) -> str:

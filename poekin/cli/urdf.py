@@ -14,7 +14,7 @@ from ..formats.whole import write_whole
 from . import files
 from .arm import Base, File
 from .model import model
-from .output import say
+from .output import path_text, say
 
 Tip = Annotated[str | None, typer.Option("--tip", help="The last link of the one chain to write.")]
 Output = Annotated[Path | None, typer.Option("--output", help="Where the text goes (default: it is printed).")]
@@ -28,7 +28,7 @@ def command(file: File, tip: Tip = None, base: Base = None, output: Output = Non
     text = to_urdf(written, name=robot.name)
     if output is not None:
         write_whole(output, text.encode())
-        say(f"URDF of {shown(robot.name)} written to {shown(output, 400)}")
+        say(f"URDF of {shown(robot.name)} written to {path_text(output)}")
     else:
         # A stream that is not UTF-8 gets other characters by number: XML means the same by that.
         ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"

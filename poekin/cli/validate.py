@@ -7,12 +7,12 @@ from typing import Annotated
 import typer
 
 from ..analysis.validate import BAR, Validation, validate
-from ..errors import InputError, MissingExtra, PoekinError, shown
+from ..errors import InputError, MissingExtra, PoekinError
 from ..model.evaluation import FRAME_NAMES
 from ..testing.example_robots import example_robots
 from .arm import Json
 from .model import model
-from .output import Progress, as_json, complain, number, say, table
+from .output import Progress, as_json, complain, name, number, say, table
 
 FAILED, ERROR = 1, 2
 
@@ -54,7 +54,7 @@ def command(
     else:
         _show(results, len(errors), skipped)
     for file, message in errors.items():
-        where = "" if file in message else f"{shown(file, 400)[1:-1]}: "
+        where = "" if file in message else f"{name(file)}: "
         complain(f"error: {where}{message}")
     raise typer.Exit(ERROR if errors else 0 if passed else FAILED)
 

@@ -23,6 +23,12 @@ def test_a_number_has_six_digits_where_nothing_is_said():
     assert output.number(np.pi) == "3.14159"
 
 
+def test_a_path_is_whole_up_to_400_characters():
+    assert output.path_text("a/b\x1b.csv") == r"'a/b\x1b.csv'"
+    assert output.path_text("x" * 400) == f"'{'x' * 400}'"
+    assert len(output.path_text("x" * 401)) <= 402
+
+
 def test_line_breaks_stay_in_text_and_not_in_a_name():
     assert output.plain("a\nb\x1b\u202e") == "a\nb\\x1b\\u202e"
     assert output.name("a\nb\x1b") == "a\\nb\\x1b"

@@ -38,6 +38,8 @@ def test_an_error_goes_in_proportion_to_its_scale_and_no_scale_allows_no_error()
     assert part(1e-8, scale=1e3).grade is Grade.GOOD
     assert part(1e-8, scale=0.0, attainable=0.0).size == math.inf
     assert part(0.0, scale=0.0, attainable=0.0).grade is Grade.EXACT
+    assert part(0.0, scale=0.0).size == 0.0
+    assert part(math.nan, scale=0.0).size == math.inf
 
 
 def test_a_violation_carries_the_error_and_the_bound_of_the_grade_asked_for():
