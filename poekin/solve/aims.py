@@ -71,25 +71,22 @@ def _moved(solver: Solver, q: Array, q0: Array, aim: str, step: Array) -> Array:
         z = (_goal(solver, q0, aim) - q) * _weights(solver, aim)
     J = _jacobian(solver, q)
     moved = q + step[:, None] * (z - (np.linalg.pinv(J) @ (J @ z[..., None]))[..., 0])
-    return np.where(solver.room.fixed != 0, q, np.clip(moved, *solver.room.limits.T))
+    return np.where(solver.room.fixed, q, np.clip(moved, *solver.room.limits.T))
 
 
 def _jacobian(solver: Solver, q: Array) -> Array:
     """The Jacobian of what the task takes hold of; what is locked moves nothing."""
     J = solver.task.jacobian(*solver.fast.fk_jacobian(q, "hybrid"))[:, solver.task.weights > 0]
-    return np.where(solver.room.fixed != 0, 0.0, J)
+    return np.where(solver.room.fixed, 0.0, J)
 
 
 def _goal(solver: Solver, q0: Array, aim: str) -> Array:
-    lower, upper = solver.room.limits.T
-    both = np.isfinite(lower) & np.isfinite(upper)
-    middle = np.where(both, 0.5 * (np.where(both, lower, 0) + np.where(both, upper, 0)), q0)
-    return q0 if aim == "nearest" else np.broadcast_to(middle, q0.shape)
+    if aim == "nearest":
+        return q0
+    both = np.isfinite(solver.room.limits).all(axis=1)
+    return np.where(both, np.where(both[:, None], solver.room.limits, 0.0).mean(axis=1), q0)
 
 
 def _weights(solver: Solver, aim: str) -> Array:
-    lower, upper = solver.room.limits.T
-    both = np.isfinite(lower) & np.isfinite(upper)
-    if aim == "nearest":
-        return np.ones(len(lower))
-    return np.where(both, 1.0, 0.0)
+    both = np.isfinite(solver.room.limits).all(axis=1)
+    return np.ones(len(both)) if aim == "nearest" else both.astype(float)

@@ -102,7 +102,7 @@ class Follower:
     def _descend(self, targets: Array, start: Array, q: Array, anywhere: bool = False) -> int:
         """How many targets are followed from `start`; where `anywhere`, the first of them at any distance from it."""
         info, count = np.empty((len(targets), codes.INFO)), 0
-        arm, call = self.solver.fast.hybrid_address, (self.room.limits, self.room.fixed, self.solver.options)
+        arm, call = self.solver.fast.hybrid_address, (self.room.limits, self.solver.fixed, self.solver.options)
         if anywhere:
             wide = np.full_like(start, np.inf)
             count = self._kernel.call(arm, targets[:1], start.copy(), *call, wide, q[:1], info[:1])
@@ -132,7 +132,7 @@ class Follower:
             _, solution, at = self._solution_of(k)
             return self.solver.units.of(solution.q[[at]])
         low, high = np.clip(last - self.most, *self.room.limits.T), np.clip(last + self.most, *self.room.limits.T)
-        low, high = (np.where(self.room.fixed != 0, last, bound) for bound in (low, high))
+        low, high = (np.where(self.room.fixed, last, bound) for bound in (low, high))
         q, damping = last, 1e-3
         size, H, g = self._slope(k, q)
         for _ in range(NEAR):
@@ -157,8 +157,7 @@ class Follower:
     def _solutions(self, k: int, turn: int, last: Array | None) -> Array:
         """Solutions of pose k: the nearest to the last joints first, then of random starts."""
         T, number = np.tile(self.targets[k], (TRIES, 1, 1)), np.arange(TRIES, dtype=float) + TRIES * turn
-        anywhere = np.where(self.room.fixed != 0, self.room.held, np.full((TRIES, self.dof), np.nan))
-        q, info = self.solver.solve(T, number, anywhere, restarts=10)
+        q, info = self.solver.solve(T, number, self.room.anywhere(TRIES), restarts=10)
         q = q[info[:, codes.AT_STATE] == codes.SOLVED]
         if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are
             q = self.room.unwound(q, self.room.ranges.mean(axis=1) if last is None else last)

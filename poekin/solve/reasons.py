@@ -40,7 +40,7 @@ def of(
     if len(open_ones) and np.isfinite(room.limits).any():
         free = np.tile([-np.inf, np.inf], (chain.dof, 1))
         ranges = free_ranges(chain)
-        anywhere = np.where(room.fixed != 0, room.held, np.full((len(open_ones), chain.dof), np.nan))
+        anywhere = room.anywhere(len(open_ones))
         other, said = solver.solve(targets[open_ones], open_ones.astype(float), anywhere, limits=free, ranges=ranges)
         for found, k, ended in zip(other, open_ones, said[:, codes.AT_STATE], strict=True):
             if ended == codes.SOLVED:
@@ -72,6 +72,6 @@ def beyond_reach(chain: Chain, task: Task, targets: Array, limits: Array) -> Arr
 def _in_the_way(room: Room, q: Array, found: Array, names: tuple[str, ...]) -> tuple[str, ...]:
     """Coordinates at a limit in the nearest pose within them, and those outside in the solution without them."""
     lower, upper = room.limits.T
-    at = ((np.abs(q - lower) <= AT_LIMIT) | (np.abs(q - upper) <= AT_LIMIT)) & (room.fixed == 0)
+    at = ((np.abs(q - lower) <= AT_LIMIT) | (np.abs(q - upper) <= AT_LIMIT)) & ~room.fixed
     outside = (found < lower) | (found > upper)
     return tuple(name for name, stops in zip(names, at if at.any() else outside, strict=True) if stops)

@@ -79,7 +79,8 @@ class Solver:
         self.fast = fast = self.units.fast
         self.task: Task = task_of(settings.task, settings.axis, settings.weights)
         self.room: Room = room_of(self.units, settings.lock, settings.limits)
-        check_joints(fast.chain, self.task, int((self.room.fixed == 0).sum()))
+        check_joints(fast.chain, self.task, int((~self.room.fixed).sum()))
+        self.fixed = self.room.fixed.astype(float)  # as the kernels take it
         from ..engine import ik_kernels  # imports Numba
 
         self._solve, self._judge = ik_kernels.solve_many, ik_kernels.judge
@@ -175,7 +176,7 @@ class Solver:
         q, info = np.empty((len(targets), self.fast.dof)), np.empty((len(targets), codes.INFO))
         limits = self.room.limits if limits is None else limits
         ranges = self.room.ranges if ranges is None else ranges
-        arm, fixed, seed = self._arm, self.room.fixed, self.settings.seed
+        arm, fixed, seed = self._arm, self.fixed, self.settings.seed
         if len(targets) <= rows:
             self._solve.call(arm, targets, q0, limits, ranges, fixed, options, indices, seed, q, info)
             return q, info
@@ -194,14 +195,14 @@ class Solver:
         """Of some tries for each target, the first from q0 or, where that is anywhere, from `near` within the limits:
         the solution nearest to the configuration `near`.
         """
-        within = np.where(self.room.fixed != 0, self.room.held, np.clip(near, *self.room.limits.T))
+        within = np.where(self.room.fixed, self.room.held, np.clip(near, *self.room.limits.T))
         q, kept = self.solve(targets, indices, np.where(np.isnan(q0), within, q0))
         best = self.room.unwound(q, near)
         distance = _distance(best, near, kept)
         rng = np.random.default_rng(self.settings.seed)
         low, high = self.room.ranges.T
         for attempt in range(NEAREST_OF):
-            start = np.where(self.room.fixed != 0, within, low + (high - low) * rng.random(near.shape))
+            start = np.where(self.room.fixed, within, low + (high - low) * rng.random(near.shape))
             if attempt % 2 == 0:  # every other one from not far away
                 start = within + 0.25 * (start - within)
             # half of them without limits: more of them arrive, and many within the limits but for whole turns

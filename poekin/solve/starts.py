@@ -17,19 +17,21 @@ from .joint_units import JointUnits, period
 
 @dataclass(frozen=True, eq=False)
 class Room:
-    """limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie; fixed (m), 1 where a
+    """limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie; fixed (m), whether a
     coordinate is locked, and held (m), its value there; periods (m), after how much of a coordinate the configuration
-    is the same, 0 for never; winds, whether any coordinate with a period has no limits; locks, whether any is locked.
-    All in the units of the joints.
+    is the same, 0 for never; winds, whether any coordinate with a period has no limits. All in the units of the joints.
     """
 
     limits: Array
     ranges: Array
-    fixed: Array
+    fixed: np.ndarray
     held: Array
     periods: Array
     winds: bool
-    locks: bool
+
+    def anywhere(self, count: int) -> Array:
+        """Starts of tries (count, m): NaN, for anywhere, but for what is locked."""
+        return np.tile(np.where(self.fixed, self.held, np.nan), (count, 1))
 
     def holds(self, q: Array) -> np.ndarray:
         """Whether configurations (..., m) are within the limits (...)."""
@@ -40,7 +42,7 @@ class Room:
         coordinate without limits within half a period of 0.
         """
         lower, upper = self.limits.T
-        free = (self.periods > 0) & (self.fixed == 0)
+        free = (self.periods > 0) & ~self.fixed
         if near is None:
             free = free & np.isinf(lower) & np.isinf(upper)
         period = np.where(free, self.periods, 1.0)
@@ -59,11 +61,11 @@ def room_of(units: JointUnits, lock: Any, limits: bool) -> Room:
     ranges = np.stack(chain._range(), axis=1) if limits else free_ranges(chain)
     unlimited = np.isinf(bounds).all(axis=1)
     ranges[unlimited] = free_ranges(chain)[unlimited]
-    fixed, held = np.zeros(m), np.zeros(m)
+    fixed, held = np.zeros(m, bool), np.zeros(m)
     for k, value in _locked(units, lock, bounds):
-        fixed[k], held[k] = 1.0, value
+        fixed[k], held[k] = True, value
     winds = bool(((periods > 0) & unlimited).any())
-    return Room(bounds, ranges, fixed, held, periods, winds, bool(fixed.any()))
+    return Room(bounds, ranges, fixed, held, periods, winds)
 
 
 def free_ranges(chain: Chain) -> Array:
@@ -81,17 +83,13 @@ def first_tries(units: JointUnits, room: Room, batch: tuple[int, ...], count: in
     """
     chain = units.fast.chain
     if q0 is None:
-        first = np.full((count, chain.dof), np.nan)
-    else:
-        given = units.of(for_targets(chain, batch, count, q0, "q0"))
-        first = np.clip(given, *room.limits.T)
-        moved = ((first != given) & (room.fixed == 0)).any(axis=0)
-        if moved.any():
-            names = listed(name for name, far in zip(chain.q_names, moved, strict=True) if far)
-            warn(f"q0 is outside the limits of {names} and is moved to them")
-    if room.locks:
-        first[:, room.fixed != 0] = room.held[room.fixed != 0]
-    return first
+        return room.anywhere(count)
+    given = units.of(for_targets(chain, batch, count, q0, "q0"))
+    first = np.clip(given, *room.limits.T)
+    moved = ((first != given) & ~room.fixed).any(axis=0)
+    if moved.any():
+        warn(f"q0 is outside the limits of {listed(np.array(chain.q_names)[moved])} and is moved to them")
+    return np.where(room.fixed, room.held, first)
 
 
 def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: str) -> Array:

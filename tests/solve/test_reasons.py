@@ -59,8 +59,9 @@ def test_the_reach_is_that_of_links_and_slides_within_their_limits(limits, coupl
 
 
 def test_what_is_at_its_limit_is_in_the_way_else_what_is_outside_beyond_it_and_nothing_that_is_locked():
-    limits, locked, nothing = np.array([[-1, 1], [-2, 2], [-3, 3.0]]), np.array([0, 0, 1.0]), np.zeros(3)
-    room = Room(limits, np.zeros((3, 2)), locked, nothing, nothing, winds=False, locks=True)
+    limits, locked = np.array([[-1, 1], [-2, 2], [-3, 3.0]]), np.array([False, False, True])
+    nothing = np.zeros(3)
+    room = Room(limits, np.zeros((3, 2)), locked, nothing, nothing, winds=False)
 
     def named(q, found):
         return reasons._in_the_way(room, np.array(q, float), np.array(found, float), ("a", "b", "c"))

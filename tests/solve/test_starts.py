@@ -47,13 +47,13 @@ def test_a_room_holds_what_its_limits_and_locks_say_in_joint_units():
     np.testing.assert_allclose(found.ranges, [[-1, 2], [-np.pi, np.pi]])
     np.testing.assert_allclose(found.periods, [2 * np.pi] * 2)
     np.testing.assert_array_equal([found.fixed, found.held], [[1, 0], [1.5, 0]])
-    assert (found.winds, found.locks) == (True, True)
+    assert found.winds
     free = room_of(units, None, False)
     np.testing.assert_array_equal(free.limits, np.tile([-np.inf, np.inf], (2, 1)))
     np.testing.assert_allclose(free.ranges, np.tile([-np.pi, np.pi], (2, 1)))
-    assert (free.winds, free.locks, free.fixed.any()) == (True, False, False)
+    assert (free.winds, free.fixed.any()) == (True, False)
     narrow = room(limits=[[-1, 1], [0, 1]])
-    assert (narrow.winds, narrow.locks) == (False, False)
+    assert not narrow.winds
     assert narrow.holds(np.array([[-1, 0], [1, 1], [1.1, 0.5], [0, -0.1]])).tolist() == [True, True, False, False]
 
 
@@ -93,8 +93,8 @@ def test_whole_periods_are_taken_off_towards_zero_or_what_is_near():
     np.testing.assert_array_equal(limited.unwound(np.array([7.0, 0.5])), [7, 0.5])
     np.testing.assert_allclose(limited.unwound(np.array([7.0, 0.5]), np.array([-5.0, 7])), [7 - 2 * np.pi, 0.5])
     np.testing.assert_allclose(limited.unwound(np.array([-3.5, 0.5]), np.array([20.0, 7])), [2 * np.pi - 3.5, 0.5])
-    locked = Room(np.full((2, 2), [-np.inf, np.inf]), np.zeros((2, 2)), np.array([1.0, 0]), np.array([7.0, 0]),
-                  np.full(2, 2 * np.pi), winds=True, locks=True)  # fmt: skip
+    locked = Room(np.full((2, 2), [-np.inf, np.inf]), np.zeros((2, 2)), np.array([True, False]), np.array([7.0, 0]),
+                  np.full(2, 2 * np.pi), winds=True)  # fmt: skip
     np.testing.assert_allclose(locked.unwound(np.array([7.0, 7.0])), [7, 7 - 2 * np.pi])
 
 
