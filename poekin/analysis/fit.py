@@ -44,8 +44,9 @@ def fit(pair: Sides, P: Array, z: Array, free: Marks, used: Marks) -> tuple[Arra
 def _step(r: Array, J: Array, damping: Array) -> Array:
     """The steps (m, 6 + n) that lessen residuals r (m, rows) most, held back in proportion to the damping (m,)."""
     scale = np.linalg.norm(J, axis=1)
-    most = scale.max(axis=1, initial=1e-300, keepdims=True)
-    scale = np.where(scale < 1e-6 * most, np.where(most > 1e-300, most, 1.0), scale)
+    most = scale.max(axis=1, keepdims=True)
+    scale = np.where(scale < 1e-6 * most, most, scale)
+    scale[scale == 0] = 1.0  # where nothing is to be moved
     held = (np.sqrt(damping)[:, None] * scale)[:, None] * np.eye(scale.shape[1])
     system = np.concatenate([J, held], axis=1)
     right = np.concatenate([-r, np.zeros_like(scale)], axis=1)

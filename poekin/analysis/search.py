@@ -78,10 +78,10 @@ def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading | None
 
 def _one_joint(pair: Sides, a: Chain, b: Chain, poses: tuple[NDArray[np.intp], Array]) -> list[Reading]:
     """Readings in which one inner joint alone has a zero offset, its axis agreeing, or held to be wrong."""
-    alone = np.eye(pair.n, dtype=bool)
+    alone, every = np.eye(pair.n, dtype=bool), np.ones(pair.n, bool)
     starts = [(one_turn(pair, poses, k), alone[k]) for k in range(1, pair.n - 1)]
     # Of each joint all the starts with its axis, then the two best without it, then the two with what agrees alone.
-    tries = [(P[i], z[i], own, used) for (P, z), own in starts for most, used in ((4, own | True), (2, ~own))
+    tries = [(P[i], z[i], own, used) for (P, z), own in starts for most, used in ((4, every), (2, ~own))
              for i in range(len(z[:most]))]  # fmt: skip
     for (P, z), own in starts:
         agree = misses(pair, carried(pair, P[:2], z[:2])[1]) <= 1.0

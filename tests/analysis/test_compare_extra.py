@@ -330,3 +330,46 @@ def test_the_quick_look_lets_four_tolerances_pass(change, agree):
     assert extra._may_agree(a, b, 0.01, 1e-3) == extra._may_agree(b, a, 0.01, 1e-3) == agree
     assert extra._may_agree(a, b, 0.01, 1e-3, but=(0,))
     assert not extra._may_agree(a, Chain([a.screws[0], screw.prismatic([0, 0, 1])], np.eye(4)), 0.01, 1e-3)
+
+
+def two(angle, gap, tip=1.0):
+    """An axis along z and one at a gap (mm) along x, at an angle to it."""
+    slant = screw.revolute([0, np.sin(angle), np.cos(angle)], [1e-3 * gap, 0, 0])
+    return Chain([screw.revolute([0, 0, 1], [0, 0, 0]), slant], se3.exp([0, 0, 0, tip, 0, 0]))
+
+
+@pytest.mark.parametrize("angle, certain", [(0.9, np.sin(0.9)), (0.101, np.sin(0.101)), (0.099, 0.0), (0.0, 1.0)])
+@pytest.mark.parametrize("tip", [0.5, 3.0])
+def test_the_quick_look_lets_lengths_pass_by_four_tolerances_and_what_angles_make_of_the_reach(angle, certain, tip):
+    tol_mm, tol_deg = 0.02, 0.003
+    a = two(angle, 500.0)
+    reach = max(a.reach, two(angle, 500.0, tip).reach)
+    most = 4 * (tol_mm + 1e3 * reach * np.radians(tol_deg))
+    for share in (0.99, 1.01, -0.99, -1.01):
+        b = two(angle, 500.0 + share * most / (certain or 1e-3), tip)
+        assert extra._may_agree(a, b, tol_mm, tol_deg) == (certain == 0 or abs(share) < 1)
+
+
+def test_the_quick_look_looks_at_neighbours_and_across_slides_alone():
+    turning = [screw.revolute(z, p) for z, p in np.random.default_rng(2).normal(size=(4, 2, 3))]
+    slide = screw.prismatic([1, 2, 3])
+
+    def agree(rows, k, other, but=()):
+        """Whether arms agree of which the second has another axis k."""
+        changed = [*rows[:k], other, *rows[k + 1 :]]
+        return extra._may_agree(Chain(rows, np.eye(4)), Chain(changed, np.eye(4)), 0.01, 1e-3, but)
+
+    assert not agree(turning, 3, screw.revolute([1, 2, 3], [1, 0, 0]))
+    assert agree(turning, 3, screw.revolute([1, 2, 3], [1, 0, 0]), but=(2,))
+    assert not agree(turning, 3, screw.revolute([1, 2, 3], [1, 0, 0]), but=(0, 1))
+    # A turn about joint 2 changes how joint 3 lies to joint 1, and to nothing else.
+    about = se3.adjoint(se3.exp(0.4 * turning[1]))
+    assert agree(turning[:3], 2, about @ turning[2])
+    # Across a slide directions stay, and places do not.
+    rows = [turning[0], slide, turning[1]]
+    assert agree(rows, 2, screw.revolute(turning[1][:3], [3, -2, 1]))
+    about = se3.adjoint(se3.exp(np.concatenate([0.4 * slide[3:], np.zeros(3)])))
+    assert not agree(rows, 2, about @ turning[1])
+    for but, agreed in (((0,), True), ((1,), True), ((2,), False)):
+        assert agree(rows, 2, about @ turning[1], but) == agreed
+    assert not extra._may_agree(Chain(rows, np.eye(4)), Chain(turning[:3], np.eye(4)), 0.01, 1e-3)

@@ -102,5 +102,11 @@ def test_a_fit_that_starts_near_takes_few_steps_and_ends_where_none_helps(monkey
     again, taken = counted(monkeypatch, 60, pair, *least, free, used | True)
     assert again[0] == pytest.approx(least[0], abs=1e-9)
     assert 1 <= taken <= 14
-    # And of one that is there already none at all.
     assert counted(monkeypatch, 60, pair, Q, y, free, used)[1] <= 1
+    # A tenth of a tolerance is still too much, and nothing at all is not.
+    chain = random_arm(50, KINDS)
+    same, here = sides(chain, chain, 1e-5, 1e-5), np.eye(4)[None]
+    off = se3.exp(np.array([[0, 0, 0, 1e-6, 0, 0]]))
+    (found, _), _ = counted(monkeypatch, 60, same, off, np.zeros((1, 5)), free, used)
+    assert found == pytest.approx(here, abs=1e-12)
+    assert counted(monkeypatch, 60, same, here, np.zeros((1, 5)), free, used)[1] == 0
