@@ -194,9 +194,10 @@ def _checked(
     sizes = numbers(noise, "noise")
     if sizes.shape != (2,):
         raise ShapeError(f"noise: expected two standard deviations, (rad, m), got {told(noise)}")
-    for value, name in ((tilt, "tilt"), (shift, "shift"), (sizes[0], "noise[0]"), (sizes[1], "noise[1]")):
+    turn, place = sizes.tolist()
+    for value, name in ((tilt, "tilt"), (shift, "shift"), (turn, "noise[0]"), (place, "noise[1]")):
         if numbers(value, name).shape != () or not 0 <= value < np.inf:
             raise InputError(f"{name}: expected a finite number of at least 0, got {told(value)}")
     if numbers(outliers, "outliers").shape != () or not 0 <= outliers < 1:
         raise InputError(f"outliers: expected a part of the measurements, 0 <= outliers < 1, got {told(outliers)}")
-    return int(n), (float(sizes[0]), float(sizes[1]))
+    return int(n), (turn, place)

@@ -24,6 +24,7 @@ from poekin.solve.calibration import (
 )
 from poekin.solve.calibration.parameters import Arm
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
+from tests.messages import says
 
 PUMA = pk.load("puma560").chain().retooled(se3.exp([0.1, 0.2, -0.1, 0.05, 0.03, 0.2]))
 PANDA = pk.load("panda").chain(tip="panda_link8")
@@ -305,24 +306,36 @@ def test_units_are_told_with_unknown_frames_too(kind):
 
 
 BAD = {
-    "no chain": ({"arm": pk.load("puma560")}, r"arm: expected a Chain, such as robot.chain\(tip=...\), got Robot"),
-    "a loss": ({"loss": "l1"}, r"loss: expected one of 'linear', 'huber', 'cauchy', 'tukey', got 'l1'"),
-    "deficient": ({"deficient": True}, r"deficient: expected one of 'refuse', 'hold', got True"),
-    "one fold": ({"folds": 1}, r"folds: expected 0 for none, or 2 and more, got 1"),
-    "too many folds": ({"folds": 61}, r"folds: 61 parts of 60 readings"),
-    "a prior of a wrong unit": ({"prior": {"mm": 1}}, r"prior: expected one of 'rad', 'm', '1', 'm/rad', got 'mm'"),
-    "a prior of nothing": ({"prior": {}}, r"prior: expected standard deviations by unit"),
-    "a prior of zero": ({"prior": {"m": 0.0}}, r"prior\['m'\]: expected a standard deviation above 0, got 0.0"),
-    "no steps": ({"max_iterations": 0}, r"max_iterations: expected a whole number from 1 on, got 0"),
+    "no chain": ({"arm": pk.load("puma560")}, "arm: expected a Chain, such as robot.chain(tip=...), got Robot"),
+    "a loss": ({"loss": "l1"}, "loss: expected one of 'linear', 'huber', 'cauchy', 'tukey', got 'l1'"),
+    "deficient": ({"deficient": True}, "deficient: expected one of 'refuse', 'hold', got True"),
+    "a prior of a wrong unit": ({"prior": {"mm": 1}}, "prior: expected one of 'rad', 'm', '1', 'm/rad', got 'mm'"),
+    "a prior of nothing": (
+        {"prior": {}},
+        "prior: expected standard deviations by unit, such as {'rad': 1e-3}, got {}",
+    ),
+    "a bare prior": ({"prior": 1e-3}, "prior: expected standard deviations by unit, such as {'rad': 1e-3}, got 0.001"),
+    **{
+        f"a prior of {sigma}": (
+            {"prior": {"m": sigma}},
+            f"prior['m']: expected a standard deviation above 0, got {sigma}",
+        )
+        for sigma in (0.0, -1.0, np.inf, np.nan, True, [1])
+    },
+    **{
+        f"{most} steps": ({"max_iterations": most}, f"max_iterations: expected a whole number from 1 on, got {most}")
+        for most in (0, True, 1.5)
+    },
 }
 
 
 @pytest.mark.parametrize("what", BAD)
 def test_bad_input_is_refused(what):
     q, T = noisy(0)
-    given, words = BAD[what]
-    with pytest.raises(InputError, match=words):
+    given, message = BAD[what]
+    with pytest.raises(InputError) as caught:
         calibrate(**{"arm": PUMA, "q": q, "measurements": T, **given})
+    assert says(caught.value, message)
 
 
 def test_progress_counts_the_folds():

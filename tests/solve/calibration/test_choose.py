@@ -14,6 +14,7 @@ from poekin.solve.calibration.choice import Choice, Figures, _over
 from poekin.solve.calibration.choose import _enough, _figures, choose_poses
 from poekin.solve.calibration.exchange import CRITERIA
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
+from tests.messages import says
 
 TOOL = (0.05, 0.0, 0.1)  # off the last axis, so that all of it can be seen
 
@@ -185,35 +186,86 @@ def test_a_candidate_outside_the_limits_is_refused_with_its_row(puma, candidates
 
 
 WRONG = {
-    "no-arm": ({"arm": "puma560"}, InputError, r"choose_poses: expected a Chain, got 'puma560'"),
-    "n-zero": ({"n": 0}, InputError, r"n: expected a whole number above 0, got 0"),
-    "n-bool": ({"n": True}, InputError, r"n: expected a whole number above 0, got True"),
-    "n-above": ({"n": 301}, InputError, r"n: expected at most the 300 candidates, got 301"),
-    "compare": ({"compare": 0}, InputError, r"compare: expected a whole number above 0, got 0"),
-    "seed": ({"seed": -1}, InputError, r"seed: expected a whole number from 0 up, got -1"),
-    "by": ({"by": "E"}, InputError, r"by: expected one of 'amplification', 'O1', .*, got 'E'"),
-    "none": ({"candidates": None}, ShapeError, r"candidates: expected configurations \(K, 6\), or how many .*got None"),
-    "zero": ({"candidates": 0}, ShapeError, r"candidates: .* how many to draw, got 0"),
-    "one": ({"candidates": np.zeros(6)}, ShapeError, r"candidates: expected configurations \(K, 6\)"),
-    "ragged": ({"candidates": [[1, 2], [3]]}, ShapeError, r"candidates: expected an array of numbers"),
-    "joints": ({"candidates": np.zeros((9, 7))}, ShapeError, r"candidates: expected 6 coordinates on the last axis"),
-    "kind": ({"measurements": "angles"}, InputError, r"measurements: expected 'poses', 'points', or an example"),
-    "no-kind": ({"measurements": []}, InputError, r"measurements: expected 'poses', .*, got \[\]"),
-    "no-board": (
-        {"measurements": EyeInHand(np.eye(4)[None], camera=np.eye(4))}, InputError,
-        r"measurements: EyeInHand: expected board=, roughly where it is: nothing is measured yet",
+    "no-arm": ({"arm": "puma560"}, InputError, "choose_poses: expected a Chain, got 'puma560'"),
+    "n-zero": ({"n": 0}, InputError, "n: expected a whole number above 0, got 0"),
+    "n-bool": ({"n": True}, InputError, "n: expected a whole number above 0, got True"),
+    "n-above": ({"n": 301}, InputError, "n: expected at most the 300 candidates, got 301"),
+    "compare": ({"compare": 0}, InputError, "compare: expected a whole number above 0, got 0"),
+    "seed": ({"seed": -1}, InputError, "seed: expected a whole number from 0 up, got -1"),
+    "by": (
+        {"by": "E"},
+        InputError,
+        "by: expected one of 'amplification', 'O1', 'condition', 'smallest', 'prediction', got 'E'",
     ),
-    "no-centre": ({"measurements": Distances([1.0])}, InputError, r"Distances: expected centre=, roughly where it is"),
-    "joint": ({"joints": ["elbow"]}, UnknownName, r"joints: no joint 'elbow'"),
-    "parameters": ({"parameters": ["axes"]}, InputError, r"parameters: expected some of"),
-}  # fmt: skip
+    "none": (
+        {"candidates": None},
+        ShapeError,
+        "candidates: expected configurations (K, 6), or how many to draw, got None",
+    ),
+    "zero": ({"candidates": 0}, ShapeError, "candidates: expected configurations (K, 6), or how many to draw, got 0"),
+    "one": (
+        {"candidates": np.zeros(6)},
+        ShapeError,
+        "candidates: expected configurations (K, 6), or how many to draw, got array([0., 0., 0., 0., 0., 0.])",
+    ),
+    "ragged": (
+        {"candidates": [[1, 2], [3]]},
+        ShapeError,
+        "candidates: expected an array of numbers, got rows of different lengths",
+    ),
+    "joints": (
+        {"candidates": np.zeros((9, 7))},
+        ShapeError,
+        (
+            "candidates: expected 6 coordinates on the last axis ('joint1', 'joint2', 'joint3', "
+            "'joint4', 'joint5', 'joint6'), got shape (9, 7)"
+        ),
+    ),
+    "kind": (
+        {"measurements": "angles"},
+        InputError,
+        (
+            "measurements: expected 'poses', 'points', or an example of Poses, Points, "
+            "Distances, EyeInHand or EyeToHand, or a list of them, got 'angles'"
+        ),
+    ),
+    "no-kind": (
+        {"measurements": []},
+        InputError,
+        (
+            "measurements: expected 'poses', 'points', or an example of Poses, Points, "
+            "Distances, EyeInHand or EyeToHand, or a list of them, got []"
+        ),
+    ),
+    "no-board": (
+        {"measurements": EyeInHand(np.eye(4)[None], camera=np.eye(4))},
+        InputError,
+        "measurements: EyeInHand: expected board=, roughly where it is: nothing is measured yet",
+    ),
+    "no-centre": (
+        {"measurements": Distances([1.0])},
+        InputError,
+        "measurements: Distances: expected centre=, roughly where it is: nothing is measured yet",
+    ),
+    "joint": (
+        {"joints": ["elbow"]},
+        UnknownName,
+        "joints: no joint 'elbow'; available: 'joint1', 'joint2', 'joint3', 'joint4', 'joint5' and 1 more",
+    ),
+    "parameters": (
+        {"parameters": ["axes"]},
+        InputError,
+        "parameters: expected some of 'screws', 'home', 'offsets', 'gains', 'pitch', got 'axes'",
+    ),
+}
 
 
 @pytest.mark.parametrize(("changed", "error", "message"), WRONG.values(), ids=WRONG)
 def test_what_cannot_be_chosen_from_is_refused(puma, candidates, changed, error, message):
     given = {"arm": puma, "n": 20, "candidates": candidates} | changed
-    with pytest.raises(error, match=message):
+    with pytest.raises(error) as caught:
         choose_poses(**given)
+    assert says(caught.value, message)
 
 
 @pytest.mark.parametrize(
@@ -231,6 +283,13 @@ def shows(*directions, size=3, times=2):
     return blocks
 
 
+@pytest.mark.parametrize("n", [1, 4])
+def test_configurations_are_needed_until_all_that_is_seen_anywhere_is_seen(n):
+    """Of five directions, each candidate sees one."""
+    with pytest.raises(InputError, match="expected at least 5, better three times as many"):
+        _enough(shows(0, 1, 2, 3, 4, 0, size=5), n)
+
+
 @pytest.mark.parametrize("n, needed", [(1, 3), (2, 3), (3, None)])
 def test_as_many_configurations_are_needed_as_show_the_last_direction(n, needed):
     blocks = shows(0, 0, 1, 2, 1)
@@ -243,6 +302,7 @@ def test_as_many_configurations_are_needed_as_show_the_last_direction(n, needed)
 
 
 def test_a_choice_that_leaves_a_direction_unseen_is_worth_nothing():
+    assert _figures(np.zeros((4, 3, 3)), np.array([0, 1])) == (0, np.inf, 0, 0, np.inf)
     blocks = shows(0, 0, 1, 2)
     for rows in ([0], [0, 1], [0, 2], [1, 2]):
         assert _figures(blocks, np.array(rows)) == (0, np.inf, 0, 0, np.inf)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import FileError, InputError, PoseError, ShapeError, UnknownName
 from poekin.formats import csv_rows
-from poekin.solve.calibration import data
+from poekin.solve.calibration import columns, data
 from poekin.solve.calibration.points import Distances, Points
 from poekin.solve.calibration.poses import EyeInHand, EyeToHand, Poses
 from poekin.solve.calibration.simulated import simulated
@@ -82,8 +82,8 @@ def test_the_columns_say_what_was_measured_in_any_order(columns, row, expected, 
 
 def test_a_quaternion_is_read_by_its_names(tmp_path):
     half = np.sqrt(0.5)
-    for columns, row in (("qw,qx,qy,qz", [half, 0, 0, half]), ("qx,qy,qz,qw", [0, 0, half, half])):
-        text = f"q1,x,y,z,{columns}\n0,0,0,0,{','.join(map(str, row))}\n"
+    for names, row in (("qw,qx,qy,qz", [half, 0, 0, half]), ("qx,qy,qz,qw", [0, 0, half, half])):
+        text = f"q1,x,y,z,{names}\n0,0,0,0,{','.join(map(str, row))}\n"
         T = np.asarray(data.read(file(tmp_path, text), ONE)[1].T)  # type: ignore[attr-defined]
         np.testing.assert_allclose(T[0, :3, :3], [[0, -1, 0], [1, 0, 0], [0, 0, 1]], rtol=0, atol=1e-15)
 
@@ -137,45 +137,148 @@ POSE = f"q1,{T_COLUMNS}"
 
 
 @pytest.mark.parametrize(
-    ("text", "options", "error", "says"),
+    ("text", "options", "error", "message"),
     [
-        ("", {}, InputError, r"a\.csv: a first line that names the columns expected, the file is empty"),
-        ("1,2\n", {}, InputError, r"a\.csv:1: a first line that names the columns expected, it has numbers alone"),
-        ("distance\n1\n", {}, InputError, r"a\.csv:1: no column for the coordinate 'q1'; expected 'shoulder', or q1"),
-        ("q1\n1\n", {}, InputError, r"a\.csv:1: no column of a measurement; expected T00 \.\.\. T23, or x y z"),
-        ("q1,force\n1,2\n", {}, UnknownName, r"a\.csv:1: 'force' is neither a coordinate nor part of a measurement"),
-        ("q1,distanse\n1,2\n", {}, UnknownName, r"did you mean 'distance'\?"),
-        ("q1,distance,t\n1,2,3\n", {}, UnknownName, r"column 't' is neither .* nor one of distance; ignore=\['t'\]"),
-        ("q1,distance,x,y,z\n1,2,3,4,5\n", {}, UnknownName, r"the column 'distance' is .* nor one of x y z"),
-        ("q1,q1,distance\n1,1,2\n", {}, InputError, r"a\.csv:1: the column 'q1' is there 2 times"),
-        (POSE[:-4] + "\n", {}, InputError, r"of the columns T00 \.\.\. T23, 'T23' is missing"),
-        ("q1,x,y\n1,2,3\n", {}, InputError, r"of the columns x y z, 'z' is missing"),
-        ("q1,x1,y1,z1,x2,y2\n1,2,3,4,5,6\n", {}, InputError, r"of the columns x1 y1 z1 x2 y2 z2, 'z2' is missing"),
-        ("q1,x99999,y1,z1\n1,2,3,4\n", {}, InputError, r"of the columns x1 \.\.\. z3, 'x1' is missing"),
-        ("q1,distance\n\n1,\n", {}, InputError, r"a\.csv:3, column 2: a number expected, got ''"),
-        ("q1,distance\n1,far\n", {}, InputError, r"a\.csv:2, column 2: a number expected, got 'far'"),
-        ("q1,distance\n1,2\nnan,2\n", {}, InputError, r"a\.csv:3, column 'q1': expected a finite number, got nan"),
-        ("q1,distance\n1,inf\n", {}, InputError, r"a\.csv:2, column 'distance': expected a finite number, got inf"),
-        ("q1,distance\n1,2\n1,2,3\n", {}, InputError, r"a\.csv:3: 2 values expected, as the header has, got 3"),
-        ("q1,distance\n1,2\n\n1,-2\n", {}, InputError, r"a\.csv:4: expected a distance above 0, got -2"),
-        (POSE + "\n0," + T_ROW.replace("1", "2") + "\n", {}, PoseError, r"a\.csv:2: its rotation misses"),
-        ("q1,x,y,z,qw,qx,qy,qz\n0,0,0,0,2,0,0,0\n", {}, PoseError, r"a\.csv:2: the quaternion's length is 2"),
-        ("q1,distance\n1,2\n", {"kind": "poses"}, InputError, r"the columns distance are those of distances, and kind"),
-        (POSE + "\n", {"kind": "points"}, InputError, r"T00 \.\.\. T23 are those of poses or eye-in-hand or"),
-        (POSE + "\n", {"kind": "pose"}, InputError, r"kind: expected one of poses, eye-in-hand, .*, got 'pose'"),
-        ("q1,x1,y1,z1,x2,y2,z2\n1,2,3,4,5,6,7\n", {}, InputError, r"points: the file has 2 points a line; say where"),
-        ("q1,distance\n1,2\n", {"points": TOOL}, UnknownName, r"'points' is nothing that distances have; did you"),
-        ("q1,distance\n1,2\n", {"rows": [0]}, UnknownName, r"'rows' is nothing that distances have"),
+        ("", {}, InputError, "a.csv: a first line that names the columns expected, the file is empty"),
+        ("1,2\n", {}, InputError, "a.csv:1: a first line that names the columns expected, it has numbers alone"),
+        (
+            "distance\n1\n",
+            {},
+            InputError,
+            "a.csv:1: no column for the coordinate 'q1'; expected 'shoulder', or q1 ... q1",
+        ),
+        (
+            "q1\n1\n",
+            {},
+            InputError,
+            (
+                "a.csv:1: no column of a measurement; expected T00 ... T23, or x y z qw qx qy qz, or "
+                "x y z, or x1 y1 z1 x2 ..., or distance"
+            ),
+        ),
+        (
+            "q1,force\n1,2\n",
+            {},
+            UnknownName,
+            (
+                "a.csv:1: 'force' is neither a coordinate nor part of a measurement (T00 ... T23, or "
+                "x y z qw qx qy qz, or x y z, or x1 y1 z1 x2 ..., or distance); available: 'T00', "
+                "'T01', 'T02' and 39 more"
+            ),
+        ),
+        (
+            "q1,distanse\n1,2\n",
+            {},
+            UnknownName,
+            (
+                "a.csv:1: 'distanse' is neither a coordinate nor part of a measurement (T00 ... T23, "
+                "or x y z qw qx qy qz, or x y z, or x1 y1 z1 x2 ..., or distance); did you mean "
+                "'distance'?"
+            ),
+        ),
+        (
+            "q1,distance,t\n1,2,3\n",
+            {},
+            UnknownName,
+            "a.csv:1: the column 't' is neither a coordinate nor one of distance; ignore=['t'] passes it over",
+        ),
+        (
+            "q1,distance,x,y,z\n1,2,3,4,5\n",
+            {},
+            UnknownName,
+            (
+                "a.csv:1: the column 'distance' is neither a coordinate nor one of x y z; "
+                "ignore=['distance'] passes it over"
+            ),
+        ),
+        ("q1,q1,distance\n1,1,2\n", {}, InputError, "a.csv:1: the column 'q1' is there 2 times"),
+        (POSE[:-4] + "\n", {}, InputError, "a.csv:1: of the columns T00 ... T23, 'T23' is missing"),
+        ("q1,x,y\n1,2,3\n", {}, InputError, "a.csv:1: of the columns x y z, 'z' is missing"),
+        (
+            "q1,x1,y1,z1,x2,y2\n1,2,3,4,5,6\n",
+            {},
+            InputError,
+            "a.csv:1: of the columns x1 y1 z1 x2 y2 z2, 'z2' is missing",
+        ),
+        ("q1,x99999,y1,z1\n1,2,3,4\n", {}, InputError, "a.csv:1: of the columns x1 ... z3, 'x1' is missing"),
+        ("q1,distance\n\n1,\n", {}, InputError, "a.csv:3, column 2: a number expected, got ''"),
+        ("q1,distance\n1,far\n", {}, InputError, "a.csv:2, column 2: a number expected, got 'far'"),
+        (
+            "q1,distance\n1,2\nnan,2\n",
+            {},
+            InputError,
+            "a.csv:3, column 'q1': expected a finite number, got nan; leave the line out where nothing was measured",
+        ),
+        (
+            "q1,distance\n1,inf\n",
+            {},
+            InputError,
+            (
+                "a.csv:2, column 'distance': expected a finite number, got inf; leave the line out "
+                "where nothing was measured"
+            ),
+        ),
+        ("q1,distance\n1,2\n1,2,3\n", {}, InputError, "a.csv:3: 2 values expected, as the header has, got 3"),
+        ("q1,distance\n1,2\n\n1,-2\n", {}, InputError, "a.csv:4: expected a distance above 0, got -2"),
+        (
+            POSE + "\n0," + T_ROW.replace("1", "2") + "\n",
+            {},
+            PoseError,
+            "a.csv:2: its rotation misses orthonormality, max abs(R R^T - I) = 3, accepted up to 1e-05",
+        ),
+        (
+            "q1,x,y,z,qw,qx,qy,qz\n0,0,0,0,2,0,0,0\n",
+            {},
+            PoseError,
+            "a.csv:2: the quaternion's length is 2, expected 1 within 0.001",
+        ),
+        (
+            "q1,distance\n1,2\n",
+            {"kind": "poses"},
+            InputError,
+            "a.csv:1: the columns distance are those of distances, and kind is 'poses'",
+        ),
+        (
+            POSE + "\n",
+            {"kind": "points"},
+            InputError,
+            "a.csv:1: the columns T00 ... T23 are those of poses or eye-in-hand or eye-to-hand, and kind is 'points'",
+        ),
+        (
+            POSE + "\n",
+            {"kind": "pose"},
+            InputError,
+            "kind: expected one of poses, eye-in-hand, eye-to-hand, points, distances, got 'pose'",
+        ),
+        (
+            "q1,x1,y1,z1,x2,y2,z2\n1,2,3,4,5,6,7\n",
+            {},
+            InputError,
+            "points: the file has 2 points a line; say where they are in the tip frame, (k, 3)",
+        ),
+        (
+            "q1,distance\n1,2\n",
+            {"points": TOOL},
+            UnknownName,
+            "'points' is nothing that distances have; did you mean 'point'?",
+        ),
+        (
+            "q1,distance\n1,2\n",
+            {"rows": [0]},
+            UnknownName,
+            "'rows' is nothing that distances have; available: 'centre', 'point', 'covariance', 'guess'",
+        ),
     ],
     ids=[
         *("empty", "no header", "no coordinate", "no measurement", "unknown", "near", "extra", "two kinds", "twice"),
         *("T23", "xy", "z2", "many", "blank", "word", "nan", "inf", "long", "negative", "matrix", "quaternion", "kind"),
         *("kind of poses", "no kind", "no points", "not known", "rows"),
     ],
-)  # fmt: skip
-def test_a_bad_file_is_refused_with_its_line(text, options, error, says, tmp_path):
-    with pytest.raises(error, match=says):
+)
+def test_a_bad_file_is_refused_with_its_line(text, options, error, message, tmp_path):
+    with pytest.raises(error) as caught:
         data.read(file(tmp_path, text), ONE, **options)
+    assert str(caught.value).replace(f"{tmp_path}/", "") == message
 
 
 def test_what_cannot_be_read_is_said(tmp_path):
@@ -211,3 +314,30 @@ def test_a_long_file_is_read_in_parts_in_its_order(tmp_path):
     size = path.stat().st_size
     assert [total for _, total in told] == [size]
     assert 0 < told[0][0] < size
+
+
+@pytest.mark.parametrize("count, said", [
+    (1, "x1 y1 z1"), (2, "x1 y1 z1 x2 y2 z2"), (3, "x1 ... z3"),
+])  # fmt: skip
+def test_up_to_seven_columns_are_named_and_of_more_the_first_and_last(count, said):
+    assert columns.said(columns._points({f"x{count}", *"abcdefgh"})) == said
+    assert columns.said(columns._FIXED[2]) == "x y z qw qx qy qz"
+
+
+def test_the_coordinates_that_are_missing_are_those_of_the_names_that_are_there(tmp_path):
+    """By the chain's own names where more of these are there than of q1, q2; by number where none or as many are."""
+    for header, missing in (("shoulder,distance", "slide"), ("q1,distance", "q2"), ("distance", "q1"),
+                            ("shoulder,q1,distance", "q2")):  # fmt: skip
+        with pytest.raises(InputError, match=f"no column for the coordinate '{missing}'; expected 'shoulder', 'slide', "
+                           "or q1 ... q2$"):  # fmt: skip
+            data.read(file(tmp_path, f"{header}\n"), TWO)
+
+
+def test_of_the_columns_that_make_a_measurement_the_most_are_taken_for_it(tmp_path):
+    for rest, said in (
+        ("x,y,z,distance", "x y z"),
+        ("distance,px,py,pz,x", "px py pz"),
+        ("x1,y1,z1,distance", "x1 y1 z1"),
+    ):
+        with pytest.raises(UnknownName, match=f"is neither a coordinate nor one of {said}; ignore="):
+            data.read(file(tmp_path, f"q1,{rest}\n"), ONE)

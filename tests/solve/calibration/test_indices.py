@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from poekin.errors import InputError, ShapeError
 from poekin.solve.calibration.indices import indices
+from tests.messages import says
 
 TOL = 1e-12  # 100 u times the condition numbers below, with room for the logarithms
 
@@ -65,14 +66,15 @@ def test_fewer_rows_than_directions_see_nothing_of_some():
 @pytest.mark.parametrize(
     ("J", "m", "rank", "error", "message"),
     [
-        (np.ones(3), 1, None, ShapeError, r"J: expected a matrix \(..., rows, P\), got shape \(3,\)"),
-        (np.eye(3), 0, None, InputError, r"m: expected the number of measured configurations, at least 1, got 0"),
-        (np.eye(3), 2.0, None, InputError, r"m: expected the number .* got 2\.0"),
-        (np.eye(3), 3, 4, InputError, r"rank: expected a whole number from 1 to the 3 parameters, got 4"),
-        (np.eye(3), 3, True, InputError, r"rank: expected a whole number"),
+        (np.ones(3), 1, None, ShapeError, "J: expected a matrix (..., rows, P), got shape (3,)"),
+        (np.eye(3), 0, None, InputError, "m: expected the number of measured configurations, at least 1, got 0"),
+        (np.eye(3), 2.0, None, InputError, "m: expected the number of measured configurations, at least 1, got 2.0"),
+        (np.eye(3), 3, 4, InputError, "rank: expected a whole number from 1 to the 3 parameters, got 4"),
+        (np.eye(3), 3, True, InputError, "rank: expected a whole number from 1 to the 3 parameters, got True"),
     ],
     ids=["vector", "m-zero", "m-float", "rank-too-large", "rank-bool"],
 )
 def test_what_is_no_identification_matrix_is_refused(J, m, rank, error, message):
-    with pytest.raises(error, match=message):
+    with pytest.raises(error) as caught:
         indices(J, m, rank)
+    assert says(caught.value, message)

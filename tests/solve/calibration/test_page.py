@@ -114,6 +114,9 @@ def test_a_page_of_many_measurements_is_below_1_mb():
     found = calibrate(arm, s.q, s.measurements, loss="huber", folds=0)
     text = page.html(found, title="x" * 10**7, sources=["y" * 10**5] * 5000)
     assert len(text.encode()) < 10**6
+    assert f"<p>{len(found.outliers)} of 5000 measurements are off by more than one good one" in text
+    assert "in 10 000 would be; the first 60 of them:</p>" in text
+    assert len(Tables(text).found["Outliers"][0]) == 61
     assert "No data were kept aside" in text
 
 
@@ -127,7 +130,12 @@ def test_lengths_alone_and_several_sets_have_a_page_too():
     found = calibrate(ARM, q, sets, deficient="hold")
     text = page.html(found)
     assert "rotation error (mrad)" not in text
-    assert "set 1, calibrated" in text
+    aside = found.held_out
+    assert aside is not None
+    assert [row[:4] for row in Tables(text).found["Residuals"][1][1:]] == [
+        [f"set {k}, calibrated", *milli(np.sqrt(np.mean(r**2)), np.median(r), r.max())]
+        for k, r in enumerate(aside.after.length[aside.after.set == k] for k in (0, 1))
+    ]
     assert "centre of measurement set 1" in text
     assert "mrad" not in changes.sentence(found)
 
@@ -235,6 +243,21 @@ def tables(text):
 
 def milli(*values):
     return [f"{1e3 * value:.3g}" for value in values]
+
+
+def test_numbers_stand_in_columns_of_numbers_and_words_in_columns_of_words(text):
+    for table in re.findall(r"<table>.*?</table>", text, re.DOTALL):
+        rows = [re.findall(r'<t[hd] class="(\w+)">(.*?)</t[hd]>', row) for row in table.split("</tr>")[:-1]]
+        for column in zip(*rows, strict=True):
+            (kind,) = {kind for kind, _ in column}
+            cells = [cell for _, cell in column[1:]]
+            numbers = all(re.fullmatch(r"(-?\d\S*)?( mm| °)?", cell) for cell in cells)
+            assert numbers == (kind == "number"), cells
+
+
+def test_a_figure_that_is_far_below_rounding_is_0():
+    seen = [page._seen(x) for x in (None, 0.9e-9, -0.9e-9, 1.1e-9, -1234.5)]
+    assert seen == ["", "0", "0", "1.1e-09", "-1.23e+03"]
 
 
 def test_residuals_stand_under_their_names_in_mm_and_mrad(found, tables):
