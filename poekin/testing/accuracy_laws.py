@@ -100,7 +100,7 @@ def jacobian_errors(J: np.ndarray, truth: np.ndarray, xi: np.ndarray) -> tuple[f
         return diagonal, 0.0
     Q, v = exact.norm(error[3:, :3]), exact.norm(exact.exactly(xi[3:]))
     diagonal = max(diagonal, float(exact.norm(error[3:, 3:])), float(exact.norm(error[:3, 3:])))
-    return diagonal, float(Q / v) if v else (0.0 if Q == 0 else float("inf"))
+    return diagonal, float(Q / v) if v else (float("inf") if Q else 0.0)
 
 
 def _jacobian_law(name: str, group: Group, xi: np.ndarray) -> float:

@@ -80,7 +80,9 @@ def ratio_exp(xi: ArrayLike, T: ArrayLike) -> float:
     ratio = _ratio(norm(E[:3, :3]), bound.angular)
     if len(x) == 3:
         return ratio
-    return max(ratio, _ratio(norm(E[:3, 3]), bound.linear), math.inf if np.any(X[3] != [0, 0, 0, 1]) else 0.0)
+    if np.any(X[3] != [0, 0, 0, 1]):
+        return math.inf
+    return max(ratio, _ratio(norm(E[:3, 3]), bound.linear))
 
 
 def ratio_log(T: ArrayLike, xi: ArrayLike) -> float:
@@ -112,7 +114,7 @@ def _together(xi: ArrayLike, T: ArrayLike) -> None:
 def _log_ratio(x: np.ndarray, truth: np.ndarray) -> float:
     bound = log_bound(truth)
     ratio = _ratio(norm(x[:3] - truth[:3]), bound.angular)
-    return ratio if len(x) == 3 else max(ratio, _ratio(norm(x[3:] - truth[3:]), bound.linear))
+    return max(ratio, _ratio(norm(x[3:] - truth[3:]), bound.linear))
 
 
 def _other_sign(truth: np.ndarray) -> np.ndarray:
@@ -130,4 +132,4 @@ def _translation_slope(x: np.ndarray, t: np.ndarray) -> np.ndarray:
 
 
 def _ratio(error: Any, bound: Any) -> float:
-    return float(error / bound) if bound else (0.0 if error == 0 else math.inf)
+    return float(error / bound) if bound else (math.inf if error else 0.0)

@@ -44,10 +44,10 @@ def axis(r: Reader) -> np.ndarray:
     n = np.array([sign, 0.0, 0.0])
     if kind == 1:
         n[1:] = [10.0 ** -r.fraction(1.0, 17.0), -(10.0 ** -r.fraction(1.0, 17.0))]
-    elif kind > 1:
+    elif kind:
         anywhere = np.array([r.fraction(-1.0, 1.0) for _ in range(3)])
         n = anywhere if math.hypot(*anywhere) > 0.1 else n
-    return np.roll(n / math.hypot(*n), place % 3)
+    return np.roll(n / math.hypot(*n), place)
 
 
 def vector(r: Reader, lengths: tuple[float, float]) -> np.ndarray:

@@ -2,8 +2,7 @@
 
 Arrays are NumPy arrays of mpmath numbers (dtype object); a float64 that comes in is taken as the exact number that it
 is. Coefficients are power series below |ω| = 1, so no digit is lost towards 0; the 6×6 Jacobians of exp are the series
-Σ ad(ξ)^k / (k+1)!; log first projects onto the rotations (polar factor), with as many digits as the smallest rotation
-in its argument asks for (640 at |ω| = 1e-300).
+Σ ad(ξ)^k / (k+1)!; log first projects onto the rotations (polar factor), with 640 digits where sin |ω| < 1e-10.
 
     exact.rounded(exact.exp([0.3, 0, 0, 1, 2, 3]))     the pose (4, 4), each number the float next to the truth
 
@@ -234,25 +233,23 @@ def _jacobian_series(s: Any) -> list[Any]:
     return sums
 
 
-def _log3(X: np.ndarray) -> np.ndarray:
-    symmetric = np.array_equal(X, X.T)
-    digits = DIGITS
-    while True:
-        with mp.workdps(digits):
-            R = polar(X)
-            s = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]], dtype=object) / 2
-            # The polar factor of a symmetric matrix is symmetric: θ = 0 or θ = π.
-            s = 0 * s if symmetric else s
-            sine, cosine = norm(s), (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2
-            if symmetric or sine > mp.mpf(10) ** (DIGITS - 10 - digits) or digits > 1000:
-                return _axis_angle(R, s, sine, cosine)
-        digits *= 2
+def _log3(X: np.ndarray, digits: int = DIGITS) -> np.ndarray:
+    with mp.workdps(digits):
+        R = polar(X)
+        s = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]], dtype=object) / 2
+        # The polar factor of a symmetric matrix is symmetric: θ = 0 or θ = π.
+        s = 0 * s if np.array_equal(X, X.T) else s
+        sine, cosine = norm(s), (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2
+        # A smaller sine is a difference that has lost too many digits.
+        if sine > mp.mpf("1e-10") or digits > DIGITS:
+            return _axis_angle(R, s, sine, cosine)
+    return _log3(X, 8 * DIGITS)
 
 
 def _axis_angle(R: np.ndarray, s: np.ndarray, sine: Any, cosine: Any) -> np.ndarray:
     angle = mp.atan2(sine, cosine)
     if cosine >= 0:
-        return s if sine == 0 else s * (angle / sine)
+        return s * (angle / sine) if sine else s
     # (R + Rᵀ)/2 - cos θ I = (1 - cos θ) n nᵀ: its largest column is the axis, also where the sine vanishes.
     N = (R + R.T) / 2 - _identity(3) * cosine
     column = N[:, int(np.argmax(rounded(np.diag(N))))]

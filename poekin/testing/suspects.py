@@ -64,4 +64,4 @@ def _picked(cases: np.ndarray, *errors: np.ndarray) -> np.ndarray:
 
 
 def _norm(x: np.ndarray) -> np.ndarray:
-    return np.sqrt(np.sum(x * x, axis=-1))
+    return np.sqrt(np.sum(x * x, axis=1))

@@ -59,7 +59,7 @@ def test_the_nearest_floats_are_attainable(angle, size):
     assert attainable.ratio_log(T, exact.rounded(exact.log(T))) <= 1
 
 
-@pytest.mark.parametrize("place", [(0, 1), (2, 2), (1, 3)])
+@pytest.mark.parametrize("place", [(i, j) for i in range(3) for j in range(4)])
 def test_a_small_error_in_any_entry_is_seen(place):
     xi = twist(1.0)
     T = exact.rounded(exact.exp(xi))
@@ -70,9 +70,12 @@ def test_a_small_error_in_any_entry_is_seen(place):
     assert attainable.ratio_log(T, w) > 3
 
 
-def test_the_last_row_must_be_exact():
+@pytest.mark.parametrize(
+    ("place", "value"), [(0, 1e-300), (1, -1e-300), (2, 1.0), (3, np.nextafter(1, 0)), (3, np.nextafter(1, 2))]
+)
+def test_the_last_row_must_be_exact(place, value):
     T = exact.rounded(exact.exp(twist(1.0)))
-    T[3, 0] = 1e-300
+    T[3, place] = value
     assert attainable.ratio_exp(twist(1.0), T) == math.inf
 
 

@@ -98,6 +98,7 @@ def test_each_option_is_picked_by_as_many_bytes():
         ),
         (0.25, 2.5, {(0, 0, 0): 0.25, (85, 255, 255): 1.0, (86, 0, 0): 1.0, (171, 0, 0): 2.0, (255, 255, 255): 2.5}),
         (2.0, 2.0, {(0, 0, 0): 2.0, (255, 255, 255): 2.0}),
+        (3.0, 3.0, {(0, 0, 0): 3.0, (255, 255, 255): 3.0}),
         (-3.0, -2.0, {(0, 0, 0): -3.0, (255, 255, 255): -2.0, (9, 128, 0): -3 + 32768 / 65535}),
         (0.2, 0.4, {(0, 0, 0): 0.2, (255, 255, 255): 0.4}),
     ],
@@ -165,6 +166,7 @@ def test_an_axis_is_of_one_of_three_kinds():
     for k in range(3):
         for sign, value in ((0, 1.0), (127, 1.0), (128, -1.0)):
             assert axis(0, k, sign) == axis(4, k + 3, sign) == np.roll([value, 0, 0], k).tolist()
+            assert axis(0, k, sign, *[99] * 9) == axis(0, k, sign)
     assert axis(1, 0, 0, 0, 0, 0, 0, 255, 255) == pytest.approx(np.array([1, 0.1, -0.01]) / math.hypot(1, 0.1, 0.01))
     assert axis(1, 1, 0, 255, 255, 255, 255, 0, 0) == pytest.approx([-1e-16, 1, 1e-17], rel=1e-12)
     for kind in (2, 3):

@@ -53,6 +53,22 @@ def test_a_faster_motion_keeps_its_digits_when_its_rate_is_given(rate):
     assert np.abs(error) < 1e-14 * rate
 
 
+@pytest.mark.parametrize(("rates", "step"), [((), 0.1), ((0.5,), 0.1), ((4.0,), 0.025)])
+def test_values_are_asked_for_at_12_points_a_tenth_of_a_radian_apart(rates, step):
+    derivative = [differences.derivative, differences.velocity, differences.jacobian]
+    for function, arguments in zip(derivative, (([2.0],), ([2.0], "body"), ("body",)), strict=True):
+        asked: list[float] = []
+
+        def f(q: np.ndarray, asked: list[float] = asked) -> np.ndarray:
+            asked.append(float(q[0]))
+            return HOME
+
+        function(f, [1.0], *arguments, *rates)
+        width = step * (1 if function is differences.jacobian else 2)
+        points = [1 + k * width for k in range(-6, 7) if k or function is not differences.derivative]
+        assert sorted(asked) == pytest.approx(points, rel=1e-14)
+
+
 def test_without_its_rate_a_fast_motion_is_wrong():
     assert np.abs(differences.derivative(lambda q: np.sin(30 * q), [0.3], [1.0]) - 30 * np.cos(9)) > 1e-4
 
@@ -79,19 +95,23 @@ def test_a_function_may_return_lists():
             lambda: differences.jacobian(pose, [Q, Q], "space"),
             r"q: expected shape \(m,\), one configuration, got \(2, 3\)",
         ),
+        (lambda: differences.jacobian(pose, 0.3, "space"), r"q: expected shape \(m,\), one configuration, got \(\)"),
         (lambda: differences.velocity(pose, Q, Q[:2], "space"), r"one shape \(m,\), got \(3,\) and \(2,\)"),
+        (lambda: differences.velocity(pose, Q[:2], Q, "space"), r"one shape \(m,\), got \(2,\) and \(3,\)"),
         (lambda: differences.velocity(pose, Q, ["a"], "space"), r"dq: expected numbers \(m,\), got \['a'\]"),
         (lambda: differences.velocity(HOME, Q, Q, "space"), r"f: expected a function of q, got array"),  # pyright: ignore
         (lambda: differences.jacobian(lambda q: q, Q, "space"), r"f: expected a pose \(4, 4\) at q, got shape \(3,\)"),
+        (lambda: differences.velocity(lambda q: np.eye(5), Q, Q, "body"), r"a pose \(4, 4\) at q, got shape \(5, 5\)"),
         (lambda: differences.derivative(pose, Q, Q, np.nan), r"rate: expected a number from 0 .* got nan"),
     ],
-    ids=["batch", "rates", "text", "array", "vector", "rate"],
+    ids=["batch", "number", "few rates", "many rates", "text", "array", "vector", "matrix", "rate"],
 )
 def test_what_is_no_argument_is_refused(call, message):
     with pytest.raises(InputError, match=message):
         call()
 
 
-def test_an_unknown_frame_is_refused():
-    with pytest.raises(InputError, match="hybrid"):
-        differences.velocity(pose, Q, Q, "world")
+@pytest.mark.parametrize("frame", ["", "base", "globe", "local", "world"])
+def test_an_unknown_frame_is_refused(frame):
+    with pytest.raises(InputError, match=f"\"hybrid\", not '{frame}'"):
+        differences.velocity(pose, Q, Q, frame)
