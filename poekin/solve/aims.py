@@ -83,10 +83,10 @@ def _jacobian(solver: Solver, q: Array) -> Array:
 def _goal(solver: Solver, q0: Array, aim: str) -> Array:
     if aim == "nearest":
         return q0
-    both: np.ndarray = np.isfinite(solver.room.limits).all(axis=1)
+    both = np.asarray(np.isfinite(solver.room.limits).all(axis=1))
     return np.where(both, np.where(both[:, None], solver.room.limits, 0.0).mean(axis=1), q0)
 
 
 def _weights(solver: Solver, aim: str) -> Array:
-    both: np.ndarray = np.isfinite(solver.room.limits).all(axis=1)
+    both = np.asarray(np.isfinite(solver.room.limits).all(axis=1))
     return np.ones(len(both)) if aim == "nearest" else both.astype(float)

@@ -58,7 +58,7 @@ class Follower:
             self.progress(count, count)
         return q, changes
 
-    def on(self, k: int, last: Array, first: bool = False) -> tuple[int, Array]:
+    def on(self, k: int, last: Array, first: bool) -> tuple[int, Array]:
         """The path from pose k on as far as it goes without a jump, beginning at joints `last`; its end, and q."""
         q, start, pose = np.empty((len(self.targets) - k, self.dof)), k, last
         while k < len(self.targets):
@@ -76,7 +76,7 @@ class Follower:
     def best(self, k: int, last: Array | None) -> tuple[int, Array]:
         """Of several solutions of pose k the one that gets farthest, and then jumps and moves least; its end, and q."""
         found, tried = (k, np.empty((0, self.dof))), np.empty((0, self.dof))
-        score = (k, -np.inf)
+        score: tuple[float, ...] = (k,)
         if self._known is not None and self._known[0] <= k and not self._solution_of(k)[0]:
             return found
         for turn in range(ROUNDS):
@@ -84,7 +84,7 @@ class Follower:
                 if len(tried) and (np.abs(tried - q0).max(axis=1) < 1e-6).any():
                     continue
                 tried = np.concatenate([tried, q0[None]])
-                end, q = self.on(k, q0)
+                end, q = self.on(k, q0, first=False)
                 far = np.abs(np.diff(q, axis=0)).max(initial=0.0) if last is None else np.linalg.norm(q0 - last)
                 if (end, -far) > score:
                     found, score = (end, q), (end, -far)
