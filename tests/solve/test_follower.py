@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import itertools
 from typing import Any
 
 import numpy as np
@@ -75,9 +76,10 @@ def test_a_step_is_divided_into_8_64_and_512_pieces_of_the_screw_motion():
 
 def test_the_first_piece_is_no_longer_than_another():
     f = one(most=0.05)
-    assert f._in_pieces(Q + [0.2, -0.1, 0], f.targets[0], f.targets[0]) is None
-    found = f._in_pieces(Q + [0.04, -0.02, 0], f.targets[0], f.targets[0])
-    np.testing.assert_allclose(found, Q, atol=0.1)
+    assert f._in_pieces(Q + np.array([0.2, -0.1, 0]), f.targets[0], f.targets[0]) is None
+    found = f._in_pieces(Q + np.array([0.04, -0.02, 0]), f.targets[0], f.targets[0])
+    assert found is not None
+    assert np.abs(found - Q).max() < 0.1
 
 
 def test_a_path_goes_on_by_steps_then_by_pieces_from_where_the_steps_end():
@@ -195,7 +197,7 @@ def test_starts_are_looked_for_in_four_rounds_until_one_gets_to_the_end_and_none
     assert c.f.best(0, None)[0] == 5
     assert c.turns == [0, 1, 2]
     # the pose that all of them end before cannot be reached
-    c = Choice({x: (4, 0.1) for x in ends}, rounds, {0})
+    c = Choice(dict.fromkeys(ends, (4, 0.1)), rounds, {0})
     assert c.f.best(0, None)[0] == 4
     assert c.turns == [0]
 
@@ -253,7 +255,7 @@ def test_thirty_steps_are_tried_towards_what_is_out_of_reach():
 
     f._slope = better  # type: ignore[method-assign]
     f._near(0, Q)
-    ways = [float((b - a)[0]) for a, b in zip(asked, asked[1:], strict=False)]
+    ways = [float((b - a)[0]) for a, b in itertools.pairwise(asked)]
     assert ways == pytest.approx([0.01 / (1 + 1e-3 * 0.2**k) for k in range(3)], rel=1e-9), "the last gains too little"
 
 
@@ -268,3 +270,14 @@ def test_of_a_matrix_without_inverse_the_damping_is_a_share_of_its_largest_numbe
     f._slope = slope  # type: ignore[method-assign]
     f._near(0, Q)
     assert (asked[1] - asked[0])[1] == pytest.approx(0.7, rel=1e-9)  # 1e-13 of 1e14 is more than 1e-3
+
+
+@pytest.mark.parametrize("last", [None, [29.0, 0.5, 0.0]])
+def test_other_solutions_of_a_pose_lie_turns_away_towards_the_last_joints_or_the_middle_of_the_limits(last):
+    wide = pk.Chain(ARM.chain.screws, HOME, limits=[[10, 40], [-40, 30], [-1, 1]]).compile()
+    f = follower.Follower(solver_of(wide, SETTINGS), ARM.fk(Q)[None], np.full(3, 0.1), None)
+    near = np.array([25.0, -5.0, 0.0] if last is None else last)
+    found = f._solutions(0, 2, None if last is None else near)
+    assert len(found) > 1
+    assert (np.abs(found - near) <= np.pi + 1e-9).all()
+    assert (np.abs(f._solutions(0, 3, near) - near) > np.pi).any(), "every other round as they are"
