@@ -86,19 +86,18 @@ def test_what_is_not_said_of_a_search_is_its_usual_rule(monkeypatch):
     monkeypatch.setattr(ik_all_module, "search", search)
     ik_all(arm(), np.tile(np.eye(4), (2, 1, 1)), method="search")
     assert asked == [(Rule(14, 2000, 200, 200), 0, True, [(0, 2)] * 2)]
-    for least in ({"often": 1}, {"restarts": 1}, {"iterations": 1}, {"seed": 0}, {"seed": 2**62 - 1}):
+    accepted: tuple[dict[str, Any], ...] = (
+        {"often": 1}, {"restarts": 1}, {"iterations": 1}, {"seed": 0}, {"seed": 2**62 - 1}
+    )  # fmt: skip
+    for least in accepted:
         ik_all(arm(), np.eye(4), method="search", **least)
-    for word, value in (
-        ("often", 0),
-        ("restarts", 0),
-        ("iterations", 0),
-        ("seed", -1),
-        ("seed", 2**62),
-        ("often", True),
-    ):
+    refused: tuple[tuple[str, Any], ...] = (
+        ("often", 0), ("restarts", 0), ("iterations", 0), ("seed", -1), ("seed", 2**62), ("often", True)
+    )  # fmt: skip
+    for word, value in refused:
         said = f"^{word}: expected a whole number from {0 if word == 'seed' else 1} on, got {value}$"
         with pytest.raises(pk.PoekinError, match=said):
-            ik_all(arm(), np.eye(4), method="search", **{word: value})
+            ik_all(arm(), np.eye(4), method="search", **dict[str, Any]({word: value}))
 
 
 STEP = 0.05
