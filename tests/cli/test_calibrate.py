@@ -152,7 +152,11 @@ def test_text_and_json_hold_the_figures_of_the_library(poekin, as_json, measured
     assert [(p["owner"], p["value"], p["deviation"]) for p in result["parameters"]] == [
         (p.owner, v, d) for p, v, d in zip(expected.parameters, expected.values, expected.deviations, strict=True)
     ]
-    lines = [re.split(r" {2,}", line) for line in poekin(*ARM, csv, "--loss", "huber")[1].splitlines()]
+    text = poekin(*ARM, csv, "--loss", "huber")[1].splitlines()
+    assert text[0].endswith(f"34 of 34 parameters seen, condition {expected.identification.condition:.3g}")
+    lines = [re.split(r" {2,}", line) for line in text]
+    heads = ["joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %"]
+    assert [line for line in lines if line[0] == "joint"] == [heads]
     rows = {line[0]: line[1:] for line in lines if len(line) == 5}
     for title, figures in (
         ("nominal, kept aside", aside.before), ("calibrated, kept aside", aside.after),
@@ -340,6 +344,10 @@ def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(column, ty
             "--sigma-angle: expected a standard deviation above 0, got -1",
         ),
         (["--prior-angle", "0"], "--prior-angle: expected a standard deviation above 0, got 0"),
+        (
+            ["--sigma-angle", "1", "--sigma-length", "0"],
+            "--sigma-length: expected a standard deviation above 0, got 0",
+        ),
         (["--loss", "l1"], "--loss: expected one of 'linear', 'huber'"),
         (["--parameters", "screw"], "--parameters: expected some of"),
         (["--joints", "elbow"], "--joints: no joint 'elbow'"),

@@ -100,6 +100,10 @@ def test_a_joint_has_the_limits_of_the_coordinate_that_it_follows():
     assert [(row[0], row[2], row[-2:]) for row in _screw_rows(swapped)] == [
         ("x", "q2", ("-3", "4")), ("y", "2 q1", ("-1", "2")),
     ]  # fmt: skip
+    both = Chain(CHAIN.screws, np.eye(4), coupling=[[1, 1], [0, 0]], offset=[0, 0.5], limits=limits)
+    rows = list(_screw_rows(both))
+    assert [(row[2], row[-2:]) for row in rows] == [("q1 + q2", ("-1", "2")), ("0.5", ("0", "0"))]
+    assert {len(row) for row in rows} == {11}
 
 
 def test_a_chain_below_a_floating_joint_says_so(tmp_path, crane, poekin):

@@ -27,6 +27,8 @@ from poekin.cli import (
     urdf,
     validate,
 )
+from poekin.formats import pose_rows
+from poekin.testing.conform import LAWS
 
 DEFAULTS: dict[Any, dict[str, object]] = {
     axes: {"tol_mm": 0.01, "tol_deg": 0.001, "json": False},
@@ -72,3 +74,21 @@ def test_an_option_that_is_not_given_is_what_the_help_says_or_nothing(module):
 def test_a_number_has_the_smallest_value_that_means_something(module):
     least = {n: option.min for n, option, _ in options(module) if getattr(option, "min", None) is not None}
     assert least == LEAST.get(module, {})
+
+
+def help_of(module: Any, name: str) -> str:
+    return next(str(option.help) for n, option, _ in options(module) if n == name)
+
+
+def test_the_numbers_in_the_help_are_those_that_are_taken():
+    examples = [law.examples for law in LAWS]
+    assert f"default: {min(examples)} to {max(examples)}, each law its own" in help_of(conform, "examples")
+    assert help_of(calibrate, "folds").endswith("; 0: none.")
+    assert help_of(jacobian, "frame").endswith("of joint K, counted from 0).")
+    assert help_of(emit, "frame").endswith("of joint K, from 0).")
+    twelve, sixteen, seven = (help_of(ik, "format").index(f"{n} (") for n in (12, 16, 7))
+    assert twelve < sixteen < seven
+    names = pose_rows.columns("12", None)
+    assert f"row by row: {' '.join(names[:5])} ..., m)" in help_of(ik, "format")
+    assert (len(names), len(pose_rows.columns("16", None)), len(pose_rows.columns("7", "wxyz"))) == (12, 16, 7)
+    assert help_of(ik, "quaternion") == "The order of the quaternion in --format 7; never guessed."

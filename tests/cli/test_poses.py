@@ -37,7 +37,7 @@ REFUSED = {
                       f"6 coordinates expected ({NAMES}), got 1"),
     "no number": (lambda: arm.take("stanford", None, None, ["1", "x"], None),
                   "coordinate 2: a number expected (rad or m), got 'x'"),
-    "both ways": (lambda: arm.take("stanford", None, None, ["1"], "q.csv"),
+    "both ways": (lambda: arm.take("stanford", None, None, ["1", "2"], "q.csv"),
                   "either coordinates or --input expected, got both ('1' and 'q.csv')"),
     "no option": (lambda: arm.take("stanford", None, None, ["--fram"], None),
                   "there is no option '--fram'; did you mean '--frame'?"),

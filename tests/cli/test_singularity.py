@@ -72,6 +72,7 @@ def test_words_and_measures_are_those_of_the_functions(poekin):
     ("words", "message"),
     [
         (["--at", "0", "0"], "7 coordinates expected (panda_joint1, "),
+        (["--at", "0", "0"], "panda_joint7), got 2\n"),
         (["--at", ""], "--at: coordinates expected, got nothing"),
         (["--at", "a", *AWAY[1:]], "coordinate 1: a number expected (rad or m), got 'a'"),
         (["--at", "nan", *AWAY[1:]], "q: expected one finite configuration (7,)"),
