@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import ModelError, closest, shown
 from .joint import FREE, MOVING, Joint
+from .parts import read_only
 from .source import Source, warn
 
 
@@ -136,6 +137,4 @@ def _where(index: int, joints: Sequence[Joint], source: Source) -> str:
 
 
 def _frozen(values: list, dtype: type) -> np.ndarray:
-    array = np.array(values, dtype=dtype)
-    array.flags.writeable = False
-    return array
+    return read_only(np.array(values, dtype=dtype))

@@ -170,7 +170,7 @@ def fill_both(self: Chain, rows: Array, code: int, T: Array, J: Array) -> None:
 
 def fill_jacobians(self: Chain, rows: Array, code: int, J: Array) -> None:
     """The Jacobians in the frame of that code into J (N, 6, m)."""
-    chain_kernels.pose_jacobian_many.call(self._table, rows, code, _empty((1, 4, 4)), J)
+    chain_kernels.pose_jacobian_many.call(self._table, rows, code, _empty((1, *_POSE_SHAPE)), J)
 
 
 def _rows(chain: Chain | CompiledChain, q: Any) -> tuple[tuple[int, ...], Array]:

@@ -91,7 +91,7 @@ def _bounds(chain: Chain, given: list[Frame], exact: list[Frame]) -> tuple[float
         turn = [subtract(a.of(x), p.of(y)) for x, y in zip((b.x, b.y, b.z), (q.x, q.y, q.z), strict=True)]
         chord = math.sqrt(sum(dot(column, column) for column in turn) / 2)
         position += float(length(subtract(moved, t))) + chord * behind
-        rotation += 2 * math.asin(min(1.0, chord / 2))
+        rotation += 2 * math.asin(chord / 2)  # of a few tolerances, far from half a turn
         behind += float(length(t)) + (float(most[i - 1]) if i else 0.0)
     rounding = 8 * UNIT * len(given)  # of the numbers that the new screws are written in
     return position + rounding * max(behind, chain.reach), rotation + rounding

@@ -10,6 +10,7 @@ import numpy as np
 from ..engine.tree_kernels import tree_poses
 from .coupling import Coupling
 from .joint import Joint
+from .parts import read_only
 from .tree import Tree
 
 
@@ -38,7 +39,7 @@ def layout_of(tree: Tree, joints: Sequence[Joint], coupling: Coupling) -> Layout
     link_row[np.array(tree.child_link, dtype=np.int64)[order]] = np.arange(1, len(order) + 1)
     joint_row = np.empty(len(order), dtype=np.int64)
     joint_row[order] = np.arange(len(order))
-    layout = Layout(
+    arrays = (
         link_row,
         joint_row,
         link_row[np.array(tree.parent_link, dtype=np.int64)[order]],
@@ -48,9 +49,7 @@ def layout_of(tree: Tree, joints: Sequence[Joint], coupling: Coupling) -> Layout
         coupling.ratio[order],
         coupling.shift[order],
     )
-    for array in layout:
-        array.flags.writeable = False
-    return layout
+    return Layout(*map(read_only, arrays))
 
 
 def link_poses(layout: Layout, values: np.ndarray, free: Mapping[int, np.ndarray]) -> np.ndarray:

@@ -17,6 +17,7 @@ from .coordinates import coordinates
 from .coupling import Coupling, coupling_of, shared_limits, warn_of_torn_limits
 from .joint import FREE, Joint
 from .layout import Layout, layout_of, link_poses
+from .parts import read_only
 from .source import Source
 from .tree import Tree, path, tree_of
 
@@ -208,17 +209,16 @@ def _build(
     coupling = coupling_of(joints, where)
     bounds = np.array([joint.limits for joint in joints]).reshape(len(joints), 2)
     limits, torn = shared_limits(coupling, bounds, np.arange(len(joints)))
-    limits.flags.writeable = bounds.flags.writeable = False
     parents = {joint.parent for joint in joints}
     fields |= {
         "root": links[tree.root],
         "leaves": tuple(link for link in links if link not in parents),
         "q_names": coupling.q_names,
-        "limits": limits,
+        "limits": read_only(limits),
         "_numbers": {link: number for number, link in enumerate(links)},
         "_tree": tree,
         "_coupling": coupling,
-        "_bounds": bounds,
+        "_bounds": read_only(bounds),
         "_layout": layout_of(tree, joints, coupling),
     }
     for field_name, value in fields.items():

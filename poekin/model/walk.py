@@ -140,7 +140,7 @@ class Walk:
 
     def _angle(self, c: Decimal, s: Decimal, words: str) -> tuple[Decimal, Decimal]:
         """Cosine and sine of the multiple of 15 degrees nearest to an angle given by its own, where it is near."""
-        k = round(math.atan2(s, c) / (math.pi / 12)) % 24
+        k = round(math.atan2(s, c) / (math.pi / 12))
         cosine, sine = _cosine(k), _cosine(k - 6)
         off = abs(math.asin(s * cosine - c * sine))
         if off > self.tol:

@@ -25,6 +25,15 @@ def arm(**options):
     return pk.Chain([RZ, RY, PX], HOME, joint_names=["pan", "lift", "slide"], **options)
 
 
+def test_a_chain_is_compiled_for_one_thread_once_and_for_several_where_that_is_asked_for():
+    chain = arm()
+    assert chain.compile() is chain.compile(parallel=False)
+    assert [chain.compile(parallel=parallel).parallel for parallel in (False, True)] == [False, True]
+    for none in (0, 1, None):
+        with pytest.raises(InputError, match="parallel: expected True or False, got"):
+            chain.compile(parallel=none)  # pyright: ignore[reportArgumentType]
+
+
 def rebased_off(chain, P):
     """How far the screws of a rebased chain are from Ad(P) A ÷ what `rebased` says.
 

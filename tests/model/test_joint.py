@@ -215,6 +215,14 @@ def test_what_is_no_mimic_is_refused(numbers):
         Mimic(*numbers)
 
 
+def test_without_more_said_a_joint_stands_in_its_parent_and_turns_about_x_without_end():
+    plain = Joint("j", "revolute", "a", "b")
+    np.testing.assert_array_equal(plain.origin, np.eye(4))
+    assert (plain.axis, plain.limits, plain.mimic, plain.pitch) == ((1, 0, 0), (-math.inf, math.inf), None, 0)
+    assert (Mimic("k").multiplier, Mimic("k").offset) == (1, 0)
+    assert joint(kind="continuous", limits=(-1, 1)).limits == (-math.inf, math.inf)
+
+
 def test_every_kind_can_be_made():
     assert [joint(kind=kind).kind for kind in KINDS] == list(KINDS)
 

@@ -9,6 +9,8 @@ _MATRICES = "tests/formulas/test_algebra_matrices.py"
 _CHAIN_MATRICES = "tests/formulas/test_chain_matrices.py"
 _GROUP_MATRICES = "tests/formulas/test_group_matrices.py"
 _KINDS = "tests/formulas/test_kinds.py"
+_SAID, _EXACT = "tests/model/test_refusals.py", "tests/model/test_idealised.py"
+_ROBOTS = tuple(f"tests/model/test_{name}.py" for name in ("tree", "robot", "robot_coordinates"))
 GROUPS = ("tests/groups/test_near.py", "tests/groups/test_so3.py", "tests/groups/test_se3.py")
 CHAINS = ("tests/model/test_chain.py", "tests/model/test_chain_laws.py")
 DH = tuple(f"tests/formats/test_{name}.py" for name in ("dh_values", "dh_files", "dh", "dh_published"))
@@ -119,16 +121,22 @@ NEAR: dict[str, tuple[str, ...]] = {
     **{f"poekin/analysis/{name}.py": (f"tests/analysis/test_{name}.py", "tests/analysis/test_results.py",
                                       f"tests/cli/test_{name}.py")
        for name in ("singularity", "validate")},
-    "poekin/model/chain.py": (*CHAINS, "tests/model/test_coordinates.py", "tests/model/test_pitches.py"),
-    "poekin/model/local.py": (*CHAINS, "tests/model/test_pitches.py", "tests/model/test_idealised.py"),
+    "poekin/model/chain.py": (*CHAINS, _SAID, "tests/model/test_coordinates.py", "tests/model/test_pitches.py"),
+    **{f"poekin/model/{name}.py": (*(f"tests/model/test_{first}.py" for first in files), _SAID, *CHAINS)
+       for name, *files in (("analytic", "analytic"), ("coordinates", "coordinates", "parts"), ("hp", "hp"),
+                            ("derivatives", "derivatives", "derivatives_pinocchio"), ("parts", "parts", "joint"))},
+    **{f"poekin/model/{name}.py": (*(f"tests/model/test_{first}.py" for first in files), _SAID, *_ROBOTS)
+       for name, *files in (("coupling",), ("joint", "joint", "pitches"), ("layout",), ("robot",), ("source",),
+                            ("tree",))},
+    "poekin/model/local.py": ("tests/model/test_local.py", *CHAINS, "tests/model/test_pitches.py", _EXACT),
     "poekin/model/walk.py": ("tests/model/test_walk.py", "tests/model/test_idealised.py"),
-    "poekin/model/idealise.py": ("tests/model/test_walk.py", "tests/model/test_idealised.py"),
+    "poekin/model/idealise.py": ("tests/model/test_idealise.py", "tests/model/test_walk.py", _EXACT),
     "poekin/model/normals.py": ("tests/model/test_walk.py", "tests/model/test_idealised.py", "tests/model/test_hp.py",
                                 DH[0], DH[2]),
-    "poekin/model/evaluation.py": ("tests/model/test_evaluation.py", *CHAINS),
-    "poekin/model/compiled.py": ("tests/model/test_compiled.py", "tests/model/test_chain_laws.py"),
+    "poekin/model/evaluation.py": ("tests/model/test_evaluation.py", _SAID, *CHAINS),
+    "poekin/model/compiled.py": (_SAID, "tests/model/test_compiled.py", "tests/model/test_chain_laws.py"),
     "poekin/model/structure.py": ("tests/model/test_structure.py", "tests/model/test_compiled.py"),
     "poekin/model/screw.py": (
-        "tests/model/test_screw_values.py", "tests/model/test_screw.py", "tests/model/test_pitches.py",
+        "tests/model/test_screw_values.py", "tests/model/test_screw.py", _SAID, "tests/model/test_pitches.py",
         "tests/model/test_parts.py", *CHAINS),
 }  # fmt: skip
