@@ -92,7 +92,7 @@ def _meetings(lines: list[tuple[Vector, Vector]], near: Decimal) -> list[tuple[i
         last = first
         while last + 1 < len(lines) and _distance(point, lines[last + 1]) <= near:
             last += 1
-        if last > first and _distance(point, lines[first]) <= near:
+        if last > first:
             found.append((first, last, point))
     return sorted(found, key=lambda run: (run[1] - run[0], run[1]), reverse=True)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ import pytest
 import poekin as pk
 from poekin.formats import dh
 from poekin.formats.dh import Row, Table
-from poekin.model.walk import _cosine
+from poekin.model.walk import _cosine, _floats
 
 TOL, OFF = 1e-5, 2e-6
 RIGHT = math.pi / 2
@@ -110,3 +111,11 @@ def test_a_joint_s_name_in_braces_is_said_as_it_is():
 @pytest.mark.parametrize("k", range(-12, 25))
 def test_cosines_of_multiples_of_15_degrees_are_exact(k):
     assert float(_cosine(k)) == pytest.approx(math.cos(k * math.pi / 12), abs=5e-16)
+
+
+@pytest.mark.parametrize("size, least", [("0", "1e-35"), ("0.5", "1e-35"), ("1e30", "1e-5"), ("1e99", "1e64")])
+def test_of_a_vector_s_numbers_what_is_rounding_of_its_size_is_zero(size, least):
+    nothing = Decimal(least)
+    given = nothing * Decimal("0.9"), -nothing * Decimal("0.9"), nothing * Decimal("1.1")
+    assert _floats(given, Decimal(size)).tolist() == [0, 0, float(given[2])]
+    assert _floats((-given[2], Decimal(0), given[2]), Decimal(size)).tolist() == [-float(given[2]), 0, float(given[2])]
