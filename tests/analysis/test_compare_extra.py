@@ -370,6 +370,9 @@ def test_the_quick_look_looks_at_neighbours_and_across_slides_alone():
     assert agree(rows, 2, screw.revolute(turning[1][:3], [3, -2, 1]))
     about = se3.adjoint(se3.exp(np.concatenate([0.4 * slide[3:], np.zeros(3)])))
     assert not agree(rows, 2, about @ turning[1])
+    # A helical joint turns what is behind it, as any that turns.
+    bolt = [turning[0], screw.helical(turning[1][:3], [1, 2, 0], 0.1), turning[2]]
+    assert agree(bolt, 2, se3.adjoint(se3.exp(0.4 * bolt[1])) @ turning[2])
     for but, agreed in (((0,), True), ((1,), True), ((2,), False)):
         assert agree(rows, 2, about @ turning[1], but) == agreed
     assert not extra._may_agree(Chain(rows, np.eye(4)), Chain(turning[:3], np.eye(4)), 0.01, 1e-3)

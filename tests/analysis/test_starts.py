@@ -232,3 +232,30 @@ def test_beyond_many_alignments_each_pose_is_tried_with_the_turns_of_one_axis(k,
         P, z = one_turn(pair, (joints[some], D[some]), k)
         assert kept == [2 * some.sum()]
         assert misses(pair, carried(pair, P[:1], z[:1])[1]).max() < 1e-3
+
+
+def test_a_helical_axis_has_its_line_as_a_revolute_one_has():
+    rng = np.random.default_rng(3)
+    ways, places = rng.normal(size=(2, 3, 3))
+    plain = lines(Chain([screw.revolute(*line) for line in zip(ways, places, strict=True)], np.eye(4)))
+    bolts = lines(Chain([screw.helical(*line, 0.1) for line in zip(ways, places, strict=True)], np.eye(4)))
+    for i, j in ((0, 1), (1, 2), (2, 0)):
+        one, other = starts._frame(plain, i, j), starts._frame(bolts, i, j)
+        assert one is not None
+        assert other is not None
+        assert other[0] == pytest.approx(one[0], abs=1e-12)
+
+
+@pytest.mark.parametrize("first", [screw.revolute, lambda z, p: screw.helical(z, p, 0.1)], ids=["turns", "bolt"])
+def test_poses_are_moved_along_slides_to_where_the_first_axis_that_turns_has_its_place(first):
+    rows = [screw.prismatic([1, 0, 0]), first([0, 0, 1], [1, 2, 0]), screw.revolute([0, 1, 0], [4, 0, -7])]
+    chain = Chain(rows, np.eye(4))
+    moved = chain.rezeroed([3.0, 0, 0]).rebased(BASE)  # the slide has moved what is behind it
+    pair = sides(chain, moved, 1e-6, 1e-6)
+    P = se3.inverse(BASE)
+    P[:3, 3] += P[:3, :3] @ pair.b.hub - pair.a.hub + [0.3, 0.2, 0.1]
+    (D,) = starts._on_the_first_turning_axis(pair, P[None])
+    miss = misses(pair, carried(pair, D[None], np.zeros((1, 3)))[1])[0]
+    assert miss[1:].max() < 1e-3
+    turning = sides(Chain(chain.screws[1:], chain.home), Chain(moved.screws[1:], moved.home), 1e-6, 1e-6)
+    assert starts._on_the_first_turning_axis(turning, P[None]) == pytest.approx(P[None])

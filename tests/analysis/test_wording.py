@@ -26,11 +26,19 @@ def test_another_link_is_named_by_the_joints_at_both_of_its_ends():
 
 
 @pytest.mark.parametrize(
-    "kind, words", [("revolute", "a zero offset of 0.5°"), ("prismatic", "a zero offset of 8.727 mm")]
+    "kind, words",
+    [
+        ("revolute", "a zero offset of 0.5°"),
+        ("prismatic", "a zero offset of 8.727 mm"),
+        ("helical", "a zero offset of 0.5°"),
+    ],
 )
 def test_another_reading_says_the_size_of_its_zero_offset(kind, words):
     n, k, zero = 3, 1, np.radians(0.5)
-    joint = pk.screw.revolute([0, 0, 1], [0, 0, 0]) if kind == "revolute" else pk.screw.prismatic([0, 0, 1])
+    z, p = [0, 0, 1], [0, 0, 0]
+    make = {"revolute": pk.screw.revolute, "prismatic": lambda z, p: pk.screw.prismatic(z),
+            "helical": lambda z, p: pk.screw.helical(z, p, 0.1)}  # fmt: skip
+    joint = make[kind](z, p)
     chain = Chain([pk.screw.revolute([1, 0, 0], [0, 0, 0]), joint, pk.screw.revolute([0, 1, 0], [0, 0, 0])], np.eye(4))
     marks, ones = np.zeros(n, bool), np.ones(n)
     same = Reading(np.eye(4), np.eye(4), np.zeros(n), ones, marks, marks, chain.screws, np.zeros(n), 0)

@@ -409,3 +409,32 @@ def test_a_hundred_thousand_joints_make_a_chain():
     chain = pk.Chain(np.tile(PX, (n, 1)), np.eye(4))
     assert chain.dof == n
     assert chain.fk(np.full(n, 1e-3))[0, 3] == pytest.approx(100)
+
+
+def test_coordinates_without_limits_are_drawn_from_a_turn_or_a_metre_of_their_fastest_joint():
+    bolt, pitched = pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1), pk.screw.helical([0, 1, 0], [0, 0, 0], -0.2)
+    for rows, C, most in (
+        ([bolt], [[1.0]], np.pi),
+        ([RZ, PX], [[2.0], [5.0]], np.pi / 2),
+        ([PX, RZ], [[2.0], [5.0]], 1 / 2),
+        ([bolt, PX], [[-3.0], [5.0]], np.pi / 3),
+        ([PX, bolt], [[4.0], [5.0]], 1 / 4),
+        ([bolt, pitched, RZ], [[1.0], [-4.0], [2.0]], np.pi / 4),
+        ([RZ], [[0.0]], np.pi),
+        ([PX], [[0.0]], np.pi),
+    ):
+        chain = pk.Chain(rows, np.eye(4), coupling=C, q_names=["q"])
+        low, high = chain._range()
+        assert (low, high) == (pytest.approx([-most]), pytest.approx([most]))
+    for limits, span in (([1, np.inf], (1, 1 + 2 * np.pi)), ([-np.inf, 2], (2 - 2 * np.pi, 2)), ([3, 4], (3, 4))):
+        low, high = pk.Chain([bolt], np.eye(4), limits=[limits])._range()
+        assert (low[0], high[0]) == pytest.approx(span)
+
+
+def test_the_reach_is_the_length_of_all_links_a_metre_for_each_slide_and_one_at_least():
+    x = pk.se3.exp([0, 0, 0, 3, 0, 4])
+    assert pk.Chain([], np.eye(4)).reach == 1
+    assert pk.Chain([], x).reach == pytest.approx(5)
+    assert pk.Chain([PX, PX], x).reach == pytest.approx(7)
+    turn = pk.screw.revolute([0, 0, 1], [3, 0, 0])
+    assert pk.Chain([turn, PX], x).reach == pytest.approx(3 + 4 + 1)

@@ -276,6 +276,20 @@ def test_memory_that_is_shared_is_refused():
             call()
 
 
+def test_where_nothing_is_compiled_an_arm_computes_the_same():
+    arm = compiled.CompiledChain(ARM)
+    arm._interpreted = True
+    for q in (Q, Q[0], Q[:1]):
+        np.testing.assert_allclose(arm.fk(q), ARM.fk(q), rtol=0, atol=NEAR)
+        for frame in ("space", "body", "hybrid", 3):
+            T, J = arm.fk_jacobian(q, frame)
+            np.testing.assert_allclose(T, ARM.fk(q), rtol=0, atol=NEAR)
+            np.testing.assert_allclose(J, ARM.jacobian(q, frame), rtol=0, atol=NEAR)
+            np.testing.assert_allclose(arm.jacobian(q, frame), J, rtol=0, atol=NEAR)
+    assert (arm.fk(Q)[:, 3] == [0, 0, 0, 1]).all()
+    assert not arm._arms
+
+
 def test_a_point_of_the_tool_is_taken():
     for frame in ("body", "hybrid"):
         for q in (Q, Q[0]):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.errors import InputError
+from poekin.errors import InputError, ShapeError
 from poekin.formats import erd
 
 ARM = pk.load("panda").chain(tip="panda_hand")
@@ -99,3 +99,22 @@ def test_no_joint_of_a_real_robot_looks_helical():
                 crossing = [j for j in robot.joints if j.kind in ("floating", "planar")]
                 if not crossing:
                     assert "helical" not in robot.chain(base=base, tip=link).kinds
+
+
+@pytest.mark.parametrize("kind", ["f4", ">f8", "g", "i8", "i1"])
+@pytest.mark.parametrize("coupled", [False, True])
+def test_numbers_of_any_kind_are_taken_for_what_they_are(kind, coupled):
+    chain = pk.Chain(ARM.screws[:3], np.eye(4), coupling=[[1.0, 0, 0], [0, 2, 0], [1, 0, 1]] if coupled else None)
+    q = np.array([2, -1, 3])
+    given, expected = q.astype(kind), chain.fk(q.tolist())
+    for one, same in ((given, expected), (given[None], expected[None]), (np.tile(given, (2, 1, 1)), expected)):
+        np.testing.assert_allclose(chain.fk(one) - same, 0, atol=1e-15)
+        np.testing.assert_allclose(chain.fk_jacobian(one, "body")[0] - same, 0, atol=1e-15)
+        np.testing.assert_allclose(chain.jacobian(one, "body") - chain.jacobian(q.tolist(), "body"), 0, atol=1e-15)
+
+
+def test_a_way_in_for_one_configuration_minds_its_length():
+    for wrong in (np.zeros(6), np.zeros(8), np.zeros((7, 1)), np.zeros((1, 6)), np.array(0.0)):
+        for call in (ARM.fk, lambda q: ARM.jacobian(q, "body"), lambda q: ARM.fk_jacobian(q, "body")):
+            with pytest.raises(ShapeError, match="q: expected 7 coordinates on the last axis"):
+                call(wrong)

@@ -223,8 +223,19 @@ def test_without_more_said_a_joint_stands_in_its_parent_and_turns_about_x_withou
     assert joint(kind="continuous", limits=(-1, 1)).limits == (-math.inf, math.inf)
 
 
-def test_every_kind_can_be_made():
-    assert [joint(kind=kind).kind for kind in KINDS] == list(KINDS)
+TURNS, SLIDES, STAYS = (0, 0.6, 0.8, 0, 0, 0), (0, 0, 0, 0, 0.6, 0.8), (0,) * 6
+SCREWS = {"revolute": TURNS, "continuous": TURNS, "prismatic": SLIDES, "helical": TURNS, "fixed": STAYS,
+          "floating": STAYS, "planar": STAYS}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_has_its_screw_and_a_helical_one_alone_a_pitch(kind):
+    assert (joint(kind=kind).kind, joint(kind=kind, axis=(0, 3, 4)).screw) == (kind, SCREWS[kind])
+    if kind == "helical":
+        assert joint(kind=kind, axis=(0, 3, 4), pitch=0.5).screw == pytest.approx((0, 0.6, 0.8, 0, 0.3, 0.4))
+    else:
+        with pytest.raises(ModelError, match=f"only a helical joint has a pitch, and this one is {kind}"):
+            joint(kind=kind, pitch=-0.5)
 
 
 @pytest.mark.parametrize("record", [Mimic("k"), Source("arm.urdf"), joint(), Robot("r", ["a"], [])], ids=repr)

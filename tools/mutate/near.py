@@ -126,7 +126,7 @@ NEAR: dict[str, tuple[str, ...]] = {
        for name, *files in (("analytic", "analytic"), ("coordinates", "coordinates", "parts"), ("hp", "hp"),
                             ("derivatives", "derivatives", "derivatives_pinocchio"), ("parts", "parts", "joint"))},
     **{f"poekin/model/{name}.py": (*(f"tests/model/test_{first}.py" for first in files), _SAID, *_ROBOTS)
-       for name, *files in (("coupling",), ("joint", "joint", "pitches"), ("robot",), ("source",),
+       for name, *files in (("coupling", "coupling"), ("joint", "joint", "pitches"), ("robot",), ("source",),
                             ("tree",))},
     "poekin/model/local.py": ("tests/model/test_local.py", *CHAINS, "tests/model/test_pitches.py", _EXACT),
     "poekin/model/walk.py": ("tests/model/test_walk.py", "tests/model/test_idealised.py"),
