@@ -52,7 +52,7 @@ def to_poses(rows: Array, format: str, quaternion: str | None, where: Any) -> Ar
         Q = rows[:, 3:] if quaternion == "wxyz" else rows[:, [6, 3, 4, 5]]
         with np.errstate(over="ignore"):  # of numbers whose squares are none
             size = np.linalg.norm(Q, axis=1)
-        for i in np.flatnonzero(good & ~(np.abs(size - 1) <= NORM))[:1]:
+        for i in np.flatnonzero(good & ~(np.abs(size - 1) <= NORM)):
             raise PoseError(f"{where(i)}: the quaternion's length is {size[i]:.6g}, expected 1 within {NORM:g}")
         T[good] = np.eye(4)
         T[good, :3, :3], T[good, :3, 3] = _rotation(Q[good] / size[good, None]), rows[good, :3]

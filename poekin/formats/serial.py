@@ -63,12 +63,8 @@ def serial_robot(chain: Chain, name: str | None = None) -> Robot:
             f"the chain's base and tip are both called {shown(chain.base)}, and two links cannot be: give one another"
             ' name, as in chain.retooled(np.eye(4), tip="tool")'
         )
-    links = [chain.base]
-    taken = {chain.base, chain.tip}
-    for joint in chain.joint_names:
-        links.append(_free(f"{joint}_link", taken))
-        taken.add(links[-1])
-    links.append(chain.tip)
+    ends = {chain.base, chain.tip}
+    links = [chain.base, *(_free(f"{joint}_link", ends) for joint in chain.joint_names), chain.tip]
     values, masters, changes = _values(chain)
     joints = [_joint(chain, i, value, links[i], links[i + 1]) for i, value in enumerate(values)]
     fixed = _free(f"{chain.tip}_joint", set(chain.joint_names))
@@ -130,8 +126,7 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
 
 def _master(ratios: dict[int, float], shifts: list[float]) -> int:
     """The first joint with x = q, else with x = q + c, else with x = -q + c, else the first."""
-    ranks = {i: 0 if (r, shifts[i]) == (1, 0) else 1 if r == 1 else 2 if r == -1 else 3 for i, r in ratios.items()}
-    return min(ranks, key=lambda i: (ranks[i], i))
+    return min(ratios, key=lambda i: ((ratios[i], shifts[i]) != (1, 0), ratios[i] != 1, ratios[i] != -1, i))
 
 
 def _image(limits: Interval, ratio: float, shift: float) -> Interval:

@@ -63,7 +63,9 @@ def test_a_line_may_be_as_long_as_the_longest(monkeypatch, more):
     monkeypatch.setattr(csv_rows, "LONGEST", 8)
     text = "1,2\n" + "1" * (5 + more) + ",2\n"
     if more:
-        with pytest.raises(FileError, match=r"q\.csv:2: not CSV: a line of at most 8 characters expected"):
+        with pytest.raises(
+            FileError, match=r"^q\.csv:2: not CSV: a line of at most 8 characters expected, this is longer$"
+        ):
             read(io.StringIO(text))
     else:
         rows, lines = read(io.StringIO(text))
@@ -76,7 +78,7 @@ def test_a_pipe_is_read_up_to_a_bound(monkeypatch, more):
     with piped("1,2\n3,4" + "\n" * (1 + more)) as stream:
         if more:
             with pytest.raises(
-                FileError, match=r"q\.csv:3: at most 8 characters expected out of a pipe; a file may be"
+                FileError, match=r"^q\.csv:3: at most 8 characters expected out of a pipe; a file may be larger$"
             ):
                 read(stream)
         else:

@@ -140,7 +140,9 @@ def test_every_chain_of_the_real_robots_has_a_table(convention):
 
 def test_a_helical_joint_is_refused_by_name():
     chain = pk.Chain([pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1)], np.eye(4), joint_names=["bolt"])
-    with pytest.raises(InputError, match="joint 'bolt' is helical"):
+    with pytest.raises(
+        InputError, match=r"^joint 'bolt' is helical: Denavit-Hartenberg parameters cannot express its pitch$"
+    ):
         dh.from_chain(chain)
 
 
@@ -174,7 +176,7 @@ def test_tables_are_values():
         assert hash(other) == hash(table)
     assert table != Table("standard", table.rows, name="t")
     assert "theta 0 + x  d 1  a 2  alpha 0.5" in repr(table)
-    with pytest.raises(AttributeError, match="frozen"):
+    with pytest.raises(AttributeError, match=r"^a Table is frozen: cannot set 'd'$"):
         table.d = [1]  # type: ignore[assignment]
     with pytest.raises(ValueError, match="read-only"):
         table.d[0] = 2
@@ -212,14 +214,17 @@ def test_what_is_no_chain_is_refused():
             InputError, match=r"from_chain: expected a Chain, as Robot\.chain\(tip=\.\.\.\) makes it, got"
         ):
             dh.from_chain(wrong)  # pyright: ignore[reportArgumentType]
-    with pytest.raises(ShapeError, match="rows: expected a list of Rows or dicts, one a joint, got 5"):
+    with pytest.raises(ShapeError, match=r"^rows: expected a list of Rows or dicts, one a joint, got 5$"):
         Table("standard", 5)  # pyright: ignore[reportArgumentType]
 
 
 def test_a_convention_is_named_and_degrees_are_suspected():
-    with pytest.raises(InputError, match="expected 'standard' or 'modified'"):
+    with pytest.raises(InputError, match=r"^convention: expected 'standard' or 'modified', got 'craig'$"):
         Table("craig", [])
-    with pytest.warns(PoekinWarning, match="table 'arm': alpha = 90 of joint 'elbow' is more than a turn: degrees"):
+    with pytest.warns(
+        PoekinWarning,
+        match=(r"^table 'arm': alpha = 90 of joint 'elbow' is more than a turn: degrees\? Expected are rad$"),
+    ):
         Table("standard", [Row(), Row(alpha=90.0, name="elbow")])
 
 

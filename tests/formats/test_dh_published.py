@@ -66,5 +66,5 @@ def test_the_kinova_of_example_robot_data_is_the_jaco_with_the_other_wrist():
 
 
 def test_an_unknown_table_names_the_closest():
-    with pytest.raises(UnknownName, match=r"^no published table is named 'puma506'; did you mean 'puma560'"):
+    with pytest.raises(UnknownName, match=r"^no published table is named 'puma506'; did you mean 'puma560'\?$"):
         pk.dh.published("puma506")

@@ -318,16 +318,16 @@ def test_what_is_no_file_and_no_text_is_refused(tmp_path):
         mjcf.read(tmp_path / "gone.xml")
     with pytest.raises(FileError, match="a directory"):
         mjcf.read(tmp_path)
-    with pytest.raises(InputError, match="expected a text"):
+    with pytest.raises(InputError, match=r"^<text>: expected a text, str or bytes, got 7$"):
         mjcf.read_text(7)  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="what to call the text"):
+    with pytest.raises(InputError, match=r"^name: expected what to call the text in messages, a str, got 7$"):
         mjcf.read_text("<mujoco/>", 7)  # type: ignore[arg-type]
     assert mjcf.read_text(b"<mujoco/>").links == ("world",)
 
 
 def test_without_mujoco_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    with pytest.raises(MissingExtra, match=r"reading MJCF needs the package mujoco: pip install 'poekin\[mjcf\]'"):
+    with pytest.raises(MissingExtra, match=r"^reading MJCF needs the package mujoco: pip install 'poekin\[mjcf\]'$"):
         mjcf.read_text("<mujoco/>")
 
 

@@ -90,7 +90,9 @@ def test_what_is_not_known_is_refused_by_its_type_and_told_what_is(thing, name):
 
 def test_a_frame_is_that_of_a_pair():
     joint = SimpleNamespace(isjoint=True, axis="Rz", A=None)
-    with pytest.raises(InputError, match=r"frame: it is that of a pair \(M, screws\), and this is a .*ETS"):
+    with pytest.raises(
+        InputError, match=r"^frame: it is that of a pair \(M, screws\), and this is a Robotics Toolbox ETS$"
+    ):
         from_object([joint], frame="body")
 
 

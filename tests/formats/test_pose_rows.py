@@ -80,7 +80,13 @@ def test_a_quaternion_is_divided_by_its_length_which_is_one_within_a_thousandth(
 def test_of_several_matrices_the_first_that_is_no_pose_is_named():
     rows = np.tile([1.0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], (4, 1))
     rows[0, 3], rows[2, 0], rows[3, 0] = np.nan, 1.1, 1.2
-    with pytest.raises(PoseError, match=r"^row 2: its rotation misses orthonormality"):
+    with pytest.raises(
+        PoseError,
+        match=(
+            r"^row 2: its rotation misses orthonormality, max abs\(R R\^T - I\) = 0\.21, accepted up "
+            r"to 1e-05$"
+        ),
+    ):
         pose_rows.to_poses(rows, "12", None, lambda i: f"row {i}")
     good = pose_rows.to_poses(rows[:2], "12", None, str)
     assert np.isnan(good[0]).all()

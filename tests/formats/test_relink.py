@@ -227,9 +227,23 @@ def test_a_tip_that_its_joint_moves_itself_is_the_chain_s_tip_where_it_lies_on_t
     result = relinked(robot, z.retooled(along), tip="wrist_3_link")
     q = np.full(6, 0.3)
     assert np.abs(result.chain(tip="wrist_3_link").fk(q) - z.retooled(along).fk(q)).max() <= 1e-15
-    with pytest.raises(InputError, match=r"'wrist_3_link' is the tip .* off that joint's axis, by 20 mm and 0°"):
+    with pytest.raises(
+        InputError,
+        match=(
+            r"^link 'wrist_3_link' is the tip and what joint 'wrist_3_joint' moves, and the chain's "
+            r"tip is off that joint's axis, by 20 mm and 0°: the tip must be a link that is fixed to "
+            r"it$"
+        ),
+    ):
         relinked(robot, z.retooled(pk.se3.exp([0, 0, 0, 0.02, 0, 0])), tip="wrist_3_link")
-    with pytest.raises(InputError, match=r"off that joint's axis, by 0 mm and 5\.73°"):
+    with pytest.raises(
+        InputError,
+        match=(
+            r"^link 'wrist_3_link' is the tip and what joint 'wrist_3_joint' moves, and the chain's "
+            r"tip is off that joint's axis, by 0 mm and 5\.73°: the tip must be a link that is fixed "
+            r"to it$"
+        ),
+    ):
         relinked(robot, z.retooled(pk.se3.exp([0.1, 0, 0, 0, 0, 0])), tip="wrist_3_link")
 
 

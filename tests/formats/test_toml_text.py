@@ -95,7 +95,9 @@ TABLE = 'convention = "standard"\n[[joint]]\ntheta = 0\nd = 0\na = 1\nalpha = 0\
 @pytest.mark.parametrize("between", [".", " . "], ids=["dots", "blanks"])
 def test_a_key_of_many_parts_is_refused_and_one_of_few_is_read(text, part, between):
     assert toml_text.parse("\n" + text.format(between.join([part] * 32)), "f")
-    with pytest.raises(ModelError, match=r"^f:2: expected keys of at most 32 parts"):
+    with pytest.raises(
+        ModelError, match=r"^f:2: expected keys of at most 32 parts, a\.b\.c has three, got a longer one$"
+    ):
         toml_text.parse("\n" + text.format(between.join([part] * 100_000)), "f")
 
 
@@ -116,7 +118,7 @@ def test_a_whole_number_that_python_cannot_write_is_refused(text, number):
 @pytest.mark.parametrize("old", ['"standard"', "theta = 0", "alpha = 0\n"])
 def test_a_huge_number_anywhere_in_a_table_is_a_model_error(old):
     key = old.partition(" = ")[0] + " = " if " = " in old else ""
-    with pytest.raises(ModelError, match=r"^t\.toml: expected whole numbers"):
+    with pytest.raises(ModelError, match=r"^t\.toml: expected whole numbers of at most 4300 digits, got a longer one$"):
         files.read_text(TABLE.replace(old, f"{key}{HUGE}\n"), "t.toml")
 
 

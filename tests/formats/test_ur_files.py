@@ -205,16 +205,17 @@ def test_files_that_cannot_be_read_are_refused_by_name(tmp_path):
     (tmp_path / "latin.yaml").write_bytes(b"kinematics: \xe9\n")
     (tmp_path / "empty.yaml").write_bytes(b"")
     for name, message in {
-        "big.yaml": r"big\.yaml: expected a calibration of at most 64 KiB, the file has 64 KiB",
-        "latin.yaml": r"latin\.yaml: not UTF-8 at byte 12",
-        "empty.yaml": r"empty\.yaml: the file is empty",
-        "gone.yaml": r"gone\.yaml: cannot be read: No such file",
-        ".": r"this is a directory",
+        "big.yaml": "expected a calibration of at most 64 KiB, the file has 64 KiB",
+        "latin.yaml": "not UTF-8 at byte 12",
+        "empty.yaml": "the file is empty",
+        "gone.yaml": "cannot be read: No such file or directory",
+        ".": "expected a file, this is a directory",
     }.items():
         for read in (ur.read, ur.read_deltas):
-            with pytest.raises(FileError, match=message):
+            with pytest.raises(FileError) as caught:
                 read(tmp_path / name)
-    with pytest.raises(FileError, match=r"gone\.yaml: no such file"):
+            assert says(caught.value, f"{tmp_path / name}: {message}")
+    with pytest.raises(FileError, match=r"^gone\.yaml: no such file$"):
         pk.load("gone.yaml")
     (tmp_path / "a.yml").write_text("a: 1\n", encoding="utf-8")
     with pytest.raises(ModelError, match=r"a\.yml:1: the file: 'a' is not expected"):
@@ -233,11 +234,15 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["arm.yaml"]
     with pytest.raises(FileError, match=r"cannot write '.*gone/arm\.yaml': No such file"):
         ur.write(CALIBRATION, tmp_path / "gone" / "arm.yaml")
-    with pytest.raises(InputError, match=r"rpy: expected 'moving' or 'fixed', .* got 'zyx'"):
+    with pytest.raises(
+        InputError, match=r"^rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got 'zyx'$"
+    ):
         ur.write(CALIBRATION, path, rpy="zyx")
-    with pytest.raises(InputError, match=r"rpy: expected 'moving' or 'fixed', .* got 'zyx'"):
+    with pytest.raises(
+        InputError, match=r"^rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got 'zyx'$"
+    ):
         ur.read(path, rpy="zyx")
-    with pytest.raises(InputError, match=r"write: expected a Calibration, got Table"):
+    with pytest.raises(InputError, match=r"^write: expected a Calibration, got Table$"):
         ur.write(NOMINAL, path)  # pyright: ignore[reportArgumentType]
     assert ur.read(path) == CALIBRATION
 
@@ -251,7 +256,7 @@ def test_without_pyyaml_its_extra_is_in_the_message(monkeypatch):
         return original(name, *args, **options)
 
     monkeypatch.setattr(builtins, "__import__", refuse)
-    with pytest.raises(MissingExtra, match=r"needs the package pyyaml: pip install 'poekin\[formats\]'"):
+    with pytest.raises(MissingExtra, match=r"^reading YAML needs the package pyyaml: pip install 'poekin\[formats\]'$"):
         read_text(TEXT)
 
 

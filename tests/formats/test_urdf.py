@@ -100,6 +100,23 @@ def test_of_many_joints_without_limits_four_are_named(unlimited, more):
     assert str(caught[0].message) == f"f:2: joints without usable limits are taken as unlimited: {named}{more}"
 
 
+@pytest.mark.parametrize("limit, reason, limits", [
+    ("", "none; line 3", (-math.inf, math.inf)),
+    ("<limit/>", "none; line 4", (-math.inf, math.inf)),
+    ('<limit lower="0.5" upper="0.5"/>', "equal, 0.5; line 4", (-math.inf, math.inf)),
+    ('<limit upper="0.5"/>', "no lower bound; line 4", (-math.inf, 0.5)),
+    ('<limit lower="0.5"/>', "no upper bound; line 4", (0.5, math.inf)),
+    ('<limit lower="-1e9" upper="0.5"/>', "-1000000000.0 to 0.5; line 4", (-math.inf, 0.5)),
+    ('<limit lower="-0.5" upper="inf"/>', "-0.5 to inf; line 4", (-0.5, math.inf)),
+])  # fmt: skip
+def test_limits_that_are_none_are_told_with_what_they_are(limit, reason, limits):
+    with pytest.warns(PoekinWarning) as caught:
+        robot = urdf.read_text(one_joint(limit), "f")
+    line = reason[-1]
+    assert str(caught[0].message) == f"f:{line}: joints without usable limits are taken as unlimited: 'j' ({reason})"
+    assert robot.joints[0].limits == limits
+
+
 def test_an_axis_that_is_not_unit_is_normalised_with_one_warning():
     joints = "\n".join(
         f'<joint name="j{i}" type="continuous"><parent link="l{i}"/><child link="l{i + 1}"/>'
@@ -108,7 +125,11 @@ def test_an_axis_that_is_not_unit_is_normalised_with_one_warning():
     )
     text = "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(5)) + joints + "</robot>"
     with pytest.warns(
-        PoekinWarning, match=r"^f:3: the axis of joint 'j2' has length 3 .*worst of 2; .* on line 2\)"
+        PoekinWarning,
+        match=(
+            r"^f:3: the axis of joint 'j2' has length 3 and was normalised \(the worst of 2; the "
+            r"others on line 2\)$"
+        ),
     ) as w:
         robot = urdf.read_text(text, "f")
     assert len(w) == 1
@@ -162,7 +183,13 @@ def test_all_unusable_limits_of_a_file_make_one_warning():
         f'<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{i + 1}"/></joint>' for i in range(9)
     )
     text = "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(10)) + joints + "</robot>"
-    with pytest.warns(PoekinWarning, match=r"'j0' \(none; line 1\), 'j1' .* and 5 more$") as caught:
+    with pytest.warns(
+        PoekinWarning,
+        match=(
+            r"^<text>:1: joints without usable limits are taken as unlimited: 'j0' \(none; line 1\), "
+            r"'j1' \(none; line 2\), 'j2' \(none; line 3\), 'j3' \(none; line 4\) and 5 more$"
+        ),
+    ) as caught:
         urdf.read_text(text)
     assert len(caught) == 1
 

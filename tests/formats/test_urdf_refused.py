@@ -11,10 +11,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from poekin.errors import FileError, InputError, ModelError, PoekinError, PoekinWarning
+from poekin.errors import FileError, InputError, ModelError, PoekinError, PoekinWarning, harmless
 from poekin.formats import urdf, xml
 from poekin.model.robot import Robot
 from tests.formats.texts import LIMIT, chain_of, one_joint
+from tests.messages import says
 
 
 def joint_of(attributes: str = 'name="j" type="fixed"', ends: str = '<parent link="a"/><child link="b"/>') -> str:
@@ -26,8 +27,8 @@ LOL = '<!DOCTYPE r [<!ENTITY a "x">' + "".join(
 )
 REFUSED = {
     # XML
-    "nothing": ("", r"^x\.urdf: the text is empty"),
-    "blanks": (" \n ", r"^x\.urdf: the text is empty"),
+    "nothing": ("", r"^x\.urdf: the text is empty$"),
+    "blanks": (" \n ", r"^x\.urdf: the text is empty$"),
     "binary": (b"\x7fELF\0\0\0\1", r"^x\.urdf:1: malformed XML \(binary data\?\)"),
     "an STL file": (b"solid nothing\n" * 10, r"^x\.urdf:1: malformed XML"),
     "zeros": (b"\0" * 100, r"^x\.urdf:1: malformed XML"),
@@ -41,47 +42,131 @@ REFUSED = {
     "an undefined entity": ("<robot>\n&who;</robot>", r"^x\.urdf:2: malformed XML.*who"),
     "an undeclared prefix": ("<robot>\n<xacro:macro/></robot>", r"^x\.urdf:2: malformed XML.*xacro"),
     "nesting without end": ("<robot>" + "<a>" * 5000 + "</a>" * 5000 + "</robot>", r"^x\.urdf:1: malformed XML"),
-    "a DTD": ("\n<!DOCTYPE robot><robot/>", r"^x\.urdf:2: .*DOCTYPE"),
-    "a DTD from a file": ('<!DOCTYPE robot SYSTEM "/etc/passwd"><robot/>', r"^x\.urdf:1: .*DOCTYPE"),
-    "a DTD from the net": ('<!DOCTYPE robot PUBLIC "x" "http://127.0.0.1/x"><robot/>', r"^x\.urdf:1: .*DOCTYPE"),
-    "an entity": ('<!DOCTYPE r [<!ENTITY e SYSTEM "file:///etc/passwd">]><robot name="&e;"/>', "DOCTYPE"),
-    "a parameter entity": ('<!DOCTYPE r [<!ENTITY % e SYSTEM "http://127.0.0.1/"> %e;]><robot/>', "DOCTYPE"),
-    "a billion laughs": (LOL + "]><robot>&l;</robot>", "DOCTYPE"),
-    "a billion laughs in an attribute": (LOL + ']><robot name="&l;"/>', "DOCTYPE"),
-    "a billion laughs in UTF-16": (("\n\n" + LOL + "]><robot>&l;</robot>").encode("utf-16"), r"^x\.urdf:3: .*DOCTYPE"),
+    "a DTD": (
+        "\n<!DOCTYPE robot><robot/>",
+        (
+            r"^x\.urdf:2: a document type declaration \(DOCTYPE\) is refused: no DTD, entity or "
+            r"external reference is read$"
+        ),
+    ),
+    "a DTD from a file": (
+        '<!DOCTYPE robot SYSTEM "/etc/passwd"><robot/>',
+        (
+            r"^x\.urdf:1: a document type declaration \(DOCTYPE\) is refused: no DTD, entity or "
+            r"external reference is read$"
+        ),
+    ),
+    "a DTD from the net": (
+        '<!DOCTYPE robot PUBLIC "x" "http://127.0.0.1/x"><robot/>',
+        (
+            r"^x\.urdf:1: a document type declaration \(DOCTYPE\) is refused: no DTD, entity or "
+            r"external reference is read$"
+        ),
+    ),
+    "an entity": (
+        '<!DOCTYPE r [<!ENTITY e SYSTEM "file:///etc/passwd">]><robot name="&e;"/>',
+        (
+            r"^x\.urdf:1: a document type declaration \(DOCTYPE\) is refused: no DTD, entity or "
+            r"external reference is read$"
+        ),
+    ),
+    "a parameter entity": (
+        '<!DOCTYPE r [<!ENTITY % e SYSTEM "http://127.0.0.1/"> %e;]><robot/>',
+        (
+            r"^x\.urdf:1: a document type declaration \(DOCTYPE\) is refused: no DTD, entity or "
+            r"external reference is read$"
+        ),
+    ),
+    "a billion laughs": (
+        LOL + "]><robot>&l;</robot>",
+        (
+            r"^x\.urdf:1: a document type declaration \(DOCTYPE\) is refused: no DTD, entity or "
+            r"external reference is read$"
+        ),
+    ),
+    "a billion laughs in an attribute": (
+        LOL + ']><robot name="&l;"/>',
+        (
+            r"^x\.urdf:1: a document type declaration \(DOCTYPE\) is refused: no DTD, entity or "
+            r"external reference is read$"
+        ),
+    ),
+    "a billion laughs in UTF-16": (
+        ("\n\n" + LOL + "]><robot>&l;</robot>").encode("utf-16"),
+        (
+            r"^x\.urdf:3: a document type declaration \(DOCTYPE\) is refused: no DTD, entity or "
+            r"external reference is read$"
+        ),
+    ),
     # the robot
-    "another root": ("<sdf><robot/></sdf>", r"^x\.urdf:1: expected the root element <robot>, got 'sdf'"),
-    "no links": ('\n<robot name="r"/>', r"^x\.urdf:2: robot 'r': expected at least one <link>"),
-    "xacro": ('<robot xmlns:x="http://ros.org/xacro"><x:macro/></robot>', r"at least one <link>.*xacro"),
+    "another root": ("<sdf><robot/></sdf>", r"^x\.urdf:1: expected the root element <robot>, got 'sdf'$"),
+    "no links": ('\n<robot name="r"/>', r"^x\.urdf:2: robot 'r': expected at least one <link>, there is none$"),
+    "xacro": (
+        '<robot xmlns:x="http://ros.org/xacro"><x:macro/></robot>',
+        (
+            r"^x\.urdf:1: <robot>: expected at least one <link>, there is none \(xacro that was not "
+            r"processed yet\?\)$"
+        ),
+    ),
     "xacro among links": (
         '<robot xmlns:x="http://www.ros.org/wiki/xacro">\n<link name="a"/>\n<x:arm prefix="left"/></robot>',
-        r"^x\.urdf:3: <xacro:arm> is xacro that was not processed yet.*pk\.xacro",
+        (
+            r"^x\.urdf:3: <xacro:arm> is xacro that was not processed yet, which may hold joints: "
+            r"pk\.xacro\(path\) evaluates it, and --xacro$"
+        ),
     ),
-    "a nameless link": ("<robot>\n<link/></robot>", r"^x\.urdf:2: <link>: expected an attribute name"),
-    "an empty name": ('<robot>\n<link name=""/></robot>', r"^x\.urdf:2: <link>: .*name.* it is empty"),
-    "a link twice": ('<robot>\n<link name="a"/>\n<link name="a"/></robot>', r"^x\.urdf:3: .*'a' is used twice.*:2\)"),
-    "two roots": ('<robot>\n<link name="a"/>\n<link name="b"/></robot>', r"^x\.urdf:3: .*'a' \(x\.urdf:2\), 'b'"),
-    "a joint twice": (chain_of("", "").replace("j1", "j0"), r"^x\.urdf:3: .*'j0' is used twice \(first: x\.urdf:2\)"),
+    "a nameless link": (
+        "<robot>\n<link/></robot>",
+        r'^x\.urdf:2: <link>: expected an attribute name="\.\.\.", none there$',
+    ),
+    "an empty name": (
+        '<robot>\n<link name=""/></robot>',
+        r'^x\.urdf:2: <link>: expected an attribute name="\.\.\.", it is empty$',
+    ),
+    "a link twice": (
+        '<robot>\n<link name="a"/>\n<link name="a"/></robot>',
+        r"^x\.urdf:3: the link name 'a' is used twice \(first: x\.urdf:2\)$",
+    ),
+    "two roots": (
+        '<robot>\n<link name="a"/>\n<link name="b"/></robot>',
+        (
+            r"^x\.urdf:3: a robot has one root, but 2 links have no parent: 'a' \(x\.urdf:2\), 'b' "
+            r"\(x\.urdf:3\)$"
+        ),
+    ),
+    "a joint twice": (
+        chain_of("", "").replace("j1", "j0"),
+        r"^x\.urdf:3: the joint name 'j0' is used twice \(first: x\.urdf:2\)$",
+    ),
     "two parents": (
         chain_of("", "").replace('child link="l2"', 'child link="l1"'),
-        r"^x\.urdf:3: .*'l1' has two parents",
+        r"^x\.urdf:3: link 'l1' has two parents: joint 'j1' and joint 'j0' \(x\.urdf:2\)$",
     ),
     "a cycle": (
         chain_of("", "").replace('child link="l2"', 'child link="l0"').replace('<link name="l2"/>', ""),
-        r"^x\.urdf:2: .*cycle",
+        r"^x\.urdf:2: the links form a cycle of 2 joint\(s\): 'l0' -> 'l1'$",
     ),
     "an unknown parent": (
         chain_of("").replace('parent link="l0"', 'parent link="l7"'),
-        r"^x\.urdf:2: .*'l7' does not exist; available: 'l0', 'l1'",
+        r"^x\.urdf:2: joint 'j0': its parent link 'l7' does not exist; available: 'l0', 'l1'$",
     ),
     "an unknown child": (
         chain_of("").replace('child link="l1"', 'child link="l7"'),
-        r"^x\.urdf:2: .*'l7' does not exist",
+        r"^x\.urdf:2: joint 'j0': its child link 'l7' does not exist; available: 'l0', 'l1'$",
     ),
     # the joint
-    "a nameless joint": (joint_of('type="fixed"'), r"^x\.urdf:3: <joint>: expected an attribute name"),
+    "a nameless joint": (
+        joint_of('type="fixed"'),
+        r'^x\.urdf:3: <joint>: expected an attribute name="\.\.\.", none there$',
+    ),
     "no type": (joint_of('name="j"'), r"^x\.urdf:3: joint 'j': expected an attribute type"),
-    "an unknown type": (joint_of('name="j" type="ball"'), r"^x\.urdf:3: joint 'j': type must be one of .* got 'ball'"),
+    "an unknown type": (
+        joint_of('name="j" type="ball"'),
+        (
+            r"^x\.urdf:3: joint 'j': type must be one of revolute, continuous, prismatic, fixed, "
+            r"floating, planar, got 'ball'$"
+        ),
+    ),
     "no parent": (joint_of(ends='<child link="b"/>'), r"^x\.urdf:3: joint 'j': .*<parent"),
     "no child": (joint_of(ends='<parent link="a"/>'), r"^x\.urdf:3: joint 'j': .*<child"),
     "a parent without a link": (
@@ -90,60 +175,117 @@ REFUSED = {
     ),
     "two children": (
         joint_of(ends='<parent link="a"/><child link="b"/><child link="b"/>'),
-        r"^x\.urdf:4: .*<child>.* 2 times",
+        r"^x\.urdf:4: joint 'j': <child>: it is there 2 times, expected once$",
     ),
     "two numbers": (
         one_joint('<origin xyz="0 0"/>'),
-        r"^x\.urdf:4: joint 'j': <origin>: xyz must be three .* got 2: '0 0'",
+        r"^x\.urdf:4: joint 'j': <origin>: xyz must be three numbers, got 2: '0 0'$",
     ),
-    "four numbers": (one_joint('<origin rpy="0 0 0 0"/>'), r"<origin>: rpy must be three numbers, got 4"),
-    "no number": (one_joint('<origin xyz="0 0 x"/>'), r"xyz must be three finite numbers, got '0 0 x'"),
-    "commas": (one_joint('<origin xyz="0,0,0"/>'), "xyz must be three numbers, got 1"),
-    "empty": (one_joint('<origin xyz=""/>'), "xyz must be three numbers, got 0"),
-    "an underscore": (one_joint('<origin xyz="0 0 1_0"/>'), "xyz must be three finite numbers"),
-    "foreign digits": (one_joint('<origin xyz="0 0 \u0661"/>'), "xyz must be three finite numbers"),
-    "NaN in xyz": (one_joint('<origin xyz="0 nan 0"/>'), r"^x\.urdf:4: .*xyz must be three finite numbers"),
-    "infinity in rpy": (one_joint('<origin rpy="0 -inf 0"/>'), "rpy must be three finite numbers"),
-    "too large": (one_joint('<origin xyz="0 0 1e999"/>'), "xyz must be three finite numbers"),
-    "a xacro expression": (one_joint('<origin xyz="${x} 0 0"/>'), "unprocessed xacro"),
-    "a zero axis": (one_joint('<axis xyz="0 0 -0.0"/>'), r"^x\.urdf:4: joint 'j': <axis>: xyz must not be zero"),
+    "four numbers": (
+        one_joint('<origin rpy="0 0 0 0"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: rpy must be three numbers, got 4: '0 0 0 0'$",
+    ),
+    "no number": (
+        one_joint('<origin xyz="0 0 x"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: xyz must be three finite numbers, got '0 0 x'$",
+    ),
+    "commas": (
+        one_joint('<origin xyz="0,0,0"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: xyz must be three numbers, got 1: '0,0,0'$",
+    ),
+    "empty": (one_joint('<origin xyz=""/>'), r"^x\.urdf:4: joint 'j': <origin>: xyz must be three numbers, got 0: ''$"),
+    "an underscore": (
+        one_joint('<origin xyz="0 0 1_0"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: xyz must be three finite numbers, got '0 0 1_0'$",
+    ),
+    "foreign digits": (
+        one_joint('<origin xyz="0 0 \u0661"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: xyz must be three finite numbers, got '0 0 ١'$",
+    ),
+    "NaN in xyz": (
+        one_joint('<origin xyz="0 nan 0"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: xyz must be three finite numbers, got '0 nan 0'$",
+    ),
+    "infinity in rpy": (
+        one_joint('<origin rpy="0 -inf 0"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: rpy must be three finite numbers, got '0 -inf 0'$",
+    ),
+    "too large": (
+        one_joint('<origin xyz="0 0 1e999"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: xyz must be three finite numbers, got '0 0 1e999'$",
+    ),
+    "a xacro expression": (
+        one_joint('<origin xyz="${x} 0 0"/>'),
+        (
+            r"^x\.urdf:4: joint 'j': <origin>: xyz must be three finite numbers, got '\$\{x\} 0 0' "
+            r"\(an unprocessed xacro expression\?\)$"
+        ),
+    ),
+    "a zero axis": (one_joint('<axis xyz="0 0 -0.0"/>'), r"^x\.urdf:4: joint 'j': <axis>: xyz must not be zero$"),
     "an axis without xyz": (one_joint("<axis/>"), r"^x\.urdf:4: joint 'j': <axis>: expected an attribute xyz="),
     "an axis by angles": (one_joint('<axis rpy="0 0 1"/>'), "<axis>: expected an attribute xyz="),
     "an axis as text": (one_joint("<axis>0 0 1</axis>", "continuous"), "<axis>: expected an attribute xyz="),
     "a planar axis without xyz": (one_joint("<axis/>", "planar"), "<axis>: expected an attribute xyz="),
     "a length without a square": (
         one_joint('<origin xyz="0 -1e155 0"/>'),
-        r"^x\.urdf:4: joint 'j': <origin>: xyz: expected lengths of at most 1e\+100 m, got .*-1e\+155",
+        (
+            r"^x\.urdf:4: joint 'j': <origin>: xyz: expected lengths of at most 1e\+100 m, got \(0\.0, "
+            r"-1e\+155, 0\.0\)$"
+        ),
     ),
-    "the largest length of all": (one_joint('<origin xyz="1e308 0 0"/>', "fixed"), "lengths of at most"),
-    "NaN in the axis": (one_joint('<axis xyz="0 0 nan"/>'), "<axis>: xyz must be three finite numbers"),
+    "the largest length of all": (
+        one_joint('<origin xyz="1e308 0 0"/>', "fixed"),
+        (
+            r"^x\.urdf:4: joint 'j': <origin>: xyz: expected lengths of at most 1e\+100 m, got "
+            r"\(1e\+308, 0\.0, 0\.0\)$"
+        ),
+    ),
+    "NaN in the axis": (
+        one_joint('<axis xyz="0 0 nan"/>'),
+        r"^x\.urdf:4: joint 'j': <axis>: xyz must be three finite numbers, got '0 0 nan'$",
+    ),
     "lower above upper": (
         one_joint('<limit lower="1" upper="-1"/>'),
-        r"^x\.urdf:4: joint 'j': <limit>: lower must not be above",
+        (
+            r"^x\.urdf:4: joint 'j': <limit>: lower must not be above upper, got lower = 1\.0, upper = "
+            r"-1\.0$"
+        ),
     ),
-    "NaN in limits": (one_joint('<limit lower="nan" upper="1"/>'), "<limit>: lower must be a number, got 'nan'"),
-    "text in limits": (one_joint('<limit lower="0" upper="high"/>'), "<limit>: upper must be a number, got 'high'"),
+    "NaN in limits": (
+        one_joint('<limit lower="nan" upper="1"/>'),
+        r"^x\.urdf:4: joint 'j': <limit>: lower must be a number, got 'nan'$",
+    ),
+    "text in limits": (
+        one_joint('<limit lower="0" upper="high"/>'),
+        r"^x\.urdf:4: joint 'j': <limit>: upper must be a number, got 'high'$",
+    ),
     "a mimic of nothing": (
         one_joint(LIMIT + "<mimic/>"),
         r"^x\.urdf:4: joint 'j': <mimic>: expected an attribute joint",
     ),
     "an infinite multiplier": (
         one_joint(LIMIT + '<mimic joint="j" multiplier="inf"/>'),
-        "<mimic>: multiplier must be a finite",
+        r"^x\.urdf:4: joint 'j': <mimic>: multiplier must be a finite number, got 'inf'$",
     ),
-    "an offset that is none": (one_joint(LIMIT + '<mimic joint="j" offset="x"/>'), "<mimic>: offset must be a finite"),
+    "an offset that is none": (
+        one_joint(LIMIT + '<mimic joint="j" offset="x"/>'),
+        r"^x\.urdf:4: joint 'j': <mimic>: offset must be a finite number, got 'x'$",
+    ),
     "a floating mimic": (
         one_joint('<mimic joint="j"/>', "floating"),
-        r"^x\.urdf:4: .*floating joint has no single value",
+        (
+            r"^x\.urdf:4: joint 'j': <mimic>: a floating joint has no single value and cannot mimic "
+            r"another joint$"
+        ),
     ),
     "a mimic of itself": (chain_of('<mimic joint="j0"/>'), r"^x\.urdf:2: joint 'j0' mimics itself$"),
     "mimics in a circle": (
         chain_of('<mimic joint="j1"/>', '<mimic joint="j0"/>'),
-        r"^x\.urdf:2: .*mimics itself, through",
+        r"^x\.urdf:2: joint 'j0' mimics itself, through others$",
     ),
     "a mimic of a floating joint": (
         chain_of("", '<mimic joint="j0"/>').replace("continuous", "floating", 1),
-        r"^x\.urdf:3: joint 'j1' mimics 'j0', but a floating joint",
+        r"^x\.urdf:3: joint 'j1' mimics 'j0', but a floating joint has no single value$",
     ),
 }
 
@@ -167,9 +309,9 @@ def test_what_is_no_text_is_refused(text):
 
 
 def test_what_is_no_name_or_path_is_refused():
-    with pytest.raises(InputError, match="a str, got None"):
+    with pytest.raises(InputError, match=r"^name: expected what to call the text in messages, a str, got None$"):
         urdf.read_text(one_joint(), None)  # pyright: ignore[reportArgumentType]
-    with pytest.raises(InputError, match="path of a file, got 5"):
+    with pytest.raises(InputError, match=r"^expected the path of a file, got 5$"):
         urdf.read(5)  # pyright: ignore[reportArgumentType]
 
 
@@ -243,17 +385,19 @@ def test_a_file_that_cannot_be_read_is_refused_by_name(tmp_path):
     with large.open("wb") as stream:
         stream.truncate(xml.MAX_BYTES + 1)  # a hole: no byte of it is written, and none must be read
     cases = [
-        (tmp_path / "gone.urdf", "cannot be read: No such file"),
-        (tmp_path, "this is a directory"),
+        (tmp_path / "gone.urdf", "cannot be read: No such file or directory"),
+        (tmp_path, "expected a file, this is a directory"),
         (empty, "the file is empty"),
-        (large, "at most 64 MiB, the file has 64.0 MiB"),
-        (str(tmp_path / "a\0b"), "cannot be read: .*embedded null"),
+        (large, "expected at most 64 MiB, the file has 64.0 MiB"),
+        (str(tmp_path / "a\0b"), "cannot be read: ..."),
         (str(tmp_path / ("x" * 5000)), "cannot be read: File name too long"),
     ]
     for path, message in cases:
-        with pytest.raises(FileError, match=message) as caught:
+        with pytest.raises(FileError) as caught:
             urdf.read(path)
         assert str(caught.value).isprintable()
+        if len(str(path)) < 400:
+            assert says(caught.value, f"{harmless(path, None)}: {message}")
         assert isinstance(caught.value, PoekinError)
         assert isinstance(caught.value, OSError)
 
@@ -262,13 +406,14 @@ def test_a_file_that_cannot_be_read_is_refused_by_name(tmp_path):
 def test_a_pipe_is_refused_without_waiting_for_it(tmp_path):
     pipe = tmp_path / "pipe.urdf"
     os.mkfifo(pipe)
-    with pytest.raises(FileError, match="a device, pipe or socket"):
+    with pytest.raises(FileError) as caught:
         urdf.read(pipe)
+    assert says(caught.value, f"{pipe}: expected a file, this is a device, pipe or socket")
 
 
 def test_a_text_over_the_limit_is_refused(monkeypatch):
     monkeypatch.setattr(xml, "MAX_BYTES", 100)
-    with pytest.raises(ModelError, match="expected at most"):
+    with pytest.raises(ModelError, match=r"^<text>: expected at most 64 MiB, got 0\.0 MiB$"):
         urdf.read_text(one_joint())
 
 
@@ -281,7 +426,7 @@ def test_a_file_that_has_grown_since_it_was_measured_is_refused_and_not_cut(tmp_
     with monkeypatch.context() as patched:
         patched.setattr(xml.os, "stat", lambda path: status)
         data = xml.read_bytes(path)
-    with pytest.raises(ModelError, match="expected at most"):
+    with pytest.raises(ModelError, match=r"^<text>: expected at most 64 MiB, got 0\.0 MiB$"):
         urdf.read_text(data)
 
 
