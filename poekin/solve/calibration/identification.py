@@ -161,10 +161,8 @@ def _anywhere(arm: Chain, count: int) -> Array:
 
 def _space(J: Array, least: float) -> tuple[Array, Array]:
     """Singular values, and the right singular vectors (P, rank) of those above `least` of the largest."""
-    P = J.shape[1]
-    R = triangle(J) if len(J) > P else J
-    _, s, Vt = np.linalg.svd(R, full_matrices=False)
-    rank = int(np.sum(s > least * s[0])) if len(s) and s[0] > 0 else 0
+    _, s, Vt = np.linalg.svd(triangle(J), full_matrices=False)
+    rank = int(np.sum(s > least * s[:1]))
     return s, Vt[:rank].T
 
 

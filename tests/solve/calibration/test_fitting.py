@@ -275,3 +275,27 @@ def test_damping_grows_tenfold_with_each_step_that_fails_and_falls_with_each_tha
     assert not stuck.converged
     assert (stuck.steps, stuck.p.tolist()) == ([], [0.0] * problem.size)
     assert len(calls) == 20  # the start, the full step, and damped by 1e-4 up to the first above 1e12
+
+
+def test_of_a_fit_of_frames_alone_the_arm_stays_and_without_frames_nothing_is_fitted(monkeypatch):
+    q, T = noisy(10)
+    rough = EyeInHand(se3.inverse(X) @ T @ Z, board=X @ se3.exp([0.01] * 6), camera=Z)
+    problem = Problem(Arm(PUMA, ("home",), None), q, [rough])
+    p, converged = frames_only(problem, "linear")
+    assert converged
+    assert not p[:6].any()
+    assert np.sum(problem.errors(p)[0] ** 2) < 0.1 * np.sum(problem.errors(0 * p)[0] ** 2)
+    monkeypatch.setattr(fitting, "fitted", None)
+    p, converged = frames_only(Problem(Arm(PUMA, ("home",), None), q, [Poses(T)]), "linear")
+    assert (p.tolist(), converged) == ([0.0] * 6, True)
+
+
+def test_a_prior_counts_in_the_covariance_as_a_measurement_of_each_parameter():
+    q, T = noisy(10)
+    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T, 1e-8 * np.eye(6))])
+    prior = np.where(np.arange(problem.size) % 3 > 0, 1e-4, np.inf)
+    fit = fitting.fitted(problem, np.eye(problem.size), "linear", np.zeros(problem.size), prior)
+    J = 1e4 * problem.linearised(fit.p)[0].slopes.reshape(-1, problem.size)
+    expected = np.linalg.inv(J.T @ J + np.diag(1 / prior**2))
+    size = np.sqrt(np.diag(expected))
+    np.testing.assert_allclose(fit.covariance / np.outer(size, size), expected / np.outer(size, size), atol=1e-6)

@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError
 from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identification, identify
+from poekin.solve.calibration.parameters import Arm
+from poekin.solve.calibration.problem import Problem
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 CHAINS = ("R", "RR", "RRR", "RRRRRR", "RRRRRRR", "RRP", "PPP", "RRPR", "RPRPRR")
@@ -200,3 +202,16 @@ def test_what_is_told_is_a_row_for_each_known_parameter_and_anywhere_every_coord
 @pytest.mark.parametrize("kind", dataclasses_of("poekin.solve.calibration", "identification"))
 def test_an_identification_cannot_be_changed_and_is_equal_to_itself_alone(kind):
     assert frozen_and_equal_only_where_its_parts_can_be(kind)
+
+
+def test_where_a_fit_ended_as_many_directions_are_seen_as_the_matrix_has_independent_columns():
+    q = PUMA.random(0, 20)
+    for still, count in ((False, 30), (True, 26)):
+        if still:
+            q[:, 2] = 0.3
+        problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(PUMA.fk(q))])
+        p = np.zeros(problem.size)
+        assert identification.seen_at(problem, p) == identification.movable_at(problem, p).shape[1] == count
+        assert (
+            identification.judged(problem)[0].rank == np.linalg.matrix_rank(identification.normalised(problem)) == count
+        )

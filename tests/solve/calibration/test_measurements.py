@@ -263,3 +263,11 @@ def test_a_point_that_stands_at_the_centre_of_distances_has_no_slope():
     assert not problem.slopes(np.zeros(6))[0].any()
     free = Problem(Arm(ARM, ("home",), None), q, [Distances([1.0], guess=centre)])
     assert not free.slopes(np.zeros(9))[0].any()
+
+
+def test_an_unknown_frame_has_six_parameters_however_it_is_said():
+    for said in (None, "shared", X):
+        for unknown in EyeInHand(T, board=said, camera=said).unknowns:
+            assert (unknown.size, unknown.shared) == (6, "shared" if isinstance(said, str) else None)
+            assert (unknown.guess is None) == (said is not X)
+    assert Distances([1.0]).unknowns[0].size == 3

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 
 import numpy as np
@@ -12,7 +13,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError
 from poekin.solve.calibration import calibrate
-from poekin.solve.calibration.losses import LOSSES, chi_square, loss
+from poekin.solve.calibration.losses import LOSSES, OUTLIER, chi_square, loss
 from poekin.solve.calibration.noise import EVEN, LEAST, Noise, Spread, check, spreads
 from poekin.solve.calibration.points import Points
 from poekin.solve.calibration.poses import Poses
@@ -206,3 +207,7 @@ def test_a_loss_of_one_number_doubts_from_where_it_is_95_percent_efficient(name)
     np.testing.assert_allclose(found.bend, kinks, rtol=1e-12, atol=1e-15)
     squares = loss("linear", s, 1)
     assert (squares.rho.tolist(), squares.weight.tolist(), squares.bend.tolist()) == (s.tolist(), [1.0] * 5, [0.0] * 5)
+
+
+def test_one_good_measurement_in_ten_thousand_is_called_an_outlier():
+    assert math.erfc(OUTLIER / math.sqrt(2)) / 2 == pytest.approx(1e-4, rel=1e-3)

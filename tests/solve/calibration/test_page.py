@@ -15,6 +15,7 @@ import poekin as pk
 from poekin.errors import FileError, MissingExtra, ShapeError
 from poekin.groups import se3
 from poekin.solve.calibration import Distances, Points, calibrate, changes, page
+from poekin.solve.calibration.calibration import Outlier
 from poekin.solve.calibration.simulated import simulated
 
 pytest.importorskip("matplotlib")
@@ -97,7 +98,20 @@ def test_names_out_of_files_stand_there_as_text(text):
 
 def test_the_page_tells_what_was_found(found, text):
     assert changes.sentence(found) in text
-    assert changes.sentence(found).startswith("On data kept aside, the median position error goes from ")
+    aside = found.held_out
+    assert aside is not None
+    figures = [milli(x)[0] for r in (aside.before, aside.after) for x in (r.median_length, r.median_angle)]
+    assert changes.sentence(found) == (
+        f"On data kept aside, the median position error goes from {figures[0]} to {figures[2]} mm, the rotation error "
+        f"from {figures[1]} to {figures[3]} mrad."
+    )
+    alone = changes.sentence(dataclasses.replace(found, held_out=None, success=False))
+    figures = [milli(x)[0] for r in (found.before, found.after) for x in (r.median_length, r.median_angle)]
+    assert alone == (
+        "The search did NOT converge: this is the best that was found. On the data it was fitted to, the median "
+        f"position error goes from {figures[0]} to {figures[2]} mm, the rotation error from {figures[1]} to "
+        f"{figures[3]} mrad."
+    )
     assert f"{found.identification.numbers} numbers were measured for {found.identification.size} parameters" in text
     assert "Held, as no measurement of this kind sees it: " in text
     assert text.count("<svg") == 4
@@ -359,3 +373,11 @@ def test_print_says_before_and_after_of_all_and_of_what_was_kept_aside(found):
         assert line[29:].split() == milli(r.median_length, r.rms_length, r.median_angle, r.rms_angle)
     assert lines[0] == f"{len(found.parameters)} parameters, 60 measurements, converged in {len(found.steps)} steps"
     assert f"outliers: rows {', '.join(str(o.row) for o in found.outliers)}" in lines
+    for count, more in ((12, ""), (13, " and 1 more")):
+        many = dataclasses.replace(found, outliers=tuple(Outlier(0, k, k) for k in range(count)))
+        assert f"outliers: rows {', '.join(map(str, range(12)))}{more}" in str(many).split("\n")
+
+
+def test_repr_leaves_the_long_arrays_out(found):
+    said = repr(dataclasses.replace(found, nominal="N", chain="C", frames={}, outliers=(), spreads=()))
+    assert not re.search(r"array|Step\(|Residuals|Arm|HeldOut", said)

@@ -23,3 +23,24 @@ def test_the_product_is_that_of_the_whole(shape):
     rng = np.random.default_rng(0)
     A, B = rng.normal(size=shape[:2]), rng.normal(size=shape[1:])
     np.testing.assert_allclose(times(A, B), A @ B, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("shape, blocks", [
+    ((8192, 1), [(8192, 1)]), ((8193, 1), [(2, 8192, 1), (2, 1)]), ((8190, 3), [(3, 2730, 3), (9, 3)]),
+    ((400, 100), [(2, 200, 100), (200, 100)]), ((7, 3), [(7, 3)]), ((30, 0), [(30, 0)]),
+])  # fmt: skip
+def test_a_block_of_a_qr_has_8192_numbers_or_twice_as_many_rows_as_columns(shape, blocks, monkeypatch):
+    taken, qr = [], np.linalg.qr
+    monkeypatch.setattr(np.linalg, "qr", lambda A, mode: taken.append(A.shape) or qr(A, mode=mode))
+    triangle(np.ones(shape))
+    assert taken == blocks
+
+
+@pytest.mark.parametrize("shape, rows", [
+    ((2**18 + 5, 1, 1), [2**18, 5]), ((2, 1, 2**18 + 1), [1, 1]), ((600, 20, 30), [436, 164]), ((9, 3, 0), [9]),
+])  # fmt: skip
+def test_a_block_of_a_product_has_as_many_rows_as_stay_within_2_to_the_18_multiplications(shape, rows, monkeypatch):
+    taken, matmul = [], np.matmul
+    monkeypatch.setattr(np, "matmul", lambda A, B, out: taken.append(len(A)) or matmul(A, B, out=out))
+    times(np.ones(shape[:2]), np.ones(shape[1:]))
+    assert taken == rows
