@@ -95,12 +95,9 @@ def jacobian_errors(J: np.ndarray, truth: np.ndarray, xi: np.ndarray) -> tuple[f
     Returns: both errors, the second 0 for (3, 3).
     """
     error = exact.exactly(J) - truth
-    diagonal = float(exact.norm(error[:3, :3]))
-    if len(error) == 3:
-        return diagonal, 0.0
+    diagonal = max(exact.norm(block) for block in (error[:3, :3], error[3:, 3:], error[:3, 3:]))
     Q, v = exact.norm(error[3:, :3]), exact.norm(exact.exactly(xi[3:]))
-    diagonal = max(diagonal, float(exact.norm(error[3:, 3:])), float(exact.norm(error[:3, 3:])))
-    return diagonal, float(Q / v) if v else (float("inf") if Q else 0.0)
+    return float(diagonal), float(Q / v) if v else (float("inf") if Q else 0.0)
 
 
 def _jacobian_law(name: str, group: Group, xi: np.ndarray) -> float:

@@ -27,7 +27,7 @@ from .measures import angle, length, of_blocks, of_elements, of_twist, shift, si
 def hat_and_vee_are_inverse(group: Group, xi: np.ndarray) -> float:
     """vee(hat ξ) = ξ, and hat ξ is [ω] and v in their places, to the last bit."""
     X = group.hat(xi)
-    wrong = np.abs(X - exact.rounded(exact.hat(xi))).max(initial=0.0)
+    wrong = np.abs(X - exact.rounded(exact.hat(xi))).max()
     return held("hat and vee are inverse", (size(group.vee(X) - xi), 0.0), (wrong, 0.0), xi=xi)
 
 
@@ -35,10 +35,8 @@ def ad_is_the_bracket(group: Group, xi: np.ndarray, eta: np.ndarray) -> float:
     """ad(ξ) η = vee(hat ξ hat η - hat η hat ξ)."""
     X, Y = exact.exactly(group.hat(xi)), exact.exactly(group.hat(eta))
     bracket = group.vee(exact.rounded(X @ Y - Y @ X))
-    pairs = of_twist(group.ad(xi) @ eta - bracket, 8 * UNIT * angle(xi) * angle(eta), 0.0)
-    if group.size == 6:
-        scale = angle(xi) * length(eta) + angle(eta) * length(xi)
-        pairs = [pairs[0], (pairs[1][0], 8 * UNIT * scale)]
+    scale = angle(xi) * length(eta) + angle(eta) * length(xi)
+    pairs = of_twist(group.ad(xi) @ eta - bracket, 8 * UNIT * angle(xi) * angle(eta), 8 * UNIT * scale)
     return held("ad is the bracket", *pairs, xi=xi, eta=eta)
 
 
@@ -46,7 +44,7 @@ def exp_lands_in_the_group(group: Group, xi: np.ndarray) -> float:
     """Closure: Rᵀ R = I, det R = 1, last row (0, 0, 0, 1)."""
     X = group.exp(xi)
     R = X[:3, :3]
-    last = 0.0 if group.size == 3 else size(X[3] - [0, 0, 0, 1])
+    last = size(X[3:] - np.eye(len(X))[3:])
     bound = 12 * UNIT * (1 + 1.5 * angle(xi))
     defect = size(R.T @ R - np.eye(3))
     return held("exp lands in the group", (defect, bound), (abs(np.linalg.det(R) - 1), bound), (last, 0.0), xi=xi)

@@ -43,7 +43,7 @@ def near_picks_the_closest_branch(group: Group, xi: np.ndarray, near: np.ndarray
 def a_logarithm_is_nearest_to_itself(group: Group, xi: np.ndarray) -> float:
     """log(exp ξ, near=ξ) = ξ on every branch, |ω| up to 10, but at the multiples of 2π, where v has no bound."""
     gap = abs(math.remainder(angle(xi), 2 * math.pi))
-    if gap < 0.1 and angle(xi) > 1:
+    if gap < 0.1 < angle(xi):
         return 0.0
     extent = 1 + angle(xi)
     error = group.log(group.exp(xi), near=xi) - xi

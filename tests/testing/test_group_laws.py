@@ -199,7 +199,13 @@ def test_towards_pi_either_sign_is_a_logarithm():
 
 
 def test_what_is_near_a_whole_turn_has_no_bound(monkeypatch):
-    for angle, looked_at in ((0.05, True), (2 * math.pi - 0.09, False), (2 * math.pi + 0.09, False), (6.4, True)):
+    for angle, looked_at in (
+        (0.05, True),
+        (2 * math.pi - 0.09, False),
+        (2 * math.pi + 0.09, False),
+        (5.5, True),
+        (6.4, True),
+    ):
         xi = np.array([angle, 0, 0, 0, 1.0, 0])
         assert bool(measured("a_logarithm_is_nearest_to_itself", GROUPS[6], monkeypatch, xi)) == looked_at
     beyond = measured("a_logarithm_is_nearest_to_itself", GROUPS[6], monkeypatch, XI * 2)
