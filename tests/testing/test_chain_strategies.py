@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import find, settings
 from poekin.errors import InputError
 from poekin.model.chain import Chain
 from poekin.testing import chain_strategies
+from poekin.testing.reader import Reader
 from tests.testing.drawing import QUICK, drawn
 from tests.versions import SHRINKS, needs
 
@@ -33,6 +35,58 @@ def test_some_chains_are_coupled_and_some_joints_stand_still(chains):
     assert any((~chain.coupling.any(axis=1)).any() for chain in coupled)
     assert any(chain.offset.any() for chain in coupled)
     assert all(chain.coupling.any(axis=0).all() for chain in chains), "every coordinate moves a joint"
+
+
+def test_coupled_joints_follow_as_they_are_half_twice_against_and_not_at_all():
+    assert sorted(chain_strategies.RATIOS) == [-2, -1, 0, 0.5, 1]
+
+
+def test_limits_are_read_off_their_bytes():
+    lowest, least, most = [0, 255, 0, 0], [0, 0, 0, 0], [0, 255, 255, 255]
+    for kind, width, expected in (
+        (0, least, (-math.inf, math.inf)),
+        (40, least, (-3.0, -2.9)),
+        (145, most, (-3.0, 0.0)),
+        (150, most, (-3.0, -3.0)),
+        (190, least, (-3.0, math.inf)),
+        (255, most, (-math.inf, 0.0)),
+    ):
+        assert chain_strategies._limits(Reader(bytes([kind, *lowest, *width]))) == expected
+    assert chain_strategies._limits(Reader(bytes([40, 0, 210, 255, 255, *most]))) == (3.0, 6.0)
+
+
+@pytest.mark.parametrize("shape", [(), (2,), (2, 3)])
+def test_coordinates_are_read_off_their_bytes(shape, monkeypatch):
+    chain, count = Chain([[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]], np.eye(4)), 2 * math.prod(shape)
+    monkeypatch.setattr(chain_strategies, "read", lambda size, decode: (size, decode))
+    size, decode = chain_strategies.coordinates(chain, shape)
+    assert size == 4 * count
+    for data, value in (([63, 64], math.pi / 2), ([63, 255], math.pi), ([64, 240, 0, 0], -math.pi)):
+        found = decode(Reader(bytes(data * count)))
+        assert found.shape == (*shape, 2)
+        assert np.all(found == value)
+
+
+@pytest.mark.parametrize(
+    ("kind", "sign", "pitch"),
+    [("helical", 0, 1.0), ("helical", 255, -1.0), ("revolute", 0, 0.0), ("prismatic", 0, None)],
+)
+def test_a_screw_has_its_axis_point_and_pitch(kind, sign, pitch, monkeypatch):
+    axis, point = np.array([0.6, 0, 0.8]), np.array([1.0, 2.0, 3.0])
+    decoded: list[float] = []
+
+    def builds(screw: Any, *_: Any) -> Any:
+        return screw(kind, axis, point, decoded[0])
+
+    def read(size: int, decode: Any) -> None:
+        decoded.append(decode(Reader(bytes([sign, 255, 0, 255, 255]))))
+
+    monkeypatch.setattr(chain_strategies, "read", read)
+    monkeypatch.setattr(chain_strategies.st, "builds", builds)
+    S = chain_strategies._screws.__wrapped__((kind,))
+    assert decoded[0] == (-1.0 if sign else 1.0)
+    expected = [0, 0, 0, *axis] if pitch is None else [*axis, *(np.cross(point, axis) + pitch * axis)]
+    assert S.tolist() == pytest.approx(expected, abs=1e-15)
 
 
 def test_what_is_asked_for_is_drawn():
@@ -79,6 +133,8 @@ def test_coordinates_hold_zeros_quarter_turns_and_all_between():
     assert q.shape == (300, 2)
     assert np.abs(q).max() <= math.pi
     assert set(chain_strategies.QUARTERS) <= set(q.ravel())
+    assert np.cos(chain_strategies.QUARTERS) == pytest.approx([1, 0, 0, -1], abs=1e-15)
+    assert np.sin(chain_strategies.QUARTERS) == pytest.approx([0, 1, -1, 0], abs=1e-15)
     assert 0.2 < np.isin(q, chain_strategies.QUARTERS).mean() < 0.4  # one in four, and zeros of simpler draws
     assert np.histogram(q, bins=8)[0].min() > 20
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import find, settings
 
-from poekin.testing import near_strategies
+from poekin.testing import decoders, near_strategies
+from poekin.testing.reader import Reader
 from tests.testing.drawing import QUICK, drawn
 
 PI = math.pi
@@ -68,6 +69,31 @@ def test_rotations_near_pi_are_rotations_by_that_angle():
     assert np.abs(T[:, :3, :3] - np.eye(3)).max() < 2e-6
     lengths = np.linalg.norm(T[:, :3, 3], axis=1)
     assert np.all((lengths == 0) | (lengths > 0.49) & (lengths < 2.01))
+
+
+@pytest.mark.parametrize(
+    "name", ["near_angles", "near_rotation_vectors", "near_rotations", "near_twists", "near_poses"]
+)
+def test_an_angle_an_axis_and_a_vector_are_read_in_turn_and_none_beyond(name, monkeypatch):
+    monkeypatch.setattr(near_strategies, "read", lambda size, decode: decode)
+    data = bytes([200, 200, 255, 0, 99, 7, 2, 5, 9, *range(40, 70)])  # above, where that is asked for
+    for beyond in ((), (True,)):
+        r = Reader(data)
+        angle = near_strategies._angle(r, 1.0, 1e-3, bool(beyond))
+        assert (angle > 1) == bool(beyond)
+        strategy = getattr(near_strategies, name)
+        found = strategy(1.0, **({"beyond": True} if beyond else {}))(Reader(data))
+        if name == "near_angles":
+            assert found == angle
+            continue
+        n = decoders.axis(r)
+        if name in ("near_rotation_vectors", "near_twists"):
+            assert np.array_equal(found[:3], angle * n)
+        else:
+            assert np.array_equal(found[:3, :3], decoders.turned(n, angle))
+        if name in ("near_twists", "near_poses"):
+            v = found[3:] if name == "near_twists" else found[:3, 3]
+            assert np.array_equal(v, decoders.vector(r, near_strategies.LENGTHS))
 
 
 def test_they_shrink_to_the_angle_itself_about_x():

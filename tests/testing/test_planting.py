@@ -83,9 +83,21 @@ def test_a_comparison_that_is_right_has_no_fault(change):
     assert fault(result(change, little), change, 2) == ""
 
 
+def test_joints_are_counted_from_1():
+    for k in range(4):
+        j = result("flip", {"number": k + 1}).differing[0]
+        found = result("flip", differing=[j], joints=[None] * k + [j], verdict=f"joint {k + 1} is flipped")
+        assert fault(found, "flip", k) == ""
+
+
+def test_an_arm_ends_where_its_link_is_named():
+    assert [planted_changes.arm(name).tip for name in ("panda", "ur5e")] == ["panda_hand", "tool0"]
+    assert len(planted_changes.ARMS) == 20
+
+
 @pytest.mark.parametrize("change", CHANGES)
 def test_what_is_wrong_with_a_comparison_is_said(change):
-    wrong = {"tilt": {"angle": 0.1011}, "shift": {"normal": 0.989}, "zero": {"zero": -0.5051}}.get(change)
+    wrong = {"tilt": {"angle": 0.101005}, "shift": {"normal": 1.01005}, "zero": {"zero": -0.505025}}.get(change)
     assert fault(result(change), change, 1) == "blames [3]"
     assert fault(result(change, differing=[]), change, 2) == "blames []"
     for name in ("axis_differs", "zero_differs", "flipped"):
