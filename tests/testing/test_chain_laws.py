@@ -248,3 +248,8 @@ def test_slow_rates_do_not_make_a_difference_more_exact(monkeypatch):
 
 def test_a_hessian_of_a_plain_chain_is_symmetric_to_the_last_bit(monkeypatch):
     assert measured("hessian_of_a_point_is_symmetric", PLAIN, monkeypatch) == [(0.0, 0.0)]
+
+
+def test_frames_of_too_few_joints_are_no_frames_of_the_chain():
+    with pytest.raises(ValueError, match="zip"):
+        change_laws.link_frames_do_not_matter(PLAIN, FRAMES[:2])

@@ -59,7 +59,8 @@ def test_limits_are_read_off_their_bytes():
 def test_coordinates_are_read_off_their_bytes(shape, monkeypatch):
     chain, count = Chain([[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]], np.eye(4)), 2 * math.prod(shape)
     monkeypatch.setattr(chain_strategies, "read", lambda size, decode: (size, decode))
-    size, decode = chain_strategies.coordinates(chain, shape)
+    asked: Any = chain_strategies.coordinates(chain, shape)
+    size, decode = asked
     assert size == 4 * count
     for data, value in (([63, 64], math.pi / 2), ([63, 255], math.pi), ([64, 240, 0, 0], -math.pi)):
         found = decode(Reader(bytes(data * count)))
@@ -83,7 +84,7 @@ def test_a_screw_has_its_axis_point_and_pitch(kind, sign, pitch, monkeypatch):
 
     monkeypatch.setattr(chain_strategies, "read", read)
     monkeypatch.setattr(chain_strategies.st, "builds", builds)
-    S = chain_strategies._screws.__wrapped__((kind,))
+    S: Any = chain_strategies._screws.__wrapped__((kind,))
     assert decoded[0] == (-1.0 if sign else 1.0)
     expected = [0, 0, 0, *axis] if pitch is None else [*axis, *(np.cross(point, axis) + pitch * axis)]
     assert S.tolist() == pytest.approx(expected, abs=1e-15)
