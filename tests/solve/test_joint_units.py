@@ -205,3 +205,13 @@ def test_a_joint_that_turns_half_as_fast_is_told_apart_over_both_its_turns(unit)
     arm = pk.Chain(axes, home, coupling=np.array([[1.0], [0.5]]) * unit, q_names=["a"])
     for x in (-5.0, 1.0, 5.0):  # of ±2 pi: outside ±pi there are others
         np.testing.assert_allclose(ik_all(arm, arm.fk([x / unit])).solutions, [[x / unit]], rtol=1e-9)
+
+
+def test_of_a_bad_target_among_others_the_locked_coordinate_is_unknown_too():
+    arm, sizes = geared(PANDA, 180 / np.pi)
+    T = arm.fk(arm.random(2, 5))
+    T[3] = np.nan
+    name, value = arm.q_names[2], 0.25 * sizes[2]
+    found = ik(arm, T, lock={name: value}, restarts=0)
+    assert np.isnan(found.q[3]).all()
+    assert found.q[[0, 1, 2, 4], 2].tolist() == [value] * 4

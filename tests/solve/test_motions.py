@@ -6,6 +6,7 @@ import math
 import os
 import re
 import sys
+from dataclasses import FrozenInstanceError
 
 import numpy as np
 import pytest
@@ -433,6 +434,9 @@ def test_a_timing_holds_nan_apart_and_rests_outside():
         assert timing(1.0).s.shape == ()
     assert (motion.trapezoidal(2.0).ramp, motion.trapezoidal(2.0, 0.5).ramp) == (0.25, 0.5)
     assert motion.cubic(np.float64(2.0)) == motion.Timing("cubic", 2.0)
+    assert motion.cubic(2.0).ramp == motion.quintic(2.0).ramp == motion.fastest("quintic", 1, speed=1).ramp == 0.5
+    with pytest.raises(FrozenInstanceError):
+        motion.cubic(2.0).duration = 3.0  # type: ignore[misc]
 
 
 @pytest.mark.parametrize("law, speed, acceleration, duration, ramp", [

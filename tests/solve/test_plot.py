@@ -38,6 +38,15 @@ def test_each_coordinate_is_drawn_over_time_and_not_joined_across_a_break(drawn_
     np.testing.assert_array_equal(numbered.axes[1].lines[0].get_xdata(), np.arange(5))
 
 
+def test_a_break_may_be_before_the_second_point_and_before_the_last(drawn_figures):
+    motion.plot_joints(np.zeros((5, 2)), ARM, breaks=[1, 4])
+    first, second = drawn_figures[0].axes
+    curves = [len(line.get_xdata()) for line in first.lines]
+    assert curves == [1, 3, 1, 2, 2]
+    assert [line.get_xdata()[0] for line in first.lines[3:]] == [0.5, 3.5]
+    assert first.get_shared_x_axes().joined(first, second)
+
+
 def test_what_is_within_the_limits_is_shaded_behind_the_curve_and_limits_far_off_do_not_squeeze_it(drawn_figures):
     motion.plot_joints([[0, 0], [1, 1.0]], ARM)
     (drawn,) = drawn_figures

@@ -128,7 +128,7 @@ def fastest(
     if law in _PEAKS:
         top, rise = _PEAKS[law]
         duration, ramp = max(top * a, math.sqrt(rise * b)), 0.5
-    elif acceleration is None or (b == 0 and a > 0 and not still):
+    elif acceleration is None or (b == 0 and not still):
         raise InputError("acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time")
     else:
         even = 0 < b <= a * a
