@@ -81,13 +81,17 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/testing/reader.py": _BY_BYTES,
     "poekin/testing/conform/": _CONFORM,
     **{f"poekin/testing/conform/{name}.py": (f"tests/testing/conform/test_{name}.py", *_CASES) for name in (
-        "arm_cases", "child", "confirm", "grades", "group_cases", "named", "plugin", "precision", "small_urdf",
+        "arm_cases", "confirm", "grades", "group_cases", "named", "plugin", "precision", "small_urdf",
         "subject")},
     "poekin/testing/conform/of_arms.py": ("tests/testing/conform/test_parts.py", *_CASES),
     "poekin/testing/conform/of_groups.py": (
         "tests/testing/conform/test_parts.py", "tests/testing/conform/test_of_groups.py", *_CASES),
-    "poekin/testing/conform/calls.py": ("tests/testing/conform/test_child.py", *_CONFORM),
-    "poekin/testing/conform/limits.py": ("tests/testing/conform/test_child.py",),
+    "poekin/testing/conform/calls.py": (
+        "tests/testing/conform/test_calls.py", "tests/testing/conform/test_child.py", *_CONFORM),
+    "poekin/testing/conform/child.py": (
+        "tests/testing/conform/test_calls.py", "tests/testing/conform/test_child.py", *_CASES),
+    "poekin/testing/conform/limits.py": (
+        "tests/testing/conform/test_calls.py", "tests/testing/conform/test_child.py"),
     "poekin/testing/conform/misspelt.py": ("tests/testing/conform/test_subject.py",),
     "poekin/testing/conform/urdf_cases.py": (
         "tests/testing/conform/test_urdf_cases.py", "tests/testing/conform/test_small_urdf.py", *_CASES),

@@ -114,7 +114,7 @@ def real(value: Any) -> np.ndarray:
     Raises: TypeError for complex numbers that are not real, and for texts: NumPy would convert both.
     """
     array = np.asarray(value)
-    if array.dtype.kind in "SU" or (array.dtype.kind == "c" and np.any(np.imag(array))):
+    if array.dtype.kind in "SU" or (np.iscomplexobj(array) and np.any(np.imag(array))):
         raise TypeError(f"real numbers expected, got {array.dtype.name}")
-    own = array.dtype.kind == "f" and array.dtype.itemsize <= 8
+    own = array.dtype in (np.float16, np.float32)
     return np.array(np.real(array), dtype=array.dtype if own else float)
