@@ -241,15 +241,15 @@ def test_a_subject_runs_in_a_fork_where_nothing_is_lost_by_it(monkeypatch):
     monkeypatch.setattr(child, "sys", SimpleNamespace(platform="linux", modules={}))
     monkeypatch.setattr(child, "_numba_has_threads", lambda: False)
     assert child.obstacle(Reply) == ""
-    child.sys.modules.update(jax=None, torch=None)
+    monkeypatch.setattr(child, "sys", SimpleNamespace(platform="linux", modules={"jax": None, "torch": None}))
     assert child.obstacle(Reply) == "the threads of jax and torch, loaded here, do not survive a fork"
     monkeypatch.setattr(child, "_numba_has_threads", lambda: True)
     assert child.obstacle(Reply) == "the threads of jax and torch and numba, loaded here, do not survive a fork"
-    child.sys.platform = "darwin"
+    monkeypatch.setattr(child.sys, "platform", "darwin")
     assert child.obstacle(Reply) == "this system forks no process that is sure to work"
     assert child.obstacle("m:C") == ""
     monkeypatch.setattr(child, "os", SimpleNamespace())
-    child.sys.platform = "linux"
+    monkeypatch.setattr(child.sys, "platform", "linux")
     assert child.obstacle(Reply) == "this system forks no process that is sure to work"
 
 
