@@ -259,3 +259,18 @@ def test_poses_are_moved_along_slides_to_where_the_first_axis_that_turns_has_its
     assert miss[1:].max() < 1e-3
     turning = sides(Chain(chain.screws[1:], chain.home), Chain(moved.screws[1:], moved.home), 1e-6, 1e-6)
     assert starts._on_the_first_turning_axis(turning, P[None]) == pytest.approx(P[None])
+
+
+@pytest.mark.parametrize("offset", [(0, 0, 0, 0, 0, 0), (0, 0.7, 0, -0.4, 0.5, 0), (0, 0, 1.9, 0, 0, 0)], ids=str)
+@pytest.mark.parametrize("wrists", [False, True])
+def test_the_few_alignments_that_are_kept_are_those_that_miss_least_and_change_least(offset, wrists, monkeypatch):
+    # Where a half turn brings an axis onto itself the other way round, the one without is kept.
+    z, y, x = [0, 0, 1], [0, 1, 0], [1, 0, 0]
+    rows = [(z, [0, 0, 0]), (y, [0, 0, 0.3]), (y, [0.5, 0, 0.4]), (x, [1, 0, 0.2]), (y, [1, 0, 0.2]), (x, [1, 0, 0.2])]
+    chain = Chain([screw.revolute(*row) for row in rows], np.eye(4)) if wrists else random_arm(4)
+    pair = sides(chain, chain.rezeroed(offset).rebased(BASE), 1e-6, 1e-6)
+    monkeypatch.setattr(starts, "BEAM", 2)
+    P, found = starts.one_by_one(pair)
+    assert len(P) == 2
+    assert misses(pair, carried(pair, P, found)[1])[0].max() < 1e-3
+    assert np.sort((abs(found) > 1e-6).sum(1))[0] <= np.count_nonzero(offset)

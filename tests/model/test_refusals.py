@@ -288,3 +288,14 @@ def test_a_coupling_matrix_that_would_be_too_large_is_said_whole(largest, made, 
         "robot 'r': the chain from 'a' to 'd' has joints that follow others, and its coupling matrix of 3 x 2 would be "
         "too large: at most 5 entries are made (Robot.fk needs none)",
     )
+
+
+@pytest.mark.parametrize("count", [1, 2, 10, 11, 30])
+def test_of_a_long_cycle_ten_links_are_named(count):
+    links = [f"l{k}" for k in range(count)]
+    joints = [hung(f"j{k}", links[k - 1], links[k]) for k in range(count)]
+    around = [*links[1:], *links[:1]]
+    named = " -> ".join(map(repr, around[:10])) + " -> ..." * (count > 10)
+    with pytest.raises(ModelError) as caught:
+        Robot("r", ["root", *links], joints, Source("x.urdf", (), tuple(range(count))))
+    assert says(caught.value, f"x.urdf:0: the links form a cycle of {count} joint(s): {named}")
