@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import math
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from poekin.analysis.axes import axes
+from poekin.analysis.axes import AxisPair, axes
 from poekin.errors import InputError
 from poekin.formats.load import load
 from poekin.groups import se3
@@ -163,3 +164,17 @@ def test_the_relation_of_two_axes_is_said_in_degrees_and_mm(angle, gap, words):
     assert pair.angle == pytest.approx(min(angle, 180 - angle), abs=1e-12)
     assert pair.distance == pytest.approx(1e3 * gap, abs=1e-12)
     assert str(axes(made(((0, 0, 1), (0, 0, 0)), ((0, 0, 1), (1, 0, 0))))) == "joint1 - joint2: parallel, 1000 mm apart"
+
+
+@pytest.mark.parametrize("tol", [0, -1.0, math.inf, math.nan, "1", True])
+@pytest.mark.parametrize("name", ["tol_mm", "tol_deg"])
+def test_a_tolerance_is_a_positive_number(name, tol):
+    with pytest.raises(InputError, match=f"^{name}: "):
+        axes(made(*WRIST), **{name: tol})
+
+
+@pytest.mark.parametrize("angle, words", [
+    (44.9, "44.9° from parallel"), (45.0, "45° from perpendicular"), (45.1, "44.9° from perpendicular"),
+])  # fmt: skip
+def test_an_angle_is_told_from_what_it_is_nearer_to(angle, words):
+    assert AxisPair(1, 2, "a", "b", angle, None, False, False, False, True).words == words

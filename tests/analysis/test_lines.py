@@ -129,3 +129,15 @@ def test_a_hinge_turns_what_is_behind_it_about_the_other_model_s_axis_the_way_it
             assert D[:, k + 1] == pytest.approx(se3.exp(own * z[:, k, None]) @ D_k)
             for i in {0, 1, 2, 3} - {k}:
                 assert D[:, i + 1] == pytest.approx(D[:, i] @ se3.exp(pair.b.screws[i] * z[:, i, None]))
+
+
+def test_an_axis_that_is_perpendicular_to_its_own_is_not_reversed():
+    chain, other = (chain_of(screw.revolute(w, [0, 0, 0]), screw.revolute(Y, [1, 0, 0])) for w in (Z, X))
+    for sign in (1.0, -1.0):
+        turned = Chain(other.screws * [[sign], [1.0]], other.home)
+        pair = replace(sides(chain, turned, 1e-5, 1e-5), hinge=0)
+        P = np.eye(4)[None].copy()
+        P[:, :3, 3] = pair.b.hub - pair.a.hub
+        screws, axes = carried(pair, P, np.zeros((1, 2)))
+        assert signs(pair, axes).tolist() == [[1, 1]]
+        assert hinge_screw(pair, screws[:, 0]) == pytest.approx(pair.a.screws[:1])

@@ -149,6 +149,8 @@ def test_a_motion_in_words(twist, words):
     ([0, np.sin(0.017), np.cos(0.017), 0, 0, 0], "turning about the base's z axis"),
     ([0, np.sin(0.018), -np.cos(0.018), 0, 0, 0], "turning about (0.00, 0.02, -1.00)"),
     ([-0.6, 0, 0.8, 0, 0, 0], "turning about (-0.60, 0.00, 0.80)"),
+    ([0, 0, 2.0, 2.0, 0, 0], "turning about the base's z axis while its origin is moving along the base's x axis by "
+     "1 m per rad"),
 ])  # fmt: skip
 def test_a_motion_is_about_or_along_an_axis_of_the_base_within_a_degree(twist, words):
     assert motion_words(np.array(twist, float)) == words
@@ -216,3 +218,31 @@ def test_what_cannot_be_judged_is_refused():
         singularity(arm, ELBOW, tolerance=2)
     with pytest.raises(InputError, match=r"^part: "):
         singularity(arm, ELBOW, part="all")
+
+
+def test_an_arm_that_cannot_move_its_tool_at_all_is_singular_where_it_stands():
+    arm = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4))
+    found = singularity(arm, [0.4], part="translation")
+    assert (found.singular, found.rank, found.distance, found.smallest) == (True, 0, 0, 0)
+    assert found.condition == math.inf
+    assert found.towards.tolist() == [0]
+    assert found.words.startswith(
+        "singular (smallest ÷ largest singular value 0, tolerance 0.001): the tool cannot move"
+    )
+    assert found.as_dict()["condition"] is None
+
+
+@pytest.mark.parametrize("options, words", [
+    ({"tolerance": 0}, "tolerance: expected a number between 0 and 1, got 0"),
+    ({"tolerance": 1.0}, "tolerance: expected a number between 0 and 1, got 1.0"),
+    ({"tolerance": "1"}, "tolerance: expected a number between 0 and 1, got '1'"),
+    ({"length": 0}, "length: expected a positive number of metres, got 0"),
+    ({"length": math.inf}, "length: expected a positive number of metres, got inf"),
+    ({"length": "1"}, "length: expected a positive number of metres, got '1'"),
+])  # fmt: skip
+def test_tolerance_and_length_are_within_what_they_mean(options, words):
+    with pytest.raises(InputError) as caught:
+        singularity(elbow_arm(), ELBOW, **options)
+    assert str(caught.value) == words
+    for value in (1e-300, np.float32(0.5), 0.999):
+        assert singularity(elbow_arm(), AWAY, tolerance=value).tolerance == value

@@ -259,6 +259,8 @@ def test_what_is_shown_of_models_names_their_parts():
     assert repr(ALONE.compile(parallel=True)) == f"<CompiledChain of {ALONE!r}, parallel>"
     assert repr(BRANCHED) == "Robot('r': 3 links, 2 joints, dof 2, root 'a', 2 leaves: 'b', 'c')"
     assert repr(Robot("r", ["a"], [])) == "Robot('r': 1 links, 0 joints, dof 0, root 'a', 1 leaf: 'a')"
+    three = Robot("r", ["a", "b", "c", "d"], [hung(x, "a", x) for x in "bcd"])
+    assert repr(three).endswith("3 leaves: 'b', 'c', 'd')")
     many = Robot("r", ["a", "b", "c", "d", "e"], [hung(x, "a", x) for x in "bcde"])
     assert repr(many).endswith("4 leaves: 'b', 'c', 'd', ...)")
     assert repr(hung("j", "a", "b", mimic=Mimic("k"))) == "Joint('j', revolute, 'a' -> 'b', mimic='k')"
@@ -299,3 +301,11 @@ def test_of_a_long_cycle_ten_links_are_named(count):
     with pytest.raises(ModelError) as caught:
         Robot("r", ["root", *links], joints, Source("x.urdf", (), tuple(range(count))))
     assert says(caught.value, f"x.urdf:0: the links form a cycle of {count} joint(s): {named}")
+
+
+def test_the_longest_length_itself_is_taken():
+    far = pose(((0, 3), 1e100))
+    assert chain(home=far).home[0, 3] == 1e100
+    assert chain([0, 0, 1, 1e100, 0, 0]).screws[0, 3] == 1e100
+    assert chain([0, 0, 1, 0, 0, 1e100], pitches=[1e100]).pitches.tolist() == [1e100]
+    assert hung("j", "a", "b", "helical", pitch=-1e100).pitch == -1e100
