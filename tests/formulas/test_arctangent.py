@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from poekin.engine import compile as engine_compile
+from poekin.formulas import elementary
 from poekin.formulas.arctangent import angle
 
 UNIT = 2.0**-53
@@ -53,6 +54,13 @@ def test_on_the_axes_and_between_them_it_is_exact(function):
     assert function(0.3, 0.3) == (math.pi / 4, 6.123233995736766e-17 / 2)
     assert function(0.0, 0.3) == (0.0, 0.0)
     assert function(0.3, 0.0) == (math.pi / 2, 6.123233995736766e-17)
+
+
+@pytest.mark.parametrize("y, x", [(0, 1), (0.3, 0.4), (1, 0), (3, 1)])
+def test_of_many_digits_nothing_is_rounded_away(y, x):
+    elementary.provide(mpmath.mpf, mpmath.mp, series=False)
+    with mpmath.workdps(60):
+        assert angle(mpmath.mpf(y), mpmath.mpf(x)) == (mpmath.atan2(y, x), 0)
 
 
 @pytest.mark.parametrize("point", [(math.nan, 1.0), (1.0, math.nan)])

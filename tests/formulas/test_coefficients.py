@@ -99,6 +99,16 @@ def test_at_zero_the_coefficients_are_their_limits(number):
     )
 
 
+def test_at_zero_of_many_digits_the_coefficients_are_their_limits_to_a_float():
+    elementary.provide(mpf, mpmath.mp, series=False)
+    limits = {"A": 1, "B": 0.5, "C": 1 / 6, "E": 1, "D": 1 / 12, "B'/t": -1 / 12, "C'/t": -1 / 60, "D'/t": 1 / 360}
+    found = computed(mpf(0))
+    assert {k: float(found[k]) for k in limits} == pytest.approx(limits, rel=2 * U)
+    assert tuple(map(float, coefficients.d_and_e(mpf(0), 0.0))) == pytest.approx((1 / 12, 1), rel=2 * U)
+    half = mpf(0.5)
+    assert coefficients.d_and_e(half, 0.0) == (coefficients.d_of(half), 1 - half * coefficients.d_of(half))
+
+
 def exact_series(count=40):
     """Power series in t^2 of C, D without its first two poles, and the slopes, from those of sine and cosine."""
     sine = [Fraction((-1) ** k, math.factorial(2 * k + 1)) for k in range(count)]  # of sin t / t
