@@ -208,6 +208,21 @@ WRONG = {
         ShapeError,
         "candidates: expected configurations (K, 6), or how many to draw, got array([0., 0., 0., 0., 0., 0.])",
     ),
+    "many": (
+        {"candidates": np.zeros((1, 2, 6))},
+        ShapeError,
+        "candidates: expected configurations (K, 6), or how many to draw, got array([[[0., 0., 0., 0., 0., 0.],...",
+    ),
+    "text": (
+        {"candidates": "home"},
+        ShapeError,
+        "candidates: expected configurations (K, 6), or how many to draw, got 'home'",
+    ),
+    "real": (
+        {"candidates": 7.5},
+        ShapeError,
+        "candidates: expected configurations (K, 6), or how many to draw, got 7.5",
+    ),
     "ragged": (
         {"candidates": [[1, 2], [3]]},
         ShapeError,

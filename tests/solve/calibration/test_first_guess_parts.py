@@ -145,9 +145,22 @@ def test_a_rigid_fit_counts_each_point_by_its_weight():
 
 
 def test_measurements_that_are_all_zero_are_said_to_be_flat():
-    with pytest.raises(InputError, match="needs points that are not in one plane, these are"):
+    with pytest.raises(
+        InputError,
+        match=(
+            r"^a first guess of the centre of distances needs points that are not in one plane, these "
+            r"are \(0 m along it and 0 m out of it, rms\): the centre and its mirror image fit alike; "
+            r"give the centre, or a rough one \(guess=\), or measure out of the plane$"
+        ),
+    ):
         first_guess.centre(np.ones((4, 3)), np.zeros(4))
-    with pytest.raises(InputError, match="needs points that are not on one line, these are"):
+    with pytest.raises(
+        InputError,
+        match=(
+            r"^a first guess of the frame of points needs points that are not on one line, these are "
+            r"\(0 m along it and 0 m out of it, rms\): measure more of them, in other poses of the arm$"
+        ),
+    ):
         first_guess.registration(np.zeros((4, 3)), np.zeros((4, 3)))
 
 

@@ -299,3 +299,11 @@ def test_a_prior_counts_in_the_covariance_as_a_measurement_of_each_parameter():
     expected = np.linalg.inv(J.T @ J + np.diag(1 / prior**2))
     size = np.sqrt(np.diag(expected))
     np.testing.assert_allclose(fit.covariance / np.outer(size, size), expected / np.outer(size, size), atol=1e-6)
+
+
+def test_errors_of_exactly_0_take_no_step():
+    q, _ = noisy(10)
+    exact = Problem(Arm(PUMA, ("screws", "home"), None), q, [Points(PUMA.fk(q)[:, :3, 3])])
+    noise = Noise(exact.sets, [Spread(None, 1e-3)])
+    found = minimise(exact, judged(exact)[1], noise, "linear", np.zeros(exact.size), None)
+    assert (found.converged, found.steps, found.p.tolist()) == (True, [], [0.0] * exact.size)

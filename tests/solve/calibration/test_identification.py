@@ -125,7 +125,14 @@ def test_what_is_not_seen_is_refused_by_name_or_held_when_asked():
     true = PUMA.retooled(pk.se3.exp([1e-3, 0, 2e-3, 0, 1e-3, 0]))
     q = PUMA.random(0, 40)
     q[:, 4] = 0.0
-    with pytest.raises(InputError, match=r"see 26 of 30 parameters\. Not seen: all 4 parameters of joint5 "):
+    with pytest.raises(
+        InputError,
+        match=(
+            r"^these measurements see 26 of 30 parameters\. Not seen: all 4 parameters of joint5 "
+            r"\(joint5 is the same in all readings\)\. Measure with these joints in more positions, "
+            r"or solve the rest only with deficient='hold'$"
+        ),
+    ):
         calibrate(PUMA, q, true.fk(q))
     found = calibrate(PUMA, q, true.fk(q), deficient="hold", folds=0)
     assert found.success
@@ -215,3 +222,18 @@ def test_where_a_fit_ended_as_many_directions_are_seen_as_the_matrix_has_indepen
         assert (
             identification.judged(problem)[0].rank == np.linalg.matrix_rank(identification.normalised(problem)) == count
         )
+
+
+def test_an_identification_says_its_figures_and_then_what_is_held_and_what_is_not_seen():
+    found = identification.Identification(
+        7, 6, 5, 42, ("'a' alone", "'b'"), ("c", "d"), np.ones(5), 3.0, 0.5, 0.25, 0.125
+    )
+    assert str(found) == (
+        "42 numbers for 6 parameters: rank 5 of 6, condition 3, smallest singular value 0.5, O1 0.25, noise "
+        "amplification index 0.125\n"
+        "held, as no measurement of this kind sees it: 'a' alone\n"
+        "held, as no measurement of this kind sees it: 'b'\n"
+        "not seen by these measurements: c\n"
+        "not seen by these measurements: d"
+    )
+    assert "array" not in repr(found)

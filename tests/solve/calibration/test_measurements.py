@@ -124,6 +124,66 @@ BAD: dict[str, tuple] = {
         ShapeError,
         "p: expected positions (N, 1, 3), of 1 points, got shape (12, 2, 3)",
     ),
+    "points of four numbers": (
+        lambda: Points(AT, np.ones((2, 4))),
+        ShapeError,
+        "points: expected finite (3,) or (k, 3) in the tip frame, got shape (2, 4)",
+    ),
+    "a point of two numbers": (
+        lambda: Points(AT, [1.0, 2.0]),
+        ShapeError,
+        "points: expected finite (3,) or (k, 3) in the tip frame, got shape (1, 2)",
+    ),
+    "no points": (
+        lambda: Points(AT[:, :0], np.ones((0, 3))),
+        ShapeError,
+        "points: expected finite (3,) or (k, 3) in the tip frame, got shape (0, 3)",
+    ),
+    "a point that is not finite": (
+        lambda: Points(AT[:, 0], [0.0, np.inf, 0.0]),
+        ShapeError,
+        "points: expected finite (3,) or (k, 3) in the tip frame, got shape (1, 3)",
+    ),
+    "positions of four axes": (
+        lambda: Points(AT[None], TOOL),
+        ShapeError,
+        "p: expected positions (N, 2, 3), of 2 points, got shape (1, 12, 2, 3)",
+    ),
+    "distances in a row": (
+        lambda: Distances(np.ones((3, 1))),
+        ShapeError,
+        "d: expected distances (N,), got shape (3, 1)",
+    ),
+    "a point that is none": (
+        lambda: Distances([1.0], point=[0.0, np.nan, 0.0]),
+        ShapeError,
+        "point: expected three finite numbers, got array([ 0., nan,  0.])",
+    ),
+    "a guess that is none": (
+        lambda: Distances([1.0], guess=[1.0, 2.0]),
+        ShapeError,
+        "guess: expected three finite numbers, got [1.0, 2.0]",
+    ),
+    "a nameless frame": (
+        lambda: EyeInHand(T, board=""),
+        InputError,
+        "T_base_board: expected a pose, a name or None, got ''",
+    ),
+    "several frames": (
+        lambda: EyeInHand(T, board=T[:2]),
+        PoseError,
+        "T_base_board: expected one finite pose (4, 4) or None, got shape (2, 4, 4)",
+    ),
+    "rows in halves": (
+        lambda: Poses(T, rows=np.arange(12) / 2),
+        ShapeError,
+        "rows: expected 12 whole numbers, the row of q of each measurement, got float64 of shape (12,)",
+    ),
+    "a covariance that is not finite": (
+        lambda: Poses(T, np.full((6, 6), np.nan)),
+        InputError,
+        "Poses: covariance: expected finite numbers",
+    ),
     "a frame": (
         lambda: Points(AT[:, 0], frame="device"),
         InputError,

@@ -52,6 +52,7 @@ def test_residuals_are_shown_in_mm_and_mrad_over_the_share_that_is_no_larger(dra
     position, rotation = figure.axes
     assert (position.get_xlabel(), rotation.get_xlabel()) == ("position error (mm)", "rotation error (mrad)")
     assert (position.get_ylabel(), position.get_ylim()) == ("share of measurements (%)", (0, 103))
+    assert position.get_shared_y_axes().joined(position, rotation)
     least = 1e-12  # where the logarithmic axis ends for what is 0
     for axes, expected in (
         (position, [([1, 4], [50, 100]), ([least, 1e-3, 2e-3, 3e-3], [25, 50, 75, 100])]),
@@ -120,7 +121,7 @@ def test_the_changes_of_each_joint_stand_in_its_row_with_their_intervals(drawn):
     assert [words.get_text() for words in figure.legends[0].get_texts()] == ["first direction", "second direction"]
     assert [words.get_text() for words in figure.axes[0].get_yticklabels()] == ["one", r"\$two\$"]
     assert figure.axes[0].get_yticks().tolist() == [0, 1]
-    assert figure.axes[0].get_ylim() == (1.5, -0.5)  # the first joint is on top
+    assert [axes.get_ylim() for axes in figure.axes] == [(1.5, -0.5)] * 2  # the first joint is on top
 
 
 def test_uncertainties_are_shares_of_the_configurations_in_mm_and_mrad(drawn):
@@ -141,6 +142,8 @@ def test_uncertainties_are_shares_of_the_configurations_in_mm_and_mrad(drawn):
         assert 0.5 <= axes.patches[0].get_linewidth() <= 1
     assert rotation.patches[0].get_height() == pytest.approx(100)
     assert position.get_ylabel() == "share of configurations (%)"
+    assert position.get_shared_y_axes().joined(position, rotation)
+    assert not position.get_legend().get_frame_on()
     assert [words.get_text() for words in position.get_legend().get_texts()] == ["median"]
 
 

@@ -25,7 +25,7 @@ def seen(board: np.ndarray, rows: slice, **names: str | np.ndarray) -> EyeInHand
 
 def test_one_camera_sees_two_boards(tmp_path):
     """The second board in two images only, from which alone nothing could be had; it is given first."""
-    with pytest.raises(InputError, match=r"needs 3 measurements"):
+    with pytest.raises(InputError, match=r"^a first guess of two unknown frames needs 3 measurements or more, got 2$"):
         identify(PANDA, MADE.q, [seen(B, slice(48, 50)), seen(A, slice(48))])
     sets: list[Measurement] = [seen(B, slice(48, 50), camera="wrist"), seen(A, slice(48), camera="wrist")]
     found = calibrate(PANDA, MADE.q, sets, folds=0)
@@ -65,5 +65,5 @@ def test_the_folds_keep_frames_in_common():
 
 
 def test_a_name_of_nothing_is_no_name():
-    with pytest.raises(InputError, match=r"T_tip_camera: expected a pose, a name or None, got ''"):
+    with pytest.raises(InputError, match=r"^T_tip_camera: expected a pose, a name or None, got ''$"):
         EyeInHand(T, camera="")

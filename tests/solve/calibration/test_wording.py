@@ -75,6 +75,12 @@ def test_a_parameter_that_differs_by_what_makes_no_difference_is_seen_alone():
     assert directions(ALL, N, blind) == ["a: tilt", "T_base_board: turn about x"]
 
 
+def test_what_makes_no_difference_elsewhere_changes_no_words():
+    N = together(0, 2)[:, None]
+    for blind in (together(5, 7), together(5)):
+        assert directions(ALL, N, blind[:, None]) == directions(ALL, N)
+
+
 @pytest.mark.parametrize("column, same", [
     ([0.3, 0.3, 0.3], True), ([0.3, 0.3 + 0.9e-9, 0.3], True), ([0.3, 0.3 + 1.2e-9, 0.3], False),
 ])  # fmt: skip
