@@ -40,6 +40,6 @@ def vectors(arm: CompiledChain, frame: str | int, kind: type[np.floating]) -> Ve
         k, T_k = jacobian_frame(arm, frame)
         T, J = chain.fk_jacobian(q, k)
         J = se3.adjoint(se3.inverse(T_k)) @ J
-    x = np.abs(q @ chain.coupling.T + chain.offset).sum(axis=1).max(initial=0.0)
+    x = np.abs(q @ chain.coupling.T + chain.offset).sum(axis=1).max()
     roundoff = float(np.finfo(kind).eps) / 2
     return Vectors(q, T, J, 2 * roundoff * (8 * (len(chain.kinds) + 1) + 4 * float(x)) * chain.reach)
