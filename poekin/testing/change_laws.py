@@ -77,9 +77,8 @@ def link_frames_do_not_matter(
     `built(chain, frames)` makes the chain anew from a robot with those frames; by default `reattached`.
     """
     other = (reattached if built is None else built)(chain, frames)
-    places = frames[:, :, :3, 3] if len(frames) else np.zeros((1, 3))
     unit, linear = budget(chain, np.zeros(chain.dof))
-    grown = 8 * linear * (1 + size(places))
+    grown = 8 * linear * (1 + size(frames[:, :, :3, 3]))
     if other.screws.shape != chain.screws.shape:
         return kept("link frames do not matter", chain, (np.inf, 0.0), frames=frames)
     return kept(

@@ -22,9 +22,9 @@ def size(x: np.ndarray) -> float:
     """Euclidean or Frobenius norm, without underflow; NaN or inf where an entry is."""
     entries = np.abs(np.asarray(x, dtype=float)).ravel()
     largest = float(entries.max(initial=0.0))
-    # 1/largest overflows for subnormal numbers; a power of two keeps every digit.
-    if not 0 < largest < np.inf:
+    if not np.isfinite(largest):
         return largest
+    # 1/largest overflows for subnormal numbers; a power of two keeps every digit.
     power = int(np.frexp(largest)[1])
     return float(np.ldexp(np.linalg.norm(np.ldexp(entries, -power)), power))
 
@@ -41,7 +41,7 @@ def length(xi: np.ndarray) -> float:
 
 def shift(X: np.ndarray) -> float:
     """|t| of a pose; 0 for a rotation."""
-    return 0.0 if len(X) == 3 else size(X[:3, 3])
+    return size(X[:3, 3:])
 
 
 def of_elements(X: np.ndarray, Y: np.ndarray, angular: float, linear: float) -> Pairs:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,12 @@ import pytest
 
 from poekin.groups import se3
 from poekin.model.chain import Chain
+from poekin.model.robot import Robot
 from poekin.testing import chain_laws, change_laws, derivative_laws, method_laws
 from poekin.testing.chain_laws import CHAIN_LAWS
 from poekin.testing.change_laws import CHANGE_LAWS
 from poekin.testing.derivative_laws import DERIVATIVE_LAWS
+from poekin.testing.laws import LawViolation
 from poekin.testing.method_laws import METHOD_LAWS
 
 U = 2.0**-53
@@ -253,3 +256,115 @@ def test_a_hessian_of_a_plain_chain_is_symmetric_to_the_last_bit(monkeypatch):
 def test_frames_of_too_few_joints_are_no_frames_of_the_chain():
     with pytest.raises(ValueError, match="zip"):
         change_laws.link_frames_do_not_matter(PLAIN, FRAMES[:2])
+
+
+def test_another_number_of_joints_is_no_chain_of_other_frames():
+    fewer = Chain(SCREWS[:2], PLAIN.home)
+    more = Chain([*SCREWS, SCREWS[0]], PLAIN.home)
+    for other in (fewer, more):
+        with pytest.raises(LawViolation, match="link frames do not matter: error inf exceeds 0\n"):
+            change_laws.link_frames_do_not_matter(PLAIN, FRAMES, built=lambda chain, frames, other=other: other)
+    none = Chain(np.zeros((0, 6)), PLAIN.home)
+    assert change_laws.link_frames_do_not_matter(none, np.zeros((0, 2, 4, 4))) <= 1
+
+
+@pytest.mark.parametrize("chain", [PLAIN, COUPLED], ids=["plain", "coupled"])
+def test_with_other_frames_every_number_of_screws_and_home_is_looked_at(chain):
+    def built(k: int | None) -> Any:
+        numbers = np.concatenate([chain.screws.ravel(), chain.home[:3].ravel()])
+        if k is not None:
+            numbers[k] += 1e-6
+        home = np.vstack([numbers[18:].reshape(3, 4), [0, 0, 0, 1]])
+        return lambda chain, frames: SimpleNamespace(screws=numbers[:18].reshape(3, 6), home=home)
+
+    assert change_laws.link_frames_do_not_matter(chain, FRAMES, built=built(None)) == 0
+    for k in range(30):
+        with pytest.raises(LawViolation, match="link frames do not matter"):
+            change_laws.link_frames_do_not_matter(chain, FRAMES, built=built(k))
+
+
+def test_joints_are_attached_anew_where_their_axes_pass_the_given_frames(monkeypatch):
+    found: list[Any] = []
+
+    def robot(name: str, links: Any, joints: Any) -> Any:
+        found.extend(joints)
+        return Robot(name, links, joints)
+
+    monkeypatch.setattr(change_laws, "Robot", robot)
+    assert change_laws.reattached(PLAIN, FRAMES).kinds == PLAIN.kinds
+    T = np.eye(4)
+    for joint, S, (P, G) in zip(found[::2], PLAIN.screws, FRAMES, strict=False):
+        at, turns = T @ joint.origin, joint.kind != "prismatic"
+        axis = S[:3] if turns else S[3:]
+        assert at[:3, :3] == pytest.approx(P[:3, :3], abs=1e-14)
+        assert at[:3, :3] @ joint.axis == pytest.approx(axis, abs=1e-14)
+        gap = P[:3, 3] - at[:3, 3]
+        assert gap == pytest.approx(np.zeros(3) if not turns else gap - axis * (axis @ gap), abs=1e-14)
+        if turns:
+            assert np.cross(at[:3, 3], axis) + axis * (axis @ S[3:]) == pytest.approx(S[3:], abs=1e-14)
+        T = G
+    assert T @ found[-1].origin == pytest.approx(PLAIN.home, abs=1e-14)
+
+
+@pytest.mark.parametrize("joint", range(3))
+def test_every_joints_frame_is_looked_at(joint):
+    for chain in (PLAIN, COUPLED):
+        q = Q[: chain.dof]
+        assert chain_laws.joint_poses_are_partial_products(chain, q, joint) <= 1
+        poses = chain.joint_poses(q)
+        poses[joint, 0, 3] += 1e-6
+        wrong = Replaced(chain, joint_poses=lambda q, poses=poses: poses)
+        with pytest.raises(LawViolation, match="joint poses are partial products"):
+            chain_laws.joint_poses_are_partial_products(wrong, q, joint)
+
+
+class Replaced:
+    """A chain with some of its functions replaced."""
+
+    def __init__(self, chain: Chain, **others: Any):
+        self._chain, self._others = chain, others
+
+    def __getattr__(self, name: str) -> Any:
+        return self._others[name] if name in self._others else getattr(self._chain, name)
+
+
+@pytest.mark.parametrize("shape", [(4,), (3, 2), (5, 2), (4, 2, 1)])
+@pytest.mark.parametrize(
+    ("law", "name"),
+    [
+        (chain_laws.batches_are_made_of_single_configurations, "jacobian"),
+        (derivative_laws.derivatives_of_batches_are_those_of_single_configurations, "hessian"),
+    ],
+)
+def test_a_batch_of_another_shape_is_refused_with_both_shapes(law, name, shape):
+    batch = np.zeros((4, 2, 3))
+    right = getattr(PLAIN, name)
+    tail = right(Q, "space").shape
+
+    def wrong(q: np.ndarray, frame: str) -> np.ndarray:
+        return np.zeros((*shape, *tail)) if q.ndim > 1 else right(q, frame)
+
+    with pytest.raises(LawViolation, match="batches have their shape: error inf exceeds 0\n") as caught:
+        law(Replaced(PLAIN, **{name: wrong}), batch)
+    assert caught.value.seen["shape"] == (*shape, *tail)
+    assert caught.value.seen["expected"] == (4, 2, *tail)
+
+
+def test_a_violation_says_how_joints_are_coupled_where_they_are():
+    one = np.eye(3)
+    for coupling, told in ((one, False), (np.diag([1, 1, 0.5]), True), (np.diag([1, 1, 2.0]), True), (one[::-1], True)):
+        chain = Chain(SCREWS, PLAIN.home, coupling=coupling, q_names=["a", "b", "c"])
+        with pytest.raises(LawViolation) as caught:
+            chain_laws.kept("a law", chain, (1.0, 0.5), q=Q)
+        assert ("coupling" in caught.value.seen) == ("offset" in caught.value.seen) == told
+        assert np.array_equal(caught.value.seen["screws"], SCREWS)
+
+
+def test_adjoint_and_inverse_of_a_pose_are_those_of_the_definition():
+    R, t = POSE[:3, :3], POSE[:3, 3]
+    inverse, adjoint = chain_laws.inverse(POSE), chain_laws.adjoint(POSE)
+    assert inverse @ POSE == pytest.approx(np.eye(4), abs=1e-15)
+    assert inverse[3].tolist() == [0, 0, 0, 1]
+    V = np.arange(1.0, 7.0)
+    moved = np.concatenate([R @ V[:3], np.cross(t, R @ V[:3]) + R @ V[3:]])
+    assert adjoint @ V == pytest.approx(moved, abs=1e-14)
