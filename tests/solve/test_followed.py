@@ -127,3 +127,8 @@ def test_a_singularity_is_told_in_the_words_of_what_the_task_asks():
     words = pk.singularity(ARM, q[1], part="translation").words
     assert said == f"poses 1 to 2: near a singularity, most at 1: {words}"
     assert "the base's x axis" in said
+
+
+def test_where_nothing_is_reached_nothing_is_off():
+    path = followed([[0, 1, 0.1]], reason=["unreachable"], errors=[[0.5, 0.25]])
+    assert path.sentences()[0] == "0 of 1 poses reached, within 0 mm and 0 mrad; largest step 0 (rad or m)"

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import pytest
 
+from poekin.solve import all_solutions, followed, ik_all_search, solution, starts, task
+from poekin.solve.motion import timing
 from tests import findings
 
+OWN = (all_solutions, followed, ik_all_search, solution, starts, task, timing)
 FOUND = [
-    *findings.dataclasses_of("poekin.solve", "all_solutions followed ik_all_search solution starts task"),
-    *findings.dataclasses_of("poekin.solve.motion", "timing"),
+    *(kind for module in OWN for kind in findings.dataclasses_of(*module.__name__.rsplit(".", 1))),
 ]
 
 
