@@ -215,3 +215,18 @@ def test_of_a_bad_target_among_others_the_locked_coordinate_is_unknown_too():
     found = ik(arm, T, lock={name: value}, restarts=0)
     assert np.isnan(found.q[3]).all()
     assert found.q[[0, 1, 2, 4], 2].tolist() == [value] * 4
+
+
+@pytest.mark.parametrize(("gear", "turns"), [(1.0, 1), (0.5, 2), (1 / 12, 12), (5 / 12, 12), (1 / 13, 0), (2**-0.5, 0)])
+def test_a_period_is_of_up_to_twelve_turns_of_the_fastest_joint(gear, turns):
+    axes = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1)]
+    chain = pk.Chain(axes, np.eye(4), coupling=[[1.0], [gear]])
+    assert period(chain, 0) == pytest.approx(2 * np.pi * turns, rel=1e-15)
+
+
+@pytest.mark.parametrize("gear", [1.0, -0.5])
+@pytest.mark.parametrize("axis", [[1.0, 0, 0], [-1.0, 0, 0]])
+def test_a_coordinate_that_slides_a_joint_too_has_no_period(gear, axis):
+    chain = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic(axis)], np.eye(4),
+                     coupling=[[1.0], [gear]])  # fmt: skip
+    assert period(chain, 0) == 0
