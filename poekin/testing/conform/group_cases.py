@@ -12,7 +12,7 @@ from ..measures import size
 from ..strategies import LENGTHS, SMALLEST, Arrays, batch_shapes, batches, noisy_rotations, rotation_vectors, st, twists
 from . import confirm, of_groups
 from .calls import called
-from .grades import Grade, Part, Verdict, judged
+from .grades import Grade, Verdict, judged
 from .law import Case, Law, Shown, drawable, typed
 from .subject import JACOBIANS, SE3, SO3, Subject
 
@@ -20,7 +20,7 @@ FAR = 10.0
 """The largest |ω| in rad that exp and the Jacobians of exp are tried at; log, and inverses, to π."""
 EXAMPLES = 400
 """Cases of a law that costs a few milliseconds each."""
-NOTHING = Part("empty batch", 0.0, 1.0, 0.0, lambda: 0.0)
+NOTHING = Verdict(Grade.EXACT, 0.0, "empty batch")
 Checked = Callable[..., Verdict]
 
 
@@ -186,7 +186,7 @@ def _batch_law(name: str) -> Law:
         precision = subject.precision(name)
         pairs = zip(flat, rows, strict=True)
         verdicts = [check(lambda _, row=row: row, one, Grade.BROKEN, precision) for one, row in pairs]
-        return max(verdicts, key=lambda v: v.rank, default=judged(f"batches of {name}", [NOTHING]))
+        return max(verdicts, key=lambda v: v.rank, default=NOTHING)
 
     def show(subject: Subject, case: Case) -> Shown:
         x = _in_order(subject, name, arguments(subject, case))

@@ -41,7 +41,12 @@ def test_angles_go_to_pi_or_to_10(name):
     assert not law.allowed(Case(np.concatenate([n * largest * 1.001, rest])))
     assert not law.allowed(Case(np.concatenate([n * 1e-151, rest])))
     assert law.allowed(Case(np.zeros(count)))
+    for k in range(3):
+        assert law.allowed(Case(np.concatenate([largest * np.eye(3)[k], rest])))
+    assert law.allowed(Case(np.concatenate([[0, 0, 1e-100], rest])))
     if count == 6:
+        assert law.allowed(Case(np.concatenate([n * largest, [2.0, 0, 0]])))
+        assert not law.allowed(Case(np.concatenate([n, [1.1e3, 0, 0]])))
         for length, allowed in ((1e3, True), (1.1e3, False), (1e-9, True)):
             v = np.array([0, length, 0])
             assert law.allowed(Case(np.concatenate([n, v]))) == (allowed and drawable_length(length))
@@ -118,7 +123,7 @@ def test_batches_are_judged_by_their_worst_and_have_their_shape(name, monkeypatc
     rows = np.stack([XI[:count], 0.5 * XI[:count], np.zeros(count)])
     case = Case(rows.ravel(), (3, 1))
     assert law.check(SUBJECT, case).grade == 0
-    assert law.check(SUBJECT, Case(np.zeros(0), (0,))).grade == 0
+    assert law.check(SUBJECT, Case(np.zeros(0), (0,))) == (0, 0.0, "empty batch", "")
     assert law.confirm(SUBJECT, case)
     assert np.asarray(law.show(SUBJECT, case).expected).shape[:2] == (3, 1)
     assert law.show(SUBJECT, case).words.startswith("a batch (3, 1) of ω = (0.4, -0.2, 0.7)")
@@ -156,3 +161,31 @@ def test_noise_is_as_large_as_is_declared():
     shown = law.show(subject, cases[0])
     assert shown.words == "a rotation with noise"
     assert np.array_equal(np.asarray(shown.expected), exact.rounded(exact.log(R)))
+
+
+def test_what_is_held_is_said_with_the_largest_angle():
+    to_pi, far = ", |ω| up to π", ", |ω| up to 10"
+    says = {
+        "so3_exp": f"exp ξ = e^ξ{far}", "exp": f"exp ξ = e^ξ{far}",
+        "so3_log": f"log of a rotation is its principal logarithm{to_pi}",
+        "log": f"log of a pose is its principal logarithm{to_pi}", "adjoint": "Ad(T) = [R 0; [t] R R]",
+        "noise": "log of a rotation with noise is that of the nearest rotation",
+    }  # fmt: skip
+    for prefix in ("so3_", ""):
+        says |= {
+            f"{prefix}left_jacobian": f"(d e^ξ) e^-ξ = J_l dξ{far}",
+            f"{prefix}right_jacobian": f"e^-ξ (d e^ξ) = J_r dξ{far}",
+            f"{prefix}left_jacobian_inverse": f"the inverse of J_l{to_pi}",
+            f"{prefix}right_jacobian_inverse": f"the inverse of J_r{to_pi}",
+        }
+    shapes = ", in shapes (), (1,), (0,), (3, 1, 2)"
+    says |= {f"{n} of batches": f"{n} of a batch is {n} of each{shapes}" for n in SINGLE if n != "adjoint"}
+    assert {law.name: law.says for law in GROUP_LAWS} == says
+    assert {law.name: law.examples for law in GROUP_LAWS} == {n: 100 if "batches" in n else 400 for n in says}
+
+
+def test_an_adjoint_is_confirmed_within_a_hundred_roundings(monkeypatch):
+    asked: list[float] = []
+    monkeypatch.setattr(confirm, "of_adjoint", lambda T, within: asked.append(within) or True)
+    assert LAWS["adjoint"].confirm(SUBJECT, Case(XI))
+    assert asked == [100 * 2.0**-53]

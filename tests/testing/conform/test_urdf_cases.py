@@ -125,6 +125,10 @@ ALLOWED = {
     "a long axis of an oblique law": ("urdf oblique axis", {"_2": 2.0}, False),
     "a long axis of a long law": ("urdf long axis", {"_2": 900.0}, True),
     "a longer axis of a long law": ("urdf long axis", {"_2": 1100.0}, False),
+    "an axis of 999.5": ("urdf long axis", {"_2": 999.5}, True),
+    "an axis of 1000.5": ("urdf long axis", {"_2": 1000.5}, False),
+    "an axis of 2e-3": ("urdf long axis", {"_2": -2e-3}, True),
+    "an axis of 5e-4": ("urdf long axis", {"_2": 5e-4}, False),
     "an oblique axis of a long law": ("urdf long axis", {"_0": 1.0}, False),
 }
 
@@ -197,3 +201,10 @@ def test_numbers_are_typed_short_and_as_floats():
     assert typed([1e20, 0]) == "[1e+20, 0]"
     assert typed([[1e-5, 0], [0, 2]]) == "[[1e-05, 0], [0, 2.0]]"
     assert typed(0.0) == "0.0"
+
+
+def test_a_long_axis_has_any_length_but_none():
+    lengths = np.linalg.norm(rows(found("urdf long axis", 150))[:, :3], axis=1)
+    assert (lengths.min() > 0) & (lengths == 2.0).any()
+    assert lengths.max() > 100
+    assert lengths.min() < 0.01
