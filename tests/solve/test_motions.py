@@ -490,3 +490,33 @@ def test_limits_may_vanish_where_nothing_moves():
         assert motion.fastest(law, 0.0, speed=math.inf, acceleration=math.inf).duration == 0
         assert motion.fastest(law, [], speed=1, acceleration=1).duration == 0
     assert motion.fastest("cubic", 1e-99, speed=1.0).duration == pytest.approx(1.5e-99)
+
+
+SAME_M = "q_0, q_1: expected (..., m) with the same m, got "
+
+
+@pytest.mark.parametrize("call, says", [
+    (lambda: motion.screw(np.tile(np.eye(4), (2, 1, 1)), np.tile(np.eye(4), (3, 1, 1)), np.zeros(5)),
+     "the leading axes do not broadcast: T_s0 (2, 4, 4), T_s1 (3, 4, 4) and s (5,)"),
+    (lambda: motion.lengths(np.tile(np.eye(4), (2, 1, 1)), np.tile(np.eye(4), (3, 1, 1))),
+     "the leading axes do not broadcast: T_s0 (2, 4, 4), T_s1 (3, 4, 4) and s ()"),
+    (lambda: motion.joint(np.zeros((2, 3)), np.zeros((4, 3)), np.zeros(5)),
+     "q_0, q_1: the leading axes do not broadcast: (2, 3), (4, 3) and s (5,)"),
+    (lambda: motion.joint(np.zeros(3), np.zeros(4), 0), f"{SAME_M}(3,) and (4,)"),
+    (lambda: motion.joint(np.zeros((4, 4)), np.zeros((4, 3)), 0), f"{SAME_M}(4, 4) and (4, 3)"),
+    (lambda: motion.joint(0.0, np.zeros(4), 0), f"{SAME_M}() and (4,)"),
+    (lambda: motion.joint(np.zeros(4), 0.0, 0), f"{SAME_M}(4,) and ()"),
+    (lambda: motion.lengths(np.eye(4), np.eye(4), 3),  # type: ignore[arg-type]
+     "along: expected 'line' or 'screw', got 3"),
+])  # fmt: skip
+def test_poses_or_joints_that_do_not_fit_are_told_with_their_shapes(call, says):
+    with pytest.raises(InputError, match=f"^{re.escape(says)}$"):
+        call()
+
+
+def test_paths_go_on_beyond_their_ends():
+    s = np.array([-1.0, 0.5, 2.0])
+    np.testing.assert_array_equal(motion.joint([0, 1.0], [1, 3.0], s), [[-1, -1], [0.5, 2], [2, 5]])
+    T_s1 = se3.exp([0, 0, 0.5, 1, 2, 3])
+    np.testing.assert_allclose(motion.screw(np.eye(4), T_s1, s), se3.exp(s[:, None] * se3.log(T_s1)), atol=1e-14)
+    np.testing.assert_allclose(motion.line(np.eye(4), T_s1, s)[:, :3, 3], s[:, None] * T_s1[:3, 3], atol=1e-14)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.engine import ik_codes as codes
 from poekin.model import screw
 from poekin.solve import reasons
 from poekin.solve.ik import ik
@@ -71,3 +74,70 @@ def test_what_is_at_its_limit_is_in_the_way_else_what_is_outside_beyond_it_and_n
     assert named([1 - 1.1e-9, -2, 0], [5, 0, 0]) == ("b",)
     assert named([0, 0, 3], [1.5, -2.5, 4]) == ("a", "b", "c")
     assert named([0, 0, 0], [1.0, 2.5, 0]) == ("b",)
+
+
+class Tries:
+    """A solver, as the reasons ask it: what it finds without limits is known."""
+
+    def __init__(self, limits, found, states):  # type: ignore[no-untyped-def]
+        chain = line(coupling=None, offset=None, limits=[[-3, 3], [-0.5, 2.0]])
+        self.fast = SimpleNamespace(chain=chain, q_names=("turn", "slide"))
+        self.task = task_of("position", None, None)
+        nothing = np.zeros(2)
+        self.room = Room(np.array(limits, float), np.zeros((2, 2)), nothing > 0, nothing, nothing, winds=False)
+        self.found, self.states, self.asked = np.array(found, float), states, []
+
+    def solve(self, targets, numbers, q0, limits, ranges):  # type: ignore[no-untyped-def]
+        self.asked.append((targets, numbers.tolist(), q0, limits, ranges))
+        info = np.zeros((len(targets), codes.INFO))
+        info[:, codes.AT_STATE] = self.states
+        return self.found, info
+
+
+STATES = [
+    codes.STALLED,
+    codes.OUT_OF_ITERATIONS,
+    codes.BAD_TARGET,
+    codes.SOLVED,
+    codes.OUT_OF_ITERATIONS,
+    codes.STALLED,
+]
+FREE = [[-np.inf, np.inf]] * 2
+
+
+def asked(solver, q):  # type: ignore[no-untyped-def]
+    """What is said of six targets in these states, the fifth of them 100 m away."""
+    info = np.zeros((6, codes.INFO))
+    info[:, codes.AT_STATE] = STATES
+    T = np.tile(np.eye(4), (6, 1, 1))
+    T[4, 0, 3] = 100.0
+    T[2] = np.nan
+    success = np.array([False, False, False, True, False, False])
+    return reasons.of(solver, T, q, info, success)
+
+
+def test_a_reason_is_that_of_the_state_in_which_the_tries_ended():
+    solver = Tries(FREE, np.zeros((0, 2)), [])
+    reason, beyond, blocked = asked(solver, np.zeros((6, 2)))
+    assert reason.tolist() == ["unreachable", "iterations", "bad target", "solved", "iterations", "unreachable"]
+    assert (beyond > 0).tolist() == [False] * 6, "without limits a slide reaches any place"
+    assert blocked == ((),) * 6
+    assert solver.asked == []
+
+
+def test_what_is_solved_without_limits_is_in_their_way_or_within_them_after_all():
+    solver = Tries(
+        [[-1, 1], [-0.5, 2]], [[0.5, 1.0], [7.0, 0.0], [0.0, 0.0]], [codes.SOLVED, codes.SOLVED, codes.STALLED]
+    )
+    q = np.tile([1.0, 0.25], (6, 1))
+    reason, beyond, blocked = asked(solver, q)
+    assert reason.tolist() == ["solved", "limits", "bad target", "solved", "unreachable", "unreachable"]
+    assert (beyond > 0).tolist() == [False] * 4 + [True, False]
+    assert blocked == ((), ("turn",), (), (), (), ())
+    np.testing.assert_array_equal(q, [[0.5, 1.0], *[[1.0, 0.25]] * 5])
+    ((targets, numbers, q0, limits, ranges),) = solver.asked
+    assert (targets.shape, numbers) == ((3, 4, 4), [0, 1, 5])
+    assert np.isnan(q0).all()
+    assert q0.shape == (3, 2)
+    np.testing.assert_array_equal(limits, FREE)
+    np.testing.assert_allclose(ranges, [[-np.pi, np.pi], [-1, 1]])
