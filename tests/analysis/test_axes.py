@@ -169,8 +169,35 @@ def test_the_relation_of_two_axes_is_said_in_degrees_and_mm(angle, gap, words):
 @pytest.mark.parametrize("tol", [0, -1.0, math.inf, math.nan, "1", True])
 @pytest.mark.parametrize("name", ["tol_mm", "tol_deg"])
 def test_a_tolerance_is_a_positive_number(name, tol):
-    with pytest.raises(InputError, match=f"^{name}: "):
+    with pytest.raises(InputError) as caught:
         axes(made(*WRIST), **{name: tol})
+    assert str(caught.value) == f"{name}: a positive number expected, got {tol!r}"
+
+
+def test_an_arm_is_a_chain():
+    with pytest.raises(InputError) as caught:
+        axes(5)  # pyright: ignore[reportArgumentType]
+    assert str(caught.value) == "expected a Chain, as Robot.chain(tip=...) makes it, got 5"
+
+
+def test_shapes_are_said_whole():
+    x, y, z = np.eye(3)
+    elbow = [(z, [0, 0, 0]), (y, [0, 0, 0]), (x, [0, 0, 0]), (y, [1, 0, 0]), (z, [2, 1e-6, 0]), (y, [2, 0, 0]),
+             (x, [2, 0, 0])]  # fmt: skip
+    assert [(shape.kind, shape.joints, shape.words) for shape in axes(made(*elbow)).shapes] == [
+        ("spherical shoulder", (1, 2, 3), "joints 1, 2 and 3: spherical shoulder, the axes meet in one point (within "
+         "0 mm)"),
+        ("spherical wrist", (5, 6, 7), "joints 5, 6 and 7: spherical wrist, the axes meet in one point (within 0.0005 "
+         "mm)"),
+        ("S-R-S", (1, 2, 3, 4, 5, 6, 7), "S-R-S: a spherical shoulder, an elbow and a spherical wrist, like a human "
+         "arm"),
+    ]  # fmt: skip
+    six = [*elbow[1:3], (x, [0, 1, 0]), (x, [0, 2, 0]), (z, [3, 0, 0]), (y, [4, 0, 1])]
+    assert [(shape.kind, shape.joints, shape.words) for shape in axes(made(*six)).shapes] == [
+        ("three parallel axes", (2, 3, 4), "joints 2, 3 and 4: three parallel axes (within 0°)"),
+        ("Pieper", (2, 3, 4), "Pieper: joints 2, 3 and 4: three axes are parallel, so that the inverse kinematics has "
+         "a closed form"),
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize("angle, words", [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -294,3 +295,36 @@ def test_options_out_of_range_are_refused(options):
 def test_a_robot_is_no_chain():
     with pytest.raises(InputError, match="chain"):
         compare(load("panda"), arm("panda"))  # type: ignore[arg-type]
+
+
+CHAIN = "expected a Chain, as Robot.chain(tip=...) makes it, got 5"
+WHOLE = {
+    "a": ({"a": 5}, f"a: {CHAIN}"),
+    "b": ({"b": 5}, f"b: {CHAIN}"),
+    "tol_mm": ({"tol_mm": 0}, "tol_mm: a positive number expected, got 0"),
+    "tol_deg": ({"tol_deg": "x"}, "tol_deg: a positive number expected, got 'x'"),
+    "no samples": ({"samples": 0}, "samples: a number of configurations of at least 1 expected, got 0"),
+    "half a sample": ({"samples": 1.5}, "samples: a number of configurations of at least 1 expected, got 1.5"),
+    "a truth value": ({"samples": True}, "samples: a number of configurations of at least 1 expected, got True"),
+}
+
+
+@pytest.mark.parametrize("options, message", WHOLE.values(), ids=WHOLE)
+def test_what_cannot_be_compared_is_said_whole(options: dict[str, Any], message):
+    two = {"a": random_arm(0), "b": random_arm(0)} | {k: options[k] for k in "ab" if k in options}
+    with pytest.raises(InputError) as caught:
+        compare(two["a"], two["b"], **{k: v for k, v in options.items() if k not in two})
+    assert str(caught.value) == message
+
+
+@pytest.mark.parametrize("numbers, verdict", [
+    ((3, 5), "the models differ: 3 joints against 5, and no two joints can be dropped so that the rest agree"),
+    ((5, 4), "the models differ: 5 joints against 4, and no one joint can be dropped so that the rest agree"),
+    ((6, 3), "the models differ: 6 joints against 3, and more than two must be dropped so that the rest agree"),
+])  # fmt: skip
+def test_numbers_of_joints_that_do_not_fit_are_said_whole(numbers, verdict):
+    a, b = (random_arm(k, ("revolute",) * n) for k, n in enumerate(numbers))
+    found = compare(a, b, samples=7, seed=3, tol_mm=0.02, tol_deg=0.003)
+    assert (found.verdict, found.equal, found.joints, found.extra, found.equivalent) == (verdict, False, (), None, ())
+    assert (found.base, found.tool, found.before, found.after) == (None, None, None, None)
+    assert (found.strict, found.tol_mm, found.tol_deg, found.samples, found.seed) == (False, 0.02, 0.003, 7, 3)

@@ -472,3 +472,34 @@ def test_the_links_of_a_form_turn_or_slide_as_their_joint_does(kind):
         assert np.linalg.norm(pk.se3.log(moved)[slice(0, 3) if kind == "revolute" else slice(3, 6)]) == pytest.approx(
             0.7
         )
+
+
+METHODS_SAID = ", ".join(METHODS)
+REFUSED = {
+    "method": ({"method": "fast"}, f"no method 'fast'; there are: {METHODS_SAID}"),
+    "no method": ({"method": ["direct"]}, f"no method ['direct']; there are: {METHODS_SAID}"),
+    "frame": ({"method": "direct", "frame": "hybrid"},
+              "no method 'direct' in frame 'hybrid'; its frames: body, space"),
+    "joint": ({"method": "structured", "frame": 2},
+              "no method 'structured' in frame 2; its frames: body, space, hybrid"),
+    "charged": ({"charged": "all"},
+                "charged: expected paper or needed or everything for method 'recursive', got 'all'"),
+    "charged 5": ({"method": "specialised", "charged": 5},
+                  "charged: expected everything for method 'specialised', got 5"),
+    "pose": ({"pose": 1}, "pose: expected True or False, got 1"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("options, message", REFUSED.values(), ids=REFUSED)
+def test_what_cannot_be_counted_is_said_whole(options, message):
+    with pytest.raises(pk.errors.PoekinError) as caught:
+        pk.count(arm("rrr"), **options)
+    assert str(caught.value) == message
+
+
+@pytest.mark.parametrize("kinds", ["", "r"])
+def test_too_few_joints_are_said_whole(kinds):
+    with pytest.raises(pk.errors.InputError) as caught:
+        pk.count(arm(kinds), method="direct")
+    assert str(caught.value) == f"method 'direct' counts from 2 joints on, the chain has {len(kinds)}"
+    assert pk.count(arm(kinds), method="specialised").multiplications == 0

@@ -112,3 +112,11 @@ def test_what_cannot_be_judged_is_refused():
         manipulability_gradient(planar(1.0), [0.0], part="linear")
     with pytest.raises(InputError, match=r"^expected a Chain, as Robot.chain\(tip=...\) makes it, got 3"):
         manipulability(3, [0.0])  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("length", [0, -1.0, float("inf"), float("nan"), "1", None])
+def test_a_length_is_a_positive_number_of_metres(length):
+    chain = pk.load("ur5e").chain(tip="tool0")
+    with pytest.raises(InputError) as caught:
+        pk.manipulability(chain, np.zeros(6), length=length)
+    assert str(caught.value) == f"length: expected a positive number of metres, got {length!r}"

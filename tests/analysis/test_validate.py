@@ -306,3 +306,23 @@ def test_the_file_without_a_robot_is_refused():
     (path,) = example_robots()[1].values()
     with pytest.raises(ModelError, match="link"):
         load(path)
+
+
+def test_what_a_chain_does_not_cross_is_said_whole():
+    joints = [
+        Joint("rail", "prismatic", "world", "cart"), Joint("fly", "floating", "cart", "body"),
+        Joint("arm", "revolute", "body", "hand"), Joint("hop", "planar", "hand", "ball"),
+        Joint("spin", "revolute", "ball", "tip"),
+    ]  # fmt: skip
+    robot = Robot("r", ["world", "cart", "body", "hand", "ball", "tip"], joints)
+    assert list(routes(robot)) == [
+        ("ball", "tip", "starts below the planar joint 'hop'"),
+        ("world", "cart", "ends above the floating joint 'fly'"),
+        ("body", "hand", "starts below the floating joint 'fly', ends above the planar joint 'hop'"),
+    ]
+
+
+def test_samples_below_none_are_said_whole():
+    with pytest.raises(InputError) as caught:
+        validate("ur5e", samples=-1)
+    assert str(caught.value) == "samples: a number of configurations ≥ 0 expected, got -1"
