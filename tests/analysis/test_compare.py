@@ -12,6 +12,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from poekin.analysis.compare import compare
+from poekin.analysis.lines import lines
 from poekin.errors import InputError
 from poekin.formats import dh
 from poekin.formats.load import load
@@ -328,3 +329,22 @@ def test_numbers_of_joints_that_do_not_fit_are_said_whole(numbers, verdict):
     assert (found.verdict, found.equal, found.joints, found.extra, found.equivalent) == (verdict, False, (), None, ())
     assert (found.base, found.tool, found.before, found.after) == (None, None, None, None)
     assert (found.strict, found.tol_mm, found.tol_deg, found.samples, found.seed) == (False, 0.02, 0.003, 7, 3)
+
+
+@pytest.mark.parametrize("share", [0.9996, 1.0004])
+@pytest.mark.parametrize("name", ["tol_mm", "tol_deg"])
+def test_a_tolerance_is_one_of_millimetres_or_degrees_to_less_than_a_thousandth(name, share):
+    chain = random_arm(3)
+    S, k = chain.screws.copy(), 2
+    across = np.cross(S[k, :3], S[0, :3]) / np.linalg.norm(np.cross(S[k, :3], S[0, :3]))
+    size = share * 0.5
+    if name == "tol_mm":
+        motion = np.concatenate([np.zeros(3), 1e-3 * size * across])
+    else:
+        place = lines(chain).places[k] + lines(chain).hub
+        motion = np.radians(size) * screw.revolute(across, place)
+    S[k] = se3.adjoint(se3.exp(motion)) @ S[k]
+    tolerances: dict[str, Any] = {"tol_mm": 50.0, "tol_deg": 5.0, name: 0.5}
+    found = compare(chain, Chain(S, chain.home), strict=True, samples=1, **tolerances)
+    assert [joint.number for joint in found.joints if joint.axis_differs] == ([k + 1] if share > 1 else [])
+    assert found.equal == (share < 1)

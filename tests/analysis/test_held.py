@@ -166,7 +166,7 @@ def test_the_other_model_s_axes_may_point_either_way(letters, flipped):
 
 @pytest.mark.parametrize("letters, run", [
     ("rrrr", (1,)), ("rrrr", (2,)), ("rpprrr", (3,)), ("rprprr", (3,)), ("rrrppr", (2,)), ("rprpr", (2,)),
-    ("rrrprpr", (4,)), ("rpprpppr", (3,)), ("rprppprr", (2,)), ("rprrrpr", (2, 4)),
+    ("rrrprpr", (4,)), ("rpprppr", (3,)), ("rprpprr", (2,)), ("rprrrpr", (2, 4)),
 ])  # fmt: skip
 def test_more_axes_than_needed_leave_one_position(letters, run):
     chain, held = arm_of(letters, seed=4), np.array([0.7, -0.4])[: len(run)]
