@@ -120,3 +120,11 @@ def test_a_length_is_a_positive_number_of_metres(length):
     with pytest.raises(InputError) as caught:
         pk.manipulability(chain, np.zeros(6), length=length)
     assert str(caught.value) == f"length: expected a positive number of metres, got {length!r}"
+
+
+def test_without_a_length_lengths_are_in_metres():
+    chain, q = pk.load("ur5e").chain(tip="tool0"), np.array([0.1, -0.7, 0.9, 0.4, 0.8, 0.2])
+    for mine, metres in zip(manipulability(chain, q), manipulability(chain, q, length=1.0), strict=True):
+        assert mine == metres
+    np.testing.assert_array_equal(manipulability_gradient(chain, q), manipulability_gradient(chain, q, length=1.0))
+    assert manipulability(chain, q, length=2.0).pose != manipulability(chain, q).pose

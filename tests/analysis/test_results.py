@@ -2,8 +2,16 @@
 
 from __future__ import annotations
 
+import json
+
+import numpy as np
 import pytest
 
+from poekin.analysis.axes import axes
+from poekin.analysis.compare import compare
+from poekin.analysis.singularity import singularity
+from poekin.analysis.validate import Validation
+from poekin.testing.planted_changes import random_arm
 from tests import findings
 
 FOUND = findings.dataclasses_of(
@@ -14,3 +22,22 @@ FOUND = findings.dataclasses_of(
 @pytest.mark.parametrize("kind", FOUND, ids=lambda kind: kind.__name__)
 def test_a_finding_is_frozen_and_equal_only_where_its_parts_can_be(kind):
     assert findings.frozen_and_equal_only_where_its_parts_can_be(kind)
+
+
+ARM = random_arm(1, ("revolute",) * 3)
+RESULTS = [
+    axes(ARM),
+    compare(ARM, ARM, samples=1),
+    singularity(ARM, np.zeros(3)),
+    Validation("r", "s", (), 1.0, 0, 0, "v"),
+]
+
+
+@pytest.mark.parametrize("found", RESULTS, ids=lambda found: type(found).__name__)
+def test_json_is_the_dict_with_two_blanks_a_level(found):
+    assert found.to_json() == json.dumps(found.as_dict(), indent=2)
+
+
+def test_a_validation_moves_nothing_unless_that_is_said():
+    nothing = Validation("r", "s", (), 1.0, 0, 0, "v")
+    assert (nothing.moving, nothing.worst, nothing.error, nothing.passed) == (0, None, 0, False)
