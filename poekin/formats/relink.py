@@ -128,10 +128,9 @@ def _moved(joint: Joint, H: Array, chain: Chain, i: int, at_tip: bool) -> tuple[
     if z @ w < 0:
         joint = replace(joint, axis=tuple(-a for a in joint.axis))
         z = -z
-    if turns and joint.kind == "helical":
-        joint = replace(joint, pitch=float(chain.local.slides[i]))
     G = (chain.home if at_tip else H).copy()
     if turns:
+        joint = replace(joint, pitch=float(chain.local.slides[i]))
         foot = np.cross(w, screw[3:])
         G[:3, 3] = foot + w * (w @ (G[:3, 3] - foot))
     off = np.cross(z, w)

@@ -49,7 +49,7 @@ def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
     if not isinstance(model, (Robot, Chain)):
         raise InputError(f"to_urdf: expected a Robot or a Chain, got {type(model).__name__}")
     robot = serial_robot(model) if isinstance(model, Chain) else model
-    helical = [joint.name for joint in robot.joints if joint.kind == "helical" and joint.pitch]
+    helical = [joint.name for joint in robot.joints if joint.pitch]
     if helical:
         raise InputError(f"URDF has no helical joints, and these are: {listed(helical)}")
     lines = ['<?xml version="1.0"?>', f"<robot name={quoted(robot.name if name is None else name, 'robot')}>"]

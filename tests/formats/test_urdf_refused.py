@@ -259,6 +259,10 @@ REFUSED = {
         one_joint('<limit lower="0" upper="high"/>'),
         r"^x\.urdf:4: joint 'j': <limit>: upper must be a number, got 'high'$",
     ),
+    "a xacro expression in limits": (
+        one_joint('<limit lower="${-x}" upper="1"/>'),
+        r"^x\.urdf:4: joint 'j': <limit>: lower must be a number, got '\${-x}' \(an unprocessed xacro expression\?\)$",
+    ),
     "a mimic of nothing": (
         one_joint(LIMIT + "<mimic/>"),
         r"^x\.urdf:4: joint 'j': <mimic>: expected an attribute joint",

@@ -77,7 +77,7 @@ def _angle(angle: Angle, literal: Literal) -> str:
         if text:
             text += f" + {term}" if factor > 0 else f" - {term}"
         else:
-            text = term if factor > 0 else f"-{term}"
+            text = term  # the first factor of an angle without a base is positive (`engine.program.Angles`)
     return text
 
 
