@@ -8,7 +8,7 @@ import os
 import pytest
 
 from poekin.errors import FileError, ModelError
-from poekin.formats import mjcf
+from poekin.formats import mjcf, mjcf_files
 from poekin.formats.load import load
 from poekin.formats.mjcf_files import MOST_COPIES
 
@@ -63,6 +63,18 @@ def test_files_that_name_the_next_one_twice_are_not_all_opened(folder):
     texts = {a: model(b) + model(b) for a, b in itertools.pairwise(names)}
     with pytest.raises(ModelError, match=r"<model>: expected at most 1000 files"):
         load(folder(**texts, t="") / "a.xml")
+
+
+@pytest.mark.parametrize("most, refused", [(2, False), (1, True)])
+def test_as_many_files_are_opened_as_are_allowed(folder, monkeypatch, most, refused):
+    monkeypatch.setattr(mjcf_files, "MOST_FILES", most)
+    there = folder(a='<include file="b.xml"/><include file="c.xml"/>', b="<worldbody/>", c="<worldbody/>")
+    if refused:
+        with pytest.raises(ModelError, match=rf"a\.xml:\d: <include>: expected at most {most} files, one for each time "
+                           "that one is named$"):  # fmt: skip
+            load(there / "a.xml")
+    else:
+        assert load(there / "a.xml").links == ("world",)
 
 
 def test_what_is_included_is_looked_through_as_well(folder):

@@ -13,6 +13,7 @@ from hypothesis import given
 
 from poekin.errors import InputError, PoseError, ScrewError, ShapeError
 from poekin.formats.objects import from_object
+from poekin.formats.objects.attributes import type_name
 from poekin.testing.chain_strategies import chain_cases
 from tests.groups.test_objects import Spatial, library
 
@@ -174,3 +175,9 @@ def test_a_documented_line_to_another_library_makes_the_same_arm_there(name):
         exec(code, scope)
     # Six joints, reach 1 m and a half; Pinocchio reads the roll, pitch and yaw of a text.
     np.testing.assert_allclose(scope["found"], scope["expected"], rtol=0, atol=1e-14)
+
+
+def test_a_type_is_named_with_its_module_unless_it_is_built_in():
+    for module in ("arms", "zoo.arms"):
+        assert type_name(type("Arm", (), {"__module__": module})()) == f"{module}.Arm"
+    assert [type_name(x) for x in (3, "text")] == ["int", "str"]

@@ -79,7 +79,10 @@ def makers() -> dict[str, Any]:
     pin = pinocchio()
     composite = pin.JointModelComposite(pin.JointModelRZ(), pin.SE3(pk.se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])))
     composite.addJoint(pin.JointModelPY(), pin.SE3(pk.se3.exp([-0.3, 0.2, 0.1, 0.6, 0.5, 0.4])))
-    composite.addJoint(pin.JointModelUniversal(np.array([1.0, 0, 0]), np.array([0, 1.0, 0])), pin.SE3.Identity())
+    composite.addJoint(
+        pin.JointModelUniversal(np.array([1.0, 0, 0]), np.array([0, 1.0, 0])),
+        pin.SE3(pk.se3.exp([0.5, -0.1, 0.2, 0.3, -0.6, 0.1])),
+    )
     axis = np.array(HALF)
     return {
         **{name: getattr(pin, f"JointModel{name}")() for name in ("RX", "RY", "RZ", "PX", "PY", "PZ")},

@@ -277,6 +277,17 @@ BAD: dict[str, tuple] = {
         ShapeError,
         "q: expected readings (N, 7), one row a measurement, got shape (7,)",
     ),
+    "configurations in rows": (
+        lambda: readings(ARM, Q[None]),
+        ShapeError,
+        "q: expected readings (N, 7), one row a measurement, got shape (1, 12, 7)",
+    ),
+    "poses in rows": (
+        lambda: Poses(T[None]),
+        ShapeError,
+        "T: expected poses (N, 4, 4), got shape (1, 12, 4, 4)",
+    ),
+    "no readings": (lambda: readings(ARM, Q[:0]), InputError, "q: expected readings, got none"),
     "NaN in q": (
         lambda: readings(ARM, nan(Q)),
         InputError,
