@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from poekin.errors import InputError
 from poekin.groups import se3
 from poekin.solve.calibration import Calibration, Distances, EyeInHand, Points, Poses, calibrate, explanation, files
 from poekin.solve.calibration.explanation import Explanation, Size
+from poekin.solve.calibration.residuals import Residuals
 from poekin.solve.calibration.simulated import simulated
 
 PANDA = pk.load("panda").chain(tip="panda_link8")
@@ -186,3 +189,50 @@ def test_a_size_is_told_in_thousandths_below_a_tenth(size, words):
     assert str(size) == words
     assert str(Explanation(size, Size(0.5, None), size)) == f"base moved by {words}, tool by 0.5 m"
     assert str(Explanation(None, Size(0.5, None), size)) == "tool moved by 0.5 m"
+
+
+NEAR, FAR, BASE = Size(0.01, 0.01), Size(2.0, 0.5), Size(1.0, 0.25)
+HEAD = f"the nominal arm is off by {FAR} (median), the calibrated one by {NEAR}"
+OTHER_ARM = (
+    f"{HEAD}, and no other base and tool explain it: is it this arm, in its order of joints, are lengths in m and angles"
+    " in rad? compare() says which joints changed"
+)
+OTHERS = "the calibrated arm's frames are then other ones than base 'here' and tip 'there'; the hint"
+
+
+def residuals(*sizes):
+    count = np.arange(len(sizes))
+    return Residuals(np.array([s.length for s in sizes]), np.array([s.angle for s in sizes]), count, count)
+
+
+def kinds(*angular) -> Any:
+    sets = [SimpleNamespace(angular=a, what=f"Kind{k}") for k, a in enumerate(angular)]
+    return SimpleNamespace(sets=sets, arm=SimpleNamespace(nominal=SimpleNamespace(reach=1.0, base="here", tip="there")))
+
+
+@pytest.mark.parametrize("before, after, other, warning, remark", [
+    (NEAR, NEAR, None, None, None), (FAR, FAR, None, None, None),
+    (FAR, NEAR, None, OTHER_ARM, None), (FAR, NEAR, Explanation(BASE, NEAR, Size(0.11, 0.0)), OTHER_ARM, None),
+    (FAR, NEAR, Explanation(None, NEAR, NEAR), f"{HEAD}: tool moved by {NEAR}; {OTHERS}", None),
+    (FAR, NEAR, Explanation(BASE, FAR, NEAR), f"{HEAD}: base moved by {BASE}, tool by {FAR}; {OTHERS}", None),
+    (FAR, NEAR, Explanation(BASE, NEAR, NEAR), None,
+     f"{HEAD}: base moved by {BASE}, to the frame that was measured in; the hint"),
+])  # fmt: skip
+def test_of_a_set_that_the_nominal_arm_misses_by_far_it_is_told_what_explains_it(
+    before, after, other, warning, remark, monkeypatch
+):
+    monkeypatch.setattr(explanation, "explained", lambda problem, k: other)
+    monkeypatch.setattr(explanation, "hint", lambda *given: "the hint")
+    said = explanation.told(kinds(3), residuals(before), residuals(after))
+    assert said == (() if warning is None else (warning,), () if remark is None else (remark,))
+    both = explanation.told(kinds(3, 3), residuals(NEAR, before), residuals(NEAR, after))
+    assert [len(words) for words in both] == [len(words) for words in said]
+    for one, alone in zip((*both.warnings, *both.remarks), (*said.warnings, *said.remarks), strict=True):
+        assert one == f"measurement set 1 (Kind1): {alone}"
+
+
+def test_of_lengths_whose_place_cannot_be_found_no_more_is_claimed(monkeypatch):
+    monkeypatch.setattr(explanation, "explained", lambda problem, k: None)
+    (words,), remarks = explanation.told(kinds(0), residuals(Size(2.0, 0.0)), residuals(Size(0.01, 0.0)))
+    assert words.startswith("the nominal arm is off by 2 m (median), the calibrated one by 10 mm: is it this arm, ")
+    assert remarks == ()

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 import poekin as pk
 from poekin.errors import InputError
 from poekin.solve.calibration import Distances, Points, calibrate, second_look
+from poekin.solve.calibration.fitting import Fit
+from poekin.solve.calibration.losses import OUTLIER, chi_square
+from poekin.solve.calibration.minimise import Outcome, Step
+from poekin.solve.calibration.noise import Noise
 from poekin.solve.calibration.simulated import simulated
 
 PANDA = pk.load("panda").chain(tip="panda_link8")
@@ -81,3 +88,58 @@ def test_a_second_look_needs_numbers_to_spare(count, rank):
     """28 distances would fit 28 parameters whatever they are, and nothing would say how far they scatter."""
     s = simulated(PANDA, count, kind="distances", unknown=True, noise=(0, 0), seed=3)
     assert calibrate(PANDA, s.q, s.measurements, folds=0).identification.rank == rank
+
+
+STEPS = [Step(float(k), 0.0, 0.0) for k in range(9)]
+
+
+@pytest.mark.parametrize("changed, again", [
+    ({}, True), ({"converged": False}, False), ({"size": 3}, False), ({"seen": 3}, False), ({"more": 3}, False),
+    ({"numbers": 5}, False), ({"numbers": 6}, True), ({"times": 0.99}, False), ({"settles": False}, False),
+    ({"most": 3}, True),
+])  # fmt: skip
+def test_what_is_seen_at_the_end_is_fitted_too_where_it_fits_better_by_more_than_chance(changed, again, monkeypatch):
+    """Three directions first, five at the end; two steps of the first fit, one of the trial, three of the second."""
+    case = {
+        "converged": True,
+        "size": 7,
+        "seen": 5,
+        "more": 5,
+        "numbers": 20,
+        "times": 1.01,
+        "settles": True,
+        "most": 40,
+    }
+    case |= changed
+    few, many = np.zeros((7, 3)), np.zeros((7, case["more"]))
+    first = Fit(np.ones(7), np.eye(7), case["converged"], STEPS[:2], Noise([], []), few)
+    second = Fit(np.full(7, 3.0), np.eye(7), case["settles"], STEPS[3:6], Noise([], []), many)
+    tried, asked = Outcome(np.full(7, 2.0), True, STEPS[2:3], np.eye(7)), []
+    gain = case["times"] * chi_square(2, OUTLIER)
+
+    def fitted(problem, free, name, p, prior, most):
+        asked.append((free is few, name, p[0], prior, most))
+        return first if len(asked) == 1 else second
+
+    def minimise(problem, free, noise, name, p, prior, most):
+        asked.append((free is many, noise is first.noise, name, p[0], prior, most))
+        return tried
+
+    for function in (fitted, minimise):
+        monkeypatch.setattr(second_look, function.__name__, function)
+    monkeypatch.setattr(second_look, "seen_at", lambda *given: case["seen"])
+    monkeypatch.setattr(second_look, "movable_at", lambda *given: many)
+    monkeypatch.setattr(second_look, "_misfit", lambda problem, name, fit, p: gain if p is first.p else 0.0)
+    problem: Any = SimpleNamespace(size=case["size"], numbers=case["numbers"])
+    most = case["most"]
+    found = second_look.settled(problem, few, "huber", np.zeros(7), None, most)
+    assert asked[0] == (True, "huber", 0.0, None, most)
+    if len(asked) > 1:
+        assert asked[1] == (True, True, "huber", 1.0, None, min(3, most - 2))
+    if len(asked) > 2:
+        assert asked[2] == (False, "huber", 2.0, None, most - 3)
+    if again:
+        assert len(asked) == 3
+        assert (found.steps, found.p[0], found.free is many) == (STEPS[:6], 3.0, True)
+    else:
+        assert found is first
