@@ -194,8 +194,8 @@ def test_a_size_is_told_in_thousandths_below_a_tenth(size, words):
 NEAR, FAR, BASE = Size(0.01, 0.01), Size(2.0, 0.5), Size(1.0, 0.25)
 HEAD = f"the nominal arm is off by {FAR} (median), the calibrated one by {NEAR}"
 OTHER_ARM = (
-    f"{HEAD}, and no other base and tool explain it: is it this arm, in its order of joints, are lengths in m and angles"
-    " in rad? compare() says which joints changed"
+    f"{HEAD}, and no other base and tool explain it: is it this arm, in its order of joints, are lengths in m and"
+    " angles in rad? compare() says which joints changed"
 )
 OTHERS = "the calibrated arm's frames are then other ones than base 'here' and tip 'there'; the hint"
 
