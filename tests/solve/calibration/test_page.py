@@ -269,6 +269,19 @@ def test_numbers_stand_in_columns_of_numbers_and_words_in_columns_of_words(text)
             assert numbers == (kind == "number"), cells
 
 
+def test_lengths_of_the_style_have_units_weights_are_those_of_fonts_and_pictures_fit(text):
+    style = text.partition("<style>")[2].partition("</style>")[0]
+    declared = re.findall(r"([a-z-]+):\s*([^;{}]+)[;}]", style)
+    assert len(declared) > 40
+    for name, value in declared:
+        if name == "font-weight":
+            assert value.strip() in ("400", "600", "700")
+        elif name != "line-height":
+            assert set(re.findall(r"(?<![#\w.])\d+(?![\w.%])", value)) <= {"0"}, (name, value)
+    assert "figure svg { max-width: 100%;" in style
+    assert '<meta name="viewport" content="width=device-width, initial-scale=1">' in text
+
+
 def test_a_figure_that_is_far_below_rounding_is_0():
     seen = [page._seen(x) for x in (None, 0.9e-9, -0.9e-9, 1.1e-9, -1234.5)]
     assert seen == ["", "0", "0", "1.1e-09", "-1.23e+03"]

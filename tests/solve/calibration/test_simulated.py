@@ -265,3 +265,15 @@ def test_gross_errors_lie_all_over_their_bounds_in_every_direction():
 @pytest.mark.parametrize("kind", dataclasses_of("poekin.solve.calibration", "simulated"))
 def test_what_was_simulated_cannot_be_changed_and_is_equal_to_itself_alone(kind):
     assert frozen_and_equal_only_where_its_parts_can_be(kind)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_gross_errors_are_as_many_reaches_of_a_large_arm(kind):
+    large = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], pk.se3.exp([0, 0, 0, 40.0, 0, 30.0]))
+    made = simulated(large, 60, kind=kind, outliers=0.5, noise=(0, 0), tilt=0, shift=0)
+    off = np.linalg.norm(errors(made)[made.outliers][:, -3 if kind != "distances" else -1 :], axis=1) / large.reach
+    assert large.reach > 40
+    # 1e-12: a difference of lengths of 100 m
+    assert off.min() >= GROSS_SHIFT[0] - 1e-12
+    assert off.max() <= GROSS_SHIFT[1] + 1e-12
+    assert off.max() > 3 * off.min()
