@@ -79,13 +79,14 @@ def accuracy(
 
 
 def _angles(rng: np.random.Generator, largest: float, samples: int) -> np.ndarray:
-    marks = [0.0, *(10.0**-k for k in range(17)), *(10.0**-k for k in range(20, 151, 10)), math.pi, largest]
+    marks = [0.0, *(10.0**-k for k in range(17)), *(10.0 ** (-10 * k) for k in range(2, 16)), math.pi, largest]
     marks += [x for s in SWITCHES for x in sorted(around(s))]
     marks += [math.pi - 10.0**-k for k in range(1, 16)] + [2 * math.pi, 3 * math.pi]
     low, high = math.log(SMALLEST), math.log(largest)
     wide, usual = rng.uniform(low, high, samples // 4), rng.uniform(math.log(1e-10), high, samples // 2)
     even = rng.uniform(0, largest, samples - samples // 4 - samples // 2)
-    return np.concatenate([[x for x in marks if x <= largest], np.exp(wide), np.exp(usual), even]).clip(0, largest)
+    angles = np.concatenate([[x for x in marks if x <= largest], np.exp(wide), np.exp(usual), even])
+    return np.minimum(angles, largest)
 
 
 def _twists(rng: np.random.Generator, angles: np.ndarray) -> np.ndarray:

@@ -41,7 +41,7 @@ def counts(least: Any, most: Any, floor: int = 0) -> tuple[int, int]:
     try:
         low, high = operator.index(least), operator.index(most)
     except TypeError:
-        low, high = 0, -1
+        low = high = -1
     if not floor <= low <= high or isinstance(least, bool) or isinstance(most, bool):
         raise InputError(
             f"expected whole numbers with {floor} <= min_joints <= max_joints, got min_joints = {told(least)},"

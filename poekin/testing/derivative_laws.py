@@ -58,7 +58,7 @@ def acceleration_is_the_derivative_of_the_velocity(chain: Any, q: np.ndarray, dq
     ddq = dq[::-1] + q
 
     def velocities(t: Any) -> np.ndarray:
-        J = exact_jacobians(chain, line(t, q, dq) + exact.exactly(ddq) * (t * t / 2))
+        J = exact_jacobians(chain, line(t, q, dq))  # of second order, ddq is of no account to J
         return J @ line(t, dq, ddq) if chain.dof else exact.exactly(np.zeros((3, 6)))
 
     pairs, grown = [], _size(chain, dq) ** 2 + _size(chain, ddq)

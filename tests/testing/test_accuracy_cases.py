@@ -197,6 +197,8 @@ def test_a_wrong_sign_of_log_is_reported_with_its_gap():
         signs = np.where(np.arange(2) == which, -1.0, 1.0)[:, None]
         return SimpleNamespace(log=lambda X: function(X) * signs)
 
+    nothing = SimpleNamespace(log=lambda X: 0 * se3.log(X)), SimpleNamespace(log=lambda X: 0 * so3.log(X))
+    assert accuracy._log_rows(nothing[1], nothing[0], T)[1].error == 0
     for rotation, pose, gap in (
         (so3, se3, 0.0), (flipped(so3.log, 0), se3, 1e-3), (so3, flipped(se3.log, 1), 1e-2)
     ):  # fmt: skip
@@ -219,6 +221,9 @@ def test_a_subject_that_leaves_out_a_result_is_not_judged_by_the_others():
         accuracy._log_rows(rotation, se3, POSES[:3])
     with pytest.raises(ValueError, match="shorter"):
         accuracy._noise_errors(rotation, POSES[:3, :3, :3])
+    jacobians = SimpleNamespace(left_jacobian=se3.left_jacobian, right_jacobian=lambda xi: se3.right_jacobian(xi)[:2])
+    with pytest.raises(ValueError, match="shorter"):
+        accuracy._jacobian_rows("jacobian", jacobians, XI[:3], XI[:3])
 
 
 def test_of_log_and_exp_the_worse_of_rotation_and_pose_counts():

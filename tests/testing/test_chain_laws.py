@@ -368,3 +368,13 @@ def test_adjoint_and_inverse_of_a_pose_are_those_of_the_definition():
     V = np.arange(1.0, 7.0)
     moved = np.concatenate([R @ V[:3], np.cross(t, R @ V[:3]) + R @ V[3:]])
     assert adjoint @ V == pytest.approx(moved, abs=1e-14)
+
+
+@pytest.mark.parametrize("joint", [0, 2])
+def test_screw_derivatives_are_looked_at_of_every_joint(joint):
+    assert derivative_laws.screw_derivatives_are_differences_on_the_group(PLAIN, Q, joint) <= 1
+
+
+def test_without_a_coordinate_there_is_no_column():
+    chain = Chain(np.zeros((0, 6)), PLAIN.home)
+    assert derivative_laws.exact_jacobians(chain, np.zeros(0)).shape == (3, 6, 0)

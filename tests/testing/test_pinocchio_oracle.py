@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -135,6 +136,28 @@ def test_why_pinocchio_refuses_is_in_the_message_and_nowhere_else(capfd):
     ):
         PinocchioOracle(TWO_LINKS.replace("continuous", "revolute"))
     assert capfd.readouterr() == ("", "")
+
+
+def test_joints_that_mimic_each_other_are_named():
+    text = URDF.replace('joint="bend"', 'joint="last"')
+    with pytest.raises(ModelError, match=r"the joints that mimic '(last|follow)' go round in a circle"):
+        PinocchioOracle(text)
+
+
+def test_without_a_stderr_a_text_is_read_and_with_one_it_is_emptied_first(monkeypatch):
+    flushed: list[int] = []
+    monkeypatch.setattr(sys, "stderr", SimpleNamespace(flush=lambda: flushed.append(1)))
+    PinocchioOracle(TWO_LINKS)
+    assert flushed == [1]
+    monkeypatch.setattr(sys, "stderr", None)
+    assert PinocchioOracle(TWO_LINKS).coordinates == ("j",)
+
+
+def test_configurations_that_are_drawn_are_within_half_a_turn_and_a_metre(oracle):
+    for name, values in oracle.random(np.random.default_rng(0), 400).items():
+        most = 1.0 if name == "slide" else np.pi
+        assert -most <= values.min() < -0.95 * most
+        assert 0.95 * most < values.max() <= most
 
 
 def test_stderr_is_its_own_again_after_many_threads_at_once(capfd):
