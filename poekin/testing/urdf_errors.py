@@ -16,12 +16,15 @@ def values_of(chain: Chain) -> list[tuple[str, float, float] | None]:
     """For each coordinate the URDF's joint that stands for it, and its value in terms of q: ratio q + shift."""
     result = []
     for column in chain.coupling.T:
-        rows = [(float(r), chain.offset[i], i) for i, r in enumerate(column) if r]
+        rows = [
+            (float(r), float(c), name) for r, c, name in zip(column, chain.offset, chain.joint_names, strict=True) if r
+        ]
         if not rows:
             result.append(None)
             continue
-        r, c, i = min(rows, key=lambda row: (row[0] != 1 or row[1] != 0, row[0] != 1, row[0] != -1, row[2]))
-        result.append((chain.joint_names[i], *((1.0, 0.0) if abs(r) == 1 else (r, c))))
+        # Best one that is the coordinate itself, then one with an offset, then one the other way round.
+        r, c, name = min(rows, key=lambda row: [(1, 0), (1, row[1]), (-1, row[1]), row[:2]].index(row[:2]))
+        result.append((name, 1.0, 0.0) if abs(r) == 1 else (name, r, c))
     return result
 
 

@@ -79,6 +79,7 @@ NEAR: dict[str, tuple[str, ...]] = {
     "poekin/testing/decoders.py": _BY_BYTES,
     "poekin/testing/planted_changes.py": ("tests/testing/test_planting.py", "tests/analysis/test_compare.py"),
     "poekin/testing/reader.py": _BY_BYTES,
+    "poekin/testing/urdf_errors.py": ("tests/formats/test_urdf_text.py", "tests/testing/test_pinocchio_errors.py"),
     "poekin/testing/conform/": _CONFORM,
     **{f"poekin/testing/conform/{name}.py": (f"tests/testing/conform/test_{name}.py", *_CASES) for name in (
         "arm_cases", "confirm", "grades", "group_cases", "named", "plugin", "precision", "small_urdf",
