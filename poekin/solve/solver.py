@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
@@ -27,6 +28,10 @@ STEPS = 800_000
 
 NEAREST_OF = 48
 """So many tries for each target are looked at for the one nearest to `nearest_to`."""
+
+TRIES = tuple(itertools.product((True, False), repeat=2))
+"""These tries, in turn: with limits or without, when more of them arrive, and many within the limits but for whole
+turns; from not far away or from anywhere."""
 
 
 class Settings(NamedTuple):
@@ -201,13 +206,12 @@ class Solver:
         distance = _distance(best, near, kept)
         rng = np.random.default_rng(self.settings.seed)
         low, high = self.room.ranges.T
-        for attempt in range(NEAREST_OF):
+        anywhere = np.full_like(self.room.limits, [-np.inf, np.inf])
+        for limits, close in itertools.islice(itertools.cycle(TRIES), NEAREST_OF):
             start = np.where(self.room.fixed, within, low + (high - low) * rng.random(near.shape))
-            if attempt % 2 == 0:  # every other one from not far away
+            if close:
                 start = within + 0.25 * (start - within)
-            # half of them without limits: more of them arrive, and many within the limits but for whole turns
-            free = np.full_like(self.room.limits, [-np.inf, np.inf]) if attempt % 4 >= 2 else None
-            other, said = self.solve(targets, indices, start, restarts=0, limits=free)
+            other, said = self.solve(targets, indices, start, restarts=0, limits=None if limits else anywhere)
             other = self.room.unwound(other, near)
             far = np.where(self.room.holds(other), _distance(other, near, said), np.inf)
             nearer = far < distance

@@ -54,6 +54,8 @@ def test_the_jacobian_of_a_direction_has_no_turn_about_it():
     (("direction", [0, np.nan, 1], None), "axis: expected a direction (3,) that is not zero, got [0, nan, 1]"),
     (("pose", None, [1, 1, 1, 1, 1, 0]),
      "weights: expected six positive numbers (rotation; position), got [1, 1, 1, 1, 1, 0]"),
+    (("pose", None, [1, 1, 1, 1, 1, -0.5]),
+     "weights: expected six positive numbers (rotation; position), got [1, 1, 1, 1, 1, -0.5]"),
     (("pose", None, [1, 1, 1, 1, 1, np.inf]),
      "weights: expected six positive numbers (rotation; position), got [1, 1, 1, 1, 1, inf]"),
 ])  # fmt: skip
