@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.engine import ik_all_kernel as kernel
+from poekin.engine import ik_codes
 from poekin.model import screw
 from poekin.solve import ik_all as ik_all_module
 from poekin.solve import ik_all_search as module
@@ -141,3 +144,46 @@ def test_a_motion_is_lost_where_its_singular_value_is_1e_5_of_the_largest(ratio,
     J[0, 0], J[4, 1] = 2.0, 2.0 * ratio
     assert module._way_along(arm().compile(), np.eye(4), np.zeros(2), J) is None
     assert bool(asked) == singular
+
+
+def test_the_kernel_is_told_starts_ranges_rules_and_the_number_of_each_target(monkeypatch):
+    chain = pk.Chain(arm().screws, arm().home, limits=[[-1.0, 2.0], [-0.5, 1.0]])
+    fast, asked = chain.compile(), list[tuple[Any, ...]]()
+
+    def call(*words: Any) -> None:
+        asked.append(words)
+        *_, q, hits, info = words
+        q[:], hits[:], info[:] = 7.0, 3.0, 0.0
+        info[:, kernel.FOUND], info[:, kernel.AT_ENDS], info[:, kernel.AT_RESTARTS] = [2, 0, 40], 5, [6, 0, 1]
+        info[2, kernel.FULL] = 1.0
+
+    monkeypatch.setattr(kernel, "search", SimpleNamespace(call=call))
+    T = np.tile(np.eye(4), (3, 1, 1))
+    starts = [np.array([[0.1, 0.2]]), np.empty((0, 2)), np.array([[0.3, 0.4], [0.5, 0.6]])]
+    found = module._search(fast, T, starts, Rule(3, 4, 5, 6), 9, 64)
+    (words,) = asked
+    address, targets, rows, given, free, ranges, turn, options, rules, indices, seed, q, hits, info = words
+    assert address == fast.hybrid_address
+    np.testing.assert_array_equal(targets, T)
+    assert rows.tolist() == [[[0.1, 0.2], [0, 0]], [[0, 0], [0, 0]], [[0.3, 0.4], [0.5, 0.6]]]
+    assert given.tolist() == [1, 0, 2]
+    np.testing.assert_array_equal(free, np.tile([-np.inf, np.inf], (2, 1)))
+    np.testing.assert_allclose(ranges, [[-np.pi, np.pi], [-0.5, 1.0]])
+    np.testing.assert_allclose(turn, [TURN, 0])
+    expected = np.zeros(ik_codes.OPTIONS)
+    expected[ik_codes.TOL_POSITION], expected[ik_codes.TOL_ROTATION] = 1e-13 * chain.reach, 1e-13
+    expected[ik_codes.ITERATIONS], expected[ik_codes.WEIGHTS :] = 5, 1
+    np.testing.assert_allclose(options, expected, rtol=1e-12)
+    wanted = {kernel.ACCEPTED: 1e-10, kernel.EACH: 3, kernel.RESTARTS: 4, kernel.BARREN: 6}
+    assert dict(enumerate(rules.tolist())) == {k: wanted.get(k, 0) for k in range(kernel.RULE)}
+    assert (indices.tolist(), indices.dtype, seed) == ([64, 65, 66], np.float64, 9)
+    assert (q.shape, hits.shape, info.shape) == ((3, 40, 2), (3, 40), (3, kernel.INFO))
+    assert [len(f.solutions) for f in found] == [len(f.hits) for f in found] == [2, 0, 40]
+    assert [(f.ends, f.restarts, f.full, f.singular, f.moving) for f in found] == [
+        (5, 6, False, False, ()), (5, 0, False, False, ()), (5, 1, True, False, ())
+    ]  # fmt: skip
+    assert (found[0].solutions == 7).all()
+    q[:] = 0.0
+    assert (found[0].solutions == 7).all(), "a copy"
+    module._search(fast, T[:3], [np.empty((0, 2))] * 3, Rule(3, 4, 5, 6), 9, 0)
+    assert asked[1][2].shape == (3, 0, 2)
