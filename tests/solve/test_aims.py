@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.engine import ik_codes as codes
 from poekin.errors import InputError
 from poekin.model import screw
 from poekin.solve import aims
@@ -93,3 +97,47 @@ def test_what_is_no_aim_is_told(aim, q0, words):
     aims.check_aim("nearest", [0])
     aims.check_aim("middle", None)
     aims.check_aim(None, None)
+
+
+def test_an_aim_is_served_in_25_steps_each_half_as_long_after_one_that_is_no_better(monkeypatch):
+    moves, asked = [], []
+
+    def moved(solver, q, q0, aim, step):
+        moves.append((q.copy(), step.copy()))
+        return q + 1.0
+
+    def solve(targets, numbers, q0, *, restarts):
+        asked.append((len(targets), numbers.tolist(), restarts))
+        info = np.zeros((len(targets), codes.INFO))
+        info[:, codes.AT_STATE] = [codes.SOLVED, codes.SOLVED, codes.STALLED]
+        return q0, info
+
+    # the first target gets better twice and then as good, the second worse, the third better but is not solved
+    values = iter([[9.0, 9, 9], [8, 9.5, 1], [7, 9, 1], *[[7.0, 10, 1]] * 30])
+    monkeypatch.setattr(aims, "_moved", moved)
+    monkeypatch.setattr(aims, "_value", lambda *_: np.array(next(values)))
+    q = np.zeros((3, 2))
+    stub: Any = SimpleNamespace(solve=solve)
+    found = aims.improved(stub, np.zeros((3, 4, 4)), q, np.full((3, 2), np.nan), "middle")
+    assert asked == [(3, [0, 1, 2], 0)] * 25
+    assert found.tolist() == [[2, 2], [0, 0], [0, 0]]
+    assert not q.any()
+    steps = np.array([step for _, step in moves])
+    np.testing.assert_allclose(steps[:, 0], [0.5, 0.5, *(0.5 * 0.5**k for k in range(23))])
+    np.testing.assert_allclose(steps[:, 1:], 0.5 * 0.5 ** np.arange(25.0)[:, None] * [1, 1])
+
+
+def test_of_bad_targets_nothing_is_asked(monkeypatch):
+    asked = []
+
+    def solve(targets, numbers, q0, *, restarts):
+        asked.append(targets[:, 0, 0].tolist())
+        return q0, np.zeros((len(targets), codes.INFO))
+
+    monkeypatch.setattr(aims, "_moved", lambda solver, q, *_: q - 1.0)
+    monkeypatch.setattr(aims, "_value", lambda solver, q, *_: q[:, 0])
+    q, T = np.array([[5.0], [np.nan], [7.0]]), np.arange(3.0)[:, None, None] * np.ones((3, 4, 4))
+    stub: Any = SimpleNamespace(solve=solve)
+    found = aims.improved(stub, T, q, q, "nearest")
+    np.testing.assert_array_equal(found, [[-20], [np.nan], [-18]])
+    assert asked == [[0, 2]] * 25

@@ -115,3 +115,18 @@ def test_the_nearest_is_looked_for_with_limits_and_without_from_near_and_from_an
         assert restarts == 0
         assert (limits is None) == (k % 4 < 2)
         assert limits is None or np.array_equal(limits, np.tile([-np.inf, np.inf], (6, 1)))
+
+
+@pytest.mark.parametrize("aim", [None, "middle"])
+@pytest.mark.parametrize("near", [None, [0.1, -1.0, 1.2, 0.4, 0.9, -0.3]])
+def test_targets_in_parts_are_solved_as_all_together(near, aim, monkeypatch):
+    T = ARM.fk(ARM.chain.random(0, 20))
+    made, told = solver_of(ARM, GIVEN._replace(task="position")), []
+    whole = made.run(T, None, near, aim, None)
+    monkeypatch.setattr(solver, "AT_ONCE", 7)
+    parts = made.run(T, None, near, aim, lambda done, count: told.append((done, count)))
+    assert told == [(7, 20), (14, 20), (20, 20)]
+    np.testing.assert_array_equal(parts.success, whole.success)
+    if near is None:  # random starts of the others depend on how many there are in a part
+        np.testing.assert_allclose(parts.q, whole.q, rtol=0, atol=1e-12)
+        np.testing.assert_array_equal(parts.iterations, whole.iterations)
