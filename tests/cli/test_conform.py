@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from types import SimpleNamespace
 
 from poekin.testing import conform
@@ -64,9 +65,11 @@ def test_options_reach_the_function_and_its_report_the_exit_code(monkeypatch, po
         return SimpleNamespace(conforms=len(asked) == 1, as_dict=dict, __str__=lambda: "")
 
     monkeypatch.setattr(conform, "conform", told)
+    monkeypatch.setattr(sys, "path", [place for place in sys.path if place])
     words = ["--law", "exp", "--law", "log", "--except", "so3_exp", "--examples", 7, "--seconds", 2.5, "--limit", 3]
     assert poekin("conform", "m:A", *words, "--at-most", "poor", "--json")[:2] == (0, "{}\n")
     assert poekin("conform", "m:B", "--json")[0] == 1
+    assert (sys.path[0], sys.path.count("")) == ("", 1), "modules of this directory come first"
     grades = {"leave_out": ["so3_exp"], "at_most": conform.Grade.POOR, "limits": conform.Limits(3.0)}
     usual = {"leave_out": (), "at_most": conform.Grade.GOOD, "limits": conform.Limits(60.0)}
     assert asked == [("m:A", ["exp", "log"], 7, 2.5, grades), ("m:B", (), None, 600.0, usual)]
