@@ -7,22 +7,26 @@ import re
 
 import pytest
 
+from poekin.cli import axes, compare, count, dh, info, singularity, validate
+
 S = ["wx", "wy", "wz", "vx", "vy", "vz", "lower", "upper"]
 TABLES = {
-    "info chain": (["info", "stanford", "--tip", "tool"], ["joint", "kind", "coordinate"], S),
-    "info robot": (["info", "panda"], ["base", "tip"], ["joints", "coordinates", "reach (m)"]),
-    "info screws": (["info", "panda"], ["joint", "kind", "coordinate"], S),
-    "axes": (["axes", "stanford"], ["axis", "and axis", "are"], ["angle (deg)", "distance (mm)"]),
-    "count": (["count", "stanford"], ["frame"], ["×", "+", "sin/cos", "with pose: ×"]),
-    "compare": (["compare", "ur5e", "ur3e"], ["joint", "kind", "axis"], ["angle (deg)", "normal (mm)", "limits"]),
-    "dh": (["dh", "stanford"], ["joint", "kind"], ["theta (rad)", "a (m)", "alpha (rad)", "lower", "upper"]),
+    "info chain": (info, ["stanford", "--tip", "tool"], ["joint", "kind", "coordinate"], S),
+    "info robot": (info, ["panda"], ["base", "tip"], ["joints", "coordinates", "reach (m)"]),
+    "info screws": (info, ["panda"], ["joint", "kind", "coordinate"], S),
+    "axes": (axes, ["stanford"], ["axis", "and axis", "are"], ["angle (deg)", "distance (mm)"]),
+    "count": (count, ["stanford"], ["frame"], ["×", "+", "sin/cos", "with pose: ×"]),
+    "compare": (compare, ["ur5e", "ur3e"], ["joint", "kind", "axis"], ["angle (deg)", "normal (mm)", "limits"]),
+    "dh": (dh, ["stanford"], ["joint", "kind"], ["theta (rad)", "a (m)", "alpha (rad)", "lower", "upper"]),
     "singularity": (
-        ["singularity", "stanford", "--at", "0 0 0.5 0 1 0"],
+        singularity,
+        ["stanford", "--at", "0 0 0.5 0 1 0"],
         ["Jacobian (rad, m)"],
         ["Yoshikawa", "condition", "smallest singular value"],
     ),
     "validate": (
-        ["validate", "stanford", "--samples", "2"],
+        validate,
+        ["stanford", "--samples", "2"],
         ["robot", "worst chain"],
         ["chains", "pose", "J space", "J body", "J hybrid"],
     ),
@@ -33,8 +37,8 @@ TABLES = {
 def test_words_begin_below_their_heads_and_numbers_end_below_theirs(case, poekin):
     if case == "validate":
         pytest.importorskip("pinocchio")
-    command, words, numbers = TABLES[case]
-    lines = poekin(*command)[1].splitlines()
+    module, more, words, numbers = TABLES[case]
+    lines = poekin(module.__name__.rpartition(".")[2], *more)[1].splitlines()
     found = [{m[0]: m.span() for m in reversed(list(re.finditer(r"\S+(?: \S+)*", line)))} for line in lines]
     at = next(i for i, heads in enumerate(found) if {*words, *numbers} <= set(heads))
     assert set(lines[at + 1]) == {"─"}
