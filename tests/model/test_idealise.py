@@ -89,23 +89,25 @@ def test_a_chain_is_settled_where_last_digits_differ_alone():
 def test_a_chain_is_not_settled_where_a_zero_or_a_one_is_missed_by_its_last_digit(number):
     S = screw.revolute([0.6, 0, 0.8], [0, 0, 0])
     T = np.eye(4)
-    T[0, 3] = number + 2**-52
-    other = T.copy()
-    other[0, 3] = number
-    chain = Chain([S], T)
-    assert _settled(chain, chain.screws, T)
-    assert not _settled(chain, chain.screws, other)
+    for off in (2**-52, -(2**-52)):
+        T[0, 3] = number + off
+        other = T.copy()
+        other[0, 3] = number
+        chain = Chain([S], T)
+        assert _settled(chain, chain.screws, T)
+        assert not _settled(chain, chain.screws, other)
     S = screw.prismatic([0.6, 0, 0.8])
     assert Chain([S], np.eye(4)).idealised(TOL).chain.screws[0].tolist() == S.tolist()
 
 
 def test_a_chain_is_not_settled_where_axes_are_not_parallel_to_the_last_bit():
     old = [screw.revolute([0.6, 0, 0.8], [0, 0, 0]), screw.revolute([-0.6, 0, -0.8], [1, 0, 0])]
-    bit = [old[0], old[1] + [0, 0, 2**-53, 0, 0, 0]]
-    chain, apart = Chain(old, np.eye(4)), Chain(bit, np.eye(4))
+    chain = Chain(old, np.eye(4))
     assert _settled(chain, chain.screws, chain.home)
-    assert not _settled(apart, chain.screws, chain.home)
-    assert _settled(chain, apart.screws, chain.home)  # it is the new ones that are to be parallel
+    for bit in (2**-52, -(2**-52)):
+        apart = Chain([old[0], old[1] + [0, 0, bit, 0, 0, 0]], np.eye(4))
+        assert not _settled(apart, chain.screws, chain.home)
+        assert _settled(chain, apart.screws, chain.home)  # it is the new ones that are to be parallel
 
 
 @pytest.mark.parametrize("way", [(0, 0, 1), (0, -1, 0), (0.6, 0, -0.8), (-0.6, 0.8, 0)], ids=str)

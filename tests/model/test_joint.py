@@ -255,3 +255,12 @@ def test_an_array_that_the_user_changes_later_changes_nothing():
     one = joint(origin=mine)
     mine[0, 3] = 1
     assert one == joint(origin=frozen(np.eye(4)))
+
+
+def test_joints_and_robots_that_differ_are_unequal_either_way_round():
+    pairs = [(joint(), joint(name="k")), (joint(pitch=0.0), joint(limits=(-1, 1)))]
+    pairs += [(Robot("r", ["a"], []), Robot("s", ["a"], [])), (Robot("r", ["a"], []), Robot("r", ["b"], []))]
+    for one, other in pairs:
+        assert one != other
+        assert other != one
+        assert one == one
