@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -10,7 +11,8 @@ from hypothesis import given, settings
 
 import poekin as pk
 from poekin.engine import interpret
-from poekin.model.structure import structure
+from poekin.engine.trace import FOLDED
+from poekin.model.structure import _angle, _in_local, structure
 from poekin.testing import chain_strategies
 from tests.model.test_compiled import LONGER, near
 
@@ -118,3 +120,44 @@ def test_a_nominal_arm_s_jacobian_costs_no_more_than_its_structure_lets_it(name,
     for frame, most in (("hybrid", hybrid), ("middle", middle)):
         count = fast.program(frame).count
         assert (np.array([count.multiplications, count.additions, count.sines]) <= most).all()
+
+
+@pytest.mark.parametrize("quarter, cosine, sine", [(0, 1, 0), (1, 0, 1), (2, -1, 0), (3, 0, -1)])
+def test_a_quarter_turn_is_one_within_rounding_and_else_an_angle(quarter, cosine, sine):
+    for off, folded in ((0.0, True), (0.9, True), (-0.9, True), (1.1, False), (-1.1, False), (1e15, False)):
+        small = off * FOLDED
+        c, s = cosine - small * sine, sine + small * cosine
+        quarters, angle = _angle((Decimal(c), Decimal(s)))
+        assert (quarters, angle) == ((quarter, 0) if folded else (0, math.atan2(s, c)))
+
+
+def test_a_pose_is_seen_from_the_frame_of_each_joint():
+    chain = chain_of_three()
+    pose = pk.se3.exp([0.3, -0.2, 0.5, 1.0, 2.0, 3.0])
+    row = (*pose[:3, :3].ravel().tolist(), *pose[:3, 3].tolist())
+    for k, T in enumerate(chain.joint_poses(np.zeros(3))):
+        seen = pk.se3.inverse(T) @ pose
+        assert _in_local(chain, k, row) == pytest.approx((*seen[:3, :3].ravel(), *seen[:3, 3]), abs=1e-14)
+
+
+def chain_of_three():
+    rows = np.random.default_rng(4).normal(size=(3, 2, 3))
+    return pk.Chain([pk.screw.revolute(z, p) for z, p in rows], np.eye(4))
+
+
+@pytest.mark.parametrize("tilt, slanted", [(0.09, False), (0.11, True)])
+@pytest.mark.parametrize("flip", [1.0, -1.0])
+def test_links_follow_common_normals_but_between_nearly_parallel_axes(tilt, slanted, flip):
+    # The second axis passes the first at x = 0.5 and leans across x; the third is parallel to it.
+    z = flip * np.array([0, np.sin(tilt), np.cos(tilt)])
+    rows = [([0, 0, 1], [0, 0, 0]), (z, [0.5, 0, 2.0]), (-z, np.array([0.5, 0, 2.0]) + 0.25 * np.array([1, 0, 0]))]
+    found = structure(pk.Chain([pk.screw.revolute(*row) for row in rows], np.eye(4)))
+    assert found.links[0] == (0, 1, 0, 0)
+    sine, cosine, across, aside = found.links[1]
+    assert sine == pytest.approx(np.sin(tilt))
+    assert cosine == pytest.approx(flip * np.cos(tilt))
+    assert abs(across) == pytest.approx(0.5)
+    assert abs(aside) == pytest.approx(0.0 if slanted else 2.0 * np.tan(tilt))
+    assert found.links[2] == pytest.approx((0, 1, 0.25, 0))
+    assert found.parallel == (0, 0, 1)
+    assert found.rotates == (1, 1, -1)
