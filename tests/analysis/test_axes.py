@@ -205,3 +205,17 @@ def test_shapes_are_said_whole():
 ])  # fmt: skip
 def test_an_angle_is_told_from_what_it_is_nearer_to(angle, words):
     assert AxisPair(1, 2, "a", "b", angle, None, False, False, False, True).words == words
+
+
+def test_shapes_behind_a_slide_and_behind_parallel_axes_are_found():
+    x, y, z = np.eye(3)
+    wrist = [(z, [2, 0, 0]), (y, [2, 0, 0]), (x, [2, 0, 0])]
+    rail = Chain([screw.prismatic(x), *made(*wrist).screws], np.eye(4))
+    assert [(shape.kind, shape.joints) for shape in axes(rail).shapes] == [("spherical wrist", (2, 3, 4))]
+    both = axes(made(*((y, [0.5 * k, 0, 0]) for k in range(3)), *wrist)).shapes
+    assert [(shape.kind, shape.joints) for shape in both] == [
+        ("three parallel axes", (1, 2, 3)), ("spherical wrist", (4, 5, 6)), ("Pieper", (4, 5, 6)),
+    ]  # fmt: skip
+    # Neighbours along one line are no wrist, and neither are slides.
+    assert axes(made((z, [0, 0, 0]), (z, [0, 0, 1]), (x, [0, 0, 0]))).shapes == ()
+    assert axes(made((z, [0, 0, 0]), (x, [0, 0, 0]), (x, [1, 0, 0]))).shapes == ()

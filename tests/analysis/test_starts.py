@@ -274,3 +274,13 @@ def test_the_few_alignments_that_are_kept_are_those_that_miss_least_and_change_l
     assert len(P) == 2
     assert misses(pair, carried(pair, P, found)[1])[0].max() < 1e-3
     assert np.sort((abs(found) > 1e-6).sum(1))[0] <= np.count_nonzero(offset)
+
+
+def test_pairs_without_a_frame_or_at_another_angle_are_passed_over():
+    z, x = [0, 0, 1], [1, 0, 0]
+    one = Chain([screw.revolute(*row) for row in ((z, [0, 0, 0]), (z, [0, 0, 1]), (x, [0, 1, 0]))], np.eye(4))
+    pair = sides(one, one, 1e-6, 1e-6)
+    joints, _ = pair_poses(pair, [(0, 1), (0, 2), (1, 2)])
+    assert sorted({tuple(map(int, row)) for row in joints}) == [(0, 2), (1, 2)]
+    other = sides(one, Chain([one.screws[0], *one.screws[[2, 2]]], np.eye(4)), 1e-6, 1e-6)
+    assert {tuple(map(int, row)) for row in pair_poses(other, [(0, 1), (1, 2), (0, 2)])[0]} == {(0, 2)}
