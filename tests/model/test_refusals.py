@@ -328,3 +328,17 @@ def test_the_longest_length_itself_is_taken():
     assert chain([0, 0, 1, 1e100, 0, 0]).screws[0, 3] == 1e100
     assert chain([0, 0, 1, 0, 0, 1e100], pitches=[1e100]).pitches.tolist() == [1e100]
     assert hung("j", "a", "b", "helical", pitch=-1e100).pitch == -1e100
+
+
+def test_a_joint_is_found_by_its_name_wherever_it_stands():
+    arm = robot(hung("m", "a", "b"), hung("z", "b", "c"), hung("a", "c", "d"))
+    assert [arm.joint(name).name for name in "zma"] == ["z", "m", "a"]
+
+
+def test_compiled_arms_are_equal_that_do_the_same_in_the_same_way():
+    plain, parallel = ARM.compile(), ARM.compile(parallel=True)
+    again = pk.Chain(ARM.screws, ARM.home, joint_names=ARM.joint_names).compile()
+    assert plain == again
+    assert hash(plain) == hash(again)
+    for one, other in ((plain, parallel), (parallel, plain), (plain, ALONE.compile()), (plain, ARM)):
+        assert one != other
