@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import numpy as np
 import pytest
@@ -342,3 +343,13 @@ def test_a_choice_says_its_figure_the_median_s_and_the_best_s_and_what_noise_lea
 @pytest.mark.parametrize("kind", dataclasses_of("poekin.solve.calibration", "choice"))
 def test_a_choice_cannot_be_changed_and_is_equal_to_itself_alone(kind):
     assert frozen_and_equal_only_where_its_parts_can_be(kind)
+
+
+def test_where_nothing_is_said_a_hundred_random_choices_are_drawn_by_the_seed_0():
+    arm = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([0, 1, 0], [0.3, 0, 0.5])], at(TOOL))
+    q = np.random.default_rng(0).uniform(-1, 1, (20, 2))
+    said: tuple[dict[str, Any], ...] = ({}, {"compare": 100, "seed": 0, "by": "amplification"}, {"seed": 1})
+    found, same, other = (choose_poses(arm, 6, q, **options) for options in said)
+    assert (found.compare, found.by) == (100, "amplification")
+    assert (found.figures, found.random, found.best) == (same.figures, same.random, same.best)
+    assert found.random != other.random

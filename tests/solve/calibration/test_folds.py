@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -72,3 +73,16 @@ def test_each_reading_is_judged_once_by_a_calibration_without_it(monkeypatch):
     assert all(map(np.array_equal, trained[:3], trained[3:]))  # the seed draws the parts
     folds.held_out(problem, free, "huber", None, 3, 6, 40, None)
     assert not all(map(np.array_equal, trained[:3], trained[6:]))
+
+
+def test_where_nothing_is_said_five_parts_are_drawn_by_the_seed_0():
+    q = ARM.random(0, 12)
+    T = ARM.fk(q) @ pk.se3.exp(1e-4 * np.random.default_rng(1).normal(size=(12, 6)))
+    said: tuple[dict[str, Any], ...] = ({}, {"folds": 5, "seed": 0, "max_iterations": 100}, {"seed": 1})
+    found, same, other = (calibrate(ARM, q, Poses(T), parameters=["offsets"], **options).held_out for options in said)
+    assert found is not None
+    assert same is not None
+    assert other is not None
+    assert (found.folds, other.folds) == (5, 5)
+    np.testing.assert_array_equal(found.after.length, same.after.length)
+    assert not np.array_equal(found.after.length, other.after.length)

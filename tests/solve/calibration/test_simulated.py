@@ -277,3 +277,24 @@ def test_gross_errors_are_as_many_reaches_of_a_large_arm(kind):
     assert off.min() >= GROSS_SHIFT[0] - 1e-12
     assert off.max() <= GROSS_SHIFT[1] + 1e-12
     assert off.max() > 3 * off.min()
+
+
+def test_what_is_not_said_of_a_simulation_is_a_tilt_of_2_mrad_and_a_tenth_of_a_millimetre_of_noise():
+    said: dict[str, Any] = {
+        "kind": "poses",
+        "tilt": 2e-3,
+        "shift": 1e-3,
+        "noise": (1e-4, 1e-4),
+        "outliers": 0.0,
+        "seed": 0,
+        "unknown": False,
+    }
+    found, same = simulated(PANDA, 5), simulated(PANDA, 5, **said)
+    np.testing.assert_array_equal(found.parameters, same.parameters)
+    np.testing.assert_array_equal(found.measurements.T, same.measurements.T)  # type: ignore[attr-defined]
+    np.testing.assert_array_equal(found.measurements.covariance, same.measurements.covariance)
+    assert not found.outliers.any()
+    point = simulated(PANDA, 5, kind="points")
+    assert point.points is not None
+    assert point.points.tolist() == [[0, 0, 0]]
+    assert point.frames == {}
