@@ -237,3 +237,9 @@ def test_the_greedy_start_takes_what_shows_a_new_direction_before_what_shows_an_
 
 def test_the_logarithm_of_what_is_not_positive_is_what_is_said():
     assert search._log(np.array([-2.0, 0.0, 1.0, np.e]), 7.0) == pytest.approx([7, 7, 0, 1])
+
+
+def test_where_nothing_can_be_exchanged_each_place_is_looked_at_once():
+    said: list[tuple[int, int]] = []
+    exchange(np.random.default_rng(0).normal(size=(5, 3, 6)), 5, progress=lambda *step: said.append(step))
+    assert said == [*((k, 45) for k in range(1, 11)), (10, 10)]
