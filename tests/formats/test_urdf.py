@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -100,6 +101,15 @@ def test_of_many_joints_without_limits_four_are_named(unlimited, more):
     assert str(caught[0].message) == f"f:2: joints without usable limits are taken as unlimited: {named}{more}"
 
 
+def test_limits_below_ten_thousand_and_axes_of_nearly_unit_length_are_taken_as_they_are():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        robot = urdf.read_text(one_joint('<axis xyz="0 0 1.0000009"/><limit lower="-9999.5" upper="9999.5"/>'), "f")
+        assert robot.joints[0].limits == (-9999.5, 9999.5)
+    with pytest.warns(PoekinWarning, match=r"^f:4: the axis of joint 'j' has length 1\.0000011 and was normalised$"):
+        urdf.read_text(one_joint('<axis xyz="0 0 1.0000011"/><limit lower="-1" upper="1"/>'), "f")
+
+
 @pytest.mark.parametrize("limit, reason, limits", [
     ("", "none; line 3", (-math.inf, math.inf)),
     ("<limit/>", "none; line 4", (-math.inf, math.inf)),
@@ -108,6 +118,9 @@ def test_of_many_joints_without_limits_four_are_named(unlimited, more):
     ('<limit lower="0.5"/>', "no upper bound; line 4", (0.5, math.inf)),
     ('<limit lower="-1e9" upper="0.5"/>', "-1000000000.0 to 0.5; line 4", (-math.inf, 0.5)),
     ('<limit lower="-0.5" upper="inf"/>', "-0.5 to inf; line 4", (-0.5, math.inf)),
+    ('<limit lower="-1e4" upper="0.5"/>', "-10000.0 to 0.5; line 4", (-math.inf, 0.5)),
+    ('<limit lower="-0.5" upper="1e4"/>', "-0.5 to 10000.0; line 4", (-0.5, math.inf)),
+    ('<limit lower="-1e4" upper="9999.5"/>', "-10000.0 to 9999.5; line 4", (-math.inf, 9999.5)),
 ])  # fmt: skip
 def test_limits_that_are_none_are_told_with_what_they_are(limit, reason, limits):
     with pytest.warns(PoekinWarning) as caught:
