@@ -153,6 +153,34 @@ def test_without_a_stderr_a_text_is_read_and_with_one_it_is_emptied_first(monkey
     assert PinocchioOracle(TWO_LINKS).coordinates == ("j",)
 
 
+def test_where_stderr_is_closed_nothing_is_caught_from_it(monkeypatch):
+    def closed(descriptor: int) -> int:
+        raise OSError(f"{descriptor} is closed")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(pinocchio_oracle.os, "dup", closed)
+        patch.setattr(pinocchio_oracle.os, "dup2", None)
+        found = PinocchioOracle(TWO_LINKS)
+    assert found.coordinates == ("j",)
+
+
+def test_a_continuous_joint_behind_another_one_is_one_angle():
+    limits = '<limit lower="-3" upper="3" effort="1" velocity="1"/>'
+    text = '<robot name="r"><link name="l0"/>'
+    for k, kind in enumerate(("revolute", "continuous", "continuous")):
+        text += f"""<link name="l{k + 1}"/><joint name="j{k}" type="{kind}"><parent link="l{k}"/>
+            <child link="l{k + 1}"/><axis xyz="0 0 1"/>{limits if k == 0 else ""}</joint>"""
+    T = PinocchioOracle(f"{text}</robot>").poses({"j0": 0.5, "j1": 0.25, "j2": -2.0}, "l3")[0]
+    assert (T[0, 0], T[1, 0]) == pytest.approx((np.cos(-1.25), np.sin(-1.25)), abs=1e-15)
+
+
+def test_a_mimic_follows_as_it_is_unless_it_says_how():
+    text = URDF.replace(' multiplier="-2" offset="0.1"', "").replace(' multiplier="0.5" offset="1"', "")
+    found, by_hand = PinocchioOracle(text), PinocchioOracle(_without_mimic(URDF))
+    x: dict[str, float] = {"bend": 0.4, "follow": 0.4, "last": 0.4}
+    np.testing.assert_allclose(found.poses({"bend": 0.4}, "e"), by_hand.poses(x, "e"), rtol=0, atol=1e-15)
+
+
 def test_configurations_that_are_drawn_are_within_half_a_turn_and_a_metre(oracle):
     for name, values in oracle.random(np.random.default_rng(0), 400).items():
         most = 1.0 if name == "slide" else np.pi
