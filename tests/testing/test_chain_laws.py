@@ -378,3 +378,39 @@ def test_screw_derivatives_are_looked_at_of_every_joint(joint):
 def test_without_a_coordinate_there_is_no_column():
     chain = Chain(np.zeros((0, 6)), PLAIN.home)
     assert derivative_laws.exact_jacobians(chain, np.zeros(0)).shape == (3, 6, 0)
+
+
+@pytest.mark.parametrize("row", range(6))
+def test_halves_are_measured_apart(row, monkeypatch):
+    error, halves = np.eye(6)[row], [float(row < 3), float(row >= 3)]
+    assert [e for e, _ in chain_laws.of_twists(PLAIN, Q, DQ, error)] == halves
+    assert [e for e, _ in derivative_laws._of_columns(PLAIN, Q, error[:, None], 1.0)] == halves
+    assert [e for e, _ in change_laws._of_screws(PLAIN, Q, [error[None]])] == halves
+    monkeypatch.setattr(
+        chain_laws.differences, "velocity", lambda fk, q, dq, frame, rate: PLAIN.jacobian(q, frame) @ dq - error
+    )
+    pairs = measured("jacobian_is_the_derivative", PLAIN, monkeypatch)
+    assert [e for e, _ in pairs] == pytest.approx(halves * 3, abs=1e-12)
+    motion, entries = PLAIN.screw_derivatives(Q), PLAIN.screw_derivatives(Q, by="entries")
+    frames = [PLAIN.jacobian_screw_derivatives(Q, frame) for frame in ("space", "body", "hybrid")]
+    right = (
+        motion.screws[:, 1], entries.screws[:, 1], motion.home, np.stack([c.screws[:, :, 1] for c in frames]),
+        np.stack([c.home for c in frames]),
+    )  # fmt: skip
+    for k, part in enumerate(right):
+        wrong = part.copy()
+        wrong[(row, 0) if k < 3 else (1, row, 0, 0)] += 1.0
+        truth = derivative_laws.Changes(*right[:k], wrong, *right[k + 1 :])
+        monkeypatch.setattr(derivative_laws, "exact_changes", lambda chain, q, joint, truth=truth: truth)
+        pairs = measured("screw_derivatives_are_differences_on_the_group", PLAIN, monkeypatch)
+        places = [(0,), (1,), (2, 3), (6,), (7,)][k]
+        expected = [part * (place in places) for place in range(10) for part in halves]
+        assert [e for e, _ in pairs] == pytest.approx(expected, abs=1e-6)
+
+
+@pytest.mark.parametrize(("i", "j"), list(np.ndindex(4, 4)))
+def test_rotation_translation_and_last_row_of_a_pose_are_measured_apart(i, j):
+    T = np.eye(4)
+    T[i, j] += 1.0
+    expected = [float(i < 3 and j < 3), float(i < 3 and j == 3), float(i == 3)]
+    assert [e for e, _ in chain_laws.of_poses(PLAIN, Q, T, np.eye(4))] == expected

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import find
 from hypothesis import strategies as st
 
+from poekin.errors import InputError
 from poekin.formulas import coefficients
 from poekin.testing import decoders, strategies
+from poekin.testing.reader import Reader
 from tests.testing.drawing import QUICK, drawn
 from tests.versions import SHRINKS, needs
 
@@ -98,6 +101,59 @@ def test_batches_have_their_shape(shape):
     (batch,) = drawn(strategies.batches(strategies.twists(), shape), 1)
     assert batch.shape == (*shape, 6)
     assert shape in drawn(strategies.batch_shapes(), 50)
+
+
+def test_parts_are_read_off_in_turn_each_by_itself(monkeypatch):
+    monkeypatch.setattr(strategies, "read", lambda size, decode: decode)
+    monkeypatch.setattr(strategies, "frozen", np.array)
+    data = bytes([0, 200, 9, 70, 80, 2, 5, 99, *range(90, 190, 2)])
+
+    def read(strategy: Any) -> tuple[np.ndarray, Reader]:
+        return strategy(Reader(data)), Reader(data)
+
+    w, r = read(strategies.rotation_vectors(2.0, 1e-9))
+    assert np.array_equal(w, decoders.angle(r, 2.0, 1e-9) * decoders.axis(r))
+    xi, r = read(strategies.twists(2.0, (0.5, 4.0), 1e-9))
+    assert np.array_equal(xi[:3], decoders.angle(r, 2.0, 1e-9) * decoders.axis(r))
+    assert np.array_equal(xi[3:], decoders.vector(r, (0.5, 4.0)))
+    T, r = read(strategies.poses((0.5, 4.0)))
+    assert np.array_equal(T[:3, :3], decoders.rotation(r))
+    assert np.array_equal(T[:3, 3], decoders.vector(r, (0.5, 4.0)))
+    N, r = read(strategies.noisy_rotations((1e-3, 1e-2)))
+    R, size = decoders.rotation(r), r.magnitude(1e-3, 1e-2)
+    assert size > 0
+    assert np.array_equal(N, R + size * np.array([[r.fraction(-1, 1) for _ in range(3)] for _ in range(3)]))
+    q, r = read(strategies.quaternions_wxyz.__wrapped__())
+    n, half = decoders.axis(r), decoders.angle(r, math.pi, strategies.SMALLEST) / 2
+    sign = 1.0 if r.byte() < 128 else -1.0
+    assert q == pytest.approx(sign * np.array([math.cos(half), *(math.sin(half) * n)]), rel=1e-15)
+    for byte, sign in ((127, 1), (128, -1)):
+        simple: Any = strategies.quaternions_wxyz.__wrapped__()
+        assert simple(Reader(bytes([*[0] * 3, *[0] * 5, byte])))[0] == sign
+
+
+def test_lengths_and_far_angles_are_as_large_as_said(monkeypatch):
+    asked: list[Any] = []
+    monkeypatch.setattr(strategies.arguments, "magnitudes", lambda what, bounds: asked.append(bounds) or bounds)
+    strategies.magnitudes()
+    assert asked == [(1e-150, 1e3)]
+    assert strategies.LENGTHS == (1e-12, 1e3)
+    for size, name in ((3, "rotation_vectors"), (6, "twists")):
+        seen: list[float] = []
+
+        def twists(largest: float = math.pi, seen: list[float] = seen) -> st.SearchStrategy[float]:
+            seen.append(largest)
+            return st.just(largest)
+
+        monkeypatch.setattr(strategies, name, twists)
+        cases = strategies.group_cases(("far_twist", "twist"), size)
+        assert drawn(cases, 1) == [(10.0, math.pi)]
+
+
+@pytest.mark.parametrize("size", [2, 4, 7])
+def test_only_so3_and_se3_have_cases(size):
+    with pytest.raises(InputError, match=f"expected 3 for SO\\(3\\) or 6 for SE\\(3\\), got {size}"):
+        strategies.group_cases(("twist",), size)
 
 
 def gaussian_twists() -> st.SearchStrategy[np.ndarray]:
