@@ -400,7 +400,8 @@ def test_halves_are_measured_apart(row, monkeypatch):
     for k, part in enumerate(right):
         wrong = part.copy()
         wrong[(row, 0) if k < 3 else (1, row, 0, 0)] += 1.0
-        truth = derivative_laws.Changes(*right[:k], wrong, *right[k + 1 :])
+        parts = [*right[:k], wrong, *right[k + 1 :]]
+        truth = derivative_laws.Changes(*parts)
         monkeypatch.setattr(derivative_laws, "exact_changes", lambda chain, q, joint, truth=truth: truth)
         pairs = measured("screw_derivatives_are_differences_on_the_group", PLAIN, monkeypatch)
         places = [(0,), (1,), (2, 3), (6,), (7,)][k]
@@ -414,3 +415,22 @@ def test_rotation_translation_and_last_row_of_a_pose_are_measured_apart(i, j):
     T[i, j] += 1.0
     expected = [float(i < 3 and j < 3), float(i < 3 and j == 3), float(i == 3)]
     assert [e for e, _ in chain_laws.of_poses(PLAIN, Q, T, np.eye(4))] == expected
+
+
+def test_derivatives_of_a_batch_may_differ_by_rounding_of_their_size(monkeypatch):
+    bounds = []
+    for frame in ("space", "body", "hybrid"):
+        for part in range(6):
+            for q in (Q2, DQ2, -Q2):
+                screws = COUPLED.jacobian_screw_derivatives(q, frame)
+                values = (
+                    COUPLED.jacobian_rate(q, q, frame), COUPLED.hessian(q, frame), COUPLED.acceleration(q, q, q, frame),
+                    COUPLED.joint_velocities(q, q, frame), screws.screws, screws.home,
+                )  # fmt: skip
+                bounds.append(1e-14 * (1 + norm(values[part])))
+    for by in ("motion", "entries"):
+        for part in ("screws", "home"):
+            for q in (Q2, DQ2, -Q2):
+                bounds.append(1e-14 * (1 + norm(getattr(COUPLED.screw_derivatives(q, by=by), part))))
+    pairs = measured("derivatives_of_batches_are_those_of_single_configurations", COUPLED, monkeypatch)
+    assert [bound for _, bound in pairs] == pytest.approx(bounds, rel=1e-9, abs=0)
