@@ -42,6 +42,16 @@ def test_a_signalling_nan_and_what_is_too_large_are_read_without_a_warning():
         assert configurations(_saved(large), 2, "q").tolist() == [[np.inf, -np.inf]]
 
 
+@pytest.mark.parametrize("shape", [(3,), (1,), (3, 3), (3, 1), (0, 3), (2, 2, 2), (1, 2, 1), (2, 1), ()])
+def test_another_shape_is_refused(shape):
+    with pytest.raises(InputError, match=r"^q: an array of shape \(N, 2\) expected, got \("):
+        configurations(_saved(np.zeros(shape)), 2, "q")
+
+
+def test_what_follows_the_elements_is_left_unread():
+    assert configurations(_saved(np.ones((3, 2))) + b"more", 2, "q").tolist() == [[1.0, 1.0]] * 3
+
+
 @pytest.mark.parametrize("version", [(1, 0), (2, 0), (3, 0)])
 def test_every_version_of_the_format_is_read(version):
     out = io.BytesIO()

@@ -105,7 +105,8 @@ NEAR: dict[str, tuple[str, ...]] = {
         "tests/testing/conform/test_report.py", *_CONFORM, "tests/testing/conform/test_plugin.py",
         "tests/cli/test_conform.py"),
     "poekin/testing/conform/run.py": ("tests/testing/conform/test_conform_run.py", *_CONFORM),
-    "poekin/testing/conform/worker.py": ("tests/testing/conform/test_child.py",),
+    "poekin/testing/conform/worker.py": (
+        "tests/testing/conform/test_calls.py", "tests/testing/conform/test_child.py"),
     "poekin/engine/rows.py": ("tests/groups/test_batches.py", *CHAINS),
     "poekin/engine/derivative_kernels.py": (
         "tests/model/test_derivatives.py", "tests/model/test_derivatives_pinocchio.py", "tests/model/test_chain.py"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import warnings
 from collections.abc import Callable
 from types import SimpleNamespace
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 
 from poekin.errors import InputError
-from poekin.testing.conform import calls, child, limits
+from poekin.testing.conform import calls, child, limits, worker
 from poekin.testing.conform.calls import Attempt, Fault, called, made, real, untouched
 from poekin.testing.conform.limits import Limits
 from poekin.testing.conform.worker import Reply
@@ -290,3 +291,87 @@ def test_bytes_of_data_are_told_in_kilobytes(monkeypatch, tmp_path):
     (tmp_path / "status").write_text(status)
     monkeypatch.setattr(limits, "open", lambda *_, **__: (tmp_path / "status").open(), raising=False)
     assert limits._data() == 123 * 1024
+
+
+def messages(stream: io.BytesIO) -> list[Any]:
+    """All messages in a stream."""
+    stream.seek(0)
+    found = []
+    with contextlib.suppress(EOFError):
+        while True:
+            found.append(worker.receive(stream))
+    return found
+
+
+def test_messages_come_whole_or_the_other_side_is_gone():
+    stream = io.BytesIO()
+    for message in ("one", {"two": np.arange(3)}, None):
+        worker.send(stream, message)
+    first, second, third = messages(stream)
+    assert (first, list(second), third) == ("one", ["two"], None)
+    content = stream.getvalue()
+    length = 8 + int.from_bytes(content[:8], "little")
+    for end in (0, 7, 8, length - 1):
+        with pytest.raises(EOFError):
+            worker.receive(io.BytesIO(content[:end]))
+    assert worker.receive(io.BytesIO(content[:length])) == "one"
+
+
+class Reads:
+    """What a reader makes of a URDF: with one function, and poses one of which is none."""
+
+    names = ("a", 2)
+
+    def fk(self, q: np.ndarray) -> np.ndarray:
+        return q + 1
+
+    def poses(self, q: np.ndarray) -> dict[str, Any]:
+        return {"tip": q, "base": "none"}
+
+
+class Subjected:
+    def so3_exp(self, w: np.ndarray) -> Any:
+        if w[0] > 1:
+            raise KeyboardInterrupt
+        w[0] += w[1]
+        return [True, False]
+
+    def read_robot(self, text: str) -> Reads:
+        return Reads()
+
+
+def test_requests_are_answered_until_there_are_no_more():
+    requests, replies = io.BytesIO(), io.BytesIO()
+    for request in (
+        ("function", "so3_exp", np.zeros(3)), ("function", "so3_exp", np.ones(3)),
+        ("function", "so3_exp", 2 * np.ones(3)), ("function", "so3_log", 1), ("names",), ("read", "read_robot", "text"),
+        ("names",), ("member", "fk", np.zeros(1)), ("poses", np.zeros(1)),
+    ):  # fmt: skip
+        worker.send(requests, request)
+    requests.seek(0)
+    worker.serve(Subjected, requests, replies)
+    subject, *found = messages(replies)
+    assert (subject.title, subject.functions) == ("Subjected", ("so3_exp", "read_robot"))
+    assert found[0].value.tolist() == [1.0, 0.0]
+    faults = [reply.fault for reply in found]
+    assert faults[1:4] == [
+        "ArgumentChanged: it writes into its argument", "",
+        "AttributeError: 'Subjected' object has no attribute 'so3_log'",
+    ]  # fmt: skip
+    assert [reply.interrupted for reply in found] == [False, False, True, *[False] * 6]
+    assert faults[4].startswith("AttributeError: 'NoneType' object has no attribute 'names'")
+    assert [reply.value for reply in found[5:8]] == [["fk", "poses"], ["a", "2"], np.ones(1)]
+    assert found[8].value["tip"].value.tolist() == [0.0]
+    assert found[8].value["base"].fault == "TypeError: real numbers expected, got str128"
+    assert Reply() == (None, "", False)
+
+
+def test_a_subject_that_cannot_be_made_is_the_one_reply():
+    class Nothing:
+        pass
+
+    replies = io.BytesIO()
+    worker.serve(Nothing, io.BytesIO(), replies)
+    (error,) = messages(replies)
+    assert isinstance(error, InputError)
+    assert str(error).startswith("Nothing has none of the functions of a subject: ")
