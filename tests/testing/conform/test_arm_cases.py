@@ -190,6 +190,9 @@ def test_zeros_to_rounding_are_shown_as_zeros():
     assert quarter[0, 0] == pytest.approx(6.1e-17, rel=0.01)  # cos of the float next to π/2
     assert arm_cases.truth(SUBJECT, arm, np.array([1e-61]), False)[1, 0] == 0
     assert arm_cases.truth(SUBJECT, arm, np.array([1e-59]), False)[1, 0] == 1e-59
+    far, _ = arm_cases.drawn(Case(np.array([0, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 1e3, 0, 0]), ("revolute",)))
+    assert far.home[0, 3] == 1e3
+    assert arm_cases.truth(SUBJECT, far, np.array([1e-58]), False)[1, 0] == 0
 
 
 @pytest.mark.parametrize("shape", [(6,), (5, 2), (7, 2), (6, 1), (6, 3), (6, 2, 1), (2, 6, 2)])
