@@ -58,18 +58,19 @@ def source(thing: Any, text: str = "") -> Source:
 
     What cannot be reached from the top of a module is called as it is there.
     """
-    kind = thing if inspect.isclass(thing) else type(thing)
+    is_class = inspect.isclass(thing)
+    kind = thing if is_class else type(thing)
     module, _, name = text.partition(":")
     if not text:
         module = kind.__module__
         names = vars(sys.modules[module]).items() if module in sys.modules else ()
         name = next((key for key, value in names if value is thing), "")
-        if not name and thing is kind and "<locals>" not in kind.__qualname__:
+        if not name and is_class and "<locals>" not in kind.__qualname__:
             name = kind.__qualname__
-    brackets = "()" if inspect.isclass(thing) else ""
+    brackets = "()" if is_class else ""
     if name:
         return Source((f"from {_importable(module)} import {name.partition('.')[0]}",), f"{name}{brackets}")
-    return Source((), f"{kind.__name__}()" if inspect.isclass(thing) else "subject")
+    return Source((), f"{kind.__name__}()" if is_class else "subject")
 
 
 def _importable(module: str) -> str:
