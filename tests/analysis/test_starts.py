@@ -284,3 +284,16 @@ def test_pairs_without_a_frame_or_at_another_angle_are_passed_over():
     assert sorted({tuple(map(int, row)) for row in joints}) == [(0, 2), (1, 2)]
     other = sides(one, Chain([one.screws[0], *one.screws[[2, 2]]], np.eye(4)), 1e-6, 1e-6)
     assert {tuple(map(int, row)) for row in pair_poses(other, [(0, 1), (1, 2), (0, 2)])[0]} == {(0, 2)}
+
+
+def test_the_first_pose_is_the_base_as_it_is_and_the_others_are_of_pairs_of_joints_of_the_same_kind():
+    chain = random_arm(4, ("revolute",) * 4)
+    rows = [*chain.screws[:3], screw.prismatic([1, 2, 3])]
+    pair = sides(chain, Chain(rows, chain.home), 1e-6, 1e-6)
+    joints, D = rigid_poses(pair)
+    as_it_is = np.eye(4)
+    as_it_is[:3, 3] = pair.b.hub - pair.a.hub
+    assert joints[0].tolist() == [-1, -1]
+    assert pytest.approx(as_it_is) == D[0]
+    assert {tuple(map(int, row)) for row in joints[1:]} == {(0, 1), (0, 2), (1, 2)}
+    assert len(joints) == len(D)
