@@ -297,3 +297,19 @@ def test_the_first_pose_is_the_base_as_it_is_and_the_others_are_of_pairs_of_join
     assert pytest.approx(as_it_is) == D[0]
     assert {tuple(map(int, row)) for row in joints[1:]} == {(0, 1), (0, 2), (1, 2)}
     assert len(joints) == len(D)
+
+
+@pytest.mark.parametrize("k", [1, 2, 3, 4])
+def test_the_axes_on_the_other_side_of_a_joint_tell_its_offset(k, monkeypatch):
+    chain = random_arm(4, ("revolute",) * 6)
+    pair = sides(chain, chain.rezeroed(np.where(np.arange(6) == k, 0.7, 0.0)).rebased(BASE), 1e-6, 1e-6)
+    joints, D = rigid_poses(pair)
+    kept = []
+    monkeypatch.setattr(starts, "best", lambda pair, P, z: kept.append(len(z)) or BEST(pair, P, z))
+    front, back = joints[:, 1] <= k, joints[:, 0] >= k
+    for some in (front, back, front | back):
+        if some.any():
+            one_turn(pair, (joints[some], D[some]), k)
+    # Each brings there either of two turns.
+    counts = [2 * some.sum() * others for some, others in ((front, 5 - k), (back, k)) if some.any()]
+    assert kept == [*counts, sum(counts)]

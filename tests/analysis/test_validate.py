@@ -326,3 +326,15 @@ def test_samples_below_none_are_said_whole():
     with pytest.raises(InputError) as caught:
         validate("ur5e", samples=-1)
     assert str(caught.value) == "samples: a number of configurations ≥ 0 expected, got -1"
+
+
+@pytest.mark.parametrize("samples", [0, 1, 4])
+def test_the_zero_configuration_is_looked_at_and_as_many_random_ones_as_are_asked_for(samples, monkeypatch):
+    drawn, random = [], PinocchioOracle.random
+    monkeypatch.setattr(PinocchioOracle, "random", lambda *arguments: drawn.append(random(*arguments)) or drawn[-1])
+    validate(URDF, samples=samples)
+    (q,) = drawn
+    for values in q.values():
+        assert len(values) == samples + 1
+        assert values[0] == 0
+        assert (values[1:] != 0).all()
