@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -39,7 +39,7 @@ def layout_of(tree: Tree, joints: Sequence[Joint], coupling: Coupling) -> Layout
     link_row[np.array(tree.child_link, dtype=np.int64)[order]] = np.arange(1, len(order) + 1)
     joint_row = np.empty(len(order), dtype=np.int64)
     joint_row[order] = np.arange(len(order))
-    arrays = (
+    arrays: tuple[Any, ...] = (
         link_row,
         joint_row,
         link_row[np.array(tree.parent_link, dtype=np.int64)[order]],

@@ -338,3 +338,10 @@ def test_the_zero_configuration_is_looked_at_and_as_many_random_ones_as_are_aske
         assert len(values) == samples + 1
         assert values[0] == 0
         assert (values[1:] != 0).all()
+
+
+def test_a_tool_that_is_moved_alone_is_an_error_of_the_pose_by_the_arm_s_reach(chain, oracle, q):
+    shift = np.eye(4)
+    shift[:3, 3] = 1e-3, 0.0, 0.0
+    moved = chain.retooled(shift)
+    assert 0.3e-3 / moved.reach < chain_errors(moved, oracle, q).pose <= 1.001e-3 / moved.reach
