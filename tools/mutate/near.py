@@ -18,6 +18,15 @@ _SLOW = "test_every_chain_of_the_real_robots_has_a_table"  # left for the end
 _SMALL_ANGLES = (_GROUP_MATRICES, "tests/formulas/test_coefficients.py", *GROUPS)
 BY_ARMS = ("tests/solve/test_ik.py", "tests/solve/test_ik_all.py", "tests/solve/test_follow.py")
 _BY_BYTES = ("tests/testing/test_bytes_read.py", "tests/testing/test_arguments.py", "tests/testing/test_strategies.py")
+_CALIBRATION = {  # of test files of a calibration those that see a module soonest
+    "calibrate": ("folds", "calibrate", "refusals", "fitting", "files"),
+    "calibration": ("page", "calibrate", "files", "fitting"),
+    "losses": ("noise", "fitting", "second_look", "exchange"),
+    "page_style": ("page",),
+    "points": ("measurements", "data", "noise", "simulated", "choose"),
+    "poses": ("measurements", "data", "noise", "simulated", "choose"),
+    "problem": ("measurements", "shared_frames", "refusals", "fitting", "calibrate", "choose"),
+}
 _BY_LAWS = ("tests/testing/test_laws.py", "tests/groups/test_planted.py")
 _CASES = tuple(f"tests/testing/conform/test_{name}.py" for name in ("shrink", "false_findings", "subject"))
 _COMPARES = tuple(f"tests/analysis/test_{name}.py" for name in ("compare", "compare_figures", "compare_slides"))
@@ -63,6 +72,8 @@ NEAR: dict[str, tuple[str, ...]] = {
        for name, first in (("c", "text"), ("c_selftest", "text"), ("python", "text"), ("statements", "text"),
                            ("vectors", "vectors"), ("words", "words"))},
     "poekin/formats/dh/": (*DH, "tests/formats/test_dh_calibrated.py", f"--deselect={DH[2]}::{_SLOW}"),
+    **{f"poekin/solve/calibration/{name}.py": tuple(f"tests/solve/calibration/test_{test}.py" for test in tests)
+       for name, tests in _CALIBRATION.items()},
     "poekin/testing/exact.py": ("tests/testing/test_exact.py", "tests/testing/test_attainable.py"),
     "poekin/testing/extended.py": ("tests/testing/test_extended.py", "tests/groups/test_accuracy.py"),
     "poekin/testing/suspects.py": ("tests/testing/test_accuracy_cases.py", "tests/groups/test_accuracy.py"),
