@@ -182,6 +182,21 @@ FAULTS = {
         "outliers = [\n    [0, 40, 40],\n",
         r"outliers: expected set, index and row of a measurement, got \[0, 40, 40\]",
     ),
+    "outlier beyond the last": (
+        "outliers = [\n",
+        "outliers = [\n    [0, 99, 99],\n",
+        r"outliers: expected set, index and row of a measurement, got \[0, 99, 99\]",
+    ),
+    "outlier of another row": (
+        "outliers = [\n",
+        "outliers = [\n    [0, 3, 5],\n",
+        r"outliers: expected set, index and row of a measurement, got \[0, 3, 5\]",
+    ),
+    "outlier of no set": (
+        "outliers = [\n",
+        "outliers = [\n    [7, 0, 0],\n",
+        r"outliers: expected set, index and row of a measurement, got \[7, 0, 0\]",
+    ),
     "sets": (
         "spread = [\n    {},",
         "spread = [",
