@@ -92,3 +92,7 @@ def test_a_file_may_be_larger_than_what_a_pipe_gives(monkeypatch, tmp_path):
     with csv_rows.opened(tmp_path / "q.csv") as (stream, where, size):
         rows, lines = csv_rows.read(stream, ["a", "b"], where, "coordinate")
     assert (rows.tolist(), lines.tolist(), size) == ([[1, 2]] * 5, [2, 3, 4, 5, 6], 24)
+
+
+def test_a_line_has_a_mebi_of_characters_a_pipe_256_and_ten_thousand_lines_are_taken_together():
+    assert (csv_rows.LONGEST, csv_rows.MOST, csv_rows.AT_ONCE) == (1_048_576, 268_435_456, 10_000)

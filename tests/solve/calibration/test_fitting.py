@@ -307,3 +307,19 @@ def test_errors_of_exactly_0_take_no_step():
     noise = Noise(exact.sets, [Spread(None, 1e-3)])
     found = minimise(exact, judged(exact)[1], noise, "linear", np.zeros(exact.size), None)
     assert (found.converged, found.steps, found.p.tolist()) == (True, [], [0.0] * exact.size)
+
+
+def test_spreads_are_estimated_before_anything_is_fitted_and_then_for_what_was(monkeypatch):
+    asked, spreads = [], fitting.spreads
+
+    def recorded(sets, errors, free, robust, reach, even):
+        asked.append((free, robust, reach, even))
+        return spreads(sets, errors, free, robust, reach, even)
+
+    monkeypatch.setattr(fitting, "spreads", recorded)
+    q, T = noisy()
+    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T)])
+    fitting.fitted(problem, judged(problem)[1], "huber", np.zeros(problem.size), None)
+    assert asked[0] == (0, True, PUMA.reach, 1e-2)
+    assert len(asked) > 1
+    assert set(asked[1:]) == {(30, True, PUMA.reach, 1e-6)}
