@@ -61,6 +61,8 @@ def test_the_rank_leaves_out_the_directions_that_nothing_sees():
 
 def test_fewer_rows_than_directions_see_nothing_of_some():
     assert indices(np.eye(4)[:3], 3) == (0, np.inf, 0, 0)
+    for found, none in zip(indices(np.ones((5, 2, 3, 4)), 3), (0, np.inf, 0, 0), strict=True):
+        np.testing.assert_array_equal(found, np.full((5, 2), none))
 
 
 @pytest.mark.parametrize(
@@ -69,10 +71,13 @@ def test_fewer_rows_than_directions_see_nothing_of_some():
         (np.ones(3), 1, None, ShapeError, "J: expected a matrix (..., rows, P), got shape (3,)"),
         (np.eye(3), 0, None, InputError, "m: expected the number of measured configurations, at least 1, got 0"),
         (np.eye(3), 2.0, None, InputError, "m: expected the number of measured configurations, at least 1, got 2.0"),
+        (np.eye(3), 3, 0, InputError, "rank: expected a whole number from 1 to the 3 parameters, got 0"),
+        (np.eye(3), 3, 2.0, InputError, "rank: expected a whole number from 1 to the 3 parameters, got 2.0"),
+        (np.eye(3), True, None, InputError, "m: expected the number of measured configurations, at least 1, got True"),
         (np.eye(3), 3, 4, InputError, "rank: expected a whole number from 1 to the 3 parameters, got 4"),
         (np.eye(3), 3, True, InputError, "rank: expected a whole number from 1 to the 3 parameters, got True"),
     ],
-    ids=["vector", "m-zero", "m-float", "rank-too-large", "rank-bool"],
+    ids=["vector", "m-zero", "m-float", "rank-zero", "rank-float", "m-bool", "rank-too-large", "rank-bool"],
 )
 def test_what_is_no_identification_matrix_is_refused(J, m, rank, error, message):
     with pytest.raises(error) as caught:
