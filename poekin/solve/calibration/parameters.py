@@ -141,8 +141,6 @@ class Arm:
         if o.any():
             arm = arm.rezeroed(o)
         coupling = nominal.coupling * (1.0 + g) if g.any() else nominal._coupling
-        if not o.any() and not g.any():
-            return arm
         return Chain(arm.screws, arm.home, coupling=coupling, pitches=arm.pitches, **same)
 
     def poses(self, p: Array, q: Array) -> Array:

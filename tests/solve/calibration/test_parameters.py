@@ -195,3 +195,16 @@ def test_offsets_are_in_rad_or_m_as_their_coordinates_are_and_gains_in_neither()
     tied = pk.Chain([turn, slide, turn], np.eye(4), coupling=[[1, 0], [0, 1], [0.5, 0]], q_names=["a", "b"])
     assert [p.name for p in Arm(tied, ("offsets",), None).parameters] == ["a: offset", "b: offset"]
     assert [p.name for p in Arm(tied, ("offsets",), [tied.joint_names[2]]).parameters] == ["a: offset"]
+
+
+def test_offsets_and_gains_leave_the_limits_and_the_constants_of_the_nominal_arm():
+    turn, slide = pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([1, 0, 0])
+    nominal = pk.Chain(
+        [turn, slide], pk.se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]), limits=[(-1, 2), (0, 0.5)], offset=[0.3, 0.1]
+    )
+    q = nominal.random(0, 3)
+    for kinds, p in ((("offsets",), [0.2, -0.1]), (("gains",), [0.05, 0.1]), (("offsets", "gains"), [0.2, 0, 0.05, 0])):
+        found = Arm(nominal, kinds, None).chain(np.array(p))
+        np.testing.assert_array_equal(found.limits, nominal.limits)
+        np.testing.assert_array_equal(found.offset, nominal.offset)
+        np.testing.assert_allclose(found.fk(q), Arm(nominal, kinds, None).poses(np.array(p), q), rtol=0, atol=1e-14)
