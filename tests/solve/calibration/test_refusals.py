@@ -223,3 +223,15 @@ def test_other_units_are_told_that_explain_the_data_more_than_four_times_better(
 def test_readings_are_converted_by_what_their_joints_are():
     np.testing.assert_allclose(units.converted(MIXED, np.ones((2, 2)), angle=3.0, length=5.0), [[3, 5], [3, 5]])
     assert pytest.approx(np.pi / 180) == units._DEGREE
+
+
+def test_where_degrees_give_no_first_guess_either_the_readings_are_refused_as_they_stand():
+    q = np.zeros((6, 6))
+    q[:, 5] = np.linspace(0.0, 1.0, 6)
+    camera, arm = EyeInHand(se3.inverse(X) @ PUMA.fk(q) @ Z), Arm(PUMA, ("home",), None)
+    with pytest.raises(InputError) as alone:
+        Problem(arm, q, [camera])
+    assert "was turned about one axis only" in str(alone.value)
+    with pytest.raises(InputError) as caught:
+        units.built(arm, q, [camera])
+    assert str(caught.value) == str(alone.value)
