@@ -85,7 +85,7 @@ class Follower:
                     continue
                 tried = np.concatenate([tried, q0[None]])
                 end, q = self.on(k, q0, first=False)
-                far = np.abs(np.diff(q, axis=0)).max(initial=0.0) if last is None else np.linalg.norm(q0 - last)
+                far = float(np.abs(np.diff(q, axis=0)).max(initial=0.0) if last is None else np.linalg.norm(q0 - last))
                 if (end, -far) > score:
                     found, score = (end, q), (end, -far)
             if found[0] == len(self.targets) or not self._solution_of(found[0])[0]:
