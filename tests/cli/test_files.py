@@ -111,3 +111,13 @@ def test_a_place_that_cannot_be_written_is_refused_before_any_work(tmp_path, nam
     (tmp_path / "x.csv").mkdir()
     with pytest.raises(FileError, match="cannot write"):
         files.check_writable(tmp_path / name)
+
+
+def test_a_file_that_somebody_else_has_under_the_temporary_name_is_not_written_over(tmp_path, monkeypatch):
+    monkeypatch.setattr("secrets.token_hex", lambda size: "0" * 2 * size)
+    other = tmp_path / f".T.csv.{'0' * 16}.part"
+    other.write_text("another's")
+    with pytest.raises(FileError, match="File exists"):
+        write_whole(tmp_path / "T.csv", b"new")
+    assert other.read_text() == "another's"
+    assert os.listdir(tmp_path) == [other.name]
