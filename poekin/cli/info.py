@@ -34,9 +34,9 @@ def _show_robot(robot: Robot, chains: list[tuple[Chain, str]]) -> None:
         say(line)
     say("\nChains from root to leaf")
     heads = ("base", "tip", "joints", "coordinates", "reach (m)", "note")
-    shown = 6 if any(note for _, note in chains) else 5
-    rows = [(c.base, c.tip, len(c.joint_names), c.dof, number(c.reach), note)[:shown] for c, note in chains]
-    table(heads[:shown], rows, left=2)
+    shown = slice(None if any(note for _, note in chains) else -1)
+    rows = [(c.base, c.tip, len(c.joint_names), c.dof, number(c.reach), note)[shown] for c, note in chains]
+    table(heads[shown], rows, left=2)
     # A screw seen from the root is the same in every chain that has its joint.
     seen: dict[tuple[str, object], tuple[object, ...]] = {}
     for chain, _ in chains:

@@ -94,5 +94,10 @@ def test_a_file_may_be_larger_than_what_a_pipe_gives(monkeypatch, tmp_path):
     assert (rows.tolist(), lines.tolist(), size) == ([[1, 2]] * 5, [2, 3, 4, 5, 6], 24)
 
 
+def test_a_text_in_memory_may_be_larger_than_what_a_pipe_gives(monkeypatch):
+    monkeypatch.setattr(csv_rows, "MOST", 8)
+    assert read(io.StringIO("1,2\n" * 5))[0].tolist() == [[1, 2]] * 5
+
+
 def test_a_line_has_a_mebi_of_characters_a_pipe_256_and_ten_thousand_lines_are_taken_together():
     assert (csv_rows.LONGEST, csv_rows.MOST, csv_rows.AT_ONCE) == (1_048_576, 268_435_456, 10_000)
