@@ -20,7 +20,7 @@ ARM = pk.Chain(
 def test_each_coordinate_is_drawn_over_time_and_not_joined_across_a_break(drawn_figures):
     q = np.array([[0, 0], [1, 1], [2, 2], [10, 0], [12, 1.0]])
     times = np.array([0, 1, 3, 4, 8.0])
-    motion.plot_joints(q, ARM, times=times, breaks=[0, 3, 5])
+    motion.plot_joints(q, ARM, times=times, breaks=[0, 3, 5, 6])
     motion.plot_joints(q, ARM)
     timed, numbered = drawn_figures
     assert timed.get_size_inches() == pytest.approx([7.2, 2.7])
