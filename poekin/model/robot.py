@@ -182,11 +182,9 @@ class Robot:
     def __hash__(self) -> int:
         return hash(self._data())
 
-    def __getstate__(self) -> tuple[Any, ...]:
-        return (*self._data(), self.source)
-
-    def __setstate__(self, state: tuple[Any, ...]) -> None:
-        _build(self, *state)  # what there was to warn of was said when the robot was made
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Not __getstate__: Python 3.11.2 puts one of its own over that of a frozen dataclass with slots.
+        return _rebuilt, (*self._data(), self.source)
 
     def __repr__(self) -> str:
         leaves = ", ".join(map(shown, self.leaves[:3])) + (", ..." if len(self.leaves) > 3 else "")
@@ -194,6 +192,13 @@ class Robot:
             f"Robot({shown(self.name)}: {len(self.links)} links, {len(self.joints)} joints, dof {self.dof}, root"
             f" {shown(self.root)}, {len(self.leaves)} {'leaf' if len(self.leaves) == 1 else 'leaves'}: {leaves})"
         )
+
+
+def _rebuilt(*parts: Any) -> Robot:
+    """A robot that was pickled: what there was to warn of was said when it was made."""
+    robot = object.__new__(Robot)
+    _build(robot, *parts)
+    return robot
 
 
 def _build(

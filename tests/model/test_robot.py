@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 import scipy.linalg
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from poekin.errors import InputError
@@ -238,6 +238,7 @@ def test_nan_in_one_configuration_stays_in_that_configuration():
 
 
 @given(robot=robots(max_joints=4))
+@example(Robot("stone", ["only"], []))
 def test_copies_are_equal_and_read_only(robot):
     copy = pickle.loads(pickle.dumps(robot))
     assert copy == robot
