@@ -39,7 +39,7 @@ help:
 	@echo "make report       validate every robot, count, measure, and print where the page is"
 	@echo "make lint         check style (ruff) and types (pyright)"
 	@echo "make docs         build the pages of docs/ and print where they are"
-	@echo "make mutate       plant every error of 70 000 and say which the tests catch (days); SAMPLE=300 plants that many"
+	@echo "make mutate       plant every error of 80 000 and say which the tests catch (days); SAMPLE=300 plants that many"
 	@echo "make fuzz         give the readers 10⁶ broken files; COUNT=10000 gives the URDF reader that many, others a tenth"
 	@echo "make release-check build the source distribution and the wheel twice, check them and leave them in dist/"
 	@echo "make wheel-check  build the wheel and use it where the source tree cannot be imported"
