@@ -318,6 +318,32 @@ def test_what_cannot_be_compared_is_said_whole(options: dict[str, Any], message)
     assert str(caught.value) == message
 
 
+REVERSED = "joint 3 ('elbow_joint') counts in the other direction"
+IN_MM = "the models differ; lengths of model b are 1000 times those of model a (millimetres against metres?)"
+
+
+@pytest.mark.parametrize("change, aligned, strict", [
+    ("nothing", "the models are the same", "the models are the same as they stand"),
+    ("direction", f"the models are the same arm, up to free choices; {REVERSED}", f"the models differ; {REVERSED}"),
+    ("unit", IN_MM, IN_MM),
+    ("tool", "the models are the same arm, up to free choices; aligned: the tool frame is moved by 100 mm",
+     "the models differ; the home pose's frame is moved by 100 mm"),
+])  # fmt: skip
+def test_a_verdict_says_what_differs_and_nothing_else(change, aligned, strict):
+    chain = arm("ur5e")
+    S, home = chain.screws.copy(), chain.home.copy()
+    if change == "direction":
+        S[2] *= -1
+    if change == "unit":
+        S[:, 3:] *= 1e3
+        home[:3, 3] *= 1e3
+    if change == "tool":
+        home = home @ se3.exp([0, 0, 0, 0, 0, 0.1])
+    other = Chain(S, home, joint_names=chain.joint_names)
+    assert compare(chain, other, samples=1).verdict == aligned
+    assert compare(chain, other, samples=1, strict=True).verdict == strict
+
+
 @pytest.mark.parametrize("numbers, verdict", [
     ((3, 5), "the models differ: 3 joints against 5, and no two joints can be dropped so that the rest agree"),
     ((5, 4), "the models differ: 5 joints against 4, and no one joint can be dropped so that the rest agree"),

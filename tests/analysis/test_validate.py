@@ -115,6 +115,18 @@ def test_a_jacobian_of_the_wrong_frame_fails_in_that_frame_only(chain, oracle, q
     assert row.pose <= BAR
 
 
+@pytest.mark.parametrize("column", range(4))
+def test_a_pose_is_judged_in_every_column_and_lengths_by_the_reach(column, chain, oracle, q):
+    class Off(_Wrong):
+        def fk(self, q):
+            T = self._chain.fk(q)
+            T[:, 0, column] += 1e-3
+            return T
+
+    expected = 1e-3 / (chain.reach if column == 3 else 1)
+    assert chain_errors(Off(chain, "", ""), oracle, q).pose == pytest.approx(expected, rel=1e-9)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("base", ["root", "a", "b"])
 def test_one_bad_configuration_among_good_ones_is_found_and_named(base, oracle, q):
     class Sick(_Wrong):

@@ -390,3 +390,4 @@ def test_outliers_beyond_the_first_are_counted():
     here = {file: ", ".join(str(k) for k in range(first, MOST_OUTLIERS, 2)) for first, file in enumerate(("a", "b"))}
     assert command._places(sources) == f"a.csv:{here['a']}; b.csv:{here['b']} and 2 more"
     assert command._places(sources[:1]) == "a.csv:0"
+    assert command._places(["a.csv:1"] * (2 * MOST_OUTLIERS + 1)).endswith(f" and {MOST_OUTLIERS + 1} more")
