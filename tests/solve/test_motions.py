@@ -379,6 +379,8 @@ def test_what_cannot_be_read_or_written_is_said(tmp_path):
         motion.read_joints(tmp_path / "b.csv", ["a"])
     with pytest.raises(ShapeError, match=r"expected shape \(N, 2\), got \(3,\)"):
         motion.write_joints(tmp_path / "q.csv", [1, 2, 3], ["a", "b"])
+    with pytest.raises(ShapeError, match=r"expected shape \(N, 2\), got \(1, 3\)"):
+        motion.write_joints(tmp_path / "q.csv", [[1, 2, 3]], ["a", "b"])
     with pytest.raises(InputError, match=r"names: expected a chain or names"):
         motion.write_joints(tmp_path / "q.csv", [[1.0]], "a")
     (tmp_path / "t.csv").write_text("time,a,b\n0,1\n")

@@ -226,7 +226,8 @@ def test_what_was_read_far_away_has_the_members_that_it_has_there():
 
 
 @pytest.mark.parametrize(
-    ("code", "said"), [(0, "exit code 0"), (7, "exit code 7"), (-11, "SIGSEGV"), (-9, "SIGKILL"), (-200, "signal 200")]
+    ("code", "said"),
+    [(0, "exit code 0"), (7, "exit code 7"), (-1, "SIGHUP"), (-11, "SIGSEGV"), (-9, "SIGKILL"), (-200, "signal 200")],
 )
 def test_an_exit_code_is_told_as_a_number_or_a_signal(code, said):
     assert child._said(code) == said

@@ -127,6 +127,9 @@ def test_batches_are_judged_by_their_worst_and_have_their_shape(name, monkeypatc
     assert law.confirm(SUBJECT, case)
     assert np.asarray(law.show(SUBJECT, case).expected).shape[:2] == (3, 1)
     assert law.show(SUBJECT, case).words.startswith("a batch (3, 1) of ω = (0.4, -0.2, 0.7)")
+    found: list[Any] = []
+    exec(law.show(SUBJECT, case).paste, {"print": found.append, "np": np})
+    assert found[0] == pytest.approx(law.show(SUBJECT, case).expected, abs=1e-14)
     assert len(np.asarray(law.show(SUBJECT, Case(np.zeros(0), (0,))).expected)) == 0
     rows[1, 0] = 11.0
     assert not law.allowed(Case(rows.ravel(), (3, 1)))
