@@ -69,7 +69,7 @@ def test_a_step_lessens_residuals_held_back_by_each_coordinate_s_own_size():
     r, J, damping = rng.normal(size=(4, 9)), rng.normal(size=(4, 9, 3)) * [1, 50, 0.02], np.array([0, 1e-6, 0.1, 7.0])
     for step, e, D, held in zip(_step(r, J, damping), r, J, damping, strict=True):
         damped = np.concatenate([D, np.sqrt(held) * np.diag(np.linalg.norm(D, axis=0))])
-        assert step == pytest.approx(np.linalg.lstsq(damped, -np.append(e, np.zeros(3)))[0], rel=1e-9)
+        assert step == pytest.approx(np.linalg.lstsq(damped, -np.append(e, np.zeros(3)), rcond=None)[0], rel=1e-9)
 
 
 @pytest.mark.parametrize("size, held", [(2e-6, 2e-6), (0.5e-6, 1.0), (0.0, 1.0)])

@@ -39,7 +39,7 @@ def test_a_step_is_the_damped_one_of_its_own_equations():
     for step, e, D in zip(_step(r, J), r, J, strict=True):
         # min |D step + e|² + |e|² |step|², as one least squares problem
         stacked = np.concatenate([D, np.linalg.norm(e) * np.eye(2)])
-        assert step == pytest.approx(np.linalg.lstsq(stacked, -np.append(e, [0, 0]))[0], rel=1e-12)
+        assert step == pytest.approx(np.linalg.lstsq(stacked, -np.append(e, [0, 0]), rcond=None)[0], rel=1e-12)
         assert np.linalg.norm(step) <= 0.5
 
 

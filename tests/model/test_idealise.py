@@ -127,6 +127,8 @@ def test_a_chain_in_which_nothing_is_put_right_stays_the_very_same():
         assert Walk(chain, 1e-8).snapped
 
 
-@pytest.mark.parametrize("tol", [0, 0.05, np.float64(0.05), np.float32(0.01), np.int64(0)], ids=repr)
+@pytest.mark.parametrize(
+    "tol", [0, 0.05, np.float64(0.05), np.float32(0.01), np.int64(0)], ids=lambda x: f"{type(x).__name__} {x}"
+)
 def test_a_tolerance_up_to_the_largest_is_taken(tol):
     assert Chain([screw.revolute(Z, [0, 0, 0])], np.eye(4)).idealised(tol).changes == ()
