@@ -29,9 +29,9 @@ STEPS = 800_000
 NEAREST_OF = 48
 """So many tries for each target are looked at for the one nearest to `nearest_to`."""
 
-TRIES = tuple(itertools.product((True, False), repeat=2))
-"""These tries, in turn: with limits or without, when more of them arrive, and many within the limits but for whole
-turns; from not far away or from anywhere."""
+NEAREST_TRIES = tuple(itertools.product((True, False), repeat=2))
+"""Whether each of them is made with limits, and whether it starts not far away; they take turns. More of those without
+limits arrive, and many of these within the limits but for whole turns."""
 
 
 class Settings(NamedTuple):
@@ -207,7 +207,7 @@ class Solver:
         rng = np.random.default_rng(self.settings.seed)
         low, high = self.room.ranges.T
         anywhere = np.full_like(self.room.limits, [-np.inf, np.inf])
-        for limits, close in itertools.islice(itertools.cycle(TRIES), NEAREST_OF):
+        for limits, close in itertools.islice(itertools.cycle(NEAREST_TRIES), NEAREST_OF):
             start = np.where(self.room.fixed, within, low + (high - low) * rng.random(near.shape))
             if close:
                 start = within + 0.25 * (start - within)

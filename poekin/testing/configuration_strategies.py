@@ -78,7 +78,6 @@ def _singular_cases(draw: st.DrawFn, bounds: tuple[int, int]) -> tuple[Chain, np
     q = np.asarray(draw(coordinates(Chain(A, home))))
     i = draw(st.integers(0, n - 2))
     j = draw(st.integers(i + 1, n - 1))
-    # Joint i's own turn, which leaves its screw as it is, may be among them.
-    between = functools.reduce(np.matmul, (se3.exp(A[k] * q[k]) for k in range(i, j)), np.eye(4))
+    between = functools.reduce(np.matmul, (se3.exp(A[k] * q[k]) for k in range(i + 1, j)), np.eye(4))
     A[j] = se3.adjoint(se3.inverse(between)) @ A[i]
     return Chain(A, home), frozen(q)

@@ -28,7 +28,7 @@ from . import arguments
 
 _SIDE = 6
 _WEIGHTS = [
-    -((-1) ** k) * factorial(_SIDE) ** 2 / (k * factorial(_SIDE - k) * factorial(_SIDE + k))
+    (-1) ** (k + 1) * factorial(_SIDE) ** 2 / (k * factorial(_SIDE - k) * factorial(_SIDE + k))
     for k in range(1, _SIDE + 1)
 ]
 

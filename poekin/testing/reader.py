@@ -41,7 +41,7 @@ class Reader:
         wholes = range(math.floor(low), max(math.ceil(high), math.floor(low) + 1))
         k = self.pick(sorted(wholes, key=abs))
         first, last = max(float(k), low), min(k + 1.0, high)
-        return first + (last - first) * (int.from_bytes((self.byte(), self.byte()), "big") / 65535)
+        return first + (last - first) * ((256 * self.byte() + self.byte()) / 65535)
 
     def decimal(self, low: float, high: float) -> float:
         """A number from low to high with few digits: three decimals, or one, to which it shrinks. Takes 4 bytes.

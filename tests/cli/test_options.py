@@ -10,50 +10,34 @@ from typing import Any
 import pytest
 
 from poekin.analysis.singularity import TOLERANCE
-from poekin.cli import (
-    axes,
-    calibrate,
-    compare,
-    conform,
-    count,
-    dh,
-    emit,
-    fk,
-    follow,
-    ik,
-    info,
-    jacobian,
-    singularity,
-    urdf,
-    validate,
-)
+from poekin.cli import calibrate, commands, conform, emit, ik, jacobian
 from poekin.formats import pose_rows
 from poekin.testing.conform import LAWS
 
-DEFAULTS: dict[Any, dict[str, object]] = {
-    axes: {"tol_mm": 0.01, "tol_deg": 0.001, "json": False},
-    calibrate: {"loss": "linear", "hold": False, "folds": 5, "seed": 0, "convention": "standard", "json": False},
-    compare: {"tol_mm": 0.01, "tol_deg": 0.001, "strict": False, "samples": 200, "seed": 0, "json": False},
-    conform: {"at_most": "good", "seconds": 600.0, "limit": 60.0, "json": False},
-    count: {"json": False},
-    dh: {"convention": "standard", "json": False},
-    emit: {"frame": "hybrid", "single": False, "force": False},
-    fk: {"json": False},
-    follow: {"max_step": 0.1, "task": "pose", "no_limits": False, "seed": 0, "json": False},
-    ik: {"task": "pose", "no_limits": False, "seed": 0, "json": False},
-    info: {"json": False},
-    jacobian: {"json": False},
-    singularity: {"part": "pose", "tolerance": TOLERANCE, "json": False},
-    urdf: {},
-    validate: {"every": False, "samples": 100, "seed": 0, "json": False},
+DEFAULTS: dict[str, dict[str, object]] = {
+    "axes": {"tol_mm": 0.01, "tol_deg": 0.001, "json": False},
+    "calibrate": {"loss": "linear", "hold": False, "folds": 5, "seed": 0, "convention": "standard", "json": False},
+    "compare": {"tol_mm": 0.01, "tol_deg": 0.001, "strict": False, "samples": 200, "seed": 0, "json": False},
+    "conform": {"at_most": "good", "seconds": 600.0, "limit": 60.0, "json": False},
+    "count": {"json": False},
+    "dh": {"convention": "standard", "json": False},
+    "emit": {"frame": "hybrid", "single": False, "force": False},
+    "fk": {"json": False},
+    "follow": {"max_step": 0.1, "task": "pose", "no_limits": False, "seed": 0, "json": False},
+    "ik": {"task": "pose", "no_limits": False, "seed": 0, "json": False},
+    "info": {"json": False},
+    "jacobian": {"json": False},
+    "singularity": {"part": "pose", "tolerance": TOLERANCE, "json": False},
+    "urdf": {},
+    "validate": {"every": False, "samples": 100, "seed": 0, "json": False},
 }
-LEAST: dict[Any, dict[str, float]] = {
-    calibrate: {"folds": 0, "seed": 0},
-    compare: {"samples": 1, "seed": 0},
-    conform: {"examples": 1, "seconds": 0.1, "limit": 0.1},
-    follow: {"seed": 0},
-    ik: {"seed": 0},
-    validate: {"samples": 0, "seed": 0},
+LEAST: dict[str, dict[str, float]] = {
+    "calibrate": {"folds": 0, "seed": 0},
+    "compare": {"samples": 1, "seed": 0},
+    "conform": {"examples": 1, "seconds": 0.1, "limit": 0.1},
+    "follow": {"seed": 0},
+    "ik": {"seed": 0},
+    "validate": {"samples": 0, "seed": 0},
 }
 
 
@@ -64,16 +48,18 @@ def options(module: Any) -> Iterator[tuple[str, Any, object]]:
         yield name, hints[name].__metadata__[0], parameter.default
 
 
-@pytest.mark.parametrize("module", DEFAULTS, ids=lambda module: module.__name__.rpartition(".")[2])
-def test_an_option_that_is_not_given_is_what_the_help_says_or_nothing(module):
-    given = {n: d for n, _, d in options(module) if d is not None and d is not inspect.Parameter.empty}
-    assert given == DEFAULTS[module]
+@pytest.mark.parametrize("name", DEFAULTS)
+def test_an_option_that_is_not_given_is_what_the_help_says_or_nothing(name):
+    given = {n: d for n, _, d in options(getattr(commands, name)) if d is not None and d is not inspect.Parameter.empty}
+    assert given == DEFAULTS[name]
 
 
-@pytest.mark.parametrize("module", DEFAULTS, ids=lambda module: module.__name__.rpartition(".")[2])
-def test_a_number_has_the_smallest_value_that_means_something(module):
-    least = {n: option.min for n, option, _ in options(module) if getattr(option, "min", None) is not None}
-    assert least == LEAST.get(module, {})
+@pytest.mark.parametrize("name", DEFAULTS)
+def test_a_number_has_the_smallest_value_that_means_something(name):
+    least = {
+        n: option.min for n, option, _ in options(getattr(commands, name)) if getattr(option, "min", None) is not None
+    }
+    assert least == LEAST.get(name, {})
 
 
 def help_of(module: Any, name: str) -> str:

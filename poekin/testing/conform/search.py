@@ -69,8 +69,8 @@ def worst(law: Law, subject: Subject, examples: int, seconds: float, at_most: Gr
 
     try:
         for_each(law.cases(subject), examples, one)
-    except (_Over, Flaky, Unsatisfiable):  # Hypothesis may try a case again that there was time for before
-        pass
+    except (_Over, Flaky, Unsatisfiable):
+        pass  # a case that there had been time for is tried again, or there is none, as is said below
     if top is None:
         raise InputError(f"{law.name}: no case of this law could be drawn")
     case, verdict = top
