@@ -16,7 +16,7 @@ import scipy.linalg
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from poekin.errors import InputError
+from poekin.errors import InputError, UnknownName
 from poekin.model.joint import FREE, Joint, Mimic
 from poekin.model.robot import Robot
 from poekin.testing import robot_strategies
@@ -251,6 +251,12 @@ def test_copies_are_equal_and_read_only(robot):
         robot.name = "x"
     for base, tip in itertools.product(robot.links[:2], repeat=2):
         assert copy.chain(base, tip) == robot.chain(base, tip)
+
+
+def test_a_copy_says_where_the_robot_was_read_from():
+    copy = pickle.loads(pickle.dumps(Robot("stone", ["only"], [], "arm.urdf")))
+    with pytest.raises(UnknownName, match=r"^arm\.urdf: no joint 'j'"):
+        copy.joint("j")
 
 
 def test_a_robot_of_one_link_has_one_chain_without_joints():
