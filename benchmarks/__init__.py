@@ -1,1 +1,3 @@
-"""poekin's benchmarks: `python -m benchmarks` measures, compares with the peers and writes the report."""
+"""poekin's benchmarks: `python -m benchmarks` measures, compares with the peers and writes the
+report.
+"""

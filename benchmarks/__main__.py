@@ -1,4 +1,5 @@
-"""`python -m benchmarks [--quick] [--output DIR] [--only TOPIC …] [--peers PEER …]`: measure, and write the report.
+"""`python -m benchmarks [--quick] [--output DIR] [--only TOPIC …] [--peers PEER …]`: measure, and
+write the report.
 
 Ctrl-C ends the measuring; the report is written with what there is.
 """
@@ -22,11 +23,21 @@ INTERRUPTED = 130
 
 
 def main() -> int:
-    """The exit code: 0 when every topic ran to its end (whether or not its bars hold), 130 after Ctrl-C, else 1."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Measure poekin and write the report.")
-    parser.add_argument("--quick", action="store_true", help="fewer samples: a look, not a measurement")
-    parser.add_argument("--output", type=Path, default=Path("build/report"), help="directory of the report")
-    parser.add_argument("--only", nargs="+", choices=TOPICS, metavar="TOPIC", help=f"some of: {', '.join(TOPICS)}")
+    """The exit code: 0 when every topic ran to its end (whether or not its bars hold), 130 after
+    Ctrl-C, else 1.
+    """
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks", description="Measure poekin and write the report."
+    )
+    parser.add_argument(
+        "--quick", action="store_true", help="fewer samples: a look, not a measurement"
+    )
+    parser.add_argument(
+        "--output", type=Path, default=Path("build/report"), help="directory of the report"
+    )
+    parser.add_argument(
+        "--only", nargs="+", choices=TOPICS, metavar="TOPIC", help=f"some of: {', '.join(TOPICS)}"
+    )
     parser.add_argument(
         "--peers", nargs="+", choices=peers.names(), metavar="PEER", default=["standard"],
         help=f"libraries to measure beside poekin, where installed: some of {', '.join(peers.names())}",
@@ -57,7 +68,9 @@ def main() -> int:
     pages = {"index.html": html, "report.md": markdown, "results.json": results}
     for file, write in pages.items():
         _write(options.output / file, write(topics, about, seconds))
-    print(f"\n{plain_table(topics)}\n\n{summary(topics)}\nThe report: {(options.output / 'index.html').resolve()}")
+    print(
+        f"\n{plain_table(topics)}\n\n{summary(topics)}\nThe report: {(options.output / 'index.html').resolve()}"
+    )
     return INTERRUPTED if interrupted else 1 if any(topic.failure for topic in topics) else 0
 
 

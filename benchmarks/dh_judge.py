@@ -1,4 +1,6 @@
-"""Judges of DH tables: the product of their links in 60 digits, and a chain's way to a table and back."""
+"""Judges of DH tables: the product of their links in 60 digits, and a chain's way to a table and
+back.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from poekin import Chain, dh
-from poekin.testing import exact
+from poekin.testing.oracles import exact
 
 UNIT = 2.0**-53
 WELL = 1e-13
@@ -20,7 +22,8 @@ FAR = 10
 def product(table: dh.Table, x: np.ndarray) -> np.ndarray:
     """The pose (4, 4) that a table means, x (n,) in rad and m: in 60 digits, rounded once.
 
-    A turn about an axis and a shift along it are one twist, so a link is two of the oracle's exponentials:
+    A turn about an axis and a shift along it are one twist, so a link is two of the oracle's
+    exponentials:
     Rz(theta) Tz(d) = e^(0, 0, theta; 0, 0, d) and Tx(a) Rx(alpha) = e^(alpha, 0, 0; a, 0, 0).
     """
     T = exact.exactly(table.base)
@@ -48,7 +51,9 @@ def ceiling(table: dh.Table, reach: float) -> float:
 
 
 def lever(table: dh.Table, chain: Chain) -> float:
-    """How far an angle that was dropped reaches ÷ R: over all lengths of the table and of its tool, at least R."""
+    """How far an angle that was dropped reaches ÷ R: over all lengths of the table and of its tool,
+    at least R.
+    """
     lengths = np.abs(table.d).sum() + np.abs(table.a).sum() + np.linalg.norm(table.tool[:3, 3])
     return max(1.0, float(lengths + chain.kinds.count("prismatic")) / chain.reach)
 
@@ -57,8 +62,10 @@ def lever(table: dh.Table, chain: Chain) -> float:
 class Trip:
     """Screws → table → screws.
 
-    error: of the pose ÷ R; bound: what `dh.from_chain` says that it may be; ceiling: what that may be at most;
-    well: whether the table is well-conditioned and no angle between axes was dropped; dropped: such angles, rad.
+    error: of the pose ÷ R; bound: what `dh.from_chain` says that it may be; ceiling: what that may
+    be at most;
+    well: whether the table is well-conditioned and no angle between axes was dropped; dropped: such
+    angles, rad.
     """
 
     error: float
@@ -73,9 +80,12 @@ def there_and_back(chain: Chain, convention: str, q: np.ndarray) -> Trip:
     result = dh.from_chain(chain, convention=convention, samples=1)
     x = q @ chain.coupling.T + chain.offset
     off = error(dh.to_chain(result.table).fk(x), chain.fk(q), chain.reach)
-    # What a table dropped has to be said in its warnings, in three digits: read there, as a user would.
+    # What a table dropped has to be said in its warnings, in three digits: read there, as a user
+    # would.
     said = [re.search(r"the angle of (\S+) rad between", words) for words in result.warnings]
     dropped = tuple(float(found[1]) for found in said if found)
-    most = ceiling(result.table, chain.reach) + 2 * 1.005 * sum(dropped) * lever(result.table, chain)
+    most = ceiling(result.table, chain.reach) + 2 * 1.005 * sum(dropped) * lever(
+        result.table, chain
+    )
     well = largest(result.table, chain.reach) <= FAR and not dropped
     return Trip(off, result.bound, most, well, dropped)

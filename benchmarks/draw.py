@@ -1,4 +1,6 @@
-"""Drawings for the page, as SVG text: legible in black and white, nothing fetched, no fonts but the reader's."""
+"""Drawings for the page, as SVG text: legible in black and white, nothing fetched, no fonts but the
+reader's.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ INK, PALE = "#222222", "#9a9a9a"
 
 
 class Panel(NamedTuple):
-    """One of several plots with a common y axis, both axes logarithmic: curves over x; falling: x runs downwards."""
+    """One of several plots with a common y axis, both axes logarithmic: curves over x; falling: x
+    runs downwards.
+    """
 
     x_label: str
     x: Sequence[float]
@@ -57,11 +61,22 @@ def lines(
     y_label: str,
     log: bool = False,
 ) -> Picture:
-    """Curves over x; each has its own line style and marker, as colour alone may not be seen. log: on both axes."""
+    """Curves over x; each has its own line style and marker, as colour alone may not be seen. log:
+    on both axes.
+    """
     figure, axes = _axes(7.2, 3.4)
     styles = [("-", "o"), ("--", "s"), (":", "^"), ("-.", "D"), ("-", "v"), ("--", "x")]
     for (label, y), (line, marker) in zip(curves.items(), styles, strict=False):
-        axes.plot(x, y, line + marker, markersize=4, color=INK, linewidth=1.1, markerfacecolor="white", label=label)
+        axes.plot(
+            x,
+            y,
+            line + marker,
+            markersize=4,
+            color=INK,
+            linewidth=1.1,
+            markerfacecolor="white",
+            label=label,
+        )
     axes.set_xlabel(x_label)
     axes.set_ylabel(y_label)
     if log:
@@ -76,11 +91,21 @@ def lines(
     return Picture(caption, _svg(figure))
 
 
-def dots(caption: str, values: Sequence[float], bar: float, *, x_label: str, y_label: str) -> Picture:
-    """Values in ascending order on a logarithmic scale, with the bar as a line; a zero stands at the lower edge."""
+def dots(
+    caption: str, values: Sequence[float], bar: float, *, x_label: str, y_label: str
+) -> Picture:
+    """Values in ascending order on a logarithmic scale, with the bar as a line; a zero stands at
+    the lower edge.
+    """
     figure, axes = _axes(7.2, 3.0)
     floor = bar / 1e4
-    axes.plot(range(1, len(values) + 1), [max(v, floor) for v in sorted(values)], ".", color=INK, markersize=4)
+    axes.plot(
+        range(1, len(values) + 1),
+        [max(v, floor) for v in sorted(values)],
+        ".",
+        color=INK,
+        markersize=4,
+    )
     axes.axhline(bar, color=INK, linewidth=1, linestyle="--")
     axes.annotate("bar", (1, bar), xytext=(0, 3), textcoords="offset points")
     axes.set_yscale("log")
@@ -91,7 +116,8 @@ def dots(caption: str, values: Sequence[float], bar: float, *, x_label: str, y_l
 
 
 def bars(caption: str, rows: Mapping[str, Mapping[str, float | None]], *, x_label: str) -> Picture:
-    """Horizontal bars on a logarithmic scale: rows {label: {series: value}}, None for a bar that there is not.
+    """Horizontal bars on a logarithmic scale: rows {label: {series: value}}, None for a bar that
+    there is not.
 
     A series is known by its hatching, and each value stands at the end of its bar.
     """
@@ -113,12 +139,21 @@ def bars(caption: str, rows: Mapping[str, Mapping[str, float | None]], *, x_labe
                 there.append((k, value))
                 places.append(k + (mates.index(name) - (len(mates) - 1) / 2) * thickness)
         lengths = [value for _, value in there]
-        axes.barh(places, lengths, 0.85 * thickness, label=name, linewidth=0.8, **looks[number % len(looks)])
+        axes.barh(
+            places,
+            lengths,
+            0.85 * thickness,
+            label=name,
+            linewidth=0.8,
+            **looks[number % len(looks)],
+        )
         for place, value in zip(places, lengths, strict=True):
             axes.annotate(f"{value:.3g}", (value, place), xytext=(3, 0), textcoords="offset points", va="center",
                           fontsize=8.5)  # fmt: skip
     # A label is data: a dollar sign in it is no formula.
-    axes.set_yticks(range(len(rows)), [" ".join(plain(label).split()) for label in rows], parse_math=False)
+    axes.set_yticks(
+        range(len(rows)), [" ".join(plain(label).split()) for label in rows], parse_math=False
+    )
     axes.invert_yaxis()
     axes.set_xscale("log")
     axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -130,18 +165,31 @@ def bars(caption: str, rows: Mapping[str, Mapping[str, float | None]], *, x_labe
     return Picture(caption, _svg(figure))
 
 
-def panels(caption: str, parts: Sequence[Panel], *, y_label: str, bar: float, off_scale: str) -> Picture:
+def panels(
+    caption: str, parts: Sequence[Panel], *, y_label: str, bar: float, off_scale: str
+) -> Picture:
     """Plots beside each other with the bar across; the first curve is bold.
 
-    An infinite value is its curve's marker at the top edge, where off_scale says what it means; a NaN is a gap; what is
-    below bar ÷ 300 is left out.
+    An infinite value is its curve's marker at the top edge, where off_scale says what it means; a
+    NaN is a gap; what is below bar ÷ 300 is left out.
     """
     figure, _ = _axes(9.0, 3.9)
     figure.clear()
     plots = figure.subplots(1, len(parts), sharey=True, squeeze=False)[0]
-    values = [y for part in parts for curve in part.curves.values() for y in curve if math.isfinite(y)]
+    values = [
+        y for part in parts for curve in part.curves.values() for y in curve if math.isfinite(y)
+    ]
     floor, top = max(min(values) / 3, bar / 300), max([*values, bar]) * 30
-    styles = [("-", ""), ("--", "s"), (":", "^"), ("-.", "D"), ("-", "v"), ("--", "x"), (":", "o"), ("-.", "+")]
+    styles = [
+        ("-", ""),
+        ("--", "s"),
+        (":", "^"),
+        ("-.", "D"),
+        ("-", "v"),
+        ("--", "x"),
+        (":", "o"),
+        ("-.", "+"),
+    ]
     for axes, part in zip(plots, parts, strict=True):
         for number, (label, curve) in enumerate(part.curves.items()):
             line, marker = styles[number % len(styles)]
@@ -150,7 +198,9 @@ def panels(caption: str, parts: Sequence[Panel], *, y_label: str, bar: float, of
             every = (number % 4, 4)
             axes.plot(part.x, finite, line, marker=marker or None, markevery=every, markersize=4.5, color=INK,
                       linewidth=1.0 if number else 2.6, markerfacecolor="white", label=label)  # fmt: skip
-            axes.plot(lost, [top] * len(lost), marker=marker or "o", linestyle="", color=INK, markersize=5)
+            axes.plot(
+                lost, [top] * len(lost), marker=marker or "o", linestyle="", color=INK, markersize=5
+            )
         axes.axhline(bar, color=PALE, linewidth=1.2)
         axes.set(xscale="log", yscale="log", xlabel=part.x_label, ylim=(floor, top * 3))
         axes.spines[["top", "right"]].set_visible(False)
@@ -160,9 +210,18 @@ def panels(caption: str, parts: Sequence[Panel], *, y_label: str, bar: float, of
             axes.invert_xaxis()
         if any(math.isinf(y) for curve in part.curves.values() for y in curve):
             axes.axhline(top / 3, color=PALE, linewidth=0.8, linestyle=":")
-            axes.annotate(off_scale, (0.02, 1.0), xycoords="axes fraction", va="bottom", fontsize=9, color="#444444")
+            axes.annotate(
+                off_scale,
+                (0.02, 1.0),
+                xycoords="axes fraction",
+                va="bottom",
+                fontsize=9,
+                color="#444444",
+            )
     plots[0].set_ylabel(y_label)
     plots[0].annotate(f"bar {bar:g}", (0.01, bar), xycoords=("axes fraction", "data"), xytext=(0, 3),
                       textcoords="offset points", fontsize=9)  # fmt: skip
-    figure.legend(*plots[0].get_legend_handles_labels(), loc="outside upper center", ncols=6, frameon=False)
+    figure.legend(
+        *plots[0].get_legend_handles_labels(), loc="outside upper center", ncols=6, frameon=False
+    )
     return Picture(caption, _svg(figure))

@@ -1,4 +1,6 @@
-"""Poses and hybrid Jacobians from a URDF's text, or from screws, in 60 digits: by these all are judged."""
+"""Poses and hybrid Jacobians from a URDF's text, or from screws, in 60 digits: by these all are
+judged.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from poekin.testing import exact
+from poekin.testing.oracles import exact
 
 
-def hybrid(text: str, tip: str, configurations: Iterable[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Poses (N, 4, 4) and hybrid Jacobians (N, 6, n), rounded once, of the chain of revolute joints from root to tip.
+def hybrid(
+    text: str, tip: str, configurations: Iterable[np.ndarray]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Poses (N, 4, 4) and hybrid Jacobians (N, 6, n), rounded once, of the chain of revolute joints
+    from root to tip.
 
     T = Π T_i e^{S_i q_i} with each origin and axis as written in the file, to the last decimal.
     """
@@ -22,7 +27,9 @@ def hybrid(text: str, tip: str, configurations: Iterable[np.ndarray]) -> tuple[n
     while link in joints:
         way.insert(0, joints[link])
         link = _link(joints[link], "parent")
-    fixed = [(_origin(joint), _axis(joint) if joint.get("type") != "fixed" else None) for joint in way]
+    fixed = [
+        (_origin(joint), _axis(joint) if joint.get("type") != "fixed" else None) for joint in way
+    ]
     results = [_one(fixed, q) for q in configurations]
     return np.stack([T for T, _ in results]), np.stack([J for _, J in results])
 
@@ -30,14 +37,18 @@ def hybrid(text: str, tip: str, configurations: Iterable[np.ndarray]) -> tuple[n
 def of_screws(
     screws: np.ndarray, home: np.ndarray, configurations: Iterable[np.ndarray]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The same of the product of exponentials of screws (n, 6) and home (4, 4), taken as the floats that they are."""
+    """The same of the product of exponentials of screws (n, 6) and home (4, 4), taken as the floats
+    that they are.
+    """
     still = exact.exactly(np.eye(4))
     joints = [(still, exact.exactly(screw)) for screw in screws]
     results = [_one([*joints, (exact.exactly(home), None)], q) for q in configurations]
     return np.stack([T for T, _ in results]), np.stack([J for _, J in results])
 
 
-def _one(joints: list[tuple[np.ndarray, np.ndarray | None]], q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _one(
+    joints: list[tuple[np.ndarray, np.ndarray | None]], q: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     values = iter(exact.exactly(q))
     T = exact.exactly(np.eye(4))
     screws = []
@@ -56,7 +67,10 @@ def _link(joint: Any, end: str) -> str:
 
 def _numbers(element: Any, name: str, default: str) -> np.ndarray:
     return exact.exactly(
-        [exact.mp.mpf(x) for x in (default if element is None else element.get(name, default)).split()]
+        [
+            exact.mp.mpf(x)
+            for x in (default if element is None else element.get(name, default)).split()
+        ]
     )
 
 

@@ -1,4 +1,6 @@
-"""Fresh Python processes: for import times, first calls, and for what must work in an odd environment."""
+"""Fresh Python processes: for import times, first calls, and for what must work in an odd
+environment.
+"""
 
 from __future__ import annotations
 
@@ -21,15 +23,28 @@ class Outcome:
     err: str
 
 
-def run(script: str, environment: Mapping[str, str | None], *, package_home: Path = ROOT) -> Outcome:
-    """Run a script in a new interpreter with poekin importable from package_home; None takes a variable away."""
+def run(
+    script: str, environment: Mapping[str, str | None], *, package_home: Path = ROOT
+) -> Outcome:
+    """Run a script in a new interpreter with poekin importable from package_home; None takes a
+    variable away.
+    """
     # Byte code is kept, as it is for any user: without it every import would be a cold one.
     kept = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
-    variables = kept | {"PYTHONPATH": str(package_home)} | {k: v for k, v in environment.items() if v is not None}
+    variables = (
+        kept
+        | {"PYTHONPATH": str(package_home)}
+        | {k: v for k, v in environment.items() if v is not None}
+    )
     for name, value in environment.items():
         if value is None:
             variables.pop(name, None)
     done = subprocess.run(
-        [sys.executable, "-c", script], env=variables, cwd=package_home, capture_output=True, text=True, timeout=300
+        [sys.executable, "-c", script],
+        env=variables,
+        cwd=package_home,
+        capture_output=True,
+        text=True,
+        timeout=300,
     )
     return Outcome(done.returncode, done.stdout, done.stderr)

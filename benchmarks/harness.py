@@ -1,11 +1,15 @@
-"""How time is measured: two cases in turn, A B A B …, in one run, so that a slow moment of the machine hits both.
+"""How time is measured: two cases in turn, A B A B …, in one run, so that a slow moment of the
+machine hits both.
 
-Time is the processor's (`time.process_time`): while another process has the processor, it stands still. It adds up all
-threads of this process, so that no case gains by threads that the other one does not start.
+Time is the processor's (`time.process_time`): while another process has the processor, it stands
+still. It adds up all threads of this process, so that no case gains by threads that the other one
+does not start.
 
-Where threads are meant, the clock is the wall's (`clock=time.perf_counter`), and the machine has to be idle otherwise.
+Where threads are meant, the clock is the wall's (`clock=time.perf_counter`), and the machine has to
+be idle otherwise.
 
-A case is a triple (setup, run, error): every row of speed has its error beside it, from the results of the same run.
+A case is a triple (setup, run, error): every row of speed has its error beside it, from the results
+of the same run.
 """
 
 from __future__ import annotations
@@ -23,8 +27,8 @@ Clock = Callable[[], float]
 class Case:
     """One thing to be timed.
 
-    name; setup() -> state, outside the clock; run(state) -> result, inside it; error(state, result) -> the numerical
-    error of that result, by whatever reference the case states.
+    name; setup() -> state, outside the clock; run(state) -> result, inside it; error(state, result)
+    -> the numerical error of that result, by whatever reference the case states.
     """
 
     name: str
@@ -54,7 +58,9 @@ class Timed:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two cases measured in turn: processor seconds a run, ratio first ÷ second of each pair, the errors of both."""
+    """Two cases measured in turn: processor seconds a run, ratio first ÷ second of each pair, the
+    errors of both.
+    """
 
     first: Spread
     second: Spread
@@ -65,7 +71,9 @@ class Comparison:
 
 def spread(values: list[float]) -> Spread:
     """Median and quartiles; of a single value, three times itself."""
-    lower, _, upper = statistics.quantiles(values, n=4, method="inclusive") if len(values) > 1 else values * 3
+    lower, _, upper = (
+        statistics.quantiles(values, n=4, method="inclusive") if len(values) > 1 else values * 3
+    )
     return Spread(statistics.median(values), lower, upper)
 
 
@@ -77,9 +85,11 @@ def compare(
     slice_s: float = 0.02,
     clock: Clock = time.process_time,
 ) -> Comparison:
-    """Time two cases in turn and take the ratio within each pair; the order within a pair alternates.
+    """Time two cases in turn and take the ratio within each pair; the order within a pair
+    alternates.
 
-    Parameters: pairs, how often; slice_s, seconds by the wall clock that one measurement of a case lasts at least
+    Parameters: pairs, how often; slice_s, seconds by the wall clock that one measurement of a case
+    lasts at least
     (fast runs repeat); clock, the processor's or the wall's.
     """
     a, b = in_turn([first, second], rounds=pairs, slice_s=slice_s, clock=clock)
@@ -94,13 +104,17 @@ def in_turn(
     clock: Clock = time.process_time,
     rest_s: float = 0.0,
 ) -> list[Timed]:
-    """Time any number of cases in turn, there and back: A B C C B A A B C …; parameters as `compare`.
+    """Time any number of cases in turn, there and back: A B C C B A A B C …; parameters as
+    `compare`.
 
-    rest_s: seconds to wait before each slice. Threads of a library that the last case has started use the processor for
-    some hundredths of a second more, waiting for work, and that would be the next one's time.
+    rest_s: seconds to wait before each slice. Threads of a library that the last case has started
+    use the processor for some hundredths of a second more, waiting for work, and that would be the
+    next one's time.
     """
     states = [case.setup() for case in cases]
-    errors = [case.error(state, case.run(state)) for case, state in zip(cases, states, strict=True)]  # warms up, too
+    errors = [
+        case.error(state, case.run(state)) for case, state in zip(cases, states, strict=True)
+    ]  # warms up, too
     loops = [_loops(case.run, state, slice_s) for case, state in zip(cases, states, strict=True)]
     times: list[list[float]] = [[] for _ in cases]
     for number in range(rounds):
@@ -118,7 +132,9 @@ def ratio(first: Timed, second: Timed) -> Spread:
     return spread([a / b for a, b in zip(first.each, second.each, strict=True)])
 
 
-def _clock(run: Callable[[Any], Any], state: Any, loops: int, clock: Clock = time.process_time) -> float:
+def _clock(
+    run: Callable[[Any], Any], state: Any, loops: int, clock: Clock = time.process_time
+) -> float:
     """Seconds a run, over so many runs in a row."""
     span = range(loops)
     start = clock()

@@ -1,8 +1,10 @@
-"""`python -m benchmarks.hunt [CASES] [--seed SEED]`: the worst error ÷ attainable of exp and log on SE(3), hunted.
+"""`python -m benchmarks.hunt [CASES] [--seed SEED]`: the worst error ÷ attainable of exp and log on
+SE(3), hunted.
 
-Random cases first, then hill climbing: the worst cases so far are changed a little, by relative steps of 1e-16 to 0.1,
-and what is worse is kept. Errors are those of `poekin.testing.attainable`, in extended precision: a hunt judges many
-more cases than 60 digits allow. Angles are those where that is enough: up to 10 rad for exp, 0.05 rad to π for log.
+Random cases first, then hill climbing: the worst cases so far are changed a little, by relative
+steps of 1e-16 to 0.1, and what is worse is kept. Errors are those of
+`poekin.testing.accuracy.error_bounds`, in extended precision: a hunt judges many more cases than 60
+digits allow. Angles are those where that is enough: up to 10 rad for exp, 0.05 rad to π for log.
 """
 
 from __future__ import annotations
@@ -16,8 +18,9 @@ from typing import NamedTuple
 import numpy as np
 
 from poekin import se3
-from poekin.testing import extended, suspects
-from poekin.testing.attainable import UNIT
+from poekin.testing.accuracy import worst_cases
+from poekin.testing.accuracy.error_bounds import UNIT
+from poekin.testing.oracles import longdouble_oracle
 
 Function = Callable[[np.ndarray], np.ndarray]
 """exp: twists (N, 6) -> poses (N, 4, 4); log: poses -> twists."""
@@ -31,7 +34,9 @@ KEPT = 300
 
 
 class Ratios(NamedTuple):
-    """Error ÷ attainable of each case (N,): of the angular part, R or ω, and of the linear part, t or v."""
+    """Error ÷ attainable of each case (N,): of the angular part, R or ω, and of the linear part, t
+    or v.
+    """
 
     angular: np.ndarray
     linear: np.ndarray
@@ -63,7 +68,9 @@ class Effort(NamedTuple):
 
 @dataclass
 class Worst:
-    """The worst ratio of random cases, that of hunted ones too, its twist (6,), and how many cases were judged."""
+    """The worst ratio of random cases, that of hunted ones too, its twist (6,), and how many cases
+    were judged.
+    """
 
     random: float
     hunted: float
@@ -71,13 +78,19 @@ class Worst:
     cases: int
 
 
-def ratios(quantity: Quantity, function: Function, xi: np.ndarray, rng: np.random.Generator) -> Ratios:
-    """The ratios of exp at twists (N, 6), or of log at their exponentials, some with entries that are off by an ulp."""
+def ratios(
+    quantity: Quantity, function: Function, xi: np.ndarray, rng: np.random.Generator
+) -> Ratios:
+    """The ratios of exp at twists (N, 6), or of log at their exponentials, some with entries that
+    are off by an ulp.
+    """
     if quantity.function == "exp":
         return exp_ratios(xi, _called(function, xi, (4, 4)))
-    T = extended.exp(xi).astype(float)
+    T = longdouble_oracle.exp(xi).astype(float)
     off = (
-        rng.integers(-2, 3, (len(xi), 3, 3)) * (rng.random((len(xi), 3, 3)) < 0.3) * (rng.random((len(xi), 1, 1)) < 0.4)
+        rng.integers(-2, 3, (len(xi), 3, 3))
+        * (rng.random((len(xi), 3, 3)) < 0.3)
+        * (rng.random((len(xi), 1, 1)) < 0.4)
     )
     T[:, :3, :3] *= 1 + UNIT * off
     return log_ratios(T, _called(function, T, (6,)))
@@ -85,23 +98,28 @@ def ratios(quantity: Quantity, function: Function, xi: np.ndarray, rng: np.rando
 
 def exp_ratios(xi: np.ndarray, T: np.ndarray) -> Ratios:
     """Of results T (N, 4, 4) at xi (N, 6); inf where a result is not finite."""
-    truth = extended.exp(xi)
+    truth = longdouble_oracle.exp(xi)
     theta, t = _norm(xi[:, :3]), truth[:, :3, 3]
     R = _norm((T - truth)[:, :3, :3].reshape(-1, 9)) / (1 + math.sqrt(2) * theta)
     size = _norm(t) + _norm(xi[:, 3:])
-    return _finished(R, _norm(T[:, :3, 3] - t), size, lambda k: theta[k] * _norm(_slope(xi[k], t[k]).reshape(-1, 9)))
+    return _finished(
+        R,
+        _norm(T[:, :3, 3] - t),
+        size,
+        lambda k: theta[k] * _norm(_slope(xi[k], t[k]).reshape(-1, 9)),
+    )
 
 
 def log_ratios(T: np.ndarray, xi: np.ndarray) -> Ratios:
     """Of results xi (N, 6) at T (N, 4, 4); inf where a result is not finite."""
-    truth = extended.log(T)
+    truth = longdouble_oracle.log(T)
     theta, t = _norm(truth[:, :3]), T[:, :3, 3]
     kappa = theta / 2 / np.sin(theta / 2)
     w = _norm((xi - truth)[:, :3]) / (theta * (1 + 1.22 * kappa * np.minimum(1, 1 / theta)))
     size = _norm(truth[:, 3:]) + kappa * _norm(t)
 
     def slope(k: np.ndarray) -> np.ndarray:
-        inverse = extended.left_jacobian_inverse(truth[k])[:, :3, :3]
+        inverse = longdouble_oracle.left_jacobian_inverse(truth[k])[:, :3, :3]
         return theta[k] * _norm((inverse @ _slope(truth[k], t[k])).reshape(-1, 9))
 
     return _finished(w, _norm((xi - truth)[:, 3:]), size, slope)
@@ -143,14 +161,18 @@ def _worst(
 
 def _drawn(quantity: Quantity, largest: float, count: int, rng: np.random.Generator) -> np.ndarray:
     """Random twists; for exp, a third of the angles are small."""
-    xi = suspects.twists(rng, count, largest)
+    xi = worst_cases.twists(rng, count, largest)
     if quantity.function == "exp":
-        xi[:, :3] *= np.where(rng.random((count, 1)) < 1 / 3, 10.0 ** rng.uniform(-8, 0, (count, 1)), 1.0)
+        xi[:, :3] *= np.where(
+            rng.random((count, 1)) < 1 / 3, 10.0 ** rng.uniform(-8, 0, (count, 1)), 1.0
+        )
     return xi
 
 
 def _changed(xi: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """Twists with half of their numbers changed by a relative step, a third also by one in proportion to ω or v."""
+    """Twists with half of their numbers changed by a relative step, a third also by one in
+    proportion to ω or v.
+    """
     steps = 10.0 ** rng.uniform(-16.2, -1, (len(xi), 1)) * (rng.random(xi.shape) < 0.5)
     sizes = np.repeat([_norm(xi[:, :3]), _norm(xi[:, 3:])], 3, axis=0).T
     beside = 10.0 ** rng.uniform(-17, -1, (len(xi), 1)) * (rng.random((len(xi), 1)) < 1 / 3)
@@ -173,22 +195,32 @@ def _one(function: Function, row: np.ndarray, shape: tuple[int, ...]) -> np.ndar
 
 
 def _slope(xi: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """∂t/∂ω of exp at fixed v, as in `attainable`."""
-    J = extended.left_jacobian(xi)
-    return J[:, 3:, :3] - extended.hat(t) @ J[:, :3, :3]
+    """∂t/∂ω of exp at fixed v, as in `error_bounds`."""
+    J = longdouble_oracle.left_jacobian(xi)
+    return J[:, 3:, :3] - longdouble_oracle.hat(t) @ J[:, :3, :3]
 
 
 def _finished(
-    angular: np.ndarray, linear: np.ndarray, size: np.ndarray, slope: Callable[[np.ndarray], np.ndarray]
+    angular: np.ndarray,
+    linear: np.ndarray,
+    size: np.ndarray,
+    slope: Callable[[np.ndarray], np.ndarray],
 ) -> Ratios:
-    """Both ratios; the linear one is 0 where even without the slope's part of its bound it is not among the worst."""
+    """Both ratios; the linear one is 0 where even without the slope's part of its bound it is not
+    among the worst.
+    """
     rough = np.nan_to_num(linear / size, nan=np.inf, posinf=np.inf)
     exact = np.zeros_like(rough)
     worst = np.argsort(rough)[-(len(rough) // 10 + 1) :]
     while len(worst):
         exact[worst] = linear[worst] / (size[worst] + slope(worst))
         worst = np.flatnonzero((exact == 0) & (rough > exact.max()))
-    return Ratios(*(np.nan_to_num((x / UNIT).astype(float), nan=np.inf, posinf=np.inf) for x in (angular, exact)))
+    return Ratios(
+        *(
+            np.nan_to_num((x / UNIT).astype(float), nan=np.inf, posinf=np.inf)
+            for x in (angular, exact)
+        )
+    )
 
 
 def _norm(x: np.ndarray) -> np.ndarray:
@@ -197,8 +229,12 @@ def _norm(x: np.ndarray) -> np.ndarray:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Say the worst of each quantity of poekin."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.hunt", description="Hunt for poekin's worst errors.")
-    parser.add_argument("cases", type=int, nargs="?", default=1_000_000, help="random cases of each quantity")
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.hunt", description="Hunt for poekin's worst errors."
+    )
+    parser.add_argument(
+        "cases", type=int, nargs="?", default=1_000_000, help="random cases of each quantity"
+    )
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args(arguments)
     if options.cases < 5:

@@ -49,11 +49,15 @@ def _processor() -> str:
 
 
 def _commit() -> str:
-    """The commit, with a word if the tree has changes; "unknown" where there is no git or no commit."""
+    """The commit, with a word if the tree has changes; "unknown" where there is no git or no
+    commit.
+    """
     here = Path(__file__).resolve().parent
 
     def git(*words: str) -> str:
-        return subprocess.run(["git", "-C", str(here), *words], capture_output=True, text=True, check=True).stdout
+        return subprocess.run(
+            ["git", "-C", str(here), *words], capture_output=True, text=True, check=True
+        ).stdout
 
     try:
         changed = " with changes" if git("status", "--porcelain") else ""

@@ -1,4 +1,6 @@
-"""The report as one HTML page that needs nothing else, as Markdown, and as JSON. Every text is escaped."""
+"""The report as one HTML page that needs nothing else, as Markdown, and as JSON. Every text is
+escaped.
+"""
 
 from __future__ import annotations
 
@@ -15,8 +17,12 @@ from .report import Figure, Table, Topic, short
 
 
 def plain(text: str) -> str:
-    """Text without characters that a terminal or a browser would obey instead of showing; line breaks stay."""
-    return "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text)
+    """Text without characters that a terminal or a browser would obey instead of showing; line
+    breaks stay.
+    """
+    return "".join(
+        c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text
+    )
 
 
 def escape(text: str) -> str:
@@ -33,8 +39,12 @@ def html(topics: Sequence[Topic], machine: dict[str, Any], seconds: float) -> st
     return template.substitute(
         summary=escape(summary(topics)),
         machine=_definitions(machine, seconds),
-        all_figures=_figures([f for t in topics for f in t.figures if f.verdict is not None], notes=False),
-        contents="".join(f'<li><a href="#{i}">{escape(t.title)}</a></li>' for i, t in enumerate(topics, 1)),
+        all_figures=_figures(
+            [f for t in topics for f in t.figures if f.verdict is not None], notes=False
+        ),
+        contents="".join(
+            f'<li><a href="#{i}">{escape(t.title)}</a></li>' for i, t in enumerate(topics, 1)
+        ),
         topics="\n".join(_topic(i, t) for i, t in enumerate(topics, 1)),
     )
 
@@ -49,7 +59,10 @@ def markdown(topics: Sequence[Topic], machine: dict[str, Any], seconds: float) -
         loose = [f for f in topic.figures if f.verdict is None]
         parts.append(_grid(HEADS, [_cells(f) for f in loose]) if loose else "")
         for table in topic.tables:
-            parts += [f"**{table.caption}**", _grid(table.columns, [[_text(c) for c in r] for r in table.rows])]
+            parts += [
+                f"**{table.caption}**",
+                _grid(table.columns, [[_text(c) for c in r] for r in table.rows]),
+            ]
     return plain("\n\n".join(part for part in parts if part)) + "\n"
 
 
@@ -74,10 +87,19 @@ def summary(topics: Sequence[Topic]) -> str:
 
 def plain_table(topics: Sequence[Topic]) -> str:
     """The figures that have a bar, as text for a terminal."""
-    rows = [[*_cells(f)[:3], VERDICT[f.verdict]] for t in topics for f in t.figures if f.verdict is not None]
+    rows = [
+        [*_cells(f)[:3], VERDICT[f.verdict]]
+        for t in topics
+        for f in t.figures
+        if f.verdict is not None
+    ]
     rows = [["what", "figure", "bar", ""], *rows]
     widths = [max(len(r[i]) for r in rows) for i in range(4)]
-    return plain("\n".join("  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)).rstrip() for r in rows))
+    return plain(
+        "\n".join(
+            "  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)).rstrip() for r in rows
+        )
+    )
 
 
 HEADS = ("what", "figure", "bar", "quartiles", "error in the same run", "", "note")
@@ -93,7 +115,11 @@ def _figures(figures: Sequence[Figure], *, notes: bool = True) -> str:
     if not figures:
         return ""
     filled = [_cells(f) for f in figures]
-    keep = [i for i, head in enumerate(HEADS) if any(row[i] for row in filled) and (notes or head != "note")]
+    keep = [
+        i
+        for i, head in enumerate(HEADS)
+        if any(row[i] for row in filled) and (notes or head != "note")
+    ]
     head = "".join(f'<th class="{_kind(i)}">{escape(HEADS[i])}</th>' for i in keep)
     body = ""
     for figure, row in zip(figures, filled, strict=True):
@@ -111,23 +137,38 @@ def _topic(number: int, topic: Topic) -> str:
     parts = [f'<section id="{number}"><h2>{escape(topic.title)}</h2>']
     parts += [f"<p>{escape(paragraph)}</p>" for paragraph in topic.text.split("\n\n") if paragraph]
     if topic.failure:
-        parts.append(f'<p class="broken">This topic broke off:</p><pre>{escape(topic.failure)}</pre>')
+        parts.append(
+            f'<p class="broken">This topic broke off:</p><pre>{escape(topic.failure)}</pre>'
+        )
     parts.append(_figures(topic.figures))
     for picture in topic.pictures:
-        parts.append(f"<figure>{picture.svg}<figcaption>{escape(picture.caption)}</figcaption></figure>")
+        parts.append(
+            f"<figure>{picture.svg}<figcaption>{escape(picture.caption)}</figcaption></figure>"
+        )
     parts += [_table(t) for t in topic.tables]
     return "\n".join(part for part in parts if part) + "</section>"
 
 
 def _table(table: Table) -> str:
     # Numbers that were not measured are empty, and leave a column one of numbers.
-    numeric = [not any(isinstance(row[i], str) and row[i] for row in table.rows) for i in range(len(table.columns))]
+    numeric = [
+        not any(isinstance(row[i], str) and row[i] for row in table.rows)
+        for i in range(len(table.columns))
+    ]
     heads = zip(table.columns, numeric, strict=True)
-    head = "".join(f'<th class="{"number" if right else "word"}">{escape(c)}</th>' for c, right in heads)
+    head = "".join(
+        f'<th class="{"number" if right else "word"}">{escape(c)}</th>' for c, right in heads
+    )
     body = ""
     for row in table.rows:
-        kinds = ("number" if right or not isinstance(c, str) else "word" for c, right in zip(row, numeric, strict=True))
-        cells = (f'<td class="{kind}">{escape(_text(c))}</td>' for c, kind in zip(row, kinds, strict=True))
+        kinds = (
+            "number" if right or not isinstance(c, str) else "word"
+            for c, right in zip(row, numeric, strict=True)
+        )
+        cells = (
+            f'<td class="{kind}">{escape(_text(c))}</td>'
+            for c, kind in zip(row, kinds, strict=True)
+        )
         body += f"<tr>{''.join(cells)}</tr>\n"
     inner = f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>'
     caption = escape(table.caption)
@@ -139,7 +180,9 @@ def _table(table: Table) -> str:
 def _definitions(machine: dict[str, Any], seconds: float) -> str:
     items = [(k, v) for k, v in machine.items() if k != "versions"] + [("took", f"{seconds:.0f} s")]
     items += list(machine["versions"].items())
-    return "".join(f"<div><dt>{escape(str(k))}</dt><dd>{escape(str(v))}</dd></div>" for k, v in items)
+    return "".join(
+        f"<div><dt>{escape(str(k))}</dt><dd>{escape(str(v))}</dd></div>" for k, v in items
+    )
 
 
 def _machine_line(machine: dict[str, Any], seconds: float) -> str:
@@ -153,7 +196,10 @@ def _machine_line(machine: dict[str, Any], seconds: float) -> str:
 def _grid(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     def line(cells: Iterable[str]) -> str:
         # Backslashes and bars would end a cell, angle brackets would be HTML.
-        safe = (c.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;").replace("\n", " ") for c in cells)
+        safe = (
+            c.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;").replace("\n", " ")
+            for c in cells
+        )
         return "| " + " | ".join(safe) + " |"
 
     return "\n".join([line(heads), "|" + "---|" * len(heads), *map(line, rows)])

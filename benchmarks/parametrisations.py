@@ -1,8 +1,10 @@
-"""Denavit-Hartenberg parameters and Hayati's as numbers that can be identified, and the arms to identify.
+"""Denavit-Hartenberg parameters and Hayati's as numbers that can be identified, and the arms to
+identify.
 
-A table of link parameters is itself a product of exponentials: of 4 n + 6 elementary motions e^{E_k x_k}, turns about
-and shifts along x, y and z, whose coordinates are the parameters. So a chain of that many joints gives its poses, and
-its Jacobian is the derivative of the pose by each parameter, with no formula of its own.
+A table of link parameters is itself a product of exponentials: of 4 n + 6 elementary motions e^{E_k
+x_k}, turns about and shifts along x, y and z, whose coordinates are the parameters. So a chain of
+that many joints gives its poses, and its Jacobian is the derivative of the pose by each parameter,
+with no formula of its own.
 """
 
 from __future__ import annotations
@@ -31,7 +33,9 @@ UNITS = {
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Elementary:
-    """f = base prod e^{E_k x_k} tool, x_k = values_k, and + q_i where k is turned_by[i]; motions: names in `UNITS`."""
+    """f = base prod e^{E_k x_k} tool, x_k = values_k, and + q_i where k is turned_by[i]; motions:
+    names in `UNITS`.
+    """
 
     motions: tuple[str, ...]
     values: Array
@@ -59,7 +63,9 @@ class Elementary:
         return self.chain.fk(self._coordinates(q))
 
     def columns(self, q: Array) -> Array:
-        """(N, 6, P): the tool's turn and the shift of its origin, in base axes, per unit of each parameter."""
+        """(N, 6, P): the tool's turn and the shift of its origin, in base axes, per unit of each
+        parameter.
+        """
         return self.chain.jacobian(self._coordinates(q), "hybrid")
 
     def moved(self, step: Array) -> Elementary:
@@ -70,15 +76,18 @@ class Elementary:
 def link_parameters(table: dh.Table, hayati: Sequence[int] = ()) -> Elementary:
     """The complete and minimal form of a standard table of revolute joints: 4 n + 6 parameters.
 
-    Tx Ty Rx Ry place axis 1 in the base; link i is Rz(theta + q) Tz(d) Tx(a) Rx(alpha) or, where i is in `hayati`,
-    Rz(theta + q) Tx(a) Rx(alpha) Ry(beta); Ty Ry complete the tool after the last link. Source: Hayati 1983.
+    Tx Ty Rx Ry place axis 1 in the base; link i is Rz(theta + q) Tz(d) Tx(a) Rx(alpha) or, where i
+    is in `hayati`, Rz(theta + q) Tx(a) Rx(alpha) Ry(beta); Ty Ry complete the tool after the last
+    link. Source: Hayati 1983.
     """
     motions, values, turned_by = ["Tx", "Ty", "Rx", "Ry"], [0.0] * 4, []
     for i, row in enumerate(table.rows):
         turned_by.append(len(motions))
         if i in hayati:
             if row.d:
-                raise ValueError(f"row {i + 1}: Hayati's link has no d, and this one is {row.d:g} m")
+                raise ValueError(
+                    f"row {i + 1}: Hayati's link has no d, and this one is {row.d:g} m"
+                )
             motions += ["Rz", "Tx", "Rx", "Ry"]
             values += [row.theta, row.a, row.alpha, 0.0]
         else:
@@ -89,18 +98,25 @@ def link_parameters(table: dh.Table, hayati: Sequence[int] = ()) -> Elementary:
 
 
 def table_with(twist: float) -> dh.Table:
-    """The arm's table with alpha of the link between its parallel axes set to twist [rad]: 0 is the nominal arm."""
+    """The arm's table with alpha of the link between its parallel axes set to twist [rad]: 0 is the
+    nominal arm.
+    """
     rows = list(dh.published(ARM).rows)
     rows[SHOULDER] = dataclasses.replace(rows[SHOULDER], alpha=twist)
     return dh.Table("standard", rows)
 
 
 def tilted(delta: float) -> Chain:
-    """The nominal arm with the axis of its elbow turned by delta [rad] in the plane of that axis and the shoulder's."""
+    """The nominal arm with the axis of its elbow turned by delta [rad] in the plane of that axis
+    and the shoulder's.
+    """
     nominal = dh.to_chain(table_with(0.0))
     A = np.array(nominal.screws)
     p = np.cross(A[:, :3], A[:, 3:])
     normal = np.cross(A[ELBOW, :3], p[ELBOW] - p[SHOULDER])
     normal = normal / np.linalg.norm(normal)
-    A[ELBOW] = se3.adjoint(se3.exp(delta * np.concatenate([normal, np.cross(p[ELBOW], normal)]))) @ A[ELBOW]
+    A[ELBOW] = (
+        se3.adjoint(se3.exp(delta * np.concatenate([normal, np.cross(p[ELBOW], normal)])))
+        @ A[ELBOW]
+    )
     return Chain(A, nominal.home, limits=nominal.limits)

@@ -1,4 +1,6 @@
-"""How well an arm's parameters can be identified, and what is found: of link parameters here, of screws by poekin."""
+"""How well an arm's parameters can be identified, and what is found: of link parameters here, of
+screws by poekin.
+"""
 
 from __future__ import annotations
 
@@ -15,11 +17,15 @@ from .parametrisations import Elementary
 A = TypeVar("A", Elementary, Chain)
 
 NEGLIGIBLE = 1e-10
-"""Singular values below this part of the largest are left out of a Gauss-Newton step over link parameters."""
+"""Singular values below this part of the largest are left out of a Gauss-Newton step over link
+parameters.
+"""
 
 
 class Sample(NamedTuple):
-    """Configurations (N, n) and the tool's poses there (N, 4, 4): measured ones, or fresh ones to judge by."""
+    """Configurations (N, n) and the tool's poses there (N, 4, 4): measured ones, or fresh ones to
+    judge by.
+    """
 
     q: Array
     T: Array
@@ -41,7 +47,9 @@ class Found(NamedTuple, Generic[A]):
 
 
 class Descent(NamedTuple):
-    """What Levenberg-Marquardt ends with: the arm, evaluations of the poses, error on fresh poses (m)."""
+    """What Levenberg-Marquardt ends with: the arm, evaluations of the poses, error on fresh poses
+    (m).
+    """
 
     arm: Elementary
     evaluations: int
@@ -49,7 +57,8 @@ class Descent(NamedTuple):
 
 
 def condition(arm: Elementary | Chain, q: Array, R: float) -> float:
-    """Largest ÷ smallest singular value on the identifiable space, from poses at q; lengths in R, rows and columns.
+    """Largest ÷ smallest singular value on the identifiable space, from poses at q; lengths in R,
+    rows and columns.
 
     Of a chain the unit is its own reach.
     """
@@ -60,7 +69,9 @@ def condition(arm: Elementary | Chain, q: Array, R: float) -> float:
 
 
 def identification(arm: Elementary, q: Array, R: float) -> Array:
-    """(6 N, P): the poses' derivatives by the parameters, with lengths in units of R in rows and columns."""
+    """(6 N, P): the poses' derivatives by the parameters, with lengths in units of R in rows and
+    columns.
+    """
     J = arm.columns(q) * units(arm, R)
     J[:, 3:] /= R
     return J.reshape(-1, J.shape[-1])
@@ -78,7 +89,9 @@ def residuals(arm: Elementary, measured: Sample, R: float) -> Array:
     return np.concatenate([turn, (T[:, :3, 3] - measured.T[:, :3, 3]) / R], axis=-1).ravel()
 
 
-def gauss_newton(arm: Elementary, measured: Sample, fresh: Sample, R: float, steps: int) -> Found[Elementary]:
+def gauss_newton(
+    arm: Elementary, measured: Sample, fresh: Sample, R: float, steps: int
+) -> Found[Elementary]:
     """That many full steps, with no damping."""
     errors = [fresh.error(arm.poses(fresh.q))]
     for _ in range(steps):
@@ -88,7 +101,9 @@ def gauss_newton(arm: Elementary, measured: Sample, fresh: Sample, R: float, ste
     return Found(arm, errors)
 
 
-def levenberg_marquardt(arm: Elementary, measured: Sample, fresh: Sample, R: float, evaluations: int) -> Descent:
+def levenberg_marquardt(
+    arm: Elementary, measured: Sample, fresh: Sample, R: float, evaluations: int
+) -> Descent:
     """SciPy's (MINPACK's) with its own tolerances and the exact derivative."""
     scale = units(arm, R)
     slopes: Any = lambda y: identification(arm.moved(scale * y), measured.q, R)  # noqa: E731  SciPy's stubs know no callable here
@@ -101,9 +116,11 @@ def levenberg_marquardt(arm: Elementary, measured: Sample, fresh: Sample, R: flo
 
 
 def calibrated(arm: Chain, measured: Sample, fresh: Sample, steps: int) -> Found[Chain]:
-    """poekin's calibration of screws and home pose, stopped after one step, two, ... or where it ends by itself.
+    """poekin's calibration of screws and home pose, stopped after one step, two, ... or where it
+    ends by itself.
 
-    Angles and lengths ÷ R weigh the same, as in `residuals`. Raises: RuntimeError for a step that had to be damped.
+    Angles and lengths ÷ R weigh the same, as in `residuals`. Raises: RuntimeError for a step that
+    had to be damped.
     """
     poses = calibration.Poses(measured.T, covariance=np.diag([1.0] * 3 + [arm.reach**2] * 3))
     errors, found = [fresh.error(arm.fk(fresh.q))], arm

@@ -11,10 +11,13 @@ from dataclasses import dataclass, field
 class Figure:
     """One measured figure and the bar that it ought to hold.
 
-    what: what was measured, in words; value: the figure, None where it could not be measured (note says why);
-    bar: the largest value that holds, None where the figure is only information; unit: "" for a plain number;
-    spread: (lower, upper) quartile of repeated measurements; error: the numerical error of the same run, as text;
-    shown: the value as text where a number is not how to say it; holds: by default value ≤ bar.
+    what: what was measured, in words; value: the figure, None where it could not be measured (note
+    says why);
+    bar: the largest value that holds, None where the figure is only information; unit: "" for a
+    plain number;
+    spread: (lower, upper) quartile of repeated measurements; error: the numerical error of the same
+    run, as text; shown: the value as text where a number is not how to say it; holds: by default
+    value ≤ bar.
     """
 
     what: str
@@ -40,16 +43,24 @@ class Figure:
     @property
     def text(self) -> str:
         """The figure as people read it."""
-        return self.shown or ("not measured" if self.value is None else f"{short(self.value)} {self.unit}".strip())
+        return self.shown or (
+            "not measured" if self.value is None else f"{short(self.value)} {self.unit}".strip()
+        )
 
     @property
     def bar_text(self) -> str:
         """The bar as people read it, or nothing."""
-        return self.bar_shown or ("" if self.bar is None else f"≤ {short(self.bar)} {self.unit}".strip())
+        return self.bar_shown or (
+            "" if self.bar is None else f"≤ {short(self.bar)} {self.unit}".strip()
+        )
 
 
-def side_by_side(what: str, found: Sequence[int], bars: Sequence[int], *, error: str = "", note: str = "") -> Figure:
-    """A figure of several numbers, each with a bar of its own: its value is the largest share of a bar that is used."""
+def side_by_side(
+    what: str, found: Sequence[int], bars: Sequence[int], *, error: str = "", note: str = ""
+) -> Figure:
+    """A figure of several numbers, each with a bar of its own: its value is the largest share of a
+    bar that is used.
+    """
     value = max(number / bar for number, bar in zip(found, bars, strict=True))
     shown, bar_shown = ("/".join(map(str, numbers)) for numbers in (found, bars))
     return Figure(what, value, 1, shown=shown, bar_shown=f"≤ {bar_shown}", error=error, note=note)
@@ -57,7 +68,9 @@ def side_by_side(what: str, found: Sequence[int], bars: Sequence[int], *, error:
 
 @dataclass(frozen=True)
 class Table:
-    """A table: its caption, its column heads (with units), and rows of texts or numbers; folded until asked for."""
+    """A table: its caption, its column heads (with units), and rows of texts or numbers; folded
+    until asked for.
+    """
 
     caption: str
     columns: Sequence[str]
@@ -87,6 +100,8 @@ class Topic:
 
 def short(value: float) -> str:
     """A figure for reading: three significant digits, in the way that is shortest to read."""
-    if isinstance(value, int) or (value == int(value) and abs(value) < 1e6 if math.isfinite(value) else False):
+    if isinstance(value, int) or (
+        value == int(value) and abs(value) < 1e6 if math.isfinite(value) else False
+    ):
         return f"{int(value)}"
     return f"{value:.3g}"

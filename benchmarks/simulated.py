@@ -1,15 +1,21 @@
-"""Simulated calibrations: an arm that is off its nominal model by known amounts, and measurements with known noise."""
+"""Simulated calibrations: an arm that is off its nominal model by known amounts, and measurements
+with known noise.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
 from poekin import Chain, so3
-from poekin.solve.calibration.parameters import Arm
+from poekin.solve.calibration.model.parameters import Arm
 
 KINDS = ("screws", "home")
-OFF = 3e-3  # how far each parameter of the true arm is off the nominal one, rad and m: as real arms are
-ANGLE, LENGTH = 3e-4, 2e-4  # how far measurements scatter, rad and m: as those of a good camera or tracker
+# how far each parameter of the true arm is off the nominal one, rad and m: as real arms are
+OFF = 3e-3
+ANGLE, LENGTH = (
+    3e-4,
+    2e-4,
+)  # how far measurements scatter, rad and m: as those of a good camera or tracker
 SPREADS = np.array([ANGLE] * 3 + [LENGTH] * 3)
 
 
@@ -29,11 +35,15 @@ def displaced(
 
 def scales(nominal: Chain) -> np.ndarray:
     """1 for angles, the reach for lengths, of each parameter of the arm."""
-    return np.array([nominal.reach if p.unit == "m" else 1.0 for p in Arm(nominal, KINDS, None).parameters])
+    return np.array(
+        [nominal.reach if p.unit == "m" else 1.0 for p in Arm(nominal, KINDS, None).parameters]
+    )
 
 
 def noisy(T: np.ndarray, noise: np.ndarray) -> np.ndarray:
-    """Measured poses whose errors, model minus measurement, are noise (N, 6): turns in rad, then shifts in m."""
+    """Measured poses whose errors, model minus measurement, are noise (N, 6): turns in rad, then
+    shifts in m.
+    """
     measured = T.copy()
     measured[:, :3, :3] = so3.exp(-noise[:, :3]) @ T[:, :3, :3]
     measured[:, :3, 3] -= noise[:, 3:]

@@ -51,7 +51,11 @@ def render(app, what, name, obj, options, lines):
     except (TypeError, ValueError):
         names = set()
     equation = docs_equations.EQUATIONS.get(name)
-    over = [".. math::", "", *(f"    {line}" for line in equation.splitlines()), ""] if equation else []
+    over = (
+        [".. math::", "", *(f"    {line}" for line in equation.splitlines()), ""]
+        if equation
+        else []
+    )
     lines[:] = over + docs_render.rest(lines, docs_names.links(name), names)
 
 
@@ -61,8 +65,12 @@ def skip(app, what, name, obj, skipped, options):
 
 
 def mathml(text, **kind):
-    """An equation as MathML, which browsers draw by themselves; the bars of a norm no higher than what is in them."""
-    return latex2mathml.tex2mathml(text, **kind).replace("<mo>‖</mo>", '<mo stretchy="false">‖</mo>')
+    """An equation as MathML, which browsers draw by themselves; the bars of a norm no higher than
+    what is in them.
+    """
+    return latex2mathml.tex2mathml(text, **kind).replace(
+        "<mo>‖</mo>", '<mo stretchy="false">‖</mo>'
+    )
 
 
 def visit_math(self, node):
@@ -82,7 +90,11 @@ def setup(app):
     generated = HERE / "_generated"
     generated.mkdir(exist_ok=True)
     reference = {f"reference/{name}": text for name, text in docs_names.reference().items()}
-    for name, text in {"floors.md": docs_floors.page(), **docs_drawings.drawings(), **reference}.items():
+    for name, text in {
+        "floors.md": docs_floors.page(),
+        **docs_drawings.drawings(),
+        **reference,
+    }.items():
         file = generated / name
         file.parent.mkdir(exist_ok=True)
         if not file.exists() or file.read_text(encoding="utf-8") != text:

@@ -9,13 +9,21 @@ from docutils.utils.math import latex2mathml
 
 CODE = re.compile(r"(```.*?```|`[^`\n]*`)", re.DOTALL)
 FORMULA = re.compile(r"\$\$(?P<block>.+?)\$\$|(?<![\\$])\$(?P<line>[^$]+?)(?<!\\)\$", re.DOTALL)
-MARKUP = str.maketrans({"*": "&#42;", "_": "&#95;"})  # of Markdown, and no more than letters in a formula
+MARKUP = str.maketrans(
+    {"*": "&#42;", "_": "&#95;"}
+)  # of Markdown, and no more than letters in a formula
 
 
 def drawn(formula):
     """A formula found by FORMULA as MathML in one line."""
-    text = latex2mathml.tex2mathml(formula["block"] or formula["line"], as_block=bool(formula["block"]))
-    text = re.sub(r"\s*\n\s*", " ", text).replace("<mo>‖</mo>", '<mo stretchy="false">‖</mo>').translate(MARKUP)
+    text = latex2mathml.tex2mathml(
+        formula["block"] or formula["line"], as_block=bool(formula["block"])
+    )
+    text = (
+        re.sub(r"\s*\n\s*", " ", text)
+        .replace("<mo>‖</mo>", '<mo stretchy="false">‖</mo>')
+        .translate(MARKUP)
+    )
     return f"<div>{text}</div>" if formula["block"] else text
 
 

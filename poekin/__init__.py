@@ -7,11 +7,11 @@ T_ab is the pose of frame b in frame a; twists are (omega; v), the angular part 
 
 from . import errors
 from .analysis.axes import axes
-from .analysis.compare import compare
-from .analysis.count import count
-from .analysis.count_table import count_table
-from .analysis.manipulability import manipulability, manipulability_gradient
-from .analysis.singularity import singularity
+from .analysis.compare.compare import compare
+from .analysis.counting.count import count
+from .analysis.counting.count_table import count_table
+from .analysis.dexterity.manipulability import manipulability, manipulability_gradient
+from .analysis.dexterity.singularity import singularity
 from .analysis.validate import validate
 from .errors import PoekinError, PoekinWarning
 from .formats import dh, emit, ur
@@ -27,9 +27,9 @@ from .model.joint import Joint, Mimic
 from .model.robot import Robot
 from .solve import calibration, motion
 from .solve.calibration import calibrate, choose_poses
-from .solve.follow import follow
-from .solve.ik import ik
-from .solve.ik_all import ik_all
+from .solve.ik.ik import ik
+from .solve.ik_all.ik_all import ik_all
+from .solve.path.follow import follow
 
 __version__ = "0.1.0"
 

@@ -5,7 +5,8 @@
 - pose T = (R, p): twelve numbers, the nine of R, then p
 - twist or screw (omega; v): six numbers, the angular part first
 
-Plain Python without branches, so that one function serves floats, compiled code, counting scalars and exact numbers.
+Plain Python without branches, so that one function serves floats, compiled code, counting scalars
+and exact numbers.
 An argument may be any indexable row; what is returned is a tuple.
 """
 
@@ -77,7 +78,20 @@ def twist(w, v):
 
 def pose(row):
     """The pose held by the first twelve numbers of a row."""
-    return (row[0], row[1], row[2], row[3], row[4], row[5], row[6], row[7], row[8], row[9], row[10], row[11])
+    return (
+        row[0],
+        row[1],
+        row[2],
+        row[3],
+        row[4],
+        row[5],
+        row[6],
+        row[7],
+        row[8],
+        row[9],
+        row[10],
+        row[11],
+    )
 
 
 def pose_of(R, p):
@@ -112,7 +126,9 @@ def inverse(T_ab):
 
 
 def adjoint(T_ab, V_b):
-    """V_a = Ad(T_ab) V_b = (R w; R v + p x R w), the paper's eq. (3): 24 multiplications and 18 additions."""
+    """V_a = Ad(T_ab) V_b = (R w; R v + p x R w), the paper's eq. (3): 24 multiplications and 18
+    additions.
+    """
     w = rotate(T_ab, angular(V_b))
     return twist(w, add(rotate(T_ab, linear(V_b)), cross(translation(T_ab), w)))
 
@@ -125,7 +141,9 @@ def adjoint_inverse(T_ab, V_a):
 
 
 def turned_about_z(T, sine, cosine, slide):
-    """T (Rz, slide z): the pose after a joint about and along its own z axis, its sine and cosine given."""
+    """T (Rz, slide z): the pose after a joint about and along its own z axis, its sine and cosine
+    given.
+    """
     return (
         T[0] * cosine + T[1] * sine,
         T[1] * cosine - T[0] * sine,

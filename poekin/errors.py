@@ -1,6 +1,7 @@
 """The one error tree: every error that poekin raises on purpose is a `PoekinError`.
 
-A message says what was expected, what arrived, where (file and line, batch element, joint name) and what is available.
+A message says what was expected, what arrived, where (file and line, batch element, joint name) and
+what is available.
 """
 
 from __future__ import annotations
@@ -65,34 +66,48 @@ class PoekinWarning(UserWarning):
 
 
 def harmless(text: object, width: int | None = None, keep: str = "") -> str:
-    """Text with control and bidirectional characters and line breaks escaped, but for those in `keep`; cut at width."""
-    plain = "".join(c if c.isprintable() or c in keep else c.encode("unicode_escape").decode() for c in str(text))
+    """Text with control and bidirectional characters and line breaks escaped, but for those in
+    `keep`; cut at width.
+    """
+    plain = "".join(
+        c if c.isprintable() or c in keep else c.encode("unicode_escape").decode()
+        for c in str(text)
+    )
     return plain if width is None or len(plain) <= width else plain[: width - 1] + "…"
 
 
 def shown(name: object, width: int = 80) -> str:
-    """A name out of a file in quotes, made harmless for plain text: each character that is none escaped once."""
+    """A name out of a file in quotes, made harmless for plain text: each character that is none
+    escaped once.
+    """
     return f"'{harmless(name, width)}'"
 
 
 def told(value: object, width: int = 80) -> str:
-    """Any value as Python writes it, harmless and cut at width: what arrived where something else was expected."""
+    """Any value as Python writes it, harmless and cut at width: what arrived where something else
+    was expected.
+    """
     return harmless(repr(value), width)
 
 
 def listed(names: Iterable[object], most: int = 12) -> str:
-    """Names one after the other, the first of them where there are many, and how many more there are."""
+    """Names one after the other, the first of them where there are many, and how many more there
+    are.
+    """
     every = list(names)
     more = f" and {len(every) - most} more" if len(every) > most else ""
     return ", ".join(map(shown, every[:most])) + more
 
 
 def closest(name: str, available: Iterable[str], most: int = 5) -> str:
-    """The end of a message about an unknown name: the closest names that exist, or how to read an empty list."""
+    """The end of a message about an unknown name: the closest names that exist, or how to read an
+    empty list.
+    """
     names = list(available)
     if not names:
         return "there are none"
-    # difflib takes time as the square of a name's length, for each name: of long names only the first are looked at.
+    # difflib takes time as the square of a name's length, for each name: of long names only the
+    # first are looked at.
     near = names[: 2_000_000 // max(len(str(name)), 1) ** 2]
     close = difflib.get_close_matches(str(name), near, n=most, cutoff=0.6)
     if close:

@@ -1,4 +1,5 @@
-"""Examples of the property tests: the same everywhere in `make test`, twenty times as many new in `make test-deep`.
+"""Examples of the property tests: the same everywhere in `make test`, twenty times as many new in
+`make test-deep`.
 
 `--hypothesis-seed=N` draws others in either; CONTRIBUTING.md says how to keep one that fails.
 """
@@ -31,8 +32,8 @@ settings.register_profile("few", max_examples=20, derandomize=True, **COMMON)
 settings.register_profile("deep", max_examples=2000, **COMMON)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
-# Hypothesis also draws the numbers in the source of the modules loaded so far: they differ by worker, by the tests that
-# are chosen, and by the name of the directory.
+# Hypothesis also draws the numbers in the source of the modules loaded so far: they differ by
+# worker, by the tests that are chosen, and by the name of the directory.
 providers = getattr(conjecture, "providers", None)  # in newer versions of Hypothesis
 if providers is not None and hasattr(providers, "_get_local_constants"):
     no_constants = type(providers._local_constants)()
@@ -53,14 +54,18 @@ def pytest_terminal_summary(terminalreporter):
 
 
 def pytest_collection_finish():
-    """Look for garbage more seldom, and never among what was imported: a tenth of the time of all tests."""
+    """Look for garbage more seldom, and never among what was imported: a tenth of the time of all
+    tests.
+    """
     gc.collect()
     gc.freeze()
     gc.set_threshold(50_000, 20, 50)
 
 
 def _skip_without_its_package():
-    """A test that wants a package which is not installed, as Pinocchio is not to be had on Windows, is skipped."""
+    """A test that wants a package which is not installed, as Pinocchio is not to be had on Windows,
+    is skipped.
+    """
     try:
         return (yield)
     except MissingExtra as missing:

@@ -1,4 +1,6 @@
-"""What was found cannot be changed by accident, and findings of arrays are not compared number by number."""
+"""What was found cannot be changed by accident, and findings of arrays are not compared number by
+number.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +11,17 @@ ARRAYS = ("Array", "Marks", "ndarray", "Any")
 
 
 def dataclasses_of(package: str, names: str) -> list[type]:
-    """The dataclasses that modules of a package define, none of them in vain; a function may have a module's name."""
+    """The dataclasses that modules of a package define, none of them in vain; a function may have a
+    module's name.
+    """
     found: list[type] = []
     for name in names.split():
         module = importlib.import_module(f"{package}.{name}")
-        own = [kind for kind in vars(module).values() if isinstance(kind, type) and kind.__module__ == module.__name__]
+        own = [
+            kind
+            for kind in vars(module).values()
+            if isinstance(kind, type) and kind.__module__ == module.__name__
+        ]
         chosen = [kind for kind in own if dataclasses.is_dataclass(kind)]
         assert chosen, f"{package}.{name} has no dataclass"
         found += chosen

@@ -1,6 +1,8 @@
-"""The pages of docs/: their code runs, their links lead somewhere, and what they say of the source is so.
+"""The pages of docs/: their code runs, their links lead somewhere, and what they say of the source
+is so.
 
-Each page is run as README.md is (`tests/test_readme.py`): in its own namespace and directory, outputs compared.
+Each page is run as README.md is (`tests/test_readme.py`): in its own namespace and directory,
+outputs compared.
 """
 
 from __future__ import annotations
@@ -26,7 +28,9 @@ from tools import docs_drawings, docs_equations, docs_floors, docs_names, docs_r
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
 MADE = {"_build", "_generated"}
-PAGES = sorted(p.relative_to(ROOT).as_posix() for p in DOCS.rglob("*.md") if not MADE & set(p.parts))
+PAGES = sorted(
+    p.relative_to(ROOT).as_posix() for p in DOCS.rglob("*.md") if not MADE & set(p.parts)
+)
 BESIDE = ["CHANGELOG.md", "CONTRIBUTING.md"]
 
 # Blocks that Sphinx takes for itself, and which are no code.
@@ -43,7 +47,8 @@ def run_page(name: str, text: str, place: Path) -> dict[str, int]:
         raise AssertionError(str(error).replace("README.md", name)) from error
 
 
-# What a page needs besides what poekin itself does; it prints what Hypothesis shrinks a counterexample to.
+# What a page needs besides what poekin itself does; it prints what Hypothesis shrinks a
+# counterexample to.
 NEEDS = {
     "docs/explanation/frames.md": ("modern-robotics", "1.1"),
     "docs/howto/conform.md": ("hypothesis", SHRINKS),
@@ -66,14 +71,19 @@ def test_there_is_code_on_the_pages():
     assert len(PAGES) >= 10
     assert counts.count("python") >= 40
     # Every output that stands on a page is compared: none stands alone.
-    assert counts.count("text") == sum(b.language == "text" and b.adjoins for t in texts for b in readme.blocks(t))
+    assert counts.count("text") == sum(
+        b.language == "text" and b.adjoins for t in texts for b in readme.blocks(t)
+    )
 
 
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
         ("# P\n```python\nprint(1)\n```\n```text\n2\n```", "docs/p.md:6: printed"),
-        ("```{include} x\n:y: 1\n```\n```python\nraise ValueError('so')\n```", "docs/p.md:5: ValueError: so"),
+        (
+            "```{include} x\n:y: 1\n```\n```python\nraise ValueError('so')\n```",
+            "docs/p.md:5: ValueError: so",
+        ),
         ("```{toctree}\nx\n```", "docs/p.md:2: a block of '{toctree}'"),
     ],
     ids=["another output", "an error", "a directive that hides code"],
@@ -94,7 +104,11 @@ def lost_anchors(page: Path) -> list[str]:
     """Links to headings that do not exist, on this page or on another."""
     links = re.findall(r"\]\(([^)\s#:]*)#([^)\s]+)\)", page.read_text(encoding="utf-8"))
     targets = [(page if not file else page.parent / file, anchor) for file, anchor in links]
-    return [anchor for file, anchor in targets if anchor not in anchors(file.read_text(encoding="utf-8"))]
+    return [
+        anchor
+        for file, anchor in targets
+        if anchor not in anchors(file.read_text(encoding="utf-8"))
+    ]
 
 
 def dead(page: Path) -> list[str]:
@@ -126,20 +140,33 @@ def test_a_link_to_a_heading_finds_it(page):
 
 def test_every_page_is_in_the_index():
     index = (DOCS / "index.md").read_text(encoding="utf-8")
-    assert [p for p in PAGES if p.removeprefix("docs/").removesuffix(".md") not in index and p != "docs/index.md"] == []
-    assert [n for n in docs_names.reference() if f"_generated/reference/{n.removesuffix('.rst')}\n" not in index] == []
+    assert [
+        p
+        for p in PAGES
+        if p.removeprefix("docs/").removesuffix(".md") not in index and p != "docs/index.md"
+    ] == []
+    assert [
+        n
+        for n in docs_names.reference()
+        if f"_generated/reference/{n.removesuffix('.rst')}\n" not in index
+    ] == []
 
 
 def test_a_dead_link_is_caught(tmp_path):
     (tmp_path / "page.md").write_text(
-        "[a](gone.md)\n:::{figure} ../gone.svg\n:::\n:::{toctree}\n:hidden:\n\npage\nlost\n:::\n", encoding="utf-8"
+        "[a](gone.md)\n:::{figure} ../gone.svg\n:::\n:::{toctree}\n:hidden:\n\npage\nlost\n:::\n",
+        encoding="utf-8",
     )
     assert dead(tmp_path / "page.md") == ["gone.md", "../gone.svg", "lost"]
 
 
 def test_a_link_to_a_heading_that_is_gone_is_caught(tmp_path):
-    (tmp_path / "a.md").write_text("# One (two): `x`\n```sh\n# no heading\n```\n[x](#one-two-x)", encoding="utf-8")
-    (tmp_path / "b.md").write_text("[x](a.md#one-two-x) [y](a.md#no-heading) [z](#here)", encoding="utf-8")
+    (tmp_path / "a.md").write_text(
+        "# One (two): `x`\n```sh\n# no heading\n```\n[x](#one-two-x)", encoding="utf-8"
+    )
+    (tmp_path / "b.md").write_text(
+        "[x](a.md#one-two-x) [y](a.md#no-heading) [z](#here)", encoding="utf-8"
+    )
     assert lost_anchors(tmp_path / "a.md") == []
     assert lost_anchors(tmp_path / "b.md") == ["no-heading", "here"]
 
@@ -149,7 +176,9 @@ def test_a_link_to_a_heading_that_is_gone_is_caught(tmp_path):
 
 def lost_names(text: str, root: Path = ROOT) -> list[str]:
     """Files and folders of this repository that a text names in backquotes and that do not exist."""
-    named = re.findall(r"`((?:poekin|tests|tools|docs|benchmarks)/[\w./-]*|\.ci/\w+|\w+\.(?:toml|txt))`", text)
+    named = re.findall(
+        r"`((?:poekin|tests|tools|docs|benchmarks)/[\w./-]*|\.ci/\w+|\w+\.(?:toml|txt))`", text
+    )
     return [name for name in named if not (root / name).exists()]
 
 
@@ -181,7 +210,9 @@ def test_a_floor_or_file_that_does_not_exist_is_caught(tmp_path):
         "poekin/attic/", "poekin/model/chains.py", "nothing.toml"
     ]  # fmt: skip
     (tmp_path / "tests").mkdir()
-    (tmp_path / "tests" / "test_architecture.py").write_text('FLOORS = {"attic": 9}', encoding="utf-8")
+    (tmp_path / "tests" / "test_architecture.py").write_text(
+        'FLOORS = {"attic": 9}', encoding="utf-8"
+    )
     with pytest.raises(FileNotFoundError, match=r"the floor attic is no part of poekin"):
         docs_floors.page(tmp_path)
 
@@ -190,7 +221,9 @@ def test_a_floor_or_file_that_does_not_exist_is_caught(tmp_path):
 
 
 def complaints(rest: list[str]) -> str:
-    """What docutils has to say against lines of reStructuredText; roles of Sphinx are made plain before."""
+    """What docutils has to say against lines of reStructuredText; roles of Sphinx are made plain
+    before.
+    """
     text = re.sub(r":py:obj:`([^`<]+) <[^`]+>`", r"``\1``", "\n".join(rest))
     settings = {"warning_stream": (stream := StringIO()), "report_level": 1, "halt_level": 5}
     with warnings.catch_warnings():
@@ -285,7 +318,11 @@ def test_every_link_out_of_a_docstring_leads_to_a_documented_name():
 
 
 def test_every_module_of_formulas_has_its_equation():
-    lacking = set(docs_names.formula_modules()) - set(docs_equations.EQUATIONS) - set(docs_equations.WITHOUT)
+    lacking = (
+        set(docs_names.formula_modules())
+        - set(docs_equations.EQUATIONS)
+        - set(docs_equations.WITHOUT)
+    )
     assert lacking == set()
     assert set(docs_equations.WITHOUT) & set(docs_equations.EQUATIONS) == set()
     for name in docs_equations.EQUATIONS:
@@ -297,7 +334,9 @@ def test_an_equation_can_be_drawn_without_a_network(name):
     from docutils.utils.math import latex2mathml
 
     drawn = latex2mathml.tex2mathml(docs_equations.EQUATIONS[name], as_block=True)
-    drawn = drawn.replace("&ApplyFunction;", "\N{FUNCTION APPLICATION}")  # which HTML knows and XML does not
+    drawn = drawn.replace(
+        "&ApplyFunction;", "\N{FUNCTION APPLICATION}"
+    )  # which HTML knows and XML does not
     assert ElementTree.fromstring(drawn).tag.endswith("math")
 
 
@@ -320,8 +359,13 @@ def test_a_drawing_is_an_image_within_its_own_borders(draw):
     ]
     assert len(points) > 20
     for words in (e for e in picture.iter() if e.tag.endswith("text")):
-        # A letter is at most 0.6 of the size wide, rises 0.8 of it over its line and hangs 0.3 below.
-        x, y, size = float(words.attrib["x"]), float(words.attrib["y"]), float(picture.attrib["font-size"])
+        # A letter is at most 0.6 of the size wide, rises 0.8 of it over its line and hangs 0.3
+        # below.
+        x, y, size = (
+            float(words.attrib["x"]),
+            float(words.attrib["y"]),
+            float(picture.attrib["font-size"]),
+        )
         wide = 0.6 * size * len(words.text or "")
         left = x - wide * {"start": 0, "middle": 0.5, "end": 1}[words.attrib["text-anchor"]]
         points += [(left, y - 0.8 * size), (left + wide, y + 0.3 * size)]
@@ -334,4 +378,6 @@ def test_the_view_of_the_drawings_is_a_rotation_that_keeps_vertical_lines_vertic
     (x0, y0), (x1, y1) = drawing.flat([[1, 2, 0], [1, 2, 1]])
     assert abs(x0 - x1) < 1e-15
     assert y1 < y0  # up in space is up on the page, where y runs down
-    assert np.allclose(pk.so3.exp(pk.so3.log(docs_drawings.VIEW)), docs_drawings.VIEW, rtol=0, atol=1e-15)
+    assert np.allclose(
+        pk.so3.exp(pk.so3.log(docs_drawings.VIEW)), docs_drawings.VIEW, rtol=0, atol=1e-15
+    )

@@ -1,11 +1,13 @@
 """Every public name says what goes in and comes out: shapes, units, frame, errors, source.
 
-The rule is mechanical. A docstring counts with those that it defers to ("as `fk`"), with its class's, and for the
-functions of a public module with the module's. Then, of a function or method:
+The rule is mechanical. A docstring counts with those that it defers to ("as `fk`"), with its
+class's, and for the functions of a public module with the module's. Then, of a function or method:
 - it names each of its parameters, and an array with its shape;
 - where there are parameters, it says what it returns and what it raises;
-- where there are arrays, it has a unit; where there are poses, twists or Jacobians, a frame; and it has a source.
-A class names its parameters, and what it raises where it checks them. A property has its shape where it is an array.
+- where there are arrays, it has a unit; where there are poses, twists or Jacobians, a frame; and it
+  has a source.
+A class names its parameters, and what it raises where it checks them. A property has its shape
+where it is an array.
 """
 
 from __future__ import annotations
@@ -22,13 +24,18 @@ import pytest
 from tools import docs_names
 
 SHAPE = (
-    r"\((?:\d+|[a-zA-Z]{1,2})\)|\((?:\.\.\.|\*?\w+(?: [-+*] \w+)?)?(?:, ?(?:\.\.\.|\w+(?: [-+*] \w+)?)?)+\)|\(\.\.\.\)"
+    r"\((?:\d+|[a-zA-Z]{1,2})\)"
+    r"|\((?:\.\.\.|\*?\w+(?: [-+*] \w+)?)?(?:, ?(?:\.\.\.|\w+(?: [-+*] \w+)?)?)+\)|\(\.\.\.\)"
 )
 UNIT = r"(?<![\w.])(?:rad|m|mm|deg|s|degrees|metres|radians|seconds|m/s|rad/s|unit|SI)(?![\w(])"
 FRAME = r"\b(?:frames?|axes|base|tool|tip)\b|\b[TRV]_[a-z]{1,2}\b"
 SPATIAL = r"4, ?4\)|(?:\.\.\.|[nN]), ?6[,)]|\(6,?\)"
-OF_THE_BATCH = r"\b[Aa]rrays? (?:over|of) the batch"  # what a class may say of all its fields at once
-DEFERS = r"(?:\b[Aa]s|\bof|\b[Ss]ee|\bto|\bby)((?:[ ,(]+(?:in|of|and|that|those|what)?\s*`[\w.]+`)+)"
+OF_THE_BATCH = (
+    r"\b[Aa]rrays? (?:over|of) the batch"  # what a class may say of all its fields at once
+)
+DEFERS = (
+    r"(?:\b[Aa]s|\bof|\b[Ss]ee|\bto|\bby)((?:[\s,(]+(?:in|of|and|that|those|what)?\s*`[\w.]+`)+)"
+)
 NAMED_Q = {"q", "dq", "ddq", "q0", "T", "p", "d", "poses"}  # annotated as Any: a dict will do too
 LABELS = {"returns": r"[Rr]eturns", "raises": r"[Rr]aises|errors", "source": r"[Ss]ource"}
 
@@ -52,21 +59,27 @@ def public() -> list[Name]:
     for dotted in docs_names.documented():
         thing = docs_names.resolved(dotted)
         above = docs_names.resolved(dotted.rsplit(".", 1)[0])
-        of_page = dotted.count(".") == 2 or getattr(above, "__name__", "") in docs_names.testing_modules()
+        of_page = (
+            dotted.count(".") == 2 or getattr(above, "__name__", "") in docs_names.testing_modules()
+        )
         around = doc_of(above) if inspect.isclass(above) or of_page else ""
         if inspect.isclass(above):
             name = dotted.rsplit(".", 1)[1]
             thing = dict(docs_names.members(above))[name]
             # What overrides a method of a base keeps what that one promises.
             around += "".join(
-                "\n" + doc_of(getattr(base, name, None)) for base in above.__mro__[1:] if docs_names.own(base)
+                "\n" + doc_of(getattr(base, name, None))
+                for base in above.__mro__[1:]
+                if docs_names.own(base)
             )
         names.append(Name(dotted, thing, around, docs_names.links(dotted)))
     return names
 
 
 def deferred(text: str, links: Mapping[str, str], seen: frozenset[str] = frozenset()) -> str:
-    """The docstrings of all that a docstring sends its readers to: "as `fk` and `jacobian`", "see `x`"."""
+    """The docstrings of all that a docstring sends its readers to: "as `fk` and `jacobian`", "see
+    `x`".
+    """
     found = ""
     for chain in re.findall(DEFERS, text):
         for word in re.findall(r"`([\w.]+)`", chain):
@@ -78,7 +91,9 @@ def deferred(text: str, links: Mapping[str, str], seen: frozenset[str] = frozens
 
 
 def labelled(text: str, label: str) -> bool:
-    """Whether a label stands in the text, alone ("Returns:") or among others ("Raises, accuracy, source:")."""
+    """Whether a label stands in the text, alone ("Returns:") or among others ("Raises, accuracy,
+    source:").
+    """
     heads = re.findall(r"(?:^|[\s.;)])((?:[A-Z]\w+)(?:,? (?:and )?\w+){0,5}):(?=\s)", text)
     underlined = re.findall(r"^(\w+)\n-{3,}", text, re.MULTILINE)
     return any(re.search(rf"\b(?:{LABELS[label]})\b", head) for head in [*heads, *underlined])
@@ -86,7 +101,11 @@ def labelled(text: str, label: str) -> bool:
 
 def is_array(annotation: object, name: str) -> bool:
     """Arrays as they are annotated here: ArrayLike, Array; or Any, of the names that arrays have."""
-    text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", str(annotation))
+    text = (
+        annotation
+        if isinstance(annotation, str)
+        else getattr(annotation, "__name__", str(annotation))
+    )
     return "Array" in text or "ndarray" in text or (text == "Any" and name in NAMED_Q)
 
 
@@ -97,7 +116,9 @@ def faults(name: Name) -> list[str]:
         return [f"{name.dotted}: no docstring"]
     lacking: list[str] = []
     text = f"{own}\n{deferred(own, name.links)}\n{name.around}"
-    text = re.sub(r"eqs?\. \(\d+\)(?: and \(\d+\))?", "", text)  # the number of an equation is no shape
+    text = re.sub(
+        r"eqs?\. \(\d+\)(?: and \(\d+\))?", "", text
+    )  # the number of an equation is no shape
     whole = own if inspect.isclass(name.thing) else text
     is_class = inspect.isclass(name.thing)
     if is_class and issubclass(name.thing, (BaseException, enum.Enum)):
@@ -119,13 +140,19 @@ def faults(name: Name) -> list[str]:
             lacking.append(f"shape of {parameter}")
     returned = signature.return_annotation
     gives = not is_class and returned not in ("None", None, inspect.Signature.empty)
-    arrays = any(is_array(p.annotation, n) for n, p in parameters.items()) or (gives and is_array(returned, ""))
+    arrays = any(is_array(p.annotation, n) for n, p in parameters.items()) or (
+        gives and is_array(returned, "")
+    )
     checks = not is_class or any(
         k in vars(name.thing) and getattr(vars(name.thing)[k], "__module__", "").startswith("poekin")
         and (k == "__post_init__" or "__dataclass_fields__" not in vars(name.thing))
         for k in ("__init__", "__post_init__")
     )  # fmt: skip
-    if gives and (len(parameters) > 1 or (parameters and is_array(returned, ""))) and not labelled(whole, "returns"):
+    if (
+        gives
+        and (len(parameters) > 1 or (parameters and is_array(returned, "")))
+        and not labelled(whole, "returns")
+    ):
         lacking.append("returns")
     if gives and is_array(returned, "") and not re.search(SHAPE, text):
         lacking.append("shape of what it returns")
@@ -166,7 +193,10 @@ def planted(doc: str | None, code: str = "def f(q: 'ArrayLike') -> 'Array': ..."
     exec(code, {"__name__": "poekin.planted"}, space)
     (thing,) = space.values()
     thing.__doc__ = doc
-    return [fault.removeprefix("f: ") for fault in faults(Name("f", thing, "", {"fk": "poekin.Chain.fk"}))]
+    return [
+        fault.removeprefix("f: ")
+        for fault in faults(Name("f", thing, "", {"fk": "poekin.Chain.fk"}))
+    ]
 
 
 def test_a_sound_docstring_has_no_fault():
@@ -200,4 +230,7 @@ def test_a_class_that_checks_its_fields_says_what_it_raises():
     says = "Screws.\n\nParameters: screws (n, 6), rad and m, in the base frame."
     assert planted(says, code) == ["raises"]
     assert planted(says + " Raises: ScrewError.", code) == []
-    assert planted(says.replace("screws (n, 6)", "none"), code) == ["parameter screws", "raises", "unit"][:2]
+    assert (
+        planted(says.replace("screws (n, 6)", "none"), code)
+        == ["parameter screws", "raises", "unit"][:2]
+    )

@@ -1,4 +1,6 @@
-"""Messages: what they show of what arrived, and that no entrance answers with an error that is not poekin's."""
+"""Messages: what they show of what arrived, and that no entrance answers with an error that is not
+poekin's.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import poekin as pk
-from poekin.errors import (
+from poekin.errors import (  # fmt: skip
     BranchError,
     FileError,
     InputError,
@@ -25,7 +27,7 @@ from poekin.errors import (
     listed,
     shown,
     told,
-)  # fmt: skip
+)
 
 
 @given(st.text(), st.integers(2, 100))
@@ -37,7 +39,14 @@ def test_nothing_that_a_terminal_obeys_is_shown(text, width):
 
 @pytest.mark.parametrize(
     "name, plain",
-    [("a", "'a'"), ("\u202ea", r"'\u202ea'"), ("a\nb", r"'a\nb'"), ("it's", "'it's'"), ("a\\b", r"'a\b'"), (7, "'7'")],
+    [
+        ("a", "'a'"),
+        ("\u202ea", r"'\u202ea'"),
+        ("a\nb", r"'a\nb'"),
+        ("it's", "'it's'"),
+        ("a\\b", r"'a\b'"),
+        (7, "'7'"),
+    ],
 )
 def test_each_character_is_escaped_once_or_not_at_all(name, plain):
     assert shown(name) == plain
@@ -47,7 +56,9 @@ def test_line_breaks_are_kept_where_that_is_asked():
     assert harmless("a\n\x1bb", keep="\n") == "a\n\\x1bb"
 
 
-@pytest.mark.parametrize("value, plain", [("", "''"), (None, "None"), (5, "5"), ("\u202e", r"'\u202e'")])
+@pytest.mark.parametrize(
+    "value, plain", [("", "''"), (None, "None"), (5, "5"), ("\u202e", r"'\u202e'")]
+)
 def test_what_arrived_is_told_as_python_writes_it(value, plain):
     assert told(value) == plain
     assert len(told([value] * 1000)) == 80
@@ -80,9 +91,12 @@ def test_a_dozen_names_are_listed_and_five_offered():
     assert closest("", ["a"]) == "available: 'a'"
 
 
-@pytest.mark.parametrize("name, meant", [("abcdefghij", False), ("abcdefghxx", True), ("abcdexxxxx", False)])
+@pytest.mark.parametrize(
+    "name, meant", [("abcdefghij", False), ("abcdefghxx", True), ("abcdexxxxx", False)]
+)
 def test_a_name_is_meant_where_three_fifths_of_it_are_there(name, meant):
-    # of two names of ten characters, 2 × 8 ÷ 20 = 0.8 are there in the second case, 0.5 in the third
+    # of two names of ten characters, 2 × 8 ÷ 20 = 0.8 are there in the second case, 0.5 in the
+    # third
     found = closest(name, ["abcdefghyy" if name != "abcdefghij" else "klmnopqrst"])
     assert found.startswith("did you mean" if meant else "available: ")
 
@@ -113,13 +127,17 @@ def test_what_an_error_says_is_what_it_was_given():
 
 
 def test_of_long_names_only_the_first_are_looked_at():
-    assert closest("x" * 1000, ["y" * 1000, "x" * 1000]).startswith("did you mean")  # the second of two
+    assert closest("x" * 1000, ["y" * 1000, "x" * 1000]).startswith(
+        "did you mean"
+    )  # the second of two
     assert closest("x" * 1000, ["y" * 1000] * 2 + ["x" * 1000]).startswith("available: ")
     names = ["x" * 190 + str(i) for i in range(1000)]
     assert closest(names[0] + "y", names).startswith("did you mean")
     assert closest(names[-1], names).startswith("did you mean")
     assert closest("y" * 190 + "999", [*names, "y" * 190 + "998"]).startswith("available: ")
-    assert closest("joint_x", [f"joint_{i}" for i in range(20_000)]).startswith("did you mean 'joint_")
+    assert closest("joint_x", [f"joint_{i}" for i in range(20_000)]).startswith(
+        "did you mean 'joint_"
+    )
 
 
 ARM = pk.Chain([pk.screw.revolute([0, 0, 1], [i, 0, 0]) for i in range(2)], np.eye(4))

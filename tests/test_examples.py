@@ -1,4 +1,6 @@
-"""Property tests draw the same examples on every machine; a seed draws others, and the run says how to keep one."""
+"""Property tests draw the same examples on every machine; a seed draws others, and the run says how
+to keep one.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PLANTED = 10**12 + 12345
-# Integers of a range without a number of Hypothesis's own list: the one in `local` is drawn where its source is read.
+# Integers of a range without a number of Hypothesis's own list: the one in `local` is drawn where
+# its source is read.
 SUITE = """
 from pathlib import Path
 from hypothesis import given, strategies as st
@@ -33,9 +36,24 @@ def drawn(place: Path, *options: str, local: bool = False, **environment: str) -
     (place / "conftest.py").write_text((ROOT / "tests" / "conftest.py").read_text())
     (place / "local.py").write_text(f"PLANTED = {PLANTED}\n")
     (place / "test_suite.py").write_text(SUITE.format(local=local))
-    variables = {k: v for k, v in os.environ.items() if k not in ("HYPOTHESIS_PROFILE", "CI")} | environment
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", os.devnull, *options, "."]
-    done = subprocess.run(command, cwd=place, env=variables, capture_output=True, text=True, check=False)
+    variables = {
+        k: v for k, v in os.environ.items() if k not in ("HYPOTHESIS_PROFILE", "CI")
+    } | environment
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        "-c",
+        os.devnull,
+        *options,
+        ".",
+    ]
+    done = subprocess.run(
+        command, cwd=place, env=variables, capture_output=True, text=True, check=False
+    )
     assert done.returncode == 1, done.stdout + done.stderr
     return (place / "drawn").read_text(), done.stdout
 

@@ -1,4 +1,6 @@
-"""Every notebook runs from top to bottom without a warning, and is stored as it was run: small, in order, no paths."""
+"""Every notebook runs from top to bottom without a warning, and is stored as it was run: small, in
+order, no paths.
+"""
 
 from __future__ import annotations
 
@@ -36,10 +38,16 @@ class ThisInterpreter(KernelSpecManager):
 
 
 def faults_in_a_run(notebook: nbformat.NotebookNode, place: Path) -> list[str]:
-    """Run a notebook in a directory: what it writes to stderr. nbclient's CellExecutionError when a cell fails."""
+    """Run a notebook in a directory: what it writes to stderr. nbclient's CellExecutionError when a
+    cell fails.
+    """
     manager = AsyncKernelManager(kernel_name="this", kernel_spec_manager=ThisInterpreter())
     client = nbclient.NotebookClient(
-        notebook, km=manager, timeout=300, resources={"metadata": {"path": str(place)}}, store_widget_state=False
+        notebook,
+        km=manager,
+        timeout=300,
+        resources={"metadata": {"path": str(place)}},
+        store_widget_state=False,
     )
     client.execute(cleanup_kc=True)
     return [
@@ -68,7 +76,13 @@ def faults_in_storage(file: Path) -> list[str]:
 @pytest.fixture
 def own_folders(tmp_path, monkeypatch):
     """Nothing of the user's Jupyter, IPython or matplotlib is read or written."""
-    for name in ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR", "MPLCONFIGDIR"):
+    for name in (
+        "JUPYTER_CONFIG_DIR",
+        "JUPYTER_DATA_DIR",
+        "JUPYTER_RUNTIME_DIR",
+        "IPYTHONDIR",
+        "MPLCONFIGDIR",
+    ):
         folder = tmp_path / name.lower()
         folder.mkdir()
         monkeypatch.setenv(name, str(folder))
@@ -97,11 +111,13 @@ def test_a_notebook_runs_without_a_warning_and_leaves_nothing_behind(file, check
 
 
 @pytest.mark.usefixtures("own_folders")
-@pytest.mark.parametrize("file", [f for f in NOTEBOOKS if "benchmarks" in code(f)], ids=lambda f: f.name)
+@pytest.mark.parametrize(
+    "file", [f for f in NOTEBOOKS if "benchmarks" in code(f)], ids=lambda f: f.name
+)
 def test_benchmarks_are_those_of_the_notebook_s_own_checkout(file, checkout):
-    finding = next(source for source in code(file).split("\0") if "benchmarks" in source).partition("from benchmarks")[
-        0
-    ]
+    finding = next(source for source in code(file).split("\0") if "benchmarks" in source).partition(
+        "from benchmarks"
+    )[0]
     book = notebook(f"{finding}\nimport benchmarks\nprint(benchmarks.__file__)")
     assert faults_in_a_run(book, checkout / "notebooks") == []
     assert book.cells[0].outputs[0].text.startswith(str(checkout))
@@ -135,7 +151,9 @@ def notebook(*sources: str) -> nbformat.NotebookNode:
 
 @pytest.mark.usefixtures("own_folders")
 def test_a_warning_of_a_cell_is_caught_and_the_interpreter_is_this_one(tmp_path):
-    book = notebook("import sys\nprint(sys.executable)", "import warnings\nwarnings.warn('old')", "1 + 1")
+    book = notebook(
+        "import sys\nprint(sys.executable)", "import warnings\nwarnings.warn('old')", "1 + 1"
+    )
     (fault,) = faults_in_a_run(book, tmp_path)
     assert fault.startswith("cell 2 wrote to stderr")
     assert "UserWarning: old" in fault
@@ -163,7 +181,10 @@ def stored(tmp_path: Path, count: int | None = 1, **output) -> Path:
         ({"count": None}, "not run from top to bottom in a new kernel: [None]"),
         ({"count": 7}, "not run from top to bottom in a new kernel: [7]"),
         ({"output_type": "stream", "text": "x" * LARGEST}, "bytes, more than"),
-        ({"output_type": "stream", "text": "/".join(("", "home", "someone", "arm.urdf"))}, "a path of one machine"),
+        (
+            {"output_type": "stream", "text": "/".join(("", "home", "someone", "arm.urdf"))},
+            "a path of one machine",
+        ),
         ({"output_type": "stream", "text": "lib/site-packages/poekin"}, "a path of one machine"),
         ({"output_type": "stream", "name": "stderr", "text": "UserWarning"}, "a stored warning"),
         ({"output_type": "error", "ename": "E", "evalue": "e", "traceback": []}, "a stored error"),

@@ -1,4 +1,6 @@
-"""The project's files agree: every package that is installed has one exact pin, every extra that is named exists."""
+"""The project's files agree: every package that is installed has one exact pin, every extra that is
+named exists.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,9 @@ def pins(text: str) -> dict[str, str]:
 
 
 def needed(requirements: list[str]) -> set[str]:
-    """The packages that these requirements bring on this machine, all the way down, except poekin itself."""
+    """The packages that these requirements bring on this machine, all the way down, except poekin
+    itself.
+    """
     found: dict[str, set[str]] = {}
     waiting = [Requirement(r) for r in requirements]
     while waiting:
@@ -60,9 +64,13 @@ def needed(requirements: list[str]) -> set[str]:
 
 
 def constraints_of_this_environment() -> str:
-    """The file whose versions make has installed; a skip where something else has made the environment."""
+    """The file whose versions make has installed; a skip where something else has made the
+    environment.
+    """
     if not (Path(sys.prefix) / "dev").exists():
-        pytest.skip("make did not set up this environment: its packages are not those of a constraints file")
+        pytest.skip(
+            "make did not set up this environment: its packages are not those of a constraints file"
+        )
     said = Path(sys.prefix) / "constraints"
     return said.read_text(encoding="utf-8").strip() if said.exists() else "constraints.txt"
 
@@ -84,7 +92,15 @@ def test_the_tools_of_lint_are_pinned():
 
 @pytest.mark.parametrize(
     "line",
-    ["numpy", "numpy>=2", "numpy==2.*", "-e .", "numpy @ file:///numpy.whl", "--index-url somewhere", "a==1\nA==2"],
+    [
+        "numpy",
+        "numpy>=2",
+        "numpy==2.*",
+        "-e .",
+        "numpy @ file:///numpy.whl",
+        "--index-url somewhere",
+        "a==1\nA==2",
+    ],
 )
 def test_a_line_that_is_no_exact_pin_is_caught(line):
     with pytest.raises(ValueError, match=r"no exact pin|pinned twice"):
@@ -92,7 +108,9 @@ def test_a_line_that_is_no_exact_pin_is_caught(line):
 
 
 def lowest_faults(requirements: list[str], pinned: dict[str, str]) -> list[str]:
-    """Where a pin of the lowest versions is not the lower bound, to as many places as the bound is written with."""
+    """Where a pin of the lowest versions is not the lower bound, to as many places as the bound is
+    written with.
+    """
     faults = []
     for requirement in map(Requirement, requirements):
         name = canonicalize_name(requirement.name)
@@ -117,7 +135,10 @@ def test_the_lowest_versions_are_the_lower_bounds_of_the_core_and_of_the_extras(
 
 def test_a_lowest_version_that_is_no_lower_bound_is_caught():
     pinned = {"numpy": "1.26.4", "numba": "0.61.0"}
-    assert lowest_faults(["numpy>=1.26", "Numba>=0.61; python_version < '4'", "poekin[cli]"], pinned) == []
+    assert (
+        lowest_faults(["numpy>=1.26", "Numba>=0.61; python_version < '4'", "poekin[cli]"], pinned)
+        == []
+    )
     assert lowest_faults(["numpy>=1.25"], pinned) == ["numpy>=1.25: pinned to 1.26.4"]
     assert lowest_faults(["numpy>=1.2"], pinned) == ["numpy>=1.2: pinned to 1.26.4"]
     assert lowest_faults(["numba"], pinned) == ["numba: expected one lower bound"]
@@ -138,7 +159,9 @@ def test_the_version_is_the_same_everywhere(file, said):
 
 
 def recipe_faults(text: str) -> list[str]:
-    """Requirements of the conda recipe that differ from those of pyproject.toml; conda has other names for some."""
+    """Requirements of the conda recipe that differ from those of pyproject.toml; conda has other
+    names for some.
+    """
     extras = [r for extra in ("cli", "report", "testing", "formats") for r in EXTRAS[extra]]
     wanted = {Requirement(r).name: Requirement(r) for r in [*PROJECT["dependencies"], *extras]}
     names = {"matplotlib": "matplotlib-base"}
@@ -164,7 +187,9 @@ def test_the_versions_of_python_are_said_without_a_gap():
 
 
 def extras_named(tree: ast.Module) -> list[tuple[int, str | None, str | None]]:
-    """Line, package and extra of each MissingExtra(package, extra, purpose) of a file; None for what it computes."""
+    """Line, package and extra of each MissingExtra(package, extra, purpose) of a file; None for
+    what it computes.
+    """
     constants = {
         node.targets[0].id: node.value.value
         for node in tree.body
@@ -174,16 +199,22 @@ def extras_named(tree: ast.Module) -> list[tuple[int, str | None, str | None]]:
     }
     found = []
     for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and getattr(node.func, "attr", getattr(node.func, "id", "")) == "MissingExtra":
+        if (
+            isinstance(node, ast.Call)
+            and getattr(node.func, "attr", getattr(node.func, "id", "")) == "MissingExtra"
+        ):
             package, extra, *_ = (
-                a.value if isinstance(a, ast.Constant) else constants.get(getattr(a, "id", "")) for a in node.args
+                a.value if isinstance(a, ast.Constant) else constants.get(getattr(a, "id", ""))
+                for a in node.args
             )
             found.append((node.lineno, package, extra))
     return found
 
 
 def misnamed_extras(source: str) -> list[str]:
-    """Messages of a file that name an extra which does not exist, or which does not bring the package."""
+    """Messages of a file that name an extra which does not exist, or which does not bring the
+    package.
+    """
     faults = []
     for line, package, extra in extras_named(ast.parse(source)):
         brought = {canonicalize_name(Requirement(r).name) for r in EXTRAS.get(str(extra), [])}
@@ -212,8 +243,12 @@ WHEEL = ["poekin/__init__.py", "poekin/py.typed", *CATALOGUE, *INFO]
 
 def test_a_wheel_with_too_much_or_too_little_in_it_is_caught():
     assert faults_of_wheel(WHEEL) == []
-    assert [faults_of_wheel(n for n in WHEEL if n != lost) == [] for lost in WHEEL] == [False] * len(WHEEL)
-    assert faults_of_wheel([*WHEEL, "tests/test_x.py"]) == ["not a part of the package: tests/test_x.py"]
+    assert [faults_of_wheel(n for n in WHEEL if n != lost) == [] for lost in WHEEL] == [
+        False
+    ] * len(WHEEL)
+    assert faults_of_wheel([*WHEEL, "tests/test_x.py"]) == [
+        "not a part of the package: tests/test_x.py"
+    ]
     assert faults_of_wheel([*WHEEL, "poekin/x.pyc"]) == ["not wanted in a wheel: poekin/x.pyc"]
 
 
@@ -233,10 +268,26 @@ def test_builds_that_differ_in_a_byte_or_in_name_are_caught(tmp_path):
 
 
 def test_metadata_that_say_something_else_are_caught():
-    lines = [f"Name: {PROJECT['name']}", f"Version: {PROJECT['version']}", "Description-Content-Type: text/markdown"]
-    lines += [f"Requires-Python: {PROJECT['requires-python']}", f"License-Expression: {PROJECT['license']}"]
-    lines += [f"Classifier: {c}" for c in PROJECT["classifiers"]] + [f"Provides-Extra: {e}" for e in EXTRAS]
+    lines = [
+        f"Name: {PROJECT['name']}",
+        f"Version: {PROJECT['version']}",
+        "Description-Content-Type: text/markdown",
+    ]
+    lines += [
+        f"Requires-Python: {PROJECT['requires-python']}",
+        f"License-Expression: {PROJECT['license']}",
+    ]
+    lines += [f"Classifier: {c}" for c in PROJECT["classifiers"]] + [
+        f"Provides-Extra: {e}" for e in EXTRAS
+    ]
     assert faults_of_metadata("\n".join([*lines, "", "text"]), PROJECT) == []
     assert faults_of_metadata("\n".join([*lines, "", ""]), PROJECT) == ["metadata: no description"]
     for line in lines:
-        assert len(faults_of_metadata("\n".join([*(x for x in lines if x != line), "", "text"]), PROJECT)) == 1, line
+        assert (
+            len(
+                faults_of_metadata(
+                    "\n".join([*(x for x in lines if x != line), "", "text"]), PROJECT
+                )
+            )
+            == 1
+        ), line

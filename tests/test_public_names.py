@@ -1,4 +1,6 @@
-"""What `import poekin` brings: every public name exists and is documented, and no optional package comes along."""
+"""What `import poekin` brings: every public name exists and is documented, and no optional package
+comes along.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,11 @@ def undocumented(module: types.ModuleType) -> list[str]:
             faults.append(f"{module.__name__}: no {name}")
             continue
         thing = getattr(module, name)
-        own = thing.__doc__ if inspect.isclass(thing) or inspect.ismodule(thing) or inspect.isroutine(thing) else "data"
+        own = (
+            thing.__doc__
+            if inspect.isclass(thing) or inspect.ismodule(thing) or inspect.isroutine(thing)
+            else "data"
+        )
         if not own:
             faults.append(f"{module.__name__}.{name}: no docstring")
     return faults
@@ -30,7 +36,11 @@ def undocumented(module: types.ModuleType) -> list[str]:
 
 def test_every_public_name_exists_and_is_documented():
     package = importlib.import_module("poekin")
-    names = [m.name for m in pkgutil.walk_packages(package.__path__, "poekin.") if not m.name.endswith("__main__")]
+    names = [
+        m.name
+        for m in pkgutil.walk_packages(package.__path__, "poekin.")
+        if not m.name.endswith("__main__")
+    ]
     faults = [f for name in ["poekin", *names] for f in undocumented(importlib.import_module(name))]
     assert faults == []
     assert len(package.__all__) == len(set(package.__all__)) > 0
@@ -48,14 +58,24 @@ def test_a_missing_and_an_undocumented_name_are_caught():
 
 
 def modules_loaded_by(statement: str, root: Path) -> set[str]:
-    """Top-level modules outside the standard library that are loaded after a statement in a new interpreter."""
+    """Top-level modules outside the standard library that are loaded after a statement in a new
+    interpreter.
+    """
     code = f"import sys, json; sys.path.insert(0, {str(root)!r})\n{statement}\nprint(json.dumps(sorted(sys.modules)))"
-    done = subprocess.run([sys.executable, "-I", "-W", "error", "-c", code], capture_output=True, text=True, check=True)
-    return {m.split(".")[0] for m in json.loads(done.stdout.splitlines()[-1])} - set(sys.stdlib_module_names)
+    done = subprocess.run(
+        [sys.executable, "-I", "-W", "error", "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return {m.split(".")[0] for m in json.loads(done.stdout.splitlines()[-1])} - set(
+        sys.stdlib_module_names
+    )
 
 
 def imports_beyond_the_core(root: Path) -> set[str]:
-    # The baseline: what the core dependencies themselves load where optional packages happen to be installed.
+    # The baseline: what the core dependencies themselves load where optional packages happen to be
+    # installed.
     core = modules_loaded_by("import numpy, numba, numba.extending, lxml.etree", root)
     return modules_loaded_by("import poekin", root) - core - {"poekin"}
 
@@ -66,6 +86,8 @@ def test_importing_poekin_imports_only_the_core_dependencies():
 
 def test_an_optional_package_imported_with_poekin_is_caught(tmp_path):
     (tmp_path / "poekin").mkdir()
-    (tmp_path / "poekin" / "__init__.py").write_text("import numpy\nfrom poekin import chain", encoding="utf-8")
+    (tmp_path / "poekin" / "__init__.py").write_text(
+        "import numpy\nfrom poekin import chain", encoding="utf-8"
+    )
     (tmp_path / "poekin" / "chain.py").write_text("import mpmath.libmp", encoding="utf-8")
     assert imports_beyond_the_core(tmp_path) == {"mpmath"}

@@ -1,8 +1,9 @@
-"""README.md is run as it stands: Python blocks in order in one namespace, commands in a shell, outputs compared.
+"""README.md is run as it stands: Python blocks in order in one namespace, commands in a shell,
+outputs compared.
 
-A ```text block right after a ```python or ```sh block is what that block prints, exactly. In a ```console block lines
-with "$ " are commands and the others what they print. Commands that set a machine up are not run, but what they name
-(make targets, extras, files) must exist.
+A ```text block right after a ```python or ```sh block is what that block prints, exactly. In a
+```console block lines with "$ " are commands and the others what they print. Commands that set a
+machine up are not run, but what they name (make targets, extras, files) must exist.
 """
 
 from __future__ import annotations
@@ -42,7 +43,9 @@ SET_UP = (
 
 @dataclass(frozen=True)
 class Block:
-    """A fenced block: its language, first line, text, and whether only blank lines part it from the one before."""
+    """A fenced block: its language, first line, text, and whether only blank lines part it from the
+    one before.
+    """
 
     language: str
     line: int
@@ -68,7 +71,8 @@ def blocks(text: str) -> Iterator[Block]:
 def printed_by(block: Block, namespace: dict) -> str:
     """What a Python block prints, with warnings as errors; a failure names the line of README.md."""
     out, code = io.StringIO(), "\n" * (block.line - 1) + block.text
-    # Who asks for the source of a function, as Hypothesis does, gets this block and not a file of that name.
+    # Who asks for the source of a function, as Hypothesis does, gets this block and not a file of
+    # that name.
     linecache.cache[SOURCE] = (len(code), None, code.splitlines(keepends=True), SOURCE)
     try:
         with warnings.catch_warnings(), contextlib.redirect_stdout(out):
@@ -84,7 +88,9 @@ def printed_by(block: Block, namespace: dict) -> str:
 
 @dataclass
 class Command:
-    """A command of a block: the line it starts at, its text, and what a console block says that it prints."""
+    """A command of a block: the line it starts at, its text, and what a console block says that it
+    prints.
+    """
 
     line: int
     text: str
@@ -99,7 +105,9 @@ def commands(block: Block) -> list[Command]:
             found[-1].text = found[-1].text[:-1] + line.strip()
         elif console and not line.startswith("$ "):
             if not found:
-                raise AssertionError(f"README.md:{number}: output before the first command (a line with '$ ')")
+                raise AssertionError(
+                    f"README.md:{number}: output before the first command (a line with '$ ')"
+                )
             found[-1].output = [*(found[-1].output or []), line]
         elif line.strip() and not line.startswith("#"):
             found.append(Command(number, line[2:] if console else line, [] if console else None))
@@ -112,16 +120,27 @@ def fault_of_set_up(command: str, root: Path) -> str | None:
     if not any(re.fullmatch(pattern, " ".join(words)) for pattern in SET_UP):
         return f"neither run by this test nor known as a set-up command: {command}"
     if words[0] == "make":
-        targets = re.findall(r"^([\w-]+):(?!=)", (root / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
+        targets = re.findall(
+            r"^([\w-]+):(?!=)", (root / "Makefile").read_text(encoding="utf-8"), re.MULTILINE
+        )
         missing = [w for w in words[1:] if "=" not in w and w not in targets]
         return f"no such make target: {', '.join(missing)}" if missing else None
     if "pip" in words:
         project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-        named = [re.split(r"[\[<>=!~; ]", word)[0] for word in words[words.index("install") + 1 :] if word[0] != "-"]
+        named = [
+            re.split(r"[\[<>=!~; ]", word)[0]
+            for word in words[words.index("install") + 1 :]
+            if word[0] != "-"
+        ]
         if foreign := [name for name in named if name not in (project["name"], ".")]:
             return f"neither {project['name']} nor this checkout: {', '.join(foreign)}"
         wanted = re.findall(r"(?:poekin|\.)\[([\w,-]+)\]", command)
-        missing = [e for extras in wanted for e in extras.split(",") if e not in project["optional-dependencies"]]
+        missing = [
+            e
+            for extras in wanted
+            for e in extras.split(",")
+            if e not in project["optional-dependencies"]
+        ]
         return f"no such extra: {', '.join(missing)}" if missing else None
     return None
 
@@ -135,7 +154,12 @@ def output_of(command: str, place: Path, where: str) -> str:
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
     environment = {**os.environ, "PATH": path, "NO_COLOR": "1", "PYTHONWARNINGS": "error"}
     done = subprocess.run(
-        ["bash", "-c", command], cwd=place, env=environment, capture_output=True, text=True, timeout=300
+        ["bash", "-c", command],
+        cwd=place,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=300,
     )
     if done.returncode:
         raise AssertionError(f"{where}: exit code {done.returncode}: {command}\n{done.stderr}")
@@ -147,7 +171,9 @@ def run_commands(block: Block, place: Path, root: Path) -> str:
     outputs = []
     for command in commands(block):
         where, parts = f"README.md:{command.line}", command.text.split(" && ")
-        if any(part.split()[0] in RUN for part in parts) and not re.fullmatch("|".join(SET_UP), command.text):
+        if any(part.split()[0] in RUN for part in parts) and not re.fullmatch(
+            "|".join(SET_UP), command.text
+        ):
             outputs.append(output_of(command.text, place, where))
             if command.output is not None:
                 compare(outputs[-1], "\n".join(command.output), where)
@@ -157,7 +183,9 @@ def run_commands(block: Block, place: Path, root: Path) -> str:
 
 
 def run(text: str, place: Path, root: Path = ROOT) -> dict[str, int]:
-    """Run a README in a directory; how many blocks of each language it has. AssertionError says where it is wrong."""
+    """Run a README in a directory; how many blocks of each language it has. AssertionError says
+    where it is wrong.
+    """
     namespace, printed, counts = {"__name__": "__main__"}, None, {}
     for block in blocks(text):
         counts[block.language] = counts.get(block.language, 0) + 1
@@ -167,7 +195,9 @@ def run(text: str, place: Path, root: Path = ROOT) -> dict[str, int]:
         elif block.language in ("sh", "console"):
             printed = run_commands(block, place, root)
         elif block.language not in NOT_CODE:
-            raise AssertionError(f"{where}: a block of '{block.language}': use python, sh, console or text")
+            raise AssertionError(
+                f"{where}: a block of '{block.language}': use python, sh, console or text"
+            )
         else:
             if block.language == "text" and block.adjoins and printed is not None:
                 compare(printed, block.text, where)
@@ -207,7 +237,10 @@ PLANTED = [
     ("```sh\npython -c 'raise SystemExit(3)'\n```", "exit code 3"),
     ("```sh\npython -c 'import warnings; warnings.warn(\"old\")'\n```", "UserWarning: old"),
     ("```sh\npython -c 'print(1)'\n```\n```text\n2\n```", "README.md:5: printed\n1"),
-    ("```console\n$ python -c 'print(1)'\n1\n$ python -c \\\n  'print(2)'\n3\n```", "README.md:4: printed\n2"),
+    (
+        "```console\n$ python -c 'print(1)'\n1\n$ python -c \\\n  'print(2)'\n3\n```",
+        "README.md:4: printed\n2",
+    ),
 ]
 
 

@@ -1,4 +1,5 @@
-"""Drawings of screws as SVG: what is drawn is computed with poekin, and seen through one oblique projection.
+"""Drawings of screws as SVG: what is drawn is computed with poekin, and seen through one oblique
+projection.
 
 Run it to look at them: python -m tools.docs_drawings DIRECTORY
 """
@@ -12,16 +13,25 @@ import numpy as np
 
 import poekin as pk
 
-INK, AXIS, MOVED, VELOCITY, FRAME = "#333333", "#c0392b", "#2471a3", "#7d3c98", ("#c0392b", "#1e8449", "#2471a3")
+INK, AXIS, MOVED, VELOCITY, FRAME = (
+    "#333333",
+    "#c0392b",
+    "#2471a3",
+    "#7d3c98",
+    ("#c0392b", "#1e8449", "#2471a3"),
+)
 
-# The camera: looks down on the x-y plane from in front, x to the right; distances along its own z are not drawn.
+# The camera: looks down on the x-y plane from in front, x to the right; distances along its own z
+# are not drawn.
 VIEW = pk.so3.exp([-np.deg2rad(62), 0, 0]) @ pk.so3.exp([0, 0, -np.deg2rad(28)])
 
 
 class Drawing:
     """An SVG of points and lines in space; one metre is `scale` pixels."""
 
-    def __init__(self, width: int, height: int, origin: tuple[float, float], scale: float, title: str):
+    def __init__(
+        self, width: int, height: int, origin: tuple[float, float], scale: float, title: str
+    ):
         self.scale, self.origin = scale, np.array(origin, dtype=float)
         self.parts = [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
@@ -56,7 +66,15 @@ class Drawing:
         x, y = self.flat(point)
         self.parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius}" fill="{colour}"/>')
 
-    def text(self, point, words: str, dx: float = 8, dy: float = 4, colour: str = INK, anchor: str = "start") -> None:
+    def text(
+        self,
+        point,
+        words: str,
+        dx: float = 8,
+        dy: float = 4,
+        colour: str = INK,
+        anchor: str = "start",
+    ) -> None:
         x, y = np.add(self.flat(point), (dx, dy))
         self.parts.append(
             f'<text x="{x:.1f}" y="{y:.1f}" fill="{colour}" text-anchor="{anchor}" paint-order="stroke" '
@@ -80,11 +98,17 @@ def screws() -> str:
     start = np.array([0.65, -0.15, 0.0, 1.0])
     kinds = (
         ("revolute", "(ω; −ω × p)", lambda p: pk.screw.revolute(z, p), np.linspace(0, 5.2, 90)),
-        ("helical", "(ω; −ω × p + hω)", lambda p: pk.screw.helical(z, p, 0.09), np.linspace(0, 11.5, 180)),
+        (
+            "helical",
+            "(ω; −ω × p + hω)",
+            lambda p: pk.screw.helical(z, p, 0.09),
+            np.linspace(0, 11.5, 180),
+        ),
         ("prismatic", "(0; v)", lambda p: pk.screw.prismatic(z), np.linspace(0, 1.2, 20)),
     )
     for number, (name, numbers, screw, q) in enumerate(kinds):
-        # Beside each other on the page: along the direction that the projection shows as horizontal.
+        # Beside each other on the page: along the direction that the projection shows as
+        # horizontal.
         p = 2.05 * number * VIEW[0]
         A = screw(p)
         path = (pk.se3.exp(q[:, None] * A) @ np.add(start, [*p, 0]))[:, :3]
@@ -111,12 +135,21 @@ def arm() -> str:
     home = np.eye(4)
     home[0, 3] = L1 + L2
     chain = pk.Chain(
-        [pk.screw.revolute(z, [0, 0, 0]), pk.screw.revolute(y, [0, 0, 0]), pk.screw.revolute(y, [L1, 0, 0])], home
+        [
+            pk.screw.revolute(z, [0, 0, 0]),
+            pk.screw.revolute(y, [0, 0, 0]),
+            pk.screw.revolute(y, [L1, 0, 0]),
+        ],
+        home,
     )
-    drawing = Drawing(600, 300, (80, 172), 230, "Example 1 of the paper: three screws and the home pose")
+    drawing = Drawing(
+        600, 300, (80, 172), 230, "Example 1 of the paper: three screws and the home pose"
+    )
     joints = np.array([[0, 0, 0], [L1, 0, 0], [L1 + L2, 0, 0]])
     drawing.line(joints, "#aaaaaa", 7)
-    for screw, name, dx, dy in zip(chain.screws, ("A₁", "A₂", "A₃"), (8, -6, -6), (4, 18, 18), strict=True):
+    for screw, name, dx, dy in zip(
+        chain.screws, ("A₁", "A₂", "A₃"), (8, -6, -6), (4, 18, 18), strict=True
+    ):
         axis = pk.screw.axis_of(screw)
         point = axis.point if axis.point is not None else np.zeros(3)
         drawing.line([point - 0.3 * axis.direction, point + 0.55 * axis.direction], AXIS, 1.3)
@@ -128,7 +161,9 @@ def arm() -> str:
     J = chain.jacobian(q, frame="space")
     bent = np.array([*chain.joint_poses(q)[1:, :3, 3], chain.fk(q)[:3, 3]])
     bent[0] = 0
-    bent[1] = (pk.se3.exp(q[0] * chain.screws[0]) @ pk.se3.exp(q[1] * chain.screws[1]) @ [L1, 0, 0, 1])[:3]
+    bent[1] = (
+        pk.se3.exp(q[0] * chain.screws[0]) @ pk.se3.exp(q[1] * chain.screws[1]) @ [L1, 0, 0, 1]
+    )[:3]
     drawing.line(bent, "#7fb3d5", 7)
     axis = pk.screw.axis_of(J[:, 2])
     drawing.arrow(bent[1] - 0.25 * axis.direction, bent[1] + 0.4 * axis.direction, MOVED, 1.5)
@@ -157,7 +192,9 @@ def frames() -> str:
         (p, v_b, "v of “body” and “hybrid”", 8, -6),
     ):
         radius = np.linspace(0, 1, 2)[:, None]
-        drawing.line([0.75, 0.3, point[2]] + radius * (point - [0.75, 0.3, point[2]]), INK, 1, "2 4")
+        drawing.line(
+            [0.75, 0.3, point[2]] + radius * (point - [0.75, 0.3, point[2]]), INK, 1, "2 4"
+        )
         drawing.arrow(point, point + 0.45 * v, VELOCITY, 2.8)
         drawing.text(point + 0.45 * v, name, dx, dy, VELOCITY)
         drawing.dot(point)

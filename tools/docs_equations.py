@@ -1,7 +1,7 @@
 """The paper's equations (Park 1994, proof-read), in LaTeX, by the full name of what computes them.
 
-They stand over the docstrings in the reference. A formula that is not the paper's has its own equation, and its
-docstring says where it is from.
+They stand over the docstrings in the reference. A formula that is not the paper's has its own
+equation, and its docstring says where it is from.
 """
 
 _B, _C = r"\frac{1-\cos\theta}{\theta^2}", r"\frac{\theta-\sin\theta}{\theta^3}"
@@ -70,55 +70,55 @@ EQUATIONS: dict[str, str] = {
     "poekin.screw.axis_of": r"p = \omega \times v, \quad h = \omega \cdot v",
     "poekin.dh.to_chain": _PAUL,
     # one for each module of formulas
-    "poekin.formulas.exponential": _SE3_EXP,
-    "poekin.formulas.exponential.so3": _SO3_EXP,
-    "poekin.formulas.exponential.joint": (
+    "poekin.formulas.lie.exponential": _SE3_EXP,
+    "poekin.formulas.lie.exponential.so3": _SO3_EXP,
+    "poekin.formulas.lie.exponential.joint": (
         r"e^{Aq} = \begin{bmatrix} e^{[\omega]q} & "
         r"(q I + (1-\cos q)[\omega] + (q - \sin q)[\omega]^2)\,v \\ 0 & 1 \end{bmatrix}, \quad \|\omega\| = 1"
     ),
-    "poekin.formulas.logarithm": _SE3_LOG,
-    "poekin.formulas.logarithm.so3": _SO3_LOG,
-    "poekin.formulas.quaternion": (
+    "poekin.formulas.lie.logarithm": _SE3_LOG,
+    "poekin.formulas.lie.logarithm.so3": _SO3_LOG,
+    "poekin.formulas.lie.quaternion": (
         r"4 q q^T = \begin{bmatrix} p & q_v^T \\ q_v & M \end{bmatrix}, \quad p = 1 + \operatorname{tr} R, \quad "
         r"q_v = \operatorname{vee}(R - R^T)"
     ),
-    "poekin.formulas.arctangent": (
+    "poekin.formulas.lie.arctangent": (
         r"\arctan t = \sum_{n \ge 0} \frac{2 (-1)^n p^{2n+1}}{2n+1}\,T_{2n+1}(2t), \quad p = \sqrt{5} - 2"
     ),
-    "poekin.formulas.exp_jacobian": _LEFT,
-    "poekin.formulas.exp_jacobian.left_inverse": _LEFT_INVERSE,
-    "poekin.formulas.coefficients": _LEFT_INVERSE,
-    "poekin.formulas.forward": _LOCAL,
-    "poekin.formulas.columns": r"V_h = \begin{bmatrix} I & 0 \\ -[p] & I \end{bmatrix} V_s",
-    "poekin.formulas.direct": _COLUMN,
-    "poekin.formulas.recursive": (
+    "poekin.formulas.lie.exp_jacobian": _LEFT,
+    "poekin.formulas.lie.exp_jacobian.left_inverse": _LEFT_INVERSE,
+    "poekin.formulas.lie.coefficients": _LEFT_INVERSE,
+    "poekin.formulas.kinematics.forward": _LOCAL,
+    "poekin.formulas.kinematics.columns": r"V_h = \begin{bmatrix} I & 0 \\ -[p] & I \end{bmatrix} V_s",
+    "poekin.formulas.paper.direct": _COLUMN,
+    "poekin.formulas.kinematics.recursive": (
         r"J_b = \begin{bmatrix} \operatorname{Ad}(f_{1,2} \cdots f_{n-1,n})^{-1} S_1 & \cdots & "
         r"\operatorname{Ad}(f_{n-1,n})^{-1} S_{n-1} & S_n \end{bmatrix}, \quad f_{i-1,i} = M_i e^{S_i q_i}"
     ),
-    "poekin.formulas.recursive.body_velocity": (
+    "poekin.formulas.kinematics.recursive.body_velocity": (
         r"V_i = \operatorname{Ad}(f_{i-1,i})^{-1} V_{i-1} + S_i \dot{q}{}_i, \quad V_n = f^{-1}\dot{f}"
     ),
     "poekin.formulas.dh": _PAUL,
-    "poekin.formulas.dh_recursive": (
+    "poekin.formulas.paper.dh_recursive": (
         r"f = e^{S q_1} N_1\, e^{S q_2} N_2 \cdots e^{S q_n} N_n, \quad N_i = T_z(d_i)\,T_x(a_i)\,R_x(\alpha_i)"
     ),
-    "poekin.formulas.structured": (
+    "poekin.formulas.kinematics.structured": (
         r"F_i = F_{i-1}\, T_x(a_i)\, T_y(b_i)\, R_x(\alpha_i)\, R_z(\theta_i)\, T_z(d_i + s_i q_i)"
     ),
-    "poekin.formulas.derivatives": (
+    "poekin.formulas.kinematics.derivatives": (
         r"\frac{\partial s_i}{\partial q_j} = [s_j, s_i] = \operatorname{ad}(s_j)\,s_i \quad (j < i), \quad "
         r"\dot{V} = J \ddot{q} + \dot{J} \dot{q}"
     ),
-    "poekin.formulas.screw_changes": (
+    "poekin.formulas.kinematics.screw_changes": (
         r"df\,f^{-1} = \sum_{i=1}^{n} (\operatorname{Ad}(P_{i-1}) - \operatorname{Ad}(P_i))\,\eta_i "
         r"+ \operatorname{Ad}(f)\,\eta, \quad P_i = e^{A_1 q_1} \cdots e^{A_i q_i}"
     ),
     "poekin.formulas.least_squares": r"(J^T W J + \lambda I)\,x = J^T W e",
-    "poekin.formulas.defect": r"\|R^T R - I\|, \quad \det R",
+    "poekin.formulas.lie.defect": r"\|R^T R - I\|, \quad \det R",
 }
 
 # Modules of formulas that have no equation, each with its reason.
 WITHOUT: dict[str, str] = {
-    "poekin.formulas.compensated": "the rounding errors of a length, a quotient and a sum",
+    "poekin.formulas.lie.compensated": "the rounding errors of a length, a quotient and a sum",
     "poekin.formulas.elementary": "square root, sine, cosine and arctangent themselves",
 }

@@ -1,4 +1,6 @@
-"""The floors of the house as a page: read out of the test that holds them and out of the files' own first lines."""
+"""The floors of the house as a page: read out of the test that holds them and out of the files' own
+first lines.
+"""
 
 from __future__ import annotations
 
@@ -26,9 +28,16 @@ def place(name: str, root: Path = ROOT) -> Path:
 
 
 def first_line(file: Path) -> str:
-    """What a file says of itself: its docstring up to the first blank line, as one line for a table."""
+    """What a file says of itself: its docstring up to the first blank line, as one line for a
+    table.
+    """
     text = ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) or ""
-    return " ".join(text.split("\n\n")[0].split()).replace("|", "\\|").replace("<", "&lt;").replace("`", "")
+    return (
+        " ".join(text.split("\n\n")[0].split())
+        .replace("|", "\\|")
+        .replace("<", "&lt;")
+        .replace("`", "")
+    )
 
 
 def escaped(text: str) -> str:
@@ -37,7 +46,9 @@ def escaped(text: str) -> str:
 
 
 def page(root: Path = ROOT) -> str:
-    """Markdown: a table of the floors from the top, then each floor's files, each with its own first line."""
+    """Markdown: a table of the floors from the top, then each floor's files, each with its own
+    first line.
+    """
     table = floors(root)
     down = sorted(table, key=lambda n: (-table[n], n))
     lines = ["| floor | in `poekin/` | what it is |", "|---|---|---|"]

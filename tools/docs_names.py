@@ -14,7 +14,8 @@ from poekin import formulas
 
 from .docs_render import rest
 
-# Page of the reference: its title, and the names of `poekin.__all__` on it, modules with all that they hold.
+# Page of the reference: its title, and the names of `poekin.__all__` on it, modules with all that
+# they hold.
 PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "models": ("Models: read, make, write", (
         "load", "xacro", "from_object", "to_urdf", "relinked", "Robot", "Joint", "Mimic",
@@ -35,51 +36,59 @@ PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "errors": ("Errors and warnings", ("PoekinError", "PoekinWarning", "errors")),
 }  # fmt: skip
 
-# Pages of `poekin.testing`: title, and modules (of conform, what `__all__` has), each with its text and its functions.
+# Pages of `poekin.testing`: title, and modules (of conform, what `__all__` has), each with its text
+# and its functions.
 TESTING: dict[str, tuple[str, tuple[str, ...]]] = {
-    "testing_strategies": ("poekin.testing: strategies", (
-        "strategies", "near_strategies", "chain_strategies", "configuration_strategies", "robot_strategies",
-        "urdf_strategies", "dh_strategies", "reader",
+    "testing_strategies": ("poekin.testing.strategies", (
+        "strategies.group_strategies", "strategies.near_strategies", "strategies.chain_strategies",
+        "strategies.configuration_strategies", "strategies.robot_strategies", "strategies.urdf_strategies",
+        "strategies.dh_strategies", "strategies.decoding.bytes_reader",
     )),
-    "testing_laws": ("poekin.testing: laws", (
-        "laws", "group", "group_laws", "accuracy_laws", "near_laws", "chain_laws", "change_laws", "derivative_laws",
-        "method_laws", "measures", "hunting",
+    "testing_laws": ("poekin.testing.laws", (
+        "laws.laws", "laws.group", "laws.group_laws", "laws.near_laws", "laws.chain_laws", "laws.change_laws",
+        "laws.derivative_laws", "laws.method_laws", "laws.measures",
     )),
-    "testing_oracles": ("poekin.testing: oracles", (
-        "exact", "attainable", "differences", "pinocchio_oracle", "pinocchio_derivatives", "accuracy",
+    "testing_oracles": ("poekin.testing.oracles", (
+        "oracles.exact", "oracles.differences", "oracles.pinocchio_oracle", "oracles.pinocchio_derivatives",
+    )),
+    "testing_accuracy": ("poekin.testing.accuracy", (
+        "accuracy.accuracy", "accuracy.accuracy_laws", "accuracy.error_bounds", "accuracy.falsify",
     )),
     "testing_conform": ("poekin.testing.conform", (
-        "conform", "conform.of_groups", "conform.of_arms", "conform.plugin",
+        "conform", "conform.laws.of_groups", "conform.laws.of_arms", "conform.plugin",
     )),
 }  # fmt: skip
 
-# What functions and methods return, where the class itself is in no public module: where it is, and its page.
+# What functions and methods return, where the class itself is in no public module: where it is, and
+# its page.
 RESULTS: dict[str, str] = {
     "poekin.model.chain.ScrewForm": "chain",
-    "poekin.model.local.LocalForm": "chain",
-    "poekin.model.compiled.CompiledChain": "chain",
-    "poekin.model.derivatives.PoseChanges": "chain",
-    "poekin.model.derivatives.JacobianChanges": "chain",
-    "poekin.model.idealise.Idealised": "chain",
-    "poekin.model.hp.HPForm": "chain",
-    "poekin.analysis.comparison.Comparison": "compare",
-    "poekin.analysis.comparison.JointComparison": "compare",
+    "poekin.model.geometry.local.LocalForm": "chain",
+    "poekin.model.kinematics.compiled.CompiledChain": "chain",
+    "poekin.model.kinematics.derivatives.PoseChanges": "chain",
+    "poekin.model.kinematics.derivatives.JacobianChanges": "chain",
+    "poekin.model.geometry.idealise.Idealised": "chain",
+    "poekin.model.geometry.hp.HPForm": "chain",
+    "poekin.analysis.compare.comparison.Comparison": "compare",
+    "poekin.analysis.compare.comparison.JointComparison": "compare",
     "poekin.analysis.axes.AxesReport": "compare",
     "poekin.analysis.axes.AxisPair": "compare",
     "poekin.analysis.validate.Validation": "compare",
     "poekin.analysis.validate.ChainErrors": "compare",
-    "poekin.analysis.manipulability.Manipulability": "dexterity",
-    "poekin.analysis.singularity.Singularity": "dexterity",
-    "poekin.solve.solution.Solution": "solve",
-    "poekin.solve.all_solutions.AllSolutions": "solve",
-    "poekin.solve.followed.Followed": "solve",
-    "poekin.analysis.count_table.CountTable": "count",
+    "poekin.analysis.dexterity.manipulability.Manipulability": "dexterity",
+    "poekin.analysis.dexterity.singularity.Singularity": "dexterity",
+    "poekin.solve.ik.solution.Solution": "solve",
+    "poekin.solve.ik_all.all_solutions.AllSolutions": "solve",
+    "poekin.solve.path.followed.Followed": "solve",
+    "poekin.analysis.counting.count_table.CountTable": "count",
 }
 
 
 def testing_modules() -> dict[str, str]:
     """Full name of each module of `TESTING`, and its page."""
-    return {f"poekin.testing.{name}": page for page, (_, names) in TESTING.items() for name in names}
+    return {
+        f"poekin.testing.{name}": page for page, (_, names) in TESTING.items() for name in names
+    }
 
 
 def own(thing: object) -> bool:
@@ -87,16 +96,26 @@ def own(thing: object) -> bool:
 
 
 def of_module(module: types.ModuleType) -> list[str]:
-    """The public names of a module: `__all__`, or, of the errors, its classes; of testing, its functions as well."""
+    """The public names of a module: `__all__`, or, of the errors, its classes; of testing, its
+    functions as well.
+    """
     if hasattr(module, "__all__"):
         return list(module.__all__)
     told = module.__name__ in testing_modules()
-    defined = {n: x for n, x in vars(module).items() if inspect.isclass(x) or (told and inspect.isroutine(x))}
-    return [n for n, x in defined.items() if not n.startswith("_") and x.__module__ == module.__name__]
+    defined = {
+        n: x
+        for n, x in vars(module).items()
+        if inspect.isclass(x) or (told and inspect.isroutine(x))
+    }
+    return [
+        n for n, x in defined.items() if not n.startswith("_") and x.__module__ == module.__name__
+    ]
 
 
 def members(owner: type) -> Iterator[tuple[str, object]]:
-    """Public methods and properties of a class and of its bases in poekin; a property as its function."""
+    """Public methods and properties of a class and of its bases in poekin; a property as its
+    function.
+    """
     seen = set()
     for base in owner.__mro__:
         if not own(base):
@@ -125,12 +144,17 @@ def resolved(dotted: str) -> object:
 
 def pages() -> dict[str, tuple[str, tuple[str, ...]]]:
     """`PAGES` with the names that exist."""
-    return {page: (title, tuple(n for n in names if n in poekin.__all__)) for page, (title, names) in PAGES.items()}
+    return {
+        page: (title, tuple(n for n in names if n in poekin.__all__))
+        for page, (title, names) in PAGES.items()
+    }
 
 
 @functools.cache
 def documented() -> dict[str, str]:
-    """Full name of every function, class, method and property of the reference, and the page that it is on."""
+    """Full name of every function, class, method and property of the reference, and the page that
+    it is on.
+    """
     found: dict[str, str] = {}
 
     def add(dotted: str, thing: object, page: str) -> None:
@@ -159,7 +183,8 @@ def documented() -> dict[str, str]:
 
 
 def formula_modules() -> list[str]:
-    return [f"{formulas.__name__}.{info.name}" for info in pkgutil.iter_modules(formulas.__path__)]
+    found = pkgutil.walk_packages(formulas.__path__, f"{formulas.__name__}.")
+    return [info.name for info in found if not info.ispkg]
 
 
 def links(name: str) -> dict[str, str]:
@@ -220,11 +245,14 @@ FORMULAS = (
 
 def section(dotted: str, module: types.ModuleType) -> list[str]:
     """A module: its text, and all that is documented of it."""
-    # Of the modules of testing the texts name each other's functions; elsewhere they name other pages.
+    # Of the modules of testing the texts name each other's functions; elsewhere they name other
+    # pages.
     near = links(f"{dotted}.") if dotted in testing_modules() else {}
     text = rest((inspect.getdoc(module) or "").splitlines(), near)
     inner = [name for name in of_module(module) if f"{dotted}.{name}" in documented()]
-    found = [line for name in inner for line in directive(f"{dotted}.{name}", getattr(module, name))]
+    found = [
+        line for name in inner for line in directive(f"{dotted}.{name}", getattr(module, name))
+    ]
     return [f".. py:module:: {dotted}", "", *text, "", *found]
 
 

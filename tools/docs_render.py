@@ -1,8 +1,11 @@
-"""The house's docstrings as reStructuredText: they are plain text, so all markup characters are escaped.
+"""The house's docstrings as reStructuredText: they are plain text, so all markup characters are
+escaped.
 
-What is told apart: paragraphs; indented blocks and columns (equations and tables, kept letter by letter); lists of
-"- "; and what begins with one of the labels "Parameters:", "Returns:", "Raises:", "Accuracy:", "Source:" and the like,
-which becomes a field. `names in backquotes` become links where there is such a name, else code.
+What is told apart: paragraphs; indented blocks and columns (equations and tables, kept letter by
+letter); lists of
+"- "; and what begins with one of the labels "Parameters:", "Returns:", "Raises:", "Accuracy:",
+"Source:" and the like, which becomes a field. `names in backquotes` become links where there is
+such a name, else code.
 """
 
 from __future__ import annotations
@@ -42,7 +45,9 @@ def prose(text: str, links: Mapping[str, str]) -> str:
 
 
 def headings(lines: list[str]) -> list[str]:
-    """Underlined headings, and "Fields" on a line of its own, in the form "Label:" with their lines indented."""
+    """Underlined headings, and "Fields" on a line of its own, in the form "Label:" with their lines
+    indented.
+    """
     out: list[str] = []
     for line in lines:
         if re.fullmatch(r"-{3,}", line) and out and out[-1] in HEADED:
@@ -95,9 +100,13 @@ def spaced(text: str, links: Mapping[str, str]) -> str:
 
 
 def apart(lines: list[str], names: Collection[str]) -> list[str]:
-    """Lines of parameters, cut also where in one line a sentence ends and another parameter's name begins."""
+    """Lines of parameters, cut also where in one line a sentence ends and another parameter's name
+    begins.
+    """
     known = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
-    begin = re.compile(rf"(?<=[.;]) +(?=(?:{known})(?: ?\([^)]*\))?(?:, [a-z_]\w*(?: ?\([^)]*\))?)*: )")
+    begin = re.compile(
+        rf"(?<=[.;]) +(?=(?:{known})(?: ?\([^)]*\))?(?:, [a-z_]\w*(?: ?\([^)]*\))?)*: )"
+    )
     return [part for line in lines for part in begin.split(line)] if names else lines
 
 
@@ -105,19 +114,23 @@ def text_and_fields(text: str, links: Mapping[str, str]) -> list[str]:
     """Prose, and behind it what its labels say as a field list."""
     first, *rest = LABEL.split(text)
     out = [prose(first, links), ""] if first.strip() else []
-    out += [f":{name}: {prose(body, links)}" for name, body in zip(rest[::2], rest[1::2], strict=True)]
+    out += [
+        f":{name}: {prose(body, links)}" for name, body in zip(rest[::2], rest[1::2], strict=True)
+    ]
     return [*out, ""]
 
 
 def rest(lines: Iterable[str], links: Mapping[str, str], names: Collection[str] = ()) -> list[str]:
     """A docstring as lines of reStructuredText.
 
-    links: from what stands in backquotes to what it is called in full. names: of the parameters, for "Parameters" over
-    an item a line; where it is empty, any name will do.
+    links: from what stands in backquotes to what it is called in full. names: of the parameters,
+    for "Parameters" over an item a line; where it is empty, any name will do.
     """
     out: list[str] = []
     for paragraph in paragraphs(headings([line.rstrip() for line in lines])):
-        if paragraph[0].startswith("  ") or (len(paragraph) > 1 and all(map(COLUMNS.search, paragraph))):
+        if paragraph[0].startswith("  ") or (
+            len(paragraph) > 1 and all(map(COLUMNS.search, paragraph))
+        ):
             out += ["::", "", *(f"    {line}" for line in paragraph), ""]
         elif paragraph[0].rstrip(":") in HEADED and paragraph[0].endswith(":"):
             bullets = paragraph[1].startswith("- ")
@@ -129,7 +142,11 @@ def rest(lines: Iterable[str], links: Mapping[str, str], names: Collection[str] 
                 return line.strip(), bool(match) and (not names or match[1] in names)
 
             body = paragraph[1:] if bullets else apart(paragraph[1:], names)
-            out += [f":{paragraph[0][:-1]}:", *(f"    {line}" for line in listed(body, item, links)), ""]
+            out += [
+                f":{paragraph[0][:-1]}:",
+                *(f"    {line}" for line in listed(body, item, links)),
+                "",
+            ]
         else:
             out += mixed(paragraph, links)
     return out
@@ -143,7 +160,14 @@ def mixed(paragraph: list[str], links: Mapping[str, str]) -> list[str]:
 
     def close() -> None:
         if group and inside:
-            out.extend([*listed(group, lambda x: (x.removeprefix("- ").strip(), x.startswith("- ")), links), ""])
+            out.extend(
+                [
+                    *listed(
+                        group, lambda x: (x.removeprefix("- ").strip(), x.startswith("- ")), links
+                    ),
+                    "",
+                ]
+            )
         elif group:
             out.extend(text_and_fields("\n".join(group), links))
         group.clear()

@@ -1,13 +1,17 @@
-"""Run the numeric tests as other processors would: `make test-processors`, or `python -m tools.processors NAME ...`.
+"""Run the numeric tests as other processors would: `make test-processors`, or `python -m
+tools.processors NAME ...`.
 
-Whatever rounds differently from processor to processor takes this one for another, by the environment of the tests:
+Whatever rounds differently from processor to processor takes this one for another, by the
+environment of the tests:
 
-- Numba's kernels and an arm's machine code (NUMBA_CPU_NAME, NUMBA_CPU_FEATURES): vectors, fused multiply-add;
-- NumPy's loops (NPY_DISABLE_CPU_FEATURES) and OpenBLAS (OPENBLAS_CORETYPE, OPENBLAS_NUM_THREADS): order of sums;
+- Numba's kernels and an arm's machine code (NUMBA_CPU_NAME, NUMBA_CPU_FEATURES): vectors, fused
+  multiply-add;
+- NumPy's loops (NPY_DISABLE_CPU_FEATURES) and OpenBLAS (OPENBLAS_CORETYPE, OPENBLAS_NUM_THREADS):
+  order of sums;
 - the C library's sines and cosines (GLIBC_TUNABLES), where it is glibc.
 
-The instructions of an older processor are among this one's, so they run here. Property tests draw a fifth of the
-examples of `make test`, the same ones.
+The instructions of an older processor are among this one's, so they run here. Property tests draw a
+fifth of the examples of `make test`, the same ones.
 """
 
 from __future__ import annotations
@@ -25,12 +29,19 @@ from llvmlite import binding
 from numpy._core import _multiarray_umath as numpy_core  # pyright: ignore[reportAttributeAccessIssue]
 
 ROOT = Path(__file__).resolve().parent.parent
-ROOMS = tuple(f"tests/{room}" for room in ("groups", "formulas", "engine", "model", "analysis", "solve"))
-AVX, FMA, AVX512 = frozenset({"AVX"}), frozenset({"AVX", "F16C", "FMA3", "AVX2", "X86_V3"}), frozenset({"AVX512F"})
+ROOMS = tuple(
+    f"tests/{room}" for room in ("groups", "formulas", "engine", "model", "analysis", "solve")
+)
+AVX, FMA, AVX512 = (
+    frozenset({"AVX"}),
+    frozenset({"AVX", "F16C", "FMA3", "AVX2", "X86_V3"}),
+    frozenset({"AVX512F"}),
+)
 
 
 class Processor(NamedTuple):
-    """One x86-64 processor: LLVM's name, OpenBLAS's name and threads, and what it has beyond SSE 4.2, as NumPy says.
+    """One x86-64 processor: LLVM's name, OpenBLAS's name and threads, and what it has beyond SSE
+    4.2, as NumPy says.
 
     `needs` are LLVM's names of what this machine must have to run its code.
     """
@@ -52,7 +63,9 @@ PROCESSORS = {
                                 ("avx512f", "avx512dq", "avx512bw", "avx512vl", "avx512cd")),
 }  # fmt: skip
 USUAL = ("generic", "sandybridge", "haswell")
-"""The ones that run where none is named: without and with each of AVX and fused multiply-add, one thread and many."""
+"""The ones that run where none is named: without and with each of AVX and fused multiply-add, one
+thread and many.
+"""
 
 
 def missing(processor: Processor) -> list[str]:
@@ -66,7 +79,11 @@ def missing(processor: Processor) -> list[str]:
 def environment(processor: Processor) -> dict[str, str]:
     """The variables that make the tests run as on a processor."""
     features = numpy_core.__cpu_features__
-    beyond = [name for name in numpy_core.__cpu_dispatch__ if features.get(name) and name not in processor.has]
+    beyond = [
+        name
+        for name in numpy_core.__cpu_dispatch__
+        if features.get(name) and name not in processor.has
+    ]
     glibc = [f"-{name}" for name, named in (("AVX", "AVX"), ("AVX2", "AVX2"), ("FMA", "FMA3"), ("AVX512F", "AVX512F"))
              if named not in processor.has]  # fmt: skip
     return {
@@ -85,9 +102,26 @@ def run(name: str, tests: list[str]) -> bool:
     changed = environment(PROCESSORS[name])
     print(f"\n=== {name}: {' '.join(f'{k}={v!r}' for k, v in changed.items())}", flush=True)
     start = time.monotonic()
-    command = [sys.executable, "-m", "pytest", "-q", "-n", "2", "--dist", "worksteal", "-p", "no:cacheprovider", *tests]
-    passed = subprocess.run(command, cwd=ROOT, env=os.environ | changed, check=False).returncode == 0
-    print(f"=== {name}: {'passed' if passed else 'FAILED'} after {time.monotonic() - start:.0f} s", flush=True)
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "-n",
+        "2",
+        "--dist",
+        "worksteal",
+        "-p",
+        "no:cacheprovider",
+        *tests,
+    ]
+    passed = (
+        subprocess.run(command, cwd=ROOT, env=os.environ | changed, check=False).returncode == 0
+    )
+    print(
+        f"=== {name}: {'passed' if passed else 'FAILED'} after {time.monotonic() - start:.0f} s",
+        flush=True,
+    )
     return passed
 
 
@@ -95,7 +129,12 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the tests on each processor named; 1 where a test fails on one of them."""
     parser = argparse.ArgumentParser(description="Run the numeric tests as other processors would.")
     parser.add_argument("processors", nargs="*", metavar="NAME", help=f"of {', '.join(PROCESSORS)}")
-    parser.add_argument("--tests", nargs="+", default=list(ROOMS), help="files or folders in place of the numeric ones")
+    parser.add_argument(
+        "--tests",
+        nargs="+",
+        default=list(ROOMS),
+        help="files or folders in place of the numeric ones",
+    )
     given = parser.parse_args(arguments)
     unknown = sorted(set(given.processors) - set(PROCESSORS))
     if unknown:

@@ -1,7 +1,9 @@
-"""Build the source distribution and the wheel twice, and leave them in dist/ if both builds are the same to the byte.
+"""Build the source distribution and the wheel twice, and leave them in dist/ if both builds are the
+same to the byte.
 
-Run by `make release-check`. The second build is made from the first's source distribution, in another directory, time
-zone and umask: so it is the same as the tree's, and its wheel too. Then twine looks at both as an index would.
+Run by `make release-check`. The second build is made from the first's source distribution, in
+another directory, time zone and umask: so it is the same as the tree's, and its wheel too. Then
+twine looks at both as an index would.
 """
 
 from __future__ import annotations
@@ -26,10 +28,14 @@ except ModuleNotFoundError:  # run as a file
 
 
 def when() -> str:
-    """SOURCE_DATE_EPOCH: as it is set, else the time of the last commit, else hatchling's own (2020-02-02)."""
+    """SOURCE_DATE_EPOCH: as it is set, else the time of the last commit, else hatchling's own
+    (2020-02-02).
+    """
     if given := os.environ.get("SOURCE_DATE_EPOCH"):
         return given
-    asked = subprocess.run(["git", "log", "-1", "--format=%ct"], cwd=ROOT, text=True, capture_output=True)
+    asked = subprocess.run(
+        ["git", "log", "-1", "--format=%ct"], cwd=ROOT, text=True, capture_output=True
+    )
     return asked.stdout.strip() or "1580601600"
 
 
@@ -38,8 +44,19 @@ def build(tree: Path, out: Path, kind: str, mask: int, zone: str) -> Path:
     environment = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
     environment |= {"SOURCE_DATE_EPOCH": when(), "TZ": zone}
     # No isolation: the build uses the pinned hatchling of this environment.
-    command = [sys.executable, "-m", "build", "--no-isolation", f"--{kind}", "--outdir", str(out), str(tree)]
-    done = subprocess.run(command, cwd=out.parent, env=environment, text=True, capture_output=True, umask=mask)
+    command = [
+        sys.executable,
+        "-m",
+        "build",
+        "--no-isolation",
+        f"--{kind}",
+        "--outdir",
+        str(out),
+        str(tree),
+    ]
+    done = subprocess.run(
+        command, cwd=out.parent, env=environment, text=True, capture_output=True, umask=mask
+    )
     if done.returncode:
         sys.exit(f"{done.stdout}{done.stderr}the {kind} of {tree} was not built")
     (made,) = out.glob("*.whl" if kind == "wheel" else "*.tar.gz")
@@ -49,7 +66,11 @@ def build(tree: Path, out: Path, kind: str, mask: int, zone: str) -> Path:
 def faults_of_two(first: Path, second: Path) -> list[str]:
     """Where two builds of one distribution differ."""
     same = first.name == second.name and first.read_bytes() == second.read_bytes()
-    return [] if same else [f"{first.name} and {second.name}, built anew elsewhere, are not the same to the byte"]
+    return (
+        []
+        if same
+        else [f"{first.name} and {second.name}, built anew elsewhere, are not the same to the byte"]
+    )
 
 
 def faults_of_metadata(text: str, project: Mapping) -> list[str]:
@@ -62,8 +83,13 @@ def faults_of_metadata(text: str, project: Mapping) -> list[str]:
         "License-Expression": project["license"],
         "Description-Content-Type": "text/markdown",
     }
-    faults = [f"metadata: {k} {said[k]!r}, and not {v!r}" for k, v in wanted.items() if said[k] != v]
-    lists = {"Classifier": project["classifiers"], "Provides-Extra": project["optional-dependencies"]}
+    faults = [
+        f"metadata: {k} {said[k]!r}, and not {v!r}" for k, v in wanted.items() if said[k] != v
+    ]
+    lists = {
+        "Classifier": project["classifiers"],
+        "Provides-Extra": project["optional-dependencies"],
+    }
     for key, values in lists.items():
         faults += [f"metadata: no {key} {v}" for v in values if v not in said.get_all(key, [])]
     return faults if said.get_payload() else [*faults, "metadata: no description"]
@@ -76,20 +102,31 @@ def main() -> None:
         first.mkdir()
         second.mkdir(parents=True)
         print("Building from the tree, and from its source distribution", flush=True)
-        sdist, wheel = build(ROOT, first, "sdist", 0o022, "UTC"), build(ROOT, first, "wheel", 0o022, "UTC")
+        sdist, wheel = (
+            build(ROOT, first, "sdist", 0o022, "UTC"),
+            build(ROOT, first, "wheel", 0o022, "UTC"),
+        )
         with tarfile.open(sdist) as t:
             names = t.getnames()
             t.extractall(second.parent, filter="data")
         unpacked = second.parent / sdist.name.removesuffix(".tar.gz")
-        again = [build(unpacked, second, kind, 0o077, "Asia/Kathmandu") for kind in ("sdist", "wheel")]
+        again = [
+            build(unpacked, second, kind, 0o077, "Asia/Kathmandu") for kind in ("sdist", "wheel")
+        ]
         with zipfile.ZipFile(wheel) as z:
             metadata = z.read(f"poekin-{project['version']}.dist-info/METADATA").decode()
-            faults = faults_of_wheel(z.namelist()) + faults_of_sdist(names) + faults_of_metadata(metadata, project)
+            faults = (
+                faults_of_wheel(z.namelist())
+                + faults_of_sdist(names)
+                + faults_of_metadata(metadata, project)
+            )
         for one, other in zip((sdist, wheel), again, strict=True):
             faults += faults_of_two(one, other)
         if faults:
             sys.exit("\n".join(faults))
-        if subprocess.run([sys.executable, "-m", "twine", "check", "--strict", sdist, wheel]).returncode:
+        if subprocess.run(
+            [sys.executable, "-m", "twine", "check", "--strict", sdist, wheel]
+        ).returncode:
             sys.exit("twine does not take them")
         (ROOT / "dist").mkdir(exist_ok=True)
         for made in (sdist, wheel):

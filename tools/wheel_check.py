@@ -1,7 +1,8 @@
 """Build the wheel, and use it in a new environment where the source tree cannot be imported.
 
-Run by `make wheel-check`. The wheel is built from the source distribution, so both are checked. The environment holds
-the core dependencies only; `wheel_use.py` runs there, isolated and with warnings as errors, from a temporary directory.
+Run by `make wheel-check`. The wheel is built from the source distribution, so both are checked. The
+environment holds the core dependencies only; `wheel_use.py` runs there, isolated and with warnings
+as errors, from a temporary directory.
 """
 
 from __future__ import annotations
@@ -21,13 +22,25 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def faults_of_wheel(names: Iterable[str]) -> list[str]:
-    """What is wrong with a wheel of these files: something else than the package in it, or something lacking."""
+    """What is wrong with a wheel of these files: something else than the package in it, or
+    something lacking.
+    """
     names = list(names)
-    faults = [f"not a part of the package: {n}" for n in names if not n.startswith(("poekin/", "poekin-"))]
-    faults += [
-        f"not wanted in a wheel: {n}" for n in names if "__pycache__" in n or n.endswith((".pyc", ".nbi", ".nbc"))
+    faults = [
+        f"not a part of the package: {n}" for n in names if not n.startswith(("poekin/", "poekin-"))
     ]
-    wanted = {"poekin/__init__.py": 1, "poekin/py.typed": 1, "/LICENSE": 1, "entry_points.txt": 1, ".urdf": 3}
+    faults += [
+        f"not wanted in a wheel: {n}"
+        for n in names
+        if "__pycache__" in n or n.endswith((".pyc", ".nbi", ".nbc"))
+    ]
+    wanted = {
+        "poekin/__init__.py": 1,
+        "poekin/py.typed": 1,
+        "/LICENSE": 1,
+        "entry_points.txt": 1,
+        ".urdf": 3,
+    }
     for ending, least in wanted.items():
         found = sum(n.endswith(ending) for n in names)
         if found < least:
@@ -53,17 +66,25 @@ def faults_of_sdist(names: Iterable[str]) -> list[str]:
     )
     folders = ("tests/", "benchmarks/", "docs/", "notebooks/", "tools/")
     return [f"not in the source distribution: {n}" for n in wanted if n not in inside] + [
-        f"nothing of {f} in the source distribution" for f in folders if not any(n.startswith(f) for n in inside)
+        f"nothing of {f} in the source distribution"
+        for f in folders
+        if not any(n.startswith(f) for n in inside)
     ]
 
 
 def run(*command: str | Path, cwd: Path) -> None:
     """Run a command without this process's Python settings, and end with its message when it fails."""
-    clean = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON") and k != "VIRTUAL_ENV"}
-    done = subprocess.run([str(c) for c in command], cwd=cwd, env=clean, text=True, capture_output=True)
+    clean = {
+        k: v for k, v in os.environ.items() if not k.startswith("PYTHON") and k != "VIRTUAL_ENV"
+    }
+    done = subprocess.run(
+        [str(c) for c in command], cwd=cwd, env=clean, text=True, capture_output=True
+    )
     print(done.stdout, end="", flush=True)
     if done.returncode:
-        sys.exit(f"{done.stderr}failed with exit code {done.returncode}: {' '.join(map(str, command))}")
+        sys.exit(
+            f"{done.stderr}failed with exit code {done.returncode}: {' '.join(map(str, command))}"
+        )
 
 
 def main() -> None:

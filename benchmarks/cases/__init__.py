@@ -1,6 +1,7 @@
 """The topics of the report, in order; a new topic is one file here and one line below.
 
-Each is a module with `topic(quick, say) -> Topic`: quick asks for a shorter run, say prints a line of progress.
+Each is a module with `topic(quick, say) -> Topic`: quick asks for a shorter run, say prints a line
+of progress.
 """
 
 from . import (

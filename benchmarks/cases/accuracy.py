@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from poekin.testing import exact
-from poekin.testing.accuracy import accuracy
+from poekin.testing.accuracy.accuracy import accuracy
+from poekin.testing.oracles import exact
 
 from ..report import Figure, Table, Topic
 
@@ -18,11 +18,23 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         "÷ what float64 can attain, that is the rounding of input and output carried through the exact derivative. A "
         "NaN counts as an infinite error, and an exception or a floating-point warning would have ended this run.",
         figures=[
-            Figure(row.what, row.error, row.bar, holds=row.passed, note=f"{row.cases} cases", unit=_unit(row.what))
+            Figure(
+                row.what,
+                row.error,
+                row.bar,
+                holds=row.passed,
+                note=f"{row.cases} cases",
+                unit=_unit(row.what),
+            )
             for row in rows
         ],
         tables=[
-            Table("Worst cases", ("what", "argument"), [(row.what, _flat(row.worst)) for row in rows], folded=True)
+            Table(
+                "Worst cases",
+                ("what", "argument"),
+                [(row.what, _flat(row.worst)) for row in rows],
+                folded=True,
+            )
         ],
     )
 

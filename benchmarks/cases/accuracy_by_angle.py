@@ -1,4 +1,6 @@
-"""exp and log of SO(3) and SE(3) against angle, to what float64 can attain: poekin and each installed peer."""
+"""exp and log of SO(3) and SE(3) against angle, to what float64 can attain: poekin and each
+installed peer.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +10,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from poekin import se3
-from poekin.testing import exact, extended, suspects
-from poekin.testing.accuracy_laws import REPORT_BAR
+from poekin.testing.accuracy import worst_cases
+from poekin.testing.accuracy.accuracy_laws import REPORT_BAR
+from poekin.testing.oracles import exact, longdouble_oracle
 
 from ..draw import Panel, panels
 from ..report import Figure, Picture, Table, Topic, short
@@ -66,7 +69,9 @@ def report(everybody: Sequence[Library], cases: Cases, among: list[Band], say) -
     for library in everybody:
         findings = judged(library.name, library.functions, cases)
         found.append((library, findings))
-        worst = ", ".join(f"{FUNCTIONS[name]} {_worst(finding)}" for name, finding in findings.items())
+        worst = ", ".join(
+            f"{FUNCTIONS[name]} {_worst(finding)}" for name, finding in findings.items()
+        )
         say(f"{library.name}: {library.problem or worst}")
     return Topic(
         "Accuracy of exp and log against angle, with peers",
@@ -79,9 +84,9 @@ def report(everybody: Sequence[Library], cases: Cases, among: list[Band], say) -
 
 def _cases(rng: np.random.Generator, among: list[Band], count: int, sweep: int) -> Cases:
     cases = referenced(twists(rng, among, count))
-    many = suspects.twists(rng, sweep, math.pi)
-    worst = [of_twist(xi, _band(xi[:3], among)) for xi in suspects.of_exp(se3, many)]
-    for T in suspects.of_log(se3, extended.exp(many).astype(float)):
+    many = worst_cases.twists(rng, sweep, math.pi)
+    worst = [of_twist(xi, _band(xi[:3], among)) for xi in worst_cases.of_exp(se3, many)]
+    for T in worst_cases.of_log(se3, longdouble_oracle.exp(many).astype(float)):
         worst.append(of_pose(T, _band(exact.rounded(exact.log(T[:3, :3])), among)))
     for some in worst:
         for name, case in some.items():
@@ -92,7 +97,9 @@ def _cases(rng: np.random.Generator, among: list[Band], count: int, sweep: int) 
 def _add_where_somebody_is_worst(
     rng: np.random.Generator, cases: Cases, everybody: Sequence[Library], count: int
 ) -> None:
-    """Add count twists in each band in which the worst case of some function of somebody lies, for everybody."""
+    """Add count twists in each band in which the worst case of some function of somebody lies, for
+    everybody.
+    """
     worst = {
         cases[name][finding.worst].band
         for library in everybody
@@ -108,7 +115,9 @@ def _band(w: np.ndarray, among: list[Band]) -> Band:
 
 
 def figures(found: Findings) -> list[Figure]:
-    """poekin's worst ratio with its bar; the best peer's beside it, for the two groups, as information."""
+    """poekin's worst ratio with its bar; the best peer's beside it, for the two groups, as
+    information.
+    """
     _, own = found[0]
     place = max(own.values(), key=lambda finding: finding.figure)
     rows = [
@@ -131,7 +140,9 @@ def figures(found: Findings) -> list[Figure]:
         (value, best), *others = sorted(peers, key=lambda peer: peer[0])
         note = f"{best.name} {best.version}"
         note += (
-            f"; the others: {', '.join(f'{peer.name} {_number(other)}' for other, peer in others)}" if others else ""
+            f"; the others: {', '.join(f'{peer.name} {_number(other)}' for other, peer in others)}"
+            if others
+            else ""
         )
         rows.append(Figure(what, value, shown=_number(value), note=note))
     return rows
@@ -174,7 +185,13 @@ def _row(finding: Finding, cases: list[Case]) -> tuple[str | int | float, ...]:
         return "not printed", "", "", above, "the exact result could not be confirmed"
     if finding.ratios[worst] > REPORT_BAR and other_sign(case, finding.results[worst]):
         remarks.append("ω has the other sign")
-    return _number(finding.ratios[worst]), f"{case.angle:.4g}", f"{case.gap:.2g}", above, "; ".join(remarks)
+    return (
+        _number(finding.ratios[worst]),
+        f"{case.angle:.4g}",
+        f"{case.gap:.2g}",
+        above,
+        "; ".join(remarks),
+    )
 
 
 def _faults(finding: Finding, cases: list[Case]) -> str:
@@ -191,15 +208,21 @@ def _faults(finding: Finding, cases: list[Case]) -> str:
 
 
 def counterexamples(found: Findings, cases: Cases) -> Table:
-    """Of each function above the bar its worst case, as text to paste, with the entry that is furthest off.
+    """Of each function above the bar its worst case, as text to paste, with the entry that is
+    furthest off.
 
-    The text was run again for this: it is printed only where it gives, bit for bit, what was judged.
+    The text was run again for this: it is printed only where it gives, bit for bit, what was
+    judged.
     """
     rows = []
     for library, findings in found:
         for name, finding in findings.items():
             worst = finding.worst
-            if worst is None or finding.ratios[worst] <= REPORT_BAR or not confirmed(cases[name][worst]):
+            if (
+                worst is None
+                or finding.ratios[worst] <= REPORT_BAR
+                or not confirmed(cases[name][worst])
+            ):
                 continue
             case, result = cases[name][worst], finding.results[worst]
             again = libraries.replayed(library.name, name, case.argument)
@@ -231,7 +254,13 @@ def picture(name: str, found: Findings, cases: Cases, among: list[Band]) -> Pict
         }
         parts.append(Panel(label, [band.place for band in here], curves, falling=before_pi))
     caption = f"{FUNCTIONS[name]}: worst error ÷ attainable in each band of angles; right: on the way to π"
-    return panels(caption, parts, y_label="error ÷ attainable", bar=REPORT_BAR, off_scale="above: NaN, exception")
+    return panels(
+        caption,
+        parts,
+        y_label="error ÷ attainable",
+        bar=REPORT_BAR,
+        off_scale="above: NaN, exception",
+    )
 
 
 def _worst(finding: Finding) -> str:

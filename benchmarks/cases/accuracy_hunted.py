@@ -1,4 +1,6 @@
-"""The worst error of exp and log on SE(3) that hill climbing finds: poekin, and each installed peer beside it."""
+"""The worst error of exp and log on SE(3) that hill climbing finds: poekin, and each installed peer
+beside it.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from poekin import se3
-from poekin.testing.accuracy_laws import REPORT_BAR
+from poekin.testing.accuracy.accuracy_laws import REPORT_BAR
 
 from .. import peers
 from ..hunt import QUANTITIES, Effort, Function, Worst, hunt
@@ -26,7 +28,9 @@ OWN = {"exp": se3.exp, "log": se3.log}
 
 
 class Hunted(NamedTuple):
-    """A library, by name and version, with the worst of each quantity by its name; problem: why there is none."""
+    """A library, by name and version, with the worst of each quantity by its name; problem: why
+    there is none.
+    """
 
     name: str
     worst: Mapping[str, Worst]
@@ -34,7 +38,9 @@ class Hunted(NamedTuple):
 
 
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
-    same, more = (Effort(500, 3), Effort(2_000, 3)) if quick else (Effort(4_000, 10), Effort(100_000, 25))
+    same, more = (
+        (Effort(500, 3), Effort(2_000, 3)) if quick else (Effort(4_000, 10), Effort(100_000, 25))
+    )
     found = [hunted("poekin, longer", OWN, more), hunted("poekin", OWN, same)]
     say(_line(found[0]))
     for peer in peers.chosen():
@@ -45,8 +51,16 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
 
 
 def hunted(name: str, functions: Mapping[str, Function], effort: Effort) -> Hunted:
-    """Hunt a library; the random cases are the same for everybody who is hunted with the same effort."""
-    return Hunted(name, {q.name: hunt(q, functions[q.function], effort, np.random.default_rng(0)) for q in QUANTITIES})
+    """Hunt a library; the random cases are the same for everybody who is hunted with the same
+    effort.
+    """
+    return Hunted(
+        name,
+        {
+            q.name: hunt(q, functions[q.function], effort, np.random.default_rng(0))
+            for q in QUANTITIES
+        },
+    )
 
 
 def report(found: Sequence[Hunted]) -> Topic:
@@ -90,13 +104,24 @@ def _table(found: Sequence[Hunted]) -> Table:
             rows.append((library.name, "", "", "", "", library.problem))
         for quantity, worst in library.worst.items():
             angle = f"{np.linalg.norm(worst.twist[:3]):.4g}"
-            rows.append((library.name, quantity, _number(worst.random), _number(worst.hunted), angle, worst.cases))
+            rows.append(
+                (
+                    library.name,
+                    quantity,
+                    _number(worst.random),
+                    _number(worst.hunted),
+                    angle,
+                    worst.cases,
+                )
+            )
     columns = ("library", "quantity", "random cases", "hunted", "at θ (rad)", "cases")
     return Table("Worst error ÷ attainable of each", columns, rows)
 
 
 def _line(library: Hunted) -> str:
-    worst = ", ".join(f"{quantity} {_number(found.hunted)}" for quantity, found in library.worst.items())
+    worst = ", ".join(
+        f"{quantity} {_number(found.hunted)}" for quantity, found in library.worst.items()
+    )
     return f"{library.name}: {library.problem or worst}"
 
 

@@ -1,9 +1,12 @@
-"""exp and log of SO(3) and SE(3), whoever computes them, against 60 digits: the cases over angle, and the judgement.
+"""exp and log of SO(3) and SE(3), whoever computes them, against 60 digits: the cases over angle,
+and the judgement.
 
-Everybody gets the same cases. The truth of exp is that of the float64 twist, the truth of log that of the float64
-matrix as it stands; the unit is what float64 can attain (`poekin.testing.attainable`). Nobody is blamed falsely: who is
-far off at an ordinary angle has another convention than we say, and is not judged; the reference behind a worst case is
-confirmed by a matrix exponential that shares no code with the oracle; within 8 u of π both signs are right.
+Everybody gets the same cases. The truth of exp is that of the float64 twist, the truth of log that
+of the float64 matrix as it stands; the unit is what float64 can attain
+(`poekin.testing.accuracy.error_bounds`). Nobody is blamed falsely: who is far off at an ordinary
+angle has another convention than we say, and is not judged; the reference behind a worst case is
+confirmed by a matrix exponential that shares no code with the oracle; within 8 u of π both signs
+are right.
 """
 
 from __future__ import annotations
@@ -17,14 +20,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from poekin.testing import attainable, exact, suspects
+from poekin.testing.accuracy import error_bounds, worst_cases
 from poekin.testing.conform import confirm
+from poekin.testing.oracles import exact
 
-FUNCTIONS = {"exp_so3": "exp SO(3)", "log_so3": "log SO(3)", "exp_se3": "exp SE(3)", "log_se3": "log SE(3)"}
+FUNCTIONS = {
+    "exp_so3": "exp SO(3)",
+    "log_so3": "log SO(3)",
+    "exp_se3": "exp SE(3)",
+    "log_se3": "log SE(3)",
+}
 SHAPES = {"exp_so3": (3, 3), "log_so3": (3,), "exp_se3": (4, 4), "log_se3": (6,)}
 ORDINARY = np.array([0.7, -0.5, 0.8, 0.3, -0.2, 0.6])
 FOREIGN = 1e6
-"""Who errs by more than this at the ordinary twist (1e-10 or so) does not err: it computes something else."""
+"""Who errs by more than this at the ordinary twist (1e-10 or so) does not err: it computes
+something else.
+"""
 
 
 class Band(NamedTuple):
@@ -41,12 +52,14 @@ class Band(NamedTuple):
 
 
 class Case(NamedTuple):
-    """A float64 argument (of a function in FUNCTIONS), its band, the exact result, and what float64 can attain."""
+    """A float64 argument (of a function in FUNCTIONS), its band, the exact result, and what float64
+    can attain.
+    """
 
     argument: np.ndarray
     band: Band
     truth: np.ndarray
-    bound: attainable.Bound
+    bound: error_bounds.Bound
 
     @property
     def rotation_vector(self) -> np.ndarray:
@@ -66,7 +79,9 @@ class Case(NamedTuple):
 
 @dataclass
 class Finding:
-    """What came of one function of one library: ratio error ÷ attainable of each case (inf: no finite result)."""
+    """What came of one function of one library: ratio error ÷ attainable of each case (inf: no
+    finite result).
+    """
 
     who: str
     function: str
@@ -83,7 +98,9 @@ class Finding:
 
     @property
     def figure(self) -> float:
-        """The worst ratio of all: inf where a result was NaN, infinite, of a wrong shape, or an exception."""
+        """The worst ratio of all: inf where a result was NaN, infinite, of a wrong shape, or an
+        exception.
+        """
         return float(self.ratios.max()) if len(self.ratios) else math.inf
 
     def curve(self, cases: list[Case], bands: Iterable[Band]) -> list[float]:
@@ -104,21 +121,30 @@ def bands(per_decade: int = 3) -> list[Band]:
 
 def band_of(angle: float, among: Iterable[Band]) -> Band | None:
     """The band of angles, not of gaps, that holds an angle."""
-    return next((band for band in among if not band.before_pi and band.low <= angle <= band.high), None)
+    return next(
+        (band for band in among if not band.before_pi and band.low <= angle <= band.high), None
+    )
 
 
-def twists(rng: np.random.Generator, among: Iterable[Band], count: int) -> Iterator[tuple[Band, np.ndarray]]:
+def twists(
+    rng: np.random.Generator, among: Iterable[Band], count: int
+) -> Iterator[tuple[Band, np.ndarray]]:
     """count random twists in each band; the length of v is 0.01 to 100, whatever the angle is."""
     for band in among:
         x = np.exp(rng.uniform(math.log(band.low), math.log(band.high), count))
         angles = math.pi - x if band.before_pi else x
         v = rng.normal(size=(count, 3))
         v *= 10.0 ** rng.uniform(-2, 2, (count, 1)) / np.linalg.norm(v, axis=1, keepdims=True)
-        yield from ((band, x) for x in np.concatenate([angles[:, None] * suspects.axes(rng, count), v], axis=1))
+        yield from (
+            (band, x)
+            for x in np.concatenate([angles[:, None] * worst_cases.axes(rng, count), v], axis=1)
+        )
 
 
 def referenced(some: Iterable[tuple[Band, np.ndarray]]) -> dict[str, list[Case]]:
-    """The cases of each function, from the same twists: exp takes the twist, log its exponential, rounded once."""
+    """The cases of each function, from the same twists: exp takes the twist, log its exponential,
+    rounded once.
+    """
     cases: dict[str, list[Case]] = {name: [] for name in FUNCTIONS}
     for band, xi in some:
         found = of_twist(xi, band)
@@ -129,7 +155,7 @@ def referenced(some: Iterable[tuple[Band, np.ndarray]]) -> dict[str, list[Case]]
 
 def of_twist(xi: np.ndarray, band: Band) -> dict[str, Case]:
     """The two cases of exp at a twist (6,)."""
-    T, bound = exact.exp(xi), attainable.exp_bound(xi)
+    T, bound = exact.exp(xi), error_bounds.exp_bound(xi)
     return {
         "exp_so3": Case(xi[:3], band, T[:3, :3], bound._replace(linear=exact.mp.zero)),
         "exp_se3": Case(xi, band, T, bound),
@@ -139,7 +165,7 @@ def of_twist(xi: np.ndarray, band: Band) -> dict[str, Case]:
 def of_pose(T: np.ndarray, band: Band) -> dict[str, Case]:
     """The two cases of log at a pose (4, 4), as it stands."""
     xi = exact.log(T)
-    bound = attainable.log_bound(xi)
+    bound = error_bounds.log_bound(xi)
     return {
         "log_so3": Case(T[:3, :3].copy(), band, xi[:3], bound._replace(linear=exact.mp.zero)),
         "log_se3": Case(T, band, xi, bound),
@@ -149,7 +175,9 @@ def of_pose(T: np.ndarray, band: Band) -> dict[str, Case]:
 def judged(
     who: str, offered: Mapping[str, Callable[[np.ndarray], Any]], cases: Mapping[str, list[Case]]
 ) -> dict[str, Finding]:
-    """A finding for each function that a library offers; an exception is a finding too, and the run goes on."""
+    """A finding for each function that a library offers; an exception is a finding too, and the run
+    goes on.
+    """
     findings = {}
     for name in FUNCTIONS:
         if name in offered:
@@ -160,7 +188,9 @@ def judged(
 
 
 def other_sign(case: Case, result: np.ndarray) -> bool:
-    """Whether a wrong logarithm is near the one with the opposite ω, which is one turn the other way round."""
+    """Whether a wrong logarithm is near the one with the opposite ω, which is one turn the other
+    way round.
+    """
     if case.truth.ndim != 1:
         return False
     truth, w = exact.rounded(case.truth[:3]), np.asarray(result)[:3]
@@ -169,8 +199,8 @@ def other_sign(case: Case, result: np.ndarray) -> bool:
 
 def ratio(case: Case, result: np.ndarray) -> float:
     """Error ÷ attainable error of a finite result, the worse of the angular and the linear part."""
-    if case.truth.ndim == 1 and case.gap < attainable.BOTH_SIGNS:
-        return attainable.ratio_to(case.truth, result)
+    if case.truth.ndim == 1 and case.gap < error_bounds.BOTH_SIGNS:
+        return error_bounds.ratio_to(case.truth, result)
     E = exact.exactly(result) - case.truth
     size = len(case.truth)
     angular, linear = (E[:3], E[3:]) if E.ndim == 1 else (E[:3, :3], E[:3, 3:])
@@ -180,16 +210,19 @@ def ratio(case: Case, result: np.ndarray) -> float:
 
 
 def confirmed(case: Case) -> bool:
-    """Whether the exact result of a case stands against mpmath's own matrix exponential: no code of the oracle's.
+    """Whether the exact result of a case stands against mpmath's own matrix exponential: no code of
+    the oracle's.
 
-    exp: they agree. log: |ω| <= π, the exponential of the logarithm has the translation of the argument and is its
-    polar factor P (Pᵀ R is symmetric, and P is near R).
+    exp: they agree. log: |ω| <= π, the exponential of the logarithm has the translation of the
+    argument and is its polar factor P (Pᵀ R is symmetric, and P is near R).
     """
     judge = confirm.is_exp if case.truth.ndim == 2 else confirm.is_log
     return judge(case.argument, case.truth)
 
 
-def _finding(who: str, name: str, function: Callable[[np.ndarray], Any], cases: list[Case]) -> Finding:
+def _finding(
+    who: str, name: str, function: Callable[[np.ndarray], Any], cases: list[Case]
+) -> Finding:
     finding = Finding(who, name, np.full(len(cases), math.inf), [])
     for k, case in enumerate(cases):
         result, fault = _called(function, case.argument, SHAPES[name])
@@ -208,10 +241,18 @@ def _foreign(name: str, function: Callable[[np.ndarray], Any]) -> Finding | None
     if not fault and ratio(ordinary, result) < FOREIGN:
         return None
     reason = fault or "another convention than its adapter says"
-    return Finding("", name, np.array([]), [], not_judged=f"{reason}, at the ordinary angle {ordinary.angle:.2f} rad")
+    return Finding(
+        "",
+        name,
+        np.array([]),
+        [],
+        not_judged=f"{reason}, at the ordinary angle {ordinary.angle:.2f} rad",
+    )
 
 
-def _called(function: Callable[[np.ndarray], Any], argument: np.ndarray, shape: tuple[int, ...]) -> tuple[Any, str]:
+def _called(
+    function: Callable[[np.ndarray], Any], argument: np.ndarray, shape: tuple[int, ...]
+) -> tuple[Any, str]:
     """Result and fault; the argument is a copy, so that nobody can change the next one's."""
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):

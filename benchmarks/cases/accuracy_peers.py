@@ -1,9 +1,10 @@
-"""exp and log as each library's users type them: poekin, and the peers of `benchmarks.peers` that are installed.
+"""exp and log as each library's users type them: poekin, and the peers of `benchmarks.peers` that
+are installed.
 
-The functions of SE(3) are the peer's own adapter. Those of SO(3) are the texts below, run as they stand; and the texts
-are what is printed beside a bad result, for anybody to paste. In them x is a rotation vector (3,), a twist (6,) with
-the angular part first, or a matrix (3, 3) or (4, 4): where a library documents its twists linear part first, the text
-swaps the halves.
+The functions of SE(3) are the peer's own adapter. Those of SO(3) are the texts below, run as they
+stand; and the texts are what is printed beside a bad result, for anybody to paste. In them x is a
+rotation vector (3,), a twist (6,) with the angular part first, or a matrix (3, 3) or (4, 4): where
+a library documents its twists linear part first, the text swaps the halves.
 """
 
 from __future__ import annotations
@@ -80,7 +81,9 @@ def poekin() -> Library:
     """poekin itself, called by its text."""
     from poekin import __version__
 
-    return Library("poekin", __version__, {name: _function("poekin", name) for name in TEXTS["poekin"][1]})
+    return Library(
+        "poekin", __version__, {name: _function("poekin", name) for name in TEXTS["poekin"][1]}
+    )
 
 
 def peers(found: Iterable[Found] | None = None) -> list[Library]:
@@ -89,7 +92,9 @@ def peers(found: Iterable[Found] | None = None) -> list[Library]:
 
 
 def typed(name: str, function: str, argument: np.ndarray) -> str:
-    """A library's call as one line of Python: imports, the argument to its last digit, the call; "" if unknown."""
+    """A library's call as one line of Python: imports, the argument to its last digit, the call; ""
+    if unknown.
+    """
     if name not in TEXTS:
         return ""
     before, calls = TEXTS[name]
@@ -98,7 +103,9 @@ def typed(name: str, function: str, argument: np.ndarray) -> str:
 
 
 def replayed(name: str, function: str, argument: np.ndarray) -> np.ndarray | None:
-    """What the text returns, to be held against what the adapter returned; None if there is no text."""
+    """What the text returns, to be held against what the adapter returned; None if there is no
+    text.
+    """
     return np.asarray(_function(name, function)(argument.copy())) if name in TEXTS else None
 
 

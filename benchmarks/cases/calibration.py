@@ -8,7 +8,7 @@ import numpy as np
 
 from poekin import Chain, so3
 from poekin.solve import calibration as cal
-from poekin.solve.calibration.identification import RANK
+from poekin.solve.calibration.diagnostics.identification import RANK
 
 from ..report import Figure, Table, Topic, short
 
@@ -29,8 +29,9 @@ WORDS = (
 class Seen(NamedTuple):
     """Of one chain and one kind of measurement.
 
-    rank by all derivatives; rank and expected rank by `identify`, its parameters; least singular value that counts and
-    largest that does not, of all derivatives, ÷ the largest; the condition by `identify`.
+    rank by all derivatives; rank and expected rank by `identify`, its parameters; least singular
+    value that counts and largest that does not, of all derivatives, ÷ the largest; the condition by
+    `identify`.
     """
 
     rank: int
@@ -50,7 +51,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         for _ in range(count):
             chain, q, point = random_chain(kinds, rng)
             for what in ("poses", "point"):
-                found.setdefault((kinds, what), []).append(seen(chain, q, point if what == "point" else None))
+                found.setdefault((kinds, what), []).append(
+                    seen(chain, q, point if what == "point" else None)
+                )
         say(f"{kinds}: {count} chains")
     return Topic(
         "What can be known: the rank of the identification",
@@ -83,7 +86,9 @@ def random_chain(kinds: str, rng: np.random.Generator) -> tuple[Chain, np.ndarra
     for kind in kinds:
         axis = rng.normal(size=3)
         axis /= np.linalg.norm(axis)
-        screws.append([0, 0, 0, *axis] if kind == "P" else [*axis, *np.cross(rng.uniform(-0.5, 0.5, 3), axis)])
+        screws.append(
+            [0, 0, 0, *axis] if kind == "P" else [*axis, *np.cross(rng.uniform(-0.5, 0.5, 3), axis)]
+        )
     home = np.eye(4)
     home[:3, :3], home[:3, 3] = so3.exp(rng.normal(size=3)), rng.uniform(-0.5, 0.5, 3)
     span = np.array([0.5 if kind == "P" else np.pi for kind in kinds])
@@ -94,7 +99,9 @@ def random_chain(kinds: str, rng: np.random.Generator) -> tuple[Chain, np.ndarra
 def seen(chain: Chain, q: np.ndarray, point: np.ndarray | None) -> Seen:
     """What poses, or this point of the tool, tell of the chain."""
     D = chain.screw_derivatives(q)
-    changes = np.concatenate([D.screws.reshape(len(q), 6, -1), D.home], axis=2)  # space twists of all motions
+    changes = np.concatenate(
+        [D.screws.reshape(len(q), 6, -1), D.home], axis=2
+    )  # space twists of all motions
     T = chain.fk(q)
     if point is None:
         measurement: cal.Measurement = cal.Poses(T)
@@ -110,7 +117,15 @@ def seen(chain: Chain, q: np.ndarray, point: np.ndarray | None) -> Seen:
     rank = int(np.sum(sigma > RANK))
     said = cal.identify(chain, q, measurement)
     lost = float(sigma[rank]) if rank < len(sigma) else 0.0
-    return Seen(rank, said.rank, said.expected, said.size, float(sigma[rank - 1]), lost, float(said.condition))
+    return Seen(
+        rank,
+        said.rank,
+        said.expected,
+        said.size,
+        float(sigma[rank - 1]),
+        lost,
+        float(said.condition),
+    )
 
 
 def figure(words: str, formula: str, what: str, found: dict[tuple[str, str], list[Seen]]) -> Figure:

@@ -1,4 +1,6 @@
-"""The paper's claim for calibration: Denavit-Hartenberg, Hayati's form and screws where two axes are parallel."""
+"""The paper's claim for calibration: Denavit-Hartenberg, Hayati's form and screws where two axes
+are parallel.
+"""
 
 from __future__ import annotations
 
@@ -12,16 +14,30 @@ from poekin import Chain, dh
 
 from ..draw import lines
 from ..parametrisations import SHOULDER, Elementary, link_parameters, table_with, tilted
-from ..parametrisations_fit import Descent, Found, Sample, calibrated, condition, gauss_newton, levenberg_marquardt
+from ..parametrisations_fit import (
+    Descent,
+    Found,
+    Sample,
+    calibrated,
+    condition,
+    gauss_newton,
+    levenberg_marquardt,
+)
 from ..report import Figure, Picture, Table, Topic, short
 
 STEPS_BAR, CONDITION_BAR, EXACT, REACHED = 5, 20, 1e-12, 1e-9
-D_OF_SHOULDER, BETA = 9, 11  # numbers of the parameters: four of the base and four of link 1 stand before link 2
+D_OF_SHOULDER, BETA = (
+    9,
+    11,
+)  # numbers of the parameters: four of the base and four of link 1 stand before link 2
 TILTS_OF_THE_BAR = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 TILTS = (1e-1, 3e-2, *TILTS_OF_THE_BAR, *(10.0**-k for k in range(5, 9)))
 TWISTS = (0.3, *(10.0**-k for k in np.arange(1, 8.1, 0.5)))
 MEASURED, FRESH, SEEN = 40, 200, 60  # poses: to fit, to judge by, and of a condition
-PATIENCE, EVALUATIONS = 50, 300  # steps that plain DH may take, and of poses that Levenberg-Marquardt may compute
+PATIENCE, EVALUATIONS = (
+    50,
+    300,
+)  # steps that plain DH may take, and of poses that Levenberg-Marquardt may compute
 
 WORDS = (
     "A Puma 560 of which shoulder and elbow are parallel, written in three ways, each complete and minimal (4 a joint "
@@ -42,7 +58,9 @@ WORDS = (
 
 
 class Tilt(NamedTuple):
-    """What was found for one tilt delta: by three forms, and by Levenberg-Marquardt from several sets of poses."""
+    """What was found for one tilt delta: by three forms, and by Levenberg-Marquardt from several
+    sets of poses.
+    """
 
     delta: float
     dh: Found[Elementary]
@@ -65,12 +83,16 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     tilts = []
     for delta in TILTS[:: 3 if quick else 1]:
         tilts.append(at_tilt(delta, 1 if quick else 5))
-        say(f"tilt {delta:g}: steps {', '.join(_steps(found) for found in tilts[-1].found)} (DH, Hayati, POE)")
+        say(
+            f"tilt {delta:g}: steps {', '.join(_steps(found) for found in tilts[-1].found)} (DH, Hayati, POE)"
+        )
     return report(twists, right, tilts)
 
 
 def forms_with(twist: float) -> tuple[Elementary, Elementary, Chain]:
-    """Plain DH, Hayati's and the screws of the arm whose link between the parallel axes has this alpha (rad)."""
+    """Plain DH, Hayati's and the screws of the arm whose link between the parallel axes has this
+    alpha (rad).
+    """
     table = table_with(twist)
     return link_parameters(table), link_parameters(table, (SHOULDER,)), dh.to_chain(table)
 
@@ -103,13 +125,20 @@ def at_tilt(delta: float, sets: int) -> Tilt:
         by_screws,
         table,
         fresh.error(exact.poses(fresh.q)),
-        [levenberg_marquardt(plain, poses(10 + k, MEASURED), fresh, nominal.reach, EVALUATIONS) for k in range(sets)],
+        [
+            levenberg_marquardt(plain, poses(10 + k, MEASURED), fresh, nominal.reach, EVALUATIONS)
+            for k in range(sets)
+        ],
         conditions((exact, by_hayati.arm, true)),
     )
 
 
-def report(twists: Sequence[Sequence[float]], right: Sequence[Sequence[float]], tilts: Sequence[Tilt]) -> Topic:
-    """The topic of what was measured: conditions (DH, Hayati, POE) at each twist, and so far from a right angle."""
+def report(
+    twists: Sequence[Sequence[float]], right: Sequence[Sequence[float]], tilts: Sequence[Tilt]
+) -> Topic:
+    """The topic of what was measured: conditions (DH, Hayati, POE) at each twist, and so far from a
+    right angle.
+    """
     return Topic(
         "The paper's claim: calibration by DH, by Hayati's form and by screws",
         WORDS,
@@ -130,7 +159,9 @@ def report(twists: Sequence[Sequence[float]], right: Sequence[Sequence[float]], 
     )  # fmt: skip
 
 
-def figures(twists: Sequence[Sequence[float]], right: Sequence[Sequence[float]], tilts: Sequence[Tilt]) -> list[Figure]:
+def figures(
+    twists: Sequence[Sequence[float]], right: Sequence[Sequence[float]], tilts: Sequence[Tilt]
+) -> list[Figure]:
     judged = [t for t in tilts if t.delta in TILTS_OF_THE_BAR]
     plain, hayati, screws = (np.array(twists)[:, k] for k in range(3))
     small = [k for k, twist in enumerate(TWISTS) if 1e-6 <= twist <= 1e-2]
@@ -175,17 +206,25 @@ def _list(values: Iterable[float]) -> str:
     return ", ".join(short(float(value)) for value in values)
 
 
-def _curves(caption: str, x: Sequence[float], rows: Sequence[Sequence[float]], x_label: str, y_label: str) -> Picture:
-    curves: dict[str, Sequence[float]] = dict(zip(("DH", "Hayati", "POE"), zip(*rows, strict=True), strict=True))
+def _curves(
+    caption: str, x: Sequence[float], rows: Sequence[Sequence[float]], x_label: str, y_label: str
+) -> Picture:
+    curves: dict[str, Sequence[float]] = dict(
+        zip(("DH", "Hayati", "POE"), zip(*rows, strict=True), strict=True)
+    )
     return lines(caption, x, curves, x_label=x_label, y_label=y_label, log=True)
 
 
 def changes(tilt: Tilt) -> tuple[float, float, float]:
-    """The largest change (rad, m) of a parameter from the nominal arm's: d of the exact table, Hayati's, screws."""
+    """The largest change (rad, m) of a parameter from the nominal arm's: d of the exact table,
+    Hayati's, screws.
+    """
     nominal = dh.to_chain(table_with(0.0))
     arm = tilt.screws.arm
     hayati = tilt.hayati.arm.values - link_parameters(table_with(0.0), (SHOULDER,)).values
-    screws = np.concatenate([(arm.screws - nominal.screws).ravel(), (arm.home - nominal.home).ravel()])
+    screws = np.concatenate(
+        [(arm.screws - nominal.screws).ravel(), (arm.home - nominal.home).ravel()]
+    )
     lengths = tilt.table.table.d - table_with(0.0).d
     return tuple(float(np.abs(x).max()) for x in (lengths, hayati, screws))  # type: ignore[return-value]
 

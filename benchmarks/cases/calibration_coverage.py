@@ -1,4 +1,6 @@
-"""Whether a calibration knows how well it knows: true parameters inside the 95 % ellipsoids of simulated ones."""
+"""Whether a calibration knows how well it knows: true parameters inside the 95 % ellipsoids of
+simulated ones.
+"""
 
 from __future__ import annotations
 
@@ -9,9 +11,9 @@ from scipy.stats import chi2
 
 from poekin import Chain, load, se3, so3
 from poekin.solve import calibration as cal
-from poekin.solve.calibration.identification import judged
-from poekin.solve.calibration.parameters import Arm
-from poekin.solve.calibration.problem import Problem
+from poekin.solve.calibration.diagnostics.identification import judged
+from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.model.problem import Problem
 
 from .. import simulated
 from ..report import Figure, Table, Topic, short
@@ -37,7 +39,9 @@ WORDS = (
 
 
 class Row(NamedTuple):
-    """What is simulated: words; kind of measurement; loss; whether the covariance is told; how many of `WHOLE`."""
+    """What is simulated: words; kind of measurement; loss; whether the covariance is told; how many
+    of `WHOLE`.
+    """
 
     words: str
     kind: str = "poses"
@@ -60,7 +64,9 @@ ROWS = (
 
 
 class Found(NamedTuple):
-    """Of one calibration: its arm, probability of a smaller distance of the parameters, and of the pose foretold."""
+    """Of one calibration: its arm, probability of a smaller distance of the parameters, and of the
+    pose foretold.
+    """
 
     arm: str
     parameters: float
@@ -133,10 +139,15 @@ def simulate(name: str, nominal: Chain, row: Row, rng: np.random.Generator) -> F
     T, expected = result.chain.fk(fresh)[0], true.fk(fresh)[0]
     error = np.concatenate([so3.log(T[:3, :3] @ expected[:3, :3].T), T[:3, 3] - expected[:3, 3]])
     foretold = result.pose_covariance(fresh[0])
-    if row.kind == "point":  # turns about the point are not seen: the point's own error, and its covariance
+    if (
+        row.kind == "point"
+    ):  # turns about the point are not seen: the point's own error, and its covariance
         arm = T[:3, :3] @ POINT
         carry = np.concatenate([-so3.hat(arm), np.eye(3)], axis=1)
-        error, foretold = T[:3, 3] + arm - expected[:3, 3] - expected[:3, :3] @ POINT, carry @ foretold @ carry.T
+        error, foretold = (
+            T[:3, 3] + arm - expected[:3, 3] - expected[:3, :3] @ POINT,
+            carry @ foretold @ carry.T,
+        )
     return Found(name, inside(off, spread), inside(error, foretold), result.success)
 
 
@@ -146,7 +157,9 @@ def inside(error: np.ndarray, C: np.ndarray) -> float:
 
 
 def seen(nominal: Chain, q: np.ndarray, kind: str) -> np.ndarray:
-    """Orthonormal directions (P, k), in rad and reaches, of the arm's parameters that such measurements can see."""
+    """Orthonormal directions (P, k), in rad and reaches, of the arm's parameters that such
+    measurements can see.
+    """
     exact = measured(nominal.fk(q), np.zeros((len(q), 6)), None, kind)
     problem = Problem(Arm(nominal, simulated.KINDS, None), q, [exact])
     free = judged(problem)[1][: problem.arm_size]

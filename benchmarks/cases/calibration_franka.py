@@ -1,4 +1,6 @@
-"""A real arm: the Franka's observations of a fixed board by the camera on its hand, data kept aside."""
+"""A real arm: the Franka's observations of a fixed board by the camera on its hand, data kept
+aside.
+"""
 
 from __future__ import annotations
 
@@ -10,12 +12,18 @@ import numpy as np
 
 from poekin import Chain, load
 from poekin.solve import calibration as cal
-from poekin.solve.calibration import data
+from poekin.solve.calibration.measurements import data
 
 from ..report import Figure, Table, Topic, short
 
 VARIABLE = "POEKIN_FRANKA_DATA"
-PLACE = Path(__file__).resolve().parents[3] / "shared" / "data" / "franka_eye_in_hand" / "observations.csv"
+PLACE = (
+    Path(__file__).resolve().parents[3]
+    / "shared"
+    / "data"
+    / "franka_eye_in_hand"
+    / "observations.csv"
+)
 POSITION, ROTATION = 1.0, 4.0  # bars: median in mm, root mean square in mrad
 LOSSES, LOSS, FOLDS, SEEDS = ("linear", "huber", "cauchy", "tukey"), "cauchy", 5, 10
 
@@ -52,7 +60,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     for loss in LOSSES:
         for seed in seeds:
             after[loss, seed], before[loss, seed] = kept_aside(arm, q, measured, loss, seed)
-        say(f"{loss}: {short(after[loss, 0].position)} mm, {short(after[loss, 0].rotation_rms)} mrad")
+        say(
+            f"{loss}: {short(after[loss, 0].position)} mm, {short(after[loss, 0].rotation_rms)} mrad"
+        )
     whole = cal.calibrate(arm, q, measured, loss=LOSS, folds=0)
     return report(whole, after, before)
 
@@ -72,7 +82,9 @@ def absent(place: Path) -> Topic:
     )  # fmt: skip
 
 
-def kept_aside(arm: Chain, q: np.ndarray, measured: cal.Measurement, loss: str, seed: int) -> tuple[Kept, Kept]:
+def kept_aside(
+    arm: Chain, q: np.ndarray, measured: cal.Measurement, loss: str, seed: int
+) -> tuple[Kept, Kept]:
     """Pooled over the folds: with the screws fitted, and before."""
     held = cal.calibrate(arm, q, measured, loss=loss, folds=FOLDS, seed=seed).held_out
     if held is None:
@@ -117,7 +129,9 @@ def report(whole: cal.Calibration, after: Results, before: Results) -> Topic:
 
 def _misses(found: Results, loss: str) -> int:
     return sum(
-        kept.position > POSITION or kept.rotation_rms > ROTATION for (name, _), kept in found.items() if name == loss
+        kept.position > POSITION or kept.rotation_rms > ROTATION
+        for (name, _), kept in found.items()
+        if name == loss
     )
 
 
@@ -137,7 +151,14 @@ def by_loss(after: Results, before: Results) -> Table:
             mine = np.array([kept for (name, _), kept in found.items() if name == loss])
             median, worst = np.median(mine, axis=0), mine.max(axis=0)
             good = f"{len(mine) - _misses(found, loss)} of {len(mine)}"
-            rows.append((what, loss, *(f"{short(m)} ({short(w)})" for m, w in zip(median, worst, strict=True)), good))
+            rows.append(
+                (
+                    what,
+                    loss,
+                    *(f"{short(m)} ({short(w)})" for m, w in zip(median, worst, strict=True)),
+                    good,
+                )
+            )
     return Table(
         "By loss: median over the draws of the folds (and the worst); both bars hold",
         ("screws", "loss", "position, median (mm)", "position, rms (mm)", "rotation, median (mrad)",

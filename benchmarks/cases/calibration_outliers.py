@@ -33,9 +33,11 @@ WORDS = (
 
 
 class Errors(NamedTuple):
-    """Of one draw: errors on fresh poses by position (m) and rotation (rad), without outliers and with them.
+    """Of one draw: errors on fresh poses by position (m) and rotation (rad), without outliers and
+    with them.
 
-    named: outliers that the calibration names among those that are; wrong: those that it names and are none.
+    named: outliers that the calibration names among those that are; wrong: those that it names and
+    are none.
     """
 
     clean: tuple[float, float]
@@ -58,7 +60,10 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
                 rng = np.random.default_rng([seed, number])
                 for loss, errors in draw(nominal, rng, SIZES[size], told).items():
                     found.setdefault((name, told, size, loss), []).append(errors)
-        say(f"{name}: " + ", ".join(f"{loss} {short(ratio(_of(found, loss, name)))}" for loss in LOSSES))
+        say(
+            f"{name}: "
+            + ", ".join(f"{loss} {short(ratio(_of(found, loss, name)))}" for loss in LOSSES)
+        )
     return report(found)
 
 
@@ -100,7 +105,11 @@ def report(found: Found) -> Topic:
 def naming(found: Found) -> Figure:
     """Whether the outliers are named."""
     every = [e for loss in LOSSES[1:] for e in _of(found, loss)]
-    put, named, wrong = OUTLIERS * len(every), sum(e.named for e in every), sum(e.wrong for e in every)
+    put, named, wrong = (
+        OUTLIERS * len(every),
+        sum(e.named for e in every),
+        sum(e.wrong for e in every),
+    )
     good = (MEASURED - OUTLIERS) * len(every)
     return Figure(
         "outliers that a robust calibration names", named / put, shown=f"{named} of {put}",
@@ -115,7 +124,9 @@ def row(found: Found, name: str, told: bool, size: str) -> tuple[str, ...]:
     return (name, "told" if told else "estimated", *(short(1e3 * x) for x in clean), *ratios)
 
 
-def draw(nominal: Chain, rng: np.random.Generator, size: tuple[float, float], told: bool) -> dict[str, Errors]:
+def draw(
+    nominal: Chain, rng: np.random.Generator, size: tuple[float, float], told: bool
+) -> dict[str, Errors]:
     """One arm and its measurements, spoilt, by each loss."""
     true, _ = simulated.displaced(nominal, rng)
     q, fresh = nominal.random(rng, MEASURED), nominal.random(rng, FRESH)
@@ -133,12 +144,18 @@ def draw(nominal: Chain, rng: np.random.Generator, size: tuple[float, float], to
     found = {}
     for loss in LOSSES:
         with warnings.catch_warnings():  # which outliers deserve
-            warnings.filterwarnings("ignore", "the Poses: the residuals are .* as large as covariance=", PoekinWarning)
+            warnings.filterwarnings(
+                "ignore", "the Poses: the residuals are .* as large as covariance=", PoekinWarning
+            )
             result = calibrated(spoilt, loss)
         named = {outlier.row for outlier in result.outliers}
         true_ones = len(named & set(bad.tolist()))
         found[loss] = Errors(
-            clean, simulated.errors(result.chain, true, fresh), true_ones, len(named) - true_ones, result.success
+            clean,
+            simulated.errors(result.chain, true, fresh),
+            true_ones,
+            len(named) - true_ones,
+            result.success,
         )
     return found
 
@@ -171,7 +188,12 @@ def _each(errors: Errors) -> float:
 
 
 def _of(found: Found, loss: str, name: str | None = None) -> list[Errors]:
-    return [e for key, every in found.items() if key[3] == loss and name in (None, key[0]) for e in every]
+    return [
+        e
+        for key, every in found.items()
+        if key[3] == loss and name in (None, key[0])
+        for e in every
+    ]
 
 
 def _both(every: list[Errors]) -> str:

@@ -1,4 +1,6 @@
-"""choose_poses: 30 of 2000 configurations against random ones, by each criterion, for arms of the catalogue."""
+"""choose_poses: 30 of 2000 configurations against random ones, by each criterion, for arms of the
+catalogue.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +12,9 @@ import numpy as np
 from poekin import load, so3
 from poekin.model.chain import Chain
 from poekin.solve.calibration import Points, Poses, calibrate
-from poekin.solve.calibration.choice import Figures
-from poekin.solve.calibration.choose import Choice, choose_poses
-from poekin.solve.calibration.exchange import CRITERIA
+from poekin.solve.calibration.design.choice import Figures
+from poekin.solve.calibration.design.choose import Choice, choose_poses
+from poekin.solve.calibration.design.exchange import CRITERIA
 
 from ..report import Figure, Table, Topic, short
 
@@ -26,7 +28,11 @@ ARMS = (
     ("jaco", None),
     ("stanford", None),
 )
-TOOL = (0.05, 0.0, 0.1)  # m, in the tip frame: off the last axis, so that all of the arm can be seen
+TOOL = (
+    0.05,
+    0.0,
+    0.1,
+)  # m, in the tip frame: off the last axis, so that all of the arm can be seen
 KINDS = {"full poses": "poses", "one point of the tool": Points([[0, 0, 0]], points=TOOL)}
 
 TEXT = (
@@ -53,7 +59,16 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
                 start = time.process_time()
                 choice = choose_poses(arm, CHOSEN, CANDIDATES, measurements=example, by=by)
                 slowest = max(slowest, seconds := time.process_time() - start)
-                rows.append((name, kind, choice.rank, by, *(f"{gain:.2f}" for gain in choice.gains), short(seconds)))
+                rows.append(
+                    (
+                        name,
+                        kind,
+                        choice.rank,
+                        by,
+                        *(f"{gain:.2f}" for gain in choice.gains),
+                        short(seconds),
+                    )
+                )
                 if by == "amplification":
                     figures.append(_figure(f"{name}, {kind}", choice))
         say(f"{name}: × {figures[-2].shown} and × {figures[-1].shown}")
@@ -86,11 +101,14 @@ def _figure(what: str, choice: Choice) -> Figure:
 
 
 def _simulated(name: str, tip: str | None, repeats: int, say) -> list[tuple[Any, ...]]:  # type: ignore[no-untyped-def]
-    """Errors of calibrated arms that noise alone makes wrong, after random and chosen configurations."""
+    """Errors of calibrated arms that noise alone makes wrong, after random and chosen
+    configurations.
+    """
     arm = load(name).chain(tip=tip)
     candidates, fresh, rng = arm.random(0, CANDIDATES), arm.random(1, 500), np.random.default_rng(2)
     chosen = {
-        f"chosen by {by}": choose_poses(arm, CHOSEN, candidates, by=by) for by in ("amplification", "O1", "prediction")
+        f"chosen by {by}": choose_poses(arm, CHOSEN, candidates, by=by)
+        for by in ("amplification", "O1", "prediction")
     }
     found = {}
     for what in ("random, new each time", *chosen):
@@ -109,12 +127,17 @@ def _simulated(name: str, tip: str | None, repeats: int, say) -> list[tuple[Any,
 
 
 def _off(arm: Chain, q: np.ndarray, fresh: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """Mean squares of the position's (m^2) and the rotation's errors (rad^2) of an arm calibrated from noisy poses."""
+    """Mean squares of the position's (m^2) and the rotation's errors (rad^2) of an arm calibrated
+    from noisy poses.
+    """
     T = arm.fk(q)
     T[:, :3, :3] = so3.exp(NOISE * rng.normal(size=(len(q), 3))) @ T[:, :3, :3]
     T[:, :3, 3] += NOISE * arm.reach * rng.normal(size=(len(q), 3))
     covariance = np.diag(np.repeat([NOISE, NOISE * arm.reach], 3) ** 2)
-    found, true = calibrate(arm, q, Poses(T, covariance=covariance), folds=0).chain.fk(fresh), arm.fk(fresh)
+    found, true = (
+        calibrate(arm, q, Poses(T, covariance=covariance), folds=0).chain.fk(fresh),
+        arm.fk(fresh),
+    )
     turns = so3.log(found[:, :3, :3] @ np.swapaxes(true[:, :3, :3], 1, 2))
     shifts = found[:, :3, 3] - true[:, :3, 3]
     return np.array([np.mean(np.sum(shifts**2, axis=1)), np.mean(np.sum(turns**2, axis=1))])

@@ -1,4 +1,6 @@
-"""How long one calibration takes: exact slopes in poekin against SciPy's least squares with finite differences."""
+"""How long one calibration takes: exact slopes in poekin against SciPy's least squares with finite
+differences.
+"""
 
 from __future__ import annotations
 
@@ -10,10 +12,10 @@ from scipy.optimize import least_squares
 
 from poekin import Chain, load
 from poekin.solve import calibration as cal
-from poekin.solve.calibration.fitting import fitted
-from poekin.solve.calibration.identification import judged
-from poekin.solve.calibration.parameters import Arm
-from poekin.solve.calibration.problem import Problem
+from poekin.solve.calibration.diagnostics.identification import judged
+from poekin.solve.calibration.fit.fitting import fitted
+from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.model.problem import Problem
 
 from .. import simulated
 from ..fresh import run
@@ -41,7 +43,9 @@ WORDS = (
 
 
 class Task(NamedTuple):
-    """What is to be fitted: readings and measurements of an arm, and fresh readings of the true arm to judge by."""
+    """What is to be fitted: readings and measurements of an arm, and fresh readings of the true arm
+    to judge by.
+    """
 
     nominal: Chain
     true: Chain
@@ -53,11 +57,16 @@ class Task(NamedTuple):
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     task = simulated_task()
     found = calibrated(task)
-    apart = [np.abs(minimised(method)(residuals(task)).x - found.values).max() for method in METHODS]
+    apart = [
+        np.abs(minimised(method)(residuals(task)).x - found.values).max() for method in METHODS
+    ]
     as_usual = measured(quick)
     say(", ".join(f"{t.name}: {short(1e3 * t.time.median)} ms" for t in as_usual))
     alone = in_one_thread(quick)
-    say("linear algebra in one thread: " + ", ".join(f"{short(1e3 * t.time.median)} ms" for t in alone))
+    say(
+        "linear algebra in one thread: "
+        + ", ".join(f"{short(1e3 * t.time.median)} ms" for t in alone)
+    )
     return Topic(
         "Time of one calibration",
         WORDS,
@@ -82,9 +91,19 @@ def measured(quick: bool) -> list[Timed]:
     """A calibration, its fit alone, and SciPy's methods, in turn."""
     task = simulated_task()
     own = Case("pk.calibrate(folds=0)", lambda: task, calibrated, lambda t, c: off(t, c.values))
-    bare = Case("its fit and covariance alone", lambda: prepared(task), fit_alone, lambda s, fit: off(task, fit.p))
+    bare = Case(
+        "its fit and covariance alone",
+        lambda: prepared(task),
+        fit_alone,
+        lambda s, fit: off(task, fit.p),
+    )
     peers = [
-        Case(f"SciPy, {method!r}: {words}", lambda: residuals(task), minimised(method), lambda s, x: off(task, x.x))
+        Case(
+            f"SciPy, {method!r}: {words}",
+            lambda: residuals(task),
+            minimised(method),
+            lambda s, x: off(task, x.x),
+        )
         for method, words in METHODS.items()
     ]
     return in_turn([own, bare, *peers], rounds=5 if quick else 21, rest_s=REST)
@@ -96,7 +115,10 @@ def in_one_thread(quick: bool) -> list[Timed]:
     outcome = run(f"{script}measured({quick})]))", dict.fromkeys(THREADS, "1"))
     if outcome.code:
         raise RuntimeError(outcome.err)
-    return [Timed(name, spread(each), tuple(each), error) for name, each, error in json.loads(outcome.out)]
+    return [
+        Timed(name, spread(each), tuple(each), error)
+        for name, each, error in json.loads(outcome.out)
+    ]
 
 
 def simulated_task(seed: int = 0) -> Task:
@@ -169,4 +191,9 @@ def figure(what: str, own: Timed, every: list[Timed], bar: float | None = None) 
 
 
 def _row(threads: str, t: Timed) -> tuple[str | float, ...]:
-    return (threads, t.name, *(1e3 * x for x in (t.time.median, t.time.lower, t.time.upper)), short(t.error))
+    return (
+        threads,
+        t.name,
+        *(1e3 * x for x in (t.time.median, t.time.lower, t.time.upper)),
+        short(t.error),
+    )

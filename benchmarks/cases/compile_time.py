@@ -1,4 +1,6 @@
-"""How long `compile()` takes in a fresh process: the first time, from disk, and for a chain of fifty joints."""
+"""How long `compile()` takes in a fresh process: the first time, from disk, and for a chain of
+fifty joints.
+"""
 
 from __future__ import annotations
 
@@ -45,7 +47,7 @@ start = time.perf_counter()
 other = pk.Chain(chain.screws, chain.home).compile()
 other.fk_jacobian(q, "body")
 again = time.perf_counter() - start
-from poekin.testing import exact
+from poekin.testing.oracles import exact
 error = float(np.abs(T - exact.rounded(exact.forward(chain.screws, chain.home, q))).max() / chain.reach)
 print(json.dumps({"made": made, "called": called, "again": again, "error": error}))
 """

@@ -1,4 +1,6 @@
-"""Pose and hybrid Jacobian of the Panda's hand, compiled for the arm: ÷ Pinocchio's Python, ÷ the bare writing."""
+"""Pose and hybrid Jacobian of the Panda's hand, compiled for the arm: ÷ Pinocchio's Python, ÷ the
+bare writing.
+"""
 
 from __future__ import annotations
 
@@ -42,13 +44,35 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
 
     few = list(q[:CALLS].copy())
     batches = [
-        Case("compiled, out=", lambda: q, lambda q: arm.fk_jacobian(q, "hybrid", out=many), judge.many),
-        Case("compiled, fresh arrays", lambda: q, lambda q: arm.fk_jacobian(q, "hybrid"), judge.many),
-        Case("writing the same arrays, and nothing else", lambda: many, _written, lambda s, r: float("nan")),
+        Case(
+            "compiled, out=",
+            lambda: q,
+            lambda q: arm.fk_jacobian(q, "hybrid", out=many),
+            judge.many,
+        ),
+        Case(
+            "compiled, fresh arrays", lambda: q, lambda q: arm.fk_jacobian(q, "hybrid"), judge.many
+        ),
+        Case(
+            "writing the same arrays, and nothing else",
+            lambda: many,
+            _written,
+            lambda s, r: float("nan"),
+        ),
     ]
     ones = [
-        Case("compiled, one call, out=", lambda: few, each(lambda q: arm.fk_jacobian(q, "hybrid", out=one)), judge.one),
-        Case("compiled, one call, fresh arrays", lambda: few, each(lambda q: arm.fk_jacobian(q, "hybrid")), judge.one),
+        Case(
+            "compiled, one call, out=",
+            lambda: few,
+            each(lambda q: arm.fk_jacobian(q, "hybrid", out=one)),
+            judge.one,
+        ),
+        Case(
+            "compiled, one call, fresh arrays",
+            lambda: few,
+            each(lambda q: arm.fk_jacobian(q, "hybrid")),
+            judge.one,
+        ),
     ]
     in_batch = in_turn([*batches, *loops], rounds=5 if quick else 21)
     say(f"{CONFIGURATIONS} configurations")
@@ -87,7 +111,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
 
 
 class Judged:
-    """The error of poses and Jacobians against the exact ones of the first so many configurations, and of the last."""
+    """The error of poses and Jacobians against the exact ones of the first so many configurations,
+    and of the last.
+    """
 
     def __init__(self, poses: np.ndarray, columns: np.ndarray, reach: float):
         self.poses, self.columns, self.reach = poses, columns, reach
@@ -109,7 +135,9 @@ class Judged:
         return float(max(pose.max(), columns.max()))
 
 
-def _pinocchio(found: peers.Found, arm: peers.Arm, q: np.ndarray, judge: Judged) -> tuple[list[Case], list[Case], str]:
+def _pinocchio(
+    found: peers.Found, arm: peers.Arm, q: np.ndarray, judge: Judged
+) -> tuple[list[Case], list[Case], str]:
     """Pinocchio's loop into two arrays, its calls, and what is wrong with it."""
     if found.problem or found.peer.kinematics is None:
         return [], [], found.problem
@@ -129,8 +157,12 @@ def _pinocchio(found: peers.Found, arm: peers.Arm, q: np.ndarray, judge: Judged)
         return deque(map(call, configurations), maxlen=1)[0]
 
     def of_many(state: Any, result: Arrays) -> float:
-        some = [peer.arrays(T, J) for T, J in zip(result[0][:JUDGED], result[1][:JUDGED], strict=True)]
-        return judge.error(np.stack([T for T, _ in some]), np.stack([J for _, J in some]), slice(JUDGED))
+        some = [
+            peer.arrays(T, J) for T, J in zip(result[0][:JUDGED], result[1][:JUDGED], strict=True)
+        ]
+        return judge.error(
+            np.stack([T for T, _ in some]), np.stack([J for _, J in some]), slice(JUDGED)
+        )
 
     return (
         [Case(f"{found.label}, loop", lambda: each, loop, of_many)],
@@ -142,7 +174,9 @@ def _pinocchio(found: peers.Found, arm: peers.Arm, q: np.ndarray, judge: Judged)
 
 def _threads(chain: Any, arm: Any, judge: Judged, quick: bool) -> Figure:
     """All processors that this process may use ÷ one, by the wall clock."""
-    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    processors = (
+        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    )
     words = "two threads" if processors == 2 else f"{processors} threads"
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (MILLION, chain.dof))
     q[:JUDGED] = np.random.default_rng(0).uniform(-np.pi, np.pi, (JUDGED, chain.dof))
@@ -175,15 +209,26 @@ def _written(arrays: Arrays) -> None:
 
 
 def _figures(
-    what: str, own: Timed, peer: list[Timed], bar: float | None = None, bar_text: str = "", note: str = ""
+    what: str,
+    own: Timed,
+    peer: list[Timed],
+    bar: float | None = None,
+    bar_text: str = "",
+    note: str = "",
 ) -> list[Figure]:
     """The ratio to a peer, or a row that says why there is none."""
-    return [_figure(what, own, peer[0], bar, bar_text) if peer else Figure(what, None, bar, note=note)]
+    return [
+        _figure(what, own, peer[0], bar, bar_text) if peer else Figure(what, None, bar, note=note)
+    ]
 
 
-def _figure(what: str, own: Timed, other: Timed, bar: float | None = None, bar_text: str = "") -> Figure:
+def _figure(
+    what: str, own: Timed, other: Timed, bar: float | None = None, bar_text: str = ""
+) -> Figure:
     found = ratio(own, other)
-    error = short(own.error) + (f" (Pinocchio {short(other.error)})" if other.error == other.error else "")
+    error = short(own.error) + (
+        f" (Pinocchio {short(other.error)})" if other.error == other.error else ""
+    )
     return Figure(
         what, found.median, bar, spread=(found.lower, found.upper), error=error,
         bar_shown=bar_text and f"≤ {bar_text}",

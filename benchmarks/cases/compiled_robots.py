@@ -1,4 +1,6 @@
-"""Compiled kernels on every chain of the real robots, against Pinocchio: pose and Jacobians in three frames."""
+"""Compiled kernels on every chain of the real robots, against Pinocchio: pose and Jacobians in
+three frames.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +18,8 @@ import numpy as np
 from poekin import Chain, load
 from poekin.analysis.validate import BAR, ChainErrors, chain_errors, routes
 from poekin.errors import PoekinWarning
-from poekin.testing.example_robots import example_robots
-from poekin.testing.pinocchio_oracle import PinocchioOracle
+from poekin.testing.cases.example_robots import example_robots
+from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
 from ..draw import dots
 from ..report import Figure, Table, Topic, short
@@ -55,7 +57,8 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     robots = list(example_robots()[0].items())[:: 6 if quick else 1]
     ways: list[Way] = []
     start = time.perf_counter()
-    # Most of the time is LLVM's, which holds the interpreter's lock: so processes, each with some of the robots.
+    # Most of the time is LLVM's, which holds the interpreter's lock: so processes, each with some
+    # of the robots.
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(min(os.cpu_count() or 1, 8), context, initializer=_deaf) as pool:
         try:
@@ -128,5 +131,7 @@ def _deaf() -> None:
 
 
 def _row(name: str, rows: list[ChainErrors]) -> tuple[str | int | float, ...]:
-    errors = (max(getattr(row, what) for row in rows) for what in ("pose", "space", "body", "hybrid"))
+    errors = (
+        max(getattr(row, what) for row in rows) for what in ("pose", "space", "body", "hybrid")
+    )
     return (name, len(rows), max(row.joints for row in rows), *errors)

@@ -1,7 +1,9 @@
-"""Who holds which law: poekin and the libraries beside it, held to the laws of `poekin.testing.conform`.
+"""Who holds which law: poekin and the libraries beside it, held to the laws of
+`poekin.testing.conform`.
 
-With it what shows that the judge can be trusted: it catches eight faults that libraries had, and finds none in subjects
-that compute in 60 digits (`python -m benchmarks.subjects 100000` does the latter alone, in so many examples).
+With it what shows that the judge can be trusted: it catches eight faults that libraries had, and
+finds none in subjects that compute in 60 digits (`python -m benchmarks.subjects 100000` does the
+latter alone, in so many examples).
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from typing import Any
 
 from poekin.testing.conform import LAWS, Grade, Outcome, Report, applicable, conform
 from poekin.testing.conform.search import worst
-from poekin.testing.conform.subject import Subject
+from poekin.testing.conform.subjects.subject import Subject
 
 from .. import peers, subjects
 from ..report import Figure, Table, Topic, short
@@ -39,7 +41,12 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
             found.append(_held(kind, 60 if quick else 150, 60.0, say, name))
     caught = _caught(say)
     total, false, not_exact = false_findings(1_000 if quick else FALSE_EXAMPLES, say)
-    return Topic("Who holds which law", WORDS, _figures(found, caught, total, false, not_exact), _tables(found, caught))
+    return Topic(
+        "Who holds which law",
+        WORDS,
+        _figures(found, caught, total, false, not_exact),
+        _tables(found, caught),
+    )
 
 
 def _libraries() -> list[tuple[str, Sequence[type]]]:
@@ -73,7 +80,9 @@ def _caught(say) -> list[tuple[str, str, Outcome, float]]:  # type: ignore[no-un
         start = time.monotonic()
         outcome = conform(kind, examples=300, seconds=BROKEN_WITHIN - 10)[law]
         rows.append((letter, str(kind.__doc__), outcome, time.monotonic() - start))
-    say(f"{sum(_holds(outcome, seconds) for _, _, outcome, seconds in rows)} of {len(rows)} faults caught")
+    say(
+        f"{sum(_holds(outcome, seconds) for _, _, outcome, seconds in rows)} of {len(rows)} faults caught"
+    )
     return rows
 
 
@@ -82,9 +91,13 @@ def _holds(outcome: Outcome, seconds: float) -> bool:
 
 
 def false_findings(examples: int, say, each=lambda line: None) -> tuple[int, int, int]:  # type: ignore[no-untyped-def]
-    """How many examples were tried on subjects without fault, how many were poor or broken, and how many not exact."""
+    """How many examples were tried on subjects without fault, how many were poor or broken, and how
+    many not exact.
+    """
     total = false = not_exact = 0
-    work: list[tuple[Any, Any]] = [(law, Subject(kind)) for kind in (subjects.Angular, subjects.Linear) for law in LAWS]
+    work: list[tuple[Any, Any]] = [
+        (law, Subject(kind)) for kind in (subjects.Angular, subjects.Linear) for law in LAWS
+    ]
     work = [(law, subject) for law, subject in work if law in applicable(subject)]
     for left, (law, subject) in zip(range(len(work), 0, -1), work, strict=True):
         found = worst(law, subject, math.ceil(max(examples - total, 1) / left), math.inf)
@@ -92,7 +105,9 @@ def false_findings(examples: int, say, each=lambda line: None) -> tuple[int, int
         false += found.verdict.grade >= Grade.POOR
         not_exact += found.verdict.grade > Grade.EXACT
         each(f"{total} of {examples}: {found.verdict.grade.word} {law.name} of {subject.title}")
-    say(f"{total} examples on subjects without fault: {false} laws with a finding, {not_exact} not exact")
+    say(
+        f"{total} examples on subjects without fault: {false} laws with a finding, {not_exact} not exact"
+    )
     return total, false, not_exact
 
 
@@ -102,7 +117,11 @@ def _figures(
 ) -> list[Figure]:  # fmt: skip
     good = sum(_holds(outcome, seconds) for _, _, outcome, seconds in caught)
     own = found[0]
-    below = [outcome.law for outcome in own.outcomes if outcome.grade > Grade.EXACT] if isinstance(own, Report) else []
+    below = (
+        [outcome.law for outcome in own.outcomes if outcome.grade > Grade.EXACT]
+        if isinstance(own, Report)
+        else []
+    )
     laws = len(own.outcomes) if isinstance(own, Report) else 0
     return [
         Figure(
@@ -121,7 +140,9 @@ def _figures(
     ]  # fmt: skip
 
 
-def _tables(found: Sequence[Report | str], caught: Sequence[tuple[str, str, Outcome, float]]) -> list[Table]:
+def _tables(
+    found: Sequence[Report | str], caught: Sequence[tuple[str, str, Outcome, float]]
+) -> list[Table]:
     reports = [report for report in found if isinstance(report, Report)]
     problems = [report for report in found if isinstance(report, str)]
     rows = []

@@ -1,4 +1,6 @@
-"""Derivatives: rate and Hessian of the Jacobian against Pinocchio, of the pose by its screws against 80 digits."""
+"""Derivatives: rate and Hessian of the Jacobian against Pinocchio, of the pose by its screws
+against 80 digits.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +14,11 @@ from poekin import Chain, load
 from poekin.analysis.validate import routes
 from poekin.errors import PoekinWarning
 from poekin.formats.load import BUILT_IN
-from poekin.model.evaluation import FRAME_NAMES
-from poekin.testing.derivative_laws import exact_changes
-from poekin.testing.example_robots import example_robots
-from poekin.testing.pinocchio_derivatives import DerivativeErrors, derivative_errors
-from poekin.testing.pinocchio_oracle import PinocchioOracle
+from poekin.model.kinematics.pose_jacobian import FRAME_NAMES
+from poekin.testing.cases.example_robots import example_robots
+from poekin.testing.laws.derivative_laws import exact_changes
+from poekin.testing.oracles.pinocchio_derivatives import DerivativeErrors, derivative_errors
+from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
 from ..draw import dots
 from ..report import Figure, Table, Topic
@@ -26,7 +28,9 @@ BAR, SCREW_BAR = 1e-13, 1e-12
 
 @dataclass(frozen=True)
 class ScrewErrors:
-    """One arm's worst absolute errors of df f⁻¹ (by motion, by entries, by the home pose) and of dJ."""
+    """One arm's worst absolute errors of df f⁻¹ (by motion, by entries, by the home pose) and of
+    dJ.
+    """
 
     arm: str
     joints: int
@@ -47,7 +51,13 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
             with open(path, "rb") as stream:
                 oracle = PinocchioOracle(stream.read())
             chains = [robot.chain(base, tip) for base, tip, _ in routes(robot)]
-            done.append((name, [derivative_errors(chain, oracle, 3) for chain in chains], time.perf_counter() - start))
+            done.append(
+                (
+                    name,
+                    [derivative_errors(chain, oracle, 3) for chain in chains],
+                    time.perf_counter() - start,
+                )
+            )
             if number % 10 == 0:
                 say(f"{number} of {len(robots)} robots")
         arms = arms_of_the_catalogue()[:: 4 if quick else 1]

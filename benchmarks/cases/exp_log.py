@@ -1,4 +1,6 @@
-"""exp and log of 100 000 twists and poses, to and from 4×4 matrices: poekin against SciPy's RigidTransform."""
+"""exp and log of 100 000 twists and poses, to and from 4×4 matrices: poekin against SciPy's
+RigidTransform.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from poekin import se3
-from poekin.testing import exact
+from poekin.testing.oracles import exact
 
 from ..harness import Case, Comparison, compare
 from ..report import Figure, Table, Topic, short
@@ -21,9 +23,14 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         from scipy.spatial.transform import RigidTransform
     except ImportError:
         note = "the peer is absent: SciPy with RigidTransform (1.16 or later) is not installed"
-        return Topic(title, figures=[Figure(f"{what} ÷ SciPy", None, 1 / 3, note=note) for what in ("exp", "log")])
+        return Topic(
+            title,
+            figures=[Figure(f"{what} ÷ SciPy", None, 1 / 3, note=note) for what in ("exp", "log")],
+        )
     rng = np.random.default_rng(0)
-    xi = np.concatenate([_directions(rng) * rng.uniform(0, np.pi, (COUNT, 1)), rng.normal(size=(COUNT, 3))], 1)
+    xi = np.concatenate(
+        [_directions(rng) * rng.uniform(0, np.pi, (COUNT, 1)), rng.normal(size=(COUNT, 3))], 1
+    )
     T = se3.exp(xi)
     say("references to 60 digits")
     exact_exp, exact_log = _references(xi[:JUDGED], T[:JUDGED])
@@ -43,14 +50,23 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         c = compare(own, peer, pairs=pairs)
         say(f"{what}: {short(c.ratio.median)}")
         figures.append(_figure(f"{what} over an array of {COUNT} ÷ SciPy RigidTransform", c))
-        rows += [_times(f"poekin {what}", c.first, c.first_error), _times(f"SciPy {what}", c.second, c.second_error)]
+        rows += [
+            _times(f"poekin {what}", c.first, c.first_error),
+            _times(f"SciPy {what}", c.second, c.second_error),
+        ]
     return Topic(
         title,
         "Angles uniform from 0 to π about random axes, translations normal with 1 m. Both go to and from 4×4 matrices. "
         "Time is the processor's, over all threads of the process, so that other processes do not disturb it. "
         f"The error is the largest entry that differs from the exact result (60 digits) over the first {JUDGED}.",
         figures=figures,
-        tables=[Table("Time of each", ("what", "time (ns each)", "lower quartile", "upper quartile", "error"), rows)],
+        tables=[
+            Table(
+                "Time of each",
+                ("what", "time (ns each)", "lower quartile", "upper quartile", "error"),
+                rows,
+            )
+        ],
     )
 
 
@@ -66,7 +82,9 @@ def _times(what: str, t: Any, error: float) -> tuple[str | float, ...]:
 
 def _references(xi: np.ndarray, T: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """exp of the twists and log of the poses, to 60 digits, rounded once."""
-    exps, logs = ([exact.rounded(f(x)) for x in some] for f, some in ((exact.exp, xi), (exact.log, T)))
+    exps, logs = (
+        [exact.rounded(f(x)) for x in some] for f, some in ((exact.exp, xi), (exact.log, T))
+    )
     return np.stack(exps), np.stack(logs)
 
 

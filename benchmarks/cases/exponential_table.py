@@ -1,7 +1,9 @@
-"""The paper's alternative to computing e^{A_i x_i}: a table of them at regular steps of the angle, looked up.
+"""The paper's alternative to computing e^{A_i x_i}: a table of them at regular steps of the angle,
+looked up.
 
-Poses of an arm by the product of the exponentials, each taken from its joint's table (the nearest entry, or a straight
-line between two) or computed from the sine and cosine: error, memory and time over the step.
+Poses of an arm by the product of the exponentials, each taken from its joint's table (the nearest
+entry, or a straight line between two) or computed from the sine and cosine: error, memory and time
+over the step.
 """
 
 from __future__ import annotations
@@ -16,22 +18,30 @@ import numpy as np
 
 from poekin import Chain, dh
 from poekin.algebra import compose, pose
-from poekin.engine.sincos import sincos
-from poekin.formulas.exponential import joint
-from poekin.testing import exact
+from poekin.engine.straight_line.sincos import sincos
+from poekin.formulas.lie.exponential import joint
+from poekin.testing.oracles import exact
 
 from ..draw import lines
 from ..harness import Case, Comparison, compare
 from ..report import Figure, Table, Topic, short
 
 ARM, WHAT = "puma560", "Puma 560"
-STEPS = (360, 1_440, 5_760, 23_040, 92_160)  # entries a turn: 1 degree, and a quarter of that each time
+STEPS = (
+    360,
+    1_440,
+    5_760,
+    23_040,
+    92_160,
+)  # entries a turn: 1 degree, and a quarter of that each time
 CONFIGURATIONS, JUDGED = 10_000, 100
 
 
 @dataclass(frozen=True)
 class Tables:
-    """e^{A_i x} of each joint at regular steps from 0 to 2 pi, both ends included: (n, entries + 1, 12)."""
+    """e^{A_i x} of each joint at regular steps from 0 to 2 pi, both ends included: (n, entries + 1,
+    12).
+    """
 
     entries: int
     rows: np.ndarray
@@ -123,7 +133,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     rng = np.random.default_rng(0)
     q = rng.uniform(-math.pi, math.pi, (CONFIGURATIONS, chain.dof))
     say("references to 60 digits")
-    references = np.stack([exact.rounded(exact.forward(chain.screws, chain.home, x)) for x in q[:JUDGED]])[:, :3, 3]
+    references = np.stack(
+        [exact.rounded(exact.forward(chain.screws, chain.home, x)) for x in q[:JUDGED]]
+    )[:, :3, 3]
     home = np.concatenate([chain.home[:3, :3].ravel(), chain.home[:3, 3]])
     kernels = _kernels()
 
@@ -135,14 +147,19 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
             kernels[run](*state)
             return state[-1]
 
-        return Case(name, setup, fill, lambda state, T: float(np.abs(T[:JUDGED, 9:] - references).max()))
+        return Case(
+            name, setup, fill, lambda state, T: float(np.abs(T[:JUDGED, 9:] - references).max())
+        )
 
     rows = []
     for entries in STEPS[:3] if quick else STEPS:
         table = tables(chain, entries)
         for way, run in WAYS.items():
             measured = compare(
-                case(way, run, table), case("sines", by_sines, table), pairs=5 if quick else 21, slice_s=0.01
+                case(way, run, table),
+                case("sines", by_sines, table),
+                pairs=5 if quick else 21,
+                slice_s=0.01,
             )
             rows.append(Row(way, table, measured.first_error, measured))
         say(f"step {360 / entries:.3g}°")
@@ -202,7 +219,7 @@ def _kernels() -> dict[Callable, Callable]:
     import numba
     from numba.extending import register_jitable
 
-    from poekin.engine import compile as engine_compile
+    from poekin.engine.jit import compile as engine_compile
 
     for helper in (_between, _write):
         register_jitable(helper)

@@ -1,4 +1,6 @@
-"""A straight path of 1000 poses, half a metre long: the largest step, each pose, and the time ÷ solving them alone."""
+"""A straight path of 1000 poses, half a metre long: the largest step, each pose, and the time ÷
+solving them alone.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +10,10 @@ import numpy as np
 
 from poekin import load
 from poekin.model.chain import Chain
-from poekin.model.compiled import CompiledChain
+from poekin.model.kinematics.compiled import CompiledChain
 from poekin.solve import motion
-from poekin.solve.follow import follow
-from poekin.solve.ik import ik
+from poekin.solve.ik.ik import ik
+from poekin.solve.path.follow import follow
 
 from ..harness import Case, Timed, in_turn, ratio
 from ..report import Figure, Table, Topic, short
@@ -20,7 +22,8 @@ from .inverse_kinematics_judge import TOLERANCE, judged
 POSES, LENGTH = 1000, 0.5
 STEP, TIMES = 0.1, 2.0
 
-# The pose in the middle, by its joints; the path runs along the base's y axis, a quarter of a metre to either side.
+# The pose in the middle, by its joints; the path runs along the base's y axis, a quarter of a metre
+# to either side.
 ARMS = (
     ("Panda", "panda", "panda_hand", (0.0, -0.5, 0.0, -2.0, 0.0, 1.6, 0.8)),
     ("UR5", "ur5", None, (0.0, -1.2, 1.6, -1.9, -1.57, 0.0)),
@@ -54,8 +57,13 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
             (label, t.name, *(1e6 * x / POSES for x in (t.time.median, t.time.lower, t.time.upper)), step, t.error)
             for t, step in ((free, found.largest_step), (given, started.largest_step), (alone, jumps))
         ]  # fmt: skip
-        ends += [(label, end, *(short(float(x)) for x in T[k, :3, 3])) for k, end in ((0, "first"), (-1, "last"))]
-        say(f"{label}: largest step {short(found.largest_step)}, × {short(figures[-2].value or 0.0)}")
+        ends += [
+            (label, end, *(short(float(x)) for x in T[k, :3, 3]))
+            for k, end in ((0, "first"), (-1, "last"))
+        ]
+        say(
+            f"{label}: largest step {short(found.largest_step)}, × {short(figures[-2].value or 0.0)}"
+        )
     return Topic(
         "A path followed without a jump",
         "follow solves each pose from the joints of the one before it; without a q0 it first tries eight starting "
@@ -98,4 +106,6 @@ def _measured(fast: CompiledChain, T: np.ndarray, quick: bool) -> list[Timed]:
 
 def _figure(what: str, own: Timed, other: Timed, bar: float | None) -> Figure:
     found = ratio(own, other)
-    return Figure(what, found.median, bar, spread=(found.lower, found.upper), error=short(own.error))
+    return Figure(
+        what, found.median, bar, spread=(found.lower, found.upper), error=short(own.error)
+    )

@@ -1,4 +1,6 @@
-"""Every solution of a pose: the search alone against EAIK's closed form, and how near all are to their targets."""
+"""Every solution of a pose: the search alone against EAIK's closed form, and how near all are to
+their targets.
+"""
 
 from __future__ import annotations
 
@@ -9,23 +11,27 @@ import numpy as np
 
 import poekin as pk
 from poekin.model.chain import Chain
-from poekin.solve.all_solutions import AllSolutions
-from poekin.solve.ik_all import ik_all
+from poekin.solve.ik_all.all_solutions import AllSolutions
+from poekin.solve.ik_all.ik_all import ik_all
 
 from ..report import Figure, Table, Topic, short
 
 ARMS = {"ur5": "UR5", "puma560": "Puma 560"}
 SEED, COUNT = 5, 1000
 
-# Two solvers' ends of one solution: poses 1e-10 off make 1e-4 rad where the arm is singular within 1e-6.
+# Two solvers' ends of one solution: poses 1e-10 off make 1e-4 rad where the arm is singular within
+# 1e-6.
 SAME = 1e-4
-# EAIK's own solutions are nearer to their target than this [m and rad], its least squares ones are not.
+# EAIK's own solutions are nearer to their target than this [m and rad], its least squares ones are
+# not.
 ITS_OWN = 1e-6
 
 
 @dataclass(frozen=True)
 class Judged:
-    """One arm: the largest errors of solutions (m, rad), how many sets equal EAIK's, and seconds a target by method."""
+    """One arm: the largest errors of solutions (m, rad), how many sets equal EAIK's, and seconds a
+    target by method.
+    """
 
     name: str
     position: float
@@ -37,12 +43,16 @@ class Judged:
 
 
 def apart(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """The largest difference of angles between each configuration of a and each of b, by the shorter way round."""
+    """The largest difference of angles between each configuration of a and each of b, by the
+    shorter way round.
+    """
     return np.abs((a[:, None] - b[None] + np.pi) % (2 * np.pi) - np.pi).max(axis=-1)
 
 
 def equal(a: np.ndarray, b: np.ndarray) -> bool:
-    """Whether each configuration of a is one of b, each of b one of a, and there are as many of them."""
+    """Whether each configuration of a is one of b, each of b one of a, and there are as many of
+    them.
+    """
     if not len(a) or len(a) != len(b):
         return len(a) == len(b)
     near = apart(a, b) <= SAME
@@ -50,7 +60,9 @@ def equal(a: np.ndarray, b: np.ndarray) -> bool:
 
 
 def eaik_sets(chain: Chain, T: np.ndarray) -> tuple[list[np.ndarray], float]:
-    """EAIK's solutions of each target, each once, and its own time (processor seconds) for all of them."""
+    """EAIK's solutions of each target, each once, and its own time (processor seconds) for all of
+    them.
+    """
     from eaik.IK_HP import HPRobot
 
     form = chain.to_hp()
@@ -69,7 +81,9 @@ def eaik_sets(chain: Chain, T: np.ndarray) -> tuple[list[np.ndarray], float]:
 
 
 def errors(chain: Chain, result: AllSolutions, T: np.ndarray) -> tuple[float, float]:
-    """The largest distance (m) and angle (rad) between solutions' poses, by `fk`, and their targets."""
+    """The largest distance (m) and angle (rad) between solutions' poses, by `fk`, and their
+    targets.
+    """
     Q = np.concatenate(result.solutions)
     ours, wanted = chain.fk(Q), np.repeat(T, result.count, axis=0)
     turn = pk.so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ wanted[:, :3, :3])
@@ -94,7 +108,15 @@ def judged(name: str, count: int) -> Judged:
     same = sum(equal(a, b) for a, b in zip(results["search"].solutions, theirs, strict=True))
     numbers = {method: int(result.count.sum()) for method, result in results.items()}
     position, rotation = (max(pair) for pair in zip(*worst, strict=True))
-    return Judged(name, position, rotation, same, count, times, numbers | {"EAIK alone": sum(map(len, theirs))})
+    return Judged(
+        name,
+        position,
+        rotation,
+        same,
+        count,
+        times,
+        numbers | {"EAIK alone": sum(map(len, theirs))},
+    )
 
 
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
@@ -103,7 +125,12 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     try:
         import eaik  # noqa: F401
     except ImportError:
-        missing = Figure("search alone against EAIK's solution sets", None, note="EAIK is not installed", holds=False)
+        missing = Figure(
+            "search alone against EAIK's solution sets",
+            None,
+            note="EAIK is not installed",
+            holds=False,
+        )
         return Topic(title, "EAIK is the judge of this topic.", figures=[missing], tables=[])
     found = []
     for name in ARMS:
@@ -134,5 +161,11 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         f"equal where each solution of one is one of the other within {SAME:g} rad. EAIK's own time is that of its "
         "calls alone, without its least-squares answers being sorted out.",
         figures=figures,
-        tables=[Table("Solutions found, and processor time", ("arm", "how", "solutions", "ms a target"), rows)],
+        tables=[
+            Table(
+                "Solutions found, and processor time",
+                ("arm", "how", "solutions", "ms a target"),
+                rows,
+            )
+        ],
     )

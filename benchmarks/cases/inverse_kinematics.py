@@ -1,4 +1,6 @@
-"""Inverse kinematics: how many reachable poses are solved, how fast, and whether the reasons given are right."""
+"""Inverse kinematics: how many reachable poses are solved, how fast, and whether the reasons given
+are right.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from poekin import Chain, load
-from poekin.solve.ik import ik
-from poekin.solve.solution import LIMITS, UNREACHABLE
+from poekin.solve.ik.ik import ik
+from poekin.solve.ik.solution import LIMITS, UNREACHABLE
 
 from ..draw import bars
 from ..harness import Case, Timed, in_turn, ratio
@@ -51,14 +53,18 @@ def topic(quick: bool, say: Say, solve: Solve = ik) -> Topic:
         say(f"{name}: {len(T)} targets")
     rows = named_list.measured(LIST_TARGETS // less, quick, say, solve)
     figures += named_list.figures(rows)
-    lies += sum(judgement.false_claims for _, row in rows if (judgement := row[named_list.OWN].judgement))
+    lies += sum(
+        judgement.false_claims for _, row in rows if (judgement := row[named_list.OWN].judgement)
+    )
     figures += _without_solution(WITHOUT // less, solve)
     say("targets that have no solution")
     figures.append(
         Figure("inverse kinematics, all reachable targets of this page: success claimed that the true pose error or "
                "the limits do not bear out", lies, 0)
     )  # fmt: skip
-    notes = [" ".join(note.split()) for note in [LEFT_OUT, *(peers.__doc__ or "").split("\n- ")[1:]]]
+    notes = [
+        " ".join(note.split()) for note in [LEFT_OUT, *(peers.__doc__ or "").split("\n- ")[1:]]
+    ]
     return Topic(
         "Inverse kinematics",
         "Targets are T = f(q) with q uniform within the limits, and over one turn where a joint has none. Starts are "
@@ -93,7 +99,9 @@ def _solved(name: str, judgement: Judgement, bar: float) -> Figure:
 
 
 def _own(chain: Chain, T: np.ndarray, solve: Solve) -> Case:
-    return Case("poekin", lambda: T, lambda T: solve(chain, T), lambda T, s: _judge(chain, T, s).worst[0])
+    return Case(
+        "poekin", lambda: T, lambda T: solve(chain, T), lambda T, s: _judge(chain, T, s).worst[0]
+    )
 
 
 def _beside(name: str, chain: Chain, T: np.ndarray, judgement: Judgement, most: float, rounds: int,
@@ -111,7 +119,11 @@ def _beside(name: str, chain: Chain, T: np.ndarray, judgement: Judgement, most: 
         return kept[0].worst[0]
 
     own, theirs = in_turn(
-        [_own(chain, T, solve), Case("Robotics Toolbox", lambda: solver.native(T), solver.run, error)], rounds=rounds
+        [
+            _own(chain, T, solve),
+            Case("Robotics Toolbox", lambda: solver.native(T), solver.run, error),
+        ],
+        rounds=rounds,
     )
     between = ratio(own, theirs)
     figure = Figure(
@@ -153,7 +165,10 @@ def _others(name: str, chain: Chain, T: np.ndarray) -> list[Line]:
          partial(peers.pinocchio_clik, chain, eps=1e-9)),
         ("EAIK, all solutions", "eaik", few, lambda: peers.ClosedForm(chain).solver()),
     ]  # fmt: skip
-    return [_line(name, label, peer_row(peer, make, chain, targets)) for label, peer, targets, make in ways]
+    return [
+        _line(name, label, peer_row(peer, make, chain, targets))
+        for label, peer, targets, make in ways
+    ]
 
 
 def _without_solution(count: int, solve: Solve) -> list[Figure]:
@@ -174,9 +189,13 @@ def _without_solution(count: int, solve: Solve) -> list[Figure]:
     for name, source, part in TIGHT:
         what = f"{count // 2} {name} poses none of whose EAIK solutions is within {100 * part:g} % of the limits"
         chain = reasons.tightened(load(source).chain(), part)
-        found, problem = peers.ready("eaik", lambda chain=chain: reasons.blocked_poses(chain, rng, count // 2))
+        found, problem = peers.ready(
+            "eaik", lambda chain=chain: reasons.blocked_poses(chain, rng, count // 2)
+        )
         if found is None:
-            figures += [Figure(f"inverse kinematics, {what}", None, note=f"left out: EAIK is {problem}")]
+            figures += [
+                Figure(f"inverse kinematics, {what}", None, note=f"left out: EAIK is {problem}")
+            ]
             continue
         T, passed = found
         solution = solve(chain, T)
@@ -221,4 +240,13 @@ def _line(name: str, label: str, row: Row) -> Line:
     j = row.judgement
     if j is None:
         return [name, label, "", row.problem, "", "", "", "", ""]
-    return [name, label, row.count, row.us, share(j.claimed), share(j.claimed & j.within), share(j.solved), *j.worst]
+    return [
+        name,
+        label,
+        row.count,
+        row.us,
+        share(j.claimed),
+        share(j.claimed & j.within),
+        share(j.solved),
+        *j.worst,
+    ]

@@ -1,7 +1,8 @@
-"""The named list: every arm proper, base to flange, of 5 to 7 joints in example-robot-data and the catalogue.
+"""The named list: every arm proper, base to flange, of 5 to 7 joints in example-robot-data and the
+catalogue.
 
-Of two arms that mirror each other the left one; of models with equal axes those whose limits differ. No legs, no heads,
-no fingers.
+Of two arms that mirror each other the left one; of models with equal axes those whose limits
+differ. No legs, no heads, no fingers.
 """
 
 from __future__ import annotations
@@ -65,7 +66,9 @@ class NamedArm:
 
     @property
     def task(self) -> str:
-        """What is asked of it: the pose, or of five joints the position and the direction of the tool's z axis."""
+        """What is asked of it: the pose, or of five joints the position and the direction of the
+        tool's z axis.
+        """
         return "pose" if self.chain.dof > 5 else "direction"
 
 
@@ -73,5 +76,8 @@ def named_arms() -> list[NamedArm]:
     """The list, loaded."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", PoekinWarning)
-        found = [NamedArm(f"{name} → {tip}", load(f"erd:{name}").chain(base, tip)) for name, base, tip in EXAMPLES]
+        found = [
+            NamedArm(f"{name} → {tip}", load(f"erd:{name}").chain(base, tip))
+            for name, base, tip in EXAMPLES
+        ]
         return found + [NamedArm(f"{name} (catalogue)", load(name).chain()) for name in CATALOGUE]

@@ -1,7 +1,8 @@
-"""What joints are worth: their true pose error by `Chain.fk`, and whether they lie within the limits.
+"""What joints are worth: their true pose error by `Chain.fk`, and whether they lie within the
+limits.
 
-Nothing that a solver says about itself counts here, but that it claims success: a claim that the errors do not bear out
-is a false one.
+Nothing that a solver says about itself counts here, but that it claims success: a claim that the
+errors do not bear out is a false one.
 """
 
 from __future__ import annotations
@@ -18,7 +19,9 @@ SLACK = 1e-12  # rad or m by which a peer may pass a limit: it rounds, too
 
 @dataclass(frozen=True)
 class Judgement:
-    """True errors of the joints for some targets: position (m), rotation (rad); inside the limits; claimed."""
+    """True errors of the joints for some targets: position (m), rotation (rad); inside the limits;
+    claimed.
+    """
 
     position: np.ndarray
     rotation: np.ndarray
@@ -56,9 +59,11 @@ class Judgement:
 
 def judged(chain: Chain, T: np.ndarray, q: np.ndarray, claimed: np.ndarray, *, axis: np.ndarray | None = None,
            limits: bool = True) -> Judgement:  # fmt: skip
-    """Joints q (N, m) for targets T (N, 4, 4); axis (3,): only this direction of the tool is asked for.
+    """Joints q (N, m) for targets T (N, 4, 4); axis (3,): only this direction of the tool is asked
+    for.
 
-    The angle of a small rotation comes from a difference of matrices, which loses nothing: |R - R*| = 2 √2 sin(θ/2).
+    The angle of a small rotation comes from a difference of matrices, which loses nothing: |R - R*|
+    = 2 √2 sin(θ/2).
     """
     known = np.isfinite(q).all(axis=1)
     difference = np.full(T.shape, np.inf)
@@ -71,7 +76,11 @@ def judged(chain: Chain, T: np.ndarray, q: np.ndarray, claimed: np.ndarray, *, a
         half = np.linalg.norm(difference[known, :3, :3] @ axis, axis=1) / 2
     rotation[known] = 2 * np.arcsin(np.minimum(half, 1.0))
     lower, upper = chain.limits.T
-    inside = ((q >= lower - SLACK) & (q <= upper + SLACK)).all(axis=1) if limits else np.full(len(q), True)
+    inside = (
+        ((q >= lower - SLACK) & (q <= upper + SLACK)).all(axis=1)
+        if limits
+        else np.full(len(q), True)
+    )
     return Judgement(position, rotation, inside, np.asarray(claimed, bool))
 
 

@@ -1,4 +1,6 @@
-"""The named list of arms: each solved by poekin and, where they can, by the peers at the same true tolerance."""
+"""The named list of arms: each solved by poekin and, where they can, by the peers at the same true
+tolerance.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +59,11 @@ def figures(rows: Measured) -> list[Figure]:
     over_all = 100.0 * float(np.mean(np.concatenate([j.solved for j in judgements])))
     name, worst = min(own, key=lambda pair: pair[1].solved)
     error = f"{max(j.worst[0] for j in judgements):.1e} m, {max(j.worst[1] for j in judgements):.1e} rad"
-    missed = {name: row.count - int(row.judgement.solved.sum()) for name, row in own if row.judgement is not None}
+    missed = {
+        name: row.count - int(row.judgement.solved.sum())
+        for name, row in own
+        if row.judgement is not None
+    }
     which = ", ".join(f"{name} {number}" for name, number in missed.items() if number)
     what = f"inverse kinematics, {len(own)} named arms of 5 to 7 joints, {own[0][1].count} targets each, limits on:"
     return [
@@ -69,7 +75,9 @@ def figures(rows: Measured) -> list[Figure]:
 
 
 def table(rows: Measured) -> Table:
-    """An arm a line: what each library solves to 1e-9, its time, and the largest position error of what it claims."""
+    """An arm a line: what each library solves to 1e-9, its time, and the largest position error of
+    what it claims.
+    """
     columns = ["arm", "joints", "task", *(
         f"{name}: {what}" for name in (OWN, *PEERS) for what in ("solved (%)", "µs", "largest error (m)")
     )]  # fmt: skip
@@ -81,7 +89,11 @@ def table(rows: Measured) -> Table:
             if one.judgement is None:
                 line += [one.problem, "", ""]
             else:
-                right = share(one.judgement.claimed & one.judgement.within) if name == PIN else one.solved
+                right = (
+                    share(one.judgement.claimed & one.judgement.within)
+                    if name == PIN
+                    else one.solved
+                )
                 line += [right, one.us, one.judgement.worst[0]]
         lines.append(line)
     return Table(

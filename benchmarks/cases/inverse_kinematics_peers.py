@@ -1,10 +1,14 @@
-"""Inverse kinematics by other libraries, each called as its documentation does; what they return is judged elsewhere.
+"""Inverse kinematics by other libraries, each called as its documentation does; what they return is
+judged elsewhere.
 
-- Robotics Toolbox: `ETS.ik_LM`, its C solver: method "chan", 30 iterations, 100 random starts, limits on. Its tolerance
-  is of E = ½ |e|²: the default 1e-6 lets an error of 1.4e-3 pass, ½ (1e-9)² asks for what poekin is asked for.
-- Pinocchio: the loop of its example "Inverse kinematics (clik)", with that example's numbers: from the neutral
-  configuration, damping 1e-12, step 0.1, at most 1000 steps, no limits, no restart. Its eps is 1e-4 there, of |e|.
-- EAIK: all solutions in closed form, for the arms whose axes it can use; solved where one of them holds the limits.
+- Robotics Toolbox: `ETS.ik_LM`, its C solver: method "chan", 30 iterations, 100 random starts,
+  limits on. Its tolerance is of E = ½ |e|²: the default 1e-6 lets an error of 1.4e-3 pass, ½
+  (1e-9)² asks for what poekin is asked for.
+- Pinocchio: the loop of its example "Inverse kinematics (clik)", with that example's numbers: from
+  the neutral configuration, damping 1e-12, step 0.1, at most 1000 steps, no limits, no restart. Its
+  eps is 1e-4 there, of |e|.
+- EAIK: all solutions in closed form, for the arms whose axes it can use; solved where one of them
+  holds the limits.
 """
 
 from __future__ import annotations
@@ -16,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from poekin import Chain
-from poekin.testing.pinocchio_oracle import PinocchioOracle, pinocchio
+from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle, pinocchio
 
 from ..peers import STANDARD, Arm, Peer, find
 from ..peers.links import z_aligned
@@ -34,8 +38,8 @@ TURN, EXACT = 2 * np.pi, 1e-6
 class Solver:
     """A peer's solver of one arm.
 
-    native(T): targets (N, 4, 4) in its own form; run(targets) -> result, what is timed; joints(result, T) -> q (N, m),
-    NaN where it found none, and claimed (N).
+    native(T): targets (N, 4, 4) in its own form; run(targets) -> result, what is timed;
+    joints(result, T) -> q (N, m), NaN where it found none, and claimed (N).
     """
 
     label: str
@@ -45,13 +49,17 @@ class Solver:
 
 
 def robotics_toolbox(chain: Chain, *, tol: float = 1e-6) -> Solver:
-    """The C solver. A joint without limits is given one turn, as the library draws its starts within limits."""
+    """The C solver. A joint without limits is given one turn, as the library draws its starts
+    within limits.
+    """
     rtb = module("roboticstoolbox")
     fixed, last = z_aligned(chain)
     sequence = rtb.ETS()
     for (T, turns), (lower, upper) in zip(fixed, chain.limits, strict=True):
         bounds = [lower, upper] if np.isfinite([lower, upper]).all() else [-np.pi, np.pi]
-        sequence = sequence * rtb.ET.SE3(T) * (rtb.ET.Rz(qlim=bounds) if turns else rtb.ET.tz(qlim=bounds))
+        sequence = (
+            sequence * rtb.ET.SE3(T) * (rtb.ET.Rz(qlim=bounds) if turns else rtb.ET.tz(qlim=bounds))
+        )
     sequence = sequence * rtb.ET.SE3(last)
 
     def joints(found: list[Any], _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -64,7 +72,9 @@ def robotics_toolbox(chain: Chain, *, tol: float = 1e-6) -> Solver:
 
 
 def pinocchio_clik(chain: Chain, *, eps: float = CLIK_EPS) -> Solver:
-    """The loop, for the frame of the last joint as in the example: what is behind it is taken off the target."""
+    """The loop, for the frame of the last joint as in the example: what is behind it is taken off
+    the target.
+    """
     pin, oracle = pinocchio(), PinocchioOracle(Arm(chain).urdf)
     model, data = oracle.model, oracle.data
     last = model.getJointId(chain.joint_names[-1])
@@ -86,7 +96,10 @@ def pinocchio_clik(chain: Chain, *, eps: float = CLIK_EPS) -> Solver:
 
     def angles(q: np.ndarray) -> list[float]:
         # A joint without limits is (cos q, sin q) here.
-        return [float(q[j.idx_q] if j.nq == 1 else np.arctan2(q[j.idx_q + 1], q[j.idx_q])) for j in places]
+        return [
+            float(q[j.idx_q] if j.nq == 1 else np.arctan2(q[j.idx_q + 1], q[j.idx_q]))
+            for j in places
+        ]
 
     def joints(found: list[Any], _: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return np.array([angles(q) for q, _ in found]), np.array([ended for _, ended in found])
@@ -135,13 +148,15 @@ class ClosedForm:
         return q, claimed
 
     def exact(self, q: np.ndarray, target: np.ndarray) -> np.ndarray:
-        """Those that are solutions, and no least squares: within 1e-6 m and of each entry of the rotation."""
+        """Those that are solutions, and no least squares: within 1e-6 m and of each entry of the
+        rotation.
+        """
         return q[np.abs(self.chain.fk(q) - target).max(axis=(1, 2)) < EXACT]
 
 
 def outside(limits: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """By how much (rad) angles q (s, m) miss the limits whatever whole turns are added, the worst joint of each (s,);
-    and q with turns added, within the limits where that can be.
+    """By how much (rad) angles q (s, m) miss the limits whatever whole turns are added, the worst
+    joint of each (s,); and q with turns added, within the limits where that can be.
     """
     lower, upper = limits.T
     held = np.isfinite(lower) & np.isfinite(upper)
@@ -157,4 +172,6 @@ def ready(peer: str, make: Callable[[], Any]) -> tuple[Any, str]:
     if found.problem:
         return None, found.problem
     made, problem = attempt(make)
-    return made, problem.removeprefix("broken: ValueError: ")  # an arm that it does not take is no fault of its own
+    return made, problem.removeprefix(
+        "broken: ValueError: "
+    )  # an arm that it does not take is no fault of its own

@@ -1,4 +1,6 @@
-"""Targets that have no solution, known without poekin's solver: beyond the reach, and only outside the limits."""
+"""Targets that have no solution, known without poekin's solver: beyond the reach, and only outside
+the limits.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ CLEARLY = 1e-6  # rad: a solution nearer to a limit than this decides nothing
 
 
 def beyond_reach(chain: Chain, rng: np.random.Generator, count: int) -> np.ndarray:
-    """Poses (count, 4, 4) farther from the base's origin than the chain's reach, by 1e-6 to 1 of it."""
+    """Poses (count, 4, 4) farther from the base's origin than the chain's reach, by 1e-6 to 1 of
+    it.
+    """
     T = np.tile(np.eye(4), (count, 1, 1))
     way = rng.normal(size=(count, 3))
     distance = chain.reach * (1 + 10 ** rng.uniform(-6, 0, (count, 1)))
@@ -31,10 +35,12 @@ def tightened(chain: Chain, part: float) -> Chain:
 
 
 def blocked_poses(chain: Chain, rng: np.random.Generator, count: int) -> tuple[np.ndarray, int]:
-    """Poses (count, 4, 4) of an arm none of whose solutions by EAIK lies within its limits, whatever turns are added;
-    and how many were passed over because EAIK did not find the configuration that they were made of.
+    """Poses (count, 4, 4) of an arm none of whose solutions by EAIK lies within its limits,
+    whatever turns are added; and how many were passed over because EAIK did not find the
+    configuration that they were made of.
 
-    Raises: ValueError where EAIK has no closed form for the arm, and where the limits block too few.
+    Raises: ValueError where EAIK has no closed form for the arm, and where the limits block too
+    few.
     """
     form, found, passed = ClosedForm(chain), [], 0
     for _ in range(ROUNDS):
@@ -49,4 +55,6 @@ def blocked_poses(chain: Chain, rng: np.random.Generator, count: int) -> tuple[n
                 passed += 1
             elif outside(chain.limits, each)[0].min() > CLEARLY:
                 found.append(pose)
-    raise ValueError(f"only {len(found)} of {ROUNDS * count} poses are blocked by the limits, {count} were asked for")
+    raise ValueError(
+        f"only {len(found)} of {ROUNDS * count} poses are blocked by the limits, {count} were asked for"
+    )

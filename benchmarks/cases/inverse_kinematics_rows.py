@@ -38,7 +38,9 @@ class Row:
         return 0.0 if self.judgement is None else share(self.judgement.solved)
 
 
-def poekin_row(chain: Chain, T: np.ndarray, solve: Solve, task: str = "pose", axis: np.ndarray | None = None) -> Row:
+def poekin_row(
+    chain: Chain, T: np.ndarray, solve: Solve, task: str = "pose", axis: np.ndarray | None = None
+) -> Row:
     """poekin's batch, compiled before."""
     solve(chain, T[:1], task=task)
     start = time.process_time()

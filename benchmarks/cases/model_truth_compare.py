@@ -1,4 +1,6 @@
-"""Two models of one arm: changes planted in twenty arms, one at a time, and what `compare` says of them."""
+"""Two models of one arm: changes planted in twenty arms, one at a time, and what `compare` says of
+them.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from poekin import compare
-from poekin.testing.planted_changes import ARMS, CHANGES, alignment_fault, arm, fault, moves, planted
+from poekin.testing.cases.planted_changes import (
+    ARMS,
+    CHANGES,
+    alignment_fault,
+    arm,
+    fault,
+    moves,
+    planted,
+)
 
 from ..report import Figure, Table, Topic
 
@@ -21,7 +31,9 @@ WORDS = {
 
 @dataclass(frozen=True)
 class Found:
-    """One planted change: what it was, where, the size that was found, and what is wrong with the finding."""
+    """One planted change: what it was, where, the size that was found, and what is wrong with the
+    finding.
+    """
 
     arm: str
     change: str
@@ -39,7 +51,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         for change in CHANGES:
             for k in range(1, chain.dof - 1):
                 result = compare(chain, planted(chain, change, k, rng), samples=1)
-                found.append(Found(name, change, k + 1, size(result, change, k), fault(result, change, k)))
+                found.append(
+                    Found(name, change, k + 1, size(result, change, k), fault(result, change, k))
+                )
         for what, other, base, tool in moves(chain, rng):
             wrong = alignment_fault(compare(chain, other, samples=1), base, tool)
             moved.append(Found(name, f"{what} moved", 0, 0.0, wrong))
@@ -69,11 +83,20 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
 
 
 def size(result, change: str, k: int) -> float:  # type: ignore[no-untyped-def]
-    """The size of the change that a comparison has found in joint k, deg or mm; NaN where it matched nothing."""
+    """The size of the change that a comparison has found in joint k, deg or mm; NaN where it
+    matched nothing.
+    """
     if not result.joints:
         return float("nan")
     joint = result.joints[k]
-    return float({"tilt": joint.angle, "shift": joint.normal, "zero": abs(joint.zero), "flip": joint.flipped}[change])
+    return float(
+        {
+            "tilt": joint.angle,
+            "shift": joint.normal,
+            "zero": abs(joint.zero),
+            "flip": joint.flipped,
+        }[change]
+    )
 
 
 def _figure(what: str, cases: list[Found]) -> Figure:

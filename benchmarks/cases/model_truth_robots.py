@@ -1,4 +1,6 @@
-"""Every chain of the real robots: to DH tables of both conventions and back, and to URDF text that Pinocchio reads."""
+"""Every chain of the real robots: to DH tables of both conventions and back, and to URDF text that
+Pinocchio reads.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +12,8 @@ import numpy as np
 from poekin import Chain, load, to_urdf
 from poekin.analysis.validate import routes
 from poekin.errors import PoekinError, PoekinWarning
-from poekin.testing.example_robots import example_robots
-from poekin.testing.urdf_errors import pinocchio_errors
+from poekin.testing.cases.example_robots import example_robots
+from poekin.testing.oracles.urdf_errors import pinocchio_errors
 
 from ..dh_judge import WELL, Trip, there_and_back
 from ..draw import dots
@@ -21,7 +23,9 @@ from .model_truth_tables import trip_figures
 
 @dataclass(frozen=True)
 class Way:
-    """One chain of a robot: its tables, the error of its URDF, what refused it, and where it starts or ends early."""
+    """One chain of a robot: its tables, the error of its URDF, what refused it, and where it starts
+    or ends early.
+    """
 
     robot: str
     tip: str
@@ -101,7 +105,9 @@ def way(robot: str, chain: Chain, note: str) -> Way:
     trips: tuple[Trip, ...] = ()
     urdf, refusal = None, ""
     try:
-        trips = tuple(there_and_back(chain, convention, q) for convention in ("standard", "modified"))
+        trips = tuple(
+            there_and_back(chain, convention, q) for convention in ("standard", "modified")
+        )
         urdf = float(pinocchio_errors(chain, to_urdf(chain), seed=0).max())
     except PoekinError as error:
         refusal = str(error)
@@ -111,6 +117,9 @@ def way(robot: str, chain: Chain, note: str) -> Way:
 def _row(name: str, ways: list[Way]) -> tuple[str | int | float, ...]:
     whole = [way for way in ways if not way.refusal]
     tables = [max((way.trips[i].error for way in whole), default=float("nan")) for i in (0, 1)]
-    share = max((t.error / (WELL if t.well else t.bound) for way in whole for t in way.trips), default=float("nan"))
+    share = max(
+        (t.error / (WELL if t.well else t.bound) for way in whole for t in way.trips),
+        default=float("nan"),
+    )
     text = max((way.urdf for way in whole if way.urdf is not None), default=float("nan"))
     return (name, len(ways), max(way.joints for way in ways), *tables, share, text)

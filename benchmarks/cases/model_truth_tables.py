@@ -1,4 +1,6 @@
-"""DH tables into screws and back: random ones against 60 digits, and a calibrated arm in single precision."""
+"""DH tables into screws and back: random ones against 60 digits, and a calibrated arm in single
+precision.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ from collections import Counter
 import numpy as np
 
 from poekin import dh, se3
-from poekin.testing.calibrated_arm import UR10E, single_precision_errors
+from poekin.testing.cases.calibrated_arm import UR10E, single_precision_errors
 
 from ..dh_judge import FAR, WELL, Trip, ceiling, error, largest, product, there_and_back
 from ..report import Figure, Table, Topic, short
@@ -20,7 +22,11 @@ CONFIGURATIONS = 1000
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     count = 60 if quick else 300
     rng = np.random.default_rng(0)
-    tables = [random_table(rng, dh_convention) for dh_convention in ("standard", "modified") for _ in range(count // 2)]
+    tables = [
+        random_table(rng, dh_convention)
+        for dh_convention in ("standard", "modified")
+        for _ in range(count // 2)
+    ]
     near, far, trips = [], [], []
     for number, table in enumerate(tables, 1):
         chain, x = dh.to_chain(table), rng.uniform(-np.pi, np.pi, len(table))
@@ -84,10 +90,16 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
 
 
 def trip_figures(what: str, trips: list[Trip]) -> list[Figure]:
-    """Three figures of chains that became tables and chains again: those near, and the rest against their bounds."""
+    """Three figures of chains that became tables and chains again: those near, and the rest against
+    their bounds.
+    """
     near, rest = [t for t in trips if t.well], [t for t in trips if not t.well]
     dropped = [angle for t in trips for angle in t.dropped]
-    said = f"; {len(dropped)} angles dropped and said, the largest {short(max(dropped))} rad" if dropped else ""
+    said = (
+        f"; {len(dropped)} angles dropped and said, the largest {short(max(dropped))} rad"
+        if dropped
+        else ""
+    )
     return [
         Figure(
             f"{what}: pose, well-conditioned", max((t.error for t in near), default=None), WELL, "R",
@@ -108,7 +120,8 @@ def trip_figures(what: str, trips: list[Trip]) -> list[Figure]:
 def random_table(rng: np.random.Generator, convention: str) -> dh.Table:
     """A table with all that tables go wrong on; one in four is far, as calibration makes them.
 
-    Far: between two axes 1e-5 to 1e-2 rad off parallel, one d is 10 to 3000 m up and the next as much down.
+    Far: between two axes 1e-5 to 1e-2 rad off parallel, one d is 10 to 3000 m up and the next as
+    much down.
     """
     count = int(rng.integers(1, 11))
     rows = np.array([[_angle(rng), _length(rng), _length(rng), _angle(rng)] for _ in range(count)])
@@ -117,7 +130,9 @@ def random_table(rng: np.random.Generator, convention: str) -> dh.Table:
         rows[i : i + 2, 1] += up, -up
         rows[i + (convention == "modified"), 3] = rng.choice([-1, 1]) * 10 ** rng.uniform(-5, -2)
     listed = [
-        dh.Row(*numbers, kind=str(rng.choice(["revolute", "prismatic"])), flip=bool(rng.random() < 0.5))
+        dh.Row(
+            *numbers, kind=str(rng.choice(["revolute", "prismatic"])), flip=bool(rng.random() < 0.5)
+        )
         for numbers in rows.tolist()
     ]
     base, tool = se3.exp(rng.normal(size=(2, 6)))
@@ -135,7 +150,11 @@ def _angle(rng: np.random.Generator) -> float:
 def _length(rng: np.random.Generator) -> float:
     """In thirds: 0, 1e-12 to 1e-3 m, and up to 2 m."""
     sort = rng.integers(3)
-    sizes = (0.0, float(rng.choice([-1, 1]) * 10 ** rng.uniform(-12, -3)), float(rng.uniform(-2, 2)))
+    sizes = (
+        0.0,
+        float(rng.choice([-1, 1]) * 10 ** rng.uniform(-12, -3)),
+        float(rng.uniform(-2, 2)),
+    )
     return sizes[sort]
 
 

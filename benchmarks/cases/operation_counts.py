@@ -1,4 +1,6 @@
-"""Park's table by counting, in full: what it charges, what it leaves out, and what one arm's own program costs."""
+"""Park's table by counting, in full: what it charges, what it leaves out, and what one arm's own
+program costs.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from poekin import Chain, count, dh, load, se3
-from poekin.analysis.count_table import PRINTED, count_table, printed
+from poekin.analysis.counting.count_table import PRINTED, count_table, printed
 from poekin.engine.count import Count
 from poekin.formats.dh.published_tables import NAMES as PUBLISHED
-from poekin.formulas import dh_recursive, direct, recursive
-from poekin.testing.calibrated_arm import UR10E
+from poekin.formulas.kinematics import recursive
+from poekin.formulas.paper import dh_recursive, direct
+from poekin.testing.cases.calibrated_arm import UR10E
 
 from ..draw import lines
 from ..report import Figure, Table, Topic, side_by_side
@@ -43,7 +46,9 @@ CLAIMS = (
 
 @dataclass(frozen=True)
 class Bars:
-    """An arm, and bars for multiplications, additions, sine/cosine pairs: base or tool frame, a frame in the middle."""
+    """An arm, and bars for multiplications, additions, sine/cosine pairs: base or tool frame, a
+    frame in the middle.
+    """
 
     name: str
     what: str
@@ -152,7 +157,9 @@ def _words() -> str:
 
 
 def _paper_s_table(arms: dict[int, Chain]) -> tuple[list[list[int | str]], int, int]:
-    """Rows of the table over n, how many cells of the paper's part differ from the print, and how many there are."""
+    """Rows of the table over n, how many cells of the paper's part differ from the print, and how
+    many there are.
+    """
     rows, wrong, cells = [], 0, 0
     for n, arm in arms.items():
         row: list[int | str] = [n]
@@ -170,16 +177,22 @@ def _paper_s_table(arms: dict[int, Chain]) -> tuple[list[list[int | str]], int, 
     return rows, wrong, cells
 
 
-def _claim(arms: dict[int, Chain], what: str, first: int, method: str, charged: str, formulas) -> Figure:  # type: ignore[no-untyped-def]
+def _claim(
+    arms: dict[int, Chain], what: str, first: int, method: str, charged: str, formulas
+) -> Figure:  # type: ignore[no-untyped-def]
     """A figure that is exact where every count is a n - b, else says how many are not."""
     joints = [n for n in arms if n >= first]
     wrong = sum(
         found != a * n - b
         for n in joints
-        for found, (a, b) in zip(_numbers(count(arms[n], method=method, charged=charged)), formulas, strict=False)
+        for found, (a, b) in zip(
+            _numbers(count(arms[n], method=method, charged=charged)), formulas, strict=False
+        )
     )
     shown = "exact" if not wrong else f"{wrong} of {2 * len(joints)} counts differ"
-    return Figure(f"{what}, n = {joints[0]} … {joints[-1]}", wrong, 0, shown=shown, bar_shown="exact")
+    return Figure(
+        f"{what}, n = {joints[0]} … {joints[-1]}", wrong, 0, shown=shown, bar_shown="exact"
+    )
 
 
 def _bars(bars: Bars, rng: np.random.Generator) -> list[Figure]:
@@ -195,9 +208,8 @@ def _bars(bars: Bars, rng: np.random.Generator) -> list[Figure]:
     else:
         k = int(middle)
         cheapest = "/".join(map(str, _numbers(count(chain, method="specialised", frame="middle"))))
-        middle_note = (
-            f"the frame of joint index {k}; the cheapest by sum, of joint index {arm.middle.joint}: {cheapest}"
-        )
+        joint = arm.middle.joint
+        middle_note = f"the frame of joint index {k}; the cheapest by sum, of joint index {joint}: {cheapest}"
     return [
         side_by_side(
             f"{bars.what}, {ends} Jacobian: {words}", _numbers(count(chain, method="specialised", frame=ends)),
@@ -212,14 +224,21 @@ def _bars(bars: Bars, rng: np.random.Generator) -> list[Figure]:
 
 
 def _kept(chain: Chain, frames, bars: tuple[int, ...]) -> tuple[str | int, str]:  # type: ignore[no-untyped-def]
-    """The first of the frames in which all bars are kept (else the first), and the counts of the others in words."""
+    """The first of the frames in which all bars are kept (else the first), and the counts of the
+    others in words.
+    """
     found = {frame: _numbers(count(chain, method="specialised", frame=frame)) for frame in frames}
-    best = next((f for f, n in found.items() if all(a <= b for a, b in zip(n, bars, strict=True))), frames[0])
+    best = next(
+        (f for f, n in found.items() if all(a <= b for a, b in zip(n, bars, strict=True))),
+        frames[0],
+    )
     return best, "; ".join(f"{f}: {'/'.join(map(str, n))}" for f, n in found.items() if f != best)
 
 
 def _error(chain: Chain, frame: str | int, rng: np.random.Generator) -> str:
-    """Largest difference ÷ R between the compiled program's Jacobian and the chain's own, over 100 configurations."""
+    """Largest difference ÷ R between the compiled program's Jacobian and the chain's own, over 100
+    configurations.
+    """
     arm, q = chain.compile(), chain.random(rng, 100)
     J = arm.jacobian(q, frame)
     if frame == "middle":
@@ -245,7 +264,9 @@ def _arm_row(name: str, chain: Chain, tolerance: float) -> tuple[str | int, ...]
     ideal = chain.idealised(tolerance)
 
     def cost(arm: Chain, frame: str, pose: bool = False) -> str:
-        text = "/".join(map(str, _numbers(count(arm, method="specialised", frame=frame, pose=pose))))
+        text = "/".join(
+            map(str, _numbers(count(arm, method="specialised", frame=frame, pose=pose)))
+        )
         return text + (f" ({arm.compile().middle.joint})" if frame == "middle" else "")
 
     return (
@@ -261,7 +282,9 @@ def _numbers(cost: Count) -> tuple[int, int, int]:
 
 
 def _arm(rng: np.random.Generator, n: int) -> tuple[Chain, np.ndarray]:
-    """A random revolute arm in standard DH form: the same arm as a POE chain, and its rows (d, a, alpha)."""
+    """A random revolute arm in standard DH form: the same arm as a POE chain, and its rows (d, a,
+    alpha).
+    """
     table = rng.uniform(-1, 1, (n, 3))
     z = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0])
     T, screws = np.eye(4), []
@@ -277,7 +300,9 @@ def _link(theta: float, d: float, a: float, alpha: float) -> np.ndarray:
 
 
 def _disagreement(rng: np.random.Generator, arm: Chain, table: np.ndarray) -> float:
-    """Largest difference ÷ R between the body Jacobians of the counted algorithms, run on floats at a random q."""
+    """Largest difference ÷ R between the body Jacobians of the counted algorithms, run on floats at
+    a random q.
+    """
     n = arm.dof
     q = rng.uniform(-np.pi, np.pi, n)
     ones, zeros, unit = [1.0] * n, [0.0] * n, _twelve(np.eye(4))
@@ -285,11 +310,20 @@ def _disagreement(rng: np.random.Generator, arm: Chain, table: np.ndarray) -> fl
     links = [_twelve(_link(x, *row)) for x, row in zip(q, table, strict=True)]
     dh_recursive.body(links, unit, ones, zeros, n, by_dh)
     B = arm.body.screws
-    direct.body(B.tolist(), [_twelve(se3.exp(b * x)) for b, x in zip(B, q, strict=True)], n, by_direct)
-    frames = [M @ se3.exp([0, 0, x, 0, 0, 0]) for M, x in zip(arm.local.frames[:-1], q, strict=True)]
-    recursive.body_with_tool([_twelve(T) for T in frames], _twelve(arm.local.frames[-1]), ones, zeros, n, by_recursion)
+    direct.body(
+        B.tolist(), [_twelve(se3.exp(b * x)) for b, x in zip(B, q, strict=True)], n, by_direct
+    )
+    frames = [
+        M @ se3.exp([0, 0, x, 0, 0, 0]) for M, x in zip(arm.local.frames[:-1], q, strict=True)
+    ]
+    recursive.body_with_tool(
+        [_twelve(T) for T in frames], _twelve(arm.local.frames[-1]), ones, zeros, n, by_recursion
+    )
     J = arm.jacobian(q, "body")
-    return max(float(np.abs(np.array(found) - J).max()) for found in (by_dh, by_direct, by_recursion)) / arm.reach
+    return (
+        max(float(np.abs(np.array(found) - J).max()) for found in (by_dh, by_direct, by_recursion))
+        / arm.reach
+    )
 
 
 def _twelve(T: np.ndarray) -> list[float]:

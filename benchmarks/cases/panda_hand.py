@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from poekin import load
-from poekin.testing.pinocchio_oracle import ANGULAR_FIRST, pinocchio
+from poekin.testing.oracles.pinocchio_oracle import ANGULAR_FIRST, pinocchio
 
 from .. import exact_arm
 from ..harness import Case, Comparison, compare
@@ -21,7 +21,9 @@ Arrays = tuple[np.ndarray, np.ndarray]
 
 
 class _Peer:
-    """Pinocchio's model of the same arm, and the two usual ways to the two arrays (4×4 and 6×7), called for each q."""
+    """Pinocchio's model of the same arm, and the two usual ways to the two arrays (4×4 and 6×7),
+    called for each q.
+    """
 
     def __init__(self, text: str):
         pin = self.pin = pinocchio()
@@ -32,14 +34,26 @@ class _Peer:
         self.hand = self.model.getFrameId("panda_hand", pin.FrameType.BODY)
 
     def by_frame(self, configurations: list[np.ndarray]) -> Iterator[Arrays]:
-        pin, model, data, hand, axes = self.pin, self.model, self.data, self.hand, self.pin.LOCAL_WORLD_ALIGNED
+        pin, model, data, hand, axes = (
+            self.pin,
+            self.model,
+            self.data,
+            self.hand,
+            self.pin.LOCAL_WORLD_ALIGNED,
+        )
         for q in configurations:
             pin.forwardKinematics(model, data, q)
             T = pin.updateFramePlacement(model, data, hand).homogeneous
             yield T, pin.computeFrameJacobian(model, data, q, hand, axes)
 
     def by_joints(self, configurations: list[np.ndarray]) -> Iterator[Arrays]:
-        pin, model, data, hand, axes = self.pin, self.model, self.data, self.hand, self.pin.LOCAL_WORLD_ALIGNED
+        pin, model, data, hand, axes = (
+            self.pin,
+            self.model,
+            self.data,
+            self.hand,
+            self.pin.LOCAL_WORLD_ALIGNED,
+        )
         for q in configurations:
             pin.computeJointJacobians(model, data, q)
             T = pin.updateFramePlacement(model, data, hand).homogeneous
@@ -89,8 +103,18 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
 
     peer_error = angular_first(error_of_one)
     ways = [
-        Case("forwardKinematics, computeFrameJacobian", lambda: few, lambda q: _last(peer.by_frame(q)), peer_error),
-        Case("computeJointJacobians, getFrameJacobian", lambda: few, lambda q: _last(peer.by_joints(q)), peer_error),
+        Case(
+            "forwardKinematics, computeFrameJacobian",
+            lambda: few,
+            lambda q: _last(peer.by_frame(q)),
+            peer_error,
+        ),
+        Case(
+            "computeJointJacobians, getFrameJacobian",
+            lambda: few,
+            lambda q: _last(peer.by_joints(q)),
+            peer_error,
+        ),
     ]
     pairs = 11 if quick else 41
     between = compare(*ways, pairs=pairs)
@@ -101,8 +125,12 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
 
     own = Case("poekin", lambda: few, lambda q: _last(calls(q)), error_of_one)
     reusing = Case("poekin, out=", lambda: few, lambda q: _last(reusing_calls(q)), error_of_one)
-    batch = Case("poekin, batch", lambda: many, lambda q: arm.fk_jacobian(q, "hybrid"), error_of_many)
-    loop = Case("Pinocchio", lambda: each, lambda q: _stacked(way(q), arm.dof), angular_first(error_of_many))
+    batch = Case(
+        "poekin, batch", lambda: many, lambda q: arm.fk_jacobian(q, "hybrid"), error_of_many
+    )
+    loop = Case(
+        "Pinocchio", lambda: each, lambda q: _stacked(way(q), arm.dof), angular_first(error_of_many)
+    )
     single = compare(own, ways[faster], pairs=pairs)
     say("one call")
     reused = compare(reusing, ways[faster], pairs=pairs)
@@ -116,7 +144,12 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         "over pairs. Time is the processor's, over all threads of the process, so that other processes do not disturb "
         "it. The error is the largest entry that differs from what 60 digits make of the URDF's text, lengths ÷ R.",
         figures=[
-            _figure("Panda's pose + hybrid Jacobian, one call from Python ÷ Pinocchio's Python", single, 0.8, "0.8"),
+            _figure(
+                "Panda's pose + hybrid Jacobian, one call from Python ÷ Pinocchio's Python",
+                single,
+                0.8,
+                "0.8",
+            ),
             _figure("the same, into arrays of the caller (out=)", reused),
             _figure(
                 f"the same, {CONFIGURATIONS} configurations in one thread ÷ Pinocchio's Python loop",
@@ -132,11 +165,29 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
                 [
                     _times("poekin, one call", single.first, single.first_error, CALLS),
                     _times("poekin, one call, out=", reused.first, reused.first_error, CALLS),
-                    _times(f"Pinocchio, one call: {ways[0].name}", between.first, between.first_error, CALLS),
-                    _times(f"Pinocchio, one call: {ways[1].name}", between.second, between.second_error, CALLS),
-                    _times(f"poekin, {CONFIGURATIONS} at once", batched.first, batched.first_error, CONFIGURATIONS),
                     _times(
-                        f"Pinocchio, {CONFIGURATIONS} in a loop", batched.second, batched.second_error, CONFIGURATIONS
+                        f"Pinocchio, one call: {ways[0].name}",
+                        between.first,
+                        between.first_error,
+                        CALLS,
+                    ),
+                    _times(
+                        f"Pinocchio, one call: {ways[1].name}",
+                        between.second,
+                        between.second_error,
+                        CALLS,
+                    ),
+                    _times(
+                        f"poekin, {CONFIGURATIONS} at once",
+                        batched.first,
+                        batched.first_error,
+                        CONFIGURATIONS,
+                    ),
+                    _times(
+                        f"Pinocchio, {CONFIGURATIONS} in a loop",
+                        batched.second,
+                        batched.second_error,
+                        CONFIGURATIONS,
                     ),
                 ],
             )
@@ -147,14 +198,23 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
 def _figure(what: str, c: Comparison, bar: float | None = None, bar_text: str = "") -> Figure:
     error = f"{short(c.first_error)} (Pinocchio {short(c.second_error)})"
     spread = (c.ratio.lower, c.ratio.upper)
-    return Figure(what, c.ratio.median, bar, spread=spread, error=error, bar_shown=bar_text and f"≤ {bar_text}")
+    return Figure(
+        what,
+        c.ratio.median,
+        bar,
+        spread=spread,
+        error=error,
+        bar_shown=bar_text and f"≤ {bar_text}",
+    )
 
 
 def _times(what: str, t: Any, error: float, count: int) -> tuple[str | float, ...]:
     return (what, *(1e6 * value / count for value in (t.median, t.lower, t.upper)), error)
 
 
-def _error(T: np.ndarray, J: np.ndarray, T_exact: np.ndarray, J_exact: np.ndarray, reach: float) -> float:
+def _error(
+    T: np.ndarray, J: np.ndarray, T_exact: np.ndarray, J_exact: np.ndarray, reach: float
+) -> float:
     """Largest entry of the differences, lengths ÷ reach."""
     pose = np.abs(T - T_exact)[..., :3, :] * np.array([1.0, 1.0, 1.0, 1 / reach])
     columns = np.abs(J - J_exact) * np.array([1.0] * 3 + [1 / reach] * 3)[:, None]

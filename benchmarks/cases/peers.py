@@ -1,4 +1,6 @@
-"""Pose and Jacobian of the Panda's hand by every library that is installed: one call, and many configurations."""
+"""Pose and Jacobian of the Panda's hand by every library that is installed: one call, and many
+configurations.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ RUNS = {"pose": CALLS, "both": CALLS, "many": MANY}  # configurations in a run o
 
 @dataclass(frozen=True)
 class Library:
-    """poekin or a peer: its name, its kinematics of the arm or what is wrong with it, and whether it is poekin."""
+    """poekin or a peer: its name, its kinematics of the arm or what is wrong with it, and whether
+    it is poekin.
+    """
 
     name: str
     kinematics: Kinematics | None
@@ -60,7 +64,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
             setattr(times[name], what, timed)
         say({"pose": "pose alone", "both": "pose and Jacobian", "many": f"{MANY} at once"}[what])
     first = own[0].name
-    notes = [(x.name, x.kinematics.note) for x in tried if x.kinematics is not None and x.kinematics.note]
+    notes = [
+        (x.name, x.kinematics.note) for x in tried if x.kinematics is not None and x.kinematics.note
+    ]
     return Topic(
         "Pose and Jacobian of the Panda's hand by every library",
         "Fingers locked, from Python, each library in its fastest documented way, and in the frame in which it has its "
@@ -99,11 +105,19 @@ def libraries(arm: Arm, say: Callable[[str], None]) -> tuple[list[Library], list
         return compiled.fk_jacobian(q, "hybrid", out=one if q.ndim == 1 else many)
 
     def way(name: str, fk: Any, both: Any) -> Library:
-        return Library(f"poekin, {name}", Kinematics("hybrid", fk, both, native=lambda q: q, batch=True), own=True)
+        return Library(
+            f"poekin, {name}",
+            Kinematics("hybrid", fk, both, native=lambda q: q, batch=True),
+            own=True,
+        )
 
     own = [
         way("compiled", compiled.fk, lambda q: compiled.fk_jacobian(q, "hybrid")),
-        way("compiled, out=", lambda q: compiled.fk(q, out=one[0] if q.ndim == 1 else many[0]), reused),
+        way(
+            "compiled, out=",
+            lambda q: compiled.fk(q, out=one[0] if q.ndim == 1 else many[0]),
+            reused,
+        ),
         way("chain", chain.fk, lambda q: chain.fk_jacobian(q, "hybrid")),
     ]
     others = []
@@ -135,7 +149,9 @@ def _error_of(case: Case) -> float:
 
 
 def of(library: Library, k: Kinematics, q: np.ndarray, judge: Any) -> list[Case]:
-    """The calls of one library: pose alone, pose and Jacobian where it has one, and many at once where it can."""
+    """The calls of one library: pose alone, pose and Jacobian where it has one, and many at once
+    where it can.
+    """
     few = k.native(q[:CALLS])
     # A batch of one is one call, where a library takes nothing but batches.
     singles = list(few) if library.own or not k.batch else [few[i : i + 1] for i in range(len(few))]
@@ -144,11 +160,15 @@ def of(library: Library, k: Kinematics, q: np.ndarray, judge: Any) -> list[Case]
         return lambda states: deque(map(call, states), maxlen=1)[0]
 
     def pose_error(state: Any, result: Any) -> float:
-        return judge("", np.stack([np.array(k.pose(k.fk(one))).reshape(4, 4) for one in state[:CALLS]]), None)
+        return judge(
+            "", np.stack([np.array(k.pose(k.fk(one))).reshape(4, 4) for one in state[:CALLS]]), None
+        )
 
     def error(state: Any, result: Any) -> float:
         some = [tuple(map(np.array, k.arrays(*k.fk_jacobian(one)))) for one in state[:CALLS]]  # type: ignore[misc]
-        T, J = (np.stack([np.reshape(pair[i], pair[i].shape[-2:]) for pair in some]) for i in (0, 1))
+        T, J = (
+            np.stack([np.reshape(pair[i], pair[i].shape[-2:]) for pair in some]) for i in (0, 1)
+        )
         return judge(k.frame, T, J)
 
     def many_error(state: Any, result: Any) -> float:
@@ -173,15 +193,21 @@ def _cases(ready: list[Library], q: np.ndarray, judge: Any) -> dict[str, dict[st
     return cases
 
 
-def _error(poses: np.ndarray, columns: np.ndarray, reach: float, frame: str, T: np.ndarray, J: Any) -> float:
-    """The largest entry that differs from the exact ones, lengths ÷ reach; of the poses alone where J is None."""
+def _error(
+    poses: np.ndarray, columns: np.ndarray, reach: float, frame: str, T: np.ndarray, J: Any
+) -> float:
+    """The largest entry that differs from the exact ones, lengths ÷ reach; of the poses alone where
+    J is None.
+    """
     weight = np.array([1.0, 1.0, 1.0, 1 / reach])
     worst = (np.abs(T - poses)[:, :3] * weight).max()
     if J is not None:
         exact = columns
         if frame == "space":  # v of the point at the base's origin: v - ω × p
             p = poses[:, :3, 3, None]
-            exact = np.concatenate([columns[:, :3], columns[:, 3:] - np.cross(columns[:, :3], p, axis=1)], 1)
+            exact = np.concatenate(
+                [columns[:, :3], columns[:, 3:] - np.cross(columns[:, :3], p, axis=1)], 1
+            )
         elif frame == "body":
             exact = np.kron(np.eye(2), poses[:, :3, :3].transpose(0, 2, 1)) @ columns
         worst = max(worst, (np.abs(J - exact) * np.repeat(weight[2:], 3)[:, None]).max())
@@ -199,7 +225,10 @@ def _figure(library: Library, times: dict[str, Times], first: str) -> Figure:
         return Figure(what, None, note=library.problem or "has no Jacobian")
     found = ratio(peer, own)
     return Figure(
-        what, found.median, spread=(found.lower, found.upper), error=f"{short(peer.error)} (poekin {short(own.error)})"
+        what,
+        found.median,
+        spread=(found.lower, found.upper),
+        error=f"{short(peer.error)} (poekin {short(own.error)})",
     )
 
 

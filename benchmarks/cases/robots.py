@@ -1,4 +1,6 @@
-"""Every robot of example-robot-data against Pinocchio, and the proof that no mesh is read on the way."""
+"""Every robot of example-robot-data against Pinocchio, and the proof that no mesh is read on the
+way.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,7 @@ from contextlib import contextmanager
 from poekin import load, validate
 from poekin.analysis.validate import BAR, Validation
 from poekin.errors import PoekinError, PoekinWarning
-from poekin.testing.example_robots import example_robots
+from poekin.testing.cases.example_robots import example_robots
 
 from ..draw import dots
 from ..report import Figure, Table, Topic
@@ -116,5 +118,14 @@ def _refusal(path: str) -> str:
 
 
 def _row(name: str, v: Validation, seconds: float) -> tuple[str | int | float, ...]:
-    errors = [max(getattr(row, what) for row in v.rows) for what in ("pose", "space", "body", "hybrid")]
-    return (name, len(v.rows), max(r.joints for r in v.rows), *errors, v.worst.tip if v.worst else "", seconds)
+    errors = [
+        max(getattr(row, what) for row in v.rows) for what in ("pose", "space", "body", "hybrid")
+    ]
+    return (
+        name,
+        len(v.rows),
+        max(r.joints for r in v.rows),
+        *errors,
+        v.worst.tip if v.worst else "",
+        seconds,
+    )

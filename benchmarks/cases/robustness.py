@@ -1,4 +1,6 @@
-"""Right results and no error when the source was edited, the cache was damaged, or nothing can be written."""
+"""Right results and no error when the source was edited, the cache was damaged, or nothing can be
+written.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,8 @@ from pathlib import Path
 from ..fresh import ROOT, Outcome, run
 from ..report import Figure, Table, Topic
 
-# Everything that the cache keeps, called once: poses and Jacobians, one and many, exp and log. Prints the sum of all.
+# Everything that the cache keeps, called once: poses and Jacobians, one and many, exp and log.
+# Prints the sum of all.
 CALL = """
 import poekin as pk, numpy as np
 arm = pk.load("panda").chain(tip="panda_hand")
@@ -23,7 +26,8 @@ values += [pk.se3.exp(np.arange(6.0) / 5), pk.se3.log(arm.fk(q))]
 print(repr(float(sum(np.sum(v) for v in values))))
 """
 
-# An edit that every pose passes through, and that leaves screws screws: a product's translation comes out doubled.
+# An edit that every pose passes through, and that leaves screws screws: a product's translation
+# comes out doubled.
 EDIT = """
 
 _compose_before = compose
@@ -70,7 +74,9 @@ def _row(what: str, good: bool, said: str) -> tuple[str, str, str]:
 
 
 def _edit(base: Path, right: float | None) -> list[Check]:
-    """A copy of the package is edited, where the cache holds its old kernels, and then the edit is taken back."""
+    """A copy of the package is edited, where the cache holds its old kernels, and then the edit is
+    taken back.
+    """
     home, environment = base / "copy", {"POEKIN_CACHE_DIR": str(base / "whole")}
     shutil.copytree(ROOT / "poekin", home / "poekin", ignore=shutil.ignore_patterns("__pycache__"))
     algebra = home / "poekin" / "algebra.py"
@@ -88,7 +94,9 @@ def _edit(base: Path, right: float | None) -> list[Check]:
 
 
 def _damages() -> list[Callable[[Path, float | None], list[Check]]]:
-    """One check for each way to damage every file of a cache; the byte that flips is elsewhere in each file."""
+    """One check for each way to damage every file of a cache; the byte that flips is elsewhere in
+    each file.
+    """
 
     def truncated(content: bytes, number: int) -> bytes:
         return content[: len(content) // 2]
@@ -97,7 +105,9 @@ def _damages() -> list[Callable[[Path, float | None], list[Check]]]:
         at = (0, len(content) // 2, len(content) - 1, 40)[number % 4]
         return content[:at] + bytes([content[at] ^ 255]) + content[at + 1 :]
 
-    def check(damage: Callable[[bytes, int], bytes], base: Path, right: float | None) -> list[Check]:
+    def check(
+        damage: Callable[[bytes, int], bytes], base: Path, right: float | None
+    ) -> list[Check]:
         cache = base / damage.__name__
         shutil.copytree(base / "whole", cache)
         files = sorted(path for path in cache.rglob("*") if path.is_file())
@@ -111,7 +121,9 @@ def _damages() -> list[Callable[[Path, float | None], list[Check]]]:
 
 
 def _nowhere(base: Path) -> list[Callable[[Path, float | None], list[Check]]]:
-    """Homes that cannot be written to. Root may write to any directory, but neither into a file nor to /proc."""
+    """Homes that cannot be written to. Root may write to any directory, but neither into a file nor
+    to /proc.
+    """
     file, closed = base / "file", base / "closed"
     file.write_text("not a directory", encoding="utf-8")
     closed.mkdir(mode=0o555)
@@ -122,7 +134,12 @@ def _nowhere(base: Path) -> list[Callable[[Path, float | None], list[Check]]]:
         places["read-only home (/proc)"] = Path("/proc/self")
 
     def check(what: str, home: Path, base: Path, right: float | None) -> list[Check]:
-        nowhere = {"HOME": str(home), "LOCALAPPDATA": str(home), "XDG_CACHE_HOME": None, "POEKIN_CACHE_DIR": None}
+        nowhere = {
+            "HOME": str(home),
+            "LOCALAPPDATA": str(home),
+            "XDG_CACHE_HOME": None,
+            "POEKIN_CACHE_DIR": None,
+        }
         outcome = run(CALL, nowhere)
         return [(what, right is not None and _value(outcome) == right, _said(outcome))]
 

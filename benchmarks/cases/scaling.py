@@ -1,4 +1,6 @@
-"""Time against the number of joints, against the size of the batch, and with threads; poekin, compiled, Pinocchio."""
+"""Time against the number of joints, against the size of the batch, and with threads; poekin,
+compiled, Pinocchio.
+"""
 
 from __future__ import annotations
 
@@ -85,11 +87,30 @@ def _at_joints(n: int, found: peers.Found, quick: bool) -> Row:
         "poekin, one call": lambda x: chain.fk_jacobian(x, "hybrid", out=one),
         "compiled, one call": lambda x: arm.fk_jacobian(x, "hybrid", out=one),
     }
-    cases = [(Case(name, lambda: few, _each(call), judge.of_calls(call)), CALLS) for name, call in calls.items()]
+    cases = [
+        (Case(name, lambda: few, _each(call), judge.of_calls(call)), CALLS)
+        for name, call in calls.items()
+    ]
     cases += [(case, CALLS) for case in _pinocchio(found, chain, q, judge)]
     cases += [
-        (Case("poekin, many", lambda: q, lambda q: chain.fk_jacobian(q, "hybrid", out=many), judge.of_many), ROWS),
-        (Case("compiled, many", lambda: q, lambda q: arm.fk_jacobian(q, "hybrid", out=many), judge.of_many), ROWS),
+        (
+            Case(
+                "poekin, many",
+                lambda: q,
+                lambda q: chain.fk_jacobian(q, "hybrid", out=many),
+                judge.of_many,
+            ),
+            ROWS,
+        ),
+        (
+            Case(
+                "compiled, many",
+                lambda: q,
+                lambda q: arm.fk_jacobian(q, "hybrid", out=many),
+                judge.of_many,
+            ),
+            ROWS,
+        ),
         (_floor(many), ROWS),
     ]
     return _measured(cases, rounds=3 if quick else 7)
@@ -101,27 +122,44 @@ def _pinocchio(found: peers.Found, chain: Chain, q: np.ndarray, judge: Judge) ->
     k = found.peer.kinematics(peers.Arm(chain))
     few = k.native(q[:CALLS])
     call: Any = k.fk_jacobian
-    return [Case("Pinocchio, one call", lambda: few, _each(call), judge.of_calls(lambda x: k.arrays(*call(x))))]
+    return [
+        Case(
+            "Pinocchio, one call",
+            lambda: few,
+            _each(call),
+            judge.of_calls(lambda x: k.arrays(*call(x))),
+        )
+    ]
 
 
-def _at_sizes(sizes: tuple[int, ...], quick: bool, say: Callable[[str], None]) -> tuple[list[Row], list[Any]]:
+def _at_sizes(
+    sizes: tuple[int, ...], quick: bool, say: Callable[[str], None]
+) -> tuple[list[Row], list[Any]]:
     chain = load("erd:panda").chain(tip="panda_hand")
     arm, parallel = chain.compile(), chain.compile(parallel=True)
     q = np.random.default_rng(0).uniform(-np.pi, np.pi, (sizes[-1], chain.dof))
     T, J = _arrays((sizes[-1],), chain.dof)
     judge = Judge(chain, q)
-    processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    processors = (
+        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    )
     rows, threads = [], []
     for size in sizes:
         some, out = q[:size], (T[:size], J[:size])
 
-        def case(name: str, made: Any, some: np.ndarray = some, out: Arrays = out) -> tuple[Case, int]:
+        def case(
+            name: str, made: Any, some: np.ndarray = some, out: Arrays = out
+        ) -> tuple[Case, int]:
             return (
                 Case(name, lambda: some, lambda x: made.fk_jacobian(x, "hybrid", out=out), judge.of_many), len(some)
             )  # fmt: skip
 
         rounds = 3 if quick or size > 100_000 else 7
-        rows.append(_measured([case("poekin", chain), case("compiled", arm), (_floor(out), size)], rounds=rounds))
+        rows.append(
+            _measured(
+                [case("poekin", chain), case("compiled", arm), (_floor(out), size)], rounds=rounds
+            )
+        )
         if size >= 10_000:
             both = [case("one thread", arm), case(f"{processors} threads", parallel)]
             threads.append((size, _measured(both, rounds=rounds, clock=time.perf_counter)))
@@ -148,7 +186,9 @@ class Judge:
 
         def error(state: Any, result: Any) -> float:
             some = [tuple(np.array(part) for part in call(one)) for one in state[:JUDGED]]
-            return self.of_many(state, (np.stack([T for T, _ in some]), np.stack([J for _, J in some])))
+            return self.of_many(
+                state, (np.stack([T for T, _ in some]), np.stack([J for _, J in some]))
+            )
 
         return error
 
@@ -191,5 +231,12 @@ def _table(caption: str, head: str, x: Any, rows: list[Row]) -> Table:
          t.error if t.error == t.error else "")
         for at, row in zip(x, rows, strict=True) for name, (t, count) in row.items()
     ]  # fmt: skip
-    columns = (head, "what", "time (µs a configuration)", "lower quartile", "upper quartile", "error")
+    columns = (
+        head,
+        "what",
+        "time (µs a configuration)",
+        "lower quartile",
+        "upper quartile",
+        "error",
+    )
     return Table(caption, columns, cells, folded=True)

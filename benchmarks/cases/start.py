@@ -8,7 +8,9 @@ from ..fresh import run
 from ..harness import spread
 from ..report import Figure, Table, Topic, short
 
-IMPORT = "import time; start = time.perf_counter(); import poekin; print(time.perf_counter() - start)"
+IMPORT = (
+    "import time; start = time.perf_counter(); import poekin; print(time.perf_counter() - start)"
+)
 
 FIRST_CALL = """
 import time; start = time.perf_counter()

@@ -1,4 +1,5 @@
-"""The libraries that poekin is measured beside: each in a file of its own, used where it is installed.
+"""The libraries that poekin is measured beside: each in a file of its own, used where it is
+installed.
 
 A new peer is one file with a `PEER`, and one name below.
 """

@@ -1,4 +1,6 @@
-"""jaxlie: exp and log in JAX, compiled for whole arrays in double precision; twists (v; omega). No kinematics."""
+"""jaxlie: exp and log in JAX, compiled for whole arrays in double precision; twists (v; omega). No
+kinematics.
+"""
 
 from __future__ import annotations
 

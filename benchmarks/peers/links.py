@@ -1,4 +1,6 @@
-"""A chain as fixed poses between frames whose z axes are the joints', for peers that are built link by link."""
+"""A chain as fixed poses between frames whose z axes are the joints', for peers that are built link
+by link.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +10,12 @@ from poekin import Chain
 
 
 def serial(chain: Chain) -> None:
-    """Raises ValueError for helical joints and for coordinates that are shared or shifted: no peer has them all."""
-    if chain.coupling.shape != (len(chain.screws),) * 2 or np.any(chain.coupling != np.eye(chain.dof)):
+    """Raises ValueError for helical joints and for coordinates that are shared or shifted: no peer
+    has them all.
+    """
+    if chain.coupling.shape != (len(chain.screws),) * 2 or np.any(
+        chain.coupling != np.eye(chain.dof)
+    ):
         raise ValueError("a coordinate of its own for each joint expected")
     if np.any(chain.offset):
         raise ValueError("coordinates without offset expected")
@@ -18,7 +24,9 @@ def serial(chain: Chain) -> None:
 
 
 def z_aligned(chain: Chain) -> tuple[list[tuple[np.ndarray, bool]], np.ndarray]:
-    """[(T, turns)] a joint and the last T: T_sb = T_1 Rot or Shift(z, q_1) T_2 ⋯ T_last. Raises: as `serial`."""
+    """[(T, turns)] a joint and the last T: T_sb = T_1 Rot or Shift(z, q_1) T_2 ⋯ T_last. Raises: as
+    `serial`.
+    """
     serial(chain)
     frame, fixed = np.eye(4), []
     for screw in chain.screws:

@@ -1,4 +1,6 @@
-"""Modern Robotics' Python: the book's functions, written to be read; twists (omega; v), space Jacobian."""
+"""Modern Robotics' Python: the book's functions, written to be read; twists (omega; v), space
+Jacobian.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,11 @@ from .peer import Arm, Array, Arrays, Group, Kinematics, Peer, module
 def group() -> Group:
     """One matrix at a time, by way of se(3) matrices."""
     mr = module("modern_robotics")
-    return Group(lambda xi: mr.MatrixExp6(mr.VecTose3(xi)), lambda T: mr.se3ToVec(mr.MatrixLog6(T)), linear_first=False)
+    return Group(
+        lambda xi: mr.MatrixExp6(mr.VecTose3(xi)),
+        lambda T: mr.se3ToVec(mr.MatrixLog6(T)),
+        linear_first=False,
+    )
 
 
 def kinematics(arm: Arm) -> Kinematics:

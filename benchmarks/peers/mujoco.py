@@ -1,4 +1,6 @@
-"""MuJoCo: the kinematics at the head of its simulator; its Jacobian is two arrays. It has no exp and log of poses."""
+"""MuJoCo: the kinematics at the head of its simulator; its Jacobian is two arrays. It has no exp
+and log of poses.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +13,11 @@ from .peer import Arm, Array, Arrays, Kinematics, Peer, module
 
 
 def kinematics(arm: Arm) -> Kinematics:
-    """`mj_kinematics`, `mj_comPos` (which the Jacobian needs) and `mj_jacSite`, on a site at the tip.
+    """`mj_kinematics`, `mj_comPos` (which the Jacobian needs) and `mj_jacSite`, on a site at the
+    tip.
 
-    The results are those that its users have: position and rotation of the site as views of the data, and the two
-    halves of the Jacobian in arrays that are reused.
+    The results are those that its users have: position and rotation of the site as views of the
+    data, and the two halves of the Jacobian in arrays that are reused.
     """
     mujoco = module("mujoco")
     serial(arm.chain)
@@ -47,7 +50,9 @@ def kinematics(arm: Arm) -> Kinematics:
 
 
 def _text(chain: Chain) -> str:
-    """The arm as MJCF: bodies that all stand in the base frame, so that joints are lines there, as screws are."""
+    """The arm as MJCF: bodies that all stand in the base frame, so that joints are lines there, as
+    screws are.
+    """
     bodies = ""
     for screw in chain.screws:
         w, v = screw[:3], screw[3:]

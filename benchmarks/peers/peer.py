@@ -1,7 +1,8 @@
 """What a peer is: another library that does what poekin does, called in its fastest documented way.
 
-A peer's own functions take and return what that library's users have in hand. What turns poekin's arrays into that and
-back (`native`, `arrays`) is for setup and judgement: it stays outside the clock.
+A peer's own functions take and return what that library's users have in hand. What turns poekin's
+arrays into that and back (`native`, `arrays`) is for setup and judgement: it stays outside the
+clock.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ def _same(x: Any) -> Any:
 
 @dataclass(frozen=True)
 class Arm:
-    """An arm as every library can be given it: its screws, and URDF text with the same base, tip and joint names.
+    """An arm as every library can be given it: its screws, and URDF text with the same base, tip
+    and joint names.
 
     The joints are revolute or prismatic, each with a coordinate of its own.
     """
@@ -43,11 +45,12 @@ class Arm:
 class Kinematics:
     """A peer's kinematics of one arm.
 
-    frame: of its Jacobian; fk(q), fk_jacobian(q) -> (T, J): one configuration in the peer's own form; batch: whether
-    both take many at once, in the peer's own form of a batch; native(q): configurations (N, m) in that form, a list of
-    N where there is no batch; arrays(T, J): what the peer returned, of one or of a batch, as T_sb (..., 4, 4) and J
-    (..., 6, m), rows (omega; v); pose(T), the same of what fk returned. fk_jacobian is None where there is no Jacobian.
-    note: what a reader of the times ought to know.
+    frame: of its Jacobian; fk(q), fk_jacobian(q) -> (T, J): one configuration in the peer's own
+    form; batch: whether both take many at once, in the peer's own form of a batch; native(q):
+    configurations (N, m) in that form, a list of N where there is no batch; arrays(T, J): what the
+    peer returned, of one or of a batch, as T_sb (..., 4, 4) and J (..., 6, m), rows (omega; v);
+    pose(T), the same of what fk returned. fk_jacobian is None where there is no Jacobian. note:
+    what a reader of the times ought to know.
     """
 
     frame: Literal["space", "body", "hybrid"]
@@ -64,8 +67,9 @@ class Kinematics:
 class Group:
     """A peer's exp: twist (6,) -> pose (4, 4), and log.
 
-    linear_first: whether its twists are (v; omega); batch: whether both take (N, 6) and (N, 4, 4) at once; native,
-    twists and poses: arrays to its own form and back, where that is not the array itself.
+    linear_first: whether its twists are (v; omega); batch: whether both take (N, 6) and (N, 4, 4)
+    at once; native, twists and poses: arrays to its own form and back, where that is not the array
+    itself.
     """
 
     exp: Callable[[Any], Any]
@@ -76,7 +80,9 @@ class Group:
     plain: Callable[[Any], Array] = np.asarray
 
     def twists(self, xi: Array) -> Array:
-        """Twists (..., 6) between poekin's order (omega; v) and the peer's: the same way in both directions."""
+        """Twists (..., 6) between poekin's order (omega; v) and the peer's: the same way in both
+        directions.
+        """
         return se3.linear_first(xi) if self.linear_first else xi
 
     def exp_of(self, xi: Array) -> Array:
@@ -95,9 +101,11 @@ class Group:
 
 @dataclass(frozen=True)
 class Peer:
-    """A library: name, the distribution that holds it, the module it is imported as, and what it can do.
+    """A library: name, the distribution that holds it, the module it is imported as, and what it
+    can do.
 
-    group() -> Group and kinematics(arm) -> Kinematics import the library; None where it has no such thing.
+    group() -> Group and kinematics(arm) -> Kinematics import the library; None where it has no such
+    thing.
     """
 
     name: str
@@ -125,7 +133,11 @@ class Found:
     @property
     def label(self) -> str:
         """Name, and version where there is one."""
-        return self.peer.name if self.peer.version == "absent" else f"{self.peer.name} {self.peer.version}"
+        return (
+            self.peer.name
+            if self.peer.version == "absent"
+            else f"{self.peer.name} {self.peer.version}"
+        )
 
 
 def find(peers: Iterable[Peer]) -> list[Found]:

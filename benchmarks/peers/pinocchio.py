@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from poekin.testing.pinocchio_oracle import ANGULAR_FIRST, PinocchioOracle, pinocchio
+from poekin.testing.oracles.pinocchio_oracle import ANGULAR_FIRST, PinocchioOracle, pinocchio
 
 from .peer import Arm, Array, Arrays, Group, Kinematics, Peer
 
@@ -14,13 +14,16 @@ from .peer import Arm, Array, Arrays, Group, Kinematics, Peer
 def group() -> Group:
     """exp6 takes an array; log6 takes a matrix and returns a Motion."""
     pin = pinocchio()
-    return Group(lambda xi: pin.exp6(xi).homogeneous, lambda T: pin.log6(T).vector, linear_first=True)
+    return Group(
+        lambda xi: pin.exp6(xi).homogeneous, lambda T: pin.log6(T).vector, linear_first=True
+    )
 
 
 def kinematics(arm: Arm) -> Kinematics:
     """`computeJointJacobians`, then frame placement and Jacobian: the faster of the two usual ways.
 
-    The case panda_hand measures both ways. A continuous joint is (cos q, sin q) here, which `native` makes of q.
+    The case panda_hand measures both ways. A continuous joint is (cos q, sin q) here, which
+    `native` makes of q.
     """
     pin, oracle = pinocchio(), PinocchioOracle(arm.urdf)
     model, data, axes = oracle.model, oracle.data, pin.LOCAL_WORLD_ALIGNED

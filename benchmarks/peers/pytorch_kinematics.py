@@ -1,4 +1,6 @@
-"""pytorch_kinematics: poses and Jacobians of whole batches in PyTorch; twists (v; omega). No exp and log of poses."""
+"""pytorch_kinematics: poses and Jacobians of whole batches in PyTorch; twists (v; omega). No exp
+and log of poses.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from poekin.testing.pinocchio_oracle import ANGULAR_FIRST
+from poekin.testing.oracles.pinocchio_oracle import ANGULAR_FIRST
 
 from .peer import Arm, Arrays, Kinematics, Peer, module
 
 
 def kinematics(arm: Arm) -> Kinematics:
-    """A serial chain out of the URDF's text, on the processor, turned to double precision as its documentation does."""
+    """A serial chain out of the URDF's text, on the processor, turned to double precision as its
+    documentation does.
+    """
     torch, library = module("torch"), module("pytorch_kinematics")
     chain = library.build_serial_chain_from_urdf(arm.urdf.encode(), arm.chain.tip)
     chain = chain.to(dtype=torch.float64, device="cpu")

@@ -1,4 +1,6 @@
-"""pytransform3d: exp and log of one pose, twists (omega; v); poses of a URDF's frames, and no Jacobian."""
+"""pytransform3d: exp and log of one pose, twists (omega; v); poses of a URDF's frames, and no
+Jacobian.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,9 @@ from .peer import Arm, Array, Group, Kinematics, Peer, module
 
 
 def group() -> Group:
-    """Its functions of one argument; those for batches, in `trajectories`, have other formulas and lose digits."""
+    """Its functions of one argument; those for batches, in `trajectories`, have other formulas and
+    lose digits.
+    """
     transformations = module("pytransform3d.transformations")
     return Group(
         transformations.transform_from_exponential_coordinates,

@@ -1,4 +1,5 @@
-"""Subjects of `poekin.testing.conform`: poekin, the libraries beside it, one without fault, and eight with one each.
+"""Subjects of `poekin.testing.conform`: poekin, the libraries beside it, one without fault, and
+eight with one each.
 
 poekin conform benchmarks.subjects:SciPy
 """

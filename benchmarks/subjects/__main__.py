@@ -1,4 +1,5 @@
-"""`python -m benchmarks.subjects [EXAMPLES]`: look for false findings against the subjects that compute in 60 digits.
+"""`python -m benchmarks.subjects [EXAMPLES]`: look for false findings against the subjects that
+compute in 60 digits.
 
 10⁵ examples take twenty minutes. The exit code is 1 where there is a finding.
 """
@@ -14,8 +15,12 @@ from ..cases.conformance import FALSE_EXAMPLES, false_findings
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """The exit code; each law is said as it is done."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.subjects", description="Look for false findings.")
-    parser.add_argument("examples", type=int, nargs="?", default=FALSE_EXAMPLES, help="of all laws together")
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.subjects", description="Look for false findings."
+    )
+    parser.add_argument(
+        "examples", type=int, nargs="?", default=FALSE_EXAMPLES, help="of all laws together"
+    )
 
     def say(line: str) -> None:
         print(line, flush=True)

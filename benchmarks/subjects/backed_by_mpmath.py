@@ -1,7 +1,8 @@
-"""Subjects without a fault, to see that none is found: all they do is done in 60 digits and rounded once.
+"""Subjects without a fault, to see that none is found: all they do is done in 60 digits and rounded
+once.
 
-The formulas are those of `closed_formulas`; URDFs are read with the standard library. Nothing is shared with
-`poekin.testing.exact` and the small URDFs' own meaning.
+The formulas are those of `closed_formulas`; URDFs are read with the standard library. Nothing is
+shared with `poekin.testing.oracles.exact` and the small URDFs' own meaning.
 """
 
 from __future__ import annotations
@@ -155,7 +156,9 @@ class Read:
             self.joints.insert(0, below[tip])
             tip = _link(below[tip], "parent")
         # All coordinates of the robot: a joint may mimic one that is elsewhere.
-        moving = [joint for joint in every if joint.get("type") != "fixed" and joint.find("mimic") is None]
+        moving = [
+            joint for joint in every if joint.get("type") != "fixed" and joint.find("mimic") is None
+        ]
         self.names = [str(joint.get("name")) for joint in moving]
 
     def fk(self, q: np.ndarray) -> np.ndarray:
@@ -173,13 +176,20 @@ class Read:
             T = T @ _origin(joint)
             if joint.get("type") == "fixed":
                 continue
-            mimic, name, factor, shift = joint.find("mimic"), str(joint.get("name")), mp.mpf(1), mp.mpf(0)
+            mimic, name, factor, shift = (
+                joint.find("mimic"),
+                str(joint.get("name")),
+                mp.mpf(1),
+                mp.mpf(0),
+            )
             if mimic is not None:
                 name, factor = str(mimic.get("joint")), mp.mpf(float(mimic.get("multiplier", 1)))
                 shift = mp.mpf(float(mimic.get("offset", 0)))
             x = factor * mp.mpf(float(values[name])) + shift
             axis = joint.find("axis")
-            n = numbers([1.0, 0, 0] if axis is None else [float(a) for a in str(axis.get("xyz")).split()])
+            n = numbers(
+                [1.0, 0, 0] if axis is None else [float(a) for a in str(axis.get("xyz")).split()]
+            )
             n = n / mp.sqrt(n @ n)
             S = np.concatenate([0 * n, n] if joint.get("type") == "prismatic" else [n, 0 * n])
             column = self.names.index(name)
@@ -209,7 +219,9 @@ def _origin(joint: ElementTree.Element) -> np.ndarray:
     origin = joint.find("origin")
     if origin is None:
         return eye(4)
-    (r, p, y), xyz = (numbers([float(a) for a in origin.get(key, "0 0 0").split()]) for key in ("rpy", "xyz"))
+    (r, p, y), xyz = (
+        numbers([float(a) for a in origin.get(key, "0 0 0").split()]) for key in ("rpy", "xyz")
+    )
     cr, sr, cp, sp, cy, sy = (f(a) for a in (r, p, y) for f in (mp.cos, mp.sin))
     R = np.array(
         [

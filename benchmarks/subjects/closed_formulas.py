@@ -1,7 +1,8 @@
-"""The textbooks' closed formulas of SO(3) and SE(3), evaluated with so many digits that nothing cancels.
+"""The textbooks' closed formulas of SO(3) and SE(3), evaluated with so many digits that nothing
+cancels.
 
-log is by the largest eigenvector of a symmetric 4×4. Nothing is shared with `poekin.testing.exact`, which is made of
-series and Newton's method.
+log is by the largest eigenvector of a symmetric 4×4. Nothing is shared with
+`poekin.testing.oracles.exact`, which is made of series and Newton's method.
 """
 
 from __future__ import annotations
@@ -74,7 +75,9 @@ def P_inverse(w: np.ndarray) -> np.ndarray:
 
 
 def Q(w: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """The lower block of the left Jacobian of SE(3), in closed form (Barfoot, State Estimation for Robotics)."""
+    """The lower block of the left Jacobian of SE(3), in closed form (Barfoot, State Estimation for
+    Robotics).
+    """
     theta, W, V = mp.sqrt(w @ w), hat(w), hat(v)
     if theta == 0:
         return V / 2
@@ -105,7 +108,9 @@ def exp(xi: np.ndarray) -> np.ndarray:
 
 
 def rotation_vector(R: np.ndarray) -> np.ndarray:
-    """ω of the rotation nearest to R: the quaternion is the eigenvector of the largest eigenvalue (Horn 1987)."""
+    """ω of the rotation nearest to R: the quaternion is the eigenvector of the largest eigenvalue
+    (Horn 1987).
+    """
     a = R.T.ravel()  # by columns
     xx, yx, zx, xy, yy, zy, xz, yz, zz = a
     K = [

@@ -1,4 +1,6 @@
-"""Eight faults that libraries had, each in a small subject that is sound otherwise, and what must find it."""
+"""Eight faults that libraries had, each in a small subject that is sound otherwise, and what must
+find it.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,11 @@ class LogByAcos:
         if w @ w < 1:
             return w
         theta = math.acos(min(max((np.trace(R) - 1) / 2, -1.0), 1.0))
-        return theta / (2 * math.sin(theta)) * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+        return (
+            theta
+            / (2 * math.sin(theta))
+            * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+        )
 
 
 class LogOfNothing:
@@ -62,7 +68,9 @@ class JacobianWithoutV:
 
 
 class JacobianOfAShortSeries:
-    """(f) the coefficients of the Q block by series below θ = 0.01, the first of them one term short."""
+    """(f) the coefficients of the Q block by series below θ = 0.01, the first of them one term
+    short.
+    """
 
     twist_order = "angular first"
 

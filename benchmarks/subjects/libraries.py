@@ -1,4 +1,6 @@
-"""The libraries beside poekin as subjects of `poekin.testing.conform`, each called as its documentation says."""
+"""The libraries beside poekin as subjects of `poekin.testing.conform`, each called as its
+documentation says.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from poekin import Chain
-from poekin.testing.pinocchio_oracle import ANGULAR_FIRST
-from poekin.testing.strategies import pose
+from poekin.testing.oracles.pinocchio_oracle import ANGULAR_FIRST
+from poekin.testing.strategies.group_strategies import pose
 
 from ..peers import links
 from ..peers.peer import module
@@ -23,7 +25,9 @@ from .text import ByText
 
 @dataclass(frozen=True)
 class Arm:
-    """What a reader of URDFs read: its coordinates, the pose of the tip in the base, and the Jacobian, (omega; v)."""
+    """What a reader of URDFs read: its coordinates, the pose of the tip in the base, and the
+    Jacobian, (omega; v).
+    """
 
     names: Sequence[str]
     fk: Callable[[Any], Any]
@@ -72,12 +76,16 @@ class Pinocchio(ByText):
     options: Mapping[str, bool] = MappingProxyType({})
 
     def _placed(self, text: str) -> tuple[Any, Any, list[str], Callable[[Any], np.ndarray]]:
-        """Model, data, the coordinates, and what places all frames for their values and returns Pinocchio's q."""
+        """Model, data, the coordinates, and what places all frames for their values and returns
+        Pinocchio's q.
+        """
         pin = module("pinocchio")
         model = pin.buildModelFromXML(text, **self.options)
         data = model.createData()
         joints = [
-            (name, joint) for name, joint in zip(model.names[1:], list(model.joints)[1:], strict=True) if joint.nv
+            (name, joint)
+            for name, joint in zip(model.names[1:], list(model.joints)[1:], strict=True)
+            if joint.nv
         ]
 
         def place(q: np.ndarray) -> np.ndarray:
@@ -111,7 +119,9 @@ class Pinocchio(ByText):
 
         def poses(q: np.ndarray) -> dict[str, np.ndarray]:
             place(q)
-            return {frame.name: T.homogeneous for frame, T in zip(model.frames, data.oMf, strict=True)}
+            return {
+                frame.name: T.homogeneous for frame, T in zip(model.frames, data.oMf, strict=True)
+            }
 
         return Whole(names, poses)
 
@@ -129,7 +139,9 @@ class PinocchioMimic(Pinocchio):
 
 
 class RoboticsToolbox(ByText):
-    """spatialmath's functions; poses and Jacobians of elementary transform sequences; URDFs by `Robot.URDF`."""
+    """spatialmath's functions; poses and Jacobians of elementary transform sequences; URDFs by
+    `Robot.URDF`.
+    """
 
     library = "Robotics Toolbox"
     jacobian_frame = "hybrid"
@@ -150,13 +162,17 @@ class RoboticsToolbox(ByText):
 
     def _robot(self, text: str) -> tuple[Any, list[str]]:
         # It takes a file only.
-        with tempfile.NamedTemporaryFile("w", suffix=".urdf", delete=False, encoding="utf-8") as file:
+        with tempfile.NamedTemporaryFile(
+            "w", suffix=".urdf", delete=False, encoding="utf-8"
+        ) as file:
             file.write(text)
         try:
             robot = module("roboticstoolbox").Robot.URDF(file.name)
         finally:
             os.unlink(file.name)
-        moving = sorted((link for link in robot.links if link.isjoint), key=lambda link: link.jindex)
+        moving = sorted(
+            (link for link in robot.links if link.isjoint), key=lambda link: link.jindex
+        )
         return robot, [link._joint_name for link in moving]
 
     def read_urdf(self, text: str, base: str, tip: str) -> Arm:
@@ -216,7 +232,9 @@ class MuJoCo(ByText):
         mujoco = module("mujoco")
         # It merges links that stand still, and wants every other one to have a mass.
         mass = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
-        text = re.sub(r'<link name="([^"]*)"/>', lambda found: f'<link name="{found[1]}">{mass}</link>', text)
+        text = re.sub(
+            r'<link name="([^"]*)"/>', lambda found: f'<link name="{found[1]}">{mass}</link>', text
+        )
         text = text.replace("><link", '><mujoco><compiler fusestatic="false"/></mujoco><link', 1)
         model = mujoco.MjModel.from_xml_string(text)
         data = mujoco.MjData(model)
@@ -251,7 +269,9 @@ class MuJoCo(ByText):
 
         def poses(q: np.ndarray) -> dict[str, np.ndarray]:
             place(q)
-            return {link: pose(data.xmat[k].reshape(3, 3), data.xpos[k]) for k, link in enumerate(links)}
+            return {
+                link: pose(data.xmat[k].reshape(3, 3), data.xpos[k]) for k, link in enumerate(links)
+            }
 
         return Whole(names, poses)
 

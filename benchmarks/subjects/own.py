@@ -22,12 +22,22 @@ class Poekin:
     batch = helical = True
     noise = 1e-8
 
-    exp, log, adjoint = staticmethod(pk.se3.exp), staticmethod(pk.se3.log), staticmethod(pk.se3.adjoint)
-    left_jacobian, right_jacobian = staticmethod(pk.se3.left_jacobian), staticmethod(pk.se3.right_jacobian)
+    exp, log, adjoint = (
+        staticmethod(pk.se3.exp),
+        staticmethod(pk.se3.log),
+        staticmethod(pk.se3.adjoint),
+    )
+    left_jacobian, right_jacobian = (
+        staticmethod(pk.se3.left_jacobian),
+        staticmethod(pk.se3.right_jacobian),
+    )
     left_jacobian_inverse = staticmethod(pk.se3.left_jacobian_inverse)
     right_jacobian_inverse = staticmethod(pk.se3.right_jacobian_inverse)
     so3_exp, so3_log = staticmethod(pk.so3.exp), staticmethod(pk.so3.log)
-    so3_left_jacobian, so3_right_jacobian = staticmethod(pk.so3.left_jacobian), staticmethod(pk.so3.right_jacobian)
+    so3_left_jacobian, so3_right_jacobian = (
+        staticmethod(pk.so3.left_jacobian),
+        staticmethod(pk.so3.right_jacobian),
+    )
     so3_left_jacobian_inverse = staticmethod(pk.so3.left_jacobian_inverse)
     so3_right_jacobian_inverse = staticmethod(pk.so3.right_jacobian_inverse)
 

@@ -1,4 +1,6 @@
-"""Functions of a library as its users type them: one text is what runs, and what is printed to be pasted."""
+"""Functions of a library as its users type them: one text is what runs, and what is printed to be
+pasted.
+"""
 
 from __future__ import annotations
 
@@ -8,14 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from poekin.testing.conform.subject import printed
+from poekin.testing.conform.subjects.subject import printed
 
 from .. import peers
 from ..cases.accuracy_peers import TEXTS
 
 NAMES = {"exp_so3": "so3_exp", "log_so3": "so3_log", "exp_se3": "exp", "log_se3": "log"}
 
-# Beside exp and log. x is (omega; v) or a matrix; `swap` and `square` put the library's (v; omega) into that order.
+# Beside exp and log. x is (omega; v) or a matrix; `swap` and `square` put the library's (v; omega)
+# into that order.
 SWAP = "swap = lambda J: np.roll(J, (3, 3), (0, 1))"
 MORE: Mapping[str, tuple[str, Mapping[str, str]]] = {
     "Pinocchio": (
@@ -26,7 +29,8 @@ MORE: Mapping[str, tuple[str, Mapping[str, str]]] = {
     "Robotics Toolbox": (f"from spatialmath import base; {SWAP}", {"adjoint": "swap(base.tr2adjoint(x))"}),
     "Modern Robotics": ("import modern_robotics as mr", {"adjoint": "mr.Adjoint(x)"}),
     # jlog is of an element, which at |ω| = π has two logarithms: `turn` makes the one that has ω.
-    # The translation is poekin's, as jaxlie's own exp has an error that jlog is not to be blamed for.
+    # The translation is poekin's, as jaxlie's own exp has an error that jlog is not to be blamed
+    # for.
     "jaxlie": (
         f"import jax; jax.config.update('jax_enable_x64', True); import jaxlie; import poekin as pk; {SWAP}; "
         "turn = lambda w: jaxlie.SO3(jaxlie.SO3.exp(w).wxyz.at[0].max(1e-300))",
@@ -53,7 +57,8 @@ MORE: Mapping[str, tuple[str, Mapping[str, str]]] = {
 
 
 class ByText:
-    """A subject made of texts; `library` is the peer's name, and that in the tables above unless `texts` is another.
+    """A subject made of texts; `library` is the peer's name, and that in the tables above unless
+    `texts` is another.
 
     leaves_out: laws that the library does not claim to keep, each with the reason.
     """
@@ -63,7 +68,9 @@ class ByText:
     leaves_out: Mapping[str, str] = MappingProxyType({})
 
     def __init__(self) -> None:
-        self.peer = next(p for p in (peers.STANDARD | peers.OPTIONAL).values() if p.name == self.library)
+        self.peer = next(
+            p for p in (peers.STANDARD | peers.OPTIONAL).values() if p.name == self.library
+        )
         self.name = getattr(type(self), "title", self.library)
         self.version = self.peer.version
         self.paste: dict[str, str] = {}

@@ -1,6 +1,8 @@
-"""Tools that look at models: count the operations of an algorithm, validate a robot against an oracle."""
+"""Tools that look at models: count the operations of an algorithm, validate a robot against an
+oracle.
+"""
 
-from .count import Count, count
+from .counting.count import Count, count
 from .validate import ChainErrors, Validation, chain_errors, validate
 
 __all__ = ["ChainErrors", "Count", "Validation", "chain_errors", "count", "validate"]

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import InputError, told
 from ..groups.arrays import Array
 from ..model.chain import Chain
-from .lines import at_rest, cross, direction
+from .compare.alignment.lines import at_rest, cross, direction
 from .shapes import Shape, shapes
 from .tolerances import check_tolerances
 
@@ -22,9 +22,10 @@ __all__ = ["AxesReport", "AxisPair", "axes"]
 class AxisPair:
     """Two axes, one or two joints apart, at q = 0.
 
-    Attributes: first, second (joint numbers from 1), name_first, name_second; angle, 0 to 90 deg, between the lines
-    whatever their directions; distance, the common normal's length in mm (None with a prismatic joint, which has no
-    place); parallel, perpendicular, intersecting within tolerance (parallel at distance 0 is one line: coaxial).
+    Attributes: first, second (joint numbers from 1), name_first, name_second; angle, 0 to 90 deg,
+    between the lines whatever their directions; distance, the common normal's length in mm (None
+    with a prismatic joint, which has no place); parallel, perpendicular, intersecting within
+    tolerance (parallel at distance 0 is one line: coaxial).
     fixed: whether no joint between them changes it, that is, the axes are of neighbouring joints.
     """
 
@@ -47,18 +48,23 @@ class AxisPair:
         elif self.perpendicular:
             lie = "perpendicular"
         else:
-            near, off = ("parallel", self.angle) if self.angle < 45 else ("perpendicular", 90 - self.angle)
+            near, off = (
+                ("parallel", self.angle) if self.angle < 45 else ("perpendicular", 90 - self.angle)
+            )
             lie = f"{off:.4g}° from {near}"
         if self.distance is None:
             return lie
         if self.intersecting:
             return "coaxial" if self.parallel else f"{lie}, intersecting"
-        return f"{lie}, {self.distance:.4g} mm " + ("apart" if self.parallel else "from intersecting")
+        return f"{lie}, {self.distance:.4g} mm " + (
+            "apart" if self.parallel else "from intersecting"
+        )
 
 
 @dataclass(frozen=True)
 class AxesReport:
-    """Geometry of an arm's axes: pairs of neighbours and of every third, and the shapes that they make.
+    """Geometry of an arm's axes: pairs of neighbours and of every third, and the shapes that they
+    make.
 
     Attributes: pairs, shapes (see `Shape`), tol_mm, tol_deg.
     """
@@ -69,8 +75,8 @@ class AxesReport:
     tol_deg: float
 
     def has(self, kind: str) -> bool:
-        """Whether a shape of that kind was found: "spherical wrist", "spherical shoulder", "three parallel axes",
-        "Pieper", "S-R-S". Raises: nothing; of another kind there is none.
+        """Whether a shape of that kind was found: "spherical wrist", "spherical shoulder", "three
+        parallel axes", "Pieper", "S-R-S". Raises: nothing; of another kind there is none.
         """  # fmt: skip
         return any(shape.kind == kind for shape in self.shapes)
 
@@ -93,13 +99,17 @@ class AxesReport:
 
 
 def axes(chain: Chain, *, tol_mm: float = 0.01, tol_deg: float = 0.001) -> AxesReport:
-    """Every pair of consecutive and every third axes of a chain at q = 0, and the shapes that they make.
+    """Every pair of consecutive and every third axes of a chain at q = 0, and the shapes that they
+    make.
 
-    Consecutive axes keep their angle and distance whatever q is; every third pair is as it stands at q = 0. A shape is
-    said to be there only where it holds at every q, by axes that no joint moves against each other.
+    Consecutive axes keep their angle and distance whatever q is; every third pair is as it stands
+    at q = 0. A shape is said to be there only where it holds at every q, by axes that no joint
+    moves against each other.
 
-    Parameters: chain; tol_mm, tol_deg, how far off parallel, perpendicular or intersecting still is it.
-    Returns: AxesReport. Raises: InputError. Accuracy: an angle or distance built into two screws comes
+    Parameters: chain; tol_mm, tol_deg, how far off parallel, perpendicular or intersecting still is
+    it.
+    Returns: AxesReport. Raises: InputError. Accuracy: an angle or distance built into two screws
+    comes
     back to 1e-9 of itself, from 0.01 deg and 0.1 mm up (tests/analysis/test_axes.py).
     Source: Pieper 1968 for what solves in closed form.
     """
@@ -108,7 +118,10 @@ def axes(chain: Chain, *, tol_mm: float = 0.01, tol_deg: float = 0.001) -> AxesR
     check_tolerances(tol_mm, tol_deg)
     rest = at_rest(chain)
     ways = direction(rest.screws, rest.kinds)
-    places = [None if k == "prismatic" else cross(S[:3], S[3:]) for S, k in zip(rest.screws, rest.kinds, strict=True)]
+    places = [
+        None if k == "prismatic" else cross(S[:3], S[3:])
+        for S, k in zip(rest.screws, rest.kinds, strict=True)
+    ]
     n = len(rest.kinds)
     pairs = []
     for i, j in [(i, i + step) for i in range(n) for step in (1, 2) if i + step < n]:
@@ -117,10 +130,14 @@ def axes(chain: Chain, *, tol_mm: float = 0.01, tol_deg: float = 0.001) -> AxesR
             i + 1, j + 1, rest.joint_names[i], rest.joint_names[j], angle, distance, angle <= tol_deg,
             90 - angle <= tol_deg, distance is not None and distance <= tol_mm, j == i + 1,
         ))  # fmt: skip
-    return AxesReport(tuple(pairs), shapes(rest, float(tol_mm), float(tol_deg)), float(tol_mm), float(tol_deg))
+    return AxesReport(
+        tuple(pairs), shapes(rest, float(tol_mm), float(tol_deg)), float(tol_mm), float(tol_deg)
+    )
 
 
-def _between(w: Array, p: Array | None, u: Array, r: Array | None, tol_deg: float) -> tuple[float, float | None]:
+def _between(
+    w: Array, p: Array | None, u: Array, r: Array | None, tol_deg: float
+) -> tuple[float, float | None]:
     """Angle (0 to 90 deg) and common normal (mm) of two lines; of parallel ones their distance."""
     across = cross(w, u)
     sine = float(np.linalg.norm(across))

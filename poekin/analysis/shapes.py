@@ -1,4 +1,6 @@
-"""Shapes that an arm's axes make at every q: spherical joints, parallel axes, and what solves in closed form."""
+"""Shapes that an arm's axes make at every q: spherical joints, parallel axes, and what solves in
+closed form.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,7 @@ import numpy as np
 
 from ..groups.arrays import Array
 from ..model.chain import Chain
-from .lines import cross
+from .compare.alignment.lines import cross
 
 __all__ = ["Shape", "shapes"]
 
@@ -18,9 +20,9 @@ __all__ = ["Shape", "shapes"]
 class Shape:
     """Something that some joints of an arm make together.
 
-    Attributes: kind ("spherical wrist", "spherical shoulder", "spherical joint", "three parallel axes", "Pieper",
-    "S-R-S"); joints, their numbers from 1; error, by how much they miss it: mm that axes pass their common point by, or
-    deg from parallel; words.
+    Attributes: kind ("spherical wrist", "spherical shoulder", "spherical joint", "three parallel
+    axes", "Pieper", "S-R-S"); joints, their numbers from 1; error, by how much they miss it: mm
+    that axes pass their common point by, or deg from parallel; words.
     """
 
     kind: str
@@ -32,8 +34,9 @@ class Shape:
 def shapes(chain: Chain, tol_mm: float, tol_deg: float) -> tuple[Shape, ...]:
     """The shapes of a chain at rest.
 
-    Three revolute axes that meet in one point at q = 0 meet at every q, as each turns about a line through the point;
-    three parallel axes stay parallel for the same reason. Three that lie along one another are neither.
+    Three revolute axes that meet in one point at q = 0 meet at every q, as each turns about a line
+    through the point; three parallel axes stay parallel for the same reason. Three that lie along
+    one another are neither.
     """
     n = len(chain.kinds)
     revolute = [kind == "revolute" for kind in chain.kinds]
@@ -54,7 +57,13 @@ def shapes(chain: Chain, tol_mm: float, tol_deg: float) -> tuple[Shape, ...]:
         # Neighbours along one line leave two axes only, which is no spherical joint.
         if miss <= tol_mm and min(_apart(three[:2]), _apart(three[1:])) > tol_deg:
             spherical.append(i)
-            kind = "spherical wrist" if i == n - 3 else "spherical shoulder" if i == 0 else "spherical joint"
+            kind = (
+                "spherical wrist"
+                if i == n - 3
+                else "spherical shoulder"
+                if i == 0
+                else "spherical joint"
+            )
             found.append(Shape(kind, numbers, miss, f"joints {_list(numbers)}: {kind}, the axes meet in one point"
                                f" (within {miss:.2g} mm)"))  # fmt: skip
     if n == 6 and all(revolute) and (spherical or parallel):
@@ -72,7 +81,9 @@ def shapes(chain: Chain, tol_mm: float, tol_deg: float) -> tuple[Shape, ...]:
 def _apart(screws: Array) -> float:
     """The largest angle between any two axes, as lines, in deg."""
     return max(
-        math.degrees(math.atan2(float(np.linalg.norm(cross(a[:3], b[:3]))), abs(float(a[:3] @ b[:3]))))
+        math.degrees(
+            math.atan2(float(np.linalg.norm(cross(a[:3], b[:3]))), abs(float(a[:3] @ b[:3])))
+        )
         for i, a in enumerate(screws)
         for b in screws[i + 1 :]
     )

@@ -1,4 +1,6 @@
-"""Validation of a robot against Pinocchio: every chain from root to leaf, pose and Jacobians in all three frames."""
+"""Validation of a robot against Pinocchio: every chain from root to leaf, pose and Jacobians in all
+three frames.
+"""
 
 from __future__ import annotations
 
@@ -15,10 +17,10 @@ from ..formats import catalogue, urdf
 from ..formats.load import load
 from ..formats.urdf_text import to_urdf
 from ..model.chain import Chain
-from ..model.evaluation import FRAME_NAMES
 from ..model.joint import FREE, MOVING, Joint
+from ..model.kinematics.pose_jacobian import FRAME_NAMES
 from ..model.robot import Robot
-from ..testing.pinocchio_oracle import PinocchioOracle
+from ..testing.oracles.pinocchio_oracle import PinocchioOracle
 
 BAR = 2e-14
 """Largest error that passes, as a multiple of the chain's reach R."""
@@ -29,10 +31,12 @@ Progress = Callable[[int, int, str], None]
 
 @dataclass(frozen=True)
 class ChainErrors:
-    """Worst errors of one chain, each ÷ R: the pose's and the Jacobian's in three frames; see `chain_errors`.
+    """Worst errors of one chain, each ÷ R: the pose's and the Jacobian's in three frames; see
+    `chain_errors`.
 
-    Attributes: base, tip (links); joints (n), dof (m); reach (R, in m); pose, space, body, hybrid (errors ÷ R);
-    configuration (coordinate -> value of the worst configuration, rad or m); note (what the reader ought to know).
+    Attributes: base, tip (links); joints (n), dof (m); reach (R, in m); pose, space, body, hybrid
+    (errors ÷ R); configuration (coordinate -> value of the worst configuration, rad or m); note
+    (what the reader ought to know).
     """
 
     base: str
@@ -50,15 +54,19 @@ class ChainErrors:
     @property
     def worst(self) -> float:
         """The largest of the four errors ÷ R; infinite where one is not a number."""
-        return max(e if math.isfinite(e) else math.inf for e in (self.pose, self.space, self.body, self.hybrid))
+        return max(
+            e if math.isfinite(e) else math.inf
+            for e in (self.pose, self.space, self.body, self.hybrid)
+        )
 
 
 @dataclass(frozen=True)
 class Validation:
     """What `validate` found: one row a chain, and the bar that every row must hold.
 
-    Attributes: robot (its name), source (where it came from), rows, bar (largest error ÷ R that passes), samples
-    (random configurations a chain, beside the zero configuration), seed, pinocchio (the oracle's version), moving
+    Attributes: robot (its name), source (where it came from), rows, bar (largest error ÷ R that
+    passes), samples (random configurations a chain, beside the zero configuration), seed, pinocchio
+    (the oracle's version), moving
     (the joints of the robot that move).
     """
 
@@ -83,15 +91,19 @@ class Validation:
 
     @property
     def passed(self) -> bool:
-        """Whether there is a chain and every chain holds the bar; an error that is not a number never does.
+        """Whether there is a chain and every chain holds the bar; an error that is not a number
+        never does.
 
-        Where joints of the robot move, a chain without one proves nothing: there must be one that has some.
+        Where joints of the robot move, a chain without one proves nothing: there must be one that
+        has some.
         """
         proof = any(row.joints for row in self.rows) if self.moving else bool(self.rows)
         return proof and self.error <= self.bar
 
     def as_dict(self) -> dict[str, object]:
-        """Everything as plain dicts, lists, strings and numbers; an infinite or absent number is None."""
+        """Everything as plain dicts, lists, strings and numbers; an infinite or absent number is
+        None.
+        """
         rows = []
         for row in self.rows:
             values = {k: _finite(v) if isinstance(v, float) else v for k, v in asdict(row).items()}
@@ -115,23 +127,31 @@ class Validation:
 
 
 def validate(
-    robot: Robot | str | os.PathLike[str], *, samples: int = 100, seed: int = 0, progress: Progress | None = None
+    robot: Robot | str | os.PathLike[str],
+    *,
+    samples: int = 100,
+    seed: int = 0,
+    progress: Progress | None = None,
 ) -> Validation:
     """Poses and Jacobians of every chain from the root to a leaf, against Pinocchio.
 
-    Parameters: robot, anything `load` takes, or the text of a URDF (it begins with <), or a Robot; where it came
-    from a URDF file, Pinocchio reads that file again. Any other (a DH table, MJCF, xacro, a Robot built by hand) goes
-    to Pinocchio as the text of `to_urdf`: then what was read is not judged, but all that is computed from it;
-    samples, random configurations a chain, beside the zero configuration: revolute over ±π and prismatic over ±1 m
-    whatever the limits, *all* coordinates of the robot at once, so that one which a chain overlooks shows up too;
+    Parameters: robot, anything `load` takes, or the text of a URDF (it begins with <), or a Robot;
+    where it came
+    from a URDF file, Pinocchio reads that file again. Any other (a DH table, MJCF, xacro, a Robot
+    built by hand) goes to Pinocchio as the text of `to_urdf`: then what was read is not judged, but
+    all that is computed from it;
+    samples, random configurations a chain, beside the zero configuration: revolute over ±π and
+    prismatic over ±1 m whatever the limits, *all* coordinates of the robot at once, so that one
+    which a chain overlooks shows up too;
     seed, of the generator; progress, called as (chains done, chains in all, tip).
 
-    A chain that would cross a floating or planar joint starts at the child link of the last such joint, and what moves
-    above that joint is a chain of its own (see `routes`); the notes of the rows say so. The errors are defined in
-    `chain_errors`; each must be at most `BAR` · R.
+    A chain that would cross a floating or planar joint starts at the child link of the last such
+    joint, and what moves above that joint is a chain of its own (see `routes`); the notes of the
+    rows say so. The errors are defined in `chain_errors`; each must be at most `BAR` · R.
 
-    Raises: what `load` raises; MissingExtra without Pinocchio; ModelError where Pinocchio refuses the URDF; InputError
-    for a Robot that did not come from a URDF and cannot be written as one (helical joints).
+    Raises: what `load` raises; MissingExtra without Pinocchio; ModelError where Pinocchio refuses
+    the URDF; InputError for a Robot that did not come from a URDF and cannot be written as one
+    (helical joints).
     """
     if samples < 0:
         raise InputError(f"samples: a number of configurations ≥ 0 expected, got {samples}")
@@ -146,24 +166,41 @@ def validate(
             progress(done, len(ways), tip)
         rows.append(chain_errors(model.chain(base=base, tip=tip), oracle, q, note=note))
     moving = sum(joint.kind in MOVING for joint in model.joints)
-    return Validation(model.name, str(model.source), tuple(rows), BAR, samples, seed, oracle.version, moving)
+    return Validation(
+        model.name, str(model.source), tuple(rows), BAR, samples, seed, oracle.version, moving
+    )
 
 
-def chain_errors(chain: Chain, oracle: PinocchioOracle, q: dict[str, np.ndarray], *, note: str = "") -> ChainErrors:
-    """Worst errors of one chain over configurations of *all* the robot's coordinates, by name, (N,) values each.
+def chain_errors(
+    chain: Chain, oracle: PinocchioOracle, q: dict[str, np.ndarray], *, note: str = ""
+) -> ChainErrors:
+    """Worst errors of one chain over configurations of *all* the robot's coordinates, by name, (N,)
+    values each.
 
-    Every error is the largest absolute entry of a difference, ÷ R (the chain's reach) where it is a length:
-    the pose's rotation part as it is and its translation ÷ R; a Jacobian's angular rows as they are and its linear
-    rows ÷ R. This is never milder than the whole ÷ R, as R ≥ 1. Columns of coordinates that the chain does not have
-    are zero here, and so they must be in Pinocchio. A coordinate that Pinocchio does not know is an infinite error.
+    Every error is the largest absolute entry of a difference, ÷ R (the chain's reach) where it is a
+    length:
+    the pose's rotation part as it is and its translation ÷ R; a Jacobian's angular rows as they are
+    and its linear
+    rows ÷ R. This is never milder than the whole ÷ R, as R ≥ 1. Columns of coordinates that the
+    chain does not have
+    are zero here, and so they must be in Pinocchio. A coordinate that Pinocchio does not know is an
+    infinite error.
     """
     unknown = [name for name in chain.q_names if name not in oracle.coordinates]
     if unknown:
-        return _row(chain, np.full((4, 1), np.inf), {}, f"Pinocchio has no coordinate {shown(unknown[0])}")
-    values = np.column_stack([np.asarray(q[n], float) for n in oracle.coordinates]) if oracle.coordinates else None
+        return _row(
+            chain, np.full((4, 1), np.inf), {}, f"Pinocchio has no coordinate {shown(unknown[0])}"
+        )
+    values = (
+        np.column_stack([np.asarray(q[n], float) for n in oracle.coordinates])
+        if oracle.coordinates
+        else None
+    )
     count = 1 if values is None else len(values)
     own = [oracle.coordinates.index(name) for name in chain.q_names]
-    configurations = np.zeros((count, 0)) if values is None else np.ascontiguousarray(values[:, own])
+    configurations = (
+        np.zeros((count, 0)) if values is None else np.ascontiguousarray(values[:, own])
+    )
     expected, columns = oracle.evaluate(q, chain.tip, chain.base)
     weight = np.array([1.0, 1.0, 1.0, 1 / chain.reach])
     errors = [np.abs((chain.fk(configurations) - expected)[:, :3] * weight).max((1, 2))]
@@ -177,19 +214,34 @@ def chain_errors(chain: Chain, oracle: PinocchioOracle, q: dict[str, np.ndarray]
     return _row(chain, np.array(errors), configuration, note)
 
 
-def _row(chain: Chain, errors: np.ndarray, configuration: dict[str, float], note: str) -> ChainErrors:
+def _row(
+    chain: Chain, errors: np.ndarray, configuration: dict[str, float], note: str
+) -> ChainErrors:
     # np.max hands on a NaN, so that one wrong configuration cannot hide among right ones.
     pose, space, body, hybrid = (float(e) for e in np.max(errors, axis=1))
     n = len(chain.joint_names)
-    return ChainErrors(chain.base, chain.tip, n, chain.dof, chain.reach, pose, space, body, hybrid, configuration, note)
+    return ChainErrors(
+        chain.base,
+        chain.tip,
+        n,
+        chain.dof,
+        chain.reach,
+        pose,
+        space,
+        body,
+        hybrid,
+        configuration,
+        note,
+    )
 
 
 def routes(robot: Robot) -> Iterator[tuple[str, str, str]]:
     """(base, tip, note) of the chains that together have every joint that moves.
 
-    First one a leaf, in the order of `robot.leaves`: from the root, or from below the last joint that no chain can
-    cross. Then, where a joint moves above a floating or planar joint and is in none of those, the chain that ends at
-    that joint's parent link. The note names the joints that were not crossed, else it is empty.
+    First one a leaf, in the order of `robot.leaves`: from the root, or from below the last joint
+    that no chain can cross. Then, where a joint moves above a floating or planar joint and is in
+    none of those, the chain that ends at that joint's parent link. The note names the joints that
+    were not crossed, else it is empty.
     """
     above = {joint.child: joint for joint in robot.joints}
     covered: set[str] = set()
@@ -198,7 +250,9 @@ def routes(robot: Robot) -> Iterator[tuple[str, str, str]]:
         covered.update(moving)
         yield base, leaf, note
     # The longer of two comes first, as it may have all that is in the shorter one.
-    ends = [(*_way(robot, above, joint.parent), joint) for joint in robot.joints if joint.kind in FREE]
+    ends = [
+        (*_way(robot, above, joint.parent), joint) for joint in robot.joints if joint.kind in FREE
+    ]
     for base, moving, note, free in sorted(ends, key=lambda end: -len(end[1])):
         if not covered.issuperset(moving):
             covered.update(moving)
@@ -207,7 +261,9 @@ def routes(robot: Robot) -> Iterator[tuple[str, str, str]]:
 
 
 def _way(robot: Robot, above: dict[str, Joint], tip: str) -> tuple[str, list[str], str]:
-    """Where the longest chain to a link starts, its joints that move, and the note on where it starts."""
+    """Where the longest chain to a link starts, its joints that move, and the note on where it
+    starts.
+    """
     link, moving = tip, []
     while link in above:
         joint = above[link]
@@ -220,7 +276,9 @@ def _way(robot: Robot, above: dict[str, Joint], tip: str) -> tuple[str, list[str
 
 
 def _both(robot: Robot | str | os.PathLike[str]) -> tuple[Robot, PinocchioOracle]:
-    """poekin's model and Pinocchio's, of the same text; of the model's own as URDF where it did not come from one."""
+    """poekin's model and Pinocchio's, of the same text; of the model's own as URDF where it did not
+    come from one.
+    """
     if isinstance(robot, str) and robot.lstrip().startswith("<"):
         return urdf.read_text(robot), PinocchioOracle(robot)
     model = robot if isinstance(robot, Robot) else load(robot)
@@ -229,12 +287,16 @@ def _both(robot: Robot | str | os.PathLike[str]) -> tuple[Robot, PinocchioOracle
     try:
         text = _text(model.source.origin)
     except OSError as error:
-        raise FileError(f"cannot read {model.source.place()} again for Pinocchio: {error.strerror}") from error
+        raise FileError(
+            f"cannot read {model.source.place()} again for Pinocchio: {error.strerror}"
+        ) from error
     return model, PinocchioOracle(text)
 
 
 def _text(origin: str) -> bytes:
-    """What is in the file that a robot came from; an arm of the built-in catalogue need not be a file at all."""
+    """What is in the file that a robot came from; an arm of the built-in catalogue need not be a
+    file at all.
+    """
     if not os.path.isabs(origin):
         return catalogue.text(origin)
     with open(origin, "rb") as stream:

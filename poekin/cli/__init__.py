@@ -1,7 +1,8 @@
 """The command line `poekin`; its commands are listed in `commands`.
 
-Exit codes: 0 done (validate: passed, compare: equal, singularity: regular, ik and follow: all solved, calibrate:
-converged), 1 not so, 2 an error (one message on stderr), 130 interrupted, 141 where the reader of the output went away.
+Exit codes: 0 done (validate: passed, compare: equal, singularity: regular, ik and follow: all
+solved, calibrate: converged), 1 not so, 2 an error (one message on stderr), 130 interrupted, 141
+where the reader of the output went away.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ NOBODY_READS = 141
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """The entry point of the command `poekin`: runs it on the arguments (sys.argv) and exits with its code."""
+    """The entry point of the command `poekin`: runs it on the arguments (sys.argv) and exits with
+    its code.
+    """
     for stream in ("stdout", "stderr"):
         if getattr(sys, stream) is None:  # started with it closed
             setattr(sys, stream, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115  open until the process ends
@@ -33,7 +36,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
-    """The exit code of one command; every error that a user can cause is one message on stderr and code 2."""
+    """The exit code of one command; every error that a user can cause is one message on stderr and
+    code 2.
+    """
     try:
         try:
             import rich  # noqa: F401  the commands' tables need it: say so at once, not in the middle
@@ -50,7 +55,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
             warnings.simplefilter("always", PoekinWarning)
             warnings.showwarning = show  # type: ignore[assignment]
             # The base of all usage errors: Click's own, or typer's where typer does without Click.
-            usage: Any = next(c for c in reversed(typer.BadParameter.__mro__) if hasattr(c, "format_message"))
+            usage: Any = next(
+                c for c in reversed(typer.BadParameter.__mro__) if hasattr(c, "format_message")
+            )
             if not (sys.argv[1:] if arguments is None else arguments):
                 arguments = ["--help"]
             try:
@@ -60,7 +67,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
                 return ERROR
             except typer.Abort:
                 return INTERRUPTED
-            except SystemExit:  # typer's answer to a broken pipe, the one case in which it ends the process itself
+            except (
+                SystemExit
+            ):  # typer's answer to a broken pipe, the one case in which it ends the process itself
                 return NOBODY_READS
         sys.stdout.flush()
     except BrokenPipeError:
@@ -69,13 +78,16 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except MissingExtra as error:
-        # Without rich there is no output.py to print with, and nothing in this message comes out of a file.
+        # Without rich there is no output.py to print with, and nothing in this message comes out of
+        # a file.
         print(f"poekin: error: {error}", file=sys.stderr)
         return ERROR
     except (PoekinError, OSError, MemoryError) as error:
         from .output import complain
 
-        complain(f"error: {'there is not enough memory for this' if isinstance(error, MemoryError) else error}")
+        complain(
+            f"error: {'there is not enough memory for this' if isinstance(error, MemoryError) else error}"
+        )
         try:
             sys.stdout.flush()
         except OSError:  # a full disk

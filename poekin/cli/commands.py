@@ -6,24 +6,11 @@ from typing import Annotated
 
 import typer
 
-from . import (
-    axes,
-    calibrate,
-    compare,
-    conform,
-    count,
-    dh,
-    emit,
-    fk,
-    follow,
-    ik,
-    info,
-    jacobian,
-    singularity,
-    urdf,
-    validate,
-)
+from . import conform
+from .calibration import calibrate
+from .kinematics import fk, follow, ik, jacobian, singularity
 from .model import takes_models
+from .models import axes, compare, count, dh, emit, info, urdf, validate
 
 app = typer.Typer(
     add_completion=False,
@@ -32,7 +19,8 @@ app = typer.Typer(
     help="Kinematics of robots by the product of exponentials: rad and m, twists (omega; v).",
 )
 
-# Unknown options pass through to q, so that -0.5 is a number; there are no one-letter options that it could be.
+# Unknown options pass through to q, so that -0.5 is a number; there are no one-letter options that
+# it could be.
 NUMBERS = {"ignore_unknown_options": True}
 
 app.command("info")(takes_models(info.command))

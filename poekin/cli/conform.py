@@ -1,4 +1,6 @@
-"""`poekin conform`: hold somebody's exp, log, Jacobian, kinematics or URDF reader to the laws, and grade it."""
+"""`poekin conform`: hold somebody's exp, log, Jacobian, kinematics or URDF reader to the laws, and
+grade it.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from .arm import Json
+from .kinematics.arm import Json
 from .output import Progress, as_json, say
 
 FINDINGS = 1
@@ -16,15 +18,24 @@ FINDINGS = 1
 Subject = Annotated[
     str,
     typer.Argument(
-        metavar="MODULE:CLASS", help="The class with the functions, in a module that Python finds from this directory."
+        metavar="MODULE:CLASS",
+        help="The class with the functions, in a module that Python finds from this directory.",
     ),
 ]
 Laws = Annotated[
-    list[str] | None, typer.Option("--law", help="Hold it to this law only; may be repeated (default: all that apply).")
+    list[str] | None,
+    typer.Option(
+        "--law", help="Hold it to this law only; may be repeated (default: all that apply)."
+    ),
 ]
-Without = Annotated[list[str] | None, typer.Option("--except", help="Leave out this law; may be repeated.")]
+Without = Annotated[
+    list[str] | None, typer.Option("--except", help="Leave out this law; may be repeated.")
+]
 Examples = Annotated[
-    int | None, typer.Option("--examples", help="Cases of each law (default: 100 to 400, each law its own).", min=1)
+    int | None,
+    typer.Option(
+        "--examples", help="Cases of each law (default: 100 to 400, each law its own).", min=1
+    ),
 ]
 Seconds = Annotated[
     float,
@@ -35,7 +46,8 @@ Seconds = Annotated[
     ),
 ]
 Limit = Annotated[
-    float, typer.Option("--limit", help="Seconds that one call may take, with what it compiles.", min=0.1)
+    float,
+    typer.Option("--limit", help="Seconds that one call may take, with what it compiles.", min=0.1),
 ]
 
 
@@ -47,7 +59,9 @@ class Bar(enum.StrEnum):
     POOR = "poor"
 
 
-AtMost = Annotated[Bar, typer.Option("--at-most", help="The worst grade that is let pass with exit code 0.")]
+AtMost = Annotated[
+    Bar, typer.Option("--at-most", help="The worst grade that is let pass with exit code 0.")
+]
 
 
 def command(
@@ -60,11 +74,13 @@ def command(
     limit: Limit = 60.0,
     json: Json = False,
 ) -> None:
-    """Law by law a grade: exact, good, poor or broken, and a counterexample to paste. This imports and runs MODULE.
+    """Law by law a grade: exact, good, poor or broken, and a counterexample to paste. This imports
+    and runs MODULE.
 
-    It runs in a process of its own, so that a crash or a hang is a finding like others. What the class may have and
-    must declare is in the documentation of poekin.testing.conform.subject. Exit code 0 nothing is worse than --at-most,
-    1 something is, 2 error.
+    It runs in a process of its own, so that a crash or a hang is a finding like others. What the
+    class may have and must declare is in the documentation of
+    poekin.testing.conform.subjects.subject. Exit code 0 nothing is worse than --at-most, 1
+    something is, 2 error.
     """
     # It needs the extra `testing`, which the other commands do without.
     from ..testing.conform import Grade, Limits, conform

@@ -1,4 +1,6 @@
-"""The models that a command takes: every FILE becomes a Robot here, by `load`, or by xacro where that was asked for."""
+"""The models that a command takes: every FILE becomes a Robot here, by `load`, or by xacro where
+that was asked for.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,9 @@ Xacro = Annotated[bool, typer.Option("--xacro", help=XACRO_HELP)]
 Given = Annotated[
     list[str] | None,
     typer.Option(
-        "--xacro-arg", metavar="NAME=VALUE", help="With --xacro: the value of a <xacro:arg>; may be repeated."
+        "--xacro-arg",
+        metavar="NAME=VALUE",
+        help="With --xacro: the value of a <xacro:arg>; may be repeated.",
     ),
 ]
 OPTIONS = ("--xacro", "--xacro-arg")
@@ -40,10 +44,14 @@ def model(file: str) -> Robot:
 
 
 def takes_models(command: Callable[..., None]) -> Callable[..., None]:
-    """The command with two more options, --xacro and --xacro-arg, which say how `model` reads files while it runs."""
+    """The command with two more options, --xacro and --xacro-arg, which say how `model` reads files
+    while it runs.
+    """
 
     @functools.wraps(command)
-    def run(*args: Any, xacro: bool = False, xacro_arg: Sequence[str] | None = None, **options: Any) -> None:
+    def run(
+        *args: Any, xacro: bool = False, xacro_arg: Sequence[str] | None = None, **options: Any
+    ) -> None:
         if xacro_arg and not xacro:
             raise InputError("--xacro-arg: expected together with --xacro only")
         before = _arguments.set(dict(map(_pair, xacro_arg or ())) if xacro else None)
@@ -55,12 +63,16 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
     # Typer makes the options out of the signature and the annotations.
     own = inspect.signature(command, eval_str=True)
     more = [
-        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+        inspect.Parameter(
+            name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation
+        )
         for name, default, annotation in (("xacro", False, Xacro), ("xacro_arg", None, Given))
     ]
     whole = own.replace(parameters=[*own.parameters.values(), *more])
     vars(run)["__signature__"] = whole
-    run.__annotations__ = {parameter.name: parameter.annotation for parameter in whole.parameters.values()}
+    run.__annotations__ = {
+        parameter.name: parameter.annotation for parameter in whole.parameters.values()
+    }
     return run
 
 

@@ -21,13 +21,15 @@ MOST_ROWS = 2**40
 
 
 def configurations(content: bytes, m: int, where: str, tail: tuple[int, ...] = ()) -> np.ndarray:
-    """The array (N, m), or (m,) for a single configuration, in the bytes of a .npy file, as float64 (N, m).
+    """The array (N, m), or (m,) for a single configuration, in the bytes of a .npy file, as float64
+    (N, m).
 
-    Parameters: content; m; where, the file as messages call it; tail, last axes of m numbers, as (4, 4) for m = 16,
-    that an array may have instead of (m,).
-    Raises: FileError, which names the file, for what is no .npy file of real numbers, whose header is damaged, or that
-    holds fewer bytes than its header says; InputError for another shape. Nothing is allocated before all that holds.
-    Source: the format's versions 1.0 to 3.0 as the documentation of numpy.lib.format describes them.
+    Parameters: content; m; where, the file as messages call it; tail, last axes of m numbers, as
+    (4, 4) for m = 16, that an array may have instead of (m,).
+    Raises: FileError, which names the file, for what is no .npy file of real numbers, whose header
+    is damaged, or that holds fewer bytes than its header says; InputError for another shape.
+    Nothing is allocated before all that holds. Source: the format's versions 1.0 to 3.0 as the
+    documentation of numpy.lib.format describes them.
     """
     try:
         dtype, column_major, shape, start = _header(content)
@@ -38,16 +40,22 @@ def configurations(content: bytes, m: int, where: str, tail: tuple[int, ...] = (
         raise InputError(f"{where}: an array of shape (N, {m}) expected, got {shape}")
     count, there = math.prod(shape), len(content) - start
     if count * dtype.itemsize > there:
-        raise FileError(f"{where} is damaged: its header speaks of {count * dtype.itemsize} bytes, {there} are there")
+        raise FileError(
+            f"{where} is damaged: its header speaks of {count * dtype.itemsize} bytes, {there} are there"
+        )
     # Where there is nothing to read NumPy does not look at an empty buffer.
     flat = np.frombuffer(content, dtype, count, start) if count else np.zeros(0, dtype)
-    with np.errstate(all="ignore"):  # a signalling NaN becomes a quiet one, and what is too large infinite
+    with np.errstate(
+        all="ignore"
+    ):  # a signalling NaN becomes a quiet one, and what is too large infinite
         values = flat.reshape(shape, order="F" if column_major else "C").astype(float)
     return values.reshape(math.prod(shape[: -len(last)]), m)
 
 
 def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:
-    """Type of the elements, whether the first axis runs fastest, shape, and where the elements start."""
+    """Type of the elements, whether the first axis runs fastest, shape, and where the elements
+    start.
+    """
     if not content.startswith(MAGIC):
         raise ValueError("it does not begin like one")
     version = content[6:8]
@@ -68,14 +76,18 @@ def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:
         raise ValueError(f"an array of real numbers expected, its elements are {str(descr)[:40]!r}")
     if not isinstance(column_major, bool):
         raise ValueError("its header's fortran_order is neither True nor False")
-    if not isinstance(shape, tuple) or not all(type(size) is int and 0 <= size <= MOST_ROWS for size in shape):
+    if not isinstance(shape, tuple) or not all(
+        type(size) is int and 0 <= size <= MOST_ROWS for size in shape
+    ):
         raise ValueError("its header's shape is none")
     return np.dtype(descr), column_major, shape, start + length
 
 
 def _literal(text: bytes, encoding: str) -> object:
     """What a Python literal says."""
-    if sum(map(text.count, (b"(", b"[", b"{", b"-"))) > NESTED:  # Python's parser calls that a want of memory
+    if (
+        sum(map(text.count, (b"(", b"[", b"{", b"-"))) > NESTED
+    ):  # Python's parser calls that a want of memory
         raise ValueError("its header cannot be read")
     try:
         with warnings.catch_warnings():

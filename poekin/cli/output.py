@@ -1,4 +1,6 @@
-"""What the commands print: plain text, tables, numbers, JSON, progress. Names out of files are shown harmlessly."""
+"""What the commands print: plain text, tables, numbers, JSON, progress. Names out of files are
+shown harmlessly.
+"""
 
 from __future__ import annotations
 
@@ -23,8 +25,13 @@ PAUSE = 10.0
 
 
 def plain(text: object) -> str:
-    """Text without anything a terminal would obey: control and bidirectional characters escaped, line breaks kept."""
-    return "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in str(text))
+    """Text without anything a terminal would obey: control and bidirectional characters escaped,
+    line breaks kept.
+    """
+    return "".join(
+        c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode()
+        for c in str(text)
+    )
 
 
 def name(text: object) -> str:
@@ -98,9 +105,11 @@ def as_json(value: Any) -> str:
 
 
 class Progress:
-    """How far long work has come, on stderr: one line that is rewritten on a terminal, else a line now and then.
+    """How far long work has come, on stderr: one line that is rewritten on a terminal, else a line
+    now and then.
 
-    Parameters: what (the work's name). Short work shows nothing. Use it as a context manager; call it with
+    Parameters: what (the work's name). Short work shows nothing. Use it as a context manager; call
+    it with
     (done, total, what is being done), total 0 where nobody knows it.
     """
 
@@ -112,10 +121,16 @@ class Progress:
     def __call__(self, done: int, total: int, text: str = "") -> None:
         """Say how far the work is, if it is time to say something."""
         now = time.monotonic()
-        if now - self.last < (0.1 if self.shown and self.terminal else 0.5 if self.terminal else PAUSE):
+        if now - self.last < (
+            0.1 if self.shown and self.terminal else 0.5 if self.terminal else PAUSE
+        ):
             return
         self.last, self.shown = now, True
-        line = name(f"{self.what}: {done}" + (f" of {total}" if total else "") + (f", {text}" if text else ""))
+        line = name(
+            f"{self.what}: {done}"
+            + (f" of {total}" if total else "")
+            + (f", {text}" if text else "")
+        )
         if self.terminal:
             print(f"\r\x1b[K{line[:100]}", end="", file=sys.stderr, flush=True)
         else:

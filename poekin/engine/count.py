@@ -1,8 +1,9 @@
 """A scalar that counts: run a formula on it and read what the formula costs.
 
-A multiplication, addition, subtraction or division counts where at least one operand is a `Counted`: what combines two
-constants is done once, beforehand. Negation and comparison are free, and so are the integers 0, 1 and -1: they are a
-formula's structure (a revolute joint's r = 1, s = 0), while the float 1.0 is a number like any other.
+A multiplication, addition, subtraction or division counts where at least one operand is a
+`Counted`: what combines two constants is done once, beforehand. Negation and comparison are free,
+and so are the integers 0, 1 and -1: they are a formula's structure (a revolute joint's r = 1, s =
+0), while the float 1.0 is a number like any other.
 """
 
 from __future__ import annotations

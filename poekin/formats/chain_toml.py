@@ -1,4 +1,6 @@
-"""A chain as a table of TOML, to the last bit; and the robot of the calibrated chain in the file of a calibration."""
+"""A chain as a table of TOML, to the last bit; and the robot of the calibrated chain in the file of
+a calibration.
+"""
 
 from __future__ import annotations
 
@@ -8,20 +10,33 @@ from typing import Any
 from ..errors import ModelError, PoekinError, harmless
 from ..model.chain import Chain
 from ..model.robot import Robot
-from . import toml_text
 from .serial import serial_robot
-from .toml_text import Keys
+from .text import toml_text
+from .text.toml_text import Keys
 
 FORMAT, VERSION = "poekin calibration", 1
-"""What `format` and `version` say in the file of a calibration (`poekin.solve.calibration.files`)."""
+"""What `format` and `version` say in the file of a calibration
+(`poekin.solve.calibration.report.toml_io`).
+"""
 CALIBRATED = "calibrated"
 """The key of the calibrated chain in it."""
-_KEYS = ("base", "tip", "joint_names", "q_names", "screws", "home", "limits", "offset", "coupling", "pitches")
+_KEYS = (
+    "base",
+    "tip",
+    "joint_names",
+    "q_names",
+    "screws",
+    "home",
+    "limits",
+    "offset",
+    "coupling",
+    "pitches",
+)
 
 
 def to_data(chain: Chain) -> dict[str, Any]:
-    """A chain as a table: its two frames, names, screws, home pose, limits and offset; coupling and pitches, where it
-    has such.
+    """A chain as a table: its two frames, names, screws, home pose, limits and offset; coupling and
+    pitches, where it has such.
     """
     data: dict[str, Any] = {
         "base": chain.base, "tip": chain.tip, "joint_names": list(chain.joint_names), "q_names": list(chain.q_names),
@@ -36,7 +51,9 @@ def to_data(chain: Chain) -> dict[str, Any]:
 
 
 def to_chain(keys: Keys) -> Chain:
-    """The chain in a table. Raises: ModelError with file and key. Accuracy: equal to the chain that was written."""
+    """The chain in a table. Raises: ModelError with file and key. Accuracy: equal to the chain that
+    was written.
+    """
     keys = Keys(keys.data, keys.place, _KEYS)
     joints, names = keys.texts("joint_names"), keys.texts("q_names")
     n, m = len(joints), len(names)
@@ -63,18 +80,24 @@ def is_calibration(path: str | os.PathLike[str]) -> bool:
 
 
 def opened(path: str | os.PathLike[str]) -> Keys:
-    """The file of a calibration, of a version that is known. Raises: FileError; ModelError with file and key."""
+    """The file of a calibration, of a version that is known. Raises: FileError; ModelError with
+    file and key.
+    """
     keys = Keys(toml_text.read(path), harmless(os.fsdecode(path), 400))
     keys.text("format", (FORMAT,))
     if keys.whole("version") != VERSION:
-        raise keys.fault("version", f"expected {VERSION}, got {keys.whole('version')}: another version of poekin's")
+        raise keys.fault(
+            "version",
+            f"expected {VERSION}, got {keys.whole('version')}: another version of poekin's",
+        )
     return keys
 
 
 def read(path: str | os.PathLike[str]) -> Robot:
     """The robot of one branch that moves as the calibrated chain in the file of a calibration.
 
-    Raises: FileError; ModelError with file and key. Warns: as `serial_robot`, where q is not that of the chain.
+    Raises: FileError; ModelError with file and key. Warns: as `serial_robot`, where q is not that
+    of the chain.
     """
     keys = opened(path)
     chain = to_chain(keys.table(CALIBRATED))

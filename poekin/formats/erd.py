@@ -16,8 +16,8 @@ PACKAGE = "example-robot-data"
 def available() -> dict[str, str]:
     """Every URDF file of the package: a dict from name to path, in alphabetical order.
 
-    The name is the file's, without `.urdf`; where two files share it, it is preceded by the name of the robot's folder:
-    `anymal_b_simple_description/anymal`.
+    The name is the file's, without `.urdf`; where two files share it, it is preceded by the name of
+    the robot's folder: `anymal_b_simple_description/anymal`.
     Raises: MissingExtra when example-robot-data is not installed.
     """
     # Imported where it is used: it takes longer to import than all of this package's formats.
@@ -38,8 +38,8 @@ def available() -> dict[str, str]:
 def read(name: str) -> Robot:
     """The robot of that name, one of `available()`.
 
-    Raises: MissingExtra when example-robot-data is not installed; UnknownName with the closest names; otherwise as
-    `urdf.read`.
+    Raises: MissingExtra when example-robot-data is not installed; UnknownName with the closest
+    names; otherwise as `urdf.read`.
     """
     paths = available()
     if name not in paths:

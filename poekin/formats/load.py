@@ -1,4 +1,6 @@
-"""load: a robot by the name of a file, of an arm that comes with poekin, or of one of example-robot-data."""
+"""load: a robot by the name of a file, of an arm that comes with poekin, or of one of
+example-robot-data.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +8,9 @@ import os
 
 from ..errors import FileError, InputError, ModelError, UnknownName, closest, harmless, shown
 from ..model.robot import Robot
-from . import catalogue, chain_toml, dh, erd, mjcf, ur, urdf
+from . import catalogue, chain_toml, dh, erd, ur, urdf
 from .dh.published_tables import NAMES as TABLES
+from .mjcf import mjcf
 
 PREFIX = "erd:"
 BUILT_IN = tuple(sorted({*catalogue.NAMES, *TABLES}))
@@ -18,16 +21,18 @@ ENDINGS = (".urdf", ".xml", ".xacro", ".toml", ".csv", ".yaml", ".yml")
 def load(name: str | os.PathLike[str]) -> Robot:
     """The robot of that name.
 
-    Parameters: name, the path of an existing file, a URDF, an MJCF (.xml with the root <mujoco>, extra `mjcf`), a DH
-    table (.toml, .csv), a file of `Calibration.save` (.toml; the calibrated chain) or a calibration of Universal Robots
-    (.yaml, .yml; see `poekin.formats.ur`); else the name of an arm that comes with poekin, one of `BUILT_IN` ("panda",
-    "ur5e", "puma560", ...); else "erd:" and the name of a robot of the package example-robot-data, as in
-    "erd:talos_left_arm". Xacro is refused: see `poekin.xacro`.
+    Parameters: name, the path of an existing file, a URDF, an MJCF (.xml with the root <mujoco>,
+    extra `mjcf`), a DH table (.toml, .csv), a file of `Calibration.save` (.toml; the calibrated
+    chain) or a calibration of Universal Robots (.yaml, .yml; see `poekin.formats.ur`); else the
+    name of an arm that comes with poekin, one of `BUILT_IN` ("panda", "ur5e", "puma560", ...); else
+    "erd:" and the name of a robot of the package example-robot-data, as in "erd:talos_left_arm".
+    Xacro is refused: see `poekin.xacro`.
     A path object is always a path. Returns: Robot.
 
-    Raises: FileError for a path that does not exist, is a directory, is empty or cannot be read; UnknownName with the
-    closest names; MissingExtra when example-robot-data is asked for and not installed; ModelError, with file and line,
-    for a file that cannot be understood; InputError for a name of another type.
+    Raises: FileError for a path that does not exist, is a directory, is empty or cannot be read;
+    UnknownName with the closest names; MissingExtra when example-robot-data is asked for and not
+    installed; ModelError, with file and line, for a file that cannot be understood; InputError for
+    a name of another type.
     Warns: PoekinWarning with file and line for what was repaired, as `poekin.formats.urdf` says.
     """
     if isinstance(name, os.PathLike):

@@ -1,4 +1,6 @@
-"""The same robot with other screws: joints move as a chain says, link frames stay where they were, or nearly so."""
+"""The same robot with other screws: joints move as a chain says, link frames stay where they were,
+or nearly so.
+"""
 
 from __future__ import annotations
 
@@ -13,36 +15,46 @@ from ..groups import se3, so3
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.joint import Joint
+from ..model.provenance import Source
 from ..model.robot import Robot
-from ..model.source import Source
-from ..model.tree import path, tree_of
+from ..model.tree.tree import path, tree_of
 
 ON_AXIS = 1e-11
-"""How far [rad, and in reaches] a tip may be off the axis that moves it and still pass for lying on it: rounding."""
+"""How far [rad, and in reaches] a tip may be off the axis that moves it and still pass for lying on
+it: rounding.
+"""
 
 
-def relinked(robot: Robot, chain: Chain, *, base: str | None = None, tip: str | None = None) -> Robot:
-    """The robot whose branch from base to tip has the kinematics of the chain: f(q) of both is the same for every q.
+def relinked(
+    robot: Robot, chain: Chain, *, base: str | None = None, tip: str | None = None
+) -> Robot:
+    """The robot whose branch from base to tip has the kinematics of the chain: f(q) of both is the
+    same for every q.
 
-    A calibrated arm comes as screws and a home pose, and whoever draws it or plans with it has nominal links: meshes,
-    masses, sensors on brackets. So each link that a joint moves keeps its frame as nearly as the joint lets it: at
-    x = 0 its origin is the point of the new axis nearest to the nominal origin (the nominal origin itself where the
-    joint is prismatic), and its axes are the nominal ones turned by the smallest angle that makes the joint's axis
-    right. A joint whose new screw points the other way has its axis reversed in place of its link. What the last joint
-    moves is fixed to its link up to the tip: the first of these fixed joints takes up the rest, and where there is
-    none, the tip's frame is the chain's own. All other joints, and the links that hang off the branch, stay as they are
+    A calibrated arm comes as screws and a home pose, and whoever draws it or plans with it has
+    nominal links: meshes, masses, sensors on brackets. So each link that a joint moves keeps its
+    frame as nearly as the joint lets it: at
+    x = 0 its origin is the point of the new axis nearest to the nominal origin (the nominal origin
+    itself where the joint is prismatic), and its axes are the nominal ones turned by the smallest
+    angle that makes the joint's axis right. A joint whose new screw points the other way has its
+    axis reversed in place of its link. What the last joint moves is fixed to its link up to the
+    tip: the first of these fixed joints takes up the rest, and where there is none, the tip's frame
+    is the chain's own. All other joints, and the links that hang off the branch, stay as they are
     relative to their parent link. Names, kinds, limits and mimic are the robot's.
 
-    Parameters: robot, the nominal one; chain, with the branch's joints in its order, screws and home pose given at the
-    robot's zero, from the frame of base to the frame of tip; base and tip, as in `Robot.chain`. The chain's coordinates
-    are its joints, x = q, or coupled as the branch is. Returns: Robot.
-    Raises: InputError where the numbers, kinds or order of joints differ, the coupling does, a moving joint is passed
-    from child to parent, there is no joint at all, or the tip is fixed to nothing and off its joint's axis; UnknownName
-    and ModelError as `Robot.chain`.
-    Accuracy: that of `Chain.fk` for either, and 24 u n (1 + sum |x|) of both reaches, u = 2^-53, n the joints of the
-    branch with the fixed ones; 1e-11 more where the tip is fixed to nothing. A frame moves by the distance between
-    nominal origin and new axis, and turns by the angle between the axes, whatever a DH table of the same arm
-    looks like (tests/formats/test_relink.py). Source: the point of a line nearest to another, and so3.exp.
+    Parameters: robot, the nominal one; chain, with the branch's joints in its order, screws and
+    home pose given at the robot's zero, from the frame of base to the frame of tip; base and tip,
+    as in `Robot.chain`. The chain's coordinates are its joints, x = q, or coupled as the branch is.
+    Returns: Robot.
+    Raises: InputError where the numbers, kinds or order of joints differ, the coupling does, a
+    moving joint is passed from child to parent, there is no joint at all, or the tip is fixed to
+    nothing and off its joint's axis; UnknownName and ModelError as `Robot.chain`.
+    Accuracy: that of `Chain.fk` for either, and 24 u n (1 + sum |x|) of both reaches, u = 2^-53, n
+    the joints of the branch with the fixed ones; 1e-11 more where the tip is fixed to nothing. A
+    frame moves by the distance between nominal origin and new axis, and turns by the angle between
+    the axes, whatever a DH table of the same arm
+    looks like (tests/formats/test_relink.py). Source: the point of a line nearest to another, and
+    so3.exp.
     """
     if not isinstance(robot, Robot) or not isinstance(chain, Chain):
         raise InputError(
@@ -86,17 +98,25 @@ def _alike(nominal: Chain, chain: Chain) -> None:
         )
     for a, b, kind, other in zip(mine, theirs, nominal.kinds, chain.kinds, strict=True):
         if kind != other:
-            raise InputError(f"joint {shown(a)} of the robot is {kind}, and {shown(b)} of the chain is {other}")
+            raise InputError(
+                f"joint {shown(a)} of the robot is {kind}, and {shown(b)} of the chain is {other}"
+            )
     free = np.array_equal(chain.coupling, np.eye(len(mine))) and not chain.offset.any()
-    same = np.array_equal(chain.coupling, nominal.coupling) and np.array_equal(chain.offset, nominal.offset)
+    same = np.array_equal(chain.coupling, nominal.coupling) and np.array_equal(
+        chain.offset, nominal.offset
+    )
     if not (free or same):
-        raise InputError("the chain's joints follow its coordinates otherwise than the robot's: x = C q + c differs")
+        raise InputError(
+            "the chain's joints follow its coordinates otherwise than the robot's: x = C q + c differs"
+        )
 
 
 def _origins(joints: Sequence[Joint], chain: Chain) -> list[Joint]:
-    """The joints of a way down the tree with new origins, so that they move as the chain does in the top link's frame.
+    """The joints of a way down the tree with new origins, so that they move as the chain does in
+    the top link's frame.
 
-    H and G are the poses of a link in the top link's frame at x = 0: the nominal one and the new one.
+    H and G are the poses of a link in the top link's frame at x = 0: the nominal one and the new
+    one.
     """
     last = max(k for k, joint in enumerate(joints) if joint.kind != "fixed")
     H = G = np.eye(4)
@@ -121,7 +141,9 @@ def _origins(joints: Sequence[Joint], chain: Chain) -> list[Joint]:
 
 
 def _moved(joint: Joint, H: Array, chain: Chain, i: int, at_tip: bool) -> tuple[Joint, Array]:
-    """Joint i of the chain, and the pose of the link that it moves; at_tip, where that link is the tip itself."""
+    """Joint i of the chain, and the pose of the link that it moves; at_tip, where that link is the
+    tip itself.
+    """
     screw, turns = chain.screws[i], chain.local.rotates[i] != 0
     w = screw[:3] if turns else screw[3:]
     z = (chain.home if at_tip else H)[:3, :3] @ joint.axis

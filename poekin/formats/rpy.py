@@ -11,7 +11,8 @@ from ..groups import rpy
 
 
 def pose(xyz: Sequence[float], turns: Sequence[float]) -> np.ndarray:
-    """The pose (4, 4) of a frame at xyz [m], turned by (roll, pitch, yaw) [rad], in its parent's frame.
+    """The pose (4, 4) of a frame at xyz [m], turned by (roll, pitch, yaw) [rad], in its parent's
+    frame.
 
     Accuracy: every entry of R to 3 units in the last place of 1; R is orthonormal to the same.
     Source: the URDF specification, element <origin>.

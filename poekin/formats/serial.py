@@ -1,7 +1,9 @@
-"""A chain as a robot of one branch: what every format that knows links and joints needs to hold a chain.
+"""A chain as a robot of one branch: what every format that knows links and joints needs to hold a
+chain.
 
-A link's joint follows one coordinate at most, and its own value *is* that coordinate where no other joint is its
-master. x = C q + c says more than that, so each row of C is told apart here: a constant, a master, a follower.
+A link's joint follows one coordinate at most, and its own value *is* that coordinate where no other
+joint is its master. x = C q + c says more than that, so each row of C is told apart here: a
+constant, a master, a follower.
 """
 
 from __future__ import annotations
@@ -16,14 +18,15 @@ from ..errors import InputError, listed, shown
 from ..groups import se3
 from ..model.chain import Chain
 from ..model.joint import Joint, Mimic
+from ..model.provenance import warn
 from ..model.robot import Robot
-from ..model.source import warn
 
 Interval = tuple[float, float]
 
 
 class Value(NamedTuple):
-    """How joint i of the chain gets its x from the value y of the robot's joint: x = sign y + start.
+    """How joint i of the chain gets its x from the value y of the robot's joint: x = sign y +
+    start.
 
     Fields: sign, start; limits of y; mimic, of y; moves, False where x is constant.
     """
@@ -38,19 +41,21 @@ class Value(NamedTuple):
 def serial_robot(chain: Chain, name: str | None = None) -> Robot:
     """The robot of one branch with the kinematics of a chain: base, a link after each joint, tip.
 
-    Frames are the z-aligned ones of `chain.local`: a chain does not know its links' own. Joint i has its name in the
-    chain, its axis is z or -z, and its link is called after it; a last, fixed joint holds the tip.
+    Frames are the z-aligned ones of `chain.local`: a chain does not know its links' own. Joint i
+    has its name in the chain, its axis is z or -z, and its link is called after it; a last, fixed
+    joint holds the tip.
 
-    Of the joints that follow a coordinate, the first one with x = q is its master and gives it its name, and the others
-    mimic that one. If none has, the first one with x = q + c or x = -q + c is, its c moved into its origin and its axis
-    turned round, so that the values of q stay what they are. If none has that either, the first that follows it is, and
-    the robot's coordinate is that joint's own x. A joint that follows no coordinate becomes a fixed one. Limits of
-    masters are those of the chain to the last digit; a follower's are as wide as its master's leave it.
+    Of the joints that follow a coordinate, the first one with x = q is its master and gives it its
+    name, and the others mimic that one. If none has, the first one with x = q + c or x = -q + c is,
+    its c moved into its origin and its axis turned round, so that the values of q stay what they
+    are. If none has that either, the first that follows it is, and the robot's coordinate is that
+    joint's own x. A joint that follows no coordinate becomes a fixed one. Limits of masters are
+    those of the chain to the last digit; a follower's are as wide as its master's leave it.
 
-    Parameters: chain; name of the robot, by default BASE_to_TIP. Returns: Robot; its q is in order of first appearance.
-    Raises: InputError for a joint that follows several coordinates, for base and tip of the same name, and for what is
-    no chain. Warns: PoekinWarning where q is no longer the same: another scale, another order, a coordinate left out
-    because no joint follows it.
+    Parameters: chain; name of the robot, by default BASE_to_TIP. Returns: Robot; its q is in order
+    of first appearance. Raises: InputError for a joint that follows several coordinates, for base
+    and tip of the same name, and for what is no chain. Warns: PoekinWarning where q is no longer
+    the same: another scale, another order, a coordinate left out because no joint follows it.
     Accuracy: that of the local form; about 1e-16 reach a joint. Source: Park 1994, Section IV.
     """
     if not isinstance(chain, Chain):
@@ -86,11 +91,15 @@ def _joint(chain: Chain, i: int, value: Value, parent: str, child: str) -> Joint
     if not value.moves:
         return Joint(name, "fixed", parent, child, origin)
     pitch = float(slide) if kind == "helical" else 0.0
-    return Joint(name, kind, parent, child, origin, (0.0, 0.0, value.sign), value.limits, value.mimic, pitch)
+    return Joint(
+        name, kind, parent, child, origin, (0.0, 0.0, value.sign), value.limits, value.mimic, pitch
+    )
 
 
 def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
-    """The joints' values; the names of the masters in the order of q; what is not the same any more, in words."""
+    """The joints' values; the names of the masters in the order of q; what is not the same any
+    more, in words.
+    """
     C, c = chain.coupling, chain.offset.tolist()
     values = [Value(start=shift, moves=False) for shift in c]
     masters: list[str] = []
@@ -114,7 +123,9 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
             ratio, shift = 1.0, 0.0
         else:
             values[master] = Value(limits=_image((lower, upper), ratio, shift))
-            changes.append(f"in the place of {shown(q_name)} is {shown(name)} = {ratio!r} {shown(q_name)} + {shift!r}")
+            changes.append(
+                f"in the place of {shown(q_name)} is {shown(name)} = {ratio!r} {shown(q_name)} + {shift!r}"
+            )
         for i, own in ratios.items():
             if i != master:
                 mimic = Mimic(name, own / ratio, c[i] - own / ratio * shift)
@@ -126,11 +137,15 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
 
 def _master(ratios: dict[int, float], shifts: list[float]) -> int:
     """The first joint with x = q, else with x = q + c, else with x = -q + c, else the first."""
-    return min(ratios, key=lambda i: ((ratios[i], shifts[i]) != (1, 0), ratios[i] != 1, ratios[i] != -1, i))
+    return min(
+        ratios, key=lambda i: ((ratios[i], shifts[i]) != (1, 0), ratios[i] != 1, ratios[i] != -1, i)
+    )
 
 
 def _image(limits: Interval, ratio: float, shift: float) -> Interval:
-    """The interval of ratio y + shift, wide enough that seen from y it is no narrower than the one of y."""
+    """The interval of ratio y + shift, wide enough that seen from y it is no narrower than the one
+    of y.
+    """
     ends = []
     for bound, outward in zip(limits, (-math.inf, math.inf), strict=True):
         end = ratio * bound + shift

@@ -1,12 +1,15 @@
 """URDF in, Robot out: only the text counts, no mesh, no ROS, no xacro.
 
-Source: the URDF specification (elements <robot>, <link>, <joint>). Where files depart from it, as real ones do:
-- a missing <axis> is (1, 0, 0), but one that is there must have xyz; an axis that is not of unit length is normalised,
-  with a warning above 1e-6;
-- limits that are missing, equal, infinite or absurd (1e4 and more) mean "unlimited", with one warning for the file. A
-  bound that is missing alone is unlimited on its side. Continuous joints have no limits;
+Source: the URDF specification (elements <robot>, <link>, <joint>). Where files depart from it, as
+real ones do:
+- a missing <axis> is (1, 0, 0), but one that is there must have xyz; an axis that is not of unit
+  length is normalised, with a warning above 1e-6;
+- limits that are missing, equal, infinite or absurd (1e4 and more) mean "unlimited", with one
+  warning for the file. A bound that is missing alone is unlimited on its side. Continuous joints
+  have no limits;
 - a joint that mimics one that does not exist stays independent, with a warning;
-- only direct children of <robot> count: what <gazebo>, <transmission> and elements of other namespaces hold does not.
+- only direct children of <robot> count: what <gazebo>, <transmission> and elements of other
+  namespaces hold does not.
 """
 
 from __future__ import annotations
@@ -17,13 +20,14 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from ..errors import InputError, ModelError, shown, told
+from ..model.checks import LONGEST
 from ..model.joint import FREE, KINDS, MOVING, Joint, Mimic
-from ..model.parts import LONGEST
+from ..model.provenance import Source, warn
 from ..model.robot import Robot
-from ..model.source import Source, warn
-from . import rpy, xml
-from .fields import Fields
-from .xml import Element
+from . import rpy
+from .text import xml
+from .text.xml import Element
+from .text.xml_reader import Fields
 
 # An axis this far off unit length is a slip of the pen, not rounding.
 AXIS_TOLERANCE = 1e-6
@@ -51,39 +55,51 @@ class Repairs(NamedTuple):
 def read(path: str | os.PathLike[str]) -> Robot:
     """The robot in a URDF file.
 
-    Raises: FileError for a file that cannot be read, is empty, a directory or larger than 64 MiB; ModelError, with file
-    and line, for everything in it that cannot be understood. Warns: PoekinWarning with file and line for what was
-    repaired (see the top of this module).
+    Raises: FileError for a file that cannot be read, is empty, a directory or larger than 64 MiB;
+    ModelError, with file and line, for everything in it that cannot be understood. Warns:
+    PoekinWarning with file and line for what was repaired (see the top of this module).
     Accuracy: origins to rounding, rotations orthonormal to 1e-15.
     """
     return read_text(xml.read_bytes(path), os.fsdecode(path), os.path.abspath(os.fsdecode(path)))
 
 
 def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robot:
-    """The robot in the text of a URDF; `name` stands for the file in messages; origin as in `Source`.
+    """The robot in the text of a URDF; `name` stands for the file in messages; origin as in
+    `Source`.
 
     Raises and warns as `read`; InputError where text is neither str nor bytes, or name no str.
     """
     if not isinstance(name, str):
-        raise InputError(f"name: expected what to call the text in messages, a str, got {told(name)}")
+        raise InputError(
+            f"name: expected what to call the text in messages, a str, got {told(name)}"
+        )
     root = xml.parse(text, name)
     source = Source(name)
     top = Fields(root, source)
     if top.tag != "robot":
-        raise ModelError(f"{source.place(top.line)}: expected the root element <robot>, got {shown(top.tag)}")
+        raise ModelError(
+            f"{source.place(top.line)}: expected the root element <robot>, got {shown(top.tag)}"
+        )
     links = top.all("link")
     if not links:
         raise top.fault(f"expected at least one <link>, there is none{_xacro(root)}")
     for element in root:
         if "xacro" in element.tag:
             what = f"<xacro:{Fields(element, source).tag}> is xacro that was not processed yet, which may hold joints"
-            raise ModelError(f"{source.place(element.sourceline)}: {what}: pk.xacro(path) evaluates it, and --xacro")
+            raise ModelError(
+                f"{source.place(element.sourceline)}: {what}: pk.xacro(path) evaluates it, and --xacro"
+            )
     repairs = Repairs([], [], [])
     elements = top.all("joint")
     joints = [_joint(fields, repairs) for fields in elements]
     known = {joint.name for joint in joints}
-    joints = [_with_known_master(joint, fields, known, repairs) for joint, fields in zip(joints, elements, strict=True)]
-    lines = Source(name, tuple(link.line for link in links), tuple(fields.line for fields in elements), origin)
+    joints = [
+        _with_known_master(joint, fields, known, repairs)
+        for joint, fields in zip(joints, elements, strict=True)
+    ]
+    lines = Source(
+        name, tuple(link.line for link in links), tuple(fields.line for fields in elements), origin
+    )
     stem = os.path.splitext(os.path.basename(name))[0]
     robot = Robot(root.get("name") or stem, [link.name("name") for link in links], joints, lines)
     _warn(repairs, source)
@@ -137,7 +153,9 @@ def _limits(fields: Fields, name: str, repairs: Repairs) -> tuple[float, float]:
     upper = element.number("upper", finite=False) if element else None
     line = element.line if element else fields.line
     if element and lower is not None and upper is not None and lower > upper:
-        raise element.fault(f"lower must not be above upper, got lower = {lower!r}, upper = {upper!r}")
+        raise element.fault(
+            f"lower must not be above upper, got lower = {lower!r}, upper = {upper!r}"
+        )
     if lower is None and upper is None:
         reason = "none"
     elif lower == upper:
@@ -164,7 +182,11 @@ def _mimic(fields: Fields, kind: str) -> Mimic | None:
     if kind in FREE:
         raise element.fault(f"a {kind} joint has no single value and cannot mimic another joint")
     multiplier, offset = element.number("multiplier"), element.number("offset")
-    return Mimic(element.name("joint"), 1.0 if multiplier is None else multiplier, 0.0 if offset is None else offset)
+    return Mimic(
+        element.name("joint"),
+        1.0 if multiplier is None else multiplier,
+        0.0 if offset is None else offset,
+    )
 
 
 def _with_known_master(joint: Joint, fields: Fields, known: set[str], repairs: Repairs) -> Joint:
@@ -179,7 +201,9 @@ def _with_known_master(joint: Joint, fields: Fields, known: set[str], repairs: R
 def _warn(repairs: Repairs, source: Source) -> None:
     if repairs.axes:
         worst = max(repairs.axes, key=lambda repair: repair.size)
-        warn(f"{source.place(worst.line)}: {worst.text}{_others(repairs.axes, worst, 'the worst of')}")
+        warn(
+            f"{source.place(worst.line)}: {worst.text}{_others(repairs.axes, worst, 'the worst of')}"
+        )
     if repairs.mimics:
         first = repairs.mimics[0]
         others = _others(repairs.mimics, first, "the first of")
@@ -199,4 +223,6 @@ def _others(repairs: list[Repair], named: Repair, rank: str) -> str:
 
 
 def _xacro(root: Element) -> str:
-    return " (xacro that was not processed yet?)" if any("xacro" in str(e.tag) for e in root) else ""
+    return (
+        " (xacro that was not processed yet?)" if any("xacro" in str(e.tag) for e in root) else ""
+    )

@@ -1,4 +1,6 @@
-"""Robot or Chain in, URDF out: text that Pinocchio, ROS and `poekin.formats.urdf` load with the same kinematics."""
+"""Robot or Chain in, URDF out: text that Pinocchio, ROS and `poekin.formats.urdf` load with the
+same kinematics.
+"""
 
 from __future__ import annotations
 
@@ -16,32 +18,41 @@ from .serial import serial_robot
 UNLIMITED = 1e16
 """What stands for "no limit" where URDF insists on a number [rad, m, N, N m, rad/s or m/s].
 
-No reader takes "inf", a missing bound is 0 to most, and an effort or velocity of 0 would hold the joint still in some.
+No reader takes "inf", a missing bound is 0 to most, and an effort or velocity of 0 would hold the
+joint still in some.
 """
 
-# What XML 1.0 can hold at all; and what of that could disappear, break the markup, or be obeyed by a terminal.
+# What XML 1.0 can hold at all; and what of that could disappear, break the markup, or be obeyed by
+# a terminal.
 _IMPOSSIBLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _MARKUP = '&<>"'
 
 
 def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
-    """The URDF of a robot or a chain: its kinematics, names and limits, and nothing else (no mesh, no inertia).
+    """The URDF of a robot or a chain: its kinematics, names and limits, and nothing else (no mesh,
+    no inertia).
 
-    A `Robot` keeps its tree: links, joints, origins, axes, mimic and order. A `Chain` becomes a robot of one branch as
-    `poekin.formats.serial.serial_robot` says: which joint is a coordinate's master, and where the link frames are.
+    A `Robot` keeps its tree: links, joints, origins, axes, mimic and order. A `Chain` becomes a
+    robot of one branch as `poekin.formats.serial.serial_robot` says: which joint is a coordinate's
+    master, and where the link frames are.
 
-    - A revolute joint without limits is continuous, as URDF calls that. A helical one without pitch is revolute.
-    - Where a prismatic joint, or one side of any joint, has no limit, ±1e16 is written; `poekin` reads it back as
-      unlimited, with the PoekinWarning that it has for all such files. Likewise effort and velocity, which URDF
-      demands, and a model here does not have.
-    - Two things are written as they are that `poekin` itself takes for "unlimited" in a URDF: lower = upper, and a
-      bound of 1e4 or more. Limits of fixed and planar joints have no place in the text.
+    - A revolute joint without limits is continuous, as URDF calls that. A helical one without pitch
+      is revolute.
+    - Where a prismatic joint, or one side of any joint, has no limit, ±1e16 is written; `poekin`
+      reads it back as unlimited, with the PoekinWarning that it has for all such files. Likewise
+      effort and velocity, which URDF demands, and a model here does not have.
+    - Two things are written as they are that `poekin` itself takes for "unlimited" in a URDF: lower
+      = upper, and a bound of 1e4 or more. Limits of fixed and planar joints have no place in the
+      text.
 
-    Parameters: model; name of the robot, by default its own, BASE_to_TIP for a chain. Returns: the text, indented,
+    Parameters: model; name of the robot, by default its own, BASE_to_TIP for a chain. Returns: the
+    text, indented,
     the same for equal models, without any path; encode it as UTF-8.
-    Raises: InputError that names the joints where one is helical, or follows several coordinates; for a name with a
-    character that XML cannot hold; for what is neither Robot nor Chain. Warns: as `serial_robot`.
-    Accuracy: lengths, axes, limits and mimic are written so that they read back as the same floats; the rotation of
+    Raises: InputError that names the joints where one is helical, or follows several coordinates;
+    for a name with a character that XML cannot hold; for what is neither Robot nor Chain. Warns: as
+    `serial_robot`.
+    Accuracy: lengths, axes, limits and mimic are written so that they read back as the same floats;
+    the rotation of
     an origin is the one of its roll, pitch and yaw within 1e-15. Source: the URDF specification.
     """
     if name is not None and not isinstance(name, str):
@@ -52,7 +63,10 @@ def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
     helical = [joint.name for joint in robot.joints if joint.pitch]
     if helical:
         raise InputError(f"URDF has no helical joints, and these are: {listed(helical)}")
-    lines = ['<?xml version="1.0"?>', f"<robot name={quoted(robot.name if name is None else name, 'robot')}>"]
+    lines = [
+        '<?xml version="1.0"?>',
+        f"<robot name={quoted(robot.name if name is None else name, 'robot')}>",
+    ]
     lines += [f"  <link name={quoted(link, 'link')}/>" for link in robot.links]
     for joint in robot.joints:
         lines += _joint(joint)
@@ -90,5 +104,11 @@ def quoted(name: str, what: str) -> str:
     """A name as the value of an attribute, whatever is in it; what no eye would see, by its number."""
     bad = _IMPOSSIBLE.search(name)
     if bad:
-        raise InputError(f"{what} {shown(name)}: XML cannot hold the character U+{ord(bad[0]):04X} of its name")
-    return '"' + "".join(c if c.isprintable() and c not in _MARKUP else f"&#{ord(c)};" for c in name) + '"'
+        raise InputError(
+            f"{what} {shown(name)}: XML cannot hold the character U+{ord(bad[0]):04X} of its name"
+        )
+    return (
+        '"'
+        + "".join(c if c.isprintable() and c not in _MARKUP else f"&#{ord(c)};" for c in name)
+        + '"'
+    )

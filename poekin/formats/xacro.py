@@ -1,4 +1,6 @@
-"""Xacro in, Robot out. Xacro is code: evaluating a file runs the expressions in it, so nothing does this unasked."""
+"""Xacro in, Robot out. Xacro is code: evaluating a file runs the expressions in it, so nothing does
+this unasked.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +15,10 @@ from typing import Any
 from xml.parsers.expat import ExpatError
 
 from ..errors import InputError, MissingExtra, ModelError, harmless, told
+from ..model.provenance import Source, warn
 from ..model.robot import Robot
-from ..model.source import Source, warn
-from . import urdf, xml
+from . import urdf
+from .text import xml
 from .urdf_text import quoted
 
 # The packages xacro and xacrodoc keep what they are at in variables of their modules.
@@ -25,17 +28,20 @@ _one_at_a_time = threading.Lock()
 def xacro(path: str | os.PathLike[str], /, **arguments: str | float) -> Robot:
     """The robot in a xacro file, evaluated by xacrodoc (extra `xacro`) and then read as URDF.
 
-    Xacro evaluates expressions that are written in the file and in those which it includes: Python expressions with
-    few names, files and environment variables that it may read. Take it for code in effect, and evaluate only files
-    that you trust. `load` never does it.
+    Xacro evaluates expressions that are written in the file and in those which it includes: Python
+    expressions with
+    few names, files and environment variables that it may read. Take it for code in effect, and
+    evaluate only files that you trust. `load` never does it.
 
-    Parameters: path, of the file; arguments, values of its <xacro:arg>, as in xacro("arm.urdf.xacro", prefix="left_").
-    True and False become "true" and "false". Files to include are relative to the file that includes them. Packages,
-    `$(find NAME)`, are looked for in the folders above the file, then where ROS has them (ROS_PACKAGE_PATH, ament),
+    Parameters: path, of the file; arguments, values of its <xacro:arg>, as in
+    xacro("arm.urdf.xacro", prefix="left_"). True and False become "true" and "false". Files to
+    include are relative to the file that includes them. Packages, `$(find NAME)`, are looked for in
+    the folders above the file, then where ROS has them (ROS_PACKAGE_PATH, ament),
     and where `xacrodoc.packages.look_in` was told to. Meshes need not be there. Returns: Robot.
-    Raises: FileError for a file that cannot be read; ModelError, with the file, for what xacro refuses, with its own
-    words, and what `formats.urdf` does not understand of the result: lines are then those of the evaluated text;
-    InputError for an argument that is no text, number or truth value; MissingExtra without the package xacrodoc.
+    Raises: FileError for a file that cannot be read; ModelError, with the file, for what xacro
+    refuses, with its own words, and what `formats.urdf` does not understand of the result: lines
+    are then those of the evaluated text; InputError for an argument that is no text, number or
+    truth value; MissingExtra without the package xacrodoc.
     Warns: PoekinWarning for what xacro warns of, and as `formats.urdf`.
     """
     data = xml.read_bytes(path)
@@ -47,20 +53,27 @@ def xacro(path: str | os.PathLike[str], /, **arguments: str | float) -> Robot:
 
 def is_xacro(path: str | os.PathLike[str]) -> bool:
     """Whether a file is xacro: it ends in .xacro or declares xacro's namespace. Raises: FileError."""
-    return os.fsdecode(path).lower().endswith(".xacro") or b"ros.org/wiki/xacro" in xml.read_bytes(path)
+    return os.fsdecode(path).lower().endswith(".xacro") or b"ros.org/wiki/xacro" in xml.read_bytes(
+        path
+    )
 
 
 def _text(key: str, value: Any) -> str:
     if not isinstance(value, (str, int, float)):
-        raise InputError(f"xacro: {harmless(key)}: expected a text, number or truth value, got {told(value)}")
+        raise InputError(
+            f"xacro: {harmless(key)}: expected a text, number or truth value, got {told(value)}"
+        )
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _evaluated(name: str, robot: str | None, values: dict[str, str]) -> str:
-    """The URDF text that the file of that name becomes; robot is the name on its root element, if there is one."""
+    """The URDF text that the file of that name becomes; robot is the name on its root element, if
+    there is one.
+    """
     xacrodoc, xacro_ = _packages()
-    # Included from another document, by its whole path, the file is where its own includes are relative to. `$` and
-    # what stands for other characters in patterns must not mean anything there.
+    # Included from another document, by its whole path, the file is where its own includes are
+    # relative to. `$` and what stands for other characters in patterns must not mean anything
+    # there.
     whole = glob.escape(os.path.abspath(name)).replace("${", "$${").replace("$(", "$$(")
     namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
     include = f"<xacro:include filename={quoted(whole, 'file')}/>"
@@ -72,7 +85,9 @@ def _evaluated(name: str, robot: str | None, values: dict[str, str]) -> str:
     said = io.StringIO()
     try:
         with _one_at_a_time, _packages_above(name, xacrodoc.packages), redirect_stderr(said):
-            result = xacrodoc.XacroDoc.from_string(text, subargs=values, resolve_packages=False).dom.toxml()
+            result = xacrodoc.XacroDoc.from_string(
+                text, subargs=values, resolve_packages=False
+            ).dom.toxml()
     except refusals as fault:
         raise ModelError(f"{Source(name).place()}: xacro: {_said(fault, xacrodoc)}") from fault
     for line in dict.fromkeys(said.getvalue().splitlines()):  # said again at each of its rounds
@@ -93,7 +108,9 @@ def _packages() -> tuple[ModuleType, ModuleType]:
 
 @contextmanager
 def _packages_above(name: str, packages: Any) -> Iterator[None]:
-    """Packages in the folders above a file come first, and only meanwhile: they must not be those of the next file."""
+    """Packages in the folders above a file come first, and only meanwhile: they must not be those
+    of the next file.
+    """
     before = packages._finder
     finder = packages.PackageFinder()
     finder.finder_funcs = [(before.get_path, packages.PackageNotFoundError)]
@@ -112,7 +129,8 @@ def _said(fault: BaseException, xacrodoc: Any) -> str:
     while cause is not None:
         if isinstance(cause, xacrodoc.packages.PackageNotFoundError):
             where = (
-                "in the folders above the file, in ROS_PACKAGE_PATH, and where xacrodoc.packages.look_in was told to"
+                "in the folders above the file, in ROS_PACKAGE_PATH, "
+                "and where xacrodoc.packages.look_in was told to"
             )
             return f"there is no package {harmless(' '.join(map(str, cause.args)), 80)!r} {where}"
         cause = getattr(cause, "exc", None) or cause.__cause__

@@ -1,7 +1,7 @@
 """The only functions beyond + - x / and comparison that the formulas use.
 
-Each looks up the functions of its argument's kind: those of floats, unless `provide` has registered its kind. The
-engine maps each function to compiled code. This is why one formula runs in all kinds.
+Each looks up the functions of its argument's kind: those of floats, unless `provide` has registered
+its kind. The engine maps each function to compiled code. This is why one formula runs in all kinds.
 """
 
 import math
@@ -21,14 +21,18 @@ def _float_cos(x):
 
 
 # `math`, but NaN where it raises: compiled code gives that too
-_FLOATS = (SimpleNamespace(sqrt=_float_sqrt, sin=_float_sin, cos=_float_cos, atan2=math.atan2), True)
+_FLOATS = (
+    SimpleNamespace(sqrt=_float_sqrt, sin=_float_sin, cos=_float_cos, atan2=math.atan2),
+    True,
+)
 _FUNCTIONS = {}
 
 
 def provide(kind, functions, series=True):
     """Let scalars of type `kind` take sqrt, sin, cos and atan2 from the namespace `functions`.
 
-    `series` says whether small arguments need the Taylor polynomials; numbers of many digits do without.
+    `series` says whether small arguments need the Taylor polynomials; numbers of many digits do
+    without.
     """
     _FUNCTIONS[kind] = (functions, series)
 
@@ -63,5 +67,7 @@ def takes_series(x):
 
 
 def below(x, limit):
-    """Whether x is so small, x < limit, that a closed form would cancel; for exact numbers only x = 0 is."""
+    """Whether x is so small, x < limit, that a closed form would cancel; for exact numbers only x =
+    0 is.
+    """
     return x < limit if takes_series(x) else x == 0

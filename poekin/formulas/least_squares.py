@@ -2,9 +2,10 @@
 
     (J^T W J + damping I) x = J^T W e
 
-`J` is `rows` rows of one number an unknown, W diagonal. `free` is 1 for the unknowns that may move and 0 for those that
-stay: these have x = 0. Only the lower triangle of H is used.
-Accuracy: about u times the condition of H, as of all normal equations (tests/formulas/test_least_squares.py).
+`J` is `rows` rows of one number an unknown, W diagonal. `free` is 1 for the unknowns that may move
+and 0 for those that stay: these have x = 0. Only the lower triangle of H is used.
+Accuracy: about u times the condition of H, as of all normal equations
+(tests/formulas/test_least_squares.py).
 Source: Levenberg 1944; H = L D L^T without square roots.
 """
 

@@ -1,4 +1,6 @@
-"""Arrays at the public boundary: what arrives is checked here, once, and said clearly where it does not fit."""
+"""Arrays at the public boundary: what arrives is checked here, once, and said clearly where it does
+not fit.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..engine import group_kernels
+from ..engine.kernels import group_kernels
 from ..errors import InputError, PoseError, ShapeError
 from .objects import plain
 
@@ -25,9 +27,13 @@ def numbers(values: ArrayLike, what: str) -> Array:
     try:
         array = np.asarray(values)
     except ValueError as error:
-        raise ShapeError(f"{what}: expected an array of numbers, got rows of different lengths") from error
+        raise ShapeError(
+            f"{what}: expected an array of numbers, got rows of different lengths"
+        ) from error
     if array.dtype.kind not in "fiu":
-        raise InputError(f"{what}: expected real numbers, got {array.dtype.name} ({type(values).__name__})")
+        raise InputError(
+            f"{what}: expected real numbers, got {array.dtype.name} ({type(values).__name__})"
+        )
     return array.astype(np.float64, copy=False)
 
 
@@ -54,7 +60,9 @@ def _checked(M: Array, what: str, kind: str) -> Array:
     flat = M.reshape(-1, *M.shape[-2:])
     found = np.array([TOLERANCE, 0.0, 0.0])
     k = group_kernels.first_defect.call(flat, found)
-    if k == -2:  # the kernels do not read the last row: what is not a number there has to show in the result
+    if (
+        k == -2
+    ):  # the kernels do not read the last row: what is not a number there has to show in the result
         M = M.copy()
         M[np.isnan(M[..., 3, :]).any(-1)] = np.nan
     if k < 0:
@@ -63,17 +71,24 @@ def _checked(M: Array, what: str, kind: str) -> Array:
     where = f"{what}[{', '.join(map(str, index))}]" if index else what
     off, determinant, last = found
     if last > TOLERANCE:
-        raise PoseError(f"{where} is no {kind}: its last row is {flat[k, 3].tolist()}, expected [0, 0, 0, 1]")
+        raise PoseError(
+            f"{where} is no {kind}: its last row is {flat[k, 3].tolist()}, expected [0, 0, 0, 1]"
+        )
     if off > TOLERANCE:
         raise PoseError(
             f"{where} is no {kind}: its rotation misses orthonormality, max abs(R R^T - I) = {off:.3g}, "
             f"accepted up to {TOLERANCE:g}"
         )
-    raise PoseError(f"{where} is no {kind}: its rotation is a reflection, det R = {determinant:.3g}, expected 1")
+    raise PoseError(
+        f"{where} is no {kind}: its rotation is a reflection, det R = {determinant:.3g}, expected 1"
+    )
 
 
-def mapped(kernel, element_axes: int, tail: tuple[int, ...], source: Array, *others: Array) -> Array:
-    """A kernel over the leading axes of `source`, one element of which has `element_axes` axes; `others` hold rows
+def mapped(
+    kernel, element_axes: int, tail: tuple[int, ...], source: Array, *others: Array
+) -> Array:
+    """A kernel over the leading axes of `source`, one element of which has `element_axes` axes;
+    `others` hold rows
     of the same leading axes. An element of the result has the shape `tail`.
     """
     batch = source.shape[: source.ndim - element_axes]

@@ -1,4 +1,6 @@
-"""Poses, rotations and tables of other libraries as arrays, known by their attributes: nothing is imported."""
+"""Poses, rotations and tables of other libraries as arrays, known by their attributes: nothing is
+imported.
+"""
 
 from __future__ import annotations
 
@@ -31,16 +33,20 @@ def labels(values: Any) -> tuple[Any, ...] | None:
 
 
 def plain(values: Any, what: str) -> Any:
-    """What other libraries call a pose or a rotation as an array, or a list of them; else `values` itself.
+    """What other libraries call a pose or a rotation as an array, or a list of them; else `values`
+    itself.
 
     - Pinocchio: SE3 (`homogeneous`)
     - SciPy: Rotation and RigidTransform; and all else that has `as_matrix()`
-    - spatialmath: SO3 and SE3 (`A`, a list where they hold several, of which `np.asarray` would take the first)
+    - spatialmath: SO3 and SE3 (`A`, a list where they hold several, of which `np.asarray` would
+      take the first)
     - pandas: Series and DataFrame whose last axis has no labels
 
-    Raises: InputError for what `np.asarray` would take for something else than it is: a twist in the other order,
-    (v; omega), as Pinocchio's Motion and spatialmath's Twist3 have it, and a planar SE2, which is 3x3 like a rotation;
-    a masked array of which something is masked; labels, which an array has not.
+    Raises: InputError for what `np.asarray` would take for something else than it is: a twist in
+    the other order,
+    (v; omega), as Pinocchio's Motion and spatialmath's Twist3 have it, and a planar SE2, which is
+    3x3 like a rotation; a masked array of which something is masked; labels, which an array has
+    not.
     """
     if isinstance(values, (list, tuple)):
         if set(map(type, values)) <= _NUMBERS:
@@ -65,9 +71,15 @@ def plain(values: Any, what: str) -> Any:
             " six numbers is (omega; v)"
         )
     if spatial and values.N != 3:
-        raise InputError(f"{what}: expected something of space, got the planar {type(values).__name__}")
+        raise InputError(
+            f"{what}: expected something of space, got the planar {type(values).__name__}"
+        )
     if spatial:
-        return np.reshape(values.A, (len(values), *shape)) if shape in _POSES and len(values) != 1 else values.A
+        return (
+            np.reshape(values.A, (len(values), *shape))
+            if shape in _POSES and len(values) != 1
+            else values.A
+        )
     if hasattr(values, "homogeneous"):
         return values.homogeneous
     as_matrix = getattr(values, "as_matrix", None)
@@ -75,7 +87,9 @@ def plain(values: Any, what: str) -> Any:
 
 
 def _unmasked(values: Any, what: str) -> None:
-    """Raises InputError for a masked array of which something is masked: `np.asarray` would take what lies below."""
+    """Raises InputError for a masked array of which something is masked: `np.asarray` would take
+    what lies below.
+    """
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         raise InputError(
             f"{what}: expected numbers, got a masked array of which some are masked: use .compressed(), or"

@@ -10,10 +10,11 @@ from .arrays import Array
 def angles(R: Array) -> Array:
     """(roll, pitch, yaw) (..., 3) [rad] of rotations (..., 3, 3); roll, yaw in [-pi, pi].
 
-    Yaw comes first, from the first column; roll and pitch then from Rz(yaw)^T R. Where pitch is ±pi/2 the first column
-    says nothing about yaw: whatever rounding makes of it, roll answers to it, so that the three together are R.
-    Accuracy: the rotation of the angles returned is R within 6e-16 in every entry (plus R's own distance from a
-    rotation), at pitch ±pi/2 as anywhere else, though roll and yaw are not determined there one by one.
+    Yaw comes first, from the first column; roll and pitch then from Rz(yaw)^T R. Where pitch is
+    ±pi/2 the first column says nothing about yaw: whatever rounding makes of it, roll answers to
+    it, so that the three together are R. Accuracy: the rotation of the angles returned is R within
+    6e-16 in every entry (plus R's own distance from a rotation), at pitch ±pi/2 as anywhere else,
+    though roll and yaw are not determined there one by one.
     Source: the first two angles of an Euler triple fix the third.
     """
     yaw = np.arctan2(R[..., 1, 0], R[..., 0, 0])

@@ -1,7 +1,8 @@
 """SE(3), the poses, over arrays.
 
-A pose T_ab (..., 4, 4) takes points from frame b to frame a: p_a = T_ab p_b. A twist xi = (omega; v) (..., 6) has its
-angular part first: rad and m. Leading axes are the batch. NaN in an element gives NaN in that element of the result.
+A pose T_ab (..., 4, 4) takes points from frame b to frame a: p_a = T_ab p_b. A twist xi = (omega;
+v) (..., 6) has its angular part first: rad and m. Leading axes are the batch. NaN in an element
+gives NaN in that element of the result.
 u = 2^-53 below.
 """
 
@@ -10,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..engine import group_kernels
+from ..engine.kernels import group_kernels
 from ..errors import BranchError, ShapeError
 from . import so3
 from .arrays import Array, mapped, numbers, poses, shaped
@@ -48,7 +49,8 @@ def vee(X: ArrayLike) -> Array:
     """The twist xi with [xi] = X, inverse of `hat`.
 
     Parameters: X (..., 4, 4); of its 3x3 corner the skew-symmetric part counts. Returns: (..., 6).
-    Raises: ShapeError, InputError. Accuracy: one rounding; exact for `hat`'s result. Source: Park 1994, Section II.
+    Raises: ShapeError, InputError. Accuracy: one rounding; exact for `hat`'s result. Source: Park
+    1994, Section II.
     """
     X = shaped(X, (4, 4), "X")
     return np.concatenate([so3.vee(X[..., :3, :3]), X[..., :3, 3]], axis=-1)
@@ -68,22 +70,30 @@ def exp(xi: ArrayLike) -> Array:
 def log(T: ArrayLike, near: ArrayLike | None = None) -> Array:
     """The twist xi with exp [xi] = T.
 
-    On the principal branch 0 <= |omega| <= pi; at pi the component of omega of largest magnitude is positive. With
-    `near` (a twist, of which omega counts) the xi whose omega is closest to it, of all omega + 2 pi k omega/|omega|.
+    On the principal branch 0 <= |omega| <= pi; at pi the component of omega of largest magnitude is
+    positive. With `near` (a twist, of which omega counts) the xi whose omega is closest to it, of
+    all omega + 2 pi k omega/|omega|.
 
-    Parameters: T (..., 4, 4), poses to 1e-5 (a larger defect is refused; a smaller one enters squared);
+    Parameters: T (..., 4, 4), poses to 1e-5 (a larger defect is refused; a smaller one enters
+    squared);
     near (..., 6), broadcast against T. Returns: xi (..., 6), rad and m.
-    Raises: PoseError, ShapeError, InputError; BranchError where the branch asked for has no logarithm, that is
+    Raises: PoseError, ShapeError, InputError; BranchError where the branch asked for has no
+    logarithm, that is
     |omega| = 2 pi k, k != 0, and a translation that is not along omega.
-    Accuracy: omega as `so3.log`; v within 3 u (|v| + k |p| + theta |dv/domega|), k = (theta/2)/sin(theta/2)
-    (tests/groups/test_accuracy.py). Source: Park 1994, Lemma 4 and Remark 1, through the quaternion.
+    Accuracy: omega as `so3.log`; v within 3 u (|v| + k |p| + theta |dv/domega|), k =
+    (theta/2)/sin(theta/2) (tests/groups/test_accuracy.py). Source: Park 1994, Lemma 4 and Remark 1,
+    through the quaternion.
     """
     T = poses(T)
     if near is None:
         return mapped(group_kernels.se3_log, 2, (6,), T)
     T, near = so3.with_rows(T, near, 6)
     xi = mapped(group_kernels.se3_log_near, 2, (6,), T, near)
-    lost = np.isnan(xi[..., 3:]).any(-1) & np.isfinite(T).all((-1, -2)) & np.isfinite(xi[..., :3]).all(-1)
+    lost = (
+        np.isnan(xi[..., 3:]).any(-1)
+        & np.isfinite(T).all((-1, -2))
+        & np.isfinite(xi[..., :3]).all(-1)
+    )
     if lost.any():
         index = tuple(int(i) for i in np.argwhere(lost)[0])
         where = f"T[{', '.join(map(str, index))}]" if index else "T"
@@ -113,7 +123,8 @@ def adjoint(T_ab: ArrayLike) -> Array:
 
 
 def ad(xi: ArrayLike) -> Array:
-    """ad(xi) = [[omega] 0; [v] [omega]], the bracket of se(3): ad(xi) eta = vee([xi][eta] - [eta][xi]).
+    """ad(xi) = [[omega] 0; [v] [omega]], the bracket of se(3): ad(xi) eta = vee([xi][eta] -
+    [eta][xi]).
 
     Parameters: xi (..., 6). Returns: (..., 6, 6). Raises: ShapeError, InputError. Accuracy: exact.
     Source: Park 1994, Section II.
@@ -130,7 +141,8 @@ def left_jacobian(xi: ArrayLike) -> Array:
 
     Parameters: xi (..., 6). Returns: (..., 6, 6). Raises: ShapeError, InputError.
     Accuracy: for |omega| <= 10 the 3x3 blocks within 1e-15, Q within 1e-15 |v|, Frobenius
-    (tests/groups/test_accuracy.py). Source: Park 1994, Lemma 5; Q is the dual part of J(omega + eps v).
+    (tests/groups/test_accuracy.py). Source: Park 1994, Lemma 5; Q is the dual part of J(omega + eps
+    v).
     """
     return mapped(group_kernels.se3_left, 1, (6, 6), shaped(xi, (6,), "xi"))
 
@@ -162,7 +174,8 @@ def right_jacobian_inverse(xi: ArrayLike) -> Array:
 
 
 def linear_first(x: ArrayLike, axis: int = -1) -> Array:
-    """The one permutation between (omega; v) and (v; omega): swaps the two halves of an axis of length 6.
+    """The one permutation between (omega; v) and (v; omega): swaps the two halves of an axis of
+    length 6.
 
     It is its own inverse. Rows of a Jacobian: axis=-2; both axes of a 6x6 matrix: apply it twice.
 

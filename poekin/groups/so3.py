@@ -1,7 +1,8 @@
 """SO(3), the rotations, over arrays.
 
-A rotation R_ab (..., 3, 3) takes vectors from frame b to frame a. A rotation vector w (..., 3) is axis times angle, in
-rad. Leading axes are the batch. NaN in an element gives NaN in that element of the result. u = 2^-53 below.
+A rotation R_ab (..., 3, 3) takes vectors from frame b to frame a. A rotation vector w (..., 3) is
+axis times angle, in rad. Leading axes are the batch. NaN in an element gives NaN in that element of
+the result. u = 2^-53 below.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..engine import group_kernels
+from ..engine.kernels import group_kernels
 from ..errors import ShapeError
 from .arrays import Array, mapped, numbers, rotations, shaped
 
@@ -44,8 +45,10 @@ def hat(w: ArrayLike) -> Array:
 def vee(W: ArrayLike) -> Array:
     """The vector w with [w] = W, inverse of `hat`.
 
-    Parameters: W (..., 3, 3); of a matrix that is not skew-symmetric the skew-symmetric part counts.
-    Returns: (..., 3). Raises: ShapeError, InputError. Accuracy: one rounding; exact for `hat`'s result.
+    Parameters: W (..., 3, 3); of a matrix that is not skew-symmetric the skew-symmetric part
+    counts.
+    Returns: (..., 3). Raises: ShapeError, InputError. Accuracy: one rounding; exact for `hat`'s
+    result.
     Source: Park 1994, Section II.
     """
     W = shaped(W, (3, 3), "W")
@@ -60,8 +63,8 @@ def exp(w: ArrayLike) -> Array:
     """R = exp [w] = I + A [w] + B [w]^2, the rotation by |w| about w.
 
     Parameters: w (..., 3), rad. Returns: R (..., 3, 3). Raises: ShapeError, InputError.
-    Accuracy: Frobenius error at most 3 u (1 + sqrt(2) theta) for theta = |w| <= 10 (tests/groups/test_accuracy.py).
-    Source: Park 1994, Lemma 1.
+    Accuracy: Frobenius error at most 3 u (1 + sqrt(2) theta) for theta = |w| <= 10
+    (tests/groups/test_accuracy.py). Source: Park 1994, Lemma 1.
     """
     return mapped(group_kernels.so3_exp, 1, (3, 3), shaped(w, (3,), "w"))
 
@@ -69,13 +72,15 @@ def exp(w: ArrayLike) -> Array:
 def log(R: ArrayLike, near: ArrayLike | None = None) -> Array:
     """The rotation vector w with exp [w] = R.
 
-    On the principal branch 0 <= |w| <= pi; at |w| = pi, where w and -w both serve, the component of largest magnitude
-    is positive. With `near`, of all w + 2 pi k w/|w| the one closest to `near`.
+    On the principal branch 0 <= |w| <= pi; at |w| = pi, where w and -w both serve, the component of
+    largest magnitude is positive. With `near`, of all w + 2 pi k w/|w| the one closest to `near`.
 
-    Parameters: R (..., 3, 3), rotations to 1e-5 (a larger defect is refused; a smaller one enters squared);
-    near (..., 3), rad, broadcast against R. Returns: w (..., 3), rad. Raises: PoseError, ShapeError, InputError.
-    Accuracy: relative error at most 3 u (1 + 1.22 k min(1, 1/theta)), k = (theta/2)/sin(theta/2)
-    (tests/groups/test_accuracy.py). Source: Park 1994, Lemma 3 and Remark 1, through the quaternion.
+    Parameters: R (..., 3, 3), rotations to 1e-5 (a larger defect is refused; a smaller one enters
+    squared);
+    near (..., 3), rad, broadcast against R. Returns: w (..., 3), rad. Raises: PoseError,
+    ShapeError, InputError. Accuracy: relative error at most 3 u (1 + 1.22 k min(1, 1/theta)), k =
+    (theta/2)/sin(theta/2) (tests/groups/test_accuracy.py). Source: Park 1994, Lemma 3 and Remark 1,
+    through the quaternion.
     """
     R = rotations(R)
     if near is None:
@@ -90,15 +95,19 @@ def with_rows(matrices: Array, near: ArrayLike, width: int) -> tuple[Array, Arra
     try:
         batch = np.broadcast_shapes(matrices.shape[:-2], rows.shape[:-1])
     except ValueError as error:
-        raise ShapeError(f"near: shape {rows.shape} does not broadcast against {matrices.shape}") from error
-    return np.broadcast_to(matrices, (*batch, *matrices.shape[-2:])), np.broadcast_to(rows, (*batch, width))
+        raise ShapeError(
+            f"near: shape {rows.shape} does not broadcast against {matrices.shape}"
+        ) from error
+    return np.broadcast_to(matrices, (*batch, *matrices.shape[-2:])), np.broadcast_to(
+        rows, (*batch, width)
+    )
 
 
 def inverse(R_ab: ArrayLike) -> Array:
     """R_ba = R_ab^T.
 
-    Parameters: R_ab (..., 3, 3). Returns: (..., 3, 3). Raises: PoseError, ShapeError, InputError. Accuracy: exact.
-    Source: Park 1994, Section II.
+    Parameters: R_ab (..., 3, 3). Returns: (..., 3, 3). Raises: PoseError, ShapeError, InputError.
+    Accuracy: exact. Source: Park 1994, Section II.
     """
     return np.swapaxes(rotations(R_ab), -1, -2).copy()
 
@@ -106,8 +115,8 @@ def inverse(R_ab: ArrayLike) -> Array:
 def adjoint(R_ab: ArrayLike) -> Array:
     """Ad(R_ab) with [Ad(R) w] = R [w] R^T: R itself.
 
-    Parameters: R_ab (..., 3, 3). Returns: (..., 3, 3). Raises: PoseError, ShapeError, InputError. Accuracy: exact.
-    Source: Park 1994, Section II.
+    Parameters: R_ab (..., 3, 3). Returns: (..., 3, 3). Raises: PoseError, ShapeError, InputError.
+    Accuracy: exact. Source: Park 1994, Section II.
     """
     return rotations(R_ab).copy()
 
@@ -143,8 +152,8 @@ def left_jacobian_inverse(w: ArrayLike) -> Array:
     """J(w)^-1 = I - [w]/2 + D [w]^2, for |w| < 2 pi.
 
     Parameters: w (..., 3), rad. Returns: (..., 3, 3). Raises: ShapeError, InputError.
-    Accuracy: Frobenius error at most 1e-15 for |w| <= pi (tests/groups/test_accuracy.py); J is singular at 2 pi.
-    Source: Park 1994, Lemma 4.
+    Accuracy: Frobenius error at most 1e-15 for |w| <= pi (tests/groups/test_accuracy.py); J is
+    singular at 2 pi. Source: Park 1994, Lemma 4.
     """
     return mapped(group_kernels.so3_left_inverse, 1, (3, 3), shaped(w, (3,), "w"))
 

@@ -8,21 +8,34 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..engine import chain_kernels
+from ..engine.kernels import chain_kernels
 from ..errors import InputError, ShapeError, shown
 from ..groups import se3
 from ..groups.arrays import Array
-from . import analytic, derivatives, evaluation, hp, idealise, screw
+from . import screw
+from .checks import (
+    bounds,
+    coupling_matrix,
+    distinct_names,
+    finite,
+    frame_name,
+    one_pose,
+    ordered_names,
+    read_only,
+)
 from .coordinates import coordinates
-from .local import LocalForm, kernel_table, local_form
-from .parts import bounds, coupling_matrix, distinct_names, finite, frame_name, one_pose, ordered_names, read_only
+from .geometry import hp, idealise
+from .geometry.local import LocalForm, kernel_table, local_form
+from .kinematics import analytic, derivatives, pose_jacobian
 
 if TYPE_CHECKING:
-    from .compiled import CompiledChain
+    from .kinematics.compiled import CompiledChain
 
 
 class ScrewForm(NamedTuple):
-    """One global form of the product of exponentials: screws (n, 6), per rad or m, in one frame; home (4, 4), m."""
+    """One global form of the product of exponentials: screws (n, 6), per rad or m, in one frame;
+    home (4, 4), m.
+    """
 
     screws: Array
     home: Array
@@ -33,26 +46,40 @@ class Chain:
 
     Parameters
     ----------
-    screws (n, 6): A_i = (omega; v) in the base frame at x = 0; |omega| = 1, or omega = 0 and |v| = 1, to 1e-9.
+    screws (n, 6): A_i = (omega; v) in the base frame at x = 0; |omega| = 1, or omega = 0 and |v| =
+    1, to 1e-9.
     home (4, 4): M, the pose of the tip at x = 0, m.
     joint_names, q_names: of the n joints and the m coordinates.
     limits (m, 2): lower and upper bound of each coordinate (rad or m); infinite means unlimited.
-    coupling (n, m), offset (n,): C and c; without them every joint is its own coordinate and gives it its name.
+    coupling (n, m), offset (n,): C and c; without them every joint is its own coordinate and gives
+    it its name.
     base, tip: names of the two frames.
-    pitches (n,): m per rad, 0 for a revolute joint and for a prismatic one. Without them the pitch is omega . v of the
-        screw, 0 where that is its rounding, below 4e-15 max(1 m, |v|); with them v is made exact, so that omega . v is
-        the pitch. `rebased`, `retooled` and `rezeroed` keep them: the kind of a joint is not found again.
+    pitches (n,): m per rad, 0 for a revolute joint and for a prismatic one. Without them the pitch
+        is omega . v of the screw, 0 where that is its rounding, below 4e-15 max(1 m, |v|); with
+        them v is made exact, so that omega . v is the pitch. `rebased`, `retooled` and `rezeroed`
+        keep them: the kind of a joint is not found again.
 
-    Frozen: the arrays are read-only. Equal chains have equal numbers and names; hashable; pickles as its data.
-    Revolute, prismatic and helical joints differ only in their screws. A chain without joints is legal. Not made to be
-    subclassed.
-    Raises: ScrewError, PoseError, ShapeError, InputError. Accuracy: the data are kept to the last digit, but for what
-    is made exact (unit length within 1e-9, the rotation of M within 1e-5).
+    Frozen: the arrays are read-only. Equal chains have equal numbers and names; hashable; pickles
+    as its data. Revolute, prismatic and helical joints differ only in their screws. A chain without
+    joints is legal. Not made to be subclassed.
+    Raises: ScrewError, PoseError, ShapeError, InputError. Accuracy: the data are kept to the last
+    digit, but for what is made exact (unit length within 1e-9, the rotation of M within 1e-5).
     Source: Park 1994, eqs. (1) and (2).
     """
 
     __slots__ = (
-        *("screws", "home", "joint_names", "q_names", "limits", "_coupling", "offset", "base", "tip", "pitches"),
+        *(
+            "screws",
+            "home",
+            "joint_names",
+            "q_names",
+            "limits",
+            "_coupling",
+            "offset",
+            "base",
+            "tip",
+            "pitches",
+        ),
         *("kinds", "local", "reach", "_table", "_one", "_jacobian_shape", "_compiled"),
     )
     screws: Array
@@ -97,7 +124,9 @@ class Chain:
         c = np.zeros(n) if offset is None else finite(offset, "offset")
         if c.shape != (n,):
             raise ShapeError(f"offset: expected shape ({n},), one number a joint, got {c.shape}")
-        names = distinct_names(joints if q_names is None and C is None else q_names, m, "q_names", "q")
+        names = distinct_names(
+            joints if q_names is None and C is None else q_names, m, "q_names", "q"
+        )
         M = one_pose(home)
         form = local_form(A, M, h)
         table = kernel_table(form, C, c)
@@ -114,7 +143,12 @@ class Chain:
             "pitches": h,
             "kinds": tuple(_kind(r, s) for r, s in zip(form.rotates, form.slides, strict=True)),
             "local": form,
-            "reach": max(1.0, float(np.linalg.norm(form.frames[:, :3, 3], axis=1).sum() + (form.rotates == 0).sum())),
+            "reach": max(
+                1.0,
+                float(
+                    np.linalg.norm(form.frames[:, :3, 3], axis=1).sum() + (form.rotates == 0).sum()
+                ),
+            ),
             "_table": table,
             # the shape of one configuration that needs no coupling
             "_one": (m,) if table.shape[1] == chain_kernels.OFFSET else None,
@@ -122,15 +156,16 @@ class Chain:
             "_compiled": None,
         }
         for name, value in data.items():
-            # The kernels' own table stays writable: Numba takes half a microsecond longer over a read-only array.
+            # The kernels' own table stays writable: Numba takes half a microsecond longer over a
+            # read-only array.
             frozen = isinstance(value, np.ndarray) and name != "_table"
             object.__setattr__(self, name, read_only(value) if frozen else value)
 
-    fk = evaluation.fk
-    jacobian = evaluation.jacobian
-    fk_jacobian = evaluation.fk_jacobian
-    velocity = evaluation.velocity
-    joint_poses = evaluation.joint_poses
+    fk = pose_jacobian.fk
+    jacobian = pose_jacobian.jacobian
+    fk_jacobian = pose_jacobian.fk_jacobian
+    velocity = pose_jacobian.velocity
+    joint_poses = pose_jacobian.joint_poses
     joint_velocities = derivatives.joint_velocities
     jacobian_rate = derivatives.jacobian_rate
     hessian = derivatives.hessian
@@ -139,8 +174,12 @@ class Chain:
     jacobian_screw_derivatives = derivatives.jacobian_screw_derivatives
     pose_coordinates = analytic.pose_coordinates
     analytic_jacobian = analytic.analytic_jacobian
-    _fill_poses, _fill_both, _fill_jacobians = evaluation.fill_poses, evaluation.fill_both, evaluation.fill_jacobians
-    _frame_code = evaluation.frame_code
+    _fill_poses, _fill_both, _fill_jacobians = (
+        pose_jacobian.fill_poses,
+        pose_jacobian.fill_both,
+        pose_jacobian.fill_jacobians,
+    )
+    _frame_code = pose_jacobian.frame_code
     idealised = idealise.idealised
     to_hp = hp.to_hp
 
@@ -166,12 +205,14 @@ class Chain:
         return ScrewForm(self.screws @ se3.adjoint(se3.inverse(self.home)).T, self.home)
 
     def compile(self, *, parallel: bool = False) -> CompiledChain:
-        """The same arm with machine code made for its numbers: methods `fk`, `jacobian`, `fk_jacobian` as here, faster.
+        """The same arm with machine code made for its numbers: methods `fk`, `jacobian`,
+        `fk_jacobian` as here, faster.
 
-        Parameters: parallel, whether large batches are shared out among threads. Returns: CompiledChain, see there.
-        Raises: InputError. Accuracy: as `fk`. Source: Park 1994, Section IV, two planar rotations a link.
+        Parameters: parallel, whether large batches are shared out among threads. Returns:
+        CompiledChain, see there. Raises: InputError. Accuracy: as `fk`. Source: Park 1994, Section
+        IV, two planar rotations a link.
         """
-        from .compiled import CompiledChain
+        from .kinematics.compiled import CompiledChain
 
         if parallel is not False:
             return CompiledChain(self, parallel)
@@ -182,35 +223,43 @@ class Chain:
     def rebased(self, P: ArrayLike, base: str | None = None) -> Chain:
         """f' = P f: the same arm seen from another base frame; A' = Ad(P) A, M' = P M.
 
-        Parameters: P (4, 4), the pose of the old base in the new one; base, its name. Returns: Chain.
+        Parameters: P (4, 4), the pose of the old base in the new one; base, its name. Returns:
+        Chain.
         Raises: PoseError, ShapeError.
-        Accuracy: screws within 10 u (reach + |p|), u = 2^-53, p the translation of P (tests/model/test_chain.py).
-        Source: Park 1994, Section II, f' = P f Q.
+        Accuracy: screws within 10 u (reach + |p|), u = 2^-53, p the translation of P
+        (tests/model/test_chain.py). Source: Park 1994, Section II, f' = P f Q.
         """
         P = one_pose(P, "P")
-        return self._with(screws=self.screws @ se3.adjoint(P).T, home=P @ self.home, base=base or self.base)
+        return self._with(
+            screws=self.screws @ se3.adjoint(P).T, home=P @ self.home, base=base or self.base
+        )
 
     def retooled(self, Q: ArrayLike, tip: str | None = None) -> Chain:
         """f' = f Q: the same arm with another tool frame; A' = A, M' = M Q, so B' = Ad(Q)^-1 B.
 
-        Parameters: Q (4, 4), the pose of the new tool in the old one; tip, its name. Returns: Chain.
-        Raises: PoseError, ShapeError. Accuracy: screws as they are. Source: Park 1994, Section II, f' = P f Q.
+        Parameters: Q (4, 4), the pose of the new tool in the old one; tip, its name. Returns:
+        Chain.
+        Raises: PoseError, ShapeError. Accuracy: screws as they are. Source: Park 1994, Section II,
+        f' = P f Q.
         """
         return self._with(home=self.home @ one_pose(Q, "Q"), tip=tip or self.tip)
 
     def rezeroed(self, q0: Any) -> Chain:
         """f'(q) = f(q + q0): the same arm with its zero positions at q0.
 
-        A_i' = Ad(e^{A_1 d_1} ... e^{A_{i-1} d_{i-1}}) A_i and M' = e^{A_1 d_1} ... e^{A_n d_n} M with d = C q0; limits
-        move by -q0.
+        A_i' = Ad(e^{A_1 d_1} ... e^{A_{i-1} d_{i-1}}) A_i and M' = e^{A_1 d_1} ... e^{A_n d_n} M
+        with d = C q0; limits move by -q0.
 
         Parameters: q0 (m,) or a dict. Returns: Chain. Raises: ShapeError, UnknownName, InputError.
-        Accuracy: screws and M within u (10 (n + 1) + 4 sum |d|) of the reach and what d slides, u = 2^-53, the sum over
-        joints that turn (tests/model/test_chain.py). Source: Park 1994, Section II.
+        Accuracy: screws and M within u (10 (n + 1) + 4 sum |d|) of the reach and what d slides, u =
+        2^-53, the sum over joints that turn (tests/model/test_chain.py). Source: Park 1994, Section
+        II.
         """
         q0 = coordinates(q0, self.q_names, "q0")
         if q0.ndim != 1 or not np.isfinite(q0).all():
-            raise InputError(f"q0: expected one finite configuration ({self.dof},), got {q0.tolist()}")
+            raise InputError(
+                f"q0: expected one finite configuration ({self.dof},), got {q0.tolist()}"
+            )
         A, P = np.empty_like(self.screws), np.eye(4)
         shifts = q0 if self._coupling is None else self._coupling @ q0
         for i, (S, d) in enumerate(zip(self.screws, shifts, strict=True)):
@@ -219,9 +268,11 @@ class Chain:
         return self._with(screws=A, home=P @ self.home, limits=self.limits - q0[:, None])
 
     def random(self, rng: np.random.Generator | int, size: int | tuple[int, ...] = ()) -> Array:
-        """Configurations drawn uniformly within the limits; without, one turn (1 m either way) of the fastest joint.
+        """Configurations drawn uniformly within the limits; without, one turn (1 m either way) of
+        the fastest joint.
 
-        Parameters: rng, a NumPy generator or a seed; size, the batch shape. Returns: (*size, m), rad or m.
+        Parameters: rng, a NumPy generator or a seed; size, the batch shape. Returns: (*size, m),
+        rad or m.
         Raises: nothing of its own. Accuracy and source: none, it draws.
         """
         rng = np.random.default_rng(rng)
@@ -230,11 +281,17 @@ class Chain:
         return low + (high - low) * rng.random((*size, self.dof))
 
     def _half_range(self) -> Array:
-        """The greatest value (m,) that `random` draws of coordinates without limits; the least is its opposite."""
-        return np.array([(np.pi if self._turns(k) else 1.0) / abs(self._ratio(k)) for k in range(self.dof)])
+        """The greatest value (m,) that `random` draws of coordinates without limits; the least is
+        its opposite.
+        """
+        return np.array(
+            [(np.pi if self._turns(k) else 1.0) / abs(self._ratio(k)) for k in range(self.dof)]
+        )
 
     def _ratio(self, k: int) -> float:
-        """The ratio of largest size to coordinate k, of joints that turn where it is an angle and slide where not."""
+        """The ratio of largest size to coordinate k, of joints that turn where it is an angle and
+        slide where not.
+        """
         slides = np.array(self.kinds) == "prismatic"
         ratios = self.coupling[slides != self._turns(k), k]
         return float(ratios[np.argmax(np.abs(ratios))]) if ratios.any() else 1.0
@@ -260,7 +317,9 @@ class Chain:
         return {name: getattr(self, name) for name in _DATA} | {"coupling": self._coupling}
 
     def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a Chain is frozen: cannot set {name!r}; rebased, retooled and rezeroed make new ones")
+        raise AttributeError(
+            f"a Chain is frozen: cannot set {name!r}; rebased, retooled and rezeroed make new ones"
+        )
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"a Chain is frozen: cannot delete {name!r}")
@@ -272,14 +331,18 @@ class Chain:
         return all(type(a) is type(b) and np.array_equal(a, b) for a, b in pairs)
 
     def __hash__(self) -> int:
-        return hash(tuple(a.tobytes() if isinstance(a, np.ndarray) else a for a in self._data().values()))
+        return hash(
+            tuple(a.tobytes() if isinstance(a, np.ndarray) else a for a in self._data().values())
+        )
 
     def __reduce__(self):
         return _rebuilt, (self._data(),)
 
     def __repr__(self) -> str:
         counts = [f"{self.kinds.count(kind)} {kind}" for kind in _KINDS if kind in self.kinds]
-        coupled = "" if self.dof == len(self.kinds) else f", {self.dof} coordinate{'s' * (self.dof != 1)}"
+        coupled = (
+            "" if self.dof == len(self.kinds) else f", {self.dof} coordinate{'s' * (self.dof != 1)}"
+        )
         return (
             f"<Chain {shown(self.base)} -> {shown(self.tip)}: {', '.join(counts) or 'no'} "
             f"joint{'s' * (len(self.kinds) != 1)}{coupled}, reach {self.reach:.3g} m>"

@@ -1,4 +1,6 @@
-"""What a user gives as q, made an array: an array in the order of the coordinates' names, or something with names."""
+"""What a user gives as q, made an array: an array in the order of the coordinates' names, or
+something with names.
+"""
 
 from __future__ import annotations
 
@@ -13,11 +15,11 @@ from ..groups.objects import labels
 
 
 def coordinates(q: Any, names: tuple[str, ...], what: str = "q") -> Array:
-    """q as a float64 array (..., m) in the order of `names`: of an array, or of a dict or a pandas Series or DataFrame
-    (its columns) whose labels are the names, in any order.
+    """q as a float64 array (..., m) in the order of `names`: of an array, or of a dict or a pandas
+    Series or DataFrame (its columns) whose labels are the names, in any order.
 
-    Raises ShapeError that says how many and which coordinates are expected, UnknownName for a name that is none,
-    InputError for a name that is missing or there twice and for what is no number.
+    Raises ShapeError that says how many and which coordinates are expected, UnknownName for a name
+    that is none, InputError for a name that is missing or there twice and for what is no number.
     """
     if type(q) is np.ndarray:
         array = numbers(q, what)
@@ -47,7 +49,9 @@ def _known(given: Collection[Any], names: tuple[str, ...], what: str) -> None:
 def _from_labels(q: Any, marks: tuple[Any, ...], names: tuple[str, ...], what: str) -> Array:
     _known(marks, names, what)
     if len(marks) > len(names):
-        raise InputError(f"{what}: the label {shown(max(marks, key=marks.count))} appears more than once")
+        raise InputError(
+            f"{what}: the label {shown(max(marks, key=marks.count))} appears more than once"
+        )
     return numbers(q.to_numpy(), what)[..., [marks.index(name) for name in names]]
 
 

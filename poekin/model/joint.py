@@ -10,13 +10,14 @@ import numpy as np
 
 from ..errors import InputError, ModelError, shown, told
 from . import screw
-from .parts import LONGEST, one_pose, read_only
+from .checks import LONGEST, one_pose, read_only
 
 MOVING = ("revolute", "continuous", "prismatic", "helical")
 FREE = ("floating", "planar")
 KINDS = (*MOVING, "fixed", *FREE)
 
-# A vector this close to unit length stays as it is, so that a joint made from a joint's own axis equals it.
+# A vector this close to unit length stays as it is, so that a joint made from a joint's own axis
+# equals it.
 UNIT = 1e-15
 
 
@@ -24,7 +25,8 @@ UNIT = 1e-15
 class Mimic:
     """A joint that follows another one: x = multiplier x_joint + offset.
 
-    Fields: joint, the name of the joint to follow; multiplier [own unit per the other's]; offset [rad or m].
+    Fields: joint, the name of the joint to follow; multiplier [own unit per the other's]; offset
+    [rad or m].
     Raises: ModelError for numbers that are not finite or a name that is none.
     """
 
@@ -40,22 +42,27 @@ class Mimic:
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """The child link's pose in the parent link's frame, T_pc(x) = origin e^{S x}, S the joint's screw in its own frame.
+    """The child link's pose in the parent link's frame, T_pc(x) = origin e^{S x}, S the joint's
+    screw in its own frame.
 
     Fields
     - name, parent, child: its own name and those of the two links.
-    - kind: "revolute", "continuous", "prismatic", "helical"; "fixed"; "floating", "planar" (kept in the tree, but no
-      chain can cross them).
+    - kind: "revolute", "continuous", "prismatic", "helical"; "fixed"; "floating", "planar" (kept in
+      the tree, but no chain can cross them).
     - origin (4, 4): pose of the joint's frame in the parent's [m].
     - axis (3,): direction of the axis in the joint's frame; any length, kept as a unit vector.
-    - limits: lower and upper bound of x [rad or m], -inf and inf where there is none; a continuous joint has none.
-    - mimic: the joint that it follows, or None. A fixed joint stays where it is, whatever it is said to mimic.
+    - limits: lower and upper bound of x [rad or m], -inf and inf where there is none; a continuous
+      joint has none.
+    - mimic: the joint that it follows, or None. A fixed joint stays where it is, whatever it is
+      said to mimic.
     - pitch [m per rad]: of a helical joint.
 
-    Frozen, and equal to a joint of the same numbers. Raises: ModelError that names the joint and the field;
-    ShapeError, InputError or PoseError for an origin that is no pose; lengths above 1e100 m are refused.
-    Accuracy: the axis is a unit vector to 1e-15, the origin's rotation orthonormal to 4e-15 (the nearest rotation to
-    what is given); all else is kept as given.
+    Frozen, and equal to a joint of the same numbers. Raises: ModelError that names the joint and
+    the field;
+    ShapeError, InputError or PoseError for an origin that is no pose; lengths above 1e100 m are
+    refused.
+    Accuracy: the axis is a unit vector to 1e-15, the origin's rotation orthonormal to 4e-15 (the
+    nearest rotation to what is given); all else is kept as given.
     """
 
     name: str
@@ -82,7 +89,11 @@ class Joint:
         _name(self.child, "child")
         _set(self, "origin", _pose(self.origin))
         _set(self, "axis", _direction(self.axis))
-        _set(self, "limits", _interval(self.limits) if self.kind != "continuous" else (-math.inf, math.inf))
+        _set(
+            self,
+            "limits",
+            _interval(self.limits) if self.kind != "continuous" else (-math.inf, math.inf),
+        )
         _set(self, "pitch", _finite((self.pitch,), 1, "pitch")[0])
         if abs(self.pitch) > LONGEST:
             raise ModelError(f"pitch: expected at most {LONGEST:g} m per rad, got {self.pitch:g}")
@@ -91,11 +102,15 @@ class Joint:
         if self.mimic is not None and not isinstance(self.mimic, Mimic):
             raise ModelError(f"mimic must be a Mimic or None, got {told(self.mimic)}")
         if self.mimic is not None and self.kind in FREE:
-            raise ModelError(f"a {self.kind} joint has no single value and cannot mimic another joint")
+            raise ModelError(
+                f"a {self.kind} joint has no single value and cannot mimic another joint"
+            )
 
     @property
     def screw(self) -> tuple[float, ...]:
-        """S = (omega; v) in the joint's own frame, all zeros where it has no coordinate (fixed, floating, planar)."""
+        """S = (omega; v) in the joint's own frame, all zeros where it has no coordinate (fixed,
+        floating, planar).
+        """
         x, y, z = self.axis
         if self.kind in ("revolute", "continuous", "helical"):
             return (x, y, z, self.pitch * x, self.pitch * y, self.pitch * z)
@@ -103,7 +118,17 @@ class Joint:
 
     def _data(self) -> tuple[Any, ...]:
         origin = self.origin.tobytes()
-        return self.name, self.kind, self.parent, self.child, origin, self.axis, self.limits, self.mimic, self.pitch
+        return (
+            self.name,
+            self.kind,
+            self.parent,
+            self.child,
+            origin,
+            self.axis,
+            self.limits,
+            self.mimic,
+            self.pitch,
+        )
 
     def __eq__(self, other: object) -> bool:
         return self._data() == other._data() if isinstance(other, Joint) else NotImplemented
@@ -112,7 +137,16 @@ class Joint:
         return hash(self._data())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        fields = (self.name, self.kind, self.parent, self.child, self.origin, self.axis, self.limits, self.mimic)
+        fields = (
+            self.name,
+            self.kind,
+            self.parent,
+            self.child,
+            self.origin,
+            self.axis,
+            self.limits,
+            self.mimic,
+        )
         return type(self), (*fields, self.pitch)
 
     def __repr__(self) -> str:
@@ -133,7 +167,9 @@ def _finite(values: Any, count: int, what: str) -> tuple[float, ...]:
     try:
         numbers = tuple(map(float, values))
     except (TypeError, ValueError, OverflowError) as fault:
-        raise ModelError(f"{what}: expected {count} finite number(s), got {told(values)}") from fault
+        raise ModelError(
+            f"{what}: expected {count} finite number(s), got {told(values)}"
+        ) from fault
     if len(numbers) != count or not all(map(math.isfinite, numbers)):
         raise ModelError(f"{what}: expected {count} finite number(s), got {told(values)}")
     return numbers
@@ -153,7 +189,9 @@ def _interval(limits: Any) -> tuple[float, float]:
     try:
         lower, upper = map(float, limits)
     except (TypeError, ValueError, OverflowError) as fault:
-        raise ModelError(f"limits must be two numbers, lower and upper, got {told(limits)}") from fault
+        raise ModelError(
+            f"limits must be two numbers, lower and upper, got {told(limits)}"
+        ) from fault
     if not lower <= upper or lower == math.inf or upper == -math.inf:
         raise ModelError(f"limits must be lower <= upper, got lower = {lower!r}, upper = {upper!r}")
     return lower, upper

@@ -1,37 +1,41 @@
 """Hypothesis strategies, laws and oracles, for poekin's own tests and for other projects' tests.
 
-Strategies: what to try
-    strategies         angles, axes, vectors, rotations, noisy rotations, twists, poses; batches and their shapes
-    near_strategies    the same close to 0, to π or to any other angle
+strategies: what to try
+    group_strategies   angles, axes, vectors, rotations, noisy rotations, twists, poses; batches and
+    their shapes near_strategies    the same close to 0, to π or to any other angle
     chain_strategies   screws, chains, coordinates
     configuration_strategies  configurations within and at limits, singular ones
     robot_strategies   robots: whole trees, with mimic joints, limits and several leaves
     urdf_strategies    URDF texts with what files in the wild have in them
     dh_strategies      Denavit-Hartenberg tables
-    reader             random bytes read as numbers, to write strategies like these
+    decoding.bytes_reader  random bytes read as numbers, to write strategies like these
 
-Laws: what must hold, as plain functions that raise LawViolation with the error and its bound
+laws: what must hold, as plain functions that raise LawViolation with the error and its bound
     laws, measures     LawViolation, and how an error is measured
     group, group_laws  SO(3) and SE(3) as plain functions, and their laws
-    accuracy_laws      exp, log and the Jacobians of exp against `exact`
     near_laws          the branches of log
     chain_laws         laws of a serial chain
     change_laws        laws of a chain with another base, tool, zero position or link frames
     derivative_laws    laws of the Jacobian's derivatives
     method_laws        the algorithms for the Jacobian agree
-    hunting            shows that a battery of laws catches a planted error
-    conform            holds any library to the laws, and grades it: `poekin conform`
 
-Oracles: what is true, by code that shares nothing with what it judges
+oracles: what is true, by code that shares nothing with what it judges
     exact              so(3) and se(3) in 60 digits and more (mpmath)
-    attainable         what float64 can attain for exp and log, and how far a result is from it
     differences        finite differences on the group
-    pinocchio_oracle, pinocchio_derivatives  poses, Jacobians and their derivatives of a URDF by Pinocchio
-    accuracy           the worst errors of exp, log and the Jacobians, as rows of a report; `extended` and `suspects`
-                       find the cases for it
+    pinocchio_oracle, pinocchio_derivatives  poses, Jacobians and their derivatives of a URDF by
+    Pinocchio longdouble_oracle  SO(3) and SE(3) over arrays, in extended precision
+
+accuracy: how far exp, log and the Jacobians of exp are from the truth
+    accuracy_laws      each of them against `oracles.exact`
+    error_bounds       what float64 can attain for exp and log, and how far a result is from it
+    accuracy, worst_cases  the worst errors, as rows of a report, and the search for the cases
+    falsify            shows that a battery of laws catches a planted error
+
+conform: holds any library to the laws, and grades it: `poekin conform`
 
 Importing `poekin.testing` imports none of them: oracles and laws need mpmath, strategies and
-`hunting` hypothesis, and each says so with `MissingExtra` where it is absent (`pip install 'poekin[testing]'`).
+`falsify` hypothesis, and each says so with `MissingExtra` where it is absent (`pip install
+'poekin[testing]'`).
 """
 
 from __future__ import annotations
@@ -41,67 +45,9 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from . import (
-        accuracy,
-        accuracy_laws,
-        attainable,
-        chain_laws,
-        chain_strategies,
-        change_laws,
-        configuration_strategies,
-        conform,
-        derivative_laws,
-        dh_strategies,
-        differences,
-        exact,
-        extended,
-        group,
-        group_laws,
-        hunting,
-        laws,
-        measures,
-        method_laws,
-        near_laws,
-        near_strategies,
-        pinocchio_derivatives,
-        pinocchio_oracle,
-        reader,
-        robot_strategies,
-        strategies,
-        suspects,
-        urdf_strategies,
-    )
+    from . import accuracy, conform, laws, oracles, strategies
 
-__all__ = [
-    "accuracy",
-    "accuracy_laws",
-    "attainable",
-    "chain_laws",
-    "chain_strategies",
-    "change_laws",
-    "configuration_strategies",
-    "conform",
-    "derivative_laws",
-    "dh_strategies",
-    "differences",
-    "exact",
-    "extended",
-    "group",
-    "group_laws",
-    "hunting",
-    "laws",
-    "measures",
-    "method_laws",
-    "near_laws",
-    "near_strategies",
-    "pinocchio_derivatives",
-    "pinocchio_oracle",
-    "reader",
-    "robot_strategies",
-    "strategies",
-    "suspects",
-    "urdf_strategies",
-]
+__all__ = ["accuracy", "conform", "laws", "oracles", "strategies"]
 
 
 def __getattr__(name: str) -> ModuleType:

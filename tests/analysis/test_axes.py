@@ -35,22 +35,40 @@ def test_the_report_does_not_change_with_the_base_frame_or_the_joints_directions
     other = chain.rebased(se3.exp(rng.normal(size=6)))
     flipped = Chain(other.screws * rng.choice([-1.0, 1.0], 5)[:, None], other.home)
     for p, q in zip(axes(chain).pairs, axes(flipped).pairs, strict=True):
-        assert (p.angle, p.distance) == (pytest.approx(q.angle, abs=1e-6), pytest.approx(q.distance, abs=1e-6))
+        assert (p.angle, p.distance) == (
+            pytest.approx(q.angle, abs=1e-6),
+            pytest.approx(q.distance, abs=1e-6),
+        )
 
 
 @given(st.floats(0.01, 89), st.floats(0.1, 500))
 def test_two_axes_miss_by_what_was_built_in(angle, mm):
     a = np.radians(angle)
-    (pair,) = axes(made(((0, 0, 1), (0, 0, 0)), ((0, np.sin(a), np.cos(a)), (mm / 1e3, 0, 0)))).pairs
-    assert (pair.angle, pair.distance) == (pytest.approx(angle, rel=1e-9), pytest.approx(mm, rel=1e-9))
+    (pair,) = axes(
+        made(((0, 0, 1), (0, 0, 0)), ((0, np.sin(a), np.cos(a)), (mm / 1e3, 0, 0)))
+    ).pairs
+    assert (pair.angle, pair.distance) == (
+        pytest.approx(angle, rel=1e-9),
+        pytest.approx(mm, rel=1e-9),
+    )
     assert not pair.intersecting
     assert "mm from intersecting" in pair.words
 
 
 def test_parallel_perpendicular_intersecting_and_coaxial_are_said():
-    pairs = axes(made(((0, 0, 1), (0, 0, 0)), ((0, 0, -1), (0, 0, 2)), ((1, 0, 0), (3, 0, 1)))).pairs
-    assert [p.words for p in pairs] == ["coaxial", "perpendicular, intersecting", "perpendicular, intersecting"]
-    assert {(p.first, p.second, p.fixed) for p in pairs} == {(1, 2, True), (2, 3, True), (1, 3, False)}
+    pairs = axes(
+        made(((0, 0, 1), (0, 0, 0)), ((0, 0, -1), (0, 0, 2)), ((1, 0, 0), (3, 0, 1)))
+    ).pairs
+    assert [p.words for p in pairs] == [
+        "coaxial",
+        "perpendicular, intersecting",
+        "perpendicular, intersecting",
+    ]
+    assert {(p.first, p.second, p.fixed) for p in pairs} == {
+        (1, 2, True),
+        (2, 3, True),
+        (1, 3, False),
+    }
     assert axes(made(*PLANE)).pairs[0].words == "parallel, 500 mm apart"
 
 
@@ -65,7 +83,9 @@ def test_shapes_are_found_where_they_are_and_not_where_they_miss():
     assert not report.has("spherical wrist")
     assert not report.has("S-R-S")
     assert axes(made(*SHOULDER, *ELBOW, *off), tol_mm=1.0).has("S-R-S")
-    assert not axes(made(((0, 0, 1), (0, 0, 0)), ((0, 0, 1), (0, 0, 1)), ((1, 0, 0), (0, 0, 0)))).shapes
+    assert not axes(
+        made(((0, 0, 1), (0, 0, 0)), ((0, 0, 1), (0, 0, 1)), ((1, 0, 0), (0, 0, 0)))
+    ).shapes
 
 
 def test_well_known_arms_are_known():
@@ -111,7 +131,10 @@ def test_every_shape_names_its_joints_and_by_how_much_it_misses():
     kinds = {s.kind: s.joints for s in axes(arm).shapes}
     assert (kinds["spherical shoulder"], kinds["spherical wrist"]) == ((1, 2, 3), (5, 6, 7))
     assert kinds["S-R-S"] == (1, 2, 3, 4, 5, 6, 7)
-    assert axes(arm).shapes[-1].words == "S-R-S: a spherical shoulder, an elbow and a spherical wrist, like a human arm"
+    assert (
+        axes(arm).shapes[-1].words
+        == "S-R-S: a spherical shoulder, an elbow and a spherical wrist, like a human arm"
+    )
     assert "Pieper" not in kinds
     middle = made(PLANE[0], *SHOULDER, PLANE[1])
     assert [(s.kind, s.joints) for s in axes(middle).shapes if s.kind.startswith("spherical")] == [
@@ -121,19 +144,27 @@ def test_every_shape_names_its_joints_and_by_how_much_it_misses():
 
 @pytest.mark.parametrize("tol_mm, found", [(0.35, False), (0.36, True)])
 def test_axes_meet_that_pass_one_point_within_the_tolerance(tol_mm, found):
-    # Along x, y and z, each 0.5 mm from the others: the nearest point is 0.25 mm off each in two directions.
+    # Along x, y and z, each 0.5 mm from the others: the nearest point is 0.25 mm off each in two
+    # directions.
     far = 5e-4
     three = made(((1, 0, 0), (0, 0, far)), ((0, 1, 0), (far, 0, 0)), ((0, 0, 1), (0, far, 0)))
     shapes = axes(three, tol_mm=tol_mm).shapes
     assert bool(shapes) == found
     if found:
-        assert (shapes[0].kind, shapes[0].error) == ("spherical wrist", pytest.approx(0.25 * np.sqrt(2)))
+        assert (shapes[0].kind, shapes[0].error) == (
+            "spherical wrist",
+            pytest.approx(0.25 * np.sqrt(2)),
+        )
 
 
 @pytest.mark.parametrize("tilt, found", [(0.9, True), (1.1, False)])
 def test_three_axes_are_parallel_whichever_way_they_point_within_the_tolerance(tilt, found):
     angle = np.radians(tilt)
-    three = made(((0, 0, 1), (0, 0, 0)), ((0, 0, -1), (1, 0, 0)), ((0, np.sin(angle), np.cos(angle)), (2, 0, 0)))
+    three = made(
+        ((0, 0, 1), (0, 0, 0)),
+        ((0, 0, -1), (1, 0, 0)),
+        ((0, np.sin(angle), np.cos(angle)), (2, 0, 0)),
+    )
     shapes = axes(three, tol_deg=1.0).shapes
     assert [s.kind for s in shapes] == ["three parallel axes"] * found
     if found:
@@ -148,7 +179,9 @@ def test_what_slides_makes_no_shape_and_neighbours_on_one_line_no_spherical_join
     assert axes(made(z, y, z)).shapes[0].kind == "spherical wrist"
     slide = Chain([screw.prismatic([1, 0, 0]), *made(z, y, z).screws], np.eye(4))
     assert [s.joints for s in axes(slide).shapes] == [(2, 3, 4)]
-    assert not axes(Chain([*made(z, y).screws, screw.prismatic([1, 0, 0]), *made(z).screws], np.eye(4))).shapes
+    assert not axes(
+        Chain([*made(z, y).screws, screw.prismatic([1, 0, 0]), *made(z).screws], np.eye(4))
+    ).shapes
 
 
 @pytest.mark.parametrize("angle, gap, words", [
@@ -159,11 +192,16 @@ def test_what_slides_makes_no_shape_and_neighbours_on_one_line_no_spherical_join
 ])  # fmt: skip
 def test_the_relation_of_two_axes_is_said_in_degrees_and_mm(angle, gap, words):
     turned = np.radians(angle)
-    (pair,) = axes(made(((0, 0, 1), (0, 0, 0)), ((0, np.sin(turned), np.cos(turned)), (gap, 0, 0)))).pairs
+    (pair,) = axes(
+        made(((0, 0, 1), (0, 0, 0)), ((0, np.sin(turned), np.cos(turned)), (gap, 0, 0)))
+    ).pairs
     assert pair.words == words
     assert pair.angle == pytest.approx(min(angle, 180 - angle), abs=1e-12)
     assert pair.distance == pytest.approx(1e3 * gap, abs=1e-12)
-    assert str(axes(made(((0, 0, 1), (0, 0, 0)), ((0, 0, 1), (1, 0, 0))))) == "joint1 - joint2: parallel, 1000 mm apart"
+    assert (
+        str(axes(made(((0, 0, 1), (0, 0, 0)), ((0, 0, 1), (1, 0, 0)))))
+        == "joint1 - joint2: parallel, 1000 mm apart"
+    )
 
 
 @pytest.mark.parametrize("tol", [0, -1.0, math.inf, math.nan, "1", True])
@@ -211,7 +249,9 @@ def test_shapes_behind_a_slide_and_behind_parallel_axes_are_found():
     x, y, z = np.eye(3)
     wrist = [(z, [2, 0, 0]), (y, [2, 0, 0]), (x, [2, 0, 0])]
     rail = Chain([screw.prismatic(x), *made(*wrist).screws], np.eye(4))
-    assert [(shape.kind, shape.joints) for shape in axes(rail).shapes] == [("spherical wrist", (2, 3, 4))]
+    assert [(shape.kind, shape.joints) for shape in axes(rail).shapes] == [
+        ("spherical wrist", (2, 3, 4))
+    ]
     both = axes(made(*((y, [0.5 * k, 0, 0]) for k in range(3)), *wrist)).shapes
     assert [(shape.kind, shape.joints) for shape in both] == [
         ("three parallel axes", (1, 2, 3)), ("spherical wrist", (4, 5, 6)), ("Pieper", (4, 5, 6)),

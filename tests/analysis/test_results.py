@@ -1,4 +1,6 @@
-"""What an analysis found cannot be changed by accident, and findings of arrays are not compared number by number."""
+"""What an analysis found cannot be changed by accident, and findings of arrays are not compared
+number by number.
+"""
 
 from __future__ import annotations
 
@@ -8,15 +10,20 @@ import numpy as np
 import pytest
 
 from poekin.analysis.axes import axes
-from poekin.analysis.compare import compare
-from poekin.analysis.singularity import singularity
+from poekin.analysis.compare.compare import compare
+from poekin.analysis.dexterity.singularity import singularity
 from poekin.analysis.validate import Validation
-from poekin.testing.planted_changes import random_arm
+from poekin.testing.cases.planted_changes import random_arm
 from tests import findings
 
-FOUND = findings.dataclasses_of(
-    "poekin.analysis", "axes comparison count count_methods count_table lines reading shapes singularity validate"
-)
+FOUND = [
+    *findings.dataclasses_of("poekin.analysis", "axes shapes validate"),
+    *findings.dataclasses_of(
+        "poekin.analysis.compare", "comparison alignment.lines alignment.hypotheses"
+    ),
+    *findings.dataclasses_of("poekin.analysis.counting", "count count_methods count_table"),
+    *findings.dataclasses_of("poekin.analysis.dexterity", "singularity"),
+]
 
 
 @pytest.mark.parametrize("kind", FOUND, ids=lambda kind: kind.__name__)

@@ -17,8 +17,8 @@ from poekin.formats.load import load
 from poekin.model.chain import Chain
 from poekin.model.joint import Joint
 from poekin.model.robot import Robot
-from poekin.testing.example_robots import example_robots
-from poekin.testing.pinocchio_oracle import PinocchioOracle
+from poekin.testing.cases.example_robots import example_robots
+from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
 URDF = """<robot name="r"><link name="root"/><link name="a"/><link name="b"/><link name="c"/><link name="tip"/>
 <joint name="turn" type="continuous"><parent link="root"/><child link="a"/><origin xyz="0.1 0.2 0.3" rpy="0.2 0 1"/>
@@ -50,7 +50,17 @@ def q(oracle):
 def _with(chain: Chain, **changes: Any) -> Chain:
     data: dict[str, Any] = {
         n: getattr(chain, n)
-        for n in ("screws", "home", "joint_names", "q_names", "limits", "coupling", "offset", "base", "tip")
+        for n in (
+            "screws",
+            "home",
+            "joint_names",
+            "q_names",
+            "limits",
+            "coupling",
+            "offset",
+            "base",
+            "tip",
+        )
     }
     return Chain(**{**data, **changes})
 
@@ -106,7 +116,8 @@ class _Wrong:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "other"), [(a, b) for a in ("space", "body", "hybrid") for b in ("space", "body", "hybrid") if a != b]
+    ("wrong", "other"),
+    [(a, b) for a in ("space", "body", "hybrid") for b in ("space", "body", "hybrid") if a != b],
 )
 def test_a_jacobian_of_the_wrong_frame_fails_in_that_frame_only(chain, oracle, q, wrong, other):
     row = chain_errors(_Wrong(chain, wrong, other), oracle, q)  # type: ignore[arg-type]
@@ -135,7 +146,9 @@ def test_one_bad_configuration_among_good_ones_is_found_and_named(base, oracle, 
             T[7, 0, 0] = np.nan
             return T
 
-    chain = urdf.read_text(URDF).chain(base=base, tip="tip")  # of all coordinates, of the last two, and of the last
+    chain = urdf.read_text(URDF).chain(
+        base=base, tip="tip"
+    )  # of all coordinates, of the last two, and of the last
     row = chain_errors(Sick(chain, "", ""), oracle, q)  # type: ignore[arg-type]
     assert math.isnan(row.pose)
     assert row.worst == math.inf
@@ -156,14 +169,20 @@ def test_a_text_a_path_a_name_and_a_robot_are_validated_alike(tmp_path):
     path.write_text(URDF)
     results = [validate(given, samples=5) for given in (URDF, path, str(path), load(path))]
     # not their errors: to the last bit these are the processor's
-    rows = [[(row.base, row.tip, row.joints, row.dof, row.reach) for row in v.rows] for v in results]
+    rows = [
+        [(row.base, row.tip, row.joints, row.dof, row.reach) for row in v.rows] for v in results
+    ]
     assert rows == [rows[0]] * 4
     assert all(v.passed for v in results)
     assert validate("panda", samples=5).passed
 
 
 def test_the_same_seed_gives_the_same_result_and_another_one_another():
-    first, again, other = validate(URDF, samples=5), validate(URDF, samples=5), validate(URDF, samples=5, seed=1)
+    first, again, other = (
+        validate(URDF, samples=5),
+        validate(URDF, samples=5),
+        validate(URDF, samples=5, seed=1),
+    )
     assert first == again
     assert first.rows[0].configuration != other.rows[0].configuration
 
@@ -189,7 +208,9 @@ def test_a_chain_starts_below_a_joint_that_it_cannot_cross(kind):
 def _tree(*joints: tuple[str, str, str]) -> Robot:
     """Joints (kind, parent, child), named by parent and child."""
     links = dict.fromkeys(link for _, parent, child in joints for link in (parent, child))
-    return Robot("t", links, [Joint(parent + child, kind, parent, child) for kind, parent, child in joints])
+    return Robot(
+        "t", links, [Joint(parent + child, kind, parent, child) for kind, parent, child in joints]
+    )
 
 
 def test_each_moving_joint_is_in_a_chain_and_no_chain_above_a_free_joint_is_idle():
@@ -197,15 +218,24 @@ def test_each_moving_joint_is_in_a_chain_and_no_chain_above_a_free_joint_is_idle
     assert list(routes(moving_above)) == [
         ("c", "c", "starts below the floating joint 'bc'"), ("a", "b", "ends above the floating joint 'bc'"),
     ]  # fmt: skip
-    assert [way[:2] for way in routes(_tree(("fixed", "a", "b"), ("floating", "b", "c")))] == [("c", "c")]
+    assert [way[:2] for way in routes(_tree(("fixed", "a", "b"), ("floating", "b", "c")))] == [
+        ("c", "c")
+    ]
     covered = _tree(("revolute", "a", "b"), ("floating", "b", "c"), ("revolute", "b", "d"))
     assert [way[:2] for way in routes(covered)] == [("c", "c"), ("a", "d")]
-    nested = _tree(("revolute", "a", "b"), ("floating", "b", "c"), ("prismatic", "c", "d"), ("planar", "d", "e"))
+    nested = _tree(
+        ("revolute", "a", "b"),
+        ("floating", "b", "c"),
+        ("prismatic", "c", "d"),
+        ("planar", "d", "e"),
+    )
     assert [way[:2] for way in routes(nested)] == [("e", "e"), ("a", "b"), ("c", "d")]
     assert [way[2] for way in routes(nested)][2] == (
         "starts below the floating joint 'bc', ends above the planar joint 'de'"
     )
-    short_first = _tree(("revolute", "a", "b"), ("floating", "b", "x"), ("revolute", "b", "c"), ("planar", "c", "y"))
+    short_first = _tree(
+        ("revolute", "a", "b"), ("floating", "b", "x"), ("revolute", "b", "c"), ("planar", "c", "y")
+    )
     assert [way[:2] for way in routes(short_first)] == [("x", "x"), ("y", "y"), ("a", "c")]
 
 
@@ -238,7 +268,9 @@ def test_the_oracle_reads_what_was_read_wherever_the_process_stands_by_then(tmp_
 def test_a_robot_out_of_a_text_that_is_called_like_a_file_is_not_read_from_that_file(tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text(URDF)
-    named_like_it = validate(urdf.read_text(URDF.replace('"turn"', '"twist"'), str(path)), samples=3)
+    named_like_it = validate(
+        urdf.read_text(URDF.replace('"turn"', '"twist"'), str(path)), samples=3
+    )
     assert named_like_it.passed
     assert set(named_like_it.rows[0].configuration) == {"twist", "slide", "bend"}
 
@@ -330,7 +362,11 @@ def test_what_a_chain_does_not_cross_is_said_whole():
     assert list(routes(robot)) == [
         ("ball", "tip", "starts below the planar joint 'hop'"),
         ("world", "cart", "ends above the floating joint 'fly'"),
-        ("body", "hand", "starts below the floating joint 'fly', ends above the planar joint 'hop'"),
+        (
+            "body",
+            "hand",
+            "starts below the floating joint 'fly', ends above the planar joint 'hop'",
+        ),
     ]
 
 
@@ -341,9 +377,13 @@ def test_samples_below_none_are_said_whole():
 
 
 @pytest.mark.parametrize("samples", [0, 1, 4])
-def test_the_zero_configuration_is_looked_at_and_as_many_random_ones_as_are_asked_for(samples, monkeypatch):
+def test_the_zero_configuration_is_looked_at_and_as_many_random_ones_as_are_asked_for(
+    samples, monkeypatch
+):
     drawn, random = [], PinocchioOracle.random
-    monkeypatch.setattr(PinocchioOracle, "random", lambda *arguments: drawn.append(random(*arguments)) or drawn[-1])
+    monkeypatch.setattr(
+        PinocchioOracle, "random", lambda *arguments: drawn.append(random(*arguments)) or drawn[-1]
+    )
     validate(URDF, samples=samples)
     (q,) = drawn
     for values in q.values():

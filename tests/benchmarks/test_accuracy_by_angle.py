@@ -26,7 +26,8 @@ from benchmarks.cases.accuracy_judge import (
 )
 from benchmarks.cases.accuracy_peers import Library
 from benchmarks.peers import OPTIONAL, STANDARD, Found, Peer, find
-from poekin.testing import attainable, exact
+from poekin.testing.accuracy import error_bounds
+from poekin.testing.oracles import exact
 
 AMONG = [*bands(1)[::3], Band(1e-4, 1e-3, False), Band(1e-16, 5e-16, True)]
 CASES = referenced(accuracy_judge.twists(np.random.default_rng(7), AMONG, 2))
@@ -76,12 +77,17 @@ def test_an_error_planted_at_some_angles_is_found_there_with_its_size(size):
     assert finding.worst is not None
     worst = CASES["exp_se3"][finding.worst]
     assert 1e-4 <= worst.angle <= 1e-3
-    # The rounding of the sound result adds at most one unit; the entry itself rounds to its own spacing.
+    # The rounding of the sound result adds at most one unit; the entry itself rounds to its own
+    # spacing.
     spacing = np.spacing(abs(float(worst.truth[0, 3])))
     assert finding.figure == pytest.approx(
         size / float(worst.bound.linear), abs=1 + spacing / float(worst.bound.linear)
     )
-    elsewhere = [r for r, case in zip(finding.ratios, CASES["exp_se3"], strict=True) if not 1e-4 <= case.angle <= 1e-3]
+    elsewhere = [
+        r
+        for r, case in zip(finding.ratios, CASES["exp_se3"], strict=True)
+        if not 1e-4 <= case.angle <= 1e-3
+    ]
     assert max(elsewhere) <= 1
 
 
@@ -123,16 +129,23 @@ def test_a_peer_that_has_no_result_is_named_with_its_angle_and_the_run_goes_on(r
     topic = accuracy_by_angle.report([accuracy_peers.poekin(), library], CASES, AMONG, nothing)
     (row,) = [row for row in topic.tables[0].rows if row[:2] == ("fake 1", "exp SE(3)")]
     first = CASES["exp_se3"][min(finding.faults)]
-    assert row[-1] == f"{fault} at θ = {first.angle:.4g} ({len(finding.faults)} of {len(CASES['exp_se3'])})"
+    assert (
+        row[-1]
+        == f"{fault} at θ = {first.angle:.4g} ({len(finding.faults)} of {len(CASES['exp_se3'])})"
+    )
 
 
 def test_who_has_another_order_of_twists_is_not_judged():
     finding = only("exp_se3", lambda xi: SOUND["exp_se3"](np.roll(xi, 3)))
-    assert finding.not_judged.startswith("another convention than its adapter says, at the ordinary angle 1.17 rad")
+    assert finding.not_judged.startswith(
+        "another convention than its adapter says, at the ordinary angle 1.17 rad"
+    )
 
 
 def test_who_raises_at_an_ordinary_angle_is_reported_and_not_judged():
-    assert only("exp_se3", lambda xi: {}["gone"]).not_judged.startswith("KeyError: 'gone', at the ordinary angle")
+    assert only("exp_se3", lambda xi: {}["gone"]).not_judged.startswith(
+        "KeyError: 'gone', at the ordinary angle"
+    )
 
 
 def test_a_peer_that_changes_its_argument_does_not_spoil_the_next_one():
@@ -153,7 +166,7 @@ def near_pi(gap: float) -> Case:
 
 def test_both_signs_are_right_within_eight_u_of_pi_and_not_further_away():
     case = near_pi(0.0)
-    assert case.gap < attainable.BOTH_SIGNS
+    assert case.gap < error_bounds.BOTH_SIGNS
     w = -case.truth[:3]
     v = exact.left_jacobian_inverse(w) @ exact.exactly(case.argument[:3, 3])
     assert ratio(case, exact.rounded(np.concatenate([w, v]))) <= 1
@@ -182,7 +195,11 @@ def test_a_finding_whose_reference_is_in_doubt_is_not_printed(monkeypatch):
 
 
 def test_the_report_has_the_bar_the_best_peer_and_the_absent_one():
-    worse = Library("worse", "2", SOUND | {"exp_se3": lambda x: SOUND["exp_se3"](x) * (1 + 1e-13 * (np.eye(4) == 0))})
+    worse = Library(
+        "worse",
+        "2",
+        SOUND | {"exp_se3": lambda x: SOUND["exp_se3"](x) * (1 + 1e-13 * (np.eye(4) == 0))},
+    )
     absent = Library("gone", "absent", problem="absent: not installed")
     some = [accuracy_peers.poekin(), worse, absent, Library("best", "1", SOUND)]
     topic = accuracy_by_angle.report(some, CASES, AMONG, nothing)
@@ -221,7 +238,9 @@ def test_the_text_to_paste_gives_what_the_adapter_gives(peer):
     for name, function in library.functions.items():
         for case in CASES[name][::5]:
             expected = np.asarray(function(case.argument.copy()))
-            np.testing.assert_array_equal(accuracy_peers.replayed(library.name, name, case.argument), expected)
+            np.testing.assert_array_equal(
+                accuracy_peers.replayed(library.name, name, case.argument), expected
+            )
 
 
 def test_the_text_to_paste_runs_by_itself_and_prints_all_digits():
@@ -243,23 +262,39 @@ def test_the_cases_reach_from_1e_12_to_pi_and_to_1e_15_before_it():
 
 
 def test_the_oracle_shares_no_code_with_what_is_judged():
-    testing = Path(exact.__file__).parent
+    testing = Path(exact.__file__).parents[1]
     for file, allowed in {
-        testing / "exact.py": {"poekin.errors"},
-        testing / "attainable.py": {"exact"},
-        testing / "conform" / "confirm.py": {"exact"},
-        Path(accuracy_judge.__file__): {"poekin.testing", "poekin.testing.conform"},
+        testing / "oracles" / "exact.py": {"poekin.errors"},
+        testing / "accuracy" / "error_bounds.py": {"oracles", "oracles.exact"},
+        testing / "conform" / "confirm.py": {"oracles"},
+        Path(accuracy_judge.__file__): {
+            "poekin.testing.accuracy",
+            "poekin.testing.conform",
+            "poekin.testing.oracles",
+        },
     }.items():
         tree = list(ast.walk(ast.parse(file.read_text(encoding="utf-8"))))
-        imported = {node.module or node.names[0].name for node in tree if isinstance(node, ast.ImportFrom)}
-        imported |= {alias.name for node in tree if isinstance(node, ast.Import) for alias in node.names}
-        imported = {name for name in imported if name.partition(".")[0] in ("poekin", "exact", "accuracy_peers")}
-        assert imported <= allowed | {"exact"}, file.name
+        imported = {
+            node.module or node.names[0].name for node in tree if isinstance(node, ast.ImportFrom)
+        }
+        imported |= {
+            alias.name for node in tree if isinstance(node, ast.Import) for alias in node.names
+        }
+        imported = {
+            name
+            for name in imported
+            if name.partition(".")[0] in ("poekin", "oracles", "accuracy_peers")
+        }
+        assert imported <= allowed, file.name
 
 
 def test_more_cases_are_added_at_the_angles_where_somebody_is_worst():
     cases = {name: list(some) for name, some in CASES.items()}
-    library = Library("fake", "1", {"exp_so3": lambda x: SOUND["exp_so3"](x) + 1e-9 * (1e-4 <= angle_of(x) <= 1e-3)})
+    library = Library(
+        "fake",
+        "1",
+        {"exp_so3": lambda x: SOUND["exp_so3"](x) + 1e-9 * (1e-4 <= angle_of(x) <= 1e-3)},
+    )
     accuracy_by_angle._add_where_somebody_is_worst(np.random.default_rng(0), cases, [library], 3)
     for name, some in cases.items():
         added = some[len(CASES[name]) :]

@@ -1,4 +1,6 @@
-"""The hunt for the worst error of exp and log: its measure is that of 60 digits, and what is planted is found."""
+"""The hunt for the worst error of exp and log: its measure is that of 60 digits, and what is
+planted is found.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +14,8 @@ from benchmarks.cases import accuracy_hunted
 from benchmarks.cases.accuracy_hunted import Hunted
 from benchmarks.hunt import QUANTITIES, Effort, Worst
 from poekin import se3
-from poekin.testing import attainable, suspects
-from poekin.testing.accuracy_laws import REPORT_BAR
+from poekin.testing.accuracy import error_bounds, worst_cases
+from poekin.testing.accuracy.accuracy_laws import REPORT_BAR
 
 SOME = Effort(300, 3)
 NAMES = [quantity.name for quantity in QUANTITIES]
@@ -25,23 +27,25 @@ def rng():
 
 
 def found(name, *ratios):  # type: ignore[no-untyped-def]
-    return Hunted(name, {q: Worst(r / 2, r, np.ones(6), 7) for q, r in zip(NAMES, ratios, strict=True)})
+    return Hunted(
+        name, {q: Worst(r / 2, r, np.ones(6), 7) for q, r in zip(NAMES, ratios, strict=True)}
+    )
 
 
 def test_a_ratio_is_that_of_60_digits():
-    for xi in suspects.twists(rng(), 12, 3.0):
+    for xi in worst_cases.twists(rng(), 12, 3.0):
         T, off = se3.exp(xi), 1 + 1e-14
         wrong, log = T * np.where(np.eye(4)[3], 1.0, off), se3.log(T) * off
         # extended precision is good to some 0.01 of what float64 can attain
         for got, exact in (
-            (hunt.exp_ratios(xi[None], wrong[None]), attainable.ratio_exp(xi, wrong)),
-            (hunt.log_ratios(T[None], log[None]), attainable.ratio_log(T, log)),
+            (hunt.exp_ratios(xi[None], wrong[None]), error_bounds.ratio_exp(xi, wrong)),
+            (hunt.log_ratios(T[None], log[None]), error_bounds.ratio_log(T, log)),
         ):
             assert max(*got)[0] == pytest.approx(exact, rel=1e-3, abs=0.02)
 
 
 def test_the_worst_linear_ratio_of_many_is_among_those_that_are_measured():
-    xi = suspects.twists(rng(), 200, 3.0)
+    xi = worst_cases.twists(rng(), 200, 3.0)
     T = se3.exp(xi)
     each = [hunt.exp_ratios(xi[k : k + 1], T[k : k + 1]).linear[0] for k in range(len(xi))]
     assert hunt.exp_ratios(xi, T).linear.max() == pytest.approx(max(each), rel=1e-9)
@@ -79,8 +83,12 @@ def test_a_hunt_is_the_same_for_the_same_seed():
 
 
 def test_the_bars_are_the_report_s_and_the_best_peer():
-    own, worse, better = (found(name, *4 * [r]) for name, r in (("poekin", 1.2), ("slow", 9.0), ("fine", 1.6)))
-    topic = accuracy_hunted.report([own, own, worse, better, Hunted("absent", {}, "is not installed")])
+    own, worse, better = (
+        found(name, *4 * [r]) for name, r in (("poekin", 1.2), ("slow", 9.0), ("fine", 1.6))
+    )
+    topic = accuracy_hunted.report(
+        [own, own, worse, better, Hunted("absent", {}, "is not installed")]
+    )
     assert [f.bar for f in topic.figures] == 4 * [REPORT_BAR] + 4 * [1]
     assert all(f.verdict for f in topic.figures)
     assert "1.6 of fine" in topic.figures[-1].note
@@ -110,4 +118,6 @@ def test_too_few_cases_are_refused(capsys):
     with pytest.raises(SystemExit) as ended:
         hunt.main(["4"])
     assert ended.value.code == 2
-    assert "cases: expected 5 or more, of which a fifth are hunted, got 4" in capsys.readouterr().err
+    assert (
+        "cases: expected 5 or more, of which a fifth are hunted, got 4" in capsys.readouterr().err
+    )

@@ -1,4 +1,6 @@
-"""The case of tables of exponentials: what its ways compute, and that their errors go with the step as they should."""
+"""The case of tables of exponentials: what its ways compute, and that their errors go with the step
+as they should.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,7 @@ import pytest
 
 from benchmarks.cases import exponential_table as case
 from poekin import dh
-from poekin.testing import exact
+from poekin.testing.oracles import exact
 
 STEPS = (90, 360, 1440)
 
@@ -21,7 +23,9 @@ def errors():
     q = np.random.default_rng(0).uniform(-np.pi, np.pi, (40, 6))
     q[0], q[1] = np.pi, -np.pi  # both ends of a table
     home = [*chain.home[:3, :3].ravel(), *chain.home[:3, 3]]
-    expected = np.stack([exact.rounded(exact.forward(chain.screws, chain.home, x)) for x in q])[:, :3, 3]
+    expected = np.stack([exact.rounded(exact.forward(chain.screws, chain.home, x)) for x in q])[
+        :, :3, 3
+    ]
 
     def error(run, entries):
         out = np.empty((len(q), 12))
@@ -36,7 +40,9 @@ def test_computing_the_sines_is_right_to_the_last_digits(errors):
     assert errors[case.by_sines, 90] < 24 * 2.0**-52
 
 
-@pytest.mark.parametrize("run, order", [(case.by_nearest, 1), (case.by_line, 2)], ids=["nearest", "line"])
+@pytest.mark.parametrize(
+    "run, order", [(case.by_nearest, 1), (case.by_line, 2)], ids=["nearest", "line"]
+)
 def test_the_error_falls_with_the_step(errors, run, order):
     for coarse, fine in pairwise(STEPS):
         # the worst of forty configurations is not the worst of all: a factor of two either way

@@ -17,7 +17,12 @@ ABOUT = {"when": "now", "commit": HOSTILE, "processor": "p", "cores": 2, "load":
 
 
 def _topic(**fields: object) -> Topic:
-    return Topic(HOSTILE, HOSTILE, [Figure(HOSTILE, 1.0, 2.0, note=HOSTILE)], [Table(HOSTILE, [HOSTILE], [[HOSTILE]])])
+    return Topic(
+        HOSTILE,
+        HOSTILE,
+        [Figure(HOSTILE, 1.0, 2.0, note=HOSTILE)],
+        [Table(HOSTILE, [HOSTILE], [[HOSTILE]])],
+    )
 
 
 def test_cases_run_in_turn_and_the_order_alternates():
@@ -47,7 +52,11 @@ def test_a_ratio_is_taken_within_each_round():
     def timed(*each: float) -> Timed:
         return Timed("t", spread(list(each)), each, 0.0)
 
-    assert ratio(timed(1.0, 2.0, 30.0), timed(2.0, 4.0, 60.0)).__dict__ == {"median": 0.5, "lower": 0.5, "upper": 0.5}
+    assert ratio(timed(1.0, 2.0, 30.0), timed(2.0, 4.0, 60.0)).__dict__ == {
+        "median": 0.5,
+        "lower": 0.5,
+        "upper": 0.5,
+    }
 
 
 def test_a_clock_of_the_wall_counts_waiting():
@@ -101,7 +110,10 @@ def test_a_bar_holds_only_where_a_number_was_measured_at_or_below_it(figure, ver
 
 
 def test_a_missed_bar_and_a_topic_that_broke_off_are_counted():
-    topics = [Topic("a", figures=[Figure("x", 1.0, 2.0), Figure("y", 3.0, 2.0)]), Topic("b", failure="trace")]
+    topics = [
+        Topic("a", figures=[Figure("x", 1.0, 2.0), Figure("y", 3.0, 2.0)]),
+        Topic("b", failure="trace"),
+    ]
     assert summary(topics) == "1 of 2 bars hold. These topics broke off: b."
     assert "MISSED" in plain_table(topics)
     assert "MISSED" in html(topics, ABOUT, 1.0)
@@ -122,12 +134,15 @@ def test_hostile_names_do_not_break_a_markdown_table():
 
 
 def test_results_are_json_even_with_numbers_that_are_none():
-    topic = Topic("t", figures=[Figure("w", float("inf"), 1.0)], tables=[Table("c", ["x"], [[float("nan")]])])
+    topic = Topic(
+        "t", figures=[Figure("w", float("inf"), 1.0)], tables=[Table("c", ["x"], [[float("nan")]])]
+    )
     assert json.loads(results([topic], ABOUT, 1.0))["topics"][0]["figures"][0]["value"] is None
 
 
 @pytest.mark.parametrize(
-    ("value", "text"), [(5, "5"), (0.0, "0"), (0.123456, "0.123"), (6.5e-15, "6.5e-15"), (2e6, "2e+06")]
+    ("value", "text"),
+    [(5, "5"), (0.0, "0"), (0.123456, "0.123"), (6.5e-15, "6.5e-15"), (2e6, "2e+06")],
 )
 def test_figures_are_shown_to_three_digits(value, text):
     assert short(value) == text

@@ -75,5 +75,9 @@ def test_the_peers_of_a_run_are_chosen_on_the_command_line(run, capsys):
 
 def test_results_name_the_version_of_every_peer_or_its_absence(run, tmp_path):
     run("--only", "first")
-    versions = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["machine"]["versions"]
-    assert {peer.distribution for peer in (peers.STANDARD | peers.OPTIONAL).values()} <= versions.keys()
+    versions = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["machine"][
+        "versions"
+    ]
+    assert {
+        peer.distribution for peer in (peers.STANDARD | peers.OPTIONAL).values()
+    } <= versions.keys()

@@ -1,4 +1,6 @@
-"""The page on inverse kinematics: what a solver says about itself is not believed, and each peer is asked rightly."""
+"""The page on inverse kinematics: what a solver says about itself is not believed, and each peer is
+asked rightly.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ from benchmarks.cases import inverse_kinematics_reasons as reasons
 from benchmarks.cases.inverse_kinematics_judge import Judgement, judged
 from benchmarks.cases.inverse_kinematics_rows import peer_row
 from benchmarks.page import html, markdown
-from poekin.solve.ik import ik
+from poekin.solve.ik.ik import ik
 from tests.versions import needs
 
 UR5 = pk.load("ur5").chain()
@@ -86,16 +88,24 @@ def liar(chain, T, **options):  # type: ignore[no-untyped-def]
 def modest(chain, T, **options):  # type: ignore[no-untyped-def]
     """It solves, and does not say so, and always blames the limits."""
     found = ik(chain, T, **options)
-    return replace(found, success=np.zeros_like(found.success), reason=np.full_like(found.reason, "limits"))
+    return replace(
+        found, success=np.zeros_like(found.success), reason=np.full_like(found.reason, "limits")
+    )
 
 
 def page_of(solve, monkeypatch):  # type: ignore[no-untyped-def]
     """The topic on few targets and two arms, one of five joints, with a solver planted."""
-    list_of_two = [arm for arm in arms.named_arms() if arm.name in ("so101 → gripper_link", "puma560 (catalogue)")]
+    list_of_two = [
+        arm
+        for arm in arms.named_arms()
+        if arm.name in ("so101 → gripper_link", "puma560 (catalogue)")
+    ]
     monkeypatch.setattr(named_list, "named_arms", lambda: list_of_two)
     for name in ("TARGETS", "LIST_TARGETS", "WITHOUT"):
         monkeypatch.setattr(topic, name, 400)
-    monkeypatch.setattr(topic, "in_turn", lambda cases, rounds: in_turn(cases, rounds=1, slice_s=0.0))
+    monkeypatch.setattr(
+        topic, "in_turn", lambda cases, rounds: in_turn(cases, rounds=1, slice_s=0.0)
+    )
     return topic.topic(True, lambda _: None, solve)
 
 
@@ -108,12 +118,21 @@ def verdicts(page, words: str) -> list[bool | None]:  # type: ignore[no-untyped-
     return found
 
 
-def test_the_page_of_the_true_solver_claims_nothing_false_and_holds_what_time_does_not_decide(monkeypatch):
+def test_the_page_of_the_true_solver_claims_nothing_false_and_holds_what_time_does_not_decide(
+    monkeypatch,
+):
     page = page_of(ik, monkeypatch)
-    for words in ("solved to 1e-9", "the arm with the fewest", "beyond the reach bound", "bear out"):
+    for words in (
+        "solved to 1e-9",
+        "the arm with the fewest",
+        "beyond the reach bound",
+        "bear out",
+    ):
         assert all(verdicts(page, words)), words
     text = html([page], ABOUT, 1.0) + markdown([page], ABOUT, 1.0)
-    assert all(name in text for name in ("so101", "puma560", "Robotics Toolbox", "Pinocchio", "EAIK"))
+    assert all(
+        name in text for name in ("so101", "puma560", "Robotics Toolbox", "Pinocchio", "EAIK")
+    )
     assert "Traceback" not in text
 
 
@@ -129,7 +148,9 @@ def test_a_solver_that_lies_is_caught_in_every_figure_of_truth(monkeypatch):
     assert float(beside.error.split()[0]) > 1e-7
 
 
-def test_a_solver_that_does_not_claim_success_has_solved_nothing_and_a_wrong_reason_is_seen(monkeypatch):
+def test_a_solver_that_does_not_claim_success_has_solved_nothing_and_a_wrong_reason_is_seen(
+    monkeypatch,
+):
     page = page_of(modest, monkeypatch)
     assert not any(verdicts(page, "solved to 1e-9"))
     assert verdicts(page, "bear out") == [True]
@@ -142,13 +163,18 @@ def test_targets_beyond_the_reach_are_beyond_the_sum_of_the_links():
     assert (far > UR5.reach).all()
     assert far.min() < UR5.reach * (1 + 1e-4)  # some of them barely
     np.testing.assert_allclose(
-        T[:, :3, :3] @ T[:, :3, :3].transpose(0, 2, 1), np.tile(np.eye(3), (200, 1, 1)), rtol=0, atol=1e-14
+        T[:, :3, :3] @ T[:, :3, :3].transpose(0, 2, 1),
+        np.tile(np.eye(3), (200, 1, 1)),
+        rtol=0,
+        atol=1e-14,
     )
 
 
 def test_whole_turns_bring_an_angle_into_the_limits_where_they_can():
     limits = np.array([[-6.0, 6.0], [3.0, 4.0], [-np.inf, np.inf]])
-    beyond, turned = ik_peers.outside(limits, np.array([[-5.0, -3.0, 9.0], [1.0, 1.0, 0.0], [1.0, 4.5, 0.0]]))
+    beyond, turned = ik_peers.outside(
+        limits, np.array([[-5.0, -3.0, 9.0], [1.0, 1.0, 0.0], [1.0, 4.5, 0.0]])
+    )
     # -3 + 2 pi = 3.28 is within; 1 is 2 below 3, and 1 + 2 pi is 3.28 above 4.
     np.testing.assert_allclose(beyond, [0.0, 2.0, 0.5], rtol=0, atol=1e-14)
     np.testing.assert_allclose(turned[0, :2], [-5.0, 2 * np.pi - 3.0])
@@ -178,7 +204,9 @@ def test_a_peer_is_asked_for_the_pose_of_the_chain_and_at_equal_tolerance_it_is_
     found = peer_row(name, make, UR5, T).judgement
     assert found is not None
     assert found.claimed.sum() >= 4  # Pinocchio's loop knows no restarts
-    assert max(found.worst) < 2e-9  # the tool is 0.1 m from the joint that Pinocchio's loop looks at
+    assert (
+        max(found.worst) < 2e-9
+    )  # the tool is 0.1 m from the joint that Pinocchio's loop looks at
 
 
 def test_the_default_tolerance_of_robotics_toolbox_is_a_millimetre():
@@ -193,7 +221,9 @@ def test_the_default_tolerance_of_robotics_toolbox_is_a_millimetre():
 def test_a_peer_that_cannot_solve_an_arm_says_why():
     usable("eaik")
     seven = pk.load("iiwa14").chain()
-    row = peer_row("eaik", lambda: ik_peers.ClosedForm(seven).solver(), seven, seven.fk(np.zeros((1, 7))))
+    row = peer_row(
+        "eaik", lambda: ik_peers.ClosedForm(seven).solver(), seven, seven.fk(np.zeros((1, 7)))
+    )
     assert row.judgement is None
     assert "six revolute joints" in row.problem
 
@@ -202,11 +232,15 @@ def test_without_peers_the_page_says_so_and_poekin_s_own_figures_stand(monkeypat
     absent = {name: replace(peers.STANDARD[name], distribution="no-such-distribution")
               for name in ("robotics_toolbox", "pinocchio")}  # fmt: skip
     monkeypatch.setattr(ik_peers, "STANDARD", absent)
-    monkeypatch.setattr(ik_peers, "EAIK", replace(ik_peers.EAIK, distribution="no-such-distribution"))
+    monkeypatch.setattr(
+        ik_peers, "EAIK", replace(ik_peers.EAIK, distribution="no-such-distribution")
+    )
     page = page_of(ik, monkeypatch)
     assert all(verdicts(page, "solved to 1e-9"))
     unmeasured = [figure for figure in page.figures if figure.value is None]
-    assert len(unmeasured) == 4  # two ratios, and the poses of two arms that EAIK would have to vouch for
+    assert (
+        len(unmeasured) == 4
+    )  # two ratios, and the poses of two arms that EAIK would have to vouch for
     assert all("absent: not installed" in figure.note for figure in unmeasured)
     assert verdicts(page, "Robotics Toolbox") == [False, False]
 
@@ -214,7 +248,10 @@ def test_without_peers_the_page_says_so_and_poekin_s_own_figures_stand(monkeypat
 def test_the_named_list_has_arms_of_five_to_seven_joints_and_none_twice():
     found = arms.named_arms()
     assert len({arm.name for arm in found}) == len(found) == 43
-    assert all(5 <= arm.chain.dof <= 7 and len(arm.chain.q_names) == len(arm.chain.joint_names) for arm in found)
+    assert all(
+        5 <= arm.chain.dof <= 7 and len(arm.chain.q_names) == len(arm.chain.joint_names)
+        for arm in found
+    )
     assert [arm.name for arm in found if arm.task == "direction"] == [
         "hextilt_flying_arm_5 → flying_arm_5__link_5", "so100 → gripper", "so101 → gripper_link",
     ]  # fmt: skip
@@ -226,7 +263,9 @@ def test_the_named_list_has_arms_of_five_to_seven_joints_and_none_twice():
 
 
 def _print(chain: pk.Chain) -> np.ndarray:
-    """What does not depend on where the base stands: how each two axes lie to each other, at some q; and the limits."""
+    """What does not depend on where the base stands: how each two axes lie to each other, at some
+    q; and the limits.
+    """
     numbers = []
     for q in np.random.default_rng(0).normal(size=(3, 7)):
         J = chain.jacobian(q[: chain.dof], "space").T

@@ -1,4 +1,6 @@
-"""The report's judges of DH, URDF and compare: they agree with what is known, and they catch what is wrong."""
+"""The report's judges of DH, URDF and compare: they agree with what is known, and they catch what
+is wrong.
+"""
 
 from __future__ import annotations
 
@@ -12,14 +14,18 @@ import poekin as pk
 from benchmarks import dh_judge
 from benchmarks.cases import model_truth_compare, model_truth_robots, model_truth_tables
 from poekin.formats.dh import Row, Table
-from poekin.testing import calibrated_arm
+from poekin.testing.cases import calibrated_arm
 
 
 def silent(_: str) -> None:
     """No line of progress."""
 
 
-ROWS = [Row(0.3, 0.1, 0.2, 1.0, flip=True), Row(0.5, 0.2, 0.1, -0.7, "prismatic"), Row(0.7, 0.3, 0.4, 0.2)]
+ROWS = [
+    Row(0.3, 0.1, 0.2, 1.0, flip=True),
+    Row(0.5, 0.2, 0.1, -0.7, "prismatic"),
+    Row(0.7, 0.3, 0.4, 0.2),
+]
 X = np.array([0.4, -0.3, 0.9])
 
 
@@ -28,7 +34,10 @@ X = np.array([0.4, -0.3, 0.9])
     [
         (Table("standard", [Row(a=2.0), Row(a=1.0)]), (-1.0, 2.0, 0.0)),
         (Table("modified", [Row(a=2.0), Row(a=1.0)]), (2.0, 1.0, 0.0)),
-        (Table("standard", [Row(alpha=math.pi / 2), Row(kind="prismatic")]), (math.pi / 2, 0.0, 0.0)),
+        (
+            Table("standard", [Row(alpha=math.pi / 2), Row(kind="prismatic")]),
+            (math.pi / 2, 0.0, 0.0),
+        ),
         (Table("standard", [Row(a=2.0, flip=True), Row(a=1.0, flip=True)]), (-1.0, -2.0, 0.0)),
     ],
     ids=["standard", "modified", "slides along x", "flipped"],
@@ -43,9 +52,19 @@ def test_the_product_of_links_is_what_one_sees_on_paper(table, position):
 def test_the_product_of_links_sees_what_is_lost(convention, lost):
     base, tool = pk.se3.exp([[0.1, 0.2, 0.3, 0.4, 0.5, 0.6], [0.3, 0.1, 0.2, 0.1, 0.2, 0.3]])
     table = Table(convention, ROWS, base=base, tool=tool)
-    changed = {"standard": "modified", "modified": "standard"}[convention] if lost == "convention" else convention
-    rows = [dataclasses.replace(r, **{lost: getattr(Row(), lost)}) for r in ROWS] if hasattr(Row(), lost) else ROWS
-    wrong = Table(changed, rows, base=None if lost == "base" else base, tool=None if lost == "tool" else tool)
+    changed = (
+        {"standard": "modified", "modified": "standard"}[convention]
+        if lost == "convention"
+        else convention
+    )
+    rows = (
+        [dataclasses.replace(r, **{lost: getattr(Row(), lost)}) for r in ROWS]
+        if hasattr(Row(), lost)
+        else ROWS
+    )
+    wrong = Table(
+        changed, rows, base=None if lost == "base" else base, tool=None if lost == "tool" else tool
+    )
     expected = dh_judge.product(table, X)
     assert dh_judge.error(pk.dh.to_chain(table).fk(X), expected, 1.0) < 1e-15
     assert dh_judge.error(pk.dh.to_chain(wrong).fk(X), expected, 1.0) > 1e-3
@@ -76,7 +95,10 @@ def test_a_far_table_is_judged_by_its_bounds_and_a_near_one_by_the_bar():
 
 def nearly_parallel() -> pk.Chain:
     angle = 1e-9
-    axes = [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([math.sin(angle), 0, 1], [0.4, 0, 0])]
+    axes = [
+        pk.screw.revolute([0, 0, 1], [0, 0, 0]),
+        pk.screw.revolute([math.sin(angle), 0, 1], [0.4, 0, 0]),
+    ]
     return pk.Chain(axes, np.eye(4))
 
 
@@ -87,7 +109,9 @@ def test_a_dropped_angle_counts_only_where_it_is_said(monkeypatch):
     assert said.error <= said.bound <= said.ceiling
     honest = dh_judge.dh.from_chain
     monkeypatch.setattr(
-        dh_judge.dh, "from_chain", lambda *a, **k: dataclasses.replace(honest(*a, **k), warnings=("something else",))
+        dh_judge.dh,
+        "from_chain",
+        lambda *a, **k: dataclasses.replace(honest(*a, **k), warnings=("something else",)),
     )
     unsaid = dh_judge.there_and_back(nearly_parallel(), "standard", q)
     assert unsaid.error > dh_judge.WELL
@@ -103,7 +127,10 @@ def test_the_topic_of_tables_holds_and_a_lost_tool_is_missed(monkeypatch):
         model_truth_tables.dh, "to_chain",
         lambda t: honest(Table(t.convention, t.rows, base=t.base, name=t.name)),
     )  # fmt: skip
-    assert [figure.verdict for figure in model_truth_tables.topic(True, silent).figures[:2]] == [False, False]
+    assert [figure.verdict for figure in model_truth_tables.topic(True, silent).figures[:2]] == [
+        False,
+        False,
+    ]
 
 
 FLOATING = """<robot name="ship"> <link name="sea"/> <link name="deck"/> <link name="boom"/> <link name="hook"/>
@@ -116,21 +143,32 @@ FLOATING = """<robot name="ship"> <link name="sea"/> <link name="deck"/> <link n
 
 def robots_topic(monkeypatch, tmp_path, text: str):
     (tmp_path / "one.urdf").write_text(text, encoding="utf-8")
-    monkeypatch.setattr(model_truth_robots, "example_robots", lambda: ({"one": str(tmp_path / "one.urdf")}, {}))
+    monkeypatch.setattr(
+        model_truth_robots, "example_robots", lambda: ({"one": str(tmp_path / "one.urdf")}, {})
+    )
     return model_truth_robots.topic(False, silent)
 
 
-def test_chains_below_a_floating_joint_are_judged_and_the_page_says_where_they_start(monkeypatch, tmp_path):
+def test_chains_below_a_floating_joint_are_judged_and_the_page_says_where_they_start(
+    monkeypatch, tmp_path
+):
     topic = robots_topic(monkeypatch, tmp_path, FLOATING)
     chains, near, *_, urdf = topic.figures
-    assert (chains.shown, chains.verdict, near.verdict, urdf.verdict) == ("1 of 1", True, True, True)
+    assert (chains.shown, chains.verdict, near.verdict, urdf.verdict) == (
+        "1 of 1",
+        True,
+        True,
+        True,
+    )
     (parts,) = (table for table in topic.tables if table.caption == "Chains taken in parts")
     assert parts.rows[0][1:] == ("hook", "starts below the floating joint 'swell'")
 
 
 def test_a_urdf_with_a_lost_rotation_is_missed(monkeypatch, tmp_path):
     monkeypatch.setattr(
-        model_truth_robots, "to_urdf", lambda chain: pk.to_urdf(chain).replace('<axis xyz="0 0', '<axis xyz="0 1')
+        model_truth_robots,
+        "to_urdf",
+        lambda chain: pk.to_urdf(chain).replace('<axis xyz="0 0', '<axis xyz="0 1'),
     )
     assert robots_topic(monkeypatch, tmp_path, FLOATING).figures[-1].verdict is False
 
@@ -149,14 +187,22 @@ def compare_topic(monkeypatch):
 
 def test_planted_changes_are_counted(monkeypatch):
     topic = compare_topic(monkeypatch)
-    assert [(figure.shown, figure.verdict) for figure in topic.figures] == [("16 of 16", True), ("3 of 3", True)]
+    assert [(figure.shown, figure.verdict) for figure in topic.figures] == [
+        ("16 of 16", True),
+        ("3 of 3", True),
+    ]
     tilt, *_ = topic.tables[0].rows
     assert (tilt[1], float(tilt[2])) == (4, pytest.approx(0.1, rel=0.01))
 
 
 def test_a_comparison_that_sees_nothing_is_missed(monkeypatch):
     blind = model_truth_compare.compare
-    monkeypatch.setattr(model_truth_compare, "compare", lambda a, b, samples: blind(a, a, samples=samples))
+    monkeypatch.setattr(
+        model_truth_compare, "compare", lambda a, b, samples: blind(a, a, samples=samples)
+    )
     topic = compare_topic(monkeypatch)
-    assert [(figure.shown, figure.verdict) for figure in topic.figures] == [("0 of 16", False), ("0 of 3", False)]
+    assert [(figure.shown, figure.verdict) for figure in topic.figures] == [
+        ("0 of 16", False),
+        ("0 of 3", False),
+    ]
     assert any(table.caption == "What went wrong" for table in topic.tables)

@@ -1,4 +1,6 @@
-"""DH, Hayati's form and screws side by side: each is the arm that it says, and what is reported was measured."""
+"""DH, Hayati's form and screws side by side: each is the arm that it says, and what is reported was
+measured.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +59,9 @@ def test_link_parameters_are_the_table_s_arm(make):
 def test_hayati_s_link_without_beta_is_the_table_s_link_without_d(twist):
     form = link_parameters(table_with(twist), (SHOULDER,))
     assert form.values[claim.BETA] == 0
-    np.testing.assert_allclose(form.poses(Q), dh.to_chain(table_with(twist)).fk(Q), rtol=0, atol=34 * 2.0**-52)
+    np.testing.assert_allclose(
+        form.poses(Q), dh.to_chain(table_with(twist)).fk(Q), rtol=0, atol=34 * 2.0**-52
+    )
 
 
 def test_the_numbers_of_d_and_beta_are_those_of_the_shoulder_s_link():
@@ -69,7 +73,9 @@ def test_the_numbers_of_d_and_beta_are_those_of_the_shoulder_s_link():
 
 
 def test_a_link_with_d_is_refused_by_hayati_s_form():
-    with pytest.raises(ValueError, match=r"row 3: Hayati's link has no d, and this one is 0\.15005 m"):
+    with pytest.raises(
+        ValueError, match=r"row 3: Hayati's link has no d, and this one is 0\.15005 m"
+    ):
         link_parameters(table_with(0.0), (ELBOW,))
 
 
@@ -83,8 +89,11 @@ def test_columns_are_the_derivative_of_the_poses(values, direction, hayati):
     ahead, behind = (form.moved(sign * h * direction).poses(Q) for sign in (1, -1))
     turn = so3.log(ahead[:, :3, :3] @ np.swapaxes(behind[:, :3, :3], -1, -2)) / (2 * h)
     shift = (ahead[:, :3, 3] - behind[:, :3, 3]) / (2 * h)
-    # h^2 / 6 times the third derivative: fifteen turns of at most 1 rad each, cubed, of an arm of at most 30 m
-    np.testing.assert_allclose(form.columns(Q) @ direction, np.hstack([turn, shift]), rtol=0, atol=2e-6)
+    # h^2 / 6 times the third derivative: fifteen turns of at most 1 rad each, cubed, of an arm of
+    # at most 30 m
+    np.testing.assert_allclose(
+        form.columns(Q) @ direction, np.hstack([turn, shift]), rtol=0, atol=2e-6
+    )
 
 
 @given(st.floats(-8, -0.5).map(lambda power: 10.0**power))
@@ -92,13 +101,17 @@ def test_the_tilted_axis_meets_the_shoulder_s_at_a_over_tan_delta(delta):
     A, nominal = tilted(delta).screws, NOMINAL.screws
     np.testing.assert_array_equal(np.delete(A, ELBOW, 0), np.delete(nominal, ELBOW, 0))
     np.testing.assert_array_equal(tilted(delta).home, NOMINAL.home)
-    angle = np.arctan2(np.linalg.norm(np.cross(A[ELBOW, :3], A[SHOULDER, :3])), A[ELBOW, :3] @ A[SHOULDER, :3])
+    angle = np.arctan2(
+        np.linalg.norm(np.cross(A[ELBOW, :3], A[SHOULDER, :3])), A[ELBOW, :3] @ A[SHOULDER, :3]
+    )
     assert angle == pytest.approx(delta, abs=1e-15)
     # reciprocal product zero: the axes have a point in common
     assert abs(A[ELBOW, :3] @ A[SHOULDER, 3:] + A[ELBOW, 3:] @ A[SHOULDER, :3]) <= 1e-15
     d = dh.from_chain(tilted(delta)).table.d[SHOULDER]
     # an angle known to 1e-16 rad
-    assert d == pytest.approx(-table_with(0.0).a[SHOULDER] / math.tan(delta), rel=1e-15 / delta + 1e-14)
+    assert d == pytest.approx(
+        -table_with(0.0).a[SHOULDER] / math.tan(delta), rel=1e-15 / delta + 1e-14
+    )
 
 
 def test_dh_s_condition_grows_as_the_inverse_square_of_the_twist_and_the_others_do_not():
@@ -119,7 +132,9 @@ def test_condition_counts_lengths_in_units_of_the_reach():
     form = link_parameters(table_with(0.5))
     J = form.columns(Q) * np.where(form.lengths, 2.0, 1.0)
     J[:, 3:] /= 2.0
-    assert fit.condition(form, Q, 2.0) == pytest.approx(np.linalg.cond(J.reshape(-1, 30)), rel=1e-12)
+    assert fit.condition(form, Q, 2.0) == pytest.approx(
+        np.linalg.cond(J.reshape(-1, 30)), rel=1e-12
+    )
 
 
 @pytest.mark.parametrize("delta", claim.TILTS_OF_THE_BAR)
@@ -141,10 +156,16 @@ def test_screws_and_hayati_s_form_find_the_tilted_arm_in_a_few_steps_and_plain_d
 
 def test_levenberg_marquardt_finds_the_far_solution_of_plain_dh():
     found = fit.levenberg_marquardt(
-        link_parameters(table_with(0.0)), sample(1e-2, 10, 40), sample(1e-2, 2, 200), NOMINAL.reach, 300
+        link_parameters(table_with(0.0)),
+        sample(1e-2, 10, 40),
+        sample(1e-2, 2, 200),
+        NOMINAL.reach,
+        300,
     )
     assert found.error < claim.REACHED
-    assert found.arm.values[claim.D_OF_SHOULDER] == pytest.approx(-0.4318 / math.tan(1e-2), rel=1e-9)
+    assert found.arm.values[claim.D_OF_SHOULDER] == pytest.approx(
+        -0.4318 / math.tan(1e-2), rel=1e-9
+    )
 
 
 def test_a_damped_step_is_not_counted_as_gauss_newton(monkeypatch):
@@ -173,10 +194,21 @@ def test_the_report_can_be_read_and_its_bars_hold(at_a_thousandth):
     assert [figure.verdict for figure in topic.figures] == [True, None, None, True, True, True]
     for page in (html([topic], ABOUT, 1.0), markdown([topic], ABOUT, 1.0)):
         assert "Hayati" in page
-    assert len({len(row) for table in topic.tables for row in itertools.chain(table.rows, [table.columns])}) == 3
+    assert (
+        len(
+            {
+                len(row)
+                for table in topic.tables
+                for row in itertools.chain(table.rows, [table.columns])
+            }
+        )
+        == 3
+    )
 
 
-@pytest.mark.parametrize("errors", [[1.0] * 6 + [1e-13], [1.0] * 7, [math.nan] * 7], ids=["six", "never", "NaN"])
+@pytest.mark.parametrize(
+    "errors", [[1.0] * 6 + [1e-13], [1.0] * 7, [math.nan] * 7], ids=["six", "never", "NaN"]
+)
 def test_too_many_steps_miss_the_bar(at_a_thousandth, errors):
     late = at_a_thousandth._replace(screws=at_a_thousandth.screws._replace(errors=errors))
     assert verdicts(late)[0] is False
@@ -193,7 +225,9 @@ def test_a_condition_off_its_bar_is_seen(at_a_thousandth, planted, number):
 
 
 @pytest.mark.parametrize("value", [21.0, math.nan])
-def test_a_condition_of_poe_off_its_bar_at_right_angles_or_when_tilted_is_seen(at_a_thousandth, value):
+def test_a_condition_of_poe_off_its_bar_at_right_angles_or_when_tilted_is_seen(
+    at_a_thousandth, value
+):
     right = [*AT_RIGHT_ANGLES[:5], (3.0, 10.0, value), *AT_RIGHT_ANGLES[6:]]
     assert verdicts(at_a_thousandth, right=right)[5] is False
     assert verdicts(at_a_thousandth._replace(conditions=(1e5, 10.0, value)))[5] is False

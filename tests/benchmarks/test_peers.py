@@ -1,4 +1,6 @@
-"""The libraries beside poekin: each computes the same arm; absent and broken ones are named, and nothing else stops."""
+"""The libraries beside poekin: each computes the same arm; absent and broken ones are named, and
+nothing else stops.
+"""
 
 from __future__ import annotations
 
@@ -48,8 +50,8 @@ ARMS = {
     "mixed": arm("revolute", "prismatic", "revolute", "revolute"),
     "seven": arm(*["revolute"] * 7),
 }
-# A few roundings of numbers up to 10, and those of roll, pitch and yaw in the URDF. pytorch_kinematics rounds what it
-# reads to float32, a unit of 6e-8: that times 7 joints times 10.
+# A few roundings of numbers up to 10, and those of roll, pitch and yaw in the URDF.
+# pytorch_kinematics rounds what it reads to float32, a unit of 6e-8: that times 7 joints times 10.
 DIGITS = {"pytorch_kinematics": 5e-6}
 
 
@@ -61,7 +63,8 @@ def test_exp_and_log_of_a_peer_are_those_of_poekin_in_order_and_meaning(name):
         return
     group = peer.group()
     xi = np.random.default_rng(0).normal(size=(4, 6)) / 2
-    # Moderate angles, where every library has at least ten digits: what is compared is the order of the numbers.
+    # Moderate angles, where every library has at least ten digits: what is compared is the order of
+    # the numbers.
     np.testing.assert_allclose(group.exp_of(xi), se3.exp(xi), rtol=0, atol=1e-10)
     np.testing.assert_allclose(group.log_of(se3.exp(xi)), xi, rtol=0, atol=1e-10)
 
@@ -77,7 +80,9 @@ def test_pose_and_jacobian_of_a_peer_are_those_of_the_chain(name, which):
     native, atol = k.native(q), DIGITS.get(name, 1e-13)
     for i, x in enumerate(q):
         one = native[i : i + 1] if k.batch else native[i]
-        np.testing.assert_allclose(np.reshape(k.pose(k.fk(one)), (4, 4)), chain.fk(x), rtol=0, atol=atol)
+        np.testing.assert_allclose(
+            np.reshape(k.pose(k.fk(one)), (4, 4)), chain.fk(x), rtol=0, atol=atol
+        )
         if k.fk_jacobian is not None:
             T, J = k.arrays(*k.fk_jacobian(one))
             np.testing.assert_allclose(np.reshape(T, (4, 4)), chain.fk(x), rtol=0, atol=atol)
@@ -91,7 +96,10 @@ def test_pose_and_jacobian_of_a_peer_are_those_of_the_chain(name, which):
     [
         (pk.Chain([[0, 0, 1, 0, 0, 0.1]], np.eye(4)), "helical"),
         (pk.Chain([[0, 0, 1, 0, 0, 0]], np.eye(4), offset=[0.5]), "without offset"),
-        (pk.Chain([[0, 0, 1, 0, 0, 0]] * 2, np.eye(4), coupling=[[1.0], [1.0]]), "coordinate of its own"),
+        (
+            pk.Chain([[0, 0, 1, 0, 0, 0]] * 2, np.eye(4), coupling=[[1.0], [1.0]]),
+            "coordinate of its own",
+        ),
     ],
     ids=["helical", "offset", "coupled"],
 )
@@ -131,7 +139,9 @@ def planted():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(peers, "_chosen", PLANTED)
         patch.setattr(topic, "MANY", 100)
-        patch.setattr(topic, "in_turn", lambda cases, **_: topic_in_turn(cases, rounds=1, slice_s=0.0))
+        patch.setattr(
+            topic, "in_turn", lambda cases, **_: topic_in_turn(cases, rounds=1, slice_s=0.0)
+        )
         return topic.topic(True, lambda _: None)
 
 
@@ -141,7 +151,10 @@ topic_in_turn = topic.in_turn
 def test_broken_and_absent_peers_say_why_and_the_run_goes_on(planted):
     said = {row[0]: row[1] for row in planted.tables[0].rows}
     version = f" {np.__version__}"
-    assert said[HOSTILE + version] == 'broken: RuntimeError: <script>alert("x")</script> | \x1b[31m $x$'
+    assert (
+        said[HOSTILE + version]
+        == 'broken: RuntimeError: <script>alert("x")</script> | \x1b[31m $x$'
+    )
     assert said["late" + version].startswith("broken: RuntimeError")
     assert said["missing"] == "absent: not installed"
     assert said["no module" + version].startswith("broken: ModuleNotFoundError")
@@ -180,11 +193,17 @@ def test_peers_are_chosen_by_name():
     peers.use(["jaxlie", "scipy"])
     assert [found.peer.name for found in peers.chosen()] == ["SciPy", "jaxlie"]
     peers.use(["standard"])
-    assert [found.peer.name for found in peers.chosen()] == [peer.name for peer in peers.STANDARD.values()]
+    assert [found.peer.name for found in peers.chosen()] == [
+        peer.name for peer in peers.STANDARD.values()
+    ]
 
 
 def test_pinocchio_s_rows_say_why_where_it_is_absent():
     absent = peers.Found(peers.STANDARD["pinocchio"], "absent: not installed")
     assert compiled._pinocchio(absent, None, None, None) == ([], [], "absent: not installed")  # type: ignore[arg-type]
     (figure,) = compiled._figures("w", None, [], 0.5, note="absent: not installed")  # type: ignore[arg-type]
-    assert (figure.text, figure.verdict, figure.note) == ("not measured", False, "absent: not installed")
+    assert (figure.text, figure.verdict, figure.note) == (
+        "not measured",
+        False,
+        "absent: not installed",
+    )

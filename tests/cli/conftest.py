@@ -30,7 +30,9 @@ def crane(tmp_path):
 
 @pytest.fixture
 def poekin(capsys, monkeypatch):
-    """Run a command line: (exit code, stdout, stderr); on stderr no word of progress, however slow the machine is."""
+    """Run a command line: (exit code, stdout, stderr); on stderr no word of progress, however slow
+    the machine is.
+    """
     monkeypatch.setattr(output, "PAUSE", math.inf)
 
     def call(*words):
@@ -55,7 +57,9 @@ def as_json(poekin):
 
 @pytest.fixture
 def refused(poekin):
-    """Run a command line that must be refused: exit code 2, nothing on stdout, one message; the message."""
+    """Run a command line that must be refused: exit code 2, nothing on stdout, one message; the
+    message.
+    """
 
     def call(*words):
         code, out, err = poekin(*words)

@@ -52,7 +52,11 @@ def test_a_faulty_one_is_1_and_its_counterexample_can_be_pasted(tmp_path, monkey
     code, out, _ = poekin(*arguments, "--json")
     assert code == 1
     document = json.loads(out)
-    assert (document["subject"], document["conforms"], len(document["laws"])) == ("Faulty", False, 1)
+    assert (document["subject"], document["conforms"], len(document["laws"])) == (
+        "Faulty",
+        False,
+        1,
+    )
     assert document["laws"][0]["grade"] in ("poor", "broken")
     assert sum(x != 0 for x in document["laws"][0]["numbers"]) == 1
 
@@ -66,18 +70,37 @@ def test_options_reach_the_function_and_its_report_the_exit_code(monkeypatch, po
 
     monkeypatch.setattr(conform, "conform", told)
     monkeypatch.setattr(sys, "path", [place for place in sys.path if place])
-    words = ["--law", "exp", "--law", "log", "--except", "so3_exp", "--examples", 7, "--seconds", 2.5, "--limit", 3]
+    words = [
+        "--law",
+        "exp",
+        "--law",
+        "log",
+        "--except",
+        "so3_exp",
+        "--examples",
+        7,
+        "--seconds",
+        2.5,
+        "--limit",
+        3,
+    ]
     assert poekin("conform", "m:A", *words, "--at-most", "poor", "--json")[:2] == (0, "{}\n")
     assert poekin("conform", "m:B", "--json")[0] == 1
     assert (sys.path[0], sys.path.count("")) == ("", 1), "modules of this directory come first"
-    grades = {"leave_out": ["so3_exp"], "at_most": conform.Grade.POOR, "limits": conform.Limits(3.0)}
+    grades = {
+        "leave_out": ["so3_exp"],
+        "at_most": conform.Grade.POOR,
+        "limits": conform.Limits(3.0),
+    }
     usual = {"leave_out": (), "at_most": conform.Grade.GOOD, "limits": conform.Limits(60.0)}
     assert asked == [("m:A", ["exp", "log"], 7, 2.5, grades), ("m:B", (), None, 600.0, usual)]
 
 
 def test_only_the_laws_that_are_named_are_run(tmp_path, monkeypatch, poekin):
     module(tmp_path, monkeypatch, "named_subjects")
-    code, out, _ = poekin("conform", "named_subjects:Faulty", "--law", "exp", "--examples", "10", "--json")
+    code, out, _ = poekin(
+        "conform", "named_subjects:Faulty", "--law", "exp", "--examples", "10", "--json"
+    )
     assert code == 0
     assert [law["law"] for law in json.loads(out)["laws"]] == ["exp"]
 
@@ -100,7 +123,9 @@ def test_what_cannot_be_used_is_refused(tmp_path, monkeypatch, refused):
     assert "there is no law 'so3'" in refused("conform", "refused_subjects:Sound", "--law", "so3")
     assert "expected MODULE:CLASS" in refused("conform", "refused_subjects")
     assert "has no 'Other'" in refused("conform", "refused_subjects:Other")
-    (tmp_path / "broken_subjects.py").write_text("raise RuntimeError('\\x1b[31mred')", encoding="utf-8")
+    (tmp_path / "broken_subjects.py").write_text(
+        "raise RuntimeError('\\x1b[31mred')", encoding="utf-8"
+    )
     assert "RuntimeError: \\x1b[31mred" in refused("conform", "broken_subjects:X")
     (tmp_path / "ending_subjects.py").write_text("raise SystemExit(4)", encoding="utf-8")
     assert "cannot be imported: SystemExit: 4" in refused("conform", "ending_subjects:X")

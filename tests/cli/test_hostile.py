@@ -4,7 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-NAMES = ["[bold]x[/bold]", "[/b]", "[link=http://x]y[/link]", ":smile:", "=1+1", "<b>&amp;", "\u202eevil", "%s{0}", "ü"]
+NAMES = [
+    "[bold]x[/bold]",
+    "[/b]",
+    "[link=http://x]y[/link]",
+    ":smile:",
+    "=1+1",
+    "<b>&amp;",
+    "\u202eevil",
+    "%s{0}",
+    "ü",
+]
 
 URDF = """<robot name="{n}r"><link name="{n}root"/><link name="{n}tip"/><joint name="{n}j" type="revolute">
 <parent link="{n}root"/><child link="{n}tip"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>

@@ -1,4 +1,6 @@
-"""What a FILE may be: a URDF, MJCF, table or built-in name everywhere, and xacro where --xacro says so."""
+"""What a FILE may be: a URDF, MJCF, table or built-in name everywhere, and xacro where --xacro says
+so.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +8,15 @@ import importlib.util
 
 import pytest
 
-needs_xacro = pytest.mark.skipif(importlib.util.find_spec("xacrodoc") is None, reason="xacrodoc is not installed")
-needs_mujoco = pytest.mark.skipif(importlib.util.find_spec("mujoco") is None, reason="mujoco is not installed")
-needs_pin = pytest.mark.skipif(importlib.util.find_spec("pinocchio") is None, reason="pin is not installed")
+needs_xacro = pytest.mark.skipif(
+    importlib.util.find_spec("xacrodoc") is None, reason="xacrodoc is not installed"
+)
+needs_mujoco = pytest.mark.skipif(
+    importlib.util.find_spec("mujoco") is None, reason="mujoco is not installed"
+)
+needs_pin = pytest.mark.skipif(
+    importlib.util.find_spec("pinocchio") is None, reason="pin is not installed"
+)
 
 XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="length" default="${1/2}"/>
 <link name="a"/><link name="b"/><joint name="j" type="continuous"><parent link="a"/><child link="b"/>
@@ -61,9 +69,13 @@ def test_arguments_go_to_xacro_and_only_for_that_command(as_json, refused, arm):
     assert place("--xacro") == 0.5
     assert place("--xacro", "--xacro-arg", "length=0.25") == 0.25
     assert "xacro evaluates expressions" in refused("info", arm)
-    assert "--xacro-arg: expected together with --xacro only" in refused("info", arm, "--xacro-arg", "length=1")
+    assert "--xacro-arg: expected together with --xacro only" in refused(
+        "info", arm, "--xacro-arg", "length=1"
+    )
     for bad in ("length", "=1"):
-        assert f"--xacro-arg: expected NAME=VALUE, got '{bad}'" in refused("info", arm, "--xacro", "--xacro-arg", bad)
+        assert f"--xacro-arg: expected NAME=VALUE, got '{bad}'" in refused(
+            "info", arm, "--xacro", "--xacro-arg", bad
+        )
     assert "division by zero" in refused("info", arm, "--xacro", "--xacro-arg", "length=${1/0}")
 
 
@@ -80,10 +92,16 @@ def test_compare_reads_xacro_beside_other_models(poekin, arm, tmp_path):
 @needs_pin
 def test_validate_takes_mjcf_tables_and_built_in_names(poekin, as_json, tmp_path):
     (tmp_path / "m.xml").write_text(MJCF)
-    (tmp_path / "t.csv").write_text("convention,theta,d,a,alpha\nstandard,0,1,0.5,1\nstandard,1,0,0.5,0\n")
-    code, out, err = poekin("validate", tmp_path / "m.xml", tmp_path / "t.csv", "puma560", "--samples", 3)
+    (tmp_path / "t.csv").write_text(
+        "convention,theta,d,a,alpha\nstandard,0,1,0.5,1\nstandard,1,0,0.5,0\n"
+    )
+    code, out, err = poekin(
+        "validate", tmp_path / "m.xml", tmp_path / "t.csv", "puma560", "--samples", 3
+    )
     assert (code, err) == (0, "")
     assert out.endswith("3 of 3 robots pass\n")
     (robot,) = as_json("validate", tmp_path / "m.xml", "--samples", 3)["robots"]
     assert (robot["robot"], robot["moving"]) == ("m", 1)
-    assert as_json("fk", tmp_path / "m.xml", "0.5235987755982988")["T"][0][3] == pytest.approx(1, abs=1e-15)
+    assert as_json("fk", tmp_path / "m.xml", "0.5235987755982988")["T"][0][3] == pytest.approx(
+        1, abs=1e-15
+    )

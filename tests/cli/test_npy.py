@@ -15,7 +15,13 @@ from poekin.errors import FileError, InputError
 
 def _file(header: str | bytes, data: bytes = b"", version: bytes = b"\1\0") -> bytes:
     header = header.encode("latin-1") if isinstance(header, str) else header
-    return b"\x93NUMPY" + version + len(header).to_bytes(2 if version == b"\1\0" else 4, "little") + header + data
+    return (
+        b"\x93NUMPY"
+        + version
+        + len(header).to_bytes(2 if version == b"\1\0" else 4, "little")
+        + header
+        + data
+    )
 
 
 def _saved(array: np.ndarray) -> bytes:
@@ -42,7 +48,9 @@ def test_a_signalling_nan_and_what_is_too_large_are_read_without_a_warning():
         assert configurations(_saved(large), 2, "q").tolist() == [[np.inf, -np.inf]]
 
 
-@pytest.mark.parametrize("shape", [(3,), (1,), (3, 3), (3, 1), (0, 3), (2, 2, 2), (1, 2, 1), (2, 1), ()])
+@pytest.mark.parametrize(
+    "shape", [(3,), (1,), (3, 3), (3, 1), (0, 3), (2, 2, 2), (1, 2, 1), (2, 1), ()]
+)
 def test_another_shape_is_refused(shape):
     with pytest.raises(InputError, match=r"^q: an array of shape \(N, 2\) expected, got \("):
         configurations(_saved(np.zeros(shape)), 2, "q")
@@ -80,10 +88,13 @@ DAMAGED = {
     "a shape of fractions": "{'descr': '<f8', 'fortran_order': False, 'shape': (3.0, 2)}",
     "a shape of truths": "{'descr': '<f8', 'fortran_order': False, 'shape': (True, 2)}",
     "a shape below 0": "{'descr': '<f8', 'fortran_order': False, 'shape': (-3, 2)}",
-    "a shape too large for C": "{'descr': '<f8', 'fortran_order': False, 'shape': (" + "9" * 40 + ", 2)}",
+    "a shape too large for C": "{'descr': '<f8', 'fortran_order': False, 'shape': ("
+    + "9" * 40
+    + ", 2)}",
     "more rows than memory": "{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000000, 2)}",
     "one row too many": "{'descr': '<f8', 'fortran_order': False, 'shape': (4, 2)}",
-    "a header without end": "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2)}" + " " * 20_000,
+    "a header without end": "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2)}"
+    + " " * 20_000,
 }
 
 
@@ -130,7 +141,9 @@ def test_what_is_wrong_with_the_whole_is_said():
         with pytest.raises(FileError) as caught:
             configurations(content, 2, "q")
         assert str(caught.value) == f"q is no .npy file of numbers: {reason}"
-    with pytest.raises(FileError, match=r"^q is damaged: its header speaks of 48 bytes, 47 are there$"):
+    with pytest.raises(
+        FileError, match=r"^q is damaged: its header speaks of 48 bytes, 47 are there$"
+    ):
         configurations(good[:-1], 2, "q")
     with pytest.raises(InputError, match=r"^q: an array of shape \(N, 3\) expected, got \(3, 2\)$"):
         configurations(good, 3, "q")
@@ -149,7 +162,10 @@ def test_what_is_as_long_as_it_may_be_is_read():
     with pytest.raises(FileError, match=rf"its elements are '{'x' * 40}'$"):
         configurations(_file(long), 2, "q")
     nested = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2)}" + " #" + "(" * 97
-    assert configurations(_file(nested + "-", bytes(48)), 2, "q").shape == (3, 2)  # a hundred in all
+    assert configurations(_file(nested + "-", bytes(48)), 2, "q").shape == (
+        3,
+        2,
+    )  # a hundred in all
     with pytest.raises(FileError, match="its header cannot be read"):
         configurations(_file(nested + "--", bytes(48)), 2, "q")
 
@@ -157,13 +173,21 @@ def test_what_is_as_long_as_it_may_be_is_read():
 def test_last_axes_that_make_up_a_row_are_taken_where_they_are_said():
     T = np.arange(32.0).reshape(2, 4, 4)
     np.testing.assert_array_equal(configurations(_saved(T), 16, "q", (4, 4)), T.reshape(2, 16))
-    np.testing.assert_array_equal(configurations(_saved(T[1]), 16, "q", (4, 4)), T[1].reshape(1, 16))
-    np.testing.assert_array_equal(configurations(_saved(T.reshape(2, 16)), 16, "q", (4, 4)), T.reshape(2, 16))
-    with pytest.raises(InputError, match=r"^q: an array of shape \(N, 16\) expected, got \(1, 2, 4, 4\)$"):
+    np.testing.assert_array_equal(
+        configurations(_saved(T[1]), 16, "q", (4, 4)), T[1].reshape(1, 16)
+    )
+    np.testing.assert_array_equal(
+        configurations(_saved(T.reshape(2, 16)), 16, "q", (4, 4)), T.reshape(2, 16)
+    )
+    with pytest.raises(
+        InputError, match=r"^q: an array of shape \(N, 16\) expected, got \(1, 2, 4, 4\)$"
+    ):
         configurations(_saved(T[None]), 16, "q", (4, 4))
 
 
-@pytest.mark.parametrize(("content"), [_file("{}", version=b"\7\0"), _file(b"\xff{}", version=b"\3\0")])
+@pytest.mark.parametrize(
+    ("content"), [_file("{}", version=b"\7\0"), _file(b"\xff{}", version=b"\3\0")]
+)
 def test_an_unknown_version_and_a_header_that_is_no_text_are_refused(content):
     with pytest.raises(FileError, match=r"^'q\.npy' is no \.npy file"):
         configurations(content, 2, "'q.npy'")

@@ -9,15 +9,32 @@ from typing import Any
 
 import pytest
 
-from poekin.analysis.singularity import TOLERANCE
-from poekin.cli import calibrate, commands, conform, emit, ik, jacobian
-from poekin.formats import pose_rows
+from poekin.analysis.dexterity.singularity import TOLERANCE
+from poekin.cli import commands, conform
+from poekin.cli.calibration import calibrate
+from poekin.cli.kinematics import ik, jacobian
+from poekin.cli.models import emit
+from poekin.formats.text import pose_rows
 from poekin.testing.conform import LAWS
 
 DEFAULTS: dict[str, dict[str, object]] = {
     "axes": {"tol_mm": 0.01, "tol_deg": 0.001, "json": False},
-    "calibrate": {"loss": "linear", "hold": False, "folds": 5, "seed": 0, "convention": "standard", "json": False},
-    "compare": {"tol_mm": 0.01, "tol_deg": 0.001, "strict": False, "samples": 200, "seed": 0, "json": False},
+    "calibrate": {
+        "loss": "linear",
+        "hold": False,
+        "folds": 5,
+        "seed": 0,
+        "convention": "standard",
+        "json": False,
+    },
+    "compare": {
+        "tol_mm": 0.01,
+        "tol_deg": 0.001,
+        "strict": False,
+        "samples": 200,
+        "seed": 0,
+        "json": False,
+    },
     "conform": {"at_most": "good", "seconds": 600.0, "limit": 60.0, "json": False},
     "count": {"json": False},
     "dh": {"convention": "standard", "json": False},
@@ -50,14 +67,20 @@ def options(module: Any) -> Iterator[tuple[str, Any, object]]:
 
 @pytest.mark.parametrize("name", DEFAULTS)
 def test_an_option_that_is_not_given_is_what_the_help_says_or_nothing(name):
-    given = {n: d for n, _, d in options(getattr(commands, name)) if d is not None and d is not inspect.Parameter.empty}
+    given = {
+        n: d
+        for n, _, d in options(getattr(commands, name))
+        if d is not None and d is not inspect.Parameter.empty
+    }
     assert given == DEFAULTS[name]
 
 
 @pytest.mark.parametrize("name", DEFAULTS)
 def test_a_number_has_the_smallest_value_that_means_something(name):
     least = {
-        n: option.min for n, option, _ in options(getattr(commands, name)) if getattr(option, "min", None) is not None
+        n: option.min
+        for n, option, _ in options(getattr(commands, name))
+        if getattr(option, "min", None) is not None
     }
     assert least == LEAST.get(name, {})
 
@@ -68,7 +91,9 @@ def help_of(module: Any, name: str) -> str:
 
 def test_the_numbers_in_the_help_are_those_that_are_taken():
     examples = [law.examples for law in LAWS]
-    assert f"default: {min(examples)} to {max(examples)}, each law its own" in help_of(conform, "examples")
+    assert f"default: {min(examples)} to {max(examples)}, each law its own" in help_of(
+        conform, "examples"
+    )
     assert help_of(calibrate, "folds").endswith("; 0: none.")
     assert help_of(jacobian, "frame").endswith("of joint K, counted from 0).")
     assert help_of(emit, "frame").endswith("of joint K, from 0).")
@@ -76,5 +101,9 @@ def test_the_numbers_in_the_help_are_those_that_are_taken():
     assert twelve < sixteen < seven
     names = pose_rows.columns("12", None)
     assert f"row by row: {' '.join(names[:5])} ..., m)" in help_of(ik, "format")
-    assert (len(names), len(pose_rows.columns("16", None)), len(pose_rows.columns("7", "wxyz"))) == (12, 16, 7)
+    assert (
+        len(names),
+        len(pose_rows.columns("16", None)),
+        len(pose_rows.columns("7", "wxyz")),
+    ) == (12, 16, 7)
     assert help_of(ik, "quaternion") == "The order of the quaternion in --format 7; never guessed."

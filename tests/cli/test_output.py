@@ -1,4 +1,6 @@
-"""What the commands print: numbers, tables, matrices and JSON to the character, and progress when it is time for it."""
+"""What the commands print: numbers, tables, matrices and JSON to the character, and progress when
+it is time for it.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,8 @@ from poekin.cli import output
 
 
 @pytest.mark.parametrize(
-    "value, digits, text", [(1 / 3, 6, "0.333333"), (1 / 3, 4, "0.3333"), (-0.0, 6, "0"), (1e-9, 9, "1e-09")]
+    "value, digits, text",
+    [(1 / 3, 6, "0.333333"), (1 / 3, 4, "0.3333"), (-0.0, 6, "0"), (1e-9, 9, "1e-09")],
 )
 def test_a_number_has_so_many_significant_digits_and_no_negative_zero(value, digits, text):
     assert output.number(value, digits) == text
@@ -40,7 +43,9 @@ def test_words_of_a_table_are_left_and_numbers_right_and_markup_is_text(capsys):
     assert [line.split() for line in lines] == [
         ["joint", "kind", "m"], [lines[1].strip()], ["a", "x", "1.5"], ["[b]\\n", "yy", "22"],
     ]  # fmt: skip
-    starts = {line.index(word) for line, word in zip(lines, ("joint", "─", "a", "[b]"), strict=True)}
+    starts = {
+        line.index(word) for line, word in zip(lines, ("joint", "─", "a", "[b]"), strict=True)
+    }
     assert starts == {0}
     ends = {line.index(word) + len(word) for line, word in zip(lines[2:], ("x", "yy"), strict=True)}
     assert len(ends) == 1  # right-aligned
@@ -66,7 +71,11 @@ def test_a_matrix_has_its_columns_below_each_other_with_nine_digits(capsys):
 
 
 def test_json_has_null_for_what_is_no_finite_number_and_keeps_the_kinds_of_the_others():
-    value = {1: np.array([[1.5, np.nan], [np.inf, -2.0]]), "b": (True, 3, "x", None), "c": [{"d": float("-inf")}]}
+    value = {
+        1: np.array([[1.5, np.nan], [np.inf, -2.0]]),
+        "b": (True, 3, "x", None),
+        "c": [{"d": float("-inf")}],
+    }
     assert json.loads(output.as_json(value)) == {
         "1": [[1.5, None], [None, -2.0]], "b": [True, 3, "x", None], "c": [{"d": None}],
     }  # fmt: skip

@@ -1,4 +1,6 @@
-"""No command writes over a file that it reads, by whatever name; the file stays as it was, and nothing is printed."""
+"""No command writes over a file that it reads, by whatever name; the file stays as it was, and
+nothing is printed.
+"""
 
 from __future__ import annotations
 
@@ -59,7 +61,18 @@ def test_what_a_command_reads_stays_as_it_is(command, link, crane, tmp_path, ref
 def test_a_file_that_is_read_on_standard_input_is_not_written_over(crane, tmp_path):
     rows = tmp_path / "rows.csv"
     rows.write_text("0.1,0.2\n")
-    words = [sys.executable, "-m", "poekin.cli", "fk", crane, *TIP, "--input", "-", "--output", rows]
+    words = [
+        sys.executable,
+        "-m",
+        "poekin.cli",
+        "fk",
+        crane,
+        *TIP,
+        "--input",
+        "-",
+        "--output",
+        rows,
+    ]
     with rows.open() as stdin:
         done = subprocess.run(words, stdin=stdin, capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (2, "")
@@ -81,7 +94,9 @@ def test_two_results_do_not_go_into_one_new_file(crane, tmp_path, refused):
     (tmp_path / "rows.csv").write_text(POSE)
     os.symlink(tmp_path / "new.svg", tmp_path / "out.csv")
     words = ("follow", crane, *TIP, "--format", "12", "--input", tmp_path / "rows.csv")
-    assert "it is named twice" in refused(*words, "--output", tmp_path / "out.csv", "--plot", tmp_path / "new.svg")
+    assert "it is named twice" in refused(
+        *words, "--output", tmp_path / "out.csv", "--plot", tmp_path / "new.svg"
+    )
 
 
 def test_a_name_of_the_catalogue_is_no_file(poekin, tmp_path, monkeypatch):

@@ -20,7 +20,14 @@ def test_the_version(poekin):
 
 
 @pytest.mark.parametrize(
-    "words", [["--help"], ["fk", "--help"], ["jacobian", "--help"], ["info", "--help"], ["validate", "--help"]]
+    "words",
+    [
+        ["--help"],
+        ["fk", "--help"],
+        ["jacobian", "--help"],
+        ["info", "--help"],
+        ["validate", "--help"],
+    ],
 )
 def test_help_is_no_error(poekin, words):
     code, out, err = poekin(*words)
@@ -73,7 +80,7 @@ def test_a_missing_package_of_the_command_line_is_named(package, monkeypatch, re
 
 
 def test_memory_that_runs_out_is_one_message(monkeypatch, refused, crane):
-    from poekin.cli import arm
+    from poekin.cli.kinematics import arm
 
     def out_of_memory(*_):
         raise MemoryError
@@ -83,7 +90,7 @@ def test_memory_that_runs_out_is_one_message(monkeypatch, refused, crane):
 
 
 def test_an_interrupt_ends_with_130_and_no_traceback(monkeypatch, poekin, crane):
-    from poekin.cli import info
+    from poekin.cli.models import info
 
     def interrupt(*_):
         raise KeyboardInterrupt
@@ -93,7 +100,7 @@ def test_an_interrupt_ends_with_130_and_no_traceback(monkeypatch, poekin, crane)
 
 
 def test_a_fault_of_poekin_s_own_ends_with_python_s_traceback(monkeypatch, poekin, capsys, crane):
-    from poekin.cli import info
+    from poekin.cli.models import info
 
     def fault(*_):
         raise RuntimeError("a fault")
@@ -114,9 +121,12 @@ def _command(*words):
 def test_a_reader_that_goes_away_is_no_error(tmp_path, crane):
     (tmp_path / "q.csv").write_text("0.1,0.2\n" * 20_000)
     words = _command("fk", crane, "--tip", "hook", "--input", str(tmp_path / "q.csv"))
-    # Unbuffered, Python 3.11 takes what a pipe did not accept for written, and there is nothing to notice.
+    # Unbuffered, Python 3.11 takes what a pipe did not accept for written, and there is nothing to
+    # notice.
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONUNBUFFERED"}
-    with subprocess.Popen(words, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    with subprocess.Popen(
+        words, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
         assert process.stdout is not None
         assert process.stderr is not None
         process.stdout.read(100)
@@ -134,7 +144,11 @@ def test_a_closed_stdout_is_no_error(crane):
 
 
 def test_a_closed_stderr_changes_neither_result_nor_code(crane):
-    for words, code in ((["info", crane], 0), (["fk", crane, "--tip", "no"], 2), (["validate", crane], 0)):
+    for words, code in (
+        (["info", crane], 0),
+        (["fk", crane, "--tip", "no"], 2),
+        (["validate", crane], 0),
+    ):
         line = f"exec {shlex.join(_command(*words))} 2>&-"
         done = subprocess.run(["sh", "-c", line], capture_output=True, text=True)
         assert done.returncode == code
@@ -154,8 +168,13 @@ def test_configurations_come_from_standard_input(crane, poekin, refused, tmp_pat
         monkeypatch.setattr(sys, "stdin", given)
         said = refused("fk", crane, "--tip", "hook", "--input", "-")
     assert said == "poekin: error: standard input:2, column 2: a number expected, got 'x'\n"
-    done = subprocess.run(["sh", "-c", f"exec {shlex.join(words)} <&-"], capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (2, "poekin: error: cannot read standard input: it is closed\n")
+    done = subprocess.run(
+        ["sh", "-c", f"exec {shlex.join(words)} <&-"], capture_output=True, text=True
+    )
+    assert (done.returncode, done.stderr) == (
+        2,
+        "poekin: error: cannot read standard input: it is closed\n",
+    )
     monkeypatch.setattr(sys, "stdin", None)  # closed, and a file needs none
     monkeypatch.chdir(tmp_path)
     for name in ("q.csv", "+.csv"):
@@ -176,7 +195,9 @@ def test_a_full_disk_is_one_message(crane, unbuffered):
     environment = os.environ | {"PYTHONUNBUFFERED": unbuffered}
     words = _command("info", crane)
     with open("/dev/full", "w") as full:
-        done = subprocess.run(words, stdout=full, stderr=subprocess.PIPE, text=True, env=environment)
+        done = subprocess.run(
+            words, stdout=full, stderr=subprocess.PIPE, text=True, env=environment
+        )
     assert done.returncode == 2
     assert done.stderr == "poekin: error: [Errno 28] No space left on device\n"
 
@@ -192,7 +213,9 @@ def test_ctrl_c_in_a_process_of_its_own(tmp_path, crane):
     # The pipe opens here when the command opens it there, which then waits for a line.
     with (
         # a test run in the background hands on that SIGINT is ignored
-        subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=_heed_interrupts) as process,
+        subprocess.Popen(
+            words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=_heed_interrupts
+        ) as process,
         open(tmp_path / "q.csv", "w"),
     ):
         # Python itself may lose a signal while it opens a file: by now it waits for the line.
@@ -211,4 +234,7 @@ def test_long_work_says_now_and_then_how_far_it_is(monkeypatch, capsys):
         for done in range(26):
             now[0] = 100.0 + done
             progress(done, 30 if done < 20 else 0, "q.csv" * (done < 20))
-    assert capsys.readouterr().err.splitlines() == [r"read\nings: 10 of 30, q.csv", r"read\nings: 20"]
+    assert capsys.readouterr().err.splitlines() == [
+        r"read\nings: 10 of 30, q.csv",
+        r"read\nings: 20",
+    ]

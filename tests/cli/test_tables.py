@@ -7,7 +7,8 @@ import re
 
 import pytest
 
-from poekin.cli import axes, compare, count, dh, info, singularity, validate
+from poekin.cli.kinematics import singularity
+from poekin.cli.models import axes, compare, count, dh, info, validate
 
 S = ["wx", "wy", "wz", "vx", "vy", "vz", "lower", "upper"]
 TABLES = {
@@ -16,8 +17,18 @@ TABLES = {
     "info screws": (info, ["panda"], ["joint", "kind", "coordinate"], S),
     "axes": (axes, ["stanford"], ["axis", "and axis", "are"], ["angle (deg)", "distance (mm)"]),
     "count": (count, ["stanford"], ["frame"], ["×", "+", "sin/cos", "with pose: ×"]),
-    "compare": (compare, ["ur5e", "ur3e"], ["joint", "kind", "axis"], ["angle (deg)", "normal (mm)", "limits"]),
-    "dh": (dh, ["stanford"], ["joint", "kind"], ["theta (rad)", "a (m)", "alpha (rad)", "lower", "upper"]),
+    "compare": (
+        compare,
+        ["ur5e", "ur3e"],
+        ["joint", "kind", "axis"],
+        ["angle (deg)", "normal (mm)", "limits"],
+    ),
+    "dh": (
+        dh,
+        ["stanford"],
+        ["joint", "kind"],
+        ["theta (rad)", "a (m)", "alpha (rad)", "lower", "upper"],
+    ),
     "singularity": (
         singularity,
         ["stanford", "--at", "0 0 0.5 0 1 0"],
@@ -39,7 +50,10 @@ def test_words_begin_below_their_heads_and_numbers_end_below_theirs(case, poekin
         pytest.importorskip("pinocchio")
     module, more, words, numbers = TABLES[case]
     lines = poekin(module.__name__.rpartition(".")[2], *more)[1].splitlines()
-    found = [{m[0]: m.span() for m in reversed(list(re.finditer(r"\S+(?: \S+)*", line)))} for line in lines]
+    found = [
+        {m[0]: m.span() for m in reversed(list(re.finditer(r"\S+(?: \S+)*", line)))}
+        for line in lines
+    ]
     at = next(i for i, heads in enumerate(found) if {*words, *numbers} <= set(heads))
     assert set(lines[at + 1]) == {"─"}
     width = len(lines[at + 1])
@@ -49,7 +63,9 @@ def test_words_begin_below_their_heads_and_numbers_end_below_theirs(case, poekin
         begin, end = found[at][head]
         cells = [row for row in rows if row[begin:end].strip()]
         assert cells
-        inner, outer = (begin, row_before(begin)) if head in words else (end - 1, slice(end, end + 2))
+        inner, outer = (
+            (begin, row_before(begin)) if head in words else (end - 1, slice(end, end + 2))
+        )
         assert [row for row in cells if row[inner] == " " or row[outer].strip()] == [], head
 
 

@@ -8,10 +8,13 @@ import pytest
 
 import poekin as pk
 from poekin.algebra import adjoint, compose, turned_about_z
-from poekin.analysis.count import METHODS
-from poekin.analysis.count_methods import product_by_cross
+from poekin.analysis.counting.count import METHODS
+from poekin.analysis.counting.count_methods import product_by_cross
 from poekin.engine.count import Count, Counted, counted
-from poekin.formulas import dh_recursive, direct, elementary, exponential, forward, recursive
+from poekin.formulas import elementary
+from poekin.formulas.kinematics import forward, recursive
+from poekin.formulas.lie import exponential
+from poekin.formulas.paper import dh_recursive, direct
 
 POSE = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.1, 0.2, 0.3)
 
@@ -25,7 +28,10 @@ def cost(formula, *arguments):
 
 def generic_arm(n, seed=0):
     rng = np.random.default_rng(seed)
-    return pk.Chain([pk.screw.revolute(*rng.normal(size=(2, 3))) for _ in range(n)], pk.se3.exp(rng.normal(size=6)))
+    return pk.Chain(
+        [pk.screw.revolute(*rng.normal(size=(2, 3))) for _ in range(n)],
+        pk.se3.exp(rng.normal(size=6)),
+    )
 
 
 TABLE = {
@@ -50,7 +56,11 @@ def test_the_paper_s_table_comes_out_by_counting(method, frame, n):
 
 def test_every_method_is_in_the_table():
     counted_as_the_paper_does = {
-        (m, f) for m, ways in METHODS.items() for w in ways for f in w.frames if "paper" in w.charged
+        (m, f)
+        for m, ways in METHODS.items()
+        for w in ways
+        for f in w.frames
+        if "paper" in w.charged
     }
     assert counted_as_the_paper_does == set(TABLE)
 
@@ -110,7 +120,10 @@ FUNCTIONS = {
 def test_an_operation_of_counting_numbers_gives_what_floats_give_and_costs_one(name, kinds):
     operation, charged = OPERATIONS[name]
     total = Count()
-    a, b = (Counted(x, total) if counting else x for x, counting in zip((7.5, -2.25), kinds, strict=True))
+    a, b = (
+        Counted(x, total) if counting else x
+        for x, counting in zip((7.5, -2.25), kinds, strict=True)
+    )
     if name in ("a % b", "atan2") and not kinds[0]:
         pytest.skip("no formula has a plain number there")
     result = operation(a, b)
@@ -119,7 +132,9 @@ def test_an_operation_of_counting_numbers_gives_what_floats_give_and_costs_one(n
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_a_function_of_a_counting_number_gives_what_it_gives_of_a_float_and_costs_one_or_nothing(name):
+def test_a_function_of_a_counting_number_gives_what_it_gives_of_a_float_and_costs_one_or_nothing(
+    name,
+):
     function, plain, charged = FUNCTIONS[name]
     total = Count()
     value = -0.75 if charged != "square_roots" else 0.75
@@ -182,7 +197,9 @@ def test_counting_sees_one_operation_more():
 
 
 def random_dh_arm(n, rng):
-    """Random link constants and tool of a revolute arm in Paul's frames, and the same arm as a Chain."""
+    """Random link constants and tool of a revolute arm in Paul's frames, and the same arm as a
+    Chain.
+    """
     constants = [pk.se3.exp(rng.normal(size=6)) for _ in range(n)]
     tool = pk.se3.exp(rng.normal(size=6))
     F, screws = np.eye(4), []
@@ -209,7 +226,14 @@ def test_the_counted_algorithms_give_one_and_the_same_jacobian(n):
         return [[0.0] * n for _ in range(6)]
 
     J = results["dh_recursive"] = rows()
-    dh_recursive.body([row(Z @ N) for Z, N in zip(turns, constants, strict=True)], row(tool), [1] * n, [0] * n, n, J)
+    dh_recursive.body(
+        [row(Z @ N) for Z, N in zip(turns, constants, strict=True)],
+        row(tool),
+        [1] * n,
+        [0] * n,
+        n,
+        J,
+    )
     local = arm.local
     links = [row(M @ Z) for M, Z in zip(local.frames, turns, strict=False)]
     J = results["recursive_with_tool"] = rows()
@@ -220,12 +244,20 @@ def test_the_counted_algorithms_give_one_and_the_same_jacobian(n):
     np.testing.assert_allclose(J, bare.jacobian(q, "body"), rtol=0, atol=2e-14 * arm.reach)
     J = results["direct body"] = rows()
     direct.body(
-        arm.body.screws.tolist(), [row(pk.se3.exp(B * x)) for B, x in zip(arm.body.screws, q, strict=True)], n, J
+        arm.body.screws.tolist(),
+        [row(pk.se3.exp(B * x)) for B, x in zip(arm.body.screws, q, strict=True)],
+        n,
+        J,
     )
     for J in results.values():
         np.testing.assert_allclose(J, expected, rtol=0, atol=2e-14 * arm.reach)
     J = rows()
-    direct.space(arm.screws.tolist(), [row(pk.se3.exp(A * x)) for A, x in zip(arm.screws, q, strict=True)], n, J)
+    direct.space(
+        arm.screws.tolist(),
+        [row(pk.se3.exp(A * x)) for A, x in zip(arm.screws, q, strict=True)],
+        n,
+        J,
+    )
     np.testing.assert_allclose(J, arm.jacobian(q, "space"), rtol=0, atol=2e-14 * arm.reach)
 
 
@@ -234,8 +266,12 @@ def test_the_pose_comes_out_of_the_same_pass():
     arm, q = generic_arm(n, 3), rng.normal(size=5)
     E = [row(pk.se3.exp(A * x)) for A, x in zip(arm.screws, q, strict=True)]
     product = direct.space(arm.screws.tolist(), E, n, [[0.0] * n for _ in range(6)])
-    np.testing.assert_allclose(compose(compose(product, E[-1]), row(arm.home)), row(arm.fk(q)), rtol=0, atol=1e-13)
-    links = [row(M @ pk.se3.exp([0, 0, x, 0, 0, 0])) for M, x in zip(arm.local.frames, q, strict=False)]
+    np.testing.assert_allclose(
+        compose(compose(product, E[-1]), row(arm.home)), row(arm.fk(q)), rtol=0, atol=1e-13
+    )
+    links = [
+        row(M @ pk.se3.exp([0, 0, x, 0, 0, 0])) for M, x in zip(arm.local.frames, q, strict=False)
+    ]
     inner = recursive.body_with_tool(
         links, row(arm.local.frames[n]), [1] * n, [0] * n, n, [[0.0] * n for _ in range(6)]
     )

@@ -1,4 +1,6 @@
-"""The oracle of DH tables: the product of their matrices, written out as in the books, in 50 digits or long doubles."""
+"""The oracle of DH tables: the product of their matrices, written out as in the books, in 50 digits
+or long doubles.
+"""
 
 from __future__ import annotations
 
@@ -6,20 +8,29 @@ import mpmath
 import numpy as np
 
 DIGITS = 50
-EXACT = np.frompyfunc(mpmath.mpf, 1, 1), np.frompyfunc(mpmath.cos, 1, 1), np.frompyfunc(mpmath.sin, 1, 1)
+EXACT = (
+    np.frompyfunc(mpmath.mpf, 1, 1),
+    np.frompyfunc(mpmath.cos, 1, 1),
+    np.frompyfunc(mpmath.sin, 1, 1),
+)
 LONG = np.longdouble, np.cos, np.sin
 
 
 def frames(table, x, arithmetic=EXACT):
-    """Frames in which the joints' axes are z, and at last the tool's, all in the base frame: x (..., n) -> (..., 4, 4).
+    """Frames in which the joints' axes are z, and at last the tool's, all in the base frame: x
+    (..., n) -> (..., 4, 4).
 
-    In Paul's convention joint i turns about z of frame i - 1, in Craig's about that of frame i before its own turn.
+    In Paul's convention joint i turns about z of frame i - 1, in Craig's about that of frame i
+    before its own turn.
     """
     number, cos, sin = arithmetic
 
     def about(axis, angle):
         c, s, o, one = cos(angle), sin(angle), 0 * angle, 0 * angle + 1
-        rows = {"x": [[one, o, o], [o, c, -s], [o, s, c]], "z": [[c, -s, o], [s, c, o], [o, o, one]]}[axis]
+        rows = {
+            "x": [[one, o, o], [o, c, -s], [o, s, c]],
+            "z": [[c, -s, o], [s, c, o], [o, o, one]],
+        }[axis]
         return matrix([[*row, o] for row in rows] + [[o, o, o, one]])
 
     def shift(a, d):

@@ -1,4 +1,6 @@
-"""What the tests of emitted text share: arms of all sorts, the text as a module, and what it has to compute."""
+"""What the tests of emitted text share: arms of all sorts, the text as a module, and what it has to
+compute.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +43,9 @@ def arm(name: str) -> pk.Chain:
         "panda": lambda: pk.load("panda").chain(tip="panda_hand"),
         "ur5e": lambda: pk.load("ur5e").chain(tip="tool0"),
         "general 6R": lambda: pk.Chain(turning, home),
-        "mixed": lambda: pk.Chain([turning[0], sliding[0], helical[0], turning[1], sliding[1]], home),
+        "mixed": lambda: pk.Chain(
+            [turning[0], sliding[0], helical[0], turning[1], sliding[1]], home
+        ),
         "coupled": lambda: pk.Chain(
             [turning[0], sliding[0], turning[2]],
             home,
@@ -62,7 +66,11 @@ ARMS = ("panda", "ur5e", "general 6R", "mixed", "coupled", "one joint", "one sli
 def with_name(name: str) -> pk.Chain:
     """An arm of two joints that has one name wherever it can have one."""
     return pk.Chain(
-        [[0, 0, 1, 0, 0, 0], [0, 1, 0, 0.2, 0, 0]], np.eye(4), joint_names=[name, name + "2"], base=name, tip=name + "3"
+        [[0, 0, 1, 0, 0, 0], [0, 1, 0, 0.2, 0, 0]],
+        np.eye(4),
+        joint_names=[name, name + "2"],
+        base=name,
+        tip=name + "3",
     )
 
 
@@ -75,11 +83,15 @@ def module(text: str) -> SimpleNamespace:
     """The functions of an emitted Python text."""
     namespace: dict[str, Any] = {}
     exec(compile(text, "emitted.py", "exec", dont_inherit=True), namespace)
-    return SimpleNamespace(**{name: thing for name, thing in namespace.items() if name != "__builtins__"})
+    return SimpleNamespace(
+        **{name: thing for name, thing in namespace.items() if name != "__builtins__"}
+    )
 
 
 def expected(chain: pk.Chain, frame: str | int, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pose and Jacobian by the chain's general kernels; "middle" from the frame of its joint by the adjoint."""
+    """Pose and Jacobian by the chain's general kernels; "middle" from the frame of its joint by the
+    adjoint.
+    """
     if frame != "middle":
         return chain.fk_jacobian(q, frame)
     middle = chain.compile().middle
@@ -88,16 +100,22 @@ def expected(chain: pk.Chain, frame: str | int, q: np.ndarray) -> tuple[np.ndarr
 
 
 def bound(chain: pk.Chain, q: np.ndarray, roundoff: float = 2.0**-53) -> float:
-    """Twice what `Chain.fk` promises, at a unit roundoff: for the text, and for what it is compared to."""
+    """Twice what `Chain.fk` promises, at a unit roundoff: for the text, and for what it is compared
+    to.
+    """
     x = np.abs(q @ chain.coupling.T + chain.offset).sum(axis=-1).max(initial=0.0)
     return 2 * roundoff * (8 * (len(chain.kinds) + 1) + 4 * x) * chain.reach
 
 
 def operations(function: ast.FunctionDef) -> tuple[int, int]:
-    """Multiplications, and additions with subtractions, that a function of an emitted Python text spells out."""
+    """Multiplications, and additions with subtractions, that a function of an emitted Python text
+    spells out.
+    """
     found = [node.op for statement in function.body if isinstance(statement, ast.Assign) and _scalar(statement)
              for node in ast.walk(statement.value) if isinstance(node, ast.BinOp)]  # fmt: skip
-    return sum(isinstance(op, ast.Mult) for op in found), sum(isinstance(op, (ast.Add, ast.Sub)) for op in found)
+    return sum(isinstance(op, ast.Mult) for op in found), sum(
+        isinstance(op, (ast.Add, ast.Sub)) for op in found
+    )
 
 
 def _scalar(statement: ast.Assign) -> bool:

@@ -17,9 +17,9 @@ from poekin.formats.dh import Row, Table
 from poekin.model import screw
 from poekin.model.chain import Chain
 from poekin.model.joint import MOVING
-from poekin.testing import dh_strategies
-from poekin.testing.dh_strategies import tables
-from poekin.testing.example_robots import example_robots
+from poekin.testing.cases.example_robots import example_robots
+from poekin.testing.strategies import dh_strategies
+from poekin.testing.strategies.dh_strategies import tables
 from tests.formats import dh_product
 
 UNIT = 2.0**-53
@@ -38,10 +38,11 @@ def largest(table):
 
 
 def rounding(chain, x):
-    """What the poses of a table's matrices and of its screws may differ by at joint values x (..., n), lengths ÷ reach.
+    """What the poses of a table's matrices and of its screws may differ by at joint values x (...,
+    n), lengths ÷ reach.
 
-    Each pose is off by u (8 (n + 1) + 4 X), X = sum |x|; screw i comes out of a product of i matrices, off by 8 u each,
-    and moves the tip by that times its x. Lengths grow with what slides.
+    Each pose is off by u (8 (n + 1) + 4 X), X = sum |x|; screw i comes out of a product of i
+    matrices, off by 8 u each, and moves the tip by that times its x. Lengths grow with what slides.
     """
     n, X = len(chain.screws), np.abs(x).sum(axis=-1)
     slid = np.abs(chain.local.slides * x).sum(axis=-1) / chain.reach
@@ -49,9 +50,11 @@ def rounding(chain, x):
 
 
 def screws_off(table, seed, shape=(), arithmetic=dh_product.EXACT):
-    """How far a table's chain is from the product of its matrices at random configurations ÷ `rounding`.
+    """How far a table's chain is from the product of its matrices at random configurations ÷
+    `rounding`.
 
-    A length of the table that is longer than the reach counts in place of it: there and back, the reach is short.
+    A length of the table that is longer than the reach counts in place of it: there and back, the
+    reach is short.
     """
     chain = dh.to_chain(table)
     x = np.random.default_rng(seed).uniform(-np.pi, np.pi, (*shape, len(table)))
@@ -62,8 +65,15 @@ def screws_off(table, seed, shape=(), arithmetic=dh_product.EXACT):
 
 @FEW
 @given(tables(), st.integers(0, 2**32))
-@example(Table("standard", [Row(alpha=0.7, d=3e4, theta=0.3), Row(d=-3e4, a=0.3, alpha=-0.7), Row()]), 0)
-@example(Table("modified", [Row(theta=0.3), Row(a=0.2, alpha=1e-4, d=3e4), Row(alpha=-1e-4, d=-3e4), Row()]), 1)
+@example(
+    Table("standard", [Row(alpha=0.7, d=3e4, theta=0.3), Row(d=-3e4, a=0.3, alpha=-0.7), Row()]), 0
+)
+@example(
+    Table(
+        "modified", [Row(theta=0.3), Row(a=0.2, alpha=1e-4, d=3e4), Row(alpha=-1e-4, d=-3e4), Row()]
+    ),
+    1,
+)
 def test_a_table_s_screws_move_as_its_matrices_do(table, seed):
     got = screws_off(table, seed)
     target(float(got))
@@ -73,7 +83,12 @@ def test_a_table_s_screws_move_as_its_matrices_do(table, seed):
 @FEW
 @given(tables(), CONVENTIONS)
 @example(Table("standard", [Row(alpha=1e-9, a=0.4), Row(a=0.3), Row(d=1.0)]), "modified")
-@example(Table("standard", [Row(alpha=1e-4, a=0.4), Row(kind="prismatic"), Row(alpha=1.0, a=0.2), Row()]), "standard")
+@example(
+    Table(
+        "standard", [Row(alpha=1e-4, a=0.4), Row(kind="prismatic"), Row(alpha=1.0, a=0.2), Row()]
+    ),
+    "standard",
+)
 def test_from_screws_to_a_table_and_back_keeps_the_pose(table, convention):
     chain = dh.to_chain(table)
     result = dh.from_chain(chain, convention=convention)
@@ -89,7 +104,9 @@ def test_from_screws_to_a_table_and_back_keeps_the_pose(table, convention):
 
 @FEW
 @given(tables(max_joints=6), CONVENTIONS)
-@example(Table("standard", [Row(kind="prismatic", alpha=1e-5), Row()]), "standard")  # far: its rounding is no pitch
+@example(
+    Table("standard", [Row(kind="prismatic", alpha=1e-5), Row()]), "standard"
+)  # far: its rounding is no pitch
 def test_a_table_of_a_table_s_chain_is_that_table_again(table, convention):
     first = dh.from_chain(dh.to_chain(table), convention=convention).table
     again = dh.from_chain(dh.to_chain(first), convention=convention)
@@ -115,7 +132,9 @@ def test_the_panda_comes_out_as_franka_publishes_it():
     table = dh.from_chain(pk.load("panda").chain(tip="panda_link8"), convention="modified").table
     np.testing.assert_allclose(table.a, [0, 0, 0, 0.0825, 0.0825, 0, 0.088], rtol=0, atol=1e-15)
     np.testing.assert_allclose(np.abs(table.alpha), [0, *[np.pi / 2] * 6], rtol=0, atol=1e-15)
-    np.testing.assert_allclose(np.abs(table.d), [0.333, 0, 0.316, 0, 0.384, 0, 0.107], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(
+        np.abs(table.d), [0.333, 0, 0.316, 0, 0.384, 0, 0.107], rtol=0, atol=1e-15
+    )
 
 
 @pytest.mark.parametrize("convention", ["standard", "modified"])
@@ -132,7 +151,10 @@ def test_every_chain_of_the_real_robots_has_a_table(convention):
             assert result.error <= result.bound, (name, tip)
             if not dropped:
                 n = len(result.table) + 1
-                assert result.bound <= 100 * UNIT * n * (1 + largest(result.table) / chain.reach), (name, tip)
+                assert result.bound <= 100 * UNIT * n * (1 + largest(result.table) / chain.reach), (
+                    name,
+                    tip,
+                )
             chains, seen = chains + 1, seen | set(chain.joint_names)
         assert seen == {joint.name for joint in robot.joints if joint.kind in MOVING}, name
     assert (len(robots), chains) == (68, 721)
@@ -141,7 +163,8 @@ def test_every_chain_of_the_real_robots_has_a_table(convention):
 def test_a_helical_joint_is_refused_by_name():
     chain = pk.Chain([pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1)], np.eye(4), joint_names=["bolt"])
     with pytest.raises(
-        InputError, match=r"^joint 'bolt' is helical: Denavit-Hartenberg parameters cannot express its pitch$"
+        InputError,
+        match=r"^joint 'bolt' is helical: Denavit-Hartenberg parameters cannot express its pitch$",
     ):
         dh.from_chain(chain)
 
@@ -165,13 +188,21 @@ def test_a_chain_without_joints_is_a_tool():
 def test_a_table_s_robot_is_its_chain_with_links(table):
     robot, chain = dh.to_robot(table), dh.to_chain(table)
     x = np.linspace(-1, 1, len(table))
-    np.testing.assert_allclose(robot.chain().fk(x), chain.fk(x), rtol=0, atol=rounding(chain, x) * chain.reach)
+    np.testing.assert_allclose(
+        robot.chain().fk(x), chain.fk(x), rtol=0, atol=rounding(chain, x) * chain.reach
+    )
     assert robot.q_names == table.names
 
 
 def test_tables_are_values():
-    table = Table("modified", [{"theta": 0, "d": 1, "a": 2, "alpha": 0.5, "limits": (-1, 1)}], name="t")
-    for other in (copy.deepcopy(table), pickle.loads(pickle.dumps(table)), Table("modified", table.rows, name="t")):
+    table = Table(
+        "modified", [{"theta": 0, "d": 1, "a": 2, "alpha": 0.5, "limits": (-1, 1)}], name="t"
+    )
+    for other in (
+        copy.deepcopy(table),
+        pickle.loads(pickle.dumps(table)),
+        Table("modified", table.rows, name="t"),
+    ):
         assert other == table
         assert hash(other) == hash(table)
     assert table != Table("standard", table.rows, name="t")
@@ -200,7 +231,11 @@ def test_what_makes_no_table_is_refused(rows, error, message):
 
 
 def test_a_table_of_a_coupled_chain_keeps_the_limits_of_the_joints_own_values():
-    S = [screw.revolute([0, 0, 1], [0, 0, 0]), screw.revolute([0, 1, 0], [0.4, 0, 0]), screw.prismatic([1, 0, 0])]
+    S = [
+        screw.revolute([0, 0, 1], [0, 0, 0]),
+        screw.revolute([0, 1, 0], [0.4, 0, 0]),
+        screw.prismatic([1, 0, 0]),
+    ]
     chain = Chain(
         S, np.eye(4), coupling=[[1, 0], [-2, 0], [0, 1]], offset=[0, 0.5, 0], q_names=["q", "r"],
         limits=[[-1, 2], [0, 0.3]],
@@ -211,30 +246,43 @@ def test_a_table_of_a_coupled_chain_keeps_the_limits_of_the_joints_own_values():
 def test_what_is_no_chain_is_refused():
     for wrong in (None, Table("standard", [Row()])):
         with pytest.raises(
-            InputError, match=r"from_chain: expected a Chain, as Robot\.chain\(tip=\.\.\.\) makes it, got"
+            InputError,
+            match=r"from_chain: expected a Chain, as Robot\.chain\(tip=\.\.\.\) makes it, got",
         ):
             dh.from_chain(wrong)  # pyright: ignore[reportArgumentType]
-    with pytest.raises(ShapeError, match=r"^rows: expected a list of Rows or dicts, one a joint, got 5$"):
+    with pytest.raises(
+        ShapeError, match=r"^rows: expected a list of Rows or dicts, one a joint, got 5$"
+    ):
         Table("standard", 5)  # pyright: ignore[reportArgumentType]
 
 
 def test_a_convention_is_named_and_degrees_are_suspected():
-    with pytest.raises(InputError, match=r"^convention: expected 'standard' or 'modified', got 'craig'$"):
+    with pytest.raises(
+        InputError, match=r"^convention: expected 'standard' or 'modified', got 'craig'$"
+    ):
         Table("craig", [])
     with pytest.warns(
         PoekinWarning,
-        match=(r"^table 'arm': alpha = 90 of joint 'elbow' is more than a turn: degrees\? Expected are rad$"),
+        match=(
+            r"^table 'arm': alpha = 90 of joint 'elbow' is more than a turn: degrees\? Expected are rad$"
+        ),
     ):
         Table("standard", [Row(), Row(alpha=90.0, name="elbow")])
 
 
 PLANTED = {
-    "flip lost": lambda t: Table(t.convention, [_with(r, flip=False) for r in t.rows], base=t.base, tool=t.tool),
+    "flip lost": lambda t: Table(
+        t.convention, [_with(r, flip=False) for r in t.rows], base=t.base, tool=t.tool
+    ),
     "tool lost": lambda t: Table(t.convention, t.rows, base=t.base),
     "base lost": lambda t: Table(t.convention, t.rows, tool=t.tool),
     "other convention": lambda t: Table("modified", t.rows, base=t.base, tool=t.tool),
-    "kind lost": lambda t: Table(t.convention, [_with(r, kind="revolute") for r in t.rows], base=t.base, tool=t.tool),
-    "offset lost": lambda t: Table(t.convention, [_with(r, theta=0.0) for r in t.rows], base=t.base, tool=t.tool),
+    "kind lost": lambda t: Table(
+        t.convention, [_with(r, kind="revolute") for r in t.rows], base=t.base, tool=t.tool
+    ),
+    "offset lost": lambda t: Table(
+        t.convention, [_with(r, theta=0.0) for r in t.rows], base=t.base, tool=t.tool
+    ),
 }
 
 
@@ -246,10 +294,17 @@ def _with(row, **changes):
 def test_the_comparison_with_50_digits_sees_what_peers_lose(fault):
     table = Table(
         "standard",
-        [Row(0.3, 0.1, 0.2, 1.0, flip=True), Row(0.5, 0.2, 0.1, -0.7, "prismatic"), Row(0.7, 0.3, 0.4, 0.2)],
+        [
+            Row(0.3, 0.1, 0.2, 1.0, flip=True),
+            Row(0.5, 0.2, 0.1, -0.7, "prismatic"),
+            Row(0.7, 0.3, 0.4, 0.2),
+        ],
         base=pk.se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
         tool=pk.se3.exp([0.3, 0.1, 0.2, 0.1, 0.2, 0.3]),
     )
     x = [0.4, -0.3, 0.9]
     assert error(table, dh.to_chain(table).fk(x), dh_product.pose(table, x), 1.0) < 1e-15
-    assert error(table, dh.to_chain(PLANTED[fault](table)).fk(x), dh_product.pose(table, x), 1.0) > 1e-3
+    assert (
+        error(table, dh.to_chain(PLANTED[fault](table)).fk(x), dh_product.pose(table, x), 1.0)
+        > 1e-3
+    )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.testing.calibrated_arm import UR10E, single_precision_errors
+from poekin.testing.cases.calibrated_arm import UR10E, single_precision_errors
 
 
 def test_no_entry_of_a_screw_is_large_although_two_of_the_table_s_are_440_m():
@@ -15,7 +15,9 @@ def test_no_entry_of_a_screw_is_large_although_two_of_the_table_s_are_440_m():
 
 
 def test_single_precision_keeps_a_micrometre_of_the_screws_and_loses_ten_of_the_table():
-    errors = single_precision_errors(UR10E, np.random.default_rng(0).uniform(-np.pi, np.pi, (1000, 6)))
+    errors = single_precision_errors(
+        UR10E, np.random.default_rng(0).uniform(-np.pi, np.pi, (1000, 6))
+    )
     assert errors["POE"].max() <= 1e-6
     assert errors["DH"].max() > 1e-5
 

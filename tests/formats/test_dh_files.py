@@ -8,8 +8,8 @@ from hypothesis import given, settings
 
 import poekin as pk
 from poekin.errors import FileError, InputError, ModelError
-from poekin.formats.dh import Row, Table, files
-from poekin.testing.dh_strategies import tables
+from poekin.formats.dh import Row, Table, table_io
+from poekin.testing.strategies.dh_strategies import tables
 from tests.messages import says
 
 TOML = """
@@ -44,19 +44,19 @@ modified,slide,prismatic,0,0.1,0.2,-1.5707963267948966,true,0,0.5,
 @settings(max_examples=30)
 @given(table=tables(max_joints=4))
 def test_a_table_comes_back_from_its_file_to_the_last_digit(ending, table):
-    again = files.read_text(files.text_of(table, ending), f"arm{ending}")
+    again = table_io.read_text(table_io.text_of(table, ending), f"arm{ending}")
     assert again == table
 
 
 def test_both_files_say_the_same():
-    a, b = files.read_text(TOML, "two.toml"), files.read_text(CSV, "two.csv")
+    a, b = table_io.read_text(TOML, "two.toml"), table_io.read_text(CSV, "two.csv")
     assert a == b
     assert a.rows[1] == Row(0, 0.1, 0.2, -math.pi / 2, "prismatic", True, "slide", (0, 0.5))
     assert a.tool[0, 3] == 0.1
 
 
 def test_a_file_is_written_read_and_loaded_as_a_robot(tmp_path):
-    table = files.read_text(TOML, "two.toml")
+    table = table_io.read_text(TOML, "two.toml")
     for name in ("two.toml", "two.CSV"):
         pk.dh.write(table, tmp_path / name)
         assert pk.dh.read(tmp_path / name) == table
@@ -64,12 +64,16 @@ def test_a_file_is_written_read_and_loaded_as_a_robot(tmp_path):
         assert robot.q_names == ("joint1", "slide")
         np.testing.assert_array_equal(robot.limits[1], [0, 0.5])
         x = [0.4, 0.2]
-        np.testing.assert_allclose(robot.chain().fk(x), pk.dh.to_chain(table).fk(x), rtol=0, atol=1e-15)
+        np.testing.assert_allclose(
+            robot.chain().fk(x), pk.dh.to_chain(table).fk(x), rtol=0, atol=1e-15
+        )
 
 
 def test_columns_of_a_csv_may_stand_in_any_order():
     text = "d,a,alpha,theta,convention\n0.1,0.2,0.3,0.4,standard\n"
-    assert files.read_text(text, "t.csv") == Table("standard", [Row(0.4, 0.1, 0.2, 0.3)], name="t")
+    assert table_io.read_text(text, "t.csv") == Table(
+        "standard", [Row(0.4, 0.1, 0.2, 0.3)], name="t"
+    )
 
 
 POSED = "convention,theta,d,a,alpha,kind,pose\n"
@@ -80,13 +84,31 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
 @pytest.mark.parametrize(
     "text, message",
     [
-        ("theta,d,a,alpha\n", "t.csv:1: column convention is missing; needed are convention, theta, d, a, alpha"),
-        ("convention,theta,d,a\n", "t.csv:1: column alpha is missing; needed are convention, theta, d, a, alpha"),
+        (
+            "theta,d,a,alpha\n",
+            "t.csv:1: column convention is missing; needed are convention, theta, d, a, alpha",
+        ),
+        (
+            "convention,theta,d,a\n",
+            "t.csv:1: column alpha is missing; needed are convention, theta, d, a, alpha",
+        ),
         ("convention,theta,d,a,alhpa\n", "t.csv:1: no such column: 'alhpa'; did you mean 'alpha'?"),
-        ("convention,theta,d,a,alpha\nstandard,1,2,3\n", "t.csv:2: expected 5 columns as in the header, got 4"),
-        ("convention,theta,d,a,alpha\nstandard,1,2,3,4,5\n", "t.csv:2: expected 5 columns as in the header, got 6"),
-        ("convention,theta,d,a,alpha\nstandard,1,2,3,x\n", "t.csv:2: alpha: expected a finite number, got 'x'"),
-        ("convention,theta,d,a,alpha\nstandard,1,2,nan,1\n", "t.csv:2: a: expected a finite number, got 'nan'"),
+        (
+            "convention,theta,d,a,alpha\nstandard,1,2,3\n",
+            "t.csv:2: expected 5 columns as in the header, got 4",
+        ),
+        (
+            "convention,theta,d,a,alpha\nstandard,1,2,3,4,5\n",
+            "t.csv:2: expected 5 columns as in the header, got 6",
+        ),
+        (
+            "convention,theta,d,a,alpha\nstandard,1,2,3,x\n",
+            "t.csv:2: alpha: expected a finite number, got 'x'",
+        ),
+        (
+            "convention,theta,d,a,alpha\nstandard,1,2,nan,1\n",
+            "t.csv:2: a: expected a finite number, got 'nan'",
+        ),
         (
             "convention,theta,d,a,alpha\nstandard,1,2,3,1\nmodified,1,2,3,1\n",
             "t.csv:3: mixed conventions: 'modified' after 'standard'",
@@ -103,7 +125,10 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
             f"{POSED}standard,,,,,base,{UNIT} 0\n",
             "t.csv:2: pose: expected twelve numbers, a pose's first three rows, got 13",
         ),
-        ("convention,theta,d,a,alpha,flip\nstandard,1,2,3,1,no\n", "t.csv:2: flip: expected true or false, got 'no'"),
+        (
+            "convention,theta,d,a,alpha,flip\nstandard,1,2,3,1,no\n",
+            "t.csv:2: flip: expected true or false, got 'no'",
+        ),
         (
             "convention,theta,d,a,alpha,kind\nstandard,1,2,3,1,ball\n",
             "t.csv:2: kind: expected 'revolute' or 'prismatic', got 'ball'",
@@ -131,7 +156,7 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
 )
 def test_a_bad_csv_is_refused_with_its_line(text, message):
     with pytest.raises(ModelError) as caught:
-        files.read_text(text, "t.csv")
+        table_io.read_text(text, "t.csv")
     assert says(caught.value, message)
 
 
@@ -161,18 +186,27 @@ def test_a_bad_csv_is_refused_with_its_line(text, message):
             f"convention = 'standard'\n[[joint]]\ntheta = {'9' * 400}\nd = 0\na = 0\nalpha = 0",
             "t.toml: joint 1: theta: expected a finite number, got '999...",
         ),
-        (f"convention = 'standard'\n[[joint]]\ntheta = {'9' * 5000}\nd = 0\na = 0\nalpha = 0", "t.toml: not TOML: ..."),
+        (
+            f"convention = 'standard'\n[[joint]]\ntheta = {'9' * 5000}\nd = 0\na = 0\nalpha = 0",
+            "t.toml: not TOML: ...",
+        ),
         (
             f"{JOINT}limits = [0, {'9' * 400}]",
             "t.toml: joint 1: limits: expected [lower, upper], got '[0, 999...",
         ),
-        (f"{JOINT}limits = [1, 0]", "t.toml: joint 1: limits: expected lower <= upper, got 1.0 and 0.0"),
+        (
+            f"{JOINT}limits = [1, 0]",
+            "t.toml: joint 1: limits: expected lower <= upper, got 1.0 and 0.0",
+        ),
         (
             f"{JOINT}{JOINT.partition(chr(10))[2]}limits = [1, 0]",
             "t.toml: joint 2: limits: expected lower <= upper, got 1.0 and 0.0",
         ),
         (f"convention = {'[' * 5000}", "t.toml: not TOML: its brackets are nested too deeply"),
-        ("convention = 'standard'\nbase = [[1, 2], [3, 4]]", "t.toml: base: expected shape (..., 4, 4), got (2, 2)"),
+        (
+            "convention = 'standard'\nbase = [[1, 2], [3, 4]]",
+            "t.toml: base: expected shape (..., 4, 4), got (2, 2)",
+        ),
         (
             "convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nlimits=[1]",
             "t.toml: joint 1: limits: expected [lower, upper], got '[1]'",
@@ -193,7 +227,7 @@ def test_a_bad_csv_is_refused_with_its_line(text, message):
 )
 def test_a_bad_toml_is_refused(text, message):
     with pytest.raises(ModelError) as caught:
-        files.read_text(text, "t.toml")
+        table_io.read_text(text, "t.toml")
     assert says(caught.value, message)
 
 
@@ -201,7 +235,9 @@ def test_a_place_that_cannot_be_written_and_an_ending_that_says_nothing_are_refu
     table = Table("standard", [Row()])
     with pytest.raises(FileError) as unwritten:
         pk.dh.write(table, tmp_path / "none" / "t.csv")
-    assert says(unwritten.value, f"cannot write '{tmp_path / 'none' / 't.csv'}': No such file or directory")
+    assert says(
+        unwritten.value, f"cannot write '{tmp_path / 'none' / 't.csv'}': No such file or directory"
+    )
     with pytest.raises(InputError) as caught:
         pk.dh.write(table, tmp_path / "t.txt")
     assert says(caught.value, f"{tmp_path / 't.txt'}: expected a file ending in .toml or .csv")

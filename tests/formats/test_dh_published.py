@@ -1,4 +1,6 @@
-"""The published tables: complete, with their sources, and the same arms as the URDF files of others."""
+"""The published tables: complete, with their sources, and the same arms as the URDF files of
+others.
+"""
 
 import pkgutil
 
@@ -22,7 +24,9 @@ def test_a_published_table_states_its_source_tool_and_zero_and_loads_as_a_robot(
 
 
 # Where a URDF of the same arm comes with poekin, the two agree to rounding.
-@pytest.mark.parametrize("name, tip", [("panda", "panda_link8"), ("ur5e", "tool0"), ("stanford", "tool")])
+@pytest.mark.parametrize(
+    "name, tip", [("panda", "panda_link8"), ("ur5e", "tool0"), ("stanford", "tool")]
+)
 def test_a_table_is_the_same_arm_as_poekin_s_own_urdf(name, tip):
     a, b = pk.dh.to_chain(pk.dh.published(name)), pk.load(name).chain(tip=tip)
     q = a.random(0, 100)
@@ -32,14 +36,15 @@ def test_a_table_is_the_same_arm_as_poekin_s_own_urdf(name, tip):
 
 
 def geometry(chain):
-    """Distances [m] and angles [rad] between consecutive axes, and how far along an axis its neighbours' feet are: what
-    no choice of base, tool, zero or direction changes.
+    """Distances [m] and angles [rad] between consecutive axes, and how far along an axis its
+    neighbours' feet are: what no choice of base, tool, zero or direction changes.
     """
     table = pk.dh.from_chain(chain, convention="standard").table
     return np.abs(np.concatenate([table.a[:-1], table.alpha[:-1] % np.pi, table.d[1:-1]]))
 
 
-# Where example-robot-data has the same arm, the difference is rounding: these of its files hold pi/2 to all digits.
+# Where example-robot-data has the same arm, the difference is rounding: these of its files hold
+# pi/2 to all digits.
 @pytest.mark.parametrize(
     "name, urdf, base, tip",
     [
@@ -66,5 +71,7 @@ def test_the_kinova_of_example_robot_data_is_the_jaco_with_the_other_wrist():
 
 
 def test_an_unknown_table_names_the_closest():
-    with pytest.raises(UnknownName, match=r"^no published table is named 'puma506'; did you mean 'puma560'\?$"):
+    with pytest.raises(
+        UnknownName, match=r"^no published table is named 'puma506'; did you mean 'puma560'\?$"
+    ):
         pk.dh.published("puma506")

@@ -1,4 +1,6 @@
-"""One arm of every case, number by number and word by word: its table, what was free in it, and what is said of it."""
+"""One arm of every case, number by number and word by word: its table, what was free in it, and
+what is said of it.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ import poekin as pk
 from poekin import errors
 from poekin.errors import InputError, ModelError, PoekinError
 from poekin.formats import dh
-from poekin.formats.dh import Row, Table, files
+from poekin.formats.dh import Row, Table, table_io
 
 UNIT = 2.0**-53
 HALF = math.pi / 2
@@ -32,7 +34,12 @@ GAUGE = (
     "last frame: on the axis of 'e', nearest to the tool, theta = 0",
 )
 TURNS = [(0, 0), (math.pi, 0), (HALF, 0.7), (HALF, 0.25), (0, 1.51)]  # theta, d
-NORMALS = [(0.4, 0), (0, HALF), (1.3, -HALF), (0.5, math.atan2(0.8, 0.6))]  # a, alpha of the axes i and i + 1
+NORMALS = [
+    (0.4, 0),
+    (0, HALF),
+    (1.3, -HALF),
+    (0.5, math.atan2(0.8, 0.6)),
+]  # a, alpha of the axes i and i + 1
 
 
 @pytest.mark.parametrize("convention", ["standard", "modified"])
@@ -56,7 +63,9 @@ def test_an_arm_of_every_case_has_the_table_that_its_axes_say(convention):
 def test_the_bound_takes_the_largest_length_of_the_table():
     for longest in (Row(d=-7.0, alpha=1.0), Row(a=7.0, alpha=1.0)):
         chain = dh.to_chain(Table("standard", [Row(alpha=1.0), longest, Row()]))
-        assert dh.from_chain(chain).bound == pytest.approx(20 * UNIT * 4 * (1 + 7.0 / chain.reach), rel=1e-9, abs=0)
+        assert dh.from_chain(chain).bound == pytest.approx(
+            20 * UNIT * 4 * (1 + 7.0 / chain.reach), rel=1e-9, abs=0
+        )
     empty = dh.from_chain(pk.Chain([], HOME))
     assert (empty.bound, empty.error, empty.gauge, empty.warnings) == (20 * UNIT, 0.0, (), ())
     assert (empty.table.name, empty.table.convention) == ("tool", "standard")
@@ -64,7 +73,9 @@ def test_the_bound_takes_the_largest_length_of_the_table():
 
 
 def two(tilt, apart=0.4, far=0.0):
-    """Two axes that meet at the distance apart / tan(tilt) along the first; the tool `far` metres off along z."""
+    """Two axes that meet at the distance apart / tan(tilt) along the first; the tool `far` metres
+    off along z.
+    """
     home = np.eye(4)
     home[2, 3] = far
     second = pk.screw.revolute([math.sin(tilt), 0, math.cos(tilt)], [apart, 0, 0])
@@ -92,7 +103,9 @@ def test_what_is_told_of_axes_that_meet_far_away_has_its_numbers():
 
 
 def test_an_angle_that_is_dropped_far_from_the_arm_counts_with_its_lever():
-    """The first two axes have their common normal 8 m away, and there the third is taken as parallel to the second."""
+    """The first two axes have their common normal 8 m away, and there the third is taken as
+    parallel to the second.
+    """
     z = np.array([math.sin(0.06), 0, math.cos(0.06)])
     rows = [
         pk.screw.revolute([0, 0, 1], [0, 0, 0]),
@@ -110,7 +123,13 @@ def test_an_angle_that_is_dropped_far_from_the_arm_counts_with_its_lever():
     more = dh.from_chain(slide)
     assert more.error <= more.bound
     assert more.bound * slide.reach == pytest.approx(
-        2e-10 * (np.abs(more.table.d).sum() + np.abs(more.table.a).sum() + np.linalg.norm(more.table.tool[:3, 3]) + 1),
+        2e-10
+        * (
+            np.abs(more.table.d).sum()
+            + np.abs(more.table.a).sum()
+            + np.linalg.norm(more.table.tool[:3, 3])
+            + 1
+        ),
         rel=1e-4,
     )
 
@@ -138,7 +157,10 @@ def test_axes_are_taken_as_parallel_where_the_rounding_of_d_would_cost_more_than
 def test_axes_at_no_distance_worth_a_number_meet_or_are_one():
     """Below 1e-16 of the reach."""
     for off, meets in ((0.9e-16, True), (1.1e-16, False), (0.0, True)):
-        screws = [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([1, 0, 0], [0, off, 0])]
+        screws = [
+            pk.screw.revolute([0, 0, 1], [0, 0, 0]),
+            pk.screw.revolute([1, 0, 0], [0, off, 0]),
+        ]
         result = dh.from_chain(pk.Chain(screws, np.eye(4)))
         assert any("meet" in line for line in result.gauge) == meets
         one = [screws[0], pk.screw.revolute([0, 0, 1], [0, off, 0])]
@@ -180,14 +202,20 @@ def test_limits_go_with_the_joints_and_are_free_where_two_coordinates_share_one(
         limits=[[-1, 2], [0, 0.3]],
     )  # fmt: skip
     limits = dh.from_chain(chain).table.limits
-    np.testing.assert_allclose(limits, [[-1.5, 4.5], [-math.inf, math.inf], [-0.2, 0.1]], rtol=1e-15)
+    np.testing.assert_allclose(
+        limits, [[-1.5, 4.5], [-math.inf, math.inf], [-0.2, 0.1]], rtol=1e-15
+    )
 
 
 def test_a_first_axis_along_x_takes_y_for_its_x():
-    """What is across the axis and nearest to the base frame's x, or to its y where x is within a quarter of a turn."""
+    """What is across the axis and nearest to the base frame's x, or to its y where x is within a
+    quarter of a turn.
+    """
     for axis, x in (([1, 0, 0], [0, 1, 0]), ([0, 1, 0], [1, 0, 0]), ([0, 0, -1], [1, 0, 0])):
         base = dh.from_chain(pk.Chain([pk.screw.revolute(axis, [0, 0, 0])], np.eye(4))).table.base
-        np.testing.assert_allclose(base[:3, :3], np.array([x, np.cross(axis, x), axis]).T, rtol=0, atol=1e-15)
+        np.testing.assert_allclose(
+            base[:3, :3], np.array([x, np.cross(axis, x), axis]).T, rtol=0, atol=1e-15
+        )
     for lean, uses_x in ((0.89, True), (0.91, False), (-0.91, False)):
         z = np.array([lean, 0, math.sqrt(1 - lean * lean)])
         base = dh.from_chain(pk.Chain([pk.screw.revolute(z, [0, 0, 0])], np.eye(4))).table.base
@@ -195,12 +223,19 @@ def test_a_first_axis_along_x_takes_y_for_its_x():
 
 
 def test_a_helical_joint_and_an_unknown_convention_are_refused():
-    bolt = pk.Chain([SCREWS[0], pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1)], np.eye(4), joint_names=["a", "bolt"])
+    bolt = pk.Chain(
+        [SCREWS[0], pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1)],
+        np.eye(4),
+        joint_names=["a", "bolt"],
+    )
     with pytest.raises(
-        InputError, match=r"^joint 'bolt' is helical: Denavit-Hartenberg parameters cannot express its pitch$"
+        InputError,
+        match=r"^joint 'bolt' is helical: Denavit-Hartenberg parameters cannot express its pitch$",
     ):
         dh.from_chain(bolt)
-    with pytest.raises(InputError, match=r"^convention: expected 'standard' or 'modified', got 'craig'$"):
+    with pytest.raises(
+        InputError, match=r"^convention: expected 'standard' or 'modified', got 'craig'$"
+    ):
         dh.from_chain(ARM, convention="craig")
 
 
@@ -225,7 +260,9 @@ def by_hand(rows, convention, x):
     T = HOME
     for row, value in zip(rows, x, strict=True):
         moved = -value if row.flip else value
-        theta, d = (row.theta + moved, row.d) if row.kind == "revolute" else (row.theta, row.d + moved)
+        theta, d = (
+            (row.theta + moved, row.d) if row.kind == "revolute" else (row.theta, row.d + moved)
+        )
         around, along = turn(2, theta) @ shift(0, d), shift(row.a, 0) @ turn(0, row.alpha)
         T = T @ around @ along if convention == "standard" else T @ along @ around
     return T @ turn(1, 0.4)
@@ -239,7 +276,9 @@ def test_a_table_is_the_product_of_its_matrices(convention, count):
     expected = by_hand(ROWS[:count], convention, x)
     np.testing.assert_allclose(dh.to_chain(table).fk(x), expected, rtol=0, atol=3e-15)
     robot = dh.to_robot(table)
-    np.testing.assert_allclose(robot.chain(base="base", tip="tool").fk(x), expected, rtol=0, atol=3e-15)
+    np.testing.assert_allclose(
+        robot.chain(base="base", tip="tool").fk(x), expected, rtol=0, atol=3e-15
+    )
     assert robot.q_names == table.names == ("joint1", "slide", "joint3")[:count]
     assert [joint.name for joint in robot.joints] == [*table.names, "tool_mount"]
     assert robot.links == ("base", *(f"link{i}" for i in range(1, count + 1)), "tool")
@@ -253,10 +292,13 @@ def test_a_joint_called_like_the_mount_of_the_tool_keeps_its_name():
 
 def test_only_a_table_is_one():
     for function in (dh.to_chain, dh.to_robot):
-        with pytest.raises(InputError, match=rf"^{function.__name__}: expected a dh.Table, got int$"):
+        with pytest.raises(
+            InputError, match=rf"^{function.__name__}: expected a dh.Table, got int$"
+        ):
             function(5)  # pyright: ignore[reportArgumentType]
     with pytest.raises(
-        InputError, match=r"^write: expected a dh\.Table, got 5: dh\.from_chain\(chain\)\.table makes one$"
+        InputError,
+        match=r"^write: expected a dh\.Table, got 5: dh\.from_chain\(chain\)\.table makes one$",
     ):
         dh.write(5, "arm.toml")  # pyright: ignore[reportArgumentType]
 
@@ -311,10 +353,13 @@ def test_the_warning_of_degrees_points_to_the_line_that_made_the_table():
 
 def test_of_columns_that_are_unknown_or_missing_the_first_is_named():
     with pytest.raises(
-        InputError, match=r"^row 0: no column 'x'; there are theta, d, a, alpha, kind, flip, name, limits$"
+        InputError,
+        match=r"^row 0: no column 'x'; there are theta, d, a, alpha, kind, flip, name, limits$",
     ):
         Table("standard", [{"x": 1, "y": 2}])  # pyright: ignore[reportArgumentType]
-    with pytest.raises(InputError, match=r"^row 0: column d is missing; needed are theta, d, a, alpha$"):
+    with pytest.raises(
+        InputError, match=r"^row 0: column d is missing; needed are theta, d, a, alpha$"
+    ):
         Table("standard", [{"theta": 1}])  # pyright: ignore[reportArgumentType]
 
 
@@ -326,18 +371,18 @@ def test_a_kind_is_what_it_says_whoever_made_the_word():
 @pytest.mark.parametrize("ending", [".toml", ".csv"])
 def test_a_base_moved_back_is_written_too(ending):
     table = Table("standard", [Row()], base=shift(-0.5, -0.2), tool=shift(-0.1, 0.0), name="t")
-    assert files.read_text(files.text_of(table, ending), f"t{ending}") == table
+    assert table_io.read_text(table_io.text_of(table, ending), f"t{ending}") == table
 
 
 def test_the_words_of_a_file_follow_the_format():
     table = Table("modified", ROWS[:2], base=shift(0.5, 0.0), name="t")
-    assert files.text_of(table, ".csv") == (
+    assert table_io.text_of(table, ".csv") == (
         "convention,name,kind,theta,d,a,alpha,flip,lower,upper,pose\n"
         "modified,,base,,,,,,,,1.0 0.0 0.0 0.5 0.0 1.0 0.0 0.0 0.0 0.0 1.0 0.0\n"
         "modified,joint1,revolute,0.3,0.1,0.2,1.0,true,-1.0,2.0,\n"
         "modified,slide,prismatic,0.5,0.2,0.15,-0.7,false,-inf,inf,\n"
     )
-    toml = files.text_of(table, ".toml")
+    toml = table_io.text_of(table, ".toml")
     assert "tool" not in toml
     assert toml.count("limits") == 1
 
@@ -354,7 +399,9 @@ def meeting_at(times, chain_of):
 @pytest.mark.parametrize("slides", [True, False], ids=["prismatic", "parallel"])
 @pytest.mark.parametrize("arm", [0.0, 2.6])
 def test_a_normal_that_is_free_is_not_taken_where_axes_meet_far_away(arm, slides):
-    """Up to ten times the reach from the base it stays at the origin before it (d = 0), beyond it comes back."""
+    """Up to ten times the reach from the base it stays at the origin before it (d = 0), beyond it
+    comes back.
+    """
 
     def three(tilt):
         first = two(tilt, far=arm)
@@ -381,14 +428,17 @@ def test_a_row_and_a_result_are_frozen():
 def test_a_joint_that_cannot_move_is_a_joint():
     for text, name in (
         ("convention,theta,d,a,alpha,lower,upper\nstandard,1,2,3,1,0.5,0.5\n", "t.csv"),
-        ("convention='standard'\n[[joint]]\ntheta=1\nd=2\na=3\nalpha=1\nlimits=[0.5, 0.5]\n", "t.toml"),
+        (
+            "convention='standard'\n[[joint]]\ntheta=1\nd=2\na=3\nalpha=1\nlimits=[0.5, 0.5]\n",
+            "t.toml",
+        ),
     ):
-        assert files.read_text(text, name).limits.tolist() == [[0.5, 0.5]]
+        assert table_io.read_text(text, name).limits.tolist() == [[0.5, 0.5]]
 
 
 def test_of_columns_that_are_there_twice_the_first_is_named():
     with pytest.raises(ModelError, match=r"^t\.csv:1: column d is there 3 times, expected once$"):
-        files.read_text("convention,theta,d,d,d,a,a,alpha\n", "t.csv")
+        table_io.read_text("convention,theta,d,d,d,a,a,alpha\n", "t.csv")
 
 
 @pytest.mark.parametrize("text, ending", [("x", ".csv"), ("x =", ".toml"), ("x", ".txt")])
@@ -396,28 +446,37 @@ def test_a_file_s_name_takes_400_characters_of_a_message_at_most(text, ending):
     whole, cut = "n" * (400 - len(ending)) + ending, "n" * (401 - len(ending)) + ending
     for name, said in ((whole, whole), (cut, errors.harmless(cut, 400))):
         with pytest.raises(PoekinError) as caught:
-            files.read_text(text, name)
+            table_io.read_text(text, name)
         assert str(caught.value).startswith(f"{said}:")
     assert errors.harmless(cut, 400) not in errors.harmless(cut, 401)
 
 
-@pytest.mark.parametrize("limits", [(-math.inf, 5.0), (-5.0, math.inf), (0.0, 0.0), (-math.inf, math.inf)], ids=str)
+@pytest.mark.parametrize(
+    "limits", [(-math.inf, 5.0), (-5.0, math.inf), (0.0, 0.0), (-math.inf, math.inf)], ids=str
+)
 def test_limits_come_back_from_either_file(limits):
-    table = Table("standard", [Row(limits=limits), Row(kind="prismatic", flip=True, limits=limits)], name="t")
+    table = Table(
+        "standard", [Row(limits=limits), Row(kind="prismatic", flip=True, limits=limits)], name="t"
+    )
     for ending in (".toml", ".csv"):
-        assert files.read_text(files.text_of(table, ending), f"t{ending}") == table
+        assert table_io.read_text(table_io.text_of(table, ending), f"t{ending}") == table
 
 
-@pytest.mark.parametrize("limits", ["[]", "[1]", "[0, 1, 2]", "1", "[0, nan]", "[nan, 0]", "['a', 1]", "[false, 1]"])
+@pytest.mark.parametrize(
+    "limits", ["[]", "[1]", "[0, 1, 2]", "1", "[0, nan]", "[nan, 0]", "['a', 1]", "[false, 1]"]
+)
 def test_limits_that_are_no_pair_of_numbers_are_refused(limits):
     text = f"convention='standard'\n[[joint]]\ntheta=1\nd=2\na=3\nalpha=1\nlimits={limits}\n"
-    with pytest.raises(ModelError, match=r"^t.toml: joint 1: limits: expected \[lower, upper\], got "):
-        files.read_text(text, "t.toml")
+    with pytest.raises(
+        ModelError, match=r"^t.toml: joint 1: limits: expected \[lower, upper\], got "
+    ):
+        table_io.read_text(text, "t.toml")
 
 
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 def test_a_far_base_makes_no_pitch_of_its_rounding(convention):
-    """Ad of a pose 1e5 m away leaves omega . v = 1e-11 m per rad, of which a revolute joint has none.
+    """Ad of a pose 1e5 m away leaves omega . v = 1e-11 m per rad, of which a revolute joint has
+    none.
 
     That is more than the rounding of v where the pose is far away along the axis: there v is small.
     """
@@ -429,13 +488,19 @@ def test_a_far_base_makes_no_pitch_of_its_rounding(convention):
     ):
         chain = dh.to_chain(table)
         assert chain.kinds == table.kinds
-        assert pk.screw.pitches_of(chain.screws).tolist() == chain.pitches.tolist() == [0.0] * len(table)
+        assert (
+            pk.screw.pitches_of(chain.screws).tolist()
+            == chain.pitches.tolist()
+            == [0.0] * len(table)
+        )
 
 
 def test_an_arm_of_a_micrometre_has_the_screws_of_a_large_one():
     """Nothing of the size of a metre is added and taken away."""
     rows = [Row(0.3, d, a, 1.0) for d, a in ((0.5, 0.25), (0.75, 0.5), (0.0, 1.0))]
-    small = [Row(row.theta, row.d * 2.0**-20, row.a * 2.0**-20, row.alpha, flip=True) for row in rows]
+    small = [
+        Row(row.theta, row.d * 2.0**-20, row.a * 2.0**-20, row.alpha, flip=True) for row in rows
+    ]
     large, tiny = (dh.to_chain(Table("standard", table)).screws for table in (rows, small))
     np.testing.assert_allclose(-tiny[:, 3:] * 2.0**20, large[:, 3:], rtol=0, atol=1e-14)
 
@@ -448,7 +513,11 @@ def test_the_first_frame_stands_where_its_axis_is_nearest_to_the_base():
     np.testing.assert_allclose(slide[:3, 2:], np.transpose([z, np.zeros(3)]), rtol=0, atol=1e-15)
 
 
-@pytest.mark.parametrize("line, got", [("standard,1,2,3", 4), ("standard,1,2,3,4,5", 6), ("standard,1,2,3,4,5,6,7", 8)])
+@pytest.mark.parametrize(
+    "line, got", [("standard,1,2,3", 4), ("standard,1,2,3,4,5", 6), ("standard,1,2,3,4,5,6,7", 8)]
+)
 def test_a_line_of_too_many_or_too_few_columns_is_counted(line, got):
-    with pytest.raises(ModelError, match=rf"^t.csv:2: expected 5 columns as in the header, got {got}$"):
-        files.read_text(f"convention,theta,d,a,alpha\n{line}\n", "t.csv")
+    with pytest.raises(
+        ModelError, match=rf"^t.csv:2: expected 5 columns as in the header, got {got}$"
+    ):
+        table_io.read_text(f"convention,theta,d,a,alpha\n{line}\n", "t.csv")

@@ -1,4 +1,6 @@
-"""Emitted C99, by the system's compiler: to the last bit what the emitted Python computes, and safe from any name."""
+"""Emitted C99, by the system's compiler: to the last bit what the emitted Python computes, and safe
+from any name.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,7 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError
 from poekin.formats import emit
-from poekin.formats.emit.words import identifier
+from poekin.formats.emit.messages import identifier
 
 from .emitted import ARMS, FRAMES, HOSTILE, arm, bound, expected, module, suffix, with_name
 
@@ -131,7 +133,8 @@ def test_from_q_it_is_the_chain_within_1e_14_reach_and_its_own_test_passes(name,
 
 @pytest.mark.parametrize("name", ARMS)
 def test_in_single_precision_it_keeps_the_bound_of_single_precision(name, build):
-    # u = 2^-24 in the place of 2^-53: the arm's constants are rounded to it too, which is the second half of `bound`
+    # u = 2^-24 in the place of 2^-53: the arm's constants are rounded to it too, which is the
+    # second half of `bound`
     chain = arm(name)
     built = build(emit.c(chain, "hybrid", name="single", real="float"))
     assert ran(built.program)[:2] == (0, "passed")
@@ -157,7 +160,9 @@ def test_results_may_overlap_q(build):
 def test_its_own_test_fails_where_one_digit_of_the_arm_is_wrong(real, build):
     source = emit.c(arm("panda"), "hybrid", name="wrong", real=real)
     assert source.source.count("0.333") == 2
-    planted = emit.CSource(source.name, source.header, source.source.replace("0.333", "0.334", 1), source.selftest)
+    planted = emit.CSource(
+        source.name, source.header, source.source.replace("0.333", "0.334", 1), source.selftest
+    )
     code, verdict, worst = ran(build(planted).program)
     assert (code, verdict) == (1, "FAILED")
     assert worst == pytest.approx(1e-3, rel=1e-3)
@@ -167,7 +172,9 @@ def test_its_own_test_fails_where_a_result_is_no_number(build):
     source = emit.c(arm("panda"), "hybrid", name="nan")
     text = re.sub(r"J\[41\] = [^;]+;", "J[41] = sqrt(-1.0 - c[0] * c[0]);", source.source)
     assert text != source.source
-    assert ran(build(emit.CSource(source.name, source.header, text, source.selftest)).program)[:2] == (1, "FAILED")
+    assert ran(build(emit.CSource(source.name, source.header, text, source.selftest)).program)[
+        :2
+    ] == (1, "FAILED")
 
 
 def test_a_c_plus_plus_program_can_use_the_header(build, tmp_path):
@@ -180,7 +187,9 @@ def test_a_c_plus_plus_program_can_use_the_header(build, tmp_path):
         '#include "plus.h"\n#include "plus.h"\nint main() { double q[1] = {0}, T[16]; plus_fk(q, T); return 0; }\n'
     )
     options = ["-Wall", "-Wextra", "-pedantic", "-Werror"]
-    subprocess.run([compiler, *options, str(unit), str(library), "-o", str(tmp_path / "use")], check=True)
+    subprocess.run(
+        [compiler, *options, str(unit), str(library), "-o", str(tmp_path / "use")], check=True
+    )
 
 
 @pytest.mark.parametrize("name", HOSTILE, ids=range(len(HOSTILE)))
@@ -191,8 +200,12 @@ def test_a_hostile_name_stays_in_its_comment(name, build):
         for emitted in (source, emit.c(with_name("a"), "middle", name=source.name))
     )
     assert without == plain
-    assert not any("??" in text for text in source.files.values())  # a trigraph is a character of its own
-    assert all(text.isascii() and "\\" not in text.replace("\\n", "") for text in source.files.values())
+    assert not any(
+        "??" in text for text in source.files.values()
+    )  # a trigraph is a character of its own
+    assert all(
+        text.isascii() and "\\" not in text.replace("\\n", "") for text in source.files.values()
+    )
     assert ran(build(source).program)[:2] == (0, "passed")
 
 
@@ -214,7 +227,9 @@ def test_names_are_made_of_letters_digits_and_single_underscores(name, made):
     assert re.fullmatch("[a-z][a-z0-9]*(_[a-z0-9]+)*", made)
 
 
-@pytest.mark.parametrize(("real", "mathematical"), [("double", {"sin", "cos"}), ("float", {"sinf", "cosf"})])
+@pytest.mark.parametrize(
+    ("real", "mathematical"), [("double", {"sin", "cos"}), ("float", {"sinf", "cosf"})]
+)
 def test_it_needs_math_h_alone_and_no_memory(real, mathematical):
     for frame in FRAMES:
         source = emit.c(arm("panda"), frame, name="p", real=real)
@@ -224,7 +239,9 @@ def test_it_needs_math_h_alone_and_no_memory(real, mathematical):
         functions = set(re.findall(r"(\w+)\(", code)) - {"for"}
         assert {name for name in functions if not name.startswith("p_")} == mathematical
         assert not re.search(r"\bstatic\b", code)
-        assert real == "double" or not re.search(r"\bdouble\b|[0-9]\.[0-9]+(e-?[0-9]+)?(?![0-9ef])", code)
+        assert real == "double" or not re.search(
+            r"\bdouble\b|[0-9]\.[0-9]+(e-?[0-9]+)?(?![0-9ef])", code
+        )
 
 
 def test_the_header_says_the_sizes_of_all_arrays():
@@ -237,7 +254,8 @@ def test_the_header_says_the_sizes_of_all_arrays():
     ):
         first = f" * a_{task}: from q[6] to {results}; they may overlap q.\n"
         assert (
-            f"{first} * ..._sincos: the same from s[{n}] = sin x and c[{n}] = cos x, where the angles x are\n" in header
+            f"{first} * ..._sincos: the same from s[{n}] = sin x and c[{n}] = cos x, where the angles x are\n"
+            in header
         )
 
 
@@ -260,6 +278,7 @@ def test_what_cannot_be_emitted_is_refused():
     home = np.eye(4)
     home[0, 3] = 1e39
     with pytest.raises(
-        InputError, match=r"^emit: the arm needs the number 1e\+39, which single precision cannot hold$"
+        InputError,
+        match=r"^emit: the arm needs the number 1e\+39, which single precision cannot hold$",
     ):
         emit.c(pk.Chain([[0, 0, 1, 0, 0, 0]], home), "body", real="float")

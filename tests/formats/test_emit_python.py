@@ -1,4 +1,6 @@
-"""Emitted Python: what the chain computes, statement by statement what the program says, on arrays of any library."""
+"""Emitted Python: what the chain computes, statement by statement what the program says, on arrays
+of any library.
+"""
 
 from __future__ import annotations
 
@@ -11,12 +13,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
-from poekin.engine import interpret
+from poekin.engine.straight_line import interpret
 from poekin.errors import InputError, UnknownName
 from poekin.formats import emit
-from poekin.testing import chain_strategies
+from poekin.testing.strategies import chain_strategies
 
-from .emitted import ARMS, FRAMES, HOSTILE, arm, bound, expected, module, operations, suffix, with_name
+from .emitted import (
+    ARMS,
+    FRAMES,
+    HOSTILE,
+    arm,
+    bound,
+    expected,
+    module,
+    operations,
+    suffix,
+    with_name,
+)
 
 # A chain is traced in eight ways and its text compiled: some tenths of a second.
 FEWER = settings(max_examples=max(settings().max_examples // 3, 20))
@@ -61,7 +74,9 @@ def test_it_is_the_program_to_the_last_bit(case):
     np.testing.assert_array_equal(x, interpret.angles(program, q))
     T, J = getattr(made, f"{name}_sincos")(np.sin(x), np.cos(x), q, np)
     outputs = interpret.outputs(program, np.sin(x), np.cos(x), q)
-    np.testing.assert_array_equal(np.concatenate([T[:, :3, :3].reshape(-1, 9), T[:, :3, 3]], 1), outputs[:, :12])
+    np.testing.assert_array_equal(
+        np.concatenate([T[:, :3, :3].reshape(-1, 9), T[:, :3, 3]], 1), outputs[:, :12]
+    )
     np.testing.assert_array_equal(J.reshape(len(q), 6 * chain.dof), outputs[:, 12:])
 
 
@@ -70,7 +85,9 @@ def test_its_statements_are_as_many_as_its_first_lines_say(name):
     chain = arm(name)
     frame = "middle" if chain.kinds else "space"
     text = emit.python(chain, frame)
-    functions = {node.name: node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)}
+    functions = {
+        node.name: node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)
+    }
     for function, program in (
         ("fk", chain.compile().program(None)),
         (f"jacobian_{frame}", chain.compile().program(frame)),
@@ -79,9 +96,8 @@ def test_its_statements_are_as_many_as_its_first_lines_say(name):
         parts = [operations(functions[f"{function}_{part}"]) for part in ("angles", "sincos")]
         m, a = (sum(part[i] for part in parts) for i in (0, 1))
         assert (m, a) == (program.count.multiplications, program.count.additions)
-        said = (
-            f"\n{function}: {m} multiplications, {a} additions or subtractions, {program.count.sines} pairs of sine and"
-        )
+        sines = f"{program.count.sines} pairs of sine and"
+        said = f"\n{function}: {m} multiplications, {a} additions or subtractions, {sines}"
         assert said in text
 
 
@@ -89,13 +105,18 @@ def test_panda_s_middle_frame_is_the_one_its_docstring_gives():
     chain = arm("panda")
     text = emit.python(chain, "middle")
     middle = chain.compile().middle
-    assert f"moves with joint {middle.joint} (counted from 0), '{chain.joint_names[middle.joint]}'" in text
+    assert (
+        f"moves with joint {middle.joint} (counted from 0), '{chain.joint_names[middle.joint]}'"
+        in text
+    )
     after = text.split("base frame at q = 0, (R, p):\n")[1].splitlines()[:3]
     T = chain.joint_poses(np.zeros(7))[middle.joint] @ middle.T_km
     np.testing.assert_array_equal([[float(x) for x in line.split()] for line in after], T[:3])
 
 
-OFF_ZERO = pk.load("ur5e").chain().rezeroed([0.0, 0.1, 0.2, 0.3, 0.0, 0.0])  # J in the tip's frame has five angles
+OFF_ZERO = (
+    pk.load("ur5e").chain().rezeroed([0.0, 0.1, 0.2, 0.3, 0.0, 0.0])
+)  # J in the tip's frame has five angles
 
 
 @pytest.mark.parametrize("task, results", [
@@ -108,7 +129,9 @@ def test_its_functions_say_what_they_take_and_give(task, results):
     assert getattr(made, task).__doc__ == f"{results} at q (..., 6)."
     takes = f"from sines and cosines (..., {len(x)}) of the angles, and from q (..., 6)."
     assert getattr(made, f"{task}_sincos").__doc__ == f"{results} {takes}"
-    first, *equations = [line.strip() for line in getattr(made, f"{task}_angles").__doc__.split("\n") if line.strip()]
+    first, *equations = [
+        line.strip() for line in getattr(made, f"{task}_angles").__doc__.split("\n") if line.strip()
+    ]
     assert first == f"The angles x (..., {len(x)}) whose sines and cosines are needed."
     assert len(equations) == len(x) == (5 if task == "jacobian_body" else 6)
     for equation in equations:  # numbers are written to six digits
@@ -120,16 +143,33 @@ def test_its_functions_say_what_they_take_and_give(task, results):
 def test_its_first_lines_say_which_arm_it_is():
     text = emit.python(OFF_ZERO, "body")
     assert "Base frame 'base', tip frame 'tool0'; 6 joints, 6 coordinates. Units: rad, m.\n" in text
-    for k, (name, (lower, upper)) in enumerate(zip(OFF_ZERO.q_names, OFF_ZERO.limits.tolist(), strict=True)):
+    for k, (name, (lower, upper)) in enumerate(
+        zip(OFF_ZERO.q_names, OFF_ZERO.limits.tolist(), strict=True)
+    ):
         assert f"\n  q[{k}]  rad  '{name}', {lower:.6g} ... {upper:.6g}\n" in text
-    assert "J, 6 x 6 row by row: V = J dq. Rows omega x, y, z (rad/s), then v x, y, z (m/s), per unit of dq.\n" in text
-    assert "T = (R, p; 0, 1), 4 x 4 row by row: the pose of the tip in the base frame; p in m.\n" in text
+    assert (
+        "J, 6 x 6 row by row: V = J dq. Rows omega x, y, z (rad/s), then v x, y, z (m/s), per unit of dq.\n"
+        in text
+    )
+    assert (
+        "T = (R, p; 0, 1), 4 x 4 row by row: the pose of the tip in the base frame; p in m.\n"
+        in text
+    )
     slides = pk.load("stanford").chain()
-    assert re.findall(r"\n  q\[\d\]  (\w+)  ", emit.python(slides, "body")) == ["rad", "rad", "m", "rad", "rad", "rad"]
+    assert re.findall(r"\n  q\[\d\]  (\w+)  ", emit.python(slides, "body")) == [
+        "rad",
+        "rad",
+        "m",
+        "rad",
+        "rad",
+        "rad",
+    ]
 
 
 def test_float32_stays_float32():
-    T, J = module(emit.python(arm("mixed"), "body")).fk_jacobian_body(np.zeros((2, 5), np.float32), np)
+    T, J = module(emit.python(arm("mixed"), "body")).fk_jacobian_body(
+        np.zeros((2, 5), np.float32), np
+    )
     assert (T.dtype, J.dtype) == (np.float32, np.float32)
 
 
@@ -152,7 +192,8 @@ def test_a_hostile_name_changes_no_statement(name):
     assert text.isascii()
     assert all(line.isprintable() for line in text.splitlines())
     without_words, of_plain_name = (
-        ast.dump(ast.Module(ast.parse(t).body[1:], [])) for t in (text, emit.python(with_name("a"), "hybrid"))
+        ast.dump(ast.Module(ast.parse(t).body[1:], []))
+        for t in (text, emit.python(with_name("a"), "hybrid"))
     )
     assert without_words == of_plain_name
     module(text)
@@ -160,11 +201,13 @@ def test_a_hostile_name_changes_no_statement(name):
 
 def test_what_cannot_be_emitted_is_refused():
     with pytest.raises(
-        UnknownName, match=r"^frame: expected 'space', 'body', 'hybrid' or the index of a joint, got 'world'$"
+        UnknownName,
+        match=r"^frame: expected 'space', 'body', 'hybrid' or the index of a joint, got 'world'$",
     ):
         emit.python(arm("panda"), "world")
     with pytest.raises(
-        InputError, match=r"^frame: expected 'space', 'body', 'hybrid' or the index of a joint, 0 to 6, got 7$"
+        InputError,
+        match=r"^frame: expected 'space', 'body', 'hybrid' or the index of a joint, 0 to 6, got 7$",
     ):
         emit.python(arm("panda"), 7)
     with pytest.raises(InputError, match=r"^frame 'middle': the chain has no joint$"):
@@ -198,7 +241,8 @@ def test_jax_batches_maps_compiles_and_differentiates_it(name):
             gradient = jax.vmap(jax.jacobian(lambda x: made.fk(x, jnp)[:3, 3]))(x[:, 0])
             return *made.fk_jacobian_hybrid(x, jnp), mapped, gradient
 
-        # compiled once, as JAX would by itself compile each operation of the maps; the smallest as users would have it
+        # compiled once, as JAX would by itself compile each operation of the maps; the smallest as
+        # users would have it
         options = {} if name == "coupled" else {"xla_backend_optimization_level": 0}
         T, J, mapped, gradient = jax.jit(all_of_it, compiler_options=options)(q)
         wanted = expected(chain, "hybrid", q)
@@ -220,7 +264,9 @@ def test_pytorch_batches_maps_and_differentiates_it(name):
     wanted = expected(chain, "hybrid", q)
     close(T, wanted[0], chain, q)
     close(J, wanted[1], chain, q)
-    close(torch.func.vmap(torch.func.vmap(lambda x: made.fk(x, torch)))(given_q), wanted[0], chain, q)
+    close(
+        torch.func.vmap(torch.func.vmap(lambda x: made.fk(x, torch)))(given_q), wanted[0], chain, q
+    )
     gradient = torch.func.vmap(torch.func.jacrev(lambda x: made.fk(x, torch)[:3, 3]))(given_q[:, 0])
     close(gradient, position_gradient(chain, q[:, 0]), chain, q)
 
@@ -228,15 +274,21 @@ def test_pytorch_batches_maps_and_differentiates_it(name):
 def test_jax_and_pytorch_take_an_arm_without_joints():
     chain = arm("no joint")
     made = module(emit.python(chain, "body"))
-    libraries = [pytest.importorskip(name, reason=f"needs {name}") for name in ("jax.numpy", "torch")]
+    libraries = [
+        pytest.importorskip(name, reason=f"needs {name}") for name in ("jax.numpy", "torch")
+    ]
     for xp in libraries:
         T, J = made.fk_jacobian_body(xp.zeros((2, 0)), xp)
         assert tuple(J.shape) == (2, 6, 0)
-        assert np.abs(np.asarray(T) - chain.home).max() <= 1e-6  # float32 is what both make by themselves
+        assert (
+            np.abs(np.asarray(T) - chain.home).max() <= 1e-6
+        )  # float32 is what both make by themselves
 
 
 def close(got, wanted, chain, q):
-    """Whether arrays of another library are what the chain computes: its sines may be off by some units (4 u)."""
+    """Whether arrays of another library are what the chain computes: its sines may be off by some
+    units (4 u).
+    """
     got = np.asarray(got)
     assert (got.shape, got.dtype) == (wanted.shape, wanted.dtype)
     assert np.abs(got - wanted).max() <= 2 * bound(chain, q)

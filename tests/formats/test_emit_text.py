@@ -1,4 +1,6 @@
-"""Emitted C and Python of one small arm, written out: what is compiled and run elsewhere, here letter by letter."""
+"""Emitted C and Python of one small arm, written out: what is compiled and run elsewhere, here
+letter by letter.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,14 @@ from .emitted import bound
 HOME = [[1, 0, 0, 0.5], [0, 1, 0, 0], [0, 0, 1, 0.25], [0, 0, 0, 1]]
 LISTS = str.maketrans("{}", "[]")
 TURN, SLIDE = [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]
-POLAR = pk.Chain([TURN, SLIDE], HOME, limits=[[-1, 2.5], [0, 1]], joint_names=["turn", "slide"], base="w", tip="t")
+POLAR = pk.Chain(
+    [TURN, SLIDE],
+    HOME,
+    limits=[[-1, 2.5], [0, 1]],
+    joint_names=["turn", "slide"],
+    base="w",
+    tip="t",
+)
 
 HEADER = """\
 /*
@@ -229,8 +238,12 @@ def test_the_source_defines_them_as_straight_lines():
     # without an angle there is no sine to take
     assert "double *J)\n{\n    rod_jacobian_body_sincos(q, q, q, J);\n}\n" in source
     single = emit.c(POLAR, "body", name="rod", real="float").source
-    assert FK.replace("double", "float").replace("sin(x)", "sinf(x)").replace("cos(x)", "cosf(x)") == re.sub(
-        r"(\d\.\d+)f", r"\1", single[single.index("void rod_fk_angles") : single.index("\n\nvoid rod_jacobian")]
+    assert FK.replace("double", "float").replace("sin(x)", "sinf(x)").replace(
+        "cos(x)", "cosf(x)"
+    ) == re.sub(
+        r"(\d\.\d+)f",
+        r"\1",
+        single[single.index("void rod_fk_angles") : single.index("\n\nvoid rod_jacobian")],
     )
 
 
@@ -243,8 +256,14 @@ def test_the_self_test_compares_every_result_with_the_chain_s():
         " error\n * allowed, which is 1.07e-14 (1, m or m per rad), and exits with 0 if that is kept, else with 1.\n"
         " */\n"
     )
-    tables = re.findall(r"static const double (\w+)\[VECTORS\]\[(\d+)\] = \{\n(.*?)\n\};", text, flags=re.DOTALL)
-    assert [(name, int(width)) for name, width, _ in tables] == [("Q", 2), ("T_EXPECTED", 16), ("J_EXPECTED", 12)]
+    tables = re.findall(
+        r"static const double (\w+)\[VECTORS\]\[(\d+)\] = \{\n(.*?)\n\};", text, flags=re.DOTALL
+    )
+    assert [(name, int(width)) for name, width, _ in tables] == [
+        ("Q", 2),
+        ("T_EXPECTED", 16),
+        ("J_EXPECTED", 12),
+    ]
     q, T, J = (np.array(json.loads(f"[{rows}]".translate(LISTS))) for _, _, rows in tables)
     assert np.abs(T - POLAR.fk(q).reshape(8, 16)).max() <= bound(POLAR, q)
     assert np.abs(J - POLAR.jacobian(q, "body").reshape(8, 12)).max() <= bound(POLAR, q)
@@ -260,7 +279,10 @@ def test_python_is_the_same_lines_on_arrays():
     assert text.startswith(
         '"""The kinematics of one serial arm as straight-line code. Generated: change the arm instead.\n\nfk: 2 mult'
     )
-    assert "\nJ is the body Jacobian: axes of the tip, v of the origin of the tip.\n\nq is (..., m), an array" in text
+    assert (
+        "\nJ is the body Jacobian: axes of the tip, v of the origin of the tip.\n\nq is (..., m), an array"
+        in text
+    )
     assert 'torch.\n"""\n\n\ndef fk' in text
     assert PYTHON_FK in text
     assert PYTHON_JACOBIAN in text

@@ -1,4 +1,6 @@
-"""The test vectors of an emitted self-test: coordinates, what the chain computes there, and the error allowed."""
+"""The test vectors of an emitted self-test: coordinates, what the chain computes there, and the
+error allowed.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ def test_they_begin_at_zero_and_reach_over_half_a_turn_and_a_metre(kind):
     np.testing.assert_array_equal(q, vectors(arm("mixed").compile(), "space", kind).q)
 
 
-@pytest.mark.parametrize("name, frame", [*(("mixed", frame) for frame in (*FRAMES, 1)), ("coupled", "body")])
+@pytest.mark.parametrize(
+    "name, frame", [*(("mixed", frame) for frame in (*FRAMES, 1)), ("coupled", "body")]
+)
 def test_they_hold_what_the_chain_computes_and_twice_its_bound(name, frame):
     chain = arm(name)
     q, T, J, tolerance = vectors(chain.compile(), frame, np.float64)

@@ -1,4 +1,6 @@
-"""What emitted texts say about an arm: sizes, units, limits, frames, angles, and names that cannot end a comment."""
+"""What emitted texts say about an arm: sizes, units, limits, frames, angles, and names that cannot
+end a comment.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +8,9 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.formats.emit import words
+from poekin.formats.emit import messages
+from poekin.formats.emit.messages import about, angle_words, quoted, tasks
 from poekin.formats.emit.statements import by_outputs
-from poekin.formats.emit.words import about, angle_words, quoted, tasks
 
 from .emitted import arm
 
@@ -56,10 +58,21 @@ def test_the_frame_of_the_jacobian_is_told(frame, says):
 
 def test_angles_are_sums_of_a_base_coordinates_and_an_offset():
     coupled = tasks(arm("coupled").compile(), "body")
-    assert angle_words(coupled[0]) == ["x[0] = q[0] + 0.626388", "x[1] = 2 q[0] + -1 q[1] + 0.0267391"]
+    assert angle_words(coupled[0]) == [
+        "x[0] = q[0] + 0.626388",
+        "x[1] = 2 q[0] + -1 q[1] + 0.0267391",
+    ]
     assert [task.name for task in coupled] == ["fk", "jacobian_body", "fk_jacobian_body"]
-    assert [(task.pose, task.jacobian) for task in coupled] == [(True, False), (False, True), (True, True)]
-    assert [task.name for task in tasks(CRANE.compile(), 1)] == ["fk", "jacobian_joint1", "fk_jacobian_joint1"]
+    assert [(task.pose, task.jacobian) for task in coupled] == [
+        (True, False),
+        (False, True),
+        (True, True),
+    ]
+    assert [task.name for task in tasks(CRANE.compile(), 1)] == [
+        "fk",
+        "jacobian_joint1",
+        "fk_jacobian_joint1",
+    ]
     ur = tasks(pk.load("ur5e").chain().compile(), "body")[0]
     assert angle_words(ur)[4:] == ["x[4] = q[1] + q[2]", "x[5] = x[4] + q[3]"]
 
@@ -80,9 +93,9 @@ def test_the_pose_is_written_row_by_row_and_the_jacobian_after_it():
 
 def test_the_middle_frame_has_its_pose_in_the_frame_of_its_joint():
     fast = arm("panda").compile()
-    k, T = words.jacobian_frame(fast, "middle")
+    k, T = messages.jacobian_frame(fast, "middle")
     assert k == fast.middle.joint
     np.testing.assert_array_equal(T, fast.middle.T_km)
-    k, T = words.jacobian_frame(fast, 3)
+    k, T = messages.jacobian_frame(fast, 3)
     assert k == 3
     np.testing.assert_array_equal(T, np.eye(4))

@@ -13,7 +13,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from poekin.errors import FileError, InputError, MissingExtra, ModelError, PoekinWarning, UnknownName
+from poekin.errors import (
+    FileError,
+    InputError,
+    MissingExtra,
+    ModelError,
+    PoekinWarning,
+    UnknownName,
+)
 from poekin.formats import catalogue, erd, load
 from poekin.formats.dh.published_tables import NAMES as TABLES
 from poekin.model.robot import Robot
@@ -36,7 +43,14 @@ def x(alpha: float, a: float) -> np.ndarray:
 
 def panda(q: list[float]) -> np.ndarray:
     """Pose of the Panda's flange from Franka's table, modified (Craig) convention: a, d, alpha."""
-    rows = [(0, 0.333, 0), (0, 0, -HALF), (0, 0.316, HALF), (0.0825, 0, HALF), (-0.0825, 0.384, -HALF), (0, 0, HALF)]
+    rows = [
+        (0, 0.333, 0),
+        (0, 0, -HALF),
+        (0, 0.316, HALF),
+        (0.0825, 0, HALF),
+        (-0.0825, 0.384, -HALF),
+        (0, 0, HALF),
+    ]
     T = np.eye(4)
     for (a, d, alpha), theta in zip([*rows, (0.088, 0, HALF)], q, strict=True):
         T = T @ x(alpha, a) @ z(theta, d)
@@ -45,7 +59,14 @@ def panda(q: list[float]) -> np.ndarray:
 
 def ur5e(q: list[float]) -> np.ndarray:
     """Pose of the UR5e's flange from Universal Robots' table, standard convention: a, d, alpha."""
-    rows = [(0, 0.1625, HALF), (-0.425, 0, 0), (-0.3922, 0, 0), (0, 0.1333, HALF), (0, 0.0997, -HALF), (0, 0.0996, 0)]
+    rows = [
+        (0, 0.1625, HALF),
+        (-0.425, 0, 0),
+        (-0.3922, 0, 0),
+        (0, 0.1333, HALF),
+        (0, 0.0997, -HALF),
+        (0, 0.0996, 0),
+    ]
     T = np.eye(4)
     for (a, d, alpha), theta in zip(rows, q, strict=True):
         T = T @ z(theta, d) @ x(alpha, a)
@@ -55,14 +76,25 @@ def ur5e(q: list[float]) -> np.ndarray:
 def stanford(q: list[float]) -> np.ndarray:
     """Pose of the Stanford arm's tool from Paul's table, standard convention: theta, d, alpha."""
     q1, q2, q3, q4, q5, q6 = q
-    rows = [(q1, 0.412, -HALF), (q2, 0.154, HALF), (-HALF, q3, 0), (q4, 0, -HALF), (q5, 0, HALF), (q6, 0.263, 0)]
+    rows = [
+        (q1, 0.412, -HALF),
+        (q2, 0.154, HALF),
+        (-HALF, q3, 0),
+        (q4, 0, -HALF),
+        (q5, 0, HALF),
+        (q6, 0.263, 0),
+    ]
     T = np.eye(4)
     for theta, d, alpha in rows:
         T = T @ z(theta, d) @ x(alpha, 0)
     return T
 
 
-ARMS = {"panda": (panda, "panda_link8", 7), "ur5e": (ur5e, "tool0", 6), "stanford": (stanford, "tool", 6)}
+ARMS = {
+    "panda": (panda, "panda_link8", 7),
+    "ur5e": (ur5e, "tool0", 6),
+    "stanford": (stanford, "tool", 6),
+}
 
 
 @pytest.mark.parametrize("name", ARMS)
@@ -79,7 +111,9 @@ def test_a_built_in_arm_agrees_with_the_makers_table(name, data):
 def test_an_error_of_a_tenth_of_a_millimetre_in_an_arm_would_be_found(name, monkeypatch):
     table, tip, count = ARMS[name]
     q = [0.3] * count
-    monkeypatch.setattr("tests.formats.test_load.z", lambda theta, d, right=z: right(theta, d + 1e-4))
+    monkeypatch.setattr(
+        "tests.formats.test_load.z", lambda theta, d, right=z: right(theta, d + 1e-4)
+    )
     assert np.abs(load(name).chain(tip=tip).fk(q) - table(q)).max() > 1e-5
 
 
@@ -103,7 +137,14 @@ def test_the_pandas_fingers_open_together():
 
 
 def test_an_arm_slides():
-    assert load("stanford").chain().kinds == ("revolute", "revolute", "prismatic", "revolute", "revolute", "revolute")
+    assert load("stanford").chain().kinds == (
+        "revolute",
+        "revolute",
+        "prismatic",
+        "revolute",
+        "revolute",
+        "revolute",
+    )
 
 
 def test_a_path_is_a_text_or_a_path_object(tmp_path):
@@ -125,7 +166,9 @@ def test_an_existing_file_comes_before_a_built_in_name_and_a_folder_does_not(tmp
         load("robots")
 
 
-@pytest.mark.parametrize("name", ["gone.urdf", "robots/panda", "./panda", "a\0b.urdf", "\x1b[31m.urdf", "ARM.URDF"])
+@pytest.mark.parametrize(
+    "name", ["gone.urdf", "robots/panda", "./panda", "a\0b.urdf", "\x1b[31m.urdf", "ARM.URDF"]
+)
 def test_a_path_that_does_not_exist_is_refused_as_a_file(name):
     with pytest.raises(FileError, match="no such file") as caught:
         load(name)
@@ -134,7 +177,9 @@ def test_a_path_that_does_not_exist_is_refused_as_a_file(name):
 
 @pytest.mark.parametrize("name", ["pnda", "", "erd", "\x1b[31m", "a\0b"])
 def test_an_unknown_name_is_answered_with_those_that_exist(name):
-    with pytest.raises(UnknownName, match=r"built in: cobra600, .*panda, .*ur5e; \"erd:NAME\"") as caught:
+    with pytest.raises(
+        UnknownName, match=r"built in: cobra600, .*panda, .*ur5e; \"erd:NAME\""
+    ) as caught:
         load(name)
     assert str(caught.value).isprintable()
     with pytest.raises(UnknownName) as caught:
@@ -186,15 +231,22 @@ needs_robots = pytest.mark.skipif(not robots(), reason="example-robot-data is no
 def test_a_robot_of_example_robot_data_is_found_by_its_name():
     assert load("erd:panda").name == "panda"
     assert load("erd:panda") == load(erd.available()["panda"])
-    with pytest.raises(UnknownName, match=r"no robot 'tallos_left_arm'; did you mean 'talos_left_arm'"):
+    with pytest.raises(
+        UnknownName, match=r"no robot 'tallos_left_arm'; did you mean 'talos_left_arm'"
+    ):
         load("erd:tallos_left_arm")
 
 
 @needs_robots
 def test_a_name_that_two_robots_share_needs_the_folder():
-    with pytest.raises(UnknownName, match=r"one of 'anymal_b_simple_description/anymal', 'anymal_c_simple_desc"):
+    with pytest.raises(
+        UnknownName, match=r"one of 'anymal_b_simple_description/anymal', 'anymal_c_simple_desc"
+    ):
         load("erd:anymal")
-    b, c = load("erd:anymal_b_simple_description/anymal"), load("erd:anymal_c_simple_description/anymal")
+    b, c = (
+        load("erd:anymal_b_simple_description/anymal"),
+        load("erd:anymal_c_simple_description/anymal"),
+    )
     assert b != c
 
 
@@ -227,8 +279,15 @@ def test_every_robot_of_example_robot_data_is_read_and_the_empty_one_is_refused(
     joints = [joint for robot in loaded.values() for joint in robot.joints]
     chains = [robot.chain(tip=leaf) for robot in loaded.values() for leaf in robot.leaves]
     assert len(loaded) == 68
-    assert Counter(j.kind for j in joints) == {"revolute": 1190, "fixed": 849, "continuous": 27, "prismatic": 15}
-    assert sum(j.mimic is not None for j in joints) == 120 - 8  # eight mimic joints that do not exist
+    assert Counter(j.kind for j in joints) == {
+        "revolute": 1190,
+        "fixed": 849,
+        "continuous": 27,
+        "prismatic": 15,
+    }
+    assert (
+        sum(j.mimic is not None for j in joints) == 120 - 8
+    )  # eight mimic joints that do not exist
     assert len(chains) == 721
     assert sum(not chain.kinds for chain in chains) == 136
     assert max(len(chain.kinds) for chain in chains) == 15
@@ -244,9 +303,11 @@ def test_every_robot_of_example_robot_data_is_read_and_the_empty_one_is_refused(
 
 
 @needs_robots
-@pytest.mark.parametrize("name", ["panda", "tiago", "romeo", "anymal-kinova", "alex_psyonic_hands", "pr2"])
+@pytest.mark.parametrize(
+    "name", ["panda", "tiago", "romeo", "anymal-kinova", "alex_psyonic_hands", "pr2"]
+)
 def test_all_links_of_a_robot_are_where_pinocchio_puts_them(name):
-    oracles = pytest.importorskip("poekin.testing.pinocchio_oracle")
+    oracles = pytest.importorskip("poekin.testing.oracles.pinocchio_oracle")
     pytest.importorskip("pinocchio")
     oracle = oracles.PinocchioOracle(pathlib.Path(robots()[name]).read_bytes())
     with warnings.catch_warnings():
@@ -256,7 +317,9 @@ def test_all_links_of_a_robot_are_where_pinocchio_puts_them(name):
     found, expected = robot.fk(q), oracle.link_poses(q)
     assert set(found) == set(expected)
     for link in robot.links:
-        assert np.abs(found[link] - expected[link]).max() <= 2e-14 * max(1.0, np.abs(expected[link][:, :3, 3]).max())
+        assert np.abs(found[link] - expected[link]).max() <= 2e-14 * max(
+            1.0, np.abs(expected[link][:, :3, 3]).max()
+        )
 
 
 @needs_robots
@@ -267,4 +330,6 @@ def test_the_built_in_panda_is_the_panda():
     named = dict(zip(ours.q_names, q.T, strict=True))
     mine, other = ours.fk(q), theirs.fk({name: named.get(name, 0.0) for name in theirs.q_names})
     for link in ours.links:
-        assert np.abs(mine[link] - other[link]).max() <= 1e-10  # the other one rounds its right angles
+        assert (
+            np.abs(mine[link] - other[link]).max() <= 1e-10
+        )  # the other one rounds its right angles

@@ -1,4 +1,6 @@
-"""Objects of other libraries: Modern Robotics' pairs, what is refused, and the lines that give poekin's models back."""
+"""Objects of other libraries: Modern Robotics' pairs, what is refused, and the lines that give
+poekin's models back.
+"""
 
 from __future__ import annotations
 
@@ -14,11 +16,12 @@ from hypothesis import given
 from poekin.errors import InputError, PoseError, ScrewError, ShapeError
 from poekin.formats.objects import from_object
 from poekin.formats.objects.attributes import type_name
-from poekin.testing.chain_strategies import chain_cases
+from poekin.testing.strategies.chain_strategies import chain_cases
 from tests.groups.test_objects import Spatial, library
 
 CASES = chain_cases(("q",), coupled=False)
-# The matrices of up to a dozen joints multiplied in another order, each rounding by u of the reach, times the turn.
+# The matrices of up to a dozen joints multiplied in another order, each rounding by u of the reach,
+# times the turn.
 ROUNDING = 1e-13
 
 
@@ -57,11 +60,26 @@ def test_one_screw_may_be_a_vector_and_the_home_pose_an_object():
 @pytest.mark.parametrize(
     ("pair", "frame", "error", "message"),
     [
-        ((np.eye(4), np.zeros((3, 6))), None, ShapeError, r"expected shape \(6, n\), .*got \(3, 6\): transpose it"),
-        ((np.eye(4), np.zeros((4, 4))), None, ShapeError, r"expected shape \(6, n\), .*got \(4, 4\)$"),
+        (
+            (np.eye(4), np.zeros((3, 6))),
+            None,
+            ShapeError,
+            r"expected shape \(6, n\), .*got \(3, 6\): transpose it",
+        ),
+        (
+            (np.eye(4), np.zeros((4, 4))),
+            None,
+            ShapeError,
+            r"expected shape \(6, n\), .*got \(4, 4\)$",
+        ),
         ((np.eye(4), [[0, 0, 2, 0, 0, 0]] * 6), None, ScrewError, r"screws\[0\]"),
         ((np.ones((4, 4)), np.eye(6)[:, 2:3]), None, PoseError, r"home"),
-        ((np.eye(4), np.eye(6)), "tool", InputError, r"frame: expected 'space' or 'body', got 'tool'"),
+        (
+            (np.eye(4), np.eye(6)),
+            "tool",
+            InputError,
+            r"frame: expected 'space' or 'body', got 'tool'",
+        ),
     ],
     ids=["transposed", "two poses", "no unit screw", "no pose", "no such frame"],
 )
@@ -92,7 +110,8 @@ def test_what_is_not_known_is_refused_by_its_type_and_told_what_is(thing, name):
 def test_a_frame_is_that_of_a_pair():
     joint = SimpleNamespace(isjoint=True, axis="Rz", A=None)
     with pytest.raises(
-        InputError, match=r"^frame: it is that of a pair \(M, screws\), and this is a Robotics Toolbox ETS$"
+        InputError,
+        match=r"^frame: it is that of a pair \(M, screws\), and this is a Robotics Toolbox ETS$",
     ):
         from_object([joint], frame="body")
 
@@ -107,7 +126,8 @@ def test_no_other_library_is_imported_for_it():
     assert done.stdout.strip() == "[]"
 
 
-# The documentation's lines *to* other libraries, executed as they stand there: what they need, the line, what it makes.
+# The documentation's lines *to* other libraries, executed as they stand there: what they need, the
+# line, what it makes.
 GIVEN = """
 import numpy as np
 import poekin as pk

@@ -1,4 +1,6 @@
-"""Pinocchio's Model as a Robot: every frame where Pinocchio has it, and the links and joints of the URDF behind it."""
+"""Pinocchio's Model as a Robot: every frame where Pinocchio has it, and the links and joints of the
+URDF behind it.
+"""
 
 from __future__ import annotations
 
@@ -15,12 +17,12 @@ import poekin as pk
 from poekin.errors import ModelError, PoekinWarning, PoseError
 from poekin.formats import urdf
 from poekin.formats.objects import from_object
-from poekin.testing import strategies
-from poekin.testing.example_robots import example_robots
+from poekin.testing.cases.example_robots import example_robots
+from poekin.testing.strategies import group_strategies
 from tests.groups.test_objects import library
 from tests.versions import needs
 
-POSES = strategies.poses(lengths=(1e-3, 2.0))
+POSES = group_strategies.poses(lengths=(1e-3, 2.0))
 HALF = [0.6, 0.8, 0.0]
 # Two products of up to 40 poses in another order, each rounding by u of the distance from the root.
 ROUNDING = 1e-14
@@ -32,7 +34,9 @@ def pinocchio():
 
 
 def configuration(model, robot, x) -> np.ndarray:
-    """Pinocchio's own q for values of the robot's coordinates: a continuous joint has its cosine and its sine."""
+    """Pinocchio's own q for values of the robot's coordinates: a continuous joint has its cosine
+    and its sine.
+    """
     q, values = pinocchio().neutral(model), iter(x)
     for joint in list(model.joints)[1:]:
         if joint.shortname() in ("JointModelFreeFlyer", "JointModelPlanar"):
@@ -77,7 +81,9 @@ UNBOUNDED = """<robot name="r"><link name="a"/><link name="b"/><joint name="j" t
 
 def makers() -> dict[str, Any]:
     pin = pinocchio()
-    composite = pin.JointModelComposite(pin.JointModelRZ(), pin.SE3(pk.se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])))
+    composite = pin.JointModelComposite(
+        pin.JointModelRZ(), pin.SE3(pk.se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]))
+    )
     composite.addJoint(pin.JointModelPY(), pin.SE3(pk.se3.exp([-0.3, 0.2, 0.1, 0.6, 0.5, 0.4])))
     composite.addJoint(
         pin.JointModelUniversal(np.array([1.0, 0, 0]), np.array([0, 1.0, 0])),
@@ -85,10 +91,16 @@ def makers() -> dict[str, Any]:
     )
     axis = np.array(HALF)
     return {
-        **{name: getattr(pin, f"JointModel{name}")() for name in ("RX", "RY", "RZ", "PX", "PY", "PZ")},
+        **{
+            name: getattr(pin, f"JointModel{name}")()
+            for name in ("RX", "RY", "RZ", "PX", "PY", "PZ")
+        },
         **{name: getattr(pin, f"JointModel{name}")() for name in ("RUBX", "RUBY", "RUBZ")},
         **{name: getattr(pin, f"JointModel{name}")(0.3) for name in ("HX", "HY", "HZ")},
-        **{f"{name}Unaligned": getattr(pin, f"JointModel{name}Unaligned")(axis) for name in ("Revolute", "Prismatic")},
+        **{
+            f"{name}Unaligned": getattr(pin, f"JointModel{name}Unaligned")(axis)
+            for name in ("Revolute", "Prismatic")
+        },
         "RevoluteUnboundedUnaligned": pin.buildModelFromXML(UNBOUNDED).joints[1].extract(),
         "HelicalUnaligned": pin.JointModelHelicalUnaligned(axis, -0.2),
         "Universal": pin.JointModelUniversal(np.array([1.0, 0, 0]), np.array([0, 0.6, 0.8])),
@@ -99,15 +111,37 @@ def makers() -> dict[str, Any]:
 
 
 TYPES = (
-    *("RX", "RY", "RZ", "PX", "PY", "PZ", "RUBX", "RUBY", "RUBZ", "HX", "HY", "HZ", "RevoluteUnaligned"),
-    *("PrismaticUnaligned", "RevoluteUnboundedUnaligned", "HelicalUnaligned", "Universal", "SphericalZYX"),
+    *(
+        "RX",
+        "RY",
+        "RZ",
+        "PX",
+        "PY",
+        "PZ",
+        "RUBX",
+        "RUBY",
+        "RUBZ",
+        "HX",
+        "HY",
+        "HZ",
+        "RevoluteUnaligned",
+    ),
+    *(
+        "PrismaticUnaligned",
+        "RevoluteUnboundedUnaligned",
+        "HelicalUnaligned",
+        "Universal",
+        "SphericalZYX",
+    ),
     *("Translation", "Composite"),
 )
 
 
 @st.composite
 def models(draw):
-    """Models of all joint types in any tree, with and without the joints' own frames, and frames of all kinds."""
+    """Models of all joint types in any tree, with and without the joints' own frames, and frames of
+    all kinds.
+    """
     pin, kinds = pinocchio(), makers()
     model = pin.Model()
     for i in range(draw(st.integers(0, 6))):
@@ -116,9 +150,17 @@ def models(draw):
         joint = model.addJoint(parent, kind, pin.SE3(draw(POSES).copy()), f"j{i}")
         if draw(st.booleans()):
             model.addJointFrame(joint, -1)
-    types = (pin.FrameType.BODY, pin.FrameType.OP_FRAME, pin.FrameType.FIXED_JOINT, pin.FrameType.SENSOR)
+    types = (
+        pin.FrameType.BODY,
+        pin.FrameType.OP_FRAME,
+        pin.FrameType.FIXED_JOINT,
+        pin.FrameType.SENSOR,
+    )
     for i in range(draw(st.integers(0, 5))):
-        joint, above = draw(st.integers(0, model.njoints - 1)), draw(st.integers(0, len(model.frames) - 1))
+        joint, above = (
+            draw(st.integers(0, model.njoints - 1)),
+            draw(st.integers(0, len(model.frames) - 1)),
+        )
         placement = pin.SE3.Identity() if draw(st.booleans()) else pin.SE3(draw(POSES).copy())
         model.addFrame(pin.Frame(f"f{i}", joint, above, placement, draw(st.sampled_from(types))))
     return model
@@ -153,7 +195,9 @@ def urdfs() -> dict[str, str]:
 ROBOTS = urdfs()
 
 
-@pytest.mark.skipif(not ROBOTS, reason="example-robot-data is not installed: none of its models can be built")
+@pytest.mark.skipif(
+    not ROBOTS, reason="example-robot-data is not installed: none of its models can be built"
+)
 @pytest.mark.filterwarnings("ignore::poekin.errors.PoekinWarning")
 @pytest.mark.parametrize("name", sorted(ROBOTS))
 def test_a_model_built_from_a_urdf_is_the_robot_of_that_urdf(name):
@@ -210,7 +254,9 @@ def test_a_planar_joint_is_planar_in_its_own_x_and_y():
     pin.framesForwardKinematics(model, data, np.array([0.2, 0.3, c, s]))
     T = np.array([[c, -s, 0, 0.2], [s, c, 0, 0.3], [0, 0, 1, 0], [0, 0, 0, 1.0]])
     assert (robot.joint("p").kind, robot.joint("p").axis) == ("planar", (0, 0, 1))
-    np.testing.assert_allclose(robot.fk([], {"p": T})["p"], data.oMf[1].homogeneous, rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(
+        robot.fk([], {"p": T})["p"], data.oMf[1].homogeneous, rtol=0, atol=ROUNDING
+    )
 
 
 @pytest.mark.parametrize("kind", ["Spherical", "Ellipsoid"])
@@ -220,7 +266,9 @@ def test_a_joint_that_robot_has_no_kind_for_is_refused_by_name(kind):
         pytest.skip(f"this version of Pinocchio has no joint of type {kind}")
     model = pin.Model()
     model.addJoint(0, getattr(pin, f"JointModel{kind}")(), pin.SE3.Identity(), "hip")
-    with pytest.raises(ModelError, match=rf"joint 'hip': a Pinocchio joint of type '{kind}' has no counterpart"):
+    with pytest.raises(
+        ModelError, match=rf"joint 'hip': a Pinocchio joint of type '{kind}' has no counterpart"
+    ):
         from_object(model)
 
 
@@ -229,7 +277,11 @@ def test_a_model_with_locked_joints_keeps_their_frames():
     model = pin.buildModelFromXML(MIMIC)
     reduced = pin.buildReducedModel(model, [model.getJointId("b")], np.array([0.1, 0.7, 0.2]))
     robot = from_object(reduced)
-    assert (robot.q_names, robot.joint("b").kind, robot.joint("b").child) == (("a", "c"), "fixed", "l2")
+    assert (robot.q_names, robot.joint("b").kind, robot.joint("b").child) == (
+        ("a", "c"),
+        "fixed",
+        "l2",
+    )
     assert error(reduced, robot, np.array([0.4, -0.2])) <= ROUNDING
 
 
@@ -241,7 +293,11 @@ def placed(x=0.0) -> Any:
 
 def frame(name: str, kind: str, joint: int, above: int, x: float = 0.0) -> Any:
     return SimpleNamespace(
-        name=name, type=SimpleNamespace(name=kind), parentJoint=joint, parentFrame=above, placement=placed(x)
+        name=name,
+        type=SimpleNamespace(name=kind),
+        parentJoint=joint,
+        parentFrame=above,
+        placement=placed(x),
     )
 
 
@@ -272,7 +328,8 @@ def test_a_model_of_pinocchio_2_is_refused():
     model = stand_in()
     del model.frames[3].parentFrame
     with pytest.raises(
-        ModelError, match=r"^expected a model of Pinocchio 3 or newer; its frame 'arm' has no parentFrame$"
+        ModelError,
+        match=r"^expected a model of Pinocchio 3 or newer; its frame 'arm' has no parentFrame$",
     ):
         from_object(model)
 
@@ -284,7 +341,8 @@ def test_limits_that_bound_nothing_are_none(limits):
 
 def test_equal_limits_are_none_and_said():
     with pytest.warns(
-        PoekinWarning, match=r"^joints without usable limits are taken as unlimited: 'j' \(equal, 0\.0\)$"
+        PoekinWarning,
+        match=r"^joints without usable limits are taken as unlimited: 'j' \(equal, 0\.0\)$",
     ):
         assert from_object(stand_in(limits=(0.0, 0.0))).limits.tolist() == [[-math.inf, math.inf]]
 
@@ -296,9 +354,15 @@ def test_an_axis_that_a_joint_does_not_have_itself_is_read_off_its_motion_subspa
     ).joint("j")
     assert (joint.kind, joint.axis) == ("continuous", tuple(HALF))
     with pytest.raises(
-        ModelError, match=r"^joint 'j': Pinocchio does not tell the axis of this 'RevoluteUnboundedUnaligned' joint$"
+        ModelError,
+        match=r"^joint 'j': Pinocchio does not tell the axis of this 'RevoluteUnboundedUnaligned' joint$",
     ):
-        from_object(stand_in("JointModelRevoluteUnboundedUnaligned", createData=lambda: SimpleNamespace(S=np.zeros(6))))
+        from_object(
+            stand_in(
+                "JointModelRevoluteUnboundedUnaligned",
+                createData=lambda: SimpleNamespace(S=np.zeros(6)),
+            )
+        )
 
 
 def test_frames_and_joints_of_one_name_get_names_of_their_own():
@@ -345,7 +409,9 @@ def test_a_joint_s_frame_that_is_not_in_the_joint_s_place_is_a_link_on_it():
 def test_a_placement_that_is_no_pose_is_refused_with_its_frame():
     model = stand_in()
     model.frames[2].placement = np.eye(4) * 2
-    with pytest.raises(PoseError, match=rf"^placement of frame '{model.frames[2].name}' is no pose: "):
+    with pytest.raises(
+        PoseError, match=rf"^placement of frame '{model.frames[2].name}' is no pose: "
+    ):
         from_object(model)
 
 

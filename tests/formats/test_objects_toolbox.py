@@ -1,4 +1,6 @@
-"""Robotics Toolbox's DHRobot, Robot and ETS: as it moves them itself, and by stand-ins with the same attributes."""
+"""Robotics Toolbox's DHRobot, Robot and ETS: as it moves them itself, and by stand-ins with the
+same attributes.
+"""
 
 from __future__ import annotations
 
@@ -15,13 +17,14 @@ import poekin as pk
 from poekin.errors import InputError, ModelError, PoseError, ShapeError
 from poekin.formats.objects import from_object, table_of
 from poekin.formats.objects.attributes import items_of
-from poekin.testing import strategies
+from poekin.testing.strategies import group_strategies
 from tests.formats.test_dh import largest, tables
 from tests.groups.test_objects import Spatial, library
 
-POSES = strategies.poses(lengths=(1e-3, 2.0))
+POSES = group_strategies.poses(lengths=(1e-3, 2.0))
 AXES = ("Rx", "Ry", "Rz", "tx", "ty", "tz")
-# Both sides multiply matrices in float64, one rounding of the whole a joint or transform: up to 40 of them.
+# Both sides multiply matrices in float64, one rounding of the whole a joint or transform: up to 40
+# of them.
 ROUNDING = 1e-14
 
 
@@ -43,7 +46,9 @@ def link_of(row, modified) -> Any:
 
 def robot_of(table) -> Any:
     links = [link_of(row, table.convention == "modified") for row in table.rows]
-    return SimpleNamespace(links=links, base=Spatial(table.base), tool=Spatial(table.tool), name=table.name)
+    return SimpleNamespace(
+        links=links, base=Spatial(table.base), tool=Spatial(table.tool), name=table.name
+    )
 
 
 @given(tables())
@@ -81,7 +86,9 @@ def test_a_dh_robot_of_the_toolbox_moves_as_it_says(table, seed):
     flips = [link.pop("isflip") for link in links]
     for link in links:  # the toolbox takes nothing but 0 for what it does not read
         link["d" if link["sigma"] else "theta"] = 0.0
-    robot = rtb.DHRobot([rtb.DHLink(flip=flip, **link) for link, flip in zip(links, flips, strict=True)])
+    robot = rtb.DHRobot(
+        [rtb.DHLink(flip=flip, **link) for link, flip in zip(links, flips, strict=True)]
+    )
     robot.base, robot.tool = SE3(table.base, check=False), SE3(table.tool, check=False)
     chain = from_object(robot)
     q = np.random.default_rng(seed).uniform(-np.pi, np.pi, len(table))
@@ -90,8 +97,34 @@ def test_a_dh_robot_of_the_toolbox_moves_as_it_says(table, seed):
 
 # The catalogue as of the toolbox's 1.5.0; what another version lacks is not missed here.
 CATALOGUE = (
-    *("AL5D", "Ball", "Baxter", "Cobra600", "Coil", "Hyper", "Hyper3d", "IRB140", "Jaco", "KR5", "LWR4", "Mico"),
-    *("Orion5", "P8", "Panda", "Planar2", "Planar3", "Puma560", "Sawyer", "Stanford", "TwoLink", "UR10", "UR3", "UR5"),
+    *(
+        "AL5D",
+        "Ball",
+        "Baxter",
+        "Cobra600",
+        "Coil",
+        "Hyper",
+        "Hyper3d",
+        "IRB140",
+        "Jaco",
+        "KR5",
+        "LWR4",
+        "Mico",
+    ),
+    *(
+        "Orion5",
+        "P8",
+        "Panda",
+        "Planar2",
+        "Planar3",
+        "Puma560",
+        "Sawyer",
+        "Stanford",
+        "TwoLink",
+        "UR10",
+        "UR3",
+        "UR5",
+    ),
 )
 
 
@@ -136,7 +169,9 @@ def et(axis: str, value: float | None = None, **more: Any) -> Any:
 
 @st.composite
 def sequences(draw):
-    """Elementary transforms: joints of any `jindex`, more than one of the same too, flips, offsets, and constants."""
+    """Elementary transforms: joints of any `jindex`, more than one of the same too, flips, offsets,
+    and constants.
+    """
     values = st.one_of(st.none(), st.sampled_from([0.0, math.pi / 2]), st.floats(-2, 2))
     drawn = draw(st.lists(st.tuples(st.sampled_from(AXES), values), min_size=1, max_size=12))
     joints = [i for i, (_, value) in enumerate(drawn) if value is None]
@@ -170,7 +205,9 @@ def test_a_sequence_of_elementary_transforms_moves_as_their_product(sequence, se
     chain = from_object(stand_in(sequence))
     q = np.random.default_rng(seed).uniform(-np.pi, np.pi, chain.dof)
     # A joint's own slide of up to pi metres is not in the reach.
-    assert np.abs(chain.fk(q) - product(sequence, q)).max() <= ROUNDING * (chain.reach + 4 * len(sequence))
+    assert np.abs(chain.fk(q) - product(sequence, q)).max() <= ROUNDING * (
+        chain.reach + 4 * len(sequence)
+    )
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
@@ -179,7 +216,9 @@ def test_an_ets_of_the_toolbox_moves_as_it_says(sequence, seed):
     ET, ETS = toolbox().ET, toolbox().ETS
     made = []
     for axis, value, k, flip, offset in sequence:
-        made.append(getattr(ET, axis)(**({"jindex": k, "flip": flip} if value is None else {"eta": value})))
+        made.append(
+            getattr(ET, axis)(**({"jindex": k, "flip": flip} if value is None else {"eta": value}))
+        )
         if value is None and hasattr(made[-1], "offset"):  # since 1.5.0
             made[-1].offset = offset
     ets = ETS(made)
@@ -190,7 +229,9 @@ def test_an_ets_of_the_toolbox_moves_as_it_says(sequence, seed):
 
 
 def test_coordinates_of_an_ets_are_in_the_order_of_jindex_and_shared_ones_have_what_is_left_of_their_limits():
-    chain = from_object([et("Rz", jindex=4, qlim=[-2, 1]), et("tx", jindex=1), et("Rz", jindex=4, qlim=[-1, 3])])
+    chain = from_object(
+        [et("Rz", jindex=4, qlim=[-2, 1]), et("tx", jindex=1), et("Rz", jindex=4, qlim=[-1, 3])]
+    )
     assert chain.q_names == ("q1", "q4")
     assert chain.limits.tolist() == [[-math.inf, math.inf], [-1, 1]]
     assert chain.coupling.tolist() == [[0, 1], [1, 0], [0, 1]]
@@ -198,7 +239,9 @@ def test_coordinates_of_an_ets_are_in_the_order_of_jindex_and_shared_ones_have_w
 
 
 def test_a_joint_far_along_its_axis_is_revolute():
-    chain = from_object([et("Rx", 0.7), et("Ry", 0.4), et("tz", 1e6), et("Rz", jindex=0), et("tz", jindex=1)])
+    chain = from_object(
+        [et("Rx", 0.7), et("Ry", 0.4), et("tz", 1e6), et("Rz", jindex=0), et("tz", jindex=1)]
+    )
     assert chain.kinds == ("revolute", "prismatic")
 
 
@@ -233,8 +276,16 @@ def test_transforms_come_in_whatever_is_like_a_list_and_not_as_a_text():
 @pytest.mark.parametrize(
     ("ets", "error", "message"),
     [
-        ([et("Rz", 0.1), et("R")], InputError, "ETS, transform 1: expected one of Rx, Ry, Rz, tx, ty, tz, got 'R'"),
-        ([et("Rz", offset="a")], InputError, "ETS, transform 0: offset: expected real numbers, got str32 (str)"),
+        (
+            [et("Rz", 0.1), et("R")],
+            InputError,
+            "ETS, transform 1: expected one of Rx, Ry, Rz, tx, ty, tz, got 'R'",
+        ),
+        (
+            [et("Rz", offset="a")],
+            InputError,
+            "ETS, transform 0: offset: expected real numbers, got str32 (str)",
+        ),
         (
             [SimpleNamespace(isjoint=False, axis="SE2", A=lambda: np.eye(3))],
             ShapeError,
@@ -243,7 +294,9 @@ def test_transforms_come_in_whatever_is_like_a_list_and_not_as_a_text():
         (
             [SimpleNamespace(isjoint=False, axis="SE3", A=lambda: np.ones((4, 4)))],
             PoseError,
-            ("ETS, transform 0 is no pose: its last row is [1.0, 1.0, 1.0, 1.0], expected [0, 0, 0, 1]"),
+            (
+                "ETS, transform 0 is no pose: its last row is [1.0, 1.0, 1.0, 1.0], expected [0, 0, 0, 1]"
+            ),
         ),
         (
             [et("Rz", jindex=0, qlim=[1, 2]), et("Rz", jindex=0, qlim=[3, 4])],
@@ -251,7 +304,13 @@ def test_transforms_come_in_whatever_is_like_a_list_and_not_as_a_text():
             "limits: expected lower <= upper for 'q0', got 3.0 and 2.0",
         ),
     ],
-    ids=["planar joint", "text for offset", "planar constant", "no pose", "nothing left of the limits"],
+    ids=[
+        "planar joint",
+        "text for offset",
+        "planar constant",
+        "no pose",
+        "nothing left of the limits",
+    ],
 )
 def test_a_sequence_that_makes_no_sense_is_refused_with_the_place(ets, error, message):
     with pytest.raises(error) as caught:
@@ -261,7 +320,9 @@ def test_a_sequence_that_makes_no_sense_is_refused_with_the_place(ets, error, me
 
 def tree() -> Any:
     """A robot of the toolbox with a joint in the middle of a link, two of one jindex, and two ends."""
-    a = SimpleNamespace(name="a", parent=None, ets=[et("tz", 0.3), et("Rz", jindex=2, isflip=True), et("tx", 0.2)])
+    a = SimpleNamespace(
+        name="a", parent=None, ets=[et("tz", 0.3), et("Rz", jindex=2, isflip=True), et("tx", 0.2)]
+    )
     b = SimpleNamespace(name="b", parent=a, ets=[et("Ry", 0.4), et("tz", jindex=0, qlim=[-1, 1])])
     c = SimpleNamespace(name="base", parent=a, ets=[et("Rx", jindex=2), et("ty", jindex=1)])
     d = SimpleNamespace(name="d", parent=b, ets=[et("tx", 0.1)])
@@ -277,7 +338,9 @@ def test_a_tree_of_links_moves_as_the_products_of_their_transforms():
     for link in robot.links:
         T[link.name] = T[link.parent and link.parent.name]
         for one in link.ets:
-            T[link.name] = T[link.name] @ one.A(*([(-1) ** one.isflip * q[one.jindex]] if one.isjoint else []))
+            T[link.name] = T[link.name] @ one.A(
+                *([(-1) ** one.isflip * q[one.jindex]] if one.isjoint else [])
+            )
     assert (made.name, made.root, made.q_names) == ("tree", "base_", ("q0", "q1", "q2"))
     assert set(made.leaves) == {"d_tool", "base_tool"}
     assert made.limits[0].tolist() == [-1, 1]
@@ -295,7 +358,9 @@ def test_a_tree_whose_links_miss_their_parent_is_refused():
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-@pytest.mark.parametrize("name", ["Frankie", "GenericSeven", "Panda", "Planar_Y", "Puma560", "XYPanda"])
+@pytest.mark.parametrize(
+    "name", ["Frankie", "GenericSeven", "Panda", "Planar_Y", "Puma560", "XYPanda"]
+)
 def test_a_robot_of_the_toolbox_moves_as_it_says(name):
     robot = getattr(toolbox().models.ETS, name)()
     robot.base = library("spatialmath").SE3.Rx(0.3)
@@ -310,14 +375,18 @@ def test_links_of_both_conventions_are_refused():
     robot = robot_of(pk.dh.published("puma560"))
     robot.links[2].mdh = True
     with pytest.raises(
-        InputError, match=r"^types\.SimpleNamespace: its links mix the standard and the modified convention$"
+        InputError,
+        match=r"^types\.SimpleNamespace: its links mix the standard and the modified convention$",
     ):
         from_object(robot)
 
 
 def test_what_is_no_dh_robot_has_no_table():
     with pytest.raises(
-        InputError, match=(r"^expected a DHRobot with links that have alpha, a, d, theta, offset, sigma, mdh, got int$")
+        InputError,
+        match=(
+            r"^expected a DHRobot with links that have alpha, a, d, theta, offset, sigma, mdh, got int$"
+        ),
     ):
         table_of(3)
 

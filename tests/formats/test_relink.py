@@ -1,4 +1,6 @@
-"""A nominal robot with other screws: it moves as the chain says, and its link frames hardly move at all."""
+"""A nominal robot with other screws: it moves as the chain says, and its link frames hardly move at
+all.
+"""
 
 from __future__ import annotations
 
@@ -16,31 +18,42 @@ from poekin.errors import InputError, ModelError, PoekinError, UnknownName
 from poekin.formats.relink import relinked
 from poekin.model.joint import Joint, Mimic
 from poekin.model.robot import Robot
-from poekin.testing.attainable import UNIT
-from poekin.testing.chain_laws import budget
-from poekin.testing.chain_strategies import placements, screws
-from poekin.testing.strategies import axes
+from poekin.testing.accuracy.error_bounds import UNIT
+from poekin.testing.laws.chain_laws import budget
+from poekin.testing.strategies.chain_strategies import placements, screws
+from poekin.testing.strategies.group_strategies import axes
 
 KINDS = ("revolute", "continuous", "prismatic", "helical")
 
 
 @st.composite
 def arms(draw, most: int = 5, mimics: bool = True) -> Robot:
-    """A branch of joints of all kinds from "l0" to "tip", fixed ones between them, and a bracket on every link."""
+    """A branch of joints of all kinds from "l0" to "tip", fixed ones between them, and a bracket on
+    every link.
+    """
     kinds = draw(
-        st.lists(st.sampled_from((*KINDS, "fixed")), min_size=1, max_size=most).filter(lambda k: {*k} - {"fixed"})
+        st.lists(st.sampled_from((*KINDS, "fixed")), min_size=1, max_size=most).filter(
+            lambda k: {*k} - {"fixed"}
+        )
     )
     joints = []
     for i, kind in enumerate([*kinds, "fixed"]):
         pitch = draw(st.sampled_from([-0.2, 0.1])) if kind == "helical" else 0.0
         child = f"l{i + 1}" if i < len(kinds) else "tip"
         limits = (-2.0, 3.0) if kind == "revolute" else (-math.inf, math.inf)
-        joints.append(Joint(f"j{i}", kind, f"l{i}", child, draw(placements()), draw(axes()), limits, pitch=pitch))
+        joints.append(
+            Joint(
+                f"j{i}", kind, f"l{i}", child, draw(placements()), draw(axes()), limits, pitch=pitch
+            )
+        )
     moving = [i for i, joint in enumerate(joints) if joint.kind != "fixed"]
     if mimics and len(moving) > 1 and draw(st.booleans()):
         first, last = moving[0], moving[-1]
         joints[last] = replace(joints[last], mimic=Mimic(joints[first].name, -0.5, 0.25))
-    joints += [Joint(f"b{i}", "fixed", f"l{i}", f"bracket{i}", draw(placements())) for i in range(len(kinds) + 1)]
+    joints += [
+        Joint(f"b{i}", "fixed", f"l{i}", f"bracket{i}", draw(placements()))
+        for i in range(len(kinds) + 1)
+    ]
     links = ["l0", *(joint.child for joint in joints)]
     return Robot("arm", draw(st.permutations(links)), draw(st.permutations(joints)))
 
@@ -78,17 +91,20 @@ def at_zero(robot: Robot) -> dict[str, np.ndarray]:
 def rounding(robot: Robot) -> float:
     """How far a link's frame may be off by rounding alone, in rad and in reaches; u = 2^-53.
 
-    It is a product of the origins of the branch, each of them an inverse and a product, made the nearest rotation:
+    It is a product of the origins of the branch, each of them an inverse and a product, made the
+    nearest rotation:
     24 u a joint, fixed ones and the tool counted.
     """
     return 24 * UNIT * sum(not joint.name.startswith("b") for joint in robot.joints)
 
 
 def off(case: tuple[Robot, pk.Chain], seed: int, rows: int = 3) -> np.ndarray:
-    """How far the relinked branch is from the chain ÷ what it may be by rounding, at so many configurations.
+    """How far the relinked branch is from the chain ÷ what it may be by rounding, at so many
+    configurations.
 
-    `fk` of either is within its budget. A screw of the branch is off as its frame is, and moves what is behind it by
-    that times its x. The way to a link's nominal place and back is longer than the chain: both count.
+    `fk` of either is within its budget. A screw of the branch is off as its frame is, and moves
+    what is behind it by that times its x. The way to a link's nominal place and back is longer than
+    the chain: both count.
     """
     robot, chain = case
     branch = relinked(robot, chain, base="l0", tip="tip").chain("l0", "tip")
@@ -108,7 +124,9 @@ def test_the_branch_moves_as_the_chain_says(case, seed):
 
 
 def frames_off(case: tuple[Robot, pk.Chain]) -> np.ndarray:
-    """How far each frame is from where it belongs ÷ `rounding`: on the new axis, nearest, and turned the least."""
+    """How far each frame is from where it belongs ÷ `rounding`: on the new axis, nearest, and
+    turned the least.
+    """
     robot, chain = case
     result = relinked(robot, chain, base="l0", tip="tip")
     reach = chain.reach + robot.chain("l0", "tip").reach
@@ -168,8 +186,12 @@ def test_its_own_chain_leaves_a_robot_as_it_is(robot):
 def test_a_frame_moves_no_more_than_its_axis_does(robot, data):
     chain = robot.chain("l0", "tip")
     # Each axis is moved by a twist of its own, at most a micrometre and a microradian.
-    twists = [data.draw(st.lists(st.floats(-1e-6, 1e-6), min_size=6, max_size=6)) for _ in chain.kinds]
-    A = np.array([pk.se3.adjoint(pk.se3.exp(t)) @ S for t, S in zip(twists, chain.screws, strict=True)])
+    twists = [
+        data.draw(st.lists(st.floats(-1e-6, 1e-6), min_size=6, max_size=6)) for _ in chain.kinds
+    ]
+    A = np.array(
+        [pk.se3.adjoint(pk.se3.exp(t)) @ S for t, S in zip(twists, chain.screws, strict=True)]
+    )
     result = relinked(robot, pk.Chain(A, chain.home), base="l0", tip="tip")
     before, after = at_zero(robot), at_zero(result)
     for joint in moved_links(robot):
@@ -211,7 +233,11 @@ def test_a_base_beside_the_branch_is_the_chain_s_frame():
     arm = pk.load("ur5e")
     half = pk.se3.exp([0, 0, math.pi, 0.2, 0, 0])
     links = ["world", "beside", *arm.links]
-    joints = [Joint("up", "fixed", "world", "beside", half), Joint("on", "fixed", "world", "base", half), *arm.joints]
+    joints = [
+        Joint("up", "fixed", "world", "beside", half),
+        Joint("on", "fixed", "world", "base", half),
+        *arm.joints,
+    ]
     robot = Robot("r", links, joints)
     other = pk.load("ur10e").chain()
     result = relinked(robot, other, base="beside", tip="tool0")
@@ -253,7 +279,9 @@ def test_another_number_or_kind_of_joints_is_refused(case, data):
     n = len(chain.kinds)
     keep = data.draw(st.integers(0, n - 1))
     shorter = pk.Chain(chain.screws[:keep], chain.home)
-    with pytest.raises(InputError, match=rf"has {n} joints from 'l0' to 'tip': 'j\d+'.*; the chain has {keep}: "):
+    with pytest.raises(
+        InputError, match=rf"has {n} joints from 'l0' to 'tip': 'j\d+'.*; the chain has {keep}: "
+    ):
         relinked(robot, shorter, base="l0", tip="tip")
     i = data.draw(st.integers(0, n - 1))
     assume(chain.kinds[i] != "prismatic")
@@ -261,9 +289,12 @@ def test_another_number_or_kind_of_joints_is_refused(case, data):
     A[i] = [0, 0, 0, 0, 0, 1]
     name = chain.joint_names[i]
     with pytest.raises(
-        InputError, match=rf"joint '{name}' of the robot is \w+, and '{name}' of the chain is prismatic"
+        InputError,
+        match=rf"joint '{name}' of the robot is \w+, and '{name}' of the chain is prismatic",
     ):
-        relinked(robot, pk.Chain(A, chain.home, joint_names=chain.joint_names), base="l0", tip="tip")
+        relinked(
+            robot, pk.Chain(A, chain.home, joint_names=chain.joint_names), base="l0", tip="tip"
+        )
 
 
 UR5E = pk.load("ur5e")
@@ -278,13 +309,21 @@ FLOATING = Robot("r", ["a", "b"], [Joint("free", "floating", "a", "b")])
 @pytest.mark.parametrize(
     ("make", "error", "message"),
     [
-        (lambda: relinked(ANY_CHAIN, SIX), InputError, "relinked: expected a Robot and a Chain, got Chain and Chain"),
+        (
+            lambda: relinked(ANY_CHAIN, SIX),
+            InputError,
+            "relinked: expected a Robot and a Chain, got Chain and Chain",
+        ),
         (
             lambda: relinked(ANY_CHAIN, ANY_ROBOT),
             InputError,
             "relinked: expected a Robot and a Chain, got Chain and Robot",
         ),
-        (lambda: relinked(UR5E, ANY_ROBOT), InputError, "relinked: expected a Robot and a Chain, got Robot and Robot"),
+        (
+            lambda: relinked(UR5E, ANY_ROBOT),
+            InputError,
+            "relinked: expected a Robot and a Chain, got Robot and Robot",
+        ),
         (
             lambda: relinked(UR5E, SIX, tip="tool"),
             UnknownName,
@@ -303,12 +342,16 @@ FLOATING = Robot("r", ["a", "b"], [Joint("free", "floating", "a", "b")])
         (
             lambda: relinked(UR5E, COUPLED),
             InputError,
-            ("the chain's joints follow its coordinates otherwise than the robot's: x = C q + c differs"),
+            (
+                "the chain's joints follow its coordinates otherwise than the robot's: x = C q + c differs"
+            ),
         ),
         (
             lambda: relinked(FLOATING, SIX),
             ModelError,
-            ("robot 'r': the way from 'a' to 'b' crosses the floating joint 'free'; a chain cannot"),
+            (
+                "robot 'r': the way from 'a' to 'b' crosses the floating joint 'free'; a chain cannot"
+            ),
         ),
         (
             lambda: relinked(UR5E, UR5E.chain("tool0", "base"), base="tool0", tip="base"),
@@ -334,7 +377,9 @@ def test_a_calibrated_arm_as_urdf_keeps_its_links():
     robot = pk.load("ur5e")
     chain = robot.chain()
     tilts = np.random.default_rng(0).normal(scale=1e-3, size=(6, 6))
-    A = np.array([pk.se3.adjoint(pk.se3.exp(t)) @ S for t, S in zip(tilts, chain.screws, strict=True)])
+    A = np.array(
+        [pk.se3.adjoint(pk.se3.exp(t)) @ S for t, S in zip(tilts, chain.screws, strict=True)]
+    )
     text = pk.to_urdf(relinked(robot, pk.Chain(A, chain.home, joint_names=chain.joint_names)))
     assert text.count('lower="-6.283185307179586"') == 6
     assert all(f'<link name="{link}"/>' in text for link in robot.links)

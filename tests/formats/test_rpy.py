@@ -1,4 +1,6 @@
-"""Roll, pitch, yaw of a rotation: the three together are the rotation, at pitch ±90° as anywhere else."""
+"""Roll, pitch, yaw of a rotation: the three together are the rotation, at pitch ±90° as anywhere
+else.
+"""
 
 from __future__ import annotations
 
@@ -13,14 +15,17 @@ from hypothesis import example, given, target
 from hypothesis import strategies as st
 
 from poekin.formats import rpy
-from poekin.testing.strategies import rotations
+from poekin.testing.strategies.group_strategies import rotations
 
 BAR = 6e-16
 EYE = np.eye(3)
 
 anything = st.floats(-math.pi, math.pi)
-# Distances of the pitch from ±90°: exactly there, and every decade from where doubles end to a degree or so.
-near = st.builds(lambda k, m: m * 10.0**-k, st.integers(2, 18), st.sampled_from([-3.0, -1.0, 0.0, 1.0, 2.0]))
+# Distances of the pitch from ±90°: exactly there, and every decade from where doubles end to a
+# degree or so.
+near = st.builds(
+    lambda k, m: m * 10.0**-k, st.integers(2, 18), st.sampled_from([-3.0, -1.0, 0.0, 1.0, 2.0])
+)
 
 
 def exact(roll: float, pitch: float, yaw: float) -> Any:
@@ -38,7 +43,9 @@ def rounded(R: Any) -> np.ndarray:
 
 
 def worn(R: np.ndarray) -> np.ndarray:
-    """The rotation after a turn there and back: each entry is off by some 1e-16, however small it is."""
+    """The rotation after a turn there and back: each entry is off by some 1e-16, however small it
+    is.
+    """
     turn = rpy.pose((0, 0, 0), (0.3, 0.5, 0.7))[:3, :3]
     return turn @ (turn.T @ R)
 
@@ -75,11 +82,16 @@ def test_the_digits_stay_near_a_quarter_turn_of_pitch(roll, sign, off, yaw):
 @given(anything, st.floats(-1.5, 1.5), anything)
 def test_away_from_there_each_angle_comes_back(roll, pitch, yaw):
     found = rpy.angles(rpy.pose((0, 0, 0), (roll, pitch, yaw))[:3, :3])
-    turns = [(a - b + math.pi) % (2 * math.pi) - math.pi for a, b in zip(found, (roll, pitch, yaw), strict=True)]
+    turns = [
+        (a - b + math.pi) % (2 * math.pi) - math.pi
+        for a, b in zip(found, (roll, pitch, yaw), strict=True)
+    ]
     assert max(map(abs, turns)) <= 2e-15 / math.cos(pitch)
 
 
-@pytest.mark.parametrize("angles", [(0, 0, 0), (math.pi / 2, 0, 0), (0, 0, -math.pi / 2), (math.pi / 2, 0, math.pi)])
+@pytest.mark.parametrize(
+    "angles", [(0, 0, 0), (math.pi / 2, 0, 0), (0, 0, -math.pi / 2), (math.pi / 2, 0, math.pi)]
+)
 def test_right_angles_are_right_angles_and_no_zero_has_a_sign(angles):
     R = np.round(rpy.pose((0, 0, 0), angles)[:3, :3])
     found = rpy.angles(R)
@@ -106,6 +118,10 @@ PLANTED = {
 
 @pytest.mark.parametrize(("wrong", "least"), PLANTED.values(), ids=PLANTED)
 def test_planted_errors_are_found(wrong, least):
-    cases = [worn(rounded(exact(r, s * (math.pi / 2 - 1e-6), 0.7))) for r in np.linspace(-3, 3, 13) for s in (-1, 1)]
+    cases = [
+        worn(rounded(exact(r, s * (math.pi / 2 - 1e-6), 0.7)))
+        for r in np.linspace(-3, 3, 13)
+        for s in (-1, 1)
+    ]
     assert max(error(R) - defect(R) for R in cases) <= BAR
     assert max(error(R, wrong) for R in cases) > least

@@ -1,4 +1,6 @@
-"""A chain as a robot of one branch: which joint is a coordinate's master, and what the links are called."""
+"""A chain as a robot of one branch: which joint is a coordinate's master, and what the links are
+called.
+"""
 
 from __future__ import annotations
 
@@ -20,10 +22,14 @@ def test_a_follower_does_not_narrow_the_limits_of_its_master():
     for ratio, shift in np.random.default_rng(0).uniform(-3, 3, (50, 2)):
         A = [[0, 0, 1, 0, 0, 0], [0, 0, 1, 0, 0, 0]]
         limits = [[-0.1, 0.7]]
-        chain = Chain(A, np.eye(4), coupling=[[1], [ratio]], offset=[0, shift], q_names=["q"], limits=limits)
+        chain = Chain(
+            A, np.eye(4), coupling=[[1], [ratio]], offset=[0, shift], q_names=["q"], limits=limits
+        )
         assert again(chain).limits.tolist() == limits
         low, high = again(chain).joint("joint2").limits
-        assert np.allclose(sorted([ratio * -0.1 + shift, ratio * 0.7 + shift]), [low, high], rtol=0, atol=1e-14)
+        assert np.allclose(
+            sorted([ratio * -0.1 + shift, ratio * 0.7 + shift]), [low, high], rtol=0, atol=1e-14
+        )
 
 
 def two(coupling, offset=(0, 0), kinds=("turn", "turn"), **options) -> Chain:
@@ -55,7 +61,9 @@ def test_a_coordinate_is_named_after_the_joint_that_is_nearest_to_it(chain, mast
     ],
 )
 def test_coordinates_that_are_not_the_same_any_more_are_told(chain, message):
-    with pytest.warns(PoekinWarning, match=f"from 'base' to 'tool' has other coordinates as a robot: {message}"):
+    with pytest.warns(
+        PoekinWarning, match=f"from 'base' to 'tool' has other coordinates as a robot: {message}"
+    ):
         to_urdf(chain)
 
 
@@ -79,7 +87,9 @@ def test_a_chain_from_a_link_to_itself_is_one_link():
 
 def test_a_joint_that_follows_several_coordinates_is_refused_by_name():
     for coupling, joint in (([[1, 0.5], [0, 1]], "a"), ([[1, 0], [2, 1]], "b")):
-        with pytest.raises(InputError, match=f"^joint '{joint}' follows several coordinates, 'p', 'q': a robot's "):
+        with pytest.raises(
+            InputError, match=f"^joint '{joint}' follows several coordinates, 'p', 'q': a robot's "
+        ):
             to_urdf(two(coupling, q_names=["p", "q"]))
 
 

@@ -16,16 +16,17 @@ import poekin as pk
 from poekin.errors import PoekinWarning
 from poekin.formats import ur
 from poekin.formats.dh import Table
-from poekin.formats.ur.files import read_text, text_of
+from poekin.formats.ur.yaml_io import read_text, text_of
 from poekin.formats.urdf import read_text as read_urdf
 from poekin.model.robot import Robot
-from poekin.testing.calibrated_arm import UR10E
-from poekin.testing.pinocchio_oracle import PinocchioOracle
+from poekin.testing.cases.calibrated_arm import UR10E
+from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from tests.formats import dh_product
 
 NOMINAL = pk.dh.published("ur10e")
 ZERO = np.zeros(6)
-# The third calibration of ur_calibration/test/calibration_test.cpp: what UR10E has more than the nominal arm.
+# The third calibration of ur_calibration/test/calibration_test.cpp: what UR10E has more than the
+# nominal arm.
 DELTAS = {
     "delta_d": [-0.000160188285741325043, 439.140974079900957, -446.027059806332147, 6.88618689642360149,
                 -3.86588496858186748e-05, -0.00087908274257374186],
@@ -36,7 +37,8 @@ DELTAS = {
     "delta_alpha": [-0.000650246557584166496, 0.00139416666825590402, 0.00693818880325995126,
                     -0.000811641562390219562, 0.000411120504570705592, 0],
 }  # fmt: skip
-# A UR10's calibration.conf, published by its owner in the forum of Universal Robots, "Calibrated kinamatics info".
+# A UR10's calibration.conf, published by its owner in the forum of Universal Robots, "Calibrated
+# kinamatics info".
 CONF = """[mounting]
 delta_theta = [ -8.20642406610186392e-05, -0.103609197138685979, 0.673631891251821102, -0.57016974724960845, \
 -4.59636351675856217e-05, 9.74999561134540574e-07]
@@ -61,26 +63,36 @@ def conf_arm(tmp_path) -> Table:
 def moved(robot: Robot, other: Robot) -> dict[str, float]:
     """How far each link is from where it was, at zero [m]."""
     mine, theirs = robot.fk(ZERO), other.fk(ZERO)
-    return {link: float(np.linalg.norm(mine[link][:3, 3] - theirs[link][:3, 3])) for link in mine if link in theirs}
+    return {
+        link: float(np.linalg.norm(mine[link][:3, 3] - theirs[link][:3, 3]))
+        for link in mine
+        if link in theirs
+    }
 
 
 def turned(robot: Robot, other: Robot) -> float:
     """By which angle the link that turns most is turned from how it was, at zero [rad]."""
     mine, theirs = robot.fk(ZERO), other.fk(ZERO)
-    return max(float(np.linalg.norm(pk.so3.log(mine[link][:3, :3].T @ theirs[link][:3, :3]))) for link in mine)
+    return max(
+        float(np.linalg.norm(pk.so3.log(mine[link][:3, :3].T @ theirs[link][:3, :3])))
+        for link in mine
+    )
 
 
 def nominal_robot(table: Table = NOMINAL) -> Robot:
     """The nominal arm with the links of ur_description and the table's limits."""
     plain = ur.from_dh(table, nominal=table).to_robot()
     joints = [
-        pk.Joint(j.name, j.kind, j.parent, j.child, j.origin, j.axis, (-2 * math.pi, 2 * math.pi)) for j in plain.joints
+        pk.Joint(j.name, j.kind, j.parent, j.child, j.origin, j.axis, (-2 * math.pi, 2 * math.pi))
+        for j in plain.joints
     ]
     return Robot("nominal", plain.links, joints)
 
 
 def worst(chain: pk.Chain, table: Table, seed: int, samples: int = 20) -> float:
-    """The largest error of a chain's pose against the table's product in 50 digits, lengths ÷ reach."""
+    """The largest error of a chain's pose against the table's product in 50 digits, lengths ÷
+    reach.
+    """
     q = np.random.default_rng(seed).uniform(-np.pi, np.pi, (samples, 6))
     errors = [np.abs(T - dh_product.pose(table, x)) for T, x in zip(chain.fk(q), q, strict=True)]
     return float((np.max(errors, axis=0)[:3] / [1, 1, 1, chain.reach]).max())
@@ -91,7 +103,9 @@ small = st.floats(-2e-3, 2e-3)
 
 @st.composite
 def arms(draw) -> Table:
-    """A nominal arm with small deltas, as a calibration without near-parallel axes put far away would have them."""
+    """A nominal arm with small deltas, as a calibration without near-parallel axes put far away
+    would have them.
+    """
     six = st.lists(small, min_size=6, max_size=6)
     table = pk.dh.published(draw(st.sampled_from(["ur3", "ur5", "ur10e", "ur16e"])))
     a, alpha = ([*draw(six)[:5], 0.0] for _ in range(2))
@@ -111,7 +125,8 @@ def test_links_of_small_deltas_move_by_millimetres_and_milliradians(table):
     nominal = pk.dh.published(table.name)
     calibration = ur.from_dh(table, nominal=nominal).to_robot()
     plain = ur.from_dh(nominal, nominal=nominal).to_robot()
-    # Twenty-two numbers of at most 2 mm and 2 mrad over an arm of at most 1.6 m: five angles lever the wrist.
+    # Twenty-two numbers of at most 2 mm and 2 mrad over an arm of at most 1.6 m: five angles lever
+    # the wrist.
     assert max(moved(plain, calibration).values()) <= 0.04
     assert turned(plain, calibration) <= 0.025
 
@@ -123,7 +138,9 @@ def test_a_calibration_comes_back_from_its_file(table, mark, rpy):
     again = read_text(text_of(calibration, rpy=rpy))
     assert again.hash == mark
     assert np.array_equal(again.poses[:, :3, 3], calibration.poses[:, :3, 3])
-    assert np.abs(again.poses - calibration.poses).max() <= 1e-15  # the bound of rpy.angles and pose, twice
+    assert (
+        np.abs(again.poses - calibration.poses).max() <= 1e-15
+    )  # the bound of rpy.angles and pose, twice
 
 
 def test_the_ur10e_s_calibration_is_in_the_driver_s_form_what_its_table_is():
@@ -133,7 +150,8 @@ def test_the_ur10e_s_calibration_is_in_the_driver_s_form_what_its_table_is():
     chain = calibration.to_chain()
     assert np.abs(chain.screws).max() <= 1.2
     assert np.abs(chain.home).max() <= 1.2
-    # The table's own rounding is 100 u n (R + 446 m) at worst, 3e-11; this arm comes out better than that.
+    # The table's own rounding is 100 u n (R + 446 m) at worst, 3e-11; this arm comes out better
+    # than that.
     assert worst(chain, UR10E, 0) <= 1e-13
 
 
@@ -144,7 +162,9 @@ def test_the_ur10e_s_links_stay_within_millimetres_although_its_table_puts_them_
     distances = moved(nominal, calibrated)
     assert max(distances.values()) == pytest.approx(2.007e-3, abs=1e-6)
     assert max(distances, key=lambda link: distances[link]) in ("wrist_3_link", "tool0")
-    assert max(distances[f"{link}_link"] for link in ("shoulder", "upper_arm", "forearm")) <= 0.25e-3
+    assert (
+        max(distances[f"{link}_link"] for link in ("shoulder", "upper_arm", "forearm")) <= 0.25e-3
+    )
     assert math.degrees(turned(nominal, calibrated)) == pytest.approx(0.36, abs=0.005)
 
 
@@ -160,7 +180,10 @@ def test_pinocchio_sees_the_table_in_the_urdf_and_the_links_where_the_nominal_ar
         off = np.abs(T - dh_product.pose(UR10E, x))[:3] / [1, 1, 1, reach]
         assert off.max() <= 1e-13
     there, here = oracle.link_poses({}), nominal.fk(ZERO)
-    assert max(np.linalg.norm(there[link][0][:3, 3] - here[link][:3, 3]) for link in nominal.links) <= 2.1e-3
+    assert (
+        max(np.linalg.norm(there[link][0][:3, 3] - here[link][:3, 3]) for link in nominal.links)
+        <= 2.1e-3
+    )
     back = read_urdf(text)
     assert back.q_names == ur.JOINTS
     np.testing.assert_array_equal(back.limits, nominal.limits)
@@ -169,7 +192,9 @@ def test_pinocchio_sees_the_table_in_the_urdf_and_the_links_where_the_nominal_ar
 def test_deltas_on_the_nominal_table_are_the_arm_s_own():
     table = ur.deltas(NOMINAL, **DELTAS)
     for column in ("theta", "d", "a"):
-        np.testing.assert_allclose(getattr(table, column), getattr(UR10E, column), rtol=1e-13, atol=1e-15)
+        np.testing.assert_allclose(
+            getattr(table, column), getattr(UR10E, column), rtol=1e-13, atol=1e-15
+        )
     # The controller's quarter turn has ten digits.
     np.testing.assert_allclose(table.alpha, UR10E.alpha, rtol=0, atol=2.1e-10)
     assert table.names == NOMINAL.names
@@ -211,7 +236,10 @@ def test_the_controller_s_base_is_called_base_else_base_link_inertia(names, firs
     poses = [np.eye(4), pk.se3.exp([0, 0, 0.3, 0.1, 0.2, 0.3])]
     arm = [pk.Joint(j.name, j.kind, {"base": names[0]}.get(j.parent, j.parent), j.child, j.origin, j.axis)
            for j in plain.joints]  # fmt: skip
-    stands = [pk.Joint(f"world-{name}", "fixed", "world", name, T) for name, T in zip(names, poses, strict=True)]
+    stands = [
+        pk.Joint(f"world-{name}", "fixed", "world", name, T)
+        for name, T in zip(names, poses, strict=True)
+    ]
     robot = Robot("arm", ["world", *names, *plain.links[1:]], [*stands, *arm])
     calibration = ur.from_dh(UR10E, nominal=NOMINAL)
     pose = ur.apply(robot, calibration).chain(names[first], "tool0").fk(ZERO)
@@ -224,10 +252,20 @@ def test_a_calibration_of_ur_description_s_urdf_keeps_its_tree_and_its_tool():
     camera = pk.se3.exp([0.1, 0.2, 0.3, 0.01, 0.02, 0.03])
     renamed = {"base": "base_link_inertia"}
     arm = [
-        pk.Joint(j.name, j.kind, renamed.get(j.parent, j.parent), j.child, j.origin, j.axis, (-3, 3))
+        pk.Joint(
+            j.name, j.kind, renamed.get(j.parent, j.parent), j.child, j.origin, j.axis, (-3, 3)
+        )
         for j in plain.joints[:6]
     ]
-    links = ["base_link", "base", "base_link_inertia", *plain.links[1:-1], "flange", "tool0", "camera"]
+    links = [
+        "base_link",
+        "base",
+        "base_link_inertia",
+        *plain.links[1:-1],
+        "flange",
+        "tool0",
+        "camera",
+    ]
     quarter = pk.se3.exp([0, math.pi / 2, 0, 0, 0, 0])
     joints = [
         pk.Joint("base_link-base_link_inertia", "fixed", "base_link", "base_link_inertia", half),

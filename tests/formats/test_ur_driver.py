@@ -14,9 +14,9 @@ from scipy.spatial.transform import Rotation
 import poekin as pk
 from poekin.formats import ur
 from poekin.formats.dh import Table
-from poekin.formats.ur.files import read_text
-from poekin.testing.calibrated_arm import UR10E
-from poekin.testing.pinocchio_oracle import PinocchioOracle
+from poekin.formats.ur.yaml_io import read_text
+from poekin.testing.cases.calibrated_arm import UR10E
+from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from tests.formats.test_ur import ZERO, arms, conf_arm, worst
 
 
@@ -29,8 +29,9 @@ def about(axis: str, angle: float, x: float = 0.0, z: float = 0.0) -> np.ndarray
 def driver_poses(table: Table) -> np.ndarray:
     """The six poses that the driver writes for a table, by its ur_calibration/doc/algorithm.rst.
 
-    Upper arm and forearm begin in the plane through the frame before them and across its axis: d is 0, and the next
-    axis, cut with that plane, says where the link ends and which way it points; what is left goes to the next d.
+    Upper arm and forearm begin in the plane through the frame before them and across its axis: d is
+    0, and the next axis, cut with that plane, says where the link ends and which way it points;
+    what is left goes to the next d.
     """
     before = [about("z", r.theta, z=r.d) for r in table.rows]
     behind = [about("x", r.alpha, x=r.a) for r in table.rows]
@@ -49,7 +50,9 @@ def driver_poses(table: Table) -> np.ndarray:
 
 
 def driver_text(table: Table, mark: str = "calib_1") -> str:
-    """The driver's file for a table: lengths, and Eigen's eulerAngles(0, 1, 2), which are R = Rx Ry Rz."""
+    """The driver's file for a table: lengths, and Eigen's eulerAngles(0, 1, 2), which are R = Rx Ry
+    Rz.
+    """
     lines = ["kinematics:"]
     for link, T in zip(ur.LINKS, driver_poses(table), strict=True):
         numbers = [*T[:3, 3], *Rotation.from_matrix(T[:3, :3]).as_euler("XYZ")]
@@ -61,7 +64,8 @@ def driver_text(table: Table, mark: str = "calib_1") -> str:
 @settings(max_examples=25)
 @given(table=arms(), seed=st.integers(0, 2**32))
 def test_the_driver_s_own_file_is_read_as_the_arm_that_it_is_of(table, seed):
-    # The driver's frames are not ours where axes are tilted, its arm is: lengths come out of divisions by tilts of
+    # The driver's frames are not ours where axes are tilted, its arm is: lengths come out of
+    # divisions by tilts of
     # 1e-3 and less, so that its rounding is that of lengths of metres.
     assert worst(read_text(driver_text(table)).to_chain(), table, seed, 3) <= 1e-12
 
@@ -88,14 +92,19 @@ def test_a_file_for_ur_description_makes_a_urdf_of_the_arm_itself(tmp_path):
     assert text.startswith("rpy: fixed\nkinematics:\n  shoulder:\n    x: ")
     # What ur_description does with it: the numbers go into xyz and rpy of the joints as they are.
     links = re.findall(
-        r"  (\w+):\n    x: (.*)\n    y: (.*)\n    z: (.*)\n    roll: (.*)\n    pitch: (.*)\n    yaw: (.*)", text
+        r"  (\w+):\n    x: (.*)\n    y: (.*)\n    z: (.*)\n    roll: (.*)\n    pitch: (.*)\n    yaw: (.*)",
+        text,
     )
     ends = ["base_link_inertia", *(f"{link}_link" for link in ur.LINKS)]
     joints = "".join(
         f'<joint name="{joint}" type="continuous"><parent link="{above}"/><child link="{link}_link"/>'
         f'<origin xyz="{" ".join(xyz)}" rpy="{" ".join(rpy)}"/><axis xyz="0 0 1"/></joint>'
         for joint, above, (link, *xyz), rpy in zip(
-            ur.JOINTS, ends, [match[:4] for match in links], [match[4:] for match in links], strict=False
+            ur.JOINTS,
+            ends,
+            [match[:4] for match in links],
+            [match[4:] for match in links],
+            strict=False,
         )
     )
     names = "".join(f'<link name="{link}"/>' for link in ends)

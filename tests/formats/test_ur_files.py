@@ -1,4 +1,6 @@
-"""Files of calibrations: what is wrong in them is said with file and line, and none of it costs anything."""
+"""Files of calibrations: what is wrong in them is said with file and line, and none of it costs
+anything.
+"""
 
 from __future__ import annotations
 
@@ -14,14 +16,16 @@ import poekin as pk
 from poekin.errors import FileError, InputError, MissingExtra, ModelError, PoekinError
 from poekin.formats import ur
 from poekin.formats.ur import conf
-from poekin.formats.ur.files import read_text, text_of
+from poekin.formats.ur.yaml_io import read_text, text_of
 from tests.messages import says
 
 NOMINAL = pk.dh.published("ur10e")
 CALIBRATION = ur.from_dh(NOMINAL, nominal=NOMINAL, hash="calib_1")
 TEXT = text_of(CALIBRATION, rpy="moving")
 LINES = TEXT.splitlines()
-CONF = "[mounting]\n" + "".join(f"delta_{c} = [ 0, 1e-3, 0, 0, 0, -2.5e-4]\n" for c in ("theta", "a", "d", "alpha"))
+CONF = "[mounting]\n" + "".join(
+    f"delta_{c} = [ 0, 1e-3, 0, 0, 0, -2.5e-4]\n" for c in ("theta", "a", "d", "alpha")
+)
 
 
 def changed(pattern: str, new: str, text: str = TEXT) -> str:
@@ -59,25 +63,37 @@ def test_a_file_says_about_which_axes_its_angles_turn_and_a_caller_may_know_bett
 BAD = {
     "empty": ("", "f.yaml: the text is empty"),
     "comment": ("# nothing\n", "f.yaml: the text is empty"),
-    "a word": ("kinematics\n", "f.yaml:1: expected a mapping, as in \"kinematics:\", got 'kinematics'"),
+    "a word": (
+        "kinematics\n",
+        "f.yaml:1: expected a mapping, as in \"kinematics:\", got 'kinematics'",
+    ),
     "a list": ("- 1\n- 2\n", "f.yaml:1: expected names and numbers, got a list"),
     "no yaml": ("kinematics: {\n", "f.yaml:2: not YAML: ..."),
     "tab": ("kinematics:\n\tshoulder: 1\n", "f.yaml:2: not YAML: ..."),
     "control character": ("kinematics: \x01\n", "f.yaml: not YAML: ..."),
     "no kinematics": (
         "joints:\n  a: 1\n",
-        ("f.yaml:1: the file: 'joints' is not expected, only kinematics, rpy; available: 'kinematics', 'rpy'"),
+        (
+            "f.yaml:1: the file: 'joints' is not expected, only kinematics, rpy; available: 'kinematics', 'rpy'"
+        ),
     ),
     "misspelt kinematics": (
         changed("kinematics", "kinematcs"),
-        ("f.yaml:1: the file: 'kinematcs' is not expected, only kinematics, rpy; did you mean 'kinematics'?"),
+        (
+            "f.yaml:1: the file: 'kinematcs' is not expected, only kinematics, rpy; did you mean 'kinematics'?"
+        ),
     ),
     "kinematics of nothing": (
         "kinematics:\n",
-        ("f.yaml:1: kinematics: expected shoulder, upper_arm, forearm, wrist_1, wrist_2, wrist_3 and hash below it"),
+        (
+            "f.yaml:1: kinematics: expected shoulder, upper_arm, forearm, wrist_1, wrist_2, wrist_3 and hash below it"
+        ),
     ),
     "rpy of nothing known": ("rpy: zyx\n" + TEXT, "f.yaml:1: rpy: expected moving or fixed"),
-    "rpy alone": ("rpy: fixed\n", "f.yaml:1: the file: kinematics missing; expected are kinematics, rpy"),
+    "rpy alone": (
+        "rpy: fixed\n",
+        "f.yaml:1: the file: kinematics missing; expected are kinematics, rpy",
+    ),
     "misspelt link": (
         changed("forearm", "fore_arm"),
         (
@@ -106,27 +122,53 @@ BAD = {
     ),
     "misspelt key": (
         changed("pitch", "ptich"),
-        ("f.yaml:7: shoulder: 'ptich' is not expected, only x, y, z, roll, pitch, yaw; did you mean 'pitch'?"),
+        (
+            "f.yaml:7: shoulder: 'ptich' is not expected, only x, y, z, roll, pitch, yaw; did you mean 'pitch'?"
+        ),
     ),
     "missing key": (
         changed("    yaw: .*\n", ""),
         "f.yaml:3: shoulder: yaw missing; expected are x, y, z, roll, pitch, yaw",
     ),
     "key twice": (changed("    y: ", "    x: "), "f.yaml:4: 'x' is there twice (first: line 3)"),
-    "link twice": (changed("upper_arm", "shoulder"), "f.yaml:9: 'shoulder' is there twice (first: line 2)"),
+    "link twice": (
+        changed("upper_arm", "shoulder"),
+        "f.yaml:9: 'shoulder' is there twice (first: line 2)",
+    ),
     "kinematics twice": (TEXT + TEXT, "f.yaml:45: 'kinematics' is there twice (first: line 1)"),
-    "nan": (changed("z: .*", "z: .nan"), "f.yaml:5: shoulder: z: expected a finite number, got '.nan'"),
-    "NaN": (changed("z: .*", "z: nan"), "f.yaml:5: shoulder: z: expected a finite number, got 'nan'"),
-    "infinite": (changed("z: .*", "z: 1e999"), "f.yaml:5: shoulder: z: expected a finite number, got '1e999'"),
-    "text": (changed("z: .*", "z: 18 cm"), "f.yaml:5: shoulder: z: expected a finite number, got '18 cm'"),
+    "nan": (
+        changed("z: .*", "z: .nan"),
+        "f.yaml:5: shoulder: z: expected a finite number, got '.nan'",
+    ),
+    "NaN": (
+        changed("z: .*", "z: nan"),
+        "f.yaml:5: shoulder: z: expected a finite number, got 'nan'",
+    ),
+    "infinite": (
+        changed("z: .*", "z: 1e999"),
+        "f.yaml:5: shoulder: z: expected a finite number, got '1e999'",
+    ),
+    "text": (
+        changed("z: .*", "z: 18 cm"),
+        "f.yaml:5: shoulder: z: expected a finite number, got '18 cm'",
+    ),
     "nothing": (changed("z: .*", "z:"), "f.yaml:5: shoulder: z: expected a finite number, got ''"),
-    "a mapping": (changed("z: .*", "z: {a: 1}"), "f.yaml:5: shoulder: z: expected a finite number, got 'more keys'"),
+    "a mapping": (
+        changed("z: .*", "z: {a: 1}"),
+        "f.yaml:5: shoulder: z: expected a finite number, got 'more keys'",
+    ),
     "far away": (
         changed("z: .*", "z: 1e200"),
         ("f.yaml: pose of shoulder: expected lengths of at most 1e+100 m, got 1e+200 in row 2"),
     ),
-    "a list of numbers": (changed("z: .*", "z: [1, 2]"), "f.yaml:5: expected names and numbers, got a list"),
-    "a mapping for a key": ("? {a: 1}\n: 2\n", "f.yaml:1: expected the name of a key, got a mapping"),
+    "a list of numbers": (
+        changed("z: .*", "z: [1, 2]"),
+        "f.yaml:5: expected names and numbers, got a list",
+    ),
+    "a mapping for a key": (
+        "? {a: 1}\n: 2\n",
+        "f.yaml:1: expected the name of a key, got a mapping",
+    ),
     "hash of keys": (changed("hash: .*", "hash: {a: 1}"), "f.yaml:44: hash: expected a text"),
     "anchor": (changed("z: ", "z: &a "), "f.yaml:5: tags and anchors are refused, got 'a'"),
     "alias": (changed("z: .*", "z: *a"), "f.yaml:5: expected names and numbers, got an alias"),
@@ -138,7 +180,10 @@ BAD = {
         changed("z: .*", "z: !!python/name:os.system ''"),
         ("f.yaml:5: tags and anchors are refused, got 'tag:yaml.org,2002:python/name:os.system'"),
     ),
-    "two documents": (TEXT + "---\na: 1\n", "f.yaml:45: expected one document, a second one begins here"),
+    "two documents": (
+        TEXT + "---\na: 1\n",
+        "f.yaml:45: expected one document, a second one begins here",
+    ),
     "merge": (
         changed("    y: .*\n", "    <<: 1\n"),
         (
@@ -146,10 +191,15 @@ BAD = {
             "available: 'x', 'y', 'z', 'roll', 'pitch' and 1 more"
         ),
     ),
-    "nine levels": ("".join(f"{'  ' * i}a:\n" for i in range(10)), "f.yaml:9: expected at most 8 levels, got more"),
+    "nine levels": (
+        "".join(f"{'  ' * i}a:\n" for i in range(10)),
+        "f.yaml:9: expected at most 8 levels, got more",
+    ),
     "a terminal's name": (
         '"\\e[31m": 1\n',
-        ("f.yaml:1: the file: '\\x1b[31m' is not expected, only kinematics, rpy; available: 'kinematics', 'rpy'"),
+        (
+            "f.yaml:1: the file: '\\x1b[31m' is not expected, only kinematics, rpy; available: 'kinematics', 'rpy'"
+        ),
     ),
 }
 
@@ -235,11 +285,13 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path):
     with pytest.raises(FileError, match=r"cannot write '.*gone/arm\.yaml': No such file"):
         ur.write(CALIBRATION, tmp_path / "gone" / "arm.yaml")
     with pytest.raises(
-        InputError, match=r"^rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got 'zyx'$"
+        InputError,
+        match=r"^rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got 'zyx'$",
     ):
         ur.write(CALIBRATION, path, rpy="zyx")
     with pytest.raises(
-        InputError, match=r"^rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got 'zyx'$"
+        InputError,
+        match=r"^rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got 'zyx'$",
     ):
         ur.read(path, rpy="zyx")
     with pytest.raises(InputError, match=r"^write: expected a Calibration, got Table$"):
@@ -256,16 +308,24 @@ def test_without_pyyaml_its_extra_is_in_the_message(monkeypatch):
         return original(name, *args, **options)
 
     monkeypatch.setattr(builtins, "__import__", refuse)
-    with pytest.raises(MissingExtra, match=r"^reading YAML needs the package pyyaml: pip install 'poekin\[formats\]'$"):
+    with pytest.raises(
+        MissingExtra,
+        match=r"^reading YAML needs the package pyyaml: pip install 'poekin\[formats\]'$",
+    ):
         read_text(TEXT)
 
 
 def test_deltas_are_read_from_a_controller_s_file(tmp_path):
     path = tmp_path / "calibration.conf"
     commented = CONF.replace("-2.5e-4]", "-2.5e-4]  # of the wrist")
-    path.write_text(commented + "joint_checksum = [ 0x6e0f7bf, 0x0]\nstatus = 2 # 0 == delta_a\n", encoding="utf-8")
+    path.write_text(
+        commented + "joint_checksum = [ 0x6e0f7bf, 0x0]\nstatus = 2 # 0 == delta_a\n",
+        encoding="utf-8",
+    )
     found = ur.read_deltas(path)
-    assert found == dict.fromkeys(("delta_theta", "delta_a", "delta_d", "delta_alpha"), (0, 1e-3, 0, 0, 0, -2.5e-4))
+    assert found == dict.fromkeys(
+        ("delta_theta", "delta_a", "delta_d", "delta_alpha"), (0, 1e-3, 0, 0, 0, -2.5e-4)
+    )
     table = ur.deltas(NOMINAL, **found)
     np.testing.assert_allclose(table.a - NOMINAL.a, found["delta_a"], rtol=0, atol=1e-16)
 
@@ -295,5 +355,7 @@ def test_a_file_of_64_kib_is_read_and_a_longer_one_is_not(tmp_path):
     path.write_bytes(b"#" * 2**16)
     assert conf.read_text_file(path) == ("#" * 2**16, str(path))
     path.write_bytes(b"#" * (2**16 + 1))
-    with pytest.raises(FileError, match=r"c\.conf: expected a calibration of at most 64 KiB, the file has 64 KiB$"):
+    with pytest.raises(
+        FileError, match=r"c\.conf: expected a calibration of at most 64 KiB, the file has 64 KiB$"
+    ):
         conf.read_text_file(path)

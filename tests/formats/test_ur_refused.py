@@ -12,13 +12,17 @@ import poekin as pk
 from poekin.errors import PoekinError
 from poekin.formats import ur
 from poekin.formats.dh import Row, Table
-from poekin.testing.calibrated_arm import UR10E
+from poekin.testing.cases.calibrated_arm import UR10E
 from tests.formats.test_ur import NOMINAL, nominal_robot
 
 ANY: Any = "ur10e"
 SEVENTH: Any = 7
 SEVEN = Table("standard", [Row(a=0.1, alpha=0.1 * i) for i in range(7)], name="seven")
-FLIPPED = Table("standard", [Row(**{**r.__dict__, "flip": i == 2}) for i, r in enumerate(NOMINAL.rows)], name="flipped")
+FLIPPED = Table(
+    "standard",
+    [Row(**{**r.__dict__, "flip": i == 2}) for i, r in enumerate(NOMINAL.rows)],
+    name="flipped",
+)
 SLIDING = Table("standard", [Row(**{**r.__dict__, "kind": "prismatic" if i == 1 else r.kind})
                              for i, r in enumerate(NOMINAL.rows)], name="sliding")  # fmt: skip
 TOOLED = Table("standard", NOMINAL.rows, tool=pk.se3.exp([0, 0, 0, 0.1, 0, 0]), name="tooled")
@@ -43,11 +47,15 @@ UPSIDE = ur.deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
         ),
         (
             lambda: ur.from_dh(FLIPPED, nominal=NOMINAL),
-            ("table 'flipped': joint 'elbow_joint' is flipped; a calibration has turning joints about +z"),
+            (
+                "table 'flipped': joint 'elbow_joint' is flipped; a calibration has turning joints about +z"
+            ),
         ),
         (
             lambda: ur.from_dh(SLIDING, nominal=NOMINAL),
-            ("table 'sliding': joint 'shoulder_lift_joint' is prismatic; a calibration has turning joints about +z"),
+            (
+                "table 'sliding': joint 'shoulder_lift_joint' is prismatic; a calibration has turning joints about +z"
+            ),
         ),
         (
             lambda: ur.from_dh(TOOLED, nominal=NOMINAL),
@@ -76,7 +84,9 @@ UPSIDE = ur.deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
         (lambda: ur.deltas(ANY), "deltas: expected a dh.Table, got str"),
         (
             lambda: ur.deltas(NOMINAL, delta_a=[0.0] * 7),
-            ("delta_a: expected 6 numbers, one a joint of the table 'ur10e', got 7: the calibration of another arm?"),
+            (
+                "delta_a: expected 6 numbers, one a joint of the table 'ur10e', got 7: the calibration of another arm?"
+            ),
         ),
         (
             lambda: ur.deltas(NOMINAL, delta_a=[[0.0] * 6]),
@@ -91,7 +101,9 @@ UPSIDE = ur.deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
         ),
         (lambda: ur.apply(nominal_robot(), ANY), "apply: expected a Calibration, got str"),
         (
-            lambda: ur.apply(pk.load("panda"), ur.from_dh(UR10E, nominal=NOMINAL), tip="panda_hand"),
+            lambda: ur.apply(
+                pk.load("panda"), ur.from_dh(UR10E, nominal=NOMINAL), tip="panda_hand"
+            ),
             (
                 "the robot has 7 joints from 'panda_link0' to 'panda_hand': 'panda_joint1', "
                 "'panda_joint2', 'panda_joint3', 'panda_joint4', 'panda_joint5', 'panda_joint6', "
@@ -107,7 +119,10 @@ UPSIDE = ur.deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
             lambda: ur.Calibration(np.eye(4)[None].repeat(6, 0) * 2),
             "pose of shoulder is no pose: its last row is [0.0, 0.0, 0.0, 2.0], expected [0, 0, 0, 1]",
         ),
-        (lambda: ur.Calibration(np.eye(4)[None].repeat(6, 0), SEVENTH), "hash: expected a text, got 7"),
+        (
+            lambda: ur.Calibration(np.eye(4)[None].repeat(6, 0), SEVENTH),
+            "hash: expected a text, got 7",
+        ),
     ],
 )
 def test_what_is_no_calibration_of_this_arm_is_refused(make, message):

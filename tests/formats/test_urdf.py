@@ -41,7 +41,9 @@ def test_an_origin_is_a_place_and_turns_about_fixed_axes(roll, pitch, yaw, xyz):
     assert np.abs(T[:3, :3] @ T[:3, :3].T - np.eye(3)).max() <= 1e-15
 
 
-@pytest.mark.parametrize("origin", ["", "<origin/>", '<origin xyz="0 0 0"/>', '<origin rpy="0 0 0"/>'])
+@pytest.mark.parametrize(
+    "origin", ["", "<origin/>", '<origin xyz="0 0 0"/>', '<origin rpy="0 0 0"/>']
+)
 def test_what_an_origin_leaves_out_is_zero(origin):
     assert (read(origin + LIMIT).joints[0].origin == np.eye(4)).all()
 
@@ -66,12 +68,15 @@ def test_an_axis_off_by_rounding_is_normalised_in_silence(off):
 
 @pytest.mark.parametrize("length", [0.5, 1 - 1.1e-6, 1 + 1.1e-6, 1e-12])
 def test_an_axis_shorter_or_longer_than_that_is_normalised_and_said(length):
-    with pytest.warns(PoekinWarning, match=rf"the axis of joint 'j' has length {length:.9g} and was normalised$"):
+    with pytest.warns(
+        PoekinWarning, match=rf"the axis of joint 'j' has length {length:.9g} and was normalised$"
+    ):
         assert read(f'<axis xyz="0 0 {length!r}"/>{LIMIT}').joints[0].axis == (0, 0, 1)
 
 
 @pytest.mark.parametrize(
-    "others, listed", [(10, "3, 4, 5, 6, 7, 8, 9, 10, 11, 12"), (11, "3, 4, 5, 6, 7, 8, 9, 10, 11, 12, ...")]
+    "others, listed",
+    [(10, "3, 4, 5, 6, 7, 8, 9, 10, 11, 12"), (11, "3, 4, 5, 6, 7, 8, 9, 10, 11, 12, ...")],
 )
 def test_of_many_axes_the_worst_is_named_and_the_lines_of_ten_others(others, listed):
     joints = "".join(
@@ -79,7 +84,9 @@ def test_of_many_axes_the_worst_is_named_and_the_lines_of_ten_others(others, lis
         f'<axis xyz="0 {0.5 if i == 0 else 0.9} 0"/></joint>'
         for i in range(others + 1)
     )
-    text = "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(others + 2)) + joints + "</robot>"
+    text = (
+        "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(others + 2)) + joints + "</robot>"
+    )
     with pytest.warns(PoekinWarning) as caught:
         urdf.read_text(text, "f")
     assert str(caught[0].message) == (
@@ -94,19 +101,32 @@ def test_of_many_joints_without_limits_four_are_named(unlimited, more):
         f'\n<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{i + 1}"/></joint>'
         for i in range(unlimited)
     )
-    text = "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(unlimited + 1)) + joints + "</robot>"
+    text = (
+        "<robot>"
+        + "".join(f'<link name="l{i}"/>' for i in range(unlimited + 1))
+        + joints
+        + "</robot>"
+    )
     with pytest.warns(PoekinWarning) as caught:
         urdf.read_text(text, "f")
     named = ", ".join(f"'j{i}' (none; line {i + 2})" for i in range(4))
-    assert str(caught[0].message) == f"f:2: joints without usable limits are taken as unlimited: {named}{more}"
+    assert (
+        str(caught[0].message)
+        == f"f:2: joints without usable limits are taken as unlimited: {named}{more}"
+    )
 
 
 def test_limits_below_ten_thousand_and_axes_of_nearly_unit_length_are_taken_as_they_are():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        robot = urdf.read_text(one_joint('<axis xyz="0 0 1.0000009"/><limit lower="-9999.5" upper="9999.5"/>'), "f")
+        robot = urdf.read_text(
+            one_joint('<axis xyz="0 0 1.0000009"/><limit lower="-9999.5" upper="9999.5"/>'), "f"
+        )
         assert robot.joints[0].limits == (-9999.5, 9999.5)
-    with pytest.warns(PoekinWarning, match=r"^f:4: the axis of joint 'j' has length 1\.0000011 and was normalised$"):
+    with pytest.warns(
+        PoekinWarning,
+        match=r"^f:4: the axis of joint 'j' has length 1\.0000011 and was normalised$",
+    ):
         urdf.read_text(one_joint('<axis xyz="0 0 1.0000011"/><limit lower="-1" upper="1"/>'), "f")
 
 
@@ -126,7 +146,10 @@ def test_limits_that_are_none_are_told_with_what_they_are(limit, reason, limits)
     with pytest.warns(PoekinWarning) as caught:
         robot = urdf.read_text(one_joint(limit), "f")
     line = reason[-1]
-    assert str(caught[0].message) == f"f:{line}: joints without usable limits are taken as unlimited: 'j' ({reason})"
+    assert (
+        str(caught[0].message)
+        == f"f:{line}: joints without usable limits are taken as unlimited: 'j' ({reason})"
+    )
     assert robot.joints[0].limits == limits
 
 
@@ -155,7 +178,9 @@ def test_the_axis_of_a_joint_that_has_none_is_not_looked_at(kind):
     read('<axis xyz="0 0 0"/><limit lower="2" upper="1"/>', kind)
 
 
-@pytest.mark.parametrize("kind", ["revolute", "prismatic", "continuous", "fixed", "floating", "planar"])
+@pytest.mark.parametrize(
+    "kind", ["revolute", "prismatic", "continuous", "fixed", "floating", "planar"]
+)
 def test_every_kind_is_read(kind):
     robot = read(LIMIT, kind)
     assert robot.joints[0].kind == kind
@@ -185,7 +210,9 @@ LIMITS = {
 
 @pytest.mark.parametrize("limit, expected", LIMITS.items())
 @pytest.mark.parametrize("kind", ["revolute", "prismatic"])
-def test_limits_missing_equal_infinite_or_absurd_mean_unlimited_with_a_warning(limit, expected, kind):
+def test_limits_missing_equal_infinite_or_absurd_mean_unlimited_with_a_warning(
+    limit, expected, kind
+):
     with pytest.warns(PoekinWarning, match=r"^x\.urdf:[34]: .* unlimited: 'j' \(.*line [34]\)$"):
         robot = read(limit, kind)
     assert tuple(robot.limits[0]) == expected
@@ -193,7 +220,8 @@ def test_limits_missing_equal_infinite_or_absurd_mean_unlimited_with_a_warning(l
 
 def test_all_unusable_limits_of_a_file_make_one_warning():
     joints = "\n".join(
-        f'<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{i + 1}"/></joint>' for i in range(9)
+        f'<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{i + 1}"/></joint>'
+        for i in range(9)
     )
     text = "<robot>" + "".join(f'<link name="l{i}"/>' for i in range(10)) + joints + "</robot>"
     with pytest.warns(
@@ -214,7 +242,9 @@ def test_a_continuous_joint_has_no_limits_and_no_warning():
 
 def test_mimic_joints_follow_their_masters():
     both, slope, shift = 'multiplier="-2" offset="0.5"', 'multiplier="3"', 'offset="0.25"'
-    followers = [f'<mimic joint="j{k}" {rest}/>' for k, rest in ((1, both), (0, slope), (1, shift), (1, ""))]
+    followers = [
+        f'<mimic joint="j{k}" {rest}/>' for k, rest in ((1, both), (0, slope), (1, shift), (1, ""))
+    ]
     chain = urdf.read_text(chain_of(followers[0], "", *followers[1:])).chain()
     assert chain.q_names == ("j1",)
     assert chain.coupling.tolist() == [[-2], [1], [-6], [1], [1]]
@@ -249,7 +279,12 @@ def test_only_the_robots_own_links_and_joints_count():
 
 
 def test_a_namespace_of_the_whole_file_is_accepted():
-    assert urdf.read_text(one_joint().replace("<robot", '<robot xmlns="http://example.invalid/urdf"')).dof == 1
+    assert (
+        urdf.read_text(
+            one_joint().replace("<robot", '<robot xmlns="http://example.invalid/urdf"')
+        ).dof
+        == 1
+    )
 
 
 def test_a_robot_without_a_name_is_called_after_its_file(tmp_path):
@@ -265,7 +300,9 @@ def test_any_encoding_that_the_file_declares_is_read(tmp_path, encoding):
     text = f'<?xml version="1.0" encoding="{declared}"?>\n' + one_joint().replace('"a"', '"é"')
     path.write_bytes(text.encode(encoding))
     assert urdf.read(path).root == "é"
-    assert urdf.read_text(text).root == "é"  # text that is decoded already, whatever its first line says
+    assert (
+        urdf.read_text(text).root == "é"
+    )  # text that is decoded already, whatever its first line says
 
 
 def test_a_robot_knows_where_it_was_read_from():

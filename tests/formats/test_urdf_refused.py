@@ -12,13 +12,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from poekin.errors import FileError, InputError, ModelError, PoekinError, PoekinWarning, harmless
-from poekin.formats import urdf, xml
+from poekin.formats import urdf
+from poekin.formats.text import xml
 from poekin.model.robot import Robot
 from tests.formats.texts import LIMIT, chain_of, one_joint
 from tests.messages import says
 
 
-def joint_of(attributes: str = 'name="j" type="fixed"', ends: str = '<parent link="a"/><child link="b"/>') -> str:
+def joint_of(
+    attributes: str = 'name="j" type="fixed"', ends: str = '<parent link="a"/><child link="b"/>'
+) -> str:
     return f'<robot name="r">\n<link name="a"/><link name="b"/>\n<joint {attributes}>\n{ends}\n</joint></robot>'
 
 
@@ -34,14 +37,26 @@ REFUSED = {
     "zeros": (b"\0" * 100, r"^x\.urdf:1: malformed XML"),
     "bytes that are no UTF-8": (b'<robot name="\xff"/>', r"^x\.urdf:1: malformed XML"),
     "a lone surrogate": ('<robot name="\ud800"/>', r"^x\.urdf:1: malformed XML"),
-    "an unknown encoding": (b'<?xml version="1.0" encoding="klingon"?><robot/>', "malformed XML.*klingon"),
+    "an unknown encoding": (
+        b'<?xml version="1.0" encoding="klingon"?><robot/>',
+        "malformed XML.*klingon",
+    ),
     "cut off": (one_joint()[:80], r"^x\.urdf:3: malformed XML"),
     "tags crossed": ("<robot>\n<link>\n</robot>", r"^x\.urdf:3: malformed XML.*link"),
-    "an attribute twice": ('<robot>\n<link name="a" name="a"/></robot>', r"^x\.urdf:2: malformed XML"),
+    "an attribute twice": (
+        '<robot>\n<link name="a" name="a"/></robot>',
+        r"^x\.urdf:2: malformed XML",
+    ),
     "two documents": ("<robot/>\n<robot/>", r"^x\.urdf:2: malformed XML"),
     "an undefined entity": ("<robot>\n&who;</robot>", r"^x\.urdf:2: malformed XML.*who"),
-    "an undeclared prefix": ("<robot>\n<xacro:macro/></robot>", r"^x\.urdf:2: malformed XML.*xacro"),
-    "nesting without end": ("<robot>" + "<a>" * 5000 + "</a>" * 5000 + "</robot>", r"^x\.urdf:1: malformed XML"),
+    "an undeclared prefix": (
+        "<robot>\n<xacro:macro/></robot>",
+        r"^x\.urdf:2: malformed XML.*xacro",
+    ),
+    "nesting without end": (
+        "<robot>" + "<a>" * 5000 + "</a>" * 5000 + "</robot>",
+        r"^x\.urdf:1: malformed XML",
+    ),
     "a DTD": (
         "\n<!DOCTYPE robot><robot/>",
         (
@@ -99,8 +114,14 @@ REFUSED = {
         ),
     ),
     # the robot
-    "another root": ("<sdf><robot/></sdf>", r"^x\.urdf:1: expected the root element <robot>, got 'sdf'$"),
-    "no links": ('\n<robot name="r"/>', r"^x\.urdf:2: robot 'r': expected at least one <link>, there is none$"),
+    "another root": (
+        "<sdf><robot/></sdf>",
+        r"^x\.urdf:1: expected the root element <robot>, got 'sdf'$",
+    ),
+    "no links": (
+        '\n<robot name="r"/>',
+        r"^x\.urdf:2: robot 'r': expected at least one <link>, there is none$",
+    ),
     "xacro": (
         '<robot xmlns:x="http://ros.org/xacro"><x:macro/></robot>',
         (
@@ -143,7 +164,9 @@ REFUSED = {
         r"^x\.urdf:3: link 'l1' has two parents: joint 'j1' and joint 'j0' \(x\.urdf:2\)$",
     ),
     "a cycle": (
-        chain_of("", "").replace('child link="l2"', 'child link="l0"').replace('<link name="l2"/>', ""),
+        chain_of("", "")
+        .replace('child link="l2"', 'child link="l0"')
+        .replace('<link name="l2"/>', ""),
         r"^x\.urdf:2: the links form a cycle of 2 joint\(s\): 'l0' -> 'l1'$",
     ),
     "an unknown parent": (
@@ -193,7 +216,10 @@ REFUSED = {
         one_joint('<origin xyz="0,0,0"/>'),
         r"^x\.urdf:4: joint 'j': <origin>: xyz must be three numbers, got 1: '0,0,0'$",
     ),
-    "empty": (one_joint('<origin xyz=""/>'), r"^x\.urdf:4: joint 'j': <origin>: xyz must be three numbers, got 0: ''$"),
+    "empty": (
+        one_joint('<origin xyz=""/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: xyz must be three numbers, got 0: ''$",
+    ),
     "an underscore": (
         one_joint('<origin xyz="0 0 1_0"/>'),
         r"^x\.urdf:4: joint 'j': <origin>: xyz must be three finite numbers, got '0 0 1_0'$",
@@ -221,11 +247,23 @@ REFUSED = {
             r"\(an unprocessed xacro expression\?\)$"
         ),
     ),
-    "a zero axis": (one_joint('<axis xyz="0 0 -0.0"/>'), r"^x\.urdf:4: joint 'j': <axis>: xyz must not be zero$"),
-    "an axis without xyz": (one_joint("<axis/>"), r"^x\.urdf:4: joint 'j': <axis>: expected an attribute xyz="),
+    "a zero axis": (
+        one_joint('<axis xyz="0 0 -0.0"/>'),
+        r"^x\.urdf:4: joint 'j': <axis>: xyz must not be zero$",
+    ),
+    "an axis without xyz": (
+        one_joint("<axis/>"),
+        r"^x\.urdf:4: joint 'j': <axis>: expected an attribute xyz=",
+    ),
     "an axis by angles": (one_joint('<axis rpy="0 0 1"/>'), "<axis>: expected an attribute xyz="),
-    "an axis as text": (one_joint("<axis>0 0 1</axis>", "continuous"), "<axis>: expected an attribute xyz="),
-    "a planar axis without xyz": (one_joint("<axis/>", "planar"), "<axis>: expected an attribute xyz="),
+    "an axis as text": (
+        one_joint("<axis>0 0 1</axis>", "continuous"),
+        "<axis>: expected an attribute xyz=",
+    ),
+    "a planar axis without xyz": (
+        one_joint("<axis/>", "planar"),
+        "<axis>: expected an attribute xyz=",
+    ),
     "a length without a square": (
         one_joint('<origin xyz="0 -1e155 0"/>'),
         (
@@ -282,7 +320,10 @@ REFUSED = {
             r"another joint$"
         ),
     ),
-    "a mimic of itself": (chain_of('<mimic joint="j0"/>'), r"^x\.urdf:2: joint 'j0' mimics itself$"),
+    "a mimic of itself": (
+        chain_of('<mimic joint="j0"/>'),
+        r"^x\.urdf:2: joint 'j0' mimics itself$",
+    ),
     "mimics in a circle": (
         chain_of('<mimic joint="j1"/>', '<mimic joint="j0"/>'),
         r"^x\.urdf:2: joint 'j0' mimics itself, through others$",
@@ -313,7 +354,9 @@ def test_what_is_no_text_is_refused(text):
 
 
 def test_what_is_no_name_or_path_is_refused():
-    with pytest.raises(InputError, match=r"^name: expected what to call the text in messages, a str, got None$"):
+    with pytest.raises(
+        InputError, match=r"^name: expected what to call the text in messages, a str, got None$"
+    ):
         urdf.read_text(one_joint(), None)  # pyright: ignore[reportArgumentType]
     with pytest.raises(InputError, match=r"^expected the path of a file, got 5$"):
         urdf.read(5)  # pyright: ignore[reportArgumentType]
@@ -387,7 +430,9 @@ def test_a_file_that_cannot_be_read_is_refused_by_name(tmp_path):
     empty, large = tmp_path / "empty.urdf", tmp_path / "large.urdf"
     empty.touch()
     with large.open("wb") as stream:
-        stream.truncate(xml.MAX_BYTES + 1)  # a hole: no byte of it is written, and none must be read
+        stream.truncate(
+            xml.MAX_BYTES + 1
+        )  # a hole: no byte of it is written, and none must be read
     cases = [
         (tmp_path / "gone.urdf", "cannot be read: No such file or directory"),
         (tmp_path, "expected a file, this is a directory"),
@@ -475,4 +520,7 @@ def test_a_mimic_of_a_joint_that_does_not_exist_is_said_with_both_names():
     text = one_joint(LIMIT + '<mimic joint="k"/>')
     with pytest.warns(PoekinWarning) as caught:
         urdf.read_text(text, "x.urdf")
-    assert str(caught[0].message) == "x.urdf:4: joint 'j' mimics 'k', which does not exist, and stays independent"
+    assert (
+        str(caught[0].message)
+        == "x.urdf:4: joint 'j' mimics 'k', which does not exist, and stays independent"
+    )

@@ -23,12 +23,12 @@ from poekin.formats.urdf_text import to_urdf
 from poekin.model.chain import Chain
 from poekin.model.joint import FREE
 from poekin.model.robot import Robot
-from poekin.testing.attainable import UNIT
-from poekin.testing.chain_laws import budget
-from poekin.testing.chain_strategies import chains
-from poekin.testing.example_robots import example_robots
-from poekin.testing.pinocchio_oracle import PinocchioOracle
-from poekin.testing.urdf_errors import SAMPLES, pinocchio_errors, values_of
+from poekin.testing.accuracy.error_bounds import UNIT
+from poekin.testing.cases.example_robots import example_robots
+from poekin.testing.laws.chain_laws import budget
+from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
+from poekin.testing.oracles.urdf_errors import SAMPLES, pinocchio_errors, values_of
+from poekin.testing.strategies.chain_strategies import chains
 from tests.model.test_robot import random_q, robots, seeds, size
 from tests.model.test_robot import rounding as poses_rounding
 
@@ -48,9 +48,13 @@ def again(model: Robot | Chain) -> Robot:
 
 
 def differences(robot: Robot, other: Robot) -> list[str]:
-    """What a URDF says of a robot that is not the same of the other, to the last digit but for rotations."""
+    """What a URDF says of a robot that is not the same of the other, to the last digit but for
+    rotations.
+    """
     found = [
-        what for what in ("name", "links", "q_names", "root", "leaves") if getattr(robot, what) != getattr(other, what)
+        what
+        for what in ("name", "links", "q_names", "root", "leaves")
+        if getattr(robot, what) != getattr(other, what)
     ] + ([] if np.array_equal(robot.limits, other.limits) else ["limits"])
     for a, b in zip(robot.joints, other.joints, strict=True):
         kind = "continuous" if a.kind == "revolute" and a.limits == (-INF, INF) else a.kind
@@ -64,15 +68,18 @@ def differences(robot: Robot, other: Robot) -> list[str]:
 
 
 def text_off(robot: Robot, other: Robot, seed: int, rows: int = 1) -> np.ndarray:
-    """How far the poses of links of the same name are apart ÷ what they may be, at so many configurations.
+    """How far the poses of links of the same name are apart ÷ what they may be, at so many
+    configurations.
 
-    The text turns the frame of each of n joints by up to 1e-15 an entry, 27 u in Frobenius' norm, and all that is
-    behind it; the poses themselves are computed twice.
+    The text turns the frame of each of n joints by up to 1e-15 an entry, 27 u in Frobenius' norm,
+    and all that is behind it; the poses themselves are computed twice.
     """
     q = random_q(robot, seed, rows)
     mine, theirs = robot.fk(q), other.fk({name: q.get(name, 0.0) for name in other.q_names})
     within = poses_rounding(robot, q) + 27 * UNIT * len(robot.joints)
-    worst = functools.reduce(np.maximum, (np.abs(mine[link] - theirs[link]).max(axis=(-2, -1)) for link in robot.links))
+    worst = functools.reduce(
+        np.maximum, (np.abs(mine[link] - theirs[link]).max(axis=(-2, -1)) for link in robot.links)
+    )
     return np.atleast_1d(worst / size(robot) / within)
 
 
@@ -95,18 +102,26 @@ def scaled_chains(draw) -> Chain:
     chain = draw(chains(joint_kinds=("revolute", "prismatic")))
     scale = [draw(st.sampled_from([1.0, -1.0, 0.5, -3.0, 0.0])) for _ in range(chain.dof)]
     low = [draw(st.floats(-9, 9)) for _ in range(chain.dof)]
-    limits = [(-INF, INF) if draw(st.booleans()) else (a, a + draw(st.floats(1e-3, 9))) for a in low]
+    limits = [
+        (-INF, INF) if draw(st.booleans()) else (a, a + draw(st.floats(1e-3, 9))) for a in low
+    ]
     C = chain.coupling * (np.array(scale) if draw(st.booleans()) else 1.0)
     names = [f"q{k}" for k in range(chain.dof)]
     limits = np.reshape(limits, (chain.dof, 2))
-    return Chain(chain.screws, chain.home, q_names=names, limits=limits, coupling=C, offset=chain.offset)
+    return Chain(
+        chain.screws, chain.home, q_names=names, limits=limits, coupling=C, offset=chain.offset
+    )
 
 
 def pull() -> Chain:
-    """Twelve turning joints in one another's line that all follow one coordinate, three times as fast."""
+    """Twelve turning joints in one another's line that all follow one coordinate, three times as
+    fast.
+    """
     place = [[0, 0, 1, 3 * np.sin(k), -3 * np.cos(k), 0] for k in range(12)]
     ratios = [3.0, -6.0, 1.5] * 4
-    return Chain(place, np.eye(4), coupling=np.reshape(ratios, (12, 1)), offset=np.linspace(-1, 1, 12))
+    return Chain(
+        place, np.eye(4), coupling=np.reshape(ratios, (12, 1)), offset=np.linspace(-1, 1, 12)
+    )
 
 
 @given(robot=limited(), seed=seeds)
@@ -117,13 +132,16 @@ def test_a_robot_comes_back_from_its_text(robot, seed):
 
 
 def rounding(chain: Chain, seed: int, samples: int = SAMPLES) -> np.ndarray:
-    """What `pinocchio_errors` may come to by rounding alone; u = 2^-53, n joints, X = sum |C| |q| + |c|.
+    """What `pinocchio_errors` may come to by rounding alone; u = 2^-53, n joints, X = sum |C| |q| +
+    |c|.
 
-    A pose is off by u (8 (n + 1) + 4 X) by poekin and, as much again, by Pinocchio. The text turns each frame by up to
-    1e-15 an entry, 27 u in Frobenius' norm, and each reader does so again, as it takes sines of its angles.
-    A follower's multiplier m and offset o, of |m| <= 4 and |o| <= 5 here, and m y + o are rounded: 24 u a joint.
-    A column is the sum of its joints' columns, each an axis and its moment: twice what a pose is off by, times the sum
-    of the ratios. Lengths grow with what joints slide.
+    A pose is off by u (8 (n + 1) + 4 X) by poekin and, as much again, by Pinocchio. The text turns
+    each frame by up to 1e-15 an entry, 27 u in Frobenius' norm, and each reader does so again, as
+    it takes sines of its angles.
+    A follower's multiplier m and offset o, of |m| <= 4 and |o| <= 5 here, and m y + o are rounded:
+    24 u a joint.
+    A column is the sum of its joints' columns, each an axis and its moment: twice what a pose is
+    off by, times the sum of the ratios. Lengths grow with what joints slide.
     """
     q = np.random.default_rng(seed).uniform(-3, 3, (samples, chain.dof))
     X, n = np.abs(q) @ np.abs(chain.coupling).T + np.abs(chain.offset), len(chain.screws)
@@ -134,7 +152,9 @@ def rounding(chain: Chain, seed: int, samples: int = SAMPLES) -> np.ndarray:
 
 def pinocchio_off(chain: Chain, seed: int, samples: int = SAMPLES) -> np.ndarray:
     """How far Pinocchio's poses and Jacobians of a chain's text are from the chain's ÷ `rounding`."""
-    return pinocchio_errors(chain, quietly(to_urdf, chain), seed, samples) / rounding(chain, seed, samples)
+    return pinocchio_errors(chain, quietly(to_urdf, chain), seed, samples) / rounding(
+        chain, seed, samples
+    )
 
 
 @given(chain=scaled_chains(), seed=seeds)
@@ -147,16 +167,23 @@ def test_pinocchio_sees_a_chain_in_its_text(chain, seed):
 def test_a_chain_comes_back_from_its_text_to_the_last_digit_of_all_but_its_frames(chain):
     limits = np.random.default_rng(0).uniform(-1, 0, (chain.dof, 2)).cumsum(1)[:, ::-1]
     masters = [v[0] for v in values_of(chain) if v]
-    limited = Chain(chain.screws, chain.home, limits=limits, coupling=chain.coupling, q_names=masters)
+    limited = Chain(
+        chain.screws, chain.home, limits=limits, coupling=chain.coupling, q_names=masters
+    )
     back = again(limited).chain(tip="tool")
-    still = [name for name, row in zip(limited.joint_names, limited.coupling, strict=True) if not row.any()]
+    still = [
+        name
+        for name, row in zip(limited.joint_names, limited.coupling, strict=True)
+        if not row.any()
+    ]
     rows = [i for i, name in enumerate(limited.joint_names) if name not in still]
     order = [limited.q_names.index(name) for name in back.q_names]
     assert back.joint_names == tuple(limited.joint_names[i] for i in rows)
     assert sorted(back.q_names) == sorted(limited.q_names)
     assert np.array_equal(back.coupling, limited.coupling[rows][:, order])
     assert np.array_equal(back.limits, limited.limits[order])
-    # both chains' budgets, and for each frame the text's turn, the reader's sines and two products: 70 u
+    # both chains' budgets, and for each frame the text's turn, the reader's sines and two products:
+    # 70 u
     for q in limited.random(0, 3):
         own = 70 * UNIT * (len(limited.screws) + 1)
         far = limited.reach + np.abs(limited.local.slides * (limited.coupling @ q)).sum()
@@ -187,7 +214,9 @@ def test_every_example_robot_comes_back_and_pinocchio_sees_each_of_its_chains(na
 
 
 def limb() -> Chain:
-    """A chain with all that the planted errors are planted in: no axis along another, a follower, a flip, an offset."""
+    """A chain with all that the planted errors are planted in: no axis along another, a follower, a
+    flip, an offset.
+    """
     rng = np.random.default_rng(3)
     w = rng.normal(size=(5, 3))
     w /= np.linalg.norm(w, axis=1)[:, None]
@@ -213,7 +242,9 @@ PLANTED = {
     "rpy lost": lambda t: sub('rpy="[^"]*"', "", t),
     "tool lost": lambda t: sub(r'(?s)("tool_joint".*?xyz)="[^"]*"', r'\1="0 0 0"', t),
     "a slide turned": lambda t: sub('type="prismatic"', 'type="revolute"', t),
-    "nine digits": lambda t: sub(r"(?<!version=.)-?\d+\.\d+", lambda number: f"{float(number[0]):.9g}", t),
+    "nine digits": lambda t: sub(
+        r"(?<!version=.)-?\d+\.\d+", lambda number: f"{float(number[0]):.9g}", t
+    ),
 }
 
 

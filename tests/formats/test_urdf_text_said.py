@@ -19,7 +19,7 @@ from poekin.formats.urdf_text import UNLIMITED, to_urdf
 from poekin.model.chain import Chain
 from poekin.model.joint import Joint, Mimic
 from poekin.model.robot import Robot
-from poekin.testing.pinocchio_oracle import pinocchio
+from poekin.testing.oracles.pinocchio_oracle import pinocchio
 from tests.formats.test_urdf_text import again, limb
 
 INF = math.inf
@@ -27,9 +27,24 @@ INF = math.inf
 
 def test_the_text_says_what_it_says():
     elbow = Joint(
-        "elbow", "revolute", "upper", "fore", np.eye(4), (0, 0, 1), (-1, 0.1 + 0.2), Mimic("slide", -0.5, 0.25)
+        "elbow",
+        "revolute",
+        "upper",
+        "fore",
+        np.eye(4),
+        (0, 0, 1),
+        (-1, 0.1 + 0.2),
+        Mimic("slide", -0.5, 0.25),
     )
-    slide = Joint("slide", "prismatic", "fore", "hand", urdf.rpy.pose((0, 0, 1e-17), (0, 0, 1.5)), (0, 1, 0), (-INF, 1))
+    slide = Joint(
+        "slide",
+        "prismatic",
+        "fore",
+        "hand",
+        urdf.rpy.pose((0, 0, 1e-17), (0, 0, 1.5)),
+        (0, 1, 0),
+        (-INF, 1),
+    )
     robot = Robot("arm", ["upper", "fore", "hand"], [elbow, slide])
     assert (
         to_urdf(robot, name="two")
@@ -92,12 +107,18 @@ def test_a_bound_that_is_not_there_comes_back_as_none_and_is_huge_to_others(limi
 
 
 REFUSED = {
-    "helical": (Chain([[0, 0, 1, 0, 0, 0.1]], np.eye(4), joint_names=["nut"]), "helical joints.*'nut'"),
+    "helical": (
+        Chain([[0, 0, 1, 0, 0, 0.1]], np.eye(4), joint_names=["nut"]),
+        "helical joints.*'nut'",
+    ),
     "a helical joint of a robot": (
         Robot("r", ["a", "b"], [Joint("nut", "helical", "a", "b", pitch=0.1)]),
         "helical joints.*'nut'",
     ),
-    "a link that XML cannot hold": (Robot("r", ["a\0"], []), r"link 'a\\x00': XML cannot hold the character U\+0000"),
+    "a link that XML cannot hold": (
+        Robot("r", ["a\0"], []),
+        r"link 'a\\x00': XML cannot hold the character U\+0000",
+    ),
     "a robot that XML cannot hold": (Robot("r\ufffe", ["a"], []), r"robot 'r\\ufffe': .*U\+FFFE"),
     "a joint that XML cannot hold": (
         Robot("r", ["a", "b"], [Joint("\ud800", "fixed", "a", "b")]),
@@ -134,7 +155,19 @@ def holds(name: str) -> bool:
 
 names = st.text(st.characters(), min_size=1, max_size=8)
 nasty = st.sampled_from(
-    [' a"', "<b>&amp;", "]]>", "-->", "\n\t\r", "&#10;", "'", "\u202e\x9b2J", "\x7f", "\u2028", "ü𝄞"]
+    [
+        ' a"',
+        "<b>&amp;",
+        "]]>",
+        "-->",
+        "\n\t\r",
+        "&#10;",
+        "'",
+        "\u202e\x9b2J",
+        "\x7f",
+        "\u2028",
+        "ü𝄞",
+    ]
 )
 
 
@@ -151,7 +184,9 @@ def test_names_survive_exactly_or_are_refused(four):
     assert all(c.isprintable() or c == "\n" for c in text)
 
 
-@pytest.mark.parametrize("name", [' a"', "<b>&amp;", "]]>", "-->", "a\n\t\rb", "&#10;", "'", "\u202ex\x9b2J", "ü𝄞"])
+@pytest.mark.parametrize(
+    "name", [' a"', "<b>&amp;", "]]>", "-->", "a\n\t\rb", "&#10;", "'", "\u202ex\x9b2J", "ü𝄞"]
+)
 def test_pinocchio_reads_the_same_names(name):
     robot = Robot(name, ["a", name], [Joint(name, "continuous", "a", name)])
     model = pinocchio().buildModelFromXML(to_urdf(robot))

@@ -13,9 +13,12 @@ from poekin.formats.load import load
 from poekin.formats.xacro import is_xacro, xacro
 
 needs_utf8 = pytest.mark.skipif(
-    locale.getpreferredencoding(False).upper() != "UTF-8", reason="xacro reads files in the encoding of the locale"
+    locale.getpreferredencoding(False).upper() != "UTF-8",
+    reason="xacro reads files in the encoding of the locale",
 )
-needs_xacro = pytest.mark.skipif(importlib.util.find_spec("xacrodoc") is None, reason="xacrodoc is not installed")
+needs_xacro = pytest.mark.skipif(
+    importlib.util.find_spec("xacrodoc") is None, reason="xacrodoc is not installed"
+)
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
 ARM = (
@@ -58,7 +61,9 @@ def test_truth_values_are_xacros(tmp_path):
     assert xacro(path).links == xacro(path, x=False).links == ("a",)
     with pytest.raises(ModelError, match="has one root, but 2 links have no parent"):
         xacro(path, x=True)
-    with pytest.raises(InputError, match=r"^xacro: x: expected a text, number or truth value, got \[1\]$"):
+    with pytest.raises(
+        InputError, match=r"^xacro: x: expected a text, number or truth value, got \[1\]$"
+    ):
         xacro(path, x=[1])  # type: ignore[arg-type]
 
 
@@ -75,7 +80,9 @@ def test_a_package_is_found_above_the_file_and_is_not_that_of_the_next_file(tmp_
     for name, length in (("one", "1"), ("two", "2")):
         (tmp_path / name / "urdf").mkdir(parents=True)
         (tmp_path / name / "package.xml").write_text("<package><name>some_arm</name></package>")
-        (tmp_path / name / "urdf" / "p.xacro").write_text(HEAD + f'<link name="l{length}"/></robot>')
+        (tmp_path / name / "urdf" / "p.xacro").write_text(
+            HEAD + f'<link name="l{length}"/></robot>'
+        )
         (tmp_path / name / "urdf" / "r.xacro").write_text(
             HEAD + '<xacro:include filename="$(find some_arm)/urdf/p.xacro"/></robot>'
         )
@@ -85,16 +92,34 @@ def test_a_package_is_found_above_the_file_and_is_not_that_of_the_next_file(tmp_
 
 
 REFUSED = {
-    "an unknown package": ('<link name="$(find nopkg)"/>', r"xacro: there is no package 'nopkg' in the folders above"),
-    "an expression": ('<link name="${1/0}"/>', r"xacro: division by zero when evaluating expression '1/0'$"),
+    "an unknown package": (
+        '<link name="$(find nopkg)"/>',
+        r"xacro: there is no package 'nopkg' in the folders above",
+    ),
+    "an expression": (
+        '<link name="${1/0}"/>',
+        r"xacro: division by zero when evaluating expression '1/0'$",
+    ),
     "an unknown name": ('<link name="${nope}"/>', r"xacro: name 'nope' is not defined"),
     "an unknown macro": ("<xacro:nope/>", r"xacro: unknown macro name: xacro:nope$"),
-    "an unknown argument": ('<link name="$(arg u)"/>', r"xacro: Undefined substitution argument u$"),
-    "an unknown variable": ('<link name="$(env PK_NOPE)"/>', r"xacro: environment variable 'PK_NOPE' is not set$"),
-    "a macro of itself": ('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>', r"xacro: it goes round in circ"),
+    "an unknown argument": (
+        '<link name="$(arg u)"/>',
+        r"xacro: Undefined substitution argument u$",
+    ),
+    "an unknown variable": (
+        '<link name="$(env PK_NOPE)"/>',
+        r"xacro: environment variable 'PK_NOPE' is not set$",
+    ),
+    "a macro of itself": (
+        '<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>',
+        r"xacro: it goes round in circ",
+    ),
     "a missing attribute": ("<xacro:if/>", r"xacro: xacro:if: missing attribute 'value'$"),
     "a name that a terminal would obey": ('<link name="$(arg \x9b31m)"/>', r"argument \\x9b31m$"),
-    "no robot in it": ('<link name="${1}"/><joint/>', r"\(evaluated\):\d+: <joint>: expected an attribute name"),
+    "no robot in it": (
+        '<link name="${1}"/><joint/>',
+        r"\(evaluated\):\d+: <joint>: expected an attribute name",
+    ),
     "malformed": ("<link", r"x:1: malformed XML"),
 }
 
@@ -115,7 +140,10 @@ def test_what_cannot_be_evaluated_is_refused_in_one_line(tmp_path, text, message
 @needs_utf8
 def test_what_xacro_warns_of_is_a_warning_once_and_harmless(tmp_path, capfd):
     path = tmp_path / "w.xacro"
-    path.write_text(HEAD + '<link name="a"/><xacro:include filename="no\x9b31m*.xacro"/></robot>', encoding="utf-8")
+    path.write_text(
+        HEAD + '<link name="a"/><xacro:include filename="no\x9b31m*.xacro"/></robot>',
+        encoding="utf-8",
+    )
     with pytest.warns(
         PoekinWarning, match=r"w\.xacro: xacro: Include tag's filename .*no\\x9b31m.* no files"
     ) as caught:
@@ -137,7 +165,8 @@ def test_load_evaluates_nothing_and_says_what_does(tmp_path):
     for name in ("arm.xacro", "arm.urdf.XACRO"):
         (tmp_path / name).write_text(HEAD + '<link name="a"/></robot>')
         with pytest.raises(
-            ModelError, match=r"(?i)arm.*\.xacro: xacro evaluates .*pk\.xacro\(path\) does, and --xacro"
+            ModelError,
+            match=r"(?i)arm.*\.xacro: xacro evaluates .*pk\.xacro\(path\) does, and --xacro",
         ):
             load(tmp_path / name)
     with pytest.raises(FileError, match=r"^gone\.xacro: no such file$"):
@@ -145,7 +174,11 @@ def test_load_evaluates_nothing_and_says_what_does(tmp_path):
 
 
 def test_a_xacro_file_is_known_by_its_ending_or_its_namespace(tmp_path):
-    for name, text, answer in (("a.xacro", "<robot/>", True), ("b.urdf", HEAD, True), ("c.urdf", "<robot/>", False)):
+    for name, text, answer in (
+        ("a.xacro", "<robot/>", True),
+        ("b.urdf", HEAD, True),
+        ("c.urdf", "<robot/>", False),
+    ):
         (tmp_path / name).write_text(text)
         assert is_xacro(tmp_path / name) is answer
 
@@ -155,6 +188,7 @@ def test_without_xacrodoc_the_extra_is_named(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "xacrodoc", None)
     monkeypatch.setitem(sys.modules, "xacro", None)
     with pytest.raises(
-        MissingExtra, match=r"^evaluating xacro needs the package xacrodoc: pip install 'poekin\[xacro\]'$"
+        MissingExtra,
+        match=r"^evaluating xacro needs the package xacrodoc: pip install 'poekin\[xacro\]'$",
     ):
         xacro(tmp_path / "a.xacro")

@@ -1,4 +1,6 @@
-"""The kinds of scalar that a formula runs in: floats, compiled, counting and exact, each as a way to call it."""
+"""The kinds of scalar that a formula runs in: floats, compiled, counting and exact, each as a way
+to call it.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +10,11 @@ import mpmath
 import numba
 import numpy as np
 
-from poekin.engine import compile as engine_compile
 from poekin.engine.count import Count, counted
-from poekin.engine.interpret import evaluate
-from poekin.engine.program import Angles, program
-from poekin.engine.trace import Graph
+from poekin.engine.jit import compile as engine_compile
+from poekin.engine.straight_line.interpret import evaluate
+from poekin.engine.straight_line.program import Angles, program
+from poekin.engine.straight_line.trace import Graph
 from poekin.formulas import elementary
 
 DIGITS = 60
@@ -21,7 +23,9 @@ _compiled: dict[Callable, Callable] = {}
 
 
 def _mapped(value, leaf):
-    """Nested tuples and lists with every float replaced; integers are counts and structure, and stay."""
+    """Nested tuples and lists with every float replaced; integers are counts and structure, and
+    stay.
+    """
     if isinstance(value, (tuple, list)):
         return type(value)(_mapped(v, leaf) for v in value)
     return leaf(value) if isinstance(value, float) else value
@@ -44,7 +48,9 @@ def floats(formula, *arguments):
 def compiled(formula, *arguments):
     """Tuples stay tuples; lists, which are rows, become arrays."""
     function = _compiled.setdefault(formula, numba.njit(**engine_compile.OPTIONS)(formula))
-    return _run(function, [np.array(a, dtype=float) if isinstance(a, list) else a for a in arguments])
+    return _run(
+        function, [np.array(a, dtype=float) if isinstance(a, list) else a for a in arguments]
+    )
 
 
 def counting(formula, *arguments):
@@ -66,7 +72,9 @@ def traced(formula, *arguments):
 
     arguments = _mapped(list(arguments), recorded)
     result = formula(*arguments)
-    outputs = [x + 0.0 if isinstance(x, int) else x for x in _flat(result) + _flat(_written(arguments))]
+    outputs = [
+        x + 0.0 if isinstance(x, int) else x for x in _flat(result) + _flat(_written(arguments))
+    ]
     return evaluate(program(graph, Angles(graph), outputs), np.array([values]))[0].tolist()
 
 

@@ -1,6 +1,8 @@
-"""The algebra of tuples is that of matrices: each function against NumPy's product of the matrices it stands for.
+"""The algebra of tuples is that of matrices: each function against NumPy's product of the matrices
+it stands for.
 
-Each is a polynomial in its arguments with whole coefficients, so one point of generic numbers tells two of them apart.
+Each is a polynomial in its arguments with whole coefficients, so one point of generic numbers tells
+two of them apart.
 """
 
 from __future__ import annotations
@@ -9,7 +11,9 @@ import numpy as np
 import pytest
 
 from poekin import algebra
-from poekin.formulas import defect, dh, exponential, recursive
+from poekin.formulas import dh
+from poekin.formulas.kinematics import recursive
+from poekin.formulas.lie import defect, exponential
 
 rng = np.random.default_rng(11)
 a, b, k = rng.normal(size=3), rng.normal(size=3), 0.37
@@ -61,14 +65,23 @@ CASES = {
     "inverse": (algebra.inverse(Q), flat(np.linalg.inv(T))),
     "adjoint": (algebra.adjoint(Q, V), Ad(T) @ V),
     "adjoint_inverse": (algebra.adjoint_inverse(Q, V), np.linalg.inv(Ad(T)) @ V),
-    "turned_about_z": (algebra.turned_about_z(Q, 0.6, 0.8, k), flat(T @ matrix(TURN, (0.0, 0.0, k)))),
+    "turned_about_z": (
+        algebra.turned_about_z(Q, 0.6, 0.8, k),
+        flat(T @ matrix(TURN, (0.0, 0.0, k))),
+    ),
     "identity": (algebra.IDENTITY, flat(np.eye(4))),
-    "rotation": (exponential.rotation(a, k, 0.2), (np.eye(3) + k * hat(a) + 0.2 * hat(a) @ hat(a)).ravel()),
+    "rotation": (
+        exponential.rotation(a, k, 0.2),
+        (np.eye(3) + k * hat(a) + 0.2 * hat(a) @ hat(a)).ravel(),
+    ),
     "displacement": (exponential.displacement(0.3, a, k, b, 0.2, p), 0.3 * a + k * b + 0.2 * p),
     "z_column": (recursive.z_column(Q, 0.7, 0.4), np.linalg.inv(Ad(T)) @ [0, 0, 0.7, 0, 0, 0.4]),
     "dh link": (
         dh.link(0.6, 0.8, k, -0.2, 0.28, 0.96),
-        flat(matrix(TURN, (0, 0, k)) @ matrix([[1, 0, 0], [0, 0.96, -0.28], [0, 0.28, 0.96]], (-0.2, 0, 0))),
+        flat(
+            matrix(TURN, (0, 0, k))
+            @ matrix([[1, 0, 0], [0, 0.96, -0.28], [0, 0.28, 0.96]], (-0.2, 0, 0))
+        ),
     ),
     "determinant": (defect.determinant(Q), np.linalg.det(R)),
 }

@@ -1,7 +1,7 @@
 """Poses and Jacobians of a chain, formula by formula, against products of 4x4 and 6x6 matrices.
 
-Four joints between generic constant poses: one that only turns, one that only slides, two helical ones. A chain of one
-joint and one of two go the ways that longer ones do not.
+Four joints between generic constant poses: one that only turns, one that only slides, two helical
+ones. A chain of one joint and one of two go the ways that longer ones do not.
 """
 
 from __future__ import annotations
@@ -12,7 +12,10 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from poekin.formulas import columns, dh, dh_recursive, direct, exponential, forward, recursive
+from poekin.formulas import dh
+from poekin.formulas.kinematics import columns, forward, recursive
+from poekin.formulas.lie import exponential
+from poekin.formulas.paper import dh_recursive, direct
 
 rng = np.random.default_rng(3)
 MOST = 4
@@ -93,21 +96,35 @@ def test_the_direct_method_carries_each_screw_by_the_exponentials_before_or_behi
     same(before, flat(product(*EXPONENTIALS[: max(count - 1, 1)])))
     behind = direct.body(SCREWS, exponentials, count, J)
     after = [product(*EXPONENTIALS[i + 1 : count]) for i in range(count)]
-    same(J, np.transpose([Ad(np.linalg.inv(T)) @ S for T, S in zip(after, SCREWS[:count], strict=True)]))
+    same(
+        J,
+        np.transpose(
+            [Ad(np.linalg.inv(T)) @ S for T, S in zip(after, SCREWS[:count], strict=True)]
+        ),
+    )
     same(behind, flat(product(*EXPONENTIALS[min(1, count - 1) : count])))
 
 
 @COUNTS
 def test_the_recursions_give_the_tool_s_screws_in_its_own_frame(count):
     moved = [flat(T) for T in MOVED]
-    formulas: list[tuple[Any, tuple]] = [(recursive.body, ()), (recursive.body_with_tool, (flat(TOOL),))]
+    formulas: list[tuple[Any, tuple]] = [
+        (recursive.body, ()),
+        (recursive.body_with_tool, (flat(TOOL),)),
+    ]
     for formula, tool in formulas:
         J = rows(count)
         T = formula(moved, *tool, ROTATES, SLIDES, count, J)
         last = TOOL if tool else np.eye(4)
         behind = [product(*MOVED[i + 1 : count], last) for i in range(count)]
-        same(J, np.transpose([Ad(np.linalg.inv(T)) @ S for T, S in zip(behind, LOCAL[:count], strict=True)]))
-        # of one joint without a tool there is no frame between the joint's and the tool's, and f_{1,n} stands for f
+        same(
+            J,
+            np.transpose(
+                [Ad(np.linalg.inv(T)) @ S for T, S in zip(behind, LOCAL[:count], strict=True)]
+            ),
+        )
+        # of one joint without a tool there is no frame between the joint's and the tool's, and
+        # f_{1,n} stands for f
         same(T, flat(behind[0] if tool or count > 1 else MOVED[0]))
 
 
@@ -116,7 +133,12 @@ def test_orin_and_schrader_s_frames_follow_their_joints(count):
     J = rows(count)
     T = dh_recursive.body([flat(T) for T in MOVED], flat(TOOL), ROTATES, SLIDES, count, J)
     behind = [product(*MOVED[i:count], TOOL) for i in range(count)]
-    same(J, np.transpose([Ad(np.linalg.inv(T)) @ S for T, S in zip(behind, LOCAL[:count], strict=True)]))
+    same(
+        J,
+        np.transpose(
+            [Ad(np.linalg.inv(T)) @ S for T, S in zip(behind, LOCAL[:count], strict=True)]
+        ),
+    )
     same(T, flat(behind[0]))
 
 
@@ -143,7 +165,10 @@ def test_columns_are_velocities_of_a_point_turned_and_coupled(count):
     z, o = axes[:3].T, axes[3:].T
     J = axes.copy()
     columns.about_point(J, ROTATES, SLIDES, count, p)
-    v = [r * np.cross(zi, p - oi) + s * zi for r, s, zi, oi in zip(ROTATES[:count], SLIDES[:count], z, o, strict=True)]
+    v = [
+        r * np.cross(zi, p - oi) + s * zi
+        for r, s, zi, oi in zip(ROTATES[:count], SLIDES[:count], z, o, strict=True)
+    ]
     expected = np.concatenate([(ROTATES[:count, None] * z).T, np.transpose(v)])
     same(J, expected)
     R = TOOL[:3, :3]
@@ -157,16 +182,24 @@ def test_columns_are_velocities_of_a_point_turned_and_coupled(count):
 @pytest.mark.parametrize("w", [(0.6, 0.0, -0.8), (0.0, 0.0, 0.0)], ids=["axis", "no axis"])
 def test_a_joint_moves_by_the_exponential_of_its_screw(w):
     for v, q in (((0.3, -0.2, 0.7), 1.9), ((0.1, 0.4, -0.5), -0.6)):
-        same(exponential.joint(w, v, q, np.sin(q), np.cos(q)), flat(expm(brackets(np.r_[w, v] * q))))
+        same(
+            exponential.joint(w, v, q, np.sin(q), np.cos(q)), flat(expm(brackets(np.r_[w, v] * q)))
+        )
 
 
 def test_three_hundred_joints_are_as_good_as_three():
-    """Columns near the tip, in the middle and near the base; rounding grows with the number of products."""
+    """Columns near the tip, in the middle and near the base; rounding grows with the number of
+    products.
+    """
     n, step = 300, expm(brackets(np.array([0.01, -0.02, 0.015, 0.002, 0.001, -0.003])))
     rotates, slides = np.ones(n), np.full(n, 0.1)
     S, links = np.array([0, 0, 1, 0, 0, 0.1]), [flat(step)] * n
     powers = [np.linalg.matrix_power(step, k) for k in range(n)]
-    formulas: list[tuple[Any, bool]] = [(recursive.body, False), (direct.body, False), (direct.space, True)]
+    formulas: list[tuple[Any, bool]] = [
+        (recursive.body, False),
+        (direct.body, False),
+        (direct.space, True),
+    ]
     for formula, first in formulas:
         J: Any = rows(n)
         if formula is recursive.body:

@@ -1,11 +1,13 @@
-"""What the derivatives cost, by running them on scalars that count: the figures of their docstrings."""
+"""What the derivatives cost, by running them on scalars that count: the figures of their
+docstrings.
+"""
 
 from __future__ import annotations
 
 import pytest
 
 from poekin.engine.count import Count, counted
-from poekin.formulas import derivatives
+from poekin.formulas.kinematics import derivatives
 
 # multiplications and additions for n joints
 COSTS = {

@@ -1,6 +1,8 @@
-"""Derivatives of Jacobians, formula by formula, against central differences of Jacobians made of matrix exponentials.
+"""Derivatives of Jacobians, formula by formula, against central differences of Jacobians made of
+matrix exponentials.
 
-A step of 1e-5 leaves 1e-10 of a third derivative (up to 1e3 here); a wrong sign or index is an error of about 1.
+A step of 1e-5 leaves 1e-10 of a third derivative (up to 1e3 here); a wrong sign or index is an
+error of about 1.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from poekin.formulas import derivatives, screw_changes
+from poekin.formulas.kinematics import derivatives, screw_changes
 
 rng = np.random.default_rng(8)
 MOST, STEP, CLOSE = 4, 1e-5, 2e-7
@@ -86,7 +88,9 @@ def test_a_rate_is_the_difference_of_jacobians_along_a_motion(frame, count):
     getattr(derivatives, f"{frame}_rate")(J, dx, count, dJ)
     close(dJ, slope(lambda h: jacobian(A, HOME, x + h * dx, frame)))
     ddx = SECOND[:count]
-    expected = slope(lambda h: jacobian(A, HOME, x + h * dx + h * h / 2 * ddx, frame) @ (dx + h * ddx))
+    expected = slope(
+        lambda h: jacobian(A, HOME, x + h * dx + h * h / 2 * ddx, frame) @ (dx + h * ddx)
+    )
     close(derivatives.acceleration(J, dJ, dx, ddx, count), expected)
 
 
@@ -126,7 +130,9 @@ def test_what_a_screw_s_change_does_is_the_difference_it_makes(frame, count):
     before = products(SCREWS[:count], x)
     f = before[-1] @ HOME
     P, D = np.full((count + 2, 12), np.nan), np.full((6, count + 1, 6), np.nan)
-    screw_changes.products([flat(exp(S * q)) for S, q in zip(SCREWS[:count], x, strict=True)], flat(HOME), count, P)
+    screw_changes.products(
+        [flat(exp(S * q)) for S, q in zip(SCREWS[:count], x, strict=True)], flat(HOME), count, P
+    )
     np.testing.assert_allclose(P, [flat(T) for T in (*before, f)], rtol=0, atol=1e-12)
     screw_changes.pose_changes(P, count, D)
     J_s = jacobian(SCREWS[:count], HOME, x, "space")
@@ -141,4 +147,7 @@ def test_what_a_screw_s_change_does_is_the_difference_it_makes(frame, count):
 
             pose = slope(lambda h, after=after: products(after(h)[0], x)[-1] @ after(h)[1])
             close(D[:, i, e], twist_of(pose, f))
-            close(C[:, :, i, e], slope(lambda h, after=after: jacobian(after(h)[0], after(h)[1], x, frame)))
+            close(
+                C[:, :, i, e],
+                slope(lambda h, after=after: jacobian(after(h)[0], after(h)[1], x, frame)),
+            )

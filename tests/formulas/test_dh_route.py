@@ -1,4 +1,6 @@
-"""The paper's route from DH to screws, held against the lines that the frames of the DH product have as z axes."""
+"""The paper's route from DH to screws, held against the lines that the frames of the DH product
+have as z axes.
+"""
 
 from __future__ import annotations
 
@@ -11,31 +13,45 @@ from poekin import algebra
 from poekin.formats import dh
 from poekin.formats.dh import Row, Table
 from poekin.formulas import dh as formulas
-from poekin.testing.attainable import UNIT
-from poekin.testing.dh_strategies import angles, lengths, tables
+from poekin.testing.accuracy.error_bounds import UNIT
+from poekin.testing.strategies.dh_strategies import angles, lengths, tables
 from tests.formats import dh_product
 
 FEW = settings(max_examples=max(settings().max_examples // 2, 20))
 
 
 def line(T, row):
-    """(z; -z x p), or (0; z), of the z axis of a frame, in 50 digits; reversed where the joint counts backwards."""
+    """(z; -z x p), or (0; z), of the z axis of a frame, in 50 digits; reversed where the joint
+    counts backwards.
+    """
     z, p = [T[i, 2] for i in range(3)], [T[i, 3] for i in range(3)]
     moment = [p[1] * z[2] - p[2] * z[1], p[2] * z[0] - p[0] * z[2], p[0] * z[1] - p[1] * z[0]]
-    return [(-1) ** row.flip * value for value in ([*z, *moment] if row.kind == "revolute" else [0, 0, 0, *z])]
+    return [
+        (-1) ** row.flip * value
+        for value in ([*z, *moment] if row.kind == "revolute" else [0, 0, 0, *z])
+    ]
 
 
 def links(table):
-    """K_0 ... K_n in 50 digits, by the formula that is under test: (M_i, P_i) of the paper, offsets in M_i."""
+    """K_0 ... K_n in 50 digits, by the formula that is under test: (M_i, P_i) of the paper, offsets
+    in M_i.
+    """
 
     def link(theta, d, a, alpha):
-        return formulas.link(mpmath.sin(theta), mpmath.cos(theta), d, a, mpmath.sin(alpha), mpmath.cos(alpha))
+        return formulas.link(
+            mpmath.sin(theta), mpmath.cos(theta), d, a, mpmath.sin(alpha), mpmath.cos(alpha)
+        )
 
-    base, tool = ([*map(mpmath.mpf, [*T[:3, :3].ravel(), *T[:3, 3]])] for T in (table.base, table.tool))
+    base, tool = (
+        [*map(mpmath.mpf, [*T[:3, :3].ravel(), *T[:3, 3]])] for T in (table.base, table.tool)
+    )
     rows = [[mpmath.mpf(v) for v in (r.theta, r.d, r.a, r.alpha)] for r in table.rows]
     if table.convention == "modified":
         base = algebra.compose(base, link(0, 0, *rows[0][2:]))
-        rows = [[*row[:2], *after[2:]] for row, after in zip(rows, [*rows[1:], [0, 0, 0, 0]], strict=True)]
+        rows = [
+            [*row[:2], *after[2:]]
+            for row, after in zip(rows, [*rows[1:], [0, 0, 0, 0]], strict=True)
+        ]
     found = [base, *(link(*row) for row in rows)]
     return [*found[:-1], algebra.compose(found[-1], tool)]
 
@@ -52,12 +68,20 @@ def route(table, body=False):
 
 
 def miss(ours, theirs):
-    return float(max(abs(a - b) for x, y in zip(ours, theirs, strict=True) for a, b in zip(x, y, strict=True)))
+    return float(
+        max(
+            abs(a - b) for x, y in zip(ours, theirs, strict=True) for a, b in zip(x, y, strict=True)
+        )
+    )
 
 
 def far(table):
     """1 m, and all lengths of a table one after the other."""
-    return 1 + sum(np.linalg.norm(T[:3, 3]) for T in (table.base, table.tool)) + np.abs([table.d, table.a]).sum()
+    return (
+        1
+        + sum(np.linalg.norm(T[:3, 3]) for T in (table.base, table.tool))
+        + np.abs([table.d, table.a]).sum()
+    )
 
 
 @FEW
@@ -66,9 +90,21 @@ def test_the_paper_s_screws_are_the_lines_of_the_frames_of_the_product(table):
     with mpmath.workdps(dh_product.DIGITS):
         *frames, tool = dh_product.frames(table, [0.0] * len(table))
         A, M = route(table)
-        # 50 digits less what ten products and lengths of up to 20 m take; bases and tools are what floats make of them.
+        # 50 digits less what ten products and lengths of up to 20 m take; bases and tools are what
+        # floats make of them.
         assert miss(A, [line(T, row) for T, row in zip(frames, table.rows, strict=True)]) < 1e-46
-        assert miss([M], [[*(tool[i, j] for i in range(3) for j in range(3)), *(tool[i, 3] for i in range(3))]]) < 1e-46
+        assert (
+            miss(
+                [M],
+                [
+                    [
+                        *(tool[i, j] for i in range(3) for j in range(3)),
+                        *(tool[i, 3] for i in range(3)),
+                    ]
+                ],
+            )
+            < 1e-46
+        )
 
 
 @FEW
@@ -78,7 +114,8 @@ def test_the_body_screws_are_the_same_lines_seen_from_the_tool(table):
         *frames, tool = dh_product.frames(table, [0.0] * len(table))
         B, _ = route(table, body=True)
         lines = [line(_seen_from(tool, T), row) for T, row in zip(frames, table.rows, strict=True)]
-        # Base and tool are rotations to 1e-15 only, some 10 u each, which transpose and inverse tell apart.
+        # Base and tool are rotations to 1e-15 only, some 10 u each, which transpose and inverse
+        # tell apart.
         assert miss(B, lines) <= 40 * UNIT * far(table)
 
 
@@ -94,7 +131,9 @@ def test_the_chain_has_those_lines_to_its_own_rounding(table):
         frames = dh_product.frames(table, [0.0] * len(table))[:-1]
         lines = [line(T, row) for T, row in zip(frames, table.rows, strict=True)]
     # a product of i + 1 poses, 8 u each, and the moment of its axis
-    off = np.abs(chain.screws - np.array(lines, float)) / (16 * UNIT * np.arange(2, len(table) + 2)[:, None])
+    off = np.abs(chain.screws - np.array(lines, float)) / (
+        16 * UNIT * np.arange(2, len(table) + 2)[:, None]
+    )
     assert off[:, :3].max() <= 1
     assert off[:, 3:].max() <= far(table)
 
@@ -102,12 +141,16 @@ def test_the_chain_has_those_lines_to_its_own_rounding(table):
 @FEW
 @given(angles(), lengths(), lengths(), angles())
 def test_with_paul_s_frames_s_lies_across_z_wherever_the_link_is_twisted(theta, d, a, alpha):
-    # S_i = Ad(M_i)^-1 P_i = (0, sin α, cos α; 0, a cos α, -a sin α): not (0, 0, 1; 0, 0, 0), whatever theta and d.
+    # S_i = Ad(M_i)^-1 P_i = (0, sin α, cos α; 0, a cos α, -a sin α): not (0, 0, 1; 0, 0, 0),
+    # whatever theta and d.
     with mpmath.workdps(dh_product.DIGITS):
         theta, d, a, alpha = map(mpmath.mpf, (theta, d, a, alpha))
         s, c = mpmath.sin(alpha), mpmath.cos(alpha)
         M = formulas.link(mpmath.sin(theta), mpmath.cos(theta), d, a, s, c)
-        assert miss([algebra.adjoint_inverse(M, (0, 0, 1, 0, 0, 0))], [(0, s, c, 0, a * c, -a * s)]) < 1e-48
+        assert (
+            miss([algebra.adjoint_inverse(M, (0, 0, 1, 0, 0, 0))], [(0, s, c, 0, a * c, -a * s)])
+            < 1e-48
+        )
         assert miss([algebra.adjoint_inverse(M, (0, 0, 0, 0, 0, 1))], [(0, 0, 0, 0, s, c)]) < 1e-48
 
 
@@ -126,9 +169,13 @@ def _turned(table, angle):
 
 @pytest.mark.parametrize("fault", PLANTED)
 def test_the_lines_see_what_is_wrong_with_a_route(fault):
-    mount = np.array([[0.0, -1.0, 0.0, 0.25], [1.0, 0.0, 0.0, 0.5], [0.0, 0.0, 1.0, 0.125], [0.0, 0.0, 0.0, 1.0]])
+    mount = np.array(
+        [[0.0, -1.0, 0.0, 0.25], [1.0, 0.0, 0.0, 0.5], [0.0, 0.0, 1.0, 0.125], [0.0, 0.0, 0.0, 1.0]]
+    )
     table = Table(
-        "standard", [Row(0.3, 0.1, 0.2, 1.0, flip=True), Row(0.5, 0.2, 0.1, -0.7, "prismatic"), Row()], base=mount
+        "standard",
+        [Row(0.3, 0.1, 0.2, 1.0, flip=True), Row(0.5, 0.2, 0.1, -0.7, "prismatic"), Row()],
+        base=mount,
     )
     with mpmath.workdps(dh_product.DIGITS):
         frames = dh_product.frames(table, [0.0] * 3)[:-1]

@@ -1,4 +1,6 @@
-"""exp, log and their Jacobians as plain formulas: against matrix functions at angles on both sides of every switch."""
+"""exp, log and their Jacobians as plain formulas: against matrix functions at angles on both sides
+of every switch.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from poekin.formulas import exp_jacobian, exponential, logarithm, quaternion
+from poekin.formulas.lie import exp_jacobian, exponential, logarithm, quaternion
 
 AXES = [np.array(a) / np.linalg.norm(a) for a in ((3, 2, 1), (1, -3, 2), (-2, 1, 3), (1, 1, -0.2))]
 V, NEAR_V = np.array([0.7, -1.1, 0.4]), np.array([0.2, 0.5, -0.3])
@@ -49,14 +51,18 @@ def same(got, expected, far=1.0):
     np.testing.assert_allclose(got, expected, rtol=0, atol=FEW * far)
 
 
-@pytest.mark.parametrize("w", VECTORS, ids=lambda w: f"{np.linalg.norm(w):.3g} about {np.round(w, 2)}")
+@pytest.mark.parametrize(
+    "w", VECTORS, ids=lambda w: f"{np.linalg.norm(w):.3g} about {np.round(w, 2)}"
+)
 def test_exp_log_and_jacobians_are_those_of_matrices(w):
     w = tuple(w)
     R, T = expm(hat(w)), expm(brackets(w, V))
     same(exponential.so3(w), R.ravel())
     same(exponential.se3(w, V), flat(T))
     same(logarithm.so3(R.ravel()), w)
-    same(logarithm.se3(flat(T)), np.r_[w, V], 10)  # near pi the linear part answers to w by a factor of some units
+    same(
+        logarithm.se3(flat(T)), np.r_[w, V], 10
+    )  # near pi the linear part answers to w by a factor of some units
     J = integral(ad(w, V))
     same(exp_jacobian.left(w), J[:3, :3].ravel())
     same(exp_jacobian.left_dual(w, V), J[3:, :3].ravel())
@@ -86,7 +92,9 @@ def test_the_quaternion_is_that_of_the_angle_and_at_pi_its_largest_component_is_
         same(q / np.linalg.norm(q), np.r_[0.0, axis * np.sign(axis[np.abs(axis).argmax()])])
 
 
-@pytest.mark.parametrize("n", [(1, -1, 0), (1, 0, -1), (0, 1, -1), (1, -1, -1), (1, -1, 0.5)], ids=str)
+@pytest.mark.parametrize(
+    "n", [(1, -1, 0), (1, 0, -1), (0, 1, -1), (1, -1, -1), (1, -1, 0.5)], ids=str
+)
 def test_of_components_equally_large_the_first_is_positive_at_pi(n):
     n = np.array(n) / np.linalg.norm(n)
     same(logarithm.so3((2 * np.outer(n, n) - np.eye(3)).ravel()), math.pi * n)
@@ -102,7 +110,9 @@ def test_a_rotation_that_is_none_quite_enters_squared():
                 same(logarithm.so3((R + 1e-7 * R @ S).ravel()), axis * t, 30)
 
 
-@pytest.mark.parametrize("t", [1e-9, 0.1, 0.3, 0.5, 0.61, 0.7, 0.91, 0.99, *np.linspace(0.05, 0.95, 7).tolist()])
+@pytest.mark.parametrize(
+    "t", [1e-9, 0.1, 0.3, 0.5, 0.61, 0.7, 0.91, 0.99, *np.linspace(0.05, 0.95, 7).tolist()]
+)
 def test_below_one_radian_a_shift_along_the_axis_is_kept_to_the_last_bit(t):
     for length in (0.7, 1.3, 1e-3, 1e3):
         for T in (
@@ -135,10 +145,14 @@ def test_at_half_a_turn_nothing_of_a_shift_across_the_axis_stays_along_itself():
 
 
 @pytest.mark.parametrize(
-    "along, push", [(0.0, 0.0), (50.0, 0.0), (0.0, 30.0), (0.5, 0.3)], ids=["rounding of 1", "long", "pushed", "mixed"]
+    "along, push",
+    [(0.0, 0.0), (50.0, 0.0), (0.0, 30.0), (0.5, 0.3)],
+    ids=["rounding of 1", "long", "pushed", "mixed"],
 )
 @pytest.mark.parametrize("turns", [1, 3])
-def test_a_whole_turn_takes_a_shift_across_its_axis_for_rounding_up_to_1e_15_and_no_further(turns, along, push):
+def test_a_whole_turn_takes_a_shift_across_its_axis_for_rounding_up_to_1e_15_and_no_further(
+    turns, along, push
+):
     """1e-15 sqrt(1 + |p|^2 + |theta v|^2): what exp at (w; v) may leave there."""
     identity, phi = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), TURN * turns
     limit = 1e-15 * math.sqrt(1.0 + along**2 + (phi * push) ** 2)

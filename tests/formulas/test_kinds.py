@@ -9,27 +9,26 @@ import numpy as np
 import pytest
 
 from poekin import algebra, formulas
-from poekin.formulas import (
-    arctangent,
-    coefficients,
+from poekin.formulas import dh, elementary, least_squares
+from poekin.formulas.kinematics import (
     columns,
-    compensated,
-    defect,
     derivatives,
-    dh,
-    dh_recursive,
-    direct,
-    elementary,
-    exp_jacobian,
-    exponential,
     forward,
-    least_squares,
-    logarithm,
-    quaternion,
     recursive,
     screw_changes,
     structured,
 )
+from poekin.formulas.lie import (
+    arctangent,
+    coefficients,
+    compensated,
+    defect,
+    exp_jacobian,
+    exponential,
+    logarithm,
+    quaternion,
+)
+from poekin.formulas.paper import dh_recursive, direct
 from tests.formulas.kinds import KINDS, floats, traced
 
 rng = np.random.default_rng(1994)
@@ -41,7 +40,9 @@ T2 = tuple(map(float, exponential.se3(LONG, V)))
 R1, R2 = T1[:9], T2[:9]
 TURNED = (1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0)
 N = 4
-LINKS = [list(map(float, exponential.se3(tuple(w), tuple(v)))) for w, v in rng.normal(size=(N + 1, 2, 3))]
+LINKS = [
+    list(map(float, exponential.se3(tuple(w), tuple(v)))) for w, v in rng.normal(size=(N + 1, 2, 3))
+]
 AXES = [list(map(float, row)) for row in rng.normal(size=(6, N))]
 SCREWS = [list(map(float, row)) for row in rng.normal(size=(N, 6))]
 ANGLES = rng.normal(size=N)
@@ -82,7 +83,10 @@ def pairs():
 
 SQUARE = [list(map(float, row)) for row in 5 * np.eye(N) + rng.normal(size=(N, N))]
 ALPHAS = rng.normal(size=N)
-TWISTS = [[math.sin(t), math.cos(t), a, b] for t, a, b in zip(ALPHAS, *rng.normal(size=(2, N)), strict=True)]
+TWISTS = [
+    [math.sin(t), math.cos(t), a, b]
+    for t, a, b in zip(ALPHAS, *rng.normal(size=(2, N)), strict=True)
+]
 WALK = (structured.axes(T2), TWISTS, RATES, [0, 0, 1, 0], SINES, COSINES)
 SEEN = rng.normal(size=(N, 2)).tolist()
 SLOPES = [list(map(float, row)) for row in np.random.default_rng(5).normal(size=(6, N))]
@@ -129,7 +133,10 @@ CASES = [
     (exponential.closed, LONG, 5.46),
     *[(exponential.so3, w) for w in (W, LONG, (0.0, 0.0, 0.0))],
     *[(exponential.se3, w, V) for w in (W, LONG, (0.0, 0.0, 0.0))],
-    *[(exponential.joint, w, V, 0.4, math.sin(0.4), math.cos(0.4)) for w in ((0.6, 0.0, 0.8), (0.0, 0.0, 0.0))],
+    *[
+        (exponential.joint, w, V, 0.4, math.sin(0.4), math.cos(0.4))
+        for w in ((0.6, 0.0, 0.8), (0.0, 0.0, 0.0))
+    ],
     *[(f, R) for f in (quaternion.parts, quaternion.quaternion) for R in (R1, R2, TURNED)],
     *[(logarithm.so3, R) for R in (R1, R2, TURNED)],
     *[(logarithm.se3, T) for T in (T1, T2)],
@@ -142,7 +149,11 @@ CASES = [
         V,
     ),
     *[(f, w) for f in (exp_jacobian.left, exp_jacobian.left_inverse) for w in (W, LONG)],
-    *[(f, w, V) for f in (exp_jacobian.left_dual, exp_jacobian.left_inverse_dual) for w in (W, LONG)],
+    *[
+        (f, w, V)
+        for f in (exp_jacobian.left_dual, exp_jacobian.left_inverse_dual)
+        for w in (W, LONG)
+    ],
     (forward.tip, *MOTION),
     (forward.frame, *MOTION[:4], 2),
     (forward.next_frame, T1, T2, 0.6, 0.8, 0.3),
@@ -159,7 +170,18 @@ CASES = [
     (dh_recursive.body, LINKS, T1, ROTATES, SLIDES, N, rows()),
     (dh.link, 0.6, 0.8, 0.3, -0.2, 0.28, 0.96),
     (dh.screws, LINKS, ROTATES, SLIDES, N, SCREWS),
-    (least_squares.normal_equations, AXES, list(X), ROTATES + SLIDES, 0.3, [1.0, 0.0, 1.0, 1.0], 6, N, square(), SINES),
+    (
+        least_squares.normal_equations,
+        AXES,
+        list(X),
+        ROTATES + SLIDES,
+        0.3,
+        [1.0, 0.0, 1.0, 1.0],
+        6,
+        N,
+        square(),
+        SINES,
+    ),
     (least_squares.solve, SQUARE, ANGLES.tolist(), N),
     (structured.outward, *WALK, 0, N, rows12()),
     (structured.inward, *WALK, N - 1, rows12()),
@@ -173,11 +195,17 @@ CASES = [
     (structured.write, list(T1), W, V, LONG, V),
     (structured.axes, T1),
     (structured.pose, structured.axes(T1)),
-    *[(f, X, (*V, *LONG)) for f in (derivatives.bracket, derivatives.total, derivatives.difference)],
+    *[
+        (f, X, (*V, *LONG))
+        for f in (derivatives.bracket, derivatives.total, derivatives.difference)
+    ],
     (derivatives.times, 0.3, X),
     (derivatives.at_point, X, LONG),
     (derivatives.running, AXES, RATES, N, rows()),
-    *[(f, AXES, RATES, N, rows()) for f in (derivatives.space_rate, derivatives.body_rate, derivatives.hybrid_rate)],
+    *[
+        (f, AXES, RATES, N, rows())
+        for f in (derivatives.space_rate, derivatives.body_rate, derivatives.hybrid_rate)
+    ],
     (derivatives.acceleration, AXES, SLOPES, RATES, ANGLES.tolist(), N),
     (derivatives.set_derivative, block(N, N), 2, 1, X),
     *[
@@ -190,7 +218,11 @@ CASES = [
     *[(screw_changes.column_change, AXES, PRODUCTS, MOVED, k, 1, 4) for k in (0, 1, 2)],
     *[
         (f, AXES, PRODUCTS, MOVED, N, block(N, N + 1, 6))
-        for f in (screw_changes.space_changes, screw_changes.body_changes, screw_changes.hybrid_changes)
+        for f in (
+            screw_changes.space_changes,
+            screw_changes.body_changes,
+            screw_changes.hybrid_changes,
+        )
     ],
     (defect.orthonormality, R1),
     (defect.determinant, R1),
@@ -206,13 +238,15 @@ def _name(case):
 def test_a_formula_gives_the_same_in_every_kind(case, kind):
     formula, *arguments = case
     expected, got = floats(formula, *arguments), KINDS[kind](formula, *arguments)
-    # Counting is the same arithmetic; compiled code may differ in the last digits of sines, and the exact kind differs
-    # from floats by their rounding: products of up to four poses with entries of up to about 10.
+    # Counting is the same arithmetic; compiled code may differ in the last digits of sines, and the
+    # exact kind differs from floats by their rounding: products of up to four poses with entries of
+    # up to about 10.
     tolerance = 0.0 if kind == "counting" else 1e-13
     np.testing.assert_allclose(got, expected, rtol=tolerance, atol=tolerance)
 
 
-# exp, log and what belongs to them divide and compare: they are not traced, but for what they share with the chains.
+# exp, log and what belongs to them divide and compare: they are not traced, but for what they share
+# with the chains.
 DIVIDE = (
     least_squares,
     coefficients,
@@ -224,18 +258,29 @@ DIVIDE = (
     exp_jacobian,
     defect,
 )
-CHAIN_CASES = [case for case in CASES if inspect.getmodule(case[0]) not in DIVIDE or case[0] is exponential.joint]
+CHAIN_CASES = [
+    case
+    for case in CASES
+    if inspect.getmodule(case[0]) not in DIVIDE or case[0] is exponential.joint
+]
 
 
-@pytest.mark.parametrize("case", CHAIN_CASES, ids=[f"{_name(case)}-{i}" for i, case in enumerate(CHAIN_CASES)])
+@pytest.mark.parametrize(
+    "case", CHAIN_CASES, ids=[f"{_name(case)}-{i}" for i, case in enumerate(CHAIN_CASES)]
+)
 def test_a_chain_formula_recorded_and_computed_gives_the_same(case):
     formula, *arguments = case
-    # the same sums and products, but for constants that meet: none do here, as every number is recorded as unknown
-    np.testing.assert_allclose(traced(formula, *arguments), floats(formula, *arguments), rtol=1e-13, atol=1e-13)
+    # the same sums and products, but for constants that meet: none do here, as every number is
+    # recorded as unknown
+    np.testing.assert_allclose(
+        traced(formula, *arguments), floats(formula, *arguments), rtol=1e-13, atol=1e-13
+    )
 
 
 def test_every_formula_is_among_the_cases():
-    modules = [algebra] + [import_module(f"poekin.formulas.{m.name}") for m in pkgutil.iter_modules(formulas.__path__)]
+    modules = [algebra] + [
+        import_module(m.name) for m in pkgutil.walk_packages(formulas.__path__, "poekin.formulas.")
+    ]
     public = {
         f
         for module in modules
@@ -249,7 +294,9 @@ def test_every_formula_is_among_the_cases():
 def test_the_comparison_of_kinds_sees_a_wrong_digit():
     expected = floats(exponential.so3, W)
     with pytest.raises(AssertionError):
-        np.testing.assert_allclose(KINDS["exact"](exponential.so3, (*W[:2], 0.5 + 1e-12)), expected, 1e-13, 1e-13)
+        np.testing.assert_allclose(
+            KINDS["exact"](exponential.so3, (*W[:2], 0.5 + 1e-12)), expected, 1e-13, 1e-13
+        )
 
 
 @pytest.mark.parametrize("x", [-0.5, -2.0, math.nan])

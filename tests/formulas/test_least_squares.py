@@ -36,6 +36,8 @@ def test_without_damping_a_square_system_is_solved(m):
 
 def test_an_error_of_zero_moves_nothing():
     H, g = np.empty((2, 2)), np.empty(2)
-    least_squares.normal_equations(np.eye(6)[:, :2], np.zeros(6), np.ones(6), 0.0, np.ones(2), 6, 2, H, g)
+    least_squares.normal_equations(
+        np.eye(6)[:, :2], np.zeros(6), np.ones(6), 0.0, np.ones(2), 6, 2, H, g
+    )
     least_squares.solve(H, g, 2)
     assert g.tolist() == [0.0, 0.0]

@@ -1,4 +1,6 @@
-"""Accuracy of exp, log and the Jacobians of exp against 60 digits, in every decade and at every switch."""
+"""Accuracy of exp, log and the Jacobians of exp against 60 digits, in every decade and at every
+switch.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +13,12 @@ from hypothesis import given, target
 from hypothesis import strategies as st
 
 from poekin.groups import se3, so3
-from poekin.testing import attainable, exact, strategies
-from poekin.testing.accuracy import accuracy
-from poekin.testing.accuracy_laws import ACCURACY_LAWS
-from poekin.testing.group import group_of
+from poekin.testing.accuracy import error_bounds
+from poekin.testing.accuracy.accuracy import accuracy
+from poekin.testing.accuracy.accuracy_laws import ACCURACY_LAWS
+from poekin.testing.laws.group import group_of
+from poekin.testing.oracles import exact
+from poekin.testing.strategies import group_strategies
 
 N = np.array([0.6, -0.64, 0.48])
 
@@ -23,7 +27,9 @@ N = np.array([0.6, -0.64, 0.48])
 @pytest.mark.parametrize(("module", "size"), [(so3, 3), (se3, 6)], ids=["so3", "se3"])
 @given(data=st.data())
 def test_the_accuracy_is_kept(module, size, law, data):
-    target(law.check(group_of(module, size), *data.draw(strategies.group_cases(law.kinds, size))))
+    target(
+        law.check(group_of(module, size), *data.draw(group_strategies.group_cases(law.kinds, size)))
+    )
 
 
 # The report judges eight times as many.
@@ -51,7 +57,9 @@ def changed(module, **functions):
 
 def log_with_positive_z(T):
     xi = se3.log(T)
-    return np.where((np.linalg.norm(xi[..., :3], axis=-1) > math.pi - 1e-9)[..., None], np.abs(xi), xi)
+    return np.where(
+        (np.linalg.norm(xi[..., :3], axis=-1) > math.pi - 1e-9)[..., None], np.abs(xi), xi
+    )
 
 
 def log_without_projection(R):
@@ -70,7 +78,9 @@ PLANTED = [
     {
         "exp: error": changed(se3, exp=lambda xi: se3.exp(xi * (1 + 1e-15))),
         "log: error": changed(se3, log=lambda T: se3.log(T) * (1 + 2e-15)),
-        "left jacobian: 3×3": changed(se3, left_jacobian=lambda xi: se3.left_jacobian(xi) * (1 + 1e-15)),
+        "left jacobian: 3×3": changed(
+            se3, left_jacobian=lambda xi: se3.left_jacobian(xi) * (1 + 1e-15)
+        ),
         "right jacobian: 3×3": changed(se3, right_jacobian=se3.left_jacobian),
         "left jacobian inverse: 3×3": changed(
             se3, left_jacobian_inverse=lambda xi: np.linalg.inv(se3.right_jacobian(xi))
@@ -114,7 +124,12 @@ def test_below_1e_150_there_is_no_nan_and_no_zero(angle):
     for found in (so3.log(so3.exp(w)), se3.log(T)[:3]):
         assert np.isfinite(found).all()
         assert found.any()
-    for function in (se3.left_jacobian, se3.right_jacobian, se3.left_jacobian_inverse, se3.right_jacobian_inverse):
+    for function in (
+        se3.left_jacobian,
+        se3.right_jacobian,
+        se3.left_jacobian_inverse,
+        se3.right_jacobian_inverse,
+    ):
         assert np.isfinite(function(xi)).all()
 
 
@@ -122,18 +137,21 @@ def test_below_1e_150_there_is_no_nan_and_no_zero(angle):
 def test_the_sign_near_pi_is_that_of_the_matrix(gap):
     rng = np.random.default_rng(0)
     for n in rng.normal(size=(30, 3)):
-        R = exact.rounded(exact.exp(exact.exactly(n / np.linalg.norm(n)) * (exact.mp.pi - exact.mp.mpf(gap))))
+        R = exact.rounded(
+            exact.exp(exact.exactly(n / np.linalg.norm(n)) * (exact.mp.pi - exact.mp.mpf(gap)))
+        )
         truth = exact.log(R)
-        # Rounding the matrix moves its angle by a few u: the bar counts from the angle that it has then.
-        if exact.mp.pi - exact.norm(truth) >= attainable.BOTH_SIGNS:
+        # Rounding the matrix moves its angle by a few u: the bar counts from the angle that it has
+        # then.
+        if exact.mp.pi - exact.norm(truth) >= error_bounds.BOTH_SIGNS:
             assert float(truth @ exact.exactly(so3.log(R))) > 0
 
 
-@pytest.mark.parametrize("switch", [s for s in strategies.SWITCHES if s > 1e-3])
+@pytest.mark.parametrize("switch", [s for s in group_strategies.SWITCHES if s > 1e-3])
 def test_both_sides_of_a_switch_agree(switch):
     v = np.array([0.3, 2.0, -1.1])
     for n in (np.array([1.0, 0, 0]), N):
-        sides = [np.concatenate([x * n, v]) for x in strategies.around(switch)]
+        sides = [np.concatenate([x * n, v]) for x in group_strategies.around(switch)]
         for function in (se3.exp, se3.left_jacobian, se3.left_jacobian_inverse):
             values = [function(xi) for xi in sides]
             assert max(np.abs(value - values[0]).max() for value in values) < 5e-15

@@ -1,4 +1,6 @@
-"""Every function of the groups over arrays: batch shapes, layouts, read-only input, NaN, and empty batches."""
+"""Every function of the groups over arrays: batch shapes, layouts, read-only input, NaN, and empty
+batches.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +13,17 @@ from hypothesis import strategies as st
 
 from poekin.errors import PoseError
 from poekin.groups import se3, so3
-from poekin.testing import strategies
+from poekin.testing.strategies import group_strategies
 
-OF_TWISTS = ["hat", "exp", "ad", "left_jacobian", "right_jacobian", "left_jacobian_inverse", "right_jacobian_inverse"]
+OF_TWISTS = [
+    "hat",
+    "exp",
+    "ad",
+    "left_jacobian",
+    "right_jacobian",
+    "left_jacobian_inverse",
+    "right_jacobian_inverse",
+]
 OF_ELEMENTS = ["log", "inverse", "adjoint"]
 FUNCTIONS = [(m, name) for m in (so3, se3) for name in [*OF_TWISTS, *OF_ELEMENTS, "vee"]]
 SHAPES = [(), (0,), (1,), (3, 1, 2)]
@@ -27,14 +37,14 @@ each_function = pytest.mark.parametrize(("module", "name"), FUNCTIONS, ids=ident
 each_shape = pytest.mark.parametrize("shape", SHAPES, ids=str)
 
 
-def elements(module, name: str) -> strategies.Arrays:
+def elements(module, name: str) -> group_strategies.Arrays:
     """Arguments of one function: twists, elements, or (vee) elements of the algebra."""
-    twists = strategies.rotation_vectors() if module is so3 else strategies.twists()
+    twists = group_strategies.rotation_vectors() if module is so3 else group_strategies.twists()
     if name in OF_TWISTS:
         return twists
     if name == "vee":
         return twists.map(module.hat)
-    return strategies.rotations() if module is so3 else strategies.poses()
+    return group_strategies.rotations() if module is so3 else group_strategies.poses()
 
 
 def example(module, name: str, shape: tuple[int, ...]) -> np.ndarray:
@@ -46,8 +56,14 @@ def example(module, name: str, shape: tuple[int, ...]) -> np.ndarray:
     return module.hat(twists) if name == "vee" else module.exp(twists)
 
 
-def one_by_one(function: Callable[..., np.ndarray], batch: np.ndarray, tail: int) -> list[np.ndarray]:
-    return [function(element) for element in batch.reshape(-1, *batch.shape[batch.ndim - tail :])] if batch.size else []
+def one_by_one(
+    function: Callable[..., np.ndarray], batch: np.ndarray, tail: int
+) -> list[np.ndarray]:
+    return (
+        [function(element) for element in batch.reshape(-1, *batch.shape[batch.ndim - tail :])]
+        if batch.size
+        else []
+    )
 
 
 @each_shape
@@ -56,7 +72,7 @@ def one_by_one(function: Callable[..., np.ndarray], batch: np.ndarray, tail: int
 @given(data=st.data())
 def test_a_batch_is_its_elements(module, name, shape, data):
     function, strategy = getattr(module, name), elements(module, name)
-    batch = data.draw(strategies.batches(strategy, shape))
+    batch = data.draw(group_strategies.batches(strategy, shape))
     tail = batch.ndim - len(shape)
     single = function(example(module, name, ()))
     result = function(batch)
@@ -80,7 +96,9 @@ def test_any_layout_gives_the_same_and_the_argument_is_left_alone(module, name):
         "backwards": batch[::-1].copy()[::-1],
         "transposed": np.ascontiguousarray(np.swapaxes(batch, 0, 1)).swapaxes(0, 1),
         "big-endian": batch.astype(">f8"),
-        "unaligned": np.frombuffer(b"\0" + batch.tobytes(), dtype=np.uint8)[1:].view(float).reshape(batch.shape),
+        "unaligned": np.frombuffer(b"\0" + batch.tobytes(), dtype=np.uint8)[1:]
+        .view(float)
+        .reshape(batch.shape),
     }
     for layout, argument in layouts.items():
         before = argument.copy()
@@ -104,7 +122,9 @@ def test_lists_and_integers_are_taken_as_numbers(module, name):
     if name in OF_TWISTS:
         assert np.array_equal(function([0] * (size - 1) + [1]), function(np.eye(size)[-1]))
     else:
-        argument = np.eye(3 if module is so3 else 4) if name != "vee" else module.hat(np.eye(size)[-1])
+        argument = (
+            np.eye(3 if module is so3 else 4) if name != "vee" else module.hat(np.eye(size)[-1])
+        )
         assert np.array_equal(function(argument.astype(int).tolist()), function(argument))
 
 
@@ -161,7 +181,11 @@ def takes_the_first(function):
 
 
 PLANTED = {
-    "the first element for all": (takes_the_first, test_what_is_not_finite_stays_in_its_element, (np.nan,)),
+    "the first element for all": (
+        takes_the_first,
+        test_what_is_not_finite_stays_in_its_element,
+        (np.nan,),
+    ),
     "NaN everywhere": (spreads_nan, test_what_is_not_finite_stays_in_its_element, (np.nan,)),
     "writes into its argument": (
         writes_into_its_argument,

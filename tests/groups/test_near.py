@@ -1,4 +1,6 @@
-"""The branch of the logarithm that is asked for: followed through whole turns, refused where there is none."""
+"""The branch of the logarithm that is asked for: followed through whole turns, refused where there
+is none.
+"""
 
 import numpy as np
 import pytest
@@ -32,7 +34,10 @@ def test_close_to_a_whole_turn_exp_gives_the_pose_back(gap):
 def test_a_translation_across_a_whole_turn_has_no_logarithm():
     T = np.tile(np.eye(4), (2, 3, 1, 1))
     T[1, 2, 0, 3] = 1.0
-    with pytest.raises(BranchError, match=r"T\[1, 2\] has .* near omega = \[0.0, 0.0, 6.0\].* p = \[1.0, 0.0, 0.0\]$"):
+    with pytest.raises(
+        BranchError,
+        match=r"T\[1, 2\] has .* near omega = \[0.0, 0.0, 6.0\].* p = \[1.0, 0.0, 0.0\]$",
+    ):
         se3.log(T, near=[0, 0, 6, 0, 0, 0])
     np.testing.assert_allclose(
         se3.log(T[1, 2], near=[6, 0, 0, 0, 0, 0]), [2 * np.pi, 0, 0, 1, 0, 0], rtol=0, atol=1e-15
@@ -42,7 +47,9 @@ def test_a_translation_across_a_whole_turn_has_no_logarithm():
 @pytest.mark.parametrize("angle", [1e-8, 1e-20, 1e-160])
 @pytest.mark.parametrize("away", [0.0, 1.0, 2.9, 3.1])
 def test_a_tiny_rotation_keeps_its_digits_near_a_reference_of_less_than_half_a_turn(angle, away):
-    np.testing.assert_allclose(so3.log(so3.exp(AXIS * angle), near=[away, 0, 0]), AXIS * angle, rtol=1e-15, atol=0)
+    np.testing.assert_allclose(
+        so3.log(so3.exp(AXIS * angle), near=[away, 0, 0]), AXIS * angle, rtol=1e-15, atol=0
+    )
 
 
 @pytest.mark.parametrize("away", [0.0, 2.9, 3.1])

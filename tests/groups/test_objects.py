@@ -1,4 +1,6 @@
-"""Poses and rotations of other libraries, given where poekin takes an array: the same numbers come in."""
+"""Poses and rotations of other libraries, given where poekin takes an array: the same numbers come
+in.
+"""
 
 from __future__ import annotations
 
@@ -13,21 +15,27 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, ShapeError
-from poekin.testing import strategies
+from poekin.testing.strategies import group_strategies
 from tests.versions import needs
 
-POSES = strategies.poses(lengths=(1e-3, 3.0))
+POSES = group_strategies.poses(lengths=(1e-3, 3.0))
 
 
 def library(name: str) -> Any:
-    """A library that poekin itself never imports; what it warns of while it is imported is its own affair."""
+    """A library that poekin itself never imports; what it warns of while it is imported is its own
+    affair.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return pytest.importorskip(name, reason=f"{name} is not installed: its objects cannot be made")
+        return pytest.importorskip(
+            name, reason=f"{name} is not installed: its objects cannot be made"
+        )
 
 
 class Spatial:
-    """What spatialmath's SO3, SE3 and Twist3 have: one value, or several, of which np.asarray sees the first only."""
+    """What spatialmath's SO3, SE3 and Twist3 have: one value, or several, of which np.asarray sees
+    the first only.
+    """
 
     N: int = 3
 
@@ -74,7 +82,9 @@ TAKERS: dict[str, Any] = {
     "origin": lambda T: pk.Joint("j", "fixed", "a", "b", T).origin,
     "base": lambda T: pk.dh.Table("standard", [], base=T).base,
     "tool": lambda T: pk.dh.Table("standard", [], tool=T).tool,
-    "robot": lambda T: pk.Robot("r", ["a", "b"], [pk.Joint("j", "floating", "a", "b")]).fk([], {"j": T})["b"],
+    "robot": lambda T: pk.Robot("r", ["a", "b"], [pk.Joint("j", "floating", "a", "b")]).fk(
+        [], {"j": T}
+    )["b"],
 }
 
 
@@ -107,7 +117,9 @@ def test_the_rotations_of_scipy_and_spatialmath_are_taken():
 @given(st.lists(POSES, max_size=3))
 def test_an_object_or_a_list_of_several_poses_is_a_batch(several):
     expected = pk.se3.log(np.reshape(several, (-1, 4, 4)))
-    np.testing.assert_array_equal(pk.se3.log(Spatial(*several)), expected if len(several) != 1 else expected[0])
+    np.testing.assert_array_equal(
+        pk.se3.log(Spatial(*several)), expected if len(several) != 1 else expected[0]
+    )
     things: list[Any] = [SimpleNamespace(homogeneous=T) for T in several]
     if several:
         np.testing.assert_array_equal(pk.se3.log(things), expected)
@@ -135,7 +147,8 @@ TWISTS: dict[str, Any] = {
 @pytest.mark.parametrize("make", TWISTS)
 def test_a_twist_in_the_other_order_is_refused_and_not_taken_for_one_of_ours(make):
     with pytest.raises(
-        InputError, match=r"xi: expected an array, got a \w+, whose order is \(v; omega\); linear_first"
+        InputError,
+        match=r"xi: expected an array, got a \w+, whose order is \(v; omega\); linear_first",
     ):
         pk.se3.exp(TWISTS[make]())
 
@@ -160,7 +173,9 @@ def test_a_planar_pose_is_refused_and_does_not_pass_for_a_rotation():
 
 
 def test_an_object_that_is_no_pose_is_refused_as_before():
-    with pytest.raises(InputError, match=r"T: expected real numbers, got object \(SimpleNamespace\)"):
+    with pytest.raises(
+        InputError, match=r"T: expected real numbers, got object \(SimpleNamespace\)"
+    ):
         pk.se3.log(SimpleNamespace())  # pyright: ignore[reportArgumentType]
 
 
@@ -173,7 +188,9 @@ def test_an_object_that_is_no_pose_is_refused_as_before():
     ids=["one", "in a list"],
 )
 def test_a_masked_array_is_refused_where_something_is_masked(values):
-    with pytest.raises(InputError, match=r"^T: expected numbers, got a masked array of which some are masked"):
+    with pytest.raises(
+        InputError, match=r"^T: expected numbers, got a masked array of which some are masked"
+    ):
         pk.se3.log(values)
     unmasked = np.ma.array(np.eye(4))
     assert np.array_equal(pk.se3.inverse(unmasked), np.eye(4))
@@ -194,7 +211,10 @@ def test_a_table_whose_columns_have_names_is_no_array_and_one_that_numbers_them_
         def to_numpy(self):
             return np.eye(4)
 
-    with pytest.raises(InputError, match=r"^T: expected an array, got a DataFrame with the labels 'A', 'N', 'x', 'y'"):
+    with pytest.raises(
+        InputError,
+        match=r"^T: expected an array, got a DataFrame with the labels 'A', 'N', 'x', 'y'",
+    ):
         pk.se3.log(cast(Any, DataFrame(["A", "N", "x", "y"])))
     assert np.array_equal(pk.se3.inverse(cast(Any, DataFrame(range(4)))), np.eye(4))
 

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 from poekin.groups import se3, so3
-from poekin.testing import exact, strategies
-from poekin.testing.accuracy_laws import ACCURACY_LAWS
-from poekin.testing.group import Group, group_of
-from poekin.testing.group_laws import GROUP_LAWS
-from poekin.testing.hunting import caught
-from poekin.testing.near_laws import NEAR_LAWS
+from poekin.testing.accuracy.accuracy_laws import ACCURACY_LAWS
+from poekin.testing.accuracy.falsify import caught
+from poekin.testing.laws.group import Group, group_of
+from poekin.testing.laws.group_laws import GROUP_LAWS
+from poekin.testing.laws.near_laws import NEAR_LAWS
+from poekin.testing.oracles import exact
+from poekin.testing.strategies import group_strategies
 
 SE3, SO3 = group_of(se3, 6), group_of(so3, 3)
 LAWS = {law.name: law for law in (*ACCURACY_LAWS, *GROUP_LAWS, *NEAR_LAWS)}
@@ -98,14 +99,20 @@ def at_rest(xi, right):
 
 
 POSES: dict[str, tuple[str, Callable[[Group], Group]]] = {
-    "exp: V := R below θ² = 1e-10": ("exp_is_attained", lambda g: g._replace(exp=below(1e-5, v_as_r, g.exp))),
+    "exp: V := R below θ² = 1e-10": (
+        "exp_is_attained",
+        lambda g: g._replace(exp=below(1e-5, v_as_r, g.exp)),
+    ),
     "exp: closed forms everywhere": ("exp_is_attained", lambda g: g._replace(exp=closed_forms)),
     "exp: three terms below 1e-3": ("exp_is_attained", lambda g: g._replace(exp=short_series)),
     "exp: I below 1e-6": (
         "exp_is_attained",
         lambda g: g._replace(exp=below(1e-6, lambda xi: with_t(np.eye(4), xi[3:]), g.exp)),
     ),
-    "exp: linear part first": ("exp_is_attained", lambda g: g._replace(exp=lambda xi: g.exp(np.roll(xi, 3)))),
+    "exp: linear part first": (
+        "exp_is_attained",
+        lambda g: g._replace(exp=lambda xi: g.exp(np.roll(xi, 3))),
+    ),
     "exp: translation not coupled": (
         "exp_adds_along_a_line",
         lambda g: g._replace(exp=lambda xi: with_t(g.exp(xi), xi[3:])),
@@ -124,7 +131,9 @@ POSES: dict[str, tuple[str, Callable[[Group], Group]]] = {
     ),
     "log: 0 below 1e-8": (
         "log_undoes_exp",
-        lambda g: g._replace(log=lambda T: g.log(T) if angle(g.log(T)) > 1e-8 else g.log(with_t(np.eye(4), T[:3, 3]))),
+        lambda g: g._replace(
+            log=lambda T: g.log(T) if angle(g.log(T)) > 1e-8 else g.log(with_t(np.eye(4), T[:3, 3]))
+        ),
     ),
     "log: NaN at the identity": (
         "identity_is_neutral",
@@ -132,21 +141,30 @@ POSES: dict[str, tuple[str, Callable[[Group], Group]]] = {
     ),
     "log: noise not projected away": (
         "log_forgives_noise",
-        lambda g: g._replace(log=lambda T: np.concatenate([log_without_projection(T[:3, :3]), g.log(T)[3:]])),
+        lambda g: g._replace(
+            log=lambda T: np.concatenate([log_without_projection(T[:3, :3]), g.log(T)[3:]])
+        ),
     ),
     "log: one sign within 1e-8 of π": (
         "log_is_attained",
-        lambda g: g._replace(log=lambda T: np.concatenate([log_with_one_sign_near_pi(T[:3, :3]), g.log(T)[3:]])),
+        lambda g: g._replace(
+            log=lambda T: np.concatenate([log_with_one_sign_near_pi(T[:3, :3]), g.log(T)[3:]])
+        ),
     ),
     "log: D = 1/12": (
         "exp_undoes_log",
         lambda g: g._replace(log=lambda T: log_with_v_from(lambda X: so3.log(X[:3, :3]), T)),
     ),
     "log: in float32": ("log_undoes_exp", lambda g: g._replace(log=forward_rounding)),
-    "log: near is ignored": ("near_picks_the_closest_branch", lambda g: g._replace(log=lambda T, near=None: g.log(T))),
+    "log: near is ignored": (
+        "near_picks_the_closest_branch",
+        lambda g: g._replace(log=lambda T, near=None: g.log(T)),
+    ),
     "log: near only counts turns forward": (
         "near_picks_the_closest_branch",
-        lambda g: g._replace(log=lambda T, near=None: g.log(T) if near is None else g.log(T, near=np.abs(near))),
+        lambda g: g._replace(
+            log=lambda T, near=None: g.log(T) if near is None else g.log(T, near=np.abs(near))
+        ),
     ),
     "inverse: -t, not -Rᵀ t": (
         "inverse_undoes",
@@ -164,22 +182,36 @@ POSES: dict[str, tuple[str, Callable[[Group], Group]]] = {
         "adjoint_conjugates",
         lambda g: g._replace(adjoint=lambda T: np.roll(g.adjoint(T), (3, 3), (0, 1))),
     ),
-    "adjoint: transposed": ("adjoint_is_a_homomorphism", lambda g: g._replace(adjoint=lambda T: g.adjoint(T).T)),
-    "adjoint: of the inverse": ("adjoint_conjugates", lambda g: g._replace(adjoint=lambda T: g.adjoint(g.inverse(T)))),
-    "ad: v left out": ("ad_is_the_bracket", lambda g: g._replace(ad=lambda xi: g.ad(xi * ([1] * 3 + [0] * 3)))),
+    "adjoint: transposed": (
+        "adjoint_is_a_homomorphism",
+        lambda g: g._replace(adjoint=lambda T: g.adjoint(T).T),
+    ),
+    "adjoint: of the inverse": (
+        "adjoint_conjugates",
+        lambda g: g._replace(adjoint=lambda T: g.adjoint(g.inverse(T))),
+    ),
+    "ad: v left out": (
+        "ad_is_the_bracket",
+        lambda g: g._replace(ad=lambda xi: g.ad(xi * ([1] * 3 + [0] * 3))),
+    ),
     "ad: transposed": ("ad_is_the_bracket", lambda g: g._replace(ad=lambda xi: g.ad(xi).T)),
     "hat: transposed": (
         "hat_and_vee_are_inverse",
         lambda g: g._replace(hat=lambda xi: g.hat(xi * ([-1] * 3 + [1] * 3))),
     ),
-    "vee: of the symmetric part": ("hat_and_vee_are_inverse", lambda g: g._replace(vee=lambda X: g.vee(X + X.T))),
+    "vee: of the symmetric part": (
+        "hat_and_vee_are_inverse",
+        lambda g: g._replace(vee=lambda X: g.vee(X + X.T)),
+    ),
     "left Jacobian: I at ω = 0": (
         "left_jacobian_is_attained",
         lambda g: g._replace(left_jacobian=lambda xi: at_rest(xi, g.left_jacobian)),
     ),
     "left Jacobian: no Q": (
         "left_jacobian_is_lemma_5s_integral",
-        lambda g: g._replace(left_jacobian=lambda xi: blocks(so3.left_jacobian(xi[:3]), np.zeros((3, 3)))),
+        lambda g: g._replace(
+            left_jacobian=lambda xi: blocks(so3.left_jacobian(xi[:3]), np.zeros((3, 3)))
+        ),
     ),
     "left Jacobian: the right one": (
         "left_jacobian_is_attained",
@@ -208,13 +240,18 @@ POSES: dict[str, tuple[str, Callable[[Group], Group]]] = {
     "right inverse: I - ad/2 below 1e-4": (
         "right_jacobian_inverse_is_attained",
         lambda g: g._replace(
-            right_jacobian_inverse=below(1e-4, lambda xi: np.eye(6) + g.ad(xi) / 2, g.right_jacobian_inverse)
+            right_jacobian_inverse=below(
+                1e-4, lambda xi: np.eye(6) + g.ad(xi) / 2, g.right_jacobian_inverse
+            )
         ),
     ),
 }
 
 ROTATIONS: dict[str, tuple[str, Callable[[Group], Group]]] = {
-    "exp: I below 1e-6": ("exp_is_attained", lambda g: g._replace(exp=below(1e-6, lambda w: np.eye(3), g.exp))),
+    "exp: I below 1e-6": (
+        "exp_is_attained",
+        lambda g: g._replace(exp=below(1e-6, lambda w: np.eye(3), g.exp)),
+    ),
     "exp: I + [ω] below 1e-6": (
         "exp_is_attained",
         lambda g: g._replace(exp=below(1e-6, lambda w: np.eye(3) + g.hat(w), g.exp)),
@@ -225,16 +262,31 @@ ROTATIONS: dict[str, tuple[str, Callable[[Group], Group]]] = {
         "log_is_attained",
         lambda g: g._replace(log=lambda R: g.log(R) * (np.linalg.norm(g.log(R)) > 1e-8)),
     ),
-    "log: noise not projected away": ("log_forgives_noise", lambda g: g._replace(log=log_without_projection)),
-    "log: one sign within 1e-8 of π": ("log_is_attained", lambda g: g._replace(log=log_with_one_sign_near_pi)),
-    "log: near is ignored": ("near_picks_the_closest_branch", lambda g: g._replace(log=lambda R, near=None: g.log(R))),
+    "log: noise not projected away": (
+        "log_forgives_noise",
+        lambda g: g._replace(log=log_without_projection),
+    ),
+    "log: one sign within 1e-8 of π": (
+        "log_is_attained",
+        lambda g: g._replace(log=log_with_one_sign_near_pi),
+    ),
+    "log: near is ignored": (
+        "near_picks_the_closest_branch",
+        lambda g: g._replace(log=lambda R, near=None: g.log(R)),
+    ),
     "inverse: itself": ("inverse_undoes", lambda g: g._replace(inverse=lambda R: R)),
-    "adjoint: transposed": ("adjoint_of_exp_is_exp_of_ad", lambda g: g._replace(adjoint=lambda R: R.T)),
+    "adjoint: transposed": (
+        "adjoint_of_exp_is_exp_of_ad",
+        lambda g: g._replace(adjoint=lambda R: R.T),
+    ),
     "left Jacobian: I below 1e-6": (
         "left_jacobian_is_attained",
         lambda g: g._replace(left_jacobian=below(1e-6, lambda w: np.eye(3), g.left_jacobian)),
     ),
-    "left Jacobian: the right one": ("left_jacobian_is_attained", lambda g: g._replace(left_jacobian=g.right_jacobian)),
+    "left Jacobian: the right one": (
+        "left_jacobian_is_attained",
+        lambda g: g._replace(left_jacobian=g.right_jacobian),
+    ),
     "right inverse: the left one": (
         "jacobians_have_inverses",
         lambda g: g._replace(right_jacobian_inverse=g.left_jacobian_inverse),
@@ -246,7 +298,7 @@ def violation(law: str, group: Group):
     return caught(
         [LAWS[law]],
         lambda law, *case: law.check(group, *case),
-        lambda kinds: strategies.group_cases(kinds, group.size),
+        lambda kinds: group_strategies.group_cases(kinds, group.size),
         400,
     )
 

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from poekin.errors import BranchError, PoseError, ShapeError
 from poekin.groups import se3
-from poekin.testing import strategies
-from poekin.testing.group import group_of
-from poekin.testing.group_laws import GROUP_LAWS
-from poekin.testing.near_laws import NEAR_LAWS
+from poekin.testing.laws.group import group_of
+from poekin.testing.laws.group_laws import GROUP_LAWS
+from poekin.testing.laws.near_laws import NEAR_LAWS
+from poekin.testing.strategies import group_strategies
 
 SE3 = group_of(se3, 6)
 
@@ -20,11 +20,14 @@ SE3 = group_of(se3, 6)
 @pytest.mark.parametrize("law", [*GROUP_LAWS, *NEAR_LAWS], ids=lambda law: law.name)
 @given(data=st.data())
 def test_poses_keep_the_law(law, data):
-    target(law.check(SE3, *data.draw(strategies.group_cases(law.kinds, 6))))
+    target(law.check(SE3, *data.draw(group_strategies.group_cases(law.kinds, 6))))
 
 
-# Pinocchio's own faults lie outside: near 0 and beyond 3 rad its log, exp and Jacobians lose up to ten digits.
-WHERE_PINOCCHIO_IS_RIGHT = strategies.twists(3.0, (1e-3, 10.0)).filter(lambda xi: 0.1 < np.linalg.norm(xi[:3]) < 3)
+# Pinocchio's own faults lie outside: near 0 and beyond 3 rad its log, exp and Jacobians lose up to
+# ten digits.
+WHERE_PINOCCHIO_IS_RIGHT = group_strategies.twists(3.0, (1e-3, 10.0)).filter(
+    lambda xi: 0.1 < np.linalg.norm(xi[:3]) < 3
+)
 
 
 @given(WHERE_PINOCCHIO_IS_RIGHT)
@@ -60,7 +63,10 @@ def test_linear_first_needs_six():
 
 
 def test_linear_first_on_both_axes_turns_ad_into_that_of_linear_first_twists():
-    xi, eta = np.array([0.3, -1.0, 2.0, 0.5, 0.25, -4.0]), np.array([1.5, 0.5, -2.0, 3.0, -0.125, 1.0])
+    xi, eta = (
+        np.array([0.3, -1.0, 2.0, 0.5, 0.25, -4.0]),
+        np.array([1.5, 0.5, -2.0, 3.0, -0.125, 1.0]),
+    )
     ad = se3.linear_first(se3.linear_first(se3.ad(xi), axis=0), axis=1)
     assert np.abs(ad @ se3.linear_first(eta) - se3.linear_first(se3.ad(xi) @ eta)).max() < 1e-14
 

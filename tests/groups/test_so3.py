@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from poekin.errors import PoseError, ShapeError
 from poekin.groups import so3
-from poekin.testing import strategies
-from poekin.testing.group import group_of
-from poekin.testing.group_laws import GROUP_LAWS
-from poekin.testing.near_laws import NEAR_LAWS
+from poekin.testing.laws.group import group_of
+from poekin.testing.laws.group_laws import GROUP_LAWS
+from poekin.testing.laws.near_laws import NEAR_LAWS
+from poekin.testing.strategies import group_strategies
 
 SO3 = group_of(so3, 3)
 
@@ -20,7 +20,7 @@ SO3 = group_of(so3, 3)
 @pytest.mark.parametrize("law", [*GROUP_LAWS, *NEAR_LAWS], ids=lambda law: law.name)
 @given(data=st.data())
 def test_rotations_keep_the_law(law, data):
-    target(law.check(SO3, *data.draw(strategies.group_cases(law.kinds, 3))))
+    target(law.check(SO3, *data.draw(group_strategies.group_cases(law.kinds, 3))))
 
 
 def test_hat_is_the_cross_product():
@@ -33,7 +33,9 @@ def test_a_quarter_turn_about_z_takes_x_to_y():
     assert np.abs(R @ [1, 0, 0] - [0, 1, 0]).max() < 2e-16
 
 
-@pytest.mark.parametrize("n", [(1, 0, 0), (0, -1, 0), (0, 0, 1), (0.6, -0.8, 0), (-0.48, 0.6, -0.64)])
+@pytest.mark.parametrize(
+    "n", [(1, 0, 0), (0, -1, 0), (0, 0, 1), (0.6, -0.8, 0), (-0.48, 0.6, -0.64)]
+)
 def test_at_pi_the_component_of_largest_magnitude_is_positive(n):
     n = np.array(n)
     R = 2 * np.outer(n, n) - np.eye(3)

@@ -1,4 +1,6 @@
-"""Each function of the groups at one generic element, against NumPy's matrices; and what a refusal says."""
+"""Each function of the groups at one generic element, against NumPy's matrices; and what a refusal
+says.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,10 @@ def integral(M):
 
 CASES = {
     "hat": (lambda: so3.hat(W), HAT),
-    "vee": (lambda: so3.vee(HAT + np.diag([1, 2, 3]) + 0.5 * np.ones((3, 3))), W),  # the skew-symmetric part counts
+    "vee": (
+        lambda: so3.vee(HAT + np.diag([1, 2, 3]) + 0.5 * np.ones((3, 3))),
+        W,
+    ),  # the skew-symmetric part counts
     "exp": (lambda: so3.exp(W), R),
     "log": (lambda: so3.log(R), W),
     "log near": (lambda: so3.log(R, near=W * 4), W + 2 * np.pi * W / np.linalg.norm(W)),
@@ -66,14 +71,18 @@ def test_a_function_is_the_one_of_matrices(case):
     function, expected = CASES[case]
     got = function()
     assert got.shape == expected.shape
-    np.testing.assert_allclose(got, expected, rtol=0, atol=1e-14)  # SciPy's exponential of matrices of norm 3
+    np.testing.assert_allclose(
+        got, expected, rtol=0, atol=1e-14
+    )  # SciPy's exponential of matrices of norm 3
 
 
 def test_a_batch_of_poses_and_one_of_references_broadcast():
     assert se3.log(np.tile(T, (2, 1, 1, 1)), near=np.tile(XI, (3, 1))).shape == (2, 3, 6)
     assert so3.log(np.tile(R, (3, 1, 1)), near=W).shape == (3, 3)
     assert so3.log(R, near=np.tile(W, (5, 1))).shape == (5, 3)
-    with pytest.raises(ShapeError, match=r"near: shape \(3, 3\) does not broadcast against \(2, 3, 3\)"):
+    with pytest.raises(
+        ShapeError, match=r"near: shape \(3, 3\) does not broadcast against \(2, 3, 3\)"
+    ):
         so3.log(np.tile(R, (2, 1, 1)), near=np.tile(W, (3, 1)))
 
 
@@ -85,7 +94,9 @@ def test_roll_pitch_and_yaw_are_turns_about_fixed_axes():
         roll, pitch, yaw = angles
         M: Any = turn([0, 0, 1], yaw) @ turn([0, 1, 0], pitch) @ turn([1, 0, 0], roll)
         np.testing.assert_allclose(rpy.angles(M), angles, rtol=0, atol=1e-14)
-        np.testing.assert_allclose(rpy.angles(np.stack([M, np.eye(3)])), [angles, (0, 0, 0)], rtol=0, atol=1e-14)
+        np.testing.assert_allclose(
+            rpy.angles(np.stack([M, np.eye(3)])), [angles, (0, 0, 0)], rtol=0, atol=1e-14
+        )
     assert not np.signbit(rpy.angles(np.eye(3))).any()
 
 
@@ -100,21 +111,29 @@ def test_a_defect_up_to_the_tolerance_is_taken_and_one_above_it_refused():
     for entry in ((0, 1), (3, 0), (3, 1), (3, 2), (3, 3)):
         for sign in (1.0, -1.0):
             assert poses(with_entry(*entry, sign * 0.99e-5)).shape == (2, 3, 4, 4)
-            with pytest.raises(PoseError, match=r"T\[1, 2\] is no pose: its (last row is|rotation misses)"):
+            with pytest.raises(
+                PoseError, match=r"T\[1, 2\] is no pose: its (last row is|rotation misses)"
+            ):
                 poses(with_entry(*entry, sign * 1.01e-5))
 
 
 def test_the_last_row_adds_up_and_is_printed():
     wrong = np.eye(4)
     wrong[3, :3] = 0.5e-5
-    with pytest.raises(PoseError, match=r"^T is no pose: its last row is \[5e-06, 5e-06, 5e-06, 1.0\], exp"):
+    with pytest.raises(
+        PoseError, match=r"^T is no pose: its last row is \[5e-06, 5e-06, 5e-06, 1.0\], exp"
+    ):
         poses(wrong)
 
 
 def test_a_defect_is_told_by_its_size_and_a_reflection_by_its_determinant():
-    with pytest.raises(PoseError, match=r"^T is no pose: .* max abs\(R R\^T - I\) = 0.21, accepted up to 1e-05"):
+    with pytest.raises(
+        PoseError, match=r"^T is no pose: .* max abs\(R R\^T - I\) = 0.21, accepted up to 1e-05"
+    ):
         se3.log(np.diag([1.1, 1, 1, 1]))
-    with pytest.raises(PoseError, match=r"^R is no rotation: its rotation is a reflection, det R = -1, expected 1"):
+    with pytest.raises(
+        PoseError, match=r"^R is no rotation: its rotation is a reflection, det R = -1, expected 1"
+    ):
         so3.log(np.diag([1.0, -1, 1]))
     with pytest.raises(PoseError, match=r"^R\[1\] is no rotation"):
         so3.log(np.stack([np.eye(3), -np.eye(3)]))
@@ -149,18 +168,42 @@ def test_a_sound_array_is_taken_as_it_is():
 @pytest.mark.parametrize(
     "call, error, message",
     [
-        (lambda: numbers([[1.0], [1.0, 2.0]], "x"), ShapeError, r"x: expected an array of numbers, got rows of diff"),
+        (
+            lambda: numbers([[1.0], [1.0, 2.0]], "x"),
+            ShapeError,
+            r"x: expected an array of numbers, got rows of diff",
+        ),
         (lambda: numbers("abc", "x"), InputError, r"x: expected real numbers, got str\d+ \(str\)"),
-        (lambda: numbers([1j], "x"), InputError, r"x: expected real numbers, got complex128 \(list\)"),
+        (
+            lambda: numbers([1j], "x"),
+            InputError,
+            r"x: expected real numbers, got complex128 \(list\)",
+        ),
         (lambda: numbers([True], "x"), InputError, r"x: expected real numbers, got bool"),
-        (lambda: shaped(np.zeros(5), (6,), "x"), ShapeError, r"x: expected shape \(\.\.\., 6\), got \(5,\)"),
+        (
+            lambda: shaped(np.zeros(5), (6,), "x"),
+            ShapeError,
+            r"x: expected shape \(\.\.\., 6\), got \(5,\)",
+        ),
         (lambda: shaped(1.0, (6,), "x"), ShapeError, r"x: expected shape \(\.\.\., 6\), got \(\)"),
-        (lambda: shaped(np.zeros(4), (4, 4), "x"), ShapeError, r"x: expected shape \(\.\.\., 4, 4\), got \(4,\)"),
+        (
+            lambda: shaped(np.zeros(4), (4, 4), "x"),
+            ShapeError,
+            r"x: expected shape \(\.\.\., 4, 4\), got \(4,\)",
+        ),
         (lambda: shaped(np.zeros((3, 4)), (4, 4), "x"), ShapeError, r"got \(3, 4\)"),
-        (lambda: se3.linear_first(XI, axis=1), ShapeError, r"x: expected length 6 along axis 1, got shape \(6,\)"),
+        (
+            lambda: se3.linear_first(XI, axis=1),
+            ShapeError,
+            r"x: expected length 6 along axis 1, got shape \(6,\)",
+        ),
         (lambda: se3.linear_first(XI, axis=3), ShapeError, r"x: expected length 6 along axis 3"),
         (lambda: se3.linear_first(XI, axis=-2), ShapeError, r"x: expected length 6 along axis -2"),
-        (lambda: se3.linear_first(1.0), ShapeError, r"x: expected length 6 along axis -1, got shape \(\)"),
+        (
+            lambda: se3.linear_first(1.0),
+            ShapeError,
+            r"x: expected length 6 along axis -1, got shape \(\)",
+        ),
         (lambda: se3.linear_first(np.zeros((6, 7))), ShapeError, r"got shape \(6, 7\)"),
     ],
     ids=lambda x: None if callable(x) else str(x)[:40],
@@ -174,9 +217,14 @@ def test_a_whole_turn_without_its_translation_is_refused_with_its_place():
     T = np.eye(4)
     T[:3, 3] = [1.0, 2.0, 0.0]
     near = [0, 0, 6.0, 0, 0, 0]
-    with pytest.raises(BranchError, match=r"^T has no logarithm near omega = \[0.0, 0.0, 6.0\]: .* p = \[1.0, 2.0, 0"):
+    with pytest.raises(
+        BranchError,
+        match=r"^T has no logarithm near omega = \[0.0, 0.0, 6.0\]: .* p = \[1.0, 2.0, 0",
+    ):
         se3.log(T, near=near)
-    with pytest.raises(BranchError, match=r"^T\[1\] has no logarithm near omega = \[0.0, 0.0, 6.0\]"):
+    with pytest.raises(
+        BranchError, match=r"^T\[1\] has no logarithm near omega = \[0.0, 0.0, 6.0\]"
+    ):
         se3.log(np.stack([np.eye(4), T, T]), near=near)
     lost = np.stack([np.eye(4), T])
     lost[1, 0, 3] = np.nan  # no number, and no error either
@@ -216,5 +264,7 @@ def test_what_only_looks_like_a_pose_is_refused():
     for half in (SimpleNamespace(linear=V), SimpleNamespace(angular=W)):
         assert objects.plain(half, "x") is half
     for N in (2, 4):
-        with pytest.raises(InputError, match=r"^x: expected something of space, got the planar Several"):
+        with pytest.raises(
+            InputError, match=r"^x: expected something of space, got the planar Several"
+        ):
             objects.plain(Several(R, N, (3, 3), 1), "x")

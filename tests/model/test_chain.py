@@ -1,4 +1,6 @@
-"""Chain: what it accepts, keeps and refuses. The laws of its kinematics stand in test_chain_laws.py."""
+"""Chain: what it accepts, keeps and refuses. The laws of its kinematics stand in
+test_chain_laws.py.
+"""
 
 import copy
 import pickle
@@ -11,9 +13,10 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, PoseError, ScrewError, ShapeError, UnknownName
-from poekin.testing import chain_strategies, exact
-from poekin.testing.attainable import UNIT
-from poekin.testing.strategies import poses
+from poekin.testing.accuracy.error_bounds import UNIT
+from poekin.testing.oracles import exact
+from poekin.testing.strategies import chain_strategies
+from poekin.testing.strategies.group_strategies import poses
 
 RZ = pk.screw.revolute([0, 0, 1], [0, 0, 0])
 RY = pk.screw.revolute([0, 1, 0], [0, 0, 0.5])
@@ -28,7 +31,10 @@ def arm(**options):
 def test_a_chain_is_compiled_for_one_thread_once_and_for_several_where_that_is_asked_for():
     chain = arm()
     assert chain.compile() is chain.compile(parallel=False)
-    assert [chain.compile(parallel=parallel).parallel for parallel in (False, True)] == [False, True]
+    assert [chain.compile(parallel=parallel).parallel for parallel in (False, True)] == [
+        False,
+        True,
+    ]
     for none in (0, 1, None):
         with pytest.raises(InputError, match="parallel: expected True or False, got"):
             chain.compile(parallel=none)  # pyright: ignore[reportArgumentType]
@@ -37,10 +43,15 @@ def test_a_chain_is_compiled_for_one_thread_once_and_for_several_where_that_is_a
 def rebased_off(chain, P):
     """How far the screws of a rebased chain are from Ad(P) A ÷ what `rebased` says.
 
-    An entry of [p] R is off by 2 u |p|, and a sum of six products by 6 u (|p| + |v|) in m and 6 u in rad.
+    An entry of [p] R is off by 2 u |p|, and a sum of six products by 6 u (|p| + |v|) in m and 6 u
+    in rad.
     """
-    off = np.abs(chain.rebased(P).screws - exact.rounded(exact.exactly(chain.screws) @ exact.adjoint(P).T))
-    return max(off[:, :3].max(), off[:, 3:].max() / (chain.reach + np.linalg.norm(P[:3, 3]))) / (10 * UNIT)
+    off = np.abs(
+        chain.rebased(P).screws - exact.rounded(exact.exactly(chain.screws) @ exact.adjoint(P).T)
+    )
+    return max(off[:, :3].max(), off[:, 3:].max() / (chain.reach + np.linalg.norm(P[:3, 3]))) / (
+        10 * UNIT
+    )
 
 
 @given(chain_strategies.chains(min_joints=1, max_joints=4), poses(lengths=(1e-3, 1e6)))
@@ -58,10 +69,11 @@ def test_a_chain_that_comes_back_from_far_has_the_rounding_of_the_way():
 
 
 def rezeroed_off(chain, q0):
-    """How far screws and home pose of a rezeroed chain are from their definition in 60 digits ÷ what `rezeroed` says.
+    """How far screws and home pose of a rezeroed chain are from their definition in 60 digits ÷
+    what `rezeroed` says.
 
-    A product of poses and of an adjoint with a screw is off by 10 u a joint; the exponential of A d, where it turns, by
-    4 u |d| more.
+    A product of poses and of an adjoint with a screw is off by 10 u a joint; the exponential of A
+    d, where it turns, by 4 u |d| more.
     """
     T, A, found = exact.exactly(np.eye(4)), [], chain.rezeroed(q0)
     shifts = chain.coupling @ q0
@@ -72,7 +84,10 @@ def rezeroed_off(chain, q0):
     home = np.abs(found.home - exact.rounded(T @ exact.exactly(chain.home)))
     within = UNIT * (10 * (len(A) + 1) + 4 * np.abs(chain.local.rotates * shifts).sum())
     far = chain.reach + np.abs(chain.local.slides * shifts).sum()
-    turned, moved = max(off[:, :3].max(), home[:3, :3].max()), max(off[:, 3:].max(), home[:3, 3].max())
+    turned, moved = (
+        max(off[:, :3].max(), home[:3, :3].max()),
+        max(off[:, 3:].max(), home[:3, 3].max()),
+    )
     return max(turned, moved / far) / within
 
 
@@ -81,7 +96,9 @@ FAR = st.floats(-1, 4).map(lambda power: 10.0**power)
 
 @given(chain_strategies.chain_cases(("q",), min_joints=1, max_joints=4), FAR)
 @example((pk.Chain([PX, RY, RZ], HOME), np.array([1.0, 2.0, 3.0])), 1e4)
-@example((pk.Chain([pk.screw.helical([0, 0, 1], [1, 0, 0], 0.5), RY], HOME), np.array([1.0, -2.0])), 1e3)
+@example(
+    (pk.Chain([pk.screw.helical([0, 0, 1], [1, 0, 0], 0.5), RY], HOME), np.array([1.0, -2.0])), 1e3
+)
 def test_a_rezeroed_chain_is_as_exact_as_the_way_is_long(case, times):
     chain, q = case
     assert rezeroed_off(chain, q * times) <= 1
@@ -99,7 +116,9 @@ def test_example_1_of_the_paper():
     reach, height = L1 * np.cos(q2) + L2 * np.cos(q2 + q3), L1 * np.sin(q2) + L2 * np.sin(q2 + q3)
     T = chain.fk([q1, q2, q3])
     np.testing.assert_allclose(T[:3, :3], R, rtol=0, atol=1e-15)
-    np.testing.assert_allclose(T[:3, 3], [reach * np.cos(q1), reach * np.sin(q1), height], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(
+        T[:3, 3], [reach * np.cos(q1), reach * np.sin(q1), height], rtol=0, atol=1e-15
+    )
     expected = np.zeros((6, 3))
     expected[2, 0] = 1
     # both elbow axes are (0, -1, 0) turned by q1; the third passes L1 out along the upper arm
@@ -112,7 +131,11 @@ def test_example_1_of_the_paper():
 
 def test_equal_chains_are_equal_and_hash_and_pickle_alike():
     a = arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]])
-    for b in (arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]]), copy.deepcopy(a), pickle.loads(pickle.dumps(a))):
+    for b in (
+        arm(limits=[[-1, 1], [-2, np.inf], [0, 0.5]]),
+        copy.deepcopy(a),
+        pickle.loads(pickle.dumps(a)),
+    ):
         assert a == b
         assert hash(a) == hash(b)
     coupled = pk.Chain([RZ, RY, PX], HOME, coupling=[[1, 0], [-2, 0], [0, 1]], offset=[0, 0.1, 0])
@@ -120,14 +143,19 @@ def test_equal_chains_are_equal_and_hash_and_pickle_alike():
     assert coupled != a
 
 
-@pytest.mark.parametrize("change", [{"base": "b"}, {"limits": [[-1, 1]] * 3}, {"offset": [0, 0, 1e-9]}])
+@pytest.mark.parametrize(
+    "change", [{"base": "b"}, {"limits": [[-1, 1]] * 3}, {"offset": [0, 0, 1e-9]}]
+)
 def test_chains_that_differ_are_not_equal(change):
     assert arm() != arm(**change)
     assert arm() != 1
 
 
 def test_minus_zero_makes_no_difference():
-    a, b = pk.Chain([[0, 0, 1, 0, 0, 0]], np.eye(4)), pk.Chain([[-0.0, -0.0, 1, -0.0, 0, 0]], np.eye(4))
+    a, b = (
+        pk.Chain([[0, 0, 1, 0, 0, 0]], np.eye(4)),
+        pk.Chain([[-0.0, -0.0, 1, -0.0, 0, 0]], np.eye(4)),
+    )
     assert a == b
     assert hash(a) == hash(b)
 
@@ -152,7 +180,10 @@ def test_nothing_of_a_chain_can_be_changed():
     for array in (a.screws, a.home, a.limits, a.coupling, a.offset, *a.space, a.local.frames):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
-    with pytest.raises(AttributeError, match=r"^a Chain is frozen: cannot set 'home'; rebased, retooled and rezeroed"):
+    with pytest.raises(
+        AttributeError,
+        match=r"^a Chain is frozen: cannot set 'home'; rebased, retooled and rezeroed",
+    ):
         a.home = np.eye(4)
     with pytest.raises(AttributeError, match=r"^a Chain is frozen: cannot delete 'home'$"):
         del a.home
@@ -167,7 +198,10 @@ def test_the_arrays_given_are_copied():
 
 def test_the_repr_says_where_from_where_to_and_how_far():
     assert repr(arm()) == "<Chain 'base' -> 'tool': 2 revolute, 1 prismatic joints, reach 4.85 m>"
-    assert repr(pk.Chain([], np.eye(4), tip="\x1b[31m")) == r"<Chain 'base' -> '\x1b[31m': no joints, reach 1 m>"
+    assert (
+        repr(pk.Chain([], np.eye(4), tip="\x1b[31m"))
+        == r"<Chain 'base' -> '\x1b[31m': no joints, reach 1 m>"
+    )
     coupled = pk.Chain([RZ, RY], HOME, coupling=[[1], [-1]])
     assert "2 revolute joints, 1 coordinate," in repr(coupled)
 
@@ -204,7 +238,11 @@ def test_a_dict_an_array_and_a_list_of_coordinates_mean_the_same():
         ),
         (np.zeros((3, 2)), ShapeError, r"got shape \(3, 2\)"),
         (1.0, ShapeError, r"got shape \(\)"),
-        ({"pan": 1, "lfit": 2, "slide": 3}, UnknownName, "no coordinate 'lfit'; did you mean 'lift'?"),
+        (
+            {"pan": 1, "lfit": 2, "slide": 3},
+            UnknownName,
+            "no coordinate 'lfit'; did you mean 'lift'?",
+        ),
         ({"pan": 1}, InputError, "no value for 'lift', 'slide'"),
         ({"pan": [1, 2], "lift": [1, 2, 3], "slide": 0}, ShapeError, "do not broadcast"),
         (["a", "b", "c"], InputError, "expected real numbers, got"),
@@ -216,7 +254,12 @@ def test_a_dict_an_array_and_a_list_of_coordinates_mean_the_same():
 )
 def test_a_configuration_that_does_not_fit_is_refused(q, error, message):
     a = arm()
-    for call in (a.fk, lambda q: a.jacobian(q, "body"), lambda q: a.fk_jacobian(q, "body"), a.joint_poses):
+    for call in (
+        a.fk,
+        lambda q: a.jacobian(q, "body"),
+        lambda q: a.fk_jacobian(q, "body"),
+        a.joint_poses,
+    ):
         with pytest.raises(error, match=message):
             call(q)
 
@@ -226,7 +269,8 @@ def test_a_frame_that_does_not_exist_is_refused(frame):
     a, q = arm(), np.zeros(3)
     for call in (a.jacobian, a.fk_jacobian, lambda q, f: a.velocity(q, q, f)):
         with pytest.raises(
-            (InputError, UnknownName), match="expected 'space', 'body', 'hybrid' or the index of a joint"
+            (InputError, UnknownName),
+            match="expected 'space', 'body', 'hybrid' or the index of a joint",
         ):
             call(q, frame)
 
@@ -234,7 +278,10 @@ def test_a_frame_that_does_not_exist_is_refused(frame):
 @pytest.mark.parametrize(
     "screw, message",
     [
-        ([0, 0, 1.1, 0, 0, 0], r"screws\[1\] \(joint 'b'\): omega must have length 1 to 1e-09, got 1.1"),
+        (
+            [0, 0, 1.1, 0, 0, 0],
+            r"screws\[1\] \(joint 'b'\): omega must have length 1 to 1e-09, got 1.1",
+        ),
         ([0, 0, 0, 0, 0, 2], r"v, where omega = 0, must have length 1"),
         ([0, 0, 0, 0, 0, 0], "length 1"),
         ([0, 0, np.nan, 0, 0, 0], "finite"),
@@ -249,13 +296,21 @@ def test_six_numbers_that_are_no_screw_are_refused(screw, message):
 @pytest.mark.parametrize(
     "options, error, message",
     [
-        ({"home": np.diag([2, 1, 1, 1])}, PoseError, "home is no pose: its rotation misses orthonormality"),
+        (
+            {"home": np.diag([2, 1, 1, 1])},
+            PoseError,
+            "home is no pose: its rotation misses orthonormality",
+        ),
         ({"home": np.diag([-1, 1, 1, 1])}, PoseError, "reflection, det R = -1"),
         ({"home": np.eye(3)}, ShapeError, "expected shape"),
         ({"home": np.full((4, 4), np.nan)}, InputError, "finite"),
         ({"screws": np.zeros((2, 5))}, ShapeError, r"expected shape \(n, 6\)"),
         ({"limits": [[0, 1]]}, ShapeError, r"expected shape \(3, 2\)"),
-        ({"limits": [[0, 1], [2, 1], [0, 1]]}, InputError, "lower <= upper for 'lift', got 2.0 and 1.0"),
+        (
+            {"limits": [[0, 1], [2, 1], [0, 1]]},
+            InputError,
+            "lower <= upper for 'lift', got 2.0 and 1.0",
+        ),
         ({"limits": [[0, 1], [np.nan, 1], [0, 1]]}, InputError, "'lift'"),
         ({"joint_names": ["a", "b"]}, ShapeError, "expected 3 names"),
         ({"joint_names": ["a", "b", "a"]}, InputError, "'a' appears more than once"),
@@ -289,7 +344,13 @@ def test_results_go_into_the_arrays_that_are_given():
 
 @pytest.mark.parametrize(
     "T",
-    [np.empty((4, 3)), np.empty((4, 4), np.float32), np.empty((4, 4)).T[::-1], [[0.0] * 4] * 4, np.empty((1, 4, 4))],
+    [
+        np.empty((4, 3)),
+        np.empty((4, 4), np.float32),
+        np.empty((4, 4)).T[::-1],
+        [[0.0] * 4] * 4,
+        np.empty((1, 4, 4)),
+    ],
 )
 def test_an_output_array_that_does_not_fit_is_refused(T):
     a, q = arm(), np.zeros(3)
@@ -312,7 +373,9 @@ def test_a_point_of_the_tool_is_one_point_in_a_frame_where_it_matters(at):
     a, q = arm(), np.zeros(3)
     with pytest.raises(InputError):
         a.jacobian(q, "body", at=at)
-    with pytest.raises(InputError, match="in the frames 'body' and 'hybrid' only, got frame 'space'"):
+    with pytest.raises(
+        InputError, match="in the frames 'body' and 'hybrid' only, got frame 'space'"
+    ):
         a.jacobian(q, "space", at=[0, 0, 1])
 
 
@@ -321,7 +384,9 @@ def test_another_point_of_the_tool_moves_with_it():
     T, J = a.fk_jacobian(q, "hybrid", at=p)
     J0 = a.jacobian(q, "hybrid")
     np.testing.assert_allclose(T, a.fk(q), rtol=0, atol=1e-15)
-    np.testing.assert_allclose(J[3:], J0[3:] + np.cross(J0[:3].T, T[:3, :3] @ p).T, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(
+        J[3:], J0[3:] + np.cross(J0[:3].T, T[:3, :3] @ p).T, rtol=0, atol=1e-14
+    )
 
 
 def test_random_stays_within_the_limits_and_in_one_turn_where_there_are_none():
@@ -366,8 +431,12 @@ def test_random_of_a_geared_coordinate_without_limits_is_one_turn_of_the_fastest
     geared = pk.Chain(plain.screws, plain.home, coupling=np.diag(1 / units), q_names=["a", "b", "c"],
                       limits=plain.limits * units[:, None])  # fmt: skip
     # low + (high - low) r of numbers up to 8, each factor rounded once more: within 8 · 8 u
-    np.testing.assert_allclose(geared.random(3, 50) / units, plain.random(3, 50), rtol=0, atol=64 * 2.0**-53)
-    one = pk.Chain(plain.screws, plain.home, coupling=[[0.5], [-2.0], [30.0]], q_names=["a"])  # the last slides
+    np.testing.assert_allclose(
+        geared.random(3, 50) / units, plain.random(3, 50), rtol=0, atol=64 * 2.0**-53
+    )
+    one = pk.Chain(
+        plain.screws, plain.home, coupling=[[0.5], [-2.0], [30.0]], q_names=["a"]
+    )  # the last slides
     q = one.random(3, 2000)
     assert 0.99 * np.pi / 2 < np.abs(q).max() <= np.pi / 2
 
@@ -412,7 +481,10 @@ def test_a_hundred_thousand_joints_make_a_chain():
 
 
 def test_coordinates_without_limits_are_drawn_from_a_turn_or_a_metre_of_their_fastest_joint():
-    bolt, pitched = pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1), pk.screw.helical([0, 1, 0], [0, 0, 0], -0.2)
+    bolt, pitched = (
+        pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1),
+        pk.screw.helical([0, 1, 0], [0, 0, 0], -0.2),
+    )
     for rows, C, most in (
         ([bolt], [[1.0]], np.pi),
         ([RZ, PX], [[2.0], [5.0]], np.pi / 2),
@@ -426,7 +498,11 @@ def test_coordinates_without_limits_are_drawn_from_a_turn_or_a_metre_of_their_fa
         chain = pk.Chain(rows, np.eye(4), coupling=C, q_names=["q"])
         low, high = chain._range()
         assert (low, high) == (pytest.approx([-most]), pytest.approx([most]))
-    for limits, span in (([1, np.inf], (1, 1 + 2 * np.pi)), ([-np.inf, 2], (2 - 2 * np.pi, 2)), ([3, 4], (3, 4))):
+    for limits, span in (
+        ([1, np.inf], (1, 1 + 2 * np.pi)),
+        ([-np.inf, 2], (2 - 2 * np.pi, 2)),
+        ([3, 4], (3, 4)),
+    ):
         low, high = pk.Chain([bolt], np.eye(4), limits=[limits])._range()
         assert (low[0], high[0]) == pytest.approx(span)
 

@@ -1,4 +1,6 @@
-"""Every law of a chain on chains of all joint kinds, 0 to 12 joints, coupled too; and errors that break each."""
+"""Every law of a chain on chains of all joint kinds, 0 to 12 joints, coupled too; and errors that
+break each.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +14,12 @@ from hypothesis import strategies as st
 
 from poekin.groups import se3
 from poekin.model.chain import Chain
-from poekin.testing import chain_strategies, change_laws, hunting, method_laws
-from poekin.testing.chain_laws import CHAIN_LAWS
-from poekin.testing.change_laws import CHANGE_LAWS
-from poekin.testing.method_laws import METHOD_LAWS
+from poekin.testing.accuracy import falsify
+from poekin.testing.laws import change_laws, method_laws
+from poekin.testing.laws.chain_laws import CHAIN_LAWS
+from poekin.testing.laws.change_laws import CHANGE_LAWS
+from poekin.testing.laws.method_laws import METHOD_LAWS
+from poekin.testing.strategies import chain_strategies
 
 LAWS = {law.name: law for law in (*CHAIN_LAWS, *CHANGE_LAWS, *METHOD_LAWS)}
 # A chain and its truth in 60 digits take some hundredths of a second.
@@ -35,11 +39,18 @@ def test_methods_agree_where_the_home_pose_is_turned_by_no_exact_rotation():
         [0.12012144058298033, 0.9752393783084397, 0.18568520271911168],
         [0.011451249389218323, 0.18566595301089525, -0.9825461937130402],
     ]
-    home = np.vstack([np.c_[R, [5.253805835942181e-11, -8.628119445893364e-11, -2.4077806466076623]], [0, 0, 0, 1]])
+    home = np.vstack(
+        [
+            np.c_[R, [5.253805835942181e-11, -8.628119445893364e-11, -2.4077806466076623]],
+            [0, 0, 0, 1],
+        ]
+    )
     assert np.linalg.norm(home[:3, :3] @ home[:3, :3].T - np.eye(3)) > 1.7e-15
     chain = Chain([[1.0, 0, 0, 0, -0.06345643296552192, 0.03801836574876627]], home)
     # M e^{B x} moves the tool by 4.8 m and back, along directions that are that far off.
-    LAWS["methods_agree"].check(chain, np.array([-3.01684376787039]), np.array([-1.3431296253910125]), 0)
+    LAWS["methods_agree"].check(
+        chain, np.array([-3.01684376787039]), np.array([-1.3431296253910125]), 0
+    )
 
 
 @pytest.mark.parametrize("kinds", [("revolute",), ("prismatic",), ("helical",)], ids=lambda k: k[0])
@@ -57,19 +68,29 @@ def test_chains_of_one_kind_keep_every_law(kinds, data):
 @settings(max_examples=2)
 @given(data=st.data())
 def test_the_shortest_and_the_longest_chains_keep_the_law(name, joints, data):
-    LAWS[name].check(*data.draw(chain_strategies.chain_cases(LAWS[name].kinds, min_joints=joints, max_joints=joints)))
+    LAWS[name].check(
+        *data.draw(
+            chain_strategies.chain_cases(LAWS[name].kinds, min_joints=joints, max_joints=joints)
+        )
+    )
 
 
 def test_example_1_of_the_paper():
     # A 3R arm with L1 = 0.4, L2 = 0.3: M, ω_i and v_i as printed.
-    arm = Chain([[0, 0, 1, 0, 0, 0], [0, -1, 0, 0, 0, 0], [0, -1, 0, 0, 0, -0.4]], se3.exp([0, 0, 0, 0.4 + 0.3, 0, 0]))
+    arm = Chain(
+        [[0, 0, 1, 0, 0, 0], [0, -1, 0, 0, 0, 0], [0, -1, 0, 0, 0, -0.4]],
+        se3.exp([0, 0, 0, 0.4 + 0.3, 0, 0]),
+    )
     q1, q2, q3 = q = np.array([0.3, 0.8, -1.1])
     along = 0.4 * np.cos(q2) + 0.3 * np.cos(q2 + q3)
     up = 0.4 * np.sin(q2) + 0.3 * np.sin(q2 + q3)
     T = arm.fk(q)
     assert np.abs(T[:3, 3] - [along * np.cos(q1), along * np.sin(q1), up]).max() < 1e-15
     assert (
-        np.abs(T[:3, 0] - [np.cos(q1) * np.cos(q2 + q3), np.sin(q1) * np.cos(q2 + q3), np.sin(q2 + q3)]).max() < 1e-15
+        np.abs(
+            T[:3, 0] - [np.cos(q1) * np.cos(q2 + q3), np.sin(q1) * np.cos(q2 + q3), np.sin(q2 + q3)]
+        ).max()
+        < 1e-15
     )
     assert np.array_equal(arm.jacobian(q, "space")[:, 0], [0, 0, 1, 0, 0, 0])
     assert np.abs(arm.jacobian(np.zeros(3), "space") - arm.screws.T).max() < 1e-15
@@ -95,7 +116,9 @@ def without_pitch(chain: Chain) -> Any:
     """The pitch of helical joints is lost wherever the screw is used."""
     S = chain.screws.copy()
     turning = np.any(S[:, :3] != 0, axis=1)
-    S[turning, 3:] -= np.sum(S[turning, :3] * S[turning, 3:], axis=1, keepdims=True) * S[turning, :3]
+    S[turning, 3:] -= (
+        np.sum(S[turning, :3] * S[turning, 3:], axis=1, keepdims=True) * S[turning, :3]
+    )
     wrong = with_screws(chain, S)
     return Planted(wrong, screws=chain.screws)
 
@@ -108,7 +131,9 @@ def frames_swapped(chain: Chain, asked: str, given_: str) -> Any:
 
 
 def jacobian_changed(chain: Chain, change: Callable[[np.ndarray], np.ndarray]) -> Any:
-    return Planted(chain, jacobian=lambda q, frame, **options: change(chain.jacobian(q, frame, **options)))
+    return Planted(
+        chain, jacobian=lambda q, frame, **options: change(chain.jacobian(q, frame, **options))
+    )
 
 
 def home_first(chain: Chain) -> Any:
@@ -118,7 +143,9 @@ def home_first(chain: Chain) -> Any:
 
 
 def backwards(chain: Chain) -> Any:
-    wrong = with_screws(chain, chain.screws[::-1], coupling=chain.coupling[::-1], offset=chain.offset[::-1])
+    wrong = with_screws(
+        chain, chain.screws[::-1], coupling=chain.coupling[::-1], offset=chain.offset[::-1]
+    )
     return Planted(chain, fk=wrong.fk)
 
 
@@ -185,28 +212,49 @@ PLANTED: dict[str, tuple[str, Callable[[Chain], Any]]] = {
         "home_is_where_zero_leads",
         lambda c: Planted(c, fk=with_screws(c, c.screws, offset=np.zeros(len(c.screws))).fk),
     ),
-    "fk in float32": ("home_is_where_zero_leads", lambda c: Planted(c, fk=lambda q: np.float64(np.float32(c.fk(q))))),
+    "fk in float32": (
+        "home_is_where_zero_leads",
+        lambda c: Planted(c, fk=lambda q: np.float64(np.float32(c.fk(q)))),
+    ),
     "body screws are the space screws": ("forms_agree", lambda c: Planted(c, body=c.space)),
     "the trailing tool is lost": (
         "forms_agree",
-        lambda c: Planted(c, local=Planted(c.local, frames=np.concatenate([c.local.frames[:-1], np.eye(4)[None]]))),
+        lambda c: Planted(
+            c, local=Planted(c.local, frames=np.concatenate([c.local.frames[:-1], np.eye(4)[None]]))
+        ),
     ),
-    "hybrid returned as space": ("jacobian_is_the_derivative", lambda c: frames_swapped(c, "hybrid", "space")),
-    "space returned as hybrid": ("space_jacobian_is_not_hybrid", lambda c: frames_swapped(c, "space", "hybrid")),
-    "body returned as hybrid": ("jacobian_is_the_derivative", lambda c: frames_swapped(c, "body", "hybrid")),
+    "hybrid returned as space": (
+        "jacobian_is_the_derivative",
+        lambda c: frames_swapped(c, "hybrid", "space"),
+    ),
+    "space returned as hybrid": (
+        "space_jacobian_is_not_hybrid",
+        lambda c: frames_swapped(c, "space", "hybrid"),
+    ),
+    "body returned as hybrid": (
+        "jacobian_is_the_derivative",
+        lambda c: frames_swapped(c, "body", "hybrid"),
+    ),
     "linear part first": (
         "jacobian_is_the_derivative",
         lambda c: jacobian_changed(c, lambda J: np.roll(J, 3, axis=-2)),
     ),
     "ratios of the coupling ignored": (
         "jacobian_is_the_derivative",
-        lambda c: Planted(c, jacobian=with_screws(c, c.screws, coupling=np.sign(c.coupling)).jacobian),
+        lambda c: Planted(
+            c, jacobian=with_screws(c, c.screws, coupling=np.sign(c.coupling)).jacobian
+        ),
     ),
     "the last column is lost": (
         "jacobian_is_the_derivative",
-        lambda c: jacobian_changed(c, lambda J: J * ([1] * (J.shape[-1] - 1) + [0] if J.shape[-1] else 1)),
+        lambda c: jacobian_changed(
+            c, lambda J: J * ([1] * (J.shape[-1] - 1) + [0] if J.shape[-1] else 1)
+        ),
     ),
-    "an error of 1e-9": ("jacobian_is_the_derivative", lambda c: jacobian_changed(c, lambda J: J * (1 + 1e-9))),
+    "an error of 1e-9": (
+        "jacobian_is_the_derivative",
+        lambda c: jacobian_changed(c, lambda J: J * (1 + 1e-9)),
+    ),
     "Ad(f) for Ad(f⁻¹)": ("body_jacobian_is_space_seen_from_the_tool", adjoint_of_the_pose),
     "joint frames at home": (
         "joint_poses_are_partial_products",
@@ -218,7 +266,9 @@ PLANTED: dict[str, tuple[str, Callable[[Chain], Any]]] = {
     ),
     "a joint's frame in space axes": (
         "jacobian_in_a_joints_frame_is_space_seen_from_it",
-        lambda c: Planted(c, jacobian=lambda q, f, **o: c.jacobian(q, "space" if isinstance(f, int) else f, **o)),
+        lambda c: Planted(
+            c, jacobian=lambda q, f, **o: c.jacobian(q, "space" if isinstance(f, int) else f, **o)
+        ),
     ),
     "V of the last joint but one": (
         "velocity_is_the_jacobian_times_rates",
@@ -234,7 +284,9 @@ PLANTED: dict[str, tuple[str, Callable[[Chain], Any]]] = {
     ),
     "one pass in another frame": (
         "one_pass_gives_both",
-        lambda c: Planted(c, fk_jacobian=lambda q, f, **o: c.fk_jacobian(q, "body" if f == "space" else f, **o)),
+        lambda c: Planted(
+            c, fk_jacobian=lambda q, f, **o: c.fk_jacobian(q, "body" if f == "space" else f, **o)
+        ),
     ),
     "at is ignored": (
         "a_point_moves_as_the_tools_origin_would",
@@ -243,7 +295,10 @@ PLANTED: dict[str, tuple[str, Callable[[Chain], Any]]] = {
     "at is a point of the base": (
         "a_point_moves_as_the_tools_origin_would",
         lambda c: Planted(
-            c, jacobian=lambda q, f, at=None: c.jacobian(q, f, at=None if at is None else c.fk(q)[:3, :3].T @ at)
+            c,
+            jacobian=lambda q, f, at=None: c.jacobian(
+                q, f, at=None if at is None else c.fk(q)[:3, :3].T @ at
+            ),
         ),
     ),
     "the first configuration for all": (
@@ -290,7 +345,7 @@ MOST = 400
 
 
 def catch(law: str, wrong: Callable[[Chain], Any]):
-    return hunting.caught(
+    return falsify.caught(
         [LAWS[law]],
         lambda law, chain, *arguments: law.check(wrong(chain), *arguments),
         chain_strategies.chain_cases,
@@ -307,7 +362,7 @@ def test_a_planted_error_is_caught(error):
 def test_a_link_frame_that_leaks_into_the_screws_is_caught():
     law = LAWS["link_frames_do_not_matter"]
     check = lambda law, chain, frames: law.check(chain, frames, built=leaking)  # noqa: E731
-    assert hunting.caught([law], check, chain_strategies.chain_cases, MOST) is not None
+    assert falsify.caught([law], check, chain_strategies.chain_cases, MOST) is not None
 
 
 @pytest.mark.parametrize("method", method_laws.METHODS)
@@ -318,8 +373,11 @@ def test_a_method_with_a_wrong_column_is_caught(method):
 
     methods = {**method_laws.METHODS, method: wrong}
     check = lambda law, *case: law.check(*case, methods=methods)  # noqa: E731
-    assert hunting.caught(METHOD_LAWS, check, chain_strategies.chain_cases, 60) is not None
+    assert falsify.caught(METHOD_LAWS, check, chain_strategies.chain_cases, 60) is not None
 
 
 def test_every_law_catches_an_error():
-    assert set(LAWS) - {law for law, _ in PLANTED.values()} == {"link_frames_do_not_matter", "methods_agree"}
+    assert set(LAWS) - {law for law, _ in PLANTED.values()} == {
+        "link_frames_do_not_matter",
+        "methods_agree",
+    }

@@ -1,4 +1,6 @@
-"""q as tables of names have it, as pandas does: labels are the coordinates' names, or there are none."""
+"""q as tables of names have it, as pandas does: labels are the coordinates' names, or there are
+none.
+"""
 
 from __future__ import annotations
 
@@ -50,7 +52,9 @@ class DataFrame(Series):
         return self._columns
 
 
-@pytest.mark.parametrize("order", [range(6), [5, 0, 3, 1, 4, 2]], ids=["in order", "in another order"])
+@pytest.mark.parametrize(
+    "order", [range(6), [5, 0, 3, 1, 4, 2]], ids=["in order", "in another order"]
+)
 def test_labels_are_matched_with_the_names_of_the_coordinates(order):
     order = list(order)
     series: Any = Series(Q[order], [NAMES[k] for k in order])
@@ -81,12 +85,28 @@ def test_a_table_without_labels_is_an_array_and_a_column_is_the_values_of_one_co
             r"q: no coordinate 'wrist_3'; did you mean ",
         ),
         (Series(Q[:5], NAMES[:5]), InputError, r"q: no value for 'wrist_3_joint'"),
-        (Series([*Q, 1.0], [*NAMES, NAMES[2]]), InputError, r"q: the label 'elbow_joint' appears more than once"),
+        (
+            Series([*Q, 1.0], [*NAMES, NAMES[2]]),
+            InputError,
+            r"q: the label 'elbow_joint' appears more than once",
+        ),
         (DataFrame([[*Q, 0.0]], [*NAMES, "time"]), UnknownName, r"q: no coordinate 'time'"),
-        (DataFrame([Q], ["A", "N", "linear", "angular", "homogeneous", "x"]), UnknownName, r"q: no coordinate 'A'"),
+        (
+            DataFrame([Q], ["A", "N", "linear", "angular", "homogeneous", "x"]),
+            UnknownName,
+            r"q: no coordinate 'A'",
+        ),
         (Series(Q[:5]), ShapeError, r"q: expected 6 coordinates on the last axis"),
-        (np.ma.array(Q, mask=Q == 1.4), InputError, r"q: expected numbers, got a masked array of which some"),
-        ({**dict(zip(NAMES, Q, strict=True)), NAMES[1]: np.ma.masked}, InputError, r"q\['shoulder_lift_joint'\]: exp"),
+        (
+            np.ma.array(Q, mask=Q == 1.4),
+            InputError,
+            r"q: expected numbers, got a masked array of which some",
+        ),
+        (
+            {**dict(zip(NAMES, Q, strict=True)), NAMES[1]: np.ma.masked},
+            InputError,
+            r"q\['shoulder_lift_joint'\]: exp",
+        ),
     ],
 )
 def test_labels_and_masks_that_do_not_fit_are_refused(q, error, message):

@@ -1,4 +1,6 @@
-"""idealised: rounded geometry becomes the exact one, nothing else moves, and the pose stays within the bound."""
+"""idealised: rounded geometry becomes the exact one, nothing else moves, and the pose stays within
+the bound.
+"""
 
 from __future__ import annotations
 
@@ -18,16 +20,23 @@ from poekin.analysis.validate import routes
 from poekin.errors import InputError, PoekinWarning
 from poekin.formats import catalogue, dh
 from poekin.formats.dh import Row, Table, published_tables
-from poekin.testing import chain_strategies
-from poekin.testing.attainable import UNIT
-from poekin.testing.chain_laws import budget
-from poekin.testing.example_robots import example_robots
+from poekin.testing.accuracy.error_bounds import UNIT
+from poekin.testing.cases.example_robots import example_robots
+from poekin.testing.laws.chain_laws import budget
+from poekin.testing.strategies import chain_strategies
 
 TOL = 1e-4
 FEW = settings(max_examples=max(settings().max_examples // 2, 20))
 MULTIPLES = st.integers(-11, 12).map(lambda k: k * math.pi / 12)
 LENGTHS = st.one_of(st.just(0.0), st.floats(0.05, 1.0), st.floats(-1.0, -0.05))
-ROWS = st.builds(Row, MULTIPLES, LENGTHS, LENGTHS, MULTIPLES, st.sampled_from(["revolute", "revolute", "prismatic"]))
+ROWS = st.builds(
+    Row,
+    MULTIPLES,
+    LENGTHS,
+    LENGTHS,
+    MULTIPLES,
+    st.sampled_from(["revolute", "revolute", "prismatic"]),
+)
 
 
 def apart(a, b, q):
@@ -44,13 +53,19 @@ def pose_errors(a, b, q):
 
 
 def shares(chain, result, q):
-    """Error ÷ what is allowed at configurations (rows, m): the bound, and the rounding of both chains' `fk`.
+    """Error ÷ what is allowed at configurations (rows, m): the bound, and the rounding of both
+    chains' `fk`.
 
     The product of two rotations, and its logarithm, are off by 8 u more.
     """
     far, turned = apart(chain, result.chain, q)
-    angular, linear = np.transpose([np.add(budget(chain, row), budget(result.chain, row)) for row in q])
-    return np.maximum(far / (result.position_bound + linear), turned / (result.rotation_bound + angular + 8 * UNIT))
+    angular, linear = np.transpose(
+        [np.add(budget(chain, row), budget(result.chain, row)) for row in q]
+    )
+    return np.maximum(
+        far / (result.position_bound + linear),
+        turned / (result.rotation_bound + angular + 8 * UNIT),
+    )
 
 
 def excess(chain, result, samples=200):
@@ -64,29 +79,46 @@ def ways(chain):
 
 @functools.cache
 def arms():
-    """The arms that come with the package: as URDF, and as published tables with all their digits rounded to six."""
-    found = {name: pk.load(name).chain(tip={"panda": "panda_hand"}.get(name)) for name in catalogue.NAMES}
+    """The arms that come with the package: as URDF, and as published tables with all their digits
+    rounded to six.
+    """
+    found = {
+        name: pk.load(name).chain(tip={"panda": "panda_hand"}.get(name)) for name in catalogue.NAMES
+    }
     for name in published_tables.NAMES:
         table = dh.published(name)
         rows = [
-            Row(round(r.theta, 6), round(r.d, 6), round(r.a, 6), round(r.alpha, 6), r.kind, r.flip) for r in table.rows
+            Row(round(r.theta, 6), round(r.d, 6), round(r.a, 6), round(r.alpha, 6), r.kind, r.flip)
+            for r in table.rows
         ]
-        found[f"{name}, six digits"] = dh.to_chain(Table(table.convention, rows, base=table.base, tool=table.tool))
+        found[f"{name}, six digits"] = dh.to_chain(
+            Table(table.convention, rows, base=table.base, tool=table.tool)
+        )
     return found
 
 
 @st.composite
 def exact_and_noisy(draw):
-    """A table of exact angles and zeros, and the same off by so little that no sum of it reaches the tolerance."""
+    """A table of exact angles and zeros, and the same off by so little that no sum of it reaches
+    the tolerance.
+    """
     rows = draw(st.lists(ROWS, min_size=1, max_size=6))
     rng = np.random.default_rng(draw(st.integers(0, 2**32)))
 
     def off():
-        # Where axes are parallel the turns and lengths of two rows add up, and over 1 m angles move lengths.
+        # Where axes are parallel the turns and lengths of two rows add up, and over 1 m angles move
+        # lengths.
         return rng.uniform(-1, 1) * TOL / 50
 
     noisy = [
-        Row(r.theta + off(), r.d + off() * (r.d == 0), r.a + off() * (r.a == 0), r.alpha + off(), r.kind) for r in rows
+        Row(
+            r.theta + off(),
+            r.d + off() * (r.d == 0),
+            r.a + off() * (r.a == 0),
+            r.alpha + off(),
+            r.kind,
+        )
+        for r in rows
     ]
     return [dh.to_chain(Table("modified", some)) for some in (rows, noisy)]
 
@@ -101,14 +133,20 @@ def test_exact_geometry_comes_back_from_a_rounded_one(pair):
     np.testing.assert_allclose(result.chain.home[:3, :3], exact.home[:3, :3], rtol=0, atol=2e-15)
     before, after = axes(exact, tol_mm=1e-9), axes(result.chain, tol_mm=1e-9)
     for old, new in zip(before.pairs, after.pairs, strict=True):
-        # Axes with one between them may also meet by chance, by lengths that are not 0 and stay as they are.
+        # Axes with one between them may also meet by chance, by lengths that are not 0 and stay as
+        # they are.
         assert not (old.intersecting and old.fixed) or new.intersecting, old.words
         apart = [pair.distance or 0.0 for pair in (old, new)]
         assert not old.fixed or abs(apart[0] - apart[1]) < 1e3 * TOL
     assert {(s.kind, s.joints) for s in before.shapes} <= {(s.kind, s.joints) for s in after.shapes}
     assert excess(noisy, result) <= 1
     again = result.chain.idealised(TOL)
-    assert (again.chain, again.position_bound, again.rotation_bound, again.changes) == (result.chain, 0.0, 0.0, ())
+    assert (again.chain, again.position_bound, again.rotation_bound, again.changes) == (
+        result.chain,
+        0.0,
+        0.0,
+        (),
+    )
 
 
 @FEW
@@ -120,7 +158,10 @@ def test_the_pose_of_any_chain_stays_within_the_bound_and_a_second_time_changes_
     assert share <= 1
     assert result.chain.kinds == chain.kinds
     assert result.chain.idealised(tol).chain == result.chain
-    for ours, theirs in ((result.chain.limits, chain.limits), (result.chain.coupling, chain.coupling)):
+    for ours, theirs in (
+        (result.chain.limits, chain.limits),
+        (result.chain.coupling, chain.coupling),
+    ):
         np.testing.assert_array_equal(ours, theirs)
 
 
@@ -158,10 +199,18 @@ def test_every_chain_of_the_real_robots_is_as_exact_as_floats_can_say():
                 if pair.parallel:
                     assert (a == b).all() or (a == -b).all(), (name, tip, pair)
                 if pair.perpendicular:
-                    assert abs(a @ b) <= 4e-16, (name, tip, pair)  # two ulp: rounding of six products' sum
+                    assert abs(a @ b) <= 4e-16, (
+                        name,
+                        tip,
+                        pair,
+                    )  # two ulp: rounding of six products' sum
                 if pair.intersecting and not pair.parallel and pair.angle > 15 and chain.reach < 3:
                     assert after.distance is not None
-                    assert after.distance <= 1e-11, (name, tip, pair)  # mm; the screws' own digits over sin 15 degrees
+                    assert after.distance <= 1e-11, (
+                        name,
+                        tip,
+                        pair,
+                    )  # mm; the screws' own digits over sin 15 degrees
     assert count > 700
 
 
@@ -186,11 +235,17 @@ def test_pi_halves_of_five_digits_are_put_right_where_they_are_and_said_in_words
     chain = pk.Chain(screws, T, joint_names=["a", "b{0}", "c"])
     result = chain.idealised(1e-5)
     np.testing.assert_array_equal(ways(result.chain), [[0, 0, 1], [0, -1, 0], [0, 0, -1]])
-    np.testing.assert_array_equal(np.abs(result.chain.home[:3, :3]), [[1, 0, 0], [0, 0, 1], [0, 1, 0]])
-    assert result.changes[0] == "axis of 'b{0}' turned by 3.67e-06 rad to be perpendicular to axis of 'a'"
+    np.testing.assert_array_equal(
+        np.abs(result.chain.home[:3, :3]), [[1, 0, 0], [0, 0, 1], [0, 1, 0]]
+    )
+    assert (
+        result.changes[0]
+        == "axis of 'b{0}' turned by 3.67e-06 rad to be perpendicular to axis of 'a'"
+    )
     assert len(result.changes) == 3
     assert result.rotation_bound == pytest.approx(3 * 3.673e-6, rel=1e-3)
-    # what is left to put right is at most the rounding of the products above, which is another one in every BLAS
+    # what is left to put right is at most the rounding of the products above, which is another one
+    # in every BLAS
     kept = chain.idealised(1e-6)
     assert kept.changes == ()
     assert kept.rotation_bound < 1e-14
@@ -215,7 +270,9 @@ def test_a_tilt_beyond_the_tolerance_stays_and_nearly_parallel_axes_throw_nothin
     result = pk.Chain(screws, np.eye(4)).idealised(1e-3)
     one, two, three = ways(result.chain)
     np.testing.assert_array_equal(one, [0, 0, 1])
-    np.testing.assert_allclose(two, [math.sin(lean), 0, math.cos(lean)], rtol=0, atol=2e-10)  # 1e-5 squared, what y had
+    np.testing.assert_allclose(
+        two, [math.sin(lean), 0, math.cos(lean)], rtol=0, atol=2e-10
+    )  # 1e-5 squared, what y had
     np.testing.assert_array_equal(two, three)
     assert result.position_bound < 1e-4
     alone = pk.Chain(screws[:2], np.eye(4))
@@ -226,7 +283,9 @@ def test_far_away_and_very_small_numbers_are_no_trouble():
     far = pk.Chain([pk.screw.revolute([0, 1e-6, 1], [1e99, 0, 0])], np.eye(4)).idealised(1e-5)
     np.testing.assert_array_equal(far.chain.screws, [[0, 0, 1, 0, -1e99, 0]])
     assert far.position_bound == pytest.approx(1e93, rel=1e-6)
-    assert far.changes[0] == "axis of 'joint1' turned by 1e-06 rad to be parallel to the base's z axis"
+    assert (
+        far.changes[0] == "axis of 'joint1' turned by 1e-06 rad to be parallel to the base's z axis"
+    )
     near = pk.Chain([pk.screw.revolute([0, 0, 1], [1e-200, 0, 0])], np.eye(4))
     assert near.idealised(1e-300).chain is near
     np.testing.assert_array_equal(near.idealised(1e-9).chain.screws, [[0, 0, 1, 0, 0, 0]])
@@ -235,7 +294,9 @@ def test_far_away_and_very_small_numbers_are_no_trouble():
 def test_a_joint_that_slides_counts_as_far_as_it_can():
     tilted = pk.screw.prismatic([0, 1e-6, 1.0])
     bounds = {
-        length: pk.Chain([tilted], np.eye(4), limits=[[-length, length]]).idealised(1e-5).position_bound
+        length: pk.Chain([tilted], np.eye(4), limits=[[-length, length]])
+        .idealised(1e-5)
+        .position_bound
         for length in (1.0, 10.0, np.inf)
     }
     assert bounds[1.0] == pytest.approx(1e-6, rel=1e-6)
@@ -256,5 +317,7 @@ def test_nothing_changes_without_a_tolerance_or_without_a_need():
 
 @pytest.mark.parametrize("tol", [-1e-9, 0.06, math.nan, math.inf, "1e-5", None, True])
 def test_a_tolerance_that_is_none_is_refused(tol):
-    with pytest.raises(InputError, match=r"tol: a number from 0 to 0.05 expected \(rad and m\), got "):
+    with pytest.raises(
+        InputError, match=r"tol: a number from 0 to 0.05 expected \(rad and m\), got "
+    ):
         pk.load("ur5e").chain(tip="tool0").idealised(tol)

@@ -12,11 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from poekin.errors import InputError, ModelError, PoekinError, PoseError, ShapeError
+from poekin.model.checks import one_pose
 from poekin.model.joint import KINDS, Joint, Mimic
-from poekin.model.parts import one_pose
+from poekin.model.provenance import Source
 from poekin.model.robot import Robot
-from poekin.model.source import Source
-from poekin.testing.strategies import frozen, poses
+from poekin.testing.strategies.group_strategies import frozen, poses
 from tests.messages import says
 
 
@@ -38,10 +38,12 @@ def test_an_origin_is_kept_read_only_and_a_joint_equals_its_copies(origin):
 
 
 def axis_off(vector):
-    """How far a joint's axis is from the vector's direction, and its length from 1, ÷ rounding; u = 2^-53.
+    """How far a joint's axis is from the vector's direction, and its length from 1, ÷ rounding; u =
+    2^-53.
 
-    A quotient by the largest, the length and the quotient by it are four roundings of each entry, and of its squares;
-    the truth here has as many, and the length of what comes out three of its own.
+    A quotient by the largest, the length and the quotient by it are four roundings of each entry,
+    and of its squares; the truth here has as many, and the length of what comes out three of its
+    own.
     """
     axis, exact = joint(axis=vector).axis, np.array(vector) / max(map(abs, vector))
     off = np.abs(np.array(axis) - exact / math.hypot(*exact)).max()
@@ -94,10 +96,26 @@ def test_a_joint_is_frozen():
 
 
 FAULTS = {
-    "no name": ({"name": ""}, ModelError, "a joint: a name must be a string that is not empty, got ''"),
-    "a name that is no string": ({"name": 7}, ModelError, "a joint: a name must be a string that is not empty, got 7"),
-    "no parent": ({"parent": ""}, ModelError, "joint 'j': parent: a name must be a string that is not empty, got ''"),
-    "no child": ({"child": None}, ModelError, "joint 'j': child: a name must be a string that is not empty, got None"),
+    "no name": (
+        {"name": ""},
+        ModelError,
+        "a joint: a name must be a string that is not empty, got ''",
+    ),
+    "a name that is no string": (
+        {"name": 7},
+        ModelError,
+        "a joint: a name must be a string that is not empty, got 7",
+    ),
+    "no parent": (
+        {"parent": ""},
+        ModelError,
+        "joint 'j': parent: a name must be a string that is not empty, got ''",
+    ),
+    "no child": (
+        {"child": None},
+        ModelError,
+        "joint 'j': child: a name must be a string that is not empty, got None",
+    ),
     "unknown kind": (
         {"kind": "ball"},
         ModelError,
@@ -113,7 +131,11 @@ FAULTS = {
         ModelError,
         "joint 'j': axis: expected 3 finite number(s), got (0, 1)",
     ),
-    "text for an axis": ({"axis": "xyz"}, ModelError, "joint 'j': axis: expected 3 finite number(s), got 'xyz'"),
+    "text for an axis": (
+        {"axis": "xyz"},
+        ModelError,
+        "joint 'j': axis: expected 3 finite number(s), got 'xyz'",
+    ),
     "lower above upper": (
         {"limits": (1, 0)},
         ModelError,
@@ -124,7 +146,11 @@ FAULTS = {
         ModelError,
         "joint 'j': limits must be lower <= upper, got lower = nan, upper = 0.0",
     ),
-    "one limit": ({"limits": (1,)}, ModelError, "joint 'j': limits must be two numbers, lower and upper, got (1,)"),
+    "one limit": (
+        {"limits": (1,)},
+        ModelError,
+        "joint 'j': limits must be two numbers, lower and upper, got (1,)",
+    ),
     "a lower limit at infinity": (
         {"limits": (math.inf, math.inf)},
         ModelError,
@@ -160,13 +186,21 @@ FAULTS = {
         InputError,
         "joint 'j': origin: expected lengths of at most 1e+100 m, got -1e+155 in row 1",
     ),
-    "mimic by name": ({"mimic": "k"}, ModelError, "joint 'j': mimic must be a Mimic or None, got 'k'"),
+    "mimic by name": (
+        {"mimic": "k"},
+        ModelError,
+        "joint 'j': mimic must be a Mimic or None, got 'k'",
+    ),
     "floating mimic": (
         {"kind": "floating", "mimic": Mimic("k")},
         ModelError,
         "joint 'j': a floating joint has no single value and cannot mimic another joint",
     ),
-    "origin 3x3": ({"origin": np.eye(3)}, ShapeError, "joint 'j': origin: expected shape (..., 4, 4), got (3, 3)"),
+    "origin 3x3": (
+        {"origin": np.eye(3)},
+        ShapeError,
+        "joint 'j': origin: expected shape (..., 4, 4), got (3, 3)",
+    ),
     "many origins": (
         {"origin": np.zeros((2, 4, 4))},
         ShapeError,
@@ -218,7 +252,12 @@ def test_what_is_no_mimic_is_refused(numbers):
 def test_without_more_said_a_joint_stands_in_its_parent_and_turns_about_x_without_end():
     plain = Joint("j", "revolute", "a", "b")
     np.testing.assert_array_equal(plain.origin, np.eye(4))
-    assert (plain.axis, plain.limits, plain.mimic, plain.pitch) == ((1, 0, 0), (-math.inf, math.inf), None, 0)
+    assert (plain.axis, plain.limits, plain.mimic, plain.pitch) == (
+        (1, 0, 0),
+        (-math.inf, math.inf),
+        None,
+        0,
+    )
     assert (Mimic("k").multiplier, Mimic("k").offset) == (1, 0)
     assert joint(kind="continuous", limits=(-1, 1)).limits == (-math.inf, math.inf)
 
@@ -232,13 +271,19 @@ SCREWS = {"revolute": TURNS, "continuous": TURNS, "prismatic": SLIDES, "helical"
 def test_every_kind_has_its_screw_and_a_helical_one_alone_a_pitch(kind):
     assert (joint(kind=kind).kind, joint(kind=kind, axis=(0, 3, 4)).screw) == (kind, SCREWS[kind])
     if kind == "helical":
-        assert joint(kind=kind, axis=(0, 3, 4), pitch=0.5).screw == pytest.approx((0, 0.6, 0.8, 0, 0.3, 0.4))
+        assert joint(kind=kind, axis=(0, 3, 4), pitch=0.5).screw == pytest.approx(
+            (0, 0.6, 0.8, 0, 0.3, 0.4)
+        )
     else:
-        with pytest.raises(ModelError, match=f"only a helical joint has a pitch, and this one is {kind}"):
+        with pytest.raises(
+            ModelError, match=f"only a helical joint has a pitch, and this one is {kind}"
+        ):
             joint(kind=kind, pitch=-0.5)
 
 
-@pytest.mark.parametrize("record", [Mimic("k"), Source("arm.urdf"), joint(), Robot("r", ["a"], [])], ids=repr)
+@pytest.mark.parametrize(
+    "record", [Mimic("k"), Source("arm.urdf"), joint(), Robot("r", ["a"], [])], ids=repr
+)
 def test_a_record_of_a_model_is_frozen_and_holds_its_fields_alone(record):
     with pytest.raises(FrozenInstanceError):
         setattr(record, record.__slots__[0], "other")
@@ -259,7 +304,10 @@ def test_an_array_that_the_user_changes_later_changes_nothing():
 
 def test_joints_and_robots_that_differ_are_unequal_either_way_round():
     pairs = [(joint(), joint(name="k")), (joint(pitch=0.0), joint(limits=(-1, 1)))]
-    pairs += [(Robot("r", ["a"], []), Robot("s", ["a"], [])), (Robot("r", ["a"], []), Robot("r", ["b"], []))]
+    pairs += [
+        (Robot("r", ["a"], []), Robot("s", ["a"], [])),
+        (Robot("r", ["a"], []), Robot("r", ["b"], [])),
+    ]
     for one, other in pairs:
         assert one != other
         assert other != one

@@ -1,4 +1,6 @@
-"""The pitch of a joint is data of the chain: moves and rezeroings keep it, and so the kind, however far they go."""
+"""The pitch of a joint is data of the chain: moves and rezeroings keep it, and so the kind, however
+far they go.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +12,9 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError, ScrewError, ShapeError
 from poekin.formats import chain_toml
-from poekin.formats.toml_text import Keys
+from poekin.formats.text.toml_text import Keys
 from poekin.model.joint import Joint
-from poekin.testing.chain_laws import fk_is_the_product_of_exponentials
+from poekin.testing.laws.chain_laws import fk_is_the_product_of_exponentials
 
 UR5E = pk.load("ur5e").chain(tip="tool0")
 
@@ -87,7 +89,11 @@ def test_a_chain_in_a_file_keeps_its_pitches():
     "pitches, error, message",
     [
         ([0, 0], ShapeError, r"pitches: expected shape \(3,\), one number a joint, got \(2,\)"),
-        ([0, 0, 0.1], ScrewError, r"pitches\[2\] \(joint 'slide'\): expected 0 for a prismatic joint, .*, got 0\.1"),
+        (
+            [0, 0, 0.1],
+            ScrewError,
+            r"pitches\[2\] \(joint 'slide'\): expected 0 for a prismatic joint, .*, got 0\.1",
+        ),
         (
             [0, -1e101, 0],
             ScrewError,
@@ -121,6 +127,12 @@ def test_the_joints_of_a_robot_say_what_the_pitches_are_however_far_away_they_st
 def test_a_pitch_far_beyond_the_reach_is_in_the_bound_of_fk(pitch):
     rng = np.random.default_rng(0)
     for place in rng.normal(size=(10, 3)):
-        chain = pk.Chain([pk.screw.helical([1, 2, 3], place, pitch), UR5E.screws[1]], UR5E.home, pitches=[pitch, 0])
+        chain = pk.Chain(
+            [pk.screw.helical([1, 2, 3], place, pitch), UR5E.screws[1]],
+            UR5E.home,
+            pitches=[pitch, 0],
+        )
         fk_is_the_product_of_exponentials(chain, rng.uniform(-20, 20, 2))
-        fk_is_the_product_of_exponentials(chain.rebased(pk.se3.exp(rng.normal(size=6))), rng.uniform(-20, 20, 2))
+        fk_is_the_product_of_exponentials(
+            chain.rebased(pk.se3.exp(rng.normal(size=6))), rng.uniform(-20, 20, 2)
+        )

@@ -1,4 +1,6 @@
-"""What a model does not take is refused in whole sentences: where, what was expected, and what arrived."""
+"""What a model does not take is refused in whole sentences: where, what was expected, and what
+arrived.
+"""
 
 # pyright: reportArgumentType=false
 
@@ -9,11 +11,11 @@ import pytest
 
 import poekin as pk
 from poekin.errors import InputError, ModelError, PoseError, ScrewError, ShapeError, UnknownName
-from poekin.model import parts, screw
+from poekin.model import checks, screw
 from poekin.model import robot as robots
 from poekin.model.joint import Joint, Mimic
+from poekin.model.provenance import Source
 from poekin.model.robot import Robot
-from poekin.model.source import Source
 from tests.messages import says
 
 TURN, SLIDE = screw.revolute([0, 0, 1], [1, 0, 0]), screw.prismatic([1, 0, 0])
@@ -169,7 +171,7 @@ OF_PARTS = {
     "no axis": (lambda: screw.prismatic([0, 0, 0]), ScrewError, "axis: expected a direction, got the zero vector"),
     "a pitch": (lambda: screw.helical([0, 0, 1], [1, 2, 3], np.inf), InputError,
                 "expected a finite point (3,) and pitch, got point [1.0, 2.0, 3.0] and pitch inf"),
-    "a number": (lambda: parts.finite(NAN, "gain"), InputError, "gain: expected a finite number, got nan"),
+    "a number": (lambda: checks.finite(NAN, "gain"), InputError, "gain: expected a finite number, got nan"),
 }  # fmt: skip
 
 
@@ -183,7 +185,9 @@ def hung(name, parent, child, kind="revolute", **fields):
 
 
 BRANCHED = robot(hung("left", "a", "b"), hung("right", "a", "c"))
-FLOATING = robot(hung("free", "a", "b", "floating"), hung("j", "b", "c"), source=Source("f.urdf", (), (7, 9)))
+FLOATING = robot(
+    hung("free", "a", "b", "floating"), hung("j", "b", "c"), source=Source("f.urdf", (), (7, 9))
+)
 OF_ROBOTS = {
     "source": (lambda: Robot("r", ["a"], [], 5), "robot 'r': source must be a Source, a text or None, got 5"),
     "joint": (lambda: BRANCHED.joint("lefd"), "robot 'r': no joint 'lefd'; did you mean 'left'?"),
@@ -251,9 +255,13 @@ def test_limits_that_contradict_each_other_are_warned_of_whole(followers, more):
     )
 
 
-@pytest.mark.parametrize("q, where", [([0, np.pi / 2, 0], "q"), ([[0, 0, 0], [0, np.pi / 2, 0]], "q[1]")])
+@pytest.mark.parametrize(
+    "q, where", [([0, np.pi / 2, 0], "q"), ([[0, 0, 0], [0, np.pi / 2, 0]], "q[1]")]
+)
 def test_a_gimbal_s_lock_is_said_with_its_place_and_pitch(q, where):
-    wrist = pk.Chain([screw.revolute(z, [0, 0, 0]) for z in ([0, 0, 1], [0, 1, 0], [1, 0, 0])], np.eye(4))
+    wrist = pk.Chain(
+        [screw.revolute(z, [0, 0, 0]) for z in ([0, 0, 1], [0, 1, 0], [1, 0, 0])], np.eye(4)
+    )
     cosine = np.hypot(*wrist.fk(q)[..., :2, 0].reshape(-1, 2)[-1])
     with pytest.raises(InputError) as caught:
         wrist.analytic_jacobian(q, "rpy")
@@ -266,23 +274,31 @@ def test_a_gimbal_s_lock_is_said_with_its_place_and_pitch(q, where):
 
 def test_what_is_shown_of_models_names_their_parts():
     limits = {"base": "floor", "tip": "hand"}
-    assert repr(chain(**limits)) == "<Chain 'floor' -> 'hand': 1 revolute, 1 prismatic joints, reach 3 m>"
+    assert (
+        repr(chain(**limits))
+        == "<Chain 'floor' -> 'hand': 1 revolute, 1 prismatic joints, reach 3 m>"
+    )
     assert repr(chain(TURN, TURN, coupling=[[1], [2]])) == (
         "<Chain 'base' -> 'tool': 2 revolute joints, 1 coordinate, reach 2 m>"
     )
     assert (
-        repr(chain(TURN, coupling=[[1, 2]])) == "<Chain 'base' -> 'tool': 1 revolute joint, 2 coordinates, reach 2 m>"
+        repr(chain(TURN, coupling=[[1, 2]]))
+        == "<Chain 'base' -> 'tool': 1 revolute joint, 2 coordinates, reach 2 m>"
     )
     assert repr(ALONE) == "<Chain 'base' -> 'tool': no joints, reach 1 m>"
     assert repr(ALONE.compile()) == f"<CompiledChain of {ALONE!r}>"
     assert repr(ALONE.compile(parallel=True)) == f"<CompiledChain of {ALONE!r}, parallel>"
     assert repr(BRANCHED) == "Robot('r': 3 links, 2 joints, dof 2, root 'a', 2 leaves: 'b', 'c')"
-    assert repr(Robot("r", ["a"], [])) == "Robot('r': 1 links, 0 joints, dof 0, root 'a', 1 leaf: 'a')"
+    assert (
+        repr(Robot("r", ["a"], [])) == "Robot('r': 1 links, 0 joints, dof 0, root 'a', 1 leaf: 'a')"
+    )
     three = Robot("r", ["a", "b", "c", "d"], [hung(x, "a", x) for x in "bcd"])
     assert repr(three).endswith("3 leaves: 'b', 'c', 'd')")
     many = Robot("r", ["a", "b", "c", "d", "e"], [hung(x, "a", x) for x in "bcde"])
     assert repr(many).endswith("4 leaves: 'b', 'c', 'd', ...)")
-    assert repr(hung("j", "a", "b", mimic=Mimic("k"))) == "Joint('j', revolute, 'a' -> 'b', mimic='k')"
+    assert (
+        repr(hung("j", "a", "b", mimic=Mimic("k"))) == "Joint('j', revolute, 'a' -> 'b', mimic='k')"
+    )
     assert repr(hung("j", "a", "b", "fixed")) == "Joint('j', fixed, 'a' -> 'b')"
 
 
@@ -292,13 +308,18 @@ def test_of_many_roots_five_are_named(count, more):
     named = ", ".join(f"{root!r} (x.urdf:{k})" for k, root in enumerate(roots[:5]))
     with pytest.raises(ModelError) as caught:
         Robot("r", roots, [], Source("x.urdf", tuple(range(count))))
-    assert says(caught.value, f"x.urdf:1: a robot has one root, but {count} links have no parent: {named}{more}")
+    assert says(
+        caught.value,
+        f"x.urdf:1: a robot has one root, but {count} links have no parent: {named}{more}",
+    )
 
 
 @pytest.mark.parametrize("largest, made", [(6, True), (5, False)])
 def test_a_coupling_matrix_that_would_be_too_large_is_said_whole(largest, made, monkeypatch):
     monkeypatch.setattr(robots, "LARGEST", largest)
-    arm = robot(hung("i", "a", "b"), hung("j", "b", "c"), hung("k", "c", "d", mimic=Mimic("i", 2.0)))
+    arm = robot(
+        hung("i", "a", "b"), hung("j", "b", "c"), hung("k", "c", "d", mimic=Mimic("i", 2.0))
+    )
     if made:
         assert arm.chain().coupling.tolist() == [[1, 0], [0, 1], [2, 0]]
         return
@@ -340,5 +361,10 @@ def test_compiled_arms_are_equal_that_do_the_same_in_the_same_way():
     again = pk.Chain(ARM.screws, ARM.home, joint_names=ARM.joint_names).compile()
     assert plain == again
     assert hash(plain) == hash(again)
-    for one, other in ((plain, parallel), (parallel, plain), (plain, ALONE.compile()), (plain, ARM)):
+    for one, other in (
+        (plain, parallel),
+        (parallel, plain),
+        (plain, ALONE.compile()),
+        (plain, ARM),
+    ):
         assert one != other

@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 from poekin.errors import InputError, UnknownName
 from poekin.model.joint import FREE, Joint, Mimic
 from poekin.model.robot import Robot
-from poekin.testing import robot_strategies
-from poekin.testing.strategies import frozen, poses
+from poekin.testing.strategies import robot_strategies
+from poekin.testing.strategies.group_strategies import frozen, poses
 
 MOVING = ("revolute", "continuous", "prismatic", "helical")
 ROOMY = poses(lengths=(1e-9, 2.0))
@@ -31,16 +31,25 @@ def robots(kinds=(*MOVING, "fixed"), max_joints=7):
 
 
 def value(robot: Robot, joint: Joint, q: dict[str, Any]) -> Any:
-    """The joint's value, by the definition of mimic; of many configurations where the coordinates are arrays."""
+    """The joint's value, by the definition of mimic; of many configurations where the coordinates
+    are arrays.
+    """
     if joint.kind == "fixed":
         return 0.0
     if joint.mimic is None:
         return q[joint.name]
-    return joint.mimic.multiplier * value(robot, robot.joint(joint.mimic.joint), q) + joint.mimic.offset
+    return (
+        joint.mimic.multiplier * value(robot, robot.joint(joint.mimic.joint), q)
+        + joint.mimic.offset
+    )
 
 
-def naive_poses(robot: Robot, q: dict[str, Any], free: dict[str, np.ndarray] | None = None) -> dict[str, np.ndarray]:
-    """Poses of all links by walking down the tree with SciPy's matrix exponential; leading axes are those of q."""
+def naive_poses(
+    robot: Robot, q: dict[str, Any], free: dict[str, np.ndarray] | None = None
+) -> dict[str, np.ndarray]:
+    """Poses of all links by walking down the tree with SciPy's matrix exponential; leading axes are
+    those of q.
+    """
     result = {robot.root: np.eye(4)}
     todo = [robot.root]
     while todo:
@@ -52,7 +61,14 @@ def naive_poses(robot: Robot, q: dict[str, Any], free: dict[str, np.ndarray] | N
                 moved = (free or {}).get(joint.name, np.eye(4))
             else:
                 w, v, x = joint.screw[:3], joint.screw[3:], value(robot, joint, q)
-                X = np.array([[0, -w[2], w[1], v[0]], [w[2], 0, -w[0], v[1]], [-w[1], w[0], 0, v[2]], [0, 0, 0, 0]])
+                X = np.array(
+                    [
+                        [0, -w[2], w[1], v[0]],
+                        [w[2], 0, -w[0], v[1]],
+                        [-w[1], w[0], 0, v[2]],
+                        [0, 0, 0, 0],
+                    ]
+                )
                 moved = scipy.linalg.expm(X * np.asarray(x)[..., None, None])
             result[joint.child] = result[link] @ joint.origin @ moved
             todo.append(joint.child)
@@ -75,12 +91,14 @@ def size(robot: Robot) -> float:
 
 
 def rounding(robot: Robot, q: dict[str, Any]) -> Any:
-    """What two ways of computing poses of a robot may differ by, lengths ÷ `size`; u = 2^-53, X the sum of all |x|.
+    """What two ways of computing poses of a robot may differ by, lengths ÷ `size`; u = 2^-53, X the
+    sum of all |x|.
 
-    Each joint's e^{S x} by SciPy is off by 8 u (1 + |x|), as its scaling by powers of 2 squares |S x| times; a product
-    of two poses by 8 u; a chain's own pose by u (8 (n + 1) + 4 X). A value composed of multipliers and offsets is off
-    by u times the sum of their absolute values, counted in X, for each of n mimics in a row. To see one link from
-    another takes an inverse, and both of their poses: twice.
+    Each joint's e^{S x} by SciPy is off by 8 u (1 + |x|), as its scaling by powers of 2 squares |S
+    x| times; a product of two poses by 8 u; a chain's own pose by u (8 (n + 1) + 4 X). A value
+    composed of multipliers and offsets is off by u times the sum of their absolute values, counted
+    in X, for each of n mimics in a row. To see one link from another takes an inverse, and both of
+    their poses: twice.
     """
 
     def most(joint: Joint) -> Any:
@@ -89,7 +107,9 @@ def rounding(robot: Robot, q: dict[str, Any]) -> Any:
             return 0.0
         if joint.mimic is None:
             return abs(q[joint.name])
-        return abs(joint.mimic.multiplier) * most(robot.joint(joint.mimic.joint)) + abs(joint.mimic.offset)
+        return abs(joint.mimic.multiplier) * most(robot.joint(joint.mimic.joint)) + abs(
+            joint.mimic.offset
+        )
 
     n, X = len(robot.joints), sum(map(most, robot.joints))
     slides = sum(most(joint) for joint in robot.joints if joint.kind in ("prismatic", "helical"))
@@ -97,9 +117,14 @@ def rounding(robot: Robot, q: dict[str, Any]) -> Any:
 
 
 def link_errors(robot: Robot, subject: Robot, seed: int, rows: int = 1) -> np.ndarray:
-    """How far the subject's link poses are from those that the definition gives for the robot, ÷ `rounding` (rows,)."""
+    """How far the subject's link poses are from those that the definition gives for the robot, ÷
+    `rounding` (rows,).
+    """
     q = random_q(robot, seed, rows)
-    expected, found = naive_poses(robot, q), subject.fk({name: q.get(name, 0.0) for name in subject.q_names})
+    expected, found = (
+        naive_poses(robot, q),
+        subject.fk({name: q.get(name, 0.0) for name in subject.q_names}),
+    )
     return _worst(robot, q, ((found[link], expected[link]) for link in robot.links))
 
 
@@ -117,7 +142,9 @@ def chain_errors(robot: Robot, subject: Robot, seed: int, rows: int = 1) -> np.n
     return _worst(robot, q, pairs())
 
 
-def _worst(robot: Robot, q: dict[str, Any], pairs: Iterable[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+def _worst(
+    robot: Robot, q: dict[str, Any], pairs: Iterable[tuple[np.ndarray, np.ndarray]]
+) -> np.ndarray:
     """The largest difference of poses in each configuration, ÷ `rounding`."""
     worst = functools.reduce(np.maximum, (np.abs(a - b).max(axis=(-2, -1)) for a, b in pairs))
     return np.atleast_1d(worst / size(robot) / rounding(robot, q))
@@ -137,8 +164,12 @@ def test_a_chain_runs_between_any_two_links_in_either_direction(robot, seed):
 
 
 def two_arms() -> Robot:
-    """A robot with every kind of moving joint, a fork and mimics: what the planted errors are planted in."""
-    turn = Joint("t", "fixed", "a", "b", scipy.linalg.expm(_generator([0.3, 0.2, 0.5, 0.1, 0.2, 0.3]))).origin
+    """A robot with every kind of moving joint, a fork and mimics: what the planted errors are
+    planted in.
+    """
+    turn = Joint(
+        "t", "fixed", "a", "b", scipy.linalg.expm(_generator([0.3, 0.2, 0.5, 0.1, 0.2, 0.3]))
+    ).origin
     return Robot(
         "two arms",
         ["a", "b", "c", "d", "e"],
@@ -153,12 +184,16 @@ def two_arms() -> Robot:
 
 def _generator(xi):
     w, v = xi[:3], xi[3:]
-    return np.array([[0, -w[2], w[1], v[0]], [w[2], 0, -w[0], v[1]], [-w[1], w[0], 0, v[2]], [0, 0, 0, 0]])
+    return np.array(
+        [[0, -w[2], w[1], v[0]], [w[2], 0, -w[0], v[1]], [-w[1], w[0], 0, v[2]], [0, 0, 0, 0]]
+    )
 
 
 def planted(name: str, change: Callable[[Joint], Joint]) -> Robot:
     robot = two_arms()
-    return Robot(robot.name, robot.links, [change(j) if j.name == name else j for j in robot.joints])
+    return Robot(
+        robot.name, robot.links, [change(j) if j.name == name else j for j in robot.joints]
+    )
 
 
 PLANTED = {
@@ -169,7 +204,9 @@ PLANTED = {
     "mimic ignored": planted("p", lambda j: replace(j, mimic=None)),
     "multiplier dropped": planted("p", lambda j: replace(j, mimic=Mimic("r", 1.0, 0.25))),
     "offset dropped": planted("p", lambda j: replace(j, mimic=Mimic("r", 0.5))),
-    "mimic of mimic not composed": planted("m", lambda j: replace(j, mimic=Mimic("r", -2.0, 0.125))),
+    "mimic of mimic not composed": planted(
+        "m", lambda j: replace(j, mimic=Mimic("r", -2.0, 0.125))
+    ),
     "a millionth of a turn": planted("r", lambda j: replace(j, axis=(1, 2, 3.00001))),
 }
 
@@ -183,7 +220,9 @@ def test_planted_errors_are_found(law, wrong):
 
 @given(robot=robots(max_joints=5), data=st.data())
 def test_the_order_of_joints_and_links_changes_only_the_order_of_coordinates(robot, data):
-    other = Robot("r", data.draw(st.permutations(robot.links)), data.draw(st.permutations(robot.joints)))
+    other = Robot(
+        "r", data.draw(st.permutations(robot.links)), data.draw(st.permutations(robot.joints))
+    )
     assert set(other.q_names) == set(robot.q_names)
     q = random_q(robot, 0)
     mine, theirs = robot.fk(q), other.fk(q)
@@ -199,13 +238,17 @@ def test_floating_and_planar_joints_are_where_poses_says_and_at_identity_otherwi
         expected, found = naive_poses(robot, q, given_poses), robot.fk(q, given_poses)
         for link in robot.links:
             # one more product a free joint, of poses of up to 2 m
-            within = (size(robot) + 2 * len(free)) * (rounding(robot, q) + 16 * 2.0**-53 * len(free))
+            within = (size(robot) + 2 * len(free)) * (
+                rounding(robot, q) + 16 * 2.0**-53 * len(free)
+            )
             assert np.abs(found[link] - expected[link]).max() <= within
 
 
 def test_a_batch_of_configurations_meets_a_batch_of_poses():
     robot = Robot(
-        "r", ["a", "b", "c"], [Joint("f", "floating", "a", "b"), Joint("j", "revolute", "b", "c", axis=(0, 0, 1))]
+        "r",
+        ["a", "b", "c"],
+        [Joint("f", "floating", "a", "b"), Joint("j", "revolute", "b", "c", axis=(0, 0, 1))],
     )
     T = np.tile(np.eye(4), (5, 1, 1, 1))
     T[:, 0, 0, 3] = np.arange(5)
@@ -261,7 +304,12 @@ def test_a_copy_says_where_the_robot_was_read_from():
 
 def test_a_robot_of_one_link_has_one_chain_without_joints():
     robot = Robot("stone", ["only"], [])
-    assert (robot.root, robot.leaves, robot.dof, robot.limits.shape) == ("only", ("only",), 0, (0, 2))
+    assert (robot.root, robot.leaves, robot.dof, robot.limits.shape) == (
+        "only",
+        ("only",),
+        0,
+        (0, 2),
+    )
     chain = robot.chain()
     assert (chain.base, chain.tip, chain.dof) == ("only", "only", 0)
     assert (chain.fk([]) == np.eye(4)).all()
@@ -270,7 +318,10 @@ def test_a_robot_of_one_link_has_one_chain_without_joints():
 
 
 def test_a_repr_is_one_harmless_line():
-    assert repr(two_arms()) == "Robot('two arms': 5 links, 4 joints, dof 2, root 'a', 2 leaves: 'c', 'e')"
+    assert (
+        repr(two_arms())
+        == "Robot('two arms': 5 links, 4 joints, dof 2, root 'a', 2 leaves: 'c', 'e')"
+    )
     assert repr(Robot("\x1b[31m", ["a\nb"], [])).isprintable()
 
 
@@ -282,5 +333,8 @@ def test_a_tip_must_be_named_where_there_are_several_leaves():
 def test_a_far_revolute_joint_does_not_look_helical():
     origin = np.eye(4)
     origin[:3, 3] = [1e8, -3e7, 2e7]
-    joints = [Joint("far", "fixed", "a", "b", origin), Joint("j", "revolute", "b", "c", axis=(0.3, -0.4, 0.5))]
+    joints = [
+        Joint("far", "fixed", "a", "b", origin),
+        Joint("j", "revolute", "b", "c", axis=(0.3, -0.4, 0.5)),
+    ]
     assert Robot("r", ["a", "b", "c"], joints).chain().kinds == ("revolute",)

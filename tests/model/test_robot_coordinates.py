@@ -11,8 +11,8 @@ import pytest
 
 from poekin.errors import InputError, ModelError, PoekinWarning, PoseError, ShapeError, UnknownName
 from poekin.model.joint import FREE, Joint, Mimic
+from poekin.model.provenance import Source
 from poekin.model.robot import Robot
-from poekin.model.source import Source
 
 
 def line(*joints: Joint, **fields) -> Robot:
@@ -72,8 +72,13 @@ def test_limits_are_intersected_over_all_joints_that_follow():
 
 @pytest.mark.parametrize("limits", [(2, 3), (1, 3)])
 def test_where_limits_contradict_each_other_the_masters_stand_with_a_warning(limits):
-    joints = revolute("j1", "a", "b", limits=(-1, 1)), revolute("j2", "b", "c", limits=limits, mimic=Mimic("j1"))
-    with pytest.warns(PoekinWarning, match=r"^f\.urdf:7: .*'j1' have no interval in common.*\[-1\.0, 1\.0\]") as caught:
+    joints = (
+        revolute("j1", "a", "b", limits=(-1, 1)),
+        revolute("j2", "b", "c", limits=limits, mimic=Mimic("j1")),
+    )
+    with pytest.warns(
+        PoekinWarning, match=r"^f\.urdf:7: .*'j1' have no interval in common.*\[-1\.0, 1\.0\]"
+    ) as caught:
         robot = line(*joints, source=Source("f.urdf", (), (7, 9)))
     assert caught[0].filename == __file__
     assert robot.limits.tolist() == [[-1, 1]]
@@ -86,7 +91,8 @@ def test_where_limits_contradict_each_other_the_masters_stand_with_a_warning(lim
 def test_one_warning_counts_the_coordinates_whose_limits_contradict_each_other(count, more):
     masters = [revolute(f"j{k}", f"l{k}", f"l{k + 1}", limits=(k, k + 1)) for k in range(3)]
     followers = [
-        revolute(f"f{k}", f"l{k + 3}", f"l{k + 4}", limits=(-1, -0.5), mimic=Mimic(f"j{2 - k}")) for k in range(count)
+        revolute(f"f{k}", f"l{k + 3}", f"l{k + 4}", limits=(-1, -0.5), mimic=Mimic(f"j{2 - k}"))
+        for k in range(count)
     ]
     with pytest.warns(PoekinWarning) as caught:
         line(*masters, *followers, source="f.urdf")
@@ -102,8 +108,12 @@ def test_a_locked_joint_keeps_its_one_value():
 
 @pytest.mark.parametrize("kind", FREE)
 def test_a_chain_that_would_cross_a_free_joint_is_refused_by_name(kind):
-    robot = line(Joint("base", kind, "world", "body"), revolute("j", "body", "hand"), source="x.urdf")
-    with pytest.raises(ModelError, match=f"x.urdf: .*'world' to 'hand' crosses the {kind} joint 'base'"):
+    robot = line(
+        Joint("base", kind, "world", "body"), revolute("j", "body", "hand"), source="x.urdf"
+    )
+    with pytest.raises(
+        ModelError, match=f"x.urdf: .*'world' to 'hand' crosses the {kind} joint 'base'"
+    ):
         robot.chain()
     with pytest.raises(ModelError, match=kind):
         robot.chain("hand", "world")
@@ -142,7 +152,10 @@ def test_wrong_poses_of_free_joints_are_refused():
 
 def test_batches_of_q_and_poses_that_do_not_meet_are_refused():
     robot = line(Joint("base", "floating", "a", "b"), Joint("top", "planar", "b", "c"))
-    with pytest.raises(ShapeError, match=r"'line': the leading axes .* joint 'base' has \(2,\), .* before it \(3,\)"):
+    with pytest.raises(
+        ShapeError,
+        match=r"'line': the leading axes .* joint 'base' has \(2,\), .* before it \(3,\)",
+    ):
         robot.fk(np.empty((3, 0)), {"base": [np.eye(4)] * 2})
     with pytest.raises(ShapeError, match=r"joint 'top' has \(4,\), .* before it \(2,\)"):
         robot.fk([], {"base": [np.eye(4)] * 2, "top": [np.eye(4)] * 4})
@@ -150,10 +163,14 @@ def test_batches_of_q_and_poses_that_do_not_meet_are_refused():
 
 def test_a_coupling_too_large_for_memory_is_refused_and_the_links_are_still_there():
     count = 8002
-    joints = [Joint(f"j{i}", "revolute", f"l{i}", f"l{i + 1}", axis=(0, 0, 1)) for i in range(count)]
+    joints = [
+        Joint(f"j{i}", "revolute", f"l{i}", f"l{i + 1}", axis=(0, 0, 1)) for i in range(count)
+    ]
     joints[-1] = replace(joints[-1], mimic=Mimic("j0"))
     robot = Robot("long", [f"l{i}" for i in range(count + 1)], joints)
-    with pytest.raises(InputError, match=r"'long'.* from 'l0' to 'l8002' .* 8002 x 8001 .* at most 64000000"):
+    with pytest.raises(
+        InputError, match=r"'long'.* from 'l0' to 'l8002' .* 8002 x 8001 .* at most 64000000"
+    ):
         robot.chain()
     assert robot.chain(tip="l100").dof == 100
     assert robot.fk(np.zeros(8001))["l8002"].shape == (4, 4)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, ScrewError, ShapeError
-from poekin.testing.attainable import UNIT as U
+from poekin.testing.accuracy.error_bounds import UNIT as U
 
 vectors = st.tuples(*[st.floats(-10, 10)] * 3).map(np.array)
 axes = vectors.filter(lambda v: np.linalg.norm(v) > 1e-3)
@@ -19,11 +19,13 @@ LEAST = 1e-300  # what is smaller has not all its digits
 
 
 def made_off(z, p, h):
-    """How far the screw of an axis, a point and a pitch is off ÷ what the docstrings of `revolute` and `helical` say.
+    """How far the screw of an axis, a point and a pitch is off ÷ what the docstrings of `revolute`
+    and `helical` say.
 
-    The direction: a quotient by the largest, the length of three squares of these, and the quotient by it are at most
-    5.5 u of each entry. Its moment has that of the direction, 2 u |p| of the two products and 4 u |p| of the part along
-    the axis that is taken away: 12 u |p|; and h z has 8 u |h|. The truth is in extended precision, where there is one.
+    The direction: a quotient by the largest, the length of three squares of these, and the quotient
+    by it are at most 5.5 u of each entry. Its moment has that of the direction, 2 u |p| of the two
+    products and 4 u |p| of the part along the axis that is taken away: 12 u |p|; and h z has 8 u
+    |h|. The truth is in extended precision, where there is one.
     """
     S, own = pk.screw.helical(z, p, h), float(np.finfo(Extended).eps)
     n = (z / np.abs(z).max()).astype(Extended) if np.abs(z).max() < 1e-290 else z.astype(Extended)
@@ -35,17 +37,21 @@ def made_off(z, p, h):
 
 
 def read_off(z, p, h):
-    """How far the axis of a screw is from the line of its numbers ÷ what the docstring of `axis_of` says.
+    """How far the axis of a screw is from the line of its numbers ÷ what the docstring of `axis_of`
+    says.
 
-    The length of omega may be off by 4 u, and so omega x v and omega . v by 8 u |v|, and by 4 u |v| of their products.
-    What may be rounding of the pitch is none: 36 u of 1 m, or of |v|.
+    The length of omega may be off by 4 u, and so omega x v and omega . v by 8 u |v|, and by 4 u |v|
+    of their products. What may be rounding of the pitch is none: 36 u of 1 m, or of |v|.
     """
     S = pk.screw.helical(z, p, h)
     axis, (w, v) = pk.screw.axis_of(S), S.astype(Extended).reshape(2, 3)
     assert axis.point is not None
     w = w / np.sqrt(w @ w)
     within = (12 * U + 4 * float(np.finfo(Extended).eps)) * math.hypot(*S[3:])
-    off = [np.abs(axis.direction - w).max() / (4 * U), np.abs(axis.point - np.cross(w, v)).max() / (within + LEAST)]
+    off = [
+        np.abs(axis.direction - w).max() / (4 * U),
+        np.abs(axis.point - np.cross(w, v)).max() / (within + LEAST),
+    ]
     rounding = 4e-15 * max(1.0, np.linalg.norm(S[3:]))
     off.append(abs(axis.pitch - w @ v) / (within + (rounding if axis.pitch == 0 else 0.0)))
     return float(max(off))
@@ -54,8 +60,8 @@ def read_off(z, p, h):
 def moved_off(z, p, q):
     """How far a point of a revolute axis moves with it ÷ rounding.
 
-    The terms of e^{S q} p that cancel are up to (1 + 2 |q|) |p|, each rounded a few times, and S has 12 u |p| of its
-    own, times q.
+    The terms of e^{S q} p that cancel are up to (1 + 2 |q|) |p|, each rounded a few times, and S
+    has 12 u |p| of its own, times q.
     """
     moved = pk.se3.exp(pk.screw.revolute(z, p) * q) @ [*p, 1]
     return np.abs(moved[:3] - p).max() / (16 * U * (1 + 2 * abs(q)) * math.hypot(*p) + LEAST)

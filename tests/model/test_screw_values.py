@@ -15,7 +15,9 @@ AXIS = np.array([2.0, -3.0, 6.0])
 
 def test_a_screw_is_its_axis_and_the_moment_of_its_point_and_its_pitch_along_the_axis():
     np.testing.assert_allclose(screw.revolute(AXIS, P), [*Z, *-np.cross(Z, P)], rtol=0, atol=1e-15)
-    np.testing.assert_allclose(screw.helical(AXIS, P, 0.4), [*Z, *(-np.cross(Z, P) + 0.4 * Z)], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(
+        screw.helical(AXIS, P, 0.4), [*Z, *(-np.cross(Z, P) + 0.4 * Z)], rtol=0, atol=1e-15
+    )
     np.testing.assert_allclose(screw.prismatic(AXIS), [0, 0, 0, *Z], rtol=0, atol=1e-15)
 
 
@@ -54,7 +56,12 @@ def test_an_axis_along_a_coordinate_is_no_slide(axis):
 def test_a_pitch_is_nothing_up_to_4e_15_of_the_distance(far):
     """Relative to 1 m or to |v|, whichever is larger; one hair above it is a pitch."""
     limit = 4e-15 * max(1.0, far)
-    for pitch, seen in ((0.9 * limit, False), (-0.9 * limit, False), (1.1 * limit, True), (-1.1 * limit, True)):
+    for pitch, seen in (
+        (0.9 * limit, False),
+        (-0.9 * limit, False),
+        (1.1 * limit, True),
+        (-1.1 * limit, True),
+    ):
         S = np.array([0, 0, 1, far, 0, pitch])
         assert screw.pitch_of(S) == (pitch if seen else 0.0)
     assert screw.pitch_of(np.array([0, 0, 1, 0, 0, 4e-15])) == 0.0
@@ -104,7 +111,8 @@ def test_a_screw_of_unit_length_is_kept_to_the_last_bit():
     S[2, :3] /= np.linalg.norm(S[2, :3])
     assert abs(np.linalg.norm(S[2, :3]) - 1) <= 2.3e-16
     assert np.array_equal(screw.checked(S), S)
-    # a length one unit in the last place above 1 is rounding, and dividing by it would only add to it
+    # a length one unit in the last place above 1 is rounding, and dividing by it would only add to
+    # it
     up = np.array([[1 + 2**-52, 0, 0, 0.1, 0.7, 0.3]])
     assert np.array_equal(screw.checked(up), up)
     lengths = 1 + np.array([2, 3, 4]) * 2.0**-52
@@ -127,13 +135,37 @@ def test_no_screws_are_screws_too():
 
 
 REFUSED = [
-    ([[0, 0, 1, 0, 0]], ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (1, 5)"),
-    ([0, 0, 1, 0, 0, 0], ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (6,)"),
-    (np.zeros((2, 2, 6)), ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (2, 2, 6)"),
+    (
+        [[0, 0, 1, 0, 0]],
+        ShapeError,
+        "screws: expected shape (n, 6), one row (omega; v) a joint, got (1, 5)",
+    ),
+    (
+        [0, 0, 1, 0, 0, 0],
+        ShapeError,
+        "screws: expected shape (n, 6), one row (omega; v) a joint, got (6,)",
+    ),
+    (
+        np.zeros((2, 2, 6)),
+        ShapeError,
+        "screws: expected shape (n, 6), one row (omega; v) a joint, got (2, 2, 6)",
+    ),
     (5.0, ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got ()"),
-    ([[0, 0, 1, 0, 0, 0, 0]], ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (1, 7)"),
-    (np.zeros((2, 6, 6)), ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (2, 6, 6)"),
-    (np.zeros((0, 5)), ShapeError, "screws: expected shape (n, 6), one row (omega; v) a joint, got (0, 5)"),
+    (
+        [[0, 0, 1, 0, 0, 0, 0]],
+        ShapeError,
+        "screws: expected shape (n, 6), one row (omega; v) a joint, got (1, 7)",
+    ),
+    (
+        np.zeros((2, 6, 6)),
+        ShapeError,
+        "screws: expected shape (n, 6), one row (omega; v) a joint, got (2, 6, 6)",
+    ),
+    (
+        np.zeros((0, 5)),
+        ShapeError,
+        "screws: expected shape (n, 6), one row (omega; v) a joint, got (0, 5)",
+    ),
     (
         [[0, 0, 1 + 1.1e-9, 0, 0, 0]],
         ScrewError,
@@ -177,7 +209,9 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize("screws, error, message", REFUSED, ids=[f"{i}" for i in range(len(REFUSED))])
+@pytest.mark.parametrize(
+    "screws, error, message", REFUSED, ids=[f"{i}" for i in range(len(REFUSED))]
+)
 def test_what_is_no_screw_is_said(screws, error, message):
     with pytest.raises(error) as caught:
         screw.checked(screws)
@@ -199,7 +233,11 @@ def test_the_joint_is_named_where_its_name_is_known():
 @pytest.mark.parametrize(
     "call, error, message",
     [
-        (lambda: pk.screw.prismatic([0, 0, 0]), ScrewError, "axis: expected a direction, got the zero vector"),
+        (
+            lambda: pk.screw.prismatic([0, 0, 0]),
+            ScrewError,
+            "axis: expected a direction, got the zero vector",
+        ),
         (
             lambda: pk.screw.prismatic([[0, 0, 1]]),
             InputError,
@@ -215,7 +253,11 @@ def test_the_joint_is_named_where_its_name_is_known():
             InputError,
             "expected a finite point (3,) and pitch, got point [[0.0, 0.0, 0.0]] and pitch 0.0",
         ),
-        (lambda: pk.screw.revolute(Z, [0, 0]), ShapeError, "point: expected shape (..., 3), got (2,)"),
+        (
+            lambda: pk.screw.revolute(Z, [0, 0]),
+            ShapeError,
+            "point: expected shape (..., 3), got (2,)",
+        ),
         (
             lambda: pk.screw.helical(Z, P, np.nan),
             InputError,
@@ -226,9 +268,22 @@ def test_the_joint_is_named_where_its_name_is_known():
             InputError,
             "expected a finite point (3,) and pitch, got point [nan, 0.0, 0.0] and pitch 1.0",
         ),
-        (lambda: pk.screw.axis_of([0, 0, 1]), ShapeError, "screw: expected shape (..., 6), got (3,)"),
+        (
+            lambda: pk.screw.axis_of([0, 0, 1]),
+            ShapeError,
+            "screw: expected shape (..., 6), got (3,)",
+        ),
     ],
-    ids=["zero", "two axes", "infinite", "two points", "short point", "pitch", "point", "short screw"],
+    ids=[
+        "zero",
+        "two axes",
+        "infinite",
+        "two points",
+        "short point",
+        "pitch",
+        "point",
+        "short screw",
+    ],
 )
 def test_what_makes_no_screw_is_said(call, error, message):
     with pytest.raises(error) as caught:

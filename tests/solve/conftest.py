@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import pytest
 
-from poekin.solve import figures
+from poekin.solve import svg
 
 
 @pytest.fixture
 def drawn_figures(monkeypatch):
     """The figures that are drawn in a test, as matplotlib has them."""
-    found, svg = [], figures.svg
+    found, draw_svg = [], svg.svg
 
     def kept(width, height, purpose, draw):
         def both(figure):
             draw(figure)
             found.append(figure)
 
-        return svg(width, height, purpose, both)
+        return draw_svg(width, height, purpose, both)
 
-    monkeypatch.setattr(figures, "svg", kept)
+    monkeypatch.setattr(svg, "svg", kept)
     return found

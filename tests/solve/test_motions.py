@@ -65,18 +65,20 @@ def one_way(w):
 def end_off(path, T_s0, T_s1):
     """How far 1 - 2 u of a path is from its last pose ÷ rounding.
 
-    The relative pose is off by 16 u, an inverse and a product; the exponential of its logarithm by 16 u, as the error
-    of one is undone by the other; the last product by 8 u; and 2 u of the way is left, which is up to pi times as much
-    as the lengths.
+    The relative pose is off by 16 u, an inverse and a product; the exponential of its logarithm by
+    16 u, as the error of one is undone by the other; the last product by 8 u; and 2 u of the way is
+    left, which is up to pi times as much as the lengths.
     """
     near = path(T_s0, T_s1, 1 - 2 * U)
     return largest(near - T_s1, length(T_s0[..., :3, 3], T_s1[..., :3, 3])) / (48 * U)
 
 
 def twist_off(T_s0, T_s1, s, ds):
-    """How far the body twist between two places of a screw motion is from its whole twist ÷ rounding.
+    """How far the body twist between two places of a screw motion is from its whole twist ÷
+    rounding.
 
-    Each place is off by 40 u as above, of its lengths and those of v; a logarithm by pi/2 times that, as its
+    Each place is off by 40 u as above, of its lengths and those of v; a logarithm by pi/2 times
+    that, as its
     derivative is at most that; the twist itself too, and that is not divided by ds.
     """
     a, b = motion.screw(T_s0, T_s1, s), motion.screw(T_s0, T_s1, s + ds)
@@ -88,12 +90,17 @@ def twist_off(T_s0, T_s1, s, ds):
 
 
 def line_off(T_s0, T_s1, s):
-    """How far a place of a line is from the straight way and the even turn ÷ rounding: some products and sums each."""
+    """How far a place of a line is from the straight way and the even turn ÷ rounding: some
+    products and sums each.
+    """
     T, part = motion.line(T_s0, T_s1, s), np.expand_dims(s, -1)
     p_0, p_1, R_0 = T_s0[..., :3, 3], T_s1[..., :3, 3], T_s0[..., :3, :3]
     w = so3.log(np.swapaxes(R_0, -1, -2) @ T_s1[..., :3, :3])
     expected = T.copy()
-    expected[..., :3, :3], expected[..., :3, 3] = R_0 @ so3.exp(part * w), (1 - part) * p_0 + part * p_1
+    expected[..., :3, :3], expected[..., :3, 3] = (
+        R_0 @ so3.exp(part * w),
+        (1 - part) * p_0 + part * p_1,
+    )
     return np.where(one_way(w), largest(T - expected, length(p_0, p_1)) / (48 * U), 0)
 
 
@@ -120,9 +127,13 @@ def test_lengths_are_those_of_a_path_cut_into_pieces(T_s0, T_s1):
     for along, path in (("line", motion.line), ("screw", motion.screw)):
         T = path(T_s0, T_s1, s)
         way = np.linalg.norm(np.diff(T[:, :3, 3], axis=0), axis=1).sum()
-        turn = np.linalg.norm(so3.log(np.swapaxes(T[:-1, :3, :3], 1, 2) @ T[1:, :3, :3]), axis=1).sum()
+        turn = np.linalg.norm(
+            so3.log(np.swapaxes(T[:-1, :3, :3], 1, 2) @ T[1:, :3, :3]), axis=1
+        ).sum()
         # a chord of an arc of pi / 400 is shorter than it by (pi / 400)^2 / 24 = 2.6e-6 of it
-        np.testing.assert_allclose([way, turn], motion.lengths(T_s0, T_s1, along), rtol=3e-6, atol=rounding)
+        np.testing.assert_allclose(
+            [way, turn], motion.lengths(T_s0, T_s1, along), rtol=3e-6, atol=rounding
+        )
 
 
 @given(q_0=vector(3), q_1=vector(3), s=parts)
@@ -188,11 +199,16 @@ def test_s_never_goes_back_and_its_rates_are_its_rates(timing):
     assert (np.diff(s) >= 0).all()
     assert (s.min(), s.max()) == (0, 1)
     h, size = timing.duration / 2000, 1 / timing.duration
-    # the mean rate of a step is that at its middle to h^2 s''' / 24, of a trapezoid's corner to h s''
+    # the mean rate of a step is that at its middle to h^2 s''' / 24, of a trapezoid's corner to h
+    # s''
     rough = h * np.abs(dds).max()
-    np.testing.assert_allclose(np.diff(s) / h, 0.5 * (ds[1:] + ds[:-1]), rtol=0, atol=rough + 1e-9 * size)
+    np.testing.assert_allclose(
+        np.diff(s) / h, 0.5 * (ds[1:] + ds[:-1]), rtol=0, atol=rough + 1e-9 * size
+    )
     corner = np.abs(dds).max() if timing.law == "trapezoidal" else 0.01 * np.abs(dds).max()
-    np.testing.assert_allclose(np.diff(ds) / h, 0.5 * (dds[1:] + dds[:-1]), rtol=0, atol=corner + 1e-9 * size**2)
+    np.testing.assert_allclose(
+        np.diff(ds) / h, 0.5 * (dds[1:] + dds[:-1]), rtol=0, atol=corner + 1e-9 * size**2
+    )
 
 
 @pytest.mark.parametrize("law", ["cubic", "quintic", "trapezoidal"])
@@ -207,7 +223,9 @@ def test_the_fastest_timing_keeps_every_limit_and_reaches_one(law, distance, spe
     # the peaks: the middle, the ends, where a quintic's acceleration is greatest, and a grid
     u = np.concatenate([np.linspace(0, 1, 999), [0.5 - math.sqrt(3) / 6, timing.ramp]])
     _, ds, dds = timing(u * timing.duration)
-    used = np.stack([np.abs(distance) * ds.max() / speed, np.abs(distance) * np.abs(dds).max() / acceleration])
+    used = np.stack(
+        [np.abs(distance) * ds.max() / speed, np.abs(distance) * np.abs(dds).max() / acceleration]
+    )
     assert used.max() <= 1
     if np.abs(distance).max() > 1e-100:
         assert used.max() > 1 - 1e-9
@@ -299,10 +317,13 @@ def test_a_header_orders_the_quaternion(tmp_path):
     path = tmp_path / "T.csv"
     path.write_text("x,y,z,qx,qy,qz,qw\n1,2,3,1,0,0,0\n")
     np.testing.assert_array_equal(
-        motion.read_poses(path, "7", quaternion="wxyz"), motion.read_poses(path, "7", quaternion="xyzw")
+        motion.read_poses(path, "7", quaternion="wxyz"),
+        motion.read_poses(path, "7", quaternion="xyzw"),
     )
     T = motion.read_poses(path, "7", quaternion="wxyz")[0]
-    np.testing.assert_allclose(T[:3, :3], np.diag([1, -1, -1]), rtol=0, atol=2 * U)  # sin(pi) is 1.2e-16 in float64
+    np.testing.assert_allclose(
+        T[:3, :3], np.diag([1, -1, -1]), rtol=0, atol=2 * U
+    )  # sin(pi) is 1.2e-16 in float64
 
 
 @pytest.mark.parametrize(
@@ -391,7 +412,9 @@ def test_what_cannot_be_read_or_written_is_said(tmp_path):
 def test_a_plot_is_svg_with_names_made_harmless(tmp_path):
     pytest.importorskip("matplotlib")
     arm = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4), joint_names=["<b>$x^$\n"])
-    text = motion.plot_joints([[0.0], [1.0], [2.0], [np.nan]], arm, breaks=[2], path=tmp_path / "q.svg")
+    text = motion.plot_joints(
+        [[0.0], [1.0], [2.0], [np.nan]], arm, breaks=[2], path=tmp_path / "q.svg"
+    )
     assert text.startswith("<svg")
     assert "<b>" not in text
     assert "&lt;b&gt;$x^$\\n (rad)" in text
@@ -418,9 +441,13 @@ def test_each_law_is_its_formula(T):
     np.testing.assert_allclose(dds, (60 * u - 180 * u**2 + 120 * u**3) / T**2, atol=1e-13)
     s, ds, dds = motion.trapezoidal(T, 0.2)(u * T)
     top = 1 / 0.8
-    np.testing.assert_allclose(s, [0, top * 0.025, top * 0.2, 0.5, top * 0.5, 1 - top * 0.00625, 1], atol=1e-15)
+    np.testing.assert_allclose(
+        s, [0, top * 0.025, top * 0.2, 0.5, top * 0.5, 1 - top * 0.00625, 1], atol=1e-15
+    )
     np.testing.assert_allclose(ds * T, [0, top / 2, top, top, top, top / 4, 0], atol=1e-14)
-    np.testing.assert_allclose(dds * T**2, [5 * top, 5 * top, 0, 0, 0, -5 * top, -5 * top], atol=1e-13)
+    np.testing.assert_allclose(
+        dds * T**2, [5 * top, 5 * top, 0, 0, 0, -5 * top, -5 * top], atol=1e-13
+    )
 
 
 def test_a_timing_holds_nan_apart_and_rests_outside():
@@ -436,7 +463,12 @@ def test_a_timing_holds_nan_apart_and_rests_outside():
         assert timing(1.0).s.shape == ()
     assert (motion.trapezoidal(2.0).ramp, motion.trapezoidal(2.0, 0.5).ramp) == (0.25, 0.5)
     assert motion.cubic(np.float64(2.0)) == motion.Timing("cubic", 2.0)
-    assert motion.cubic(2.0).ramp == motion.quintic(2.0).ramp == motion.fastest("quintic", 1, speed=1).ramp == 0.5
+    assert (
+        motion.cubic(2.0).ramp
+        == motion.quintic(2.0).ramp
+        == motion.fastest("quintic", 1, speed=1).ramp
+        == 0.5
+    )
     with pytest.raises(FrozenInstanceError):
         motion.cubic(2.0).duration = 3.0  # type: ignore[misc]
 
@@ -451,14 +483,20 @@ def test_a_timing_holds_nan_apart_and_rests_outside():
 def test_the_fastest_timing_over_six_units_is_known(law, speed, acceleration, duration, ramp):
     for distance in (6.0, -6.0, [1.0, -6.0, 2.0]):
         timing = motion.fastest(law, distance, speed=speed, acceleration=acceleration)
-        assert (timing.law, timing.duration, timing.ramp) == (law, pytest.approx(duration), pytest.approx(ramp))
+        assert (timing.law, timing.duration, timing.ramp) == (
+            law,
+            pytest.approx(duration),
+            pytest.approx(ramp),
+        )
         assert timing.duration >= duration * (1 - 1e-15)
 
 
 def test_each_joint_has_its_own_limits():
     timing = motion.fastest("cubic", [2.0, 3.0], speed=[1.0, 2.0], acceleration=[100.0, math.inf])
     assert timing.duration == pytest.approx(1.5 * 2.0)
-    timing = motion.fastest("trapezoidal", [2.0, 3.0], speed=[math.inf, 1.0], acceleration=[1.0, math.inf])
+    timing = motion.fastest(
+        "trapezoidal", [2.0, 3.0], speed=[math.inf, 1.0], acceleration=[1.0, math.inf]
+    )
     assert (timing.duration, timing.ramp) == (pytest.approx(3 + 2 / 3), pytest.approx(2 / 11))
 
 
@@ -520,5 +558,9 @@ def test_paths_go_on_beyond_their_ends():
     s = np.array([-1.0, 0.5, 2.0])
     np.testing.assert_array_equal(motion.joint([0, 1.0], [1, 3.0], s), [[-1, -1], [0.5, 2], [2, 5]])
     T_s1 = se3.exp([0, 0, 0.5, 1, 2, 3])
-    np.testing.assert_allclose(motion.screw(np.eye(4), T_s1, s), se3.exp(s[:, None] * se3.log(T_s1)), atol=1e-14)
-    np.testing.assert_allclose(motion.line(np.eye(4), T_s1, s)[:, :3, 3], s[:, None] * T_s1[:3, 3], atol=1e-14)
+    np.testing.assert_allclose(
+        motion.screw(np.eye(4), T_s1, s), se3.exp(s[:, None] * se3.log(T_s1)), atol=1e-14
+    )
+    np.testing.assert_allclose(
+        motion.line(np.eye(4), T_s1, s)[:, :3, 3], s[:, None] * T_s1[:3, 3], atol=1e-14
+    )

@@ -29,7 +29,10 @@ def test_each_coordinate_is_drawn_over_time_and_not_joined_across_a_break(drawn_
         for line, part in ((first, slice(0, 3)), (last, slice(3, 5))):
             np.testing.assert_array_equal(line.get_xdata(), times[part])
             np.testing.assert_array_equal(line.get_ydata(), q[part, k])
-        assert (gap.get_xdata(), gap.get_linestyle()) == ([3.5, 3.5], ":")  # halfway between the third and the fourth
+        assert (gap.get_xdata(), gap.get_linestyle()) == (
+            [3.5, 3.5],
+            ":",
+        )  # halfway between the third and the fourth
         assert axes.get_title(loc="left") == ["turn (rad)", "slide (m)"][k]
         assert all(0.5 <= line.get_linewidth() <= 1.5 for line in axes.lines)
         assert not axes.spines["top"].get_visible()
@@ -47,7 +50,9 @@ def test_a_break_may_be_before_the_second_point_and_before_the_last(drawn_figure
     assert first.get_shared_x_axes().joined(first, second)
 
 
-def test_what_is_within_the_limits_is_shaded_behind_the_curve_and_limits_far_off_do_not_squeeze_it(drawn_figures):
+def test_what_is_within_the_limits_is_shaded_behind_the_curve_and_limits_far_off_do_not_squeeze_it(
+    drawn_figures,
+):
     motion.plot_joints([[0, 0], [1, 1.0]], ARM)
     (drawn,) = drawn_figures
     for axes, (low, high) in zip(drawn.axes, ((-1.15, 2.15), (0.25, 1.5)), strict=True):

@@ -1,14 +1,18 @@
-"""What was found cannot be changed by accident, and two results of arrays are not compared number by number."""
+"""What was found cannot be changed by accident, and two results of arrays are not compared number
+by number.
+"""
 
 from __future__ import annotations
 
 import pytest
 
-from poekin.solve import all_solutions, followed, ik_all_search, solution, starts, task
+from poekin.solve.ik import joint_domain, solution, task
+from poekin.solve.ik_all import all_solutions, ik_all_search
 from poekin.solve.motion import timing
+from poekin.solve.path import followed
 from tests import findings
 
-OWN = (all_solutions, followed, ik_all_search, solution, starts, task, timing)
+OWN = (all_solutions, followed, ik_all_search, solution, joint_domain, task, timing)
 FOUND = [
     *(kind for module in OWN for kind in findings.dataclasses_of(*module.__name__.rsplit(".", 1))),
 ]

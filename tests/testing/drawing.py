@@ -3,7 +3,8 @@
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-# All that decides about the examples, whatever the profile is: tools/mutate has one that does not shrink.
+# All that decides about the examples, whatever the profile is: tools/mutate has one that does not
+# shrink.
 QUICK = settings(
     max_examples=2000,
     database=None,

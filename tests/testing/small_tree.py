@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from poekin.testing.conform.law import Case
-from poekin.testing.conform.small_urdf import Joint, Layout
+from poekin.testing.conform.laws.law import Case
+from poekin.testing.conform.laws.small_urdf import Joint, Layout
 
 JOINTS = (
     Joint("revolute", "j0"), Joint("fixed", "j1"), Joint("prismatic", "j2", axis=False),
     Joint("revolute", "j3", follows=0), Joint("prismatic", "j4", follows=2),
 )  # fmt: skip
-# Of xyz and of rpy each number stands alone somewhere, and what stands beside them is not 0 somewhere.
+# Of xyz and of rpy each number stands alone somewhere, and what stands beside them is not 0
+# somewhere.
 ROWS = [
     [0, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 0.5],
     [0, 0, 1.0, 0, 0, 0.25, 0, 0, 0, 0, 0, 0],

@@ -14,29 +14,32 @@ import numpy as np
 import pytest
 
 from poekin.model.chain import Chain
-from poekin.testing import (
+from poekin.testing.strategies import (
     chain_strategies,
     configuration_strategies,
-    decoders,
+    group_strategies,
     near_strategies,
-    reader,
     robot_strategies,
-    strategies,
 )
+from poekin.testing.strategies.decoding import bytes_reader, decoders
 from tests.testing.drawing import drawn
 
-ARM = Chain([[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [1, 0, 0, 0, 0, 0]], np.eye(4), limits=[[-1, 1], [2, 3], [-3, 0]])
+ARM = Chain(
+    [[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [1, 0, 0, 0, 0, 0]],
+    np.eye(4),
+    limits=[[-1, 1], [2, 3], [-3, 0]],
+)
 STRATEGIES: dict[str, Callable[[], Any]] = {
-    "magnitudes": strategies.magnitudes,
-    "angles": strategies.angles,
-    "axes": strategies.axes,
-    "vectors": strategies.vectors,
-    "rotation vectors": strategies.rotation_vectors,
-    "twists": strategies.twists,
-    "rotations": strategies.rotations,
-    "noisy rotations": strategies.noisy_rotations,
-    "poses": strategies.poses,
-    "quaternions": strategies.quaternions_wxyz,
+    "magnitudes": group_strategies.magnitudes,
+    "angles": group_strategies.angles,
+    "axes": group_strategies.axes,
+    "vectors": group_strategies.vectors,
+    "rotation vectors": group_strategies.rotation_vectors,
+    "twists": group_strategies.twists,
+    "rotations": group_strategies.rotations,
+    "noisy rotations": group_strategies.noisy_rotations,
+    "poses": group_strategies.poses,
+    "quaternions": group_strategies.quaternions_wxyz,
     "near angles": lambda: near_strategies.near_angles(0.0),
     "near rotation vectors": lambda: near_strategies.near_rotation_vectors(1.0),
     "near rotations": lambda: near_strategies.near_rotations(1.0),
@@ -56,7 +59,7 @@ STRATEGIES: dict[str, Callable[[], Any]] = {
 def test_a_strategy_asks_for_as_many_bytes_as_it_reads(name, monkeypatch):
     read: list[list[int]] = []
 
-    class Counting(reader.Reader):
+    class Counting(bytes_reader.Reader):
         def __init__(self, data: bytes):
             super().__init__(data)
             self.count = [len(data), 0]
@@ -66,7 +69,7 @@ def test_a_strategy_asks_for_as_many_bytes_as_it_reads(name, monkeypatch):
             self.count[1] += 1
             return super().byte()
 
-    monkeypatch.setattr(strategies, "Reader", Counting)
+    monkeypatch.setattr(group_strategies, "Reader", Counting)
     drawn(STRATEGIES[name](), 150)
     most: dict[int, int] = defaultdict(int)
     for size, used in read:
@@ -75,8 +78,8 @@ def test_a_strategy_asks_for_as_many_bytes_as_it_reads(name, monkeypatch):
     assert all(size - spare <= used <= size for size, used in most.items()), dict(most)
 
 
-def read(*values: int) -> reader.Reader:
-    return reader.Reader(bytes(values))
+def read(*values: int) -> bytes_reader.Reader:
+    return bytes_reader.Reader(bytes(values))
 
 
 def test_bytes_are_read_in_order_and_then_zeros():
@@ -94,9 +97,25 @@ def test_each_option_is_picked_by_as_many_bytes():
         (
             -1.0,
             1.0,
-            {(0, 0, 0): 0.0, (0, 255, 255): 1.0, (127, 1, 2): 258 / 65535, (128, 0, 0): -1.0, (255, 255, 255): 0},
+            {
+                (0, 0, 0): 0.0,
+                (0, 255, 255): 1.0,
+                (127, 1, 2): 258 / 65535,
+                (128, 0, 0): -1.0,
+                (255, 255, 255): 0,
+            },
         ),
-        (0.25, 2.5, {(0, 0, 0): 0.25, (85, 255, 255): 1.0, (86, 0, 0): 1.0, (171, 0, 0): 2.0, (255, 255, 255): 2.5}),
+        (
+            0.25,
+            2.5,
+            {
+                (0, 0, 0): 0.25,
+                (85, 255, 255): 1.0,
+                (86, 0, 0): 1.0,
+                (171, 0, 0): 2.0,
+                (255, 255, 255): 2.5,
+            },
+        ),
         (2.0, 2.0, {(0, 0, 0): 2.0, (255, 255, 255): 2.0}),
         (3.0, 3.0, {(0, 0, 0): 3.0, (255, 255, 255): 3.0}),
         (-3.0, -2.0, {(0, 0, 0): -3.0, (255, 255, 255): -2.0, (9, 128, 0): -3 + 32768 / 65535}),
@@ -167,7 +186,9 @@ def test_an_axis_is_of_one_of_three_kinds():
         for sign, value in ((0, 1.0), (127, 1.0), (128, -1.0)):
             assert axis(0, k, sign) == axis(4, k + 3, sign) == np.roll([value, 0, 0], k).tolist()
             assert axis(0, k, sign, *[99] * 9) == axis(0, k, sign)
-    assert axis(1, 0, 0, 0, 0, 0, 0, 255, 255) == pytest.approx(np.array([1, 0.1, -0.01]) / math.hypot(1, 0.1, 0.01))
+    assert axis(1, 0, 0, 0, 0, 0, 0, 255, 255) == pytest.approx(
+        np.array([1, 0.1, -0.01]) / math.hypot(1, 0.1, 0.01)
+    )
     assert axis(1, 1, 0, 255, 255, 255, 255, 0, 0) == pytest.approx([-1e-16, 1, 1e-17], rel=1e-12)
     for kind in (2, 3):
         assert axis(kind, 0, 0, 0, 255, 255, 128, 0, 0, 0, 0, 0) == pytest.approx(

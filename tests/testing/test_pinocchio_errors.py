@@ -1,4 +1,6 @@
-"""A chain against Pinocchio's reading of a text: which joint stands for a coordinate, and how an error is measured."""
+"""A chain against Pinocchio's reading of a text: which joint stands for a coordinate, and how an
+error is measured.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ import pytest
 from poekin.formats.urdf_text import to_urdf
 from poekin.groups import se3
 from poekin.model.chain import Chain
-from poekin.testing.urdf_errors import SAMPLES, pinocchio_errors, values_of
+from poekin.testing.oracles.urdf_errors import SAMPLES, pinocchio_errors, values_of
 
 SCREWS = [[0.6, 0, 0.8, 0.4, 0.3, -0.3], [0, 0, 0, 0.36, 0.48, 0.8], [0.48, 0.6, -0.64, 0, 0, 0]]
 HOME = se3.exp([0.3, -0.4, 0.5, 1.7, 0.2, -0.6])
@@ -33,13 +35,27 @@ HOME = se3.exp([0.3, -0.4, 0.5, 1.7, 0.2, -0.6])
 def test_a_coordinate_is_stood_for_by_the_joint_that_is_most_like_it(ratios, offsets, expected):
     names = [f"joint{k + 1}" for k in range(4)]
     screws = [SCREWS[0]] * 4
-    chain = Chain(screws, HOME, coupling=np.array(ratios)[:, None], offset=offsets, joint_names=names, q_names=["q"])
+    chain = Chain(
+        screws,
+        HOME,
+        coupling=np.array(ratios)[:, None],
+        offset=offsets,
+        joint_names=names,
+        q_names=["q"],
+    )
     assert values_of(chain) == [expected]
 
 
 def test_a_coordinate_that_moves_nothing_is_stood_for_by_none():
     names = ["a", "b"]
-    chain = Chain(SCREWS[:2], HOME, coupling=[[0, 1.0], [0, 0]], offset=[0, 0], joint_names=names, q_names=["q", "p"])
+    chain = Chain(
+        SCREWS[:2],
+        HOME,
+        coupling=[[0, 1.0], [0, 0]],
+        offset=[0, 0],
+        joint_names=names,
+        q_names=["q", "p"],
+    )
     assert values_of(chain) == [None, ("a", 1, 0)]
 
 
@@ -64,7 +80,13 @@ class Off:
         return answer
 
 
-CHAIN = Chain(SCREWS, HOME, coupling=[[1.0, 0], [0, 1], [-0.5, 0]], offset=[0, 0, 0.2], q_names=["joint1", "joint2"])
+CHAIN = Chain(
+    SCREWS,
+    HOME,
+    coupling=[[1.0, 0], [0, 1], [-0.5, 0]],
+    offset=[0, 0, 0.2],
+    q_names=["joint1", "joint2"],
+)
 
 
 def test_an_error_is_measured_in_every_number_of_its_configuration_and_lengths_by_the_reach():

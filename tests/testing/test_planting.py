@@ -1,4 +1,6 @@
-"""Changes that are planted in arms have the size that is said, and what a comparison may say of them is judged."""
+"""Changes that are planted in arms have the size that is said, and what a comparison may say of
+them is judged.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +11,15 @@ import numpy as np
 import pytest
 
 from poekin.groups import se3
-from poekin.testing import planted_changes
-from poekin.testing.planted_changes import CHANGES, alignment_fault, fault, moves, planted, random_arm
+from poekin.testing.cases import planted_changes
+from poekin.testing.cases.planted_changes import (
+    CHANGES,
+    alignment_fault,
+    fault,
+    moves,
+    planted,
+    random_arm,
+)
 
 ARM = random_arm(97)
 RNG = np.random.default_rng
@@ -20,8 +29,12 @@ def test_random_arms_are_as_asked_within_some_decimetres():
     kinds = ("revolute", "prismatic", "revolute")
     assert random_arm(3, kinds).kinds == kinds
     assert ARM.kinds == ("revolute",) * 6
-    points = np.array([np.cross(S[:3], S[3:]) for seed in range(40) for S in random_arm(seed).screws])
-    assert np.linalg.norm(points, axis=1).mean() == pytest.approx(0.3 * np.sqrt(2) * np.sqrt(np.pi) / 2, rel=0.1)
+    points = np.array(
+        [np.cross(S[:3], S[3:]) for seed in range(40) for S in random_arm(seed).screws]
+    )
+    assert np.linalg.norm(points, axis=1).mean() == pytest.approx(
+        0.3 * np.sqrt(2) * np.sqrt(np.pi) / 2, rel=0.1
+    )
     assert planted_changes.arm("random 7b").dof == 7
     assert np.array_equal(planted_changes.arm("random 6a").screws, ARM.screws)
 
@@ -46,9 +59,9 @@ def test_one_change_is_planted_in_one_joint(k):
     assert found["zero"].fk(q) == pytest.approx(arm.fk(moved), abs=1e-13)
     w, p = S[:3], np.cross(S[:3], S[3:])
     tilted, shifted = found["tilt"].screws[k], found["shift"].screws[k]
-    assert np.degrees(np.arctan2(np.linalg.norm(np.cross(w, tilted[:3])), w @ tilted[:3])) == pytest.approx(
-        0.1, rel=1e-9
-    )
+    assert np.degrees(
+        np.arctan2(np.linalg.norm(np.cross(w, tilted[:3])), w @ tilted[:3])
+    ) == pytest.approx(0.1, rel=1e-9)
     assert np.cross(p, tilted[:3]) == pytest.approx(tilted[3:], abs=1e-12)  # through the same point
     assert shifted[:3] == pytest.approx(w, abs=1e-15)
     step = np.cross(shifted[:3], shifted[3:]) - p
@@ -68,7 +81,9 @@ FOUND: dict[str, dict[str, Any]] = {
 
 
 def result(change: str, joint: dict[str, Any] | None = None, **changes: Any) -> Any:
-    j = SimpleNamespace(**{"angle": 0.0, "normal": 0.0, "zero": 0.0, **JOINT, **FOUND[change], **(joint or {})})
+    j = SimpleNamespace(
+        **{"angle": 0.0, "normal": 0.0, "zero": 0.0, **JOINT, **FOUND[change], **(joint or {})}
+    )
     fields = {
         "differing": [j], "joints": [None, None, j], "equal": change in ("zero", "flip"), "verdict": "joint 3 differs",
         "base": np.eye(4), "tool": np.eye(4),
@@ -79,14 +94,21 @@ def result(change: str, joint: dict[str, Any] | None = None, **changes: Any) -> 
 @pytest.mark.parametrize("change", CHANGES)
 def test_a_comparison_that_is_right_has_no_fault(change):
     assert fault(result(change), change, 2) == ""
-    little = {"tilt": {"angle": 0.1009}, "shift": {"normal": 0.991}, "zero": {"zero": -0.5049}, "flip": {}}[change]
+    little = {
+        "tilt": {"angle": 0.1009},
+        "shift": {"normal": 0.991},
+        "zero": {"zero": -0.5049},
+        "flip": {},
+    }[change]
     assert fault(result(change, little), change, 2) == ""
 
 
 def test_joints_are_counted_from_1():
     for k in range(4):
         j = result("flip", {"number": k + 1}).differing[0]
-        found = result("flip", differing=[j], joints=[None] * k + [j], verdict=f"joint {k + 1} is flipped")
+        found = result(
+            "flip", differing=[j], joints=[None] * k + [j], verdict=f"joint {k + 1} is flipped"
+        )
         assert fault(found, "flip", k) == ""
 
 
@@ -97,17 +119,26 @@ def test_an_arm_ends_where_its_link_is_named():
 
 @pytest.mark.parametrize("change", CHANGES)
 def test_what_is_wrong_with_a_comparison_is_said(change):
-    wrong = {"tilt": {"angle": 0.101005}, "shift": {"normal": 1.01005}, "zero": {"zero": -0.505025}}.get(change)
+    wrong = {
+        "tilt": {"angle": 0.101005},
+        "shift": {"normal": 1.01005},
+        "zero": {"zero": -0.505025},
+    }.get(change)
     assert fault(result(change), change, 1) == "blames [3]"
     assert fault(result(change, differing=[]), change, 2) == "blames []"
     for name in ("axis_differs", "zero_differs", "flipped"):
         flipped = {name: not FOUND[change].get(name, False)}
         assert fault(result(change, flipped), change, 2) == "says joint 3 differs"
     assert wrong is None or fault(result(change, wrong), change, 2).startswith("size (")
-    assert change != "tilt" or fault(result(change, {"normal": 0.0101}), change, 2) == "tilt shifted by 0.0101"
+    assert (
+        change != "tilt"
+        or fault(result(change, {"normal": 0.0101}), change, 2) == "tilt shifted by 0.0101"
+    )
     equal = change in ("zero", "flip")
     assert fault(result(change, equal=not equal), change, 2) == "verdict joint 3 differs"
-    assert fault(result(change, verdict="joint 33 differs"), change, 2) == "verdict joint 33 differs"
+    assert (
+        fault(result(change, verdict="joint 33 differs"), change, 2) == "verdict joint 33 differs"
+    )
     moved = np.eye(4)
     moved[1, 3] = 2e-6
     said: tuple[tuple[Any, str], ...] = ((None, "matches nothing"), (moved, "moves base or tool"))

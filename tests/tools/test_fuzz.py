@@ -1,4 +1,6 @@
-"""No reader does more than refuse what it cannot read; and the fuzzer that says so finds one that does."""
+"""No reader does more than refuse what it cannot read; and the fuzzer that says so finds one that
+does.
+"""
 
 from __future__ import annotations
 
@@ -46,14 +48,19 @@ def test_a_reader_reads_refuses_and_does_nothing_else(child, name):
     row.add(child.run(Job(name, SEED, 0, EACH), failures.append), failures)
     assert not row.found, "\n".join(told(row, found, SEED) for found in row.found.values())
     assert row.tally.inputs == EACH
-    assert 20 < row.tally.accepted < EACH - 20, "inputs that are all refused, or all read, show little"
+    assert 20 < row.tally.accepted < EACH - 20, (
+        "inputs that are all refused, or all read, show little"
+    )
 
 
 ALIKE = "".join(f'<link name="{"x" * 190}{i}"/>' for i in range(600)).encode()
 HUGE = b"0x" + b"f" * 5000
 POINTS = ",".join(f"{axis}{i}" for i in range(1, 7000) for axis in "xyz").encode()
 FOUND = {
-    "a model that attaches itself": ("MJCF", b'<mujoco><asset><model file="input.xml"/></asset></mujoco>'),
+    "a model that attaches itself": (
+        "MJCF",
+        b'<mujoco><asset><model file="input.xml"/></asset></mujoco>',
+    ),
     "a replica a billion times": (
         "MJCF",
         b'<mujoco><worldbody><replicate count="1000000000"><body/></replicate></worldbody></mujoco>',
@@ -63,16 +70,29 @@ FOUND = {
         "MJCF",
         b"<mujoco><worldbody><body><plugin/></body><body><plugin/></body></worldbody></mujoco>",
     ),
-    "an infinite anchor": ("MJCF", b'<mujoco><worldbody><body><joint pos="7 1 inf"/></body></worldbody></mujoco>'),
-    "an infinite ref": ("MJCF", b'<mujoco><worldbody><body><joint ref="inf"/></body></worldbody></mujoco>'),
+    "an infinite anchor": (
+        "MJCF",
+        b'<mujoco><worldbody><body><joint pos="7 1 inf"/></body></worldbody></mujoco>',
+    ),
+    "an infinite ref": (
+        "MJCF",
+        b'<mujoco><worldbody><body><joint ref="inf"/></body></worldbody></mujoco>',
+    ),
     "a NaN that is no place": ("MJCF", b'<mujoco><option timestep="nan"/></mujoco>'),
     "a stack as small as the model asks": ("MJCF", b'<mujoco><size memory="1"/></mujoco>'),
-    "a header of brackets": ("npy", b"\x93NUMPY\1\0" + (596).to_bytes(2, "little") + b"{1{" + b"{1:" * 197 + b"{1"),
+    "a header of brackets": (
+        "npy",
+        b"\x93NUMPY\1\0" + (596).to_bytes(2, "little") + b"{1{" + b"{1:" * 197 + b"{1",
+    ),
     "no arena at all, as the model asks": ("MJCF", b'<mujoco><size memory="0"/></mujoco>'),
     "a folder to include": ("MJCF", b'<mujoco><include file="."/></mujoco>'),
     "many long names that are much alike": (
         "URDF",
-        b'<robot><link name="b"/>' + ALIKE + b'<joint name="j" type="fixed"><parent link="' + b"x" * 191 + b'"/>'
+        b'<robot><link name="b"/>'
+        + ALIKE
+        + b'<joint name="j" type="fixed"><parent link="'
+        + b"x" * 191
+        + b'"/>'
         b'<child link="b"/></joint></robot>',
     ),
     "a whole number too long to be told": ("DH TOML", b"convention = " + HUGE),
@@ -121,21 +141,32 @@ INPUTS = 12
 
 
 SEED_OF_TWO = 6  # inputs 2 and 5 have the fault, and 12 are made
-COUNTS = {f"{HERE}:{name}": INPUTS * (5 if name == "in_use" else 1) for name in PLANTED}  # what is read is seldom used
+COUNTS = {
+    f"{HERE}:{name}": INPUTS * (5 if name == "in_use" else 1) for name in PLANTED
+}  # what is read is seldom used
 
 
 @pytest.fixture(scope="module")
 def planted():
-    """What came of all planted readers, by name: of the one that hangs soon, of all others in one campaign."""
+    """What came of all planted readers, by name: of the one that hangs soon, of all others in one
+    campaign.
+    """
     hang = f"{HERE}:hang"
-    others = run({name: count for name, count in COUNTS.items() if name != hang}, SEED_OF_TWO, workers=1)
-    return {row.reader: row for row in (*others, *run({hang: COUNTS[hang]}, SEED_OF_TWO, workers=1, slow=0.05))}
+    others = run(
+        {name: count for name, count in COUNTS.items() if name != hang}, SEED_OF_TWO, workers=1
+    )
+    return {
+        row.reader: row
+        for row in (*others, *run({hang: COUNTS[hang]}, SEED_OF_TWO, workers=1, slow=0.05))
+    }
 
 
 @pytest.mark.parametrize(("name", "what"), PLANTED.items(), ids=PLANTED.keys())
 def test_a_planted_fault_is_found_and_made_small(planted, name, what):
     row = planted[f"{HERE}:{name}"]
-    assert row.tally.inputs == COUNTS[row.reader], "it goes on behind the input that ended the child"
+    assert row.tally.inputs == COUNTS[row.reader], (
+        "it goes on behind the input that ended the child"
+    )
     assert [found.first.what for found in row.found.values()] == [what]
     (found,) = row.found.values()
     assert found.again
@@ -166,10 +197,16 @@ def test_a_reader_that_waits_hangs_though_it_uses_no_processor(tmp_path, monkeyp
 
 @pytest.mark.parametrize(
     ("name", "what"),
-    [("starved", "memory refused"), ("starved_in_words", "memory refused"), ("circular", "its own cause")],
+    [
+        ("starved", "memory refused"),
+        ("starved_in_words", "memory refused"),
+        ("circular", "its own cause"),
+    ],
     ids=["starved", "starved_in_words", "circular"],
 )
-def test_a_refusal_that_the_limit_of_memory_or_itself_brought_about_is_none(name, what, tmp_path, monkeypatch):
+def test_a_refusal_that_the_limit_of_memory_or_itself_brought_about_is_none(
+    name, what, tmp_path, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     failure = attempt(of_name(f"{HERE}:{name}"), b"7").failure
     assert failure is not None
@@ -201,7 +238,9 @@ def test_an_interrupted_campaign_tells_what_there_is(monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(campaign, "CHUNK", 60)
-    row, rest = run({f"{HERE}:sound": 180, f"{HERE}:in_use": 60}, seed=5, workers=1, progress=interrupt)
+    row, rest = run(
+        {f"{HERE}:sound": 180, f"{HERE}:in_use": 60}, seed=5, workers=1, progress=interrupt
+    )
     assert (row.tally.inputs, rest.tally.inputs) == (60, 0)
 
 
@@ -230,13 +269,28 @@ def test_the_command_prints_the_table_and_fails_where_a_reader_did(capsys, monke
     out = capsys.readouterr().out
     assert "worst time" in out
     assert "20 inputs, 0 failures, seed 1" in out
-    monkeypatch.setattr("tools.fuzz.__main__.run", lambda *_, **__: run({f"{HERE}:value_error": 12}, 0, 1))
+    monkeypatch.setattr(
+        "tools.fuzz.__main__.run", lambda *_, **__: run({f"{HERE}:value_error": 12}, 0, 1)
+    )
     assert main(["--count", "1", "--reader", "UR conf"]) == 1
     assert "ValueError: 7" in capsys.readouterr().out
 
 
 def test_the_table_has_a_line_for_each_reader():
-    lines = table([Row("a", Tally(1_000_000, 3, 0.5, 12), seconds=100), Row("a long name")]).splitlines()
+    lines = table(
+        [Row("a", Tally(1_000_000, 3, 0.5, 12), seconds=100), Row("a long name")]
+    ).splitlines()
     assert [line.partition("  ")[0] for line in lines[1:]] == ["a", "a long name"]
-    assert lines[1].split() == ["a", "1,000,000", "3", "999,997", "0", "0.500", "s", "(no.", "12)", "10,000"]
+    assert lines[1].split() == [
+        "a",
+        "1,000,000",
+        "3",
+        "999,997",
+        "0",
+        "0.500",
+        "s",
+        "(no.",
+        "12)",
+        "10,000",
+    ]
     assert len({len(line) for line in lines}) == 1

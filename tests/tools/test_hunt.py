@@ -1,4 +1,6 @@
-"""The hunt for draws that break bounds: it counts them, keeps the worst, and fails where one exceeds its bound."""
+"""The hunt for draws that break bounds: it counts them, keeps the worst, and fails where one
+exceeds its bound.
+"""
 
 from __future__ import annotations
 

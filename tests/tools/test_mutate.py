@@ -1,4 +1,6 @@
-"""The mutants are cosmic-ray's, the list of equivalents is honest, and what the tests judge is the mutant."""
+"""The mutants are cosmic-ray's, the list of equivalents is honest, and what the tests judge is the
+mutant.
+"""
 
 from __future__ import annotations
 
@@ -15,12 +17,13 @@ import pytest
 import scipy.stats
 from cosmic_ray.mutating import mutate_code
 
-from poekin.engine import follow_kernels
-from poekin.engine.kernel import Kernel
+from poekin.engine.jit.kernel import Kernel
+from poekin.engine.kernels import follow_kernels
 from tools.mutate import __main__ as command
-from tools.mutate import campaign, equivalent, kernels, report, sample, suites
+from tools.mutate import campaign, equivalent, kernels, names, report, sample, suites
 from tools.mutate.campaign import BrokenSuite, Campaign, Outcome, kept
 from tools.mutate.mutants import Mutant, mutants_of, paths, room
+from tools.mutate.near import NEAR
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = {path: (ROOT / path).read_text(encoding="utf-8") for path in paths(ROOT)}
@@ -101,7 +104,7 @@ def test_a_length_that_numpy_takes_for_whatever_is_left_is_no_mutant():
 def test_two_changes_that_give_the_same_text_count_once():
     some = [m for path in SOURCES if room(path) == "groups" for m in of(path)]
     assert len({m.key for m in some}) == len(some)
-    assert len({(m.path, m.applied(SOURCES[m.path])) for m in of("poekin/formulas/defect.py")}) == 84
+    assert len({(m.path, m.applied(SOURCES[m.path])) for m in of(names.module("formulas/defect"))}) == 84
 
 
 def test_every_module_of_the_package_is_changed():
@@ -110,7 +113,7 @@ def test_every_module_of_the_package_is_changed():
     assert {room(path) for path in SOURCES} == {*rooms, "errors"}
     assert set(sample.BARS) <= rooms
     for part in ("algebra", "formulas/logarithm", "groups/se3", "formats/urdf", "engine/ik_kernels"):
-        assert len(of(f"poekin/{part}.py")) > 200
+        assert len(of(names.module(part))) > 200
 
 
 SAID = '''\
@@ -189,17 +192,57 @@ def test_every_module_has_tests_that_exist():
 @pytest.mark.parametrize(
     "module, test",
     [
-        ("formats/urdf", "formats/test_urdf"),
-        ("formats/ur/files", "formats/test_ur_files"),
-        ("solve/followed", "solve/test_followed"),
-        ("testing/urdf_errors", "formats/test_urdf_text"),  # by the tests that import it
-        ("engine/ik_codes", "engine/test_ik_kernels"),
-        ("model/layout", "model/test_robot"),  # by what imports it
-        ("solve/calibration/measurement", "solve/calibration/test_measurements"),
+        ("formats/urdf", "formats/urdf"),
+        ("formats/ur/conf", "formats/ur"),  # by the name of its folder
+        ("solve/followed", "solve/followed"),
+        ("testing/urdf_errors", "formats/urdf_text"),  # by the tests that import it
+        ("engine/ik_codes", "engine/ik_kernels"),
+        ("model/tree_arrays", "model/robot"),  # by what imports it
+        ("solve/measurement", "solve/measurements"),
     ],
 )
 def test_the_tests_near_a_module_are_found_by_name_and_by_import(module, test):
-    assert suites.near(f"poekin/{module}.py")[0][0] == f"tests/{test}.py"
+    assert suites.near(names.module(module))[0][0] == names.test(test)
+
+
+@pytest.mark.parametrize("table", [NEAR, suites.WHOLE], ids=["near", "whole"])
+def test_a_table_names_a_module_once(table):
+    counts = Counter(names.module(name) for key in table for name in key.split())
+    assert counts.most_common(1)[0][1] == 1
+
+
+@pytest.fixture
+def rooms(tmp_path, monkeypatch):
+    """A tree with one room, in which two modules have one stem."""
+    for file in ("a", "deep/er/b", "deep/c", "low/c"):
+        path = tmp_path / "poekin" / "hall" / f"{file}.py"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+    for file in ("test_a", "deep/er/test_b"):
+        path = tmp_path / "tests" / "hall" / f"{file}.py"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+    monkeypatch.setattr(names, "ROOT", tmp_path)
+
+
+def test_a_name_is_that_of_the_one_file_of_its_stem_in_the_room(rooms):
+    assert names.module("hall/a") == "poekin/hall/a.py"
+    assert names.module("hall/b") == names.module("hall/deep/b") == "poekin/hall/deep/er/b.py"
+    assert names.module("hall/low/c") == "poekin/hall/low/c.py"
+    assert names.module("hall/er/") == "poekin/hall/deep/er"
+    assert names.argument("--deselect=hall/b::test_one") == "--deselect=tests/hall/deep/er/test_b.py::test_one"
+    with pytest.raises(ValueError, match=r"hall/c .* is poekin/hall/deep/c\.py, poekin/hall/low/c\.py$"):
+        names.module("hall/c")
+    with pytest.raises(ValueError, match=r"hall/c has to be one place below tests/, and is none$"):
+        names.test("hall/c")
+
+
+def test_of_a_table_the_longest_path_counts(rooms):
+    table = {"hall/": "hall/a", "hall/b hall/a": "own hall/", "hall/deep/": "hall/b hall/a hall/b"}
+    assert names.longest(table, "poekin/hall/low/c.py") == ["tests/hall/test_a.py"]
+    assert names.longest(table, "poekin/hall/deep/er/b.py") == ["tests/hall/deep/er/test_b.py", "tests/hall"]
+    assert names.longest(table, "poekin/hall/deep/c.py") == ["tests/hall/deep/er/test_b.py", "tests/hall/test_a.py"]
+    assert names.longest(table, "poekin/hallway.py") == []
 
 
 @pytest.mark.parametrize(
@@ -208,14 +251,15 @@ def test_the_tests_near_a_module_are_found_by_name_and_by_import(module, test):
         ("algebra", "interpreted"),
         ("formulas/logarithm", "interpreted"),
         ("engine/chain_kernels", "interpreted"),
-        ("engine/ik_kernels", "shared"),  # there is an intrinsic in it, which the interpreter does not know
-        ("engine/source", "cold"),
+        # there is an intrinsic in it, which the interpreter does not know
+        ("engine/ik_kernels", "shared"),
+        ("engine/source_hash", "cold"),
         ("model/structure", "warm"),
         ("solve/ik", "warm"),
     ],
 )
 def test_a_module_runs_as_it_can(module, mode):
-    assert suites.mode(f"poekin/{module}.py").value == mode
+    assert suites.mode(names.module(module)).value == mode
 
 
 def test_a_mutant_finds_no_kernel_of_another(tmp_path):
@@ -239,10 +283,17 @@ def test_a_mutant_finds_no_kernel_of_another(tmp_path):
 
 
 def test_a_mutant_of_the_engine_finds_no_kernel_that_it_is_compiled_into():
-    assert suites.kernels_of("poekin/engine/arm.py") == []
-    own = set(suites.kernels_of("poekin/engine/follow_kernels.py"))
+    assert suites.kernels_of(names.module("engine/arm")) == []
+    own = set(suites.kernels_of(names.module("engine/follow_kernels")))
     assert own == {name for name, value in vars(follow_kernels).items() if isinstance(value, Kernel)}
-    assert own < set(suites.kernels_of("poekin/engine/ik_kernels.py"))  # which it calls
+    assert own < set(suites.kernels_of(names.module("engine/ik_kernels")))  # which it calls
+
+
+def test_every_kernel_of_the_engine_is_made_ready(monkeypatch):
+    ready: set[str] = set()
+    monkeypatch.setattr(Kernel, "ready", lambda self: ready.add(self.function.__name__))
+    kernels.main()
+    assert ready == {name for path in SOURCES if room(path) == "engine" for name in suites.kernels_of(path)}
 
 
 def test_of_this_user_s_cache_no_arm_s_code_is_taken(tmp_path, monkeypatch):
@@ -285,7 +336,8 @@ def small(tmp_path, monkeypatch):
     monkeypatch.setattr(suites, "near", lambda path: [["tests/test_calculator.py"]])
     monkeypatch.setattr(suites, "whole", lambda path: ["tests"])
     monkeypatch.setattr(suites, "mode", lambda path: suites.Mode.INTERPRETED)
-    monkeypatch.setattr(campaign, "LIBRARIES", ("hypothesis", "pytest", "not_installed"))  # what it needs, and more
+    # what it needs, and more
+    monkeypatch.setattr(campaign, "LIBRARIES", ("hypothesis", "pytest", "not_installed"))
     return root
 
 
@@ -357,7 +409,8 @@ def of_rooms(**sizes: int) -> list[Mutant]:
 def test_a_sample_holds_of_each_room_in_proportion_and_the_same_for_a_seed():
     mutants = of_rooms(solve=600, groups=25, cli=75)
     counts = Counter(m.room for m in sample.drawn(mutants, 70, 0))
-    assert counts == {"solve": 60, "cli": 8, "groups": 2}  # 7.5 and 2.5: of equal remainders the first by name
+    # 7.5 and 2.5: of equal remainders the first by name
+    assert counts == {"solve": 60, "cli": 8, "groups": 2}
     assert sample.drawn(mutants, 70, 0) == sample.drawn(mutants, 70, 0) != sample.drawn(mutants, 70, 1)
     assert sample.drawn(mutants, 700, 0) == mutants
 
@@ -409,7 +462,8 @@ def test_what_the_near_tests_let_through_is_tried_on_all_only_where_the_sample_f
     assert command.main(["--sample", "60", "--afresh"]) == 0
     assert ran == [(60, True), (let_through, False)][:tries]
     ran.clear()
-    assert command.main(["--sample", str(len(keys) + 1), "--afresh"]) == 0  # all: each is tried on all tests
+    # all: each is tried on all tests
+    assert command.main(["--sample", str(len(keys) + 1), "--afresh"]) == 0
     assert ran == [(len(keys), False)]
 
 
@@ -422,7 +476,9 @@ FILES = ("poekin/solve/a.py", "poekin/solve/b.py", "poekin/cli/c.py", "poekin/al
 
 
 def _project(root: Path, monkeypatch) -> list[str]:
-    """A package of the calculator, several times, of which every mutant was caught; the mutants' keys."""
+    """A package of the calculator, several times, of which every mutant was caught; the mutants'
+    keys.
+    """
     for path in FILES:
         (root / path).parent.mkdir(parents=True, exist_ok=True)
         (root / path).write_text(CALCULATOR, encoding="utf-8")

@@ -1,4 +1,6 @@
-"""The tests run as other processors would: the environment changes what every part takes this machine for."""
+"""The tests run as other processors would: the environment changes what every part takes this
+machine for.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +15,15 @@ from tools import processors
 SHOWN = """
 import numpy as np
 from numpy._core import _multiarray_umath as core
-from poekin.engine.machine_code import processor
+from poekin.engine.straight_line.machine_code import processor
 from numba.core.registry import cpu_target
 print(processor()[0], *cpu_target.target_context.codegen().magic_tuple()[1:])
 print([name for name in core.__cpu_dispatch__ if core.__cpu_features__[name]])
 """
 
-here = pytest.mark.skipif(bool(processors.missing(processors.PROCESSORS["haswell"])), reason="needs x86-64 with AVX2")
+here = pytest.mark.skipif(
+    bool(processors.missing(processors.PROCESSORS["haswell"])), reason="needs x86-64 with AVX2"
+)
 
 
 @here
@@ -37,11 +41,18 @@ def test_numba_machine_code_and_numpy_take_this_machine_for_another():
 
 @here
 def test_a_processor_keeps_what_it_has_and_loses_what_it_lacks():
-    old, new = (processors.environment(processors.PROCESSORS[name]) for name in ("sandybridge", "haswell"))
+    old, new = (
+        processors.environment(processors.PROCESSORS[name]) for name in ("sandybridge", "haswell")
+    )
     assert "-FMA," in old["GLIBC_TUNABLES"]
     assert "-FMA," not in new["GLIBC_TUNABLES"]
-    assert set(new["NPY_DISABLE_CPU_FEATURES"].split()) < set(old["NPY_DISABLE_CPU_FEATURES"].split())
-    assert {p.threads > 1 for p in map(processors.PROCESSORS.get, processors.USUAL) if p} == {True, False}
+    assert set(new["NPY_DISABLE_CPU_FEATURES"].split()) < set(
+        old["NPY_DISABLE_CPU_FEATURES"].split()
+    )
+    assert {p.threads > 1 for p in map(processors.PROCESSORS.get, processors.USUAL) if p} == {
+        True,
+        False,
+    }
 
 
 def test_a_processor_that_cannot_run_here_is_left_out_and_said_so(monkeypatch, capsys):

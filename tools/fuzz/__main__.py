@@ -1,4 +1,6 @@
-"""The command line of the fuzzer: a table of the readers, and each failure as something to paste and run."""
+"""The command line of the fuzzer: a table of the readers, and each failure as something to paste
+and run.
+"""
 
 from __future__ import annotations
 
@@ -45,11 +47,16 @@ def told(row: Row, found: Found, seed: int) -> str:
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m tools.fuzz", description=__doc__)
     parser.add_argument(
-        "--count", type=int, default=1_000_000, help="inputs to the URDF reader, ten times those of others"
+        "--count",
+        type=int,
+        default=1_000_000,
+        help="inputs to the URDF reader, ten times those of others",
     )
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--reader", action="append", choices=READERS, help="only this one (may be said again)")
+    parser.add_argument(
+        "--reader", action="append", choices=READERS, help="only this one (may be said again)"
+    )
     said = parser.parse_args(arguments)
     counts = counts_of(said.reader or list(READERS), said.count)
     start = last = time.monotonic()
@@ -67,7 +74,9 @@ def main(arguments: list[str] | None = None) -> int:
         for found in row.found.values():
             print("\n" + told(row, found, said.seed))
     failures, total = sum(row.failures for row in rows), sum(row.tally.inputs for row in rows)
-    print(f"\n{total:,} inputs, {failures} failures, seed {said.seed}, {time.monotonic() - start:.0f} s")
+    print(
+        f"\n{total:,} inputs, {failures} failures, seed {said.seed}, {time.monotonic() - start:.0f} s"
+    )
     return 1 if failures else 0
 
 

@@ -1,4 +1,6 @@
-"""A campaign: so many inputs to each reader, by children side by side; what failed is made as small as it gets."""
+"""A campaign: so many inputs to each reader, by children side by side; what failed is made as small
+as it gets.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,8 @@ _ATTEMPTS = {"hang": 25, "crash": 60}
 
 @dataclass
 class Found:
-    """Failures of the same kind in the same place: the first of them, how many, and an input as small as it gets.
+    """Failures of the same kind in the same place: the first of them, how many, and an input as
+    small as it gets.
 
     again: whether the input fails when it is alone.
     """
@@ -53,7 +56,9 @@ class Row:
         return sum(found.count for found in self.found.values())
 
     def add(self, tally: Tally, failures: Iterable[Failure], seconds: float = 0.0) -> None:
-        """Add what came of a job; the failure of the smallest number stands for all of its kind, whoever came first."""
+        """Add what came of a job; the failure of the smallest number stands for all of its kind,
+        whoever came first.
+        """
         self.tally, self.seconds = self.tally.with_(tally), self.seconds + seconds
         for failure in failures:
             self.ends += failure.what == "hang" or failure.what.startswith("crash")
@@ -72,10 +77,11 @@ def run(
     shrink: bool = True,
     progress: Callable[[Row, int], None] | None = None,
 ) -> list[Row]:
-    """Inputs 0 ... count - 1 of each reader; the same seed gives the same inputs, whatever the workers.
+    """Inputs 0 ... count - 1 of each reader; the same seed gives the same inputs, whatever the
+    workers.
 
-    slow: seconds that an input may take. progress(row, count) is called after each job. Interrupted from the keyboard,
-    it returns what there is.
+    slow: seconds that an input may take. progress(row, count) is called after each job. Interrupted
+    from the keyboard, it returns what there is.
     """
     rows = {name: Row(name) for name in counts}
     jobs: SimpleQueue[Job] = SimpleQueue()
@@ -130,7 +136,9 @@ def _shrink(child: Child, reader: str, seed: int, found: Found) -> None:
 
     found.again = fails(found.data)
     if found.again:
-        found.data = smallest(found.data, fails, _ATTEMPTS.get(found.first.what.partition(" ")[0], 1000))
+        found.data = smallest(
+            found.data, fails, _ATTEMPTS.get(found.first.what.partition(" ")[0], 1000)
+        )
 
 
 def counts_of(names: Sequence[str], count: int) -> dict[str, int]:

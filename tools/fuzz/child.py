@@ -1,4 +1,6 @@
-"""The process in which inputs are tried: it may hang, be killed or run out of memory, and the watcher tells."""
+"""The process in which inputs are tried: it may hang, be killed or run out of memory, and the
+watcher tells.
+"""
 
 from __future__ import annotations
 
@@ -20,13 +22,15 @@ from .trial import MEMORY, Failure, Trial, attempt
 TRACE = "trace.txt"
 """Where the traceback of a hang or crash is written, in the child's own directory."""
 AT, ACCEPTED, SLOWEST, SLOWEST_AT, WRITTEN = range(5)
-"""What the shared counters hold: the input under way, how many were accepted, the most microseconds, and of which; and
-the bytes of traceback that there were before that input.
+"""What the shared counters hold: the input under way, how many were accepted, the most
+microseconds, and of which; and the bytes of traceback that there were before that input.
 """
 
 
 class Job(NamedTuple):
-    """Inputs start ... stop - 1 of a reader; or, where there is data, that alone, to be used as well."""
+    """Inputs start ... stop - 1 of a reader; or, where there is data, that alone, to be used as
+    well.
+    """
 
     reader: str
     seed: int
@@ -36,7 +40,8 @@ class Job(NamedTuple):
 
 
 def serve(connection: Connection, counters: Any, folder: str, slow: float) -> None:
-    """Do the jobs that come in, until there are no more: a Failure is sent back for each, and None at a job's end.
+    """Do the jobs that come in, until there are no more: a Failure is sent back for each, and None
+    at a job's end.
 
     slow: seconds that an input may take, in place of SLOW.
     """
@@ -66,7 +71,9 @@ _known: dict[str, Reader] = {}
 
 
 def _ready(name: str) -> Reader:
-    """The reader, after it has read its seeds once: what it imports and compiles is no input's time or memory."""
+    """The reader, after it has read its seeds once: what it imports and compiles is no input's time
+    or memory.
+    """
     if name not in _known:
         _limit(None)
         reader = of_name(name)
@@ -81,13 +88,17 @@ def _ready(name: str) -> Reader:
 
 def _limit(memory: int | None) -> None:
     """Let the process grow until it holds that much: what is mapped and not used does not count."""
-    pages = [int(n) * resource.getpagesize() for n in Path("/proc/self/statm").read_text().split()[:2]]
+    pages = [
+        int(n) * resource.getpagesize() for n in Path("/proc/self/statm").read_text().split()[:2]
+    ]
     hard = resource.getrlimit(resource.RLIMIT_AS)[1]
     soft = resource.RLIM_INFINITY if memory is None else pages[0] + memory - pages[1]
     resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
 
 
-def _failures(reader: Reader, job: Job, counters: Any, trace: IO[bytes], slow: float) -> Iterator[Failure]:
+def _failures(
+    reader: Reader, job: Job, counters: Any, trace: IO[bytes], slow: float
+) -> Iterator[Failure]:
     for index in range(job.start, job.stop):
         data = inputs.make(reader, job.seed, index) if job.data is None else job.data
         counters[WRITTEN] = os.fstat(trace.fileno()).st_size
@@ -101,9 +112,11 @@ def _failures(reader: Reader, job: Job, counters: Any, trace: IO[bytes], slow: f
 
 
 def _timed(reader: Reader, data: bytes, use: bool, slow: float) -> Trial:
-    """A trial under the clock: when time is up the traceback is written, and the watcher waits no longer.
+    """A trial under the clock: when time is up the traceback is written, and the watcher waits no
+    longer.
 
-    What was too long once has to be so again: the first time something may have been imported or compiled.
+    What was too long once has to be so again: the first time something may have been imported or
+    compiled.
     """
     for _ in range(2):
         signal.setitimer(signal.ITIMER_PROF, slow)

@@ -26,11 +26,27 @@ TEXTS = (
     "null", "~", "world", "base_link", "__class__", "__proto__", "[b]", "[/b]", "a,b", "a;b", "# a", ": ", "- ", "!x",
     "&a", "*a", "|", "x" * 79, "x" * 80, "x" * 81, "x" * 300, "x" * 4000, "x" * 30_000, "ab" * 15_000, "ä" * 3000,
 )  # fmt: skip
-PLAIN = ("0", "0.0", "1", "-1", "0.5", "-0.25", "0.333", "0.1625", "1.5708", "-1.5708", "3.14159", "2.8973", "1e-3")
+PLAIN = (
+    "0",
+    "0.0",
+    "1",
+    "-1",
+    "0.5",
+    "-0.25",
+    "0.333",
+    "0.1625",
+    "1.5708",
+    "-1.5708",
+    "3.14159",
+    "2.8973",
+    "1e-3",
+)
 
 
 class Draw:
-    """Draws from a generator; `odd` is the probability that a value is one that readers stumble over."""
+    """Draws from a generator; `odd` is the probability that a value is one that readers stumble
+    over.
+    """
 
     def __init__(self, source: random.Random, odd: float = 0.0):
         self.source, self.odd = source, odd
@@ -63,8 +79,21 @@ class Draw:
     def axis(self) -> str:
         """A direction, most of them of unit length."""
         if self.chance(self.odd):
-            return self.pick(("0 0 0", "-0 0 0.0", "1e-200 0 1e-200", "1.7e308 0 -1.7e308", "5e-324 0 0", "2 0 0"))
-        return self.pick(("0 0 1", "0 1 0", "1 0 0", "0 0 -1", "0 0.6 0.8")) if self.chance(0.8) else self.numbers(3)
+            return self.pick(
+                (
+                    "0 0 0",
+                    "-0 0 0.0",
+                    "1e-200 0 1e-200",
+                    "1.7e308 0 -1.7e308",
+                    "5e-324 0 0",
+                    "2 0 0",
+                )
+            )
+        return (
+            self.pick(("0 0 1", "0 1 0", "1 0 0", "0 0 -1", "0 0.6 0.8"))
+            if self.chance(0.8)
+            else self.numbers(3)
+        )
 
     def text(self, plain: str) -> str:
         return self.pick(TEXTS) if self.chance(self.odd) else plain
@@ -77,7 +106,9 @@ class Draw:
         return text if self.chance(probability) else ""
 
     def size(self, usual: int = 6) -> int:
-        """How many of something: a few; none or hundreds where it is odd, and then little else is, or none is read."""
+        """How many of something: a few; none or hundreds where it is odd, and then little else is,
+        or none is read.
+        """
         if self.chance(self.odd / 4):
             size = self.pick((0, 1, 40, 300, 900))
             self.odd /= max(1, size)

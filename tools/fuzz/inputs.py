@@ -1,4 +1,6 @@
-"""Input number i of a reader: random bytes, a document out of nothing, or a mutated one; always the same."""
+"""Input number i of a reader: random bytes, a document out of nothing, or a mutated one; always the
+same.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Mutations of documents: each takes bytes and gives bytes, and knows of formats only what they look like."""
+"""Mutations of documents: each takes bytes and gives bytes, and knows of formats only what they
+look like.
+"""
 
 from __future__ import annotations
 
@@ -64,7 +66,11 @@ def _one(pattern: re.Pattern[bytes], d: Draw, data: bytes) -> re.Match[bytes] | 
 
 def number(d: Draw, data: bytes) -> bytes:
     match = _one(_NUMBER, d, data)
-    return data if match is None else data[: match.start()] + encoded(d.pick(NUMBERS)) + data[match.end() :]
+    return (
+        data
+        if match is None
+        else data[: match.start()] + encoded(d.pick(NUMBERS)) + data[match.end() :]
+    )
 
 
 def quoted(d: Draw, data: bytes) -> bytes:
@@ -83,7 +89,11 @@ OTHERS = (
 def value(d: Draw, data: bytes) -> bytes:
     """What stands behind `=` or `:` on a line, for something of another kind."""
     match = _one(_VALUE, d, data)
-    return data if match is None else data[: match.start()] + encoded(d.pick(OTHERS)) + data[match.end() :]
+    return (
+        data
+        if match is None
+        else data[: match.start()] + encoded(d.pick(OTHERS)) + data[match.end() :]
+    )
 
 
 def rename(d: Draw, data: bytes) -> bytes:
@@ -104,7 +114,11 @@ def element(d: Draw, data: bytes) -> bytes:
     rest = data[: match.start()] + data[match.end() :]
     other = _one(_TAG, d, data)
     at = other.start() if other and d.chance(0.8) else d.below(len(rest) + 1)
-    return rest if d.chance(0.3) else (data if d.chance(0.5) else rest)[:at] + match.group() + data[at:]
+    return (
+        rest
+        if d.chance(0.3)
+        else (data if d.chance(0.5) else rest)[:at] + match.group() + data[at:]
+    )
 
 
 def line(d: Draw, data: bytes) -> bytes:
@@ -118,15 +132,23 @@ def line(d: Draw, data: bytes) -> bytes:
 
 def nest(d: Draw, data: bytes) -> bytes:
     match, depth = _one(_TAG, d, data), d.pick((3, 100, 240, 260, 3000))
-    opened, closed = d.pick(((b"<a>", b"</a>"), (b"<link>", b"</link>"), (b"[", b"]"), (b"{a: ", b"}"), (b"- ", b"")))
+    opened, closed = d.pick(
+        ((b"<a>", b"</a>"), (b"<link>", b"</link>"), (b"[", b"]"), (b"{a: ", b"}"), (b"- ", b""))
+    )
     at = match.end() if match else 0
-    return data[:at] + opened * depth + closed * (depth if d.chance(0.8) else depth // 2) + data[at:]
+    return (
+        data[:at] + opened * depth + closed * (depth if d.chance(0.8) else depth // 2) + data[at:]
+    )
 
 
 def encode(d: Draw, data: bytes) -> bytes:
     text = data.decode("utf-8", "replace")
-    kind = d.pick(("utf-16", "utf-16-le", "utf-16-be", "utf-32", "latin-1", "utf-8-sig", "utf-7", "cp037"))
-    declared = f'<?xml version="1.0" encoding="{kind}"?>' if d.chance(0.3) and text.startswith("<") else ""
+    kind = d.pick(
+        ("utf-16", "utf-16-le", "utf-16-be", "utf-32", "latin-1", "utf-8-sig", "utf-7", "cp037")
+    )
+    declared = (
+        f'<?xml version="1.0" encoding="{kind}"?>' if d.chance(0.3) and text.startswith("<") else ""
+    )
     return (declared + text).encode(kind, "replace")
 
 

@@ -1,4 +1,6 @@
-"""The readers that are fuzzed: how each is called, what makes its inputs, and what is done with what it returns."""
+"""The readers that are fuzzed: how each is called, what makes its inputs, and what is done with
+what it returns.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +15,11 @@ import numpy as np
 import poekin as pk
 from poekin.cli import npy
 from poekin.errors import PoekinError
-from poekin.formats import mjcf, urdf
+from poekin.formats import urdf
+from poekin.formats.mjcf import mjcf
 from poekin.solve import motion
-from poekin.solve.calibration import data, files
+from poekin.solve.calibration.measurements import data
+from poekin.solve.calibration.report import toml_io
 
 from . import seeds, table_grammar, xml_grammar
 from .draw import Draw
@@ -25,10 +29,11 @@ from .draw import Draw
 class Reader:
     """A reader under test.
 
-    Fields: name, in the table; file, what the input is called when it is read; read(path), which returns what the file
-    holds or raises; grammar, a document out of nothing; seeds(), real documents, at least one of them readable; use,
-    what is done with what was read; share, how many inputs it has, as a part of those of the URDF reader; beside, names
-    and contents of files in the same folder, of which an input may speak.
+    Fields: name, in the table; file, what the input is called when it is read; read(path), which
+    returns what the file holds or raises; grammar, a document out of nothing; seeds(), real
+    documents, at least one of them readable; use, what is done with what was read; share, how many
+    inputs it has, as a part of those of the URDF reader; beside, names and contents of files in the
+    same folder, of which an input may speak.
     """
 
     name: str
@@ -50,7 +55,9 @@ def of_name(name: str) -> Reader:
 
 
 def move(robot: pk.Robot) -> None:
-    """The poses of all links, and chains to the first leaves with their poses and Jacobians, at 0 and at ±0.5."""
+    """The poses of all links, and chains to the first leaves with their poses and Jacobians, at 0
+    and at ±0.5.
+    """
     repr(robot)
     robot.fk(np.zeros(robot.dof))
     for leaf in robot.leaves[:3]:
@@ -94,7 +101,10 @@ def _poses(path: str) -> Any:
 def _measured(path: str) -> Any:
     """As each kind; and as two points, of which the file does not say where they are."""
     ways: list[dict[str, Any]] = [{"kind": kind} for kind in (None, *data.KINDS)]
-    return _first(lambda known: data.read(path, seeds.chain(), ignore="x", **known), [*ways, {"points": np.eye(2, 3)}])
+    return _first(
+        lambda known: data.read(path, seeds.chain(), ignore="x", **known),
+        [*ways, {"points": np.eye(2, 3)}],
+    )
 
 
 def _first(read: Callable[[Any], Any], ways: Sequence[Any]) -> Any:
@@ -113,7 +123,10 @@ def _first(read: Callable[[Any], Any], ways: Sequence[Any]) -> Any:
 def _npy(path: str) -> Any:
     """As configurations, and as the poses of the format 16."""
     content = Path(path).read_bytes()
-    return _first(lambda way: npy.configurations(content, way[0], "input.npy", way[1]), [(3, ()), (16, (4, 4))])
+    return _first(
+        lambda way: npy.configurations(content, way[0], "input.npy", way[1]),
+        [(3, ()), (16, (4, 4))],
+    )
 
 
 def _saved(d: Draw) -> str:
@@ -142,7 +155,7 @@ READERS: dict[str, Reader] = {
             "measured CSV", "input.csv", _measured, table_grammar.measurements_csv, lambda: seeds.written()["measured"]
         ),
         Reader(
-            "calibration TOML", "input.toml", files.load, _saved, lambda: seeds.written()["arm"]
+            "calibration TOML", "input.toml", toml_io.load, _saved, lambda: seeds.written()["arm"]
         ),
         Reader(
             "calibrated arm", "input.toml", pk.load, _saved, lambda: seeds.written()["arm"], move

@@ -1,4 +1,6 @@
-"""Real documents to start from: the files of this repository, those of example-robot-data, and what poekin writes."""
+"""Real documents to start from: the files of this repository, those of example-robot-data, and what
+poekin writes.
+"""
 
 from __future__ import annotations
 
@@ -15,14 +17,18 @@ import numpy as np
 import poekin as pk
 from poekin.errors import MissingExtra
 from poekin.formats import catalogue, dh, erd, ur
-from poekin.formats.dh import files as dh_files
+from poekin.formats.dh import table_io as dh_files
 from poekin.formats.dh.published_tables import NAMES
-from poekin.formats.ur import files
+from poekin.formats.ur import yaml_io
 
 SMALL = 16_000
-"""Bytes of a file; a longer one loses its shapes and masses, which no reader looks at, and what is beyond."""
+"""Bytes of a file; a longer one loses its shapes and masses, which no reader looks at, and what is
+beyond.
+"""
 
-_SHAPES = re.compile(rb"<(visual|collision|inertial|gazebo|transmission|dynamics)\b.*?</\1>|<!--.*?-->", re.DOTALL)
+_SHAPES = re.compile(
+    rb"<(visual|collision|inertial|gazebo|transmission|dynamics)\b.*?</\1>|<!--.*?-->", re.DOTALL
+)
 
 
 @cache
@@ -46,11 +52,15 @@ def _shorter(text: bytes) -> bytes:
 
 @cache
 def mjcf() -> tuple[bytes, ...]:
-    """Documents with every element that the reader looks at, and most that it does not; and MuJoCo's own, if it is
-    installed.
+    """Documents with every element that the reader looks at, and most that it does not; and
+    MuJoCo's own, if it is installed.
     """
     package = importlib.util.find_spec("mujoco")
-    own = Path(package.origin).parent / "testdata" / "model.xml" if package and package.origin else None
+    own = (
+        Path(package.origin).parent / "testdata" / "model.xml"
+        if package and package.origin
+        else None
+    )
     return (
         b"""<mujoco model="arm"><compiler angle="degree" eulerseq="XYZ" autolimits="true"/>
 <default><joint axis="0 0 1" range="-90 90"/><default class="slide"><joint type="slide" range="0 0.5"/></default>
@@ -105,14 +115,18 @@ def ur_yaml() -> tuple[bytes, ...]:
     """Of a nominal arm, as the driver writes it and as ur_description reads it."""
     table = dh.published("ur10e")
     found = ur.from_dh(table, nominal=table, hash="calib_1234567890")
-    return tuple(files.text_of(found, rpy=rpy).encode() for rpy in ("fixed", "moving"))
+    return tuple(yaml_io.text_of(found, rpy=rpy).encode() for rpy in ("fixed", "moving"))
 
 
 @cache
 def ur_conf() -> tuple[bytes, ...]:
     numbers = ", ".join(f"{x!r}" for x in (-2.4e-07, 1.6023, -1.686, 0.0837, -1.0e-07, 3.9e-08))
     names = ("delta_theta", "delta_a", "delta_d", "delta_alpha", "joint_checksum")
-    return ("\n".join(["[mounting]", *(f"{name} = [ {numbers}]" for name in names), "linearity = 1"]).encode(),)
+    return (
+        "\n".join(
+            ["[mounting]", *(f"{name} = [ {numbers}]" for name in names), "linearity = 1"]
+        ).encode(),
+    )
 
 
 @cache
@@ -127,11 +141,13 @@ def chain() -> pk.Chain:
 
 @cache
 def written() -> dict[str, tuple[bytes, ...]]:
-    """What poekin itself writes of that chain: poses, configurations, measurements; and calibrations: of it, of one
-    with the frame of a device and with folds, and of one with a coupled joint and outliers.
+    """What poekin itself writes of that chain: poses, configurations, measurements; and
+    calibrations: of it, of one with the frame of a device and with folds, and of one with a coupled
+    joint and outliers.
     """
     from poekin.solve import motion
-    from poekin.solve.calibration import Points, Poses, data
+    from poekin.solve.calibration import Points, Poses
+    from poekin.solve.calibration.measurements import data
 
     arm, found = chain(), {}
     q = arm.random(0, 12)

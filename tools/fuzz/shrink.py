@@ -1,4 +1,6 @@
-"""The smallest input that still fails: piece after piece is left out, as long as the failure stays what it was."""
+"""The smallest input that still fails: piece after piece is left out, as long as the failure stays
+what it was.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ def smallest(data: bytes, fails: Callable[[bytes], bool], most: int = 1000) -> b
 
 
 def _pieces(data: bytes) -> Iterator[tuple[int, int]]:
-    """Where pieces begin and end, the largest first: elements of XML, attributes, lines, then anything at all."""
+    """Where pieces begin and end, the largest first: elements of XML, attributes, lines, then
+    anything at all.
+    """
     named = {*_elements(data), *(match.span() for match in _PARTS.finditer(data))}
     yield from sorted(named, key=lambda span: span[0] - span[1])
     size = len(data) // 2

@@ -1,4 +1,6 @@
-"""Tables out of nothing: DH in TOML and CSV, calibrations in YAML, rows of numbers; nearly right, most of them."""
+"""Tables out of nothing: DH in TOML and CSV, calibrations in YAML, rows of numbers; nearly right,
+most of them.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,11 @@ def dh_toml(d: Draw) -> str:
             rows = [row if not d.chance(d.odd) else d.numbers(4, ", ") for row in rows]
             lines.append(f"{frame} = [[{'], ['.join(rows)}]]")
     for i in range(d.size()):
-        lines.append("[[joint]]" if not d.chance(d.odd) else d.pick(("[joint]", "[[joint.x]]", "[[base]]", "[[joint")))
+        lines.append(
+            "[[joint]]"
+            if not d.chance(d.odd)
+            else d.pick(("[joint]", "[[joint.x]]", "[[base]]", "[[joint"))
+        )
         row = [f"{column} = {d.number() or 0}" for column in COLUMNS]
         extra = {
             "kind": _quoted(d, d.word("revolute", "prismatic")), "name": _quoted(d, d.text(f"j{i}")),
@@ -46,7 +52,11 @@ def _quoted(d: Draw, text: str) -> str:
 
 
 def dh_csv(d: Draw) -> str:
-    header = ["convention", *COLUMNS, *(c for c in ("name", "kind", "flip", "lower", "upper", "pose") if d.chance(0.4))]
+    header = [
+        "convention",
+        *COLUMNS,
+        *(c for c in ("name", "kind", "flip", "lower", "upper", "pose") if d.chance(0.4)),
+    ]
     if d.chance(d.odd):
         header += [d.word(*header, "x")] * d.size(1)
     lines = [",".join(d.shuffled(header))]
@@ -62,12 +72,16 @@ def dh_csv(d: Draw) -> str:
             elif column == "name":
                 cells.append(d.maybe(d.text(f"j{i}")))
             elif column == "kind":
-                cells.append(d.word("base", "tool") if posed else d.word("revolute", "prismatic", ""))
+                cells.append(
+                    d.word("base", "tool") if posed else d.word("revolute", "prismatic", "")
+                )
             elif column == "flip":
                 cells.append(d.word("true", "false", ""))
             elif column == "pose":
                 cells.append(
-                    "1 0 0 0 0 1 0 0 0 0 1 0.5" if posed and not d.chance(d.odd) else d.maybe(d.numbers(12), d.odd)
+                    "1 0 0 0 0 1 0 0 0 0 1 0.5"
+                    if posed and not d.chance(d.odd)
+                    else d.maybe(d.numbers(12), d.odd)
                 )
             else:
                 cells.append(d.maybe({"lower": "-1", "upper": "1"}.get(column, d.number())))
@@ -83,8 +97,13 @@ def _line(d: Draw, cells: list[str]) -> str:
 
 def _lines(d: Draw, lines: list[str]) -> str:
     if d.chance(d.odd):
-        lines.insert(d.below(len(lines) + 1), d.pick(("", ",", '"', "#", "\0", "a,b", '"a"b', " ", "sep=;", "\r")))
-    return d.pick(("\n", "\n", "\n", "\r\n", "\r") if d.chance(0.2) else ("\n",)).join(lines) + d.maybe("\n", 0.8)
+        lines.insert(
+            d.below(len(lines) + 1),
+            d.pick(("", ",", '"', "#", "\0", "a,b", '"a"b', " ", "sep=;", "\r")),
+        )
+    return d.pick(("\n", "\n", "\n", "\r\n", "\r") if d.chance(0.2) else ("\n",)).join(
+        lines
+    ) + d.maybe("\n", 0.8)
 
 
 LINKS = ("shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3")
@@ -102,9 +121,18 @@ def ur_yaml(d: Draw) -> str:
         if d.chance(d.odd / 3):
             numbers[d.below(6)] = d.pick(NO_NUMBERS)
         lines += d.shuffled(numbers)
-    lines.append(d.maybe(f"  hash: {d.text('calib_1')}") if not d.chance(d.odd) else "  hash:\n    a: 1")
+    lines.append(
+        d.maybe(f"  hash: {d.text('calib_1')}") if not d.chance(d.odd) else "  hash:\n    a: 1"
+    )
     if d.chance(d.odd):
-        return d.pick(("kinematics: 1", "kinematics:", "rpy:\n  a: 1\n" + "\n".join(lines), "rpy: x\nkinematics: {}"))
+        return d.pick(
+            (
+                "kinematics: 1",
+                "kinematics:",
+                "rpy:\n  a: 1\n" + "\n".join(lines),
+                "rpy: x\nkinematics: {}",
+            )
+        )
     if d.chance(d.odd / 3):
         nested = d.pick((5, 9, 500, 5000))
         lines.append(d.pick((
@@ -146,7 +174,8 @@ def measurements_csv(d: Draw) -> str:
 
 
 def jittered(d: Draw, text: str) -> str:
-    """A document with some of its numbers off by a few roundings, and as odd as the rest something else for one, or
+    """A document with some of its numbers off by a few roundings, and as odd as the rest something
+    else for one, or
     for all that a key has.
     """
     if d.chance(3 * d.odd):
@@ -155,7 +184,11 @@ def jittered(d: Draw, text: str) -> str:
     def other(match: re.Match[str]) -> str:
         if d.chance(d.odd / 10):
             return d.number()
-        return repr(float(match.group()) * (1 + 2e-16 * d.below(10))) if d.chance(0.1) else match.group()
+        return (
+            repr(float(match.group()) * (1 + 2e-16 * d.below(10)))
+            if d.chance(0.1)
+            else match.group()
+        )
 
     return re.sub(r"-?\d+\.\d+(?:e-?\d+)?", other, text)
 
@@ -168,19 +201,42 @@ def _rows(d: Draw, names: list[str], row: str, headed: float) -> str:
     if not row and d.chance(d.odd / 3):  # more lines than are held at once
         lines += [",".join("1" * len(names))] * 10_001
     for _ in range(d.size()):
-        lines.append(_line(d, row.split(",")) if row and not d.chance(d.odd) else _line(d, [d.number() for _ in names]))
+        lines.append(
+            _line(d, row.split(","))
+            if row and not d.chance(d.odd)
+            else _line(d, [d.number() for _ in names])
+        )
     return _lines(d, lines)
 
 
 def npy(d: Draw) -> bytes:
     rows = d.size()
     last, width = d.pick((("3", 3), ("3", 3), ("4, 4", 16), ("16", 16)))
-    shape = f"({d.text(str(rows))}, {last})" if d.chance(0.9) else f"({d.numbers(d.below(4), ', ')})"
-    descr = d.word("|O", "<c16", "<U4", "<f16") if d.chance(0.1) else d.word("<f8", "<f4", ">f8", "<i4", "|u1", "<f2")
+    shape = (
+        f"({d.text(str(rows))}, {last})" if d.chance(0.9) else f"({d.numbers(d.below(4), ', ')})"
+    )
+    descr = (
+        d.word("|O", "<c16", "<U4", "<f16")
+        if d.chance(0.1)
+        else d.word("<f8", "<f4", ">f8", "<i4", "|u1", "<f2")
+    )
     keys = {"descr": f"'{descr}'", "fortran_order": d.word("False", "True"), "shape": shape}
-    header = ("{" + ", ".join(f"'{d.text(k)}': {v}" for k, v in keys.items()) + "}").encode("utf-8", "surrogatepass")
+    header = ("{" + ", ".join(f"'{d.text(k)}': {v}" for k, v in keys.items()) + "}").encode(
+        "utf-8", "surrogatepass"
+    )
     if d.chance(d.odd):
-        header = d.pick((b"(" * 200, b"[" * 5000, b"-" * 5000, b"{1:" * 900, b"1" * 9000, b"\\", b"\xff", b"''" * 2000))
+        header = d.pick(
+            (
+                b"(" * 200,
+                b"[" * 5000,
+                b"-" * 5000,
+                b"{1:" * 900,
+                b"1" * 9000,
+                b"\\",
+                b"\xff",
+                b"''" * 2000,
+            )
+        )
     header = header.ljust(d.pick((118, 54, 0))) + b"\n"
     version = d.pick((b"\1\0", b"\1\0", b"\2\0", b"\3\0")) if not d.chance(d.odd) else b"\0\0"
     size = d.pick((0, 1, 2**16 - 1)) if d.chance(d.odd) else min(len(header), 2**16 - 1)

@@ -18,20 +18,26 @@ from poekin.errors import PoekinError, PoekinWarning
 from .readers import Reader
 
 SLOW = 1.0
-"""Seconds that an input may take: of the processor, and again of waiting, as for a lock, a pipe or a clock."""
+"""Seconds that an input may take: of the processor, and again of waiting, as for a lock, a pipe or
+a clock.
+"""
 MEMORY = 2**30
 """Bytes that a process may hold, poekin and all that it uses among them."""
 LONGEST = 20_000
 """Characters of a message that somebody may still read."""
 
-# In the words of libxml2, of MuJoCo and of C++; a stack or an arena whose size the model itself asks for is none.
+# In the words of libxml2, of MuJoCo and of C++; a stack or an arena whose size the model itself
+# asks for is none.
 _NO_MEMORY = re.compile(
-    r"(?<!mj_stackAlloc: )out of memory|(cannot|could not|failed to) allocate(?! mjData arena)|bad_alloc", re.IGNORECASE
+    r"(?<!mj_stackAlloc: )out of memory|(cannot|could not|failed to) allocate(?! mjData arena)|bad_alloc",
+    re.IGNORECASE,
 )
 
 
 class Failure(NamedTuple):
-    """What a reader must not do: what it was, where in poekin, and the traceback; index, of the input."""
+    """What a reader must not do: what it was, where in poekin, and the traceback; index, of the
+    input.
+    """
 
     what: str
     where: str
@@ -40,8 +46,8 @@ class Failure(NamedTuple):
 
 
 class Trial(NamedTuple):
-    """accepted: whether something was read; seconds of the processor; failure, or None; waited: seconds of neither
-    having nor wanting a processor.
+    """accepted: whether something was read; seconds of the processor; failure, or None; waited:
+    seconds of neither having nor wanting a processor.
     """
 
     accepted: bool
@@ -53,7 +59,8 @@ class Trial(NamedTuple):
 def attempt(reader: Reader, data: bytes, use: bool = True) -> Trial:
     """Read an input, out of a file in the working directory, and use what was read.
 
-    A warning of poekin's own is none of its failures; any other is, as it would be in a test run of its users.
+    A warning of poekin's own is none of its failures; any other is, as it would be in a test run of
+    its users.
     """
     for name, content in (*reader.beside, (reader.file, data)):
         Path(name).write_bytes(content)
@@ -70,7 +77,9 @@ def attempt(reader: Reader, data: bytes, use: bool = True) -> Trial:
             said.append(str(fault))
             failure = _refused_badly(fault)
         except BaseException as fault:  # noqa: BLE001  whatever it is, it is what is looked for
-            failure = Failure(type(fault).__name__, _place(fault), "".join(traceback.format_exception(fault)))
+            failure = Failure(
+                type(fault).__name__, _place(fault), "".join(traceback.format_exception(fault))
+            )
     seconds, waited = time.process_time() - start, _idle() - idle
     if failure is None:
         failure = next(filter(None, map(_unreadable, said)), None)
@@ -95,17 +104,22 @@ def _warnings_said() -> Iterator[list[str]]:
 
 
 def _unreadable(message: str) -> Failure | None:
-    """A message that a terminal would obey, that cannot be printed, or that nobody reads to its end."""
+    """A message that a terminal would obey, that cannot be printed, or that nobody reads to its
+    end.
+    """
     if len(message) > LONGEST:
-        return Failure("endless message", _start(message), f"{len(message)} characters: {message[:300]!r} ...")
+        return Failure(
+            "endless message", _start(message), f"{len(message)} characters: {message[:300]!r} ..."
+        )
     if not message.replace("\n", "").isprintable():
         return Failure("raw message", _start(message), repr(message[:2000]))
     return None
 
 
 def _refused_badly(fault: BaseException) -> Failure | None:
-    """A refusal that is no more than the limit of this process, as elsewhere the reader would have gone on eating; or
-    one that is its own cause, so that whoever looks for the first cause goes round for ever.
+    """A refusal that is no more than the limit of this process, as elsewhere the reader would have
+    gone on eating; or one that is its own cause, so that whoever looks for the first cause goes
+    round for ever.
     """
     chain: list[BaseException] = [fault]
     while (cause := chain[-1].__cause__ or chain[-1].__context__) is not None:
@@ -129,7 +143,9 @@ def _place(fault: BaseException) -> str:
 
 
 def _idle() -> float:
-    """Seconds of the clock less those on a processor or in the queue for one: a busy machine makes nobody wait."""
+    """Seconds of the clock less those on a processor or in the queue for one: a busy machine makes
+    nobody wait.
+    """
     on, queued = map(int, Path("/proc/thread-self/schedstat").read_text().split()[:2])
     return time.monotonic() - (on + queued) / 1e9
 

@@ -1,4 +1,6 @@
-"""The watcher of one child: it starts it, hands it jobs, and tells of what the child cannot tell: its own end."""
+"""The watcher of one child: it starts it, hands it jobs, and tells of what the child cannot tell:
+its own end.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,9 @@ from .child import AT, TRACE, WRITTEN, Job, serve
 from .trial import SLOW, Failure
 
 STALLED = 30.0
-"""Seconds without progress, of the clock on the wall, after which a child hangs, whatever it waits for."""
+"""Seconds without progress, of the clock on the wall, after which a child hangs, whatever it waits
+for.
+"""
 GRACE = 0.5
 """What an input has left after it has used up its time, as a part of that time."""
 _STARTED = 180.0
@@ -25,7 +29,9 @@ FAST = "/dev/shm" if Path("/dev/shm").is_dir() else None
 
 
 class Tally(NamedTuple):
-    """How many inputs there were, how many were accepted, the most seconds that one took, and which it was."""
+    """How many inputs there were, how many were accepted, the most seconds that one took, and which
+    it was.
+    """
 
     inputs: int = 0
     accepted: int = 0
@@ -35,7 +41,12 @@ class Tally(NamedTuple):
     def with_(self, other: Tally) -> Tally:
         """Both together."""
         worst = max(self, other, key=lambda tally: tally.slowest)
-        return Tally(self.inputs + other.inputs, self.accepted + other.accepted, worst.slowest, worst.slowest_at)
+        return Tally(
+            self.inputs + other.inputs,
+            self.accepted + other.accepted,
+            worst.slowest,
+            worst.slowest_at,
+        )
 
 
 class Child:
@@ -54,7 +65,9 @@ class Child:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def run(self, job: Job, tell: Callable[[Failure], None]) -> Tally:
-        """Do a job and tell its failures; a child that ends is one of them, and a new one goes on behind that input."""
+        """Do a job and tell its failures; a child that ends is one of them, and a new one goes on
+        behind that input.
+        """
         tally, start = Tally(), job.start
         while start < job.stop:
             ended = self._run(job._replace(start=start), tell)
@@ -81,7 +94,9 @@ class Child:
                 except (EOFError, ConnectionResetError):
                     process.join()
                     if counters[AT] < job.start:
-                        raise RuntimeError(f"{job.reader}: its seeds end the child: {self._said()}") from None
+                        raise RuntimeError(
+                            f"{job.reader}: its seeds end the child: {self._said()}"
+                        ) from None
                     return self._ended(f"crash ({_exit(process.exitcode)})")
                 if isinstance(said, str):
                     raise RuntimeError(f"the harness itself failed in its child:\n{said}")
@@ -94,7 +109,9 @@ class Child:
                 at, since = counters[AT], now
             if at < job.start:  # still importing, compiling, reading seeds
                 if now - since > _STARTED:
-                    raise RuntimeError(f"{job.reader}: its seeds are not read within {_STARTED:g} s")
+                    raise RuntimeError(
+                        f"{job.reader}: its seeds are not read within {_STARTED:g} s"
+                    )
             elif now - since > self.stalled or (
                 self._written() > counters[WRITTEN] and now - since > self.slow * (1 + GRACE)
             ):
@@ -107,12 +124,18 @@ class Child:
         return trace.stat().st_size if trace.exists() else 0
 
     def _said(self) -> str:
-        return Path(self.folder, TRACE).read_bytes()[self._counters[WRITTEN] :].decode(errors="replace")
+        return (
+            Path(self.folder, TRACE)
+            .read_bytes()[self._counters[WRITTEN] :]
+            .decode(errors="replace")
+        )
 
     def _ended(self, what: str) -> Failure:
         said = self._said()
         lines = [line.strip() for line in said.splitlines() if "/poekin/" in line]
-        where = lines[0].rpartition("/poekin/")[2].replace('"', "") if lines and what == "hang" else ""
+        where = (
+            lines[0].rpartition("/poekin/")[2].replace('"', "") if lines and what == "hang" else ""
+        )
         short = said if len(said) < 3000 else f"{said[:1500]}\n...\n{said[-1500:]}"
         return Failure(what, where.partition(",")[0], short or "no traceback", self._counters[AT])
 

@@ -1,4 +1,6 @@
-"""URDF, MJCF and xacro documents out of nothing: most are nearly right, as only such get past the first check."""
+"""URDF, MJCF and xacro documents out of nothing: most are nearly right, as only such get past the
+first check.
+"""
 
 from __future__ import annotations
 
@@ -27,13 +29,19 @@ def urdf(d: Draw) -> str:
     if count > 40:  # room for them all
         parts = [f'<link name="{link}"/>' for link in links]
     for i in range(1, count):
-        parent = links[d.below(i) if d.chance(0.3) else i - 1] if not d.chance(d.odd) else d.pick(links)
+        parent = (
+            links[d.below(i) if d.chance(0.3) else i - 1] if not d.chance(d.odd) else d.pick(links)
+        )
         parts.append(_joint(d, names, parent, links[i], i, following))
     name = d.maybe(f' name="{d.text("r")}"', 0.9)
     space = d.maybe(' xmlns:xacro="http://www.ros.org/wiki/xacro"', d.odd)
     if space:
         parts.append(d.maybe('<xacro:m x="1"/>'))
-    return f"{_head(d)}<{d.word('robot')}{name}{space}>" + d.pick(("", "\n")).join(d.shuffled(parts)) + "</robot>"
+    return (
+        f"{_head(d)}<{d.word('robot')}{name}{space}>"
+        + d.pick(("", "\n")).join(d.shuffled(parts))
+        + "</robot>"
+    )
 
 
 def _head(d: Draw) -> str:
@@ -64,7 +72,11 @@ def _joint(d: Draw, names: list[str], parent: str, child: str, i: int, following
         inside.append(f'<limit{bounds} effort="1"/>')
     if d.chance(following):
         numbers = d.maybe(f' multiplier="{d.number()}"') + d.maybe(f' offset="{d.number()}"')
-        master = d.pick([*names[:i], *names[i + 1 :]]) if not d.chance(d.odd) else d.word(names[i], "gone")
+        master = (
+            d.pick([*names[:i], *names[i + 1 :]])
+            if not d.chance(d.odd)
+            else d.word(names[i], "gone")
+        )
         inside.append(f'<mimic joint="{d.text(master)}"{numbers}/>')
     if d.chance(d.odd):
         inside.append(d.pick(inside))
@@ -78,18 +90,30 @@ def _body(d: Draw) -> str:
 
 
 def mjcf(d: Draw) -> str:
-    angle = d.maybe(f'<compiler angle="{d.word("radian", "degree")}" eulerseq="{d.word("xyz", "ZYX")}"/>', 0.5)
-    defaults = '<default><joint axis="0 1 0"/><default class="c"><joint type="slide"/></default></default>'
+    angle = d.maybe(
+        f'<compiler angle="{d.word("radian", "degree")}" eulerseq="{d.word("xyz", "ZYX")}"/>', 0.5
+    )
+    defaults = (
+        '<default><joint axis="0 1 0"/><default class="c"><joint type="slide"/></default></default>'
+    )
     joints = ["gone"] if d.chance(d.odd) else []
     bodies = "".join(_mjcf_body(d, f"b{i}", 0, joints) for i in range(d.size(2)))
-    extra = "".join(d.pick(EXTRAS).replace("@", d.number()) for _ in range(d.below(3))) if d.chance(0.4) else ""
-    equality = "".join(_equality(d, joints) for _ in range(d.below(5))) if joints and d.chance(0.3) else ""
+    extra = (
+        "".join(d.pick(EXTRAS).replace("@", d.number()) for _ in range(d.below(3)))
+        if d.chance(0.4)
+        else ""
+    )
+    equality = (
+        "".join(_equality(d, joints) for _ in range(d.below(5))) if joints and d.chance(0.3) else ""
+    )
     world = f"<worldbody>{bodies}</worldbody>"
     return f"{_head(d)}<mujoco>{angle}{d.maybe(defaults, 0.4)}{''.join(d.shuffled([world, equality, extra]))}</mujoco>"
 
 
 def _equality(d: Draw, joints: list[str]) -> str:
-    """Of joints that there are; mostly linear, as others are left out, and now and then of one joint alone."""
+    """Of joints that there are; mostly linear, as others are left out, and now and then of one
+    joint alone.
+    """
     ends = f'joint1="{d.pick(joints)}"' + d.maybe(f' joint2="{d.pick(joints)}"', 0.8)
     rest = "0 0 0" if d.chance(0.8) else d.numbers(3)
     kind = d.word("joint") if d.chance(0.9) else 'weld body1="b0" body2="world"'
@@ -131,17 +155,36 @@ EXTRAS = (
 def _mjcf_body(d: Draw, name: str, depth: int, joints: list[str]) -> str:
     place = d.maybe(f' pos="{d.numbers(3)}"', 0.7)
     place += d.pick(
-        ("", f' euler="{d.numbers(3)}"', f' quat="{d.numbers(4)}"', f' axisangle="{d.axis()} {d.number()}"')
+        (
+            "",
+            f' euler="{d.numbers(3)}"',
+            f' quat="{d.numbers(4)}"',
+            f' axisangle="{d.axis()} {d.number()}"',
+        )
     )
-    place += d.maybe(' euler="0 0 1"', d.odd) + d.maybe(' mocap="true"', 0.02 if depth == 0 else d.odd)
+    place += d.maybe(' euler="0 0 1"', d.odd) + d.maybe(
+        ' mocap="true"', 0.02 if depth == 0 else d.odd
+    )
     inside = ""
     for i in range(d.pick((0, 1, 1, 1, 2)) if "mocap" not in place else 0):
-        kind = d.word("hinge", "hinge", "slide", "ball" if not i else "hinge", "free" if depth == i == 0 else "hinge")
+        kind = d.word(
+            "hinge",
+            "hinge",
+            "slide",
+            "ball" if not i else "hinge",
+            "free" if depth == i == 0 else "hinge",
+        )
         joint = d.maybe(d.text(f"{name}j{i or ''}"), 0.9)
-        inside += f'<joint name="{joint}" type="{kind}" axis="{d.axis()}"' if joint else f'<joint type="{kind}"'
+        inside += (
+            f'<joint name="{joint}" type="{kind}" axis="{d.axis()}"'
+            if joint
+            else f'<joint type="{kind}"'
+        )
         if kind in ("hinge", "slide"):
             joints += [joint] if joint else []
-            inside += d.maybe(' range="-1 0.5"' if not d.chance(d.odd) else f' range="{d.numbers(2)}"', 0.2)
+            inside += d.maybe(
+                ' range="-1 0.5"' if not d.chance(d.odd) else f' range="{d.numbers(2)}"', 0.2
+            )
         inside += d.maybe(f' ref="{d.number()}"', 0.2) + d.maybe(' class="c"', d.odd)
         inside += d.maybe(f' pos="{d.numbers(3)}"', 0.3) + "/>"
         if kind == "free":
@@ -157,8 +200,8 @@ def _mjcf_body(d: Draw, name: str, depth: int, joints: list[str]) -> str:
 
 
 def xacro(d: Draw) -> str:
-    """Evaluated, a file does what a program can, and as slowly: these have no arithmetic that takes for ever, and no
-    file that includes itself."""
+    """Evaluated, a file does what a program can, and as slowly: these have no arithmetic that takes
+    for ever, and no file that includes itself."""
     space = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
     parts = [
         f'<xacro:property name="{d.text("x")}" value="{d.number()}"/>',
@@ -167,7 +210,13 @@ def xacro(d: Draw) -> str:
         f'<origin xyz="{d.word("${x}", "${pi}", "$(arg n)", "$(eval 1)")} 0 0"/></joint>',
     ]
     if d.chance(0.2):
-        block = d.pick(('<xacro:insert_block name="c"/>', "<link name='${a}'/>", '<xacro:m a="z"><origin/></xacro:m>'))
+        block = d.pick(
+            (
+                '<xacro:insert_block name="c"/>',
+                "<link name='${a}'/>",
+                '<xacro:m a="z"><origin/></xacro:m>',
+            )
+        )
         parts += [
             f'<xacro:macro name="{d.text("m")}" params="a b:={d.number()} *c"><a b="${{b}}"/>{block}</xacro:macro>',
             f'<xacro:m a="{d.text("a")}"><origin/></xacro:m>',
@@ -178,7 +227,11 @@ def xacro(d: Draw) -> str:
     if d.chance(0.2):
         file = d.word("other.xacro", "other.xacro", "other.xacro", "gone.xacro", "/")
         parts.append(f'<xacro:include filename="{file}"/>')
-        parts.append(d.maybe(f'<xacro:m2 a="a"/><xacro:property name="z" value="{d.word("${y}", "${z}", "${1/0}")}"/>'))
+        parts.append(
+            d.maybe(
+                f'<xacro:m2 a="a"/><xacro:property name="z" value="{d.word("${y}", "${z}", "${1/0}")}"/>'
+            )
+        )
     if d.chance(d.odd):
         parts.append(f'<link name="{d.text("a")}"/>')
     return f'{_head(d)}<robot name="r" {space}>{"".join(d.shuffled(parts) if d.chance(d.odd) else parts)}</robot>'

@@ -1,6 +1,7 @@
 """The bounds that are hunted: cases, and the test's own function that measures error ÷ bound.
 
-One case holds many draws where the test's arithmetic is that of arrays; drawing by Hypothesis takes milliseconds.
+One case holds many draws where the test's arithmetic is that of arrays; drawing by Hypothesis takes
+milliseconds.
 """
 
 from __future__ import annotations
@@ -20,23 +21,17 @@ from poekin.formats.dh.from_chain import FromChain, from_chain
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.robot import Robot
-from poekin.testing import chain_strategies, decoders, dh_strategies
-from poekin.testing.reader import Reader
-from poekin.testing.strategies import pose
-from tests.engine import test_interpret
+from poekin.testing.strategies import chain_strategies, dh_strategies
+from poekin.testing.strategies.decoding import decoders
+from poekin.testing.strategies.decoding.bytes_reader import Reader
+from poekin.testing.strategies.group_strategies import pose
+from tests.engine.straight_line import test_interpret
 from tests.formats import dh_product, test_dh, test_relink, test_urdf_text
-from tests.model import (
-    test_analytic,
-    test_chain,
-    test_compiled,
-    test_hp,
-    test_idealised,
-    test_joint,
-    test_robot,
-    test_screw,
-)
+from tests.model import test_chain, test_idealised, test_joint, test_robot, test_screw
+from tests.model.geometry import test_hp
+from tests.model.kinematics import test_analytic, test_compiled
 from tests.solve import test_motions
-from tests.solve.calibration import test_parameters
+from tests.solve.calibration.model import test_parameters
 
 Cases = st.SearchStrategy[tuple[Any, ...]]
 NUMBERS = st.integers(0, 2**64 - 1)
@@ -51,14 +46,18 @@ class Bound(NamedTuple):
 
 
 def configurations(chain: Any, number: int, rows: int) -> np.ndarray:
-    """As `chain_strategies.coordinates` draws them, (rows, m): one in four a quarter turn or 0, the others up to ±π."""
+    """As `chain_strategies.coordinates` draws them, (rows, m): one in four a quarter turn or 0, the
+    others up to ±π.
+    """
     rng = np.random.default_rng(number)
     q = rng.uniform(-np.pi, np.pi, (rows, chain.dof))
     return np.where(rng.random(q.shape) < 0.25, rng.choice(chain_strategies.QUARTERS, q.shape), q)
 
 
 def with_frames(chain: Any) -> Cases:
-    return st.tuples(st.just(chain), st.sampled_from([*test_compiled.NAMED, *range(len(chain.kinds))]), NUMBERS)
+    return st.tuples(
+        st.just(chain), st.sampled_from([*test_compiled.NAMED, *range(len(chain.kinds))]), NUMBERS
+    )
 
 
 @st.composite
@@ -76,7 +75,9 @@ def with_parameters(draw: st.DrawFn) -> tuple[Any, ...]:
 PARAMETERS = with_parameters()
 
 
-def each(size: int, decode: Callable[[Reader], tuple[Any, ...]], ratio: Callable[..., float]) -> Bound:
+def each(
+    size: int, decode: Callable[[Reader], tuple[Any, ...]], ratio: Callable[..., float]
+) -> Bound:
     """A bound of cases that are read off `size` random bytes each, five hundred at a time."""
 
     def ratios(number: int) -> list[float]:
@@ -88,7 +89,9 @@ def each(size: int, decode: Callable[[Reader], tuple[Any, ...]], ratio: Callable
 
 def axis(r: Reader) -> np.ndarray:
     """A vector of any direction and length, from where floats end; never 0."""
-    return decoders.axis(r) * 10.0 ** r.fraction(*r.pick([(-3.0, 3.0), (-300.0, -290.0), (-3.0, 150.0)]))
+    return decoders.axis(r) * 10.0 ** r.fraction(
+        *r.pick([(-3.0, 3.0), (-300.0, -290.0), (-3.0, 150.0)])
+    )
 
 
 def point(r: Reader) -> np.ndarray:
@@ -100,7 +103,9 @@ def pitch(r: Reader) -> float:
 
 
 def pairs(number: int) -> tuple[np.ndarray, np.ndarray]:
-    """Two poses each, the turn from one to the other near 0, near half a turn, or any; 1e-6 to 1e3 m."""
+    """Two poses each, the turn from one to the other near 0, near half a turn, or any; 1e-6 to 1e3
+    m.
+    """
     rng = np.random.default_rng(number)
 
     def some() -> np.ndarray:
@@ -108,7 +113,9 @@ def pairs(number: int) -> tuple[np.ndarray, np.ndarray]:
         small, kind = 10.0 ** rng.uniform(-16, 0, ROWS), rng.integers(0, 3, ROWS)
         angles = np.choose(kind, [small, np.pi - small, rng.uniform(0, np.pi, ROWS)])
         lengths = 10.0 ** rng.uniform(-6, 3, (ROWS, 1))
-        return se3.exp(np.hstack([w * (angles / np.linalg.norm(w, axis=1))[:, None], places * lengths]))
+        return se3.exp(
+            np.hstack([w * (angles / np.linalg.norm(w, axis=1))[:, None], places * lengths])
+        )
 
     first, turn = some(), some()
     return first, np.where(rng.random((ROWS, 1, 1)) < 0.5, some(), first @ turn)
@@ -131,7 +138,10 @@ def placed(r: Reader, lengths: tuple[float, float] = chain_strategies.REACHES) -
 def turns(r: Reader, count: int) -> np.ndarray:
     """Values of coordinates, as `chain_strategies.coordinates` draws them."""
     return np.array(
-        [r.pick(chain_strategies.QUARTERS) if r.byte() < 64 else r.fraction(-np.pi, np.pi) for _ in range(count)]
+        [
+            r.pick(chain_strategies.QUARTERS) if r.byte() < 64 else r.fraction(-np.pi, np.pi)
+            for _ in range(count)
+        ]
     )
 
 
@@ -142,7 +152,11 @@ def redrawn(chain: pk.Chain, r: Reader) -> pk.Chain:
         w, p = decoders.axis(r), decoders.vector(r, chain_strategies.REACHES)
         if kind == "prismatic":
             return screw.prismatic(w)
-        return screw.helical(w, p, r.pick([0.1, 1e-3, -0.5])) if kind == "helical" else screw.revolute(w, p)
+        return (
+            screw.helical(w, p, r.pick([0.1, 1e-3, -0.5]))
+            if kind == "helical"
+            else screw.revolute(w, p)
+        )
 
     A = [made(kind) for kind in chain.kinds]
     return pk.Chain(
@@ -152,7 +166,9 @@ def redrawn(chain: pk.Chain, r: Reader) -> pk.Chain:
 
 
 def each_of(chains: st.SearchStrategy[pk.Chain], ratio: Callable[..., float]) -> Bound:
-    """A bound of chains: each that Hypothesis draws, and two hundred with its joints' kinds and couplings."""
+    """A bound of chains: each that Hypothesis draws, and two hundred with its joints' kinds and
+    couplings.
+    """
 
     def ratios(chain: pk.Chain, number: int) -> list[float]:
         rng = np.random.default_rng(number)
@@ -178,7 +194,9 @@ FOUR = chain_strategies.chains(min_joints=1, max_joints=4)
 BOUNDS = {
     "machine code": Bound(
         chain_strategies.chains(min_joints=1, max_joints=6).flatmap(with_frames),
-        lambda chain, frame, n: test_compiled.apart(chain, configurations(chain, n, 2000), (frame,), alone=False),
+        lambda chain, frame, n: test_compiled.apart(
+            chain, configurations(chain, n, 2000), (frame,), alone=False
+        ),
     ),
     "program": Bound(
         chain_strategies.chains(max_joints=7).flatmap(with_frames),
@@ -198,14 +216,18 @@ BOUNDS = {
     ),
     "idealised geometry": Bound(
         st.tuples(chain_strategies.chains(), st.sampled_from([1e-9, 1e-5, 1e-3, 0.05]), NUMBERS),
-        lambda chain, tol, n: test_idealised.shares(chain, chain.idealised(tol), chain.random(n, 500)),
+        lambda chain, tol, n: test_idealised.shares(
+            chain, chain.idealised(tol), chain.random(n, 500)
+        ),
     ),
     "relinked branch": Bound(
         st.tuples(test_relink.cases(), NUMBERS), lambda case, n: test_relink.off(case, n, rows=500)
     ),
     "relinked frames": Bound(
         st.tuples(test_relink.cases(), NUMBERS),
-        lambda case, n: np.concatenate([test_relink.frames_off(one) for one in relinkings(case, n)]),
+        lambda case, n: np.concatenate(
+            [test_relink.frames_off(one) for one in relinkings(case, n)]
+        ),
     ),
     "maps of rates": Bound(
         st.tuples(chain_strategies.chains(max_joints=6), NUMBERS),
@@ -215,7 +237,9 @@ BOUNDS = {
         st.tuples(chain_strategies.chains(max_joints=6), NUMBERS),
         lambda chain, n: test_analytic.numbers_off(chain, configurations(chain, n, 500)),
     ),
-    "parameters' slopes": Bound(PARAMETERS, lambda arm, p, q: test_parameters.slopes_off(arm, p, q, np.arange(len(p)))),
+    "parameters' slopes": Bound(
+        PARAMETERS, lambda arm, p, q: test_parameters.slopes_off(arm, p, q, np.arange(len(p)))
+    ),
     "parameters' chain": Bound(PARAMETERS, test_parameters.chain_off),
     "robot out of its text": Bound(
         st.tuples(test_urdf_text.limited(), NUMBERS),
@@ -237,16 +261,24 @@ BOUNDS = {
         st.tuples(dh_strategies.tables().map(to_chain), test_dh.CONVENTIONS),
         lambda chain, convention: share(from_chain(chain, convention=convention)),
     ),
-    "rebased screws": each_of(FOUR, lambda chain, r: test_chain.rebased_off(chain, placed(r, (1e-3, 1e6)))),
+    "rebased screws": each_of(
+        FOUR, lambda chain, r: test_chain.rebased_off(chain, placed(r, (1e-3, 1e6)))
+    ),
     "rezeroed screws": each_of(
-        FOUR, lambda chain, r: test_chain.rezeroed_off(chain, turns(r, chain.dof) * 10.0 ** r.fraction(-1.0, 4.0))
+        FOUR,
+        lambda chain, r: test_chain.rezeroed_off(
+            chain, turns(r, chain.dof) * 10.0 ** r.fraction(-1.0, 4.0)
+        ),
     ),
     "screw of an axis": each(60, lambda r: (axis(r), point(r), pitch(r)), test_screw.made_off),
     "axis of a screw": each(60, lambda r: (axis(r), point(r), pitch(r)), test_screw.read_off),
-    "point on an axis": each(60, lambda r: (axis(r), point(r), r.fraction(-7.0, 7.0)), test_screw.moved_off),
+    "point on an axis": each(
+        60, lambda r: (axis(r), point(r), r.fraction(-7.0, 7.0)), test_screw.moved_off
+    ),
     "joint's axis": each(40, lambda r: (axis(r).tolist(),), test_joint.axis_off),
     "path's end": Bound(
-        st.tuples(st.sampled_from(test_motions.PATHS), PAIRS), lambda f, T: test_motions.end_off(f, T[0], T[1])
+        st.tuples(st.sampled_from(test_motions.PATHS), PAIRS),
+        lambda f, T: test_motions.end_off(f, T[0], T[1]),
     ),
     "screw motion's twist": Bound(
         st.tuples(PAIRS, NUMBERS), lambda T, n: test_motions.twist_off(T[0], T[1], *parts(n, ROWS))

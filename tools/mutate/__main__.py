@@ -1,10 +1,11 @@
 """The command line: run mutants, all or a seeded sample, and say what the suite caught.
 
-Outcomes are kept in build/mutants/results.jsonl; a run that is begun again goes on where it ended, and tries again
-those that survived. A mutant's key holds the text of its module: after an edit there its mutants are new. An edit
-elsewhere makes none new: what was caught by a test that has been weakened or removed since still counts as caught, and
-so does what was caught while another module was as it was. The run says how many outcomes are of earlier runs; a figure
-to be relied upon is of one run with --afresh, which runs all the chosen ones again.
+Outcomes are kept in build/mutants/results.jsonl; a run that is begun again goes on where it ended,
+and tries again those that survived. A mutant's key holds the text of its module: after an edit
+there its mutants are new. An edit elsewhere makes none new: what was caught by a test that has been
+weakened or removed since still counts as caught, and so does what was caught while another module
+was as it was. The run says how many outcomes are of earlier runs; a figure to be relied upon is of
+one run with --afresh, which runs all the chosen ones again.
 A sample holds of each room in proportion; `sample.py` says when it fails.
 """
 
@@ -33,7 +34,8 @@ MODULES_TOLD = 12  # up to here the table is by module too
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Exit code 0 where the bars are held, 1 where they are not, 2 where the suite fails by itself."""
+    """Exit code 0 where the bars are held, 1 where they are not, 2 where the suite fails by itself.
+    """
     parser = argparse.ArgumentParser(prog="python -m tools.mutate", description=__doc__)
     parser.add_argument("--sample", type=int, help="this many, drawn from all by the seed")
     parser.add_argument("--seed", type=int, default=0)

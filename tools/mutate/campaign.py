@@ -1,4 +1,6 @@
-"""Run mutants: copies of the tree, a server in each, jobs by module, and each outcome kept as soon as it is known."""
+"""Run mutants: copies of the tree, a server in each, jobs by module, and each outcome kept as soon
+as it is known.
+"""
 
 from __future__ import annotations
 
@@ -45,7 +47,9 @@ class Server:
         )
 
     def ask(self, path: str, source: str | None, sessions: list[list[str]]) -> Outcome:
-        """The outcome of the sessions with that source in place of the module's, or as it is where that is None."""
+        """The outcome of the sessions with that source in place of the module's, or as it is where
+        that is None.
+        """
         assert self._process.stdin
         assert self._process.stdout
         mode = suites.mode(path)

@@ -1,8 +1,9 @@
-"""The mutants that no test can catch, because they do what the module does: a list kept by hand, each with its reason.
+"""The mutants that no test can catch, because they do what the module does: a list kept by hand,
+each with its reason.
 
-An entry names the file, the function (may be left out at module level), the line as it is, and the lines that it may
-become; no line numbers, so that an edit elsewhere leaves the list as it is. The list of each room lies in
-equivalent/<room>.toml.
+An entry names the file, the function (may be left out at module level), the line as it is, and the
+lines that it may become; no line numbers, so that an edit elsewhere leaves the list as it is. The
+list of each room lies in equivalent/<room>.toml.
 """
 
 from __future__ import annotations
@@ -42,7 +43,9 @@ def entries(text: str | None = None) -> list[Entry]:
 
 
 def listed(mutants: list[Mutant], known: list[Entry]) -> tuple[dict[str, str], list[Entry]]:
-    """Key to reason of the mutants on the list, and the entries that are no mutant: stale, or misspelt."""
+    """Key to reason of the mutants on the list, and the entries that are no mutant: stale, or
+    misspelt.
+    """
     reasons = {(e.path, e.definition, e.old, e.new): e for e in known}
     found, used = {}, set()
     for m in mutants:

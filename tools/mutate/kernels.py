@@ -1,10 +1,12 @@
-"""Compiled kernels for mutants: made once from the source as it is, handed out by links, and never taken from a mutant.
+"""Compiled kernels for mutants: made once from the source as it is, handed out by links, and never
+taken from a mutant.
 
-The cache's key covers the source of algebra, formulas and engine, so a mutant there finds nothing of the others. Where
-it takes part in compiling it is given an empty place. Any other mutant is given a place of its own with the kernels of
-Numba, whose whole source is in their key, but not with the code of an arm, which depends on what the model makes of the
-arm, and so on the mutant. To use kernels with a mutant of the engine, its process is told the key of the source as it
-is, and the kernels that the mutant is compiled into are not among them either.
+The cache's key covers the source of algebra, formulas and engine, so a mutant there finds nothing
+of the others. Where it takes part in compiling it is given an empty place. Any other mutant is
+given a place of its own with the kernels of Numba, whose whole source is in their key, but not with
+the code of an arm, which depends on what the model makes of the arm, and so on the mutant. To use
+kernels with a mutant of the engine, its process is told the key of the source as it is, and the
+kernels that the mutant is compiled into are not among them either.
 """
 
 from __future__ import annotations
@@ -28,16 +30,18 @@ _OF_AN_ARM = "arm-"
 def main() -> None:
     """Make every kernel of the package ready, in the cache that POEKIN_CACHE_DIR names."""
     from poekin import engine
-    from poekin.engine.kernel import Kernel
+    from poekin.engine.jit.kernel import Kernel
 
-    for info in pkgutil.iter_modules(engine.__path__):
-        for value in vars(importlib.import_module(f"{engine.__name__}.{info.name}")).values():
+    for info in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}."):
+        for value in vars(importlib.import_module(info.name)).values():
             if isinstance(value, Kernel):
                 value.ready()
 
 
 def prepared(root: Path, place: Path) -> Path:
-    """A cache in `place` with every kernel of the package; what this user's own cache has is copied."""
+    """A cache in `place` with every kernel of the package; what this user's own cache has is
+    copied.
+    """
     place.mkdir(mode=0o700)
     known = _user_cache(root)
     for entry in known.glob("*.kernel") if known else ():
@@ -51,7 +55,7 @@ def prepared(root: Path, place: Path) -> Path:
 
 def _user_cache(root: Path) -> Path | None:
     said = subprocess.run(
-        [sys.executable, "-c", "from poekin.engine.cache import directory; print(directory() or '')"],
+        [sys.executable, "-c", "from poekin.engine.jit.cache import directory; print(directory() or '')"],
         cwd=root, capture_output=True, text=True, check=True,
     )  # fmt: skip
     return Path(said.stdout.strip()) if said.stdout.strip() else None
@@ -59,7 +63,9 @@ def _user_cache(root: Path) -> Path | None:
 
 @contextlib.contextmanager
 def offered(known: Path | None, mode: Mode, place: Path, without: Iterable[str] = ()) -> Iterator[str]:
-    """What POEKIN_CACHE_DIR is for one job: nothing, or a place of its own, without the kernels of these names."""
+    """What POEKIN_CACHE_DIR is for one job: nothing, or a place of its own, without the kernels of
+    these names.
+    """
     if mode is Mode.INTERPRETED:
         yield ""
         return

@@ -1,8 +1,9 @@
-"""Errors in what is said: cosmic-ray has no operator for text, and a sentence that names the wrong joint is an error.
+"""Errors in what is said: cosmic-ray has no operator for text, and a sentence that names the wrong
+joint is an error.
 
-Three small ones, with cosmic-ray's interface: a field of an f-string is left out, two neighbouring fields of one change
-places, and a number in a sentence is one larger. A sentence is a string with a space in it; docstrings and format
-specifications are left alone.
+Three small ones, with cosmic-ray's interface: a field of an f-string is left out, two neighbouring
+fields of one change places, and a number in a sentence is one larger. A sentence is a string with a
+space in it; docstrings and format specifications are left alone.
 """
 
 from __future__ import annotations

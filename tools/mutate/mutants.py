@@ -1,8 +1,9 @@
-"""What can be changed in a module, one mutant a place: the operators are cosmic-ray's, and so is its reading of source;
-those of `messages` change what is said.
+"""What can be changed in a module, one mutant a place: the operators are cosmic-ray's, and so is
+its reading of source; those of `messages` change what is said.
 
-cosmic-ray writes a mutant by walking the whole tree once more; here the changed node's text is put into the source,
-which gives the same text (a test compares them) and takes milliseconds for all mutants of a module.
+cosmic-ray writes a mutant by walking the whole tree once more; here the changed node's text is put
+into the source, which gives the same text (a test compares them) and takes milliseconds for all
+mutants of a module.
 """
 
 from __future__ import annotations
@@ -34,7 +35,9 @@ _ARITHMETIC = {"arith_expr", "term", "power", "shift_expr", "expr", "and_expr", 
 
 @dataclass(frozen=True)
 class Mutant:
-    """One change: where it is, what made it, the first line that differs, and the span of the source it replaces."""
+    """One change: where it is, what made it, the first line that differs, and the span of the
+    source it replaces.
+    """
 
     path: str
     operator: str
@@ -64,7 +67,9 @@ def paths(root: Path) -> list[str]:
 
 
 def room(path: str) -> str:
-    """The folder below the package; the algebra is of the formulas, other single files are of "errors"."""
+    """The folder below the package; the algebra is of the formulas, other single files are of
+    "errors".
+    """
     first, *rest = path.split("/")[1:]
     return first if rest else "formulas" if first == "algebra.py" else "errors"
 
@@ -87,7 +92,8 @@ def mutants_of(path: str, source: str) -> list[Mutant]:
             row, column = node.get_start_pos_of_prefix()
             begin, last = begins[row - 1] + column, min(node.end_pos[0] + 2, len(lines))
             end, text = begin + len(node.get_code()), changed(operator, node, index)
-            # the lines of the change and two more: those before are as they were, and those after are seldom asked for
+            # the lines of the change and two more: those before are as they were, and those after
+            # are seldom asked for
             after = (source[begins[row - 1] : begin] + text + source[end : ends[last - 1] - 1]).split("\n")
             found_at = _differs(lines[row - 1 : last], after, start[0] - row)
             if found_at is None:
@@ -105,7 +111,9 @@ def mutants_of(path: str, source: str) -> list[Mutant]:
 
 
 def _asked(nodes: list[Any]) -> Callable[[str], list[Any]]:
-    """The nodes that an operator can change, by its name: of 213 operators 196 replace a sign by another one."""
+    """The nodes that an operator can change, by its name: of 213 operators 196 replace a sign by
+    another one.
+    """
     signs = [node for node in nodes if node.type == "operator" and node.value not in "()[]{},.:;="]
     comparisons = [node for node in nodes if node.type == "comparison"]
     unary = [node for node in nodes if node.type in ("factor", "not_test")]
@@ -114,9 +122,12 @@ def _asked(nodes: list[Any]) -> Callable[[str], list[Any]]:
 
 
 def _differs(lines: list[str], after: list[str], place: int) -> int | None:
-    """The line of the place where something was changed, or the first one that differs; None where none does."""
+    """The line of the place where something was changed, or else the first one that differs.
+
+    The first one too where a break before the place was lost, as then its lines are not the same.
+    """
     pairs = list(zip(lines, after, strict=False))
-    if place < len(pairs) and pairs[place][0] != pairs[place][1]:
+    if len(lines) == len(after) and pairs[place][0] != pairs[place][1]:
         return place
     return next((k for k, (old, new) in enumerate(pairs) if old != new), None)
 
@@ -125,9 +136,10 @@ def _differs(lines: list[str], after: list[str], place: int) -> int | None:
 def operators() -> tuple[tuple[str, Any], ...]:
     """cosmic-ray's operators by name, and those of `messages`; all but four.
 
-    VariableReplacer and VariableInserter want to be told of which variables, and put a random number in their place or
-    an operation drawn at random beside them, so that no two runs would plant the same. `==` does not become `is`, nor
-    `!=` `is not`: for small integers and most strings they do the same.
+    VariableReplacer and VariableInserter want to be told of which variables, and put a random
+    number in their place or an operation drawn at random beside them, so that no two runs would
+    plant the same. `==` does not become `is`, nor `!=` `is not`: for small integers and most
+    strings they do the same.
     """
     names = sorted(set(cosmic_ray.plugins.operator_names()) - set(_UNDEFINED))
     classes = [(name, cosmic_ray.plugins.get_operator(name)) for name in names]
@@ -149,7 +161,9 @@ def changed(operator: Any, node: Any, index: int) -> str:
 
 
 def hints(source: str) -> list[tuple[tuple[int, int], tuple[int, int]]]:
-    """Where the annotations of a module stand: with `from __future__ import annotations` nothing there ever runs."""
+    """Where the annotations of a module stand: with `from __future__ import annotations` nothing
+    there ever runs.
+    """
     tree = ast.parse(source)
     if not any(isinstance(node, ast.ImportFrom) and node.module == "__future__" for node in tree.body):
         return []
@@ -174,8 +188,9 @@ def column(source: str, node: ast.expr, end: bool = False) -> int:
 
 
 def _no_operation(name: str, node: Any) -> bool:
-    """Whether a `*`, `**` or `/` is no operation of two numbers: that of a signature or of a display. And whether an
-    exception has a dotted name, which cosmic-ray's ExceptionReplacer cannot write.
+    """Whether a `*`, `**` or `/` is no operation of two numbers: that of a signature or of a
+    display. And whether an exception has a dotted name, which cosmic-ray's ExceptionReplacer cannot
+    write.
     """
     if name == "core/ExceptionReplacer":
         return "." in node.children[1].get_code()

@@ -1,6 +1,8 @@
-"""What pytest does differently when it judges a mutant: the first failure ends it, and so does what takes too long.
+"""What pytest does differently when it judges a mutant: the first failure ends it, and so does what
+takes too long.
 
-A property that is broken is broken: its smallest counterexample would take minutes, and nobody would read it.
+A property that is broken is broken: its smallest counterexample would take minutes, and nobody
+would read it.
 """
 
 from __future__ import annotations
@@ -17,7 +19,8 @@ _BEYOND = 30  # then the signal that Python sees has not helped: the loop is ins
 
 
 class Judge:
-    """Calls `said` with "caught" or "timeout" and the test, once, and the process is to end there."""
+    """Calls `said` with "caught" or "timeout" and the test, once, and the process is to end there.
+    """
 
     def __init__(self, said: Callable[[str, str], None]):
         self._said, self._running = said, "collection"

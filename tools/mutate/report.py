@@ -1,4 +1,6 @@
-"""What came of the mutants: a table by room or by module, and each survivor as the change that nobody saw."""
+"""What came of the mutants: a table by room or by module, and each survivor as the change that
+nobody saw.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ HEAD = ("mutants", "run", "caught", "by time", "equivalent", "survived", "caught
 
 
 def kind(mutant: Mutant, outcomes: Mapping[str, Outcome], listed: Mapping[str, str]) -> str:
-    """`caught`, `timeout` (caught too), `equivalent`, `survived`, `not run`; `wrong`: listed, yet a test caught it."""
+    """`caught`, `timeout` (caught too), `equivalent`, `survived`, `not run`; `wrong`: listed, yet a
+    test caught it.
+    """
     outcome = outcomes.get(mutant.key)
     if outcome is None:
         return "not run"

@@ -1,10 +1,13 @@
-"""Which mutants are drawn, and what their outcomes say of all: bars by room, and when a sample proves one broken.
+"""Which mutants are drawn, and what their outcomes say of all: bars by room, and when a sample
+proves one broken.
 
-A sample holds of each room in proportion. Where all mutants of a room were run its share is compared with the bar. A
-sample of a few from a room scatters: it fails where so many survivors would be seen in less than one sample of a
-thousand if the room were exactly at its bar, and the whole sample where that holds of all rooms together in less than
-one of a hundred. A run that fails so proves an untested place; one that passes proves no share. As most that the tests
-near a module let through others catch, which takes minutes for each, these are tried only where the sample fails else.
+A sample holds of each room in proportion. Where all mutants of a room were run its share is
+compared with the bar. A sample of a few from a room scatters: it fails where so many survivors
+would be seen in less than one sample of a thousand if the room were exactly at its bar, and the
+whole sample where that holds of all rooms together in less than one of a hundred. A run that fails
+so proves an untested place; one that passes proves no share. As most that the tests near a module
+let through others catch, which takes minutes for each, these are tried only where the sample fails
+else.
 """
 
 from __future__ import annotations
@@ -29,7 +32,8 @@ def bar(room: str) -> float:
 
 
 def drawn(mutants: Sequence[Mutant], size: int, seed: int) -> list[Mutant]:
-    """That many, of each room in proportion to what it has; the remainders' largest are rounded up."""
+    """That many, of each room in proportion to what it has; the remainders' largest are rounded up.
+    """
     if size >= len(mutants):
         return list(mutants)
     rooms: dict[str, list[int]] = {}
@@ -45,7 +49,9 @@ def drawn(mutants: Sequence[Mutant], size: int, seed: int) -> list[Mutant]:
 
 
 def chance(survivors: int, sizes: Mapping[str, int]) -> float:
-    """How likely at least so many survivors are where each room is exactly at its bar; `sizes` are drawn of each."""
+    """How likely at least so many survivors are where each room is exactly at its bar; `sizes` are
+    drawn of each.
+    """
     spread = np.ones(1)  # the probability of each number of survivors
     for name, size in sizes.items():
         p = 1 - bar(name)

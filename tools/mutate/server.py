@@ -1,7 +1,9 @@
-"""The process that runs mutants: it has the libraries loaded, and forks a child for each run of pytest.
+"""The process that runs mutants: it has the libraries loaded, and forks a child for each run of
+pytest.
 
-It works in its own copy of the tree (the current directory), where it writes a mutant and takes it back. One job a line
-comes in as JSON, one answer goes out. The first argument is the place of the kernels that are compiled already, or "".
+It works in its own copy of the tree (the current directory), where it writes a mutant and takes it
+back. One job a line comes in as JSON, one answer goes out. The first argument is the place of the
+kernels that are compiled already, or "".
 """
 
 from __future__ import annotations
@@ -41,7 +43,8 @@ SETTINGS = {
 }
 KEY = "MUTANTS_SOURCE_KEY"
 PLUGINS = ("_hypothesis_pytestplugin", "pytest_timeout", *(f"no:{name}" for name in _NOT_NEEDED))
-EPOCH = 1_000_000_000  # when the files of a copy were written: no bytecode of theirs can pass for that of a mutant
+# when the files of a copy were written: no bytecode of theirs can pass for that of a mutant
+EPOCH = 1_000_000_000
 _MEMORY = 4 * 2**30
 _WALL = 1800.0  # s, of one run of pytest: only a child that sleeps gets there
 
@@ -64,8 +67,10 @@ def main() -> None:
 
 
 def _source_key(tree: Path) -> str:
-    """The cache's key of the source as it is; asked in a child, as this process is to load nothing of the package."""
-    ask = "from poekin.engine.source import LOADED; print(LOADED)"
+    """The cache's key of the source as it is; asked in a child, as this process is to load nothing
+    of the package.
+    """
+    ask = "from poekin.engine.jit.source_hash import LOADED; print(LOADED)"
     return subprocess.run(
         [sys.executable, "-c", ask], cwd=tree, capture_output=True, text=True, check=True
     ).stdout.strip()
@@ -74,7 +79,9 @@ def _source_key(tree: Path) -> str:
 def answered(
     tree: Path, path: str, source: str | None, sessions: list[list[str]], settings: dict[str, str]
 ) -> dict[str, Any]:
-    """The outcome of the sessions, run in order up to the first that fails, with the mutant in place of its module."""
+    """The outcome of the sessions, run in order up to the first that fails, with the mutant in
+    place of its module.
+    """
     file = tree / path if source is not None else None
     original = file.read_bytes() if file else b""
     start, before = time.monotonic(), _of_children()
@@ -111,7 +118,8 @@ def _session(tree: Path, arguments: list[str], mutated: bool, settings: dict[str
         _judge(tree, arguments, writing)
     os.close(writing)
     in_time = bool(select.select([reading], [], [], _WALL)[0])
-    message = os.read(reading, 1 << 16) if in_time else b""  # whole: it is shorter than what a pipe takes at once
+    # whole: it is shorter than what a pipe takes at once
+    message = os.read(reading, 1 << 16) if in_time else b""
     os.close(reading)
     with contextlib.suppress(ProcessLookupError):
         os.killpg(child, signal.SIGKILL)  # and whatever its tests have started
@@ -156,7 +164,7 @@ def _judge(tree: Path, arguments: list[str], writing: int) -> None:
 
     if os.environ.get(KEY):
         with contextlib.suppress(Exception):  # what cannot be imported, the tests will find
-            vars(importlib.import_module("poekin.engine.source"))["LOADED"] = os.environ[KEY]
+            vars(importlib.import_module("poekin.engine.jit.source_hash"))["LOADED"] = os.environ[KEY]
     options = ["-q", "-W", "ignore::pytest.PytestAssertRewriteWarning"]
     options += [word for plugin in PLUGINS for word in ("-p", plugin)]
     code = int(pytest.main([*options, *arguments], plugins=[Judge(send)]))

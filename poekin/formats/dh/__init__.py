@@ -1,9 +1,21 @@
-"""Denavit-Hartenberg tables, standard (Paul) and modified (Craig): into screws and back, and as files."""
+"""Denavit-Hartenberg tables, standard (Paul) and modified (Craig): into screws and back, and as
+files.
+"""
 
-from .files import read, write
 from .from_chain import FromChain, from_chain
 from .published_tables import published
 from .table import Row, Table
+from .table_io import read, write
 from .to_chain import to_chain, to_robot
 
-__all__ = ["FromChain", "Row", "Table", "from_chain", "published", "read", "to_chain", "to_robot", "write"]
+__all__ = [
+    "FromChain",
+    "Row",
+    "Table",
+    "from_chain",
+    "published",
+    "read",
+    "to_chain",
+    "to_robot",
+    "write",
+]

@@ -12,7 +12,7 @@ from ...algebra import add, cross, dot, scale, subtract
 from ...errors import InputError, shown, told
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ...model.normals import (
+from ...model.geometry.normals import (  # fmt: skip
     Normal,
     Vector,
     across,
@@ -23,7 +23,7 @@ from ...model.normals import (
     length,
     parallel_normal,
     unit,
-)  # fmt: skip
+)
 from .table import CONVENTIONS, Row, Table
 from .to_chain import to_chain
 
@@ -36,9 +36,10 @@ FAR = 10
 class FromChain:
     """A chain as a DH table.
 
-    Attributes: table; gauge, what was free and how it was chosen, a line a choice; error, the largest pose error of
-    the table against the chain over random configurations (rotations absolute, lengths as multiples of the reach);
-    bound, what it may come to; warnings, with numbers, where DH is ill-conditioned.
+    Attributes: table; gauge, what was free and how it was chosen, a line a choice; error, the
+    largest pose error of
+    the table against the chain over random configurations (rotations absolute, lengths as multiples
+    of the reach); bound, what it may come to; warnings, with numbers, where DH is ill-conditioned.
     """
 
     table: Table
@@ -48,39 +49,53 @@ class FromChain:
     warnings: tuple[str, ...]
 
 
-def from_chain(chain: Chain, *, convention: str = "standard", samples: int = 100, seed: int = 0) -> FromChain:
+def from_chain(
+    chain: Chain, *, convention: str = "standard", samples: int = 100, seed: int = 0
+) -> FromChain:
     """The DH table of a chain of revolute and prismatic joints, in either convention.
 
-    The table's variables are the joints' own, x = C q + c of a coupled chain. Base and tool carry what the rows
-    cannot. Parallel axes: the common normal is taken at the previous frame's origin (d = 0); meeting axes: x is along
-    z_i x z_{i+1}; a prismatic axis, which has no place, goes through the previous origin, the first frame stands where
-    axis 1 is nearest to the base's origin, the last where axis n is nearest to the tool's. Axes so nearly parallel that
-    the table's rounding would cost more than their angle are taken as parallel, and that is said.
+    The table's variables are the joints' own, x = C q + c of a coupled chain. Base and tool carry
+    what the rows
+    cannot. Parallel axes: the common normal is taken at the previous frame's origin (d = 0);
+    meeting axes: x is along z_i x z_{i+1}; a prismatic axis, which has no place, goes through the
+    previous origin, the first frame stands where axis 1 is nearest to the base's origin, the last
+    where axis n is nearest to the tool's. Axes so nearly parallel that the table's rounding would
+    cost more than their angle are taken as parallel, and that is said.
 
     Parameters: chain; convention, "standard" or "modified"; samples and seed of the measured error.
-    Returns: FromChain. Raises: InputError for a helical joint, which DH cannot express, and an unknown convention.
-    Accuracy: `bound`: 20 u (n + 1) (reach + max(|d|, |a|)) over the reach, u = 2^-53, plus 2 delta max(1, l / reach)
-    for each angle delta that was dropped, l the sum of the table's lengths, as the table may have the axis far from the
-    tool (tests/formats/test_dh.py). Source: Park 1994, Section II; the geometry is that of the axes.
+    Returns: FromChain. Raises: InputError for a helical joint, which DH cannot express, and an
+    unknown convention. Accuracy: `bound`: 20 u (n + 1) (reach + max(|d|, |a|)) over the reach, u =
+    2^-53, plus 2 delta max(1, l / reach) for each angle delta that was dropped, l the sum of the
+    table's lengths, as the table may have the axis far from the tool (tests/formats/test_dh.py).
+    Source: Park 1994, Section II; the geometry is that of the axes.
     """
     if not isinstance(chain, Chain):
-        raise InputError(f"from_chain: expected a Chain, as Robot.chain(tip=...) makes it, got {told(chain)}")
+        raise InputError(
+            f"from_chain: expected a Chain, as Robot.chain(tip=...) makes it, got {told(chain)}"
+        )
     if convention not in CONVENTIONS:
         raise InputError(f"convention: expected 'standard' or 'modified', got {convention!r:.60}")
     for name, kind in zip(chain.joint_names, chain.kinds, strict=True):
         if kind == "helical":
-            raise InputError(f"joint {shown(name)} is helical: Denavit-Hartenberg parameters cannot express its pitch")
+            raise InputError(
+                f"joint {shown(name)} is helical: Denavit-Hartenberg parameters cannot express its pitch"
+            )
     with digits():
         walk = _Walk(chain)
         table = walk.table(convention)
     lengths = [0.0, *np.abs(table.d).tolist(), *np.abs(table.a).tolist()]
     bound = 20 * UNIT * (len(table) + 1) * (1 + max(lengths) / chain.reach)
     if walk.dropped:
-        # A joint that turns about an axis off by delta turns what is behind it by at most 2 delta more or less, and
-        # moves the tool by that times its distance: the lengths behind, and the metre that each slide is measured over.
-        away = sum(lengths) + float(np.linalg.norm(table.tool[:3, 3])) + chain.kinds.count("prismatic")
+        # A joint that turns about an axis off by delta turns what is behind it by at most 2 delta
+        # more or less, and moves the tool by that times its distance: the lengths behind, and the
+        # metre that each slide is measured over.
+        away = (
+            sum(lengths) + float(np.linalg.norm(table.tool[:3, 3])) + chain.kinds.count("prismatic")
+        )
         bound += 2 * sum(walk.dropped) * max(1.0, away / chain.reach)
-    return FromChain(table, tuple(walk.gauge), _error(chain, table, samples, seed), bound, tuple(walk.warnings))
+    return FromChain(
+        table, tuple(walk.gauge), _error(chain, table, samples, seed), bound, tuple(walk.warnings)
+    )
 
 
 class _Walk:
@@ -100,35 +115,51 @@ class _Walk:
         z, o = self._axis(0, _ORIGIN)
         x = unit(across(_AXES[0] if abs(z[0]) < Decimal("0.9") else _AXES[1], z))
         self.base = (x, z, o)
-        self.gauge.append(f"zero of {self._name(0)} and place along its axis: nearest to the base frame")
+        self.gauge.append(
+            f"zero of {self._name(0)} and place along its axis: nearest to the base frame"
+        )
         for i in range(n - 1):
             near = self._near(o, z)
             if chain.kinds[i + 1] == "prismatic":
-                self.gauge.append(f"axis of {self._name(i + 1)} has no place: put through the origin before it")
+                self.gauge.append(
+                    f"axis of {self._name(i + 1)} has no place: put through the origin before it"
+                )
             z2, p2 = self._axis(i + 1, near)
             normal, z2 = self._normal(i, near, z, p2, z2, x)
             self.turns.append(_turn(x, normal.x, z, subtract(normal.foot, o)))
-            self.normals.append((float(normal.a), math.atan2(float(normal.sine), float(normal.cosine))))
+            self.normals.append(
+                (float(normal.a), math.atan2(float(normal.sine), float(normal.cosine)))
+            )
             x, z, o = normal.x, z2, add(normal.foot, scale(normal.a, normal.x))
         along = dot(subtract(exact(chain.home[:3, 3]), o), z)
         self.turns.append((0.0, float(along)))
-        self.gauge.append(f"last frame: on the axis of {self._name(n - 1)}, nearest to the tool, theta = 0")
+        self.gauge.append(
+            f"last frame: on the axis of {self._name(n - 1)}, nearest to the tool, theta = 0"
+        )
         self.last = (x, z, add(o, scale(Decimal(float(along)), z)))
 
     def _near(self, o: Vector, z: Vector) -> Vector:
-        """The origin, or where that is far from the arm, the axis' point that is nearest to the base."""
+        """The origin, or where that is far from the arm, the axis' point that is nearest to the
+        base.
+        """
         return o if length(o) <= self.reach * FAR else subtract(o, scale(dot(o, z), z))
 
     def _axis(self, i: int, origin: Vector) -> tuple[Vector, Vector]:
         """Direction and a point of axis i, nearest to `origin`; a prismatic one passes through it."""
         return axis_near(self.chain.screws[i], self.chain.kinds[i] == "prismatic", origin)
 
-    def _normal(self, i: int, o: Vector, z: Vector, p2: Vector, z2: Vector, x: Vector) -> tuple[Normal, Vector]:
-        """The common normal of axes i and i + 1, and the direction of axis i + 1 that the table will have."""
+    def _normal(
+        self, i: int, o: Vector, z: Vector, p2: Vector, z2: Vector, x: Vector
+    ) -> tuple[Normal, Vector]:
+        """The common normal of axes i and i + 1, and the direction of axis i + 1 that the table
+        will have.
+        """
         angle, nothing = length(cross(z, z2)), self.reach * Decimal("1e-16")
         names = f"{self._name(i)} and {self._name(i + 1)}"
         if angle == 0:
-            self.gauge.append(f"axes of {names} are parallel: their normal is taken at the origin before it")
+            self.gauge.append(
+                f"axes of {names} are parallel: their normal is taken at the origin before it"
+            )
             return parallel_normal(o, z, p2, z2, x, nothing), z2
         normal = common_normal(o, z, p2, z2)
         away = max(length(subtract(normal.foot, o)), length(subtract(p2, normal.foot)))
@@ -158,7 +189,9 @@ class _Walk:
         chain, n = self.chain, len(self.turns)
         if not n:
             return Table(convention, [], tool=chain.home, name=chain.tip)
-        links = [*self.normals, (0.0, 0.0)] if convention == "standard" else [(0.0, 0.0), *self.normals]
+        links = (
+            [*self.normals, (0.0, 0.0)] if convention == "standard" else [(0.0, 0.0), *self.normals]
+        )
         limits = _limits(chain)
         rows = [
             Row(theta, d, a, alpha, chain.kinds[i], False, chain.joint_names[i], limits[i])
@@ -188,7 +221,11 @@ def _limits(chain: Chain) -> list[tuple[float, float]]:
     found = []
     for row, shift in zip(chain.coupling, chain.offset.tolist(), strict=True):
         (ks,) = row.nonzero()
-        ends = [_FREE] if len(ks) != 1 else [sorted(float(row[k] * x) + shift for x in chain.limits[k]) for k in ks]
+        ends = (
+            [_FREE]
+            if len(ks) != 1
+            else [sorted(float(row[k] * x) + shift for x in chain.limits[k]) for k in ks]
+        )
         found.append((ends[0][0], ends[0][1]))
     return found
 

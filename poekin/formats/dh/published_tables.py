@@ -1,11 +1,13 @@
-"""Published DH tables that come with poekin: TOML files, each with its source, tool and zero position at the top."""
+"""Published DH tables that come with poekin: TOML files, each with its source, tool and zero
+position at the top.
+"""
 
 from __future__ import annotations
 
 import pkgutil
 
 from ...errors import UnknownName, closest, shown
-from . import files
+from . import table_io
 from .table import Table
 
 CATALOGUE = "poekin.formats.catalogue"
@@ -17,7 +19,8 @@ NAMES = (
 
 
 def published(name: str) -> Table:
-    """The published table of an arm, one of `NAMES`; its source, tool and zero position stand at the top of its file.
+    """The published table of an arm, one of `NAMES`; its source, tool and zero position stand at
+    the top of its file.
 
     Parameters: name, as "puma560". Returns: Table, rad and m.
     Raises: UnknownName with the closest names. Accuracy: as published. Source: the one in the file.
@@ -25,4 +28,4 @@ def published(name: str) -> Table:
     if name not in NAMES:
         raise UnknownName(f"no published table is named {shown(name)}; {closest(str(name), NAMES)}")
     data = pkgutil.get_data(CATALOGUE, f"{name}.toml") or b""
-    return files.read_text(data.decode("utf-8"), f"catalogue/{name}.toml")
+    return table_io.read_text(data.decode("utf-8"), f"catalogue/{name}.toml")

@@ -1,4 +1,6 @@
-"""A table of Denavit-Hartenberg parameters with all that it means: convention, offsets, directions, base, tool."""
+"""A table of Denavit-Hartenberg parameters with all that it means: convention, offsets, directions,
+base, tool.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, PoekinWarning, ShapeError, shown, told
 from ...groups.arrays import Array
-from ...model.parts import bounds, distinct_names, finite, one_pose, read_only
+from ...model.checks import bounds, distinct_names, finite, one_pose, read_only
 
 CONVENTIONS = ("standard", "modified")
 KINDS = ("revolute", "prismatic")
@@ -22,10 +24,13 @@ COLUMNS = ("theta", "d", "a", "alpha")
 
 @dataclass(frozen=True)
 class Row:
-    """One joint of a table: theta, alpha [rad], d, a [m] at x = 0, kind, flip, name, limits (lower, upper).
+    """One joint of a table: theta, alpha [rad], d, a [m] at x = 0, kind, flip, name, limits (lower,
+    upper).
 
-    A revolute joint's theta is theta + x, a prismatic joint's d is d + x, with -x in place of x where `flip` is true.
-    A joint's offset stands in theta or d. Of a modified table a and alpha are a_{i-1} and alpha_{i-1}.
+    A revolute joint's theta is theta + x, a prismatic joint's d is d + x, with -x in place of x
+    where `flip` is true.
+    A joint's offset stands in theta or d. Of a modified table a and alpha are a_{i-1} and
+    alpha_{i-1}.
     """
 
     theta: float = 0.0
@@ -44,13 +49,29 @@ class Table:
     - "standard" (Paul, distal): f = base prod [Rz(theta) Tz(d) Tx(a) Rx(alpha)] tool
     - "modified" (Craig, proximal): f = base prod [Rx(alpha) Tx(a) Rz(theta) Tz(d)] tool
 
-    Parameters: convention; rows, `Row`s or dicts of a row's fields; base, tool (4, 4), poses, m; name.
-    Attributes: theta, d, a, alpha (n,), kinds, flips, names (n), limits (n, 2), convention, base, tool, name.
-    Raises: InputError, ShapeError, PoseError. Warns: PoekinWarning where |alpha| > 2 pi looks like degrees.
+    Parameters: convention; rows, `Row`s or dicts of a row's fields; base, tool (4, 4), poses, m;
+    name.
+    Attributes: theta, d, a, alpha (n,), kinds, flips, names (n), limits (n, 2), convention, base,
+    tool, name.
+    Raises: InputError, ShapeError, PoseError. Warns: PoekinWarning where |alpha| > 2 pi looks like
+    degrees.
     Source: Paul 1981 and Craig 1986, as Park 1994, Section II, writes them.
     """
 
-    __slots__ = ("a", "alpha", "base", "convention", "d", "flips", "kinds", "limits", "name", "names", "theta", "tool")
+    __slots__ = (
+        "a",
+        "alpha",
+        "base",
+        "convention",
+        "d",
+        "flips",
+        "kinds",
+        "limits",
+        "name",
+        "names",
+        "theta",
+        "tool",
+    )
     convention: str
     theta: Array
     d: Array
@@ -74,15 +95,24 @@ class Table:
         name: str = "arm",
     ):
         if convention not in CONVENTIONS:
-            raise InputError(f"convention: expected 'standard' or 'modified', got {convention!r:.60}")
+            raise InputError(
+                f"convention: expected 'standard' or 'modified', got {convention!r:.60}"
+            )
         if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
-            raise ShapeError(f"rows: expected a list of Rows or dicts, one a joint, got {told(rows)}")
+            raise ShapeError(
+                f"rows: expected a list of Rows or dicts, one a joint, got {told(rows)}"
+            )
         listed = [_row(row, i) for i, row in enumerate(rows)]
         for i, row in enumerate(listed):
             if row.kind not in KINDS:
-                raise InputError(f"row {i}: kind must be 'revolute' or 'prismatic', got {shown(row.kind)}")
+                raise InputError(
+                    f"row {i}: kind must be 'revolute' or 'prismatic', got {shown(row.kind)}"
+                )
         names = distinct_names(
-            [row.name or f"joint{i + 1}" for i, row in enumerate(listed)], len(listed), "names", "joint"
+            [row.name or f"joint{i + 1}" for i, row in enumerate(listed)],
+            len(listed),
+            "names",
+            "joint",
         )
         values: dict[str, Any] = {
             "convention": convention,
@@ -99,7 +129,9 @@ class Table:
         large = [i for i, alpha in enumerate(values["alpha"].tolist()) if abs(alpha) > 2 * math.pi]
         if large:
             first = f"alpha = {values['alpha'][large[0]]:g} of joint {shown(names[large[0]])}"
-            message = f"table {shown(str(name))}: {first} is more than a turn: degrees? Expected are rad"
+            message = (
+                f"table {shown(str(name))}: {first} is more than a turn: degrees? Expected are rad"
+            )
             warnings.warn(message, PoekinWarning, stacklevel=2)
         for field, value in values.items():
             object.__setattr__(self, field, value)
@@ -160,8 +192,12 @@ def _row(row: Any, index: int) -> Row:
         raise ShapeError(f"row {index}: expected a Row or a dict, got {type(row).__name__}")
     unknown = [key for key in row if key not in Row.__dataclass_fields__]
     if unknown:
-        raise InputError(f"row {index}: no column {shown(unknown[0])}; there are {', '.join(Row.__dataclass_fields__)}")
+        raise InputError(
+            f"row {index}: no column {shown(unknown[0])}; there are {', '.join(Row.__dataclass_fields__)}"
+        )
     missing = [column for column in COLUMNS if column not in row]
     if missing:
-        raise InputError(f"row {index}: column {missing[0]} is missing; needed are {', '.join(COLUMNS)}")
+        raise InputError(
+            f"row {index}: column {missing[0]} is missing; needed are {', '.join(COLUMNS)}"
+        )
     return Row(**row)

@@ -17,7 +17,9 @@ from .table import Table
 
 
 def links_of(table: Table) -> list[tuple[float, ...]]:
-    """K_0 ... K_n of `formulas.dh`, twelve numbers each: f = K_0 e^{P_1 x_1} K_1 ... e^{P_n x_n} K_n."""
+    """K_0 ... K_n of `formulas.dh`, twelve numbers each: f = K_0 e^{P_1 x_1} K_1 ... e^{P_n x_n}
+    K_n.
+    """
     rows, base, tool = table.rows, _twelve(table.base), _twelve(table.tool)
     if table.convention == "standard":
         following = [(row.a, row.alpha) for row in rows]
@@ -25,17 +27,25 @@ def links_of(table: Table) -> list[tuple[float, ...]]:
         following = [(row.a, row.alpha) for row in rows[1:]] + [(0.0, 0.0)] if rows else []
         if rows:
             base = compose(base, _link(0.0, 0.0, rows[0].a, rows[0].alpha))
-    links = [base, *(_link(row.theta, row.d, a, alpha) for row, (a, alpha) in zip(rows, following, strict=True))]
+    links = [
+        base,
+        *(
+            _link(row.theta, row.d, a, alpha)
+            for row, (a, alpha) in zip(rows, following, strict=True)
+        ),
+    ]
     links[-1] = compose(links[-1], tool)
     return links
 
 
 def to_chain(table: Table) -> Chain:
-    """The chain of a table: A_i = Ad(K_0 ... K_{i-1}) P_i and M = K_0 ... K_n; a flipped joint's screw is reversed.
+    """The chain of a table: A_i = Ad(K_0 ... K_{i-1}) P_i and M = K_0 ... K_n; a flipped joint's
+    screw is reversed.
 
-    Parameters: table. Returns: Chain with the table's names and limits. Raises: InputError for what is no Table.
-    Accuracy: pose within 8 u (n + 1) (2 + sum |x|) of the reach and what slides, u = 2^-53, where |d| and |a| are at
-    most the reach; longer ones count in place of it (tests/formats/test_dh.py). Source: Park 1994, Section II.
+    Parameters: table. Returns: Chain with the table's names and limits. Raises: InputError for what
+    is no Table. Accuracy: pose within 8 u (n + 1) (2 + sum |x|) of the reach and what slides, u =
+    2^-53, where |d| and |a| are at most the reach; longer ones count in place of it
+    (tests/formats/test_dh.py). Source: Park 1994, Section II.
     """
     if not isinstance(table, Table):
         raise InputError(f"to_chain: expected a dh.Table, got {type(table).__name__}")
@@ -44,7 +54,9 @@ def to_chain(table: Table) -> Chain:
     slides = [sign * (kind == "prismatic") for sign, kind in zip(signs, table.kinds, strict=True)]
     A = np.zeros((len(table), 6))
     home = _matrix(dh.screws(links_of(table), rotates, slides, len(table), A))
-    return Chain(A, home, joint_names=table.names, limits=table.limits, pitches=np.zeros(len(table)))
+    return Chain(
+        A, home, joint_names=table.names, limits=table.limits, pitches=np.zeros(len(table))
+    )
 
 
 def _link(theta: float, d: float, a: float, alpha: float) -> tuple[float, ...]:
@@ -56,9 +68,11 @@ def _twelve(T: Array) -> tuple[float, ...]:
 
 
 def to_robot(table: Table) -> Robot:
-    """The robot of a table, one branch: a link for each joint, its z axis along the joint's, and `tool` behind them.
+    """The robot of a table, one branch: a link for each joint, its z axis along the joint's, and
+    `tool` behind them.
 
-    Parameters: table. Returns: Robot with links base, link1 ... tool. Raises: InputError for what is no Table.
+    Parameters: table. Returns: Robot with links base, link1 ... tool. Raises: InputError for what
+    is no Table.
     Accuracy and source: as `to_chain`.
     """
     if not isinstance(table, Table):
@@ -66,7 +80,15 @@ def to_robot(table: Table) -> Robot:
     links = ["base", *(f"link{i + 1}" for i in range(len(table))), "tool"]
     origins = list(map(_matrix, links_of(table)))
     joints = [
-        Joint(row.name, row.kind, parent, child, origin, (0.0, 0.0, -1.0 if row.flip else 1.0), row.limits)
+        Joint(
+            row.name,
+            row.kind,
+            parent,
+            child,
+            origin,
+            (0.0, 0.0, -1.0 if row.flip else 1.0),
+            row.limits,
+        )
         for row, parent, child, origin in zip(table.rows, links, links[1:], origins, strict=False)
     ]
     fixed = next(name for name in ("tool_mount", "tool_mount_") if name not in table.names)

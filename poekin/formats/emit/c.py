@@ -1,4 +1,6 @@
-"""An arm's kinematics as C99 for a controller: one header, one source, and a program that tests them."""
+"""An arm's kinematics as C99 for a controller: one header, one source, and a program that tests
+them.
+"""
 
 from __future__ import annotations
 
@@ -9,16 +11,20 @@ import numpy as np
 from ...errors import InputError, told
 from ...model.chain import Chain
 from .c_selftest import selftest
+from .messages import Task, about, angle_words, compiled, identifier, tasks
 from .statements import Literal, Statements, by_outputs, double, single, statements
 from .vectors import vectors
-from .words import Task, about, angle_words, compiled, identifier, tasks
 
-KINDS: dict[str, tuple[Literal, type[np.floating]]] = {"double": (double, np.float64), "float": (single, np.float32)}
+KINDS: dict[str, tuple[Literal, type[np.floating]]] = {
+    "double": (double, np.float64),
+    "float": (single, np.float32),
+}
 
 
 @dataclass(frozen=True)
 class CSource:
-    """Three texts in ASCII: `header`, `source` and `selftest`, which includes NAME.h; `name` begins all their names.
+    """Three texts in ASCII: `header`, `source` and `selftest`, which includes NAME.h; `name` begins
+    all their names.
 
     `files` are the three by the names that they ought to have.
     """
@@ -31,18 +37,24 @@ class CSource:
     @property
     def files(self) -> dict[str, str]:
         """File name -> text."""
-        return {f"{self.name}.h": self.header, f"{self.name}.c": self.source, f"{self.name}_selftest.c": self.selftest}
+        return {
+            f"{self.name}.h": self.header,
+            f"{self.name}.c": self.source,
+            f"{self.name}_selftest.c": self.selftest,
+        }
 
 
 def c(chain: Chain, frame: str | int, *, name: str = "arm", real: str = "double") -> CSource:
-    """C99 of a chain's pose and Jacobian: straight-line, without allocation, dependent on math.h alone.
+    """C99 of a chain's pose and Jacobian: straight-line, without allocation, dependent on math.h
+    alone.
 
     Parameters: chain; frame, "space", "body", "hybrid", "middle" or the index of a joint, as in
-    `CompiledChain.jacobian`; name, of which the C names are made (only a-z, 0-9 and _ are kept); real, "double" or
-    "float". Returns: CSource with functions NAME_fk, NAME_jacobian_FRAME, NAME_fk_jacobian_FRAME of q; each also as
-    ..._angles and ..._sincos, for who has sines and cosines of the angles. T row by row (16), J row by row (6 m).
-    Raises: InputError, UnknownName. Accuracy: that of `Chain.fk` in the arithmetic of `real`
-    (tests/formats/test_emit_c.py). Source: Park 1994, Section IV, two planar rotations a link.
+    `CompiledChain.jacobian`; name, of which the C names are made (only a-z, 0-9 and _ are kept);
+    real, "double" or "float". Returns: CSource with functions NAME_fk, NAME_jacobian_FRAME,
+    NAME_fk_jacobian_FRAME of q; each also as ..._angles and ..._sincos, for who has sines and
+    cosines of the angles. T row by row (16), J row by row (6 m). Raises: InputError, UnknownName.
+    Accuracy: that of `Chain.fk` in the arithmetic of `real` (tests/formats/test_emit_c.py). Source:
+    Park 1994, Section IV, two planar rotations a link.
     """
     if real not in KINDS:
         raise InputError(f"real: expected 'double' or 'float', got {told(real)}")
@@ -59,8 +71,22 @@ def c(chain: Chain, frame: str | int, *, name: str = "arm", real: str = "double"
     return CSource(
         word,
         _header(word, [*head, "", *about(arm, frame)], functions),
-        "\n".join([_comment(head), f'#include "{word}.h"', "", "#include <math.h>", *(f.text() for f in functions)]),
-        selftest(word, real, literal, [function.task for function in functions], vectors(arm, frame, kind)),
+        "\n".join(
+            [
+                _comment(head),
+                f'#include "{word}.h"',
+                "",
+                "#include <math.h>",
+                *(f.text() for f in functions),
+            ]
+        ),
+        selftest(
+            word,
+            real,
+            literal,
+            [function.task for function in functions],
+            vectors(arm, frame, kind),
+        ),
     )
 
 
@@ -81,7 +107,9 @@ class _Function:
 
     def declared(self) -> str:
         """The declarations, and what they are."""
-        sizes = ", ".join({"T": "T[16]", "J": f"J[{6 * self.dof}]"}[result] for result in self.results)
+        sizes = ", ".join(
+            {"T": "T[16]", "J": f"J[{6 * self.dof}]"}[result] for result in self.results
+        )
         words = [
             f"{self.name}: from q[{self.dof}] to {sizes}; they may overlap q.",
             f"..._sincos: the same from s[{self.count}] = sin x and c[{self.count}] = cos x, where the angles x are",
@@ -102,7 +130,9 @@ class _Function:
         ])  # fmt: skip
 
     def _angles(self, program: Statements) -> list[str]:
-        unused = [name for name, used in (("q", program.angle_reads), ("x", program.angles)) if not used]
+        unused = [
+            name for name, used in (("q", program.angle_reads), ("x", program.angles)) if not used
+        ]
         return [
             *self._locals((name, f"{array}[{k}]") for name, array, k in program.angle_reads),
             *self._locals((f"x{j}", text) for j, text in enumerate(program.angles)),
@@ -118,7 +148,9 @@ class _Function:
             for name, values in (("T", T), ("J", J))
             for k, x in enumerate(values)
         ]
-        unused = [array for array in "scq" if array not in used] + ["J"] * (self.task.jacobian and not J)
+        unused = [array for array in "scq" if array not in used] + ["J"] * (
+            self.task.jacobian and not J
+        )
         return [
             *self._locals((name, f"{array}[{k}]") for name, array, k in program.reads),
             *self._locals(program.lines),

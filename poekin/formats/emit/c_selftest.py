@@ -1,4 +1,6 @@
-"""The program that tests an emitted C source: numbers of the chain's general kernels against those that it computes."""
+"""The program that tests an emitted C source: numbers of the chain's general kernels against those
+that it computes.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +8,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from .messages import Task
 from .statements import Literal, double
 from .vectors import Vectors
-from .words import Task
 
 TEXT = """/*
  * Tests {word}.c: compile both, link with the mathematical library, run. It prints the worst error and the error
@@ -80,7 +82,9 @@ def selftest(word: str, real: str, literal: Literal, tasks: Sequence[Task], want
 
 
 def _calls(word: str, task: Task, dof: int) -> list[str]:
-    results = "".join(f", {result}" for result, wanted in (("T", task.pose), ("J", task.jacobian)) if wanted)
+    results = "".join(
+        f", {result}" for result, wanted in (("T", task.pose), ("J", task.jacobian)) if wanted
+    )
     return [
         f"        {word}_{task.name}(Q[i]{results});",
         *(["        compare(T, T_EXPECTED[i], 16);"] if task.pose else []),

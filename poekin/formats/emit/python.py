@@ -5,17 +5,20 @@ from __future__ import annotations
 import textwrap
 
 from ...model.chain import Chain
+from .messages import Task, about, angle_words, compiled, tasks
 from .statements import Statements, by_outputs, double, statements
-from .words import Task, about, angle_words, compiled, tasks
 
 
 def python(chain: Chain, frame: str | int) -> str:
-    """The text of a Python module: pose and Jacobian of a chain, straight-line, dependent on nothing.
+    """The text of a Python module: pose and Jacobian of a chain, straight-line, dependent on
+    nothing.
 
     Parameters: chain; frame, "space", "body", "hybrid", "middle" or the index of a joint, as in
-    `CompiledChain.jacobian`. Returns: a text in ASCII with the functions fk, jacobian_FRAME, fk_jacobian_FRAME of
-    (q, xp), q (..., m) an array of the module xp: numpy, jax.numpy or torch; each also as ..._angles(q, xp) and
-    ..._sincos(sines, cosines, q, xp). Nothing is written in place, so vmap, jit and gradients go through.
+    `CompiledChain.jacobian`. Returns: a text in ASCII with the functions fk, jacobian_FRAME,
+    fk_jacobian_FRAME of
+    (q, xp), q (..., m) an array of the module xp: numpy, jax.numpy or torch; each also as
+    ..._angles(q, xp) and ..._sincos(sines, cosines, q, xp). Nothing is written in place, so vmap,
+    jit and gradients go through.
     Raises: InputError, UnknownName. Accuracy: that of `Chain.fk` in the arithmetic of q
     (tests/formats/test_emit_python.py). Source: Park 1994, Section IV, two planar rotations a link.
     """
@@ -32,7 +35,9 @@ def python(chain: Chain, frame: str | int) -> str:
         '"""',
         "",
     ]
-    return "\n".join([*(line.rstrip() for line in head), *(_functions(task, chain.dof) for task in functions)])
+    return "\n".join(
+        [*(line.rstrip() for line in head), *(_functions(task, chain.dof) for task in functions)]
+    )
 
 
 def _functions(task: Task, dof: int) -> str:
@@ -83,7 +88,9 @@ def _statements(program: Statements, task: Task, dof: int) -> list[str]:
     constants = dict.fromkeys(x for x in (*T, *J) if not isinstance(x, str))
     names = {x: f"k{i}" for i, x in enumerate(constants)}
     if names:
-        lines.append("    zero = xp.sum(q[..., :0], -1)")  # of the batch's shape, on q's device, even where m = 0
+        lines.append(
+            "    zero = xp.sum(q[..., :0], -1)"
+        )  # of the batch's shape, on q's device, even where m = 0
         lines += [f"    {name} = xp.full_like(zero, {double(x)})" for x, name in names.items()]
     if task.pose:
         lines += _call("T = xp.stack", [x if isinstance(x, str) else names[x] for x in T], ", -1)")

@@ -1,4 +1,6 @@
-"""A straight-line program as statements of text that C and Python read alike: the same operations in one order."""
+"""A straight-line program as statements of text that C and Python read alike: the same operations
+in one order.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...engine.program import Angle, Program
+from ...engine.straight_line.program import Angle, Program
 from ...errors import InputError
 
 Literal = Callable[[float], str]
@@ -16,10 +18,13 @@ _OF_SIGN = {1: "+", -1: "-"}
 
 @dataclass(frozen=True)
 class Statements:
-    """s0, c0 ... are sine and cosine of angle number 0 ..., q0 ... the coordinates, x0 ... the angles.
+    """s0, c0 ... are sine and cosine of angle number 0 ..., q0 ... the coordinates, x0 ... the
+    angles.
 
-    `reads` are (name, array, index) of the inputs in use and `lines` (name, expression). An output is an expression
-    or, where it does not depend on the configuration, a number; an angle is an expression, `angle_reads` its inputs.
+    `reads` are (name, array, index) of the inputs in use and `lines` (name, expression). An output
+    is an expression
+    or, where it does not depend on the configuration, a number; an angle is an expression,
+    `angle_reads` its inputs.
     """
 
     reads: tuple[tuple[str, str, int], ...]
@@ -68,7 +73,7 @@ def statements(program: Program, literal: Literal) -> Statements:
 
 
 def _angle(angle: Angle, literal: Literal) -> str:
-    """An angle's sum, in the order in which `engine.arm_kernels` takes it."""
+    """An angle's sum, in the order in which `engine.kernels.arm_kernels` takes it."""
     parts = [literal(angle.offset)] if angle.offset else []
     parts += [] if angle.base is None else [f"x{angle.base}"]
     text = " + ".join(parts)
@@ -77,12 +82,17 @@ def _angle(angle: Angle, literal: Literal) -> str:
         if text:
             text += f" + {term}" if factor > 0 else f" - {term}"
         else:
-            text = term  # the first factor of an angle without a base is positive (`engine.program.Angles`)
+            # the first factor of an angle without a base is positive (`Angles` of `program`)
+            text = term
     return text
 
 
-def by_outputs(outputs: Sequence[str | float], pose: bool) -> tuple[list[str | float], list[str | float]]:
-    """The sixteen entries of the pose row by row, none where the outputs do not begin with one, and those of J."""
+def by_outputs(
+    outputs: Sequence[str | float], pose: bool
+) -> tuple[list[str | float], list[str | float]]:
+    """The sixteen entries of the pose row by row, none where the outputs do not begin with one, and
+    those of J.
+    """
     if not pose:
         return [], list(outputs)
     R, p, J = outputs[:9], outputs[9:12], outputs[12:]
@@ -90,7 +100,9 @@ def by_outputs(outputs: Sequence[str | float], pose: bool) -> tuple[list[str | f
 
 
 def double(value: float) -> str:
-    """A number so that it reads back as the same double. Raises: InputError for one that is not finite."""
+    """A number so that it reads back as the same double. Raises: InputError for one that is not
+    finite.
+    """
     return _finite(repr(float(value)), value, "double")
 
 
@@ -102,5 +114,7 @@ def single(value: float) -> str:
 
 def _finite(text: str, value: float, precision: str) -> str:
     if "inf" in text or "nan" in text:
-        raise InputError(f"emit: the arm needs the number {value!r}, which {precision} precision cannot hold")
+        raise InputError(
+            f"emit: the arm needs the number {value!r}, which {precision} precision cannot hold"
+        )
     return text

@@ -1,4 +1,6 @@
-"""Configurations with poses and Jacobians from the chain's general kernels: what an emitted self-test compares to."""
+"""Configurations with poses and Jacobians from the chain's general kernels: what an emitted
+self-test compares to.
+"""
 
 from __future__ import annotations
 
@@ -8,14 +10,16 @@ import numpy as np
 
 from ...groups import se3
 from ...groups.arrays import Array
-from ...model.compiled import CompiledChain
-from .words import jacobian_frame
+from ...model.kinematics.compiled import CompiledChain
+from .messages import jacobian_frame
 
 COUNT = 8
 
 
 class Vectors(NamedTuple):
-    """q (N, m), T (N, 4, 4), J (N, 6, m), and the error (m, 1, or m per rad) that a sound program stays within."""
+    """q (N, m), T (N, 4, 4), J (N, 6, m), and the error (m, 1, or m per rad) that a sound program
+    stays within.
+    """
 
     q: Array
     T: Array
@@ -24,10 +28,12 @@ class Vectors(NamedTuple):
 
 
 def vectors(arm: CompiledChain, frame: str | int, kind: type[np.floating]) -> Vectors:
-    """Test vectors at coordinates that numbers of that kind hold exactly: zero, and seven within half a turn (or 1 m).
+    """Test vectors at coordinates that numbers of that kind hold exactly: zero, and seven within
+    half a turn (or 1 m).
 
-    The tolerance is twice the bound of `Chain.fk` with the kind's own unit roundoff: once for what is computed, once
-    for what is compared to, or, in single precision, for the arm's constants, which are rounded too.
+    The tolerance is twice the bound of `Chain.fk` with the kind's own unit roundoff: once for what
+    is computed, once for what is compared to, or, in single precision, for the arm's constants,
+    which are rounded too.
     """
     chain = arm.chain
     size = np.where([chain._turns(k) for k in range(chain.dof)], np.pi, 1.0)
@@ -42,4 +48,6 @@ def vectors(arm: CompiledChain, frame: str | int, kind: type[np.floating]) -> Ve
         J = se3.adjoint(se3.inverse(T_k)) @ J
     x = np.abs(q @ chain.coupling.T + chain.offset).sum(axis=1).max()
     roundoff = float(np.finfo(kind).eps) / 2
-    return Vectors(q, T, J, 2 * roundoff * (8 * (len(chain.kinds) + 1) + 4 * float(x)) * chain.reach)
+    return Vectors(
+        q, T, J, 2 * roundoff * (8 * (len(chain.kinds) + 1) + 4 * float(x)) * chain.reach
+    )

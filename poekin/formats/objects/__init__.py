@@ -1,4 +1,6 @@
-"""Models out of the living objects of other libraries, known by their attributes; none of them is imported."""
+"""Models out of the living objects of other libraries, known by their attributes; none of them is
+imported.
+"""
 
 from .dh_robot import table_of
 from .from_object import from_object

@@ -19,21 +19,28 @@ def fits(obj: Any) -> bool:
 
 
 def table_of(robot: Any) -> Table:
-    """The table of a Robotics Toolbox DHRobot: convention, rows, directions, limits, base, tool and name.
+    """The table of a Robotics Toolbox DHRobot: convention, rows, directions, limits, base, tool and
+    name.
 
-    As its `fkine` does: a revolute joint's angle is q + offset, its `theta` does not count; a prismatic joint's length
-    is q + offset, its `d` does not; -q in place of q where `isflip` is true.
+    As its `fkine` does: a revolute joint's angle is q + offset, its `theta` does not count; a
+    prismatic joint's length is q + offset, its `d` does not; -q in place of q where `isflip` is
+    true.
 
-    Parameters: robot, a DHRobot or whatever has its attributes. Returns: `pk.dh.Table`, joints joint1, joint2, ...
-    Raises: InputError for an object without such links, for links of both conventions and for symbols in place of
-    numbers; ShapeError, PoseError for base and tool. Accuracy: the numbers as they are.
+    Parameters: robot, a DHRobot or whatever has its attributes. Returns: `pk.dh.Table`, joints
+    joint1, joint2, ... Raises: InputError for an object without such links, for links of both
+    conventions and for symbols in place of numbers; ShapeError, PoseError for base and tool.
+    Accuracy: the numbers as they are.
     Source: the toolbox's documentation of DHLink.
     """
     if not fits(robot):
-        raise InputError(f"expected a DHRobot with links that have {', '.join(_LINK)}, got {type_name(robot)}")
+        raise InputError(
+            f"expected a DHRobot with links that have {', '.join(_LINK)}, got {type_name(robot)}"
+        )
     links = items_of(robot.links)
     if len({bool(link.mdh) for link in links}) > 1:
-        raise InputError(f"{type_name(robot)}: its links mix the standard and the modified convention")
+        raise InputError(
+            f"{type_name(robot)}: its links mix the standard and the modified convention"
+        )
     return Table(
         "modified" if links[0].mdh else "standard",
         [_row(link) for link in links],

@@ -1,4 +1,6 @@
-"""Robotics Toolbox's elementary transforms: an ETS as a chain, a Robot (ERobot) whose links have one each as a tree."""
+"""Robotics Toolbox's elementary transforms: an ETS as a chain, a Robot (ERobot) whose links have
+one each as a tree.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +13,8 @@ from ...errors import InputError, told
 from ...groups import se3
 from ...groups.arrays import Array, shaped
 from ...model.chain import Chain
+from ...model.checks import one_pose
 from ...model.joint import Joint, Mimic
-from ...model.parts import one_pose
 from ...model.robot import Robot
 from .attributes import free_name, has, items_of
 
@@ -22,7 +24,9 @@ _AXES = ("Rx", "Ry", "Rz", "tx", "ty", "tz")
 
 
 class Step(NamedTuple):
-    """A joint of a sequence: pose of its frame behind the joint before it, kind, screw in that frame, coordinate."""
+    """A joint of a sequence: pose of its frame behind the joint before it, kind, screw in that
+    frame, coordinate.
+    """
 
     origin: Array
     kind: str
@@ -38,21 +42,26 @@ def fits(obj: Any) -> bool:
 
 
 def fits_tree(obj: Any) -> bool:
-    """Whether an object has links with a name, a parent and a sequence of elementary transforms each."""
+    """Whether an object has links with a name, a parent and a sequence of elementary transforms
+    each.
+    """
     links = items_of(getattr(obj, "links", None))
     return bool(links) and all(has(link, "ets", "parent", "name") for link in links)
 
 
 def chain_of(ets: Any) -> Chain:
-    """The chain of an ETS (or of one ET): the product of its constant and variable elementary transforms.
+    """The chain of an ETS (or of one ET): the product of its constant and variable elementary
+    transforms.
 
-    Coordinates are q0, q1, ... in the order of `jindex`, which is the toolbox's own order of q; joints of the same
-    `jindex` move together. A flipped joint turns by -q; an offset is added after that. Limits are those of `qlim`.
+    Coordinates are q0, q1, ... in the order of `jindex`, which is the toolbox's own order of q;
+    joints of the same `jindex` move together. A flipped joint turns by -q; an offset is added after
+    that. Limits are those of `qlim`.
 
     Parameters: ets. Returns: Chain, joints joint1, joint2, ...
-    Raises: InputError with the number of the transform for a planar one, a symbol in place of a number, or limits that
-    leave nothing; ShapeError, PoseError for a constant that is no pose. Accuracy: rounding of the product, 1e-16 reach
-    a transform. Source: the toolbox's documentation of ET and ETS.
+    Raises: InputError with the number of the transform for a planar one, a symbol in place of a
+    number, or limits that leave nothing; ShapeError, PoseError for a constant that is no pose.
+    Accuracy: rounding of the product, 1e-16 reach a transform. Source: the toolbox's documentation
+    of ET and ETS.
     """
     steps, last = _steps([ets] if has(ets, *_ET) else items_of(ets), "ETS")
     screws, T = np.empty((len(steps), 6)), np.eye(4)
@@ -60,7 +69,9 @@ def chain_of(ets: Any) -> Chain:
         T = T @ step.origin
         screws[i] = se3.adjoint(T) @ step.screw
     used = sorted({step.coordinate for step in steps})
-    C = np.array([[float(step.coordinate == k) for k in used] for step in steps]).reshape(len(steps), len(used))
+    C = np.array([[float(step.coordinate == k) for k in used] for step in steps]).reshape(
+        len(steps), len(used)
+    )
     return Chain(
         screws,
         T @ last,
@@ -72,13 +83,15 @@ def chain_of(ets: Any) -> Chain:
 
 
 def robot_of(robot: Any) -> Robot:
-    """The tree of a toolbox Robot (ERobot): its links, and a joint for each variable transform of a link.
+    """The tree of a toolbox Robot (ERobot): its links, and a joint for each variable transform of a
+    link.
 
-    Coordinates, and the joints that have them, are q0, q1, ... by `jindex`. The root is `base`, in which the robot's
-    own `base` places the first links. Where the robot has a `tool`, each link at an end carries one, LINK_tool. A
-    gripper is a robot of its own there, and not taken.
+    Coordinates, and the joints that have them, are q0, q1, ... by `jindex`. The root is `base`, in
+    which the robot's own `base` places the first links. Where the robot has a `tool`, each link at
+    an end carries one, LINK_tool. A gripper is a robot of its own there, and not taken.
 
-    Parameters: robot. Returns: Robot. Raises and accuracy: as `chain_of`; ModelError for links that are no tree.
+    Parameters: robot. Returns: Robot. Raises and accuracy: as `chain_of`; ModelError for links that
+    are no tree.
     """
     taken: set[str] = set()
     root = free_name("base", {str(link.name) for link in robot.links})
@@ -88,7 +101,9 @@ def robot_of(robot: Any) -> Robot:
     tool = _pose(getattr(robot, "tool", None), "tool")
     joints: list[Joint] = []
     links = [root, *names.values()]
-    steps_of = {id(link): _steps(items_of(link.ets), f"link {told(link.name)}") for link in robot.links}
+    steps_of = {
+        id(link): _steps(items_of(link.ets), f"link {told(link.name)}") for link in robot.links
+    }
     used: set[str] = set()
     order: list[tuple[int, Joint]] = []
     for link in robot.links:
@@ -102,7 +117,9 @@ def robot_of(robot: Any) -> Robot:
             name = free_name(f"q{step.coordinate}", used)
             mimic = Mimic(f"q{step.coordinate}") if name != f"q{step.coordinate}" else None
             axis = step.screw[:3] if step.kind == "revolute" else step.screw[3:]
-            joint = Joint(name, step.kind, parent, child, before @ step.origin, axis, step.limits, mimic)
+            joint = Joint(
+                name, step.kind, parent, child, before @ step.origin, axis, step.limits, mimic
+            )
             order.append((step.coordinate, joint))
             parent, before = child, np.eye(4)
         if parent != names[id(link)]:
@@ -110,9 +127,13 @@ def robot_of(robot: Any) -> Robot:
             joints.append(Joint(name, "fixed", parent, names[id(link)], before @ last))
     joints = [joint for _, joint in sorted(order, key=lambda pair: pair[0])] + joints
     if not np.array_equal(tool, np.eye(4)):
-        for end in sorted(set(names.values()) - {joint.parent for joint in joints}, key=links.index):
+        for end in sorted(
+            set(names.values()) - {joint.parent for joint in joints}, key=links.index
+        ):
             links.append(free_name(f"{end}_tool", taken))
-            joints.append(Joint(free_name(f"{end}_tool_joint", used), "fixed", end, links[-1], tool))
+            joints.append(
+                Joint(free_name(f"{end}_tool_joint", used), "fixed", end, links[-1], tool)
+            )
     return Robot(str(getattr(robot, "name", "") or "robot"), links, joints)
 
 

@@ -22,22 +22,28 @@ _KNOWN: tuple[tuple[str, Callable[[Any], bool], Callable[[Any], Robot | Chain]],
 
 
 def from_object(obj: Any, *, frame: str | None = None) -> Any:
-    """A `Robot` or a `Chain` of what another library holds in memory; that library is not imported, nor asked to move.
+    """A `Robot` or a `Chain` of what another library holds in memory; that library is not imported,
+    nor asked to move.
 
-    - Pinocchio `Model`: a Robot. Links, joints and their order are those of the URDF it was built from; where it has
-      none, links are its frames. q is in its order, with one angle where Pinocchio has a cosine and a sine.
-    - Robotics Toolbox `DHRobot`: a Chain, by its table (`poekin.formats.objects.table_of`). `Robot` (ERobot): a Robot.
-      `ETS`: a Chain. q is in the toolbox's order, by `jindex`.
-    - Modern Robotics: `from_object((M, Slist))`, a Chain, screws as columns (6, n); with frame="body" (M, Blist).
+    - Pinocchio `Model`: a Robot. Links, joints and their order are those of the URDF it was built
+      from; where it has none, links are its frames. q is in its order, with one angle where
+      Pinocchio has a cosine and a sine.
+    - Robotics Toolbox `DHRobot`: a Chain, by its table (`poekin.formats.objects.table_of`). `Robot`
+      (ERobot): a Robot. `ETS`: a Chain. q is in the toolbox's order, by `jindex`.
+    - Modern Robotics: `from_object((M, Slist))`, a Chain, screws as columns (6, n); with
+      frame="body" (M, Blist).
 
-    Objects are known by their attributes, so anything that has the same ones will do. Poses (spatialmath, SciPy,
-    Pinocchio's SE3) need no conversion: each function here that takes a pose takes them.
+    Objects are known by their attributes, so anything that has the same ones will do. Poses
+    (spatialmath, SciPy, Pinocchio's SE3) need no conversion: each function here that takes a pose
+    takes them.
 
     Parameters: obj; frame, of the columns of (M, screws): "space" (the default) or "body".
-    Returns: Robot or Chain. Raises: InputError that names the type of what arrived and what is known; ModelError,
-    ScrewError, ShapeError, PoseError with the joint for what cannot be expressed or makes no sense.
+    Returns: Robot or Chain. Raises: InputError that names the type of what arrived and what is
+    known; ModelError, ScrewError, ShapeError, PoseError with the joint for what cannot be expressed
+    or makes no sense.
     Warns: PoekinWarning for limits that bound nothing.
-    Accuracy: within 1e-13 reach of the library's own pose (tests/formats/test_objects.py and those beside it).
+    Accuracy: within 1e-13 reach of the library's own pose (tests/formats/test_objects.py and those
+    beside it).
     Source: the libraries' documentation.
     """
     for what, fits, make in _KNOWN:

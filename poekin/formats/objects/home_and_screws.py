@@ -19,13 +19,16 @@ def fits(obj: Any) -> bool:
 
 
 def chain_of(pair: Any, frame: str = "space") -> Chain:
-    """f(q) = e^{[S_1] q_1} ... e^{[S_n] q_n} M of (M, Slist), or M e^{[B_1] q_1} ... e^{[B_n] q_n} of (M, Blist).
+    """f(q) = e^{[S_1] q_1} ... e^{[S_n] q_n} M of (M, Slist), or M e^{[B_1] q_1} ... e^{[B_n] q_n}
+    of (M, Blist).
 
-    Parameters: pair (M, Slist): M (4, 4), m; Slist (6, n), a column (omega; v) a joint, as in Modern Robotics; frame,
-    that of the columns: "space" (Slist) or "body" (Blist).
+    Parameters: pair (M, Slist): M (4, 4), m; Slist (6, n), a column (omega; v) a joint, as in
+    Modern Robotics; frame, that of the columns: "space" (Slist) or "body" (Blist).
     Returns: Chain with joints joint1, joint2, ... without limits.
-    Raises: ShapeError, PoseError; ScrewError for a column that is no unit screw, with its number; InputError.
-    Accuracy: space: as given; body: as `Chain.rebased`. Source: Lynch and Park, Modern Robotics, 2017, chapter 4.
+    Raises: ShapeError, PoseError; ScrewError for a column that is no unit screw, with its number;
+    InputError.
+    Accuracy: space: as given; body: as `Chain.rebased`. Source: Lynch and Park, Modern Robotics,
+    2017, chapter 4.
     """
     if frame not in FRAMES:
         raise InputError(f"frame: expected 'space' or 'body', got {told(frame)}")

@@ -13,7 +13,8 @@ from .attributes import has
 _PREFIX = "JointModel"
 _UNIT = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 _X, _Y, _Z = _UNIT.values()
-# Joints of several degrees of freedom that are elementary motions one after the other, with the axes in their order.
+# Joints of several degrees of freedom that are elementary motions one after the other, with the
+# axes in their order.
 _SERIES = {
     "SphericalZYX": (("revolute", _Z), ("revolute", _Y), ("revolute", _X)),
     "Translation": (("prismatic", _X), ("prismatic", _Y), ("prismatic", _Z)),
@@ -29,7 +30,9 @@ _UNALIGNED = {
 
 
 class Motion(NamedTuple):
-    """One elementary motion: pose of its frame behind the one before it, kind, axis, pitch [m per rad]."""
+    """One elementary motion: pose of its frame behind the one before it, kind, axis, pitch [m per
+    rad].
+    """
 
     origin: Array
     kind: str
@@ -45,7 +48,8 @@ def type_of(joint: Any) -> str:
 def motions(joint: Any, name: str) -> list[Motion]:
     """The elementary motions of a joint of a model, one after the other.
 
-    Raises: ModelError that names the joint where it has none: spherical (a unit quaternion) and ellipsoid joints, and
+    Raises: ModelError that names the joint where it has none: spherical (a unit quaternion) and
+    ellipsoid joints, and
     a mimic joint or a type not known here whose axis cannot be read.
     """
     kind, bare = type_of(joint), joint.extract() if has(joint, "extract") else joint
@@ -66,7 +70,9 @@ def motions(joint: Any, name: str) -> list[Motion]:
     if stem in _KINDS and letter in _UNIT:
         return [Motion(here, _KINDS[stem], _UNIT[letter], float(getattr(bare, "pitch", 0.0)))]
     if kind in _UNALIGNED and has(bare, "axis"):
-        return [Motion(here, _UNALIGNED[kind], _three(bare.axis), float(getattr(bare, "pitch", 0.0)))]
+        return [
+            Motion(here, _UNALIGNED[kind], _three(bare.axis), float(getattr(bare, "pitch", 0.0)))
+        ]
     if kind in _UNALIGNED or kind == "Mimic":
         return [_by_subspace(joint, bare, name, _UNALIGNED.get(kind))]
     raise ModelError(
@@ -76,7 +82,9 @@ def motions(joint: Any, name: str) -> list[Motion]:
 
 
 def _by_subspace(joint: Any, bare: Any, name: str, kind: str | None) -> Motion:
-    """Of a joint whose axis Pinocchio tells by its motion subspace S = (v; omega) only, which is constant."""
+    """Of a joint whose axis Pinocchio tells by its motion subspace S = (v; omega) only, which is
+    constant.
+    """
     scaling = float(getattr(bare, "scaling", 1.0))
     S = np.asarray(joint.createData().S, dtype=float).ravel()
     v, w = S[:3], S[3:]

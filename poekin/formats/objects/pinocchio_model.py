@@ -10,10 +10,10 @@ import numpy as np
 from ...errors import ModelError, shown
 from ...groups import se3
 from ...groups.arrays import Array
+from ...model.checks import one_pose
 from ...model.joint import Joint, Mimic
-from ...model.parts import one_pose
+from ...model.provenance import warn
 from ...model.robot import Robot
-from ...model.source import warn
 from ..urdf import ABSURD
 from .attributes import free_name, has
 from .pinocchio_joint import Motion, motions, type_of
@@ -22,8 +22,8 @@ _LIMITED = ("revolute", "prismatic", "helical")
 
 
 class Frame(NamedTuple):
-    """A frame of the model: name, kind, the joint that carries it, its pose there, the number of the frame that it
-    hangs on, its own where that is no earlier one.
+    """A frame of the model: name, kind, the joint that carries it, its pose there, the number of
+    the frame that it hangs on, its own where that is no earlier one.
     """
 
     name: str
@@ -42,25 +42,38 @@ class Place(NamedTuple):
 
 def fits(obj: Any) -> bool:
     """Whether an object has what makes a Pinocchio model."""
-    return has(obj, "njoints", "joints", "names", "parents", "jointPlacements", "frames", "lowerPositionLimit")
+    return has(
+        obj,
+        "njoints",
+        "joints",
+        "names",
+        "parents",
+        "jointPlacements",
+        "frames",
+        "lowerPositionLimit",
+    )
 
 
 def robot_of(model: Any) -> Robot:
-    """The tree of a Pinocchio model: links are its frames, joints its joints and what fixes its frames.
+    """The tree of a Pinocchio model: links are its frames, joints its joints and what fixes its
+    frames.
 
-    A model that was built from a URDF gives the links and joints of that URDF: a frame of kind BODY that stands alone
-    on one of kind JOINT or FIXED_JOINT, or on the universe, is that joint's child link (or the root). Every other frame
-    is a link under its own name, held by a fixed joint; so is a joint that has no frame.
+    A model that was built from a URDF gives the links and joints of that URDF: a frame of kind BODY
+    that stands alone on one of kind JOINT or FIXED_JOINT, or on the universe, is that joint's child
+    link (or the root). Every other frame is a link under its own name, held by a fixed joint; so is
+    a joint that has no frame.
 
-    A continuous joint has one angle. A free-flyer is a floating joint, planar a planar one; universal, translation,
-    spherical ZYX and composite joints are several in series, JOINT_1, JOINT_2, .... A joint that mimics another one
-    does so here. Limits of 1e4 and more bound nothing; nor do equal ones, with a PoekinWarning, as in a URDF.
+    A continuous joint has one angle. A free-flyer is a floating joint, planar a planar one;
+    universal, translation, spherical ZYX and composite joints are several in series, JOINT_1,
+    JOINT_2, .... A joint that mimics another one does so here. Limits of 1e4 and more bound
+    nothing; nor do equal ones, with a PoekinWarning, as in a URDF.
 
     Parameters: model. Returns: Robot; its q is in the order of the model's.
-    Raises: ModelError that names the joint where Robot has no such kind: spherical, ellipsoid, and for a model
+    Raises: ModelError that names the joint where Robot has no such kind: spherical, ellipsoid, and
+    for a model
     of Pinocchio 2.
-    Accuracy: placements as they are; that of a frame on another one within 4 u of their distances from the joint.
-    Source: Pinocchio's documentation of Model and Frame.
+    Accuracy: placements as they are; that of a frame on another one within 4 u of their distances
+    from the joint. Source: Pinocchio's documentation of Model and Frame.
     """
     names = [str(name) for name in model.names]
     frames = [_frame(frame, i) for i, frame in enumerate(model.frames)]
@@ -70,7 +83,9 @@ def robot_of(model: Any) -> Robot:
     places = {j: Place(holder, np.eye(4)) for j, holder in enumerate(holders)}
 
     def above(joint: int, i: int | None) -> Place:
-        """The link below which something on a joint hangs: the frame i's own parent, or the joint's link."""
+        """The link below which something on a joint hangs: the frame i's own parent, or the joint's
+        link.
+        """
         if i is not None and frames[i].above != i and frames[frames[i].above].joint == joint:
             return Place(links[frames[i].above], frames[frames[i].above].pose)
         return places[joint]
@@ -80,14 +95,18 @@ def robot_of(model: Any) -> Robot:
     used = set(names)
     for j in range(1, len(names)):
         place = above(int(model.parents[j]), own.get(j))
-        origin = se3.inverse(place.pose) @ one_pose(model.jointPlacements[j], f"placement of joint {shown(names[j])}")
+        origin = se3.inverse(place.pose) @ one_pose(
+            model.jointPlacements[j], f"placement of joint {shown(names[j])}"
+        )
         joints += _moving(model, j, place.link, origin, holders[j], taken, used, unusable)
     # The frames of fixed joints first: their names are joints' names already.
     hanging = [i for i in range(len(frames)) if i not in own.values() and i not in bodies.values()]
     for i in sorted(hanging, key=lambda i: frames[i].kind != "FIXED_JOINT"):
         place = above(frames[i].joint, i)
         name = free_name(frames[i].name, used)
-        joints.append(Joint(name, "fixed", place.link, links[i], se3.inverse(place.pose) @ frames[i].pose))
+        joints.append(
+            Joint(name, "fixed", place.link, links[i], se3.inverse(place.pose) @ frames[i].pose)
+        )
     if unusable:
         warn(f"joints without usable limits are taken as unlimited: {', '.join(unusable)}")
     every = [holders[0], *links, *holders, *(joint.child for joint in joints)]
@@ -98,23 +117,39 @@ def _frame(frame: Any, i: int) -> Frame:
     kind = str(getattr(frame.type, "name", frame.type))
     pose = one_pose(frame.placement, f"placement of frame {shown(frame.name)}")
     if not hasattr(frame, "parentFrame"):
-        raise ModelError(f"expected a model of Pinocchio 3 or newer; its frame {shown(frame.name)} has no parentFrame")
+        raise ModelError(
+            f"expected a model of Pinocchio 3 or newer; its frame {shown(frame.name)} has no parentFrame"
+        )
     above = int(frame.parentFrame)
-    return Frame(str(frame.name) or f"frame{i}", kind, int(frame.parentJoint), pose, above if 0 <= above < i else i)
+    return Frame(
+        str(frame.name) or f"frame{i}",
+        kind,
+        int(frame.parentJoint),
+        pose,
+        above if 0 <= above < i else i,
+    )
 
 
 def _own_frames(frames: list[Frame], names: list[str]) -> dict[int, int]:
-    """For each joint that has one the number of its own frame, in its very place; for the universe too."""
+    """For each joint that has one the number of its own frame, in its very place; for the universe
+    too.
+    """
     own: dict[int, int] = {}
     for i, frame in enumerate(frames):
         kinds = "JOINT" if frame.joint else "FIXED_JOINT"
-        if frame.kind == kinds and frame.name == names[frame.joint] and np.array_equal(frame.pose, np.eye(4)):
+        if (
+            frame.kind == kinds
+            and frame.name == names[frame.joint]
+            and np.array_equal(frame.pose, np.eye(4))
+        ):
             own.setdefault(frame.joint, i)
     return own
 
 
 def _bodies(frames: list[Frame], own: set[int]) -> dict[int, int]:
-    """For each frame of a joint the number of the BODY frame that is its child link: the only one in its place."""
+    """For each frame of a joint the number of the BODY frame that is its child link: the only one
+    in its place.
+    """
     on: dict[int, list[int]] = {}
     for i, frame in enumerate(frames):
         below = frames[frame.above]
@@ -128,7 +163,9 @@ def _bodies(frames: list[Frame], own: set[int]) -> dict[int, int]:
 def _link_names(
     frames: list[Frame], names: list[str], own: dict[int, int], bodies: dict[int, int]
 ) -> tuple[list[str], list[str], set[str]]:
-    """The link of each frame, the link of each joint, and all names that are taken. BODY frames keep theirs first."""
+    """The link of each frame, the link of each joint, and all names that are taken. BODY frames
+    keep theirs first.
+    """
     taken: set[str] = set()
     links = [""] * len(frames)
     for i in sorted(range(len(frames)), key=lambda i: frames[i].kind != "BODY"):
@@ -136,11 +173,22 @@ def _link_names(
             links[i] = free_name(frames[i].name, taken)
     for i, body in bodies.items():
         links[i] = links[body]
-    return links, [links[own[j]] if j in own else free_name(name, taken) for j, name in enumerate(names)], taken
+    return (
+        links,
+        [links[own[j]] if j in own else free_name(name, taken) for j, name in enumerate(names)],
+        taken,
+    )
 
 
 def _moving(
-    model: Any, j: int, parent: str, origin: Array, child: str, taken: set[str], used: set[str], unusable: list[str]
+    model: Any,
+    j: int,
+    parent: str,
+    origin: Array,
+    child: str,
+    taken: set[str],
+    used: set[str],
+    unusable: list[str],
 ) -> list[Joint]:
     """The joints of joint j of the model, one after the other, from a parent link to its own."""
     joint, name = model.joints[j], str(model.names[j])
@@ -151,9 +199,23 @@ def _moving(
         last = k == len(parts) - 1
         called = name if len(parts) == 1 else free_name(f"{name}_{k + 1}", used)
         end = child if last else free_name(f"{name}_{k + 1}", taken)
-        limits = _limits(model, int(joint.idx_q) + k, part, called, unusable) if mimic is None else None
+        limits = (
+            _limits(model, int(joint.idx_q) + k, part, called, unusable) if mimic is None else None
+        )
         limits = limits or (-math.inf, math.inf)
-        joints.append(Joint(called, part.kind, parent, end, origin @ part.origin, part.axis, limits, mimic, part.pitch))
+        joints.append(
+            Joint(
+                called,
+                part.kind,
+                parent,
+                end,
+                origin @ part.origin,
+                part.axis,
+                limits,
+                mimic,
+                part.pitch,
+            )
+        )
         parent, origin = end, np.eye(4)
     return joints
 
@@ -162,11 +224,15 @@ def _mimic(model: Any, j: int, joint: Any) -> Mimic | None:
     if type_of(joint) != "Mimic":
         return None
     bare = joint.extract() if has(joint, "extract") else joint
-    masters = dict(zip(map(int, model.mimicking_joints), map(int, model.mimicked_joints), strict=True))
+    masters = dict(
+        zip(map(int, model.mimicking_joints), map(int, model.mimicked_joints), strict=True)
+    )
     return Mimic(str(model.names[masters[j]]), float(bare.scaling), float(bare.offset))
 
 
-def _limits(model: Any, k: int, part: Motion, name: str, unusable: list[str]) -> tuple[float, float] | None:
+def _limits(
+    model: Any, k: int, part: Motion, name: str, unusable: list[str]
+) -> tuple[float, float] | None:
     """Bounds of coordinate k of the model, None where it has none."""
     if part.kind not in _LIMITED:
         return None
@@ -174,4 +240,7 @@ def _limits(model: Any, k: int, part: Motion, name: str, unusable: list[str]) ->
     if lower == upper:
         unusable.append(f"{shown(name)} (equal, {lower!r})")
         return None
-    return (-math.inf if abs(lower) >= ABSURD else lower, math.inf if abs(upper) >= ABSURD else upper)
+    return (
+        -math.inf if abs(lower) >= ABSURD else lower,
+        math.inf if abs(upper) >= ABSURD else upper,
+    )

@@ -10,8 +10,8 @@ import numpy as np
 from ...errors import InputError, ShapeError, told
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
+from ...model.checks import one_pose, read_only
 from ...model.joint import Joint
-from ...model.parts import one_pose, read_only
 from ...model.robot import Robot
 from ..relink import relinked
 
@@ -28,13 +28,15 @@ JOINTS = (
 class Calibration:
     """Six poses, f(q) = poses_1 Rz(q_1) poses_2 Rz(q_2) ... poses_6 Rz(q_6).
 
-    f is the pose of the flange (ur_description's tool0, the pendant's tool frame without a tool) in the controller's
-    base frame (ur_description's `base` and base_link_inertia; its base_link is turned against it by π about z).
+    f is the pose of the flange (ur_description's tool0, the pendant's tool frame without a tool) in
+    the controller's base frame (ur_description's `base` and base_link_inertia; its base_link is
+    turned against it by π about z).
 
-    Fields: poses (6, 4, 4), of each of `LINKS` in the link before it at q = 0 [m], joint i turning about its z axis;
-    hash, by which the driver knows the arm again, "" where there is none.
+    Fields: poses (6, 4, 4), of each of `LINKS` in the link before it at q = 0 [m], joint i turning
+    about its z axis; hash, by which the driver knows the arm again, "" where there is none.
     Frozen; equal where poses and hash are. Raises: ShapeError, PoseError, InputError.
-    Source: Universal Robots ROS 2 driver, package ur_calibration, and ur_description, urdf/ur_macro.xacro.
+    Source: Universal Robots ROS 2 driver, package ur_calibration, and ur_description,
+    urdf/ur_macro.xacro.
     """
 
     poses: Array
@@ -43,7 +45,9 @@ class Calibration:
     def __post_init__(self) -> None:
         poses = numbers(self.poses, "poses")
         if poses.shape != (len(LINKS), 4, 4):
-            raise ShapeError(f"poses: expected shape ({len(LINKS)}, 4, 4), one pose a link, got {poses.shape}")
+            raise ShapeError(
+                f"poses: expected shape ({len(LINKS)}, 4, 4), one pose a link, got {poses.shape}"
+            )
         exact = [one_pose(T, f"pose of {link}") for T, link in zip(poses, LINKS, strict=True)]
         if not isinstance(self.hash, str):
             raise InputError(f"hash: expected a text, got {told(self.hash)}")
@@ -53,8 +57,9 @@ class Calibration:
         """The robot of this calibration, its link frames those of the calibration.
 
         Parameters: name, of the robot. Raises: InputError for a name that is none.
-        Returns: Robot with links base, shoulder_link ... wrist_3_link and tool0, which is wrist_3_link again, and
-        joints `JOINTS`: the names of ur_description. Limits are none, a calibration has none: see `apply`.
+        Returns: Robot with links base, shoulder_link ... wrist_3_link and tool0, which is
+        wrist_3_link again, and joints `JOINTS`: the names of ur_description. Limits are none, a
+        calibration has none: see `apply`.
         """
         links = ["base", *(f"{link}_link" for link in LINKS), "tool0"]
         joints = [
@@ -64,7 +69,9 @@ class Calibration:
         return Robot(name, links, [*joints, Joint("tool0_joint", "fixed", links[-2], links[-1])])
 
     def to_chain(self) -> Chain:
-        """The chain from base to tool0. Accuracy: rounding of the product of six poses, 1e-15 reach."""
+        """The chain from base to tool0. Accuracy: rounding of the product of six poses, 1e-15
+        reach.
+        """
         return self.to_robot().chain()
 
     def _data(self) -> tuple[Any, ...]:
@@ -80,19 +87,27 @@ class Calibration:
         return type(self), (self.poses, self.hash)
 
 
-def apply(robot: Robot, calibration: Calibration, *, base: str | None = None, tip: str | None = None) -> Robot:
-    """The nominal robot with the kinematics of a calibration; its link frames stay where they were as nearly as may be.
+def apply(
+    robot: Robot, calibration: Calibration, *, base: str | None = None, tip: str | None = None
+) -> Robot:
+    """The nominal robot with the kinematics of a calibration; its link frames stay where they were
+    as nearly as may be.
 
-    As `poekin.formats.relink.relinked` says: names, limits, mimic and all that hangs off the arm are the robot's.
+    As `poekin.formats.relink.relinked` says: names, limits, mimic and all that hangs off the arm
+    are the robot's.
 
-    Parameters: robot, of six revolute joints in the order of `JOINTS`; calibration; base and tip, the links that stand
-    for the controller's base frame and for the flange. By default base is the link called "base", else the one called
-    "base_link_inertia", else the root; tip is "tool0", else the only leaf.
-    Returns: Robot. Raises: as `relinked`; InputError for what is no Calibration. Accuracy: as `relinked`.
+    Parameters: robot, of six revolute joints in the order of `JOINTS`; calibration; base and tip,
+    the links that stand for the controller's base frame and for the flange. By default base is the
+    link called "base", else the one called "base_link_inertia", else the root; tip is "tool0", else
+    the only leaf.
+    Returns: Robot. Raises: as `relinked`; InputError for what is no Calibration. Accuracy: as
+    `relinked`.
     """
     if not isinstance(calibration, Calibration):
         raise InputError(f"apply: expected a Calibration, got {type(calibration).__name__}")
     if isinstance(robot, Robot):
-        base = base or next((link for link in ("base", "base_link_inertia") if link in robot.links), None)
+        base = base or next(
+            (link for link in ("base", "base_link_inertia") if link in robot.links), None
+        )
         tip = tip or ("tool0" if "tool0" in robot.links else None)
     return relinked(robot, calibration.to_chain(), base=base, tip=tip)

@@ -1,4 +1,6 @@
-"""calibration.conf, as the controllers of Universal Robots keep it: the deltas to the nominal DH table."""
+"""calibration.conf, as the controllers of Universal Robots keep it: the deltas to the nominal DH
+table.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +8,8 @@ import os
 import re
 
 from ...errors import FileError, ModelError, closest, harmless, shown
-from .. import xml
-from ..numbers import real
+from ..text import xml
+from ..text.numbers import real
 from .calibration import JOINTS
 
 DELTAS = ("delta_theta", "delta_a", "delta_d", "delta_alpha")
@@ -19,12 +21,15 @@ _LINE = re.compile(r"\s*([A-Za-z_]\w*)\s*=\s*(.*)")
 def read_text_file(path: str | os.PathLike[str]) -> tuple[str, str]:
     """The text of a small file, and what to call the file in messages.
 
-    Raises: FileError where it cannot be read, is larger than 64 KiB (a calibration has 1 or 2) or not UTF-8.
+    Raises: FileError where it cannot be read, is larger than 64 KiB (a calibration has 1 or 2) or
+    not UTF-8.
     """
     data = xml.read_bytes(path)
     place = harmless(os.fsdecode(path), 400)
     if len(data) > LARGEST:
-        raise FileError(f"{place}: expected a calibration of at most 64 KiB, the file has {len(data) / 2**10:.0f} KiB")
+        raise FileError(
+            f"{place}: expected a calibration of at most 64 KiB, the file has {len(data) / 2**10:.0f} KiB"
+        )
     try:
         return data.decode("utf-8-sig"), place
     except UnicodeDecodeError as fault:
@@ -32,16 +37,18 @@ def read_text_file(path: str | os.PathLike[str]) -> tuple[str, str]:
 
 
 def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
-    """The deltas in a calibration.conf: delta_theta, delta_alpha [rad], delta_a, delta_d [m], one number a joint.
+    """The deltas in a calibration.conf: delta_theta, delta_alpha [rad], delta_a, delta_d [m], one
+    number a joint.
 
     For `deltas`: `pk.ur.deltas(pk.dh.published("ur10e"), **pk.ur.read_deltas("calibration.conf"))`.
 
-    The file has lines `delta_a = [ 1e-4, ... ]` under [mounting], and others that do not matter here.
+    The file has lines `delta_a = [ 1e-4, ... ]` under [mounting], and others that do not matter
+    here.
     Parameters: path, of the file. Returns: dict of six numbers each.
     Raises: FileError for a file that cannot be read or is larger than 64 KiB; ModelError with file
     and line for a delta that is missing, there twice, not six numbers or not finite.
-    Accuracy: numbers as they are written. Source: such files as owners of arms show them in the forum of Universal
-    Robots, as "Calibrated kinamatics info"; there is no published description.
+    Accuracy: numbers as they are written. Source: such files as owners of arms show them in the
+    forum of Universal Robots, as "Calibrated kinamatics info"; there is no published description.
     """
     text, place = read_text_file(path)
     found: dict[str, tuple[float, ...]] = {}

@@ -1,4 +1,6 @@
-"""Calibrations out of DH tables: the arm's own, or the nominal one and what its controller keeps, the deltas."""
+"""Calibrations out of DH tables: the arm's own, or the nominal one and what its controller keeps,
+the deltas.
+"""
 
 from __future__ import annotations
 
@@ -9,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from ...algebra import compose
 from ...errors import InputError, listed, shown
-from ...model.parts import finite
+from ...model.checks import finite
+from ...model.provenance import warn
 from ...model.robot import TWELVE
-from ...model.source import warn
 from .. import dh
 from ..dh import Table
 from ..dh.table import COLUMNS
@@ -20,7 +22,9 @@ from ..relink import relinked
 from .calibration import JOINTS, LINKS, Calibration
 
 FAR = 0.02
-"""A calibration that moves a link by more than this [m] is hardly one of that arm: 2 to 7 mm are usual."""
+"""A calibration that moves a link by more than this [m] is hardly one of that arm: 2 to 7 mm are
+usual.
+"""
 
 
 def deltas(
@@ -34,12 +38,14 @@ def deltas(
     """The table with deltas added to its columns: an arm's own parameters from the nominal ones.
 
     Parameters: table, as `pk.dh.published("ur10e")`; delta_theta, delta_alpha (n,) [rad], delta_a,
-    delta_d (n,) [m], one number a joint, none for none: as the controller keeps them in calibration.conf
-    (`read_deltas`). Returns: Table of the same convention, base and tool.
-    Raises: InputError for deltas of another number of joints or not finite, and for what is no Table.
-    Accuracy: one rounding. A controller takes π/2 to be 1.570796327, which is 2e-10 rad more than in the published
-    tables of poekin, so its own alpha differs from this one by as much.
-    Source: Universal Robots ROS 2 driver, ur_calibration/test/calibration_test.cpp, which adds them so.
+    delta_d (n,) [m], one number a joint, none for none: as the controller keeps them in
+    calibration.conf (`read_deltas`). Returns: Table of the same convention, base and tool.
+    Raises: InputError for deltas of another number of joints or not finite, and for what is no
+    Table.
+    Accuracy: one rounding. A controller takes π/2 to be 1.570796327, which is 2e-10 rad more than
+    in the published tables of poekin, so its own alpha differs from this one by as much.
+    Source: Universal Robots ROS 2 driver, ur_calibration/test/calibration_test.cpp, which adds them
+    so.
     """
     if not isinstance(table, Table):
         raise InputError(f"deltas: expected a dh.Table, got {type(table).__name__}")
@@ -54,25 +60,31 @@ def deltas(
             )
         columns[column] = (getattr(table, column) + change).tolist()
     rows = [
-        replace(row, **{column: values[i] for column, values in columns.items()}) for i, row in enumerate(table.rows)
+        replace(row, **{column: values[i] for column, values in columns.items()})
+        for i, row in enumerate(table.rows)
     ]
     return Table(table.convention, rows, base=table.base, tool=table.tool, name=table.name)
 
 
 def from_dh(table: Table, *, nominal: Table, hash: str = "") -> Calibration:
-    """The calibration of an arm from its own DH table, its link frames as near as may be to those of the nominal one.
+    """The calibration of an arm from its own DH table, its link frames as near as may be to those
+    of the nominal one.
 
-    Of two nearly parallel axes DH puts the frames where their common normal is, hundreds of metres away. Here each
-    frame is the one on its joint's axis that is nearest to the nominal link (`poekin.formats.relink`); the last one is
-    the flange itself, so that f(q) is the table's.
+    Of two nearly parallel axes DH puts the frames where their common normal is, hundreds of metres
+    away. Here each frame is the one on its joint's axis that is nearest to the nominal link
+    (`poekin.formats.relink`); the last one is the flange itself, so that f(q) is the table's.
 
-    Parameters: table, the arm's, as the controller reports it or `deltas` makes it; nominal, the same model's published
-    table, as `pk.dh.published("ur10e")`; hash, as in `Calibration`. Returns: Calibration.
-    Raises: InputError for another number or kind of joints than six revolute ones that are not flipped, and for a
-    flange that is off the last axis (a or alpha of the last joint, or a tool), for which the form has no place.
-    Warns: PoekinWarning where a link moves by more than 2 cm: the calibration of another arm, most likely.
-    Accuracy: pose as `pk.dh.to_chain`; tests/formats/test_ur.py has the figures of a real arm. Source: the driver's
-    ur_calibration/doc/algorithm.rst says why frames must be moved back; where they go is decided here.
+    Parameters: table, the arm's, as the controller reports it or `deltas` makes it; nominal, the
+    same model's published table, as `pk.dh.published("ur10e")`; hash, as in `Calibration`. Returns:
+    Calibration.
+    Raises: InputError for another number or kind of joints than six revolute ones that are not
+    flipped, and for a flange that is off the last axis (a or alpha of the last joint, or a tool),
+    for which the form has no place.
+    Warns: PoekinWarning where a link moves by more than 2 cm: the calibration of another arm, most
+    likely.
+    Accuracy: pose as `pk.dh.to_chain`; tests/formats/test_ur.py has the figures of a real arm.
+    Source: the driver's ur_calibration/doc/algorithm.rst says why frames must be moved back; where
+    they go is decided here.
     """
     for each in (table, nominal):
         _six(each)
@@ -91,8 +103,14 @@ def from_dh(table: Table, *, nominal: Table, hash: str = "") -> Calibration:
 
 
 def _frames(table: Table) -> Calibration:
-    """The frames of a nominal table as ur_description places them: behind theta and d of their own joint."""
-    halves = [half for r in table.rows for half in (dh.Row(theta=r.theta, d=r.d), dh.Row(a=r.a, alpha=r.alpha))]
+    """The frames of a nominal table as ur_description places them: behind theta and d of their own
+    joint.
+    """
+    halves = [
+        half
+        for r in table.rows
+        for half in (dh.Row(theta=r.theta, d=r.d), dh.Row(a=r.a, alpha=r.alpha))
+    ]
     K = links_of(Table("standard", halves, base=table.base))
     poses = np.tile(np.eye(4), (len(table), 1, 1))
     for i, T in enumerate(poses):
@@ -112,13 +130,19 @@ def _six(table: Table) -> None:
     for joint, kind, flip in zip(table.names, table.kinds, table.flips, strict=True):
         if kind != "revolute" or flip:
             what = "flipped" if flip else kind
-            raise InputError(f"table {name}: joint {shown(joint)} is {what}; a calibration has turning joints about +z")
+            raise InputError(
+                f"table {name}: joint {shown(joint)} is {what}; a calibration has turning joints about +z"
+            )
     if table.convention != "standard":
-        raise InputError(f"table {name}: expected the standard convention, as Universal Robots uses it, got 'modified'")
+        raise InputError(
+            f"table {name}: expected the standard convention, as Universal Robots uses it, got 'modified'"
+        )
 
 
 def _warn_if_far(before: dict, after: dict, table: Table, nominal: Table) -> None:
-    moved = {link: float(np.linalg.norm(after[link][:3, 3] - before[link][:3, 3])) for link in before}
+    moved = {
+        link: float(np.linalg.norm(after[link][:3, 3] - before[link][:3, 3])) for link in before
+    }
     worst = max(moved, key=lambda link: moved[link])
     if moved[worst] > FAR:
         warn(

@@ -2,20 +2,20 @@
 
 from .calibrate import calibrate
 from .calibration import Calibration, Outlier
-from .choice import Choice, Figures
-from .choose import choose_poses
-from .data import read, write
-from .files import load
-from .folds import HeldOut
-from .identification import Identification, identify
-from .indices import Indices, indices
-from .measurement import Measurement
-from .noise import Spread
-from .parameters import Parameter
-from .points import Distances, Points
-from .poses import EyeInHand, EyeToHand, Poses
-from .residuals import Residuals
-from .simulated import Simulated, simulated
+from .design.choice import Choice, Figures
+from .design.choose import choose_poses
+from .design.indices import Indices, indices
+from .diagnostics.cross_validation import HeldOut
+from .diagnostics.identification import Identification, identify
+from .fit.noise import Spread
+from .measurements.data import read, write
+from .measurements.measurement import Measurement
+from .measurements.points import Distances, Points
+from .measurements.poses import EyeInHand, EyeToHand, Poses
+from .measurements.simulated import Simulated, simulated
+from .model.parameters import Parameter
+from .model.residuals import Residuals
+from .report.toml_io import load
 
 __all__ = [
     "Calibration",

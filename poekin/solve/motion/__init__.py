@@ -1,6 +1,8 @@
-"""Motions from pose to pose and from q to q: paths over s in 0 ... 1, time scaling s(t), and CSV files of both."""
+"""Motions from pose to pose and from q to q: paths over s in 0 ... 1, time scaling s(t), and CSV
+files of both.
+"""
 
-from .files import read_joints, read_poses, write_joints, write_poses
+from .csv_io import read_joints, read_poses, write_joints, write_poses
 from .paths import joint, lengths, line, screw
 from .plot import plot_joints
 from .timing import Moment, Timing, cubic, fastest, quintic, trapezoidal

@@ -11,15 +11,17 @@ from ...groups.arrays import Array, numbers, poses
 
 
 def screw(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
-    """T(s) = T_s0 e^{s xi}, xi = log(T_s0^-1 T_s1): one screw motion, of constant body twist xi per unit of s.
+    """T(s) = T_s0 e^{s xi}, xi = log(T_s0^-1 T_s1): one screw motion, of constant body twist xi per
+    unit of s.
 
-    The tool turns about one axis and slides along it, all the time; its origin runs on a helix, on a straight line only
-    where the two poses have the same rotation (`line`).
+    The tool turns about one axis and slides along it, all the time; its origin runs on a helix, on
+    a straight line only where the two poses have the same rotation (`line`).
 
-    Parameters: T_s0, T_s1 (..., 4, 4), poses of the tool in one frame, m; s (...), also outside 0 ... 1. Leading axes
-    are broadcast: two poses and s (N,) give (N, 4, 4). Returns: (..., 4, 4), T_s0 and T_s1 themselves at s = 0 and 1.
-    At half a turn, where there are two ways round, the one of `se3.log`. NaN in an element gives NaN in that element.
-    Raises: PoseError, ShapeError, InputError. Accuracy: that of `se3.log` and `se3.exp`
+    Parameters: T_s0, T_s1 (..., 4, 4), poses of the tool in one frame, m; s (...), also outside 0
+    ... 1. Leading axes are broadcast: two poses and s (N,) give (N, 4, 4). Returns: (..., 4, 4),
+    T_s0 and T_s1 themselves at s = 0 and 1. At half a turn, where there are two ways round, the one
+    of `se3.log`. NaN in an element gives NaN in that element. Raises: PoseError, ShapeError,
+    InputError. Accuracy: that of `se3.log` and `se3.exp`
     (tests/solve/test_motions.py). Source: Park 1994, Lemmas 2 and 4.
     """
     T_s0, T_s1, s = _together(T_s0, T_s1, s)
@@ -29,7 +31,8 @@ def screw(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
 
 
 def line(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
-    """p(s) = p_0 + s (p_1 - p_0) and R(s) = R_0 e^{s w}, w = log(R_0^T R_1): the tool's origin on a straight line.
+    """p(s) = p_0 + s (p_1 - p_0) and R(s) = R_0 e^{s w}, w = log(R_0^T R_1): the tool's origin on a
+    straight line.
 
     The rotation is apart from it: about one axis, of constant angular velocity per unit of s.
     Parameters, returns, errors and accuracy: those of `screw`. Source: Park 1994, Lemmas 1 and 3.
@@ -43,14 +46,18 @@ def line(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
 
 
 def joint(q_0: ArrayLike, q_1: ArrayLike, s: ArrayLike) -> Array:
-    """q(s) = q_0 + s (q_1 - q_0): a straight line in the space of the coordinates, without taking turns off.
+    """q(s) = q_0 + s (q_1 - q_0): a straight line in the space of the coordinates, without taking
+    turns off.
 
-    Parameters: q_0, q_1 (..., m), rad or m; s (...), broadcast against their leading axes. Returns: (..., m), q_0 and
-    q_1 themselves at s = 0 and 1. Raises: ShapeError, InputError. Accuracy: three roundings. Source: none, a line.
+    Parameters: q_0, q_1 (..., m), rad or m; s (...), broadcast against their leading axes. Returns:
+    (..., m), q_0 and q_1 themselves at s = 0 and 1. Raises: ShapeError, InputError. Accuracy: three
+    roundings. Source: none, a line.
     """
     q_0, q_1, s = numbers(q_0, "q_0"), numbers(q_1, "q_1"), numbers(s, "s")[..., None]
     if not q_0.ndim or not q_1.ndim or q_0.shape[-1] != q_1.shape[-1]:
-        raise ShapeError(f"q_0, q_1: expected (..., m) with the same m, got {q_0.shape} and {q_1.shape}")
+        raise ShapeError(
+            f"q_0, q_1: expected (..., m) with the same m, got {q_0.shape} and {q_1.shape}"
+        )
     try:
         return np.where(s == 1, q_1, q_0 + s * (q_1 - q_0))
     except ValueError as error:
@@ -59,11 +66,13 @@ def joint(q_0: ArrayLike, q_1: ArrayLike, s: ArrayLike) -> Array:
 
 
 def lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: str = "line") -> Array:
-    """How long a path between two poses is: the way of the tool's origin (m) and the angle turned (rad).
+    """How long a path between two poses is: the way of the tool's origin (m) and the angle turned
+    (rad).
 
     Both are passed evenly in s, so |p'| = length s' and |omega| = angle s': what `fastest` needs.
-    Parameters: T_s0, T_s1 (..., 4, 4); along "line" (|p_1 - p_0|) or "screw" (|v| of xi = (omega; v), the length of the
-    helix). Returns: (..., 2), m and rad. Raises: PoseError, ShapeError, InputError. Accuracy: that of `se3.log`.
+    Parameters: T_s0, T_s1 (..., 4, 4); along "line" (|p_1 - p_0|) or "screw" (|v| of xi = (omega;
+    v), the length of the helix). Returns: (..., 2), m and rad. Raises: PoseError, ShapeError,
+    InputError. Accuracy: that of `se3.log`.
     """
     if not isinstance(along, str) or along not in ("line", "screw"):
         raise InputError(f"along: expected 'line' or 'screw', got {told(along)}")
@@ -87,7 +96,9 @@ def _together(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> tuple[Array, Ar
 
 
 def _exact(T: Array) -> Array:
-    """The poses with rotations to rounding: two that each miss by what is accepted would miss by more together."""
+    """The poses with rotations to rounding: two that each miss by what is accepted would miss by
+    more together.
+    """
     T = T.copy()
     T[..., :3, :3] = so3.exp(so3.log(T[..., :3, :3]))
     return T

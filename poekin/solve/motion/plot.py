@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import ShapeError
-from ...formats.whole import write_whole
+from ...formats.text.atomic_write import write_whole
 from ...groups.arrays import numbers
 from ...model.chain import Chain
-from .. import figures
+from .. import svg
 
 
 def plot_joints(
@@ -24,14 +24,16 @@ def plot_joints(
     breaks: Sequence[int] = (),
     path: str | os.PathLike[str] | None = None,
 ) -> str:
-    """Each coordinate over time, or over the number of the point, one below the other, as the text of an SVG.
+    """Each coordinate over time, or over the number of the point, one below the other, as the text
+    of an SVG.
 
-    The shaded part of a plot is within the coordinate's limits, where they are not far off; dotted lines stand at
-    `breaks`, numbers of points before which the path is broken (`Followed.changes`). The same
+    The shaded part of a plot is within the coordinate's limits, where they are not far off; dotted
+    lines stand at `breaks`, numbers of points before which the path is broken (`Followed.changes`).
+    The same
     numbers give the same text.
 
-    Parameters: q (N, m), rad or m; arm; times (N,), s; breaks; path: a file that it is written to, whole or not at all.
-    Returns: the text. Source: none, a drawing.
+    Parameters: q (N, m), rad or m; arm; times (N,), s; breaks; path: a file that it is written to,
+    whole or not at all. Returns: the text. Source: none, a drawing.
     Raises: MissingExtra without Matplotlib (extra `report`); ShapeError, InputError, FileError.
     """
     q = numbers(q, "q")
@@ -45,22 +47,31 @@ def plot_joints(
         rows: Any = figure.subplots(max(arm.dof, 1), sharex=True, squeeze=False)[:, 0]
         for k, name in enumerate(arm.q_names):
             _one(rows[k], t, q[:, k], arm.limits[k], [b for b in breaks if 0 < b < len(t)])
-            rows[k].set_title(f"{figures.label(name)} ({'rad' if arm._turns(k) else 'm'})", loc="left", fontsize=9)
+            rows[k].set_title(
+                f"{svg.label(name)} ({'rad' if arm._turns(k) else 'm'})", loc="left", fontsize=9
+            )
         rows[-1].set_xlabel("point" if times is None else "time (s)")
 
-    text = figures.svg(7.2, 0.5 + 1.1 * max(arm.dof, 1), "a plot of joints", draw)
+    text = svg.svg(7.2, 0.5 + 1.1 * max(arm.dof, 1), "a plot of joints", draw)
     if path is not None:
         write_whole(path, text.encode())
-    return figures.inline(text)
+    return svg.inline(text)
 
 
-def _one(axes: Any, t: np.ndarray, x: np.ndarray, limits: np.ndarray, breaks: Sequence[int]) -> None:
+def _one(
+    axes: Any, t: np.ndarray, x: np.ndarray, limits: np.ndarray, breaks: Sequence[int]
+) -> None:
     """One coordinate; it is not joined across a break."""
     for part in np.split(np.arange(len(t)), breaks):
-        axes.plot(t[part], x[part], color=figures.INK, linewidth=1.1)
+        axes.plot(t[part], x[part], color=svg.INK, linewidth=1.1)
     for b in breaks:
-        axes.axvline(0.5 * (t[b - 1] + t[b]), color=figures.PALE, linewidth=0.8, linestyle=":")
+        axes.axvline(0.5 * (t[b - 1] + t[b]), color=svg.PALE, linewidth=0.8, linestyle=":")
     low, high = axes.get_ylim()
-    axes.axhspan(max(limits[0], low - (high - low)), min(limits[1], high + (high - low)), color="#f0f0f0", zorder=0)
+    axes.axhspan(
+        max(limits[0], low - (high - low)),
+        min(limits[1], high + (high - low)),
+        color="#f0f0f0",
+        zorder=0,
+    )
     axes.set_ylim(low, high)
-    figures.plain(axes)
+    svg.plain(axes)

@@ -1,4 +1,6 @@
-"""Time scaling: s(t) from 0 to 1 with its rates, at rest at both ends, and the shortest one that keeps given limits."""
+"""Time scaling: s(t) from 0 to 1 with its rates, at rest at both ends, and the shortest one that
+keeps given limits.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,10 @@ from ...errors import InputError, ShapeError, told
 from ...groups.arrays import Array, numbers
 
 LAWS = ("cubic", "quintic", "trapezoidal")
-_PEAKS = {"cubic": (1.5, 6.0), "quintic": (1.875, 10 / math.sqrt(3))}  # of s' (1/T) and |s''| (1/T^2)
+_PEAKS = {
+    "cubic": (1.5, 6.0),
+    "quintic": (1.875, 10 / math.sqrt(3)),
+}  # of s' (1/T) and |s''| (1/T^2)
 _INSTANT = 1e-100  # s: what takes less takes no time, as its rates would be no numbers
 _SPARE = 1 + 4e-15  # so that what is computed of a timing keeps the limits to the last digit
 
@@ -31,13 +36,17 @@ class Moment(NamedTuple):
 
 @dataclass(frozen=True)
 class Timing:
-    """s(t) over 0 <= t <= duration (s), at rest before and after. `law` is one of `LAWS`; `ramp`, of the trapezoidal
-    law, the part of the duration that it speeds up, and slows down, for.
+    """s(t) over 0 <= t <= duration (s), at rest before and after. `law` is one of `LAWS`; `ramp`,
+    of the trapezoidal law, the part of the duration that it speeds up, and slows down, for.
 
-    A call with t (...), s, gives the `Moment` there. s' is symmetric about the middle: s(T - t) = 1 - s(t).
-    - cubic: s = 3 u^2 - 2 u^3, u = t / T: at most s' = 1.5 / T in the middle, |s''| = 6 / T^2 at the ends
-    - quintic: s = 10 u^3 - 15 u^4 + 6 u^5: s'' = 0 at the ends; at most s' = 1.875 / T, |s''| = 5.78 / T^2
-    - trapezoidal: s'' = ±1 / (r (1 - r) T^2) for r T at either end, r = ramp, and s' = 1 / ((1 - r) T) between
+    A call with t (...), s, gives the `Moment` there. s' is symmetric about the middle: s(T - t) = 1
+    - s(t).
+    - cubic: s = 3 u^2 - 2 u^3, u = t / T: at most s' = 1.5 / T in the middle, |s''| = 6 / T^2 at
+      the ends
+    - quintic: s = 10 u^3 - 15 u^4 + 6 u^5: s'' = 0 at the ends; at most s' = 1.875 / T, |s''| =
+      5.78 / T^2
+    - trapezoidal: s'' = ±1 / (r (1 - r) T^2) for r T at either end, r = ramp, and s' = 1 / ((1 - r)
+      T) between
     """
 
     law: str
@@ -51,7 +60,9 @@ class Timing:
             s = np.where(np.isnan(t), np.nan, np.where(t < 0, 0.0, 1.0))
             return Moment(s, 0.0 * s, 0.0 * s)
         u = np.clip(t / self.duration, 0.0, 1.0)
-        h = np.minimum(u, 1.0 - u)  # the first half: the other one is its mirror, so that s ends at 1 exactly
+        h = np.minimum(
+            u, 1.0 - u
+        )  # the first half: the other one is its mirror, so that s ends at 1 exactly
         s, ds, dds = self._half(h)
         late, moving = u > 0.5, (t >= 0) & (t <= self.duration)
         s = np.where(late, 1.0 - s, s)
@@ -77,12 +88,15 @@ class Timing:
 
 
 def cubic(duration: float) -> Timing:
-    """s = 3 u^2 - 2 u^3 with u = t / duration (s): at rest at both ends. Returns: Timing. Raises: InputError."""
+    """s = 3 u^2 - 2 u^3 with u = t / duration (s): at rest at both ends. Returns: Timing. Raises:
+    InputError.
+    """
     return Timing("cubic", _duration(duration))
 
 
 def quintic(duration: float) -> Timing:
-    """s = 10 u^3 - 15 u^4 + 6 u^5, u = t / duration (s): at rest and without acceleration at both ends.
+    """s = 10 u^3 - 15 u^4 + 6 u^5, u = t / duration (s): at rest and without acceleration at both
+    ends.
 
     Returns: Timing. Raises: InputError.
     """
@@ -90,7 +104,8 @@ def quintic(duration: float) -> Timing:
 
 
 def trapezoidal(duration: float, ramp: float = 0.25) -> Timing:
-    """s' rises evenly for ramp · duration (s), stays, and falls as it rose. ramp: above 0, at most 1/2.
+    """s' rises evenly for ramp · duration (s), stays, and falls as it rose. ramp: above 0, at most
+    1/2.
 
     Returns: Timing. Raises: InputError.
     """
@@ -100,19 +115,25 @@ def trapezoidal(duration: float, ramp: float = 0.25) -> Timing:
 
 
 def fastest(
-    law: str, distance: ArrayLike, *, speed: ArrayLike | None = None, acceleration: ArrayLike | None = None
+    law: str,
+    distance: ArrayLike,
+    *,
+    speed: ArrayLike | None = None,
+    acceleration: ArrayLike | None = None,
 ) -> Timing:
-    """The shortest timing of a law with |distance| s' <= speed and |distance| |s''| <= acceleration, each of them.
+    """The shortest timing of a law with |distance| s' <= speed and |distance| |s''| <=
+    acceleration, each of them.
 
-    For joints, distance = q_1 - q_0 (m,); for poses, `lengths(T_s0, T_s1)`, the way (m) and the angle (rad). For a
-    screw motion the acceleration is that along the helix of the tool's origin.
+    For joints, distance = q_1 - q_0 (m,); for poses, `lengths(T_s0, T_s1)`, the way (m) and the
+    angle (rad). For a screw motion the acceleration is that along the helix of the tool's origin.
 
-    Parameters: law "cubic", "quintic" or "trapezoidal"; distance (...), rad or m; speed, acceleration, positive, per s
-    and s^2, broadcast against it, infinite or left out where there is no limit. The trapezoidal law needs the latter.
-    Returns: Timing, of the duration 0 where every distance is (next to) 0. Raises: InputError, ShapeError.
+    Parameters: law "cubic", "quintic" or "trapezoidal"; distance (...), rad or m; speed,
+    acceleration, positive, per s and s^2, broadcast against it, infinite or left out where there is
+    no limit. The trapezoidal law needs the latter. Returns: Timing, of the duration 0 where every
+    distance is (next to) 0. Raises: InputError, ShapeError.
     Accuracy: longer than the shortest by 1e-14 of it, so that the limits hold in float64 too.
-    Source: cubic and quintic from their greatest rates, see `Timing`; trapezoidal: a triangle where the speed is not
-    reached, v^2 >= a |distance|.
+    Source: cubic and quintic from their greatest rates, see `Timing`; trapezoidal: a triangle where
+    the speed is not reached, v^2 >= a |distance|.
     """
     if not isinstance(law, str) or law not in LAWS:
         raise InputError(f"law: expected one of {', '.join(LAWS)}, got {told(law)}")
@@ -120,16 +141,22 @@ def fastest(
     if not np.isfinite(way).all():
         raise InputError(f"distance: expected finite numbers, got {told(distance)}")
     if speed is None and acceleration is None:
-        raise InputError("fastest: expected a limit of speed, of acceleration, or of both, got none")
+        raise InputError(
+            "fastest: expected a limit of speed, of acceleration, or of both, got none"
+        )
     a, b = _least(way, speed, "speed"), _least(way, acceleration, "acceleration")
     still = way.max(initial=0.0) < _INSTANT  # then limits may vanish in what underflows
     if a == b == 0 and not still:
-        raise InputError("fastest: expected a finite limit for some distance that is not 0, got none")
+        raise InputError(
+            "fastest: expected a finite limit for some distance that is not 0, got none"
+        )
     if law in _PEAKS:
         top, rise = _PEAKS[law]
         duration, ramp = max(top * a, math.sqrt(rise * b)), 0.5
     elif acceleration is None or (b == 0 and not still):
-        raise InputError("acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time")
+        raise InputError(
+            "acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time"
+        )
     else:
         even = 0 < b <= a * a
         ramp = max(b / (a * a + b), 1e-15) if even else 0.5
@@ -150,7 +177,9 @@ def _least(way: Array, limit: Any, what: str) -> float:
         with np.errstate(over="ignore"):
             return float(np.max(way / limits, initial=0.0))
     except ValueError as error:
-        raise ShapeError(f"{what}: shape {limits.shape} does not fit the distances' {way.shape}") from error
+        raise ShapeError(
+            f"{what}: shape {limits.shape} does not fit the distances' {way.shape}"
+        ) from error
 
 
 def _duration(duration: Any) -> float:

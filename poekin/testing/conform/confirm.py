@@ -1,8 +1,9 @@
-"""The second oracle: whether the truth that a finding was judged by stands against mpmath's own matrix exponential.
+"""The second oracle: whether the truth that a finding was judged by stands against mpmath's own
+matrix exponential.
 
-No formula of `exact` is used: exp is mpmath's `expm`, which squares and sums; the Jacobians of exp are blocks of the
-exponential of a larger matrix; derivatives of an arm are differences; log is judged by its exponential. To 60 digits,
-in proportion to what is compared.
+No formula of `exact` is used: exp is mpmath's `expm`, which squares and sums; the Jacobians of exp
+are blocks of the exponential of a larger matrix; derivatives of an arm are differences; log is
+judged by its exponential. To 60 digits, in proportion to what is compared.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import exact
+from ..oracles import exact
 
 _mp: Any = exact.mp.clone()
 _mp.dps = 100
@@ -37,8 +38,8 @@ def of_log(X: np.ndarray) -> bool:
 def is_log(X: np.ndarray, truth: np.ndarray) -> bool:
     """Whether e^truth has X's translation and X's polar factor P for rotation, |ω| ≤ π.
 
-    P is the polar factor where Pᵀ R is symmetric and P is near R: the other rotations with a symmetric Pᵀ R are half
-    turns of P, and some entry is off by 0.94 or more.
+    P is the polar factor where Pᵀ R is symmetric and P is near R: the other rotations with a
+    symmetric Pᵀ R are half turns of P, and some entry is off by 0.94 or more.
     """
     E, given = _expm(truth), _matrix(exact.exactly(X))
     S = E[:3, :3].T * given[:3, :3]
@@ -50,7 +51,9 @@ def is_log(X: np.ndarray, truth: np.ndarray) -> bool:
 
 
 def of_adjoint(T: np.ndarray, within: float = 1e-14) -> bool:
-    """Whether T [ξ] = [Ad(T) ξ] T for each unit twist ξ, to 14 digits, or `within`: T is a pose to no more."""
+    """Whether T [ξ] = [Ad(T) ξ] T for each unit twist ξ, to 14 digits, or `within`: T is a pose to
+    no more.
+    """
     X, Ad = _matrix(exact.exactly(T)), exact.adjoint(T)
     # T's rotation is one only to rounding, and so is the identity.
     scale = 1 + _largest(X)
@@ -81,7 +84,9 @@ def of_pose(screws: Any, home: Any, x: Any) -> bool:
 
 
 def of_velocities(screws: Any, home: Any, x: Any, columns: np.ndarray) -> bool:
-    """Whether space twists (6, n) are Ṫ T⁻¹ of the product of exponentials, by a difference of step 1e-30."""
+    """Whether space twists (6, n) are Ṫ T⁻¹ of the product of exponentials, by a difference of step
+    1e-30.
+    """
     T, step = product(screws, home, x), _mp.mpf(10) ** -30
     back, truth = _mp.inverse(T), exact.exactly(columns)
     for k in range(len(x)):
@@ -109,7 +114,9 @@ def chain_of(factors: Sequence[Any]) -> Any:
 
 
 def near(T: Any, truth: np.ndarray) -> bool:
-    """Whether an mpmath matrix and an array of `exact` are the same to 60 digits of the largest entry."""
+    """Whether an mpmath matrix and an array of `exact` are the same to 60 digits of the largest
+    entry.
+    """
     return _near(T, truth)
 
 
@@ -132,7 +139,9 @@ def _hat(xi: Any) -> Any:
     x, y, z = (_mp.mpf(c) for c in list(xi)[:3])
     rows = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
     if len(xi) == 6:
-        rows = [[*row, _mp.mpf(v)] for row, v in zip(rows, list(xi)[3:], strict=True)] + [[0, 0, 0, 0]]
+        rows = [[*row, _mp.mpf(v)] for row, v in zip(rows, list(xi)[3:], strict=True)] + [
+            [0, 0, 0, 0]
+        ]
     return _mp.matrix(rows)
 
 

@@ -7,9 +7,9 @@
 
 Of a subject in float32: 3 × what float32 can attain, 1e-5, and 1e-3 (`precision`).
 
-Rotations are judged by their angle in rad (‖ΔR‖ ÷ √2, Frobenius); rotation vectors and 3×3 blocks are taken as they
-are; translations, v and Q blocks in proportion to the lengths that went in. Which of two signs at π, or which branch,
-is an error like any other.
+Rotations are judged by their angle in rad (‖ΔR‖ ÷ √2, Frobenius); rotation vectors and 3×3 blocks
+are taken as they are; translations, v and Q blocks in proportion to the lengths that went in. Which
+of two signs at π, or which branch, is an error like any other.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ import re
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from ..accuracy_laws import EXP_LOG_BAR
-from ..laws import LawViolation
-from .calls import ENDED, LOST, UNANSWERED
-from .precision import DOUBLE, Precision
+from ..accuracy.accuracy_laws import EXP_LOG_BAR
+from ..laws.laws import LawViolation
+from .process.calls import ENDED, LOST, UNANSWERED
+from .subjects.precision import DOUBLE, Precision
 
 NO_RESULT = "no result"
 """What a verdict is of where there is nothing to measure."""
@@ -44,9 +44,12 @@ class Grade(enum.IntEnum):
 
 
 class Part(NamedTuple):
-    """One measured error: what it is of, its size, the scale it is in proportion to, and what floats can attain.
+    """One measured error: what it is of, its size, the scale it is in proportion to, and what
+    floats can attain.
 
-    `attainable` is called only where `error` exceeds 3 × `least`, a lower bound of it that costs nothing.
+    `attainable` is called only where `error` exceeds 3 × `least`, a lower bound of it that costs
+    nothing;
+    `precision` is what the subject computes in.
     """
 
     what: str
@@ -78,7 +81,9 @@ class Part(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """What came of one case. Fields: grade; size, the error ÷ scale that decided it; what, of what; fault, if any."""
+    """What came of one case. Fields: grade; size, the error ÷ scale that decided it; what, of what;
+    fault, if any.
+    """
 
     grade: Grade
     size: float
@@ -102,11 +107,14 @@ class Verdict(NamedTuple):
         return self.grade, self.size
 
 
-def judged(law: str, parts: Sequence[Part] | str, at_most: Grade = Grade.BROKEN, **seen: object) -> Verdict:
-    """The verdict on a case: that of the worst of its parts, or on a fault (a text: no result at all).
+def judged(
+    law: str, parts: Sequence[Part] | str, at_most: Grade = Grade.BROKEN, **seen: object
+) -> Verdict:
+    """The verdict on a case: that of the worst of its parts, or on a fault (a text: no result at
+    all).
 
-    Raises: LawViolation, with the error and its bound, where the grade is worse than `at_most`; so `at_most` broken
-    measures, and never raises.
+    Raises: LawViolation, with the error and its bound, where the grade is worse than `at_most`; so
+    `at_most` broken measures, and never raises.
     """
     if isinstance(parts, str):
         verdict, error, bound = Verdict(Grade.BROKEN, math.inf, NO_RESULT, parts), math.inf, 0.0

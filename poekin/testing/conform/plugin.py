@@ -1,4 +1,5 @@
-"""For pytest: the fixture `conform` holds a subject to the laws, and its test fails with the counterexamples.
+"""For pytest: the fixture `conform` holds a subject to the laws, and its test fails with the
+counterexamples.
 
 In the conftest.py at the top of the tests, or with -p on the command line:
 
@@ -9,8 +10,8 @@ and then
     def test_my_kinematics_keep_the_laws(conform):
         conform(Mine)
 
-It is not loaded unasked, so that `conform` means nothing in a project that does not ask for it. Only pytest loads it,
-and nothing else of poekin imports pytest.
+It is not loaded unasked, so that `conform` means nothing in a project that does not ask for it.
+Only pytest loads it, and nothing else of poekin imports pytest.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ from typing import Any
 
 import pytest
 
-from ..laws import LawViolation
+from ..laws.laws import LawViolation
 from .grades import Grade
-from .precision import PRECISIONS
 from .report import Report
 from .run import SECONDS, conform
+from .subjects.precision import PRECISIONS
 
 
 def held(
@@ -37,12 +38,17 @@ def held(
 ) -> Report:
     """Hold a subject to the laws, as `run.conform` does, and return the report.
 
-    Parameters: thing, laws, examples, seconds, leave_out, as of `run.conform`; at_most, the worst `Grade` let pass.
-    Returns: Report.
-    Raises: LawViolation, with every counterexample, where a confirmed grade is worse than `at_most`; as `run.conform`.
+    Parameters: thing, laws, examples, seconds, leave_out, as of `run.conform`; at_most, the worst
+    `Grade` let pass. Returns: Report.
+    Raises: LawViolation, with every counterexample, where a confirmed grade is worse than
+    `at_most`; as `run.conform`.
     """
     report = conform(thing, laws, examples, seconds, leave_out=leave_out, at_most=at_most)
-    wrong = tuple(outcome for outcome in report.outcomes if outcome.grade > at_most and not outcome.unconfirmed)
+    wrong = tuple(
+        outcome
+        for outcome in report.outcomes
+        if outcome.grade > at_most and not outcome.unconfirmed
+    )
     if wrong:
         worst = max(wrong, key=lambda outcome: (outcome.grade, outcome.worst))
         precision = PRECISIONS[worst.precision]
@@ -56,5 +62,7 @@ def held(
 
 @pytest.fixture(name="conform", scope="session")
 def _conform() -> Callable[..., Report]:
-    """`held`: call it with a subject, and it fails the test where the subject does not keep the laws."""
+    """`held`: call it with a subject, and it fails the test where the subject does not keep the
+    laws.
+    """
     return held

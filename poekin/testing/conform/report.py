@@ -1,4 +1,6 @@
-"""What came of holding a subject to the laws: law by law a grade, a counterexample, and whether it was confirmed."""
+"""What came of holding a subject to the laws: law by law a grade, a counterexample, and whether it
+was confirmed.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ import numpy as np
 
 from ...errors import harmless
 from .grades import NO_RESULT, Grade
-from .law import Case
+from .laws.law import Case
 
 FEW = 100
 """Fewer examples than these say little of a law that seems to hold."""
@@ -21,13 +23,14 @@ FEW = 100
 class Outcome:
     """One law and one subject.
 
-    grade; worst: the largest size of an error met (inf: no result), of `what`; examples: how many were tried; late:
-    whether there was no time for all of them. Of a finding (poor or broken, or worse than was asked for) also the
-    shrunk case with its numbers; its error, `error_of` what, or its fault (a text) where there was no result; the case
-    in words, as Python to paste (`paste`), and what ought to come of it (`expected`, any shape; `names`, those that a
-    URDF has to be read with); a hint; precision, the floats that the subject computes in.
-    unconfirmed: why it is no finding, where its truth did not stand against the second oracle; the grade says nothing
-    then.
+    grade; worst: the largest size of an error met (inf: no result), of `what`; examples: how many
+    were tried; late: whether there was no time for all of them. Of a finding (poor or broken, or
+    worse than was asked for) also the shrunk case with its numbers; its error, `error_of` what, or
+    its fault (a text) where there was no result; the case in words, as Python to paste (`paste`),
+    and what ought to come of it (`expected`, any shape; `names`, those that a URDF has to be read
+    with); a hint; precision, the floats that the subject computes in.
+    unconfirmed: why it is no finding, where its truth did not stand against the second oracle; the
+    grade says nothing then.
     """
 
     law: str
@@ -76,7 +79,10 @@ class Outcome:
         if self.finding:
             plain |= {"error": self.error, "error_of": self.error_of, "fault": self.fault}
             plain |= {"counterexample": self.words, "python": self.paste}
-            plain |= {"numbers": [] if self.case is None else self.case.numbers, "expected": self.expected}
+            plain |= {
+                "numbers": [] if self.case is None else self.case.numbers,
+                "expected": self.expected,
+            }
             plain |= {"names": list(self.names), "hint": self.hint}
         return plain
 
@@ -84,14 +90,21 @@ class Outcome:
         return self.told()
 
     def told(self, before: Mapping[str, str] = MappingProxyType({})) -> str:
-        """The outcome in a few lines; Python that another law printed `before`, as {Python: law}, is not repeated.
+        """The outcome in a few lines; Python that another law printed `before`, as {Python: law},
+        is not repeated.
 
         Returns: the text. Raises: nothing.
         """
         lines = [f"{self.says}", f"worst {self.worst:.2g} of {self.what}"]
         if not np.isfinite(self.worst):
-            lines[1] = "worst: no result" if self.what == NO_RESULT else f"worst: {self.what} is not 0, and must be"
-        lines[1] += f"; {self.examples} examples" + (" in float32" if self.precision == "float32" else "")
+            lines[1] = (
+                "worst: no result"
+                if self.what == NO_RESULT
+                else f"worst: {self.what} is not 0, and must be"
+            )
+        lines[1] += f"; {self.examples} examples" + (
+            " in float32" if self.precision == "float32" else ""
+        )
         if self.unconfirmed:
             lines[1:] = [self.unconfirmed]
         elif not self.finding:
@@ -105,7 +118,9 @@ class Outcome:
                 lines.append(f"# the Python is that of {before[self.paste]}, above")
             else:
                 exact = [f"# names: {', '.join(self.names)}, or more"] if self.names else []
-                exact += [] if self.expected is None else [f"# exact: {(self.expected + 0.0).tolist()}"]
+                exact += (
+                    [] if self.expected is None else [f"# exact: {(self.expected + 0.0).tolist()}"]
+                )
                 lines += [self.paste, *exact]
             lines += [self.hint] if self.hint else []
         return f"{self.word:10} {self.law}: " + "\n           ".join(lines)
@@ -115,8 +130,8 @@ class Outcome:
 class Report:
     """All outcomes of one subject, and what else is to be known of them.
 
-    notes: laws that it was not held to, names that are none of a subject's, and the like; at_most: the worst grade that
-    conforms.
+    notes: laws that it was not held to, names that are none of a subject's, and the like; at_most:
+    the worst grade that conforms.
     """
 
     subject: str
@@ -126,13 +141,17 @@ class Report:
 
     @property
     def findings(self) -> tuple[Outcome, ...]:
-        """The outcomes with a counterexample, which was confirmed: poor, broken, or worse than `at_most`."""
+        """The outcomes with a counterexample, which was confirmed: poor, broken, or worse than
+        `at_most`.
+        """
         return tuple(outcome for outcome in self.outcomes if outcome.finding)
 
     @property
     def conforms(self) -> bool:
         """Whether nothing that was confirmed is worse than `at_most`."""
-        return all(outcome.grade <= self.at_most or outcome.unconfirmed for outcome in self.outcomes)
+        return all(
+            outcome.grade <= self.at_most or outcome.unconfirmed for outcome in self.outcomes
+        )
 
     def __getitem__(self, law: str) -> Outcome:
         for outcome in self.outcomes:
@@ -143,7 +162,12 @@ class Report:
     def as_dict(self) -> dict[str, Any]:
         """Plain data, as `poekin conform --json` prints it."""
         laws = [outcome.as_dict() for outcome in self.outcomes]
-        return {"subject": self.subject, "conforms": self.conforms, "laws": laws, "notes": list(self.notes)}
+        return {
+            "subject": self.subject,
+            "conforms": self.conforms,
+            "laws": laws,
+            "notes": list(self.notes),
+        }
 
     def __str__(self) -> str:
         lines, before = [harmless(self.subject, 200)], dict[str, str]()

@@ -9,18 +9,18 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ...errors import InputError, UnknownName, closest, shown
-from ...model.evaluation import FRAME_NAMES
-from .arm_cases import ARM_LAWS
-from .calls import LOST, UNANSWERED, Undeclared
-from .child import isolated, obstacle
+from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from .grades import NO_RESULT, Grade
-from .group_cases import GROUP_LAWS
-from .law import Case, Law
-from .limits import Limits
+from .laws.arm_cases import ARM_LAWS
+from .laws.group_cases import GROUP_LAWS
+from .laws.law import Case, Law
+from .laws.urdf_cases import URDF_LAWS
+from .process.calls import LOST, UNANSWERED, Undeclared
+from .process.child import isolated, obstacle
+from .process.limits import Limits
 from .report import Outcome, Report
 from .search import Found, worst
-from .subject import FUNCTIONS, ORDERS, Subject
-from .urdf_cases import URDF_LAWS
+from .subjects.subject import FUNCTIONS, ORDERS, Subject
 
 LAWS: tuple[Law, ...] = (*GROUP_LAWS, *ARM_LAWS, *URDF_LAWS)
 """Every law there is, in the order of the report."""
@@ -28,28 +28,40 @@ SECONDS = 600.0
 LIMITS = Limits()
 
 
-def applicable(subject: Subject, names: Sequence[str] = (), leave_out: Sequence[str] = ()) -> list[Law]:
-    """The laws that a subject can be held to; with names, of these only, and without those to `leave_out`.
+def applicable(
+    subject: Subject, names: Sequence[str] = (), leave_out: Sequence[str] = ()
+) -> list[Law]:
+    """The laws that a subject can be held to; with names, of these only, and without those to
+    `leave_out`.
 
-    Returns: a list of `law.Law`. Raises: UnknownName for a name that is no law; InputError where one of those named
-    does not apply, or none is left.
+    Returns: a list of `law.Law`. Raises: UnknownName for a name that is no law; InputError where
+    one of those named does not apply, or none is left.
     """
     for name in (*names, *leave_out):
         if name not in {law.name for law in LAWS}:
-            raise UnknownName(f"there is no law {shown(name)}; {closest(name, [law.name for law in LAWS])}")
+            raise UnknownName(
+                f"there is no law {shown(name)}; {closest(name, [law.name for law in LAWS])}"
+            )
     every = [law for law in LAWS if not reason(law, subject)]
     those = f"those that do: {', '.join(law.name for law in every)}"
     for law in LAWS:
         if law.name in names and law not in every:
-            raise InputError(f"{subject.title}: the law {law.name} does not apply: {reason(law, subject)}; {those}")
-    chosen = [law for law in every if (not names or law.name in names) and law.name not in leave_out]
+            raise InputError(
+                f"{subject.title}: the law {law.name} does not apply: {reason(law, subject)}; {those}"
+            )
+    chosen = [
+        law for law in every if (not names or law.name in names) and law.name not in leave_out
+    ]
     if not chosen:
         raise InputError(f"{subject.title}: no law that applies is left; {those}")
     return chosen
 
 
-def law_names(thing: Any, leave_out: Sequence[str] = (), limits: Limits | None = LIMITS) -> list[str]:
-    """The names of the laws that a subject can be held to: for `pytest.mark.parametrize`, a test each.
+def law_names(
+    thing: Any, leave_out: Sequence[str] = (), limits: Limits | None = LIMITS
+) -> list[str]:
+    """The names of the laws that a subject can be held to: for `pytest.mark.parametrize`, a test
+    each.
 
     Parameters: thing, leave_out, limits, as of `conform`. Returns: the names. Raises: as `conform`.
     """
@@ -59,7 +71,9 @@ def law_names(thing: Any, leave_out: Sequence[str] = (), limits: Limits | None =
 
 
 def opened(thing: Any, limits: Limits | None) -> contextlib.AbstractContextManager[Subject]:
-    """The subject in a process of its own where that can be, and was not declined, else in this one."""
+    """The subject in a process of its own where that can be, and was not declined, else in this
+    one.
+    """
     if limits is None:
         return contextlib.nullcontext(Subject(thing))
     limits.checked()
@@ -74,7 +88,9 @@ def reason(law: Law, subject: Subject) -> str:
 
 
 def remarks(subject: Subject, laws: Sequence[str], leave_out: Sequence[str]) -> list[str]:
-    """What a subject is not held to, where nobody chose the laws, and which of its names are known to no law."""
+    """What a subject is not held to, where nobody chose the laws, and which of its names are known
+    to no law.
+    """
     notes = [f"left out, as asked for: {', '.join(leave_out)}"] if leave_out else []
     notes += subject.misspelt
     if laws:
@@ -86,7 +102,9 @@ def remarks(subject: Subject, laws: Sequence[str], leave_out: Sequence[str]) -> 
     for law in LAWS:
         if law.needs in subject.functions and not law.applies(subject):
             undeclared.setdefault(law.unless, []).append(law.name)
-    notes += [f"{why}, so there is no law of {', '.join(names)}" for why, names in undeclared.items()]
+    notes += [
+        f"{why}, so there is no law of {', '.join(names)}" for why, names in undeclared.items()
+    ]
     return notes
 
 
@@ -103,16 +121,19 @@ def conform(
 ) -> Report:
     """Hold a subject (`subject`) to the laws, and report each with a grade (`grades`).
 
-    Parameters: thing, a class or object of functions, or "MODULE:NAME" of one; laws, names, or one name, all that apply
-    by default; examples of each law, by default as many as are its own, so that a grade does not depend on the
-    machine; seconds for all laws together, shrinking (half a minute a finding at most) and confirming not counted: a
-    law for which they do not suffice is graded by ten examples at least, and the report says so; say(done, total,
-    law), of progress; leave_out, names of laws that it is not held to; at_most, the worst `Grade` that conforms;
-    limits, of each call in a process of its own (`limits.Limits`), or None for calls in this one.
+    Parameters: thing, a class or object of functions, or "MODULE:NAME" of one; laws, names, or one
+    name, all that apply by default; examples of each law, by default as many as are its own, so
+    that a grade does not depend on the
+    machine; seconds for all laws together, shrinking (half a minute a finding at most) and
+    confirming not counted: a law for which they do not suffice is graded by ten examples at least,
+    and the report says so; say(done, total,
+    law), of progress; leave_out, names of laws that it is not held to; at_most, the worst `Grade`
+    that conforms; limits, of each call in a process of its own (`limits.Limits`), or None for calls
+    in this one.
     Returns: Report, of the same cases in every run.
     Every finding was confirmed by the second oracle (`confirm`).
-    Raises: InputError for a subject that cannot be used or does not declare what is needed, and for laws that do not
-    apply; UnknownName for a law that does not exist.
+    Raises: InputError for a subject that cannot be used or does not declare what is needed, and for
+    laws that do not apply; UnknownName for a law that does not exist.
     """
     if (examples is not None and examples < 1) or not seconds > 0:
         raise InputError(f"examples ≥ 1 and seconds > 0 expected, got {examples} and {seconds}")
@@ -125,9 +146,15 @@ def conform(
             say(done, len(chosen), law.name)
             start = time.monotonic()
             try:
-                found = worst(law, subject, examples or law.examples, left / (len(chosen) - done), at_most)
+                found = worst(
+                    law, subject, examples or law.examples, left / (len(chosen) - done), at_most
+                )
             except Undeclared as error:
-                outcomes.append(Outcome(law.name, law.says, Grade.EXACT, 0.0, NO_RESULT, 0, unconfirmed=str(error)))
+                outcomes.append(
+                    Outcome(
+                        law.name, law.says, Grade.EXACT, 0.0, NO_RESULT, 0, unconfirmed=str(error)
+                    )
+                )
                 continue
             left = max(left - (time.monotonic() - start), 0.1)
             outcomes.append(outcome(law, subject, found))
@@ -136,7 +163,9 @@ def conform(
     if late:
         notes.append(f"the time ran out: fewer examples than there should be of {', '.join(late)}")
     if here:
-        notes.append(f"run in this process, with no limit on its calls: {here}; MODULE:CLASS is run in its own")
+        notes.append(
+            f"run in this process, with no limit on its calls: {here}; MODULE:CLASS is run in its own"
+        )
     return Report(subject.label, tuple(outcomes), tuple(notes), at_most)
 
 
@@ -174,9 +203,13 @@ def _declared_otherwise(law: Law, subject: Subject, worst: Case, small: Case) ->
     """With which declarations what is broken would hold: said, and never assumed."""
     order, frame = subject.linear_first, subject.frame
     found = ""
-    for other in itertools.product((order, not order), (frame, *(f for f in FRAME_NAMES if frame and f != frame))):
+    for other in itertools.product(
+        (order, not order), (frame, *(f for f in FRAME_NAMES if frame and f != frame))
+    ):
         subject.linear_first, subject.frame = other
-        if not found and all(law.check(subject, case).grade < Grade.BROKEN for case in (worst, small)):
+        if not found and all(
+            law.check(subject, case).grade < Grade.BROKEN for case in (worst, small)
+        ):
             declared = [f'twist_order = "{ORDERS[other[0]]}"'] if other[0] != order else []
             declared += [f'jacobian_frame = "{other[1]}"'] if other[1] != frame else []
             found = f"with {' and '.join(declared)} it would hold"

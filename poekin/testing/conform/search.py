@@ -1,4 +1,6 @@
-"""The hunt for the worst case of one law, within a number of examples and seconds; the same cases in every run."""
+"""The hunt for the worst case of one law, within a number of examples and seconds; the same cases
+in every run.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +9,12 @@ import time
 from typing import NamedTuple
 
 from ...errors import InputError
-from ..hunting import for_each
-from .calls import UNANSWERED
+from ..accuracy.falsify import for_each
 from .grades import Grade, Verdict
-from .law import Case, Law
+from .laws.law import Case, Law
+from .process.calls import UNANSWERED
 from .shrink import shrunk
-from .subject import Subject
+from .subjects.subject import Subject
 
 # `law` has said what to install where hypothesis is missing.
 from hypothesis import target  # isort: skip
@@ -29,7 +31,8 @@ SHORT = 2.0
 
 
 class Found(NamedTuple):
-    """How many cases of a law were tried, the worst one, its verdict, and the shrunk case where it is a finding.
+    """How many cases of a law were tried, the worst one, its verdict, and the shrunk case where it
+    is a finding.
 
     late: whether there was no time for the others.
     """
@@ -45,8 +48,12 @@ class _Over(Exception):
     """The time is up, or enough was seen."""
 
 
-def worst(law: Law, subject: Subject, examples: int, seconds: float, at_most: Grade = Grade.GOOD) -> Found:
-    """Hunt the worst case, towards larger errors; shrink it where it is poor or broken, or worse than `at_most`."""
+def worst(
+    law: Law, subject: Subject, examples: int, seconds: float, at_most: Grade = Grade.GOOD
+) -> Found:
+    """Hunt the worst case, towards larger errors; shrink it where it is poor or broken, or worse
+    than `at_most`.
+    """
     end, count, late = time.monotonic() + seconds, 0, False
     top: tuple[Case, Verdict] | None = None
 
@@ -70,29 +77,38 @@ def worst(law: Law, subject: Subject, examples: int, seconds: float, at_most: Gr
     try:
         for_each(law.cases(subject), examples, one)
     except (_Over, Flaky, Unsatisfiable):
-        pass  # a case that there had been time for is tried again, or there is none, as is said below
+        # a case that there had been time for is tried again, or there is none, as is said below
+        pass
     if top is None:
         raise InputError(f"{law.name}: no case of this law could be drawn")
     case, verdict = top
     wrong = verdict.grade > min(at_most, Grade.GOOD)
-    return Found(count, case, verdict, simplest(law, subject, case, verdict) if wrong else None, late)
+    return Found(
+        count, case, verdict, simplest(law, subject, case, verdict) if wrong else None, late
+    )
 
 
 def rounded(law: Law, subject: Subject, case: Case) -> Case:
-    """The case in floats of the precision that the law's function computes in, which can tell no others apart."""
+    """The case in floats of the precision that the law's function computes in, which can tell no
+    others apart.
+    """
     return case._replace(numbers=subject.precision(law.needs).rounded(case.numbers))
 
 
 def simplest(law: Law, subject: Subject, case: Case, verdict: Verdict) -> Case:
     """The simplest case found that fails in the manner of this one.
 
-    It has the grade and the kind of fault of the verdict, on what the law could have drawn. What the law is about stays
-    in it as long as anything else can go: who errs in two ways shows the one that is the law's.
+    It has the grade and the kind of fault of the verdict, on what the law could have drawn. What
+    the law is about stays in it as long as anything else can go: who errs in two ways shows the one
+    that is the law's.
     """
     end = time.monotonic() + SHRINKING
 
     def fails(other: Case) -> bool:
-        return time.monotonic() < end and law.check(subject, rounded(law, subject, other)).manner == verdict.manner
+        return (
+            time.monotonic() < end
+            and law.check(subject, rounded(law, subject, other)).manner == verdict.manner
+        )
 
     own = law._replace(allowed=lambda other: law.allowed(other) and law.about(other))
     if not verdict.fault.startswith(UNANSWERED):

@@ -1,6 +1,7 @@
 """Smaller counterexamples: fewer parts, fewer numbers that are not zero, numbers with fewer digits.
 
-Hypothesis shrinks the bytes that a case was read from, which are not its numbers; here the numbers themselves shrink.
+Hypothesis shrinks the bytes that a case was read from, which are not its numbers; here the numbers
+themselves shrink.
 """
 
 from __future__ import annotations
@@ -11,14 +12,16 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from .law import Case, Law
+from .laws.law import Case, Law
 
 BUDGET = 1500
 """How many cases are tried at most."""
 
 
 def shrunk(law: Law, case: Case, fails: Callable[[Case], bool], budget: int = BUDGET) -> Case:
-    """The simplest case found, from this one on, that fails as well; the case itself where there is none."""
+    """The simplest case found, from this one on, that fails as well; the case itself where there is
+    none.
+    """
     spent, improved = 0, True
     while improved:
         improved = False
@@ -36,17 +39,30 @@ def shrunk(law: Law, case: Case, fails: Callable[[Case], bool], budget: int = BU
 
 
 def cost(case: Case) -> tuple[float, ...]:
-    """What makes a case less simple, the gravest first: numbers at all, not zero, digits, signs, late places."""
+    """What makes a case less simple, the gravest first: numbers at all, not zero, digits, signs,
+    late places.
+    """
     x = case.numbers
     places = np.flatnonzero(x)
     digits = sum(_digits(float(value)) for value in x[places])
-    return len(x), len(places), digits, int(np.sum(x < 0)), float(places.sum()), float(np.sum(_magnitude(x[places])))
+    return (
+        len(x),
+        len(places),
+        digits,
+        int(np.sum(x < 0)),
+        float(places.sum()),
+        float(np.sum(_magnitude(x[places]))),
+    )
 
 
 def _smaller(law: Law, case: Case) -> Iterator[Case]:
     x = case.numbers
     directions = list(law.directions(case))
-    own = [k for k in np.flatnonzero(x).tolist() if not any(start <= k < start + 3 for start in directions)]
+    own = [
+        k
+        for k in np.flatnonzero(x).tolist()
+        if not any(start <= k < start + 3 for start in directions)
+    ]
     starts = [k for k in law.triples(case) if np.any(x[k : k + 3])]
     for k in starts:  # a whole vector away
         yield _with(case, k, np.zeros(3))
@@ -66,7 +82,9 @@ def _smaller(law: Law, case: Case) -> Iterator[Case]:
 
 
 def _simpler_directions(n: np.ndarray) -> Iterator[np.ndarray]:
-    """Unit vectors with fewer numbers or digits: along an axis, in a plane of two axes, nearly along an axis."""
+    """Unit vectors with fewer numbers or digits: along an axis, in a plane of two axes, nearly
+    along an axis.
+    """
     for sign in (1.0, -1.0):
         yield from sign * np.eye(3)
     yield from map(np.array, itertools.permutations((0.6, 0.8, 0.0)))
@@ -85,7 +103,12 @@ def _simpler_directions(n: np.ndarray) -> Iterator[np.ndarray]:
 
 def _rounder(value: float) -> Iterator[float]:
     """Values with fewer digits near a number, the simplest first."""
-    yield from (1.0, -1.0, math.pi, math.copysign(10.0 ** round(math.log10(abs(value))), value) if value else 0.0)
+    yield from (
+        1.0,
+        -1.0,
+        math.pi,
+        math.copysign(10.0 ** round(math.log10(abs(value))), value) if value else 0.0,
+    )
     for digits in range(1, 17):
         short = float(f"{value:.{digits - 1}e}")
         yield from (short, abs(short))

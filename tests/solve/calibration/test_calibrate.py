@@ -22,7 +22,7 @@ from poekin.solve.calibration import (
     choose_poses,
     identify,
 )
-from poekin.solve.calibration.parameters import Arm
+from poekin.solve.calibration.model.parameters import Arm
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.messages import says
 
@@ -32,10 +32,14 @@ FRESH = PUMA.random(99, 200)
 X, Z = se3.exp([0.3, -0.5, 0.2, 1.0, 0.4, -0.3]), se3.exp([-0.1, 0.2, 1.4, 0.05, -0.08, 0.1])
 
 
-def moved(arm: pk.Chain, seed: int = 0, size: float = 5e-3, kinds: tuple[str, ...] = ("screws", "home")) -> pk.Chain:
+def moved(
+    arm: pk.Chain, seed: int = 0, size: float = 5e-3, kinds: tuple[str, ...] = ("screws", "home")
+) -> pk.Chain:
     """An arm off by some milliradians and millimetres in every parameter."""
     parameters = Arm(arm, kinds, None)
-    return parameters.chain(size * np.random.default_rng(seed).normal(size=len(parameters.parameters)))
+    return parameters.chain(
+        size * np.random.default_rng(seed).normal(size=len(parameters.parameters))
+    )
 
 
 TRUE = moved(PUMA)
@@ -57,7 +61,9 @@ def test_exact_poses_give_the_exact_arm(letters, seed):
     found = calibrate(arm, q, true.fk(q), folds=0)
     assert found.success
     fresh = rng.uniform(-2, 2, (50, arm.dof))
-    np.testing.assert_allclose(found.chain.fk(fresh), true.fk(fresh), rtol=0, atol=1e-12 * arm.reach)
+    np.testing.assert_allclose(
+        found.chain.fk(fresh), true.fk(fresh), rtol=0, atol=1e-12 * arm.reach
+    )
 
 
 @pytest.mark.parametrize("tilt", [1e-4, 1e-3, 1e-2])
@@ -85,7 +91,9 @@ def test_points_give_the_points_and_three_points_the_poses():
     q = PUMA.random(1, 60)
     T, fresh = TRUE.fk(q), TRUE.fk(FRESH)
     found = calibrate(PUMA, q, Points(one_point(T), (0.1, 0.0, 0.05)), folds=0)
-    np.testing.assert_allclose(one_point(found.chain.fk(FRESH)), one_point(fresh), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(
+        one_point(found.chain.fk(FRESH)), one_point(fresh), rtol=0, atol=1e-12
+    )
     tools = np.array([[0.1, 0.0, 0.05], [0, 0.1, 0], [0, 0, 0.0]])
     several = np.stack([one_point(T, tuple(tool)) for tool in tools], 1)
     found = calibrate(PUMA, q, Points(several, tools), folds=0)
@@ -98,7 +106,9 @@ def test_points_in_a_devices_frame_give_the_arm_but_for_where_its_base_is():
     found = calibrate(PUMA, q, Points(p, (0.1, 0.0, 0.05), frame="unknown"), folds=0)
     device = found.frames["T_base_device"]
     again = (one_point(found.chain.fk(FRESH)) - device[:3, 3]) @ device[:3, :3]
-    np.testing.assert_allclose(again, (one_point(TRUE.fk(FRESH)) - X[:3, 3]) @ X[:3, :3], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(
+        again, (one_point(TRUE.fk(FRESH)) - X[:3, 3]) @ X[:3, :3], rtol=0, atol=1e-12
+    )
 
 
 def test_distances_from_three_places_give_the_point():
@@ -110,9 +120,12 @@ def test_distances_from_three_places_give_the_point():
     sets = [Distances(d, c, (0.1, 0.0, 0.05)) for d, c in zip(measured, known, strict=True)]
     found = calibrate(PUMA, q, sets, folds=0)
     assert found.success
-    # where the first is, is solved along; the other two say where the base is, but for a turn about their line
+    # where the first is, is solved along; the other two say where the base is, but for a turn about
+    # their line
     again = one_point(found.chain.fk(FRESH))
-    for c, true in zip([found.frames["centre of measurement set 0"], *centres[1:]], centres, strict=True):
+    for c, true in zip(
+        [found.frames["centre of measurement set 0"], *centres[1:]], centres, strict=True
+    ):
         lengths = np.linalg.norm(one_point(TRUE.fk(FRESH)) - true, axis=1)
         np.testing.assert_allclose(np.linalg.norm(again - c, axis=1), lengths, rtol=0, atol=1e-11)
 
@@ -127,7 +140,8 @@ def test_camera_and_board_are_solved_along(kind):
     fresh = PANDA.random(2, 100)
     again = se3.inverse(board) @ found.chain.fk(fresh) @ camera
     np.testing.assert_allclose(again, se3.inverse(X) @ true.fk(fresh) @ Z, rtol=0, atol=1e-11)
-    # what the arm shares with camera and board stays where it is nominal: the arm moves no more than need be
+    # what the arm shares with camera and board stays where it is nominal: the arm moves no more
+    # than need be
     assert np.abs(found.chain.home - PANDA.home).max() < 0.05
 
 
@@ -135,10 +149,15 @@ def test_kinds_are_mixed_freely_with_weights_by_their_covariances():
     q = PUMA.random(3, 40)
     T = TRUE.fk(q)
     rng = np.random.default_rng(0)
-    rough = Poses(T[:20] @ se3.exp(1e-2 * rng.normal(size=(20, 6))), 1e-4 * np.eye(6), rows=np.arange(20))
+    rough = Poses(
+        T[:20] @ se3.exp(1e-2 * rng.normal(size=(20, 6))), 1e-4 * np.eye(6), rows=np.arange(20)
+    )
     fine = Points(T[:, :3, 3], covariance=1e-14 * np.eye(3))
     far = Distances(
-        np.linalg.norm(T[20:, :3, 3] - [2, 0, 0], axis=1), [2, 0, 0], covariance=1e-14, rows=np.arange(20, 40)
+        np.linalg.norm(T[20:, :3, 3] - [2, 0, 0], axis=1),
+        [2, 0, 0],
+        covariance=1e-14,
+        rows=np.arange(20, 40),
     )
     found = calibrate(PUMA, q, [rough, fine, far], folds=0)
     off = found.chain.fk(FRESH) - TRUE.fk(FRESH)
@@ -167,7 +186,9 @@ def test_other_parameters_by_name(kinds, size):
 
 def test_only_the_chosen_joints_change():
     q = PUMA.random(1, 40)
-    found = calibrate(PUMA, q, TRUE.fk(q), parameters=("screws",), joints=["joint2", "joint3"], folds=0)
+    found = calibrate(
+        PUMA, q, TRUE.fk(q), parameters=("screws",), joints=["joint2", "joint3"], folds=0
+    )
     np.testing.assert_array_equal(found.chain.screws[[0, 3, 4, 5]], PUMA.screws[[0, 3, 4, 5]])
     assert np.abs(found.chain.screws[1:3] - PUMA.screws[1:3]).max() > 1e-4
 
@@ -175,7 +196,9 @@ def test_only_the_chosen_joints_change():
 def test_a_prior_holds_what_is_not_seen_and_yields_to_what_is():
     q = PUMA.random(1, 40)
     q[:, 4] = 0.0
-    found = calibrate(PUMA, q, Poses(TRUE.fk(q), 1e-12 * np.eye(6)), prior={"rad": 1e-2, "m": 1e-2}, folds=0)
+    found = calibrate(
+        PUMA, q, Poses(TRUE.fk(q), 1e-12 * np.eye(6)), prior={"rad": 1e-2, "m": 1e-2}, folds=0
+    )
     assert found.success
     np.testing.assert_allclose(found.chain.fk(q), TRUE.fk(q), rtol=0, atol=1e-6)
     mine = [k for k, p in enumerate(found.parameters) if p.owner == "joint5"]
@@ -226,7 +249,10 @@ def test_data_kept_aside_are_judged_by_the_others():
     assert found.after.rms_length < found.held_out.after.rms_length < 2 * found.after.rms_length
     assert found.held_out.after.rms_length < 0.1 * found.held_out.before.rms_length
     np.testing.assert_allclose(found.held_out.before.length, found.before.length, rtol=1e-12)
-    assert calibrate(PUMA, q, T, folds=5, seed=3).held_out.after.rms_length != found.held_out.after.rms_length  # type: ignore[union-attr]
+    assert (
+        calibrate(PUMA, q, T, folds=5, seed=3).held_out.after.rms_length
+        != found.held_out.after.rms_length
+    )  # type: ignore[union-attr]
 
 
 def test_the_pose_covariance_is_the_scatter_of_the_poses_found():
@@ -265,7 +291,14 @@ def test_the_result_says_what_it_is_and_goes_on_to_other_forms(tmp_path):
     q = arm.random(0, 60)
     found = calibrate(arm, q, moved(arm, 1, 1e-3).fk(q))
     words = str(found)
-    for part in ("34 parameters", "converged", "rank 34 of 34", "kept aside (5 folds)", "rms mm", "median mrad"):
+    for part in (
+        "34 parameters",
+        "converged",
+        "rank 34 of 34",
+        "kept aside (5 folds)",
+        "rms mm",
+        "median mrad",
+    ):
         assert part in words
     path = tmp_path / "panda.urdf"
     path.write_text(found.to_urdf(robot))
@@ -274,7 +307,9 @@ def test_the_result_says_what_it_is_and_goes_on_to_other_forms(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", pk.PoekinWarning)
         table = found.to_dh("modified")
-    np.testing.assert_allclose(pk.dh.to_chain(table.table).fk(q), found.chain.fk(q), rtol=0, atol=1e-9)
+    np.testing.assert_allclose(
+        pk.dh.to_chain(table.table).fk(q), found.chain.fk(q), rtol=0, atol=1e-9
+    )
     assert "panda_joint" in str(found.compare())
 
 
@@ -291,7 +326,9 @@ def test_millimetres_and_degrees_are_suggested_never_converted():
     with pytest.raises(InputError, match=r"lengths look like millimetres"):
         calibrate(PUMA, q, 1e3 * T[:, :3, 3])
     with pytest.raises(InputError, match=r"lengths look like millimetres"):
-        calibrate(PUMA, q, Distances(1e3 * np.linalg.norm(T[:, :3, 3] - [1, 1, 0], axis=1), [1, 1, 0]))
+        calibrate(
+            PUMA, q, Distances(1e3 * np.linalg.norm(T[:, :3, 3] - [1, 1, 0], axis=1), [1, 1, 0])
+        )
 
 
 @pytest.mark.parametrize("kind", [EyeInHand, EyeToHand])
@@ -306,15 +343,27 @@ def test_units_are_told_with_unknown_frames_too(kind):
 
 
 BAD = {
-    "no chain": ({"arm": pk.load("puma560")}, "arm: expected a Chain, such as robot.chain(tip=...), got Robot"),
-    "a loss": ({"loss": "l1"}, "loss: expected one of 'linear', 'huber', 'cauchy', 'tukey', got 'l1'"),
+    "no chain": (
+        {"arm": pk.load("puma560")},
+        "arm: expected a Chain, such as robot.chain(tip=...), got Robot",
+    ),
+    "a loss": (
+        {"loss": "l1"},
+        "loss: expected one of 'linear', 'huber', 'cauchy', 'tukey', got 'l1'",
+    ),
     "deficient": ({"deficient": True}, "deficient: expected one of 'refuse', 'hold', got True"),
-    "a prior of a wrong unit": ({"prior": {"mm": 1}}, "prior: expected one of 'rad', 'm', '1', 'm/rad', got 'mm'"),
+    "a prior of a wrong unit": (
+        {"prior": {"mm": 1}},
+        "prior: expected one of 'rad', 'm', '1', 'm/rad', got 'mm'",
+    ),
     "a prior of nothing": (
         {"prior": {}},
         "prior: expected standard deviations by unit, such as {'rad': 1e-3}, got {}",
     ),
-    "a bare prior": ({"prior": 1e-3}, "prior: expected standard deviations by unit, such as {'rad': 1e-3}, got 0.001"),
+    "a bare prior": (
+        {"prior": 1e-3},
+        "prior: expected standard deviations by unit, such as {'rad': 1e-3}, got 0.001",
+    ),
     **{
         f"a prior of {sigma}": (
             {"prior": {"m": sigma}},
@@ -323,7 +372,10 @@ BAD = {
         for sigma in (0.0, -1.0, np.inf, np.nan, True, [1])
     },
     **{
-        f"{most} steps": ({"max_iterations": most}, f"max_iterations: expected a whole number from 1 on, got {most}")
+        f"{most} steps": (
+            {"max_iterations": most},
+            f"max_iterations: expected a whole number from 1 on, got {most}",
+        )
         for most in (0, True, 1.5)
     },
 }
@@ -351,7 +403,8 @@ def test_an_arm_without_joints_has_its_constant_pose_calibrated(folds):
     home, q = se3.exp([0.01, 0.02, -0.01, 0.04, 0.02, 0.03]), np.empty((12, 0))
     T = home @ se3.exp(1e-4 * rng.normal(size=(12, 6)))
     found = calibrate(fixed, q, T, folds=folds)
-    # the mean of twelve: its error is a standard deviation / sqrt(12), each of six within five of these
+    # the mean of twelve: its error is a standard deviation / sqrt(12), each of six within five of
+    # these
     assert np.abs(se3.log(se3.inverse(found.chain.home) @ home)).max() <= 5e-4 / np.sqrt(12)
     assert [p.owner for p in found.parameters] == ["home"] * 6
     assert identify(fixed, q, T).rank == 6

@@ -1,4 +1,6 @@
-"""Each kind of measurement: errors zero where the model is right, slopes those of the errors, bad input refused."""
+"""Each kind of measurement: errors zero where the model is right, slopes those of the errors, bad
+input refused.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +11,11 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, PoseError, ShapeError
-from poekin.solve.calibration.measurement import Measurement
-from poekin.solve.calibration.parameters import Arm
-from poekin.solve.calibration.points import Distances, Points
-from poekin.solve.calibration.poses import EyeInHand, EyeToHand, Poses
-from poekin.solve.calibration.problem import Problem, readings, sets_of
+from poekin.solve.calibration.measurements.measurement import Measurement
+from poekin.solve.calibration.measurements.points import Distances, Points
+from poekin.solve.calibration.measurements.poses import EyeInHand, EyeToHand, Poses
+from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.model.problem import Problem, readings, sets_of
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.messages import says
 
@@ -85,18 +87,24 @@ def test_an_errors_rotation_comes_first_and_is_in_base_axes():
     turned[:, :3, :3] = turn.T @ T[:, :3, :3]
     turned[:, :3, 3] -= [0, 0.002, 0]
     (errors,) = Problem(Arm(ARM, ("home",), None), Q, [Poses(turned)]).errors(np.zeros(6))
-    np.testing.assert_allclose(errors, np.tile([0, 0, 0.01, 0, 0.002, 0], (12, 1)), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(
+        errors, np.tile([0, 0, 0.01, 0, 0.002, 0], (12, 1)), rtol=0, atol=1e-14
+    )
 
 
 def test_rows_say_which_readings_a_set_belongs_to():
     rows = np.array([7, 2, 2])
-    problem = Problem(Arm(ARM, ("home",), None), Q, [Poses(T[rows], rows=rows), Points(T[:, :3, 3])])
+    problem = Problem(
+        Arm(ARM, ("home",), None), Q, [Poses(T[rows], rows=rows), Points(T[:, :3, 3])]
+    )
     one, two = problem.errors(np.zeros(6))
     assert (one.shape, two.shape) == ((3, 6), (12, 3))
     np.testing.assert_allclose(one, 0, rtol=0, atol=1e-14)
     part = problem.part(np.array([2, 5]))
     assert [len(s) for s in part.sets] == [2, 2]
-    np.testing.assert_allclose(np.concatenate([e.ravel() for e in part.errors(np.zeros(6))]), 0, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(
+        np.concatenate([e.ravel() for e in part.errors(np.zeros(6))]), 0, rtol=0, atol=1e-14
+    )
 
 
 def test_a_bare_array_is_poses_or_points():
@@ -111,14 +119,26 @@ def nan(array):
 
 
 BAD: dict[str, tuple] = {
-    "T of the wrong shape": (lambda: Poses(T[0]), ShapeError, "T: expected poses (N, 4, 4), got shape (4, 4)"),
-    "NaN in a pose": (lambda: Poses(nan(T)), InputError, "T[3]: expected finite numbers, got NaN or infinity"),
+    "T of the wrong shape": (
+        lambda: Poses(T[0]),
+        ShapeError,
+        "T: expected poses (N, 4, 4), got shape (4, 4)",
+    ),
+    "NaN in a pose": (
+        lambda: Poses(nan(T)),
+        InputError,
+        "T[3]: expected finite numbers, got NaN or infinity",
+    ),
     "no pose": (
         lambda: Poses(2 * T),
         PoseError,
         "T[0] is no pose: its last row is [0.0, 0.0, 0.0, 2.0], expected [0, 0, 0, 1]",
     ),
-    "NaN in a point": (lambda: Points(nan(AT[:, 0])), InputError, "p[3]: expected finite numbers, got NaN or infinity"),
+    "NaN in a point": (
+        lambda: Points(nan(AT[:, 0])),
+        InputError,
+        "p[3]: expected finite numbers, got NaN or infinity",
+    ),
     "as many points as are said": (
         lambda: Points(AT, TOOL[0]),
         ShapeError,
@@ -189,7 +209,11 @@ BAD: dict[str, tuple] = {
         InputError,
         "frame: expected 'base' or 'unknown', got 'device'",
     ),
-    "a negative distance": (lambda: Distances([1.0, -1.0]), InputError, "d[1]: expected a distance above 0, got -1"),
+    "a negative distance": (
+        lambda: Distances([1.0, -1.0]),
+        InputError,
+        "d[1]: expected a distance above 0, got -1",
+    ),
     "a distance of 0": (
         lambda: Distances([1.0, 0.0, -1.0]),
         InputError,
@@ -322,7 +346,9 @@ def test_unknown_frames_are_named_by_their_set_where_there_are_several():
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("kind", dataclasses_of("poekin.solve.calibration", "points poses"))
+@pytest.mark.parametrize(
+    "kind", dataclasses_of("poekin.solve.calibration.measurements", "points poses")
+)
 def test_measurements_cannot_be_changed_and_are_equal_to_themselves_alone(kind):
     assert frozen_and_equal_only_where_its_parts_can_be(kind)
 
@@ -339,6 +365,9 @@ def test_a_point_that_stands_at_the_centre_of_distances_has_no_slope():
 def test_an_unknown_frame_has_six_parameters_however_it_is_said():
     for said in (None, "shared", X):
         for unknown in EyeInHand(T, board=said, camera=said).unknowns:
-            assert (unknown.size, unknown.shared) == (6, "shared" if isinstance(said, str) else None)
+            assert (unknown.size, unknown.shared) == (
+                6,
+                "shared" if isinstance(said, str) else None,
+            )
             assert (unknown.guess is None) == (said is not X)
     assert Distances([1.0]).unknowns[0].size == 3

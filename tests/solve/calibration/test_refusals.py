@@ -1,4 +1,6 @@
-"""`calibrate` refuses data that cannot give what is asked for, each time in words that say what is wrong."""
+"""`calibrate` refuses data that cannot give what is asked for, each time in words that say what is
+wrong.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +12,10 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError, ShapeError
 from poekin.groups import se3
-from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identify, units
-from poekin.solve.calibration.parameters import Arm
-from poekin.solve.calibration.problem import Problem
+from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identify
+from poekin.solve.calibration.diagnostics import units
+from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.model.problem import Problem
 
 PUMA = pk.load("puma560").chain()
 TRUE = Arm(PUMA, ("screws", "home"), None).chain(2e-3 * np.random.default_rng(0).normal(size=30))
@@ -27,7 +30,9 @@ GANTRY = pk.Chain(
 
 def off(arm: pk.Chain, seed: int = 1) -> pk.Chain:
     parameters = Arm(arm, ("screws", "home"), None)
-    return parameters.chain(2e-3 * np.random.default_rng(seed).normal(size=len(parameters.parameters)))
+    return parameters.chain(
+        2e-3 * np.random.default_rng(seed).normal(size=len(parameters.parameters))
+    )
 
 
 @pytest.mark.parametrize("ask", [calibrate, identify])
@@ -82,13 +87,17 @@ def test_as_many_numbers_as_parameters_do_not_make_the_arm_known_without_error()
     assert (found.deviations > 1e-5).all()
 
 
-@pytest.mark.parametrize(("prior", "seen"), [({"m/rad": 1e-3}, 26), ({"rad": 1e-3}, 28)], ids=["of none", "of tilts"])
+@pytest.mark.parametrize(
+    ("prior", "seen"), [({"m/rad": 1e-3}, 26), ({"rad": 1e-3}, 28)], ids=["of none", "of tilts"]
+)
 def test_a_prior_does_not_hide_what_it_tells_nothing_of(prior, seen):
     q = Q.copy()
     q[:, 4] = 0.0
     with pytest.raises(InputError, match=rf"see {seen} of 30 parameters\. Not seen: "):
         calibrate(PUMA, q, Poses(TRUE.fk(q), 1e-8 * np.eye(6)), prior=prior, folds=0)
-    held = calibrate(PUMA, q, Poses(TRUE.fk(q), 1e-8 * np.eye(6)), prior=prior, folds=0, deficient="hold")
+    held = calibrate(
+        PUMA, q, Poses(TRUE.fk(q), 1e-8 * np.eye(6)), prior=prior, folds=0, deficient="hold"
+    )
     shifts = [k for k, p in enumerate(held.parameters) if p.owner == "joint5" and p.unit == "m"]
     np.testing.assert_allclose(held.values[shifts], 0.0, rtol=0, atol=1e-12)
 
@@ -99,7 +108,9 @@ def test_readings_of_sliding_joints_in_millimetres_are_told():
     with pytest.raises(InputError, match=r"readings of sliding joints look like millimetres"):
         calibrate(GANTRY, 1e3 * q, measured)
     measured[:, :3, 3] *= 1e3
-    with pytest.raises(InputError, match=r"all lengths look like millimetres, those of sliding joints, too"):
+    with pytest.raises(
+        InputError, match=r"all lengths look like millimetres, those of sliding joints, too"
+    ):
         calibrate(GANTRY, 1e3 * q, measured)
     with pytest.raises(InputError, match=r"where the lengths look like millimetres"):
         calibrate(GANTRY, q, measured)
@@ -107,7 +118,9 @@ def test_readings_of_sliding_joints_in_millimetres_are_told():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_an_arm_that_is_far_off_is_not_called_one_in_other_units(seed):
-    """Lengths made a thousandth are off by a thousandth, as the frames of camera and board are found for them."""
+    """Lengths made a thousandth are off by a thousandth, as the frames of camera and board are
+    found for them.
+    """
     rng = np.random.default_rng(seed)
     far = Arm(PUMA, ("screws", "home"), None).chain(0.1 * rng.normal(size=30))
     camera = EyeInHand(se3.inverse(X) @ far.fk(Q) @ Z, board=X, camera=Z)
@@ -119,13 +132,19 @@ def test_an_arm_that_is_far_off_is_not_called_one_in_other_units(seed):
 
 
 OTHER = {
-    "rows of other readings": (np.roll(T, 1, axis=0), r"no arm near the nominal one explains these Poses"),
+    "rows of other readings": (
+        np.roll(T, 1, axis=0),
+        r"no arm near the nominal one explains these Poses",
+    ),
     "poses the other way round": (se3.inverse(T), r"does each row of q belong to its measurement"),
     "positions of other readings": (
         np.roll(T, 1, axis=0)[:, :3, 3],
         r"explains these Points: the best that was found is off",
     ),
-    "one set of two": ([Poses(T), Distances(np.full(40, 9.0), [1, 0, 0])], r"measurement set 1 \(Distances\)"),
+    "one set of two": (
+        [Poses(T), Distances(np.full(40, 9.0), [1, 0, 0])],
+        r"measurement set 1 \(Distances\)",
+    ),
 }
 
 
@@ -189,7 +208,9 @@ def test_units_are_looked_at_from_a_tenth_of_the_reach_or_four_turns_on(away, to
         assert bool(tried) == looked
 
 
-MIXED = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([0, 0, 1])], np.eye(4))
+MIXED = pk.Chain(
+    [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([0, 0, 1])], np.eye(4)
+)
 LIKE = {
     "the lengths look like millimetres: give metres (divide by 1000)": ([1, 1], 1e-3),
     "the joint angles look like degrees: give radians (numpy.deg2rad)": ([np.pi / 180, 1], 1.0),
@@ -203,7 +224,9 @@ LIKE = {
 
 @pytest.mark.parametrize("words", LIKE)
 def test_other_units_are_told_that_explain_the_data_more_than_four_times_better(words, monkeypatch):
-    """A model whose distance is `left`, in the units as they stand, in these units alone, and 10 m in all others."""
+    """A model whose distance is `left`, in the units as they stand, in these units alone, and 10 m
+    in all others.
+    """
     q, (factors, unit), left = np.ones((3, 2)), LIKE[words], 0.0
 
     def tried(problem, readings, scale):
@@ -221,7 +244,9 @@ def test_other_units_are_told_that_explain_the_data_more_than_four_times_better(
 
 
 def test_readings_are_converted_by_what_their_joints_are():
-    np.testing.assert_allclose(units.converted(MIXED, np.ones((2, 2)), angle=3.0, length=5.0), [[3, 5], [3, 5]])
+    np.testing.assert_allclose(
+        units.converted(MIXED, np.ones((2, 2)), angle=3.0, length=5.0), [[3, 5], [3, 5]]
+    )
     assert pytest.approx(np.pi / 180) == units._DEGREE
 
 

@@ -5,13 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from poekin.testing import exact
 from poekin.testing.conform import confirm
+from poekin.testing.oracles import exact
 
 XI = np.array([0.4, -0.2, 0.7, 1.5, -2.0, 0.1])
 SMALL = np.concatenate([1e-12 * XI[:3], XI[3:]])
 T = exact.rounded(exact.exp(XI))
-SCREWS, HOME, X = np.array([[0, 0, 1.0, 0, 0, 0], [0, 1.0, 0, -0.3, 0, 0]]), T, np.array([0.3, -1.0])
+SCREWS, HOME, X = (
+    np.array([[0, 0, 1.0, 0, 0, 0], [0, 1.0, 0, -0.3, 0, 0]]),
+    T,
+    np.array([0.3, -1.0]),
+)
 
 CASES = {
     "exp": ("exp", lambda: confirm.of_exp(XI)),
@@ -21,8 +25,14 @@ CASES = {
     "log of SO(3)": ("log", lambda: confirm.of_log(T[:3, :3])),
     "left": ("left_jacobian", lambda: confirm.of_jacobian("left_jacobian", XI)),
     "right": ("right_jacobian", lambda: confirm.of_jacobian("right_jacobian", XI)),
-    "left inverse": ("left_jacobian_inverse", lambda: confirm.of_jacobian("left_jacobian_inverse", XI)),
-    "right inverse": ("right_jacobian_inverse", lambda: confirm.of_jacobian("right_jacobian_inverse", XI[:3])),
+    "left inverse": (
+        "left_jacobian_inverse",
+        lambda: confirm.of_jacobian("left_jacobian_inverse", XI),
+    ),
+    "right inverse": (
+        "right_jacobian_inverse",
+        lambda: confirm.of_jacobian("right_jacobian_inverse", XI[:3]),
+    ),
     "pose": ("forward", lambda: confirm.of_pose(SCREWS, HOME, X)),
 }
 
@@ -54,7 +64,9 @@ def test_another_branch_is_no_logarithm(monkeypatch):
 
 
 def test_the_adjoint_and_velocities_are_confirmed_and_a_wrong_one_is_not(monkeypatch):
-    columns = np.stack([exact.exactly(SCREWS[0]), exact.adjoint(exact.exp(SCREWS[0] * X[0])) @ SCREWS[1]], axis=1)
+    columns = np.stack(
+        [exact.exactly(SCREWS[0]), exact.adjoint(exact.exp(SCREWS[0] * X[0])) @ SCREWS[1]], axis=1
+    )
     assert confirm.of_velocities(SCREWS, HOME, X, columns)
     columns[2, 0] += exact.mp.mpf(10) ** -30
     assert not confirm.of_velocities(SCREWS, HOME, X, columns)
@@ -83,7 +95,12 @@ def edge(agrees, limit: float) -> None:
 def test_60_digits_of_the_largest_number_are_asked_for_of_each(place):
     truth = exact.exp(FAR)
     limit = 1e-60 * (1 + float(max(abs(x) for x in truth.flat)))
-    for by, near in ((0.9 * limit, True), (-0.9 * limit, True), (1.1 * limit, False), (-1.1 * limit, False)):
+    for by, near in (
+        (0.9 * limit, True),
+        (-0.9 * limit, True),
+        (1.1 * limit, False),
+        (-1.1 * limit, False),
+    ):
         assert confirm.is_exp(FAR, _off(truth, place, by)) == near
     assert not confirm.is_exp(XI[:3], _off(exact.exp(XI[:3]), place % 9, 3e-60))
     edge(lambda by: confirm.is_exp(np.zeros(6), _off(np.eye(4), place, by)), 2e-60)
@@ -118,7 +135,9 @@ def test_velocities_are_asked_of_every_joint_and_number():
     for place in range(12):
         assert not confirm.of_velocities(SCREWS, HOME, X, _off(columns, place, 1e-45))
     assert confirm.of_velocities(SCREWS[:0], HOME, X[:0], columns[:, :0])
-    assert confirm.near(confirm.chain_of([SCREWS[0] * X[0], SCREWS[1] * X[1]]), exact.forward(SCREWS, np.eye(4), X))
+    assert confirm.near(
+        confirm.chain_of([SCREWS[0] * X[0], SCREWS[1] * X[1]]), exact.forward(SCREWS, np.eye(4), X)
+    )
 
 
 def test_each_number_of_an_adjoint_is_asked_for(monkeypatch):
@@ -130,7 +149,8 @@ def test_each_number_of_an_adjoint_is_asked_for(monkeypatch):
 
 
 W_SMALL, W_LARGE = [0.0, 0.0, 0.0], [0.0, 0.0, 3.0]
-# v is turned by up to 1.5 rad: of its entries and those of the translation each is the largest once.
+# v is turned by up to 1.5 rad: of its entries and those of the translation each is the largest
+# once.
 LOGARITHMS = [
     (W_SMALL, [0.1, 0, 0]), (W_SMALL, [0, 0, 0]), (W_LARGE, [0.1, 0.05, 0.02]), (W_SMALL, [5.0, 1, 2]),
     (W_SMALL, [1, 5.0, 2]), (W_SMALL, [1, 2, 5.0]), ([0, 0, 1.57], [700.0, 700, 0]), ([1.57, 0, 0], [0, 700.0, 700]),
@@ -178,13 +198,19 @@ def test_an_adjoint_is_held_to_14_digits_of_the_square_of_what_is_in_it(length, 
         edge(lambda by, agrees=agrees: agrees(by, 1e-7), 1e-7 * scale**2)
 
 
-@pytest.mark.parametrize("name", ["left_jacobian", "right_jacobian", "left_jacobian_inverse", "right_jacobian_inverse"])
+@pytest.mark.parametrize(
+    "name", ["left_jacobian", "right_jacobian", "left_jacobian_inverse", "right_jacobian_inverse"]
+)
 @pytest.mark.parametrize("length", [0.0, 0.25, 1e3])
 def test_a_jacobian_of_exp_is_held_to_60_digits_of_what_is_in_it(name, length, monkeypatch):
     xi = np.array([0, 0, 0, 0, -length, 0])
     limit = 1e-60 * (1 + length) ** (2 if name.endswith("inverse") else 1)
     true = getattr(exact, name)(xi)
-    for place in (18, 25, 35):  # in the lower half J is [.. I]: an error of its inverse comes out as it is
+    for place in (
+        18,
+        25,
+        35,
+    ):  # in the lower half J is [.. I]: an error of its inverse comes out as it is
 
         def agrees(by: float, place=place) -> bool:
             monkeypatch.setattr(exact, name, lambda xi: _off(true, place, by))
@@ -199,6 +225,8 @@ def test_a_velocity_is_held_to_50_digits_of_the_square_of_its_column(column, sca
     for place in range(6):
 
         def agrees(by: float, place=place) -> bool:
-            return confirm.of_velocities([column], np.eye(4), [0.5], _off(exact.exactly(column), place, by)[:, None])
+            return confirm.of_velocities(
+                [column], np.eye(4), [0.5], _off(exact.exactly(column), place, by)[:, None]
+            )
 
         edge(agrees, 1e-50 * scale**2)

@@ -13,12 +13,12 @@ import pytest
 
 from poekin.errors import InputError, UnknownName, closest
 from poekin.testing.conform import FUNCTIONS, LAWS, Subject, run
-from poekin.testing.conform.calls import ENDED, LOST, UNANSWERED, Undeclared
 from poekin.testing.conform.grades import NO_RESULT, Grade, Verdict
-from poekin.testing.conform.law import Case, Law, Shown
-from poekin.testing.conform.precision import SINGLE
+from poekin.testing.conform.laws.law import Case, Law, Shown
+from poekin.testing.conform.process.calls import ENDED, LOST, UNANSWERED, Undeclared
 from poekin.testing.conform.search import Found
-from poekin.testing.strategies import st
+from poekin.testing.conform.subjects.precision import SINGLE
+from poekin.testing.strategies.group_strategies import st
 
 
 class Mine:
@@ -42,10 +42,20 @@ def test_a_law_that_is_none_or_does_not_apply_is_told_with_those_that_do():
     refused(UnknownName, f"there is no law 'so3_ex'; {closest('so3_ex', NAMES)}", ["so3_ex"])
     refused(UnknownName, f"there is no law 'lgo'; {closest('lgo', NAMES)}", leave_out="lgo")
     those = "those that do: so3_exp, so3_log"
-    refused(InputError, f"Mine: the law log does not apply: there is no log; {those}", ["so3_exp", "log"])
-    refused(InputError, f"Mine: the law noise does not apply: noise is not declared; {those}", "noise")
-    refused(InputError, f"Mine: no law that applies is left; {those}", leave_out=["so3_exp", "so3_log"])
-    refused(InputError, f"Mine: no law that applies is left; {those}", "so3_exp", leave_out="so3_exp")
+    refused(
+        InputError,
+        f"Mine: the law log does not apply: there is no log; {those}",
+        ["so3_exp", "log"],
+    )
+    refused(
+        InputError, f"Mine: the law noise does not apply: noise is not declared; {those}", "noise"
+    )
+    refused(
+        InputError, f"Mine: no law that applies is left; {those}", leave_out=["so3_exp", "so3_log"]
+    )
+    refused(
+        InputError, f"Mine: no law that applies is left; {those}", "so3_exp", leave_out="so3_exp"
+    )
 
 
 def test_laws_are_those_that_are_named_without_those_that_are_left_out():
@@ -62,7 +72,10 @@ def test_what_a_subject_is_not_held_to_is_said_where_nobody_chose():
     subject = Subject(type("Mine", (Mine,), {"helper": lambda self: None}))
     absent = ", ".join(name for name in FUNCTIONS if not name.startswith("so3_") or "jac" in name)
     helper = "no function of a subject's, and held to nothing: 'helper'"
-    assert run.remarks(subject, ["so3_exp"], ["fk", "log"]) == ["left out, as asked for: fk, log", helper]
+    assert run.remarks(subject, ["so3_exp"], ["fk", "log"]) == [
+        "left out, as asked for: fk, log",
+        helper,
+    ]
     assert run.remarks(subject, [], []) == [
         helper, f"no law of what is not there: {absent}", "noise is not declared, so there is no law of noise",
         "batch = True is not declared, so there is no law of so3_exp of batches, so3_log of batches",
@@ -78,7 +91,9 @@ def hunted(monkeypatch):
         asked.append((law.name, examples))
         if law.name == "so3_exp" and examples == 3:
             raise Undeclared("it has no such thing")
-        return Found(examples, Case(np.zeros(3)), Verdict(Grade.EXACT, 0.5, "x"), None, examples == 2)
+        return Found(
+            examples, Case(np.zeros(3)), Verdict(Grade.EXACT, 0.5, "x"), None, examples == 2
+        )
 
     monkeypatch.setattr(run, "worst", worst)
     return asked
@@ -99,11 +114,22 @@ def test_examples_are_one_or_more_and_seconds_more_than_none(hunted):
 def test_a_law_of_what_is_not_there_is_not_judged_and_the_others_go_on(hunted):
     report = run.conform(Mine, (), 3, limits=None)
     first, second = report.outcomes
-    assert (first.law, first.unconfirmed, first.word) == ("so3_exp", "it has no such thing", "not judged")
-    assert (first.grade, first.worst, first.what, first.examples) == (Grade.EXACT, 0.0, NO_RESULT, 0)
+    assert (first.law, first.unconfirmed, first.word) == (
+        "so3_exp",
+        "it has no such thing",
+        "not judged",
+    )
+    assert (first.grade, first.worst, first.what, first.examples) == (
+        Grade.EXACT,
+        0.0,
+        NO_RESULT,
+        0,
+    )
     assert (second.law, second.worst, second.what, second.examples) == ("so3_log", 0.5, "x", 3)
     late = run.conform(Mine, ["so3_exp", "so3_log"], 2, limits=None)
-    assert late.notes == ("the time ran out: fewer examples than there should be of so3_exp, so3_log",)
+    assert late.notes == (
+        "the time ran out: fewer examples than there should be of so3_exp, so3_log",
+    )
     assert all(outcome.late for outcome in late.outcomes)
 
 
@@ -150,7 +176,9 @@ CALLED_AGAIN = [
 
 
 @pytest.mark.parametrize(("first", "again", "about", "expected"), CALLED_AGAIN)
-def test_a_finding_is_measured_again_and_the_worse_of_both_is_reported(first, again, about, expected):
+def test_a_finding_is_measured_again_and_the_worse_of_both_is_reported(
+    first, again, about, expected
+):
     found = run.outcome(
         law(lambda subject, case: again, about), stub(), Found(7, WORST, first, SMALL, True)
     )  # fmt: skip
@@ -160,13 +188,21 @@ def test_a_finding_is_measured_again_and_the_worse_of_both_is_reported(first, ag
     )  # fmt: skip
     assert (found.examples, found.late, found.unconfirmed) == (7, True, "")
     assert (found.law, found.says) == ("a law", "says")
-    doubted = run.outcome(law(lambda subject, case: again, about, False), stub(), Found(7, WORST, first, SMALL, True))
+    doubted = run.outcome(
+        law(lambda subject, case: again, about, False), stub(), Found(7, WORST, first, SMALL, True)
+    )
     assert doubted.unconfirmed == "the two oracles do not agree on the exact result"
 
 
 def test_what_is_no_finding_is_not_measured_again():
     found = run.outcome(law(None), stub(), Found(7, WORST, verdict(G, 2.0), None, True))
-    assert (found.grade, found.worst, found.what, found.examples, found.late) == (G, 2.0, "x", 7, True)
+    assert (found.grade, found.worst, found.what, found.examples, found.late) == (
+        G,
+        2.0,
+        "x",
+        7,
+        True,
+    )
     assert (found.case, found.fault, found.precision) == (None, "", "float32")
 
 
@@ -188,7 +224,9 @@ FRAMES = {frame: f'jacobian_frame = "{frame}"' for frame in ("space", "body", "h
         (False, "space", set(), ""),
     ],
 )
-def test_other_declarations_with_which_it_would_hold_are_said_and_not_assumed(linear, frame, holds, declared):
+def test_other_declarations_with_which_it_would_hold_are_said_and_not_assumed(
+    linear, frame, holds, declared
+):
     subject = stub(linear, frame)
 
     def check(subject: Any, case: Case) -> Verdict:

@@ -1,4 +1,6 @@
-"""Who computes in 60 digits is never blamed: every law is graded exact. The report does the same with 10⁵ examples."""
+"""Who computes in 60 digits is never blamed: every law is graded exact. The report does the same
+with 10⁵ examples.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +10,14 @@ from benchmarks.subjects import Angular, Linear, Poekin
 from poekin.testing.conform import LAWS, Grade, Subject, applicable
 from poekin.testing.conform.search import worst
 
-SUBJECTS = {"angular first": Subject(Angular), "linear first": Subject(Linear), "poekin": Subject(Poekin)}
-PAIRS = [(name, law) for name, subject in SUBJECTS.items() for law in LAWS if law in applicable(subject)]
+SUBJECTS = {
+    "angular first": Subject(Angular),
+    "linear first": Subject(Linear),
+    "poekin": Subject(Poekin),
+}
+PAIRS = [
+    (name, law) for name, subject in SUBJECTS.items() for law in LAWS if law in applicable(subject)
+]
 
 
 @pytest.mark.parametrize(("name", "law"), PAIRS, ids=lambda x: getattr(x, "name", x))

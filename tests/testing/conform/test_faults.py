@@ -1,4 +1,6 @@
-"""Eight faults that libraries had, re-created: each is found, confirmed, and shrunk to at most three numbers."""
+"""Eight faults that libraries had, re-created: each is found, confirmed, and shrunk to at most
+three numbers.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ from benchmarks.subjects import FAULTS, Poekin
 from benchmarks.subjects.faulty import NoMimic, _Reader
 from poekin.model.screw import with_pitches
 from poekin.testing.conform import LAWS, Grade, Limits, Report, Subject, applicable, conform
-from poekin.testing.laws import LawViolation
+from poekin.testing.laws.laws import LawViolation
 
 # Of the sound laws only some are run: tests/benchmarks runs none, the report all of them.
 EXAMPLES = 250
@@ -54,7 +56,9 @@ def test_a_counterexample_runs_where_it_is_pasted_and_shows_the_error(letter):
     with contextlib.redirect_stdout(printed):
         exec(outcome.paste, {})
     assert outcome.expected is not None
-    error = np.linalg.norm(np.array(json.loads(printed.getvalue().splitlines()[-1])) - outcome.expected)
+    error = np.linalg.norm(
+        np.array(json.loads(printed.getvalue().splitlines()[-1])) - outcome.expected
+    )
     # A part of the error, in proportion to a length, is not the whole.
     assert error > 0.1 * outcome.error
 
@@ -159,10 +163,16 @@ def test_what_is_no_result_is_broken_and_says_what_it_was(kind, words):
 def test_who_writes_into_an_argument_is_broken_whatever_the_function_and_order():
     every = conform(Writes, examples=2)
     assert len(every.outcomes) == len(applicable(Subject(Poekin)))
-    turned = conform(type("Turned", (Writes,), {"twist_order": "linear first"}), ["exp", "left_jacobian"], examples=2)
+    turned = conform(
+        type("Turned", (Writes,), {"twist_order": "linear first"}),
+        ["exp", "left_jacobian"],
+        examples=2,
+    )
     for outcome in (*every.outcomes, *turned.outcomes):
         assert outcome.grade is Grade.BROKEN
-        assert re.fullmatch(r"ArgumentChanged: it writes into its argument( 3 of 3)?", outcome.fault)
+        assert re.fullmatch(
+            r"ArgumentChanged: it writes into its argument( 3 of 3)?", outcome.fault
+        )
 
 
 def test_a_warning_is_no_fault_even_where_warnings_are_errors():
@@ -190,7 +200,10 @@ def test_what_comes_out_otherwise_from_one_call_to_the_next_is_broken_and_said_t
     report = conform(Unsteady, examples=15)
     outcome = report["so3_exp"]
     assert (outcome.grade, report.conforms) == (Grade.BROKEN, False)
-    assert outcome.fault in ("NaN", "another result from one call to the next: broken once, then exact")
+    assert outcome.fault in (
+        "NaN",
+        "another result from one call to the next: broken once, then exact",
+    )
     # Which of the calls is asked again is not ours to say where every other one is wrong.
     assert outcome.fault != "NaN" or len(wrong) > 1
 
@@ -215,11 +228,13 @@ def test_keyboard_interrupts_pass():
 
 
 def test_laws_are_plain_functions_that_raise_with_error_and_bound():
-    from poekin.testing.conform import of_arms, of_groups
+    from poekin.testing.conform.laws import of_arms, of_groups
 
     xi = np.array([1e-6, 0, 0, 0, 1.0, 0])
     of_groups.exp_is_e_to_the_xi(Poekin.exp, xi)
-    with pytest.raises(LawViolation, match=r"exp is e to the xi: .*: error 5e-07 exceeds") as caught:
+    with pytest.raises(
+        LawViolation, match=r"exp is e to the xi: .*: error 5e-07 exceeds"
+    ) as caught:
         of_groups.exp_is_e_to_the_xi(FAULTS["a"][0]().exp, xi)
     assert caught.value.error == pytest.approx(5e-7, rel=1e-3)
     # Good as far as 1e-6.
@@ -248,7 +263,9 @@ class TurnedWithoutMimic(Turned):
 def test_a_fault_of_something_else_is_not_laid_on_a_law():
     (general,) = conform(Turned, ["urdf mimic"], examples=12).findings
     assert "<mimic" not in general.paste
-    assert general.hint == "nothing that this law is about is in it: what is wrong is something else"
+    assert (
+        general.hint == "nothing that this law is about is in it: what is wrong is something else"
+    )
     (own,) = conform(TurnedWithoutMimic, ["urdf mimic"], examples=12).findings
     assert "<mimic" in own.paste
     assert "rpy" not in own.paste
@@ -336,12 +353,15 @@ def test_joints_with_a_pitch_are_asked_of_those_who_declare_them():
         def flat(screws):
             return with_pitches(screws, np.zeros(len(screws)))
 
-    report = conform(Flat, examples=25)  # of ten the worst is poor: right to six digits where the joint hardly turns
+    report = conform(
+        Flat, examples=25
+    )  # of ten the worst is poor: right to six digits where the joint hardly turns
     assert [(outcome.law, outcome.finding) for outcome in report.outcomes] == [
         ("fk", False), ("jacobian", False), ("fk helical", True), ("jacobian helical", True),
     ]  # fmt: skip
     assert all(
-        "helical" in outcome.words and outcome.numbers <= 3 and outcome.hint == "" for outcome in report.findings
+        "helical" in outcome.words and outcome.numbers <= 3 and outcome.hint == ""
+        for outcome in report.findings
     )
     Flat.helical = False
     assert len(applicable(Subject(Flat))) == 2
@@ -351,7 +371,10 @@ def test_joints_with_a_pitch_are_asked_of_those_who_declare_them():
     ("edit", "fault"),
     [
         (lambda poses: poses | {"link2": poses["link1"]}, ""),
-        (lambda poses: {link: T for link, T in poses.items() if link != "link2"}, "of link link2: KeyError: 'link2'"),
+        (
+            lambda poses: {link: T for link, T in poses.items() if link != "link2"},
+            "of link link2: KeyError: 'link2'",
+        ),
         (lambda poses: poses | {"link2": poses["link1"][:3]}, "of link link2: shape (3, 4)"),
         (lambda poses: 7, "TypeError: 'int' object is not iterable"),
     ],
@@ -368,4 +391,6 @@ def test_a_robot_with_one_link_wrong_is_broken(edit, fault):
     assert outcome.fault.startswith(fault)
     assert ("worst: no result;" in str(outcome)) is bool(fault)
     assert "link2" in outcome.fault + outcome.error_of or fault.startswith("TypeError")
-    assert "read.poses(q)[link] for link in ['link1', 'link2'" in outcome.paste or fault.startswith("TypeError")
+    assert "read.poses(q)[link] for link in ['link1', 'link2'" in outcome.paste or fault.startswith(
+        "TypeError"
+    )

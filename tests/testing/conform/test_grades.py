@@ -7,7 +7,7 @@ import math
 import pytest
 
 from poekin.testing.conform.grades import Grade, Part, judged
-from poekin.testing.laws import LawViolation
+from poekin.testing.laws.laws import LawViolation
 
 
 def part(error, scale=1.0, least=0.0, attainable=1e-16):
@@ -43,7 +43,11 @@ def test_an_error_goes_in_proportion_to_its_scale_and_no_scale_allows_no_error()
 
 
 def test_a_violation_carries_the_error_and_the_bound_of_the_grade_asked_for():
-    for at_most, error, bound in [(Grade.EXACT, 1e-7, 3e-16), (Grade.GOOD, 1e-7, 1e-10), (Grade.POOR, 1e-5, 1e-6)]:
+    for at_most, error, bound in [
+        (Grade.EXACT, 1e-7, 3e-16),
+        (Grade.GOOD, 1e-7, 1e-10),
+        (Grade.POOR, 1e-5, 1e-6),
+    ]:
         with pytest.raises(LawViolation, match=r"^law: x: error") as caught:
             judged("law", [part(error)], at_most, x=1)
         assert (caught.value.error, caught.value.bound) == pytest.approx((error, bound), rel=1e-12)

@@ -1,4 +1,6 @@
-"""The libraries as subjects: at an ordinary case each computes what its adapter says: no convention is blamed."""
+"""The libraries as subjects: at an ordinary case each computes what its adapter says: no convention
+is blamed.
+"""
 
 from __future__ import annotations
 
@@ -15,12 +17,15 @@ from benchmarks.report import Topic
 from benchmarks.subjects import FAULTS, LIBRARIES, Poekin
 from benchmarks.subjects.__main__ import main
 from poekin.testing.conform import LAWS, Case, Grade, Subject, applicable, conform
-from poekin.testing.conform.small_urdf import Joint, chain
-from poekin.testing.conform.subject import SO3
+from poekin.testing.conform.laws.small_urdf import Joint, chain
+from poekin.testing.conform.subjects.subject import SO3
 from tests.versions import needs
 
 XI = np.array([0.7, -0.5, 0.8, 0.3, -0.2, 0.6])
-ARM = Case(np.array([0, 0, 1, 0.3, 0.1, 0, 0.5, 0, 0, 1, 0, 0, 0, 0, 0.2, 0, *XI]), ("revolute", "prismatic"))
+ARM = Case(
+    np.array([0, 0, 1, 0.3, 0.1, 0, 0.5, 0, 0, 1, 0, 0, 0, 0, 0.2, 0, *XI]),
+    ("revolute", "prismatic"),
+)
 ROW = [0, 0, 1, 0.3, 0.1, 0.2, 0, 0, math.pi / 2, 0, 0, 0.5]
 URDF = Case(np.array([*ROW, *ROW]), chain((Joint("revolute", "j0"), Joint("prismatic", "j1"))))
 # The versions that the report measures, where tests are run with older ones.
@@ -29,10 +34,14 @@ NAMES = [(name, kind) for name, kinds in LIBRARIES.items() for kind in kinds]
 
 
 def ordinary(law):
-    """A case in the middle of the law's range, without what the law is about where that is one thing of a URDF."""
+    """A case in the middle of the law's range, without what the law is about where that is one
+    thing of a URDF.
+    """
     if law.needs in SO3:
         return Case(XI[:3])
-    return {"fk": ARM, "jacobian": ARM, "read_urdf": URDF, "read_robot": URDF}.get(law.needs, Case(XI))
+    return {"fk": ARM, "jacobian": ARM, "read_urdf": URDF, "read_robot": URDF}.get(
+        law.needs, Case(XI)
+    )
 
 
 @pytest.mark.parametrize(("name", "kind"), NAMES, ids=lambda x: getattr(x, "__name__", x))
@@ -58,7 +67,11 @@ def test_every_peer_is_a_subject_unless_it_has_nothing_of_one():
 def test_the_page_shows_grades_counterexamples_and_what_could_not_be_run():
     peers.use(["standard"])
     said = []
-    reports = [conformance._held(Poekin, 2, 30.0, said.append), conform(FAULTS["d"][0], examples=60), "gone: broken"]
+    reports = [
+        conformance._held(Poekin, 2, 30.0, said.append),
+        conform(FAULTS["d"][0], examples=60),
+        "gone: broken",
+    ]
     caught = [("d", "exp = I", reports[1]["so3_exp"], 1.0)]
     figures = conformance._figures(reports, caught, 7, 0, 0)
     assert [figure.verdict for figure in figures] == [True, True, True]

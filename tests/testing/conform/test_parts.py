@@ -1,4 +1,6 @@
-"""What a verdict is made of: each number of a result is in its part, and each part has its scale and its bound."""
+"""What a verdict is made of: each number of a result is in its part, and each part has its scale
+and its bound.
+"""
 
 from __future__ import annotations
 
@@ -8,17 +10,21 @@ import re
 import numpy as np
 import pytest
 
-from poekin.testing import attainable, exact
-from poekin.testing.conform import of_arms, of_groups
-from poekin.testing.conform.precision import DOUBLE, SINGLE
-from poekin.testing.laws import LawViolation
+from poekin.testing.accuracy import error_bounds
+from poekin.testing.conform.laws import of_arms, of_groups
+from poekin.testing.conform.subjects.precision import DOUBLE, SINGLE
+from poekin.testing.laws.laws import LawViolation
+from poekin.testing.oracles import exact
 
 U = 2.0**-53
 N = np.array([2.0, 3.0, -6.0]) / 7
 XI = np.concatenate([2.5 * N, [2.0, 3.0, 6.0]])
 POSE = exact.rounded(exact.exp(XI))
-# A revolute joint whose |v| is 1.5, a prismatic and a helical one of pitch -0.25; |t| of the home pose is 7.
-SCREWS = np.array([[0, 0, 1.0, 0.9, 1.2, 0], [0, 0, 0, 0.36, 0.48, 0.8], [0, -1.0, 0, 0.6, 0.25, 0.6]])
+# A revolute joint whose |v| is 1.5, a prismatic and a helical one of pitch -0.25; |t| of the home
+# pose is 7.
+SCREWS = np.array(
+    [[0, 0, 1.0, 0.9, 1.2, 0], [0, 0, 0, 0.36, 0.48, 0.8], [0, -1.0, 0, 0.6, 0.25, 0.6]]
+)
 HOME = exact.rounded(exact.exp(np.concatenate([0.5 * N, np.zeros(3)])))
 HOME[:3, 3] = [2.0, 3.0, 6.0]
 ARM, Q = of_arms.arm(SCREWS, HOME), np.array([0.7, -1.3, 0.4])
@@ -36,7 +42,9 @@ def test_what_is_attainable_of_a_pose(turned, unit):
     missed = np.linalg.norm(HOME[:3, :3] @ HOME[:3, :3].T - np.eye(3))
     arm = ARM._replace(turned=turned, offset=np.array([0.1, 0.2, -0.3]))
     angular, lengths = of_arms.attainable(arm, Q, unit)
-    assert angular == pytest.approx(unit * (5 + math.sqrt(2) * (0.8 + 0.1 + turned)) + missed, rel=1e-12)
+    assert angular == pytest.approx(
+        unit * (5 + math.sqrt(2) * (0.8 + 0.1 + turned)) + missed, rel=1e-12
+    )
     assert lengths == pytest.approx(ARM.reach + 1.1, rel=1e-12)
 
 
@@ -69,7 +77,11 @@ def test_the_worst_column_of_a_jacobian_counts(frame):
         assert [w.error, v.error] == pytest.approx([2.0 * (i < 3), 2.0 * (i >= 3)], abs=1e-13)
     w, v = of_arms.jacobian_parts(frame, ARM, Q, J)
     ratios = 1 + math.sqrt(3)
-    assert (w.scale, w.least, w.attainable()) == (1.0, pytest.approx(ratios * angular, rel=1e-12), 0.0)
+    assert (w.scale, w.least, w.attainable()) == (
+        1.0,
+        pytest.approx(ratios * angular, rel=1e-12),
+        0.0,
+    )
     assert (v.scale, v.attainable()) == (2 * lengths + 1, 0.0)
     assert v.least == pytest.approx(ratios * angular * (2 * lengths + 1), rel=1e-12)
     turning = of_arms.arm(SCREWS[[0, 2]], HOME)
@@ -84,7 +96,7 @@ def test_the_worst_column_of_a_jacobian_counts(frame):
 
 def test_each_number_of_exp_is_in_its_part():
     for precision, unit in ((DOUBLE, U), (SINGLE, 2.0**-24)):
-        bound = attainable.exp_bound(XI)
+        bound = error_bounds.exp_bound(XI)
         for i, j in np.ndindex(4, 4):
             X = POSE.copy()
             X[i, j] -= 2.0
@@ -92,9 +104,13 @@ def test_each_number_of_exp_is_in_its_part():
             expected = [2.0 * (i < 3 and j < 3), 2.0 * (i < 3 and j == 3), 2.0 * (i == 3)]
             assert [R.error, t.error, last.error] == pytest.approx(expected, abs=1e-14)
         angular = unit * (1 + math.sqrt(2) * 2.5)
-        assert (R.scale, R.least, R.attainable()) == pytest.approx((math.sqrt(2), angular, angular), rel=1e-12)
+        assert (R.scale, R.least, R.attainable()) == pytest.approx(
+            (math.sqrt(2), angular, angular), rel=1e-12
+        )
         linear = unit / U * float(bound.linear)
-        assert (t.scale, t.least, t.attainable()) == pytest.approx((7.0, 7 * unit, linear), rel=1e-12)
+        assert (t.scale, t.least, t.attainable()) == pytest.approx(
+            (7.0, 7 * unit, linear), rel=1e-12
+        )
         assert (last.scale, last.least, last.attainable()) == (1.0, 0.0, 0.0)
         assert len(of_groups.exp_parts(XI[:3], POSE[:3, :3], precision)) == 1
 
@@ -102,7 +118,7 @@ def test_each_number_of_exp_is_in_its_part():
 def test_each_number_of_log_is_in_its_part():
     truth = exact.rounded(exact.log(POSE))
     t = float(np.linalg.norm(POSE[:3, 3]))
-    bound = attainable.log_bound(exact.log(POSE))
+    bound = error_bounds.log_bound(exact.log(POSE))
     for precision, unit in ((DOUBLE, U), (SINGLE, 2.0**-24)):
         for k in range(6):
             xi = truth.copy()
@@ -179,7 +195,13 @@ def test_each_block_of_a_jacobian_of_exp_is_in_its_part():
         law(lambda xi: right[:3, :3], XI[:3], precision=SINGLE)
         (alone,) = found[-1]
     assert [part.scale for part in (P, Q, alone)] == [1.0, 1.0, 1.0]
-    assert P.least == Q.least == P.attainable() == Q.attainable() == of_groups.JACOBIAN_BAR / of_groups.EXP_LOG_BAR
+    assert (
+        P.least
+        == Q.least
+        == P.attainable()
+        == Q.attainable()
+        == of_groups.JACOBIAN_BAR / of_groups.EXP_LOG_BAR
+    )
     assert alone.least == alone.attainable() == pytest.approx(2.0**29 * P.least, rel=1e-15)
 
 
@@ -188,8 +210,13 @@ def wrong(size: tuple[int, ...]):
 
 
 def laws():
-    """Each law as a function of the subject's function, the shape of what that has to return, and its names."""
-    group = {name: (of_groups.jacobian_of_exp(name), XI, 6) for name in ("left_jacobian", "right_jacobian_inverse")}
+    """Each law as a function of the subject's function, the shape of what that has to return, and
+    its names.
+    """
+    group = {
+        name: (of_groups.jacobian_of_exp(name), XI, 6)
+        for name in ("left_jacobian", "right_jacobian_inverse")
+    }
     laws = {
         "exp is e to the xi: R (rad)": (of_groups.exp_is_e_to_the_xi, {3: XI[:3], 4: XI}),
         "log is the principal logarithm: ω (rad)": (
@@ -205,9 +232,13 @@ def laws():
 
 
 @pytest.mark.parametrize(
-    ("message", "law", "shape", "x"), list(laws()), ids=[f"{m.split(':')[0]}, {s}" for m, _, s, _ in laws()]
+    ("message", "law", "shape", "x"),
+    list(laws()),
+    ids=[f"{m.split(':')[0]}, {s}" for m, _, s, _ in laws()],
 )
-def test_a_violation_says_which_law_and_a_wrong_shape_is_none_of_its_numbers(message, law, shape, x):
+def test_a_violation_says_which_law_and_a_wrong_shape_is_none_of_its_numbers(
+    message, law, shape, x
+):
     with pytest.raises(LawViolation, match=rf"^{re.escape(message)}: error"):
         law(wrong(shape), x)
     other = (*shape[:-1], shape[-1] + 1)
@@ -229,8 +260,13 @@ def test_a_law_of_an_arm_says_which_and_a_wrong_shape_is_none_of_its_numbers(law
         return of_arms.jacobian_is_the_derivative(function, "body", ARM, Q, grade)
 
     shape = (4, 4) if law == "fk" else (6, 3)
-    said = {"fk": "fk is the product of exponentials", "jacobian": "jacobian is the derivative"}[law]
+    said = {"fk": "fk is the product of exponentials", "jacobian": "jacobian is the derivative"}[
+        law
+    ]
     with pytest.raises(LawViolation, match=rf"^{said}: .*error"):
         held(wrong(shape), of_groups.Grade.EXACT)
     for other in ((shape[0] + 1, columns), (shape[0], columns + 1)):
-        assert held(wrong(other), of_groups.Grade.BROKEN).fault == f"shape {other} where {shape} was expected"
+        assert (
+            held(wrong(other), of_groups.Grade.BROKEN).fault
+            == f"shape {other} where {shape} was expected"
+        )

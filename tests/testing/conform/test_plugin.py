@@ -12,7 +12,7 @@ import pytest
 from benchmarks.subjects import FAULTS, Poekin
 from poekin.testing.conform import Grade
 from poekin.testing.conform.plugin import held
-from poekin.testing.laws import LawViolation
+from poekin.testing.laws.laws import LawViolation
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -37,7 +37,8 @@ def test_faulty(conform):
 
 def test_a_faulty_subject_fails_its_test_with_the_counterexample_and_a_sound_one_passes(tmp_path):
     (tmp_path / "test_mine.py").write_text(TEST, encoding="utf-8")
-    # As its users have it: declared in the conftest at the top, with warnings as errors, and beside imports of poekin.
+    # As its users have it: declared in the conftest at the top, with warnings as errors, and beside
+    # imports of poekin.
     (tmp_path / "conftest.py").write_text(
         'from poekin.testing.conform import Grade\n\npytest_plugins = ["poekin.testing.conform.plugin"]\n',
         encoding="utf-8",
@@ -55,12 +56,16 @@ def test_a_report_is_returned_where_nothing_is_worse_than_asked_for():
     assert held(Poekin, ["so3_exp"], examples=10, at_most=Grade.EXACT).conforms
     kind, law = FAULTS["d"]
     assert held(kind, [law], examples=60, at_most=Grade.BROKEN).findings
-    with pytest.raises(LawViolation, match=r"ExpOfNothing does not conform: error .* exceeds 1e-10"):
+    with pytest.raises(
+        LawViolation, match=r"ExpOfNothing does not conform: error .* exceeds 1e-10"
+    ):
         held(kind, [law], examples=60)
 
 
 def test_the_plugin_which_imports_pytest_is_imported_by_nothing_of_poekin():
     # That nothing else imports pytest is held by tests/test_architecture.py.
-    files = list((ROOT / "poekin" / "testing").rglob("*.py")) + list((ROOT / "poekin" / "cli").glob("*.py"))
+    files = list((ROOT / "poekin" / "testing").rglob("*.py")) + list(
+        (ROOT / "poekin" / "cli").glob("*.py")
+    )
     importing = re.compile(r"^\s*(from|import)\b.*\bplugin\b", re.MULTILINE)
     assert not [file for file in files if importing.search(file.read_text(encoding="utf-8"))]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from poekin.testing.conform.grades import Grade
-from poekin.testing.conform.law import Case
+from poekin.testing.conform.laws.law import Case
 from poekin.testing.conform.report import Outcome, Report
 
 CASE = Case(np.array([0.0, 2.0, -1.0]))
@@ -33,7 +33,10 @@ def told(before: dict[str, str] | None = None, **fields: Any) -> str:
     [
         ({}, "worst 1.2e-12 of R (rad); 100 examples"),
         ({"examples": 99}, "worst 1.2e-12 of R (rad); 99 examples, which say little"),
-        ({"examples": 400, "late": True}, "worst 1.2e-12 of R (rad); 400 examples; the time ran out"),
+        (
+            {"examples": 400, "late": True},
+            "worst 1.2e-12 of R (rad); 400 examples; the time ran out",
+        ),
         ({"precision": "float32"}, "worst 1.2e-12 of R (rad); 100 examples in float32"),
         ({"worst": math.inf}, "worst: R (rad) is not 0, and must be; 100 examples"),
         ({"worst": math.inf, "what": "no result"}, "worst: no result; 100 examples"),
@@ -53,11 +56,16 @@ def test_a_finding_says_its_error_its_case_the_python_and_what_is_exact():
     tail = ["print(1)", "# names: a, b, or more", "# exact: [[0.0, 0.0, 0.5]]"]
     assert told(**FOUND) == "poor       exp: " + INDENT.join([*lines, *tail, "look there"])
     above = "# the Python is that of log, above"
-    assert told({"print(1)": "log"}, **FOUND) == "poor       exp: " + INDENT.join([*lines, above, "look there"])
+    assert told({"print(1)": "log"}, **FOUND) == "poor       exp: " + INDENT.join(
+        [*lines, above, "look there"]
+    )
     bare = {**FOUND, "names": (), "expected": None, "hint": "", "examples": 5, "late": True}
     lines[1] = "worst 1.2e-12 of R (rad); 5 examples"
     assert told(**bare) == "poor       exp: " + INDENT.join([*lines, "print(1)"])
-    for more, third in (({"fault": "NaN"}, "NaN"), ({"error": math.inf}, "t is not 0, and must be")):
+    for more, third in (
+        ({"fault": "NaN"}, "NaN"),
+        ({"error": math.inf}, "t is not 0, and must be"),
+    ):
         assert told(**{**bare, **more}) == "poor       exp: " + INDENT.join(
             [*lines[:2], f"{third} at ω = 2", "print(1)"]
         )
@@ -91,13 +99,17 @@ def test_plain_data_has_what_is_known():
 
 
 def outcomes(*grades: Grade, **more: Any) -> tuple[Outcome, ...]:
-    return tuple(Outcome(**{**SOUND, "law": f"law {grade.word}", "grade": grade, **more}) for grade in grades)
+    return tuple(
+        Outcome(**{**SOUND, "law": f"law {grade.word}", "grade": grade, **more}) for grade in grades
+    )
 
 
 @pytest.mark.parametrize("at_most", Grade)
 def test_a_report_conforms_where_nothing_confirmed_is_worse_than_what_was_asked_for(at_most):
     for grade in Grade:
-        assert Report("Mine", outcomes(Grade.EXACT, grade), at_most=at_most).conforms == (grade <= at_most)
+        assert Report("Mine", outcomes(Grade.EXACT, grade), at_most=at_most).conforms == (
+            grade <= at_most
+        )
         assert Report("Mine", outcomes(grade, unconfirmed="why"), at_most=at_most).conforms
     assert not Report("Mine", outcomes(Grade.POOR)).conforms
     assert Report("Mine", outcomes(Grade.GOOD)).conforms
@@ -119,7 +131,11 @@ def test_a_report_is_printed_with_each_python_once_and_its_notes():
     with pytest.raises(KeyError, match="'nothing'"):
         report["nothing"]
     plain = report.as_dict()
-    assert (plain["subject"], plain["conforms"], plain["notes"]) == ("Mine 1.0", False, ["one", "two\x1b"])
+    assert (plain["subject"], plain["conforms"], plain["notes"]) == (
+        "Mine 1.0",
+        False,
+        ["one", "two\x1b"],
+    )
     assert [law["law"] for law in plain["laws"]] == ["exp", "law exact", "log", "fk"]
 
 

@@ -1,4 +1,6 @@
-"""The hunt for the worst case: how many cases it tries, which one it keeps, and what it makes simpler."""
+"""The hunt for the worst case: how many cases it tries, which one it keeps, and what it makes
+simpler.
+"""
 
 from __future__ import annotations
 
@@ -13,11 +15,11 @@ import pytest
 
 from poekin.errors import InputError
 from poekin.testing.conform import search
-from poekin.testing.conform.calls import ENDED, UNANSWERED
 from poekin.testing.conform.grades import Grade, Verdict
-from poekin.testing.conform.law import Case, Law, Shown
-from poekin.testing.conform.precision import DOUBLE, SINGLE
-from poekin.testing.strategies import st
+from poekin.testing.conform.laws.law import Case, Law, Shown
+from poekin.testing.conform.process.calls import ENDED, UNANSWERED
+from poekin.testing.conform.subjects.precision import DOUBLE, SINGLE
+from poekin.testing.strategies.group_strategies import st
 
 
 class Clock:
@@ -56,7 +58,9 @@ def verdict(grade: Grade, size: float = 1.0, fault: str = "") -> Verdict:
     return Verdict(grade, size, "x", fault)
 
 
-def worst(check: Callable[[Case], Verdict], examples: int, seconds: float = 60.0, **more: Any) -> search.Found:
+def worst(
+    check: Callable[[Case], Verdict], examples: int, seconds: float = 60.0, **more: Any
+) -> search.Found:
     subject: Any = more.pop("subject", Stub())
     return search.worst(law(check, **more), subject, examples, seconds)
 
@@ -83,10 +87,17 @@ def test_broken_late_is_enough_at_once():
 
 
 def test_a_subject_whose_process_ended_is_not_asked_again():
-    assert worst(lambda case: verdict(Grade.BROKEN, fault=ENDED), 50, allowed=lambda case: False).examples == 1
+    assert (
+        worst(
+            lambda case: verdict(Grade.BROKEN, fault=ENDED), 50, allowed=lambda case: False
+        ).examples
+        == 1
+    )
 
 
-@pytest.mark.parametrize(("each", "seconds", "examples"), [(1.0, 1.0, 10), (1.0, 20.0, 21), (0.5, 20.0, 41)])
+@pytest.mark.parametrize(
+    ("each", "seconds", "examples"), [(1.0, 1.0, 10), (1.0, 20.0, 21), (0.5, 20.0, 41)]
+)
 def test_ten_examples_are_tried_however_long_they_take(each, seconds, examples, monkeypatch):
     clock = Clock(monkeypatch)
     clock.now = 7.0
@@ -158,7 +169,9 @@ def test_what_is_worse_than_good_or_than_was_asked_for_is_made_simpler(at_most):
 NINE = Case(np.full(9, 0.123456789))
 
 
-def simplest(check: Callable[[Case], Verdict], of: Verdict, case: Case = NINE, **more: Any) -> tuple[Case, Stub]:
+def simplest(
+    check: Callable[[Case], Verdict], of: Verdict, case: Case = NINE, **more: Any
+) -> tuple[Case, Stub]:
     subject: Any = Stub()
     return search.simplest(law(check, **more), subject, case, of), subject
 
@@ -217,7 +230,9 @@ def test_what_the_law_is_about_stays_where_it_can():
 
 
 @pytest.mark.parametrize(("answer", "shrinks"), [(Grade.BROKEN, True), (Grade.GOOD, False)])
-def test_who_does_not_answer_is_waited_for_two_seconds_while_a_case_is_made_simpler(answer, shrinks):
+def test_who_does_not_answer_is_waited_for_two_seconds_while_a_case_is_made_simpler(
+    answer, shrinks
+):
     late = verdict(Grade.BROKEN, math.inf, f"{UNANSWERED} 60 s")
     subject: Any = Stub()
     short = late._replace(fault=f"{UNANSWERED} 2 s")

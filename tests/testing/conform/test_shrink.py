@@ -1,4 +1,6 @@
-"""Shrinking: to few numbers, few digits, few joints; and never to a case that does not fail or is not allowed."""
+"""Shrinking: to few numbers, few digits, few joints; and never to a case that does not fail or is
+not allowed.
+"""
 
 from __future__ import annotations
 
@@ -12,12 +14,12 @@ import pytest
 from benchmarks.subjects import Poekin
 from benchmarks.subjects.faulty import _Reader
 from poekin.testing.conform import LAWS, Case, Grade, Subject, shrink
-from poekin.testing.conform.arm_cases import ARM_LAWS
 from poekin.testing.conform.grades import judged
+from poekin.testing.conform.laws.arm_cases import ARM_LAWS
+from poekin.testing.conform.laws.small_urdf import Joint, chain, layout_of
+from poekin.testing.conform.laws.urdf_cases import URDF_LAWS
 from poekin.testing.conform.search import simplest
 from poekin.testing.conform.shrink import cost, shrunk
-from poekin.testing.conform.small_urdf import Joint, chain, layout_of
-from poekin.testing.conform.urdf_cases import URDF_LAWS
 from tests.testing.drawing import drawn
 
 EXP = next(law for law in LAWS if law.name == "exp")
@@ -36,7 +38,9 @@ XI = Case(np.array([0.3, -0.123456789, 7e-7, 12.34, -0.1, 1e-9]))
     ids=["nothing", "one place", "two vectors", "a size"],
 )
 def test_what_does_not_matter_goes(fails, expected):
-    np.testing.assert_array_equal(shrunk(EXP, XI, lambda case: bool(fails(case.numbers))).numbers, expected)
+    np.testing.assert_array_equal(
+        shrunk(EXP, XI, lambda case: bool(fails(case.numbers))).numbers, expected
+    )
 
 
 def test_a_case_that_cannot_be_simpler_stays():
@@ -45,7 +49,9 @@ def test_a_case_that_cannot_be_simpler_stays():
 
 def test_near_pi_few_digits_of_the_gap_are_kept():
     start = Case(np.array([0, math.pi - 1.2345e-9, 0, 0, 0, 0]))
-    small = shrunk(LOG, start, lambda case: bool(abs(math.pi - np.linalg.norm(case.numbers[:3])) < 1e-8))
+    small = shrunk(
+        LOG, start, lambda case: bool(abs(math.pi - np.linalg.norm(case.numbers[:3])) < 1e-8)
+    )
     assert np.count_nonzero(small.numbers) == 1
     assert small.numbers[0] == math.pi
 
@@ -71,7 +77,9 @@ def test_what_does_not_matter_of_a_tree_goes_and_its_joints_stay():
     law = next(law for law in URDF_LAWS if law.name == "robot mimic")
     for case in drawn(law.cases(Subject(Poekin)), 3):
         count = len(layout_of(case).joints)
-        small = layout_of(shrunk(law, case, lambda other, count=count: len(layout_of(other).joints) == count))
+        small = layout_of(
+            shrunk(law, case, lambda other, count=count: len(layout_of(other).joints) == count)
+        )
         assert small == chain(small.joints)
         assert all(joint.follows < 0 for joint in small.joints)
 
@@ -159,9 +167,25 @@ def test_oblique_axes_are_shown_in_round_numbers():
 
 
 def test_a_case_costs_its_numbers_then_what_is_not_zero_digits_signs_places_and_sizes():
-    assert cost(Case(np.array([0, -0.25, 0, 100.0]))) == (4, 2, 3, 1, 4.0, pytest.approx(2 + math.log10(4)))
+    assert cost(Case(np.array([0, -0.25, 0, 100.0]))) == (
+        4,
+        2,
+        3,
+        1,
+        4.0,
+        pytest.approx(2 + math.log10(4)),
+    )
     assert cost(Case(np.zeros(0))) == (0, 0, 0, 0, 0.0, 0.0)
-    rising = ([0.0, 0.0], [1.0, 0.0], [10.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [1.5, 0.0], [1.0, 1.0], [0.0, 0.0, 0.0])
+    rising = (
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [10.0, 0.0],
+        [0.0, 1.0],
+        [-1.0, 0.0],
+        [1.5, 0.0],
+        [1.0, 1.0],
+        [0.0, 0.0, 0.0],
+    )
     costs = [cost(Case(np.array(numbers))) for numbers in rising]
     assert costs == sorted(costs)
     assert len(set(costs)) == len(costs)
@@ -181,7 +205,12 @@ def test_digits_are_those_that_people_write(value, digits):
 
 def test_rounder_numbers_come_the_simplest_first():
     found = list(shrink._rounder(-0.037654))
-    assert found[:4] == [1.0, -1.0, math.pi, -0.1]  # the nearest power of ten, on a scale of logarithms
+    assert found[:4] == [
+        1.0,
+        -1.0,
+        math.pi,
+        -0.1,
+    ]  # the nearest power of ten, on a scale of logarithms
     assert found[4:10] == [-0.04, 0.04, -0.038, 0.038, -0.0377, 0.0377]
     assert found[-2:] == [-0.037654, 0.037654]
     assert len(found) == 4 + 32
@@ -203,9 +232,16 @@ def test_directions_become_axes_then_planes_then_nearly_axes():
     assert np.array_equal(found[3:6], -np.eye(3))
     assert sorted(map(tuple, found[6:12])) == sorted(itertools.permutations((0.6, 0.8, 0.0)))
     assert found[12:] == [[0, -1, 0], [0.28, 1, 0]]
-    tilted = [direction.tolist() for direction in shrink._simpler_directions(np.array([3e-7, 1.0, -2e-3]))]
-    assert tilted[12] == pytest.approx([0, 1 / math.hypot(1, 2e-3), -2e-3 / math.hypot(1, 2e-3)], rel=1e-15)
-    assert tilted[13:15] == [[1e-7, 1, -2e-3], [3e-7, 1, -2e-3]]  # the nearest power of ten, without its sign
+    tilted = [
+        direction.tolist() for direction in shrink._simpler_directions(np.array([3e-7, 1.0, -2e-3]))
+    ]
+    assert tilted[12] == pytest.approx(
+        [0, 1 / math.hypot(1, 2e-3), -2e-3 / math.hypot(1, 2e-3)], rel=1e-15
+    )
+    assert tilted[13:15] == [
+        [1e-7, 1, -2e-3],
+        [3e-7, 1, -2e-3],
+    ]  # the nearest power of ten, without its sign
     assert tilted[15] == pytest.approx([3e-7, 1, 0], rel=1e-12)
     assert tilted[16:] == [[3e-7, 1, -2e-3]]
     assert len(list(shrink._simpler_directions(np.array([0.9e-4, 1.0, 0])))) == 12 + 3 + 1
@@ -233,17 +269,25 @@ def test_smaller_cases_are_vectors_and_numbers_away_then_rounder():
     assert all(other[3] == 2 for other in found[1:15])
     assert not list(shrink._smaller(law, Case(np.zeros(7))))
     directed = directed._replace(directions=lambda case: (1,))
-    found = [other.numbers.tolist() for other in shrink._smaller(directed, Case(np.array([5.0, 0.6, 0.8, 0, 2.0])))]
+    found = [
+        other.numbers.tolist()
+        for other in shrink._smaller(directed, Case(np.array([5.0, 0.6, 0.8, 0, 2.0])))
+    ]
     assert found[:2] == [[0, 0.6, 0.8, 0, 2], [5, 0.6, 0.8, 0, 0]]
     assert found[2] == [5, 1, 0, 0, 2]
     last = EXP._replace(directions=lambda case: (), triples=lambda case: (0, 3))
-    found = [other.numbers.tolist() for other in shrink._smaller(last, Case(np.array([0, 0, 0, 0, 0, 4.0])))]
+    found = [
+        other.numbers.tolist()
+        for other in shrink._smaller(last, Case(np.array([0, 0, 0, 0, 0, 4.0])))
+    ]
     assert found[:2] == [[0] * 6, [0] * 6], "the vector away, and the number"
     assert found[2] == [0, 0, 0, 4, 0, 0]
 
 
 @pytest.mark.parametrize(
-    "keeps", [lambda x: x[1] != 0, lambda x: abs(x[0]) > 0.2, lambda x: np.any(x[3:])], ids=["place", "size", "vector"]
+    "keeps",
+    [lambda x: x[1] != 0, lambda x: abs(x[0]) > 0.2, lambda x: np.any(x[3:])],
+    ids=["place", "size", "vector"],
 )
 def test_each_step_is_the_first_simpler_case_that_fails(keeps):
     def candidates(case: Case) -> list[Case]:

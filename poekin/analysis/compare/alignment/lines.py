@@ -1,0 +1,202 @@
+"""Two arms' axes as lines in space, side by side: what `compare` aligns.
+
+A screw is carried by a pose D as Ad(D) S. Model b's base stands at P in model a's, and b's joint k
+reads z_k where a's reads 0; so b's axis i is carried by D_i = P e^{B_1 z_1} ... e^{B_{i-1}
+z_{i-1}}. All is computed about each arm's hub, the point nearest to all its axes, so that a far
+base frame costs no digits. Leading axes are the batch: many alignments (P, z) at once, P (..., 4,
+4) and z (..., n).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....groups import se3, so3
+from ....groups.arrays import Array
+from ....model.chain import Chain
+
+Marks = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """The axes of one arm at rest about its hub.
+
+    Attributes: screws (n, 6); axes (n, 6), the same without pitch; ways (n, 3), their unit
+    directions; kinds (n); pitches (n), m per rad; places (n, 3), the point of each axis nearest the
+    hub (zero for prismatic joints, which have no place); hub (3,), in the own base.
+    """
+
+    screws: Array
+    axes: Array
+    ways: Array
+    kinds: tuple[str, ...]
+    pitches: Array
+    places: Array
+    hub: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Sides:
+    """Both arms' lines, and how near is near enough: tol_m (m) and tol_rad (rad).
+
+    `alike` (n,): same kind and pitch. `weights` (n, 6, 6): what makes of a change of an axis how
+    far it moves, in tolerances: direction, then place at a's place on it. `ways` (n, 6): a's
+    directions, as what b's axis has for one. `zero_tolerance` (n,): of a zero offset, an angle, or
+    for a prismatic joint a length. `hinge`: a joint of b whose axis is held to be wrong, so that
+    its zero offset turns what is behind it about a's axis instead; -1 for none.
+    """
+
+    a: Lines
+    b: Lines
+    tol_m: float
+    tol_rad: float
+    alike: Marks
+    weights: Array
+    ways: Array
+    zero_tolerance: Array
+    hinge: int = -1
+
+    @property
+    def n(self) -> int:
+        """Number of joints."""
+        return len(self.a.kinds)
+
+
+_NEXT, _LAST = [1, 2, 0], [2, 0, 1]
+
+
+def cross(x: Array, y: Array) -> Array:
+    """x × y over the last axis (..., 3): `numpy.cross` takes four times as long for so few numbers."""
+    return x[..., _NEXT] * y[..., _LAST] - x[..., _LAST] * y[..., _NEXT]
+
+
+def at_rest(chain: Chain) -> Chain:
+    """The chain with every joint its own coordinate x, x = 0 where q = 0, and limits where one
+    coordinate sets them.
+    """
+    C = chain.coupling
+    if np.array_equal(C, np.eye(len(C))) and not chain.offset.any():
+        return chain
+    limits = np.tile([-np.inf, np.inf], (len(C), 1))
+    for i, row in enumerate(C):
+        (ks,) = np.nonzero(row)
+        if len(ks) == 1:
+            limits[i] = np.sort(row[ks[0]] * chain.limits[ks[0]]) + chain.offset[i]
+    bare = Chain(
+        chain.screws, chain.home, joint_names=chain.joint_names, limits=limits, base=chain.base, tip=chain.tip,
+        pitches=chain.pitches,
+    )  # fmt: skip
+    return bare.rezeroed(chain.offset) if chain.offset.any() else bare
+
+
+def lines(chain: Chain) -> Lines:
+    """The axes of a chain at rest about its hub."""
+    hub = _hub(chain)
+    screws = chain.screws.copy()
+    screws[:, 3:] += cross(screws[:, :3], hub)
+    axes = screws.copy()
+    axes[:, 3:] -= chain.pitches[:, None] * screws[:, :3]
+    places = cross(axes[:, :3], axes[:, 3:])
+    return Lines(
+        screws, axes, direction(axes, chain.kinds), chain.kinds, chain.pitches, places, hub
+    )
+
+
+def sides(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Sides:
+    """Both chains at rest, with equal numbers of joints, ready to be aligned."""
+    one, other = lines(a), lines(b)
+    # A pitch shows after one turn as a length.
+    alike = [
+        k == j and abs(g - h) * 2 * np.pi <= tol_m
+        for k, j, g, h in zip(one.kinds, other.kinds, one.pitches, other.pitches, strict=True)
+    ]
+    ours, theirs = (np.array(side.kinds) == "prismatic" for side in (one, other))
+    weights = np.zeros((len(alike), 6, 6))
+    weights[:, :3, :3] = np.eye(3) / tol_rad
+    weights[:, 3:, :3], weights[:, 3:, 3:] = -so3.hat(one.places), np.eye(3)
+    weights[:, 3:] /= np.where(ours, tol_rad, tol_m)[:, None, None]
+    ways = np.concatenate([one.ways, one.ways], axis=1) * np.repeat(
+        np.stack([~theirs, theirs], axis=1), 3, axis=1
+    )
+    zero_tolerance = np.where(theirs, tol_m, tol_rad)
+    return Sides(one, other, tol_m, tol_rad, np.array(alike, bool), weights, ways, zero_tolerance)
+
+
+def carriers(pair: Sides, P: Array, z: Array) -> Array:
+    """D_1 ... D_{n+1} (..., n + 1, 4, 4): D_i = P e^{B_1 z_1} ... e^{B_{i-1} z_{i-1}}, about the
+    hubs.
+    """
+    D = np.empty((*z.shape[:-1], pair.n + 1, 4, 4))
+    here = P
+    for i in range(pair.n):
+        D[..., i, :, :] = here
+        if z[..., i].any():
+            turn = z[..., i, None]
+            if i == pair.hinge:
+                here = (
+                    se3.exp(hinge_screw(pair, se3.adjoint(here) @ pair.b.screws[i]) * turn) @ here
+                )
+            else:
+                here = here @ se3.exp(pair.b.screws[i] * turn)
+    D[..., pair.n, :, :] = here
+    return D
+
+
+def hinge_screw(pair: Sides, carried: Array) -> Array:
+    """a's screw (..., 6) of the joint that is held to be wrong, turning the way that b's carried
+    one (..., 6) does.
+    """
+    own = pair.a.screws[pair.hinge]
+    part = slice(3, 6) if pair.a.kinds[pair.hinge] == "prismatic" else slice(0, 3)
+    return np.where((carried[..., part] @ own[part] < 0)[..., None], -own, own)
+
+
+def carried(pair: Sides, P: Array, z: Array) -> tuple[Array, Array]:
+    """Model b's screws and pitch-free axes (..., n, 6) in model a's base, about a's hub."""
+    Ad = se3.adjoint(carriers(pair, P, z)[..., :-1, :, :] if z.any() else P[..., None, :, :])
+    return (Ad @ pair.b.screws[..., None])[..., 0], (Ad @ pair.b.axes[..., None])[..., 0]
+
+
+def signs(pair: Sides, axes: Array) -> Array:
+    """+1 or -1 (..., n): whether each of b's carried axes (..., n, 6) points the same way as a's."""
+    return np.where((pair.ways * axes).sum(-1) < 0, -1.0, 1.0)
+
+
+def direction(axes: Array, kinds: tuple[str, ...]) -> Array:
+    """Unit directions (n, 3) of axes of these kinds."""
+    return np.where((np.array(kinds) == "prismatic")[:, None], axes[:, 3:], axes[:, :3])
+
+
+def residuals(pair: Sides, axes: Array) -> Array:
+    """How far b's carried axes are from a's, in tolerances (..., n, 6): direction, then place at
+    a's place on each.
+    """
+    change = signs(pair, axes)[..., None] * axes - pair.a.axes
+    return (pair.weights @ change[..., None])[..., 0]
+
+
+def misses(pair: Sides, axes: Array) -> Array:
+    """Tolerances (..., n) by which each of b's carried axes is off in direction or place; inf where
+    kinds differ.
+    """
+    r = residuals(pair, axes)
+    worst = np.linalg.norm(r.reshape(*r.shape[:-1], 2, 3), axis=-1).max(-1)
+    return np.where(pair.alike, worst, np.inf)
+
+
+def _hub(chain: Chain) -> Array:
+    """The point (3,) nearest to all axes; where they leave it free (parallel axes), as near the
+    tool as they let it.
+    """
+    tool = chain.home[:3, 3]
+    rows = [S for S, kind in zip(chain.screws, chain.kinds, strict=True) if kind != "prismatic"]
+    if not rows:
+        return tool.copy()
+    across = [np.eye(3) - np.outer(S[:3], S[:3]) for S in rows]
+    reach = [A @ (cross(S[:3], S[3:]) - tool) for A, S in zip(across, rows, strict=True)]
+    # Axes parallel within a degree or so leave it free, else it would fly away.
+    return tool + np.linalg.lstsq(np.concatenate(across), np.concatenate(reach), rcond=0.02)[0]

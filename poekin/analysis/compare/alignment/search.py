@@ -1,0 +1,215 @@
+"""The reading of two models' difference that blames the fewest joints.
+
+Each hypothesis, nothing differs, one zero offset, one axis, one joint, one link, all zero offsets,
+all of them and one axis, is fitted by least squares over the axes that it holds to agree. What is
+then beyond tolerance is blamed; the fewest blamed joints win, then the base and tool that stay
+where they are, then the fewest changes. So one bad joint is not smeared over its neighbours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....groups import se3
+from ....groups.arrays import Array
+from ....model.chain import Chain
+from ..reached import poses_agree
+from .alignment_seeds import best, one_by_one, one_turn, rigid_poses
+from .fit import fit
+from .hypotheses import ONE, Reading, read, still, unhubbed
+from .lines import Marks, Sides, carried, misses, sides, signs
+
+
+def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, list[Reading]]:
+    """The best reading of the difference of two chains at rest, and the others that blame one joint
+    only.
+    """
+    pair = sides(a, b, tol_m, tol_rad)
+    n, alone = pair.n, np.eye(pair.n, dtype=bool)
+    every, none = np.ones(n, bool), np.zeros(n, bool)
+    poses = rigid_poses(pair)
+    rigid = poses[1], np.zeros((len(poses[1]), n))
+
+    def readings(P: Array, z: Array, free: Marks, used: Marks) -> list[Reading]:
+        return read(pair, a, b, *fit(pair, P, z, free, used))
+
+    found = read(pair, a, b, rigid[0][:1], rigid[1][:1])
+    if (
+        not found[0].cost[0] and not found[0].frames
+    ):  # the same as they stand: nothing is to be aligned
+        return found[0], []
+    P, z = best(pair, *rigid)
+    found += readings(P, z, none, every)
+    first = min(found, key=_cost)
+    if first.cost[0] == 0:
+        return first, []
+    two = len(z[:2])
+    found += readings(
+        np.tile(P[:2], (n, 1, 1)), np.tile(z[:2], (n, 1)), none, ~alone.repeat(two, 0)
+    )
+    if n > 2:
+        found += _one_joint(pair, a, b, poses)
+    found += _links(pair, a, b, poses[1])
+    # Where several axes differ, those that most starts agree on; one bad axis is looked for above.
+    found += [
+        as_it_starts for as_it_starts in read(pair, a, b, P, z) if as_it_starts.moved.sum() > 1
+    ]
+    miss = misses(pair, carried(pair, P, z)[1])
+    agree = np.concatenate([miss <= 10.0, miss <= 1.0])
+    found += readings(np.tile(P, (2, 1, 1)), np.tile(z, (2, 1)), none, agree)
+    if min(found, key=_cost).cost[0] > ONE:
+        found += _conventions(pair, a, b)
+    # The reading of the models as they stand holds, and so there is one that does.
+    found.sort(key=_cost)
+    holding = (r for r in found if r.moved.any() or poses_agree(pair, a, b, r))
+    first = next(holding)
+    return _simpler(first, found), _others(first, holding)
+
+
+def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading | None:
+    """The best reading of two chains at rest under which all axes agree, or None: `search` without
+    what differs.
+    """
+    pair = sides(a, b, tol_m, tol_rad)
+    none, every = np.zeros(pair.n, bool), np.ones(pair.n, bool)
+    poses = rigid_poses(pair)[1]
+    nothing = np.zeros((len(poses), pair.n))
+    found = read(pair, a, b, poses[:1], nothing[:1])
+    found += read(pair, a, b, *fit(pair, *best(pair, poses, nothing), none, every))
+    if min(found, key=_cost).cost[0]:
+        found += _simplest(pair, a, b, *_other_zeros(pair)[2:])
+    holding = (
+        r for r in sorted(found, key=_cost) if not r.moved.any() and poses_agree(pair, a, b, r)
+    )
+    return next(holding, None)
+
+
+def _one_joint(
+    pair: Sides, a: Chain, b: Chain, poses: tuple[NDArray[np.intp], Array]
+) -> list[Reading]:
+    """Readings in which one inner joint alone has a zero offset, its axis agreeing, or held to be
+    wrong.
+    """
+    alone, every = np.eye(pair.n, dtype=bool), np.ones(pair.n, bool)
+    starts = [(one_turn(pair, poses, k), alone[k]) for k in range(1, pair.n - 1)]
+    # Of each joint all the starts with its axis, then the two best without it, then the two with
+    # what agrees alone.
+    tries = [(P[i], z[i], own, used) for (P, z), own in starts for most, used in ((4, every), (2, ~own))
+             for i in range(len(z[:most]))]  # fmt: skip
+    for (P, z), own in starts:
+        agree = misses(pair, carried(pair, P[:2], z[:2])[1]) <= 1.0
+        tries += [(P[i], z[i], own, used) for i, used in enumerate(agree)]
+    P, z, free, used = (np.array(column) for column in zip(*tries, strict=True))
+    return read(pair, a, b, *fit(pair, P, z, free, used))
+
+
+def _simpler(first: Reading, found: list[Reading]) -> Reading:
+    """The best reading, or one that blames fewer joints and leaves base and tool where they are,
+    which it does not.
+    """
+    fewer = (
+        r for r in found if not r.frames and r.moved.any() and r.blamed.sum() < first.blamed.sum()
+    )
+    return next(fewer, first) if first.frames and not first.link else first
+
+
+def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Reading]:
+    """Readings in which one link is another: the axes before it agree under one pose, those behind
+    under another.
+    """
+    nothing, found = np.zeros((len(poses), pair.n)), []
+    axes = carried(pair, poses, nothing)[1]
+    agree = (misses(pair, axes) <= 1.0) & (signs(pair, axes) > 0)
+    for k in range(2, pair.n - 1):
+        before, behind = agree[:, :k].all(1), agree[:, k:].all(1)
+        if before.any() and behind.any():
+            P, last = poses[before][:1], unhubbed(pair, poses[behind][0])
+            (reading,) = read(pair, a, b, P, nothing[:1])
+            if reading.blamed.sum() < 2:
+                continue
+            tool = se3.inverse(last @ b.home) @ a.home
+            frames = sum(not still(T, pair.tol_m, pair.tol_rad) for T in (reading.base, tool))
+            found.append(replace(reading, tool=tool, frames=frames, link=k))
+    return found
+
+
+def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Reading]:
+    """Readings in which every zero offset is free: with no bad axis, with each one, and with those
+    that then miss.
+    """
+    n, inner = pair.n, _inner(pair)
+    P, z, P_fitted, z_fitted = _other_zeros(pair)
+    found = _simplest(pair, a, b, P_fitted, z_fitted)
+    if min(found, key=_cost).moved.any():
+        tried = best(pair, np.concatenate([P, P_fitted]), np.concatenate([z, z_fitted]), 2)
+        P, z = np.concatenate([P[:4], tried[0]]), np.concatenate([z[:4], tried[1]])
+        for k in np.flatnonzero(pair.alike) if pair.alike.all() else np.flatnonzero(~pair.alike):
+            used = np.arange(n) != k
+            for held in (pair, replace(pair, hinge=int(k))):
+                trial = fit(held, P, z, inner, used)
+                fits = ~(misses(held, carried(held, *trial)[1])[:, used] > 1.0).any(1)
+                readings = _simplest(held, a, b, trial[0][fits], trial[1][fits])
+                # Zero offsets about a's axis k say nothing of b's, unless that is another one.
+                found += [reading for reading in readings if held.hinge < 0 or reading.moved[k]]
+    return found
+
+
+def _inner(pair: Sides) -> Marks:
+    """The joints (n,) whose zero offsets are no turn of the base or the tool."""
+    return (np.arange(pair.n) > 0) & (np.arange(pair.n) < pair.n - 1)
+
+
+def _other_zeros(pair: Sides) -> tuple[Array, Array, Array, Array]:
+    """Alignments (P, z) with zero offsets found joint after joint, and the same fitted to all axes
+    with them free.
+    """
+    P, z = (rows[:8] for rows in one_by_one(pair))
+    return P, z, *fit(pair, P, z, _inner(pair), np.ones(pair.n, bool))
+
+
+def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Reading]:
+    """The readings of alignments with as many zero offsets put back to 0, least first, as the
+    agreeing axes allow.
+    """
+    kinds = np.array(pair.b.kinds)
+    z = np.where(kinds == "revolute", np.arctan2(np.sin(z), np.cos(z)), z)
+    P = P.copy()
+    agree = misses(pair, carried(pair, P, z)[1]) <= 1.0
+    free = abs(z) > 0
+    for ks in np.argsort(abs(z), axis=1).T:
+        (row,) = np.nonzero(free[np.arange(len(z)), ks])
+        k = ks[row]
+        rest, without = free[row], z[row]
+        rest[np.arange(len(row)), k], without[np.arange(len(row)), k] = False, 0.0
+        trial = fit(pair, P[row], without, rest, agree[row])
+        fits = ~((misses(pair, carried(pair, *trial)[1]) > 1.0) & agree[row]).any(1)
+        P[row[fits]], z[row[fits]], free[row[fits]] = trial[0][fits], trial[1][fits], rest[fits]
+    return read(pair, a, b, P, z)
+
+
+def _cost(reading: Reading) -> tuple[float, ...]:
+    return reading.cost
+
+
+def _others(first: Reading, behind: Iterable[Reading]) -> list[Reading]:
+    """Of the readings behind the first those as short that blame another joint, or it for something
+    else; each once.
+    """
+    kept: list[Reading] = []
+    if first.blamed.sum() != 1:
+        return kept
+    seen = {_signature(first)}
+    for reading in behind:
+        single = reading.moved.sum() + reading.offset.sum() + (reading.directions < 0).sum() == 1
+        if single and _signature(reading) not in seen:
+            seen.add(_signature(reading))
+            kept.append(reading)
+    return kept
+
+
+def _signature(reading: Reading) -> bytes:
+    return np.stack([reading.moved, reading.offset, reading.directions < 0]).tobytes()

@@ -1,0 +1,63 @@
+"""Joints that follow others, in two models: whether they do so in the same way."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...errors import shown
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from .alignment.hypotheses import Reading
+
+__all__ = ["follows"]
+
+
+def follows(
+    C_a: Array, C_b: Array, a: Chain, b: Chain, reading: Reading, tol_m: float, tol_rad: float
+) -> list[tuple[str, str, bool]]:
+    """How each joint follows earlier ones: in a's words, in b's ("" where it moves by itself), and
+    whether they differ.
+
+    With directions s of the reading, joint i of b is s_i x_i: so the ratio to joint j is s_i F_ij
+    s_j there.
+
+    Parameters: C_a, C_b (n, m), the couplings of the chains a and b, which are at rest. Ratios are
+    the same where what a turn of the leading joint (or a metre) makes of them is within tolerance.
+    Returns: n triples. Source: none, x = C q.
+    """
+    F, G = _ratios(C_a), _ratios(C_b)
+    apart = np.abs(F - reading.directions[:, None] * G * reading.directions)
+    found = []
+    for i in range(len(F)):
+        small = tol_m if a.kinds[i] == "prismatic" else tol_rad
+        scales = np.array([1.0 if kind == "prismatic" else 2 * math.pi for kind in a.kinds])
+        found.append((_words(F, i, a), _words(G, i, b), bool((apart[i] * scales > small).any())))
+    return found
+
+
+def _ratios(C: Array) -> Array:
+    """F (n, n), x = F x but for constants: the first joints that are independent lead, column j
+    belongs to leader j.
+    """
+    n = len(C)
+    F = np.zeros((n, n))
+    leaders: list[int] = []
+    for i, row in enumerate(C):
+        own = np.linalg.lstsq(C[leaders].T, row, rcond=None)[0] if leaders else np.zeros(0)
+        if np.linalg.norm(row - own @ C[leaders]) > 1e-9 * np.linalg.norm(row):
+            leaders.append(i)
+            # Its coordinate may be that of a joint off the chain, which it follows by a ratio of
+            # its own.
+            F[i, i] = abs(row.sum()) if np.count_nonzero(row) == 1 else 1.0
+        else:
+            F[i, leaders] = np.where(np.abs(own) > 1e-12, own, 0.0)
+    return F
+
+
+def _words(F: Array, i: int, chain: Chain) -> str:
+    if F[i, i]:
+        return "" if F[i, i] == 1.0 else f"follows {F[i, i]:.6g} × its coordinate"
+    terms = [f"{F[i, j]:.6g} × {shown(chain.joint_names[j])}" for j in np.flatnonzero(F[i])]
+    return "follows " + " + ".join(terms) if terms else "does not move"

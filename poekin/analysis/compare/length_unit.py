@@ -1,0 +1,60 @@
+"""Two models in different length units: millimetres in one of them where the other has metres."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...model.chain import Chain
+from .alignment.lines import at_rest, lines
+
+__all__ = ["length_ratio", "rescaled", "to_one_unit"]
+
+RATIO = 1000.0
+SPAN = 5.0
+"""The spread of an arm's axes differs by a factor of up to 2.6 between zero positions, measured
+over nine arms.
+"""
+SPREAD_M = 0.17
+"""Arms whose axes are millimetres to metres apart are on the same side of it, in m, as a wrong unit
+puts them.
+"""
+
+
+def length_ratio(a: Chain, b: Chain) -> float:
+    """Lengths of b by lengths of a where a factor of 1000 is suspected: 1000 or 0.001; 1 otherwise."""
+    ours, theirs = _spread(a), _spread(b)
+    for ratio in (RATIO, 1 / RATIO):
+        if ours * ratio / SPAN < theirs < ours * ratio * SPAN:
+            return ratio
+    return 1.0
+
+
+def to_one_unit(a: Chain, b: Chain, ratio: float) -> tuple[Chain, Chain]:
+    """Both chains, the one rescaled whose lengths are the less likely in metres, so that tolerances
+    keep their size.
+    """
+    larger_is_wrong = _spread(a) * _spread(b) > SPREAD_M**2
+    return (
+        (a, rescaled(b, 1 / ratio)) if larger_is_wrong == (ratio > 1) else (rescaled(a, ratio), b)
+    )
+
+
+def rescaled(chain: Chain, factor: float) -> Chain:
+    """The chain with all its lengths multiplied by a factor."""
+    slides = np.array([kind == "prismatic" for kind in chain.kinds], bool)
+    joints = np.where(slides, factor, 1.0)
+    coordinates = np.array([1.0 if chain._turns(k) else factor for k in range(chain.dof)])
+    # A prismatic joint's screw is a direction: there the joint variable is the length.
+    screws, home = chain.screws.copy(), chain.home.copy()
+    screws[~slides, 3:] *= factor
+    home[:3, 3] *= factor
+    coupling = None if chain._coupling is None else joints[:, None] * chain._coupling / coordinates
+    return chain._with(
+        screws=screws, home=home, pitches=chain.pitches * factor, limits=chain.limits * coordinates[:, None],
+        coupling=coupling, offset=chain.offset * joints,
+    )  # fmt: skip
+
+
+def _spread(chain: Chain) -> float:
+    """Root sum of squares of the distances (m) of all axes to the point nearest to them."""
+    return float(np.linalg.norm(lines(at_rest(chain)).places))

@@ -1,0 +1,147 @@
+"""The sentences of a comparison: what differs, what was aligned, and what else says the same."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...errors import shown
+from ...groups import se3, so3
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from .alignment.hypotheses import Reading, still
+from .comparison import JointComparison
+
+
+def amount(value: float, unit: str) -> str:
+    """A length or an angle for reading: 3.2 mm, 0.5°."""
+    return f"{value:.4g}" + ("°" if unit == "deg" else f" {unit}")
+
+
+def joint_words(joint: JointComparison, tol_mm: float, tol_deg: float) -> str:
+    """What differs in one joint, as the end of a sentence that begins with its name; empty where
+    nothing does.
+    """
+    words = []
+    if joint.kind_a != joint.kind_b:
+        words.append(f"is {joint.kind_a} in one model and {joint.kind_b} in the other")
+    elif joint.axis_differs:
+        turned, moved = joint.angle > tol_deg, joint.normal is not None and joint.normal > tol_mm
+        far = (
+            ""
+            if joint.shift is None or joint.shift <= tol_mm
+            else f" ({amount(joint.shift, 'mm')} at the arm)"
+        )
+        if turned and moved:
+            words.append(f"has an axis that is {amount(joint.angle, 'deg')} and {amount(joint.normal or 0, 'mm')} "
+                         f"from the other model's{far}")  # fmt: skip
+        elif turned:
+            words.append(
+                f"has an axis that is turned by {amount(joint.angle, 'deg')} from the other model's{far}"
+            )
+        elif joint.shift is not None and joint.shift > tol_mm:
+            words.append(f"has an axis that is {amount(joint.shift, 'mm')} from the other model's")
+        else:
+            words.append("has another pitch")
+    if joint.zero_differs:
+        words.append(
+            f"has its zero position {amount(abs(joint.zero), joint.unit)} from the other model's"
+        )
+    if joint.flipped and joint.kind_a == joint.kind_b:
+        words.append("counts in the other direction")
+    if joint.coupling_differs:
+        one, other = (said or "moves by itself" for said in (joint.follows_a, joint.follows_b))
+        words.append(f"{one} in one model and {other} in the other")
+    return " and ".join(words)
+
+
+def differences(
+    joints: tuple[JointComparison, ...], tol_mm: float, tol_deg: float, link: int = 0
+) -> list[str]:
+    """One clause a joint that differs: "joint 4 ('elbow') has an axis that is 3.2 mm from the other
+    model's"; where the axes behind joint `link` moved together, one clause for them.
+    """  # fmt: skip
+    if link and not any(joint.coupling_differs for joint in joints):
+        first = next(joint for joint in joints[link:] if joint.axis_differs)
+        return [
+            f"the link between joint {link} ({shown(joints[link - 1].name_a)}) and joint {link + 1} "
+            f"({shown(joints[link].name_a)}) differs: from joint {first.number} on the axes have moved together, and "
+            f"joint {first.number} {joint_words(first, tol_mm, tol_deg)}"
+        ]
+    named = ((j, joint_words(j, tol_mm, tol_deg)) for j in joints)
+    return [f"joint {j.number} ({shown(j.name_a)}) {words}" for j, words in named if words]
+
+
+def frame_words(what: str, T: Array, tol_m: float, tol_rad: float) -> str:
+    """How a frame moved, or empty: "the base frame is moved by 12 mm and turned by 3°"."""
+    if still(T, tol_m, tol_rad):
+        return ""
+    mm, deg = (
+        float(np.linalg.norm(T[:3, 3])) * 1e3,
+        float(np.degrees(np.linalg.norm(so3.log(T[:3, :3])))),
+    )
+    moved = [f"moved by {amount(mm, 'mm')}"] if mm > 1e3 * tol_m else []
+    turned = [f"turned by {amount(deg, 'deg')}"] if np.radians(deg) > tol_rad else []
+    return f"the {what} frame is {' and '.join(moved + turned)}"
+
+
+def unit_words(ratio: float) -> str:
+    """Which model's lengths are 1000 times the other's: ratio is b's by a's."""
+    larger, smaller, times = ("b", "a", ratio) if ratio > 1 else ("a", "b", 1 / ratio)
+    return f"lengths of model {larger} are {times:.4g} times those of model {smaller} (millimetres against metres?)"
+
+
+def equivalents(
+    a: Chain, b: Chain, first: Reading, others: list[Reading], tol_m: float, tol_rad: float
+) -> list[str]:
+    """Other readings of the same difference: frames turned about an end joint, other joints that
+    may be blamed.
+    """
+    said = []
+    if len(a.screws):
+        ends = (
+            ("base", first.base, a.screws[0] * first.directions[0], 1, a.joint_names[0], b.kinds[0]),
+            ("tool", first.tool, se3.adjoint(se3.inverse(b.home)) @ b.screws[-1], len(a.screws), a.joint_names[-1],
+             b.kinds[-1]),
+        )  # fmt: skip
+        for what, T, S, number, name, kind in ends:
+            size = _about(T, S, tol_m, tol_rad)
+            if size is not None and not still(T, tol_m, tol_rad):
+                far = (
+                    amount(size * 1e3, "mm")
+                    if kind == "prismatic"
+                    else amount(np.degrees(size), "deg")
+                )
+                said.append(
+                    f"the {what} moved by {far} along or about the axis of joint {number} ({shown(name)}) is the same "
+                    f"as a zero offset of {far} of that joint"
+                )
+    for other in others:
+        (k,) = np.flatnonzero(other.blamed)
+        change = (
+            "another axis"
+            if other.moved[k]
+            else "a zero offset"
+            if other.offset[k]
+            else "the other direction"
+        )
+        size = ""
+        if other.offset[k]:
+            slide = b.kinds[k] == "prismatic"
+            size = " of " + (
+                amount(other.zeros[k] * 1e3, "mm")
+                if slide
+                else amount(np.degrees(other.zeros[k]), "deg")
+            )
+        said.append(f"{change}{size} of joint {k + 1} ({shown(a.joint_names[k])}), with the base and tool frames "
+                    "aligned to that, explains it as well")  # fmt: skip
+    return said
+
+
+def _about(T: Array, S: Array, tol_m: float, tol_rad: float) -> float | None:
+    """z with T = e^{S z} within tolerance, or None."""
+    xi = se3.log(T)
+    z = float(xi[:3] @ S[:3] if S[:3].any() else xi[3:] @ S[3:])
+    for value in (z, -z):  # at half a turn the logarithm may come with either sign
+        if still(se3.inverse(se3.exp(S * value)) @ T, tol_m, tol_rad):
+            return value
+    return None

@@ -1,0 +1,63 @@
+"""Whether two arms whose axes agree under an alignment reach the same poses, each within its own
+limits.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...groups import so3
+from ...model.chain import Chain
+from .alignment.hypotheses import Reading
+from .alignment.lines import Sides
+
+SAMPLES = 8
+
+
+def poses_agree(pair: Sides, a: Chain, b: Chain, reading: Reading) -> bool:
+    """Whether f_a(x) = base f_b(directions x + zeros) tool as nearly as axes within tolerance let
+    it be.
+
+    Looked at within the limits of a and within those of b: a slide's zero position far outside of
+    both would make up for an axis that is elsewhere, by the angle within tolerance between the
+    slide and the axes.
+
+    A joint turned about an axis that is off by tol_rad and by tol_m at its place moves what is L
+    away from there by at most 2 (tol_m + tol_rad L) more or less, whatever the angle, and turns it
+    by at most 2 tol_rad; a joint that slides by x moves it by at most tol_rad x, and pitches that
+    are alike differ by at most tol_m a turn. Over the joints these add up.
+    """
+    theirs = reading.directions * (b.random(0, SAMPLES) - reading.zeros)
+    x = np.concatenate([a.random(0, SAMPLES), theirs])
+    ours, other = (
+        a.fk(x),
+        reading.base @ b.fk(reading.directions * x + reading.zeros) @ reading.tool,
+    )
+    moved = np.linalg.norm(ours[:, :3, 3] - other[:, :3, 3], axis=1).max()
+    turned = np.linalg.norm(
+        so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ other[:, :3, :3]), axis=1
+    ).max()
+    most_moved, most_turned = _bounds(pair, a, b)
+    return bool(moved <= most_moved and turned <= most_turned)
+
+
+def _bounds(pair: Sides, a: Chain, b: Chain) -> tuple[float, float]:
+    """The largest difference in place (m) and in direction (rad) of poses of arms whose axes agree
+    within tolerance.
+    """
+    slides = np.array(a.kinds) == "prismatic"
+    # The lengths from place to place are those of the links; a slide has no place, and lengthens
+    # what is behind it.
+    places = [
+        place for place, slide in zip(pair.a.places + pair.a.hub, slides, strict=True) if not slide
+    ]
+    lengths = np.linalg.norm(np.diff([*places, a.home[:3, 3]], axis=0), axis=1)
+    most = np.maximum(*(np.abs(chain._range()).max(0) for chain in (a, b)))
+    travel = most * np.where(slides, 1.0, np.abs(a.pitches))
+    behind = np.cumsum(lengths[::-1]) + travel.sum()
+    moved = (
+        2.0 * (len(places) * pair.tol_m + pair.tol_rad * behind.sum()) + pair.tol_rad * travel.sum()
+    )
+    moved += pair.tol_m * float(most[a.pitches != 0].sum()) / (2.0 * np.pi)
+    rounding = 1e-12 * max(a.reach, b.reach)
+    return 1.001 * moved + rounding, 1.001 * 2.0 * pair.tol_rad * len(places) + 1e-12

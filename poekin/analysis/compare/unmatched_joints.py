@@ -1,0 +1,124 @@
+"""Joints that only one of two models has: those that can be dropped so that the rest agree."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import combinations, product
+
+import numpy as np
+
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ..axes import axes
+from .alignment.search import agreeing
+from .locked_joints import held_positions
+
+__all__ = ["droppable", "without"]
+
+MOST = 2
+"""So many joints are tried to be dropped; of n joints that makes n (n - 1) / 2 pairs."""
+
+
+def droppable(
+    a: Chain, b: Chain, tol_mm: float, tol_deg: float
+) -> tuple[tuple[int, ...], Array] | None:
+    """The joints of the longer of two chains at rest without which both agree, and the positions at
+    which they are
+    then held: of several choices the one that leaves least to align. None where there are none, or
+    where the chains differ by more than `MOST` joints.
+    """
+    long, short = (a, b) if len(a.screws) > len(b.screws) else (b, a)
+    more = len(long.screws) - len(short.screws)
+    if more > MOST:
+        return None
+    fitting = []
+    for ks in combinations(range(len(long.screws)), more):
+        for held in _positions(long, short, ks, tol_mm, tol_deg):
+            rest = without(long, ks, held)
+            if _may_agree(rest, short, tol_mm, tol_deg):
+                reading = agreeing(rest, short, tol_mm / 1e3, math.radians(tol_deg))
+                if reading is not None:
+                    *changes, near = reading.cost
+                    # Of choices that fit exactly, as parallel joints leave, the first one, and not
+                    # rounding's.
+                    fitting.append((changes, round(near, 3), ks, held))
+    if not fitting:
+        return None
+    *_, ks, held = min(fitting)
+    return ks, np.array(held)
+
+
+def without(chain: Chain, ks: tuple[int, ...], held: Sequence[float] | Array) -> Chain:
+    """The chain with some joints held at these positions."""
+    q = np.zeros(chain.dof)
+    q[list(ks)] = held
+    chain = chain.rezeroed(q) if q.any() else chain
+    names = tuple(name for k, name in enumerate(chain.joint_names) if k not in ks)
+    return Chain(
+        np.delete(chain.screws, ks, 0), chain.home, joint_names=names, limits=np.delete(chain.limits, ks, 0),
+        base=chain.base, tip=chain.tip, pitches=np.delete(chain.pitches, ks),
+    )  # fmt: skip
+
+
+def _positions(
+    long: Chain, short: Chain, ks: tuple[int, ...], tol_mm: float, tol_deg: float
+) -> Iterator[tuple[float, ...]]:
+    """Positions at which joints ks may be held: all at 0, and those at which the axes on both sides
+    of them lie to each other as in the other chain.
+    """
+    zero = (0.0,) * len(ks)
+    yield zero
+    runs = [ks] if ks[-1] - ks[0] == len(ks) - 1 else [(k,) for k in ks]
+    # End joints are held anywhere, as base and tool are free.
+    inner = [run[0] > 0 and run[-1] < len(long.screws) - 1 for run in runs]
+    across = tuple(run[0] - 1 - sum(k < run[0] for k in ks) for run in runs)
+    if any(inner) and _may_agree(without(long, ks, zero), short, tol_mm, tol_deg, across):
+        tried = [
+            [
+                (0.0,) * len(run),
+                *(
+                    held_positions(long, short, run, ks, tol_mm / 1e3, math.radians(tol_deg))
+                    if free
+                    else ()
+                ),
+            ]
+            for run, free in zip(runs, inner, strict=True)
+        ]
+        for parts in product(*tried):
+            held = tuple(x for part in parts for x in part)
+            if held != zero:
+                yield held
+
+
+def _may_agree(
+    a: Chain, b: Chain, tol_mm: float, tol_deg: float, but: tuple[int, ...] = ()
+) -> bool:
+    """Whether neighbouring axes of two chains, and those on both sides of a slide, lie to each
+    other alike: no alignment changes that, so the search for one, which takes long, need not begin
+    where they do not. Pairs of neighbours `but`, by their first axis, are left out.
+
+    Axes within tolerance of the other model's change their angle by two tolerances at most; four
+    are let pass.
+    """
+    if a.kinds != b.kinds:
+        return False
+    lever = 1e3 * max(a.reach, b.reach) * math.radians(tol_deg)
+    ours, theirs = (axes(chain, tol_mm=tol_mm, tol_deg=tol_deg).pairs for chain in (a, b))
+    for p, q in zip(ours, theirs, strict=True):
+        between = range(p.first, p.second - 1)
+        if any(i in but for i in (p.first - 1, *between)) or any(
+            a.kinds[k] != "prismatic" for k in between
+        ):
+            continue
+        if abs(p.angle - q.angle) > 4 * tol_deg:
+            return False
+        # A slide moves the axes beyond it.
+        if p.fixed and p.distance is not None and q.distance is not None:
+            # The common normal of axes near parallel flies about with their angle, unless they
+            # count as parallel.
+            sine = math.sin(math.radians(p.angle))
+            certain = 1.0 if p.parallel and q.parallel else sine if sine >= 0.1 else 0.0
+            if abs(p.distance - q.distance) * certain > 4 * (tol_mm + lever):
+                return False
+    return True

@@ -1,0 +1,1 @@
+"""Operation counts, by running the algorithms."""

@@ -1,0 +1,205 @@
+"""An algorithm run on scalars that count, or on scalars that record, with generic numbers in place
+of an arm's own.
+
+Of the user's chain only the kinds of its joints and its coupling are taken: zeros and right angles
+that one arm happens to have are the business of its specialised program.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...algebra import IDENTITY, compose, turned_about_z
+from ...engine.count import Count, counted
+from ...engine.straight_line.program import Angles, program
+from ...engine.straight_line.specialise import Structure
+from ...engine.straight_line.trace import Graph
+from ...formulas import dh
+from ...formulas.kinematics import columns
+from ...formulas.lie.exponential import joint
+from ...groups import se3
+from ...groups.arrays import Array
+from ...model import screw
+from ...model.chain import Chain
+from .count_methods import Arm, Result, Row, Rows, empty_rows
+
+Algorithm = Callable[[Arm], Result]
+
+
+class Motion(NamedTuple):
+    """Joint i as it moves: x = C q + c, sin r x, cos r x, and s x."""
+
+    kind: str
+    x: Any
+    sine: Any
+    cosine: Any
+    shift: Any
+
+
+Form = Callable[[Motion, np.random.Generator], Row]
+
+
+def as_charged(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
+    """What an algorithm does, whether its result needs it or not; the links' poses are given."""
+    total = Count()
+    poses = counted(
+        [IDENTITY for _ in chain.kinds], total
+    )  # what is counted does not depend on the numbers
+    _, finish = algorithm(_arm(chain, poses))
+    if with_pose:
+        finish()
+    return total
+
+
+def as_needed(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
+    """What an algorithm's result needs; the links' poses are given."""
+    graph, numbers = Graph(), itertools.count(1)
+    poses = [
+        tuple(graph.input(-next(numbers)) for _ in IDENTITY) for _ in chain.kinds
+    ]  # from 0 on they are of angles
+    J, finish = algorithm(_arm(chain, poses))
+    return _count(graph, Angles(graph), finish() if with_pose else (), J)
+
+
+def with_everything(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bool) -> Count:
+    """What an algorithm's result needs from q on: sines, cosines, the links' poses in their form,
+    and the coupling.
+    """
+    graph = Graph()
+    angles, rng, C = Angles(graph), generator(), chain.coupling
+    rotates, slides = structure(chain)
+    coordinates = [graph.input(-k) for k, _ in enumerate(chain.q_names, 1)]
+    poses = []
+    for kind, r, s, row, c in zip(
+        chain.kinds, rotates, slides, C, chain.offset.tolist(), strict=True
+    ):
+        x: Any = c
+        for q, factor in zip(coordinates, row, strict=True):
+            x = x + graph.scaled(q, float(factor))
+        sine, cosine = angles.sine_cosine([float(r * factor) for factor in row], r * c, 0)
+        poses.append(form(Motion(kind, x, sine, cosine, s * x), rng))
+    J, finish = algorithm(_arm(chain, poses))
+    T = finish() if with_pose else ()
+    if not np.array_equal(C, np.eye(len(C))):
+        J_q = empty_rows(chain.dof)
+        columns.coupled(J, C.tolist(), len(C), chain.dof, J_q)
+        J = J_q
+    return _count(graph, angles, T, J)
+
+
+def exponential(motion: Motion, rng: np.random.Generator) -> Row:
+    """e^{A x} of a general screw: 15 multiplications and 13 additions of a revolute joint."""
+    A = generic_screw(motion.kind, rng)
+    return joint(A[:3], A[3:], motion.x, motion.sine, motion.cosine)
+
+
+def general_link(motion: Motion, rng: np.random.Generator) -> Row:
+    """M e^{S x} in link frames that are attached anywhere."""
+    return compose(generic_pose(rng), exponential(motion, rng))
+
+
+def z_link(motion: Motion, rng: np.random.Generator) -> Row:
+    """M e^{S x} in z-aligned link frames: 12 multiplications and 6 additions of a revolute joint."""
+    return turned_about_z(generic_pose(rng), motion.sine, motion.cosine, motion.shift)
+
+
+def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
+    """Rz(theta) Tz(d) Tx(a) Rx(alpha), the joint before its link."""
+    d, a, alpha, theta = generic(rng, 4)
+    slides_only = motion.kind == "prismatic"
+    sine, cosine = (
+        (math.sin(theta), math.cos(theta)) if slides_only else (motion.sine, motion.cosine)
+    )
+    return dh.link(
+        sine, cosine, float(d) + motion.shift, float(a), math.sin(alpha), math.cos(alpha)
+    )
+
+
+def craig_link(motion: Motion, rng: np.random.Generator) -> Row:
+    """Tx(a) Rx(alpha) Rz(theta) Tz(d), the joint behind its link."""
+    d, a, alpha, theta = generic(rng, 4)
+    fixed = theta if motion.kind == "prismatic" else 0.0
+    link = dh.link(0.0, 1.0, 0.0, float(a), math.sin(alpha), math.cos(alpha))
+    return turned_about_z(
+        turned_about_z(link, math.sin(fixed), math.cos(fixed), float(d)),
+        motion.sine,
+        motion.cosine,
+        motion.shift,
+    )
+
+
+def generic_structure(chain: Chain, tool: bool) -> Structure:
+    """A chain of the same joints with general alpha, a and d, as the structured formulas take it.
+
+    Base and tip are the frames of the first and last joint, but for a tool.
+    """
+    n, rng = len(chain.kinds), generator()
+    links = [(0.0, 1.0, 0.0, 0.0)]
+    for d, alpha in generic(rng, n - 1, 2).tolist():
+        links.append((math.sin(alpha), math.cos(alpha), d, 0.0))
+    return Structure(
+        links=tuple(links),
+        alongs=tuple(generic(rng, n).tolist()),
+        parallel=(0,) * n,
+        rotates=tuple(chain.local.rotates.tolist()),
+        slides=tuple(chain.local.slides.tolist()),
+        coupling=tuple(map(tuple, chain.coupling.tolist())),
+        shift=tuple(chain.offset.tolist()),
+        offsets=(0.0,) * n,
+        quarters=(0,) * n,
+        base=generic_pose(rng) if tool else IDENTITY,
+        tool=generic_pose(rng) if tool else IDENTITY,
+        frames=(IDENTITY,) * n,
+        coordinates=chain.dof,
+    )
+
+
+def generator() -> np.random.Generator:
+    """Where generic numbers come from: the same at every call."""
+    return np.random.default_rng(0)
+
+
+def generic(rng: np.random.Generator, *shape: int) -> Array:
+    """Numbers (...) that are neither 0 nor 1 nor like another."""
+    return rng.uniform(0.2, 0.9, shape)
+
+
+def generic_pose(rng: np.random.Generator) -> tuple[float, ...]:
+    """A pose without any structure."""
+    T = se3.exp(generic(rng, 6))
+    return (*T[:3, :3].ravel().tolist(), *T[:3, 3].tolist())
+
+
+def generic_screw(kind: str, rng: np.random.Generator) -> Row:
+    """A joint's screw without any structure but its kind's: a prismatic joint's omega is zero."""
+    axis, point = generic(rng, 2, 3)
+    if kind == "prismatic":
+        return (0, 0, 0, *screw.prismatic(axis)[3:].tolist())
+    return tuple(
+        (
+            screw.helical(axis, point, 0.1) if kind == "helical" else screw.revolute(axis, point)
+        ).tolist()
+    )
+
+
+def structure(chain: Chain) -> tuple[Sequence[float], Sequence[float]]:
+    """r and s of the joints, 0 and 1 as integers."""
+    rows = (chain.local.rotates.tolist(), chain.local.slides.tolist())
+    rotates, slides = ([int(x) if x in (0.0, 1.0) else x for x in row] for row in rows)
+    return rotates, slides
+
+
+def _arm(chain: Chain, poses: Sequence[Row]) -> Arm:
+    rng = generator()
+    rotates, slides = structure(chain)
+    screws = [generic_screw(kind, rng) for kind in chain.kinds]
+    return Arm(len(poses), rotates, slides, screws, poses, generic_pose(rng))
+
+
+def _count(graph: Graph, angles: Angles, T: Row, J: Rows) -> Count:
+    return program(graph, angles, [*T, *(x for row in J for x in row)]).count

@@ -1,0 +1,164 @@
+"""Arrays in and out of files: configurations from CSV or .npy, results to CSV, .npy or JSON, whole
+or not at all.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import stat
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import FileError
+from ..formats.text import csv_rows
+from ..formats.text.csv_rows import text as csv_text
+from . import npy
+from .output import path_text
+
+__all__ = [
+    "ERRORS",
+    "STDIN",
+    "TIME",
+    "called",
+    "check_apart",
+    "check_writable",
+    "csv_text",
+    "npy_bytes",
+    "read_configurations",
+    "read_rows",
+]
+
+STDIN = "-"
+TIME, ERRORS = "time", ("success", "position_error", "rotation_error")
+"""Columns that `ik` and `follow` write beside the coordinates."""
+Rows = tuple[np.ndarray, np.ndarray | None]
+
+
+def called(given: str) -> str:
+    """The place that configurations come from, as messages call it."""
+    return "standard input" if given == STDIN else path_text(given)
+
+
+def read_configurations(
+    given: str, q_names: Sequence[str], progress: csv_rows.Progress
+) -> np.ndarray:
+    """Configurations (N, m) out of a .npy file or, whatever else its name ends in, a CSV file; "-"
+    is CSV on stdin.
+
+    A CSV file has one configuration a line, the m coordinates in the order of q_names, or in the
+    order of a first line that names them all, and maybe what `ik` and `follow` write beside them.
+    Empty lines are passed over.
+
+    Raises: FileError for a file that cannot be read; InputError with file and line for a line of
+    the wrong length or
+    a cell that is no number; UnknownName for a header with a name that is no coordinate.
+    """
+    return read_rows(given, q_names, "coordinate", progress, besides=(TIME, *ERRORS))[0]
+
+
+def read_rows(
+    given: str,
+    names: Sequence[str],
+    what: str,
+    progress: csv_rows.Progress,
+    *,
+    tail: tuple[int, ...] = (),
+    besides: Sequence[str] = (),
+) -> Rows:
+    """Rows (N, k) of named columns, as `read_configurations` reads them, and the line of each in a
+    CSV file, None for a .npy file; what is a column's kind; tail, how an array may have its last
+    axes instead of (k,); besides, columns that are passed over.
+    """
+    if given == STDIN and sys.stdin is None:
+        raise FileError("cannot read standard input: it is closed")
+    try:
+        if Path(given).suffix.lower() == ".npy":
+            return npy.configurations(_content(given), len(names), called(given), tail), None
+        return _from_csv(given, names, what, progress, besides)
+    except UnicodeDecodeError as error:
+        raise FileError(
+            f"{called(given)} is no text file: byte {error.start} is not UTF-8"
+        ) from error
+    except OSError as error:
+        if isinstance(error, FileError):
+            raise
+        raise FileError(f"cannot read {called(given)}: {error.strerror or error}") from error
+
+
+def _content(given: str) -> bytes:
+    """The bytes of a file; out of a pipe or a device, which need not have an end, no more than
+    `csv_rows.MOST`.
+    """
+    with open(given, "rb") as stream:
+        if stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+            return stream.read()
+        content = stream.read(csv_rows.MOST + 1)
+    if len(content) > csv_rows.MOST:
+        raise FileError(
+            f"{called(given)}: at most {csv_rows.MOST} bytes expected out of a pipe; a file may be larger"
+        )
+    return content
+
+
+def _from_csv(
+    given: str, names: Sequence[str], what: str, progress: csv_rows.Progress, besides: Sequence[str]
+) -> Rows:
+    file = sys.stdin.fileno() if given == STDIN else given
+    with open(file, newline="", encoding="utf-8-sig", closefd=given != STDIN) as stream:
+        size = os.fstat(stream.fileno()).st_size
+        return csv_rows.read(stream, names, called(given), what, progress, size, besides=besides)
+
+
+def npy_bytes(array: np.ndarray) -> bytes:
+    """The content of a .npy file."""
+    out = io.BytesIO()
+    np.save(out, array, allow_pickle=False)
+    return out.getvalue()
+
+
+def check_writable(path: Path) -> None:
+    """Refuse a place that cannot be written to before any work is done. Raises: FileError."""
+    if path.suffix.lower() not in (".csv", ".npy", ".json"):
+        raise FileError(
+            f"cannot write {path_text(path)}: a name that ends in .csv, .npy or .json expected"
+        )
+    if path.is_dir():
+        raise FileError(f"cannot write {path_text(path)}: it is a directory")
+    if not path.parent.is_dir():
+        raise FileError(
+            f"cannot write {path_text(path)}: there is no directory {path_text(path.parent)}"
+        )
+
+
+def check_apart(results: Iterable[Path | None], **read: str | Sequence[str] | None) -> None:
+    """Refuse to write over a file that is read, or two results into one file, whatever names and
+    links lead there.
+
+    Parameters: results, the places to write to; read, the files that are read, by what they hold.
+    Raises: FileError.
+    """
+    taken: dict[object, str] = {}
+    for what, given in read.items():
+        for name in [given] if isinstance(given, str) else given or ():
+            taken[_there(name)] = f"it is the file of the {what}"
+    taken.pop(None, None)
+    for path in filter(None, results):
+        place = _there(path) or os.path.realpath(path)
+        if place in taken:
+            raise FileError(f"cannot write {path_text(path)}: {taken[place]}")
+        taken[place] = "it is named twice"
+
+
+def _there(name: str | Path) -> tuple[int, int] | None:
+    """What every name of one regular file has in common; None for a device or a pipe, and where
+    there is no file.
+    """
+    try:
+        status = os.fstat(sys.stdin.fileno()) if name == STDIN else os.stat(name)
+    except (OSError, ValueError, AttributeError):  # among others a stdin that is closed or no file
+        return None
+    return (status.st_dev, status.st_ino) if stat.S_ISREG(status.st_mode) else None

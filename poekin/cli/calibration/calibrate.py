@@ -1,0 +1,295 @@
+"""`poekin calibrate`: an arm's true screws from measurements."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from ...errors import FileError, InputError, UnknownName, shown
+from ...formats import dh
+from ...formats.dh.table import CONVENTIONS
+from ...formats.text.atomic_write import write_whole
+from ...model.robot import Robot
+from ...solve.calibration.calibrate import calibrate
+from ...solve.calibration.calibration import MOST_OUTLIERS, Calibration
+from ...solve.calibration.model.residuals import Residuals
+from ...solve.calibration.report import changes, html_report
+from ...solve.calibration.report.changes import milli
+from ..array_files import check_apart
+from ..kinematics.arm import Base, File, Json, Tip
+from ..model import model
+from ..output import Progress, as_json, complain, name, number, path_text, say, table
+from . import measured
+from .measured import Measured, Said
+
+NOT_CONVERGED = 1
+KIND = (
+    "What poses are: poses, eye-in-hand or eye-to-hand; else points or distances. "
+    "Once for all files, or once a file."
+)
+PARAMETERS = "What may change: some of screws,home,offsets,gains,pitch."
+Data = Annotated[
+    list[str],
+    typer.Argument(metavar="DATA.csv...", help="Readings and measurements, one set a file."),
+]
+Kind = Annotated[list[str] | None, typer.Option("--kind", help=KIND)]
+Point = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--point",
+        metavar="X,Y,Z",
+        help="A measured point of the tool, in the tip frame, m; may be repeated, of distances the first.",
+    ),
+]
+Centre = Annotated[
+    str | None,
+    typer.Option(
+        "--centre", metavar="X,Y,Z", help="The point that distances are from (default: unknown)."
+    ),
+]
+Frame = Annotated[
+    str | None,
+    typer.Option("--frame", help="base, or unknown: points stand in a device's own frame."),
+]
+Parameters = Annotated[
+    list[str] | None, typer.Option("--parameters", help=f"{PARAMETERS} Default: screws,home.")
+]
+Joints = Annotated[
+    list[str] | None,
+    typer.Option("--joints", metavar="NAME,...", help="Joints that may change (default: all)."),
+]
+Loss = Annotated[str, typer.Option("--loss", help="linear, or robust: huber, cauchy, tukey.")]
+PriorAngle = Annotated[
+    float | None, typer.Option("--prior-angle", help="How far angles may be off nominal, rad.")
+]
+PriorLength = Annotated[
+    float | None, typer.Option("--prior-length", help="How far lengths may be off nominal, m.")
+]
+SigmaAngle = Annotated[
+    float | None, typer.Option("--sigma-angle", help="Standard deviation of measured angles, rad.")
+]
+SigmaLength = Annotated[
+    float | None, typer.Option("--sigma-length", help="Standard deviation of measured lengths, m.")
+]
+Hold = Annotated[
+    bool,
+    typer.Option(
+        "--hold", help="Hold what the measurements do not see, in place of refusing them."
+    ),
+]
+Folds = Annotated[
+    int, typer.Option("--folds", help="Parts that are kept aside in turn; 0: none.", min=0)
+]
+Seed = Annotated[int, typer.Option("--seed", help="Of the drawing of these parts.", min=0)]
+Ignore = Annotated[
+    list[str] | None,
+    typer.Option("--ignore", metavar="COLUMN", help="A column to pass over; may be repeated."),
+]
+Output = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "-o",
+        "--output",
+        help="Everything (.toml), the calibrated robot (.urdf) or a DH table (.csv); may be repeated.",
+    ),
+]
+Convention = Annotated[
+    str, typer.Option("--dh", help="The convention of a .csv: standard or modified.")
+]
+Report = Annotated[
+    Path | None, typer.Option("--report", help="A page with pictures: an .html file.")
+]
+
+
+def command(
+    file: File, files: Data, tip: Tip = None, base: Base = None, kind: Kind = None, point: Point = None,
+    centre: Centre = None, frame: Frame = None, parameters: Parameters = None, joints: Joints = None,
+    loss: Loss = "linear", prior_angle: PriorAngle = None, prior_length: PriorLength = None,
+    sigma_angle: SigmaAngle = None, sigma_length: SigmaLength = None, hold: Hold = False, folds: Folds = 5,
+    seed: Seed = 0, ignore: Ignore = None, output: Output = None, convention: Convention = "standard",
+    report: Report = None, json: Json = False,
+) -> None:  # fmt: skip
+    """The axes and home pose of an arm as measurements say they are. Exit code 0 done, 1 not
+    converged, 2 error.
+    """
+    outputs = list(output or ())
+    _check_places(outputs, report)
+    check_apart([*outputs, report], model=file, measurements=files)
+    if convention not in CONVENTIONS:
+        raise InputError(f"--dh: expected standard or modified, got {shown(convention)}")
+    robot = model(file)
+    chain = robot.chain(base=base, tip=tip)
+    said = Said(kind or (), point or (), centre, frame, sigma_angle, sigma_length, ignore or ())
+    prior = {
+        unit: value
+        for unit, value in (("rad", prior_angle), ("m", prior_length))
+        if value is not None
+    }
+    try:
+        given = measured.read(files, chain, said)
+        with Progress("calibrating") as progress:
+            found = calibrate(
+                chain, given.q, given.sets, parameters=_listed(parameters) or ("screws", "home"), loss=loss,
+                joints=_listed(joints), prior=prior or None, deficient="hold" if hold else "refuse", folds=folds,
+                seed=seed, progress=lambda done, total: progress(done, total, "parts kept aside"),
+            )  # fmt: skip
+    except (InputError, UnknownName) as fault:
+        raise type(fault)(_as_options(str(fault))) from fault
+    _write(found, robot, outputs, convention, report, given)
+    written = [str(path) for path in (*outputs, *((report,) if report else ()))]
+    if json:
+        print(as_json(_document(found, robot, given, written)))
+    else:
+        _show(found, robot, given)
+        for path in written:
+            say(f"written: {path_text(path)}")
+    if not found.success:
+        complain("the search did not converge: this is the best that was found")
+    raise typer.Exit(0 if found.success else NOT_CONVERGED)
+
+
+_ENDINGS = (".toml", ".urdf", ".csv")
+_OPTIONS = {
+    "deficient='hold'": "--hold", "covariance=": "--sigma-angle and --sigma-length", "folds=0": "--folds 0",
+    "parameters=": "--parameters", "joints=": "--joints",
+    "prior['rad']": "--prior-angle", "prior['m']": "--prior-length",
+}  # fmt: skip
+_IGNORED = re.compile(r"ignore=\[('([\w.:/+-]+)'|'.*')\] passes it over")
+_NAMES = {"points": "--point"} | {
+    w: f"--{w}" for w in ("kind", "parameters", "joints", "loss", "folds", "seed")
+}
+
+
+def _as_options(message: str) -> str:
+    """What the library says of its parameters, said of the options."""
+    for word, option in _OPTIONS.items():
+        message = message.replace(word, option)
+    if column := _IGNORED.search(message):
+        # a plain name as it is to be typed; any other in quotes, which a shell takes off
+        message = message.replace(column[0], f"--ignore {column[2] or column[1]} passes it over")
+    what, colon, rest = message.partition(":")
+    return _NAMES.get(what, what) + colon + rest
+
+
+def _listed(words: Sequence[str] | None) -> list[str] | None:
+    """The names in a repeated option, each of which may hold several with commas between."""
+    return None if words is None else [part.strip() for word in words for part in word.split(",")]
+
+
+def _check_places(outputs: Sequence[Path], report: Path | None) -> None:
+    """Refuse places that cannot be written to before any work is done. Raises: FileError."""
+    ends = [(path, _ENDINGS) for path in outputs] + (
+        [(report, (".html", ".htm"))] if report else []
+    )
+    for path, endings in ends:
+        where = f"cannot write {path_text(path)}"
+        if path.suffix.lower() not in endings:
+            raise FileError(f"{where}: a name that ends in {' or '.join(endings)} expected")
+        if path.is_dir() or not path.parent.is_dir():
+            raise FileError(f"{where}: it is a directory, or there is none for it")
+
+
+def _write(
+    found: Calibration,
+    robot: Robot,
+    outputs: Sequence[Path],
+    convention: str,
+    report: Path | None,
+    given: Measured,
+) -> None:
+    """Each file, whole; first the one that keeps everything, should another one fail for what is in
+    it.
+    """
+    for path in outputs:
+        if path.suffix.lower() == ".toml":
+            found.save(path)
+    texts: list[tuple[Path, str]] = []
+    for path in outputs:
+        if path.suffix.lower() == ".urdf":
+            texts.append((path, found.to_urdf(robot)))
+        elif path.suffix.lower() == ".csv":
+            made = found.to_dh(convention)
+            texts.append((path, dh.table_io.text_of(made.table, ".csv")))
+            for words in made.warnings:
+                complain(f"warning: {words}")
+    if report is not None:
+        title = f"Calibration of {robot.name}: {found.chain.base} to {found.chain.tip}"
+        texts.append((report, html_report.html(found, title, given.sources)))
+    for path, text in texts:
+        write_whole(path, text.encode())
+
+
+def _document(
+    found: Calibration, robot: Robot, given: Measured, written: list[str]
+) -> dict[str, object]:
+    def of(r: Residuals) -> dict[str, float]:
+        names = ("rms_length", "median_length", "rms_angle", "median_angle")
+        return {name: getattr(r, name) for name in names}
+
+    aside = found.held_out
+    return {
+        "robot": robot.name, "base": found.chain.base, "tip": found.chain.tip, "success": found.success,
+        "measurements": len(found.after), "steps": len(found.steps), "loss": found.loss,
+        "identification": dataclasses.asdict(found.identification),
+        "held_out": None if aside is None else {
+            "folds": aside.folds, "before": of(aside.before), "after": of(aside.after),
+        },
+        "before": of(found.before), "after": of(found.after),
+        "parameters": [
+            p._asdict() | {"value": value, "deviation": deviation}
+            for p, value, deviation in zip(found.parameters, found.values, found.deviations, strict=True)
+        ],
+        "frames": dict(found.frames),
+        "spreads": [None if s is None else s._asdict() for s in found.spreads],
+        "outliers": [o._asdict() | {"source": given.sources[o.row]} for o in found.outliers],
+        "warnings": list(found.warnings), "remarks": list(found.remarks), "written": written,
+    }  # fmt: skip
+
+
+def _show(found: Calibration, robot: Robot, given: Measured) -> None:
+    can = found.identification
+    say(
+        f"{name(robot.name)}, {name(found.chain.base)} → {name(found.chain.tip)}: {len(found.after)} measurements,"
+        f" {can.rank} of {can.expected} parameters seen, condition {number(can.condition, 3)}"
+    )
+    say(f"{changes.sentence(found)}\n")
+    for words in found.remarks:
+        say(f"{words}\n")
+    heads = ("", "position rms (mm)", "median", "rotation rms (mrad)", "median")
+    lines = [
+        (words, *(milli(x) for x in (r.rms_length, r.median_length, r.rms_angle, r.median_angle)))
+        for words, r in changes.errors(found)
+    ]
+    width = 3 if np.isnan(found.after.angle).all() else 5
+    table(heads[:width], [line[:width] for line in lines])
+    moved = changes.joints(found)
+    if moved:
+        say()
+        table(("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %"), [
+            (j.name, *(milli(x) for c in (j.tilt, j.shift) for x in (c.size, c.margin))) for j in moved
+        ])  # fmt: skip
+    say()
+    for title, words in (
+        ("Held, as no such measurement sees it", can.held),
+        ("Not seen, held", can.unseen),
+    ):
+        for one in words:
+            say(f"{title}: {one}")
+    if found.outliers:
+        say(f"Outliers: {_places([given.sources[o.row] for o in found.outliers])}")
+
+
+def _places(sources: Sequence[str]) -> str:
+    """Files and lines, each file named once."""
+    lines: dict[str, list[str]] = {}
+    for source in sources[:MOST_OUTLIERS]:
+        file, _, line = source.rpartition(":")
+        lines.setdefault(file, []).append(line)
+    more = f" and {len(sources) - MOST_OUTLIERS} more" if len(sources) > MOST_OUTLIERS else ""
+    return "; ".join(f"{file}:{', '.join(numbers)}" for file, numbers in lines.items()) + more

@@ -1,0 +1,1 @@
+"""Commands that move an arm: fk, jacobian, ik, follow, singularity."""

@@ -1,0 +1,155 @@
+"""`poekin follow`: joints along a path of poses, and where it is hard or impossible."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from ...errors import FileError, InputError
+from ...formats.text import csv_rows
+from ...formats.text.atomic_write import write_whole
+from ...model.chain import Chain
+from ...solve.path.follow import follow
+from ...solve.path.followed import Followed, Stretch
+from .. import array_files
+from ..model import model
+from ..output import Progress, as_json, complain, path_text, say
+from . import poses
+from .arm import Base, File, Json, Tip
+
+Start = Annotated[
+    str | None,
+    typer.Option(
+        "--q0", metavar="Q,...", help="Where the arm is (commas between); default: chosen by trial."
+    ),
+]
+Duration = Annotated[
+    float | None,
+    typer.Option("--duration", help="Seconds from the first pose to the last, evenly."),
+]
+Speed = Annotated[
+    str | None, typer.Option("--speed", metavar="V[,...]", help="Limits of speed, with --duration.")
+]
+Acceleration = Annotated[
+    str | None,
+    typer.Option(
+        "--acceleration", metavar="A[,...]", help="Limits of acceleration, with --duration."
+    ),
+]
+Step = Annotated[
+    float,
+    typer.Option(
+        "--max-step", help="How far (rad or m) a joint may go at a step; longer ones are divided."
+    ),
+]
+Plot = Annotated[
+    Path | None, typer.Option("--plot", help="Draw the joints over time: an .svg file.")
+]
+
+
+def command(
+    file: File, tip: Tip = None, base: Base = None, given: poses.Input = None,
+    format: poses.Format = None, quaternion: poses.Quaternion = None, q0: Start = None, duration: Duration = None,
+    speed: Speed = None, acceleration: Acceleration = None, max_step: Step = 0.1, task: poses.Task = "pose",
+    no_limits: poses.NoLimits = False, seed: poses.Seed = 0, output: poses.Output = None, plot: Plot = None,
+    json: Json = False,
+) -> None:  # fmt: skip
+    """Joints along the path of poses in --input, without a jump where there is such a way.
+
+    Exit code 0: followed, within the limits; 1: some pose is not reached, the branch changes, or a
+    limit of speed or acceleration is exceeded; 2: an error.
+    """
+    if output is not None:
+        array_files.check_writable(output)
+    if plot is not None:
+        _check_plot(plot)
+    if given is None:
+        raise InputError("--input: a file of poses expected, got none")
+    array_files.check_apart([output, plot], model=file, poses=given)
+    if duration is None and (speed is not None or acceleration is not None):
+        raise InputError("--speed and --acceleration: expected together with --duration, got none")
+    T = poses.read(None, given, format, quaternion)
+    robot = model(file)
+    chain = robot.chain(base=base, tip=tip)
+    with Progress("following") as progress:
+        path = follow(
+            chain, T, q0=poses.coordinates(q0, chain, "--q0"), times=_times(duration, len(T)),
+            speed=poses.for_each(speed, chain, "--speed"), max_step=max_step, task=task, limits=not no_limits,
+            acceleration=poses.for_each(acceleration, chain, "--acceleration"), seed=seed, progress=progress,
+        )  # fmt: skip
+    svg = None if plot is None else path.plot()
+    _give(robot.name, chain, path, output, json)
+    if plot is not None and svg is not None:
+        write_whole(plot, svg.encode())
+        if not json:
+            say(f"joints drawn in {path_text(plot)}")
+    raise typer.Exit(0 if path.ok else poses.UNSOLVED)
+
+
+def _times(duration: float | None, count: int) -> np.ndarray | None:
+    if duration is None:
+        return None
+    if not 0 < duration < np.inf:
+        raise InputError(f"--duration: a positive number of seconds expected, got {duration:g}")
+    return np.linspace(0, duration, count)
+
+
+def _check_plot(plot: Path) -> None:
+    if plot.suffix.lower() != ".svg":
+        raise FileError(f"cannot write {path_text(plot)}: a name that ends in .svg expected")
+    if plot.is_dir() or not plot.parent.is_dir():
+        raise FileError(
+            f"cannot write {path_text(plot)}: it is a directory, or there is none for it"
+        )
+
+
+def _give(robot: str, chain: Chain, path: Followed, output: Path | None, json: bool) -> None:
+    def document() -> str:
+        head = {
+            "robot": robot,
+            "base": chain.base,
+            "tip": chain.tip,
+            "q_names": list(chain.q_names),
+            "q": path.q,
+        }
+        return as_json(head | _report(path))
+
+    def sheet() -> str:
+        if path.times is None:
+            return csv_rows.text(chain.q_names, path.q)
+        return csv_rows.text(
+            [array_files.TIME, *chain.q_names], np.column_stack([path.times, path.q])
+        )
+
+    if output is not None:
+        content = {".csv": lambda: sheet().encode(), ".npy": lambda: array_files.npy_bytes(path.q)}
+        write_whole(
+            output, content.get(output.suffix.lower(), lambda: (document() + "\n").encode())()
+        )
+        if json:
+            print(as_json({"written": str(output)} | _report(path)))
+        else:
+            say(f"{len(path.q)} × q written to {path_text(output)}")
+            say(path)
+    elif json:
+        print(document())
+    else:
+        print(sheet(), end="")
+        for sentence in path.sentences():
+            complain(sentence)
+
+
+def _report(path: Followed) -> dict[str, object]:
+    def plain(stretches: tuple[Stretch, ...]) -> list[dict[str, object]]:
+        return [s._asdict() for s in stretches]
+
+    return {
+        "ok": path.ok, "poses": len(path.q), "solved": int(path.success.sum()), "success": path.success,
+        "reason": path.reason, "position_error": path.position_error, "rotation_error": path.rotation_error,
+        "largest_step": path.largest_step, "changes": list(path.changes), "at_limits": plain(path.at_limits),
+        "too_fast": plain(path.too_fast), "too_hard": plain(path.too_hard),
+        "near_singular": plain(path.near_singular), "words": path.sentences(),
+    }  # fmt: skip

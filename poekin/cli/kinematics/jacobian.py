@@ -1,0 +1,59 @@
+"""`poekin jacobian`: how the rates of the coordinates move a link."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated
+
+import typer
+
+from ...errors import InputError, shown
+from ...model.kinematics.pose_jacobian import FRAME_NAMES
+from .. import array_files
+from ..output import name
+from .arm import Base, File, Input, Json, Numbers, Output, Tip, compute, give, take
+
+TWIST = ("wx", "wy", "wz", "vx", "vy", "vz")
+
+FRAME_HELP = "space | body | hybrid (base axes, the tip's origin) | K (z-aligned frame of joint K, counted from 0)."
+Frame = Annotated[str, typer.Option("--frame", help=FRAME_HELP)]
+
+
+def command(
+    file: File, frame: Frame, q: Numbers = None, tip: Tip = None, base: Base = None,
+    given: Input = None, output: Output = None, json: Json = False,
+) -> None:  # fmt: skip
+    """Jacobian (6×m, rows omega then v, in rad/s and m/s per unit rate) of the link --tip relative
+    to --base.
+    """
+    if output is not None:
+        array_files.check_writable(output)
+    array_files.check_apart([output], model=file, configurations=given)
+    which = _frame(frame)
+    arm = take(file, tip, base, q, given)
+    chain = arm.chain
+    columns = compute(arm, lambda some: chain.jacobian(some, which), (6, chain.dof))
+    kind = f"{which} Jacobian" if isinstance(which, str) else "Jacobian"
+    where = (
+        ""
+        if isinstance(which, str)
+        else f" in the frame of joint {which}, {name(chain.joint_names[which])}"
+    )
+    title = (
+        f"{kind} of {name(chain.tip)} relative to {name(chain.base)}{where} (rows w rad/s, v m/s)"
+    )
+    give(
+        arm, columns, "J", title=title, rows=TWIST, columns=chain.q_names,
+        output=output, json=json, extra={"frame": which},
+    )  # fmt: skip
+
+
+def _frame(word: str) -> str | int:
+    if word in FRAME_NAMES:
+        return word
+    if re.fullmatch("-?[0-9]{1,18}", word):
+        return int(word)
+    names = ", ".join(FRAME_NAMES)
+    raise InputError(
+        f"--frame: {names} or the number of a joint (from 0) expected, got {shown(word)}"
+    )

@@ -1,0 +1,133 @@
+"""What ik and follow have in common: the poses on a command line or in a file, and a chain for
+them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from ...errors import InputError, closest, shown
+from ...formats.text import pose_rows
+from ...formats.text.numbers import real
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from .. import array_files
+from ..model import OPTIONS
+from ..output import Progress, name
+
+FORMAT_HELP = (
+    "The numbers of a pose: 12 (the first three rows of the 4x4 matrix, row by row: T00 T01 T02 T03 T10 ..., m), 16"
+    " (all four rows, as fk writes them) or 7 (x y z in m and a unit quaternion, with --quaternion)."
+)
+Poses = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="POSE...", help="One pose, in the numbers of --format."),
+]
+Format = Annotated[str | None, typer.Option("--format", metavar="12|16|7", help=FORMAT_HELP)]
+Quaternion = Annotated[
+    str | None,
+    typer.Option(
+        "--quaternion",
+        metavar="wxyz|xyzw",
+        help="The order of the quaternion in --format 7; never guessed.",
+    ),
+]
+Input = Annotated[
+    str | None,
+    typer.Option(
+        "--input",
+        metavar="FILE",
+        help="Poses, one a row: a .csv or .npy file, or - (CSV on stdin).",
+    ),
+]
+Output = Annotated[
+    Path | None, typer.Option("--output", help="Where the joints go: a .csv, .npy or .json file.")
+]
+Seed = Annotated[
+    int,
+    typer.Option(
+        "--seed", min=0, help="Of the random starts: the same seed gives the same result."
+    ),
+]
+Task = Annotated[
+    str,
+    typer.Option(
+        "--task",
+        help="What to hold: pose, position, rotation, or direction (position and tool's z axis).",
+    ),
+]
+NoLimits = Annotated[bool, typer.Option("--no-limits", help="Let the joints leave their limits.")]
+
+UNSOLVED = 1
+"""The exit code where not all is solved."""
+
+
+def read(
+    words: Sequence[str] | None, given: str | None, format: str | None, quaternion: str | None
+) -> Array:
+    """The poses (N, 4, 4) that a command line names; NaN where a row is not finite. Raises:
+    InputError, PoseError, FileError, with file and line.
+    """
+    own = ("--tip", "--base", "--input", "--format", "--quaternion", "--q0", "--nearest-to", "--task", "--no-limits",
+           "--output", "--json", "--seed", *OPTIONS)  # fmt: skip
+    for word in words or ():
+        if word.startswith("--"):  # it came through as a number might
+            raise InputError(f"there is no option {shown(word)}; {closest(word, own)}")
+    if format is None:
+        raise InputError(
+            "--format: expected 12, 16 or 7, the numbers of a pose, and the format is never guessed"
+        )
+    try:
+        names = pose_rows.columns(format, quaternion)
+    except InputError as fault:
+        raise InputError(f"--{fault}") from fault
+    if given is not None:
+        if words:
+            raise InputError(
+                f"either a pose or --input expected, got both ({shown(words[0])} and {shown(given)})"
+            )
+        with Progress(f"reading {array_files.called(given)}") as progress:
+            rows, lines = array_files.read_rows(
+                given, names, "column", progress, tail=(4, 4) if format == "16" else ()
+            )
+        where = array_files.called(given)
+        return pose_rows.to_poses(
+            rows, format, quaternion, lambda i: f"{where}, row {i}" if lines is None else f"{where}:{lines[i]}"
+        )  # fmt: skip
+    if len(words or ()) != len(names):
+        asked = f"{len(names)} numbers expected ({' '.join(names)})"
+        raise InputError(f"a pose: {asked}, got {len(words or ())}; or --input with a file")
+    row = numbers(words or (), "the pose's number")
+    return pose_rows.to_poses(row[None], format, quaternion, lambda i: "the pose")
+
+
+def numbers(words: Sequence[str], what: str) -> Array:
+    """Words as numbers. Raises: InputError that says which is none."""
+    values = [real(word) for word in words]
+    for i, value in enumerate(values):
+        if value is None:
+            raise InputError(f"{what} {i + 1}: a number expected, got {shown(words[i])}")
+    return np.array(values, float)
+
+
+def coordinates(text: str | None, chain: Chain, option: str) -> Array | None:
+    """The numbers of an option with one for each coordinate, commas or blanks between them."""
+    if text is None:
+        return None
+    values = numbers(text.replace(",", " ").split(), f"{option}: number")
+    if len(values) != chain.dof:
+        names = ", ".join(map(name, chain.q_names))
+        raise InputError(f"{option}: {chain.dof} coordinates expected ({names}), got {len(values)}")
+    return values
+
+
+def for_each(text: str | None, chain: Chain, option: str) -> Array | float | None:
+    """The numbers of an option with one for all coordinates or one for each."""
+    if text is not None and len(text.replace(",", " ").split()) == 1:
+        return float(numbers(text.replace(",", " ").split(), f"{option}: number")[0])
+    return coordinates(text, chain, option)

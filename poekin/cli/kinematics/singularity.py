@@ -1,0 +1,75 @@
+"""`poekin singularity`: how near an arm is to a singularity, and which motion is lost there."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from ...analysis.dexterity.manipulability import manipulability
+from ...analysis.dexterity.singularity import TOLERANCE, singularity
+from ...errors import InputError
+from ..output import as_json, name, number, say, table
+from .arm import Base, File, Json, Numbers, Tip, take
+
+SINGULAR = 1
+
+
+class Part(StrEnum):
+    """What the tool is asked for."""
+
+    pose = "pose"
+    translation = "translation"
+    rotation = "rotation"
+
+
+At = Annotated[
+    str | None,
+    typer.Option(
+        "--at",
+        metavar="Q...",
+        help="The coordinates, in rad or m (as Q...; commas may stand between them).",
+    ),
+]
+PartOption = Annotated[Part, typer.Option("--part", help="What the tool is asked for.")]
+Tolerance = Annotated[
+    float,
+    typer.Option(
+        "--tolerance", help="Singular at or below this smallest ÷ largest singular value."
+    ),
+]
+
+
+def command(
+    file: File, q: Numbers = None, at: At = None, tip: Tip = None, base: Base = None, part: PartOption = Part.pose,
+    tolerance: Tolerance = TOLERANCE, json: Json = False,
+) -> None:  # fmt: skip
+    """How near Q is to a singularity and which motion is lost there. Exit code 0 regular, 1
+    singular, 2 error.
+    """
+    words = [] if at is None else at.replace(",", " ").split()
+    if at is not None and not words:
+        raise InputError("--at: coordinates expected, got nothing")
+    arm = take(file, tip, base, [*words, *(q or ())], None, many=False)
+    chain, here = arm.chain, arm.q[0]
+    result = singularity(chain, here, part=part.value, tolerance=tolerance)
+    measures = manipulability(chain, here)
+    if json:
+        said = {
+            p: dict(zip(m._fields, map(float, m), strict=True))
+            for p, m in measures._asdict().items()
+        }
+        head = {
+            "robot": arm.robot,
+            "base": chain.base,
+            "tip": chain.tip,
+            "q_names": list(chain.q_names),
+            "q": here,
+        }
+        print(as_json(head | result.as_dict() | {"manipulability": said}))
+    else:
+        say(f"{name(chain.tip)} in {name(chain.base)}: {result.words}\n")
+        rows = [(p, *(number(float(x), 4) for x in m)) for p, m in measures._asdict().items()]
+        table(("Jacobian (rad, m)", "Yoshikawa", "condition", "smallest singular value"), rows)
+    raise typer.Exit(SINGULAR if result.singular else 0)

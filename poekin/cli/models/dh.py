@@ -1,0 +1,110 @@
+"""`poekin dh`: any arm as a table of Denavit-Hartenberg parameters."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from ...errors import shown
+from ...formats import dh
+from ...model.chain import Chain
+from .. import array_files
+from ..kinematics.arm import Base, File, Json, Tip
+from ..model import model
+from ..output import as_json, matrix, name, number, path_text, say, table
+
+Convention = Annotated[
+    str, typer.Option("--convention", help="standard (Paul, distal) or modified (Craig, proximal).")
+]
+Output = Annotated[
+    Path | None, typer.Option("--output", help="Where the table goes: a .toml or .csv file.")
+]
+
+MATRICES = {
+    "standard": "Rz(theta) Tz(d) Tx(a) Rx(alpha)",
+    "modified": "Tx(a) Rx(alpha) Rz(theta) Tz(d)",
+}
+
+
+def command(
+    file: File, tip: Tip = None, base: Base = None, convention: Convention = "standard", output: Output = None,
+    json: Json = False,
+) -> None:  # fmt: skip
+    """DH parameters of one chain, with base and tool, what was free to choose, and how exact the
+    table is.
+    """
+    array_files.check_apart([output], model=file)
+    robot = model(file)
+    chain = robot.chain(base=base, tip=tip)
+    result = dh.from_chain(chain, convention=convention)
+    if output is not None:
+        dh.write(result.table, output)
+    if json:
+        print(as_json(_document(chain, result, output)))
+    else:
+        _show(chain, result)
+        if output is not None:
+            say(f"Table of {shown(robot.name)} written to {path_text(output)}")
+
+
+def _document(chain: Chain, result: dh.FromChain, output: Path | None) -> dict[str, object]:
+    found = result.table
+    rows = [
+        {
+            "name": r.name,
+            "kind": r.kind,
+            "theta": r.theta,
+            "d": r.d,
+            "a": r.a,
+            "alpha": r.alpha,
+            "limits": r.limits,
+        }
+        for r in found.rows
+    ]
+    return {
+        "base": chain.base, "tip": chain.tip, "convention": found.convention, "joints": rows, "base_pose": found.base,
+        "tool_pose": found.tool, "gauge": result.gauge, "error": result.error, "bound": result.bound,
+        "reach": chain.reach, "warnings": result.warnings, "written": None if output is None else str(output),
+    }  # fmt: skip
+
+
+def _show(chain: Chain, result: dh.FromChain) -> None:
+    found = result.table
+    say(
+        f"{found.convention} DH parameters of {name(chain.base)} → {name(chain.tip)}: {MATRICES[found.convention]}\n"
+    )
+    nothing = (
+        result.bound * chain.reach
+    )  # what is smaller says nothing to a reader; the file has every digit
+    rows = []
+    for i, r in enumerate(found.rows, 1):
+        theta, d, a, alpha = (
+            number(0.0 if abs(v) < nothing else v, 9) for v in (r.theta, r.d, r.a, r.alpha)
+        )
+        moving = [theta, d]
+        moving[r.kind == "prismatic"] += " + x"
+        lower, upper = (number(x) if math.isfinite(x) else "" for x in r.limits)
+        rows.append((i, r.name, r.kind, *moving, a, alpha, lower, upper))
+    heads = ("", "joint", "kind", "theta (rad)", "d (m)", "a (m)", "alpha (rad)", "lower", "upper")
+    table(heads, rows, left=3)
+    for what, T in (("Base", found.base), ("Tool", found.tool)):
+        if (np.eye(4) != T).any():
+            say(f"\n{what}:")
+            matrix(np.where(np.abs(T) < nothing, 0.0, T))
+    say()
+    if chain.dof != len(found) or (chain.coupling != np.eye(chain.dof)).any() or chain.offset.any():
+        say(
+            "x are the joints' own values: what follows another joint does so by its ratio and offset"
+        )
+    for words in result.gauge:
+        say(f"Free choice: {words}")
+    for words in result.warnings:
+        say(f"Warning: {words}")
+    error, bound = number(result.error, 2), number(result.bound, 2)
+    say(
+        f"Pose error ÷ reach ({number(chain.reach, 3)} m): {error} over random configurations; at most {bound}"
+    )

@@ -1,0 +1,105 @@
+"""`poekin emit`: an arm's kinematics as C for a controller, or as Python for arrays."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ...errors import FileError, InputError, shown
+from ...formats import emit
+from ...formats.emit.messages import identifier
+from ...formats.text.atomic_write import write_whole
+from ...model.chain import Chain
+from ...model.kinematics.pose_jacobian import FRAME_NAMES
+from .. import array_files
+from ..kinematics.arm import Base, File, Tip
+from ..model import model
+from ..output import path_text, say
+
+FRAMES = (*FRAME_NAMES, "middle")
+FRAME_HELP = "The Jacobian's: space | body | hybrid | middle (the one that costs least) | K (of joint K, from 0)."
+
+Language = Annotated[
+    str, typer.Option("--lang", help="c (C99, math.h only) or python (NumPy, JAX, PyTorch arrays).")
+]
+Output = Annotated[
+    Path,
+    typer.Option(
+        "--output",
+        help="A directory for the files (made where there is none); for python also a .py.",
+    ),
+]
+Frame = Annotated[str, typer.Option("--frame", help=FRAME_HELP)]
+Single = Annotated[bool, typer.Option("--float/--double", help="C only: the type of its numbers.")]
+Name = Annotated[
+    str | None, typer.Option("--name", help="What names begin with (default: the robot's name).")
+]
+Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
+
+
+def command(
+    file: File, language: Language, output: Output, tip: Tip = None, base: Base = None, frame: Frame = "hybrid",
+    single: Single = False, name: Name = None, force: Force = False,
+) -> None:  # fmt: skip
+    """Pose and Jacobian of one chain as straight-line source text that needs no poekin."""
+    if language not in ("c", "python"):
+        raise InputError(f"--lang: c or python expected, got {shown(language)}")
+    if single and language != "c":
+        raise InputError(
+            "--float: expected together with --lang c only; Python computes in the numbers it is given"
+        )
+    robot = model(file)
+    chain = robot.chain(base=base, tip=tip)
+    texts = _texts(chain, language, _frame(frame), robot.name if name is None else name, single)
+    if language == "python" and output.suffix == ".py":
+        places = dict.fromkeys([output], *texts.values())
+        directory = output.parent
+    else:
+        places = {output / file_name: text for file_name, text in texts.items()}
+        directory = output
+    array_files.check_apart(places, model=file)
+    _write(places, directory, force)
+    for line in next(iter(texts.values())).splitlines():
+        if re.search(r"\d+ multiplications", line):
+            say(line.removeprefix(" * "))
+    say(f"Written: {', '.join(path_text(place) for place in places)}")
+
+
+def _frame(word: str) -> str | int:
+    if re.fullmatch("-?[0-9]{1,18}", word):
+        return int(word)
+    if word not in FRAMES:
+        raise InputError(
+            f"--frame: {', '.join(FRAMES)} or the number of a joint (from 0) expected, got {shown(word)}"
+        )
+    return word
+
+
+def _texts(
+    chain: Chain, language: str, frame: str | int, name: str, single: bool
+) -> dict[str, str]:
+    """The texts by their files' names."""
+    if language == "c":
+        return emit.c(chain, frame, name=name, real="float" if single else "double").files
+    return {f"{identifier(name)}.py": emit.python(chain, frame)}
+
+
+def _write(places: dict[Path, str], directory: Path, force: bool) -> None:
+    """All files, or none where one exists already and `force` is not set. Raises: FileError."""
+    there = [place for place in places if os.path.lexists(place)]
+    if there and not force:
+        raise FileError(
+            f"{', '.join(path_text(place) for place in there)}: exists already; --force replaces it"
+        )
+    try:
+        directory.mkdir(exist_ok=True)
+    except OSError as error:
+        raise FileError(
+            f"cannot make the directory {path_text(directory)}: {error.strerror or error}"
+        ) from error
+    for place, text in places.items():
+        write_whole(place, text.encode("ascii"))

@@ -1,0 +1,39 @@
+"""`poekin urdf`: a model as URDF text."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ...errors import shown
+from ...formats.text.atomic_write import write_whole
+from ...formats.urdf_text import to_urdf
+from .. import array_files
+from ..kinematics.arm import Base, File
+from ..model import model
+from ..output import path_text, say
+
+Tip = Annotated[str | None, typer.Option("--tip", help="The last link of the one chain to write.")]
+Output = Annotated[
+    Path | None, typer.Option("--output", help="Where the text goes (default: it is printed).")
+]
+
+
+def command(file: File, tip: Tip = None, base: Base = None, output: Output = None) -> None:
+    """URDF of the whole tree, or with --tip or --base of one chain; kinematics only, no meshes or
+    masses.
+    """
+    array_files.check_apart([output], model=file)
+    robot = model(file)
+    written = robot if tip is None and base is None else robot.chain(base=base, tip=tip)
+    text = to_urdf(written, name=robot.name)
+    if output is not None:
+        write_whole(output, text.encode())
+        say(f"URDF of {shown(robot.name)} written to {path_text(output)}")
+    else:
+        # A stream that is not UTF-8 gets other characters by number: XML means the same by that.
+        ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
+        print(text.encode("ascii", "xmlcharrefreplace").decode() if ascii_only else text, end="")

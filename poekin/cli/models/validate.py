@@ -1,0 +1,117 @@
+"""`poekin validate`: every chain of a robot against Pinocchio."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from ...analysis.validate import BAR, Validation, validate
+from ...errors import InputError, MissingExtra, PoekinError
+from ...model.kinematics.pose_jacobian import FRAME_NAMES
+from ...testing.cases.example_robots import example_robots
+from ..kinematics.arm import Json
+from ..model import model
+from ..output import Progress, as_json, complain, name, number, say, table
+
+FAILED, ERROR = 1, 2
+
+Files = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="FILE...", help="Model files, built-in names, or erd:NAME."),
+]
+Every = Annotated[
+    bool, typer.Option("--all", help="Every robot of the package example-robot-data.")
+]
+Samples = Annotated[int, typer.Option("--samples", help="Random configurations a chain.", min=0)]
+Seed = Annotated[int, typer.Option("--seed", help="Seed of the random configurations.", min=0)]
+
+
+def command(
+    files: Files = None,
+    every: Every = False,
+    samples: Samples = 100,
+    seed: Seed = 0,
+    json: Json = False,
+) -> None:
+    """Poses and Jacobians of every chain from root to leaf against Pinocchio. Exit code 0 pass, 1
+    fail, 2 error.
+    """
+    names = list(files or ())
+    skipped: list[str] = []
+    if every:
+        robots, empty = example_robots()
+        names += [f"erd:{name}" for name in robots]
+        skipped = [f"erd:{name}" for name in empty]
+    if not names:
+        raise InputError("nothing to validate: give FILE… or --all")
+    results: list[Validation] = []
+    errors: dict[str, str] = {}
+    with Progress("validating") as progress:
+        for done, file in enumerate(names):
+
+            def tell(chain: int, chains: int, tip: str, done: int = done, file: str = file) -> None:
+                progress(done, len(names), f"{file}: chain {chain} of {chains}, {tip}")
+
+            try:
+                results.append(validate(model(file), samples=samples, seed=seed, progress=tell))
+            except MissingExtra:
+                raise
+            except (PoekinError, OSError) as error:
+                errors[file] = str(error)
+    passed = all(v.passed for v in results)
+    if json:
+        print(as_json(_document(results, errors, skipped)))
+    else:
+        _show(results, len(errors), skipped)
+    for file, message in errors.items():
+        where = "" if file in message else f"{name(file)}: "
+        complain(f"error: {where}{message}")
+    raise typer.Exit(ERROR if errors else 0 if passed else FAILED)
+
+
+def _document(
+    results: list[Validation], errors: dict[str, str], skipped: list[str]
+) -> dict[str, object]:
+    passed = not errors and all(v.passed for v in results)
+    return {
+        "passed": passed,
+        "robots": [v.as_dict() for v in results],
+        "errors": errors,
+        "skipped": skipped,
+    }
+
+
+def _show(results: list[Validation], unread: int, skipped: list[str]) -> None:
+    rows = []
+    for v in results:
+        errors = [
+            number(max(getattr(row, what) for row in v.rows), 3) for what in ("pose", *FRAME_NAMES)
+        ]
+        worst = v.worst
+        way = f"{worst.base} → {worst.tip}" if worst else ""
+        rows.append((v.robot, "pass" if v.passed else "FAIL", way, len(v.rows), *errors))
+    if rows:
+        say(
+            f"Worst error of all chains from root to leaf against Pinocchio, each ÷ R; the bar is {number(BAR)}"
+        )
+        table(
+            ("robot", "", "worst chain", "chains", "pose", "J space", "J body", "J hybrid"),
+            rows,
+            left=3,
+        )
+    for v in results:
+        for row in v.rows:
+            if row.worst > v.bar:
+                at = ", ".join(f"{k} = {number(x, 9)}" for k, x in row.configuration.items())
+                note = f" ({row.note})" if row.note else ""
+                off = number(row.worst, 3)
+                say(
+                    f"{v.robot}: {row.base} → {row.tip} is off by {off} R{note}; worst at {at or 'home'}"
+                )
+            elif row.note:
+                say(f"{v.robot}: {row.base} → {row.tip} {row.note}")
+    for file in skipped:
+        say(f"{file} is left out: there is no robot in it")
+    rest = f"; {unread} could not be validated" if unread else ""
+    say(f"{sum(v.passed for v in results)} of {len(results) + unread} robots pass{rest}")

@@ -1,0 +1,1 @@
+"""Compilation with Numba: the formulas registered, kernels, their cache, locks and threads."""

@@ -1,0 +1,247 @@
+"""The one cache of compiled kernels, kept between runs in the user's cache directory.
+
+Its key covers all source of algebra, formulas and engine, Numba's options, and the versions of
+Numba, llvmlite, NumPy, Python and the processor: an edit anywhere in the formulas makes a new key.
+An entry is unpickled only after its SHA-256, its owner and its permissions have been checked. A
+place that is damaged, foreign, read-only or absent costs a compilation and one log line, never an
+error. `POEKIN_CACHE_DIR` names another place; empty, it switches the cache off. `POEKIN_CACHE_SIZE`
+is the most that it may hold, in MiB, 100 unless it is set; see `cache_size`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import logging
+import math
+import os
+import pickle
+import platform
+import stat
+import sys
+import tempfile
+from pathlib import Path
+
+import llvmlite
+import numba
+import numpy as np
+from numba.core import config, serialize
+from numba.core.compiler import CompileResult
+from numba.core.runtime.nrt import rtsys
+
+from . import cache_size, source_hash
+
+MIB = 2**20
+LARGEST = 64 * MIB
+"""Bytes of an entry: a larger one is none."""
+USUAL_SIZE = 100 * MIB
+log = logging.getLogger("poekin")
+_said: set[str] = set()
+
+
+def say_once(topic: str, message: str, *details: object) -> None:
+    """One log line for a topic in this process, however often it comes up."""
+    if topic not in _said:
+        _said.add(topic)
+        log.warning("poekin: " + message, *details)
+
+
+def directory() -> Path | None:
+    """Where kernels are kept: `POEKIN_CACHE_DIR`, else this user's cache directory; None for
+    nowhere.
+    """
+    if "POEKIN_CACHE_DIR" in os.environ:
+        named = os.environ["POEKIN_CACHE_DIR"]
+        try:
+            return Path(named).expanduser().absolute() if named else None
+        except (
+            RuntimeError,
+            OSError,
+        ) as error:  # a user who is not known, or no working directory any more
+            say_once(
+                "place", "kernels are compiled anew in each run: no cache in %s (%s)", named, error
+            )
+            return None
+    try:
+        if sys.platform == "win32":
+            base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+        elif sys.platform == "darwin":
+            base = Path.home() / "Library" / "Caches"
+        else:
+            base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    except RuntimeError:  # no home directory can be found
+        return None
+    return base / "poekin" if base.is_absolute() else None
+
+
+def most() -> float:
+    """The bytes that all entries together may take: `POEKIN_CACHE_SIZE` in MiB."""
+    said = os.environ.get("POEKIN_CACHE_SIZE", "").strip()
+    try:
+        size = float(said) * MIB if said else USUAL_SIZE
+    except ValueError:
+        size = math.nan
+    if size >= 0:
+        return size
+    usual = USUAL_SIZE // MIB
+    say_once(
+        "size", "POEKIN_CACHE_SIZE=%.80s is no number of MiB from 0 on: %d are taken", said, usual
+    )
+    return USUAL_SIZE
+
+
+def machine_key() -> str:
+    """SHA-256 over what machine code depends on besides its source, its signature and the
+    processor.
+    """
+    versions = (
+        numba.__version__,
+        llvmlite.__version__,
+        np.__version__,
+        sys.version,
+        platform.machine(),
+        sys.platform,
+    )
+    options = (
+        "OPT",
+        "LOOP_VECTORIZE",
+        "SLP_VECTORIZE",
+        "BOUNDSCHECK",
+        "DEBUGINFO_DEFAULT",
+        "ENABLE_AVX",
+    )
+    return hashlib.sha256(
+        repr((versions, [getattr(config, name, None) for name in options])).encode()
+    ).hexdigest()
+
+
+def _private(status: os.stat_result) -> bool:
+    """Whether a file or directory belongs to this user and nobody else may write or read it."""
+    return _own(status) and (os.name == "nt" or not stat.S_IMODE(status.st_mode) & 0o077)
+
+
+def _own(status: os.stat_result) -> bool:
+    return not hasattr(os, "geteuid") or status.st_uid == os.geteuid()
+
+
+def _place() -> Path | None:
+    """The cache directory, made if needed, or None where it cannot be trusted or used."""
+    place = directory()
+    if place is None:
+        return None
+    try:
+        place.mkdir(mode=0o700, parents=True, exist_ok=True)
+        status = place.stat()
+    except OSError as error:
+        say_once(
+            "place",
+            "kernels are compiled anew in each run: no cache in %s (%s)",
+            place,
+            error.strerror,
+        )
+        return None
+    if not stat.S_ISDIR(status.st_mode) or not _private(status):
+        reason = "others may read or write it" if _own(status) else "it belongs to another user"
+        say_once(
+            "place",
+            "kernels are compiled anew in each run: %s is not used, %s (expected mode 0700)",
+            place,
+            reason,
+        )
+        return None
+    return place
+
+
+def entry(name: str, key: object) -> Path | None:
+    """Where what is known by a name and a key is kept; None for nowhere."""
+    place = _place()
+    if (
+        place is None or source_hash.LOADED is None
+    ):  # the package runs from where its source cannot be read
+        return None
+    whole = (source_hash.LOADED, machine_key(), key)
+    return place / f"{name}-{hashlib.sha256(repr(whole).encode()).hexdigest()[:32]}.kernel"
+
+
+def read(path: Path) -> bytes | None:
+    """What an entry holds; None where there is none, or none that can be trusted."""
+    try:
+        with open(path, "rb", opener=_as_it_is) as file:
+            status = os.fstat(file.fileno())
+            trusted = (
+                stat.S_ISREG(status.st_mode) and status.st_size <= LARGEST and _private(status)
+            )
+            data = file.read(LARGEST) if trusted else b""
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        say_once("entry", "a kernel is compiled anew: %s cannot be read (%s)", path, error.strerror)
+        return None
+    digest, payload = data[:32], data[32:]
+    if not trusted or hashlib.sha256(payload).digest() != digest:
+        say_once("entry", "a kernel is compiled anew: %s is damaged or not this user's alone", path)
+        return None
+    with contextlib.suppress(OSError):  # in a directory that is read-only
+        os.utime(path)  # it is in use: the last that the bound on the cache's size removes
+    return payload
+
+
+def write(path: Path, payload: bytes) -> None:
+    """Keep an entry; the file appears whole or not at all."""
+    partial = None
+    try:
+        # mkstemp gives mode 0600
+        handle, partial = tempfile.mkstemp(dir=path.parent, prefix=path.name)
+        with os.fdopen(handle, "wb") as file:
+            file.write(hashlib.sha256(payload).digest() + payload)
+        os.replace(partial, path)
+        cache_size.bound(path.parent, len(payload) + 32, most())
+    except OSError as error:
+        say_once(
+            "place",
+            "kernels are compiled anew in each run: %s cannot be written (%s)",
+            path,
+            error.strerror,
+        )
+        if partial is not None:
+            with contextlib.suppress(OSError):
+                os.unlink(partial)
+
+
+class KernelCache:
+    """What a Numba dispatcher asks for machine code and hands it to, for one kernel."""
+
+    def __init__(self, name: str):
+        self.name = name
+
+    def _path(self, signature, codegen) -> Path | None:
+        return entry(self.name, (str(signature), codegen.magic_tuple()))
+
+    def load_overload(self, signature, target_context):
+        """The kept machine code of this signature; None, after saying that it compiles, where there
+        is none.
+        """
+        path = self._path(signature, target_context.codegen())
+        kept = None if path is None else read(path)
+        if kept is None:
+            where = "not kept" if path is None else f"kept in {path.parent}"
+            say_once(
+                "compiling", "compiling kernels for this machine, a few seconds each (%s)", where
+            )
+            return None
+        # Of what Numba loads before it compiles, code that is complete needs the runtime alone,
+        # which counts references; all of it takes four times as long as the rest, more so where
+        # SciPy is installed.
+        rtsys.initialize(target_context)
+        return CompileResult._rebuild(target_context, *pickle.loads(kept))
+
+    def save_overload(self, signature, compiled) -> None:
+        """Keep the machine code of this signature."""
+        path = self._path(signature, compiled.codegen)
+        if path is not None:
+            write(path, serialize.dumps(compiled._reduce()))
+
+
+def _as_it_is(path, flags):
+    """Opened without following a link, and without waiting where it is a pipe."""
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))

@@ -1,0 +1,123 @@
+"""Compile the formulas with Numba.
+
+Importing this module registers every function of `poekin.algebra` and `poekin.formulas` with Numba,
+which leaves the functions themselves plain Python. It is imported at the first call of a kernel,
+not with the package.
+"""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import math
+import pkgutil
+import sys
+
+import numba
+from numba.core import cgutils, config, types
+from numba.extending import intrinsic, overload, register_jitable
+
+from ... import algebra, formulas
+from ...formulas import elementary
+from ...formulas.lie import arctangent, compensated, exponential, logarithm, quaternion
+from ..straight_line import sincos
+from . import array_io
+from .cache import KernelCache
+
+
+def _modules():
+    yield from (algebra, array_io, sincos)
+    for info in pkgutil.walk_packages(formulas.__path__, f"{formulas.__name__}."):
+        yield importlib.import_module(info.name)
+
+
+_OVERLOADED = (
+    *(elementary.sqrt, elementary.sin, elementary.cos, elementary.atan2),
+    *(elementary.takes_series, elementary.below, array_io.borrowed),
+)
+
+
+@intrinsic
+def _without_references(typing_context, array):
+    def generate(context, builder, signature, arguments):
+        struct = context.make_array(signature.args[0])(context, builder, arguments[0])
+        struct.meminfo = cgutils.get_null_value(struct.meminfo.type)
+        return struct._getvalue()
+
+    return array(array), generate
+
+
+def _register() -> None:
+    overload(elementary.sqrt)(lambda x: lambda x: math.sqrt(x))
+    overload(elementary.sin)(lambda x: lambda x: math.sin(x))
+    overload(elementary.cos)(lambda x: lambda x: math.cos(x))
+    overload(elementary.atan2)(lambda y, x: lambda y, x: math.atan2(y, x))
+    overload(elementary.takes_series)(lambda x: lambda x: True)
+    overload(elementary.below)(lambda x, limit: lambda x, limit: x < limit)
+    overload(array_io.borrowed)(lambda array: lambda array: _without_references(array))  # type: ignore[call-arg]
+    for module in _modules():
+        _register_functions(module)
+
+
+# Products and sums may be fused; nothing else is reordered, and NaN and infinities are what they
+# are.
+OPTIONS: dict = {"error_model": "numpy", "fastmath": {"contract"}}
+# Called once for each element of a batch: as functions of their own they would cost a third more.
+_INLINED = (arctangent, compensated, exponential, logarithm, quaternion)
+_registered: set[str] = set()
+
+
+def _register_functions(module) -> None:
+    """Let compiled code call the plain functions of a module."""
+    if module.__name__ not in _registered:
+        _registered.add(module.__name__)
+        for _, function in inspect.getmembers(module, inspect.isfunction):
+            if function.__module__ == module.__name__ and function not in _OVERLOADED:
+                register_jitable(forceinline=module in _INLINED)(function)
+
+
+def _used_by(module):
+    """A module of kernels, and those of the engine whose plain functions it has imported."""
+    yield module
+    for value in list(vars(module).values()):
+        if inspect.isfunction(value) and value.__module__.startswith(f"{__package__}."):
+            yield sys.modules[value.__module__]
+
+
+def array_type(code: str):
+    """Numba's type of one argument: "r2" reads and "w2" writes a 2-dimensional float64 array, "i1"
+    reads integers, "int" is an integer.
+
+    What is read may have any strides and alignment and be read-only, so no layout makes the kernel
+    compile anew.
+    "w" takes C-contiguous writable arrays only; being an exact match, it is also the faster way to
+    hand one in.
+    """
+    if code == "int":
+        return types.int64
+    kind, dimensions = code[0], int(code[1])
+    if kind == "w":
+        return types.Array(types.float64, dimensions, "C")
+    element = types.int64 if kind == "i" else types.float64
+    return types.Array(element, dimensions, "A", readonly=True, aligned=False)
+
+
+def compiled(function, arguments: str, returns: str = "", quick: bool = False, bare: bool = False):
+    """Machine code of `function` for one signature, from the cache or compiled now; see
+    `engine.jit.kernel.Kernel`.
+    """
+    if config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return function
+    for module in _used_by(sys.modules[function.__module__]):
+        _register_functions(module)
+    dispatcher = numba.njit(nogil=not (quick or bare), **OPTIONS)(function)
+    dispatcher._cache = KernelCache(function.__name__)  # type: ignore[attr-defined]
+    result = types.int64 if returns == "int" else types.void
+    signature = result(*(array_type(code) for code in arguments.split()))
+    dispatcher.compile(signature)
+    dispatcher.disable_compile()
+    # the entry point unpacks its arguments without asking of what type they are
+    return dispatcher.overloads[signature.args].entry_point if bare else dispatcher
+
+
+_register()

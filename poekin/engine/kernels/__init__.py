@@ -1,0 +1,1 @@
+"""Compiled kernels: each runs a formula over the rows of arrays."""

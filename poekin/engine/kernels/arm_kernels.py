@@ -1,0 +1,203 @@
+"""Kernels that run the machine code of one arm over configurations: sines and cosines, then the
+arm.
+
+An arm comes as the address of five integers (`engine.straight_line.arm.Arm`): how many angles and
+coordinates it has, and where its three functions are; one integer is handed over in less time than
+an array. T or J is left alone where the arm's program does not have it: then the other one stands
+in its place. A kernel for one configuration returns 0, and has done nothing, where the arrays'
+shapes are others or their memory is shared. Importing this module imports Numba.
+"""
+
+# pyright: reportCallIssue=false, reportGeneralTypeIssues=false, reportPrivateImportUsage=false
+# (an intrinsic is called with fewer arguments than it is written with)
+import numpy as np
+from llvmlite import ir
+from numba import carray, types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+from ..jit.array_io import borrowed
+from ..jit.kernel import kernel
+from ..straight_line.machine_code import ANGLES, LANES, SIGNATURE
+from ..straight_line.sincos import MODERATE, moderate, sincos
+
+BLOCK = 64  # configurations whose sines and cosines are held at a time
+_INT = ir.IntType(64)
+
+
+def _array(context, builder, signature, values, i):
+    return context.make_array(signature.args[i])(context, builder, values[i])
+
+
+def _width(context, builder, signature, values, i):
+    """The length of an array's last axis."""
+    shape = _array(context, builder, signature, values, i).shape
+    return cgutils.unpack_tuple(builder, shape, signature.args[i].ndim)[-1]
+
+
+@intrinsic
+def _angles(typing_context, code, q, row, sines, stride, lane):
+    """Call `angles` of the machine code: those of `row` of q, each at [stride j + lane] of the
+    sines.
+    """
+
+    def generate(context, builder, signature, values):
+        function = builder.inttoptr(values[0], ANGLES.as_pointer())
+        q, sines = (_array(context, builder, signature, values, i).data for i in (1, 3))
+        start = builder.mul(values[2], _width(context, builder, signature, values, 1))
+        builder.call(
+            function, [builder.gep(q, [start]), builder.gep(sines, [values[5]]), values[4]]
+        )
+        return context.get_dummy_value()
+
+    return types.void(code, q, row, sines, stride, lane), generate
+
+
+@intrinsic
+def _run(typing_context, code, sines, cosines, stride, lane, q, T, J, row):
+    """Call `one` or `four` of the machine code: the lane of the sines and cosines, the row of q, T
+    and J.
+    """
+
+    def generate(context, builder, signature, values):
+        function = builder.inttoptr(values[0], SIGNATURE.as_pointer())
+        sines, cosines, q, T, J = (
+            _array(context, builder, signature, values, i).data for i in (1, 2, 5, 6, 7)
+        )
+        width, columns = (_width(context, builder, signature, values, i) for i in (5, 7))
+        sizes = width, ir.Constant(_INT, 16), builder.mul(columns, ir.Constant(_INT, 6))
+        q, T, J = (
+            builder.gep(a, [builder.mul(values[8], s)])
+            for a, s in zip((q, T, J), sizes, strict=True)
+        )
+        sines, cosines = (builder.gep(a, [values[4]]) for a in (sines, cosines))
+        builder.call(function, [sines, cosines, values[3], q, width, T, J])
+        return context.get_dummy_value()
+
+    return types.void(code, sines, cosines, stride, lane, q, T, J, row), generate
+
+
+@intrinsic
+def _integers(typing_context, address):
+    """An address as a pointer to integers."""
+
+    def generate(context, builder, signature, values):
+        return builder.inttoptr(values[0], context.get_value_type(signature.return_type))
+
+    return types.CPointer(types.int64)(address), generate
+
+
+def _parts(arm):
+    """Angles, coordinates, and the addresses of the functions `angles`, `one` and `four` of an arm."""
+    return carray(_integers(arm), 5)
+
+
+def _usual(sines, count):
+    """Whether all angles are moderate."""
+    usual = True
+    for k in range(count):
+        usual &= abs(sines[k]) <= MODERATE
+    return usual
+
+
+def _sines_cosines(sines, cosines, count):
+    """Angles to sines, in place, and cosines."""
+    if _usual(sines, count):
+        for k in range(count):
+            sines[k], cosines[k] = moderate(sines[k])
+    else:
+        for k in range(count):
+            sines[k], cosines[k] = sincos(sines[k])
+
+
+def _one(arm, q, T, J, scratch):
+    """One configuration; the memory of the results holds the sines and cosines until they are
+    overwritten.
+    """
+    count, _, angles, one, _ = _parts(arm)
+    whole = (
+        (count + LANES - 1) // LANES * LANES
+    )  # full lanes are faster, whatever is in the last of them
+    if 2 * whole > scratch.size:
+        scratch = np.empty(2 * whole)
+    sines, cosines = scratch[:whole], scratch[whole:]
+    for k in range(count, whole):
+        sines[k] = 0.0
+    _angles(angles, q, 0, sines, 1, 0)
+    _sines_cosines(sines, cosines, whole)
+    _run(one, sines, cosines, 1, 0, q, T, J, 0)
+
+
+def _apart(a, b):
+    """Whether two arrays share no memory."""
+    start, start2 = a.ctypes.data, b.ctypes.data
+    return start + 8 * a.size <= start2 or start2 + 8 * b.size <= start
+
+
+@kernel("int w1 w2", returns="int", quick=True)
+def pose_one(arm, q, T):
+    """f(q) of one configuration."""
+    if q.shape[0] != _parts(arm)[1] or T.shape[0] != 4 or T.shape[1] != 4 or not _apart(q, T):
+        return 0
+    q, T = borrowed(q), borrowed(T)
+    _one(arm, q, T, T, T.reshape(T.size))
+    return 1
+
+
+@kernel("int w1 w2", returns="int", quick=True)
+def jacobian_one(arm, q, J):
+    """The Jacobian of one configuration."""
+    m = _parts(arm)[1]
+    if q.shape[0] != m or J.shape[0] != 6 or J.shape[1] != m or not _apart(q, J):
+        return 0
+    q, J = borrowed(q), borrowed(J)
+    _one(arm, q, J, J, J.reshape(J.size))
+    return 1
+
+
+@kernel("int w1 w2 w2", returns="int", quick=True)
+def pose_jacobian_one(arm, q, T, J):
+    """f(q) and the Jacobian of one configuration."""
+    m = _parts(arm)[1]
+    if q.shape[0] != m or T.shape[0] != 4 or T.shape[1] != 4 or J.shape[0] != 6 or J.shape[1] != m:
+        return 0
+    if not (_apart(q, T) and _apart(q, J) and _apart(T, J)):
+        return 0
+    q, T, J = borrowed(q), borrowed(T), borrowed(J)
+    _one(arm, q, T, J, J.reshape(J.size))
+    return 1
+
+
+def _many(arm, q, T, J):
+    """All configurations, four at a time, what is left one at a time."""
+    count, _, angles, one, four = _parts(arm)
+    sines, cosines = np.empty((count, BLOCK)), np.empty((count, BLOCK))
+    for start in range(0, q.shape[0], BLOCK):
+        size = min(BLOCK, q.shape[0] - start)
+        for k in range(size):
+            _angles(angles, q, start + k, sines, BLOCK, k)
+        for j in range(count):
+            _sines_cosines(sines[j], cosines[j], size)
+        whole = size - size % LANES
+        for k in range(0, whole, LANES):
+            _run(four, sines, cosines, BLOCK, k, q, T, J, start + k)
+        for k in range(whole, size):
+            _run(one, sines, cosines, BLOCK, k, q, T, J, start + k)
+
+
+@kernel("int w2 w3")
+def pose_many(arm, q, T):
+    """f(q) of many configurations."""
+    _many(arm, borrowed(q), borrowed(T), borrowed(T))
+
+
+@kernel("int w2 w3")
+def jacobian_many(arm, q, J):
+    """The Jacobian of many configurations."""
+    _many(arm, borrowed(q), borrowed(J), borrowed(J))
+
+
+@kernel("int w2 w3 w3")
+def pose_jacobian_many(arm, q, T, J):
+    """f(q) and the Jacobian of many configurations."""
+    _many(arm, borrowed(q), borrowed(T), borrowed(J))

@@ -1,0 +1,150 @@
+"""Kernels of a chain: one configuration or many, over one table of the chain's numbers.
+
+Table: row i < n holds the twelve numbers of M_{i+1}, then r, s of joint i (see
+`formulas.kinematics.forward`), then, where joints and coordinates are not the same, c_i and row i
+of C. Row n holds the twelve numbers of the constant tool. `frame` is the index of a joint, or
+SPACE, BODY or HYBRID.
+"""
+
+import numpy as np
+
+from ...algebra import pose, translation, turned_about_z
+from ...formulas.kinematics import columns, forward, recursive
+from ..jit.array_io import borrowed, store_matrix, store_row
+from ..jit.kernel import kernel
+from ..straight_line.sincos import sincos
+
+SPACE, BODY, HYBRID = -1, -2, -3
+POSE, ROTATES, SLIDES, OFFSET, COUPLING = 0, 12, 13, 14, 15
+
+
+def _scratch(table):
+    """Room for the sines, cosines and shifts of the joints' motions."""
+    n = table.shape[0] - 1
+    return np.empty(n), np.empty(n), np.empty(n)
+
+
+def _motions(table, q, sines, cosines, shifts):
+    """sin(r x), cos(r x) and s x of every joint, x = C q + c."""
+    coupled = table.shape[1] > OFFSET
+    for i in range(table.shape[0] - 1):
+        if coupled:
+            x = table[i, OFFSET]
+            for k in range(len(q)):
+                x += table[i, COUPLING + k] * q[k]
+        else:
+            x = q[i]
+        sines[i], cosines[i] = sincos(table[i, ROTATES] * x)
+        shifts[i] = table[i, SLIDES] * x
+
+
+@kernel("w2 r1 w2", bare=True)
+def pose_one(table, q, T):
+    """f(q) of one configuration of a chain that is not coupled."""
+    n = table.shape[0] - 1
+    table, q, T = borrowed(table), borrowed(q), borrowed(T)
+    sines, cosines, shifts = _scratch(table)
+    _motions(table, q, sines, cosines, shifts)
+    store_matrix(T, forward.tip(table, sines, cosines, shifts, n))
+
+
+@kernel("w2 r2 w3")
+def pose_many(table, q, T):
+    """f(q) of many configurations."""
+    sines, cosines, shifts = _scratch(table)
+    table, q, T = borrowed(table), borrowed(q), borrowed(T)
+    for k in range(q.shape[0]):
+        _motions(table, q[k], sines, cosines, shifts)
+        store_matrix(T[k], forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
+
+
+@kernel("w2 r1 int w2 w2", bare=True)
+def pose_jacobian_one(table, q, frame, T, J):
+    """f(q) and the Jacobian of one configuration, in a named frame, of a chain that is not coupled."""
+    n = table.shape[0] - 1
+    table, q, T, J = borrowed(table), borrowed(q), borrowed(T), borrowed(J)
+    # the rows of J serve as scratch: taking memory costs as much as three joints
+    _motions(table, q, J[0], J[1], J[2])
+    tip = forward.tip_and_axes(table, J[0], J[1], J[2], n, J)
+    store_matrix(T, tip)
+    p = (0.0, 0.0, 0.0) if frame == SPACE else translation(tip)
+    columns.about_point(J, table[:, ROTATES], table[:, SLIDES], n, p)
+    if frame == BODY:
+        columns.turned_into(J, n, tip)
+
+
+def _pose_jacobian(table, q, frame, T, J_x):
+    """The poses into T, the Jacobians of the joints in `frame` into J_x. A T of length 1 is
+    scratch.
+    """
+    n = table.shape[0] - 1
+    sines, cosines, shifts = _scratch(table)
+    table, q, T, J_x = borrowed(table), borrowed(q), borrowed(T), borrowed(J_x)
+    rotates, slides = table[:, ROTATES], table[:, SLIDES]
+    for k in range(q.shape[0]):
+        _motions(table, q[k], sines, cosines, shifts)
+        J = J_x[k]
+        tip = forward.tip_and_axes(table, sines, cosines, shifts, n, J)
+        store_matrix(T[min(k, T.shape[0] - 1)], tip)
+        at, p = tip, translation(tip)
+        if frame >= 0:
+            at = forward.frame(table, sines, cosines, shifts, frame + 1)
+            p = translation(at)
+        elif frame == SPACE:
+            p = (0.0, 0.0, 0.0)
+        columns.about_point(J, rotates, slides, n, p)
+        if frame != SPACE and frame != HYBRID:
+            columns.turned_into(J, n, at)
+
+
+@kernel("w2 r2 int w3 w3")
+def pose_jacobian_many(table, q, frame, T, J):
+    """f(q) and the Jacobian of many configurations; a T of length 1 is scratch, used again and
+    again.
+    """
+    if table.shape[1] > OFFSET:
+        J_x, coupling = np.empty((1, 6, table.shape[0] - 1)), table[:, COUPLING:]
+        for k in range(q.shape[0]):
+            j = min(k, T.shape[0] - 1)
+            _pose_jacobian(table, q[k : k + 1], frame, T[j : j + 1], J_x)
+            columns.coupled(J_x[0], coupling, table.shape[0] - 1, q.shape[1], J[k])
+    else:
+        _pose_jacobian(table, q, frame, T, J)
+
+
+@kernel("w2 r2 w4")
+def joint_poses(table, q, T):
+    """The z-aligned frame of every joint in the base frame, after its motion."""
+    sines, cosines, shifts = _scratch(table)
+    for k in range(q.shape[0]):
+        _motions(table, q[k], sines, cosines, shifts)
+        frame = pose(table[0])
+        for i in range(table.shape[0] - 1):
+            if i == 0:
+                frame = turned_about_z(frame, sines[0], cosines[0], shifts[0])
+            else:
+                frame = forward.next_frame(frame, table[i], sines[i], cosines[i], shifts[i])
+            store_matrix(T[k, i], frame)
+
+
+@kernel("w2 r2 r2 w2")
+def body_velocity(table, q, dq, V):
+    """f^-1 f' by the V recursion."""
+    n, m = table.shape[0] - 1, q.shape[1]
+    sines, cosines, shifts = _scratch(table)
+    links, rates = np.empty((n, 12)), np.empty(n)
+    for k in range(q.shape[0]):
+        _motions(table, q[k], sines, cosines, shifts)
+        for i in range(n):
+            store_row(links[i], turned_about_z(pose(table[i]), sines[i], cosines[i], shifts[i]))
+            if table.shape[1] > OFFSET:
+                rates[i] = 0.0
+                for j in range(m):
+                    rates[i] += table[i, COUPLING + j] * dq[k, j]
+            else:
+                rates[i] = dq[k, i]
+        if n > 0:
+            tool, rotates, slides = pose(table[n]), table[:, ROTATES], table[:, SLIDES]
+            store_row(V[k], recursive.body_velocity(links, tool, rotates, slides, n, rates))
+        else:
+            store_row(V[k], (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))

@@ -1,0 +1,131 @@
+"""Kernels of SO(3) and SE(3): each maps one formula over the rows of an array."""
+
+from ...algebra import angular, cross, inverse, linear, translation
+from ...formulas.lie import defect, exp_jacobian, exponential, logarithm
+from ..jit.array_io import load_matrix, load_rotation, store_matrix, store_rotation, store_row
+from ..jit.kernel import kernel
+
+
+@kernel("r2 w3")
+def so3_exp(w, R):
+    """exp [w] of rows."""
+    for k in range(w.shape[0]):
+        store_rotation(R[k], exponential.so3((w[k][0], w[k][1], w[k][2])))
+
+
+@kernel("r3 w2")
+def so3_log(R, w):
+    """Principal log of matrices."""
+    for k in range(w.shape[0]):
+        store_row(w[k], logarithm.so3(load_rotation(R[k])))
+
+
+@kernel("r3 r2 w2")
+def so3_log_near(R, near, w):
+    """The log nearest to a given one."""
+    for k in range(w.shape[0]):
+        store_row(
+            w[k], logarithm.so3_near(load_rotation(R[k]), (near[k][0], near[k][1], near[k][2]))
+        )
+
+
+@kernel("r2 w3")
+def so3_left(w, J):
+    """J(w) of rows."""
+    for k in range(w.shape[0]):
+        store_rotation(J[k], exp_jacobian.left((w[k][0], w[k][1], w[k][2])))
+
+
+@kernel("r2 w3")
+def so3_left_inverse(w, J):
+    """J(w)^-1 of rows."""
+    for k in range(w.shape[0]):
+        store_rotation(J[k], exp_jacobian.left_inverse((w[k][0], w[k][1], w[k][2])))
+
+
+@kernel("r2 w3")
+def se3_exp(xi, T):
+    """exp of twists."""
+    for k in range(xi.shape[0]):
+        store_matrix(T[k], exponential.se3(angular(xi[k]), linear(xi[k])))
+
+
+@kernel("r3 w2")
+def se3_log(T, xi):
+    """Principal log of poses."""
+    for k in range(xi.shape[0]):
+        store_row(xi[k], logarithm.se3(load_matrix(T[k])))
+
+
+@kernel("r3 r2 w2")
+def se3_log_near(T, near, xi):
+    """The log whose angular part is nearest to that of a given twist."""
+    for k in range(xi.shape[0]):
+        store_row(xi[k], logarithm.se3_near(load_matrix(T[k]), angular(near[k]), linear(near[k])))
+
+
+@kernel("r3 w3")
+def se3_inverse(T_ab, T_ba):
+    """Inverses of poses."""
+    for k in range(T_ab.shape[0]):
+        store_matrix(T_ba[k], inverse(load_matrix(T_ab[k])))
+
+
+def _store_blocks(J, diagonal, corner):
+    """The 6x6 matrix [diagonal 0; corner diagonal]."""
+    for r in range(3):
+        for c in range(3):
+            J[r][c] = J[r + 3][c + 3] = diagonal[3 * r + c]
+            J[r + 3][c] = corner[3 * r + c]
+            J[r][c + 3] = 0.0
+
+
+@kernel("r3 w3")
+def se3_adjoint(T_ab, Ad):
+    """Ad of poses: [p] R is p x each column of R."""
+    for k in range(T_ab.shape[0]):
+        T = load_matrix(T_ab[k])
+        R, p = T[:9], translation(T)
+        x, y, z = (
+            cross(p, (R[0], R[3], R[6])),
+            cross(p, (R[1], R[4], R[7])),
+            cross(p, (R[2], R[5], R[8])),
+        )
+        _store_blocks(Ad[k], R, (x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]))
+
+
+@kernel("r2 w3")
+def se3_left(xi, J):
+    """Left Jacobian of exp at twists."""
+    for k in range(xi.shape[0]):
+        w, v = angular(xi[k]), linear(xi[k])
+        _store_blocks(J[k], exp_jacobian.left(w), exp_jacobian.left_dual(w, v))
+
+
+@kernel("r2 w3")
+def se3_left_inverse(xi, J):
+    """Inverse of the left Jacobian of exp at twists."""
+    for k in range(xi.shape[0]):
+        w, v = angular(xi[k]), linear(xi[k])
+        _store_blocks(J[k], exp_jacobian.left_inverse(w), exp_jacobian.left_inverse_dual(w, v))
+
+
+@kernel("r3 w1", returns="int")
+def first_defect(M, found):
+    """Index of the first matrix whose 3x3 corner misses a rotation by more than found[0], or of
+    which the fourth row
+    is off; on return `found` holds the largest entry of abs(R R^T - I), det R and the fourth row's
+    error. Else -1, or -2 where there is a fourth row with NaN in it.
+    """
+    limit, none = found[0], -1
+    for k in range(M.shape[0]):
+        R = load_rotation(M[k])
+        off, sign, last = defect.orthonormality(R), defect.determinant(R), 0.0
+        if M.shape[1] == 4:
+            last = abs(M[k][3][0]) + abs(M[k][3][1]) + abs(M[k][3][2]) + abs(M[k][3][3] - 1.0)
+        if off > limit or sign < 0.0 or last > limit:
+            store_row(found, (off, sign, last))
+            return k
+        if last != last:
+            none = -2
+    return none

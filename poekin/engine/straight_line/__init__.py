@@ -1,0 +1,1 @@
+"""Straight-line programs of one arm: traced, specialised, interpreted, and as machine code."""

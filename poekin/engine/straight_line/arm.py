@@ -1,0 +1,41 @@
+"""One arm's machine code: from the cache, or traced and compiled now, and kept there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import llvmlite
+import numpy as np
+
+from ..jit import cache
+from .machine_code import Loaded, object_code, processor
+from .program import Program
+
+
+class Arm:
+    """What the kernels of `engine.kernels.arm_kernels` run: `address` is good as long as this
+    object lives.
+    """
+
+    __slots__ = ("_loaded", "_numbers", "address")
+
+    def __init__(self, code: bytes, angles: int, coordinates: int):
+        code_at = self._loaded = Loaded(code)
+        self._numbers = np.array(
+            [angles, coordinates, code_at.angles, code_at.one, code_at.four], np.int64
+        )
+        self.address = int(self._numbers.ctypes.data)
+
+
+def arm(key: object, make: Callable[[], Program], coordinates: int, pose: bool) -> Arm:
+    """The machine code of the program that `make` makes. key: all that it depends on besides
+    poekin's source.
+    """
+    path = cache.entry("arm", (key, pose, processor(), llvmlite.__version__))
+    kept = None if path is None else cache.read(path)
+    if kept is None:
+        program = make()
+        kept = len(program.angles).to_bytes(8, "little") + object_code(program, pose)
+        if path is not None:
+            cache.write(path, kept)
+    return Arm(kept[8:], int.from_bytes(kept[:8], "little"), coordinates)

@@ -1,0 +1,53 @@
+"""A straight-line program run on NumPy arrays, statement by statement: where there is no machine
+code.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .program import Program
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+def evaluate(program: Program, q: Array) -> Array:
+    """The outputs (N, k) of a program at configurations q (N, m)."""
+    x = angles(program, q)
+    return outputs(program, np.sin(x), np.cos(x), q)
+
+
+def angles(program: Program, q: Array) -> Array:
+    """The angles (N, j) whose sines and cosines a program takes, at configurations q (N, m)."""
+    x = np.empty((len(q), len(program.angles)))
+    for j, angle in enumerate(program.angles):
+        x[:, j] = angle.offset
+        if angle.base is not None:
+            x[:, j] += x[:, angle.base]
+        for k, factor in angle.terms:
+            x[:, j] += factor * q[:, k]
+    return x
+
+
+def outputs(program: Program, sines: Array, cosines: Array, q: Array) -> Array:
+    """The outputs (N, k) of a program where sines and cosines (N, j) of its angles are known."""
+    values: dict[int, Any] = {}
+    for number, node in program.steps:
+        if node.kind == "input":
+            at = int(node.first)
+            values[number] = q[:, -1 - at] if at < 0 else (sines, cosines)[at % 2][:, at // 2]
+        elif node.kind == "constant":
+            values[number] = node.first
+        elif node.kind == "scaled":
+            values[number] = node.first * values[node.second]
+        elif node.kind == "product":
+            values[number] = values[int(node.first)] * values[node.second]
+        else:
+            first, second = values[int(node.first)], values[node.second]
+            values[number] = first + second if node.sign > 0 else first - second
+    result = np.empty((len(q), len(program.outputs)))
+    for column, (number, sign) in zip(result.T, program.outputs, strict=True):
+        column[:] = sign if number is None else values[number] if sign > 0 else -values[number]
+    return result

@@ -1,0 +1,243 @@
+"""A straight-line program as machine code, for one configuration and for four at a time.
+
+The program is handed to LLVM as it is: nothing is left in it to be found out, so this takes a tenth
+of a second where a compiler of Python would take a few. Products and sums may be fused; nothing
+else is reordered.
+
+    angles(q, sines, stride)
+    one(sines, cosines, stride, q, width, T, J)    four(...)
+
+`angles` writes the angle j of one configuration to sines[stride j]: it becomes its sine there. The
+others read sine and cosine of angle j at [stride j + lane], and coordinate k at q[width lane + k]
+where joints slide; they write the pose's 16 numbers at T[16 lane], and the Jacobian's 6 m at J[6 m
+lane]. What the program does not have is not written.
+"""
+
+# pyright: reportCallIssue=false
+# (llvmlite's builder wraps its methods, and their signatures are lost on the way)
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import binding, ir
+from numba.core import codegen, config
+
+from .program import Program
+
+LANES = 4
+LONGEST = 512
+"""Steps and stores in a block of LLVM's, whose scheduling takes time as the square of a block's
+length.
+"""
+CONTRACT = ("contract",)
+_DOUBLE, _INT, _INDEX = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
+_POINTER = _DOUBLE.as_pointer()
+ANGLES = ir.FunctionType(ir.VoidType(), [_POINTER, _POINTER, _INT])
+SIGNATURE = ir.FunctionType(
+    ir.VoidType(), [_POINTER, _POINTER, _INT, _POINTER, _INT, _POINTER, _POINTER]
+)
+
+
+def processor() -> tuple[str, str]:
+    """LLVM's name and features of the processor: the host's, or those of NUMBA_CPU_NAME and
+    NUMBA_CPU_FEATURES.
+    """
+    name, features = config.CPU_NAME, config.CPU_FEATURES  # type: ignore[attr-defined]
+    return (
+        name or binding.get_host_cpu_name(),
+        codegen.get_host_cpu_features() if features is None else features,
+    )
+
+
+def target_machine() -> Any:
+    """The machine that the code is made for."""
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    name, features = processor()
+    target = binding.Target.from_default_triple()
+    return target.create_target_machine(
+        cpu=name, features=features, opt=3, jit=True, codemodel="jitdefault"
+    )
+
+
+def object_code(program: Program, pose: bool) -> bytes:
+    """The machine code of a program whose outputs begin with a pose or not."""
+    module = ir.Module("arm")
+    module.triple = binding.get_default_triple()
+    _write_angles(module, program)
+    for name, lanes in (("one", 1), ("four", LANES)):
+        _Function(module, name, lanes).write(program, pose)
+    # LLVM keeps constants as long as their context: in the global one those of every arm would stay
+    parsed = binding.parse_assembly(str(module), binding.create_context())
+    parsed.verify()
+    return target_machine().emit_object(parsed)
+
+
+class Loaded:
+    """Machine code in memory: the addresses `angles`, `one` and `four` hold as long as this object
+    lives.
+    """
+
+    def __init__(self, code: bytes):
+        target = target_machine()
+        self._engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target)
+        self._engine.add_object_file(binding.ObjectFileRef.from_data(code))
+        self._engine.finalize_object()
+        self.angles, self.one, self.four = map(
+            self._engine.get_function_address, ("angles", "one", "four")
+        )
+
+
+def _write_angles(module: ir.Module, program: Program) -> None:
+    function = ir.Function(module, ANGLES, "angles")
+    build = ir.IRBuilder(function.append_basic_block())
+    q, sines, stride = function.args
+    values: list[Any] = []
+    for angle in program.angles:
+        parts = [] if angle.base is None else [values[angle.base]]
+        for k, factor in angle.terms:
+            x = build.load(build.gep(q, [_INT(k)]), align=8)
+            parts.append(
+                x
+                if factor == 1
+                else build.fneg(x)
+                if factor == -1
+                else build.fmul(_DOUBLE(factor), x)
+            )
+        if angle.offset:
+            parts.append(_DOUBLE(angle.offset))
+        total = parts[0]
+        for part in parts[1:]:
+            total = build.fadd(total, part)
+        values.append(total)
+    for j, value in enumerate(values):
+        build.store(value, build.gep(sines, [build.mul(stride, _INT(j))]), align=8)
+    build.ret_void()
+
+
+class _Function:
+    """One function of the module, over `lanes` configurations side by side."""
+
+    def __init__(self, module: ir.Module, name: str, lanes: int):
+        self.function = ir.Function(module, SIGNATURE, name)
+        self.build = ir.IRBuilder(self.function.append_basic_block())
+        self.lanes, self.length = lanes, 0
+        self.type = _DOUBLE if lanes == 1 else ir.VectorType(_DOUBLE, lanes)
+
+    def write(self, program: Program, pose: bool) -> None:
+        """All of it: inputs, steps, outputs."""
+        build, values = self.build, {}
+        for number, node in program.steps:
+            self._lengthen()
+            if node.kind == "input":
+                values[number] = self._input(int(node.first))
+            elif node.kind == "constant":
+                values[number] = self._constant(node.first)
+            elif node.kind == "scaled":
+                values[number] = build.fmul(
+                    self._constant(node.first), values[node.second], flags=CONTRACT
+                )
+            else:
+                operation = (
+                    build.fmul
+                    if node.kind == "product"
+                    else build.fadd
+                    if node.sign > 0
+                    else build.fsub
+                )
+                values[number] = operation(
+                    values[int(node.first)], values[node.second], flags=CONTRACT
+                )
+        outputs = [
+            self._constant(sign)
+            if number is None
+            else values[number]
+            if sign > 0
+            else build.fneg(values[number])
+            for number, sign in program.outputs
+        ]
+        *_, T, J = self.function.args
+        if pose:
+            R, p, zero = outputs[:9], outputs[9:12], self._constant(0.0)
+            self._store(
+                T,
+                [*R[:3], p[0], *R[3:6], p[1], *R[6:], p[2], zero, zero, zero, self._constant(1.0)],
+            )
+        self._store(J, outputs[12:] if pose else outputs)
+        build.ret_void()
+
+    def _lengthen(self, by: int = 1) -> None:
+        """Count steps of the block, and begin another where it is long enough."""
+        self.length += by
+        if self.length > LONGEST:
+            self.length = by
+            following = self.function.append_basic_block()
+            # a branch that is always taken, which LLVM cannot know: it would make one block of two
+            # otherwise
+            with self.build.if_then(
+                self.build.icmp_signed("<=", self.function.args[2], _INT(0)), likely=False
+            ):
+                self.build.ret_void()
+            self.build.branch(following)
+            self.build.position_at_end(following)
+
+    def _constant(self, value: float):
+        return _DOUBLE(value) if self.lanes == 1 else ir.Constant(self.type, [value] * self.lanes)
+
+    def _input(self, number: int):
+        build = self.build
+        sines, cosines, stride, q, width, *_ = self.function.args
+        if number >= 0:
+            place = build.gep((sines, cosines)[number % 2], [build.mul(stride, _INT(number // 2))])
+            return build.load(self._wide(place, self.type), align=8)
+        value = build.load(build.gep(q, [_INT(-1 - number)]), align=8)
+        if self.lanes == 1:
+            return value
+        row = build.insert_element(ir.Constant(self.type, ir.Undefined), value, _INDEX(0))
+        for lane in range(1, self.lanes):
+            place = build.gep(q, [build.add(build.mul(width, _INT(lane)), _INT(-1 - number))])
+            row = build.insert_element(row, build.load(place, align=8), _INDEX(lane))
+        return row
+
+    def _store(self, start, values) -> None:
+        """The values one after the other; of several lanes each lane's, four by four turned from
+        columns into rows.
+        """
+        build, size = self.build, len(values)
+        for i in range(0, size, LANES):
+            group = values[i : i + LANES]
+            self._lengthen(len(group))
+            if self.lanes == 1:
+                for k, value in enumerate(group):
+                    build.store(value, build.gep(start, [_INT(i + k)]), align=8)
+            else:
+                for lane, row in enumerate(self._transposed(group)):
+                    build.store(
+                        row,
+                        self._wide(build.gep(start, [_INT(lane * size + i)]), row.type),
+                        align=8,
+                    )
+
+    def _transposed(self, group):
+        """Of four vectors, or of two, for each lane the vector of what they have there.
+
+        A pose has 16 numbers and a Jacobian 6 m: there is never one left, nor three.
+        """
+        if len(group) == LANES:
+            (even, odd), (even2, odd2) = self._even_odd(*group[:2]), self._even_odd(*group[2:])
+            return [
+                self._mixed(a, b, mask)
+                for mask in ([0, 1, 4, 5], [2, 3, 6, 7])
+                for a, b in ((even, even2), (odd, odd2))
+            ]
+        return [self._mixed(*group, [lane, LANES + lane]) for lane in range(LANES)]
+
+    def _even_odd(self, a, b):
+        return self._mixed(a, b, [0, 4, 2, 6]), self._mixed(a, b, [1, 5, 3, 7])
+
+    def _mixed(self, a, b, mask):
+        return self.build.shuffle_vector(a, b, ir.Constant(ir.VectorType(_INDEX, len(mask)), mask))
+
+    def _wide(self, place, kind):
+        """A place in an array of numbers, as one of `kind`."""
+        return place if kind == _DOUBLE else self.build.bitcast(place, kind.as_pointer())

@@ -1,0 +1,149 @@
+"""A straight-line program: what a traced formula leaves to be computed, for one arm, in the order
+of computing.
+
+Its inputs are the sine and cosine of some angles, which are sums of coordinates, and the
+coordinates themselves where joints slide. Its outputs are numbers, one after the other, each a node
+with a sign or a constant.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from ..count import Count
+from .trace import Graph, Node, Traced, folded
+
+HALF_PI = math.pi / 2
+
+
+@dataclass(frozen=True)
+class Angle:
+    """Sum of factor * q_k over `terms` (k, factor), plus `offset` (rad), plus angle number `base`
+    if there is one.
+    """
+
+    base: int | None
+    terms: tuple[tuple[int, float], ...]
+    offset: float
+
+    def cost(self) -> tuple[int, int]:
+        """Multiplications and additions that it takes."""
+        parts = len(self.terms) + (self.base is not None) + (self.offset != 0)
+        return sum(abs(factor) != 1 for _, factor in self.terms), max(parts - 1, 0)
+
+
+class Angles:
+    """The angles whose sines and cosines are needed, each once: up to sign and whole quarter turns."""
+
+    def __init__(self, graph: Graph):
+        self.graph = graph
+        self.forms: list[tuple[tuple[tuple[int, float], ...], float]] = []
+        self._numbers: dict[tuple[tuple[tuple[int, float], ...], float], int] = {}
+
+    def sine_cosine(self, factors: Sequence[float], offset: float, quarters: int):
+        """Sine and cosine of sum factors[k] q_k + offset + quarters * 90 degrees."""
+        terms = tuple((k, float(f)) for k, f in enumerate(factors) if f)
+        if not terms:
+            sine, cosine = (math.sin(offset), math.cos(offset)) if offset else (0.0, 1.0)
+            sign = 1
+        else:
+            sign = 1 if terms[0][1] > 0 else -1
+            if sign < 0:
+                terms, offset, quarters = tuple((k, -f) for k, f in terms), -offset, -quarters
+            form = (terms, offset)
+            number = self._numbers.setdefault(form, len(self.forms))
+            if number == len(self.forms):
+                self.forms.append(form)
+            sine, cosine = self.graph.input(2 * number), self.graph.input(2 * number + 1)
+        for _ in range(quarters % 4):
+            sine, cosine = cosine, -sine
+        return sign * sine, cosine
+
+
+@dataclass(frozen=True)
+class Program:
+    """Statements in order; `angles` are numbered as the inputs 2 j (sine) and 2 j + 1 (cosine);
+    input -1 - k is q_k.
+
+    `steps` are (number, node) of all nodes that an output needs; `outputs` are a node's number and
+    sign, or a constant (None, value).
+    """
+
+    angles: tuple[Angle, ...]
+    steps: tuple[tuple[int, Node], ...]
+    outputs: tuple[tuple[int | None, float], ...]
+    count: Count = field(compare=False)
+
+
+def program(graph: Graph, angles: Angles, outputs: Sequence[Traced | float]) -> Program:
+    """What the outputs need of a graph, and what it costs."""
+    nodes, needed = graph.nodes, set()
+    stack = [x.number for x in outputs if isinstance(x, Traced)]
+    while stack:
+        number = stack.pop()
+        if number not in needed:
+            needed.add(number)
+            stack += _operands(nodes[number])
+    used = sorted(
+        {
+            int(nodes[k].first) // 2
+            for k in needed
+            if nodes[k].kind == "input" and nodes[k].first >= 0
+        }
+    )
+    chosen, order = _sums([angles.forms[j] for j in used])
+    place = {used[j]: position for position, j in enumerate(order)}
+    steps = []
+    for number in sorted(needed):
+        node = nodes[number]
+        if node.kind == "input" and node.first >= 0:
+            node = Node("input", 2 * place[int(node.first) // 2] + int(node.first) % 2)
+        steps.append((number, node))
+    ends = tuple(
+        (x.number, float(x.sign)) if isinstance(x, Traced) else (None, folded(x)) for x in outputs
+    )
+    return Program(tuple(chosen), tuple(steps), ends, _count(chosen, steps))
+
+
+def _operands(node: Node) -> list[int]:
+    if node.kind == "scaled":
+        return [node.second]
+    return [int(node.first), node.second] if node.kind in ("product", "sum") else []
+
+
+def _sums(forms) -> tuple[list[Angle], list[int]]:
+    """The angles, each from an earlier one where that saves additions; and which form each one is."""
+    order = sorted(range(len(forms)), key=lambda j: (len(forms[j][0]), j))
+    chosen: list[Angle] = []
+    having: dict[
+        int, list[int]
+    ] = {}  # the angles so far that have a coordinate: no other one saves an addition
+    for position, j in enumerate(order):
+        terms, offset = forms[j]
+        best = Angle(None, terms, offset)
+        for base in sorted({base for k, _ in terms for base in having.get(k, ())}):
+            known, known_offset = forms[order[base]]
+            rest = dict(terms)
+            for k, factor in known:
+                rest[k] = rest.get(k, 0.0) - factor
+            left = tuple((k, factor) for k, factor in sorted(rest.items()) if factor)
+            candidate = Angle(base, left, offset - known_offset)
+            if sum(candidate.cost()) < sum(best.cost()):
+                best = candidate
+        chosen.append(best)
+        for k, _ in terms:
+            having.setdefault(k, []).append(position)
+    return chosen, order
+
+
+def _count(angles: Sequence[Angle], steps: Sequence[tuple[int, Node]]) -> Count:
+    kinds = [node.kind for _, node in steps]
+    costs = [angle.cost() for angle in angles]
+    return Count(
+        multiplications=kinds.count("scaled") + kinds.count("product") + sum(m for m, _ in costs),
+        additions=kinds.count("sum") + sum(a for _, a in costs),
+        sines=len(angles),
+        cosines=len(angles),
+    )

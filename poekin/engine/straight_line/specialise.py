@@ -1,0 +1,241 @@
+"""The formulas of `structured` run for one arm on scalars that record: straight-line programs of
+poses and Jacobians.
+
+A Jacobian can be had in several ways, which are equal in mathematics and not in cost: all are
+traced, and the cheapest is taken.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Any
+
+from ...algebra import IDENTITY, add, compose, inverse, pose_of, rotate, set_column, translation
+from ...formulas.kinematics import columns, structured
+from .program import HALF_PI, Angles, Program, program
+from .trace import FOLDED, Graph
+
+Pose = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Structure:
+    """An arm of n joints and m coordinates as the formulas of `structured` take it.
+
+    `links` (n, 4): sin alpha, cos alpha, a, b; `alongs` (n): d, without what slides; `parallel`
+    (n).
+    Joint i turns by rotates[i] x_i and slides by slides[i] x_i along its z axis, x = C q + c with
+    `coupling` (n, m) and `shift` (n). Its angle at x = 0 is offsets[i] (rad) plus quarters[i] right
+    angles.
+    `base` is the pose of the frame before joint 0 in the base frame, `tool` that of the tip in the
+    frame after the last joint; `frames` (n) are the poses of the joints' frames here in those that
+    the arm's user knows (`Chain.local`).
+    """
+
+    links: tuple[tuple[float, float, float, float], ...]
+    alongs: tuple[float, ...]
+    parallel: tuple[int, ...]
+    rotates: tuple[float, ...]
+    slides: tuple[float, ...]
+    coupling: tuple[tuple[float, ...], ...]
+    shift: tuple[float, ...]
+    offsets: tuple[float, ...]
+    quarters: tuple[int, ...]
+    base: Pose
+    tool: Pose
+    frames: tuple[Pose, ...]
+    coordinates: int
+
+
+def specialised(arm: Structure, frame: str | int | None, pose: bool) -> Program:
+    """The cheapest program of an arm's Jacobian in a frame ("space", "body", "hybrid" or a joint's
+    index), or of its pose alone where frame is None; of both where `pose`. Outputs: the twelve
+    numbers of the pose, then six rows of J.
+    """
+    return min(
+        (_traced(arm, frame, pose, *ways) for ways in product((False, True), repeat=2)), key=_cost
+    )
+
+
+def cheapest_frame(arm: Structure) -> tuple[int, float]:
+    """The joint k in whose frame the Jacobian costs least, and how far the structure's frame k
+    stands from that frame's origin, along z: 0 or the joint's d (m).
+    """
+    places = [(k, h) for k, along in enumerate(arm.alongs) for h in dict.fromkeys((0.0, along))]
+    return min(
+        places, key=lambda place: _cost(specialised(placed(arm, *place), place[0], pose=False))
+    )
+
+
+def placed(arm: Structure, k: int, h: float) -> Structure:
+    """The arm for a user whose frame of joint k has the structure's frame at (0, 0, h) and is
+    turned as it.
+    """
+    frames = tuple((*IDENTITY[:11], h) if i == k else T for i, T in enumerate(arm.frames))
+    return replace(arm, frames=frames)
+
+
+def _cost(way: Program) -> int:
+    # a pair of sine and cosine takes about as long as ten products
+    return way.count.multiplications + way.count.additions + 10 * way.count.sines
+
+
+def _traced(
+    arm: Structure, frame: str | int | None, pose: bool, inner: bool, outer: bool
+) -> Program:
+    """One way: velocities of the axes, inward and outward, by the point that they see (True) or by
+    their origins.
+    """
+    trace = _Trace(arm)
+    if frame is None:
+        T, J = trace.hybrid(outer)[0], []
+    elif frame == "hybrid":
+        T, J = trace.hybrid(outer)
+    elif frame == "space":
+        T, J = trace.space(outer)
+    elif frame == "body":
+        T, J = trace.body(inner)
+    else:
+        J = trace.joint(int(frame), inner, outer)
+        T = trace.hybrid(outer)[0] if pose else ()
+    return program(
+        trace.graph,
+        trace.angles,
+        [*(T if pose or frame is None else ()), *(x for row in J for x in row)],
+    )
+
+
+class _Trace:
+    """One recording: an arm's walks on the scalars of one graph."""
+
+    def __init__(self, arm: Structure):
+        self.arm, self.n = arm, len(arm.links)
+        self.graph = Graph()
+        self.angles = Angles(self.graph)
+        self.driven_by = [
+            [(k, factor) for k, factor in enumerate(row) if factor] for row in arm.coupling
+        ]
+        self.alongs = [d + self._slide(i) for i, d in enumerate(arm.alongs)]
+        self.rows: list[list[Any]] = [[0.0] * 12 for _ in range(self.n)]
+        self.points: list[list[Any]] = [[0.0] * 2 for _ in range(self.n)]
+
+    def hybrid(self, seen: bool):
+        """The pose, and the Jacobian in the axes of the base and at the tip."""
+        arm, angles = self.arm, self._outward_angles(0)
+        T = compose(self._outward(arm.base, 0, angles), arm.tool)
+        if seen:
+            p = structured.tip_seen(
+                translation(arm.tool), *self._links(), *angles, self.n, self.points
+            )
+            T = pose_of(T, add(rotate(arm.base, p), translation(arm.base)))
+        return T, self._jacobian([(0, self.n, seen)], translation(T))
+
+    def space(self, seen: bool):
+        """The pose, and the Jacobian in the base frame."""
+        arm, angles = self.arm, self._outward_angles(0)
+        T = compose(self._outward(arm.base, 0, angles), arm.tool)
+        point = translation(inverse(arm.base))
+        structured.seen_outward(point, *self._links(), *angles, 0, self.n, self.points)
+        return T, self._jacobian([(0, self.n, seen)])
+
+    def body(self, seen: bool):
+        """The pose, and the Jacobian in the frame of the tip."""
+        arm, angles = self.arm, self._inward_angles(self.n - 1)
+        T = inverse(compose(self._inward(inverse(arm.tool), self.n - 1, angles), inverse(arm.base)))
+        p = structured.seen_inward(
+            translation(arm.tool), *self._links(), *angles, self.n - 1, self.points
+        )
+        if seen:
+            T = pose_of(T, add(rotate(arm.base, p), translation(arm.base)))
+        return T, self._jacobian([(0, self.n, seen)])
+
+    def joint(self, k: int, inner: bool, outer: bool):
+        """The Jacobian in the frame of joint k."""
+        T_k = self.arm.frames[k]
+        point = translation(inverse(T_k))
+        angles = self._inward_angles(k)
+        self._inward(T_k, k, angles)
+        structured.seen_inward(point, *self._links(), *angles, k, self.points)
+        angles = self._outward_angles(k + 1)
+        self._outward(T_k, k + 1, angles)
+        structured.seen_outward(point, *self._links(), *angles, k + 1, self.n, self.points)
+        return self._jacobian([(0, k + 1, inner), (k + 1, self.n, outer)])
+
+    def _outward(self, T, begin: int, angles: tuple[list, list]):
+        """The pose of the frame after the last joint where T is the one before joint `begin`."""
+        frame = structured.axes(T)
+        return structured.pose(
+            structured.outward(frame, *self._links(), *angles, begin, self.n, self.rows)
+        )
+
+    def _inward(self, T, begin: int, angles: tuple[list, list]):
+        """The pose of the frame before joint 0 where T is the one after joint `begin`."""
+        return structured.pose(
+            structured.inward(structured.axes(T), *self._links(), *angles, begin, self.rows)
+        )
+
+    def _jacobian(self, parts, p=(0, 0, 0)):
+        """J from what the walks have written: velocity of the point p; parts are (begin, end,
+        seen).
+        """
+        J: list[list[Any]] = [[0.0] * self.n for _ in range(6)]
+        rotates, slides = self.arm.rotates, self.arm.slides
+        for i in range(self.n):
+            set_column(J, i, self.rows[i][6:])
+        columns.about_point(J, rotates, slides, self.n, p)
+        for begin, end, seen in parts:
+            if seen:
+                structured.columns_of_axes(self.rows, self.points, rotates, slides, begin, end, J)
+        if self.arm.coupling == _identity(self.n):
+            return J
+        J_q: list[list[Any]] = [[0.0] * self.arm.coordinates for _ in range(6)]
+        columns.coupled(J, self.arm.coupling, self.n, self.arm.coordinates, J_q)
+        return J_q
+
+    def _links(self) -> tuple[Any, Any, Any]:
+        return self.arm.links, self.alongs, self.arm.parallel
+
+    def _slide(self, i: int):
+        """s x_i, what joint i slides."""
+        shift: Any = self.arm.slides[i] * self.arm.shift[i]
+        if self.arm.slides[i]:
+            for k, factor in self.driven_by[i]:
+                shift = shift + self.graph.scaled(
+                    self.graph.input(-1 - k), self.arm.slides[i] * factor
+                )
+        return shift
+
+    def _outward_angles(self, begin: int) -> tuple[list, list]:
+        pairs: list[tuple[Any, Any]]
+        pairs, start = [(0.0, 1.0)] * self.n, begin
+        for i in range(begin, self.n):
+            start = start if self.arm.parallel[i] else i
+            pairs[i] = self._sine_cosine(range(start, i + 1))
+        return [s for s, _ in pairs], [c for _, c in pairs]
+
+    def _inward_angles(self, begin: int) -> tuple[list, list]:
+        pairs: list[tuple[Any, Any]]
+        pairs, end = [(0.0, 1.0)] * self.n, begin
+        for i in range(begin, -1, -1):
+            pairs[i] = self._sine_cosine(range(i, end + 1))
+            end = end if self.arm.parallel[i] else i - 1
+        return [s for s, _ in pairs], [c for _, c in pairs]
+
+    def _sine_cosine(self, joints: range):
+        """Of the sum of the joints' angles."""
+        arm = self.arm
+        factors = [0.0] * arm.coordinates
+        for i in joints:
+            for k, factor in self.driven_by[i]:
+                factors[k] += arm.rotates[i] * factor
+        offset = sum(arm.rotates[i] * arm.shift[i] + arm.offsets[i] for i in joints)
+        quarters = sum(arm.quarters[i] for i in joints)
+        whole = round(offset / HALF_PI)
+        if abs(offset - whole * HALF_PI) <= FOLDED:
+            offset, quarters = 0.0, quarters + whole
+        return self.angles.sine_cosine(factors, offset, quarters)
+
+
+def _identity(n: int) -> tuple[tuple[float, ...], ...]:
+    return tuple(tuple(float(i == k) for k in range(n)) for i in range(n))

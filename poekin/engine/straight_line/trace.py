@@ -1,0 +1,120 @@
+"""A scalar that records: run a formula on it and get the expression graph of what it computes.
+
+A product with 0 or +-1 and a sum with 0 are never recorded (`FOLDED` says how near), equal nodes
+are one node, signs stand beside nodes and cost nothing, and constants that meet are multiplied
+beforehand. What no output needs is left out when the graph is read.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+FOLDED = 2.0**-52
+"""A constant that differs from 0 or +-1 by at most this, the rounding of a cosine of a right angle,
+counts as it.
+"""
+
+
+def folded(value: float) -> float:
+    """A constant; one that is 0 or +-1 but for rounding is that."""
+    near = round(value) if abs(value) < 2 else value
+    return float(near) if near in (-1, 0, 1) and abs(value - near) <= FOLDED else float(value)
+
+
+class Node(NamedTuple):
+    """One operation: kind, and what it is of.
+
+    - "input": number `first`
+    - "constant": the positive number `first`
+    - "scaled": the positive constant `first` times node `second`
+    - "product": of nodes `first` and `second`
+    - "sum": node `first` plus `sign` times node `second`
+    """
+
+    kind: str
+    first: float
+    second: int = 0
+    sign: int = 0
+
+
+class Graph:
+    """The nodes recorded so far, each once, each after what it is made of."""
+
+    def __init__(self) -> None:
+        self.nodes: list[Node] = []
+        self._numbers: dict[Node, int] = {}
+
+    def input(self, number: int) -> Traced:
+        """The scalar that stands for input `number`."""
+        return self._node(Node("input", number))
+
+    def scaled(self, x: Traced, factor: float) -> Traced | float:
+        """A constant times a scalar."""
+        factor = folded(factor)
+        size, number, node = abs(factor), x.number, self.nodes[x.number]
+        if node.kind == "scaled":
+            size, number = node.first * size, node.second
+        if size == 0.0:
+            return 0.0
+        sign = x.sign if factor > 0 else -x.sign
+        return (
+            Traced(self, number, sign)
+            if size == 1.0
+            else self._node(Node("scaled", size, number), sign)
+        )
+
+    def product(self, x: Traced, y: Traced) -> Traced:
+        """x y."""
+        low, high = sorted((x.number, y.number))
+        return self._node(Node("product", low, high), x.sign * y.sign)
+
+    def sum(self, x: Traced, y: Traced) -> Traced | float:
+        """x + y."""
+        if x.number == y.number:
+            return self.scaled(x, 2.0) if x.sign == y.sign else 0.0
+        first, second = (x, y) if x.number < y.number else (y, x)
+        return self._node(
+            Node("sum", first.number, second.number, first.sign * second.sign), first.sign
+        )
+
+    def constant(self, value: float) -> Traced:
+        """A number known beforehand, where it meets one that is not."""
+        return self._node(Node("constant", abs(value)), 1 if value > 0 else -1)
+
+    def _node(self, node: Node, sign: int = 1) -> Traced:
+        number = self._numbers.setdefault(node, len(self.nodes))
+        if number == len(self.nodes):
+            self.nodes.append(node)
+        return Traced(self, number, sign)
+
+
+class Traced:
+    """A number known at run time only: a node of a graph, and a sign."""
+
+    __slots__ = ("graph", "number", "sign")
+
+    def __init__(self, graph: Graph, number: int, sign: int):
+        self.graph, self.number, self.sign = graph, number, sign
+
+    def __mul__(self, other):
+        return (
+            self.graph.product(self, other)
+            if isinstance(other, Traced)
+            else self.graph.scaled(self, other)
+        )
+
+    def __add__(self, other):
+        if isinstance(other, Traced):
+            return self.graph.sum(self, other)
+        return self if abs(other) <= FOLDED else self.graph.sum(self, self.graph.constant(other))
+
+    def __sub__(self, other):
+        return self + -other
+
+    def __rsub__(self, other):
+        return -self + other
+
+    __rmul__, __radd__ = __mul__, __add__
+
+    def __neg__(self):
+        return Traced(self.graph, self.number, -self.sign)

@@ -1,0 +1,143 @@
+"""What the emitted texts say about an arm. Names out of files stand in comments only, and cannot
+end one.
+"""
+
+from __future__ import annotations
+
+import re
+import string
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...engine.straight_line.program import Program
+from ...errors import InputError, told
+from ...model.chain import Chain
+from ...model.kinematics.compiled import CompiledChain
+
+_PLAIN = set(string.ascii_letters + string.digits + string.punctuation + " ") - set("*?\\\"'`")
+_LONGEST = 80
+
+
+def identifier(name: str) -> str:
+    """a ... z, 0 ... 9 and single _, a letter first, at most 40: what C and C++ take, made from any
+    name.
+    """
+    word = re.sub("[^a-z0-9]+", "_", name.lower()).strip("_")[:40].strip("_")
+    return word if word[:1].isalpha() else f"arm_{word}".strip("_")
+
+
+def quoted(name: str) -> str:
+    """A name for a comment of C or a docstring, in ASCII: what could end or change either stands as
+    <U+002A>.
+    """
+    cut = name if len(name) <= _LONGEST else name[: _LONGEST - 3] + "..."
+    return "'" + "".join(c if c in _PLAIN else f"<U+{ord(c):04X}>" for c in cut) + "'"
+
+
+@dataclass(frozen=True)
+class Task:
+    """One function to write: its name, what it computes, and the program of it. `pose`, `jacobian`:
+    what it writes.
+    """
+
+    name: str
+    pose: bool
+    jacobian: bool
+    program: Program
+
+    @property
+    def cost(self) -> str:
+        """What the program costs, in words."""
+        count = self.program.count
+        return (
+            f"{self.name}: {count.multiplications} multiplications, {count.additions} additions or subtractions, "
+            f"{count.sines} pairs of sine and cosine"
+        )
+
+
+def compiled(chain: Chain, frame: str | int) -> CompiledChain:
+    """The chain with its programs. Raises: InputError, UnknownName for a frame that there is not."""
+    if not isinstance(chain, Chain):
+        raise InputError(f"chain: expected a Chain, got {told(chain)}")
+    arm = chain.compile()
+    arm.program(frame)
+    return arm
+
+
+def tasks(arm: CompiledChain, frame: str | int) -> tuple[Task, Task, Task]:
+    """Pose, Jacobian, and both in one pass."""
+    which = frame if isinstance(frame, str) else f"joint{int(frame)}"
+    return (
+        Task("fk", True, False, arm.program(None)),
+        Task(f"jacobian_{which}", False, True, arm.program(frame)),
+        Task(f"fk_jacobian_{which}", True, True, arm.program(frame, pose=True)),
+    )
+
+
+def about(arm: CompiledChain, frame: str | int) -> list[str]:
+    """The arm, its coordinates, its frames and the layout, line by line."""
+    chain = arm.chain
+    lines = [
+        f"Base frame {quoted(chain.base)}, tip frame {quoted(chain.tip)}; {_many(len(chain.kinds), 'joint')}, "
+        f"{_many(chain.dof, 'coordinate')}. Units: rad, m.",
+        "",
+        *(
+            f"  q[{k}]  {'rad' if chain._turns(k) else 'm'}  {quoted(name)}"
+            + (f", {_limits(chain.limits[k])}" if np.isfinite(chain.limits[k]).any() else "")
+            for k, name in enumerate(chain.q_names)
+        ),
+        *([""] if chain.dof else []),
+        "T = (R, p; 0, 1), 4 x 4 row by row: the pose of the tip in the base frame; p in m.",
+        f"J, 6 x {chain.dof} row by row: V = J dq. Rows omega x, y, z (rad/s), then v x, y, z (m/s), per unit of dq.",
+    ]
+    return [*lines, *_frame(arm, frame)]
+
+
+def angle_words(task: Task) -> list[str]:
+    """The angles whose sines and cosines a function takes, line by line."""
+    lines = []
+    for j, angle in enumerate(task.program.angles):
+        parts = [f"x[{angle.base}]"] if angle.base is not None else []
+        parts += [f"q[{k}]" if f == 1 else f"{f:.6g} q[{k}]" for k, f in angle.terms]
+        parts += [f"{angle.offset:.6g}"] if angle.offset else []
+        lines.append(f"x[{j}] = {' + '.join(parts)}")
+    return lines
+
+
+def _frame(arm: CompiledChain, frame: str | int) -> list[str]:
+    """The frame of the Jacobian."""
+    chain = arm.chain
+    if frame == "space":
+        return [
+            "J is the space Jacobian: axes of the base, v of the tip's point that passes the origin of the base."
+        ]
+    if frame == "body":
+        return ["J is the body Jacobian: axes of the tip, v of the origin of the tip."]
+    if frame == "hybrid":
+        return ["J is the hybrid Jacobian: axes of the base, v of the origin of the tip."]
+    k, T_k = jacobian_frame(arm, frame)
+    T = chain.joint_poses(np.zeros(chain.dof))[k] @ T_k
+    return [
+        f"J is the Jacobian in a frame that moves with joint {k} (counted from 0), {quoted(chain.joint_names[k])}, and",
+        "has its z axis along that joint's: axes of that frame, v of the tip's point that passes its origin.",
+        "The frame's pose in the base frame at q = 0, (R, p):",
+        *("  " + "  ".join(f"{x + 0.0: .17g}" for x in row) for row in T[:3].tolist()),
+    ]
+
+
+def jacobian_frame(arm: CompiledChain, frame: str | int) -> tuple[int, np.ndarray]:
+    """The joint k with which the frame moves, and its pose in the frame of that joint
+    (`Chain.joint_poses`).
+    """
+    if frame == "middle":
+        return arm.middle.joint, arm.middle.T_km
+    return int(frame), np.eye(4)
+
+
+def _many(count: int, what: str) -> str:
+    return f"{count} {what}{'s' * (count != 1)}"
+
+
+def _limits(bounds: np.ndarray) -> str:
+    return f"{bounds[0]:.6g} ... {bounds[1]:.6g}"

@@ -1,0 +1,205 @@
+"""MJCF in, Robot out: MuJoCo itself reads the file, and only the kinematics is taken over; no mesh
+is needed.
+
+Defaults, classes, angles in degrees, autolimits, `<frame>`, `<replicate>` and `<include>` are
+resolved by MuJoCo. What has no part in kinematics (meshes, textures, actuators, sensors, tendons,
+keyframes, ...) is thrown away before it compiles the model, so that no file of an asset is opened.
+What becomes of the rest:
+- body -> link, the world -> the root link "world". A body without a name is `bodyN`, N its number
+  in MuJoCo; a joint without one is called after its link. `fusestatic` and `alignfree` are not
+  obeyed: bodies stay as they are written.
+- hinge -> revolute, continuous without a range; slide -> prismatic. q is MuJoCo's qpos: a joint's
+  `ref` goes into its origin, e^{S (q - ref)} = e^{-S ref} e^{S q}, and ranges and equalities are
+  about q as well. Several joints of one body, and one whose anchor `pos` is off the body's origin,
+  get links of their own in between.
+- free -> floating, its pose that of qpos, in the world, and identity where none is given. ball ->
+  floating too, with a warning: only a rotation about its anchor makes sense there.
+- `<equality><joint>` -> mimic where its polynomial is linear; a joint that is held at a constant is
+  fixed there. Only active ones count. MuJoCo's constraints are soft, a mimic is exact. All others
+  are left out, with a warning.
+- a site with a name -> a link, fixed to that of its body; where a body has that name too, it is
+  `NAME_site`.
+- a mocap body is placed by whoever runs the simulation: it is left out with all that hangs on it,
+  and a warning.
+
+Source: the MJCF reference of MuJoCo; its function mj_kinematics for the order of what happens in a
+body.
+"""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from ...errors import InputError, MissingExtra, ModelError, PoekinError, harmless, shown, told
+from ...model.provenance import Source, warn
+from ...model.robot import Robot
+from ..text import xml
+from .mjcf_files import look_through
+from .mjcf_robot import robot_of
+
+# What is named first refers to what comes after it.
+WITHOUT_KINEMATICS = (
+    "keys", "sensors", "actuators", "tendons", "pairs", "excludes", "tuples", "skins", "flexes", "cameras", "lights",
+    "materials", "textures", "meshes", "hfields", "numerics", "texts", "plugins",
+)  # fmt: skip
+
+
+def read(path: str | os.PathLike[str]) -> Robot:
+    """The robot in an MJCF file, as MuJoCo reads it (extra `mjcf`); its q is MuJoCo's qpos, in the
+    order of the joints.
+
+    Raises: FileError for a file that cannot be read, is empty, a directory or larger than 64 MiB;
+    ModelError for a
+    root other than <mujoco>, a document type declaration, a file to include that is not there, a
+    model that attaches itself, <replicate> that makes more than 5000 elements, and whatever MuJoCo
+    refuses, with its own words (a plugin that is not loaded, too); MissingExtra without the package
+    mujoco.
+    Warns: PoekinWarning for what is left out or not what it was (see the top of this module).
+    Accuracy: poses within 1e-13 reach of MuJoCo's own (tests/formats/mjcf/test_mjcf.py).
+    """
+    data = xml.read_bytes(path)
+    name = os.fsdecode(path)
+    return _read(
+        data, name, lambda MjSpec: MjSpec.from_file(os.path.abspath(name)), os.path.abspath(name)
+    )
+
+
+def read_text(text: str | bytes, name: str = "<text>") -> Robot:
+    """The robot in the text of an MJCF; `name` stands for the file in messages. Files to include:
+    as seen from here.
+
+    Raises and warns as `read`; InputError where text is neither str nor bytes, or name no str.
+    """
+    if not isinstance(name, str):
+        raise InputError(
+            f"name: expected what to call the text in messages, a str, got {told(name)}"
+        )
+
+    def spec_of(MjSpec: Any) -> Any:
+        return MjSpec.from_string(
+            text if isinstance(text, str) else bytes(text).decode("utf-8-sig")
+        )
+
+    return _read(text, name, spec_of)
+
+
+def is_mjcf(path: str | os.PathLike[str]) -> bool:
+    """Whether the root element of an XML file is <mujoco>. Raises: as `read` for what is no file or
+    no safe XML.
+    """
+    return xml.parse(xml.read_bytes(path), os.fsdecode(path)).tag == "mujoco"
+
+
+def _read(data: str | bytes, name: str, spec_of: Callable[[Any], Any], path: str = "") -> Robot:
+    source = Source(name)
+    root = xml.parse(data, name)
+    if root.tag != "mujoco":
+        raise ModelError(
+            f"{source.place(root.sourceline)}: expected the root element <mujoco>, got {shown(root.tag)}"
+        )
+    look_through(root, source, os.path.dirname(path), path)
+    mujoco = _mujoco()
+    try:
+        with _unsaid(mujoco):
+            spec = spec_of(mujoco.MjSpec)
+            other = _bare(spec, mujoco)
+            model = spec.compile()
+    except (ValueError, RuntimeError, mujoco.FatalError) as refusal:
+        said = "; ".join(line.strip() for line in str(refusal).splitlines() if line.strip())
+        raise ModelError(
+            f"{source.place()}: MuJoCo refuses this model: {harmless(said, 400)}"
+        ) from refusal
+    title = root.get("model") or os.path.splitext(os.path.basename(name))[0]
+    try:
+        bodies, sites = (_poses(getattr(model, f"{what}_pos"), getattr(model, f"{what}_quat"), mujoco)
+                         for what in ("body", "site"))  # fmt: skip
+        with np.errstate(
+            all="ignore"
+        ):  # what comes of numbers too large is refused as a joint's origin
+            robot, said = robot_of(model, bodies, sites, title, source, other)
+    except PoekinError as fault:
+        raise ModelError(
+            f"{source.place()}: {str(fault).removeprefix(f'{source.place()}: ')}"
+        ) from fault
+    for message in said:
+        warn(f"{source.place()}: {message}")
+    return robot
+
+
+def _mujoco() -> ModuleType:
+    try:
+        import mujoco
+    except ModuleNotFoundError as missing:
+        raise MissingExtra("mujoco", "mjcf", "reading MJCF") from missing
+    return mujoco
+
+
+@contextmanager
+def _unsaid(mujoco: ModuleType) -> Iterator[None]:
+    """What MuJoCo warns of meanwhile is physics, and it would write a log file about it into the
+    working directory.
+    """
+    before = mujoco.get_mju_user_warning()
+    mujoco.set_mju_user_warning(lambda message: None)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)
+            yield
+    finally:
+        mujoco.set_mju_user_warning(before)
+
+
+def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
+    """Take out of the spec what is no kinematics; returns what the constraints were that are no
+    joint equalities.
+    """
+    for element in (*spec.geoms, *spec.bodies):
+        element.plugin.active = (
+            False  # before the plugins go: MuJoCo reads them once more otherwise, and dies of it
+        )
+    for kind in WITHOUT_KINEMATICS:
+        for element in list(getattr(spec, kind)):
+            spec.delete(element)
+    other = []
+    for equality in list(spec.equalities):
+        if equality.type != mujoco.mjtEq.mjEQ_JOINT:
+            if equality.active:
+                kind = equality.type.name.removeprefix("mjEQ_").lower()
+                other.append(
+                    f"{kind} {equality.name or f'{equality.name1} {equality.name2}'.strip()}"
+                )
+            spec.delete(equality)
+    for (
+        geom
+    ) in spec.geoms:  # as they need no file any more; deleting them one by one takes MuJoCo minutes
+        geom.type, geom.size, geom.fromto = mujoco.mjtGeom.mjGEOM_SPHERE, [1.0] * 3, [np.nan] * 6
+        geom.meshname = geom.hfieldname = geom.material = ""
+    for site in spec.sites:
+        site.material = ""
+    spec.nkey = 0  # MuJoCo is slow to make keyframes, and makes as many as are asked for
+    spec.compiler.fusestatic = False
+    spec.compiler.inertiafromgeom = int(mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE)
+    for body in spec.bodies:
+        # A body that moves needs a mass, and the geoms that gave it one are gone.
+        body.explicitinertial = True
+        body.mass, body.inertia, body.fullinertia = 1.0, [1.0] * 3, [np.nan] * 6
+        body.ipos, body.iquat = [0.0] * 3, [1.0, 0.0, 0.0, 0.0]
+    return other
+
+
+def _poses(places: np.ndarray, quaternions: np.ndarray, mujoco: ModuleType) -> np.ndarray:
+    """Poses (N, 4, 4) [m] of places (N, 3) and unit quaternions (N, 4), w first."""
+    T = np.tile(np.eye(4), (len(places), 1, 1))
+    T[:, :3, 3] = places
+    R = np.empty(9)
+    for i, quaternion in enumerate(quaternions):
+        mujoco.mju_quat2Mat(R, quaternion)
+        T[i, :3, :3] = R.reshape(3, 3)
+    return T

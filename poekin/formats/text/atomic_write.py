@@ -1,0 +1,48 @@
+"""Files that appear whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import stat
+from pathlib import Path
+
+from ...errors import FileError, shown
+
+
+def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
+    """Write a file so that it appears whole or not at all; one that was there stays until the new
+    one is complete.
+
+    A new file has the mode that the process's umask leaves of 0666; one that was there keeps its
+    own.
+    A device or a pipe, of which there is nothing to replace, is written to. Raises: FileError.
+    """
+    try:
+        target = Path(os.path.realpath(path))
+        old = target.stat().st_mode if target.exists() else None
+        if old is not None and not stat.S_ISREG(old):
+            target.write_bytes(content)
+            return
+        temporary = target.parent / f".{target.name[:50]}.{secrets.token_hex(8)}.part"
+        # The umask is the kernel's to apply: it can be read only by changing it, for all threads.
+        handle = os.open(temporary, _NEW, 0o666 if old is None else 0o600)
+        try:
+            with open(handle, "wb") as stream:
+                stream.write(content)
+                stream.flush()
+                os.fsync(stream.fileno())
+            if old is not None:
+                os.chmod(temporary, stat.S_IMODE(old))
+            os.replace(temporary, target)
+        finally:
+            if os.path.exists(temporary):
+                os.unlink(temporary)
+    except (OSError, ValueError) as fault:
+        reason = fault.strerror if isinstance(fault, OSError) and fault.strerror else fault
+        raise FileError(f"cannot write {shown(os.fsdecode(path), 400)}: {reason}") from fault
+
+
+_NEW = (
+    os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
+)

@@ -1,0 +1,17 @@
+"""Numbers in text: one rule for URDF files, CSV files and the command line."""
+
+from __future__ import annotations
+
+
+def real(text: str) -> float | None:
+    """The number that a text says, nan and inf among them, or None where it says none.
+
+    Blanks around it are passed over. 1_000 and digits of other scripts, which Python would take,
+    are no numbers: no other reader of such files takes them.
+    """
+    if "_" in text or not text.isascii():
+        return None
+    try:
+        return float(text)
+    except ValueError:
+        return None

@@ -1,0 +1,117 @@
+"""XML read safely: no DTD, no entity, no network, nothing outside of the text itself."""
+
+from __future__ import annotations
+
+import os
+import stat
+from typing import Any, Never
+
+from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
+
+from ...errors import FileError, InputError, ModelError, shown, told
+from ...model.provenance import Source
+
+MAX_BYTES = 64 * 2**20
+
+Element = Any
+"""An element of lxml."""
+
+# Nothing is resolved, fetched or defaulted from elsewhere. Without huge_tree libxml2 keeps its own
+# limits too.
+SAFE: dict[str, Any] = {
+    "resolve_entities": False,
+    "no_network": True,
+    "load_dtd": False,
+    "dtd_validation": False,
+    "attribute_defaults": False,
+    "huge_tree": False,
+    "remove_comments": True,
+    "remove_pis": True,
+}
+
+
+class _DoctypeFound(Exception):
+    """Raised out of the parser at the first sign of a DTD, before it is read."""
+
+
+class _DoctypeTrap:
+    """A parser target that lets everything pass but a document type declaration."""
+
+    def doctype(self, name: str, public: str | None, system: str | None) -> Never:
+        raise _DoctypeFound
+
+    def close(self) -> None:
+        """Nothing to hand back."""
+
+
+def read_bytes(path: str | os.PathLike[str]) -> bytes:
+    """The bytes of a file of text.
+
+    Raises: FileError for a file that does not exist or cannot be read, a directory, a device, an
+    empty file and one of more than 64 MiB (which is not read); InputError for what is no path.
+    """
+    if not isinstance(path, (str, bytes, os.PathLike)):
+        raise InputError(f"expected the path of a file, got {told(path)}")
+    name = Source(os.fsdecode(path)).place()
+    try:
+        status = os.stat(path)
+        if stat.S_ISDIR(status.st_mode):
+            raise FileError(f"{name}: expected a file, this is a directory")
+        if not stat.S_ISREG(status.st_mode):
+            raise FileError(f"{name}: expected a file, this is a device, pipe or socket")
+        if status.st_size > MAX_BYTES:
+            raise FileError(
+                f"{name}: expected at most 64 MiB, the file has {status.st_size / 2**20:.1f} MiB"
+            )
+        with open(path, "rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as fault:
+        if isinstance(fault, FileError):
+            raise
+        reason = fault.strerror if isinstance(fault, OSError) and fault.strerror else fault
+        raise FileError(f"{name}: cannot be read: {reason}") from fault
+    if not data:
+        raise FileError(f"{name}: the file is empty")
+    return data
+
+
+def parse(data: str | bytes, name: str) -> Element:
+    """The root element of an XML document.
+
+    Parameters: data, the document; name, what to call it in messages.
+    Raises: InputError where data is no text; ModelError, with file and line, for an empty text, one
+    of more than 64 MiB, malformed XML, and any document type declaration, which is refused before
+    anything in it is read: no entity is ever expanded.
+    """
+    source = Source(name)
+    if not isinstance(data, (str, bytes, bytearray)):
+        raise InputError(f"{source.place()}: expected a text, str or bytes, got {told(data)}")
+    # A str is text already: whatever encoding its first line declares is no longer true.
+    encoding = "utf-8" if isinstance(data, str) else None
+    content = data.encode("utf-8", "surrogatepass") if isinstance(data, str) else bytes(data)
+    if len(content) > MAX_BYTES:
+        raise ModelError(
+            f"{source.place()}: expected at most 64 MiB, got {len(content) / 2**20:.1f} MiB"
+        )
+    if not content.strip():
+        raise ModelError(f"{source.place()}: the text is empty")
+    try:
+        etree.fromstring(content, etree.XMLParser(target=_DoctypeTrap(), encoding=encoding, **SAFE))
+        return etree.fromstring(content, etree.XMLParser(encoding=encoding, **SAFE))
+    except _DoctypeFound:
+        raise ModelError(
+            f"{source.place(_doctype_line(content))}: a document type declaration (DOCTYPE) is refused: no DTD, entity"
+            " or external reference is read"
+        ) from None
+    except etree.XMLSyntaxError as fault:
+        binary = " (binary data?)" if b"\0" in content[:1024] else ""
+        reason = shown(fault.msg or "not XML", 200)
+        raise ModelError(
+            f"{source.place(fault.lineno or 1)}: malformed XML{binary}: {reason}"
+        ) from None
+
+
+def _doctype_line(content: bytes) -> int:
+    # Without its zero bytes, text in UTF-16 or UTF-32 shows its ASCII too.
+    plain = content.replace(b"\0", b"")
+    return plain.count(b"\n", 0, max(plain.find(b"<!DOCTYPE"), 0)) + 1

@@ -1,0 +1,118 @@
+"""Fields: names and numbers out of XML elements, every fault with file and line."""
+
+from __future__ import annotations
+
+import math
+
+from ...errors import ModelError, shown
+from ...model.provenance import Source
+from .numbers import real
+from .xml import Element
+
+
+class Fields:
+    """One element of a file: its attributes, children and numbers.
+
+    Parameters: element; source, the file; inside, the element around it where that belongs in
+    messages. Children are looked for in the element's own namespace.
+    Raises, from every method: ModelError that says file and line, element and attribute, what was
+    expected and what arrived.
+    """
+
+    __slots__ = ("_children", "element", "inside", "source")
+
+    def __init__(self, element: Element, source: Source, inside: Fields | None = None):
+        self.element, self.source, self.inside = element, source, inside
+        self._children: dict[str, list[Element]] = {}
+
+    @property
+    def line(self) -> int:
+        """The line on which the element's start tag ends."""
+        return int(self.element.sourceline or 1)
+
+    @property
+    def what(self) -> str:
+        """The element as messages call it, as in `joint 'elbow': <axis>`."""
+        if self.inside is not None:
+            return f"{self.inside.what}: <{self.tag}>"
+        name = self.element.get("name")
+        return f"{self.tag} {shown(name)}" if name else f"<{self.tag}>"
+
+    @property
+    def tag(self) -> str:
+        """The element's tag without its namespace."""
+        return self.element.tag.rpartition("}")[2]
+
+    def fault(self, message: str) -> ModelError:
+        """An error about this element, to be raised."""
+        return ModelError(f"{self.source.place(self.line)}: {self.what}: {message}")
+
+    def name(self, attribute: str) -> str:
+        """A name that must be there and not empty."""
+        value = self.element.get(attribute)
+        if not value:
+            found = "none there" if value is None else "it is empty"
+            raise self.fault(f'expected an attribute {attribute}="...", {found}')
+        return value
+
+    def all(self, tag: str) -> list[Fields]:
+        """The direct children of that tag, in order."""
+        space, bracket, _ = self.element.tag.rpartition("}")
+        return [
+            Fields(element, self.source)
+            for element in self.element.iterchildren(space + bracket + tag)
+        ]
+
+    def child(self, tag: str) -> Fields | None:
+        """The only child of that tag, or None."""
+        if not self._children:
+            for element in self.element:
+                self._children.setdefault(element.tag, []).append(element)
+        space, bracket, _ = self.element.tag.rpartition("}")
+        found = self._children.get(space + bracket + tag)
+        if found is None:
+            return None
+        if len(found) > 1:
+            raise Fields(found[1], self.source, self).fault(
+                f"it is there {len(found)} times, expected once"
+            )
+        return Fields(found[0], self.source, self)
+
+    def number(self, attribute: str, *, finite: bool = True) -> float | None:
+        """A number, or None where the attribute is missing. NaN is never one; infinity only if not
+        `finite`.
+        """
+        text = self.element.get(attribute)
+        if text is None:
+            return None
+        value = real(text)
+        if value is None or math.isnan(value) or (finite and math.isinf(value)):
+            expected = "a finite number" if finite else "a number"
+            raise self.fault(f"{attribute} must be {expected}, got {shown(text)}{_hint(text)}")
+        return value
+
+    def vector(self, attribute: str) -> tuple[float, float, float] | None:
+        """Three finite numbers apart by blanks, or None where the attribute is missing."""
+        text = self.element.get(attribute)
+        if text is None:
+            return None
+        values = [real(part) for part in text.split()]
+        if len(values) != 3:
+            raise self.fault(
+                f"{attribute} must be three numbers, got {len(values)}: {shown(text)}{_hint(text)}"
+            )
+        x, y, z = values
+        if (
+            x is None
+            or y is None
+            or z is None
+            or not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z))
+        ):
+            raise self.fault(
+                f"{attribute} must be three finite numbers, got {shown(text)}{_hint(text)}"
+            )
+        return x, y, z
+
+
+def _hint(text: str) -> str:
+    return " (an unprocessed xacro expression?)" if "${" in text else ""

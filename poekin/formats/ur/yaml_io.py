@@ -1,0 +1,174 @@
+"""Calibrations as YAML files, as the ROS driver of Universal Robots writes them and ur_description
+reads them.
+
+Under `kinematics:` there are six links, each with x, y, z [m], roll, pitch, yaw [rad] of its frame
+in the one before, and a `hash`. Writer and reader do not mean the same by the three angles. The
+driver takes them from Eigen's eulerAngles(0, 1, 2): turns about moving axes, R = Rx(roll) Ry(pitch)
+Rz(yaw) (ur_calibration/src/calibration.cpp). ur_description puts them into the rpy of a URDF: turns
+about fixed axes, R = Rz(yaw) Ry(pitch) Rx(roll). Where pitch and yaw are tiny, so is the
+difference: at the flange 3 micrometres for the UR10e of the driver's documentation, 0.14 mm for a
+UR10 whose calibration.conf its owner published (tests/formats/test_ur.py). Here a file means what
+its writer meant; one that poekin writes for ur_description says `rpy: fixed` beside `kinematics:`,
+where other readers pass it over.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+
+import numpy as np
+
+from ...errors import InputError, ModelError, PoekinError, closest, shown, told
+from ...groups.arrays import Array
+from .. import rpy as angles
+from ..text import yaml_text
+from ..text.atomic_write import write_whole
+from ..text.numbers import real
+from .calibration import LINKS, Calibration
+from .conf import read_text_file
+
+KEYS = ("x", "y", "z", "roll", "pitch", "yaw")
+CONVENTIONS = ("moving", "fixed")
+
+
+def read(path: str | os.PathLike[str], *, rpy: str | None = None) -> Calibration:
+    """The calibration in a YAML file of the driver.
+
+    Parameters: path; rpy, "moving" or "fixed", the axes that roll, pitch and yaw turn about: by
+    default what the file says, and "moving", as the driver writes it, where it says nothing. With
+    "fixed" a file of the driver becomes the arm that a URDF of ur_description has. Returns:
+    Calibration. Needs the extra `formats`.
+    Raises: FileError for a file that cannot be read or is larger than 64 KiB; ModelError with file
+    and line for what is no YAML, has no `kinematics:`, or a link or key that is missing, misspelt,
+    there twice or no finite number; MissingExtra; InputError for another rpy.
+    Accuracy: lengths as written, rotations to 1e-15.
+    """
+    text, place = read_text_file(path)
+    return read_text(text, place, rpy=rpy)
+
+
+def read_text(text: str, place: str = "<text>", *, rpy: str | None = None) -> Calibration:
+    """The calibration in a text; place stands for the file in messages. Otherwise as `read`."""
+    if rpy is not None:
+        _convention(rpy)
+    top = yaml_text.parse(text, place)
+    _names(top, ("kinematics",), ("rpy",), place, "the file")
+    kinematics = top.items["kinematics"]
+    if not isinstance(kinematics, yaml_text.Mapping):
+        raise ModelError(
+            f"{place}:{kinematics.line}: kinematics: expected {', '.join(LINKS)} and hash below it"
+        )
+    said = top.items.get("rpy")
+    if said is not None and (not isinstance(said, yaml_text.Text) or said.text not in CONVENTIONS):
+        raise ModelError(f"{place}:{said.line}: rpy: expected {' or '.join(CONVENTIONS)}")
+    written = said.text if isinstance(said, yaml_text.Text) else "moving"
+    _names(kinematics, LINKS, ("hash",), place, "kinematics")
+    mark = kinematics.items.get("hash", yaml_text.Text("", 0))
+    if not isinstance(mark, yaml_text.Text):
+        raise ModelError(f"{place}:{mark.line}: hash: expected a text")
+    poses = [_pose(kinematics.items[link], link, place, rpy or written) for link in LINKS]
+    try:
+        return Calibration(np.array(poses), mark.text)
+    except PoekinError as fault:
+        raise ModelError(f"{place}: {fault}") from fault
+
+
+def write(calibration: Calibration, path: str | os.PathLike[str], *, rpy: str = "fixed") -> None:
+    """Write a calibration as a YAML file, for ur_description (`rpy="fixed"`) or as the driver would
+    (`rpy="moving"`).
+
+    With "fixed", ur_description's URDF is this calibration to the last digits, as one made from the
+    driver's own file is not (see the top of this module). A file of either kind reads back as the
+    same calibration.
+
+    Parameters: calibration; path, of the file; rpy. Returns: nothing.
+    Raises: FileError where it cannot be written, and then nothing is; InputError. Accuracy: lengths
+    keep all their digits, rotations come back within 1e-15. A hash is written as it is: the driver
+    compares it with the arm's.
+    """
+    write_whole(path, text_of(calibration, rpy=rpy).encode())
+
+
+def text_of(calibration: Calibration, *, rpy: str = "fixed") -> str:
+    """The text of a calibration's file. Otherwise as `write`."""
+    _convention(rpy)
+    if not isinstance(calibration, Calibration):
+        raise InputError(f"write: expected a Calibration, got {type(calibration).__name__}")
+    lines = ["rpy: fixed"] if rpy == "fixed" else []
+    lines.append("kinematics:")
+    for link, T in zip(LINKS, calibration.poses, strict=True):
+        # R of moving axes, turned round, is R of fixed axes with all signs turned: (Rx Ry Rz)^T =
+        # Rz' Ry' Rx'.
+        R = T[:3, :3]
+        turns = angles.angles(R) if rpy == "fixed" else [-a + 0.0 for a in angles.angles(R.T)]
+        lines.append(f"  {link}:")
+        lines += [
+            f"    {key}: {float(value)!r}"
+            for key, value in zip(KEYS, (*T[:3, 3], *turns), strict=True)
+        ]
+    return "\n".join([*lines, f"  hash: {_quoted(calibration.hash)}", ""])
+
+
+def _pose(link: yaml_text.Mapping | yaml_text.Text, name: str, place: str, rpy: str) -> Array:
+    if not isinstance(link, yaml_text.Mapping):
+        raise ModelError(
+            f"{place}:{link.line}: {name}: expected {', '.join(KEYS)} below it, got {shown(link.text)}"
+        )
+    _names(link, KEYS, (), place, name)
+    x, y, z, *turns = (_number(link.items[key], f"{name}: {key}", place) for key in KEYS)
+    if rpy == "fixed":
+        return angles.pose((x, y, z), turns)
+    T = angles.pose((0.0, 0.0, 0.0), [-a for a in turns]).T
+    T[:3, 3] = x, y, z
+    return T
+
+
+def _number(value: yaml_text.Mapping | yaml_text.Text, what: str, place: str) -> float:
+    text = value.text if isinstance(value, yaml_text.Text) else "more keys"
+    number = real(text)
+    if number is None or not math.isfinite(number):
+        raise ModelError(
+            f"{place}:{value.line}: {what}: expected a finite number, got {shown(text)}"
+        )
+    return number
+
+
+def _names(
+    mapping: yaml_text.Mapping,
+    needed: tuple[str, ...],
+    others: tuple[str, ...],
+    place: str,
+    what: str,
+) -> None:
+    """Check that a mapping has all these keys and no other."""
+    for key, line in mapping.key_lines.items():
+        if key not in (*needed, *others):
+            raise ModelError(
+                f"{place}:{line}: {what}: {shown(key)} is not expected, only {', '.join((*needed, *others))};"
+                f" {closest(key, (*needed, *others))}"
+            )
+    missing = [key for key in needed if key not in mapping.items]
+    if missing:
+        every = ", ".join((*needed, *others))
+        raise ModelError(
+            f"{place}:{mapping.line}: {what}: {', '.join(missing)} missing; expected are {every}"
+        )
+
+
+def _convention(rpy: object) -> None:
+    if rpy not in CONVENTIONS:
+        raise InputError(
+            f"rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got {told(rpy)}"
+        )
+
+
+def _quoted(text: str) -> str:
+    """A text for YAML: as it is where no reader could take it for anything else, else in quotes,
+    all in ASCII.
+    """
+    if re.fullmatch(r"calib_\w+", text, re.ASCII):
+        return text
+    plain = "".join(c if " " <= c <= "~" and c not in '"\\' else f"\\U{ord(c):08x}" for c in text)
+    return f'"{plain}"'

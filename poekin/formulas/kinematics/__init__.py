@@ -1,0 +1,1 @@
+"""Poses and Jacobians of a chain, and their derivatives: the algorithms that `Chain` runs."""

@@ -1,0 +1,136 @@
+"""How the pose and the Jacobian change when the screws themselves move: A_i <- Ad(e^eta_i) A_i and
+M <- M e^eta.
+
+The conjugation keeps every axis unit and every pitch as it is. With P_i = e^{A_1 x_1} ... e^{A_i
+x_i} it turns
+e^{A_i x_i} into e^eta_i e^{A_i x_i} e^-eta_i, so the pose f = P_n M moves by the space twist
+
+    df f^-1 = sum over i of (Ad(P_{i-1}) - Ad(P_i)) eta_i + Ad(f) eta
+
+and a space column s_k = Ad(P_{k-1}) A_k by [d_i, s_k] for i < k, d_i the pose's twist, by
+[Ad(P_{k-1}) eta_k, s_k] for i = k, and not at all for i > k. `P` holds P_0 ... P_n and the pose f,
+twelve numbers a row (`products`).
+Accuracy: rounding of the products, u (8 (n + 1) + 4 sum |x|), u = 2^-53, lengths times the reach
+(tests/model/kinematics/test_derivatives.py).
+Source: Park 1994, Section II, with e^{Ad(g) A x} = g e^{A x} g^-1.
+"""
+
+from ...algebra import (
+    IDENTITY,
+    add,
+    adjoint,
+    adjoint_inverse,
+    angular,
+    column,
+    compose,
+    cross,
+    linear,
+    pose,
+    translation,
+    twist,
+)
+from .derivatives import at_point, bracket, difference
+
+_ZERO = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+UNITS = (
+    (1, 0, 0, 0, 0, 0),
+    (0, 1, 0, 0, 0, 0),
+    (0, 0, 1, 0, 0, 0),
+    (0, 0, 0, 1, 0, 0),
+    (0, 0, 0, 0, 1, 0),
+    (0, 0, 0, 0, 0, 1),
+)
+
+
+def products(exponentials, home, count, P):
+    """P_0 = I, P_i = P_{i-1} e^{A_i x_i}, and f = P_n M, as rows 0 ... n + 1 of P."""
+    T = pose_row(P, 0, IDENTITY)
+    for i in range(count):
+        T = pose_row(P, i + 1, compose(T, exponentials[i]))
+    pose_row(P, count + 1, compose(T, home))
+
+
+def pose_row(P, i, T):
+    """Write the pose T into row i of P, and hand out what stands there."""
+    for k in range(12):
+        P[i][k] = T[k]
+    return pose(P[i])
+
+
+def pose_changes(P, count, D):
+    """D[r][i][e]: component r of df f^-1 per unit of component e of eta_i; of the home pose's eta
+    for i = n.
+    """
+    for e in range(6):
+        before = adjoint(P[0], UNITS[e])
+        for i in range(count):
+            after = adjoint(P[i + 1], UNITS[e])
+            _store(D, i, e, difference(before, after))
+            before = after
+        _store(D, count, e, adjoint(P[count + 1], UNITS[e]))
+
+
+def _store(D, i, e, V):
+    D[0][i][e], D[1][i][e], D[2][i][e], D[3][i][e], D[4][i][e], D[5][i][e] = (
+        V[0],
+        V[1],
+        V[2],
+        V[3],
+        V[4],
+        V[5],
+    )
+
+
+def _taken(D, i, e):
+    return (D[0][i][e], D[1][i][e], D[2][i][e], D[3][i][e], D[4][i][e], D[5][i][e])
+
+
+def column_change(J, P, D, k, i, e):
+    """How the space column s_k changes per unit of component e of eta_i; J holds the space columns."""
+    if i < k:
+        return bracket(_taken(D, i, e), column(J, k))
+    if i == k:
+        return bracket(adjoint(P[k], UNITS[e]), column(J, k))
+    return _ZERO
+
+
+def space_changes(J, P, D, count, C):
+    """C[r][k][i][e]: component r of the change of s_k per unit of component e of eta_i (i = n: of
+    the home pose).
+    """
+    for k in range(count):
+        for i in range(count + 1):
+            for e in range(6):
+                _store_change(C, k, i, e, column_change(J, P, D, k, i, e))
+
+
+def body_changes(J, P, D, count, C):
+    """The same for body columns b_k = Ad(f)^-1 s_k: Ad(f)^-1 (ds_k - [d, s_k]), d the space twist
+    of the pose.
+    """
+    f = P[count + 1]
+    for k in range(count):
+        S = column(J, k)
+        for i in range(count + 1):
+            for e in range(6):
+                change, carried = column_change(J, P, D, k, i, e), bracket(_taken(D, i, e), S)
+                _store_change(C, k, i, e, adjoint_inverse(f, difference(change, carried)))
+
+
+def hybrid_changes(J, P, D, count, C):
+    """The same for hybrid columns: that of s_k with its velocity at p, and w_k x dp more, p the
+    tool's origin.
+    """
+    p = translation(P[count + 1])
+    for k in range(count):
+        w = angular(column(J, k))
+        for i in range(count + 1):
+            for e in range(6):
+                change = at_point(column_change(J, P, D, k, i, e), p)
+                dp = linear(at_point(_taken(D, i, e), p))
+                _store_change(C, k, i, e, twist(angular(change), add(linear(change), cross(w, dp))))
+
+
+def _store_change(C, k, i, e, V):
+    C[0][k][i][e], C[1][k][i][e], C[2][k][i][e] = V[0], V[1], V[2]
+    C[3][k][i][e], C[4][k][i][e], C[5][k][i][e] = V[3], V[4], V[5]

@@ -1,0 +1,108 @@
+"""The quaternion of a rotation matrix, with what rounding took from it.
+
+No square root and no division by sin theta: any column of 4 q q^T = 4 (w; q_v) (w; q_v)^T, whose
+entries are sums of entries of R, is a multiple of q. A half turn about an axis of the frame is a
+permutation of q's components; after that half turn which leaves the least angle, w is the largest
+of them.
+Accuracy: with its rest, q is right to u = 2^-53 of its length, and a defect d of R's orthonormality
+enters as d^2 (tests/formulas/lie/test_quaternion.py).
+Source: Shepperd 1978, with one step of the power method towards the rotation nearest to R.
+"""
+
+from .compensated import upper
+
+_UNIT = 2.0**-25  # as `size` of `upper`: digits down to the last one of 4
+
+
+def _least(R):
+    """q = (p; q_v), rest and 1 / |q|^2 of a rotation of which w is the largest component: p = 4
+    w^2.
+
+    One power step of K = 4 q q^T = [p q_v^T; q_v M]: K q / (p + |q_v|^2 / p) = (p; q_v + D q_v /
+    (p^2 + |q_v|^2)).
+    D = p M - q_v q_v^T is nothing but what R misses a rotation by, and p^2 + |q_v|^2 = 4 p where it
+    misses nothing.
+    """
+    a, b, c = upper(R[0], _UNIT), upper(R[4], _UNIT), upper(R[8], _UNIT)
+    exact, below = 1.0 + a + b + c, (R[0] - a) + (R[4] - b) + (R[8] - c)
+    p = exact + below
+    rest = below - (p - exact)
+    x, y, z = R[7] - R[5], R[2] - R[6], R[3] - R[1]
+    xx = p * (2.0 - p + 2.0 * R[0] - rest) - x * x
+    yy = p * (2.0 - p + 2.0 * R[4] - rest) - y * y
+    zz = p * (2.0 - p + 2.0 * R[8] - rest) - z * z
+    xy, yz, zx = p * (R[1] + R[3]) - x * y, p * (R[5] + R[7]) - y * z, p * (R[6] + R[2]) - z * x
+    inverse = 0.25 / p
+    rests = (
+        rest,
+        inverse * (xx * x + xy * y + zx * z),
+        inverse * (xy * x + yy * y + yz * z),
+        inverse * (zx * x + yz * y + zz * z),
+    )
+    return (p, x, y, z), rests, inverse
+
+
+def _flipped(R, x, y, z):
+    """R with its columns times x, y and z."""
+    return (
+        x * R[0],
+        y * R[1],
+        z * R[2],
+        x * R[3],
+        y * R[4],
+        z * R[5],
+        x * R[6],
+        y * R[7],
+        z * R[8],
+    )
+
+
+def _about(R):
+    """Of R (0) and R after a half turn about its x, y or z axis (1, 2, 3) that one whose angle is
+    least.
+    """
+    trace = R[0] + R[4] + R[8]
+    if trace >= R[0] and trace >= R[4] and trace >= R[8]:
+        return 0
+    if R[0] >= R[4] and R[0] >= R[8]:
+        return 1
+    return 2 if R[4] >= R[8] else 3
+
+
+def _turned_back(axis, w, x, y, z):
+    """The quaternion before the half turn about an axis that `_about` names."""
+    if axis == 1:
+        return -x, w, z, -y
+    if axis == 2:
+        return -y, -z, w, x
+    if axis == 3:
+        return -z, y, -x, w
+    return w, x, y, z
+
+
+def parts(R):
+    """(q, rest, 1 / |q|^2, sign): sign (q + rest) is a multiple of the quaternion (w, x, y, z), w
+    >= 0, of R.
+
+    Where w = 0 (theta = pi) the component of largest magnitude is positive; this settles the sign
+    that Remark 1 leaves open.
+    """
+    axis = _about(R)
+    turned = _flipped(
+        R, -1.0 if axis > 1 else 1.0, -1.0 if axis % 2 else 1.0, -1.0 if axis in (1, 2) else 1.0
+    )
+    q, rest, inverse = _least(turned)
+    q = _turned_back(axis, q[0], q[1], q[2], q[3])
+    rest = _turned_back(axis, rest[0], rest[1], rest[2], rest[3])
+    return q, rest, inverse, -1.0 if q[0] + rest[0] < 0 else 1.0
+
+
+def quaternion(R):
+    """A multiple of the quaternion (w, x, y, z), w >= 0, of the rotation nearest to R."""
+    q, rest, _, sign = parts(R)
+    return (
+        sign * (q[0] + rest[0]),
+        sign * (q[1] + rest[1]),
+        sign * (q[2] + rest[2]),
+        sign * (q[3] + rest[3]),
+    )

@@ -1,0 +1,1 @@
+"""Algorithms that the paper's table counts and that no `Chain` runs."""

@@ -1,0 +1,218 @@
+"""A chain walked from line to line, and the same walk with its turns and lengths made exact.
+
+The lines are the base frame's z axis, the axes of the joints, and the tool frame's z axis. From one
+to the next lie two turns and two lengths, in 50 digits:
+
+    Rz(theta) Tz(d) Tx(a) Rx(alpha)    along the common normal (modified Denavit-Hartenberg)
+    the smallest turn, and (t_x, t_y)  from line to line where they are parallel, or within 0.1 of
+                                       it: no common normal is looked for, so nothing blows up; x is
+                                       carried along from the line before
+"""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ...algebra import add, cross, dot, scale, subtract
+from ...errors import shown
+from ...groups.arrays import Array
+from .normals import ZERO, Vector, across, axis_near, common_normal, exact, length, unit
+
+if TYPE_CHECKING:
+    from ..chain import Chain
+
+SLANT = Decimal("0.1")
+"""The sine of the angle below which two lines are walked without their common normal."""
+
+ROUNDING = 1e-14
+"""Changes up to this [rad], or this many times the reach [m], are the input's own rounding, and not
+worth a word.
+"""
+
+
+class Frame(NamedTuple):
+    """A frame whose z axis lies on a line: its x and z direction and its origin, in the base frame."""
+
+    x: Vector
+    z: Vector
+    o: Vector
+
+    @property
+    def y(self) -> Vector:
+        """Its y direction."""
+        return cross(self.z, self.x)
+
+    def of(self, v: Vector) -> Vector:
+        """A direction of the base frame, as this frame sees it."""
+        return dot(self.x, v), dot(self.y, v), dot(self.z, v)
+
+    def out(self, v: Vector) -> Vector:
+        """A direction of this frame, as the base frame sees it."""
+        return add(add(scale(v[0], self.x), scale(v[1], self.y)), scale(v[2], self.z))
+
+
+class Walk:
+    """From line to line in a chain as it is and in the exact one.
+
+    Attributes: given, exact, frames with their z axes on the lines, the base frame first and the
+    tool frame last; snapped, whether the two differ; changes, in words.
+    """
+
+    def __init__(self, chain: Chain, tol: float):
+        self.chain, self.tol = chain, tol
+        self.noise = ROUNDING * chain.reach
+        self.changes: list[str] = []
+        self.snapped = False
+        n = len(chain.screws)
+        # A name may hold braces, which are no places for numbers.
+        joints = [
+            f"axis of {shown(name)}".replace("{", "{{").replace("}", "}}")
+            for name in chain.joint_names
+        ]
+        self.names = ["the base's z axis", *joints, "the tool's z axis"]
+        self.given, self.exact = [BASE], [BASE]
+        for i in range(n):
+            self._step(*axis_near(chain.screws[i], chain.kinds[i] == "prismatic", self.given[-1].o))
+        x, z, p = exact(chain.home[:3, 0]), unit(exact(chain.home[:3, 2])), exact(chain.home[:3, 3])
+        self._step(z, add(p, scale(dot(subtract(self.given[-1].o, p), z), z)))
+        self._end(Frame(unit(across(x, z)), z, p))
+
+    def _step(self, z: Vector, p: Vector) -> None:
+        """To the next line, of direction z through p, its point nearest to the last frame's origin."""
+        slant = length(cross(self.given[-1].z, z))
+        given, exact = self._aside(z, p) if slant < SLANT else self._across(z, p)
+        self.given.append(given)
+        self.exact.append(exact)
+
+    def _across(self, z: Vector, p: Vector) -> tuple[Frame, Frame]:
+        """By the common normal."""
+        last, new = self.given[-1], self.exact[-1]
+        before, name = self.names[len(self.given) - 1 : len(self.given) + 1]
+        normal = common_normal(last.o, last.z, p, z)
+        x = normal.x
+        c, s = self._angle(*last.of(x)[:2], f"{name} turned by {{0:.3g}} rad about {before}, to {{1}}° from the normal "
+                           "before it")  # fmt: skip
+        d = self._length(dot(subtract(normal.foot, last.o), last.z),
+                         f"{name} moved by {{0:.3g}} m along {before}, to where the normal before it is")  # fmt: skip
+        a = self._length(normal.a, f"{name} moved by {{0:.3g}} m to meet {before}")
+        cosine, sine = self._angle(
+            normal.cosine, normal.sine, f"{name} turned by {{0:.3g}} rad to be {{2}} to {before}"
+        )
+        turned = new.out((c, s, ZERO))
+        up = add(scale(cosine, new.z), scale(sine, cross(turned, new.z)))
+        origin = add(new.o, add(scale(d, new.z), scale(a, turned)))
+        return Frame(x, z, add(normal.foot, scale(normal.a, x))), Frame(turned, up, origin)
+
+    def _aside(self, z: Vector, p: Vector) -> tuple[Frame, Frame]:
+        """By the smallest turn, to the next line's point nearest to the last origin."""
+        last, new = self.given[-1], self.exact[-1]
+        before, name = self.names[len(self.given) - 1 : len(self.given) + 1]
+        given = Frame(unit(across(last.x, z)), z, p)
+        u, v, w = last.of(z)
+        straight = abs(u) <= self.tol and abs(v) <= self.tol
+        parallel = (
+            f"to be parallel to {before}"
+            if straight
+            else f"to lie in a plane of the frame on {before}"
+        )
+        u, v = self._zeros(u, v, ROUNDING, f"{name} turned by {{0:.3g}} rad {parallel}")
+        up = new.out((u, v, (1 - u * u - v * v).sqrt().copy_sign(w)))
+        x, y, _ = given.of(subtract(p, last.o))
+        along = straight and abs(x) <= self.tol and abs(y) <= self.tol
+        line = (
+            f"to be one line with {before}" if along else f"into a plane of the frame on {before}"
+        )
+        x, y = self._zeros(x, y, self.noise, f"{name} moved by {{0:.3g}} m {line}")
+        turned = unit(across(new.x, up))
+        origin = add(new.o, add(scale(x, turned), scale(y, cross(up, turned))))
+        return given, Frame(turned, up, origin)
+
+    def _end(self, tool: Frame) -> None:
+        """Along the tool's z axis and about it, to the tool frame."""
+        last, new = self.given[-1], self.exact[-1]
+        c, s = self._angle(*last.of(tool.x)[:2], "the tool turned by {0:.3g} rad about its z axis, to {1}° from the "
+                           "normal before it")  # fmt: skip
+        d = self._length(dot(subtract(tool.o, last.o), last.z), "the tool moved by {0:.3g} m along its z axis, to "
+                         "where the normal before it is")  # fmt: skip
+        self.given[-1] = tool
+        self.exact[-1] = Frame(new.out((c, s, ZERO)), new.z, add(new.o, scale(d, new.z)))
+
+    def _length(self, value: Decimal, words: str) -> Decimal:
+        return self._zeros(value, ZERO, self.noise, words)[0]
+
+    def _zeros(self, x: Decimal, y: Decimal, noise: float, words: str) -> tuple[Decimal, Decimal]:
+        """Each made 0 where it is within the tolerance."""
+        a, b = (ZERO if abs(value) <= self.tol else value for value in (x, y))
+        self._changed(math.hypot(x - a, y - b), noise, words)
+        return a, b
+
+    def _angle(self, c: Decimal, s: Decimal, words: str) -> tuple[Decimal, Decimal]:
+        """Cosine and sine of the multiple of 15 degrees nearest to an angle given by its own, where
+        it is near.
+        """
+        k = round(math.atan2(s, c) / (math.pi / 12))
+        cosine, sine = _cosine(k), _cosine(k - 6)
+        off = abs(math.asin(s * cosine - c * sine))
+        if off > self.tol:
+            return c, s
+        degrees = 180 - (180 - 15 * k) % 360
+        self._changed(
+            off,
+            ROUNDING,
+            words,
+            degrees,
+            "perpendicular" if abs(degrees) == 90 else f"at {degrees}°",
+        )
+        return cosine, sine
+
+    def _changed(self, size: float, noise: float, words: str, *rest: object) -> None:
+        self.snapped |= size > 0
+        if size > noise:
+            self.changes.append(words.format(size, *rest))
+
+    def screws(self) -> Array:
+        """The exact lines (n, 6) with the given pitches."""
+        S = np.zeros((len(self.chain.kinds), 6))
+        joints = zip(self.exact[1:], self.chain.kinds, self.chain.local.slides, strict=False)
+        for row, (frame, kind, pitch) in zip(S, joints, strict=True):
+            if kind == "prismatic":
+                row[3:] = _floats(frame.z)
+            else:
+                moment = add(cross(frame.o, frame.z), scale(Decimal(float(pitch)), frame.z))
+                row[:3], row[3:] = _floats(frame.z), _floats(moment, length(frame.o))
+        return S
+
+    def home(self) -> Array:
+        """The exact home pose (4, 4)."""
+        tool, T = self.exact[-1], np.eye(4)
+        T[:3] = np.stack(
+            [*map(_floats, (tool.x, tool.y, tool.z)), _floats(tool.o, length(tool.o))], axis=1
+        )
+        return T
+
+
+BASE = Frame((Decimal(1), ZERO, ZERO), (ZERO, ZERO, Decimal(1)), (ZERO, ZERO, ZERO))
+
+
+def _cosine(k: int) -> Decimal:
+    """cos(15 degrees k)."""
+    k %= 24
+    if k > 12:
+        k = 24 - k
+    if k > 6:
+        return -_cosine(12 - k)
+    # cos² = (2 + m sqrt(s)) / 4
+    m, s = ((2, 1), (1, 3), (1, 1), (0, 1), (-1, 1), (-1, 3), (-2, 1))[k]
+    return ((2 + m * Decimal(s).sqrt()) / 4).sqrt()
+
+
+def _floats(v: Vector, size: Decimal = ZERO) -> Array:
+    """A vector as floats; what is rounding of 50 digits, in a direction or in lengths of that size,
+    becomes 0.
+    """
+    nothing = Decimal("1e-35") * max(size, Decimal(1))
+    return np.array([0.0 if abs(x) < nothing else float(x) for x in v])

@@ -1,0 +1,88 @@
+"""The paper's local form with z-aligned link frames, computed from the screws alone.
+
+    f = M_1 e^{S x_1} M_2 e^{S x_2} ... M_n e^{S x_n} M_{n+1},  S = (0, 0, r; 0, 0, s)
+
+Where a link frame sits along its axis and how it is turned about it is free. Here its origin is the
+point of the axis nearest to the previous frame's origin and its axes are turned as little as
+possible: so the numbers stay small, and nothing blows up where axes are parallel.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ... import algebra
+from ...engine.kernels import chain_kernels
+from ...groups.arrays import Array
+from ..checks import read_only
+
+
+class LocalForm(NamedTuple):
+    """Constant poses and z-aligned screws of a chain of n joints.
+
+    `frames` (n + 1, 4, 4) are M_1 ... M_{n+1} (m). rotates (n,), slides (n,): joint i turns by
+    rotates[i] x_i (rad)
+    and slides by slides[i] x_i (m) along its z axis. Source: Park 1994, Section IV, with a trailing
+    tool M_{n+1}.
+    """
+
+    frames: Array
+    rotates: Array
+    slides: Array
+
+
+def local_form(screws: Array, home: Array, pitches: Array) -> LocalForm:
+    """The local form of checked screws (n, 6) in the base frame, the home pose (4, 4) and the
+    pitches (n,).
+    """
+    n = len(screws)
+    frames, rotates, slides = np.tile(np.eye(4), (n + 1, 1, 1)), np.empty(n), np.empty(n)
+    feet = np.stack(algebra.cross(screws[:, :3].T, screws[:, 3:].T), axis=1)
+    R, origin = np.eye(3), np.zeros(3)
+    for i, S in enumerate(screws):
+        rotates[i] = 1.0 if S[:3].any() else 0.0
+        slides[i] = pitches[i] if rotates[i] else 1.0
+        z = S[:3] if rotates[i] else S[3:]
+        there = origin
+        if rotates[i]:
+            there = feet[i] + z * (z @ (origin - feet[i]))
+        frames[i, :3, :3] = turned_least(R.T @ z)
+        frames[i, :3, 3] = R.T @ (there - origin)
+        R, origin = R @ frames[i, :3, :3], there
+    frames[n, :3, :3] = R.T @ home[:3, :3]
+    frames[n, :3, 3] = R.T @ (home[:3, 3] - origin)
+    return LocalForm(read_only(frames), read_only(rotates), read_only(slides))
+
+
+def turned_least(z: Array) -> Array:
+    """The rotation that takes (0, 0, 1) to the unit vector z by the smallest angle; by way of
+    diag(1, -1, -1) where
+    z points down, so that it has no singularity.
+    """
+    x, y, c = (z / np.linalg.norm(z)).tolist()
+    s = 1.0 if c >= 0 else -1.0
+    y, c = s * y, s * c
+    k = 1.0 / (1.0 + c)
+    rows = [
+        [1.0 - k * x * x, -k * x * y, x],
+        [-s * k * x * y, s - s * k * y * y, s * y],
+        [-s * x, -s * y, s * c],
+    ]
+    return np.array(rows) + 0.0  # no zero with a sign
+
+
+def kernel_table(form: LocalForm, coupling: Array | None, offset: Array) -> Array:
+    """The numbers of a chain as the kernels read them; see `poekin.engine.kernels.chain_kernels`."""
+    n = len(offset)
+    if coupling is None and offset.any():
+        coupling = np.eye(n)
+    width = chain_kernels.OFFSET if coupling is None else chain_kernels.COUPLING + coupling.shape[1]
+    table = np.zeros((n + 1, width))
+    table[:, :9] = form.frames[:, :3, :3].reshape(n + 1, 9)
+    table[:, 9:12] = form.frames[:, :3, 3]
+    table[:n, chain_kernels.ROTATES], table[:n, chain_kernels.SLIDES] = form.rotates, form.slides
+    if coupling is not None:
+        table[:n, chain_kernels.OFFSET], table[:n, chain_kernels.COUPLING :] = offset, coupling
+    return table

@@ -1,0 +1,1 @@
+"""Kinematics as functions of a chain: poses, Jacobians, derivatives, and the compiled chain."""

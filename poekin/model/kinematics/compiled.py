@@ -1,0 +1,275 @@
+"""A chain compiled: poses and Jacobians by straight-line machine code made for its numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...engine.jit import threads
+from ...engine.jit.kernel import Kernel
+from ...engine.jit.locks import COMPILING
+from ...engine.kernels import chain_kernels
+from ...engine.straight_line import interpret
+from ...engine.straight_line.program import Program
+from ...engine.straight_line.specialise import Structure, cheapest_frame, placed, specialised
+from ...errors import InputError, told
+from ...groups.arrays import Array
+from ..checks import read_only
+from ..geometry.structure import structure
+from . import pose_jacobian
+
+if TYPE_CHECKING:
+    from ...engine.straight_line.arm import Arm
+    from ..chain import Chain
+
+MIDDLE, POSE_ONLY = -4, -5
+_NAMES: dict[int, str | None] = {
+    chain_kernels.SPACE: "space",
+    chain_kernels.BODY: "body",
+    chain_kernels.HYBRID: "hybrid",
+    POSE_ONLY: None,
+}
+_Calls = dict[object, tuple[Callable, int]]
+_empty, _POSE_SHAPE, _float64 = np.empty, (4, 4), np.dtype(np.float64)
+_NOT_PLAIN = (AttributeError, KeyError, TypeError, ValueError)
+
+
+class Middle(NamedTuple):
+    """The frame in which the Jacobian costs least: it moves with joint number `joint` (0 ... n -
+    1).
+
+    Its z axis is the joint's; `T_km` (4, 4) is its pose in the joint's own frame k
+    (`Chain.joint_poses`). `along` (m) is where the frame of `CompiledChain.structure` stands on
+    that z axis.
+    """
+
+    joint: int
+    along: float
+    T_km: Array
+
+
+class CompiledChain:
+    """The kinematics of one arm, as `Chain` has them, by code that was made for its numbers.
+
+    `fk`, `jacobian` and `fk_jacobian` take and return what those of the chain do. What is 0, ±1 or
+    a right angle in the arm costs nothing; nothing is rounded to that beyond 2 u, u = 2^-53, the
+    rounding of the cosine of a right angle (`Chain.idealised` does, where it is asked to). Besides
+    the chain's frames there is "middle", the z-aligned frame in which the Jacobian costs least:
+    `middle` says which.
+    Machine code is made at the first use of a frame, in a fraction of a second, and kept in the
+    cache. Pickles as its chain and options, never as code; works in threads and in forked workers.
+
+    Attributes: chain; parallel, whether large batches are shared out among threads; joint_names,
+    q_names, dof; memory, what functions of the arm keep with it. Raises: InputError where parallel
+    is no truth value.
+    Accuracy: within u (40 (n + 1) + 4 sum |x|) reach of the product of exponentials: the rounding
+    of `Chain.fk`, and
+    32 u (n + 1) for the constants that are taken for 0 or ±1
+    (tests/model/kinematics/test_compiled.py). An entry that does not depend on a coordinate is a
+    number even where that coordinate is NaN.
+    Source: Park 1994, Section IV, each link as two planar rotations.
+    """
+
+    def __init__(self, chain: Chain, parallel: bool = False):
+        if not isinstance(parallel, bool):
+            raise InputError(f"parallel: expected True or False, got {told(parallel)}")
+        with COMPILING:  # the import of Numba, after all that only reads a model
+            from numba.core import config
+
+            from ...engine.kernels import arm_kernels
+
+        self.chain, self.parallel = chain, parallel
+        self.joint_names, self.q_names, self.dof = chain.joint_names, chain.q_names, chain.dof
+        self._kernels, self._interpreted = arm_kernels, bool(config.DISABLE_JIT)  # type: ignore[attr-defined]
+        self._shape = (6, chain.dof)
+        self.memory: dict[Any, Any] = {}
+        self._arms: dict[tuple[int, bool, bool], Arm] = {}
+        # The kernel and the arm that one configuration needs, by the frame as the user says it. A
+        # kernel refuses what is not exactly one float64 configuration and its results; then the
+        # longer way is taken, which takes everything and says what is wrong. Only the order of a
+        # number's bytes is no matter to Numba.
+        self._poses: _Calls = {}
+        self._jacobians: _Calls = {}
+        self._both: _Calls = {}
+
+    def fk(self, q: Any, *, out: Array | None = None) -> Array:
+        """T_sb (..., 4, 4), as `Chain.fk`."""
+        try:
+            if q.ndim == 1:
+                kernel, arm = self._poses.get(None) or self._prepare(
+                    self._poses, None, "pose_one", True, False
+                )
+                T = _empty(_POSE_SHAPE) if out is None else out
+                if q.dtype is T.dtype is _float64 and kernel(arm, q, T):
+                    return T
+        except _NOT_PLAIN:
+            pass
+        return pose_jacobian.fk_of_many(self, q, out)
+
+    def jacobian(
+        self, q: Any, frame: str | int, *, at: ArrayLike | None = None, out: Array | None = None
+    ) -> Array:
+        """J (..., 6, m), as `Chain.jacobian`; frame may be "middle" too."""
+        try:
+            if q.ndim == 1 and at is None:
+                calls = self._jacobians
+                kernel, arm = calls.get(frame) or self._prepare(
+                    calls, frame, "jacobian_one", False, True
+                )
+                J = _empty(self._shape) if out is None else out
+                if q.dtype is J.dtype is _float64 and kernel(arm, q, J):
+                    return J
+        except _NOT_PLAIN:
+            pass
+        return pose_jacobian.jacobian_of_many(self, q, frame, at, out)
+
+    def fk_jacobian(
+        self,
+        q: Any,
+        frame: str | int,
+        *,
+        at: ArrayLike | None = None,
+        out: tuple[Array, Array] | None = None,
+    ) -> tuple[Array, Array]:
+        """T_sb and J in one pass, as `Chain.fk_jacobian`; frame may be "middle" too."""
+        try:
+            if q.ndim == 1 and at is None:
+                calls = self._both
+                kernel, arm = calls.get(frame) or self._prepare(
+                    calls, frame, "pose_jacobian_one", True, True
+                )
+                T, J = (_empty(_POSE_SHAPE), _empty(self._shape)) if out is None else out
+                if q.dtype is T.dtype is J.dtype is _float64 and kernel(arm, q, T, J):
+                    return T, J
+        except _NOT_PLAIN:
+            pass
+        return pose_jacobian.fk_jacobian_of_many(self, q, frame, at, out)
+
+    @cached_property
+    def structure(self) -> Structure:
+        """The chain as the formulas that are specialised take it."""
+        return structure(self.chain)
+
+    @property
+    def hybrid_address(self) -> int:
+        """The machine code of pose and hybrid Jacobian, as kernels of the engine take it; as long
+        as this lives.
+        """
+        return self._arm(chain_kernels.HYBRID, True, True).address
+
+    @cached_property
+    def middle(self) -> Middle:
+        """Which frame "middle" is. Raises InputError for a chain without joints."""
+        if not self.joint_names:
+            raise InputError("frame 'middle': the chain has no joint")
+        k, h = cheapest_frame(self.structure)
+        T_km, T_kf = np.eye(4), self.structure.frames[k]
+        T_km[:3, :3] = np.array(T_kf[:9]).reshape(3, 3)
+        T_km[:3, 3] = np.array(T_kf[9:]) - h * T_km[:3, 2]
+        return Middle(k, h, read_only(T_km))
+
+    def program(self, frame: str | int | None, *, pose: bool = False) -> Program:
+        """The straight-line program of the Jacobian in a frame, of the pose before it where `pose`;
+        of the pose alone where frame is None. Its `count` says what it costs. Raises: as
+        `jacobian`.
+        """
+        code = POSE_ONLY if frame is None else self._frame_code(frame)
+        return self._program(code, pose or frame is None)
+
+    def _program(self, code: int, pose: bool) -> Program:
+        if code == MIDDLE:
+            k, h, _ = self.middle
+            return specialised(placed(self.structure, k, h), k, pose)
+        return specialised(self.structure, _NAMES.get(code, code), pose)
+
+    def _prepare(
+        self, calls: _Calls, frame: object, kernel: str, pose: bool, jacobian: bool
+    ) -> tuple[Callable, int]:
+        """The kernel and the arm for a frame, from now on in `calls`."""
+        if self._interpreted:
+            return _refusing, 0
+        code = POSE_ONLY if frame is None else self._frame_code(frame)
+        calls[frame] = (
+            getattr(self._kernels, kernel).ready(),
+            self._arm(code, pose, jacobian).address,
+        )
+        return calls[frame]
+
+    def _arm(self, code: int, pose: bool, jacobian: bool) -> Arm:
+        """The machine code for a frame."""
+        with COMPILING:
+            if (code, pose, jacobian) not in self._arms:
+                from ...engine.straight_line.arm import arm
+
+                # the structure, not the chain's numbers: it also holds what the modules of this
+                # room make of them
+                key = self.structure, code, jacobian
+                self._arms[code, pose, jacobian] = arm(
+                    key, lambda: self._program(code, pose), self.dof, pose
+                )
+            return self._arms[code, pose, jacobian]
+
+    def _frame_code(self, frame: object) -> int:
+        return (
+            MIDDLE
+            if isinstance(frame, str) and frame == "middle"
+            else self.chain._frame_code(frame)
+        )
+
+    def _fill_poses(self, rows: Array, T: Array) -> None:
+        self._run(self._kernels.pose_many, POSE_ONLY, rows, T, None)
+
+    def _fill_both(self, rows: Array, code: int, T: Array, J: Array) -> None:
+        self._run(self._kernels.pose_jacobian_many, code, rows, T, J)
+
+    def _fill_jacobians(self, rows: Array, code: int, J: Array) -> None:
+        self._run(self._kernels.jacobian_many, code, rows, None, J)
+
+    def _run(
+        self, kernel: Kernel, code: int, rows: Array, T: Array | None, J: Array | None
+    ) -> None:
+        if self._interpreted:
+            self._interpret(code, rows, T, J)
+            return
+        arm = self._arm(code, T is not None, J is not None)
+        arrays = [
+            np.require(rows, np.float64, ["C", "A", "W"]),
+            *(a for a in (T, J) if a is not None),
+        ]
+        if self.parallel:
+            threads.share_out(lambda *part: kernel.call(arm.address, *part), *arrays)
+        else:
+            kernel.call(arm.address, *arrays)
+
+    def _interpret(self, code: int, rows: Array, T: Array | None, J: Array | None) -> None:
+        """The same without machine code, where Numba is told to compile nothing."""
+        values = interpret.evaluate(self._program(code, T is not None), rows)
+        if T is not None:
+            T[:, :3, :3], T[:, :3, 3] = values[:, :9].reshape(len(T), 3, 3), values[:, 9:12]
+            T[:, 3] = 0.0, 0.0, 0.0, 1.0
+            values = values[:, 12:]
+        if J is not None:
+            J[...] = values.reshape(J.shape)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, CompiledChain):
+            return NotImplemented
+        return self.chain == other.chain and self.parallel == other.parallel
+
+    def __hash__(self) -> int:
+        return hash((self.chain, self.parallel))
+
+    def __reduce__(self):
+        return CompiledChain, (self.chain, self.parallel)
+
+    def __repr__(self) -> str:
+        return f"<CompiledChain of {self.chain!r}{', parallel' * self.parallel}>"
+
+
+def _refusing(*arguments: object) -> int:
+    """A kernel that takes nothing."""
+    return 0

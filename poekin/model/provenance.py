@@ -1,0 +1,54 @@
+"""Source: where a robot was read from, so that a message can say file and line."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from dataclasses import dataclass
+
+from ..errors import PoekinWarning, shown
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """Where a robot was read from.
+
+    Fields: name, a file or whatever else the text came from; link_lines and joint_lines, the line
+    of each link and joint in the robot's order, empty where there are no lines to speak of; origin,
+    where the text can be read again whatever the working directory is by then: the absolute path of
+    a file, the name of an arm that comes with poekin, or "" where it cannot.
+    """
+
+    name: str
+    link_lines: tuple[int, ...] = ()
+    joint_lines: tuple[int, ...] = ()
+    origin: str = ""
+
+    def __str__(self) -> str:
+        return self.name
+
+    def place(self, line: int | None = None) -> str:
+        """The place as compilers write it, `file:line`, or the name alone; harmless for plain text."""
+        plain = shown(self.name, 400)[1:-1]
+        return plain if line is None else f"{plain}:{line}"
+
+    def of_link(self, index: int) -> str:
+        """The place of link number `index`."""
+        return self.place(self.link_lines[index] if index < len(self.link_lines) else None)
+
+    def of_joint(self, index: int) -> str:
+        """The place of joint number `index`."""
+        return self.place(self.joint_lines[index] if index < len(self.joint_lines) else None)
+
+
+def warn(message: str) -> None:
+    """A `PoekinWarning` that Python shows at the first line outside of poekin: the line that asked
+    for the robot.
+    """
+    frame, level = sys._getframe(1), 2
+    while (
+        frame.f_back is not None
+        and frame.f_globals.get("__name__", "").partition(".")[0] == "poekin"
+    ):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, PoekinWarning, stacklevel=level)

@@ -1,0 +1,1 @@
+"""What measurements can tell, and what explains those that do not fit."""

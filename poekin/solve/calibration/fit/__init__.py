@@ -1,0 +1,1 @@
+"""The fit: initial guess, Gauss-Newton, robust losses, noise."""

@@ -1,0 +1,1 @@
+"""Measurements: joint readings and what was measured at them."""

@@ -1,0 +1,115 @@
+"""The columns of a file of measurements: which are coordinates, and what the others make together."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from typing import NamedTuple
+
+from ....errors import InputError, UnknownName, closest, listed, shown
+from ....formats.text import pose_rows
+from ....formats.text.numbers import real
+
+_OF_POSES = ("poses", "eye-in-hand", "eye-to-hand")
+_LAYOUTS = "T00 ... T23, or x y z qw qx qy qz, or x y z, or x1 y1 z1 x2 ..., or distance"
+
+
+class Layout(NamedTuple):
+    """The columns of a measurement, in the order in which they are taken, and the kinds that they
+    may be of.
+
+    format: "12", "16" or "7" of poses, "" of anything else.
+    """
+
+    columns: tuple[str, ...]
+    kinds: tuple[str, ...]
+    format: str = ""
+
+
+_FIXED = (
+    *(Layout(pose_rows.columns(format), _OF_POSES, format) for format in ("16", "12")),
+    Layout(pose_rows.columns("7", "wxyz"), _OF_POSES, "7"),
+    Layout(("px", "py", "pz"), ("points",)),
+    Layout(("x", "y", "z"), ("points",)),
+    Layout(("distance",), ("distances",)),
+)
+
+
+def numbered(count: int) -> tuple[str, ...]:
+    """q1 ... qm, the names that coordinates have where a file does not use their own."""
+    return tuple(f"q{i + 1}" for i in range(count))
+
+
+def understood(
+    header: list[str], q_names: tuple[str, ...], ignore: tuple[str, ...], here: str
+) -> tuple[tuple[str, ...], Layout]:
+    """The names of the coordinates and the layout of the measurement that a header's columns make,
+    with none left.
+
+    Raises: UnknownName, InputError, that begin with `here`.
+    """
+    words = [word for word in header if word not in ignore]
+    for word, times in Counter(words).items():
+        if times > 1:
+            raise InputError(f"{here}: the column {shown(word)} is there {times} times")
+    given, numbers = set(words), numbered(len(q_names))
+    for names in (q_names, numbers):
+        if given >= set(names):
+            rest = given - set(names)
+            for layout in (*_FIXED, _points(rest)):
+                if rest and rest == set(layout.columns):
+                    return names, layout
+    names = q_names if len(given & set(q_names)) > len(given & set(numbers)) else numbers
+    missing = [name for name in names if name not in given]
+    if missing:
+        if all(real(word) is not None for word in words):
+            raise InputError(
+                f"{here}: a first line that names the columns expected, it has numbers alone"
+            )
+        raise InputError(
+            f"{here}: no column for the coordinate {shown(missing[0])}; expected {listed(q_names)}, or q1 ... "
+            f"q{len(q_names)}"
+        )
+    raise _fault([word for word in words if word not in names], here)
+
+
+def _fault(rest: list[str], here: str) -> InputError | UnknownName:
+    """What is wrong with columns that make no measurement."""
+    if not rest:
+        return InputError(f"{here}: no column of a measurement; expected {_LAYOUTS}")
+    there = set(rest)
+    every = [layout for layout in (*_FIXED, _points(there)) if layout.columns]
+    whole = [layout for layout in every if set(layout.columns) <= there]
+    if whole:
+        most = max(whole, key=lambda layout: len(layout.columns))
+        known = set(most.columns)
+        extra = shown(next(word for word in rest if word not in known))
+        return UnknownName(
+            f"{here}: the column {extra} is neither a coordinate nor one of {said(most)}; ignore=[{extra}] passes it "
+            "over"
+        )
+    begun = max(every, key=lambda layout: len(set(layout.columns) & there) / len(layout.columns))
+    missing = [name for name in begun.columns if name not in there]
+    if len(missing) < len(begun.columns):
+        return InputError(f"{here}: of the columns {said(begun)}, {shown(missing[0])} is missing")
+    close = closest(rest[0], [name for layout in _FIXED for name in layout.columns], 3)
+    return UnknownName(
+        f"{here}: {shown(rest[0])} is neither a coordinate nor part of a measurement ({_LAYOUTS}); {close}"
+    )
+
+
+def _points(words: set[str]) -> Layout:
+    """The columns x1 y1 z1 ... xk yk zk of as many points as the words speak of."""
+    numbers = [int(word[1:]) for word in words if re.fullmatch(r"[xyz][1-9][0-9]{0,5}", word)]
+    return Layout(of_points(min(max(numbers, default=0), len(words))), ("points",))
+
+
+def of_points(count: int) -> tuple[str, ...]:
+    """x1 y1 z1 ... xk yk zk of k points."""
+    return tuple(f"{axis}{i + 1}" for i in range(count) for axis in "xyz")
+
+
+def said(layout: Layout) -> str:
+    """A layout's columns as messages call them."""
+    names = layout.columns
+    return f"{names[0]} ... {names[-1]}" if len(names) > 7 else " ".join(names)

@@ -1,0 +1,191 @@
+"""Measurements as CSV files, in and out: joint readings and what was measured at them, one row an
+observation.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import fields
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ....errors import InputError, ShapeError, UnknownName, closest, harmless, shown, told
+from ....formats.text import csv_rows, pose_rows
+from ....formats.text.atomic_write import write_whole
+from ....groups.arrays import Array
+from ....model.chain import Chain
+from ....model.coordinates import coordinates
+from . import columns
+from .columns import Layout
+from .measurement import Measurement
+from .points import Distances, Points
+from .poses import EyeInHand, EyeToHand, Poses
+
+Path = str | os.PathLike[str]
+KINDS: dict[str, type[Measurement]] = {
+    "poses": Poses,
+    "eye-in-hand": EyeInHand,
+    "eye-to-hand": EyeToHand,
+    "points": Points,
+    "distances": Distances,
+}
+
+
+class Table(NamedTuple):
+    """The rows of a file of measurements: joint readings q (N, m), the measured values (N, k) in
+    the order of the layout's columns, and the file and line of each row.
+    """
+
+    q: Array
+    values: Array
+    layout: Layout
+    places: list[str]
+
+
+def read(
+    path: Path,
+    chain: Chain,
+    *,
+    kind: str | None = None,
+    ignore: Iterable[str] = (),
+    progress: csv_rows.Progress | None = None,
+    **known: Any,
+) -> tuple[Array, Measurement]:
+    """Joint readings q (N, m), rad or m, and the measurements made at them, out of a CSV file with
+    one of them a line.
+
+    The first line names the columns, in any order. Coordinates: by the chain's q_names, or q1 ...
+    qm in their order. Measurement, all in m: T00 ... T23 or T00 ... T33 (T, row by row), or x, y,
+    z, qw, qx, qy, qz (unit quaternion): poses; x, y, z or px, py, pz: one point; x1, y1, z1, x2,
+    ...: several; distance. Units are not converted.
+
+    Parameters: path; chain; kind, "poses" (what poses are where it is not said), "eye-in-hand",
+    "eye-to-hand",
+    "points" or "distances"; ignore, columns that are passed over, whatever is in them;
+    progress(characters read, size); known, what else the kind of measurement is made of:
+    covariance, points, frame, centre, point, board, camera. Returns: q and Poses, EyeInHand,
+    EyeToHand, Points or Distances.
+    Raises: FileError; UnknownName for a column that is none of these, InputError for one that is
+    missing or there twice, for a kind that does not fit, and with file and line for a cell that is
+    empty, no number or not finite; PoseError with file and line. Accuracy: the numbers in the file.
+    Source: none, a format of poekin's own.
+    """
+    table = read_table(path, chain, kind=kind, ignore=ignore, progress=progress)
+    return table.q, measurement_of(table, kind, known)
+
+
+def read_table(
+    path: Path,
+    chain: Chain,
+    *,
+    kind: str | None = None,
+    ignore: Iterable[str] = (),
+    progress: csv_rows.Progress | None = None,
+) -> Table:
+    """The numbers of a file of measurements, before anything is made of them; the file is read
+    once, so it may be a pipe. Parameters and errors: those of `read`.
+    """
+    if kind is not None and kind not in KINDS:
+        raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {told(kind)}")
+    ignore = (ignore,) if isinstance(ignore, str) else tuple(ignore)
+    names, layouts = (), []
+
+    def choose(header: list[str], here: str) -> list[int]:
+        nonlocal names
+        joints, layout = columns.understood(header, chain.q_names, ignore, here)
+        if kind is not None and kind not in layout.kinds:
+            those = f"the columns {columns.said(layout)} are those of {' or '.join(layout.kinds)}"
+            raise InputError(f"{here}: {those}, and kind is {told(kind)}")
+        layouts.append(layout)
+        names = (*joints, *layout.columns)
+        places = {word: i for i, word in enumerate(header)}
+        return [places[name] for name in names]
+
+    with csv_rows.opened(path) as (stream, where, size):
+        rows, lines = csv_rows.read_chosen(stream, choose, where, progress, size)
+    if not np.isfinite(rows).all():
+        i, k = np.argwhere(~np.isfinite(rows))[0]
+        raise InputError(
+            f"{where}:{lines[i]}, column {shown(names[k])}: expected a finite number, got {rows[i, k]}; leave the line "
+            "out where nothing was measured"
+        )
+    places = [f"{where}:{line}" for line in lines]
+    return Table(rows[:, : chain.dof], rows[:, chain.dof :], layouts[0], places)
+
+
+def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
+    """Write measurements and the joint readings they were made at as `read` reads them, to the last
+    bit.
+
+    The kind, covariances and what is known of points and frames are not in the file; of q (N, m)
+    the rows are written that the measurement has. The file appears whole or not at all.
+    Raises: ShapeError, InputError, FileError. Accuracy: exact. Source: none, a format of poekin's
+    own.
+    """
+    measured, values = _columns(measurement)
+    q = coordinates(q, chain.q_names)
+    rows = np.arange(len(values)) if measurement.rows is None else measurement.rows
+    if (
+        q.ndim != 2
+        or (measurement.rows is None and len(q) != len(values))
+        or (rows >= len(q)).any()
+    ):
+        raise ShapeError(
+            f"q: expected shape (N, {chain.dof}) with a row for each of {len(values)}, got {q.shape}"
+        )
+    if not np.isfinite(q).all():
+        raise InputError(
+            f"q[{np.argmin(np.isfinite(q).all(axis=1))}]: expected finite numbers, got NaN or infinity"
+        )
+    names, numbered = chain.q_names, columns.numbered(chain.dof)
+    # names that another reader, or this one, would take for something else
+    if set(names) & {*measured, *numbered} or any(harmless(name).strip() != name for name in names):
+        names = numbered
+    write_whole(
+        path, csv_rows.text((*names, *measured), np.column_stack([q[rows], values])).encode()
+    )
+
+
+def measurement_of(table: Table, kind: str | None, known: dict[str, Any]) -> Measurement:
+    """The measurement that a table holds. Parameters: kind and known, as those of `read`; so are
+    the errors.
+    """
+    _, values, layout, places = table
+    kind = kind or layout.kinds[0]
+    made = KINDS[kind]
+    first, *others = (field.name for field in fields(made) if field.name != "rows")  # type: ignore[arg-type]
+    for name in known:
+        if name not in others:
+            raise UnknownName(f"{shown(name)} is nothing that {kind} have; {closest(name, others)}")
+    if layout.format:
+        T = pose_rows.to_poses(
+            values, layout.format, "wxyz" if layout.format == "7" else None, places.__getitem__
+        )
+        return made(**{first: T}, **known)
+    if kind == "points":
+        count = len(layout.columns) // 3
+        if count > 1 and "points" not in known:
+            raise InputError(
+                f"points: the file has {count} points a line; say where they are in the tip frame, (k, 3)"
+            )
+        return made(**{first: values.reshape(-1, count, 3)}, **known)
+    for i in np.flatnonzero(values[:, 0] <= 0):
+        raise InputError(f"{places[i]}: expected a distance above 0, got {values[i, 0]:g}")
+    return made(**{first: values[:, 0]}, **known)
+
+
+def _columns(measurement: Measurement) -> tuple[tuple[str, ...], Array]:
+    """The names and values (N, k) of the columns of a measurement."""
+    if isinstance(measurement, (Poses, EyeInHand, EyeToHand)):
+        return pose_rows.columns("12"), pose_rows.to_rows(np.asarray(measurement.T), "12")
+    if isinstance(measurement, Points):
+        p = np.asarray(measurement.p)
+        return columns.of_points(p.shape[1]) if p.shape[1] > 1 else ("x", "y", "z"), p.reshape(
+            len(p), -1
+        )
+    if isinstance(measurement, Distances):
+        return ("distance",), np.asarray(measurement.d)[:, None]
+    names = ", ".join(kind.__name__ for kind in KINDS.values())
+    raise InputError(f"measurement: expected one of {names}, got {told(measurement)}")

@@ -1,0 +1,1 @@
+"""The calibration problem: parameters, errors and their Jacobian."""

@@ -1,0 +1,1 @@
+"""What a calibration changed, as a page, as pictures and as a file."""

@@ -1,0 +1,136 @@
+"""Where coordinates may go, and where the tries begin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...errors import InputError, ShapeError, UnknownName, closest, listed, shown, told
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...model.coordinates import coordinates
+from ...model.provenance import warn
+from .joint_units import JointUnits, period
+
+
+@dataclass(frozen=True, eq=False)
+class Room:
+    """limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie; fixed
+    (m), whether a coordinate is locked, and held (m), its value there; periods (m), after how much
+    of a coordinate the configuration is the same, 0 for never; winds, whether any coordinate with a
+    period has no limits. All in the units of the joints.
+    """
+
+    limits: Array
+    ranges: Array
+    fixed: np.ndarray
+    held: Array
+    periods: Array
+    winds: bool
+
+    def anywhere(self, count: int) -> Array:
+        """Starts of tries (count, m): NaN, for anywhere, but for what is locked."""
+        return np.tile(np.where(self.fixed, self.held, np.nan), (count, 1))
+
+    def holds(self, q: Array) -> np.ndarray:
+        """Whether configurations (..., m) are within the limits (...)."""
+        return np.asarray(((q >= self.limits[:, 0]) & (q <= self.limits[:, 1])).all(axis=-1))
+
+    def unwound(self, q: Array, near: Array | None = None) -> Array:
+        """The same configurations with whole periods taken off: nearest to `near` within the
+        limits; without `near`, a coordinate without limits within half a period of 0.
+        """
+        lower, upper = self.limits.T
+        free = (self.periods > 0) & ~self.fixed
+        if near is None:
+            free = free & np.isinf(lower) & np.isinf(upper)
+        period = np.where(free, self.periods, 1.0)
+        times = np.round(((0.0 if near is None else near) - q) / period)
+        times = np.clip(times, np.ceil((lower - q) / period), np.floor((upper - q) / period))
+        moved = q + np.where(free, period * times, 0.0)
+        return np.where((moved >= lower) & (moved <= upper), moved, q)
+
+
+def room_of(units: JointUnits, lock: Any, limits: bool) -> Room:
+    """The room of an arm's coordinates; `lock` is in the user's units. Raises: InputError,
+    UnknownName.
+    """
+    chain = units.fast.chain
+    m = chain.dof
+    bounds = chain.limits.copy() if limits else np.tile([-np.inf, np.inf], (m, 1))
+    periods = np.array([period(chain, k) for k in range(m)])
+    ranges = np.stack(chain._range(), axis=1) if limits else free_ranges(chain)
+    unlimited = np.isinf(bounds).all(axis=1)
+    ranges[unlimited] = free_ranges(chain)[unlimited]
+    fixed, held = np.zeros(m, bool), np.zeros(m)
+    for k, value in _locked(units, lock, bounds):
+        fixed[k], held[k] = True, value
+    winds = bool(((periods > 0) & unlimited).any())
+    return Room(bounds, ranges, fixed, held, periods, winds)
+
+
+def free_ranges(chain: Chain) -> Array:
+    """Where random starts lie (m, 2) without limits: a whole period, else a turn, or 1 m either
+    way.
+    """
+    half = np.array([0.5 * period(chain, k) for k in range(chain.dof)])
+    half = np.where(half > 0, half, chain._half_range())
+    return np.stack([-half, half], axis=1)
+
+
+def first_tries(
+    units: JointUnits, room: Room, batch: tuple[int, ...], count: int, q0: Any
+) -> Array:
+    """Where the first try of each of `count` targets begins (N, m), in joint units: at q0 within
+    the limits, NaN for anywhere.
+
+    Raises: InputError, ShapeError, UnknownName. Warns where q0 is moved.
+    """
+    chain = units.fast.chain
+    if q0 is None:
+        return room.anywhere(count)
+    given = units.of(for_targets(chain, batch, count, q0, "q0"))
+    first = np.clip(given, *room.limits.T)
+    moved = ((first != given) & ~room.fixed).any(axis=0)
+    if moved.any():
+        warn(
+            f"q0 is outside the limits of {listed(np.array(chain.q_names)[moved])} and is moved to them"
+        )
+    return np.where(room.fixed, room.held, first)
+
+
+def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: str) -> Array:
+    """A configuration for each of `count` targets (N, m), as a user gives it, finite.
+
+    Raises: InputError, ShapeError, UnknownName.
+    """
+    given = coordinates(q, chain.q_names, what)
+    if not np.isfinite(given).all():
+        raise InputError(f"{what}: expected finite numbers, got {told(q)}")
+    try:
+        return np.broadcast_to(given, (*batch, chain.dof)).reshape(count, chain.dof).copy()
+    except ValueError as error:
+        raise ShapeError(
+            f"{what}: shape {given.shape} does not fit the targets' {(*batch, chain.dof)}"
+        ) from error
+
+
+def _locked(units: JointUnits, lock: Any, limits: Array):
+    """Index and value, in joint units, of each coordinate that is locked; lock are pairs of name
+    and value.
+    """
+    names = units.fast.q_names
+    for name, value in lock or ():
+        if name not in names:
+            raise UnknownName(f"lock: no coordinate {shown(name)}; {closest(str(name), names)}")
+        k = names.index(name)
+        scale = 1.0 if units.scale is None else float(units.scale[k])
+        real = isinstance(value, (int, float, np.integer, np.floating)) and np.isfinite(value)
+        if not real or not limits[k, 0] <= scale * value <= limits[k, 1]:
+            within = sorted((limits[k] / scale).tolist())
+            raise InputError(
+                f"lock: {shown(name)}: expected a number within {within}, got {told(value)}"
+            )
+        yield k, scale * float(value)

@@ -1,0 +1,1 @@
+"""Inverse kinematics: every solution of a target."""

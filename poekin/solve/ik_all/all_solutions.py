@@ -1,0 +1,96 @@
+"""All solutions of targets, as they are handed out, and how sure it is that they are all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...errors import listed
+from ...groups.arrays import Array
+from ..ik.solution import place
+from .ik_all_search import Found
+
+
+@dataclass(frozen=True, eq=False)
+class AllSolutions:
+    """Every solution of each target.
+
+    Of one target: solutions (s, m), rad or m, sorted; copies (s,), how many places within the
+    limits each stands for, being a whole turn of some joints apart (a coordinate without limits
+    counts once; 2^63 - 1 stands for more, too); sure, in words. Of a batch: lists of these, its
+    targets in C order. method: "closed form" or "search".
+    Arrays over the batch (...): count, the number of solutions; anywhere, the same without limits;
+    continuum, whether there are infinitely many (then one of them is listed, and those that stand
+    alone); chance, of a solution missing:
+    0 for the closed form, NaN where nothing was found or there is a continuum; position_error (m)
+    and rotation_error (rad), the largest of the listed solutions by `Chain.fk`, NaN without any.
+    """
+
+    solutions: Any
+    copies: Any
+    sure: Any
+    method: str
+    count: np.ndarray
+    anywhere: np.ndarray
+    continuum: np.ndarray
+    chance: Array
+    position_error: Array
+    rotation_error: Array
+
+    def of(self, *index: int) -> Array:
+        """Solutions (s, m), rad or m, of one target of a batch.
+
+        Parameters: index, of the target in the batch. Returns: (s, m). Raises: ShapeError,
+        IndexError.
+        Source: `ik_all`.
+        """
+        flat = place(index, self.count.shape, "of")
+        return self.solutions[flat] if index else self.solutions
+
+    def __repr__(self) -> str:
+        if self.count.ndim == 0:
+            return f"<AllSolutions by {self.method}: {self.sure}>"
+        return f"<AllSolutions of {self.count.size} targets by {self.method}: {int(self.count.sum())} in all>"
+
+
+def chance_of_more(found: Found) -> float:
+    """The chance that a solution is missing which a try finds half as often as the rarest of those
+    that were found.
+
+    Of a solution that is the end of a share p of the tries that end at any, nothing is seen in N of
+    them with the chance (1 - p)^N; p is set to half the smallest share seen. The closed form misses
+    none.
+    """
+    if found.moving or found.full or (found.restarts and not len(found.solutions)):
+        return float("nan")
+    if not found.restarts:
+        return 0.0
+    return float((1.0 - 0.5 * found.hits.min() / found.ends) ** found.ends)
+
+
+def in_words(found: Found, inside: int, closed: str | None) -> str:
+    """How many solutions there are and how many inside the limits, how they were found (`closed`,
+    which closed form,
+    or None without), and what is known about more of them.
+    """
+    s = len(found.solutions)
+    if found.moving:
+        alone = f" and {s - 1} that stand{'s' * (s == 2)} alone" if s > 1 else ""
+        said = f"infinitely many solutions, along which {listed(found.moving)} move; one of them{alone}"
+    else:
+        said = f"{'at least ' * found.full}{s} solution{'s' * (s != 1)}"
+    if inside != s:
+        said += f", {inside} of them within the limits"
+    if not found.restarts:
+        return f"{said}: {closed}"
+    said += f": search, {found.restarts} tries"
+    if not s or found.moving or found.full:
+        return said
+    said += (
+        f", each found {int(found.hits.min())} times or more; one that is half as easy to find as the rarest is "
+        f"missing with a chance of {chance_of_more(found):.1g}"
+    )
+    odd = s % 2 == 1 and found.solutions.shape[1] == 6
+    return said + "; the number is odd: one of them is a double one, or one is missing" * odd

@@ -1,0 +1,282 @@
+"""Every solution of an arm for a pose."""
+
+from __future__ import annotations
+
+import itertools
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import InputError, MissingExtra, listed, told
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...model.kinematics.compiled import CompiledChain
+from ..ik.joint_units import joint_units
+from ..ik.task import targets
+from .all_solutions import AllSolutions, chance_of_more, in_words
+from .closed_form import ClosedForm, closed_form
+from .ik_all_search import Found, Rule, accepted, periods, pose_errors, search, turns_within
+
+METHODS = ("auto", "closed", "search")
+
+MOST = 4096
+"""The most places that `copies=True` lists for one target."""
+
+_ANYWHERE = np.array([[-np.inf, np.inf]])  # limits that are none
+_MANY = 2**63 - 1  # the largest number of `copies`
+_BARREN = 200  # tries without any solution, after which a search gives up
+
+
+def ik_all(
+    arm: Chain | CompiledChain,
+    T: ArrayLike,
+    *,
+    limits: bool = True,
+    method: str = "auto",
+    copies: bool = False,
+    often: int = 14,
+    restarts: int = 2000,
+    iterations: int = 200,
+    seed: int = 0,
+) -> AllSolutions:
+    """All q with f(q) = T of an arm of up to six coordinates, for one target or a batch.
+
+    In closed form by EAIK where it is installed (extra `ik`) and the arm's axes allow it, each
+    solution tried down to the target again; else by search: from random starts until each solution
+    was found `often` times.
+
+    Parameters
+    ----------
+    arm: a `Chain`, or what its `compile` gives. T (..., 4, 4): poses of the tip in the base frame,
+    m.
+    limits: list only what lies within the chain's limits.
+    method: "auto"; "closed", to be refused where there is no closed form; "search", without EAIK.
+    copies: list all places within the limits that are whole turns apart; else of each solution the
+    one nearest to 0. often, restarts, iterations: when the search ends (14 leaves a chance of about
+    1e-3 that one is missing, see
+        `AllSolutions.chance`), the most starts, and the most steps from each. seed: of the starts;
+        the same seed gives the same result.
+
+    Returns: AllSolutions; how sure it is that these are all is in `sure`. A target with infinitely
+    many solutions (at some singular poses) is said to be one: one of them is listed. No solution:
+    `ik` says why. A target that is not finite has none.
+    Raises: InputError for an arm of more than six coordinates, which has infinitely many solutions,
+    or of none, and for "closed" where the arm has no closed form; MissingExtra for "closed" without
+    EAIK; PoseError, ShapeError.
+    Accuracy: every solution is within 1e-10 m and 1e-10 rad of its target by `Chain.fk` (of arms
+    with a reach of more than 100 m, within 1e-12 of that); solutions that rounding cannot tell
+    apart are one (tests/solve/ik_all/test_ik_all.py).
+    Source: Ostermeier, Külz and Althoff 2025 (closed form, EAIK).
+    """
+    fast = (
+        arm if isinstance(arm, CompiledChain) else arm.compile() if isinstance(arm, Chain) else None
+    )
+    if fast is None:
+        raise InputError(f"ik_all: expected a Chain, got {told(arm)}")
+    given, units = fast.chain, joint_units(fast)
+    fast, chain = units.fast, units.fast.chain
+    _check_chain(chain)
+    _check_options(limits, method, copies)
+    for what, number, least in (
+        ("often", often, 1),
+        ("restarts", restarts, 1),
+        ("iterations", iterations, 1),
+        ("seed", seed, 0),
+    ):
+        _check_whole(what, number, least)
+    wanted = targets(T, "T")
+    batch, rows = wanted.shape[:-2], np.ascontiguousarray(wanted.reshape(-1, 4, 4))
+    finite: np.ndarray = np.isfinite(rows).all(axis=(1, 2)).reshape(-1)
+    good = rows[finite]
+    solver = _solver(chain, method)
+    thorough = Rule(often, restarts, iterations, _BARREN)
+    if solver is None:
+        found = search(
+            fast, good, [np.empty((0, chain.dof))] * len(good), thorough, int(seed), limits
+        )
+    else:
+        starts, given_up = _starts(solver, good)
+        found = search(fast, good, starts, Rule(1, 0, iterations, 0), 0, limits)
+        # where solutions become one or infinitely many, a closed form may lose them
+        unsure = [k for k, f in enumerate(found) if f.singular or k in given_up]
+        again = search(fast, good[unsure], [starts[k] for k in unsure], thorough, int(seed), limits)
+        for k, f in zip(unsure, again, strict=True):
+            found[k] = f
+    places = _places(chain, found, limits, copies)
+    order = _order(
+        places.q if units.scale is None else places.q * np.sign(units.scale), places.owner
+    )
+    q = units.coordinates(places.q[order], given.limits if limits else _ANYWHERE)
+    places = _Places(q, places.owner[order], places.number[order], places.within)
+    return _result(given, good, finite, batch, found, places, solver)
+
+
+def _check_chain(chain: Chain) -> None:
+    m = chain.dof
+    if m > 6:
+        raise InputError(
+            f"ik_all: expected an arm of up to six coordinates, got {m} ({listed(chain.q_names)}): it has infinitely "
+            "many solutions; ik finds one: with `nearest_to` or `aim` one of your choice, with `lock` at given values "
+            "of some coordinates"
+        )
+    if m == 0:
+        raise InputError("ik_all: expected an arm of one to six coordinates, the chain has none")
+
+
+def _check_options(limits: Any, method: Any, copies: Any) -> None:
+    for what, value in (("limits", limits), ("copies", copies)):
+        if not isinstance(value, (bool, np.bool_)):
+            raise InputError(f"{what}: expected True or False, got {told(value)}")
+    if not isinstance(method, str) or method not in METHODS:
+        raise InputError(f"method: expected one of {', '.join(METHODS)}, got {told(method)}")
+
+
+def _check_whole(what: str, number: Any, least: int) -> None:
+    if (
+        not isinstance(number, (int, np.integer))
+        or isinstance(number, bool)
+        or not least <= number < 2**62
+    ):
+        raise InputError(f"{what}: expected a whole number from {least} on, got {told(number)}")
+
+
+def _solver(chain: Chain, method: str) -> ClosedForm | None:
+    """The closed form to use, or None for the search."""
+    if method == "search":
+        return None
+    try:
+        solver = _closed_form(chain)
+    except MissingExtra:
+        if method == "closed":
+            raise
+        return None
+    except InputError:  # joints that slide, or are coupled
+        if method == "closed":
+            raise
+        return None
+    if solver is None and method == "closed":
+        raise InputError(
+            f"ik_all: {chain!r} has no closed form that EAIK knows (no three axes that meet, or are parallel, where it "
+            "needs them); method='search' finds the solutions"
+        )
+    return solver
+
+
+def _starts(solver: ClosedForm, T: Array) -> tuple[list[Array], set[int]]:
+    """The closed form's solutions of each target, and the numbers of those for which it gives up."""
+    starts: list[Array] = []
+    given_up = set()
+    for k, target in enumerate(T):
+        try:
+            starts.append(solver.starts(target))
+        except RuntimeError:
+            starts.append(np.empty((0, 6)))
+            given_up.add(k)
+    return starts, given_up
+
+
+_closed_form = lru_cache(maxsize=32)(closed_form)
+
+
+class _Places(NamedTuple):
+    """Configurations (S, m), the target of each, and how many places within the limits each stands
+    for; and how many solutions each target has within them.
+    """
+
+    q: Array
+    owner: np.ndarray
+    number: np.ndarray
+    within: np.ndarray
+
+
+def _places(chain: Chain, found: list[Found], limits: bool, copies: bool) -> _Places:
+    """The solutions within the limits; of those that are whole turns apart the one nearest to 0, or
+    all.
+    """
+    owner = np.repeat(np.arange(len(found)), [len(f.solutions) for f in found])
+    Q = np.concatenate([np.empty((0, chain.dof)), *(f.solutions for f in found)])
+    turn = periods(chain)
+    low, high = chain.limits.T if limits else np.tile([[-np.inf], [np.inf]], (1, chain.dof))
+    first, last = turns_within(chain, Q, limits)
+    kept = (first <= last).all(axis=1)
+    Q, owner, first, last = Q[kept], owner[kept], first[kept], last[kept]
+    bounded = np.isfinite(first) & np.isfinite(last)
+    within = np.bincount(owner, minlength=len(found))
+    nearest = np.clip(np.zeros_like(Q), first, last)
+    with np.errstate(invalid="ignore", over="ignore"):  # infinite less infinite
+        number = np.where(bounded, last - first + 1, 1.0).prod(axis=1)
+    if copies:
+        most = np.bincount(owner, number, minlength=1).max(initial=0)
+        if most > MOST:
+            raise InputError(
+                f"copies: {most:.0f} places for one target, more than {MOST}; `copies` of the result tells"
+            )
+        ways = [
+            list(
+                itertools.product(
+                    *(np.arange(f, g + 1) if b else [k] for f, g, b, k in zip(*row, strict=True))
+                )
+            )
+            for row in zip(first, last, bounded, nearest, strict=True)
+        ]
+        each = [len(w) for w in ways]
+        nearest = np.array(list(itertools.chain(*ways))).reshape(-1, chain.dof)
+        Q, owner, number = np.repeat(Q, each, axis=0), np.repeat(owner, each), np.ones(sum(each))
+    counts = np.array([int(min(n, _MANY)) for n in number], np.int64)
+    return _Places(np.clip(Q + turn * nearest, low, high) + 0.0, owner, counts, within)
+
+
+def _order(q: Array, owner: np.ndarray) -> np.ndarray:
+    """The order of solutions (S, m): target by target, sorted; what differs by rounding alone, by
+    later coordinates.
+    """
+    return np.lexsort((*np.round(q, 9).T[::-1], owner))
+
+
+def _result(
+    chain: Chain,
+    T: Array,
+    finite: np.ndarray,
+    batch: tuple[int, ...],
+    found: list[Found],
+    places: _Places,
+    solver: ClosedForm | None,
+) -> AllSolutions:
+    """What is handed out of places in order, every solution looked at by `Chain.fk`."""
+    position, rotation = pose_errors(chain, places.q, T[places.owner]).T
+    good = np.flatnonzero((position <= accepted(chain)) & (rotation <= accepted(chain)))
+    Q, owner, number = places.q[good], places.owner[good], places.number[good]
+    ends = np.searchsorted(owner, np.arange(len(found) + 1))
+    solutions: list[Array] = []
+    copies: list[np.ndarray] = []
+    sure: list[str] = []
+    numbers = np.zeros((6, len(finite)))
+    numbers[3:] = np.nan
+    known = iter(range(len(found)))
+    closed = None if solver is None else solver.said()
+    for at, is_pose in enumerate(finite):
+        if not is_pose:
+            solutions.append(np.empty((0, chain.dof)))
+            copies.append(np.empty(0, np.int64))
+            sure.append("0 solutions: bad target, it is not made of finite numbers")
+            continue
+        k = next(known)
+        part, f = slice(ends[k], ends[k + 1]), found[k]
+        solutions.append(Q[part])
+        copies.append(number[part])
+        sure.append(in_words(f, int(places.within[k]), closed))
+        numbers[:4, at] = ends[k + 1] - ends[k], len(f.solutions), bool(f.moving), chance_of_more(f)
+        if ends[k + 1] > ends[k]:
+            numbers[4:, at] = position[good[part]].max(), rotation[good[part]].max()
+    count, anywhere, continuum = (
+        row.astype(kind).reshape(batch)
+        for row, kind in zip(numbers[:3], (int, int, bool), strict=True)
+    )
+    chance, worst_position, worst_rotation = (row.reshape(batch) for row in numbers[3:])
+    whole = (solutions, copies, sure) if batch else (solutions[0], copies[0], sure[0])
+    return AllSolutions(
+        *whole, "search" if solver is None else "closed form", count, anywhere, continuum, chance,
+        worst_position, worst_rotation,
+    )  # fmt: skip

@@ -1,0 +1,229 @@
+"""All ends of many tries: what the kernel finds for each target, and which of it is a continuum.
+
+Arms and configurations are in joint units (`joint_units`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...engine.kernels import ik_codes
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...model.kinematics.compiled import CompiledChain
+from ..ik.joint_units import period
+
+
+def accepted(chain: Chain) -> float:
+    """m and rad: how far the pose of a solution may be from its target; a pose of a long arm is not
+    known better.
+    """
+    return max(1e-10, 1e-12 * chain.reach)
+
+
+_EDGE = 1e-12  # rad or m: a solution that is outside the limits by less is at them
+_AIM = (
+    1e-13  # m per metre of reach, and rad: where a try ends, some 100 times the rounding of a pose
+)
+_ROOM = (
+    40  # solutions of one target that are kept: isolated ones of six revolute joints are at most 16
+)
+_AT_ONCE = 32  # targets between which an interrupt is seen
+_SINGULAR = 1e-5  # of the largest singular value: below it a solution may be one of a continuum
+_MOVES = 0.02  # of the largest change: what changes by less does not move along a continuum
+_STEP = 0.05  # rad or m: how far a walk along a continuum goes
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What was found for one target, limits apart.
+
+    Attributes: solutions (s, m); hits (s,), how often each was found; ends, how many tries ended at
+    any of them; restarts, 0 where the given starts were enough; full, whether there was no room for
+    more; singular, whether any of them is singular; moving, the coordinates that move along a
+    continuum of solutions, of which one solution
+    is listed; none where there is no continuum.
+    """
+
+    solutions: Array
+    hits: Array
+    ends: int
+    restarts: int
+    full: bool
+    singular: bool = False
+    moving: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Rule:
+    """How long a search goes on: until each solution was found `often` times, within `restarts`
+    tries of `iterations`; it gives up after `barren` tries without any.
+    """
+
+    often: int
+    restarts: int
+    iterations: int
+    barren: int
+
+
+def periods(chain: Chain) -> Array:
+    """After how much each coordinate has all its joints where they were (m,): whole turns, or 0 for
+    never.
+    """
+    return np.array([period(chain, k) for k in range(chain.dof)])
+
+
+def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
+    """The fewest and the most periods (S, m) that may be added to configurations within the limits:
+    more than the most where there is no way, infinite where there is no limit.
+    """
+    turn = periods(chain)
+    low, high = chain.limits.T if limits else np.tile([[-np.inf], [np.inf]], (1, chain.dof))
+    turns = turn > 0
+    step = np.where(turns, turn, 1.0)
+    first, last = np.ceil((low - _EDGE - Q) / step), np.floor((high + _EDGE - Q) / step)
+    inside = (low - _EDGE <= Q) & (high + _EDGE >= Q)
+    return np.where(turns, first, np.where(inside, 0.0, 1.0)), np.where(turns, last, 0.0)
+
+
+def pose_errors(chain: Chain, q: Array, T: Array) -> Array:
+    """How far the poses of q (S, m) by the kernels of `Chain.fk` are from targets (S, 4, 4): m and
+    rad (S, 2).
+    """
+    from ...engine.kernels import ik_kernels
+
+    errors = np.empty((len(q), 2))
+    ik_kernels.judge.call(
+        chain._table, q, np.ascontiguousarray(T), ik_codes.POSE, np.zeros(3), errors
+    )
+    return errors
+
+
+def search(
+    fast: CompiledChain, T: Array, starts: Sequence[Array], rule: Rule, seed: int, limits: bool
+) -> list[Found]:
+    """Solutions of targets (N, 4, 4) from given starts (s, m) of each and then from random ones, by
+    the rule.
+    """
+    found: list[Found] = []
+    for first in range(0, len(T), _AT_ONCE):
+        some = slice(first, first + _AT_ONCE)
+        found += _search(fast, T[some], starts[some], rule, seed, first)
+    return _looked_at(fast, T, found, limits)
+
+
+def _search(
+    fast: CompiledChain, T: Array, starts: Sequence[Array], rule: Rule, seed: int, first: int
+) -> list[Found]:
+    from ...engine.kernels import ik_all_kernel as kernel  # which imports Numba
+
+    chain, N, m = fast.chain, len(T), fast.dof
+    given = np.array([len(Q) for Q in starts], np.float64)
+    rows = np.zeros((N, int(given.max(initial=0)), m))
+    for k, Q in enumerate(starts):
+        rows[k, : len(Q)] = Q
+    turn = periods(chain)
+    # a coordinate that turns is free, and brought into its limits at the end; another one has only
+    # its own range
+    low, high = chain._range()
+    ranges = np.where(turn[:, None] > 0, turn[:, None] * [-0.5, 0.5], np.stack([low, high], axis=1))
+    options = np.zeros(ik_codes.OPTIONS)
+    options[ik_codes.TOL_POSITION], options[ik_codes.TOL_ROTATION] = _AIM * chain.reach, _AIM
+    options[ik_codes.ITERATIONS], options[ik_codes.TASK] = rule.iterations, ik_codes.POSE
+    options[ik_codes.WEIGHTS :] = 1.0
+    rules = np.zeros(kernel.RULE)
+    rules[kernel.ACCEPTED], rules[kernel.EACH], rules[kernel.RESTARTS] = (
+        accepted(chain),
+        rule.often,
+        rule.restarts,
+    )
+    rules[kernel.BARREN] = rule.barren
+    q, hits, info = np.empty((N, _ROOM, m)), np.empty((N, _ROOM)), np.empty((N, kernel.INFO))
+    free = np.tile([-np.inf, np.inf], (m, 1))
+    indices = np.arange(first, first + N, dtype=np.float64)
+    T = np.ascontiguousarray(T)
+    kernel.search.call(
+        fast.hybrid_address,
+        T,
+        rows,
+        given,
+        free,
+        ranges,
+        turn,
+        options,
+        rules,
+        indices,
+        seed,
+        q,
+        hits,
+        info,
+    )
+    counts = info[:, kernel.FOUND].astype(int)
+    ends, restarts = info[:, kernel.AT_ENDS].astype(int), info[:, kernel.AT_RESTARTS].astype(int)
+    full = info[:, kernel.FULL] > 0
+    return [
+        Found(q[k, :s].copy(), hits[k, :s].copy(), int(ends[k]), int(restarts[k]), bool(full[k]))
+        for k, s in enumerate(counts)
+    ]
+
+
+def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) -> list[Found]:
+    """Which targets have singular solutions; of those that belong to a continuum only one is kept,
+    within the limits if one is.
+    """
+    result = list(found)
+    if not any(len(f.solutions) for f in found):
+        return result
+    owner = np.repeat(np.arange(len(found)), [len(f.solutions) for f in found])
+    J = fast.chain.jacobian(np.concatenate([f.solutions for f in found]), frame="hybrid")
+    J[:, 3:] /= _size(fast.chain)  # so that the unit of length is of no matter
+    sizes = np.linalg.svd(J, compute_uv=False)
+    singular = sizes[:, -1] < _SINGULAR * sizes[:, 0]
+    for k in np.unique(owner[singular]):
+        f, those = found[k], np.flatnonzero(owner == k)
+        ways = [
+            _way_along(fast, T[k], f.solutions[j], J[i]) if singular[i] else None
+            for j, i in enumerate(those)
+        ]
+        met = [j for j, way in enumerate(ways) if way is not None]
+        result[k] = f = replace(f, singular=True)
+        if met:
+            first, last = turns_within(fast.chain, f.solutions[met], limits)
+            kept = met[int(np.argmax((first <= last).all(axis=1)))]
+            alone = sorted({*range(len(ways))} - {*met} | {kept})
+            most = np.max(
+                [np.abs(way) / np.abs(way).max() for way in ways if way is not None], axis=0
+            )
+            names = tuple(
+                name for name, size in zip(fast.q_names, most, strict=True) if size > _MOVES
+            )
+            result[k] = replace(f, solutions=f.solutions[alone], hits=f.hits[alone], moving=names)
+    return result
+
+
+def _size(chain: Chain) -> float:
+    """How long the links are together (m), 1 where all are points."""
+    return float(np.linalg.norm(chain.local.frames[1:, :3, 3], axis=1).sum()) or 1.0
+
+
+def _way_along(fast: CompiledChain, T: Array, q: Array, J: Array) -> Array | None:
+    """How the coordinates change along a continuum of solutions through q, or None where there is
+    none.
+
+    A step in a direction that does not move the tool to first order is tried down to the target
+    again: of a double solution it comes back, along a continuum it stays a step away.
+    """
+    _, sizes, V = np.linalg.svd(J)
+    lost = V[: len(sizes)][sizes < _SINGULAR * sizes[0]]
+    turn = periods(fast.chain)
+    for way in lost:
+        (end,) = _search(fast, T[None], [(q + _STEP * way)[None]], Rule(1, 0, 200, 0), 0, 0)
+        if len(end.solutions):
+            step = end.solutions[0] - q
+            step -= turn * np.round(np.divide(step, turn, out=np.zeros_like(step), where=turn > 0))
+            if _STEP / 4 < np.linalg.norm(step) < 2 * _STEP:
+                return step
+    return None

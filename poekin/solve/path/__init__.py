@@ -1,0 +1,1 @@
+"""Joints along a path of poses."""

@@ -1,0 +1,158 @@
+"""follow: joints along a path of poses, from each pose to the next without a jump."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import InputError, ShapeError, told
+from ...groups.arrays import Array, numbers
+from ...model.chain import Chain
+from ...model.coordinates import coordinates
+from ...model.kinematics.compiled import CompiledChain
+from ..ik.diagnosis import KIND
+from ..ik.joint_domain import first_tries
+from ..ik.solution import BAD_TARGET, SOLVED, Solution
+from ..ik.solver import Settings, hashable, items, solver_of
+from ..ik.task import targets
+from .followed import Followed
+from .follower import Follower
+
+
+def follow(
+    arm: Chain | CompiledChain,
+    poses: ArrayLike,
+    *,
+    q0: Any = None,
+    times: ArrayLike | None = None,
+    speed: Any = None,
+    acceleration: Any = None,
+    max_step: Any = 0.1,
+    task: str = "pose",
+    axis: ArrayLike | None = None,
+    limits: bool = True,
+    lock: Mapping[str, float] | None = None,
+    tol_position: float = 1e-9,
+    tol_rotation: float = 1e-9,
+    seed: int = 0,
+    progress: Callable[[int, int], None] | None = None,
+) -> Followed:
+    """Joints q_k with f(q_k) = T_k along a path, each reached from the one before it without a
+    jump.
+
+    Each pose is solved from the joints of the last, without any new start. Where that fails or
+    moves a coordinate by more than `max_step`, the step is taken in up to 512 pieces of the screw
+    motion between the two poses; where that fails too, the arm cannot go on as it stands: the
+    branch changes, to the solution that gets farthest along the path (of equals, the nearest), and
+    `changes` says where. A pose that is out of reach gets
+    the joints within one step of the last that come nearest to it.
+
+    Parameters
+    ----------
+    arm: a `Chain`, or what its `compile` gives. poses (N, 4, 4): of the tip in the base frame, m,
+    in order.
+    q0 (m,) or a dict: the arm goes on from there: the first pose gets the solution that is reached
+        from it, else the one nearest to it. Without it, 8 to 32 starts are tried, those that follow
+        the whole path are preferred to all others, and of them the one whose largest step is
+        smallest.
+    times (N,), s, ascending: when each pose is to be reached. speed, acceleration: limits of each
+        coordinate, a number, (m,) or a dict, per s and s^2; they are compared with what the
+        differences of q over `times` say.
+    max_step: how far a coordinate may move between two poses, or pieces: a number, in rad or m of
+        the joint that it moves most, or (m,) or a dict, in its own unit.
+    task, axis, limits, lock, tol_position (m), tol_rotation (rad), seed: as `ik`.
+    progress(done, total): called from time to time.
+
+    Returns: Followed; `print` of it says everything in words. Raises: PoseError that says which
+    pose is none; ShapeError, InputError, UnknownName. A pose of NaN gets the reason "bad target",
+    and the path goes on after it. Accuracy: `success` as of `ik`: the errors are computed anew by
+    `Chain.fk` (tests/solve/path/test_follow.py). Source: the damped least squares of `ik`;
+    continuation from pose to pose.
+    """
+    fast = (
+        arm if isinstance(arm, CompiledChain) else arm.compile() if isinstance(arm, Chain) else None
+    )
+    if fast is None:
+        raise InputError(f"follow: expected a Chain, got {told(arm)}")
+    chain, path = fast.chain, _path(poses)
+    solver = solver_of(fast, Settings(
+        task, hashable(axis, "axis"), limits, tol_position, tol_rotation, items(lock), None, 100, 30, seed, False
+    ))  # fmt: skip
+    most = per_coordinate(max_step, chain, "max_step")
+    if isinstance(max_step, Mapping) or np.ndim(max_step):
+        most = np.abs(solver.units.of(most))
+    when, limit_v, limit_a = _timing(times, speed, acceleration, chain, len(path))
+    start = None if q0 is None else first_tries(solver.units, solver.room, (), 1, q0)[0]
+    finite = np.isfinite(path).all(axis=(1, 2))
+    follower = Follower(solver, np.ascontiguousarray(path[finite]), most, progress)
+    joints, broken = follower.run(start)
+    found = solver.coordinates(joints)
+
+    at, count = np.flatnonzero(finite), len(path)
+    q, reason, errors = (
+        np.full((count, chain.dof), np.nan),
+        np.full(count, BAD_TARGET, KIND),
+        np.full((count, 2), np.nan),
+    )
+    q[at], errors[at] = found, solver.judged(path[finite], found)[0]
+    success = (errors[:, 0] <= tol_position) & (errors[:, 1] <= tol_rotation)
+    reason[success] = SOLVED
+    beyond = np.zeros(count)
+    blocked: list[tuple[str, ...]] = [()] * count
+    for k in np.flatnonzero(finite & ~success):
+        reason[k], beyond[k], blocked[k] = follower.said(int(np.searchsorted(at, k)))
+    nothing = np.zeros(count, np.int64)
+    solution = Solution(
+        q, success, reason, errors[:, 0], errors[:, 1], nothing, nothing, beyond, tuple(blocked)
+    )
+    changes = tuple(int(at[k]) for k in broken)
+    bounds = chain.limits if limits else np.full_like(chain.limits, [-np.inf, np.inf])
+    return Followed(chain, solution, changes, solver.task, bounds, when, limit_v, limit_a)
+
+
+def per_coordinate(value: Any, chain: Chain, what: str) -> Array:
+    """A positive number for each coordinate. Raises: InputError, ShapeError, UnknownName."""
+    if not isinstance(value, Mapping) and numbers(value, what).ndim == 0:
+        value = np.full(chain.dof, float(value))
+    array = coordinates(value, chain.q_names, what)
+    if array.ndim != 1:
+        raise ShapeError(
+            f"{what}: expected one number, or one a coordinate ({chain.dof},), got shape {array.shape}"
+        )
+    if not (array > 0).all():
+        raise InputError(f"{what}: expected positive numbers, got {told(array.tolist())}")
+    return np.ascontiguousarray(array)
+
+
+def _path(T: ArrayLike) -> Array:
+    path = targets(T, "poses")
+    if path.ndim != 3:
+        raise ShapeError(f"poses: expected a path (N, 4, 4), got shape {path.shape}")
+    return path
+
+
+def _timing(
+    times: Any, speed: Any, acceleration: Any, chain: Chain, count: int
+) -> tuple[Array | None, Array | None, Array | None]:
+    """Times (N,) and the limits (m,) of speed and acceleration, where they are given."""
+    if times is None:
+        if speed is not None or acceleration is not None:
+            raise InputError(
+                "speed and acceleration: expected together with times, when each pose is to be reached"
+            )
+        return None, None, None
+    t = numbers(times, "times")
+    if t.shape != (count,):
+        raise ShapeError(f"times: expected one for each pose ({count},), got shape {t.shape}")
+    if not np.isfinite(t).all() or not (np.diff(t) > 0).all():
+        k = int(np.argmin(np.isfinite(t[1:]) & (np.diff(t) > 0))) if count > 1 else 0
+        raise InputError(
+            f"times: expected finite ascending seconds, got {told(t[k : k + 2].tolist())} from times[{k}] on"
+        )
+    return (
+        t, None if speed is None else per_coordinate(speed, chain, "speed"),
+        None if acceleration is None else per_coordinate(acceleration, chain, "acceleration"),
+    )  # fmt: skip

@@ -1,0 +1,217 @@
+"""Follower: one path of poses, followed by the compiled descent, in pieces where a step is long,
+then anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ...engine.kernels import ik_codes as codes
+from ...groups.arrays import Array
+from ..ik.solution import ITERATIONS, Solution
+from ..ik.solver import Solver
+from ..motion import paths
+
+PIECES = (8, 64, 512)
+"""A step that is too long is divided into so many pieces, and then so many, before it counts as a
+change of branch.
+"""
+
+ROUNDS, TRIES = 4, 8
+"""Starts are looked for in so many rounds of so many tries, until one of them follows the whole
+path.
+"""
+
+NEAR = 30
+"""Steps towards a pose that is out of reach."""
+
+REGULAR = 1e-13
+"""The least damping of such a step, of the largest number on the diagonal: J^T W J may be singular
+to its rounding.
+"""
+
+
+class Follower:
+    """One path of finite poses, and what is known of it; all joints are in joint units
+    (`joint_units`).
+    """
+
+    def __init__(
+        self, solver: Solver, targets: Array, most: Array, progress: Callable[[int, int], None] | None
+    ):  # fmt: skip
+        from ...engine.kernels import follow_kernels, ik_kernels  # imports Numba
+
+        self._kernel, self._errors = follow_kernels.follow, ik_kernels._errors
+        self.solver, self.targets, self.most, self.progress = solver, targets, most, progress
+        self.dof, self.room = solver.fast.dof, solver.room
+        self._known: tuple[int, Solution] | None = None
+
+    def run(self, q0: Array | None) -> tuple[Array, list[int]]:
+        """q (N, m), and before which poses the branch changed."""
+        count = len(self.targets)
+        q, changes = np.empty((count, self.dof)), []
+        k, last = 0, q0
+        while k < count:
+            if self.progress is not None:
+                self.progress(k, count)
+            end, part = (k, q[:0]) if last is None else self.on(k, last, first=k == 0)
+            if end == k:
+                end, part = self.best(k, last)
+                if end > k and k > 0:
+                    changes.append(k)
+            if end == k:  # out of reach: as near as it gets
+                end, part = k + 1, self._near(k, last)
+            q[k:end], k, last = part, end, part[-1]
+        if self.progress is not None:
+            self.progress(count, count)
+        return q, changes
+
+    def on(self, k: int, last: Array, first: bool) -> tuple[int, Array]:
+        """The path from pose k on as far as it goes without a jump, beginning at joints `last`; its
+        end, and q.
+        """
+        q, start, pose = np.empty((len(self.targets) - k, self.dof)), k, last
+        while k < len(self.targets):
+            done = k + self._descend(
+                self.targets[k:], pose, q[k - start :], anywhere=first and k == start
+            )
+            if done < len(self.targets) and done > start:
+                q_a = q[done - 1 - start]
+                q_b = self._in_pieces(q_a, self.targets[done - 1], self.targets[done])
+                if q_b is not None:
+                    q[done - start] = pose = q_b
+                    k = done + 1
+                    continue
+            return done, q[: done - start]
+        return k, q
+
+    def best(self, k: int, last: Array | None) -> tuple[int, Array]:
+        """Of several solutions of pose k the one that gets farthest, and then jumps and moves
+        least; its end, and q.
+        """
+        found, tried = (k, np.empty((0, self.dof))), np.empty((0, self.dof))
+        score: tuple[float, ...] = (k,)
+        if self._known is not None and self._known[0] <= k and not self._solution_of(k)[0]:
+            return found
+        for turn in range(ROUNDS):
+            for q0 in self._solutions(k, turn, last):
+                if len(tried) and (np.abs(tried - q0).max(axis=1) < 1e-6).any():
+                    continue
+                tried = np.concatenate([tried, q0[None]])
+                end, q = self.on(k, q0, first=False)
+                far = float(
+                    np.abs(np.diff(q, axis=0)).max(initial=0.0)
+                    if last is None
+                    else np.linalg.norm(q0 - last)
+                )
+                if (end, -far) > score:
+                    found, score = (end, q), (end, -far)
+            if found[0] == len(self.targets) or not self._solution_of(found[0])[0]:
+                break
+        return found
+
+    def said(self, k: int) -> tuple[str, float, tuple[str, ...]]:
+        """Why pose k is not reached: the reason, how far it is beyond the reach, and the limits in
+        the way.
+        """
+        success, solution, at = self._solution_of(k)
+        if success:
+            return ITERATIONS, 0.0, ()
+        return str(solution.reason[at]), float(solution.beyond[at]), solution.blocked[at]
+
+    def _descend(self, targets: Array, start: Array, q: Array, anywhere: bool = False) -> int:
+        """How many targets are followed from `start`; where `anywhere`, the first of them at any
+        distance from it.
+        """
+        info, count = np.empty((len(targets), codes.INFO)), 0
+        arm, call = (
+            self.solver.fast.hybrid_address,
+            (self.room.limits, self.solver.fixed, self.solver.options),
+        )
+        if anywhere:
+            wide = np.full_like(start, np.inf)
+            count = self._kernel.call(arm, targets[:1], start.copy(), *call, wide, q[:1], info[:1])
+            if not count:
+                return 0
+            start = q[0]
+        return count + self._kernel.call(
+            arm, targets[count:], start.copy(), *call, self.most, q[count:], info[count:]
+        )  # fmt: skip
+
+    def _in_pieces(self, q_a: Array, T_a: Array, T_b: Array) -> Array | None:
+        """The joints at T_b, by smaller and smaller steps from q_a at T_a; None where no step is
+        small enough.
+        """
+        for pieces in PIECES:
+            between = paths.screw(T_a, T_b, np.arange(1, pieces + 1) / pieces)
+            q = np.empty((pieces, self.dof))
+            if self._descend(between, q_a, q) == pieces:
+                return q[-1]
+        return None
+
+    def _near(self, k: int, last: Array | None) -> Array:
+        """Joints (1, m) as near to pose k as they get within one step of the last ones, else the
+        nearest of `ik`.
+
+        A step is taken only where it makes the error smaller: beyond the reach, where the arm is
+        stretched out, the descent to a target that can be reached would leap about.
+        """
+        if last is None:
+            _, solution, at = self._solution_of(k)
+            return self.solver.units.of(solution.q[[at]])
+        low, high = (
+            np.clip(last - self.most, *self.room.limits.T),
+            np.clip(last + self.most, *self.room.limits.T),
+        )
+        low, high = (np.where(self.room.fixed, last, bound) for bound in (low, high))
+        q, damping = last, 1e-3
+        size, H, g = self._slope(k, q)
+        for _ in range(NEAR):
+            least = REGULAR * H.diagonal().max()
+            tried = np.clip(
+                q + np.linalg.solve(H + max(damping, least) * np.eye(self.dof), g), low, high
+            )
+            new = self._slope(k, tried)
+            if new[0] < size:
+                gain = size - new[0]
+                q, (size, H, g), damping = tried, new, 0.2 * damping
+                if gain < 1e-9 * size:
+                    break
+            else:
+                damping *= 5
+        return q[None]
+
+    def _slope(self, k: int, q: Array) -> tuple[float, Array, Array]:
+        """e^T W e, J^T W J and J^T W e at pose k, with the error of the compiled descent."""
+        (T, J), task, e = self.solver.fast.fk_jacobian(q, "hybrid"), self.solver.task, np.empty(6)
+        self._errors(task.code, task.axis, T, self.targets[k], J, e)
+        return float(task.weights @ e**2), (J.T * task.weights) @ J, (J.T * task.weights) @ e
+
+    def _solutions(self, k: int, turn: int, last: Array | None) -> Array:
+        """Solutions of pose k: the nearest to the last joints first, then of random starts."""
+        T, number = (
+            np.tile(self.targets[k], (TRIES, 1, 1)),
+            np.arange(TRIES, dtype=float) + TRIES * turn,
+        )
+        q, info = self.solver.solve(T, number, self.room.anywhere(TRIES), restarts=10)
+        q = q[info[:, codes.AT_STATE] == codes.SOLVED]
+        if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are
+            q = self.room.unwound(q, self.room.ranges.mean(axis=1) if last is None else last)
+        if last is not None and turn == 0:
+            near = self.solver.run(self.targets[k], None, self.solver.coordinates(last), None, None)
+            q = np.concatenate([self.solver.units.of(near.q[None])[: int(near.success)], q])
+        if not len(q):
+            success, solution, at = self._solution_of(k)
+            q = self.solver.units.of(solution.q[[at]])[: int(success)]
+        return q
+
+    def _solution_of(self, k: int) -> tuple[bool, Solution, int]:
+        """Whether `ik` solves pose k; what it says of it and all that follow, asked once; and where
+        k stands there.
+        """
+        if self._known is None or self._known[0] > k:
+            self._known = k, self.solver.run(self.targets[k:], None, None, None, None)
+        first, solution = self._known
+        return bool(solution.success[k - first]), solution, k - first

@@ -1,0 +1,48 @@
+"""Pictures as SVG text; the one file of the package that imports Matplotlib."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from typing import Any
+
+from ..errors import MissingExtra, harmless
+
+INK, PALE = "#222222", "#9a9a9a"
+
+
+def svg(width: float, height: float, purpose: str, draw: Callable[[Any], None]) -> str:
+    """An SVG file of this size (inches), drawn by draw(figure): text stays text, in the reader's
+    own font.
+
+    purpose: what it is, for the message where Matplotlib is missing. The same numbers give the same
+    text.
+    Raises: MissingExtra without Matplotlib (extra `report`).
+    """
+    try:
+        import matplotlib
+    except ModuleNotFoundError as missing:
+        raise MissingExtra("matplotlib", "report", purpose) from missing
+    from matplotlib.figure import Figure
+
+    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "poekin", "font.size": 9}):
+        figure = Figure((width, height), layout="constrained")
+        draw(figure)
+        out = io.StringIO()
+        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+    return out.getvalue()
+
+
+def inline(text: str) -> str:
+    """The same without what stands before the picture itself, to be put into a page."""
+    return text[text.index("<svg") :]
+
+
+def label(name: object, width: int = 40) -> str:
+    """A name out of a file as a label: harmless, and no formula, which a dollar sign would begin."""
+    return harmless(name, width).replace("$", r"\$")
+
+
+def plain(axes: Any) -> None:
+    """The house's look: no frame at the top and on the right."""
+    axes.spines[["top", "right"]].set_visible(False)

@@ -1,0 +1,150 @@
+"""What float64 can attain for exp and log, and how many times as far a result is from the truth.
+
+With u = 2⁻⁵³, θ = |ω|, κ = (θ/2)/sin(θ/2), ‖·‖ Euclidean for vectors and Frobenius for matrices:
+
+    exp   ‖ΔR‖ <= u (1 + √2 θ)                              ‖Δt‖ <= u (‖t‖ + ‖v‖ + θ ‖∂t/∂ω‖)
+    log   ‖Δω‖ <= u (1 + 1.22 κ min(1, 1/θ)) ‖ω‖            ‖Δv‖ <= u (‖v‖ + κ ‖t‖ + θ ‖∂v/∂ω‖)
+
+The terms are the rounding of the result and the result's response to a relative rounding u of its
+argument. The truth of exp is that of the float64 argument, and the truth of log is the exact
+logarithm of the float64 matrix as it stands (of its polar projection). ∂t/∂ω is at fixed v, ∂v/∂ω
+at fixed t.
+
+Parameters: xi, the twist (6,), (ω; v) in rad and m, or rotation vector (3,); T, the pose (4, 4) in
+the base frame, or rotation (3, 3), that goes with it. Returns: ratios are pure numbers; 1 is as
+good as float64 can be.
+Raises: ShapeError where the two do not go together; as `exact`. Source: the first-order response to
+rounding.
+Accuracy: the ratios are right to many more digits than anybody reads;
+tests/testing/accuracy/test_error_bounds.py holds the derivatives to differences in high precision.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import ShapeError
+from ..oracles import exact
+from ..oracles.exact import mp, norm
+
+UNIT = 2.0**-53
+BOTH_SIGNS = 8 * UNIT
+"""Where π - θ is below this, ω and -ω are equally right logarithms of a float64 matrix."""
+
+
+class Bound(NamedTuple):
+    """The largest error that float64 cannot avoid, of a result. Fields: angular [rad], linear [m],
+    mpmath numbers.
+    """
+
+    angular: Any
+    linear: Any
+
+
+def exp_bound(xi: ArrayLike) -> Bound:
+    """The attainable ‖ΔR‖ and ‖Δt‖ of exp at xi (6,) or (3,) (then the second is 0)."""
+    x = exact.exactly(xi)
+    theta = norm(x[:3])
+    angular = UNIT * (1 + mp.sqrt(2) * theta)
+    if len(x) == 3:
+        return Bound(angular, mp.zero)
+    t = exact.exp(x)[:3, 3]
+    slope = norm(_translation_slope(x, t))
+    return Bound(angular, UNIT * (norm(t) + norm(x[3:]) + theta * slope))
+
+
+def log_bound(xi: ArrayLike) -> Bound:
+    """The attainable ‖Δω‖ and ‖Δv‖ of log where the exact logarithm is xi (6,) or (3,)."""
+    x = exact.exactly(xi)
+    theta = norm(x[:3])
+    kappa = theta / 2 / mp.sin(theta / 2) if theta else mp.one
+    angular = (
+        UNIT * (1 + mp.mpf("1.22") * kappa * min(mp.one, 1 / theta if theta else mp.one)) * theta
+    )
+    if len(x) == 3:
+        return Bound(angular, mp.zero)
+    J = exact.left_jacobian(x[:3])
+    t = J @ x[3:]
+    # v = J⁻¹ t with t fixed: ∂v/∂ω = -J⁻¹ ∂(J v)/∂ω.
+    slope = norm(exact.left_jacobian_inverse(x[:3]) @ _translation_slope(x, t))
+    return Bound(angular, UNIT * (norm(x[3:]) + kappa * norm(t) + theta * slope))
+
+
+def ratio_exp(xi: ArrayLike, T: ArrayLike) -> float:
+    """Error of T as the exponential of xi ÷ attainable error, the worse of R and t; `inf` where T
+    is not finite.
+
+    xi (6,) and T (4, 4), or xi (3,) and T (3, 3).
+    """
+    _together(xi, T)
+    if not np.all(np.isfinite(np.asarray(T, dtype=float))):
+        return math.inf
+    x, X = exact.exactly(xi), exact.exactly(T)
+    E, bound = exact.exp(x) - X, exp_bound(x)
+    ratio = _ratio(norm(E[:3, :3]), bound.angular)
+    if len(x) == 3:
+        return ratio
+    if np.any(X[3] != [0, 0, 0, 1]):
+        return math.inf
+    return max(ratio, _ratio(norm(E[:3, 3]), bound.linear))
+
+
+def ratio_log(T: ArrayLike, xi: ArrayLike) -> float:
+    """Error of xi as the principal logarithm of T ÷ attainable error, the worse of ω and v; `inf`
+    if not finite.
+
+    T (4, 4) and xi (6,), or T (3, 3) and xi (3,). Where π - θ < 8 u both signs of ω are right, with
+    the v that goes with each.
+    """
+    _together(xi, T)
+    return ratio_to(exact.log(T), xi)
+
+
+def ratio_to(truth: np.ndarray, xi: ArrayLike) -> float:
+    """As `ratio_log` where the exact logarithm of T, truth (6,) or (3,), is known; xi (6,) or (3,)."""
+    if not np.all(np.isfinite(np.asarray(xi, dtype=float))):
+        return math.inf
+    x, candidates = exact.exactly(xi), [truth]
+    if mp.pi - norm(truth[:3]) < BOTH_SIGNS:
+        candidates.append(_other_sign(truth))
+    return min(_log_ratio(x, candidate) for candidate in candidates)
+
+
+def _together(xi: ArrayLike, T: ArrayLike) -> None:
+    shapes = np.shape(xi), np.shape(T)
+    if shapes not in (((3,), (3, 3)), ((6,), (4, 4))):
+        raise ShapeError(
+            f"expected xi (6,) with T (4, 4), or xi (3,) with T (3, 3), got {shapes[0]} with {shapes[1]}"
+        )
+
+
+def _log_ratio(x: np.ndarray, truth: np.ndarray) -> float:
+    bound = log_bound(truth)
+    ratio = _ratio(norm(x[:3] - truth[:3]), bound.angular)
+    return max(ratio, _ratio(norm(x[3:] - truth[3:]), bound.linear))
+
+
+def _other_sign(truth: np.ndarray) -> np.ndarray:
+    """The logarithm with the opposite ω of the pose whose logarithm is `truth`."""
+    w = -truth[:3]
+    if len(truth) == 3:
+        return w
+    return np.concatenate(
+        [w, exact.left_jacobian_inverse(w) @ (exact.left_jacobian(truth[:3]) @ truth[3:])]
+    )
+
+
+def _translation_slope(x: np.ndarray, t: np.ndarray) -> np.ndarray:
+    """∂t/∂ω of exp at fixed v, from the left Jacobian: dt is the velocity v_s + ω_s × t of the
+    moving origin.
+    """
+    J = exact.left_jacobian(x)
+    return J[3:, :3] - exact.hat(t) @ J[:3, :3]
+
+
+def _ratio(error: Any, bound: Any) -> float:
+    return float(error / bound) if bound else (math.inf if error else 0.0)

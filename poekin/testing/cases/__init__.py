@@ -1,0 +1,1 @@
+"""Robots to test on, and changes planted in them."""

@@ -1,0 +1,258 @@
+"""`fk` and `jacobian` of a subject as `Law`s: of any arm, handed to it as screws, or of its own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ....model.kinematics.pose_jacobian import FRAME_NAMES
+from ...laws.derivative_laws import exact_jacobians
+from ...laws.measures import size
+from ...oracles import exact
+from ...strategies.configuration_strategies import at_limits, bounds, within_limits
+from ...strategies.group_strategies import (
+    SMALLEST,
+    angles,
+    axes,
+    frozen,
+    magnitudes,
+    st,
+    twists,
+    vectors,
+)
+from .. import confirm
+from ..grades import Grade, Verdict
+from ..process.calls import real
+from ..subjects.subject import Subject
+from . import of_arms
+from .group_cases import coordinates, element
+from .law import Case, Law, Shown, drawable, typed, unit
+from .of_arms import Arm
+
+EACH = 8
+"""Numbers of a joint: axis, a point on it, q, pitch; six more at the end are the home pose's ω and
+v.
+"""
+LENGTHS = (1e-3, 3.0)
+PITCHES = (1e-3, 1.0)
+TRAVELS = (1e-6, 2.0)
+KINDS = ("revolute", "prismatic")
+
+
+class Limits(NamedTuple):
+    """Of the coordinates of a declared arm, in rad or m."""
+
+    lower: tuple[float, ...]
+    upper: tuple[float, ...]
+
+
+def cases(subject: Subject, kinds: tuple[str, ...] = KINDS) -> st.SearchStrategy[Case]:
+    """Arms of one to four joints of these kinds, and configurations; of a declared arm, the latter
+    only.
+
+    These stay within its limits: a driver may refuse others.
+    """
+    if subject.arm is not None:
+        limits = Limits(*(tuple(side) for side in bounds(subject.arm).T.tolist()))
+        inside = st.one_of(within_limits(subject.arm), at_limits(subject.arm))
+        return inside.map(lambda q: Case(np.asarray(q), limits))
+    return st.lists(_joints(kinds), min_size=1, max_size=4).flatmap(
+        lambda joints: twists(math.pi, LENGTHS).map(lambda home: _case(joints, np.asarray(home)))
+    )
+
+
+def _joints(kinds: tuple[str, ...]) -> st.SearchStrategy[tuple[str, np.ndarray]]:
+    signs = st.sampled_from([1.0, -1.0])
+    turns = st.builds(lambda x, sign: x * sign, angles(), signs)
+    pitches = st.builds(lambda x, sign: x * sign, magnitudes(*PITCHES), signs)
+    nought = st.just(0.0)
+    one = {
+        "revolute": st.builds(_numbers, axes(), vectors(LENGTHS), turns, nought),
+        "prismatic": st.builds(
+            _numbers, axes(), st.just(np.zeros(3)), magnitudes(*TRAVELS), nought
+        ),
+        "helical": st.builds(_numbers, axes(), vectors(LENGTHS), turns, pitches),
+    }
+    return st.one_of(*(st.tuples(st.just(kind), one[kind]) for kind in kinds))
+
+
+def _numbers(axis: np.ndarray, point: np.ndarray, q: float, pitch: float) -> np.ndarray:
+    return frozen([*axis, *point, q, pitch])
+
+
+def _case(joints: list[tuple[str, np.ndarray]], home: np.ndarray) -> Case:
+    return Case(
+        np.concatenate([*(numbers for _, numbers in joints), home]),
+        tuple(kind for kind, _ in joints),
+    )
+
+
+def drawn(case: Case) -> tuple[Arm, np.ndarray]:
+    """The arm in floats, and q."""
+    kinds, rows = _kinds(case), case.numbers[:-6].reshape(-1, EACH)
+    screws = np.zeros((len(rows), 6))
+    for kind, row, screw in zip(kinds, rows, screws, strict=True):
+        n = row[:3] / math.hypot(*row[:3])
+        screw[:] = (
+            [0, 0, 0, *n] if kind == "prismatic" else [*n, *(np.cross(row[3:6], n) + row[7] * n)]
+        )
+    return of_arms.arm(screws, element(case.numbers[-6:])), rows[:, 6]
+
+
+def simpler(case: Case) -> Iterable[Case]:
+    """With a joint less."""
+    kinds = _kinds(case)
+    if len(kinds) > 1:
+        for k in range(len(kinds)):
+            numbers = np.delete(case.numbers, slice(EACH * k, EACH * (k + 1)))
+            yield Case(numbers, kinds[:k] + kinds[k + 1 :])
+
+
+def allowed(case: Case) -> bool:
+    """Axes keep their length, and all numbers their range; a declared arm stays within its limits."""
+    if isinstance(case.layout, Limits):
+        return bool(
+            np.all(case.numbers >= case.layout.lower) and np.all(case.numbers <= case.layout.upper)
+        )
+    angle, length = size(case.numbers[-6:-3]), size(case.numbers[-3:])
+    if not (drawable(angle, (SMALLEST, math.pi)) and drawable(length, LENGTHS)):
+        return False
+    rows = case.numbers[:-6].reshape(-1, EACH)
+    return all(_allowed(kind, row) for kind, row in zip(_kinds(case), rows, strict=True))
+
+
+def _allowed(kind: str, row: np.ndarray) -> bool:
+    amounts = TRAVELS if kind == "prismatic" else (SMALLEST, math.pi)
+    fits = (
+        drawable(row[6], amounts)
+        and drawable(row[7], PITCHES)
+        and drawable(size(row[3:6]), LENGTHS)
+    )
+    return unit(row[:3]) and fits
+
+
+def triples(case: Case) -> Iterable[int]:
+    """Points on the axes, and the home pose's halves."""
+    n = EACH * len(_kinds(case))
+    return [*range(3, n, EACH), n, n + 3] if n else []
+
+
+def directions(case: Case) -> Iterable[int]:
+    """Axes."""
+    return range(0, EACH * len(_kinds(case)), EACH)
+
+
+def _of(subject: Subject, name: str, case: Case) -> tuple[Any, np.ndarray]:
+    if subject.arm is not None:
+        return subject.arm, case.numbers
+    arm, q = drawn(case)
+    rounded = subject.precision(name).rounded
+    return of_arms.arm(rounded(arm.screws), rounded(arm.home)), q
+
+
+def _arguments(subject: Subject, arm: Any) -> tuple[np.ndarray, ...]:
+    return () if subject.arm is not None else (subject.twist(arm.screws), arm.home)
+
+
+def _check_fk(subject: Subject, case: Case) -> Verdict:
+    arm, q = _of(subject, "fk", case)
+    first = _arguments(subject, arm)
+    return of_arms.fk_is_the_product_of_exponentials(
+        lambda q: subject.plain("fk")(*map(np.array, first), q),
+        arm,
+        q,
+        Grade.BROKEN,
+        subject.precision("fk"),
+    )
+
+
+def _check_jacobian(subject: Subject, case: Case) -> Verdict:
+    arm, q = _of(subject, "jacobian", case)
+    first = _arguments(subject, arm)
+
+    def jacobian(q: np.ndarray) -> np.ndarray:
+        J = real(subject.plain("jacobian")(*map(np.array, first), q))
+        return subject.rows(J) if J.shape == (6, len(q)) else J
+
+    return of_arms.jacobian_is_the_derivative(
+        jacobian, subject.frame, arm, q, Grade.BROKEN, subject.precision("jacobian")
+    )
+
+
+def confirmed(arm: Any, q: np.ndarray, jacobian: bool) -> bool:
+    """Whether pose and space Jacobian of an arm stand against the second oracle."""
+    x = of_arms.displacements(arm, q)
+    if not confirm.of_pose(arm.screws, arm.home, x):
+        return False
+    every = of_arms.arm(arm.screws, arm.home)
+    return not jacobian or confirm.of_velocities(
+        arm.screws, arm.home, x, exact_jacobians(every, x)[0]
+    )
+
+
+def _show(name: str, subject: Subject, case: Case) -> Shown:
+    arm, q = _of(subject, name, case)
+    values = [f"np.array({typed(x)})" for x in (*_arguments(subject, arm), q)]
+    names = ["q"] if len(values) == 1 else ["screws", "home", "q"]
+    words = f"q = {typed(q)}"
+    if len(values) > 1:
+        screws = "; ".join(
+            f"{kind} ({coordinates(S)})" for kind, S in zip(_kinds(case), arm.screws, strict=True)
+        )
+        words = f"screws {screws}; M = e^ξ of {coordinates(case.numbers[-6:])}; {words}"
+    expected = truth(subject, arm, q, name == "jacobian")
+    return Shown(words, subject.call(name, **dict(zip(names, values, strict=True))), expected)
+
+
+def truth(subject: Subject, arm: Any, q: np.ndarray, jacobian: bool) -> np.ndarray:
+    """The exact pose, or the Jacobian as the subject has it, in floats; what is 0 to 60 digits of
+    the largest is 0.
+    """
+    found = of_arms.pose(arm, q)
+    if jacobian:
+        found = exact_jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(subject.frame)]
+    x = exact.rounded(found)
+    x = np.where(np.abs(x) < 1e-60 * np.max(np.abs(x), initial=0.0), 0.0, x)
+    return subject.rows(x) if jacobian else x
+
+
+def _kinds(case: Case) -> tuple[str, ...]:
+    return (
+        case.layout
+        if isinstance(case.layout, tuple) and not isinstance(case.layout, Limits)
+        else ()
+    )
+
+
+def _law(
+    function: str, says: str, check: Callable[[Subject, Case], Verdict], helical: bool = False
+) -> Law:
+    jacobian = function == "jacobian"
+    kinds = (*KINDS, "helical") if helical else KINDS
+
+    def about(case: Case) -> bool:
+        return not helical or bool(np.any(case.numbers[:-6].reshape(-1, EACH)[:, 7]))
+
+    return Law(
+        f"{function} helical" if helical else function, says, function, lambda subject: cases(subject, kinds), check,
+        lambda subject, case: confirmed(*_of(subject, function, case), jacobian),
+        lambda subject, case: _show(function, subject, case), simpler, triples, directions, allowed,
+        lambda subject: not helical or (subject.helical and subject.arm is None), about,
+        "helical = True is not declared, or an arm is", 150,
+    )  # fmt: skip
+
+
+ARM_LAWS = (
+    _law("fk", "fk is the product of exponentials", _check_fk),
+    _law(
+        "jacobian", "the Jacobian is the derivative of the product of exponentials", _check_jacobian
+    ),
+    _law("fk", "a joint with a pitch turns and slides at once", _check_fk, True),
+    _law(
+        "jacobian", "the Jacobian of joints with a pitch is the derivative", _check_jacobian, True
+    ),
+)
+"""The battery for poses and Jacobians of arms."""

@@ -1,0 +1,261 @@
+"""Small URDFs as numbers: each has one thing in it that readers are known to get wrong, and shrinks
+to little more.
+
+A joint is twelve numbers: its axis; origin xyz, then rpy; the mimic multiplier less 1, and offset;
+its value q. All are 0 where the URDF need not say anything, but for the axis. What it means is put
+together here in 80 digits from the format's definition; no reader of poekin's is asked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from ...laws.measures import size
+from ...oracles import exact
+from .law import Case
+from .of_arms import Arm
+
+EACH = 12
+LIMIT = 10.0
+"""Limits are ± this, in rad or m, beyond every q that is drawn."""
+TIP = -1
+"""The place of the joint that has the link tip: the last one."""
+
+
+class Joint(NamedTuple):
+    """What of a joint is no number: its type, its name, whether an axis is written, the place of
+    what it mimics.
+    """
+
+    kind: str
+    name: str
+    axis: bool = True
+    follows: int = -1
+
+
+class Layout(NamedTuple):
+    """The joints, each with the one before it in `after` (-1: it begins at the base), and the
+    file's order of them.
+    """
+
+    joints: tuple[Joint, ...]
+    order: tuple[int, ...]
+    after: tuple[int, ...]
+
+
+def chain(joints: tuple[Joint, ...], order: tuple[int, ...] = ()) -> Layout:
+    """Joints one after the other, in the file in that order or another one."""
+    return Layout(joints, order or tuple(range(len(joints))), tuple(range(-1, len(joints) - 1)))
+
+
+def layout_of(case: Case) -> Layout:
+    """The layout of a URDF's case."""
+    if not isinstance(case.layout, Layout):
+        raise TypeError(f"a case of a URDF expected, got {case.layout!r}")
+    return case.layout
+
+
+def rows_of(case: Case) -> np.ndarray:
+    """Its numbers (n, 12)."""
+    return case.numbers.reshape(-1, EACH)
+
+
+def moving(case: Case) -> list[int]:
+    """The places of joints that have a coordinate of their own."""
+    return [
+        k
+        for k, joint in enumerate(layout_of(case).joints)
+        if joint.kind != "fixed" and joint.follows < 0
+    ]
+
+
+def link(case: Case, k: int) -> str:
+    """The name of the link behind a joint; -1 is none: the root's."""
+    return "base" if k < 0 else "tip" if k == len(layout_of(case).joints) - 1 else f"link{k + 1}"
+
+
+def path(case: Case, k: int) -> list[int]:
+    """The places of the joints from the base to the link behind a joint."""
+    after = layout_of(case).after
+    places = [k % len(after)]
+    while after[places[0]] >= 0:
+        places.insert(0, after[places[0]])
+    return places
+
+
+def coordinates(case: Case) -> dict[str, float]:
+    """q by the names of the joints that have one of their own."""
+    layout, rows = layout_of(case), rows_of(case)
+    return {layout.joints[k].name: float(rows[k, 11]) for k in moving(case)}
+
+
+def text(case: Case) -> str:
+    """The URDF."""
+    layout, rows = layout_of(case), rows_of(case)
+    names = [link(case, k) for k in range(-1, len(rows))]
+    content = [f'<link name="{name}"/>' for name in names]
+    content += [
+        _joint(layout, k, rows[k], names[layout.after[k] + 1], names[k + 1]) for k in layout.order
+    ]
+    return f'<robot name="small">{"".join(content)}</robot>'
+
+
+def _joint(layout: Layout, k: int, row: np.ndarray, parent: str, child: str) -> str:
+    joint = layout.joints[k]
+    inside = f'<parent link="{parent}"/><child link="{child}"/>'
+    if np.any(row[3:9]):
+        rpy = f' rpy="{_numbers(row[6:9])}"' if np.any(row[6:9]) else ""
+        inside += f'<origin xyz="{_numbers(row[3:6])}"{rpy}/>'
+    if joint.kind != "fixed" and joint.axis:
+        inside += f'<axis xyz="{_numbers(row[:3])}"/>'
+    if joint.kind in ("revolute", "prismatic"):
+        inside += f'<limit lower="-{LIMIT:g}" upper="{LIMIT:g}" effort="1" velocity="1"/>'
+    if joint.follows >= 0:
+        factor = f' multiplier="{_numbers(1 + row[9:10])}"' if row[9] else ""
+        shift = f' offset="{_numbers(row[10:11])}"' if row[10] else ""
+        inside += f'<mimic joint="{layout.joints[joint.follows].name}"{factor}{shift}/>'
+    return f'<joint name="{joint.name}" type="{joint.kind}">{inside}</joint>'
+
+
+def _numbers(x: np.ndarray) -> str:
+    return " ".join(repr(value + 0.0).removesuffix(".0") for value in x.tolist())
+
+
+def factors(case: Case, tip: int = TIP) -> list[np.ndarray]:
+    """Twists whose exponentials, in order, are the pose of the link behind a joint: of origins and
+    of joints, exactly.
+
+    Roll, pitch and yaw are Rz(yaw) Ry(pitch) Rx(roll).
+    """
+    result, values = [], _values(case)
+    for k in path(case, tip):
+        origin, screw = _link(case, k)
+        result += [*origin, *([] if screw is None else [screw * values[k]])]
+    return result
+
+
+def arm(case: Case, tip: int = TIP) -> tuple[Arm, np.ndarray, list[str]]:
+    """The arm to the link behind a joint in exact numbers, q, and the names of its coordinates.
+
+    These are those of `coordinates`, in that order, which the pose depends on.
+    """
+    layout, rows, on = layout_of(case), rows_of(case), path(case, tip)
+    masters = {k: layout.joints[k].follows if layout.joints[k].follows >= 0 else k for k in on}
+    own = [k for k in moving(case) if k in masters.values()]
+    T, screws, coupling, offset = exact.exactly(np.eye(4)), [], [], []
+    for k in on:
+        origin, screw = _link(case, k)
+        for xi in origin:
+            T = T @ exact.exp(xi)
+        if screw is None:
+            continue
+        screws.append(exact.adjoint(T) @ screw)
+        follows = layout.joints[k].follows >= 0
+        coupling.append(
+            [(1 + rows[k, 9] if follows else 1.0) if at == masters[k] else 0.0 for at in own]
+        )
+        offset.append(rows[k, 10] if follows else 0.0)
+    n, m = len(screws), len(own)
+    A, C, c = (
+        np.array(screws, dtype=object).reshape(n, 6),
+        np.reshape(coupling, (n, m)),
+        np.array(offset, dtype=float),
+    )
+    # A fixed joint is a factor, too.
+    reach, turned = sum(map(size, rows[on, 3:6])), float(np.abs(rows[on, 6:9]).sum()) + len(on)
+    return Arm(A, T, C, c, m, reach, turned), rows[own, 11], [layout.joints[k].name for k in own]
+
+
+def simpler(case: Case) -> Iterable[Case]:
+    """With a joint or a mimic less, with the file in order, one joint after the other, with all
+    axes written.
+    """
+    layout, rows = layout_of(case), rows_of(case)
+    for k in range(len(rows)):
+        if len(rows) == 1 or any(joint.follows == k for joint in layout.joints):
+            continue
+
+        def moved(j: int, k: int = k) -> int:
+            return j - (j > k)
+
+        kept = [j for j in range(len(rows)) if j != k]
+        joints = (layout.joints[j] for j in kept)
+        after = (layout.after[k] if layout.after[j] == k else layout.after[j] for j in kept)
+        yield Case(
+            rows[kept].ravel(),
+            Layout(
+                tuple(joint._replace(follows=moved(joint.follows)) for joint in joints),
+                tuple(moved(j) for j in layout.order if j != k),
+                tuple(map(moved, after)),
+            ),
+        )
+    for k, joint in enumerate(layout.joints):
+        if joint.follows >= 0:
+            free = (*layout.joints[:k], joint._replace(follows=-1), *layout.joints[k + 1 :])
+            places = np.arange(len(case.numbers)) - EACH * k
+            yield Case(
+                np.where((places == 9) | (places == 10), 0.0, case.numbers),
+                layout._replace(joints=free),
+            )
+    plain, written = (
+        chain(layout.joints),
+        tuple(joint._replace(axis=True) for joint in layout.joints),
+    )
+    for other in (plain, layout._replace(order=plain.order), layout._replace(joints=written)):
+        if other != layout:
+            yield case._replace(layout=other)
+
+
+def allowed(case: Case) -> bool:
+    """There is a joint, and every value stays within the limits."""
+    return len(rows_of(case)) > 0 and all(
+        abs(x) <= LIMIT for x in exact.rounded(np.array(_values(case), dtype=object))
+    )
+
+
+def triples(case: Case) -> Iterable[int]:
+    """The xyz and rpy of origins."""
+    return [k + at for k in range(0, len(case.numbers), EACH) for at in (3, 6)]
+
+
+def axes(case: Case) -> Iterable[int]:
+    """Axes."""
+    return range(0, len(case.numbers), EACH)
+
+
+def _values(case: Case) -> list:
+    layout, rows = layout_of(case), rows_of(case)
+    values = []
+    for row, joint in zip(rows, layout.joints, strict=True):
+        if joint.follows < 0:
+            values.append(
+                exact.mp.mpf(0) if joint.kind == "fixed" else exact.mp.mpf(float(row[11]))
+            )
+        else:
+            # The multiplier is what is written: the sum, rounded.
+            values.append(
+                exact.mp.mpf(float(1 + row[9])) * float(rows[joint.follows, 11]) + float(row[10])
+            )
+    return values
+
+
+def _link(case: Case, k: int) -> tuple[list[np.ndarray], np.ndarray | None]:
+    """The twists of a joint's origin, and its screw in its own frame, with a unit axis."""
+    joint, row = layout_of(case).joints[k], rows_of(case)[k]
+    roll, pitch, yaw = row[6:9]
+    origin = [
+        [0, 0, 0, *row[3:6]],
+        [0, 0, yaw, 0, 0, 0],
+        [0, pitch, 0, 0, 0, 0],
+        [roll, 0, 0, 0, 0, 0],
+    ]
+    origin = [exact.exactly(xi) for xi in origin if np.any(xi)]
+    if joint.kind == "fixed":
+        return origin, None
+    axis = exact.exactly(row[:3] if joint.axis else [1.0, 0.0, 0.0])
+    n, nought = axis / exact.norm(axis), exact.exactly(np.zeros(3))
+    screw = np.concatenate([nought, n] if joint.kind == "prismatic" else [n, nought])
+    return origin, screw

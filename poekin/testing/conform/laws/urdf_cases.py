@@ -1,0 +1,330 @@
+"""A URDF reader as a subject: one law for each thing in a URDF that readers are known to get wrong."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from ...laws.measures import size
+from ...strategies.group_strategies import Arrays, angles, axes, frozen, magnitudes, st, vectors
+from . import of_urdf, small_urdf
+from .law import Case, Law, drawable, unit
+from .small_urdf import EACH, Joint, Layout
+
+NAMES = ("j0", "j1", "j2")
+LENGTHS = (1e-3, 3.0)
+ANGLES = (1e-9, math.pi)
+AXIS_LENGTHS = (1e-3, 1e3)
+TURNS = 10.0
+"""How far a continuous joint turns at most, in rad."""
+_SIGNS = (1.0, -1.0)
+FRAME_AXES = np.concatenate([np.eye(3), 0.0 - np.eye(3)])
+
+
+def frame_axes() -> Arrays:
+    """x, y and z, either way."""
+    return st.sampled_from([frozen(axis) for axis in FRAME_AXES])
+
+
+def long_axes() -> Arrays:
+    """Axes of the frame of a length from 1e-3 to 1e3."""
+    return st.builds(
+        lambda n, length: frozen(n * (length or 2.0)), frame_axes(), magnitudes(*AXIS_LENGTHS)
+    )
+
+
+def signed_angles(largest: float = math.pi) -> st.SearchStrategy[float]:
+    """Angles in rad, either way."""
+    return st.builds(lambda x, sign: sign * x, angles(largest, ANGLES[0]), st.sampled_from(_SIGNS))
+
+
+def turns() -> Arrays:
+    """Roll, pitch and yaw: none, quarter turns, or anything up to a half turn."""
+    one = st.one_of(
+        st.just(0.0), st.sampled_from([math.pi / 2, -math.pi / 2, math.pi]), signed_angles()
+    )
+    return st.builds(lambda *x: frozen(x), one, one, one)
+
+
+def _row(axis: Arrays, q: st.SearchStrategy[float], mimic: bool = False) -> Arrays:
+    factors = st.sampled_from([0.0, 0.0, -2.0, -0.5, 1.0]) if mimic else st.just(0.0)
+    shifts = st.sampled_from([0.0, 0.0, 0.25, -1.0]) if mimic else st.just(0.0)
+    return st.builds(
+        lambda *x: np.concatenate([*x[:3], x[3:]]),
+        axis,
+        vectors(LENGTHS),
+        turns(),
+        factors,
+        shifts,
+        q,
+    )
+
+
+def arms(
+    axis: Arrays, kinds: tuple[str, ...] = ("revolute", "prismatic", "fixed"), axis_written: bool = True,
+    largest: float = math.pi,
+) -> st.SearchStrategy[Case]:  # fmt: skip
+    """One to three joints of these kinds, the first one moving, in the file's order."""
+
+    def of(count: int) -> st.SearchStrategy[Case]:
+        sorts = st.tuples(
+            *(
+                st.sampled_from([kind for kind in kinds if k or kind != "fixed"])
+                for k in range(count)
+            )
+        )
+        rows = st.tuples(*(_row(axis, signed_angles(largest)) for _ in range(count)))
+        return st.builds(make, sorts, rows)
+
+    def make(sorts: tuple[str, ...], rows: tuple[np.ndarray, ...]) -> Case:
+        joints = tuple(
+            Joint(kind, name, axis_written) for kind, name in zip(sorts, NAMES, strict=False)
+        )
+        return Case(np.concatenate(rows), small_urdf.chain(joints))
+
+    return st.integers(1, 3).flatmap(of)
+
+
+def _followers() -> Arrays:
+    return _row(frame_axes(), signed_angles(), mimic=True)
+
+
+def _numbers(layout: Layout, rows: Iterable[np.ndarray]) -> Case:
+    """The case of these joints: multiplier and offset of those that follow another, q of the
+    others.
+    """
+    places = np.arange(EACH)
+    own = [
+        (places != 11) if joint.follows >= 0 else (places < 9) | (places == 11)
+        for joint in layout.joints
+    ]
+    return Case(np.concatenate([row * mask for row, mask in zip(rows, own, strict=False)]), layout)
+
+
+def mimics() -> st.SearchStrategy[Case]:
+    """Two joints, one of which follows the other one, whichever comes first."""
+
+    def make(first: int, kind: str, rows: tuple[np.ndarray, ...]) -> Case:
+        joints = [Joint(kind, NAMES[0]), Joint(kind, NAMES[1])]
+        joints[1 - first] = joints[1 - first]._replace(follows=first)
+        return _numbers(small_urdf.chain(tuple(joints)), rows)
+
+    kinds = st.sampled_from(["revolute", "prismatic"])
+    return st.builds(make, st.integers(0, 1), kinds, st.tuples(_followers(), _followers()))
+
+
+def trees(mimic: bool = False) -> st.SearchStrategy[Case]:
+    """Three or four joints of a tree with two branches or more, the file in any order.
+
+    mimic: the last joint follows the last but one, which is on another branch.
+    """
+
+    def make(
+        kinds: tuple[str, ...],
+        places: tuple[int, ...],
+        order: list[int],
+        rows: tuple[np.ndarray, ...],
+    ) -> Case:
+        last = len(order) - 1
+        after = [-1, *(min(place, k) for k, place in enumerate(places))][: last + 1]
+        after[last] = min(after[last], last - 2)
+        joints = [Joint(kind, f"j{k}") for k, kind in enumerate(kinds[: last + 1])]
+        if mimic:
+            joints[last] = Joint(joints[last - 1].kind, joints[last].name, follows=last - 1)
+        return _numbers(Layout(tuple(joints), tuple(order), tuple(after)), rows)
+
+    kinds = st.sampled_from(["revolute", "prismatic", *([] if mimic else ["fixed"])])
+    files = st.sampled_from([3, 4]).flatmap(lambda count: st.permutations(range(count)))
+    places = st.tuples(*[st.integers(-1, 2)] * 3)
+    return st.builds(make, st.tuples(*[kinds] * 4), places, files, st.tuples(*[_followers()] * 4))
+
+
+def orders() -> st.SearchStrategy[Case]:
+    """Two to four joints whose order in the file, and by name, is not that from base to tip; one
+    may branch off.
+    """
+
+    def make(names: list[str], order: list[int], side: bool, rows: tuple[np.ndarray, ...]) -> Case:
+        count = len(order)
+        layout = small_urdf.chain(
+            tuple(Joint("revolute", name) for name in names[:count]), tuple(order)
+        )
+        if side and count > 2:  # the first one goes nowhere, and the second one begins at the base
+            layout = layout._replace(after=(-1, -1, *range(1, count - 1)))
+        return _numbers(layout, rows)
+
+    files = st.sampled_from([2, 3, 4]).flatmap(lambda count: st.permutations(range(count)))
+    rows = st.tuples(*[_row(frame_axes(), signed_angles())] * 4)
+    return st.builds(make, st.permutations([*NAMES, "side"]), files, st.booleans(), rows)
+
+
+About = Callable[[Case], bool]
+Fits = Callable[[np.ndarray], bool]
+
+
+def _along(axis: np.ndarray) -> bool:
+    return np.count_nonzero(axis) == 1
+
+
+def _frame_axis(axis: np.ndarray) -> bool:
+    return _along(axis) and unit(axis)
+
+
+def _long_axis(axis: np.ndarray) -> bool:
+    return _along(axis) and drawable(size(axis), AXIS_LENGTHS)
+
+
+def _allowed(axis: Fits, largest: float = math.pi) -> About:
+    """Whether a law could have drawn a case: its axes, lengths, angles and values of joints up to
+    `largest`.
+    """
+
+    def allowed(case: Case) -> bool:
+        return small_urdf.allowed(case) and all(map(fits, small_urdf.rows_of(case)))
+
+    def fits(row: np.ndarray) -> bool:
+        turned = all(drawable(angle, ANGLES) for angle in row[6:9])
+        return (
+            axis(row[:3])
+            and drawable(size(row[3:6]), LENGTHS)
+            and turned
+            and drawable(row[11], (ANGLES[0], largest))
+        )
+
+    return allowed
+
+
+def _law(
+    name: str, says: str, cases: Callable[[], st.SearchStrategy[Case]], about: About = lambda case: True,
+    axis: Fits = _frame_axis, largest: float = math.pi, jacobian: bool = False,
+) -> Law:  # fmt: skip
+    return Law(
+        name, says, "read_urdf", lambda subject: cases(),
+        lambda subject, case: of_urdf.check(subject, case, jacobian),
+        lambda subject, case: of_urdf.confirmed(case, jacobian),
+        lambda subject, case: of_urdf.show(subject, case, "jacobian" if jacobian else "fk"), small_urdf.simpler,
+        _vectors_too if axis is _long_axis else small_urdf.triples,
+        (lambda case: ()) if axis is _long_axis else small_urdf.axes,
+        _allowed(axis, largest), lambda subject: not jacobian or bool(subject.frame), about,
+        "jacobian_frame is not declared",
+    )  # fmt: skip
+
+
+def _vectors_too(case: Case) -> Iterable[int]:
+    """Where an axis has any length, it is a vector like others."""
+    return [*small_urdf.axes(case), *small_urdf.triples(case)]
+
+
+def _robot_law(name: str, says: str, mimic: bool, about: About) -> Law:
+    return Law(
+        name, says, "read_robot", lambda subject: trees(mimic), of_urdf.check_robot,
+        lambda subject, case: of_urdf.confirmed(case, False, range(len(small_urdf.rows_of(case)))),
+        lambda subject, case: of_urdf.show(subject, case, "poses"), small_urdf.simpler, small_urdf.triples,
+        small_urdf.axes, _allowed(_frame_axis), about=about,
+    )  # fmt: skip
+
+
+def _axes(case: Case) -> np.ndarray:
+    moving = [joint.kind != "fixed" for joint in small_urdf.layout_of(case).joints]
+    return small_urdf.rows_of(case)[moving, :3]
+
+
+def _oblique(case: Case) -> bool:
+    return bool(np.any(np.count_nonzero(_axes(case), axis=1) > 1))
+
+
+def _long(case: Case) -> bool:
+    return any(abs(size(axis) - 1) > 1e-9 for axis in _axes(case))
+
+
+def _missing(case: Case) -> bool:
+    return any(not joint.axis for joint in small_urdf.layout_of(case).joints)
+
+
+def _many_turns(case: Case) -> bool:
+    return bool(np.any(np.abs(small_urdf.rows_of(case)[:, 11]) > math.pi))
+
+
+def _mimic(case: Case) -> bool:
+    return any(joint.follows >= 0 for joint in small_urdf.layout_of(case).joints)
+
+
+def _mimic_across(case: Case) -> bool:
+    on = small_urdf.path(case, small_urdf.TIP)
+    joints = small_urdf.layout_of(case).joints
+    return any(joints[k].follows not in (-1, *on) for k in on)
+
+
+def _branches(case: Case) -> bool:
+    layout = small_urdf.layout_of(case)
+    return layout.after != small_urdf.chain(layout.joints).after
+
+
+def _disordered(case: Case) -> bool:
+    layout = small_urdf.layout_of(case)
+    names = [joint.name for joint in layout.joints]
+    return layout.order != tuple(range(len(names))) or names != sorted(names) or _branches(case)
+
+
+MOVING = ("revolute", "prismatic")
+URDF_LAWS = (
+    _law(
+        "urdf",
+        "axes along x, y, z; origins anywhere; revolute, prismatic and fixed joints",
+        lambda: arms(frame_axes()),
+    ),
+    _law(
+        "urdf oblique axis",
+        "an axis may point anywhere",
+        lambda: arms(axes(), MOVING),
+        _oblique,
+        unit,
+    ),
+    _law(
+        "urdf long axis",
+        "an axis of any length is its direction",
+        lambda: arms(long_axes(), MOVING),
+        _long,
+        _long_axis,
+    ),
+    _law(
+        "urdf missing axis",
+        "a joint without an axis has x",
+        lambda: arms(st.just(frozen([1, 0, 0])), MOVING, False),
+        _missing,
+    ),
+    _law(
+        "urdf continuous",
+        "a continuous joint turns any number of times",
+        lambda: arms(frame_axes(), ("continuous",), largest=TURNS),
+        _many_turns,
+        largest=TURNS,
+    ),
+    _law("urdf mimic", "a joint that mimics another moves with it", mimics, _mimic),
+    _law(
+        "urdf mimic across",
+        "it may mimic one of another branch",
+        lambda: trees(mimic=True),
+        _mimic_across,
+    ),
+    _law(
+        "urdf order",
+        "joints are known by name, not by their place in the file",
+        orders,
+        _disordered,
+    ),
+    _law(
+        "urdf jacobian",
+        "the Jacobian is the derivative",
+        lambda: arms(axes(), MOVING),
+        axis=unit,
+        jacobian=True,
+    ),
+    _robot_law("robot", "the pose of each link of a tree", False, _branches),
+    _robot_law(
+        "robot mimic", "of each link, where a joint mimics one of another branch", True, _mimic
+    ),
+)
+"""The battery for URDF readers."""

@@ -1,0 +1,61 @@
+"""Limits of the process that a subject runs in: how long a call may take, and how much memory it
+may take up.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import sys
+from typing import NamedTuple
+
+from ....errors import InputError, told
+
+STARTING = 120.0
+"""Seconds that importing and making a subject may take, at least."""
+
+
+class Limits(NamedTuple):
+    """Limits of a subject's process.
+
+    seconds: that one call may take, the first one with what it compiles: late, it is made again
+    once; memory: bytes that the process may take beyond those of its start (Linux).
+    """
+
+    seconds: float = 60.0
+    memory: int = 4 * 2**30
+
+    def checked(self) -> Limits:
+        """These limits. Raises: InputError where they are no positive numbers."""
+        for what, value in self._asdict().items():
+            if not isinstance(value, int | float) or not 0 < value < math.inf:
+                raise InputError(f"{what}: expected a positive number, got {told(value)}")
+        return self
+
+    @property
+    def starting(self) -> float:
+        """Seconds that a subject may take until it can be called."""
+        return max(STARTING, self.seconds)
+
+
+def restrict(memory: int) -> None:
+    """Hold this process to so many more bytes than it has, as far as the system can; it leaves no
+    core file.
+    """
+    # Windows has no such module.
+    with contextlib.suppress(ImportError, ValueError, OSError):
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        if sys.platform == "linux":
+            # Data and not address space, of which compilers and drivers reserve much that is never
+            # used.
+            _, hard = resource.getrlimit(resource.RLIMIT_DATA)
+            resource.setrlimit(resource.RLIMIT_DATA, (_data() + int(memory), hard))
+
+
+def _data() -> int:
+    """Bytes of data of this process (Linux)."""
+    with open("/proc/self/status", encoding="ascii") as file:
+        sizes = dict(line.split(":", 1) for line in file)
+    return int(sizes["VmData"].split()[0]) * 1024

@@ -1,0 +1,1 @@
+"""Subjects: found by name, declared, and described."""

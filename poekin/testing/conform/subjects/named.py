@@ -1,0 +1,103 @@
+"""Subjects by name: the class that "MODULE:CLASS" names, and the Python that makes a subject where
+it is pasted.
+"""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import sys
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ....errors import InputError, closest, harmless, shown
+from ..process.calls import Attempt
+
+
+class Source(NamedTuple):
+    """Lines of Python to have a subject's class, and the expression that makes the subject."""
+
+    lines: tuple[str, ...]
+    made: str
+
+
+def parted(text: str) -> tuple[str, str]:
+    """MODULE and NAME of a text "MODULE:NAME". Raises: InputError, with what may have been meant."""
+    module, colon, name = text.partition(":")
+    if not colon or not module or not name:
+        raise InputError(f"expected MODULE:CLASS, such as my_arm:Kinematics, got {shown(text)}")
+    if not all(
+        part.isidentifier() for part in [*module.split("."), *name.split(".")]
+    ) or module.endswith(".py"):
+        parts = [
+            part for part in Path(module.strip().removesuffix(".py")).parts if part.isidentifier()
+        ]
+        meant = f"{'.'.join(parts) or 'my_arm'}:{harmless(name.strip(': '), 80)}"
+        raise InputError(
+            f"expected MODULE:CLASS as Python imports it from this directory, such as {meant}; got {shown(text)}"
+        )
+    return module, name
+
+
+def loaded(text: str) -> Any:
+    """The class or object that a text "MODULE:NAME" names; NAME may be OUTER.INNER.
+
+    Raises: InputError where it cannot be imported, with what the import says.
+    """
+    module, name = parted(text)
+    thing: Any = None
+    with Attempt() as attempt:
+        thing = importlib.import_module(module)
+    if attempt.fault:
+        place = f" ({attempt.place})" if attempt.place else ""
+        raise InputError(f"the module {shown(module)} cannot be imported: {attempt.fault}{place}")
+    for part in name.split("."):
+        if not hasattr(thing, part):
+            near = closest(part, _classes(thing))
+            raise InputError(
+                f"{shown(module)}{_file(module)} has no {shown(name)}; of its classes: {near}"
+            )
+        thing = getattr(thing, part)
+    return thing
+
+
+def source(thing: Any, text: str = "") -> Source:
+    """How to make a subject: by "MODULE:NAME" where it was named so, else by what its class's
+    module calls it.
+
+    What cannot be reached from the top of a module is called as it is there.
+    """
+    is_class = inspect.isclass(thing)
+    kind = thing if is_class else type(thing)
+    module, _, name = text.partition(":")
+    if not text:
+        module = kind.__module__
+        names = vars(sys.modules[module]).items() if module in sys.modules else ()
+        name = next((key for key, value in names if value is thing), "")
+        if not name and is_class and "<locals>" not in kind.__qualname__:
+            name = kind.__qualname__
+    brackets = "()" if is_class else ""
+    if name:
+        return Source(
+            (f"from {_importable(module)} import {name.partition('.')[0]}",), f"{name}{brackets}"
+        )
+    return Source((), f"{kind.__name__}()" if is_class else "subject")
+
+
+def _importable(module: str) -> str:
+    """The name by which another process imports a module, also the one that is run as a script."""
+    if module != "__main__":
+        return module
+    main = sys.modules[module]
+    spec, file = getattr(main, "__spec__", None), getattr(main, "__file__", None)
+    return spec.name if spec else Path(file).stem if file else module
+
+
+def _classes(thing: Any) -> list[str]:
+    return [key for key, value in getattr(thing, "__dict__", {}).items() if inspect.isclass(value)]
+
+
+def _file(module: str) -> str:
+    """Where a module is, since another one may have its name."""
+    file = getattr(sys.modules.get(module), "__file__", None)
+    return f" ({shown(file, 200)})" if file else ""

@@ -1,0 +1,47 @@
+"""Precisions that a subject may compute in, and what its errors are held to in each."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...accuracy.error_bounds import UNIT
+
+
+class Precision(NamedTuple):
+    """name, of the floats; unit, u; good and poor, where these grades end; smallest angle whose
+    square is no subnormal.
+
+    The grades of float32 end at about the same share of its digits as those of float64.
+    """
+
+    name: str
+    unit: float
+    good: float
+    poor: float
+    smallest: float
+
+    @property
+    def coarser(self) -> float:
+        """How many times the unit of float64 its own is."""
+        return self.unit / UNIT
+
+    def rounded(self, x: np.ndarray) -> np.ndarray:
+        """The floats (...) of this precision nearest to x, as float64; what would be subnormal is
+        0. Returns: these.
+        """
+        if self is not SINGLE:
+            return x
+        near = np.asarray(x, dtype=np.float32).astype(float)
+        return np.where(np.abs(near) < 1e-30, 0.0, near)
+
+
+DOUBLE = Precision("float64", UNIT, 1e-10, 1e-6, 1e-150)
+SINGLE = Precision("float32", 2.0**-24, 1e-5, 1e-3, 1e-18)
+PRECISIONS = {precision.name: precision for precision in (DOUBLE, SINGLE)}
+
+
+def seen(value: Any) -> Precision:
+    """The precision of a result, by its `dtype`; float64 where it has none that is known."""
+    return PRECISIONS.get(str(getattr(value, "dtype", "")).rpartition(".")[2], DOUBLE)

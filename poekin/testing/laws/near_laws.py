@@ -1,0 +1,97 @@
+"""Laws of the branches of the logarithm, `log(X, near=…)`; and `NEAR_LAWS`, the battery of them.
+
+Of the logarithms ω (1 + 2πk/|ω|) of a rotation the one closest to ω_near is meant; of a pose, the
+twist with that ω. Parameters: group, the functions under test (`group.Group`, of which a law uses
+those that its equation names); twists xi, near (6,), (ω; v) in rad and m, or rotation vectors (3,);
+X, Y, poses (4, 4) of a frame in the base frame, or rotations (3, 3). Returns: error ÷ bound, 0 to
+1; a pure number.
+Raises: LawViolation above 1, with the law, the error, its bound and the arguments; InputError where
+the group lacks a function that the law needs; `log` must take the argument near.
+Source: Park 1994, Remark 1: every (2k + 1) π is a logarithm's angle at π, and so it is elsewhere
+with 2πk added.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..accuracy.error_bounds import UNIT
+from .group import Group
+from .laws import Law, held
+from .measures import angle, of_elements, of_twist, shift, size
+
+
+def near_picks_the_closest_branch(group: Group, xi: np.ndarray, near: np.ndarray) -> float:
+    """The logarithm near a given one is a logarithm, on the line of the principal one, and none is
+    closer.
+
+    Also near what lies on that line, both ways. Where the rotation is the identity to 1e-12 its
+    axis is free, and so
+    is which logarithm is the closest.
+    """
+    X = group.exp(xi)
+    principal = group.log(X)
+    theta = angle(principal)
+    if theta < 1e-12:
+        return 0.0
+    n = np.zeros(group.size)
+    n[:3] = principal[:3] / theta
+    # 3 and 6 lie a little short of a half and a whole turn: there the principal logarithm is
+    # hastily taken.
+    sizes = (angle(near), 3.0, 6.0)
+    guesses = [near, *(size * n for size in sizes), *(-size * n for size in sizes)]
+    return max(_closest(group, X, principal, guess, xi) for guess in guesses)
+
+
+def a_logarithm_is_nearest_to_itself(group: Group, xi: np.ndarray) -> float:
+    """log(exp ξ, near=ξ) = ξ on every branch, |ω| up to 10, but at the multiples of 2π, where v has
+    no bound.
+    """
+    gap = abs(math.remainder(angle(xi), 2 * math.pi))
+    if gap < 0.1 < angle(xi):
+        return 0.0
+    extent = 1 + angle(xi)
+    error = group.log(group.exp(xi), near=xi) - xi
+    far = angle(xi) > math.pi + 1e-9
+    pairs = of_twist(
+        error, (64 if far else 24) * UNIT * angle(xi), 512 * UNIT * extent**2 * size(xi[3:])
+    )
+    # Within rounding of π both signs are as near; of the two, either may come back.
+    return (
+        0.0
+        if abs(angle(xi) - math.pi) < 1e-14
+        else held("a logarithm is nearest to itself", *pairs, xi=xi)
+    )
+
+
+NEAR_LAWS = (
+    Law(near_picks_the_closest_branch, ("twist", "far_twist")),
+    Law(a_logarithm_is_nearest_to_itself, ("far_twist",)),
+)
+"""The battery: each law with the kinds of its arguments (`strategies.group_cases`)."""
+
+
+def _closest(
+    group: Group, X: np.ndarray, principal: np.ndarray, near: np.ndarray, xi: np.ndarray
+) -> float:
+    found, theta = group.log(X, near=near), angle(principal)
+    n = principal[:3] / theta
+    distances = [size((theta + 2 * math.pi * k) * n - near[:3]) for k in range(-4, 5)]
+    extent = 1 + angle(found)
+    off_line = size(np.cross(n, found[:3]))
+    # Near a multiple of 2π the translation of a logarithm has no bound: it is 1/sin(θ/2) times that
+    # of the pose.
+    stretch = 1 / abs(math.sin(theta / 2)) if angle(found) > math.pi + 1e-9 else 1.0
+    pairs = of_elements(group.exp(found), X, 2 * extent, 4 * extent**2 * stretch * shift(X))
+    excess = size(found[:3] - near[:3]) - min(distances)
+    bound = 16 * UNIT * extent
+    return held(
+        "near picks the closest branch",
+        *pairs,
+        (off_line, bound),
+        (excess, 4 * bound),
+        xi=xi,
+        near=near,
+    )

@@ -1,0 +1,1 @@
+"""Oracles: code that shares nothing with what it judges."""

@@ -1,0 +1,182 @@
+"""Pinocchio as an oracle of derivatives: rate and Hessian of the Jacobian, and acceleration, of a
+chain of a URDF.
+
+What `PinocchioOracle` is for poses and Jacobians, by functions of the same model and under the same
+names.
+Source: Pinocchio, https://github.com/stack-of-tasks/pinocchio, release 4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...errors import InputError
+from .pinocchio_oracle import ANGULAR_FIRST, PinocchioOracle, pinocchio
+
+FREE_OF = 1e-12  # entries of a Jacobian below it are rounding
+
+
+class Derivatives(NamedTuple):
+    """Of N configurations and rates of all m coordinates, by frame "space", "body", "hybrid".
+
+    rate {frame: (N, 6, m)}, hessian {frame: (N, 6, m, m)} (column, then coordinate), acceleration
+    {frame: (N, 6)}.
+    """
+
+    rate: dict[str, np.ndarray]
+    hessian: dict[str, np.ndarray]
+    acceleration: dict[str, np.ndarray]
+
+
+def derivatives(
+    oracle: PinocchioOracle,
+    q: Mapping[str, np.ndarray],
+    dq: np.ndarray,
+    ddq: np.ndarray,
+    tip: str,
+    base: str | None = None,
+) -> Derivatives:
+    """Derivatives of the motion of `tip` in `base` at N configurations, rates and accelerations.
+
+    The rate is getFrameJacobianTimeVariation and the Hessian getFrameKinematicHessian, in WORLD,
+    LOCAL and LOCAL_WORLD_ALIGNED. The acceleration is getFrameAcceleration in WORLD and LOCAL, and
+    for hybrid getFrameClassicalAcceleration.
+
+    Parameters: oracle; q, values (N,) for each of `oracle.coordinates`; dq, ddq (N, m), in the
+    order of these; tip, base, links. A base that is not the root must stand still in the root: what
+    moves it gets a column of zeros, and rates and accelerations that are not zero for it are
+    refused.
+    Returns: `Derivatives`. Accuracy: Pinocchio's own rounding.
+    Raises: as `PinocchioOracle.evaluate`; InputError for a base that moves.
+    """
+    pin, model, data = pinocchio(), oracle.model, oracle.data
+    configurations = oracle.configurations(q)
+    count, m = dq.shape
+    velocity = [model.joints[i].idx_v for i in oracle._simple.values()]
+    C = np.zeros((model.nv, m))
+    C[velocity] = oracle._coupling
+    tip_id = oracle._frame(tip)
+    result = Derivatives(
+        {f: np.zeros((count, 6, m)) for f in _REFERENCES},
+        {f: np.zeros((count, 6, m, m)) for f in _REFERENCES},
+        {f: np.zeros((count, 6)) for f in _REFERENCES},
+    )
+    if model.nv == 0:
+        return result
+    for k, configuration in enumerate(configurations):
+        v, a = C @ dq[k], C @ ddq[k]
+        pin.computeJointJacobians(model, data, configuration)
+        T_0b, still = _base(oracle, base, C, dq[k], ddq[k])
+        pin.computeJointKinematicHessians(model, data, configuration)
+        pin.computeJointJacobiansTimeVariation(model, data, configuration, v)
+        pin.forwardKinematics(model, data, configuration, v, a)
+        pin.updateFramePlacements(model, data)
+        for name, reference in _REFERENCES.items():
+            frame = reference(pin)
+            turn = _turn(name, T_0b)[ANGULAR_FIRST]
+            dJ = pin.getFrameJacobianTimeVariation(model, data, tip_id, frame).reshape(6, model.nv)
+            result.rate[name][k] = (turn @ dJ @ C) * still
+            H = _tensor(pin.getFrameKinematicHessian(model, data, tip_id, frame))
+            result.hessian[name][k] = np.tensordot(turn, C.T @ H @ C, 1) * still[:, None] * still
+            rate_of = (
+                pin.getFrameClassicalAcceleration if name == "hybrid" else pin.getFrameAcceleration
+            )
+            result.acceleration[name][k] = turn @ rate_of(model, data, tip_id, frame).vector
+    return result
+
+
+_REFERENCES = {
+    "space": lambda pin: pin.WORLD,
+    "body": lambda pin: pin.LOCAL,
+    "hybrid": lambda pin: pin.LOCAL_WORLD_ALIGNED,
+}
+
+
+def _tensor(X: np.ndarray) -> np.ndarray:
+    """Pinocchio's tensor: its Python hands out the numbers column by column, with the strides of an
+    array by rows.
+    """
+    return X.ravel(order="K").reshape(X.shape, order="F")
+
+
+def _turn(frame: str, T_0b: Any) -> np.ndarray:
+    """What takes twists (v; omega) seen from the root to the same seen from a base at rest."""
+    if T_0b is None or frame == "body":
+        return np.eye(6)
+    return T_0b.toActionMatrixInverse() if frame == "space" else np.kron(np.eye(2), T_0b.rotation.T)
+
+
+def _base(
+    oracle: PinocchioOracle, base: str | None, C: np.ndarray, dq: np.ndarray, ddq: np.ndarray
+) -> tuple[Any, np.ndarray]:
+    """The pose of the base, and 1 for each coordinate that leaves it where it is, 0 for others
+    (m,).
+    """
+    pin, model, data = pinocchio(), oracle.model, oracle.data
+    if base is None:
+        return None, np.ones(len(dq))
+    base_id = oracle._frame(base)
+    T_0b = pin.updateFramePlacement(model, data, base_id).copy()
+    drag = pin.getFrameJacobian(model, data, base_id, pin.LOCAL).reshape(6, model.nv) @ C
+    moves = np.abs(drag).max(axis=0, initial=0.0) > FREE_OF
+    if np.any(dq[moves]) or np.any(ddq[moves]):
+        raise InputError(f"the base {base!r} moves: rates of 0 expected for what moves it")
+    return T_0b, np.where(moves, 0.0, 1.0)
+
+
+class DerivativeErrors(NamedTuple):
+    """Worst errors of one chain, each ÷ R where it is a length. Fields: rate (of dJ/dt), hessian,
+    acceleration.
+    """
+
+    rate: float
+    hessian: float
+    acceleration: float
+
+    @property
+    def worst(self) -> float:
+        """The largest of the three; NaN where one is."""
+        return float(np.max(self))
+
+
+def derivative_errors(
+    chain: Any, oracle: PinocchioOracle, samples: int, seed: int = 0
+) -> DerivativeErrors:
+    """A chain of the oracle's robot against `derivatives`, in all three frames, at `samples`
+    configurations.
+
+    Configurations are those of `PinocchioOracle.random`, the first all zeros; rates and
+    accelerations of the chain's coordinates are uniform in ±1 (rad or m per s, per s²). An error is
+    the largest absolute entry of a difference, its linear rows ÷ R, R the chain's reach; columns of
+    coordinates that the chain does not have must be zero.
+    Parameters: chain; oracle; samples; seed, of what is drawn. Returns: `DerivativeErrors`.
+    Raises: UnknownName for a coordinate of the chain that Pinocchio does not know, and as
+    `derivatives`.
+    """
+    rng, m = np.random.default_rng(seed), len(oracle.coordinates)
+    q = oracle.random(rng, samples)
+    for values in q.values():
+        values[:1] = 0.0
+    own = [oracle.coordinates.index(name) for name in chain.q_names]
+    rates = np.zeros((2, samples, m))
+    rates[:, :, own] = rng.uniform(-1, 1, (2, samples, len(own)))
+    expected = derivatives(oracle, q, rates[0], rates[1], chain.tip, chain.base)
+    at = np.stack([q[name] for name in chain.q_names], axis=-1) if own else np.zeros((samples, 0))
+    dq, ddq = rates[:, :, own]
+    weight = np.repeat([1.0, 1.0 / chain.reach], 3)
+    errors = np.zeros(3)
+    for frame in _REFERENCES:
+        dJ, H = np.zeros((samples, 6, m)), np.zeros((samples, 6, m, m))
+        dJ[:, :, own] = chain.jacobian_rate(at, dq, frame)
+        H[np.ix_(range(samples), range(6), own, own)] = chain.hessian(at, frame)
+        A = chain.acceleration(at, dq, ddq, frame)
+        off = (
+            (dJ - expected.rate[frame]) * weight[:, None],
+            (H - expected.hessian[frame]) * weight[:, None, None],
+            (A - expected.acceleration[frame]) * weight,
+        )
+        errors = np.maximum(errors, [np.abs(x).max(initial=0.0) for x in off])
+    return DerivativeErrors(*map(float, errors))

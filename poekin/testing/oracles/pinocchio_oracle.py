@@ -1,0 +1,316 @@
+"""Pinocchio as an oracle: poses and Jacobians of a URDF by code that poekin shares nothing with.
+
+Only the text of the URDF goes in. Pinocchio parses it, its `<mimic>` elements are found apart from
+that, and everything is addressed by name, so that neither poekin's reader of robots nor its order
+of joints can hide an error here. XML is decoded, and refused where it is not safe, by
+`poekin.formats.text.xml`, which is lxml. This is the one file of poekin that imports Pinocchio.
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
+
+from ...errors import InputError, MissingExtra, ModelError, UnknownName, closest, shown, told
+from ...formats.text import xml
+from ...model.kinematics.pose_jacobian import FRAME_NAMES
+
+# Pinocchio's rows are (v; omega); poekin's are (omega; v).
+ANGULAR_FIRST = [3, 4, 5, 0, 1, 2]
+
+
+@functools.cache
+def pinocchio() -> ModuleType:
+    """The module pinocchio, imported when it is first needed.
+
+    Raises: MissingExtra when the package `pin` is not installed.
+    """
+    try:
+        import pinocchio as pin  # pyright: ignore[reportMissingImports]  it lies behind a .pth file
+    except ModuleNotFoundError as missing:
+        raise MissingExtra("pin", "validate", "validation against Pinocchio") from missing
+    return pin
+
+
+class PinocchioOracle:
+    """One URDF in Pinocchio: poses and Jacobians between two links, as functions of named
+    independent coordinates.
+
+    Parameters: text, the URDF itself (str, or bytes in the encoding that it declares); no mesh is
+    read, and no file but what the text says is opened. Pinocchio knows neither encodings nor
+    namespaces: it gets the text decoded, with the elements of the root's namespace under their
+    plain names and those of others left out.
+
+    Coordinates are the moving one-degree joints that mimic no other, by name, in rad or m. The
+    model is built with mimic=False: x = C q + c, and J_q = J_x C, are applied here (mimic of mimic
+    composes; a mimic of a fixed joint is constant; a mimic of a joint that does not exist leaves
+    its joint independent). A continuous joint is one angle, handed to Pinocchio as (cos, sin).
+    Floating and planar joints stay at identity.
+
+    Attributes: coordinates (names), slides (set of the coordinates in m), links (names), version
+    (of Pinocchio). Raises: MissingExtra without Pinocchio; ModelError for malformed XML, and when
+    Pinocchio refuses the text, with what it says about it, which goes to no other place; InputError
+    for a path.
+    Source: Pinocchio, https://github.com/stack-of-tasks/pinocchio, release 4.
+    """
+
+    def __init__(self, text: str | bytes):
+        pin = pinocchio()
+        if isinstance(text, str) and "<" not in text:
+            raise InputError(
+                f"text: expected a URDF itself, not where it is: Path(...).read_text(); got {told(text)}"
+            )
+        root = _plain(xml.parse(text, "<text>"))
+        content = etree.tostring(root, encoding="unicode")
+        self.model: Any = _built(lambda: pin.buildModelFromXML(content))
+        self.data: Any = self.model.createData()
+        self.version: str = pin.__version__
+        self.links = tuple(f.name for f in self.model.frames if f.type == pin.FrameType.BODY)
+        self._simple = {
+            self.model.names[i]: i
+            for i in range(1, self.model.njoints)
+            if self.model.joints[i].nv == 1
+        }
+        self.coordinates, self._coupling, self._offset = _coupling(root, tuple(self._simple))
+        self.slides = {name for name in self.coordinates if "JointModelP" in self._kind(name)}
+
+    def _kind(self, joint: str) -> str:
+        return self.model.joints[self._simple[joint]].shortname()
+
+    def random(self, rng: np.random.Generator, size: int) -> dict[str, np.ndarray]:
+        """Configurations for every coordinate: revolute within ±π, prismatic within ±1 m, whatever
+        the limits say.
+
+        Parameters: rng, NumPy's generator; size. Returns: a dict from coordinate to (size,) values
+        [rad or m].
+        """
+        return {
+            name: rng.uniform(-1, 1, size) * (1.0 if name in self.slides else np.pi)
+            for name in self.coordinates
+        }
+
+    def configurations(self, q: Mapping[str, Any]) -> np.ndarray:
+        """Pinocchio's own configurations (N, nq) for coordinates by name; one that is not named
+        stands at 0.
+
+        Parameters: q, a dict from coordinate to a number or N of them. Returns: (N, nq),
+        Pinocchio's order.
+        Raises: UnknownName for a name that is no coordinate; InputError for values of different
+        lengths, or no numbers.
+        """
+        if not isinstance(q, Mapping):
+            raise InputError(f"q: expected a dict from coordinate to value(s), got {told(q)}")
+        for name in q:
+            if name not in self.coordinates:
+                raise UnknownName(
+                    f"Pinocchio has no coordinate {shown(name)}; {closest(name, self.coordinates)}"
+                )
+        lengths = {np.size(v) for v in q.values()} or {1}
+        if len(lengths) > 1:
+            raise InputError(
+                f"values of one length for every coordinate expected, got lengths {sorted(lengths)}"
+            )
+        values = np.zeros((lengths.pop(), len(self.coordinates)))
+        for name, value in q.items():
+            try:
+                values[:, self.coordinates.index(name)] = value
+            except (TypeError, ValueError) as fault:
+                raise InputError(
+                    f"q: expected number(s) for {shown(name)}, got {told(value)}"
+                ) from fault
+        x = values @ self._coupling.T + self._offset
+        result = np.tile(pinocchio().neutral(self.model), (len(values), 1))
+        for column, index in enumerate(self._simple.values()):
+            joint = self.model.joints[index]
+            if joint.nq == 2:  # a continuous joint: a point on the unit circle
+                result[:, joint.idx_q], result[:, joint.idx_q + 1] = (
+                    np.cos(x[:, column]),
+                    np.sin(x[:, column]),
+                )
+            else:
+                result[:, joint.idx_q] = x[:, column]
+        return result
+
+    def poses(self, q: Mapping[str, Any], tip: str, base: str | None = None) -> np.ndarray:
+        """Poses T_base,tip (N, 4, 4) [m] at N configurations; base is the root link when it is not
+        given.
+
+        Parameters: q, as of `configurations`; tip, base, links. Returns: these.
+        Raises: as `configurations`; UnknownName for an unknown link.
+        """
+        return self.evaluate(q, tip, base, jacobians=False)[0]
+
+    def link_poses(self, q: Mapping[str, Any]) -> dict[str, np.ndarray]:
+        """Poses (N, 4, 4) [m] of every link in the root link's frame. Parameters, returns, raises:
+        as `poses`.
+        """
+        return {link: self.poses(q, link) for link in self.links}
+
+    def evaluate(
+        self, q: Mapping[str, Any], tip: str, base: str | None = None, *, jacobians: bool = True
+    ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Poses (N, 4, 4) of tip in base and Jacobians {"space" | "body" | "hybrid": (N, 6, m)}
+        w.r.t. the coordinates.
+
+        Rows (omega [rad/s]; v [m/s]) per unit rate, columns in the order of `coordinates` (all of
+        the robot's: those of joints off the way are zero). Space: base axes, the point at base's
+        origin; body: tip axes, tip's origin; hybrid: base axes, tip's origin. Motion is relative to
+        base, which may itself move in the tree.
+
+        Parameters: q, tip, base, as of `poses`; jacobians, False where only poses are wanted.
+        Returns: both.
+        Accuracy: Pinocchio's own rounding; where base is the root link its arrays pass through
+        unchanged.
+        Raises: as `poses`.
+        """
+        pin, model, data = pinocchio(), self.model, self.data
+        tip_id, base_id = self._frame(tip), None if base is None else self._frame(base)
+        configurations = self.configurations(q)
+        count, m = len(configurations), len(self.coordinates)
+        T = np.empty((count, 4, 4))
+        J = {frame: np.zeros((count, 6, m)) for frame in FRAME_NAMES}
+        velocity = [model.joints[i].idx_v for i in self._simple.values()]
+        for k, configuration in enumerate(configurations):
+            # Without a degree of freedom Pinocchio's getFrameJacobian ends the process: there is
+            # nothing to ask for.
+            moving = jacobians and model.nv > 0
+            if moving:
+                pin.computeJointJacobians(model, data, configuration)
+            else:
+                pin.forwardKinematics(model, data, configuration)
+            T_0t = pin.updateFramePlacement(model, data, tip_id).copy()
+            T_0b = (
+                pin.SE3.Identity()
+                if base_id is None
+                else pin.updateFramePlacement(model, data, base_id).copy()
+            )
+            T[k] = T_0t.homogeneous if base_id is None else T_0b.actInv(T_0t).homogeneous
+            if moving:
+                for frame, value in self._jacobians(tip_id, T_0t, base_id, T_0b).items():
+                    J[frame][k] = (value[:, velocity] @ self._coupling)[ANGULAR_FIRST]
+        return T, J if jacobians else {}
+
+    def _jacobians(
+        self, tip_id: int, T_0t: Any, base_id: int | None, T_0b: Any
+    ) -> dict[str, np.ndarray]:
+        """The three Jacobians in Pinocchio's row order, w.r.t. its own velocities, relative to the
+        base frame.
+        """
+        pin = pinocchio()
+
+        def jacobian(frame: int, reference: Any) -> np.ndarray:
+            # With one degree of freedom Pinocchio's Python hands out a vector.
+            return pin.getFrameJacobian(self.model, self.data, frame, reference).reshape(
+                6, self.model.nv
+            )
+
+        reference = {"space": pin.WORLD, "body": pin.LOCAL, "hybrid": pin.LOCAL_WORLD_ALIGNED}
+        result = {name: jacobian(tip_id, r) for name, r in reference.items()}
+        if base_id is None:
+            return result
+        drag = jacobian(base_id, pin.WORLD)
+        at_tip = drag.copy()
+        at_tip[:3] += np.cross(drag[3:], T_0t.translation, axis=0)
+        turn = np.kron(np.eye(2), T_0b.rotation.T)
+        return {
+            "space": T_0b.toActionMatrixInverse() @ (result["space"] - drag),
+            "body": result["body"] - T_0t.toActionMatrixInverse() @ drag,
+            "hybrid": turn @ (result["hybrid"] - at_tip),
+        }
+
+    def _frame(self, link: str) -> int:
+        if link not in self.links:
+            raise UnknownName(f"Pinocchio has no link {shown(link)}; {closest(link, self.links)}")
+        return self.model.getFrameId(link, pinocchio().FrameType.BODY)
+
+
+_stderr = threading.Lock()
+
+
+def _built(build: Callable[[], Any]) -> Any:
+    """What Pinocchio builds. Why it refuses a text it says on the process's own stderr, which is
+    caught meanwhile.
+    """
+    if sys.stderr is not None:
+        sys.stderr.flush()
+    # One at a time: of two that overlap, the second would put the first one's catch in the place of
+    # stderr for good.
+    with _stderr, tempfile.TemporaryFile() as said:
+        try:
+            before = os.dup(2)
+        except OSError:  # stderr is closed
+            before = None
+        if before is not None:
+            os.dup2(said.fileno(), 2)
+        try:
+            return build()
+        except (ValueError, RuntimeError, IndexError) as refusal:
+            said.seek(0)
+            lines = said.read().decode(errors="backslashreplace").splitlines()
+            reasons = [
+                line.partition("Error:")[2].strip() for line in lines if line.startswith("Error:")
+            ]
+            raise ModelError(
+                f"Pinocchio refuses this URDF: {shown('; '.join(reasons) or refusal, 300)}"
+            ) from refusal
+        finally:
+            if before is not None:
+                os.dup2(before, 2)
+                os.close(before)
+
+
+def _plain(root: xml.Element) -> xml.Element:
+    """The elements of the root's namespace under their names without it, and no others."""
+    space, bracket, _ = root.tag.rpartition("}")
+
+    def parts(element: xml.Element) -> tuple[str, dict[str, str]]:
+        return element.tag.rpartition("}")[2], {
+            k: v for k, v in element.attrib.items() if not k.startswith("{")
+        }
+
+    plain = etree.Element(*parts(root))
+    copies = {root: plain}
+    for element in root.iterdescendants(f"{space}{bracket}*" if bracket else "{}*"):
+        above = copies.get(element.getparent())
+        if above is not None:  # else it is inside of an element of another namespace
+            copies[element] = etree.SubElement(above, *parts(element))
+    return plain
+
+
+def _coupling(
+    root: xml.Element, joints: Sequence[str]
+) -> tuple[tuple[str, ...], np.ndarray, np.ndarray]:
+    """Independent coordinates, C (n, m) and c (n,): x = C q + c for the moving joints, out of the
+    `<mimic>` tags.
+    """
+    elements = {e.get("name"): e for e in root.findall("joint")}
+    mimics: dict[str, tuple[str, float, float]] = {}
+    for name in joints:
+        mimic = elements[name].find("mimic")
+        if mimic is not None and mimic.get("joint") in elements:
+            scale, shift = float(mimic.get("multiplier", 1)), float(mimic.get("offset", 0))
+            mimics[name] = str(mimic.get("joint")), scale, shift
+    coordinates = tuple(name for name in joints if name not in mimics)
+    C, c = np.zeros((len(joints), len(coordinates))), np.zeros(len(joints))
+    for row, name in enumerate(joints):
+        master, scale, shift = name, 1.0, 0.0
+        for _ in range(len(mimics)):
+            if master not in mimics:
+                break
+            master, factor, step = mimics[master]
+            scale, shift = scale * factor, shift + scale * step
+        if master in mimics:
+            raise ModelError(f"the joints that mimic {shown(master)} go round in a circle")
+        c[row] = shift
+        if master in coordinates:
+            C[row, coordinates.index(master)] = scale
+    return coordinates, C, c

@@ -1,0 +1,193 @@
+"""Hypothesis strategies for serial chains: screws of all joint kinds, chains with and without
+coupling, coordinates.
+
+Twists and screws are (ω; v) in the base frame, lengths in m, angles in rad; arrays are float64 and
+read-only. Whole trees are drawn by `robot_strategies`, configurations within limits by
+`configuration_strategies`.
+
+Parameters of several: kinds or joint_kinds, of `KINDS`; min_joints, max_joints, how many, each
+number as often as any. Returns: a strategy. Raises: InputError, at the call, for kinds, numbers of
+joints or shapes that there are not. Accuracy: a screw's axis has unit length, and v of a revolute
+one is at right angles to it, to rounding.
+Source: Park 1994, Section II: f(q) = e^{A_1 x_1} ⋯ e^{A_n x_n} M, x = C q + c.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from poekin.model.chain import Chain
+
+from . import arguments
+from .decoding.bytes_reader import Reader
+from .group_strategies import Arrays, axes, batch_shapes, frozen, poses, read, st, vectors
+
+KINDS = ("revolute", "prismatic", "helical")
+"""What a chain's joints may be; a continuous joint is a revolute one without limits."""
+REACHES = (1e-3, 3.0)
+"""The smallest distance in m of an arm's points, beside 0, and the largest."""
+QUARTERS = (0.0, math.pi / 2, -math.pi / 2, math.pi)
+"""Values of coordinates that one in four has."""
+RATIOS = (1.0, -1.0, 0.5, -2.0, 0.0)
+"""By which coupled joints follow a coordinate."""
+LIMITS = ("none", "both", "both", "both", "equal", "lower", "upper")
+"""Which limits coordinates of a chain have, each as often as any."""
+PARTS = ("q", "dq", "batch", "pose", "point", "joint", "frames")
+"""What a law of a chain may ask for."""
+
+
+@functools.cache
+def points() -> Arrays:
+    """Points of an arm (3,) in m, in the base frame: the origin, or at a log-uniform distance of 1
+    mm to 3 m.
+    """
+    return vectors(REACHES)
+
+
+def screws(kinds: Sequence[str] = KINDS) -> Arrays:
+    """Screws (6,) of joints: axis, point and pitch (1 mm to 1 m per rad, either sign) independent
+    of each other.
+
+    Shrinks to a revolute joint about x through the origin.
+    """
+    return _screws(arguments.some("kinds", kinds, KINDS))
+
+
+@functools.cache
+def _screws(kinds: tuple[str, ...]) -> Arrays:
+    def screw(kind: str, axis: np.ndarray, point: np.ndarray, pitch: float) -> np.ndarray:
+        if kind == "prismatic":
+            return frozen([0, 0, 0, *axis])
+        return frozen(
+            [*axis, *(np.cross(point, axis) + (pitch * axis if kind == "helical" else 0))]
+        )
+
+    pitches = read(5, lambda r: r.pick([1.0, -1.0]) * max(r.magnitude(1e-3, 1.0), 1e-3))
+    return st.builds(screw, read(1, lambda r: r.pick(kinds)), axes(), points(), pitches)
+
+
+@functools.cache
+def placements() -> Arrays:
+    """Poses (4, 4) of frames of an arm: any rotation, and an origin as in `points`."""
+    return poses(REACHES)
+
+
+def chains(
+    min_joints: int = 0,
+    max_joints: int = 12,
+    joint_kinds: Sequence[str] = KINDS,
+    coupled: bool | None = None,
+    offsets: bool = True,
+    limits: bool = False,
+) -> st.SearchStrategy[Chain]:
+    """Chains (`poekin.Chain`) of any kinds of joints, and any home pose.
+
+    Parameters: min_joints, max_joints; joint_kinds; coupled, whether joints may follow a coordinate
+    by a ratio (also 0: they stand still), where None draws both coupled and uncoupled chains;
+    offsets, whether they also do so with one; limits, whether coordinates have some: two, equal
+    ones, a lower or an upper one alone, or none, in rad or m.
+    Shrinks to no joint; to those that matter, revolute about x through the origin, and M = I.
+    """
+    bounds = arguments.counts(min_joints, max_joints)
+    return _chains(
+        bounds, arguments.some("joint_kinds", joint_kinds, KINDS), coupled, offsets, limits
+    )
+
+
+def _limits(r: Reader) -> tuple[float, float]:
+    kind, lower, width = r.pick(LIMITS), r.decimal(-3.0, 3.0), r.decimal(0.1, 3.0)
+    upper = lower if kind == "equal" else lower + width
+    return (
+        -math.inf if kind in ("none", "upper") else lower,
+        math.inf if kind in ("none", "lower") else upper,
+    )
+
+
+@st.composite
+def _chains(
+    draw: st.DrawFn,
+    bounds: tuple[int, int],
+    kinds: tuple[str, ...],
+    coupled: bool | None,
+    offsets: bool,
+    limits: bool,
+) -> Chain:
+    n = draw(read(1, lambda r: r.pick(range(bounds[0], bounds[1] + 1))))
+    A = [draw(_screws(kinds)) for _ in range(n)]
+    home = draw(placements())
+    if n == 0 or not (draw(st.booleans()) if coupled is None else coupled):
+        pairs = draw(read(9 * n, lambda r: [_limits(r) for _ in range(n)])) if limits else None
+        return Chain(np.reshape(A, (n, 6)), home, limits=pairs or None)
+    m = draw(st.integers(1, n))
+    C, c = np.zeros((n, m)), np.zeros(n)
+    # The first m joints are masters in an order of their own; the others follow one of them.
+    for i in range(n):
+        C[i, i if i < m else draw(st.integers(0, m - 1))] = (
+            1.0 if i < m else draw(st.sampled_from(RATIOS))
+        )
+        c[i] = draw(read(3, lambda r: r.fraction(-1.0, 1.0))) if offsets else 0.0
+    order = list(draw(st.permutations(range(n))))
+    pairs = draw(read(9 * m, lambda r: [_limits(r) for _ in range(m)])) if limits else None
+    return Chain(A, home, coupling=C[order], offset=c[order], limits=pairs)
+
+
+def coordinates(chain: Any, shape: Sequence[int] = ()) -> Arrays:
+    """Configurations (*shape, m): 0 and quarter turns (1 of 4), and anything up to ±π, rad or m;
+    shrinks to 0.
+
+    Parameters: chain, or a robot, of which only `dof` is asked: limits are none here; shape, of the
+    leading axes.
+    """
+    m, shape = arguments.moves(chain), arguments.shape(shape)
+    count = math.prod(shape) * m
+
+    def value(r: Reader) -> float:
+        return r.pick(QUARTERS) if r.byte() < 64 else r.fraction(-math.pi, math.pi)
+
+    return read(
+        4 * count, lambda r: frozen(np.reshape([value(r) for _ in range(count)], (*shape, m)))
+    )
+
+
+def chain_cases(kinds: Sequence[str], **options: Any) -> st.SearchStrategy[tuple[Any, ...]]:
+    """A chain and the arguments of its law by their kinds (`laws.Law`).
+
+    Parameters: kinds, of `PARTS`: "q", "dq", configuration and rates (m,); "batch", configurations
+    (*shape, m);
+    "pose", a pose (4, 4); "point", a point (3,); "joint", the number of a joint (of a chain that
+    has one); "frames", poses (n, 2, 4, 4), to re-attach the frame of each joint and of each link;
+    options, as of `chains`.
+    Returns: a strategy of tuples, the chain first.
+    """
+    parts = arguments.some("kinds", kinds, PARTS) if kinds else ()
+    return _cases(parts, chains(**{"min_joints": 1, **options} if "joint" in parts else options))
+
+
+@st.composite
+def _cases(
+    draw: st.DrawFn, kinds: tuple[str, ...], some: st.SearchStrategy[Chain]
+) -> tuple[Any, ...]:
+    chain = draw(some)
+    n = len(chain.screws)
+    drawn: list[Any] = []
+    for kind in kinds:
+        if kind in ("q", "dq"):
+            drawn.append(draw(coordinates(chain)))
+        elif kind == "batch":
+            drawn.append(draw(coordinates(chain, draw(batch_shapes()))))
+        elif kind == "pose":
+            drawn.append(draw(placements()))
+        elif kind == "point":
+            drawn.append(draw(points()))
+        elif kind == "joint":
+            drawn.append(draw(st.integers(0, n - 1)))
+        else:
+            drawn.append(
+                frozen(np.reshape([draw(placements()) for _ in range(2 * n)], (n, 2, 4, 4)))
+            )
+    return (chain, *drawn)

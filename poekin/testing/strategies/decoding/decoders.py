@@ -1,0 +1,80 @@
+"""Bytes as angles, axes, vectors and rotations: what the strategies read off, each a function of a
+`Reader`.
+
+Every byte of zeros reads as the simplest: angle 0, the x axis, length 0. Raises: nothing; bounds
+are checked by who offers them. Source: `group_strategies` says why magnitudes are spread as they
+are.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+
+from .bytes_reader import Reader
+
+SWITCHES = (2e-140, 1.0, 2.0)
+"""Angles in rad at which the package's formulas for exp, log and the Jacobians of exp change their
+form.
+"""
+SMALLEST = 1e-150
+"""The smallest angle in rad that is drawn beside 0."""
+
+
+def around(x: float) -> tuple[float, float, float]:
+    """The number x and the floats on both sides of it."""
+    return x, math.nextafter(x, -math.inf), math.nextafter(x, math.inf)
+
+
+def angle(r: Reader, largest: float, smallest: float) -> float:
+    """An angle from 0 to largest in rad, smallest the least beside 0. Takes 6 bytes."""
+    kind, fresh = r.byte() % 12, min(max(smallest, 1e-12), largest)
+    if kind < 5:
+        return r.magnitude(fresh, largest)
+    if kind < 6:
+        return r.magnitude(smallest, max(smallest, 1e-12))
+    if kind < 8 and (marks := _marks(largest, smallest)):
+        return r.pick(marks)
+    if kind < 10 and largest >= math.pi:
+        return math.pi - 10.0 ** -r.fraction(0.0, 16.0)
+    return r.fraction(0.0, largest)
+
+
+def axis(r: Reader) -> np.ndarray:
+    """A unit vector (3,): an axis of the frame, nearly one, or any. Takes 12 bytes."""
+    kind, place, sign = r.byte() % 4, r.byte(), 1.0 if r.byte() < 128 else -1.0
+    n = np.array([sign, 0.0, 0.0])
+    if kind == 1:
+        n[1:] = [10.0 ** -r.fraction(1.0, 17.0), -(10.0 ** -r.fraction(1.0, 17.0))]
+    elif kind:
+        anywhere = np.array([r.fraction(-1.0, 1.0) for _ in range(3)])
+        n = anywhere if math.hypot(*anywhere) > 0.1 else n
+    return np.roll(n / math.hypot(*n), place)
+
+
+def vector(r: Reader, lengths: tuple[float, float]) -> np.ndarray:
+    """A vector (3,) in m, of length 0 or within lengths. Takes 16 bytes."""
+    return r.magnitude(*lengths) * axis(r)
+
+
+def rotation(r: Reader) -> np.ndarray:
+    """A rotation (3, 3) by 0 to π. Takes 18 bytes."""
+    n = axis(r)
+    return turned(n, angle(r, math.pi, SMALLEST))
+
+
+def turned(n: np.ndarray, by: float) -> np.ndarray:
+    """The rotation (3, 3) by an angle `by` in rad about the unit vector n (3,): I + sin θ [n] + 2
+    sin²(θ/2) [n]².
+    """
+    N = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
+    return np.eye(3) + math.sin(by) * N + 2 * math.sin(by / 2) ** 2 * (N @ N)
+
+
+@functools.cache
+def _marks(largest: float, smallest: float) -> list[float]:
+    marks = [*(x for s in SWITCHES for x in around(s)), math.pi]
+    marks += [x for centre in (math.pi, math.pi / 2, 2 * math.pi) for x in around(centre)]
+    return [x for x in marks if smallest <= x <= largest]

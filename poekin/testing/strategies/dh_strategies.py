@@ -1,0 +1,86 @@
+"""Hypothesis strategies for Denavit-Hartenberg tables: both conventions, and what makes them
+ill-conditioned.
+
+Angles are quarter turns, quarter turns missed by 1e-12 to 1e-3 rad (nearly parallel, nearly meeting
+axes), and anything up to 3 rad; lengths are 0, up to 2 m either way, and 1e-12 to 1e-3 m.
+
+Returns: a strategy; arrays are float64 and read-only, poses those of a frame in the frame before
+it. Raises: InputError, at the call, for conventions or numbers of joints that there are not.
+Source: where DH numbers are ill-conditioned: parallel axes, and axes that meet (`formats.dh`).
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...formats.dh import Row, Table
+from . import arguments
+from .chain_strategies import QUARTERS
+from .group_strategies import Arrays, poses, st
+
+CONVENTIONS = ("standard", "modified")
+"""Paul's and Craig's."""
+POWERS = (-12, -3)
+"""Powers of 10 between which lie the rad that quarter turns are missed by, and the tiny lengths in
+m.
+"""
+
+
+@functools.cache
+def angles() -> st.SearchStrategy[float]:
+    """Angles of a table in rad: quarter turns, those by 1e-12 to 1e-3 off, or any from -3 to 3;
+    shrinks towards 0.
+    """
+    quarters = st.sampled_from(QUARTERS)
+    missed = st.builds(
+        lambda quarter, sign, power: quarter + sign * 10**power,
+        quarters,
+        st.sampled_from([1, -1]),
+        st.floats(*POWERS),
+    )
+    return st.one_of(quarters, missed, st.floats(-3, 3))
+
+
+@functools.cache
+def lengths() -> st.SearchStrategy[float]:
+    """Lengths of a table in m: 0, from -2 to 2, or 1e-12 to 1e-3; shrinks towards 0."""
+    return st.one_of(
+        st.just(0.0), st.floats(-2, 2), st.floats(*POWERS).map(lambda power: 10.0**power)
+    )
+
+
+@functools.cache
+def rows() -> st.SearchStrategy[Row]:
+    """Rows of a table: revolute or prismatic, turning either way; each number independent of the
+    others.
+    """
+    kinds = st.sampled_from(["revolute", "prismatic"])
+    return st.builds(Row, angles(), lengths(), lengths(), angles(), kinds, st.booleans())
+
+
+@functools.cache
+def mounts() -> Arrays:
+    """Poses (4, 4) of bases and tools: any rotation, and an origin that is 0 or 1 mm to 2 m away."""
+    return poses(lengths=(1e-3, 2.0))
+
+
+def tables(
+    min_joints: int = 1, max_joints: int = 10, conventions: Sequence[str] = CONVENTIONS
+) -> st.SearchStrategy[Table]:
+    """Tables (`poekin.dh.Table`) with base and tool; shrinks towards one row of zeros in standard
+    convention.
+
+    Parameters: min_joints, max_joints, how many rows; conventions, of `CONVENTIONS`.
+    """
+    bounds = arguments.counts(min_joints, max_joints)
+    return _tables(bounds, arguments.some("conventions", conventions, CONVENTIONS))
+
+
+@st.composite
+def _tables(draw: st.DrawFn, bounds: tuple[int, int], conventions: tuple[str, ...]) -> Table:
+    drawn = draw(st.lists(rows(), min_size=bounds[0], max_size=bounds[1]))
+    base, tool = np.asarray(draw(mounts())), np.asarray(draw(mounts()))
+    return Table(draw(st.sampled_from(conventions)), drawn, base=base, tool=tool)

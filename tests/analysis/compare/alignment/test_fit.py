@@ -1,0 +1,122 @@
+"""fit steps many starts at once, each as if it were alone, along the residuals' true derivatives."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from poekin.analysis.compare.alignment import fit as fitting
+from poekin.analysis.compare.alignment.fit import _linearised, _step, fit
+from poekin.analysis.compare.alignment.lines import carried, misses, sides
+from poekin.groups import se3
+from poekin.testing.cases.planted_changes import planted, random_arm
+
+KINDS = ("revolute", "revolute", "prismatic", "revolute", "revolute")
+
+
+def near(seed, count):
+    """Two arms that differ in one axis, alignments that all but hold, and joints free and used at
+    random.
+    """
+    rng = np.random.default_rng(seed)
+    chain = random_arm(seed + 50, KINDS)
+    pair = sides(chain, planted(chain, "shift", 3, rng), 1e-5, 1e-5)
+    P, z = se3.exp(1e-3 * rng.normal(size=(count, 6))), 1e-3 * rng.normal(size=(count, 5))
+    return pair, P, z, rng.random((count, 5)) < 0.4, rng.random((count, 5)) < 0.8
+
+
+@pytest.mark.parametrize("hinge", [-1, 0, 1, 2, 3])
+def test_the_derivatives_are_those_of_the_residuals(hinge):
+    pair, P, z, free, used = near(0, 4)
+    pair, h = replace(pair, hinge=hinge), 1e-6
+    J = _linearised(pair, P, z, free, used)[1]
+    for c, xi in enumerate(np.eye(11)):
+        ahead, back = (
+            _linearised(pair, se3.exp(t * xi[:6]) @ P, z + t * xi[6:] * free, free, used)[0]
+            for t in (h, -h)
+        )
+        # 1e5 tolerances a metre or radian: of central differences they leave h^2 and, by rounding,
+        # u / h.
+        assert J[:, :, c] == pytest.approx((ahead - back) / (2 * h), abs=1e-3)
+    assert np.abs(J).max() > 1e4
+
+
+def test_starts_fitted_together_come_out_as_each_alone():
+    pair, P, z, free, used = near(1, 6)
+    together = fit(pair, P, z, free, used)
+    for i in range(6):
+        alone = fit(pair, P[i : i + 1], z[i : i + 1], free[i], used[i])
+        for ours, theirs in zip(together, alone, strict=True):
+            assert ours[i] == pytest.approx(theirs[0], abs=1e-12)
+    assert (together[1] == z)[~free].all()
+
+
+def test_a_fit_takes_the_base_and_the_free_zero_offsets_to_where_the_used_axes_agree():
+    pair, P, z, _, _ = near(2, 3)
+    inner = np.array([False, True, True, True, False])
+    used = np.arange(5) != 3
+    start = z * inner
+    fitted = fit(pair, P, start, inner, used)
+    miss = misses(pair, carried(pair, *fitted)[1])
+    assert miss[:, used].max() < 1e-6
+    assert miss[:, ~used].min() > 99  # the shift of 1 mm, in tolerances of 0.01 mm
+    base = np.eye(4)
+    base[:3, 3] = pair.b.hub - pair.a.hub
+    assert fitted[0] == pytest.approx(np.tile(base, (3, 1, 1)), abs=1e-9)
+    assert fitted[1] == pytest.approx(np.zeros((3, 5)), abs=1e-9)
+
+
+def test_a_step_lessens_residuals_held_back_by_each_coordinate_s_own_size():
+    rng = np.random.default_rng(0)
+    r, J, damping = (
+        rng.normal(size=(4, 9)),
+        rng.normal(size=(4, 9, 3)) * [1, 50, 0.02],
+        np.array([0, 1e-6, 0.1, 7.0]),
+    )
+    for step, e, D, held in zip(_step(r, J, damping), r, J, damping, strict=True):
+        damped = np.concatenate([D, np.sqrt(held) * np.diag(np.linalg.norm(D, axis=0))])
+        assert step == pytest.approx(
+            np.linalg.lstsq(damped, -np.append(e, np.zeros(3)), rcond=None)[0], rel=1e-9
+        )
+
+
+@pytest.mark.parametrize("size, held", [(2e-6, 2e-6), (0.5e-6, 1.0), (0.0, 1.0)])
+def test_a_coordinate_that_moves_nothing_is_held_back_by_the_size_of_the_largest(size, held):
+    J = 1e-3 * np.diag([1.0, size])[None]  # beside the largest, a millionth is nothing
+    step = _step(np.array([[1.0, 1.0]]), J, np.array([0.25]))[0]
+    assert 1e-3 * step == pytest.approx([-1 / 1.25, -size / (size * size + 0.25 * held * held)])
+    assert (_step(np.ones((1, 2)), np.zeros((1, 2, 2)), np.array([0.25])) == 0).all()
+
+
+def counted(monkeypatch, most, *arguments):
+    """What a fit of so many steps at most finds, and how many it takes."""
+    taken = []
+    monkeypatch.setattr(fitting, "STEPS", most)
+    monkeypatch.setattr(fitting, "_linearised", lambda *x: taken.append(1) or _linearised(*x))
+    return fit(*arguments), len(taken) - 1
+
+
+def test_a_fit_that_starts_near_takes_few_steps_and_ends_where_none_helps(monkeypatch):
+    pair, P, z, _, _ = near(2, 3)
+    free, used = np.array([False, True, True, True, False]), np.arange(5) != 3
+    (Q, y), taken = counted(monkeypatch, 60, pair, P, z * free, free, used)
+    assert taken <= 6
+    # The error squares itself: from 100 tolerances beyond 1e-9 in four steps.
+    fitted, _ = counted(monkeypatch, 4, pair, P, z * free, free, used)
+    assert misses(pair, carried(pair, *fitted)[1])[:, used].max() < 1e-8
+    # With the axis that differs too, the least squares are none that vanish: from there no step
+    # helps, and until the damping has grown from 1e-6 beyond 1e3 ten are tried.
+    least, _ = counted(monkeypatch, 60, pair, P, z * free, free, used | True)
+    again, taken = counted(monkeypatch, 60, pair, *least, free, used | True)
+    assert again[0] == pytest.approx(least[0], abs=1e-9)
+    assert 1 <= taken <= 14
+    assert counted(monkeypatch, 60, pair, Q, y, free, used)[1] <= 1
+    # A tenth of a tolerance is still too much, and nothing at all is not.
+    chain = random_arm(50, KINDS)
+    same, here = sides(chain, chain, 1e-5, 1e-5), np.eye(4)[None]
+    off = se3.exp(np.array([[0, 0, 0, 1e-6, 0, 0]]))
+    (found, _), _ = counted(monkeypatch, 60, same, off, np.zeros((1, 5)), free, used)
+    assert found == pytest.approx(here, abs=1e-12)
+    assert counted(monkeypatch, 60, same, here, np.zeros((1, 5)), free, used)[1] == 0

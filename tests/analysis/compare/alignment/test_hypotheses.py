@@ -1,0 +1,71 @@
+"""Which of two readings of the differences between two models is the likelier one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from poekin.analysis.compare.alignment.hypotheses import Reading
+
+
+def cost(
+    axes: int = 0,
+    zeros: int = 0,
+    reversed_: int = 0,
+    frames: int = 0,
+    link: int = 0,
+    miss: Any = 16.0,
+) -> float:
+    """Of a reading in which joints 1, 2 ... have another axis, those after them other zeros, the
+    last ones reversed.
+    """
+    n = 12
+    at = np.arange(n)
+    moved, offset = at < axes, (at >= axes) & (at < axes + zeros)
+    directions = np.where(at >= n - reversed_, -1.0, 1.0)
+    misses = np.where(moved, miss, 0.5)
+    pose = np.eye(4)
+    return Reading(
+        pose, pose, np.zeros(n), directions, moved, offset, np.zeros((n, 6)), misses, frames, link
+    ).cost[0]
+
+
+def test_one_change_comes_first_whatever_it_is():
+    ones = [cost(axes=1), cost(zeros=1), cost(reversed_=1)]
+    assert max(ones) < min(
+        cost(zeros=2),
+        cost(zeros=1, reversed_=1),
+        cost(axes=1, zeros=1),
+        cost(axes=2),
+        cost(axes=3, link=3),
+    )
+
+
+def test_where_base_and_tool_moved_other_zeros_alone_come_before_a_moved_axis():
+    for count in range(2, 7):
+        assert cost(axes=1) < cost(zeros=count) < cost(axes=1, frames=2)
+        assert cost(zeros=count) == cost(reversed_=count) == cost(zeros=count, frames=2)
+        assert cost(zeros=count) < cost(zeros=count + 1) - 0.2
+    assert cost(axes=1, frames=2) < cost(zeros=7)
+    # what differs in one joint by zero and direction is one convention of it
+    assert cost(zeros=12, reversed_=12) == cost(zeros=12)
+
+
+@pytest.mark.parametrize("zeros", [1, 2, 3])
+def test_another_link_is_likelier_than_an_axis_that_zeros_help_and_less_so_than_an_axis_alone(
+    zeros,
+):
+    assert cost(axes=1, frames=2) < cost(axes=3, zeros=zeros, link=2) < cost(axes=1, zeros=zeros)
+
+
+def test_of_several_moved_axes_it_counts_how_far_they_are():
+    # the fourth root of each in tolerances; of a single one a twentieth of it
+    assert cost(axes=2, miss=81.0) - cost(axes=2, miss=16.0) == pytest.approx(2 * (3 - 2))
+    assert cost(axes=1, zeros=1, miss=81.0) - cost(axes=1, zeros=1, miss=16.0) == pytest.approx(
+        0.05
+    )
+    assert cost(axes=3) - cost(axes=2) == pytest.approx(3 + 2)
+    assert cost(axes=2, zeros=1) - cost(axes=2) == pytest.approx(2.5)
+    assert cost(axes=2, zeros=2) - cost(axes=2) == pytest.approx(3.5)

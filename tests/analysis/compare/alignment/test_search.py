@@ -1,0 +1,154 @@
+"""Of the readings of a difference the simplest is chosen, and the others that say as much are kept."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from poekin.analysis.compare.alignment.alignment_seeds import rigid_poses
+from poekin.analysis.compare.alignment.hypotheses import Reading
+from poekin.analysis.compare.alignment.lines import sides
+from poekin.analysis.compare.alignment.search import (
+    _inner,
+    _links,
+    _others,
+    _simpler,
+    _simplest,
+    search,
+)
+from poekin.analysis.compare.compare import compare
+from poekin.groups import se3
+from poekin.model import screw
+from poekin.model.chain import Chain
+from poekin.testing.cases.planted_changes import random_arm
+
+N, TOL = 4, (1e-5, np.radians(1e-3))
+
+
+def reading(moved=(), offset=(), reversed_=(), frames=0, link=0):
+    """A reading that blames these joints, from 0."""
+    at = np.arange(N)
+    return Reading(
+        np.eye(4), np.eye(4), np.zeros(N), np.where(np.isin(at, reversed_), -1.0, 1.0), np.isin(at, moved),
+        np.isin(at, offset), np.zeros((N, 6)), np.zeros(N), frames, link,
+    )  # fmt: skip
+
+
+def test_the_others_blame_one_joint_too_and_each_another_or_for_something_else():
+    first, axis, zero, back = (
+        reading(moved=[1]),
+        reading(moved=[2]),
+        reading(offset=[1]),
+        reading(reversed_=[1]),
+    )
+    behind = [reading(moved=[1]), axis, zero, reading(offset=[1], frames=2), back, axis]
+    behind += [
+        reading(),
+        reading(moved=[1, 2]),
+        reading(moved=[0], offset=[0]),
+        reading(offset=[3], reversed_=[2]),
+    ]
+    assert _others(first, behind) == [axis, zero, back]
+    assert _others(zero, behind[:1]) == behind[:1]
+    for several in (reading(), reading(moved=[1, 2]), reading(offset=[0, 1, 2])):
+        assert _others(several, behind) == []
+    # A joint that differs in two things is one joint, but says less shortly.
+    assert _others(reading(moved=[1], offset=[1]), [axis]) == [axis]
+
+
+def test_a_reading_that_blames_fewer_joints_and_moves_no_frame_comes_before_one_that_moves_them():
+    first, simple = reading(offset=[0, 1], frames=1), reading(moved=[2])
+    assert _simpler(first, [first, simple]) is simple
+    for other in (
+        reading(moved=[2], frames=1),
+        reading(offset=[2]),
+        reading(moved=[0, 1]),
+        reading(moved=[0, 1, 2]),
+    ):
+        assert _simpler(first, [first, other]) is first
+    for kept in (reading(offset=[0, 1]), reading(offset=[0, 1], frames=1, link=2)):
+        assert _simpler(kept, [kept, simple]) is kept
+    assert _simpler(first, [reading(), simple, reading(moved=[1])]) is simple
+
+
+@pytest.mark.parametrize("n", range(5))
+def test_the_zeros_of_the_first_and_the_last_joint_are_turns_of_base_and_tool(n):
+    chain = random_arm(1, ("revolute",) * n)
+    expected = [0 < k < n - 1 for k in range(n)]
+    assert _inner(sides(chain, chain, *TOL)).tolist() == expected
+
+
+@pytest.mark.parametrize("n, k", [(5, 2), (5, 3), (4, 2)])
+def test_a_link_of_another_shape_moves_what_is_behind_it_and_the_tool_with_it(n, k):
+    chain = random_arm(7, ("revolute",) * n)
+    base, bent = se3.exp([0.3, -0.5, 0.2, 1, 2, 3]), se3.exp([0.02, 0.01, 0.03, 0.1, 0.2, 0.1])
+    S = np.concatenate([chain.screws[:k], chain.screws[k:] @ se3.adjoint(bent).T])
+    for tool, frames in ((np.eye(4), 1), (se3.exp([0, 0, 0, 0, 0, 0.1]), 2)):
+        # The tool is the one behind the link: it has moved with it.
+        other = Chain(S, bent @ chain.home @ tool).rebased(base)
+        pair = sides(chain, other, *TOL)
+        (found,) = _links(pair, chain, other, rigid_poses(pair)[1])
+        assert (found.link, found.frames, found.moved.tolist()) == (
+            k,
+            frames,
+            [i >= k for i in range(n)],
+        )
+        assert found.base == pytest.approx(se3.inverse(base), abs=1e-9)
+        assert found.tool == pytest.approx(se3.inverse(tool), abs=1e-9)
+    assert (
+        _links(sides(chain, chain, *TOL), chain, chain, rigid_poses(sides(chain, chain, *TOL))[1])
+        == []
+    )
+
+
+def test_a_link_with_one_axis_behind_it_is_an_axis_that_moved():
+    chain = random_arm(7, ("revolute",) * 4)
+    S = chain.screws.copy()
+    S[3] = se3.adjoint(se3.exp([0.02, 0.01, 0.03, 0.1, 0.2, 0.1])) @ S[3]
+    other = Chain(S, chain.home)
+    pair = sides(chain, other, *TOL)
+    assert _links(pair, chain, other, rigid_poses(pair)[1]) == []
+
+
+def test_zero_offsets_that_no_axis_needs_are_put_back_and_whole_turns_taken_off():
+    chain = random_arm(3, ("revolute",) * 5)
+    other = chain.rezeroed([0, 0, 0.4, 0, 0])
+    pair = sides(chain, other, *TOL)
+    hubs = np.eye(4)
+    hubs[:3, 3] = pair.b.hub - pair.a.hub
+    # The last offset moves no axis; -0.4 and a turn less are one to a revolute joint.
+    z = np.array([[0, 0, -0.4, 0, 0.3], [0, 0, -0.4 + 2 * np.pi, 0, 0.0], [0, 0, -0.4, 1e-9, 0.0]])
+    for found in _simplest(pair, chain, other, np.tile(hubs, (3, 1, 1)), z):
+        assert found.zeros == pytest.approx([0, 0, -0.4, 0, 0], abs=1e-9)
+        assert (found.zeros == 0).tolist() == [True, True, False, True, True]
+        assert not found.moved.any()
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
+@pytest.mark.parametrize("kind", ["axis", "zero", "direction"])
+def test_arms_of_few_joints_are_read_too(n, kind):
+    chain, k = random_arm(5, ("revolute",) * n), n // 2
+    S = chain.screws.copy()
+    if kind == "axis":
+        S[k] = se3.adjoint(se3.exp([0.01, 0.02, 0.01, 0.05, 0, 0.03])) @ S[k]
+    if kind == "direction":
+        S[k] *= -1
+    other = Chain(S, chain.home).rezeroed(0.1 * (kind == "zero") * (np.arange(n) == k))
+    first, others = search(chain, other, *TOL)
+    assert first.blamed.sum() <= 1
+    assert all(found.blamed.sum() == 1 for found in others)
+    assert compare(chain, other, samples=5).differing or first.frames
+    if n == 3:
+        assert (first.moved | first.offset | (first.directions < 0)).tolist() == [
+            False,
+            True,
+            False,
+        ]
+
+
+def test_an_arm_of_slides_alone_is_read():
+    chain = Chain(
+        [screw.prismatic(row) for row in np.random.default_rng(1).normal(size=(3, 3))], np.eye(4)
+    )
+    first, _ = search(chain, chain.rebased(se3.exp([0.1, 0.2, 0.3, 1, 2, 3])), *TOL)
+    assert not first.blamed.any()

@@ -1,0 +1,444 @@
+"""compare names the joint that differs and its size, blames nothing else, and knows what is a free
+choice.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from poekin.analysis.compare.alignment.lines import lines
+from poekin.analysis.compare.compare import compare
+from poekin.errors import InputError
+from poekin.formats import dh
+from poekin.formats.load import load
+from poekin.groups import se3
+from poekin.model import screw
+from poekin.model.chain import Chain
+from poekin.testing.cases.planted_changes import (
+    ARMS,
+    CHANGES,
+    alignment_fault,
+    arm,
+    fault,
+    moves,
+    planted,
+    random_arm,
+)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_one_change_in_an_interior_joint_is_named_and_sized_and_nothing_else_is_blamed(name):
+    chain, rng = arm(name), np.random.default_rng(3)
+    assert chain.kinds in (("revolute",) * 6, ("revolute",) * 7)
+    faults = {
+        (change, k): fault(compare(chain, planted(chain, change, k, rng), samples=1), change, k)
+        for n, change in enumerate(CHANGES)
+        for k in range(1, chain.dof - 1)
+        if (n + k) % 2  # every second one: the report has them all
+    }
+    assert {case: words for case, words in faults.items() if words} == {}
+
+
+def test_the_battery_catches_a_wrong_joint_a_wrong_size_and_a_smeared_change():
+    chain, rng = arm("random 6a"), np.random.default_rng(0)
+    result = compare(chain, planted(chain, "shift", 2, rng), samples=1)
+    assert fault(result, "shift", 2) == ""
+    assert "blames" in fault(result, "shift", 3)
+    assert fault(result, "tilt", 2).startswith("size")
+    assert fault(result, "flip", 2).startswith("says")
+    S = chain.screws.copy()
+    S[2] = screw.revolute(
+        S[2, :3], np.cross(S[2, :3], S[2, 3:]) + 1.02e-3 * np.cross(S[2, :3], S[0, :3])
+    )
+    assert fault(compare(chain, Chain(S, chain.home), samples=1), "shift", 2).startswith("size")
+    assert "blames" in fault(
+        compare(chain, chain.rezeroed([0, 0.01, 0.01, 0, 0, 0]), samples=1), "zero", 1
+    )
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_a_moved_base_and_tool_are_alignment_only(name):
+    chain, rng = arm(name), np.random.default_rng(4)
+    faults = {
+        what: alignment_fault(compare(chain, moved, samples=5), base, tool)
+        for what, moved, base, tool in moves(chain, rng)
+    }
+    assert faults == {"base": "", "tool": "", "base and tool": ""}
+
+
+@settings(deadline=None, max_examples=15)
+@example(62020, "rrr")
+@given(
+    st.integers(0, 10**6), st.sampled_from(["rrrrrr", "rrprr", "prrr", "rrrp", "rrr", "rrp", "rr"])
+)
+def test_two_conventions_of_one_arm_are_equal_and_the_alignment_maps_one_onto_the_other(
+    seed, kinds
+):
+    rng = np.random.default_rng(seed)
+    chain = random_arm(seed, ["prismatic" if kind == "p" else "revolute" for kind in kinds])
+    other = chain.rezeroed(rng.uniform(-1.2, 1.2, chain.dof)).rebased(se3.exp(rng.normal(size=6)))
+    signs = rng.choice([-1.0, 1.0], chain.dof)
+    result = compare(
+        chain, Chain(other.screws * signs[:, None], other.home @ se3.exp(rng.normal(size=6)))
+    )
+    assert result.equal, result.verdict
+    assert result.after is not None
+    assert result.after.worst_mm < 0.2
+    assert result.after.worst_deg < 0.02
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_shifted_axis_is_named_even_where_zeros_and_directions_differ_too(seed):
+    rng = np.random.default_rng(seed)
+    chain = arm("panda")
+    other = chain.rezeroed(rng.normal(size=7)).rebased(se3.exp(rng.normal(size=6)))
+    flipped = Chain(other.screws * rng.choice([-1.0, 1.0], 7)[:, None], other.home)
+    result = compare(chain, planted(flipped, "shift", 3, rng))
+    (moved,) = [j for j in result.joints if j.axis_differs]
+    assert (moved.number, moved.normal) == (4, pytest.approx(1.0, rel=0.01))
+
+
+def test_two_shifted_axes_are_both_named():
+    chain, rng = arm("random 7a"), np.random.default_rng(1)
+    result = compare(
+        chain,
+        planted(planted(chain, "shift", 2, rng), "tilt", 4, rng).rebased(
+            se3.exp(rng.normal(size=6))
+        ),
+    )
+    assert [j.number for j in result.joints if j.axis_differs] == [3, 5]
+    assert (result.joints[2].normal, result.joints[4].angle) == (
+        pytest.approx(1, rel=1e-2),
+        pytest.approx(0.1, rel=1e-2),
+    )
+
+
+@pytest.mark.parametrize("swapped", [False, True], ids=["a b", "b a"])
+@pytest.mark.parametrize(
+    "kinds, changes",
+    [
+        ("rrrrrrr", {3: "shift", 4: "tilt", 5: "zero"}),
+        # Zero offsets of the slides, with base or tool elsewhere, would make up for one of the
+        # shifts.
+        ("rprprrr", {1: "shift", 3: "shift"}),
+        ("rrrpprr", {1: "flip", 6: "shift", 7: "shift"}),
+    ],
+)
+def test_of_several_changes_no_other_joint_is_blamed(kinds, changes, swapped):
+    chain = random_arm(0, [{"r": "revolute", "p": "prismatic"}[kind] for kind in kinds])
+    other, rng = chain, np.random.default_rng(0)
+    for number, change in changes.items():
+        other = planted(other, change, number - 1, rng)
+    result = compare(*((other, chain) if swapped else (chain, other)), samples=1)
+    assert [j.number for j in result.differing] == list(changes)
+    assert [j.number for j in result.joints if j.axis_differs] == [
+        number for number, change in changes.items() if change in ("shift", "tilt")
+    ]
+    assert [j.number for j in result.joints if j.zero_differs] == [
+        number for number, change in changes.items() if change == "zero"
+    ]
+
+
+def test_a_zero_offset_of_an_end_joint_is_a_turned_base_or_tool_and_both_readings_are_given():
+    chain = arm("ur5e")
+    first, last = (
+        compare(chain, chain.rezeroed(q)) for q in ([0.1, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0.2])
+    )
+    assert (first.equal, first.differing, last.equal, last.differing) == (True, (), True, ())
+    assert "zero offset of -5.73°" in first.equivalent[0]
+    assert "joint 1" in first.equivalent[0]
+    assert "zero offset of -11.46°" in last.equivalent[0]
+    assert "joint 6" in last.equivalent[0]
+
+
+def test_a_tilt_that_is_also_a_zero_offset_is_read_as_what_leaves_the_base_and_the_other_reading_is_given():
+    # At its zero position the panda's axes 1 and 3 are one line: axis 2 turned about it is a zero
+    # offset of joint 3.
+    chain = arm("panda")
+    S = chain.screws.copy()
+    S[1] = se3.adjoint(se3.exp(S[0] * np.radians(0.1))) @ S[1]
+    tilted = compare(chain, Chain(S, chain.home, joint_names=chain.joint_names))
+    assert [j.number for j in tilted.differing] == [2]
+    assert any(
+        "zero offset of 0.1° of joint 3" in words or "of -0.1° of joint 3" in words
+        for words in tilted.equivalent
+    )
+
+
+def test_the_extra_joint_is_named_where_one_can_be_dropped():
+    chain = arm("panda")
+    names = [*chain.joint_names[:4], "extra", *chain.joint_names[4:]]
+    longer = Chain(
+        np.insert(chain.screws, 4, screw.revolute([1, 2, 0], [0.1, 0.3, 0.2]), 0),
+        chain.home,
+        joint_names=names,
+    )
+    for pair, side in (((chain, longer), "b"), ((longer, chain), "a")):
+        result = compare(*pair)
+        assert (result.equal, result.extra, result.differing) == (False, (side, "extra"), ())
+        assert "'extra'" in result.verdict
+    lost = compare(arm("ur5e"), chain)
+    assert (lost.equal, lost.extra, lost.joints, lost.base) == (False, None, (), None)
+    assert "6 joints against 7" in lost.verdict
+    json.loads(lost.to_json())
+
+
+def test_strict_aligns_nothing():
+    chain = arm("ur5e")
+    assert compare(chain, chain, strict=True).equal
+    base = compare(chain, chain.rebased(se3.exp([0, 0, 0, 1e-3, 0, 0])), strict=True)
+    assert not base.equal
+    tool = compare(chain, chain.retooled(se3.exp([0, 0, 0, 1e-3, 0, 0])), strict=True)
+    assert (tool.equal, tool.differing) == (False, ())
+    assert "home pose" in tool.verdict
+    assert not compare(
+        chain, planted(chain, "flip", 2, np.random.default_rng(0)), strict=True
+    ).equal
+    assert not compare(
+        chain, planted(chain, "zero", 2, np.random.default_rng(0)), strict=True
+    ).equal
+
+
+def test_limits_are_compared_in_the_other_models_zero_and_direction_and_decide_nothing():
+    chain = arm("ur5e")
+    limits = chain.limits.copy()
+    limits[2, 1] -= np.radians(10)
+    result = compare(chain, Chain(chain.screws, chain.home, limits=limits))
+    assert result.equal
+    assert result.joints[2].limits == pytest.approx((0, -10))
+    flipped = compare(chain, planted(chain, "flip", 2, np.random.default_rng(0)))
+    assert flipped.joints[2].limits == pytest.approx((0, 0))
+
+
+def test_another_kind_of_joint_is_said():
+    chain = random_arm(1)
+    S = chain.screws.copy()
+    S[2] = screw.prismatic(S[2, :3])
+    result = compare(chain, Chain(S, chain.home))
+    assert (result.equal, [j.number for j in result.differing]) == (False, [3])
+    assert "is revolute in one model and prismatic in the other" in result.verdict
+    assert "direction" not in result.verdict
+
+
+def test_axes_that_agree_exactly_share_the_blame_of_no_other_axis():
+    # Their tables differ in a_2 by 0.7 mm, a_2 + a_3 by 0.05, d_4 by 10.209, d_5 by 4.15, d_1
+    # (base) and d_6 (tool).
+    result = compare(load("ur10").chain(), load("ur10e").chain(), samples=1)
+    assert [j.number for j in result.differing] == [3, 4, 5, 6]
+    assert [j.shift for j in result.differing] == pytest.approx(
+        [0.7, 0.05, np.hypot(10.209, 0.05), np.hypot(4.15, 0.05)], rel=1e-6
+    )
+    assert "°" not in result.verdict
+
+
+@pytest.mark.parametrize("k, column", [(1, "a"), (2, "a"), (1, "alpha")])
+def test_one_link_of_another_length_or_twist_is_named_and_no_zero_offset_is_made_of_it(k, column):
+    table = dh.published("ur5")
+    rows = list(table.rows)
+    rows[k] = replace(rows[k], **{column: getattr(rows[k], column) + 0.005})
+    result = compare(dh.to_chain(table), dh.to_chain(dh.Table(table.convention, rows)), samples=5)
+    assert not result.equal
+    assert f"the link between joint {k + 1} (" in result.verdict
+    assert "zero position" not in result.verdict
+    size = "5 mm" if column == "a" else "0.2865°"
+    assert size in result.verdict
+    assert result.base == pytest.approx(np.eye(4))
+    assert result.tool == pytest.approx(np.eye(4), abs=1e-9)
+
+
+def test_what_is_the_same_within_tolerance_as_it_stands_is_not_aligned():
+    chain, rng = arm("random 6b"), np.random.default_rng(0)
+    result = compare(chain, planted(chain, "shift", 2, rng), tol_mm=1.01)
+    assert (result.base, result.tool) == (
+        pytest.approx(np.eye(4)),
+        pytest.approx(np.eye(4), abs=1e-12),
+    )
+    assert result.after is not None
+    assert result.before is not None
+    assert result.after.worst_mm == pytest.approx(result.before.worst_mm, rel=1e-9)
+
+
+def _coupled(C, c=None):
+    chain = arm("ur5e")
+    return Chain(
+        chain.screws, chain.home, joint_names=chain.joint_names, coupling=C, offset=c,
+        q_names=[f"q{k}" for k in range(np.shape(C)[1])],
+    )  # fmt: skip
+
+
+def test_joints_that_follow_others_differently_differ_though_all_axes_agree():
+    C = np.delete(np.eye(6), 2, 1)
+    ratio = {r: C.copy() for r in (1.0, -1.0, 2.0)}
+    for r, matrix in ratio.items():
+        matrix[2, 1] = r
+    for one, other in ((1.0, -1.0), (1.0, 2.0)):
+        result = compare(_coupled(ratio[one]), _coupled(ratio[other]), samples=1)
+        assert (result.equal, [j.number for j in result.differing]) == (False, [3])
+        assert (
+            f"follows {one:g} × 'shoulder_lift_joint' in one model and follows {other:g} × "
+            in result.verdict
+        )
+        assert compare(_coupled(ratio[one]), _coupled(ratio[one]), samples=1).equal
+        assert not compare(
+            _coupled(ratio[one]), _coupled(ratio[other]), samples=1, strict=True
+        ).equal
+    alone = compare(_coupled(ratio[1.0]), _coupled(np.eye(6)), samples=1)
+    assert not alone.equal
+    assert "and moves by itself in the other" in alone.verdict
+    # A flipped joint that follows by the opposite ratio moves as before.
+    chain = _coupled(ratio[2.0])
+    S = chain.screws * np.array([1, 1, -1, 1, 1, 1])[:, None]
+    C = np.diag([1.0, 1.0, -1.0, 1.0, 1.0, 1.0]) @ ratio[2.0]
+    turned = Chain(S, chain.home, joint_names=chain.joint_names, coupling=C, q_names=chain.q_names)
+    result = compare(chain, turned, samples=1)
+    assert result.equal
+    assert not any(j.coupling_differs for j in result.joints)
+
+
+def test_a_ratio_to_a_coordinate_whose_joint_is_not_on_the_chain_is_compared():
+    scaled = np.eye(6)
+    scaled[4, 4] = 2.0
+    result = compare(_coupled(np.eye(6)), _coupled(scaled), samples=1)
+    assert (result.equal, [j.number for j in result.differing]) == (False, [5])
+
+
+def test_tolerances_are_millimetres_and_degrees():
+    chain, rng = arm("random 6b"), np.random.default_rng(0)
+    assert compare(chain, planted(chain, "shift", 2, rng), tol_mm=1.01).equal
+    assert not compare(chain, planted(chain, "shift", 2, rng), tol_mm=0.1).equal
+
+
+def test_chains_without_joints_and_with_one_compare():
+    none = Chain(np.zeros((0, 6)), np.eye(4))
+    assert compare(none, none.retooled(se3.exp([1, 0, 0, 1, 0, 0]))).equal
+    one = Chain([screw.revolute([0, 0, 1], [1, 0, 0])], np.eye(4))
+    assert compare(one, one.rebased(se3.exp([1, 2, 0, 1, 0, 0]))).equal
+
+
+def test_json_is_plain_and_complete():
+    document = json.loads(compare(arm("ur5e"), arm("erd:ur5_robot")).to_json())
+    assert document["equal"] is False
+    assert len(document["joints"]) == 6
+    assert {"angle", "normal", "zero", "unit", "differs", "limits"} <= set(document["joints"][0])
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"tol_mm": 0}, {"tol_deg": -1}, {"tol_mm": float("nan")}, {"samples": 0}, {"tol_deg": "x"}],
+)
+def test_options_out_of_range_are_refused(options):
+    with pytest.raises(InputError, match=next(iter(options))):
+        compare(random_arm(0), random_arm(0), **options)
+
+
+def test_a_robot_is_no_chain():
+    with pytest.raises(InputError, match="chain"):
+        compare(load("panda"), arm("panda"))  # type: ignore[arg-type]
+
+
+CHAIN = "expected a Chain, as Robot.chain(tip=...) makes it, got 5"
+WHOLE = {
+    "a": ({"a": 5}, f"a: {CHAIN}"),
+    "b": ({"b": 5}, f"b: {CHAIN}"),
+    "tol_mm": ({"tol_mm": 0}, "tol_mm: a positive number expected, got 0"),
+    "tol_deg": ({"tol_deg": "x"}, "tol_deg: a positive number expected, got 'x'"),
+    "no samples": (
+        {"samples": 0},
+        "samples: a number of configurations of at least 1 expected, got 0",
+    ),
+    "half a sample": (
+        {"samples": 1.5},
+        "samples: a number of configurations of at least 1 expected, got 1.5",
+    ),
+    "a truth value": (
+        {"samples": True},
+        "samples: a number of configurations of at least 1 expected, got True",
+    ),
+}
+
+
+@pytest.mark.parametrize("options, message", WHOLE.values(), ids=WHOLE)
+def test_what_cannot_be_compared_is_said_whole(options: dict[str, Any], message):
+    two = {"a": random_arm(0), "b": random_arm(0)} | {k: options[k] for k in "ab" if k in options}
+    with pytest.raises(InputError) as caught:
+        compare(two["a"], two["b"], **{k: v for k, v in options.items() if k not in two})
+    assert str(caught.value) == message
+
+
+REVERSED = "joint 3 ('elbow_joint') counts in the other direction"
+IN_MM = "the models differ; lengths of model b are 1000 times those of model a (millimetres against metres?)"
+
+
+@pytest.mark.parametrize("change, aligned, strict", [
+    ("nothing", "the models are the same", "the models are the same as they stand"),
+    ("direction", f"the models are the same arm, up to free choices; {REVERSED}", f"the models differ; {REVERSED}"),
+    ("unit", IN_MM, IN_MM),
+    ("tool", "the models are the same arm, up to free choices; aligned: the tool frame is moved by 100 mm",
+     "the models differ; the home pose's frame is moved by 100 mm"),
+])  # fmt: skip
+def test_a_verdict_says_what_differs_and_nothing_else(change, aligned, strict):
+    chain = arm("ur5e")
+    S, home = chain.screws.copy(), chain.home.copy()
+    if change == "direction":
+        S[2] *= -1
+    if change == "unit":
+        S[:, 3:] *= 1e3
+        home[:3, 3] *= 1e3
+    if change == "tool":
+        home = home @ se3.exp([0, 0, 0, 0, 0, 0.1])
+    other = Chain(S, home, joint_names=chain.joint_names)
+    assert compare(chain, other, samples=1).verdict == aligned
+    assert compare(chain, other, samples=1, strict=True).verdict == strict
+
+
+@pytest.mark.parametrize("numbers, verdict", [
+    ((3, 5), "the models differ: 3 joints against 5, and no two joints can be dropped so that the rest agree"),
+    ((5, 4), "the models differ: 5 joints against 4, and no one joint can be dropped so that the rest agree"),
+    ((6, 3), "the models differ: 6 joints against 3, and more than two must be dropped so that the rest agree"),
+])  # fmt: skip
+def test_numbers_of_joints_that_do_not_fit_are_said_whole(numbers, verdict):
+    a, b = (random_arm(k, ("revolute",) * n) for k, n in enumerate(numbers))
+    found = compare(a, b, samples=7, seed=3, tol_mm=0.02, tol_deg=0.003)
+    assert (found.verdict, found.equal, found.joints, found.extra, found.equivalent) == (
+        verdict,
+        False,
+        (),
+        None,
+        (),
+    )
+    assert (found.base, found.tool, found.before, found.after) == (None, None, None, None)
+    assert (found.strict, found.tol_mm, found.tol_deg, found.samples, found.seed) == (
+        False,
+        0.02,
+        0.003,
+        7,
+        3,
+    )
+
+
+@pytest.mark.parametrize("share", [0.9996, 1.0004])
+@pytest.mark.parametrize("name", ["tol_mm", "tol_deg"])
+def test_a_tolerance_is_one_of_millimetres_or_degrees_to_less_than_a_thousandth(name, share):
+    chain = random_arm(3)
+    S, k = chain.screws.copy(), 2
+    across = np.cross(S[k, :3], S[0, :3]) / np.linalg.norm(np.cross(S[k, :3], S[0, :3]))
+    size = share * 0.5
+    if name == "tol_mm":
+        motion = np.concatenate([np.zeros(3), 1e-3 * size * across])
+    else:
+        place = lines(chain).places[k] + lines(chain).hub
+        motion = np.radians(size) * screw.revolute(across, place)
+    S[k] = se3.adjoint(se3.exp(motion)) @ S[k]
+    tolerances: dict[str, Any] = {"tol_mm": 50.0, "tol_deg": 5.0, name: 0.5}
+    found = compare(chain, Chain(S, chain.home), strict=True, samples=1, **tolerances)
+    assert [joint.number for joint in found.joints if joint.axis_differs] == (
+        [k + 1] if share > 1 else []
+    )
+    assert found.equal == (share < 1)

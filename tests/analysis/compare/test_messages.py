@@ -1,0 +1,214 @@
+"""Sentences of a comparison name the joints and sizes that they are about."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.analysis.compare import messages
+from poekin.analysis.compare.alignment.hypotheses import Reading
+from poekin.analysis.compare.compare import compare
+from poekin.analysis.compare.comparison import JointComparison
+from poekin.model.chain import Chain
+
+UR = pk.load("ur5e").chain(tip="tool0")
+
+
+def test_another_link_is_named_by_the_joints_at_both_of_its_ends():
+    S = UR.screws.copy()
+    S[3:] = (pk.se3.adjoint(pk.se3.exp([0, 0, 0, 0.01, 0.02, 0])) @ S[3:].T).T
+    verdict = compare(UR, Chain(S, UR.home, joint_names=UR.joint_names), samples=1).verdict
+    names = UR.joint_names
+    assert (
+        f"the link between joint 3 ('{names[2]}') and joint 4 ('{names[3]}') differs: from joint 4 on"
+        in verdict
+    )
+
+
+@pytest.mark.parametrize(
+    "kind, words",
+    [
+        ("revolute", "a zero offset of 0.5°"),
+        ("prismatic", "a zero offset of 8.727 mm"),
+        ("helical", "a zero offset of 0.5°"),
+    ],
+)
+def test_another_reading_says_the_size_of_its_zero_offset(kind, words):
+    n, k, zero = 3, 1, np.radians(0.5)
+    z, p = [0, 0, 1], [0, 0, 0]
+    make = {"revolute": pk.screw.revolute, "prismatic": lambda z, p: pk.screw.prismatic(z),
+            "helical": lambda z, p: pk.screw.helical(z, p, 0.1)}  # fmt: skip
+    joint = make[kind](z, p)
+    chain = Chain(
+        [pk.screw.revolute([1, 0, 0], [0, 0, 0]), joint, pk.screw.revolute([0, 1, 0], [0, 0, 0])],
+        np.eye(4),
+    )
+    marks, ones = np.zeros(n, bool), np.ones(n)
+    same = Reading(
+        np.eye(4), np.eye(4), np.zeros(n), ones, marks, marks, chain.screws, np.zeros(n), 0
+    )
+    other = replace(same, zeros=zero * (np.arange(n) == k), offset=np.arange(n) == k)
+    (sentence,) = messages.equivalents(chain, chain, same, [other], 1e-5, 1e-5)
+    assert sentence.startswith(f"{words} of joint 2 ('joint2'), ")
+
+
+TURNS = JointComparison(
+    2, "arm", "b2", "revolute", "revolute", 0.0, 0.0, 0.0, 0.0, False, (0.0, 0.0), False, False
+)
+SLIDES = replace(TURNS, kind_a="prismatic", kind_b="prismatic", normal=None, shift=None)
+
+
+@pytest.mark.parametrize("joint, changes, words", [
+    (TURNS, {}, ""),
+    (TURNS, {"kind_b": "prismatic", "axis_differs": True, "angle": 3.0, "flipped": True},
+     "is revolute in one model and prismatic in the other"),
+    (TURNS, {"axis_differs": True, "angle": 0.5, "normal": 3.25, "shift": 7.0},
+     "has an axis that is 0.5° and 3.25 mm from the other model's (7 mm at the arm)"),
+    (TURNS, {"axis_differs": True, "angle": 0.5, "normal": 3.25, "shift": 0.01},
+     "has an axis that is 0.5° and 3.25 mm from the other model's"),
+    (TURNS, {"axis_differs": True, "angle": 0.5, "normal": 0.01, "shift": 0.011},
+     "has an axis that is turned by 0.5° from the other model's (0.011 mm at the arm)"),
+    (SLIDES, {"axis_differs": True, "angle": 0.5}, "has an axis that is turned by 0.5° from the other model's"),
+    (TURNS, {"axis_differs": True, "angle": 0.001, "normal": 3.0, "shift": 12.34567},
+     "has an axis that is 12.35 mm from the other model's"),
+    (TURNS, {"axis_differs": True, "angle": 0.001, "normal": 0.01, "shift": 0.01}, "has another pitch"),
+    (SLIDES, {"axis_differs": True}, "has another pitch"),
+    (TURNS, {"zero_differs": True, "zero": -5.7}, "has its zero position 5.7° from the other model's"),
+    (SLIDES, {"zero_differs": True, "zero": 5.7}, "has its zero position 5.7 mm from the other model's"),
+    (TURNS, {"flipped": True}, "counts in the other direction"),
+    (TURNS, {"coupling_differs": True, "follows_a": "follows 2 × 'x'"},
+     "follows 2 × 'x' in one model and moves by itself in the other"),
+    (TURNS, {"coupling_differs": True, "follows_b": "does not move"},
+     "moves by itself in one model and does not move in the other"),
+    (TURNS, {"zero_differs": True, "zero": 1.0, "flipped": True},
+     "has its zero position 1° from the other model's and counts in the other direction"),
+])  # fmt: skip
+def test_what_differs_in_a_joint_is_said_whole(joint, changes, words):
+    assert messages.joint_words(replace(joint, **changes), 0.01, 0.001) == words
+
+
+def test_joints_that_differ_are_named_by_number_and_the_first_model_s_name():
+    joints = tuple(
+        replace(TURNS, number=k + 1, name_a=f"a{k + 1}", axis_differs=k > 1, angle=1.0 + k)
+        for k in range(4)
+    )
+    axis = "has an axis that is turned by {}° from the other model's"
+    two = [f"joint 3 ('a3') {axis.format(3)}", f"joint 4 ('a4') {axis.format(4)}"]
+    assert messages.differences(joints, 0.01, 0.001) == two
+    for link in (1, 2):
+        (sentence,) = messages.differences(joints, 0.01, 0.001, link=link)
+        assert sentence == (
+            f"the link between joint {link} ('a{link}') and joint {link + 1} ('a{link + 1}') differs: from joint 3 on "
+            f"the axes have moved together, and joint 3 {axis.format(3)}"
+        )
+    coupled = (*joints[:3], replace(joints[3], axis_differs=False, coupling_differs=True))
+    assert len(messages.differences(coupled, 0.01, 0.001, link=2)) == 2
+
+
+@pytest.mark.parametrize("xi, words", [
+    ([0, 0, 0, 0, 0.012, 0], "the tool frame is moved by 12 mm"),
+    ([0, np.radians(3), 0, 0, 0, 0], "the tool frame is turned by 3°"),
+    ([0, np.radians(3), 0, 0, 0.012, 0], "the tool frame is moved by 12 mm and turned by 3°"),
+    ([0, 0.9e-3, 0, 0.9e-5, 0, 0], ""),
+    ([0, 1.1e-3, 0, 0.9e-5, 0, 0], "the tool frame is turned by 0.06303°"),
+    ([0, 0.9e-3, 0, 1.1e-5, 0, 0], "the tool frame is moved by 0.011 mm"),
+])  # fmt: skip
+def test_how_a_frame_moved_is_said_in_mm_and_degrees_beyond_tolerance(xi, words):
+    assert messages.frame_words("tool", pk.se3.exp(xi), 1e-5, 1e-3) == words
+
+
+def test_the_model_with_longer_lengths_is_the_larger_one():
+    assert messages.unit_words(1000.0).startswith(
+        "lengths of model b are 1000 times those of model a ("
+    )
+    assert messages.unit_words(0.001).startswith(
+        "lengths of model a are 1000 times those of model b ("
+    )
+
+
+def two_ends(kind):
+    make = (
+        pk.screw.prismatic if kind == "prismatic" else lambda z: pk.screw.revolute(z, [0.1, 0.2, 0])
+    )
+    rows = [make([0, 0, 1.0]), pk.screw.revolute([0, 1, 0], [0.3, 0, 0]), make([1.0, 0, 0])]
+    return Chain(rows, pk.se3.exp([0.3, 0.2, 0.1, 1, 0, 0]), joint_names=["first", "mid", "last"])
+
+
+@pytest.mark.parametrize("kind, size, far", [
+    ("revolute", 0.1, "5.73°"), ("revolute", -np.pi, "180°"), ("prismatic", -0.25, "-250 mm"),
+])  # fmt: skip
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_a_frame_moved_along_or_about_an_end_joint_is_its_zero_offset(kind, size, far, direction):
+    chain, marks = two_ends(kind), np.zeros(3, bool)
+    same = Reading(
+        np.eye(4), np.eye(4), np.zeros(3), np.ones(3), marks, marks, chain.screws, np.zeros(3), 1
+    )
+    base = pk.se3.exp(direction * chain.screws[0] * size)
+    tool = pk.se3.exp(pk.se3.adjoint(pk.se3.inverse(chain.home)) @ chain.screws[-1] * size)
+
+    def said(**changes):
+        words = messages.equivalents(chain, chain, replace(same, **changes), [], 1e-6, 1e-6)
+        return [line.replace("-180", "180") for line in words]
+
+    def expected(what, number, name):
+        return [f"the {what} moved by {far} along or about the axis of joint {number} ('{name}') is the same as a zero "
+                f"offset of {far} of that joint"]  # fmt: skip
+
+    assert said() == []
+    assert said(base=base, directions=np.array([direction, 1, 1])) == expected("base", 1, "first")
+    assert said(tool=tool) == expected("tool", 3, "last")
+    for slip in ([0, 0, 0, 0, 2e-6, 0], [0, 2e-6, 0, 0, 0, 0]):
+        assert said(base=pk.se3.exp(slip) @ base) == []
+
+
+def test_other_readings_say_which_joint_is_to_blame_instead_and_for_what():
+    chain, ones, nothing = two_ends("revolute"), np.ones(3), np.zeros(3, bool)
+    at = np.arange(3) == 2
+    same = Reading(
+        np.eye(4), np.eye(4), np.zeros(3), ones, nothing, nothing, chain.screws, np.zeros(3), 0
+    )
+    others = [
+        replace(same, moved=at), replace(same, directions=np.where(at, -1.0, 1.0)),
+        replace(same, zeros=0.1 * at, offset=at), replace(same, zeros=0.1 * at, offset=at, moved=at),
+    ]  # fmt: skip
+    end = " of joint 3 ('last'), with the base and tool frames aligned to that, explains it as well"
+    assert messages.equivalents(chain, chain, same, others, 1e-6, 1e-6) == [
+        f"{words}{end}" for words in ("another axis", "the other direction", "a zero offset of 5.73°",
+                                      "another axis of 5.73°")
+    ]  # fmt: skip
+
+
+def test_the_verdict_says_what_is_the_same_what_differs_and_what_was_aligned():
+    base, tool = pk.se3.exp([0, 0, np.radians(10), 0, 0, 0]), pk.se3.exp([0, 0, 0, 0.05, 0, 0])
+    S = UR.screws.copy()
+    S[2, 3:] += np.cross([0, 0, 0.003], S[2, :3])
+    bent = Chain(S, UR.home, joint_names=UR.joint_names)
+    name = UR.joint_names[2]
+    third = f"joint 3 ('{name}') has an axis that is 3 mm from the other model's"
+
+    def said(b, **options):
+        return compare(UR, b, samples=1, **options).verdict
+
+    assert said(UR) == "the models are the same"
+    assert said(UR, strict=True) == "the models are the same as they stand"
+    aligned = "aligned: the base frame is turned by 10° and the tool frame is moved by 50 mm"
+    assert (
+        said(UR.rebased(base).retooled(tool))
+        == f"the models are the same arm, up to free choices; {aligned}"
+    )
+    assert said(bent) == f"the models differ; {third}"
+    assert (
+        said(bent.retooled(tool))
+        == f"the models differ; {third}; aligned: the tool frame is moved by 50 mm"
+    )
+    assert said(bent, strict=True) == f"the models differ; {third}"
+    assert (
+        said(UR.retooled(tool), strict=True)
+        == "the models differ; the home pose's frame is moved by 50 mm"
+    )
+    zero = said(UR.rezeroed([0, 0, 0.1, 0, 0, 0]))
+    words = f"joint 3 ('{name}') has its zero position 5.73° from the other model's"
+    assert zero == f"the models are the same arm, up to free choices; {words}"

@@ -1,0 +1,170 @@
+"""`poekin compare`: 0 equal, 1 differ, 2 error."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from poekin.analysis.compare.compare import compare
+from poekin.formats.load import load
+
+URDF = """<robot name="three"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+<joint name="one" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+  <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<joint name="two[b]" type="revolute"><parent link="b"/><child link="c"/><origin xyz="{x} 0 0.3"/><axis xyz="0 1 0"/>
+  <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<joint name="three" type="revolute"><parent link="c"/><child link="d"/><origin xyz="0.1 0 0.3"/><axis xyz="1 0 0"/>
+  <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"""
+
+
+def written(tmp_path, name, x):
+    path = tmp_path / name
+    path.write_text(URDF.format(x=x), encoding="utf-8")
+    return str(path)
+
+
+def test_the_same_model_is_equal(tmp_path, poekin):
+    a = written(tmp_path, "a.urdf", 0)
+    code, out, err = poekin("compare", a, a)
+    assert (code, err) == (0, "")
+    assert out.endswith("The models are the same\n")
+    assert "two[b]" in out
+
+
+def test_a_different_model_is_one_and_is_said_in_words_and_json(tmp_path, poekin):
+    a, b = written(tmp_path, "a.urdf", 0), written(tmp_path, "b.urdf", 0.02)
+    code, out, err = poekin("compare", a, b)
+    assert (code, err) == (1, "")
+    assert "DIFFERS" in out
+    code, out, _ = poekin("compare", a, b, "--json")
+    assert code == 1
+    document = json.loads(out)
+    assert (document["equal"], len(document["joints"])) == (False, 3)
+    assert document["a"] == {"file": a, "base": "a", "tip": "d"}
+    assert document["b"] == {"file": b, "base": "a", "tip": "d"}
+    assert poekin("compare", a, b, "--tol-mm", "50")[0] == 0
+
+
+def test_the_table_and_the_pose_errors_are_those_of_the_comparison(tmp_path, poekin):
+    a, b = written(tmp_path, "a.urdf", 0), written(tmp_path, "b.urdf", 0.02)
+    text = Path(b).read_text()
+    Path(b).write_text(text.replace('<axis xyz="1 0 0"/>', '<axis xyz="-1 0 0"/>'))
+    result = compare(load(a).chain(), load(b).chain())
+    lines = poekin("compare", a, b)[1].splitlines()
+    for words, errors in (("as they stand", result.before), ("aligned", result.after)):
+        (line,) = [line for line in lines if line.startswith(f"Pose error {words}: ")]
+        assert errors is not None
+        wanted = [errors.worst_mm, errors.worst_deg, errors.mean_mm, errors.mean_deg]
+        numbers = [float(x) for x in re.findall(r"[-+.e\d]+(?= mm|°)", line)]
+        assert numbers == pytest.approx(wanted, rel=5e-3, abs=1e-9)
+    for joint in result.joints:
+        (row,) = [line.split() for line in lines if joint.name_a in line and "revolute" in line]
+        assert row[3] == ("DIFFERS" if joint.axis_differs else "same")
+        assert ("flipped" in row) == joint.flipped
+        shown = [joint.angle, joint.normal, joint.shift, joint.zero]
+        tiny = 1e-6 * 0.01  # what is far below tolerance is shown as 0
+        values = [0.0 if abs(x) < tiny else x for x in shown if x is not None]
+        assert [float(x) for x in row[4 : 4 + len(values)]] == pytest.approx(values, rel=1e-3)
+
+
+def test_strict_counts_the_frames(tmp_path, poekin):
+    a = written(tmp_path, "a.urdf", 0)
+    assert poekin("compare", a, a, "--strict")[0] == 0
+    assert (
+        poekin(
+            "compare",
+            a,
+            a,
+            "--tip",
+            "d",
+            "--tip-b",
+            "d",
+            "--base",
+            "a",
+            "--base-b",
+            "a",
+            "--strict",
+        )[0]
+        == 0
+    )
+    assert poekin("compare", "ur5e", "erd:ur5_robot", "--tip", "tool0", "--strict")[0] == 1
+
+
+def test_a_tree_without_a_tip_is_refused_with_its_tips(crane, tmp_path, refused):
+    assert "tips: 'hook', 'lamp'" in refused("compare", crane, crane)
+    assert "--tip-b" in refused("compare", written(tmp_path, "a.urdf", 0), crane, "--tip", "d")
+
+
+def test_what_cannot_be_used_is_refused(tmp_path, refused):
+    a = written(tmp_path, "a.urdf", 0)
+    assert "tol_mm" in refused("compare", a, a, "--tol-mm", "0")
+    assert "nowhere.urdf" in refused("compare", a, str(tmp_path / "nowhere.urdf"))
+    assert "elsewhere" in refused("compare", a, a, "--tip", "elsewhere")
+
+
+def test_an_extra_joint_is_named(tmp_path, poekin):
+    code, out, _ = poekin(
+        "compare", "panda", "panda", "--tip", "panda_link7", "--tip-b", "panda_leftfinger"
+    )
+    assert code == 1
+    assert "one joint more, 'panda_finger_joint1'" in out
+
+
+CHANGED = URDF.replace('name="one" type="revolute"', 'name="uno" type="revolute"').replace(
+    '<axis xyz="1 0 0"/>', '<axis xyz="-1 0.01 0"/>'
+).replace("<limit lower=\"-1\" upper=\"1\"", "<limit lower=\"-0.5\" upper=\"1\"", 1)  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore:.*was normalised")
+def test_the_table_has_the_numbers_of_the_function_in_the_order_of_its_heads(tmp_path, poekin):
+    a, path = written(tmp_path, "a.urdf", 0), tmp_path / "b.urdf"
+    path.write_text(
+        CHANGED.format(x=0.02).replace('name="three"><link', 'name="other"><link'), encoding="utf-8"
+    )
+    b = str(path)
+    code, out, _ = poekin(
+        "compare", a, b, "--samples", 50, "--seed", 3, "--base", "a", "--tip", "c"
+    )
+    assert code == 1
+    assert out.startswith("A: a → c; B: a → c\n\n")
+    _, out, _ = poekin("compare", a, b, "--samples", 50, "--seed", 3)
+    result = compare(load(a).chain(), load(b).chain(), samples=50, seed=3)
+    lines = out.splitlines()
+    at = next(i for i, line in enumerate(lines) if "angle (deg)" in line)
+    assert lines[at].split("  ")[-1].strip() == "limits"
+    titles, rows = ["one / uno", "two[b]", "three"], lines[at + 2 : at + 5]
+    for title, joint, row in zip(titles, result.joints, rows, strict=True):
+        words = [word.strip() for word in row.split("  ") if word.strip()]
+        lengths = [
+            "" if x is None else f"{x if abs(x) > 1e-8 else 0:.4g}"
+            for x in (joint.normal, joint.shift)
+        ]
+        tol = result.tol_mm if joint.unit == "mm" else result.tol_deg
+        ends = " ".join(f"{x if abs(x) >= 1e-6 * tol else 0:.4g}" for x in joint.limits)
+        assert words == [word for word in (
+            str(joint.number), title, joint.kind_a, "DIFFERS" if joint.axis_differs else "same",
+            f"{joint.angle if abs(joint.angle) >= 1e-9 else 0:.4g}", *lengths,
+            f"{joint.zero if abs(joint.zero) >= 1e-6 * tol else 0:.4g} {joint.unit}",
+            "flipped" if joint.flipped else "same", ends,
+        ) if word]  # fmt: skip
+    assert any(joint.flipped for joint in result.joints)
+    for title, errors in (("as they stand", result.before), ("aligned", result.after)):
+        assert errors is not None
+        assert (
+            f"Pose error {title}: worst {errors.worst_mm:.3g} mm, {errors.worst_deg:.3g}°;"
+            f" mean {errors.mean_mm:.3g} mm, {errors.mean_deg:.3g}°" in lines
+        )
+    assert lines[-1].lower() == result.verdict.lower()
+
+
+def test_a_tree_is_refused_by_the_name_of_its_file_and_the_option_that_helps(
+    crane, tmp_path, refused
+):
+    said = f"'{crane}' is a tree: say which tip with {{}}; tips: 'hook', 'lamp'\n"
+    assert refused("compare", crane, crane) == "poekin: error: " + said.format("--tip")
+    assert refused(
+        "compare", written(tmp_path, "a.urdf", 0), crane
+    ) == "poekin: error: " + said.format("--tip-b")

@@ -1,0 +1,135 @@
+"""`poekin emit`: source text of an arm into files, whole or not at all."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.formats import emit
+
+PANDA = ("emit", "panda", "--tip", "panda_hand")
+
+
+def test_c_is_three_files_and_says_what_they_cost(poekin, tmp_path):
+    code, out, err = poekin(*PANDA, "--lang", "c", "--output", tmp_path / "made")
+    assert (code, err) == (0, "")
+    source = emit.c(pk.load("panda").chain(tip="panda_hand"), "hybrid", name="panda")
+    written = {
+        path.name: path.read_text(encoding="ascii") for path in (tmp_path / "made").iterdir()
+    }
+    assert written == source.files
+    count = pk.load("panda").chain(tip="panda_hand").compile().program("hybrid", pose=True).count
+    assert out.splitlines()[2] == (
+        f"panda_fk_jacobian_hybrid: {count.multiplications} multiplications, "
+        f"{count.additions} additions or subtractions, {count.sines} pairs of sine and cosine"
+    )
+    assert out.splitlines()[3].startswith(f"Written: '{tmp_path / 'made' / 'panda.h'}', ")
+
+
+@pytest.mark.parametrize(
+    "options", [("--frame", "middle"), ("--frame", "3"), ("--float",), ("--name", "My Arm")]
+)
+def test_options_reach_the_text(poekin, tmp_path, options):
+    assert poekin(*PANDA, "--lang", "c", "--output", tmp_path, *options)[0] == 0
+    given = dict([options]) if len(options) == 2 else {}
+    name = {"--name": "my_arm"}.get(options[0], "panda")
+    frame = given.get("--frame", "hybrid")
+    text = (tmp_path / f"{name}.h").read_text(encoding="ascii")
+    real = "float" if options == ("--float",) else "double"
+    suffix = "joint3" if frame == "3" else frame
+    assert f"void {name}_fk_jacobian_{suffix}(const {real} *q, {real} *T, {real} *J);" in text
+
+
+@pytest.mark.parametrize("place", ["arm.py", "somewhere"])
+def test_python_goes_to_a_file_or_into_a_directory(poekin, tmp_path, place):
+    assert (
+        poekin(*PANDA, "--lang", "python", "--frame", "body", "--output", tmp_path / place)[0] == 0
+    )
+    path = tmp_path / place if place == "arm.py" else tmp_path / place / "panda.py"
+    namespace: dict = {}
+    exec(path.read_text(encoding="ascii"), namespace)
+    chain = pk.load("panda").chain(tip="panda_hand")
+    q = chain.random(0)
+    np.testing.assert_allclose(
+        namespace["jacobian_body"](q, np), chain.jacobian(q, "body"), rtol=0, atol=1e-14
+    )
+
+
+def test_a_mimic_joint_is_in_the_text(poekin, tmp_path, crane):
+    assert (
+        poekin("emit", crane, "--tip", "hook", "--lang", "python", "--output", tmp_path / "arm.py")[
+            0
+        ]
+        == 0
+    )
+    namespace: dict = {}
+    exec((tmp_path / "arm.py").read_text(encoding="ascii"), namespace)
+    chain = pk.load(crane).chain(tip="hook")
+    q = chain.random(0, 5)
+    np.testing.assert_allclose(namespace["fk"](q, np), chain.fk(q), rtol=0, atol=1e-14)
+
+
+def test_files_that_exist_are_replaced_by_force_only(poekin, refused, tmp_path):
+    (tmp_path / "panda.c").write_text("mine", encoding="ascii")
+    words = (*PANDA, "--lang", "c", "--output", tmp_path)
+    assert "panda.c': exists already; --force replaces it" in refused(*words)
+    assert [path.name for path in tmp_path.iterdir()] == ["panda.c"]
+    assert (tmp_path / "panda.c").read_text(encoding="ascii") == "mine"
+    assert poekin(*words, "--force")[0] == 0
+    assert "panda_fk" in (tmp_path / "panda.c").read_text(encoding="ascii")
+    (tmp_path / "arm.py").write_text("mine", encoding="ascii")
+    assert "--force" in refused(*PANDA, "--lang", "python", "--output", tmp_path / "arm.py")
+    assert (tmp_path / "arm.py").read_text(encoding="ascii") == "mine"
+
+
+def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
+    (tmp_path / "arm.py").symlink_to(tmp_path / "nowhere")
+    assert "exists already" in refused(*PANDA, "--lang", "python", "--output", tmp_path / "arm.py")
+    assert not (tmp_path / "nowhere").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--lang", "rust"), "--lang: c or python expected, got 'rust'"),
+        (("--lang", "python", "--float"), "--float: expected together with --lang c only"),
+        (
+            ("--lang", "c", "--frame", "world"),
+            "--frame: space, body, hybrid, middle or the number of a joint",
+        ),
+        (("--lang", "c", "--frame", "7"), "0 to 6, got 7"),
+        (("--lang", "c", "--frame", "-1"), "0 to 6, got -1"),
+        (("--lang", "c", "--tip", "nose"), "nose"),
+    ],
+    ids=lambda x: "-".join(x) if isinstance(x, tuple) else "",
+)
+def test_what_cannot_be_is_refused_and_nothing_is_written(refused, tmp_path, words, message):
+    assert message in refused(*PANDA, *words, "--output", tmp_path / "made")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_places_that_cannot_be_written_are_refused(refused, tmp_path):
+    (tmp_path / "file").write_text("mine", encoding="ascii")
+    for place, reason in (("none/deeper", "No such file or directory"), ("file", "File exists")):
+        said = refused(*PANDA, "--lang", "c", "--output", tmp_path / place)
+        assert f"cannot make the directory '{tmp_path / place}': {reason}" in said
+    (tmp_path / "arm.py").mkdir()
+    assert "cannot write" in refused(
+        *PANDA, "--lang", "python", "--force", "--output", tmp_path / "arm.py"
+    )
+
+
+def test_a_robot_s_hostile_name_names_no_other_place(poekin, tmp_path):
+    path, made = tmp_path / "hostile.urdf", tmp_path / "made"
+    path.write_text(
+        '<robot name="../../*/ x&#10;??/"><link name="a"/><link name="*/b"/><joint name="??/" type="continuous">'
+        '<parent link="a"/><child link="*/b"/><axis xyz="0 0 1"/></joint></robot>',
+        encoding="utf-8",
+    )
+    assert poekin("emit", path, "--lang", "c", "--output", made)[0] == 0
+    assert sorted(p.name for p in made.iterdir()) == ["x.c", "x.h", "x_selftest.c"]
+    header = (made / "x.h").read_text(encoding="ascii")
+    assert "'<U+003F><U+003F>/'" in header
+    assert "'<U+002A>/b'" in header
+    assert "??/" not in header

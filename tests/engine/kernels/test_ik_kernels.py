@@ -1,0 +1,691 @@
+"""The steps of inverse kinematics one by one, as plain Python: what is compiled is the same text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from poekin.engine.kernels import follow_kernels, ik_all_kernel, ik_kernels
+from poekin.engine.kernels import ik_codes as codes
+from poekin.groups import se3, so3
+from poekin.model.chain import Chain
+
+MASK = 2**64 - 1
+N = np.array([2.0, 3.0, -6.0]) / 7
+ARM = Chain(
+    [[0, 0, 1, 0, 0, 0], [0, 1, 0, -0.4, 0, 0], [0, 1, 0, -0.4, 0, 0.5], [1, 0, 0, 0, 0.4, 0]],
+    se3.exp([0.2, -0.1, 0.3, 0.9, 0.1, 0.4]),
+)
+Q = np.array([0.3, -0.7, 1.1, 0.4])
+FREE, WIDE = np.zeros(4), np.tile([-9.0, 9.0], (4, 1))
+WEIGHTS = np.array([1.0, 0.5, 2.0, 3.0, 0.25, 1.5])
+
+
+@pytest.fixture(autouse=True)
+def plain(monkeypatch) -> Iterator[None]:
+    """The arm is a chain, asked in Python."""
+
+    def one(arm: Any, q: np.ndarray, T: np.ndarray, J: np.ndarray, scratch: np.ndarray) -> None:
+        T[:], J[:] = arm.fk(q), arm.jacobian(q, "hybrid")
+
+    for module in (ik_kernels, ik_all_kernel):
+        monkeypatch.setattr(module, "_one", one)
+    with np.errstate(over="ignore", invalid="ignore"):  # as in compiled code
+        yield
+
+
+def shifted(x: int) -> int:
+    """Marsaglia's xorshift of 64 bits."""
+    x ^= x << 13 & MASK
+    x ^= x >> 7
+    return x ^ x << 17 & MASK
+
+
+def seeded(seed: int, index: int) -> int:
+    state = seed * 0x9E3779B97F4A7C15 + (index + 1) * 0xBF58476D1CE4E5B9 & MASK
+    for _ in range(4):
+        state = shifted(state | 1)
+    return state
+
+
+@pytest.mark.parametrize(
+    ("seed", "index"), [(0, 0), (1, 0), (0, 1), (12345, 678), (2**40 + 7, 2**20)]
+)
+def test_random_numbers_are_xorshift_from_a_spread_seed(seed, index):
+    state = ik_kernels._seeded(seed, index)
+    assert int(state) == seeded(seed, index)
+    assert int(ik_kernels._next(state)) == shifted(seeded(seed, index))
+
+
+def options(**changed: float) -> np.ndarray:
+    row = np.zeros(codes.OPTIONS)
+    row[codes.TOL_POSITION] = row[codes.TOL_ROTATION] = 1e-9
+    row[codes.ITERATIONS], row[codes.RESTARTS], row[codes.TASK] = 100, 0, codes.POSE
+    row[codes.AXIS : codes.AXIS + 3], row[codes.WEIGHTS :] = [0, 0, 1], 1.0
+    for name, value in changed.items():
+        row[getattr(codes, name)] = value
+    return row
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, 2.0, 3.1, math.pi])
+def test_the_error_of_a_rotation_is_twice_the_sine_of_half_its_angle_along_its_axis(angle):
+    R = so3.exp([0.4, -1.2, 0.7])
+    found = np.array(ik_kernels._rotation_error(R, so3.exp(angle * N) @ R))
+    expected = 2 * math.sin(angle / 2) * N
+    assert found == pytest.approx(expected, abs=1e-15) or (
+        angle == math.pi and found == pytest.approx(-expected)
+    )
+    assert ik_kernels._angle(found) == pytest.approx(angle, abs=5e-8 if angle > 3.13 else 2e-14)
+
+
+def test_an_angle_of_rounded_sines_is_at_most_pi():
+    assert ik_kernels._angle((2.0 + 1e-9, 0.0, 0.0)) == math.pi
+    assert ik_kernels._angle((0.6, 0.0, 0.8)) == pytest.approx(math.pi / 3, rel=1e-15)
+
+
+@pytest.mark.parametrize("axis", [(0, 0, 1.0), (0.6, 0, -0.8), (0.48, 0.6, 0.64)])
+@pytest.mark.parametrize("turn", [0.0, 1e-8, 0.7, 2.9])
+def test_the_error_of_a_direction_is_that_of_the_smallest_turn(axis, turn):
+    T, target = se3.exp([0.3, 0.8, -0.5, 1, 2, 3]), np.eye(4)
+    a = T[:3, :3] @ axis
+    across = np.cross(a, [1.0, 2.0, 3.0])
+    across /= np.linalg.norm(across)
+    target[:3, :3] = so3.exp(turn * across) @ T[:3, :3] @ so3.exp(1.3 * np.array(axis))
+    found, error = ik_kernels._direction_error(T, target, axis)
+    assert found == pytest.approx(a, abs=1e-15)
+    assert error == pytest.approx(2 * math.sin(turn / 2) * across, abs=4e-15)
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.7, 2.0])
+def test_towards_the_opposite_direction_any_half_turn_across_will_do(turned):
+    T, target = np.eye(4), np.eye(4)
+    T[:3, :3] = so3.exp([0, 0, turned])
+    target[:3, :3] = -T[:3, :3]  # no rotation, but the opposite direction to the last bit
+    for axis in np.eye(3):
+        a, error = ik_kernels._direction_error(T, target, axis)
+        assert np.dot(a, error) == pytest.approx(0, abs=1e-15)
+        assert np.linalg.norm(error) == pytest.approx(2, rel=1e-15)
+        along = np.argmax(np.abs(np.cross(error, a))) if turned == 0 else None
+        assert along is None or abs(a[0]) < 0.6 or error[0] == 0
+
+
+def test_parts_of_the_error_that_a_task_does_not_ask_for_are_no_errors():
+    T, target = ARM.fk(Q), se3.exp([0.1, 0.2, -0.3, 0.5, 0.4, 0.1])
+    turn = np.array(ik_kernels._rotation_error(T, target))
+    off = target[:3, 3] - T[:3, 3]
+    whole = (
+        pytest.approx(np.linalg.norm(off), rel=1e-14),
+        pytest.approx(ik_kernels._angle(turn), rel=1e-14),
+    )
+    for task, expected in (
+        (codes.POSE, whole),
+        (codes.POSITION, (whole[0], 0)),
+        (codes.ROTATION, (0, whole[1])),
+    ):
+        J, e = ARM.jacobian(Q, "hybrid").copy(), np.zeros(6)
+        assert ik_kernels._errors(task, np.array([0, 0, 1.0]), T, target, J, e) == expected
+        assert e == pytest.approx([*turn, *off], abs=1e-15)
+        assert np.array_equal(J, ARM.jacobian(Q, "hybrid"))
+
+
+def test_of_a_direction_the_jacobian_loses_the_turn_about_it():
+    T, target, axis = (
+        ARM.fk(Q),
+        se3.exp([0.1, 0.2, -0.3, 0.5, 0.4, 0.1]),
+        np.array([0.48, 0.6, 0.64]),
+    )
+    J, e = ARM.jacobian(Q, "hybrid").copy(), np.zeros(6)
+    position, rotation = ik_kernels._errors(codes.DIRECTION, axis, T, target, J, e)
+    a, b = T[:3, :3] @ axis, target[:3, :3] @ axis
+    assert position == pytest.approx(np.linalg.norm(target[:3, 3] - T[:3, 3]), rel=1e-14)
+    assert rotation == pytest.approx(math.atan2(np.linalg.norm(np.cross(a, b)), a @ b), rel=1e-14)
+    full = ARM.jacobian(Q, "hybrid")
+    assert J[:3] == pytest.approx((np.eye(3) - np.outer(a, a)) @ full[:3], abs=1e-15)
+    assert np.array_equal(J[3:], full[3:])
+
+
+def test_slides_lose_the_damping_beyond_their_own_size():
+    J = np.zeros((6, 5))
+    J[:3, 0] = [0, 0, 1e-9]  # turns, if little
+    J[3:, 1] = [1.0, 2.0, -2.0]  # own: 3 * 1 + 0.25 * 4 + 1.5 * 4 = 10
+    J[3:, 2] = [0.1, 0, 0]  # own less than 1: 1 stays
+    J[3:, 3] = [1.0, 2.0, -2.0]  # not free
+    J[3:, 4] = [10.0, 0, 0]  # own 300: all stays
+    J[3:, 0] = [1.0, 2.0, -2.0]
+    free = np.array([1.0, 1, 1, 0, 1])
+    for damping, taken in (
+        (25.0, [0, 15.0, 24.0, 0, 0]),
+        (1.0, [0] * 5),
+        (0.5, [0] * 5),
+        (5.0, [0, 0, 4.0, 0, 0]),
+    ):
+        H = np.full((5, 5), 50.0)
+        ik_kernels._ease_slides(J, WEIGHTS, damping, free, H)
+        assert np.full((5, 5), 50.0) - H == pytest.approx(np.diag(taken), abs=1e-12)
+    for row in range(3):
+        J[:3, 1] = 1e-9 * np.eye(3)[row]
+        H = np.zeros((5, 5))
+        ik_kernels._ease_slides(J, WEIGHTS, 25.0, free, H)
+        assert H[1, 1] == 0
+
+
+def test_the_diagonal_gains_some_rounding_of_the_largest_that_is_free():
+    H = np.diag([2.0, 8.0, 0.0])
+    H[1, 0] = 3.0
+    ik_kernels._keep_regular(np.array([1.0, 0, 1]), H)
+    assert H.tolist() == [[2 + 2e-14, 0, 0], [3, 8 + 2e-14, 0], [0, 0, 2e-14]]
+
+
+def work(m: int) -> np.ndarray:
+    return np.empty((4, 4 * m + 16))
+
+
+def descended(
+    q: np.ndarray,
+    target: np.ndarray,
+    limits: np.ndarray = WIDE,
+    fixed: np.ndarray = FREE,
+    **changed: Any,
+):
+    q, weights = q.copy(), changed.pop("weights", np.ones(6))
+    row = options(**changed)
+    row[codes.WEIGHTS :] = weights
+    m = len(q)
+    T, J, H = np.empty((4, 4)), np.empty((6, m)), np.empty((m, m))
+    return q, ik_kernels._descend(ARM, target, q, limits, fixed, row, work(m), T, J, H)
+
+
+def step(q: np.ndarray, target: np.ndarray, weights: np.ndarray, free: list[int]) -> np.ndarray:
+    """(Jᵀ W J + E I) dq = Jᵀ W e with E = 0.1 eᵀ W e / 2, of the coordinates that are free."""
+    T, J, W = ARM.fk(q), ARM.jacobian(q, "hybrid")[:, free], np.diag(weights)
+    e = np.array([*ik_kernels._rotation_error(T, target), *(target[:3, 3] - T[:3, 3])])
+    dq = np.zeros(len(q))
+    dq[free] = np.linalg.solve(J.T @ W @ J + 0.05 * (e @ W @ e) * np.eye(len(free)), J.T @ W @ e)
+    return dq
+
+
+TARGET = ARM.fk(np.array([0.8, -0.2, 0.6, 0.9]))
+
+
+@pytest.mark.parametrize("weights", [np.ones(6), WEIGHTS])
+@pytest.mark.parametrize("fixed", [[], [1], [0, 3]])
+def test_a_step_is_that_of_damped_least_squares(weights, fixed):
+    kept, free = FREE.copy(), [k for k in range(4) if k not in fixed]
+    kept[fixed] = 1.0
+    q, (state, position, rotation, taken) = descended(
+        Q, TARGET, fixed=kept, ITERATIONS=1, weights=weights
+    )
+    assert q == pytest.approx(Q + step(Q, TARGET, weights, free), abs=1e-12)
+    assert (state, taken) == (codes.OUT_OF_ITERATIONS, 1)
+    assert position == pytest.approx(np.linalg.norm(TARGET[:3, 3] - ARM.fk(q)[:3, 3]), rel=1e-12)
+    assert rotation == pytest.approx(
+        np.linalg.norm(so3.log(TARGET[:3, :3] @ ARM.fk(q)[:3, :3].T)), rel=1e-9
+    )
+
+
+def test_a_coordinate_at_a_limit_stays_where_it_is_pushed_further_and_goes_where_it_is_not():
+    T, J = ARM.fk(Q), ARM.jacobian(Q, "hybrid")
+    e = np.array([*ik_kernels._rotation_error(T, TARGET), *(TARGET[:3, 3] - T[:3, 3])])
+    pull = J.T @ e
+    assert (np.abs(pull) > 0.01).all()
+    for k in range(4):
+        for side in (0, 1):
+            limits = WIDE.copy()
+            limits[k, side] = Q[k]
+            pushed = (pull[k] < 0) == (side == 0)
+            q, _ = descended(Q, TARGET, limits=limits, ITERATIONS=1)
+            free = [j for j in range(4) if j != k or not pushed]
+            expected = np.clip(Q + step(Q, TARGET, np.ones(6), free), limits[:, 0], limits[:, 1])
+            assert q == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_step_ends_at_the_limits():
+    dq = step(Q, TARGET, np.ones(6), [0, 1, 2, 3])
+    limits = np.stack([Q - np.abs(dq) / 2, Q + np.abs(dq) / 2], axis=1)
+    q, _ = descended(Q, TARGET, limits=limits, ITERATIONS=1)
+    assert q == pytest.approx(Q + dq / 2, abs=1e-15)
+
+
+def test_what_is_reached_is_solved_and_the_tolerances_hold_each_for_its_part():
+    q, (state, position, rotation, taken) = descended(Q, TARGET)
+    assert state == codes.SOLVED
+    assert 2 < taken < 12
+    assert max(position, rotation) <= 1e-9
+    assert ARM.fk(q) == pytest.approx(TARGET, abs=1e-8)
+    _, (_, position, rotation, _) = descended(Q, TARGET, ITERATIONS=0)
+    for at, angle, state in (
+        (position, rotation, codes.SOLVED),
+        (position * 0.999, rotation, codes.OUT_OF_ITERATIONS),
+        (position, rotation * 0.999, codes.OUT_OF_ITERATIONS),
+    ):
+        same, (ended, *_, taken) = descended(
+            Q, TARGET, ITERATIONS=0, TOL_POSITION=at, TOL_ROTATION=angle
+        )
+        assert (ended, taken) == (state, 0)
+        assert np.array_equal(same, Q)
+
+
+@pytest.mark.parametrize(
+    ("ratios", "taken"), [([0.901] * 3, 3), ([0.901, 0.901, 0.899, 0.901, 0.901, 0.901], 6)]
+)
+def test_three_steps_in_a_row_that_leave_nine_tenths_end_a_try(ratios, taken, monkeypatch):
+    sizes = iter(np.cumprod([1.0, *ratios, *[0.5] * 3]))
+
+    def one(arm: Any, q: np.ndarray, T: np.ndarray, J: np.ndarray, scratch: np.ndarray) -> None:
+        T[:], J[:] = np.eye(4), np.ones((6, 4))
+        T[0, 3] = -math.sqrt(next(sizes))
+
+    monkeypatch.setattr(ik_kernels, "_one", one)
+    _, (state, *_, count) = descended(Q, np.eye(4))
+    assert (state, count) == (codes.STALLED, taken)
+
+
+@pytest.mark.parametrize("place", range(16))
+def test_a_target_is_finite_or_not(place):
+    for wrong in (math.nan, math.inf, -math.inf):
+        target = np.eye(4)
+        target.flat[place] = wrong
+        assert ik_kernels._finite(target) == (place >= 12)
+
+
+class Tries:
+    """In place of `_descend`: takes down where each try begins, and ends it as is written."""
+
+    def __init__(self, *ends: tuple[float, float, float, int], places: Any = ()):
+        self.ends, self.places, self.begun = list(ends), iter(places), []
+
+    def __call__(
+        self,
+        arm: Any,
+        target: Any,
+        q: np.ndarray,
+        limits: Any,
+        fixed: Any,
+        options: Any,
+        *rest: Any,
+    ) -> Any:
+        self.begun.append(q.copy())
+        q[:] = next(self.places, q + 100.0)
+        return self.ends.pop(0)
+
+
+RANGES = np.array([[-1.0, 2.0], [5.0, 5.5], [-3.0, -2.0], [0.0, 1.0]])
+FAIL, GOOD = (codes.STALLED, 0.5, 0.5, 7), (codes.SOLVED, 1e-12, 1e-12, 4)
+
+
+def random_places(seed: int, index: int, count: int, places: list[int]) -> list[list[float]]:
+    """What random starts have to be, in order, of the coordinates that are not fixed."""
+    state, rows = seeded(seed, index), []
+    for _ in range(count):
+        row = []
+        for k in places:
+            state = shifted(state)
+            low, high = RANGES[k]
+            row.append(low + (state >> 11) * 2.0**-53 * (high - low))
+        rows.append(row)
+    return rows
+
+
+def solved(
+    tries: Tries,
+    monkeypatch,
+    q0: Any = Q,
+    restarts: int = 5,
+    fixed: Any = FREE,
+    target: Any = TARGET,
+):
+    monkeypatch.setattr(ik_kernels, "_descend", tries)
+    q, info = np.zeros((1, 4)), np.full((1, codes.INFO), -1.0)
+    row = options(RESTARTS=restarts)
+    ik_kernels.solve_many.function(
+        ARM, target[None], np.array(q0)[None], WIDE, RANGES, fixed, row, np.array([3.0]), 9, q, info
+    )
+    return q[0], info[0].tolist()
+
+
+def test_the_first_try_begins_at_q0_and_the_others_anywhere_in_the_ranges(monkeypatch):
+    fixed = np.array([0.0, 0, 1, 0])
+    tries = Tries(FAIL, FAIL, GOOD)
+    q, info = solved(tries, monkeypatch, fixed=fixed)
+    starts = random_places(9, 3, 2, [0, 1, 3])
+    assert np.array_equal(tries.begun[0], Q)
+    for begun, (a, b, d) in zip(tries.begun[1:], starts, strict=True):
+        assert begun.tolist() == [a, b, Q[2], d]
+    assert q.tolist() == (tries.begun[2] + 100).tolist()
+    assert info == [1e-12, 1e-12, 18, 2, codes.SOLVED]
+
+
+def test_what_is_nan_in_q0_begins_anywhere(monkeypatch):
+    tries = Tries(GOOD)
+    solved(tries, monkeypatch, q0=[0.1, math.nan, 0.3, math.nan])
+    ((b, d),) = random_places(9, 3, 1, [1, 3])
+    assert tries.begun[0].tolist() == [0.1, b, 0.3, d]
+
+
+def test_of_tries_that_fail_the_nearest_is_kept(monkeypatch):
+    ends = [
+        (codes.STALLED, 0.5, 0.5, 1),
+        (codes.OUT_OF_ITERATIONS, 0.1, 0.3, 2),
+        (codes.STALLED, 0.3, 0.2, 4),
+    ]
+    q, info = solved(tries := Tries(*ends), monkeypatch, restarts=2)
+    assert q.tolist() == (tries.begun[1] + 100).tolist()
+    assert info == [0.1, 0.3, 7, 2, codes.OUT_OF_ITERATIONS]
+    for first in (math.nan, math.inf):
+        ends = [(codes.STALLED, first, 0.5, 1), (codes.STALLED, 5.0, 0.3, 2)]
+        q, info = solved(tries := Tries(*ends), monkeypatch, restarts=1)
+        assert info[:2] == [5.0, 0.3]
+        q, info = solved(tries := Tries(ends[0]), monkeypatch, restarts=0)
+        assert info[2:] == [1, 0, codes.STALLED]
+        assert np.array_equal(q, Q + 100)
+
+
+def test_a_target_that_is_not_finite_is_not_tried(monkeypatch):
+    target = TARGET.copy()
+    target[1, 3] = math.inf
+    q, info = solved(tries := Tries(), monkeypatch, target=target)
+    assert tries.begun == []
+    assert np.isnan(q).all()
+    assert np.isnan(info[:2]).all()
+    assert info[2:] == [0, 0, codes.BAD_TARGET]
+
+
+def test_each_target_has_its_own_start_and_random_numbers(monkeypatch):
+    monkeypatch.setattr(ik_kernels, "_descend", tries := Tries(FAIL, GOOD, FAIL, GOOD))
+    q, info = np.zeros((2, 4)), np.zeros((2, codes.INFO))
+    starts = np.stack([Q, Q + 1])
+    ik_kernels.solve_many.function(
+        ARM,
+        np.stack([TARGET, TARGET]),
+        starts,
+        WIDE,
+        RANGES,
+        FREE,
+        options(RESTARTS=1),
+        np.array([4.0, 0]),
+        2,
+        q,
+        info,
+    )
+    assert [begun.tolist() for begun in tries.begun] == [
+        starts[0].tolist(), *random_places(2, 4, 1, [0, 1, 2, 3]),
+        starts[1].tolist(), *random_places(2, 0, 1, [0, 1, 2, 3]),
+    ]  # fmt: skip
+    assert info[:, codes.AT_RESTARTS].tolist() == [1, 1]
+
+
+def followed(
+    tries: Tries, monkeypatch, most: Any = (500.0,) * 4
+) -> tuple[int, np.ndarray, np.ndarray]:
+    monkeypatch.setattr(follow_kernels, "_descend", tries)
+    q, info = np.zeros((3, 4)), np.full((3, codes.INFO), -1.0)
+    reached = follow_kernels.follow.function(
+        ARM, np.stack([TARGET] * 3), Q, WIDE, FREE, options(), np.array(most), q, info
+    )
+    return reached, q, info
+
+
+def test_each_pose_of_a_path_begins_where_the_one_before_ended(monkeypatch):
+    tries = Tries(GOOD, GOOD, (codes.SOLVED, 1e-11, 1e-10, 3))
+    reached, q, info = followed(tries, monkeypatch)
+    assert reached == 3
+    assert [begun.tolist() for begun in tries.begun] == [(Q + 100.0 * k).tolist() for k in range(3)]
+    assert q == pytest.approx(np.stack([Q + 100, Q + 200, Q + 300]), abs=1e-12)
+    assert info.tolist() == [
+        [1e-12, 1e-12, 4, 0, 0],
+        [1e-12, 1e-12, 4, 0, 0],
+        [1e-11, 1e-10, 3, 0, 0],
+    ]
+
+
+def test_a_path_ends_at_the_first_pose_that_is_not_reached(monkeypatch):
+    reached, q, info = followed(Tries(GOOD, FAIL), monkeypatch)
+    assert reached == 1
+    assert q[1] == pytest.approx(Q + 200)
+    assert info[1].tolist() == [0.5, 0.5, 7, 0, codes.STALLED]
+    assert not q[2].any()
+
+
+@pytest.mark.parametrize("k", range(4))
+def test_a_path_ends_where_a_coordinate_moves_too_far(k, monkeypatch):
+    most = [500.0] * 4
+    places = [Q, Q - 3.0 * np.eye(4)[k], Q]
+    most[k] = 3.0 + 1e-9
+    assert followed(Tries(GOOD, GOOD, GOOD, places=places), monkeypatch, most)[0] == 3
+    most[k] = 3.0 - 1e-9
+    reached, q, info = followed(Tries(GOOD, GOOD, GOOD, places=places), monkeypatch, most)
+    assert reached == 1
+    assert q[1].tolist() == places[1].tolist()
+    assert info[1, codes.AT_STATE] == codes.SOLVED
+
+
+@pytest.mark.parametrize("task", [codes.POSE, codes.POSITION, codes.ROTATION, codes.DIRECTION])
+def test_results_are_judged_by_the_chain_in_the_parts_of_the_task(task):
+    q, axis = np.stack([Q, Q + 0.1, -Q]), np.array([0.48, 0.6, 0.64])
+    targets, errors = np.stack([TARGET, ARM.fk(Q + 0.1), np.eye(4)]), np.full((3, 2), -1.0)
+    ik_kernels.judge.function(ARM._table, q, targets, task, axis, errors)
+    for target, row, (position, rotation) in zip(targets, q, errors, strict=True):
+        T = ARM.fk(row)
+        a, b = T[:3, :3] @ axis, target[:3, :3] @ axis
+        turns = {
+            codes.POSITION: 0.0,
+            codes.DIRECTION: math.atan2(np.linalg.norm(np.cross(a, b)), a @ b),
+        }
+        whole = float(np.linalg.norm(so3.log(target[:3, :3] @ T[:3, :3].T)))
+        assert rotation == pytest.approx(turns.get(task, whole), abs=1e-14)
+        off = 0.0 if task == codes.ROTATION else np.linalg.norm(target[:3, 3] - T[:3, 3])
+        assert position == pytest.approx(off, abs=1e-15)
+
+
+def test_an_angle_goes_the_shorter_way_round():
+    turn = 2 * math.pi
+    for d, period, expected in (
+        (0.3, turn, 0.3), (-0.3, turn, -0.3), (3.5, turn, 3.5 - turn), (-3.5, turn, turn - 3.5),
+        (turn + 0.1, turn, 0.1), (-3 * turn - 0.1, turn, -0.1), (3.5, 0.0, 3.5), (0.7, 0.5, 0.2), (100.0, 0.0, 100.0),
+    ):  # fmt: skip
+        assert ik_all_kernel._around(d, period) == pytest.approx(expected, abs=1e-12)
+
+
+PERIODS = np.array([2 * math.pi, 0.0, 2 * math.pi, 0.0])
+
+
+@pytest.mark.parametrize("k", range(4))
+def test_two_ends_are_one_where_they_are_one_place_or_the_pose_halfway_is_the_target_s(k):
+    T, J, trial = np.empty((4, 4)), np.empty((6, 4)), np.empty(4)
+    target = ARM.fk(Q)
+
+    def same(apart: float, accepted: float, around: float = 0.0) -> bool:
+        b = Q.copy()
+        b[k] += apart + around
+        args = (PERIODS, options(), accepted, trial, T, J, work(4))
+        return ik_all_kernel._same(ARM, target, Q, b, *args)
+
+    assert same(0.99e-7, 0.0)
+    assert same(-0.99e-7, 0.0)
+    assert not same(2e-7, 1e-9)
+    assert same(2e-7, 1e-6)  # halfway it is 1e-7 off
+    assert same(-0.99e-2, 0.1)
+    assert trial[k] == pytest.approx(Q[k] - 0.495e-2, abs=1e-12)
+    assert not same(1.01e-2, 0.1)
+    assert same(0.99e-7, 0.0, 2 * math.pi) == (PERIODS[k] > 0)
+    halfway = Q + 2e-3 * np.eye(4)[k]
+    off = ARM.fk(halfway)[:3, 3] - target[:3, 3]
+    turned = np.linalg.norm(so3.log(ARM.fk(halfway)[:3, :3] @ target[:3, :3].T))
+    largest = max(float(np.linalg.norm(off)), float(turned))
+    assert same(4e-3, largest * 1.001)
+    assert not same(4e-3, largest * 0.999)
+
+
+@pytest.mark.parametrize("m", [1, 4, 6])
+def test_columns_are_nearly_dependent_below_1e_5_of_each_other(m):
+    rng = np.random.default_rng(m)
+    U = np.linalg.qr(rng.normal(size=(6, 6)))[0][:, :m]
+    H, g = np.empty((m, m)), np.empty(4 * m + 16)
+    for k in range(m):
+        for small, singular in ((1.1e-5, False), (0.9e-5, m > 1)):
+            sizes = np.ones(m)
+            sizes[k] = small
+            assert ik_all_kernel._is_singular(U * sizes, m, np.ones(6), H, g) == singular
+    if m > 1:
+        J = U.copy()
+        J[:, -1] = J[:, 0] + 1e-9 * J[:, -1]
+        assert ik_all_kernel._is_singular(J, m, np.ones(6), H, g)
+
+
+def test_solutions_were_found_often_enough():
+    hits = np.array([3.0, 2.0, 5.0, 1.0])
+    regular, last = np.zeros(4, bool), np.array([False, False, False, True])
+    both = np.array([True, False, False, True])
+    for singular, count, each, pairs, enough in (
+        (regular, 3, 2.0, False, True), (regular, 3, 2.5, False, False), (regular, 4, 2.0, False, False),
+        (regular, 2, 2.0, True, True), (regular, 3, 2.0, True, False), (regular, 3, 0.25, True, True),
+        (regular, 3, 0.26, True, False), (regular, 1, 0.375, True, True), (regular, 1, 0.376, True, False),
+        (last, 4, 1.0, True, True), (last, 4, 1.5, True, False), (both, 4, 2.0, False, True),
+        (both, 4, 2.1, False, False), (both, 3, 2.0, True, True), (both, 3, 2.1, True, False),
+    ):  # fmt: skip
+        assert bool(ik_all_kernel._enough(hits, singular, count, each, pairs)) is enough
+
+
+class Search:
+    """A search for solutions whose tries end as is written: the place, and whether its columns are
+    dependent.
+    """
+
+    def __init__(self, monkeypatch, ends: Any, room: int = 8, given: int = 2, **rule: float):
+        self.begun: list[np.ndarray] = []
+        self.ends = iter(ends)
+        numbers = {"ACCEPTED": 1e-6, "EACH": 2.0, "RESTARTS": 20, "BARREN": 5} | rule
+        self.rule = np.zeros(ik_all_kernel.RULE)
+        for name, value in numbers.items():
+            self.rule[getattr(ik_all_kernel, name)] = value
+        self.again: list[int] = []
+        monkeypatch.setattr(ik_all_kernel, "_descend", self._descend)
+        monkeypatch.setattr(ik_all_kernel, "_is_singular", lambda J, m, *rest: self.bad)
+        monkeypatch.setattr(
+            ik_all_kernel,
+            "_same",
+            lambda arm, target, a, b, *rest: bool(np.abs(a - b).max() < 1e-3),
+        )
+        self.q, self.hits = np.zeros((1, room, 4)), np.zeros((1, room))
+        self.info = np.full((1, ik_all_kernel.INFO), -1.0)
+        starts = np.stack([Q + 50, Q + 60, Q + 70])[None]
+        ik_all_kernel.search.function(
+            ARM, TARGET[None], starts, np.array([given]), WIDE, RANGES, PERIODS, options(), self.rule, np.array([3.0]),
+            9, self.q, self.hits, self.info
+        )  # fmt: skip
+
+    def _descend(
+        self, arm: Any, target: Any, q: np.ndarray, *rest: Any
+    ) -> tuple[int, float, float, int]:
+        self.begun.append(q.copy())
+        place, error, self.bad = (*next(self.ends), False)[:3]
+        q[:] = [0.1, place, 0.2, 0.3]
+        return codes.SOLVED if error == 0 else codes.STALLED, error, error, 1
+
+    @property
+    def found(self) -> tuple[list[float], list[float], list[float]]:
+        count = int(self.info[0, ik_all_kernel.FOUND])
+        return self.q[0, :count, 1].tolist(), self.hits[0, :count].tolist(), self.info[0].tolist()
+
+
+def test_a_search_begins_at_the_given_starts_and_then_anywhere(monkeypatch):
+    found = Search(monkeypatch, [(1, 0), (2, 0)] * 4)
+    assert [begun.tolist() for begun in found.begun] == [
+        (Q + 50).tolist(), (Q + 60).tolist(), *random_places(9, 3, 2, [0, 1, 2, 3])
+    ]  # fmt: skip
+    assert found.found == ([1, 2], [2, 2], [2, 2, 4, 0])
+
+
+def test_an_odd_number_of_solutions_is_no_reason_to_end_only_with_six_coordinates(monkeypatch):
+    assert Search(monkeypatch, [(1, 0)] * 20).found == (
+        [1],
+        [3],
+        [1, 1, 3, 0],
+    )  # a random try at least
+
+
+def test_what_is_not_accepted_is_no_solution(monkeypatch):
+    ends = [(1, 1.1e-6), (1, 0), (2, 1.0), (1, 0), (1, 0)]
+    assert Search(monkeypatch, ends).found == ([1], [2], [1, 2, 2, 0])
+
+
+def test_a_search_without_a_solution_ends_early(monkeypatch):
+    assert Search(monkeypatch, [(1, 1.0)] * 20).found == ([], [], [0, 5, 0, 0])
+    assert Search(monkeypatch, [(1, 1.0)] * 20, given=3, BARREN=1).found == ([], [], [0, 1, 0, 0])
+    assert Search(monkeypatch, [(1, 1.0)] * 20, BARREN=50, RESTARTS=7).found == (
+        [],
+        [],
+        [0, 7, 0, 0],
+    )
+
+
+def test_a_search_ends_after_its_restarts_whatever_was_found(monkeypatch):
+    ends = ((k, 0) for k in range(100))
+    assert Search(monkeypatch, ends, room=50).found[2] == [22, 20, 22, 0]
+
+
+def test_without_room_a_search_ends_and_says_so(monkeypatch):
+    assert Search(monkeypatch, ((k, 0) for k in range(100)), room=4).found == (
+        [0, 1, 2, 3],
+        [1] * 4,
+        [4, 3, 5, 1],
+    )
+
+
+def test_of_a_continuum_twelve_members_are_kept(monkeypatch):
+    found = Search(monkeypatch, ((k, 0, True) for k in range(100)), room=50, EACH=5.0)
+    assert found.found == (list(range(12)), [1] * 12, [12, 20, 22, 0])
+
+
+def test_a_try_that_is_near_is_gone_on_with_three_times(monkeypatch):
+    near = [(1, 1e-7)] * 4
+    found = Search(monkeypatch, [*near, (1, 1e-7), (1, 0), (2, 1e-7), (2, 1.0), *[(1, 0)] * 9])
+    assert found.begun[1].tolist() == [0.1, 1, 0.2, 0.3]
+    assert found.begun[4].tolist() == (Q + 60).tolist()
+    assert found.found == ([1], [2], [1, 1, 2, 0])
+
+
+def test_solutions_are_within_a_period(monkeypatch):
+    monkeypatch.setattr(ik_all_kernel, "_same", lambda *rest: True)
+    places = iter([np.array([7.0, 8.0, -7.0, 9.0])] * 9)
+
+    class Far(Search):
+        def _descend(
+            self, arm: Any, target: Any, q: np.ndarray, *rest: Any
+        ) -> tuple[int, float, float, int]:
+            self.bad = False
+            q[:] = next(places)
+            return codes.SOLVED, 0.0, 0.0, 1
+
+    turn = 2 * math.pi
+    assert Far(monkeypatch, []).q[0, 0] == pytest.approx([7 - turn, 8.0, turn - 7, 9.0], abs=1e-12)
+
+
+@pytest.mark.parametrize("row", range(6))
+@pytest.mark.parametrize("side", [0, 1])
+def test_each_part_of_the_error_decides_whether_a_coordinate_is_pushed_beyond_its_limit(
+    row, side, monkeypatch
+):
+    sign = (-1.0, 1.0)[side]
+
+    def one(arm: Any, q: np.ndarray, T: np.ndarray, J: np.ndarray, scratch: np.ndarray) -> None:
+        e = 1e-3 * sign * np.eye(6)[row]
+        T[:], J[:] = np.eye(4), 0.0
+        T[:3, :3], T[:3, 3] = so3.exp(-e[:3]), -e[3:]
+        J[row, :2] = 1.0
+        J[(row + 1) % 3, :2] = 1e-9  # it turns
+
+    monkeypatch.setattr(ik_kernels, "_one", one)
+    limits = WIDE.copy()
+    limits[0, side] = Q[0]
+    q, _ = descended(Q, np.eye(4), limits=limits, ITERATIONS=1, weights=WEIGHTS)
+    # alone the second one goes the whole way, where both went half of it each
+    assert q[1] - Q[1] == pytest.approx(1e-3 * sign, rel=1e-4)
+    assert q[0] == Q[0]
+    limits[0, side], limits[0, 1 - side] = WIDE[0, side], Q[0]
+    q, _ = descended(Q, np.eye(4), limits=limits, ITERATIONS=1, weights=WEIGHTS)
+    assert q[:2] - Q[:2] == pytest.approx([5e-4 * sign] * 2, rel=1e-4)

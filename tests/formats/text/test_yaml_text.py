@@ -1,0 +1,44 @@
+"""YAML of names and numbers: every refusal says file and line, what was expected and what arrived."""
+
+from __future__ import annotations
+
+import pytest
+
+from poekin.errors import ModelError
+from poekin.formats.text import yaml_text
+
+REFUSED = {
+    "two documents": ("a: 1\n---\nb: 2\n", "f:2: expected one document, a second one begins here"),
+    "an alias": ("a: &x 1\n", "f:1: tags and anchors are refused, got 'x'"),
+    "a tag": ("a:\n  !!int 1\n", "f:2: tags and anchors are refused, got 'tag:yaml.org,2002:int'"),
+    "a reference": ("a: 1\nb: *a\n", "f:2: expected names and numbers, got an alias"),
+    "a list": ("a:\n - 1\n", "f:2: expected names and numbers, got a list"),
+    "a text": ("\nword\n", "f:2: expected a mapping, as in \"kinematics:\", got 'word'"),
+    "no key": ("? {a: 1}\n: 2\n", "f:1: expected the name of a key, got a mapping"),
+    "twice": ("x:\n  a: 1\n  b: 1\n  a: 2\n", "f:4: 'a' is there twice (first: line 2)"),
+    "deep": ("{a: " * 9 + "1" + "}" * 9, "f:1: expected at most 8 levels, got more"),
+    "empty": ("# nothing\n", "f: the text is empty"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_a_text_that_is_refused_is_named_with_its_line(case):
+    text, message = REFUSED[case]
+    with pytest.raises(ModelError) as caught:
+        yaml_text.parse(text, "f")
+    assert str(caught.value) == message
+
+
+def test_a_text_that_is_no_yaml_is_refused_with_its_line_and_the_reader_s_reason():
+    with pytest.raises(ModelError, match=r"^f:2: not YAML: .*expected.* node content"):
+        yaml_text.parse("a: 1\nb: }\n", "f")
+
+
+def test_a_mapping_knows_the_lines_of_its_keys_and_values():
+    root = yaml_text.parse("\na:\n  b: 1\n  c:\n    2\nd: x\n", "f")
+    inner = root.items["a"]
+    assert isinstance(inner, yaml_text.Mapping)
+    assert (root.line, root.key_lines) == (2, {"a": 2, "d": 6})
+    assert (inner.line, inner.key_lines) == (3, {"b": 3, "c": 4})
+    assert inner.items == {"b": yaml_text.Text("1", 3), "c": yaml_text.Text("2", 5)}
+    assert yaml_text.parse("{a: " * 8 + "1" + "}" * 8, "f").items

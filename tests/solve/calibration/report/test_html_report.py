@@ -1,0 +1,489 @@
+"""The report of a calibration: one page that needs nothing else, with all that was found and no
+name that is code.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+import sys
+import warnings
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import FileError, MissingExtra, ShapeError
+from poekin.groups import se3
+from poekin.solve.calibration import Distances, Points, calibrate
+from poekin.solve.calibration.calibration import Outlier
+from poekin.solve.calibration.measurements.simulated import simulated
+from poekin.solve.calibration.report import changes, html_report
+
+pytest.importorskip("matplotlib")
+
+HOSTILE = [
+    "<script>alert(1)</script>",
+    "a\u202eb\x1b[31m",
+    '"><img src=x onerror=alert(1)>',
+    "$\\frac{1}{0}$ & $x^$",
+]
+ARM = pk.Chain(
+    [
+        pk.screw.revolute([0, 0, 1], [0, 0, 0]),
+        pk.screw.revolute([0, 1, 0], [0.3, 0, 0.5]),
+        pk.screw.prismatic([0, 0.6, 0.8]),
+        pk.screw.revolute([1, 0, 0], [0.5, 0.1, 0.4]),
+    ],
+    se3.exp([0.1, -0.2, 0.3, 0.9, 0.1, 0.4]),
+    joint_names=HOSTILE,
+    base="<b>base</b>",
+    tip="${tip}",
+)
+
+
+@pytest.fixture(scope="module")
+def found():
+    s = simulated(ARM, 60, kind="eye-in-hand", outliers=0.1, seed=3)
+    return calibrate(ARM, s.q, s.measurements, loss="tukey", folds=3)
+
+
+WORDS = {"title": "<i>title</i> $x", "sources": [f"<u>data</u>.csv:{i + 2}" for i in range(60)]}
+
+
+@pytest.fixture(scope="module")
+def text(found):
+    return html_report.html(found, **WORDS)
+
+
+class Tags(HTMLParser):
+    """All tags and attributes of a page, and what is left open at its end."""
+
+    VOID = ("meta", "br", "link", "img", "input")
+
+    def __init__(self, text):
+        super().__init__()
+        self.found, self.attributes, self.open = set(), [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.found.add(tag)
+        self.attributes += attrs
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_startendtag(self, tag, attrs):
+        self.found.add(tag)
+        self.attributes += attrs
+
+
+def test_the_page_is_well_formed_runs_nothing_and_fetches_nothing(text):
+    tags = Tags(text)
+    assert tags.open == []
+    assert not tags.found & {
+        "script",
+        "img",
+        "link",
+        "iframe",
+        "object",
+        "image",
+        "b",
+        "i",
+        "u",
+        "a",
+        "foreignobject",
+    }
+    assert not [name for name, _ in tags.attributes if name.startswith("on")]
+    asked = [value for name, value in tags.attributes if name in ("href", "xlink:href", "src")]
+    assert all(value.startswith("#") for value in asked)
+    assert "@import" not in text
+    assert set(re.findall(r"url\((.)", text)) <= {"#"}
+
+
+def test_names_out_of_files_stand_there_as_text(text):
+    for words in (
+        "&lt;script&gt;alert(1)",
+        "&lt;u&gt;data&lt;/u&gt;.csv:",
+        "&lt;i&gt;title&lt;/i&gt; $x",
+        "a\\u202eb\\x1b[31m",
+    ):
+        assert words in text
+    assert "\u202e" not in text
+    assert "\x1b" not in text
+
+
+def test_the_page_tells_what_was_found(found, text):
+    assert changes.sentence(found) in text
+    aside = found.held_out
+    assert aside is not None
+    figures = [
+        milli(x)[0] for r in (aside.before, aside.after) for x in (r.median_length, r.median_angle)
+    ]
+    assert changes.sentence(found) == (
+        f"On data kept aside, the median position error goes from {figures[0]} to {figures[2]} mm, the rotation error "
+        f"from {figures[1]} to {figures[3]} mrad."
+    )
+    alone = changes.sentence(dataclasses.replace(found, held_out=None, success=False))
+    figures = [
+        milli(x)[0] for r in (found.before, found.after) for x in (r.median_length, r.median_angle)
+    ]
+    assert alone == (
+        "The search did NOT converge: this is the best that was found. On the data it was fitted to, the median "
+        f"position error goes from {figures[0]} to {figures[2]} mm, the rotation error from {figures[1]} to "
+        f"{figures[3]} mrad."
+    )
+    assert (
+        f"{found.identification.numbers} numbers were measured for {found.identification.size} parameters"
+        in text
+    )
+    assert "Held, as no measurement of this kind sees it: " in text
+    assert text.count("<svg") == 4
+    assert "T_base_board" in text
+    gross = {o.row for o in found.outliers}
+    assert gross
+    for row in gross:
+        assert f"&lt;u&gt;data&lt;/u&gt;.csv:{row + 2}</td>" in text
+
+
+def test_a_page_of_many_measurements_is_below_1_mb():
+    arm = pk.load("panda").chain(tip="panda_link8")
+    s = simulated(arm, 5000, outliers=0.3)
+    found = calibrate(arm, s.q, s.measurements, loss="huber", folds=0)
+    text = html_report.html(found, title="x" * 10**7, sources=["y" * 10**5] * 5000)
+    assert len(text.encode()) < 10**6
+    assert (
+        f"<p>{len(found.outliers)} of 5000 measurements are off by more than one good one" in text
+    )
+    assert "in 10 000 would be; the first 60 of them:</p>" in text
+    assert len(Tables(text).found["Outliers"][0]) == 61
+    assert "No data were kept aside" in text
+
+
+def test_lengths_alone_and_several_sets_have_a_page_too():
+    rng = np.random.default_rng(0)
+    q = ARM.random(rng, 80)
+    T = ARM.fk(q)
+    first, last = np.arange(40), np.arange(40, 80)
+    d = np.linalg.norm(T[40:, :3, 3] - [1, 2, 3], axis=1)
+    sets = [
+        Points(T[:40, :3, 3] + 1e-4 * rng.normal(size=(40, 3)), rows=first),
+        Distances(d, rows=last),
+    ]
+    found = calibrate(ARM, q, sets, deficient="hold")
+    text = html_report.html(found)
+    assert "rotation error (mrad)" not in text
+    aside = found.held_out
+    assert aside is not None
+    assert [row[:4] for row in Tables(text).found["Residuals"][1][1:]] == [
+        [f"set {k}, calibrated", *milli(np.sqrt(np.mean(r**2)), np.median(r), r.max())]
+        for k, r in enumerate(aside.after.length[aside.after.set == k] for k in (0, 1))
+    ]
+    assert "centre of measurement set 1" in text
+    assert "mrad" not in changes.sentence(found)
+
+
+def test_exact_data_have_a_page_too():
+    """Residuals, steps and uncertainties of rounding, which logarithms and bins have to survive."""
+    q = ARM.random(0, 30)
+    found = calibrate(ARM, q, ARM.fk(q), folds=0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        html_report.html(found)
+        html_report.html(dataclasses.replace(found, covariance=0 * found.covariance, steps=()))
+
+
+def test_parameters_without_screws_have_a_page_too():
+    q = ARM.random(0, 30)
+    text = html_report.html(calibrate(ARM, q, ARM.fk(q + 1e-3), parameters="offsets", folds=0))
+    assert text.count("<svg") == 3
+    assert "tilt (mrad)" not in text
+
+
+def test_a_search_that_did_not_converge_is_told_first_and_then_warnings_and_remarks():
+    s = simulated(ARM, 40, tilt=0.02, shift=0.02)
+    found = calibrate(ARM, s.q, s.measurements, folds=0, max_iterations=1)
+    assert not found.success
+    text = html_report.html(
+        dataclasses.replace(found, warnings=("a <b> tool",), remarks=("another base",))
+    )
+    assert '<p class="lead">The search did NOT converge: this is the best that was found.' in text
+    residuals = text.partition("<h2>Residuals</h2>")[2]
+    assert residuals.startswith("\n<p>Warning: a &lt;b&gt; tool.</p>\n<p>another base.</p>\n")
+
+
+def test_the_change_of_a_joint_is_its_length_and_its_95_percent():
+    s = simulated(ARM, 400, noise=(1e-4, 1e-4), seed=5)
+    found = calibrate(ARM, s.q, s.measurements, folds=0)
+    joints = changes.joints(found)
+    assert [j.name for j in joints] == HOSTILE
+    assert [len(j.shift.values) for j in joints] == [2, 2, 0, 2]
+    k = 0
+    for j in joints:
+        for change in (j.tilt, j.shift):
+            mine = slice(k, k + len(change.values))
+            np.testing.assert_array_equal(change.values, found.values[mine])
+            np.testing.assert_array_equal(
+                change.margins, changes.TWO_SIGMA * found.deviations[mine]
+            )
+            if len(change.values):
+                assert change.size == np.linalg.norm(found.values[mine])
+                least, most = changes.TWO_SIGMA * np.sqrt(np.linalg.eigvalsh(change.covariance))
+                # the deviation along the change lies between those of the ellipse's axes; 1e-9 is
+                # for rounding
+                assert least * (1 - 1e-9) <= change.margin <= most * (1 + 1e-9)
+            else:
+                assert np.isnan(change.size)
+                assert np.isnan(change.margin)
+            k += len(change.values)
+
+
+def test_the_report_is_that_page_whole_or_not_at_all(found, text, tmp_path):
+    found.report(tmp_path / "page.html", **WORDS)
+    assert (tmp_path / "page.html").read_text(encoding="utf-8") == text
+    with pytest.raises(FileError, match=r"cannot write"):
+        found.report(tmp_path / "none" / "page.html")
+    with pytest.raises(
+        ShapeError, match=r"sources: expected what each of 60 rows of q came from, got 59"
+    ):
+        found.report(tmp_path / "other.html", sources=["a"] * 59)
+    assert [path.name for path in tmp_path.iterdir()] == ["page.html"]
+
+
+def test_a_report_without_matplotlib_names_the_extra(monkeypatch, found, tmp_path):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(MissingExtra, match=r"pip install 'poekin\[report\]'"):
+        found.report(tmp_path / "page.html")
+    assert list(tmp_path.iterdir()) == []
+
+
+class Tables(HTMLParser):
+    """The tables of a page, as rows of words, by the heading that they stand under."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.found, self._title, self._words = {}, "", None
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        if tag in ("h2", "td", "th"):
+            self._words = ""
+        if tag == "table":
+            self.found.setdefault(self._title, []).append([])
+        if tag == "tr":
+            self.found[self._title][-1].append([])
+
+    def handle_data(self, data):
+        if self._words is not None:
+            self._words += data
+
+    def handle_endtag(self, tag):
+        if tag == "h2":
+            self._title = self._words
+        if tag in ("td", "th"):
+            self.found[self._title][-1][-1].append(self._words)
+        if tag in ("h2", "td", "th"):
+            self._words = None
+
+
+@pytest.fixture(scope="module")
+def tables(text):
+    return Tables(text).found
+
+
+def milli(*values):
+    return [f"{1e3 * value:.3g}" for value in values]
+
+
+def test_numbers_stand_in_columns_of_numbers_and_words_in_columns_of_words(text):
+    for table in re.findall(r"<table>.*?</table>", text, re.DOTALL):
+        rows = [
+            re.findall(r'<t[hd] class="(\w+)">(.*?)</t[hd]>', row)
+            for row in table.split("</tr>")[:-1]
+        ]
+        for column in zip(*rows, strict=True):
+            (kind,) = {kind for kind, _ in column}
+            cells = [cell for _, cell in column[1:]]
+            numbers = all(re.fullmatch(r"(-?\d\S*)?( mm| °)?", cell) for cell in cells)
+            assert numbers == (kind == "number"), cells
+
+
+def test_lengths_of_the_style_have_units_weights_are_those_of_fonts_and_pictures_fit(text):
+    style = text.partition("<style>")[2].partition("</style>")[0]
+    declared = re.findall(r"([a-z-]+):\s*([^;{}]+)[;}]", style)
+    assert len(declared) > 40
+    for name, value in declared:
+        if name == "font-weight":
+            assert value.strip() in ("400", "600", "700")
+        elif name != "line-height":
+            assert set(re.findall(r"(?<![#\w.])\d+(?![\w.%])", value)) <= {"0"}, (name, value)
+    assert "figure svg { max-width: 100%;" in style
+    assert '<meta name="viewport" content="width=device-width, initial-scale=1">' in text
+
+
+def test_a_figure_that_is_far_below_rounding_is_0():
+    seen = [html_report._seen(x) for x in (None, 0.9e-9, -0.9e-9, 1.1e-9, -1234.5)]
+    assert seen == ["", "0", "0", "1.1e-09", "-1.23e+03"]
+
+
+def test_residuals_stand_under_their_names_in_mm_and_mrad(found, tables):
+    (table,) = tables["Residuals"]
+    heads, *rows = table
+    assert heads == [
+        "",
+        "position rms (mm)",
+        "median",
+        "largest",
+        "rotation rms (mrad)",
+        "median",
+        "largest",
+    ]
+    aside = found.held_out
+    those = [("nominal, kept aside", aside.before), ("calibrated, kept aside", aside.after),
+             ("nominal, all data", found.before), ("calibrated, all data", found.after)]  # fmt: skip
+    assert rows == [
+        [
+            name,
+            *milli(
+                r.rms_length,
+                r.median_length,
+                r.length.max(),
+                r.rms_angle,
+                r.median_angle,
+                r.angle.max(),
+            ),
+        ]
+        for name, r in those
+    ]
+
+
+def test_what_was_measured_and_what_it_can_tell_stands_there_in_numbers(found, tables, text):
+    sets, frames = tables["What was measured, and what it can tell"]
+    (spread,) = found.spreads
+    scatter = (
+        "as given"
+        if spread is None
+        else f"{milli(spread.length)[0]} mm, {milli(spread.angle)[0]} mrad"
+    )
+    assert sets[1:] == [["0", "60", "positions and rotations", scatter]]
+    for (name, T), row in zip(found.frames.items(), frames[1:], strict=True):
+        turn = ", ".join(f"{w:.5f}" for w in pk.so3.log(T[:3, :3]))
+        assert row == [name, *(f"{x:.6f}" for x in T[:3, 3]), turn]
+    can = found.identification
+    assert (
+        f"Measurements of this kind can see {can.expected} combinations of them, and these see {can.rank}, with "
+        f"condition {can.condition:.3g} (angles in rad, lengths in reaches of {ARM.reach:.3g} m; smallest singular "
+        f"value {can.smallest:.3g}, O1 {can.O1:.3g}, noise amplification index {can.amplification:.3g})."
+    ) in text
+
+
+def test_what_changed_stands_in_the_row_of_its_joint(found, tables, text):
+    axes, compared = tables["What changed"]
+    assert axes[0] == ["joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %"]
+    assert [row[1:] for row in axes[1:]] == [
+        [
+            *milli(j.tilt.size, j.tilt.margin),
+            *("" if np.isnan(x) else milli(x)[0] for x in (j.shift.size, j.shift.margin)),
+        ]
+        for j in changes.joints(found)
+    ]
+    assert compared[0] == [
+        "joint",
+        "angle of the axes (°)",
+        "common normal (mm)",
+        "at the arm (mm)",
+        "zero",
+    ]
+    result = found.compare()
+    e = result.before
+    assert e is not None
+    assert (
+        f"the two differ by up to {e.worst_mm:.3g} mm and {e.worst_deg:.3g}° over {result.samples} random "
+        f"configurations, on average by {e.mean_mm:.3g} mm and {e.mean_deg:.3g}°."
+    ) in text
+    lines = sorted(result.joints, key=lambda j: -max(j.shift or 0.0, j.normal or 0.0, j.angle))
+    seen = lambda x: "" if x is None else f"{0.0 if abs(x) < 1e-9 else x:.3g}"  # noqa: E731
+    assert [row[1:] for row in compared[1:]] == [
+        [
+            seen(j.angle),
+            seen(j.normal),
+            seen(j.shift),
+            f"{seen(j.zero)} {'mm' if j.kind_b == 'prismatic' else '°'}",
+        ]
+        for j in lines
+    ]
+
+
+def test_outliers_and_parameters_stand_in_rows_with_their_errors_and_sources(found, tables, text):
+    (table,) = tables["Outliers"]
+    assert table[0] == ["row", "set", "position error (mm)", "rotation error (mrad)", "from"]
+    assert table[1:] == [
+        [
+            str(o.row),
+            "0",
+            *milli(found.after.length[o.index], found.after.angle[o.index]),
+            WORDS["sources"][o.row],
+        ]
+        for o in found.outliers
+    ]
+    assert (
+        f"<p>{len(found.outliers)} of 60 measurements are off by more than one good one in 10 000 would be.</p>"
+        in text
+    )
+    (table,) = tables["All parameters"]
+    assert table[0] == ["of", "what", "value", "standard deviation", "unit"]
+    assert [row[1:] for row in table[1:]] == [
+        [p.what, f"{v:.6g}", f"{d:.2g}", p.unit]
+        for p, v, d in zip(
+            found.parameters, found.values, np.sqrt(np.diag(found.covariance)), strict=True
+        )
+    ]
+    assert f"<summary>{len(found.parameters)} parameters</summary>" in text
+    assert (
+        f"The search with the loss tukey converged in {len(found.steps)} steps, counted over all its rounds."
+        in text
+    )
+
+
+def test_how_well_the_pose_is_known_is_said_in_mm_and_mrad(found, text):
+    C = found.pose_covariance(ARM.random(0, 1000))
+    sizes = [np.sqrt(np.trace(C[:, k, k], axis1=1, axis2=2)) for k in (slice(3, 6), slice(0, 3))]
+    mm, mrad = (milli(np.median(x), x.max()) for x in sizes)
+    assert (
+        f"a standard deviation of {mm[0]} mm in the median and {mm[1]} mm at most, its rotation of {mrad[0]} and "
+        f"{mrad[1]} mrad"
+    ) in text
+
+
+def test_print_says_before_and_after_of_all_and_of_what_was_kept_aside(found):
+    lines = str(found).split("\n")
+    at = next(i for i, line in enumerate(lines) if "median mm" in line)
+    assert lines[at].split() == ["median", "mm", "rms", "mm", "median", "mrad", "rms", "mrad"]
+    aside = found.held_out
+    assert aside is not None
+    for line, name, r in zip(
+        lines[at + 1 : at + 5], ("before", "after", "kept aside (3 folds), before", "kept aside, after"),
+        (found.before, found.after, aside.before, aside.after), strict=True,
+    ):  # fmt: skip
+        assert line[:29].strip() == name
+        assert line[29:].split() == milli(
+            r.median_length, r.rms_length, r.median_angle, r.rms_angle
+        )
+    assert (
+        lines[0]
+        == f"{len(found.parameters)} parameters, 60 measurements, converged in {len(found.steps)} steps"
+    )
+    assert f"outliers: rows {', '.join(str(o.row) for o in found.outliers)}" in lines
+    for count, more in ((12, ""), (13, " and 1 more")):
+        many = dataclasses.replace(found, outliers=tuple(Outlier(0, k, k) for k in range(count)))
+        assert f"outliers: rows {', '.join(map(str, range(12)))}{more}" in str(many).split("\n")
+
+
+def test_repr_leaves_the_long_arrays_out(found):
+    said = repr(
+        dataclasses.replace(found, nominal="N", chain="C", frames={}, outliers=(), spreads=())
+    )
+    assert not re.search(r"array|Step\(|Residuals|Arm|HeldOut", said)

@@ -1,0 +1,175 @@
+"""Why there is no solution: which limits are in the way."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.engine.kernels import ik_codes as codes
+from poekin.model import screw
+from poekin.solve.ik import diagnosis
+from poekin.solve.ik.ik import ik
+from poekin.solve.ik.joint_domain import Room
+from poekin.solve.ik.task import task_of
+
+
+def test_limits_between_which_nothing_stops_the_arm_are_named_by_the_solution_beyond_them():
+    # the tip is right opposite to the target, from where each way is as good: it stays, at no limit
+    z, x, origin = np.array([0, 0, 1.0]), np.array([1.0, 0, 0]), np.zeros(3)
+    axes = [screw.revolute(z, origin), screw.prismatic(z), screw.revolute(x, origin)]
+    names, limits = ["turn", "lift", "roll"], [[-1.5, 1.5], [-1, 1], [-np.inf, np.inf]]
+    arm = pk.Chain(axes, pk.se3.exp([*origin, *x]), limits=limits, joint_names=names)
+    q0 = [0.0, 0.5, 0.2]
+    found = ik(arm, arm.fk([np.pi, 0.5, 0.2]), task="position", q0=q0, restarts=0)
+    assert found.reason == "limits"
+    np.testing.assert_allclose(found.q, q0, rtol=0, atol=1e-9)
+    assert found.blocked == (("turn",),)
+
+
+def line(*, coupling, offset, limits):
+    """A turning joint 1 m above the floor and a slide; 0.5 m from one to the other and 0.25 m on to
+    the tip.
+    """
+    axes = [screw.revolute([0, 1.0, 0], [0, 0, 1]), screw.prismatic([1.0, 0, 0])]
+    home = np.eye(4)
+    home[:3, 3] = 0.75, 0, 1
+    return pk.Chain(axes, home, coupling=coupling, offset=offset, limits=limits)
+
+
+def lengths(chain):
+    return float(np.linalg.norm(chain.local.frames[1:, :3, 3], axis=1).sum())
+
+
+@pytest.mark.parametrize("limits, coupling, offset, slides", [
+    (((-3, 3), (-0.5, 2.0)), None, None, 2.0),
+    (((-3, 3), (-2.5, 2.0)), None, None, 2.5),
+    (((-3, 3), (-0.5, 2.0)), None, [0, -0.25], 2.25),
+    (((-3, 3), (-0.5, 2.0)), [[1, 0], [0, -3.0]], [0, 0.25], 6.25),
+    (((-3, 3), (-0.5, 2.0)), [[1, 0], [0.5, 3.0]], None, 7.5),
+])  # fmt: skip
+def test_the_reach_is_that_of_links_and_slides_within_their_limits(
+    limits, coupling, offset, slides
+):
+    chain = line(limits=limits, coupling=coupling, offset=offset)
+    first, long = chain.local.frames[0, :3, 3], lengths(chain) + slides
+    targets = np.tile(np.eye(4), (3, 1, 1))
+    targets[:, :3, 3] = first + np.array(
+        [[0, long - 0.01, 0], [0, 0, long + 0.125], [long + 7, 0, 0]]
+    )
+    task = task_of("position", None, None)
+    beyond = diagnosis.beyond_reach(chain, task, targets, chain.limits)
+    np.testing.assert_allclose(beyond, [0, 0.125, 7], atol=1e-11)
+    assert (
+        diagnosis.beyond_reach(chain, task_of("rotation", None, None), targets, chain.limits) == 0
+    ).all()
+    assert (
+        diagnosis.beyond_reach(chain, task, targets, np.full((2, 2), [-np.inf, np.inf])) == 0
+    ).all()
+    assert (
+        diagnosis.beyond_reach(pk.Chain([], np.eye(4)), task, targets, np.empty((0, 2))) == 0
+    ).all()
+
+
+def test_what_is_at_its_limit_is_in_the_way_else_what_is_outside_beyond_it_and_nothing_that_is_locked():
+    limits, locked = np.array([[-1, 1], [-2, 2], [-3, 3.0]]), np.array([False, False, True])
+    nothing = np.zeros(3)
+    room = Room(limits, np.zeros((3, 2)), locked, nothing, nothing, winds=False)
+
+    def named(q, found):
+        return diagnosis._in_the_way(
+            room, np.array(q, float), np.array(found, float), ("a", "b", "c")
+        )
+
+    assert named([1, 0, 3], [0, 0, 0]) == ("a",)
+    assert named([-1 + 0.9e-9, 2, 0], [0, 0, 0]) == ("a", "b")
+    assert named([1 - 1.1e-9, -2, 0], [5, 0, 0]) == ("b",)
+    assert named([0, 0, 3], [1.5, -2.5, 4]) == ("a", "b", "c")
+    assert named([0, 0, 0], [1.0, 2.5, 0]) == ("b",)
+
+
+class Tries:
+    """A solver, as the reasons ask it: what it finds without limits is known."""
+
+    def __init__(self, limits, found, states):  # type: ignore[no-untyped-def]
+        chain = line(coupling=None, offset=None, limits=[[-3, 3], [-0.5, 2.0]])
+        self.fast = SimpleNamespace(chain=chain, q_names=("turn", "slide"))
+        self.task = task_of("position", None, None)
+        nothing = np.zeros(2)
+        self.room = Room(
+            np.array(limits, float), np.zeros((2, 2)), nothing > 0, nothing, nothing, winds=False
+        )
+        self.found, self.states, self.asked = np.array(found, float), states, []
+
+    def solve(self, targets, numbers, q0, limits, ranges):  # type: ignore[no-untyped-def]
+        self.asked.append((targets, numbers.tolist(), q0, limits, ranges))
+        info = np.zeros((len(targets), codes.INFO))
+        info[:, codes.AT_STATE] = self.states
+        return self.found, info
+
+
+STATES = [
+    codes.STALLED,
+    codes.OUT_OF_ITERATIONS,
+    codes.BAD_TARGET,
+    codes.SOLVED,
+    codes.OUT_OF_ITERATIONS,
+    codes.STALLED,
+]
+FREE = [[-np.inf, np.inf]] * 2
+
+
+def asked(solver, q):  # type: ignore[no-untyped-def]
+    """What is said of six targets in these states, the fifth of them 100 m away."""
+    info = np.zeros((6, codes.INFO))
+    info[:, codes.AT_STATE] = STATES
+    T = np.tile(np.eye(4), (6, 1, 1))
+    T[4, 0, 3] = 100.0
+    T[2] = np.nan
+    success = np.array([False, False, False, True, False, False])
+    return diagnosis.of(solver, T, q, info, success)
+
+
+def test_a_reason_is_that_of_the_state_in_which_the_tries_ended():
+    solver = Tries(FREE, np.zeros((0, 2)), [])
+    reason, beyond, blocked = asked(solver, np.zeros((6, 2)))
+    assert reason.tolist() == [
+        "unreachable",
+        "iterations",
+        "bad target",
+        "solved",
+        "iterations",
+        "unreachable",
+    ]
+    assert (beyond > 0).tolist() == [False] * 6, "without limits a slide reaches any place"
+    assert blocked == ((),) * 6
+    assert solver.asked == []
+
+
+def test_what_is_solved_without_limits_is_in_their_way_or_within_them_after_all():
+    solver = Tries(
+        [[-1, 1], [-0.5, 2]],
+        [[0.5, 1.0], [7.0, 0.0], [0.0, 0.0]],
+        [codes.SOLVED, codes.SOLVED, codes.STALLED],
+    )
+    q = np.tile([1.0, 0.25], (6, 1))
+    reason, beyond, blocked = asked(solver, q)
+    assert reason.tolist() == [
+        "solved",
+        "limits",
+        "bad target",
+        "solved",
+        "unreachable",
+        "unreachable",
+    ]
+    assert (beyond > 0).tolist() == [False] * 4 + [True, False]
+    assert blocked == ((), ("turn",), (), (), (), ())
+    np.testing.assert_array_equal(q, [[0.5, 1.0], *[[1.0, 0.25]] * 5])
+    ((targets, numbers, q0, limits, ranges),) = solver.asked
+    assert (targets.shape, numbers) == ((3, 4, 4), [0, 1, 5])
+    assert np.isnan(q0).all()
+    assert q0.shape == (3, 2)
+    np.testing.assert_array_equal(limits, FREE)
+    np.testing.assert_allclose(ranges, [[-np.pi, np.pi], [-1, 1]])

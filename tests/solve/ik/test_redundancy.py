@@ -1,0 +1,161 @@
+"""What joints to spare are for: only coordinates with both limits have a middle, and steps too long
+are shortened.
+"""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.engine.kernels import ik_codes as codes
+from poekin.errors import InputError
+from poekin.model import screw
+from poekin.solve.ik import redundancy
+from poekin.solve.ik.ik import ik
+from poekin.solve.ik.solver import Settings, solver_of
+
+
+def test_only_a_coordinate_with_two_limits_has_a_middle():
+    # two slides along one line: what the first gives up the second takes over, which has no middle
+    # to be drawn to
+    limits, q0 = [[-1, 1], [0, np.inf], [-1, 1], [-1, 1]], [1.0, 1.0, 0.5, 0.5]
+    arm = pk.Chain(
+        [screw.prismatic(way) for way in np.eye(3)[[0, 0, 1, 2]]], np.eye(4), limits=limits
+    )
+    found = ik(arm, arm.fk(q0), task="position", q0=q0, aim="middle")
+    # the slides share each step, of half of the way: of 25 of them 0.75^25 = 7.5e-4 is left
+    np.testing.assert_allclose(found.q, [0, 2, 0.5, 0.5], rtol=0, atol=1e-3)
+
+
+@pytest.mark.parametrize("length", [1.0, 2.0])
+def test_a_step_that_is_too_long_is_made_shorter(length):
+    # a table that slides far to the side: what brings the slides back turns the tip about a circle
+    axes = [*map(screw.prismatic, np.eye(3)), screw.revolute([0, 0, 1.0], [0, 0, 0])]
+    arm = pk.Chain(axes, pk.se3.exp([0, 0, 0, length, 0, 0]))
+    found = ik(arm, arm.fk([0, 10.0, 0, 0]), task="position", q0=np.zeros(4), aim="nearest")
+    assert found.success
+    spare = np.linalg.svd(arm.jacobian(found.q, "hybrid")[3:])[2][
+        -1
+    ]  # the one motion that leaves the tip
+    assert (
+        abs(spare @ found.q) <= 1e-3
+    )  # the distance to 0 does not change along it: no solution nearby is nearer
+
+
+def solver(task="position", lock=None):
+    """The solver of an arm with three slides and a joint that turns, of which the first and the
+    last have limits.
+    """
+    axes = [*map(screw.prismatic, np.eye(3)), screw.revolute([0, 0, 1.0], [0, 0, 0])]
+    limits = [[-1, 3], [-np.inf, np.inf], [0, np.inf], [-2, 1]]
+    chain = pk.Chain(axes, pk.se3.exp([0, 0, 0, 1, 0, 0]), limits=limits, joint_names=list("abcd"))
+    return solver_of(
+        chain.compile(), Settings(task, None, True, 1e-9, 1e-9, lock, None, 5, 30, 0, False)
+    )
+
+
+def test_an_aim_is_measured_from_q0_or_from_the_middle_of_the_limits_that_there_are():
+    arm, q0, q = solver(), np.array([[0.5, 6.0, 7.0, 0.25]]), np.array([[2.0, 5.0, 5.0, 0.5]])
+    np.testing.assert_array_equal(redundancy._goal(arm, q0, "nearest"), q0)
+    np.testing.assert_array_equal(redundancy._goal(arm, q0, "middle"), [[1, 6, 7, -0.5]])
+    np.testing.assert_array_equal(redundancy._weights(arm, "nearest"), np.ones(4))
+    np.testing.assert_array_equal(redundancy._weights(arm, "middle"), [1, 0, 0, 1])
+    np.testing.assert_allclose(redundancy._value(arm, q, q0, "nearest"), 1.5**2 + 1 + 4 + 0.25**2)
+    np.testing.assert_allclose(redundancy._value(arm, q, q0, "middle"), 1 + 1)
+
+
+@pytest.mark.parametrize("task, rows", [("position", slice(3, 6)), ("rotation", slice(0, 3))])
+def test_the_manipulability_is_that_of_the_task_by_what_may_move(task, rows):
+    q = np.array([[0.1, 0.2, 0.3, 0.7], [0.5, 0.1, 0.2, -0.4]])
+    for lock in (None, (("b", 0.5),)):
+        arm = solver(task, lock) if task == "position" else None
+        if arm is None:
+            ball = pk.Chain([screw.revolute(axis, [0, 0, 0]) for axis in np.eye(3)[[0, 1, 2, 0]]], np.eye(4),
+                            joint_names=list("abcd"))  # fmt: skip
+            arm = solver_of(
+                ball.compile(), Settings(task, None, True, 1e-9, 1e-9, lock, None, 5, 30, 0, False)
+            )
+        J = arm.fast.chain.jacobian(q, "hybrid")[:, rows]
+        if lock:
+            J[..., 1] = 0
+        np.testing.assert_allclose(redundancy._jacobian(arm, q), J, atol=1e-14)
+        expected = -0.5 * np.log(np.linalg.det(J @ J.swapaxes(1, 2)))
+        np.testing.assert_allclose(
+            redundancy._value(arm, q, q, "manipulability"), expected, atol=1e-12
+        )
+
+
+def test_a_move_leaves_the_task_to_first_order_and_goes_down_the_aim_within_the_limits():
+    arm, q = solver(), np.array([[2.5, 0.2, 0.3, 0.7]])
+    moved = redundancy._moved(arm, q, q + 0.3, "nearest", np.array([0.5]))
+    J = arm.fast.chain.jacobian(q[0], "hybrid")[3:]
+    way = (moved - q)[0]
+    np.testing.assert_allclose(J @ way, 0, atol=1e-12)
+    spare = np.linalg.svd(J)[2][-1]
+    np.testing.assert_allclose(way, 0.5 * spare * (spare @ np.full(4, 0.3)), atol=1e-12)
+    held = redundancy._moved(solver(lock=(("a", 2.5),)), q, q + 5, "nearest", np.array([1.0]))
+    assert held[0, 0] == 2.5
+    far = redundancy._moved(arm, q, q + 50, "nearest", np.array([1.0]))
+    assert ((far >= arm.room.limits[:, 0]) & (far <= arm.room.limits[:, 1])).all()
+
+
+@pytest.mark.parametrize("aim, q0, words", [
+    ("best", None, r"^aim: expected one of middle, nearest, manipulability, got 'best'$"),
+    (3, None, r"^aim: expected one of middle, nearest, manipulability, got 3$"),
+    ("nearest", None, r"^aim: 'nearest' needs q0, what to be near to$"),
+])  # fmt: skip
+def test_what_is_no_aim_is_told(aim, q0, words):
+    with pytest.raises(InputError, match=words):
+        redundancy.check_aim(aim, q0)
+    redundancy.check_aim("nearest", [0])
+    redundancy.check_aim("middle", None)
+    redundancy.check_aim(None, None)
+
+
+def test_an_aim_is_served_in_25_steps_each_half_as_long_after_one_that_is_no_better(monkeypatch):
+    moves, asked = [], []
+
+    def moved(solver, q, q0, aim, step):
+        moves.append((q.copy(), step.copy()))
+        return q + 1.0
+
+    def solve(targets, numbers, q0, *, restarts):
+        asked.append((len(targets), numbers.tolist(), restarts))
+        info = np.zeros((len(targets), codes.INFO))
+        info[:, codes.AT_STATE] = [codes.SOLVED, codes.SOLVED, codes.STALLED]
+        return q0, info
+
+    # the first target gets better twice and then as good, the second worse, the third better but is
+    # not solved
+    values = iter([[9.0, 9, 9], [8, 9.5, 1], [7, 9, 1], *[[7.0, 10, 1]] * 30])
+    monkeypatch.setattr(redundancy, "_moved", moved)
+    monkeypatch.setattr(redundancy, "_value", lambda *_: np.array(next(values)))
+    q = np.zeros((3, 2))
+    stub: Any = SimpleNamespace(solve=solve)
+    found = redundancy.improved(stub, np.zeros((3, 4, 4)), q, np.full((3, 2), np.nan), "middle")
+    assert asked == [(3, [0, 1, 2], 0)] * 25
+    assert found.tolist() == [[2, 2], [0, 0], [0, 0]]
+    assert not q.any()
+    steps = np.array([step for _, step in moves])
+    np.testing.assert_allclose(steps[:, 0], [0.5, 0.5, *(0.5 * 0.5**k for k in range(23))])
+    np.testing.assert_allclose(steps[:, 1:], 0.5 * 0.5 ** np.arange(25.0)[:, None] * [1, 1])
+
+
+def test_of_bad_targets_nothing_is_asked(monkeypatch):
+    asked = []
+
+    def solve(targets, numbers, q0, *, restarts):
+        asked.append(targets[:, 0, 0].tolist())
+        return q0, np.zeros((len(targets), codes.INFO))
+
+    monkeypatch.setattr(redundancy, "_moved", lambda solver, q, *_: q - 1.0)
+    monkeypatch.setattr(redundancy, "_value", lambda solver, q, *_: q[:, 0])
+    q, T = np.array([[5.0], [np.nan], [7.0]]), np.arange(3.0)[:, None, None] * np.ones((3, 4, 4))
+    stub: Any = SimpleNamespace(solve=solve)
+    found = redundancy.improved(stub, T, q, q, "nearest")
+    np.testing.assert_array_equal(found, [[-20], [np.nan], [-18]])
+    assert asked == [[0, 2]] * 25

@@ -1,0 +1,59 @@
+"""What is said of one solution and of many: the reason, with its own numbers and names."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from poekin.errors import ShapeError
+from poekin.solve.ik.solution import REASONS, Solution, place
+
+
+def made(reason, position=2e-3, rotation=3e-4, beyond=0.0, blocked=((),)):
+    reason = np.array(reason)
+    shape, zero = reason.shape, np.zeros(reason.shape, int)
+    return Solution(
+        np.ones((*shape, 2)), reason == "solved", reason, np.full(shape, position), np.full(shape, rotation), zero,
+        zero, np.full(shape, beyond), blocked,
+    )  # fmt: skip
+
+
+OFF = "2 mm and 0.3 mrad off"
+
+
+@pytest.mark.parametrize("solution, words", [
+    (made("solved"), f"solved: {OFF}"),
+    (made("bad target", np.nan, np.nan), "bad target: it is not made of finite numbers"),
+    (made("limits", blocked=(("a", "b"),)),
+     f"limits: solvable without them, in the way are those of 'a', 'b'; within them the nearest pose found is {OFF}"),
+    (made("iterations"),
+     f"iterations: the nearest try was still moving when they ended; the nearest pose found is {OFF}"),
+    (made("unreachable"), f"unreachable: the nearest pose found is {OFF}"),
+    (made("unreachable", beyond=0.123456),
+     f"unreachable: the target is farther than the arm's reach by 0.1235 m; the nearest pose found is {OFF}"),
+])  # fmt: skip
+def test_why_is_said_with_all_its_numbers(solution, words):
+    assert solution.why() == words
+    assert repr(solution) == f"<Solution {words}: q = [1.0, 1.0]>"
+
+
+def test_of_many_each_is_counted_by_its_reason_and_asked_by_its_place():
+    reason = [["solved", "limits", "solved"], ["unreachable", "limits", "bad target"]]
+    blocked = ((), ("a",), (), (), ("b",), ())
+    many = made(reason, blocked=blocked)
+    assert repr(many) == "<Solution 2 of 6 solved, 1 unreachable, 2 limits, 1 bad target>"
+    assert "those of 'a';" in many.why(0, 1)
+    assert "those of 'b';" in many.why(1, 1)
+    assert "those of 'b';" in many.why(-1, -2)
+    assert repr(made(["solved", "iterations"])) == "<Solution 1 of 2 solved, 1 iterations>"
+    assert repr(made(["solved"] * 3)) == "<Solution 3 of 3 solved>"
+    assert set(reason[0] + reason[1]) < set(REASONS)
+
+
+def test_a_place_in_a_batch_is_counted_in_c_order():
+    assert [place((i, j), (2, 3), "why") for i in range(2) for j in range(3)] == list(range(6))
+    assert place((), (), "why") == 0
+    with pytest.raises(ShapeError, match=r"^why: expected an index of 2 numbers, got 1$"):
+        place((1,), (2, 3), "why")
+    with pytest.raises(IndexError):
+        place((2, 0), (2, 3), "why")

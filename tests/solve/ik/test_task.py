@@ -1,0 +1,97 @@
+"""What a task takes hold of, and what is said of one that is none or that an arm is too short for."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.errors import InputError, PoseError
+from poekin.model import screw
+from poekin.solve.ik.task import TASKS, check_joints, targets, task_of
+
+
+@pytest.mark.parametrize("name, weights, expected", [
+    ("pose", None, [1] * 6), ("pose", [2, 4, 1, 1, 1, 1], [0.5, 1, 0.25, 0.25, 0.25, 0.25]),
+    ("position", [9, 9, 9, 1, 2, 1], [0, 0, 0, 0.5, 1, 0.5]), ("rotation", [1, 2, 4, 9, 9, 9], [0.25, 0.5, 1, 0, 0, 0]),
+    ("direction", [1, 1, 1, 2, 2, 2], [0.5, 0.5, 0.5, 1, 1, 1]),
+])  # fmt: skip
+def test_weights_are_scaled_to_1_and_0_where_a_task_takes_no_hold(name, weights, expected):
+    task = task_of(name, None, weights)
+    assert (task.name, task.weights.tolist(), task.axis.tolist()) == (name, expected, [0, 0, 1])
+    assert (task.code, task.holds) == TASKS[name]
+    assert task.holds == {"pose": 6, "position": 3, "rotation": 3, "direction": 5}[name]
+
+
+def test_the_axis_of_a_direction_is_a_unit_vector_however_long_it_is_given():
+    for size in (1e-300, 3.0, 1e300):
+        np.testing.assert_allclose(
+            task_of("direction", [0, 3 * size, -4 * size], None).axis, [0, 0.6, -0.8]
+        )
+
+
+def test_the_jacobian_of_a_direction_has_no_turn_about_it():
+    rng = np.random.default_rng(0)
+    T, J = pk.se3.exp(rng.normal(size=(3, 6))), rng.normal(size=(3, 6, 4))
+    task = task_of("direction", [1, 2, 2], None)
+    found = task.jacobian(T, J)
+    a = T[:, :3, :3] @ np.array([1, 2, 2]) / 3
+    np.testing.assert_allclose(np.einsum("ni,nij->nj", a, found[:, :3]), 0, atol=1e-14)
+    across = pk.so3.hat(a)
+    np.testing.assert_allclose(across @ found[:, :3], across @ J[:, :3], atol=1e-14)
+    np.testing.assert_array_equal(found[:, 3:], J[:, 3:])
+    assert task_of("pose", None, None).jacobian(T, J) is J
+
+
+@pytest.mark.parametrize("given, words", [
+    (("dance", None, None), "task: expected one of pose, position, rotation, direction, got 'dance'"),
+    ((3, None, None), "task: expected one of pose, position, rotation, direction, got 3"),
+    (("pose", [1, 0, 0], None), "axis: only the task 'direction' has one, the task is 'pose'"),
+    (("direction", [0, 0, 0], None), "axis: expected a direction (3,) that is not zero, got [0, 0, 0]"),
+    (("direction", [[0, 0, 1]], None), "axis: expected a direction (3,) that is not zero, got [[0, 0, 1]]"),
+    (("pose", None, [[1, 1, 1, 1, 1, 1]]),
+     "weights: expected six positive numbers (rotation; position), got [[1, 1, 1, 1, 1, 1]]"),
+    (("direction", [0, np.nan, 1], None), "axis: expected a direction (3,) that is not zero, got [0, nan, 1]"),
+    (("pose", None, [1, 1, 1, 1, 1, 0]),
+     "weights: expected six positive numbers (rotation; position), got [1, 1, 1, 1, 1, 0]"),
+    (("pose", None, [1, 1, 1, 1, 1, -0.5]),
+     "weights: expected six positive numbers (rotation; position), got [1, 1, 1, 1, 1, -0.5]"),
+    (("pose", None, [1, 1, 1, 1, 1, np.inf]),
+     "weights: expected six positive numbers (rotation; position), got [1, 1, 1, 1, 1, inf]"),
+])  # fmt: skip
+def test_what_is_no_task_is_told(given, words):
+    with pytest.raises(InputError, match=f"^{re.escape(words)}$"):
+        task_of(*given)
+
+
+@pytest.mark.parametrize("dof, free, name, words", [
+    (2, 2, "pose", "task 'pose' takes hold of 6 numbers, and the chain has 2 coordinates"),
+    (5, 5, "pose", "task 'pose' takes hold of 6 numbers, and the chain has 5 coordinates; what fits: 'position', "
+     "'rotation', 'direction'"),
+    (7, 5, "pose", "task 'pose' takes hold of 6 numbers, and the chain has 7 coordinates, 2 of them locked; what fits: "
+     "'position', 'rotation', 'direction'"),
+    (4, 4, "direction", "task 'direction' takes hold of 5 numbers, and the chain has 4 coordinates; what fits: "
+     "'position', 'rotation'"),
+    (6, 6, "pose", None), (3, 3, "position", None),
+])  # fmt: skip
+def test_an_arm_of_too_few_joints_is_told_what_fits(dof, free, name, words):
+    chain = pk.Chain([screw.revolute([0, 0, 1], [x, 0, 0]) for x in range(dof)], np.eye(4))
+    if words is None:
+        check_joints(chain, task_of(name, None, None), free)
+    else:
+        with pytest.raises(InputError, match=f"^{re.escape(words)}$"):
+            check_joints(chain, task_of(name, None, None), free)
+
+
+def test_a_target_that_is_not_finite_is_nan_and_one_that_is_no_pose_is_named():
+    T = np.tile(np.eye(4), (3, 1, 1))
+    T[1, 0, 0] = np.inf
+    found = targets(T, "T")
+    np.testing.assert_array_equal(np.isnan(found).all((1, 2)), [False, True, False])
+    np.testing.assert_array_equal(found[2], np.eye(4))
+    assert np.isinf(T[1, 0, 0])
+    T[2] *= 2
+    with pytest.raises(PoseError, match=r"T\[2\] is no pose"):
+        targets(T, "T")

@@ -1,0 +1,676 @@
+"""ik_all: every listed solution is one, none is missing, and what cannot be listed is said."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import poekin as pk
+from poekin.errors import InputError, MissingExtra, PoseError
+from poekin.model.geometry.hp import HPForm
+from poekin.solve.ik_all import closed_form as closed_form_module
+from poekin.solve.ik_all import ik_all as module
+from poekin.solve.ik_all.ik_all import ik_all
+from poekin.testing.strategies import chain_strategies
+
+TOL = 1e-10  # m and rad: what is promised of every solution
+# rad or m: two solvers' ends of one solution, whose poses are 1e-10 off, away from singular ones
+NEAR = 1e-6
+
+
+def errors(chain, Q, T):
+    """Largest distance (m) and angle (rad) of the poses of Q from a target, by `fk` and `so3.log`."""
+    ours = chain.fk(Q)
+    turn = pk.so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ T[:3, :3])
+    return np.linalg.norm(ours[:, :3, 3] - T[:3, 3], axis=1).max(initial=0), np.linalg.norm(
+        turn, axis=1
+    ).max(initial=0)
+
+
+def apart(a, b):
+    """Largest difference of angles between each of a and each of b, by the shorter way round."""
+    return np.abs((a[:, None] - b[None] + np.pi) % (2 * np.pi) - np.pi).max(axis=-1, initial=0)
+
+
+def same_sets(a, b, near=NEAR):
+    """Whether two lists hold the same configurations of turning joints, each once."""
+    if len(a) != len(b):
+        return False
+    d = apart(a, b) <= near
+    return bool((d.sum(axis=0) == 1).all() and (d.sum(axis=1) == 1).all())
+
+
+def arm(name):
+    return pk.load(name).chain()
+
+
+def targets(chain, seed, count):
+    q = np.random.default_rng(seed).uniform(-np.pi, np.pi, (count, chain.dof))
+    return q, chain.fk(q)
+
+
+SIX = ("puma560", "ur5", "ur5e", "irb140", "jaco")
+
+
+@pytest.mark.parametrize("method", ["auto", "search"])
+@pytest.mark.parametrize("name", SIX)
+def test_every_solution_reaches_its_target_and_the_known_one_is_among_them(name, method):
+    chain = arm(name)
+    q, T = targets(chain, 1, 200)
+    result = ik_all(chain, T, method=method, limits=False)
+    for k in range(len(T)):
+        assert max(errors(chain, result.solutions[k], T[k])) <= TOL
+    # nearly singular arms are known less well, and where a search has trouble it says so
+    known = [
+        apart(q[k : k + 1], result.solutions[k]).min(initial=np.inf) <= 1e-5 for k in range(len(T))
+    ]
+    assert np.mean(known) >= 0.995
+    assert all(known | (result.chance > 1e-2))
+    assert result.position_error.max() <= TOL
+    assert result.rotation_error.max() <= TOL
+    assert (result.count == [len(Q) for Q in result.solutions]).all()
+
+
+@given(st.data())
+@settings(
+    max_examples=max(settings().max_examples // 4, 12)
+)  # each makes machine code for a new arm
+def test_of_any_arm_the_known_solution_is_found_or_is_singular(data):
+    chain = data.draw(chain_strategies.chains(1, 6, ("revolute", "prismatic"), coupled=False))
+    q = data.draw(chain_strategies.coordinates(chain))
+    T = chain.fk(q)
+    result = ik_all(chain, T, limits=False, often=40, method="search")
+    assert max(errors(chain, result.solutions, T)) <= TOL
+    sizes = np.linalg.svd(chain.jacobian(q, frame="hybrid"), compute_uv=False)
+    if sizes[-1] > 1e-3 * sizes[0]:
+        turns = np.array([kind == "revolute" for kind in chain.kinds])
+        d = result.solutions - q
+        d[:, turns] = (d[:, turns] + np.pi) % (2 * np.pi) - np.pi
+        assert np.abs(d).max(axis=1).min(initial=np.inf) <= NEAR
+
+
+@given(st.data())
+@settings(max_examples=max(settings().max_examples // 4, 12))
+def test_of_coupled_and_helical_joints_every_solution_reaches_the_target(data):
+    chain = data.draw(chain_strategies.chains(1, 6).filter(lambda chain: chain.dof))
+    T = chain.fk(data.draw(chain_strategies.coordinates(chain)))
+    result = ik_all(chain, T, restarts=200)
+    Q = np.reshape(result.solutions, (-1, chain.dof))
+    assert max(errors(chain, Q, T)) <= TOL
+    assert len(Q) <= 40
+
+
+def test_a_long_arm_has_solutions_as_exact_as_its_poses():
+    chain = arm("ur5")
+    D = np.diag([1, 1, 1, 1e5, 1e5, 1e5])
+    home = chain.home.copy()
+    home[:3, 3] *= 1e5
+    long = pk.Chain(chain.screws @ D, home)
+    T = long.fk([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
+    for method in ("auto", "search"):
+        result = ik_all(long, T, method=method)
+        assert result.count == 8
+        assert max(errors(long, result.solutions, T)) <= 1e-12 * long.reach
+
+
+@pytest.mark.parametrize("name", ["puma560", "irb140", "kr5"])
+def test_a_spherical_wrist_turned_over_is_a_solution_too(name):
+    chain = arm(name)
+    _, T = targets(chain, 2, 100)
+    for Q in ik_all(chain, T, method="search", limits=False).solutions:
+        assert same_sets(Q, Q * [1, 1, 1, 1, -1, 1] + [0, 0, 0, np.pi, 0, np.pi])
+
+
+def eaik_solutions(chain, T):
+    """EAIK's own solutions of a target, those that are near it."""
+    solver = pytest.importorskip("eaik.IK_HP", reason="needs EAIK").HPRobot(*chain.to_hp()[:2])
+    target = T.copy()
+    target[:3, :3] = T[:3, :3] @ chain.home[:3, :3].T
+    Q = solver.IK(target).Q
+    return Q[np.abs(chain.fk(Q) - T).max(axis=(1, 2)) < 1e-7]
+
+
+@pytest.mark.parametrize("method", ["closed", "search"])
+@pytest.mark.parametrize("name", ["puma560", "ur5"])
+def test_the_solutions_are_those_of_eaik(name, method):
+    chain = arm(name)
+    _, T = targets(chain, 3, 200)
+    theirs = [eaik_solutions(chain, target) for target in T]
+    result = ik_all(chain, T, method=method, limits=False)
+    equal = [same_sets(a, b, 1e-5) for a, b in zip(result.solutions, theirs, strict=True)]
+    # one in 200 may be so near a double solution that the two differ about it
+    assert np.mean(equal) >= 0.995
+    assert result.method == {"closed": "closed form", "search": "search"}[method]
+
+
+@pytest.mark.parametrize("plant", ["one missing", "one moved", "one twice"])
+def test_a_planted_difference_of_two_sets_is_seen(plant):
+    chain = arm("ur5")
+    _, T = targets(chain, 4, 1)
+    Q = ik_all(chain, T[0], method="search", limits=False).solutions
+    assert same_sets(Q, Q[::-1] + 2 * np.pi)
+    other = {
+        "one missing": Q[1:],
+        "one moved": Q + 1e-4 * np.eye(len(Q), 6),
+        "one twice": Q[[0, *range(len(Q) - 1)]],
+    }
+    assert not same_sets(Q, other[plant])
+
+
+@pytest.mark.parametrize("plant", ["no solutions", "wrong ones", "not a number"])
+def test_a_closed_form_that_errs_makes_no_false_solution(plant, monkeypatch):
+    pytest.importorskip("eaik", reason="needs EAIK")
+    rows = {
+        "no solutions": np.empty((0, 6)),
+        "wrong ones": np.linspace(-3.0, 3.0, 48).reshape(8, 6),
+        "not a number": np.full((3, 6), np.nan),
+    }[plant]
+    monkeypatch.setattr(closed_form_module.ClosedForm, "starts", lambda self, T: rows)
+    monkeypatch.setattr(closed_form_module, "_finds_what_is_known", lambda solver, chain: True)
+    monkeypatch.setattr(module, "_closed_form", closed_form_module.closed_form)
+    chain = arm("ur5")
+    _, T = targets(chain, 5, 1)
+    Q = ik_all(chain, T[0], method="closed", limits=False).solutions
+    assert max(errors(chain, Q, T[0])) <= TOL
+    assert len(Q) < 8
+
+
+def test_a_closed_form_that_misses_known_solutions_is_not_used(monkeypatch):
+    pytest.importorskip("eaik", reason="needs EAIK")
+    whole = closed_form_module.ClosedForm.starts
+    monkeypatch.setattr(closed_form_module.ClosedForm, "starts", lambda self, T: whole(self, T)[:3])
+    assert closed_form_module.closed_form(arm("ur5")) is None
+
+
+def test_an_arm_with_rounded_right_angles_has_a_closed_form_and_its_own_solutions():
+    pytest.importorskip("eaik", reason="needs EAIK")
+    whole = arm("ur5")
+    tilt = pk.se3.adjoint(pk.se3.exp([2e-7, -3e-7, 0.0, 1e-7, 0.0, 2e-7]))
+    chain = pk.Chain([*whole.screws[:2], tilt @ whole.screws[2], *whole.screws[3:]], whole.home)
+    assert closed_form_module.closed_form(chain) is not None
+    _, T = targets(chain, 6, 50)
+    closed, search = (
+        ik_all(chain, T, method=method, limits=False) for method in ("closed", "search")
+    )
+    assert "of the arm made exact, at most " in closed.sure[0]
+    for k in range(len(T)):
+        assert max(errors(chain, closed.solutions[k], T[k])) <= TOL
+        assert same_sets(closed.solutions[k], search.solutions[k], 1e-5)
+
+
+@pytest.mark.parametrize("tilt", [1e-12, 1e-8, 3e-5])
+@pytest.mark.parametrize("joint", [0, 1])
+def test_axes_that_are_parallel_but_for_a_rounding_are_solved(joint, tilt):
+    # EAIK takes such axes to meet and then refuses to say where
+    pytest.importorskip("eaik", reason="needs EAIK")
+    home = pk.se3.exp([0.1, 0.2, 0.3, 0.5, 0, 0.8])
+    turned = [np.sin(tilt), np.cos(tilt), 0]
+    first = [[0, 1, 0], turned, [1, 0, 0]] if joint == 0 else [[0, 0, 1], [0, 1, 0], turned]
+    wrist = [pk.screw.revolute(z, [0.9, 0, 0.3]) for z in ([1, 0, 0], [0, 1, 0], [1, 0, 0])]
+    places = ([0, 0, 0], [0.1, 0, 0.2], [0.5, 0, 0.25])
+    chain = pk.Chain([*map(pk.screw.revolute, first, places), *wrist], home)
+    q, T = targets(chain, 21, 3)
+    found, searched = (ik_all(chain, T, method=method) for method in ("auto", "search"))
+    for k in range(3):
+        assert same_sets(found.solutions[k], searched.solutions[k], 1e-5)
+        assert apart(q[k : k + 1], found.solutions[k]).min() <= 1e-5
+    assert found.method == ("search" if 1e-5 < tilt < 1e-4 else "closed form")
+
+
+def test_where_solutions_become_one_the_closed_form_is_not_taken_at_its_word():
+    pytest.importorskip("eaik", reason="needs EAIK")
+    chain = arm("ur5")
+    usual, straight = ik_all(
+        chain, chain.fk([[0.3, -1, 1.2, 0.4, 0.9, 0.1], [0.3, -1, 0, 0.4, 0.9, 0.1]])
+    ).chance
+    assert usual == 0
+    assert 0 < straight < 2e-3  # of a search
+
+
+@pytest.mark.parametrize("cross", [[1.0, 0.0, 0.0], [0.6, 0.8, 0.0]], ids=["square", "slanted"])
+def test_an_arm_that_eaik_turns_round_for_ever_is_searched(cross):
+    # of the two ways round of this arm, each looks as if the other were the one to solve: the
+    # process ends
+    z, y = [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]
+    axes = [
+        (z, [0, 0, 0]),
+        (cross, [0, 0, 0]),
+        (cross, [0, 0, 0]),
+        (z, [0, 0.4, 0]),
+        (z, [0, 0.4, 0]),
+        (y, [0, 0.4, 0]),
+    ]
+    chain = pk.Chain(
+        [pk.screw.revolute(*axis) for axis in axes], pk.se3.exp([0.1, 0.2, 0.3, 0.5, 0, 0.8])
+    )
+    assert not closed_form_module._is_safe(chain.to_hp())
+    assert closed_form_module.closed_form(chain) is None
+    T = chain.fk([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    assert max(errors(chain, ik_all(chain, T).solutions, T)) <= TOL
+
+
+@pytest.mark.parametrize("bad", [{"steps": 4}, {"steps": 5}, {"sine": 3, "to": 0.009}, {"sine": 4, "to": 0.009},
+                                 {"sine": 1, "to": 1e-13}, {"sine": 0, "to": 9e-5}], ids=str)  # fmt: skip
+def test_the_closed_form_is_asked_of_exact_wrists_only(bad):
+    H = np.array([[0, 0, 1.0], [0, 1, 0], [0, 1, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0]])
+    P = np.array(
+        [[0, 0, 0.3], [0, 0, 0.1], [0.4, 0, 0], [0.4, 0, 0], [0, 0, 0], [0, 0, 0], [0.1, 0, 0]]
+    )
+    assert closed_form_module._is_safe(HPForm(H, P, np.eye(3)))
+    if "steps" in bad:
+        P[bad["steps"], 0] = 1e-300
+    else:
+        k, angle = bad["sine"], np.arcsin(bad["to"])
+        u = np.cross(H[k], [0.6, 0.0, 0.8] if H[k, 1] else [0, 1.0, 0.0])
+        H[k + 1] = np.cos(angle) * H[k] + np.sin(angle) * u / np.linalg.norm(u)
+    assert not closed_form_module._is_safe(HPForm(H, P, np.eye(3)))
+
+
+@pytest.mark.parametrize("middle", [1e-15, 1e-13])
+def test_the_closed_form_is_asked_of_exactly_parallel_axes_only(middle):
+    H = np.array([[0, 0, 1.0], [0, 1, 0], [0, 1, middle], [0, 1, 0], [0, 0, 1], [0, 1, 0]])
+    P = np.arange(21.0).reshape(7, 3)
+    assert closed_form_module._is_safe(HPForm(H, P, np.eye(3))) == (middle < 1e-14)
+
+
+def test_a_target_that_the_closed_form_gives_up_is_searched(monkeypatch):
+    pytest.importorskip("eaik", reason="needs EAIK")
+    chain = arm("ur5")
+    _, T = targets(chain, 5, 3)
+    whole = closed_form_module.ClosedForm.starts
+
+    def starts(self, target):
+        if np.array_equal(target, T[1]):
+            raise RuntimeError("no valid solution found")
+        return whole(self, target)
+
+    expected = ik_all(chain, T, limits=False)
+    monkeypatch.setattr(closed_form_module.ClosedForm, "starts", starts)
+    found = ik_all(chain, T, limits=False)
+    for a, b in zip(found.solutions, expected.solutions, strict=True):
+        assert same_sets(a, b, 1e-5)
+    assert "search, " in found.sure[1]
+    assert "search, " not in found.sure[0]
+
+
+def test_limits_are_kept_and_all_places_a_turn_apart_are_counted_or_listed():
+    chain = arm("puma560")
+    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-1.5 * np.pi, 2 * np.pi], (6, 1)))
+    _, T = targets(wide, 7, 30)
+    result, every = ik_all(wide, T), ik_all(wide, T, copies=True)
+    for k in range(len(T)):
+        Q = every.solutions[k]
+        assert (wide.limits[:, 0] <= Q).all()
+        assert (wide.limits[:, 1] >= Q).all()
+        assert max(errors(wide, Q, T[k])) <= TOL
+        assert len(np.unique(np.round(Q, 6), axis=0)) == len(Q) == result.copies[k].sum()
+        assert (every.copies[k] == 1).all()
+        # by hand: how many of q - 2 pi, q, q + 2 pi are within the limits
+        by_hand = [
+            np.prod(
+                [
+                    sum(-1.5 * np.pi <= x + 2 * np.pi * t <= 2 * np.pi for t in (-2, -1, 0, 1, 2))
+                    for x in q
+                ]
+            )
+            for q in result.solutions[k]
+        ]
+        assert result.copies[k].tolist() == by_hand
+
+
+def test_solutions_outside_the_limits_are_left_out_and_said():
+    chain = arm("puma560")
+    result = ik_all(chain, chain.fk([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]))
+    anywhere = ik_all(chain, chain.fk([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]), limits=False)
+    assert len(anywhere.solutions) == result.anywhere == 8
+    inside = (
+        (anywhere.solutions >= chain.limits[:, 0]) & (anywhere.solutions <= chain.limits[:, 1])
+    ).all(axis=1)
+    assert 0 < inside.sum() <= len(result.solutions) < 8
+    assert f"8 solutions, {len(result.solutions)} of them within the limits: " in result.sure
+
+
+def test_a_solution_at_a_limit_is_within_it():
+    chain = arm("ur5")
+    q = np.array([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
+    below, above = np.array([0, 1, 1, 1, 1, 1]), np.array([1, 0, 1, 1, 1, 1])
+    tight = pk.Chain(chain.screws, chain.home, limits=np.stack([q - below, q + above], axis=1))
+    result = ik_all(tight, tight.fk(q))
+    assert apart(q[None], result.solutions).min() <= 1e-9
+    assert (result.solutions >= tight.limits[:, 0]).all()
+    assert (result.solutions <= tight.limits[:, 1]).all()
+
+
+@pytest.mark.parametrize("method", ["auto", "search"])
+@pytest.mark.parametrize(
+    ("name", "q", "moving"),
+    [
+        pytest.param(
+            "puma560", [0.1, -0.7, 0.5, 0.3, 0.0, 0.2], {"joint4", "joint6"}, id="straight wrist"
+        ),
+        pytest.param(
+            "ur5",
+            [0.1, -0.7, 0.5, 0.3, 0.0, 0.2],
+            {"shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_3_joint"},
+            id="four parallel axes",
+        ),
+    ],
+)
+def test_infinitely_many_solutions_are_said_and_one_is_listed(name, q, moving, method):
+    chain = arm(name)
+    result = ik_all(chain, chain.fk(q), method=method, limits=False)
+    assert result.continuum
+    assert np.isnan(result.chance)
+    assert all(f"'{joint}'" in result.sure for joint in moving)
+    assert "infinitely many solutions" in result.sure
+    sizes = np.linalg.svd(chain.jacobian(result.solutions, "hybrid"), compute_uv=False)
+    assert (sizes[:, -1] < 1e-6).sum() == 1
+    assert max(errors(chain, result.solutions, chain.fk(q))) <= TOL
+
+
+@pytest.mark.parametrize("method", ["auto", "search"])
+def test_a_double_solution_is_one_and_no_continuum(method):
+    # Puma's elbow stretched: elbow up and elbow down are the same
+    chain = arm("puma560")
+    q = np.array([0.3, -0.4, 0.0, 0.8, 0.9, -0.2])
+    q[2] = -np.pi / 2 + np.arctan2(0.0203, 0.4318)
+    sizes = np.linalg.svd(chain.jacobian(q, "hybrid"), compute_uv=False)
+    q[2] = q[2] if sizes[-1] < 1e-3 else np.pi / 2 + np.arctan2(0.0203, 0.4318)
+    result = ik_all(chain, chain.fk(q), method=method, limits=False)
+    assert not result.continuum
+    assert result.count == 4
+    assert apart(q[None], result.solutions).min() <= 1e-4  # the square root of the pose's error
+
+
+@pytest.mark.parametrize("method", ["auto", "search"])
+def test_a_continuum_does_not_depend_on_the_unit_of_length(method):
+    chain = arm("ur5e")
+    D = np.diag([1, 1, 1, 0.02, 0.02, 0.02])
+    home = chain.home.copy()
+    home[:3, 3] *= 0.02
+    small = pk.Chain(chain.screws @ D, home)
+    right = np.pi / 4
+    # two solutions that lie close together, an ordinary pose, and one of a continuum
+    q = np.array([[3 * right, right, -4 * right, 2 * right, right, 2 * right],
+                  [0.1, -1.0, 1.2, 0.4, 0.9, -0.3], [0.1, -0.7, 0.5, 0.3, 0, 0]])  # fmt: skip
+    found, expected = (ik_all(a, a.fk(q), method=method, limits=False) for a in (small, chain))
+    np.testing.assert_array_equal(found.count, expected.count)
+    np.testing.assert_array_equal(found.continuum, expected.continuum)
+    assert expected.continuum.tolist() == [False, False, True]
+
+
+@pytest.mark.parametrize("method", ["auto", "search"])
+def test_of_an_unreachable_target_none_is_claimed(method):
+    T = np.eye(4)
+    T[0, 3] = 9.0
+    result = ik_all(arm("ur5"), T, method=method)
+    assert result.solutions.shape == (0, 6)
+    assert result.sure.startswith("0 solutions: ")
+    assert np.isnan(result.position_error)
+
+
+@pytest.mark.parametrize("name", ["cobra600", "stanford"])
+def test_an_arm_with_a_slide_is_searched(name):
+    chain = arm(name)
+    q = chain.random(8, 20)
+    result = ik_all(chain, chain.fk(q))
+    assert result.method == "search"
+    for k in range(len(q)):
+        assert np.abs(result.solutions[k] - q[k]).max(axis=1).min() <= 1e-5
+
+
+@pytest.mark.parametrize("joints", [1, 2, 3, 4, 5])
+def test_an_arm_of_fewer_joints_has_its_solutions_where_it_reaches(joints):
+    chain = arm("puma560")
+    short = pk.Chain(chain.screws[:joints], chain.home)
+    q, T = targets(short, 9, 20)
+    for method in ("auto", "search"):
+        result = ik_all(short, T, method=method)
+        for k in range(len(q)):
+            assert apart(q[k : k + 1], result.solutions[k]).min(initial=np.inf) <= 1e-5
+            assert max(errors(short, result.solutions[k], T[k])) <= TOL
+    far = T[0].copy()
+    far[2, 3] += 0.1
+    assert ik_all(short, far).count == 0 or joints > 3
+
+
+@pytest.mark.parametrize("shape", [(), (0,), (1,), (3, 1, 2)], ids=str)
+def test_batches_of_any_shape(shape):
+    chain = arm("ur5")
+    T = chain.fk(chain.random(10, shape))
+    result = ik_all(chain, T)
+    for array in (
+        result.count,
+        result.anywhere,
+        result.continuum,
+        result.chance,
+        result.position_error,
+    ):
+        assert array.shape == shape
+    if shape:
+        assert (
+            len(result.solutions) == len(result.sure) == len(result.copies) == int(np.prod(shape))
+        )
+    for index in np.ndindex(*shape):
+        assert max(errors(chain, result.of(*index), T[index])) <= TOL
+        assert len(result.of(*index)) == result.count[index]
+
+
+def test_nan_in_one_target_is_that_targets_own_affair():
+    chain = arm("ur5")
+    _, T = targets(chain, 11, 3)
+    T[1, 0, 3] = np.nan
+    result = ik_all(chain, T, limits=False)
+    assert result.count[1] == 0
+    assert "bad target" in result.sure[1]
+    assert result.count[0] > 0 < result.count[2]
+
+
+def test_a_search_repeats_and_another_seed_finds_the_same():
+    chain = arm("jaco")
+    _, T = targets(chain, 12, 20)
+    first, again, other = (
+        ik_all(chain, T, seed=seed, limits=False, often=40) for seed in (0, 0, 5)
+    )
+    for a, b, c in zip(first.solutions, again.solutions, other.solutions, strict=True):
+        assert np.array_equal(a, b)
+        assert same_sets(a, c, 1e-5)
+
+
+def test_the_words_of_a_search_say_how_sure_it_is():
+    chain = arm("ur5")
+    _, T = targets(chain, 13, 1)
+    result = ik_all(chain, T[0], method="search", limits=False)
+    assert 0 < result.chance < 2e-3
+    assert "each found 1" in result.sure
+    assert f"is missing with a chance of {result.chance:.1g}" in result.sure
+    assert ik_all(chain, T[0], method="search", limits=False, often=60).chance < 1e-6
+
+
+def test_a_compiled_arm_serves():
+    chain = arm("ur5")
+    _, T = targets(chain, 14, 2)
+    for a, b in zip(ik_all(chain, T).solutions, ik_all(chain.compile(), T).solutions, strict=True):
+        assert np.array_equal(a, b)
+
+
+def without_eaik(monkeypatch):
+    monkeypatch.setitem(sys.modules, "eaik", None)
+    monkeypatch.setitem(sys.modules, "eaik.IK_HP", None)
+    monkeypatch.setattr(module, "_closed_form", closed_form_module.closed_form)
+
+
+def test_without_eaik_the_search_serves(monkeypatch):
+    without_eaik(monkeypatch)
+    chain = arm("puma560")
+    _, T = targets(chain, 15, 3)
+    result = ik_all(chain, T, limits=False)
+    assert result.method == "search"
+    assert (result.count == 8).all()
+
+
+def test_without_eaik_a_closed_form_is_refused_and_the_extra_named(monkeypatch):
+    without_eaik(monkeypatch)
+    with pytest.raises(MissingExtra, match=r"poekin\[ik\]"):
+        ik_all(arm("puma560"), np.eye(4), method="closed")
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        pytest.param("jaco", r"no closed form that EAIK knows", id="jaco"),
+        pytest.param("stanford", r"'joint3' is prismatic", id="stanford"),
+    ],
+)
+def test_a_closed_form_that_does_not_exist_is_refused(name, message):
+    pytest.importorskip("eaik", reason="needs EAIK")
+    with pytest.raises(InputError, match=message):
+        ik_all(arm(name), np.eye(4), method="closed")
+
+
+def test_a_redundant_arm_is_refused_and_told_what_to_use():
+    chain = pk.load("panda").chain(tip="panda_hand")
+    with pytest.raises(InputError, match=r"got 7 .*infinitely many solutions; ik finds one"):
+        ik_all(chain, np.eye(4))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        pytest.param(
+            {"method": "eaik"},
+            r"method: expected one of auto, closed, search, got 'eaik'",
+            id="method",
+        ),
+        pytest.param({"limits": 1}, r"limits: expected True or False, got 1", id="limits"),
+        pytest.param({"copies": None}, r"copies: expected True or False", id="copies"),
+        pytest.param({"often": 0}, r"often: expected a whole number from 1 on, got 0", id="often"),
+        pytest.param({"seed": -1}, r"seed: expected a whole number from 0 on", id="seed"),
+        pytest.param({"restarts": 1.5}, r"restarts: expected a whole number", id="restarts"),
+    ],
+)
+def test_options_that_are_none_are_refused(options, message):
+    with pytest.raises(InputError, match=message):
+        ik_all(arm("ur5"), np.eye(4), **options)
+
+
+def test_more_places_than_anybody_reads_are_refused():
+    chain = arm("ur5")
+    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-9 * np.pi, 9 * np.pi], (6, 1)))
+    _, T = targets(wide, 16, 1)
+    assert ik_all(wide, T[0]).copies.min() == 9**6
+    places = ik_all(wide, T[0]).copies.sum()
+    said = f"copies: {places} places for one target, more than 4096; `copies` of the result tells"
+    with pytest.raises(InputError, match=f"^{said}$"):
+        ik_all(wide, T[0], copies=True)
+
+
+@pytest.mark.parametrize(
+    ("bound", "places"),
+    [
+        pytest.param(90.0, None, id="counted"),
+        pytest.param(9000.0, 2**63 - 1, id="2865 turns of six joints"),
+        pytest.param(1e300, 2**63 - 1, id="any turns"),
+    ],
+)
+def test_wide_limits_have_many_places_and_never_less_than_none(bound, places):
+    chain = arm("ur5")
+    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-bound, bound], (6, 1)))
+    q, T = targets(wide, 16, 1)
+    result = ik_all(wide, T[0])
+    assert apart(q, result.solutions).min() <= 1e-5
+    for k, numbers in enumerate(result.copies):
+        each = [len(np.arange(np.ceil((-bound - x) / (2 * np.pi)), np.floor((bound - x) / (2 * np.pi)) + 1))
+                for x in result.solutions[k]] if places is None else []  # fmt: skip
+        assert numbers == (places or np.prod(each))
+
+
+def test_as_many_places_are_listed_as_are_said_to_be_the_most(monkeypatch):
+    chain = arm("ur5")
+    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-2 * np.pi, 2 * np.pi], (6, 1)))
+    _, T = targets(wide, 16, 1)
+    most = int(ik_all(wide, T[0]).copies.sum())
+    monkeypatch.setattr(module, "MOST", most)
+    assert ik_all(wide, T[0], copies=True).count == most
+    monkeypatch.setattr(module, "MOST", most - 1)
+    with pytest.raises(
+        InputError, match=rf"copies: {most} places for one target, more than {most - 1}"
+    ):
+        ik_all(wide, T[0], copies=True)
+
+
+@pytest.mark.parametrize("joint", [0, 5])
+@pytest.mark.parametrize("turns", [1e8, 1e12])
+def test_a_solution_so_many_turns_away_that_its_pose_is_lost_is_not_listed(joint, turns):
+    # the last joint turns the tool about its own origin, the first one moves it, too
+    chain = arm("ur5")
+    limits = np.tile([-np.pi, np.pi], (6, 1))
+    limits[joint] += 2 * np.pi * turns
+    far = pk.Chain(chain.screws, chain.home, limits=limits)
+    T = chain.fk([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
+    result = ik_all(far, T)
+    assert result.anywhere == 8
+    assert max(errors(far, result.solutions, T)) <= TOL
+
+
+def test_a_place_that_is_lost_by_so_many_turns_alone_is_not_listed_either():
+    # two parallel axes that turn against each other: only the position shows it
+    axes = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 0.5)]
+    bounds = 2 * np.pi * 1e8 + np.array([[-np.pi, np.pi]])
+    chain = pk.Chain(
+        axes,
+        pk.se3.exp([0, 0, 0, 0.7, 0, 0]),
+        coupling=[[1.0], [-1.0]],
+        q_names=["a"],
+        limits=bounds,
+    )
+    T = chain.fk([0.3])
+    result = ik_all(chain, T)
+    assert result.anywhere == 1
+    assert max(errors(chain, result.solutions, T)) <= TOL
+
+
+def test_what_is_no_arm_and_what_is_no_pose_is_refused():
+    with pytest.raises(InputError, match=r"ik_all: expected a Chain, got 'ur5'"):
+        ik_all("ur5", np.eye(4))  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"the chain has none"):
+        ik_all(pk.Chain(np.empty((0, 6)), np.eye(4)), np.eye(4))
+    with pytest.raises(PoseError, match=r"T\[1\] is no pose"):
+        ik_all(arm("ur5"), [np.eye(4), 2 * np.eye(4)])
+
+
+def test_a_target_is_named_from_the_end_too():
+    chain = arm("ur5")
+    found = ik_all(chain, targets(chain, 3, 4)[1].reshape(2, 2, 4, 4))
+    np.testing.assert_array_equal(found.of(-1, 0), found.of(1, 0))
+    with pytest.raises(IndexError, match="out of bounds"):
+        found.of(0, 2)
+
+
+def test_the_errors_are_the_largest_of_the_listed_solutions_in_place_and_in_direction(monkeypatch):
+    chain = arm("ur5")
+    _, T = targets(chain, 15, 3)
+    T[1] = np.nan
+    right = module.pose_errors
+
+    def known(chain, q, wanted):
+        assert right(chain, q, wanted).max() < 1e-10
+        return np.arange(1.0, len(q) + 1)[:, None] * [1e-13, -2e-13] + [0, 1e-11]
+
+    monkeypatch.setattr(module, "pose_errors", known)
+    found = ik_all(chain, T, method="search", limits=False)
+    first, _, last = (len(some) for some in found.solutions)
+    np.testing.assert_allclose(
+        found.position_error, [first * 1e-13, np.nan, (first + last) * 1e-13]
+    )
+    np.testing.assert_allclose(
+        found.rotation_error, [1e-11 - 2e-13, np.nan, 1e-11 - 2e-13 * (first + 1)]
+    )
+    np.testing.assert_array_equal(found.count, [first, 0, last])
+    np.testing.assert_array_equal(found.anywhere, [first, 0, last])
+    assert np.isnan(found.chance[1])
+    assert found.sure[1] == "0 solutions: bad target, it is not made of finite numbers"

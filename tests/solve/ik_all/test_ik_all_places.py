@@ -1,0 +1,114 @@
+"""Where solutions lie within the limits, how many places each stands for, and in which order they
+are listed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.model import screw
+from poekin.solve.ik_all import ik_all as module
+from poekin.solve.ik_all.ik_all import ik_all
+from poekin.solve.ik_all.ik_all_search import Found
+
+TURN = 2 * np.pi
+AXES = [screw.revolute([0, 0, 1.0], [0, 0, 0]), screw.prismatic([0, 0, 1.0])]
+
+
+def arm(turn: list[float] | None = None) -> pk.Chain:
+    """A joint that turns, within limits or without, and a slide from -0.5 to 1."""
+    limits = [[-np.inf, np.inf] if turn is None else turn, [-0.5, 1.0]]
+    return pk.Chain(AXES, pk.se3.exp([0, 0, 0, 0.75, 0, 0]), limits=limits)
+
+
+def found(*q: list[float]) -> Found:
+    return Found(np.array(q, float).reshape(-1, 2), np.ones(len(q)), len(q), 1, False)
+
+
+EVERY = [found([0.1, 0.5], [0.2, 1.5]), found(), found([-3.0, 0.25], [3.0, -0.5])]
+
+
+@pytest.mark.parametrize(
+    ("turn", "q", "owner", "number", "within"),
+    [
+        (None, [[0.1, 0.5], [-3, 0.25], [3, -0.5]], [0, 2, 2], [1, 1, 1], [1, 0, 2]),
+        ([-1.0, 1.0], [[0.1, 0.5]], [0], [1], [1, 0, 0]),
+        ([-TURN, TURN], [[0.1, 0.5], [-3, 0.25], [3, -0.5]], [0, 2, 2], [2, 2, 2], [1, 0, 2]),
+        (
+            [TURN, 3 * TURN],
+            [[0.1 + TURN, 0.5], [2 * TURN - 3, 0.25], [TURN + 3, -0.5]],
+            [0, 2, 2],
+            [2, 2, 2],
+            [1, 0, 2],
+        ),
+        (
+            [-np.inf, 0.0],
+            [[0.1 - TURN, 0.5], [-3, 0.25], [3 - TURN, -0.5]],
+            [0, 2, 2],
+            [1, 1, 1],
+            [1, 0, 2],
+        ),
+    ],
+)
+def test_of_places_whole_turns_apart_the_one_nearest_to_0_is_listed_with_their_number(
+    turn, q, owner, number, within
+):
+    places = module._places(arm(turn), EVERY, True, False)
+    np.testing.assert_allclose(places.q, q, atol=1e-14)
+    assert (places.owner.tolist(), places.number.tolist(), places.within.tolist()) == (
+        owner,
+        number,
+        within,
+    )
+    free = module._places(arm(turn), EVERY, False, False)
+    assert free.q[:, 0].tolist() == [0.1, 0.2, -3, 3]
+    assert (free.number.tolist(), free.within.tolist()) == ([1] * 4, [2, 0, 2])
+
+
+def test_copies_are_all_places_within_the_limits():
+    places = module._places(arm([-TURN, 2 * TURN]), EVERY, True, True)
+    expected = [[0.1 + k * TURN, 0.5] for k in (-1, 0, 1)] + [
+        [-3 + k * TURN, 0.25] for k in (0, 1, 2)
+    ]
+    expected += [[3 + k * TURN, -0.5] for k in (-1, 0, 1)]
+    np.testing.assert_allclose(places.q, expected, atol=1e-13)
+    assert (places.owner.tolist(), places.number.tolist()) == ([0] * 3 + [2] * 6, [1] * 9)
+    assert places.within.tolist() == [1, 0, 2], "solutions, not places"
+    none = module._places(arm(), [found()], True, True)
+    assert (none.q.shape, none.number.tolist(), none.within.tolist()) == ((0, 2), [], [0])
+    assert not np.signbit(module._places(arm(), [found([-0.0, -0.0])], True, False).q).any()
+
+
+@pytest.mark.parametrize(
+    ("q", "owner", "order"),
+    [
+        ([[3e-9, 0, 0], [0, 1, 0]], [0, 0], [1, 0]),
+        ([[3e-10, 0, 0], [0, 1, 0]], [0, 0], [0, 1]),
+        ([[3e-10, 1, 0], [0, 0, 5]], [0, 0], [1, 0]),
+        ([[0, 0, 2], [0, 0, 1], [0, -1, 9]], [0, 0, 0], [2, 1, 0]),
+        ([[9, 9, 9], [0, 0, 0]], [0, 1], [0, 1]),
+        ([[0, 0, 0], [9, 9, 9]], [1, 0], [1, 0]),
+    ],
+)
+def test_solutions_are_sorted_target_by_target_and_to_nine_digits(q, owner, order):
+    assert module._order(np.array(q, float), np.array(owner)).tolist() == order
+
+
+def test_what_is_known_of_a_bad_target_is_nothing():
+    T = np.tile(arm([-1, 1]).fk([0.1, 0.2]), (3, 1, 1))
+    T[1] = np.inf
+    result = ik_all(arm([-1, 1]), T, method="search")
+    assert result.count.tolist() == result.anywhere.tolist() == [1, 0, 1]
+    assert result.continuum.tolist() == [False] * 3
+    assert result.solutions[1].shape == (0, 2)
+    assert (result.copies[1].shape, result.copies[1].dtype) == ((0,), np.int64)
+    assert np.isnan([result.chance[1], result.position_error[1], result.rotation_error[1]]).all()
+    assert np.isfinite(
+        [result.chance[[0, 2]], result.position_error[[0, 2]], result.rotation_error[[0, 2]]]
+    ).all()
+    assert result.sure[1] == "0 solutions: bad target, it is not made of finite numbers"
+    alone = ik_all(arm([-1, 1]), T[0], method="search")
+    np.testing.assert_allclose(alone.solutions, [[0.1, 0.2]], atol=1e-9)
+    assert (alone.copies.tolist(), alone.method) == ([1], "search")

@@ -1,0 +1,168 @@
+"""The report on a path that was followed: which coordinate, where, and how much of what bound."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.model import screw
+from poekin.solve.ik.solution import Solution
+from poekin.solve.ik.task import task_of
+from poekin.solve.path.followed import NEAR_SINGULAR, Followed, Stretch
+
+Z = [0, 0, 1.0]
+ARM = pk.Chain(
+    [screw.revolute(Z, [0, 0, 0]), screw.revolute(Z, [1, 0, 0]), screw.prismatic(Z)], pk.se3.exp([0, 0, 0, 2, 0, 0]),
+    joint_names=["shoulder", "elbow", "lift"], limits=[[-1, 2], [-2, 2], [0, 0.5]],
+)  # fmt: skip
+
+
+def followed(q, reason=None, errors=None, changes=(), task="position", limits=None, **given):
+    """A path of which this is known; solved where nothing else is said."""
+    q = np.array(q, float)
+    n = len(q)
+    reason = np.array(["solved"] * n if reason is None else reason)
+    off = np.zeros((n, 2)) if errors is None else np.array(errors, float)
+    nothing = np.zeros(n, np.int64)
+    blocked = tuple(("lift",) if word == "limits" else () for word in reason)
+    solution = Solution(
+        q, reason == "solved", reason, off[:, 0], off[:, 1], nothing, nothing, np.zeros(n), blocked
+    )
+    bounds = ARM.limits if limits is None else np.array(limits, float)
+    times, speed, acceleration = (
+        None if given.get(name) is None else np.array(given[name], float)
+        for name in ("times", "speed", "acceleration")
+    )
+    return Followed(
+        ARM, solution, tuple(changes), task_of(task, None, None), bounds, times, speed, acceleration
+    )
+
+
+def test_steps_are_those_of_the_coordinate_that_moves_most():
+    path = followed([[0, 1, 0], [0.1, 0.7, 0.1], [0.1, 0.75, 0.3], [np.nan] * 3, [0.1, 0.8, 0.3]])
+    assert path.steps[:2] == pytest.approx([0.3, 0.2])
+    assert np.isnan(path.steps[2:]).all()
+    assert path.largest_step == pytest.approx(0.3)
+    assert path.rates is None
+    assert path.accelerations is None
+    assert followed(np.zeros((1, 3))).largest_step == 0
+    assert followed(np.zeros((0, 3))).largest_step == 0
+
+
+def test_rates_and_accelerations_are_differences_over_the_time_between():
+    q = np.array([[0, 0, 0], [0.1, 0, 0.2], [0.4, -0.2, 0.2], [0.2, 0, 0]])
+    times = np.array([0, 0.1, 0.3, 0.7])
+    path = followed(q, times=times)
+    assert path.rates == pytest.approx(np.array([[1, 0, 2], [1.5, -1, 0], [-0.5, 0.5, -0.5]]))
+    # From the middle of one step to that of the next it is 0.15 and 0.3 s.
+    assert path.accelerations == pytest.approx(
+        np.array([[0.5 / 0.15, -1 / 0.15, -2 / 0.15], [-2 / 0.3, 1.5 / 0.3, -0.5 / 0.3]])
+    )
+
+
+def test_what_exceeds_a_limit_is_named_from_where_to_where_with_its_worst_point():
+    times, q = (
+        np.arange(6.0),
+        np.array([[0, 0, 0], [1, 0, 0], [3, 0, 0], [4.5, 0, 0], [5, 0, 3], [5.1, 0, 3.0]]),
+    )
+    path = followed(q, times=times, speed=[0.9, 1, 1], acceleration=[0.9, 5, 2.5])
+    assert path.too_fast == (
+        Stretch(0, 2, "shoulder", 1, 2.0, 0.9),
+        Stretch(3, 3, "lift", 3, 3.0, 1.0),
+    )
+    assert path.too_hard == (
+        Stretch(1, 1, "shoulder", 1, 1.0, 0.9), Stretch(3, 3, "shoulder", 3, 1.0, 0.9),
+        Stretch(3, 4, "lift", 3, 3.0, 2.5),
+    )  # fmt: skip
+    assert not path.ok
+    at = followed(q, times=times, speed=[2, 1, 3], acceleration=[1, 5, 3])
+    assert (at.too_fast, at.too_hard, at.ok) == ((), (), True)
+    assert followed(q, times=times).ok
+    assert not followed(q, changes=[2]).ok
+    assert not followed(q, reason=["solved"] * 5 + ["unreachable"]).ok
+
+
+def test_coordinates_at_their_limits_are_named_at_the_point_nearest_to_it():
+    q = [[0, 0, 0.5], [2 - 2e-9, 0, 0.5 - 9e-10], [2 - 9e-10, 0, 0.1], [2, 1, 0], [-1, 1, np.nan]]
+    path = followed(q)
+    assert path.at_limits == (
+        Stretch(0, 1, "lift", 0, 0.5, 0.5), Stretch(2, 3, "shoulder", 3, 2.0, 2.0), Stretch(3, 3, "lift", 3, 0.0, 0.0),
+        Stretch(4, 4, "shoulder", 4, -1.0, -1.0),
+    )  # fmt: skip
+    assert followed(q, limits=[[-np.inf, np.inf]] * 3).at_limits == ()
+
+
+def test_regularity_is_the_quotient_of_the_singular_values_of_what_the_task_asks():
+    q = np.array([[0.3, 1.0, 0.1], [0.3, 5e-3, 0.1], [0.3, 1e-3, 0.1], [0.3, -1.0, 0.1]])
+    J = ARM.jacobian(q, "hybrid")[:, 3:] / ARM.reach
+    s = np.linalg.svd(J, compute_uv=False)
+    path = followed(q)
+    assert path.regularity == pytest.approx(s[:, 2] / s[:, 0])
+    (near,) = path.near_singular
+    assert near == Stretch(1, 2, "", 2, path.regularity[2], NEAR_SINGULAR)
+    rotation = followed(q, task="rotation")
+    assert rotation.regularity == pytest.approx(
+        np.zeros(4)
+    )  # three numbers, and the arm turns about one axis alone
+    whole = np.linalg.svd(
+        ARM.jacobian(q, "hybrid") / np.repeat([1, ARM.reach], 3)[:, None], compute_uv=False
+    )
+    assert followed(q, task="pose").regularity == pytest.approx(whole[:, 2] / whole[:, 0])
+
+
+def test_the_report_says_it_all_in_sentences():
+    q = np.array(
+        [
+            [0, 1, 0.1],
+            [0.1, 1, 0.1],
+            [0.2, 1, 0.5],
+            [0.2, 1, 0.5],
+            [np.nan] * 3,
+            [-0.5, -1.5, 0.2],
+            [0.1, -1.5, 0.2],
+        ]
+    )
+    reason = ["solved", "solved", "limits", "limits", "bad target", "solved", "solved"]
+    errors = [[1e-10, 0], [2e-9, 3e-9], [0.1, 0], [0.2, 0.3], [np.nan] * 2, [0, 0], [0, 0]]
+    path = followed(
+        q,
+        reason,
+        errors,
+        changes=[5],
+        times=np.arange(7.0),
+        speed=[0.55, 3, 1],
+        acceleration=[9, 9, 0.35],
+    )
+    assert path.sentences() == [
+        "4 of 7 poses reached, within 2e-06 mm and 3e-06 mrad; largest step 0.6 (rad or m)",
+        f"poses 2 to 3 not reached, least of all 3: {path.why(3)}",
+        "pose 4 not reached: bad target: it is not made of finite numbers",
+        "the branch changes before pose 5: no way on from pose 3; the joints jump by 2.5, most of it in 'elbow'",
+        "poses 2 to 3: 'lift' at its limit 0.5",
+        "pose 5: 'shoulder' exceeds its speed, 0.6 of 0.55 (rad or m)/s at 5",
+        "poses 1 to 2: 'lift' exceeds its acceleration, 0.4 of 0.35 (rad or m)/s^2 at 1",
+    ]
+    assert "in the way are those of 'lift'" in path.why(3)
+    assert str(path) == "\n".join(path.sentences())
+    assert repr(path) == "<Followed 4 of 7 poses, largest step 0.6, 1 change of branch>"
+    assert repr(followed(q[:2], changes=[1, 2])).endswith(", 2 changes of branch>")
+    assert repr(followed(q[:2])) == "<Followed 2 of 2 poses, largest step 0.1>"
+    with pytest.raises(IndexError):
+        path.why(7)
+
+
+def test_a_singularity_is_told_in_the_words_of_what_the_task_asks():
+    q = [[0.0, 0.5, 0.1], [0.0, 5e-4, 0.1], [0.0, 1e-3, 0.1]]
+    (said,) = followed(q).sentences()[1:]
+    words = pk.singularity(ARM, q[1], part="translation").words
+    assert said == f"poses 1 to 2: near a singularity, most at 1: {words}"
+    assert "the base's x axis" in said
+
+
+def test_where_nothing_is_reached_nothing_is_off():
+    path = followed([[0, 1, 0.1]], reason=["unreachable"], errors=[[0.5, 0.25]])
+    assert (
+        path.sentences()[0]
+        == "0 of 1 poses reached, within 0 mm and 0 mrad; largest step 0 (rad or m)"
+    )

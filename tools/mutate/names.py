@@ -1,0 +1,66 @@
+"""Names of modules and of tests by room and stem, which a file keeps wherever it moves in its room.
+
+`model/hp` is the one hp.py below poekin/model, and of tests the one test_hp.py below tests/model.
+Folders in between tell files of one stem apart: `testing/conform/search`. A slash at the end makes
+it a folder: `formats/dh/`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path, PurePosixPath
+
+from .mutants import PACKAGE
+
+ROOT = Path(__file__).resolve().parents[2]
+OWN = "own"  # among the tests of a module: those of its name
+
+
+@cache
+def module(name: str) -> str:
+    """The path of a module or of a folder of modules; ValueError unless exactly one has the name.
+    """
+    return _only(PACKAGE, name, f"{name}.py")
+
+
+@cache
+def test(name: str) -> str:
+    """The path of a file or a folder of tests; ValueError unless exactly one has the name."""
+    path = PurePosixPath(name)
+    return _only("tests", name, str(path.with_name(f"test_{path.name}.py")))
+
+
+def _only(top: str, name: str, file: str) -> str:
+    pattern = (name[:-1] if name.endswith("/") else file).replace("/", "/**/")
+    found = sorted({path.relative_to(ROOT).as_posix() for path in (ROOT / top).glob(pattern)})
+    if len(found) != 1:
+        places = ", ".join(found) or "none"
+        raise ValueError(f"{name} has to be one place below {top}/, and is {places}")
+    return found[0]
+
+
+def argument(word: str) -> str:
+    """The argument of pytest for a name, with an option before it, or with one test after it."""
+    option, equals, rest = word.rpartition("=")
+    name, colons, one = rest.partition("::")
+    return f"{option}{equals}{test(name)}{colons}{one}"
+
+
+def among(names: str, path: str) -> bool:
+    """Whether a module is among those named, or in one of the folders."""
+    return any(_within(module(name), path) for name in names.split())
+
+
+def longest(table: Mapping[str, str], path: str) -> list[str]:
+    """Arguments of pytest for a module, by the entry of a table whose path is the longest."""
+    rows = [(name, tests) for names, tests in table.items() for name in names.split()]
+    fitting = [row for row in rows if _within(module(row[0]), path)]
+    if not fitting:
+        return []
+    own, tests = max(fitting, key=lambda row: len(module(row[0])))
+    return list(dict.fromkeys(argument(own if word == OWN else word) for word in tests.split()))
+
+
+def _within(place: str, path: str) -> bool:
+    return f"{path}/".startswith(f"{place}/")
