@@ -21,7 +21,7 @@ version = release = poekin.__version__
 
 extensions = ["sphinx.ext.autodoc", "myst_parser"]
 exclude_patterns = ["_build", "_generated/floors.md"]
-myst_enable_extensions = ["colon_fence", "dollarmath"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 highlight_language = "none"  # of indented blocks in docstrings: equations
 smartquotes = False  # f' is a derivative and ... are dots
