@@ -26,7 +26,7 @@ LAYOUT = {
 }
 FORMATTER_OFF = re.compile(r"#\s*fmt:\s*(skip|off)")
 ODD_OPENING = re.compile(r"\s*(What|Where|How|Of|Those|The same|Who|When)\b")
-Documented = ast.Module | ast.ClassDef | ast.FunctionDef
+Documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 
 
 @dataclass(frozen=True)
@@ -103,29 +103,24 @@ def measures(root: Path) -> list[Measure]:
     openings = [str(ast.literal_eval(s.value)) for file in files for s in file.docstrings()]
     assignments = sum(file.nodes(ast.Assign) for file in files)
     tuples = sum(file.tuple_assignments() for file in files)
+    ternaries = sum(file.nodes(ast.IfExp) for file in files)
+    unformatted = sum(len(FORMATTER_OFF.findall(file.text)) for file in files)
+    odd = sum(bool(ODD_OPENING.match(opening)) for opening in openings)
     return [
-        Measure("tokens a code line", tokens / len(lines), 8.5),
+        Measure("tokens a code line", _ratio(tokens, len(lines)), 8.5),
         Measure("code tokens", tokens, 234_000),
-        Measure("tuple assignments, % of assignments", 100 * tuples / assignments, 2),
-        Measure(
-            "ternaries per 100 code lines",
-            100 * sum(f.nodes(ast.IfExp) for f in files) / len(lines),
-            1.2,
-        ),
-        Measure(
-            "lines with the formatter off",
-            sum(len(FORMATTER_OFF.findall(f.text)) for f in files),
-            30,
-        ),
-        Measure(
-            "docstrings that begin What, Where, How",
-            sum(bool(ODD_OPENING.match(o)) for o in openings),
-            0,
-        ),
+        Measure("tuple assignments, % of assignments", 100 * _ratio(tuples, assignments), 2),
+        Measure("ternaries per 100 code lines", 100 * _ratio(ternaries, len(lines)), 1.2),
+        Measure("lines with the formatter off", unformatted, 30),
+        Measure("docstrings that begin What, Where, How", odd, 0),
         Measure("median file, lines", statistics.median(lengths), 150),
         Measure("largest file, lines", max(lengths), 400),
         Measure("most files in one folder", max(folders.values()), 10),
     ]
+
+
+def _ratio(part: int, whole: int) -> float:
+    return part / whole if whole else 0.0
 
 
 def main(arguments: list[str]) -> int:
