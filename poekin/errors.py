@@ -65,10 +65,8 @@ class PoekinWarning(UserWarning):
     """Something in the input was repaired or ignored; says what and where."""
 
 
-def harmless(text: object, width: int | None = None, keep: str = "") -> str:
-    """Text with control and bidirectional characters and line breaks escaped, but for those in
-    `keep`; cut at width.
-    """
+def escape_unprintable(text: object, width: int | None = None, keep: str = "") -> str:
+    """Text whose unprintable characters are escaped, except those in `keep`, cut at `width`."""
     plain = "".join(
         c if c.isprintable() or c in keep else c.encode("unicode_escape").decode()
         for c in str(text)
@@ -76,33 +74,25 @@ def harmless(text: object, width: int | None = None, keep: str = "") -> str:
     return plain if width is None or len(plain) <= width else plain[: width - 1] + "…"
 
 
-def shown(name: object, width: int = 80) -> str:
-    """A name out of a file in quotes, made harmless for plain text: each character that is none
-    escaped once.
-    """
-    return f"'{harmless(name, width)}'"
+def quote(name: object, width: int = 80) -> str:
+    """Name in single quotes, its unprintable characters escaped once."""
+    return f"'{escape_unprintable(name, width)}'"
 
 
-def told(value: object, width: int = 80) -> str:
-    """Any value as Python writes it, harmless and cut at width: what arrived where something else
-    was expected.
-    """
-    return harmless(repr(value), width)
+def safe_repr(value: object, width: int = 80) -> str:
+    """`repr` of a value, its unprintable characters escaped, cut at `width`."""
+    return escape_unprintable(repr(value), width)
 
 
-def listed(names: Iterable[object], most: int = 12) -> str:
-    """Names one after the other, the first of them where there are many, and how many more there
-    are.
-    """
+def join_names(names: Iterable[object], most: int = 12) -> str:
+    """First `most` names, quoted and joined by commas, and the number of the others."""
     every = list(names)
     more = f" and {len(every) - most} more" if len(every) > most else ""
-    return ", ".join(map(shown, every[:most])) + more
+    return ", ".join(map(quote, every[:most])) + more
 
 
-def closest(name: str, available: Iterable[str], most: int = 5) -> str:
-    """The end of a message about an unknown name: the closest names that exist, or how to read an
-    empty list.
-    """
+def suggest(name: str, available: Iterable[str], most: int = 5) -> str:
+    """End of a message about an unknown name: the available names closest to it."""
     names = list(available)
     if not names:
         return "there are none"
@@ -111,5 +101,5 @@ def closest(name: str, available: Iterable[str], most: int = 5) -> str:
     near = names[: 2_000_000 // max(len(str(name)), 1) ** 2]
     close = difflib.get_close_matches(str(name), near, n=most, cutoff=0.6)
     if close:
-        return "did you mean " + " or ".join(shown(c) for c in close) + "?"
-    return "available: " + listed(names, most)
+        return "did you mean " + " or ".join(quote(c) for c in close) + "?"
+    return "available: " + join_names(names, most)

@@ -22,19 +22,19 @@ from poekin.errors import (  # fmt: skip
     PoseError,
     ShapeError,
     UnknownName,
-    closest,
-    harmless,
-    listed,
-    shown,
-    told,
+    escape_unprintable,
+    join_names,
+    quote,
+    safe_repr,
+    suggest,
 )
 
 
 @given(st.text(), st.integers(2, 100))
 def test_nothing_that_a_terminal_obeys_is_shown(text, width):
-    for plain in (harmless(text), shown(text), told(text), told([text])):
+    for plain in (escape_unprintable(text), quote(text), safe_repr(text), safe_repr([text])):
         assert plain.isprintable()
-    assert len(harmless(text, width)) <= width
+    assert len(escape_unprintable(text, width)) <= width
 
 
 @pytest.mark.parametrize(
@@ -49,46 +49,46 @@ def test_nothing_that_a_terminal_obeys_is_shown(text, width):
     ],
 )
 def test_each_character_is_escaped_once_or_not_at_all(name, plain):
-    assert shown(name) == plain
+    assert quote(name) == plain
 
 
 def test_line_breaks_are_kept_where_that_is_asked():
-    assert harmless("a\n\x1bb", keep="\n") == "a\n\\x1bb"
+    assert escape_unprintable("a\n\x1bb", keep="\n") == "a\n\\x1bb"
 
 
 @pytest.mark.parametrize(
     "value, plain", [("", "''"), (None, "None"), (5, "5"), ("\u202e", r"'\u202e'")]
 )
 def test_what_arrived_is_told_as_python_writes_it(value, plain):
-    assert told(value) == plain
-    assert len(told([value] * 1000)) == 80
+    assert safe_repr(value) == plain
+    assert len(safe_repr([value] * 1000)) == 80
 
 
 def test_a_long_list_ends_with_how_many_more_there_are():
-    assert listed("abc") == "'a', 'b', 'c'"
-    assert listed("abc", 2) == "'a', 'b' and 1 more"
-    assert listed("abcdefg", 2) == "'a', 'b' and 5 more"
-    assert listed(()) == ""
-    assert closest("x", "abcdefgh") == "available: 'a', 'b', 'c', 'd', 'e' and 3 more"
+    assert join_names("abc") == "'a', 'b', 'c'"
+    assert join_names("abc", 2) == "'a', 'b' and 1 more"
+    assert join_names("abcdefg", 2) == "'a', 'b' and 5 more"
+    assert join_names(()) == ""
+    assert suggest("x", "abcdefgh") == "available: 'a', 'b', 'c', 'd', 'e' and 3 more"
 
 
 @pytest.mark.parametrize("length", [79, 80, 81])
 def test_what_is_too_long_is_cut_at_eighty_characters(length):
     text = "x" * min(length, 80) if length <= 80 else "x" * 79 + "…"
-    assert shown("x" * length) == f"'{text}'"
-    assert harmless("x" * length, 80) == text
-    assert told(["x"] * 100) == repr(["x"] * 100)[:79] + "…"
-    assert harmless("x" * length) == "x" * length
+    assert quote("x" * length) == f"'{text}'"
+    assert escape_unprintable("x" * length, 80) == text
+    assert safe_repr(["x"] * 100) == repr(["x"] * 100)[:79] + "…"
+    assert escape_unprintable("x" * length) == "x" * length
 
 
 def test_a_dozen_names_are_listed_and_five_offered():
-    assert listed(range(12)) == ", ".join(f"'{i}'" for i in range(12))
-    assert listed(range(13)) == ", ".join(f"'{i}'" for i in range(12)) + " and 1 more"
+    assert join_names(range(12)) == ", ".join(f"'{i}'" for i in range(12))
+    assert join_names(range(13)) == ", ".join(f"'{i}'" for i in range(12)) + " and 1 more"
     near = [f"joint{i}" for i in range(6)]
-    assert closest("joint", near).count("'joint") == 5
-    assert closest("joint", near, 2).count("'joint") == 2
-    assert closest("joint", []) == "there are none"
-    assert closest("", ["a"]) == "available: 'a'"
+    assert suggest("joint", near).count("'joint") == 5
+    assert suggest("joint", near, 2).count("'joint") == 2
+    assert suggest("joint", []) == "there are none"
+    assert suggest("", ["a"]) == "available: 'a'"
 
 
 @pytest.mark.parametrize(
@@ -97,7 +97,7 @@ def test_a_dozen_names_are_listed_and_five_offered():
 def test_a_name_is_meant_where_three_fifths_of_it_are_there(name, meant):
     # of two names of ten characters, 2 × 8 ÷ 20 = 0.8 are there in the second case, 0.5 in the
     # third
-    found = closest(name, ["abcdefghyy" if name != "abcdefghij" else "klmnopqrst"])
+    found = suggest(name, ["abcdefghyy" if name != "abcdefghij" else "klmnopqrst"])
     assert found.startswith("did you mean" if meant else "available: ")
 
 
@@ -127,15 +127,15 @@ def test_what_an_error_says_is_what_it_was_given():
 
 
 def test_of_long_names_only_the_first_are_looked_at():
-    assert closest("x" * 1000, ["y" * 1000, "x" * 1000]).startswith(
+    assert suggest("x" * 1000, ["y" * 1000, "x" * 1000]).startswith(
         "did you mean"
     )  # the second of two
-    assert closest("x" * 1000, ["y" * 1000] * 2 + ["x" * 1000]).startswith("available: ")
+    assert suggest("x" * 1000, ["y" * 1000] * 2 + ["x" * 1000]).startswith("available: ")
     names = ["x" * 190 + str(i) for i in range(1000)]
-    assert closest(names[0] + "y", names).startswith("did you mean")
-    assert closest(names[-1], names).startswith("did you mean")
-    assert closest("y" * 190 + "999", [*names, "y" * 190 + "998"]).startswith("available: ")
-    assert closest("joint_x", [f"joint_{i}" for i in range(20_000)]).startswith(
+    assert suggest(names[0] + "y", names).startswith("did you mean")
+    assert suggest(names[-1], names).startswith("did you mean")
+    assert suggest("y" * 190 + "999", [*names, "y" * 190 + "998"]).startswith("available: ")
+    assert suggest("joint_x", [f"joint_{i}" for i in range(20_000)]).startswith(
         "did you mean 'joint_"
     )
 

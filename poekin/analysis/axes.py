@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from ..errors import InputError, told
+from ..errors import InputError, safe_repr
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from .compare.alignment.lines import at_rest, cross, direction
@@ -114,7 +114,9 @@ def axes(chain: Chain, *, tol_mm: float = 0.01, tol_deg: float = 0.001) -> AxesR
     Source: Pieper 1968 for what solves in closed form.
     """
     if not isinstance(chain, Chain):
-        raise InputError(f"expected a Chain, as Robot.chain(tip=...) makes it, got {told(chain)}")
+        raise InputError(
+            f"expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
+        )
     check_tolerances(tol_mm, tol_deg)
     rest = at_rest(chain)
     ways = direction(rest.screws, rest.kinds)

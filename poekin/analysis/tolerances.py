@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, told
+from ..errors import InputError, safe_repr
 
 
 def check_tolerances(tol_mm: Any, tol_deg: Any) -> None:
@@ -15,4 +15,4 @@ def check_tolerances(tol_mm: Any, tol_deg: Any) -> None:
     for what, tol in (("tol_mm", tol_mm), ("tol_deg", tol_deg)):
         real = isinstance(tol, (int, float, np.integer, np.floating)) and not isinstance(tol, bool)
         if not real or not 0 < tol < math.inf:
-            raise InputError(f"{what}: a positive number expected, got {told(tol)}")
+            raise InputError(f"{what}: a positive number expected, got {safe_repr(tol)}")

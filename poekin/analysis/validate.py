@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
-from ..errors import FileError, InputError, shown
+from ..errors import FileError, InputError, quote
 from ..formats import catalogue, urdf
 from ..formats.load import load
 from ..formats.urdf_text import to_urdf
@@ -189,7 +189,7 @@ def chain_errors(
     unknown = [name for name in chain.q_names if name not in oracle.coordinates]
     if unknown:
         return _row(
-            chain, np.full((4, 1), np.inf), {}, f"Pinocchio has no coordinate {shown(unknown[0])}"
+            chain, np.full((4, 1), np.inf), {}, f"Pinocchio has no coordinate {quote(unknown[0])}"
         )
     values = (
         np.column_stack([np.asarray(q[n], float) for n in oracle.coordinates])
@@ -256,7 +256,7 @@ def routes(robot: Robot) -> Iterator[tuple[str, str, str]]:
     for base, moving, note, free in sorted(ends, key=lambda end: -len(end[1])):
         if not covered.issuperset(moving):
             covered.update(moving)
-            end = f"ends above the {free.kind} joint {shown(free.name)}"
+            end = f"ends above the {free.kind} joint {quote(free.name)}"
             yield base, free.parent, f"{note}, {end}" if note else end
 
 
@@ -268,7 +268,7 @@ def _way(robot: Robot, above: dict[str, Joint], tip: str) -> tuple[str, list[str
     while link in above:
         joint = above[link]
         if joint.kind in FREE:
-            return link, moving, f"starts below the {joint.kind} joint {shown(joint.name)}"
+            return link, moving, f"starts below the {joint.kind} joint {quote(joint.name)}"
         if joint.kind in MOVING:
             moving.append(joint.name)
         link = joint.parent

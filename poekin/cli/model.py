@@ -13,7 +13,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..errors import InputError, shown
+from ..errors import InputError, quote
 from ..formats.load import load
 from ..formats.xacro import is_xacro
 from ..formats.xacro import xacro as evaluated
@@ -79,5 +79,5 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
 def _pair(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not equals or not name:
-        raise InputError(f"--xacro-arg: expected NAME=VALUE, got {shown(text)}")
+        raise InputError(f"--xacro-arg: expected NAME=VALUE, got {quote(text)}")
     return name, value

@@ -17,7 +17,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from ..errors import shown
+from ..errors import quote
 
 LONGEST_PATH = 400
 PAUSE = 10.0
@@ -41,7 +41,7 @@ def name(text: object) -> str:
 
 def path_text(path: object) -> str:
     """A path in quotes, cut where it is very long."""
-    return shown(path, LONGEST_PATH)
+    return quote(path, LONGEST_PATH)
 
 
 def number(value: float, digits: int = 6) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from ..errors import ModelError, PoekinError, harmless
+from ..errors import ModelError, PoekinError, escape_unprintable
 from ..model.chain import Chain
 from ..model.robot import Robot
 from .serial import serial_robot
@@ -83,7 +83,7 @@ def opened(path: str | os.PathLike[str]) -> Keys:
     """The file of a calibration, of a version that is known. Raises: FileError; ModelError with
     file and key.
     """
-    keys = Keys(toml_text.read(path), harmless(os.fsdecode(path), 400))
+    keys = Keys(toml_text.read(path), escape_unprintable(os.fsdecode(path), 400))
     keys.text("format", (FORMAT,))
     if keys.whole("version") != VERSION:
         raise keys.fault(

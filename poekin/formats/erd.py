@@ -6,7 +6,7 @@ import os
 from collections import Counter
 from pathlib import PurePosixPath
 
-from ..errors import MissingExtra, UnknownName, closest, shown
+from ..errors import MissingExtra, UnknownName, quote, suggest
 from ..model.robot import Robot
 from . import urdf
 
@@ -44,8 +44,8 @@ def read(name: str) -> Robot:
     paths = available()
     if name not in paths:
         both = [known for known in paths if known.endswith(f"/{name}")]
-        ending = "it is one of " + ", ".join(map(shown, both)) if both else closest(name, paths)
-        raise UnknownName(f"{PACKAGE} has no robot {shown(name)}; {ending}")
+        ending = "it is one of " + ", ".join(map(quote, both)) if both else suggest(name, paths)
+        raise UnknownName(f"{PACKAGE} has no robot {quote(name)}; {ending}")
     return urdf.read(paths[name])
 
 

@@ -6,7 +6,15 @@ from __future__ import annotations
 
 import os
 
-from ..errors import FileError, InputError, ModelError, UnknownName, closest, harmless, shown
+from ..errors import (
+    FileError,
+    InputError,
+    ModelError,
+    UnknownName,
+    escape_unprintable,
+    quote,
+    suggest,
+)
 from ..model.robot import Robot
 from . import catalogue, chain_toml, dh, erd, ur, urdf
 from .dh.published_tables import NAMES as TABLES
@@ -50,10 +58,10 @@ def load(name: str | os.PathLike[str]) -> Robot:
     if _exists(name):
         return urdf.read(name)
     if "/" in name or os.sep in name or name.lower().endswith(ENDINGS):
-        raise FileError(f"{harmless(name, 400)}: no such file")
+        raise FileError(f"{escape_unprintable(name, 400)}: no such file")
     known = BUILT_IN
     raise UnknownName(
-        f"no file and no built-in arm is named {shown(name)}; {closest(name, known)} (built in: {', '.join(known)};"
+        f"no file and no built-in arm is named {quote(name)}; {suggest(name, known)} (built in: {', '.join(known)};"
         f' "{PREFIX}NAME" is for example-robot-data)'
     )
 
@@ -69,8 +77,8 @@ def _read(path: str | os.PathLike[str]) -> Robot:
         return mjcf.read(path)
     if os.fsdecode(path).lower().endswith(".xacro"):
         raise ModelError(
-            f"{harmless(os.fsdecode(path), 400)}: xacro evaluates expressions that are in the file, which load never"
-            " does: pk.xacro(path) does, and --xacro on the command line"
+            f"{escape_unprintable(os.fsdecode(path), 400)}: xacro evaluates expressions that are in the file,"
+            " which load never does: pk.xacro(path) does, and --xacro on the command line"
         )
     return urdf.read(path)
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import InputError, listed, shown
+from ..errors import InputError, join_names, quote
 from ..groups import se3, so3
 from ..groups.arrays import Array
 from ..model.chain import Chain
@@ -73,7 +73,7 @@ def relinked(
             P = joint.origin @ P
         else:
             raise InputError(
-                f"joint {shown(joint.name)} lies between {shown(nominal.base)} and the root: choose a base above it"
+                f"joint {quote(joint.name)} lies between {quote(nominal.base)} and the root: choose a base above it"
             )
     origins = _origins([robot.joints[number] for number in down], chain.rebased(P))
     joints = list(robot.joints)
@@ -87,19 +87,19 @@ def _alike(nominal: Chain, chain: Chain) -> None:
     mine, theirs = nominal.joint_names, chain.joint_names
     if len(mine) != len(theirs):
         raise InputError(
-            f"the robot has {len(mine)} joints from {shown(nominal.base)} to {shown(nominal.tip)}: {listed(mine)};"
-            f" the chain has {len(theirs)}: {listed(theirs)}"
+            f"the robot has {len(mine)} joints from {quote(nominal.base)} to {quote(nominal.tip)}: {join_names(mine)};"
+            f" the chain has {len(theirs)}: {join_names(theirs)}"
         )
     if not mine:
-        raise InputError(f"no joint moves between {shown(nominal.base)} and {shown(nominal.tip)}")
+        raise InputError(f"no joint moves between {quote(nominal.base)} and {quote(nominal.tip)}")
     if mine != theirs and set(mine) == set(theirs):
         raise InputError(
-            f"the joints come in another order: the robot's are {listed(mine)}, the chain's {listed(theirs)}"
+            f"the joints come in another order: the robot's are {join_names(mine)}, the chain's {join_names(theirs)}"
         )
     for a, b, kind, other in zip(mine, theirs, nominal.kinds, chain.kinds, strict=True):
         if kind != other:
             raise InputError(
-                f"joint {shown(a)} of the robot is {kind}, and {shown(b)} of the chain is {other}"
+                f"joint {quote(a)} of the robot is {kind}, and {quote(b)} of the chain is {other}"
             )
     free = np.array_equal(chain.coupling, np.eye(len(mine))) and not chain.offset.any()
     same = np.array_equal(chain.coupling, nominal.coupling) and np.array_equal(
@@ -161,7 +161,7 @@ def _moved(joint: Joint, H: Array, chain: Chain, i: int, at_tip: bool) -> tuple[
         apart = float(np.linalg.norm(G[:3, 3] - chain.home[:3, 3]))
         if max(sine, apart / chain.reach) > ON_AXIS:
             raise InputError(
-                f"link {shown(joint.child)} is the tip and what joint {shown(joint.name)} moves, and the chain's tip is"
+                f"link {quote(joint.child)} is the tip and what joint {quote(joint.name)} moves, and the chain's tip is"
                 f" off that joint's axis, by {apart * 1e3:.3g} mm and {math.degrees(math.asin(min(sine, 1.0))):.3g}°:"
                 " the tip must be a link that is fixed to it"
             )

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, listed, shown
+from ..errors import InputError, join_names, quote
 from ..groups import se3
 from ..model.chain import Chain
 from ..model.joint import Joint, Mimic
@@ -65,7 +65,7 @@ def serial_robot(chain: Chain, name: str | None = None) -> Robot:
         if not chain.joint_names and np.array_equal(chain.home, np.eye(4)):
             return Robot(named, [chain.base], [])
         raise InputError(
-            f"the chain's base and tip are both called {shown(chain.base)}, and two links cannot be: give one another"
+            f"the chain's base and tip are both called {quote(chain.base)}, and two links cannot be: give one another"
             ' name, as in chain.retooled(np.eye(4), tip="tool")'
         )
     ends = {chain.base, chain.tip}
@@ -76,9 +76,9 @@ def serial_robot(chain: Chain, name: str | None = None) -> Robot:
     joints.append(Joint(fixed, "fixed", links[-2], links[-1], chain.local.frames[-1]))
     robot = Robot(named, links, joints)
     if list(robot.q_names) != masters:
-        changes.append(f"the order is {', '.join(map(shown, robot.q_names))}")
+        changes.append(f"the order is {', '.join(map(quote, robot.q_names))}")
     if changes:
-        warn(f"the chain from {shown(chain.base)} to {shown(chain.tip)} has other coordinates as a robot: "
+        warn(f"the chain from {quote(chain.base)} to {quote(chain.tip)} has other coordinates as a robot: "
              + "; ".join(changes))  # fmt: skip
     return robot
 
@@ -106,14 +106,14 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
     changes: list[str] = []
     for joint, row in zip(chain.joint_names, C, strict=True):
         if np.count_nonzero(row) > 1:
-            several = listed(chain.q_names[k] for k in np.flatnonzero(row))
+            several = join_names(chain.q_names[k] for k in np.flatnonzero(row))
             raise InputError(
-                f"joint {shown(joint)} follows several coordinates, {several}: a robot's joint follows one"
+                f"joint {quote(joint)} follows several coordinates, {several}: a robot's joint follows one"
             )
     for k, (q_name, column) in enumerate(zip(chain.q_names, C.T, strict=True)):
         ratios = {int(i): float(column[i]) for i in np.flatnonzero(column)}
         if not ratios:
-            changes.append(f"{shown(q_name)} is left out, no joint follows it")
+            changes.append(f"{quote(q_name)} is left out, no joint follows it")
             continue
         master = _master(ratios, c)
         name, ratio, shift = chain.joint_names[master], ratios[master], c[master]
@@ -124,7 +124,7 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
         else:
             values[master] = Value(limits=_image((lower, upper), ratio, shift))
             changes.append(
-                f"in the place of {shown(q_name)} is {shown(name)} = {ratio!r} {shown(q_name)} + {shift!r}"
+                f"in the place of {quote(q_name)} is {quote(name)} = {ratio!r} {quote(q_name)} + {shift!r}"
             )
         for i, own in ratios.items():
             if i != master:

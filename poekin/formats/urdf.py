@@ -19,7 +19,7 @@ import os
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from ..errors import InputError, ModelError, shown, told
+from ..errors import InputError, ModelError, quote, safe_repr
 from ..model.checks import LONGEST
 from ..model.joint import FREE, KINDS, MOVING, Joint, Mimic
 from ..model.provenance import Source, warn
@@ -71,14 +71,14 @@ def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robo
     """
     if not isinstance(name, str):
         raise InputError(
-            f"name: expected what to call the text in messages, a str, got {told(name)}"
+            f"name: expected what to call the text in messages, a str, got {safe_repr(name)}"
         )
     root = xml.parse(text, name)
     source = Source(name)
     top = Fields(root, source)
     if top.tag != "robot":
         raise ModelError(
-            f"{source.place(top.line)}: expected the root element <robot>, got {shown(top.tag)}"
+            f"{source.place(top.line)}: expected the root element <robot>, got {quote(top.tag)}"
         )
     links = top.all("link")
     if not links:
@@ -110,7 +110,7 @@ def _joint(fields: Fields, repairs: Repairs) -> Joint:
     name = fields.name("name")
     kind = fields.name("type")
     if kind not in URDF_KINDS:
-        raise fields.fault(f"type must be one of {', '.join(URDF_KINDS)}, got {shown(kind)}")
+        raise fields.fault(f"type must be one of {', '.join(URDF_KINDS)}, got {quote(kind)}")
     ends = []
     for role in ("parent", "child"):
         end = fields.child(role)
@@ -166,7 +166,7 @@ def _limits(fields: Fields, name: str, repairs: Repairs) -> tuple[float, float]:
         reason = f"{lower!r} to {upper!r}"
     else:
         return lower, upper
-    repairs.limits.append(Repair(line, 0.0, f"{shown(name)} ({reason}; line {line})"))
+    repairs.limits.append(Repair(line, 0.0, f"{quote(name)} ({reason}; line {line})"))
     if lower == upper:
         return -math.inf, math.inf
     return (
@@ -193,7 +193,7 @@ def _with_known_master(joint: Joint, fields: Fields, known: set[str], repairs: R
     if joint.mimic is None or joint.mimic.joint in known:
         return joint
     element = fields.child("mimic") or fields
-    text = f"{fields.what} mimics {shown(joint.mimic.joint)}, which does not exist"
+    text = f"{fields.what} mimics {quote(joint.mimic.joint)}, which does not exist"
     repairs.mimics.append(Repair(element.line, 0.0, text))
     return replace(joint, mimic=None)
 

@@ -8,7 +8,7 @@ import math
 import re
 from collections.abc import Iterator
 
-from ..errors import InputError, listed, shown, told
+from ..errors import InputError, join_names, quote, safe_repr
 from ..model.chain import Chain
 from ..model.joint import Joint
 from ..model.robot import Robot
@@ -56,13 +56,13 @@ def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
     an origin is the one of its roll, pitch and yaw within 1e-15. Source: the URDF specification.
     """
     if name is not None and not isinstance(name, str):
-        raise InputError(f"name: expected the robot's name, a str, got {told(name)}")
+        raise InputError(f"name: expected the robot's name, a str, got {safe_repr(name)}")
     if not isinstance(model, (Robot, Chain)):
         raise InputError(f"to_urdf: expected a Robot or a Chain, got {type(model).__name__}")
     robot = serial_robot(model) if isinstance(model, Chain) else model
     helical = [joint.name for joint in robot.joints if joint.pitch]
     if helical:
-        raise InputError(f"URDF has no helical joints, and these are: {listed(helical)}")
+        raise InputError(f"URDF has no helical joints, and these are: {join_names(helical)}")
     lines = [
         '<?xml version="1.0"?>',
         f"<robot name={quoted(robot.name if name is None else name, 'robot')}>",
@@ -105,7 +105,7 @@ def quoted(name: str, what: str) -> str:
     bad = _IMPOSSIBLE.search(name)
     if bad:
         raise InputError(
-            f"{what} {shown(name)}: XML cannot hold the character U+{ord(bad[0]):04X} of its name"
+            f"{what} {quote(name)}: XML cannot hold the character U+{ord(bad[0]):04X} of its name"
         )
     return (
         '"'

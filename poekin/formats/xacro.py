@@ -14,7 +14,7 @@ from types import ModuleType
 from typing import Any
 from xml.parsers.expat import ExpatError
 
-from ..errors import InputError, MissingExtra, ModelError, harmless, told
+from ..errors import InputError, MissingExtra, ModelError, escape_unprintable, safe_repr
 from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import urdf
@@ -61,7 +61,7 @@ def is_xacro(path: str | os.PathLike[str]) -> bool:
 def _text(key: str, value: Any) -> str:
     if not isinstance(value, (str, int, float)):
         raise InputError(
-            f"xacro: {harmless(key)}: expected a text, number or truth value, got {told(value)}"
+            f"xacro: {escape_unprintable(key)}: expected a text, number or truth value, got {safe_repr(value)}"
         )
     return str(value).lower() if isinstance(value, bool) else str(value)
 
@@ -92,7 +92,9 @@ def _evaluated(name: str, robot: str | None, values: dict[str, str]) -> str:
         raise ModelError(f"{Source(name).place()}: xacro: {_said(fault, xacrodoc)}") from fault
     for line in dict.fromkeys(said.getvalue().splitlines()):  # said again at each of its rounds
         if line.startswith("warning: "):
-            warn(f"{Source(name).place()}: xacro: {harmless(line.removeprefix('warning: '), 400)}")
+            warn(
+                f"{Source(name).place()}: xacro: {escape_unprintable(line.removeprefix('warning: '), 400)}"
+            )
     return result
 
 
@@ -132,9 +134,9 @@ def _said(fault: BaseException, xacrodoc: Any) -> str:
                 "in the folders above the file, in ROS_PACKAGE_PATH, "
                 "and where xacrodoc.packages.look_in was told to"
             )
-            return f"there is no package {harmless(' '.join(map(str, cause.args)), 80)!r} {where}"
+            return f"there is no package {escape_unprintable(' '.join(map(str, cause.args)), 80)!r} {where}"
         cause = getattr(cause, "exc", None) or cause.__cause__
     inner = getattr(fault, "exc", None)
     # Of an error in $(...) xacro says the class, and its words twice.
     words = " ".join(str(inner if inner and str(fault).startswith("<class ") else fault).split())
-    return harmless(words or type(fault).__name__, 400)
+    return escape_unprintable(words or type(fault).__name__, 400)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, listed
+from ..errors import InputError, join_names
 
 _PLAIN = (float, int, list, tuple, np.ndarray, np.generic)
 _NUMBERS = {float, int, list, tuple, np.ndarray, np.float64}
@@ -59,8 +59,8 @@ def plain(values: Any, what: str) -> Any:
         marks = labels(values)
         if marks is not None:
             raise InputError(
-                f"{what}: expected an array, got a {type(values).__name__} with the labels {listed(map(str, marks))},"
-                " which are not looked at here: hand over its to_numpy()"
+                f"{what}: expected an array, got a {type(values).__name__} with the labels"
+                f" {join_names(map(str, marks))}, which are not looked at here: hand over its to_numpy()"
             )
         return values.to_numpy()
     spatial = hasattr(values, "A") and hasattr(values, "N")

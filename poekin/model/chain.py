@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..engine.kernels import chain_kernels
-from ..errors import InputError, ShapeError, shown
+from ..errors import InputError, ShapeError, quote
 from ..groups import se3
 from ..groups.arrays import Array
 from . import screw
@@ -344,7 +344,7 @@ class Chain:
             "" if self.dof == len(self.kinds) else f", {self.dof} coordinate{'s' * (self.dof != 1)}"
         )
         return (
-            f"<Chain {shown(self.base)} -> {shown(self.tip)}: {', '.join(counts) or 'no'} "
+            f"<Chain {quote(self.base)} -> {quote(self.tip)}: {', '.join(counts) or 'no'} "
             f"joint{'s' * (len(self.kinds) != 1)}{coupled}, reach {self.reach:.3g} m>"
         )
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, PoseError, ShapeError, listed, shown, told
+from ..errors import InputError, PoseError, ShapeError, join_names, quote, safe_repr
 from ..formulas.lie import defect
 from ..groups.arrays import TOLERANCE, Array, numbers, poses, shaped
 
@@ -73,7 +73,9 @@ def read_only(array: Array) -> Array:
 def frame_name(name: Any, what: str) -> str:
     """The name of a frame: a string that is not empty."""
     if not isinstance(name, str) or not name:
-        raise InputError(f"{what}: expected a name, a string that is not empty, got {told(name)}")
+        raise InputError(
+            f"{what}: expected a name, a string that is not empty, got {safe_repr(name)}"
+        )
     return str(name)
 
 
@@ -88,12 +90,12 @@ def ordered_names(names: Any, what: str) -> tuple[str, ...]:
     if isinstance(names, np.ndarray):
         names = names.tolist()
     if isinstance(names, str) or not isinstance(names, Sequence):
-        raise InputError(f"{what}: expected a list of names, got {told(names)}")
+        raise InputError(f"{what}: expected a list of names, got {safe_repr(names)}")
     seen: set[str] = set()
     for index, name in enumerate(names):
         frame_name(name, f"{what}[{index}]")
         if name in seen:
-            raise InputError(f"{what}: {shown(name)} appears more than once")
+            raise InputError(f"{what}: {quote(name)} appears more than once")
         seen.add(name)
     return tuple(map(str, names))
 
@@ -107,7 +109,7 @@ def distinct_names(
     given = ordered_names(names, what)
     if len(given) != count:
         raise ShapeError(
-            f"{what}: expected {count} names, got {len(given)}: {listed(given) or 'none'}"
+            f"{what}: expected {count} names, got {len(given)}: {join_names(given) or 'none'}"
         )
     return given
 
@@ -124,7 +126,7 @@ def bounds(limits: ArrayLike | None, names: tuple[str, ...]) -> Array:
     for name, (lower, upper) in zip(names, L, strict=True):
         if not lower <= upper or lower == np.inf or upper == -np.inf:
             raise InputError(
-                f"limits: expected lower <= upper for {shown(name)}, got {lower} and {upper}"
+                f"limits: expected lower <= upper for {quote(name)}, got {lower} and {upper}"
             )
     return L
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, ShapeError, UnknownName, closest, listed, shown
+from ..errors import InputError, ShapeError, UnknownName, join_names, quote, suggest
 from ..groups.arrays import Array, numbers
 from ..groups.objects import labels
 
@@ -29,7 +29,7 @@ def coordinates(q: Any, names: tuple[str, ...], what: str = "q") -> Array:
         marks = labels(q)
         array = numbers(q, what) if marks is None else _from_labels(q, marks, names, what)
     if array.ndim == 0 or array.shape[-1] != len(names):
-        expected = listed(names) or "none"
+        expected = join_names(names) or "none"
         raise ShapeError(
             f"{what}: expected {len(names)} coordinates on the last axis ({expected}), got shape {array.shape}"
         )
@@ -40,24 +40,24 @@ def _known(given: Collection[Any], names: tuple[str, ...], what: str) -> None:
     """Raises UnknownName or InputError where the names given are not those of the coordinates."""
     for name in given:
         if name not in names:
-            raise UnknownName(f"{what}: no coordinate {shown(name)}; {closest(str(name), names)}")
+            raise UnknownName(f"{what}: no coordinate {quote(name)}; {suggest(str(name), names)}")
     missing = [name for name in names if name not in given]
     if missing:
-        raise InputError(f"{what}: no value for {listed(missing)}")
+        raise InputError(f"{what}: no value for {join_names(missing)}")
 
 
 def _from_labels(q: Any, marks: tuple[Any, ...], names: tuple[str, ...], what: str) -> Array:
     _known(marks, names, what)
     if len(marks) > len(names):
         raise InputError(
-            f"{what}: the label {shown(max(marks, key=marks.count))} appears more than once"
+            f"{what}: the label {quote(max(marks, key=marks.count))} appears more than once"
         )
     return numbers(q.to_numpy(), what)[..., [marks.index(name) for name in names]]
 
 
 def _from_dict(q: Mapping, names: tuple[str, ...], what: str) -> Array:
     _known(q, names, what)
-    values = [numbers(q[name], f"{what}[{shown(name)}]") for name in names]
+    values = [numbers(q[name], f"{what}[{quote(name)}]") for name in names]
     try:
         return np.stack(np.broadcast_arrays(*values), axis=-1) if values else np.empty(0)
     except ValueError as error:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, ModelError, shown, told
+from ..errors import InputError, ModelError, quote, safe_repr
 from . import screw
 from .checks import LONGEST, one_pose, read_only
 
@@ -80,11 +80,11 @@ class Joint:
         try:
             self._check()
         except (InputError, ModelError) as fault:
-            raise type(fault)(f"joint {shown(self.name)}: {fault}") from fault.__cause__
+            raise type(fault)(f"joint {quote(self.name)}: {fault}") from fault.__cause__
 
     def _check(self) -> None:
         if not isinstance(self.kind, str) or self.kind not in KINDS:
-            raise ModelError(f"kind must be one of {', '.join(KINDS)}, got {told(self.kind)}")
+            raise ModelError(f"kind must be one of {', '.join(KINDS)}, got {safe_repr(self.kind)}")
         _name(self.parent, "parent")
         _name(self.child, "child")
         _set(self, "origin", _pose(self.origin))
@@ -100,7 +100,7 @@ class Joint:
         if self.pitch and self.kind != "helical":
             raise ModelError(f"only a helical joint has a pitch, and this one is {self.kind}")
         if self.mimic is not None and not isinstance(self.mimic, Mimic):
-            raise ModelError(f"mimic must be a Mimic or None, got {told(self.mimic)}")
+            raise ModelError(f"mimic must be a Mimic or None, got {safe_repr(self.mimic)}")
         if self.mimic is not None and self.kind in FREE:
             raise ModelError(
                 f"a {self.kind} joint has no single value and cannot mimic another joint"
@@ -150,8 +150,8 @@ class Joint:
         return type(self), (*fields, self.pitch)
 
     def __repr__(self) -> str:
-        follows = f", mimic={shown(self.mimic.joint)}" if self.mimic else ""
-        return f"Joint({shown(self.name)}, {self.kind}, {shown(self.parent)} -> {shown(self.child)}{follows})"
+        follows = f", mimic={quote(self.mimic.joint)}" if self.mimic else ""
+        return f"Joint({quote(self.name)}, {self.kind}, {quote(self.parent)} -> {quote(self.child)}{follows})"
 
 
 def _set(self: object, field: str, value: object) -> None:
@@ -160,7 +160,9 @@ def _set(self: object, field: str, value: object) -> None:
 
 def _name(value: object, what: str) -> None:
     if not isinstance(value, str) or not value:
-        raise ModelError(f"{what}: a name must be a string that is not empty, got {told(value)}")
+        raise ModelError(
+            f"{what}: a name must be a string that is not empty, got {safe_repr(value)}"
+        )
 
 
 def _finite(values: Any, count: int, what: str) -> tuple[float, ...]:
@@ -168,17 +170,17 @@ def _finite(values: Any, count: int, what: str) -> tuple[float, ...]:
         numbers = tuple(map(float, values))
     except (TypeError, ValueError, OverflowError) as fault:
         raise ModelError(
-            f"{what}: expected {count} finite number(s), got {told(values)}"
+            f"{what}: expected {count} finite number(s), got {safe_repr(values)}"
         ) from fault
     if len(numbers) != count or not all(map(math.isfinite, numbers)):
-        raise ModelError(f"{what}: expected {count} finite number(s), got {told(values)}")
+        raise ModelError(f"{what}: expected {count} finite number(s), got {safe_repr(values)}")
     return numbers
 
 
 def _direction(axis: Any) -> tuple[float, ...]:
     vector = _finite(axis, 3, "axis")
     if not any(vector):
-        raise ModelError(f"axis must not be zero, got {told(vector)}")
+        raise ModelError(f"axis must not be zero, got {safe_repr(vector)}")
     if abs(math.hypot(*vector) - 1.0) > UNIT:
         vector = screw.prismatic(vector)[3:].tolist()
     x, y, z = vector
@@ -190,7 +192,7 @@ def _interval(limits: Any) -> tuple[float, float]:
         lower, upper = map(float, limits)
     except (TypeError, ValueError, OverflowError) as fault:
         raise ModelError(
-            f"limits must be two numbers, lower and upper, got {told(limits)}"
+            f"limits must be two numbers, lower and upper, got {safe_repr(limits)}"
         ) from fault
     if not lower <= upper or lower == math.inf or upper == -math.inf:
         raise ModelError(f"limits must be lower <= upper, got lower = {lower!r}, upper = {upper!r}")

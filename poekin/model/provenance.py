@@ -6,7 +6,7 @@ import sys
 import warnings
 from dataclasses import dataclass
 
-from ..errors import PoekinWarning, shown
+from ..errors import PoekinWarning, quote
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +29,7 @@ class Source:
 
     def place(self, line: int | None = None) -> str:
         """The place as compilers write it, `file:line`, or the name alone; harmless for plain text."""
-        plain = shown(self.name, 400)[1:-1]
+        plain = quote(self.name, 400)[1:-1]
         return plain if line is None else f"{plain}:{line}"
 
     def of_link(self, index: int) -> str:

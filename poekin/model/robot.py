@@ -10,7 +10,16 @@ from typing import Any
 import numpy as np
 
 from ..algebra import IDENTITY, adjoint, compose, inverse
-from ..errors import InputError, ModelError, ShapeError, UnknownName, closest, listed, shown, told
+from ..errors import (
+    InputError,
+    ModelError,
+    ShapeError,
+    UnknownName,
+    join_names,
+    quote,
+    safe_repr,
+    suggest,
+)
 from ..groups.arrays import poses as pose_arrays
 from .chain import Chain
 from .checks import read_only
@@ -75,7 +84,7 @@ class Robot:
         read_from = Source(source) if isinstance(source, str) else source
         if read_from is not None and not isinstance(read_from, Source):
             raise ModelError(
-                f"robot {shown(name)}: source must be a Source, a text or None, got {told(source)}"
+                f"robot {quote(name)}: source must be a Source, a text or None, got {safe_repr(source)}"
             )
         torn = _build(
             self, name, _items(links, "links", name), _items(joints, "joints", name), read_from
@@ -94,7 +103,7 @@ class Robot:
                 return joint
         names = [joint.name for joint in self.joints]
         raise UnknownName(
-            f"{_source(self).place()}: no joint {shown(name)}; {closest(name, names)}"
+            f"{_source(self).place()}: no joint {quote(name)}; {suggest(name, names)}"
         )
 
     def chain(self, base: str | None = None, tip: str | None = None) -> Chain:
@@ -116,7 +125,7 @@ class Robot:
         base = self.root if base is None else base
         if tip is None:
             if len(self.leaves) != 1:
-                leaves = listed(self.leaves, 20)
+                leaves = join_names(self.leaves, 20)
                 raise InputError(
                     f"{_source(self).place()}: tip must be given, there are several leaves: {leaves}"
                 )
@@ -128,8 +137,8 @@ class Robot:
             joint = self.joints[number]
             if joint.kind in FREE:
                 raise ModelError(
-                    f"{_source(self).of_joint(number)}: the way from {shown(base)} to {shown(tip)} crosses the"
-                    f" {joint.kind} joint {shown(joint.name)}; a chain cannot"
+                    f"{_source(self).of_joint(number)}: the way from {quote(base)} to {quote(tip)} crosses the"
+                    f" {joint.kind} joint {quote(joint.name)}; a chain cannot"
                 )
             origin = joint.origin.ravel()[TWELVE].tolist()
             if forward:
@@ -158,7 +167,7 @@ class Robot:
         if names != q_names:
             if len(names) * len(q_names) > LARGEST:
                 raise InputError(
-                    f"{_source(self).place()}: the chain from {shown(base)} to {shown(tip)} has joints that follow"
+                    f"{_source(self).place()}: the chain from {quote(base)} to {quote(tip)} has joints that follow"
                     f" others, and its coupling matrix of {len(names)} x {len(q_names)} would be too large: at most"
                     f" {LARGEST} entries are made (Robot.fk needs none)"
                 )
@@ -190,7 +199,7 @@ class Robot:
         joint.
         Source: T_pc(x) = origin e^{S x} along the tree, with e^{S x} of Park 1994, Lemma 2.
         """
-        values = coordinates(q, self.q_names, f"robot {shown(self.name)}")
+        values = coordinates(q, self.q_names, f"robot {quote(self.name)}")
         free = _free_poses(self, {} if poses is None else poses)
         batch = _common_batch(
             self, values.shape[:-1], {joint: T.shape[:-2] for joint, T in free.items()}
@@ -220,10 +229,10 @@ class Robot:
         return _rebuilt, (*self._data(), self.source)
 
     def __repr__(self) -> str:
-        leaves = ", ".join(map(shown, self.leaves[:3])) + (", ..." if len(self.leaves) > 3 else "")
+        leaves = ", ".join(map(quote, self.leaves[:3])) + (", ..." if len(self.leaves) > 3 else "")
         return (
-            f"Robot({shown(self.name)}: {len(self.links)} links, {len(self.joints)} joints, dof {self.dof}, root"
-            f" {shown(self.root)}, {len(self.leaves)} {'leaf' if len(self.leaves) == 1 else 'leaves'}: {leaves})"
+            f"Robot({quote(self.name)}: {len(self.links)} links, {len(self.joints)} joints, dof {self.dof}, root"
+            f" {quote(self.root)}, {len(self.leaves)} {'leaf' if len(self.leaves) == 1 else 'leaves'}: {leaves})"
         )
 
 
@@ -245,10 +254,12 @@ def _build(
     limits.
     """
     fields: dict[str, Any] = {"name": str(name), "links": links, "joints": joints, "source": source}
-    where = source or Source(f"robot {shown(name)}")
+    where = source or Source(f"robot {quote(name)}")
     for joint in joints:
         if not isinstance(joint, Joint):
-            raise ModelError(f"{where.place()}: joints must be Joint objects, got {told(joint)}")
+            raise ModelError(
+                f"{where.place()}: joints must be Joint objects, got {safe_repr(joint)}"
+            )
     tree = tree_of(links, joints, where)
     coupling = coupling_of(joints, where)
     bounds = np.array([joint.limits for joint in joints]).reshape(len(joints), 2)
@@ -273,18 +284,18 @@ def _build(
 def _items(values: Any, what: str, name: str) -> tuple[Any, ...]:
     """Links or joints as a tuple; a text is not taken for its letters, nor a set for an order."""
     if isinstance(values, (str, bytes, set, frozenset)) or not isinstance(values, Iterable):
-        raise ModelError(f"robot {shown(name)}: {what} must be a list, got {told(values)}")
+        raise ModelError(f"robot {quote(name)}: {what} must be a list, got {safe_repr(values)}")
     return tuple(values)
 
 
 def _source(robot: Robot) -> Source:
-    return robot.source or Source(f"robot {shown(robot.name)}")
+    return robot.source or Source(f"robot {quote(robot.name)}")
 
 
 def _link(robot: Robot, name: str, role: str) -> int:
     if not isinstance(name, str) or name not in robot._numbers:
         raise UnknownName(
-            f"{_source(robot).place()}: no {role} link {shown(name)}; {closest(str(name), robot.links)}"
+            f"{_source(robot).place()}: no {role} link {quote(name)}; {suggest(str(name), robot.links)}"
         )
     return robot._numbers[name]
 
@@ -294,7 +305,7 @@ def _free_poses(robot: Robot, poses: Mapping[str, Any]) -> dict[int, np.ndarray]
     if not isinstance(poses, Mapping):
         where = _source(robot).place()
         raise InputError(
-            f"{where}: poses must be a dict from joint to pose (..., 4, 4), got {told(poses)}"
+            f"{where}: poses must be a dict from joint to pose (..., 4, 4), got {safe_repr(poses)}"
         )
     free = (
         {joint.name: number for number, joint in enumerate(robot.joints) if joint.kind in FREE}
@@ -305,10 +316,10 @@ def _free_poses(robot: Robot, poses: Mapping[str, Any]) -> dict[int, np.ndarray]
     for name, value in poses.items():
         if name not in free:
             raise UnknownName(
-                f"{_source(robot).place()}: poses names {shown(name)}, which is no floating or planar joint;"
-                f" {closest(str(name), free)}"
+                f"{_source(robot).place()}: poses names {quote(name)}, which is no floating or planar joint;"
+                f" {suggest(str(name), free)}"
             )
-        checked[free[name]] = pose_arrays(value, f"pose of joint {shown(name)}")
+        checked[free[name]] = pose_arrays(value, f"pose of joint {quote(name)}")
     return checked
 
 
@@ -321,7 +332,7 @@ def _common_batch(
         try:
             batch = np.broadcast_shapes(batch, shape)
         except ValueError as fault:
-            named = shown(robot.joints[joint].name)
+            named = quote(robot.joints[joint].name)
             raise ShapeError(
                 f"{_source(robot).place()}: the leading axes of q and poses do not broadcast: the pose of joint {named}"
                 f" has {shape}, and what comes before it {batch}"

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, ScrewError, ShapeError, shown
+from ..errors import InputError, ScrewError, ShapeError, quote
 from ..groups.arrays import Array, numbers, shaped
 from .checks import LONGEST, finite
 
@@ -133,7 +133,7 @@ def pitches_of(screws: Array, given: ArrayLike | None = None, names: tuple[str, 
             f"pitches: expected shape ({len(screws)},), one number a joint, got {pitches.shape}"
         )
     for i, (pitch, turning) in enumerate(zip(pitches.tolist(), turns, strict=True)):
-        where = f"pitches[{i}]" + (f" (joint {shown(names[i])})" if i < len(names) else "")
+        where = f"pitches[{i}]" + (f" (joint {quote(names[i])})" if i < len(names) else "")
         if abs(pitch) > LONGEST:
             raise ScrewError(f"{where}: expected at most {LONGEST:g} m per rad, got {pitch:g}")
         if pitch and not turning:

@@ -6,7 +6,7 @@ import io
 from collections.abc import Callable
 from typing import Any
 
-from ..errors import MissingExtra, harmless
+from ..errors import MissingExtra, escape_unprintable
 
 INK, PALE = "#222222", "#9a9a9a"
 
@@ -40,7 +40,7 @@ def inline(text: str) -> str:
 
 def label(name: object, width: int = 40) -> str:
     """A name out of a file as a label: harmless, and no formula, which a dollar sign would begin."""
-    return harmless(name, width).replace("$", r"\$")
+    return escape_unprintable(name, width).replace("$", r"\$")
 
 
 def plain(axes: Any) -> None:

@@ -444,11 +444,11 @@ def test_of_columns_that_are_there_twice_the_first_is_named():
 @pytest.mark.parametrize("text, ending", [("x", ".csv"), ("x =", ".toml"), ("x", ".txt")])
 def test_a_file_s_name_takes_400_characters_of_a_message_at_most(text, ending):
     whole, cut = "n" * (400 - len(ending)) + ending, "n" * (401 - len(ending)) + ending
-    for name, said in ((whole, whole), (cut, errors.harmless(cut, 400))):
+    for name, said in ((whole, whole), (cut, errors.escape_unprintable(cut, 400))):
         with pytest.raises(PoekinError) as caught:
             table_io.read_text(text, name)
         assert str(caught.value).startswith(f"{said}:")
-    assert errors.harmless(cut, 400) not in errors.harmless(cut, 401)
+    assert errors.escape_unprintable(cut, 400) not in errors.escape_unprintable(cut, 401)
 
 
 @pytest.mark.parametrize(

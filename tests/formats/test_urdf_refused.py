@@ -11,7 +11,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from poekin.errors import FileError, InputError, ModelError, PoekinError, PoekinWarning, harmless
+from poekin.errors import (
+    FileError,
+    InputError,
+    ModelError,
+    PoekinError,
+    PoekinWarning,
+    escape_unprintable,
+)
 from poekin.formats import urdf
 from poekin.formats.text import xml
 from poekin.model.robot import Robot
@@ -446,7 +453,7 @@ def test_a_file_that_cannot_be_read_is_refused_by_name(tmp_path):
             urdf.read(path)
         assert str(caught.value).isprintable()
         if len(str(path)) < 400:
-            assert says(caught.value, f"{harmless(path, None)}: {message}")
+            assert says(caught.value, f"{escape_unprintable(path, None)}: {message}")
         assert isinstance(caught.value, PoekinError)
         assert isinstance(caught.value, OSError)
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...errors import InputError, shown, told
+from ...errors import InputError, quote, safe_repr
 from ...groups import so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
@@ -54,12 +54,12 @@ def compare(
     for what, value in (("a", a), ("b", b)):
         if not isinstance(value, Chain):
             raise InputError(
-                f"{what}: expected a Chain, as Robot.chain(tip=...) makes it, got {told(value)}"
+                f"{what}: expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(value)}"
             )
     check_tolerances(tol_mm, tol_deg)
     if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
         raise InputError(
-            f"samples: a number of configurations of at least 1 expected, got {told(samples)}"
+            f"samples: a number of configurations of at least 1 expected, got {safe_repr(samples)}"
         )
     options = strict, float(tol_mm), float(tol_deg), int(samples), seed
     result, moved = _compared(a, b, 1.0, *options)
@@ -210,7 +210,7 @@ def _verdict(
     if extra is not None:
         model, *names = extra
         count = "one joint" if len(names) == 1 else "two joints"
-        found.insert(0, f"model {model} has {count} more, {' and '.join(map(shown, names))}")
+        found.insert(0, f"model {model} has {count} more, {' and '.join(map(quote, names))}")
     same = same and extra is None and ratio == 1
     if ratio != 1:
         found.insert(0, unit_words(ratio))

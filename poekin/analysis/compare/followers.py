@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ...errors import shown
+from ...errors import quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from .alignment.hypotheses import Reading
@@ -59,5 +59,5 @@ def _ratios(C: Array) -> Array:
 def _words(F: Array, i: int, chain: Chain) -> str:
     if F[i, i]:
         return "" if F[i, i] == 1.0 else f"follows {F[i, i]:.6g} × its coordinate"
-    terms = [f"{F[i, j]:.6g} × {shown(chain.joint_names[j])}" for j in np.flatnonzero(F[i])]
+    terms = [f"{F[i, j]:.6g} × {quote(chain.joint_names[j])}" for j in np.flatnonzero(F[i])]
     return "follows " + " + ".join(terms) if terms else "does not move"

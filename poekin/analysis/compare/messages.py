@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...errors import shown
+from ...errors import quote
 from ...groups import se3, so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
@@ -63,12 +63,12 @@ def differences(
     if link and not any(joint.coupling_differs for joint in joints):
         first = next(joint for joint in joints[link:] if joint.axis_differs)
         return [
-            f"the link between joint {link} ({shown(joints[link - 1].name_a)}) and joint {link + 1} "
-            f"({shown(joints[link].name_a)}) differs: from joint {first.number} on the axes have moved together, and "
+            f"the link between joint {link} ({quote(joints[link - 1].name_a)}) and joint {link + 1} "
+            f"({quote(joints[link].name_a)}) differs: from joint {first.number} on the axes have moved together, and "
             f"joint {first.number} {joint_words(first, tol_mm, tol_deg)}"
         ]
     named = ((j, joint_words(j, tol_mm, tol_deg)) for j in joints)
-    return [f"joint {j.number} ({shown(j.name_a)}) {words}" for j, words in named if words]
+    return [f"joint {j.number} ({quote(j.name_a)}) {words}" for j, words in named if words]
 
 
 def frame_words(what: str, T: Array, tol_m: float, tol_rad: float) -> str:
@@ -112,7 +112,7 @@ def equivalents(
                     else amount(np.degrees(size), "deg")
                 )
                 said.append(
-                    f"the {what} moved by {far} along or about the axis of joint {number} ({shown(name)}) is the same "
+                    f"the {what} moved by {far} along or about the axis of joint {number} ({quote(name)}) is the same "
                     f"as a zero offset of {far} of that joint"
                 )
     for other in others:
@@ -132,7 +132,7 @@ def equivalents(
                 if slide
                 else amount(np.degrees(other.zeros[k]), "deg")
             )
-        said.append(f"{change}{size} of joint {k + 1} ({shown(a.joint_names[k])}), with the base and tool frames "
+        said.append(f"{change}{size} of joint {k + 1} ({quote(a.joint_names[k])}), with the base and tool frames "
                     "aligned to that, explains it as well")  # fmt: skip
     return said
 

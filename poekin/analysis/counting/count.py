@@ -8,7 +8,7 @@ from typing import Any
 
 from ...engine.count import Count
 from ...engine.straight_line.specialise import specialised
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from . import count_methods as methods
 from . import count_scalars as scalars
@@ -112,15 +112,15 @@ def count(
     45 n - 72, 42 n - 78 and 30 n - 57, 42 n and 30 n.
     """
     if not isinstance(chain, Chain):
-        raise InputError(f"expected a Chain, as Robot.chain makes it, got {told(chain)}")
+        raise InputError(f"expected a Chain, as Robot.chain makes it, got {safe_repr(chain)}")
     if not isinstance(pose, bool):
-        raise InputError(f"pose: expected True or False, got {told(pose)}")
+        raise InputError(f"pose: expected True or False, got {safe_repr(pose)}")
     way = _way(method, frame)
     if charged is None:
         charged = way.charged[0]
     elif not isinstance(charged, str) or charged not in way.charged:
         raise InputError(
-            f"charged: expected {' or '.join(way.charged)} for method {method!r}, got {told(charged)}"
+            f"charged: expected {' or '.join(way.charged)} for method {method!r}, got {safe_repr(charged)}"
         )
     n = len(chain.joint_names)
     if n < 2 and method != "specialised":
@@ -131,11 +131,11 @@ def count(
 def _way(method: object, frame: object) -> Method:
     ways = METHODS.get(method) if isinstance(method, str) else None
     if ways is None:
-        raise InputError(f"no method {told(method)}; there are: {', '.join(METHODS)}")
+        raise InputError(f"no method {safe_repr(method)}; there are: {', '.join(METHODS)}")
     if method == "specialised":
         return ways[0]  # its program knows its frames, the joints' indices among them
     for way in ways:
         if isinstance(frame, str) and frame in way.frames:
             return way
     known = ", ".join(frame for way in ways for frame in way.frames)
-    raise InputError(f"no method {method!r} in frame {told(frame)}; its frames: {known}")
+    raise InputError(f"no method {method!r} in frame {safe_repr(frame)}; its frames: {known}")

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from ...model.geometry.idealise import Idealised
 from ...model.kinematics.compiled import CompiledChain, Middle
@@ -182,7 +182,7 @@ def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
     Source: Park 1994, Section IV; the programs are those that `Chain.compile` runs.
     """
     if not isinstance(chain, Chain):
-        raise InputError(f"expected a Chain, as Robot.chain makes it, got {told(chain)}")
+        raise InputError(f"expected a Chain, as Robot.chain makes it, got {safe_repr(chain)}")
     ideal = None if idealise is None else chain.idealised(idealise)
     n = len(chain.joint_names)
     rows: list[CountRow] = []

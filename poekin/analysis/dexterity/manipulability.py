@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 
@@ -89,17 +89,21 @@ def manipulability_gradient(
 def check(chain: object, length: float) -> None:
     """Raises InputError where there is no arm to judge, or no length to measure it by."""
     if not isinstance(chain, Chain):
-        raise InputError(f"expected a Chain, as Robot.chain(tip=...) makes it, got {told(chain)}")
+        raise InputError(
+            f"expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
+        )
     if not chain.dof:
         raise InputError("the chain has no coordinate: nothing moves its tool")
     if not isinstance(length, (int, float, np.integer, np.floating)) or not 0 < length < math.inf:
-        raise InputError(f"length: expected a positive number of metres, got {told(length)}")
+        raise InputError(f"length: expected a positive number of metres, got {safe_repr(length)}")
 
 
 def check_part(part: object) -> None:
     """Raises InputError for what is no part of a twist."""
     if not isinstance(part, str) or part not in ROWS:
-        raise InputError(f"part: expected one of {', '.join(map(repr, ROWS))}, got {told(part)}")
+        raise InputError(
+            f"part: expected one of {', '.join(map(repr, ROWS))}, got {safe_repr(part)}"
+        )
 
 
 def scaled(X: Array, axis: int, part: str, length: float) -> Array:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, shown, told
+from ...errors import InputError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
@@ -121,11 +121,13 @@ def singularity(
     check(chain, 1.0 if length is None else length)
     check_part(part)
     if not isinstance(tolerance, (int, float, np.floating)) or not 0 < tolerance < 1:
-        raise InputError(f"tolerance: expected a number between 0 and 1, got {told(tolerance)}")
+        raise InputError(
+            f"tolerance: expected a number between 0 and 1, got {safe_repr(tolerance)}"
+        )
     q = coordinates(q, chain.q_names)
     if q.ndim != 1 or not np.isfinite(q).all():
         raise InputError(
-            f"q: expected one finite configuration ({chain.dof},), got {told(q.tolist())}"
+            f"q: expected one finite configuration ({chain.dof},), got {safe_repr(q.tolist())}"
         )
     L = float(chain.reach if length is None else length)
     U, s, V = svd(scaled(chain.jacobian(q, "hybrid"), -2, part, L))
@@ -186,7 +188,7 @@ def _words(
         (name, abs(rate)) for name, rate in zip(chain.q_names, idle, strict=True) if abs(rate) > 0.1
     ]
     rates = ", ".join(
-        f"{shown(n)} {idle[chain.q_names.index(n)]:+.2f}"
+        f"{quote(n)} {idle[chain.q_names.index(n)]:+.2f}"
         for n, _ in sorted(names, key=lambda x: -x[1])
     )
     if rank < len(s):
@@ -198,7 +200,7 @@ def _words(
     near = f"to first order no singularity is within 1 {_unit(chain)}"
     if distance <= 1:
         lead = chain.q_names[int(np.argmax(np.abs(towards)))]
-        near = f"the nearest singularity is about {distance:.2g} {_unit(chain)} away, most of it in {shown(lead)}"
+        near = f"the nearest singularity is about {distance:.2g} {_unit(chain)} away, most of it in {quote(lead)}"
     return f"regular ({quotient}): {near}. What would be lost there: {how[0]}; the rates for it: {rates}."
 
 

@@ -11,7 +11,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ...errors import FileError, InputError, UnknownName, shown
+from ...errors import FileError, InputError, UnknownName, quote
 from ...formats import dh
 from ...formats.dh.table import CONVENTIONS
 from ...formats.text.atomic_write import write_whole
@@ -122,7 +122,7 @@ def command(
     _check_places(outputs, report)
     check_apart([*outputs, report], model=file, measurements=files)
     if convention not in CONVENTIONS:
-        raise InputError(f"--dh: expected standard or modified, got {shown(convention)}")
+        raise InputError(f"--dh: expected standard or modified, got {quote(convention)}")
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     said = Said(kind or (), point or (), centre, frame, sigma_angle, sigma_length, ignore or ())

@@ -11,7 +11,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ...errors import InputError, closest, shown
+from ...errors import InputError, quote, suggest
 from ...formats.text.atomic_write import write_whole
 from ...formats.text.numbers import real
 from ...model.chain import Chain
@@ -77,7 +77,7 @@ def take(
     for word in words:
         if word.startswith("--"):  # it came through as a number might
             options = ("--tip", "--base", "--frame", "--input", "--output", "--json", *OPTIONS)
-            raise InputError(f"there is no option {shown(word)}; {closest(word, options)}")
+            raise InputError(f"there is no option {quote(word)}; {suggest(word, options)}")
     values = [_value(word, i) for i, word in enumerate(words)]
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
@@ -91,7 +91,7 @@ def take(
         return Arm(robot.name, chain, np.array(values, float).reshape(1, chain.dof), True)
     if values:
         raise InputError(
-            f"either coordinates or --input expected, got both ({shown(words[0])} and {shown(given)})"
+            f"either coordinates or --input expected, got both ({quote(words[0])} and {quote(given)})"
         )
     with Progress(f"reading {array_files.called(given)}") as progress:
         return Arm(
@@ -105,7 +105,7 @@ def take(
 def _value(word: str, index: int) -> float:
     value = real(word)
     if value is None:
-        raise InputError(f"coordinate {index + 1}: a number expected (rad or m), got {shown(word)}")
+        raise InputError(f"coordinate {index + 1}: a number expected (rad or m), got {quote(word)}")
     return value
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ...errors import InputError, shown
+from ...errors import InputError, quote
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from .. import array_files
 from ..output import name
@@ -55,5 +55,5 @@ def _frame(word: str) -> str | int:
         return int(word)
     names = ", ".join(FRAME_NAMES)
     raise InputError(
-        f"--frame: {names} or the number of a joint (from 0) expected, got {shown(word)}"
+        f"--frame: {names} or the number of a joint (from 0) expected, got {quote(word)}"
     )

@@ -11,7 +11,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ...errors import InputError, closest, shown
+from ...errors import InputError, quote, suggest
 from ...formats.text import pose_rows
 from ...formats.text.numbers import real
 from ...groups.arrays import Array
@@ -77,7 +77,7 @@ def read(
            "--output", "--json", "--seed", *OPTIONS)  # fmt: skip
     for word in words or ():
         if word.startswith("--"):  # it came through as a number might
-            raise InputError(f"there is no option {shown(word)}; {closest(word, own)}")
+            raise InputError(f"there is no option {quote(word)}; {suggest(word, own)}")
     if format is None:
         raise InputError(
             "--format: expected 12, 16 or 7, the numbers of a pose, and the format is never guessed"
@@ -89,7 +89,7 @@ def read(
     if given is not None:
         if words:
             raise InputError(
-                f"either a pose or --input expected, got both ({shown(words[0])} and {shown(given)})"
+                f"either a pose or --input expected, got both ({quote(words[0])} and {quote(given)})"
             )
         with Progress(f"reading {array_files.called(given)}") as progress:
             rows, lines = array_files.read_rows(
@@ -111,7 +111,7 @@ def numbers(words: Sequence[str], what: str) -> Array:
     values = [real(word) for word in words]
     for i, value in enumerate(values):
         if value is None:
-            raise InputError(f"{what} {i + 1}: a number expected, got {shown(words[i])}")
+            raise InputError(f"{what} {i + 1}: a number expected, got {quote(words[i])}")
     return np.array(values, float)
 
 

@@ -8,7 +8,7 @@ import typer
 
 from ...analysis.compare.compare import compare
 from ...analysis.compare.comparison import Comparison, PoseErrors
-from ...errors import InputError, listed
+from ...errors import InputError, join_names
 from ...model.chain import Chain
 from ..kinematics.arm import FILE_HELP, Base, Json, Tip
 from ..model import model
@@ -73,7 +73,7 @@ def _chain(
         tip = tip_like
     if tip is None and len(robot.leaves) > 1:
         raise InputError(
-            f"{path_text(file)} is a tree: say which tip with {option}; tips: {listed(robot.leaves)}"
+            f"{path_text(file)} is a tree: say which tip with {option}; tips: {join_names(robot.leaves)}"
         )
     return robot.chain(base=base, tip=tip)
 

@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ...errors import shown
+from ...errors import quote
 from ...formats import dh
 from ...model.chain import Chain
 from .. import array_files
@@ -48,7 +48,7 @@ def command(
     else:
         _show(chain, result)
         if output is not None:
-            say(f"Table of {shown(robot.name)} written to {path_text(output)}")
+            say(f"Table of {quote(robot.name)} written to {path_text(output)}")
 
 
 def _document(chain: Chain, result: dh.FromChain, output: Path | None) -> dict[str, object]:

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from ...errors import FileError, InputError, shown
+from ...errors import FileError, InputError, quote
 from ...formats import emit
 from ...formats.emit.messages import identifier
 from ...formats.text.atomic_write import write_whole
@@ -47,7 +47,7 @@ def command(
 ) -> None:  # fmt: skip
     """Pose and Jacobian of one chain as straight-line source text that needs no poekin."""
     if language not in ("c", "python"):
-        raise InputError(f"--lang: c or python expected, got {shown(language)}")
+        raise InputError(f"--lang: c or python expected, got {quote(language)}")
     if single and language != "c":
         raise InputError(
             "--float: expected together with --lang c only; Python computes in the numbers it is given"
@@ -74,7 +74,7 @@ def _frame(word: str) -> str | int:
         return int(word)
     if word not in FRAMES:
         raise InputError(
-            f"--frame: {', '.join(FRAMES)} or the number of a joint (from 0) expected, got {shown(word)}"
+            f"--frame: {', '.join(FRAMES)} or the number of a joint (from 0) expected, got {quote(word)}"
         )
     return word
 

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from ...errors import shown
+from ...errors import quote
 from ...formats.text.atomic_write import write_whole
 from ...formats.urdf_text import to_urdf
 from .. import array_files
@@ -32,7 +32,7 @@ def command(file: File, tip: Tip = None, base: Base = None, output: Output = Non
     text = to_urdf(written, name=robot.name)
     if output is not None:
         write_whole(output, text.encode())
-        say(f"URDF of {shown(robot.name)} written to {path_text(output)}")
+        say(f"URDF of {quote(robot.name)} written to {path_text(output)}")
     else:
         # A stream that is not UTF-8 gets other characters by number: XML means the same by that.
         ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"

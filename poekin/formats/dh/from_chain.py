@@ -9,7 +9,7 @@ from decimal import Decimal
 import numpy as np
 
 from ...algebra import add, cross, dot, scale, subtract
-from ...errors import InputError, shown, told
+from ...errors import InputError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.geometry.normals import (  # fmt: skip
@@ -71,14 +71,14 @@ def from_chain(
     """
     if not isinstance(chain, Chain):
         raise InputError(
-            f"from_chain: expected a Chain, as Robot.chain(tip=...) makes it, got {told(chain)}"
+            f"from_chain: expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
         )
     if convention not in CONVENTIONS:
         raise InputError(f"convention: expected 'standard' or 'modified', got {convention!r:.60}")
     for name, kind in zip(chain.joint_names, chain.kinds, strict=True):
         if kind == "helical":
             raise InputError(
-                f"joint {shown(name)} is helical: Denavit-Hartenberg parameters cannot express its pitch"
+                f"joint {quote(name)} is helical: Denavit-Hartenberg parameters cannot express its pitch"
             )
     with digits():
         walk = _Walk(chain)
@@ -182,7 +182,7 @@ class _Walk:
         return normal, z2
 
     def _name(self, i: int) -> str:
-        return shown(self.chain.joint_names[i])
+        return quote(self.chain.joint_names[i])
 
     def table(self, convention: str) -> Table:
         """The rows of the convention, base and tool."""

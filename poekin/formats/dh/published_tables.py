@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import pkgutil
 
-from ...errors import UnknownName, closest, shown
+from ...errors import UnknownName, quote, suggest
 from . import table_io
 from .table import Table
 
@@ -26,6 +26,6 @@ def published(name: str) -> Table:
     Raises: UnknownName with the closest names. Accuracy: as published. Source: the one in the file.
     """
     if name not in NAMES:
-        raise UnknownName(f"no published table is named {shown(name)}; {closest(str(name), NAMES)}")
+        raise UnknownName(f"no published table is named {quote(name)}; {suggest(str(name), NAMES)}")
     data = pkgutil.get_data(CATALOGUE, f"{name}.toml") or b""
     return table_io.read_text(data.decode("utf-8"), f"catalogue/{name}.toml")

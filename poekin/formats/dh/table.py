@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, PoekinWarning, ShapeError, shown, told
+from ...errors import InputError, PoekinWarning, ShapeError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.checks import bounds, distinct_names, finite, one_pose, read_only
 
@@ -100,13 +100,13 @@ class Table:
             )
         if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
             raise ShapeError(
-                f"rows: expected a list of Rows or dicts, one a joint, got {told(rows)}"
+                f"rows: expected a list of Rows or dicts, one a joint, got {safe_repr(rows)}"
             )
         listed = [_row(row, i) for i, row in enumerate(rows)]
         for i, row in enumerate(listed):
             if row.kind not in KINDS:
                 raise InputError(
-                    f"row {i}: kind must be 'revolute' or 'prismatic', got {shown(row.kind)}"
+                    f"row {i}: kind must be 'revolute' or 'prismatic', got {quote(row.kind)}"
                 )
         names = distinct_names(
             [row.name or f"joint{i + 1}" for i, row in enumerate(listed)],
@@ -128,9 +128,9 @@ class Table:
             values[column] = read_only(finite([getattr(row, column) for row in listed], column))
         large = [i for i, alpha in enumerate(values["alpha"].tolist()) if abs(alpha) > 2 * math.pi]
         if large:
-            first = f"alpha = {values['alpha'][large[0]]:g} of joint {shown(names[large[0]])}"
+            first = f"alpha = {values['alpha'][large[0]]:g} of joint {quote(names[large[0]])}"
             message = (
-                f"table {shown(str(name))}: {first} is more than a turn: degrees? Expected are rad"
+                f"table {quote(str(name))}: {first} is more than a turn: degrees? Expected are rad"
             )
             warnings.warn(message, PoekinWarning, stacklevel=2)
         for field, value in values.items():
@@ -168,9 +168,9 @@ class Table:
         return _rebuilt, (self.convention, self.rows, self.base, self.tool, self.name)
 
     def __repr__(self) -> str:
-        lines = [f"<{self.convention} DH table {shown(self.name)}, {len(self)} joints"]
+        lines = [f"<{self.convention} DH table {quote(self.name)}, {len(self)} joints"]
         lines += [
-            f"  {shown(r.name)}: theta {r.theta:.9g}{_moves(r, 'revolute')}  d {r.d:.9g}{_moves(r, 'prismatic')}"
+            f"  {quote(r.name)}: theta {r.theta:.9g}{_moves(r, 'revolute')}  d {r.d:.9g}{_moves(r, 'prismatic')}"
             f"  a {r.a:.9g}  alpha {r.alpha:.9g}"
             for r in self.rows
         ]
@@ -193,7 +193,7 @@ def _row(row: Any, index: int) -> Row:
     unknown = [key for key in row if key not in Row.__dataclass_fields__]
     if unknown:
         raise InputError(
-            f"row {index}: no column {shown(unknown[0])}; there are {', '.join(Row.__dataclass_fields__)}"
+            f"row {index}: no column {quote(unknown[0])}; there are {', '.join(Row.__dataclass_fields__)}"
         )
     missing = [column for column in COLUMNS if column not in row]
     if missing:

@@ -19,7 +19,16 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import FileError, InputError, ModelError, PoekinError, closest, harmless, shown, told
+from ...errors import (
+    FileError,
+    InputError,
+    ModelError,
+    PoekinError,
+    escape_unprintable,
+    quote,
+    safe_repr,
+    suggest,
+)
 from ...groups.arrays import Array
 from ..text import toml_text, xml
 from ..text.atomic_write import write_whole
@@ -52,7 +61,9 @@ def read(path: str | os.PathLike[str]) -> Table:
     try:
         text = xml.read_bytes(path).decode("utf-8-sig")
     except UnicodeDecodeError as fault:
-        raise FileError(f"{harmless(name, 400)}: not UTF-8 at byte {fault.start}") from fault
+        raise FileError(
+            f"{escape_unprintable(name, 400)}: not UTF-8 at byte {fault.start}"
+        ) from fault
     return read_text(text, name)
 
 
@@ -62,7 +73,7 @@ def read_text(text: str, name: str) -> Table:
     """
     stem, ending = os.path.splitext(os.path.basename(name))
     reader = _reader(name, ending, {".toml": _from_toml, ".csv": _from_csv})
-    return reader(text, harmless(name, 400), stem)
+    return reader(text, escape_unprintable(name, 400), stem)
 
 
 def write(table: Table, path: str | os.PathLike[str]) -> None:
@@ -75,7 +86,7 @@ def write(table: Table, path: str | os.PathLike[str]) -> None:
     """
     if not isinstance(table, Table):
         raise InputError(
-            f"write: expected a dh.Table, got {told(table)}: dh.from_chain(chain).table makes one"
+            f"write: expected a dh.Table, got {safe_repr(table)}: dh.from_chain(chain).table makes one"
         )
     name = _path(path)
     text = _reader(name, os.path.splitext(name)[1], _WRITERS)(table)
@@ -89,13 +100,15 @@ def text_of(table: Table, ending: str) -> str:
 
 def _path(path: str | os.PathLike[str]) -> str:
     if not isinstance(path, (str, bytes, os.PathLike)):
-        raise InputError(f"expected the path of a file, got {told(path)}")
+        raise InputError(f"expected the path of a file, got {safe_repr(path)}")
     return os.fsdecode(path)
 
 
 def _reader(name: str, ending: str, known: dict[str, Callable]) -> Callable:
     if ending.lower() not in known:
-        raise InputError(f"{harmless(name, 400)}: expected a file ending in .toml or .csv")
+        raise InputError(
+            f"{escape_unprintable(name, 400)}: expected a file ending in .toml or .csv"
+        )
     return known[ending.lower()]
 
 
@@ -123,7 +136,7 @@ def _row(joint: dict[str, Any], place: str) -> Row:
             raise ModelError(f"{place}: {column} is missing; needed are {', '.join(COLUMNS)}")
         if not math.isfinite(_float(joint[column])):
             raise ModelError(
-                f"{place}: {column}: expected a finite number, got {shown(joint[column])}"
+                f"{place}: {column}: expected a finite number, got {quote(joint[column])}"
             )
     limits = joint.get("limits", [-math.inf, math.inf])
     if (
@@ -131,11 +144,11 @@ def _row(joint: dict[str, Any], place: str) -> Row:
         or len(limits) != 2
         or any(map(math.isnan, map(_float, limits)))
     ):
-        raise ModelError(f"{place}: limits: expected [lower, upper], got {shown(limits)}")
+        raise ModelError(f"{place}: limits: expected [lower, upper], got {quote(limits)}")
     if not isinstance(joint.get("flip", False), bool):
-        raise ModelError(f"{place}: flip: expected true or false, got {shown(joint['flip'])}")
+        raise ModelError(f"{place}: flip: expected true or false, got {quote(joint['flip'])}")
     if not isinstance(joint.get("name", ""), str):
-        raise ModelError(f"{place}: name: expected a text, got {shown(joint['name'])}")
+        raise ModelError(f"{place}: name: expected a text, got {quote(joint['name'])}")
     numbers = {column: _float(joint[column]) for column in COLUMNS}
     return _checked(
         Row(**{**joint, **numbers, "limits": (_float(limits[0]), _float(limits[1]))}), place
@@ -156,7 +169,7 @@ def _checked(row: Row, place: str) -> Row:
     """The row, if it can stand in a table: here the place of it is known."""
     if row.kind not in KINDS:
         raise ModelError(
-            f"{place}: kind: expected 'revolute' or 'prismatic', got {shown(row.kind)}"
+            f"{place}: kind: expected 'revolute' or 'prismatic', got {quote(row.kind)}"
         )
     if not row.limits[0] <= row.limits[1]:
         raise ModelError(
@@ -196,7 +209,7 @@ def _from_csv(text: str, place: str, stem: str) -> Table:
             posed = kind in ("base", "tool")
             if not (posed and not record["convention"]):  # of a pose it may be left out
                 if convention not in (None, record["convention"]):
-                    told_apart = f"{shown(record['convention'])} after {shown(convention)}"
+                    told_apart = f"{quote(record['convention'])} after {quote(convention)}"
                     raise ModelError(f"{line}: mixed conventions: {told_apart}")
                 convention = record["convention"]
             if posed:
@@ -212,7 +225,7 @@ def _from_csv(text: str, place: str, stem: str) -> Table:
             flip = {"": False, "false": False, "true": True}.get((record.get("flip") or "").lower())
             if flip is None:
                 raise ModelError(
-                    f"{line}: flip: expected true or false, got {shown(record['flip'])}"
+                    f"{line}: flip: expected true or false, got {quote(record['flip'])}"
                 )
             bounds = [
                 _number(record.get(side) or default, f"{line}: {side}", True)
@@ -234,7 +247,7 @@ def _number(text: str, place: str, infinite: bool = False) -> float:
     value = real(text.strip())
     if value is None or (not infinite and not math.isfinite(value)):
         raise ModelError(
-            f"{place}: expected a {'' if infinite else 'finite '}number, got {shown(text)}"
+            f"{place}: expected a {'' if infinite else 'finite '}number, got {quote(text)}"
         )
     return value
 
@@ -251,13 +264,13 @@ def _pose(text: str, place: str) -> Array:
 def _only(data: dict[str, Any], known: tuple[str, ...], place: str) -> None:
     for key in data:
         if key not in known:
-            raise ModelError(f"{place}: no such column: {shown(key)}; {closest(str(key), known)}")
+            raise ModelError(f"{place}: no such column: {quote(key)}; {suggest(str(key), known)}")
 
 
 def _table(place: str, convention: Any, rows: list[Row], base: Any, tool: Any, name: str) -> Table:
     if convention not in CONVENTIONS:
         raise ModelError(
-            f"{place}: convention: expected 'standard' or 'modified', got {shown(convention)}"
+            f"{place}: convention: expected 'standard' or 'modified', got {quote(convention)}"
         )
     try:
         return Table(convention, rows, base=base, tool=tool, name=name)

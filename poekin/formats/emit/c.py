@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from .c_selftest import selftest
 from .messages import Task, about, angle_words, compiled, identifier, tasks
@@ -57,9 +57,9 @@ def c(chain: Chain, frame: str | int, *, name: str = "arm", real: str = "double"
     Park 1994, Section IV, two planar rotations a link.
     """
     if real not in KINDS:
-        raise InputError(f"real: expected 'double' or 'float', got {told(real)}")
+        raise InputError(f"real: expected 'double' or 'float', got {safe_repr(real)}")
     if not isinstance(name, str):
-        raise InputError(f"name: expected a text, got {told(name)}")
+        raise InputError(f"name: expected a text, got {safe_repr(name)}")
     literal, kind = KINDS[real]
     arm, word = compiled(chain, frame), identifier(name)
     functions = [_Function(word, real, literal, task, chain.dof) for task in tasks(arm, frame)]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engine.straight_line.program import Program
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 
@@ -59,7 +59,7 @@ class Task:
 def compiled(chain: Chain, frame: str | int) -> CompiledChain:
     """The chain with its programs. Raises: InputError, UnknownName for a frame that there is not."""
     if not isinstance(chain, Chain):
-        raise InputError(f"chain: expected a Chain, got {told(chain)}")
+        raise InputError(f"chain: expected a Chain, got {safe_repr(chain)}")
     arm = chain.compile()
     arm.program(frame)
     return arm

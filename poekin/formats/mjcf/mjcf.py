@@ -37,7 +37,15 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, MissingExtra, ModelError, PoekinError, harmless, shown, told
+from ...errors import (
+    InputError,
+    MissingExtra,
+    ModelError,
+    PoekinError,
+    escape_unprintable,
+    quote,
+    safe_repr,
+)
 from ...model.provenance import Source, warn
 from ...model.robot import Robot
 from ..text import xml
@@ -79,7 +87,7 @@ def read_text(text: str | bytes, name: str = "<text>") -> Robot:
     """
     if not isinstance(name, str):
         raise InputError(
-            f"name: expected what to call the text in messages, a str, got {told(name)}"
+            f"name: expected what to call the text in messages, a str, got {safe_repr(name)}"
         )
 
     def spec_of(MjSpec: Any) -> Any:
@@ -102,7 +110,7 @@ def _read(data: str | bytes, name: str, spec_of: Callable[[Any], Any], path: str
     root = xml.parse(data, name)
     if root.tag != "mujoco":
         raise ModelError(
-            f"{source.place(root.sourceline)}: expected the root element <mujoco>, got {shown(root.tag)}"
+            f"{source.place(root.sourceline)}: expected the root element <mujoco>, got {quote(root.tag)}"
         )
     look_through(root, source, os.path.dirname(path), path)
     mujoco = _mujoco()
@@ -114,7 +122,7 @@ def _read(data: str | bytes, name: str, spec_of: Callable[[Any], Any], path: str
     except (ValueError, RuntimeError, mujoco.FatalError) as refusal:
         said = "; ".join(line.strip() for line in str(refusal).splitlines() if line.strip())
         raise ModelError(
-            f"{source.place()}: MuJoCo refuses this model: {harmless(said, 400)}"
+            f"{source.place()}: MuJoCo refuses this model: {escape_unprintable(said, 400)}"
         ) from refusal
     title = root.get("model") or os.path.splitext(os.path.basename(name))[0]
     try:

@@ -11,7 +11,7 @@ import os
 import re
 from typing import NamedTuple
 
-from ...errors import ModelError, harmless, shown
+from ...errors import ModelError, escape_unprintable, quote
 from ...model.provenance import Source
 from ..text import xml
 from ..text.numbers import real
@@ -124,7 +124,7 @@ def _refuse_nan(root: xml.Element, source: Source) -> None:
             text = element.get(attribute)
             if text and _NOT_A_NUMBER.search(text):
                 where = source.place(element.sourceline)
-                tag = harmless(element.tag, 80)
+                tag = escape_unprintable(element.tag, 80)
                 raise ModelError(
-                    f"{where}: <{tag}>: {attribute} must be finite numbers, got {shown(text)}"
+                    f"{where}: <{tag}>: {attribute} must be finite numbers, got {quote(text)}"
                 )

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import ModelError, listed
+from ...errors import ModelError, join_names
 from ...formulas.lie import exponential
 from ...model.joint import Joint, Mimic
 from ...model.provenance import Source
@@ -90,17 +90,17 @@ class _Reader:
         ]
         if balls:
             self.warnings.append(
-                f"ball joints are floating ones here, which no chain can cross: {listed(balls)}; Robot.fk takes the"
+                f"ball joints are floating ones here, which no chain can cross: {join_names(balls)}; Robot.fk takes the"
                 " rotation of each as a pose"
             )
         mocap = [self.links[i] for i in range(model.nbody) if model.body_mocapid[i] >= 0]
         if mocap:
             self.warnings.append(
-                f"mocap bodies are left out, with all that hangs on them: {listed(mocap)}"
+                f"mocap bodies are left out, with all that hangs on them: {join_names(mocap)}"
             )
         if other:
             self.warnings.append(
-                f"constraints are left out (a robot here is a tree): {listed(other)}"
+                f"constraints are left out (a robot here is a tree): {join_names(other)}"
             )
         return Robot(name, self.order, self.found, source), self.warnings
 
@@ -201,7 +201,9 @@ class _Reader:
                 mimic = mimics.pop(y)
                 constants[y] = mimic.multiplier * constants[masters[y]] + mimic.offset
         for reason, names in refused.items():
-            self.warnings.append(f"equalities are left out for joints {reason}: {listed(names)}")
+            self.warnings.append(
+                f"equalities are left out for joints {reason}: {join_names(names)}"
+            )
         return mimics, constants
 
 

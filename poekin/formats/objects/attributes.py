@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from ...errors import harmless
+from ...errors import escape_unprintable
 
 
 def has(obj: Any, *names: str) -> bool:
@@ -29,7 +29,7 @@ def items_of(obj: Any) -> list[Any]:
 def type_name(obj: Any) -> str:
     """The full name of an object's type, harmless for plain text."""
     kind = type(obj)
-    return harmless(
+    return escape_unprintable(
         kind.__qualname__
         if kind.__module__ == "builtins"
         else f"{kind.__module__}.{kind.__qualname__}"

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...groups import se3
 from ...groups.arrays import Array, shaped
 from ...model.chain import Chain
@@ -102,7 +102,7 @@ def robot_of(robot: Any) -> Robot:
     joints: list[Joint] = []
     links = [root, *names.values()]
     steps_of = {
-        id(link): _steps(items_of(link.ets), f"link {told(link.name)}") for link in robot.links
+        id(link): _steps(items_of(link.ets), f"link {safe_repr(link.name)}") for link in robot.links
     }
     used: set[str] = set()
     order: list[tuple[int, Joint]] = []
@@ -148,7 +148,7 @@ def _steps(items: list[Any], what: str) -> tuple[list[Step], Array]:
             continue
         axis = str(et.axis)
         if axis not in _AXES:
-            raise InputError(f"{where}: expected one of {', '.join(_AXES)}, got {told(axis)}")
+            raise InputError(f"{where}: expected one of {', '.join(_AXES)}, got {safe_repr(axis)}")
         screw = np.eye(6)[_AXES.index(axis)]
         offset = float(shaped(getattr(et, "offset", 0.0), (), f"{where}: offset"))
         if offset:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, ShapeError, told
+from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import numbers
 from ...model.chain import Chain
 
@@ -31,7 +31,7 @@ def chain_of(pair: Any, frame: str = "space") -> Chain:
     2017, chapter 4.
     """
     if frame not in FRAMES:
-        raise InputError(f"frame: expected 'space' or 'body', got {told(frame)}")
+        raise InputError(f"frame: expected 'space' or 'body', got {safe_repr(frame)}")
     M, columns = pair[0], numbers(pair[1], "screws")
     if columns.shape == (6,):
         columns = columns[:, None]

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import ModelError, shown
+from ...errors import ModelError, quote
 from ...groups.arrays import Array
 from .attributes import has
 
@@ -76,7 +76,7 @@ def motions(joint: Any, name: str) -> list[Motion]:
     if kind in _UNALIGNED or kind == "Mimic":
         return [_by_subspace(joint, bare, name, _UNALIGNED.get(kind))]
     raise ModelError(
-        f"joint {shown(name)}: a Pinocchio joint of type {shown(kind)} has no counterpart in a Robot; known are"
+        f"joint {quote(name)}: a Pinocchio joint of type {quote(kind)} has no counterpart in a Robot; known are"
         f" revolute, prismatic, helical, free-flyer, planar, translation, universal, spherical ZYX and composite ones"
     )
 
@@ -90,7 +90,7 @@ def _by_subspace(joint: Any, bare: Any, name: str, kind: str | None) -> Motion:
     v, w = S[:3], S[3:]
     if S.shape != (6,) or not S.any():
         raise ModelError(
-            f"joint {shown(name)}: Pinocchio does not tell the axis of this {shown(type_of(joint))} joint"
+            f"joint {quote(name)}: Pinocchio does not tell the axis of this {quote(type_of(joint))} joint"
             f"{' of multiplier 0' if not scaling else ''}"
         )
     turns = bool(w.any())

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import ModelError, shown
+from ...errors import ModelError, quote
 from ...groups import se3
 from ...groups.arrays import Array
 from ...model.checks import one_pose
@@ -96,7 +96,7 @@ def robot_of(model: Any) -> Robot:
     for j in range(1, len(names)):
         place = above(int(model.parents[j]), own.get(j))
         origin = se3.inverse(place.pose) @ one_pose(
-            model.jointPlacements[j], f"placement of joint {shown(names[j])}"
+            model.jointPlacements[j], f"placement of joint {quote(names[j])}"
         )
         joints += _moving(model, j, place.link, origin, holders[j], taken, used, unusable)
     # The frames of fixed joints first: their names are joints' names already.
@@ -115,10 +115,10 @@ def robot_of(model: Any) -> Robot:
 
 def _frame(frame: Any, i: int) -> Frame:
     kind = str(getattr(frame.type, "name", frame.type))
-    pose = one_pose(frame.placement, f"placement of frame {shown(frame.name)}")
+    pose = one_pose(frame.placement, f"placement of frame {quote(frame.name)}")
     if not hasattr(frame, "parentFrame"):
         raise ModelError(
-            f"expected a model of Pinocchio 3 or newer; its frame {shown(frame.name)} has no parentFrame"
+            f"expected a model of Pinocchio 3 or newer; its frame {quote(frame.name)} has no parentFrame"
         )
     above = int(frame.parentFrame)
     return Frame(
@@ -238,7 +238,7 @@ def _limits(
         return None
     lower, upper = float(model.lowerPositionLimit[k]), float(model.upperPositionLimit[k])
     if lower == upper:
-        unusable.append(f"{shown(name)} (equal, {lower!r})")
+        unusable.append(f"{quote(name)} (equal, {lower!r})")
         return None
     return (
         -math.inf if abs(lower) >= ABSURD else lower,

@@ -7,7 +7,7 @@ import secrets
 import stat
 from pathlib import Path
 
-from ...errors import FileError, shown
+from ...errors import FileError, quote
 
 
 def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
@@ -40,7 +40,7 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
                 os.unlink(temporary)
     except (OSError, ValueError) as fault:
         reason = fault.strerror if isinstance(fault, OSError) and fault.strerror else fault
-        raise FileError(f"cannot write {shown(os.fsdecode(path), 400)}: {reason}") from fault
+        raise FileError(f"cannot write {quote(os.fsdecode(path), 400)}: {reason}") from fault
 
 
 _NEW = (

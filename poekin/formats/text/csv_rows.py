@@ -14,7 +14,7 @@ from typing import TextIO
 
 import numpy as np
 
-from ...errors import FileError, InputError, UnknownName, closest, harmless, shown
+from ...errors import FileError, InputError, UnknownName, escape_unprintable, quote, suggest
 from .numbers import real
 
 Progress = Callable[[int, int], None]
@@ -33,7 +33,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[TextIO, str, int]]:
 
     Raises: FileError for what cannot be read, also while the file is being read.
     """
-    where = harmless(os.fsdecode(path), 400)
+    where = escape_unprintable(os.fsdecode(path), 400)
     try:
         with open(path, newline="", encoding="utf-8-sig") as stream:
             yield stream, where, os.fstat(stream.fileno()).st_size
@@ -185,7 +185,7 @@ def text(header: Sequence[str], rows: np.ndarray, progress: Progress | None = No
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([harmless(h) for h in header])
+    writer.writerow([escape_unprintable(h) for h in header])
     for start in range(0, len(rows), AT_ONCE):
         if progress is not None:
             progress(start, len(rows))
@@ -204,11 +204,11 @@ def _order(
     for word in words:
         if word not in names and word not in besides:
             raise UnknownName(
-                f"{where}: {shown(word)} is neither a number nor a {what}; {closest(word, names)}"
+                f"{where}: {quote(word)} is neither a number nor a {what}; {suggest(word, names)}"
             )
     missing = [n for n in names if n not in words]
     if missing or len(set(words)) != len(words):
-        fault = f"{shown(missing[0])} is missing" if missing else "a name stands twice"
+        fault = f"{quote(missing[0])} is missing" if missing else "a name stands twice"
         raise InputError(
             f"{where}: the header has to name each of the {len(names)} {what}s once; {fault}"
         )
@@ -218,9 +218,9 @@ def _order(
 def _real(cell: str, where: str) -> float:
     value = real(cell)
     if value is None:
-        raise InputError(f"{where}: a number expected, got {shown(cell)}")
+        raise InputError(f"{where}: a number expected, got {quote(cell)}")
     return value
 
 
 def _listed(names: Sequence[str]) -> str:
-    return f" ({', '.join(map(harmless, names))})" if names else ""
+    return f" ({', '.join(map(escape_unprintable, names))})" if names else ""

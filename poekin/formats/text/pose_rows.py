@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, PoekinError, PoseError, told
+from ...errors import InputError, PoekinError, PoseError, safe_repr
 from ...groups import so3
 from ...groups.arrays import Array, poses
 from ...model.kinematics.analytic import quaternion_wxyz
@@ -32,7 +32,7 @@ def columns(format: Any, quaternion: Any = None) -> tuple[str, ...]:
     """
     if not isinstance(format, str) or format not in FORMATS:
         raise InputError(
-            f"format: expected one of {', '.join(FORMATS)} (numbers a pose), got {told(format)}"
+            f"format: expected one of {', '.join(FORMATS)} (numbers a pose), got {safe_repr(format)}"
         )
     if format != "7":
         if quaternion is not None:
@@ -41,7 +41,7 @@ def columns(format: Any, quaternion: Any = None) -> tuple[str, ...]:
             )
         return _ENTRIES[: int(format)]
     if not isinstance(quaternion, str) or quaternion not in ORDERS:
-        asked = "it is not said" if quaternion is None else f"got {told(quaternion)}"
+        asked = "it is not said" if quaternion is None else f"got {safe_repr(quaternion)}"
         raise InputError(
             f"quaternion: the format 7 needs the order of its quaternion, wxyz or xyzw; {asked}"
         )

@@ -11,7 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import FileError, MissingExtra, ModelError, closest, harmless, shown, told
+from ...errors import (
+    FileError,
+    MissingExtra,
+    ModelError,
+    escape_unprintable,
+    quote,
+    safe_repr,
+    suggest,
+)
 from ...groups.arrays import Array
 from . import xml
 
@@ -21,7 +29,7 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
     not TOML.
     """
     data = xml.read_bytes(path)
-    place = harmless(os.fsdecode(path), 400)
+    place = escape_unprintable(os.fsdecode(path), 400)
     try:
         return parse(data.decode("utf-8-sig"), place)
     except UnicodeDecodeError as fault:
@@ -53,7 +61,7 @@ def parse(text: str, place: str) -> dict[str, Any]:
     except (
         ValueError
     ) as fault:  # an integer of more than 4300 digits, too, which is no TOMLDecodeError
-        raise ModelError(f"{place}: not TOML: {harmless(fault, 200)}") from fault
+        raise ModelError(f"{place}: not TOML: {escape_unprintable(fault, 200)}") from fault
     ahead: list[Any] = [data]
     while ahead:
         value = ahead.pop()
@@ -92,16 +100,16 @@ class Keys:
         every = None if known is None else tuple(known)
         for key in data:
             if every is not None and key not in every:
-                raise ModelError(f"{place}: no such key: {shown(key)}; {closest(key, every)}")
+                raise ModelError(f"{place}: no such key: {quote(key)}; {suggest(key, every)}")
 
     def fault(self, key: str, message: str) -> ModelError:
         """An error about this key, to be raised."""
-        return ModelError(f"{self.place}: {harmless(key, 80)}: {message}")
+        return ModelError(f"{self.place}: {escape_unprintable(key, 80)}: {message}")
 
     def value(self, key: str) -> Any:
         """What the key stands for; it must be there."""
         if key not in self.data:
-            raise ModelError(f"{self.place}: {harmless(key, 80)} is missing")
+            raise ModelError(f"{self.place}: {escape_unprintable(key, 80)} is missing")
         return self.data[key]
 
     def table(self, key: str, known: Iterable[str] | None = None) -> Keys:
@@ -112,22 +120,22 @@ class Keys:
         """The tables in a list, none where the key is missing."""
         values = self.data.get(key, [])
         if not isinstance(values, list):
-            raise self.fault(key, f"expected [[{key}]] tables, got {told(values)}")
+            raise self.fault(key, f"expected [[{key}]] tables, got {safe_repr(values)}")
         return [self._table(value, f"{key} {i + 1}", known) for i, value in enumerate(values)]
 
     def _table(self, value: Any, key: str, known: Iterable[str] | None) -> Keys:
         if not isinstance(value, dict):
-            raise self.fault(key, f"expected a table, got {told(value)}")
-        return Keys(value, f"{self.place}: {harmless(key, 80)}", known)
+            raise self.fault(key, f"expected a table, got {safe_repr(value)}")
+        return Keys(value, f"{self.place}: {escape_unprintable(key, 80)}", known)
 
     def text(self, key: str, among: Sequence[str] | None = None) -> str:
         """A text, of those in `among`."""
         value = self.value(key)
         if not isinstance(value, str):
-            raise self.fault(key, f"expected a text, got {told(value)}")
+            raise self.fault(key, f"expected a text, got {safe_repr(value)}")
         if among is not None and value not in among:
             raise self.fault(
-                key, f"expected one of {', '.join(map(shown, among))}, got {shown(value)}"
+                key, f"expected one of {', '.join(map(quote, among))}, got {quote(value)}"
             )
         return value
 
@@ -135,14 +143,14 @@ class Keys:
         """A list of texts."""
         values = self.value(key)
         if not isinstance(values, list) or not all(isinstance(value, str) for value in values):
-            raise self.fault(key, f"expected a list of texts, got {told(values)}")
+            raise self.fault(key, f"expected a list of texts, got {safe_repr(values)}")
         return tuple(values)
 
     def truth(self, key: str) -> bool:
         """true or false."""
         value = self.value(key)
         if not isinstance(value, bool):
-            raise self.fault(key, f"expected true or false, got {told(value)}")
+            raise self.fault(key, f"expected true or false, got {safe_repr(value)}")
         return value
 
     def whole(self, key: str) -> int:
@@ -176,7 +184,7 @@ class Keys:
         if shape:
             if not isinstance(value, list) or shape[0] not in (None, len(value)):
                 count = "" if shape[0] is None else f"{shape[0]} "
-                got = f"{len(value)} of them" if isinstance(value, list) else told(value)
+                got = f"{len(value)} of them" if isinstance(value, list) else safe_repr(value)
                 raise self.fault(
                     key,
                     f"expected a list of {count}{'lists' if shape[1:] else 'numbers'}, got {got}",
@@ -184,7 +192,7 @@ class Keys:
             for item in value:
                 self._collect(key, item, shape[1:], found)
         elif isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise self.fault(key, f"expected a number, got {told(value)}")
+            raise self.fault(key, f"expected a number, got {safe_repr(value)}")
         else:
             found.append(_as_float(value))
 

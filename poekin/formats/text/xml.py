@@ -8,7 +8,7 @@ from typing import Any, Never
 
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
 
-from ...errors import FileError, InputError, ModelError, shown, told
+from ...errors import FileError, InputError, ModelError, quote, safe_repr
 from ...model.provenance import Source
 
 MAX_BYTES = 64 * 2**20
@@ -51,7 +51,7 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
     empty file and one of more than 64 MiB (which is not read); InputError for what is no path.
     """
     if not isinstance(path, (str, bytes, os.PathLike)):
-        raise InputError(f"expected the path of a file, got {told(path)}")
+        raise InputError(f"expected the path of a file, got {safe_repr(path)}")
     name = Source(os.fsdecode(path)).place()
     try:
         status = os.stat(path)
@@ -85,7 +85,7 @@ def parse(data: str | bytes, name: str) -> Element:
     """
     source = Source(name)
     if not isinstance(data, (str, bytes, bytearray)):
-        raise InputError(f"{source.place()}: expected a text, str or bytes, got {told(data)}")
+        raise InputError(f"{source.place()}: expected a text, str or bytes, got {safe_repr(data)}")
     # A str is text already: whatever encoding its first line declares is no longer true.
     encoding = "utf-8" if isinstance(data, str) else None
     content = data.encode("utf-8", "surrogatepass") if isinstance(data, str) else bytes(data)
@@ -105,7 +105,7 @@ def parse(data: str | bytes, name: str) -> Element:
         ) from None
     except etree.XMLSyntaxError as fault:
         binary = " (binary data?)" if b"\0" in content[:1024] else ""
-        reason = shown(fault.msg or "not XML", 200)
+        reason = quote(fault.msg or "not XML", 200)
         raise ModelError(
             f"{source.place(fault.lineno or 1)}: malformed XML{binary}: {reason}"
         ) from None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ...errors import ModelError, shown
+from ...errors import ModelError, quote
 from ...model.provenance import Source
 from .numbers import real
 from .xml import Element
@@ -36,7 +36,7 @@ class Fields:
         if self.inside is not None:
             return f"{self.inside.what}: <{self.tag}>"
         name = self.element.get("name")
-        return f"{self.tag} {shown(name)}" if name else f"<{self.tag}>"
+        return f"{self.tag} {quote(name)}" if name else f"<{self.tag}>"
 
     @property
     def tag(self) -> str:
@@ -88,7 +88,7 @@ class Fields:
         value = real(text)
         if value is None or math.isnan(value) or (finite and math.isinf(value)):
             expected = "a finite number" if finite else "a number"
-            raise self.fault(f"{attribute} must be {expected}, got {shown(text)}{_hint(text)}")
+            raise self.fault(f"{attribute} must be {expected}, got {quote(text)}{_hint(text)}")
         return value
 
     def vector(self, attribute: str) -> tuple[float, float, float] | None:
@@ -99,7 +99,7 @@ class Fields:
         values = [real(part) for part in text.split()]
         if len(values) != 3:
             raise self.fault(
-                f"{attribute} must be three numbers, got {len(values)}: {shown(text)}{_hint(text)}"
+                f"{attribute} must be three numbers, got {len(values)}: {quote(text)}{_hint(text)}"
             )
         x, y, z = values
         if (
@@ -109,7 +109,7 @@ class Fields:
             or not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z))
         ):
             raise self.fault(
-                f"{attribute} must be three finite numbers, got {shown(text)}{_hint(text)}"
+                f"{attribute} must be three finite numbers, got {quote(text)}{_hint(text)}"
             )
         return x, y, z
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from ...errors import MissingExtra, ModelError, harmless, shown
+from ...errors import MissingExtra, ModelError, escape_unprintable, quote
 
 DEEPEST = 8
 
@@ -57,7 +57,7 @@ def parse(text: str, place: str) -> Mapping:
                 event.anchor or event.tag
             ):
                 raise ModelError(
-                    f"{where}: tags and anchors are refused, got {shown(event.tag or event.anchor)}"
+                    f"{where}: tags and anchors are refused, got {quote(event.tag or event.anchor)}"
                 )
             if isinstance(event, yaml.MappingEndEvent):
                 open_ones.pop()
@@ -77,7 +77,7 @@ def parse(text: str, place: str) -> Mapping:
                     root = value
                 else:
                     raise ModelError(
-                        f'{where}: expected a mapping, as in "kinematics:", got {shown(value.text)}'
+                        f'{where}: expected a mapping, as in "kinematics:", got {quote(value.text)}'
                     )
                 if isinstance(value, Mapping):
                     open_ones.append(value)
@@ -93,7 +93,7 @@ def parse(text: str, place: str) -> Mapping:
         mark: Any = getattr(fault, "problem_mark", None)
         line = f":{mark.line + 1}" if mark else ""
         reason = getattr(fault, "problem", None) or str(fault)
-        raise ModelError(f"{place}{line}: not YAML: {harmless(reason, 200)}") from fault
+        raise ModelError(f"{place}{line}: not YAML: {escape_unprintable(reason, 200)}") from fault
     if root is None:
         raise ModelError(f"{place}: the text is empty")
     return root
@@ -104,5 +104,5 @@ def _key(value: Text | Mapping, mapping: Mapping, where: str) -> Text:
         raise ModelError(f"{where}: expected the name of a key, got a mapping")
     if value.text in mapping.items:
         first = mapping.key_lines[value.text]
-        raise ModelError(f"{where}: {shown(value.text)} is there twice (first: line {first})")
+        raise ModelError(f"{where}: {quote(value.text)} is there twice (first: line {first})")
     return value

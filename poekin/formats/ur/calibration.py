@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, ShapeError, told
+from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
 from ...model.checks import one_pose, read_only
@@ -50,7 +50,7 @@ class Calibration:
             )
         exact = [one_pose(T, f"pose of {link}") for T, link in zip(poses, LINKS, strict=True)]
         if not isinstance(self.hash, str):
-            raise InputError(f"hash: expected a text, got {told(self.hash)}")
+            raise InputError(f"hash: expected a text, got {safe_repr(self.hash)}")
         object.__setattr__(self, "poses", read_only(np.array(exact)))
 
     def to_robot(self, name: str = "ur") -> Robot:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import os
 import re
 
-from ...errors import FileError, ModelError, closest, harmless, shown
+from ...errors import FileError, ModelError, escape_unprintable, quote, suggest
 from ..text import xml
 from ..text.numbers import real
 from .calibration import JOINTS
@@ -25,7 +25,7 @@ def read_text_file(path: str | os.PathLike[str]) -> tuple[str, str]:
     not UTF-8.
     """
     data = xml.read_bytes(path)
-    place = harmless(os.fsdecode(path), 400)
+    place = escape_unprintable(os.fsdecode(path), 400)
     if len(data) > LARGEST:
         raise FileError(
             f"{place}: expected a calibration of at most 64 KiB, the file has {len(data) / 2**10:.0f} KiB"
@@ -68,14 +68,14 @@ def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
         found[name], lines[name] = _numbers(value, where), number
     for name in DELTAS:
         if name not in found:
-            there = f"; {closest(name, similar)}" if similar else ""
+            there = f"; {suggest(name, similar)}" if similar else ""
             raise ModelError(f"{place}: {name} is missing; needed are {', '.join(DELTAS)}{there}")
     return found
 
 
 def _numbers(text: str, where: str) -> tuple[float, ...]:
     if not (text.startswith("[") and text.endswith("]")):
-        raise ModelError(f"{where}: expected numbers in brackets, got {shown(text)}")
+        raise ModelError(f"{where}: expected numbers in brackets, got {quote(text)}")
     words = text[1:-1].split(",")
     if len(words) != len(JOINTS):
         raise ModelError(
@@ -84,5 +84,5 @@ def _numbers(text: str, where: str) -> tuple[float, ...]:
     values = [real(word.strip()) for word in words]
     for word, value in zip(words, values, strict=True):
         if value is None or not abs(value) < float("inf"):
-            raise ModelError(f"{where}: expected a finite number, got {shown(word.strip())}")
+            raise ModelError(f"{where}: expected a finite number, got {quote(word.strip())}")
     return tuple(value for value in values if value is not None)

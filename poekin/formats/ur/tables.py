@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...algebra import compose
-from ...errors import InputError, listed, shown
+from ...errors import InputError, join_names, quote
 from ...model.checks import finite
 from ...model.provenance import warn
 from ...model.robot import TWELVE
@@ -55,7 +55,7 @@ def deltas(
         change = np.zeros(len(table)) if values is None else finite(values, f"delta_{column}")
         if change.shape != (len(table),):
             raise InputError(
-                f"delta_{column}: expected {len(table)} numbers, one a joint of the table {shown(table.name)}, got"
+                f"delta_{column}: expected {len(table)} numbers, one a joint of the table {quote(table.name)}, got"
                 f" {change.size if change.ndim == 1 else f'shape {change.shape}'}: the calibration of another arm?"
             )
         columns[column] = (getattr(table, column) + change).tolist()
@@ -95,8 +95,8 @@ def from_dh(table: Table, *, nominal: Table, hash: str = "") -> Calibration:
     for joint in joints:
         if joint.axis[2] < 0:
             raise InputError(
-                f"the axis of {shown(joint.name)} points the other way in the table {shown(table.name)} than in"
-                f" {shown(nominal.name)}: they are not of the same arm"
+                f"the axis of {quote(joint.name)} points the other way in the table {quote(table.name)} than in"
+                f" {quote(nominal.name)}: they are not of the same arm"
             )
     _warn_if_far(before.fk(np.zeros(6)), after.fk(np.zeros(6)), table, nominal)
     return Calibration(np.array([joint.origin for joint in joints]), hash)
@@ -121,17 +121,17 @@ def _frames(table: Table) -> Calibration:
 def _six(table: Table) -> None:
     if not isinstance(table, Table):
         raise InputError(f"from_dh: expected a dh.Table, got {type(table).__name__}")
-    name = shown(table.name)
+    name = quote(table.name)
     if len(table) != len(JOINTS):
         raise InputError(
             f"an arm of Universal Robots has {len(JOINTS)} joints, the table {name} has {len(table)}:"
-            f" {listed(table.names) or 'none'}"
+            f" {join_names(table.names) or 'none'}"
         )
     for joint, kind, flip in zip(table.names, table.kinds, table.flips, strict=True):
         if kind != "revolute" or flip:
             what = "flipped" if flip else kind
             raise InputError(
-                f"table {name}: joint {shown(joint)} is {what}; a calibration has turning joints about +z"
+                f"table {name}: joint {quote(joint)} is {what}; a calibration has turning joints about +z"
             )
     if table.convention != "standard":
         raise InputError(
@@ -146,6 +146,6 @@ def _warn_if_far(before: dict, after: dict, table: Table, nominal: Table) -> Non
     worst = max(moved, key=lambda link: moved[link])
     if moved[worst] > FAR:
         warn(
-            f"table {shown(table.name)} moves {shown(worst)} by {moved[worst] * 1e3:.3g} mm from where the"
-            f" nominal {shown(nominal.name)} has it: the calibration of another arm?"
+            f"table {quote(table.name)} moves {quote(worst)} by {moved[worst] * 1e3:.3g} mm from where the"
+            f" nominal {quote(nominal.name)} has it: the calibration of another arm?"
         )

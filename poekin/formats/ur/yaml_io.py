@@ -20,7 +20,7 @@ import re
 
 import numpy as np
 
-from ...errors import InputError, ModelError, PoekinError, closest, shown, told
+from ...errors import InputError, ModelError, PoekinError, quote, safe_repr, suggest
 from ...groups.arrays import Array
 from .. import rpy as angles
 from ..text import yaml_text
@@ -114,7 +114,7 @@ def text_of(calibration: Calibration, *, rpy: str = "fixed") -> str:
 def _pose(link: yaml_text.Mapping | yaml_text.Text, name: str, place: str, rpy: str) -> Array:
     if not isinstance(link, yaml_text.Mapping):
         raise ModelError(
-            f"{place}:{link.line}: {name}: expected {', '.join(KEYS)} below it, got {shown(link.text)}"
+            f"{place}:{link.line}: {name}: expected {', '.join(KEYS)} below it, got {quote(link.text)}"
         )
     _names(link, KEYS, (), place, name)
     x, y, z, *turns = (_number(link.items[key], f"{name}: {key}", place) for key in KEYS)
@@ -130,7 +130,7 @@ def _number(value: yaml_text.Mapping | yaml_text.Text, what: str, place: str) ->
     number = real(text)
     if number is None or not math.isfinite(number):
         raise ModelError(
-            f"{place}:{value.line}: {what}: expected a finite number, got {shown(text)}"
+            f"{place}:{value.line}: {what}: expected a finite number, got {quote(text)}"
         )
     return number
 
@@ -146,8 +146,8 @@ def _names(
     for key, line in mapping.key_lines.items():
         if key not in (*needed, *others):
             raise ModelError(
-                f"{place}:{line}: {what}: {shown(key)} is not expected, only {', '.join((*needed, *others))};"
-                f" {closest(key, (*needed, *others))}"
+                f"{place}:{line}: {what}: {quote(key)} is not expected, only {', '.join((*needed, *others))};"
+                f" {suggest(key, (*needed, *others))}"
             )
     missing = [key for key in needed if key not in mapping.items]
     if missing:
@@ -160,7 +160,7 @@ def _names(
 def _convention(rpy: object) -> None:
     if rpy not in CONVENTIONS:
         raise InputError(
-            f"rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got {told(rpy)}"
+            f"rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got {safe_repr(rpy)}"
         )
 
 

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...algebra import add, cross, dot, scale, subtract
-from ...errors import shown
+from ...errors import quote
 from ...groups.arrays import Array
 from .normals import ZERO, Vector, across, axis_near, common_normal, exact, length, unit
 
@@ -70,7 +70,7 @@ class Walk:
         n = len(chain.screws)
         # A name may hold braces, which are no places for numbers.
         joints = [
-            f"axis of {shown(name)}".replace("{", "{{").replace("}", "}}")
+            f"axis of {quote(name)}".replace("{", "{{").replace("}", "}}")
             for name in chain.joint_names
         ]
         self.names = ["the base's z axis", *joints, "the tool's z axis"]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...algebra import add, cross, dot, scale, subtract
-from ...errors import InputError, shown
+from ...errors import InputError, quote
 from ...groups.arrays import Array
 from .normals import Vector, axis_near, common_normal, digits, exact, length
 
@@ -63,11 +63,11 @@ def to_hp(self: Chain) -> HPForm:
     """
     for name, kind in zip(self.joint_names, self.kinds, strict=True):
         if kind != "revolute":
-            raise InputError(f"to_hp: expected revolute joints only, {shown(name)} is {kind}")
+            raise InputError(f"to_hp: expected revolute joints only, {quote(name)} is {kind}")
     if self._coupling is not None:
         raise InputError(
-            f"to_hp: expected one coordinate a joint, the {len(self.kinds)} joints of {shown(self.base)} -> "
-            f"{shown(self.tip)} are coupled to {self.dof} coordinates"
+            f"to_hp: expected one coordinate a joint, the {len(self.kinds)} joints of {quote(self.base)} -> "
+            f"{quote(self.tip)} are coupled to {self.dof} coordinates"
         )
     zero = (
         self._with(offset=np.zeros(self.dof)).rezeroed(self.offset) if self.offset.any() else self

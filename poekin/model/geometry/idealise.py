@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...algebra import add, dot, scale, subtract
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from .axis_walk import Frame, Walk
 from .normals import digits, length
@@ -69,7 +69,9 @@ def idealised(self: Chain, tol: float) -> Idealised:
     """
     real = isinstance(tol, (int, float, np.integer, np.floating)) and not isinstance(tol, bool)
     if not real or not 0 <= tol <= LARGEST:
-        raise InputError(f"tol: a number from 0 to {LARGEST} expected (rad and m), got {told(tol)}")
+        raise InputError(
+            f"tol: a number from 0 to {LARGEST} expected (rad and m), got {safe_repr(tol)}"
+        )
     if tol == 0:
         return Idealised(self, 0.0, 0.0, ())
     with digits():

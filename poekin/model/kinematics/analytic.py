@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...groups import rpy, so3
 from ...groups.arrays import Array
 
@@ -76,7 +76,7 @@ def _functions(kind: object) -> tuple[Callable[[Array], Array], Callable[[Array]
     """
     if isinstance(kind, str) and kind in _FUNCTIONS:
         return _FUNCTIONS[kind]
-    raise InputError(f"kind: expected one of {', '.join(map(repr, KINDS))}, got {told(kind)}")
+    raise InputError(f"kind: expected one of {', '.join(map(repr, KINDS))}, got {safe_repr(kind)}")
 
 
 def quaternion_wxyz(R: Array) -> Array:

@@ -16,7 +16,7 @@ from ...engine.kernels import chain_kernels
 from ...engine.straight_line import interpret
 from ...engine.straight_line.program import Program
 from ...engine.straight_line.specialise import Structure, cheapest_frame, placed, specialised
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ..checks import read_only
 from ..geometry.structure import structure
@@ -76,7 +76,7 @@ class CompiledChain:
 
     def __init__(self, chain: Chain, parallel: bool = False):
         if not isinstance(parallel, bool):
-            raise InputError(f"parallel: expected True or False, got {told(parallel)}")
+            raise InputError(f"parallel: expected True or False, got {safe_repr(parallel)}")
         with COMPILING:  # the import of Numba, after all that only reads a model
             from numba.core import config
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...engine.kernels import chain_kernels, derivative_kernels
-from ...errors import InputError, ShapeError, told
+from ...errors import InputError, ShapeError, safe_repr
 from ...groups import se3
 from ...groups.arrays import Array
 from ..coordinates import coordinates
@@ -162,7 +162,7 @@ def screw_derivatives(self: Chain, q: Any, by: str = "motion") -> PoseChanges:
     Source: Park 1994, Section II, with e^{Ad(g) A x} = g e^{A x} g^-1; Lemma 5 for the entries.
     """
     if not isinstance(by, str) or by not in ("motion", "entries"):
-        raise InputError(f"by: expected 'motion' or 'entries', got {told(by)}")
+        raise InputError(f"by: expected 'motion' or 'entries', got {safe_repr(by)}")
     batch, (rows,) = _together(self, (q,), ("q",))
     n = len(self.joint_names)
     D = np.zeros((len(rows), 6, n + 1, 6))
@@ -214,7 +214,7 @@ def _home_row(chain: Chain) -> Array:
 def _code(frame: object) -> int:
     if isinstance(frame, str) and frame in _CODES:
         return _CODES[frame]
-    raise InputError(f"frame: expected 'space', 'body' or 'hybrid', got {told(frame)}")
+    raise InputError(f"frame: expected 'space', 'body' or 'hybrid', got {safe_repr(frame)}")
 
 
 def _together(

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...engine.kernels import chain_kernels
-from ...errors import InputError, ShapeError, UnknownName, shown
+from ...errors import InputError, ShapeError, UnknownName, quote
 from ...groups import se3, so3
 from ...groups.arrays import Array, shaped
 from ..coordinates import coordinates
@@ -243,7 +243,7 @@ def joint_index(chain: Chain, frame: object) -> int:
     n = len(chain.joint_names)
     if isinstance(frame, str):
         raise UnknownName(
-            f"frame: expected 'space', 'body', 'hybrid' or the index of a joint, got {shown(frame)}"
+            f"frame: expected 'space', 'body', 'hybrid' or the index of a joint, got {quote(frame)}"
         )
     if not isinstance(frame, (int, np.integer)) or isinstance(frame, bool) or not 0 <= frame < n:
         raise InputError(

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import ModelError, closest, shown
+from ...errors import ModelError, quote, suggest
 from ..checks import read_only
 from ..joint import FREE, MOVING, Joint
 from ..provenance import Source, warn
@@ -92,7 +92,7 @@ def warn_of_torn_limits(
         first = int(coupling.master[torn[0]])
         more = f" (nor do those of {len(torn) - 1} more coordinates)" if len(torn) > 1 else ""
         warn(
-            f"{source.of_joint(first)}: the limits of the joints that follow {shown(joints[first].name)} have no"
+            f"{source.of_joint(first)}: the limits of the joints that follow {quote(joints[first].name)} have no"
             f" interval in common{more}: its own limits {list(joints[first].limits)} stand"
         )
 
@@ -120,11 +120,11 @@ def _resolve(
             name = joint.mimic.joint
             where = _where(index, joints, source)
             raise ModelError(
-                f"{where} mimics {shown(name)}, which does not exist; {closest(name, numbers)}"
+                f"{where} mimics {quote(name)}, which does not exist; {suggest(name, numbers)}"
             )
         master = numbers[joint.mimic.joint]
         if joints[master].kind in FREE:
-            kind, name = joints[master].kind, shown(joints[master].name)
+            kind, name = joints[master].kind, quote(joints[master].name)
             where = _where(index, joints, source)
             raise ModelError(f"{where} mimics {name}, but a {kind} joint has no single value")
         index = master
@@ -147,7 +147,7 @@ def _resolve(
 
 
 def _where(index: int, joints: Sequence[Joint], source: Source) -> str:
-    return f"{source.of_joint(index)}: joint {shown(joints[index].name)}"
+    return f"{source.of_joint(index)}: joint {quote(joints[index].name)}"
 
 
 def _frozen(values: list, dtype: type) -> np.ndarray:

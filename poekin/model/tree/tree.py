@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ...errors import ModelError, closest, shown, told
+from ...errors import ModelError, quote, safe_repr, suggest
 from ..joint import Joint
 from ..provenance import Source
 
@@ -43,15 +43,15 @@ def tree_of(links: Sequence[str], joints: Sequence[Joint], source: Source) -> Tr
         for role, name in (("parent", joint.parent), ("child", joint.child)):
             if name not in numbers:
                 raise ModelError(
-                    f"{source.of_joint(index)}: joint {shown(joint.name)}: its {role} link {shown(name)} does not"
-                    f" exist; {closest(name, links)}"
+                    f"{source.of_joint(index)}: joint {quote(joint.name)}: its {role} link {quote(name)} does not"
+                    f" exist; {suggest(name, links)}"
                 )
         parent, child = numbers[joint.parent], numbers[joint.child]
         if parent_joint[child] >= 0:
             other = parent_joint[child]
             raise ModelError(
-                f"{source.of_joint(index)}: link {shown(joint.child)} has two parents: joint {shown(joint.name)} and"
-                f" joint {shown(joints[other].name)} ({source.of_joint(other)})"
+                f"{source.of_joint(index)}: link {quote(joint.child)} has two parents: joint {quote(joint.name)} and"
+                f" joint {quote(joints[other].name)} ({source.of_joint(other)})"
             )
         parent_joint[child] = index
         children[parent].append(index)
@@ -59,7 +59,7 @@ def tree_of(links: Sequence[str], joints: Sequence[Joint], source: Source) -> Tr
         child_link.append(child)
     roots = [link for link, joint in enumerate(parent_joint) if joint < 0]
     if len(roots) > 1:
-        named = ", ".join(f"{shown(links[r])} ({source.of_link(r)})" for r in roots[:5])
+        named = ", ".join(f"{quote(links[r])} ({source.of_link(r)})" for r in roots[:5])
         more = f" and {len(roots) - 5} more" if len(roots) > 5 else ""
         raise ModelError(
             f"{source.of_link(roots[1])}: a robot has one root, but {len(roots)} links have no parent: {named}{more}"
@@ -102,12 +102,12 @@ def _unique(names: Sequence[str], what: str, place) -> dict[str, int]:
     for index, name in enumerate(names):
         if not isinstance(name, str) or not name:
             raise ModelError(
-                f"{place(index)}: a {what} needs a name that is not empty, got {told(name)}"
+                f"{place(index)}: a {what} needs a name that is not empty, got {safe_repr(name)}"
             )
         if name in numbers:
             first = place(numbers[name])
             raise ModelError(
-                f"{place(index)}: the {what} name {shown(name)} is used twice (first: {first})"
+                f"{place(index)}: the {what} name {quote(name)} is used twice (first: {first})"
             )
         numbers[name] = index
     return numbers
@@ -128,7 +128,7 @@ def _cycle(
         walked[joint] = len(walked)
         joint = parent_joint[parent_link[joint]]
     circle = [j for j, step in walked.items() if step >= walked[joint]][::-1]
-    named = " -> ".join(shown(joints[j].child) for j in circle[:10]) + (
+    named = " -> ".join(quote(joints[j].child) for j in circle[:10]) + (
         " -> ..." if len(circle) > 10 else ""
     )
     first = min(circle)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.provenance import warn
@@ -101,7 +101,7 @@ def calibrate(
         or max_iterations < 1
     ):
         raise InputError(
-            f"max_iterations: expected a whole number from 1 on, got {told(max_iterations)}"
+            f"max_iterations: expected a whole number from 1 on, got {safe_repr(max_iterations)}"
         )
     problem = units.built(Arm(arm, parameters, joints), q, sets)
     spread = _prior(prior, problem)
@@ -163,7 +163,7 @@ def _residuals(problem: Problem, p: Array) -> Residuals:
 def _one_of(value: object, known: Sequence[str], what: str) -> None:
     if value not in known:
         raise InputError(
-            f"{what}: expected one of {', '.join(map(repr, known))}, got {told(value)}"
+            f"{what}: expected one of {', '.join(map(repr, known))}, got {safe_repr(value)}"
         )
 
 
@@ -173,7 +173,7 @@ def _prior(prior: Mapping[str, float] | None, problem: Problem) -> Array | None:
         return None
     if not isinstance(prior, Mapping) or not prior:
         raise InputError(
-            f"prior: expected standard deviations by unit, such as {{'rad': 1e-3}}, got {told(prior)}"
+            f"prior: expected standard deviations by unit, such as {{'rad': 1e-3}}, got {safe_repr(prior)}"
         )
     for unit, sigma in prior.items():
         _one_of(unit, _UNITS, "prior")
@@ -183,7 +183,7 @@ def _prior(prior: Mapping[str, float] | None, problem: Problem) -> Array | None:
             or not 0 < sigma < np.inf
         ):
             raise InputError(
-                f"prior[{unit!r}]: expected a standard deviation above 0, got {told(sigma)}"
+                f"prior[{unit!r}]: expected a standard deviation above 0, got {safe_repr(sigma)}"
             )
     arms = [prior.get(p.unit, np.inf) for p in problem.arm.parameters]
     return np.array(arms + [np.inf] * (problem.size - len(arms)), float)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...analysis.compare.compare import compare
-from ...errors import harmless
+from ...errors import escape_unprintable
 from ...formats import dh
 from ...formats.relink import relinked
 from ...formats.urdf_text import to_urdf
@@ -162,7 +162,7 @@ class Calibration:
             more = len(self.outliers) - MOST_OUTLIERS
             lines.append(f"outliers: rows {rows}" + (f" and {more} more" if more > 0 else ""))
         lines += [*(f"warning: {words}" for words in self.warnings), *self.remarks]
-        return "\n".join(harmless(line, keep="\n") for line in lines)
+        return "\n".join(escape_unprintable(line, keep="\n") for line in lines)
 
 
 def _table(found: Calibration) -> list[str]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from .redundancy import check_aim
@@ -78,7 +78,7 @@ def ik(
         arm if isinstance(arm, CompiledChain) else arm.compile() if isinstance(arm, Chain) else None
     )
     if fast is None:
-        raise InputError(f"ik: expected a Chain, got {told(arm)}")
+        raise InputError(f"ik: expected a Chain, got {safe_repr(arm)}")
     settings = Settings(
         task, hashable(axis, "axis"), limits, tol_position, tol_rotation, items(lock), hashable(weights, "weights"),
         restarts, iterations, seed, parallel,

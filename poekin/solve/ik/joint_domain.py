@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, ShapeError, UnknownName, closest, listed, shown, told
+from ...errors import InputError, ShapeError, UnknownName, join_names, quote, safe_repr, suggest
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
@@ -96,7 +96,7 @@ def first_tries(
     moved = ((first != given) & ~room.fixed).any(axis=0)
     if moved.any():
         warn(
-            f"q0 is outside the limits of {listed(np.array(chain.q_names)[moved])} and is moved to them"
+            f"q0 is outside the limits of {join_names(np.array(chain.q_names)[moved])} and is moved to them"
         )
     return np.where(room.fixed, room.held, first)
 
@@ -108,7 +108,7 @@ def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: 
     """
     given = coordinates(q, chain.q_names, what)
     if not np.isfinite(given).all():
-        raise InputError(f"{what}: expected finite numbers, got {told(q)}")
+        raise InputError(f"{what}: expected finite numbers, got {safe_repr(q)}")
     try:
         return np.broadcast_to(given, (*batch, chain.dof)).reshape(count, chain.dof).copy()
     except ValueError as error:
@@ -124,13 +124,13 @@ def _locked(units: JointUnits, lock: Any, limits: Array):
     names = units.fast.q_names
     for name, value in lock or ():
         if name not in names:
-            raise UnknownName(f"lock: no coordinate {shown(name)}; {closest(str(name), names)}")
+            raise UnknownName(f"lock: no coordinate {quote(name)}; {suggest(str(name), names)}")
         k = names.index(name)
         scale = 1.0 if units.scale is None else float(units.scale[k])
         real = isinstance(value, (int, float, np.integer, np.floating)) and np.isfinite(value)
         if not real or not limits[k, 0] <= scale * value <= limits[k, 1]:
             within = sorted((limits[k] / scale).tolist())
             raise InputError(
-                f"lock: {shown(name)}: expected a number within {within}, got {told(value)}"
+                f"lock: {quote(name)}: expected a number within {within}, got {safe_repr(value)}"
             )
         yield k, scale * float(value)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...engine.kernels import ik_codes as codes
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ DIFFERENCE = 1e-6
 def check_aim(aim: Any, q0: Any) -> None:
     """Raises InputError for what is no aim, and for "nearest" to nothing."""
     if aim is not None and (not isinstance(aim, str) or aim not in AIMS):
-        raise InputError(f"aim: expected one of {', '.join(AIMS)}, got {told(aim)}")
+        raise InputError(f"aim: expected one of {', '.join(AIMS)}, got {safe_repr(aim)}")
     if aim == "nearest" and q0 is None:
         raise InputError("aim: 'nearest' needs q0, what to be near to")
 

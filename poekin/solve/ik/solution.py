@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...errors import ShapeError, shown
+from ...errors import ShapeError, quote
 from ...groups.arrays import Array
 
 SOLVED, UNREACHABLE, LIMITS, ITERATIONS, BAD_TARGET = REASONS = (
@@ -70,7 +70,7 @@ class Solution:
             return "bad target: it is not made of finite numbers"
         nearest = f"the nearest pose found is {off}"
         if reason == LIMITS:
-            names = ", ".join(map(shown, self.blocked[flat]))
+            names = ", ".join(map(quote, self.blocked[flat]))
             return f"limits: solvable without them, in the way are those of {names}; within them {nearest}"
         if reason == ITERATIONS:
             return f"iterations: the nearest try was still moving when they ended; {nearest}"

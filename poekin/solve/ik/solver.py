@@ -12,7 +12,7 @@ import numpy as np
 
 from ...engine.jit import threads
 from ...engine.kernels import ik_codes as codes
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 from ...groups.arrays import Array, numbers
 from ...model.kinematics.compiled import CompiledChain
 from . import diagnosis, redundancy
@@ -68,7 +68,7 @@ def items(lock: Any) -> Any:
     InputError.
     """
     if lock is not None and not isinstance(lock, Mapping):
-        raise InputError(f"lock: expected a dict of names and values, got {told(lock)}")
+        raise InputError(f"lock: expected a dict of names and values, got {safe_repr(lock)}")
     return None if lock is None else tuple(lock.items())
 
 
@@ -282,7 +282,7 @@ def _check_numbers(settings: Settings) -> None:
         tol = getattr(settings, what)
         real = isinstance(tol, (int, float, np.integer, np.floating)) and not isinstance(tol, bool)
         if not real or not 0 < tol < np.inf:
-            raise InputError(f"{what}: expected a positive number, got {told(tol)}")
+            raise InputError(f"{what}: expected a positive number, got {safe_repr(tol)}")
     for what, least in (("restarts", 0), ("iterations", 1), ("seed", 0)):
         number = getattr(settings, what)
         if (
@@ -290,7 +290,11 @@ def _check_numbers(settings: Settings) -> None:
             or isinstance(number, bool)
             or not least <= number < 2**62
         ):
-            raise InputError(f"{what}: expected a whole number from {least} on, got {told(number)}")
+            raise InputError(
+                f"{what}: expected a whole number from {least} on, got {safe_repr(number)}"
+            )
     for what in ("limits", "parallel"):
         if not isinstance(getattr(settings, what), (bool, np.bool_)):
-            raise InputError(f"{what}: expected True or False, got {told(getattr(settings, what))}")
+            raise InputError(
+                f"{what}: expected True or False, got {safe_repr(getattr(settings, what))}"
+            )

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...engine.kernels import ik_codes as codes
-from ...errors import InputError, PoseError, told
+from ...errors import InputError, PoseError, safe_repr
 from ...groups.arrays import Array, poses, shaped
 from ...model.chain import Chain
 
@@ -72,17 +72,17 @@ def targets(T: ArrayLike, what: str) -> Array:
 def task_of(name: Any, axis: Any, weights: Any) -> Task:
     """A task as a user names it. Raises: InputError."""
     if not isinstance(name, str) or name not in TASKS:
-        raise InputError(f"task: expected one of {', '.join(TASKS)}, got {told(name)}")
+        raise InputError(f"task: expected one of {', '.join(TASKS)}, got {safe_repr(name)}")
     if axis is not None and name != "direction":
         raise InputError(f"axis: only the task 'direction' has one, the task is {name!r}")
     a = shaped([0.0, 0.0, 1.0] if axis is None else axis, (3,), "axis")
     if a.ndim != 1 or not np.isfinite(a).all() or not a.any():
-        raise InputError(f"axis: expected a direction (3,) that is not zero, got {told(axis)}")
+        raise InputError(f"axis: expected a direction (3,) that is not zero, got {safe_repr(axis)}")
     a = a / np.abs(a).max()  # so that no square of it overflows
     w = shaped(np.ones(6) if weights is None else weights, (6,), "weights").copy()
     if w.ndim != 1 or not np.isfinite(w).all() or (w <= 0).any():
         raise InputError(
-            f"weights: expected six positive numbers (rotation; position), got {told(weights)}"
+            f"weights: expected six positive numbers (rotation; position), got {safe_repr(weights)}"
         )
     if name == "position":
         w[:3] = 0.0

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import listed
+from ...errors import join_names
 from ...groups.arrays import Array
 from ..ik.solution import place
 from .ik_all_search import Found
@@ -78,7 +78,7 @@ def in_words(found: Found, inside: int, closed: str | None) -> str:
     s = len(found.solutions)
     if found.moving:
         alone = f" and {s - 1} that stand{'s' * (s == 2)} alone" if s > 1 else ""
-        said = f"infinitely many solutions, along which {listed(found.moving)} move; one of them{alone}"
+        said = f"infinitely many solutions, along which {join_names(found.moving)} move; one of them{alone}"
     else:
         said = f"{'at least ' * found.full}{s} solution{'s' * (s != 1)}"
     if inside != s:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, MissingExtra, listed, told
+from ...errors import InputError, MissingExtra, join_names, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
@@ -74,7 +74,7 @@ def ik_all(
         arm if isinstance(arm, CompiledChain) else arm.compile() if isinstance(arm, Chain) else None
     )
     if fast is None:
-        raise InputError(f"ik_all: expected a Chain, got {told(arm)}")
+        raise InputError(f"ik_all: expected a Chain, got {safe_repr(arm)}")
     given, units = fast.chain, joint_units(fast)
     fast, chain = units.fast, units.fast.chain
     _check_chain(chain)
@@ -117,9 +117,9 @@ def _check_chain(chain: Chain) -> None:
     m = chain.dof
     if m > 6:
         raise InputError(
-            f"ik_all: expected an arm of up to six coordinates, got {m} ({listed(chain.q_names)}): it has infinitely "
-            "many solutions; ik finds one: with `nearest_to` or `aim` one of your choice, with `lock` at given values "
-            "of some coordinates"
+            f"ik_all: expected an arm of up to six coordinates, got {m} ({join_names(chain.q_names)}): it has "
+            "infinitely many solutions; ik finds one: with `nearest_to` or `aim` one of your choice, with `lock` at "
+            "given values of some coordinates"
         )
     if m == 0:
         raise InputError("ik_all: expected an arm of one to six coordinates, the chain has none")
@@ -128,9 +128,9 @@ def _check_chain(chain: Chain) -> None:
 def _check_options(limits: Any, method: Any, copies: Any) -> None:
     for what, value in (("limits", limits), ("copies", copies)):
         if not isinstance(value, (bool, np.bool_)):
-            raise InputError(f"{what}: expected True or False, got {told(value)}")
+            raise InputError(f"{what}: expected True or False, got {safe_repr(value)}")
     if not isinstance(method, str) or method not in METHODS:
-        raise InputError(f"method: expected one of {', '.join(METHODS)}, got {told(method)}")
+        raise InputError(f"method: expected one of {', '.join(METHODS)}, got {safe_repr(method)}")
 
 
 def _check_whole(what: str, number: Any, least: int) -> None:
@@ -139,7 +139,9 @@ def _check_whole(what: str, number: Any, least: int) -> None:
         or isinstance(number, bool)
         or not least <= number < 2**62
     ):
-        raise InputError(f"{what}: expected a whole number from {least} on, got {told(number)}")
+        raise InputError(
+            f"{what}: expected a whole number from {least} on, got {safe_repr(number)}"
+        )
 
 
 def _solver(chain: Chain, method: str) -> ClosedForm | None:

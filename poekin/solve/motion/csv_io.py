@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, ShapeError, told
+from ...errors import InputError, ShapeError, safe_repr
 from ...formats.text import csv_rows, pose_rows
 from ...formats.text.atomic_write import write_whole
 from ...groups.arrays import Array, numbers, poses
@@ -92,7 +92,7 @@ def _names(names: Any) -> tuple[str, ...]:
     if isinstance(names, Chain):
         return names.q_names
     if isinstance(names, str) or not all(isinstance(name, str) for name in names):
-        raise InputError(f"names: expected a chain or names of coordinates, got {told(names)}")
+        raise InputError(f"names: expected a chain or names of coordinates, got {safe_repr(names)}")
     return tuple(names)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, ShapeError, told
+from ...errors import InputError, ShapeError, safe_repr
 from ...groups import se3, so3
 from ...groups.arrays import Array, numbers, poses
 
@@ -75,7 +75,7 @@ def lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: str = "line") -> Array:
     InputError. Accuracy: that of `se3.log`.
     """
     if not isinstance(along, str) or along not in ("line", "screw"):
-        raise InputError(f"along: expected 'line' or 'screw', got {told(along)}")
+        raise InputError(f"along: expected 'line' or 'screw', got {safe_repr(along)}")
     T_s0, T_s1, _ = _together(T_s0, T_s1, 0.0)
     start, end = _exact(T_s0), _exact(T_s1)
     xi = se3.log(se3.inverse(start) @ end)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, ShapeError, told
+from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
 
 LAWS = ("cubic", "quintic", "trapezoidal")
@@ -110,7 +110,7 @@ def trapezoidal(duration: float, ramp: float = 0.25) -> Timing:
     Returns: Timing. Raises: InputError.
     """
     if not _real(ramp) or not 0 < ramp <= 0.5:
-        raise InputError(f"ramp: expected a number above 0 and at most 0.5, got {told(ramp)}")
+        raise InputError(f"ramp: expected a number above 0 and at most 0.5, got {safe_repr(ramp)}")
     return Timing("trapezoidal", _duration(duration), float(ramp))
 
 
@@ -136,10 +136,10 @@ def fastest(
     the speed is not reached, v^2 >= a |distance|.
     """
     if not isinstance(law, str) or law not in LAWS:
-        raise InputError(f"law: expected one of {', '.join(LAWS)}, got {told(law)}")
+        raise InputError(f"law: expected one of {', '.join(LAWS)}, got {safe_repr(law)}")
     way = np.abs(numbers(distance, "distance"))
     if not np.isfinite(way).all():
-        raise InputError(f"distance: expected finite numbers, got {told(distance)}")
+        raise InputError(f"distance: expected finite numbers, got {safe_repr(distance)}")
     if speed is None and acceleration is None:
         raise InputError(
             "fastest: expected a limit of speed, of acceleration, or of both, got none"
@@ -172,7 +172,7 @@ def _least(way: Array, limit: Any, what: str) -> float:
         return 0.0
     limits = numbers(limit, what)
     if not (limits > 0).all():
-        raise InputError(f"{what}: expected positive limits, got {told(limit)}")
+        raise InputError(f"{what}: expected positive limits, got {safe_repr(limit)}")
     try:
         with np.errstate(over="ignore"):
             return float(np.max(way / limits, initial=0.0))
@@ -184,7 +184,9 @@ def _least(way: Array, limit: Any, what: str) -> float:
 
 def _duration(duration: Any) -> float:
     if not _real(duration) or not _INSTANT <= duration < math.inf:
-        raise InputError(f"duration: expected a positive number of seconds, got {told(duration)}")
+        raise InputError(
+            f"duration: expected a positive number of seconds, got {safe_repr(duration)}"
+        )
     return float(duration)
 
 

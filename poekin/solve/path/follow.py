@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, ShapeError, told
+from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
@@ -76,7 +76,7 @@ def follow(
         arm if isinstance(arm, CompiledChain) else arm.compile() if isinstance(arm, Chain) else None
     )
     if fast is None:
-        raise InputError(f"follow: expected a Chain, got {told(arm)}")
+        raise InputError(f"follow: expected a Chain, got {safe_repr(arm)}")
     chain, path = fast.chain, _path(poses)
     solver = solver_of(fast, Settings(
         task, hashable(axis, "axis"), limits, tol_position, tol_rotation, items(lock), None, 100, 30, seed, False
@@ -123,7 +123,7 @@ def per_coordinate(value: Any, chain: Chain, what: str) -> Array:
             f"{what}: expected one number, or one a coordinate ({chain.dof},), got shape {array.shape}"
         )
     if not (array > 0).all():
-        raise InputError(f"{what}: expected positive numbers, got {told(array.tolist())}")
+        raise InputError(f"{what}: expected positive numbers, got {safe_repr(array.tolist())}")
     return np.ascontiguousarray(array)
 
 
@@ -150,7 +150,7 @@ def _timing(
     if not np.isfinite(t).all() or not (np.diff(t) > 0).all():
         k = int(np.argmin(np.isfinite(t[1:]) & (np.diff(t) > 0))) if count > 1 else 0
         raise InputError(
-            f"times: expected finite ascending seconds, got {told(t[k : k + 2].tolist())} from times[{k}] on"
+            f"times: expected finite ascending seconds, got {safe_repr(t[k : k + 2].tolist())} from times[{k}] on"
         )
     return (
         t, None if speed is None else per_coordinate(speed, chain, "speed"),

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...analysis.dexterity.manipulability import scaled, svd
 from ...analysis.dexterity.singularity import singularity
-from ...errors import shown
+from ...errors import quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ..ik.diagnosis import AT_LIMIT
@@ -213,17 +213,17 @@ class Followed:
             jump = np.abs(self.q[k] - self.q[before])
             said.append(
                 f"the branch changes before pose {k}: no way on from pose {before}; the joints jump by "
-                f"{jump.max():.3g}, most of it in {shown(self.chain.q_names[int(np.argmax(jump))])}"
+                f"{jump.max():.3g}, most of it in {quote(self.chain.q_names[int(np.argmax(jump))])}"
             )
         for s in self.at_limits:
-            said.append(f"{_points(s.first, s.last)}: {shown(s.name)} at its limit {s.bound:.6g}")
+            said.append(f"{_points(s.first, s.last)}: {quote(s.name)} at its limit {s.bound:.6g}")
         for what, unit, stretches in (
             ("speed", "s", self.too_fast),
             ("acceleration", "s^2", self.too_hard),
         ):
             for s in stretches:
                 said.append(
-                    f"{_points(s.first, s.last)}: {shown(s.name)} exceeds its {what}, {s.value:.4g} of {s.bound:.4g} "
+                    f"{_points(s.first, s.last)}: {quote(s.name)} exceeds its {what}, {s.value:.4g} of {s.bound:.4g} "
                     f"(rad or m)/{unit} at {s.worst}"
                 )
         for s in self.near_singular:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import harmless
+from ...errors import escape_unprintable
 from .grades import NO_RESULT, Grade
 from .laws.law import Case
 
@@ -170,9 +170,9 @@ class Report:
         }
 
     def __str__(self) -> str:
-        lines, before = [harmless(self.subject, 200)], dict[str, str]()
+        lines, before = [escape_unprintable(self.subject, 200)], dict[str, str]()
         for outcome in self.outcomes:
-            lines.append(harmless(outcome.told(before), keep="\n"))
+            lines.append(escape_unprintable(outcome.told(before), keep="\n"))
             before.setdefault(outcome.paste, outcome.law)
-        lines += [f"note: {harmless(note)}" for note in self.notes]
+        lines += [f"note: {escape_unprintable(note)}" for note in self.notes]
         return "\n".join(lines)

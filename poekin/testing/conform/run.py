@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ...errors import InputError, UnknownName, closest, shown
+from ...errors import InputError, UnknownName, quote, suggest
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from .grades import NO_RESULT, Grade
 from .laws.arm_cases import ARM_LAWS
@@ -40,7 +40,7 @@ def applicable(
     for name in (*names, *leave_out):
         if name not in {law.name for law in LAWS}:
             raise UnknownName(
-                f"there is no law {shown(name)}; {closest(name, [law.name for law in LAWS])}"
+                f"there is no law {quote(name)}; {suggest(name, [law.name for law in LAWS])}"
             )
     every = [law for law in LAWS if not reason(law, subject)]
     those = f"those that do: {', '.join(law.name for law in every)}"

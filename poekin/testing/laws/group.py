@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from ...errors import InputError, told
+from ...errors import InputError, safe_repr
 
 Function = Callable[..., Any]
 
@@ -65,10 +65,10 @@ def group_of(module: Any, size: int) -> Group:
     Raises: InputError for another size, and where there is none of the functions.
     """
     if size not in (3, 6):
-        raise InputError(f"size: expected 3 for SO(3) or 6 for SE(3), got {told(size)}")
+        raise InputError(f"size: expected 3 for SO(3) or 6 for SE(3), got {safe_repr(size)}")
     found = {name: f for name in Group._fields[1:] if callable(f := getattr(module, name, None))}
     if not found:
         raise InputError(
-            f"{told(module)} has none of the functions of a group: {', '.join(Group._fields[1:])}"
+            f"{safe_repr(module)} has none of the functions of a group: {', '.join(Group._fields[1:])}"
         )
     return Group(size, **found)

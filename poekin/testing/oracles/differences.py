@@ -25,7 +25,7 @@ from math import factorial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from poekin.errors import InputError, ShapeError, told
+from poekin.errors import InputError, ShapeError, safe_repr
 
 from ..strategies import arguments
 
@@ -46,7 +46,7 @@ def derivative(f: Pose, q: ArrayLike, dq: ArrayLike, rate: float = 1.0) -> np.nd
             f"expected q and dq of one shape (m,), got {at.shape} and {direction.shape}"
         )
     if not callable(f):
-        raise InputError(f"f: expected a function of q, got {told(f)}")
+        raise InputError(f"f: expected a function of q, got {safe_repr(f)}")
     step = 0.1 / max(arguments.number("rate", rate, 0.0, 1e100), 1.0)
     terms = [
         (w / step)
@@ -88,7 +88,7 @@ def _coordinates(name: str, q: ArrayLike) -> np.ndarray:
     try:
         values = np.asarray(q, dtype=float)
     except (TypeError, ValueError) as fault:
-        raise InputError(f"{name}: expected numbers (m,), got {told(q)}") from fault
+        raise InputError(f"{name}: expected numbers (m,), got {safe_repr(q)}") from fault
     if values.ndim != 1:
         raise ShapeError(f"{name}: expected shape (m,), one configuration, got {values.shape}")
     return values

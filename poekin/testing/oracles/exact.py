@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from poekin.errors import InputError, MissingExtra, ShapeError, told
+from poekin.errors import InputError, MissingExtra, ShapeError, safe_repr
 
 try:
     import mpmath
@@ -51,7 +51,7 @@ def exactly(x: ArrayLike) -> np.ndarray:
         with np.errstate(invalid="ignore"):
             return np.asarray(_to_mpf(np.asarray(x)), dtype=object)
     except (TypeError, ValueError) as fault:
-        raise InputError(f"expected numbers, got {told(x)}") from fault
+        raise InputError(f"expected numbers, got {safe_repr(x)}") from fault
 
 
 def rounded(x: np.ndarray) -> np.ndarray:

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
 
-from ...errors import InputError, MissingExtra, ModelError, UnknownName, closest, shown, told
+from ...errors import InputError, MissingExtra, ModelError, UnknownName, quote, safe_repr, suggest
 from ...formats.text import xml
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 
@@ -67,7 +67,7 @@ class PinocchioOracle:
         pin = pinocchio()
         if isinstance(text, str) and "<" not in text:
             raise InputError(
-                f"text: expected a URDF itself, not where it is: Path(...).read_text(); got {told(text)}"
+                f"text: expected a URDF itself, not where it is: Path(...).read_text(); got {safe_repr(text)}"
             )
         root = _plain(xml.parse(text, "<text>"))
         content = etree.tostring(root, encoding="unicode")
@@ -108,11 +108,11 @@ class PinocchioOracle:
         lengths, or no numbers.
         """
         if not isinstance(q, Mapping):
-            raise InputError(f"q: expected a dict from coordinate to value(s), got {told(q)}")
+            raise InputError(f"q: expected a dict from coordinate to value(s), got {safe_repr(q)}")
         for name in q:
             if name not in self.coordinates:
                 raise UnknownName(
-                    f"Pinocchio has no coordinate {shown(name)}; {closest(name, self.coordinates)}"
+                    f"Pinocchio has no coordinate {quote(name)}; {suggest(name, self.coordinates)}"
                 )
         lengths = {np.size(v) for v in q.values()} or {1}
         if len(lengths) > 1:
@@ -125,7 +125,7 @@ class PinocchioOracle:
                 values[:, self.coordinates.index(name)] = value
             except (TypeError, ValueError) as fault:
                 raise InputError(
-                    f"q: expected number(s) for {shown(name)}, got {told(value)}"
+                    f"q: expected number(s) for {quote(name)}, got {safe_repr(value)}"
                 ) from fault
         x = values @ self._coupling.T + self._offset
         result = np.tile(pinocchio().neutral(self.model), (len(values), 1))
@@ -229,7 +229,7 @@ class PinocchioOracle:
 
     def _frame(self, link: str) -> int:
         if link not in self.links:
-            raise UnknownName(f"Pinocchio has no link {shown(link)}; {closest(link, self.links)}")
+            raise UnknownName(f"Pinocchio has no link {quote(link)}; {suggest(link, self.links)}")
         return self.model.getFrameId(link, pinocchio().FrameType.BODY)
 
 
@@ -260,7 +260,7 @@ def _built(build: Callable[[], Any]) -> Any:
                 line.partition("Error:")[2].strip() for line in lines if line.startswith("Error:")
             ]
             raise ModelError(
-                f"Pinocchio refuses this URDF: {shown('; '.join(reasons) or refusal, 300)}"
+                f"Pinocchio refuses this URDF: {quote('; '.join(reasons) or refusal, 300)}"
             ) from refusal
         finally:
             if before is not None:
@@ -309,7 +309,7 @@ def _coupling(
             master, factor, step = mimics[master]
             scale, shift = scale * factor, shift + scale * step
         if master in mimics:
-            raise ModelError(f"the joints that mimic {shown(master)} go round in a circle")
+            raise ModelError(f"the joints that mimic {quote(master)} go round in a circle")
         c[row] = shift
         if master in coordinates:
             C[row, coordinates.index(master)] = scale

@@ -14,7 +14,7 @@ import operator
 from collections.abc import Collection
 from typing import Any
 
-from ...errors import InputError, closest, told
+from ...errors import InputError, safe_repr, suggest
 
 
 def number(what: str, value: Any, low: float, high: float) -> float:
@@ -25,7 +25,9 @@ def number(what: str, value: Any, low: float, high: float) -> float:
         else math.nan
     )
     if not low <= real <= high:
-        raise InputError(f"{what}: expected a number from {low:g} to {high:g}, got {told(value)}")
+        raise InputError(
+            f"{what}: expected a number from {low:g} to {high:g}, got {safe_repr(value)}"
+        )
     return real
 
 
@@ -33,7 +35,7 @@ def magnitudes(what: str, value: Any) -> tuple[float, float]:
     """Two finite numbers with 0 < smallest <= largest, between which magnitudes are drawn (0 is
     drawn beside them).
     """
-    expected = f"{what}: expected finite numbers (smallest, largest), 0 < smallest <= largest, got {told(value)}"
+    expected = f"{what}: expected finite numbers (smallest, largest), 0 < smallest <= largest, got {safe_repr(value)}"
     try:
         smallest, largest = value
     except (TypeError, ValueError) as fault:
@@ -54,8 +56,8 @@ def counts(least: Any, most: Any, floor: int = 0) -> tuple[int, int]:
         low = high = -1
     if not floor <= low <= high or isinstance(least, bool) or isinstance(most, bool):
         raise InputError(
-            f"expected whole numbers with {floor} <= min_joints <= max_joints, got min_joints = {told(least)},"
-            f" max_joints = {told(most)}"
+            f"expected whole numbers with {floor} <= min_joints <= max_joints, got min_joints = {safe_repr(least)},"
+            f" max_joints = {safe_repr(most)}"
         )
     return low, high
 
@@ -68,7 +70,7 @@ def shape(value: Any) -> tuple[int, ...]:
         sizes = (-1,)
     if any(size < 0 for size in sizes):
         raise InputError(
-            f"shape: expected a tuple of whole numbers >= 0, such as () or (3, 1, 2), got {told(value)}"
+            f"shape: expected a tuple of whole numbers >= 0, such as () or (3, 1, 2), got {safe_repr(value)}"
         )
     return sizes
 
@@ -82,9 +84,9 @@ def some(what: str, given: Any, known: Collection[str]) -> tuple[str, ...]:
         chosen = ()
     for word in chosen:
         if word not in known:
-            raise InputError(f"{what}: there is no {told(word)}; {closest(str(word), known)}")
+            raise InputError(f"{what}: there is no {safe_repr(word)}; {suggest(str(word), known)}")
     if not chosen:
-        raise InputError(f"{what}: expected some of {', '.join(known)}, got {told(given)}")
+        raise InputError(f"{what}: expected some of {', '.join(known)}, got {safe_repr(given)}")
     return chosen
 
 
@@ -92,5 +94,7 @@ def moves(model: Any) -> int:
     """The number of coordinates m of a chain or robot."""
     m = getattr(model, "dof", None)
     if not isinstance(m, int):
-        raise InputError(f"expected a chain or a robot, with `dof` and `limits`, got {told(model)}")
+        raise InputError(
+            f"expected a chain or a robot, with `dof` and `limits`, got {safe_repr(model)}"
+        )
     return m

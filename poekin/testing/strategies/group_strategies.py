@@ -27,7 +27,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from poekin.errors import InputError, MissingExtra, told
+from poekin.errors import InputError, MissingExtra, safe_repr
 
 try:
     from hypothesis import strategies as st
@@ -228,7 +228,7 @@ def batches(elements: Arrays, shape: Sequence[int]) -> Arrays:
     """
     sizes = arguments.shape(shape)
     if not isinstance(elements, st.SearchStrategy):
-        raise InputError(f"elements: expected a strategy of arrays, got {told(elements)}")
+        raise InputError(f"elements: expected a strategy of arrays, got {safe_repr(elements)}")
     count = math.prod(sizes)
     drawn = st.lists(elements, min_size=max(count, 1), max_size=max(count, 1))
     return drawn.map(lambda x: frozen(np.stack(x)[:count].reshape(*sizes, *np.shape(x[0]))))
@@ -257,7 +257,7 @@ def group_cases(kinds: Sequence[str], size: int) -> st.SearchStrategy[tuple[np.n
             "noisy_element": st.builds(pose, noisy_rotations(), vectors()),
         }
     else:
-        raise InputError(f"size: expected 3 for SO(3) or 6 for SE(3), got {told(size)}")
+        raise InputError(f"size: expected 3 for SO(3) or 6 for SE(3), got {safe_repr(size)}")
     return st.tuples(*(known[kind] for kind in arguments.some("kinds", kinds, KINDS)))
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from poekin.errors import InputError, UnknownName, closest
+from poekin.errors import InputError, UnknownName, suggest
 from poekin.testing.conform import FUNCTIONS, LAWS, Subject, run
 from poekin.testing.conform.grades import NO_RESULT, Grade, Verdict
 from poekin.testing.conform.laws.law import Case, Law, Shown
@@ -39,8 +39,8 @@ def refused(error: type[Exception], said: str, *words: Any, **options: Any) -> N
 
 
 def test_a_law_that_is_none_or_does_not_apply_is_told_with_those_that_do():
-    refused(UnknownName, f"there is no law 'so3_ex'; {closest('so3_ex', NAMES)}", ["so3_ex"])
-    refused(UnknownName, f"there is no law 'lgo'; {closest('lgo', NAMES)}", leave_out="lgo")
+    refused(UnknownName, f"there is no law 'so3_ex'; {suggest('so3_ex', NAMES)}", ["so3_ex"])
+    refused(UnknownName, f"there is no law 'lgo'; {suggest('lgo', NAMES)}", leave_out="lgo")
     those = "those that do: so3_exp, so3_log"
     refused(
         InputError,

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ....errors import InputError, ShapeError, shown, told
+from ....errors import InputError, ShapeError, quote, safe_repr
 from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.coordinates import coordinates
@@ -68,14 +68,16 @@ def choose_poses(
     ("Efficiency improvement of measurement pose selection techniques in robot calibration").
     """
     if not isinstance(arm, Chain):
-        raise InputError(f"choose_poses: expected a Chain, got {told(arm)}")
+        raise InputError(f"choose_poses: expected a Chain, got {safe_repr(arm)}")
     for value, what in ((n, "n"), (compare, "compare")):
         if not _is_count(value):
-            raise InputError(f"{what}: expected a whole number above 0, got {told(value)}")
+            raise InputError(f"{what}: expected a whole number above 0, got {safe_repr(value)}")
     if not (_is_count(seed) or seed == 0):
-        raise InputError(f"seed: expected a whole number from 0 up, got {told(seed)}")
+        raise InputError(f"seed: expected a whole number from 0 up, got {safe_repr(seed)}")
     if by not in CRITERIA:
-        raise InputError(f"by: expected one of {', '.join(map(repr, CRITERIA))}, got {told(by)}")
+        raise InputError(
+            f"by: expected one of {', '.join(map(repr, CRITERIA))}, got {safe_repr(by)}"
+        )
     q = _candidates(arm, candidates, seed)
     if n > len(q):
         raise InputError(f"n: expected at most the {len(q)} candidates, got {n}")
@@ -124,7 +126,7 @@ def _candidates(arm: Chain, candidates: Any, seed: int) -> Array:
     q = np.empty(()) if scalar else coordinates(candidates, arm.q_names, "candidates")
     if q.ndim != 2:
         raise ShapeError(
-            f"candidates: expected configurations (K, {arm.dof}), or how many to draw, got {told(candidates)}"
+            f"candidates: expected configurations (K, {arm.dof}), or how many to draw, got {safe_repr(candidates)}"
         )
     finite = np.isfinite(q)
     lower, upper = arm.limits.T
@@ -132,7 +134,7 @@ def _candidates(arm: Chain, candidates: Any, seed: int) -> Array:
     if bad.any():
         row, k = (int(x) for x in np.argwhere(bad)[0])
         where, many = (
-            f"candidates[{row}]: {shown(arm.q_names[k])} = {q[row, k]:.6g}",
+            f"candidates[{row}]: {quote(arm.q_names[k])} = {q[row, k]:.6g}",
             int(bad.any(axis=1).sum()),
         )
         what = (
@@ -159,7 +161,7 @@ def _sets(measurements: Any) -> list[Measurement]:
     ):
         raise InputError(
             "measurements: expected 'poses', 'points', or an example of Poses, Points, Distances, EyeInHand or"
-            f" EyeToHand, or a list of them, got {told(measurements)}"
+            f" EyeToHand, or a list of them, got {safe_repr(measurements)}"
         )
     return [_everywhere(s) for s in sets]
 

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import InputError, ShapeError, told
+from ....errors import InputError, ShapeError, safe_repr
 from ....groups.arrays import numbers
 
 
@@ -63,11 +63,11 @@ def indices(J: ArrayLike, m: int, rank: int | None = None) -> Indices:
     L = most if rank is None else rank
     if not isinstance(L, (int, np.integer)) or isinstance(L, bool) or not 1 <= L <= most:
         raise InputError(
-            f"rank: expected a whole number from 1 to the {most} parameters, got {told(rank)}"
+            f"rank: expected a whole number from 1 to the {most} parameters, got {safe_repr(rank)}"
         )
     if not isinstance(m, (int, np.integer)) or isinstance(m, bool) or m < 1:
         raise InputError(
-            f"m: expected the number of measured configurations, at least 1, got {told(m)}"
+            f"m: expected the number of measured configurations, at least 1, got {safe_repr(m)}"
         )
     if matrix.shape[-2] < L:
         return of_singular_values(np.zeros((*matrix.shape[:-2], L)), m)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....errors import InputError, told
+from ....errors import InputError, safe_repr
 from ....groups.arrays import Array
 from ..fit.fitting import frames_only
 from ..fit.refit import settled
@@ -58,14 +58,14 @@ def _judged(test: Problem, p: Array, chosen: Indices) -> Residuals:
 def checked(folds: object, count: int, seed: object) -> int:
     """How many folds, 0 for none; a seed that draws them. Raises: InputError."""
     if not isinstance(seed, (int, np.integer)) or isinstance(seed, bool) or seed < 0:
-        raise InputError(f"seed: expected a whole number from 0 on, got {told(seed)}")
+        raise InputError(f"seed: expected a whole number from 0 on, got {safe_repr(seed)}")
     if (
         not isinstance(folds, (int, np.integer))
         or isinstance(folds, bool)
         or folds < 0
         or folds == 1
     ):
-        raise InputError(f"folds: expected 0 for none, or 2 and more, got {told(folds)}")
+        raise InputError(f"folds: expected 0 for none, or 2 and more, got {safe_repr(folds)}")
     if folds > count:
         raise InputError(f"folds: {folds} parts of {count} readings; folds=0 keeps none aside")
     return int(folds)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....errors import InputError, shown
+from ....errors import InputError, quote
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ..fit import initial_guess
@@ -101,8 +101,8 @@ def told(problem: Problem, before: Residuals, after: Residuals) -> Told:
             )
         elif found.base is None or _another(found, arm.reach):
             warnings.append(
-                f"{head}: {found}; the calibrated arm's frames are then other ones than base {shown(arm.base)} and tip"
-                f" {shown(arm.tip)}; {hint(s, found, arm.reach)}"
+                f"{head}: {found}; the calibrated arm's frames are then other ones than base {quote(arm.base)} and tip"
+                f" {quote(arm.tip)}; {hint(s, found, arm.reach)}"
             )
         else:
             where = f"base moved by {found.base}, to the frame that was measured in"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....errors import harmless
+from ....errors import escape_unprintable
 from ....groups.arrays import Array
 from ..measurements.measurement import Indices
 from ..model.problem import Problem
@@ -77,14 +77,16 @@ def _alone(problem: Problem, alone: Indices) -> list[str]:
         mine = [problem.parameters[j].what for j in alone if problem.parameters[j].owner == owner]
         every = sum(p.owner == owner for p in problem.parameters)
         what = (
-            f"all {every} parameters of {harmless(owner, 60)}" if len(mine) == every > 1 else None
+            f"all {every} parameters of {escape_unprintable(owner, 60)}"
+            if len(mine) == every > 1
+            else None
         )
-        said.append(what or f"{harmless(owner, 60)}: {', '.join(mine)}")
+        said.append(what or f"{escape_unprintable(owner, 60)}: {', '.join(mine)}")
     return said
 
 
 def _list(names: list[str]) -> str:
-    short = [harmless(name, 60) for name in names[:MOST]]
+    short = [escape_unprintable(name, 60) for name in names[:MOST]]
     if len(names) > MOST:
         return ", ".join(short) + f" and {len(names) - MOST} more"
     return " and ".join([", ".join(short[:-1]), short[-1]] if len(short) > 1 else short)

@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from typing import NamedTuple
 
-from ....errors import InputError, UnknownName, closest, listed, shown
+from ....errors import InputError, UnknownName, join_names, quote, suggest
 from ....formats.text import pose_rows
 from ....formats.text.numbers import real
 
@@ -51,7 +51,7 @@ def understood(
     words = [word for word in header if word not in ignore]
     for word, times in Counter(words).items():
         if times > 1:
-            raise InputError(f"{here}: the column {shown(word)} is there {times} times")
+            raise InputError(f"{here}: the column {quote(word)} is there {times} times")
     given, numbers = set(words), numbered(len(q_names))
     for names in (q_names, numbers):
         if given >= set(names):
@@ -67,7 +67,7 @@ def understood(
                 f"{here}: a first line that names the columns expected, it has numbers alone"
             )
         raise InputError(
-            f"{here}: no column for the coordinate {shown(missing[0])}; expected {listed(q_names)}, or q1 ... "
+            f"{here}: no column for the coordinate {quote(missing[0])}; expected {join_names(q_names)}, or q1 ... "
             f"q{len(q_names)}"
         )
     raise _fault([word for word in words if word not in names], here)
@@ -83,7 +83,7 @@ def _fault(rest: list[str], here: str) -> InputError | UnknownName:
     if whole:
         most = max(whole, key=lambda layout: len(layout.columns))
         known = set(most.columns)
-        extra = shown(next(word for word in rest if word not in known))
+        extra = quote(next(word for word in rest if word not in known))
         return UnknownName(
             f"{here}: the column {extra} is neither a coordinate nor one of {said(most)}; ignore=[{extra}] passes it "
             "over"
@@ -91,10 +91,10 @@ def _fault(rest: list[str], here: str) -> InputError | UnknownName:
     begun = max(every, key=lambda layout: len(set(layout.columns) & there) / len(layout.columns))
     missing = [name for name in begun.columns if name not in there]
     if len(missing) < len(begun.columns):
-        return InputError(f"{here}: of the columns {said(begun)}, {shown(missing[0])} is missing")
-    close = closest(rest[0], [name for layout in _FIXED for name in layout.columns], 3)
+        return InputError(f"{here}: of the columns {said(begun)}, {quote(missing[0])} is missing")
+    close = suggest(rest[0], [name for layout in _FIXED for name in layout.columns], 3)
     return UnknownName(
-        f"{here}: {shown(rest[0])} is neither a coordinate nor part of a measurement ({_LAYOUTS}); {close}"
+        f"{here}: {quote(rest[0])} is neither a coordinate nor part of a measurement ({_LAYOUTS}); {close}"
     )
 
 

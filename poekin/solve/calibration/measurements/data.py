@@ -11,7 +11,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ....errors import InputError, ShapeError, UnknownName, closest, harmless, shown, told
+from ....errors import (
+    InputError,
+    ShapeError,
+    UnknownName,
+    escape_unprintable,
+    quote,
+    safe_repr,
+    suggest,
+)
 from ....formats.text import csv_rows, pose_rows
 from ....formats.text.atomic_write import write_whole
 from ....groups.arrays import Array
@@ -88,7 +96,7 @@ def read_table(
     once, so it may be a pipe. Parameters and errors: those of `read`.
     """
     if kind is not None and kind not in KINDS:
-        raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {told(kind)}")
+        raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {safe_repr(kind)}")
     ignore = (ignore,) if isinstance(ignore, str) else tuple(ignore)
     names, layouts = (), []
 
@@ -97,7 +105,7 @@ def read_table(
         joints, layout = columns.understood(header, chain.q_names, ignore, here)
         if kind is not None and kind not in layout.kinds:
             those = f"the columns {columns.said(layout)} are those of {' or '.join(layout.kinds)}"
-            raise InputError(f"{here}: {those}, and kind is {told(kind)}")
+            raise InputError(f"{here}: {those}, and kind is {safe_repr(kind)}")
         layouts.append(layout)
         names = (*joints, *layout.columns)
         places = {word: i for i, word in enumerate(header)}
@@ -108,7 +116,7 @@ def read_table(
     if not np.isfinite(rows).all():
         i, k = np.argwhere(~np.isfinite(rows))[0]
         raise InputError(
-            f"{where}:{lines[i]}, column {shown(names[k])}: expected a finite number, got {rows[i, k]}; leave the line "
+            f"{where}:{lines[i]}, column {quote(names[k])}: expected a finite number, got {rows[i, k]}; leave the line "
             "out where nothing was measured"
         )
     places = [f"{where}:{line}" for line in lines]
@@ -141,7 +149,9 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
         )
     names, numbered = chain.q_names, columns.numbered(chain.dof)
     # names that another reader, or this one, would take for something else
-    if set(names) & {*measured, *numbered} or any(harmless(name).strip() != name for name in names):
+    if set(names) & {*measured, *numbered} or any(
+        escape_unprintable(name).strip() != name for name in names
+    ):
         names = numbered
     write_whole(
         path, csv_rows.text((*names, *measured), np.column_stack([q[rows], values])).encode()
@@ -158,7 +168,7 @@ def measurement_of(table: Table, kind: str | None, known: dict[str, Any]) -> Mea
     first, *others = (field.name for field in fields(made) if field.name != "rows")  # type: ignore[arg-type]
     for name in known:
         if name not in others:
-            raise UnknownName(f"{shown(name)} is nothing that {kind} have; {closest(name, others)}")
+            raise UnknownName(f"{quote(name)} is nothing that {kind} have; {suggest(name, others)}")
     if layout.format:
         T = pose_rows.to_poses(
             values, layout.format, "wxyz" if layout.format == "7" else None, places.__getitem__
@@ -188,4 +198,4 @@ def _columns(measurement: Measurement) -> tuple[tuple[str, ...], Array]:
     if isinstance(measurement, Distances):
         return ("distance",), np.asarray(measurement.d)[:, None]
     names = ", ".join(kind.__name__ for kind in KINDS.values())
-    raise InputError(f"measurement: expected one of {names}, got {told(measurement)}")
+    raise InputError(f"measurement: expected one of {names}, got {safe_repr(measurement)}")

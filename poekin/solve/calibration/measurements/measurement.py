@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ....errors import InputError, PoseError, ShapeError, told
+from ....errors import InputError, PoseError, ShapeError, safe_repr
 from ....groups import se3
 from ....groups.arrays import Array, numbers, poses
 from ....model.checks import read_only
@@ -183,7 +183,7 @@ def covariances(values: ArrayLike | None, count: int, width: int, what: str) -> 
         scale = np.sqrt(np.abs(np.diag(one)))
         if not (np.diag(one) > 0).all():
             raise InputError(
-                f"{where} is not positive definite: its diagonal is {told(np.diag(one).tolist())}"
+                f"{where} is not positive definite: its diagonal is {safe_repr(np.diag(one).tolist())}"
             )
         even = one / np.outer(scale, scale)
         if np.abs(even - even.T).max() > 1e-9:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ....errors import InputError, ShapeError, told
+from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
 from ..fit import initial_guess
@@ -64,7 +64,7 @@ class Points(Measurement):
                 f"p: expected positions (N, {k}, 3), of {k} points, got shape {np.shape(self.p)}"
             )
         if self.frame not in ("base", "unknown"):
-            raise InputError(f"frame: expected 'base' or 'unknown', got {told(self.frame)}")
+            raise InputError(f"frame: expected 'base' or 'unknown', got {safe_repr(self.frame)}")
         width = 3 * len(points)
         C = covariances(self.covariance, len(p), width, self.what)
         unknowns = (Unknown("T_base_device", 6, None),) if self.frame == "unknown" else ()
@@ -146,7 +146,7 @@ class Distances(Measurement):
             if value is not None and (
                 np.shape(value) != (3,) or not np.isfinite(numbers(value, name)).all()
             ):
-                raise ShapeError(f"{name}: expected three finite numbers, got {told(value)}")
+                raise ShapeError(f"{name}: expected three finite numbers, got {safe_repr(value)}")
         centre, guess = (
             None if c is None else numbers(c, "centre").copy() for c in (self.centre, self.guess)
         )

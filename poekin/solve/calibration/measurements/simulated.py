@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import InputError, ShapeError, told
+from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
 from ....model.chain import Chain
@@ -101,7 +101,7 @@ def simulated(
     body = np.atleast_2d(numbers(points, "points"))
     if body.ndim != 2 or body.shape[1] != 3 or not len(body) or not np.isfinite(body).all():
         raise ShapeError(
-            f"points: expected finite (3,) or (k, 3) in the tip frame, got {told(points)}"
+            f"points: expected finite (3,) or (k, 3) in the tip frame, got {safe_repr(points)}"
         )
     arms, places, errors, wild = (np.random.default_rng([seed, part]) for part in range(4))
     moved = Arm(arm, ("screws", "home"), None)
@@ -211,21 +211,25 @@ def _checked(
     n: Any, kind: Any, tilt: Any, shift: Any, noise: Any, outliers: Any, seed: Any
 ) -> tuple[int, tuple[float, float]]:
     if kind not in KINDS:
-        raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {told(kind)}")
+        raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {safe_repr(kind)}")
     for value, name, least in ((n, "n", 1), (seed, "seed", 0)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
             raise InputError(
-                f"{name}: expected a whole number of at least {least}, got {told(value)}"
+                f"{name}: expected a whole number of at least {least}, got {safe_repr(value)}"
             )
     sizes = numbers(noise, "noise")
     if sizes.shape != (2,):
-        raise ShapeError(f"noise: expected two standard deviations, (rad, m), got {told(noise)}")
+        raise ShapeError(
+            f"noise: expected two standard deviations, (rad, m), got {safe_repr(noise)}"
+        )
     turn, place = sizes.tolist()
     for value, name in ((tilt, "tilt"), (shift, "shift"), (turn, "noise[0]"), (place, "noise[1]")):
         if numbers(value, name).shape != () or not 0 <= value < np.inf:
-            raise InputError(f"{name}: expected a finite number of at least 0, got {told(value)}")
+            raise InputError(
+                f"{name}: expected a finite number of at least 0, got {safe_repr(value)}"
+            )
     if numbers(outliers, "outliers").shape != () or not 0 <= outliers < 1:
         raise InputError(
-            f"outliers: expected a part of the measurements, 0 <= outliers < 1, got {told(outliers)}"
+            f"outliers: expected a part of the measurements, 0 <= outliers < 1, got {safe_repr(outliers)}"
         )
     return int(n), (turn, place)

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ....errors import InputError, UnknownName, closest, shown, told
+from ....errors import InputError, UnknownName, quote, safe_repr, suggest
 from ....groups import se3
 from ....groups.arrays import Array
 from ....model.chain import Chain
@@ -238,7 +238,7 @@ def _kinds(kinds: Sequence[str]) -> tuple[str, ...]:
     for kind in every:
         if kind not in KINDS:
             known = ", ".join(map(repr, KINDS))
-            raise InputError(f"parameters: expected some of {known}, got {told(kind)}")
+            raise InputError(f"parameters: expected some of {known}, got {safe_repr(kind)}")
     if not every:
         raise InputError(
             f"parameters: nothing to calibrate; expected some of {', '.join(map(repr, KINDS))}"
@@ -250,7 +250,7 @@ def _several(names: Sequence[str], what: str) -> tuple[str, ...]:
     if isinstance(names, str):
         return (names,)
     if not isinstance(names, Iterable):
-        raise InputError(f"{what}: expected names, got {told(names)}")
+        raise InputError(f"{what}: expected names, got {safe_repr(names)}")
     return tuple(names)
 
 
@@ -262,6 +262,6 @@ def _joints(chain: Chain, joints: Sequence[str] | None) -> NDArray[np.bool_]:
     for name in named:
         if name not in chain.joint_names:
             raise UnknownName(
-                f"joints: no joint {shown(name)}; {closest(str(name), chain.joint_names)}"
+                f"joints: no joint {quote(name)}; {suggest(str(name), chain.joint_names)}"
             )
     return np.array([name in named for name in chain.joint_names], bool)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ....errors import InputError, ShapeError, told
+from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3
 from ....groups.arrays import Array
 from ....model.chain import Chain
@@ -214,7 +214,7 @@ def sets_of(measurements: Any, count: int) -> list[Measurement]:
         where = f"measurements[{k}]" if len(sets) > 1 else "measurements"
         if not isinstance(s, Measurement):
             raise InputError(
-                f"{where}: expected Poses, Points, Distances, EyeInHand or EyeToHand, got {told(s)}"
+                f"{where}: expected Poses, Points, Distances, EyeInHand or EyeToHand, got {safe_repr(s)}"
             )
         if s.rows is None and len(s) != count:
             raise ShapeError(

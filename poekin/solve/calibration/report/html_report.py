@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ....errors import ShapeError, harmless
+from ....errors import ShapeError, escape_unprintable
 from ....formats.text.atomic_write import write_whole
 from ....groups import so3
 from ..model.residuals import Residuals
@@ -232,7 +232,7 @@ def _seen(value: float | None) -> str:
 
 
 def _text(words: object, width: int | None = None) -> str:
-    return escape(harmless(words, width))
+    return escape(escape_unprintable(words, width))
 
 
 def _section(title: str, *parts: str) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ....errors import ModelError, PoekinError, shown
+from ....errors import ModelError, PoekinError, quote
 from ....formats import chain_toml
 from ....formats.chain_toml import CALIBRATED, FORMAT, VERSION
 from ....formats.text import toml_text
@@ -151,11 +151,11 @@ def _parameters(
         if (own.owner, _kind(own), own.unit) != (given.owner, _kind(given), given.unit):
             raise row.fault(
                 "what",
-                f"expected {shown(own.name)}, the arm's parameter {k + 1}, got {shown(given.name)}",
+                f"expected {quote(own.name)}, the arm's parameter {k + 1}, got {quote(given.name)}",
             )
     for row, given in zip(rows[len(arm.parameters) :], found[len(arm.parameters) :], strict=True):
         if given.owner not in frames:
-            raise row.fault("owner", f"expected a name in frames, got {shown(given.owner)}")
+            raise row.fault("owner", f"expected a name in frames, got {quote(given.owner)}")
     values = np.array([row.number("value") for row in rows], float)
     covariance = keys.array("covariance", (size, size))
     variances = np.diag(covariance)

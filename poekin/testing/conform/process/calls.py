@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ....errors import harmless
+from ....errors import escape_unprintable
 
 ENDED = "ended the process"
 UNANSWERED = "no answer in"
@@ -44,7 +44,7 @@ class Attempt:
         if isinstance(error, Fault):
             self.fault = str(error)
             return True
-        said = harmless(" ".join(str(error).split()), 200)
+        said = escape_unprintable(" ".join(str(error).split()), 200)
         self.fault = f"{type(error).__name__}: {said}" if said else type(error).__name__
         while trace is not None:
             file = trace.tb_frame.f_code.co_filename

@@ -9,7 +9,7 @@ import math
 import sys
 from typing import NamedTuple
 
-from ....errors import InputError, told
+from ....errors import InputError, safe_repr
 
 STARTING = 120.0
 """Seconds that importing and making a subject may take, at least."""
@@ -29,7 +29,7 @@ class Limits(NamedTuple):
         """These limits. Raises: InputError where they are no positive numbers."""
         for what, value in self._asdict().items():
             if not isinstance(value, int | float) or not 0 < value < math.inf:
-                raise InputError(f"{what}: expected a positive number, got {told(value)}")
+                raise InputError(f"{what}: expected a positive number, got {safe_repr(value)}")
         return self
 
     @property

@@ -9,7 +9,7 @@ import inspect
 from collections.abc import Sequence
 from typing import Any
 
-from ....errors import listed, shown
+from ....errors import join_names, quote
 
 
 def misspelt(own: Any, known: Sequence[str]) -> list[str]:
@@ -20,13 +20,13 @@ def misspelt(own: Any, known: Sequence[str]) -> list[str]:
     """
     meant = {name: _meant(name, known) for name in _public(own) if name not in known}
     notes = [
-        f"{shown(name)} is no name of a subject's; did you mean {shown(other)}?"
+        f"{quote(name)} is no name of a subject's; did you mean {quote(other)}?"
         for name, other in meant.items()
         if other
     ]
     others = [name for name, other in meant.items() if not other and _callable(own, name)]
     return (
-        [*notes, f"no function of a subject's, and held to nothing: {listed(others)}"]
+        [*notes, f"no function of a subject's, and held to nothing: {join_names(others)}"]
         if others
         else notes
     )

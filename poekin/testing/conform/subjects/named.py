@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ....errors import InputError, closest, harmless, shown
+from ....errors import InputError, escape_unprintable, quote, suggest
 from ..process.calls import Attempt
 
 
@@ -25,16 +25,16 @@ def parted(text: str) -> tuple[str, str]:
     """MODULE and NAME of a text "MODULE:NAME". Raises: InputError, with what may have been meant."""
     module, colon, name = text.partition(":")
     if not colon or not module or not name:
-        raise InputError(f"expected MODULE:CLASS, such as my_arm:Kinematics, got {shown(text)}")
+        raise InputError(f"expected MODULE:CLASS, such as my_arm:Kinematics, got {quote(text)}")
     if not all(
         part.isidentifier() for part in [*module.split("."), *name.split(".")]
     ) or module.endswith(".py"):
         parts = [
             part for part in Path(module.strip().removesuffix(".py")).parts if part.isidentifier()
         ]
-        meant = f"{'.'.join(parts) or 'my_arm'}:{harmless(name.strip(': '), 80)}"
+        meant = f"{'.'.join(parts) or 'my_arm'}:{escape_unprintable(name.strip(': '), 80)}"
         raise InputError(
-            f"expected MODULE:CLASS as Python imports it from this directory, such as {meant}; got {shown(text)}"
+            f"expected MODULE:CLASS as Python imports it from this directory, such as {meant}; got {quote(text)}"
         )
     return module, name
 
@@ -50,12 +50,12 @@ def loaded(text: str) -> Any:
         thing = importlib.import_module(module)
     if attempt.fault:
         place = f" ({attempt.place})" if attempt.place else ""
-        raise InputError(f"the module {shown(module)} cannot be imported: {attempt.fault}{place}")
+        raise InputError(f"the module {quote(module)} cannot be imported: {attempt.fault}{place}")
     for part in name.split("."):
         if not hasattr(thing, part):
-            near = closest(part, _classes(thing))
+            near = suggest(part, _classes(thing))
             raise InputError(
-                f"{shown(module)}{_file(module)} has no {shown(name)}; of its classes: {near}"
+                f"{quote(module)}{_file(module)} has no {quote(name)}; of its classes: {near}"
             )
         thing = getattr(thing, part)
     return thing
@@ -100,4 +100,4 @@ def _classes(thing: Any) -> list[str]:
 def _file(module: str) -> str:
     """Where a module is, since another one may have its name."""
     file = getattr(sys.modules.get(module), "__file__", None)
-    return f" ({shown(file, 200)})" if file else ""
+    return f" ({quote(file, 200)})" if file else ""

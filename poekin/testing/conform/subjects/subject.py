@@ -40,7 +40,7 @@ from typing import Any
 
 import numpy as np
 
-from ....errors import InputError, told
+from ....errors import InputError, safe_repr
 from ....groups import se3
 from ....model.chain import Chain
 from ....model.kinematics.pose_jacobian import FRAME_NAMES
@@ -118,7 +118,9 @@ class Subject:
         self.batch, self.helical = self._flag("batch"), self._flag("helical")
         self.arm: Chain | None = self._attribute("arm")
         if not isinstance(self.arm, Chain | None):
-            raise InputError(f"{self.title}: arm: expected a poekin.Chain, got {told(self.arm)}")
+            raise InputError(
+                f"{self.title}: arm: expected a poekin.Chain, got {safe_repr(self.arm)}"
+            )
         for name in self.functions:
             self._check_parameters(name)
         twisted = [name for name in self.functions if name in SE3 or name in ARMS]
@@ -141,7 +143,7 @@ class Subject:
         value = self._attribute("paste")
         if not isinstance(value, Mapping | None):
             raise InputError(
-                f"{self.title}: paste: expected a text for each function, got {told(value)}"
+                f"{self.title}: paste: expected a text for each function, got {safe_repr(value)}"
             )
         return {str(name): str(text) for name, text in (value or {}).items()}
 
@@ -159,13 +161,15 @@ class Subject:
                 f"{self.title} has {function}, and does not declare {what}: expected {what} = {choice}"
             )
         if not isinstance(value, str) or value not in words:
-            raise InputError(f"{self.title}: {what}: expected {choice}, got {told(value)}")
+            raise InputError(f"{self.title}: {what}: expected {choice}, got {safe_repr(value)}")
         return value
 
     def _flag(self, what: str) -> bool:
         value = self._attribute(what)
         if not isinstance(value, bool | None):
-            raise InputError(f"{self.title}: {what}: expected True or False, got {told(value)}")
+            raise InputError(
+                f"{self.title}: {what}: expected True or False, got {safe_repr(value)}"
+            )
         return bool(value)
 
     def _noise(self) -> float:
@@ -174,7 +178,7 @@ class Subject:
             return 0.0
         if not isinstance(value, int | float) or not 0 <= value <= 1e-5:
             raise InputError(
-                f"{self.title}: noise: expected a number from 0 to 1e-5, got {told(value)}"
+                f"{self.title}: noise: expected a number from 0 to 1e-5, got {safe_repr(value)}"
             )
         return float(value)
 
