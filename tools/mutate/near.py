@@ -89,6 +89,7 @@ NEAR = {
     "solve/losses": "solve/noise solve/fitting solve/refit solve/exchange",
     "solve/page_style": "solve/html_report",
     "solve/points solve/poses": _POINTS,
+    "solve/result solve/summary": "solve/calibrate solve/html_report solve/toml_io",
     "solve/problem": f"{_FRAMES} solve/refusals solve/fitting solve/calibrate solve/choose",
     "analysis/axes analysis/shapes": _AXES,
     "analysis/comparison": f"analysis/messages {_COMPARES}",

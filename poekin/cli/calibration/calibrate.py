@@ -17,10 +17,11 @@ from ...formats.dh.table import CONVENTIONS
 from ...formats.text.atomic_write import write_whole
 from ...model.robot import Robot
 from ...solve.calibration.calibrate import calibrate
-from ...solve.calibration.calibration import MOST_OUTLIERS, Calibration
+from ...solve.calibration.calibration import Calibration
 from ...solve.calibration.model.residuals import Residuals
 from ...solve.calibration.report import changes, html_report
 from ...solve.calibration.report.changes import milli
+from ...solve.calibration.report.summary import MOST_OUTLIERS
 from ..array_files import check_apart
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model

@@ -1,7 +1,7 @@
 """Calibration: measurements in, the arm's true screws out, with what can be known and how well."""
 
 from .calibrate import calibrate
-from .calibration import Calibration, Outlier
+from .calibration import Calibration, load
 from .design.choice import Choice, Figures
 from .design.choose import choose_poses
 from .design.indices import Indices, indices
@@ -15,7 +15,7 @@ from .measurements.poses import EyeInHand, EyeToHand, Poses
 from .measurements.simulated import Simulated, simulated
 from .model.parameters import Parameter
 from .model.residuals import Residuals
-from .report.toml_io import load
+from .result import Outlier
 
 __all__ = [
     "Calibration",

@@ -11,7 +11,7 @@ from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.provenance import warn
-from .calibration import Calibration, Outlier
+from .calibration import Calibration
 from .diagnostics import cross_validation as aside
 from .diagnostics import explanation, misfit, units
 from .diagnostics.identification import checked, judged
@@ -23,6 +23,7 @@ from .fit.refit import settled
 from .model.parameters import Arm
 from .model.problem import Problem, readings, sets_of
 from .model.residuals import Residuals, residuals
+from .result import Outlier
 
 _UNITS = ("rad", "m", "1", "m/rad")
 _DEFICIENT = ("refuse", "hold")

@@ -1,50 +1,24 @@
-"""What a calibration found, and what can be done with it."""
+"""Calibration: the result that users hold, data with methods of one line."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
-
-import numpy as np
+from collections.abc import Sequence
+from typing import Any
 
 from ...analysis.compare.compare import compare
-from ...errors import escape_unprintable
+from ...analysis.compare.comparison import Comparison
 from ...formats import dh
+from ...formats.dh.from_chain import FromChain
 from ...formats.relink import relinked
 from ...formats.urdf_text import to_urdf
 from ...groups.arrays import Array
-from ...model.chain import Chain
-from ...model.coordinates import coordinates
 from ...model.robot import Robot
-from .diagnostics.cross_validation import HeldOut
-from .diagnostics.identification import Identification
-from .fit.minimise import Step
-from .fit.noise import Spread
-from .measurements.poses import pose_slopes
-from .model.parameters import Arm, Parameter
-from .model.residuals import Residuals
-
-if TYPE_CHECKING:
-    from ...analysis.compare.comparison import Comparison
-    from ...formats.dh.from_chain import FromChain
-
-MOST_OUTLIERS = 12
+from .report import html_report, summary, toml_io
+from .result import CalibrationData, pose_covariance
 
 
-class Outlier(NamedTuple):
-    """A measurement that is off by more than one good one in 10^4 would be: its set, its index
-    there, its row of q.
-    """
-
-    set: int
-    index: int
-    row: int
-
-
-@dataclass(frozen=True, eq=False)
-class Calibration:
+class Calibration(CalibrationData):
     """An arm as measurements say it is.
 
     chain, nominal: the calibrated and the nominal arm. parameters, values (P,), covariance (P, P):
@@ -59,30 +33,6 @@ class Calibration:
     elsewhere, or residuals are smaller than a covariance.
     """
 
-    nominal: Chain
-    chain: Chain
-    parameters: tuple[Parameter, ...]
-    values: Array = field(repr=False)
-    covariance: Array = field(repr=False)
-    frames: Mapping[str, Array]
-    identification: Identification
-    success: bool
-    steps: tuple[Step, ...] = field(repr=False)
-    before: Residuals = field(repr=False)
-    after: Residuals = field(repr=False)
-    held_out: HeldOut | None = field(repr=False)
-    outliers: tuple[Outlier, ...]
-    spreads: tuple[Spread | None, ...]
-    loss: str
-    arm: Arm = field(repr=False)
-    warnings: tuple[str, ...] = ()
-    remarks: tuple[str, ...] = ()
-
-    @property
-    def deviations(self) -> Array:
-        """Standard deviations (P,) of the values."""
-        return np.sqrt(np.diag(self.covariance))
-
     def pose_covariance(self, q: Any) -> Array:
         """Covariance of the calibrated arm's pose at any q: C_T = D C_p D^T.
 
@@ -93,12 +43,7 @@ class Calibration:
         parameters.
         Source: propagation of covariance through `Chain.screw_derivatives`.
         """
-        q = coordinates(q, self.nominal.q_names)
-        rows, n = q.reshape(-1, self.nominal.dof), len(self.arm.parameters)
-        T, D = self.arm.changes(self.values[:n], rows)
-        slopes = pose_slopes(T, np.zeros((len(T), 6)), D)
-        found = slopes @ self.covariance[:n, :n] @ np.swapaxes(slopes, 1, 2)
-        return found.reshape(*q.shape[:-1], 6, 6)
+        return pose_covariance(self, q)
 
     def compare(self) -> Comparison:
         """`pk.compare` of the nominal and the calibrated arm: joint by joint, what is off by how
@@ -128,9 +73,7 @@ class Calibration:
         Parameters: path, of the file.
         Raises: FileError; MissingExtra without tomli-w.
         """
-        from .report.toml_io import save
-
-        save(self, path)
+        toml_io.save(self, path)
 
     def report(
         self,
@@ -146,38 +89,22 @@ class Calibration:
         to name outliers by.
         Raises: ShapeError, FileError; MissingExtra without Matplotlib.
         """
-        from .report.html_report import write
+        html_report.write(self, path, title, sources)
 
-        write(self, path, title, sources)
+    def summary(self) -> str:
+        """Errors before and after, what could be identified, outliers and warnings, as text."""
+        return summary.text_of(self)
 
     def __str__(self) -> str:
-        state = "converged" if self.success else "NOT converged: the best that was found"
-        lines = [
-            f"{len(self.parameters)} parameters, {len(self.after)} measurements, {state} in {len(self.steps)} steps",
-            str(self.identification),
-            *_table(self),
-        ]
-        if self.outliers:
-            rows = ", ".join(str(o.row) for o in self.outliers[:MOST_OUTLIERS])
-            more = len(self.outliers) - MOST_OUTLIERS
-            lines.append(f"outliers: rows {rows}" + (f" and {more} more" if more > 0 else ""))
-        lines += [*(f"warning: {words}" for words in self.warnings), *self.remarks]
-        return "\n".join(escape_unprintable(line, keep="\n") for line in lines)
+        return self.summary()
 
 
-def _table(found: Calibration) -> list[str]:
-    """Residuals before and after, on all measurements and on those kept aside."""
-    kept = found.held_out
-    rows = [("before", found.before), ("after", found.after)]
-    if kept is not None:
-        rows += [
-            (f"kept aside ({kept.folds} folds), before", kept.before),
-            ("kept aside, after", kept.after),
-        ]
-    angles = not np.isnan(found.before.angle).all()
-    heads = ["median mm", "rms mm"] + ["median mrad", "rms mrad"] * angles
-    lines = [" " * 29 + "".join(f"{head:>13}" for head in heads)]
-    for name, r in rows:
-        values = [r.median_length, r.rms_length] + [r.median_angle, r.rms_angle] * angles
-        lines.append(f"{name:29}" + "".join(f"{1e3 * value:13.3g}" for value in values))
-    return lines
+def load(path: str | os.PathLike[str]) -> Calibration:
+    """The calibration in a file that `Calibration.save` wrote.
+
+    Parameters: path, of the file. Returns: Calibration, equal to the one that was saved to the last
+    bit.
+    Raises: FileError for a file that cannot be read; ModelError with file and key for one that is
+    no calibration, of another version, or that does not fit together.
+    """
+    return Calibration(**vars(toml_io.load(path)))

@@ -15,11 +15,11 @@ import poekin as pk
 from poekin.cli.calibration import calibrate as command
 from poekin.cli.calibration.measured import Said, read
 from poekin.solve.calibration import Distances, Points, Poses, calibrate
-from poekin.solve.calibration.calibration import MOST_OUTLIERS
 from poekin.solve.calibration.measurements import data
 from poekin.solve.calibration.measurements.simulated import simulated
 from poekin.solve.calibration.report import changes, toml_io
 from poekin.solve.calibration.report.changes import milli
+from poekin.solve.calibration.report.summary import MOST_OUTLIERS
 
 PANDA = pk.load("panda").chain(tip="panda_link8")
 ARM = ["calibrate", "panda", "--tip", "panda_link8", "--folds", 2]

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ....groups.arrays import Array
 from ..model.residuals import Residuals
-
-if TYPE_CHECKING:
-    from ..calibration import Calibration
+from ..result import CalibrationData
 
 TWO_SIGMA = 1.959963984540054
 """Of a normal number, 95 % lie within so many standard deviations."""
 
 
-def errors(found: Calibration) -> list[tuple[str, Residuals]]:
+def errors(found: CalibrationData) -> list[tuple[str, Residuals]]:
     """Residuals and what to call them, those on data kept aside first."""
     aside = found.held_out
     kept = (
@@ -28,7 +26,7 @@ def errors(found: Calibration) -> list[tuple[str, Residuals]]:
     return [*kept, ("nominal, all data", found.before), ("calibrated, all data", found.after)]
 
 
-def sentence(found: Calibration) -> str:
+def sentence(found: CalibrationData) -> str:
     """What came out, in a sentence or two: on data kept aside, where there are any."""
     (_, before), (_, after), *_ = errors(found)
     where = "On the data it was fitted to" if found.held_out is None else "On data kept aside"
@@ -82,7 +80,7 @@ class Joint(NamedTuple):
     shift: Change
 
 
-def joints(found: Calibration) -> list[Joint]:
+def joints(found: CalibrationData) -> list[Joint]:
     """The joints whose axes could move, in the order of the chain."""
     own = {
         word: [
@@ -99,7 +97,7 @@ def joints(found: Calibration) -> list[Joint]:
     ]
 
 
-def _change(found: Calibration, name: str, word: str, rows: list[int]) -> Change:
+def _change(found: CalibrationData, name: str, word: str, rows: list[int]) -> Change:
     mine = [k for k in rows if found.parameters[k].owner == name]
     directions = tuple(found.parameters[k].what.removeprefix(word).strip() for k in mine)
     return Change(directions, found.values[mine], found.covariance[np.ix_(mine, mine)])

@@ -7,20 +7,18 @@ import os
 from collections.abc import Iterable, Sequence
 from html import escape
 from string import Template
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....analysis.compare.compare import compare
 from ....errors import ShapeError, escape_unprintable
 from ....formats.text.atomic_write import write_whole
 from ....groups import so3
 from ..model.residuals import Residuals
+from ..result import CalibrationData, pose_covariance
 from . import changes, page_style, plots
 from .changes import milli
 from .plots import Curve
-
-if TYPE_CHECKING:
-    from ..calibration import Calibration
 
 CONFIGURATIONS = 1000
 """How many random configurations the uncertainty of the pose is shown at."""
@@ -29,7 +27,7 @@ _HEADS = ("", "position rms (mm)", "median", "largest", "rotation rms (mrad)", "
 
 
 def write(
-    found: Calibration,
+    found: CalibrationData,
     path: str | os.PathLike[str],
     title: str | None = None,
     sources: Sequence[str] | None = None,
@@ -38,7 +36,9 @@ def write(
     write_whole(path, html(found, title, sources).encode())
 
 
-def html(found: Calibration, title: str | None = None, sources: Sequence[str] | None = None) -> str:
+def html(
+    found: CalibrationData, title: str | None = None, sources: Sequence[str] | None = None
+) -> str:
     """The page as text. Raises: ShapeError where sources do not name all rows; MissingExtra."""
     rows = int(found.after.row.max()) + 1
     if sources is not None and len(sources) < rows:
@@ -63,7 +63,7 @@ def html(found: Calibration, title: str | None = None, sources: Sequence[str] | 
     )
 
 
-def _residuals(found: Calibration) -> Iterable[str]:
+def _residuals(found: CalibrationData) -> Iterable[str]:
     aside, rows = found.held_out, changes.errors(found)
     yield from (_p(f"Warning: {words}.") for words in found.warnings)
     yield from (_p(f"{words}.") for words in found.remarks)
@@ -103,7 +103,7 @@ def _of_set(r: Residuals, k: int) -> Residuals:
     return Residuals(r.length[mine], r.angle[mine], r.set[mine], r.row[mine])
 
 
-def _measured(found: Calibration) -> Iterable[str]:
+def _measured(found: CalibrationData) -> Iterable[str]:
     rows = []
     for k, spread in enumerate(found.spreads):
         mine = _of_set(found.after, k)
@@ -137,7 +137,7 @@ def _measured(found: Calibration) -> Iterable[str]:
         ], words=(0, 4))  # fmt: skip
 
 
-def _changed(found: Calibration) -> Iterable[str]:
+def _changed(found: CalibrationData) -> Iterable[str]:
     moved = changes.joints(found)
     if moved:
         yield _p(
@@ -151,7 +151,7 @@ def _changed(found: Calibration) -> Iterable[str]:
             (j.name, *(milli(x) for c in (j.tilt, j.shift) for x in (c.size, c.margin)))
             for j in moved
         ])  # fmt: skip
-    compared = found.compare()
+    compared = compare(found.nominal, found.chain)
     yield _caption("Nominal and calibrated arm, aligned and compared (the largest first)")
     lines = sorted(compared.joints, key=lambda j: -max(j.shift or 0.0, j.normal or 0.0, j.angle))
     yield _table(("joint", "angle of the axes (°)", "common normal (mm)", "at the arm (mm)", "zero"), [
@@ -165,8 +165,8 @@ def _changed(found: Calibration) -> Iterable[str]:
         )
 
 
-def _uncertainty(found: Calibration) -> Iterable[str]:
-    C = found.pose_covariance(found.nominal.random(0, CONFIGURATIONS))
+def _uncertainty(found: CalibrationData) -> Iterable[str]:
+    C = pose_covariance(found, found.nominal.random(0, CONFIGURATIONS))
     angle, length = (
         np.sqrt(np.maximum(np.trace(C[:, k, k], axis1=1, axis2=2), 0.0))
         for k in (np.s_[:3], np.s_[3:])
@@ -185,7 +185,7 @@ def _uncertainty(found: Calibration) -> Iterable[str]:
     )
 
 
-def _outliers(found: Calibration, sources: Sequence[str] | None) -> Iterable[str]:
+def _outliers(found: CalibrationData, sources: Sequence[str] | None) -> Iterable[str]:
     if not found.outliers:
         yield _p("None: no measurement is off by more than one good one in 10 000 would be.")
         return
@@ -203,7 +203,7 @@ def _outliers(found: Calibration, sources: Sequence[str] | None) -> Iterable[str
     yield _table(heads if sources is None else (*heads, "from"), rows, words=(4,))
 
 
-def _search(found: Calibration) -> Iterable[str]:
+def _search(found: CalibrationData) -> Iterable[str]:
     state = "converged" if found.success else "did NOT converge"
     yield _p(
         f"The search with the loss {found.loss} {state} in {len(found.steps)} steps, counted over all its rounds."
@@ -215,7 +215,7 @@ def _search(found: Calibration) -> Iterable[str]:
         )
 
 
-def _parameters(found: Calibration) -> Iterable[str]:
+def _parameters(found: CalibrationData) -> Iterable[str]:
     rows = [
         (p.owner, p.what, f"{v:.6g}", f"{d:.2g}", p.unit)
         for p, v, d in zip(

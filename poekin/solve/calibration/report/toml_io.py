@@ -16,7 +16,6 @@ from ....formats.text.toml_text import Keys
 from ....groups.arrays import Array, poses
 from ....model.chain import Chain
 from ....model.checks import read_only
-from ..calibration import Calibration, Outlier
 from ..diagnostics.cross_validation import HeldOut
 from ..diagnostics.identification import Identification
 from ..fit.losses import LOSSES
@@ -24,6 +23,7 @@ from ..fit.minimise import Step
 from ..fit.noise import Spread
 from ..model.parameters import Arm, Parameter
 from ..model.residuals import Residuals
+from ..result import CalibrationData, Outlier
 
 _SAID = ("warnings", "remarks")  # where there are any
 _TOP = (
@@ -39,7 +39,7 @@ _AGREE = (
 )
 
 
-def save(found: Calibration, path: str | os.PathLike[str]) -> None:
+def save(found: CalibrationData, path: str | os.PathLike[str]) -> None:
     """Write a calibration, whole or not at all; see `Calibration.save`."""
     data: dict[str, Any] = {
         "format": FORMAT, "version": VERSION, "success": bool(found.success), "loss": found.loss,
@@ -71,14 +71,8 @@ def save(found: Calibration, path: str | os.PathLike[str]) -> None:
     write_whole(path, toml_text.text_of(data).encode())
 
 
-def load(path: str | os.PathLike[str]) -> Calibration:
-    """The calibration in a file that `Calibration.save` wrote.
-
-    Parameters: path, of the file. Returns: Calibration, equal to the one that was saved to the last
-    bit.
-    Raises: FileError for a file that cannot be read; ModelError with file and key for one that is
-    no calibration, of another version, or that does not fit together.
-    """
+def load(path: str | os.PathLike[str]) -> CalibrationData:
+    """Read what `save` wrote; see `calibration.load`. Raises: FileError, ModelError."""
     keys = chain_toml.opened(path)
     keys = Keys(keys.data, keys.place, _TOP)
     nominal, chain = (chain_toml.to_chain(keys.table(name)) for name in ("nominal", CALIBRATED))
@@ -86,7 +80,7 @@ def load(path: str | os.PathLike[str]) -> Calibration:
     frames = {name: _place(keys.table("frames"), name) for name in keys.table("frames").data}
     parameters, values, covariance = _parameters(keys, arm, frames)
     _agree(keys, arm, values[: len(arm.parameters)], chain)
-    found = Calibration(
+    found = CalibrationData(
         nominal=nominal, chain=chain, parameters=parameters, values=values, covariance=covariance, frames=frames,
         identification=_identified(keys.table("identification", (*_COUNTS, *_FIGURES, *_WORDS, "singular_values"))),
         success=keys.truth("success"), steps=_steps(keys.table("steps", Step._fields)),
@@ -99,7 +93,7 @@ def load(path: str | os.PathLike[str]) -> Calibration:
     return found
 
 
-def _check_sets(keys: Keys, found: Calibration) -> None:
+def _check_sets(keys: Keys, found: CalibrationData) -> None:
     """Refuse residuals of sets that there are not, and outliers that are no measurement."""
     count, after = len(found.spreads), found.after
     if (after.set >= count).any():

@@ -17,9 +17,9 @@ import poekin as pk
 from poekin.errors import FileError, MissingExtra, ShapeError
 from poekin.groups import se3
 from poekin.solve.calibration import Distances, Points, calibrate
-from poekin.solve.calibration.calibration import Outlier
 from poekin.solve.calibration.measurements.simulated import simulated
 from poekin.solve.calibration.report import changes, html_report
+from poekin.solve.calibration.result import Outlier
 
 pytest.importorskip("matplotlib")
 

@@ -16,9 +16,8 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import FileError, MissingExtra, ModelError, PoekinError
 from poekin.groups import se3
-from poekin.solve.calibration import Poses, calibrate
+from poekin.solve.calibration import Poses, calibrate, load
 from poekin.solve.calibration.measurements.simulated import simulated
-from poekin.solve.calibration.report import toml_io
 
 SCREWS = [
     pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([0, 0.6, 0.8]),
@@ -88,7 +87,7 @@ def same(a, b):
 
 def test_a_calibration_comes_back_to_the_last_bit(found, tmp_path):
     found.save(tmp_path / "arm.toml")
-    again = toml_io.load(tmp_path / "arm.toml")
+    again = load(tmp_path / "arm.toml")
     for field in fields(found):
         if field.name != "arm":
             assert same(getattr(found, field.name), getattr(again, field.name)), field.name
@@ -101,7 +100,7 @@ def test_a_calibration_comes_back_to_the_last_bit(found, tmp_path):
 
 
 def test_the_robot_in_the_file_moves_as_the_calibrated_chain(saved):
-    robot, chain = pk.load(saved), toml_io.load(saved).chain
+    robot, chain = pk.load(saved), load(saved).chain
     assert robot.chain(tip="t").q_names == chain.q_names
     q = chain.random(0, 50)
     # the z-aligned frames of a robot are other numbers: some rounding for each of six frames
@@ -279,7 +278,7 @@ def test_what_is_wrong_is_said_with_file_and_key(name, saved):
     assert old in text
     saved.write_text(text.replace(old, new, 1))
     with pytest.raises(ModelError, match=rf"^{re.escape(str(saved))}: {message}$"):
-        toml_io.load(saved)
+        load(saved)
 
 
 def test_a_key_that_is_missing_is_named(saved):
@@ -287,7 +286,7 @@ def test_a_key_that_is_missing_is_named(saved):
     for name in ("success", "loss", "version"):
         saved.write_text("\n".join(line for line in lines if not line.startswith(f"{name} = ")))
         with pytest.raises(ModelError, match=rf"arm\.toml: {name} is missing"):
-            toml_io.load(saved)
+            load(saved)
 
 
 @settings(max_examples=100, deadline=None)
@@ -310,7 +309,7 @@ def test_a_damaged_file_is_an_error_of_its_own_or_none(data, tmp_path_factory):
     path.write_text("\n".join(lines))
     said = ""
     try:
-        toml_io.load(path)
+        load(path)
     except PoekinError as fault:
         said = str(fault)
     assert not said or "damaged.toml: " in said
@@ -318,13 +317,13 @@ def test_a_damaged_file_is_an_error_of_its_own_or_none(data, tmp_path_factory):
 
 def test_what_is_no_calibration_is_refused(tmp_path):
     with pytest.raises(FileError, match=r"none\.toml: cannot be read"):
-        toml_io.load(tmp_path / "none.toml")
+        load(tmp_path / "none.toml")
     (tmp_path / "dh.toml").write_text('convention = "standard"\n')
     with pytest.raises(ModelError, match=r"dh\.toml: format is missing"):
-        toml_io.load(tmp_path / "dh.toml")
+        load(tmp_path / "dh.toml")
     (tmp_path / "bytes.toml").write_bytes(b"format = '\xff'\n")
     with pytest.raises(FileError, match=r"bytes\.toml: not UTF-8 at byte 10"):
-        toml_io.load(tmp_path / "bytes.toml")
+        load(tmp_path / "bytes.toml")
 
 
 def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path):

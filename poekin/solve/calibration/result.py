@@ -1,0 +1,70 @@
+"""Data of a calibration: the arm that was found, how well it is known, what was left over."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...model.coordinates import coordinates
+from .diagnostics.cross_validation import HeldOut
+from .diagnostics.identification import Identification
+from .fit.minimise import Step
+from .fit.noise import Spread
+from .measurements.poses import pose_slopes
+from .model.parameters import Arm, Parameter
+from .model.residuals import Residuals
+
+
+class Outlier(NamedTuple):
+    """A measurement that is off by more than one good one in 10^4 would be: its set, its index
+    there, its row of q.
+    """
+
+    set: int
+    index: int
+    row: int
+
+
+@dataclass(frozen=True, eq=False)
+class CalibrationData:
+    """Everything that a calibration found; `Calibration` says what each field holds."""
+
+    nominal: Chain
+    chain: Chain
+    parameters: tuple[Parameter, ...]
+    values: Array = field(repr=False)
+    covariance: Array = field(repr=False)
+    frames: Mapping[str, Array]
+    identification: Identification
+    success: bool
+    steps: tuple[Step, ...] = field(repr=False)
+    before: Residuals = field(repr=False)
+    after: Residuals = field(repr=False)
+    held_out: HeldOut | None = field(repr=False)
+    outliers: tuple[Outlier, ...]
+    spreads: tuple[Spread | None, ...]
+    loss: str
+    arm: Arm = field(repr=False)
+    warnings: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def deviations(self) -> Array:
+        """Standard deviations (P,) of the values."""
+        return np.sqrt(np.diag(self.covariance))
+
+
+def pose_covariance(found: CalibrationData, q: Any) -> Array:
+    """Covariance (..., 6, 6) of the calibrated arm's pose at q; see `Calibration.pose_covariance`."""
+    q = coordinates(q, found.nominal.q_names)
+    rows = q.reshape(-1, found.nominal.dof)
+    n = len(found.arm.parameters)
+    T, D = found.arm.changes(found.values[:n], rows)
+    slopes = pose_slopes(T, np.zeros((len(T), 6)), D)
+    C = slopes @ found.covariance[:n, :n] @ np.swapaxes(slopes, 1, 2)
+    return C.reshape(*q.shape[:-1], 6, 6)
