@@ -18,9 +18,9 @@ from typing import NamedTuple
 import numpy as np
 
 from poekin import se3
-from poekin.testing.accuracy import worst_cases
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.oracles import longdouble_oracle
+
+from .accuracy import longdouble_oracle, worst_cases
 
 Function = Callable[[np.ndarray], np.ndarray]
 """exp: twists (N, 6) -> poses (N, 4, 4); log: poses -> twists."""

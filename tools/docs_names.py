@@ -52,7 +52,7 @@ TESTING: dict[str, tuple[str, tuple[str, ...]]] = {
         "oracles.exact", "oracles.differences", "oracles.pinocchio_oracle", "oracles.pinocchio_derivatives",
     )),
     "testing_accuracy": ("poekin.testing.accuracy", (
-        "accuracy.accuracy", "accuracy.accuracy_laws", "accuracy.error_bounds", "accuracy.falsify",
+        "accuracy.accuracy_laws", "accuracy.error_bounds", "accuracy.falsify",
     )),
     "testing_conform": ("poekin.testing.conform", (
         "conform", "conform.laws.of_groups", "conform.laws.of_arms", "conform.plugin",

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from poekin.testing.accuracy.accuracy import accuracy
 from poekin.testing.oracles import exact
 
+from ..accuracy.worst_errors import worst_errors
 from ..report import Figure, Table, Topic
 
 
 def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
-    rows = accuracy(samples=100 if quick else 1000)
+    rows = worst_errors(samples=100 if quick else 1000)
     say(f"{len(rows)} rows, {sum(row.cases for row in rows)} cases")
     return Topic(
         "Accuracy of exp, log and the Jacobians of exp",

@@ -20,9 +20,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from poekin.testing.accuracy import error_bounds, worst_cases
+from poekin.testing.accuracy import error_bounds
 from poekin.testing.conform import confirm
 from poekin.testing.oracles import exact
+
+from ..accuracy import worst_cases
 
 FUNCTIONS = {
     "exp_so3": "exp SO(3)",

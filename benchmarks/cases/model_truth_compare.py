@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from poekin import compare
-from poekin.testing.cases.planted_changes import (
+
+from ..planted_changes import (
     ARMS,
     CHANGES,
     alignment_fault,
@@ -18,7 +19,6 @@ from poekin.testing.cases.planted_changes import (
     moves,
     planted,
 )
-
 from ..report import Figure, Table, Topic
 
 WORDS = {

@@ -13,11 +13,11 @@ from poekin import Chain, load, to_urdf
 from poekin.analysis.validate import routes
 from poekin.errors import PoekinError, PoekinWarning
 from poekin.testing.cases.example_robots import example_robots
-from poekin.testing.oracles.urdf_errors import pinocchio_errors
 
 from ..dh_judge import WELL, Trip, there_and_back
 from ..draw import dots
 from ..report import Figure, Table, Topic
+from ..urdf_errors import pinocchio_errors
 from .model_truth_tables import trip_figures
 
 

@@ -2,7 +2,8 @@
 
 strategies: what to try
     group_strategies   angles, axes, vectors, rotations, noisy rotations, twists, poses; batches and
-    their shapes near_strategies    the same close to 0, to π or to any other angle
+                       their shapes
+    near_strategies    the same close to 0, to π or to any other angle
     chain_strategies   screws, chains, coordinates
     configuration_strategies  configurations within and at limits, singular ones
     robot_strategies   robots: whole trees, with mimic joints, limits and several leaves
@@ -22,13 +23,12 @@ laws: what must hold, as plain functions that raise LawViolation with the error 
 oracles: what is true, by code that shares nothing with what it judges
     exact              so(3) and se(3) in 60 digits and more (mpmath)
     differences        finite differences on the group
-    pinocchio_oracle, pinocchio_derivatives  poses, Jacobians and their derivatives of a URDF by
-    Pinocchio longdouble_oracle  SO(3) and SE(3) over arrays, in extended precision
+    pinocchio_oracle, pinocchio_derivatives
+                       poses, Jacobians and their derivatives of a URDF by Pinocchio
 
 accuracy: how far exp, log and the Jacobians of exp are from the truth
     accuracy_laws      each of them against `oracles.exact`
     error_bounds       what float64 can attain for exp and log, and how far a result is from it
-    accuracy, worst_cases  the worst errors, as rows of a report, and the search for the cases
     falsify            shows that a battery of laws catches a planted error
 
 conform: holds any library to the laws, and grades it: `poekin conform`

@@ -9,11 +9,11 @@ import json
 import numpy as np
 import pytest
 
+from benchmarks.planted_changes import random_arm
 from poekin.analysis.axes import axes
 from poekin.analysis.compare.compare import compare
 from poekin.analysis.dexterity.singularity import singularity
 from poekin.analysis.validate import Validation
-from poekin.testing.cases.planted_changes import random_arm
 from tests import findings
 
 FOUND = [

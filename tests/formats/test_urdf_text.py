@@ -14,6 +14,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from benchmarks.urdf_errors import SAMPLES, pinocchio_errors, values_of
 from poekin.analysis.validate import routes
 from poekin.errors import PoekinWarning
 from poekin.formats import urdf
@@ -27,7 +28,6 @@ from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.cases.example_robots import example_robots
 from poekin.testing.laws.chain_laws import budget
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
-from poekin.testing.oracles.urdf_errors import SAMPLES, pinocchio_errors, values_of
 from poekin.testing.strategies.chain_strategies import chains
 from tests.model.test_robot import random_q, robots, seeds, size
 from tests.model.test_robot import rounding as poses_rounding

@@ -12,9 +12,9 @@ import pytest
 from hypothesis import given, target
 from hypothesis import strategies as st
 
+from benchmarks.accuracy.worst_errors import worst_errors
 from poekin.groups import se3, so3
 from poekin.testing.accuracy import error_bounds
-from poekin.testing.accuracy.accuracy import accuracy
 from poekin.testing.accuracy.accuracy_laws import ACCURACY_LAWS
 from poekin.testing.laws.group import group_of
 from poekin.testing.oracles import exact
@@ -38,7 +38,7 @@ SOME = {"seed": 3, "samples": 40, "sweep": 5000}
 
 @pytest.fixture(scope="module")
 def rows():
-    return accuracy(**SOME)
+    return worst_errors(**SOME)
 
 
 def test_the_rows_of_the_report_keep_their_bars(rows):
@@ -48,7 +48,7 @@ def test_the_rows_of_the_report_keep_their_bars(rows):
 
 
 def test_the_rows_are_the_same_for_the_same_seed(rows):
-    assert [row.error for row in rows] == [row.error for row in accuracy(**SOME)]
+    assert [row.error for row in rows] == [row.error for row in worst_errors(**SOME)]
 
 
 def changed(module, **functions):
@@ -105,7 +105,9 @@ def test_planted_errors_show_in_their_rows(planted):
         if getattr(subject, name) is not getattr(se3, name)
     }
     rotation = changed(so3, log=log_without_projection)
-    rows = accuracy(seed=3, samples=20, sweep=100, rotation=rotation, pose=changed(se3, **together))
+    rows = worst_errors(
+        seed=3, samples=20, sweep=100, rotation=rotation, pose=changed(se3, **together)
+    )
     failed = [row.what for row in rows if not row.passed]
     assert "log of a noisy rotation: error" in failed
     for row in planted:

@@ -13,15 +13,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from poekin.analysis.compare.alignment.lines import lines
-from poekin.analysis.compare.compare import compare
-from poekin.errors import InputError
-from poekin.formats import dh
-from poekin.formats.load import load
-from poekin.groups import se3
-from poekin.model import screw
-from poekin.model.chain import Chain
-from poekin.testing.cases.planted_changes import (
+from benchmarks.planted_changes import (
     ARMS,
     CHANGES,
     alignment_fault,
@@ -31,6 +23,14 @@ from poekin.testing.cases.planted_changes import (
     planted,
     random_arm,
 )
+from poekin.analysis.compare.alignment.lines import lines
+from poekin.analysis.compare.compare import compare
+from poekin.errors import InputError
+from poekin.formats import dh
+from poekin.formats.load import load
+from poekin.groups import se3
+from poekin.model import screw
+from poekin.model.chain import Chain
 
 
 @pytest.mark.parametrize("name", ARMS)

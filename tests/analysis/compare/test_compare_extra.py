@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from benchmarks.planted_changes import arm, random_arm
 from poekin.analysis.compare import unmatched_joints
 from poekin.analysis.compare.alignment.search import agreeing, search
 from poekin.analysis.compare.compare import compare
@@ -16,7 +17,6 @@ from poekin.analysis.compare.locked_joints import held_positions
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
-from poekin.testing.cases.planted_changes import arm, random_arm
 
 
 def longer_by(chain, places, rng):

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from benchmarks.planted_changes import arm, random_arm
 from poekin.analysis.compare.alignment import search as searching
 from poekin.analysis.compare.alignment.hypotheses import Reading
 from poekin.analysis.compare.alignment.lines import sides
@@ -15,7 +16,6 @@ from poekin.formats import dh
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
-from poekin.testing.cases.planted_changes import arm, random_arm
 
 TOL = 1e-5, np.radians(1e-3)
 

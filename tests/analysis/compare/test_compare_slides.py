@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from benchmarks.planted_changes import random_arm
 from poekin.analysis.compare.alignment.hypotheses import read
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.alignment.search import search
@@ -18,7 +19,6 @@ from poekin.formats.load import load
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
-from poekin.testing.cases.planted_changes import random_arm
 
 TOL = 1e-5, np.radians(1e-3)
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from benchmarks.planted_changes import arm, planted, random_arm
 from poekin.analysis.compare.alignment.lines import lines
 from poekin.analysis.compare.compare import compare
 from poekin.analysis.compare.length_unit import length_ratio, rescaled, to_one_unit
@@ -14,7 +15,6 @@ from poekin.formats.load import load
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
-from poekin.testing.cases.planted_changes import arm, planted, random_arm
 
 COBRA = load("cobra600").chain()
 RAIL = Chain([screw.prismatic([0, 1, 0]), *random_arm(4, ("revolute",) * 4).screws], np.eye(4))

@@ -147,7 +147,7 @@ def test_importing_the_room_imports_no_optional_package():
     ("module", "package"),
     [
         ("oracles.exact", "mpmath"),
-        ("accuracy.accuracy", "mpmath"),
+        ("accuracy.error_bounds", "mpmath"),
         ("strategies", "hypothesis"),
         ("accuracy.falsify", "hypothesis"),
     ],

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from benchmarks.planted_changes import random_arm
 from poekin.analysis.compare.alignment import alignment_seeds
 from poekin.analysis.compare.alignment.alignment_seeds import (
     one_turn,
@@ -17,7 +18,6 @@ from poekin.analysis.compare.compare import compare
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
-from poekin.testing.cases.planted_changes import random_arm
 
 PARALLEL = Chain(
     [screw.revolute([0, 0, 1], [x, 0.1 * x * x, 0]) for x in (0.0, 0.4, 0.7)], np.eye(4)

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from benchmarks.planted_changes import planted, random_arm
 from poekin.analysis.compare.alignment import fit as fitting
 from poekin.analysis.compare.alignment.fit import _linearised, _step, fit
 from poekin.analysis.compare.alignment.lines import carried, misses, sides
 from poekin.groups import se3
-from poekin.testing.cases.planted_changes import planted, random_arm
 
 KINDS = ("revolute", "revolute", "prismatic", "revolute", "revolute")
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from benchmarks.planted_changes import random_arm
 from poekin.analysis.compare.alignment.lines import (
     at_rest,
     carried,
@@ -23,7 +24,6 @@ from poekin.analysis.compare.alignment.lines import (
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
-from poekin.testing.cases.planted_changes import random_arm
 
 X, Y, Z = np.eye(3)
 TOOL = se3.exp(np.array([0, 0, 0, 0.3, 0.4, 9.0]))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from benchmarks.planted_changes import random_arm
 from poekin.analysis.compare.alignment.alignment_seeds import rigid_poses
 from poekin.analysis.compare.alignment.hypotheses import Reading
 from poekin.analysis.compare.alignment.lines import sides
@@ -20,7 +21,6 @@ from poekin.analysis.compare.compare import compare
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
-from poekin.testing.cases.planted_changes import random_arm
 
 N, TOL = 4, (1e-5, np.radians(1e-3))
 

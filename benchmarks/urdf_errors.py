@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from ...model.chain import Chain
-from .pinocchio_oracle import PinocchioOracle
+from poekin.model.chain import Chain
+from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
 SAMPLES = 5
 

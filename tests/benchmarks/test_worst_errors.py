@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks.accuracy import longdouble_oracle, worst_cases, worst_errors
 from poekin.groups import se3, so3
-from poekin.testing.accuracy import accuracy, worst_cases
 from poekin.testing.accuracy.error_bounds import BOTH_SIGNS, UNIT
-from poekin.testing.oracles import exact, longdouble_oracle
+from poekin.testing.oracles import exact
 
 MANY = 20_000
 
@@ -34,7 +34,7 @@ def size(x: np.ndarray) -> np.ndarray:
 
 
 def test_angles_are_a_grid_and_three_kinds_of_random_ones():
-    angles = accuracy._angles(np.random.default_rng(0), 10.0, 8000)
+    angles = worst_errors._angles(np.random.default_rng(0), 10.0, 8000)
     grid, wide, usual, even = np.split(angles, [len(angles) - 8000, -6000, -2000])
     marks = {
         0.0,
@@ -59,7 +59,7 @@ def test_angles_are_a_grid_and_three_kinds_of_random_ones():
     assert spread(np.log10(usual)) == evenly(-10, 1)
     assert spread(even) == evenly(0, 10)
     assert angles.min() == 0
-    principal = accuracy._angles(np.random.default_rng(0), math.pi, 100)
+    principal = worst_errors._angles(np.random.default_rng(0), math.pi, 100)
     assert principal.max() == math.pi
     assert principal.min() == 0
     assert len(principal) == 100 + len(grid) - 2  # 2π and 3π are beyond
@@ -67,14 +67,14 @@ def test_angles_are_a_grid_and_three_kinds_of_random_ones():
 
 def test_lengths_do_not_depend_on_angles():
     angles = np.geomspace(1e-9, 10, MANY)
-    xi = accuracy._twists(np.random.default_rng(0), angles)
+    xi = worst_errors._twists(np.random.default_rng(0), angles)
     assert size(xi[:, :3]) == pytest.approx(angles, rel=1e-14)
     assert spread(np.log10(size(xi[:, 3:]))) == evenly(-9, 3)
     assert abs(np.corrcoef(np.log(angles), np.log(size(xi[:, 3:])))[0, 1]) < 0.03
 
 
 def test_towards_pi_are_poses_from_the_last_bit_to_1e_12():
-    poses = accuracy._near_pi(np.random.default_rng(0), 200)
+    poses = worst_errors._near_pi(np.random.default_rng(0), 200)
     gaps = np.array([float(exact.mp.pi - exact.norm(exact.log(T)[:3])) for T in poses])
     assert poses.shape == (200, 4, 4)
     assert gaps.max() == pytest.approx(1e-12, rel=0.3)
@@ -97,8 +97,8 @@ def test_towards_pi_are_poses_from_the_last_bit_to_1e_12():
         return np.zeros((len(angles), 6))
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(accuracy, "_twists", twists)
-        accuracy._near_pi(Least(), 3)  # type: ignore[arg-type]
+        patch.setattr(worst_errors, "_twists", twists)
+        worst_errors._near_pi(Least(), 3)  # type: ignore[arg-type]
     assert drawn == [(-16, -12, 3), (0, 3, 3)]
     assert kept["gaps"] == pytest.approx(
         [0, 8 * UNIT, 16 * UNIT], abs=4 * UNIT
@@ -107,15 +107,15 @@ def test_towards_pi_are_poses_from_the_last_bit_to_1e_12():
 
 def test_noise_is_of_every_size_up_to_1e_8():
     R = np.zeros((MANY, 3, 3))
-    noise = np.abs(accuracy._noisy(np.random.default_rng(0), R)).max(axis=(1, 2))
+    noise = np.abs(worst_errors._noisy(np.random.default_rng(0), R)).max(axis=(1, 2))
     assert np.quantile(np.log10(noise), [0.25, 0.5, 0.75]) == pytest.approx(
         [-14.8, -12.55, -10.3], abs=0.2
     )
     assert 0.9e-8 < noise.max() < 1e-8
-    signs = accuracy._noisy(np.random.default_rng(0), R)
+    signs = worst_errors._noisy(np.random.default_rng(0), R)
     assert abs(np.mean(signs > 0) - 0.5) < 0.01
     ones = np.broadcast_to(np.eye(3), (MANY, 3, 3))
-    assert np.array_equal(accuracy._noisy(np.random.default_rng(0), ones), ones + signs)
+    assert np.array_equal(worst_errors._noisy(np.random.default_rng(0), ones), ones + signs)
 
 
 def test_axes_are_anywhere_or_along_an_axis_or_nearly_so():
@@ -210,9 +210,9 @@ def test_nan_is_the_worst_of_all():
     errors[5] = np.nan
     assert worst_cases._picked(cases, errors).tolist() == [5, *range(85, 100)]
     assert worst_cases._picked(cases, errors, -errors).tolist() == [*range(16), *range(85, 100)]
-    row = accuracy._worst("an error", 1.0, cases, errors)
+    row = worst_errors._worst("an error", 1.0, cases, errors)
     assert (row.error, row.passed, row.cases, row.worst) == (math.inf, False, 100, 5)
-    row = accuracy._worst("an error", 2.0, cases, np.arange(2.0, -98.0, -1))
+    row = worst_errors._worst("an error", 2.0, cases, np.arange(2.0, -98.0, -1))
     assert (row.what, row.error, row.passed, row.worst) == ("an error", 2.0, True, 0)
 
 
@@ -230,34 +230,34 @@ def test_a_wrong_sign_of_log_is_reported_with_its_gap():
         SimpleNamespace(log=lambda X: 0 * se3.log(X)),
         SimpleNamespace(log=lambda X: 0 * so3.log(X)),
     )
-    assert accuracy._log_rows(nothing[1], nothing[0], T)[1].error == 0
+    assert worst_errors._log_rows(nothing[1], nothing[0], T)[1].error == 0
     for rotation, pose, gap in (
         (so3, se3, 0.0), (flipped(so3.log, 0), se3, 1e-3), (so3, flipped(se3.log, 1), 1e-2)
     ):  # fmt: skip
-        errors, signs = accuracy._log_rows(rotation, pose, T)
+        errors, signs = worst_errors._log_rows(rotation, pose, T)
         assert errors.passed == (gap == 0)
         assert signs.error == pytest.approx(gap, rel=1e-9)
-        assert signs.bar == accuracy.SIGN_BAR
+        assert signs.bar == worst_errors.SIGN_BAR
 
 
 def test_a_subject_that_leaves_out_a_result_is_not_judged_by_the_others():
     short = SimpleNamespace(exp=lambda xi: se3.exp(xi)[:2], log=lambda T: se3.log(T)[:2])
     with pytest.raises(ValueError, match="shorter"):
-        accuracy._exp_ratios(so3, short, XI[:3])
+        worst_errors._exp_ratios(so3, short, XI[:3])
     with pytest.raises(ValueError, match="shorter"):
-        accuracy._log_rows(so3, short, POSES[:3])
+        worst_errors._log_rows(so3, short, POSES[:3])
     rotation = SimpleNamespace(exp=lambda w: so3.exp(w)[:2], log=lambda R: so3.log(R)[:2])
     with pytest.raises(ValueError, match="shorter"):
-        accuracy._exp_ratios(rotation, se3, XI[:3])
+        worst_errors._exp_ratios(rotation, se3, XI[:3])
     with pytest.raises(ValueError, match="shorter"):
-        accuracy._log_rows(rotation, se3, POSES[:3])
+        worst_errors._log_rows(rotation, se3, POSES[:3])
     with pytest.raises(ValueError, match="shorter"):
-        accuracy._noise_errors(rotation, POSES[:3, :3, :3])
+        worst_errors._noise_errors(rotation, POSES[:3, :3, :3])
     jacobians = SimpleNamespace(
         left_jacobian=se3.left_jacobian, right_jacobian=lambda xi: se3.right_jacobian(xi)[:2]
     )
     with pytest.raises(ValueError, match="shorter"):
-        accuracy._jacobian_rows("jacobian", jacobians, XI[:3], XI[:3])
+        worst_errors._jacobian_rows("jacobian", jacobians, XI[:3], XI[:3])
 
 
 def test_of_log_and_exp_the_worse_of_rotation_and_pose_counts():
@@ -266,11 +266,11 @@ def test_of_log_and_exp_the_worse_of_rotation_and_pose_counts():
     )
     wrong = SimpleNamespace(exp=lambda xi: exact_poses.exp(xi) + 1e-3)
     few = XI[:3]
-    fine = accuracy._exp_ratios(exact_poses, exact_poses, few)
+    fine = worst_errors._exp_ratios(exact_poses, exact_poses, few)
     assert max(fine) < 1
-    assert min(accuracy._exp_ratios(wrong, exact_poses, few)) > 1e9
+    assert min(worst_errors._exp_ratios(wrong, exact_poses, few)) > 1e9
     assert (
-        accuracy._exp_ratios(exact_poses, wrong, few) == [math.inf] * 3
+        worst_errors._exp_ratios(exact_poses, wrong, few) == [math.inf] * 3
     )  # the last row is wrong too
 
 
@@ -282,7 +282,7 @@ def test_noise_within_the_last_bits_of_pi_may_have_either_sign():
             rotation = SimpleNamespace(
                 log=lambda R, sign=sign: sign * exact.rounded(exact.log(R[0]))[None]
             )
-            (error,) = accuracy._noise_errors(rotation, R[None])
+            (error,) = worst_errors._noise_errors(rotation, R[None])
             assert (error < 1e-14) == (either or sign == 1)
 
 
@@ -291,9 +291,9 @@ def test_the_report_judges_a_grid_random_cases_and_the_worst_of_many(samples, ne
     seen: dict[str, Any] = {}
 
     def rows(name: str) -> Any:
-        def judged(*arguments: Any) -> list[accuracy.Row]:
+        def judged(*arguments: Any) -> list[worst_errors.Row]:
             seen[name if isinstance(arguments[0], SimpleNamespace) else arguments[0]] = arguments
-            return [accuracy.Row(name, 0.0, 1.0, 1, np.zeros(6))]
+            return [worst_errors.Row(name, 0.0, 1.0, 1, np.zeros(6))]
 
         return judged
 
@@ -301,15 +301,15 @@ def test_the_report_judges_a_grid_random_cases_and_the_worst_of_many(samples, ne
         seen["near π"] = count
         return np.full((count, 4, 4), 7.0)
 
-    monkeypatch.setattr(accuracy.exact, "exp", lambda x: np.eye(4))
-    monkeypatch.setattr(accuracy, "_near_pi", some_near_pi)
-    monkeypatch.setattr(accuracy, "_noisy", lambda rng, R: seen.setdefault("noisy", R))
-    monkeypatch.setattr(accuracy, "_log_rows", rows("log"))
-    monkeypatch.setattr(accuracy, "_jacobian_rows", rows("jacobians"))
+    monkeypatch.setattr(worst_errors.exact, "exp", lambda x: np.eye(4))
+    monkeypatch.setattr(worst_errors, "_near_pi", some_near_pi)
+    monkeypatch.setattr(worst_errors, "_noisy", lambda rng, R: seen.setdefault("noisy", R))
+    monkeypatch.setattr(worst_errors, "_log_rows", rows("log"))
+    monkeypatch.setattr(worst_errors, "_jacobian_rows", rows("jacobians"))
     monkeypatch.setattr(
-        accuracy, "_exp_ratios", lambda rotation, pose, xi: seen.setdefault("exp", xi)[:, 0]
+        worst_errors, "_exp_ratios", lambda rotation, pose, xi: seen.setdefault("exp", xi)[:, 0]
     )
-    monkeypatch.setattr(accuracy, "_noise_errors", lambda rotation, R: R[:, 0, 0])
+    monkeypatch.setattr(worst_errors, "_noise_errors", lambda rotation, R: R[:, 0, 0])
     monkeypatch.setattr(
         worst_cases, "of_exp", lambda pose, many: seen.setdefault("many far", many)[:2]
     )
@@ -317,7 +317,9 @@ def test_the_report_judges_a_grid_random_cases_and_the_worst_of_many(samples, ne
         worst_cases, "of_log", lambda pose, many: seen.setdefault("many poses", many)[:3]
     )
     subject = SimpleNamespace()
-    found = accuracy.accuracy(seed=1, samples=samples, sweep=50, rotation=subject, pose=subject)
+    found = worst_errors.worst_errors(
+        seed=1, samples=samples, sweep=50, rotation=subject, pose=subject
+    )
     grid = 60
     assert [row.what for row in found] == [
         "exp: error ÷ attainable", "log", "log of a noisy rotation: error", "jacobians", "jacobians"
@@ -348,6 +350,6 @@ def test_the_report_judges_a_grid_random_cases_and_the_worst_of_many(samples, ne
 
 def test_warnings_of_what_is_judged_are_errors():
     with pytest.raises(FloatingPointError):
-        accuracy.accuracy(
+        worst_errors.worst_errors(
             samples=4, sweep=4, pose=SimpleNamespace(exp=lambda xi: 1 / np.zeros((len(xi), 4, 4)))
         )

@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import PoekinWarning
-from ...formats.load import load
-from ...groups import se3
-from ...model import screw
-from ...model.chain import Chain
+from poekin.errors import PoekinWarning
+from poekin.formats.load import load
+from poekin.groups import se3
+from poekin.model import screw
+from poekin.model.chain import Chain
 
 ARMS = {
     "panda": "panda_hand", "ur5e": "tool0", "erd:ur3_robot": "tool0", "erd:ur5_robot": "tool0",

@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from poekin.groups import se3
-from poekin.testing.cases import planted_changes
-from poekin.testing.cases.planted_changes import (
+from benchmarks import planted_changes
+from benchmarks.planted_changes import (
     CHANGES,
     alignment_fault,
     fault,
@@ -20,6 +19,7 @@ from poekin.testing.cases.planted_changes import (
     planted,
     random_arm,
 )
+from poekin.groups import se3
 
 ARM = random_arm(97)
 RNG = np.random.default_rng

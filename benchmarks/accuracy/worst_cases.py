@@ -1,4 +1,4 @@
-"""The worst of many cases, picked in extended precision, for `accuracy` to judge in 60 digits.
+"""The worst of many cases, picked in extended precision, for `worst_errors` to judge in 60 digits.
 
 Errors are measured here against sizes that leave out derivatives: good enough to tell who is
 suspect.
@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..oracles import longdouble_oracle
+from . import longdouble_oracle
 
 PICKED = 16
 """How many cases are picked for each kind of error."""

@@ -1,4 +1,4 @@
-"""How exact exp, log and the Jacobians of exp are: the rows that a report prints, from one run.
+"""Worst errors of exp, log and the Jacobians of exp: the rows that the report prints, from one run.
 
 Angles lie on a grid (0, every decade from 1e-150, the switches of the formulas ± 1 ulp, π - 10⁻ᵏ,
 π, up to 10) and at random, log-uniform; lengths are log-uniform and independent of them. To these
@@ -17,12 +17,18 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from poekin.groups import se3, so3
+from poekin.testing.accuracy import error_bounds
+from poekin.testing.accuracy.accuracy_laws import (
+    JACOBIAN_REPORT_BAR,
+    NOISE_BAR,
+    REPORT_BAR,
+    jacobian_errors,
+)
+from poekin.testing.accuracy.error_bounds import BOTH_SIGNS, UNIT
+from poekin.testing.oracles import exact
+from poekin.testing.strategies.decoding.decoders import SMALLEST, SWITCHES, around
 
-from ..oracles import exact, longdouble_oracle
-from ..strategies.decoding.decoders import SMALLEST, SWITCHES, around
-from . import error_bounds, worst_cases
-from .accuracy_laws import JACOBIAN_REPORT_BAR, NOISE_BAR, REPORT_BAR, jacobian_errors
-from .error_bounds import BOTH_SIGNS, UNIT
+from . import longdouble_oracle, worst_cases
 
 SIGN_BAR = 9e-16
 """The sign of log must be right where π - θ is at least this."""
@@ -49,7 +55,7 @@ class Row(NamedTuple):
         return bool(self.error <= self.bar)
 
 
-def accuracy(
+def worst_errors(
     seed: int = 0, samples: int = 300, sweep: int = 100_000, rotation: Any = so3, pose: Any = se3
 ) -> list[Row]:
     """The worst errors of exp, log and the Jacobians, over a fixed grid, random cases, and the

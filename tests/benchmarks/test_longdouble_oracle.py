@@ -7,7 +7,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from poekin.testing.oracles import exact, longdouble_oracle
+from benchmarks.accuracy import longdouble_oracle
+from poekin.testing.oracles import exact
 
 ANGLES = [0.05, 0.7, 1.49, 1.51, 2.2, 3.1, np.pi - 1e-9, np.pi]
 N = np.array([0.6, -0.64, 0.48])

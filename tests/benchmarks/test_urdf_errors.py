@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks.urdf_errors import SAMPLES, pinocchio_errors, values_of
 from poekin.formats.urdf_text import to_urdf
 from poekin.groups import se3
 from poekin.model.chain import Chain
-from poekin.testing.oracles.urdf_errors import SAMPLES, pinocchio_errors, values_of
 
 SCREWS = [[0.6, 0, 0.8, 0.4, 0.3, -0.3], [0, 0, 0, 0.36, 0.48, 0.8], [0.48, 0.6, -0.64, 0, 0, 0]]
 HOME = se3.exp([0.3, -0.4, 0.5, 1.7, 0.2, -0.6])
