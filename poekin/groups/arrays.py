@@ -1,10 +1,9 @@
-"""Arrays at the public boundary: what arrives is checked here, once, and said clearly where it does
-not fit.
-"""
+"""Checks of arrays at the public boundary, and kernels over their leading axes."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +14,7 @@ from .objects import plain
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-5  # the largest accepted entry of abs(R R^T - I)
+LAST_ROW_UNREAD = -2  # of `first_defect`: a NaN in the last row, which kernels do not read
 
 
 def numbers(values: ArrayLike, what: str) -> Array:
@@ -60,15 +60,12 @@ def _checked(M: Array, what: str, kind: str) -> Array:
     flat = M.reshape(-1, *M.shape[-2:])
     found = np.array([TOLERANCE, 0.0, 0.0])
     k = group_kernels.first_defect.call(flat, found)
-    if (
-        k == -2
-    ):  # the kernels do not read the last row: what is not a number there has to show in the result
+    if k == LAST_ROW_UNREAD:  # the NaN has to show in the result
         M = M.copy()
         M[np.isnan(M[..., 3, :]).any(-1)] = np.nan
     if k < 0:
         return M
-    index = tuple(int(i) for i in np.unravel_index(k, M.shape[:-2]))
-    where = f"{what}[{', '.join(map(str, index))}]" if index else what
+    where = element_name(what, np.unravel_index(k, M.shape[:-2]))
     off, determinant, last = found
     if last > TOLERANCE:
         raise PoseError(
@@ -84,12 +81,31 @@ def _checked(M: Array, what: str, kind: str) -> Array:
     )
 
 
-def mapped(
+def element_name(what: str, index: Iterable[int]) -> str:
+    """Name of an array's element in messages: `T[0, 2]`, and `T` for the batch ()."""
+    indices = ", ".join(str(int(i)) for i in index)
+    return f"{what}[{indices}]" if indices else what
+
+
+def with_rows(matrices: Array, rows: ArrayLike, width: int, what: str) -> tuple[Array, Array]:
+    """Matrices and rows of `width` numbers, broadcast to the same leading axes."""
+    rows = shaped(rows, (width,), what)
+    try:
+        batch = np.broadcast_shapes(matrices.shape[:-2], rows.shape[:-1])
+    except ValueError as error:
+        raise ShapeError(
+            f"{what}: shape {rows.shape} does not broadcast against {matrices.shape}"
+        ) from error
+    matrices = np.broadcast_to(matrices, (*batch, *matrices.shape[-2:]))
+    return matrices, np.broadcast_to(rows, (*batch, width))
+
+
+def map_kernel(
     kernel, element_axes: int, tail: tuple[int, ...], source: Array, *others: Array
 ) -> Array:
-    """A kernel over the leading axes of `source`, one element of which has `element_axes` axes;
-    `others` hold rows
-    of the same leading axes. An element of the result has the shape `tail`.
+    """Results of a kernel, elements of shape `tail`, over the leading axes of `source`.
+
+    An element of `source` has `element_axes` axes; `others` hold rows of the same leading axes.
     """
     batch = source.shape[: source.ndim - element_axes]
     count = math.prod(batch)

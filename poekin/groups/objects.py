@@ -1,5 +1,6 @@
-"""Poses, rotations and tables of other libraries as arrays, known by their attributes: nothing is
-imported.
+"""Poses, rotations and tables of other libraries as arrays, known by their attributes.
+
+No other library is imported.
 """
 
 from __future__ import annotations
@@ -29,12 +30,14 @@ def labels(values: Any) -> tuple[Any, ...] | None:
     given = getattr(values, axis)
     if callable(given):  # a method of another meaning, as list.index
         return None
-    return None if tuple(given) == tuple(range(len(given))) else tuple(given)
+    found = tuple(given)
+    if found == tuple(range(len(found))):
+        return None
+    return found
 
 
 def plain(values: Any, what: str) -> Any:
-    """What other libraries call a pose or a rotation as an array, or a list of them; else `values`
-    itself.
+    """Array, or list of arrays, of a pose or rotation of another library; else `values` itself.
 
     - Pinocchio: SE3 (`homogeneous`)
     - SciPy: Rotation and RigidTransform; and all else that has `as_matrix()`
@@ -43,53 +46,69 @@ def plain(values: Any, what: str) -> Any:
     - pandas: Series and DataFrame whose last axis has no labels
 
     Raises: InputError for what `np.asarray` would take for something else than it is: a twist in
-    the other order,
-    (v; omega), as Pinocchio's Motion and spatialmath's Twist3 have it, and a planar SE2, which is
-    3x3 like a rotation; a masked array of which something is masked; labels, which an array has
-    not.
+    the other order, (v; omega), as Pinocchio's Motion and spatialmath's Twist3 have it, and a
+    planar SE2, which is 3x3 like a rotation; a masked array of which something is masked; labels,
+    which an array has not.
     """
     if isinstance(values, (list, tuple)):
-        if set(map(type, values)) <= _NUMBERS:
-            return values
-        for value in values:
-            _unmasked(value, what)
-        return values if isinstance(values[0], _PLAIN) else [plain(value, what) for value in values]
-    _unmasked(values, what)
+        return _plain_items(values, what)
+    _check_unmasked(values, what)
     if hasattr(type(values), "to_numpy"):
-        marks = labels(values)
-        if marks is not None:
-            raise InputError(
-                f"{what}: expected an array, got a {type(values).__name__} with the labels"
-                f" {join_names(map(str, marks))}, which are not looked at here: hand over its to_numpy()"
-            )
-        return values.to_numpy()
-    spatial = hasattr(values, "A") and hasattr(values, "N")
-    shape = values.shape if spatial else None
-    if shape == (6,) or (hasattr(values, "linear") and hasattr(values, "angular")):
-        raise InputError(
-            f"{what}: expected an array, got a {type(values).__name__}, whose order is (v; omega); linear_first of its"
-            " six numbers is (omega; v)"
-        )
-    if spatial and values.N != 3:
-        raise InputError(
-            f"{what}: expected something of space, got the planar {type(values).__name__}"
-        )
-    if spatial:
-        return (
-            np.reshape(values.A, (len(values), *shape))
-            if shape in _POSES and len(values) != 1
-            else values.A
-        )
+        return _without_labels(values, what)
+    if hasattr(values, "linear") and hasattr(values, "angular"):
+        raise _twist_error(values, what)
+    if hasattr(values, "A") and hasattr(values, "N"):
+        return _spatialmath_array(values, what)
     if hasattr(values, "homogeneous"):
         return values.homogeneous
     as_matrix = getattr(values, "as_matrix", None)
-    return as_matrix() if callable(as_matrix) else values
+    if callable(as_matrix):
+        return as_matrix()
+    return values
 
 
-def _unmasked(values: Any, what: str) -> None:
-    """Raises InputError for a masked array of which something is masked: `np.asarray` would take
-    what lies below.
-    """
+def _plain_items(values: list[Any] | tuple[Any, ...], what: str) -> Any:
+    if set(map(type, values)) <= _NUMBERS:
+        return values
+    for value in values:
+        _check_unmasked(value, what)
+    if isinstance(values[0], _PLAIN):
+        return values
+    return [plain(value, what) for value in values]
+
+
+def _without_labels(values: Any, what: str) -> Any:
+    marks = labels(values)
+    if marks is not None:
+        raise InputError(
+            f"{what}: expected an array, got a {type(values).__name__} with the labels"
+            f" {join_names(map(str, marks))}, which are not looked at here: hand over its to_numpy()"
+        )
+    return values.to_numpy()
+
+
+def _spatialmath_array(values: Any, what: str) -> Any:
+    shape = values.shape
+    if shape == (6,):
+        raise _twist_error(values, what)
+    if values.N != 3:
+        raise InputError(
+            f"{what}: expected something of space, got the planar {type(values).__name__}"
+        )
+    if shape in _POSES and len(values) != 1:
+        return np.reshape(values.A, (len(values), *shape))
+    return values.A
+
+
+def _twist_error(values: Any, what: str) -> InputError:
+    return InputError(
+        f"{what}: expected an array, got a {type(values).__name__}, whose order is (v; omega);"
+        " linear_first of its six numbers is (omega; v)"
+    )
+
+
+def _check_unmasked(values: Any, what: str) -> None:
+    """Refuse a masked array with masked entries: `np.asarray` would take what lies below."""
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         raise InputError(
             f"{what}: expected numbers, got a masked array of which some are masked: use .compressed(), or"

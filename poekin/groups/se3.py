@@ -14,7 +14,16 @@ from numpy.typing import ArrayLike
 from ..engine.kernels import group_kernels
 from ..errors import BranchError, ShapeError
 from . import so3
-from .arrays import Array, mapped, numbers, poses, shaped
+from .arrays import (
+    Array,
+    element_name,
+    map_kernel,
+    numbers,
+    poses,
+    rotations,
+    shaped,
+    with_rows,
+)
 
 __all__ = [
     "ad",
@@ -26,10 +35,54 @@ __all__ = [
     "left_jacobian_inverse",
     "linear_first",
     "log",
+    "pose",
     "right_jacobian",
     "right_jacobian_inverse",
     "vee",
 ]
+
+
+def pose(R: ArrayLike, p: ArrayLike) -> Array:
+    """Pose T = [R p; 0 1] of a rotation and a translation.
+
+    Parameters
+    ----------
+    R : (..., 3, 3) array_like
+        Rotation R_ab, orthonormal to 1e-5.
+    p : (..., 3) array_like
+        Origin of frame b in frame a, m; broadcast against R.
+
+    Returns
+    -------
+    T : (..., 4, 4) ndarray
+        Pose T_ab: p_a = T_ab p_b.
+
+    Raises
+    ------
+    PoseError
+        If R is no rotation.
+    ShapeError
+        If R or p has another shape, or one does not broadcast against the other.
+    InputError
+        If R or p holds anything but real numbers.
+
+    Notes
+    -----
+    Accuracy: exact, R and p are copied (Park 1994, Section II).
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> T = pk.se3.pose([[0, -1, 0], [1, 0, 0], [0, 0, 1]], [0.1, 0.2, 0.3])
+    >>> T @ [1.0, 0.0, 0.0, 1.0]
+    array([0.1, 1.2, 0.3, 1. ])
+    """
+    rotation, translation = with_rows(rotations(R), p, 3, "p")
+    T = np.zeros((*translation.shape[:-1], 4, 4))
+    T[..., :3, :3] = rotation
+    T[..., :3, 3] = translation
+    T[..., 3, 3] = 1.0
+    return T
 
 
 def hat(xi: ArrayLike) -> Array:
@@ -64,7 +117,7 @@ def exp(xi: ArrayLike) -> Array:
     3 u (|p| + |v| + theta |dp/domega|), theta = |omega| <= 10 (tests/groups/test_accuracy.py).
     Source: Park 1994, Lemma 2 for any |omega|.
     """
-    return mapped(group_kernels.se3_exp, 1, (4, 4), shaped(xi, (6,), "xi"))
+    return map_kernel(group_kernels.se3_exp, 1, (4, 4), shaped(xi, (6,), "xi"))
 
 
 def log(T: ArrayLike, near: ArrayLike | None = None) -> Array:
@@ -86,20 +139,18 @@ def log(T: ArrayLike, near: ArrayLike | None = None) -> Array:
     """
     T = poses(T)
     if near is None:
-        return mapped(group_kernels.se3_log, 2, (6,), T)
-    T, near = so3.with_rows(T, near, 6)
-    xi = mapped(group_kernels.se3_log_near, 2, (6,), T, near)
-    lost = (
-        np.isnan(xi[..., 3:]).any(-1)
-        & np.isfinite(T).all((-1, -2))
-        & np.isfinite(xi[..., :3]).all(-1)
-    )
-    if lost.any():
-        index = tuple(int(i) for i in np.argwhere(lost)[0])
-        where = f"T[{', '.join(map(str, index))}]" if index else "T"
+        return map_kernel(group_kernels.se3_log, 2, (6,), T)
+    T, rows = with_rows(T, near, 6, "near")
+    xi = map_kernel(group_kernels.se3_log_near, 2, (6,), T, rows)
+    no_v = np.isnan(xi[..., 3:]).any(-1)
+    finite = np.isfinite(T).all((-1, -2)) & np.isfinite(xi[..., :3]).all(-1)
+    without_log = np.argwhere(no_v & finite)
+    if len(without_log):
+        index = tuple(without_log[0])
         raise BranchError(
-            f"{where} has no logarithm near omega = {near[index][:3].tolist()}: at |omega| = 2 pi k, k != 0, only a "
-            f"translation along omega has one, got p = {T[index][:3, 3].tolist()}"
+            f"{element_name('T', index)} has no logarithm near omega = {rows[index][:3].tolist()}:"
+            " at |omega| = 2 pi k, k != 0, only a translation along omega has one,"
+            f" got p = {T[index][:3, 3].tolist()}"
         )
     return xi
 
@@ -110,7 +161,7 @@ def inverse(T_ab: ArrayLike) -> Array:
     Parameters: T_ab (..., 4, 4). Returns: (..., 4, 4). Raises: PoseError, ShapeError, InputError.
     Accuracy: rotation exact, translation within 3 u |p|. Source: Park 1994, Section II.
     """
-    return mapped(group_kernels.se3_inverse, 2, (4, 4), poses(T_ab))
+    return map_kernel(group_kernels.se3_inverse, 2, (4, 4), poses(T_ab))
 
 
 def adjoint(T_ab: ArrayLike) -> Array:
@@ -119,7 +170,7 @@ def adjoint(T_ab: ArrayLike) -> Array:
     Parameters: T_ab (..., 4, 4). Returns: (..., 6, 6). Raises: PoseError, ShapeError, InputError.
     Accuracy: within 2 u |p| in each entry. Source: Park 1994, eq. (3).
     """
-    return mapped(group_kernels.se3_adjoint, 2, (6, 6), poses(T_ab))
+    return map_kernel(group_kernels.se3_adjoint, 2, (6, 6), poses(T_ab))
 
 
 def ad(xi: ArrayLike) -> Array:
@@ -144,7 +195,7 @@ def left_jacobian(xi: ArrayLike) -> Array:
     (tests/groups/test_accuracy.py). Source: Park 1994, Lemma 5; Q is the dual part of J(omega + eps
     v).
     """
-    return mapped(group_kernels.se3_left, 1, (6, 6), shaped(xi, (6,), "xi"))
+    return map_kernel(group_kernels.se3_left, 1, (6, 6), shaped(xi, (6,), "xi"))
 
 
 def right_jacobian(xi: ArrayLike) -> Array:
@@ -162,7 +213,7 @@ def left_jacobian_inverse(xi: ArrayLike) -> Array:
     Accuracy: for |omega| <= pi as `left_jacobian`; J is singular at 2 pi.
     Source: Park 1994, Lemma 4; its lower left block is the dual part of J(omega + eps v)^-1.
     """
-    return mapped(group_kernels.se3_left_inverse, 1, (6, 6), shaped(xi, (6,), "xi"))
+    return map_kernel(group_kernels.se3_left_inverse, 1, (6, 6), shaped(xi, (6,), "xi"))
 
 
 def right_jacobian_inverse(xi: ArrayLike) -> Array:

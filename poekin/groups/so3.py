@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..engine.kernels import group_kernels
-from ..errors import ShapeError
-from .arrays import Array, mapped, numbers, rotations, shaped
+from .arrays import Array, map_kernel, numbers, rotations, shaped, with_rows
 
 __all__ = [
     "ad",
@@ -28,6 +27,8 @@ __all__ = [
     "vee",
 ]
 
+CYCLIC = ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+
 
 def hat(w: ArrayLike) -> Array:
     """The skew-symmetric matrix [w] with [w] x = w x x (cross product).
@@ -37,8 +38,9 @@ def hat(w: ArrayLike) -> Array:
     """
     w = shaped(w, (3,), "w")
     W = np.zeros((*w.shape, 3))
-    W[..., 2, 1], W[..., 0, 2], W[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
-    W[..., 1, 2], W[..., 2, 0], W[..., 0, 1] = -w[..., 0], -w[..., 1], -w[..., 2]
+    for i, j, k in CYCLIC:
+        W[..., k, j] = w[..., i]
+        W[..., j, k] = -w[..., i]
     return W
 
 
@@ -53,9 +55,8 @@ def vee(W: ArrayLike) -> Array:
     """
     W = shaped(W, (3, 3), "W")
     w = np.empty(W.shape[:-1])
-    w[..., 0] = 0.5 * (W[..., 2, 1] - W[..., 1, 2])
-    w[..., 1] = 0.5 * (W[..., 0, 2] - W[..., 2, 0])
-    w[..., 2] = 0.5 * (W[..., 1, 0] - W[..., 0, 1])
+    for i, j, k in CYCLIC:
+        w[..., i] = 0.5 * (W[..., k, j] - W[..., j, k])
     return w
 
 
@@ -66,7 +67,7 @@ def exp(w: ArrayLike) -> Array:
     Accuracy: Frobenius error at most 3 u (1 + sqrt(2) theta) for theta = |w| <= 10
     (tests/groups/test_accuracy.py). Source: Park 1994, Lemma 1.
     """
-    return mapped(group_kernels.so3_exp, 1, (3, 3), shaped(w, (3,), "w"))
+    return map_kernel(group_kernels.so3_exp, 1, (3, 3), shaped(w, (3,), "w"))
 
 
 def log(R: ArrayLike, near: ArrayLike | None = None) -> Array:
@@ -84,23 +85,9 @@ def log(R: ArrayLike, near: ArrayLike | None = None) -> Array:
     """
     R = rotations(R)
     if near is None:
-        return mapped(group_kernels.so3_log, 2, (3,), R)
-    R, near = with_rows(R, near, 3)
-    return mapped(group_kernels.so3_log_near, 2, (3,), R, near)
-
-
-def with_rows(matrices: Array, near: ArrayLike, width: int) -> tuple[Array, Array]:
-    """Matrices and rows of `near`, broadcast to the same leading axes."""
-    rows = shaped(near, (width,), "near")
-    try:
-        batch = np.broadcast_shapes(matrices.shape[:-2], rows.shape[:-1])
-    except ValueError as error:
-        raise ShapeError(
-            f"near: shape {rows.shape} does not broadcast against {matrices.shape}"
-        ) from error
-    return np.broadcast_to(matrices, (*batch, *matrices.shape[-2:])), np.broadcast_to(
-        rows, (*batch, width)
-    )
+        return map_kernel(group_kernels.so3_log, 2, (3,), R)
+    R, rows = with_rows(R, near, 3, "near")
+    return map_kernel(group_kernels.so3_log_near, 2, (3,), R, rows)
 
 
 def inverse(R_ab: ArrayLike) -> Array:
@@ -137,7 +124,7 @@ def left_jacobian(w: ArrayLike) -> Array:
     Accuracy: Frobenius error at most 1e-15 for |w| <= 10 (tests/groups/test_accuracy.py).
     Source: Park 1994, Lemma 5.
     """
-    return mapped(group_kernels.so3_left, 1, (3, 3), shaped(w, (3,), "w"))
+    return map_kernel(group_kernels.so3_left, 1, (3, 3), shaped(w, (3,), "w"))
 
 
 def right_jacobian(w: ArrayLike) -> Array:
@@ -155,7 +142,7 @@ def left_jacobian_inverse(w: ArrayLike) -> Array:
     Accuracy: Frobenius error at most 1e-15 for |w| <= pi (tests/groups/test_accuracy.py); J is
     singular at 2 pi. Source: Park 1994, Lemma 4.
     """
-    return mapped(group_kernels.so3_left_inverse, 1, (3, 3), shaped(w, (3,), "w"))
+    return map_kernel(group_kernels.so3_left_inverse, 1, (3, 3), shaped(w, (3,), "w"))
 
 
 def right_jacobian_inverse(w: ArrayLike) -> Array:

@@ -50,6 +50,29 @@ def test_the_angular_part_comes_first():
     assert np.array_equal(se3.exp([0, 0, 0.5, 0, 0, 0])[:3, 3], [0, 0, 0])
 
 
+@given(group_strategies.poses(), st.sampled_from([(), (2,), (3, 1)]))
+def test_pose_puts_rotation_and_translation_together_over_the_batch(T, batch):
+    R = np.broadcast_to(T[:3, :3], (*batch, 3, 3))
+    for rotation, translation in ((R, T[:3, 3]), (T[:3, :3], np.tile(T[:3, 3], (*batch, 1)))):
+        made = se3.pose(rotation, translation)
+        assert np.array_equal(made, np.broadcast_to(T, (*batch, 4, 4)))
+    made[...] = 0.0  # a new array, which shares nothing with what it was made of
+    assert T[3, 3] == 1.0
+
+
+def test_pose_lets_nan_through_and_refuses_what_is_no_rotation_or_does_not_fit():
+    assert np.isnan(se3.pose(np.eye(3), [0.0, np.nan, 0.0])[1, 3])
+    assert np.isnan(se3.pose(np.full((3, 3), np.nan), np.zeros(3))[:3, :3]).all()
+    with pytest.raises(PoseError, match=r"R is no rotation: its rotation is a reflection"):
+        se3.pose(-np.eye(3), np.zeros(3))
+    with pytest.raises(ShapeError, match=r"p: expected shape \(..., 3\), got \(4,\)"):
+        se3.pose(np.eye(3), np.zeros(4))
+    with pytest.raises(
+        ShapeError, match=r"p: shape \(3, 3\) does not broadcast against \(2, 3, 3\)"
+    ):
+        se3.pose(np.tile(np.eye(3), (2, 1, 1)), np.zeros((3, 3)))
+
+
 def test_linear_first_swaps_the_halves_and_undoes_itself():
     x = np.arange(12.0).reshape(2, 6)
     assert se3.linear_first(x).tolist() == [[3, 4, 5, 0, 1, 2], [9, 10, 11, 6, 7, 8]]
