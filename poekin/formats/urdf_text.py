@@ -65,9 +65,9 @@ def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
         raise InputError(f"URDF has no helical joints, and these are: {join_names(helical)}")
     lines = [
         '<?xml version="1.0"?>',
-        f"<robot name={quoted(robot.name if name is None else name, 'robot')}>",
+        f"<robot name={quote_attribute(robot.name if name is None else name, 'robot')}>",
     ]
-    lines += [f"  <link name={quoted(link, 'link')}/>" for link in robot.links]
+    lines += [f"  <link name={quote_attribute(link, 'link')}/>" for link in robot.links]
     for joint in robot.joints:
         lines += _joint(joint)
     return "\n".join([*lines, "</robot>", ""])
@@ -77,9 +77,9 @@ def _joint(joint: Joint) -> Iterator[str]:
     kind = "revolute" if joint.kind == "helical" else joint.kind
     if kind == "revolute" and joint.limits == (-math.inf, math.inf):
         kind = "continuous"
-    yield f'  <joint name={quoted(joint.name, "joint")} type="{kind}">'
-    yield f"    <parent link={quoted(joint.parent, 'link')}/>"
-    yield f"    <child link={quoted(joint.child, 'link')}/>"
+    yield f'  <joint name={quote_attribute(joint.name, "joint")} type="{kind}">'
+    yield f"    <parent link={quote_attribute(joint.parent, 'link')}/>"
+    yield f"    <child link={quote_attribute(joint.child, 'link')}/>"
     T = joint.origin
     yield f'    <origin xyz="{_numbers(*T[:3, 3])}" rpy="{_numbers(*rpy.angles(T[:3, :3]))}"/>'
     if kind not in ("fixed", "floating"):
@@ -89,7 +89,7 @@ def _joint(joint: Joint) -> Iterator[str]:
         yield f'    <limit lower="{lower}" upper="{upper}" effort="{most}" velocity="{most}"/>'
     if joint.mimic is not None:
         multiplier, offset = map(_numbers, (joint.mimic.multiplier, joint.mimic.offset))
-        master = quoted(joint.mimic.joint, "joint")
+        master = quote_attribute(joint.mimic.joint, "joint")
         yield f'    <mimic joint={master} multiplier="{multiplier}" offset="{offset}"/>'
     yield "  </joint>"
 
@@ -100,7 +100,7 @@ def _numbers(*values: float) -> str:
                     for v in values)  # fmt: skip
 
 
-def quoted(name: str, what: str) -> str:
+def quote_attribute(name: str, what: str) -> str:
     """A name as the value of an attribute, whatever is in it; what no eye would see, by its number."""
     bad = _IMPOSSIBLE.search(name)
     if bad:

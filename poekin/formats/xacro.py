@@ -19,7 +19,7 @@ from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import urdf
 from .text import xml
-from .urdf_text import quoted
+from .urdf_text import quote_attribute
 
 # The packages xacro and xacrodoc keep what they are at in variables of their modules.
 _one_at_a_time = threading.Lock()
@@ -76,8 +76,8 @@ def _evaluated(name: str, robot: str | None, values: dict[str, str]) -> str:
     # there.
     whole = glob.escape(os.path.abspath(name)).replace("${", "$${").replace("$(", "$$(")
     namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
-    include = f"<xacro:include filename={quoted(whole, 'file')}/>"
-    text = f"<robot name={quoted(robot or '', 'robot')} {namespace}>{include}</robot>"
+    include = f"<xacro:include filename={quote_attribute(whole, 'file')}/>"
+    text = f"<robot name={quote_attribute(robot or '', 'robot')} {namespace}>{include}</robot>"
     refusals = (
         xacro_.XacroException, xacrodoc.packages.PackageNotFoundError, ValueError, LookupError, TypeError,
         AttributeError, RuntimeError, OSError, SyntaxError, ArithmeticError, ExpatError,

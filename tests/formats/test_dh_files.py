@@ -44,7 +44,7 @@ modified,slide,prismatic,0,0.1,0.2,-1.5707963267948966,true,0,0.5,
 @settings(max_examples=30)
 @given(table=tables(max_joints=4))
 def test_a_table_comes_back_from_its_file_to_the_last_digit(ending, table):
-    again = table_io.read_text(table_io.text_of(table, ending), f"arm{ending}")
+    again = table_io.read_text(table_io.make_text(table, ending), f"arm{ending}")
     assert again == table
 
 

@@ -371,18 +371,18 @@ def test_a_kind_is_what_it_says_whoever_made_the_word():
 @pytest.mark.parametrize("ending", [".toml", ".csv"])
 def test_a_base_moved_back_is_written_too(ending):
     table = Table("standard", [Row()], base=shift(-0.5, -0.2), tool=shift(-0.1, 0.0), name="t")
-    assert table_io.read_text(table_io.text_of(table, ending), f"t{ending}") == table
+    assert table_io.read_text(table_io.make_text(table, ending), f"t{ending}") == table
 
 
 def test_the_words_of_a_file_follow_the_format():
     table = Table("modified", ROWS[:2], base=shift(0.5, 0.0), name="t")
-    assert table_io.text_of(table, ".csv") == (
+    assert table_io.make_text(table, ".csv") == (
         "convention,name,kind,theta,d,a,alpha,flip,lower,upper,pose\n"
         "modified,,base,,,,,,,,1.0 0.0 0.0 0.5 0.0 1.0 0.0 0.0 0.0 0.0 1.0 0.0\n"
         "modified,joint1,revolute,0.3,0.1,0.2,1.0,true,-1.0,2.0,\n"
         "modified,slide,prismatic,0.5,0.2,0.15,-0.7,false,-inf,inf,\n"
     )
-    toml = table_io.text_of(table, ".toml")
+    toml = table_io.make_text(table, ".toml")
     assert "tool" not in toml
     assert toml.count("limits") == 1
 
@@ -459,7 +459,7 @@ def test_limits_come_back_from_either_file(limits):
         "standard", [Row(limits=limits), Row(kind="prismatic", flip=True, limits=limits)], name="t"
     )
     for ending in (".toml", ".csv"):
-        assert table_io.read_text(table_io.text_of(table, ending), f"t{ending}") == table
+        assert table_io.read_text(table_io.make_text(table, ending), f"t{ending}") == table
 
 
 @pytest.mark.parametrize(

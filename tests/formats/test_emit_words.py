@@ -9,7 +9,7 @@ import pytest
 
 import poekin as pk
 from poekin.formats.emit import messages
-from poekin.formats.emit.messages import about, angle_words, quoted, tasks
+from poekin.formats.emit.messages import angle_lines, header_lines, make_tasks, quote_ascii
 from poekin.formats.emit.statements import by_outputs
 
 from .emitted import arm
@@ -26,7 +26,7 @@ CRANE = pk.Chain(
 
 
 def test_the_arm_is_told_line_by_line():
-    assert about(CRANE.compile(), "space") == [
+    assert header_lines(CRANE.compile(), "space") == [
         "Base frame 'w', tip frame 't'; 3 joints, 3 coordinates. Units: rad, m.",
         "",
         "  q[0]  rad  'a', -1 ... 2.5",
@@ -37,7 +37,10 @@ def test_the_arm_is_told_line_by_line():
         "J, 6 x 3 row by row: V = J dq. Rows omega x, y, z (rad/s), then v x, y, z (m/s), per unit of dq.",
         "J is the space Jacobian: axes of the base, v of the tip's point that passes the origin of the base.",
     ]
-    none, one = about(arm("no joint").compile(), "body"), about(arm("one joint").compile(), "body")
+    none, one = (
+        header_lines(arm("no joint").compile(), "body"),
+        header_lines(arm("one joint").compile(), "body"),
+    )
     assert none[0] == "Base frame 'base', tip frame 'tool'; 0 joints, 0 coordinates. Units: rad, m."
     assert none[1:3] == ["", one[4]]
     assert one[0] == "Base frame 'base', tip frame 'tool'; 1 joint, 1 coordinate. Units: rad, m."
@@ -53,12 +56,12 @@ def test_the_arm_is_told_line_by_line():
          "   1   0   0   2", "   0   1   0   0", "   0   0   1   0"]),
 ])  # fmt: skip
 def test_the_frame_of_the_jacobian_is_told(frame, says):
-    assert about(CRANE.compile(), frame)[8:] == says
+    assert header_lines(CRANE.compile(), frame)[8:] == says
 
 
 def test_angles_are_sums_of_a_base_coordinates_and_an_offset():
-    coupled = tasks(arm("coupled").compile(), "body")
-    assert angle_words(coupled[0]) == [
+    coupled = make_tasks(arm("coupled").compile(), "body")
+    assert angle_lines(coupled[0]) == [
         "x[0] = q[0] + 0.626388",
         "x[1] = 2 q[0] + -1 q[1] + 0.0267391",
     ]
@@ -68,19 +71,19 @@ def test_angles_are_sums_of_a_base_coordinates_and_an_offset():
         (False, True),
         (True, True),
     ]
-    assert [task.name for task in tasks(CRANE.compile(), 1)] == [
+    assert [task.name for task in make_tasks(CRANE.compile(), 1)] == [
         "fk",
         "jacobian_joint1",
         "fk_jacobian_joint1",
     ]
-    ur = tasks(pk.load("ur5e").chain().compile(), "body")[0]
-    assert angle_words(ur)[4:] == ["x[4] = q[1] + q[2]", "x[5] = x[4] + q[3]"]
+    ur = make_tasks(pk.load("ur5e").chain().compile(), "body")[0]
+    assert angle_lines(ur)[4:] == ["x[4] = q[1] + q[2]", "x[5] = x[4] + q[3]"]
 
 
 def test_a_name_is_cut_after_eighty_characters_and_cannot_end_a_comment():
-    assert quoted("x" * 80) == f"'{'x' * 80}'"
-    assert quoted("x" * 81) == f"'{'x' * 77}...'"
-    assert quoted("a b_~!*?\\\"'`\n\u00fc") == (
+    assert quote_ascii("x" * 80) == f"'{'x' * 80}'"
+    assert quote_ascii("x" * 81) == f"'{'x' * 77}...'"
+    assert quote_ascii("a b_~!*?\\\"'`\n\u00fc") == (
         "'a b_~!<U+002A><U+003F><U+005C><U+0022><U+0027><U+0060><U+000A><U+00FC>'"
     )
 

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, ModelError, PoseError, ShapeError
-from poekin.formats.objects import from_object, table_of
-from poekin.formats.objects.attributes import items_of
+from poekin.formats.objects import from_object, make_table
+from poekin.formats.objects.attributes import as_list
 from poekin.testing.strategies import group_strategies
 from tests.formats.test_dh import largest, tables
 from tests.groups.test_objects import Spatial, library
@@ -44,7 +44,7 @@ def link_of(row, modified) -> Any:
     )
 
 
-def robot_of(table) -> Any:
+def make_robot(table) -> Any:
     links = [link_of(row, table.convention == "modified") for row in table.rows]
     return SimpleNamespace(
         links=links, base=Spatial(table.base), tool=Spatial(table.tool), name=table.name
@@ -53,24 +53,24 @@ def robot_of(table) -> Any:
 
 @given(tables())
 def test_a_dh_robot_gives_the_table_that_it_was_made_of(table):
-    assert table_of(robot_of(table)) == table
-    assert from_object(robot_of(table)) == pk.dh.to_chain(table)
+    assert make_table(make_robot(table)) == table
+    assert from_object(make_robot(table)) == pk.dh.to_chain(table)
 
 
 def test_limits_of_a_dh_robot_survive_and_a_missing_base_or_tool_is_the_identity():
     table = pk.dh.published("puma560")
-    robot = robot_of(table)
+    robot = make_robot(table)
     del robot.base, robot.tool, robot.name
     np.testing.assert_array_equal(from_object(robot).limits, table.limits)
-    np.testing.assert_array_equal(table_of(robot).base, np.eye(4))
+    np.testing.assert_array_equal(make_table(robot).base, np.eye(4))
 
 
 def test_a_link_that_does_not_say_isflip_is_not_flipped():
     table = pk.dh.published("puma560")
-    robot = robot_of(table)
+    robot = make_robot(table)
     for link in robot.links:
         del link.isflip
-    assert table_of(robot) == table
+    assert make_table(robot) == table
 
 
 def toolbox():
@@ -143,7 +143,7 @@ def test_a_dh_robot_of_the_catalogue_moves_as_it_says(name):
     q = chain.random(0, 20)
     poses = np.array([robot.fkine(x).A for x in q])
     assert np.abs(chain.fk(q) - poses).max() <= ROUNDING * chain.reach
-    assert table_of(robot).name == robot.name
+    assert make_table(robot).name == robot.name
     for link, limits in zip(robot.links, chain.limits.tolist(), strict=True):
         assert limits == ([-math.inf, math.inf] if link.qlim is None else list(link.qlim))
 
@@ -270,7 +270,7 @@ def test_transforms_come_in_whatever_is_like_a_list_and_not_as_a_text():
     for sequence in (steps, tuple(steps), array, Listed(steps)):
         assert from_object(sequence).dof == 2
     for text in ("Rz", b"Rz", {"Rz": 1}):
-        assert items_of(text) == []
+        assert as_list(text) == []
 
 
 @pytest.mark.parametrize(
@@ -372,7 +372,7 @@ def test_a_robot_of_the_toolbox_moves_as_it_says(name):
 
 
 def test_links_of_both_conventions_are_refused():
-    robot = robot_of(pk.dh.published("puma560"))
+    robot = make_robot(pk.dh.published("puma560"))
     robot.links[2].mdh = True
     with pytest.raises(
         InputError,
@@ -388,11 +388,11 @@ def test_what_is_no_dh_robot_has_no_table():
             r"^expected a DHRobot with links that have alpha, a, d, theta, offset, sigma, mdh, got int$"
         ),
     ):
-        table_of(3)
+        make_table(3)
 
 
 def test_a_symbol_in_the_place_of_a_number_is_refused():
-    robot = robot_of(pk.dh.published("puma560"))
+    robot = make_robot(pk.dh.published("puma560"))
     robot.links[1].alpha = object()
     with pytest.raises(InputError, match=r"^alpha: expected real numbers, got object \(list\)$"):
         from_object(robot)

@@ -16,7 +16,7 @@ import poekin as pk
 from poekin.errors import PoekinWarning
 from poekin.formats import ur
 from poekin.formats.dh import Table
-from poekin.formats.ur.yaml_io import read_text, text_of
+from poekin.formats.ur.yaml_io import make_text, read_text
 from poekin.formats.urdf import read_text as read_urdf
 from poekin.model.robot import Robot
 from poekin.testing.cases.calibrated_arm import UR10E
@@ -57,7 +57,7 @@ def conf_arm(tmp_path) -> Table:
     """The UR10 of the forum."""
     path = tmp_path / "calibration.conf"
     path.write_text(CONF, encoding="utf-8")
-    return ur.deltas(pk.dh.published("ur10"), **ur.read_deltas(path))
+    return ur.add_deltas(pk.dh.published("ur10"), **ur.read_deltas(path))
 
 
 def moved(robot: Robot, other: Robot) -> dict[str, float]:
@@ -109,7 +109,9 @@ def arms(draw) -> Table:
     six = st.lists(small, min_size=6, max_size=6)
     table = pk.dh.published(draw(st.sampled_from(["ur3", "ur5", "ur10e", "ur16e"])))
     a, alpha = ([*draw(six)[:5], 0.0] for _ in range(2))
-    return ur.deltas(table, delta_theta=draw(six), delta_d=draw(six), delta_a=a, delta_alpha=alpha)
+    return ur.add_deltas(
+        table, delta_theta=draw(six), delta_d=draw(six), delta_a=a, delta_alpha=alpha
+    )
 
 
 @settings(max_examples=25)
@@ -135,7 +137,7 @@ def test_links_of_small_deltas_move_by_millimetres_and_milliradians(table):
 @given(table=arms(), mark=st.text(max_size=20), rpy=st.sampled_from(["fixed", "moving"]))
 def test_a_calibration_comes_back_from_its_file(table, mark, rpy):
     calibration = ur.from_dh(table, nominal=pk.dh.published(table.name), hash=mark)
-    again = read_text(text_of(calibration, rpy=rpy))
+    again = read_text(make_text(calibration, rpy=rpy))
     assert again.hash == mark
     assert np.array_equal(again.poses[:, :3, 3], calibration.poses[:, :3, 3])
     assert (
@@ -190,7 +192,7 @@ def test_pinocchio_sees_the_table_in_the_urdf_and_the_links_where_the_nominal_ar
 
 
 def test_deltas_on_the_nominal_table_are_the_arm_s_own():
-    table = ur.deltas(NOMINAL, **DELTAS)
+    table = ur.add_deltas(NOMINAL, **DELTAS)
     for column in ("theta", "d", "a"):
         np.testing.assert_allclose(
             getattr(table, column), getattr(UR10E, column), rtol=1e-13, atol=1e-15
@@ -198,7 +200,7 @@ def test_deltas_on_the_nominal_table_are_the_arm_s_own():
     # The controller's quarter turn has ten digits.
     np.testing.assert_allclose(table.alpha, UR10E.alpha, rtol=0, atol=2.1e-10)
     assert table.names == NOMINAL.names
-    assert ur.deltas(NOMINAL) == NOMINAL
+    assert ur.add_deltas(NOMINAL) == NOMINAL
 
 
 def test_a_controller_s_file_is_read_and_moves_a_ur10_by_three_millimetres(tmp_path):
@@ -218,7 +220,7 @@ def test_a_controller_s_file_is_read_and_moves_a_ur10_by_three_millimetres(tmp_p
 
 @pytest.mark.parametrize("by, said", [(0.019, False), (0.021, True), (0.1, True)])
 def test_a_table_that_moves_a_link_by_more_than_two_centimetres_is_said(by, said):
-    table = ur.deltas(NOMINAL, delta_d=[by, 0, 0, 0, 0, 0])
+    table = ur.add_deltas(NOMINAL, delta_d=[by, 0, 0, 0, 0, 0])
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         ur.from_dh(table, nominal=NOMINAL)
@@ -301,8 +303,8 @@ def test_the_built_in_ur5e_has_the_frames_of_a_calibration():
 def test_calibrations_are_values():
     calibration = ur.from_dh(UR10E, nominal=NOMINAL, hash="calib_1")
     assert pickle.loads(pickle.dumps(calibration)) == calibration
-    assert hash(ur.Calibration(calibration.poses, "calib_1")) == hash(calibration)
-    assert ur.Calibration(calibration.poses) != calibration
+    assert hash(ur.FactoryCalibration(calibration.poses, "calib_1")) == hash(calibration)
+    assert ur.FactoryCalibration(calibration.poses) != calibration
     assert calibration != 1
     with pytest.raises(ValueError, match="read-only"):
         calibration.poses[0, 0, 0] = 2

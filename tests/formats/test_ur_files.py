@@ -16,12 +16,12 @@ import poekin as pk
 from poekin.errors import FileError, InputError, MissingExtra, ModelError, PoekinError
 from poekin.formats import ur
 from poekin.formats.ur import conf
-from poekin.formats.ur.yaml_io import read_text, text_of
+from poekin.formats.ur.yaml_io import make_text, read_text
 from tests.messages import says
 
 NOMINAL = pk.dh.published("ur10e")
 CALIBRATION = ur.from_dh(NOMINAL, nominal=NOMINAL, hash="calib_1")
-TEXT = text_of(CALIBRATION, rpy="moving")
+TEXT = make_text(CALIBRATION, rpy="moving")
 LINES = TEXT.splitlines()
 CONF = "[mounting]\n" + "".join(
     f"delta_{c} = [ 0, 1e-3, 0, 0, 0, -2.5e-4]\n" for c in ("theta", "a", "d", "alpha")
@@ -40,8 +40,8 @@ def test_the_text_is_the_driver_s_form():
     assert LINES[1:4] == ["  shoulder:", "    x: 0.0", "    y: 0.0"]
     assert LINES[-1] == "  hash: calib_1"
     assert len(LINES) == 1 + 6 * 7 + 1
-    assert text_of(CALIBRATION) == text_of(CALIBRATION, rpy="fixed")
-    assert text_of(CALIBRATION).startswith("rpy: fixed\n")
+    assert make_text(CALIBRATION) == make_text(CALIBRATION, rpy="fixed")
+    assert make_text(CALIBRATION).startswith("rpy: fixed\n")
 
 
 def test_the_driver_s_own_way_of_writing_is_read():
@@ -52,8 +52,10 @@ def test_the_driver_s_own_way_of_writing_is_read():
 
 
 def test_a_file_says_about_which_axes_its_angles_turn_and_a_caller_may_know_better():
-    tilted = ur.Calibration(CALIBRATION.poses @ pk.se3.exp([0.1, 0.2, 0.3, 0, 0, 0]), "calib_1")
-    fixed, moving = text_of(tilted), text_of(tilted, rpy="moving")
+    tilted = ur.FactoryCalibration(
+        CALIBRATION.poses @ pk.se3.exp([0.1, 0.2, 0.3, 0, 0, 0]), "calib_1"
+    )
+    fixed, moving = make_text(tilted), make_text(tilted, rpy="moving")
     for text in (fixed, moving, "rpy: moving\n" + moving):
         assert np.abs(read_text(text).poses - tilted.poses).max() <= 1e-15
     assert np.abs(read_text(moving, rpy="fixed").poses - tilted.poses).max() > 0.05
@@ -294,7 +296,7 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path):
         match=r"^rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got 'zyx'$",
     ):
         ur.read(path, rpy="zyx")
-    with pytest.raises(InputError, match=r"^write: expected a Calibration, got Table$"):
+    with pytest.raises(InputError, match=r"^write: expected a FactoryCalibration, got Table$"):
         ur.write(NOMINAL, path)  # pyright: ignore[reportArgumentType]
     assert ur.read(path) == CALIBRATION
 
@@ -326,7 +328,7 @@ def test_deltas_are_read_from_a_controller_s_file(tmp_path):
     assert found == dict.fromkeys(
         ("delta_theta", "delta_a", "delta_d", "delta_alpha"), (0, 1e-3, 0, 0, 0, -2.5e-4)
     )
-    table = ur.deltas(NOMINAL, **found)
+    table = ur.add_deltas(NOMINAL, **found)
     np.testing.assert_allclose(table.a - NOMINAL.a, found["delta_a"], rtol=0, atol=1e-16)
 
 

@@ -26,7 +26,7 @@ FLIPPED = Table(
 SLIDING = Table("standard", [Row(**{**r.__dict__, "kind": "prismatic" if i == 1 else r.kind})
                              for i, r in enumerate(NOMINAL.rows)], name="sliding")  # fmt: skip
 TOOLED = Table("standard", NOMINAL.rows, tool=pk.se3.exp([0, 0, 0, 0.1, 0, 0]), name="tooled")
-UPSIDE = ur.deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
+UPSIDE = ur.add_deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
 
 
 @pytest.mark.parametrize(
@@ -81,25 +81,25 @@ UPSIDE = ur.deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
             ),
         ),
         (lambda: ur.from_dh(UR10E, nominal=ANY), "from_dh: expected a dh.Table, got str"),
-        (lambda: ur.deltas(ANY), "deltas: expected a dh.Table, got str"),
+        (lambda: ur.add_deltas(ANY), "add_deltas: expected a dh.Table, got str"),
         (
-            lambda: ur.deltas(NOMINAL, delta_a=[0.0] * 7),
+            lambda: ur.add_deltas(NOMINAL, delta_a=[0.0] * 7),
             (
                 "delta_a: expected 6 numbers, one a joint of the table 'ur10e', got 7: the calibration of another arm?"
             ),
         ),
         (
-            lambda: ur.deltas(NOMINAL, delta_a=[[0.0] * 6]),
+            lambda: ur.add_deltas(NOMINAL, delta_a=[[0.0] * 6]),
             (
                 "delta_a: expected 6 numbers, one a joint of the table 'ur10e', got shape (1, "
                 "6): the calibration of another arm?"
             ),
         ),
         (
-            lambda: ur.deltas(NOMINAL, delta_d=[0, 0, math.nan, 0, 0, 0]),
+            lambda: ur.add_deltas(NOMINAL, delta_d=[0, 0, math.nan, 0, 0, 0]),
             "delta_d[2]: expected a finite number, got nan",
         ),
-        (lambda: ur.apply(nominal_robot(), ANY), "apply: expected a Calibration, got str"),
+        (lambda: ur.apply(nominal_robot(), ANY), "apply: expected a FactoryCalibration, got str"),
         (
             lambda: ur.apply(
                 pk.load("panda"), ur.from_dh(UR10E, nominal=NOMINAL), tip="panda_hand"
@@ -112,15 +112,15 @@ UPSIDE = ur.deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
             ),
         ),
         (
-            lambda: ur.Calibration(np.eye(4)[None].repeat(7, 0)),
+            lambda: ur.FactoryCalibration(np.eye(4)[None].repeat(7, 0)),
             "poses: expected shape (6, 4, 4), one pose a link, got (7, 4, 4)",
         ),
         (
-            lambda: ur.Calibration(np.eye(4)[None].repeat(6, 0) * 2),
+            lambda: ur.FactoryCalibration(np.eye(4)[None].repeat(6, 0) * 2),
             "pose of shoulder is no pose: its last row is [0.0, 0.0, 0.0, 2.0], expected [0, 0, 0, 1]",
         ),
         (
-            lambda: ur.Calibration(np.eye(4)[None].repeat(6, 0), SEVENTH),
+            lambda: ur.FactoryCalibration(np.eye(4)[None].repeat(6, 0), SEVENTH),
             "hash: expected a text, got 7",
         ),
     ],

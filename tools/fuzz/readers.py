@@ -83,7 +83,7 @@ def _as_text(path: str) -> str:
 def _nearest(deltas: Any) -> None:
     """The calibration that deltas of a DH table make."""
     nominal = pk.dh.published("ur10e")
-    move(pk.ur.from_dh(pk.ur.deltas(nominal, **deltas), nominal=nominal).to_robot())
+    move(pk.ur.from_dh(pk.ur.add_deltas(nominal, **deltas), nominal=nominal).to_robot())
 
 
 def _ur_yaml(path: str) -> pk.Robot:

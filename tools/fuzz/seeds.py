@@ -107,7 +107,7 @@ def dh_toml() -> tuple[bytes, ...]:
 
 @cache
 def dh_csv() -> tuple[bytes, ...]:
-    return tuple(dh_files.text_of(dh.published(name), ".csv").encode() for name in NAMES)
+    return tuple(dh_files.make_text(dh.published(name), ".csv").encode() for name in NAMES)
 
 
 @cache
@@ -115,7 +115,7 @@ def ur_yaml() -> tuple[bytes, ...]:
     """Of a nominal arm, as the driver writes it and as ur_description reads it."""
     table = dh.published("ur10e")
     found = ur.from_dh(table, nominal=table, hash="calib_1234567890")
-    return tuple(yaml_io.text_of(found, rpy=rpy).encode() for rpy in ("fixed", "moving"))
+    return tuple(yaml_io.make_text(found, rpy=rpy).encode() for rpy in ("fixed", "moving"))
 
 
 @cache

@@ -216,7 +216,7 @@ def _write(
             texts.append((path, found.to_urdf(robot)))
         elif path.suffix.lower() == ".csv":
             made = found.to_dh(convention)
-            texts.append((path, dh.table_io.text_of(made.table, ".csv")))
+            texts.append((path, dh.table_io.make_text(made.table, ".csv")))
             for words in made.warnings:
                 complain(f"warning: {words}")
     if report is not None:

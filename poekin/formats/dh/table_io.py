@@ -93,7 +93,7 @@ def write(table: Table, path: str | os.PathLike[str]) -> None:
     write_whole(path, text.encode())
 
 
-def text_of(table: Table, ending: str) -> str:
+def make_text(table: Table, ending: str) -> str:
     """A table as the text of a .toml or .csv file."""
     return _reader(ending, ending, _WRITERS)(table)
 
@@ -295,7 +295,7 @@ def _to_toml(table: Table) -> str:
         | ({} if r.limits == (-math.inf, math.inf) else {"limits": list(r.limits)})
         for r in table.rows
     ]
-    return toml_text.text_of(data)
+    return toml_text.make_text(data)
 
 
 def _to_csv(table: Table) -> str:

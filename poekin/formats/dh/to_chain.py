@@ -16,7 +16,7 @@ from ...model.robot import Robot
 from .table import Table
 
 
-def links_of(table: Table) -> list[tuple[float, ...]]:
+def link_poses(table: Table) -> list[tuple[float, ...]]:
     """K_0 ... K_n of `formulas.dh`, twelve numbers each: f = K_0 e^{P_1 x_1} K_1 ... e^{P_n x_n}
     K_n.
     """
@@ -53,7 +53,7 @@ def to_chain(table: Table) -> Chain:
     rotates = [sign * (kind == "revolute") for sign, kind in zip(signs, table.kinds, strict=True)]
     slides = [sign * (kind == "prismatic") for sign, kind in zip(signs, table.kinds, strict=True)]
     A = np.zeros((len(table), 6))
-    home = _matrix(dh.screws(links_of(table), rotates, slides, len(table), A))
+    home = _matrix(dh.screws(link_poses(table), rotates, slides, len(table), A))
     return Chain(
         A, home, joint_names=table.names, limits=table.limits, pitches=np.zeros(len(table))
     )
@@ -78,7 +78,7 @@ def to_robot(table: Table) -> Robot:
     if not isinstance(table, Table):
         raise InputError(f"to_robot: expected a dh.Table, got {type(table).__name__}")
     links = ["base", *(f"link{i + 1}" for i in range(len(table))), "tool"]
-    origins = list(map(_matrix, links_of(table)))
+    origins = list(map(_matrix, link_poses(table)))
     joints = [
         Joint(
             row.name,

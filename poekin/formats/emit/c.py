@@ -11,11 +11,11 @@ import numpy as np
 from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from .c_selftest import selftest
-from .messages import Task, about, angle_words, compiled, identifier, tasks
-from .statements import Literal, Statements, by_outputs, double, single, statements
+from .messages import Task, angle_lines, compile_checked, header_lines, identifier, make_tasks
+from .statements import Statements, WriteNumber, by_outputs, double, single, statements
 from .vectors import vectors
 
-KINDS: dict[str, tuple[Literal, type[np.floating]]] = {
+KINDS: dict[str, tuple[WriteNumber, type[np.floating]]] = {
     "double": (double, np.float64),
     "float": (single, np.float32),
 }
@@ -61,8 +61,8 @@ def c(chain: Chain, frame: str | int, *, name: str = "arm", real: str = "double"
     if not isinstance(name, str):
         raise InputError(f"name: expected a text, got {safe_repr(name)}")
     literal, kind = KINDS[real]
-    arm, word = compiled(chain, frame), identifier(name)
-    functions = [_Function(word, real, literal, task, chain.dof) for task in tasks(arm, frame)]
+    arm, word = compile_checked(chain, frame), identifier(name)
+    functions = [_Function(word, real, literal, task, chain.dof) for task in make_tasks(arm, frame)]
     head = [
         f"{word}: the kinematics of one serial arm as straight-line C99, in {real}. Generated: change the arm instead.",
         "",
@@ -70,7 +70,7 @@ def c(chain: Chain, frame: str | int, *, name: str = "arm", real: str = "double"
     ]
     return CSource(
         word,
-        _header(word, [*head, "", *about(arm, frame)], functions),
+        _header(word, [*head, "", *header_lines(arm, frame)], functions),
         "\n".join(
             [
                 _comment(head),
@@ -93,7 +93,7 @@ def c(chain: Chain, frame: str | int, *, name: str = "arm", real: str = "double"
 class _Function:
     """The C of one task: its angles, its statements, and both together."""
 
-    def __init__(self, word: str, real: str, literal: Literal, task: Task, dof: int):
+    def __init__(self, word: str, real: str, literal: WriteNumber, task: Task, dof: int):
         self.task, self.real, self.literal, self.dof = task, real, literal, dof
         self.name = f"{word}_{task.name}"
         self.count = len(task.program.angles)
@@ -113,7 +113,7 @@ class _Function:
         words = [
             f"{self.name}: from q[{self.dof}] to {sizes}; they may overlap q.",
             f"..._sincos: the same from s[{self.count}] = sin x and c[{self.count}] = cos x, where the angles x are",
-            *(f"  {line}" for line in angle_words(self.task)),
+            *(f"  {line}" for line in angle_lines(self.task)),
             "..._angles: those angles from q.",
         ]
         angles, sincos, whole = (f"{head};" for head in self.heads)

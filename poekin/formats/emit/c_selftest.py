@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from .messages import Task
-from .statements import Literal, double
+from .statements import WriteNumber, double
 from .vectors import Vectors
 
 TEXT = """/*
@@ -64,7 +64,9 @@ int main(void)
 """
 
 
-def selftest(word: str, real: str, literal: Literal, tasks: Sequence[Task], wanted: Vectors) -> str:
+def selftest(
+    word: str, real: str, literal: WriteNumber, tasks: Sequence[Task], wanted: Vectors
+) -> str:
     """The text of the program."""
     dof = wanted.q.shape[1]
     return TEXT.format(
@@ -92,6 +94,6 @@ def _calls(word: str, task: Task, dof: int) -> list[str]:
     ]
 
 
-def _rows(values: np.ndarray, literal: Literal) -> str:
+def _rows(values: np.ndarray, literal: WriteNumber) -> str:
     rows = [row.ravel().tolist() or [0.0] for row in values]  # C has no empty arrays
     return ",\n".join("    {" + ", ".join(map(literal, row)) + "}" for row in rows)

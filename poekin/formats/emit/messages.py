@@ -27,7 +27,7 @@ def identifier(name: str) -> str:
     return word if word[:1].isalpha() else f"arm_{word}".strip("_")
 
 
-def quoted(name: str) -> str:
+def quote_ascii(name: str) -> str:
     """A name for a comment of C or a docstring, in ASCII: what could end or change either stands as
     <U+002A>.
     """
@@ -56,7 +56,7 @@ class Task:
         )
 
 
-def compiled(chain: Chain, frame: str | int) -> CompiledChain:
+def compile_checked(chain: Chain, frame: str | int) -> CompiledChain:
     """The chain with its programs. Raises: InputError, UnknownName for a frame that there is not."""
     if not isinstance(chain, Chain):
         raise InputError(f"chain: expected a Chain, got {safe_repr(chain)}")
@@ -65,7 +65,7 @@ def compiled(chain: Chain, frame: str | int) -> CompiledChain:
     return arm
 
 
-def tasks(arm: CompiledChain, frame: str | int) -> tuple[Task, Task, Task]:
+def make_tasks(arm: CompiledChain, frame: str | int) -> tuple[Task, Task, Task]:
     """Pose, Jacobian, and both in one pass."""
     which = frame if isinstance(frame, str) else f"joint{int(frame)}"
     return (
@@ -75,15 +75,15 @@ def tasks(arm: CompiledChain, frame: str | int) -> tuple[Task, Task, Task]:
     )
 
 
-def about(arm: CompiledChain, frame: str | int) -> list[str]:
+def header_lines(arm: CompiledChain, frame: str | int) -> list[str]:
     """The arm, its coordinates, its frames and the layout, line by line."""
     chain = arm.chain
     lines = [
-        f"Base frame {quoted(chain.base)}, tip frame {quoted(chain.tip)}; {_many(len(chain.kinds), 'joint')}, "
-        f"{_many(chain.dof, 'coordinate')}. Units: rad, m.",
+        f"Base frame {quote_ascii(chain.base)}, tip frame {quote_ascii(chain.tip)};"
+        f" {_many(len(chain.kinds), 'joint')}, {_many(chain.dof, 'coordinate')}. Units: rad, m.",
         "",
         *(
-            f"  q[{k}]  {'rad' if chain._turns(k) else 'm'}  {quoted(name)}"
+            f"  q[{k}]  {'rad' if chain._turns(k) else 'm'}  {quote_ascii(name)}"
             + (f", {_limits(chain.limits[k])}" if np.isfinite(chain.limits[k]).any() else "")
             for k, name in enumerate(chain.q_names)
         ),
@@ -94,7 +94,7 @@ def about(arm: CompiledChain, frame: str | int) -> list[str]:
     return [*lines, *_frame(arm, frame)]
 
 
-def angle_words(task: Task) -> list[str]:
+def angle_lines(task: Task) -> list[str]:
     """The angles whose sines and cosines a function takes, line by line."""
     lines = []
     for j, angle in enumerate(task.program.angles):
@@ -119,7 +119,8 @@ def _frame(arm: CompiledChain, frame: str | int) -> list[str]:
     k, T_k = jacobian_frame(arm, frame)
     T = chain.joint_poses(np.zeros(chain.dof))[k] @ T_k
     return [
-        f"J is the Jacobian in a frame that moves with joint {k} (counted from 0), {quoted(chain.joint_names[k])}, and",
+        f"J is the Jacobian in a frame that moves with joint {k} (counted from 0),"
+        f" {quote_ascii(chain.joint_names[k])}, and",
         "has its z axis along that joint's: axes of that frame, v of the tip's point that passes its origin.",
         "The frame's pose in the base frame at q = 0, (R, p):",
         *("  " + "  ".join(f"{x + 0.0: .17g}" for x in row) for row in T[:3].tolist()),

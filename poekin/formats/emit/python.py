@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 
 from ...model.chain import Chain
-from .messages import Task, about, angle_words, compiled, tasks
+from .messages import Task, angle_lines, compile_checked, header_lines, make_tasks
 from .statements import Statements, by_outputs, double, statements
 
 
@@ -22,14 +22,14 @@ def python(chain: Chain, frame: str | int) -> str:
     Raises: InputError, UnknownName. Accuracy: that of `Chain.fk` in the arithmetic of q
     (tests/formats/test_emit_python.py). Source: Park 1994, Section IV, two planar rotations a link.
     """
-    arm = compiled(chain, frame)
-    functions = tasks(arm, frame)
+    arm = compile_checked(chain, frame)
+    functions = make_tasks(arm, frame)
     head = [
         '"""The kinematics of one serial arm as straight-line code. Generated: change the arm instead.',
         "",
         *(task.cost for task in functions),
         "",
-        *about(arm, frame),
+        *header_lines(arm, frame),
         "",
         "q is (..., m), an array of floats of the module xp: numpy, jax.numpy, torch.",
         '"""',
@@ -58,7 +58,7 @@ def _functions(task: Task, dof: int) -> str:
         f"    return {', '.join(results)}",
         "", "",
         f"def {task.name}_angles(q, xp):",
-        *_doc(f"The angles x (..., {len(program.angles)}) whose sines and cosines are needed.", angle_words(task)),
+        *_doc(f"The angles x (..., {len(program.angles)}) whose sines and cosines are needed.", angle_lines(task)),
         *_angles(program),
         "",
     ])  # fmt: skip

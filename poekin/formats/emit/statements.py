@@ -12,7 +12,7 @@ import numpy as np
 from ...engine.straight_line.program import Angle, Program
 from ...errors import InputError
 
-Literal = Callable[[float], str]
+WriteNumber = Callable[[float], str]
 _OF_SIGN = {1: "+", -1: "-"}
 
 
@@ -34,7 +34,7 @@ class Statements:
     angles: tuple[str, ...]
 
 
-def statements(program: Program, literal: Literal) -> Statements:
+def statements(program: Program, literal: WriteNumber) -> Statements:
     """The program's statements; literal writes a number."""
     names: dict[int, str] = {}
     constants: dict[int, float] = {}
@@ -72,7 +72,7 @@ def statements(program: Program, literal: Literal) -> Statements:
     )
 
 
-def _angle(angle: Angle, literal: Literal) -> str:
+def _angle(angle: Angle, literal: WriteNumber) -> str:
     """An angle's sum, in the order in which `engine.kernels.arm_kernels` takes it."""
     parts = [literal(angle.offset)] if angle.offset else []
     parts += [] if angle.base is None else [f"x{angle.base}"]

@@ -50,7 +50,7 @@ from ...model.provenance import Source, warn
 from ...model.robot import Robot
 from ..text import xml
 from .mjcf_files import look_through
-from .mjcf_robot import robot_of
+from .mjcf_robot import make_robot
 
 # What is named first refers to what comes after it.
 WITHOUT_KINEMATICS = (
@@ -90,12 +90,12 @@ def read_text(text: str | bytes, name: str = "<text>") -> Robot:
             f"name: expected what to call the text in messages, a str, got {safe_repr(name)}"
         )
 
-    def spec_of(MjSpec: Any) -> Any:
+    def parse_spec(MjSpec: Any) -> Any:
         return MjSpec.from_string(
             text if isinstance(text, str) else bytes(text).decode("utf-8-sig")
         )
 
-    return _read(text, name, spec_of)
+    return _read(text, name, parse_spec)
 
 
 def is_mjcf(path: str | os.PathLike[str]) -> bool:
@@ -105,7 +105,7 @@ def is_mjcf(path: str | os.PathLike[str]) -> bool:
     return xml.parse(xml.read_bytes(path), os.fsdecode(path)).tag == "mujoco"
 
 
-def _read(data: str | bytes, name: str, spec_of: Callable[[Any], Any], path: str = "") -> Robot:
+def _read(data: str | bytes, name: str, parse_spec: Callable[[Any], Any], path: str = "") -> Robot:
     source = Source(name)
     root = xml.parse(data, name)
     if root.tag != "mujoco":
@@ -116,7 +116,7 @@ def _read(data: str | bytes, name: str, spec_of: Callable[[Any], Any], path: str
     mujoco = _mujoco()
     try:
         with _unsaid(mujoco):
-            spec = spec_of(mujoco.MjSpec)
+            spec = parse_spec(mujoco.MjSpec)
             other = _bare(spec, mujoco)
             model = spec.compile()
     except (ValueError, RuntimeError, mujoco.FatalError) as refusal:
@@ -131,7 +131,7 @@ def _read(data: str | bytes, name: str, spec_of: Callable[[Any], Any], path: str
         with np.errstate(
             all="ignore"
         ):  # what comes of numbers too large is refused as a joint's origin
-            robot, said = robot_of(model, bodies, sites, title, source, other)
+            robot, said = make_robot(model, bodies, sites, title, source, other)
     except PoekinError as fault:
         raise ModelError(
             f"{source.place()}: {str(fault).removeprefix(f'{source.place()}: ')}"

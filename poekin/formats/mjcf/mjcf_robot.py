@@ -20,7 +20,7 @@ KINDS = ("floating", "floating", "prismatic", "revolute")
 FREE_JOINT, BALL = 0, 1
 
 
-def robot_of(
+def make_robot(
     model: Any, bodies: np.ndarray, sites: np.ndarray, name: str, source: Source, other: list[str]
 ) -> tuple[Robot, list[str]]:
     """The robot of a model, and what there is to warn of.

@@ -2,7 +2,7 @@
 imported.
 """
 
-from .dh_robot import table_of
+from .dh_robot import make_table
 from .from_object import from_object
 
-__all__ = ["from_object", "table_of"]
+__all__ = ["from_object", "make_table"]

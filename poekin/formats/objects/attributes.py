@@ -13,7 +13,7 @@ def has(obj: Any, *names: str) -> bool:
     return all(hasattr(obj, name) for name in names)
 
 
-def items_of(obj: Any) -> list[Any]:
+def as_list(obj: Any) -> list[Any]:
     """The items of what has an order and a length, as a list, an array or a class that is like one;
     none of a text.
     """

@@ -7,18 +7,18 @@ from typing import Any
 
 from ...errors import InputError
 from ..dh.table import Row, Table
-from .attributes import has, items_of, type_name
+from .attributes import as_list, has, type_name
 
 _LINK = ("alpha", "a", "d", "theta", "offset", "sigma", "mdh")
 
 
 def fits(obj: Any) -> bool:
     """Whether an object has links with Denavit-Hartenberg parameters."""
-    links = items_of(getattr(obj, "links", None))
+    links = as_list(getattr(obj, "links", None))
     return bool(links) and all(has(link, *_LINK) for link in links)
 
 
-def table_of(robot: Any) -> Table:
+def make_table(robot: Any) -> Table:
     """The table of a Robotics Toolbox DHRobot: convention, rows, directions, limits, base, tool and
     name.
 
@@ -36,7 +36,7 @@ def table_of(robot: Any) -> Table:
         raise InputError(
             f"expected a DHRobot with links that have {', '.join(_LINK)}, got {type_name(robot)}"
         )
-    links = items_of(robot.links)
+    links = as_list(robot.links)
     if len({bool(link.mdh) for link in links}) > 1:
         raise InputError(
             f"{type_name(robot)}: its links mix the standard and the modified convention"

@@ -16,7 +16,7 @@ from ...model.chain import Chain
 from ...model.checks import one_pose
 from ...model.joint import Joint, Mimic
 from ...model.robot import Robot
-from .attributes import free_name, has, items_of
+from .attributes import as_list, free_name, has
 
 _ET = ("isjoint", "axis", "A")
 # Those of space; planar ones (ET2) have other names.
@@ -37,7 +37,7 @@ class Step(NamedTuple):
 
 def fits(obj: Any) -> bool:
     """Whether an object is a sequence of elementary transforms, or one of them."""
-    items = [obj] if has(obj, *_ET) else items_of(obj)
+    items = [obj] if has(obj, *_ET) else as_list(obj)
     return bool(items) and all(has(item, *_ET) for item in items)
 
 
@@ -45,11 +45,11 @@ def fits_tree(obj: Any) -> bool:
     """Whether an object has links with a name, a parent and a sequence of elementary transforms
     each.
     """
-    links = items_of(getattr(obj, "links", None))
+    links = as_list(getattr(obj, "links", None))
     return bool(links) and all(has(link, "ets", "parent", "name") for link in links)
 
 
-def chain_of(ets: Any) -> Chain:
+def make_chain(ets: Any) -> Chain:
     """The chain of an ETS (or of one ET): the product of its constant and variable elementary
     transforms.
 
@@ -63,7 +63,7 @@ def chain_of(ets: Any) -> Chain:
     Accuracy: rounding of the product, 1e-16 reach a transform. Source: the toolbox's documentation
     of ET and ETS.
     """
-    steps, last = _steps([ets] if has(ets, *_ET) else items_of(ets), "ETS")
+    steps, last = _steps([ets] if has(ets, *_ET) else as_list(ets), "ETS")
     screws, T = np.empty((len(steps), 6)), np.eye(4)
     for i, step in enumerate(steps):
         T = T @ step.origin
@@ -82,7 +82,7 @@ def chain_of(ets: Any) -> Chain:
     )
 
 
-def robot_of(robot: Any) -> Robot:
+def make_robot(robot: Any) -> Robot:
     """The tree of a toolbox Robot (ERobot): its links, and a joint for each variable transform of a
     link.
 
@@ -90,7 +90,7 @@ def robot_of(robot: Any) -> Robot:
     which the robot's own `base` places the first links. Where the robot has a `tool`, each link at
     an end carries one, LINK_tool. A gripper is a robot of its own there, and not taken.
 
-    Parameters: robot. Returns: Robot. Raises and accuracy: as `chain_of`; ModelError for links that
+    Parameters: robot. Returns: Robot. Raises and accuracy: as `make_chain`; ModelError for links that
     are no tree.
     """
     taken: set[str] = set()
@@ -102,7 +102,7 @@ def robot_of(robot: Any) -> Robot:
     joints: list[Joint] = []
     links = [root, *names.values()]
     steps_of = {
-        id(link): _steps(items_of(link.ets), f"link {safe_repr(link.name)}") for link in robot.links
+        id(link): _steps(as_list(link.ets), f"link {safe_repr(link.name)}") for link in robot.links
     }
     used: set[str] = set()
     order: list[tuple[int, Joint]] = []

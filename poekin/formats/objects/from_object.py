@@ -14,10 +14,14 @@ from .attributes import type_name
 
 # What is known: in words, by which attributes, and what is made of it.
 _KNOWN: tuple[tuple[str, Callable[[Any], bool], Callable[[Any], Robot | Chain]], ...] = (
-    ("a Pinocchio Model", pinocchio_model.fits, pinocchio_model.robot_of),
-    ("a Robotics Toolbox DHRobot", dh_robot.fits, lambda robot: to_chain(dh_robot.table_of(robot))),
-    ("a Robotics Toolbox Robot (ERobot)", ets.fits_tree, ets.robot_of),
-    ("a Robotics Toolbox ETS", ets.fits, ets.chain_of),
+    ("a Pinocchio Model", pinocchio_model.fits, pinocchio_model.make_robot),
+    (
+        "a Robotics Toolbox DHRobot",
+        dh_robot.fits,
+        lambda robot: to_chain(dh_robot.make_table(robot)),
+    ),
+    ("a Robotics Toolbox Robot (ERobot)", ets.fits_tree, ets.make_robot),
+    ("a Robotics Toolbox ETS", ets.fits, ets.make_chain),
 )
 
 
@@ -28,7 +32,7 @@ def from_object(obj: Any, *, frame: str | None = None) -> Any:
     - Pinocchio `Model`: a Robot. Links, joints and their order are those of the URDF it was built
       from; where it has none, links are its frames. q is in its order, with one angle where
       Pinocchio has a cosine and a sine.
-    - Robotics Toolbox `DHRobot`: a Chain, by its table (`poekin.formats.objects.table_of`). `Robot`
+    - Robotics Toolbox `DHRobot`: a Chain, by its table (`poekin.formats.objects.make_table`). `Robot`
       (ERobot): a Robot. `ETS`: a Chain. q is in the toolbox's order, by `jindex`.
     - Modern Robotics: `from_object((M, Slist))`, a Chain, screws as columns (6, n); with
       frame="body" (M, Blist).
@@ -52,7 +56,7 @@ def from_object(obj: Any, *, frame: str | None = None) -> Any:
                 raise InputError(f"frame: it is that of a pair (M, screws), and this is {what}")
             return make(obj)
     if home_and_screws.fits(obj):
-        return home_and_screws.chain_of(obj, "space" if frame is None else frame)
+        return home_and_screws.make_chain(obj, "space" if frame is None else frame)
     known = ", ".join(what for what, _, _ in _KNOWN)
     raise InputError(
         f"from_object: expected {known}, or Modern Robotics' pair (M, Slist), got {type_name(obj)}; files are read by"

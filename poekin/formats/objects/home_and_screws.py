@@ -18,7 +18,7 @@ def fits(obj: Any) -> bool:
     return isinstance(obj, (tuple, list)) and len(obj) == 2
 
 
-def chain_of(pair: Any, frame: str = "space") -> Chain:
+def make_chain(pair: Any, frame: str = "space") -> Chain:
     """f(q) = e^{[S_1] q_1} ... e^{[S_n] q_n} M of (M, Slist), or M e^{[B_1] q_1} ... e^{[B_n] q_n}
     of (M, Blist).
 

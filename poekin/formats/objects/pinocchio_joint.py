@@ -40,7 +40,7 @@ class Motion(NamedTuple):
     pitch: float = 0.0
 
 
-def type_of(joint: Any) -> str:
+def joint_type(joint: Any) -> str:
     """The type of a joint, as in "RX"."""
     return str(joint.shortname()).removeprefix(_PREFIX)
 
@@ -52,7 +52,7 @@ def motions(joint: Any, name: str) -> list[Motion]:
     ellipsoid joints, and
     a mimic joint or a type not known here whose axis cannot be read.
     """
-    kind, bare = type_of(joint), joint.extract() if has(joint, "extract") else joint
+    kind, bare = joint_type(joint), joint.extract() if has(joint, "extract") else joint
     here = np.eye(4)
     if kind in _FREE:
         return [Motion(here, _FREE[kind], _Z)]
@@ -90,7 +90,7 @@ def _by_subspace(joint: Any, bare: Any, name: str, kind: str | None) -> Motion:
     v, w = S[:3], S[3:]
     if S.shape != (6,) or not S.any():
         raise ModelError(
-            f"joint {quote(name)}: Pinocchio does not tell the axis of this {quote(type_of(joint))} joint"
+            f"joint {quote(name)}: Pinocchio does not tell the axis of this {quote(joint_type(joint))} joint"
             f"{' of multiplier 0' if not scaling else ''}"
         )
     turns = bool(w.any())

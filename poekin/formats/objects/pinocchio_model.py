@@ -16,7 +16,7 @@ from ...model.provenance import warn
 from ...model.robot import Robot
 from ..urdf import ABSURD
 from .attributes import free_name, has
-from .pinocchio_joint import Motion, motions, type_of
+from .pinocchio_joint import Motion, joint_type, motions
 
 _LIMITED = ("revolute", "prismatic", "helical")
 
@@ -54,7 +54,7 @@ def fits(obj: Any) -> bool:
     )
 
 
-def robot_of(model: Any) -> Robot:
+def make_robot(model: Any) -> Robot:
     """The tree of a Pinocchio model: links are its frames, joints its joints and what fixes its
     frames.
 
@@ -221,7 +221,7 @@ def _moving(
 
 
 def _mimic(model: Any, j: int, joint: Any) -> Mimic | None:
-    if type_of(joint) != "Mimic":
+    if joint_type(joint) != "Mimic":
         return None
     bare = joint.extract() if has(joint, "extract") else joint
     masters = dict(

@@ -76,7 +76,7 @@ def parse(text: str, place: str) -> dict[str, Any]:
     return data
 
 
-def text_of(data: Mapping[str, Any]) -> str:
+def make_text(data: Mapping[str, Any]) -> str:
     """Dicts, lists, numbers, texts as TOML; numbers keep all their digits. Raises: MissingExtra
     without tomli-w.
     """

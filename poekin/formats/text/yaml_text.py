@@ -15,22 +15,22 @@ from ...errors import MissingExtra, ModelError, escape_unprintable, quote
 DEEPEST = 8
 
 
-class Text(NamedTuple):
+class TextNode(NamedTuple):
     """A scalar as it is written, and its line."""
 
     text: str
     line: int
 
 
-class Mapping(NamedTuple):
+class MappingNode(NamedTuple):
     """Keys and what they stand for, in order, and the line on which the mapping begins."""
 
-    items: dict[str, Mapping | Text]
+    items: dict[str, MappingNode | TextNode]
     key_lines: dict[str, int]
     line: int
 
 
-def parse(text: str, place: str) -> Mapping:
+def parse(text: str, place: str) -> MappingNode:
     """The mapping that a YAML text is.
 
     Parameters: text; place, what to call it in messages.
@@ -41,9 +41,11 @@ def parse(text: str, place: str) -> Mapping:
         import yaml
     except ImportError as missing:
         raise MissingExtra("pyyaml", "formats", "reading YAML") from missing
-    open_ones: list[Mapping] = []
-    key: Text | None = None  # of the innermost open mapping, once it is read and its value is not
-    root: Mapping | None = None
+    open_ones: list[MappingNode] = []
+    key: TextNode | None = (
+        None  # of the innermost open mapping, once it is read and its value is not
+    )
+    root: MappingNode | None = None
     try:
         for event in yaml.parse(text, Loader=yaml.SafeLoader):
             line = event.start_mark.line + 1 if event.start_mark else 1
@@ -63,9 +65,9 @@ def parse(text: str, place: str) -> Mapping:
                 open_ones.pop()
             elif isinstance(event, (yaml.MappingStartEvent, yaml.ScalarEvent)):
                 value = (
-                    Text(event.value, line)
+                    TextNode(event.value, line)
                     if isinstance(event, yaml.ScalarEvent)
-                    else Mapping({}, {}, line)
+                    else MappingNode({}, {}, line)
                 )
                 if open_ones and key is None:
                     key = _key(value, open_ones[-1], where)
@@ -73,13 +75,13 @@ def parse(text: str, place: str) -> Mapping:
                     open_ones[-1].items[key.text] = value
                     open_ones[-1].key_lines[key.text] = key.line
                     key = None
-                elif isinstance(value, Mapping):
+                elif isinstance(value, MappingNode):
                     root = value
                 else:
                     raise ModelError(
                         f'{where}: expected a mapping, as in "kinematics:", got {quote(value.text)}'
                     )
-                if isinstance(value, Mapping):
+                if isinstance(value, MappingNode):
                     open_ones.append(value)
                     if len(open_ones) > DEEPEST:
                         raise ModelError(f"{where}: expected at most {DEEPEST} levels, got more")
@@ -99,8 +101,8 @@ def parse(text: str, place: str) -> Mapping:
     return root
 
 
-def _key(value: Text | Mapping, mapping: Mapping, where: str) -> Text:
-    if not isinstance(value, Text):
+def _key(value: TextNode | MappingNode, mapping: MappingNode, where: str) -> TextNode:
+    if not isinstance(value, TextNode):
         raise ModelError(f"{where}: expected the name of a key, got a mapping")
     if value.text in mapping.items:
         first = mapping.key_lines[value.text]

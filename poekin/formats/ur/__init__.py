@@ -2,17 +2,17 @@
 deltas.
 """
 
-from .calibration import JOINTS, LINKS, Calibration, apply
+from .calibration import JOINTS, LINKS, FactoryCalibration, apply
 from .conf import read_deltas
-from .tables import deltas, from_dh
+from .tables import add_deltas, from_dh
 from .yaml_io import read, write
 
 __all__ = [
     "JOINTS",
     "LINKS",
-    "Calibration",
+    "FactoryCalibration",
+    "add_deltas",
     "apply",
-    "deltas",
     "from_dh",
     "read",
     "read_deltas",

@@ -25,7 +25,7 @@ JOINTS = (
 
 
 @dataclass(frozen=True, eq=False)
-class Calibration:
+class FactoryCalibration:
     """Six poses, f(q) = poses_1 Rz(q_1) poses_2 Rz(q_2) ... poses_6 Rz(q_6).
 
     f is the pose of the flange (ur_description's tool0, the pendant's tool frame without a tool) in
@@ -78,7 +78,11 @@ class Calibration:
         return self.poses.tobytes(), self.hash
 
     def __eq__(self, other: object) -> bool:
-        return self._data() == other._data() if isinstance(other, Calibration) else NotImplemented
+        return (
+            self._data() == other._data()
+            if isinstance(other, FactoryCalibration)
+            else NotImplemented
+        )
 
     def __hash__(self) -> int:
         return hash(self._data())
@@ -88,7 +92,11 @@ class Calibration:
 
 
 def apply(
-    robot: Robot, calibration: Calibration, *, base: str | None = None, tip: str | None = None
+    robot: Robot,
+    calibration: FactoryCalibration,
+    *,
+    base: str | None = None,
+    tip: str | None = None,
 ) -> Robot:
     """The nominal robot with the kinematics of a calibration; its link frames stay where they were
     as nearly as may be.
@@ -100,11 +108,11 @@ def apply(
     the links that stand for the controller's base frame and for the flange. By default base is the
     link called "base", else the one called "base_link_inertia", else the root; tip is "tool0", else
     the only leaf.
-    Returns: Robot. Raises: as `relinked`; InputError for what is no Calibration. Accuracy: as
+    Returns: Robot. Raises: as `relinked`; InputError for what is no FactoryCalibration. Accuracy: as
     `relinked`.
     """
-    if not isinstance(calibration, Calibration):
-        raise InputError(f"apply: expected a Calibration, got {type(calibration).__name__}")
+    if not isinstance(calibration, FactoryCalibration):
+        raise InputError(f"apply: expected a FactoryCalibration, got {type(calibration).__name__}")
     if isinstance(robot, Robot):
         base = base or next(
             (link for link in ("base", "base_link_inertia") if link in robot.links), None

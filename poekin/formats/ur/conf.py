@@ -40,7 +40,7 @@ def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
     """The deltas in a calibration.conf: delta_theta, delta_alpha [rad], delta_a, delta_d [m], one
     number a joint.
 
-    For `deltas`: `pk.ur.deltas(pk.dh.published("ur10e"), **pk.ur.read_deltas("calibration.conf"))`.
+    For `add_deltas`: `pk.ur.add_deltas(pk.dh.published("ur10e"), **pk.ur.read_deltas("calibration.conf"))`.
 
     The file has lines `delta_a = [ 1e-4, ... ]` under [mounting], and others that do not matter
     here.

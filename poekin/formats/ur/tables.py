@@ -17,9 +17,9 @@ from ...model.robot import TWELVE
 from .. import dh
 from ..dh import Table
 from ..dh.table import COLUMNS
-from ..dh.to_chain import links_of
+from ..dh.to_chain import link_poses
 from ..relink import relinked
-from .calibration import JOINTS, LINKS, Calibration
+from .calibration import JOINTS, LINKS, FactoryCalibration
 
 FAR = 0.02
 """A calibration that moves a link by more than this [m] is hardly one of that arm: 2 to 7 mm are
@@ -27,7 +27,7 @@ usual.
 """
 
 
-def deltas(
+def add_deltas(
     table: Table,
     *,
     delta_theta: ArrayLike | None = None,
@@ -48,7 +48,7 @@ def deltas(
     so.
     """
     if not isinstance(table, Table):
-        raise InputError(f"deltas: expected a dh.Table, got {type(table).__name__}")
+        raise InputError(f"add_deltas: expected a dh.Table, got {type(table).__name__}")
     given = dict(zip(COLUMNS, (delta_theta, delta_d, delta_a, delta_alpha), strict=True))
     columns: dict[str, list[float]] = {}
     for column, values in given.items():
@@ -66,7 +66,7 @@ def deltas(
     return Table(table.convention, rows, base=table.base, tool=table.tool, name=table.name)
 
 
-def from_dh(table: Table, *, nominal: Table, hash: str = "") -> Calibration:
+def from_dh(table: Table, *, nominal: Table, hash: str = "") -> FactoryCalibration:
     """The calibration of an arm from its own DH table, its link frames as near as may be to those
     of the nominal one.
 
@@ -74,9 +74,9 @@ def from_dh(table: Table, *, nominal: Table, hash: str = "") -> Calibration:
     away. Here each frame is the one on its joint's axis that is nearest to the nominal link
     (`poekin.formats.relink`); the last one is the flange itself, so that f(q) is the table's.
 
-    Parameters: table, the arm's, as the controller reports it or `deltas` makes it; nominal, the
-    same model's published table, as `pk.dh.published("ur10e")`; hash, as in `Calibration`. Returns:
-    Calibration.
+    Parameters: table, the arm's, as the controller reports it or `add_deltas` makes it; nominal, the
+    same model's published table, as `pk.dh.published("ur10e")`; hash, as in `FactoryCalibration`. Returns:
+    FactoryCalibration.
     Raises: InputError for another number or kind of joints than six revolute ones that are not
     flipped, and for a flange that is off the last axis (a or alpha of the last joint, or a tool),
     for which the form has no place.
@@ -99,10 +99,10 @@ def from_dh(table: Table, *, nominal: Table, hash: str = "") -> Calibration:
                 f" {quote(nominal.name)}: they are not of the same arm"
             )
     _warn_if_far(before.fk(np.zeros(6)), after.fk(np.zeros(6)), table, nominal)
-    return Calibration(np.array([joint.origin for joint in joints]), hash)
+    return FactoryCalibration(np.array([joint.origin for joint in joints]), hash)
 
 
-def _frames(table: Table) -> Calibration:
+def _frames(table: Table) -> FactoryCalibration:
     """The frames of a nominal table as ur_description places them: behind theta and d of their own
     joint.
     """
@@ -111,11 +111,11 @@ def _frames(table: Table) -> Calibration:
         for r in table.rows
         for half in (dh.Row(theta=r.theta, d=r.d), dh.Row(a=r.a, alpha=r.alpha))
     ]
-    K = links_of(Table("standard", halves, base=table.base))
+    K = link_poses(Table("standard", halves, base=table.base))
     poses = np.tile(np.eye(4), (len(table), 1, 1))
     for i, T in enumerate(poses):
         T[:3].ravel()[TWELVE] = compose(K[2 * i], K[2 * i + 1])
-    return Calibration(poses)
+    return FactoryCalibration(poses)
 
 
 def _six(table: Table) -> None:

@@ -26,20 +26,20 @@ from .. import rpy as angles
 from ..text import yaml_text
 from ..text.atomic_write import write_whole
 from ..text.numbers import real
-from .calibration import LINKS, Calibration
+from .calibration import LINKS, FactoryCalibration
 from .conf import read_text_file
 
 KEYS = ("x", "y", "z", "roll", "pitch", "yaw")
 CONVENTIONS = ("moving", "fixed")
 
 
-def read(path: str | os.PathLike[str], *, rpy: str | None = None) -> Calibration:
+def read(path: str | os.PathLike[str], *, rpy: str | None = None) -> FactoryCalibration:
     """The calibration in a YAML file of the driver.
 
     Parameters: path; rpy, "moving" or "fixed", the axes that roll, pitch and yaw turn about: by
     default what the file says, and "moving", as the driver writes it, where it says nothing. With
     "fixed" a file of the driver becomes the arm that a URDF of ur_description has. Returns:
-    Calibration. Needs the extra `formats`.
+    FactoryCalibration. Needs the extra `formats`.
     Raises: FileError for a file that cannot be read or is larger than 64 KiB; ModelError with file
     and line for what is no YAML, has no `kinematics:`, or a link or key that is missing, misspelt,
     there twice or no finite number; MissingExtra; InputError for another rpy.
@@ -49,33 +49,37 @@ def read(path: str | os.PathLike[str], *, rpy: str | None = None) -> Calibration
     return read_text(text, place, rpy=rpy)
 
 
-def read_text(text: str, place: str = "<text>", *, rpy: str | None = None) -> Calibration:
+def read_text(text: str, place: str = "<text>", *, rpy: str | None = None) -> FactoryCalibration:
     """The calibration in a text; place stands for the file in messages. Otherwise as `read`."""
     if rpy is not None:
         _convention(rpy)
     top = yaml_text.parse(text, place)
     _names(top, ("kinematics",), ("rpy",), place, "the file")
     kinematics = top.items["kinematics"]
-    if not isinstance(kinematics, yaml_text.Mapping):
+    if not isinstance(kinematics, yaml_text.MappingNode):
         raise ModelError(
             f"{place}:{kinematics.line}: kinematics: expected {', '.join(LINKS)} and hash below it"
         )
     said = top.items.get("rpy")
-    if said is not None and (not isinstance(said, yaml_text.Text) or said.text not in CONVENTIONS):
+    if said is not None and (
+        not isinstance(said, yaml_text.TextNode) or said.text not in CONVENTIONS
+    ):
         raise ModelError(f"{place}:{said.line}: rpy: expected {' or '.join(CONVENTIONS)}")
-    written = said.text if isinstance(said, yaml_text.Text) else "moving"
+    written = said.text if isinstance(said, yaml_text.TextNode) else "moving"
     _names(kinematics, LINKS, ("hash",), place, "kinematics")
-    mark = kinematics.items.get("hash", yaml_text.Text("", 0))
-    if not isinstance(mark, yaml_text.Text):
+    mark = kinematics.items.get("hash", yaml_text.TextNode("", 0))
+    if not isinstance(mark, yaml_text.TextNode):
         raise ModelError(f"{place}:{mark.line}: hash: expected a text")
     poses = [_pose(kinematics.items[link], link, place, rpy or written) for link in LINKS]
     try:
-        return Calibration(np.array(poses), mark.text)
+        return FactoryCalibration(np.array(poses), mark.text)
     except PoekinError as fault:
         raise ModelError(f"{place}: {fault}") from fault
 
 
-def write(calibration: Calibration, path: str | os.PathLike[str], *, rpy: str = "fixed") -> None:
+def write(
+    calibration: FactoryCalibration, path: str | os.PathLike[str], *, rpy: str = "fixed"
+) -> None:
     """Write a calibration as a YAML file, for ur_description (`rpy="fixed"`) or as the driver would
     (`rpy="moving"`).
 
@@ -88,14 +92,14 @@ def write(calibration: Calibration, path: str | os.PathLike[str], *, rpy: str = 
     keep all their digits, rotations come back within 1e-15. A hash is written as it is: the driver
     compares it with the arm's.
     """
-    write_whole(path, text_of(calibration, rpy=rpy).encode())
+    write_whole(path, make_text(calibration, rpy=rpy).encode())
 
 
-def text_of(calibration: Calibration, *, rpy: str = "fixed") -> str:
+def make_text(calibration: FactoryCalibration, *, rpy: str = "fixed") -> str:
     """The text of a calibration's file. Otherwise as `write`."""
     _convention(rpy)
-    if not isinstance(calibration, Calibration):
-        raise InputError(f"write: expected a Calibration, got {type(calibration).__name__}")
+    if not isinstance(calibration, FactoryCalibration):
+        raise InputError(f"write: expected a FactoryCalibration, got {type(calibration).__name__}")
     lines = ["rpy: fixed"] if rpy == "fixed" else []
     lines.append("kinematics:")
     for link, T in zip(LINKS, calibration.poses, strict=True):
@@ -111,8 +115,10 @@ def text_of(calibration: Calibration, *, rpy: str = "fixed") -> str:
     return "\n".join([*lines, f"  hash: {_quoted(calibration.hash)}", ""])
 
 
-def _pose(link: yaml_text.Mapping | yaml_text.Text, name: str, place: str, rpy: str) -> Array:
-    if not isinstance(link, yaml_text.Mapping):
+def _pose(
+    link: yaml_text.MappingNode | yaml_text.TextNode, name: str, place: str, rpy: str
+) -> Array:
+    if not isinstance(link, yaml_text.MappingNode):
         raise ModelError(
             f"{place}:{link.line}: {name}: expected {', '.join(KEYS)} below it, got {quote(link.text)}"
         )
@@ -125,8 +131,8 @@ def _pose(link: yaml_text.Mapping | yaml_text.Text, name: str, place: str, rpy: 
     return T
 
 
-def _number(value: yaml_text.Mapping | yaml_text.Text, what: str, place: str) -> float:
-    text = value.text if isinstance(value, yaml_text.Text) else "more keys"
+def _number(value: yaml_text.MappingNode | yaml_text.TextNode, what: str, place: str) -> float:
+    text = value.text if isinstance(value, yaml_text.TextNode) else "more keys"
     number = real(text)
     if number is None or not math.isfinite(number):
         raise ModelError(
@@ -136,7 +142,7 @@ def _number(value: yaml_text.Mapping | yaml_text.Text, what: str, place: str) ->
 
 
 def _names(
-    mapping: yaml_text.Mapping,
+    mapping: yaml_text.MappingNode,
     needed: tuple[str, ...],
     others: tuple[str, ...],
     place: str,

@@ -37,8 +37,8 @@ def test_a_text_that_is_no_yaml_is_refused_with_its_line_and_the_reader_s_reason
 def test_a_mapping_knows_the_lines_of_its_keys_and_values():
     root = yaml_text.parse("\na:\n  b: 1\n  c:\n    2\nd: x\n", "f")
     inner = root.items["a"]
-    assert isinstance(inner, yaml_text.Mapping)
+    assert isinstance(inner, yaml_text.MappingNode)
     assert (root.line, root.key_lines) == (2, {"a": 2, "d": 6})
     assert (inner.line, inner.key_lines) == (3, {"b": 3, "c": 4})
-    assert inner.items == {"b": yaml_text.Text("1", 3), "c": yaml_text.Text("2", 5)}
+    assert inner.items == {"b": yaml_text.TextNode("1", 3), "c": yaml_text.TextNode("2", 5)}
     assert yaml_text.parse("{a: " * 8 + "1" + "}" * 8, "f").items

@@ -68,7 +68,7 @@ def save(found: CalibrationData, path: str | os.PathLike[str]) -> None:
         else {"length": float(s.length)} | ({} if s.angle is None else {"angle": float(s.angle)})
         for s in found.spreads
     ]
-    write_whole(path, toml_text.text_of(data).encode())
+    write_whole(path, toml_text.make_text(data).encode())
 
 
 def load(path: str | os.PathLike[str]) -> CalibrationData:
