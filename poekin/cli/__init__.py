@@ -22,9 +22,7 @@ NOBODY_READS = 141
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """The entry point of the command `poekin`: runs it on the arguments (sys.argv) and exits with
-    its code.
-    """
+    """Run the command `poekin` on the arguments (sys.argv) and exit with its code."""
     for stream in ("stdout", "stderr"):
         if getattr(sys, stream) is None:  # started with it closed
             setattr(sys, stream, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115  open until the process ends
@@ -36,9 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
-    """The exit code of one command; every error that a user can cause is one message on stderr and
-    code 2.
-    """
+    """Exit code of one command; an error that a user can cause is one message on stderr."""
     try:
         try:
             import rich  # noqa: F401  the commands' tables need it: say so at once, not in the middle
@@ -58,8 +54,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
             usage: Any = next(
                 c for c in reversed(typer.BadParameter.__mro__) if hasattr(c, "format_message")
             )
-            if not (sys.argv[1:] if arguments is None else arguments):
-                arguments = ["--help"]
+            if arguments is None:
+                arguments = sys.argv[1:]
+            arguments = arguments or ["--help"]
             try:
                 code = app(args=arguments, prog_name="poekin", standalone_mode=False)
             except usage as error:
@@ -67,9 +64,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
                 return ERROR
             except typer.Abort:
                 return INTERRUPTED
-            except (
-                SystemExit
-            ):  # typer's answer to a broken pipe, the one case in which it ends the process itself
+            except SystemExit:  # typer's answer to a broken pipe, its only own end of a process
                 return NOBODY_READS
         sys.stdout.flush()
     except BrokenPipeError:
@@ -85,9 +80,10 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except (PoekinError, OSError, MemoryError) as error:
         from .output import complain
 
-        complain(
-            f"error: {'there is not enough memory for this' if isinstance(error, MemoryError) else error}"
-        )
+        if isinstance(error, MemoryError):
+            complain("error: there is not enough memory for this")
+        else:
+            complain(f"error: {error}")
         try:
             sys.stdout.flush()
         except OSError:  # a full disk

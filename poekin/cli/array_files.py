@@ -1,6 +1,4 @@
-"""Arrays in and out of files: configurations from CSV or .npy, results to CSV, .npy or JSON, whole
-or not at all.
-"""
+"""Configurations out of CSV or .npy files, results into CSV, .npy or JSON, whole or not at all."""
 
 from __future__ import annotations
 
@@ -8,13 +6,14 @@ import io
 import os
 import stat
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import FileError
 from ..formats.text import csv_rows
+from ..formats.text.atomic_write import write_whole
 from ..formats.text.csv_rows import text as csv_text
 from . import npy
 from .output import path_text
@@ -30,17 +29,21 @@ __all__ = [
     "npy_bytes",
     "read_configurations",
     "read_rows",
+    "write_result",
 ]
 
 STDIN = "-"
-TIME, ERRORS = "time", ("success", "position_error", "rotation_error")
+TIME = "time"
+ERRORS = ("success", "position_error", "rotation_error")
 """Columns that `ik` and `follow` write beside the coordinates."""
 Rows = tuple[np.ndarray, np.ndarray | None]
 
 
 def called(given: str) -> str:
     """The place that configurations come from, as messages call it."""
-    return "standard input" if given == STDIN else path_text(given)
+    if given == STDIN:
+        return "standard input"
+    return path_text(given)
 
 
 def read_configurations(
@@ -107,7 +110,9 @@ def _content(given: str) -> bytes:
 def _from_csv(
     given: str, names: Sequence[str], what: str, progress: csv_rows.Progress, besides: Sequence[str]
 ) -> Rows:
-    file = sys.stdin.fileno() if given == STDIN else given
+    file: str | int = given
+    if given == STDIN:
+        file = sys.stdin.fileno()
     with open(file, newline="", encoding="utf-8-sig", closefd=given != STDIN) as stream:
         size = os.fstat(stream.fileno()).st_size
         return csv_rows.read(stream, names, called(given), what, progress, size, besides=besides)
@@ -118,6 +123,20 @@ def npy_bytes(array: np.ndarray) -> bytes:
     out = io.BytesIO()
     np.save(out, array, allow_pickle=False)
     return out.getvalue()
+
+
+def write_result(
+    path: Path, csv: Callable[[], str], array: np.ndarray, json: Callable[[], str]
+) -> None:
+    """Write a result as CSV, .npy or JSON, whichever the path ends in. Raises: FileError."""
+    suffix = path.suffix.lower()
+    if suffix == ".csv":
+        content = csv().encode()
+    elif suffix == ".npy":
+        content = npy_bytes(array)
+    else:
+        content = (json() + "\n").encode()
+    write_whole(path, content)
 
 
 def check_writable(path: Path) -> None:
@@ -135,30 +154,35 @@ def check_writable(path: Path) -> None:
 
 
 def check_apart(results: Iterable[Path | None], **read: str | Sequence[str] | None) -> None:
-    """Refuse to write over a file that is read, or two results into one file, whatever names and
-    links lead there.
+    """Refuse to write over a file that is read, or two results into one file.
 
     Parameters: results, the places to write to; read, the files that are read, by what they hold.
     Raises: FileError.
     """
     taken: dict[object, str] = {}
     for what, given in read.items():
-        for name in [given] if isinstance(given, str) else given or ():
-            taken[_there(name)] = f"it is the file of the {what}"
+        names = given or ()
+        if isinstance(names, str):
+            names = [names]
+        for name in names:
+            taken[_file_identity(name)] = f"it is the file of the {what}"
     taken.pop(None, None)
     for path in filter(None, results):
-        place = _there(path) or os.path.realpath(path)
+        place = _file_identity(path) or os.path.realpath(path)
         if place in taken:
             raise FileError(f"cannot write {path_text(path)}: {taken[place]}")
         taken[place] = "it is named twice"
 
 
-def _there(name: str | Path) -> tuple[int, int] | None:
-    """What every name of one regular file has in common; None for a device or a pipe, and where
-    there is no file.
-    """
+def _file_identity(name: str | Path) -> tuple[int, int] | None:
+    """Device and inode, common to all names of one regular file; None for anything else."""
     try:
-        status = os.fstat(sys.stdin.fileno()) if name == STDIN else os.stat(name)
+        if name == STDIN:
+            status = os.fstat(sys.stdin.fileno())
+        else:
+            status = os.stat(name)
     except (OSError, ValueError, AttributeError):  # among others a stdin that is closed or no file
         return None
-    return (status.st_dev, status.st_ino) if stat.S_ISREG(status.st_mode) else None
+    if not stat.S_ISREG(status.st_mode):
+        return None
+    return status.st_dev, status.st_ino

@@ -1,6 +1,4 @@
-"""`poekin conform`: hold somebody's exp, log, Jacobian, kinematics or URDF reader to the laws, and
-grade it.
-"""
+"""`poekin conform`: test and grade other exp, log, Jacobian, kinematics and URDF code by the laws."""
 
 from __future__ import annotations
 
@@ -89,9 +87,15 @@ def command(
         sys.path.insert(0, "")
     with Progress("laws") as progress:
         report = conform(
-            subject, law or (), examples, seconds, progress,
-            leave_out=without or (), at_most=Grade[at_most.name], limits=Limits(limit),
-        )  # fmt: skip
+            subject,
+            law or (),
+            examples,
+            seconds,
+            progress,
+            leave_out=without or (),
+            at_most=Grade[at_most.name],
+            limits=Limits(limit),
+        )
     if json:
         print(as_json(report.as_dict()))
     else:

@@ -1,6 +1,4 @@
-"""The models that a command takes: every FILE becomes a Robot here, by `load`, or by xacro where
-that was asked for.
-"""
+"""Robots out of the FILE arguments of commands, read by `load` or, on request, by xacro."""
 
 from __future__ import annotations
 
@@ -16,7 +14,7 @@ import typer
 from ..errors import InputError, quote
 from ..formats.load import load
 from ..formats.xacro import is_xacro
-from ..formats.xacro import xacro as evaluated
+from ..formats.xacro import xacro as evaluate_xacro
 from ..model.robot import Robot
 
 XACRO_HELP = "Evaluate each FILE that is xacro: this runs the expressions in it, so only do it with files you trust."
@@ -39,14 +37,12 @@ def model(file: str) -> Robot:
     """The robot that a FILE argument names. Raises: what `load` and `xacro` raise."""
     arguments = _arguments.get()
     if arguments is not None and os.path.isfile(file) and is_xacro(file):
-        return evaluated(file, **arguments)
+        return evaluate_xacro(file, **arguments)
     return load(file)
 
 
 def takes_models(command: Callable[..., None]) -> Callable[..., None]:
-    """The command with two more options, --xacro and --xacro-arg, which say how `model` reads files
-    while it runs.
-    """
+    """Command with the options --xacro and --xacro-arg, which `model` obeys while it runs."""
 
     @functools.wraps(command)
     def run(
@@ -54,7 +50,10 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
     ) -> None:
         if xacro_arg and not xacro:
             raise InputError("--xacro-arg: expected together with --xacro only")
-        before = _arguments.set(dict(map(_pair, xacro_arg or ())) if xacro else None)
+        values = None
+        if xacro:
+            values = dict(map(_pair, xacro_arg or ()))
+        before = _arguments.set(values)
         try:
             command(*args, **options)
         finally:

@@ -6,6 +6,7 @@ import ast
 import math
 import re
 import warnings
+from typing import Literal
 
 import numpy as np
 
@@ -18,6 +19,9 @@ LONGEST_HEADER = 10_000
 NESTED = 100
 # No array has more rows: a shape whose other axis is 0 could otherwise claim any number of them.
 MOST_ROWS = 2**40
+_ORDER: dict[bool, Literal["C", "F"]] = {False: "C", True: "F"}
+_START_OF_HEADER = {b"\1\0": 10, b"\2\0": 12, b"\3\0": 12}
+_ENCODING = {b"\1\0": "latin-1", b"\2\0": "latin-1", b"\3\0": "utf-8"}
 
 
 def configurations(content: bytes, m: int, where: str, tail: tuple[int, ...] = ()) -> np.ndarray:
@@ -35,43 +39,47 @@ def configurations(content: bytes, m: int, where: str, tail: tuple[int, ...] = (
         dtype, column_major, shape, start = _header(content)
     except ValueError as fault:
         raise FileError(f"{where} is no .npy file of numbers: {fault}") from fault
-    last = tail if tail and tail in (shape, shape[1:]) else (m,)
+    last: tuple[int, ...] = (m,)
+    if tail and tail in (shape, shape[1:]):
+        last = tail
     if shape != last and (len(shape) != 1 + len(last) or shape[1:] != last):
         raise InputError(f"{where}: an array of shape (N, {m}) expected, got {shape}")
-    count, there = math.prod(shape), len(content) - start
-    if count * dtype.itemsize > there:
+    count = math.prod(shape)
+    needed = count * dtype.itemsize
+    there = len(content) - start
+    if needed > there:
         raise FileError(
-            f"{where} is damaged: its header speaks of {count * dtype.itemsize} bytes, {there} are there"
+            f"{where} is damaged: its header speaks of {needed} bytes, {there} are there"
         )
-    # Where there is nothing to read NumPy does not look at an empty buffer.
-    flat = np.frombuffer(content, dtype, count, start) if count else np.zeros(0, dtype)
-    with np.errstate(
-        all="ignore"
-    ):  # a signalling NaN becomes a quiet one, and what is too large infinite
-        values = flat.reshape(shape, order="F" if column_major else "C").astype(float)
+    flat = np.zeros(0, dtype)
+    if count:  # NumPy refuses an empty buffer
+        flat = np.frombuffer(content, dtype, count, start)
+    # A signalling NaN becomes a quiet one, and what is too large infinite.
+    with np.errstate(all="ignore"):
+        values = flat.reshape(shape, order=_ORDER[column_major]).astype(float)
     return values.reshape(math.prod(shape[: -len(last)]), m)
 
 
 def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:
-    """Type of the elements, whether the first axis runs fastest, shape, and where the elements
-    start.
-    """
+    """Type of the elements, whether the first axis runs fastest, shape, and first byte of data."""
     if not content.startswith(MAGIC):
         raise ValueError("it does not begin like one")
     version = content[6:8]
-    if version not in (b"\1\0", b"\2\0", b"\3\0"):
+    if version not in _START_OF_HEADER:
         raise ValueError("its version is unknown")
-    start = 10 if version == b"\1\0" else 12
+    start = _START_OF_HEADER[version]
     length = int.from_bytes(content[8:start], "little")
     text = content[start : start + length]
     if len(content) < start or len(text) < length:
         raise ValueError("it ends within its header")
     if length > LONGEST_HEADER:
         raise ValueError(f"its header is longer than {LONGEST_HEADER} bytes")
-    header = _literal(text, "utf-8" if version == b"\3\0" else "latin-1")
+    header = _literal(text, _ENCODING[version])
     if not isinstance(header, dict) or set(header) != {"descr", "fortran_order", "shape"}:
         raise ValueError("its header does not say descr, fortran_order and shape")
-    descr, column_major, shape = header["descr"], header["fortran_order"], header["shape"]
+    descr = header["descr"]
+    column_major = header["fortran_order"]
+    shape = header["shape"]
     if not isinstance(descr, str) or not re.fullmatch("[<>|=]?(f2|f4|f8|f16|[iu][1248])", descr):
         raise ValueError(f"an array of real numbers expected, its elements are {str(descr)[:40]!r}")
     if not isinstance(column_major, bool):
@@ -84,10 +92,9 @@ def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:
 
 
 def _literal(text: bytes, encoding: str) -> object:
-    """What a Python literal says."""
-    if (
-        sum(map(text.count, (b"(", b"[", b"{", b"-"))) > NESTED
-    ):  # Python's parser calls that a want of memory
+    """Value of a Python literal."""
+    # Python's parser raises MemoryError where brackets are nested deeply.
+    if sum(map(text.count, (b"(", b"[", b"{", b"-"))) > NESTED:
         raise ValueError("its header cannot be read")
     try:
         with warnings.catch_warnings():

@@ -1,6 +1,4 @@
-"""What the commands print: plain text, tables, numbers, JSON, progress. Names out of files are
-shown harmlessly.
-"""
+"""Output of the commands: plain text, tables, numbers, JSON, progress; names of files escaped."""
 
 from __future__ import annotations
 
@@ -9,7 +7,7 @@ import math
 import sys
 import time
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
@@ -17,21 +15,19 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from ..errors import quote
+from ..errors import escape_unprintable, quote
+from ..model.chain import Chain
 
 LONGEST_PATH = 400
 PAUSE = 10.0
 """Seconds of silence between two lines of progress where stderr is no terminal."""
+CLEAR_LINE = "\r\x1b[K"
+"""Code that clears the line of a terminal on which the cursor stands."""
 
 
 def plain(text: object) -> str:
-    """Text without anything a terminal would obey: control and bidirectional characters escaped,
-    line breaks kept.
-    """
-    return "".join(
-        c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode()
-        for c in str(text)
-    )
+    """Text with unprintable characters escaped and line breaks kept."""
+    return escape_unprintable(text, keep="\n")
 
 
 def name(text: object) -> str:
@@ -51,7 +47,7 @@ def number(value: float, digits: int = 6) -> str:
 
 def complain(message: str) -> None:
     """A warning or an error on stderr; on a terminal it takes the line that progress may stand on."""
-    clear = "\r\x1b[K" if sys.stderr.isatty() else ""
+    clear = CLEAR_LINE * sys.stderr.isatty()
     print(clear + plain(f"poekin: {message}"), file=sys.stderr)
 
 
@@ -67,24 +63,37 @@ def table(columns: Sequence[str], rows: Iterable[Sequence[object]], *, left: int
     """
     grid = Table(box=SIMPLE_HEAD, pad_edge=False, show_edge=False)
     for i, column in enumerate(columns):
-        grid.add_column(Text(column), justify="left" if i < left else "right", overflow="fold")
+        justify: Literal["left", "right"] = "right"
+        if i < left:
+            justify = "left"
+        grid.add_column(Text(column), justify=justify, overflow="fold")
     for row in rows:
         # Text, not str: rich would read [b] in a joint's name as markup.
         grid.add_row(*(Text(name(cell)) for cell in row))
     # Its own console each time: stdout may be another one by now, as in tests.
-    width = None if sys.stdout.isatty() else 100_000
-    Console(width=width).print(grid)
+    if sys.stdout.isatty():
+        Console().print(grid)
+    else:
+        Console(width=100_000).print(grid)
 
 
 def matrix(values: np.ndarray, labels: Sequence[str] = (), columns: Sequence[str] = ()) -> None:
     """A matrix on stdout to nine digits, with names of rows and columns where given."""
     cells = [[number(v, 9) for v in row] for row in values]
-    heads = ([list(map(name, columns))] if columns else []) + cells
-    widths = [max(len(row[j]) for row in heads) for j in range(values.shape[1])]
+    tags = list(labels) or [""] * len(cells)
+    if columns:
+        cells.insert(0, list(map(name, columns)))
+        tags.insert(0, "")
+    widths = [max(len(row[j]) for row in cells) for j in range(values.shape[1])]
     side = max(map(len, labels), default=0)
-    tags = ([""] if columns else []) + (list(labels) or [""] * len(cells))
-    for tag, row in zip(tags, heads, strict=True):
+    for tag, row in zip(tags, cells, strict=True):
         print(" ", tag.ljust(side), *(cell.rjust(w) for cell, w in zip(row, widths, strict=True)))
+
+
+def heading(robot: str, chain: Chain, **extra: object) -> dict[str, object]:
+    """Names of robot, base, tip and coordinates, with which the JSON of a chain begins."""
+    names = {"robot": robot, "base": chain.base, "tip": chain.tip}
+    return names | extra | {"q_names": list(chain.q_names)}
 
 
 def as_json(value: Any) -> str:
@@ -97,48 +106,54 @@ def as_json(value: Any) -> str:
             return {str(k): clean(v) for k, v in item.items()}
         if isinstance(item, (list, tuple)):
             return [clean(v) for v in item]
-        if isinstance(item, float):
-            return item if math.isfinite(item) else None
+        if isinstance(item, float) and not math.isfinite(item):
+            return None
         return item
 
     return json.dumps(clean(value), allow_nan=False)
 
 
 class Progress:
-    """How far long work has come, on stderr: one line that is rewritten on a terminal, else a line
-    now and then.
+    """Progress of long work on stderr: a line rewritten on a terminal, else a line now and then.
 
     Parameters: what (the work's name). Short work shows nothing. Use it as a context manager; call
-    it with
-    (done, total, what is being done), total 0 where nobody knows it.
+    it with (done, total, what is being done), total 0 where nobody knows it.
     """
 
     def __init__(self, what: str):
         self.what = what
         self.terminal = sys.stderr.isatty()
-        self.shown, self.last = False, time.monotonic()
+        self.shown = False
+        self.last = time.monotonic()
 
     def __call__(self, done: int, total: int, text: str = "") -> None:
         """Say how far the work is, if it is time to say something."""
         now = time.monotonic()
-        if now - self.last < (
-            0.1 if self.shown and self.terminal else 0.5 if self.terminal else PAUSE
-        ):
+        if now - self.last < self._pause():
             return
-        self.last, self.shown = now, True
-        line = name(
-            f"{self.what}: {done}"
-            + (f" of {total}" if total else "")
-            + (f", {text}" if text else "")
-        )
+        self.last = now
+        self.shown = True
+        line = f"{self.what}: {done}"
+        if total:
+            line += f" of {total}"
+        if text:
+            line += f", {text}"
+        line = name(line)
         if self.terminal:
-            print(f"\r\x1b[K{line[:100]}", end="", file=sys.stderr, flush=True)
+            print(f"{CLEAR_LINE}{line[:100]}", end="", file=sys.stderr, flush=True)
         else:
             print(line, file=sys.stderr)
+
+    def _pause(self) -> float:
+        if not self.terminal:
+            return PAUSE
+        if not self.shown:
+            return 0.5
+        return 0.1
 
     def __enter__(self) -> Progress:
         return self
 
     def __exit__(self, *_: object) -> None:
         if self.terminal and self.shown:
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+            print(CLEAR_LINE, end="", file=sys.stderr, flush=True)

@@ -1,10 +1,10 @@
-"""What fk and jacobian have in common: the chain and its configurations in, one result or many out."""
+"""Chain and configurations out of the arguments of a command, and its results, one or many."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated
 
@@ -12,12 +12,11 @@ import numpy as np
 import typer
 
 from ...errors import InputError, quote, suggest
-from ...formats.text.atomic_write import write_whole
 from ...formats.text.numbers import real
 from ...model.chain import Chain
 from .. import array_files
 from ..model import OPTIONS, model
-from ..output import Progress, as_json, matrix, name, number, path_text, say
+from ..output import Progress, as_json, heading, matrix, name, number, path_text, say
 
 FILE_HELP = "A URDF, MJCF, DH table or calibration file, a built-in name (panda), or erd:NAME."
 File = Annotated[str, typer.Argument(metavar="FILE", help=FILE_HELP)]
@@ -48,10 +47,8 @@ ROWS_AT_ONCE = 20_000
 
 
 @dataclass(frozen=True)
-class Arm:
-    """One chain out of a file, and the configurations (N, m) that the user gave; single where it
-    was one Q.
-    """
+class ChainArguments:
+    """Chain of a file and configurations (N, m); single where the user gave one Q."""
 
     robot: str
     chain: Chain
@@ -67,9 +64,10 @@ def take(
     given: str | None,
     *,
     many: bool = True,
-) -> Arm:
-    """The chain and configurations that a command line names; many: whether the command has
-    --input.
+) -> ChainArguments:
+    """Chain and configurations that a command line names.
+
+    Parameters: many, whether the command has --input.
 
     Raises: what `model`, `Robot.chain` and reading do.
     """
@@ -83,23 +81,20 @@ def take(
     chain = robot.chain(base=base, tip=tip)
     if given is None:
         if len(values) != chain.dof:
-            names = ", ".join(name(n) for n in chain.q_names)
-            other = "; or --input with a file" if many else ""
-            raise InputError(
-                f"{chain.dof} coordinates expected ({names}), got {len(values)}{other}"
-            )
-        return Arm(robot.name, chain, np.array(values, float).reshape(1, chain.dof), True)
+            names = ", ".join(map(name, chain.q_names))
+            message = f"{chain.dof} coordinates expected ({names}), got {len(values)}"
+            if many:
+                message += "; or --input with a file"
+            raise InputError(message)
+        row = np.array(values, float).reshape(1, chain.dof)
+        return ChainArguments(robot.name, chain, row, True)
     if values:
         raise InputError(
             f"either coordinates or --input expected, got both ({quote(words[0])} and {quote(given)})"
         )
     with Progress(f"reading {array_files.called(given)}") as progress:
-        return Arm(
-            robot.name,
-            chain,
-            array_files.read_configurations(given, chain.q_names, progress),
-            False,
-        )
+        rows = array_files.read_configurations(given, chain.q_names, progress)
+    return ChainArguments(robot.name, chain, rows, False)
 
 
 def _value(word: str, index: int) -> float:
@@ -110,11 +105,9 @@ def _value(word: str, index: int) -> float:
 
 
 def compute(
-    arm: Arm, function: Callable[[np.ndarray], np.ndarray], shape: tuple[int, ...]
+    arm: ChainArguments, function: Callable[[np.ndarray], np.ndarray], shape: tuple[int, ...]
 ) -> np.ndarray:
-    """The results (N, *shape) of a function of configurations, some at a time so that it can tell
-    how far it is.
-    """
+    """Results (N, *shape) of a function of configurations, computed in parts with progress."""
     results = np.empty((len(arm.q), *shape))
     with Progress("computing") as progress:
         for start in range(0, len(arm.q), ROWS_AT_ONCE):
@@ -123,49 +116,67 @@ def compute(
     return results
 
 
-def give(
-    arm: Arm, results: np.ndarray, what: str, *, title: str, rows: Sequence[str], columns: Sequence[str],
-    output: Path | None, json: bool, extra: dict[str, object] | None = None,
-) -> None:  # fmt: skip
-    """Print the results (N, r, c), or write them: what is their symbol ("T", "J"); rows and columns
-    have names.
+@dataclass(frozen=True)
+class Results:
+    """Matrices (N, r, c) of one kind, with what messages, columns and rows call them.
+
+    Fields: values; symbol ("T", "J"); title; names of the rows and columns; extra JSON keys.
     """
-    chain = arm.chain
-    head = {
-        "robot": arm.robot,
-        "base": chain.base,
-        "tip": chain.tip,
-        **(extra or {}),
-        "q_names": list(chain.q_names),
-    }
 
-    def document() -> str:
-        one = arm.single and output is None
-        return as_json(
-            head | {"q": arm.q[0] if one else arm.q, what: results[0] if one else results}
-        )
+    values: np.ndarray
+    symbol: str
+    title: str
+    rows: Sequence[str]
+    columns: Sequence[str] = ()
+    extra: Mapping[str, object] = field(default_factory=dict)
 
-    def sheet() -> str:
-        header = [f"{r} {c}".strip() if columns else r for r in rows for c in columns or [""]]
+    def csv(self) -> str:
+        """CSV with a line for each matrix."""
+        columns = self.columns or [""]
+        header = [f"{row} {column}".strip() for row in self.rows for column in columns]
         with Progress("writing") as progress:
             # The width is said, not inferred: -1 means nothing where there is no configuration.
-            flat = results.reshape(len(results), math.prod(results.shape[1:]))
+            flat = self.values.reshape(len(self.values), math.prod(self.values.shape[1:]))
             return array_files.csv_text(header, flat, progress)
 
-    if output is not None:
-        content = {".csv": lambda: sheet().encode(), ".npy": lambda: array_files.npy_bytes(results)}
-        write_whole(
-            output, content.get(output.suffix.lower(), lambda: (document() + "\n").encode())()
-        )
-        summary = {"written": str(output), "configurations": len(results)}
-        say(as_json(summary) if json else f"{len(results)} × {what} written to {path_text(output)}")
-    elif json:
-        print(document())
-    elif arm.single:
-        say(f"{title}, at")
-        for coordinate, value in zip(chain.q_names, arm.q[0], strict=True):
-            say(f"  {name(coordinate)} = {number(value, 9)}")
+    def json(self, arm: ChainArguments, single: bool) -> str:
+        """JSON with the configurations; of a single one without the axis of the batch."""
+        head = heading(arm.robot, arm.chain, **self.extra)
+        if single:
+            return as_json(head | {"q": arm.q[0], self.symbol: self.values[0]})
+        return as_json(head | {"q": arm.q, self.symbol: self.values})
+
+    def show(self, arm: ChainArguments) -> None:
+        """Print the matrix of a single configuration."""
+        say(f"{self.title}, at")
+        show_coordinates(arm.chain, arm.q[0])
         say()
-        matrix(results[0], *((rows, columns) if columns else ()))
+        if self.columns:
+            matrix(self.values[0], self.rows, self.columns)
+        else:
+            matrix(self.values[0])
+
+
+def show_coordinates(chain: Chain, q: np.ndarray) -> None:
+    """Print a line for each coordinate."""
+    for coordinate, value in zip(chain.q_names, q, strict=True):
+        say(f"  {name(coordinate)} = {number(value, 9)}")
+
+
+def give(arm: ChainArguments, results: Results, output: Path | None, json: bool) -> None:
+    """Write the results to a file, or print them."""
+    if output is not None:
+        array_files.write_result(
+            output, results.csv, results.values, lambda: results.json(arm, False)
+        )
+        count = len(results.values)
+        if json:
+            say(as_json({"written": str(output), "configurations": count}))
+        else:
+            say(f"{count} × {results.symbol} written to {path_text(output)}")
+    elif json:
+        print(results.json(arm, arm.single))
+    elif arm.single:
+        results.show(arm)
     else:
-        print(sheet(), end="")
+        print(results.csv(), end="")

@@ -16,7 +16,7 @@ from ...solve.path.follow import follow
 from ...solve.path.followed import Followed, Stretch
 from .. import array_files
 from ..model import model
-from ..output import Progress, as_json, complain, path_text, say
+from ..output import Progress, as_json, complain, heading, path_text, say
 from . import poses
 from .arm import Base, File, Json, Tip
 
@@ -51,12 +51,24 @@ Plot = Annotated[
 
 
 def command(
-    file: File, tip: Tip = None, base: Base = None, given: poses.Input = None,
-    format: poses.Format = None, quaternion: poses.Quaternion = None, q0: Start = None, duration: Duration = None,
-    speed: Speed = None, acceleration: Acceleration = None, max_step: Step = 0.1, task: poses.Task = "pose",
-    no_limits: poses.NoLimits = False, seed: poses.Seed = 0, output: poses.Output = None, plot: Plot = None,
+    file: File,
+    tip: Tip = None,
+    base: Base = None,
+    given: poses.Input = None,
+    format: poses.Format = None,
+    quaternion: poses.Quaternion = None,
+    q0: Start = None,
+    duration: Duration = None,
+    speed: Speed = None,
+    acceleration: Acceleration = None,
+    max_step: Step = 0.1,
+    task: poses.Task = "pose",
+    no_limits: poses.NoLimits = False,
+    seed: poses.Seed = 0,
+    output: poses.Output = None,
+    plot: Plot = None,
     json: Json = False,
-) -> None:  # fmt: skip
+) -> None:
     """Joints along the path of poses in --input, without a jump where there is such a way.
 
     Exit code 0: followed, within the limits; 1: some pose is not reached, the branch changes, or a
@@ -76,13 +88,23 @@ def command(
     chain = robot.chain(base=base, tip=tip)
     with Progress("following") as progress:
         path = follow(
-            chain, T, q0=poses.coordinates(q0, chain, "--q0"), times=_times(duration, len(T)),
-            speed=poses.for_each(speed, chain, "--speed"), max_step=max_step, task=task, limits=not no_limits,
-            acceleration=poses.for_each(acceleration, chain, "--acceleration"), seed=seed, progress=progress,
-        )  # fmt: skip
-    svg = None if plot is None else path.plot()
+            chain,
+            T,
+            q0=poses.coordinates(q0, chain, "--q0"),
+            times=_times(duration, len(T)),
+            speed=poses.for_each(speed, chain, "--speed"),
+            max_step=max_step,
+            task=task,
+            limits=not no_limits,
+            acceleration=poses.for_each(acceleration, chain, "--acceleration"),
+            seed=seed,
+            progress=progress,
+        )
+    svg = ""
+    if plot is not None:
+        svg = path.plot()
     _give(robot.name, chain, path, output, json)
-    if plot is not None and svg is not None:
+    if plot is not None:
         write_whole(plot, svg.encode())
         if not json:
             say(f"joints drawn in {path_text(plot)}")
@@ -108,14 +130,7 @@ def _check_plot(plot: Path) -> None:
 
 def _give(robot: str, chain: Chain, path: Followed, output: Path | None, json: bool) -> None:
     def document() -> str:
-        head = {
-            "robot": robot,
-            "base": chain.base,
-            "tip": chain.tip,
-            "q_names": list(chain.q_names),
-            "q": path.q,
-        }
-        return as_json(head | _report(path))
+        return as_json(heading(robot, chain) | {"q": path.q} | _report(path))
 
     def sheet() -> str:
         if path.times is None:
@@ -125,10 +140,7 @@ def _give(robot: str, chain: Chain, path: Followed, output: Path | None, json: b
         )
 
     if output is not None:
-        content = {".csv": lambda: sheet().encode(), ".npy": lambda: array_files.npy_bytes(path.q)}
-        write_whole(
-            output, content.get(output.suffix.lower(), lambda: (document() + "\n").encode())()
-        )
+        array_files.write_result(output, sheet, path.q, document)
         if json:
             print(as_json({"written": str(output)} | _report(path)))
         else:
@@ -147,9 +159,18 @@ def _report(path: Followed) -> dict[str, object]:
         return [s._asdict() for s in stretches]
 
     return {
-        "ok": path.ok, "poses": len(path.q), "solved": int(path.success.sum()), "success": path.success,
-        "reason": path.reason, "position_error": path.position_error, "rotation_error": path.rotation_error,
-        "largest_step": path.largest_step, "changes": list(path.changes), "at_limits": plain(path.at_limits),
-        "too_fast": plain(path.too_fast), "too_hard": plain(path.too_hard),
-        "near_singular": plain(path.near_singular), "words": path.sentences(),
-    }  # fmt: skip
+        "ok": path.ok,
+        "poses": len(path.q),
+        "solved": int(path.success.sum()),
+        "success": path.success,
+        "reason": path.reason,
+        "position_error": path.position_error,
+        "rotation_error": path.rotation_error,
+        "largest_step": path.largest_step,
+        "changes": list(path.changes),
+        "at_limits": plain(path.at_limits),
+        "too_fast": plain(path.too_fast),
+        "too_hard": plain(path.too_hard),
+        "near_singular": plain(path.near_singular),
+        "words": path.sentences(),
+    }

@@ -11,7 +11,7 @@ from ...errors import InputError, quote
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from .. import array_files
 from ..output import name
-from .arm import Base, File, Input, Json, Numbers, Output, Tip, compute, give, take
+from .arm import Base, File, Input, Json, Numbers, Output, Results, Tip, compute, give, take
 
 TWIST = ("wx", "wy", "wz", "vx", "vy", "vz")
 
@@ -20,9 +20,15 @@ Frame = Annotated[str, typer.Option("--frame", help=FRAME_HELP)]
 
 
 def command(
-    file: File, frame: Frame, q: Numbers = None, tip: Tip = None, base: Base = None,
-    given: Input = None, output: Output = None, json: Json = False,
-) -> None:  # fmt: skip
+    file: File,
+    frame: Frame,
+    q: Numbers = None,
+    tip: Tip = None,
+    base: Base = None,
+    given: Input = None,
+    output: Output = None,
+    json: Json = False,
+) -> None:
     """Jacobian (6×m, rows omega then v, in rad/s and m/s per unit rate) of the link --tip relative
     to --base.
     """
@@ -32,20 +38,17 @@ def command(
     which = _frame(frame)
     arm = take(file, tip, base, q, given)
     chain = arm.chain
-    columns = compute(arm, lambda some: chain.jacobian(some, which), (6, chain.dof))
-    kind = f"{which} Jacobian" if isinstance(which, str) else "Jacobian"
-    where = (
-        ""
-        if isinstance(which, str)
-        else f" in the frame of joint {which}, {name(chain.joint_names[which])}"
-    )
+    values = compute(arm, lambda some: chain.jacobian(some, which), (6, chain.dof))
+    kind = f"{which} Jacobian"
+    where = ""
+    if isinstance(which, int):
+        kind = "Jacobian"
+        where = f" in the frame of joint {which}, {name(chain.joint_names[which])}"
     title = (
         f"{kind} of {name(chain.tip)} relative to {name(chain.base)}{where} (rows w rad/s, v m/s)"
     )
-    give(
-        arm, columns, "J", title=title, rows=TWIST, columns=chain.q_names,
-        output=output, json=json, extra={"frame": which},
-    )  # fmt: skip
+    results = Results(values, "J", title, TWIST, chain.q_names, {"frame": which})
+    give(arm, results, output, json)
 
 
 def _frame(word: str) -> str | int:

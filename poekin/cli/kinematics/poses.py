@@ -1,6 +1,4 @@
-"""What ik and follow have in common: the poses on a command line or in a file, and a chain for
-them.
-"""
+"""Poses out of the arguments of a command or a file, and the options that go with them."""
 
 from __future__ import annotations
 
@@ -73,8 +71,21 @@ def read(
     """The poses (N, 4, 4) that a command line names; NaN where a row is not finite. Raises:
     InputError, PoseError, FileError, with file and line.
     """
-    own = ("--tip", "--base", "--input", "--format", "--quaternion", "--q0", "--nearest-to", "--task", "--no-limits",
-           "--output", "--json", "--seed", *OPTIONS)  # fmt: skip
+    own = (
+        "--tip",
+        "--base",
+        "--input",
+        "--format",
+        "--quaternion",
+        "--q0",
+        "--nearest-to",
+        "--task",
+        "--no-limits",
+        "--output",
+        "--json",
+        "--seed",
+        *OPTIONS,
+    )
     for word in words or ():
         if word.startswith("--"):  # it came through as a number might
             raise InputError(f"there is no option {quote(word)}; {suggest(word, own)}")
@@ -91,19 +102,28 @@ def read(
             raise InputError(
                 f"either a pose or --input expected, got both ({quote(words[0])} and {quote(given)})"
             )
-        with Progress(f"reading {array_files.called(given)}") as progress:
-            rows, lines = array_files.read_rows(
-                given, names, "column", progress, tail=(4, 4) if format == "16" else ()
-            )
-        where = array_files.called(given)
-        return pose_rows.to_poses(
-            rows, format, quaternion, lambda i: f"{where}, row {i}" if lines is None else f"{where}:{lines[i]}"
-        )  # fmt: skip
+        return _read_file(given, names, format, quaternion)
     if len(words or ()) != len(names):
         asked = f"{len(names)} numbers expected ({' '.join(names)})"
         raise InputError(f"a pose: {asked}, got {len(words or ())}; or --input with a file")
     row = numbers(words or (), "the pose's number")
     return pose_rows.to_poses(row[None], format, quaternion, lambda i: "the pose")
+
+
+def _read_file(given: str, names: Sequence[str], format: str, quaternion: str | None) -> Array:
+    place = array_files.called(given)
+    tail: tuple[int, ...] = ()
+    if format == "16":
+        tail = (4, 4)
+    with Progress(f"reading {place}") as progress:
+        rows, lines = array_files.read_rows(given, names, "column", progress, tail=tail)
+
+    def where(i: int) -> str:
+        if lines is None:
+            return f"{place}, row {i}"
+        return f"{place}:{lines[i]}"
+
+    return pose_rows.to_poses(rows, format, quaternion, where)
 
 
 def numbers(words: Sequence[str], what: str) -> Array:

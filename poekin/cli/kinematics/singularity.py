@@ -10,14 +10,14 @@ import typer
 from ...analysis.dexterity.manipulability import manipulability
 from ...analysis.dexterity.singularity import TOLERANCE, singularity
 from ...errors import InputError
-from ..output import as_json, name, number, say, table
+from ..output import as_json, heading, name, number, say, table
 from .arm import Base, File, Json, Numbers, Tip, take
 
 SINGULAR = 1
 
 
 class Part(StrEnum):
-    """What the tool is asked for."""
+    """Part of the tool's motion that is judged."""
 
     pose = "pose"
     translation = "translation"
@@ -42,17 +42,24 @@ Tolerance = Annotated[
 
 
 def command(
-    file: File, q: Numbers = None, at: At = None, tip: Tip = None, base: Base = None, part: PartOption = Part.pose,
-    tolerance: Tolerance = TOLERANCE, json: Json = False,
-) -> None:  # fmt: skip
+    file: File,
+    q: Numbers = None,
+    at: At = None,
+    tip: Tip = None,
+    base: Base = None,
+    part: PartOption = Part.pose,
+    tolerance: Tolerance = TOLERANCE,
+    json: Json = False,
+) -> None:
     """How near Q is to a singularity and which motion is lost there. Exit code 0 regular, 1
     singular, 2 error.
     """
-    words = [] if at is None else at.replace(",", " ").split()
+    words = (at or "").replace(",", " ").split()
     if at is not None and not words:
         raise InputError("--at: coordinates expected, got nothing")
     arm = take(file, tip, base, [*words, *(q or ())], None, many=False)
-    chain, here = arm.chain, arm.q[0]
+    chain = arm.chain
+    here = arm.q[0]
     result = singularity(chain, here, part=part.value, tolerance=tolerance)
     measures = manipulability(chain, here)
     if json:
@@ -60,13 +67,7 @@ def command(
             p: dict(zip(m._fields, map(float, m), strict=True))
             for p, m in measures._asdict().items()
         }
-        head = {
-            "robot": arm.robot,
-            "base": chain.base,
-            "tip": chain.tip,
-            "q_names": list(chain.q_names),
-            "q": here,
-        }
+        head = heading(arm.robot, chain) | {"q": here}
         print(as_json(head | result.as_dict() | {"manipulability": said}))
     else:
         say(f"{name(chain.tip)} in {name(chain.base)}: {result.words}\n")

@@ -1,4 +1,4 @@
-"""`poekin axes`: how the axes of an arm lie to each other."""
+"""`poekin axes`: angles and distances between the axes of an arm."""
 
 from __future__ import annotations
 
@@ -37,11 +37,17 @@ def command(
         print(as_json({"base": chain.base, "tip": chain.tip} | report.as_dict()))
         return
     say(f"Axes of {name(chain.base)} → {name(chain.tip)} at q = 0\n")
-    rows = [
-        (f"{p.first} {p.name_first}", f"{p.second} {p.name_second}", p.words + ("" if p.fixed else " (at q = 0)"),
-         number(p.angle), "" if p.distance is None else number(p.distance))
-        for p in report.pairs
-    ]  # fmt: skip
+    rows = []
+    for p in report.pairs:
+        words = p.words
+        if not p.fixed:
+            words += " (at q = 0)"
+        distance = ""
+        if p.distance is not None:
+            distance = number(p.distance)
+        first = f"{p.first} {p.name_first}"
+        second = f"{p.second} {p.name_second}"
+        rows.append((first, second, words, number(p.angle), distance))
     table(("axis", "and axis", "are", "angle (deg)", "distance (mm)"), rows, left=3)
     for shape in report.shapes:
         say(shape.words)

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ...analysis.compare.compare import compare
-from ...analysis.compare.comparison import Comparison, PoseErrors
+from ...analysis.compare.comparison import Comparison, JointComparison, PoseErrors
 from ...errors import InputError, join_names
 from ...model.chain import Chain
 from ..kinematics.arm import FILE_HELP, Base, Json, Tip
@@ -41,13 +41,24 @@ Seed = Annotated[int, typer.Option("--seed", help="Seed of the random configurat
 
 
 def command(
-    a: A, b: B, tip: Tip = None, tip_b: TipB = None, base: Base = None, base_b: BaseB = None, tol_mm: TolMm = 0.01,
-    tol_deg: TolDeg = 0.001, strict: Strict = False, samples: Samples = 200, seed: Seed = 0, json: Json = False,
-) -> None:  # fmt: skip
+    a: A,
+    b: B,
+    tip: Tip = None,
+    tip_b: TipB = None,
+    base: Base = None,
+    base_b: BaseB = None,
+    tol_mm: TolMm = 0.01,
+    tol_deg: TolDeg = 0.001,
+    strict: Strict = False,
+    samples: Samples = 200,
+    seed: Seed = 0,
+    json: Json = False,
+) -> None:
     """Two models of one arm, joint by joint: axes, zero positions, directions. Exit code 0 equal, 1
     differ, 2 error.
     """
-    one, other = _chain(a, "--tip", base, tip), _chain(b, "--tip-b", base_b, tip_b, base, tip)
+    one = _chain(a, "--tip", base, tip)
+    other = _chain(b, "--tip-b", base_b, tip_b, base, tip)
     result = compare(
         one, other, strict=strict, tol_mm=tol_mm, tol_deg=tol_deg, samples=samples, seed=seed
     )
@@ -84,17 +95,7 @@ def _where(file: str, chain: Chain) -> dict[str, str]:
 
 def _show(result: Comparison, a: Chain, b: Chain) -> None:
     say(f"A: {name(a.base)} → {name(a.tip)}; B: {name(b.base)} → {name(b.tip)}\n")
-    rows = []
-    for j in result.joints:
-        title = j.name_a if j.name_a == j.name_b else f"{j.name_a} / {j.name_b}"
-        kind = j.kind_a if j.kind_a == j.kind_b else f"{j.kind_a} / {j.kind_b}"
-        lengths = ["" if x is None else _rounded(x, result.tol_mm) for x in (j.normal, j.shift)]
-        tol = result.tol_mm if j.unit == "mm" else result.tol_deg
-        bounds = [_rounded(x, tol) for x in j.limits]
-        rows.append((
-            j.number, title, kind, "DIFFERS" if j.axis_differs else "same", _rounded(j.angle, result.tol_deg), *lengths,
-            f"{_rounded(j.zero, tol)} {j.unit}", "flipped" if j.flipped else "same", " ".join(bounds),
-        ))  # fmt: skip
+    rows = [_joint_row(joint, result) for joint in result.joints]
     if rows:
         lengths = ("angle (deg)", "normal (mm)", "at the arm (mm)")
         heads = ("", "joint", "kind", "axis", *lengths, "zero", "direction", "limits")
@@ -107,14 +108,32 @@ def _show(result: Comparison, a: Chain, b: Chain) -> None:
     say(result.verdict[0].upper() + result.verdict[1:])
 
 
-def _rounded(value: float, tol: float) -> str:
-    """A number to four digits, without those far below tolerance."""
-    return number(0.0 if abs(value) < 1e-6 * tol else value, 4)
+def _joint_row(joint: JointComparison, result: Comparison) -> tuple[object, ...]:
+    tol = {"mm": result.tol_mm}.get(joint.unit, result.tol_deg)
+    return (
+        joint.number,
+        " / ".join(dict.fromkeys((joint.name_a, joint.name_b))),
+        " / ".join(dict.fromkeys((joint.kind_a, joint.kind_b))),
+        "DIFFERS" if joint.axis_differs else "same",
+        _rounded(joint.angle, result.tol_deg),
+        _rounded(joint.normal, result.tol_mm),
+        _rounded(joint.shift, result.tol_mm),
+        f"{_rounded(joint.zero, tol)} {joint.unit}",
+        "flipped" if joint.flipped else "same",
+        " ".join(_rounded(bound, tol) for bound in joint.limits),
+    )
+
+
+def _rounded(value: float | None, tol: float) -> str:
+    """Number to four digits, 0 far below the tolerance; nothing for None."""
+    if value is None:
+        return ""
+    if abs(value) < 1e-6 * tol:
+        value = 0.0
+    return number(value, 4)
 
 
 def _errors(errors: PoseErrors) -> str:
-    worst, mean = (errors.worst_mm, errors.worst_deg), (errors.mean_mm, errors.mean_deg)
-    return "; ".join(
-        f"{what} {number(mm, 3)} mm, {number(deg, 3)}°"
-        for what, (mm, deg) in (("worst", worst), ("mean", mean))
-    )
+    worst = f"worst {number(errors.worst_mm, 3)} mm, {number(errors.worst_deg, 3)}°"
+    mean = f"mean {number(errors.mean_mm, 3)} mm, {number(errors.mean_deg, 3)}°"
+    return f"{worst}; {mean}"

@@ -1,4 +1,4 @@
-"""`poekin count`: what the Jacobian of an arm costs, in operations."""
+"""`poekin count`: operations of an arm's Jacobian."""
 
 from __future__ import annotations
 
@@ -31,12 +31,17 @@ def command(
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     counts = count_table(chain, idealise=idealise)
-    print(as_json({"robot": robot.name} | counts.as_dict())) if json else _show(counts)
+    if json:
+        print(as_json({"robot": robot.name} | counts.as_dict()))
+    else:
+        _show(counts)
 
 
 def _show(counts: CountTable) -> None:
-    say(f"Operations of one Jacobian of {name(counts.base)} → {name(counts.tip)}: {counts.joints} joints, "
-        f"{counts.coordinates} coordinates\n")  # fmt: skip
+    say(
+        f"Operations of one Jacobian of {name(counts.base)} → {name(counts.tip)}: {counts.joints} joints, "
+        f"{counts.coordinates} coordinates\n"
+    )
     rows: list[tuple[object, ...]] = []
     for group in counts.groups:
         rows.append((group[0].upper() + group[1:], *[""] * 7))
@@ -53,8 +58,10 @@ def _show(counts: CountTable) -> None:
     say()
     ideal = counts.idealised
     if ideal is not None:
-        say(f"The idealised arm's pose is within {number(ideal.position_bound, 2)} m and "
-            f"{number(ideal.rotation_bound, 2)} rad of the arm's")  # fmt: skip
+        say(
+            f"The idealised arm's pose is within {number(ideal.position_bound, 2)} m and "
+            f"{number(ideal.rotation_bound, 2)} rad of the arm's"
+        )
         for words in ideal.changes:
             say(f"  {name(words)}")
     for words in counts.verdict:
@@ -62,8 +69,6 @@ def _show(counts: CountTable) -> None:
 
 
 def _cells(cost: Count | None) -> tuple[object, ...]:
-    return (
-        ("", "", "")
-        if cost is None
-        else (cost.multiplications, cost.additions, cost.sine_cosine_pairs)
-    )
+    if cost is None:
+        return "", "", ""
+    return cost.multiplications, cost.additions, cost.sine_cosine_pairs

@@ -31,9 +31,13 @@ MATRICES = {
 
 
 def command(
-    file: File, tip: Tip = None, base: Base = None, convention: Convention = "standard", output: Output = None,
+    file: File,
+    tip: Tip = None,
+    base: Base = None,
+    convention: Convention = "standard",
+    output: Output = None,
     json: Json = False,
-) -> None:  # fmt: skip
+) -> None:
     """DH parameters of one chain, with base and tool, what was free to choose, and how exact the
     table is.
     """
@@ -53,23 +57,35 @@ def command(
 
 def _document(chain: Chain, result: dh.FromChain, output: Path | None) -> dict[str, object]:
     found = result.table
-    rows = [
-        {
-            "name": r.name,
-            "kind": r.kind,
-            "theta": r.theta,
-            "d": r.d,
-            "a": r.a,
-            "alpha": r.alpha,
-            "limits": r.limits,
-        }
-        for r in found.rows
-    ]
+    columns = ("name", "kind", "theta", "d", "a", "alpha", "limits")
+    written = None
+    if output is not None:
+        written = str(output)
     return {
-        "base": chain.base, "tip": chain.tip, "convention": found.convention, "joints": rows, "base_pose": found.base,
-        "tool_pose": found.tool, "gauge": result.gauge, "error": result.error, "bound": result.bound,
-        "reach": chain.reach, "warnings": result.warnings, "written": None if output is None else str(output),
-    }  # fmt: skip
+        "base": chain.base,
+        "tip": chain.tip,
+        "convention": found.convention,
+        "joints": [{column: getattr(row, column) for column in columns} for row in found.rows],
+        "base_pose": found.base,
+        "tool_pose": found.tool,
+        "gauge": result.gauge,
+        "error": result.error,
+        "bound": result.bound,
+        "reach": chain.reach,
+        "warnings": result.warnings,
+        "written": written,
+    }
+
+
+def _row(index: int, row: dh.Row, nothing: float) -> tuple[object, ...]:
+    cells = []
+    for value in (row.theta, row.d, row.a, row.alpha):
+        if abs(value) < nothing:
+            value = 0.0
+        cells.append(number(value, 9))
+    cells[row.kind == "prismatic"] += " + x"
+    limits = [number(bound) * math.isfinite(bound) for bound in row.limits]
+    return index, row.name, row.kind, *cells, *limits
 
 
 def _show(chain: Chain, result: dh.FromChain) -> None:
@@ -77,18 +93,8 @@ def _show(chain: Chain, result: dh.FromChain) -> None:
     say(
         f"{found.convention} DH parameters of {name(chain.base)} → {name(chain.tip)}: {MATRICES[found.convention]}\n"
     )
-    nothing = (
-        result.bound * chain.reach
-    )  # what is smaller says nothing to a reader; the file has every digit
-    rows = []
-    for i, r in enumerate(found.rows, 1):
-        theta, d, a, alpha = (
-            number(0.0 if abs(v) < nothing else v, 9) for v in (r.theta, r.d, r.a, r.alpha)
-        )
-        moving = [theta, d]
-        moving[r.kind == "prismatic"] += " + x"
-        lower, upper = (number(x) if math.isfinite(x) else "" for x in r.limits)
-        rows.append((i, r.name, r.kind, *moving, a, alpha, lower, upper))
+    nothing = result.bound * chain.reach  # the table in a file has every digit
+    rows = [_row(i, row, nothing) for i, row in enumerate(found.rows, 1)]
     heads = ("", "joint", "kind", "theta (rad)", "d (m)", "a (m)", "alpha (rad)", "lower", "upper")
     table(heads, rows, left=3)
     for what, T in (("Base", found.base), ("Tool", found.tool)):
@@ -104,7 +110,7 @@ def _show(chain: Chain, result: dh.FromChain) -> None:
         say(f"Free choice: {words}")
     for words in result.warnings:
         say(f"Warning: {words}")
-    error, bound = number(result.error, 2), number(result.bound, 2)
     say(
-        f"Pose error ÷ reach ({number(chain.reach, 3)} m): {error} over random configurations; at most {bound}"
+        f"Pose error ÷ reach ({number(chain.reach, 3)} m): {number(result.error, 2)}"
+        f" over random configurations; at most {number(result.bound, 2)}"
     )

@@ -21,6 +21,7 @@ from ..model import model
 from ..output import path_text, say
 
 FRAMES = (*FRAME_NAMES, "middle")
+NUMBERS: dict[bool, emit.Real] = {False: "double", True: "float"}
 FRAME_HELP = "The Jacobian's: space | body | hybrid | middle (the one that costs least) | K (of joint K, from 0)."
 
 Language = Annotated[
@@ -42,9 +43,16 @@ Force = Annotated[bool, typer.Option("--force", help="Replace files that exist."
 
 
 def command(
-    file: File, language: Language, output: Output, tip: Tip = None, base: Base = None, frame: Frame = "hybrid",
-    single: Single = False, name: Name = None, force: Force = False,
-) -> None:  # fmt: skip
+    file: File,
+    language: Language,
+    output: Output,
+    tip: Tip = None,
+    base: Base = None,
+    frame: Frame = "hybrid",
+    single: Single = False,
+    name: Name = None,
+    force: Force = False,
+) -> None:
     """Pose and Jacobian of one chain as straight-line source text that needs no poekin."""
     if language not in ("c", "python"):
         raise InputError(f"--lang: c or python expected, got {quote(language)}")
@@ -54,7 +62,9 @@ def command(
         )
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
-    texts = _texts(chain, language, _frame(frame), robot.name if name is None else name, single)
+    if name is None:
+        name = robot.name
+    texts = _texts(chain, language, _frame(frame), name, single)
     if language == "python" and output.suffix == ".py":
         places = dict.fromkeys([output], *texts.values())
         directory = output.parent
@@ -82,9 +92,9 @@ def _frame(word: str) -> str | int:
 def _texts(
     chain: Chain, language: str, frame: str | int, name: str, single: bool
 ) -> dict[str, str]:
-    """The texts by their files' names."""
+    """Texts by the names of their files."""
     if language == "c":
-        return emit.c(chain, frame, name=name, real="float" if single else "double").files
+        return emit.c(chain, frame, name=name, real=NUMBERS[single]).files
     return {f"{identifier(name)}.py": emit.python(chain, frame)}
 
 

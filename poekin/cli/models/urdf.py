@@ -11,6 +11,8 @@ import typer
 from ...errors import quote
 from ...formats.text.atomic_write import write_whole
 from ...formats.urdf_text import to_urdf
+from ...model.chain import Chain
+from ...model.robot import Robot
 from .. import array_files
 from ..kinematics.arm import Base, File
 from ..model import model
@@ -28,12 +30,15 @@ def command(file: File, tip: Tip = None, base: Base = None, output: Output = Non
     """
     array_files.check_apart([output], model=file)
     robot = model(file)
-    written = robot if tip is None and base is None else robot.chain(base=base, tip=tip)
+    written: Robot | Chain = robot
+    if tip is not None or base is not None:
+        written = robot.chain(base=base, tip=tip)
     text = to_urdf(written, name=robot.name)
     if output is not None:
         write_whole(output, text.encode())
         say(f"URDF of {quote(robot.name)} written to {path_text(output)}")
     else:
         # A stream that is not UTF-8 gets other characters by number: XML means the same by that.
-        ascii_only = (sys.stdout.encoding or "").lower().replace("-", "") != "utf8"
-        print(text.encode("ascii", "xmlcharrefreplace").decode() if ascii_only else text, end="")
+        if (sys.stdout.encoding or "").lower().replace("-", "") != "utf8":
+            text = text.encode("ascii", "xmlcharrefreplace").decode()
+        print(text, end="")

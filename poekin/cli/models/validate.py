@@ -14,7 +14,8 @@ from ..kinematics.arm import Json
 from ..model import model
 from ..output import Progress, as_json, complain, name, number, say, table
 
-FAILED, ERROR = 1, 2
+FAILED = 1
+ERROR = 2
 
 Files = Annotated[
     list[str] | None,
@@ -65,9 +66,12 @@ def command(
     else:
         _show(results, len(errors), skipped)
     for file, message in errors.items():
-        where = "" if file in message else f"{name(file)}: "
-        complain(f"error: {where}{message}")
-    raise typer.Exit(ERROR if errors else 0 if passed else FAILED)
+        if file not in message:
+            message = f"{name(file)}: {message}"
+        complain(f"error: {message}")
+    if errors:
+        raise typer.Exit(ERROR)
+    raise typer.Exit(0 if passed else FAILED)
 
 
 def _document(
@@ -89,7 +93,9 @@ def _show(results: list[Validation], unread: int, skipped: list[str]) -> None:
             number(max(getattr(row, what) for row in v.rows), 3) for what in ("pose", *FRAME_NAMES)
         ]
         worst = v.worst
-        way = f"{worst.base} → {worst.tip}" if worst else ""
+        way = ""
+        if worst:
+            way = f"{worst.base} → {worst.tip}"
         rows.append((v.robot, "pass" if v.passed else "FAIL", way, len(v.rows), *errors))
     if rows:
         say(

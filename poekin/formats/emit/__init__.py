@@ -1,8 +1,6 @@
-"""An arm's kinematics as source text: C99 for a controller, and Python for NumPy, JAX and PyTorch
-arrays.
-"""
+"""Kinematics of an arm as source text: C99, and Python for NumPy, JAX and PyTorch arrays."""
 
-from .c import CSource, c
+from .c import CSource, Real, c
 from .python import python
 
-__all__ = ["CSource", "c", "python"]
+__all__ = ["CSource", "Real", "c", "python"]

@@ -5,6 +5,7 @@ them.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -15,7 +16,8 @@ from .messages import Task, angle_lines, compile_checked, header_lines, identifi
 from .statements import Statements, WriteNumber, by_outputs, double, single, statements
 from .vectors import vectors
 
-KINDS: dict[str, tuple[WriteNumber, type[np.floating]]] = {
+Real = Literal["double", "float"]
+KINDS: dict[Real, tuple[WriteNumber, type[np.floating]]] = {
     "double": (double, np.float64),
     "float": (single, np.float32),
 }
@@ -44,7 +46,7 @@ class CSource:
         }
 
 
-def c(chain: Chain, frame: str | int, *, name: str = "arm", real: str = "double") -> CSource:
+def c(chain: Chain, frame: str | int, *, name: str = "arm", real: Real = "double") -> CSource:
     """C99 of a chain's pose and Jacobian: straight-line, without allocation, dependent on math.h
     alone.
 
@@ -123,11 +125,26 @@ class _Function:
         """The definitions."""
         program = statements(self.task.program, self.literal)
         angles, sincos, whole = self.heads
-        return "\n".join([
-            "", angles, "{", *self._angles(program), "}",
-            "", sincos, "{", *self._statements(program), "}",
-            "", whole, "{", *self._whole(), "}", "",
-        ])  # fmt: skip
+        return "\n".join(
+            [
+                "",
+                angles,
+                "{",
+                *self._angles(program),
+                "}",
+                "",
+                sincos,
+                "{",
+                *self._statements(program),
+                "}",
+                "",
+                whole,
+                "{",
+                *self._whole(),
+                "}",
+                "",
+            ]
+        )
 
     def _angles(self, program: Statements) -> list[str]:
         unused = [
@@ -181,12 +198,25 @@ class _Function:
 
 def _header(word: str, lines: list[str], functions: list[_Function]) -> str:
     guard = f"{word.upper()}_H_INCLUDED"
-    return "\n".join([
-        _comment(lines), f"#ifndef {guard}", f"#define {guard}", "",
-        "#ifdef __cplusplus", 'extern "C" {', "#endif", "",
-        *(function.declared() for function in functions),
-        "#ifdef __cplusplus", "}", "#endif", "", "#endif", "",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            _comment(lines),
+            f"#ifndef {guard}",
+            f"#define {guard}",
+            "",
+            "#ifdef __cplusplus",
+            'extern "C" {',
+            "#endif",
+            "",
+            *(function.declared() for function in functions),
+            "#ifdef __cplusplus",
+            "}",
+            "#endif",
+            "",
+            "#endif",
+            "",
+        ]
+    )
 
 
 def _comment(lines: list[str]) -> str:

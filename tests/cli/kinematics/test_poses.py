@@ -74,6 +74,6 @@ def test_results_are_computed_some_at_a_time_and_all_of_them(rows, monkeypatch):
         sizes.append(len(part))
         return CHAIN.fk(part)
 
-    T = arm.compute(arm.Arm("r", CHAIN, q, False), function, (4, 4))
+    T = arm.compute(arm.ChainArguments("r", CHAIN, q, False), function, (4, 4))
     np.testing.assert_array_equal(T, CHAIN.fk(q))
     assert sizes == [2] * (rows // 2) + [1] * (rows % 2)
