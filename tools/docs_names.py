@@ -79,7 +79,7 @@ RESULTS: dict[str, str] = {
     "poekin.analysis.dexterity.singularity.Singularity": "dexterity",
     "poekin.solve.ik.solution.Solution": "solve",
     "poekin.solve.ik_all.all_solutions.AllSolutions": "solve",
-    "poekin.solve.path.followed.Followed": "solve",
+    "poekin.solve.path.path_result.PathResult": "solve",
     "poekin.analysis.counting.count_table.CountTable": "count",
 }
 

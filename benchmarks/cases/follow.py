@@ -46,8 +46,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         jumps = float(np.abs(np.diff(ik(fast, T).q, axis=0)).max())
         figures += [
             Figure(f"{what}: largest joint step", found.largest_step, STEP, "rad",
-                   note=f"{len(found.changes)} changes of branch; the same poses solved alone: {short(jumps)} rad",
-                   holds=found.largest_step <= STEP and not found.changes),
+                   note=f"{len(found.branch_switches)} changes of branch; the same poses solved alone: "
+                        f"{short(jumps)} rad",
+                   holds=found.largest_step <= STEP and not found.branch_switches),
             Figure(f"{what}: largest error of a pose", worst, TOLERANCE, "m, rad",
                    holds=bool(true.solved.all()), note=f"{int(true.solved.sum())} of {POSES} poses, within the limits"),
             _figure(f"{what}: time ÷ {POSES} solutions of ik in a batch", free, alone, TIMES),

@@ -181,7 +181,7 @@ def _without_solution(count: int, solve: Solve) -> list[Figure]:
         solution = solve(chain, T)
         beyond.append(solution.reason == UNREACHABLE)
         wrong += int(solution.success.sum())
-        silent += int((~(solution.beyond > 0)).sum())
+        silent += int((~(solution.distance_beyond_reach > 0)).sum())
     figures = _pair(
         f"{count} targets beyond the reach bound of Panda and UR5", wrong, np.concatenate(beyond), UNREACHABLE,
         f"{silent} of them without the distance beyond the reach",

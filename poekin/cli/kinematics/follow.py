@@ -13,7 +13,7 @@ from ...formats.text import csv_rows
 from ...formats.text.atomic_write import write_whole
 from ...model.chain import Chain
 from ...solve.path.follow import follow
-from ...solve.path.followed import Followed, Stretch
+from ...solve.path.path_result import PathInterval, PathResult
 from .. import array_files
 from ..model import model
 from ..output import Progress, as_json, complain, heading, path_text, say
@@ -128,7 +128,7 @@ def _check_plot(plot: Path) -> None:
         )
 
 
-def _give(robot: str, chain: Chain, path: Followed, output: Path | None, json: bool) -> None:
+def _give(robot: str, chain: Chain, path: PathResult, output: Path | None, json: bool) -> None:
     def document() -> str:
         return as_json(heading(robot, chain) | {"q": path.q} | _report(path))
 
@@ -154,9 +154,9 @@ def _give(robot: str, chain: Chain, path: Followed, output: Path | None, json: b
             complain(sentence)
 
 
-def _report(path: Followed) -> dict[str, object]:
-    def plain(stretches: tuple[Stretch, ...]) -> list[dict[str, object]]:
-        return [s._asdict() for s in stretches]
+def _report(path: PathResult) -> dict[str, object]:
+    def plain(intervals: tuple[PathInterval, ...]) -> list[dict[str, object]]:
+        return [s._asdict() for s in intervals]
 
     return {
         "ok": path.ok,
@@ -167,10 +167,10 @@ def _report(path: Followed) -> dict[str, object]:
         "position_error": path.position_error,
         "rotation_error": path.rotation_error,
         "largest_step": path.largest_step,
-        "changes": list(path.changes),
+        "branch_switches": list(path.branch_switches),
         "at_limits": plain(path.at_limits),
-        "too_fast": plain(path.too_fast),
-        "too_hard": plain(path.too_hard),
+        "speed_violations": plain(path.speed_violations),
+        "acceleration_violations": plain(path.acceleration_violations),
         "near_singular": plain(path.near_singular),
         "words": path.sentences(),
     }

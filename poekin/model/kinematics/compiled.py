@@ -64,8 +64,7 @@ class CompiledChain:
     cache. Pickles as its chain and options, never as code; works in threads and in forked workers.
 
     Attributes: chain; parallel, whether large batches are shared out among threads; joint_names,
-    q_names, dof; memory, what functions of the arm keep with it. Raises: InputError where parallel
-    is no truth value.
+    q_names, dof. Raises: InputError where parallel is no truth value.
     Accuracy: within u (40 (n + 1) + 4 sum |x|) reach of the product of exponentials: the rounding
     of `Chain.fk`, and
     32 u (n + 1) for the constants that are taken for 0 or ±1
@@ -86,7 +85,6 @@ class CompiledChain:
         self.joint_names, self.q_names, self.dof = chain.joint_names, chain.q_names, chain.dof
         self._kernels, self._interpreted = arm_kernels, bool(config.DISABLE_JIT)  # type: ignore[attr-defined]
         self._shape = (6, chain.dof)
-        self.memory: dict[Any, Any] = {}
         self._arms: dict[tuple[int, bool, bool], Arm] = {}
         # The kernel and the arm that one configuration needs, by the frame as the user says it. A
         # kernel refuses what is not exactly one float64 configuration and its results; then the

@@ -1,4 +1,4 @@
-"""Inverse kinematics: joints for a pose, and a reason where there are none."""
+"""ik: joints for a pose, and a reason where there are none."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
-from .redundancy import check_aim
+from .ik_problem import Settings, compiled, hashable, items, make_problem
+from .redundancy import check_objective
 from .solution import Solution
-from .solver import Settings, hashable, items, solver_of
+from .solver import Wishes, solve
 from .task import targets
 
 
 def ik(
-    arm: Chain | CompiledChain,
+    chain: Chain | CompiledChain,
     T: ArrayLike,
     *,
     q0: Any = None,
@@ -27,7 +27,7 @@ def ik(
     tol_position: float = 1e-9,
     tol_rotation: float = 1e-9,
     nearest_to: Any = None,
-    aim: str | None = None,
+    secondary_objective: str | None = None,
     lock: Mapping[str, float] | None = None,
     weights: ArrayLike | None = None,
     restarts: int = 100,
@@ -44,7 +44,7 @@ def ik(
 
     Parameters
     ----------
-    arm: a `Chain`, or what its `compile` gives. T (..., 4, 4): poses of the tip in the base frame,
+    chain: a `Chain`, or what its `compile` gives. T (..., 4, 4): poses of the tip in the base frame,
     m.
     q0 (m,), (..., m) or a dict: the first try begins there (outside the limits it is moved to them,
         with a warning); without it at `nearest_to`, or else at random.
@@ -56,9 +56,9 @@ def ik(
     rotation between the two. nearest_to (m,), (..., m) or a dict, within the limits or not: of the
     solutions that some fifty tries find, the one
         with the least distance from it, in rad and m of the joints; `ik_all` finds them all.
-    aim: of an arm with more joints than the task needs, what to do with the rest: "middle" (of the
-        limits), "nearest" (to q0), "manipulability" (Yoshikawa's measure of what the task asks, in
-        rad and m). It is served as far as the arm can move within limits from the first solution,
+    secondary_objective: null-space objective of an arm with more joints than the task needs:
+        "middle" (of the limits), "nearest" (to q0), "manipulability" (Yoshikawa's measure of what the task asks, in
+        rad and m). It is optimised as far as the arm can move within limits from the first solution,
         the tool at rest; other q0 may lead to a better one.
     lock: names of coordinates and the values that they keep.
     weights (6,): of the error's parts (rotation; position) in the axes of the base, while it is
@@ -74,15 +74,22 @@ def ik(
     Accuracy: `success` means what `tol_position` and `tol_rotation` say of `Chain.fk(q)`: the
     errors are computed anew. Source: Chan and Lawrence 1988, Sugihara 2011 (error-scaled damping).
     """
-    fast = (
-        arm if isinstance(arm, CompiledChain) else arm.compile() if isinstance(arm, Chain) else None
-    )
-    if fast is None:
-        raise InputError(f"ik: expected a Chain, got {safe_repr(arm)}")
+    fast = compiled(chain, "ik")
     settings = Settings(
-        task, hashable(axis, "axis"), limits, tol_position, tol_rotation, items(lock), hashable(weights, "weights"),
-        restarts, iterations, seed, parallel,
-    )  # fmt: skip
-    if aim is not None:
-        check_aim(aim, q0)
-    return solver_of(fast, settings).run(targets(T, "T"), q0, nearest_to, aim, progress)
+        task,
+        hashable(axis, "axis"),
+        limits,
+        tol_position,
+        tol_rotation,
+        items(lock),
+        hashable(weights, "weights"),
+        restarts,
+        iterations,
+        seed,
+        parallel,
+    )
+    if secondary_objective is not None:
+        check_objective(secondary_objective, q0)
+    problem = make_problem(fast, settings)
+    wishes = Wishes(nearest_to, secondary_objective)
+    return solve(problem, targets(T, "T"), q0, wishes, progress)

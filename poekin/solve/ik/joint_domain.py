@@ -1,4 +1,4 @@
-"""Where coordinates may go, and where the tries begin."""
+"""Domain of the coordinates: limits, periods, locked values, and starts of the tries."""
 
 from __future__ import annotations
 
@@ -12,49 +12,52 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ...model.provenance import warn
-from .joint_units import JointUnits, period
+from ..joint_units import JointUnits, period
 
 
 @dataclass(frozen=True, eq=False)
-class Room:
-    """limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie; fixed
-    (m), whether a coordinate is locked, and held (m), its value there; periods (m), after how much
-    of a coordinate the configuration is the same, 0 for never; winds, whether any coordinate with a
-    period has no limits. All in the units of the joints.
+class JointDomain:
+    """Domain of the coordinates, in the units of the joints.
+
+    limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie; locked
+    (m), whether a coordinate is locked, and locked_values (m), its value there; periods (m), after
+    which the configuration is the same, 0 for never; has_unbounded_angle, whether any coordinate
+    with a period has no limits.
     """
 
     limits: Array
     ranges: Array
-    fixed: np.ndarray
-    held: Array
+    locked: np.ndarray
+    locked_values: Array
     periods: Array
-    winds: bool
+    has_unbounded_angle: bool
 
     def anywhere(self, count: int) -> Array:
         """Starts of tries (count, m): NaN, for anywhere, but for what is locked."""
-        return np.tile(np.where(self.fixed, self.held, np.nan), (count, 1))
+        return np.tile(np.where(self.locked, self.locked_values, np.nan), (count, 1))
 
-    def holds(self, q: Array) -> np.ndarray:
+    def contains(self, q: Array) -> np.ndarray:
         """Whether configurations (..., m) are within the limits (...)."""
         return np.asarray(((q >= self.limits[:, 0]) & (q <= self.limits[:, 1])).all(axis=-1))
 
-    def unwound(self, q: Array, near: Array | None = None) -> Array:
-        """The same configurations with whole periods taken off: nearest to `near` within the
-        limits; without `near`, a coordinate without limits within half a period of 0.
+    def wrapped(self, q: Array, near: Array | None = None) -> Array:
+        """Configurations with whole periods taken off: nearest to `near` within the limits;
+        without `near`, a coordinate without limits within half a period of 0.
         """
         lower, upper = self.limits.T
-        free = (self.periods > 0) & ~self.fixed
+        free = (self.periods > 0) & ~self.locked
         if near is None:
             free = free & np.isinf(lower) & np.isinf(upper)
         period = np.where(free, self.periods, 1.0)
-        times = np.round(((0.0 if near is None else near) - q) / period)
+        center = 0.0 if near is None else near
+        times = np.round((center - q) / period)
         times = np.clip(times, np.ceil((lower - q) / period), np.floor((upper - q) / period))
         moved = q + np.where(free, period * times, 0.0)
         return np.where((moved >= lower) & (moved <= upper), moved, q)
 
 
-def room_of(units: JointUnits, lock: Any, limits: bool) -> Room:
-    """The room of an arm's coordinates; `lock` is in the user's units. Raises: InputError,
+def make_joint_domain(units: JointUnits, lock: Any, limits: bool) -> JointDomain:
+    """Domain of an arm's coordinates; `lock` is in the user's units. Raises: InputError,
     UnknownName.
     """
     chain = units.fast.chain
@@ -64,15 +67,17 @@ def room_of(units: JointUnits, lock: Any, limits: bool) -> Room:
     ranges = np.stack(chain._range(), axis=1) if limits else free_ranges(chain)
     unlimited = np.isinf(bounds).all(axis=1)
     ranges[unlimited] = free_ranges(chain)[unlimited]
-    fixed, held = np.zeros(m, bool), np.zeros(m)
+    locked = np.zeros(m, bool)
+    values = np.zeros(m)
     for k, value in _locked(units, lock, bounds):
-        fixed[k], held[k] = True, value
-    winds = bool(((periods > 0) & unlimited).any())
-    return Room(bounds, ranges, fixed, held, periods, winds)
+        locked[k] = True
+        values[k] = value
+    unbounded = bool(((periods > 0) & unlimited).any())
+    return JointDomain(bounds, ranges, locked, values, periods, unbounded)
 
 
 def free_ranges(chain: Chain) -> Array:
-    """Where random starts lie (m, 2) without limits: a whole period, else a turn, or 1 m either
+    """Ranges of random starts (m, 2) without limits: a whole period, else a turn, or 1 m either
     way.
     """
     half = np.array([0.5 * period(chain, k) for k in range(chain.dof)])
@@ -81,28 +86,27 @@ def free_ranges(chain: Chain) -> Array:
 
 
 def first_tries(
-    units: JointUnits, room: Room, batch: tuple[int, ...], count: int, q0: Any
+    units: JointUnits, domain: JointDomain, batch: tuple[int, ...], count: int, q0: Any
 ) -> Array:
-    """Where the first try of each of `count` targets begins (N, m), in joint units: at q0 within
-    the limits, NaN for anywhere.
+    """Start of the first try of each of `count` targets (N, m), in joint units: q0 within the
+    limits, NaN for anywhere.
 
     Raises: InputError, ShapeError, UnknownName. Warns where q0 is moved.
     """
     chain = units.fast.chain
     if q0 is None:
-        return room.anywhere(count)
+        return domain.anywhere(count)
     given = units.of(for_targets(chain, batch, count, q0, "q0"))
-    first = np.clip(given, *room.limits.T)
-    moved = ((first != given) & ~room.fixed).any(axis=0)
+    first = np.clip(given, *domain.limits.T)
+    moved = ((first != given) & ~domain.locked).any(axis=0)
     if moved.any():
-        warn(
-            f"q0 is outside the limits of {join_names(np.array(chain.q_names)[moved])} and is moved to them"
-        )
-    return np.where(room.fixed, room.held, first)
+        names = join_names(np.array(chain.q_names)[moved])
+        warn(f"q0 is outside the limits of {names} and is moved to them")
+    return np.where(domain.locked, domain.locked_values, first)
 
 
 def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: str) -> Array:
-    """A configuration for each of `count` targets (N, m), as a user gives it, finite.
+    """Configuration for each of `count` targets (N, m), as a user gives it, finite.
 
     Raises: InputError, ShapeError, UnknownName.
     """
@@ -112,8 +116,9 @@ def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: 
     try:
         return np.broadcast_to(given, (*batch, chain.dof)).reshape(count, chain.dof).copy()
     except ValueError as error:
+        expected = (*batch, chain.dof)
         raise ShapeError(
-            f"{what}: shape {given.shape} does not fit the targets' {(*batch, chain.dof)}"
+            f"{what}: shape {given.shape} does not fit the targets' {expected}"
         ) from error
 
 

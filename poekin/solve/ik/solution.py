@@ -1,4 +1,4 @@
-"""What inverse kinematics found, and why where it found nothing."""
+"""Solutions of inverse kinematics, and the reasons where there are none."""
 
 from __future__ import annotations
 
@@ -10,10 +10,13 @@ import numpy as np
 from ...errors import ShapeError, quote
 from ...groups.arrays import Array
 
-SOLVED, UNREACHABLE, LIMITS, ITERATIONS, BAD_TARGET = REASONS = (
-    "solved", "unreachable", "limits", "iterations", "bad target"
-)  # fmt: skip
-"""Every reason there is.
+SOLVED = "solved"
+UNREACHABLE = "unreachable"
+LIMITS = "limits"
+ITERATIONS = "iterations"
+BAD_TARGET = "bad target"
+REASONS = (SOLVED, UNREACHABLE, LIMITS, ITERATIONS, BAD_TARGET)
+"""All reasons.
 
 - "solved": the pose of q is the target within both tolerances
 - "unreachable": the target is beyond the arm's reach, or no try came nearer and all of them had
@@ -25,9 +28,7 @@ SOLVED, UNREACHABLE, LIMITS, ITERATIONS, BAD_TARGET = REASONS = (
 
 
 def place(index: tuple[int, ...], shape: tuple[int, ...], what: str) -> int:
-    """Where an element of a batch stands when the batch is made flat. Raises: ShapeError,
-    IndexError.
-    """
+    """Index of an element when the batch is made flat. Raises: ShapeError, IndexError."""
     if len(index) != len(shape):
         raise ShapeError(f"{what}: expected an index of {len(shape)} numbers, got {len(index)}")
     return int(np.arange(math.prod(shape)).reshape(shape)[index])
@@ -42,8 +43,8 @@ class Solution:
     errors are within
     the tolerances. reason (...): one of `REASONS`. position_error (m), rotation_error (rad): of q,
     computed anew by `Chain.fk`; of what the task asks, else 0. iterations and restarts, of all
-    tries. beyond (...): by how much the target is farther than the arm's reach (m), 0 where it is
-    not. blocked: for each target (in order, the batch made flat) the names of the coordinates whose
+    tries. distance_beyond_reach (...): how much farther the target is than the arm's reach (m),
+    else 0. limits_hit: for each target (in order, the batch made flat) the names of the coordinates whose
     limits are in the way.
     """
 
@@ -54,15 +55,17 @@ class Solution:
     rotation_error: Array
     iterations: np.ndarray
     restarts: np.ndarray
-    beyond: Array
-    blocked: tuple[tuple[str, ...], ...] = ()
+    distance_beyond_reach: Array
+    limits_hit: tuple[tuple[str, ...], ...] = ()
 
     def why(self, *index: int) -> str:
-        """The reason in words, with its numbers; index of the target in the batch. Raises:
-        ShapeError, IndexError.
+        """Reason in words, with its numbers; index of the target in the batch. Raises: ShapeError,
+        IndexError.
         """
-        flat, reason = place(index, self.success.shape, "why"), str(self.reason[index])
-        position, rotation = float(self.position_error[index]), float(self.rotation_error[index])
+        flat = place(index, self.success.shape, "why")
+        reason = str(self.reason[index])
+        position = float(self.position_error[index])
+        rotation = float(self.rotation_error[index])
         off = f"{1e3 * position:.4g} mm and {1e3 * rotation:.4g} mrad off"
         if reason == SOLVED:
             return f"solved: {off}"
@@ -70,12 +73,19 @@ class Solution:
             return "bad target: it is not made of finite numbers"
         nearest = f"the nearest pose found is {off}"
         if reason == LIMITS:
-            names = ", ".join(map(quote, self.blocked[flat]))
-            return f"limits: solvable without them, in the way are those of {names}; within them {nearest}"
+            names = ", ".join(map(quote, self.limits_hit[flat]))
+            return (
+                f"limits: solvable without them, in the way are those of {names}; "
+                f"within them {nearest}"
+            )
         if reason == ITERATIONS:
             return f"iterations: the nearest try was still moving when they ended; {nearest}"
-        if self.beyond[index] > 0:
-            return f"unreachable: the target is farther than the arm's reach by {self.beyond[index]:.4g} m; {nearest}"
+        beyond = self.distance_beyond_reach[index]
+        if beyond > 0:
+            return (
+                f"unreachable: the target is farther than the arm's reach by {beyond:.4g} m; "
+                f"{nearest}"
+            )
         return f"unreachable: {nearest}"
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""What a target asks of the tool: its whole pose, or a part of it."""
+"""Tasks: the part of a target's pose that the tool has to reach."""
 
 from __future__ import annotations
 
@@ -19,16 +19,17 @@ TASKS = {
     "rotation": (codes.ROTATION, 3),
     "direction": (codes.DIRECTION, 5),
 }
-"""Each task's code, and of how many numbers it takes hold: what a chain needs at least as many free
-coordinates for.
+"""Each task's code, and how many degrees of freedom it constrains: a chain needs at least as many
+free coordinates.
 """
 
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """name, one of `TASKS`; axis (3,), the unit direction in the tool frame that the task
-    "direction" aligns;
-    weights (6,) of the error's parts (rotation; position), the largest 1, 0 for those that the task
+    """Part of a pose to be reached.
+
+    name, one of `TASKS`; axis (3,), the unit direction in the tool frame that the task "direction"
+    aligns; weights (6,) of the error's parts (rotation; position), the largest 1, 0 for those that the task
     leaves free.
     """
 
@@ -38,12 +39,12 @@ class Task:
 
     @property
     def code(self) -> int:
-        """The task as the kernel knows it."""
+        """Code by which the kernel knows the task."""
         return TASKS[self.name][0]
 
     @property
-    def holds(self) -> int:
-        """Of how many numbers it takes hold."""
+    def constrained_dof(self) -> int:
+        """Number of degrees of freedom that the task constrains."""
         return TASKS[self.name][1]
 
     def jacobian(self, T: Array, J: Array) -> Array:
@@ -69,8 +70,8 @@ def targets(T: ArrayLike, what: str) -> Array:
         return poses(rows, what)
 
 
-def task_of(name: Any, axis: Any, weights: Any) -> Task:
-    """A task as a user names it. Raises: InputError."""
+def make_task(name: Any, axis: Any, weights: Any) -> Task:
+    """Task by the name that a user gives. Raises: InputError."""
     if not isinstance(name, str) or name not in TASKS:
         raise InputError(f"task: expected one of {', '.join(TASKS)}, got {safe_repr(name)}")
     if axis is not None and name != "direction":
@@ -93,12 +94,13 @@ def task_of(name: Any, axis: Any, weights: Any) -> Task:
 
 def check_joints(chain: Chain, task: Task, free: int) -> None:
     """Raises InputError where a chain has too few coordinates for a task; says which tasks fit."""
-    needed = task.holds
-    if free < needed:
-        fit = [name for name, (_, number) in TASKS.items() if number <= free]
-        others = f"; what fits: {', '.join(map(repr, fit))}" if fit else ""
-        held = f", {chain.dof - free} of them locked" if free < chain.dof else ""
-        raise InputError(
-            f"task {task.name!r} takes hold of {needed} numbers, and the chain has {chain.dof} coordinates{held}"
-            f"{others}"
-        )
+    needed = task.constrained_dof
+    if free >= needed:
+        return
+    locked = f", {chain.dof - free} of them locked" if free < chain.dof else ""
+    fit = [name for name, (_, number) in TASKS.items() if number <= free]
+    others = f"; what fits: {', '.join(map(repr, fit))}" if fit else ""
+    raise InputError(
+        f"task {task.name!r} constrains {needed} degrees of freedom, and the chain has "
+        f"{chain.dof} coordinates{locked}{others}"
+    )

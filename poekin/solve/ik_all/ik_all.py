@@ -13,8 +13,8 @@ from ...errors import InputError, MissingExtra, join_names, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
-from ..ik.joint_units import joint_units
 from ..ik.task import targets
+from ..joint_units import joint_units
 from .all_solutions import AllSolutions, chance_of_more, in_words
 from .closed_form import ClosedForm, closed_form
 from .ik_all_search import Found, Rule, accepted, periods, pose_errors, search, turns_within
@@ -117,9 +117,10 @@ def _check_chain(chain: Chain) -> None:
     m = chain.dof
     if m > 6:
         raise InputError(
-            f"ik_all: expected an arm of up to six coordinates, got {m} ({join_names(chain.q_names)}): it has "
-            "infinitely many solutions; ik finds one: with `nearest_to` or `aim` one of your choice, with `lock` at "
-            "given values of some coordinates"
+            f"ik_all: expected an arm of up to six coordinates, got {m} "
+            f"({join_names(chain.q_names)}): it has infinitely many solutions; ik finds one: with "
+            "`nearest_to` or `secondary_objective` one of your choice, with `lock` at given values "
+            "of some coordinates"
         )
     if m == 0:
         raise InputError("ik_all: expected an arm of one to six coordinates, the chain has none")

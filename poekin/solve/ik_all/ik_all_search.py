@@ -14,7 +14,7 @@ from ...engine.kernels import ik_codes
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
-from ..ik.joint_units import period
+from ..joint_units import period
 
 
 def accepted(chain: Chain) -> float:

@@ -28,7 +28,7 @@ def plot_joints(
     of an SVG.
 
     The shaded part of a plot is within the coordinate's limits, where they are not far off; dotted
-    lines stand at `breaks`, numbers of points before which the path is broken (`Followed.changes`).
+    lines stand at `breaks`, numbers of points before which the path is broken (`PathResult.branch_switches`).
     The same
     numbers give the same text.
 

@@ -14,16 +14,16 @@ from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ...model.kinematics.compiled import CompiledChain
 from ..ik.diagnosis import KIND
+from ..ik.ik_problem import Settings, compiled, hashable, items, make_problem
 from ..ik.joint_domain import first_tries
 from ..ik.solution import BAD_TARGET, SOLVED, Solution
-from ..ik.solver import Settings, hashable, items, solver_of
 from ..ik.task import targets
-from .followed import Followed
 from .follower import Follower
+from .path_result import PathResult
 
 
 def follow(
-    arm: Chain | CompiledChain,
+    chain: Chain | CompiledChain,
     poses: ArrayLike,
     *,
     q0: Any = None,
@@ -39,7 +39,7 @@ def follow(
     tol_rotation: float = 1e-9,
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
-) -> Followed:
+) -> PathResult:
     """Joints q_k with f(q_k) = T_k along a path, each reached from the one before it without a
     jump.
 
@@ -47,12 +47,12 @@ def follow(
     moves a coordinate by more than `max_step`, the step is taken in up to 512 pieces of the screw
     motion between the two poses; where that fails too, the arm cannot go on as it stands: the
     branch changes, to the solution that gets farthest along the path (of equals, the nearest), and
-    `changes` says where. A pose that is out of reach gets
+    `branch_switches` says where. A pose that is out of reach gets
     the joints within one step of the last that come nearest to it.
 
     Parameters
     ----------
-    arm: a `Chain`, or what its `compile` gives. poses (N, 4, 4): of the tip in the base frame, m,
+    chain: a `Chain`, or what its `compile` gives. poses (N, 4, 4): of the tip in the base frame, m,
     in order.
     q0 (m,) or a dict: the arm goes on from there: the first pose gets the solution that is reached
         from it, else the one nearest to it. Without it, 8 to 32 starts are tried, those that follow
@@ -66,51 +66,69 @@ def follow(
     task, axis, limits, lock, tol_position (m), tol_rotation (rad), seed: as `ik`.
     progress(done, total): called from time to time.
 
-    Returns: Followed; `print` of it says everything in words. Raises: PoseError that says which
+    Returns: PathResult; `print` of it says everything in words. Raises: PoseError that says which
     pose is none; ShapeError, InputError, UnknownName. A pose of NaN gets the reason "bad target",
     and the path goes on after it. Accuracy: `success` as of `ik`: the errors are computed anew by
     `Chain.fk` (tests/solve/path/test_follow.py). Source: the damped least squares of `ik`;
     continuation from pose to pose.
     """
-    fast = (
-        arm if isinstance(arm, CompiledChain) else arm.compile() if isinstance(arm, Chain) else None
+    fast = compiled(chain, "follow")
+    path = _path(poses)
+    settings = Settings(
+        task,
+        hashable(axis, "axis"),
+        limits,
+        tol_position,
+        tol_rotation,
+        items(lock),
+        weights=None,
+        restarts=100,
+        iterations=30,
+        seed=seed,
+        parallel=False,
     )
-    if fast is None:
-        raise InputError(f"follow: expected a Chain, got {safe_repr(arm)}")
-    chain, path = fast.chain, _path(poses)
-    solver = solver_of(fast, Settings(
-        task, hashable(axis, "axis"), limits, tol_position, tol_rotation, items(lock), None, 100, 30, seed, False
-    ))  # fmt: skip
+    problem = make_problem(fast, settings)
+    chain = fast.chain
     most = per_coordinate(max_step, chain, "max_step")
     if isinstance(max_step, Mapping) or np.ndim(max_step):
-        most = np.abs(solver.units.of(most))
+        most = np.abs(problem.units.of(most))
     when, limit_v, limit_a = _timing(times, speed, acceleration, chain, len(path))
-    start = None if q0 is None else first_tries(solver.units, solver.room, (), 1, q0)[0]
-    finite = np.isfinite(path).all(axis=(1, 2))
-    follower = Follower(solver, np.ascontiguousarray(path[finite]), most, progress)
+    start = None if q0 is None else first_tries(problem.units, problem.domain, (), 1, q0)[0]
+    finite = np.asarray(np.isfinite(path).all(axis=(1, 2)))
+    follower = Follower(problem, np.ascontiguousarray(path[finite]), most, progress)
     joints, broken = follower.run(start)
-    found = solver.coordinates(joints)
-
-    at, count = np.flatnonzero(finite), len(path)
-    q, reason, errors = (
-        np.full((count, chain.dof), np.nan),
-        np.full(count, BAD_TARGET, KIND),
-        np.full((count, 2), np.nan),
+    return PathResult(
+        chain=chain,
+        solution=_solution(follower, path, finite, problem.coordinates(joints)),
+        branch_switches=tuple(int(np.flatnonzero(finite)[k]) for k in broken),
+        task=problem.task,
+        limits=chain.limits if limits else np.full_like(chain.limits, [-np.inf, np.inf]),
+        times=when,
+        speed=limit_v,
+        acceleration=limit_a,
     )
-    q[at], errors[at] = found, solver.judged(path[finite], found)[0]
-    success = (errors[:, 0] <= tol_position) & (errors[:, 1] <= tol_rotation)
+
+
+def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array) -> Solution:
+    """Solution of all poses, the joints `found` of the finite poses given."""
+    problem = follower.problem
+    at = np.flatnonzero(finite)
+    count = len(path)
+    q = np.full((count, problem.given.dof), np.nan)
+    q[at] = found
+    errors = np.full((count, 2), np.nan)
+    success = np.zeros(count, bool)
+    errors[at], success[at] = problem.pose_errors(path[finite], found)
+    reason = np.full(count, BAD_TARGET, KIND)
     reason[success] = SOLVED
     beyond = np.zeros(count)
-    blocked: list[tuple[str, ...]] = [()] * count
+    hit: list[tuple[str, ...]] = [()] * count
     for k in np.flatnonzero(finite & ~success):
-        reason[k], beyond[k], blocked[k] = follower.said(int(np.searchsorted(at, k)))
+        reason[k], beyond[k], hit[k] = follower.failure(int(np.searchsorted(at, k)))
     nothing = np.zeros(count, np.int64)
-    solution = Solution(
-        q, success, reason, errors[:, 0], errors[:, 1], nothing, nothing, beyond, tuple(blocked)
+    return Solution(
+        q, success, reason, errors[:, 0], errors[:, 1], nothing, nothing, beyond, tuple(hit)
     )
-    changes = tuple(int(at[k]) for k in broken)
-    bounds = chain.limits if limits else np.full_like(chain.limits, [-np.inf, np.inf])
-    return Followed(chain, solution, changes, solver.task, bounds, when, limit_v, limit_a)
 
 
 def per_coordinate(value: Any, chain: Chain, what: str) -> Array:

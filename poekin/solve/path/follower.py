@@ -10,8 +10,9 @@ import numpy as np
 
 from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
+from ..ik.ik_problem import Problem
 from ..ik.solution import ITERATIONS, Solution
-from ..ik.solver import Solver
+from ..ik.solver import Wishes, solve
 from ..motion import paths
 
 PIECES = (8, 64, 512)
@@ -39,13 +40,22 @@ class Follower:
     """
 
     def __init__(
-        self, solver: Solver, targets: Array, most: Array, progress: Callable[[int, int], None] | None
-    ):  # fmt: skip
+        self,
+        problem: Problem,
+        targets: Array,
+        most: Array,
+        progress: Callable[[int, int], None] | None,
+    ):
         from ...engine.kernels import follow_kernels, ik_kernels  # imports Numba
 
-        self._kernel, self._errors = follow_kernels.follow, ik_kernels._errors
-        self.solver, self.targets, self.most, self.progress = solver, targets, most, progress
-        self.dof, self.room = solver.fast.dof, solver.room
+        self._kernel = follow_kernels.follow
+        self._errors = ik_kernels._errors
+        self.problem = problem
+        self.targets = targets
+        self.most = most
+        self.progress = progress
+        self.dof = problem.fast.dof
+        self.domain = problem.domain
         self._known: tuple[int, Solution] | None = None
 
     def run(self, q0: Array | None) -> tuple[Array, list[int]]:
@@ -112,14 +122,18 @@ class Follower:
                 break
         return found
 
-    def said(self, k: int) -> tuple[str, float, tuple[str, ...]]:
+    def failure(self, k: int) -> tuple[str, float, tuple[str, ...]]:
         """Why pose k is not reached: the reason, how far it is beyond the reach, and the limits in
         the way.
         """
         success, solution, at = self._solution_of(k)
         if success:
             return ITERATIONS, 0.0, ()
-        return str(solution.reason[at]), float(solution.beyond[at]), solution.blocked[at]
+        return (
+            str(solution.reason[at]),
+            float(solution.distance_beyond_reach[at]),
+            solution.limits_hit[at],
+        )
 
     def _descend(self, targets: Array, start: Array, q: Array, anywhere: bool = False) -> int:
         """How many targets are followed from `start`; where `anywhere`, the first of them at any
@@ -127,8 +141,8 @@ class Follower:
         """
         info, count = np.empty((len(targets), codes.INFO)), 0
         arm, call = (
-            self.solver.fast.hybrid_address,
-            (self.room.limits, self.solver.fixed, self.solver.options),
+            self.problem.fast.hybrid_address,
+            (self.domain.limits, self.problem.locked, self.problem.options),
         )
         if anywhere:
             wide = np.full_like(start, np.inf)
@@ -160,12 +174,12 @@ class Follower:
         """
         if last is None:
             _, solution, at = self._solution_of(k)
-            return self.solver.units.of(solution.q[[at]])
+            return self.problem.units.of(solution.q[[at]])
         low, high = (
-            np.clip(last - self.most, *self.room.limits.T),
-            np.clip(last + self.most, *self.room.limits.T),
+            np.clip(last - self.most, *self.domain.limits.T),
+            np.clip(last + self.most, *self.domain.limits.T),
         )
-        low, high = (np.where(self.room.fixed, last, bound) for bound in (low, high))
+        low, high = (np.where(self.domain.locked, last, bound) for bound in (low, high))
         q, damping = last, 1e-3
         size, H, g = self._slope(k, q)
         for _ in range(NEAR):
@@ -185,7 +199,7 @@ class Follower:
 
     def _slope(self, k: int, q: Array) -> tuple[float, Array, Array]:
         """e^T W e, J^T W J and J^T W e at pose k, with the error of the compiled descent."""
-        (T, J), task, e = self.solver.fast.fk_jacobian(q, "hybrid"), self.solver.task, np.empty(6)
+        (T, J), task, e = self.problem.fast.fk_jacobian(q, "hybrid"), self.problem.task, np.empty(6)
         self._errors(task.code, task.axis, T, self.targets[k], J, e)
         return float(task.weights @ e**2), (J.T * task.weights) @ J, (J.T * task.weights) @ e
 
@@ -195,16 +209,17 @@ class Follower:
             np.tile(self.targets[k], (TRIES, 1, 1)),
             np.arange(TRIES, dtype=float) + TRIES * turn,
         )
-        q, info = self.solver.solve(T, number, self.room.anywhere(TRIES), restarts=10)
+        q, info = self.problem.solve(T, number, self.domain.anywhere(TRIES), restarts=10)
         q = q[info[:, codes.AT_STATE] == codes.SOLVED]
         if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are
-            q = self.room.unwound(q, self.room.ranges.mean(axis=1) if last is None else last)
+            q = self.domain.wrapped(q, self.domain.ranges.mean(axis=1) if last is None else last)
         if last is not None and turn == 0:
-            near = self.solver.run(self.targets[k], None, self.solver.coordinates(last), None, None)
-            q = np.concatenate([self.solver.units.of(near.q[None])[: int(near.success)], q])
+            wishes = Wishes(nearest_to=self.problem.coordinates(last))
+            near = solve(self.problem, self.targets[k], wishes=wishes)
+            q = np.concatenate([self.problem.units.of(near.q[None])[: int(near.success)], q])
         if not len(q):
             success, solution, at = self._solution_of(k)
-            q = self.solver.units.of(solution.q[[at]])[: int(success)]
+            q = self.problem.units.of(solution.q[[at]])[: int(success)]
         return q
 
     def _solution_of(self, k: int) -> tuple[bool, Solution, int]:
@@ -212,6 +227,6 @@ class Follower:
         k stands there.
         """
         if self._known is None or self._known[0] > k:
-            self._known = k, self.solver.run(self.targets[k:], None, None, None, None)
+            self._known = k, solve(self.problem, self.targets[k:])
         first, solution = self._known
         return bool(solution.success[k - first]), solution, k - first

@@ -49,7 +49,7 @@ def test_a_path_is_followed_and_its_joints_are_csv(poekin, arm, T, given):
 def test_json_holds_the_whole_report(as_json, given):
     result = as_json(*PANDA, *given)
     assert result["ok"] is True
-    assert (result["poses"], result["solved"], result["changes"]) == (50, 50, [])
+    assert (result["poses"], result["solved"], result["branch_switches"]) == (50, 50, [])
     assert result["largest_step"] < 0.1
     assert len(result["q"]) == 50
     assert result["words"][0].startswith("50 of 50")
@@ -88,15 +88,15 @@ def test_numbers_and_options_are_those_of_the_library(poekin, arm, T, given):
         "panda_link0",
         "panda_hand",
     ]
-    assert expected.too_fast
-    assert expected.too_hard
+    assert expected.speed_violations
+    assert expected.acceleration_violations
     for name in ("q", "success", "reason", "position_error", "rotation_error"):
         assert result[name] == getattr(expected, name).tolist()
-    for name in ("at_limits", "too_fast", "too_hard", "near_singular"):
+    for name in ("at_limits", "speed_violations", "acceleration_violations", "near_singular"):
         assert result[name] == json.loads(
             as_json_text([s._asdict() for s in getattr(expected, name)])
         )
-    assert result["changes"] == list(expected.changes)
+    assert result["branch_switches"] == list(expected.branch_switches)
     assert result["largest_step"] == expected.largest_step
     assert result["words"] == expected.sentences()
 
@@ -148,7 +148,7 @@ def test_a_row_of_nan_is_a_bad_target(poekin, T, tmp_path):
     result = json.loads(out)
     assert result["reason"][10] == "bad target"
     assert sum(result["success"]) == 49
-    assert result["changes"] == []
+    assert result["branch_switches"] == []
 
 
 def test_a_plot_is_written(poekin, given, tmp_path):

@@ -12,8 +12,8 @@ from poekin.engine.kernels import ik_codes as codes
 from poekin.model import screw
 from poekin.solve.ik import diagnosis
 from poekin.solve.ik.ik import ik
-from poekin.solve.ik.joint_domain import Room
-from poekin.solve.ik.task import task_of
+from poekin.solve.ik.joint_domain import JointDomain
+from poekin.solve.ik.task import make_task
 
 
 def test_limits_between_which_nothing_stops_the_arm_are_named_by_the_solution_beyond_them():
@@ -26,7 +26,7 @@ def test_limits_between_which_nothing_stops_the_arm_are_named_by_the_solution_be
     found = ik(arm, arm.fk([np.pi, 0.5, 0.2]), task="position", q0=q0, restarts=0)
     assert found.reason == "limits"
     np.testing.assert_allclose(found.q, q0, rtol=0, atol=1e-9)
-    assert found.blocked == (("turn",),)
+    assert found.limits_hit == (("turn",),)
 
 
 def line(*, coupling, offset, limits):
@@ -59,27 +59,34 @@ def test_the_reach_is_that_of_links_and_slides_within_their_limits(
     targets[:, :3, 3] = first + np.array(
         [[0, long - 0.01, 0], [0, 0, long + 0.125], [long + 7, 0, 0]]
     )
-    task = task_of("position", None, None)
-    beyond = diagnosis.beyond_reach(chain, task, targets, chain.limits)
+    task = make_task("position", None, None)
+    beyond = diagnosis.distance_beyond_reach(chain, task, targets, chain.limits)
     np.testing.assert_allclose(beyond, [0, 0.125, 7], atol=1e-11)
     assert (
-        diagnosis.beyond_reach(chain, task_of("rotation", None, None), targets, chain.limits) == 0
+        diagnosis.distance_beyond_reach(
+            chain, make_task("rotation", None, None), targets, chain.limits
+        )
+        == 0
     ).all()
     assert (
-        diagnosis.beyond_reach(chain, task, targets, np.full((2, 2), [-np.inf, np.inf])) == 0
+        diagnosis.distance_beyond_reach(chain, task, targets, np.full((2, 2), [-np.inf, np.inf]))
+        == 0
     ).all()
     assert (
-        diagnosis.beyond_reach(pk.Chain([], np.eye(4)), task, targets, np.empty((0, 2))) == 0
+        diagnosis.distance_beyond_reach(pk.Chain([], np.eye(4)), task, targets, np.empty((0, 2)))
+        == 0
     ).all()
 
 
 def test_what_is_at_its_limit_is_in_the_way_else_what_is_outside_beyond_it_and_nothing_that_is_locked():
     limits, locked = np.array([[-1, 1], [-2, 2], [-3, 3.0]]), np.array([False, False, True])
     nothing = np.zeros(3)
-    room = Room(limits, np.zeros((3, 2)), locked, nothing, nothing, winds=False)
+    room = JointDomain(
+        limits, np.zeros((3, 2)), locked, nothing, nothing, has_unbounded_angle=False
+    )
 
     def named(q, found):
-        return diagnosis._in_the_way(
+        return diagnosis.limits_hit(
             room, np.array(q, float), np.array(found, float), ("a", "b", "c")
         )
 
@@ -96,10 +103,15 @@ class Tries:
     def __init__(self, limits, found, states):  # type: ignore[no-untyped-def]
         chain = line(coupling=None, offset=None, limits=[[-3, 3], [-0.5, 2.0]])
         self.fast = SimpleNamespace(chain=chain, q_names=("turn", "slide"))
-        self.task = task_of("position", None, None)
+        self.task = make_task("position", None, None)
         nothing = np.zeros(2)
-        self.room = Room(
-            np.array(limits, float), np.zeros((2, 2)), nothing > 0, nothing, nothing, winds=False
+        self.domain = JointDomain(
+            np.array(limits, float),
+            np.zeros((2, 2)),
+            nothing > 0,
+            nothing,
+            nothing,
+            has_unbounded_angle=False,
         )
         self.found, self.states, self.asked = np.array(found, float), states, []
 
@@ -129,7 +141,7 @@ def asked(solver, q):  # type: ignore[no-untyped-def]
     T[4, 0, 3] = 100.0
     T[2] = np.nan
     success = np.array([False, False, False, True, False, False])
-    return diagnosis.of(solver, T, q, info, success)
+    return diagnosis.diagnose(solver, T, q, info, success)
 
 
 def test_a_reason_is_that_of_the_state_in_which_the_tries_ended():

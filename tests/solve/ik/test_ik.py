@@ -1,7 +1,5 @@
 """Inverse kinematics: solved means solved, and where it is not, the reason is the right one."""
 
-import threading
-import time
 import warnings
 from types import SimpleNamespace
 from typing import Any
@@ -14,14 +12,12 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError, PoekinWarning, PoseError, ShapeError, UnknownName
 from poekin.model import screw
-from poekin.model.kinematics.compiled import CompiledChain
 from poekin.solve.ik.ik import ik
-from poekin.solve.ik.joint_domain import room_of
-from poekin.solve.ik.joint_units import joint_units
-from poekin.solve.ik.memory import KEPT
+from poekin.solve.ik.ik_problem import STEPS, Problem, Settings, make_problem
+from poekin.solve.ik.joint_domain import make_joint_domain
 from poekin.solve.ik.solution import REASONS
-from poekin.solve.ik.solver import STEPS, Settings, Solver, solver_of
 from poekin.solve.ik_all.ik_all import ik_all
+from poekin.solve.joint_units import joint_units
 from poekin.solve.path.follow import follow
 from poekin.testing.strategies import chain_strategies
 
@@ -60,7 +56,7 @@ def test_reachable_poses_are_solved_within_limits_to_the_tolerance(name):
     assert set(found.reason[found.success]) == {"solved"}
     easy = ik(arm, T[found.success][:5], seed=1)
     assert easy.success.all()
-    assert (easy.beyond == 0).all()
+    assert (easy.distance_beyond_reach == 0).all()
 
 
 @settings(max_examples=max(settings().max_examples // 10, 5))
@@ -88,7 +84,7 @@ def test_the_judgement_is_by_the_tolerance_itself(axis, off, held):
     settings = Settings("pose", None, True, TOLERANCE, TOLERANCE, None, None, 0, 1, 0, False)
     q = UR5.random(9, 20)
     T = UR5.fk(q) @ pk.se3.exp(np.eye(6)[axis] * off)
-    errors, success = solver_of(UR5.compile(), settings).judged(T, q)
+    errors, success = make_problem(UR5.compile(), settings).pose_errors(T, q)
     assert (success == held).all()
     np.testing.assert_allclose(errors[:, 0 if axis == 3 else 1], off, rtol=0, atol=1e-14)
 
@@ -132,7 +128,7 @@ def test_an_arm_beyond_its_reach_says_by_how_much():
     assert found.reason == "unreachable"
     # the links' lengths and offsets laid out end to end
     longest = np.linalg.norm(UR5.local.frames[1:, :3, 3], axis=1).sum()
-    assert found.beyond == pytest.approx(
+    assert found.distance_beyond_reach == pytest.approx(
         np.linalg.norm(T[:3, 3] - UR5.local.frames[0][:3, 3]) - longest, rel=1e-9
     )
     assert "farther than the arm's reach by" in found.why()
@@ -142,21 +138,25 @@ def test_an_arm_beyond_its_reach_says_by_how_much():
 @pytest.mark.parametrize("name", ARMS)
 def test_no_pose_of_the_arm_is_beyond_its_reach(name):
     arm = ARMS[name]
-    assert (ik(arm, arm.fk(arm.random(0, 300)), restarts=0, iterations=1).beyond == 0).all()
+    assert (
+        ik(arm, arm.fk(arm.random(0, 300)), restarts=0, iterations=1).distance_beyond_reach == 0
+    ).all()
 
 
 def test_the_reach_of_a_slide_begins_at_its_offset():
     axes = [screw.prismatic(axis) for axis in np.eye(3)]
     gantry = pk.Chain(axes, np.eye(4), offset=[5.0, 0.0, -3.0], limits=[[-1, 1]] * 3)
     T = gantry.fk(gantry.random(0, 50))
-    assert (ik(gantry, T, task="position", restarts=0, iterations=1).beyond == 0).all()
+    assert (
+        ik(gantry, T, task="position", restarts=0, iterations=1).distance_beyond_reach == 0
+    ).all()
     far = np.eye(4)
     far[0, 3] = (
         5.0 + 3.0 + 3.0 + 0.5
     )  # all slides and offsets one after the other, and half a metre
     for iterations in (1, 30):
         found = ik(gantry, far, task="position", iterations=iterations)
-        assert found.beyond == pytest.approx(0.5, abs=1e-9)
+        assert found.distance_beyond_reach == pytest.approx(0.5, abs=1e-9)
         assert found.reason == "unreachable"
 
 
@@ -169,10 +169,10 @@ def test_limits_that_are_in_the_way_are_named():
     found = ik(arm, PANDA.fk(q_far))
     assert found.reason == "limits"
     assert within(arm, found.q)
-    assert found.blocked[0]
+    assert found.limits_hit[0]
     at = np.abs(found.q[:, None] - arm.limits).min(axis=1) <= 1e-9
-    assert found.blocked[0] == tuple(np.array(PANDA.joint_names)[at])
-    assert all(name in found.why() for name in found.blocked[0])
+    assert found.limits_hit[0] == tuple(np.array(PANDA.joint_names)[at])
+    assert all(name in found.why() for name in found.limits_hit[0])
     assert ik(arm, PANDA.fk(q_far), limits=False).success
 
 
@@ -182,7 +182,7 @@ def test_who_says_limits_names_them():
     )
     found = ik(tight, UR5.fk(UR5.random(1, 200)), restarts=3)
     assert (found.reason == "limits").sum() > 100
-    for reason, names in zip(found.reason, found.blocked, strict=True):
+    for reason, names in zip(found.reason, found.limits_hit, strict=True):
         assert bool(names) == (reason == "limits")
     assert within(tight, found.q).all()
 
@@ -194,7 +194,7 @@ def test_nan_in_one_target_is_nan_in_its_solution_only():
     assert found.success.tolist() == [True, False, True]
     assert found.reason[1] == "bad target"
     assert np.isnan(found.q[1]).all()
-    assert found.beyond[1] == 0
+    assert found.distance_beyond_reach[1] == 0
     assert "finite" in found.why(1)
 
 
@@ -251,7 +251,7 @@ def test_five_joints_are_too_few_for_a_pose_and_enough_for_a_direction():
     T = five.fk(five.random(0))
     with pytest.raises(
         InputError,
-        match=r"takes hold of 6 numbers, and the chain has 5 .*what fits: 'position', 'rot",
+        match=r"constrains 6 degrees of freedom, and the chain has 5 .*what fits: 'position', 'rot",
     ):
         ik(five, T)
     assert ik(five, T, task="direction").success
@@ -293,7 +293,7 @@ def test_joints_to_spare_serve_the_aim(aim):
             )[1]
         return np.linalg.norm(q - (q0 if aim == "nearest" else middle), axis=1)
 
-    plain, served = ik(PANDA, T, q0=q0), ik(PANDA, T, q0=q0, aim=aim)
+    plain, served = ik(PANDA, T, q0=q0), ik(PANDA, T, q0=q0, secondary_objective=aim)
     assert served.success.all()
     assert (cost(served.q) <= cost(plain.q) + 1e-6).all()
     assert cost(served.q).mean() < cost(plain.q).mean() - 0.05
@@ -344,8 +344,9 @@ def test_coordinates_without_limits_come_within_a_turn():
     ({"limits": "no"}, InputError, "limits: expected True or False, got 'no'"),
     ({"weights": [1, 2]}, ShapeError, r"weights: expected shape \(..., 6\)"),
     ({"weights": [1, 1, 1, 1, 1, 0]}, InputError, "weights: expected six positive numbers"),
-    ({"aim": "top"}, InputError, "aim: expected one of middle, nearest, manipulability, got 'top'"),
-    ({"aim": "nearest"}, InputError, "'nearest' needs q0"),
+    ({"secondary_objective": "top"}, InputError,
+     "secondary_objective: expected one of middle, nearest, manipulability, got 'top'"),
+    ({"secondary_objective": "nearest"}, InputError, "'nearest' needs q0"),
     ({"q0": [0, 0]}, ShapeError, "q0: expected 7 coordinates"),
     ({"q0": np.zeros((3, 7))}, ShapeError, r"q0: shape \(3, 7\) does not fit"),
     ({"lock": ["panda_joint1"]}, InputError, "lock: expected a dict"),
@@ -425,15 +426,26 @@ def test_targets_may_be_read_only_or_without_alignment():
 @pytest.mark.parametrize("aim", ["middle", "nearest", "manipulability"])
 def test_an_aim_leaves_bad_targets_alone(aim):
     T, q0 = PANDA.fk(PANDA.random(0, 3)), PANDA.random(1, 3)
-    found = ik(PANDA, np.where(np.arange(3)[:, None, None] == 1, np.nan, T), aim=aim, q0=q0)
+    found = ik(
+        PANDA, np.where(np.arange(3)[:, None, None] == 1, np.nan, T), secondary_objective=aim, q0=q0
+    )
     assert found.reason.tolist() == ["solved", "bad target", "solved"]
-    np.testing.assert_array_equal(found.q[[0, 2]], ik(PANDA, T, aim=aim, q0=q0).q[[0, 2]])
+    np.testing.assert_array_equal(
+        found.q[[0, 2]], ik(PANDA, T, secondary_objective=aim, q0=q0).q[[0, 2]]
+    )
 
 
 @pytest.mark.parametrize("aim", ["middle", "nearest", "manipulability"])
 def test_an_aim_moves_no_locked_coordinate(aim):
     T = PANDA.fk(PANDA.random(3, 20))
-    found = ik(PANDA, T, task="position", aim=aim, lock={"panda_joint3": 0.5}, q0=PANDA.random(1))
+    found = ik(
+        PANDA,
+        T,
+        task="position",
+        secondary_objective=aim,
+        lock={"panda_joint3": 0.5},
+        q0=PANDA.random(1),
+    )
     assert found.success.all()
     assert (found.q[:, 2] == 0.5).all()
 
@@ -443,7 +455,7 @@ def test_a_direction_leaves_the_turn_about_it_to_the_aim():
     T, middle = arm.fk(arm.random(3, 50)), arm.limits.mean(axis=1)
     plain, served = (
         ik(arm, T, task="direction", q0=q0),
-        ik(arm, T, task="direction", q0=q0, aim="middle"),
+        ik(arm, T, task="direction", q0=q0, secondary_objective="middle"),
     )
     assert served.success.all()
     far = [np.linalg.norm(found.q - middle, axis=1) for found in (plain, served)]
@@ -460,7 +472,8 @@ def test_an_arm_of_few_joints_improves_the_manipulability_of_its_position():
     q0 = arm.random(2, 50)
     T = arm.fk(arm.random(1, 50))
     plain, served = (
-        ik(arm, T, task="position", q0=q0, aim=aim) for aim in (None, "manipulability")
+        ik(arm, T, task="position", q0=q0, secondary_objective=aim)
+        for aim in (None, "manipulability")
     )
     assert served.success.all()
     w = [pk.manipulability(arm, found.q).translation.yoshikawa for found in (plain, served)]
@@ -516,14 +529,14 @@ def test_the_nearest_solution_is_the_nearest_of_all(arm):
 
 
 def test_turns_are_taken_off_to_the_nearest_place_within_the_limits():
-    room = room_of(joint_units(UR5.compile()), None, True)  # ±2 pi
+    room = make_joint_domain(joint_units(UR5.compile()), None, True)  # ±2 pi
     np.testing.assert_allclose(
-        room.unwound(np.full((1, 6), -6.0), np.full((1, 6), 6.0)), 2 * np.pi - 6, rtol=0, atol=1e-14
+        room.wrapped(np.full((1, 6), -6.0), np.full((1, 6), 6.0)), 2 * np.pi - 6, rtol=0, atol=1e-14
     )
     arm = pk.Chain(UR5.screws, UR5.home, limits=[[-np.pi, 3.0]] * 6)
-    narrow = room_of(joint_units(arm.compile()), None, True)
+    narrow = make_joint_domain(joint_units(arm.compile()), None, True)
     np.testing.assert_allclose(
-        narrow.unwound(np.full((1, 6), 10.0), np.full((1, 6), 3.0)),
+        narrow.wrapped(np.full((1, 6), 10.0), np.full((1, 6), 3.0)),
         10 - 4 * np.pi,
         rtol=0,
         atol=1e-14,
@@ -534,7 +547,7 @@ def test_a_locked_coordinate_is_not_said_to_be_in_the_way():
     T = PANDA.fk(PANDA.random(3, 50))
     T[:, :3, 3] *= 1.25
     found = ik(PANDA, T, lock={"panda_joint1": PANDA.limits[0, 1]})
-    named = {name for names in found.blocked for name in names}
+    named = {name for names in found.limits_hit for name in names}
     assert named
     assert "panda_joint1" not in named
 
@@ -614,41 +627,11 @@ def test_a_setting_of_another_type_is_another_solver_and_the_same_result():
     np.testing.assert_array_equal(ik(UR5, T, **options).q, ik(UR5, T, restarts=7).q)
 
 
-class Interrupted(dict):
-    """A dict that other threads get their turn of while one begins to look through it."""
-
-    def __iter__(self):
-        looking = super().__iter__()
-        time.sleep(1e-3)
-        return looking
-
-
-def test_threads_may_ask_one_arm_in_more_ways_than_are_kept():
-    fast = CompiledChain(UR5)
-    fast.memory = Interrupted()
-    T, wrong = UR5.fk(UR5.random(0)), []
-
-    def ask(first):
-        try:
-            for seed in range(first, first + KEPT):
-                assert ik(fast, T, seed=seed).success
-        except RuntimeError as error:
-            wrong.append(error)
-
-    threads = [threading.Thread(target=ask, args=(first,)) for first in range(0, 4 * KEPT, KEPT)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert wrong == []
-    assert len(fast.memory) == KEPT
-
-
 @pytest.mark.parametrize("parallel", [False, True])
 def test_an_interrupt_is_seen_between_some_of_many_targets(parallel, monkeypatch):
     T = np.tile(np.eye(4), (1000, 1, 1))
     T[:, 0, 3] = 5.0  # out of reach
-    solver = solver_of(
+    solver = make_problem(
         UR5.compile(), Settings("pose", None, True, 1e-9, 1e-9, None, None, 100, 30, 0, parallel)
     )
     whole, sizes = solver._solve.call, []
@@ -694,7 +677,8 @@ def test_the_manipulability_of_a_direction_is_that_of_its_five_numbers():
         return np.sqrt(np.linalg.det(five @ np.swapaxes(five, 1, 2)))
 
     plain, served = (
-        ik(arm, T, task="direction", q0=q0, aim=aim) for aim in (None, "manipulability")
+        ik(arm, T, task="direction", q0=q0, secondary_objective=aim)
+        for aim in (None, "manipulability")
     )
     assert served.success.all()
     assert (yoshikawa(served.q) >= yoshikawa(plain.q) * (1 - 1e-6)).all()
@@ -715,12 +699,12 @@ def test_the_first_try_for_the_nearest_begins_at_q0_or_else_at_what_is_to_be_nea
     given, monkeypatch
 ):
     q = UR5.random(2, 3)
-    q0, near, begun, whole = q + 0.1, q - 0.2, [], Solver.solve
+    q0, near, begun, whole = q + 0.1, q - 0.2, [], Problem.solve
 
     def solve(self, targets, indices, q0, **options):
         begun.append(q0.copy())
         return whole(self, targets, indices, q0, **options)
 
-    monkeypatch.setattr(Solver, "solve", solve)
+    monkeypatch.setattr(Problem, "solve", solve)
     ik(UR5, UR5.fk(q), q0=q0 if given else None, nearest_to=near)
     np.testing.assert_array_equal(begun[0], np.clip(q0 if given else near, *UR5.limits.T))

@@ -10,14 +10,14 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError, ShapeError, UnknownName
 from poekin.model import screw
-from poekin.solve.ik.joint_domain import Room, first_tries, for_targets, room_of
-from poekin.solve.ik.joint_units import joint_units
+from poekin.solve.ik.joint_domain import JointDomain, first_tries, for_targets, make_joint_domain
+from poekin.solve.joint_units import joint_units
 
 AXES = [screw.revolute([0, 0, 1.0], [x, 0, 0]) for x in (0, 0.4)]
 
 
-def room(coupling=None, limits=None) -> Room:
-    return room_of(
+def room(coupling=None, limits=None) -> JointDomain:
+    return make_joint_domain(
         joint_units(pk.Chain(AXES, np.eye(4), coupling=coupling, limits=limits).compile()),
         None,
         True,
@@ -33,7 +33,7 @@ def test_tries_begin_all_over_the_period_of_a_coordinate_without_limits():
 
 def test_a_configuration_of_which_no_turn_is_within_the_limits_stays():
     np.testing.assert_array_equal(
-        room(limits=[[-1, 1]] * 2).unwound(np.full(2, 10.0), np.zeros(2)), 10.0
+        room(limits=[[-1, 1]] * 2).wrapped(np.full(2, 10.0), np.zeros(2)), 10.0
     )
 
 
@@ -42,25 +42,25 @@ def test_a_turn_that_rounding_would_take_beyond_a_limit_is_not_taken():
     for low in lower:
         high = np.nextafter(low + 2 * np.pi, -np.inf)
         tight = room(limits=np.stack([low, high], axis=1))
-        assert tight.holds(tight.unwound(low, high))
+        assert tight.contains(tight.wrapped(low, high))
 
 
-def test_a_room_holds_what_its_limits_and_locks_say_in_joint_units():
+def test_a_domain_has_what_its_limits_and_locks_say_in_joint_units():
     units = joint_units(pk.Chain(AXES, np.eye(4), coupling=[[0.5, 0], [0, -2.0]], q_names=["a", "b"],
                                  limits=[[-2, 4], [-np.inf, np.inf]]).compile())  # fmt: skip
-    found = room_of(units, (("a", 3.0),), True)
+    found = make_joint_domain(units, (("a", 3.0),), True)
     np.testing.assert_array_equal(found.limits, [[-1, 2], [-np.inf, np.inf]])
     np.testing.assert_allclose(found.ranges, [[-1, 2], [-np.pi, np.pi]])
     np.testing.assert_allclose(found.periods, [2 * np.pi] * 2)
-    np.testing.assert_array_equal([found.fixed, found.held], [[1, 0], [1.5, 0]])
-    assert found.winds
-    free = room_of(units, None, False)
+    np.testing.assert_array_equal([found.locked, found.locked_values], [[1, 0], [1.5, 0]])
+    assert found.has_unbounded_angle
+    free = make_joint_domain(units, None, False)
     np.testing.assert_array_equal(free.limits, np.tile([-np.inf, np.inf], (2, 1)))
     np.testing.assert_allclose(free.ranges, np.tile([-np.pi, np.pi], (2, 1)))
-    assert (free.winds, free.fixed.any()) == (True, False)
+    assert (free.has_unbounded_angle, free.locked.any()) == (True, False)
     narrow = room(limits=[[-1, 1], [0, 1]])
-    assert not narrow.winds
-    assert narrow.holds(np.array([[-1, 0], [1, 1], [1.1, 0.5], [0, -0.1]])).tolist() == [
+    assert not narrow.has_unbounded_angle
+    assert narrow.contains(np.array([[-1, 0], [1, 1], [1.1, 0.5], [0, -0.1]])).tolist() == [
         True,
         True,
         False,
@@ -70,11 +70,11 @@ def test_a_room_holds_what_its_limits_and_locks_say_in_joint_units():
 
 def test_a_slide_without_limits_is_begun_within_a_metre_either_way():
     slide = joint_units(pk.Chain([AXES[0], screw.prismatic([1.0, 0, 0])], np.eye(4)).compile())
-    found = room_of(slide, None, True)
+    found = make_joint_domain(slide, None, True)
     np.testing.assert_allclose(found.ranges, [[-np.pi, np.pi], [-1, 1]])
     np.testing.assert_allclose(found.periods, [2 * np.pi, 0])
     alone = joint_units(pk.Chain([screw.prismatic([1.0, 0, 0])], np.eye(4)).compile())
-    assert not room_of(alone, None, True).winds
+    assert not make_joint_domain(alone, None, True).has_unbounded_angle
 
 
 @pytest.mark.parametrize("lock, error, words", [
@@ -89,37 +89,43 @@ def test_a_lock_that_is_none_is_told_in_the_user_s_units(lock, error, words):
     units = joint_units(pk.Chain(AXES, np.eye(4), coupling=[[0.5, 0], [0, -2.0]], q_names=["a", "b"],
                                  limits=[[-2, 4], [-1.5, 1]]).compile())  # fmt: skip
     with pytest.raises(error, match=f"^{re.escape(words)}"):
-        room_of(units, tuple(lock.items()), True)
-    room_of(units, (("a", -2), ("b", 1)), True)
+        make_joint_domain(units, tuple(lock.items()), True)
+    make_joint_domain(units, (("a", -2), ("b", 1)), True)
 
 
 def test_whole_periods_are_taken_off_towards_zero_or_what_is_near():
     free = room()
     q = np.array([[7.0, -3.5], [np.pi - 0.1, 20.0]])
     np.testing.assert_allclose(
-        free.unwound(q), [[7 - 2 * np.pi, 2 * np.pi - 3.5], [np.pi - 0.1, 20 - 6 * np.pi]]
+        free.wrapped(q), [[7 - 2 * np.pi, 2 * np.pi - 3.5], [np.pi - 0.1, 20 - 6 * np.pi]]
     )
-    near = free.unwound(q, np.array([6.0, 3.0]))
+    near = free.wrapped(q, np.array([6.0, 3.0]))
     np.testing.assert_allclose(near, [[7, 2 * np.pi - 3.5], [np.pi - 0.1, 20 - 6 * np.pi]])
     # With limits only towards what is near, and not beyond them.
     limited = room(limits=[[-4, 8], [-1, 1]])
-    np.testing.assert_array_equal(limited.unwound(np.array([7.0, 0.5])), [7, 0.5])
+    np.testing.assert_array_equal(limited.wrapped(np.array([7.0, 0.5])), [7, 0.5])
     np.testing.assert_allclose(
-        limited.unwound(np.array([7.0, 0.5]), np.array([-5.0, 7])), [7 - 2 * np.pi, 0.5]
+        limited.wrapped(np.array([7.0, 0.5]), np.array([-5.0, 7])), [7 - 2 * np.pi, 0.5]
     )
     np.testing.assert_allclose(
-        limited.unwound(np.array([-3.5, 0.5]), np.array([20.0, 7])), [2 * np.pi - 3.5, 0.5]
+        limited.wrapped(np.array([-3.5, 0.5]), np.array([20.0, 7])), [2 * np.pi - 3.5, 0.5]
     )
-    locked = Room(np.full((2, 2), [-np.inf, np.inf]), np.zeros((2, 2)), np.array([True, False]), np.array([7.0, 0]),
-                  np.full(2, 2 * np.pi), winds=True)  # fmt: skip
-    np.testing.assert_allclose(locked.unwound(np.array([7.0, 7.0])), [7, 7 - 2 * np.pi])
+    free, fixed = np.full((2, 2), [-np.inf, np.inf]), np.array([True, False])
+    periods = np.full(2, 2 * np.pi)
+    locked = JointDomain(
+        free, np.zeros((2, 2)), fixed, np.array([7.0, 0]), periods, has_unbounded_angle=True
+    )
+    np.testing.assert_allclose(locked.wrapped(np.array([7.0, 7.0])), [7, 7 - 2 * np.pi])
 
 
 def test_the_first_try_is_at_q0_within_the_limits_or_anywhere_and_at_what_is_locked():
     units = joint_units(
         pk.Chain(AXES, np.eye(4), limits=[[-1, 1], [-2, 2]], joint_names=["a", "b"]).compile()
     )
-    free, locked = room_of(units, None, True), room_of(units, (("b", 0.5),), True)
+    free, locked = (
+        make_joint_domain(units, None, True),
+        make_joint_domain(units, (("b", 0.5),), True),
+    )
     assert np.isnan(first_tries(units, free, (3,), 3, None)).all()
     np.testing.assert_array_equal(first_tries(units, locked, (2,), 2, None), [[np.nan, 0.5]] * 2)
     np.testing.assert_array_equal(first_tries(units, locked, (), 1, [0.25, 1.0]), [[0.25, 0.5]])

@@ -16,7 +16,7 @@ from poekin.errors import InputError
 from poekin.model import screw
 from poekin.solve.ik import redundancy
 from poekin.solve.ik.ik import ik
-from poekin.solve.ik.solver import Settings, solver_of
+from poekin.solve.ik.ik_problem import Settings, make_problem
 
 
 def test_only_a_coordinate_with_two_limits_has_a_middle():
@@ -26,7 +26,7 @@ def test_only_a_coordinate_with_two_limits_has_a_middle():
     arm = pk.Chain(
         [screw.prismatic(way) for way in np.eye(3)[[0, 0, 1, 2]]], np.eye(4), limits=limits
     )
-    found = ik(arm, arm.fk(q0), task="position", q0=q0, aim="middle")
+    found = ik(arm, arm.fk(q0), task="position", q0=q0, secondary_objective="middle")
     # the slides share each step, of half of the way: of 25 of them 0.75^25 = 7.5e-4 is left
     np.testing.assert_allclose(found.q, [0, 2, 0.5, 0.5], rtol=0, atol=1e-3)
 
@@ -36,7 +36,9 @@ def test_a_step_that_is_too_long_is_made_shorter(length):
     # a table that slides far to the side: what brings the slides back turns the tip about a circle
     axes = [*map(screw.prismatic, np.eye(3)), screw.revolute([0, 0, 1.0], [0, 0, 0])]
     arm = pk.Chain(axes, pk.se3.exp([0, 0, 0, length, 0, 0]))
-    found = ik(arm, arm.fk([0, 10.0, 0, 0]), task="position", q0=np.zeros(4), aim="nearest")
+    found = ik(
+        arm, arm.fk([0, 10.0, 0, 0]), task="position", q0=np.zeros(4), secondary_objective="nearest"
+    )
     assert found.success
     spare = np.linalg.svd(arm.jacobian(found.q, "hybrid")[3:])[2][
         -1
@@ -53,7 +55,7 @@ def solver(task="position", lock=None):
     axes = [*map(screw.prismatic, np.eye(3)), screw.revolute([0, 0, 1.0], [0, 0, 0])]
     limits = [[-1, 3], [-np.inf, np.inf], [0, np.inf], [-2, 1]]
     chain = pk.Chain(axes, pk.se3.exp([0, 0, 0, 1, 0, 0]), limits=limits, joint_names=list("abcd"))
-    return solver_of(
+    return make_problem(
         chain.compile(), Settings(task, None, True, 1e-9, 1e-9, lock, None, 5, 30, 0, False)
     )
 
@@ -76,7 +78,7 @@ def test_the_manipulability_is_that_of_the_task_by_what_may_move(task, rows):
         if arm is None:
             ball = pk.Chain([screw.revolute(axis, [0, 0, 0]) for axis in np.eye(3)[[0, 1, 2, 0]]], np.eye(4),
                             joint_names=list("abcd"))  # fmt: skip
-            arm = solver_of(
+            arm = make_problem(
                 ball.compile(), Settings(task, None, True, 1e-9, 1e-9, lock, None, 5, 30, 0, False)
             )
         J = arm.fast.chain.jacobian(q, "hybrid")[:, rows]
@@ -100,20 +102,20 @@ def test_a_move_leaves_the_task_to_first_order_and_goes_down_the_aim_within_the_
     held = redundancy._moved(solver(lock=(("a", 2.5),)), q, q + 5, "nearest", np.array([1.0]))
     assert held[0, 0] == 2.5
     far = redundancy._moved(arm, q, q + 50, "nearest", np.array([1.0]))
-    assert ((far >= arm.room.limits[:, 0]) & (far <= arm.room.limits[:, 1])).all()
+    assert ((far >= arm.domain.limits[:, 0]) & (far <= arm.domain.limits[:, 1])).all()
 
 
 @pytest.mark.parametrize("aim, q0, words", [
-    ("best", None, r"^aim: expected one of middle, nearest, manipulability, got 'best'$"),
-    (3, None, r"^aim: expected one of middle, nearest, manipulability, got 3$"),
-    ("nearest", None, r"^aim: 'nearest' needs q0, what to be near to$"),
+    ("best", None, r"^secondary_objective: expected one of middle, nearest, manipulability, got 'best'$"),
+    (3, None, r"^secondary_objective: expected one of middle, nearest, manipulability, got 3$"),
+    ("nearest", None, r"^secondary_objective: 'nearest' needs q0, what to be near to$"),
 ])  # fmt: skip
 def test_what_is_no_aim_is_told(aim, q0, words):
     with pytest.raises(InputError, match=words):
-        redundancy.check_aim(aim, q0)
-    redundancy.check_aim("nearest", [0])
-    redundancy.check_aim("middle", None)
-    redundancy.check_aim(None, None)
+        redundancy.check_objective(aim, q0)
+    redundancy.check_objective("nearest", [0])
+    redundancy.check_objective("middle", None)
+    redundancy.check_objective(None, None)
 
 
 def test_an_aim_is_served_in_25_steps_each_half_as_long_after_one_that_is_no_better(monkeypatch):
@@ -136,7 +138,7 @@ def test_an_aim_is_served_in_25_steps_each_half_as_long_after_one_that_is_no_bet
     monkeypatch.setattr(redundancy, "_value", lambda *_: np.array(next(values)))
     q = np.zeros((3, 2))
     stub: Any = SimpleNamespace(solve=solve)
-    found = redundancy.improved(stub, np.zeros((3, 4, 4)), q, np.full((3, 2), np.nan), "middle")
+    found = redundancy.optimise(stub, np.zeros((3, 4, 4)), q, np.full((3, 2), np.nan), "middle")
     assert asked == [(3, [0, 1, 2], 0)] * 25
     assert found.tolist() == [[2, 2], [0, 0], [0, 0]]
     assert not q.any()
@@ -156,6 +158,6 @@ def test_of_bad_targets_nothing_is_asked(monkeypatch):
     monkeypatch.setattr(redundancy, "_value", lambda solver, q, *_: q[:, 0])
     q, T = np.array([[5.0], [np.nan], [7.0]]), np.arange(3.0)[:, None, None] * np.ones((3, 4, 4))
     stub: Any = SimpleNamespace(solve=solve)
-    found = redundancy.improved(stub, T, q, q, "nearest")
+    found = redundancy.optimise(stub, T, q, q, "nearest")
     np.testing.assert_array_equal(found, [[-20], [np.nan], [-18]])
     assert asked == [[0, 2]] * 25

@@ -1,4 +1,4 @@
-"""What a task takes hold of, and what is said of one that is none or that an arm is too short for."""
+"""What a task constrains, and what is said of one that is none or that an arm is too short for."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError, PoseError
 from poekin.model import screw
-from poekin.solve.ik.task import TASKS, check_joints, targets, task_of
+from poekin.solve.ik.task import TASKS, check_joints, make_task, targets
 
 
 @pytest.mark.parametrize("name, weights, expected", [
@@ -19,30 +19,30 @@ from poekin.solve.ik.task import TASKS, check_joints, targets, task_of
     ("direction", [1, 1, 1, 2, 2, 2], [0.5, 0.5, 0.5, 1, 1, 1]),
 ])  # fmt: skip
 def test_weights_are_scaled_to_1_and_0_where_a_task_takes_no_hold(name, weights, expected):
-    task = task_of(name, None, weights)
+    task = make_task(name, None, weights)
     assert (task.name, task.weights.tolist(), task.axis.tolist()) == (name, expected, [0, 0, 1])
-    assert (task.code, task.holds) == TASKS[name]
-    assert task.holds == {"pose": 6, "position": 3, "rotation": 3, "direction": 5}[name]
+    assert (task.code, task.constrained_dof) == TASKS[name]
+    assert task.constrained_dof == {"pose": 6, "position": 3, "rotation": 3, "direction": 5}[name]
 
 
 def test_the_axis_of_a_direction_is_a_unit_vector_however_long_it_is_given():
     for size in (1e-300, 3.0, 1e300):
         np.testing.assert_allclose(
-            task_of("direction", [0, 3 * size, -4 * size], None).axis, [0, 0.6, -0.8]
+            make_task("direction", [0, 3 * size, -4 * size], None).axis, [0, 0.6, -0.8]
         )
 
 
 def test_the_jacobian_of_a_direction_has_no_turn_about_it():
     rng = np.random.default_rng(0)
     T, J = pk.se3.exp(rng.normal(size=(3, 6))), rng.normal(size=(3, 6, 4))
-    task = task_of("direction", [1, 2, 2], None)
+    task = make_task("direction", [1, 2, 2], None)
     found = task.jacobian(T, J)
     a = T[:, :3, :3] @ np.array([1, 2, 2]) / 3
     np.testing.assert_allclose(np.einsum("ni,nij->nj", a, found[:, :3]), 0, atol=1e-14)
     across = pk.so3.hat(a)
     np.testing.assert_allclose(across @ found[:, :3], across @ J[:, :3], atol=1e-14)
     np.testing.assert_array_equal(found[:, 3:], J[:, 3:])
-    assert task_of("pose", None, None).jacobian(T, J) is J
+    assert make_task("pose", None, None).jacobian(T, J) is J
 
 
 @pytest.mark.parametrize("given, words", [
@@ -63,26 +63,26 @@ def test_the_jacobian_of_a_direction_has_no_turn_about_it():
 ])  # fmt: skip
 def test_what_is_no_task_is_told(given, words):
     with pytest.raises(InputError, match=f"^{re.escape(words)}$"):
-        task_of(*given)
+        make_task(*given)
 
 
 @pytest.mark.parametrize("dof, free, name, words", [
-    (2, 2, "pose", "task 'pose' takes hold of 6 numbers, and the chain has 2 coordinates"),
-    (5, 5, "pose", "task 'pose' takes hold of 6 numbers, and the chain has 5 coordinates; what fits: 'position', "
-     "'rotation', 'direction'"),
-    (7, 5, "pose", "task 'pose' takes hold of 6 numbers, and the chain has 7 coordinates, 2 of them locked; what fits: "
-     "'position', 'rotation', 'direction'"),
-    (4, 4, "direction", "task 'direction' takes hold of 5 numbers, and the chain has 4 coordinates; what fits: "
+    (2, 2, "pose", "task 'pose' constrains 6 degrees of freedom, and the chain has 2 coordinates"),
+    (5, 5, "pose", "task 'pose' constrains 6 degrees of freedom, and the chain has 5 coordinates; "
+     "what fits: 'position', 'rotation', 'direction'"),
+    (7, 5, "pose", "task 'pose' constrains 6 degrees of freedom, and the chain has 7 coordinates, 2 of them locked; "
+     "what fits: 'position', 'rotation', 'direction'"),
+    (4, 4, "direction", "task 'direction' constrains 5 degrees of freedom, and the chain has 4 coordinates; what fits: "
      "'position', 'rotation'"),
     (6, 6, "pose", None), (3, 3, "position", None),
 ])  # fmt: skip
 def test_an_arm_of_too_few_joints_is_told_what_fits(dof, free, name, words):
     chain = pk.Chain([screw.revolute([0, 0, 1], [x, 0, 0]) for x in range(dof)], np.eye(4))
     if words is None:
-        check_joints(chain, task_of(name, None, None), free)
+        check_joints(chain, make_task(name, None, None), free)
     else:
         with pytest.raises(InputError, match=f"^{re.escape(words)}$"):
-            check_joints(chain, task_of(name, None, None), free)
+            check_joints(chain, make_task(name, None, None), free)
 
 
 def test_a_target_that_is_not_finite_is_nan_and_one_that_is_no_pose_is_named():

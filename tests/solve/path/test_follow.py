@@ -11,10 +11,10 @@ import poekin as pk
 from poekin.errors import InputError, PoseError, ShapeError, UnknownName
 from poekin.solve import motion
 from poekin.solve.ik.ik import ik
-from poekin.solve.ik.solver import Settings, solver_of
+from poekin.solve.ik.ik_problem import Settings, make_problem
 from poekin.solve.path import follower
 from poekin.solve.path.follow import follow
-from poekin.solve.path.followed import NEAR_SINGULAR
+from poekin.solve.path.path_result import NEAR_SINGULAR
 
 TOL = 1e-9
 PANDA_Q = np.array([0, -0.5, 0, -2.0, 0, 1.6, 0.8])
@@ -65,7 +65,7 @@ def test_a_straight_path_of_half_a_metre_is_followed_without_a_jump(name, q, giv
     T = straight(arm, q, [0, 0.25, 0], 1000)
     path = follow(arm, T, q0=q if given_q0 else None)
     assert path.ok
-    assert path.changes == ()
+    assert path.branch_switches == ()
     assert path.largest_step == np.abs(np.diff(path.q, axis=0)).max() <= 0.1
     assert off(arm, path.q, T) <= TOL
     if given_q0:
@@ -89,7 +89,7 @@ def test_between_two_poses_the_joints_never_jump_unless_it_is_said(seed, count):
     for k in np.flatnonzero(path.steps > 0.5) + 1:
         # a step that is longer is one of the pieces of a screw motion, a change that is told, or
         # not reached
-        if k not in path.changes and done[k] and done[k - 1]:
+        if k not in path.branch_switches and done[k] and done[k - 1]:
             assert any(
                 _ends_at(arm, T[k - 1], T[k], path.q[k - 1], path.q[k], n) for n in follower.PIECES
             )
@@ -100,7 +100,11 @@ def _ends_at(arm, T_a, T_b, q_a, q_b, pieces):  # type: ignore[no-untyped-def]
     radian.
     """
     way = follow(arm, motion.screw(T_a, T_b, np.arange(pieces + 1) / pieces), q0=q_a, max_step=0.5)
-    return way.largest_step <= 0.5 and way.changes == () and np.abs(way.q[-1] - q_b).max() < 1e-6
+    return (
+        way.largest_step <= 0.5
+        and way.branch_switches == ()
+        and np.abs(way.q[-1] - q_b).max() < 1e-6
+    )
 
 
 ARM = pk.load("ur5").chain().compile()
@@ -120,11 +124,11 @@ def test_without_q0_a_branch_is_chosen_that_follows_the_whole_path():
     T = arm.fk(q)
     path = follow(arm, T, task="position")
     assert path.ok
-    assert path.changes == ()
+    assert path.branch_switches == ()
     other = [1.0 - 0.0, -1.0, 0.0]
     stopped = follow(arm, T, q0=other, task="position")
-    assert len(stopped.changes) == 1
-    k = stopped.changes[0]
+    assert len(stopped.branch_switches) == 1
+    k = stopped.branch_switches[0]
     assert stopped.success.all()
     assert stopped.steps[k - 1] > 0.5
     assert np.delete(stopped.steps, k - 1).max() <= 0.1
@@ -146,7 +150,7 @@ def test_of_several_starts_the_one_that_gets_farthest_is_taken(monkeypatch):
 def test_coarse_poses_are_joined_by_pieces_of_the_screw_motion(ur5):
     q = motion.joint(UR5_Q, np.add(UR5_Q, [1.0, 0.3, -0.2, 0.1, 0.3, -0.8]), np.linspace(0, 1, 6))
     path = follow(ur5, ur5.fk(q), q0=q[0], max_step=0.1)
-    assert path.changes == ()
+    assert path.branch_switches == ()
     np.testing.assert_allclose(path.q, q, rtol=0, atol=1e-7)
     assert path.largest_step > 0.1
 
@@ -167,7 +171,7 @@ def test_a_pose_out_of_reach_is_told_and_the_path_goes_on_after_it():
     np.testing.assert_allclose(path.position_error[x > 2], x[x > 2] - 2, rtol=0, atol=1e-3)
     # a stretched arm may bend either way, and does so as the root of the distance: no step is small
     # enough
-    assert len(path.changes) <= 1
+    assert len(path.branch_switches) <= 1
     assert path.largest_step < 0.5
     said = next(s for s in path.sentences() if "not reached" in s)
     assert said.startswith(f"poses 36 to 63 not reached, least of all {k}: unreachable: ")
@@ -180,7 +184,7 @@ def test_a_bad_target_is_skipped(ur5):
     path = follow(ur5, T, q0=UR5_Q)
     assert list(path.reason[[0, 7]]) == ["bad target"] * 2
     assert np.isnan(path.q[[0, 7]]).all()
-    assert path.changes == ()
+    assert path.branch_switches == ()
     rest = np.delete(np.arange(20), [0, 7])
     np.testing.assert_allclose(path.q[rest], whole.q[rest], rtol=0, atol=1e-8)
     assert "bad target" in str(path)
@@ -233,12 +237,14 @@ def test_speed_and_acceleration_that_are_exceeded_are_named_with_their_place():
     path = follow(
         arm, arm.fk(q), **given, speed={"shoulder": 0.6, "elbow": 1, "lift": 1}, acceleration=1.5
     )
-    (fast,) = path.too_fast
+    (fast,) = path.speed_violations
     assert fast.name == "shoulder"
     assert fast.value == pytest.approx(0.7, rel=1e-5)
     # s' = 2 t passes 0.6 at 0.3 s
     assert t[fast.first] == pytest.approx(0.3, abs=0.011)
-    assert {(s.name, round(s.value, 2)) for s in path.too_hard} == {("shoulder", 2.0)}
+    assert {(s.name, round(s.value, 2)) for s in path.acceleration_violations} == {
+        ("shoulder", 2.0)
+    }
     assert not path.ok
     assert "'shoulder' exceeds its speed, 0.7 of 0.6" in str(path)
     assert follow(arm, arm.fk(q), **given, speed=0.71, acceleration=2.01).ok
@@ -251,8 +257,8 @@ def test_a_singularity_on_the_way_is_met(ur5):
     (met,) = path.near_singular
     assert met.worst == 150
     assert met.first <= 150 <= met.last
-    assert path.regularity[met.worst] < 1e-6
-    assert path.regularity[0] > NEAR_SINGULAR
+    assert path.inverse_condition[met.worst] < 1e-6
+    assert path.inverse_condition[0] > NEAR_SINGULAR
     assert "near a singularity" in str(path)
     assert path.success.all()
     assert follow(ur5, ur5.fk(q[:100]), q0=q[0]).near_singular == ()
@@ -263,7 +269,7 @@ def test_a_part_of_a_pose_is_followed(panda, task):
     T = straight(panda, PANDA_Q, [0, 0.2, 0], 50)
     path = follow(panda, T, task=task, q0=PANDA_Q)
     assert path.ok
-    assert (path.regularity > NEAR_SINGULAR).all()
+    assert (path.inverse_condition > NEAR_SINGULAR).all()
     if task != "rotation":
         np.testing.assert_allclose(panda.fk(path.q)[:, :3, 3], T[:, :3, 3], rtol=0, atol=TOL)
 
@@ -395,7 +401,7 @@ def follower_of(arm, T, most=0.1, **options):  # type: ignore[no-untyped-def]
     """What follows a path, before it does."""
     settings = {"task": "pose", "axis": None, "limits": True, "tol_position": TOL, "tol_rotation": TOL, "lock": None,
                 "weights": None, "restarts": 100, "iterations": 30, "seed": 0, "parallel": False}  # fmt: skip
-    solver = solver_of(arm, Settings(**{**settings, **options}))
+    solver = make_problem(arm, Settings(**{**settings, **options}))
     return follower.Follower(solver, np.ascontiguousarray(T), np.full(arm.dof, most), None)
 
 
@@ -438,7 +444,7 @@ def test_it_is_said_of_a_pose_that_is_reached_after_all_that_the_steps_ended(ur5
     T = ur5.fk(np.array([UR5_Q, UR5_Q]))
     T[1, 0, 3] += 9
     one = follower_of(ur5, T)
-    assert one.said(0) == ("iterations", 0.0, ())
-    reason, beyond, blocked = one.said(1)
+    assert one.failure(0) == ("iterations", 0.0, ())
+    reason, beyond, blocked = one.failure(1)
     assert (reason, blocked) == ("unreachable", ())
     assert 7 < beyond < 9

@@ -15,7 +15,7 @@ import poekin as pk
 from poekin.model import screw
 from poekin.solve import motion
 from poekin.solve.ik import ik as ik_module
-from poekin.solve.ik.solver import Settings, solver_of
+from poekin.solve.ik.ik_problem import Settings, make_problem
 from poekin.solve.path import follow as follow_module
 from poekin.solve.path import follower
 
@@ -33,7 +33,7 @@ def one(count: int = 1, most: float = 0.1, progress: Any = None) -> follower.Fol
     """What follows a path that goes from Q along x, before it does."""
     T = np.tile(ARM.fk(Q), (count, 1, 1))
     T[:, 0, 3] += 0.01 * np.arange(count)
-    return follower.Follower(solver_of(ARM, SETTINGS), T, np.full(3, most), progress)
+    return follower.Follower(make_problem(ARM, SETTINGS), T, np.full(3, most), progress)
 
 
 def test_a_path_is_asked_for_as_a_single_pose_is(monkeypatch):
@@ -41,10 +41,10 @@ def test_a_path_is_asked_for_as_a_single_pose_is(monkeypatch):
 
     def noted(fast: Any, settings: Settings) -> Any:
         asked.append(settings)
-        return solver_of(fast, settings)
+        return make_problem(fast, settings)
 
     for module in (follow_module, ik_module):
-        monkeypatch.setattr(module, "solver_of", noted)
+        monkeypatch.setattr(module, "make_problem", noted)
     arm = pk.load("ur5").chain()
     T = arm.fk(arm.random(0, 2))
     follow_module.follow(arm, T[:1])
@@ -229,13 +229,13 @@ def test_where_no_start_gets_anywhere_there_is_none():
 def test_eight_tries_a_round_each_with_numbers_of_its_own(monkeypatch):
     f = one()
     asked: list[tuple[Any, ...]] = []
-    solve = f.solver.solve
+    solve = f.problem.solve
 
     def noted(T: np.ndarray, number: np.ndarray, q0: np.ndarray, **options: Any) -> Any:
         asked.append((len(T), number.tolist(), bool(np.isnan(q0).all()), options))
         return solve(T, number, q0, **options)
 
-    monkeypatch.setattr(f.solver, "solve", noted)
+    monkeypatch.setattr(f.problem, "solve", noted)
     for turn in (0, 3):
         f._solutions(0, turn, None)
     assert asked == [
@@ -293,7 +293,7 @@ def test_other_solutions_of_a_pose_lie_turns_away_towards_the_last_joints_or_the
     last,
 ):
     wide = pk.Chain(ARM.chain.screws, HOME, limits=[[10, 40], [-40, 30], [-1, 1]]).compile()
-    f = follower.Follower(solver_of(wide, SETTINGS), ARM.fk(Q)[None], np.full(3, 0.1), None)
+    f = follower.Follower(make_problem(wide, SETTINGS), ARM.fk(Q)[None], np.full(3, 0.1), None)
     near = np.array([25.0, -5.0, 0.0] if last is None else last)
     found = f._solutions(0, 2, None if last is None else near)
     assert len(found) > 1

@@ -8,8 +8,8 @@ import pytest
 import poekin as pk
 from poekin.model import screw
 from poekin.solve.ik.solution import Solution
-from poekin.solve.ik.task import task_of
-from poekin.solve.path.followed import NEAR_SINGULAR, Followed, Stretch
+from poekin.solve.ik.task import make_task
+from poekin.solve.path.path_result import NEAR_SINGULAR, PathInterval, PathResult
 
 Z = [0, 0, 1.0]
 ARM = pk.Chain(
@@ -34,8 +34,15 @@ def followed(q, reason=None, errors=None, changes=(), task="position", limits=No
         None if given.get(name) is None else np.array(given[name], float)
         for name in ("times", "speed", "acceleration")
     )
-    return Followed(
-        ARM, solution, tuple(changes), task_of(task, None, None), bounds, times, speed, acceleration
+    return PathResult(
+        ARM,
+        solution,
+        tuple(changes),
+        make_task(task, None, None),
+        bounds,
+        times,
+        speed,
+        acceleration,
     )
 
 
@@ -67,17 +74,17 @@ def test_what_exceeds_a_limit_is_named_from_where_to_where_with_its_worst_point(
         np.array([[0, 0, 0], [1, 0, 0], [3, 0, 0], [4.5, 0, 0], [5, 0, 3], [5.1, 0, 3.0]]),
     )
     path = followed(q, times=times, speed=[0.9, 1, 1], acceleration=[0.9, 5, 2.5])
-    assert path.too_fast == (
-        Stretch(0, 2, "shoulder", 1, 2.0, 0.9),
-        Stretch(3, 3, "lift", 3, 3.0, 1.0),
+    assert path.speed_violations == (
+        PathInterval(0, 2, "shoulder", 1, 2.0, 0.9),
+        PathInterval(3, 3, "lift", 3, 3.0, 1.0),
     )
-    assert path.too_hard == (
-        Stretch(1, 1, "shoulder", 1, 1.0, 0.9), Stretch(3, 3, "shoulder", 3, 1.0, 0.9),
-        Stretch(3, 4, "lift", 3, 3.0, 2.5),
+    assert path.acceleration_violations == (
+        PathInterval(1, 1, "shoulder", 1, 1.0, 0.9), PathInterval(3, 3, "shoulder", 3, 1.0, 0.9),
+        PathInterval(3, 4, "lift", 3, 3.0, 2.5),
     )  # fmt: skip
     assert not path.ok
     at = followed(q, times=times, speed=[2, 1, 3], acceleration=[1, 5, 3])
-    assert (at.too_fast, at.too_hard, at.ok) == ((), (), True)
+    assert (at.speed_violations, at.acceleration_violations, at.ok) == ((), (), True)
     assert followed(q, times=times).ok
     assert not followed(q, changes=[2]).ok
     assert not followed(q, reason=["solved"] * 5 + ["unreachable"]).ok
@@ -87,8 +94,9 @@ def test_coordinates_at_their_limits_are_named_at_the_point_nearest_to_it():
     q = [[0, 0, 0.5], [2 - 2e-9, 0, 0.5 - 9e-10], [2 - 9e-10, 0, 0.1], [2, 1, 0], [-1, 1, np.nan]]
     path = followed(q)
     assert path.at_limits == (
-        Stretch(0, 1, "lift", 0, 0.5, 0.5), Stretch(2, 3, "shoulder", 3, 2.0, 2.0), Stretch(3, 3, "lift", 3, 0.0, 0.0),
-        Stretch(4, 4, "shoulder", 4, -1.0, -1.0),
+        PathInterval(0, 1, "lift", 0, 0.5, 0.5),
+        PathInterval(2, 3, "shoulder", 3, 2.0, 2.0), PathInterval(3, 3, "lift", 3, 0.0, 0.0),
+        PathInterval(4, 4, "shoulder", 4, -1.0, -1.0),
     )  # fmt: skip
     assert followed(q, limits=[[-np.inf, np.inf]] * 3).at_limits == ()
 
@@ -98,17 +106,17 @@ def test_regularity_is_the_quotient_of_the_singular_values_of_what_the_task_asks
     J = ARM.jacobian(q, "hybrid")[:, 3:] / ARM.reach
     s = np.linalg.svd(J, compute_uv=False)
     path = followed(q)
-    assert path.regularity == pytest.approx(s[:, 2] / s[:, 0])
+    assert path.inverse_condition == pytest.approx(s[:, 2] / s[:, 0])
     (near,) = path.near_singular
-    assert near == Stretch(1, 2, "", 2, path.regularity[2], NEAR_SINGULAR)
+    assert near == PathInterval(1, 2, "", 2, path.inverse_condition[2], NEAR_SINGULAR)
     rotation = followed(q, task="rotation")
-    assert rotation.regularity == pytest.approx(
+    assert rotation.inverse_condition == pytest.approx(
         np.zeros(4)
     )  # three numbers, and the arm turns about one axis alone
     whole = np.linalg.svd(
         ARM.jacobian(q, "hybrid") / np.repeat([1, ARM.reach], 3)[:, None], compute_uv=False
     )
-    assert followed(q, task="pose").regularity == pytest.approx(whole[:, 2] / whole[:, 0])
+    assert followed(q, task="pose").inverse_condition == pytest.approx(whole[:, 2] / whole[:, 0])
 
 
 def test_the_report_says_it_all_in_sentences():
@@ -145,9 +153,9 @@ def test_the_report_says_it_all_in_sentences():
     ]
     assert "in the way are those of 'lift'" in path.why(3)
     assert str(path) == "\n".join(path.sentences())
-    assert repr(path) == "<Followed 4 of 7 poses, largest step 0.6, 1 change of branch>"
+    assert repr(path) == "<PathResult 4 of 7 poses, largest step 0.6, 1 change of branch>"
     assert repr(followed(q[:2], changes=[1, 2])).endswith(", 2 changes of branch>")
-    assert repr(followed(q[:2])) == "<Followed 2 of 2 poses, largest step 0.1>"
+    assert repr(followed(q[:2])) == "<PathResult 2 of 2 poses, largest step 0.1>"
     with pytest.raises(IndexError):
         path.why(7)
 

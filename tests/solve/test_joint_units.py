@@ -7,8 +7,8 @@ import pytest
 
 import poekin as pk
 from poekin.solve.ik.ik import ik
-from poekin.solve.ik.joint_units import MOST_TURNS, joint_units, period
 from poekin.solve.ik_all.ik_all import ik_all
+from poekin.solve.joint_units import MOST_TURNS, joint_units, period
 from poekin.solve.path.follow import follow
 
 UR5E = pk.load("ur5e").chain(tip="tool0")
@@ -61,7 +61,7 @@ def test_ik_finds_the_same_joints_in_every_unit(name, options, scale):
     np.testing.assert_allclose(found.q[1:] / sizes, expected.q[1:], rtol=0, atol=1e-6)
     np.testing.assert_array_equal(found.reason, expected.reason)
     np.testing.assert_array_equal(found.iterations[1:], expected.iterations[1:])
-    assert found.blocked == expected.blocked
+    assert found.limits_hit == expected.limits_hit
     lower, upper = other.limits.T
     assert options or ((found.q >= lower) & (found.q <= upper)).all()
     at = other.fk(found.q[found.success])
@@ -94,8 +94,8 @@ def test_a_secondary_aim_and_the_nearest_are_the_same_in_every_unit(name, scale)
     expected, found = ik(arm, T, nearest_to=near), ik(other, T, nearest_to=near * sizes)
     np.testing.assert_allclose(found.q / sizes, expected.q, rtol=0, atol=1e-6)
     for aim in ("middle", "nearest", "manipulability"):
-        expected = ik(arm, T, q0=q0, aim=aim, task=task)
-        found = ik(other, T, q0=q0 * sizes, aim=aim, task=task)
+        expected = ik(arm, T, q0=q0, secondary_objective=aim, task=task)
+        found = ik(other, T, q0=q0 * sizes, secondary_objective=aim, task=task)
         np.testing.assert_allclose(found.q / sizes, expected.q, rtol=0, atol=1e-4)
 
 
@@ -159,8 +159,8 @@ def test_follow_goes_the_same_way_in_every_unit(scale):
         expected = follow(PANDA, T, q0=start)
         found = follow(other, T, q0=None if start is None else start * sizes)
         np.testing.assert_allclose(found.q / sizes, expected.q, rtol=0, atol=1e-6)
-        assert found.changes == expected.changes
-        np.testing.assert_allclose(found.regularity, expected.regularity, rtol=1e-3)
+        assert found.branch_switches == expected.branch_switches
+        np.testing.assert_allclose(found.inverse_condition, expected.inverse_condition, rtol=1e-3)
         assert found.ok
     steps = follow(other, T, q0=q[0] * sizes, max_step=0.1 * np.abs(sizes))
     np.testing.assert_array_equal(steps.q, follow(other, T, q0=q[0] * sizes, max_step=0.1).q)
@@ -181,8 +181,8 @@ def test_follow_changes_its_branch_and_comes_as_near_in_every_unit(start, scale)
     q0 = None if start is None else np.array(start)
     expected = follow(arm, T, q0=q0, task="position")
     found = follow(other, T, q0=None if q0 is None else q0 * sizes, task="position")
-    assert found.changes == expected.changes
-    assert bool(found.changes) == (start is not None)
+    assert found.branch_switches == expected.branch_switches
+    assert bool(found.branch_switches) == (start is not None)
     np.testing.assert_array_equal(found.reason, expected.reason)
     assert set(found.reason) == {"solved", "unreachable"}
     np.testing.assert_allclose(found.q / sizes, expected.q, rtol=0, atol=1e-6)

@@ -1,0 +1,215 @@
+"""Inverse kinematics of one arm, asked in one way: all that does not change between targets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...engine.jit import threads
+from ...engine.kernels import ik_codes as codes
+from ...errors import InputError, safe_repr
+from ...groups.arrays import Array, numbers
+from ...model.chain import Chain
+from ...model.kinematics.compiled import CompiledChain
+from ..chain_cache import ChainCache
+from ..joint_units import joint_units
+from .joint_domain import JointDomain, make_joint_domain
+from .task import Task, check_joints, make_task
+
+STEPS = 800_000
+"""Most steps of one call of a kernel, which no interrupt ends: some tenths of a second."""
+
+MARGIN = 0.9
+"""Share of a tolerance that the kernel solves to: the errors are computed anew by other kernels,
+whose rounding is another."""
+
+SHARED = 256
+"""Most targets that a thread takes at a time."""
+
+
+class Settings(NamedTuple):
+    """What `ik` is asked, but for the targets and where to begin; arrays as tuples."""
+
+    task: Any
+    axis: Any
+    limits: Any
+    tol_position: Any
+    tol_rotation: Any
+    lock: Any
+    weights: Any
+    restarts: Any
+    iterations: Any
+    seed: Any
+    parallel: Any
+
+
+def hashable(values: Any, what: str) -> Any:
+    """Tuple of a user's array, to be part of a key; `make_task` refuses what is no vector."""
+    if isinstance(values, (list, tuple, np.ndarray)):
+        values = numbers(values, what)
+        return tuple(values.tolist()) if values.ndim == 1 else values
+    return values
+
+
+def items(lock: Any) -> Any:
+    """Names and values of a user's dict, to be part of a key. Raises: InputError."""
+    if lock is not None and not isinstance(lock, Mapping):
+        raise InputError(f"lock: expected a dict of names and values, got {safe_repr(lock)}")
+    return None if lock is None else tuple(lock.items())
+
+
+def compiled(chain: Chain | CompiledChain, what: str) -> CompiledChain:
+    """Compiled chain of a function's first argument. Raises: InputError."""
+    if isinstance(chain, CompiledChain):
+        return chain
+    if isinstance(chain, Chain):
+        return chain.compile()
+    raise InputError(f"{what}: expected a Chain, got {safe_repr(chain)}")
+
+
+class Problem:
+    """Task, domain of the joints and kernel options of one arm, in joint units (`joint_units`).
+
+    Attributes: settings; given, the user's chain; units; fast, the compiled chain in joint units;
+    task; domain; locked (m,), 1 where a coordinate keeps its value; options, as the kernels take
+    them.
+    """
+
+    def __init__(self, fast: CompiledChain, settings: Settings):
+        _check_numbers(settings)
+        from ...engine.kernels import ik_kernels  # imports Numba
+
+        self.settings = settings
+        self.given = fast.chain
+        self.units = joint_units(fast)
+        self.fast = self.units.fast
+        self.task: Task = make_task(settings.task, settings.axis, settings.weights)
+        self.domain: JointDomain = make_joint_domain(self.units, settings.lock, settings.limits)
+        check_joints(self.fast.chain, self.task, int((~self.domain.locked).sum()))
+        self.locked = self.domain.locked.astype(float)
+        self.options = _options(settings, self.task)
+        self._solve = ik_kernels.solve_many
+        self._judge = ik_kernels.judge
+        self._address = self.fast.hybrid_address
+        self._rows = _rows(settings.restarts, settings.iterations)
+
+    def coordinates(self, u: Array) -> Array:
+        """The user's coordinates q (..., m) of joint units u (..., m)."""
+        scale = self.units.scale
+        if scale is None:
+            return u
+        q = self.units.coordinates(u, self.given.limits) if self.settings.limits else u / scale
+        for name, value in self.settings.lock or ():  # to the last digit
+            k = self.given.q_names.index(name)
+            q[..., k] = np.where(np.isnan(q).any(axis=-1), np.nan, value)
+        return q
+
+    def pose_errors(self, targets: Array, q: Array) -> tuple[Array, np.ndarray]:
+        """Errors of q (N, 2) in m and rad by the kernels of any chain; whether the tolerances
+        hold (N,).
+        """
+        errors = np.empty((len(q), 2))
+        self._judge.call(self.given._table, q, targets, self.task.code, self.task.axis, errors)
+        near = errors[:, 0] <= self.settings.tol_position
+        aligned = errors[:, 1] <= self.settings.tol_rotation
+        return errors, near & aligned
+
+    def solve(
+        self,
+        targets: Array,
+        indices: Array,
+        q0: Array,
+        *,
+        restarts: int | None = None,
+        limits: Array | None = None,
+        ranges: Array | None = None,
+    ) -> tuple[Array, Array]:
+        """q and info of targets, whose indices in the batch are given, from q0; NaN there means
+        anywhere.
+        """
+        options = self.options
+        rows = self._rows
+        if restarts is not None:
+            options = options.copy()
+            options[codes.RESTARTS] = restarts
+            rows = _rows(restarts, self.settings.iterations)
+        q = np.empty((len(targets), self.fast.dof))
+        info = np.empty((len(targets), codes.INFO))
+        limits = self.domain.limits if limits is None else limits
+        ranges = self.domain.ranges if ranges is None else ranges
+        kernel = self._solve
+        address = self._address
+        locked = self.locked
+        seed = self.settings.seed
+        if len(targets) <= rows:
+            kernel.call(
+                address, targets, q0, limits, ranges, locked, options, indices, seed, q, info
+            )
+            return q, info
+
+        def run(targets: Array, q0: Array, indices: Array, q: Array, info: Array) -> None:
+            kernel.call(
+                address, targets, q0, limits, ranges, locked, options, indices, seed, q, info
+            )
+
+        arrays = (targets, q0, indices, q, info)
+        if self.settings.parallel:
+            threads.share_out(run, *arrays, rows=min(rows, SHARED))
+        else:
+            for start in range(0, len(targets), rows):
+                run(*(a[start : start + rows] for a in arrays))
+        return q, info
+
+
+_PROBLEMS: ChainCache[Problem] = ChainCache()
+
+
+def make_problem(fast: CompiledChain, settings: Settings) -> Problem:
+    """Problem of an arm with these settings, made once and kept. Raises: InputError, UnknownName,
+    ShapeError.
+    """
+    # 1 == True, and 100.0 == 100: settings of another type must not be found
+    key = (settings, *map(type, settings))
+    try:
+        kept = _PROBLEMS.get(fast, key)
+    except TypeError:  # no number, and so no key: the checks say what it is
+        kept = None
+    return _PROBLEMS.keep(fast, Problem(fast, settings), key) if kept is None else kept
+
+
+def _options(settings: Settings, task: Task) -> Array:
+    options = np.zeros(codes.OPTIONS)
+    options[codes.TOL_POSITION] = MARGIN * settings.tol_position
+    options[codes.TOL_ROTATION] = MARGIN * settings.tol_rotation
+    options[codes.ITERATIONS] = settings.iterations
+    options[codes.RESTARTS] = settings.restarts
+    options[codes.TASK] = task.code
+    options[codes.AXIS : codes.AXIS + 3] = task.axis
+    options[codes.WEIGHTS :] = task.weights
+    return options
+
+
+def _rows(restarts: int, iterations: int) -> int:
+    """Number of targets of one call of a kernel."""
+    return int(max(STEPS // ((restarts + 1) * iterations), 1))
+
+
+def _check_numbers(settings: Settings) -> None:
+    for what in ("tol_position", "tol_rotation"):
+        tol = getattr(settings, what)
+        real = isinstance(tol, (int, float, np.integer, np.floating)) and not isinstance(tol, bool)
+        if not real or not 0 < tol < np.inf:
+            raise InputError(f"{what}: expected a positive number, got {safe_repr(tol)}")
+    for what, least in (("restarts", 0), ("iterations", 1), ("seed", 0)):
+        number = getattr(settings, what)
+        whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
+        if not whole or not least <= number < 2**62:
+            raise InputError(
+                f"{what}: expected a whole number from {least} on, got {safe_repr(number)}"
+            )
+    for what in ("limits", "parallel"):
+        value = getattr(settings, what)
+        if not isinstance(value, (bool, np.bool_)):
+            raise InputError(f"{what}: expected True or False, got {safe_repr(value)}")

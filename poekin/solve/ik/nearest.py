@@ -1,0 +1,57 @@
+"""Solutions nearest to a given configuration, of several tries for each target."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from ...engine.kernels import ik_codes as codes
+from ...groups.arrays import Array
+from .ik_problem import Problem
+
+NEAREST_OF = 48
+"""Number of tries for each target after the first."""
+
+NEAREST_TRIES = tuple(itertools.product((True, False), repeat=2))
+"""Whether each of them is made with limits, and whether it starts not far away; they take turns.
+More of those without limits arrive, and many of these within the limits but for whole turns."""
+
+CLOSE = 0.25
+"""Share of the way to a random start at which a try that starts not far away begins."""
+
+
+def nearest(
+    problem: Problem, targets: Array, indices: Array, q0: Array, near: Array
+) -> tuple[Array, Array]:
+    """q and info of the solution nearest to the configuration `near`, for each target.
+
+    The first try starts from q0 or, where that is anywhere, from `near` within the limits.
+    """
+    domain = problem.domain
+    within = np.where(domain.locked, domain.locked_values, np.clip(near, *domain.limits.T))
+    q, kept = problem.solve(targets, indices, np.where(np.isnan(q0), within, q0))
+    best = domain.wrapped(q, near)
+    distance = _distance(best, near, kept)
+    rng = np.random.default_rng(problem.settings.seed)
+    low, high = domain.ranges.T
+    anywhere = np.full_like(domain.limits, [-np.inf, np.inf])
+    for limited, close in itertools.islice(itertools.cycle(NEAREST_TRIES), NEAREST_OF):
+        start = np.where(domain.locked, within, low + (high - low) * rng.random(near.shape))
+        if close:
+            start = within + CLOSE * (start - within)
+        limits = None if limited else anywhere
+        other, info = problem.solve(targets, indices, start, restarts=0, limits=limits)
+        other = domain.wrapped(other, near)
+        far = np.where(domain.contains(other), _distance(other, near, info), np.inf)
+        nearer = far < distance
+        best[nearer] = other[nearer]
+        distance[nearer] = far[nearer]
+        kept[:, codes.AT_ITERATIONS] += info[:, codes.AT_ITERATIONS]
+    return best, kept
+
+
+def _distance(q: Array, near: Array, info: Array) -> Array:
+    """Distance of solutions from a configuration; infinite where there is no solution."""
+    solved = info[:, codes.AT_STATE] == codes.SOLVED
+    return np.where(solved, np.linalg.norm(q - near, axis=1), np.inf)

@@ -1,0 +1,297 @@
+"""Joints along a path, and a report of where it was hard or impossible."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from ...analysis.dexterity.manipulability import scaled, svd
+from ...analysis.dexterity.singularity import singularity
+from ...errors import quote
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ..ik.diagnosis import AT_LIMIT
+from ..ik.solution import BAD_TARGET, Solution
+from ..ik.task import Task
+from ..joint_units import joint_units
+from ..motion.csv_io import write_joints
+from ..motion.plot import plot_joints
+
+NEAR_SINGULAR = 1e-2
+"""Smallest ÷ largest singular value of the Jacobian, lengths ÷ reach, below which a singularity is
+met: the rates of some joints are then some hundred times those of others."""
+
+
+class PathInterval(NamedTuple):
+    """Points first ... last of a path: name, of the coordinate ("" for all of them together);
+    value, the worst of them, at the point `worst`; bound, which it is compared with.
+    """
+
+    first: int
+    last: int
+    name: str
+    worst: int
+    value: float
+    bound: float
+
+
+@dataclass(frozen=True, eq=False)
+class PathResult:
+    """Joints along a path of N poses, as `follow` finds them, and a report about them.
+
+    chain; solution, of all poses: `q` (N, m), rad or m, `success`, `reason`, `position_error`,
+    `rotation_error` (N,) are also attributes here; branch_switches, the numbers of the poses before
+    which the branch changed, so that q jumps; task, what the poses ask for; limits (m, 2); times (N,), s,
+    speed and acceleration, limits (m,), where they were given. `print` of it says all of this in
+    words.
+    """
+
+    chain: Chain
+    solution: Solution
+    branch_switches: tuple[int, ...]
+    task: Task
+    limits: Array
+    times: Array | None
+    speed: Array | None
+    acceleration: Array | None
+
+    @property
+    def q(self) -> Array:
+        """(N, m), rad or m; where `success` is False, the nearest that was found; NaN for a bad
+        target.
+        """
+        return self.solution.q
+
+    @property
+    def success(self) -> np.ndarray:
+        """(N,): the pose of q is the target within the tolerances."""
+        return self.solution.success
+
+    @property
+    def reason(self) -> np.ndarray:
+        """(N,): one of `solution.REASONS`."""
+        return self.solution.reason
+
+    @property
+    def position_error(self) -> Array:
+        """(N,), m, by `Chain.fk`."""
+        return self.solution.position_error
+
+    @property
+    def rotation_error(self) -> Array:
+        """(N,), rad, by `Chain.fk`."""
+        return self.solution.rotation_error
+
+    @property
+    def ok(self) -> bool:
+        """Whether the arm can do it: every pose solved, no change of branch, speed and acceleration
+        within limits.
+        """
+        return bool(self.success.all()) and not (
+            self.branch_switches or self.speed_violations or self.acceleration_violations
+        )
+
+    @cached_property
+    def steps(self) -> Array:
+        """(N - 1,): largest change of a coordinate from each point to the next, rad or m."""
+        return np.abs(np.diff(self.q, axis=0)).max(axis=1, initial=0.0)
+
+    @property
+    def largest_step(self) -> float:
+        """The largest of `steps`, changes of branch among them; 0 for a single pose."""
+        return float(np.nanmax(self.steps, initial=0.0))
+
+    @cached_property
+    def rates(self) -> Array | None:
+        """(N - 1, m): (q_{k+1} - q_k) / (t_{k+1} - t_k), the mean rate between two points; None
+        without times.
+        """
+        if self.times is None:
+            return None
+        return np.diff(self.q, axis=0) / np.diff(self.times)[:, None]
+
+    @cached_property
+    def accelerations(self) -> Array | None:
+        """(N - 2, m): differences of `rates` ÷ the time from the middle of one step to that of the
+        next.
+
+        An error of 1e-9 in q is 4e-9 / dt^2 here.
+        """
+        if self.times is None or self.rates is None:
+            return None
+        middles = 0.5 * (self.times[1:] + self.times[:-1])
+        return np.diff(self.rates, axis=0) / np.diff(middles)[:, None]
+
+    @cached_property
+    def at_limits(self) -> tuple[PathInterval, ...]:
+        """Intervals in which a coordinate is at its limit: `worst` is the first point, `bound` the
+        limit.
+        """
+        found = []
+        for k, name in enumerate(self.chain.q_names):
+            for bound in self.limits[k]:
+                if np.isfinite(bound):
+                    q = self.q[:, k]
+                    off = np.abs(q - bound)
+                    found += _intervals(_Values(q, -off, bound, name), off <= AT_LIMIT)
+        return tuple(sorted(found))
+
+    @cached_property
+    def speed_violations(self) -> tuple[PathInterval, ...]:
+        """Intervals in which |rates| is above the limit of speed, at the first point of a step."""
+        return self._above(self.rates, self.speed, 0)
+
+    @cached_property
+    def acceleration_violations(self) -> tuple[PathInterval, ...]:
+        """Intervals in which |accelerations| is above the limit, at the point between two steps."""
+        return self._above(self.accelerations, self.acceleration, 1)
+
+    @cached_property
+    def inverse_condition(self) -> Array:
+        """(N,): smallest ÷ largest singular value of the Jacobian of what the task asks, in rad and
+        m of the joints, lengths ÷ reach; 0: singular.
+
+        Computed when it is first asked for, which takes longer than to follow the path.
+        """
+        units = joint_units(self.chain.compile())
+        T, J = units.fast.chain.fk_jacobian(units.of(self.q), "hybrid")
+        J = self.task.jacobian(T, J)
+        s = svd(scaled(J, -2, self._part(), self.chain.reach))[1]
+        last = min(self.task.constrained_dof, self.chain.dof) - 1
+        return np.divide(s[..., last], s[..., 0], out=np.zeros(len(s)), where=s[..., 0] != 0)
+
+    @cached_property
+    def near_singular(self) -> tuple[PathInterval, ...]:
+        """Intervals in which `inverse_condition` is below 0.01."""
+        value = self.inverse_condition
+        values = _Values(value, -value, NEAR_SINGULAR)
+        return tuple(_intervals(values, value < NEAR_SINGULAR))
+
+    def why(self, k: int) -> str:
+        """Reason of pose k in words. Raises: IndexError."""
+        return self.solution.why(range(len(self.q))[k])
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write q, and times where there are any, as `motion.read_joints` reads it. Raises:
+        FileError.
+        """
+        write_joints(path, self.q, self.chain, times=self.times)
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> str:
+        """Joints over time as SVG text, and into a file; as `motion.plot_joints`. Raises as it."""
+        breaks = self.branch_switches
+        return plot_joints(self.q, self.chain, times=self.times, breaks=breaks, path=path)
+
+    def sentences(self) -> list[str]:
+        """Report, a sentence each."""
+        return [
+            self._reached(),
+            *self._failures(),
+            *map(self._switch, self.branch_switches),
+            *(f"{_points(s)}: {quote(s.name)} at its limit {s.bound:.6g}" for s in self.at_limits),
+            *(_exceeds(s, "speed", "s") for s in self.speed_violations),
+            *(_exceeds(s, "acceleration", "s^2") for s in self.acceleration_violations),
+            *map(self._singular, self.near_singular),
+        ]
+
+    def __str__(self) -> str:
+        return "\n".join(self.sentences())
+
+    def __repr__(self) -> str:
+        count = len(self.branch_switches)
+        changed = f", {count} change{'s' * (count > 1)} of branch" if count else ""
+        solved = f"{int(self.success.sum())} of {len(self.q)} poses"
+        return f"<PathResult {solved}, largest step {self.largest_step:.3g}{changed}>"
+
+    def _reached(self) -> str:
+        position = float(np.max(self.position_error[self.success], initial=0.0))
+        rotation = float(np.max(self.rotation_error[self.success], initial=0.0))
+        return (
+            f"{int(self.success.sum())} of {len(self.q)} poses reached, "
+            f"within {1e3 * position:.2g} mm and {1e3 * rotation:.2g} mrad; "
+            f"largest step {self.largest_step:.3g} (rad or m)"
+        )
+
+    def _failures(self) -> list[str]:
+        """Sentence for each run of poses that are not reached, bad targets apart."""
+        size = np.nan_to_num(self.position_error + self.rotation_error)
+        bad = self.reason == BAD_TARGET
+        said = []
+        for first, last in sorted(_runs(bad) + _runs(~self.success & ~bad)):
+            worst = first + int(np.argmax(size[first : last + 1]))
+            interval = PathInterval(first, last, "", worst, float(size[worst]), 0.0)
+            where = "" if first == last else f", least of all {worst}"
+            said.append(f"{_points(interval)} not reached{where}: {self.why(worst)}")
+        return said
+
+    def _switch(self, k: int) -> str:
+        before = int(np.flatnonzero(np.isfinite(self.q[:k]).all(axis=1))[-1])
+        jump = np.abs(self.q[k] - self.q[before])
+        return (
+            f"the branch changes before pose {k}: no way on from pose {before}; the joints jump by "
+            f"{jump.max():.3g}, most of it in {quote(self.chain.q_names[int(np.argmax(jump))])}"
+        )
+
+    def _singular(self, s: PathInterval) -> str:
+        words = singularity(self.chain, self.q[s.worst], part=self._part()).words
+        return f"{_points(s)}: near a singularity, most at {s.worst}: {words}"
+
+    def _part(self) -> str:
+        return {"position": "translation", "rotation": "rotation"}.get(self.task.name, "pose")
+
+    def _above(
+        self, values: Array | None, bounds: Array | None, shift: int
+    ) -> tuple[PathInterval, ...]:
+        """Intervals in which values are above their bounds; value number i belongs to point i +
+        shift.
+        """
+        if values is None or bounds is None:
+            return ()
+        found = []
+        for k, name in enumerate(self.chain.q_names):
+            size = np.abs(values[:, k])
+            found += _intervals(_Values(size, size, bounds[k], name), size > bounds[k], shift)
+        return tuple(sorted(found))
+
+
+class _Values(NamedTuple):
+    """Values along a path, how bad each is, and the bound that they are compared with."""
+
+    values: Array
+    badness: Array
+    bound: float
+    name: str = ""
+
+
+def _intervals(of: _Values, mask: np.ndarray, shift: int = 0) -> list[PathInterval]:
+    """Interval for each run of True, shifted; the worst point of it is where the badness is
+    largest.
+    """
+    found = []
+    for first, last in _runs(mask):
+        worst = first + int(np.argmax(of.badness[first : last + 1]))
+        value = float(of.values[worst])
+        place = (first + shift, last + shift, of.name, worst + shift)
+        found.append(PathInterval(*place, value, float(of.bound)))
+    return found
+
+
+def _runs(mask: np.ndarray) -> list[tuple[int, int]]:
+    """First and last index of each run of True."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
+    return [(int(a), int(b) - 1) for a, b in edges.reshape(-1, 2)]
+
+
+def _exceeds(s: PathInterval, what: str, unit: str) -> str:
+    return (
+        f"{_points(s)}: {quote(s.name)} exceeds its {what}, "
+        f"{s.value:.4g} of {s.bound:.4g} (rad or m)/{unit} at {s.worst}"
+    )
+
+
+def _points(s: PathInterval) -> str:
+    return f"pose {s.first}" if s.first == s.last else f"poses {s.first} to {s.last}"

@@ -1,0 +1,57 @@
+"""The solution nearest to a configuration: from where it is looked for, and by what distance."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.engine.kernels import ik_codes as codes
+from poekin.solve.ik import nearest
+from poekin.solve.ik.ik_problem import Settings, make_problem
+
+ARM = pk.load("ur5").chain().compile()
+GIVEN = Settings("pose", None, True, 1e-9, 2e-9, None, None, 7, 30, 3, False)
+
+
+def test_a_distance_is_that_of_solutions_alone():
+    q, near, info = np.array([[3.0, 4], [1, 0]]), np.zeros(2), np.zeros((2, codes.INFO))
+    info[:, codes.AT_STATE] = codes.SOLVED, codes.STALLED
+    assert nearest._distance(q, near, info).tolist() == [5, np.inf]
+
+
+@pytest.mark.parametrize("lock", [None, (("elbow_joint", 0.5),)])
+def test_the_nearest_is_looked_for_with_limits_and_without_from_near_and_from_anywhere(
+    lock, monkeypatch
+):
+    made = make_problem(ARM, GIVEN._replace(task="position", seed=5, lock=lock))
+    near = np.tile([0.1, -1.0, 1.2, 0.4, 0.9, -0.3], (2, 1))
+    asked = []
+
+    def solve(targets, indices, q0, *, restarts=None, limits=None):
+        asked.append((q0, restarts, limits))
+        q, info = np.full_like(q0, 9.0), np.zeros((2, codes.INFO))
+        info[:, codes.AT_STATE] = codes.STALLED
+        info[:, codes.AT_ITERATIONS] = 1
+        return q, info
+
+    monkeypatch.setattr(made, "solve", solve)
+    targets, anywhere = np.tile(np.eye(4), (2, 1, 1)), np.full((2, 6), np.nan)
+    _, info = nearest.nearest(made, targets, np.arange(2.0), anywhere, near)
+    assert info[:, codes.AT_ITERATIONS].tolist() == [49, 49]
+    first, *others = asked
+    begin = np.where(made.domain.locked, made.domain.locked_values, near)
+    np.testing.assert_array_equal(first[0], begin)
+    assert first[1:] == (None, None)
+    assert len(others) == 48
+    rng = np.random.default_rng(5)
+    low, high = made.domain.ranges.T
+    for k, (q0, restarts, limits) in enumerate(others):
+        start = np.where(made.domain.locked, begin, low + (high - low) * rng.random((2, 6)))
+        close = k % 2 == 0
+        np.testing.assert_allclose(
+            q0, begin + 0.25 * (start - begin) if close else start, atol=1e-15
+        )
+        assert restarts == 0
+        assert (limits is None) == (k % 4 < 2)
+        assert limits is None or np.array_equal(limits, np.tile([-np.inf, np.inf], (6, 1)))
