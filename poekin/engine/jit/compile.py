@@ -64,6 +64,7 @@ def _register() -> None:
 OPTIONS: dict = {"error_model": "numpy", "fastmath": {"contract"}}
 # Called once for each element of a batch: as functions of their own they would cost a third more.
 _INLINED = (arctangent, compensated, exponential, logarithm, quaternion)
+_ENGINE = "poekin.engine."
 _registered: set[str] = set()
 
 
@@ -76,12 +77,18 @@ def _register_functions(module) -> None:
                 register_jitable(forceinline=module in _INLINED)(function)
 
 
-def _used_by(module):
-    """A module of kernels, and those of the engine whose plain functions it has imported."""
-    yield module
-    for value in list(vars(module).values()):
-        if inspect.isfunction(value) and value.__module__.startswith(f"{__package__}."):
-            yield sys.modules[value.__module__]
+def modules_used(module):
+    """A module of kernels, and those of the engine whose plain functions it calls, itself or by
+    others.
+    """
+    found = [module]
+    for used in found:
+        for value in list(vars(used).values()):
+            if inspect.isfunction(value) and value.__module__.startswith(_ENGINE):
+                imported = sys.modules[value.__module__]
+                if imported not in found:
+                    found.append(imported)
+    return found
 
 
 def array_type(code: str):
@@ -108,7 +115,7 @@ def compiled(function, arguments: str, returns: str = "", quick: bool = False, b
     """
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
-    for module in _used_by(sys.modules[function.__module__]):
+    for module in modules_used(sys.modules[function.__module__]):
         _register_functions(module)
     dispatcher = numba.njit(nogil=not (quick or bare), **OPTIONS)(function)
     dispatcher._cache = KernelCache(function.__name__)  # type: ignore[attr-defined]

@@ -10,9 +10,17 @@ import pytest
 from numba.core import types
 
 import poekin as pk
-from poekin.engine.jit.compile import array_type
+from poekin.engine.jit.compile import array_type, modules_used
 from poekin.engine.jit.kernel import Kernel
-from poekin.engine.kernels import chain_kernels, group_kernels, tree_kernels
+from poekin.engine.kernels import (
+    arm_kernels,
+    chain_kernels,
+    follow_kernels,
+    group_kernels,
+    ik_all_kernel,
+    ik_kernels,
+    tree_kernels,
+)
 
 ARM = pk.load("panda").chain(tip="panda_hand")
 Q = np.random.default_rng(0).normal(size=(6, 7))
@@ -126,3 +134,23 @@ def test_the_code_of_an_argument_says_what_it_is_and_how_many_axes_it_has():
         assert array_type(code) == types.Array(element, axes, "A", readonly=True, aligned=False)
     for axes in (1, 5):
         assert array_type(f"w{axes}") == types.Array(types.float64, axes, "C")
+
+
+@pytest.mark.parametrize(
+    ("module", "others"),
+    [
+        (chain_kernels, []),
+        (ik_kernels, [arm_kernels, chain_kernels]),
+        (follow_kernels, [ik_kernels, arm_kernels, chain_kernels]),
+        (ik_all_kernel, [ik_kernels, arm_kernels, chain_kernels]),
+    ],
+    ids=lambda x: getattr(x, "__name__", ""),
+)
+def test_a_kernel_may_be_the_first_one_that_is_compiled(module, others):
+    """The functions that it calls are known to the compiler, those that these call as well."""
+    used = modules_used(module)
+    assert set(used) & {arm_kernels, chain_kernels, follow_kernels, ik_kernels} == {
+        *others,
+        *({module} - {ik_all_kernel}),
+    }
+    assert len(used) == len(set(used))
