@@ -60,7 +60,9 @@ def _of_cosmic_ray(path: str) -> list[Mutant]:
 
 
 def test_the_text_of_a_mutant_is_that_of_cosmic_ray():
-    modules = random.Random(5).sample([path for path in SOURCES if 500 < len(SOURCES[path]) < 4000], 8)
+    modules = random.Random(5).sample(
+        [path for path in SOURCES if 500 < len(SOURCES[path]) < 4000], 8
+    )
     drawn = [
         m
         for path in modules
@@ -81,9 +83,14 @@ def test_every_change_that_runs_is_a_mutant_and_nothing_else_is():
     assert {new for _, line, new in found if line == 7} == {
         f"def f(a: int | None, *rest: int, b: float = {sign}1.0, **more: str) -> int | str:"
         for sign in ("+", "~", "not ", "")
-    } | {f"def f(a: int | None, *rest: int, b: float = - {x}, **more: str) -> int | str:" for x in ("2.0", "0.0")}
+    } | {
+        f"def f(a: int | None, *rest: int, b: float = - {x}, **more: str) -> int | str:"
+        for x in ("2.0", "0.0")
+    }
     assert ("core/RemoveDecorator", 6) in {(operator, line) for operator, line, _ in found}
-    assert ("core/ReplaceContinueWithBreak", 12) in {(operator, line) for operator, line, _ in found}
+    assert ("core/ReplaceContinueWithBreak", 12) in {
+        (operator, line) for operator, line, _ in found
+    }
     assert ("core/ZeroIterationForLoop", 10) in {(operator, line) for operator, line, _ in found}
 
 
@@ -97,22 +104,45 @@ def test_without_the_future_import_annotations_run_and_are_changed():
 def test_a_length_that_numpy_takes_for_whatever_is_left_is_no_mutant():
     assert {m.new for m in mutants_of("f.py", "a = b.reshape(-1, 2)\n")} == {
         f"a = b.reshape({first}, {second})"
-        for first, second in (("+1", 2), ("not 1", 2), ("1", 2), ("- 0", 2), ("-1", "1"), ("-1", "3"))
+        for first, second in (
+            ("+1", 2),
+            ("not 1", 2),
+            ("1", 2),
+            ("- 0", 2),
+            ("-1", "1"),
+            ("-1", "3"),
+        )
     }
+
+
+def test_a_number_at_the_begin_of_a_line_is_told_with_the_line_that_it_joins():
+    found = {(m.line, m.old, m.new) for m in mutants_of("f.py", "a = f(\n    35,\n    b,\n)\n")}
+    assert found == {(1, "a = f(", "a = f( 36,"), (1, "a = f(", "a = f( 34,")}
 
 
 def test_two_changes_that_give_the_same_text_count_once():
     some = [m for path in SOURCES if room(path) == "groups" for m in of(path)]
     assert len({m.key for m in some}) == len(some)
-    assert len({(m.path, m.applied(SOURCES[m.path])) for m in of(names.module("formulas/defect"))}) == 84
+    assert (
+        len({(m.path, m.applied(SOURCES[m.path])) for m in of(names.module("formulas/defect"))})
+        == 84
+    )
 
 
 def test_every_module_of_the_package_is_changed():
-    assert set(SOURCES) == {file.relative_to(ROOT).as_posix() for file in (ROOT / "poekin").rglob("*.py")}
+    assert set(SOURCES) == {
+        file.relative_to(ROOT).as_posix() for file in (ROOT / "poekin").rglob("*.py")
+    }
     rooms = {folder.name for folder in (ROOT / "poekin").iterdir() if list(folder.glob("*.py"))}
     assert {room(path) for path in SOURCES} == {*rooms, "errors"}
     assert set(sample.BARS) <= rooms
-    for part in ("algebra", "formulas/logarithm", "groups/se3", "formats/urdf", "engine/ik_kernels"):
+    for part in (
+        "algebra",
+        "formulas/logarithm",
+        "groups/se3",
+        "formats/urdf",
+        "engine/ik_kernels",
+    ):
         assert len(of(names.module(part))) > 200
 
 
@@ -126,7 +156,11 @@ def f(a, b):
 
 
 def test_a_message_loses_a_field_swaps_two_and_counts_one_more():
-    found = {(m.operator.split("/")[1], m.new) for m in mutants_of("f.py", SAID) if m.operator.startswith("messages/")}
+    found = {
+        (m.operator.split("/")[1], m.new)
+        for m in mutants_of("f.py", SAID)
+        if m.operator.startswith("messages/")
+    }
     rest = '"of7", b"of 7 bytes", r"of 7 \\d", "%7d of")'
     assert found == {
         ("FieldRemover", 'print(f"joint  of {b:.3f} m, at most 7 of them")'),
@@ -161,7 +195,9 @@ def test_an_entry_names_its_mutant_and_one_that_does_not_is_stale():
     (hit,) = (m for m in mutants if m.new == "x * 4  # a comment, 7")
     entries = equivalent.entries(ENTRY.replace("*  4", "* 4"))
     assert equivalent.listed(mutants, entries) == ({hit.key: "nobody looks"}, [])
-    assert equivalent.listed(mutants, equivalent.entries(ENTRY))[1][0].new == "x *  4  # a comment, 7"
+    assert (
+        equivalent.listed(mutants, equivalent.entries(ENTRY))[1][0].new == "x *  4  # a comment, 7"
+    )
 
 
 @pytest.mark.parametrize(
@@ -184,7 +220,9 @@ def files_of(words: list[str]) -> list[str]:
 
 def test_every_module_has_tests_that_exist():
     for path in SOURCES:
-        files = [file for part in (*suites.near(path), suites.whole(path)) for file in files_of(part)]
+        files = [
+            file for part in (*suites.near(path), suites.whole(path)) for file in files_of(part)
+        ]
         assert len(files) > 1
         assert [file for file in files if not (ROOT / file).exists()] == []
 
@@ -230,8 +268,13 @@ def test_a_name_is_that_of_the_one_file_of_its_stem_in_the_room(rooms):
     assert names.module("hall/b") == names.module("hall/deep/b") == "poekin/hall/deep/er/b.py"
     assert names.module("hall/low/c") == "poekin/hall/low/c.py"
     assert names.module("hall/er/") == "poekin/hall/deep/er"
-    assert names.argument("--deselect=hall/b::test_one") == "--deselect=tests/hall/deep/er/test_b.py::test_one"
-    with pytest.raises(ValueError, match=r"hall/c .* is poekin/hall/deep/c\.py, poekin/hall/low/c\.py$"):
+    assert (
+        names.argument("--deselect=hall/b::test_one")
+        == "--deselect=tests/hall/deep/er/test_b.py::test_one"
+    )
+    with pytest.raises(
+        ValueError, match=r"hall/c .* is poekin/hall/deep/c\.py, poekin/hall/low/c\.py$"
+    ):
         names.module("hall/c")
     with pytest.raises(ValueError, match=r"hall/c has to be one place below tests/, and is none$"):
         names.test("hall/c")
@@ -240,8 +283,14 @@ def test_a_name_is_that_of_the_one_file_of_its_stem_in_the_room(rooms):
 def test_of_a_table_the_longest_path_counts(rooms):
     table = {"hall/": "hall/a", "hall/b hall/a": "own hall/", "hall/deep/": "hall/b hall/a hall/b"}
     assert names.longest(table, "poekin/hall/low/c.py") == ["tests/hall/test_a.py"]
-    assert names.longest(table, "poekin/hall/deep/er/b.py") == ["tests/hall/deep/er/test_b.py", "tests/hall"]
-    assert names.longest(table, "poekin/hall/deep/c.py") == ["tests/hall/deep/er/test_b.py", "tests/hall/test_a.py"]
+    assert names.longest(table, "poekin/hall/deep/er/b.py") == [
+        "tests/hall/deep/er/test_b.py",
+        "tests/hall",
+    ]
+    assert names.longest(table, "poekin/hall/deep/c.py") == [
+        "tests/hall/deep/er/test_b.py",
+        "tests/hall/test_a.py",
+    ]
     assert names.longest(table, "poekin/hallway.py") == []
 
 
@@ -277,7 +326,9 @@ def test_a_mutant_finds_no_kernel_of_another(tmp_path):
             (Path(place) / "other").write_text("a mutant's")
             (Path(place) / "other").replace(Path(place) / "so3_log-1.kernel")
         assert not Path(place).exists()
-        assert {file.name: file.read_text() for file in known.iterdir()} == {"so3_log-1.kernel": "so3_log-1.kernel"}
+        assert {file.name: file.read_text() for file in known.iterdir()} == {
+            "so3_log-1.kernel": "so3_log-1.kernel"
+        }
     with kernels.offered(known, suites.Mode.INTERPRETED, tmp_path / "job") as place:
         assert place == ""
 
@@ -285,7 +336,9 @@ def test_a_mutant_finds_no_kernel_of_another(tmp_path):
 def test_a_mutant_of_the_engine_finds_no_kernel_that_it_is_compiled_into():
     assert suites.kernels_of(names.module("engine/arm")) == []
     own = set(suites.kernels_of(names.module("engine/follow_kernels")))
-    assert own == {name for name, value in vars(follow_kernels).items() if isinstance(value, Kernel)}
+    assert own == {
+        name for name, value in vars(follow_kernels).items() if isinstance(value, Kernel)
+    }
     assert own < set(suites.kernels_of(names.module("engine/ik_kernels")))  # which it calls
 
 
@@ -293,7 +346,9 @@ def test_every_kernel_of_the_engine_is_made_ready(monkeypatch):
     ready: set[str] = set()
     monkeypatch.setattr(Kernel, "ready", lambda self: ready.add(self.function.__name__))
     kernels.main()
-    assert ready == {name for path in SOURCES if room(path) == "engine" for name in suites.kernels_of(path)}
+    assert ready == {
+        name for path in SOURCES if room(path) == "engine" for name in suites.kernels_of(path)
+    }
 
 
 def test_of_this_user_s_cache_no_arm_s_code_is_taken(tmp_path, monkeypatch):
@@ -346,7 +401,9 @@ def run(root: Path, choose=lambda m: True, listed: frozenset[str] = frozenset())
     found: dict[str, str] = {}
     mutants = [m for m in mutants_of("poekin/calculator.py", CALCULATOR) if choose(m)]
     sources = {"poekin/calculator.py": CALCULATOR}
-    campaign = Campaign(root, root.parent / "copies", sources, set(listed), root.parent / "results.jsonl", False)
+    campaign = Campaign(
+        root, root.parent / "copies", sources, set(listed), root.parent / "results.jsonl", False
+    )
     campaign.run(mutants, 1, lambda m, outcome: found.update({m.new: str(outcome["outcome"])}))
     return found
 
@@ -354,15 +411,18 @@ def run(root: Path, choose=lambda m: True, listed: frozenset[str] = frozenset())
 def test_a_mutant_that_a_test_sees_is_caught_and_one_that_none_sees_survives(small):
     found = run(small, lambda m: m.line in (2, 8) or m.new in ("while n >= 0:", "while n != 0:"))
     assert (
-        found["return x * 3"] == found["return x + 2"] == found["return x << 2"] == found["while n >= 0:"] == "caught"
+        found["return x * 3"]
+        == found["return x + 2"]
+        == found["return x << 2"]
+        == found["while n >= 0:"]
+        == "caught"
     )
     assert found["while n != 0:"] == "passed"
     assert Counter(found.values())["passed"] == 1
     results = kept(small.parent / "results.jsonl")
     assert len(results) == len(found)
-    assert {outcome["by"] for outcome in results.values()} == {
-        "", "tests/test_calculator.py::test_double", "tests/test_calculator.py::test_forever"
-    }  # fmt: skip
+    tests = [f"tests/test_calculator.py::test_{name}" for name in ("double", "forever")]
+    assert {outcome["by"] for outcome in results.values()} == {"", *tests}
     assert (small / "poekin/calculator.py").read_text(encoding="utf-8") == CALCULATOR
 
 
@@ -378,8 +438,12 @@ def test_a_loop_without_an_end_is_ended(small, monkeypatch):
 
 
 def test_a_suite_that_fails_by_itself_proves_nothing(small):
-    (small / "tests" / "test_calculator.py").write_text(TESTS.replace("== 6", "== 7"), encoding="utf-8")
-    with pytest.raises(BrokenSuite, match=r"without any mutant tests/test_calculator.py::test_double: caught"):
+    (small / "tests" / "test_calculator.py").write_text(
+        TESTS.replace("== 6", "== 7"), encoding="utf-8"
+    )
+    with pytest.raises(
+        BrokenSuite, match=r"without any mutant tests/test_calculator.py::test_double: caught"
+    ):
         run(small)
 
 
@@ -390,7 +454,8 @@ def mutant(key: str, path: str = "a.py") -> Mutant:
 def test_the_table_counts_every_kind():
     mutants = [mutant(k) for k in "abcdef"] + [mutant("g", "b.py")]
     outcomes: dict[str, Outcome] = {
-        k: {"outcome": o} for k, o in zip("abcde", ("caught", "timeout", "passed", "passed", "caught"), strict=True)
+        k: {"outcome": o}
+        for k, o in zip("abcde", ("caught", "timeout", "passed", "passed", "caught"), strict=True)
     }
     listed = {"d": "it does the same", "e": "so it was thought"}
     counts = report.counted(mutants, outcomes, listed, lambda m: m.path)
@@ -403,7 +468,11 @@ def test_the_table_counts_every_kind():
 
 
 def of_rooms(**sizes: int) -> list[Mutant]:
-    return [mutant(f"{name}{k}", f"poekin/{name}/a.py") for name, size in sizes.items() for k in range(size)]
+    return [
+        mutant(f"{name}{k}", f"poekin/{name}/a.py")
+        for name, size in sizes.items()
+        for k in range(size)
+    ]
 
 
 def test_a_sample_holds_of_each_room_in_proportion_and_the_same_for_a_seed():
@@ -411,7 +480,9 @@ def test_a_sample_holds_of_each_room_in_proportion_and_the_same_for_a_seed():
     counts = Counter(m.room for m in sample.drawn(mutants, 70, 0))
     # 7.5 and 2.5: of equal remainders the first by name
     assert counts == {"solve": 60, "cli": 8, "groups": 2}
-    assert sample.drawn(mutants, 70, 0) == sample.drawn(mutants, 70, 0) != sample.drawn(mutants, 70, 1)
+    assert (
+        sample.drawn(mutants, 70, 0) == sample.drawn(mutants, 70, 0) != sample.drawn(mutants, 70, 1)
+    )
     assert sample.drawn(mutants, 700, 0) == mutants
 
 
@@ -434,13 +505,17 @@ def test_a_sample_fails_where_its_survivors_are_too_many_for_the_bar():
 
 
 @pytest.mark.parametrize("survivors, code", [(0, 0), (40, 1)])
-def test_the_exit_code_and_the_table_say_what_the_sample_proves(survivors, code, tmp_path, monkeypatch, capsys):
+def test_the_exit_code_and_the_table_say_what_the_sample_proves(
+    survivors, code, tmp_path, monkeypatch, capsys
+):
     _project(tmp_path, monkeypatch)
     assert command.main(["--report", "--sample", "60"]) == 0
     chosen = sample.drawn([m for path in FILES for m in mutants_of(path, CALCULATOR)], 60, 0)
     results = tmp_path / "build" / "mutants" / "results.jsonl"
     with results.open("a") as file:
-        file.writelines(f'{{"key": "{m.key}", "outcome": "passed", "by": ""}}\n' for m in chosen[:survivors])
+        file.writelines(
+            f'{{"key": "{m.key}", "outcome": "passed", "by": ""}}\n' for m in chosen[:survivors]
+        )
     assert command.main(["--report", "--sample", "60"]) == code
     said = capsys.readouterr().out
     assert ("FAILED: all: 40 of 60 survived" in said) == bool(code)
@@ -456,7 +531,10 @@ def test_what_the_near_tests_let_through_is_tried_on_all_only_where_the_sample_f
     def run(waiting, *, outcomes, quick, **_):
         ran.append((len(waiting), quick))
         for k, mutant in enumerate(waiting):
-            outcomes[mutant.key] = {"outcome": "passed" if quick and k < let_through else "caught", "by": ""}
+            outcomes[mutant.key] = {
+                "outcome": "passed" if quick and k < let_through else "caught",
+                "by": "",
+            }
 
     monkeypatch.setattr(command, "_run", run)
     assert command.main(["--sample", "60", "--afresh"]) == 0
@@ -485,7 +563,9 @@ def _project(root: Path, monkeypatch) -> list[str]:
     known = [m.key for path in FILES for m in mutants_of(path, CALCULATOR)]
     results = root / "build" / "mutants" / "results.jsonl"
     results.parent.mkdir(parents=True)
-    results.write_text("".join(f'{{"key": "{key}", "outcome": "caught", "by": ""}}\n' for key in known))
+    results.write_text(
+        "".join(f'{{"key": "{key}", "outcome": "caught", "by": ""}}\n' for key in known)
+    )
     monkeypatch.setattr(command, "ROOT", root)
     monkeypatch.setattr(equivalent, "entries", list)
     return known
@@ -503,7 +583,9 @@ def test_a_sample_run_afresh_leaves_what_is_known_of_the_others(tmp_path, monkey
 
 def test_without_cosmic_ray_the_extra_that_has_it_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "cosmic_ray", None)
-    with pytest.raises(SystemExit, match=r"needs the package cosmic-ray: pip install -e '\.\[dev\]'"):
+    with pytest.raises(
+        SystemExit, match=r"needs the package cosmic-ray: pip install -e '\.\[dev\]'"
+    ):
         runpy.run_path(str(ROOT / "tools" / "mutate" / "__main__.py"))
 
 
@@ -511,4 +593,7 @@ def test_a_room_that_is_none_is_refused_with_those_that_are(capsys):
     with pytest.raises(SystemExit) as ended:
         command.main(["--room", "nowhere", "--count"])
     assert ended.value.code == 2
-    assert "no room called 'nowhere'; there are analysis, cli, engine, errors, formats" in capsys.readouterr().err
+    assert (
+        "no room called 'nowhere'; there are analysis, cli, engine, errors, formats"
+        in capsys.readouterr().err
+    )

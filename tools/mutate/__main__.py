@@ -22,7 +22,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 if importlib.util.find_spec("cosmic_ray") is None:
-    sys.exit("mutation testing needs the package cosmic-ray: pip install -e '.[dev]', or make mutate, installs it")
+    sys.exit(
+        "mutation testing needs the package cosmic-ray: pip install -e '.[dev]', or make mutate, installs it"
+    )
 
 from . import equivalent, sample
 from .campaign import BrokenSuite, Campaign, Outcome, kept
@@ -34,17 +36,24 @@ MODULES_TOLD = 12  # up to here the table is by module too
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Exit code 0 where the bars are held, 1 where they are not, 2 where the suite fails by itself.
-    """
+    """Exit code 0 where the bars are held, 1 where they are not, 2 where the suite fails by itself."""
     parser = argparse.ArgumentParser(prog="python -m tools.mutate", description=__doc__)
     parser.add_argument("--sample", type=int, help="this many, drawn from all by the seed")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--module", action="append", help="only modules whose path holds this (may be repeated)")
-    parser.add_argument("--room", action="append", help="only this room of the package (may be repeated)")
+    parser.add_argument(
+        "--module", action="append", help="only modules whose path holds this (may be repeated)"
+    )
+    parser.add_argument(
+        "--room", action="append", help="only this room of the package (may be repeated)"
+    )
     parser.add_argument("--operator", help="only operators whose name holds this, as messages/")
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--afresh", action="store_true", help="run again what earlier runs have tried")
-    parser.add_argument("--quick", action="store_true", help="try survivors on the tests beside their module only")
+    parser.add_argument(
+        "--afresh", action="store_true", help="run again what earlier runs have tried"
+    )
+    parser.add_argument(
+        "--quick", action="store_true", help="try survivors on the tests beside their module only"
+    )
     parser.add_argument("--report", action="store_true", help="run nothing: say what is known")
     parser.add_argument("--count", action="store_true", help="run nothing: count the mutants")
     said = parser.parse_args(arguments)
@@ -53,7 +62,9 @@ def main(arguments: list[str] | None = None) -> int:
     every = [mutant for path, source in sources.items() for mutant in mutants_of(path, source)]
     listed, stale = equivalent.listed(every, equivalent.entries())
     if unknown := sorted(set(said.room or ()) - {m.room for m in every}):
-        parser.error(f"no room called {unknown[0]!r}; there are {', '.join(sorted({m.room for m in every}))}")
+        parser.error(
+            f"no room called {unknown[0]!r}; there are {', '.join(sorted({m.room for m in every}))}"
+        )
     chosen = [m for m in every if not said.module or any(part in m.path for part in said.module)]
     chosen = [m for m in chosen if not said.room or m.room in said.room]
     chosen = [m for m in chosen if not said.operator or said.operator in m.operator]
@@ -69,21 +80,32 @@ def main(arguments: list[str] | None = None) -> int:
             outcomes.pop(mutant.key, None)
     earlier = sum(m.key in outcomes and outcomes[m.key]["outcome"] != "passed" for m in chosen)
     if not (said.report or said.count):
-        waiting = [m for m in chosen if m.key not in outcomes or outcomes[m.key]["outcome"] == "passed"]
-        run = functools.partial(_run, sources=sources, listed=set(listed), file=file, outcomes=outcomes, said=said)
+        waiting = [
+            m for m in chosen if m.key not in outcomes or outcomes[m.key]["outcome"] == "passed"
+        ]
+        run = functools.partial(
+            _run, sources=sources, listed=set(listed), file=file, outcomes=outcomes, said=said
+        )
         sampled = said.sample is not None and len(chosen) == said.sample
         try:
             run(waiting, quick=said.quick or sampled)
             if sampled and not said.quick and _faults(counted(chosen, outcomes, listed), mutants):
-                print("too many are let through by the tests near their modules: all tests are tried on those")
+                print(
+                    "too many are let through by the tests near their modules: all tests are tried on those"
+                )
                 run([m for m in chosen if kind(m, outcomes, listed) == "survived"], quick=False)
         except BrokenSuite as fault:
-            print(f"the tests do not hold by themselves, so they prove nothing: {fault}", file=sys.stderr)
+            print(
+                f"the tests do not hold by themselves, so they prove nothing: {fault}",
+                file=sys.stderr,
+            )
             return 2
     if said.count:
         outcomes = {}
     elif earlier:
-        print(f"{earlier} of {len(chosen)} were caught in earlier runs, by the tests of then; --afresh runs them again")
+        print(
+            f"{earlier} of {len(chosen)} were caught in earlier runs, by the tests of then; --afresh runs them again"
+        )
     return _judged(chosen, every, outcomes, listed, stale)
 
 
@@ -112,7 +134,9 @@ def _run(
     with tempfile.TemporaryDirectory(prefix="mutants-") as place:
         campaign = Campaign(ROOT, Path(place), sources, listed, file, quick)
         campaign.run(waiting, max(1, min(said.workers, len(waiting))) if waiting else 0, finished)
-    used = sum(float(str(outcomes[m.key].get("processor", 0))) for m in waiting if m.key in outcomes)
+    used = sum(
+        float(str(outcomes[m.key].get("processor", 0))) for m in waiting if m.key in outcomes
+    )
     each = f", {used / done:.1f} s of a processor each" if done else ""
     print(f"{done} mutants in {time.monotonic() - start:.0f} s, {said.workers} at a time{each}")
 
@@ -129,9 +153,13 @@ def _judged(
         if found == "survived":
             print(told(mutant))
         if found == "wrong":
-            print(f"listed as equivalent, but {outcomes[mutant.key]['by']} catches it: {told(mutant)}")
+            print(
+                f"listed as equivalent, but {outcomes[mutant.key]['by']} catches it: {told(mutant)}"
+            )
     for entry in stale:
-        print(f"listed as equivalent, but no mutant: {entry.path}: {entry.definition}: {entry.old} -> {entry.new}")
+        print(
+            f"listed as equivalent, but no mutant: {entry.path}: {entry.definition}: {entry.old} -> {entry.new}"
+        )
     counts, mutants = counted(chosen, outcomes, listed), Counter(m.room for m in every)
     if len({m.path for m in chosen}) <= MODULES_TOLD:
         print(table(counted(chosen, outcomes, listed, lambda m: m.path), "module"))
@@ -139,9 +167,13 @@ def _judged(
     faults = _faults(counts, mutants)
     for name, number in Counter(m.room for m in every if m.key in listed).items():
         if number > sample.MOST_EQUIVALENT * mutants[name]:
-            faults.append(f"{name}: {number} of {mutants[name]} mutants are listed as equivalent (at most 3 %)")
+            faults.append(
+                f"{name}: {number} of {mutants[name]} mutants are listed as equivalent (at most 3 %)"
+            )
     wrong = sum(count["wrong"] for count in counts.values())
-    print(f"listed as equivalent: {len(listed)} of {len(every)}, {100 * len(listed) / len(every):.2f} %")
+    print(
+        f"listed as equivalent: {len(listed)} of {len(every)}, {100 * len(listed) / len(every):.2f} %"
+    )
     for fault in faults:
         print(f"FAILED: {fault}")
     return 1 if faults or stale or wrong else 0
@@ -155,7 +187,9 @@ def _faults(counts: dict[str, Counter[str]], mutants: Mapping[str, int]) -> list
         size = count.total() - count["not run"] - count["equivalent"]
         whole = count.total() == mutants[name] and not count["not run"]
         if not sample.room_is_sound(name, survived, size, whole):
-            allowed = "" if whole else f", where a sample of {size} may have {sample.most(name, size)}"
+            allowed = (
+                "" if whole else f", where a sample of {size} may have {sample.most(name, size)}"
+            )
             faults.append(
                 f"{name}: {survived} of {size} survived (caught at least {100 * sample.bar(name):g} %{allowed})"
             )

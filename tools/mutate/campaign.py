@@ -20,7 +20,9 @@ from .mutants import Mutant
 from .server import EPOCH, LIBRARIES, SETTINGS
 
 Outcome = dict[str, object]
-_LEFT_OUT = shutil.ignore_patterns(".git", ".venv", "build", "dist", "_build", "__pycache__", ".*_cache", ".hypothesis")
+_LEFT_OUT = shutil.ignore_patterns(
+    ".git", ".venv", "build", "dist", "_build", "__pycache__", ".*_cache", ".hypothesis"
+)
 _KEPT = 2  # tests that caught a neighbour are tried first
 
 
@@ -54,7 +56,13 @@ class Server:
         assert self._process.stdout
         mode = suites.mode(path)
         without = suites.kernels_of(path) if mode is suites.Mode.SHARED else []
-        job = {"path": path, "source": source, "sessions": sessions, "mode": mode.value, "without": without}
+        job = {
+            "path": path,
+            "source": source,
+            "sessions": sessions,
+            "mode": mode.value,
+            "without": without,
+        }
         self._process.stdin.write(json.dumps(job) + "\n")
         self._process.stdin.flush()
         line = self._process.stdout.readline()
@@ -81,8 +89,22 @@ def kept(file: Path) -> dict[str, Outcome]:
 class Campaign:
     """Mutants to run with some workers; `finished` is called with each one and its outcome."""
 
-    def __init__(self, root: Path, place: Path, sources: dict[str, str], listed: set[str], file: Path, quick: bool):
-        self.root, self.place, self.sources, self.listed, self.file = root, place, sources, listed, file
+    def __init__(
+        self,
+        root: Path,
+        place: Path,
+        sources: dict[str, str],
+        listed: set[str],
+        file: Path,
+        quick: bool,
+    ):
+        self.root, self.place, self.sources, self.listed, self.file = (
+            root,
+            place,
+            sources,
+            listed,
+            file,
+        )
         self.quick = quick
         self._jobs: queue.SimpleQueue[Mutant] = queue.SimpleQueue()
         self._known: Path | None = None
@@ -91,7 +113,9 @@ class Campaign:
         self._lock = threading.Lock()
         self._faults: list[BaseException] = []
 
-    def run(self, mutants: list[Mutant], workers: int, finished: Callable[[Mutant, Outcome], None]) -> None:
+    def run(
+        self, mutants: list[Mutant], workers: int, finished: Callable[[Mutant, Outcome], None]
+    ) -> None:
         """Run all of them. Raises BrokenSuite when the tests fail by themselves."""
         if any(suites.mode(mutant.path) in kernels.TAKING for mutant in mutants):
             self._known = kernels.prepared(self.root, self.place / "kernels")
@@ -107,7 +131,9 @@ class Campaign:
 
     def _work(self, number: int, finished: Callable[[Mutant, Outcome], None]) -> None:
         try:
-            with contextlib.closing(Server(self.root, self.place / f"tree{number}", self._known)) as server:
+            with contextlib.closing(
+                Server(self.root, self.place / f"tree{number}", self._known)
+            ) as server:
                 for mutant in self._taken():
                     outcome = self._judged(server, mutant)
                     with self._lock, self.file.open("a", encoding="utf-8") as file:
@@ -134,7 +160,13 @@ class Campaign:
             self._hold(server, mutant.path, by, sessions)
             if "::" in by:
                 killers[:] = [by, *(other for other in killers if other != by)][:_KEPT]
-        return {"key": mutant.key, "path": mutant.path, "line": mutant.line, "new": mutant.new, **outcome}
+        return {
+            "key": mutant.key,
+            "path": mutant.path,
+            "line": mutant.line,
+            "new": mutant.new,
+            **outcome,
+        }
 
     def _hold(self, server: Server, path: str, by: str, sessions: list[list[str]]) -> None:
         """See once that what has caught a mutant passes without one, run in the same way."""

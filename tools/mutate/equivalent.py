@@ -30,13 +30,25 @@ class Entry:
 
 def entries(text: str | None = None) -> list[Entry]:
     """The list, read; KeyError or ValueError for what is left out or empty."""
-    data = tomllib.loads("\n".join(file.read_text(encoding="utf-8") for file in FILES) if text is None else text)
+    data = tomllib.loads(
+        "\n".join(file.read_text(encoding="utf-8") for file in FILES) if text is None else text
+    )
     found = []
     for block in data.get("equivalent", []):
         if not block["reason"].strip() or not block["becomes"]:
-            raise ValueError(f"{block['file']}: an entry without a reason, or without a mutant: {block['line']}")
+            raise ValueError(
+                f"{block['file']}: an entry without a reason, or without a mutant: {block['line']}"
+            )
         for new in block["becomes"]:
-            found.append(Entry(block["file"], block.get("function", ""), block["line"], new, block["reason"].strip()))
+            found.append(
+                Entry(
+                    block["file"],
+                    block.get("function", ""),
+                    block["line"],
+                    new,
+                    block["reason"].strip(),
+                )
+            )
     if len({(e.path, e.definition, e.old, e.new) for e in found}) < len(found):
         raise ValueError("a mutant is listed twice")
     return found

@@ -49,20 +49,23 @@ def prepared(root: Path, place: Path) -> Path:
             with contextlib.suppress(OSError):
                 shutil.copy2(entry, place)
     settings = {**os.environ, "POEKIN_CACHE_DIR": str(place), "PYTHONPATH": str(root)}
-    subprocess.run([sys.executable, "-m", "tools.mutate.kernels"], cwd=root, env=settings, check=True)
+    subprocess.run(
+        [sys.executable, "-m", "tools.mutate.kernels"], cwd=root, env=settings, check=True
+    )
     return place
 
 
 def _user_cache(root: Path) -> Path | None:
-    said = subprocess.run(
-        [sys.executable, "-c", "from poekin.engine.jit.cache import directory; print(directory() or '')"],
-        cwd=root, capture_output=True, text=True, check=True,
-    )  # fmt: skip
+    ask = "from poekin.engine.jit.cache import directory; print(directory() or '')"
+    command = [sys.executable, "-c", ask]
+    said = subprocess.run(command, cwd=root, capture_output=True, text=True, check=True)
     return Path(said.stdout.strip()) if said.stdout.strip() else None
 
 
 @contextlib.contextmanager
-def offered(known: Path | None, mode: Mode, place: Path, without: Iterable[str] = ()) -> Iterator[str]:
+def offered(
+    known: Path | None, mode: Mode, place: Path, without: Iterable[str] = ()
+) -> Iterator[str]:
     """What POEKIN_CACHE_DIR is for one job: nothing, or a place of its own, without the kernels of
     these names.
     """

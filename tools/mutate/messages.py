@@ -47,7 +47,9 @@ class FieldSwapper:
 
     def mutate(self, node: Any, index: int) -> Text:
         first, second = _fields(node)[index : index + 2]
-        return _with(node, {first: node.children[second].get_code(), second: node.children[first].get_code()})
+        return _with(
+            node, {first: node.children[second].get_code(), second: node.children[first].get_code()}
+        )
 
 
 class SentenceNumber:
@@ -72,12 +74,19 @@ OPERATORS = (
 def _fields(node: Any) -> list[int]:
     """Which children of an f-string are fields."""
     return (
-        [k for k, child in enumerate(node.children) if child.type == "fstring_expr"] if node.type == "fstring" else []
+        [k for k, child in enumerate(node.children) if child.type == "fstring_expr"]
+        if node.type == "fstring"
+        else []
     )
 
 
 def _with(node: Any, changed: dict[int, str]) -> Text:
-    return Text("".join(changed[k] if k in changed else child.get_code() for k, child in enumerate(node.children)))
+    return Text(
+        "".join(
+            changed[k] if k in changed else child.get_code()
+            for k, child in enumerate(node.children)
+        )
+    )
 
 
 def _numbers(node: Any) -> list[re.Match[str]]:

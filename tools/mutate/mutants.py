@@ -82,7 +82,9 @@ def mutants_of(path: str, source: str) -> list[Mutant]:
     ends, asked = [*begins[1:], len(source) + 1], _asked(nodes)
     found: dict[str, tuple[tuple[int, int], Mutant]] = {}
     for name, operator in operators():
-        positions = ((node, start) for node in asked(name) for start, _ in operator.mutation_positions(node))
+        positions = (
+            (node, start) for node in asked(name) for start, _ in operator.mutation_positions(node)
+        )
         indices: dict[int, int] = {}  # how many changes of this node were made already
         for occurrence, (node, start) in enumerate(positions):
             index = indices.get(id(node), 0)
@@ -94,7 +96,9 @@ def mutants_of(path: str, source: str) -> list[Mutant]:
             end, text = begin + len(node.get_code()), changed(operator, node, index)
             # the lines of the change and two more: those before are as they were, and those after
             # are seldom asked for
-            after = (source[begins[row - 1] : begin] + text + source[end : ends[last - 1] - 1]).split("\n")
+            after = (
+                source[begins[row - 1] : begin] + text + source[end : ends[last - 1] - 1]
+            ).split("\n")
             found_at = _differs(lines[row - 1 : last], after, start[0] - row)
             if found_at is None:
                 continue
@@ -105,9 +109,16 @@ def mutants_of(path: str, source: str) -> list[Mutant]:
             old, new = lines[at].strip(), after[found_at].strip()
             if _LENGTH.search(new):
                 continue
-            mutant = Mutant(path, name, occurrence, at + 1, definition, old, new, key, begin, end, text)
+            mutant = Mutant(
+                path, name, occurrence, at + 1, definition, old, new, key, begin, end, text
+            )
             found.setdefault(key, (start, mutant))
-    return [mutant for _, mutant in sorted(found.values(), key=lambda pair: (pair[0], pair[1].operator, pair[1].key))]
+    return [
+        mutant
+        for _, mutant in sorted(
+            found.values(), key=lambda pair: (pair[0], pair[1].operator, pair[1].key)
+        )
+    ]
 
 
 def _asked(nodes: list[Any]) -> Callable[[str], list[Any]]:
@@ -127,9 +138,11 @@ def _differs(lines: list[str], after: list[str], place: int) -> int | None:
     The first one too where a break before the place was lost, as then its lines are not the same.
     """
     pairs = list(zip(lines, after, strict=False))
-    if len(lines) == len(after) and pairs[place][0] != pairs[place][1]:
+    differing = [k for k, (old, new) in enumerate(pairs) if old != new]
+    if place in differing and len(lines) == len(after):
         return place
-    return next((k for k, (old, new) in enumerate(pairs) if old != new), None)
+    filled = [k for k in differing if lines[k].strip()]
+    return next(iter(filled or differing), None)
 
 
 @cache
@@ -143,7 +156,10 @@ def operators() -> tuple[tuple[str, Any], ...]:
     """
     names = sorted(set(cosmic_ray.plugins.operator_names()) - set(_UNDEFINED))
     classes = [(name, cosmic_ray.plugins.get_operator(name)) for name in names]
-    return (*((name, operator()) for name, operator in classes if not operator.arguments()), *messages.OPERATORS)
+    return (
+        *((name, operator()) for name, operator in classes if not operator.arguments()),
+        *messages.OPERATORS,
+    )
 
 
 def changed(operator: Any, node: Any, index: int) -> str:
@@ -165,17 +181,24 @@ def hints(source: str) -> list[tuple[tuple[int, int], tuple[int, int]]]:
     there ever runs.
     """
     tree = ast.parse(source)
-    if not any(isinstance(node, ast.ImportFrom) and node.module == "__future__" for node in tree.body):
+    if not any(
+        isinstance(node, ast.ImportFrom) and node.module == "__future__" for node in tree.body
+    ):
         return []
     return [
-        ((node.lineno, column(source, node)), (node.end_lineno or 0, column(source, node, end=True)))
+        (
+            (node.lineno, column(source, node)),
+            (node.end_lineno or 0, column(source, node, end=True)),
+        )
         for node in _hint_nodes(tree)
     ]
 
 
 def _hint_nodes(tree: ast.AST) -> Iterator[ast.expr]:
     for node in ast.walk(tree):
-        hint = node.returns if isinstance(node, ast.FunctionDef) else getattr(node, "annotation", None)
+        hint = (
+            node.returns if isinstance(node, ast.FunctionDef) else getattr(node, "annotation", None)
+        )
         if hint is not None:
             yield hint
 

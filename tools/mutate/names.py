@@ -19,8 +19,7 @@ OWN = "own"  # among the tests of a module: those of its name
 
 @cache
 def module(name: str) -> str:
-    """The path of a module or of a folder of modules; ValueError unless exactly one has the name.
-    """
+    """The path of a module or a folder of modules; ValueError unless exactly one has the name."""
     return _only(PACKAGE, name, f"{name}.py")
 
 

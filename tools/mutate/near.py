@@ -1,7 +1,7 @@
-"""Which tests a mutant meets first, where those called like its module are not the quickest.
+"""Tests that a mutant meets first, where those called like its module are not the quickest.
 
 A key holds names of modules or of folders, a value names of tests; `names` says what they mean.
-`own` is the tests that are called like the module.
+`own` stands for the tests that are called like the module.
 """
 
 from __future__ import annotations

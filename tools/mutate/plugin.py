@@ -19,8 +19,7 @@ _BEYOND = 30  # then the signal that Python sees has not helped: the loop is ins
 
 
 class Judge:
-    """Calls `said` with "caught" or "timeout" and the test, once, and the process is to end there.
-    """
+    """Calls `said` with "caught" or "timeout" and the test, once, and the process is to end there."""
 
     def __init__(self, said: Callable[[str, str], None]):
         self._said, self._running = said, "collection"
@@ -30,7 +29,9 @@ class Judge:
     def _limit(self) -> None:
         usage = resource.getrusage(resource.RUSAGE_SELF)
         hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
-        resource.setrlimit(resource.RLIMIT_CPU, (int(usage.ru_utime + usage.ru_stime + SECONDS) + _BEYOND, hard))
+        resource.setrlimit(
+            resource.RLIMIT_CPU, (int(usage.ru_utime + usage.ru_stime + SECONDS) + _BEYOND, hard)
+        )
         signal.setitimer(signal.ITIMER_PROF, SECONDS)
 
     @pytest.hookimpl(trylast=True)

@@ -44,14 +44,19 @@ def table(counts: Mapping[str, Counter[str]], title: str = "room") -> str:
     lines.append(_line("all", sum(counts.values(), Counter())))
     widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
     return "\n".join(
-        "  ".join(cell.rjust(w) if k else cell.ljust(w) for k, (cell, w) in enumerate(zip(line, widths, strict=True)))
+        "  ".join(
+            cell.rjust(w) if k else cell.ljust(w)
+            for k, (cell, w) in enumerate(zip(line, widths, strict=True))
+        )
         for line in lines
     )
 
 
 def _line(name: str, count: Counter[str]) -> tuple[str, ...]:
     run, caught = count.total() - count["not run"], caught_of(count)
-    share = f"{100 * caught / (run - count['equivalent']):.2f} %" if run > count["equivalent"] else ""
+    share = (
+        f"{100 * caught / (run - count['equivalent']):.2f} %" if run > count["equivalent"] else ""
+    )
     numbers = (count.total(), run, caught, count["timeout"], count["equivalent"], count["survived"])
     return (name, *map(str, numbers), share)
 

@@ -32,8 +32,7 @@ def bar(room: str) -> float:
 
 
 def drawn(mutants: Sequence[Mutant], size: int, seed: int) -> list[Mutant]:
-    """That many, of each room in proportion to what it has; the remainders' largest are rounded up.
-    """
+    """That many, of each room in proportion to what it has; the remainders' largest are rounded up."""
     if size >= len(mutants):
         return list(mutants)
     rooms: dict[str, list[int]] = {}
@@ -44,7 +43,11 @@ def drawn(mutants: Sequence[Mutant], size: int, seed: int) -> list[Mutant]:
     rest = size - sum(counts.values())
     for name in sorted(exact, key=lambda name: (counts[name] - exact[name], name))[:rest]:
         counts[name] += 1
-    chosen = {k for name, places in rooms.items() for k in random.Random(f"{seed} {name}").sample(places, counts[name])}
+    chosen = {
+        k
+        for name, places in rooms.items()
+        for k in random.Random(f"{seed} {name}").sample(places, counts[name])
+    }
     return [mutant for k, mutant in enumerate(mutants) if k in chosen]
 
 
@@ -55,8 +58,14 @@ def chance(survivors: int, sizes: Mapping[str, int]) -> float:
     spread = np.ones(1)  # the probability of each number of survivors
     for name, size in sizes.items():
         p = 1 - bar(name)
-        ways = [math.lgamma(size + 1) - math.lgamma(k + 1) - math.lgamma(size - k + 1) for k in range(size + 1)]
-        one = [math.exp(way + k * math.log(p) + (size - k) * math.log1p(-p)) for k, way in enumerate(ways)]
+        ways = [
+            math.lgamma(size + 1) - math.lgamma(k + 1) - math.lgamma(size - k + 1)
+            for k in range(size + 1)
+        ]
+        one = [
+            math.exp(way + k * math.log(p) + (size - k) * math.log1p(-p))
+            for k, way in enumerate(ways)
+        ]
         spread = np.convolve(spread, one)
     return math.fsum(spread[survivors:])
 

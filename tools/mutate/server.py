@@ -60,9 +60,14 @@ def main() -> None:
         job = json.loads(line)
         mode = Mode(job["mode"])
         with kernels.offered(known, mode, Path(f"{Path.cwd()}-kernels"), job["without"]) as place:
-            compiling = {"POEKIN_CACHE_DIR": place, "NUMBA_DISABLE_JIT": str(int(mode is Mode.INTERPRETED))}
+            compiling = {
+                "POEKIN_CACHE_DIR": place,
+                "NUMBA_DISABLE_JIT": str(int(mode is Mode.INTERPRETED)),
+            }
             shared = _source_key(Path.cwd()) if mode is Mode.SHARED else ""
-            answer = answered(Path.cwd(), job["path"], job["source"], job["sessions"], {**compiling, KEY: shared})
+            answer = answered(
+                Path.cwd(), job["path"], job["source"], job["sessions"], {**compiling, KEY: shared}
+            )
         print(json.dumps(answer), flush=True)
 
 
@@ -108,7 +113,9 @@ def _of_children() -> float:
     return usage.ru_utime + usage.ru_stime
 
 
-def _session(tree: Path, arguments: list[str], mutated: bool, settings: dict[str, str]) -> dict[str, str]:
+def _session(
+    tree: Path, arguments: list[str], mutated: bool, settings: dict[str, str]
+) -> dict[str, str]:
     """One run of pytest in a child: what came of it, and by which test."""
     reading, writing = os.pipe()
     child = os.fork()
@@ -164,7 +171,9 @@ def _judge(tree: Path, arguments: list[str], writing: int) -> None:
 
     if os.environ.get(KEY):
         with contextlib.suppress(Exception):  # what cannot be imported, the tests will find
-            vars(importlib.import_module("poekin.engine.jit.source_hash"))["LOADED"] = os.environ[KEY]
+            vars(importlib.import_module("poekin.engine.jit.source_hash"))["LOADED"] = os.environ[
+                KEY
+            ]
     options = ["-q", "-W", "ignore::pytest.PytestAssertRewriteWarning"]
     options += [word for plugin in PLUGINS for word in ("-p", plugin)]
     code = int(pytest.main([*options, *arguments], plugins=[Judge(send)]))

@@ -1,5 +1,4 @@
-"""Which tests judge a mutant, and how its code runs: first the tests near its module, then all that
-could see it.
+"""Tests that judge a mutant, those near its module and then all that could see it, and its mode.
 
 Near are the tests that are called like the module, `test_<module>*.py` in its room, those that
 import it, and then those of the modules that import it, the nearest ones first. A mutant that these
@@ -25,11 +24,10 @@ TESTS = ROOT / "tests"
 
 
 class Mode(Enum):
-    """How the code runs that is judged."""
+    """Mode in which the judged code runs."""
 
     INTERPRETED = "interpreted"
-    """Nothing is compiled: a mutant of a formula, or of what Numba compiles, runs as it is written.
-    """
+    """Nothing is compiled: a formula, or what Numba compiles, runs as it is written."""
     COLD = "cold"
     """Everything is compiled anew for each mutant, as the mutant is part of what compiles."""
     WARM = "warm"
@@ -91,7 +89,7 @@ APART = (
 
 
 def mode(path: str) -> Mode:
-    """How the tests of a module's mutants run."""
+    """Mode in which the tests of a module's mutants run."""
     if names.among(_INTERPRETED, path):
         return Mode.INTERPRETED
     if names.among(_COMPILING, path):
@@ -105,7 +103,9 @@ def kernels_of(path: str) -> list[str]:
     """
     seen, row = {path}, [path]
     while row:
-        row = [other for module in row for other in importers().get(module, ()) if other not in seen]
+        row = [
+            other for module in row for other in importers().get(module, ()) if other not in seen
+        ]
         row = [other for other in row if room(other) == "engine"]
         seen.update(row)
     return sorted(name for module in seen for name in _kernels_in(module))
@@ -113,21 +113,23 @@ def kernels_of(path: str) -> list[str]:
 
 def _kernels_in(path: str) -> Iterator[str]:
     for node in ast.parse((ROOT / path).read_text(encoding="utf-8")).body:
-        calls = [call.func for call in getattr(node, "decorator_list", ()) if isinstance(call, ast.Call)]
-        if isinstance(node, ast.FunctionDef) and any(isinstance(f, ast.Name) and f.id == "kernel" for f in calls):
+        calls = [
+            call.func for call in getattr(node, "decorator_list", ()) if isinstance(call, ast.Call)
+        ]
+        if isinstance(node, ast.FunctionDef) and any(
+            isinstance(f, ast.Name) and f.id == "kernel" for f in calls
+        ):
             yield node.name
 
 
 def near(path: str) -> list[list[str]]:
-    """What pytest is given first for a module, in one run after the other: the quickest file, then
-    the others.
-    """
+    """Arguments of pytest's first two runs for a module: the quickest file, and the others."""
     files = names.longest(NEAR, path) or _called_like(path)
     return [[*part, *_apart(path)] for part in (files[:1], files[1:]) if part]
 
 
 def whole(path: str) -> list[str]:
-    """What pytest is given to judge what is left."""
+    """Arguments of pytest for the mutants that are left."""
     return [*names.longest(WHOLE, path), *_apart(path)]
 
 
@@ -140,15 +142,16 @@ def _called_like(path: str) -> list[str]:
             found.update(dict.fromkeys(_own_tests(module)))
         for module in row:
             found.update(dict.fromkeys(_importing_tests(module)))
-        row = [other for module in row for other in importers().get(module, ()) if other not in seen]
+        row = [
+            other for module in row for other in importers().get(module, ()) if other not in seen
+        ]
         row = sorted(set(row), key=lambda other: _rank(other, path))
         seen.update(row)
     return list(found)[:_MOST_NEAR] or names.longest(WHOLE, path)[:1]
 
 
 def _own_tests(path: str) -> Iterator[str]:
-    """The files of tests in a module's room that have its name, or that of its folder and its own.
-    """
+    """Files of tests in a module's room that have its name, or its folder's before it or alone."""
     *folders, name = path.removesuffix(".py").split("/")[1:]
     words = [name]
     if not TESTS.joinpath(*folders).is_dir():  # the tests of a folder may lie beside one another
@@ -159,9 +162,7 @@ def _own_tests(path: str) -> Iterator[str]:
 
 
 def _nearest(folders: list[str], pattern: str) -> list[str]:
-    """The files of tests with such a name in the smallest part of a room that has any, and in
-    tests/ itself.
-    """
+    """Files of tests with such a name in the innermost folder around a module that has any."""
     for k in range(len(folders), -1, -1):
         folder = TESTS.joinpath(*folders[:k])
         found = sorted(folder.rglob(pattern) if k else folder.glob(pattern))
@@ -179,7 +180,13 @@ def importers() -> dict[str, list[str]]:
 @cache
 def _tests_by_module() -> dict[str, list[str]]:
     rooms = [folder for folder in TESTS.iterdir() if (ROOT / PACKAGE / folder.name).is_dir()]
-    return _users([file.relative_to(ROOT).as_posix() for folder in rooms for file in folder.rglob("test_*.py")])
+    return _users(
+        [
+            file.relative_to(ROOT).as_posix()
+            for folder in rooms
+            for file in folder.rglob("test_*.py")
+        ]
+    )
 
 
 def _importing_tests(path: str) -> list[str]:
@@ -188,9 +195,7 @@ def _importing_tests(path: str) -> list[str]:
 
 
 def _rank(file: str, path: str) -> tuple[bool, str, str, str]:
-    """Order of files beside a module: those of its room, then by room and name, wherever they lie
-    in it.
-    """
+    """Order of files beside a module: its room, then others; in a room by name, in any folder."""
     place = file.split("/")[1]
     return place != path.split("/")[1], place, file.split("/")[-1], file
 
@@ -208,15 +213,25 @@ def _imports(path: str) -> Iterator[str]:
     """What a file imports of the package, as paths; some of them may be no files."""
     for node in ast.walk(ast.parse((ROOT / path).read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.level:
-            base = "/".join([*path.split("/")[: -node.level], *(node.module or "").split(".")]).rstrip("/")
+            base = "/".join(
+                [*path.split("/")[: -node.level], *(node.module or "").split(".")]
+            ).rstrip("/")
             yield f"{base}.py"
             yield f"{base}/__init__.py"
             yield from (f"{base}/{alias.name}.py" for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith(PACKAGE):
             base = (node.module or "").replace(".", "/")
             yield f"{base}.py"
-            yield from (f"{base}/{alias.name}{end}" for alias in node.names for end in (".py", "/__init__.py"))
+            yield from (
+                f"{base}/{alias.name}{end}"
+                for alias in node.names
+                for end in (".py", "/__init__.py")
+            )
 
 
 def _apart(path: str) -> list[str]:
-    return [names.argument(f"--deselect={test}") for test in APART] if mode(path) is Mode.INTERPRETED else []
+    return (
+        [names.argument(f"--deselect={test}") for test in APART]
+        if mode(path) is Mode.INTERPRETED
+        else []
+    )
