@@ -209,7 +209,9 @@ def _bars(bars: Bars, rng: np.random.Generator) -> list[Figure]:
         k = int(middle)
         cheapest = "/".join(map(str, _numbers(count(chain, method="specialised", frame="middle"))))
         joint = arm.middle.joint
-        middle_note = f"the frame of joint index {k}; the cheapest by sum, of joint index {joint}: {cheapest}"
+        middle_note = (
+            f"the frame of joint index {k}; the cheapest by sum, of joint index {joint}: {cheapest}"
+        )
     return [
         side_by_side(
             f"{bars.what}, {ends} Jacobian: {words}", _numbers(count(chain, method="specialised", frame=ends)),
