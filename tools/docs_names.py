@@ -62,7 +62,7 @@ TESTING: dict[str, tuple[str, tuple[str, ...]]] = {
 # What functions and methods return, where the class itself is in no public module: where it is, and
 # its page.
 RESULTS: dict[str, str] = {
-    "poekin.model.chain.ScrewForm": "chain",
+    "poekin.model.chain_data.ScrewForm": "chain",
     "poekin.model.geometry.local.LocalForm": "chain",
     "poekin.model.kinematics.compiled.CompiledChain": "chain",
     "poekin.model.kinematics.derivatives.PoseChanges": "chain",

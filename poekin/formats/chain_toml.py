@@ -43,8 +43,8 @@ def to_data(chain: Chain) -> dict[str, Any]:
         "screws": chain.screws.tolist(), "home": chain.home.tolist(), "limits": chain.limits.tolist(),
         "offset": chain.offset.tolist(),
     }  # fmt: skip
-    if chain._coupling is not None:
-        data["coupling"] = chain._coupling.tolist()
+    if chain.nontrivial_coupling is not None:
+        data["coupling"] = chain.nontrivial_coupling.tolist()
     if chain.pitches.any():
         data["pitches"] = chain.pitches.tolist()
     return data

@@ -14,6 +14,7 @@ import numpy as np
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.kinematics.compiled import CompiledChain
+from ..model.sampling import dominant_ratio
 from .chain_cache import ChainCache
 
 MOST_TURNS = 12
@@ -49,18 +50,18 @@ _UNITS: ChainCache[JointUnits] = ChainCache()
 
 def joint_units(fast: CompiledChain) -> JointUnits:
     """Arm in the units of its joints; made once and kept."""
-    if fast.chain._coupling is None:
+    if fast.chain.nontrivial_coupling is None:
         return JointUnits(fast, None)
     return _UNITS.get(fast) or _UNITS.keep(fast, _joint_units(fast))
 
 
 def _joint_units(fast: CompiledChain) -> JointUnits:
     chain = fast.chain
-    scale = np.array([chain._ratio(k) for k in range(chain.dof)])
+    scale = np.array([dominant_ratio(chain, k) for k in range(chain.dof)])
     if (scale == 1.0).all():
         return JointUnits(fast, None)
     limits = np.sort(chain.limits * scale[:, None], axis=1)
-    scaled = chain._with(coupling=chain.coupling / scale, limits=limits)
+    scaled = chain.replace(coupling=chain.coupling / scale, limits=limits)
     return JointUnits(scaled.compile(), scale)
 
 
@@ -69,7 +70,7 @@ def period(chain: Chain, k: int) -> float:
     for never.
     """
     ratios = chain.coupling[:, k]
-    if not chain._turns(k) or (ratios[chain.local.slides != 0] != 0).any():
+    if not chain.is_angle(k) or (ratios[chain.local.slides != 0] != 0).any():
         return 0.0
     for turns in range(1, MOST_TURNS + 1):
         if (np.abs(turns * ratios - np.round(turns * ratios)) <= WHOLE).all():

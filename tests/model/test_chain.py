@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, PoseError, ScrewError, ShapeError, UnknownName
+from poekin.model.sampling import sampling_range
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.oracles import exact
 from poekin.testing.strategies import chain_strategies
@@ -496,14 +497,14 @@ def test_coordinates_without_limits_are_drawn_from_a_turn_or_a_metre_of_their_fa
         ([PX], [[0.0]], np.pi),
     ):
         chain = pk.Chain(rows, np.eye(4), coupling=C, q_names=["q"])
-        low, high = chain._range()
+        low, high = sampling_range(chain)
         assert (low, high) == (pytest.approx([-most]), pytest.approx([most]))
     for limits, span in (
         ([1, np.inf], (1, 1 + 2 * np.pi)),
         ([-np.inf, 2], (2 - 2 * np.pi, 2)),
         ([3, 4], (3, 4)),
     ):
-        low, high = pk.Chain([bolt], np.eye(4), limits=[limits])._range()
+        low, high = sampling_range(pk.Chain([bolt], np.eye(4), limits=[limits]))
         assert (low[0], high[0]) == pytest.approx(span)
 
 

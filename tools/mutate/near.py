@@ -66,7 +66,9 @@ NEAR = {
     "engine/tree_kernels": "model/tree model/robot",
     "model/analytic model/hp model/pose_jacobian": f"own {_REFUSALS} {CHAINS}",
     "model/axis_walk": "own model/idealised",
-    "model/chain": f"{CHAINS} {_REFUSALS} model/coordinates model/pitches",
+    "model/chain model/chain_data model/other_frames model/outputs model/sampling": (
+        f"{CHAINS} model/chain_data {_REFUSALS} model/coordinates model/pitches"
+    ),
     "model/checks": f"own model/joint {_REFUSALS} {CHAINS}",
     "model/compiled": f"{_REFUSALS} own model/chain_laws",
     "model/coordinates": f"own model/checks {_REFUSALS} {CHAINS}",

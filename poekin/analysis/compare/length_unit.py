@@ -43,13 +43,17 @@ def rescaled(chain: Chain, factor: float) -> Chain:
     """The chain with all its lengths multiplied by a factor."""
     slides = np.array([kind == "prismatic" for kind in chain.kinds], bool)
     joints = np.where(slides, factor, 1.0)
-    coordinates = np.array([1.0 if chain._turns(k) else factor for k in range(chain.dof)])
+    coordinates = np.array([1.0 if chain.is_angle(k) else factor for k in range(chain.dof)])
     # A prismatic joint's screw is a direction: there the joint variable is the length.
     screws, home = chain.screws.copy(), chain.home.copy()
     screws[~slides, 3:] *= factor
     home[:3, 3] *= factor
-    coupling = None if chain._coupling is None else joints[:, None] * chain._coupling / coordinates
-    return chain._with(
+    coupling = (
+        None
+        if chain.nontrivial_coupling is None
+        else joints[:, None] * chain.nontrivial_coupling / coordinates
+    )
+    return chain.replace(
         screws=screws, home=home, pitches=chain.pitches * factor, limits=chain.limits * coordinates[:, None],
         coupling=coupling, offset=chain.offset * joints,
     )  # fmt: skip

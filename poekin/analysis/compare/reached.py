@@ -8,6 +8,7 @@ import numpy as np
 
 from ...groups import so3
 from ...model.chain import Chain
+from ...model.sampling import sampling_range
 from .alignment.hypotheses import Reading
 from .alignment.lines import Sides
 
@@ -52,7 +53,7 @@ def _bounds(pair: Sides, a: Chain, b: Chain) -> tuple[float, float]:
         place for place, slide in zip(pair.a.places + pair.a.hub, slides, strict=True) if not slide
     ]
     lengths = np.linalg.norm(np.diff([*places, a.home[:3, 3]], axis=0), axis=1)
-    most = np.maximum(*(np.abs(chain._range()).max(0) for chain in (a, b)))
+    most = np.maximum(*(np.abs(sampling_range(chain)).max(0) for chain in (a, b)))
     travel = most * np.where(slides, 1.0, np.abs(a.pitches))
     behind = np.cumsum(lengths[::-1]) + travel.sum()
     moved = (

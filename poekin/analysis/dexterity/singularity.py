@@ -232,7 +232,7 @@ def _direction(x: Array) -> str:
 
 
 def _unit(chain: Chain) -> str:
-    kinds = {"rad" if chain._turns(k) else "m" for k in range(chain.dof)}
+    kinds = {"rad" if chain.is_angle(k) else "m" for k in range(chain.dof)}
     return kinds.pop() if len(kinds) == 1 else "(rad and m)"
 
 

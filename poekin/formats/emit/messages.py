@@ -83,7 +83,7 @@ def header_lines(arm: CompiledChain, frame: str | int) -> list[str]:
         f" {_many(len(chain.kinds), 'joint')}, {_many(chain.dof, 'coordinate')}. Units: rad, m.",
         "",
         *(
-            f"  q[{k}]  {'rad' if chain._turns(k) else 'm'}  {quote_ascii(name)}"
+            f"  q[{k}]  {'rad' if chain.is_angle(k) else 'm'}  {quote_ascii(name)}"
             + (f", {_limits(chain.limits[k])}" if np.isfinite(chain.limits[k]).any() else "")
             for k, name in enumerate(chain.q_names)
         ),

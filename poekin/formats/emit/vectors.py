@@ -36,7 +36,7 @@ def vectors(arm: CompiledChain, frame: str | int, kind: type[np.floating]) -> Ve
     which are rounded too.
     """
     chain = arm.chain
-    size = np.where([chain._turns(k) for k in range(chain.dof)], np.pi, 1.0)
+    size = np.where([chain.is_angle(k) for k in range(chain.dof)], np.pi, 1.0)
     q = np.random.default_rng(1994).uniform(-size, size, (COUNT, chain.dof))
     q[0] = 0.0
     q = q.astype(kind).astype(float)

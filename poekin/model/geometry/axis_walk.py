@@ -13,17 +13,15 @@ from __future__ import annotations
 
 import math
 from decimal import Decimal
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ...algebra import add, cross, dot, scale, subtract
 from ...errors import quote
 from ...groups.arrays import Array
+from ..chain_data import ChainData
 from .normals import ZERO, Vector, across, axis_near, common_normal, exact, length, unit
-
-if TYPE_CHECKING:
-    from ..chain import Chain
 
 SLANT = Decimal("0.1")
 """The sine of the angle below which two lines are walked without their common normal."""
@@ -55,29 +53,39 @@ class Frame(NamedTuple):
         return add(add(scale(v[0], self.x), scale(v[1], self.y)), scale(v[2], self.z))
 
 
+class Turn(NamedTuple):
+    """An angle by its cosine and sine."""
+
+    cosine: Decimal
+    sine: Decimal
+
+
 class Walk:
-    """From line to line in a chain as it is and in the exact one.
+    """Frames from line to line in a chain as it is and in the exact one.
 
     Attributes: given, exact, frames with their z axes on the lines, the base frame first and the
     tool frame last; snapped, whether the two differ; changes, in words.
     """
 
-    def __init__(self, chain: Chain, tol: float):
-        self.chain, self.tol = chain, tol
+    def __init__(self, chain: ChainData, tol: float):
+        self.chain = chain
+        self.tol = tol
         self.noise = ROUNDING * chain.reach
         self.changes: list[str] = []
         self.snapped = False
-        n = len(chain.screws)
         # A name may hold braces, which are no places for numbers.
         joints = [
             f"axis of {quote(name)}".replace("{", "{{").replace("}", "}}")
             for name in chain.joint_names
         ]
         self.names = ["the base's z axis", *joints, "the tool's z axis"]
-        self.given, self.exact = [BASE], [BASE]
-        for i in range(n):
-            self._step(*axis_near(chain.screws[i], chain.kinds[i] == "prismatic", self.given[-1].o))
-        x, z, p = exact(chain.home[:3, 0]), unit(exact(chain.home[:3, 2])), exact(chain.home[:3, 3])
+        self.given = [BASE]
+        self.exact = [BASE]
+        for S, kind in zip(chain.screws, chain.kinds, strict=True):
+            self._step(*axis_near(S, kind == "prismatic", self.given[-1].o))
+        x = exact(chain.home[:3, 0])
+        z = unit(exact(chain.home[:3, 2]))
+        p = exact(chain.home[:3, 3])
         self._step(z, add(p, scale(dot(subtract(self.given[-1].o, p), z), z)))
         self._end(Frame(unit(across(x, z)), z, p))
 
@@ -90,42 +98,47 @@ class Walk:
 
     def _across(self, z: Vector, p: Vector) -> tuple[Frame, Frame]:
         """By the common normal."""
-        last, new = self.given[-1], self.exact[-1]
-        before, name = self.names[len(self.given) - 1 : len(self.given) + 1]
+        last = self.given[-1]
+        new = self.exact[-1]
+        before, name = self._lines()
         normal = common_normal(last.o, last.z, p, z)
         x = normal.x
-        c, s = self._angle(*last.of(x)[:2], f"{name} turned by {{0:.3g}} rad about {before}, to {{1}}° from the normal "
-                           "before it")  # fmt: skip
-        d = self._length(dot(subtract(normal.foot, last.o), last.z),
-                         f"{name} moved by {{0:.3g}} m along {before}, to where the normal before it is")  # fmt: skip
+        c, s, _ = last.of(x)
+        theta = self._angle(
+            c,
+            s,
+            f"{name} turned by {{0:.3g}} rad about {before}, to {{1}}° from the normal before it",
+        )
+        d = self._length(
+            dot(subtract(normal.foot, last.o), last.z),
+            f"{name} moved by {{0:.3g}} m along {before}, to where the normal before it is",
+        )
         a = self._length(normal.a, f"{name} moved by {{0:.3g}} m to meet {before}")
-        cosine, sine = self._angle(
+        alpha = self._angle(
             normal.cosine, normal.sine, f"{name} turned by {{0:.3g}} rad to be {{2}} to {before}"
         )
-        turned = new.out((c, s, ZERO))
-        up = add(scale(cosine, new.z), scale(sine, cross(turned, new.z)))
+        turned = new.out((theta.cosine, theta.sine, ZERO))
+        up = add(scale(alpha.cosine, new.z), scale(alpha.sine, cross(turned, new.z)))
         origin = add(new.o, add(scale(d, new.z), scale(a, turned)))
         return Frame(x, z, add(normal.foot, scale(normal.a, x))), Frame(turned, up, origin)
 
     def _aside(self, z: Vector, p: Vector) -> tuple[Frame, Frame]:
         """By the smallest turn, to the next line's point nearest to the last origin."""
-        last, new = self.given[-1], self.exact[-1]
-        before, name = self.names[len(self.given) - 1 : len(self.given) + 1]
+        last = self.given[-1]
+        new = self.exact[-1]
+        before, name = self._lines()
         given = Frame(unit(across(last.x, z)), z, p)
         u, v, w = last.of(z)
-        straight = abs(u) <= self.tol and abs(v) <= self.tol
-        parallel = (
-            f"to be parallel to {before}"
-            if straight
-            else f"to lie in a plane of the frame on {before}"
-        )
+        straight = self._is_zero(u) and self._is_zero(v)
+        parallel = f"to lie in a plane of the frame on {before}"
+        if straight:
+            parallel = f"to be parallel to {before}"
         u, v = self._zeros(u, v, ROUNDING, f"{name} turned by {{0:.3g}} rad {parallel}")
         up = new.out((u, v, (1 - u * u - v * v).sqrt().copy_sign(w)))
         x, y, _ = given.of(subtract(p, last.o))
-        along = straight and abs(x) <= self.tol and abs(y) <= self.tol
-        line = (
-            f"to be one line with {before}" if along else f"into a plane of the frame on {before}"
-        )
+        line = f"into a plane of the frame on {before}"
+        if straight and self._is_zero(x) and self._is_zero(y):
+            line = f"to be one line with {before}"
         x, y = self._zeros(x, y, self.noise, f"{name} moved by {{0:.3g}} m {line}")
         turned = unit(across(new.x, up))
         origin = add(new.o, add(scale(x, turned), scale(y, cross(up, turned))))
@@ -133,41 +146,51 @@ class Walk:
 
     def _end(self, tool: Frame) -> None:
         """Along the tool's z axis and about it, to the tool frame."""
-        last, new = self.given[-1], self.exact[-1]
-        c, s = self._angle(*last.of(tool.x)[:2], "the tool turned by {0:.3g} rad about its z axis, to {1}° from the "
-                           "normal before it")  # fmt: skip
-        d = self._length(dot(subtract(tool.o, last.o), last.z), "the tool moved by {0:.3g} m along its z axis, to "
-                         "where the normal before it is")  # fmt: skip
+        last = self.given[-1]
+        new = self.exact[-1]
+        c, s, _ = last.of(tool.x)
+        theta = self._angle(
+            c,
+            s,
+            "the tool turned by {0:.3g} rad about its z axis, to {1}° from the normal before it",
+        )
+        d = self._length(
+            dot(subtract(tool.o, last.o), last.z),
+            "the tool moved by {0:.3g} m along its z axis, to where the normal before it is",
+        )
+        x = new.out((theta.cosine, theta.sine, ZERO))
         self.given[-1] = tool
-        self.exact[-1] = Frame(new.out((c, s, ZERO)), new.z, add(new.o, scale(d, new.z)))
+        self.exact[-1] = Frame(x, new.z, add(new.o, scale(d, new.z)))
+
+    def _lines(self) -> list[str]:
+        """Names of the last line and of the next."""
+        return self.names[len(self.given) - 1 : len(self.given) + 1]
+
+    def _is_zero(self, value: Decimal) -> bool:
+        return abs(value) <= self.tol
 
     def _length(self, value: Decimal, words: str) -> Decimal:
         return self._zeros(value, ZERO, self.noise, words)[0]
 
     def _zeros(self, x: Decimal, y: Decimal, noise: float, words: str) -> tuple[Decimal, Decimal]:
         """Each made 0 where it is within the tolerance."""
-        a, b = (ZERO if abs(value) <= self.tol else value for value in (x, y))
+        a, b = (ZERO if self._is_zero(value) else value for value in (x, y))
         self._changed(math.hypot(x - a, y - b), noise, words)
         return a, b
 
-    def _angle(self, c: Decimal, s: Decimal, words: str) -> tuple[Decimal, Decimal]:
-        """Cosine and sine of the multiple of 15 degrees nearest to an angle given by its own, where
-        it is near.
+    def _angle(self, c: Decimal, s: Decimal, words: str) -> Turn:
+        """The multiple of 15 degrees nearest to an angle given by cosine and sine, where it is near;
+        else the angle itself.
         """
         k = round(math.atan2(s, c) / (math.pi / 12))
-        cosine, sine = _cosine(k), _cosine(k - 6)
-        off = abs(math.asin(s * cosine - c * sine))
+        turn = Turn(_cosine(k), _cosine(k - 6))
+        off = abs(math.asin(s * turn.cosine - c * turn.sine))
         if off > self.tol:
-            return c, s
+            return Turn(c, s)
         degrees = 180 - (180 - 15 * k) % 360
-        self._changed(
-            off,
-            ROUNDING,
-            words,
-            degrees,
-            "perpendicular" if abs(degrees) == 90 else f"at {degrees}°",
-        )
-        return cosine, sine
+        relation = "perpendicular" if abs(degrees) == 90 else f"at {degrees}°"
+        self._changed(off, ROUNDING, words, degrees, relation)
+        return turn
 
     def _changed(self, size: float, noise: float, words: str, *rest: object) -> None:
         self.snapped |= size > 0
@@ -183,15 +206,16 @@ class Walk:
                 row[3:] = _floats(frame.z)
             else:
                 moment = add(cross(frame.o, frame.z), scale(Decimal(float(pitch)), frame.z))
-                row[:3], row[3:] = _floats(frame.z), _floats(moment, length(frame.o))
+                row[:3] = _floats(frame.z)
+                row[3:] = _floats(moment, length(frame.o))
         return S
 
     def home(self) -> Array:
         """The exact home pose (4, 4)."""
-        tool, T = self.exact[-1], np.eye(4)
-        T[:3] = np.stack(
-            [*map(_floats, (tool.x, tool.y, tool.z)), _floats(tool.o, length(tool.o))], axis=1
-        )
+        tool = self.exact[-1]
+        columns = [*map(_floats, (tool.x, tool.y, tool.z)), _floats(tool.o, length(tool.o))]
+        T = np.eye(4)
+        T[:3] = np.stack(columns, axis=1)
         return T
 
 
@@ -205,7 +229,7 @@ def _cosine(k: int) -> Decimal:
         k = 24 - k
     if k > 6:
         return -_cosine(12 - k)
-    # cos² = (2 + m sqrt(s)) / 4
+    # cos² = (2 + m sqrt(s)) / 4, of 0 to 90 degrees
     m, s = ((2, 1), (1, 3), (1, 1), (0, 1), (-1, 1), (-1, 3), (-2, 1))[k]
     return ((2 + m * Decimal(s).sqrt()) / 4).sqrt()
 

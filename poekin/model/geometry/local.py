@@ -38,19 +38,23 @@ def local_form(screws: Array, home: Array, pitches: Array) -> LocalForm:
     pitches (n,).
     """
     n = len(screws)
-    frames, rotates, slides = np.tile(np.eye(4), (n + 1, 1, 1)), np.empty(n), np.empty(n)
+    frames = np.tile(np.eye(4), (n + 1, 1, 1))
+    turning = np.any(screws[:, :3], axis=1)
+    rotates = turning.astype(float)
+    slides = np.where(turning, pitches, 1.0)
     feet = np.stack(algebra.cross(screws[:, :3].T, screws[:, 3:].T), axis=1)
-    R, origin = np.eye(3), np.zeros(3)
+    R = np.eye(3)
+    origin = np.zeros(3)
     for i, S in enumerate(screws):
-        rotates[i] = 1.0 if S[:3].any() else 0.0
-        slides[i] = pitches[i] if rotates[i] else 1.0
-        z = S[:3] if rotates[i] else S[3:]
+        z = S[3:]
         there = origin
-        if rotates[i]:
+        if turning[i]:
+            z = S[:3]
             there = feet[i] + z * (z @ (origin - feet[i]))
         frames[i, :3, :3] = turned_least(R.T @ z)
         frames[i, :3, 3] = R.T @ (there - origin)
-        R, origin = R @ frames[i, :3, :3], there
+        R = R @ frames[i, :3, :3]
+        origin = there
     frames[n, :3, :3] = R.T @ home[:3, :3]
     frames[n, :3, 3] = R.T @ (home[:3, 3] - origin)
     return LocalForm(read_only(frames), read_only(rotates), read_only(slides))
@@ -63,7 +67,8 @@ def turned_least(z: Array) -> Array:
     """
     x, y, c = (z / np.linalg.norm(z)).tolist()
     s = 1.0 if c >= 0 else -1.0
-    y, c = s * y, s * c
+    y *= s
+    c *= s
     k = 1.0 / (1.0 + c)
     rows = [
         [1.0 - k * x * x, -k * x * y, x],
@@ -78,11 +83,15 @@ def kernel_table(form: LocalForm, coupling: Array | None, offset: Array) -> Arra
     n = len(offset)
     if coupling is None and offset.any():
         coupling = np.eye(n)
-    width = chain_kernels.OFFSET if coupling is None else chain_kernels.COUPLING + coupling.shape[1]
+    width = chain_kernels.OFFSET
+    if coupling is not None:
+        width = chain_kernels.COUPLING + coupling.shape[1]
     table = np.zeros((n + 1, width))
     table[:, :9] = form.frames[:, :3, :3].reshape(n + 1, 9)
     table[:, 9:12] = form.frames[:, :3, 3]
-    table[:n, chain_kernels.ROTATES], table[:n, chain_kernels.SLIDES] = form.rotates, form.slides
+    table[:n, chain_kernels.ROTATES] = form.rotates
+    table[:n, chain_kernels.SLIDES] = form.slides
     if coupling is not None:
-        table[:n, chain_kernels.OFFSET], table[:n, chain_kernels.COUPLING :] = offset, coupling
+        table[:n, chain_kernels.OFFSET] = offset
+        table[:n, chain_kernels.COUPLING :] = coupling
     return table

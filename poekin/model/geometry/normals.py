@@ -52,7 +52,8 @@ def axis_near(S: np.ndarray, slides: bool, origin: Vector) -> tuple[Vector, Vect
     """Direction of a screw's axis and its point nearest to `origin`, which is that itself where a
     joint only slides.
     """
-    w, v = exact(S[:3]), exact(S[3:])
+    w = exact(S[:3])
+    v = exact(S[3:])
     if slides:
         return unit(v), origin
     z = unit(w)
@@ -74,25 +75,28 @@ class Normal(NamedTuple):
 
 
 def common_normal(p: Vector, z: Vector, p2: Vector, z2: Vector) -> Normal:
-    """Of two lines (point, unit direction) that are not parallel. Where they meet, x is along z x
-    z2.
+    """Common normal of two lines (point, unit direction) that are not parallel. Where they meet, x
+    is along z x z2.
     """
-    c, w = cross(z, z2), subtract(p2, p)
+    c = cross(z, z2)
+    w = subtract(p2, p)
     ss = dot(c, c)
+    sine = ss.sqrt()
+    cosine = dot(z, z2)
     foot = add(p, scale(dot(cross(w, z2), c) / ss, z))
     other = add(p2, scale(dot(cross(w, z), c) / ss, z2))
-    x, sine = scale(1 / ss.sqrt(), c), ss.sqrt()
+    x = scale(1 / sine, c)
     a = dot(subtract(other, foot), x)
     if a < 0:
-        return Normal(foot, scale(-1, x), -a, -sine, dot(z, z2))
-    return Normal(foot, x, a, sine, dot(z, z2))
+        return Normal(foot, scale(-1, x), -a, -sine, cosine)
+    return Normal(foot, x, a, sine, cosine)
 
 
 def parallel_normal(
     p: Vector, z: Vector, p2: Vector, z2: Vector, x: Vector, nothing: Decimal
 ) -> Normal:
-    """Of two parallel lines, taken at p; of one and the same line (distance at most `nothing`) x
-    stays as it is.
+    """Common normal of two parallel lines, taken at p; of one and the same line (distance at most
+    `nothing`) x stays as it is.
     """
     apart = across(subtract(p2, p), z)
     a = length(apart)

@@ -10,8 +10,9 @@ the chain's own numbers.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from decimal import Decimal
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,17 +20,65 @@ from ...algebra import add, cross, dot, scale, subtract
 from ...engine.straight_line.specialise import Pose, Structure
 from ...engine.straight_line.trace import FOLDED
 from ...groups.arrays import Array
+from ..chain_data import ChainData
 from .local import turned_least
-from .normals import Vector, across, axis_near, digits, exact, length, unit
-
-if TYPE_CHECKING:
-    from ..chain import Chain
+from .normals import ZERO, Vector, across, axis_near, digits, exact, length, unit
 
 SLANT = 0.1
 """The sine of the angle below which the common normal of two axes is too far away."""
 
 
-def structure(chain: Chain) -> Structure:
+class _Frame(NamedTuple):
+    """A frame by its three directions and its origin, in the base frame."""
+
+    x: Vector
+    y: Vector
+    z: Vector
+    o: Vector
+
+    def pose(self) -> Pose:
+        """Its twelve numbers, rotation row by row, then position."""
+        rows = zip(self.x, self.y, self.z, strict=True)
+        return (*(float(value) for row in rows for value in row), *map(float, self.o))
+
+
+@dataclass
+class _Joint:
+    """Numbers of one joint, as `Structure` has them: the link before it, its own angle at zero and
+    length, and the pose of its frame.
+    """
+
+    link: tuple[float, float, float, float] = (0.0, 1.0, 0.0, 0.0)
+    parallel: int = 0
+    sign: float = 1.0
+    along: float = 0.0
+    quarters: int = 0
+    offset: float = 0.0
+    pose: Pose = ()
+
+    def end(self, before: _Frame, after: _Frame) -> None:
+        """Sets its angle, which turns x from the frame before to the frame after, about z."""
+        self.quarters, self.offset = _angle((dot(after.x, before.x), dot(after.x, before.y)))
+        self.pose = after.pose()
+
+
+class _Step(NamedTuple):
+    """From one axis to the next: x is perpendicular to both, z is the next direction. The lengths
+    are a along x, b along y and d along the first axis.
+    """
+
+    x: Vector
+    z: Vector
+    sine: Decimal
+    cosine: Decimal
+    a: Decimal = ZERO
+    b: Decimal = ZERO
+    d: Decimal = ZERO
+    parallel: int = 0
+    sign: float = 1.0
+
+
+def structure(chain: ChainData) -> Structure:
     """The structure of a chain. Its kinematics are the chain's within 1e-15 reach a joint (see
     `trace.FOLDED`).
     """
@@ -37,74 +86,89 @@ def structure(chain: Chain) -> Structure:
         return _structure(chain)
 
 
-def _structure(chain: Chain) -> Structure:
-    n = len(chain.screws)
-    slides = [kind == "prismatic" for kind in chain.kinds]
-    links, alongs, parallel, signs, turns = [], [0.0] * n, [0] * n, [1.0] * n, []
-    R, o = np.eye(3), exact((0.0, 0.0, 0.0))
-    axes = _columns(R)
-    base = _pose(axes, o)
-    homes = []
-    for i in range(n):
-        z, p = axis_near(chain.screws[i], slides[i], o)
-        if i == 0:
-            axes, o = _columns(turned_least(np.array(z, float))), p
-            axes = (*axes[:2], z)
-            base = _pose(axes, o)
-            links.append((0.0, 1.0, 0.0, 0.0))
+def _structure(chain: ChainData) -> Structure:
+    frame = _Frame(*_columns(np.eye(3)), exact((0.0, 0.0, 0.0)))
+    base = frame.pose()
+    joints: list[_Joint] = []
+    for S, kind in zip(chain.screws, chain.kinds, strict=True):
+        slides = kind == "prismatic"
+        z, p = axis_near(S, slides, frame.o)
+        if not joints:
+            x, y, _ = _columns(turned_least(np.array(z, float)))
+            frame = _Frame(x, y, z, p)
+            base = frame.pose()
+            joints.append(_Joint())
             continue
-        X, Y, Z = axes
-        sine, cosine = length(cross(Z, z)), dot(Z, z)
-        if sine <= FOLDED:
-            signs[i], parallel[i] = math.copysign(1.0, cosine), 1
-            z, sine, cosine = Z, Decimal(0), Decimal(1)
-            w = across(subtract(p, o), Z)
-            a = length(w)
-            x = unit(w) if a > FOLDED else X
-            step = (a, Decimal(0), Decimal(0))
-        else:
-            x = unit(cross(Z, z))
-            y, w = cross(Z, x), subtract(p, o)
-            if slides[i]:
-                step = (Decimal(0),) * 3
-            elif sine < SLANT:
-                w = subtract(w, scale(dot(w, Z) / cosine, z))
-                step = (dot(w, x), dot(w, y), Decimal(0))
-            else:
-                w = subtract(w, scale(dot(w, y) / dot(z, y), z))
-                step = (dot(w, x), Decimal(0), dot(w, Z))
-        turns.append((dot(x, X), dot(x, Y)))
-        y = cross(Z, x)
-        alongs[i - 1] += float(step[2])
-        o = add(o, scale(step[2], Z))
-        homes.append(_pose((x, y, Z), o))
-        links.append((float(sine), float(cosine), float(step[0]), float(step[1])))
-        o = add(o, add(scale(step[0], x), scale(step[1], y)))
-        axes = (x, cross(z, x), z)
-    tip = [exact(column) for column in chain.home[:3].T]
-    if n:
-        X, Y, Z = axes
-        u = np.array([dot(column, Z) for column in tip[:3]], float)
-        x = unit(across(_combined(tip[:3], turned_least(u)[:, 0]), Z))
-        turns.append((dot(x, X), dot(x, Y)))
-        axes = (x, cross(Z, x), Z)
-        homes.append(_pose(axes, o))
-    p = subtract(tip[3], o)
-    seen = [tuple(dot(axis, column) for axis in axes) for column in (*tip[:3], p)]
-    quarters, offsets = zip(*map(_angle, turns), strict=True) if n else ((), ())
+        step = _step(frame, z, p, slides)
+        o = add(frame.o, scale(step.d, frame.z))
+        end = _Frame(step.x, cross(frame.z, step.x), frame.z, o)
+        joints[-1].along += float(step.d)
+        joints[-1].end(frame, end)
+        link = float(step.sine), float(step.cosine), float(step.a), float(step.b)
+        joints.append(_Joint(link, step.parallel, step.sign))
+        o = add(o, add(scale(step.a, end.x), scale(step.b, end.y)))
+        frame = _Frame(step.x, cross(step.z, step.x), step.z, o)
+    tip = _Frame(*map(exact, chain.home[:3].T))
+    if joints:
+        end = _Frame(*_least_turned(tip, frame.z), frame.z, frame.o)
+        joints[-1].end(frame, end)
+        frame = end
+    return _as_structure(chain, joints, base, _seen(tip, frame).pose())
+
+
+def _step(frame: _Frame, z: Vector, p: Vector, slides: bool) -> _Step:
+    """To the axis of direction z through p, which is of no matter where the joint only slides."""
+    sine = length(cross(frame.z, z))
+    cosine = dot(frame.z, z)
+    w = subtract(p, frame.o)
+    if sine <= FOLDED:
+        w = across(w, frame.z)
+        a = length(w)
+        x = unit(w) if a > FOLDED else frame.x
+        sign = math.copysign(1.0, cosine)
+        return _Step(x, frame.z, ZERO, Decimal(1), a, parallel=1, sign=sign)
+    x = unit(cross(frame.z, z))
+    y = cross(frame.z, x)
+    if slides:
+        return _Step(x, z, sine, cosine)
+    if sine < SLANT:
+        w = subtract(w, scale(dot(w, frame.z) / cosine, z))
+        return _Step(x, z, sine, cosine, a=dot(w, x), b=dot(w, y))
+    w = subtract(w, scale(dot(w, y) / dot(z, y), z))
+    return _Step(x, z, sine, cosine, a=dot(w, x), d=dot(w, frame.z))
+
+
+def _least_turned(tip: _Frame, z: Vector) -> tuple[Vector, Vector]:
+    """Directions x and y beside z that are turned from those of the tip as little as possible."""
+    columns = tip[:3]
+    u = np.array([dot(column, z) for column in columns], float)
+    factors = map(Decimal, turned_least(u)[:, 0].tolist())
+    first, second, third = map(scale, factors, columns)
+    x = unit(across(add(add(first, second), third), z))
+    return x, cross(z, x)
+
+
+def _seen(frame: _Frame, by: _Frame) -> _Frame:
+    """A frame as another one sees it."""
+    columns = (*frame[:3], subtract(frame.o, by.o))
+    return _Frame(*((dot(by.x, v), dot(by.y, v), dot(by.z, v)) for v in columns))
+
+
+def _as_structure(chain: ChainData, joints: list[_Joint], base: Pose, tool: Pose) -> Structure:
+    signs = np.array([joint.sign for joint in joints])
     return Structure(
-        links=tuple(links),
-        alongs=tuple(alongs),
-        parallel=tuple(parallel),
-        rotates=tuple(s * float(r) for s, r in zip(signs, chain.local.rotates, strict=True)),
-        slides=tuple(s * float(h) for s, h in zip(signs, chain.local.slides, strict=True)),
+        links=tuple(joint.link for joint in joints),
+        alongs=tuple(joint.along for joint in joints),
+        parallel=tuple(joint.parallel for joint in joints),
+        rotates=tuple((signs * chain.local.rotates).tolist()),
+        slides=tuple((signs * chain.local.slides).tolist()),
         coupling=tuple(map(tuple, chain.coupling.tolist())),
         shift=tuple(chain.offset.tolist()),
-        offsets=offsets,
-        quarters=quarters,
+        offsets=tuple(joint.offset for joint in joints),
+        quarters=tuple(joint.quarters for joint in joints),
         base=base,
-        tool=_pose(seen[:3], seen[3]),
-        frames=tuple(_in_local(chain, k, T) for k, T in enumerate(homes)),
+        tool=tool,
+        frames=tuple(_in_local(chain, k, joint.pose) for k, joint in enumerate(joints)),
         coordinates=chain.dof,
     )
 
@@ -113,10 +177,13 @@ def _angle(turn: tuple[Decimal, Decimal]) -> tuple[int, float]:
     """An angle given by cosine and sine: whole quarter turns, and what is left, which is 0 within
     rounding or not.
     """
-    angle = math.atan2(turn[1], turn[0])
+    cosine, sine = turn
+    angle = math.atan2(sine, cosine)
     quarters = round(angle / (math.pi / 2))
-    sine = float(turn[1] if quarters % 2 == 0 else turn[0])
-    return (quarters % 4, 0.0) if abs(sine) <= FOLDED else (0, angle)
+    left = sine if quarters % 2 == 0 else cosine
+    if abs(float(left)) <= FOLDED:
+        return quarters % 4, 0.0
+    return 0, angle
 
 
 def _columns(R: Array) -> tuple[Vector, Vector, Vector]:
@@ -124,21 +191,13 @@ def _columns(R: Array) -> tuple[Vector, Vector, Vector]:
     return x, y, z
 
 
-def _combined(columns, factors) -> Vector:
-    x, y, z = (scale(Decimal(float(f)), column) for f, column in zip(factors, columns, strict=True))
-    return add(add(x, y), z)
-
-
-def _pose(axes, o) -> Pose:
-    X, Y, Z = axes
-    return tuple(map(float, (X[0], Y[0], Z[0], X[1], Y[1], Z[1], X[2], Y[2], Z[2], *o)))
-
-
-def _in_local(chain: Chain, k: int, T: Pose) -> Pose:
+def _in_local(chain: ChainData, k: int, T: Pose) -> Pose:
     """A pose at x = 0 in the base frame, seen from the chain's own frame of joint k."""
     local = np.eye(4)
     for link in chain.local.frames[: k + 1]:
         local = local @ link
-    R, o = np.array(T[:9]).reshape(3, 3), np.array(T[9:])
-    seen, there = local[:3, :3].T @ R, local[:3, :3].T @ (o - local[:3, 3])
+    R = np.array(T[:9]).reshape(3, 3)
+    o = np.array(T[9:])
+    seen = local[:3, :3].T @ R
+    there = local[:3, :3].T @ (o - local[:3, 3])
     return (*seen.ravel().tolist(), *there.tolist())

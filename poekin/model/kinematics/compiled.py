@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...engine.jit import threads
-from ...engine.jit.kernel import Kernel
 from ...engine.jit.locks import COMPILING
 from ...engine.kernels import chain_kernels
 from ...engine.straight_line import interpret
@@ -18,28 +17,30 @@ from ...engine.straight_line.program import Program
 from ...engine.straight_line.specialise import Structure, cheapest_frame, placed, specialised
 from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
+from ..chain_data import AnyChain
 from ..checks import read_only
 from ..geometry.structure import structure
 from . import pose_jacobian
 
 if TYPE_CHECKING:
     from ...engine.straight_line.arm import Arm
-    from ..chain import Chain
 
-MIDDLE, POSE_ONLY = -4, -5
-_NAMES: dict[int, str | None] = {
-    chain_kernels.SPACE: "space",
-    chain_kernels.BODY: "body",
-    chain_kernels.HYBRID: "hybrid",
-    POSE_ONLY: None,
-}
+MIDDLE = -4
+"""Code of the frame "middle"; the other frames have those of the general kernels, and None stands
+for no Jacobian.
+"""
+
+_NAMES: dict[int | None, Any] = {code: name for name, code in pose_jacobian.FRAME_CODES.items()}
 _Calls = dict[object, tuple[Callable, int]]
-_empty, _POSE_SHAPE, _float64 = np.empty, (4, 4), np.dtype(np.float64)
+# Names looked up once: one call takes less than a microsecond.
+_empty = np.empty
+_float64 = np.dtype(np.float64)
+_POSE_SHAPE = (4, 4)
 _NOT_PLAIN = (AttributeError, KeyError, TypeError, ValueError)
 
 
 class Middle(NamedTuple):
-    """The frame in which the Jacobian costs least: it moves with joint number `joint` (0 ... n -
+    """Frame in which the Jacobian costs least: it moves with joint number `joint` (0 ... n -
     1).
 
     Its z axis is the joint's; `T_km` (4, 4) is its pose in the joint's own frame k
@@ -52,7 +53,7 @@ class Middle(NamedTuple):
     T_km: Array
 
 
-class CompiledChain:
+class CompiledChain(Generic[AnyChain]):
     """The kinematics of one arm, as `Chain` has them, by code that was made for its numbers.
 
     `fk`, `jacobian` and `fk_jacobian` take and return what those of the chain do. What is 0, ±1 or
@@ -73,7 +74,7 @@ class CompiledChain:
     Source: Park 1994, Section IV, each link as two planar rotations.
     """
 
-    def __init__(self, chain: Chain, parallel: bool = False):
+    def __init__(self, chain: AnyChain, parallel: bool = False):
         if not isinstance(parallel, bool):
             raise InputError(f"parallel: expected True or False, got {safe_repr(parallel)}")
         with COMPILING:  # the import of Numba, after all that only reads a model
@@ -81,11 +82,15 @@ class CompiledChain:
 
             from ...engine.kernels import arm_kernels
 
-        self.chain, self.parallel = chain, parallel
-        self.joint_names, self.q_names, self.dof = chain.joint_names, chain.q_names, chain.dof
-        self._kernels, self._interpreted = arm_kernels, bool(config.DISABLE_JIT)  # type: ignore[attr-defined]
-        self._shape = (6, chain.dof)
-        self._arms: dict[tuple[int, bool, bool], Arm] = {}
+        self.chain = chain
+        self.parallel = parallel
+        self.joint_names = chain.joint_names
+        self.q_names = chain.q_names
+        self.dof = chain.dof
+        self._kernels = arm_kernels
+        self._interpreted = bool(config.DISABLE_JIT)  # type: ignore[attr-defined]
+        self._shape = chain.jacobian_shape
+        self._arms: dict[tuple[int | None, bool, bool], Arm] = {}
         # The kernel and the arm that one configuration needs, by the frame as the user says it. A
         # kernel refuses what is not exactly one float64 configuration and its results; then the
         # longer way is taken, which takes everything and says what is wrong. Only the order of a
@@ -106,7 +111,7 @@ class CompiledChain:
                     return T
         except _NOT_PLAIN:
             pass
-        return pose_jacobian.fk_of_many(self, q, out)
+        return pose_jacobian.fk(self.chain, q, out, self._fill)
 
     def jacobian(
         self, q: Any, frame: str | int, *, at: ArrayLike | None = None, out: Array | None = None
@@ -114,16 +119,16 @@ class CompiledChain:
         """J (..., 6, m), as `Chain.jacobian`; frame may be "middle" too."""
         try:
             if q.ndim == 1 and at is None:
-                calls = self._jacobians
-                kernel, arm = calls.get(frame) or self._prepare(
-                    calls, frame, "jacobian_one", False, True
+                kernel, arm = self._jacobians.get(frame) or self._prepare(
+                    self._jacobians, frame, "jacobian_one", False, True
                 )
                 J = _empty(self._shape) if out is None else out
                 if q.dtype is J.dtype is _float64 and kernel(arm, q, J):
                     return J
         except _NOT_PLAIN:
             pass
-        return pose_jacobian.jacobian_of_many(self, q, frame, at, out)
+        code = self._frame_code(frame)
+        return pose_jacobian.jacobian(self.chain, q, frame, at, out, code, self._fill)
 
     def fk_jacobian(
         self,
@@ -136,16 +141,16 @@ class CompiledChain:
         """T_sb and J in one pass, as `Chain.fk_jacobian`; frame may be "middle" too."""
         try:
             if q.ndim == 1 and at is None:
-                calls = self._both
-                kernel, arm = calls.get(frame) or self._prepare(
-                    calls, frame, "pose_jacobian_one", True, True
+                kernel, arm = self._both.get(frame) or self._prepare(
+                    self._both, frame, "pose_jacobian_one", True, True
                 )
                 T, J = (_empty(_POSE_SHAPE), _empty(self._shape)) if out is None else out
                 if q.dtype is T.dtype is J.dtype is _float64 and kernel(arm, q, T, J):
                     return T, J
         except _NOT_PLAIN:
             pass
-        return pose_jacobian.fk_jacobian_of_many(self, q, frame, at, out)
+        code = self._frame_code(frame)
+        return pose_jacobian.fk_jacobian(self.chain, q, frame, at, out, code, self._fill)
 
     @cached_property
     def structure(self) -> Structure:
@@ -161,11 +166,12 @@ class CompiledChain:
 
     @cached_property
     def middle(self) -> Middle:
-        """Which frame "middle" is. Raises InputError for a chain without joints."""
+        """The frame "middle". Raises InputError for a chain without joints."""
         if not self.joint_names:
             raise InputError("frame 'middle': the chain has no joint")
         k, h = cheapest_frame(self.structure)
-        T_km, T_kf = np.eye(4), self.structure.frames[k]
+        T_km = np.eye(4)
+        T_kf = self.structure.frames[k]
         T_km[:3, :3] = np.array(T_kf[:9]).reshape(3, 3)
         T_km[:3, 3] = np.array(T_kf[9:]) - h * T_km[:3, 2]
         return Middle(k, h, read_only(T_km))
@@ -175,10 +181,10 @@ class CompiledChain:
         of the pose alone where frame is None. Its `count` says what it costs. Raises: as
         `jacobian`.
         """
-        code = POSE_ONLY if frame is None else self._frame_code(frame)
+        code = None if frame is None else self._frame_code(frame)
         return self._program(code, pose or frame is None)
 
-    def _program(self, code: int, pose: bool) -> Program:
+    def _program(self, code: int | None, pose: bool) -> Program:
         if code == MIDDLE:
             k, h, _ = self.middle
             return specialised(placed(self.structure, k, h), k, pose)
@@ -190,14 +196,12 @@ class CompiledChain:
         """The kernel and the arm for a frame, from now on in `calls`."""
         if self._interpreted:
             return _refusing, 0
-        code = POSE_ONLY if frame is None else self._frame_code(frame)
-        calls[frame] = (
-            getattr(self._kernels, kernel).ready(),
-            self._arm(code, pose, jacobian).address,
-        )
+        code = None if frame is None else self._frame_code(frame)
+        ready = getattr(self._kernels, kernel).ready()
+        calls[frame] = ready, self._arm(code, pose, jacobian).address
         return calls[frame]
 
-    def _arm(self, code: int, pose: bool, jacobian: bool) -> Arm:
+    def _arm(self, code: int | None, pose: bool, jacobian: bool) -> Arm:
         """The machine code for a frame."""
         with COMPILING:
             if (code, pose, jacobian) not in self._arms:
@@ -212,42 +216,35 @@ class CompiledChain:
             return self._arms[code, pose, jacobian]
 
     def _frame_code(self, frame: object) -> int:
-        return (
-            MIDDLE
-            if isinstance(frame, str) and frame == "middle"
-            else self.chain._frame_code(frame)
-        )
+        if isinstance(frame, str) and frame == "middle":
+            return MIDDLE
+        return pose_jacobian.frame_code(self.chain, frame)
 
-    def _fill_poses(self, rows: Array, T: Array) -> None:
-        self._run(self._kernels.pose_many, POSE_ONLY, rows, T, None)
-
-    def _fill_both(self, rows: Array, code: int, T: Array, J: Array) -> None:
-        self._run(self._kernels.pose_jacobian_many, code, rows, T, J)
-
-    def _fill_jacobians(self, rows: Array, code: int, J: Array) -> None:
-        self._run(self._kernels.jacobian_many, code, rows, None, J)
-
-    def _run(
-        self, kernel: Kernel, code: int, rows: Array, T: Array | None, J: Array | None
-    ) -> None:
+    def _fill(self, rows: Array, code: int | None, T: Array | None, J: Array | None) -> None:
+        """Poses into T and Jacobians in the frame of a code into J, where these are given."""
         if self._interpreted:
             self._interpret(code, rows, T, J)
             return
-        arm = self._arm(code, T is not None, J is not None)
-        arrays = [
-            np.require(rows, np.float64, ["C", "A", "W"]),
-            *(a for a in (T, J) if a is not None),
-        ]
-        if self.parallel:
-            threads.share_out(lambda *part: kernel.call(arm.address, *part), *arrays)
+        if T is None:
+            kernel = self._kernels.jacobian_many
+        elif J is None:
+            kernel = self._kernels.pose_many
         else:
-            kernel.call(arm.address, *arrays)
+            kernel = self._kernels.pose_jacobian_many
+        arm = self._arm(code, T is not None, J is not None)
+        results = [array for array in (T, J) if array is not None]
+        q = np.require(rows, np.float64, ["C", "A", "W"])
+        if self.parallel:
+            threads.share_out(lambda *part: kernel.call(arm.address, *part), q, *results)
+        else:
+            kernel.call(arm.address, q, *results)
 
-    def _interpret(self, code: int, rows: Array, T: Array | None, J: Array | None) -> None:
-        """The same without machine code, where Numba is told to compile nothing."""
+    def _interpret(self, code: int | None, rows: Array, T: Array | None, J: Array | None) -> None:
+        """Runs the programs without machine code, where Numba is told to compile nothing."""
         values = interpret.evaluate(self._program(code, T is not None), rows)
         if T is not None:
-            T[:, :3, :3], T[:, :3, 3] = values[:, :9].reshape(len(T), 3, 3), values[:, 9:12]
+            T[:, :3, :3] = values[:, :9].reshape(len(T), 3, 3)
+            T[:, :3, 3] = values[:, 9:12]
             T[:, 3] = 0.0, 0.0, 0.0, 1.0
             values = values[:, 12:]
         if J is not None:

@@ -12,6 +12,7 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ...model.provenance import warn
+from ...model.sampling import half_range, sampling_range
 from ..joint_units import JointUnits, period
 
 
@@ -64,7 +65,7 @@ def make_joint_domain(units: JointUnits, lock: Any, limits: bool) -> JointDomain
     m = chain.dof
     bounds = chain.limits.copy() if limits else np.tile([-np.inf, np.inf], (m, 1))
     periods = np.array([period(chain, k) for k in range(m)])
-    ranges = np.stack(chain._range(), axis=1) if limits else free_ranges(chain)
+    ranges = np.stack(sampling_range(chain), axis=1) if limits else free_ranges(chain)
     unlimited = np.isinf(bounds).all(axis=1)
     ranges[unlimited] = free_ranges(chain)[unlimited]
     locked = np.zeros(m, bool)
@@ -81,7 +82,7 @@ def free_ranges(chain: Chain) -> Array:
     way.
     """
     half = np.array([0.5 * period(chain, k) for k in range(chain.dof)])
-    half = np.where(half > 0, half, chain._half_range())
+    half = np.where(half > 0, half, half_range(chain))
     return np.stack([-half, half], axis=1)
 
 

@@ -14,6 +14,7 @@ from ...engine.kernels import ik_codes
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
+from ...model.sampling import sampling_range
 from ..joint_units import period
 
 
@@ -97,7 +98,7 @@ def pose_errors(chain: Chain, q: Array, T: Array) -> Array:
 
     errors = np.empty((len(q), 2))
     ik_kernels.judge.call(
-        chain._table, q, np.ascontiguousarray(T), ik_codes.POSE, np.zeros(3), errors
+        chain.kernel_table, q, np.ascontiguousarray(T), ik_codes.POSE, np.zeros(3), errors
     )
     return errors
 
@@ -128,7 +129,7 @@ def _search(
     turn = periods(chain)
     # a coordinate that turns is free, and brought into its limits at the end; another one has only
     # its own range
-    low, high = chain._range()
+    low, high = sampling_range(chain)
     ranges = np.where(turn[:, None] > 0, turn[:, None] * [-0.5, 0.5], np.stack([low, high], axis=1))
     options = np.zeros(ik_codes.OPTIONS)
     options[ik_codes.TOL_POSITION], options[ik_codes.TOL_ROTATION] = _AIM * chain.reach, _AIM

@@ -48,7 +48,7 @@ def plot_joints(
         for k, name in enumerate(arm.q_names):
             _one(rows[k], t, q[:, k], arm.limits[k], [b for b in breaks if 0 < b < len(t)])
             rows[k].set_title(
-                f"{svg.label(name)} ({'rad' if arm._turns(k) else 'm'})", loc="left", fontsize=9
+                f"{svg.label(name)} ({'rad' if arm.is_angle(k) else 'm'})", loc="left", fontsize=9
             )
         rows[-1].set_xlabel("point" if times is None else "time (s)")
 

@@ -55,7 +55,7 @@ def hessian_of_a_point_is_symmetric(chain: Any, q: np.ndarray) -> float:
     v = chain.hessian(q, "hybrid")[3:]
     bound = (
         0.0
-        if chain._coupling is None
+        if chain.nontrivial_coupling is None
         else 8 * budget(chain, q)[1] * (1 + size(chain.coupling) ** 2)
     )
     return kept(

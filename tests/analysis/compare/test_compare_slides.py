@@ -19,6 +19,7 @@ from poekin.formats.load import load
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
+from poekin.model.sampling import sampling_range
 
 TOL = 1e-5, np.radians(1e-3)
 
@@ -44,7 +45,7 @@ def in_other_conventions(chain, rng):
     """The arm with other zero positions, another base and tool, and some joints the other way
     round.
     """
-    low, high = chain._range()
+    low, high = sampling_range(chain)
     moved = chain.rezeroed(rng.uniform(-0.25, 0.25, chain.dof) * (high - low)).rebased(
         se3.exp(rng.normal(size=6))
     )

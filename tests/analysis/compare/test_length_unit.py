@@ -15,6 +15,7 @@ from poekin.formats.load import load
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
+from poekin.model.sampling import sampling_range
 
 COBRA = load("cobra600").chain()
 RAIL = Chain([screw.prismatic([0, 1, 0]), *random_arm(4, ("revolute",) * 4).screws], np.eye(4))
@@ -22,7 +23,7 @@ RAIL = Chain([screw.prismatic([0, 1, 0]), *random_arm(4, ("revolute",) * 4).scre
 
 def in_other_conventions(chain, seed):
     rng = np.random.default_rng(seed)
-    low, high = chain._range()
+    low, high = sampling_range(chain)
     moved = chain.rezeroed(rng.uniform(-0.2, 0.2, chain.dof) * (high - low)).rebased(
         se3.exp(rng.normal(size=6))
     )

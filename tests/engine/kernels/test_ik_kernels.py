@@ -467,7 +467,7 @@ def test_a_path_ends_where_a_coordinate_moves_too_far(k, monkeypatch):
 def test_results_are_judged_by_the_chain_in_the_parts_of_the_task(task):
     q, axis = np.stack([Q, Q + 0.1, -Q]), np.array([0.48, 0.6, 0.64])
     targets, errors = np.stack([TARGET, ARM.fk(Q + 0.1), np.eye(4)]), np.full((3, 2), -1.0)
-    ik_kernels.judge.function(ARM._table, q, targets, task, axis, errors)
+    ik_kernels.judge.function(ARM.kernel_table, q, targets, task, axis, errors)
     for target, row, (position, rotation) in zip(targets, q, errors, strict=True):
         T = ARM.fk(row)
         a, b = T[:3, :3] @ axis, target[:3, :3] @ axis

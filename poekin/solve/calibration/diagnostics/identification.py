@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ....errors import InputError
 from ....groups.arrays import Array
 from ....model.chain import Chain
+from ....model.sampling import half_range
 from ..design import indices
 from ..model.parameters import Arm
 from ..model.problem import Problem, readings, sets_of
@@ -179,7 +180,7 @@ def _told(problem: Problem, known: NDArray[np.bool_] | None) -> Array:
 
 def _anywhere(arm: Chain, count: int) -> Array:
     """Configurations with every coordinate moving, within limits or not."""
-    half = arm._half_range()
+    half = half_range(arm)
     return np.random.default_rng(0).uniform(-half, half, (count, arm.dof))
 
 

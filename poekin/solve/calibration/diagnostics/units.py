@@ -75,7 +75,7 @@ def built(arm: Arm, q: Array, sets: Sequence[Measurement]) -> Problem:
 
 def converted(arm: Chain, q: Array, angle: float = 1.0, length: float = 1.0) -> Array:
     """Readings (N, m), those of angles times `angle`, of lengths times `length`."""
-    return q * [angle if arm._turns(k) else length for k in range(arm.dof)]
+    return q * [angle if arm.is_angle(k) else length for k in range(arm.dof)]
 
 
 def _off(problem: Problem, p: Array) -> float:

@@ -99,7 +99,7 @@ class Arm:
             len(self._gain),
         ]
         self._parts = list(pairwise(np.cumsum([0, *counts]).tolist()))
-        self._plain = nominal._coupling is None and not nominal.offset.any()
+        self._plain = nominal.nontrivial_coupling is None and not nominal.offset.any()
         self._named_as: dict[str, Any] = {
             "joint_names": nominal.joint_names, "q_names": nominal.q_names, "limits": nominal.limits,
             "offset": nominal.offset, "base": nominal.base, "tip": nominal.tip,
@@ -123,7 +123,7 @@ class Arm:
         q_names = self.nominal.q_names
         for k in self._offset:
             found.append(
-                Parameter(q_names[k], "offset", "rad" if self.nominal._turns(int(k)) else "m")
+                Parameter(q_names[k], "offset", "rad" if self.nominal.is_angle(int(k)) else "m")
             )
         return found + [Parameter(q_names[k], "gain", "1") for k in self._gain]
 
@@ -162,7 +162,7 @@ class Arm:
         """Joint values x = C ((1 + g) q + o) + c of the readings q (N, m)."""
         _, _, _, o, g = self._split(p)
         x = (1.0 + g) * q + o
-        C = self.nominal._coupling
+        C = self.nominal.nontrivial_coupling
         return (x if C is None else x @ C.T) + self.nominal.offset
 
     def chain(self, p: Array) -> Chain:
@@ -175,11 +175,15 @@ class Arm:
         if self._plain and not o.any() and not g.any():
             return joints
         arm = Chain(
-            joints.screws, joints.home, coupling=nominal._coupling, pitches=joints.pitches, **same
+            joints.screws,
+            joints.home,
+            coupling=nominal.nontrivial_coupling,
+            pitches=joints.pitches,
+            **same,
         )
         if o.any():
             arm = arm.rezeroed(o)
-        coupling = nominal.coupling * (1.0 + g) if g.any() else nominal._coupling
+        coupling = nominal.coupling * (1.0 + g) if g.any() else nominal.nontrivial_coupling
         return Chain(arm.screws, arm.home, coupling=coupling, pitches=arm.pitches, **same)
 
     def poses(self, p: Array, q: Array) -> Array:
@@ -212,7 +216,11 @@ class Arm:
         if len(self._pitched) or len(self._offset) or len(self._gain):
             J = joints.jacobian(x, frame="space")
             slides = np.concatenate([np.zeros((N, 3, n)), J[:, :3] * x[:, None]], axis=1)
-            J_q = J if self.nominal._coupling is None else J @ self.nominal._coupling
+            J_q = (
+                J
+                if self.nominal.nontrivial_coupling is None
+                else J @ self.nominal.nontrivial_coupling
+            )
             parts.append(slides[..., self._pitched])
         if self._home:
             parts.append(D.home @ se3.right_jacobian(home))

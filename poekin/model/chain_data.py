@@ -1,0 +1,226 @@
+"""Data of a serial chain: screws, home pose, names, limits, coupling, and what follows from them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Self, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..engine.kernels import chain_kernels
+from ..errors import ShapeError, quote
+from ..groups import se3
+from ..groups.arrays import Array
+from . import screw
+from .checks import (
+    bounds,
+    coupling_matrix,
+    distinct_names,
+    finite,
+    frame_name,
+    one_pose,
+    ordered_names,
+    read_only,
+)
+from .geometry.local import LocalForm, kernel_table, local_form
+
+
+class ScrewForm(NamedTuple):
+    """One global form of the product of exponentials: screws (n, 6), per rad or m, in one frame;
+    home (4, 4), m.
+    """
+
+    screws: Array
+    home: Array
+
+
+@dataclass(slots=True, init=False, eq=False, repr=False)
+class ChainData:
+    """Frozen numbers and names of a serial chain, checked and made exact once. They know nothing of
+    kinematics.
+
+    Parameters and errors: as `Chain`, its face. Further attributes
+    - kinds (n): "revolute", "prismatic" or "helical"; local: the local form; reach, m.
+    - nontrivial_coupling (n, m): C, or None where every joint is its own coordinate.
+    - kernel_table: the numbers as the engine's kernels read them; to be read only.
+    - plain_shape (m,): shape of a q that goes straight to the kernel of one configuration, None
+      where joints and coordinates are not the same. jacobian_shape: (6, m).
+    """
+
+    screws: Array
+    home: Array
+    joint_names: tuple[str, ...]
+    q_names: tuple[str, ...]
+    limits: Array
+    offset: Array
+    base: str
+    tip: str
+    pitches: Array
+    nontrivial_coupling: Array | None
+    kinds: tuple[str, ...]
+    local: LocalForm
+    reach: float
+    kernel_table: Array
+    plain_shape: tuple[int, ...] | None
+    jacobian_shape: tuple[int, int]
+
+    def __init__(
+        self,
+        screws: ArrayLike,
+        home: ArrayLike,
+        *,
+        joint_names: Sequence[str] | None = None,
+        q_names: Sequence[str] | None = None,
+        limits: ArrayLike | None = None,
+        coupling: ArrayLike | None = None,
+        offset: ArrayLike | None = None,
+        base: str = "base",
+        tip: str = "tool",
+        pitches: ArrayLike | None = None,
+    ):
+        given_names = ordered_names(joint_names, "joint_names")
+        A = screw.checked(screws, given_names)
+        h = screw.pitches_of(A, pitches, given_names)
+        if pitches is not None:
+            A = screw.with_pitches(A, h)
+        n = len(A)
+        joints = distinct_names(joint_names, n, "joint_names", "joint")
+        C = None if coupling is None else coupling_matrix(coupling, n)
+        c = _offset(offset, n)
+        m = n if C is None else C.shape[1]
+        if q_names is None and C is None:
+            q_names = joints
+        names = distinct_names(q_names, m, "q_names", "q")
+        M = one_pose(home)
+        form = local_form(A, M, h)
+        table = kernel_table(form, C, c)
+        plain = table.shape[1] == chain_kernels.OFFSET
+        self._freeze(
+            screws=read_only(A),
+            home=read_only(M),
+            joint_names=joints,
+            q_names=names,
+            limits=read_only(bounds(limits, names)),
+            offset=read_only(c),
+            base=frame_name(base, "base"),
+            tip=frame_name(tip, "tip"),
+            pitches=read_only(h),
+            nontrivial_coupling=None if C is None else read_only(C),
+            kinds=tuple(map(_kind, form.rotates, form.slides)),
+            local=form,
+            reach=_reach(form),
+            # Writable: Numba takes half a microsecond longer over a read-only array.
+            kernel_table=table,
+            plain_shape=(m,) if plain else None,
+            jacobian_shape=(6, m),
+        )
+
+    def _freeze(self, **values: object) -> None:
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def dof(self) -> int:
+        """m, the number of coordinates."""
+        return len(self.q_names)
+
+    @property
+    def coupling(self) -> Array:
+        """C (n, m) of x = C q + c: made anew at each call where every joint is its own coordinate."""
+        C = self.nontrivial_coupling
+        return read_only(np.eye(self.dof) if C is None else C)
+
+    @property
+    def space(self) -> ScrewForm:
+        """A_1 ... A_n in the base frame and M: f = e^{A_1 x_1} ... e^{A_n x_n} M."""
+        return ScrewForm(self.screws, self.home)
+
+    @property
+    def body(self) -> ScrewForm:
+        """B_i = Ad(M)^-1 A_i in the tool frame and M: f = M e^{B_1 x_1} ... e^{B_n x_n}."""
+        return ScrewForm(self.screws @ se3.adjoint(se3.inverse(self.home)).T, self.home)
+
+    def is_angle(self, k: int) -> bool:
+        """Whether coordinate number k is an angle [rad] and no length [m]: the first joint that
+        follows it turns.
+        """
+        C = self.nontrivial_coupling
+        followers = [k] if C is None else np.flatnonzero(C[:, k])
+        return not len(followers) or self.kinds[followers[0]] != "prismatic"
+
+    def replace(self, **changes: Any) -> Self:
+        """Copy with some parameters changed.
+
+        Parameters: changes, parameters of `Chain` by name. Returns: Chain. Raises: as `Chain`.
+        """
+        return type(self)(**{**self._data(), **changes})
+
+    def _data(self) -> dict[str, Any]:
+        data: dict[str, Any] = {name: getattr(self, name) for name in _DATA}
+        data["coupling"] = self.nontrivial_coupling
+        return data
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(
+            f"a Chain is frozen: cannot set {name!r}; rebased, retooled and rezeroed make new ones"
+        )
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a Chain is frozen: cannot delete {name!r}")
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ChainData):
+            return NotImplemented
+        pairs = zip(self._data().values(), other._data().values(), strict=True)
+        return all(type(a) is type(b) and np.array_equal(a, b) for a, b in pairs)
+
+    def __hash__(self) -> int:
+        values = self._data().values()
+        return hash(tuple(a.tobytes() if isinstance(a, np.ndarray) else a for a in values))
+
+    def __reduce__(self):
+        return _rebuilt, (type(self), self._data())
+
+    def __repr__(self) -> str:
+        counts = [f"{self.kinds.count(kind)} {kind}" for kind in _KINDS if kind in self.kinds]
+        joints = f"{', '.join(counts) or 'no'} joint{'s' * (len(self.kinds) != 1)}"
+        if self.dof != len(self.kinds):
+            joints += f", {self.dof} coordinate{'s' * (self.dof != 1)}"
+        frames = f"{quote(self.base)} -> {quote(self.tip)}"
+        return f"<Chain {frames}: {joints}, reach {self.reach:.3g} m>"
+
+
+AnyChain = TypeVar("AnyChain", bound=ChainData)
+"""The class of the chain that is given: a function of a `Chain` that makes a new one makes a Chain."""
+
+_DATA = ("screws", "home", "joint_names", "q_names", "limits", "offset", "base", "tip", "pitches")
+_KINDS = ("revolute", "prismatic", "helical")
+
+
+def _rebuilt(kind: type[ChainData], data: dict[str, Any]) -> ChainData:
+    return kind(**data)
+
+
+def _offset(given: ArrayLike | None, n: int) -> Array:
+    """The constant part c (n,) of x = C q + c."""
+    if given is None:
+        return np.zeros(n)
+    c = finite(given, "offset")
+    if c.shape != (n,):
+        raise ShapeError(f"offset: expected shape ({n},), one number a joint, got {c.shape}")
+    return c
+
+
+def _kind(rotates: float, slides: float) -> str:
+    """Kind of the joint that turns by rotates x and slides by slides x."""
+    if rotates == 0:
+        return "prismatic"
+    return "helical" if slides else "revolute"
+
+
+def _reach(form: LocalForm) -> float:
+    """Lengths between the joints, and 1 m for each joint that only slides; at least 1 m."""
+    lengths = np.linalg.norm(form.frames[:, :3, 3], axis=1).sum()
+    return max(1.0, float(lengths + (form.rotates == 0).sum()))

@@ -1,0 +1,41 @@
+"""One arm seen from another base frame, with another tool frame, or from other zero positions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import InputError
+from ...groups import se3
+from ..chain_data import AnyChain
+from ..checks import one_pose
+from ..coordinates import coordinates
+
+
+def rebased(chain: AnyChain, P: ArrayLike, base: str | None) -> AnyChain:
+    """f' = P f: A' = Ad(P) A, M' = P M."""
+    P = one_pose(P, "P")
+    screws = chain.screws @ se3.adjoint(P).T
+    return chain.replace(screws=screws, home=P @ chain.home, base=base or chain.base)
+
+
+def retooled(chain: AnyChain, Q: ArrayLike, tip: str | None) -> AnyChain:
+    """f' = f Q: M' = M Q."""
+    return chain.replace(home=chain.home @ one_pose(Q, "Q"), tip=tip or chain.tip)
+
+
+def rezeroed(chain: AnyChain, q0: Any) -> AnyChain:
+    """f'(q) = f(q + q0): each screw moved by the joints before it, each from 0 to its new zero."""
+    q0 = coordinates(q0, chain.q_names, "q0")
+    if q0.ndim != 1 or not np.isfinite(q0).all():
+        raise InputError(f"q0: expected one finite configuration ({chain.dof},), got {q0.tolist()}")
+    C = chain.nontrivial_coupling
+    shifts = q0 if C is None else C @ q0
+    A = np.empty_like(chain.screws)
+    P = np.eye(4)
+    for i, S in enumerate(chain.screws):
+        A[i] = se3.adjoint(P) @ S
+        P = P @ se3.exp(S * shifts[i])
+    return chain.replace(screws=A, home=P @ chain.home, limits=chain.limits - q0[:, None])

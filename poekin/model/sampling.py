@@ -1,0 +1,48 @@
+"""Configurations drawn at random, and the range that a coordinate without limits is given."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..groups.arrays import Array
+from .chain_data import ChainData
+
+
+def random(
+    chain: ChainData, rng: np.random.Generator | int, size: int | tuple[int, ...] = ()
+) -> Array:
+    """Configurations (*size, m) drawn uniformly from `sampling_range`."""
+    rng = np.random.default_rng(rng)
+    size = (size,) if isinstance(size, (int, np.integer)) else tuple(size)
+    low, high = sampling_range(chain)
+    return low + (high - low) * rng.random((*size, chain.dof))
+
+
+def sampling_range(chain: ChainData) -> tuple[Array, Array]:
+    """Least and greatest value (m,) that `random` draws of each coordinate."""
+    half = half_range(chain)
+    lower, upper = chain.limits.T
+    has_lower = np.isfinite(lower)
+    has_upper = np.isfinite(upper)
+    low = np.where(has_lower, lower, np.where(has_upper, upper - 2 * half, -half))
+    high = np.where(has_upper, upper, np.where(has_lower, lower + 2 * half, half))
+    return low, high
+
+
+def half_range(chain: ChainData) -> Array:
+    """Greatest value (m,) that `random` draws of coordinates without limits; the least is its
+    opposite.
+    """
+    motions = [np.pi if chain.is_angle(k) else 1.0 for k in range(chain.dof)]
+    return np.array([x / abs(dominant_ratio(chain, k)) for k, x in enumerate(motions)])
+
+
+def dominant_ratio(chain: ChainData, k: int) -> float:
+    """Ratio of largest size to coordinate k, of joints that turn where it is an angle and slide
+    where not.
+    """
+    slides = np.array(chain.kinds) == "prismatic"
+    ratios = chain.coupling[slides != chain.is_angle(k), k]
+    if not ratios.any():
+        return 1.0
+    return float(ratios[np.argmax(np.abs(ratios))])

@@ -1,0 +1,98 @@
+"""ChainData: the numbers of a chain without its kinematics."""
+
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+import poekin as pk
+from poekin.engine.kernels import chain_kernels
+from poekin.errors import InputError, ShapeError
+from poekin.model.chain_data import ChainData
+from poekin.model.geometry import idealise, other_frames
+from poekin.model.geometry.structure import structure
+from poekin.model.kinematics import pose_jacobian
+from poekin.testing.strategies import chain_strategies
+
+TURN = pk.screw.revolute([0, 0, 1], [0.1, 0, 0])
+SLIDE = pk.screw.prismatic([1, 0, 0])
+MOVED = pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3])
+
+
+def data_of(chain):
+    """The data of a chain, without its face."""
+    return ChainData(
+        chain.screws,
+        chain.home,
+        joint_names=chain.joint_names,
+        q_names=chain.q_names,
+        limits=chain.limits,
+        coupling=chain.nontrivial_coupling,
+        offset=chain.offset,
+        base=chain.base,
+        tip=chain.tip,
+        pitches=chain.pitches,
+    )
+
+
+@given(chain_strategies.chains())
+def test_the_functions_take_data_and_give_what_the_methods_give(chain):
+    data = data_of(chain)
+    q = chain.random(1, 3)
+    np.testing.assert_array_equal(pose_jacobian.fk(data, q), chain.fk(q))
+    J = pose_jacobian.jacobian(data, q, "body")
+    np.testing.assert_array_equal(J, chain.jacobian(q, "body"))
+    assert structure(data) == structure(chain)
+    assert data == chain
+    assert hash(data) == hash(chain)
+    assert repr(data) == repr(chain)
+
+
+@pytest.mark.parametrize("kind", [ChainData, pk.Chain])
+def test_a_copy_with_something_changed_is_of_the_class_of_its_original(kind):
+    chain = kind([TURN, SLIDE], MOVED, coupling=[[1.0], [2.0]], q_names=["a"], base="world")
+    copies = [
+        chain.replace(tip="hand"),
+        other_frames.rebased(chain, MOVED, None),
+        other_frames.retooled(chain, MOVED, None),
+        other_frames.rezeroed(chain, [0.5]),
+        idealise.idealised(chain, 0.01).chain,
+        pickle.loads(pickle.dumps(chain)),
+    ]
+    assert [type(copy) for copy in copies] == [kind] * len(copies)
+    assert {copy.base for copy in copies} == {"world"}
+    assert copies[0].tip == "hand"
+    np.testing.assert_array_equal(copies[0].coupling, [[1.0], [2.0]])
+    assert copies[0] != chain
+    assert copies[0].replace(tip=chain.tip) == chain
+
+
+def test_a_copy_is_checked_as_a_new_chain_is():
+    chain = pk.Chain([TURN], MOVED)
+    with pytest.raises(ShapeError, match="offset"):
+        chain.replace(offset=[1.0, 2.0])
+    with pytest.raises(InputError, match="base"):
+        chain.replace(base="")
+    with pytest.raises(TypeError):
+        chain.replace(colour="red")
+
+
+def test_only_a_chain_whose_joints_are_its_coordinates_goes_straight_to_the_kernel():
+    plain = pk.Chain([TURN, SLIDE], MOVED)
+    assert plain.plain_shape == (2,)
+    assert plain.nontrivial_coupling is None
+    assert plain.kernel_table.shape == (3, chain_kernels.OFFSET)
+    shifted = pk.Chain([TURN, SLIDE], MOVED, offset=[0.0, 1.0])
+    coupled = pk.Chain([TURN, SLIDE], MOVED, coupling=[[1.0], [0.0]], q_names=["a"])
+    assert shifted.plain_shape is coupled.plain_shape is None
+    assert (plain.jacobian_shape, coupled.jacobian_shape) == ((6, 2), (6, 1))
+    np.testing.assert_array_equal(coupled.nontrivial_coupling, [[1.0], [0.0]])
+
+
+def test_a_coordinate_is_an_angle_where_the_first_joint_that_follows_it_turns():
+    chain = pk.Chain([TURN, SLIDE], MOVED)
+    assert [chain.is_angle(k) for k in range(2)] == [True, False]
+    for rows, angle in (([TURN, SLIDE], True), ([SLIDE, TURN], False)):
+        coupled = pk.Chain(rows, MOVED, coupling=[[1.0, 0.0], [2.0, 0.0]], q_names=["a", "idle"])
+        assert [coupled.is_angle(k) for k in range(2)] == [angle, True]
