@@ -111,7 +111,9 @@ class Problem:
         hold (N,).
         """
         errors = np.empty((len(q), 2))
-        self._judge.call(self.given._table, q, targets, self.task.code, self.task.axis, errors)
+        self._judge.call(
+            self.given.kernel_table, q, targets, self.task.code, self.task.axis, errors
+        )
         near = errors[:, 0] <= self.settings.tol_position
         aligned = errors[:, 1] <= self.settings.tol_rotation
         return errors, near & aligned
