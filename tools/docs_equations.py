@@ -113,7 +113,7 @@ EQUATIONS: dict[str, str] = {
         r"df\,f^{-1} = \sum_{i=1}^{n} (\operatorname{Ad}(P_{i-1}) - \operatorname{Ad}(P_i))\,\eta_i "
         r"+ \operatorname{Ad}(f)\,\eta, \quad P_i = e^{A_1 q_1} \cdots e^{A_i q_i}"
     ),
-    "poekin.formulas.least_squares": r"(J^T W J + \lambda I)\,x = J^T W e",
+    "poekin.formulas.inverse.least_squares": r"(J^T W J + \lambda I)\,x = J^T W e",
     "poekin.formulas.lie.defect": r"\|R^T R - I\|, \quad \det R",
 }
 

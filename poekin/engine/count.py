@@ -128,6 +128,10 @@ class _Functions:
         return x._new(math.cos(x.value), "cosines")
 
     @staticmethod
+    def asin(x: Counted) -> Counted:
+        return x._new(math.asin(x.value), "arctangents")  # asin x = atan2(x, sqrt(1 - x^2))
+
+    @staticmethod
     def atan2(y: Counted, x) -> Counted:
         return y._new(math.atan2(y.value, _value(x)), "arctangents")
 

@@ -20,16 +20,22 @@ def _float_cos(x):
     return math.cos(x) if math.isfinite(x) else math.nan
 
 
+def _float_asin(x):
+    return math.asin(x) if -1 <= x <= 1 else math.nan
+
+
 # `math`, but NaN where it raises: compiled code gives that too
 _FLOATS = (
-    SimpleNamespace(sqrt=_float_sqrt, sin=_float_sin, cos=_float_cos, atan2=math.atan2),
+    SimpleNamespace(
+        sqrt=_float_sqrt, sin=_float_sin, cos=_float_cos, asin=_float_asin, atan2=math.atan2
+    ),
     True,
 )
 _FUNCTIONS = {}
 
 
 def provide(kind, functions, series=True):
-    """Let scalars of type `kind` take sqrt, sin, cos and atan2 from the namespace `functions`.
+    """Let scalars of type `kind` take sqrt, sin, cos, asin and atan2 from the namespace `functions`.
 
     `series` says whether small arguments need the Taylor polynomials; numbers of many digits do
     without.
@@ -54,6 +60,11 @@ def sin(x):
 def cos(x):
     """Cosine of an angle in rad."""
     return _functions(x).cos(x)
+
+
+def asin(x):
+    """Angle (rad) between -pi/2 and pi/2 of which x is the sine."""
+    return _functions(x).asin(x)
 
 
 def atan2(y, x):

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from poekin import algebra, formulas
-from poekin.formulas import dh, elementary, least_squares
+from poekin.formulas import dh, elementary
+from poekin.formulas.inverse import damped_step, least_squares, pose_error
 from poekin.formulas.kinematics import (
     columns,
     derivatives,
@@ -92,6 +93,11 @@ SEEN = rng.normal(size=(N, 2)).tolist()
 SLOPES = [list(map(float, row)) for row in np.random.default_rng(5).normal(size=(6, N))]
 PRODUCTS = [list(map(float, exponential.se3(tuple(0.4 * k for k in W), V))) for _ in range(N + 2)]
 MOVED = np.random.default_rng(6).normal(size=(6, N + 1, 6)).tolist()
+
+UNTURNED = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+OPPOSITE = tuple(-x for x in UNTURNED)
+FRAME_AXES = ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+SLIDING = [[0.0] * N for _ in range(3)] + AXES[3:]
 
 
 CASES = [
@@ -177,11 +183,32 @@ CASES = [
         ROTATES + SLIDES,
         0.3,
         [1.0, 0.0, 1.0, 1.0],
-        6,
         N,
         square(),
         SINES,
     ),
+    (
+        damped_step.step,
+        AXES,
+        list(X),
+        ROTATES + SLIDES,
+        40.0,
+        [1.0, 0.0, 1.0, 1.0],
+        N,
+        square(),
+        SINES,
+    ),
+    (damped_step.half_square, list(X), ROTATES + SLIDES),
+    (damped_step.descent, AXES, list(X), ROTATES + SLIDES, 2),
+    *[(damped_step.is_blocked, q, -0.5, 0.5, -0.3) for q in (-0.5, 0.0)],
+    (damped_step.ease_slides, SLIDING, ROTATES + SLIDES, 9.0, [1.0, 1.0, 0.0, 1.0], N, SQUARE),
+    (damped_step.keep_regular, [1.0, 0.0, 1.0, 1.0], N, SQUARE),
+    (pose_error.rotation_error, R1, R2),
+    *[(pose_error.direction_error, R1, R, (0.6, 0.0, 0.8)) for R in (R2, R1)],
+    *[(pose_error.direction_error, UNTURNED, OPPOSITE, axis) for axis in FRAME_AXES],
+    *[(pose_error.angle, w) for w in (W, (0.0, 0.0, 0.0), (2.0, 0.0, 0.1))],
+    (pose_error.distance, X),
+    (pose_error.remove_turn_about, W, AXES, N),
     (least_squares.solve, SQUARE, ANGLES.tolist(), N),
     (structured.outward, *WALK, 0, N, rows12()),
     (structured.inward, *WALK, N - 1, rows12()),
@@ -248,7 +275,9 @@ def test_a_formula_gives_the_same_in_every_kind(case, kind):
 # exp, log and what belongs to them divide and compare: they are not traced, but for what they share
 # with the chains.
 DIVIDE = (
+    damped_step,
     least_squares,
+    pose_error,
     coefficients,
     arctangent,
     compensated,

@@ -44,7 +44,7 @@ NEAR = {
     "formulas/elementary": f"{_KINDS} {_SMALL_ANGLES}",
     "formulas/exp_jacobian formulas/logarithm": _ANGLES,
     "formulas/exponential": f"formulas/exponential_closed {_MATRICES} {_CHAIN_MATRICES} {_ANGLES}",
-    "formulas/least_squares": f"own {_KINDS}",
+    "formulas/damped_step formulas/least_squares formulas/pose_error": f"own {_KINDS}",
     "formulas/recursive": f"{_CHAIN_MATRICES} {_MATRICES} {_KINDS} {CHAINS}",
     "formulas/screw_changes": f"{_DIFFERENCES} model/derivatives",
     "formulas/structured": "formulas/structured_matrices model/compiled",

@@ -32,7 +32,7 @@ def _modules():
 
 
 _OVERLOADED = (
-    *(elementary.sqrt, elementary.sin, elementary.cos, elementary.atan2),
+    *(elementary.sqrt, elementary.sin, elementary.cos, elementary.asin, elementary.atan2),
     *(elementary.takes_series, elementary.below, array_io.borrowed),
 )
 
@@ -51,6 +51,7 @@ def _register() -> None:
     overload(elementary.sqrt)(lambda x: lambda x: math.sqrt(x))
     overload(elementary.sin)(lambda x: lambda x: math.sin(x))
     overload(elementary.cos)(lambda x: lambda x: math.cos(x))
+    overload(elementary.asin)(lambda x: lambda x: math.asin(x))
     overload(elementary.atan2)(lambda y, x: lambda y, x: math.atan2(y, x))
     overload(elementary.takes_series)(lambda x: lambda x: True)
     overload(elementary.below)(lambda x, limit: lambda x, limit: x < limit)

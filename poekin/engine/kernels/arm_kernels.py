@@ -110,7 +110,7 @@ def _sines_cosines(sines, cosines, count):
             sines[k], cosines[k] = sincos(sines[k])
 
 
-def _one(arm, q, T, J, scratch):
+def run_one(arm, q, T, J, scratch):
     """One configuration; the memory of the results holds the sines and cosines until they are
     overwritten.
     """
@@ -140,7 +140,7 @@ def pose_one(arm, q, T):
     if q.shape[0] != _parts(arm)[1] or T.shape[0] != 4 or T.shape[1] != 4 or not _apart(q, T):
         return 0
     q, T = borrowed(q), borrowed(T)
-    _one(arm, q, T, T, T.reshape(T.size))
+    run_one(arm, q, T, T, T.reshape(T.size))
     return 1
 
 
@@ -151,7 +151,7 @@ def jacobian_one(arm, q, J):
     if q.shape[0] != m or J.shape[0] != 6 or J.shape[1] != m or not _apart(q, J):
         return 0
     q, J = borrowed(q), borrowed(J)
-    _one(arm, q, J, J, J.reshape(J.size))
+    run_one(arm, q, J, J, J.reshape(J.size))
     return 1
 
 
@@ -164,7 +164,7 @@ def pose_jacobian_one(arm, q, T, J):
     if not (_apart(q, T) and _apart(q, J) and _apart(T, J)):
         return 0
     q, T, J = borrowed(q), borrowed(T), borrowed(J)
-    _one(arm, q, T, J, J.reshape(J.size))
+    run_one(arm, q, T, J, J.reshape(J.size))
     return 1
 
 

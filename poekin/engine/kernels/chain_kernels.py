@@ -18,13 +18,13 @@ SPACE, BODY, HYBRID = -1, -2, -3
 POSE, ROTATES, SLIDES, OFFSET, COUPLING = 0, 12, 13, 14, 15
 
 
-def _scratch(table):
+def scratch(table):
     """Room for the sines, cosines and shifts of the joints' motions."""
     n = table.shape[0] - 1
     return np.empty(n), np.empty(n), np.empty(n)
 
 
-def _motions(table, q, sines, cosines, shifts):
+def motions(table, q, sines, cosines, shifts):
     """sin(r x), cos(r x) and s x of every joint, x = C q + c."""
     coupled = table.shape[1] > OFFSET
     for i in range(table.shape[0] - 1):
@@ -43,18 +43,18 @@ def pose_one(table, q, T):
     """f(q) of one configuration of a chain that is not coupled."""
     n = table.shape[0] - 1
     table, q, T = borrowed(table), borrowed(q), borrowed(T)
-    sines, cosines, shifts = _scratch(table)
-    _motions(table, q, sines, cosines, shifts)
+    sines, cosines, shifts = scratch(table)
+    motions(table, q, sines, cosines, shifts)
     store_matrix(T, forward.tip(table, sines, cosines, shifts, n))
 
 
 @kernel("w2 r2 w3")
 def pose_many(table, q, T):
     """f(q) of many configurations."""
-    sines, cosines, shifts = _scratch(table)
+    sines, cosines, shifts = scratch(table)
     table, q, T = borrowed(table), borrowed(q), borrowed(T)
     for k in range(q.shape[0]):
-        _motions(table, q[k], sines, cosines, shifts)
+        motions(table, q[k], sines, cosines, shifts)
         store_matrix(T[k], forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
 
 
@@ -64,7 +64,7 @@ def pose_jacobian_one(table, q, frame, T, J):
     n = table.shape[0] - 1
     table, q, T, J = borrowed(table), borrowed(q), borrowed(T), borrowed(J)
     # the rows of J serve as scratch: taking memory costs as much as three joints
-    _motions(table, q, J[0], J[1], J[2])
+    motions(table, q, J[0], J[1], J[2])
     tip = forward.tip_and_axes(table, J[0], J[1], J[2], n, J)
     store_matrix(T, tip)
     p = (0.0, 0.0, 0.0) if frame == SPACE else translation(tip)
@@ -78,11 +78,11 @@ def _pose_jacobian(table, q, frame, T, J_x):
     scratch.
     """
     n = table.shape[0] - 1
-    sines, cosines, shifts = _scratch(table)
+    sines, cosines, shifts = scratch(table)
     table, q, T, J_x = borrowed(table), borrowed(q), borrowed(T), borrowed(J_x)
     rotates, slides = table[:, ROTATES], table[:, SLIDES]
     for k in range(q.shape[0]):
-        _motions(table, q[k], sines, cosines, shifts)
+        motions(table, q[k], sines, cosines, shifts)
         J = J_x[k]
         tip = forward.tip_and_axes(table, sines, cosines, shifts, n, J)
         store_matrix(T[min(k, T.shape[0] - 1)], tip)
@@ -115,9 +115,9 @@ def pose_jacobian_many(table, q, frame, T, J):
 @kernel("w2 r2 w4")
 def joint_poses(table, q, T):
     """The z-aligned frame of every joint in the base frame, after its motion."""
-    sines, cosines, shifts = _scratch(table)
+    sines, cosines, shifts = scratch(table)
     for k in range(q.shape[0]):
-        _motions(table, q[k], sines, cosines, shifts)
+        motions(table, q[k], sines, cosines, shifts)
         frame = pose(table[0])
         for i in range(table.shape[0] - 1):
             if i == 0:
@@ -131,10 +131,10 @@ def joint_poses(table, q, T):
 def body_velocity(table, q, dq, V):
     """f^-1 f' by the V recursion."""
     n, m = table.shape[0] - 1, q.shape[1]
-    sines, cosines, shifts = _scratch(table)
+    sines, cosines, shifts = scratch(table)
     links, rates = np.empty((n, 12)), np.empty(n)
     for k in range(q.shape[0]):
-        _motions(table, q[k], sines, cosines, shifts)
+        motions(table, q[k], sines, cosines, shifts)
         for i in range(n):
             store_row(links[i], turned_about_z(pose(table[i]), sines[i], cosines[i], shifts[i]))
             if table.shape[1] > OFFSET:

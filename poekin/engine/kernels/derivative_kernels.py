@@ -10,7 +10,7 @@ from ...formulas.kinematics import columns, derivatives, forward, screw_changes
 from ...formulas.lie import exponential
 from ..jit.array_io import borrowed, store_row
 from ..jit.kernel import kernel
-from .chain_kernels import BODY, COUPLING, OFFSET, ROTATES, SLIDES, SPACE, _motions, _scratch
+from .chain_kernels import BODY, COUPLING, OFFSET, ROTATES, SLIDES, SPACE, motions, scratch
 
 
 def _followed(table, q, x):
@@ -27,7 +27,7 @@ def _followed(table, q, x):
 def _columns(table, q, frame, sines, cosines, shifts, J):
     """The Jacobian of the joints into J, in one of the frames SPACE, BODY and HYBRID; the pose."""
     n = table.shape[0] - 1
-    _motions(table, q, sines, cosines, shifts)
+    motions(table, q, sines, cosines, shifts)
     tip = forward.tip_and_axes(table, sines, cosines, shifts, n, J)
     p = (0.0, 0.0, 0.0) if frame == SPACE else translation(tip)
     columns.about_point(J, table[:, ROTATES], table[:, SLIDES], n, p)
@@ -51,7 +51,7 @@ def jacobian_rates(table, q, dq, frame, dJ):
     """dJ/dt of many configurations and rates, of a chain with a joint."""
     table, q, dq, dJ = borrowed(table), borrowed(q), borrowed(dq), borrowed(dJ)
     n = table.shape[0] - 1
-    sines, cosines, shifts = _scratch(table)
+    sines, cosines, shifts = scratch(table)
     J, dJ_x, rates = np.empty((6, n)), np.empty((6, n)), np.empty(n)
     for k in range(q.shape[0]):
         _columns(table, q[k], frame, sines, cosines, shifts, J)
@@ -68,7 +68,7 @@ def accelerations(table, q, dq, ddq, frame, A):
     """dV/dt of many configurations, rates and accelerations, of a chain with a joint."""
     table, q, dq, ddq, A = borrowed(table), borrowed(q), borrowed(dq), borrowed(ddq), borrowed(A)
     n = table.shape[0] - 1
-    sines, cosines, shifts = _scratch(table)
+    sines, cosines, shifts = scratch(table)
     J, dJ, rates, more = np.empty((6, n)), np.empty((6, n)), np.empty(n), np.empty(n)
     for k in range(q.shape[0]):
         _columns(table, q[k], frame, sines, cosines, shifts, J)
@@ -83,7 +83,7 @@ def hessians(table, q, frame, H):
     """dJ/dq of many configurations, of a chain with a joint."""
     table, q, H = borrowed(table), borrowed(q), borrowed(H)
     n, m = table.shape[0] - 1, q.shape[1]
-    sines, cosines, shifts = _scratch(table)
+    sines, cosines, shifts = scratch(table)
     J, H_x, half, coupling = (
         np.empty((6, n)),
         np.empty((6, n, n)),
@@ -111,7 +111,7 @@ def joint_velocities(table, q, dq, frame, V):
     """The twist of every joint's z-aligned frame, into the rows of V."""
     table, q, dq, V = borrowed(table), borrowed(q), borrowed(dq), borrowed(V)
     n = table.shape[0] - 1
-    sines, cosines, shifts = _scratch(table)
+    sines, cosines, shifts = scratch(table)
     J, W, rates = np.empty((6, n)), np.empty((6, n)), np.empty(n)
     for k in range(q.shape[0]):
         _columns(table, q[k], SPACE, sines, cosines, shifts, J)
@@ -134,7 +134,7 @@ def joint_velocities(table, q, dq, frame, V):
 def _products(table, screws, home, q, x, sines, cosines, shifts, exponentials, P):
     """P_0 ... P_n and the pose into P; the sines, cosines and shifts of the motions as well."""
     n = table.shape[0] - 1
-    _motions(table, q, sines, cosines, shifts)
+    motions(table, q, sines, cosines, shifts)
     _followed(table, q, x)
     for i in range(n):
         if table.shape[1] > OFFSET:
@@ -151,7 +151,7 @@ def pose_changes(table, screws, home, q, D):
     """What unit conjugations of the screws and of the home pose do to the pose, as space twists."""
     table, screws, q, D = borrowed(table), borrowed(screws), borrowed(q), borrowed(D)
     n = table.shape[0] - 1
-    sines, cosines, shifts = _scratch(table)
+    sines, cosines, shifts = scratch(table)
     x, exponentials, P = np.empty(n), np.empty((n, 12)), np.empty((n + 2, 12))
     for k in range(q.shape[0]):
         _products(table, screws, home, q[k], x, sines, cosines, shifts, exponentials, P)
@@ -163,7 +163,7 @@ def jacobian_changes(table, screws, home, q, frame, C):
     """What they do to the Jacobian in a frame."""
     table, screws, q, C = borrowed(table), borrowed(screws), borrowed(q), borrowed(C)
     n, m = table.shape[0] - 1, q.shape[1]
-    sines, cosines, shifts = _scratch(table)
+    sines, cosines, shifts = scratch(table)
     x, exponentials, P = np.empty(n), np.empty((n, 12)), np.empty((n + 2, 12))
     J, D, C_x = np.empty((6, n)), np.empty((6, n + 1, 6)), np.empty((6, n, n + 1, 6))
     coupled, coupling = table.shape[1] > OFFSET, table[:, COUPLING:]

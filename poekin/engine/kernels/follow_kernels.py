@@ -1,12 +1,14 @@
-"""Joints along a path: one descent a pose, from the joints of the pose before. Importing this
-module imports Numba.
+"""Joints along a path: one descent a pose, from the joints of the pose before.
+
+Importing this module imports Numba.
 """
 
 import numpy as np
 
+from ..jit.array_io import store_row
 from ..jit.kernel import kernel
 from .ik_codes import AT_ITERATIONS, AT_POSITION, AT_RESTARTS, AT_ROTATION, AT_STATE, SOLVED
-from .ik_kernels import _descend
+from .ik_kernels import Problem, descend, scratch_rows
 
 
 @kernel("int w3 w1 w2 w1 w1 w1 w2 w2", returns="int")
@@ -18,22 +20,23 @@ def follow(arm, targets, start, limits, fixed, options, most, q, info):
     `ik_kernels.solve_many`.
     """
     m = q.shape[1]
+    problem = Problem(arm, limits, fixed, options)
     T, J, H = np.empty((4, 4)), np.empty((6, m)), np.empty((m, m))
-    work, last, now = np.empty((4, 4 * m + 16)), np.empty(m), np.empty(m)
-    for i in range(m):
-        last[i] = start[i]
+    rows, last, now = scratch_rows(m), start.copy(), np.empty(m)
     for k in range(targets.shape[0]):
-        for i in range(m):
-            now[i] = last[i]
-        ended, position, rotation, taken = _descend(
-            arm, targets[k], now, limits, fixed, options, work, T, J, H
-        )
-        row, near = info[k], True
-        row[AT_POSITION], row[AT_ROTATION], row[AT_STATE] = position, rotation, ended
-        row[AT_ITERATIONS], row[AT_RESTARTS] = taken, 0
+        store_row(now, last)
+        ended, position, rotation, taken = descend(problem, targets[k], now, T, J, H, rows)
+        row = info[k]
+        row[AT_POSITION] = position
+        row[AT_ROTATION] = rotation
+        row[AT_ITERATIONS] = taken
+        row[AT_RESTARTS] = 0
+        row[AT_STATE] = ended
+        store_row(q[k], now)
+        near = True
         for i in range(m):
             near &= abs(now[i] - last[i]) <= most[i]
-            q[k, i] = last[i] = now[i]
         if ended != SOLVED or not near:
             return k
+        store_row(last, now)
     return targets.shape[0]

@@ -11,11 +11,21 @@ import math
 
 import numpy as np
 
-from ...formulas import least_squares
+from ...formulas.inverse import least_squares
+from ..jit.array_io import store_row
 from ..jit.kernel import kernel
-from .arm_kernels import _one
-from .ik_codes import AXIS, POSE, SOLVED
-from .ik_kernels import _descend, _errors, _next, _seeded
+from .ik_codes import POSE, SOLVED
+from .ik_kernels import (
+    ERROR,
+    STEP,
+    Problem,
+    descend,
+    errors_at,
+    next_random,
+    scratch_rows,
+    seeded,
+    uniform,
+)
 
 # Where each number stands in `rule`: what is accepted (m and rad alike), how often each solution
 # must have been found before a search ends; the most restarts, and the most of them without a
@@ -30,49 +40,58 @@ _SAME = 1e-7
 _NEAR = 1e-2
 # of the largest pivot of J^T J: about the square of the smallest singular value over the largest
 _SINGULAR = 1e-10
-_MEMBERS = (
-    12  # singular solutions that are kept of one target: of a continuum there would be no end
-)
-_AGAIN = 4  # times a try is gone on with that is near enough to be accepted and not yet at an end
-_ODD = (
-    8.0  # so many times longer a search goes on while the number of solutions is odd, see `search`
-)
+# singular solutions that are kept of one target: of a continuum there would be no end
+_MEMBERS = 12
+# times a try is gone on with that is near enough to be accepted and not yet at an end
+_AGAIN = 4
+# so many times longer a search goes on while the number of solutions is odd, see `search`
+_ODD = 8.0
 
 
-def _around(d, period):
-    """An angle's difference by the shorter way round; a coordinate without a period has 0 for it."""
-    return d - period * math.floor(d / period + 0.5) if period > 0.0 else d
+def around(d, period):
+    """Difference of an angle by the shorter way round; a coordinate without a period has 0 for it."""
+    if period > 0.0:
+        return d - period * math.floor(d / period + 0.5)
+    return d
 
 
-def _same(arm, target, a, b, periods, options, accepted, trial, T, J, work):
-    """Whether two ends are one solution; `trial`, T, J and work are scratch."""
+def is_accepted(position, rotation, limit):
+    """Whether both parts of an error are small enough; NaN is not."""
+    return position <= limit and rotation <= limit
+
+
+def is_same(problem, target, ends, periods, limit, T, J, rows):
+    """Whether two ends are one solution; `ends` are both and scratch, as T, J and `rows` are."""
+    a, b, middle = ends
     apart = 0.0
     for i in range(len(a)):
-        d = _around(b[i] - a[i], periods[i])
+        d = around(b[i] - a[i], periods[i])
         apart = max(apart, abs(d))
-        trial[i] = a[i] + 0.5 * d
+        middle[i] = a[i] + 0.5 * d
     if apart <= _SAME or apart > _NEAR:
         return apart <= _SAME
-    _one(arm, trial, T, J, work[3])
-    position, rotation = _errors(POSE, options[AXIS : AXIS + 3], T, target, J, work[0])
-    return position <= accepted and rotation <= accepted
+    position, rotation = errors_at(problem, POSE, target, middle, T, J, rows)
+    return is_accepted(position, rotation, limit)
 
 
-def _is_singular(J, m, ones, H, g):
-    """Whether J has nearly dependent columns; H and g are scratch."""
-    for r in range(6):
-        g[r] = 0.0
-    least_squares.normal_equations(J, g, ones, 1e-30, ones, 6, m, H, g)
-    least_squares.solve(H, g, m)
-    low, high = H[0, 0], H[0, 0]
+def is_singular(J, ones, H, rows):
+    """Whether the Jacobian has nearly dependent columns; H and `rows` are scratch."""
+    m = J.shape[1]
+    store_row(rows[ERROR], (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    least_squares.normal_equations(J, rows[ERROR], ones, 1e-30, ones, m, H, rows[STEP])
+    least_squares.solve(H, rows[STEP], m)
+    low = H[0, 0]
+    high = H[0, 0]
     for i in range(1, m):
-        low, high = min(low, H[i, i]), max(high, H[i, i])
+        low = min(low, H[i, i])
+        high = max(high, H[i, i])
     return low < _SINGULAR * high
 
 
-def _enough(hits, singular, count, each, pairs):
+def is_enough(hits, singular, count, each, pairs):
     """Whether each solution was found often enough; of those that are singular, on the average."""
-    together, members = 0.0, 0
+    together = 0.0
+    members = 0
     for j in range(count):
         if singular[j]:
             members += 1
@@ -83,6 +102,26 @@ def _enough(hits, singular, count, each, pairs):
         if not singular[j] and hits[j] < each:
             return False
     return together >= each * members
+
+
+def reach(problem, target, q, limit, T, J, H, rows):
+    """Whether a try from q ends at a solution, q then.
+
+    Where solutions are nearly one, the last digits take long: then it is gone on with.
+    """
+    for _ in range(_AGAIN):
+        ended, position, rotation, _ = descend(problem, target, q, T, J, H, rows)
+        accepted = is_accepted(position, rotation, limit)
+        if ended == SOLVED or not accepted:
+            return accepted
+    return True
+
+
+def is_over(attempts, count, rule):
+    """Whether a search has had all its restarts, or too many of them without a solution."""
+    if count == 0 and attempts >= int(rule[BARREN]):
+        return True
+    return attempts >= int(rule[RESTARTS])
 
 
 @kernel("int w3 w3 w1 w2 w2 w1 w1 w1 w1 int w3 w2 w2")
@@ -111,63 +150,56 @@ def search(
     Solutions of six equations in six unknowns come in pairs but for double ones, so an odd number
     means one of these, or that one is missing.
     """
-    m, room = q.shape[2], q.shape[1]
+    m = q.shape[2]
+    problem = Problem(arm, limits, np.zeros(m), options)
     T, J, H = np.empty((4, 4)), np.empty((6, m)), np.empty((m, m))
-    work, trial, middle, fixed = np.empty((4, 4 * m + 16)), np.empty(m), np.empty(m), np.zeros(m)
-    ones, singular = np.ones(6), np.zeros(room, np.bool_)
+    rows, trial, middle = scratch_rows(m), np.empty(m), np.empty(m)
+    ones, singular = np.ones(6), np.zeros(q.shape[1], np.bool_)
+    limit = rule[ACCEPTED]
     for k in range(targets.shape[0]):
-        target, state, row = targets[k], _seeded(seed, int(indices[k])), info[k]
-        first, count, members, ends = int(given[k]), 0, 0, 0.0
-        row[FULL] = 0.0
+        target = targets[k]
+        state = seeded(seed, int(indices[k]))
+        first = int(given[k])
+        count = 0
+        members = 0
+        ends = 0.0
+        full = False
         attempt = 0
-        while attempt < first + int(rule[RESTARTS]) and row[FULL] == 0.0:
-            if attempt >= first + int(rule[BARREN]) and count == 0:
-                break
-            if (
-                attempt > first
-                and count > 0
-                and _enough(hits[k], singular, count, rule[EACH], m == 6)
-            ):
+        while not full and not is_over(attempt - first, count, rule):
+            tried = attempt > first and count > 0
+            if tried and is_enough(hits[k], singular, count, rule[EACH], m == 6):
                 break
             for i in range(m):
                 if attempt < first:
                     trial[i] = starts[k, attempt, i]
                 else:
-                    state = _next(state)
-                    part = float(state >> np.uint64(11)) * 2.0**-53
-                    trial[i] = ranges[i, 0] + part * (ranges[i, 1] - ranges[i, 0])
+                    state = next_random(state)
+                    trial[i] = uniform(state, ranges[i])
             attempt += 1
-            position, rotation = math.inf, math.inf
-            for _ in range(_AGAIN):  # where solutions are nearly one, the last digits take long
-                ended, position, rotation, _ = _descend(
-                    arm, target, trial, limits, fixed, options, work, T, J, H
-                )
-                if ended == SOLVED or not (
-                    position <= rule[ACCEPTED] and rotation <= rule[ACCEPTED]
-                ):
-                    break
-            if not (position <= rule[ACCEPTED] and rotation <= rule[ACCEPTED]):
+            if not reach(problem, target, trial, limit, T, J, H, rows):
                 continue
             ends += 1.0
-            bad = _is_singular(J, m, ones, H, work[1])
+            bad = is_singular(J, ones, H, rows)
             for i in range(m):
-                trial[i] = _around(trial[i], periods[i])
+                trial[i] = around(trial[i], periods[i])
             j = 0
-            while j < count and not _same(
-                arm, target, q[k, j], trial, periods, options, rule[ACCEPTED], middle, T, J, work
+            while j < count and not is_same(
+                problem, target, (q[k, j], trial, middle), periods, limit, T, J, rows
             ):
                 j += 1
             if j < count:
                 hits[k, j] += 1.0
             elif bad and members >= _MEMBERS:
                 continue
-            elif count < room:
+            elif count < q.shape[1]:
                 singular[count] = bad
                 members += int(bad)
-                for i in range(m):
-                    q[k, count, i] = trial[i]
+                store_row(q[k, count], trial)
                 hits[k, count] = 1.0
                 count += 1
             else:
-                row[FULL] = 1.0
-        row[FOUND], row[AT_RESTARTS], row[AT_ENDS] = count, max(attempt - first, 0), ends
+                full = True
+        info[k, FOUND] = count
+        info[k, AT_RESTARTS] = max(attempt - first, 0)
+        info[k, AT_ENDS] = ends
+        info[k, FULL] = int(full)

@@ -1,27 +1,24 @@
 """Inverse kinematics of one arm: damped least squares from random starts, over the arm's own
 machine code.
 
-Each step solves (J^T W J + E I) dq = J^T W e with the hybrid Jacobian and the error e = (rotation
-vector, p* - p) in the axes of the base; the damping is the error's own size, E = 0.1 e^T W e / 2
-(of a slide no more than its column's): far from the target the step is careful, near it Newton's. A
-coordinate at a limit that the step would push further stays there, and the others go on without it.
-Source: Chan and Lawrence 1988 (error-scaled damping), as in Sugihara 2011.
+Each try repeats the step of `formulas.inverse.damped_step`. A coordinate at a limit that the step
+would push further stays there, and the others go on without it.
 
 Importing this module imports Numba.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from ...algebra import cross, dot
-from ...formulas import least_squares
+from ...algebra import dot, subtract, translation, twist
+from ...formulas.inverse import damped_step, pose_error
 from ...formulas.kinematics import forward
-from ...formulas.lie import quaternion
-from ..jit.array_io import store_matrix
+from ..jit.array_io import load_matrix, store_matrix, store_row
 from ..jit.kernel import kernel
-from .arm_kernels import _one
-from .chain_kernels import _motions, _scratch
+from .arm_kernels import run_one
+from .chain_kernels import motions, scratch
 from .ik_codes import (
     AT_ITERATIONS,
     AT_POSITION,
@@ -46,94 +43,62 @@ from .ik_codes import (
 
 _SLOW = 0.9  # a step that leaves more than this of the error hardly moves
 _PATIENCE = 3  # such steps one after the other end a try
-_REGULAR = 1e-14  # of the largest: some ten times the rounding
-_DAMPING = 0.1  # by trial: fewest steps over Panda, UR5 and Puma 560, within limits
+# Rows of a try's scratch memory: the error, the step, which coordinates are free, and what the
+# arm's code needs. `ROOM` more than four times as wide as the arm, it suffices for any arm.
+ERROR, STEP, FREE, CODE = range(4)
+ROOM = 16
 
 
-def _next(state):
-    """A pseudo-random number of 64 bits after another one (xorshift)."""
+class Problem(NamedTuple):
+    """Inputs that all tries of a call share; see `solve_many`."""
+
+    arm: int
+    limits: np.ndarray
+    fixed: np.ndarray
+    options: np.ndarray
+
+
+def next_random(state):
+    """Pseudo-random number of 64 bits after another one (xorshift)."""
     state ^= state << np.uint64(13)
     state ^= state >> np.uint64(7)
     state ^= state << np.uint64(17)
     return state
 
 
-def _seeded(seed, index):
-    """The first state of the numbers for one target: spread by a multiplication (splitmix), never
-    zero.
+def seeded(seed, index):
+    """First state of the random numbers for one target: spread by a multiplication (splitmix), and
+    never zero.
     """
     state = np.uint64(seed) * np.uint64(0x9E3779B97F4A7C15) + (
         np.uint64(index) + np.uint64(1)
     ) * np.uint64(0xBF58476D1CE4E5B9)
     for _ in range(4):
-        state = _next(state | np.uint64(1))
+        state = next_random(state | np.uint64(1))
     return state
 
 
-def _rotation_error(R, S):
-    """2 sin(angle / 2) times the axis of S R^T, in the axes of the base."""
-    product = (
-        S[0, 0] * R[0, 0] + S[0, 1] * R[0, 1] + S[0, 2] * R[0, 2],
-        S[0, 0] * R[1, 0] + S[0, 1] * R[1, 1] + S[0, 2] * R[1, 2],
-        S[0, 0] * R[2, 0] + S[0, 1] * R[2, 1] + S[0, 2] * R[2, 2],
-        S[1, 0] * R[0, 0] + S[1, 1] * R[0, 1] + S[1, 2] * R[0, 2],
-        S[1, 0] * R[1, 0] + S[1, 1] * R[1, 1] + S[1, 2] * R[1, 2],
-        S[1, 0] * R[2, 0] + S[1, 1] * R[2, 1] + S[1, 2] * R[2, 2],
-        S[2, 0] * R[0, 0] + S[2, 1] * R[0, 1] + S[2, 2] * R[0, 2],
-        S[2, 0] * R[1, 0] + S[2, 1] * R[1, 1] + S[2, 2] * R[1, 2],
-        S[2, 0] * R[2, 0] + S[2, 1] * R[2, 1] + S[2, 2] * R[2, 2],
-    )
-    w, x, y, z = quaternion.quaternion(product)
-    k = 2.0 / math.sqrt(w * w + x * x + y * y + z * z)
-    return k * x, k * y, k * z
+def uniform(state, interval):
+    """Number in an interval (low, high) from a random number of 64 bits."""
+    part = float(state >> np.uint64(11)) * 2.0**-53
+    return interval[0] + part * (interval[1] - interval[0])
 
 
-def _direction_error(T, target, axis):
-    """2 sin(angle / 2) times the axis of the smallest turn that takes the tool's direction to the
-    target's.
+def error_parts(task, axis, T, target, J, e):
+    """Writes the error into e and returns its parts (m, rad), 0 for a part that the task does not
+    ask for. Of a direction, J loses the turn about it.
     """
-    a = (
-        T[0, 0] * axis[0] + T[0, 1] * axis[1] + T[0, 2] * axis[2],
-        T[1, 0] * axis[0] + T[1, 1] * axis[1] + T[1, 2] * axis[2],
-        T[2, 0] * axis[0] + T[2, 1] * axis[1] + T[2, 2] * axis[2],
-    )
-    b = (
-        target[0, 0] * axis[0] + target[0, 1] * axis[1] + target[0, 2] * axis[2],
-        target[1, 0] * axis[0] + target[1, 1] * axis[1] + target[1, 2] * axis[2],
-        target[2, 0] * axis[0] + target[2, 1] * axis[1] + target[2, 2] * axis[2],
-    )
-    n = cross(a, b)
-    sine, cosine = math.sqrt(dot(n, n)), dot(a, b)
-    half = 2.0 * math.sin(0.5 * math.atan2(sine, cosine))
-    if (
-        sine == 0.0 and cosine < 0.0
-    ):  # opposite: half a turn about anything across, here about the longer of two
-        n = cross(a, (1.0, 0.0, 0.0) if abs(a[0]) < 0.6 else (0.0, 1.0, 0.0))
-        sine = math.sqrt(dot(n, n))
-    k = half / sine if sine > 0.0 else 0.0
-    return a, (k * n[0], k * n[1], k * n[2])
-
-
-def _angle(turn):
-    """The angle (rad) of what is 2 sin(angle / 2) long."""
-    return 2.0 * math.asin(min(0.5 * math.sqrt(dot(turn, turn)), 1.0))
-
-
-def _errors(task, axis, T, target, J, e):
-    """The error into e; returned are its parts (m, rad). Of a direction, J loses the turn about it."""
-    e[3], e[4], e[5] = target[0, 3] - T[0, 3], target[1, 3] - T[1, 3], target[2, 3] - T[2, 3]
-    position = math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
+    now = load_matrix(T)
+    then = load_matrix(target)
     if task == DIRECTION:
-        a, b = _direction_error(T, target, axis)
-        e[0], e[1], e[2] = b
-        for i in range(J.shape[1]):
-            along = a[0] * J[0, i] + a[1] * J[1, i] + a[2] * J[2, i]
-            J[0, i] -= along * a[0]
-            J[1, i] -= along * a[1]
-            J[2, i] -= along * a[2]
+        a, turn = pose_error.direction_error(now, then, axis)
+        pose_error.remove_turn_about(a, J, J.shape[1])
     else:
-        e[0], e[1], e[2] = _rotation_error(T, target)
-    rotation = _angle((e[0], e[1], e[2]))
+        turn = pose_error.rotation_error(now, then)
+    off = subtract(translation(then), translation(now))
+    store_row(e, twist(turn, off))
+    position = pose_error.distance(e)
+    rotation = pose_error.angle(turn)
     if task == POSITION:
         rotation = 0.0
     if task == ROTATION:
@@ -141,84 +106,81 @@ def _errors(task, axis, T, target, J, e):
     return position, rotation
 
 
-def _ease_slides(J, weights, damping, free, H):
-    """Take the damping off a coordinate that slides, as far as it is more than 1 and than the
-    column's own size.
-
-    Care is for turns, whose columns change on the way: over many metres a slide would hardly move.
-    """
-    for i in range(J.shape[1]):
-        if (
-            damping > 1.0
-            and free[i] != 0.0
-            and J[0, i] == 0.0
-            and J[1, i] == 0.0
-            and J[2, i] == 0.0
-        ):
-            own = 0.0
-            for r in range(3, 6):
-                own += weights[r] * J[r, i] * J[r, i]
-            H[i, i] -= max(damping - max(own, 1.0), 0.0)
+def scratch_rows(m):
+    """Scratch memory of a try."""
+    return np.empty((4, 4 * m + ROOM))
 
 
-def _keep_regular(free, H):
-    """Add to the diagonal some times what its numbers are rounded by: with joints to spare J^T W J
-    is singular.
-    """
-    top = 0.0
-    for i in range(H.shape[0]):
-        top = max(top, free[i] * H[i, i])
-    for i in range(H.shape[0]):
-        H[i, i] += _REGULAR * top
+def errors_at(problem, task, target, q, T, J, rows):
+    """Pose, Jacobian and error at q into T, J and `rows`; returns the error's parts (m, rad)."""
+    run_one(problem.arm, q, T, J, rows[CODE])
+    axis = problem.options[AXIS : AXIS + 3]
+    return error_parts(task, axis, T, target, J, rows[ERROR])
 
 
-def _descend(arm, target, q, limits, fixed, options, work, T, J, H):
+def choose_free(problem, weights, q, J, rows):
+    """Frees the coordinates that are not fixed and not at a limit that they are pushed against."""
+    for i in range(len(q)):
+        low = problem.limits[i, 0]
+        high = problem.limits[i, 1]
+        direction = damped_step.descent(J, rows[ERROR], weights, i)
+        rows[FREE, i] = 1.0
+        if problem.fixed[i] != 0.0 or damped_step.is_blocked(q[i], low, high, direction):
+            rows[FREE, i] = 0.0
+
+
+def descend(problem, target, q, T, J, H, rows):
     """One try: q goes downhill until it is solved, hardly moves or is out of iterations.
 
-    Returns the state, the errors, and the iterations taken. `work` are rows of scratch: e, g, free,
-    and more.
+    Returns the state, the errors (m, rad), and the iterations taken. T, J, H and `rows` are scratch.
     """
     m = len(q)
-    e, g, free, scratch = work[0], work[1], work[2], work[3]
-    weights, axis = options[WEIGHTS : WEIGHTS + 6], options[AXIS : AXIS + 3]
+    options = problem.options
     task = int(options[TASK])
-    last, slow = math.inf, 0
+    weights = options[WEIGHTS : WEIGHTS + 6]
+    e = rows[ERROR]
+    dq = rows[STEP]
+    last = math.inf
+    slow = 0
     taken = 0
     while True:
-        _one(arm, q, T, J, scratch)
-        position, rotation = _errors(task, axis, T, target, J, e)
+        position, rotation = errors_at(problem, task, target, q, T, J, rows)
         if position <= options[TOL_POSITION] and rotation <= options[TOL_ROTATION]:
             return SOLVED, position, rotation, taken
         if taken >= options[ITERATIONS]:
             return OUT_OF_ITERATIONS, position, rotation, taken
-        size = 0.0
-        for r in range(6):
-            size += 0.5 * weights[r] * e[r] * e[r]
-        slow = slow + 1 if not size < _SLOW * last else 0
+        E = damped_step.half_square(e, weights)
+        slow += 1
+        if _SLOW * last > E:
+            slow = 0
         if slow >= _PATIENCE:
             return STALLED, position, rotation, taken
-        last = size
+        last = E
+        choose_free(problem, weights, q, J, rows)
+        damped_step.step(J, e, weights, E, rows[FREE], m, H, dq)
         for i in range(m):
-            pull = 0.0
-            for r in range(6):
-                pull += J[r, i] * weights[r] * e[r]
-            stuck = (q[i] <= limits[i, 0] and pull < 0.0) or (q[i] >= limits[i, 1] and pull > 0.0)
-            free[i] = 0.0 if stuck or fixed[i] != 0.0 else 1.0
-        least_squares.normal_equations(J, e, weights, _DAMPING * size, free, 6, m, H, g)
-        _ease_slides(J, weights, _DAMPING * size, free, H)
-        _keep_regular(free, H)
-        least_squares.solve(H, g, m)
-        for i in range(m):
-            q[i] = min(max(q[i] + g[i], limits[i, 0]), limits[i, 1])
+            q[i] = min(max(q[i] + dq[i], problem.limits[i, 0]), problem.limits[i, 1])
         taken += 1
 
 
-def _finite(target):
+def is_finite(target):
+    """Whether the twelve numbers of a pose that may differ from one to another are finite."""
     total = 0.0
     for r in range(3):
         for c in range(4):
             total += 0.0 * target[r, c]
     return total == 0.0
+
+
+def _fail(q, row):
+    """The result for a target that is not finite."""
+    for i in range(len(q)):
+        q[i] = math.nan
+    row[AT_POSITION] = math.nan
+    row[AT_ROTATION] = math.nan
+    row[AT_ITERATIONS] = 0.0
+    row[AT_RESTARTS] = 0.0
+    row[AT_STATE] = BAD_TARGET
 
 
 @kernel("int w3 w2 w2 w2 w1 w1 w1 int w2 w2")
@@ -230,34 +192,34 @@ def solve_many(arm, targets, q0, limits, ranges, fixed, options, indices, seed, 
     where a coordinate stays what it is in q0.
     """
     m = q.shape[1]
+    problem = Problem(arm, limits, fixed, options)
     T, J, H = np.empty((4, 4)), np.empty((6, m)), np.empty((m, m))
-    work, trial = np.empty((4, 4 * m + 16)), np.empty(m)
+    rows, trial = scratch_rows(m), np.empty(m)
     for k in range(targets.shape[0]):
-        target, state = targets[k], _seeded(seed, int(indices[k]))
-        row, best, total = info[k], math.inf, 0.0
-        if not _finite(target):
-            for i in range(m):
-                q[k, i] = math.nan
-            row[AT_POSITION], row[AT_ROTATION] = math.nan, math.nan
-            row[AT_ITERATIONS], row[AT_RESTARTS], row[AT_STATE] = 0.0, 0.0, BAD_TARGET
+        target = targets[k]
+        row = info[k]
+        if not is_finite(target):
+            _fail(q[k], row)
             continue
+        state = seeded(seed, int(indices[k]))
+        best = math.inf
+        total = 0.0
         for attempt in range(int(options[RESTARTS]) + 1):
             for i in range(m):
                 trial[i] = q0[k, i]
                 if (attempt > 0 or q0[k, i] != q0[k, i]) and fixed[i] == 0.0:
-                    state = _next(state)
-                    part = float(state >> np.uint64(11)) * 2.0**-53
-                    trial[i] = ranges[i, 0] + part * (ranges[i, 1] - ranges[i, 0])
-            ended, position, rotation, taken = _descend(
-                arm, target, trial, limits, fixed, options, work, T, J, H
-            )
+                    state = next_random(state)
+                    trial[i] = uniform(state, ranges[i])
+            ended, position, rotation, taken = descend(problem, target, trial, T, J, H, rows)
             total += taken
             if position + rotation < best or best != best or attempt == 0:
                 best = position + rotation
-                row[AT_POSITION], row[AT_ROTATION], row[AT_STATE] = position, rotation, ended
-                for i in range(m):
-                    q[k, i] = trial[i]
-            row[AT_ITERATIONS], row[AT_RESTARTS] = total, attempt
+                row[AT_POSITION] = position
+                row[AT_ROTATION] = rotation
+                row[AT_STATE] = ended
+                store_row(q[k], trial)
+            row[AT_ITERATIONS] = total
+            row[AT_RESTARTS] = attempt
             if ended == SOLVED:
                 break
 
@@ -267,17 +229,20 @@ def judge(table, q, targets, task, axis, errors):
     """|p* - p| (m) and the angle (rad) between the targets and the poses of q, by the kernels of
     any chain; a part that the task does not ask for is 0.
     """
-    sines, cosines, shifts = _scratch(table)
-    n, T = table.shape[0] - 1, np.empty((4, 4))
+    sines, cosines, shifts = scratch(table)
+    T = np.empty((4, 4))
     for k in range(q.shape[0]):
-        _motions(table, q[k], sines, cosines, shifts)
-        store_matrix(T, forward.tip(table, sines, cosines, shifts, n))
-        target = targets[k]
-        x, y, z = target[0, 3] - T[0, 3], target[1, 3] - T[1, 3], target[2, 3] - T[2, 3]
-        position, rotation = math.sqrt(x * x + y * y + z * z), 0.0
+        motions(table, q[k], sines, cosines, shifts)
+        store_matrix(T, forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
+        now = load_matrix(T)
+        then = load_matrix(targets[k])
+        off = subtract(translation(then), translation(now))
+        errors[k, 0] = math.sqrt(dot(off, off))
+        errors[k, 1] = 0.0
+        if task == ROTATION:
+            errors[k, 0] = 0.0
         if task == DIRECTION:
-            _, turn = _direction_error(T, target, axis)
-            rotation = _angle(turn)
+            _, turn = pose_error.direction_error(now, then, axis)
+            errors[k, 1] = pose_error.angle(turn)
         elif task != POSITION:
-            rotation = _angle(_rotation_error(T, target))
-        errors[k, 0], errors[k, 1] = 0.0 if task == ROTATION else position, rotation
+            errors[k, 1] = pose_error.angle(pose_error.rotation_error(now, then))

@@ -49,7 +49,7 @@ class Follower:
         from ...engine.kernels import follow_kernels, ik_kernels  # imports Numba
 
         self._kernel = follow_kernels.follow
-        self._errors = ik_kernels._errors
+        self._errors = ik_kernels.error_parts
         self.problem = problem
         self.targets = targets
         self.most = most

@@ -11,6 +11,7 @@ import pytest
 
 from poekin.engine.kernels import follow_kernels, ik_all_kernel, ik_kernels
 from poekin.engine.kernels import ik_codes as codes
+from poekin.formulas.inverse import pose_error
 from poekin.groups import se3, so3
 from poekin.model.chain import Chain
 
@@ -32,8 +33,7 @@ def plain(monkeypatch) -> Iterator[None]:
     def one(arm: Any, q: np.ndarray, T: np.ndarray, J: np.ndarray, scratch: np.ndarray) -> None:
         T[:], J[:] = arm.fk(q), arm.jacobian(q, "hybrid")
 
-    for module in (ik_kernels, ik_all_kernel):
-        monkeypatch.setattr(module, "_one", one)
+    monkeypatch.setattr(ik_kernels, "run_one", one)
     with np.errstate(over="ignore", invalid="ignore"):  # as in compiled code
         yield
 
@@ -56,9 +56,13 @@ def seeded(seed: int, index: int) -> int:
     ("seed", "index"), [(0, 0), (1, 0), (0, 1), (12345, 678), (2**40 + 7, 2**20)]
 )
 def test_random_numbers_are_xorshift_from_a_spread_seed(seed, index):
-    state = ik_kernels._seeded(seed, index)
+    state = ik_kernels.seeded(seed, index)
     assert int(state) == seeded(seed, index)
-    assert int(ik_kernels._next(state)) == shifted(seeded(seed, index))
+    assert int(ik_kernels.next_random(state)) == shifted(seeded(seed, index))
+
+
+def rotation_error(T: np.ndarray, target: np.ndarray) -> tuple[float, float, float]:
+    return pose_error.rotation_error(T[:3, :3].ravel(), target[:3, :3].ravel())
 
 
 def options(**changed: float) -> np.ndarray:
@@ -71,55 +75,13 @@ def options(**changed: float) -> np.ndarray:
     return row
 
 
-@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, 2.0, 3.1, math.pi])
-def test_the_error_of_a_rotation_is_twice_the_sine_of_half_its_angle_along_its_axis(angle):
-    R = so3.exp([0.4, -1.2, 0.7])
-    found = np.array(ik_kernels._rotation_error(R, so3.exp(angle * N) @ R))
-    expected = 2 * math.sin(angle / 2) * N
-    assert found == pytest.approx(expected, abs=1e-15) or (
-        angle == math.pi and found == pytest.approx(-expected)
-    )
-    assert ik_kernels._angle(found) == pytest.approx(angle, abs=5e-8 if angle > 3.13 else 2e-14)
-
-
-def test_an_angle_of_rounded_sines_is_at_most_pi():
-    assert ik_kernels._angle((2.0 + 1e-9, 0.0, 0.0)) == math.pi
-    assert ik_kernels._angle((0.6, 0.0, 0.8)) == pytest.approx(math.pi / 3, rel=1e-15)
-
-
-@pytest.mark.parametrize("axis", [(0, 0, 1.0), (0.6, 0, -0.8), (0.48, 0.6, 0.64)])
-@pytest.mark.parametrize("turn", [0.0, 1e-8, 0.7, 2.9])
-def test_the_error_of_a_direction_is_that_of_the_smallest_turn(axis, turn):
-    T, target = se3.exp([0.3, 0.8, -0.5, 1, 2, 3]), np.eye(4)
-    a = T[:3, :3] @ axis
-    across = np.cross(a, [1.0, 2.0, 3.0])
-    across /= np.linalg.norm(across)
-    target[:3, :3] = so3.exp(turn * across) @ T[:3, :3] @ so3.exp(1.3 * np.array(axis))
-    found, error = ik_kernels._direction_error(T, target, axis)
-    assert found == pytest.approx(a, abs=1e-15)
-    assert error == pytest.approx(2 * math.sin(turn / 2) * across, abs=4e-15)
-
-
-@pytest.mark.parametrize("turned", [0.0, 0.7, 2.0])
-def test_towards_the_opposite_direction_any_half_turn_across_will_do(turned):
-    T, target = np.eye(4), np.eye(4)
-    T[:3, :3] = so3.exp([0, 0, turned])
-    target[:3, :3] = -T[:3, :3]  # no rotation, but the opposite direction to the last bit
-    for axis in np.eye(3):
-        a, error = ik_kernels._direction_error(T, target, axis)
-        assert np.dot(a, error) == pytest.approx(0, abs=1e-15)
-        assert np.linalg.norm(error) == pytest.approx(2, rel=1e-15)
-        along = np.argmax(np.abs(np.cross(error, a))) if turned == 0 else None
-        assert along is None or abs(a[0]) < 0.6 or error[0] == 0
-
-
 def test_parts_of_the_error_that_a_task_does_not_ask_for_are_no_errors():
     T, target = ARM.fk(Q), se3.exp([0.1, 0.2, -0.3, 0.5, 0.4, 0.1])
-    turn = np.array(ik_kernels._rotation_error(T, target))
+    turn = np.array(rotation_error(T, target))
     off = target[:3, 3] - T[:3, 3]
     whole = (
         pytest.approx(np.linalg.norm(off), rel=1e-14),
-        pytest.approx(ik_kernels._angle(turn), rel=1e-14),
+        pytest.approx(pose_error.angle(turn), rel=1e-14),
     )
     for task, expected in (
         (codes.POSE, whole),
@@ -127,7 +89,7 @@ def test_parts_of_the_error_that_a_task_does_not_ask_for_are_no_errors():
         (codes.ROTATION, (0, whole[1])),
     ):
         J, e = ARM.jacobian(Q, "hybrid").copy(), np.zeros(6)
-        assert ik_kernels._errors(task, np.array([0, 0, 1.0]), T, target, J, e) == expected
+        assert ik_kernels.error_parts(task, np.array([0, 0, 1.0]), T, target, J, e) == expected
         assert e == pytest.approx([*turn, *off], abs=1e-15)
         assert np.array_equal(J, ARM.jacobian(Q, "hybrid"))
 
@@ -139,49 +101,13 @@ def test_of_a_direction_the_jacobian_loses_the_turn_about_it():
         np.array([0.48, 0.6, 0.64]),
     )
     J, e = ARM.jacobian(Q, "hybrid").copy(), np.zeros(6)
-    position, rotation = ik_kernels._errors(codes.DIRECTION, axis, T, target, J, e)
+    position, rotation = ik_kernels.error_parts(codes.DIRECTION, axis, T, target, J, e)
     a, b = T[:3, :3] @ axis, target[:3, :3] @ axis
     assert position == pytest.approx(np.linalg.norm(target[:3, 3] - T[:3, 3]), rel=1e-14)
     assert rotation == pytest.approx(math.atan2(np.linalg.norm(np.cross(a, b)), a @ b), rel=1e-14)
     full = ARM.jacobian(Q, "hybrid")
     assert J[:3] == pytest.approx((np.eye(3) - np.outer(a, a)) @ full[:3], abs=1e-15)
     assert np.array_equal(J[3:], full[3:])
-
-
-def test_slides_lose_the_damping_beyond_their_own_size():
-    J = np.zeros((6, 5))
-    J[:3, 0] = [0, 0, 1e-9]  # turns, if little
-    J[3:, 1] = [1.0, 2.0, -2.0]  # own: 3 * 1 + 0.25 * 4 + 1.5 * 4 = 10
-    J[3:, 2] = [0.1, 0, 0]  # own less than 1: 1 stays
-    J[3:, 3] = [1.0, 2.0, -2.0]  # not free
-    J[3:, 4] = [10.0, 0, 0]  # own 300: all stays
-    J[3:, 0] = [1.0, 2.0, -2.0]
-    free = np.array([1.0, 1, 1, 0, 1])
-    for damping, taken in (
-        (25.0, [0, 15.0, 24.0, 0, 0]),
-        (1.0, [0] * 5),
-        (0.5, [0] * 5),
-        (5.0, [0, 0, 4.0, 0, 0]),
-    ):
-        H = np.full((5, 5), 50.0)
-        ik_kernels._ease_slides(J, WEIGHTS, damping, free, H)
-        assert np.full((5, 5), 50.0) - H == pytest.approx(np.diag(taken), abs=1e-12)
-    for row in range(3):
-        J[:3, 1] = 1e-9 * np.eye(3)[row]
-        H = np.zeros((5, 5))
-        ik_kernels._ease_slides(J, WEIGHTS, 25.0, free, H)
-        assert H[1, 1] == 0
-
-
-def test_the_diagonal_gains_some_rounding_of_the_largest_that_is_free():
-    H = np.diag([2.0, 8.0, 0.0])
-    H[1, 0] = 3.0
-    ik_kernels._keep_regular(np.array([1.0, 0, 1]), H)
-    assert H.tolist() == [[2 + 2e-14, 0, 0], [3, 8 + 2e-14, 0], [0, 0, 2e-14]]
-
-
-def work(m: int) -> np.ndarray:
-    return np.empty((4, 4 * m + 16))
 
 
 def descended(
@@ -196,13 +122,14 @@ def descended(
     row[codes.WEIGHTS :] = weights
     m = len(q)
     T, J, H = np.empty((4, 4)), np.empty((6, m)), np.empty((m, m))
-    return q, ik_kernels._descend(ARM, target, q, limits, fixed, row, work(m), T, J, H)
+    problem = ik_kernels.Problem(ARM, limits, fixed, row)  # type: ignore[arg-type]
+    return q, ik_kernels.descend(problem, target, q, T, J, H, ik_kernels.scratch_rows(m))
 
 
 def step(q: np.ndarray, target: np.ndarray, weights: np.ndarray, free: list[int]) -> np.ndarray:
     """(Jᵀ W J + E I) dq = Jᵀ W e with E = 0.1 eᵀ W e / 2, of the coordinates that are free."""
     T, J, W = ARM.fk(q), ARM.jacobian(q, "hybrid")[:, free], np.diag(weights)
-    e = np.array([*ik_kernels._rotation_error(T, target), *(target[:3, 3] - T[:3, 3])])
+    e = np.array([*rotation_error(T, target), *(target[:3, 3] - T[:3, 3])])
     dq = np.zeros(len(q))
     dq[free] = np.linalg.solve(J.T @ W @ J + 0.05 * (e @ W @ e) * np.eye(len(free)), J.T @ W @ e)
     return dq
@@ -229,7 +156,7 @@ def test_a_step_is_that_of_damped_least_squares(weights, fixed):
 
 def test_a_coordinate_at_a_limit_stays_where_it_is_pushed_further_and_goes_where_it_is_not():
     T, J = ARM.fk(Q), ARM.jacobian(Q, "hybrid")
-    e = np.array([*ik_kernels._rotation_error(T, TARGET), *(TARGET[:3, 3] - T[:3, 3])])
+    e = np.array([*rotation_error(T, TARGET), *(TARGET[:3, 3] - T[:3, 3])])
     pull = J.T @ e
     assert (np.abs(pull) > 0.01).all()
     for k in range(4):
@@ -279,7 +206,7 @@ def test_three_steps_in_a_row_that_leave_nine_tenths_end_a_try(ratios, taken, mo
         T[:], J[:] = np.eye(4), np.ones((6, 4))
         T[0, 3] = -math.sqrt(next(sizes))
 
-    monkeypatch.setattr(ik_kernels, "_one", one)
+    monkeypatch.setattr(ik_kernels, "run_one", one)
     _, (state, *_, count) = descended(Q, np.eye(4))
     assert (state, count) == (codes.STALLED, taken)
 
@@ -289,23 +216,20 @@ def test_a_target_is_finite_or_not(place):
     for wrong in (math.nan, math.inf, -math.inf):
         target = np.eye(4)
         target.flat[place] = wrong
-        assert ik_kernels._finite(target) == (place >= 12)
+        assert ik_kernels.is_finite(target) == (place >= 12)
 
 
 class Tries:
-    """In place of `_descend`: takes down where each try begins, and ends it as is written."""
+    """In place of `descend`: takes down where each try begins, and ends it as is written."""
 
     def __init__(self, *ends: tuple[float, float, float, int], places: Any = ()):
         self.ends, self.places, self.begun = list(ends), iter(places), []
 
     def __call__(
         self,
-        arm: Any,
+        problem: Any,
         target: Any,
         q: np.ndarray,
-        limits: Any,
-        fixed: Any,
-        options: Any,
         *rest: Any,
     ) -> Any:
         self.begun.append(q.copy())
@@ -338,7 +262,7 @@ def solved(
     fixed: Any = FREE,
     target: Any = TARGET,
 ):
-    monkeypatch.setattr(ik_kernels, "_descend", tries)
+    monkeypatch.setattr(ik_kernels, "descend", tries)
     q, info = np.zeros((1, 4)), np.full((1, codes.INFO), -1.0)
     row = options(RESTARTS=restarts)
     ik_kernels.solve_many.function(
@@ -395,7 +319,7 @@ def test_a_target_that_is_not_finite_is_not_tried(monkeypatch):
 
 
 def test_each_target_has_its_own_start_and_random_numbers(monkeypatch):
-    monkeypatch.setattr(ik_kernels, "_descend", tries := Tries(FAIL, GOOD, FAIL, GOOD))
+    monkeypatch.setattr(ik_kernels, "descend", tries := Tries(FAIL, GOOD, FAIL, GOOD))
     q, info = np.zeros((2, 4)), np.zeros((2, codes.INFO))
     starts = np.stack([Q, Q + 1])
     ik_kernels.solve_many.function(
@@ -421,7 +345,7 @@ def test_each_target_has_its_own_start_and_random_numbers(monkeypatch):
 def followed(
     tries: Tries, monkeypatch, most: Any = (500.0,) * 4
 ) -> tuple[int, np.ndarray, np.ndarray]:
-    monkeypatch.setattr(follow_kernels, "_descend", tries)
+    monkeypatch.setattr(follow_kernels, "descend", tries)
     q, info = np.zeros((3, 4)), np.full((3, codes.INFO), -1.0)
     reached = follow_kernels.follow.function(
         ARM, np.stack([TARGET] * 3), Q, WIDE, FREE, options(), np.array(most), q, info
@@ -487,22 +411,26 @@ def test_an_angle_goes_the_shorter_way_round():
         (0.3, turn, 0.3), (-0.3, turn, -0.3), (3.5, turn, 3.5 - turn), (-3.5, turn, turn - 3.5),
         (turn + 0.1, turn, 0.1), (-3 * turn - 0.1, turn, -0.1), (3.5, 0.0, 3.5), (0.7, 0.5, 0.2), (100.0, 0.0, 100.0),
     ):  # fmt: skip
-        assert ik_all_kernel._around(d, period) == pytest.approx(expected, abs=1e-12)
+        assert ik_all_kernel.around(d, period) == pytest.approx(expected, abs=1e-12)
 
 
 PERIODS = np.array([2 * math.pi, 0.0, 2 * math.pi, 0.0])
 
 
+def is_same(target: Any, a: Any, b: Any, middle: np.ndarray, limit: float) -> bool:
+    problem: Any = ik_kernels.Problem(ARM, WIDE, FREE, options())  # type: ignore[arg-type]
+    T, J, rows = np.empty((4, 4)), np.empty((6, 4)), ik_kernels.scratch_rows(4)
+    return ik_all_kernel.is_same(problem, target, (a, b, middle), PERIODS, limit, T, J, rows)
+
+
 @pytest.mark.parametrize("k", range(4))
 def test_two_ends_are_one_where_they_are_one_place_or_the_pose_halfway_is_the_target_s(k):
-    T, J, trial = np.empty((4, 4)), np.empty((6, 4)), np.empty(4)
-    target = ARM.fk(Q)
+    trial, target = np.empty(4), ARM.fk(Q)
 
     def same(apart: float, accepted: float, around: float = 0.0) -> bool:
         b = Q.copy()
         b[k] += apart + around
-        args = (PERIODS, options(), accepted, trial, T, J, work(4))
-        return ik_all_kernel._same(ARM, target, Q, b, *args)
+        return is_same(target, Q, b, trial, accepted)
 
     assert same(0.99e-7, 0.0)
     assert same(-0.99e-7, 0.0)
@@ -524,16 +452,16 @@ def test_two_ends_are_one_where_they_are_one_place_or_the_pose_halfway_is_the_ta
 def test_columns_are_nearly_dependent_below_1e_5_of_each_other(m):
     rng = np.random.default_rng(m)
     U = np.linalg.qr(rng.normal(size=(6, 6)))[0][:, :m]
-    H, g = np.empty((m, m)), np.empty(4 * m + 16)
+    H, rows, ones = np.empty((m, m)), ik_kernels.scratch_rows(m), np.ones(6)
     for k in range(m):
         for small, singular in ((1.1e-5, False), (0.9e-5, m > 1)):
             sizes = np.ones(m)
             sizes[k] = small
-            assert ik_all_kernel._is_singular(U * sizes, m, np.ones(6), H, g) == singular
+            assert ik_all_kernel.is_singular(U * sizes, ones, H, rows) == singular
     if m > 1:
         J = U.copy()
         J[:, -1] = J[:, 0] + 1e-9 * J[:, -1]
-        assert ik_all_kernel._is_singular(J, m, np.ones(6), H, g)
+        assert ik_all_kernel.is_singular(J, ones, H, rows)
 
 
 def test_solutions_were_found_often_enough():
@@ -547,7 +475,7 @@ def test_solutions_were_found_often_enough():
         (last, 4, 1.0, True, True), (last, 4, 1.5, True, False), (both, 4, 2.0, False, True),
         (both, 4, 2.1, False, False), (both, 3, 2.0, True, True), (both, 3, 2.1, True, False),
     ):  # fmt: skip
-        assert bool(ik_all_kernel._enough(hits, singular, count, each, pairs)) is enough
+        assert bool(ik_all_kernel.is_enough(hits, singular, count, each, pairs)) is enough
 
 
 class Search:
@@ -563,12 +491,12 @@ class Search:
         for name, value in numbers.items():
             self.rule[getattr(ik_all_kernel, name)] = value
         self.again: list[int] = []
-        monkeypatch.setattr(ik_all_kernel, "_descend", self._descend)
-        monkeypatch.setattr(ik_all_kernel, "_is_singular", lambda J, m, *rest: self.bad)
+        monkeypatch.setattr(ik_all_kernel, "descend", self._descend)
+        monkeypatch.setattr(ik_all_kernel, "is_singular", lambda *rest: self.bad)
         monkeypatch.setattr(
             ik_all_kernel,
-            "_same",
-            lambda arm, target, a, b, *rest: bool(np.abs(a - b).max() < 1e-3),
+            "is_same",
+            lambda problem, target, ends, *rest: bool(np.abs(ends[0] - ends[1]).max() < 1e-3),
         )
         self.q, self.hits = np.zeros((1, room, 4)), np.zeros((1, room))
         self.info = np.full((1, ik_all_kernel.INFO), -1.0)
@@ -579,7 +507,7 @@ class Search:
         )  # fmt: skip
 
     def _descend(
-        self, arm: Any, target: Any, q: np.ndarray, *rest: Any
+        self, problem: Any, target: Any, q: np.ndarray, *rest: Any
     ) -> tuple[int, float, float, int]:
         self.begun.append(q.copy())
         place, error, self.bad = (*next(self.ends), False)[:3]
@@ -650,12 +578,12 @@ def test_a_try_that_is_near_is_gone_on_with_three_times(monkeypatch):
 
 
 def test_solutions_are_within_a_period(monkeypatch):
-    monkeypatch.setattr(ik_all_kernel, "_same", lambda *rest: True)
+    monkeypatch.setattr(ik_all_kernel, "is_same", lambda *rest: True)
     places = iter([np.array([7.0, 8.0, -7.0, 9.0])] * 9)
 
     class Far(Search):
         def _descend(
-            self, arm: Any, target: Any, q: np.ndarray, *rest: Any
+            self, problem: Any, target: Any, q: np.ndarray, *rest: Any
         ) -> tuple[int, float, float, int]:
             self.bad = False
             q[:] = next(places)
@@ -679,7 +607,7 @@ def test_each_part_of_the_error_decides_whether_a_coordinate_is_pushed_beyond_it
         J[row, :2] = 1.0
         J[(row + 1) % 3, :2] = 1e-9  # it turns
 
-    monkeypatch.setattr(ik_kernels, "_one", one)
+    monkeypatch.setattr(ik_kernels, "run_one", one)
     limits = WIDE.copy()
     limits[0, side] = Q[0]
     q, _ = descended(Q, np.eye(4), limits=limits, ITERATIONS=1, weights=WEIGHTS)

@@ -2,24 +2,24 @@
 
     (J^T W J + damping I) x = J^T W e
 
-`J` is `rows` rows of one number an unknown, W diagonal. `free` is 1 for the unknowns that may move
+`J` is six rows of one number an unknown, W diagonal. `free` is 1 for the unknowns that may move
 and 0 for those that stay: these have x = 0. Only the lower triangle of H is used.
 Accuracy: about u times the condition of H, as of all normal equations
-(tests/formulas/test_least_squares.py).
+(tests/formulas/inverse/test_least_squares.py).
 Source: Levenberg 1944; H = L D L^T without square roots.
 """
 
 
-def normal_equations(J, e, weights, damping, free, rows, count, H, g):
+def normal_equations(J, e, weights, damping, free, count, H, g):
     """H and g of the equations."""
     for i in range(count):
         total = 0.0 * e[0]
-        for r in range(rows):
+        for r in range(6):
             total += J[r][i] * (weights[r] * e[r])
         g[i] = free[i] * total
         for k in range(i + 1):
             total = 0.0 * e[0]
-            for r in range(rows):
+            for r in range(6):
                 total += J[r][i] * (weights[r] * J[r][k])
             H[i][k] = free[i] * free[k] * total
         H[i][i] += damping + (1 - free[i])
