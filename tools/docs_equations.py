@@ -113,6 +113,12 @@ EQUATIONS: dict[str, str] = {
         r"df\,f^{-1} = \sum_{i=1}^{n} (\operatorname{Ad}(P_{i-1}) - \operatorname{Ad}(P_i))\,\eta_i "
         r"+ \operatorname{Ad}(f)\,\eta, \quad P_i = e^{A_1 q_1} \cdots e^{A_i q_i}"
     ),
+    "poekin.formulas.inverse.pose_error": (
+        r"e = \left(2 \sin\tfrac{\varphi}{2}\, n;\; p^* - p\right), \quad e^{[n]\varphi} R = R^*"
+    ),
+    "poekin.formulas.inverse.damped_step": (
+        r"(J^T W J + \lambda I)\,\Delta q = J^T W e, \quad \lambda = \tfrac{1}{20}\, e^T W e"
+    ),
     "poekin.formulas.inverse.least_squares": r"(J^T W J + \lambda I)\,x = J^T W e",
     "poekin.formulas.lie.defect": r"\|R^T R - I\|, \quad \det R",
 }

@@ -326,8 +326,3 @@ def test_the_comparison_of_kinds_sees_a_wrong_digit():
         np.testing.assert_allclose(
             KINDS["exact"](exponential.so3, (*W[:2], 0.5 + 1e-12)), expected, 1e-13, 1e-13
         )
-
-
-@pytest.mark.parametrize("x", [-0.5, -2.0, math.nan])
-def test_a_float_without_a_square_root_has_nan_as_in_compiled_code(x):
-    assert math.isnan(elementary.sqrt(x))

@@ -12,11 +12,10 @@ _TABLES = "formats/dh_files formats/dh formats/dh_published"
 DH = f"formats/dh_values {_TABLES}"
 BY_ARMS = "solve/ik solve/ik_all solve/follow"
 
-_MATRICES = "formulas/algebra_matrices"
-_CHAIN_MATRICES = "formulas/chain_matrices"
 _KINDS = "formulas/kinds"
-_DIFFERENCES = "formulas/derivative_differences"
-_SMALL_ANGLES = f"formulas/group_matrices formulas/coefficients {GROUPS}"
+_SMALL_ANGLES = (
+    f"formulas/exponential formulas/logarithm formulas/exp_jacobian formulas/coefficients {GROUPS}"
+)
 _ANGLES = f"{_SMALL_ANGLES} {_KINDS}"
 _REFUSALS = "model/refusals"
 _ROBOTS = f"{_REFUSALS} model/tree model/robot model/robot_coordinates"
@@ -35,19 +34,16 @@ _COMPARES = "analysis/results analysis/compare analysis/compare_figures analysis
 _SLOW = "formats/dh::test_every_chain_of_the_real_robots_has_a_table"  # left for the end
 
 NEAR = {
-    "algebra": f"{_MATRICES} {_KINDS} {_CHAIN_MATRICES} {GROUPS} {CHAINS}",
-    "formulas/": f"{_CHAIN_MATRICES} {_KINDS} {CHAINS} {GROUPS}",
+    "algebra": f"algebra formulas/forward formulas/recursive formulas/columns {_KINDS} {GROUPS} {CHAINS}",
+    "formulas/": f"own {_KINDS} {CHAINS} {GROUPS}",
     "formulas/arctangent formulas/coefficients formulas/quaternion": f"own {_ANGLES}",
-    "formulas/defect": f"{_MATRICES} groups/batches {_SMALL_ANGLES}",
-    "formulas/derivatives": f"{_DIFFERENCES} formulas/derivative_counts model/derivatives",
-    "formulas/dh": f"{_MATRICES} {_CHAIN_MATRICES} formulas/dh_route {_TABLES}",
-    "formulas/elementary": f"{_KINDS} {_SMALL_ANGLES}",
-    "formulas/exp_jacobian formulas/logarithm": _ANGLES,
-    "formulas/exponential": f"formulas/exponential_closed {_MATRICES} {_CHAIN_MATRICES} {_ANGLES}",
     "formulas/damped_step formulas/least_squares formulas/pose_error": f"own {_KINDS}",
-    "formulas/recursive": f"{_CHAIN_MATRICES} {_MATRICES} {_KINDS} {CHAINS}",
-    "formulas/screw_changes": f"{_DIFFERENCES} model/derivatives",
-    "formulas/structured": "formulas/structured_matrices model/compiled",
+    "formulas/defect": f"own groups/batches {_SMALL_ANGLES}",
+    "formulas/derivatives formulas/screw_changes": "own model/derivatives",
+    "formulas/dh": f"own {_TABLES}",
+    "formulas/elementary": f"own {_KINDS} {_SMALL_ANGLES}",
+    "formulas/exp_jacobian formulas/exponential formulas/logarithm": f"own {_ANGLES}",
+    "formulas/structured": "own model/compiled",
     "groups/": f"groups/values groups/batches groups/objects {GROUPS}",
     "groups/rpy": "groups/values formats/rpy",
     "engine/array_io": f"groups/batches {CHAINS}",
@@ -58,7 +54,7 @@ NEAR = {
     "engine/ik_all_kernel": "engine/ik_kernels solve/ik_all",
     "engine/ik_kernels": f"own {BY_ARMS} solve/redundancy",
     "engine/interpret": "own engine/program model/compiled",
-    "engine/program": "engine/trace engine/interpret formulas/structured_matrices model/compiled",
+    "engine/program": "engine/trace engine/interpret formulas/structured model/compiled",
     "engine/sincos": "own engine/interpret",
     "engine/source_hash": "engine/cache",
     "engine/specialise": "engine/interpret engine/count model/compiled",

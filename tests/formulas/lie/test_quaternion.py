@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 from poekin.formulas.lie import quaternion
 from poekin.testing.oracles import exact
 from poekin.testing.oracles.exact import mp
+from tests.formulas.matrices import hat
+from tests.formulas.on_both_sides import ANGLES, AXES, same
 
 UNIT = 2.0**-53
 rng = np.random.default_rng(11)
@@ -59,3 +63,13 @@ def test_the_square_of_w_has_lost_nothing_that_its_rest_has_not(noise):
         assert abs(Fraction(p) + Fraction(rest) - exact) <= Fraction(1, 2**76)
         assert abs(rest) <= UNIT * max(abs(p), 1.0)
         assert inverse == 0.25 / p
+
+
+def test_the_quaternion_is_that_of_the_angle_and_at_pi_its_largest_component_is_positive():
+    for axis in AXES:
+        for t in ANGLES:
+            q = np.array(quaternion.quaternion(expm(hat(axis * t)).ravel()))
+            same(q / np.linalg.norm(q), np.r_[math.cos(t / 2), math.sin(t / 2) * axis])
+        half_turn = 2 * np.outer(axis, axis) - np.eye(3)
+        q = np.array(quaternion.quaternion(half_turn.ravel()))
+        same(q / np.linalg.norm(q), np.r_[0.0, axis * np.sign(axis[np.abs(axis).argmax()])])

@@ -16,6 +16,8 @@ from poekin.formulas import dh as formulas
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.strategies.dh_strategies import angles, lengths, tables
 from tests.formats import dh_product
+from tests.formulas.four_joints import COUNTS, LINKS, LOCAL, ROTATES, SLIDES, same
+from tests.formulas.matrices import Ad, flat, matrix, product
 
 FEW = settings(max_examples=max(settings().max_examples // 2, 20))
 
@@ -182,3 +184,17 @@ def test_the_lines_see_what_is_wrong_with_a_route(fault):
         lines = [line(T, row) for T, row in zip(frames, table.rows, strict=True)]
         assert miss(route(table)[0], lines) < 1e-46
         assert miss(route(PLANTED[fault](table))[0], lines) > 1e-13
+
+
+def test_a_link_is_its_four_motions():
+    turn = matrix([[0.8, -0.6, 0.0], [0.6, 0.8, 0.0], [0.0, 0.0, 1.0]], (0, 0, 0.37))
+    twist = matrix([[1, 0, 0], [0, 0.96, -0.28], [0, 0.28, 0.96]], (-0.2, 0, 0))
+    same(formulas.link(0.6, 0.8, 0.37, -0.2, 0.28, 0.96), flat(turn @ twist))
+
+
+@COUNTS
+def test_the_screws_of_a_table_are_carried_by_the_links_before_them(count):
+    A = np.full((count, 6), np.nan)
+    home = formulas.screws([flat(T) for T in LINKS], ROTATES, SLIDES, count, A)
+    same(A, [Ad(product(*LINKS[: i + 1])) @ LOCAL[i] for i in range(count)])
+    same(home, flat(product(*LINKS[: count + 1])))
