@@ -1,6 +1,4 @@
-"""A chain as a table of TOML, to the last bit; and the robot of the calibrated chain in the file of
-a calibration.
-"""
+"""Chains as tables of TOML, to the last bit, and the calibrated chain of a calibration's file."""
 
 from __future__ import annotations
 
@@ -14,12 +12,12 @@ from .serial import serial_robot
 from .text import toml_text
 from .text.toml_text import Keys
 
-FORMAT, VERSION = "poekin calibration", 1
-"""What `format` and `version` say in the file of a calibration
-(`poekin.solve.calibration.report.toml_io`).
-"""
+FORMAT = "poekin calibration"
+"""`format` in the file of a calibration (`poekin.solve.calibration.report.toml_io`)."""
+VERSION = 1
+"""`version` in the file of a calibration."""
 CALIBRATED = "calibrated"
-"""The key of the calibrated chain in it."""
+"""Key of the calibrated chain in the file of a calibration."""
 _KEYS = (
     "base",
     "tip",
@@ -35,14 +33,17 @@ _KEYS = (
 
 
 def to_data(chain: Chain) -> dict[str, Any]:
-    """A chain as a table: its two frames, names, screws, home pose, limits and offset; coupling and
-    pitches, where it has such.
-    """
+    """Table of a chain: frames, names, screws, home pose, limits, offset; coupling and pitches."""
     data: dict[str, Any] = {
-        "base": chain.base, "tip": chain.tip, "joint_names": list(chain.joint_names), "q_names": list(chain.q_names),
-        "screws": chain.screws.tolist(), "home": chain.home.tolist(), "limits": chain.limits.tolist(),
+        "base": chain.base,
+        "tip": chain.tip,
+        "joint_names": list(chain.joint_names),
+        "q_names": list(chain.q_names),
+        "screws": chain.screws.tolist(),
+        "home": chain.home.tolist(),
+        "limits": chain.limits.tolist(),
         "offset": chain.offset.tolist(),
-    }  # fmt: skip
+    }
     if chain.nontrivial_coupling is not None:
         data["coupling"] = chain.nontrivial_coupling.tolist()
     if chain.pitches.any():
@@ -55,16 +56,24 @@ def to_chain(keys: Keys) -> Chain:
     was written.
     """
     keys = Keys(keys.data, keys.place, _KEYS)
-    joints, names = keys.texts("joint_names"), keys.texts("q_names")
-    n, m = len(joints), len(names)
-    coupling = keys.array("coupling", (n, m)) if "coupling" in keys.data else None
-    pitches = keys.array("pitches", (n,)) if "pitches" in keys.data else None
+    joints = keys.texts("joint_names")
+    names = keys.texts("q_names")
+    n = len(joints)
+    m = len(names)
+    optional = {"coupling": (n, m), "pitches": (n,)}
+    arrays = {key: keys.array(key, shape) for key, shape in optional.items() if key in keys.data}
     try:
         return Chain(
-            keys.array("screws", (n, 6)), keys.array("home", (4, 4)), joint_names=joints, q_names=names,
-            limits=keys.array("limits", (m, 2), finite=False), offset=keys.array("offset", (n,)), coupling=coupling,
-            base=keys.text("base"), tip=keys.text("tip"), pitches=pitches,
-        )  # fmt: skip
+            keys.array("screws", (n, 6)),
+            keys.array("home", (4, 4)),
+            joint_names=joints,
+            q_names=names,
+            limits=keys.array("limits", (m, 2), finite=False),
+            offset=keys.array("offset", (n,)),
+            **arrays,
+            base=keys.text("base"),
+            tip=keys.text("tip"),
+        )
     except ModelError:
         raise
     except PoekinError as fault:

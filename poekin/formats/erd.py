@@ -24,13 +24,15 @@ def available() -> dict[str, str]:
     from importlib.metadata import PackageNotFoundError, files
 
     try:
-        listed = [file for file in files(PACKAGE) or () if file.suffix == ".urdf"]
+        files_ = [file for file in files(PACKAGE) or () if file.suffix == ".urdf"]
     except PackageNotFoundError as missing:
         raise MissingExtra(PACKAGE, "robots", 'a model named "erd:..."') from missing
-    count = Counter(file.stem for file in listed)
+    count = Counter(file.stem for file in files_)
     named = {}
-    for file in listed:
-        name = file.stem if count[file.stem] == 1 else f"{_folder(file)}/{file.stem}"
+    for file in files_:
+        name = file.stem
+        if count[name] > 1:
+            name = f"{_folder(file)}/{name}"
         named[name] = os.fspath(file.locate())
     return dict(sorted(named.items()))
 
@@ -43,12 +45,16 @@ def read(name: str) -> Robot:
     """
     paths = available()
     if name not in paths:
+        ending = suggest(name, paths)
         both = [known for known in paths if known.endswith(f"/{name}")]
-        ending = "it is one of " + ", ".join(map(quote, both)) if both else suggest(name, paths)
+        if both:
+            ending = "it is one of " + ", ".join(map(quote, both))
         raise UnknownName(f"{PACKAGE} has no robot {quote(name)}; {ending}")
     return urdf.read(paths[name])
 
 
 def _folder(file: PurePosixPath) -> str:
     # .../robots/<folder>/urdf/<stem>.urdf or .../robots/<folder>/robots/<stem>.urdf
-    return file.parts[-3] if len(file.parts) >= 3 else file.parent.name
+    if len(file.parts) >= 3:
+        return file.parts[-3]
+    return file.parent.name

@@ -1,6 +1,4 @@
-"""load: a robot by the name of a file, of an arm that comes with poekin, or of one of
-example-robot-data.
-"""
+"""Robots by the name of a file, of a built-in arm, or of a robot of example-robot-data."""
 
 from __future__ import annotations
 
@@ -23,7 +21,7 @@ from .mjcf import mjcf
 PREFIX = "erd:"
 BUILT_IN = tuple(sorted({*catalogue.NAMES, *TABLES}))
 ENDINGS = (".urdf", ".xml", ".xacro", ".toml", ".csv", ".yaml", ".yml")
-"""What ends so is meant as the name of a file, whether there is one or not."""
+"""Endings of a name that means a file, whether there is one or not."""
 
 
 def load(name: str | os.PathLike[str]) -> Robot:
@@ -59,23 +57,24 @@ def load(name: str | os.PathLike[str]) -> Robot:
         return urdf.read(name)
     if "/" in name or os.sep in name or name.lower().endswith(ENDINGS):
         raise FileError(f"{escape_unprintable(name, 400)}: no such file")
-    known = BUILT_IN
     raise UnknownName(
-        f"no file and no built-in arm is named {quote(name)}; {suggest(name, known)} (built in: {', '.join(known)};"
+        f"no file and no built-in arm is named {quote(name)}; {suggest(name, BUILT_IN)}"
+        f" (built in: {', '.join(BUILT_IN)};"
         f' "{PREFIX}NAME" is for example-robot-data)'
     )
 
 
 def _read(path: str | os.PathLike[str]) -> Robot:
-    if os.fsdecode(path).lower().endswith(".toml") and chain_toml.is_calibration(path):
+    name = os.fsdecode(path).lower()
+    if name.endswith(".toml") and chain_toml.is_calibration(path):
         return chain_toml.read(path)
-    if os.fsdecode(path).lower().endswith((".toml", ".csv")):
+    if name.endswith((".toml", ".csv")):
         return dh.to_robot(dh.read(path))
-    if os.fsdecode(path).lower().endswith((".yaml", ".yml")):
+    if name.endswith((".yaml", ".yml")):
         return ur.read(path).to_robot()
-    if os.fsdecode(path).lower().endswith(".xml") and mjcf.is_mjcf(path):
+    if name.endswith(".xml") and mjcf.is_mjcf(path):
         return mjcf.read(path)
-    if os.fsdecode(path).lower().endswith(".xacro"):
+    if name.endswith(".xacro"):
         raise ModelError(
             f"{escape_unprintable(os.fsdecode(path), 400)}: xacro evaluates expressions that are in the file,"
             " which load never does: pk.xacro(path) does, and --xacro on the command line"

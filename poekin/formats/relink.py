@@ -1,6 +1,4 @@
-"""The same robot with other screws: joints move as a chain says, link frames stay where they were,
-or nearly so.
-"""
+"""Robots with the screws of a chain and, as nearly as may be, their own link frames."""
 
 from __future__ import annotations
 
@@ -20,16 +18,13 @@ from ..model.robot import Robot
 from ..model.tree.tree import path, tree_of
 
 ON_AXIS = 1e-11
-"""How far [rad, and in reaches] a tip may be off the axis that moves it and still pass for lying on
-it: rounding.
-"""
+"""Distance [rad, and in reaches] of a tip from the axis that moves it, below which it is rounding."""
 
 
 def relinked(
     robot: Robot, chain: Chain, *, base: str | None = None, tip: str | None = None
 ) -> Robot:
-    """The robot whose branch from base to tip has the kinematics of the chain: f(q) of both is the
-    same for every q.
+    """Robot whose branch from base to tip has the kinematics of the chain: f(q) is the same.
 
     A calibrated arm comes as screws and a home pose, and whoever draws it or plans with it has
     nominal links: meshes, masses, sensors on brackets. So each link that a joint moves keeps its
@@ -61,10 +56,11 @@ def relinked(
             f"relinked: expected a Robot and a Chain, got {type(robot).__name__} and {type(chain).__name__}"
         )
     nominal = robot.chain(base, tip)
-    _alike(nominal, chain)
+    _check_alike(nominal, chain)
     tree = tree_of(robot.links, robot.joints, robot.source or Source(robot.name))
     way = path(tree, robot.links.index(nominal.base), robot.links.index(nominal.tip))
-    P, down = np.eye(4), []
+    P = np.eye(4)
+    down = []
     for number, forward in way:
         joint = robot.joints[number]
         if forward:
@@ -82,9 +78,10 @@ def relinked(
     return Robot(robot.name, robot.links, joints, robot.source)
 
 
-def _alike(nominal: Chain, chain: Chain) -> None:
+def _check_alike(nominal: Chain, chain: Chain) -> None:
     """Check that the chain can be put in the place of the nominal one."""
-    mine, theirs = nominal.joint_names, chain.joint_names
+    mine = nominal.joint_names
+    theirs = chain.joint_names
     if len(mine) != len(theirs):
         raise InputError(
             f"the robot has {len(mine)} joints from {quote(nominal.base)} to {quote(nominal.tip)}: {join_names(mine)};"
@@ -112,8 +109,7 @@ def _alike(nominal: Chain, chain: Chain) -> None:
 
 
 def _origins(joints: Sequence[Joint], chain: Chain) -> list[Joint]:
-    """The joints of a way down the tree with new origins, so that they move as the chain does in
-    the top link's frame.
+    """Joints of a way down the tree with new origins: in the top link they move as the chain does.
 
     H and G are the poses of a link in the top link's frame at x = 0: the nominal one and the new
     one.
@@ -123,7 +119,8 @@ def _origins(joints: Sequence[Joint], chain: Chain) -> list[Joint]:
     result: list[Joint] = []
     i = 0
     for k, joint in enumerate(joints):
-        H, above = H @ joint.origin, G
+        H = H @ joint.origin
+        above = G
         if joint.kind == "fixed":
             G = G @ joint.origin
             if k == last + 1:
@@ -141,16 +138,15 @@ def _origins(joints: Sequence[Joint], chain: Chain) -> list[Joint]:
 
 
 def _moved(joint: Joint, H: Array, chain: Chain, i: int, at_tip: bool) -> tuple[Joint, Array]:
-    """Joint i of the chain, and the pose of the link that it moves; at_tip, where that link is the
-    tip itself.
-    """
-    screw, turns = chain.screws[i], chain.local.rotates[i] != 0
+    """Joint i of the chain and the pose of the link that it moves, which is the tip if `at_tip`."""
+    screw = chain.screws[i]
+    turns = chain.local.rotates[i] != 0
     w = screw[:3] if turns else screw[3:]
-    z = (chain.home if at_tip else H)[:3, :3] @ joint.axis
+    G = (chain.home if at_tip else H).copy()
+    z = G[:3, :3] @ joint.axis
     if z @ w < 0:
         joint = replace(joint, axis=tuple(-a for a in joint.axis))
         z = -z
-    G = (chain.home if at_tip else H).copy()
     if turns:
         joint = replace(joint, pitch=float(chain.local.slides[i]))
         foot = np.cross(w, screw[3:])

@@ -1,5 +1,4 @@
-"""A chain as a robot of one branch: what every format that knows links and joints needs to hold a
-chain.
+"""A chain as a robot of one branch, for formats that know links and joints.
 
 A link's joint follows one coordinate at most, and its own value *is* that coordinate where no other
 joint is its master. x = C q + c says more than that, so each row of C is told apart here: a
@@ -25,8 +24,7 @@ Interval = tuple[float, float]
 
 
 class Value(NamedTuple):
-    """How joint i of the chain gets its x from the value y of the robot's joint: x = sign y +
-    start.
+    """Value of joint i of the chain from the value y of the robot's joint: x = sign y + start.
 
     Fields: sign, start; limits of y; mimic, of y; moves, False where x is constant.
     """
@@ -60,10 +58,11 @@ def serial_robot(chain: Chain, name: str | None = None) -> Robot:
     """
     if not isinstance(chain, Chain):
         raise InputError(f"expected a Chain, got {type(chain).__name__}")
-    named = f"{chain.base}_to_{chain.tip}" if name is None else name
+    if name is None:
+        name = f"{chain.base}_to_{chain.tip}"
     if chain.base == chain.tip:
         if not chain.joint_names and np.array_equal(chain.home, np.eye(4)):
-            return Robot(named, [chain.base], [])
+            return Robot(name, [chain.base], [])
         raise InputError(
             f"the chain's base and tip are both called {quote(chain.base)}, and two links cannot be: give one another"
             ' name, as in chain.retooled(np.eye(4), tip="tool")'
@@ -74,33 +73,38 @@ def serial_robot(chain: Chain, name: str | None = None) -> Robot:
     joints = [_joint(chain, i, value, links[i], links[i + 1]) for i, value in enumerate(values)]
     fixed = _free(f"{chain.tip}_joint", set(chain.joint_names))
     joints.append(Joint(fixed, "fixed", links[-2], links[-1], chain.local.frames[-1]))
-    robot = Robot(named, links, joints)
+    robot = Robot(name, links, joints)
     if list(robot.q_names) != masters:
         changes.append(f"the order is {', '.join(map(quote, robot.q_names))}")
     if changes:
-        warn(f"the chain from {quote(chain.base)} to {quote(chain.tip)} has other coordinates as a robot: "
-             + "; ".join(changes))  # fmt: skip
+        warn(
+            f"the chain from {quote(chain.base)} to {quote(chain.tip)} has other coordinates as a robot: "
+            + "; ".join(changes)
+        )
     return robot
 
 
 def _joint(chain: Chain, i: int, value: Value, parent: str, child: str) -> Joint:
-    name, kind, origin = chain.joint_names[i], chain.kinds[i], chain.local.frames[i]
-    turn, slide = chain.local.rotates[i], chain.local.slides[i]
+    name = chain.joint_names[i]
+    kind = chain.kinds[i]
+    origin = chain.local.frames[i]
+    slide = chain.local.slides[i]
     if value.start:
-        origin = origin @ se3.exp(value.start * np.array([0.0, 0.0, turn, 0.0, 0.0, slide]))
+        screw = np.array([0.0, 0.0, chain.local.rotates[i], 0.0, 0.0, slide])
+        origin = origin @ se3.exp(value.start * screw)
     if not value.moves:
         return Joint(name, "fixed", parent, child, origin)
-    pitch = float(slide) if kind == "helical" else 0.0
-    return Joint(
-        name, kind, parent, child, origin, (0.0, 0.0, value.sign), value.limits, value.mimic, pitch
-    )
+    pitch = 0.0
+    if kind == "helical":
+        pitch = float(slide)
+    axis = (0.0, 0.0, value.sign)
+    return Joint(name, kind, parent, child, origin, axis, value.limits, value.mimic, pitch)
 
 
 def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
-    """The joints' values; the names of the masters in the order of q; what is not the same any
-    more, in words.
-    """
-    C, c = chain.coupling, chain.offset.tolist()
+    """Values of the joints, names of the masters in the order of q, and changes in words."""
+    C = chain.coupling
+    c = chain.offset.tolist()
     values = [Value(start=shift, moves=False) for shift in c]
     masters: list[str] = []
     changes: list[str] = []
@@ -116,11 +120,14 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
             changes.append(f"{quote(q_name)} is left out, no joint follows it")
             continue
         master = _master(ratios, c)
-        name, ratio, shift = chain.joint_names[master], ratios[master], c[master]
+        name = chain.joint_names[master]
+        ratio = ratios[master]
+        shift = c[master]
         lower, upper = chain.limits[k].tolist()
         if abs(ratio) == 1.0:
             values[master] = Value(ratio, shift, (lower, upper))
-            ratio, shift = 1.0, 0.0
+            ratio = 1.0
+            shift = 0.0
         else:
             values[master] = Value(limits=_image((lower, upper), ratio, shift))
             changes.append(
@@ -143,13 +150,11 @@ def _master(ratios: dict[int, float], shifts: list[float]) -> int:
 
 
 def _image(limits: Interval, ratio: float, shift: float) -> Interval:
-    """The interval of ratio y + shift, wide enough that seen from y it is no narrower than the one
-    of y.
-    """
+    """Interval of ratio y + shift, wide enough that seen from y it contains that of y."""
     ends = []
-    for bound, outward in zip(limits, (-math.inf, math.inf), strict=True):
+    for bound, outward in zip(limits, (-1.0, 1.0), strict=True):
         end = ratio * bound + shift
-        while (end - shift) / ratio > bound if outward < 0 else (end - shift) / ratio < bound:
+        while outward * ((end - shift) / ratio - bound) < 0:
             end = math.nextafter(end, math.copysign(math.inf, outward * ratio))
         ends.append(end)
     return min(ends), max(ends)

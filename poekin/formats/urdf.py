@@ -34,10 +34,11 @@ AXIS_TOLERANCE = 1e-6
 # Bounds this large [rad or m] bound nothing.
 ABSURD = 1e4
 URDF_KINDS = tuple(kind for kind in KINDS if kind != "helical")
+_ZERO = (0.0, 0.0, 0.0)
 
 
 class Repair(NamedTuple):
-    """What was wrong with a joint and was set right: the line, how bad it was, and what to say."""
+    """Repair of a joint: the line, the size of the fault, and the words for it."""
 
     line: int
     size: float
@@ -118,11 +119,13 @@ def _joint(fields: Fields, repairs: Repairs) -> Joint:
             raise fields.fault(f'expected an element <{role} link="..."/>, none there')
         ends.append(end.name("link"))
     origin = fields.child("origin")
-    xyz = origin.vector("xyz") if origin else None
-    angles = origin.vector("rpy") if origin else None
-    if origin and xyz and max(map(abs, xyz)) > LONGEST:
-        raise origin.fault(f"xyz: expected lengths of at most {LONGEST:g} m, got {xyz}")
-    pose = rpy.pose(xyz or (0.0, 0.0, 0.0), angles or (0.0, 0.0, 0.0))
+    pose = rpy.pose(_ZERO, _ZERO)
+    if origin:
+        xyz = origin.vector("xyz") or _ZERO
+        angles = origin.vector("rpy") or _ZERO
+        if max(map(abs, xyz)) > LONGEST:
+            raise origin.fault(f"xyz: expected lengths of at most {LONGEST:g} m, got {xyz}")
+        pose = rpy.pose(xyz, angles)
     moving: dict[str, Any] = {}
     if kind in MOVING or kind == "planar":
         moving["axis"] = _axis(fields, repairs)
@@ -149,30 +152,41 @@ def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
 
 def _limits(fields: Fields, name: str, repairs: Repairs) -> tuple[float, float]:
     element = fields.child("limit")
-    lower = element.number("lower", finite=False) if element else None
-    upper = element.number("upper", finite=False) if element else None
-    line = element.line if element else fields.line
-    if element and lower is not None and upper is not None and lower > upper:
+    if element is None:
+        repairs.limits.append(Repair(fields.line, 0.0, f"{quote(name)} (none; line {fields.line})"))
+        return -math.inf, math.inf
+    lower = element.number("lower", finite=False)
+    upper = element.number("upper", finite=False)
+    if lower is not None and upper is not None and lower > upper:
         raise element.fault(
             f"lower must not be above upper, got lower = {lower!r}, upper = {upper!r}"
         )
-    if lower is None and upper is None:
-        reason = "none"
-    elif lower == upper:
-        reason = f"equal, {lower!r}"
-    elif lower is None or upper is None:
-        reason = "no lower bound" if lower is None else "no upper bound"
-    elif max(abs(lower), abs(upper)) >= ABSURD:
-        reason = f"{lower!r} to {upper!r}"
-    else:
-        return lower, upper
-    repairs.limits.append(Repair(line, 0.0, f"{quote(name)} ({reason}; line {line})"))
+    reason = _unusable(lower, upper)
+    if reason:
+        line = element.line
+        repairs.limits.append(Repair(line, 0.0, f"{quote(name)} ({reason}; line {line})"))
     if lower == upper:
         return -math.inf, math.inf
-    return (
-        -math.inf if lower is None or abs(lower) >= ABSURD else lower,
-        math.inf if upper is None or abs(upper) >= ABSURD else upper,
-    )
+    if lower is None or abs(lower) >= ABSURD:
+        lower = -math.inf
+    if upper is None or abs(upper) >= ABSURD:
+        upper = math.inf
+    return lower, upper
+
+
+def _unusable(lower: float | None, upper: float | None) -> str:
+    """Reason why limits do not bound a joint on both sides; none where they do."""
+    if lower is None and upper is None:
+        return "none"
+    if lower is None:
+        return "no lower bound"
+    if upper is None:
+        return "no upper bound"
+    if lower == upper:
+        return f"equal, {lower!r}"
+    if max(abs(lower), abs(upper)) >= ABSURD:
+        return f"{lower!r} to {upper!r}"
+    return ""
 
 
 def _mimic(fields: Fields, kind: str) -> Mimic | None:
@@ -181,12 +195,9 @@ def _mimic(fields: Fields, kind: str) -> Mimic | None:
         return None
     if kind in FREE:
         raise element.fault(f"a {kind} joint has no single value and cannot mimic another joint")
-    multiplier, offset = element.number("multiplier"), element.number("offset")
-    return Mimic(
-        element.name("joint"),
-        1.0 if multiplier is None else multiplier,
-        0.0 if offset is None else offset,
-    )
+    given = {key: element.number(key) for key in ("multiplier", "offset")}
+    numbers = {key: value for key, value in given.items() if value is not None}
+    return Mimic(element.name("joint"), **numbers)
 
 
 def _with_known_master(joint: Joint, fields: Fields, known: set[str], repairs: Repairs) -> Joint:
@@ -209,20 +220,23 @@ def _warn(repairs: Repairs, source: Source) -> None:
         others = _others(repairs.mimics, first, "the first of")
         warn(f"{source.place(first.line)}: {first.text}, and stays independent{others}")
     if repairs.limits:
-        listed = ", ".join(repair.text for repair in repairs.limits[:4])
-        more = f" and {len(repairs.limits) - 4} more" if len(repairs.limits) > 4 else ""
+        joints = ", ".join(repair.text for repair in repairs.limits[:4])
+        if len(repairs.limits) > 4:
+            joints += f" and {len(repairs.limits) - 4} more"
         place = source.place(repairs.limits[0].line)
-        warn(f"{place}: joints without usable limits are taken as unlimited: {listed}{more}")
+        warn(f"{place}: joints without usable limits are taken as unlimited: {joints}")
 
 
 def _others(repairs: list[Repair], named: Repair, rank: str) -> str:
     lines = [str(repair.line) for repair in repairs if repair is not named]
     if not lines:
         return ""
-    return f" ({rank} {len(repairs)}; the others on line {', '.join(lines[:10])}{', ...' if len(lines) > 10 else ''})"
+    if len(lines) > 10:
+        lines[10:] = ["..."]
+    return f" ({rank} {len(repairs)}; the others on line {', '.join(lines)})"
 
 
 def _xacro(root: Element) -> str:
-    return (
-        " (xacro that was not processed yet?)" if any("xacro" in str(e.tag) for e in root) else ""
-    )
+    if any("xacro" in str(element.tag) for element in root):
+        return " (xacro that was not processed yet?)"
+    return ""

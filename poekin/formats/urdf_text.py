@@ -1,12 +1,12 @@
-"""Robot or Chain in, URDF out: text that Pinocchio, ROS and `poekin.formats.urdf` load with the
-same kinematics.
-"""
+"""URDF out of a Robot or Chain: text that Pinocchio, ROS and poekin load with the same kinematics."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Iterator
+
+import numpy as np
 
 from ..errors import InputError, join_names, quote, safe_repr
 from ..model.chain import Chain
@@ -16,7 +16,7 @@ from . import rpy
 from .serial import serial_robot
 
 UNLIMITED = 1e16
-"""What stands for "no limit" where URDF insists on a number [rad, m, N, N m, rad/s or m/s].
+"""Stand-in for "no limit" where URDF insists on a number [rad, m, N, N m, rad/s or m/s].
 
 No reader takes "inf", a missing bound is 0 to most, and an effort or velocity of 0 would hold the
 joint still in some.
@@ -59,13 +59,17 @@ def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
         raise InputError(f"name: expected the robot's name, a str, got {safe_repr(name)}")
     if not isinstance(model, (Robot, Chain)):
         raise InputError(f"to_urdf: expected a Robot or a Chain, got {type(model).__name__}")
-    robot = serial_robot(model) if isinstance(model, Chain) else model
+    robot = model
+    if isinstance(robot, Chain):
+        robot = serial_robot(robot)
+    if name is None:
+        name = robot.name
     helical = [joint.name for joint in robot.joints if joint.pitch]
     if helical:
         raise InputError(f"URDF has no helical joints, and these are: {join_names(helical)}")
     lines = [
         '<?xml version="1.0"?>',
-        f"<robot name={quote_attribute(robot.name if name is None else name, 'robot')}>",
+        f"<robot name={quote_attribute(name, 'robot')}>",
     ]
     lines += [f"  <link name={quote_attribute(link, 'link')}/>" for link in robot.links]
     for joint in robot.joints:
@@ -74,7 +78,7 @@ def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
 
 
 def _joint(joint: Joint) -> Iterator[str]:
-    kind = "revolute" if joint.kind == "helical" else joint.kind
+    kind = joint.kind.replace("helical", "revolute")
     if kind == "revolute" and joint.limits == (-math.inf, math.inf):
         kind = "continuous"
     yield f'  <joint name={quote_attribute(joint.name, "joint")} type="{kind}">'
@@ -96,19 +100,16 @@ def _joint(joint: Joint) -> Iterator[str]:
 
 def _numbers(*values: float) -> str:
     """Numbers in the shortest form that reads back as the same floats, an infinite one as ±1e16."""
-    return " ".join(repr(min(max(float(v), -UNLIMITED), UNLIMITED) if math.isinf(v) else float(v)).removesuffix(".0")
-                    for v in values)  # fmt: skip
+    finite = np.nan_to_num(values, nan=math.nan, posinf=UNLIMITED, neginf=-UNLIMITED)
+    return " ".join(repr(value).removesuffix(".0") for value in finite.tolist())
 
 
 def quote_attribute(name: str, what: str) -> str:
-    """A name as the value of an attribute, whatever is in it; what no eye would see, by its number."""
+    """Name as the value of an attribute; markup and unprintable characters by their numbers."""
     bad = _IMPOSSIBLE.search(name)
     if bad:
         raise InputError(
             f"{what} {quote(name)}: XML cannot hold the character U+{ord(bad[0]):04X} of its name"
         )
-    return (
-        '"'
-        + "".join(c if c.isprintable() and c not in _MARKUP else f"&#{ord(c)};" for c in name)
-        + '"'
-    )
+    escaped = "".join(c if c.isprintable() and c not in _MARKUP else f"&#{ord(c)};" for c in name)
+    return f'"{escaped}"'

@@ -1,6 +1,4 @@
-"""Xacro in, Robot out. Xacro is code: evaluating a file runs the expressions in it, so nothing does
-this unasked.
-"""
+"""Robots out of xacro files, evaluated on request only: xacro is code, whose expressions run."""
 
 from __future__ import annotations
 
@@ -63,13 +61,13 @@ def _text(key: str, value: Any) -> str:
         raise InputError(
             f"xacro: {escape_unprintable(key)}: expected a text, number or truth value, got {safe_repr(value)}"
         )
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value)
 
 
 def _evaluated(name: str, robot: str | None, values: dict[str, str]) -> str:
-    """The URDF text that the file of that name becomes; robot is the name on its root element, if
-    there is one.
-    """
+    """URDF text of an evaluated file; robot is the name on its root element, if there is one."""
     xacrodoc, xacro_ = _packages()
     # Included from another document, by its whole path, the file is where its own includes are
     # relative to. `$` and what stands for other characters in patterns must not mean anything
@@ -79,9 +77,18 @@ def _evaluated(name: str, robot: str | None, values: dict[str, str]) -> str:
     include = f"<xacro:include filename={quote_attribute(whole, 'file')}/>"
     text = f"<robot name={quote_attribute(robot or '', 'robot')} {namespace}>{include}</robot>"
     refusals = (
-        xacro_.XacroException, xacrodoc.packages.PackageNotFoundError, ValueError, LookupError, TypeError,
-        AttributeError, RuntimeError, OSError, SyntaxError, ArithmeticError, ExpatError,
-    )  # fmt: skip
+        xacro_.XacroException,
+        xacrodoc.packages.PackageNotFoundError,
+        ValueError,
+        LookupError,
+        TypeError,
+        AttributeError,
+        RuntimeError,
+        OSError,
+        SyntaxError,
+        ArithmeticError,
+        ExpatError,
+    )
     said = io.StringIO()
     try:
         with _one_at_a_time, _packages_above(name, xacrodoc.packages), redirect_stderr(said):
@@ -89,7 +96,7 @@ def _evaluated(name: str, robot: str | None, values: dict[str, str]) -> str:
                 text, subargs=values, resolve_packages=False
             ).dom.toxml()
     except refusals as fault:
-        raise ModelError(f"{Source(name).place()}: xacro: {_said(fault, xacrodoc)}") from fault
+        raise ModelError(f"{Source(name).place()}: xacro: {_reason(fault, xacrodoc)}") from fault
     for line in dict.fromkeys(said.getvalue().splitlines()):  # said again at each of its rounds
         if line.startswith("warning: "):
             warn(
@@ -110,9 +117,7 @@ def _packages() -> tuple[ModuleType, ModuleType]:
 
 @contextmanager
 def _packages_above(name: str, packages: Any) -> Iterator[None]:
-    """Packages in the folders above a file come first, and only meanwhile: they must not be those
-    of the next file.
-    """
+    """Context in which packages in the folders above a file come first, for this file only."""
     before = packages._finder
     finder = packages.PackageFinder()
     finder.finder_funcs = [(before.get_path, packages.PackageNotFoundError)]
@@ -124,7 +129,7 @@ def _packages_above(name: str, packages: Any) -> Iterator[None]:
         packages._finder = before
 
 
-def _said(fault: BaseException, xacrodoc: Any) -> str:
+def _reason(fault: BaseException, xacrodoc: Any) -> str:
     if isinstance(fault, RecursionError):
         return "it goes round in circles: a macro or file that uses itself?"
     cause: Any = fault
@@ -136,7 +141,9 @@ def _said(fault: BaseException, xacrodoc: Any) -> str:
             )
             return f"there is no package {escape_unprintable(' '.join(map(str, cause.args)), 80)!r} {where}"
         cause = getattr(cause, "exc", None) or cause.__cause__
-    inner = getattr(fault, "exc", None)
     # Of an error in $(...) xacro says the class, and its words twice.
-    words = " ".join(str(inner if inner and str(fault).startswith("<class ") else fault).split())
+    said: object = fault
+    if str(fault).startswith("<class "):
+        said = getattr(fault, "exc", None) or fault
+    words = " ".join(str(said).split())
     return escape_unprintable(words or type(fault).__name__, 400)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import SupportsInt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -81,7 +82,7 @@ def _checked(M: Array, what: str, kind: str) -> Array:
     )
 
 
-def element_name(what: str, index: Iterable[int]) -> str:
+def element_name(what: str, index: Iterable[SupportsInt]) -> str:
     """Name of an array's element in messages: `T[0, 2]`, and `T` for the batch ()."""
     indices = ", ".join(str(int(i)) for i in index)
     return f"{what}[{indices}]" if indices else what

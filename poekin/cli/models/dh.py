@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, cast
 
 import numpy as np
 import typer
@@ -44,7 +44,7 @@ def command(
     array_files.check_apart([output], model=file)
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
-    result = dh.from_chain(chain, convention=convention)
+    result = dh.from_chain(chain, convention=cast(dh.Convention, convention))
     if output is not None:
         dh.write(result.table, output)
     if json:

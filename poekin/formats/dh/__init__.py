@@ -1,14 +1,13 @@
-"""Denavit-Hartenberg tables, standard (Paul) and modified (Craig): into screws and back, and as
-files.
-"""
+"""Denavit-Hartenberg tables, standard (Paul) and modified (Craig): to screws and back, and as files."""
 
 from .from_chain import FromChain, from_chain
 from .published_tables import published
-from .table import Row, Table
+from .table import Convention, Row, Table
 from .table_io import read, write
 from .to_chain import to_chain, to_robot
 
 __all__ = [
+    "Convention",
     "FromChain",
     "Row",
     "Table",

@@ -1,4 +1,4 @@
-"""From a chain to a table of Denavit-Hartenberg parameters, and what was free to choose on the way."""
+"""DH tables of chains, with the free choices made on the way."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ import numpy as np
 
 from ...algebra import add, cross, dot, scale, subtract
 from ...errors import InputError, quote, safe_repr
+from ...groups import se3
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ...model.geometry.normals import (  # fmt: skip
+from ...model.geometry.normals import (
     Normal,
     Vector,
     across,
@@ -24,7 +25,7 @@ from ...model.geometry.normals import (  # fmt: skip
     parallel_normal,
     unit,
 )
-from .table import CONVENTIONS, Row, Table
+from .table import Convention, Row, Table, check_convention
 from .to_chain import to_chain
 
 UNIT = 2.0**-53
@@ -50,7 +51,7 @@ class FromChain:
 
 
 def from_chain(
-    chain: Chain, *, convention: str = "standard", samples: int = 100, seed: int = 0
+    chain: Chain, *, convention: Convention = "standard", samples: int = 100, seed: int = 0
 ) -> FromChain:
     """The DH table of a chain of revolute and prismatic joints, in either convention.
 
@@ -73,8 +74,7 @@ def from_chain(
         raise InputError(
             f"from_chain: expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
         )
-    if convention not in CONVENTIONS:
-        raise InputError(f"convention: expected 'standard' or 'modified', got {convention!r:.60}")
+    check_convention(convention)
     for name, kind in zip(chain.joint_names, chain.kinds, strict=True):
         if kind == "helical":
             raise InputError(
@@ -99,7 +99,7 @@ def from_chain(
 
 
 class _Walk:
-    """From axis to axis: the rows' numbers, and the frames that base and tool take up."""
+    """Walk from axis to axis that finds the rows' numbers and the frames of base and tool."""
 
     def __init__(self, chain: Chain):
         self.chain = chain
@@ -113,7 +113,8 @@ class _Walk:
         if not n:
             return
         z, o = self._axis(0, _ORIGIN)
-        x = unit(across(_AXES[0] if abs(z[0]) < Decimal("0.9") else _AXES[1], z))
+        aside = _AXES[0] if abs(z[0]) < Decimal("0.9") else _AXES[1]
+        x = unit(across(aside, z))
         self.base = (x, z, o)
         self.gauge.append(
             f"zero of {self._name(0)} and place along its axis: nearest to the base frame"
@@ -130,7 +131,9 @@ class _Walk:
             self.normals.append(
                 (float(normal.a), math.atan2(float(normal.sine), float(normal.cosine)))
             )
-            x, z, o = normal.x, z2, add(normal.foot, scale(normal.a, normal.x))
+            x = normal.x
+            z = z2
+            o = add(normal.foot, scale(normal.a, normal.x))
         along = dot(subtract(exact(chain.home[:3, 3]), o), z)
         self.turns.append((0.0, float(along)))
         self.gauge.append(
@@ -139,10 +142,10 @@ class _Walk:
         self.last = (x, z, add(o, scale(Decimal(float(along)), z)))
 
     def _near(self, o: Vector, z: Vector) -> Vector:
-        """The origin, or where that is far from the arm, the axis' point that is nearest to the
-        base.
-        """
-        return o if length(o) <= self.reach * FAR else subtract(o, scale(dot(o, z), z))
+        """Origin, or the axis' point nearest to the base where the origin is far from the arm."""
+        if length(o) <= self.reach * FAR:
+            return o
+        return subtract(o, scale(dot(o, z), z))
 
     def _axis(self, i: int, origin: Vector) -> tuple[Vector, Vector]:
         """Direction and a point of axis i, nearest to `origin`; a prismatic one passes through it."""
@@ -151,10 +154,9 @@ class _Walk:
     def _normal(
         self, i: int, o: Vector, z: Vector, p2: Vector, z2: Vector, x: Vector
     ) -> tuple[Normal, Vector]:
-        """The common normal of axes i and i + 1, and the direction of axis i + 1 that the table
-        will have.
-        """
-        angle, nothing = length(cross(z, z2)), self.reach * Decimal("1e-16")
+        """Common normal of axes i and i + 1, and the direction of axis i + 1 in the table."""
+        angle = length(cross(z, z2))
+        nothing = self.reach * Decimal("1e-16")
         names = f"{self._name(i)} and {self._name(i + 1)}"
         if angle == 0:
             self.gauge.append(
@@ -169,7 +171,9 @@ class _Walk:
                 f"axes of {names} are taken as parallel: the angle of {float(angle):.3g} rad between them would put "
                 f"d at {float(away):.3g} m; a product of exponentials keeps it"
             )
-            flat = z if dot(z, z2) > 0 else scale(Decimal(-1), z)
+            flat = scale(Decimal(-1), z)
+            if dot(z, z2) > 0:
+                flat = z
             return parallel_normal(o, z, p2, z2, x, nothing), flat
         if away > self.reach * FAR:
             self.warnings.append(
@@ -184,14 +188,14 @@ class _Walk:
     def _name(self, i: int) -> str:
         return quote(self.chain.joint_names[i])
 
-    def table(self, convention: str) -> Table:
+    def table(self, convention: Convention) -> Table:
         """The rows of the convention, base and tool."""
-        chain, n = self.chain, len(self.turns)
-        if not n:
+        chain = self.chain
+        if not self.turns:
             return Table(convention, [], tool=chain.home, name=chain.tip)
-        links = (
-            [*self.normals, (0.0, 0.0)] if convention == "standard" else [(0.0, 0.0), *self.normals]
-        )
+        links = [(0.0, 0.0), *self.normals]
+        if convention == "standard":
+            links.append(links.pop(0))
         limits = _limits(chain)
         rows = [
             Row(theta, d, a, alpha, chain.kinds[i], False, chain.joint_names[i], limits[i])
@@ -217,16 +221,15 @@ _FREE = (-math.inf, math.inf)
 
 
 def _limits(chain: Chain) -> list[tuple[float, float]]:
-    """Those of the joints' own values, where one coordinate alone sets them."""
+    """Limits of the joints' own values, where one coordinate alone sets them."""
     found = []
     for row, shift in zip(chain.coupling, chain.offset.tolist(), strict=True):
         (ks,) = row.nonzero()
-        ends = (
-            [_FREE]
-            if len(ks) != 1
-            else [sorted(float(row[k] * x) + shift for x in chain.limits[k]) for k in ks]
-        )
-        found.append((ends[0][0], ends[0][1]))
+        lower, upper = _FREE
+        if len(ks) == 1:
+            k = ks[0]
+            lower, upper = sorted(float(row[k] * x) + shift for x in chain.limits[k])
+        found.append((lower, upper))
     return found
 
 
@@ -236,14 +239,12 @@ def _turn(x: Vector, x2: Vector, z: Vector, along: Vector) -> tuple[float, float
 
 
 def _pose(x: Vector, z: Vector, o: Vector) -> Array:
-    T = np.eye(4)
-    for column, axis in enumerate((x, cross(z, x), z, o)):
-        T[:3, column] = [float(value) for value in axis]
-    return T
+    columns = [[float(value) for value in axis] for axis in (x, cross(z, x), z, o)]
+    return se3.pose(np.transpose(columns[:3]), columns[3])
 
 
 def _error(chain: Chain, table: Table, samples: int, seed: int) -> float:
-    """Of the joints' own values: one turn of revolute joints, 1 m of prismatic ones."""
+    """Largest pose error over a turn of each revolute joint and 1 m of each prismatic one."""
     joints = Chain(chain.screws, chain.home, joint_names=chain.joint_names)
     x = joints.random(seed, samples)
     difference = to_chain(table).fk(x) - joints.fk(x)

@@ -1,6 +1,4 @@
-"""Published DH tables that come with poekin: TOML files, each with its source, tool and zero
-position at the top.
-"""
+"""Published DH tables that come with poekin, each with its source, tool and zero position."""
 
 from __future__ import annotations
 
@@ -19,8 +17,7 @@ NAMES = (
 
 
 def published(name: str) -> Table:
-    """The published table of an arm, one of `NAMES`; its source, tool and zero position stand at
-    the top of its file.
+    """Published table of an arm, one of `NAMES`; its source stands at the top of its file.
 
     Parameters: name, as "puma560". Returns: Table, rad and m.
     Raises: UnknownName with the closest names. Accuracy: as published. Source: the one in the file.

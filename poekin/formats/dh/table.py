@@ -1,6 +1,4 @@
-"""A table of Denavit-Hartenberg parameters with all that it means: convention, offsets, directions,
-base, tool.
-"""
+"""Tables of Denavit-Hartenberg parameters: convention, offsets, directions, base and tool."""
 
 from __future__ import annotations
 
@@ -8,7 +6,7 @@ import math
 import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +15,9 @@ from ...errors import InputError, PoekinWarning, ShapeError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.checks import bounds, distinct_names, finite, one_pose, read_only
 
-CONVENTIONS = ("standard", "modified")
+Convention = Literal["standard", "modified"]
+CONVENTIONS: tuple[Convention, ...] = get_args(Convention)
+EITHER = " or ".join(map(repr, CONVENTIONS))
 KINDS = ("revolute", "prismatic")
 COLUMNS = ("theta", "d", "a", "alpha")
 
@@ -72,7 +72,7 @@ class Table:
         "theta",
         "tool",
     )
-    convention: str
+    convention: Convention
     theta: Array
     d: Array
     a: Array
@@ -87,45 +87,38 @@ class Table:
 
     def __init__(
         self,
-        convention: str,
+        convention: Convention,
         rows: Sequence[Row | dict[str, Any]],
         *,
         base: ArrayLike | None = None,
         tool: ArrayLike | None = None,
         name: str = "arm",
     ):
-        if convention not in CONVENTIONS:
-            raise InputError(
-                f"convention: expected 'standard' or 'modified', got {convention!r:.60}"
-            )
+        check_convention(convention)
         if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
             raise ShapeError(
                 f"rows: expected a list of Rows or dicts, one a joint, got {safe_repr(rows)}"
             )
-        listed = [_row(row, i) for i, row in enumerate(rows)]
-        for i, row in enumerate(listed):
+        made = [_row(row, i) for i, row in enumerate(rows)]
+        for i, row in enumerate(made):
             if row.kind not in KINDS:
                 raise InputError(
                     f"row {i}: kind must be 'revolute' or 'prismatic', got {quote(row.kind)}"
                 )
-        names = distinct_names(
-            [row.name or f"joint{i + 1}" for i, row in enumerate(listed)],
-            len(listed),
-            "names",
-            "joint",
-        )
+        given = [row.name or f"joint{i + 1}" for i, row in enumerate(made)]
+        names = distinct_names(given, len(made), "names", "joint")
         values: dict[str, Any] = {
             "convention": convention,
-            "kinds": tuple(row.kind for row in listed),
-            "flips": tuple(bool(row.flip) for row in listed),
+            "kinds": tuple(row.kind for row in made),
+            "flips": tuple(bool(row.flip) for row in made),
             "names": names,
-            "limits": read_only(bounds([row.limits for row in listed] if listed else None, names)),
-            "base": read_only(one_pose(np.eye(4) if base is None else base, "base")),
-            "tool": read_only(one_pose(np.eye(4) if tool is None else tool, "tool")),
+            "limits": read_only(bounds([row.limits for row in made] or None, names)),
+            "base": _pose(base, "base"),
+            "tool": _pose(tool, "tool"),
             "name": str(name),
         }
         for column in COLUMNS:
-            values[column] = read_only(finite([getattr(row, column) for row in listed], column))
+            values[column] = read_only(finite([getattr(row, column) for row in made], column))
         large = [i for i, alpha in enumerate(values["alpha"].tolist()) if abs(alpha) > 2 * math.pi]
         if large:
             first = f"alpha = {values['alpha'][large[0]]:g} of joint {quote(names[large[0]])}"
@@ -162,7 +155,7 @@ class Table:
         return all(np.array_equal(a, b) for a, b in zip(self._data(), other._data(), strict=True))
 
     def __hash__(self) -> int:
-        return hash(tuple(x.tobytes() if isinstance(x, np.ndarray) else x for x in self._data()))
+        return hash((self.convention, self.kinds, self.names, tuple(self.theta.tolist())))
 
     def __reduce__(self):
         return _rebuilt, (self.convention, self.rows, self.base, self.tool, self.name)
@@ -177,11 +170,28 @@ class Table:
         return "\n".join(lines) + ">"
 
 
+def check_convention(convention: object) -> None:
+    """Refuse what is no convention of DH parameters. Raises: InputError."""
+    if convention not in CONVENTIONS:
+        raise InputError(f"convention: expected {EITHER}, got {convention!r:.60}")
+
+
+def _pose(pose: ArrayLike | None, what: str) -> Array:
+    if pose is None:
+        return read_only(np.eye(4))
+    return read_only(one_pose(pose, what))
+
+
 def _moves(row: Row, kind: str) -> str:
-    return "" if row.kind != kind else " - x" if row.flip else " + x"
+    """Sign of x behind the parameter that moves a joint of that kind; nothing for other joints."""
+    if row.kind != kind:
+        return ""
+    return " - x" if row.flip else " + x"
 
 
-def _rebuilt(convention: str, rows: Sequence[Row], base: Array, tool: Array, name: str) -> Table:
+def _rebuilt(
+    convention: Convention, rows: Sequence[Row], base: Array, tool: Array, name: str
+) -> Table:
     return Table(convention, rows, base=base, tool=tool, name=name)
 
 

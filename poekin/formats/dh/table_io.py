@@ -1,5 +1,4 @@
-"""Tables as files: TOML, or CSV for spreadsheets. Both carry the convention, base and tool; rad and
-m only.
+"""DH tables as files: TOML, or CSV for spreadsheets, both with convention, base and tool; rad, m.
 
 TOML: convention, name, base and tool (4x4, identity if left out), and a [[joint]] for each row with
 theta, d, a, alpha and, where they differ from the default, kind, flip, name and limits.
@@ -33,7 +32,7 @@ from ...groups.arrays import Array
 from ..text import toml_text, xml
 from ..text.atomic_write import write_whole
 from ..text.numbers import real
-from .table import COLUMNS, CONVENTIONS, KINDS, Row, Table
+from .table import COLUMNS, CONVENTIONS, EITHER, KINDS, Row, Table
 
 TOP: tuple[str, ...] = ("convention", "name", "source", "base", "tool", "joint")
 FIELDS: tuple[str, ...] = ("name", "kind", *COLUMNS, "flip", "limits")
@@ -68,9 +67,7 @@ def read(path: str | os.PathLike[str]) -> Table:
 
 
 def read_text(text: str, name: str) -> Table:
-    """The table in the text of a file of that name; its ending says which kind of text it is.
-    Raises as `read`.
-    """
+    """Table in the text of a file, TOML or CSV as its name ends. Raises as `read`."""
     stem, ending = os.path.splitext(os.path.basename(name))
     reader = _reader(name, ending, {".toml": _from_toml, ".csv": _from_csv})
     return reader(text, escape_unprintable(name, 400), stem)
@@ -149,14 +146,13 @@ def _row(joint: dict[str, Any], place: str) -> Row:
         raise ModelError(f"{place}: flip: expected true or false, got {quote(joint['flip'])}")
     if not isinstance(joint.get("name", ""), str):
         raise ModelError(f"{place}: name: expected a text, got {quote(joint['name'])}")
-    numbers = {column: _float(joint[column]) for column in COLUMNS}
-    return _checked(
-        Row(**{**joint, **numbers, "limits": (_float(limits[0]), _float(limits[1]))}), place
-    )
+    numbers: dict[str, Any] = {column: _float(joint[column]) for column in COLUMNS}
+    numbers["limits"] = (_float(limits[0]), _float(limits[1]))
+    return _checked(Row(**(joint | numbers)), place)
 
 
 def _float(value: Any) -> float:
-    """A number of TOML, NaN for all that is none, and for an integer that no float can hold."""
+    """Number of TOML; NaN for anything else, and for an integer that no float can hold."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return math.nan
     try:
@@ -180,64 +176,76 @@ def _checked(row: Row, place: str) -> Row:
 
 def _from_csv(text: str, place: str, stem: str) -> Table:
     reader = csv.DictReader(io.StringIO(text), strict=True)
-    rows: list[Row] = []
-    poses: dict[str, Array] = {}
-    convention = None
+    found = _CsvTable(place)
     try:
-        header = list(reader.fieldnames or ())
-        _only(dict.fromkeys(header), CSV_COLUMNS, f"{place}:1")
+        found.take_header(list(reader.fieldnames or ()))
+        for record in reader:
+            found.take(record, f"{place}:{reader.line_num}")
+    except csv.Error as fault:
+        raise ModelError(f"{place}:{max(reader.line_num, 1)}: {fault}") from fault
+    poses = found.poses
+    return _table(place, found.convention, found.rows, poses.get("base"), poses.get("tool"), stem)
+
+
+class _CsvTable:
+    """Rows, poses and convention of a table, taken out of a CSV line by line."""
+
+    def __init__(self, place: str):
+        self.place = place
+        self.header: list[str] = []
+        self.rows: list[Row] = []
+        self.poses: dict[str, Array] = {}
+        self.convention: str | None = None
+
+    def take_header(self, header: list[str]) -> None:
+        """Check the names of the columns."""
+        place = f"{self.place}:1"
+        _only(dict.fromkeys(header), CSV_COLUMNS, place)
         for column, times in Counter(header).items():
             if times > 1:
-                raise ModelError(
-                    f"{place}:1: column {column} is there {times} times, expected once"
-                )
+                raise ModelError(f"{place}: column {column} is there {times} times, expected once")
         for column in ("convention", *COLUMNS):
             if column not in header:
                 raise ModelError(
-                    f"{place}:1: column {column} is missing; needed are convention, {', '.join(COLUMNS)}"
+                    f"{place}: column {column} is missing; needed are convention, {', '.join(COLUMNS)}"
                 )
-        for record in reader:
-            line = f"{place}:{reader.line_num}"
-            if None in record or None in record.values():
-                got = len(record.get(None, ())) + sum(
-                    record[column] is not None for column in header
-                )
-                raise ModelError(
-                    f"{line}: expected {len(header)} columns as in the header, got {got}"
-                )
-            kind = record.get("kind") or "revolute"
-            posed = kind in ("base", "tool")
-            if not (posed and not record["convention"]):  # of a pose it may be left out
-                if convention not in (None, record["convention"]):
-                    told_apart = f"{quote(record['convention'])} after {quote(convention)}"
-                    raise ModelError(f"{line}: mixed conventions: {told_apart}")
-                convention = record["convention"]
-            if posed:
-                if kind in poses:
-                    raise ModelError(
-                        f"{line}: a second row of the kind {kind}, expected one at most"
-                    )
-                poses[kind] = _pose(record.get("pose", ""), f"{line}: pose")
-                continue
-            theta, d, a, alpha = (
-                _number(record[column], f"{line}: {column}") for column in COLUMNS
+        self.header = header
+
+    def take(self, record: dict[Any, Any], line: str) -> None:
+        """Take a row or a pose; line is what messages call it."""
+        if None in record or None in record.values():
+            got = sum(record[column] is not None for column in self.header)
+            got += len(record.get(None, ()))
+            raise ModelError(
+                f"{line}: expected {len(self.header)} columns as in the header, got {got}"
             )
-            flip = {"": False, "false": False, "true": True}.get((record.get("flip") or "").lower())
-            if flip is None:
-                raise ModelError(
-                    f"{line}: flip: expected true or false, got {quote(record['flip'])}"
-                )
-            bounds = [
-                _number(record.get(side) or default, f"{line}: {side}", True)
-                for side, default in _SIDES
-            ]
-            row = Row(
-                theta, d, a, alpha, kind, flip, record.get("name") or "", (bounds[0], bounds[1])
-            )
-            rows.append(_checked(row, line))
-    except csv.Error as fault:
-        raise ModelError(f"{place}:{max(reader.line_num, 1)}: {fault}") from fault
-    return _table(place, convention, rows, poses.get("base"), poses.get("tool"), stem)
+        kind = record.get("kind") or "revolute"
+        posed = kind in ("base", "tool")
+        if record["convention"] or not posed:  # of a pose it may be left out
+            self._take_convention(record["convention"], line)
+        if not posed:
+            self.rows.append(_checked(_csv_row(record, kind, line), line))
+            return
+        if kind in self.poses:
+            raise ModelError(f"{line}: a second row of the kind {kind}, expected one at most")
+        self.poses[kind] = _pose(record.get("pose", ""), f"{line}: pose")
+
+    def _take_convention(self, convention: str, line: str) -> None:
+        if self.convention not in (None, convention):
+            both = f"{quote(convention)} after {quote(self.convention)}"
+            raise ModelError(f"{line}: mixed conventions: {both}")
+        self.convention = convention
+
+
+def _csv_row(record: dict[Any, Any], kind: str, line: str) -> Row:
+    theta, d, a, alpha = (_number(record[column], f"{line}: {column}") for column in COLUMNS)
+    flip = {"": False, "false": False, "true": True}.get((record.get("flip") or "").lower())
+    if flip is None:
+        raise ModelError(f"{line}: flip: expected true or false, got {quote(record['flip'])}")
+    lower, upper = (
+        _number(record.get(side) or default, f"{line}: {side}", True) for side, default in _SIDES
+    )
+    return Row(theta, d, a, alpha, kind, flip, record.get("name") or "", (lower, upper))
 
 
 _SIDES = (("lower", "-inf"), ("upper", "inf"))
@@ -246,9 +254,8 @@ _SIDES = (("lower", "-inf"), ("upper", "inf"))
 def _number(text: str, place: str, infinite: bool = False) -> float:
     value = real(text.strip())
     if value is None or (not infinite and not math.isfinite(value)):
-        raise ModelError(
-            f"{place}: expected a {'' if infinite else 'finite '}number, got {quote(text)}"
-        )
+        expected = "a number" if infinite else "a finite number"
+        raise ModelError(f"{place}: expected {expected}, got {quote(text)}")
     return value
 
 
@@ -269,32 +276,29 @@ def _only(data: dict[str, Any], known: tuple[str, ...], place: str) -> None:
 
 def _table(place: str, convention: Any, rows: list[Row], base: Any, tool: Any, name: str) -> Table:
     if convention not in CONVENTIONS:
-        raise ModelError(
-            f"{place}: convention: expected 'standard' or 'modified', got {quote(convention)}"
-        )
+        raise ModelError(f"{place}: convention: expected {EITHER}, got {quote(convention)}")
     try:
         return Table(convention, rows, base=base, tool=tool, name=name)
     except PoekinError as fault:
         raise ModelError(f"{place}: {fault}") from fault
 
 
+def _placed(table: Table) -> dict[str, Array]:
+    """Base and tool of a table, where they are not the identity."""
+    poses = {"base": table.base, "tool": table.tool}
+    return {what: T for what, T in poses.items() if (np.eye(4) != T).any()}
+
+
 def _to_toml(table: Table) -> str:
     data: dict[str, Any] = {"convention": table.convention, "name": table.name}
-    data |= {
-        key: T.tolist()
-        for key, T in (("base", table.base), ("tool", table.tool))
-        if (np.eye(4) != T).any()
-    }
-    data["joint"] = [
-        {
-            "name": r.name,
-            "kind": r.kind,
-            **{column: getattr(r, column) for column in COLUMNS},
-            "flip": r.flip,
-        }
-        | ({} if r.limits == (-math.inf, math.inf) else {"limits": list(r.limits)})
-        for r in table.rows
-    ]
+    data |= {what: T.tolist() for what, T in _placed(table).items()}
+    joints = []
+    for row in table.rows:
+        joint = {key: getattr(row, key) for key in ("name", "kind", *COLUMNS, "flip")}
+        if row.limits != (-math.inf, math.inf):
+            joint["limits"] = list(row.limits)
+        joints.append(joint)
+    data["joint"] = joints
     return toml_text.make_text(data)
 
 
@@ -302,21 +306,15 @@ def _to_csv(table: Table) -> str:
     out = io.StringIO()
     writer: csv.DictWriter[str] = csv.DictWriter(out, CSV_COLUMNS, restval="", lineterminator="\n")
     writer.writeheader()
-    for kind, T in (("base", table.base), ("tool", table.tool)):
-        if (np.eye(4) != T).any():
-            pose = " ".join(map(repr, T[:3].ravel().tolist()))
-            writer.writerow({"convention": table.convention, "kind": kind, "pose": pose})
-    for r in table.rows:
-        numbers = {column: repr(getattr(r, column)) for column in COLUMNS}
-        lower, upper = map(repr, r.limits)
-        rest = {
-            "name": r.name,
-            "kind": r.kind,
-            "flip": str(r.flip).lower(),
-            "lower": lower,
-            "upper": upper,
-        }
-        writer.writerow({"convention": table.convention, **numbers, **rest})
+    for what, T in _placed(table).items():
+        pose = " ".join(map(repr, T[:3].ravel().tolist()))
+        writer.writerow({"convention": table.convention, "kind": what, "pose": pose})
+    for row in table.rows:
+        cells = {key: getattr(row, key) for key in ("name", "kind")}
+        cells |= {column: repr(getattr(row, column)) for column in COLUMNS}
+        lower, upper = map(repr, row.limits)
+        cells |= {"flip": str(row.flip).lower(), "lower": lower, "upper": upper}
+        writer.writerow({"convention": table.convention, **cells})
     return out.getvalue()
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from ...algebra import compose
 from ...errors import InputError
 from ...formulas import dh
+from ...groups import se3
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.joint import Joint
@@ -20,38 +21,33 @@ def link_poses(table: Table) -> list[tuple[float, ...]]:
     """K_0 ... K_n of `formulas.dh`, twelve numbers each: f = K_0 e^{P_1 x_1} K_1 ... e^{P_n x_n}
     K_n.
     """
-    rows, base, tool = table.rows, _twelve(table.base), _twelve(table.tool)
-    if table.convention == "standard":
-        following = [(row.a, row.alpha) for row in rows]
-    else:
-        following = [(row.a, row.alpha) for row in rows[1:]] + [(0.0, 0.0)] if rows else []
-        if rows:
-            base = compose(base, _link(0.0, 0.0, rows[0].a, rows[0].alpha))
-    links = [
-        base,
-        *(
-            _link(row.theta, row.d, a, alpha)
-            for row, (a, alpha) in zip(rows, following, strict=True)
-        ),
-    ]
-    links[-1] = compose(links[-1], tool)
+    rows = table.rows
+    links = [_twelve(table.base)]
+    normals = [(row.a, row.alpha) for row in rows]
+    if table.convention == "modified" and rows:
+        normals.append((0.0, 0.0))
+        links[0] = compose(links[0], _link(0.0, 0.0, *normals.pop(0)))
+    for row, (a, alpha) in zip(rows, normals, strict=True):
+        links.append(_link(row.theta, row.d, a, alpha))
+    links[-1] = compose(links[-1], _twelve(table.tool))
     return links
 
 
 def to_chain(table: Table) -> Chain:
-    """The chain of a table: A_i = Ad(K_0 ... K_{i-1}) P_i and M = K_0 ... K_n; a flipped joint's
-    screw is reversed.
+    """Chain of a table: A_i = Ad(K_0 ... K_{i-1}) P_i and M = K_0 ... K_n.
+
+    A flipped joint's screw is reversed.
 
     Parameters: table. Returns: Chain with the table's names and limits. Raises: InputError for what
     is no Table. Accuracy: pose within 8 u (n + 1) (2 + sum |x|) of the reach and what slides, u =
     2^-53, where |d| and |a| are at most the reach; longer ones count in place of it
     (tests/formats/test_dh.py). Source: Park 1994, Section II.
     """
-    if not isinstance(table, Table):
-        raise InputError(f"to_chain: expected a dh.Table, got {type(table).__name__}")
-    signs = [-1.0 if flip else 1.0 for flip in table.flips]
-    rotates = [sign * (kind == "revolute") for sign, kind in zip(signs, table.kinds, strict=True)]
-    slides = [sign * (kind == "prismatic") for sign, kind in zip(signs, table.kinds, strict=True)]
+    _check_table(table, "to_chain")
+    signs = 1.0 - 2.0 * np.array(table.flips, float)
+    kinds = np.array(table.kinds, str)
+    rotates = (signs * (kinds == "revolute")).tolist()
+    slides = (signs * (kinds == "prismatic")).tolist()
     A = np.zeros((len(table), 6))
     home = _matrix(dh.screws(link_poses(table), rotates, slides, len(table), A))
     return Chain(
@@ -68,35 +64,28 @@ def _twelve(T: Array) -> tuple[float, ...]:
 
 
 def to_robot(table: Table) -> Robot:
-    """The robot of a table, one branch: a link for each joint, its z axis along the joint's, and
-    `tool` behind them.
+    """Robot of a table, one branch: a link for each joint, its z axis the joint's, and `tool`.
 
     Parameters: table. Returns: Robot with links base, link1 ... tool. Raises: InputError for what
     is no Table.
     Accuracy and source: as `to_chain`.
     """
-    if not isinstance(table, Table):
-        raise InputError(f"to_robot: expected a dh.Table, got {type(table).__name__}")
+    _check_table(table, "to_robot")
     links = ["base", *(f"link{i + 1}" for i in range(len(table))), "tool"]
     origins = list(map(_matrix, link_poses(table)))
-    joints = [
-        Joint(
-            row.name,
-            row.kind,
-            parent,
-            child,
-            origin,
-            (0.0, 0.0, -1.0 if row.flip else 1.0),
-            row.limits,
-        )
-        for row, parent, child, origin in zip(table.rows, links, links[1:], origins, strict=False)
-    ]
+    joints = []
+    for row, parent, child, origin in zip(table.rows, links, links[1:], origins, strict=False):
+        axis = (0.0, 0.0, 1.0 - 2.0 * row.flip)
+        joints.append(Joint(row.name, row.kind, parent, child, origin, axis, row.limits))
     fixed = next(name for name in ("tool_mount", "tool_mount_") if name not in table.names)
     joints.append(Joint(fixed, "fixed", links[-2], "tool", origins[-1]))
     return Robot(table.name, links, joints)
 
 
+def _check_table(table: object, what: str) -> None:
+    if not isinstance(table, Table):
+        raise InputError(f"{what}: expected a dh.Table, got {type(table).__name__}")
+
+
 def _matrix(K: tuple[float, ...]) -> Array:
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = np.reshape(K[:9], (3, 3)), K[9:]
-    return T
+    return se3.pose(np.reshape(K[:9], (3, 3)), K[9:])

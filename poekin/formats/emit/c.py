@@ -1,6 +1,4 @@
-"""An arm's kinematics as C99 for a controller: one header, one source, and a program that tests
-them.
-"""
+"""Kinematics of an arm as C99 for a controller: a header, a source, and a program that tests them."""
 
 from __future__ import annotations
 
@@ -25,11 +23,7 @@ KINDS: dict[Real, tuple[WriteNumber, type[np.floating]]] = {
 
 @dataclass(frozen=True)
 class CSource:
-    """Three texts in ASCII: `header`, `source` and `selftest`, which includes NAME.h; `name` begins
-    all their names.
-
-    `files` are the three by the names that they ought to have.
-    """
+    """Texts in ASCII: `header`, `source` and `selftest`; `name` begins their names in `files`."""
 
     name: str
     header: str
@@ -47,8 +41,7 @@ class CSource:
 
 
 def c(chain: Chain, frame: str | int, *, name: str = "arm", real: Real = "double") -> CSource:
-    """C99 of a chain's pose and Jacobian: straight-line, without allocation, dependent on math.h
-    alone.
+    """C99 of a chain's pose and Jacobian: straight-line, without allocation, with math.h alone.
 
     Parameters: chain; frame, "space", "body", "hybrid", "middle" or the index of a joint, as in
     `CompiledChain.jacobian`; name, of which the C names are made (only a-z, 0-9 and _ are kept);
@@ -63,7 +56,8 @@ def c(chain: Chain, frame: str | int, *, name: str = "arm", real: Real = "double
     if not isinstance(name, str):
         raise InputError(f"name: expected a text, got {safe_repr(name)}")
     literal, kind = KINDS[real]
-    arm, word = compile_checked(chain, frame), identifier(name)
+    arm = compile_checked(chain, frame)
+    word = identifier(name)
     functions = [_Function(word, real, literal, task, chain.dof) for task in make_tasks(arm, frame)]
     head = [
         f"{word}: the kinematics of one serial arm as straight-line C99, in {real}. Generated: change the arm instead.",
@@ -96,11 +90,13 @@ class _Function:
     """The C of one task: its angles, its statements, and both together."""
 
     def __init__(self, word: str, real: str, literal: WriteNumber, task: Task, dof: int):
-        self.task, self.real, self.literal, self.dof = task, real, literal, dof
+        self.task = task
+        self.real = real
+        self.literal = literal
+        self.dof = dof
         self.name = f"{word}_{task.name}"
         self.count = len(task.program.angles)
-        self.results = [*(["T"] if task.pose else []), *(["J"] if task.jacobian else [])]
-        parameters = "".join(f", {real} *{result}" for result in self.results)
+        parameters = "".join(f", {real} *{result}" for result in task.results)
         self.heads = (
             f"void {self.name}_angles(const {real} *q, {real} *x)",
             f"void {self.name}_sincos(const {real} *s, const {real} *c, const {real} *q{parameters})",
@@ -110,7 +106,7 @@ class _Function:
     def declared(self) -> str:
         """The declarations, and what they are."""
         sizes = ", ".join(
-            {"T": "T[16]", "J": f"J[{6 * self.dof}]"}[result] for result in self.results
+            {"T": "T[16]", "J": f"J[{6 * self.dof}]"}[result] for result in self.task.results
         )
         words = [
             f"{self.name}: from q[{self.dof}] to {sizes}; they may overlap q.",
@@ -176,18 +172,18 @@ class _Function:
         ]
 
     def _whole(self) -> list[str]:
-        results = "".join(f", {result}" for result in self.results)
+        results = self.task.arguments
         if not self.count:
             return [f"    {self.name}_sincos(q, q, q{results});"]
-        sine, cosine = ("sin", "cos") if self.real == "double" else ("sinf", "cosf")
+        suffix = {"float": "f"}.get(self.real, "")
         return [
             f"    {self.real} s[{self.count}], c[{self.count}];",
             "    int j;",
             f"    {self.name}_angles(q, s);",
             f"    for (j = 0; j < {self.count}; j++) {{",
             f"        const {self.real} x = s[j];",
-            f"        s[j] = {sine}(x);",
-            f"        c[j] = {cosine}(x);",
+            f"        s[j] = sin{suffix}(x);",
+            f"        c[j] = cos{suffix}(x);",
             "    }",
             f"    {self.name}_sincos(s, c, q{results});",
         ]

@@ -1,6 +1,4 @@
-"""The program that tests an emitted C source: numbers of the chain's general kernels against those
-that it computes.
-"""
+"""Program that compares an emitted C source with numbers of the chain's general kernels."""
 
 from __future__ import annotations
 
@@ -84,13 +82,10 @@ def selftest(
 
 
 def _calls(word: str, task: Task, dof: int) -> list[str]:
-    results = "".join(
-        f", {result}" for result, wanted in (("T", task.pose), ("J", task.jacobian)) if wanted
-    )
+    sizes = {"T": 16, "J": 6 * dof}
     return [
-        f"        {word}_{task.name}(Q[i]{results});",
-        *(["        compare(T, T_EXPECTED[i], 16);"] if task.pose else []),
-        *([f"        compare(J, J_EXPECTED[i], {6 * dof});"] if task.jacobian else []),
+        f"        {word}_{task.name}(Q[i]{task.arguments});",
+        *(f"        compare({r}, {r}_EXPECTED[i], {sizes[r]});" for r in task.results),
     ]
 
 

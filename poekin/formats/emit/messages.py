@@ -1,9 +1,8 @@
-"""What the emitted texts say about an arm. Names out of files stand in comments only, and cannot
-end one.
-"""
+"""Comments of the emitted texts; names out of files stand in comments only, and cannot end one."""
 
 from __future__ import annotations
 
+import math
 import re
 import string
 from dataclasses import dataclass
@@ -20,26 +19,23 @@ _LONGEST = 80
 
 
 def identifier(name: str) -> str:
-    """a ... z, 0 ... 9 and single _, a letter first, at most 40: what C and C++ take, made from any
-    name.
-    """
+    """Identifier of C and C++ made from a name: a ... z, 0 ... 9 and single _, at most 40."""
     word = re.sub("[^a-z0-9]+", "_", name.lower()).strip("_")[:40].strip("_")
-    return word if word[:1].isalpha() else f"arm_{word}".strip("_")
+    if not word[:1].isalpha():
+        word = f"arm_{word}".strip("_")
+    return word
 
 
 def quote_ascii(name: str) -> str:
-    """A name for a comment of C or a docstring, in ASCII: what could end or change either stands as
-    <U+002A>.
-    """
-    cut = name if len(name) <= _LONGEST else name[: _LONGEST - 3] + "..."
-    return "'" + "".join(c if c in _PLAIN else f"<U+{ord(c):04X}>" for c in cut) + "'"
+    """Name in ASCII for a comment of C or a docstring; a character that could end it as <U+002A>."""
+    if len(name) > _LONGEST:
+        name = name[: _LONGEST - 3] + "..."
+    return "'" + "".join(c if c in _PLAIN else f"<U+{ord(c):04X}>" for c in name) + "'"
 
 
 @dataclass(frozen=True)
 class Task:
-    """One function to write: its name, what it computes, and the program of it. `pose`, `jacobian`:
-    what it writes.
-    """
+    """One function to write: its name, its program, and whether it writes pose and Jacobian."""
 
     name: str
     pose: bool
@@ -48,12 +44,22 @@ class Task:
 
     @property
     def cost(self) -> str:
-        """What the program costs, in words."""
+        """Operations of the program, in words."""
         count = self.program.count
         return (
             f"{self.name}: {count.multiplications} multiplications, {count.additions} additions or subtractions, "
             f"{count.sines} pairs of sine and cosine"
         )
+
+    @property
+    def results(self) -> list[str]:
+        """Arrays that the function writes, of "T" and "J"."""
+        return ["T"] * self.pose + ["J"] * self.jacobian
+
+    @property
+    def arguments(self) -> str:
+        """The arrays behind the other arguments of a call."""
+        return "".join(f", {result}" for result in self.results)
 
 
 def compile_checked(chain: Chain, frame: str | int) -> CompiledChain:
@@ -67,7 +73,9 @@ def compile_checked(chain: Chain, frame: str | int) -> CompiledChain:
 
 def make_tasks(arm: CompiledChain, frame: str | int) -> tuple[Task, Task, Task]:
     """Pose, Jacobian, and both in one pass."""
-    which = frame if isinstance(frame, str) else f"joint{int(frame)}"
+    which = frame
+    if not isinstance(frame, str):
+        which = f"joint{int(frame)}"
     return (
         Task("fk", True, False, arm.program(None)),
         Task(f"jacobian_{which}", False, True, arm.program(frame)),
@@ -76,31 +84,39 @@ def make_tasks(arm: CompiledChain, frame: str | int) -> tuple[Task, Task, Task]:
 
 
 def header_lines(arm: CompiledChain, frame: str | int) -> list[str]:
-    """The arm, its coordinates, its frames and the layout, line by line."""
+    """Lines about the arm, its coordinates, its frames and the layout of the arrays."""
     chain = arm.chain
     lines = [
         f"Base frame {quote_ascii(chain.base)}, tip frame {quote_ascii(chain.tip)};"
         f" {_many(len(chain.kinds), 'joint')}, {_many(chain.dof, 'coordinate')}. Units: rad, m.",
         "",
-        *(
-            f"  q[{k}]  {'rad' if chain.is_angle(k) else 'm'}  {quote_ascii(name)}"
-            + (f", {_limits(chain.limits[k])}" if np.isfinite(chain.limits[k]).any() else "")
-            for k, name in enumerate(chain.q_names)
-        ),
-        *([""] if chain.dof else []),
+        *(_coordinate(chain, k) for k in range(chain.dof)),
+        *[""] * bool(chain.dof),
         "T = (R, p; 0, 1), 4 x 4 row by row: the pose of the tip in the base frame; p in m.",
         f"J, 6 x {chain.dof} row by row: V = J dq. Rows omega x, y, z (rad/s), then v x, y, z (m/s), per unit of dq.",
     ]
     return [*lines, *_frame(arm, frame)]
 
 
+def _coordinate(chain: Chain, k: int) -> str:
+    unit = "rad" if chain.is_angle(k) else "m"
+    words = f"  q[{k}]  {unit}  {quote_ascii(chain.q_names[k])}"
+    lower, upper = chain.limits[k]
+    if math.isfinite(lower) or math.isfinite(upper):
+        words += f", {lower:.6g} ... {upper:.6g}"
+    return words
+
+
 def angle_lines(task: Task) -> list[str]:
-    """The angles whose sines and cosines a function takes, line by line."""
+    """Angles whose sines and cosines a function takes, line by line."""
     lines = []
     for j, angle in enumerate(task.program.angles):
-        parts = [f"x[{angle.base}]"] if angle.base is not None else []
+        parts = []
+        if angle.base is not None:
+            parts.append(f"x[{angle.base}]")
         parts += [f"q[{k}]" if f == 1 else f"{f:.6g} q[{k}]" for k, f in angle.terms]
-        parts += [f"{angle.offset:.6g}"] if angle.offset else []
+        if angle.offset:
+            parts.append(f"{angle.offset:.6g}")
         lines.append(f"x[{j}] = {' + '.join(parts)}")
     return lines
 
@@ -128,9 +144,7 @@ def _frame(arm: CompiledChain, frame: str | int) -> list[str]:
 
 
 def jacobian_frame(arm: CompiledChain, frame: str | int) -> tuple[int, np.ndarray]:
-    """The joint k with which the frame moves, and its pose in the frame of that joint
-    (`Chain.joint_poses`).
-    """
+    """Joint k with which the frame moves, and its pose in that joint's frame."""
     if frame == "middle":
         return arm.middle.joint, arm.middle.T_km
     return int(frame), np.eye(4)
@@ -138,7 +152,3 @@ def jacobian_frame(arm: CompiledChain, frame: str | int) -> tuple[int, np.ndarra
 
 def _many(count: int, what: str) -> str:
     return f"{count} {what}{'s' * (count != 1)}"
-
-
-def _limits(bounds: np.ndarray) -> str:
-    return f"{bounds[0]:.6g} ... {bounds[1]:.6g}"

@@ -10,8 +10,7 @@ from .statements import Statements, by_outputs, double, statements
 
 
 def python(chain: Chain, frame: str | int) -> str:
-    """The text of a Python module: pose and Jacobian of a chain, straight-line, dependent on
-    nothing.
+    """Text of a Python module with a chain's pose and Jacobian, straight-line, without imports.
 
     Parameters: chain; frame, "space", "body", "hybrid", "middle" or the index of a joint, as in
     `CompiledChain.jacobian`. Returns: a text in ASCII with the functions fk, jacobian_FRAME,
@@ -43,25 +42,32 @@ def python(chain: Chain, frame: str | int) -> str:
 def _functions(task: Task, dof: int) -> str:
     program = statements(task.program, double)
     shapes = {"T": "T (..., 4, 4)", "J": f"J (..., 6, {dof})"}
-    results = [*(["T"] if task.pose else []), *(["J"] if task.jacobian else [])]
-    what = ", ".join(shapes[result] for result in results)
-    return "\n".join([
-        "",
-        f"def {task.name}(q, xp):",
-        f'    """{what} at q (..., {dof})."""',
-        f"    x = {task.name}_angles(q, xp)",
-        f"    return {task.name}_sincos(xp.sin(x), xp.cos(x), q, xp)",
-        "", "",
-        f"def {task.name}_sincos(sines, cosines, q, xp):",
-        f'    """{what} from sines and cosines (..., {len(program.angles)}) of the angles, and from q (..., {dof})."""',
-        *_statements(program, task, dof),
-        f"    return {', '.join(results)}",
-        "", "",
-        f"def {task.name}_angles(q, xp):",
-        *_doc(f"The angles x (..., {len(program.angles)}) whose sines and cosines are needed.", angle_lines(task)),
-        *_angles(program),
-        "",
-    ])  # fmt: skip
+    what = ", ".join(shapes[result] for result in task.results)
+    angles = len(program.angles)
+    return "\n".join(
+        [
+            "",
+            f"def {task.name}(q, xp):",
+            f'    """{what} at q (..., {dof})."""',
+            f"    x = {task.name}_angles(q, xp)",
+            f"    return {task.name}_sincos(xp.sin(x), xp.cos(x), q, xp)",
+            "",
+            "",
+            f"def {task.name}_sincos(sines, cosines, q, xp):",
+            f'    """{what} from sines and cosines (..., {angles}) of the angles, and from q (..., {dof})."""',
+            *_statements(program, task, dof),
+            f"    return {', '.join(task.results)}",
+            "",
+            "",
+            f"def {task.name}_angles(q, xp):",
+            *_doc(
+                f"The angles x (..., {angles}) whose sines and cosines are needed.",
+                angle_lines(task),
+            ),
+            *_angles(program),
+            "",
+        ]
+    )
 
 
 def _doc(first: str, more: list[str]) -> list[str]:
@@ -86,19 +92,20 @@ def _statements(program: Statements, task: Task, dof: int) -> list[str]:
     lines = [f"    {name} = {arrays[array]}[..., {k}]" for name, array, k in program.reads]
     lines += [f"    {name} = {text}" for name, text in program.lines]
     constants = dict.fromkeys(x for x in (*T, *J) if not isinstance(x, str))
-    names = {x: f"k{i}" for i, x in enumerate(constants)}
+    names: dict[float | str, str] = {x: f"k{i}" for i, x in enumerate(constants)}
     if names:
-        lines.append(
-            "    zero = xp.sum(q[..., :0], -1)"
-        )  # of the batch's shape, on q's device, even where m = 0
-        lines += [f"    {name} = xp.full_like(zero, {double(x)})" for x, name in names.items()]
+        # Of the batch's shape, on q's device, even where m = 0.
+        lines.append("    zero = xp.sum(q[..., :0], -1)")
+        lines += [f"    {names[x]} = xp.full_like(zero, {double(x)})" for x in constants]
     if task.pose:
-        lines += _call("T = xp.stack", [x if isinstance(x, str) else names[x] for x in T], ", -1)")
+        lines += _call("T = xp.stack", [names.get(x, str(x)) for x in T], ", -1)")
         lines.append("    T = xp.reshape(T, tuple(q.shape[:-1]) + (4, 4))")
-    if task.jacobian and dof:
-        lines += _call("J = xp.stack", [x if isinstance(x, str) else names[x] for x in J], ", -1)")
     if task.jacobian:
-        lines.append(f"    J = xp.reshape({'J' if dof else 'q'}, tuple(q.shape[:-1]) + (6, {dof}))")
+        entries = "q"
+        if dof:
+            entries = "J"
+            lines += _call("J = xp.stack", [names.get(x, str(x)) for x in J], ", -1)")
+        lines.append(f"    J = xp.reshape({entries}, tuple(q.shape[:-1]) + (6, {dof}))")
     return lines
 
 

@@ -1,6 +1,4 @@
-"""A straight-line program as statements of text that C and Python read alike: the same operations
-in one order.
-"""
+"""Straight-line programs as statements of text that C and Python read alike, in one order."""
 
 from __future__ import annotations
 
@@ -13,13 +11,13 @@ from ...engine.straight_line.program import Angle, Program
 from ...errors import InputError
 
 WriteNumber = Callable[[float], str]
+Read = tuple[str, str, int]
 _OF_SIGN = {1: "+", -1: "-"}
 
 
 @dataclass(frozen=True)
 class Statements:
-    """s0, c0 ... are sine and cosine of angle number 0 ..., q0 ... the coordinates, x0 ... the
-    angles.
+    """Statements over s0, c0 ..., sines and cosines of the angles x0 ..., and coordinates q0 ....
 
     `reads` are (name, array, index) of the inputs in use and `lines` (name, expression). An output
     is an expression
@@ -27,10 +25,10 @@ class Statements:
     `angle_reads` its inputs.
     """
 
-    reads: tuple[tuple[str, str, int], ...]
+    reads: tuple[Read, ...]
     lines: tuple[tuple[str, str], ...]
     outputs: tuple[str | float, ...]
-    angle_reads: tuple[tuple[str, str, int], ...]
+    angle_reads: tuple[Read, ...]
     angles: tuple[str, ...]
 
 
@@ -38,16 +36,17 @@ def statements(program: Program, literal: WriteNumber) -> Statements:
     """The program's statements; literal writes a number."""
     names: dict[int, str] = {}
     constants: dict[int, float] = {}
-    reads, lines = [], []
+    reads: list[Read] = []
+    lines: list[tuple[str, str]] = []
     for number, node in program.steps:
         if node.kind == "input":
-            at = int(node.first)
-            array, index = ("q", -1 - at) if at < 0 else ("sc"[at % 2], at // 2)
-            names[number] = f"{array}{index}"
-            reads.append((names[number], array, index))
+            read = _read(int(node.first))
+            reads.append(read)
+            names[number] = read[0]
             continue
         if node.kind == "constant":
-            names[number], constants[number] = literal(node.first), node.first
+            names[number] = literal(node.first)
+            constants[number] = node.first
             continue
         if node.kind == "scaled":
             expression = f"{literal(node.first)} * {names[node.second]}"
@@ -58,8 +57,10 @@ def statements(program: Program, literal: WriteNumber) -> Statements:
         lines.append((names[number], expression))
     outputs: list[str | float] = []
     for number, sign in program.outputs:
-        if number is None or number in constants:
-            outputs.append(sign if number is None else sign * constants[number])
+        if number is None:
+            outputs.append(sign)
+        elif number in constants:
+            outputs.append(sign * constants[number])
         else:
             outputs.append(names[number] if sign > 0 else f"-{names[number]}")
     used = sorted({k for angle in program.angles for k, _ in angle.terms})
@@ -72,37 +73,45 @@ def statements(program: Program, literal: WriteNumber) -> Statements:
     )
 
 
+def _read(at: int) -> Read:
+    """Input of a program: coordinate -1 - at where `at` is negative, else a sine or cosine."""
+    array = "sc"[at % 2]
+    index = at // 2
+    if at < 0:
+        array = "q"
+        index = -1 - at
+    return f"{array}{index}", array, index
+
+
 def _angle(angle: Angle, literal: WriteNumber) -> str:
     """An angle's sum, in the order in which `engine.kernels.arm_kernels` takes it."""
-    parts = [literal(angle.offset)] if angle.offset else []
-    parts += [] if angle.base is None else [f"x{angle.base}"]
-    text = " + ".join(parts)
+    text = ""
+    if angle.offset:
+        text += f" + {literal(angle.offset)}"
+    if angle.base is not None:
+        text += f" + x{angle.base}"
     for k, factor in angle.terms:
-        term = f"q{k}" if abs(factor) == 1 else f"{literal(abs(factor))} * q{k}"
-        if text:
-            text += f" + {term}" if factor > 0 else f" - {term}"
-        else:
-            # the first factor of an angle without a base is positive (`Angles` of `program`)
-            text = term
-    return text
+        term = f"q{k}"
+        if abs(factor) != 1:
+            term = f"{literal(abs(factor))} * {term}"
+        sign = "+" if factor > 0 else "-"
+        text += f" {sign} {term}"
+    # The first factor of an angle without a base is positive (`Angles` of `program`).
+    return text.removeprefix(" + ")
 
 
 def by_outputs(
     outputs: Sequence[str | float], pose: bool
 ) -> tuple[list[str | float], list[str | float]]:
-    """The sixteen entries of the pose row by row, none where the outputs do not begin with one, and
-    those of J.
-    """
+    """Entries of the pose row by row, none without a pose, and those of J."""
     if not pose:
         return [], list(outputs)
-    R, p, J = outputs[:9], outputs[9:12], outputs[12:]
-    return [*R[:3], p[0], *R[3:6], p[1], *R[6:], p[2], 0.0, 0.0, 0.0, 1.0], list(J)
+    T = [outputs[i] for i in (0, 1, 2, 9, 3, 4, 5, 10, 6, 7, 8, 11)]
+    return [*T, 0.0, 0.0, 0.0, 1.0], list(outputs[12:])
 
 
 def double(value: float) -> str:
-    """A number so that it reads back as the same double. Raises: InputError for one that is not
-    finite.
-    """
+    """Number that reads back as the same double. Raises: InputError unless it is finite."""
     return _finite(repr(float(value)), value, "double")
 
 

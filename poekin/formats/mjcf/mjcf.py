@@ -1,5 +1,4 @@
-"""MJCF in, Robot out: MuJoCo itself reads the file, and only the kinematics is taken over; no mesh
-is needed.
+"""Robots out of MJCF: MuJoCo reads the file, and only the kinematics is taken over, without meshes.
 
 Defaults, classes, angles in degrees, autolimits, `<frame>`, `<replicate>` and `<include>` are
 resolved by MuJoCo. What has no part in kinematics (meshes, textures, actuators, sensors, tendons,
@@ -46,6 +45,7 @@ from ...errors import (
     quote,
     safe_repr,
 )
+from ...groups import se3
 from ...model.provenance import Source, warn
 from ...model.robot import Robot
 from ..text import xml
@@ -54,9 +54,25 @@ from .mjcf_robot import make_robot
 
 # What is named first refers to what comes after it.
 WITHOUT_KINEMATICS = (
-    "keys", "sensors", "actuators", "tendons", "pairs", "excludes", "tuples", "skins", "flexes", "cameras", "lights",
-    "materials", "textures", "meshes", "hfields", "numerics", "texts", "plugins",
-)  # fmt: skip
+    "keys",
+    "sensors",
+    "actuators",
+    "tendons",
+    "pairs",
+    "excludes",
+    "tuples",
+    "skins",
+    "flexes",
+    "cameras",
+    "lights",
+    "materials",
+    "textures",
+    "meshes",
+    "hfields",
+    "numerics",
+    "texts",
+    "plugins",
+)
 
 
 def read(path: str | os.PathLike[str]) -> Robot:
@@ -91,9 +107,9 @@ def read_text(text: str | bytes, name: str = "<text>") -> Robot:
         )
 
     def parse_spec(MjSpec: Any) -> Any:
-        return MjSpec.from_string(
-            text if isinstance(text, str) else bytes(text).decode("utf-8-sig")
-        )
+        if isinstance(text, str):
+            return MjSpec.from_string(text)
+        return MjSpec.from_string(bytes(text).decode("utf-8-sig"))
 
     return _read(text, name, parse_spec)
 
@@ -126,11 +142,10 @@ def _read(data: str | bytes, name: str, parse_spec: Callable[[Any], Any], path: 
         ) from refusal
     title = root.get("model") or os.path.splitext(os.path.basename(name))[0]
     try:
-        bodies, sites = (_poses(getattr(model, f"{what}_pos"), getattr(model, f"{what}_quat"), mujoco)
-                         for what in ("body", "site"))  # fmt: skip
-        with np.errstate(
-            all="ignore"
-        ):  # what comes of numbers too large is refused as a joint's origin
+        bodies = _poses(model.body_pos, model.body_quat, mujoco)
+        sites = _poses(model.site_pos, model.site_quat, mujoco)
+        # What comes of numbers too large is refused as a joint's origin.
+        with np.errstate(all="ignore"):
             robot, said = make_robot(model, bodies, sites, title, source, other)
     except PoekinError as fault:
         raise ModelError(
@@ -151,9 +166,7 @@ def _mujoco() -> ModuleType:
 
 @contextmanager
 def _unsaid(mujoco: ModuleType) -> Iterator[None]:
-    """What MuJoCo warns of meanwhile is physics, and it would write a log file about it into the
-    working directory.
-    """
+    """Context without MuJoCo's warnings: they are of physics, and it would write a log of them."""
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(lambda message: None)
     try:
@@ -165,13 +178,10 @@ def _unsaid(mujoco: ModuleType) -> Iterator[None]:
 
 
 def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
-    """Take out of the spec what is no kinematics; returns what the constraints were that are no
-    joint equalities.
-    """
+    """Remove everything but kinematics; returns the constraints that are no joint equalities."""
     for element in (*spec.geoms, *spec.bodies):
-        element.plugin.active = (
-            False  # before the plugins go: MuJoCo reads them once more otherwise, and dies of it
-        )
+        # Before the plugins go: MuJoCo reads them once more otherwise, and dies of it.
+        element.plugin.active = False
     for kind in WITHOUT_KINEMATICS:
         for element in list(getattr(spec, kind)):
             spec.delete(element)
@@ -184,10 +194,11 @@ def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
                     f"{kind} {equality.name or f'{equality.name1} {equality.name2}'.strip()}"
                 )
             spec.delete(equality)
-    for (
-        geom
-    ) in spec.geoms:  # as they need no file any more; deleting them one by one takes MuJoCo minutes
-        geom.type, geom.size, geom.fromto = mujoco.mjtGeom.mjGEOM_SPHERE, [1.0] * 3, [np.nan] * 6
+    # Spheres need no file; deleting geoms one by one takes MuJoCo minutes.
+    for geom in spec.geoms:
+        geom.type = mujoco.mjtGeom.mjGEOM_SPHERE
+        geom.size = [1.0] * 3
+        geom.fromto = [np.nan] * 6
         geom.meshname = geom.hfieldname = geom.material = ""
     for site in spec.sites:
         site.material = ""
@@ -197,17 +208,17 @@ def _bare(spec: Any, mujoco: ModuleType) -> list[str]:
     for body in spec.bodies:
         # A body that moves needs a mass, and the geoms that gave it one are gone.
         body.explicitinertial = True
-        body.mass, body.inertia, body.fullinertia = 1.0, [1.0] * 3, [np.nan] * 6
-        body.ipos, body.iquat = [0.0] * 3, [1.0, 0.0, 0.0, 0.0]
+        body.mass = 1.0
+        body.inertia = [1.0] * 3
+        body.fullinertia = [np.nan] * 6
+        body.ipos = [0.0] * 3
+        body.iquat = [1.0, 0.0, 0.0, 0.0]
     return other
 
 
 def _poses(places: np.ndarray, quaternions: np.ndarray, mujoco: ModuleType) -> np.ndarray:
     """Poses (N, 4, 4) [m] of places (N, 3) and unit quaternions (N, 4), w first."""
-    T = np.tile(np.eye(4), (len(places), 1, 1))
-    T[:, :3, 3] = places
-    R = np.empty(9)
-    for i, quaternion in enumerate(quaternions):
-        mujoco.mju_quat2Mat(R, quaternion)
-        T[i, :3, :3] = R.reshape(3, 3)
-    return T
+    R = np.empty((len(places), 9))
+    for row, quaternion in zip(R, quaternions, strict=True):
+        mujoco.mju_quat2Mat(row, quaternion)
+    return se3.pose(R.reshape(-1, 3, 3), places)

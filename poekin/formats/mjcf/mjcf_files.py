@@ -1,5 +1,4 @@
-"""An MJCF file and all that it names, looked through before MuJoCo opens them: what MuJoCo does not
-survive is refused.
+"""Checks of an MJCF file and all that it names, before MuJoCo opens what it would not survive.
 
 These are a model that attaches itself (MuJoCo's stack ends), copies without measure (it goes on for
 hours), and NaN (which it takes for a number).
@@ -42,9 +41,7 @@ _NUMBERS = (
 
 
 class _Opened(NamedTuple):
-    """A file and those that lead to it; folder, in which it is, and top, that of the model which it
-    belongs to.
-    """
+    """File, the files that lead to it, its folder, and the folder `top` of its model."""
 
     source: Source
     folder: str
@@ -60,8 +57,12 @@ def look_through(root: xml.Element, source: Source, folder: str, path: str = "")
     Raises: ModelError with file and line; FileError for a file named in it that cannot be read. One
     that does not exist is for MuJoCo to refuse.
     """
-    count, copies = 0, 0.0
-    ahead = [(root, _Opened(source, folder, folder, (os.path.realpath(path),) if path else ()))]
+    count = 0
+    copies = 0.0
+    above: tuple[str, ...] = ()
+    if path:
+        above = (os.path.realpath(path),)
+    ahead = [(root, _Opened(source, folder, folder, above))]
     while ahead:
         root, opened = ahead.pop()
         _refuse_nan(root, opened.source)
@@ -97,24 +98,31 @@ def _named(element: xml.Element, opened: _Opened) -> _Opened | None:
         os.fsencode(name)
     except UnicodeEncodeError:  # no file can have this name here
         return None
-    for folder in (opened.folder,) if whole else (opened.top, opened.folder):
+    folders = [opened.folder]
+    if not whole:
+        folders.insert(0, opened.top)
+    for folder in folders:
         path = os.path.realpath(os.path.join(folder, name))
         if os.path.isfile(path):
             inside = os.path.dirname(path)
-            return _Opened(
-                Source(path), inside, inside if whole else opened.top, (*opened.above, path)
-            )
+            top = inside if whole else opened.top
+            return _Opened(Source(path), inside, top, (*opened.above, path))
     return None
 
 
 def _copies(root: xml.Element) -> float:
-    """How many elements there are below <replicate>, in all their copies."""
-    total, times = 0.0, {root: 1.0}
+    """Number of elements below <replicate>, in all their copies."""
+    total = 0.0
+    times = {root: 1.0}
     for element in root.iterdescendants():
-        above = times[element.getparent()]
-        total += above if above > 1 else 0.0
-        more = real(element.get("count") or "") if element.tag == "replicate" else None
-        times[element] = above * more if more is not None and more > 1 else above
+        copies = times[element.getparent()]
+        if copies > 1:
+            total += copies
+        if element.tag == "replicate":
+            more = real(element.get("count") or "")
+            if more is not None and more > 1:
+                copies *= more
+        times[element] = copies
     return total
 
 

@@ -1,6 +1,4 @@
-"""Models out of the living objects of other libraries, known by their attributes; none of them is
-imported.
-"""
+"""Models out of objects of other libraries, known by their attributes; none is imported."""
 
 from .dh_robot import make_table
 from .from_object import from_object

@@ -1,4 +1,4 @@
-"""What an object is, by the attributes that it has."""
+"""Attributes by which objects of other libraries are known."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from typing import Any
 
 from ...errors import escape_unprintable
 
+_NO_LISTS = (str, bytes, dict)
+
 
 def has(obj: Any, *names: str) -> bool:
     """Whether an object has all these attributes."""
@@ -14,32 +16,21 @@ def has(obj: Any, *names: str) -> bool:
 
 
 def as_list(obj: Any) -> list[Any]:
-    """The items of what has an order and a length, as a list, an array or a class that is like one;
-    none of a text.
-    """
-    if (
-        isinstance(obj, (str, bytes, dict))
-        or not isinstance(obj, Iterable)
-        or not has(obj, "__len__")
-    ):
-        return []
-    return list(obj)
+    """Items of a list, an array or a class that is like one; none of a text or a dict."""
+    if isinstance(obj, Iterable) and has(obj, "__len__") and not isinstance(obj, _NO_LISTS):
+        return list(obj)
+    return []
 
 
 def type_name(obj: Any) -> str:
     """The full name of an object's type, harmless for plain text."""
     kind = type(obj)
-    return escape_unprintable(
-        kind.__qualname__
-        if kind.__module__ == "builtins"
-        else f"{kind.__module__}.{kind.__qualname__}"
-    )
+    name = f"{kind.__module__}.{kind.__qualname__}"
+    return escape_unprintable(name.removeprefix("builtins."))
 
 
 def free_name(name: str, taken: set[str]) -> str:
-    """A name that is not taken yet, the one given with underscores behind it; it is taken from now
-    on.
-    """
+    """Name that is not taken yet, with underscores behind it; it is taken from now on."""
     while name in taken:
         name += "_"
     taken.add(name)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from dataclasses import replace
 from typing import Any
 
 from ...errors import InputError
@@ -51,9 +51,10 @@ def make_table(robot: Any) -> Table:
 
 
 def _row(link: Any) -> Row:
-    qlim = getattr(link, "qlim", None)
-    limits = (-math.inf, math.inf) if qlim is None else tuple(qlim)
-    flip = bool(getattr(link, "isflip", False))
+    row = Row(link.offset, link.d, link.a, link.alpha, flip=bool(getattr(link, "isflip", False)))
     if link.sigma:
-        return Row(link.theta, link.offset, link.a, link.alpha, "prismatic", flip, limits=limits)
-    return Row(link.offset, link.d, link.a, link.alpha, "revolute", flip, limits=limits)
+        row = replace(row, theta=link.theta, d=link.offset, kind="prismatic")
+    qlim = getattr(link, "qlim", None)
+    if qlim is not None:
+        row = replace(row, limits=tuple(qlim))
+    return row

@@ -1,6 +1,4 @@
-"""Robotics Toolbox's elementary transforms: an ETS as a chain, a Robot (ERobot) whose links have
-one each as a tree.
-"""
+"""Robotics Toolbox's elementary transforms: an ETS as a chain, a Robot (ERobot) as a tree."""
 
 from __future__ import annotations
 
@@ -20,13 +18,12 @@ from .attributes import as_list, free_name, has
 
 _ET = ("isjoint", "axis", "A")
 # Those of space; planar ones (ET2) have other names.
+_KINDS = {"R": "revolute", "t": "prismatic"}
 _AXES = ("Rx", "Ry", "Rz", "tx", "ty", "tz")
 
 
 class Step(NamedTuple):
-    """A joint of a sequence: pose of its frame behind the joint before it, kind, screw in that
-    frame, coordinate.
-    """
+    """Joint of a sequence: pose of its frame behind the joint before, kind, screw, coordinate."""
 
     origin: Array
     kind: str
@@ -37,8 +34,13 @@ class Step(NamedTuple):
 
 def fits(obj: Any) -> bool:
     """Whether an object is a sequence of elementary transforms, or one of them."""
-    items = [obj] if has(obj, *_ET) else as_list(obj)
+    items = _items(obj)
     return bool(items) and all(has(item, *_ET) for item in items)
+
+
+def _items(ets: Any) -> list[Any]:
+    """The transforms of a sequence; of one transform, itself."""
+    return [ets] if has(ets, *_ET) else as_list(ets)
 
 
 def fits_tree(obj: Any) -> bool:
@@ -63,28 +65,27 @@ def make_chain(ets: Any) -> Chain:
     Accuracy: rounding of the product, 1e-16 reach a transform. Source: the toolbox's documentation
     of ET and ETS.
     """
-    steps, last = _steps([ets] if has(ets, *_ET) else as_list(ets), "ETS")
-    screws, T = np.empty((len(steps), 6)), np.eye(4)
+    steps, last = _steps(_items(ets), "ETS")
+    screws = np.empty((len(steps), 6))
+    T = np.eye(4)
     for i, step in enumerate(steps):
         T = T @ step.origin
         screws[i] = se3.adjoint(T) @ step.screw
     used = sorted({step.coordinate for step in steps})
-    C = np.array([[float(step.coordinate == k) for k in used] for step in steps]).reshape(
-        len(steps), len(used)
-    )
+    rows = [[float(step.coordinate == k) for k in used] for step in steps]
+    C = np.array(rows).reshape(len(steps), len(used))
     return Chain(
         screws,
         T @ last,
         coupling=C,
         q_names=[f"q{k}" for k in used],
-        limits=[_shared(steps, k) for k in used] if used else None,
+        limits=[_shared(steps, k) for k in used] or None,
         pitches=np.zeros(len(steps)),
     )
 
 
 def make_robot(robot: Any) -> Robot:
-    """The tree of a toolbox Robot (ERobot): its links, and a joint for each variable transform of a
-    link.
+    """Tree of a toolbox Robot (ERobot): its links, and a joint for each variable transform.
 
     Coordinates, and the joints that have them, are q0, q1, ... by `jindex`. The root is `base`, in
     which the robot's own `base` places the first links. Where the robot has a `tool`, each link at
@@ -93,48 +94,65 @@ def make_robot(robot: Any) -> Robot:
     Parameters: robot. Returns: Robot. Raises and accuracy: as `make_chain`; ModelError for links that
     are no tree.
     """
-    taken: set[str] = set()
-    root = free_name("base", {str(link.name) for link in robot.links})
-    names = {id(link): free_name(str(link.name) or "link", taken) for link in robot.links}
-    taken.add(root)
-    base = _pose(getattr(robot, "base", None), "base")
+    tree = _Tree(robot)
     tool = _pose(getattr(robot, "tool", None), "tool")
-    joints: list[Joint] = []
-    links = [root, *names.values()]
-    steps_of = {
-        id(link): _steps(as_list(link.ets), f"link {safe_repr(link.name)}") for link in robot.links
-    }
-    used: set[str] = set()
-    order: list[tuple[int, Joint]] = []
     for link in robot.links:
-        steps, last = steps_of[id(link)]
-        parent = root if link.parent is None else names.get(id(link.parent), str(link.parent))
-        before = base if link.parent is None else np.eye(4)
-        for i, step in enumerate(steps):
-            ends = i == len(steps) - 1 and np.array_equal(last, np.eye(4))
-            child = names[id(link)] if ends else free_name(f"{names[id(link)]}_{i}", taken)
-            links += [] if ends else [child]
-            name = free_name(f"q{step.coordinate}", used)
-            mimic = Mimic(f"q{step.coordinate}") if name != f"q{step.coordinate}" else None
-            axis = step.screw[:3] if step.kind == "revolute" else step.screw[3:]
-            joint = Joint(
-                name, step.kind, parent, child, before @ step.origin, axis, step.limits, mimic
-            )
-            order.append((step.coordinate, joint))
-            parent, before = child, np.eye(4)
-        if parent != names[id(link)]:
-            name = free_name(f"{names[id(link)]}_joint", used)
-            joints.append(Joint(name, "fixed", parent, names[id(link)], before @ last))
-    joints = [joint for _, joint in sorted(order, key=lambda pair: pair[0])] + joints
+        tree.add_link(link)
+    joints = [joint for _, joint in sorted(tree.moving, key=lambda pair: pair[0])] + tree.fixed
     if not np.array_equal(tool, np.eye(4)):
-        for end in sorted(
-            set(names.values()) - {joint.parent for joint in joints}, key=links.index
-        ):
-            links.append(free_name(f"{end}_tool", taken))
-            joints.append(
-                Joint(free_name(f"{end}_tool_joint", used), "fixed", end, links[-1], tool)
-            )
-    return Robot(str(getattr(robot, "name", "") or "robot"), links, joints)
+        parents = {joint.parent for joint in joints}
+        for end in sorted(set(tree.names.values()) - parents, key=tree.links.index):
+            link = free_name(f"{end}_tool", tree.taken)
+            tree.links.append(link)
+            name = free_name(f"{end}_tool_joint", tree.used)
+            joints.append(Joint(name, "fixed", end, link, tool))
+    return Robot(str(getattr(robot, "name", "") or "robot"), tree.links, joints)
+
+
+class _Tree:
+    """Links and joints of a toolbox Robot, added link by link."""
+
+    def __init__(self, robot: Any):
+        self.taken: set[str] = set()  # names of links
+        self.used: set[str] = set()  # names of joints
+        self.root = free_name("base", {str(link.name) for link in robot.links})
+        self.names = {
+            id(link): free_name(str(link.name) or "link", self.taken) for link in robot.links
+        }
+        self.taken.add(self.root)
+        self.base = _pose(getattr(robot, "base", None), "base")
+        self.links = [self.root, *self.names.values()]
+        self.moving: list[tuple[int, Joint]] = []  # with their coordinates
+        self.fixed: list[Joint] = []
+
+    def add_link(self, link: Any) -> None:
+        """Add the joints from a link's parent to itself, and the links between them."""
+        own = self.names[id(link)]
+        steps, last = _steps(as_list(link.ets), f"link {safe_repr(link.name)}")
+        parent = self.root
+        before = self.base
+        if link.parent is not None:
+            parent = self.names.get(id(link.parent), str(link.parent))
+            before = np.eye(4)
+        for i, step in enumerate(steps):
+            child = own
+            if i < len(steps) - 1 or not np.array_equal(last, np.eye(4)):
+                child = free_name(f"{own}_{i}", self.taken)
+                self.links.append(child)
+            self._add_joint(step, parent, child, before @ step.origin)
+            parent = child
+            before = np.eye(4)
+        if parent != own:
+            name = free_name(f"{own}_joint", self.used)
+            self.fixed.append(Joint(name, "fixed", parent, own, before @ last))
+
+    def _add_joint(self, step: Step, parent: str, child: str, origin: Array) -> None:
+        coordinate = f"q{step.coordinate}"
+        name = free_name(coordinate, self.used)
+        mimic = None if name == coordinate else Mimic(coordinate)
+        axis = step.screw[:3] if step.kind == "revolute" else step.screw[3:]
+        joint = Joint(name, step.kind, parent, child, origin, axis, step.limits, mimic)
+        self.moving.append((step.coordinate, joint))
 
 
 def _steps(items: list[Any], what: str) -> tuple[list[Step], Array]:
@@ -153,16 +171,13 @@ def _steps(items: list[Any], what: str) -> tuple[list[Step], Array]:
         offset = float(shaped(getattr(et, "offset", 0.0), (), f"{where}: offset"))
         if offset:
             T = T @ se3.exp(offset * screw)
+        if getattr(et, "isflip", False):
+            screw = -screw
         jindex = getattr(et, "jindex", None)
-        steps.append(
-            Step(
-                T,
-                "revolute" if axis[0] == "R" else "prismatic",
-                -screw if getattr(et, "isflip", False) else screw,
-                len(steps) if jindex is None else int(jindex),
-                _limits(getattr(et, "qlim", None)),
-            )
-        )
+        if jindex is None:
+            jindex = len(steps)
+        limits = _limits(getattr(et, "qlim", None))
+        steps.append(Step(T, _KINDS[axis[0]], screw, int(jindex), limits))
         T = np.eye(4)
     return steps, T
 
@@ -175,10 +190,12 @@ def _limits(qlim: Any) -> tuple[float, float]:
 
 
 def _shared(steps: list[Step], coordinate: int) -> tuple[float, float]:
-    """What is left of the limits of the joints that move together."""
+    """Intersection of the limits of the joints that move together."""
     limits = [step.limits for step in steps if step.coordinate == coordinate]
     return max(lower for lower, _ in limits), min(upper for _, upper in limits)
 
 
 def _pose(T: Any, what: str) -> Array:
-    return np.eye(4) if T is None else one_pose(T, what)
+    if T is None:
+        return np.eye(4)
+    return one_pose(T, what)

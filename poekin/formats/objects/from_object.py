@@ -1,4 +1,4 @@
-"""from_object: a model out of a living object of another library, known by its attributes."""
+"""Models out of objects of other libraries, known by their attributes."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from ...model.robot import Robot
 from ..dh.to_chain import to_chain
 from . import dh_robot, ets, home_and_screws, pinocchio_model
 from .attributes import type_name
+from .home_and_screws import ScrewFrame
 
-# What is known: in words, by which attributes, and what is made of it.
+# Known objects: in words, the test of their attributes, and the function that makes the model.
 _KNOWN: tuple[tuple[str, Callable[[Any], bool], Callable[[Any], Robot | Chain]], ...] = (
     ("a Pinocchio Model", pinocchio_model.fits, pinocchio_model.make_robot),
     (
@@ -25,9 +26,8 @@ _KNOWN: tuple[tuple[str, Callable[[Any], bool], Callable[[Any], Robot | Chain]],
 )
 
 
-def from_object(obj: Any, *, frame: str | None = None) -> Any:
-    """A `Robot` or a `Chain` of what another library holds in memory; that library is not imported,
-    nor asked to move.
+def from_object(obj: Any, *, frame: ScrewFrame | None = None) -> Any:
+    """`Robot` or `Chain` of an object of another library, which is not imported.
 
     - Pinocchio `Model`: a Robot. Links, joints and their order are those of the URDF it was built
       from; where it has none, links are its frames. q is in its order, with one angle where
@@ -56,7 +56,9 @@ def from_object(obj: Any, *, frame: str | None = None) -> Any:
                 raise InputError(f"frame: it is that of a pair (M, screws), and this is {what}")
             return make(obj)
     if home_and_screws.fits(obj):
-        return home_and_screws.make_chain(obj, "space" if frame is None else frame)
+        if frame is None:
+            return home_and_screws.make_chain(obj)
+        return home_and_screws.make_chain(obj, frame)
     known = ", ".join(what for what, _, _ in _KNOWN)
     raise InputError(
         f"from_object: expected {known}, or Modern Robotics' pair (M, Slist), got {type_name(obj)}; files are read by"

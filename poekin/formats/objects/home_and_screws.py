@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -10,7 +10,8 @@ from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import numbers
 from ...model.chain import Chain
 
-FRAMES = ("space", "body")
+ScrewFrame = Literal["space", "body"]
+FRAMES: tuple[ScrewFrame, ...] = get_args(ScrewFrame)
 
 
 def fits(obj: Any) -> bool:
@@ -18,9 +19,8 @@ def fits(obj: Any) -> bool:
     return isinstance(obj, (tuple, list)) and len(obj) == 2
 
 
-def make_chain(pair: Any, frame: str = "space") -> Chain:
-    """f(q) = e^{[S_1] q_1} ... e^{[S_n] q_n} M of (M, Slist), or M e^{[B_1] q_1} ... e^{[B_n] q_n}
-    of (M, Blist).
+def make_chain(pair: Any, frame: ScrewFrame = "space") -> Chain:
+    """Chain e^{[S_1] q_1} ... e^{[S_n] q_n} M of (M, Slist), or M e^{[B_1] q_1} ... of (M, Blist).
 
     Parameters: pair (M, Slist): M (4, 4), m; Slist (6, n), a column (omega; v) a joint, as in
     Modern Robotics; frame, that of the columns: "space" (Slist) or "body" (Blist).
@@ -31,15 +31,20 @@ def make_chain(pair: Any, frame: str = "space") -> Chain:
     2017, chapter 4.
     """
     if frame not in FRAMES:
-        raise InputError(f"frame: expected 'space' or 'body', got {safe_repr(frame)}")
-    M, columns = pair[0], numbers(pair[1], "screws")
+        choices = " or ".join(map(repr, FRAMES))
+        raise InputError(f"frame: expected {choices}, got {safe_repr(frame)}")
+    M, screws = pair
+    columns = numbers(screws, "screws")
     if columns.shape == (6,):
         columns = columns[:, None]
     if columns.ndim != 2 or columns.shape[0] != 6:
-        turned = ": transpose it" if columns.ndim == 2 and columns.shape[1] == 6 else ""
-        raise ShapeError(
-            f"screws: expected shape (6, n), a column (omega; v) a joint as in Slist, got {columns.shape}{turned}"
+        message = (
+            "screws: expected shape (6, n), a column (omega; v) a joint as in Slist,"
+            f" got {columns.shape}"
         )
+        if columns.ndim == 2 and columns.shape[1] == 6:
+            message += ": transpose it"
+        raise ShapeError(message)
     if frame == "space":
         return Chain(columns.T, M)
     # M e^{B q} = P f(q) with P = M and f(q) = e^{B q}: the tool's frame at home is the base of f.

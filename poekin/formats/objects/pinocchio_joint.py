@@ -1,4 +1,4 @@
-"""What a joint of a Pinocchio model is: its elementary motions, in the words of poekin's joints."""
+"""Elementary motions of the joints of a Pinocchio model."""
 
 from __future__ import annotations
 
@@ -30,9 +30,7 @@ _UNALIGNED = {
 
 
 class Motion(NamedTuple):
-    """One elementary motion: pose of its frame behind the one before it, kind, axis, pitch [m per
-    rad].
-    """
+    """Elementary motion: pose of its frame in the one before, kind, axis, pitch [m per rad]."""
 
     origin: Array
     kind: str
@@ -45,6 +43,13 @@ def joint_type(joint: Any) -> str:
     return str(joint.shortname()).removeprefix(_PREFIX)
 
 
+def extracted(joint: Any) -> Any:
+    """The joint itself, out of Pinocchio's variant of all joints where it is in one."""
+    if has(joint, "extract"):
+        return joint.extract()
+    return joint
+
+
 def motions(joint: Any, name: str) -> list[Motion]:
     """The elementary motions of a joint of a model, one after the other.
 
@@ -52,7 +57,8 @@ def motions(joint: Any, name: str) -> list[Motion]:
     ellipsoid joints, and
     a mimic joint or a type not known here whose axis cannot be read.
     """
-    kind, bare = joint_type(joint), joint.extract() if has(joint, "extract") else joint
+    kind = joint_type(joint)
+    bare = extracted(joint)
     here = np.eye(4)
     if kind in _FREE:
         return [Motion(here, _FREE[kind], _Z)]
@@ -61,18 +67,20 @@ def motions(joint: Any, name: str) -> list[Motion]:
     if kind == "Universal":
         return [Motion(here, "revolute", _three(axis)) for axis in (bare.axis1, bare.axis2)]
     if kind == "Composite":
-        return [
-            Motion(placement.homogeneous @ first.origin if i == 0 else first.origin, *first[1:])
-            for placement, part in zip(bare.jointPlacements, bare.joints, strict=True)
-            for i, first in enumerate(motions(part, name))
-        ]
-    stem, letter = kind[:-1], kind[-1:]
+        parts = []
+        for placement, part in zip(bare.jointPlacements, bare.joints, strict=True):
+            inner = motions(part, name)
+            for first in inner[:1]:
+                inner[0] = first._replace(origin=placement.homogeneous @ first.origin)
+            parts += inner
+        return parts
+    pitch = float(getattr(bare, "pitch", 0.0))
+    stem = kind[:-1]
+    letter = kind[-1:]
     if stem in _KINDS and letter in _UNIT:
-        return [Motion(here, _KINDS[stem], _UNIT[letter], float(getattr(bare, "pitch", 0.0)))]
+        return [Motion(here, _KINDS[stem], _UNIT[letter], pitch)]
     if kind in _UNALIGNED and has(bare, "axis"):
-        return [
-            Motion(here, _UNALIGNED[kind], _three(bare.axis), float(getattr(bare, "pitch", 0.0)))
-        ]
+        return [Motion(here, _UNALIGNED[kind], _three(bare.axis), pitch)]
     if kind in _UNALIGNED or kind == "Mimic":
         return [_by_subspace(joint, bare, name, _UNALIGNED.get(kind))]
     raise ModelError(
@@ -82,20 +90,20 @@ def motions(joint: Any, name: str) -> list[Motion]:
 
 
 def _by_subspace(joint: Any, bare: Any, name: str, kind: str | None) -> Motion:
-    """Of a joint whose axis Pinocchio tells by its motion subspace S = (v; omega) only, which is
-    constant.
-    """
+    """Motion of a joint whose axis stands only in its constant motion subspace S = (v; omega)."""
     scaling = float(getattr(bare, "scaling", 1.0))
     S = np.asarray(joint.createData().S, dtype=float).ravel()
-    v, w = S[:3], S[3:]
     if S.shape != (6,) or not S.any():
-        raise ModelError(
-            f"joint {quote(name)}: Pinocchio does not tell the axis of this {quote(joint_type(joint))} joint"
-            f"{' of multiplier 0' if not scaling else ''}"
+        message = (
+            f"joint {quote(name)}: Pinocchio does not tell the axis of this"
+            f" {quote(joint_type(joint))} joint"
         )
-    turns = bool(w.any())
-    axis = _three((w if turns else v) / scaling)
-    return Motion(np.eye(4), kind or ("revolute" if turns else "prismatic"), axis)
+        if not scaling:
+            message += " of multiplier 0"
+        raise ModelError(message)
+    if S[3:].any():
+        return Motion(np.eye(4), kind or "revolute", _three(S[3:] / scaling))
+    return Motion(np.eye(4), kind or "prismatic", _three(S[:3] / scaling))
 
 
 def _three(axis: Any) -> tuple[float, ...]:

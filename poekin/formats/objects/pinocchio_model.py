@@ -16,14 +16,24 @@ from ...model.provenance import warn
 from ...model.robot import Robot
 from ..urdf import ABSURD
 from .attributes import free_name, has
-from .pinocchio_joint import Motion, joint_type, motions
+from .pinocchio_joint import extracted, joint_type, motions
 
+_MODEL = (
+    "njoints",
+    "joints",
+    "names",
+    "parents",
+    "jointPlacements",
+    "frames",
+    "lowerPositionLimit",
+)
 _LIMITED = ("revolute", "prismatic", "helical")
 
 
 class Frame(NamedTuple):
-    """A frame of the model: name, kind, the joint that carries it, its pose there, the number of
-    the frame that it hangs on, its own where that is no earlier one.
+    """Frame of the model: name, kind, the joint that carries it, its pose there, and `above`.
+
+    `above`: number of the frame that it hangs on, its own where that is no earlier one.
     """
 
     name: str
@@ -41,17 +51,8 @@ class Place(NamedTuple):
 
 
 def fits(obj: Any) -> bool:
-    """Whether an object has what makes a Pinocchio model."""
-    return has(
-        obj,
-        "njoints",
-        "joints",
-        "names",
-        "parents",
-        "jointPlacements",
-        "frames",
-        "lowerPositionLimit",
-    )
+    """Whether an object has the attributes of a Pinocchio model."""
+    return has(obj, *_MODEL)
 
 
 def make_robot(model: Any) -> Robot:
@@ -121,35 +122,24 @@ def _frame(frame: Any, i: int) -> Frame:
             f"expected a model of Pinocchio 3 or newer; its frame {quote(frame.name)} has no parentFrame"
         )
     above = int(frame.parentFrame)
-    return Frame(
-        str(frame.name) or f"frame{i}",
-        kind,
-        int(frame.parentJoint),
-        pose,
-        above if 0 <= above < i else i,
-    )
+    if not 0 <= above < i:
+        above = i
+    return Frame(str(frame.name) or f"frame{i}", kind, int(frame.parentJoint), pose, above)
 
 
 def _own_frames(frames: list[Frame], names: list[str]) -> dict[int, int]:
-    """For each joint that has one the number of its own frame, in its very place; for the universe
-    too.
-    """
+    """Numbers of the joints' own frames, in their very places; of the universe too."""
     own: dict[int, int] = {}
     for i, frame in enumerate(frames):
-        kinds = "JOINT" if frame.joint else "FIXED_JOINT"
-        if (
-            frame.kind == kinds
-            and frame.name == names[frame.joint]
-            and np.array_equal(frame.pose, np.eye(4))
-        ):
+        kind = "JOINT" if frame.joint else "FIXED_JOINT"
+        same = frame.kind == kind and frame.name == names[frame.joint]
+        if same and np.array_equal(frame.pose, np.eye(4)):
             own.setdefault(frame.joint, i)
     return own
 
 
 def _bodies(frames: list[Frame], own: set[int]) -> dict[int, int]:
-    """For each frame of a joint the number of the BODY frame that is its child link: the only one
-    in its place.
-    """
+    """Numbers of the BODY frames that are joints' child links: the only ones in their places."""
     on: dict[int, list[int]] = {}
     for i, frame in enumerate(frames):
         below = frames[frame.above]
@@ -163,9 +153,7 @@ def _bodies(frames: list[Frame], own: set[int]) -> dict[int, int]:
 def _link_names(
     frames: list[Frame], names: list[str], own: dict[int, int], bodies: dict[int, int]
 ) -> tuple[list[str], list[str], set[str]]:
-    """The link of each frame, the link of each joint, and all names that are taken. BODY frames
-    keep theirs first.
-    """
+    """Link of each frame, link of each joint, and all names taken; BODY frames keep theirs first."""
     taken: set[str] = set()
     links = [""] * len(frames)
     for i in sorted(range(len(frames)), key=lambda i: frames[i].kind != "BODY"):
@@ -173,11 +161,13 @@ def _link_names(
             links[i] = free_name(frames[i].name, taken)
     for i, body in bodies.items():
         links[i] = links[body]
-    return (
-        links,
-        [links[own[j]] if j in own else free_name(name, taken) for j, name in enumerate(names)],
-        taken,
-    )
+    holders = []
+    for j, name in enumerate(names):
+        if j in own:
+            holders.append(links[own[j]])
+        else:
+            holders.append(free_name(name, taken))
+    return links, holders, taken
 
 
 def _moving(
@@ -191,56 +181,45 @@ def _moving(
     unusable: list[str],
 ) -> list[Joint]:
     """The joints of joint j of the model, one after the other, from a parent link to its own."""
-    joint, name = model.joints[j], str(model.names[j])
+    joint = model.joints[j]
+    name = str(model.names[j])
     parts = motions(joint, name)
     mimic = _mimic(model, j, joint)
     joints = []
     for k, part in enumerate(parts):
-        last = k == len(parts) - 1
-        called = name if len(parts) == 1 else free_name(f"{name}_{k + 1}", used)
-        end = child if last else free_name(f"{name}_{k + 1}", taken)
-        limits = (
-            _limits(model, int(joint.idx_q) + k, part, called, unusable) if mimic is None else None
-        )
-        limits = limits or (-math.inf, math.inf)
+        numbered = f"{name}_{k + 1}"
+        called = name if len(parts) == 1 else free_name(numbered, used)
+        end = child if k == len(parts) - 1 else free_name(numbered, taken)
+        limits = (-math.inf, math.inf)
+        if mimic is None and part.kind in _LIMITED:
+            limits = _limits(model, int(joint.idx_q) + k, called, unusable)
+        pose = origin @ part.origin
         joints.append(
-            Joint(
-                called,
-                part.kind,
-                parent,
-                end,
-                origin @ part.origin,
-                part.axis,
-                limits,
-                mimic,
-                part.pitch,
-            )
+            Joint(called, part.kind, parent, end, pose, part.axis, limits, mimic, part.pitch)
         )
-        parent, origin = end, np.eye(4)
+        parent = end
+        origin = np.eye(4)
     return joints
 
 
 def _mimic(model: Any, j: int, joint: Any) -> Mimic | None:
     if joint_type(joint) != "Mimic":
         return None
-    bare = joint.extract() if has(joint, "extract") else joint
-    masters = dict(
-        zip(map(int, model.mimicking_joints), map(int, model.mimicked_joints), strict=True)
-    )
+    bare = extracted(joint)
+    pairs = zip(map(int, model.mimicking_joints), map(int, model.mimicked_joints), strict=True)
+    masters = dict(pairs)
     return Mimic(str(model.names[masters[j]]), float(bare.scaling), float(bare.offset))
 
 
-def _limits(
-    model: Any, k: int, part: Motion, name: str, unusable: list[str]
-) -> tuple[float, float] | None:
-    """Bounds of coordinate k of the model, None where it has none."""
-    if part.kind not in _LIMITED:
-        return None
-    lower, upper = float(model.lowerPositionLimit[k]), float(model.upperPositionLimit[k])
+def _limits(model: Any, k: int, name: str, unusable: list[str]) -> tuple[float, float]:
+    """Bounds of coordinate k of the model."""
+    lower = float(model.lowerPositionLimit[k])
+    upper = float(model.upperPositionLimit[k])
     if lower == upper:
         unusable.append(f"{quote(name)} (equal, {lower!r})")
-        return None
-    return (
-        -math.inf if abs(lower) >= ABSURD else lower,
-        math.inf if abs(upper) >= ABSURD else upper,
-    )
+        return -math.inf, math.inf
+    if abs(lower) >= ABSURD:
+        lower = -math.inf
+    if abs(upper) >= ABSURD:
+        upper = math.inf
+    return lower, upper

@@ -1,3 +1,1 @@
-"""Text read and written safely: XML, YAML, TOML, CSV, numbers; files that appear whole or not at
-all.
-"""
+"""Text read and written safely: XML, YAML, TOML, CSV, numbers, whole files."""

@@ -11,8 +11,7 @@ from ...errors import FileError, quote
 
 
 def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
-    """Write a file so that it appears whole or not at all; one that was there stays until the new
-    one is complete.
+    """Write a file so that it appears whole or not at all; an old one stays until then.
 
     A new file has the mode that the process's umask leaves of 0666; one that was there keeps its
     own.
@@ -20,27 +19,33 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
     """
     try:
         target = Path(os.path.realpath(path))
-        old = target.stat().st_mode if target.exists() else None
-        if old is not None and not stat.S_ISREG(old):
-            target.write_bytes(content)
-            return
+        mode = None
+        if target.exists():
+            mode = target.stat().st_mode
+            if not stat.S_ISREG(mode):
+                target.write_bytes(content)
+                return
         temporary = target.parent / f".{target.name[:50]}.{secrets.token_hex(8)}.part"
         # The umask is the kernel's to apply: it can be read only by changing it, for all threads.
-        handle = os.open(temporary, _NEW, 0o666 if old is None else 0o600)
+        handle = os.open(temporary, _NEW, 0o666 if mode is None else 0o600)
         try:
             with open(handle, "wb") as stream:
                 stream.write(content)
                 stream.flush()
                 os.fsync(stream.fileno())
-            if old is not None:
-                os.chmod(temporary, stat.S_IMODE(old))
+            if mode is not None:
+                os.chmod(temporary, stat.S_IMODE(mode))
             os.replace(temporary, target)
         finally:
             if os.path.exists(temporary):
                 os.unlink(temporary)
     except (OSError, ValueError) as fault:
-        reason = fault.strerror if isinstance(fault, OSError) and fault.strerror else fault
-        raise FileError(f"cannot write {quote(os.fsdecode(path), 400)}: {reason}") from fault
+        raise FileError(f"cannot write {quote(os.fsdecode(path), 400)}: {reason(fault)}") from fault
+
+
+def reason(fault: OSError | ValueError) -> str:
+    """Reason of a failure to open a file: the system's own words where there are some."""
+    return getattr(fault, "strerror", None) or str(fault)
 
 
 _NEW = (

@@ -1,4 +1,4 @@
-"""CSV of numbers: rows of so many named columns, with a header that may order them, in and out."""
+"""CSV of numbers: rows of named columns, in any order that a header gives, in and out."""
 
 from __future__ import annotations
 
@@ -10,19 +10,21 @@ import math
 import os
 import stat
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TextIO
+from typing import NamedTuple, TextIO
 
 import numpy as np
 
 from ...errors import FileError, InputError, UnknownName, escape_unprintable, quote, suggest
+from .atomic_write import reason
 from .numbers import real
 
 Progress = Callable[[int, int], None]
 Line = tuple[int, list[str]]
 AT_ONCE = 10_000
-"""Lines that are made an array together: more are never held as Python's numbers."""
+"""Lines that become an array together: more are never held as Python's numbers."""
 LONGEST = 2**20
 """Characters in a line: what has no line breaks is no CSV, and might have no end."""
+AS_HEADER = ", as the header has"
 MOST = 2**28
 """Characters out of a pipe or a device, which need not have an end."""
 
@@ -42,9 +44,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[TextIO, str, int]]:
     except (OSError, ValueError) as error:
         if isinstance(error, (FileError, InputError)):
             raise
-        raise FileError(
-            f"cannot read {where}: {getattr(error, 'strerror', None) or error}"
-        ) from error
+        raise FileError(f"cannot read {where}: {reason(error)}") from error
 
 
 def read(
@@ -69,20 +69,23 @@ def read(
     wrong length or a
     cell that is no number; UnknownName for a header with a name that is none.
     """
-    lines, said = _lines(stream, where), _listed(names)
-    chosen, width = range(len(names)), len(names)
-    for line, cells in lines:
+    lines = _lines(stream, where)
+    top = next(lines, None)
+    columns = _Columns(range(len(names)), len(names), _name_list(names))
+    if top is not None:
+        line, cells = top
         words = [cell.strip() for cell in cells]
         if first and set(first) <= set(words):
             names = (*first, *names)
-            said = _listed(names)
+            columns = columns._replace(names=_name_list(names))
         if _is_header(words, names):
-            chosen, width = _order(words, names, besides, f"{where}:{line}", what), len(words)
-            said = said if width == len(names) else ", as the header has"
+            chosen = _order(words, names, besides, f"{where}:{line}", what)
+            columns = columns._replace(chosen=chosen, width=len(words))
+            if len(words) != len(names):
+                columns = columns._replace(names=AS_HEADER)
         else:
-            lines = itertools.chain([(line, cells)], lines)
-        break
-    return _rows(lines, chosen, width, where, said, progress, size)
+            lines = itertools.chain([top], lines)
+    return _rows(lines, columns, where, progress, size)
 
 
 def read_chosen(
@@ -107,14 +110,14 @@ def read_chosen(
             f"{where}: a first line that names the columns expected, the file is empty"
         )
     chosen = choose([cell.strip() for cell in cells], f"{where}:{line}")
-    return _rows(lines, chosen, len(cells), where, ", as the header has", progress, size)
+    return _rows(lines, _Columns(chosen, len(cells), AS_HEADER), where, progress, size)
 
 
 def _bounded(stream: TextIO, where: str) -> Iterator[str]:
-    """The lines of a text, none of which is too long, nor all together where they do not come out
-    of a file.
-    """
-    left = math.inf if _is_file(stream) else MOST
+    """Lines of a text: each of bounded length, and so are all together unless it is a file."""
+    left = float(MOST)
+    if _is_file(stream):
+        left = math.inf
     for number in itertools.count(1):
         line = stream.readline(LONGEST + 1)
         left -= len(line)
@@ -150,29 +153,37 @@ def _lines(stream: TextIO, where: str) -> Iterator[Line]:
         raise FileError(f"{where}:{reader.line_num}: not CSV: {error}") from error
 
 
+class _Columns(NamedTuple):
+    """Columns that are read: their indices, the number of all, and their names for messages."""
+
+    chosen: Sequence[int]
+    width: int
+    names: str
+
+
 def _rows(
-    lines: Iterable[Line],
-    chosen: Sequence[int],
-    width: int,
-    where: str,
-    names: str,
-    progress: Progress | None,
-    size: int,
+    lines: Iterable[Line], columns: _Columns, where: str, progress: Progress | None, size: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The chosen columns (N, k) of lines of `width` cells, and the lines' numbers; names is said
-    with `width`.
-    """
-    parts, places, rows, numbers, done = [np.empty((0, len(chosen)))], [np.empty(0, int)], [], [], 0
+    """Rows (N, k) of the chosen columns, and the lines' numbers."""
+    chosen = columns.chosen
+    parts = [np.empty((0, len(chosen)))]
+    places = [np.empty(0, int)]
+    rows: list[list[float]] = []
+    numbers: list[int] = []
+    done = 0
     for line, cells in lines:
         done += sum(map(len, cells)) + len(cells)
-        if len(cells) != width:
-            raise InputError(f"{where}:{line}: {width} values expected{names}, got {len(cells)}")
+        if len(cells) != columns.width:
+            raise InputError(
+                f"{where}:{line}: {columns.width} values expected{columns.names}, got {len(cells)}"
+            )
         rows.append([_real(cells[i], f"{where}:{line}, column {i + 1}") for i in chosen])
         numbers.append(line)
         if len(rows) == AT_ONCE:
             parts.append(np.array(rows, float).reshape(len(rows), len(chosen)))
             places.append(np.array(numbers, int))
-            rows, numbers = [], []
+            rows = []
+            numbers = []
             if progress is not None:
                 progress(done, size)
     parts.append(np.array(rows, float).reshape(len(rows), len(chosen)))
@@ -208,7 +219,9 @@ def _order(
             )
     missing = [n for n in names if n not in words]
     if missing or len(set(words)) != len(words):
-        fault = f"{quote(missing[0])} is missing" if missing else "a name stands twice"
+        fault = "a name stands twice"
+        if missing:
+            fault = f"{quote(missing[0])} is missing"
         raise InputError(
             f"{where}: the header has to name each of the {len(names)} {what}s once; {fault}"
         )
@@ -222,5 +235,7 @@ def _real(cell: str, where: str) -> float:
     return value
 
 
-def _listed(names: Sequence[str]) -> str:
-    return f" ({', '.join(map(escape_unprintable, names))})" if names else ""
+def _name_list(names: Sequence[str]) -> str:
+    if not names:
+        return ""
+    return f" ({', '.join(map(escape_unprintable, names))})"

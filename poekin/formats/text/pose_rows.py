@@ -1,22 +1,22 @@
-"""Poses as rows of numbers: the formats "12", "16" and "7", each by its name, and quaternions with
-their order.
-"""
+"""Poses as rows of numbers, in the formats "12", "16" and "7", quaternions with their order."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 
 from ...errors import InputError, PoekinError, PoseError, safe_repr
-from ...groups import so3
+from ...groups import se3, so3
 from ...groups.arrays import Array, poses
 from ...model.kinematics.analytic import quaternion_wxyz
 
-FORMATS = ("12", "16", "7")
-ORDERS = ("wxyz", "xyzw")
+PoseFormat = Literal["12", "16", "7"]
+QuaternionOrder = Literal["wxyz", "xyzw"]
+FORMATS: tuple[PoseFormat, ...] = get_args(PoseFormat)
+ORDERS: tuple[QuaternionOrder, ...] = get_args(QuaternionOrder)
 NORM = 1e-3
-"""How far from 1 a quaternion's length may be; it is divided by its length."""
+"""Largest deviation from 1 of a quaternion's length; it is divided by its length."""
 
 _ENTRIES = tuple(f"T{i}{j}" for i in range(4) for j in range(4))
 
@@ -41,9 +41,11 @@ def columns(format: Any, quaternion: Any = None) -> tuple[str, ...]:
             )
         return _ENTRIES[: int(format)]
     if not isinstance(quaternion, str) or quaternion not in ORDERS:
-        asked = "it is not said" if quaternion is None else f"got {safe_repr(quaternion)}"
+        asked = f"got {safe_repr(quaternion)}"
+        if quaternion is None:
+            asked = "it is not said"
         raise InputError(
-            f"quaternion: the format 7 needs the order of its quaternion, wxyz or xyzw; {asked}"
+            f"quaternion: the format 7 needs the order of its quaternion, {' or '.join(ORDERS)}; {asked}"
         )
     return ("x", "y", "z", *(f"q{letter}" for letter in quaternion))
 
@@ -59,15 +61,16 @@ def to_poses(rows: Array, format: str, quaternion: str | None, where: Any) -> Ar
     T = np.full((len(rows), 4, 4), np.nan)
     good = np.isfinite(rows).all(axis=1)
     if format == "7":
-        Q = rows[:, 3:] if quaternion == "wxyz" else rows[:, [6, 3, 4, 5]]
+        Q = rows[:, 3:]
+        if quaternion == "xyzw":
+            Q = Q[:, [3, 0, 1, 2]]
         with np.errstate(over="ignore"):  # of numbers whose squares are none
             size = np.linalg.norm(Q, axis=1)
         for i in np.flatnonzero(good & ~(np.abs(size - 1) <= NORM)):
             raise PoseError(
                 f"{where(i)}: the quaternion's length is {size[i]:.6g}, expected 1 within {NORM:g}"
             )
-        T[good] = np.eye(4)
-        T[good, :3, :3], T[good, :3, 3] = _rotation(Q[good] / size[good, None]), rows[good, :3]
+        T[good] = se3.pose(_rotation(Q[good] / size[good, None]), rows[good, :3])
         return T
     T[good] = np.eye(4)
     T[good, : int(format) // 4] = rows[good].reshape(-1, int(format) // 4, 4)
@@ -85,7 +88,9 @@ def to_rows(T: Array, format: str, quaternion: str | None = None) -> Array:
     if format != "7":
         return T[:, : int(format) // 4].reshape(len(T), int(format))
     Q = quaternion_wxyz(T[:, :3, :3])
-    return np.concatenate([T[:, :3, 3], Q if quaternion == "wxyz" else Q[:, [1, 2, 3, 0]]], axis=1)
+    if quaternion == "xyzw":
+        Q = Q[:, [1, 2, 3, 0]]
+    return np.concatenate([T[:, :3, 3], Q], axis=1)
 
 
 def _rotation(Q: Array) -> Array:

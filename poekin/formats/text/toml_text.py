@@ -1,4 +1,4 @@
-"""TOML in and out, and what is in it read key by key, every fault with file and key."""
+"""TOML in and out, its values read key by key, every fault with file and key."""
 
 from __future__ import annotations
 
@@ -39,8 +39,7 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
 _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*"""
 _DEEP_KEY = re.compile(rf"(?<![\w-])(?:{_PART}){{32}}")
 _LARGEST = 10**4300
-"""What Python does not write as decimal digits any more; tomllib reads it in the other notations.
-"""
+"""Least number that Python does not write in decimal digits; tomllib reads it in hexadecimal."""
 
 
 def parse(text: str, place: str) -> dict[str, Any]:
@@ -58,21 +57,19 @@ def parse(text: str, place: str) -> dict[str, Any]:
         data = tomllib.loads(text)
     except RecursionError as fault:
         raise ModelError(f"{place}: not TOML: its brackets are nested too deeply") from fault
-    except (
-        ValueError
-    ) as fault:  # an integer of more than 4300 digits, too, which is no TOMLDecodeError
+    except ValueError as fault:  # TOMLDecodeError, or an integer of more than 4300 digits
         raise ModelError(f"{place}: not TOML: {escape_unprintable(fault, 200)}") from fault
     ahead: list[Any] = [data]
     while ahead:
         value = ahead.pop()
-        if (
-            isinstance(value, int) and value >= _LARGEST
-        ):  # hexadecimal: tomllib refuses a decimal that long
+        if isinstance(value, int) and value >= _LARGEST:
             raise ModelError(
                 f"{place}: expected whole numbers of at most 4300 digits, got a longer one"
             )
-        if isinstance(value, (dict, list)):
-            ahead.extend(value.values() if isinstance(value, dict) else value)
+        if isinstance(value, dict):
+            ahead.extend(value.values())
+        if isinstance(value, list):
+            ahead.extend(value)
     return data
 
 
@@ -96,10 +93,13 @@ class Keys:
     """
 
     def __init__(self, data: Mapping[str, Any], place: str, known: Iterable[str] | None = None):
-        self.data, self.place = data, place
-        every = None if known is None else tuple(known)
+        self.data = data
+        self.place = place
+        if known is None:
+            return
+        every = tuple(known)
         for key in data:
-            if every is not None and key not in every:
+            if key not in every:
                 raise ModelError(f"{place}: no such key: {quote(key)}; {suggest(key, every)}")
 
     def fault(self, key: str, message: str) -> ModelError:
@@ -162,7 +162,7 @@ class Keys:
         return float(self.array(key, (), finite=finite))
 
     def array(self, key: str, shape: tuple[int | None, ...], *, finite: bool = True) -> Array:
-        """Numbers of that shape, in lists of lists; None: as many as there are (the first only)."""
+        """Numbers of that shape, in lists of lists; None: any number (the first axis only)."""
         found: list[float] = []
         self._collect(key, self.value(key), shape, found)
         array = np.array(found, float)
@@ -183,12 +183,7 @@ class Keys:
     ) -> None:
         if shape:
             if not isinstance(value, list) or shape[0] not in (None, len(value)):
-                count = "" if shape[0] is None else f"{shape[0]} "
-                got = f"{len(value)} of them" if isinstance(value, list) else safe_repr(value)
-                raise self.fault(
-                    key,
-                    f"expected a list of {count}{'lists' if shape[1:] else 'numbers'}, got {got}",
-                )
+                raise self._list_fault(key, value, shape)
             for item in value:
                 self._collect(key, item, shape[1:], found)
         elif isinstance(value, bool) or not isinstance(value, (int, float)):
@@ -196,10 +191,23 @@ class Keys:
         else:
             found.append(_as_float(value))
 
+    def _list_fault(self, key: str, value: Any, shape: tuple[int | None, ...]) -> ModelError:
+        expected = "numbers"
+        if shape[1:]:
+            expected = "lists"
+        if shape[0] is not None:
+            expected = f"{shape[0]} {expected}"
+        got = safe_repr(value)
+        if isinstance(value, list):
+            got = f"{len(value)} of them"
+        return self.fault(key, f"expected a list of {expected}, got {got}")
+
 
 def _as_float(value: float) -> float:
-    """A number as a float; an integer that is too large for one is infinite."""
+    """Number as a float; an integer that is too large for one is infinite."""
     try:
         return float(value)
     except OverflowError:
-        return math.inf if value > 0 else -math.inf
+        if value < 0:
+            return -math.inf
+        return math.inf

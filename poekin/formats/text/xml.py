@@ -10,6 +10,7 @@ from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is co
 
 from ...errors import FileError, InputError, ModelError, quote, safe_repr
 from ...model.provenance import Source
+from .atomic_write import reason
 
 MAX_BYTES = 64 * 2**20
 
@@ -68,8 +69,7 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
     except (OSError, ValueError) as fault:
         if isinstance(fault, FileError):
             raise
-        reason = fault.strerror if isinstance(fault, OSError) and fault.strerror else fault
-        raise FileError(f"{name}: cannot be read: {reason}") from fault
+        raise FileError(f"{name}: cannot be read: {reason(fault)}") from fault
     if not data:
         raise FileError(f"{name}: the file is empty")
     return data
@@ -87,8 +87,11 @@ def parse(data: str | bytes, name: str) -> Element:
     if not isinstance(data, (str, bytes, bytearray)):
         raise InputError(f"{source.place()}: expected a text, str or bytes, got {safe_repr(data)}")
     # A str is text already: whatever encoding its first line declares is no longer true.
-    encoding = "utf-8" if isinstance(data, str) else None
-    content = data.encode("utf-8", "surrogatepass") if isinstance(data, str) else bytes(data)
+    encoding = None
+    if isinstance(data, str):
+        encoding = "utf-8"
+        data = data.encode("utf-8", "surrogatepass")
+    content = bytes(data)
     if len(content) > MAX_BYTES:
         raise ModelError(
             f"{source.place()}: expected at most 64 MiB, got {len(content) / 2**20:.1f} MiB"
@@ -104,10 +107,12 @@ def parse(data: str | bytes, name: str) -> Element:
             " or external reference is read"
         ) from None
     except etree.XMLSyntaxError as fault:
-        binary = " (binary data?)" if b"\0" in content[:1024] else ""
-        reason = quote(fault.msg or "not XML", 200)
+        hint = ""
+        if b"\0" in content[:1024]:
+            hint = " (binary data?)"
+        words = quote(fault.msg or "not XML", 200)
         raise ModelError(
-            f"{source.place(fault.lineno or 1)}: malformed XML{binary}: {reason}"
+            f"{source.place(fault.lineno or 1)}: malformed XML{hint}: {words}"
         ) from None
 
 

@@ -22,7 +22,9 @@ class Fields:
     __slots__ = ("_children", "element", "inside", "source")
 
     def __init__(self, element: Element, source: Source, inside: Fields | None = None):
-        self.element, self.source, self.inside = element, source, inside
+        self.element = element
+        self.source = source
+        self.inside = inside
         self._children: dict[str, list[Element]] = {}
 
     @property
@@ -36,7 +38,9 @@ class Fields:
         if self.inside is not None:
             return f"{self.inside.what}: <{self.tag}>"
         name = self.element.get("name")
-        return f"{self.tag} {quote(name)}" if name else f"<{self.tag}>"
+        if not name:
+            return f"<{self.tag}>"
+        return f"{self.tag} {quote(name)}"
 
     @property
     def tag(self) -> str:
@@ -51,7 +55,9 @@ class Fields:
         """A name that must be there and not empty."""
         value = self.element.get(attribute)
         if not value:
-            found = "none there" if value is None else "it is empty"
+            found = "it is empty"
+            if value is None:
+                found = "none there"
             raise self.fault(f'expected an attribute {attribute}="...", {found}')
         return value
 
@@ -79,15 +85,15 @@ class Fields:
         return Fields(found[0], self.source, self)
 
     def number(self, attribute: str, *, finite: bool = True) -> float | None:
-        """A number, or None where the attribute is missing. NaN is never one; infinity only if not
-        `finite`.
-        """
+        """Number, never NaN, infinite only if not `finite`; None where the attribute is missing."""
         text = self.element.get(attribute)
         if text is None:
             return None
         value = real(text)
         if value is None or math.isnan(value) or (finite and math.isinf(value)):
-            expected = "a finite number" if finite else "a number"
+            expected = "a number"
+            if finite:
+                expected = "a finite number"
             raise self.fault(f"{attribute} must be {expected}, got {quote(text)}{_hint(text)}")
         return value
 
@@ -101,18 +107,15 @@ class Fields:
             raise self.fault(
                 f"{attribute} must be three numbers, got {len(values)}: {quote(text)}{_hint(text)}"
             )
-        x, y, z = values
-        if (
-            x is None
-            or y is None
-            or z is None
-            or not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z))
-        ):
+        if not all(value is not None and math.isfinite(value) for value in values):
             raise self.fault(
                 f"{attribute} must be three finite numbers, got {quote(text)}{_hint(text)}"
             )
+        x, y, z = (value for value in values if value is not None)
         return x, y, z
 
 
 def _hint(text: str) -> str:
-    return " (an unprocessed xacro expression?)" if "${" in text else ""
+    if "${" in text:
+        return " (an unprocessed xacro expression?)"
+    return ""

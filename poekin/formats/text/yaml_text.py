@@ -1,5 +1,4 @@
-"""YAML read safely: mappings of mappings of plain texts, each with its line, and nothing that a
-loader would construct.
+"""YAML read safely: mappings of mappings of plain texts, each with its line.
 
 The parser's events are read one after the other, so that neither deep nesting nor aliases, which
 stand for many times their own length, have anything to grow into. Tags, anchors, aliases, lists and
@@ -8,6 +7,7 @@ a second document are refused.
 
 from __future__ import annotations
 
+from types import ModuleType
 from typing import Any, NamedTuple
 
 from ...errors import MissingExtra, ModelError, escape_unprintable, quote
@@ -31,7 +31,7 @@ class MappingNode(NamedTuple):
 
 
 def parse(text: str, place: str) -> MappingNode:
-    """The mapping that a YAML text is.
+    """Mapping that a YAML text is.
 
     Parameters: text; place, what to call it in messages.
     Raises: ModelError with file and line for a text that is no YAML, no mapping, has a key twice or
@@ -41,64 +41,79 @@ def parse(text: str, place: str) -> MappingNode:
         import yaml
     except ImportError as missing:
         raise MissingExtra("pyyaml", "formats", "reading YAML") from missing
-    open_ones: list[MappingNode] = []
-    key: TextNode | None = (
-        None  # of the innermost open mapping, once it is read and its value is not
-    )
-    root: MappingNode | None = None
+    builder = _Builder(place, yaml)
     try:
         for event in yaml.parse(text, Loader=yaml.SafeLoader):
-            line = event.start_mark.line + 1 if event.start_mark else 1
-            where = f"{place}:{line}"
-            if isinstance(event, yaml.DocumentStartEvent) and root is not None:
-                raise ModelError(f"{where}: expected one document, a second one begins here")
-            if isinstance(event, (yaml.AliasEvent, yaml.SequenceStartEvent)):
-                what = "an alias" if isinstance(event, yaml.AliasEvent) else "a list"
-                raise ModelError(f"{where}: expected names and numbers, got {what}")
-            if isinstance(event, (yaml.MappingStartEvent, yaml.ScalarEvent)) and (
-                event.anchor or event.tag
-            ):
-                raise ModelError(
-                    f"{where}: tags and anchors are refused, got {quote(event.tag or event.anchor)}"
-                )
-            if isinstance(event, yaml.MappingEndEvent):
-                open_ones.pop()
-            elif isinstance(event, (yaml.MappingStartEvent, yaml.ScalarEvent)):
-                value = (
-                    TextNode(event.value, line)
-                    if isinstance(event, yaml.ScalarEvent)
-                    else MappingNode({}, {}, line)
-                )
-                if open_ones and key is None:
-                    key = _key(value, open_ones[-1], where)
-                elif open_ones and key is not None:
-                    open_ones[-1].items[key.text] = value
-                    open_ones[-1].key_lines[key.text] = key.line
-                    key = None
-                elif isinstance(value, MappingNode):
-                    root = value
-                else:
-                    raise ModelError(
-                        f'{where}: expected a mapping, as in "kinematics:", got {quote(value.text)}'
-                    )
-                if isinstance(value, MappingNode):
-                    open_ones.append(value)
-                    if len(open_ones) > DEEPEST:
-                        raise ModelError(f"{where}: expected at most {DEEPEST} levels, got more")
+            builder.take(event)
     except ModelError:
         raise
-    except (
-        yaml.YAMLError,
-        ValueError,
-        OverflowError,
-    ) as fault:  # "\U00110000": it calls chr() unchecked
+    # "\U00110000": the parser calls chr() unchecked.
+    except (yaml.YAMLError, ValueError, OverflowError) as fault:
         mark: Any = getattr(fault, "problem_mark", None)
-        line = f":{mark.line + 1}" if mark else ""
+        where = place
+        if mark:
+            where = f"{place}:{mark.line + 1}"
         reason = getattr(fault, "problem", None) or str(fault)
-        raise ModelError(f"{place}{line}: not YAML: {escape_unprintable(reason, 200)}") from fault
-    if root is None:
+        raise ModelError(f"{where}: not YAML: {escape_unprintable(reason, 200)}") from fault
+    if builder.root is None:
         raise ModelError(f"{place}: the text is empty")
-    return root
+    return builder.root
+
+
+class _Builder:
+    """Mappings built out of the parser's events, one after the other."""
+
+    def __init__(self, place: str, yaml: ModuleType):
+        self.place = place
+        self.yaml = yaml
+        self.root: MappingNode | None = None
+        self.open: list[MappingNode] = []
+        self.key: TextNode | None = None  # of the innermost open mapping, until its value is read
+
+    def take(self, event: Any) -> None:
+        """Build what an event adds, or refuse it."""
+        yaml = self.yaml
+        line = 1
+        if event.start_mark:
+            line = event.start_mark.line + 1
+        where = f"{self.place}:{line}"
+        if isinstance(event, yaml.DocumentStartEvent) and self.root is not None:
+            raise ModelError(f"{where}: expected one document, a second one begins here")
+        if isinstance(event, yaml.AliasEvent):
+            raise ModelError(f"{where}: expected names and numbers, got an alias")
+        if isinstance(event, yaml.SequenceStartEvent):
+            raise ModelError(f"{where}: expected names and numbers, got a list")
+        if isinstance(event, yaml.MappingEndEvent):
+            self.open.pop()
+        if not isinstance(event, (yaml.MappingStartEvent, yaml.ScalarEvent)):
+            return
+        if event.anchor or event.tag:
+            raise ModelError(
+                f"{where}: tags and anchors are refused, got {quote(event.tag or event.anchor)}"
+            )
+        if isinstance(event, yaml.ScalarEvent):
+            self._add(TextNode(event.value, line), where)
+        else:
+            mapping = MappingNode({}, {}, line)
+            self._add(mapping, where)
+            self.open.append(mapping)
+            if len(self.open) > DEEPEST:
+                raise ModelError(f"{where}: expected at most {DEEPEST} levels, got more")
+
+    def _add(self, value: TextNode | MappingNode, where: str) -> None:
+        """Take a value as the root, as the next key, or as what that key stands for."""
+        if not self.open:
+            if isinstance(value, TextNode):
+                raise ModelError(
+                    f'{where}: expected a mapping, as in "kinematics:", got {quote(value.text)}'
+                )
+            self.root = value
+        elif self.key is None:
+            self.key = _key(value, self.open[-1], where)
+        else:
+            self.open[-1].items[self.key.text] = value
+            self.open[-1].key_lines[self.key.text] = self.key.line
+            self.key = None
 
 
 def _key(value: TextNode | MappingNode, mapping: MappingNode, where: str) -> TextNode:

@@ -1,16 +1,15 @@
-"""Universal Robots' factory calibrations: the ROS driver's YAML, DH tables, and nominal tables with
-deltas.
-"""
+"""Factory calibrations of Universal Robots: the ROS driver's YAML, DH tables, and deltas."""
 
 from .calibration import JOINTS, LINKS, FactoryCalibration, apply
 from .conf import read_deltas
 from .tables import add_deltas, from_dh
-from .yaml_io import read, write
+from .yaml_io import RpyAxes, read, write
 
 __all__ = [
     "JOINTS",
     "LINKS",
     "FactoryCalibration",
+    "RpyAxes",
     "add_deltas",
     "apply",
     "from_dh",

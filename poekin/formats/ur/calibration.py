@@ -1,4 +1,4 @@
-"""The calibration of one arm of Universal Robots: where each joint stands in the link before it."""
+"""Factory calibration of an arm of Universal Robots: poses of the joints in the links before them."""
 
 from __future__ import annotations
 
@@ -78,11 +78,9 @@ class FactoryCalibration:
         return self.poses.tobytes(), self.hash
 
     def __eq__(self, other: object) -> bool:
-        return (
-            self._data() == other._data()
-            if isinstance(other, FactoryCalibration)
-            else NotImplemented
-        )
+        if not isinstance(other, FactoryCalibration):
+            return NotImplemented
+        return self._data() == other._data()
 
     def __hash__(self) -> int:
         return hash(self._data())
@@ -98,8 +96,7 @@ def apply(
     base: str | None = None,
     tip: str | None = None,
 ) -> Robot:
-    """The nominal robot with the kinematics of a calibration; its link frames stay where they were
-    as nearly as may be.
+    """Nominal robot with the kinematics of a calibration and, nearly, its own link frames.
 
     As `poekin.formats.relink.relinked` says: names, limits, mimic and all that hangs off the arm
     are the robot's.
@@ -114,8 +111,11 @@ def apply(
     if not isinstance(calibration, FactoryCalibration):
         raise InputError(f"apply: expected a FactoryCalibration, got {type(calibration).__name__}")
     if isinstance(robot, Robot):
-        base = base or next(
-            (link for link in ("base", "base_link_inertia") if link in robot.links), None
-        )
-        tip = tip or ("tool0" if "tool0" in robot.links else None)
+        base = base or _first_link(robot, "base", "base_link_inertia")
+        tip = tip or _first_link(robot, "tool0")
     return relinked(robot, calibration.to_chain(), base=base, tip=tip)
+
+
+def _first_link(robot: Robot, *names: str) -> str | None:
+    """First of these names that a link of the robot has."""
+    return next((name for name in names if name in robot.links), None)

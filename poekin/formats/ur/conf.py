@@ -1,6 +1,4 @@
-"""calibration.conf, as the controllers of Universal Robots keep it: the deltas to the nominal DH
-table.
-"""
+"""Deltas to the nominal DH table in calibration.conf, a file of Universal Robots' controllers."""
 
 from __future__ import annotations
 
@@ -65,11 +63,14 @@ def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
         where = f"{place}:{number}: {name}"
         if name in found:
             raise ModelError(f"{where}: it is there twice (first: line {lines[name]})")
-        found[name], lines[name] = _numbers(value, where), number
+        found[name] = _numbers(value, where)
+        lines[name] = number
     for name in DELTAS:
         if name not in found:
-            there = f"; {suggest(name, similar)}" if similar else ""
-            raise ModelError(f"{place}: {name} is missing; needed are {', '.join(DELTAS)}{there}")
+            message = f"{place}: {name} is missing; needed are {', '.join(DELTAS)}"
+            if similar:
+                message += f"; {suggest(name, similar)}"
+            raise ModelError(message)
     return found
 
 

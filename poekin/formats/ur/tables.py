@@ -1,6 +1,4 @@
-"""Calibrations out of DH tables: the arm's own, or the nominal one and what its controller keeps,
-the deltas.
-"""
+"""Factory calibrations out of DH tables: the arm's own, or the nominal one with its deltas."""
 
 from __future__ import annotations
 
@@ -11,9 +9,9 @@ from numpy.typing import ArrayLike
 
 from ...algebra import compose
 from ...errors import InputError, join_names, quote
+from ...groups import se3
 from ...model.checks import finite
 from ...model.provenance import warn
-from ...model.robot import TWELVE
 from .. import dh
 from ..dh import Table
 from ..dh.table import COLUMNS
@@ -67,8 +65,7 @@ def add_deltas(
 
 
 def from_dh(table: Table, *, nominal: Table, hash: str = "") -> FactoryCalibration:
-    """The calibration of an arm from its own DH table, its link frames as near as may be to those
-    of the nominal one.
+    """Calibration of an arm from its own DH table, with link frames near the nominal ones.
 
     Of two nearly parallel axes DH puts the frames where their common normal is, hundreds of metres
     away. Here each frame is the one on its joint's axis that is nearest to the nominal link
@@ -103,19 +100,15 @@ def from_dh(table: Table, *, nominal: Table, hash: str = "") -> FactoryCalibrati
 
 
 def _frames(table: Table) -> FactoryCalibration:
-    """The frames of a nominal table as ur_description places them: behind theta and d of their own
-    joint.
-    """
+    """Frames of a nominal table as ur_description places them: behind theta and d of each joint."""
     halves = [
         half
         for r in table.rows
         for half in (dh.Row(theta=r.theta, d=r.d), dh.Row(a=r.a, alpha=r.alpha))
     ]
     K = link_poses(Table("standard", halves, base=table.base))
-    poses = np.tile(np.eye(4), (len(table), 1, 1))
-    for i, T in enumerate(poses):
-        T[:3].ravel()[TWELVE] = compose(K[2 * i], K[2 * i + 1])
-    return FactoryCalibration(poses)
+    frames = np.array([compose(a, b) for a, b in zip(K[0:-1:2], K[1::2], strict=True)])
+    return FactoryCalibration(se3.pose(frames[:, :9].reshape(-1, 3, 3), frames[:, 9:]))
 
 
 def _six(table: Table) -> None:
@@ -128,10 +121,11 @@ def _six(table: Table) -> None:
             f" {join_names(table.names) or 'none'}"
         )
     for joint, kind, flip in zip(table.names, table.kinds, table.flips, strict=True):
-        if kind != "revolute" or flip:
-            what = "flipped" if flip else kind
+        if flip:
+            kind = "flipped"
+        if kind != "revolute":
             raise InputError(
-                f"table {name}: joint {quote(joint)} is {what}; a calibration has turning joints about +z"
+                f"table {name}: joint {quote(joint)} is {kind}; a calibration has turning joints about +z"
             )
     if table.convention != "standard":
         raise InputError(

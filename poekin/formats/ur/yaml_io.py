@@ -1,5 +1,4 @@
-"""Calibrations as YAML files, as the ROS driver of Universal Robots writes them and ur_description
-reads them.
+"""Factory calibrations as YAML files of Universal Robots' ROS driver and ur_description.
 
 Under `kinematics:` there are six links, each with x, y, z [m], roll, pitch, yaw [rad] of its frame
 in the one before, and a `hash`. Writer and reader do not mean the same by the three angles. The
@@ -17,10 +16,12 @@ from __future__ import annotations
 import math
 import os
 import re
+from typing import Literal, get_args
 
 import numpy as np
 
 from ...errors import InputError, ModelError, PoekinError, quote, safe_repr, suggest
+from ...groups import se3
 from ...groups.arrays import Array
 from .. import rpy as angles
 from ..text import yaml_text
@@ -30,10 +31,11 @@ from .calibration import LINKS, FactoryCalibration
 from .conf import read_text_file
 
 KEYS = ("x", "y", "z", "roll", "pitch", "yaw")
-CONVENTIONS = ("moving", "fixed")
+RpyAxes = Literal["moving", "fixed"]
+CONVENTIONS: tuple[RpyAxes, ...] = get_args(RpyAxes)
 
 
-def read(path: str | os.PathLike[str], *, rpy: str | None = None) -> FactoryCalibration:
+def read(path: str | os.PathLike[str], *, rpy: RpyAxes | None = None) -> FactoryCalibration:
     """The calibration in a YAML file of the driver.
 
     Parameters: path; rpy, "moving" or "fixed", the axes that roll, pitch and yaw turn about: by
@@ -49,7 +51,9 @@ def read(path: str | os.PathLike[str], *, rpy: str | None = None) -> FactoryCali
     return read_text(text, place, rpy=rpy)
 
 
-def read_text(text: str, place: str = "<text>", *, rpy: str | None = None) -> FactoryCalibration:
+def read_text(
+    text: str, place: str = "<text>", *, rpy: RpyAxes | None = None
+) -> FactoryCalibration:
     """The calibration in a text; place stands for the file in messages. Otherwise as `read`."""
     if rpy is not None:
         _convention(rpy)
@@ -65,7 +69,9 @@ def read_text(text: str, place: str = "<text>", *, rpy: str | None = None) -> Fa
         not isinstance(said, yaml_text.TextNode) or said.text not in CONVENTIONS
     ):
         raise ModelError(f"{place}:{said.line}: rpy: expected {' or '.join(CONVENTIONS)}")
-    written = said.text if isinstance(said, yaml_text.TextNode) else "moving"
+    written = "moving"
+    if said is not None:
+        written = said.text
     _names(kinematics, LINKS, ("hash",), place, "kinematics")
     mark = kinematics.items.get("hash", yaml_text.TextNode("", 0))
     if not isinstance(mark, yaml_text.TextNode):
@@ -78,7 +84,7 @@ def read_text(text: str, place: str = "<text>", *, rpy: str | None = None) -> Fa
 
 
 def write(
-    calibration: FactoryCalibration, path: str | os.PathLike[str], *, rpy: str = "fixed"
+    calibration: FactoryCalibration, path: str | os.PathLike[str], *, rpy: RpyAxes = "fixed"
 ) -> None:
     """Write a calibration as a YAML file, for ur_description (`rpy="fixed"`) or as the driver would
     (`rpy="moving"`).
@@ -95,18 +101,21 @@ def write(
     write_whole(path, make_text(calibration, rpy=rpy).encode())
 
 
-def make_text(calibration: FactoryCalibration, *, rpy: str = "fixed") -> str:
+def make_text(calibration: FactoryCalibration, *, rpy: RpyAxes = "fixed") -> str:
     """The text of a calibration's file. Otherwise as `write`."""
     _convention(rpy)
     if not isinstance(calibration, FactoryCalibration):
         raise InputError(f"write: expected a FactoryCalibration, got {type(calibration).__name__}")
-    lines = ["rpy: fixed"] if rpy == "fixed" else []
-    lines.append("kinematics:")
+    lines = ["kinematics:"]
+    if rpy == "fixed":
+        lines.insert(0, "rpy: fixed")
     for link, T in zip(LINKS, calibration.poses, strict=True):
         # R of moving axes, turned round, is R of fixed axes with all signs turned: (Rx Ry Rz)^T =
         # Rz' Ry' Rx'.
-        R = T[:3, :3]
-        turns = angles.angles(R) if rpy == "fixed" else [-a + 0.0 for a in angles.angles(R.T)]
+        turns = angles.angles(T[:3, :3])
+        if rpy == "moving":
+            roll, pitch, yaw = angles.angles(T[:3, :3].T)
+            turns = (-roll + 0.0, -pitch + 0.0, -yaw + 0.0)
         lines.append(f"  {link}:")
         lines += [
             f"    {key}: {float(value)!r}"
@@ -126,13 +135,14 @@ def _pose(
     x, y, z, *turns = (_number(link.items[key], f"{name}: {key}", place) for key in KEYS)
     if rpy == "fixed":
         return angles.pose((x, y, z), turns)
-    T = angles.pose((0.0, 0.0, 0.0), [-a for a in turns]).T
-    T[:3, 3] = x, y, z
-    return T
+    R = angles.pose((0.0, 0.0, 0.0), [-a for a in turns])[:3, :3].T
+    return se3.pose(R, (x, y, z))
 
 
 def _number(value: yaml_text.MappingNode | yaml_text.TextNode, what: str, place: str) -> float:
-    text = value.text if isinstance(value, yaml_text.TextNode) else "more keys"
+    text = "more keys"
+    if isinstance(value, yaml_text.TextNode):
+        text = value.text
     number = real(text)
     if number is None or not math.isfinite(number):
         raise ModelError(
@@ -166,7 +176,8 @@ def _names(
 def _convention(rpy: object) -> None:
     if rpy not in CONVENTIONS:
         raise InputError(
-            f"rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got {safe_repr(rpy)}"
+            f"rpy: expected {' or '.join(map(repr, CONVENTIONS))}, the axes that the angles turn about,"
+            f" got {safe_repr(rpy)}"
         )
 
 
