@@ -13,14 +13,14 @@ import math
 
 import numpy as np
 
-Extended = np.longdouble
+LongDouble = np.longdouble
 _TERMS = 26
 _SERIES_BELOW = 2.25  # θ²: there the closed forms begin to cancel
 
 
 def hat(w: np.ndarray) -> np.ndarray:
     """[ω] of vectors (..., 3)."""
-    W = np.zeros((*w.shape, 3), Extended)
+    W = np.zeros((*w.shape, 3), LongDouble)
     W[..., 2, 1], W[..., 0, 2], W[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
     return W - np.swapaxes(W, -1, -2)
 
@@ -30,7 +30,7 @@ def exp(xi: np.ndarray) -> np.ndarray:
     w, v = _halves(xi)
     W, (A, B, C, _, _) = hat(w), _coefficients(w)
     WW = W @ W
-    T = np.zeros((*xi.shape[:-1], 4, 4), Extended)
+    T = np.zeros((*xi.shape[:-1], 4, 4), LongDouble)
     T[..., :3, :3] = np.eye(3) + A * W + B * WW
     T[..., :3, 3] = ((np.eye(3) + B * W + C * WW) @ v[..., None])[..., 0]
     T[..., 3, 3] = 1
@@ -56,7 +56,7 @@ def left_jacobian_inverse(xi: np.ndarray) -> np.ndarray:
 
 def log(T: np.ndarray) -> np.ndarray:
     """The principal logarithm (..., 6) of the polar projection of poses."""
-    R = T[..., :3, :3].astype(Extended)
+    R = T[..., :3, :3].astype(LongDouble)
     for _ in range(4):
         R = (R + np.swapaxes(_inverse(R), -1, -2)) / 2
     s = (
@@ -77,11 +77,11 @@ def log(T: np.ndarray) -> np.ndarray:
         (cosine > 0)[..., None], s * (angle / np.where(_norm(s) > 0, _norm(s), 1))[..., None], n
     )
     J = left_jacobian(np.concatenate([w, np.zeros_like(w)], axis=-1))[..., :3, :3]
-    return np.concatenate([w, (_inverse(J) @ T[..., :3, 3:].astype(Extended))[..., 0]], axis=-1)
+    return np.concatenate([w, (_inverse(J) @ T[..., :3, 3:].astype(LongDouble))[..., 0]], axis=-1)
 
 
 def _halves(xi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    x = xi.astype(Extended)
+    x = xi.astype(LongDouble)
     return x[..., :3], x[..., 3:]
 
 
@@ -104,7 +104,7 @@ def _series(s: np.ndarray, first: int) -> np.ndarray:
     """Σ (-s)^k / (2k + first)!."""
     total = np.zeros_like(s)
     for k in range(_TERMS, -1, -1):
-        total = 1 / Extended(math.factorial(2 * k + first)) - s * total
+        total = 1 / LongDouble(math.factorial(2 * k + first)) - s * total
     return total
 
 
@@ -112,7 +112,7 @@ def _slope(s: np.ndarray, first: int) -> np.ndarray:
     """The derivative of `_series` by s."""
     total = np.zeros_like(s)
     for k in range(_TERMS, 0, -1):
-        total = -k / Extended(math.factorial(2 * k + first)) - s * total
+        total = -k / LongDouble(math.factorial(2 * k + first)) - s * total
     return total
 
 

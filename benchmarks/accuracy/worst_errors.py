@@ -24,7 +24,7 @@ from poekin.testing.accuracy.accuracy_laws import (
     REPORT_BAR,
     jacobian_errors,
 )
-from poekin.testing.accuracy.error_bounds import BOTH_SIGNS, UNIT
+from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.oracles import exact
 from poekin.testing.strategies.decoding.decoders import SMALLEST, SWITCHES, around
 
@@ -154,12 +154,8 @@ def _log_rows(rotation: Any, pose: Any, T: np.ndarray) -> list[Row]:
 
 
 def _noise_errors(rotation: Any, R: np.ndarray) -> list[float]:
-    errors = []
-    for r, w in zip(R, rotation.log(R), strict=True):
-        truth = exact.log(r)
-        signs = (1, -1) if exact.mp.pi - exact.norm(truth) < BOTH_SIGNS else (1,)
-        errors.append(min(float(exact.norm(exact.exactly(w) - sign * truth)) for sign in signs))
-    return errors
+    logarithms = rotation.log(R)
+    return [error_bounds.log_error(w, exact.log(r)) for r, w in zip(R, logarithms, strict=True)]
 
 
 def _jacobian_rows(name: str, pose: Any, cases: np.ndarray, many: np.ndarray) -> list[Row]:

@@ -16,7 +16,7 @@ from benchmarks.accuracy.worst_errors import worst_errors
 from poekin.groups import se3, so3
 from poekin.testing.accuracy import error_bounds
 from poekin.testing.accuracy.accuracy_laws import ACCURACY_LAWS
-from poekin.testing.laws.group import group_of
+from poekin.testing.laws.group import make_group
 from poekin.testing.oracles import exact
 from poekin.testing.strategies import group_strategies
 
@@ -28,7 +28,9 @@ N = np.array([0.6, -0.64, 0.48])
 @given(data=st.data())
 def test_the_accuracy_is_kept(module, size, law, data):
     target(
-        law.check(group_of(module, size), *data.draw(group_strategies.group_cases(law.kinds, size)))
+        law.check(
+            make_group(module, size), *data.draw(group_strategies.group_cases(law.kinds, size))
+        )
     )
 
 

@@ -10,14 +10,14 @@ import pytest
 
 from poekin.groups import se3, so3
 from poekin.testing.accuracy.accuracy_laws import ACCURACY_LAWS
-from poekin.testing.accuracy.falsify import caught
-from poekin.testing.laws.group import Group, group_of
+from poekin.testing.accuracy.falsify import first_violation
+from poekin.testing.laws.group import Group, make_group
 from poekin.testing.laws.group_laws import GROUP_LAWS
 from poekin.testing.laws.near_laws import NEAR_LAWS
 from poekin.testing.oracles import exact
 from poekin.testing.strategies import group_strategies
 
-SE3, SO3 = group_of(se3, 6), group_of(so3, 3)
+SE3, SO3 = make_group(se3, 6), make_group(so3, 3)
 LAWS = {law.name: law for law in (*ACCURACY_LAWS, *GROUP_LAWS, *NEAR_LAWS)}
 Function = Callable[..., np.ndarray]
 
@@ -295,7 +295,7 @@ ROTATIONS: dict[str, tuple[str, Callable[[Group], Group]]] = {
 
 
 def violation(law: str, group: Group):
-    return caught(
+    return first_violation(
         [LAWS[law]],
         lambda law, *case: law.check(group, *case),
         lambda kinds: group_strategies.group_cases(kinds, group.size),

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from poekin.errors import BranchError, PoseError, ShapeError
 from poekin.groups import se3
-from poekin.testing.laws.group import group_of
+from poekin.testing.laws.group import make_group
 from poekin.testing.laws.group_laws import GROUP_LAWS
 from poekin.testing.laws.near_laws import NEAR_LAWS
 from poekin.testing.strategies import group_strategies
 
-SE3 = group_of(se3, 6)
+SE3 = make_group(se3, 6)
 
 
 @pytest.mark.parametrize("law", [*GROUP_LAWS, *NEAR_LAWS], ids=lambda law: law.name)

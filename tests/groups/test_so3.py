@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from poekin.errors import PoseError, ShapeError
 from poekin.groups import so3
-from poekin.testing.laws.group import group_of
+from poekin.testing.laws.group import make_group
 from poekin.testing.laws.group_laws import GROUP_LAWS
 from poekin.testing.laws.near_laws import NEAR_LAWS
 from poekin.testing.strategies import group_strategies
 
-SO3 = group_of(so3, 3)
+SO3 = make_group(so3, 3)
 
 
 @pytest.mark.parametrize("law", [*GROUP_LAWS, *NEAR_LAWS], ids=lambda law: law.name)

@@ -345,7 +345,7 @@ MOST = 400
 
 
 def catch(law: str, wrong: Callable[[Chain], Any]):
-    return falsify.caught(
+    return falsify.first_violation(
         [LAWS[law]],
         lambda law, chain, *arguments: law.check(wrong(chain), *arguments),
         chain_strategies.chain_cases,
@@ -362,7 +362,7 @@ def test_a_planted_error_is_caught(error):
 def test_a_link_frame_that_leaks_into_the_screws_is_caught():
     law = LAWS["link_frames_do_not_matter"]
     check = lambda law, chain, frames: law.check(chain, frames, built=leaking)  # noqa: E731
-    assert falsify.caught([law], check, chain_strategies.chain_cases, MOST) is not None
+    assert falsify.first_violation([law], check, chain_strategies.chain_cases, MOST) is not None
 
 
 @pytest.mark.parametrize("method", method_laws.METHODS)
@@ -373,7 +373,7 @@ def test_a_method_with_a_wrong_column_is_caught(method):
 
     methods = {**method_laws.METHODS, method: wrong}
     check = lambda law, *case: law.check(*case, methods=methods)  # noqa: E731
-    assert falsify.caught(METHOD_LAWS, check, chain_strategies.chain_cases, 60) is not None
+    assert falsify.first_violation(METHOD_LAWS, check, chain_strategies.chain_cases, 60) is not None
 
 
 def test_every_law_catches_an_error():

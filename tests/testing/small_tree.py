@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from poekin.testing.conform.laws.law import Case
-from poekin.testing.conform.laws.small_urdf import Joint, Layout
+from poekin.testing.conform.laws.small_urdf import UrdfJoint, UrdfLayout
 
 JOINTS = (
-    Joint("revolute", "j0"), Joint("fixed", "j1"), Joint("prismatic", "j2", axis=False),
-    Joint("revolute", "j3", follows=0), Joint("prismatic", "j4", follows=2),
+    UrdfJoint("revolute", "j0"), UrdfJoint("fixed", "j1"), UrdfJoint("prismatic", "j2", axis=False),
+    UrdfJoint("revolute", "j3", follows=0), UrdfJoint("prismatic", "j4", follows=2),
 )  # fmt: skip
 # Of xyz and of rpy each number stands alone somewhere, and what stands beside them is not 0
 # somewhere.
@@ -20,4 +20,4 @@ ROWS = [
     [0, 1.0, 0, 0, 0, 0, 0.2, 0, 0, 1.0, 0.25, 0],
     [-0.0, 0, -1.0, 0, 0.75, 0, 0, 0, 0, -2.0, 0, 0],
 ]
-CASE = Case(np.array(ROWS).ravel(), Layout(JOINTS, (3, 1, 0, 2, 4), (-1, 0, -1, 2, 1)))
+CASE = Case(np.array(ROWS).ravel(), UrdfLayout(JOINTS, (3, 1, 0, 2, 4), (-1, 0, -1, 2, 1)))

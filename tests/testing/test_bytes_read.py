@@ -59,7 +59,7 @@ STRATEGIES: dict[str, Callable[[], Any]] = {
 def test_a_strategy_asks_for_as_many_bytes_as_it_reads(name, monkeypatch):
     read: list[list[int]] = []
 
-    class Counting(bytes_reader.Reader):
+    class Counting(bytes_reader.BytesReader):
         def __init__(self, data: bytes):
             super().__init__(data)
             self.count = [len(data), 0]
@@ -69,7 +69,7 @@ def test_a_strategy_asks_for_as_many_bytes_as_it_reads(name, monkeypatch):
             self.count[1] += 1
             return super().byte()
 
-    monkeypatch.setattr(group_strategies, "Reader", Counting)
+    monkeypatch.setattr(group_strategies, "BytesReader", Counting)
     drawn(STRATEGIES[name](), 150)
     most: dict[int, int] = defaultdict(int)
     for size, used in read:
@@ -78,8 +78,8 @@ def test_a_strategy_asks_for_as_many_bytes_as_it_reads(name, monkeypatch):
     assert all(size - spare <= used <= size for size, used in most.items()), dict(most)
 
 
-def read(*values: int) -> bytes_reader.Reader:
-    return bytes_reader.Reader(bytes(values))
+def read(*values: int) -> bytes_reader.BytesReader:
+    return bytes_reader.BytesReader(bytes(values))
 
 
 def test_bytes_are_read_in_order_and_then_zeros():

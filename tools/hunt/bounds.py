@@ -23,7 +23,7 @@ from poekin.model import screw
 from poekin.model.robot import Robot
 from poekin.testing.strategies import chain_strategies, dh_strategies
 from poekin.testing.strategies.decoding import decoders
-from poekin.testing.strategies.decoding.bytes_reader import Reader
+from poekin.testing.strategies.decoding.bytes_reader import BytesReader
 from poekin.testing.strategies.group_strategies import pose
 from tests.engine.straight_line import test_interpret
 from tests.formats import dh_product, test_dh, test_relink, test_urdf_text
@@ -76,29 +76,29 @@ PARAMETERS = with_parameters()
 
 
 def each(
-    size: int, decode: Callable[[Reader], tuple[Any, ...]], ratio: Callable[..., float]
+    size: int, decode: Callable[[BytesReader], tuple[Any, ...]], ratio: Callable[..., float]
 ) -> Bound:
     """A bound of cases that are read off `size` random bytes each, five hundred at a time."""
 
     def ratios(number: int) -> list[float]:
         rng = np.random.default_rng(number)
-        return [ratio(*decode(Reader(rng.bytes(size)))) for _ in range(500)]
+        return [ratio(*decode(BytesReader(rng.bytes(size)))) for _ in range(500)]
 
     return Bound(st.tuples(NUMBERS), ratios)
 
 
-def axis(r: Reader) -> np.ndarray:
+def axis(r: BytesReader) -> np.ndarray:
     """A vector of any direction and length, from where floats end; never 0."""
     return decoders.axis(r) * 10.0 ** r.fraction(
         *r.pick([(-3.0, 3.0), (-300.0, -290.0), (-3.0, 150.0)])
     )
 
 
-def point(r: Reader) -> np.ndarray:
+def point(r: BytesReader) -> np.ndarray:
     return decoders.vector(r, (1e-12, 1e5))
 
 
-def pitch(r: Reader) -> float:
+def pitch(r: BytesReader) -> float:
     return r.pick([0.0, 1.0, -1.0]) * r.magnitude(1e-6, 10.0)
 
 
@@ -131,11 +131,11 @@ def share(result: FromChain) -> float:
     return result.error / result.bound
 
 
-def placed(r: Reader, lengths: tuple[float, float] = chain_strategies.REACHES) -> np.ndarray:
+def placed(r: BytesReader, lengths: tuple[float, float] = chain_strategies.REACHES) -> np.ndarray:
     return pose(decoders.rotation(r), decoders.vector(r, lengths))
 
 
-def turns(r: Reader, count: int) -> np.ndarray:
+def turns(r: BytesReader, count: int) -> np.ndarray:
     """Values of coordinates, as `chain_strategies.coordinates` draws them."""
     return np.array(
         [
@@ -145,7 +145,7 @@ def turns(r: Reader, count: int) -> np.ndarray:
     )
 
 
-def redrawn(chain: pk.Chain, r: Reader) -> pk.Chain:
+def redrawn(chain: pk.Chain, r: BytesReader) -> pk.Chain:
     """A chain of the same joints and couplings whose screws and home pose are others."""
 
     def made(kind: str) -> np.ndarray:
@@ -172,7 +172,7 @@ def each_of(chains: st.SearchStrategy[pk.Chain], ratio: Callable[..., float]) ->
 
     def ratios(chain: pk.Chain, number: int) -> list[float]:
         rng = np.random.default_rng(number)
-        readers = [Reader(rng.bytes(1000)) for _ in range(200)]
+        readers = [BytesReader(rng.bytes(1000)) for _ in range(200)]
         return [ratio(chain, readers[0]), *(ratio(redrawn(chain, r), r) for r in readers)]
 
     return Bound(st.tuples(chains, NUMBERS), ratios)
@@ -184,7 +184,7 @@ def relinkings(case: tuple[Robot, pk.Chain], number: int) -> Iterator[tuple[Robo
     robot, chain = case
     rng = np.random.default_rng(number)
     for _ in range(50):
-        r = Reader(rng.bytes(1000))
+        r = BytesReader(rng.bytes(1000))
         joints = [replace(joint, origin=placed(r), axis=decoders.axis(r)) for joint in robot.joints]
         yield Robot(robot.name, robot.links, joints), redrawn(chain, r)
 

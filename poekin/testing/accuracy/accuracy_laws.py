@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..laws.group import Group
-from ..laws.laws import Law, held
+from ..laws.laws import Law, check_bounds
 from ..oracles import exact
 from . import error_bounds
 
@@ -34,7 +34,7 @@ NOISE_BAR = 2e-15
 
 def exp_is_attained(group: Group, xi: np.ndarray) -> float:
     """The exponential within EXP_LOG_BAR of what float64 can attain, |ω| up to 10."""
-    return held(
+    return check_bounds(
         "exp is attained (÷ attainable)",
         (error_bounds.ratio_exp(xi, group.exp(xi)), EXP_LOG_BAR),
         xi=xi,
@@ -50,20 +50,22 @@ def log_is_attained(group: Group, X: np.ndarray) -> float:
     xi = group.log(X)
     w = exact.log(X[:3, :3])
     if 0 < exact.norm(w) < 1e-150:
-        ratio = 0.0 if np.all(np.isfinite(xi)) and np.any(xi[:3]) else np.inf
+        ratio = np.inf
+        if np.all(np.isfinite(xi)) and np.any(xi[:3]):
+            ratio = 0.0
     else:
         ratio = error_bounds.ratio_log(X, xi)
-    return held("log is attained (÷ attainable)", (ratio, EXP_LOG_BAR), X=X)
+    return check_bounds("log is attained (÷ attainable)", (ratio, EXP_LOG_BAR), X=X)
 
 
 def log_forgives_noise(group: Group, X: np.ndarray) -> float:
     """ω of log X is that of X's polar projection, to NOISE_BAR, for noise up to 1e-8; either sign
     within 8 u of π.
     """
-    w, truth = group.log(X)[:3], exact.log(X[:3, :3])
-    signs = (1, -1) if exact.mp.pi - exact.norm(truth) < error_bounds.BOTH_SIGNS else (1,)
-    error = min(float(exact.norm(exact.exactly(w) - sign * truth)) for sign in signs)
-    return held("log forgives noise", (error, NOISE_BAR), X=X)
+    w = group.log(X)[:3]
+    truth = exact.log(X[:3, :3])
+    error = error_bounds.log_error(w, truth)
+    return check_bounds("log forgives noise", (error, NOISE_BAR), X=X)
 
 
 def left_jacobian_is_attained(group: Group, xi: np.ndarray) -> float:
@@ -98,7 +100,11 @@ ACCURACY_LAWS = (
 """The battery: each law with the kinds of its arguments (`strategies.group_cases`)."""
 
 
-def jacobian_errors(J: np.ndarray, truth: np.ndarray, xi: np.ndarray) -> tuple[float, float]:
+def jacobian_errors(
+    J: np.ndarray,
+    truth: np.ndarray,
+    xi: np.ndarray,
+) -> tuple[float, float]:
     """Frobenius errors of a Jacobian of exp: of its 3×3 diagonal blocks (the worse), and of its Q
     block ÷ ‖v‖.
 
@@ -107,12 +113,17 @@ def jacobian_errors(J: np.ndarray, truth: np.ndarray, xi: np.ndarray) -> tuple[f
     """
     error = exact.exactly(J) - truth
     diagonal = max(exact.norm(block) for block in (error[:3, :3], error[3:, 3:], error[:3, 3:]))
-    Q, v = exact.norm(error[3:, :3]), exact.norm(exact.exactly(xi[3:]))
-    return float(diagonal), float(Q / v) if v else (float("inf") if Q else 0.0)
+    Q = exact.norm(error[3:, :3])
+    v = exact.norm(exact.exactly(xi[3:]))
+    return float(diagonal), error_bounds.ratio(Q, v)
 
 
-def _jacobian_law(name: str, group: Group, xi: np.ndarray) -> float:
+def _jacobian_law(
+    name: str,
+    group: Group,
+    xi: np.ndarray,
+) -> float:
     errors = jacobian_errors(getattr(group, name)(xi), getattr(exact, name)(xi), xi)
-    return held(
+    return check_bounds(
         name.replace("_", " ") + " is attained", *((error, JACOBIAN_BAR) for error in errors), xi=xi
     )

@@ -1,4 +1,4 @@
-"""What float64 can attain for exp and log, and how many times as far a result is from the truth.
+"""Errors that float64 can attain for exp and log, and the ratio of a result's error to them.
 
 With u = 2⁻⁵³, θ = |ω|, κ = (θ/2)/sin(θ/2), ‖·‖ Euclidean for vectors and Frobenius for matrices:
 
@@ -61,10 +61,10 @@ def log_bound(xi: ArrayLike) -> Bound:
     """The attainable ‖Δω‖ and ‖Δv‖ of log where the exact logarithm is xi (6,) or (3,)."""
     x = exact.exactly(xi)
     theta = norm(x[:3])
-    kappa = theta / 2 / mp.sin(theta / 2) if theta else mp.one
-    angular = (
-        UNIT * (1 + mp.mpf("1.22") * kappa * min(mp.one, 1 / theta if theta else mp.one)) * theta
-    )
+    kappa = mp.one
+    if theta:
+        kappa = theta / 2 / mp.sin(theta / 2)
+    angular = UNIT * (theta + mp.mpf("1.22") * kappa * min(theta, mp.one))
     if len(x) == 3:
         return Bound(angular, mp.zero)
     J = exact.left_jacobian(x[:3])
@@ -83,14 +83,16 @@ def ratio_exp(xi: ArrayLike, T: ArrayLike) -> float:
     _together(xi, T)
     if not np.all(np.isfinite(np.asarray(T, dtype=float))):
         return math.inf
-    x, X = exact.exactly(xi), exact.exactly(T)
-    E, bound = exact.exp(x) - X, exp_bound(x)
-    ratio = _ratio(norm(E[:3, :3]), bound.angular)
+    x = exact.exactly(xi)
+    X = exact.exactly(T)
+    E = exact.exp(x) - X
+    bound = exp_bound(x)
+    worse = ratio(norm(E[:3, :3]), bound.angular)
     if len(x) == 3:
-        return ratio
+        return worse
     if np.any(X[3] != [0, 0, 0, 1]):
         return math.inf
-    return max(ratio, _ratio(norm(E[:3, 3]), bound.linear))
+    return max(worse, ratio(norm(E[:3, 3]), bound.linear))
 
 
 def ratio_log(T: ArrayLike, xi: ArrayLike) -> float:
@@ -108,10 +110,27 @@ def ratio_to(truth: np.ndarray, xi: ArrayLike) -> float:
     """As `ratio_log` where the exact logarithm of T, truth (6,) or (3,), is known; xi (6,) or (3,)."""
     if not np.all(np.isfinite(np.asarray(xi, dtype=float))):
         return math.inf
-    x, candidates = exact.exactly(xi), [truth]
+    x = exact.exactly(xi)
+    candidates = [truth]
     if mp.pi - norm(truth[:3]) < BOTH_SIGNS:
         candidates.append(_other_sign(truth))
     return min(_log_ratio(x, candidate) for candidate in candidates)
+
+
+def log_error(
+    w: ArrayLike,
+    truth: np.ndarray,
+    gap: float = BOTH_SIGNS,
+) -> float:
+    """Error of w (3,) as the logarithm whose exact value is truth (3,), in rad.
+
+    Either sign is right where π - θ is below `gap`.
+    """
+    x = exact.exactly(w)
+    error = norm(x - truth)
+    if mp.pi - norm(truth) < gap:
+        error = min(error, norm(x + truth))
+    return float(error)
 
 
 def _together(xi: ArrayLike, T: ArrayLike) -> None:
@@ -124,8 +143,8 @@ def _together(xi: ArrayLike, T: ArrayLike) -> None:
 
 def _log_ratio(x: np.ndarray, truth: np.ndarray) -> float:
     bound = log_bound(truth)
-    ratio = _ratio(norm(x[:3] - truth[:3]), bound.angular)
-    return max(ratio, _ratio(norm(x[3:] - truth[3:]), bound.linear))
+    angular = ratio(norm(x[:3] - truth[:3]), bound.angular)
+    return max(angular, ratio(norm(x[3:] - truth[3:]), bound.linear))
 
 
 def _other_sign(truth: np.ndarray) -> np.ndarray:
@@ -146,5 +165,10 @@ def _translation_slope(x: np.ndarray, t: np.ndarray) -> np.ndarray:
     return J[3:, :3] - exact.hat(t) @ J[:3, :3]
 
 
-def _ratio(error: Any, bound: Any) -> float:
-    return float(error / bound) if bound else (math.inf if error else 0.0)
+def ratio(error: Any, bound: Any) -> float:
+    """error ÷ bound; with a bound of 0, 0 for no error and infinite for any other."""
+    if bound:
+        return float(error / bound)
+    if error:
+        return math.inf
+    return 0.0

@@ -23,7 +23,11 @@ from hypothesis.internal import conjecture  # isort: skip
 Cases = st.SearchStrategy[tuple[Any, ...]]
 
 
-def for_each(cases: st.SearchStrategy[Any], examples: int, check: Callable[[Any], object]) -> None:
+def for_each(
+    cases: st.SearchStrategy[Any],
+    examples: int,
+    check: Callable[[Any], object],
+) -> None:
     """Call check(case) on drawn cases, steered by `hypothesis.target`; nothing is stored or shrunk.
 
     The cases are the same in every run and in every program, whatever it has imported. A seed says
@@ -68,18 +72,21 @@ def _without_constants_of_modules() -> Iterator[None]:
     if not hasattr(providers, "CONSTANTS_CACHE"):
         yield
         return
-    none, before = (
-        type(providers._local_constants)(),
-        (providers._get_local_constants, providers.CONSTANTS_CACHE),
-    )
-    providers._get_local_constants, providers.CONSTANTS_CACHE = (lambda: none), {}
+    none = type(providers._local_constants)()
+    before = (providers._get_local_constants, providers.CONSTANTS_CACHE)
+    providers._get_local_constants = lambda: none
+    providers.CONSTANTS_CACHE = {}
     try:
         yield
     finally:
         providers._get_local_constants, providers.CONSTANTS_CACHE = before
 
 
-def hunt(check: Callable[..., float], cases: Cases, examples: int = 100) -> None:
+def hunt(
+    check: Callable[..., float],
+    cases: Cases,
+    examples: int = 100,
+) -> None:
     """Call check(*case) -> error ÷ bound on drawn cases, steered towards the worst; the same cases
     in every run.
 
@@ -89,7 +96,7 @@ def hunt(check: Callable[..., float], cases: Cases, examples: int = 100) -> None
     for_each(cases, examples, lambda case: target(check(*case)))
 
 
-def caught(
+def first_violation(
     laws: Iterable[Law],
     check: Callable[..., float],
     cases: Callable[[tuple[str, ...]], Cases],

@@ -48,7 +48,7 @@ UR10E = Table(
 
 
 def single_precision_errors(table: Table, q: np.ndarray) -> dict[str, np.ndarray]:
-    """How far float32 puts the tool from where float64 has it, by the screws ("POE") and by the
+    """Position errors of the tool in float32 against float64, by the screws ("POE") and by the
     table ("DH").
 
     The package's own formulas run over float32 numbers alone: the arm's constants and q are rounded
@@ -57,7 +57,8 @@ def single_precision_errors(table: Table, q: np.ndarray) -> dict[str, np.ndarray
     Parameters: table, standard, revolute, without flips, base or tool; q (N, n) in rad.
     Returns: {"POE": (N,), "DH": (N,)}, the largest coordinate of the tool's position error in m.
     """
-    chain, single = to_chain(table), np.float32
+    chain = to_chain(table)
+    single = np.float32
     true = chain.fk(q)[:, :3, 3]
     home = tuple(single(x) for x in (*chain.home[:3, :3].ravel(), *chain.home[:3, 3]))
     rows = np.array([table.theta, table.d, table.a, table.alpha], dtype=single).T

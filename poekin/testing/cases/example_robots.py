@@ -14,7 +14,8 @@ def example_robots() -> tuple[dict[str, str], dict[str, str]]:
     A file without a single `<link>` holds no robot; the standard library's XML reader decides that,
     not poekin's. Raises: MissingExtra when example-robot-data is not installed.
     """
-    robots, empty = {}, {}
+    robots = {}
+    empty = {}
     for name, path in erd.available().items():
         has_link = ElementTree.parse(path).getroot().find("link") is not None
         (robots if has_link else empty)[name] = path

@@ -35,7 +35,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .grades import Grade, Part, Verdict
-    from .laws.law import Case, Law
+    from .laws.law import Case, SubjectLaw
     from .process.limits import Limits
     from .report import Outcome, Report
     from .run import LAWS, applicable, conform, law_names
@@ -43,11 +43,28 @@ if TYPE_CHECKING:
     from .subjects.precision import DOUBLE, SINGLE
     from .subjects.subject import FUNCTIONS, Subject
 
-__all__ = ["DOUBLE", "FUNCTIONS", "LAWS", "SINGLE", "Case", "Grade", "Law", "Limits", "Outcome", "Part", "Report",
-           "Subject", "Verdict", "applicable", "conform", "law_names", "loaded"]  # fmt: skip
+__all__ = [
+    "DOUBLE",
+    "FUNCTIONS",
+    "LAWS",
+    "SINGLE",
+    "Case",
+    "Grade",
+    "Limits",
+    "Outcome",
+    "Part",
+    "Report",
+    "Subject",
+    "SubjectLaw",
+    "Verdict",
+    "applicable",
+    "conform",
+    "law_names",
+    "loaded",
+]
 _HOMES = {
     "grades": ("Grade", "Part", "Verdict"),
-    "laws.law": ("Case", "Law"),
+    "laws.law": ("Case", "SubjectLaw"),
     "process.limits": ("Limits",),
     "subjects.named": ("loaded",),
     "report": ("Outcome", "Report"),

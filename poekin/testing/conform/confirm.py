@@ -41,7 +41,8 @@ def is_log(X: np.ndarray, truth: np.ndarray) -> bool:
     P is the polar factor where Pᵀ R is symmetric and P is near R: the other rotations with a
     symmetric Pᵀ R are half turns of P, and some entry is off by 0.94 or more.
     """
-    E, given = _expm(truth), _matrix(exact.exactly(X))
+    E = _expm(truth)
+    given = _matrix(exact.exactly(X))
     S = E[:3, :3].T * given[:3, :3]
     sound = _largest(S - S.T) < AGREE and _largest(E[:3, :3] - given[:3, :3]) < 0.5
     if len(X) == 4:
@@ -54,7 +55,8 @@ def of_adjoint(T: np.ndarray, within: float = 1e-14) -> bool:
     """Whether T [ξ] = [Ad(T) ξ] T for each unit twist ξ, to 14 digits, or `within`: T is a pose to
     no more.
     """
-    X, Ad = _matrix(exact.exactly(T)), exact.adjoint(T)
+    X = _matrix(exact.exactly(T))
+    Ad = exact.adjoint(T)
     # T's rotation is one only to rounding, and so is the identity.
     scale = 1 + _largest(X)
     error = max(_largest(X * _hat(e) - _hat(Ad[:, k]) * X) for k, e in enumerate(np.eye(6)))
@@ -66,7 +68,8 @@ def of_jacobian(name: str, xi: np.ndarray) -> bool:
 
     The integral is the upper right block of the exponential of [± ad ξ, I; 0, 0].
     """
-    n, sign = len(xi), -1 if name.startswith("right") else 1
+    n = len(xi)
+    sign = -1 if name.startswith("right") else 1
     big = _mp.zeros(2 * n)
     big[:n, :n] = sign * _ad(xi)
     big[:n, n:] = _mp.eye(n)
@@ -78,17 +81,28 @@ def of_jacobian(name: str, xi: np.ndarray) -> bool:
     return bool(_largest(J - truth) < AGREE * scale)
 
 
-def of_pose(screws: Any, home: Any, x: Any) -> bool:
+def of_pose(
+    screws: Any,
+    home: Any,
+    x: Any,
+) -> bool:
     """Whether `exact.forward` is the product of mpmath's exponentials."""
     return _near(product(screws, home, x), exact.forward(screws, home, x))
 
 
-def of_velocities(screws: Any, home: Any, x: Any, columns: np.ndarray) -> bool:
+def of_velocities(
+    screws: Any,
+    home: Any,
+    x: Any,
+    columns: np.ndarray,
+) -> bool:
     """Whether space twists (6, n) are Ṫ T⁻¹ of the product of exponentials, by a difference of step
     1e-30.
     """
-    T, step = product(screws, home, x), _mp.mpf(10) ** -30
-    back, truth = _mp.inverse(T), exact.exactly(columns)
+    T = product(screws, home, x)
+    step = _mp.mpf(10) ** -30
+    back = _mp.inverse(T)
+    truth = exact.exactly(columns)
     for k in range(len(x)):
         ahead, behind = (_shifted(x, k, sign * step) for sign in (1, -1))
         X = (product(screws, home, ahead) - product(screws, home, behind)) / (2 * step) * back
@@ -97,7 +111,11 @@ def of_velocities(screws: Any, home: Any, x: Any, columns: np.ndarray) -> bool:
     return True
 
 
-def product(screws: Any, home: Any, x: Any) -> Any:
+def product(
+    screws: Any,
+    home: Any,
+    x: Any,
+) -> Any:
     """e^{A_1 x_1} ⋯ e^{A_n x_n} M as an mpmath matrix."""
     T = _mp.eye(4)
     for screw, amount in zip(exact.exactly(screws), exact.exactly(x), strict=True):
@@ -120,7 +138,11 @@ def near(T: Any, truth: np.ndarray) -> bool:
     return _near(T, truth)
 
 
-def _shifted(x: Any, k: int, by: Any) -> np.ndarray:
+def _shifted(
+    x: Any,
+    k: int,
+    by: Any,
+) -> np.ndarray:
     moved = exact.exactly(x).copy()
     moved[k] = moved[k] + exact.mp.mpf(by)
     return moved

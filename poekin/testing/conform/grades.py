@@ -20,6 +20,7 @@ import re
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
+from ..accuracy import error_bounds
 from ..accuracy.accuracy_laws import EXP_LOG_BAR
 from ..laws.laws import LawViolation
 from .process.calls import ENDED, LOST, UNANSWERED
@@ -47,7 +48,7 @@ class Part(NamedTuple):
     """One measured error: what it is of, its size, the scale it is in proportion to, and what
     floats can attain.
 
-    `attainable` is called only where `error` exceeds 3 × `least`, a lower bound of it that costs
+    `error_bound` is called only where `error` exceeds 3 × `least`, a lower bound of it that costs
     nothing;
     `precision` is what the subject computes in.
     """
@@ -56,33 +57,37 @@ class Part(NamedTuple):
     error: float
     scale: float
     least: float
-    attainable: Callable[[], float]
+    error_bound: Callable[[], float]
     precision: Precision = DOUBLE
 
     @property
     def size(self) -> float:
         """error ÷ scale; where the scale is 0, an error of 0 is 0 and any other infinite."""
-        return self.error / self.scale if self.scale else (0.0 if self.error == 0 else math.inf)
+        return error_bounds.ratio(self.error, self.scale)
 
     @property
     def bound(self) -> float:
         """The largest error that is exact."""
         cheap = EXP_LOG_BAR * self.least
-        return cheap if self.error <= cheap else max(cheap, EXP_LOG_BAR * self.attainable())
+        if self.error <= cheap:
+            return cheap
+        return max(cheap, EXP_LOG_BAR * self.error_bound())
 
     @property
     def grade(self) -> Grade:
-        """Of this error alone; NaN is broken."""
+        """Grade of this error alone; NaN is broken."""
         if self.error <= self.bound:
             return Grade.EXACT
         if self.size <= self.precision.good:
             return Grade.GOOD
-        return Grade.POOR if self.size <= self.precision.poor else Grade.BROKEN
+        if self.size <= self.precision.poor:
+            return Grade.POOR
+        return Grade.BROKEN
 
 
 class Verdict(NamedTuple):
-    """What came of one case. Fields: grade; size, the error ÷ scale that decided it; what, of what;
-    fault, if any.
+    """Verdict on one case. Fields: grade; size, the error ÷ scale that decided it; what, the
+    quantity in error; fault, if any.
     """
 
     grade: Grade
@@ -92,7 +97,7 @@ class Verdict(NamedTuple):
 
     @property
     def manner(self) -> tuple[Grade, str]:
-        """How the case failed: the grade, and the kind of fault without its particulars."""
+        """Manner of failing: the grade, and the kind of fault without its particulars."""
         fault = re.sub(r"^of link \w+: ", "", self.fault)
         return self.grade, " ".join(re.split(r"[:(]", fault)[0].split()[:2])
 
@@ -107,7 +112,7 @@ class Verdict(NamedTuple):
         return self.grade, self.size
 
 
-def judged(
+def graded(
     law: str, parts: Sequence[Part] | str, at_most: Grade = Grade.BROKEN, **seen: object
 ) -> Verdict:
     """The verdict on a case: that of the worst of its parts, or on a fault (a text: no result at
@@ -117,15 +122,19 @@ def judged(
     `at_most` broken measures, and never raises.
     """
     if isinstance(parts, str):
-        verdict, error, bound = Verdict(Grade.BROKEN, math.inf, NO_RESULT, parts), math.inf, 0.0
+        verdict = Verdict(Grade.BROKEN, math.inf, NO_RESULT, parts)
+        error = math.inf
+        bound = 0.0
         seen = {"fault": parts, **seen}
     else:
         worst = max(parts, key=lambda part: (part.grade, part.size))
         verdict = Verdict(worst.grade, worst.size, worst.what)
         ends = {Grade.GOOD: worst.precision.good, Grade.POOR: worst.precision.poor}
-        error, bound = worst.size, ends.get(at_most, 0.0)
+        error = worst.size
+        bound = ends.get(at_most, 0.0)
         if at_most is Grade.EXACT:
-            error, bound = worst.error, worst.bound
+            error = worst.error
+            bound = worst.bound
     if verdict.grade > at_most:
         raise LawViolation(f"{law}: {verdict.what}", error, bound, seen)
     return verdict

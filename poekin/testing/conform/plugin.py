@@ -28,7 +28,7 @@ from .run import SECONDS, conform
 from .subjects.precision import PRECISIONS
 
 
-def held(
+def check_conformance(
     thing: Any,
     laws: Sequence[str] = (),
     examples: int | None = None,
@@ -62,7 +62,7 @@ def held(
 
 @pytest.fixture(name="conform", scope="session")
 def _conform() -> Callable[..., Report]:
-    """`held`: call it with a subject, and it fails the test where the subject does not keep the
+    """`check_conformance`: call it with a subject, and it fails the test where the subject does not keep the
     laws.
     """
-    return held
+    return check_conformance

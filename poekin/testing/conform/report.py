@@ -1,10 +1,10 @@
-"""What came of holding a subject to the laws: law by law a grade, a counterexample, and whether it
-was confirmed.
+"""Report on a subject held to the laws: law by law a grade, a counterexample, and whether it was
+confirmed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
@@ -59,31 +59,44 @@ class Outcome:
 
     @property
     def numbers(self) -> int:
-        """How many numbers of the counterexample are not zero."""
-        return 0 if self.case is None else int(np.count_nonzero(self.case.numbers))
+        """Number of nonzero numbers in the counterexample."""
+        if self.case is None:
+            return 0
+        return int(np.count_nonzero(self.case.numbers))
 
     @property
     def word(self) -> str:
         """The grade as it is printed."""
-        return "not judged" if self.unconfirmed else self.grade.word
+        if self.unconfirmed:
+            return "not judged"
+        return self.grade.word
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data; an infinite error is None."""
         plain: dict[str, Any] = {
-            "law": self.law, "says": self.says, "grade": self.word, "worst": self.worst, "of": self.what,
-            "examples": self.examples, "time_ran_out": self.late,
+            "law": self.law,
+            "says": self.says,
+            "grade": self.word,
+            "worst": self.worst,
+            "of": self.what,
+            "examples": self.examples,
+            "time_ran_out": self.late,
             "precision": self.precision,
-        }  # fmt: skip
+        }
         if self.unconfirmed:
             return plain | {"unconfirmed": self.unconfirmed}
-        if self.finding:
-            plain |= {"error": self.error, "error_of": self.error_of, "fault": self.fault}
-            plain |= {"counterexample": self.words, "python": self.paste}
+        if self.case is not None:
             plain |= {
-                "numbers": [] if self.case is None else self.case.numbers,
+                "error": self.error,
+                "error_of": self.error_of,
+                "fault": self.fault,
+                "counterexample": self.words,
+                "python": self.paste,
+                "numbers": self.case.numbers,
                 "expected": self.expected,
+                "names": list(self.names),
+                "hint": self.hint,
             }
-            plain |= {"names": list(self.names), "hint": self.hint}
         return plain
 
     def __str__(self) -> str:
@@ -95,35 +108,50 @@ class Outcome:
 
         Returns: the text. Raises: nothing.
         """
-        lines = [f"{self.says}", f"worst {self.worst:.2g} of {self.what}"]
-        if not np.isfinite(self.worst):
-            lines[1] = (
-                "worst: no result"
-                if self.what == NO_RESULT
-                else f"worst: {self.what} is not 0, and must be"
-            )
-        lines[1] += f"; {self.examples} examples" + (
-            " in float32" if self.precision == "float32" else ""
-        )
         if self.unconfirmed:
-            lines[1:] = [self.unconfirmed]
-        elif not self.finding:
-            lines[1] += ", which say little" if self.examples < FEW else ""
-            lines[1] += "; the time ran out" if self.late else ""
+            lines = [self.unconfirmed]
+        elif self.finding:
+            lines = [self._tried(), *self._counterexample(before)]
         else:
-            error = f"{self.error:.2g} of {self.error_of}"
-            error = error if np.isfinite(self.error) else f"{self.error_of} is not 0, and must be"
-            lines.append(f"{self.fault or error} at {self.words}")
-            if self.paste in before:
-                lines.append(f"# the Python is that of {before[self.paste]}, above")
-            else:
-                exact = [f"# names: {', '.join(self.names)}, or more"] if self.names else []
-                exact += (
-                    [] if self.expected is None else [f"# exact: {(self.expected + 0.0).tolist()}"]
-                )
-                lines += [self.paste, *exact]
-            lines += [self.hint] if self.hint else []
-        return f"{self.word:10} {self.law}: " + "\n           ".join(lines)
+            lines = [self._tried()]
+            if self.examples < FEW:
+                lines[0] += ", which say little"
+            if self.late:
+                lines[0] += "; the time ran out"
+        return f"{self.word:10} {self.law}: " + "\n           ".join([self.says, *lines])
+
+    def _tried(self) -> str:
+        """The worst error of all examples."""
+        worst = f"worst {_sized(self.worst, self.what)}"
+        if not np.isfinite(self.worst):
+            worst = f"worst: {_sized(self.worst, self.what)}"
+        if self.precision == "float32":
+            return f"{worst}; {self.examples} examples in float32"
+        return f"{worst}; {self.examples} examples"
+
+    def _counterexample(self, before: Mapping[str, str]) -> Iterator[str]:
+        """Lines of a finding."""
+        error = self.fault or _sized(self.error, self.error_of)
+        yield f"{error} at {self.words}"
+        if self.paste in before:
+            yield f"# the Python is that of {before[self.paste]}, above"
+        else:
+            yield self.paste
+            if self.names:
+                yield f"# names: {', '.join(self.names)}, or more"
+            if self.expected is not None:
+                yield f"# exact: {(self.expected + 0.0).tolist()}"
+        if self.hint:
+            yield self.hint
+
+
+def _sized(error: float, of: str) -> str:
+    """The size of an error of a quantity, as it is printed."""
+    if np.isfinite(error):
+        return f"{error:.2g} of {of}"
+    if of == NO_RESULT:
+        return of
+    return f"{of} is not 0, and must be"
 
 
 @dataclass(frozen=True)
@@ -170,7 +198,8 @@ class Report:
         }
 
     def __str__(self) -> str:
-        lines, before = [escape_unprintable(self.subject, 200)], dict[str, str]()
+        lines = [escape_unprintable(self.subject, 200)]
+        before = dict[str, str]()
         for outcome in self.outcomes:
             lines.append(escape_unprintable(outcome.told(before), keep="\n"))
             before.setdefault(outcome.paste, outcome.law)

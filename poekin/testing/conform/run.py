@@ -6,14 +6,15 @@ import contextlib
 import itertools
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from ...errors import InputError, UnknownName, quote, suggest
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
-from .grades import NO_RESULT, Grade
+from .grades import NO_RESULT, Grade, Verdict
 from .laws.arm_cases import ARM_LAWS
 from .laws.group_cases import GROUP_LAWS
-from .laws.law import Case, Law
+from .laws.law import Case, SubjectLaw
 from .laws.urdf_cases import URDF_LAWS
 from .process.calls import LOST, UNANSWERED, Undeclared
 from .process.child import isolated, obstacle
@@ -22,7 +23,7 @@ from .report import Outcome, Report
 from .search import Found, worst
 from .subjects.subject import FUNCTIONS, ORDERS, Subject
 
-LAWS: tuple[Law, ...] = (*GROUP_LAWS, *ARM_LAWS, *URDF_LAWS)
+LAWS: tuple[SubjectLaw, ...] = (*GROUP_LAWS, *ARM_LAWS, *URDF_LAWS)
 """Every law there is, in the order of the report."""
 SECONDS = 600.0
 LIMITS = Limits()
@@ -30,11 +31,11 @@ LIMITS = Limits()
 
 def applicable(
     subject: Subject, names: Sequence[str] = (), leave_out: Sequence[str] = ()
-) -> list[Law]:
+) -> list[SubjectLaw]:
     """The laws that a subject can be held to; with names, of these only, and without those to
     `leave_out`.
 
-    Returns: a list of `law.Law`. Raises: UnknownName for a name that is no law; InputError where
+    Returns: a list of `law.SubjectLaw`. Raises: UnknownName for a name that is no law; InputError where
     one of those named does not apply, or none is left.
     """
     for name in (*names, *leave_out):
@@ -65,9 +66,15 @@ def law_names(
 
     Parameters: thing, leave_out, limits, as of `conform`. Returns: the names. Raises: as `conform`.
     """
-    leave_out = [leave_out] if isinstance(leave_out, str) else leave_out
     with opened(thing, limits) as subject:
-        return [law.name for law in applicable(subject, (), leave_out)]
+        return [law.name for law in applicable(subject, (), _listed(leave_out))]
+
+
+def _listed(names: Sequence[str]) -> Sequence[str]:
+    """Names of laws, of which a single one need not stand in a list."""
+    if isinstance(names, str):
+        return [names]
+    return names
 
 
 def opened(thing: Any, limits: Limits | None) -> contextlib.AbstractContextManager[Subject]:
@@ -77,22 +84,31 @@ def opened(thing: Any, limits: Limits | None) -> contextlib.AbstractContextManag
     if limits is None:
         return contextlib.nullcontext(Subject(thing))
     limits.checked()
-    return contextlib.nullcontext(Subject(thing)) if obstacle(thing) else isolated(thing, limits)
+    if obstacle(thing):
+        return contextlib.nullcontext(Subject(thing))
+    return isolated(thing, limits)
 
 
-def reason(law: Law, subject: Subject) -> str:
+def reason(law: SubjectLaw, subject: Subject) -> str:
     """Why a subject is not held to a law; "" where it is."""
     if law.needs not in subject.functions:
         return f"there is no {law.needs}"
-    return "" if law.applies(subject) else law.unless
+    if law.applies(subject):
+        return ""
+    return law.unless
 
 
-def remarks(subject: Subject, laws: Sequence[str], leave_out: Sequence[str]) -> list[str]:
-    """What a subject is not held to, where nobody chose the laws, and which of its names are known
-    to no law.
+def remarks(
+    subject: Subject,
+    laws: Sequence[str],
+    leave_out: Sequence[str],
+) -> list[str]:
+    """Remarks on laws that a subject is not held to, where nobody chose the laws, and on names that
+    no law knows.
     """
-    notes = [f"left out, as asked for: {', '.join(leave_out)}"] if leave_out else []
-    notes += subject.misspelt
+    notes = list(subject.misspelt)
+    if leave_out:
+        notes.insert(0, f"left out, as asked for: {', '.join(leave_out)}")
     if laws:
         return notes
     absent = [name for name in FUNCTIONS if name not in subject.functions]
@@ -137,11 +153,13 @@ def conform(
     """
     if (examples is not None and examples < 1) or not seconds > 0:
         raise InputError(f"examples ≥ 1 and seconds > 0 expected, got {examples} and {seconds}")
-    laws, leave_out = ([names] if isinstance(names, str) else names for names in (laws, leave_out))
-    here = obstacle(thing) if limits else ""
+    laws = _listed(laws)
+    leave_out = _listed(leave_out)
+    here = obstacle(thing)
     with opened(thing, limits) as subject:
         chosen = applicable(subject, laws, leave_out)
-        left, outcomes = float(seconds), []
+        left = float(seconds)
+        outcomes = []
         for done, law in enumerate(chosen):
             say(done, len(chosen), law.name)
             start = time.monotonic()
@@ -150,11 +168,8 @@ def conform(
                     law, subject, examples or law.examples, left / (len(chosen) - done), at_most
                 )
             except Undeclared as error:
-                outcomes.append(
-                    Outcome(
-                        law.name, law.says, Grade.EXACT, 0.0, NO_RESULT, 0, unconfirmed=str(error)
-                    )
-                )
+                unjudged = Outcome(law.name, law.says, Grade.EXACT, 0.0, NO_RESULT, 0)
+                outcomes.append(replace(unjudged, unconfirmed=str(error)))
                 continue
             left = max(left - (time.monotonic() - start), 0.1)
             outcomes.append(outcome(law, subject, found))
@@ -162,46 +177,103 @@ def conform(
     late = [outcome.law for outcome in outcomes if outcome.late]
     if late:
         notes.append(f"the time ran out: fewer examples than there should be of {', '.join(late)}")
-    if here:
+    if limits and here:
         notes.append(
             f"run in this process, with no limit on its calls: {here}; MODULE:CLASS is run in its own"
         )
     return Report(subject.label, tuple(outcomes), tuple(notes), at_most)
 
 
-def outcome(law: Law, subject: Subject, found: Found) -> Outcome:
-    """What is reported of a hunt: a finding only where the two oracles agree on what is exact."""
-    verdict, case = found.verdict, found.shrunk
-    precision = subject.precision(law.needs).name
+def outcome(
+    law: SubjectLaw,
+    subject: Subject,
+    found: Found,
+) -> Outcome:
+    """Outcome of a hunt: a finding only where the two oracles agree on the exact result."""
+    verdict = found.verdict
+    case = found.shrunk
+    plain = Outcome(
+        law=law.name,
+        says=law.says,
+        grade=verdict.grade,
+        worst=verdict.size,
+        what=verdict.what,
+        examples=found.examples,
+        late=found.late,
+        precision=subject.precision(law.needs).name,
+    )
     if case is None:
-        return Outcome(law.name, law.says, verdict.grade, verdict.size, verdict.what, found.examples, late=found.late,
-                       precision=precision)  # fmt: skip
-    # Who did not answer was asked again while it was shrunk.
-    again = verdict if verdict.fault.startswith(UNANSWERED) else law.check(subject, case)
-    again = verdict if again.fault.startswith(LOST) else again
-    steady = again.grade >= verdict.grade
-    fault, hint = again.fault, ""
-    if again.fault.startswith(ModuleNotFoundError.__name__):
-        hint = "a package that the subject imports is not installed: nothing was judged"
-    elif not law.about(case):
-        hint = "nothing that this law is about is in it: what is wrong is something else"
-    elif steady and again.grade is Grade.BROKEN and not again.ended:
-        hint = _declared_otherwise(law, subject, found.case, case)
-    if not steady:
-        fault = f"another result from one call to the next: {verdict.grade.word} once, then {again.grade.word}"
+        return plain
+    again = _repeated(law, subject, verdict, case)
+    fault = again.fault
+    if again.grade < verdict.grade:
+        then = f"{verdict.grade.word} once, then {again.grade.word}"
+        fault = f"another result from one call to the next: {then}"
+    hint = _hint(law, subject, found, again)
     display = law.show(subject, case)
     worst = max(verdict, again, key=lambda v: v.size)
-    return Outcome(
-        law.name, law.says, max(verdict.grade, again.grade), worst.size, worst.what, found.examples,
-        again.size, again.what, fault, case, display.words, display.paste, display.expected, hint,
-        "" if law.confirm(subject, case) else "the two oracles do not agree on the exact result", found.late,
-        display.names, precision,
-    )  # fmt: skip
+    unconfirmed = ""
+    if not law.confirm(subject, case):
+        unconfirmed = "the two oracles do not agree on the exact result"
+    return replace(
+        plain,
+        grade=max(verdict.grade, again.grade),
+        worst=worst.size,
+        what=worst.what,
+        error=again.size,
+        error_of=again.what,
+        fault=fault,
+        case=case,
+        words=display.words,
+        paste=display.paste,
+        expected=display.expected,
+        names=display.names,
+        hint=hint,
+        unconfirmed=unconfirmed,
+    )
 
 
-def _declared_otherwise(law: Law, subject: Subject, worst: Case, small: Case) -> str:
+def _repeated(
+    law: SubjectLaw,
+    subject: Subject,
+    verdict: Verdict,
+    case: Case,
+) -> Verdict:
+    """The verdict on a case that is tried again, where the subject can be asked again."""
+    if verdict.fault.startswith(UNANSWERED):  # asked again already, while it was shrunk
+        return verdict
+    again = law.check(subject, case)
+    if again.fault.startswith(LOST):
+        return verdict
+    return again
+
+
+def _hint(
+    law: SubjectLaw,
+    subject: Subject,
+    found: Found,
+    again: Verdict,
+) -> str:
+    """A hint on the cause of a finding; "" where there is none."""
+    case = found.shrunk or found.case
+    if again.fault.startswith(ModuleNotFoundError.__name__):
+        return "a package that the subject imports is not installed: nothing was judged"
+    if not law.about(case):
+        return "nothing that this law is about is in it: what is wrong is something else"
+    if Grade.BROKEN is again.grade >= found.verdict.grade and not again.ended:
+        return _declared_otherwise(law, subject, found.case, case)
+    return ""
+
+
+def _declared_otherwise(
+    law: SubjectLaw,
+    subject: Subject,
+    worst: Case,
+    small: Case,
+) -> str:
     """With which declarations what is broken would hold: said, and never assumed."""
-    order, frame = subject.linear_first, subject.frame
+    order = subject.linear_first
+    frame = subject.frame
     found = ""
     for other in itertools.product(
         (order, not order), (frame, *(f for f in FRAME_NAMES if frame and f != frame))
@@ -210,8 +282,12 @@ def _declared_otherwise(law: Law, subject: Subject, worst: Case, small: Case) ->
         if not found and all(
             law.check(subject, case).grade < Grade.BROKEN for case in (worst, small)
         ):
-            declared = [f'twist_order = "{ORDERS[other[0]]}"'] if other[0] != order else []
-            declared += [f'jacobian_frame = "{other[1]}"'] if other[1] != frame else []
+            declared = []
+            if other[0] != order:
+                declared.append(f'twist_order = "{ORDERS[other[0]]}"')
+            if other[1] != frame:
+                declared.append(f'jacobian_frame = "{other[1]}"')
             found = f"with {' and '.join(declared)} it would hold"
-    subject.linear_first, subject.frame = order, frame
+    subject.linear_first = order
+    subject.frame = frame
     return found

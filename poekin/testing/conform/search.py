@@ -11,7 +11,7 @@ from typing import NamedTuple
 from ...errors import InputError
 from ..accuracy.falsify import for_each
 from .grades import Grade, Verdict
-from .laws.law import Case, Law
+from .laws.law import Case, SubjectLaw
 from .process.calls import UNANSWERED
 from .shrink import shrunk
 from .subjects.subject import Subject
@@ -31,8 +31,8 @@ SHORT = 2.0
 
 
 class Found(NamedTuple):
-    """How many cases of a law were tried, the worst one, its verdict, and the shrunk case where it
-    is a finding.
+    """Result of a search: the number of cases tried, the worst one, its verdict, and the shrunk case
+    where it is a finding.
 
     late: whether there was no time for the others.
     """
@@ -49,12 +49,14 @@ class _Over(Exception):
 
 
 def worst(
-    law: Law, subject: Subject, examples: int, seconds: float, at_most: Grade = Grade.GOOD
+    law: SubjectLaw, subject: Subject, examples: int, seconds: float, at_most: Grade = Grade.GOOD
 ) -> Found:
     """Hunt the worst case, towards larger errors; shrink it where it is poor or broken, or worse
     than `at_most`.
     """
-    end, count, late = time.monotonic() + seconds, 0, False
+    end = time.monotonic() + seconds
+    count = 0
+    late = False
     top: tuple[Case, Verdict] | None = None
 
     def one(case: Case) -> None:
@@ -82,20 +84,29 @@ def worst(
     if top is None:
         raise InputError(f"{law.name}: no case of this law could be drawn")
     case, verdict = top
-    wrong = verdict.grade > min(at_most, Grade.GOOD)
-    return Found(
-        count, case, verdict, simplest(law, subject, case, verdict) if wrong else None, late
-    )
+    small = None
+    if verdict.grade > min(at_most, Grade.GOOD):
+        small = simplest(law, subject, case, verdict)
+    return Found(count, case, verdict, small, late)
 
 
-def rounded(law: Law, subject: Subject, case: Case) -> Case:
+def rounded(
+    law: SubjectLaw,
+    subject: Subject,
+    case: Case,
+) -> Case:
     """The case in floats of the precision that the law's function computes in, which can tell no
     others apart.
     """
     return case._replace(numbers=subject.precision(law.needs).rounded(case.numbers))
 
 
-def simplest(law: Law, subject: Subject, case: Case, verdict: Verdict) -> Case:
+def simplest(
+    law: SubjectLaw,
+    subject: Subject,
+    case: Case,
+    verdict: Verdict,
+) -> Case:
     """The simplest case found that fails in the manner of this one.
 
     It has the grade and the kind of fault of the verdict, on what the law could have drawn. What
@@ -116,4 +127,6 @@ def simplest(law: Law, subject: Subject, case: Case, verdict: Verdict) -> Case:
     with subject.own.within(SHORT):
         small = rounded(law, subject, shrunk(law, shrunk(own, case, fails), fails))
     # What takes longer than that may still be answered.
-    return small if law.check(subject, small).manner == verdict.manner else case
+    if law.check(subject, small).manner == verdict.manner:
+        return small
+    return case

@@ -12,17 +12,20 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from .laws.law import Case, Law
+from .laws.law import Case, SubjectLaw
 
 BUDGET = 1500
 """How many cases are tried at most."""
 
 
-def shrunk(law: Law, case: Case, fails: Callable[[Case], bool], budget: int = BUDGET) -> Case:
+def shrunk(
+    law: SubjectLaw, case: Case, fails: Callable[[Case], bool], budget: int = BUDGET
+) -> Case:
     """The simplest case found, from this one on, that fails as well; the case itself where there is
     none.
     """
-    spent, improved = 0, True
+    spent = 0
+    improved = True
     while improved:
         improved = False
         numbers = (candidate for candidate in _smaller(law, case) if cost(candidate) < cost(case))
@@ -33,15 +36,14 @@ def shrunk(law: Law, case: Case, fails: Callable[[Case], bool], budget: int = BU
                 return case
             spent += 1
             if fails(candidate):
-                case, improved = candidate, True
+                case = candidate
+                improved = True
                 break
     return case
 
 
 def cost(case: Case) -> tuple[float, ...]:
-    """What makes a case less simple, the gravest first: numbers at all, not zero, digits, signs,
-    late places.
-    """
+    """Complexity of a case, the gravest first: numbers at all, not zero, digits, signs, late places."""
     x = case.numbers
     places = np.flatnonzero(x)
     digits = sum(_digits(float(value)) for value in x[places])
@@ -55,7 +57,7 @@ def cost(case: Case) -> tuple[float, ...]:
     )
 
 
-def _smaller(law: Law, case: Case) -> Iterator[Case]:
+def _smaller(law: SubjectLaw, case: Case) -> Iterator[Case]:
     x = case.numbers
     directions = list(law.directions(case))
     own = [
@@ -96,45 +98,52 @@ def _simpler_directions(n: np.ndarray) -> Iterator[np.ndarray]:
         yield less / math.hypot(*less)
         tilt = float(n[k])
         if abs(tilt) < 1e-4:  # the length stays 1 to rounding
-            for value in (10.0 ** round(math.log10(abs(tilt))), abs(tilt)):
+            for value in (_power_of_10(tilt), abs(tilt)):
                 yield np.where(np.arange(3) == k, value, n)
     yield np.where(np.arange(3) == largest, 1.0, n)
 
 
 def _rounder(value: float) -> Iterator[float]:
     """Values with fewer digits near a number, the simplest first."""
-    yield from (
-        1.0,
-        -1.0,
-        math.pi,
-        math.copysign(10.0 ** round(math.log10(abs(value))), value) if value else 0.0,
-    )
+    yield from (1.0, -1.0, math.pi)
+    yield math.copysign(_power_of_10(value), value)
     for digits in range(1, 17):
         short = float(f"{value:.{digits - 1}e}")
         yield from (short, abs(short))
     # Towards π the digits that matter are those of the gap.
     gap = math.pi - abs(value)
     if 0 < gap < 0.1:
-        yield math.pi - 10.0 ** round(math.log10(gap))
+        yield math.pi - _power_of_10(gap)
+
+
+def _power_of_10(value: float) -> float:
+    """The power of ten nearest to the size of a number, in its logarithm; 0 for 0."""
+    if value == 0:
+        return 0.0
+    return 10.0 ** round(math.log10(abs(value)))
 
 
 def _digits(value: float) -> int:
-    """How many digits a number that is not 0 has to be written with."""
+    """Number of digits that a number other than 0 has to be written with."""
     # π is one number to people, and so is what is a power of ten short of it.
     if abs(value) == math.pi:
         return 1
     gap = math.pi - abs(value)
-    if 0 < gap < 0.1 and abs(value) == math.pi - 10.0 ** round(math.log10(gap)):
+    if 0 < gap < 0.1 and abs(value) == math.pi - _power_of_10(gap):
         return 2
     return len(repr(abs(value)).split("e")[0].replace(".", "").strip("0"))
 
 
 def _magnitude(x: np.ndarray) -> np.ndarray:
-    """How far from 1 numbers are, in powers of ten."""
+    """Distances of numbers from 1, in powers of ten."""
     return np.abs(np.log10(np.abs(x)))
 
 
-def _with(case: Case, k: int, value: float | np.ndarray) -> Case:
+def _with(
+    case: Case,
+    k: int,
+    value: float | np.ndarray,
+) -> Case:
     x = case.numbers.copy()
     x[k : k + np.size(value)] = value
     return case._replace(numbers=x)

@@ -24,7 +24,7 @@ import numpy as np
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from ..accuracy.error_bounds import UNIT
 from ..oracles import differences, exact
-from .laws import Law, held
+from .laws import Law, check_bounds
 from .measures import Pairs, size
 
 
@@ -34,8 +34,8 @@ def displacements(chain: Any, q: np.ndarray) -> np.ndarray:
 
 
 def budget(chain: Any, q: np.ndarray) -> tuple[float, float]:
-    """What the rounding of a pose may come to: its rotation's, and its translation's, which grows
-    with the arm.
+    """Bounds on the rounding of a pose: of its rotation, and of its translation, which grows with
+    the arm.
 
     u (8 (n + 1) + 4 Σ |x_i|), and that times the reach and what the joints slide beyond it. Where
     the home pose's rotation R misses being one by δ = |R Rᵀ - I|, the forms are different motions:
@@ -43,15 +43,17 @@ def budget(chain: Any, q: np.ndarray) -> tuple[float, float]:
     |x_i|/2), and moves by up to δ (2 + Σ |x_i|/2) times the same. Returns: both, in rad and in m.
     Raises: nothing.
     """
-    x, R = displacements(chain, q), chain.home[:3, :3]
-    turned, missed = float(np.abs(x).sum()), size(R @ R.T - np.eye(3))
+    x = displacements(chain, q)
+    R = chain.home[:3, :3]
+    turned = float(np.abs(x).sum())
+    missed = size(R @ R.T - np.eye(3))
     angular = UNIT * (8 * (len(x) + 1) + 4 * turned) + missed * (1 + turned / 2)
     return angular, (angular + missed) * (chain.reach + float(np.abs(chain.local.slides * x).sum()))
 
 
 def fk_is_the_product_of_exponentials(chain: Any, q: np.ndarray) -> float:
     """f(q) = e^{A_1 x_1} ⋯ e^{A_n x_n} M, in 60 digits."""
-    return kept(
+    return check_chain_bounds(
         "fk is the product of exponentials",
         chain,
         *of_poses(chain, q, chain.fk(q), _exact_pose(chain, q)),
@@ -62,15 +64,20 @@ def fk_is_the_product_of_exponentials(chain: Any, q: np.ndarray) -> float:
 def home_is_where_zero_leads(chain: Any) -> float:
     """f(0) = M where c = 0, and for any c the pose of the joints at c. Raises: LawViolation."""
     q = np.zeros(chain.dof)
-    expected = _exact_pose(chain, q) if np.any(chain.offset) else chain.home
-    return kept("home is where zero leads", chain, *of_poses(chain, q, chain.fk(q), expected))
+    expected = chain.home
+    if np.any(chain.offset):
+        expected = _exact_pose(chain, q)
+    return check_chain_bounds(
+        "home is where zero leads", chain, *of_poses(chain, q, chain.fk(q), expected)
+    )
 
 
 def forms_agree(chain: Any, q: np.ndarray) -> float:
     """The space, body and local forms are one motion: f = Π e^{A x} M = M Π e^{B x} = M_1 e^{S x_1}
     ⋯ M_{n+1}.
     """
-    x, f = _exact_displacements(chain, q), chain.fk(q)
+    x = _exact_displacements(chain, q)
+    f = chain.fk(q)
     space = exact.forward(chain.space.screws, chain.space.home, x)
     body = exact.exactly(chain.body.home) @ exact.forward(chain.body.screws, np.eye(4), x)
     local = exact.exactly(chain.local.frames[0])
@@ -79,10 +86,14 @@ def forms_agree(chain: Any, q: np.ndarray) -> float:
     ):
         local = local @ exact.exp(exact.exactly([0, 0, r, 0, 0, s]) * amount) @ exact.exactly(M)
     pairs = [pair for form in (space, body, local) for pair in of_poses(chain, q, f, form)]
-    return kept("forms agree", chain, *pairs, q=q)
+    return check_chain_bounds("forms agree", chain, *pairs, q=q)
 
 
-def jacobian_is_the_derivative(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
+def jacobian_is_the_derivative(
+    chain: Any,
+    q: np.ndarray,
+    dq: np.ndarray,
+) -> float:
     """J(q) dq is the velocity of f along dq by finite differences, in space, body and hybrid frame.
 
     For hybrid that says: its linear part is ḃ.
@@ -95,22 +106,31 @@ def jacobian_is_the_derivative(chain: Any, q: np.ndarray, dq: np.ndarray) -> flo
     for frame in FRAME_NAMES:
         error = chain.jacobian(q, frame) @ dq - differences.velocity(chain.fk, q, dq, frame, rate)
         pairs += [(size(error[:3]), angular), (size(error[3:]), linear)]
-    return kept("jacobian is the derivative", chain, *pairs, q=q, dq=dq)
+    return check_chain_bounds("jacobian is the derivative", chain, *pairs, q=q, dq=dq)
 
 
-def space_jacobian_is_not_hybrid(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
+def space_jacobian_is_not_hybrid(
+    chain: Any,
+    q: np.ndarray,
+    dq: np.ndarray,
+) -> float:
     """The space Jacobian's linear part is ḃ - ω × b, not ḃ: it misses the hybrid one's by ω × b."""
-    V, H = chain.jacobian(q, "space") @ dq, chain.jacobian(q, "hybrid") @ dq
+    V = chain.jacobian(q, "space") @ dq
+    H = chain.jacobian(q, "hybrid") @ dq
     expected = np.concatenate([H[:3], H[3:] - np.cross(H[:3], chain.fk(q)[:3, 3])])
-    return kept(
+    return check_chain_bounds(
         "space jacobian is not hybrid", chain, *of_twists(chain, q, dq, V - expected), q=q, dq=dq
     )
 
 
-def body_jacobian_is_space_seen_from_the_tool(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
+def body_jacobian_is_space_seen_from_the_tool(
+    chain: Any,
+    q: np.ndarray,
+    dq: np.ndarray,
+) -> float:
     """J_b = Ad(f⁻¹) J_s, that is J_s = Ad(f) J_b."""
     error = chain.jacobian(q, "space") - adjoint(chain.fk(q)) @ chain.jacobian(q, "body")
-    return kept(
+    return check_chain_bounds(
         "body jacobian is space seen from the tool",
         chain,
         *of_twists(chain, q, dq, error @ dq),
@@ -119,7 +139,11 @@ def body_jacobian_is_space_seen_from_the_tool(chain: Any, q: np.ndarray, dq: np.
     )
 
 
-def joint_poses_are_partial_products(chain: Any, q: np.ndarray, joint: int) -> float:
+def joint_poses_are_partial_products(
+    chain: Any,
+    q: np.ndarray,
+    joint: int,
+) -> float:
     """The z-aligned frame of joint k stands at e^{A_1 x_1} ⋯ e^{A_k x_k} (M_1 ⋯ M_k)."""
     home = exact.exactly(np.eye(4))
     for M in chain.local.frames[: joint + 1]:
@@ -127,7 +151,7 @@ def joint_poses_are_partial_products(chain: Any, q: np.ndarray, joint: int) -> f
     x = _exact_displacements(chain, q)[: joint + 1]
     expected = exact.forward(chain.screws[: joint + 1], home, x)
     pairs = of_poses(chain, q, chain.joint_poses(q)[joint], expected)
-    return kept("joint poses are partial products", chain, *pairs, q=q, joint=joint)
+    return check_chain_bounds("joint poses are partial products", chain, *pairs, q=q, joint=joint)
 
 
 def jacobian_in_a_joints_frame_is_space_seen_from_it(
@@ -138,28 +162,36 @@ def jacobian_in_a_joints_frame_is_space_seen_from_it(
         q, joint
     )
     pairs = of_twists(chain, q, dq, error @ dq, 4.0)
-    return kept(
+    return check_chain_bounds(
         "jacobian in a joint's frame is space seen from it", chain, *pairs, q=q, dq=dq, joint=joint
     )
 
 
-def velocity_is_the_jacobian_times_rates(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
+def velocity_is_the_jacobian_times_rates(
+    chain: Any,
+    q: np.ndarray,
+    dq: np.ndarray,
+) -> float:
     """The V recursion yields J(q) dq, in every frame."""
     pairs = []
     for frame in (*FRAME_NAMES, *range(len(chain.screws))):
         error = chain.velocity(q, dq, frame) - chain.jacobian(q, frame) @ dq
         pairs += of_twists(chain, q, dq, error, 4.0 if isinstance(frame, int) else 1.0)
-    return kept("velocity is the jacobian times rates", chain, *pairs, q=q, dq=dq)
+    return check_chain_bounds("velocity is the jacobian times rates", chain, *pairs, q=q, dq=dq)
 
 
-def one_pass_gives_both(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
+def one_pass_gives_both(
+    chain: Any,
+    q: np.ndarray,
+    dq: np.ndarray,
+) -> float:
     """fk_jacobian is fk and jacobian, in every frame."""
     pairs = []
     for frame in (*FRAME_NAMES, *range(len(chain.screws))):
         T, J = chain.fk_jacobian(q, frame)
         pairs += of_poses(chain, q, T, chain.fk(q))
         pairs += of_twists(chain, q, dq, (J - chain.jacobian(q, frame)) @ dq)
-    return kept("one pass gives both", chain, *pairs, q=q, dq=dq)
+    return check_chain_bounds("one pass gives both", chain, *pairs, q=q, dq=dq)
 
 
 def a_point_moves_as_the_tools_origin_would(
@@ -168,7 +200,8 @@ def a_point_moves_as_the_tools_origin_would(
     """With `at` = p the linear part is the velocity of p: v + ω × p in body axes, v + ω × R p in
     base axes.
     """
-    R, pairs = chain.fk(q)[:3, :3], []
+    R = chain.fk(q)[:3, :3]
+    pairs = []
     for frame, arm in (("body", point), ("hybrid", R @ point)):
         V = chain.jacobian(q, frame) @ dq
         expected = np.concatenate([V[:3], V[3:] + np.cross(V[:3], arm)])
@@ -180,14 +213,18 @@ def a_point_moves_as_the_tools_origin_would(
             for e, b in of_twists(chain, q, dq, row, 4.0)
         ]
         pairs += [(e, b * (1 + size(point))) for e, b in of_poses(chain, q, T, chain.fk(q))]
-    return kept("a point moves as the tool's origin would", chain, *pairs, q=q, dq=dq, point=point)
+    return check_chain_bounds(
+        "a point moves as the tool's origin would", chain, *pairs, q=q, dq=dq, point=point
+    )
 
 
 def batches_are_made_of_single_configurations(chain: Any, batch: np.ndarray) -> float:
     """Every function of a batch gives, element by element, what it gives for one configuration."""
-    shape, pairs = batch.shape[:-1], []
+    shape = batch.shape[:-1]
+    pairs = []
     rows = batch.reshape(math.prod(shape), chain.dof)
-    n, m = len(chain.screws), chain.dof
+    n = len(chain.screws)
+    m = chain.dof
     functions = [
         (chain.fk, (4, 4)),
         (chain.joint_poses, (n, 4, 4)),
@@ -197,7 +234,7 @@ def batches_are_made_of_single_configurations(chain: Any, batch: np.ndarray) -> 
     for function, tail in functions:
         together = function(batch)
         if together.shape != (*shape, *tail):
-            return kept(
+            return check_chain_bounds(
                 "batches have their shape",
                 chain,
                 (np.inf, 0.0),
@@ -206,14 +243,17 @@ def batches_are_made_of_single_configurations(chain: Any, batch: np.ndarray) -> 
             )
         for row, part in zip(rows, together.reshape(len(rows), *tail), strict=True):
             pairs.append((size(part - function(row)), budget(chain, row)[1] * (1 + size(row))))
-    return kept("batches are made of single configurations", chain, *pairs, batch=batch)
+    return check_chain_bounds(
+        "batches are made of single configurations", chain, *pairs, batch=batch
+    )
 
 
 def adjoint(T: np.ndarray) -> np.ndarray:
     """Ad(T) = [R 0; [t] R R] (6, 6) of a pose T (4, 4), of floats, by NumPy alone. Returns: this.
     Raises: nothing.
     """
-    R, (x, y, z) = T[:3, :3], T[:3, 3]
+    R = T[:3, :3]
+    (x, y, z) = T[:3, 3]
     corner = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]) @ R
     return np.block([[R, np.zeros((3, 3))], [corner, R]])
 
@@ -226,19 +266,19 @@ def inverse(T: np.ndarray) -> np.ndarray:
     return np.block([[R, -(R @ T[:3, 3:])], [np.zeros((1, 3)), np.ones((1, 1))]])
 
 
-def kept(law: str, chain: Any, *measured: tuple[float, float], **seen: object) -> float:
-    """As `held`, with the chain's numbers among what a violation says: without them nobody could
+def check_chain_bounds(
+    law: str, chain: Any, *measured: tuple[float, float], **seen: object
+) -> float:
+    """As `check_bounds`, with the chain's numbers among what a violation says: without them nobody could
     repeat it.
 
     Parameters: law, its name; chain; measured, pairs (error, bound); seen, arguments by name.
     Returns: error ÷ bound.
     """
     seen = {**seen, "screws": chain.screws, "home": chain.home}
-    if np.shape(chain.coupling) != (chain.dof, chain.dof) or np.any(
-        chain.coupling != np.eye(chain.dof)
-    ):
+    if not np.array_equal(chain.coupling, np.eye(chain.dof)):
         seen |= {"coupling": chain.coupling, "offset": chain.offset}
-    return held(law, *measured, **seen)
+    return check_bounds(law, *measured, **seen)
 
 
 CHAIN_LAWS = (
@@ -268,7 +308,12 @@ def _exact_pose(chain: Any, q: np.ndarray) -> np.ndarray:
     return exact.rounded(exact.forward(chain.screws, chain.home, _exact_displacements(chain, q)))
 
 
-def of_poses(chain: Any, q: np.ndarray, T: np.ndarray, expected: np.ndarray) -> Pairs:
+def of_poses(
+    chain: Any,
+    q: np.ndarray,
+    T: np.ndarray,
+    expected: np.ndarray,
+) -> Pairs:
     """The errors of R and t, and of the last row, with their bounds: of T (4, 4) against expected
     (4, 4).
 
@@ -289,7 +334,8 @@ def of_twists(
     """
     angular, linear = budget(chain, q)
     rates = chain.coupling @ dq
-    turning, sliding = size(chain.local.rotates * rates), size(chain.local.slides * rates)
+    turning = size(chain.local.rotates * rates)
+    sliding = size(chain.local.slides * rates)
     grown = factor * (1 + len(rates))
     return [
         (size(error[:3]), grown * angular * turning),

@@ -24,12 +24,16 @@ from poekin.model.joint import Joint
 from poekin.model.robot import Robot
 
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
-from .chain_laws import adjoint, budget, inverse, kept, of_poses
+from .chain_laws import adjoint, budget, check_chain_bounds, inverse, of_poses
 from .laws import Law
 from .measures import Pairs, size
 
 
-def a_rebased_chain_is_seen_from_another_base(chain: Any, q: np.ndarray, P: np.ndarray) -> float:
+def a_rebased_chain_is_seen_from_another_base(
+    chain: Any,
+    q: np.ndarray,
+    P: np.ndarray,
+) -> float:
     """f' = P f, A' = Ad(P) A, M' = P M, B' = B; J_s' = Ad(P) J_s, J_b' = J_b."""
     other = chain.rebased(P)
     grown = 8 * (1 + size(P[:3, 3]))
@@ -43,7 +47,7 @@ def a_rebased_chain_is_seen_from_another_base(chain: Any, q: np.ndarray, P: np.n
         (other.jacobian(q, "body") - chain.jacobian(q, "body")).T,
     )
     pairs += _of_screws(chain, q, errors)
-    return kept(
+    return check_chain_bounds(
         "a rebased chain is seen from another base",
         chain,
         *((e, grown * b) for e, b in pairs),
@@ -52,7 +56,11 @@ def a_rebased_chain_is_seen_from_another_base(chain: Any, q: np.ndarray, P: np.n
     )
 
 
-def a_retooled_chain_carries_another_tool(chain: Any, q: np.ndarray, Q: np.ndarray) -> float:
+def a_retooled_chain_carries_another_tool(
+    chain: Any,
+    q: np.ndarray,
+    Q: np.ndarray,
+) -> float:
     """f' = f Q, A' = A, M' = M Q, B' = Ad(Q)⁻¹ B; J_s' = J_s, J_b = Ad(Q) J_b'."""
     other = chain.retooled(Q)
     grown = 8 * (1 + size(Q[:3, 3]))
@@ -66,7 +74,7 @@ def a_retooled_chain_carries_another_tool(chain: Any, q: np.ndarray, Q: np.ndarr
         (adjoint(Q) @ other.jacobian(q, "body") - chain.jacobian(q, "body")).T,
     )
     pairs += _of_screws(chain, q, errors)
-    return kept(
+    return check_chain_bounds(
         "a retooled chain carries another tool",
         chain,
         *((e, grown * b) for e, b in pairs),
@@ -75,9 +83,14 @@ def a_retooled_chain_carries_another_tool(chain: Any, q: np.ndarray, Q: np.ndarr
     )
 
 
-def a_rezeroed_chain_starts_elsewhere(chain: Any, q: np.ndarray, q0: np.ndarray) -> float:
+def a_rezeroed_chain_starts_elsewhere(
+    chain: Any,
+    q: np.ndarray,
+    q0: np.ndarray,
+) -> float:
     """f'(q) = f(q + q0), J'(q) = J(q + q0) in every frame, and limits move by -q0."""
-    other, there = chain.rezeroed(q0), q + q0
+    other = chain.rezeroed(q0)
+    there = q + q0
     pairs = of_poses(chain, there, other.fk(q), chain.fk(there))
     pairs += of_poses(chain, q0, other.fk(np.zeros_like(q)), chain.fk(q0))
     errors = [(other.jacobian(q, frame) - chain.jacobian(there, frame)).T for frame in FRAME_NAMES]
@@ -85,50 +98,28 @@ def a_rezeroed_chain_starts_elsewhere(chain: Any, q: np.ndarray, q0: np.ndarray)
     shifted = np.array_equal(other.limits, chain.limits - q0[:, None])
     grown = 4 * (1 + size(q) + size(q0))
     measured = [(e, grown * b) for e, b in pairs]
-    return kept(
+    return check_chain_bounds(
         "a rezeroed chain starts elsewhere", chain, *measured, (float(not shifted), 0.0), q=q, q0=q0
     )
 
 
-def link_frames_do_not_matter(
-    chain: Any, frames: np.ndarray, built: Callable[[Any, np.ndarray], Any] | None = None
-) -> float:
-    """Re-attaching every joint's and link's frame at random leaves A and M as they were: the
-    paper's uniqueness.
-
-    `built(chain, frames)` makes the chain anew from a robot with those frames; by default
-    `reattached`.
-    """
-    other = (reattached if built is None else built)(chain, frames)
-    unit, linear = budget(chain, np.zeros(chain.dof))
-    grown = 8 * linear * (1 + size(frames[:, :, :3, 3]))
-    if other.screws.shape != chain.screws.shape:
-        return kept("link frames do not matter", chain, (np.inf, 0.0), frames=frames)
-    return kept(
-        "link frames do not matter",
-        chain,
-        (size(other.screws[:, :3] - chain.screws[:, :3]), 8 * unit),
-        (size(other.screws[:, 3:] - chain.screws[:, 3:]), grown),
-        (size(other.home[:3, :3] - chain.home[:3, :3]), 8 * unit),
-        (size(other.home[:3, 3] - chain.home[:3, 3]), grown),
-        frames=frames,
-    )
-
-
 def reattached(chain: Any, frames: np.ndarray) -> Any:
-    """The same arm as a robot whose joint and link frames are the given ones, made a chain again.
+    """Chain of a robot with the arm's screws and the given joint and link frames.
 
     frames (n, 2, 4, 4), poses in the base at home: of each joint's frame, which is shifted onto the
     axis where the joint turns, and of the link behind it. Between the two lies a fixed joint.
     Returns: `poekin.Chain`. Raises: nothing.
     """
-    joints, links, at = [], ["base"], np.eye(4)
+    joints = []
+    links = ["base"]
+    at = np.eye(4)
     for k, (S, kind, (P, G)) in enumerate(zip(chain.screws, chain.kinds, frames, strict=True)):
         turns = kind != "prismatic"
-        axis, P = S[:3] if turns else S[3:], P.copy()
+        axis = S[:3] if turns else S[3:]
+        P = P.copy()
         if turns:
             P[:3, 3] = np.cross(axis, S[3:]) + axis * (axis @ P[:3, 3])
-        pitch = float(axis @ S[3:]) if kind == "helical" else 0.0
+        pitch = float(axis @ S[3:]) * (kind == "helical")
         own = P[:3, :3].T @ axis
         joints.append(
             Joint(f"joint{k}", kind, links[-1], f"moved{k}", inverse(at) @ P, own, pitch=pitch)
@@ -138,6 +129,31 @@ def reattached(chain: Any, frames: np.ndarray) -> Any:
         at = G
     joints.append(Joint("tool", "fixed", links[-1], "tip", inverse(at) @ chain.home))
     return Robot("arm", [*links, "tip"], joints).chain("base", "tip")
+
+
+def link_frames_do_not_matter(
+    chain: Any, frames: np.ndarray, built: Callable[[Any, np.ndarray], Any] = reattached
+) -> float:
+    """Re-attaching every joint's and link's frame at random leaves A and M as they were: the
+    paper's uniqueness.
+
+    `built(chain, frames)` makes the chain anew from a robot with those frames; by default
+    `reattached`.
+    """
+    other = built(chain, frames)
+    unit, linear = budget(chain, np.zeros(chain.dof))
+    grown = 8 * linear * (1 + size(frames[:, :, :3, 3]))
+    if other.screws.shape != chain.screws.shape:
+        return check_chain_bounds("link frames do not matter", chain, (np.inf, 0.0), frames=frames)
+    return check_chain_bounds(
+        "link frames do not matter",
+        chain,
+        (size(other.screws[:, :3] - chain.screws[:, :3]), 8 * unit),
+        (size(other.screws[:, 3:] - chain.screws[:, 3:]), grown),
+        (size(other.home[:3, :3] - chain.home[:3, :3]), 8 * unit),
+        (size(other.home[:3, 3] - chain.home[:3, 3]), grown),
+        frames=frames,
+    )
 
 
 CHANGE_LAWS = (
@@ -151,7 +167,11 @@ CHANGE_LAWS = (
 """
 
 
-def _of_screws(chain: Any, q: np.ndarray, errors: Sequence[np.ndarray]) -> Pairs:
+def _of_screws(
+    chain: Any,
+    q: np.ndarray,
+    errors: Sequence[np.ndarray],
+) -> Pairs:
     """The errors of rows (ω; v), each half with its budget, for every joint or coordinate."""
     angular, linear = budget(chain, q)
     ratios = 1 + size(chain.coupling)

@@ -23,29 +23,35 @@ import numpy as np
 
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from ..oracles import exact
-from .chain_laws import budget, kept
+from .chain_laws import budget, check_chain_bounds
 from .laws import Law
 from .measures import Pairs, size
 
 STEP = exact.mp.mpf(10) ** -20
 
 
-def jacobian_rate_is_the_derivative(chain: Any, q: np.ndarray, dq: np.ndarray) -> float:
+def jacobian_rate_is_the_derivative(
+    chain: Any,
+    q: np.ndarray,
+    dq: np.ndarray,
+) -> float:
     """dJ/dt along dq, in space, body and hybrid frame."""
-    pairs, truth = [], slope(lambda t: exact_jacobians(chain, line(t, q, dq)))
+    pairs = []
+    truth = slope(lambda t: exact_jacobians(chain, line(t, q, dq)))
     for frame, rate in zip(FRAME_NAMES, truth, strict=True):
         pairs += _of_columns(chain, q, chain.jacobian_rate(q, dq, frame) - rate, _size(chain, dq))
-    return kept("jacobian rate is the derivative", chain, *pairs, q=q, dq=dq)
+    return check_chain_bounds("jacobian rate is the derivative", chain, *pairs, q=q, dq=dq)
 
 
 def hessian_is_the_derivative(chain: Any, q: np.ndarray) -> float:
     """H[..., j] = dJ/dq_j for every coordinate."""
-    pairs, found = [], [chain.hessian(q, frame) for frame in FRAME_NAMES]
+    pairs = []
+    found = [chain.hessian(q, frame) for frame in FRAME_NAMES]
     for j, direction in enumerate(np.eye(chain.dof)):
         truth = slope(lambda t, d=direction: exact_jacobians(chain, line(t, q, d)))
         for H, rate in zip(found, truth, strict=True):
             pairs += _of_columns(chain, q, H[:, :, j] - rate, _size(chain, direction))
-    return kept("hessian is the derivative", chain, *pairs, q=q)
+    return check_chain_bounds("hessian is the derivative", chain, *pairs, q=q)
 
 
 def hessian_of_a_point_is_symmetric(chain: Any, q: np.ndarray) -> float:
@@ -53,14 +59,11 @@ def hessian_of_a_point_is_symmetric(chain: Any, q: np.ndarray) -> float:
     nothing is coupled.
     """
     v = chain.hessian(q, "hybrid")[3:]
-    bound = (
-        0.0
-        if chain.nontrivial_coupling is None
-        else 8 * budget(chain, q)[1] * (1 + size(chain.coupling) ** 2)
-    )
-    return kept(
-        "hessian of a point is symmetric", chain, (size(v - np.swapaxes(v, 1, 2)), bound), q=q
-    )
+    error = size(v - np.swapaxes(v, 1, 2))
+    bound = 0.0
+    if chain.nontrivial_coupling is not None:
+        bound = 8 * budget(chain, q)[1] * (1 + size(chain.coupling) ** 2)
+    return check_chain_bounds("hessian of a point is symmetric", chain, (error, bound), q=q)
 
 
 def acceleration_is_the_derivative_of_the_velocity(
@@ -71,20 +74,26 @@ def acceleration_is_the_derivative_of_the_velocity(
 
     def velocities(t: Any) -> np.ndarray:
         J = exact_jacobians(chain, line(t, q, dq))  # of second order, ddq is of no account to J
-        return J @ line(t, dq, ddq) if chain.dof else exact.exactly(np.zeros((3, 6)))
+        if not chain.dof:
+            return exact.exactly(np.zeros((3, 6)))
+        return J @ line(t, dq, ddq)
 
-    pairs, grown = [], _size(chain, dq) ** 2 + _size(chain, ddq)
+    pairs = []
+    grown = _size(chain, dq) ** 2 + _size(chain, ddq)
     for frame, truth in zip(FRAME_NAMES, slope(velocities), strict=True):
         error = chain.acceleration(q, dq, ddq, frame) - truth
         pairs += _of_columns(chain, q, error[:, None], grown)
-    return kept("acceleration is the derivative of the velocity", chain, *pairs, q=q, dq=dq)
+    return check_chain_bounds(
+        "acceleration is the derivative of the velocity", chain, *pairs, q=q, dq=dq
+    )
 
 
 def joint_velocities_are_those_of_the_joint_poses(
     chain: Any, q: np.ndarray, dq: np.ndarray
 ) -> float:
     """The twist of each z-aligned frame, by its pose's derivative, in space, body and hybrid frame."""
-    n, homes = len(chain.screws), []
+    n = len(chain.screws)
+    homes = []
     home = exact.exactly(np.eye(4))
     for M in chain.local.frames[:n]:
         home = home @ exact.exactly(M)
@@ -97,19 +106,28 @@ def joint_velocities_are_those_of_the_joint_poses(
             x = _displacements(chain, line(t, q, dq))[: k + 1]
             return exact.forward(chain.screws[: k + 1], homes[k], x)
 
-        T, dT = pose(exact.mp.zero), (pose(STEP) - pose(-STEP)) / (2 * STEP)
+        T = pose(exact.mp.zero)
+        dT = (pose(STEP) - pose(-STEP)) / (2 * STEP)
         truth = exact.rounded(_seen(_vee(dT @ exact.inverse(T))[:, None], T))
         for V, twist in zip(found.values(), truth, strict=True):
             pairs += _of_columns(chain, q, V[k][:, None] - twist, _size(chain, dq))
-    return kept("joint velocities are those of the joint poses", chain, *pairs, q=q, dq=dq)
+    return check_chain_bounds(
+        "joint velocities are those of the joint poses", chain, *pairs, q=q, dq=dq
+    )
 
 
-def screw_derivatives_are_differences_on_the_group(chain: Any, q: np.ndarray, joint: int) -> float:
+def screw_derivatives_are_differences_on_the_group(
+    chain: Any,
+    q: np.ndarray,
+    joint: int,
+) -> float:
     """df f⁻¹ and dJ under A_i ← Ad(e^η) A_i and M ← M e^η, and df f⁻¹ under A_i ← A_i + dA."""
     truth = exact_changes(chain, q, joint)
-    motion, entries = chain.screw_derivatives(q), chain.screw_derivatives(q, by="entries")
+    motion = chain.screw_derivatives(q)
+    entries = chain.screw_derivatives(q, by="entries")
     angular, linear = budget(chain, q)
-    reach, x = 1 + linear / angular, float(chain.coupling[joint] @ q + chain.offset[joint])
+    reach = 1 + linear / angular
+    x = float(chain.coupling[joint] @ q + chain.offset[joint])
     errors = [
         (motion.screws[:, joint] - truth.motion, 1.0),
         (entries.screws[:, joint] - truth.entries, 1 + abs(x)),
@@ -126,7 +144,9 @@ def screw_derivatives_are_differences_on_the_group(chain: Any, q: np.ndarray, jo
         # per unit of a twist, which at arm's length is as much as the reach
         bound = 16 * weight * reach
         pairs += [(size(error[:3]), bound * angular), (size(error[3:]), bound * linear)]
-    return kept("screw derivatives are differences on the group", chain, *pairs, q=q, joint=joint)
+    return check_chain_bounds(
+        "screw derivatives are differences on the group", chain, *pairs, q=q, joint=joint
+    )
 
 
 class Changes(NamedTuple):
@@ -142,19 +162,22 @@ class Changes(NamedTuple):
     home_columns: np.ndarray
 
 
-def exact_changes(chain: Any, q: np.ndarray, joint: int) -> Changes:
-    """What unit changes of one screw and of the home pose do, by central differences on the group
+def exact_changes(
+    chain: Any,
+    q: np.ndarray,
+    joint: int,
+) -> Changes:
+    """Effects of unit changes of one screw and of the home pose, by central differences on the group
     in 80 digits.
 
     Returns: `Changes`, as floats. Raises: nothing.
     """
-    x, A, M = (
-        _displacements(chain, exact.exactly(q)),
-        exact.exactly(chain.screws),
-        exact.exactly(chain.home),
-    )
+    x = _displacements(chain, exact.exactly(q))
+    A = exact.exactly(chain.screws)
+    M = exact.exactly(chain.home)
     turns = _exponentials(A, x)
-    before, after = _product(turns[:joint]), _product(turns[joint + 1 :]) @ M
+    before = _product(turns[:joint])
+    after = _product(turns[joint + 1 :]) @ M
     pose = before @ turns[joint] @ after
     back = exact.inverse(pose)
 
@@ -193,7 +216,9 @@ def derivatives_of_batches_are_those_of_single_configurations(
     """Every derivative of a batch has, element by element, the bits that it has for one
     configuration.
     """
-    shape, n, m = batch.shape[:-1], len(chain.screws), chain.dof
+    shape = batch.shape[:-1]
+    n = len(chain.screws)
+    m = chain.dof
     functions: list[tuple[Callable[[np.ndarray], np.ndarray], tuple[int, ...]]] = []
     for frame in FRAME_NAMES:
         functions += [
@@ -211,7 +236,7 @@ def derivatives_of_batches_are_those_of_single_configurations(
     for function, tail in functions:
         together = function(batch)
         if together.shape != (*shape, *tail):
-            return kept(
+            return check_chain_bounds(
                 "batches have their shape",
                 chain,
                 (np.inf, 0.0),
@@ -222,7 +247,7 @@ def derivatives_of_batches_are_those_of_single_configurations(
             # products of matrices may be summed in another order in a batch
             one = function(batch[index])
             pairs.append((size(together[index] - one), 1e-14 * (1 + size(one))))
-    return kept(
+    return check_chain_bounds(
         "derivatives of batches are those of single configurations", chain, *pairs, batch=batch
     )
 
@@ -239,7 +264,11 @@ def exact_jacobians(chain: Any, q: np.ndarray) -> np.ndarray:
     )
 
 
-def line(t: Any, q: np.ndarray, dq: np.ndarray) -> np.ndarray:
+def line(
+    t: Any,
+    q: np.ndarray,
+    dq: np.ndarray,
+) -> np.ndarray:
     """q + t dq (m,) in 80 digits. Returns: numbers of `exact`. Raises: nothing."""
     return exact.exactly(q) + exact.exactly(dq) * t
 
@@ -262,7 +291,8 @@ def _product(poses: Iterable[np.ndarray]) -> np.ndarray:
 def _exact_columns(
     chain: Any, screws: Iterable[np.ndarray], turns: Iterable[np.ndarray], home: np.ndarray
 ) -> np.ndarray:
-    T, columns = exact.exactly(np.eye(4)), []
+    T = exact.exactly(np.eye(4))
+    columns = []
     for screw, turn in zip(screws, turns, strict=True):
         columns.append(exact.adjoint(T) @ screw)
         T = T @ turn
@@ -272,11 +302,9 @@ def _exact_columns(
 
 
 def _displacements(chain: Any, q: np.ndarray) -> np.ndarray:
-    return (
-        exact.exactly(chain.coupling) @ q + exact.exactly(chain.offset)
-        if chain.dof
-        else exact.exactly(chain.offset)
-    )
+    if not chain.dof:
+        return exact.exactly(chain.offset)
+    return exact.exactly(chain.coupling) @ q + exact.exactly(chain.offset)
 
 
 def _seen(S: np.ndarray, T: np.ndarray) -> np.ndarray:
@@ -293,11 +321,16 @@ def _vee(X: np.ndarray) -> np.ndarray:
 
 
 def _size(chain: Any, dq: np.ndarray) -> float:
-    """How fast the joints go, all together, in rad and m."""
-    return float(np.abs(chain.coupling @ dq).sum()) if chain.dof else 0.0
+    """Sum of the joints' speeds, in rad/s and m/s."""
+    return float(np.abs(chain.coupling @ dq).sum())
 
 
-def _of_columns(chain: Any, q: np.ndarray, error: np.ndarray, rates: float) -> Pairs:
+def _of_columns(
+    chain: Any,
+    q: np.ndarray,
+    error: np.ndarray,
+    rates: float,
+) -> Pairs:
     """The errors of the angular and the linear rows of columns, against the budget times the rates."""
     angular, linear = budget(chain, q)
     grown = 8 * rates * (1 + size(chain.coupling))

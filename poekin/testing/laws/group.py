@@ -23,7 +23,11 @@ class Absent:
     def __repr__(self) -> str:
         return "absent"
 
-    def __call__(self, *arguments: Any, **options: Any) -> Any:
+    def __call__(
+        self,
+        *arguments: Any,
+        **options: Any,
+    ) -> Any:
         """Never returns. Parameters: arguments, options, of any kind. Raises: InputError."""
         raise InputError(
             f"this law needs the function {self.name}, and the group under test was made without it"
@@ -57,7 +61,7 @@ class Group(NamedTuple):
     right_jacobian_inverse: Function = Absent("right_jacobian_inverse")
 
 
-def group_of(module: Any, size: int) -> Group:
+def make_group(module: Any, size: int) -> Group:
     """The Group of a module or object with some of its functions, such as `poekin.so3` (3) or
     `poekin.se3` (6).
 

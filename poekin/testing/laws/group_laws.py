@@ -22,7 +22,7 @@ import numpy as np
 from ..accuracy.error_bounds import UNIT
 from ..oracles import exact
 from .group import Group
-from .laws import Law, held
+from .laws import Law, check_bounds
 from .measures import angle, length, of_blocks, of_elements, of_twist, shift, size
 
 
@@ -30,18 +30,25 @@ def hat_and_vee_are_inverse(group: Group, xi: np.ndarray) -> float:
     """vee(hat ξ) = ξ, and hat ξ is [ω] and v in their places, to the last bit."""
     X = group.hat(xi)
     wrong = np.abs(X - exact.rounded(exact.hat(xi))).max()
-    return held("hat and vee are inverse", (size(group.vee(X) - xi), 0.0), (wrong, 0.0), xi=xi)
+    return check_bounds(
+        "hat and vee are inverse", (size(group.vee(X) - xi), 0.0), (wrong, 0.0), xi=xi
+    )
 
 
-def ad_is_the_bracket(group: Group, xi: np.ndarray, eta: np.ndarray) -> float:
+def ad_is_the_bracket(
+    group: Group,
+    xi: np.ndarray,
+    eta: np.ndarray,
+) -> float:
     """ad(ξ) η = vee(hat ξ hat η - hat η hat ξ)."""
-    X, Y = exact.exactly(group.hat(xi)), exact.exactly(group.hat(eta))
+    X = exact.exactly(group.hat(xi))
+    Y = exact.exactly(group.hat(eta))
     bracket = group.vee(exact.rounded(X @ Y - Y @ X))
     scale = angle(xi) * length(eta) + angle(eta) * length(xi)
     pairs = of_twist(
         group.ad(xi) @ eta - bracket, 8 * UNIT * angle(xi) * angle(eta), 8 * UNIT * scale
     )
-    return held("ad is the bracket", *pairs, xi=xi, eta=eta)
+    return check_bounds("ad is the bracket", *pairs, xi=xi, eta=eta)
 
 
 def exp_lands_in_the_group(group: Group, xi: np.ndarray) -> float:
@@ -51,7 +58,7 @@ def exp_lands_in_the_group(group: Group, xi: np.ndarray) -> float:
     last = size(X[3:] - np.eye(len(X))[3:])
     bound = 12 * UNIT * (1 + 1.5 * angle(xi))
     defect = size(R.T @ R - np.eye(3))
-    return held(
+    return check_bounds(
         "exp lands in the group",
         (defect, bound),
         (abs(np.linalg.det(R) - 1), bound),
@@ -61,11 +68,11 @@ def exp_lands_in_the_group(group: Group, xi: np.ndarray) -> float:
 
 
 def identity_is_neutral(group: Group, X: np.ndarray) -> float:
-    """Of the identity: exp 0 = I and log I = 0 exactly, I X = X = X I."""
+    """The identity is neutral: exp 0 = I and log I = 0 exactly, I X = X = X I."""
     unit = group.exp(np.zeros(group.size))
     nought = size(group.log(np.eye(len(X))))
     moved = max(size(unit @ X - X), size(X @ unit - X))
-    return held(
+    return check_bounds(
         "identity is neutral", (size(unit - np.eye(len(X))), 0.0), (nought, 0.0), (moved, 0.0), X=X
     )
 
@@ -78,14 +85,14 @@ def inverse_undoes(group: Group, X: np.ndarray) -> float:
         for product in (X @ Y, Y @ X)
         for pair in of_elements(product, np.eye(len(X)), 3.0, 3 * shift(X))
     ]
-    return held("inverse undoes", *pairs, X=X)
+    return check_bounds("inverse undoes", *pairs, X=X)
 
 
 def exp_of_minus_is_inverse(group: Group, xi: np.ndarray) -> float:
     """exp(-ξ) = (exp ξ)⁻¹."""
     extent = 1 + angle(xi)
     pairs = of_elements(group.exp(-xi), group.inverse(group.exp(xi)), extent, extent * length(xi))
-    return held("exp of minus is the inverse", *pairs, xi=xi)
+    return check_bounds("exp of minus is the inverse", *pairs, xi=xi)
 
 
 def exp_adds_along_a_line(group: Group, xi: np.ndarray) -> float:
@@ -94,16 +101,27 @@ def exp_adds_along_a_line(group: Group, xi: np.ndarray) -> float:
     pairs = of_elements(
         group.exp(xi / 4) @ group.exp(0.75 * xi), group.exp(xi), extent, extent * length(xi)
     )
-    return held("exp adds along a line", *pairs, xi=xi)
+    return check_bounds("exp adds along a line", *pairs, xi=xi)
 
 
-def products_associate(group: Group, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> float:
+def products_associate(
+    group: Group,
+    xi: np.ndarray,
+    eta: np.ndarray,
+    zeta: np.ndarray,
+) -> float:
     """In any order: exp log((X Y) Z) = exp log(X (Y Z)) of three exponentials."""
     X, Y, Z = (group.exp(x) for x in (xi, eta, zeta))
     left, right = (group.exp(group.log(product)) for product in ((X @ Y) @ Z, X @ (Y @ Z)))
     extent = 1 + sum(map(angle, (xi, eta, zeta)))
     pairs = of_elements(left, right, 4 * extent, 8 * extent * sum(map(length, (xi, eta, zeta))))
-    return held("products associate", *pairs, xi=xi, eta=eta, zeta=zeta)
+    return check_bounds(
+        "products associate",
+        *pairs,
+        xi=xi,
+        eta=eta,
+        zeta=zeta,
+    )
 
 
 def log_undoes_exp(group: Group, xi: np.ndarray) -> float:
@@ -119,19 +137,21 @@ def log_undoes_exp(group: Group, xi: np.ndarray) -> float:
     pairs = of_twist(
         group.log(group.exp(xi)) - xi, 24 * UNIT * max(theta, 1e-150), 64 * UNIT * length(xi)
     )
-    return held("log undoes exp", *pairs, xi=xi)
+    return check_bounds("log undoes exp", *pairs, xi=xi)
 
 
 def exp_undoes_log(group: Group, X: np.ndarray) -> float:
     """And back again: exp log X = X."""
-    return held("exp undoes log", *of_elements(group.exp(group.log(X)), X, 3.0, 3 * shift(X)), X=X)
+    return check_bounds(
+        "exp undoes log", *of_elements(group.exp(group.log(X)), X, 3.0, 3 * shift(X)), X=X
+    )
 
 
 def adjoint_of_exp_is_exp_of_ad(group: Group, xi: np.ndarray) -> float:
     """Ad(exp ξ) = e^{ad ξ}, the latter as I + ad(ξ) J(ξ) with the exact J."""
     truth = np.eye(group.size) + exact.ad(xi) @ exact.left_jacobian(xi)
     extent = 1 + angle(xi)
-    return held(
+    return check_bounds(
         "adjoint of exp is exp of ad",
         *of_blocks(
             group.adjoint(group.exp(xi)) - truth,
@@ -142,20 +162,30 @@ def adjoint_of_exp_is_exp_of_ad(group: Group, xi: np.ndarray) -> float:
     )
 
 
-def adjoint_is_a_homomorphism(group: Group, X: np.ndarray, Y: np.ndarray) -> float:
+def adjoint_is_a_homomorphism(
+    group: Group,
+    X: np.ndarray,
+    Y: np.ndarray,
+) -> float:
     """Ad(X Y) = Ad(X) Ad(Y)."""
     error = group.adjoint(X @ Y) - group.adjoint(X) @ group.adjoint(Y)
     pairs = of_blocks(error, 24 * UNIT, 64 * UNIT * (shift(X) + shift(Y)))
-    return held("adjoint is a homomorphism", *pairs, X=X, Y=Y)
+    return check_bounds("adjoint is a homomorphism", *pairs, X=X, Y=Y)
 
 
-def adjoint_conjugates(group: Group, X: np.ndarray, xi: np.ndarray) -> float:
+def adjoint_conjugates(
+    group: Group,
+    X: np.ndarray,
+    xi: np.ndarray,
+) -> float:
     """hat(Ad(X) ξ) = X hat(ξ) X⁻¹."""
     error = group.vee(group.hat(group.adjoint(X) @ xi)) - group.vee(
         X @ group.hat(xi) @ group.inverse(X)
     )
     linear = 64 * UNIT * (length(xi) + angle(xi) * shift(X))
-    return held("adjoint conjugates", *of_twist(error, 32 * UNIT * angle(xi), linear), X=X, xi=xi)
+    return check_bounds(
+        "adjoint conjugates", *of_twist(error, 32 * UNIT * angle(xi), linear), X=X, xi=xi
+    )
 
 
 def jacobians_meet_in_the_adjoint(group: Group, xi: np.ndarray) -> float:
@@ -163,7 +193,7 @@ def jacobians_meet_in_the_adjoint(group: Group, xi: np.ndarray) -> float:
     error = group.left_jacobian(xi) - group.adjoint(group.exp(xi)) @ group.right_jacobian(xi)
     extent = 1 + angle(xi)
     pairs = of_blocks(error, 32 * UNIT * extent, 128 * UNIT * extent * length(xi))
-    return held("jacobians meet in the adjoint", *pairs, xi=xi)
+    return check_bounds("jacobians meet in the adjoint", *pairs, xi=xi)
 
 
 def jacobians_have_inverses(group: Group, xi: np.ndarray) -> float:
@@ -175,7 +205,7 @@ def jacobians_have_inverses(group: Group, xi: np.ndarray) -> float:
     ):
         error = J(xi) @ inverse(xi) - np.eye(group.size)
         pairs += of_blocks(error, 32 * UNIT, 64 * UNIT * length(xi))
-    return held("jacobians have inverses", *pairs, xi=xi)
+    return check_bounds("jacobians have inverses", *pairs, xi=xi)
 
 
 def left_jacobian_is_lemma_5s_integral(group: Group, xi: np.ndarray) -> float:
@@ -190,7 +220,7 @@ def left_jacobian_is_lemma_5s_integral(group: Group, xi: np.ndarray) -> float:
     pairs = of_blocks(
         group.left_jacobian(xi) - integral, 64 * UNIT * extent, 256 * UNIT * extent * length(xi)
     )
-    return held("left jacobian is Lemma 5's integral", *pairs, xi=xi)
+    return check_bounds("left jacobian is Lemma 5's integral", *pairs, xi=xi)
 
 
 GROUP_LAWS = (

@@ -1,5 +1,5 @@
-"""What a law is: a plain function of a subject and its arguments that measures an error and holds
-it to a bound.
+"""Laws: plain functions of a subject and its arguments that measure an error and hold it to a
+bound.
 
 A law returns error ÷ bound (hand it to `hypothesis.target`, which then hunts the worst case) and
 raises LawViolation where that exceeds 1. Laws use neither Hypothesis nor pytest, so any test-suite
@@ -28,10 +28,19 @@ class LawViolation(AssertionError):
     message can be pasted, with NumPy as np.
     """
 
-    def __init__(self, law: str, error: float, bound: float, seen: Mapping[str, Any]):
+    def __init__(
+        self,
+        law: str,
+        error: float,
+        bound: float,
+        seen: Mapping[str, Any],
+    ):
         arguments = "".join(f"\n  {name} = {_pasted(value)}" for name, value in seen.items())
         super().__init__(f"{law}: error {error:.3g} exceeds {bound:.3g}{arguments}")
-        self.law, self.error, self.bound, self.seen = law, error, bound, dict(seen)
+        self.law = law
+        self.error = error
+        self.bound = bound
+        self.seen = dict(seen)
 
     def __reduce__(self):
         return type(self), (self.law, self.error, self.bound, self.seen)
@@ -54,7 +63,11 @@ class Law(NamedTuple):
         return self.check.__name__
 
 
-def held(law: str, *measured: tuple[float, float], **seen: object) -> float:
+def check_bounds(
+    law: str,
+    *measured: tuple[float, float],
+    **seen: object,
+) -> float:
     """The worst error ÷ bound of the measured (error, bound) pairs, where none exceeds 1: what a
     law ends with.
 
@@ -66,8 +79,11 @@ def held(law: str, *measured: tuple[float, float], **seen: object) -> float:
     for error, bound in measured:
         if not error <= bound:
             raise LawViolation(law, float(error), float(bound), seen)
-        worst = max(worst, float(error / bound) if error else 0.0)
-    return worst if math.isfinite(worst) else 0.0
+        if error:
+            worst = max(worst, float(error / bound))
+    if not math.isfinite(worst):
+        return 0.0
+    return worst
 
 
 def _pasted(value: object) -> str:
@@ -76,4 +92,6 @@ def _pasted(value: object) -> str:
     """
     if not isinstance(value, np.ndarray) or value.dtype == object or value.size > SHOWN:
         return repr(value)
-    return f"np.array({value.tolist()!r})" if value.size else f"np.zeros({value.shape!r})"
+    if value.size == 0:
+        return f"np.zeros({value.shape!r})"
+    return f"np.array({value.tolist()!r})"

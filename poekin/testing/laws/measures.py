@@ -1,8 +1,8 @@
-"""How errors are measured: on ω and v apart, on R and t apart, on the blocks of a 6×6 apart.
+"""Measures of errors: on ω and v apart, on R and t apart, on the blocks of a 6×6 apart.
 
 One number for both halves would let a large translation hide a wrong angle. Every function returns
 pairs
-(error, bound), as `laws.held` takes them; those without their own bound get 12 u times a size.
+(error, bound), as `laws.check_bounds` takes them; those without their own bound get 12 u times a size.
 
 Parameters: x, any array (...); xi, error, a twist (6,), (ω; v), or rotation vector (3,); X, Y,
 poses (4, 4) in one frame, or rotations (3, 3); of_blocks takes error (6, 6) or (3, 3); angular,
@@ -46,23 +46,42 @@ def shift(X: np.ndarray) -> float:
     return size(X[:3, 3:])
 
 
-def of_elements(X: np.ndarray, Y: np.ndarray, angular: float, linear: float) -> Pairs:
+def of_elements(
+    X: np.ndarray,
+    Y: np.ndarray,
+    angular: float,
+    linear: float,
+) -> Pairs:
     """‖ΔR‖ and ‖Δt‖ of two rotations or poses, against 12 u times a size each."""
-    R = (size(X[:3, :3] - Y[:3, :3]), 12 * UNIT * angular)
-    return [R] if len(X) == 3 else [R, (size(X[:3, 3] - Y[:3, 3]), 12 * UNIT * linear)]
+    pairs = [(size(X[:3, :3] - Y[:3, :3]), 12 * UNIT * angular)]
+    if len(X) == 4:
+        pairs.append((size(X[:3, 3] - Y[:3, 3]), 12 * UNIT * linear))
+    return pairs
 
 
-def of_twist(error: np.ndarray, angular: float, linear: float) -> Pairs:
+def of_twist(
+    error: np.ndarray,
+    angular: float,
+    linear: float,
+) -> Pairs:
     """‖Δω‖ and ‖Δv‖ against bounds of their own."""
-    w = (size(error[:3]), angular)
-    return [w] if len(error) == 3 else [w, (size(error[3:]), linear)]
+    pairs = [(size(error[:3]), angular)]
+    if len(error) == 6:
+        pairs.append((size(error[3:]), linear))
+    return pairs
 
 
-def of_blocks(error: np.ndarray, diagonal: float, lower: float) -> Pairs:
+def of_blocks(
+    error: np.ndarray,
+    diagonal: float,
+    lower: float,
+) -> Pairs:
     """The error of a 3×3, or of the blocks [P 0; Q P] of a 6×6, with bounds for P and Q; the 0 must
     be exact.
     """
     if len(error) == 3:
         return [(size(error), diagonal)]
-    P, corner, Q = (error[:3, :3], error[3:, 3:]), error[:3, 3:], error[3:, :3]
+    P = (error[:3, :3], error[3:, 3:])
+    corner = error[:3, 3:]
+    Q = error[3:, :3]
     return [(size(P[0]), diagonal), (size(P[1]), diagonal), (size(corner), 0.0), (size(Q), lower)]

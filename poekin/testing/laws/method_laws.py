@@ -26,7 +26,7 @@ from poekin.formulas.kinematics import recursive
 from poekin.formulas.lie import exponential
 from poekin.formulas.paper import dh_recursive, direct
 
-from .chain_laws import adjoint, displacements, inverse, kept, of_poses, of_twists
+from .chain_laws import adjoint, check_chain_bounds, displacements, inverse, of_poses, of_twists
 from .laws import Law
 from .measures import Pairs
 
@@ -35,7 +35,8 @@ Method = Callable[[Any, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 def direct_space(chain: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The pose, and the body Jacobian (6, n) by way of the space Jacobian of the direct method."""
-    exponentials, J = _exponentials(chain.space.screws, x), _rows(len(x))
+    exponentials = _exponentials(chain.space.screws, x)
+    J = _rows(len(x))
     before = direct.space(chain.space.screws.tolist(), exponentials, len(x), J)
     last = exponentials[-1] if len(x) > 1 else algebra.IDENTITY
     T = _matrix(before) @ _matrix(last) @ chain.space.home
@@ -44,7 +45,8 @@ def direct_space(chain: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def direct_body(chain: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The pose, and the body Jacobian (6, n) by the direct method."""
-    exponentials, J = _exponentials(chain.body.screws, x), _rows(len(x))
+    exponentials = _exponentials(chain.body.screws, x)
+    J = _rows(len(x))
     after = direct.body(chain.body.screws.tolist(), exponentials, len(x), J)
     first = exponentials[0] if len(x) > 1 else algebra.IDENTITY
     return chain.body.home @ _matrix(first) @ _matrix(after), np.array(J)
@@ -72,7 +74,9 @@ def dh_recursion(chain: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The pose, and the body Jacobian (6, n) by the recursion of Orin and Schrader: A_i = e^{S x_i}
     M_{i+1}.
     """
-    frames, (_, rotates, slides), J = chain.local.frames, _links(chain, x), _rows(len(x))
+    frames = chain.local.frames
+    (_, rotates, slides) = _links(chain, x)
+    J = _rows(len(x))
     turned = [
         _turned(np.eye(4), r, s, amount) for r, s, amount in zip(rotates, slides, x, strict=True)
     ]
@@ -98,7 +102,9 @@ def methods_agree(
     """Direct = recursive = DH recursive, pose and Jacobian, and the V recursion; `joint` says that
     there is one.
     """
-    x, rates, pairs = displacements(chain, q), chain.coupling @ dq, Pairs()
+    x = displacements(chain, q)
+    rates = chain.coupling @ dq
+    pairs = Pairs()
     V = chain.jacobian(q, "body") @ dq
     for method in methods.values():
         T, J = method(chain, x)
@@ -107,7 +113,7 @@ def methods_agree(
     tool = _twelve(chain.local.frames[-1])
     recursion = recursive.body_velocity(links, tool, rotates, slides, len(x), rates.tolist())
     pairs += of_twists(chain, q, dq, np.array(recursion) - V, 4.0)
-    return kept("methods agree", chain, *pairs, q=q, dq=dq, joint=joint)
+    return check_chain_bounds("methods agree", chain, *pairs, q=q, dq=dq, joint=joint)
 
 
 METHOD_LAWS = (Law(methods_agree, ("q", "dq", "joint")),)
@@ -123,12 +129,18 @@ def _exponentials(screws: np.ndarray, x: np.ndarray) -> list[tuple[float, ...]]:
 
 def _links(chain: Any, x: np.ndarray) -> tuple[list[tuple[float, ...]], list[float], list[float]]:
     """f_{i-1,i} = M_i e^{S_i x_i}, and r and s of each joint's S = (0, 0, r; 0, 0, s)."""
-    rotates, slides = chain.local.rotates.tolist(), chain.local.slides.tolist()
+    rotates = chain.local.rotates.tolist()
+    slides = chain.local.slides.tolist()
     parts = zip(chain.local.frames[:-1], rotates, slides, x, strict=True)
     return [_turned(M, r, s, amount) for M, r, s, amount in parts], rotates, slides
 
 
-def _turned(M: np.ndarray, r: float, s: float, x: float) -> tuple[float, ...]:
+def _turned(
+    M: np.ndarray,
+    r: float,
+    s: float,
+    x: float,
+) -> tuple[float, ...]:
     return algebra.turned_about_z(_twelve(M), math.sin(r * x), math.cos(r * x), s * x)
 
 
@@ -137,7 +149,8 @@ def _twelve(T: np.ndarray) -> tuple[float, ...]:
 
 
 def _matrix(T: Any) -> np.ndarray:
-    R, p = np.reshape(T[:9], (3, 3)), np.reshape(T[9:], (3, 1))
+    R = np.reshape(T[:9], (3, 3))
+    p = np.reshape(T[9:], (3, 1))
     return np.block([[R, p], [np.zeros((1, 3)), np.ones((1, 1))]])
 
 

@@ -19,11 +19,15 @@ import numpy as np
 
 from ..accuracy.error_bounds import UNIT
 from .group import Group
-from .laws import Law, held
+from .laws import Law, check_bounds
 from .measures import angle, of_elements, of_twist, shift, size
 
 
-def near_picks_the_closest_branch(group: Group, xi: np.ndarray, near: np.ndarray) -> float:
+def near_picks_the_closest_branch(
+    group: Group,
+    xi: np.ndarray,
+    near: np.ndarray,
+) -> float:
     """The logarithm near a given one is a logarithm, on the line of the principal one, and none is
     closer.
 
@@ -59,11 +63,9 @@ def a_logarithm_is_nearest_to_itself(group: Group, xi: np.ndarray) -> float:
         error, (64 if far else 24) * UNIT * angle(xi), 512 * UNIT * extent**2 * size(xi[3:])
     )
     # Within rounding of π both signs are as near; of the two, either may come back.
-    return (
-        0.0
-        if abs(angle(xi) - math.pi) < 1e-14
-        else held("a logarithm is nearest to itself", *pairs, xi=xi)
-    )
+    if abs(angle(xi) - math.pi) < 1e-14:
+        return 0.0
+    return check_bounds("a logarithm is nearest to itself", *pairs, xi=xi)
 
 
 NEAR_LAWS = (
@@ -76,18 +78,21 @@ NEAR_LAWS = (
 def _closest(
     group: Group, X: np.ndarray, principal: np.ndarray, near: np.ndarray, xi: np.ndarray
 ) -> float:
-    found, theta = group.log(X, near=near), angle(principal)
+    found = group.log(X, near=near)
+    theta = angle(principal)
     n = principal[:3] / theta
     distances = [size((theta + 2 * math.pi * k) * n - near[:3]) for k in range(-4, 5)]
     extent = 1 + angle(found)
     off_line = size(np.cross(n, found[:3]))
     # Near a multiple of 2π the translation of a logarithm has no bound: it is 1/sin(θ/2) times that
     # of the pose.
-    stretch = 1 / abs(math.sin(theta / 2)) if angle(found) > math.pi + 1e-9 else 1.0
+    stretch = 1.0
+    if angle(found) > math.pi + 1e-9:
+        stretch = 1 / abs(math.sin(theta / 2))
     pairs = of_elements(group.exp(found), X, 2 * extent, 4 * extent**2 * stretch * shift(X))
     excess = size(found[:3] - near[:3]) - min(distances)
     bound = 16 * UNIT * extent
-    return held(
+    return check_bounds(
         "near picks the closest branch",
         *pairs,
         (off_line, bound),

@@ -38,9 +38,15 @@ _WEIGHTS = [
 Pose = Callable[[np.ndarray], np.ndarray]
 
 
-def derivative(f: Pose, q: ArrayLike, dq: ArrayLike, rate: float = 1.0) -> np.ndarray:
+def derivative(
+    f: Pose,
+    q: ArrayLike,
+    dq: ArrayLike,
+    rate: float = 1.0,
+) -> np.ndarray:
     """d/ds f(q + s dq) at s = 0, entry by entry: q and dq (m,), f(q) any shape."""
-    at, direction = _coordinates("q", q), _coordinates("dq", dq)
+    at = _coordinates("q", q)
+    direction = _coordinates("dq", dq)
     if at.shape != direction.shape:
         raise ShapeError(
             f"expected q and dq of one shape (m,), got {at.shape} and {direction.shape}"
@@ -56,7 +62,13 @@ def derivative(f: Pose, q: ArrayLike, dq: ArrayLike, rate: float = 1.0) -> np.nd
     return np.sum(terms, axis=0)
 
 
-def velocity(f: Pose, q: ArrayLike, dq: ArrayLike, frame: str, rate: float = 1.0) -> np.ndarray:
+def velocity(
+    f: Pose,
+    q: ArrayLike,
+    dq: ArrayLike,
+    frame: str,
+    rate: float = 1.0,
+) -> np.ndarray:
     """The twist (ω; v) of the pose f(q) at rate dq: "space" Ṫ T⁻¹, "body" T⁻¹ Ṫ, or "hybrid" (ω of
     space, ṗ).
 
@@ -66,7 +78,10 @@ def velocity(f: Pose, q: ArrayLike, dq: ArrayLike, frame: str, rate: float = 1.0
     T = np.asarray(f(_coordinates("q", q)))
     if T.shape != (4, 4):
         raise ShapeError(f"f: expected a pose (4, 4) at q, got shape {T.shape}")
-    R, p, dR, dp = T[:3, :3], T[:3, 3], dT[:3, :3], dT[:3, 3]
+    R = T[:3, :3]
+    p = T[:3, 3]
+    dR = dT[:3, :3]
+    dp = dT[:3, 3]
     if frame == "body":
         return np.concatenate([_axial(R.T @ dR), R.T @ dp])
     w = _axial(dR @ R.T)
@@ -77,7 +92,12 @@ def velocity(f: Pose, q: ArrayLike, dq: ArrayLike, frame: str, rate: float = 1.0
     raise InputError(f'frame must be "space", "body" or "hybrid", not {frame!r}')
 
 
-def jacobian(f: Pose, q: ArrayLike, frame: str, rate: float = 1.0) -> np.ndarray:
+def jacobian(
+    f: Pose,
+    q: ArrayLike,
+    frame: str,
+    rate: float = 1.0,
+) -> np.ndarray:
     """The Jacobian (6, m) of f at q (m,), rows (ω; v): `velocity` of each coordinate in turn."""
     at = _coordinates("q", q)
     columns = [velocity(f, at, direction, frame, rate) for direction in np.eye(len(at))]

@@ -43,8 +43,8 @@ _to_float = np.frompyfunc(float, 1, 1)
 
 
 def exactly(x: ArrayLike) -> np.ndarray:
-    """The same numbers x, of any shape (...), as this context's mpmath numbers; floats and its own
-    are not rounded.
+    """Numbers x, of any shape (...), as this context's mpmath numbers; floats and its own are not
+    rounded.
     """
     try:
         # A NaN among them is no reason to warn.
@@ -87,13 +87,17 @@ def hat(w: ArrayLike) -> np.ndarray:
 def ad(xi: ArrayLike) -> np.ndarray:
     """ad(ξ) = [[ω] 0; [v] [ω]]: xi (6,) -> (6, 6), or [ω] of a rotation vector: xi (3,) -> (3, 3)."""
     x = _vector(xi)
-    return hat(x) if len(x) == 3 else _lower(hat(x[:3]), hat(x[3:]))
+    if len(x) == 3:
+        return hat(x)
+    return _lower(hat(x[:3]), hat(x[3:]))
 
 
 def adjoint(T: ArrayLike) -> np.ndarray:
     """Ad(T) = [R 0; [t] R R]: T (4, 4) -> (6, 6), or R itself: T (3, 3) -> (3, 3)."""
     X = _element(T)
-    return X if len(X) == 3 else _lower(X[:3, :3], hat(X[:3, 3]) @ X[:3, :3])
+    if len(X) == 3:
+        return X
+    return _lower(X[:3, :3], hat(X[:3, 3]) @ X[:3, :3])
 
 
 def inverse(T: ArrayLike) -> np.ndarray:
@@ -110,7 +114,8 @@ def inverse(T: ArrayLike) -> np.ndarray:
 def exp(xi: ArrayLike) -> np.ndarray:
     """e^[ω], xi (3,) -> (3, 3), or e^ξ, xi (6,) -> (4, 4)."""
     x = _vector(xi)
-    w, W = x[:3], hat(x[:3])
+    w = x[:3]
+    W = hat(x[:3])
     a, b, c = _coefficients(w @ w)
     R = _identity(3) + W * a + (W @ W) * b
     if len(x) == 3:
@@ -164,10 +169,13 @@ def left_jacobian(xi: ArrayLike) -> np.ndarray:
     # X = ad(ξ) obeys X⁵ = -2θ² X³ - θ⁴ X, so every power, and the series, is a sum of X, X², X³ and
     # X⁴.
     V = hat(x[3:])
-    sum_P, sum_Q = _identity(3), 0 * V
-    P, Q = W, V
+    sum_P = _identity(3)
+    sum_Q = 0 * V
+    P = W
+    Q = V
     for factor in _jacobian_series(x[:3] @ x[:3]):
-        sum_P, sum_Q = sum_P + P * factor, sum_Q + Q * factor
+        sum_P = sum_P + P * factor
+        sum_Q = sum_Q + Q * factor
         P, Q = W @ P, W @ Q + V @ P
     return _lower(sum_P, sum_Q)
 
@@ -176,7 +184,9 @@ def left_jacobian_inverse(xi: ArrayLike) -> np.ndarray:
     """The inverse of `left_jacobian`, |ω| < 2π: xi (3,) -> (3, 3) or xi (6,) -> (6, 6)."""
     J = left_jacobian(xi)
     P = _inverse3(J[:3, :3])
-    return P if len(J) == 3 else _lower(P, -(P @ J[3:, :3] @ P))
+    if len(J) == 3:
+        return P
+    return _lower(P, -(P @ J[3:, :3] @ P))
 
 
 def right_jacobian(xi: ArrayLike) -> np.ndarray:
@@ -191,11 +201,16 @@ def right_jacobian_inverse(xi: ArrayLike) -> np.ndarray:
     return left_jacobian_inverse(-_vector(xi))
 
 
-def forward(screws: ArrayLike, home: ArrayLike, x: ArrayLike) -> np.ndarray:
+def forward(
+    screws: ArrayLike,
+    home: ArrayLike,
+    x: ArrayLike,
+) -> np.ndarray:
     """e^{A1 x1} ⋯ e^{An xn} M: screws (n, 6) in the base frame, home (4, 4), displacements x (n,)
     -> (4, 4).
     """
-    A, shift = exactly(screws), exactly(x)
+    A = exactly(screws)
+    shift = exactly(x)
     if A.shape != (len(shift), 6):
         raise ShapeError(f"expected screws (n, 6) and x (n,), got {A.shape} and {shift.shape}")
     T = _identity(4)
@@ -229,10 +244,12 @@ def _coefficients(s: Any) -> tuple[Any, Any, Any]:
     sums = []
     for first in (1, 2, 3):
         term = mp.one / mp.factorial(first)
-        total, k = term, first
+        total = term
+        k = first
         while abs(term) > _least():
             term = -term * s / ((k + 1) * (k + 2))
-            total, k = total + term, k + 2
+            total = total + term
+            k = k + 2
         sums.append(total)
     return sums[0], sums[1], sums[2]
 
@@ -245,7 +262,9 @@ def _least() -> Any:
 def _jacobian_series(s: Any) -> list[Any]:
     """The factors of X, X², X³, X⁴ in Σ X^k / (k+1)!, k >= 1, where X⁵ = -2s X³ - s² X."""
     power = [mp.one, mp.zero, mp.zero, mp.zero]
-    sums, weight, k = [mp.zero] * 4, mp.one / 2, 1
+    sums = [mp.zero] * 4
+    weight = mp.one / 2
+    k = 1
     # The entries of `power` grow as k θ^k, which (k+1)! soon overtakes.
     while max(map(abs, power)) * weight > _least():
         sums = [total + weight * p for total, p in zip(sums, power, strict=True)]
@@ -261,14 +280,20 @@ def _log3(X: np.ndarray, digits: int = DIGITS) -> np.ndarray:
         s = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]], dtype=object) / 2
         # The polar factor of a symmetric matrix is symmetric: θ = 0 or θ = π.
         s = 0 * s if np.array_equal(X, X.T) else s
-        sine, cosine = norm(s), (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2
+        sine = norm(s)
+        cosine = (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2
         # A smaller sine is a difference that has lost too many digits.
         if sine > mp.mpf("1e-10") or digits > DIGITS:
             return _axis_angle(R, s, sine, cosine)
     return _log3(X, 8 * DIGITS)
 
 
-def _axis_angle(R: np.ndarray, s: np.ndarray, sine: Any, cosine: Any) -> np.ndarray:
+def _axis_angle(
+    R: np.ndarray,
+    s: np.ndarray,
+    sine: Any,
+    cosine: Any,
+) -> np.ndarray:
     angle = mp.atan2(sine, cosine)
     if cosine >= 0:
         return s * (angle / sine) if sine else s
@@ -299,8 +324,14 @@ def _lower(P: np.ndarray, Q: np.ndarray) -> np.ndarray:
     return np.block([[P, exactly(np.zeros((3, 3)))], [Q, P]])
 
 
-def _stack(R: np.ndarray, t: np.ndarray, last: int) -> np.ndarray:
+def _stack(
+    R: np.ndarray,
+    t: np.ndarray,
+    last: int,
+) -> np.ndarray:
     """[R t; 0 last]."""
     T = exactly(np.zeros((4, 4)))
-    T[:3, :3], T[:3, 3], T[3, 3] = R, t, mp.mpf(last)
+    T[:3, :3] = R
+    T[:3, 3] = t
+    T[3, 3] = mp.mpf(last)
     return T

@@ -20,7 +20,7 @@ FREE_OF = 1e-12  # entries of a Jacobian below it are rounding
 
 
 class Derivatives(NamedTuple):
-    """Of N configurations and rates of all m coordinates, by frame "space", "body", "hybrid".
+    """Derivatives at N configurations and rates of all m coordinates, by frame "space", "body", "hybrid".
 
     rate {frame: (N, 6, m)}, hessian {frame: (N, 6, m, m)} (column, then coordinate), acceleration
     {frame: (N, 6)}.
@@ -52,7 +52,9 @@ def derivatives(
     Returns: `Derivatives`. Accuracy: Pinocchio's own rounding.
     Raises: as `PinocchioOracle.evaluate`; InputError for a base that moves.
     """
-    pin, model, data = pinocchio(), oracle.model, oracle.data
+    pin = pinocchio()
+    model = oracle.model
+    data = oracle.data
     configurations = oracle.configurations(q)
     count, m = dq.shape
     velocity = [model.joints[i].idx_v for i in oracle._simple.values()]
@@ -67,7 +69,8 @@ def derivatives(
     if model.nv == 0:
         return result
     for k, configuration in enumerate(configurations):
-        v, a = C @ dq[k], C @ ddq[k]
+        v = C @ dq[k]
+        a = C @ ddq[k]
         pin.computeJointJacobians(model, data, configuration)
         T_0b, still = _base(oracle, base, C, dq[k], ddq[k])
         pin.computeJointKinematicHessians(model, data, configuration)
@@ -103,10 +106,12 @@ def _tensor(X: np.ndarray) -> np.ndarray:
 
 
 def _turn(frame: str, T_0b: Any) -> np.ndarray:
-    """What takes twists (v; omega) seen from the root to the same seen from a base at rest."""
+    """Matrix from twists (v; omega) seen from the root to those seen from a base at rest."""
     if T_0b is None or frame == "body":
         return np.eye(6)
-    return T_0b.toActionMatrixInverse() if frame == "space" else np.kron(np.eye(2), T_0b.rotation.T)
+    if frame == "space":
+        return T_0b.toActionMatrixInverse()
+    return np.kron(np.eye(2), T_0b.rotation.T)
 
 
 def _base(
@@ -115,7 +120,9 @@ def _base(
     """The pose of the base, and 1 for each coordinate that leaves it where it is, 0 for others
     (m,).
     """
-    pin, model, data = pinocchio(), oracle.model, oracle.data
+    pin = pinocchio()
+    model = oracle.model
+    data = oracle.data
     if base is None:
         return None, np.ones(len(dq))
     base_id = oracle._frame(base)
@@ -156,7 +163,8 @@ def derivative_errors(
     Raises: UnknownName for a coordinate of the chain that Pinocchio does not know, and as
     `derivatives`.
     """
-    rng, m = np.random.default_rng(seed), len(oracle.coordinates)
+    rng = np.random.default_rng(seed)
+    m = len(oracle.coordinates)
     q = oracle.random(rng, samples)
     for values in q.values():
         values[:1] = 0.0
@@ -169,7 +177,8 @@ def derivative_errors(
     weight = np.repeat([1.0, 1.0 / chain.reach], 3)
     errors = np.zeros(3)
     for frame in _REFERENCES:
-        dJ, H = np.zeros((samples, 6, m)), np.zeros((samples, 6, m, m))
+        dJ = np.zeros((samples, 6, m))
+        H = np.zeros((samples, 6, m, m))
         dJ[:, :, own] = chain.jacobian_rate(at, dq, frame)
         H[np.ix_(range(samples), range(6), own, own)] = chain.hessian(at, frame)
         A = chain.acceleration(at, dq, ddq, frame)

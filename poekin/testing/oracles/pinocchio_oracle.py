@@ -86,7 +86,11 @@ class PinocchioOracle:
     def _kind(self, joint: str) -> str:
         return self.model.joints[self._simple[joint]].shortname()
 
-    def random(self, rng: np.random.Generator, size: int) -> dict[str, np.ndarray]:
+    def random(
+        self,
+        rng: np.random.Generator,
+        size: int,
+    ) -> dict[str, np.ndarray]:
         """Configurations for every coordinate: revolute within ±π, prismatic within ±1 m, whatever
         the limits say.
 
@@ -132,15 +136,18 @@ class PinocchioOracle:
         for column, index in enumerate(self._simple.values()):
             joint = self.model.joints[index]
             if joint.nq == 2:  # a continuous joint: a point on the unit circle
-                result[:, joint.idx_q], result[:, joint.idx_q + 1] = (
-                    np.cos(x[:, column]),
-                    np.sin(x[:, column]),
-                )
+                result[:, joint.idx_q] = np.cos(x[:, column])
+                result[:, joint.idx_q + 1] = np.sin(x[:, column])
             else:
                 result[:, joint.idx_q] = x[:, column]
         return result
 
-    def poses(self, q: Mapping[str, Any], tip: str, base: str | None = None) -> np.ndarray:
+    def poses(
+        self,
+        q: Mapping[str, Any],
+        tip: str,
+        base: str | None = None,
+    ) -> np.ndarray:
         """Poses T_base,tip (N, 4, 4) [m] at N configurations; base is the root link when it is not
         given.
 
@@ -172,10 +179,14 @@ class PinocchioOracle:
         unchanged.
         Raises: as `poses`.
         """
-        pin, model, data = pinocchio(), self.model, self.data
-        tip_id, base_id = self._frame(tip), None if base is None else self._frame(base)
+        pin = pinocchio()
+        model = self.model
+        data = self.data
+        tip_id = self._frame(tip)
+        base_id = None if base is None else self._frame(base)
         configurations = self.configurations(q)
-        count, m = len(configurations), len(self.coordinates)
+        count = len(configurations)
+        m = len(self.coordinates)
         T = np.empty((count, 4, 4))
         J = {frame: np.zeros((count, 6, m)) for frame in FRAME_NAMES}
         velocity = [model.joints[i].idx_v for i in self._simple.values()]
@@ -237,8 +248,8 @@ _stderr = threading.Lock()
 
 
 def _built(build: Callable[[], Any]) -> Any:
-    """What Pinocchio builds. Why it refuses a text it says on the process's own stderr, which is
-    caught meanwhile.
+    """Object that Pinocchio builds; its reasons for a refusal, which it writes to the process's own
+    stderr, are caught.
     """
     if sys.stderr is not None:
         sys.stderr.flush()
@@ -297,12 +308,16 @@ def _coupling(
     for name in joints:
         mimic = elements[name].find("mimic")
         if mimic is not None and mimic.get("joint") in elements:
-            scale, shift = float(mimic.get("multiplier", 1)), float(mimic.get("offset", 0))
+            scale = float(mimic.get("multiplier", 1))
+            shift = float(mimic.get("offset", 0))
             mimics[name] = str(mimic.get("joint")), scale, shift
     coordinates = tuple(name for name in joints if name not in mimics)
-    C, c = np.zeros((len(joints), len(coordinates))), np.zeros(len(joints))
+    C = np.zeros((len(joints), len(coordinates)))
+    c = np.zeros(len(joints))
     for row, name in enumerate(joints):
-        master, scale, shift = name, 1.0, 0.0
+        master = name
+        scale = 1.0
+        shift = 0.0
         for _ in range(len(mimics)):
             if master not in mimics:
                 break

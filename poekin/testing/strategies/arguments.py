@@ -1,5 +1,5 @@
-"""What strategies are asked for, checked where they are asked: a case that is drawn later could not
-say what was wrong.
+"""Checks of the arguments of strategies, at the call: a case that is drawn later could not say what
+was wrong.
 
 Every function returns the value in its plain form. Parameters: what, the argument's name for the
 message; value or given, what arrived. Raises: InputError with the name of the argument, what was
@@ -17,13 +17,16 @@ from typing import Any
 from ...errors import InputError, safe_repr, suggest
 
 
-def number(what: str, value: Any, low: float, high: float) -> float:
+def number(
+    what: str,
+    value: Any,
+    low: float,
+    high: float,
+) -> float:
     """A finite number from low to high, which are both allowed."""
-    real = (
-        float(value)
-        if isinstance(value, numbers.Real) and not isinstance(value, bool)
-        else math.nan
-    )
+    real = math.nan
+    if _is_real(value):
+        real = float(value)
     if not low <= real <= high:
         raise InputError(
             f"{what}: expected a number from {low:g} to {high:g}, got {safe_repr(value)}"
@@ -40,18 +43,26 @@ def magnitudes(what: str, value: Any) -> tuple[float, float]:
         smallest, largest = value
     except (TypeError, ValueError) as fault:
         raise InputError(expected) from fault
-    pair = [
-        x for x in (smallest, largest) if isinstance(x, numbers.Real) and not isinstance(x, bool)
-    ]
-    if len(pair) < 2 or not (0 < smallest <= largest and math.isfinite(largest)):
+    if not (_is_real(smallest) and _is_real(largest)):
+        raise InputError(expected)
+    if not 0 < smallest <= largest < math.inf:
         raise InputError(expected)
     return float(smallest), float(largest)
 
 
-def counts(least: Any, most: Any, floor: int = 0) -> tuple[int, int]:
+def _is_real(value: Any) -> bool:
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def counts(
+    least: Any,
+    most: Any,
+    floor: int = 0,
+) -> tuple[int, int]:
     """`min_joints` and `max_joints`: whole numbers with floor <= min_joints <= max_joints."""
     try:
-        low, high = operator.index(least), operator.index(most)
+        low = operator.index(least)
+        high = operator.index(most)
     except TypeError:
         low = high = -1
     if not floor <= low <= high or isinstance(least, bool) or isinstance(most, bool):
@@ -75,7 +86,11 @@ def shape(value: Any) -> tuple[int, ...]:
     return sizes
 
 
-def some(what: str, given: Any, known: Collection[str]) -> tuple[str, ...]:
+def some(
+    what: str,
+    given: Any,
+    known: Collection[str],
+) -> tuple[str, ...]:
     """One or more of the words that are known; a single one need not stand in a tuple."""
     words = (given,) if isinstance(given, str) else given
     try:

@@ -24,7 +24,7 @@ import numpy as np
 from poekin.model.chain import Chain
 
 from . import arguments
-from .decoding.bytes_reader import Reader
+from .decoding.bytes_reader import BytesReader
 from .group_strategies import Arrays, axes, batch_shapes, frozen, poses, read, st, vectors
 
 KINDS = ("revolute", "prismatic", "helical")
@@ -60,12 +60,18 @@ def screws(kinds: Sequence[str] = KINDS) -> Arrays:
 
 @functools.cache
 def _screws(kinds: tuple[str, ...]) -> Arrays:
-    def screw(kind: str, axis: np.ndarray, point: np.ndarray, pitch: float) -> np.ndarray:
+    def screw(
+        kind: str,
+        axis: np.ndarray,
+        point: np.ndarray,
+        pitch: float,
+    ) -> np.ndarray:
         if kind == "prismatic":
             return frozen([0, 0, 0, *axis])
-        return frozen(
-            [*axis, *(np.cross(point, axis) + (pitch * axis if kind == "helical" else 0))]
-        )
+        slide = np.zeros(3)
+        if kind == "helical":
+            slide = pitch * axis
+        return frozen([*axis, *(np.cross(point, axis) + slide)])
 
     pitches = read(5, lambda r: r.pick([1.0, -1.0]) * max(r.magnitude(1e-3, 1.0), 1e-3))
     return st.builds(screw, read(1, lambda r: r.pick(kinds)), axes(), points(), pitches)
@@ -99,13 +105,18 @@ def chains(
     )
 
 
-def _limits(r: Reader) -> tuple[float, float]:
-    kind, lower, width = r.pick(LIMITS), r.decimal(-3.0, 3.0), r.decimal(0.1, 3.0)
-    upper = lower if kind == "equal" else lower + width
-    return (
-        -math.inf if kind in ("none", "upper") else lower,
-        math.inf if kind in ("none", "lower") else upper,
-    )
+def _limits(r: BytesReader) -> tuple[float, float]:
+    kind = r.pick(LIMITS)
+    lower = r.decimal(-3.0, 3.0)
+    width = r.decimal(0.1, 3.0)
+    upper = lower + width
+    if kind == "equal":
+        upper = lower
+    if kind in ("none", "upper"):
+        lower = -math.inf
+    if kind in ("none", "lower"):
+        upper = math.inf
+    return lower, upper
 
 
 @st.composite
@@ -120,20 +131,42 @@ def _chains(
     n = draw(read(1, lambda r: r.pick(range(bounds[0], bounds[1] + 1))))
     A = [draw(_screws(kinds)) for _ in range(n)]
     home = draw(placements())
-    if n == 0 or not (draw(st.booleans()) if coupled is None else coupled):
-        pairs = draw(read(9 * n, lambda r: [_limits(r) for _ in range(n)])) if limits else None
-        return Chain(np.reshape(A, (n, 6)), home, limits=pairs or None)
+    if n and coupled is None:
+        coupled = draw(st.booleans())
+    if n == 0 or not coupled:
+        return Chain(np.reshape(A, (n, 6)), home, limits=_drawn_limits(draw, n, limits))
     m = draw(st.integers(1, n))
-    C, c = np.zeros((n, m)), np.zeros(n)
+    C = np.zeros((n, m))
+    c = np.zeros(n)
     # The first m joints are masters in an order of their own; the others follow one of them.
     for i in range(n):
-        C[i, i if i < m else draw(st.integers(0, m - 1))] = (
-            1.0 if i < m else draw(st.sampled_from(RATIOS))
-        )
-        c[i] = draw(read(3, lambda r: r.fraction(-1.0, 1.0))) if offsets else 0.0
+        if i < m:
+            C[i, i] = 1.0
+        else:
+            ratio = draw(st.sampled_from(RATIOS))
+            C[i, draw(st.integers(0, m - 1))] = ratio
+        if offsets:
+            c[i] = draw(read(3, lambda r: r.fraction(-1.0, 1.0)))
     order = list(draw(st.permutations(range(n))))
-    pairs = draw(read(9 * m, lambda r: [_limits(r) for _ in range(m)])) if limits else None
-    return Chain(A, home, coupling=C[order], offset=c[order], limits=pairs)
+    pairs = _drawn_limits(draw, m, limits)
+    return Chain(
+        A,
+        home,
+        coupling=C[order],
+        offset=c[order],
+        limits=pairs,
+    )
+
+
+def _drawn_limits(
+    draw: st.DrawFn,
+    count: int,
+    limits: bool,
+) -> list[tuple[float, float]] | None:
+    """Limits of so many coordinates, or None where there are to be none."""
+    if not limits:
+        return None
+    return draw(read(9 * count, lambda r: [_limits(r) for _ in range(count)])) or None
 
 
 def coordinates(chain: Any, shape: Sequence[int] = ()) -> Arrays:
@@ -143,11 +176,14 @@ def coordinates(chain: Any, shape: Sequence[int] = ()) -> Arrays:
     Parameters: chain, or a robot, of which only `dof` is asked: limits are none here; shape, of the
     leading axes.
     """
-    m, shape = arguments.moves(chain), arguments.shape(shape)
+    m = arguments.moves(chain)
+    shape = arguments.shape(shape)
     count = math.prod(shape) * m
 
-    def value(r: Reader) -> float:
-        return r.pick(QUARTERS) if r.byte() < 64 else r.fraction(-math.pi, math.pi)
+    def value(r: BytesReader) -> float:
+        if r.byte() < 64:
+            return r.pick(QUARTERS)
+        return r.fraction(-math.pi, math.pi)
 
     return read(
         4 * count, lambda r: frozen(np.reshape([value(r) for _ in range(count)], (*shape, m)))
@@ -164,8 +200,12 @@ def chain_cases(kinds: Sequence[str], **options: Any) -> st.SearchStrategy[tuple
     options, as of `chains`.
     Returns: a strategy of tuples, the chain first.
     """
-    parts = arguments.some("kinds", kinds, PARTS) if kinds else ()
-    return _cases(parts, chains(**{"min_joints": 1, **options} if "joint" in parts else options))
+    parts: tuple[str, ...] = ()
+    if kinds:
+        parts = arguments.some("kinds", kinds, PARTS)
+    if "joint" in parts:
+        options = {"min_joints": 1, **options}
+    return _cases(parts, chains(**options))
 
 
 @st.composite

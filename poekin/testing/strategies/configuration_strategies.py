@@ -23,7 +23,7 @@ from poekin.model.chain import Chain
 
 from . import arguments
 from .chain_strategies import coordinates, placements, screws
-from .decoding.bytes_reader import Reader
+from .decoding.bytes_reader import BytesReader
 from .group_strategies import Arrays, frozen, read, st
 
 
@@ -54,16 +54,26 @@ def at_limits(chain: Any) -> Arrays:
     """
     pairs = bounds(chain).tolist()
 
-    def value(r: Reader, lower: float, upper: float) -> float:
+    def value(
+        r: BytesReader,
+        lower: float,
+        upper: float,
+    ) -> float:
         return r.pick([lower, upper, _inside(r, lower, upper)])
 
     return read(5 * len(pairs), lambda r: frozen([value(r, *pair) for pair in pairs]))
 
 
-def _inside(r: Reader, lower: float, upper: float) -> float:
+def _inside(
+    r: BytesReader,
+    lower: float,
+    upper: float,
+) -> float:
     at_nought = r.byte() < 32 and lower <= 0.0 <= upper
     # Of low and high rounded, the sum may be beyond.
-    return 0.0 if at_nought else min(lower + (upper - lower) * r.fraction(0.0, 1.0), upper)
+    if at_nought:
+        return 0.0
+    return min(lower + (upper - lower) * r.fraction(0.0, 1.0), upper)
 
 
 def singular_cases(

@@ -80,7 +80,12 @@ def tables(
 
 
 @st.composite
-def _tables(draw: st.DrawFn, bounds: tuple[int, int], conventions: tuple[str, ...]) -> Table:
+def _tables(
+    draw: st.DrawFn,
+    bounds: tuple[int, int],
+    conventions: tuple[str, ...],
+) -> Table:
     drawn = draw(st.lists(rows(), min_size=bounds[0], max_size=bounds[1]))
-    base, tool = np.asarray(draw(mounts())), np.asarray(draw(mounts()))
+    base = np.asarray(draw(mounts()))
+    tool = np.asarray(draw(mounts()))
     return Table(draw(st.sampled_from(conventions)), drawn, base=base, tool=tool)

@@ -36,7 +36,7 @@ except ImportError as error:
 
 from . import arguments
 from .decoding import decoders
-from .decoding.bytes_reader import Reader
+from .decoding.bytes_reader import BytesReader
 from .decoding.decoders import SMALLEST, SWITCHES, around
 
 __all__ = [
@@ -62,7 +62,7 @@ __all__ = [
     "rotations",
     "twists",
     "vectors",
-]  # fmt: skip
+]
 
 LENGTHS = (1e-12, 1e3)
 """The smallest length in m that is drawn beside 0, and the largest."""
@@ -83,15 +83,15 @@ def frozen(x: object) -> np.ndarray:
     return array
 
 
-def read(size: int, decode: Callable[[Reader], T]) -> st.SearchStrategy[T]:
-    """What `decode` makes of `size` random bytes, which it gets as a `Reader`: to write strategies
-    like these.
+def read(size: int, decode: Callable[[BytesReader], T]) -> st.SearchStrategy[T]:
+    """Strategy of decode(r) of `size` random bytes r, which it gets as a `BytesReader`: to write
+    strategies like these.
 
     Hypothesis spreads bytes evenly; of its numbers it draws most next to 0, and of a case made of
     several choices it tries many with one of them set to its simplest, where nothing is learnt
     here. As bytes a case is one choice.
     """
-    return st.binary(min_size=size, max_size=size).map(lambda data: decode(Reader(data)))
+    return st.binary(min_size=size, max_size=size).map(lambda data: decode(BytesReader(data)))
 
 
 def magnitudes(smallest: float = SMALLEST, largest: float = 1e3) -> Reals:
@@ -147,7 +147,7 @@ def twists(
     smallest, largest = _turning(largest, smallest)
     bounds = arguments.magnitudes("lengths", lengths)
 
-    def twist(r: Reader) -> np.ndarray:
+    def twist(r: BytesReader) -> np.ndarray:
         w = decoders.angle(r, largest, smallest) * decoders.axis(r)
         return frozen(np.concatenate([w, decoders.vector(r, bounds)]))
 
@@ -170,8 +170,9 @@ def noisy_rotations(noise: tuple[float, float] = (1e-17, 1e-8)) -> Arrays:
     """
     bounds = arguments.magnitudes("noise", noise)
 
-    def noisy(r: Reader) -> np.ndarray:
-        R, size = decoders.rotation(r), r.magnitude(*bounds)
+    def noisy(r: BytesReader) -> np.ndarray:
+        R = decoders.rotation(r)
+        size = r.magnitude(*bounds)
         return frozen(R + size * np.reshape([r.fraction(-1.0, 1.0) for _ in range(9)], (3, 3)))
 
     return read(49, noisy)
@@ -194,8 +195,9 @@ def quaternions_wxyz() -> Arrays:
     to (1, 0, 0, 0).
     """
 
-    def quaternion(r: Reader) -> np.ndarray:
-        n, theta = decoders.axis(r), decoders.angle(r, math.pi, SMALLEST)
+    def quaternion(r: BytesReader) -> np.ndarray:
+        n = decoders.axis(r)
+        theta = decoders.angle(r, math.pi, SMALLEST)
         sign = -1.0 if r.byte() >= 128 else 1.0
         return frozen(sign * np.array([math.cos(theta / 2), *(math.sin(theta / 2) * n)]))
 
@@ -207,7 +209,8 @@ def pose(R: np.ndarray, t: np.ndarray) -> np.ndarray:
     frame.
     """
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = R, t
+    T[:3, :3] = R
+    T[:3, 3] = t
     return frozen(T)
 
 

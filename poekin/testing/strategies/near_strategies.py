@@ -27,7 +27,7 @@ import numpy as np
 
 from . import arguments
 from .decoding import decoders
-from .decoding.bytes_reader import Reader
+from .decoding.bytes_reader import BytesReader
 from .decoding.decoders import SMALLEST
 from .group_strategies import LENGTHS, Arrays, Reals, frozen, pose, read
 
@@ -37,7 +37,11 @@ ULPS = 8
 """Of four angles one is the centre or at most this many floats away from it."""
 
 
-def near_angles(at: float = math.pi, widest: float = WIDEST, beyond: bool = False) -> Reals:
+def near_angles(
+    at: float = math.pi,
+    widest: float = WIDEST,
+    beyond: bool = False,
+) -> Reals:
     """Angles in rad close to `at`: it, the 8 floats next to it, and log-uniform distances from 1
     ulp to widest.
 
@@ -55,7 +59,11 @@ def near_rotation_vectors(
     return read(19, lambda r: frozen(angle(r) * decoders.axis(r)))
 
 
-def near_rotations(at: float = math.pi, widest: float = WIDEST, beyond: bool = False) -> Arrays:
+def near_rotations(
+    at: float = math.pi,
+    widest: float = WIDEST,
+    beyond: bool = False,
+) -> Arrays:
     """Rotations (3, 3) by an angle as in `near_angles`, orthonormal to a few roundings."""
     angle = _angle_near(at, widest, beyond)
     return read(19, lambda r: frozen(_rotation(r, angle(r))))
@@ -68,7 +76,8 @@ def near_twists(
     beyond: bool = False,
 ) -> Arrays:
     """Twists (ω; v) (6,), |ω| as in `near_angles` in rad, v in m independent of it."""
-    angle, bounds = _angle_near(at, widest, beyond), arguments.magnitudes("lengths", lengths)
+    angle = _angle_near(at, widest, beyond)
+    bounds = arguments.magnitudes("lengths", lengths)
     return read(
         35,
         lambda r: frozen(np.concatenate([angle(r) * decoders.axis(r), decoders.vector(r, bounds)])),
@@ -82,24 +91,48 @@ def near_poses(
     beyond: bool = False,
 ) -> Arrays:
     """Poses (4, 4) with a rotation as in `near_rotations` and a translation in m independent of it."""
-    angle, bounds = _angle_near(at, widest, beyond), arguments.magnitudes("lengths", lengths)
+    angle = _angle_near(at, widest, beyond)
+    bounds = arguments.magnitudes("lengths", lengths)
     return read(35, lambda r: pose(_rotation(r, angle(r)), decoders.vector(r, bounds)))
 
 
-def _angle_near(at: float, widest: float, beyond: bool) -> functools.partial[float]:
+def _angle_near(
+    at: float,
+    widest: float,
+    beyond: bool,
+) -> functools.partial[float]:
     centre = arguments.number("at (rad)", at, 0.0, 1e3)
     most = arguments.number("widest (rad)", widest, max(math.ulp(centre), SMALLEST), 1e3)
-    return functools.partial(_angle, at=centre, widest=most, beyond=bool(beyond))
+    return functools.partial(
+        _angle,
+        at=centre,
+        widest=most,
+        beyond=bool(beyond),
+    )
 
 
-def _angle(r: Reader, at: float, widest: float, beyond: bool) -> float:
-    closest, above = r.byte() < 64, r.byte() >= 128
+def _angle(
+    r: BytesReader,
+    at: float,
+    widest: float,
+    beyond: bool,
+) -> float:
+    closest = r.byte() < 64
+    above = r.byte() >= 128
     if at == 0.0:
-        return r.magnitude(SMALLEST if closest else min(1e-12, widest), widest)
+        smallest = min(1e-12, widest)
+        if closest:
+            smallest = SMALLEST
+        return r.magnitude(smallest, widest)
     ulp = math.ulp(at)
-    gap = r.pick(range(ULPS + 1)) * ulp if closest else r.magnitude(ulp, widest)
-    return max(at + gap if above and beyond else at - gap, 0.0)
+    if closest:
+        gap = r.pick(range(ULPS + 1)) * ulp
+    else:
+        gap = r.magnitude(ulp, widest)
+    if above and beyond:
+        return at + gap
+    return max(at - gap, 0.0)
 
 
-def _rotation(r: Reader, angle: float) -> np.ndarray:
+def _rotation(r: BytesReader, angle: float) -> np.ndarray:
     return decoders.turned(decoders.axis(r), angle)

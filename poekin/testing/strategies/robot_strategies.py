@@ -20,7 +20,7 @@ from ...model.robot import Robot
 from . import arguments
 from .chain_strategies import RATIOS, REACHES
 from .decoding import decoders
-from .decoding.bytes_reader import Reader
+from .decoding.bytes_reader import BytesReader
 from .group_strategies import pose, read, st
 
 URDF_KINDS = ("revolute", "continuous", "prismatic", "fixed")
@@ -69,7 +69,7 @@ def robots(
 
 
 class _Row(NamedTuple):
-    """What is drawn of one joint, as far as it can be without the others; whole numbers are bytes."""
+    """Draws for one joint, as far as it goes without the others; whole numbers are bytes."""
 
     kind: str
     branches: bool
@@ -90,7 +90,7 @@ class _Row(NamedTuple):
 _BYTES = 87
 
 
-def _row(r: Reader, kinds: tuple[str, ...]) -> _Row:
+def _row(r: BytesReader, kinds: tuple[str, ...]) -> _Row:
     # Zeros: the first kind, onwards from the link before, of its own, in the tree's order, at the
     # origin, about x.
     return _Row(
@@ -99,7 +99,7 @@ def _row(r: Reader, kinds: tuple[str, ...]) -> _Row:
         parent=r.byte(),
         follows=r.byte() >= 128,
         master=r.byte(),
-        multiplier=r.pick(RATIOS) if r.byte() < 128 else r.decimal(-2.0, 2.0),
+        multiplier=_multiplier(r),
         offset=r.decimal(-1.0, 1.0),
         limits=(r.decimal(-1.0, 1.0), r.decimal(-0.9, 1.0)),
         margins=(r.decimal(-0.9, 1.0), r.decimal(-0.9, 1.0)),
@@ -111,21 +111,32 @@ def _row(r: Reader, kinds: tuple[str, ...]) -> _Row:
     )
 
 
+def _multiplier(r: BytesReader) -> float:
+    if r.byte() < 128:
+        return r.pick(RATIOS)
+    return r.decimal(-2.0, 2.0)
+
+
 def _width(share: float, travel: float) -> float:
     """A width or margin in rad or m, 0.1 to 3, of what slides to 2; 1 for 0."""
     return 1.0 + share * (2.0 if travel > 1 and share > 0 else 1.0)
 
 
-def _robot(rows: list[_Row], mimics: bool, limits: bool, still: bool) -> Robot:
+def _robot(
+    rows: list[_Row],
+    mimics: bool,
+    limits: bool,
+    still: bool,
+) -> Robot:
     joints = []
     for k, row in enumerate(rows):
-        parent = row.parent * (k + 1) // 256 if row.branches else k
-        pitch = row.pitch if row.kind == "helical" else 0.0
-        joints.append(
-            Joint(
-                f"j{k + 1}", row.kind, f"l{parent}", f"l{k + 1}", row.origin, row.axis, pitch=pitch
-            )
-        )
+        parent = k
+        if row.branches:
+            parent = row.parent * (k + 1) // 256
+        joint = Joint(f"j{k + 1}", row.kind, f"l{parent}", f"l{k + 1}", row.origin, row.axis)
+        if row.kind == "helical":
+            joint = replace(joint, pitch=row.pitch)
+        joints.append(joint)
     order = sorted(range(len(rows)), key=lambda k: rows[k].rank)
     able = [k for k in order if joints[k].kind in ((*MOVING, "fixed") if still else MOVING)]
     for place, k in enumerate(able):
@@ -144,13 +155,19 @@ def _robot(rows: list[_Row], mimics: bool, limits: bool, still: bool) -> Robot:
     )
 
 
-def _limited(joints: list[Joint], rows: list[_Row], order: list[int]) -> list[Joint]:
+def _limited(
+    joints: list[Joint],
+    rows: list[_Row],
+    order: list[int],
+) -> list[Joint]:
     """With limits on what has some; the middle of each coordinate's own is within those of all that
     follow it.
     """
-    result, middles = list(joints), {}
+    result = list(joints)
+    middles = {}
     for k in order:
-        joint, travel = joints[k], TRAVEL.get(joints[k].kind, 0.0)
+        joint = joints[k]
+        travel = TRAVEL.get(joints[k].kind, 0.0)
         if joint.mimic is not None and joint.kind != "fixed":
             middle = joint.mimic.multiplier * middles[joint.mimic.joint] + joint.mimic.offset
             lower, upper = (

@@ -14,7 +14,7 @@ import pytest
 from poekin.errors import InputError, UnknownName, suggest
 from poekin.testing.conform import FUNCTIONS, LAWS, Subject, run
 from poekin.testing.conform.grades import NO_RESULT, Grade, Verdict
-from poekin.testing.conform.laws.law import Case, Law, Shown
+from poekin.testing.conform.laws.law import Case, Shown, SubjectLaw
 from poekin.testing.conform.process.calls import ENDED, LOST, UNANSWERED, Undeclared
 from poekin.testing.conform.search import Found
 from poekin.testing.conform.subjects.precision import SINGLE
@@ -87,7 +87,9 @@ def hunted(monkeypatch):
     """The hunts that are asked for; each finds a sound subject."""
     asked: list[tuple[str, int]] = []
 
-    def worst(law: Law, subject: Subject, examples: int, seconds: float, at_most: Grade) -> Found:
+    def worst(
+        law: SubjectLaw, subject: Subject, examples: int, seconds: float, at_most: Grade
+    ) -> Found:
         asked.append((law.name, examples))
         if law.name == "so3_exp" and examples == 3:
             raise Undeclared("it has no such thing")
@@ -144,8 +146,8 @@ def test_a_subject_that_shares_this_process_is_said_to(hunted, monkeypatch):
 WORST, SMALL = Case(np.array([3.0])), Case(np.array([1.0]))
 
 
-def law(check: Any, about: bool = True, confirm: bool = True) -> Law:
-    return Law(
+def law(check: Any, about: bool = True, confirm: bool = True) -> SubjectLaw:
+    return SubjectLaw(
         "a law", "says", "so3_exp", lambda subject: st.nothing(), check, lambda subject, case: confirm,
         lambda subject, case: Shown("words", "paste", np.ones(1), ("a",)), about=lambda case: about,
     )  # fmt: skip

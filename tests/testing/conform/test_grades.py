@@ -6,12 +6,12 @@ import math
 
 import pytest
 
-from poekin.testing.conform.grades import Grade, Part, judged
+from poekin.testing.conform.grades import Grade, Part, graded
 from poekin.testing.laws.laws import LawViolation
 
 
-def part(error, scale=1.0, least=0.0, attainable=1e-16):
-    return Part("x", error, scale, least, lambda: attainable)
+def part(error, scale=1.0, least=0.0, error_bound=1e-16):
+    return Part("x", error, scale, least, lambda: error_bound)
 
 
 @pytest.mark.parametrize(
@@ -23,7 +23,7 @@ def part(error, scale=1.0, least=0.0, attainable=1e-16):
 )  # fmt: skip
 def test_a_grade_ends_where_it_is_said_to(error, grade):
     assert part(error).grade is grade
-    assert judged("law", [part(0.0), part(error)]).grade is grade
+    assert graded("law", [part(0.0), part(error)]).grade is grade
 
 
 def test_what_float64_can_attain_is_asked_only_where_the_lower_bound_does_not_do():
@@ -36,8 +36,8 @@ def test_what_float64_can_attain_is_asked_only_where_the_lower_bound_does_not_do
 
 def test_an_error_goes_in_proportion_to_its_scale_and_no_scale_allows_no_error():
     assert part(1e-8, scale=1e3).grade is Grade.GOOD
-    assert part(1e-8, scale=0.0, attainable=0.0).size == math.inf
-    assert part(0.0, scale=0.0, attainable=0.0).grade is Grade.EXACT
+    assert part(1e-8, scale=0.0, error_bound=0.0).size == math.inf
+    assert part(0.0, scale=0.0, error_bound=0.0).grade is Grade.EXACT
     assert part(0.0, scale=0.0).size == 0.0
     assert part(math.nan, scale=0.0).size == math.inf
 
@@ -49,8 +49,8 @@ def test_a_violation_carries_the_error_and_the_bound_of_the_grade_asked_for():
         (Grade.POOR, 1e-5, 1e-6),
     ]:
         with pytest.raises(LawViolation, match=r"^law: x: error") as caught:
-            judged("law", [part(error)], at_most, x=1)
+            graded("law", [part(error)], at_most, x=1)
         assert (caught.value.error, caught.value.bound) == pytest.approx((error, bound), rel=1e-12)
     with pytest.raises(LawViolation, match=r"fault = 'NaN'"):
-        judged("law", "NaN", Grade.POOR)
-    assert judged("law", "NaN").fault == "NaN"
+        graded("law", "NaN", Grade.POOR)
+    assert graded("law", "NaN").fault == "NaN"

@@ -17,7 +17,7 @@ from benchmarks.report import Topic
 from benchmarks.subjects import FAULTS, LIBRARIES, Poekin
 from benchmarks.subjects.__main__ import main
 from poekin.testing.conform import LAWS, Case, Grade, Subject, applicable, conform
-from poekin.testing.conform.laws.small_urdf import Joint, chain
+from poekin.testing.conform.laws.small_urdf import UrdfJoint, chain
 from poekin.testing.conform.subjects.subject import SO3
 from tests.versions import needs
 
@@ -27,7 +27,9 @@ ARM = Case(
     ("revolute", "prismatic"),
 )
 ROW = [0, 0, 1, 0.3, 0.1, 0.2, 0, 0, math.pi / 2, 0, 0, 0.5]
-URDF = Case(np.array([*ROW, *ROW]), chain((Joint("revolute", "j0"), Joint("prismatic", "j1"))))
+URDF = Case(
+    np.array([*ROW, *ROW]), chain((UrdfJoint("revolute", "j0"), UrdfJoint("prismatic", "j1")))
+)
 # The versions that the report measures, where tests are run with older ones.
 MEASURED = {"scipy": [("scipy", "1.16")], "pinocchio": [("pin", "4")]}
 NAMES = [(name, kind) for name, kinds in LIBRARIES.items() for kind in kinds]

@@ -41,7 +41,7 @@ def test_an_arm_has_the_lengths_of_what_turns_and_of_its_home():
 def test_what_is_attainable_of_a_pose(turned, unit):
     missed = np.linalg.norm(HOME[:3, :3] @ HOME[:3, :3].T - np.eye(3))
     arm = ARM._replace(turned=turned, offset=np.array([0.1, 0.2, -0.3]))
-    angular, lengths = of_arms.attainable(arm, Q, unit)
+    angular, lengths = of_arms.error_bound(arm, Q, unit)
     assert angular == pytest.approx(
         unit * (5 + math.sqrt(2) * (0.8 + 0.1 + turned)) + missed, rel=1e-12
     )
@@ -51,7 +51,7 @@ def test_what_is_attainable_of_a_pose(turned, unit):
 @pytest.mark.parametrize("precision", [DOUBLE, SINGLE])
 def test_each_number_of_a_pose_is_in_its_part(precision):
     T = exact.rounded(of_arms.pose(ARM, Q))
-    angular, lengths = of_arms.attainable(ARM, Q, precision.unit)
+    angular, lengths = of_arms.error_bound(ARM, Q, precision.unit)
     for i, j in np.ndindex(4, 4):
         error = np.zeros((4, 4))
         error[i, j] = -2.0
@@ -60,7 +60,7 @@ def test_each_number_of_a_pose_is_in_its_part(precision):
         assert [part.error for part in parts] == pytest.approx(expected, abs=1e-14)
         assert [part.scale for part in parts] == [2**0.5, lengths, 1.0]
         assert [part.least for part in parts] == [angular, angular * lengths, 0.0]
-        assert [part.attainable() for part in parts] == [angular, 0.0, 0.0]
+        assert [part.error_bound() for part in parts] == [angular, 0.0, 0.0]
         assert {part.precision for part in parts} == {precision}
         assert [part.what for part in parts] == ["R (rad)", "t ÷ the arm's lengths", "last row"]
 
@@ -68,7 +68,7 @@ def test_each_number_of_a_pose_is_in_its_part(precision):
 @pytest.mark.parametrize("frame", ["space", "body", "hybrid"])
 def test_the_worst_column_of_a_jacobian_counts(frame):
     truth = exact.rounded(of_arms.exact_jacobians(ARM, exact.exactly(Q)))
-    angular, lengths = of_arms.attainable(ARM, Q)
+    angular, lengths = of_arms.error_bound(ARM, Q)
     J = truth[["space", "body", "hybrid"].index(frame)]
     for i, j in np.ndindex(6, 3):
         error = np.zeros((6, 3))
@@ -77,12 +77,12 @@ def test_the_worst_column_of_a_jacobian_counts(frame):
         assert [w.error, v.error] == pytest.approx([2.0 * (i < 3), 2.0 * (i >= 3)], abs=1e-13)
     w, v = of_arms.jacobian_parts(frame, ARM, Q, J)
     ratios = 1 + math.sqrt(3)
-    assert (w.scale, w.least, w.attainable()) == (
+    assert (w.scale, w.least, w.error_bound()) == (
         1.0,
         pytest.approx(ratios * angular, rel=1e-12),
         0.0,
     )
-    assert (v.scale, v.attainable()) == (2 * lengths + 1, 0.0)
+    assert (v.scale, v.error_bound()) == (2 * lengths + 1, 0.0)
     assert v.least == pytest.approx(ratios * angular * (2 * lengths + 1), rel=1e-12)
     turning = of_arms.arm(SCREWS[[0, 2]], HOME)
     J = exact.rounded(of_arms.exact_jacobians(turning, exact.exactly(Q[:2])))[0]
@@ -104,14 +104,14 @@ def test_each_number_of_exp_is_in_its_part():
             expected = [2.0 * (i < 3 and j < 3), 2.0 * (i < 3 and j == 3), 2.0 * (i == 3)]
             assert [R.error, t.error, last.error] == pytest.approx(expected, abs=1e-14)
         angular = unit * (1 + math.sqrt(2) * 2.5)
-        assert (R.scale, R.least, R.attainable()) == pytest.approx(
+        assert (R.scale, R.least, R.error_bound()) == pytest.approx(
             (math.sqrt(2), angular, angular), rel=1e-12
         )
         linear = unit / U * float(bound.linear)
-        assert (t.scale, t.least, t.attainable()) == pytest.approx(
+        assert (t.scale, t.least, t.error_bound()) == pytest.approx(
             (7.0, 7 * unit, linear), rel=1e-12
         )
-        assert (last.scale, last.least, last.attainable()) == (1.0, 0.0, 0.0)
+        assert (last.scale, last.least, last.error_bound()) == (1.0, 0.0, 0.0)
         assert len(of_groups.exp_parts(XI[:3], POSE[:3, :3], precision)) == 1
 
 
@@ -127,9 +127,9 @@ def test_each_number_of_log_is_in_its_part():
             assert [w.error, v.error] == pytest.approx([2.0 * (k < 3), 2.0 * (k >= 3)], abs=1e-13)
         coarser = unit / U
         expected = (1.0, unit * 2.5, coarser * float(bound.angular))
-        assert (w.scale, w.least, w.attainable()) == pytest.approx(expected, rel=1e-12)
+        assert (w.scale, w.least, w.error_bound()) == pytest.approx(expected, rel=1e-12)
         expected = (max(7.0, t), unit * 7, coarser * float(bound.linear))
-        assert (v.scale, v.least, v.attainable()) == pytest.approx(expected, rel=1e-12)
+        assert (v.scale, v.least, v.error_bound()) == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize(("gap", "either"), [(2.0**-52, True), (2e-15, False)])
@@ -159,7 +159,7 @@ def test_a_tiny_angle_is_held_to_the_smallest_one():
     T = exact.rounded(exact.exp(xi))
     w, _ = of_groups.log_parts(T, xi)
     assert w.least == DOUBLE.smallest
-    assert w.attainable() == DOUBLE.smallest
+    assert w.error_bound() == DOUBLE.smallest
 
 
 def test_each_block_of_an_adjoint_is_in_its_part():
@@ -167,7 +167,7 @@ def test_each_block_of_an_adjoint_is_in_its_part():
     T[:3, 3] = [2.0, 3.0, 6.0]
     right, found = exact.rounded(exact.adjoint(T)), []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(of_groups, "judged", lambda law, parts, *_, **seen: found.append(parts))
+        patch.setattr(of_groups, "graded", lambda law, parts, *_, **seen: found.append(parts))
         for i, j in np.ndindex(6, 6):
             Ad = right.copy()
             Ad[i, j] += 2.0
@@ -175,15 +175,15 @@ def test_each_block_of_an_adjoint_is_in_its_part():
             R, corner = found[-1]
             expected = [2.0 * (i < 3 or j >= 3), 2.0 * (i >= 3 > j)]
             assert [R.error, corner.error] == pytest.approx(expected, abs=1e-14)
-    assert (R.scale, R.least, R.attainable()) == (1.0, U, U)
-    assert (corner.scale, corner.least, corner.attainable()) == (7.0, 14 * U, 14 * U)
+    assert (R.scale, R.least, R.error_bound()) == (1.0, U, U)
+    assert (corner.scale, corner.least, corner.error_bound()) == (7.0, 14 * U, 14 * U)
 
 
 def test_each_block_of_a_jacobian_of_exp_is_in_its_part():
     right, found = exact.rounded(exact.left_jacobian(XI)), []
     law = of_groups.jacobian_of_exp("left_jacobian")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(of_groups, "judged", lambda law, parts, *_, **seen: found.append(parts))
+        patch.setattr(of_groups, "graded", lambda law, parts, *_, **seen: found.append(parts))
         for i, j in np.ndindex(6, 6):
             J = right.copy()
             J[i, j] += 14.0
@@ -198,11 +198,11 @@ def test_each_block_of_a_jacobian_of_exp_is_in_its_part():
     assert (
         P.least
         == Q.least
-        == P.attainable()
-        == Q.attainable()
+        == P.error_bound()
+        == Q.error_bound()
         == of_groups.JACOBIAN_BAR / of_groups.EXP_LOG_BAR
     )
-    assert alone.least == alone.attainable() == pytest.approx(2.0**29 * P.least, rel=1e-15)
+    assert alone.least == alone.error_bound() == pytest.approx(2.0**29 * P.least, rel=1e-15)
 
 
 def wrong(size: tuple[int, ...]):

@@ -11,7 +11,7 @@ import pytest
 
 from benchmarks.subjects import FAULTS, Poekin
 from poekin.testing.conform import Grade
-from poekin.testing.conform.plugin import held
+from poekin.testing.conform.plugin import check_conformance
 from poekin.testing.laws.laws import LawViolation
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -53,13 +53,13 @@ def test_a_faulty_subject_fails_its_test_with_the_counterexample_and_a_sound_one
 
 
 def test_a_report_is_returned_where_nothing_is_worse_than_asked_for():
-    assert held(Poekin, ["so3_exp"], examples=10, at_most=Grade.EXACT).conforms
+    assert check_conformance(Poekin, ["so3_exp"], examples=10, at_most=Grade.EXACT).conforms
     kind, law = FAULTS["d"]
-    assert held(kind, [law], examples=60, at_most=Grade.BROKEN).findings
+    assert check_conformance(kind, [law], examples=60, at_most=Grade.BROKEN).findings
     with pytest.raises(
         LawViolation, match=r"ExpOfNothing does not conform: error .* exceeds 1e-10"
     ):
-        held(kind, [law], examples=60)
+        check_conformance(kind, [law], examples=60)
 
 
 def test_the_plugin_which_imports_pytest_is_imported_by_nothing_of_poekin():

@@ -16,7 +16,7 @@ import pytest
 from poekin.errors import InputError
 from poekin.testing.conform import search
 from poekin.testing.conform.grades import Grade, Verdict
-from poekin.testing.conform.laws.law import Case, Law, Shown
+from poekin.testing.conform.laws.law import Case, Shown, SubjectLaw
 from poekin.testing.conform.process.calls import ENDED, UNANSWERED
 from poekin.testing.conform.subjects.precision import DOUBLE, SINGLE
 from poekin.testing.strategies.group_strategies import st
@@ -46,11 +46,11 @@ class Stub:
         yield
 
 
-def law(check: Callable[[Case], Verdict], **more: Any) -> Law:
+def law(check: Callable[[Case], Verdict], **more: Any) -> SubjectLaw:
     """A law whose cases are a whole number from 1 to 1000."""
     cases = st.integers(1, 1000).map(lambda k: Case(np.array([float(k)])))
     fields: dict[str, Any] = {"triples": lambda case: (), **more}
-    return Law("a law", "says", "exp", lambda subject: cases, lambda subject, case: check(case),
+    return SubjectLaw("a law", "says", "exp", lambda subject: cases, lambda subject, case: check(case),
                lambda subject, case: True, lambda subject, case: Shown("", "", None), **fields)  # fmt: skip
 
 

@@ -14,9 +14,9 @@ import pytest
 from benchmarks.subjects import Poekin
 from benchmarks.subjects.faulty import _Reader
 from poekin.testing.conform import LAWS, Case, Grade, Subject, shrink
-from poekin.testing.conform.grades import judged
+from poekin.testing.conform.grades import graded
 from poekin.testing.conform.laws.arm_cases import ARM_LAWS
-from poekin.testing.conform.laws.small_urdf import Joint, chain, layout_of
+from poekin.testing.conform.laws.small_urdf import UrdfJoint, chain, layout_of
 from poekin.testing.conform.laws.urdf_cases import URDF_LAWS
 from poekin.testing.conform.search import simplest
 from poekin.testing.conform.shrink import cost, shrunk
@@ -127,7 +127,7 @@ def test_a_poor_case_stays_poor_and_does_not_slide_to_what_the_law_does_not_draw
     law = next(law for law in URDF_LAWS if law.name == "urdf oblique axis")
     subject = Subject(DropsSmallComponents)
     row = [0, 3e-9, 1, 0.3, 0, 0, 0, 0, 0.2, 0, 0, 2.0]
-    case = Case(np.array(row), chain((Joint("revolute", "j0"),)))
+    case = Case(np.array(row), chain((UrdfJoint("revolute", "j0"),)))
     verdict = law.check(subject, case)
     assert verdict.grade is Grade.POOR
     small = simplest(law, subject, case, verdict)
@@ -155,7 +155,7 @@ def test_a_fault_does_not_shrink_to_one_of_another_kind():
     ],
 )
 def test_the_kind_of_a_fault_leaves_out_its_particulars(fault, kind):
-    assert judged("law", fault).manner == (Grade.BROKEN, kind)
+    assert graded("law", fault).manner == (Grade.BROKEN, kind)
 
 
 def test_oblique_axes_are_shown_in_round_numbers():

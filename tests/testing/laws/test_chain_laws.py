@@ -50,12 +50,14 @@ def measured(law: str, chain: Any, monkeypatch, **changed: Any) -> Pairs:
     """The pairs (error, bound) that a law holds."""
     pairs: Pairs = []
 
-    def kept(name: str, chain: Any, *found: tuple[float, float], **seen: object) -> float:
+    def check_chain_bounds(
+        name: str, chain: Any, *found: tuple[float, float], **seen: object
+    ) -> float:
         pairs.extend(found)
         return 0.0
 
     for module in (chain_laws, change_laws, derivative_laws, method_laws):
-        monkeypatch.setattr(module, "kept", kept)
+        monkeypatch.setattr(module, "check_chain_bounds", check_chain_bounds)
     m = chain.dof
     values = {
         "q": Q[:m], "dq": DQ[:m], "joint": 1, "point": POINT, "pose": POSE, "frames": FRAMES,
@@ -386,7 +388,7 @@ def test_a_violation_says_how_joints_are_coupled_where_they_are():
     ):
         chain = Chain(SCREWS, PLAIN.home, coupling=coupling, q_names=["a", "b", "c"])
         with pytest.raises(LawViolation) as caught:
-            chain_laws.kept("a law", chain, (1.0, 0.5), q=Q)
+            chain_laws.check_chain_bounds("a law", chain, (1.0, 0.5), q=Q)
         assert ("coupling" in caught.value.seen) == ("offset" in caught.value.seen) == told
         assert np.array_equal(caught.value.seen["screws"], SCREWS)
 

@@ -13,12 +13,12 @@ import pytest
 
 from poekin.groups import se3, so3
 from poekin.testing.laws import group_laws, measures, near_laws
-from poekin.testing.laws.group import Group, group_of
+from poekin.testing.laws.group import Group, make_group
 from poekin.testing.laws.group_laws import GROUP_LAWS
 from poekin.testing.laws.near_laws import NEAR_LAWS
 
 U = 2.0**-53
-GROUPS = {6: group_of(se3, 6), 3: group_of(so3, 3)}
+GROUPS = {6: make_group(se3, 6), 3: make_group(so3, 3)}
 LAWS = {law.name: law for law in (*GROUP_LAWS, *NEAR_LAWS)}
 N = np.array([2.0, 3.0, -6.0]) / 7
 # |ω| = 2.5, 0.75 and 1.25; |v| = 7, 3 and 5; |t| = 11 and 13.
@@ -84,12 +84,12 @@ def measured(law: str, group: Group, monkeypatch, *arguments: Any) -> Pairs:
     """The pairs (error, bound) that a law holds."""
     pairs: Pairs = []
 
-    def held(name: str, *found: tuple[float, float], **seen: object) -> float:
+    def check_bounds(name: str, *found: tuple[float, float], **seen: object) -> float:
         pairs.extend(found)
         return 0.0
 
-    monkeypatch.setattr(group_laws, "held", held)
-    monkeypatch.setattr(near_laws, "held", held)
+    monkeypatch.setattr(group_laws, "check_bounds", check_bounds)
+    monkeypatch.setattr(near_laws, "check_bounds", check_bounds)
     LAWS[law].check(group, *arguments)
     return pairs
 

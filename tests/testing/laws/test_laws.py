@@ -19,26 +19,26 @@ from poekin.groups import se3
 from poekin.model.chain import Chain
 from poekin.testing.accuracy import falsify
 from poekin.testing.laws import chain_laws, group_laws, measures
-from poekin.testing.laws.group import Group, group_of
-from poekin.testing.laws.laws import Law, LawViolation, held
+from poekin.testing.laws.group import Group, make_group
+from poekin.testing.laws.laws import Law, LawViolation, check_bounds
 
 ROOT = Path(__file__).resolve().parents[3]
 
 
 def test_a_law_returns_its_worst_error_over_bound():
-    assert held("a law", (0.1, 1.0), (3.0, 4.0), (0.0, 0.0)) == 0.75
+    assert check_bounds("a law", (0.1, 1.0), (3.0, 4.0), (0.0, 0.0)) == 0.75
 
 
 @pytest.mark.parametrize(
     "pair", [(1.1, 1.0), (math.nan, 1.0), (math.inf, 1.0), (1e-300, 0.0), (0.5, math.nan)]
 )
 def test_an_error_above_its_bound_is_a_violation(pair):
-    with pytest.raises(LawViolation, match="a law") as caught:
-        held("a law", (0.0, 1.0), pair, q=np.zeros(2))
-    assert caught.value.law == "a law"
-    assert caught.value.error == pytest.approx(pair[0], nan_ok=True)
-    assert "q = np.array([0.0, 0.0])" in str(caught.value)
-    assert isinstance(caught.value, AssertionError)
+    with pytest.raises(LawViolation, match="a law") as first_violation:
+        check_bounds("a law", (0.0, 1.0), pair, q=np.zeros(2))
+    assert first_violation.value.law == "a law"
+    assert first_violation.value.error == pytest.approx(pair[0], nan_ok=True)
+    assert "q = np.array([0.0, 0.0])" in str(first_violation.value)
+    assert isinstance(first_violation.value, AssertionError)
 
 
 def test_the_arguments_of_a_violation_can_be_pasted_to_the_last_digit():
@@ -56,12 +56,14 @@ def test_a_chain_that_breaks_a_law_is_in_the_message_with_its_numbers():
     arm = Chain(rows, np.eye(4), coupling=[[1], [2]], offset=[0, 0.5], q_names=["q"])
     with pytest.raises(
         LawViolation, match=r"coupling = np\.array\(\[\[1\.0\], \[2\.0\]\]\)"
-    ) as caught:
-        chain_laws.kept("a law", arm, (2.0, 1.0), q=np.zeros(1))
-    assert "screws = np.array([[0.0, 0.0, 1.0, 0.3333333333333333, 0.0, 0.0], " in str(caught.value)
-    assert list(caught.value.seen) == ["q", "screws", "home", "coupling", "offset"]
+    ) as first_violation:
+        chain_laws.check_chain_bounds("a law", arm, (2.0, 1.0), q=np.zeros(1))
+    assert "screws = np.array([[0.0, 0.0, 1.0, 0.3333333333333333, 0.0, 0.0], " in str(
+        first_violation.value
+    )
+    assert list(first_violation.value.seen) == ["q", "screws", "home", "coupling", "offset"]
     with pytest.raises(LawViolation) as plain:
-        chain_laws.kept("a law", Chain(rows, np.eye(4)), (2.0, 1.0))
+        chain_laws.check_chain_bounds("a law", Chain(rows, np.eye(4)), (2.0, 1.0))
     assert list(plain.value.seen) == ["screws", "home"]
 
 
@@ -75,12 +77,12 @@ def test_a_law_asks_by_name_for_a_function_that_is_not_there():
 
 
 def test_a_group_is_made_of_the_functions_that_an_object_has():
-    assert group_of(se3, 6) == Group(6, *(getattr(se3, name) for name in Group._fields[1:]))
-    assert group_of(types.SimpleNamespace(exp=se3.exp, log=3), 6) == Group(6, exp=se3.exp)
+    assert make_group(se3, 6) == Group(6, *(getattr(se3, name) for name in Group._fields[1:]))
+    assert make_group(types.SimpleNamespace(exp=se3.exp, log=3), 6) == Group(6, exp=se3.exp)
     with pytest.raises(InputError, match="none of the functions of a group: hat, vee, exp"):
-        group_of(types, 6)
+        make_group(types, 6)
     with pytest.raises(InputError, match=r"expected 3 for SO\(3\) or 6 for SE\(3\), got 4"):
-        group_of(se3, 4)
+        make_group(se3, 4)
 
 
 def test_a_violation_survives_pickling():
@@ -95,7 +97,7 @@ def test_a_violation_survives_pickling():
 
 
 def below_a_million(limit: float, x: float) -> float:
-    return held("below", (x, limit), x=x)
+    return check_bounds("below", (x, limit), x=x)
 
 
 def test_a_hunt_climbs_to_a_case_that_sampling_would_miss():
@@ -106,14 +108,17 @@ def test_a_hunt_climbs_to_a_case_that_sampling_would_miss():
 
 
 def test_a_battery_names_the_law_that_caught_an_error():
-    laws = (Law(lambda subject, x: held("sound", (0.0, 1.0)), ("x",)), Law(below_a_million, ("x",)))
-    violation = falsify.caught(
+    laws = (
+        Law(lambda subject, x: check_bounds("sound", (0.0, 1.0)), ("x",)),
+        Law(below_a_million, ("x",)),
+    )
+    violation = falsify.first_violation(
         laws, lambda law, x: law.check(5.0, x), lambda kinds: st.tuples(st.floats(0, 100))
     )
     assert violation is not None
     assert violation.law == "below"
     assert (
-        falsify.caught(
+        falsify.first_violation(
             laws, lambda law, x: law.check(500.0, x), lambda kinds: st.tuples(st.floats(0, 100))
         )
         is None

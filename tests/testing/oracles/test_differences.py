@@ -129,9 +129,9 @@ def test_a_function_may_return_lists():
             r"dq: expected numbers \(m,\), got \['a'\]",
         ),
         (
-            lambda: differences.velocity(HOME, Q, Q, "space"),
+            lambda: differences.velocity(HOME, Q, Q, "space"),  # pyright: ignore
             r"f: expected a function of q, got array",
-        ),  # pyright: ignore
+        ),
         (
             lambda: differences.jacobian(lambda q: q, Q, "space"),
             r"f: expected a pose \(4, 4\) at q, got shape \(3,\)",

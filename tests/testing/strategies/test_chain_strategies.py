@@ -12,7 +12,7 @@ from hypothesis import find, settings
 from poekin.errors import InputError
 from poekin.model.chain import Chain
 from poekin.testing.strategies import chain_strategies
-from poekin.testing.strategies.decoding.bytes_reader import Reader
+from poekin.testing.strategies.decoding.bytes_reader import BytesReader
 from tests.testing.drawing import QUICK, drawn
 from tests.versions import SHRINKS, needs
 
@@ -53,8 +53,8 @@ def test_limits_are_read_off_their_bytes():
         (190, least, (-3.0, math.inf)),
         (255, most, (-math.inf, 0.0)),
     ):
-        assert chain_strategies._limits(Reader(bytes([kind, *lowest, *width]))) == expected
-    assert chain_strategies._limits(Reader(bytes([40, 0, 210, 255, 255, *most]))) == (3.0, 6.0)
+        assert chain_strategies._limits(BytesReader(bytes([kind, *lowest, *width]))) == expected
+    assert chain_strategies._limits(BytesReader(bytes([40, 0, 210, 255, 255, *most]))) == (3.0, 6.0)
 
 
 @pytest.mark.parametrize("shape", [(), (2,), (2, 3)])
@@ -65,7 +65,7 @@ def test_coordinates_are_read_off_their_bytes(shape, monkeypatch):
     size, decode = asked
     assert size == 4 * count
     for data, value in (([63, 64], math.pi / 2), ([63, 255], math.pi), ([64, 240, 0, 0], -math.pi)):
-        found = decode(Reader(bytes(data * count)))
+        found = decode(BytesReader(bytes(data * count)))
         assert found.shape == (*shape, 2)
         assert np.all(found == value)
 
@@ -82,7 +82,7 @@ def test_a_screw_has_its_axis_point_and_pitch(kind, sign, pitch, monkeypatch):
         return screw(kind, axis, point, decoded[0])
 
     def read(size: int, decode: Any) -> None:
-        decoded.append(decode(Reader(bytes([sign, 255, 0, 255, 255]))))
+        decoded.append(decode(BytesReader(bytes([sign, 255, 0, 255, 255]))))
 
     monkeypatch.setattr(chain_strategies, "read", read)
     monkeypatch.setattr(chain_strategies.st, "builds", builds)

@@ -10,7 +10,7 @@ import pytest
 import poekin as pk
 from poekin.testing.strategies import configuration_strategies as strategies
 from poekin.testing.strategies.configuration_strategies import bounds
-from poekin.testing.strategies.decoding.bytes_reader import Reader
+from poekin.testing.strategies.decoding.bytes_reader import BytesReader
 from tests.testing.drawing import drawn
 
 PANDA = pk.load("panda").chain(tip="panda_hand")
@@ -56,7 +56,7 @@ def test_a_limit_up_to_a_million_is_one():
 
 
 def inside(lower: float, upper: float, *values: int) -> float:
-    return strategies._inside(Reader(bytes(values)), lower, upper)
+    return strategies._inside(BytesReader(bytes(values)), lower, upper)
 
 
 def test_a_coordinate_within_is_0_for_one_byte_in_eight_else_evenly_spread():

@@ -16,7 +16,7 @@ from poekin.errors import InputError
 from poekin.formulas.lie import coefficients
 from poekin.testing.strategies import group_strategies
 from poekin.testing.strategies.decoding import decoders
-from poekin.testing.strategies.decoding.bytes_reader import Reader
+from poekin.testing.strategies.decoding.bytes_reader import BytesReader
 from tests.testing.drawing import QUICK, drawn
 from tests.versions import SHRINKS, needs
 
@@ -123,8 +123,8 @@ def test_parts_are_read_off_in_turn_each_by_itself(monkeypatch):
     monkeypatch.setattr(group_strategies, "frozen", np.array)
     data = bytes([0, 200, 9, 70, 80, 2, 5, 99, *range(90, 190, 2)])
 
-    def read(strategy: Any) -> tuple[np.ndarray, Reader]:
-        return strategy(Reader(data)), Reader(data)
+    def read(strategy: Any) -> tuple[np.ndarray, BytesReader]:
+        return strategy(BytesReader(data)), BytesReader(data)
 
     w, r = read(group_strategies.rotation_vectors(2.0, 1e-9))
     assert np.array_equal(w, decoders.angle(r, 2.0, 1e-9) * decoders.axis(r))
@@ -146,7 +146,7 @@ def test_parts_are_read_off_in_turn_each_by_itself(monkeypatch):
     assert q == pytest.approx(sign * np.array([math.cos(half), *(math.sin(half) * n)]), rel=1e-15)
     for byte, sign in ((127, 1), (128, -1)):
         simple: Any = group_strategies.quaternions_wxyz.__wrapped__()
-        assert simple(Reader(bytes([*[0] * 3, *[0] * 5, byte])))[0] == sign
+        assert simple(BytesReader(bytes([*[0] * 3, *[0] * 5, byte])))[0] == sign
 
 
 def test_lengths_and_far_angles_are_as_large_as_said(monkeypatch):

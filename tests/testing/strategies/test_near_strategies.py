@@ -12,7 +12,7 @@ from hypothesis import find, settings
 
 from poekin.testing.strategies import near_strategies
 from poekin.testing.strategies.decoding import decoders
-from poekin.testing.strategies.decoding.bytes_reader import Reader
+from poekin.testing.strategies.decoding.bytes_reader import BytesReader
 from tests.testing.drawing import QUICK, drawn
 
 PI = math.pi
@@ -85,11 +85,11 @@ def test_an_angle_an_axis_and_a_vector_are_read_in_turn_and_none_beyond(name, mo
         [200, 200, 255, 0, 99, 7, 2, 5, 9, *range(40, 70)]
     )  # above, where that is asked for
     for beyond in ((), (True,)):
-        r = Reader(data)
+        r = BytesReader(data)
         angle = near_strategies._angle(r, 1.0, 1e-3, bool(beyond))
         assert (angle > 1) == bool(beyond)
         strategy = getattr(near_strategies, name)
-        found = strategy(1.0, **({"beyond": True} if beyond else {}))(Reader(data))
+        found = strategy(1.0, **({"beyond": True} if beyond else {}))(BytesReader(data))
         if name == "near_angles":
             assert found == angle
             continue

@@ -18,7 +18,7 @@ from poekin.model.joint import KINDS, Mimic
 from poekin.model.robot import Robot
 from poekin.testing.strategies import configuration_strategies, robot_strategies
 from poekin.testing.strategies.chain_strategies import RATIOS
-from poekin.testing.strategies.decoding.bytes_reader import Reader
+from poekin.testing.strategies.decoding.bytes_reader import BytesReader
 from tests.testing.drawing import QUICK, drawn
 from tests.versions import SHRINKS, needs
 
@@ -116,7 +116,7 @@ LOW, HIGH = [0, 255, 0, 0], [255, 0, 255, 255]
 
 
 def row(*values: int) -> Any:
-    return robot_strategies._row(Reader(bytes(values)), ("revolute", "fixed"))
+    return robot_strategies._row(BytesReader(bytes(values)), ("revolute", "fixed"))
 
 
 def test_zeros_are_the_simplest_row():

@@ -1,4 +1,4 @@
-"""`fk` and `jacobian` of a subject as `Law`s: of any arm, handed to it as screws, or of its own."""
+"""`fk` and `jacobian` of a subject as `SubjectLaw`s: of any arm, handed to it as screws, or of its own."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ from ..process.calls import real
 from ..subjects.subject import Subject
 from . import of_arms
 from .group_cases import coordinates, element
-from .law import Case, Law, Shown, drawable, typed, unit
-from .of_arms import Arm
+from .law import Case, Shown, SubjectLaw, drawable, typed, unit
+from .of_arms import ArmData
 
 EACH = 8
 """Numbers of a joint: axis, a point on it, q, pitch; six more at the end are the home pose's ω and
@@ -42,8 +42,8 @@ TRAVELS = (1e-6, 2.0)
 KINDS = ("revolute", "prismatic")
 
 
-class Limits(NamedTuple):
-    """Of the coordinates of a declared arm, in rad or m."""
+class CoordinateLimits(NamedTuple):
+    """Limits of the coordinates of a declared arm, in rad or m."""
 
     lower: tuple[float, ...]
     upper: tuple[float, ...]
@@ -56,7 +56,7 @@ def cases(subject: Subject, kinds: tuple[str, ...] = KINDS) -> st.SearchStrategy
     These stay within its limits: a driver may refuse others.
     """
     if subject.arm is not None:
-        limits = Limits(*(tuple(side) for side in bounds(subject.arm).T.tolist()))
+        limits = CoordinateLimits(*(tuple(side) for side in bounds(subject.arm).T.tolist()))
         inside = st.one_of(within_limits(subject.arm), at_limits(subject.arm))
         return inside.map(lambda q: Case(np.asarray(q), limits))
     return st.lists(_joints(kinds), min_size=1, max_size=4).flatmap(
@@ -79,7 +79,12 @@ def _joints(kinds: tuple[str, ...]) -> st.SearchStrategy[tuple[str, np.ndarray]]
     return st.one_of(*(st.tuples(st.just(kind), one[kind]) for kind in kinds))
 
 
-def _numbers(axis: np.ndarray, point: np.ndarray, q: float, pitch: float) -> np.ndarray:
+def _numbers(
+    axis: np.ndarray,
+    point: np.ndarray,
+    q: float,
+    pitch: float,
+) -> np.ndarray:
     return frozen([*axis, *point, q, pitch])
 
 
@@ -90,15 +95,18 @@ def _case(joints: list[tuple[str, np.ndarray]], home: np.ndarray) -> Case:
     )
 
 
-def drawn(case: Case) -> tuple[Arm, np.ndarray]:
+def drawn(case: Case) -> tuple[ArmData, np.ndarray]:
     """The arm in floats, and q."""
-    kinds, rows = _kinds(case), case.numbers[:-6].reshape(-1, EACH)
+    kinds = _kinds(case)
+    rows = case.numbers[:-6].reshape(-1, EACH)
     screws = np.zeros((len(rows), 6))
     for kind, row, screw in zip(kinds, rows, screws, strict=True):
         n = row[:3] / math.hypot(*row[:3])
-        screw[:] = (
-            [0, 0, 0, *n] if kind == "prismatic" else [*n, *(np.cross(row[3:6], n) + row[7] * n)]
-        )
+        if kind == "prismatic":
+            screw[3:] = n
+        else:
+            screw[:3] = n
+            screw[3:] = np.cross(row[3:6], n) + row[7] * n
     return of_arms.arm(screws, element(case.numbers[-6:])), rows[:, 6]
 
 
@@ -113,11 +121,12 @@ def simpler(case: Case) -> Iterable[Case]:
 
 def allowed(case: Case) -> bool:
     """Axes keep their length, and all numbers their range; a declared arm stays within its limits."""
-    if isinstance(case.layout, Limits):
+    if isinstance(case.layout, CoordinateLimits):
         return bool(
             np.all(case.numbers >= case.layout.lower) and np.all(case.numbers <= case.layout.upper)
         )
-    angle, length = size(case.numbers[-6:-3]), size(case.numbers[-3:])
+    angle = size(case.numbers[-6:-3])
+    length = size(case.numbers[-3:])
     if not (drawable(angle, (SMALLEST, math.pi)) and drawable(length, LENGTHS)):
         return False
     rows = case.numbers[:-6].reshape(-1, EACH)
@@ -125,19 +134,21 @@ def allowed(case: Case) -> bool:
 
 
 def _allowed(kind: str, row: np.ndarray) -> bool:
-    amounts = TRAVELS if kind == "prismatic" else (SMALLEST, math.pi)
-    fits = (
-        drawable(row[6], amounts)
-        and drawable(row[7], PITCHES)
+    amounts = {"prismatic": TRAVELS}.get(kind, (SMALLEST, math.pi))
+    return (
+        unit(row[:3])
         and drawable(size(row[3:6]), LENGTHS)
+        and drawable(row[6], amounts)
+        and drawable(row[7], PITCHES)
     )
-    return unit(row[:3]) and fits
 
 
 def triples(case: Case) -> Iterable[int]:
     """Points on the axes, and the home pose's halves."""
     n = EACH * len(_kinds(case))
-    return [*range(3, n, EACH), n, n + 3] if n else []
+    if n == 0:
+        return []
+    return [*range(3, n, EACH), n, n + 3]
 
 
 def directions(case: Case) -> Iterable[int]:
@@ -145,7 +156,11 @@ def directions(case: Case) -> Iterable[int]:
     return range(0, EACH * len(_kinds(case)), EACH)
 
 
-def _of(subject: Subject, name: str, case: Case) -> tuple[Any, np.ndarray]:
+def _of(
+    subject: Subject,
+    name: str,
+    case: Case,
+) -> tuple[Any, np.ndarray]:
     if subject.arm is not None:
         return subject.arm, case.numbers
     arm, q = drawn(case)
@@ -154,7 +169,9 @@ def _of(subject: Subject, name: str, case: Case) -> tuple[Any, np.ndarray]:
 
 
 def _arguments(subject: Subject, arm: Any) -> tuple[np.ndarray, ...]:
-    return () if subject.arm is not None else (subject.twist(arm.screws), arm.home)
+    if subject.arm is not None:
+        return ()
+    return subject.twist(arm.screws), arm.home
 
 
 def _check_fk(subject: Subject, case: Case) -> Verdict:
@@ -175,14 +192,20 @@ def _check_jacobian(subject: Subject, case: Case) -> Verdict:
 
     def jacobian(q: np.ndarray) -> np.ndarray:
         J = real(subject.plain("jacobian")(*map(np.array, first), q))
-        return subject.rows(J) if J.shape == (6, len(q)) else J
+        if J.shape != (6, len(q)):
+            return J
+        return subject.rows(J)
 
     return of_arms.jacobian_is_the_derivative(
         jacobian, subject.frame, arm, q, Grade.BROKEN, subject.precision("jacobian")
     )
 
 
-def confirmed(arm: Any, q: np.ndarray, jacobian: bool) -> bool:
+def confirmed(
+    arm: Any,
+    q: np.ndarray,
+    jacobian: bool,
+) -> bool:
     """Whether pose and space Jacobian of an arm stand against the second oracle."""
     x = of_arms.displacements(arm, q)
     if not confirm.of_pose(arm.screws, arm.home, x):
@@ -193,10 +216,14 @@ def confirmed(arm: Any, q: np.ndarray, jacobian: bool) -> bool:
     )
 
 
-def _show(name: str, subject: Subject, case: Case) -> Shown:
+def _show(
+    name: str,
+    subject: Subject,
+    case: Case,
+) -> Shown:
     arm, q = _of(subject, name, case)
     values = [f"np.array({typed(x)})" for x in (*_arguments(subject, arm), q)]
-    names = ["q"] if len(values) == 1 else ["screws", "home", "q"]
+    names = ("screws", "home", "q")[-len(values) :]
     words = f"q = {typed(q)}"
     if len(values) > 1:
         screws = "; ".join(
@@ -207,42 +234,62 @@ def _show(name: str, subject: Subject, case: Case) -> Shown:
     return Shown(words, subject.call(name, **dict(zip(names, values, strict=True))), expected)
 
 
-def truth(subject: Subject, arm: Any, q: np.ndarray, jacobian: bool) -> np.ndarray:
+def truth(
+    subject: Subject,
+    arm: Any,
+    q: np.ndarray,
+    jacobian: bool,
+) -> np.ndarray:
     """The exact pose, or the Jacobian as the subject has it, in floats; what is 0 to 60 digits of
     the largest is 0.
     """
-    found = of_arms.pose(arm, q)
     if jacobian:
-        found = exact_jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(subject.frame)]
+        J = exact_jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(subject.frame)]
+        return subject.rows(_without_rounding(J))
+    return _without_rounding(of_arms.pose(arm, q))
+
+
+def _without_rounding(found: np.ndarray) -> np.ndarray:
     x = exact.rounded(found)
-    x = np.where(np.abs(x) < 1e-60 * np.max(np.abs(x), initial=0.0), 0.0, x)
-    return subject.rows(x) if jacobian else x
+    return np.where(np.abs(x) < 1e-60 * np.max(np.abs(x), initial=0.0), 0.0, x)
 
 
 def _kinds(case: Case) -> tuple[str, ...]:
-    return (
-        case.layout
-        if isinstance(case.layout, tuple) and not isinstance(case.layout, Limits)
-        else ()
-    )
+    if isinstance(case.layout, tuple) and not isinstance(case.layout, CoordinateLimits):
+        return case.layout
+    return ()
 
 
 def _law(
     function: str, says: str, check: Callable[[Subject, Case], Verdict], helical: bool = False
-) -> Law:
+) -> SubjectLaw:
     jacobian = function == "jacobian"
-    kinds = (*KINDS, "helical") if helical else KINDS
+    name = function
+    kinds = KINDS
+    if helical:
+        name = f"{function} helical"
+        kinds = (*KINDS, "helical")
 
     def about(case: Case) -> bool:
         return not helical or bool(np.any(case.numbers[:-6].reshape(-1, EACH)[:, 7]))
 
-    return Law(
-        f"{function} helical" if helical else function, says, function, lambda subject: cases(subject, kinds), check,
-        lambda subject, case: confirmed(*_of(subject, function, case), jacobian),
-        lambda subject, case: _show(function, subject, case), simpler, triples, directions, allowed,
-        lambda subject: not helical or (subject.helical and subject.arm is None), about,
-        "helical = True is not declared, or an arm is", 150,
-    )  # fmt: skip
+    return SubjectLaw(
+        name=name,
+        says=says,
+        needs=function,
+        cases=lambda subject: cases(subject, kinds),
+        check=check,
+        confirm=lambda subject, case: confirmed(*_of(subject, function, case), jacobian),
+        show=lambda subject, case: _show(function, subject, case),
+        simpler=simpler,
+        triples=triples,
+        directions=directions,
+        allowed=allowed,
+        applies=lambda subject: not helical or (subject.helical and subject.arm is None),
+        about=about,
+        unless="helical = True is not declared, or an arm is",
+        examples=150,
+    )
 
 
 ARM_LAWS = (

@@ -1,4 +1,4 @@
-"""The laws of `of_groups` as `Law`s: what each is tried on, and how a case is shown."""
+"""The laws of `of_groups` as `SubjectLaw`s: what each is tried on, and how a case is shown."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from ...strategies.group_strategies import (
     twists,
 )
 from .. import confirm
-from ..grades import Grade, Verdict, judged
+from ..grades import Grade, Verdict, graded
 from ..process.calls import called
 from ..subjects.subject import JACOBIANS, SE3, SO3, Subject
 from . import of_groups
-from .law import Case, Law, Shown, drawable, typed
+from .law import Case, Shown, SubjectLaw, drawable, typed
 
 FAR = 10.0
 """The largest |ω| in rad that exp and the Jacobians of exp are tried at; log, and inverses, to π.
@@ -42,11 +42,21 @@ def element(xi: np.ndarray) -> np.ndarray:
 
 
 def _largest(name: str) -> float:
-    return math.pi if "log" in name or "inverse" in name or "adjoint" in name else FAR
+    if any(word in name for word in ("log", "inverse", "adjoint")):
+        return math.pi
+    return FAR
 
 
 def _numbers(name: str) -> Arrays:
-    return rotation_vectors(_largest(name)) if name in SO3 else twists(_largest(name))
+    strategy = {3: rotation_vectors, 6: twists}[_count(name)]
+    return strategy(_largest(name))
+
+
+def _count(name: str) -> int:
+    """Number of exponential coordinates."""
+    if name in SO3:
+        return 3
+    return 6
 
 
 def _drawable(name: str, xi: np.ndarray) -> bool:
@@ -62,8 +72,14 @@ def _takes_element(name: str) -> bool:
     return name.endswith("log") or name == "adjoint"
 
 
-def _argument(subject: Subject, name: str, xi: np.ndarray) -> np.ndarray:
-    return subject.precision(name).rounded(element(xi)) if _takes_element(name) else xi
+def _argument(
+    subject: Subject,
+    name: str,
+    xi: np.ndarray,
+) -> np.ndarray:
+    if not _takes_element(name):
+        return xi
+    return subject.precision(name).rounded(element(xi))
 
 
 def _checked(name: str) -> Checked:
@@ -77,7 +93,11 @@ def _checked(name: str) -> Checked:
     }[plain]
 
 
-def _confirmed(subject: Subject, name: str, xi: np.ndarray) -> bool:
+def _confirmed(
+    subject: Subject,
+    name: str,
+    xi: np.ndarray,
+) -> bool:
     plain = name.removeprefix("so3_")
     if plain in JACOBIANS:
         return confirm.of_jacobian(plain, xi)
@@ -85,56 +105,61 @@ def _confirmed(subject: Subject, name: str, xi: np.ndarray) -> bool:
         return confirm.of_exp(xi)
     X = _argument(subject, name, xi)
     # The argument itself stands on exp: it is confirmed too.
-    return confirm.of_exp(xi) and (
-        confirm.of_log(X)
-        if plain == "log"
-        else confirm.of_adjoint(X, 100 * subject.precision(name).unit)
-    )
+    if not confirm.of_exp(xi):
+        return False
+    if plain == "log":
+        return confirm.of_log(X)
+    return confirm.of_adjoint(X, 100 * subject.precision(name).unit)
 
 
-def _truth(subject: Subject, name: str, xi: np.ndarray) -> np.ndarray:
+def _truth(
+    subject: Subject,
+    name: str,
+    xi: np.ndarray,
+) -> np.ndarray:
     return exact.rounded(getattr(exact, name.removeprefix("so3_"))(_argument(subject, name, xi)))
 
 
-def _in_order(subject: Subject, name: str, x: np.ndarray) -> np.ndarray:
+def _in_order(
+    subject: Subject,
+    name: str,
+    x: np.ndarray,
+) -> np.ndarray:
     """An argument or a result of a function, in the subject's own order."""
     if name in SO3 or x.shape[-2:] == (4, 4):
         return x
-    return (
-        subject.twist(x) if x.shape[-1:] == (6,) and x.shape[-2:] != (6, 6) else subject.square(x)
-    )
+    if x.shape[-2:] == (6, 6):
+        return subject.square(x)
+    return subject.twist(x)
 
 
 def coordinates(xi: np.ndarray) -> str:
     """Exponential coordinates in words, to the last digit."""
-    halves = [
-        "(" + ", ".join(f"{x + 0.0!r}".removesuffix(".0") for x in half.tolist()) + ")"
-        for half in (xi[:3], xi[3:])
-    ]
-    return f"ω = {halves[0]}" + (f", v = {halves[1]}" if len(xi) == 6 else "")
+    texts = [f"{x + 0.0!r}".removesuffix(".0") for x in xi.tolist()]
+    words = f"ω = ({', '.join(texts[:3])})"
+    if len(xi) == 6:
+        words += f", v = ({', '.join(texts[3:])})"
+    return words
 
 
-def _group_law(name: str) -> Law:
-    check, largest = _checked(name), _largest(name)
+def _group_law(name: str) -> SubjectLaw:
+    check = _checked(name)
 
     def measured(subject: Subject, case: Case) -> Verdict:
         x = _argument(subject, name, case.numbers)
         return check(subject.function(name), x, Grade.BROKEN, subject.precision(name))
 
     def show(subject: Subject, case: Case) -> Shown:
-        x, truth = (
-            _in_order(subject, name, y)
-            for y in (of(subject, name, case.numbers) for of in (_argument, _truth))
-        )
+        x = _in_order(subject, name, _argument(subject, name, case.numbers))
+        truth = _in_order(subject, name, _truth(subject, name, case.numbers))
         words = coordinates(case.numbers)
-        words = f"e^ξ, rounded, of {words}" if _takes_element(name) else words
+        if _takes_element(name):
+            words = f"e^ξ, rounded, of {words}"
         return Shown(words, subject.call(name, x=f"np.array({typed(x)})"), truth)
 
-    return Law(
+    return SubjectLaw(
         name=name,
-        says=SAYS[name if name == "so3_log" else name.removeprefix("so3_")].format(
-            largest="π" if largest == math.pi else f"{largest:g}"
-        ),
+        says=SAYS.get(name, SAYS.get(name.removeprefix("so3_"), "")),
         needs=name,
         cases=lambda subject: _numbers(name).map(Case),
         check=measured,
@@ -146,18 +171,18 @@ def _group_law(name: str) -> Law:
 
 
 SAYS = {
-    "exp": "exp ξ = e^ξ, |ω| up to {largest}",
-    "so3_log": "log of a rotation is its principal logarithm, |ω| up to {largest}",
-    "log": "log of a pose is its principal logarithm, |ω| up to {largest}",
+    "exp": f"exp ξ = e^ξ, |ω| up to {FAR:g}",
+    "so3_log": "log of a rotation is its principal logarithm, |ω| up to π",
+    "log": "log of a pose is its principal logarithm, |ω| up to π",
     "adjoint": "Ad(T) = [R 0; [t] R R]",
-    "left_jacobian": "(d e^ξ) e^-ξ = J_l dξ, |ω| up to {largest}",
-    "right_jacobian": "e^-ξ (d e^ξ) = J_r dξ, |ω| up to {largest}",
-    "left_jacobian_inverse": "the inverse of J_l, |ω| up to {largest}",
-    "right_jacobian_inverse": "the inverse of J_r, |ω| up to {largest}",
+    "left_jacobian": f"(d e^ξ) e^-ξ = J_l dξ, |ω| up to {FAR:g}",
+    "right_jacobian": f"e^-ξ (d e^ξ) = J_r dξ, |ω| up to {FAR:g}",
+    "left_jacobian_inverse": "the inverse of J_l, |ω| up to π",
+    "right_jacobian_inverse": "the inverse of J_r, |ω| up to π",
 }
 
 
-def _noise_law() -> Law:
+def _noise_law() -> SubjectLaw:
     def cases(subject: Subject) -> st.SearchStrategy[Case]:
         return noisy_rotations((1e-17, subject.noise)).map(lambda R: Case(np.asarray(R).ravel()))
 
@@ -174,18 +199,32 @@ def _noise_law() -> Law:
             subject.function("so3_log"), R(case), Grade.BROKEN, precision
         )
 
-    return Law(
-        "noise", "log of a rotation with noise is that of the nearest rotation", "so3_log", cases, check,
-        lambda subject, case: confirm.of_log(R(case)), show,
+    return SubjectLaw(
+        name="noise",
+        says="log of a rotation with noise is that of the nearest rotation",
+        needs="so3_log",
+        cases=cases,
+        check=check,
+        confirm=lambda subject, case: confirm.of_log(R(case)),
+        show=show,
+        triples=lambda case: (),
         # Shrinking would leave the neighbourhood of the rotations.
-        triples=lambda case: (), allowed=lambda case: False, applies=lambda subject: subject.noise > 0,
-        unless="noise is not declared", examples=EXAMPLES,
-    )  # fmt: skip
+        allowed=lambda case: False,
+        applies=lambda subject: subject.noise > 0,
+        unless="noise is not declared",
+        examples=EXAMPLES,
+    )
 
 
-def _batch_law(name: str) -> Law:
-    count = 3 if name in SO3 else 6
+def _batch_law(name: str) -> SubjectLaw:
+    count = _count(name)
     check = _checked(name)
+
+    def rows(case: Case) -> np.ndarray:
+        return case.numbers.reshape(-1, count)
+
+    def tail(subject: Subject) -> tuple[int, ...]:
+        return _truth(subject, name, np.zeros(count)).shape
 
     def cases(subject: Subject) -> st.SearchStrategy[Case]:
         def of(shape: tuple[int, ...]) -> st.SearchStrategy[Case]:
@@ -194,56 +233,54 @@ def _batch_law(name: str) -> Law:
         return batch_shapes().flatmap(of)
 
     def arguments(subject: Subject, case: Case) -> np.ndarray:
-        rows = case.numbers.reshape(-1, count)
-        made = [_argument(subject, name, row) for row in rows]
-        tail = _argument(subject, name, np.zeros(count)).shape
-        return np.reshape(made, (*_shape(case), *tail))
+        made = [_argument(subject, name, row) for row in rows(case)]
+        one = _argument(subject, name, np.zeros(count))
+        return np.reshape(made, (*_shape(case), *one.shape))
 
     def together(subject: Subject, case: Case) -> Verdict:
         x = arguments(subject, case)
-        tail = _truth(subject, name, np.zeros(count)).shape
-        result, fault = called(subject.function(name), (*_shape(case), *tail), x)
+        shape = (*_shape(case), *tail(subject))
+        result, fault = called(subject.function(name), shape, x)
         if fault:
-            return judged(f"batches of {name}", fault)
-        rows = result.reshape(-1, *tail)
+            return graded(f"batches of {name}", fault)
+        results = result.reshape(-1, *tail(subject))
         flat = x.reshape(-1, *x.shape[len(_shape(case)) :])
         precision = subject.precision(name)
-        pairs = zip(flat, rows, strict=True)
         verdicts = [
-            check(lambda _, row=row: row, one, Grade.BROKEN, precision) for one, row in pairs
+            check(lambda _, row=row: row, one, Grade.BROKEN, precision)
+            for one, row in zip(flat, results, strict=True)
         ]
         return max(verdicts, key=lambda v: v.rank, default=NOTHING)
 
     def show(subject: Subject, case: Case) -> Shown:
         x = _in_order(subject, name, arguments(subject, case))
         text = f"np.reshape({typed(x.ravel())}, {x.shape})"
-        truth = np.reshape(
-            [_truth(subject, name, row) for row in case.numbers.reshape(-1, count)] or np.zeros(0),
-            -1,
-        )
-        tail = _truth(subject, name, np.zeros(count)).shape
-        words = f"a batch {_shape(case)} of " + "; ".join(
-            map(coordinates, case.numbers.reshape(-1, count))
-        )
-        return Shown(
-            words,
-            subject.call(name, x=text),
-            _in_order(subject, name, truth.reshape(*_shape(case), *tail)),
-        )
+        truth = np.array([_truth(subject, name, row) for row in rows(case)])
+        truth = truth.reshape(*_shape(case), *tail(subject))
+        words = f"a batch {_shape(case)} of {'; '.join(map(coordinates, rows(case)))}"
+        return Shown(words, subject.call(name, x=text), _in_order(subject, name, truth))
 
     def confirmed(subject: Subject, case: Case) -> bool:
-        return all(_confirmed(subject, name, row) for row in case.numbers.reshape(-1, count))
+        return all(_confirmed(subject, name, row) for row in rows(case))
 
-    return Law(
-        f"{name} of batches", f"{name} of a batch is {name} of each, in shapes (), (1,), (0,), (3, 1, 2)", name, cases,
-        together, confirmed, show,
-        allowed=lambda case: all(_drawable(name, row) for row in case.numbers.reshape(-1, count)),
-        applies=lambda subject: subject.batch, unless="batch = True is not declared",
-    )  # fmt: skip
+    return SubjectLaw(
+        name=f"{name} of batches",
+        says=f"{name} of a batch is {name} of each, in shapes (), (1,), (0,), (3, 1, 2)",
+        needs=name,
+        cases=cases,
+        check=together,
+        confirm=confirmed,
+        show=show,
+        allowed=lambda case: all(_drawable(name, row) for row in rows(case)),
+        applies=lambda subject: subject.batch,
+        unless="batch = True is not declared",
+    )
 
 
 def _shape(case: Case) -> tuple[int, ...]:
-    return case.layout if isinstance(case.layout, tuple) else ()
+    if isinstance(case.layout, tuple):
+        return case.layout
+    return ()
 
 
 GROUP_LAWS = (

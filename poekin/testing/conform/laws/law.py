@@ -46,7 +46,7 @@ def nothing_simpler(case: Case) -> Iterable[Case]:
     return ()
 
 
-class Law(NamedTuple):
+class SubjectLaw(NamedTuple):
     """One law: `check(subject, case)` measures, `confirm(subject, case)` asks the second oracle
     about the truth.
 
@@ -98,4 +98,6 @@ def typed(x: Any) -> str:
     """
     text = repr((np.asarray(x, dtype=float) + 0.0).tolist())
     short = text.replace("0.0,", "0,").replace("0.0]", "0]")
-    return short if "." in short or "e" in short else text
+    if "." in short or "e" in short:
+        return short
+    return text

@@ -5,7 +5,7 @@ factor and the result are rounded once, and so is each angle, of joints and of t
 that times the arm's lengths for t: all that go into it, and what slides. The same holds for the
 columns of the Jacobian.
 
-Parameters: fk, jacobian, the functions under test, of q (m,) in rad or m; arm, an `Arm` or a
+Parameters: fk, jacobian, the functions under test, of q (m,) in rad or m; arm, an `ArmData` or a
 `poekin.Chain`; screws
 (n, 6), (ω; v), and home (4, 4) in the base frame; q (m,); T (4, 4), J (6, m), what came of it;
 frame, "space", "body" or "hybrid"; at_most, the worst `Grade` that is let pass; precision that the
@@ -27,14 +27,14 @@ from ...accuracy.error_bounds import UNIT
 from ...laws.derivative_laws import exact_jacobians
 from ...laws.measures import size
 from ...oracles import exact
-from ..grades import Grade, Part, Verdict, judged
+from ..grades import Grade, Part, Verdict, graded
 from ..process.calls import called
 from ..subjects.precision import DOUBLE, Precision
 
 Function = Callable[[np.ndarray], Any]
 
 
-class Arm(NamedTuple):
+class ArmData(NamedTuple):
     """An arm as data, in floats or in numbers of `exact`: screws (n, 6) and home (4, 4) in the base
     frame, x = C q + c.
 
@@ -54,11 +54,12 @@ class Arm(NamedTuple):
     turned: float = 0.0
 
 
-def arm(screws: np.ndarray, home: np.ndarray) -> Arm:
+def arm(screws: np.ndarray, home: np.ndarray) -> ArmData:
     """An arm with a coordinate for each joint, made of these numbers."""
-    n, turns = len(screws), np.any(screws[:, :3] != 0, axis=1)
+    n = len(screws)
+    turns = np.any(screws[:, :3] != 0, axis=1)
     reach = size(home[:3, 3]) + sum(size(v) for v in screws[turns, 3:])
-    return Arm(screws, home, np.eye(n), np.zeros(n), n, reach)
+    return ArmData(screws, home, np.eye(n), np.zeros(n), n, reach)
 
 
 def displacements(arm: Any, q: np.ndarray) -> np.ndarray:
@@ -71,13 +72,19 @@ def pose(arm: Any, q: np.ndarray) -> np.ndarray:
     return exact.forward(arm.screws, arm.home, displacements(arm, q))
 
 
-def attainable(arm: Any, q: np.ndarray, unit: float = UNIT) -> tuple[float, float]:
-    """What float64 can attain for R, and the lengths that t goes in proportion to.
+def error_bound(
+    arm: Any,
+    q: np.ndarray,
+    unit: float = UNIT,
+) -> tuple[float, float]:
+    """Error of R that float64 can attain, and the lengths that the error of t is in proportion to.
 
     Whoever made a `poekin.Chain` had numbers of his own for it: a radian for each joint, and its
     reach.
     """
-    x, A, M = exact.rounded(displacements(arm, q)), _floats(arm.screws), _floats(arm.home)
+    x = exact.rounded(displacements(arm, q))
+    A = _floats(arm.screws)
+    M = _floats(arm.home)
     turns = np.any(A[:, :3] != 0, axis=1)
     angles = float(np.abs(x[turns]).sum()) + float(getattr(arm, "turned", len(x)))
     lengths = arm.reach + float(np.abs(x[~turns]).sum())
@@ -93,15 +100,21 @@ def fk_is_the_product_of_exponentials(
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
 ) -> Verdict:
-    """fk(q) (4, 4) = e^{A_1 x_1} ⋯ e^{A_n x_n} M of the arm (`Arm`, or a `poekin.Chain`)."""
+    """fk(q) (4, 4) = e^{A_1 x_1} ⋯ e^{A_n x_n} M of the arm (`ArmData`, or a `poekin.Chain`)."""
     T, fault = called(fk, (4, 4), q)
     parts = fault or pose_parts(arm, q, T, precision)
-    return judged("fk is the product of exponentials", parts, at_most, q=q)
+    return graded("fk is the product of exponentials", parts, at_most, q=q)
 
 
-def pose_parts(arm: Any, q: np.ndarray, T: np.ndarray, precision: Precision = DOUBLE) -> list[Part]:
+def pose_parts(
+    arm: Any,
+    q: np.ndarray,
+    T: np.ndarray,
+    precision: Precision = DOUBLE,
+) -> list[Part]:
     """The errors of R and t, and of the last row."""
-    error, (angular, lengths) = exact.exactly(T) - pose(arm, q), attainable(arm, q, precision.unit)
+    error = exact.exactly(T) - pose(arm, q)
+    (angular, lengths) = error_bound(arm, q, precision.unit)
     t = float(exact.norm(error[:3, 3]))
     return [
         Part(
@@ -125,7 +138,7 @@ def jacobian_is_the_derivative(
     """
     J, fault = called(jacobian, (6, arm.dof), q)
     parts = fault or jacobian_parts(frame, arm, q, J, precision)
-    return judged("jacobian is the derivative", parts, at_most, q=q)
+    return graded("jacobian is the derivative", parts, at_most, q=q)
 
 
 def jacobian_parts(
@@ -133,7 +146,8 @@ def jacobian_parts(
 ) -> list[Part]:
     """The errors of the worst column's ω and v."""
     truth = exact_jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(frame)]
-    error, (angular, lengths) = exact.exactly(J) - truth, attainable(arm, q, precision.unit)
+    error = exact.exactly(J) - truth
+    (angular, lengths) = error_bound(arm, q, precision.unit)
     ratios = 1 + size(arm.coupling)
     slides = 0.0 if np.all(np.any(_floats(arm.screws)[:, :3] != 0, axis=1)) else 1.0
     w, v = (

@@ -25,23 +25,31 @@ import numpy as np
 from ...accuracy import error_bounds
 from ...accuracy.accuracy_laws import EXP_LOG_BAR, JACOBIAN_BAR, NOISE_BAR, jacobian_errors
 from ...oracles import exact
-from ..grades import Grade, Part, Verdict, judged
+from ..grades import Grade, Part, Verdict, graded
 from ..process.calls import called
 from ..subjects.precision import DOUBLE, Precision
 
 Function = Callable[[np.ndarray], Any]
+ELEMENT_SIZE = {3: 3, 6: 4}
+"""Rows of a rotation or pose, by the length of its twist."""
+TWIST_SIZE = {3: 3, 4: 6}
+"""Length of a twist, by the rows of its rotation or pose."""
 
 
 def exp_is_e_to_the_xi(
     exp: Function, xi: np.ndarray, at_most: Grade = Grade.EXACT, precision: Precision = DOUBLE
 ) -> Verdict:
     """exp ξ = e^[ξ], of a twist (6,) or rotation vector (3,); R as it is, t in proportion to |v|."""
-    size = 3 if len(xi) == 3 else 4
+    size = ELEMENT_SIZE.get(len(xi), 4)
     X, fault = called(exp, (size, size), xi)
-    return judged("exp is e to the xi", fault or exp_parts(xi, X, precision), at_most, xi=xi)
+    return graded("exp is e to the xi", fault or exp_parts(xi, X, precision), at_most, xi=xi)
 
 
-def exp_parts(xi: np.ndarray, X: np.ndarray, precision: Precision = DOUBLE) -> list[Part]:
+def exp_parts(
+    xi: np.ndarray,
+    X: np.ndarray,
+    precision: Precision = DOUBLE,
+) -> list[Part]:
     """The errors of R and t, and of the last row, of X as the exponential of ξ."""
     error = exact.exactly(X) - exact.exp(xi)
     theta = float(exact.norm(exact.exactly(xi[:3])))
@@ -73,14 +81,17 @@ def log_is_the_principal_logarithm(
 
     Within 8 u of π both signs of ω count as right, each with its v.
     """
-    size = 3 if len(X) == 3 else 6
-    xi, fault = called(log, (size,), X)
-    return judged(
+    xi, fault = called(log, (TWIST_SIZE.get(len(X), 6),), X)
+    return graded(
         "log is the principal logarithm", fault or log_parts(X, xi, precision), at_most, X=X
     )
 
 
-def log_parts(X: np.ndarray, xi: np.ndarray, precision: Precision = DOUBLE) -> list[Part]:
+def log_parts(
+    X: np.ndarray,
+    xi: np.ndarray,
+    precision: Precision = DOUBLE,
+) -> list[Part]:
     """The errors of ω and v of ξ as the logarithm of X."""
     truth = exact.log(X)
     candidates = [_log_parts(truth, xi, X, precision)]
@@ -92,11 +103,9 @@ def log_parts(X: np.ndarray, xi: np.ndarray, precision: Precision = DOUBLE) -> l
 def _other_sign(truth: np.ndarray, X: np.ndarray) -> np.ndarray:
     """The logarithm of X with the opposite ω, one turn the other way round."""
     w = -truth[:3]
-    return (
-        w
-        if len(X) == 3
-        else np.concatenate([w, exact.left_jacobian_inverse(w) @ exact.exactly(X[:3, 3])])
-    )
+    if len(X) == 3:
+        return w
+    return np.concatenate([w, exact.left_jacobian_inverse(w) @ exact.exactly(X[:3, 3])])
 
 
 def _log_parts(
@@ -106,7 +115,9 @@ def _log_parts(
     theta = float(exact.norm(truth[:3]))
     # Below the smallest angle squares underflow: all that is asked for is a small number that is
     # none of the faults.
-    least = precision.unit * theta if theta >= precision.smallest else precision.smallest
+    least = precision.smallest
+    if theta >= precision.smallest:
+        least = precision.unit * theta
 
     def angular() -> float:
         return max(precision.coarser * float(error_bounds.log_bound(truth).angular), least)
@@ -116,7 +127,8 @@ def _log_parts(
 
     parts = [Part("ω (rad)", float(exact.norm(error[:3])), 1.0, least, angular, precision)]
     if len(xi) == 6:
-        v, t = float(exact.norm(truth[3:])), float(exact.norm(exact.exactly(X[:3, 3])))
+        v = float(exact.norm(truth[3:]))
+        t = float(exact.norm(exact.exactly(X[:3, 3])))
         missed = float(exact.norm(error[3:]))
         parts.append(Part("v ÷ |v|", missed, max(v, t), precision.unit * v, linear, precision))
     return parts
@@ -130,16 +142,11 @@ def log_forgives_noise(
     """
     w, fault = called(log, (3,), R)
     if fault:
-        return judged("log forgives noise", fault, at_most, R=R)
+        return graded("log forgives noise", fault, at_most, R=R)
     truth = exact.log(R)
-    signs = (
-        (1, -1)
-        if exact.mp.pi - exact.norm(truth) < precision.coarser * error_bounds.BOTH_SIGNS
-        else (1,)
-    )
-    error = min(float(exact.norm(exact.exactly(w) - sign * truth)) for sign in signs)
+    error = error_bounds.log_error(w, truth, precision.coarser * error_bounds.BOTH_SIGNS)
     least = precision.coarser * NOISE_BAR / EXP_LOG_BAR
-    return judged(
+    return graded(
         "log forgives noise",
         [Part("ω (rad)", error, 1.0, least, lambda: least, precision)],
         at_most,
@@ -153,7 +160,7 @@ def adjoint_is_its_matrix(
     """Ad(T) = [R 0; [t] R R] (6, 6) of a pose (4, 4); the lower corner in proportion to |t|."""
     X, fault = called(adjoint, (6, 6), T)
     if fault:
-        return judged("adjoint is its matrix", fault, at_most, T=T)
+        return graded("adjoint is its matrix", fault, at_most, T=T)
     error = exact.exactly(X) - exact.adjoint(T)
     t = float(exact.norm(exact.exactly(T[:3, 3])))
     corner = exact.norm(error[3:, :3])
@@ -164,7 +171,7 @@ def adjoint_is_its_matrix(
         Part("R", rest, 1.0, u, lambda: u, precision),
         Part("[t] R ÷ |t|", float(corner), t, 2 * u * t, lambda: 2 * u * t, precision),
     ]
-    return judged("adjoint is its matrix", parts, at_most, T=T)
+    return graded("adjoint is its matrix", parts, at_most, T=T)
 
 
 def jacobian_of_exp(name: str) -> Callable[..., Verdict]:
@@ -184,13 +191,13 @@ def jacobian_of_exp(name: str) -> Callable[..., Verdict]:
         J, fault = called(function, (len(xi), len(xi)), xi)
         title = f"{name.replace('_', ' ')} is attained"
         if fault:
-            return judged(title, fault, at_most, xi=xi)
+            return graded(title, fault, at_most, xi=xi)
         diagonal, corner = jacobian_errors(J, truth(xi), xi)
         least = precision.coarser * JACOBIAN_BAR / EXP_LOG_BAR
         parts = [Part("3×3 block", diagonal, 1.0, least, lambda: least, precision)]
         if len(xi) == 6:
             parts.append(Part("Q block ÷ |v|", corner, 1.0, least, lambda: least, precision))
-        return judged(title, parts, at_most, xi=xi)
+        return graded(title, parts, at_most, xi=xi)
 
     law.__name__ = f"{name}_is_attained"
     law.__doc__ = f"{name} of a twist (6,) or rotation vector (3,): 3×3 blocks as they are, Q in proportion to |v|."

@@ -10,28 +10,32 @@ from typing import Any
 import numpy as np
 
 from .. import confirm
-from ..grades import Verdict, judged
+from ..grades import Verdict, graded
 from ..process.calls import Undeclared, called, made, untouched
 from ..subjects.subject import Subject, printed
 from . import arm_cases, of_arms, small_urdf
 from .law import Case, Shown, typed
 
 
-def check(subject: Subject, case: Case, jacobian: bool) -> Verdict:
+def check(
+    subject: Subject,
+    case: Case,
+    jacobian: bool,
+) -> Verdict:
     """Whether what the subject reads out of the URDF has the pose, or the Jacobian, of the
     definition.
     """
     law = "read_urdf"
     read, fault = made(lambda: subject.own.read_urdf(small_urdf.text(case), "base", "tip"))
     if fault:
-        return judged(law, fault)
+        return graded(law, fault)
     arm, q, names = small_urdf.arm(case)
     values, found, fault = _given(case, read, names)
     if fault:
-        return judged(law, fault)
+        return graded(law, fault)
     if not jacobian:
         T, fault = called(lambda q: subject.noted(law, read.fk(q)), (4, 4), values)
-        return judged(law, fault or of_arms.pose_parts(arm, q, T, subject.precision(law)))
+        return graded(law, fault or of_arms.pose_parts(arm, q, T, subject.precision(law)))
     function, fault = made(lambda: getattr(read, "jacobian", None))
     if function is None and not fault:
         raise Undeclared(
@@ -39,9 +43,9 @@ def check(subject: Subject, case: Case, jacobian: bool) -> Verdict:
         )
     J, fault = called(lambda q: subject.noted(law, read.jacobian(q)), (6, len(found)), values)
     if fault:
-        return judged(law, fault)
+        return graded(law, fault)
     J = subject.rows(J)[:, [found.index(name) for name in names]]
-    return judged(law, of_arms.jacobian_parts(subject.frame, arm, q, J, subject.precision(law)))
+    return graded(law, of_arms.jacobian_parts(subject.frame, arm, q, J, subject.precision(law)))
 
 
 def check_robot(subject: Subject, case: Case) -> Verdict:
@@ -49,32 +53,33 @@ def check_robot(subject: Subject, case: Case) -> Verdict:
     law = "read_robot"
     robot, fault = made(lambda: subject.own.read_robot(small_urdf.text(case)))
     if fault:
-        return judged(law, fault)
+        return graded(law, fault)
     values, _, fault = _given(case, robot, small_urdf.coordinates(case))
     if fault:
-        return judged(law, fault)
-    poses, fault = made(lambda: _mapping(untouched(robot.poses)(values.copy())))
+        return graded(law, fault)
+    poses, fault = made(lambda: untouched(robot.poses)(values.copy()))
+    if not fault and not isinstance(poses, Mapping):
+        poses, fault = made(lambda: dict(poses))
     if fault:
-        return judged(law, fault)
+        return graded(law, fault)
     verdicts = []
     for k in range(len(small_urdf.rows_of(case))):
-        name, (arm, q, _) = small_urdf.link(case, k), small_urdf.arm(case, k)
+        name = small_urdf.link(case, k)
+        (arm, q, _) = small_urdf.arm(case, k)
         T, fault = called(lambda name=name: subject.noted(law, poses[name]), (4, 4))
-        verdict = judged(
-            law,
-            f"of link {name}: {fault}"
-            if fault
-            else of_arms.pose_parts(arm, q, T, subject.precision(law)),
-        )
-        verdicts.append(verdict if fault else verdict._replace(what=f"{verdict.what}, of {name}"))
+        if fault:
+            verdicts.append(graded(law, f"of link {name}: {fault}"))
+            continue
+        verdict = graded(law, of_arms.pose_parts(arm, q, T, subject.precision(law)))
+        verdicts.append(verdict._replace(what=f"{verdict.what}, of {name}"))
     return max(verdicts, key=lambda verdict: verdict.rank)
 
 
-def _mapping(poses: Any) -> Mapping[str, Any]:
-    return poses if isinstance(poses, Mapping) else dict(poses)
-
-
-def _given(case: Case, read: Any, names: Iterable[str]) -> tuple[np.ndarray, list[str], str]:
+def _given(
+    case: Case,
+    read: Any,
+    names: Iterable[str],
+) -> tuple[np.ndarray, list[str], str]:
     """The values of what was read, in its order, and its names; or the fault: one of these names is
     none of its.
     """
@@ -92,7 +97,11 @@ def _given(case: Case, read: Any, names: Iterable[str]) -> tuple[np.ndarray, lis
     return np.array([given.get(name, 0.0) for name in found]), found, ""
 
 
-def confirmed(case: Case, jacobian: bool, links: Iterable[int] = (small_urdf.TIP,)) -> bool:
+def confirmed(
+    case: Case,
+    jacobian: bool,
+    links: Iterable[int] = (small_urdf.TIP,),
+) -> bool:
     """Whether the exact poses of links, and the Jacobian, stand against the second oracle."""
     for k in links:
         arm, q, _ = small_urdf.arm(case, k)
@@ -102,46 +111,60 @@ def confirmed(case: Case, jacobian: bool, links: Iterable[int] = (small_urdf.TIP
     return True
 
 
-def show(subject: Subject, case: Case, function: str) -> Shown:
+def show(
+    subject: Subject,
+    case: Case,
+    function: str,
+) -> Shown:
     """The URDF and the values of its joints, as Python; the function is fk, jacobian or poses, of
     what was read.
 
     The names that were read are printed as well: the pose is the exact one where only a name is
     wrong or missing.
     """
-    values, text = small_urdf.coordinates(case), small_urdf.text(case)
-    links = [small_urdf.link(case, k) for k in range(len(small_urdf.rows_of(case)))]
-    whole = function == "poses"
-    read = f"read_robot({text!r})" if whole else f"read_urdf({text!r}, 'base', 'tip')"
+    values = small_urdf.coordinates(case)
+    text = small_urdf.text(case)
+    if function == "poses":
+        places = range(len(small_urdf.rows_of(case)))
+        links = [small_urdf.link(case, k) for k in places]
+        read = f"read_robot({text!r})"
+        result = f"[read.poses(q)[link] for link in {links!r}]"
+        arms = [small_urdf.arm(case, k) for k in places]
+        expected = np.array([arm_cases.truth(subject, arm, q, False) for arm, q, _ in arms])
+        names = list(values)
+    else:
+        read = f"read_urdf({text!r}, 'base', 'tip')"
+        result = f"read.{function}(q)"
+        arm, q, names = small_urdf.arm(case)
+        expected = arm_cases.truth(subject, arm, q, function == "jacobian")
     lines = [
-        "import numpy as np", *subject.source.lines, f"read = {subject.source.made}.{read}",
-        "print(list(read.names))", f"q = np.array([{values!r}.get(name, 0.0) for name in read.names])",
-        printed(f"[read.poses(q)[link] for link in {links!r}]" if whole else f"read.{function}(q)"),
-    ]  # fmt: skip
-    arms = [small_urdf.arm(case, k)[:2] for k in (range(len(links)) if whole else [small_urdf.TIP])]
-    expected = np.array(
-        [arm_cases.truth(subject, arm, q, function == "jacobian") for arm, q in arms]
-    )
-    names = tuple(values) if whole else tuple(small_urdf.arm(case)[2])
-    return Shown(
-        f"q = {values}, {_words(case)}", "; ".join(lines), expected if whole else expected[0], names
-    )
+        "import numpy as np",
+        *subject.source.lines,
+        f"read = {subject.source.made}.{read}",
+        "print(list(read.names))",
+        f"q = np.array([{values!r}.get(name, 0.0) for name in read.names])",
+        printed(result),
+    ]
+    return Shown(f"q = {values}, {_words(case)}", "; ".join(lines), expected, tuple(names))
 
 
 def _words(case: Case) -> str:
     """Each joint in a few words."""
-    layout, rows = small_urdf.layout_of(case), small_urdf.rows_of(case)
+    layout = small_urdf.layout_of(case)
+    rows = small_urdf.rows_of(case)
     said = []
     for k, (joint, row) in enumerate(zip(layout.joints, rows, strict=True)):
         words = f"{joint.name} {joint.kind}"
         if layout.after[k] != k - 1:
             words += f" behind {small_urdf.link(case, layout.after[k])}"
         if joint.kind != "fixed":
-            words += (
-                f", axis {typed(row[:3])}" if joint.axis else ", no axis written (which means x)"
-            )
-        words += f", xyz {typed(row[3:6])}" if np.any(row[3:6]) else ""
-        words += f", rpy {typed(row[6:9])}" if np.any(row[6:9]) else ""
+            axis = "no axis written (which means x)"
+            if joint.axis:
+                axis = f"axis {typed(row[:3])}"
+            words += f", {axis}"
+        for what, numbers in (("xyz", row[3:6]), ("rpy", row[6:9])):
+            if np.any(numbers):
+                words += f", {what} {typed(numbers)}"
         if joint.follows >= 0:
             words += f", mimics {layout.joints[joint.follows].name} × {1 + row[9]:g} + {row[10]:g}"
         said.append(words)

@@ -16,7 +16,7 @@ import numpy as np
 from ...laws.measures import size
 from ...oracles import exact
 from .law import Case
-from .of_arms import Arm
+from .of_arms import ArmData
 
 EACH = 12
 LIMIT = 10.0
@@ -25,9 +25,9 @@ TIP = -1
 """The place of the joint that has the link tip: the last one."""
 
 
-class Joint(NamedTuple):
-    """What of a joint is no number: its type, its name, whether an axis is written, the place of
-    what it mimics.
+class UrdfJoint(NamedTuple):
+    """A joint without its numbers: type, name, whether an axis is written, place of the joint that
+    it mimics.
     """
 
     kind: str
@@ -36,24 +36,24 @@ class Joint(NamedTuple):
     follows: int = -1
 
 
-class Layout(NamedTuple):
+class UrdfLayout(NamedTuple):
     """The joints, each with the one before it in `after` (-1: it begins at the base), and the
     file's order of them.
     """
 
-    joints: tuple[Joint, ...]
+    joints: tuple[UrdfJoint, ...]
     order: tuple[int, ...]
     after: tuple[int, ...]
 
 
-def chain(joints: tuple[Joint, ...], order: tuple[int, ...] = ()) -> Layout:
+def chain(joints: tuple[UrdfJoint, ...], order: tuple[int, ...] = ()) -> UrdfLayout:
     """Joints one after the other, in the file in that order or another one."""
-    return Layout(joints, order or tuple(range(len(joints))), tuple(range(-1, len(joints) - 1)))
+    return UrdfLayout(joints, order or tuple(range(len(joints))), tuple(range(-1, len(joints) - 1)))
 
 
-def layout_of(case: Case) -> Layout:
+def layout_of(case: Case) -> UrdfLayout:
     """The layout of a URDF's case."""
-    if not isinstance(case.layout, Layout):
+    if not isinstance(case.layout, UrdfLayout):
         raise TypeError(f"a case of a URDF expected, got {case.layout!r}")
     return case.layout
 
@@ -74,7 +74,11 @@ def moving(case: Case) -> list[int]:
 
 def link(case: Case, k: int) -> str:
     """The name of the link behind a joint; -1 is none: the root's."""
-    return "base" if k < 0 else "tip" if k == len(layout_of(case).joints) - 1 else f"link{k + 1}"
+    if k < 0:
+        return "base"
+    if k == len(layout_of(case).joints) - 1:
+        return "tip"
+    return f"link{k + 1}"
 
 
 def path(case: Case, k: int) -> list[int]:
@@ -88,13 +92,15 @@ def path(case: Case, k: int) -> list[int]:
 
 def coordinates(case: Case) -> dict[str, float]:
     """q by the names of the joints that have one of their own."""
-    layout, rows = layout_of(case), rows_of(case)
+    layout = layout_of(case)
+    rows = rows_of(case)
     return {layout.joints[k].name: float(rows[k, 11]) for k in moving(case)}
 
 
 def text(case: Case) -> str:
     """The URDF."""
-    layout, rows = layout_of(case), rows_of(case)
+    layout = layout_of(case)
+    rows = rows_of(case)
     names = [link(case, k) for k in range(-1, len(rows))]
     content = [f'<link name="{name}"/>' for name in names]
     content += [
@@ -103,21 +109,37 @@ def text(case: Case) -> str:
     return f'<robot name="small">{"".join(content)}</robot>'
 
 
-def _joint(layout: Layout, k: int, row: np.ndarray, parent: str, child: str) -> str:
+def _joint(
+    layout: UrdfLayout,
+    k: int,
+    row: np.ndarray,
+    parent: str,
+    child: str,
+) -> str:
     joint = layout.joints[k]
     inside = f'<parent link="{parent}"/><child link="{child}"/>'
     if np.any(row[3:9]):
-        rpy = f' rpy="{_numbers(row[6:9])}"' if np.any(row[6:9]) else ""
-        inside += f'<origin xyz="{_numbers(row[3:6])}"{rpy}/>'
+        inside += f'<origin xyz="{_numbers(row[3:6])}"{_attribute("rpy", row[6:9])}/>'
     if joint.kind != "fixed" and joint.axis:
         inside += f'<axis xyz="{_numbers(row[:3])}"/>'
     if joint.kind in ("revolute", "prismatic"):
         inside += f'<limit lower="-{LIMIT:g}" upper="{LIMIT:g}" effort="1" velocity="1"/>'
     if joint.follows >= 0:
-        factor = f' multiplier="{_numbers(1 + row[9:10])}"' if row[9] else ""
-        shift = f' offset="{_numbers(row[10:11])}"' if row[10] else ""
-        inside += f'<mimic joint="{layout.joints[joint.follows].name}"{factor}{shift}/>'
+        master = layout.joints[joint.follows].name
+        factor = _attribute("multiplier", row[9:10], 1)
+        inside += f'<mimic joint="{master}"{factor}{_attribute("offset", row[10:11])}/>'
     return f'<joint name="{joint.name}" type="{joint.kind}">{inside}</joint>'
+
+
+def _attribute(
+    name: str,
+    x: np.ndarray,
+    default: float = 0,
+) -> str:
+    """An attribute of numbers x more than its default; none where nothing is more."""
+    if not np.any(x):
+        return ""
+    return f' {name}="{_numbers(default + x)}"'
 
 
 def _numbers(x: np.ndarray) -> str:
@@ -130,22 +152,30 @@ def factors(case: Case, tip: int = TIP) -> list[np.ndarray]:
 
     Roll, pitch and yaw are Rz(yaw) Ry(pitch) Rx(roll).
     """
-    result, values = [], _values(case)
+    result = []
+    values = _values(case)
     for k in path(case, tip):
         origin, screw = _link(case, k)
-        result += [*origin, *([] if screw is None else [screw * values[k]])]
+        result += origin
+        if screw is not None:
+            result.append(screw * values[k])
     return result
 
 
-def arm(case: Case, tip: int = TIP) -> tuple[Arm, np.ndarray, list[str]]:
+def arm(case: Case, tip: int = TIP) -> tuple[ArmData, np.ndarray, list[str]]:
     """The arm to the link behind a joint in exact numbers, q, and the names of its coordinates.
 
     These are those of `coordinates`, in that order, which the pose depends on.
     """
-    layout, rows, on = layout_of(case), rows_of(case), path(case, tip)
-    masters = {k: layout.joints[k].follows if layout.joints[k].follows >= 0 else k for k in on}
-    own = [k for k in moving(case) if k in masters.values()]
-    T, screws, coupling, offset = exact.exactly(np.eye(4)), [], [], []
+    layout = layout_of(case)
+    rows = rows_of(case)
+    on = path(case, tip)
+    masters = {k if layout.joints[k].follows < 0 else layout.joints[k].follows for k in on}
+    own = [k for k in moving(case) if k in masters]
+    T = exact.exactly(np.eye(4))
+    screws = []
+    coupling = []
+    offset = []
     for k in on:
         origin, screw = _link(case, k)
         for xi in origin:
@@ -153,45 +183,36 @@ def arm(case: Case, tip: int = TIP) -> tuple[Arm, np.ndarray, list[str]]:
         if screw is None:
             continue
         screws.append(exact.adjoint(T) @ screw)
-        follows = layout.joints[k].follows >= 0
-        coupling.append(
-            [(1 + rows[k, 9] if follows else 1.0) if at == masters[k] else 0.0 for at in own]
-        )
-        offset.append(rows[k, 10] if follows else 0.0)
-    n, m = len(screws), len(own)
-    A, C, c = (
-        np.array(screws, dtype=object).reshape(n, 6),
-        np.reshape(coupling, (n, m)),
-        np.array(offset, dtype=float),
+        master = layout.joints[k].follows
+        if master >= 0:
+            coupling.append(np.equal(own, master) * (1 + rows[k, 9]))
+            offset.append(rows[k, 10])
+        else:
+            coupling.append(np.equal(own, k) * 1.0)
+            offset.append(0.0)
+    n = len(screws)
+    found = ArmData(
+        screws=np.array(screws, dtype=object).reshape(n, 6),
+        home=T,
+        coupling=np.reshape(coupling, (n, len(own))),
+        offset=np.array(offset, dtype=float),
+        dof=len(own),
+        reach=sum(map(size, rows[on, 3:6])),
+        # A fixed joint is a factor, too.
+        turned=float(np.abs(rows[on, 6:9]).sum()) + len(on),
     )
-    # A fixed joint is a factor, too.
-    reach, turned = sum(map(size, rows[on, 3:6])), float(np.abs(rows[on, 6:9]).sum()) + len(on)
-    return Arm(A, T, C, c, m, reach, turned), rows[own, 11], [layout.joints[k].name for k in own]
+    return found, rows[own, 11], [layout.joints[k].name for k in own]
 
 
 def simpler(case: Case) -> Iterable[Case]:
     """With a joint or a mimic less, with the file in order, one joint after the other, with all
     axes written.
     """
-    layout, rows = layout_of(case), rows_of(case)
+    layout = layout_of(case)
+    rows = rows_of(case)
     for k in range(len(rows)):
-        if len(rows) == 1 or any(joint.follows == k for joint in layout.joints):
-            continue
-
-        def moved(j: int, k: int = k) -> int:
-            return j - (j > k)
-
-        kept = [j for j in range(len(rows)) if j != k]
-        joints = (layout.joints[j] for j in kept)
-        after = (layout.after[k] if layout.after[j] == k else layout.after[j] for j in kept)
-        yield Case(
-            rows[kept].ravel(),
-            Layout(
-                tuple(joint._replace(follows=moved(joint.follows)) for joint in joints),
-                tuple(moved(j) for j in layout.order if j != k),
-                tuple(map(moved, after)),
-            ),
-        )
+        if len(rows) > 1 and not any(joint.follows == k for joint in layout.joints):
+            yield _without_joint(case, k)
     for k, joint in enumerate(layout.joints):
         if joint.follows >= 0:
             free = (*layout.joints[:k], joint._replace(follows=-1), *layout.joints[k + 1 :])
@@ -200,13 +221,32 @@ def simpler(case: Case) -> Iterable[Case]:
                 np.where((places == 9) | (places == 10), 0.0, case.numbers),
                 layout._replace(joints=free),
             )
-    plain, written = (
-        chain(layout.joints),
-        tuple(joint._replace(axis=True) for joint in layout.joints),
-    )
+    plain = chain(layout.joints)
+    written = tuple(joint._replace(axis=True) for joint in layout.joints)
     for other in (plain, layout._replace(order=plain.order), layout._replace(joints=written)):
         if other != layout:
             yield case._replace(layout=other)
+
+
+def _without_joint(case: Case, k: int) -> Case:
+    """The case without joint k, which no other mimics; joints behind it follow the one before."""
+    layout = layout_of(case)
+
+    def moved(j: int) -> int:
+        return j - (j > k)
+
+    others = [j for j in range(len(layout.joints)) if j != k]
+    joints = (layout.joints[j] for j in others)
+    after = list(layout.after)
+    for j in others:
+        if after[j] == k:
+            after[j] = after[k]
+    shorter = UrdfLayout(
+        joints=tuple(joint._replace(follows=moved(joint.follows)) for joint in joints),
+        order=tuple(moved(j) for j in layout.order if j != k),
+        after=tuple(moved(after[j]) for j in others),
+    )
+    return Case(rows_of(case)[others].ravel(), shorter)
 
 
 def allowed(case: Case) -> bool:
@@ -227,13 +267,12 @@ def axes(case: Case) -> Iterable[int]:
 
 
 def _values(case: Case) -> list:
-    layout, rows = layout_of(case), rows_of(case)
+    layout = layout_of(case)
+    rows = rows_of(case)
     values = []
     for row, joint in zip(rows, layout.joints, strict=True):
         if joint.follows < 0:
-            values.append(
-                exact.mp.mpf(0) if joint.kind == "fixed" else exact.mp.mpf(float(row[11]))
-            )
+            values.append(exact.mp.mpf(float(row[11]) * (joint.kind != "fixed")))
         else:
             # The multiplier is what is written: the sum, rounded.
             values.append(
@@ -244,7 +283,8 @@ def _values(case: Case) -> list:
 
 def _link(case: Case, k: int) -> tuple[list[np.ndarray], np.ndarray | None]:
     """The twists of a joint's origin, and its screw in its own frame, with a unit axis."""
-    joint, row = layout_of(case).joints[k], rows_of(case)[k]
+    joint = layout_of(case).joints[k]
+    row = rows_of(case)[k]
     roll, pitch, yaw = row[6:9]
     origin = [
         [0, 0, 0, *row[3:6]],
@@ -255,7 +295,11 @@ def _link(case: Case, k: int) -> tuple[list[np.ndarray], np.ndarray | None]:
     origin = [exact.exactly(xi) for xi in origin if np.any(xi)]
     if joint.kind == "fixed":
         return origin, None
-    axis = exact.exactly(row[:3] if joint.axis else [1.0, 0.0, 0.0])
-    n, nought = axis / exact.norm(axis), exact.exactly(np.zeros(3))
-    screw = np.concatenate([nought, n] if joint.kind == "prismatic" else [n, nought])
-    return origin, screw
+    axis = exact.exactly([1.0, 0.0, 0.0])
+    if joint.axis:
+        axis = exact.exactly(row[:3])
+    n = axis / exact.norm(axis)
+    nought = exact.exactly(np.zeros(3))
+    if joint.kind == "prismatic":
+        return origin, np.concatenate([nought, n])
+    return origin, np.concatenate([n, nought])

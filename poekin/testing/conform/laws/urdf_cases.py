@@ -10,8 +10,8 @@ import numpy as np
 from ...laws.measures import size
 from ...strategies.group_strategies import Arrays, angles, axes, frozen, magnitudes, st, vectors
 from . import of_urdf, small_urdf
-from .law import Case, Law, drawable, unit
-from .small_urdf import EACH, Joint, Layout
+from .law import Case, SubjectLaw, drawable, unit
+from .small_urdf import UrdfJoint, UrdfLayout
 
 NAMES = ("j0", "j1", "j2")
 LENGTHS = (1e-3, 3.0)
@@ -48,9 +48,15 @@ def turns() -> Arrays:
     return st.builds(lambda *x: frozen(x), one, one, one)
 
 
-def _row(axis: Arrays, q: st.SearchStrategy[float], mimic: bool = False) -> Arrays:
-    factors = st.sampled_from([0.0, 0.0, -2.0, -0.5, 1.0]) if mimic else st.just(0.0)
-    shifts = st.sampled_from([0.0, 0.0, 0.25, -1.0]) if mimic else st.just(0.0)
+def _row(
+    axis: Arrays,
+    q: st.SearchStrategy[float],
+    mimic: bool = False,
+) -> Arrays:
+    factors = shifts = st.just(0.0)
+    if mimic:
+        factors = st.sampled_from([0.0, 0.0, -2.0, -0.5, 1.0])
+        shifts = st.sampled_from([0.0, 0.0, 0.25, -1.0])
     return st.builds(
         lambda *x: np.concatenate([*x[:3], x[3:]]),
         axis,
@@ -63,24 +69,22 @@ def _row(axis: Arrays, q: st.SearchStrategy[float], mimic: bool = False) -> Arra
 
 
 def arms(
-    axis: Arrays, kinds: tuple[str, ...] = ("revolute", "prismatic", "fixed"), axis_written: bool = True,
+    axis: Arrays,
+    kinds: tuple[str, ...] = ("revolute", "prismatic", "fixed"),
+    axis_written: bool = True,
     largest: float = math.pi,
-) -> st.SearchStrategy[Case]:  # fmt: skip
+) -> st.SearchStrategy[Case]:
     """One to three joints of these kinds, the first one moving, in the file's order."""
 
     def of(count: int) -> st.SearchStrategy[Case]:
-        sorts = st.tuples(
-            *(
-                st.sampled_from([kind for kind in kinds if k or kind != "fixed"])
-                for k in range(count)
-            )
-        )
+        first = st.sampled_from([kind for kind in kinds if kind != "fixed"])
+        sorts = st.tuples(first, *[st.sampled_from(kinds)] * (count - 1))
         rows = st.tuples(*(_row(axis, signed_angles(largest)) for _ in range(count)))
         return st.builds(make, sorts, rows)
 
     def make(sorts: tuple[str, ...], rows: tuple[np.ndarray, ...]) -> Case:
         joints = tuple(
-            Joint(kind, name, axis_written) for kind, name in zip(sorts, NAMES, strict=False)
+            UrdfJoint(kind, name, axis_written) for kind, name in zip(sorts, NAMES, strict=False)
         )
         return Case(np.concatenate(rows), small_urdf.chain(joints))
 
@@ -91,23 +95,30 @@ def _followers() -> Arrays:
     return _row(frame_axes(), signed_angles(), mimic=True)
 
 
-def _numbers(layout: Layout, rows: Iterable[np.ndarray]) -> Case:
+def _numbers(layout: UrdfLayout, rows: Iterable[np.ndarray]) -> Case:
     """The case of these joints: multiplier and offset of those that follow another, q of the
     others.
     """
-    places = np.arange(EACH)
-    own = [
-        (places != 11) if joint.follows >= 0 else (places < 9) | (places == 11)
-        for joint in layout.joints
-    ]
-    return Case(np.concatenate([row * mask for row, mask in zip(rows, own, strict=False)]), layout)
+    numbers = []
+    for joint, row in zip(layout.joints, rows, strict=False):
+        own = np.array(row)
+        if joint.follows >= 0:
+            own[11] = 0.0
+        else:
+            own[9:11] = 0.0
+        numbers.append(own)
+    return Case(np.concatenate(numbers), layout)
 
 
 def mimics() -> st.SearchStrategy[Case]:
     """Two joints, one of which follows the other one, whichever comes first."""
 
-    def make(first: int, kind: str, rows: tuple[np.ndarray, ...]) -> Case:
-        joints = [Joint(kind, NAMES[0]), Joint(kind, NAMES[1])]
+    def make(
+        first: int,
+        kind: str,
+        rows: tuple[np.ndarray, ...],
+    ) -> Case:
+        joints = [UrdfJoint(kind, NAMES[0]), UrdfJoint(kind, NAMES[1])]
         joints[1 - first] = joints[1 - first]._replace(follows=first)
         return _numbers(small_urdf.chain(tuple(joints)), rows)
 
@@ -130,12 +141,15 @@ def trees(mimic: bool = False) -> st.SearchStrategy[Case]:
         last = len(order) - 1
         after = [-1, *(min(place, k) for k, place in enumerate(places))][: last + 1]
         after[last] = min(after[last], last - 2)
-        joints = [Joint(kind, f"j{k}") for k, kind in enumerate(kinds[: last + 1])]
+        joints = [UrdfJoint(kind, f"j{k}") for k, kind in enumerate(kinds[: last + 1])]
         if mimic:
-            joints[last] = Joint(joints[last - 1].kind, joints[last].name, follows=last - 1)
-        return _numbers(Layout(tuple(joints), tuple(order), tuple(after)), rows)
+            joints[last] = UrdfJoint(joints[last - 1].kind, joints[last].name, follows=last - 1)
+        return _numbers(UrdfLayout(tuple(joints), tuple(order), tuple(after)), rows)
 
-    kinds = st.sampled_from(["revolute", "prismatic", *([] if mimic else ["fixed"])])
+    sorts = ["revolute", "prismatic"]
+    if not mimic:
+        sorts.append("fixed")
+    kinds = st.sampled_from(sorts)
     files = st.sampled_from([3, 4]).flatmap(lambda count: st.permutations(range(count)))
     places = st.tuples(*[st.integers(-1, 2)] * 3)
     return st.builds(make, st.tuples(*[kinds] * 4), places, files, st.tuples(*[_followers()] * 4))
@@ -146,10 +160,15 @@ def orders() -> st.SearchStrategy[Case]:
     may branch off.
     """
 
-    def make(names: list[str], order: list[int], side: bool, rows: tuple[np.ndarray, ...]) -> Case:
+    def make(
+        names: list[str],
+        order: list[int],
+        side: bool,
+        rows: tuple[np.ndarray, ...],
+    ) -> Case:
         count = len(order)
         layout = small_urdf.chain(
-            tuple(Joint("revolute", name) for name in names[:count]), tuple(order)
+            tuple(UrdfJoint("revolute", name) for name in names[:count]), tuple(order)
         )
         if side and count > 2:  # the first one goes nowhere, and the second one begins at the base
             layout = layout._replace(after=(-1, -1, *range(1, count - 1)))
@@ -197,33 +216,69 @@ def _allowed(axis: Fits, largest: float = math.pi) -> About:
 
 
 def _law(
-    name: str, says: str, cases: Callable[[], st.SearchStrategy[Case]], about: About = lambda case: True,
-    axis: Fits = _frame_axis, largest: float = math.pi, jacobian: bool = False,
-) -> Law:  # fmt: skip
-    return Law(
-        name, says, "read_urdf", lambda subject: cases(),
-        lambda subject, case: of_urdf.check(subject, case, jacobian),
-        lambda subject, case: of_urdf.confirmed(case, jacobian),
-        lambda subject, case: of_urdf.show(subject, case, "jacobian" if jacobian else "fk"), small_urdf.simpler,
-        _vectors_too if axis is _long_axis else small_urdf.triples,
-        (lambda case: ()) if axis is _long_axis else small_urdf.axes,
-        _allowed(axis, largest), lambda subject: not jacobian or bool(subject.frame), about,
-        "jacobian_frame is not declared",
-    )  # fmt: skip
+    name: str,
+    says: str,
+    cases: Callable[[], st.SearchStrategy[Case]],
+    about: About = lambda case: True,
+    axis: Fits = _frame_axis,
+    largest: float = math.pi,
+    function: str = "fk",
+) -> SubjectLaw:
+    jacobian = function == "jacobian"
+    triples: Callable[[Case], Iterable[int]] = small_urdf.triples
+    directions: Callable[[Case], Iterable[int]] = small_urdf.axes
+    if axis is _long_axis:  # of any length, it is a vector like others
+        triples = _axes_and_origins
+        directions = nothing
+    return SubjectLaw(
+        name=name,
+        says=says,
+        needs="read_urdf",
+        cases=lambda subject: cases(),
+        check=lambda subject, case: of_urdf.check(subject, case, jacobian),
+        confirm=lambda subject, case: of_urdf.confirmed(case, jacobian),
+        show=lambda subject, case: of_urdf.show(subject, case, function),
+        simpler=small_urdf.simpler,
+        triples=triples,
+        directions=directions,
+        allowed=_allowed(axis, largest),
+        applies=lambda subject: not jacobian or bool(subject.frame),
+        about=about,
+        unless="jacobian_frame is not declared",
+    )
 
 
-def _vectors_too(case: Case) -> Iterable[int]:
-    """Where an axis has any length, it is a vector like others."""
+def nothing(case: Case) -> Iterable[int]:
+    """No places at all."""
+    return ()
+
+
+def _axes_and_origins(case: Case) -> Iterable[int]:
     return [*small_urdf.axes(case), *small_urdf.triples(case)]
 
 
-def _robot_law(name: str, says: str, mimic: bool, about: About) -> Law:
-    return Law(
-        name, says, "read_robot", lambda subject: trees(mimic), of_urdf.check_robot,
-        lambda subject, case: of_urdf.confirmed(case, False, range(len(small_urdf.rows_of(case)))),
-        lambda subject, case: of_urdf.show(subject, case, "poses"), small_urdf.simpler, small_urdf.triples,
-        small_urdf.axes, _allowed(_frame_axis), about=about,
-    )  # fmt: skip
+def _robot_law(
+    name: str,
+    says: str,
+    mimic: bool,
+    about: About,
+) -> SubjectLaw:
+    return SubjectLaw(
+        name=name,
+        says=says,
+        needs="read_robot",
+        cases=lambda subject: trees(mimic),
+        check=of_urdf.check_robot,
+        confirm=lambda subject, case: of_urdf.confirmed(
+            case, False, range(len(small_urdf.rows_of(case)))
+        ),
+        show=lambda subject, case: of_urdf.show(subject, case, "poses"),
+        simpler=small_urdf.simpler,
+        triples=small_urdf.triples,
+        directions=small_urdf.axes,
+        allowed=_allowed(_frame_axis),
+        about=about,
+    )
 
 
 def _axes(case: Case) -> np.ndarray:
@@ -320,7 +375,7 @@ URDF_LAWS = (
         "the Jacobian is the derivative",
         lambda: arms(axes(), MOVING),
         axis=unit,
-        jacobian=True,
+        function="jacobian",
     ),
     _robot_law("robot", "the pose of each link of a tree", False, _branches),
     _robot_law(

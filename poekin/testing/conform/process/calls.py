@@ -45,7 +45,9 @@ class Attempt:
             self.fault = str(error)
             return True
         said = escape_unprintable(" ".join(str(error).split()), 200)
-        self.fault = f"{type(error).__name__}: {said}" if said else type(error).__name__
+        self.fault = type(error).__name__
+        if said:
+            self.fault += f": {said}"
         while trace is not None:
             file = trace.tb_frame.f_code.co_filename
             if not file.startswith(HERE) and "importlib" not in file:
@@ -67,7 +69,7 @@ class ArgumentChanged(Exception):
 
 
 class Result(NamedTuple):
-    """What came of a call, or None and the fault."""
+    """Result of a call, or None and the fault."""
 
     value: Any
     fault: str = ""
@@ -94,14 +96,20 @@ def untouched(function: Callable[..., Any]) -> Callable[..., Any]:
         result = function(*arguments)
         for place, (x, was) in enumerate(zip(arguments, before, strict=True), 1):
             if not np.array_equal(x, was):
-                which = f"argument {place} of {len(before)}" if len(before) > 1 else "argument"
+                which = "argument"
+                if len(before) > 1:
+                    which = f"argument {place} of {len(before)}"
                 raise ArgumentChanged(f"it writes into its {which}")
         return result
 
     return call
 
 
-def called(function: Callable[..., Any], shape: tuple[int, ...], *arguments: np.ndarray) -> Result:
+def called(
+    function: Callable[..., Any],
+    shape: tuple[int, ...],
+    *arguments: np.ndarray,
+) -> Result:
     """The array of finite numbers, in the shape expected, that a function makes of copies of the
     arguments.
 
@@ -117,7 +125,9 @@ def called(function: Callable[..., Any], shape: tuple[int, ...], *arguments: np.
         return Result(None, f"shape {value.shape} where {shape} was expected")
     if np.isnan(value).any():
         return Result(None, "NaN")
-    return Result(value) if np.isfinite(value).all() else Result(None, "infinite")
+    if not np.isfinite(value).all():
+        return Result(None, "infinite")
+    return Result(value)
 
 
 def real(value: Any) -> np.ndarray:
@@ -130,5 +140,6 @@ def real(value: Any) -> np.ndarray:
     array = np.asarray(value)
     if array.dtype.kind in "SU" or (np.iscomplexobj(array) and np.any(np.imag(array))):
         raise TypeError(f"real numbers expected, got {array.dtype.name}")
-    own = array.dtype in (np.float16, np.float32)
-    return np.array(np.real(array), dtype=array.dtype if own else float)
+    if array.dtype in (np.float16, np.float32):
+        return np.array(array)
+    return np.array(np.real(array), dtype=float)

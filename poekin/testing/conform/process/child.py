@@ -44,9 +44,9 @@ def obstacle(thing: Any) -> str:
     pools = [name for name in POOLS if name in sys.modules]
     if _numba_has_threads():
         pools.append("numba")
-    return (
-        f"the threads of {' and '.join(pools)}, loaded here, do not survive a fork" if pools else ""
-    )
+    if not pools:
+        return ""
+    return f"the threads of {' and '.join(pools)}, loaded here, do not survive a fork"
 
 
 def _numba_has_threads() -> bool:
@@ -77,8 +77,13 @@ def isolated(thing: Any, limits: Limits) -> Iterator[Subject]:
 class Child:
     """A process with a subject, which is made anew for the next call where it ended."""
 
-    def __init__(self, thing: Any, limits: Limits):
-        self._thing, self._limits = thing, limits
+    def __init__(
+        self,
+        thing: Any,
+        limits: Limits,
+    ):
+        self._thing = thing
+        self._limits = limits
         self._process: _Forked | _Fresh | None = None
         self._lost = ""
         self._answered = False
@@ -114,11 +119,13 @@ class Child:
         return reply.value
 
     def _started(self) -> Subject:
-        self._process = (
-            _Fresh() if isinstance(self._thing, str) else _Forked(self._thing, self._limits)
-        )
+        first = None
+        if isinstance(self._thing, str):
+            self._process = _Fresh()
+            first = self._thing, self._limits
+        else:
+            self._process = _Forked(self._thing, self._limits)
         try:
-            first = (self._thing, self._limits) if isinstance(self._thing, str) else None
             found = self._received(self._limits.starting, first)
         except Fault as fault:
             raise InputError(
@@ -129,7 +136,11 @@ class Child:
             raise found
         return found
 
-    def _received(self, seconds: float, message: Any) -> Any:
+    def _received(
+        self,
+        seconds: float,
+        message: Any,
+    ) -> Any:
         """Send a message, if there is one, and receive the next."""
         process = self._process
         if process is None:
@@ -149,9 +160,10 @@ class Child:
             return worker.receive(process.replies)
         except (EOFError, OSError) as error:
             code = self.close()
-            raise Fault(
-                f"{UNANSWERED} {seconds:g} s" if late.is_set() else f"{ENDED} ({_said(code)})"
-            ) from error
+            said = f"{ENDED} ({_said(code)})"
+            if late.is_set():
+                said = f"{UNANSWERED} {seconds:g} s"
+            raise Fault(said) from error
         finally:
             timer.cancel()
             if sys.exc_info()[0] is KeyboardInterrupt:
@@ -159,8 +171,11 @@ class Child:
 
     def close(self) -> int:
         """End the process, if there is one. Returns: its exit code."""
-        process, self._process = self._process, None
-        return 0 if process is None else process.close()
+        process = self._process
+        self._process = None
+        if process is None:
+            return 0
+        return process.close()
 
 
 class Remote:
@@ -177,7 +192,8 @@ class Remote:
     @contextlib.contextmanager
     def within(self, seconds: float) -> Iterator[None]:
         """Calls may take so long only, as long as the context lasts."""
-        before, self._child.seconds = self._child.seconds, min(seconds, self._child.seconds)
+        before = self._child.seconds
+        self._child.seconds = min(seconds, self._child.seconds)
         try:
             yield
         finally:
@@ -185,16 +201,21 @@ class Remote:
 
 
 class RemoteRead:
-    """What the subject read last, in a child: the names of its coordinates, and those functions
-    that it has.
+    """Object that the subject read last, in a child: the names of its coordinates, and those
+    functions that it has.
     """
 
-    def __init__(self, child: Child, members: list[str]):
-        self._child, self._members = child, members
+    def __init__(
+        self,
+        child: Child,
+        members: list[str],
+    ):
+        self._child = child
+        self._members = members
 
     @property
     def names(self) -> list[str]:
-        """Of its coordinates."""
+        """Names of its coordinates."""
         return self._child.ask("names")
 
     def __getattr__(self, name: str) -> Any:
@@ -229,10 +250,15 @@ class RemotePoses(Mapping[str, Any]):
 class _Forked:
     """A copy of this process."""
 
-    def __init__(self, thing: Any, limits: Limits):
+    def __init__(
+        self,
+        thing: Any,
+        limits: Limits,
+    ):
         sys.stdout.flush()
         sys.stderr.flush()
-        (there, requests), (replies, here) = os.pipe(), os.pipe()
+        (there, requests) = os.pipe()
+        (replies, here) = os.pipe()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of threads, such as NumPy's, which are made anew
             self._pid = os.fork()
@@ -243,7 +269,8 @@ class _Forked:
             worker.run(thing, limits, os.fdopen(there, "rb"), os.fdopen(here, "wb"))
         os.close(there)
         os.close(here)
-        self.requests, self.replies = os.fdopen(requests, "wb"), os.fdopen(replies, "rb")
+        self.requests = os.fdopen(requests, "wb")
+        self.replies = os.fdopen(replies, "rb")
 
     def kill(self) -> None:
         _kill(self._pid)
@@ -268,12 +295,15 @@ class _Fresh:
         path = [entry for entry in sys.path if isinstance(entry, str)]
         start = f"import sys; sys.path[:] = {path!r}; from {worker.__name__} import main; main()"
         self._process = subprocess.Popen(
-            [sys.executable, "-c", start], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            [sys.executable, "-c", start],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
             start_new_session=os.name == "posix",
-        )  # fmt: skip
+        )
         if self._process.stdin is None or self._process.stdout is None:
             raise InputError("the new process has no streams")
-        self.requests, self.replies = self._process.stdin, self._process.stdout
+        self.requests = self._process.stdin
+        self.replies = self._process.stdout
 
     def kill(self) -> None:
         if os.name == "posix":
@@ -315,4 +345,6 @@ def _said(code: int) -> str:
 
 
 def _title(thing: Any) -> str:
-    return thing if isinstance(thing, str) else getattr(thing, "__name__", type(thing).__name__)
+    if isinstance(thing, str):
+        return thing
+    return getattr(thing, "__name__", type(thing).__name__)

@@ -26,9 +26,7 @@ HEAD = struct.Struct("<Q")
 
 
 class Reply(NamedTuple):
-    """What came of a request: a value, or the fault; interrupted, where KeyboardInterrupt was
-    raised.
-    """
+    """Reply to a request: a value, or the fault; interrupted, where KeyboardInterrupt was raised."""
 
     value: Any = None
     fault: str = ""
@@ -58,14 +56,20 @@ def main() -> None:
     """A fresh process, whose stdin and stdout are the streams; the first message is the subject's
     name, and limits.
     """
-    requests, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    requests = os.fdopen(os.dup(0), "rb")
+    replies = os.fdopen(os.dup(1), "wb")
     with open(os.devnull, "rb") as nothing:
         os.dup2(nothing.fileno(), 0)
     thing, limits = receive(requests)
     run(thing, limits, requests, replies)
 
 
-def run(thing: Any, limits: Limits, requests: IO[bytes], replies: IO[bytes]) -> None:
+def run(
+    thing: Any,
+    limits: Limits,
+    requests: IO[bytes],
+    replies: IO[bytes],
+) -> None:
     """Answer requests to a subject, and end the process."""
     code = 1
     try:
@@ -92,7 +96,11 @@ def _quiet() -> None:
         )
 
 
-def serve(thing: Any, requests: IO[bytes], replies: IO[bytes]) -> None:
+def serve(
+    thing: Any,
+    requests: IO[bytes],
+    replies: IO[bytes],
+) -> None:
     """Say what the subject is, or why there is none; then answer."""
     try:
         subject = Subject(thing)
@@ -108,7 +116,7 @@ def serve(thing: Any, requests: IO[bytes], replies: IO[bytes]) -> None:
 
 
 def reply(function: Callable[..., Any], *arguments: Any) -> Reply:
-    """What a call comes to."""
+    """Reply that holds the value or the fault of a call."""
     try:
         return Reply(*made(lambda: function(*arguments)))
     except KeyboardInterrupt:
@@ -122,11 +130,19 @@ class Answers:
         self._own = subject.own
         self._read: Any = None
 
-    def function(self, name: str, *arguments: Any) -> Any:
+    def function(
+        self,
+        name: str,
+        *arguments: Any,
+    ) -> Any:
         """The array that a function of the subject returns."""
         return real(untouched(getattr(self._own, name))(*arguments))
 
-    def read(self, name: str, *texts: str) -> list[str]:
+    def read(
+        self,
+        name: str,
+        *texts: str,
+    ) -> list[str]:
         """Read a URDF; returns what the object that is read has."""
         self._read = getattr(self._own, name)(*texts)
         return [
@@ -139,7 +155,11 @@ class Answers:
         """The names of the coordinates of what was read."""
         return [str(name) for name in self._read.names]
 
-    def member(self, name: str, q: Any) -> Any:
+    def member(
+        self,
+        name: str,
+        q: Any,
+    ) -> Any:
         """The array that a function of what was read returns."""
         return real(untouched(getattr(self._read, name))(q))
 

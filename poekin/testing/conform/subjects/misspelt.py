@@ -13,7 +13,7 @@ from ....errors import join_names, quote
 
 
 def misspelt(own: Any, known: Sequence[str]) -> list[str]:
-    """What is to be said of the public names of a subject that are not known.
+    """Remarks on the public names of a subject that are not known.
 
     Parameters: own, the subject; known, all names that mean something. Returns: a sentence for each
     name that looks like a known one, and one for all other functions.
@@ -25,11 +25,9 @@ def misspelt(own: Any, known: Sequence[str]) -> list[str]:
         if other
     ]
     others = [name for name, other in meant.items() if not other and _callable(own, name)]
-    return (
-        [*notes, f"no function of a subject's, and held to nothing: {join_names(others)}"]
-        if others
-        else notes
-    )
+    if others:
+        notes.append(f"no function of a subject's, and held to nothing: {join_names(others)}")
+    return notes
 
 
 def _public(own: Any) -> list[str]:
@@ -50,7 +48,7 @@ def _meant(name: str, known: Sequence[str]) -> str:
         return plain[_words(name)]
     bare = {other.replace("_", ""): other for other in known}
     close = difflib.get_close_matches(name.lower().replace("_", ""), bare, n=1, cutoff=0.8)
-    return bare[close[0]] if close else ""
+    return bare.get("".join(close), "")
 
 
 def _words(name: str) -> str:

@@ -49,8 +49,10 @@ def loaded(text: str) -> Any:
     with Attempt() as attempt:
         thing = importlib.import_module(module)
     if attempt.fault:
-        place = f" ({attempt.place})" if attempt.place else ""
-        raise InputError(f"the module {quote(module)} cannot be imported: {attempt.fault}{place}")
+        said = f"the module {quote(module)} cannot be imported: {attempt.fault}"
+        if attempt.place:
+            said += f" ({attempt.place})"
+        raise InputError(said)
     for part in name.split("."):
         if not hasattr(thing, part):
             near = suggest(part, _classes(thing))
@@ -62,26 +64,31 @@ def loaded(text: str) -> Any:
 
 
 def source(thing: Any, text: str = "") -> Source:
-    """How to make a subject: by "MODULE:NAME" where it was named so, else by what its class's
+    """Python that makes a subject: by "MODULE:NAME" where it was named so, else by what its class's
     module calls it.
 
     What cannot be reached from the top of a module is called as it is there.
     """
     is_class = inspect.isclass(thing)
-    kind = thing if is_class else type(thing)
+    kind = type(thing)
+    brackets = ""
+    if is_class:
+        kind = thing
+        brackets = "()"
     module, _, name = text.partition(":")
     if not text:
         module = kind.__module__
-        names = vars(sys.modules[module]).items() if module in sys.modules else ()
-        name = next((key for key, value in names if value is thing), "")
+        names = getattr(sys.modules.get(module), "__dict__", {})
+        name = next((key for key, value in names.items() if value is thing), "")
         if not name and is_class and "<locals>" not in kind.__qualname__:
             name = kind.__qualname__
-    brackets = "()" if is_class else ""
     if name:
         return Source(
             (f"from {_importable(module)} import {name.partition('.')[0]}",), f"{name}{brackets}"
         )
-    return Source((), f"{kind.__name__}()" if is_class else "subject")
+    if is_class:
+        return Source((), f"{kind.__name__}()")
+    return Source((), "subject")
 
 
 def _importable(module: str) -> str:
@@ -89,8 +96,13 @@ def _importable(module: str) -> str:
     if module != "__main__":
         return module
     main = sys.modules[module]
-    spec, file = getattr(main, "__spec__", None), getattr(main, "__file__", None)
-    return spec.name if spec else Path(file).stem if file else module
+    spec = getattr(main, "__spec__", None)
+    file = getattr(main, "__file__", None)
+    if spec:
+        return spec.name
+    if file:
+        return Path(file).stem
+    return module
 
 
 def _classes(thing: Any) -> list[str]:
@@ -98,6 +110,8 @@ def _classes(thing: Any) -> list[str]:
 
 
 def _file(module: str) -> str:
-    """Where a module is, since another one may have its name."""
+    """File of a module, since another one may have its name."""
     file = getattr(sys.modules.get(module), "__file__", None)
-    return f" ({quote(file, 200)})" if file else ""
+    if not file:
+        return ""
+    return f" ({quote(file, 200)})"

@@ -24,7 +24,7 @@ class Precision(NamedTuple):
 
     @property
     def coarser(self) -> float:
-        """How many times the unit of float64 its own is."""
+        """Ratio of its unit to that of float64."""
         return self.unit / UNIT
 
     def rounded(self, x: np.ndarray) -> np.ndarray:

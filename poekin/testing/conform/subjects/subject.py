@@ -57,6 +57,8 @@ SO3 = ("so3_exp", "so3_log", *(f"so3_{name}" for name in JACOBIANS))
 SE3 = ("exp", "log", "adjoint", *JACOBIANS)
 ARMS = ("fk", "jacobian")
 PARAMETERS = {
+    **dict.fromkeys(SO3, "w"),
+    **dict.fromkeys(SE3, "xi"),
     "so3_log": "R",
     "log": "T",
     "adjoint": "T",
@@ -90,12 +92,15 @@ class Subject:
     """
 
     def __init__(self, thing: Any):
-        where = thing if isinstance(thing, str) else ""
-        thing = loaded(where) if where else thing
+        where = ""
+        if isinstance(thing, str):
+            where = thing
+            thing = loaded(where)
         self.source: Source = source(thing, where)
-        self.title = (thing if inspect.isclass(thing) else type(thing)).__name__
+        self.title = type(thing).__name__
         self.own: Any = thing
         if inspect.isclass(thing):
+            self.title = thing.__name__
             self.own, fault = made(thing)
             if fault:
                 raise InputError(f"{self.title} cannot be made as {self.title}(): {fault}")
@@ -108,14 +113,12 @@ class Subject:
         self.version = str(self._attribute("version") or "")
         self.noise = self._noise()
         self.pastes = self._pastes()
-        precision = self._attribute("precision")
-        self.declared = (
-            None
-            if precision is None
-            else PRECISIONS[self._declared("precision", (*PRECISIONS,), "results")]
-        )
+        self.declared: Precision | None = None
+        if self._attribute("precision") is not None:
+            self.declared = PRECISIONS[self._declared("precision", (*PRECISIONS,), "results")]
         self._seen: dict[str, Precision] = {}
-        self.batch, self.helical = self._flag("batch"), self._flag("helical")
+        self.batch = self._flag("batch")
+        self.helical = self._flag("helical")
         self.arm: Chain | None = self._attribute("arm")
         if not isinstance(self.arm, Chain | None):
             raise InputError(
@@ -132,8 +135,9 @@ class Subject:
         self.linear_first = (
             bool(twisted) and self._declared("twist_order", ORDERS, twisted[0]) == "linear first"
         )
-        framed = read or "jacobian" in self.functions
-        self.frame = self._declared("jacobian_frame", FRAME_NAMES, "jacobian") if framed else ""
+        self.frame = ""
+        if read or "jacobian" in self.functions:
+            self.frame = self._declared("jacobian_frame", FRAME_NAMES, "jacobian")
 
     def __getstate__(self) -> dict[str, Any]:
         # What another process is told of a subject: all but the subject itself.
@@ -153,7 +157,12 @@ class Subject:
             raise InputError(f"{self.title}: {name}: {fault}")
         return value
 
-    def _declared(self, what: str, words: tuple[str, ...], function: str) -> str:
+    def _declared(
+        self,
+        what: str,
+        words: tuple[str, ...],
+        function: str,
+    ) -> str:
         value = self._attribute(what)
         choice = " or ".join(f'"{word}"' for word in words)
         if value is None:
@@ -185,14 +194,13 @@ class Subject:
     def _check_parameters(self, name: str) -> None:
         hint = ""
         if name in ARMS:
-            expected = "q" if self.arm is not None else "screws, home, q"
-            hint = (
-                " with `arm` declared"
-                if self.arm is not None
-                else " (declare `arm` for fk(q) of one arm)"
-            )
+            expected = "screws, home, q"
+            hint = " (declare `arm` for fk(q) of one arm)"
+            if self.arm is not None:
+                expected = "q"
+                hint = " with `arm` declared"
         else:
-            expected = PARAMETERS.get(name, "w" if name in SO3 else "xi")
+            expected = PARAMETERS[name]
         function = getattr(self.own, name)
         try:
             given = inspect.signature(function)
@@ -216,7 +224,11 @@ class Subject:
         """
         return self.declared or self._seen.get(name, DOUBLE)
 
-    def noted(self, name: str, value: Any) -> Any:
+    def noted(
+        self,
+        name: str,
+        value: Any,
+    ) -> Any:
         """The result of a function, whose precision is remembered.
 
         Parameters: name, one of `FUNCTIONS`; value, the result. Returns: the value. Raises:
@@ -235,21 +247,25 @@ class Subject:
 
         Returns: the same shape. Source: `poekin.se3.linear_first`.
         """
-        return se3.linear_first(x) if self.linear_first else x
+        if not self.linear_first:
+            return x
+        return se3.linear_first(x)
 
     def square(self, X: np.ndarray) -> np.ndarray:
         """A matrix X (..., 6, 6) between twists of one frame in the subject's order, and back.
 
         Returns: the same shape. Source: `poekin.se3.linear_first`.
         """
-        return se3.linear_first(se3.linear_first(X, axis=-2)) if self.linear_first else X
+        return self.twist(self.rows(X))
 
     def rows(self, J: np.ndarray) -> np.ndarray:
         """A Jacobian J (6, m), of any frame, its rows in the subject's order, and back.
 
         Returns: the same shape. Source: `poekin.se3.linear_first`.
         """
-        return se3.linear_first(J, axis=-2) if self.linear_first else J
+        if not self.linear_first:
+            return J
+        return se3.linear_first(J, axis=-2)
 
     def plain(self, name: str) -> Function:
         """A function as the subject has it, but that it raises ArgumentChanged where it writes into
@@ -268,17 +284,24 @@ class Subject:
             return own
         if name == "exp":
             return lambda x: own(self.twist(x))
-        enters = (lambda x: x) if name in ("log", "adjoint") else self.twist
-        leaves, size = (self.twist, (6,)) if name == "log" else (self.square, (6, 6))
 
         def ordered(x: np.ndarray) -> Any:
-            result = real(own(enters(x)))
-            # A wrong shape is for the judge to see, as it came.
-            return leaves(result) if result.shape[-len(size) :] == size else result
+            if name not in ("log", "adjoint"):
+                x = self.twist(x)
+            result = real(own(x))
+            if name == "log" and result.shape[-1:] == (6,):
+                return self.twist(result)
+            if name != "log" and result.shape[-2:] == (6, 6):
+                return self.square(result)
+            return result  # of a wrong shape, which the judge sees as it came
 
         return ordered
 
-    def call(self, name: str, **arguments: str) -> str:
+    def call(
+        self,
+        name: str,
+        **arguments: str,
+    ) -> str:
         """Python that calls a function of the subject and prints its result.
 
         Parameters: name, of the function; arguments, Python texts by their names. Returns: the

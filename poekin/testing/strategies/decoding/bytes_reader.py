@@ -14,7 +14,7 @@ from typing import TypeVar
 T = TypeVar("T")
 
 
-class Reader:
+class BytesReader:
     """Reads bytes in order; after the last one it reads zeros.
 
     Parameters: data, the bytes. Raises: nothing.
@@ -35,7 +35,11 @@ class Reader:
         """
         return options[self.byte() * len(options) // 256]
 
-    def fraction(self, low: float, high: float) -> float:
+    def fraction(
+        self,
+        low: float,
+        high: float,
+    ) -> float:
         """A number from low to high, evenly spread between neighbouring whole numbers, ends
         included. Takes 3 bytes.
 
@@ -44,26 +48,37 @@ class Reader:
         """
         wholes = range(math.floor(low), max(math.ceil(high), math.floor(low) + 1))
         k = self.pick(sorted(wholes, key=abs))
-        first, last = max(float(k), low), min(k + 1.0, high)
+        first = max(float(k), low)
+        last = min(k + 1.0, high)
         return first + (last - first) * ((256 * self.byte() + self.byte()) / 65535)
 
-    def decimal(self, low: float, high: float) -> float:
+    def decimal(
+        self,
+        low: float,
+        high: float,
+    ) -> float:
         """A number from low to high with few digits: three decimals, or one, to which it shrinks.
         Takes 4 bytes.
 
         Parameters: low, high. Returns: the number, within the bounds. Raises: nothing.
         """
-        decimals = 1 if self.byte() < 128 else 3
+        decimals = 3
+        if self.byte() < 128:
+            decimals = 1
         return min(max(round(self.fraction(low, high), decimals), low), high)
 
-    def magnitude(self, smallest: float, largest: float) -> float:
+    def magnitude(
+        self,
+        smallest: float,
+        largest: float,
+    ) -> float:
         """0 (one time in sixteen), or a number whose logarithm is spread evenly between two. Takes
         4 bytes.
 
         Parameters: smallest, largest, above 0. Returns: 0, or smallest to largest. Raises: nothing.
         """
-        nought, exponent = (
-            self.byte() < 16,
-            self.fraction(math.log10(smallest), math.log10(largest)),
-        )
-        return 0.0 if nought else min(max(10.0**exponent, smallest), largest)
+        nought = self.byte() < 16
+        exponent = self.fraction(math.log10(smallest), math.log10(largest))
+        if nought:
+            return 0.0
+        return min(max(10.0**exponent, smallest), largest)

@@ -1,5 +1,5 @@
 """Bytes as angles, axes, vectors and rotations: what the strategies read off, each a function of a
-`Reader`.
+`BytesReader`.
 
 Every byte of zeros reads as the simplest: angle 0, the x axis, length 0. Raises: nothing; bounds
 are checked by who offers them. Source: `group_strategies` says why magnitudes are spread as they
@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from .bytes_reader import Reader
+from .bytes_reader import BytesReader
 
 SWITCHES = (2e-140, 1.0, 2.0)
 """Angles in rad at which the package's formulas for exp, log and the Jacobians of exp change their
@@ -28,9 +28,14 @@ def around(x: float) -> tuple[float, float, float]:
     return x, math.nextafter(x, -math.inf), math.nextafter(x, math.inf)
 
 
-def angle(r: Reader, largest: float, smallest: float) -> float:
+def angle(
+    r: BytesReader,
+    largest: float,
+    smallest: float,
+) -> float:
     """An angle from 0 to largest in rad, smallest the least beside 0. Takes 6 bytes."""
-    kind, fresh = r.byte() % 12, min(max(smallest, 1e-12), largest)
+    kind = r.byte() % 12
+    fresh = min(max(smallest, 1e-12), largest)
     if kind < 5:
         return r.magnitude(fresh, largest)
     if kind < 6:
@@ -42,9 +47,11 @@ def angle(r: Reader, largest: float, smallest: float) -> float:
     return r.fraction(0.0, largest)
 
 
-def axis(r: Reader) -> np.ndarray:
+def axis(r: BytesReader) -> np.ndarray:
     """A unit vector (3,): an axis of the frame, nearly one, or any. Takes 12 bytes."""
-    kind, place, sign = r.byte() % 4, r.byte(), 1.0 if r.byte() < 128 else -1.0
+    kind = r.byte() % 4
+    place = r.byte()
+    sign = 1.0 if r.byte() < 128 else -1.0
     n = np.array([sign, 0.0, 0.0])
     if kind == 1:
         n[1:] = [10.0 ** -r.fraction(1.0, 17.0), -(10.0 ** -r.fraction(1.0, 17.0))]
@@ -54,12 +61,12 @@ def axis(r: Reader) -> np.ndarray:
     return np.roll(n / math.hypot(*n), place)
 
 
-def vector(r: Reader, lengths: tuple[float, float]) -> np.ndarray:
+def vector(r: BytesReader, lengths: tuple[float, float]) -> np.ndarray:
     """A vector (3,) in m, of length 0 or within lengths. Takes 16 bytes."""
     return r.magnitude(*lengths) * axis(r)
 
 
-def rotation(r: Reader) -> np.ndarray:
+def rotation(r: BytesReader) -> np.ndarray:
     """A rotation (3, 3) by 0 to π. Takes 18 bytes."""
     n = axis(r)
     return turned(n, angle(r, math.pi, SMALLEST))

@@ -12,7 +12,7 @@ from benchmarks.subjects import Poekin
 from poekin.model.chain import Chain
 from poekin.testing.conform import Subject
 from poekin.testing.conform.laws import arm_cases
-from poekin.testing.conform.laws.arm_cases import ARM_LAWS, Limits
+from poekin.testing.conform.laws.arm_cases import ARM_LAWS, CoordinateLimits
 from poekin.testing.conform.laws.law import Case
 from poekin.testing.oracles import exact
 from tests.testing.drawing import drawn
@@ -57,7 +57,7 @@ def test_a_simpler_case_has_a_joint_less():
 def test_vectors_and_directions_are_where_they_are():
     assert list(arm_cases.directions(CASE)) == [0, 8, 16]
     assert list(arm_cases.triples(CASE)) == [3, 11, 19, 24, 27]
-    declared = Case(np.zeros(7), Limits((-1.0,) * 7, (1.0,) * 7))
+    declared = Case(np.zeros(7), CoordinateLimits((-1.0,) * 7, (1.0,) * 7))
     assert not list(arm_cases.directions(declared))
     assert not list(arm_cases.triples(declared))
 
@@ -117,7 +117,7 @@ def test_a_declared_arm_stays_within_its_limits():
     )
     cases = drawn(arm_cases.cases(subject), 100)
     q = np.array([case.numbers for case in cases])
-    assert {case.layout for case in cases} == {Limits((-0.5, 0.25), (1.5, 2.0))}
+    assert {case.layout for case in cases} == {CoordinateLimits((-0.5, 0.25), (1.5, 2.0))}
     assert q.min(axis=0).tolist() == [-0.5, 0.25]
     assert q.max(axis=0).tolist() == [1.5, 2.0]
     assert np.count_nonzero((q > [-0.5, 0.25]) & (q < [1.5, 2.0])) > 50

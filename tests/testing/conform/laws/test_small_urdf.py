@@ -17,7 +17,7 @@ from poekin.formats.urdf import read_text
 from poekin.testing.conform import Subject
 from poekin.testing.conform.laws import of_arms, small_urdf
 from poekin.testing.conform.laws.law import Case
-from poekin.testing.conform.laws.small_urdf import EACH, Joint, Layout, chain
+from poekin.testing.conform.laws.small_urdf import EACH, UrdfJoint, UrdfLayout, chain
 from poekin.testing.conform.laws.urdf_cases import URDF_LAWS
 from poekin.testing.oracles import exact
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
@@ -120,7 +120,7 @@ def test_an_origin_is_written_where_a_number_of_it_is_not_0(place):
     row = np.zeros(EACH)
     row[[2, place, 11]] = 1.0, 0.5, 2.0
     (origin,) = re.findall(
-        r"<origin .*?/>", small_urdf.text(Case(row, chain((Joint("continuous", "a"),))))
+        r"<origin .*?/>", small_urdf.text(Case(row, chain((UrdfJoint("continuous", "a"),))))
     )
     three = [["0.5" if place == at + k else "0" for k in range(3)] for at in (3, 6)]
     rpy = f' rpy="{" ".join(three[1])}"' if place > 5 else ""
@@ -130,7 +130,7 @@ def test_an_origin_is_written_where_a_number_of_it_is_not_0(place):
 def test_a_follower_may_have_an_offset_alone_and_no_origin():
     rows = np.zeros((2, EACH))
     rows[:, 2], rows[0, 11], rows[1, 10] = 1.0, 0.5, -1.0
-    twins = chain((Joint("continuous", "a"), Joint("continuous", "b", follows=0)))
+    twins = chain((UrdfJoint("continuous", "a"), UrdfJoint("continuous", "b", follows=0)))
     found = small_urdf.text(Case(rows.ravel(), twins))
     assert '<axis xyz="0 0 1"/><mimic joint="a" offset="-1"/></joint>' in found
     assert "origin" not in found
@@ -188,7 +188,7 @@ def test_a_simpler_case_has_a_joint_or_a_mimic_less_or_is_in_order():
     def without(k: int) -> list[list[float]]:
         return [row for j, row in enumerate(ROWS) if j != k]
 
-    def free(k: int) -> tuple[list[list[float]], tuple[Joint, ...]]:
+    def free(k: int) -> tuple[list[list[float]], tuple[UrdfJoint, ...]]:
         rows = [[*row[:9], 0, 0, *row[11:]] if j == k else row for j, row in enumerate(ROWS)]
         return rows, tuple(
             joint._replace(follows=-1) if j == k else joint for j, joint in enumerate(JOINTS)
@@ -199,14 +199,14 @@ def test_a_simpler_case_has_a_joint_or_a_mimic_less_or_is_in_order():
     assert [
         (case.numbers.reshape(-1, EACH).tolist(), case.layout) for case in small_urdf.simpler(CASE)
     ] == [
-        (without(1), Layout((a, c, d, e._replace(follows=1)), (2, 0, 1, 3), (-1, -1, 1, 0))),
-        (without(3), Layout((a, b, c, e), (1, 0, 2, 3), (-1, 0, -1, 1))),
-        (without(4), Layout((a, b, c, d), (3, 1, 0, 2), (-1, 0, -1, 2))),
-        (free(3)[0], Layout(free(3)[1], order, after)),
-        (free(4)[0], Layout(free(4)[1], order, after)),
+        (without(1), UrdfLayout((a, c, d, e._replace(follows=1)), (2, 0, 1, 3), (-1, -1, 1, 0))),
+        (without(3), UrdfLayout((a, b, c, e), (1, 0, 2, 3), (-1, 0, -1, 1))),
+        (without(4), UrdfLayout((a, b, c, d), (3, 1, 0, 2), (-1, 0, -1, 2))),
+        (free(3)[0], UrdfLayout(free(3)[1], order, after)),
+        (free(4)[0], UrdfLayout(free(4)[1], order, after)),
         (ROWS, chain(JOINTS)),
-        (ROWS, Layout(JOINTS, (0, 1, 2, 3, 4), after)),
-        (ROWS, Layout((a, b, c._replace(axis=True), d, e), order, after)),
+        (ROWS, UrdfLayout(JOINTS, (0, 1, 2, 3, 4), after)),
+        (ROWS, UrdfLayout((a, b, c._replace(axis=True), d, e), order, after)),
     ]
     assert not list(small_urdf.simpler(Case(np.array(ROWS[0]), chain((a,)))))
     twins = Case(np.array(ROWS[0] * 2), chain((a, a)))
@@ -221,11 +221,11 @@ def test_a_simpler_case_has_a_joint_or_a_mimic_less_or_is_in_order():
 def test_every_value_stays_within_the_limits(q, multiplier, offset, allowed):
     rows = np.zeros((2, EACH))
     rows[:, 2], rows[0, 11], rows[1, 9:11] = 1.0, q, (multiplier, offset)
-    twins = chain((Joint("revolute", "a"), Joint("revolute", "b", follows=0)))
+    twins = chain((UrdfJoint("revolute", "a"), UrdfJoint("revolute", "b", follows=0)))
     assert small_urdf.allowed(Case(rows.ravel(), twins)) is allowed
-    fixed = Case(np.array([*np.zeros(11), 11.0]), chain((Joint("fixed", "a"),)))
+    fixed = Case(np.array([*np.zeros(11), 11.0]), chain((UrdfJoint("fixed", "a"),)))
     assert small_urdf.allowed(fixed)
-    assert not small_urdf.allowed(Case(np.zeros(0), Layout((), (), ())))
+    assert not small_urdf.allowed(Case(np.zeros(0), UrdfLayout((), (), ())))
 
 
 def test_a_value_is_the_multiplier_as_it_is_written_times_the_master_and_the_offset():

@@ -11,7 +11,7 @@ from benchmarks.subjects import Poekin
 from poekin.testing.conform import Subject
 from poekin.testing.conform.laws import small_urdf, urdf_cases
 from poekin.testing.conform.laws.law import SLACK, Case, drawable, typed, unit
-from poekin.testing.conform.laws.small_urdf import Joint, Layout, chain
+from poekin.testing.conform.laws.small_urdf import UrdfJoint, UrdfLayout, chain
 from poekin.testing.conform.laws.urdf_cases import URDF_LAWS
 from tests.testing.drawing import drawn
 
@@ -20,7 +20,7 @@ SUBJECT = Subject(Poekin)
 ROW = [0, 0, 1.0, 0.5, -1.0, 0.25, 0.1, -0.2, 0.3, 0, 0, 0.7]
 
 
-def case(layout: Layout, *rows: list[float]) -> Case:
+def case(layout: UrdfLayout, *rows: list[float]) -> Case:
     return Case(np.concatenate([np.array(row, dtype=float) for row in rows]), layout)
 
 
@@ -28,7 +28,7 @@ def one(kind: str = "revolute", axis: bool = True, **places: float) -> Case:
     row = list(ROW)
     for name, value in places.items():
         row[int(name[1:])] = value
-    return case(chain((Joint(kind, "j0", axis),)), row)
+    return case(chain((UrdfJoint(kind, "j0", axis),)), row)
 
 
 def found(name: str, count: int = 40) -> list[Case]:
@@ -146,10 +146,13 @@ def test_what_may_be_drawn_is_allowed(what):
 
 def test_a_law_is_about_what_it_is_called_after():
     straight = one()
-    twins = (Joint("revolute", "j0"), Joint("revolute", "j1"))
+    twins = (UrdfJoint("revolute", "j0"), UrdfJoint("revolute", "j1"))
     follower = case(chain((twins[0], twins[1]._replace(follows=0))), ROW, ROW)
     branch = case(
-        Layout((*twins, Joint("revolute", "j2", follows=1)), (0, 1, 2), (-1, 0, 0)), ROW, ROW, ROW
+        UrdfLayout((*twins, UrdfJoint("revolute", "j2", follows=1)), (0, 1, 2), (-1, 0, 0)),
+        ROW,
+        ROW,
+        ROW,
     )
     about = {
         "urdf": [straight],
@@ -162,7 +165,7 @@ def test_a_law_is_about_what_it_is_called_after():
         "urdf order": [
             case(chain(twins, (1, 0)), ROW, ROW),
             case(chain(twins[::-1]), ROW, ROW),
-            case(Layout(twins, (0, 1), (-1, -1)), ROW, ROW),
+            case(UrdfLayout(twins, (0, 1), (-1, -1)), ROW, ROW),
         ],
         "robot": [branch],
         "robot mimic": [follower],
@@ -178,7 +181,7 @@ def test_a_law_is_about_what_it_is_called_after():
 
 
 def test_axes_of_any_length_are_vectors_and_others_directions():
-    twins = case(chain((Joint("revolute", "j0"), Joint("revolute", "j1"))), ROW, ROW)
+    twins = case(chain((UrdfJoint("revolute", "j0"), UrdfJoint("revolute", "j1"))), ROW, ROW)
     for name, law in LAWS.items():
         long = name == "urdf long axis"
         assert list(law.directions(twins)) == ([] if long else [0, 12]), name
