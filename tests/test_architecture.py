@@ -11,6 +11,7 @@ from __future__ import annotations
 import ast
 import functools
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterator
 from importlib.util import resolve_name
 from pathlib import Path
@@ -177,8 +178,93 @@ def long_files(root: Path) -> list[str]:
     return [f"{path}: {n} lines" for path, n in lengths.items() if n > 400 and path not in LONG]
 
 
+def crowded_folders(root: Path) -> list[str]:
+    """A folder of more than ten files wants sub-folders."""
+    folders = Counter(str(Path(path).parent) for path, _, _ in sources(root))
+    return [f"{folder}: {n} files" for folder, n in folders.items() if n > 10]
+
+
+def circles(root: Path) -> list[str]:
+    """No two modules know each other, by way of others or for types only; a package's face stands apart."""
+    graph: dict[str, set[str]] = {}
+    for path, _, tree in sources(root):
+        if not path.endswith("__init__.py"):
+            graph[module_of(path)] = {name for _, name in imports(path, tree, root)}
+    reached = {module: known_through(module, graph) for module in graph}
+    rings = {
+        tuple(
+            sorted(
+                {
+                    module,
+                    *(
+                        other
+                        for other in graph
+                        if other in reached[module] and module in reached[other]
+                    ),
+                }
+            )
+        )
+        for module in graph
+        if module in reached[module]
+    }
+    return [
+        f"{path_of(ring[0])}: in a circle with {', '.join(ring[1:]) or 'itself'}"
+        for ring in sorted(rings)
+    ]
+
+
+def known_through(module: str, graph: dict[str, set[str]]) -> set[str]:
+    """All modules that a module imports, and that these import, and so on."""
+    found: set[str] = set()
+    ahead = [module]
+    while ahead:
+        for name in graph.get(ahead.pop(), set()) - found:
+            found.add(name)
+            ahead.append(name)
+    return found
+
+
+def module_of(path: str) -> str:
+    return ".".join(Path(path).with_suffix("").parts)
+
+
+def path_of(module: str) -> str:
+    return module.replace(".", "/") + ".py"
+
+
+def private_names_read(root: Path) -> list[str]:
+    """No module takes another module's `_name`, by an import or as an attribute of the module."""
+    faults = []
+    for path, _, tree in sources(root):
+        modules = set()
+        for node in ast.walk(tree):
+            if not isinstance(node, ast.ImportFrom) or not (
+                node.level or (node.module or "").startswith("poekin")
+            ):
+                continue
+            modules.update(alias.asname or alias.name for alias in node.names)
+            for alias in node.names:
+                if private(alias.name):
+                    faults.append(f"{path}:{node.lineno}: imports {alias.name}")
+        for node in ast.walk(tree):
+            if not isinstance(node, ast.Attribute) or not private(node.attr):
+                continue
+            owner = getattr(node.value, "id", None)
+            if owner in modules:
+                faults.append(f"{path}:{node.lineno}: reads {owner}.{node.attr}")
+    return faults
+
+
+NAMED_TUPLES = ("_fields", "_replace", "_asdict", "_make")  # public, as Python's documentation says
+
+
+def private(name: str) -> bool:
+    return name.startswith("_") and not name.startswith("__") and name not in NAMED_TUPLES
+
+
 RULES: list[Rule] = [
     imports_upward, formulas_that_know_arrays, optional_packages_out_of_place, asserts_and_blind_excepts, long_files,
+    crowded_folders, circles, private_names_read,
 ]  # fmt: skip
 
 
@@ -214,6 +300,12 @@ PLANTED: list[tuple[Rule, str, str]] = [
     (asserts_and_blind_excepts, "poekin/model/chain.py", "try:\n    x = 1\nexcept Exception as e:\n    x = e"),
     (asserts_and_blind_excepts, "poekin/model/chain.py", "try:\n    x = 1\nexcept (OSError, Exception):\n    x = 2"),
     (long_files, "poekin/model/chain.py", "x = 1\n" * 401),
+    (circles, "poekin/engine/run.py", "from .run import x"),
+    (circles, "poekin/formulas/forward.py", "from ..formulas.forward import x"),
+    (private_names_read, "poekin/model/chain.py", "from ..engine.run import _x"),
+    (private_names_read, "poekin/model/chain.py", "from poekin.engine.run import _x as x"),
+    (private_names_read, "poekin/model/chain.py", "from ..engine import run\ny = run._x"),
+    (private_names_read, "poekin/model/chain.py", "def f():\n    from ..engine import run as r\n    return r._x()"),
 ]  # fmt: skip
 
 
@@ -248,6 +340,33 @@ def test_a_planted_fault_is_caught(rule, path, text, tmp_path):
     faults = rule(plant(tmp_path, {path: text}))
     assert len(faults) == 1, faults
     assert faults[0].startswith(path)
+
+
+CIRCLES = [
+    {"poekin/model/a.py": "from .b import x", "poekin/model/b.py": "from .a import y"},
+    {"poekin/model/a.py": "from . import b", "poekin/model/b.py": "def f():\n    from .a import y"},
+    {
+        "poekin/model/a.py": "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from .b import x",
+        "poekin/model/b.py": "from .c import y",
+        "poekin/model/c.py": "from .a import z",
+    },
+]
+
+
+@pytest.mark.parametrize("files", CIRCLES)
+def test_a_circle_is_named_once_with_all_that_are_in_it(files, tmp_path):
+    (first, *others) = (module_of(path) for path in files)
+    assert circles(plant(tmp_path, files)) == [
+        f"{path_of(first)}: in a circle with {', '.join(others)}"
+    ]
+
+
+def test_the_eleventh_file_of_a_folder_is_caught(tmp_path):
+    ten = {f"poekin/model/m{k}.py": "" for k in range(9)}
+    assert crowded_folders(plant(tmp_path, ten)) == []
+    assert crowded_folders(plant(tmp_path, {"poekin/model/m9.py": ""})) == [
+        "poekin/model: 11 files"
+    ]
 
 
 def test_an_optional_package_in_two_files_is_caught(tmp_path):
