@@ -129,8 +129,8 @@ class Chain(ChainData):
         return pose_jacobian.fk_jacobian(self, q, frame, at, out)
 
     def compile(self, *, parallel: bool = False) -> CompiledChain[Chain]:
-        """The same arm with machine code made for its numbers: methods `fk`, `jacobian`, `fk_jacobian`
-        as here, faster.
+        """Machine code made for the numbers of this chain: `fk`, `jacobian`, `fk_jacobian` as here,
+        faster.
 
         Parameters: parallel, whether large batches are shared out among threads. Returns:
         CompiledChain, see there. Raises: InputError. Accuracy: as `fk`. Source: Park 1994, Section
@@ -312,8 +312,8 @@ class Chain(ChainData):
         return numbers.jacobian(*self.fk_jacobian(q, "hybrid"))
 
     def idealised(self, tol: float) -> Idealised[Chain]:
-        """The same arm with its geometry made exact where it is so within a tolerance; nothing else
-        ever implies this.
+        """Chain with its geometry made exact where it is so within a tolerance; nothing else ever
+        implies this.
 
         Angles between consecutive axes, and between consecutive common normals, become multiples of
         15 degrees, and the lengths between them 0. Base and tool are the first and last axis of

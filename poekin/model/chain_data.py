@@ -87,10 +87,12 @@ class ChainData:
             A = screw.with_pitches(A, h)
         n = len(A)
         joints = distinct_names(joint_names, n, "joint_names", "joint")
-        C = None if coupling is None else coupling_matrix(coupling, n)
+        C = coupling_matrix(coupling, n)
         c = _offset(offset, n)
-        m = n if C is None else C.shape[1]
-        if q_names is None and C is None:
+        m = n
+        if C is not None:
+            m = C.shape[1]
+        elif q_names is None:
             q_names = joints
         names = distinct_names(q_names, m, "q_names", "q")
         M = one_pose(home)

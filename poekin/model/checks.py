@@ -1,4 +1,4 @@
-"""What a chain is made of, as it is given: checked, copied and made exact to the last digit."""
+"""Checks of a chain's parts as they are given: copied, and made exact to the last digit."""
 
 from __future__ import annotations
 
@@ -131,8 +131,10 @@ def bounds(limits: ArrayLike | None, names: tuple[str, ...]) -> Array:
     return L
 
 
-def coupling_matrix(values: ArrayLike, n: int) -> Array | None:
-    """C as given, or None where it is the identity."""
+def coupling_matrix(values: ArrayLike | None, n: int) -> Array | None:
+    """C as given, or None where it is the identity or not given."""
+    if values is None:
+        return None
     C = finite(values, "coupling")
     if C.ndim != 2 or C.shape[0] != n:
         raise ShapeError(f"coupling: expected shape ({n}, m), one row a joint, got {C.shape}")

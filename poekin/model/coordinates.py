@@ -1,5 +1,5 @@
-"""What a user gives as q, made an array: an array in the order of the coordinates' names, or
-something with names.
+"""Configurations as users give them, made arrays: an array in the order of the coordinates' names,
+or something with names.
 """
 
 from __future__ import annotations

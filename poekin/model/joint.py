@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -89,11 +89,10 @@ class Joint:
         _name(self.child, "child")
         _set(self, "origin", _pose(self.origin))
         _set(self, "axis", _direction(self.axis))
-        _set(
-            self,
-            "limits",
-            _interval(self.limits) if self.kind != "continuous" else (-math.inf, math.inf),
-        )
+        limits = (-math.inf, math.inf)
+        if self.kind != "continuous":
+            limits = _interval(self.limits)
+        _set(self, "limits", limits)
         _set(self, "pitch", _finite((self.pitch,), 1, "pitch")[0])
         if abs(self.pitch) > LONGEST:
             raise ModelError(f"pitch: expected at most {LONGEST:g} m per rad, got {self.pitch:g}")
@@ -114,40 +113,27 @@ class Joint:
         x, y, z = self.axis
         if self.kind in ("revolute", "continuous", "helical"):
             return (x, y, z, self.pitch * x, self.pitch * y, self.pitch * z)
-        return (0.0, 0.0, 0.0, x, y, z) if self.kind == "prismatic" else (0.0,) * 6
+        if self.kind == "prismatic":
+            return (0.0, 0.0, 0.0, x, y, z)
+        return (0.0,) * 6
+
+    def _values(self) -> list[Any]:
+        return [getattr(self, field.name) for field in fields(self)]
 
     def _data(self) -> tuple[Any, ...]:
-        origin = self.origin.tobytes()
-        return (
-            self.name,
-            self.kind,
-            self.parent,
-            self.child,
-            origin,
-            self.axis,
-            self.limits,
-            self.mimic,
-            self.pitch,
-        )
+        """Its fields, the origin as bytes, which can be compared and hashed."""
+        return tuple(x.tobytes() if isinstance(x, np.ndarray) else x for x in self._values())
 
     def __eq__(self, other: object) -> bool:
-        return self._data() == other._data() if isinstance(other, Joint) else NotImplemented
+        if not isinstance(other, Joint):
+            return NotImplemented
+        return self._data() == other._data()
 
     def __hash__(self) -> int:
         return hash(self._data())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        fields = (
-            self.name,
-            self.kind,
-            self.parent,
-            self.child,
-            self.origin,
-            self.axis,
-            self.limits,
-            self.mimic,
-        )
-        return type(self), (*fields, self.pitch)
+        return type(self), tuple(self._values())
 
     def __repr__(self) -> str:
         follows = f", mimic={quote(self.mimic.joint)}" if self.mimic else ""

@@ -11,7 +11,7 @@ from ..errors import PoekinWarning, quote
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """Where a robot was read from.
+    """Origin of a robot: file or text, and the lines of its links and joints.
 
     Fields: name, a file or whatever else the text came from; link_lines and joint_lines, the line
     of each link and joint in the robot's order, empty where there are no lines to speak of; origin,
@@ -34,21 +34,23 @@ class Source:
 
     def of_link(self, index: int) -> str:
         """The place of link number `index`."""
-        return self.place(self.link_lines[index] if index < len(self.link_lines) else None)
+        return self.place(*self.link_lines[index : index + 1])
 
     def of_joint(self, index: int) -> str:
         """The place of joint number `index`."""
-        return self.place(self.joint_lines[index] if index < len(self.joint_lines) else None)
+        return self.place(*self.joint_lines[index : index + 1])
 
 
 def warn(message: str) -> None:
     """A `PoekinWarning` that Python shows at the first line outside of poekin: the line that asked
     for the robot.
     """
-    frame, level = sys._getframe(1), 2
+    frame = sys._getframe(1)
+    level = 2
     while (
         frame.f_back is not None
         and frame.f_globals.get("__name__", "").partition(".")[0] == "poekin"
     ):
-        frame, level = frame.f_back, level + 1
+        frame = frame.f_back
+        level += 1
     warnings.warn(message, PoekinWarning, stacklevel=level)

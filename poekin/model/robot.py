@@ -131,7 +131,8 @@ class Robot:
                 )
             tip = self.leaves[0]
         way = path(self._tree, _link(self, base, "base"), _link(self, tip, "tip"))
-        screws, moving = [], []
+        screws = []
+        moving = []
         H: Any = IDENTITY
         for number, forward in way:
             joint = self.joints[number]
@@ -144,8 +145,8 @@ class Robot:
             if forward:
                 H = compose(H, origin)
             if joint.kind != "fixed":
-                moved = adjoint(H, joint.screw)
-                screws.append(moved if forward else tuple(-s for s in moved))
+                moved = np.array(adjoint(H, joint.screw))
+                screws.append(moved if forward else -moved)
                 moving.append(number)
             if not forward:
                 H = compose(H, inverse(origin))
@@ -172,17 +173,24 @@ class Robot:
                     f" {LARGEST} entries are made (Robot.fk needs none)"
                 )
             column = {k: place for place, k in enumerate(used)}
-            C, c = np.zeros((len(moving), len(used))), whole.shift[moving]
-            for row, (k, ratio) in enumerate(
-                zip(followed.tolist(), whole.ratio[moving].tolist(), strict=True)
-            ):
+            c = whole.shift[moving]
+            C = np.zeros((len(moving), len(used)))
+            for row, k in enumerate(followed.tolist()):
                 if k >= 0:
-                    C[row, column[k]] = ratio
+                    C[row, column[k]] = whole.ratio[moving[row]]
         limits = shared_limits(whole, self._bounds, moving)[0][used]
         return Chain(
-            screws, home, joint_names=names, q_names=q_names, limits=limits, coupling=C, offset=c, base=base, tip=tip,
+            screws,
+            home,
+            joint_names=names,
+            q_names=q_names,
+            limits=limits,
+            coupling=C,
+            offset=c,
+            base=base,
+            tip=tip,
             pitches=[self.joints[j].pitch for j in moving],
-        )  # fmt: skip
+        )
 
     def fk(self, q: Any, poses: Mapping[str, Any] | None = None) -> dict[str, np.ndarray]:
         """Pose of every link in the root link's frame [m].
@@ -218,7 +226,9 @@ class Robot:
         return self.name, self.links, self.joints
 
     def __eq__(self, other: object) -> bool:
-        return self._data() == other._data() if isinstance(other, Robot) else NotImplemented
+        if not isinstance(other, Robot):
+            return NotImplemented
+        return self._data() == other._data()
 
     def __hash__(self) -> int:
         return hash(self._data())
@@ -229,10 +239,13 @@ class Robot:
         return _rebuilt, (*self._data(), self.source)
 
     def __repr__(self) -> str:
-        leaves = ", ".join(map(quote, self.leaves[:3])) + (", ..." if len(self.leaves) > 3 else "")
+        leaves = ", ".join(map(quote, self.leaves[:3]))
+        if len(self.leaves) > 3:
+            leaves += ", ..."
+        word = "leaf" if len(self.leaves) == 1 else "leaves"
         return (
             f"Robot({quote(self.name)}: {len(self.links)} links, {len(self.joints)} joints, dof {self.dof}, root"
-            f" {quote(self.root)}, {len(self.leaves)} {'leaf' if len(self.leaves) == 1 else 'leaves'}: {leaves})"
+            f" {quote(self.root)}, {len(self.leaves)} {word}: {leaves})"
         )
 
 
@@ -307,11 +320,9 @@ def _free_poses(robot: Robot, poses: Mapping[str, Any]) -> dict[int, np.ndarray]
         raise InputError(
             f"{where}: poses must be a dict from joint to pose (..., 4, 4), got {safe_repr(poses)}"
         )
-    free = (
-        {joint.name: number for number, joint in enumerate(robot.joints) if joint.kind in FREE}
-        if poses
-        else {}
-    )
+    if not poses:
+        return {}
+    free = {joint.name: number for number, joint in enumerate(robot.joints) if joint.kind in FREE}
     checked = {}
     for name, value in poses.items():
         if name not in free:

@@ -80,7 +80,8 @@ def helical(axis: ArrayLike, point: ArrayLike, pitch: float) -> Array:
     Raises: ScrewError, ShapeError, InputError.
     Accuracy: as `revolute`, with |p| + |h| in place of |p|. Source: Park 1994, Section II.
     """
-    z, p = _unit(axis), shaped(point, (3,), "point")
+    z = _unit(axis)
+    p = shaped(point, (3,), "point")
     h = float(shaped(pitch, (), "pitch"))
     if p.ndim != 1 or not np.isfinite([*p, h]).all():
         raise InputError(
@@ -111,7 +112,9 @@ def pitch_of(screw: Array) -> float:
     Section II.
     """
     pitch = float(screw[:3] @ screw[3:])
-    return 0.0 if abs(pitch) <= _NO_PITCH * max(1.0, float(np.linalg.norm(screw[3:]))) else pitch
+    if abs(pitch) <= _NO_PITCH * max(1.0, float(np.linalg.norm(screw[3:]))):
+        return 0.0
+    return pitch
 
 
 def pitches_of(screws: Array, given: ArrayLike | None = None, names: tuple[str, ...] = ()) -> Array:
@@ -155,7 +158,8 @@ def with_pitches(screws: Array, pitches: Array) -> Array:
     Raises: nothing of its own. Accuracy: omega . v is within 4e-15 max(1 m, |v|) of the pitch.
     Source: Park 1994, Section II.
     """
-    w, v = screws[:, :3], screws[:, 3:]
+    w = screws[:, :3]
+    v = screws[:, 3:]
     missing = pitches - (w * v).sum(1)
     far = np.maximum(1.0, np.linalg.norm(v, axis=1))
     put = np.any(w, axis=1) & (np.abs(missing) > _NO_PITCH * far)
@@ -204,7 +208,11 @@ def checked(screws: ArrayLike, names: tuple[str, ...] = ()) -> Array:
             raise ScrewError(
                 f"{where}: expected finite numbers of at most {LONGEST:g}, got {row.tolist()}"
             )
-        part, what = (row[:3], "omega") if row[:3].any() else (row[3:], "v, where omega = 0,")
+        part = row[:3]
+        what = "omega"
+        if not part.any():
+            part = row[3:]
+            what = "v, where omega = 0,"
         length = float(np.linalg.norm(part))
         if abs(length - 1.0) > UNIT:
             raise ScrewError(

@@ -30,7 +30,7 @@ FRAME_CODES: dict[object, int] = {
 
 
 Fill = Callable[[Array, int | None, Array | None, Array | None], None]
-"""Of configurations (N, m), writes the poses into T (N, 4, 4) and the Jacobians in the frame of a
+"""Writes the poses of configurations (N, m) into T (N, 4, 4), and their Jacobians in the frame of a
 code into J (N, 6, m), where these are given.
 """
 

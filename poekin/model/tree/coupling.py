@@ -70,7 +70,8 @@ def shared_limits(
     other: the master's own limits stand, and the coordinate is listed in the second array.
     """
     own = bounds[coupling.master]
-    lower, upper = np.full(len(own), -np.inf), np.full(len(own), np.inf)
+    lower = np.full(len(own), -np.inf)
+    upper = np.full(len(own), np.inf)
     followers = joints[(coupling.coordinate[joints] >= 0) & (coupling.ratio[joints] != 0)]
     with np.errstate(over="ignore"):  # a bound beyond the largest number is no bound
         ends = (bounds[followers] - coupling.shift[followers, None]) / coupling.ratio[
@@ -114,7 +115,9 @@ def _resolve(
             raise ModelError(f"{_where(index, joints, source)} mimics itself{through}")
         walk[index] = None
         if joint.mimic is None:
-            known[index] = (index, 1.0, 0.0) if joint.kind in MOVING else (-1, 0.0, 0.0)
+            known[index] = (-1, 0.0, 0.0)
+            if joint.kind in MOVING:
+                known[index] = (index, 1.0, 0.0)
             break
         if joint.mimic.joint not in numbers:
             name = joint.mimic.joint
@@ -124,9 +127,11 @@ def _resolve(
             )
         master = numbers[joint.mimic.joint]
         if joints[master].kind in FREE:
-            kind, name = joints[master].kind, quote(joints[master].name)
+            free = joints[master]
             where = _where(index, joints, source)
-            raise ModelError(f"{where} mimics {name}, but a {kind} joint has no single value")
+            raise ModelError(
+                f"{where} mimics {quote(free.name)}, but a {free.kind} joint has no single value"
+            )
         index = master
     for index in reversed(walk):
         joint = joints[index]
@@ -136,10 +141,8 @@ def _resolve(
             known[index] = (-1, 0.0, 0.0)
             continue
         master, ratio, shift = known[numbers[joint.mimic.joint]]
-        ratio, shift = (
-            joint.mimic.multiplier * ratio,
-            joint.mimic.multiplier * shift + joint.mimic.offset,
-        )
+        ratio = joint.mimic.multiplier * ratio
+        shift = joint.mimic.multiplier * shift + joint.mimic.offset
         if not (math.isfinite(ratio) and math.isfinite(shift)):
             where = _where(index, joints, source)
             raise ModelError(f"{where}: the product of its chain of multipliers is not finite")

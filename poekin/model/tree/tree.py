@@ -37,7 +37,8 @@ def tree_of(links: Sequence[str], joints: Sequence[Joint], source: Source) -> Tr
     numbers = _unique(links, "link", source.of_link)
     _unique([joint.name for joint in joints], "joint", source.of_joint)
     parent_joint = [-1] * len(links)
-    parent_link, child_link = [], []
+    parent_link: list[int] = []
+    child_link: list[int] = []
     children: list[list[int]] = [[] for _ in links]
     for index, joint in enumerate(joints):
         for role, name in (("parent", joint.parent), ("child", joint.child)):
@@ -46,7 +47,8 @@ def tree_of(links: Sequence[str], joints: Sequence[Joint], source: Source) -> Tr
                     f"{source.of_joint(index)}: joint {quote(joint.name)}: its {role} link {quote(name)} does not"
                     f" exist; {suggest(name, links)}"
                 )
-        parent, child = numbers[joint.parent], numbers[joint.child]
+        parent = numbers[joint.parent]
+        child = numbers[joint.child]
         if parent_joint[child] >= 0:
             other = parent_joint[child]
             raise ModelError(
@@ -64,8 +66,8 @@ def tree_of(links: Sequence[str], joints: Sequence[Joint], source: Source) -> Tr
         raise ModelError(
             f"{source.of_link(roots[1])}: a robot has one root, but {len(roots)} links have no parent: {named}{more}"
         )
-    order = []
-    ahead = list(reversed(children[roots[0]])) if roots else []
+    order: list[int] = []
+    ahead = [joint for root in roots for joint in reversed(children[root])]
     while ahead:
         joint = ahead.pop()
         order.append(joint)
@@ -128,9 +130,9 @@ def _cycle(
         walked[joint] = len(walked)
         joint = parent_joint[parent_link[joint]]
     circle = [j for j, step in walked.items() if step >= walked[joint]][::-1]
-    named = " -> ".join(quote(joints[j].child) for j in circle[:10]) + (
-        " -> ..." if len(circle) > 10 else ""
-    )
+    named = " -> ".join(quote(joints[j].child) for j in circle[:10])
+    if len(circle) > 10:
+        named += " -> ..."
     first = min(circle)
     return ModelError(
         f"{source.of_joint(first)}: the links form a cycle of {len(circle)} joint(s): {named}"

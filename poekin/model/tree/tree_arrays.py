@@ -71,9 +71,11 @@ def link_poses(layout: Layout, values: np.ndarray, free: Mapping[int, np.ndarray
         return out
     # The branch below a free joint is first placed as if its link were the root, then moved as one.
     placed = {int(layout.joint_row[joint]): T for joint, T in free.items()}
-    parents, origins = layout.parents.copy(), layout.origins.copy()
     cut = sorted(placed)
-    parents[cut], origins[cut] = 0, np.eye(4)
+    parents = layout.parents.copy()
+    parents[cut] = 0
+    origins = layout.origins.copy()
+    origins[cut] = np.eye(4)
     tree_poses.call(parents, origins, layout.screws, x, out)
     branch = [-1]
     for row, parent in enumerate(layout.parents.tolist()):
