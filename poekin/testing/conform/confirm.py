@@ -27,7 +27,7 @@ def of_exp(xi: np.ndarray) -> bool:
 
 def is_exp(xi: np.ndarray, truth: np.ndarray) -> bool:
     """Whether a matrix is mpmath's exponential of ω (3,) or (ω; v) (6,)."""
-    return _near(_expm(xi), truth)
+    return near(_expm(xi), truth)
 
 
 def of_log(X: np.ndarray) -> bool:
@@ -87,7 +87,7 @@ def of_pose(
     x: Any,
 ) -> bool:
     """Whether `exact.forward` is the product of mpmath's exponentials."""
-    return _near(product(screws, home, x), exact.forward(screws, home, x))
+    return near(product(screws, home, x), exact.forward(screws, home, x))
 
 
 def of_velocities(
@@ -117,10 +117,9 @@ def product(
     x: Any,
 ) -> Any:
     """e^{A_1 x_1} ⋯ e^{A_n x_n} M as an mpmath matrix."""
-    T = _mp.eye(4)
-    for screw, amount in zip(exact.exactly(screws), exact.exactly(x), strict=True):
-        T = T * _expm(screw * amount)
-    return T * _matrix(exact.exactly(home))
+    joints = zip(exact.exactly(screws), exact.exactly(x), strict=True)
+    motions = chain_of([screw * amount for screw, amount in joints])
+    return motions * _matrix(exact.exactly(home))
 
 
 def chain_of(factors: Sequence[Any]) -> Any:
@@ -129,13 +128,6 @@ def chain_of(factors: Sequence[Any]) -> Any:
     for xi in factors:
         T = T * _expm(xi)
     return T
-
-
-def near(T: Any, truth: np.ndarray) -> bool:
-    """Whether an mpmath matrix and an array of `exact` are the same to 60 digits of the largest
-    entry.
-    """
-    return _near(T, truth)
 
 
 def _shifted(
@@ -148,7 +140,10 @@ def _shifted(
     return moved
 
 
-def _near(X: Any, truth: np.ndarray) -> bool:
+def near(X: Any, truth: np.ndarray) -> bool:
+    """Whether an mpmath matrix and an array of `exact` are the same to 60 digits of the largest
+    entry.
+    """
     other = _matrix(truth)
     return bool(_largest(X - other) < AGREE * (1 + _largest(other)))
 

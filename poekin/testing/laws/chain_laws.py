@@ -16,7 +16,7 @@ Source: Park 1994, Sections II to IV; f' = P f Q and the laws that follow from i
 
 from __future__ import annotations
 
-import math
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,7 @@ from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from ..accuracy.error_bounds import UNIT
 from ..oracles import differences, exact
 from .laws import Law, check_bounds
-from .measures import Pairs, size
+from .measures import Pairs, of_twist, size
 
 
 def displacements(chain: Any, q: np.ndarray) -> np.ndarray:
@@ -76,16 +76,18 @@ def forms_agree(chain: Any, q: np.ndarray) -> float:
     """The space, body and local forms are one motion: f = Π e^{A x} M = M Π e^{B x} = M_1 e^{S x_1}
     ⋯ M_{n+1}.
     """
-    x = _exact_displacements(chain, q)
+    x = exact_displacements(chain, q)
     f = chain.fk(q)
     space = exact.forward(chain.space.screws, chain.space.home, x)
     body = exact.exactly(chain.body.home) @ exact.forward(chain.body.screws, np.eye(4), x)
-    local = exact.exactly(chain.local.frames[0])
-    for r, s, amount, M in zip(
-        chain.local.rotates, chain.local.slides, x, chain.local.frames[1:], strict=True
-    ):
-        local = local @ exact.exp(exact.exactly([0, 0, r, 0, 0, s]) * amount) @ exact.exactly(M)
-    pairs = [pair for form in (space, body, local) for pair in of_poses(chain, q, f, form)]
+    factors = [chain.local.frames[0]]
+    joints = zip(chain.local.rotates, chain.local.slides, x, strict=True)
+    for (r, s, amount), M in zip(joints, chain.local.frames[1:], strict=True):
+        S = exact.exactly([0, 0, r, 0, 0, s])
+        factors += [exact.exp(S * amount), M]
+    pairs: Pairs = []
+    for form in (space, body, exact.product(factors)):
+        pairs += of_poses(chain, q, f, form)
     return check_chain_bounds("forms agree", chain, *pairs, q=q)
 
 
@@ -102,10 +104,10 @@ def jacobian_is_the_derivative(
     # rounding.
     rate = float(np.abs(chain.local.rotates * (chain.coupling @ dq)).sum())
     angular, linear = (30 * max(rate, 1.0) * b for b in budget(chain, q))
-    pairs = []
+    pairs: Pairs = []
     for frame in FRAME_NAMES:
-        error = chain.jacobian(q, frame) @ dq - differences.velocity(chain.fk, q, dq, frame, rate)
-        pairs += [(size(error[:3]), angular), (size(error[3:]), linear)]
+        V = differences.velocity(chain.fk, q, dq, frame, rate)
+        pairs += of_twist(chain.jacobian(q, frame) @ dq - V, angular, linear)
     return check_chain_bounds("jacobian is the derivative", chain, *pairs, q=q, dq=dq)
 
 
@@ -145,11 +147,7 @@ def joint_poses_are_partial_products(
     joint: int,
 ) -> float:
     """The z-aligned frame of joint k stands at e^{A_1 x_1} ⋯ e^{A_k x_k} (M_1 ⋯ M_k)."""
-    home = exact.exactly(np.eye(4))
-    for M in chain.local.frames[: joint + 1]:
-        home = home @ exact.exactly(M)
-    x = _exact_displacements(chain, q)[: joint + 1]
-    expected = exact.forward(chain.screws[: joint + 1], home, x)
+    expected = exact_joint_pose(chain, exact_displacements(chain, q), joint)
     pairs = of_poses(chain, q, chain.joint_poses(q)[joint], expected)
     return check_chain_bounds("joint poses are partial products", chain, *pairs, q=q, joint=joint)
 
@@ -220,32 +218,56 @@ def a_point_moves_as_the_tools_origin_would(
 
 def batches_are_made_of_single_configurations(chain: Any, batch: np.ndarray) -> float:
     """Every function of a batch gives, element by element, what it gives for one configuration."""
-    shape = batch.shape[:-1]
-    pairs = []
-    rows = batch.reshape(math.prod(shape), chain.dof)
-    n = len(chain.screws)
-    m = chain.dof
-    functions = [
+    functions: list[Shaped] = [
         (chain.fk, (4, 4)),
-        (chain.joint_poses, (n, 4, 4)),
+        (chain.joint_poses, (len(chain.screws), 4, 4)),
         (lambda q: chain.velocity(q, q, "body"), (6,)),
-        *((lambda q, frame=frame: chain.jacobian(q, frame), (6, m)) for frame in FRAME_NAMES),
     ]
+    for frame in FRAME_NAMES:
+        functions.append((lambda q, f=frame: chain.jacobian(q, f), (6, chain.dof)))
+    return check_batch(
+        "batches are made of single configurations",
+        chain,
+        batch,
+        functions,
+        bound=lambda q, one: budget(chain, q)[1] * (1 + size(q)),
+    )
+
+
+Shaped = tuple[Callable[[np.ndarray], np.ndarray], tuple[int, ...]]
+"""A function of configurations, and the shape of its value for a single one."""
+
+
+def check_batch(
+    law: str,
+    chain: Any,
+    batch: np.ndarray,
+    functions: Sequence[Shaped],
+    bound: Callable[[np.ndarray, np.ndarray], float],
+) -> float:
+    """Check that functions of a batch are, element by element, those of single configurations.
+
+    Parameters: law, its name; chain; batch (*shape, m); functions, with the shapes of their values;
+    bound(q, value), of the error at one configuration. Returns: error ÷ bound. Raises: LawViolation.
+    """
+    shape = batch.shape[:-1]
+    pairs: Pairs = []
     for function, tail in functions:
         together = function(batch)
-        if together.shape != (*shape, *tail):
+        expected = (*shape, *tail)
+        if together.shape != expected:
             return check_chain_bounds(
                 "batches have their shape",
                 chain,
                 (np.inf, 0.0),
                 shape=together.shape,
-                expected=(*shape, *tail),
+                expected=expected,
             )
-        for row, part in zip(rows, together.reshape(len(rows), *tail), strict=True):
-            pairs.append((size(part - function(row)), budget(chain, row)[1] * (1 + size(row))))
-    return check_chain_bounds(
-        "batches are made of single configurations", chain, *pairs, batch=batch
-    )
+        for index in np.ndindex(shape):
+            q = batch[index]
+            one = function(q)
+            pairs.append((size(together[index] - one), bound(q, one)))
+    return check_chain_bounds(law, chain, *pairs, batch=batch)
 
 
 def adjoint(T: np.ndarray) -> np.ndarray:
@@ -300,12 +322,30 @@ CHAIN_LAWS = (
 """
 
 
-def _exact_displacements(chain: Any, q: np.ndarray) -> np.ndarray:
-    return exact.exactly(chain.coupling) @ exact.exactly(q) + exact.exactly(chain.offset)
+def exact_displacements(chain: Any, q: np.ndarray) -> np.ndarray:
+    """x = C q + c (n,) in 80 digits. Returns: numbers of `exact`. Raises: nothing."""
+    offset = exact.exactly(chain.offset)
+    if not chain.dof:
+        return offset
+    return exact.exactly(chain.coupling) @ exact.exactly(q) + offset
+
+
+def exact_joint_pose(
+    chain: Any,
+    x: np.ndarray,
+    joint: int,
+) -> np.ndarray:
+    """Pose (4, 4) of a joint's z-aligned frame at displacements x (n,), in 80 digits.
+
+    Returns: numbers of `exact`. Raises: nothing.
+    """
+    first = slice(joint + 1)
+    return exact.forward(chain.screws[first], exact.product(chain.local.frames[first]), x[first])
 
 
 def _exact_pose(chain: Any, q: np.ndarray) -> np.ndarray:
-    return exact.rounded(exact.forward(chain.screws, chain.home, _exact_displacements(chain, q)))
+    x = exact_displacements(chain, q)
+    return exact.rounded(exact.forward(chain.screws, chain.home, x))
 
 
 def of_poses(
@@ -337,7 +377,4 @@ def of_twists(
     turning = size(chain.local.rotates * rates)
     sliding = size(chain.local.slides * rates)
     grown = factor * (1 + len(rates))
-    return [
-        (size(error[:3]), grown * angular * turning),
-        (size(error[3:]), grown * linear * (turning + sliding)),
-    ]
+    return of_twist(error, grown * angular * turning, grown * linear * (turning + sliding))

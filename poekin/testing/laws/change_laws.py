@@ -26,7 +26,7 @@ from poekin.model.robot import Robot
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from .chain_laws import adjoint, budget, check_chain_bounds, inverse, of_poses
 from .laws import Law
-from .measures import Pairs, size
+from .measures import Pairs, of_twist, size
 
 
 def a_rebased_chain_is_seen_from_another_base(
@@ -177,5 +177,5 @@ def _of_screws(
     ratios = 1 + size(chain.coupling)
     pairs: Pairs = []
     for error in errors:
-        pairs += [(size(error[:, :3]), ratios * angular), (size(error[:, 3:]), ratios * linear)]
+        pairs += of_twist(error.T, ratios * angular, ratios * linear)
     return pairs

@@ -15,7 +15,6 @@ Source: Park 1994, Sections II to IV, by definition.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
@@ -23,9 +22,16 @@ import numpy as np
 
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from ..oracles import exact
-from .chain_laws import budget, check_chain_bounds
+from .chain_laws import (
+    Shaped,
+    budget,
+    check_batch,
+    check_chain_bounds,
+    exact_displacements,
+    exact_joint_pose,
+)
 from .laws import Law
-from .measures import Pairs, size
+from .measures import Pairs, of_twist, size
 
 STEP = exact.mp.mpf(10) ** -20
 
@@ -92,19 +98,12 @@ def joint_velocities_are_those_of_the_joint_poses(
     chain: Any, q: np.ndarray, dq: np.ndarray
 ) -> float:
     """The twist of each z-aligned frame, by its pose's derivative, in space, body and hybrid frame."""
-    n = len(chain.screws)
-    homes = []
-    home = exact.exactly(np.eye(4))
-    for M in chain.local.frames[:n]:
-        home = home @ exact.exactly(M)
-        homes.append(home)
     found = {frame: chain.joint_velocities(q, dq, frame) for frame in FRAME_NAMES}
     pairs = []
-    for k in range(n):
+    for k in range(len(chain.screws)):
 
         def pose(t: Any, k: int = k) -> np.ndarray:
-            x = _displacements(chain, line(t, q, dq))[: k + 1]
-            return exact.forward(chain.screws[: k + 1], homes[k], x)
+            return exact_joint_pose(chain, exact_displacements(chain, line(t, q, dq)), k)
 
         T = pose(exact.mp.zero)
         dT = (pose(STEP) - pose(-STEP)) / (2 * STEP)
@@ -143,7 +142,7 @@ def screw_derivatives_are_differences_on_the_group(
     for error, weight in errors:
         # per unit of a twist, which at arm's length is as much as the reach
         bound = 16 * weight * reach
-        pairs += [(size(error[:3]), bound * angular), (size(error[3:]), bound * linear)]
+        pairs += of_twist(error, bound * angular, bound * linear)
     return check_chain_bounds(
         "screw derivatives are differences on the group", chain, *pairs, q=q, joint=joint
     )
@@ -172,12 +171,12 @@ def exact_changes(
 
     Returns: `Changes`, as floats. Raises: nothing.
     """
-    x = _displacements(chain, exact.exactly(q))
+    x = exact_displacements(chain, q)
     A = exact.exactly(chain.screws)
     M = exact.exactly(chain.home)
     turns = _exponentials(A, x)
-    before = _product(turns[:joint])
-    after = _product(turns[joint + 1 :]) @ M
+    before = exact.product(turns[:joint])
+    after = exact.product(turns[joint + 1 :]) @ M
     pose = before @ turns[joint] @ after
     back = exact.inverse(pose)
 
@@ -216,10 +215,9 @@ def derivatives_of_batches_are_those_of_single_configurations(
     """Every derivative of a batch has, element by element, the bits that it has for one
     configuration.
     """
-    shape = batch.shape[:-1]
     n = len(chain.screws)
     m = chain.dof
-    functions: list[tuple[Callable[[np.ndarray], np.ndarray], tuple[int, ...]]] = []
+    functions: list[Shaped] = []
     for frame in FRAME_NAMES:
         functions += [
             (lambda q, f=frame: chain.jacobian_rate(q, q, f), (6, m)),
@@ -232,23 +230,13 @@ def derivatives_of_batches_are_those_of_single_configurations(
     for by in ("motion", "entries"):
         functions.append((lambda q, by=by: chain.screw_derivatives(q, by).screws, (6, n, 6)))
         functions.append((lambda q, by=by: chain.screw_derivatives(q, by).home, (6, 6)))
-    pairs: Pairs = []
-    for function, tail in functions:
-        together = function(batch)
-        if together.shape != (*shape, *tail):
-            return check_chain_bounds(
-                "batches have their shape",
-                chain,
-                (np.inf, 0.0),
-                shape=together.shape,
-                expected=(*shape, *tail),
-            )
-        for index in np.ndindex(shape):
-            # products of matrices may be summed in another order in a batch
-            one = function(batch[index])
-            pairs.append((size(together[index] - one), 1e-14 * (1 + size(one))))
-    return check_chain_bounds(
-        "derivatives of batches are those of single configurations", chain, *pairs, batch=batch
+    # Products of matrices may be summed in another order in a batch.
+    return check_batch(
+        "derivatives of batches are those of single configurations",
+        chain,
+        batch,
+        functions,
+        bound=lambda q, one: 1e-14 * (1 + size(one)),
     )
 
 
@@ -259,9 +247,8 @@ def exact_jacobians(chain: Any, q: np.ndarray) -> np.ndarray:
     Returns: numbers of `exact`. Raises: nothing.
     """
     A = exact.exactly(chain.screws)
-    return _exact_columns(
-        chain, A, _exponentials(A, _displacements(chain, q)), exact.exactly(chain.home)
-    )
+    turns = _exponentials(A, exact_displacements(chain, q))
+    return _exact_columns(chain, A, turns, exact.exactly(chain.home))
 
 
 def line(
@@ -284,10 +271,6 @@ def _exponentials(A: np.ndarray, x: np.ndarray) -> list[np.ndarray]:
     return [exact.exp(screw * amount) for screw, amount in zip(A, x, strict=True)]
 
 
-def _product(poses: Iterable[np.ndarray]) -> np.ndarray:
-    return functools.reduce(np.matmul, poses, exact.exactly(np.eye(4)))
-
-
 def _exact_columns(
     chain: Any, screws: Iterable[np.ndarray], turns: Iterable[np.ndarray], home: np.ndarray
 ) -> np.ndarray:
@@ -299,12 +282,6 @@ def _exact_columns(
     if not chain.dof:
         return exact.exactly(np.zeros((3, 6, 0)))
     return _seen(np.array(columns, dtype=object).T @ exact.exactly(chain.coupling), T @ home)
-
-
-def _displacements(chain: Any, q: np.ndarray) -> np.ndarray:
-    if not chain.dof:
-        return exact.exactly(chain.offset)
-    return exact.exactly(chain.coupling) @ q + exact.exactly(chain.offset)
 
 
 def _seen(S: np.ndarray, T: np.ndarray) -> np.ndarray:
@@ -334,7 +311,7 @@ def _of_columns(
     """The errors of the angular and the linear rows of columns, against the budget times the rates."""
     angular, linear = budget(chain, q)
     grown = 8 * rates * (1 + size(chain.coupling))
-    return [(size(error[:3]), grown * angular), (size(error[3:]), grown * linear)]
+    return of_twist(error, grown * angular, grown * linear)
 
 
 DERIVATIVE_LAWS = (

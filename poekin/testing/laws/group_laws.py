@@ -112,7 +112,8 @@ def products_associate(
 ) -> float:
     """In any order: exp log((X Y) Z) = exp log(X (Y Z)) of three exponentials."""
     X, Y, Z = (group.exp(x) for x in (xi, eta, zeta))
-    left, right = (group.exp(group.log(product)) for product in ((X @ Y) @ Z, X @ (Y @ Z)))
+    left = group.exp(group.log((X @ Y) @ Z))
+    right = group.exp(group.log(X @ (Y @ Z)))
     extent = 1 + sum(map(angle, (xi, eta, zeta)))
     pairs = of_elements(left, right, 4 * extent, 8 * extent * sum(map(length, (xi, eta, zeta))))
     return check_bounds(

@@ -19,6 +19,8 @@ Lemmas 1 to 4, as series.
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -213,10 +215,13 @@ def forward(
     shift = exactly(x)
     if A.shape != (len(shift), 6):
         raise ShapeError(f"expected screws (n, 6) and x (n,), got {A.shape} and {shift.shape}")
-    T = _identity(4)
-    for screw, amount in zip(A, shift, strict=True):
-        T = T @ exp(screw * amount)
-    return T @ _shaped(home, (4, 4))
+    factors = (exp(screw * amount) for screw, amount in zip(A, shift, strict=True))
+    return product(factors) @ _shaped(home, (4, 4))
+
+
+def product(poses: Iterable[np.ndarray]) -> np.ndarray:
+    """T_1 T_2 ⋯ T_k (4, 4) of poses (4, 4), in this order; the identity where there is none."""
+    return functools.reduce(np.matmul, map(exactly, poses), _identity(4))
 
 
 def _vector(x: ArrayLike) -> np.ndarray:

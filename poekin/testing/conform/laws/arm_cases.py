@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ....model.kinematics.pose_jacobian import FRAME_NAMES
+from ...laws.chain_laws import exact_displacements
 from ...laws.derivative_laws import exact_jacobians
 from ...laws.measures import size
 from ...oracles import exact
@@ -207,7 +208,7 @@ def confirmed(
     jacobian: bool,
 ) -> bool:
     """Whether pose and space Jacobian of an arm stand against the second oracle."""
-    x = of_arms.displacements(arm, q)
+    x = exact_displacements(arm, q)
     if not confirm.of_pose(arm.screws, arm.home, x):
         return False
     every = of_arms.arm(arm.screws, arm.home)

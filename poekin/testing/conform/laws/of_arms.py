@@ -24,6 +24,7 @@ import numpy as np
 
 from ....model.kinematics.pose_jacobian import FRAME_NAMES
 from ...accuracy.error_bounds import UNIT
+from ...laws.chain_laws import exact_displacements
 from ...laws.derivative_laws import exact_jacobians
 from ...laws.measures import size
 from ...oracles import exact
@@ -62,14 +63,9 @@ def arm(screws: np.ndarray, home: np.ndarray) -> ArmData:
     return ArmData(screws, home, np.eye(n), np.zeros(n), n, reach)
 
 
-def displacements(arm: Any, q: np.ndarray) -> np.ndarray:
-    """x = C q + c (n,), exactly."""
-    return exact.exactly(arm.coupling) @ exact.exactly(q) + exact.exactly(arm.offset)
-
-
 def pose(arm: Any, q: np.ndarray) -> np.ndarray:
     """e^{A_1 x_1} ⋯ e^{A_n x_n} M (4, 4), exactly."""
-    return exact.forward(arm.screws, arm.home, displacements(arm, q))
+    return exact.forward(arm.screws, arm.home, exact_displacements(arm, q))
 
 
 def error_bound(
@@ -82,7 +78,7 @@ def error_bound(
     Whoever made a `poekin.Chain` had numbers of his own for it: a radian for each joint, and its
     reach.
     """
-    x = exact.rounded(displacements(arm, q))
+    x = exact.rounded(exact_displacements(arm, q))
     A = _floats(arm.screws)
     M = _floats(arm.home)
     turns = np.any(A[:, :3] != 0, axis=1)
