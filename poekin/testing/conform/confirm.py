@@ -44,11 +44,15 @@ def is_log(X: np.ndarray, truth: np.ndarray) -> bool:
     E = _expm(truth)
     given = _matrix(exact.exactly(X))
     S = E[:3, :3].T * given[:3, :3]
-    sound = _largest(S - S.T) < AGREE and _largest(E[:3, :3] - given[:3, :3]) < 0.5
+    if not _largest(S - S.T) < AGREE:
+        return False
+    if not _largest(E[:3, :3] - given[:3, :3]) < 0.5:
+        return False
     if len(X) == 4:
-        scale = 1 + max(_largest(given[:3, 3]), max(abs(_mp.mpf(v)) for v in truth[3:]))
-        sound = sound and _largest(E[:3, 3] - given[:3, 3]) < AGREE * scale
-    return bool(sound and _mp.norm([_mp.mpf(w) for w in truth[:3]]) <= _mp.pi + AGREE)
+        scale = 1 + max(_largest(given[:3, 3]), _largest(truth[3:]))
+        if not _largest(E[:3, 3] - given[:3, 3]) < AGREE * scale:
+            return False
+    return bool(_mp.norm([_mp.mpf(w) for w in truth[:3]]) <= _mp.pi + AGREE)
 
 
 def of_adjoint(T: np.ndarray, within: float = 1e-14) -> bool:
@@ -69,7 +73,9 @@ def of_jacobian(name: str, xi: np.ndarray) -> bool:
     The integral is the upper right block of the exponential of [± ad ξ, I; 0, 0].
     """
     n = len(xi)
-    sign = -1 if name.startswith("right") else 1
+    sign = 1
+    if name.startswith("right"):
+        sign = -1
     big = _mp.zeros(2 * n)
     big[:n, :n] = sign * _ad(xi)
     big[:n, n:] = _mp.eye(n)
@@ -104,8 +110,9 @@ def of_velocities(
     back = _mp.inverse(T)
     truth = exact.exactly(columns)
     for k in range(len(x)):
-        ahead, behind = (_shifted(x, k, sign * step) for sign in (1, -1))
-        X = (product(screws, home, ahead) - product(screws, home, behind)) / (2 * step) * back
+        ahead = product(screws, home, _shifted(x, k, step))
+        behind = product(screws, home, _shifted(x, k, -step))
+        X = (ahead - behind) / (2 * step) * back
         if not _largest(X - _hat(truth[:, k])) < 1e-50 * (1 + _largest(truth[:, k])) ** 2:
             return False
     return True
@@ -156,9 +163,9 @@ def _hat(xi: Any) -> Any:
     x, y, z = (_mp.mpf(c) for c in list(xi)[:3])
     rows = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
     if len(xi) == 6:
-        rows = [[*row, _mp.mpf(v)] for row, v in zip(rows, list(xi)[3:], strict=True)] + [
-            [0, 0, 0, 0]
-        ]
+        for row, v in zip(rows, list(xi)[3:], strict=True):
+            row.append(_mp.mpf(v))
+        rows.append([0, 0, 0, 0])
     return _mp.matrix(rows)
 
 

@@ -212,9 +212,8 @@ def outcome(
     hint = _hint(law, subject, found, again)
     display = law.show(subject, case)
     worst = max(verdict, again, key=lambda v: v.size)
-    unconfirmed = ""
     if not law.confirm(subject, case):
-        unconfirmed = "the two oracles do not agree on the exact result"
+        plain = replace(plain, unconfirmed="the two oracles do not agree on the exact result")
     return replace(
         plain,
         grade=max(verdict.grade, again.grade),
@@ -229,7 +228,6 @@ def outcome(
         expected=display.expected,
         names=display.names,
         hint=hint,
-        unconfirmed=unconfirmed,
     )
 
 

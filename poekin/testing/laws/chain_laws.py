@@ -275,7 +275,7 @@ def adjoint(T: np.ndarray) -> np.ndarray:
     Raises: nothing.
     """
     R = T[:3, :3]
-    (x, y, z) = T[:3, 3]
+    x, y, z = T[:3, 3]
     corner = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]) @ R
     return np.block([[R, np.zeros((3, 3))], [corner, R]])
 

@@ -81,7 +81,9 @@ def of_blocks(
     """
     if len(error) == 3:
         return [(size(error), diagonal)]
-    P = (error[:3, :3], error[3:, 3:])
-    corner = error[:3, 3:]
-    Q = error[3:, :3]
-    return [(size(P[0]), diagonal), (size(P[1]), diagonal), (size(corner), 0.0), (size(Q), lower)]
+    return [
+        (size(error[:3, :3]), diagonal),
+        (size(error[3:, 3:]), diagonal),
+        (size(error[:3, 3:]), 0.0),
+        (size(error[3:, :3]), lower),
+    ]

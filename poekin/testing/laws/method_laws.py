@@ -15,9 +15,9 @@ Denavit and Hartenberg.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,54 +35,57 @@ Method = Callable[[Any, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 def direct_space(chain: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The pose, and the body Jacobian (6, n) by way of the space Jacobian of the direct method."""
-    exponentials = _exponentials(chain.space.screws, x)
+    screws = chain.space.screws
+    exponentials = _exponentials(screws, x)
     J = _rows(len(x))
-    before = direct.space(chain.space.screws.tolist(), exponentials, len(x), J)
-    last = exponentials[-1] if len(x) > 1 else algebra.IDENTITY
-    T = _matrix(before) @ _matrix(last) @ chain.space.home
+    before = direct.space(screws.tolist(), exponentials, len(x), J)
+    T = _matrix(before) @ _of_several(exponentials, -1) @ chain.space.home
     return T, adjoint(inverse(T)) @ np.array(J)
 
 
 def direct_body(chain: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The pose, and the body Jacobian (6, n) by the direct method."""
-    exponentials = _exponentials(chain.body.screws, x)
+    screws = chain.body.screws
+    exponentials = _exponentials(screws, x)
     J = _rows(len(x))
-    after = direct.body(chain.body.screws.tolist(), exponentials, len(x), J)
-    first = exponentials[0] if len(x) > 1 else algebra.IDENTITY
-    return chain.body.home @ _matrix(first) @ _matrix(after), np.array(J)
+    after = direct.body(screws.tolist(), exponentials, len(x), J)
+    T = chain.body.home @ _of_several(exponentials, 0) @ _matrix(after)
+    return T, np.array(J)
 
 
 def recursive_with_tool(chain: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The pose, and the body Jacobian (6, n) by the recursion with the trailing tool."""
-    links, rotates, slides, J = *_links(chain, x), _rows(len(x))
-    seen = recursive.body_with_tool(
-        links, _twelve(chain.local.frames[-1]), rotates, slides, len(x), J
-    )
-    return _matrix(links[0]) @ _matrix(seen), np.array(J)
+    links = _links(chain, x)
+    tool = _twelve(chain.local.frames[-1])
+    J = _rows(len(x))
+    seen = recursive.body_with_tool(links.poses, tool, links.rotates, links.slides, len(x), J)
+    return _matrix(links.poses[0]) @ _matrix(seen), np.array(J)
 
 
 def recursive_without_tool(chain: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The pose, and the body Jacobian (6, n) by the recursion as printed, the tool put behind it."""
-    links, rotates, slides, J = *_links(chain, x), _rows(len(x))
-    seen = recursive.body(links, rotates, slides, len(x), J)
+    links = _links(chain, x)
     tool = chain.local.frames[-1]
-    first = links[0] if len(x) > 1 else algebra.IDENTITY
-    return _matrix(first) @ _matrix(seen) @ tool, adjoint(inverse(tool)) @ np.array(J)
+    J = _rows(len(x))
+    seen = recursive.body(links.poses, links.rotates, links.slides, len(x), J)
+    T = _of_several(links.poses, 0) @ _matrix(seen) @ tool
+    return T, adjoint(inverse(tool)) @ np.array(J)
 
 
 def dh_recursion(chain: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The pose, and the body Jacobian (6, n) by the recursion of Orin and Schrader: A_i = e^{S x_i}
     M_{i+1}.
     """
-    frames = chain.local.frames
-    (_, rotates, slides) = _links(chain, x)
+    first, *frames = chain.local.frames
+    rotates = chain.local.rotates.tolist()
+    slides = chain.local.slides.tolist()
     J = _rows(len(x))
-    turned = [
-        _turned(np.eye(4), r, s, amount) for r, s, amount in zip(rotates, slides, x, strict=True)
-    ]
-    links = [algebra.compose(a, _twelve(M)) for a, M in zip(turned, frames[1:], strict=True)]
+    links = []
+    for r, s, amount, M in zip(rotates, slides, x, frames, strict=True):
+        turned = _turned(np.eye(4), r, s, amount)
+        links.append(algebra.compose(turned, _twelve(M)))
     T = dh_recursive.body(links, algebra.IDENTITY, rotates, slides, len(x), J)
-    return frames[0] @ _matrix(T), np.array(J)
+    return first @ _matrix(T), np.array(J)
 
 
 METHODS: Mapping[str, Method] = MappingProxyType(
@@ -97,7 +100,11 @@ METHODS: Mapping[str, Method] = MappingProxyType(
 
 
 def methods_agree(
-    chain: Any, q: np.ndarray, dq: np.ndarray, joint: int, methods: Mapping[str, Method] = METHODS
+    chain: Any,
+    q: np.ndarray,
+    dq: np.ndarray,
+    joint: int,
+    methods: Mapping[str, Method] = METHODS,
 ) -> float:
     """Direct = recursive = DH recursive, pose and Jacobian, and the V recursion; `joint` says that
     there is one.
@@ -108,10 +115,18 @@ def methods_agree(
     V = chain.jacobian(q, "body") @ dq
     for method in methods.values():
         T, J = method(chain, x)
-        pairs += of_poses(chain, q, T, chain.fk(q)) + of_twists(chain, q, dq, J @ rates - V, 4.0)
-    links, rotates, slides = _links(chain, x)
+        pairs += of_poses(chain, q, T, chain.fk(q))
+        pairs += of_twists(chain, q, dq, J @ rates - V, 4.0)
+    links = _links(chain, x)
     tool = _twelve(chain.local.frames[-1])
-    recursion = recursive.body_velocity(links, tool, rotates, slides, len(x), rates.tolist())
+    recursion = recursive.body_velocity(
+        links.poses,
+        tool,
+        links.rotates,
+        links.slides,
+        len(x),
+        rates.tolist(),
+    )
     pairs += of_twists(chain, q, dq, np.array(recursion) - V, 4.0)
     return check_chain_bounds("methods agree", chain, *pairs, q=q, dq=dq, joint=joint)
 
@@ -121,18 +136,35 @@ METHOD_LAWS = (Law(methods_agree, ("q", "dq", "joint")),)
 
 
 def _exponentials(screws: np.ndarray, x: np.ndarray) -> list[tuple[float, ...]]:
-    return [
-        exponential.joint(tuple(S[:3]), tuple(S[3:]), amount, math.sin(amount), math.cos(amount))
-        for S, amount in zip(screws.tolist(), x.tolist(), strict=True)
-    ]
+    exponentials = []
+    for S, amount in zip(screws.tolist(), x.tolist(), strict=True):
+        w = tuple(S[:3])
+        v = tuple(S[3:])
+        exponentials.append(exponential.joint(w, v, amount, math.sin(amount), math.cos(amount)))
+    return exponentials
 
 
-def _links(chain: Any, x: np.ndarray) -> tuple[list[tuple[float, ...]], list[float], list[float]]:
+class _Links(NamedTuple):
     """f_{i-1,i} = M_i e^{S_i x_i}, and r and s of each joint's S = (0, 0, r; 0, 0, s)."""
+
+    poses: list[tuple[float, ...]]
+    rotates: list[float]
+    slides: list[float]
+
+
+def _links(chain: Any, x: np.ndarray) -> _Links:
     rotates = chain.local.rotates.tolist()
     slides = chain.local.slides.tolist()
-    parts = zip(chain.local.frames[:-1], rotates, slides, x, strict=True)
-    return [_turned(M, r, s, amount) for M, r, s, amount in parts], rotates, slides
+    joints = zip(chain.local.frames[:-1], rotates, slides, x, strict=True)
+    poses = [_turned(M, r, s, amount) for M, r, s, amount in joints]
+    return _Links(poses, rotates, slides)
+
+
+def _of_several(poses: Sequence[tuple[float, ...]], place: int) -> np.ndarray:
+    """The pose at a place, as a matrix; the identity where it is the only one."""
+    if len(poses) == 1:
+        return np.eye(4)
+    return _matrix(poses[place])
 
 
 def _turned(

@@ -12,7 +12,6 @@ carried it (Park 1994, eq. (11)), in the base frame.
 
 from __future__ import annotations
 
-import functools
 import math
 from typing import Any
 
@@ -97,8 +96,8 @@ def _singular_cases(draw: st.DrawFn, bounds: tuple[int, int]) -> tuple[Chain, np
     q = np.asarray(draw(coordinates(Chain(A, home))))
     i = draw(st.integers(0, n - 2))
     j = draw(st.integers(i + 1, n - 1))
-    between = functools.reduce(
-        np.matmul, (se3.exp(A[k] * q[k]) for k in range(i + 1, j)), np.eye(4)
-    )
+    between = np.eye(4)
+    for k in range(i + 1, j):
+        between = between @ se3.exp(A[k] * q[k])
     A[j] = se3.adjoint(se3.inverse(between)) @ A[i]
     return Chain(A, home), frozen(q)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -216,62 +217,73 @@ def _noise_law() -> SubjectLaw:
     )
 
 
-def _batch_law(name: str) -> SubjectLaw:
-    count = _count(name)
-    check = _checked(name)
+@dataclass(frozen=True)
+class _BatchLaw:
+    """The law of a function of a batch: its value is that of each element."""
 
-    def rows(case: Case) -> np.ndarray:
-        return case.numbers.reshape(-1, count)
+    name: str
 
-    def tail(subject: Subject) -> tuple[int, ...]:
-        return _truth(subject, name, np.zeros(count)).shape
+    def rows(self, case: Case) -> np.ndarray:
+        return case.numbers.reshape(-1, _count(self.name))
 
-    def cases(subject: Subject) -> st.SearchStrategy[Case]:
+    def tail(self, subject: Subject) -> tuple[int, ...]:
+        return _truth(subject, self.name, np.zeros(_count(self.name))).shape
+
+    def cases(self, subject: Subject) -> st.SearchStrategy[Case]:
         def of(shape: tuple[int, ...]) -> st.SearchStrategy[Case]:
-            return batches(_numbers(name), shape).map(lambda x: Case(np.asarray(x).ravel(), shape))
+            elements = batches(_numbers(self.name), shape)
+            return elements.map(lambda x: Case(np.asarray(x).ravel(), shape))
 
         return batch_shapes().flatmap(of)
 
-    def arguments(subject: Subject, case: Case) -> np.ndarray:
-        made = [_argument(subject, name, row) for row in rows(case)]
-        one = _argument(subject, name, np.zeros(count))
+    def arguments(self, subject: Subject, case: Case) -> np.ndarray:
+        made = [_argument(subject, self.name, row) for row in self.rows(case)]
+        one = _argument(subject, self.name, np.zeros(_count(self.name)))
         return np.reshape(made, (*_shape(case), *one.shape))
 
-    def together(subject: Subject, case: Case) -> Verdict:
-        x = arguments(subject, case)
-        shape = (*_shape(case), *tail(subject))
-        result, fault = called(subject.function(name), shape, x)
+    def check(self, subject: Subject, case: Case) -> Verdict:
+        x = self.arguments(subject, case)
+        shape = (*_shape(case), *self.tail(subject))
+        result, fault = called(subject.function(self.name), shape, x)
         if fault:
-            return graded(f"batches of {name}", fault)
-        results = result.reshape(-1, *tail(subject))
+            return graded(f"batches of {self.name}", fault)
+        results = result.reshape(-1, *self.tail(subject))
         flat = x.reshape(-1, *x.shape[len(_shape(case)) :])
-        precision = subject.precision(name)
+        check = _checked(self.name)
+        precision = subject.precision(self.name)
         verdicts = [
             check(lambda _, row=row: row, one, Grade.BROKEN, precision)
             for one, row in zip(flat, results, strict=True)
         ]
         return max(verdicts, key=lambda v: v.rank, default=NOTHING)
 
-    def show(subject: Subject, case: Case) -> Shown:
-        x = _in_order(subject, name, arguments(subject, case))
+    def show(self, subject: Subject, case: Case) -> Shown:
+        x = _in_order(subject, self.name, self.arguments(subject, case))
         text = f"np.reshape({typed(x.ravel())}, {x.shape})"
-        truth = np.array([_truth(subject, name, row) for row in rows(case)])
-        truth = truth.reshape(*_shape(case), *tail(subject))
-        words = f"a batch {_shape(case)} of {'; '.join(map(coordinates, rows(case)))}"
-        return Shown(words, subject.call(name, x=text), _in_order(subject, name, truth))
+        truth = np.array([_truth(subject, self.name, row) for row in self.rows(case)])
+        truth = truth.reshape(*_shape(case), *self.tail(subject))
+        words = f"a batch {_shape(case)} of {'; '.join(map(coordinates, self.rows(case)))}"
+        expected = _in_order(subject, self.name, truth)
+        return Shown(words, subject.call(self.name, x=text), expected)
 
-    def confirmed(subject: Subject, case: Case) -> bool:
-        return all(_confirmed(subject, name, row) for row in rows(case))
+    def confirm(self, subject: Subject, case: Case) -> bool:
+        return all(_confirmed(subject, self.name, row) for row in self.rows(case))
 
+    def allowed(self, case: Case) -> bool:
+        return all(_drawable(self.name, row) for row in self.rows(case))
+
+
+def _batch_law(name: str) -> SubjectLaw:
+    law = _BatchLaw(name)
     return SubjectLaw(
         name=f"{name} of batches",
         says=f"{name} of a batch is {name} of each, in shapes (), (1,), (0,), (3, 1, 2)",
         needs=name,
-        cases=cases,
-        check=together,
-        confirm=confirmed,
-        show=show,
-        allowed=lambda case: all(_drawable(name, row) for row in rows(case)),
+        cases=law.cases,
+        check=law.check,
+        confirm=law.confirm,
+        show=law.show,
+        allowed=law.allowed,
         applies=lambda subject: subject.batch,
         unless="batch = True is not declared",
     )

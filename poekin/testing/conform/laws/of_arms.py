@@ -110,7 +110,7 @@ def pose_parts(
 ) -> list[Part]:
     """The errors of R and t, and of the last row."""
     error = exact.exactly(T) - pose(arm, q)
-    (angular, lengths) = error_bound(arm, q, precision.unit)
+    angular, lengths = error_bound(arm, q, precision.unit)
     t = float(exact.norm(error[:3, 3]))
     return [
         Part(
@@ -143,7 +143,7 @@ def jacobian_parts(
     """The errors of the worst column's ω and v."""
     truth = exact_jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(frame)]
     error = exact.exactly(J) - truth
-    (angular, lengths) = error_bound(arm, q, precision.unit)
+    angular, lengths = error_bound(arm, q, precision.unit)
     ratios = 1 + size(arm.coupling)
     slides = 0.0 if np.all(np.any(_floats(arm.screws)[:, :3] != 0, axis=1)) else 1.0
     w, v = (

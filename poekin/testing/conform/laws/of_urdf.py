@@ -65,7 +65,7 @@ def check_robot(subject: Subject, case: Case) -> Verdict:
     verdicts = []
     for k in range(len(small_urdf.rows_of(case))):
         name = small_urdf.link(case, k)
-        (arm, q, _) = small_urdf.arm(case, k)
+        arm, q, _ = small_urdf.arm(case, k)
         T, fault = called(lambda name=name: subject.noted(law, poses[name]), (4, 4))
         if fault:
             verdicts.append(graded(law, f"of link {name}: {fault}"))

@@ -257,8 +257,8 @@ class _Forked:
     ):
         sys.stdout.flush()
         sys.stderr.flush()
-        (there, requests) = os.pipe()
-        (replies, here) = os.pipe()
+        there, requests = os.pipe()
+        replies, here = os.pipe()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of threads, such as NumPy's, which are made anew
             self._pid = os.fork()

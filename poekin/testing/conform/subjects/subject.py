@@ -126,16 +126,20 @@ class Subject:
             )
         for name in self.functions:
             self._check_parameters(name)
+        self.linear_first = False
+        self.frame = ""
+        self._declare_conventions()
+
+    def _declare_conventions(self) -> None:
+        """Set the order of twists and the frame of Jacobians, as far as any function needs them."""
         twisted = [name for name in self.functions if name in SE3 or name in ARMS]
         if twisted == ["fk"] and self.arm is not None:
             twisted = []  # of one arm, known to poekin: no twist goes in or comes out
         read = "read_urdf" in self.functions and self._attribute("jacobian_frame") is not None
         if read and not twisted:  # what it reads has a Jacobian
             twisted = ["jacobian_frame"]
-        self.linear_first = (
-            bool(twisted) and self._declared("twist_order", ORDERS, twisted[0]) == "linear first"
-        )
-        self.frame = ""
+        if twisted:
+            self.linear_first = self._declared("twist_order", ORDERS, twisted[0]) == ORDERS[1]
         if read or "jacobian" in self.functions:
             self.frame = self._declared("jacobian_frame", FRAME_NAMES, "jacobian")
 

@@ -51,13 +51,16 @@ def axis(r: BytesReader) -> np.ndarray:
     """A unit vector (3,): an axis of the frame, nearly one, or any. Takes 12 bytes."""
     kind = r.byte() % 4
     place = r.byte()
-    sign = 1.0 if r.byte() < 128 else -1.0
-    n = np.array([sign, 0.0, 0.0])
+    n = np.array([1.0, 0.0, 0.0])
+    if r.byte() >= 128:
+        n[0] = -1.0
     if kind == 1:
-        n[1:] = [10.0 ** -r.fraction(1.0, 17.0), -(10.0 ** -r.fraction(1.0, 17.0))]
+        n[1] = 10.0 ** -r.fraction(1.0, 17.0)
+        n[2] = -(10.0 ** -r.fraction(1.0, 17.0))
     elif kind:
         anywhere = np.array([r.fraction(-1.0, 1.0) for _ in range(3)])
-        n = anywhere if math.hypot(*anywhere) > 0.1 else n
+        if math.hypot(*anywhere) > 0.1:
+            n = anywhere
     return np.roll(n / math.hypot(*n), place)
 
 
@@ -82,6 +85,10 @@ def turned(n: np.ndarray, by: float) -> np.ndarray:
 
 @functools.cache
 def _marks(largest: float, smallest: float) -> list[float]:
-    marks = [*(x for s in SWITCHES for x in around(s)), math.pi]
-    marks += [x for centre in (math.pi, math.pi / 2, 2 * math.pi) for x in around(centre)]
+    marks: list[float] = []
+    for switch in SWITCHES:
+        marks += around(switch)
+    marks.append(math.pi)
+    for centre in (math.pi, math.pi / 2, 2 * math.pi):
+        marks += around(centre)
     return [x for x in marks if smallest <= x <= largest]
