@@ -78,7 +78,7 @@ def fault(result: Any, change: str, k: int) -> str:
     if [j.number for j in result.differing] != [k + 1]:
         return f"blames {[j.number for j in result.differing]}"
     j = result.joints[k]
-    if (j.axis_differs, j.zero_differs, j.flipped) != (
+    if (j.axis_differs, j.zero_differs, j.reversed) != (
         change in ("tilt", "shift"),
         change == "zero",
         change == "flip",
@@ -87,7 +87,7 @@ def fault(result: Any, change: str, k: int) -> str:
     size = {
         "tilt": (j.angle, 0.1),
         "shift": (j.normal, 1.0),
-        "zero": (-j.zero, 0.5),
+        "zero": (-j.zero_offset, 0.5),
         "flip": (1, 1),
     }[change]
     if not abs(size[0] - size[1]) <= 0.01 * size[1]:

@@ -65,7 +65,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         f"{len(names)} arms of 6 or 7 revolute joints, real and random. One change at a time is planted in each "
         "interior joint, and the arm is compared with its changed self: the comparison has to name the joint, to give "
         "the change's size within 1 %, and to blame nothing else. A moved base and a moved tool are no differences: "
-        "they have to come back as the alignment, and no joint may be blamed.",
+        "they have to come back as the alignment, and no joint may be implicated.",
         figures=[
             _figure("one change planted in an arm: joint named, size within 1 %, nothing else blamed", found),
             _figure("base, tool or both moved: alignment only", moved),
@@ -93,8 +93,8 @@ def size(result, change: str, k: int) -> float:  # type: ignore[no-untyped-def]
         {
             "tilt": joint.angle,
             "shift": joint.normal,
-            "zero": abs(joint.zero),
-            "flip": joint.flipped,
+            "zero": abs(joint.zero_offset),
+            "flip": joint.reversed,
         }[change]
     )
 

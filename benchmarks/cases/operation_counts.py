@@ -29,13 +29,13 @@ CURVES = (
     ("DH, recursive, as printed", "dh_recursive", "paper"),
     ("DH, standard frames, charged alike", "dh_paul", "paper"),
     ("POE, recursive, as printed = DH, modified, alike", "recursive", "paper"),
-    ("POE, recursive, cross products, as needed", "recursive_by_cross", "needed"),
-    ("two planar rotations a link, as needed", "structured", "needed"),
+    ("POE, recursive, cross products, as needed", "recursive_by_cross", "live"),
+    ("two planar rotations a link, as needed", "structured", "live"),
 )
 
 # What else must come out, from n joints on: (multiplications, additions) as (a n - b).
 CLAIMS = (
-    ("counted as needed: POE, recursive, 42n − 81 and 30n − 60", 3, "recursive", "needed", ((42, 81), (30, 60))),
+    ("counted as needed: POE, recursive, 42n − 81 and 30n − 60", 3, "recursive", "live", ((42, 81), (30, 60))),
     ("equal bookkeeping: DH on modified frames, 42n − 78 and 30n − 57", 2, "dh_modified", "paper",
      ((42, 78), (30, 57))),
     ("equal bookkeeping: DH on standard frames, 42n − 36 and 30n − 27", 2, "dh_paul", "paper", ((42, 36), (30, 27))),
@@ -121,7 +121,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         pictures=[
             lines(
                 f"{what} of one Jacobian, counted", list(JOINTS),
-                {label: [getattr(count(arms[n][0], method=m, charged=charged), attribute) for n in JOINTS]
+                {label: [getattr(count(arms[n][0], method=m, counting=charged), attribute) for n in JOINTS]
                  for label, m, charged in CURVES},
                 x_label="number of revolute joints n", y_label=what.lower(),
             )
@@ -170,9 +170,9 @@ def _paper_s_table(arms: dict[int, Chain]) -> tuple[list[list[int | str]], int, 
                 wrong += value != expected
                 row.append(value if value == expected else f"{value} (printed {expected})")
         for method, charged in (
-            ("recursive_with_tool", "paper"), ("recursive", "needed"), ("dh_paul", "paper"), ("structured", "needed"),
+            ("recursive_with_tool", "paper"), ("recursive", "live"), ("dh_paul", "paper"), ("structured", "live"),
         ):  # fmt: skip
-            row += _numbers(count(arm, method=method, charged=charged))[:2]
+            row += _numbers(count(arm, method=method, counting=charged))[:2]
         rows.append(row)
     return rows, wrong, cells
 
@@ -186,7 +186,7 @@ def _claim(
         found != a * n - b
         for n in joints
         for found, (a, b) in zip(
-            _numbers(count(arms[n], method=method, charged=charged)), formulas, strict=False
+            _numbers(count(arms[n], method=method, counting=charged)), formulas, strict=False
         )
     )
     shown = "exact" if not wrong else f"{wrong} of {2 * len(joints)} counts differ"

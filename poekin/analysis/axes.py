@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import InputError, safe_repr
 from ..groups.arrays import Array
 from ..model.chain import Chain
-from .compare.alignment.lines import at_rest, cross, direction
+from .compare.alignment.lines import cross, direction, uncoupled_at_zero
 from .shapes import Shape, shapes
 from .tolerances import check_tolerances
 
@@ -118,7 +118,7 @@ def axes(chain: Chain, *, tol_mm: float = 0.01, tol_deg: float = 0.001) -> AxesR
             f"expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
         )
     check_tolerances(tol_mm, tol_deg)
-    rest = at_rest(chain)
+    rest = uncoupled_at_zero(chain)
     ways = direction(rest.screws, rest.kinds)
     places = [
         None if k == "prismatic" else cross(S[:3], S[3:])

@@ -71,18 +71,18 @@ def test_one_change_is_planted_in_one_joint(k):
     assert np.abs(again[3:] - shifted[3:]).max() > 1e-5, "across, in any direction"
 
 
-JOINT = {"number": 3, "axis_differs": False, "zero_differs": False, "flipped": False}
+JOINT = {"number": 3, "axis_differs": False, "zero_differs": False, "reversed": False}
 FOUND: dict[str, dict[str, Any]] = {
     "tilt": {"axis_differs": True, "angle": 0.1, "normal": 0.001},
     "shift": {"axis_differs": True, "normal": 1.0},
-    "zero": {"zero_differs": True, "zero": -0.5},
-    "flip": {"flipped": True},
+    "zero": {"zero_differs": True, "zero_offset": -0.5},
+    "flip": {"reversed": True},
 }
 
 
 def result(change: str, joint: dict[str, Any] | None = None, **changes: Any) -> Any:
     j = SimpleNamespace(
-        **{"angle": 0.0, "normal": 0.0, "zero": 0.0, **JOINT, **FOUND[change], **(joint or {})}
+        **{"angle": 0.0, "normal": 0.0, "zero_offset": 0.0, **JOINT, **FOUND[change], **(joint or {})}
     )
     fields = {
         "differing": [j], "joints": [None, None, j], "equal": change in ("zero", "flip"), "verdict": "joint 3 differs",
@@ -97,7 +97,7 @@ def test_a_comparison_that_is_right_has_no_fault(change):
     little = {
         "tilt": {"angle": 0.1009},
         "shift": {"normal": 0.991},
-        "zero": {"zero": -0.5049},
+        "zero": {"zero_offset": -0.5049},
         "flip": {},
     }[change]
     assert fault(result(change, little), change, 2) == ""
@@ -122,11 +122,11 @@ def test_what_is_wrong_with_a_comparison_is_said(change):
     wrong = {
         "tilt": {"angle": 0.101005},
         "shift": {"normal": 1.01005},
-        "zero": {"zero": -0.505025},
+        "zero": {"zero_offset": -0.505025},
     }.get(change)
     assert fault(result(change), change, 1) == "blames [3]"
     assert fault(result(change, differing=[]), change, 2) == "blames []"
-    for name in ("axis_differs", "zero_differs", "flipped"):
+    for name in ("axis_differs", "zero_differs", "reversed"):
         flipped = {name: not FOUND[change].get(name, False)}
         assert fault(result(change, flipped), change, 2) == "says joint 3 differs"
     assert wrong is None or fault(result(change, wrong), change, 2).startswith("size (")

@@ -136,7 +136,9 @@ def test_ik_all_lists_the_same_solutions_in_every_unit(name, method, scale):
     other, sizes = geared(arm, scale)
     T = arm.fk(arm.random(5, 3))
     for copies in (False, True):
-        expected, found = (ik_all(a, T, method=method, copies=copies) for a in (arm, other))
+        expected, found = (
+            ik_all(a, T, method=method, all_revolutions=copies) for a in (arm, other)
+        )
         assert found.method == expected.method
         for k in range(3):
             a, b = expected.solutions[k], found.solutions[k] / sizes
@@ -146,7 +148,7 @@ def test_ik_all_lists_the_same_solutions_in_every_unit(name, method, scale):
             )
             q = np.round(found.solutions[k] * np.abs(1 / sizes), 9)
             assert [*map(tuple, q)] == sorted(map(tuple, q))
-            assert sorted(found.copies[k]) == sorted(expected.copies[k])
+            assert sorted(found.n_revolutions[k]) == sorted(expected.n_revolutions[k])
 
 
 def test_follow_goes_the_same_way_in_every_unit(scale):

@@ -132,7 +132,7 @@ def test_lengths_are_those_of_a_path_cut_into_pieces(T_s0, T_s1):
         ).sum()
         # a chord of an arc of pi / 400 is shorter than it by (pi / 400)^2 / 24 = 2.6e-6 of it
         np.testing.assert_allclose(
-            [way, turn], motion.lengths(T_s0, T_s1, along), rtol=3e-6, atol=rounding
+            [way, turn], motion.path_lengths(T_s0, T_s1, along), rtol=3e-6, atol=rounding
         )
 
 
@@ -216,12 +216,14 @@ def test_s_never_goes_back_and_its_rates_are_its_rates(timing):
 @example(distance=np.array([5e-324, 0.0, 0.0]), speed=[1.0] * 3, acceleration=[2.0, 1.0, 1.0])
 @given(distance=vector(3), speed=three, acceleration=three)
 def test_the_fastest_timing_keeps_every_limit_and_reaches_one(law, distance, speed, acceleration):
-    timing = motion.fastest(law, distance, speed=speed, acceleration=acceleration)
+    timing = motion.minimum_time(law, distance, speed=speed, acceleration=acceleration)
     if timing.duration == 0:
         assert np.abs(distance).max() < 1e-90
         return
     # the peaks: the middle, the ends, where a quintic's acceleration is greatest, and a grid
-    u = np.concatenate([np.linspace(0, 1, 999), [0.5 - math.sqrt(3) / 6, timing.ramp]])
+    u = np.concatenate(
+        [np.linspace(0, 1, 999), [0.5 - math.sqrt(3) / 6, timing.acceleration_fraction]]
+    )
     _, ds, dds = timing(u * timing.duration)
     used = np.stack(
         [np.abs(distance) * ds.max() / speed, np.abs(distance) * np.abs(dds).max() / acceleration]
@@ -236,7 +238,7 @@ def test_the_fastest_timing_keeps_every_limit_and_reaches_one(law, distance, spe
 def test_one_limit_is_enough(law, missing):
     given = {"speed": 2.0, "acceleration": 3.0}
     del given[missing]
-    timing = motion.fastest(law, [1.0, -2.0], **given)
+    timing = motion.minimum_time(law, [1.0, -2.0], **given)
     _, ds, dds = timing(np.linspace(0, timing.duration, 1001))
     for name, x in (("speed", ds), ("acceleration", dds)):
         if name in given:
@@ -244,18 +246,27 @@ def test_one_limit_is_enough(law, missing):
 
 
 def test_a_trapezoid_is_a_triangle_where_the_speed_is_not_reached():
-    timing = motion.fastest("trapezoidal", 1.0, speed=10.0, acceleration=4.0)
-    assert (timing.ramp, timing.duration) == (0.5, pytest.approx(1.0, rel=1e-14))
-    timing = motion.fastest("trapezoidal", 1.0, speed=1.0, acceleration=4.0)
+    timing = motion.minimum_time("trapezoidal", 1.0, speed=10.0, acceleration=4.0)
+    assert (timing.acceleration_fraction, timing.duration) == (0.5, pytest.approx(1.0, rel=1e-14))
+    timing = motion.minimum_time("trapezoidal", 1.0, speed=1.0, acceleration=4.0)
     assert timing.duration == pytest.approx(1.25, rel=1e-14)
 
 
 @pytest.mark.parametrize("distance, speed, acceleration", [(1.0, 1.0, 1e13), (1.0, 1.0, 1e20), (3.0, 0.1, 1e300),
                                                            (1e-12, 1e-3, 1.7e308)])  # fmt: skip
 def test_a_ramp_of_next_to_no_time_keeps_the_limits_too(distance, speed, acceleration):
-    timing = motion.fastest("trapezoidal", distance, speed=speed, acceleration=acceleration)
+    timing = motion.minimum_time("trapezoidal", distance, speed=speed, acceleration=acceleration)
     assert timing.duration == pytest.approx(distance / speed, rel=1e-12)
-    u = np.array([0.0, 0.5 * timing.ramp, timing.ramp, 0.5, 1 - timing.ramp, 1.0])
+    u = np.array(
+        [
+            0.0,
+            0.5 * timing.acceleration_fraction,
+            timing.acceleration_fraction,
+            0.5,
+            1 - timing.acceleration_fraction,
+            1.0,
+        ]
+    )
     s, ds, dds = timing(u * timing.duration)
     assert np.isfinite([s, ds, dds]).all()
     assert s[-1] == 1
@@ -264,14 +275,14 @@ def test_a_ramp_of_next_to_no_time_keeps_the_limits_too(distance, speed, acceler
 
 
 def test_no_way_takes_no_time():
-    timing = motion.fastest("cubic", [0.0, 0.0], speed=1.0)
+    timing = motion.minimum_time("cubic", [0.0, 0.0], speed=1.0)
     assert timing.duration == 0
     np.testing.assert_array_equal(timing([-1, 0, 1]).s, [0, 1, 1])
 
 
 def test_limits_for_way_and_angle_of_a_pose():
     T_s0, T_s1 = np.eye(4), se3.exp([0, 0, 1.0, 0, 0, 0.5])
-    timing = motion.fastest("quintic", motion.lengths(T_s0, T_s1), speed=[0.25, 10.0])
+    timing = motion.minimum_time("quintic", motion.path_lengths(T_s0, T_s1), speed=[0.25, 10.0])
     assert timing.duration == pytest.approx(1.875 * 0.5 / 0.25)
 
 
@@ -281,16 +292,40 @@ def test_limits_for_way_and_angle_of_a_pose():
         (lambda: motion.cubic(0), r"duration: expected a positive number of seconds, got 0"),
         (lambda: motion.quintic(math.nan), r"duration: .* got nan"),
         (lambda: motion.trapezoidal(1, 0.6), r"ramp: .* at most 0\.5, got 0\.6"),
-        (lambda: motion.fastest("linear", 1, speed=1), r"law: expected one of cubic, .*, got 'linear'"),
-        (lambda: motion.fastest("cubic", 1), r"expected a limit of speed, of acceleration, or of both"),
-        (lambda: motion.fastest("cubic", math.inf, speed=1), r"distance: expected finite"),
-        (lambda: motion.fastest("cubic", [1, 0], speed=[math.inf, 1]), r"expected a finite limit for some distance"),
-        (lambda: motion.fastest("trapezoidal", 1, speed=math.inf, acceleration=math.inf), r"expected a finite limit"),
-        (lambda: motion.fastest("cubic", 1, speed=0), r"speed: expected positive limits, got 0"),
-        (lambda: motion.fastest("cubic", 1, speed=math.nan), r"speed: expected positive limits"),
-        (lambda: motion.fastest("cubic", [1, 2], speed=[1, 2, 3]), r"speed: shape \(3,\) does not fit"),
-        (lambda: motion.fastest("trapezoidal", 1, speed=1), r"acceleration: the trapezoidal law needs a finite one"),
-        (lambda: motion.lengths(np.eye(4), np.eye(4), "arc"), r"along: expected 'line' or 'screw', got 'arc'"),
+        (
+            lambda: motion.minimum_time("linear", 1, speed=1),
+            r"law: expected one of cubic, .*, got 'linear'",
+        ),
+        (
+            lambda: motion.minimum_time("cubic", 1),
+            r"expected a limit of speed, of acceleration, or of both",
+        ),
+        (lambda: motion.minimum_time("cubic", math.inf, speed=1), r"distance: expected finite"),
+        (
+            lambda: motion.minimum_time("cubic", [1, 0], speed=[math.inf, 1]),
+            r"expected a finite limit for some distance",
+        ),
+        (
+            lambda: motion.minimum_time("trapezoidal", 1, speed=math.inf, acceleration=math.inf),
+            r"expected a finite limit",
+        ),
+        (
+            lambda: motion.minimum_time("cubic", 1, speed=0),
+            r"speed: expected positive limits, got 0",
+        ),
+        (
+            lambda: motion.minimum_time("cubic", 1, speed=math.nan),
+            r"speed: expected positive limits",
+        ),
+        (
+            lambda: motion.minimum_time("cubic", [1, 2], speed=[1, 2, 3]),
+            r"speed: shape \(3,\) does not fit",
+        ),
+        (
+            lambda: motion.minimum_time("trapezoidal", 1, speed=1),
+            r"acceleration: the trapezoidal law needs a finite one",
+        ),
+        (lambda: motion.path_lengths(np.eye(4), np.eye(4), "arc"), r"along: expected 'line' or 'screw', got 'arc'"),
     ],
     ids=["zero", "nan", "ramp", "law", "no-limit", "far", "infinite", "both", "no-speed", "nan-speed", "shape",
          "trapezoid", "along"],
@@ -455,18 +490,21 @@ def test_a_timing_holds_nan_apart_and_rests_outside():
         motion.cubic(2.0),
         motion.quintic(2.0),
         motion.trapezoidal(2.0),
-        motion.fastest("cubic", 0, speed=1),
+        motion.minimum_time("cubic", 0, speed=1),
     ):
         s, ds, dds = timing([np.nan, -1.0, 3.0])
         assert np.isnan([s[0], ds[0], dds[0]]).all()
         np.testing.assert_array_equal([s[1:], ds[1:], dds[1:]], [[0, 1], [0, 0], [0, 0]])
         assert timing(1.0).s.shape == ()
-    assert (motion.trapezoidal(2.0).ramp, motion.trapezoidal(2.0, 0.5).ramp) == (0.25, 0.5)
+    assert (
+        motion.trapezoidal(2.0).acceleration_fraction,
+        motion.trapezoidal(2.0, 0.5).acceleration_fraction,
+    ) == (0.25, 0.5)
     assert motion.cubic(np.float64(2.0)) == motion.Timing("cubic", 2.0)
     assert (
-        motion.cubic(2.0).ramp
-        == motion.quintic(2.0).ramp
-        == motion.fastest("quintic", 1, speed=1).ramp
+        motion.cubic(2.0).acceleration_fraction
+        == motion.quintic(2.0).acceleration_fraction
+        == motion.minimum_time("quintic", 1, speed=1).acceleration_fraction
         == 0.5
     )
     with pytest.raises(FrozenInstanceError):
@@ -482,8 +520,8 @@ def test_a_timing_holds_nan_apart_and_rests_outside():
 ])  # fmt: skip
 def test_the_fastest_timing_over_six_units_is_known(law, speed, acceleration, duration, ramp):
     for distance in (6.0, -6.0, [1.0, -6.0, 2.0]):
-        timing = motion.fastest(law, distance, speed=speed, acceleration=acceleration)
-        assert (timing.law, timing.duration, timing.ramp) == (
+        timing = motion.minimum_time(law, distance, speed=speed, acceleration=acceleration)
+        assert (timing.law, timing.duration, timing.acceleration_fraction) == (
             law,
             pytest.approx(duration),
             pytest.approx(ramp),
@@ -492,12 +530,17 @@ def test_the_fastest_timing_over_six_units_is_known(law, speed, acceleration, du
 
 
 def test_each_joint_has_its_own_limits():
-    timing = motion.fastest("cubic", [2.0, 3.0], speed=[1.0, 2.0], acceleration=[100.0, math.inf])
+    timing = motion.minimum_time(
+        "cubic", [2.0, 3.0], speed=[1.0, 2.0], acceleration=[100.0, math.inf]
+    )
     assert timing.duration == pytest.approx(1.5 * 2.0)
-    timing = motion.fastest(
+    timing = motion.minimum_time(
         "trapezoidal", [2.0, 3.0], speed=[math.inf, 1.0], acceleration=[1.0, math.inf]
     )
-    assert (timing.duration, timing.ramp) == (pytest.approx(3 + 2 / 3), pytest.approx(2 / 11))
+    assert (timing.duration, timing.acceleration_fraction) == (
+        pytest.approx(3 + 2 / 3),
+        pytest.approx(2 / 11),
+    )
 
 
 @pytest.mark.parametrize("call, says", [
@@ -508,15 +551,15 @@ def test_each_joint_has_its_own_limits():
      "duration: expected a positive number of seconds, got '1'"),
     (lambda: motion.trapezoidal(1, 0), "ramp: expected a number above 0 and at most 0.5, got 0"),
     (lambda: motion.trapezoidal(1, True), "ramp: expected a number above 0 and at most 0.5, got True"),
-    (lambda: motion.fastest("cubic", [0, 1], acceleration=[1, -1]),
+    (lambda: motion.minimum_time("cubic", [0, 1], acceleration=[1, -1]),
      "acceleration: expected positive limits, got [1, -1]"),
-    (lambda: motion.fastest("cubic", 1e300, acceleration=1e-300),
-     "fastest: the limits are so small that there is no finite duration"),
-    (lambda: motion.fastest("trapezoidal", 1, speed=1, acceleration=math.inf),
+    (lambda: motion.minimum_time("cubic", 1e300, acceleration=1e-300),
+     "minimum_time: the limits are so small that there is no finite duration"),
+    (lambda: motion.minimum_time("trapezoidal", 1, speed=1, acceleration=math.inf),
      "acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time"),
-    (lambda: motion.fastest("cubic", [1, 2], acceleration=[1, 2, 3]),
+    (lambda: motion.minimum_time("cubic", [1, 2], acceleration=[1, 2, 3]),
      "acceleration: shape (3,) does not fit the distances' (2,)"),
-    (lambda: motion.fastest(3, 1, speed=1),  # type: ignore[arg-type]
+    (lambda: motion.minimum_time(3, 1, speed=1),  # type: ignore[arg-type]
      "law: expected one of cubic, quintic, trapezoidal, got 3"),
 ])  # fmt: skip
 def test_why_there_is_no_timing_is_said_whole(call, says):
@@ -526,10 +569,12 @@ def test_why_there_is_no_timing_is_said_whole(call, says):
 
 def test_limits_may_vanish_where_nothing_moves():
     for law in ("cubic", "quintic", "trapezoidal"):
-        assert motion.fastest(law, [0.0, 1e-101], speed=1e300, acceleration=1e300).duration == 0
-        assert motion.fastest(law, 0.0, speed=math.inf, acceleration=math.inf).duration == 0
-        assert motion.fastest(law, [], speed=1, acceleration=1).duration == 0
-    assert motion.fastest("cubic", 1e-99, speed=1.0).duration == pytest.approx(1.5e-99)
+        assert (
+            motion.minimum_time(law, [0.0, 1e-101], speed=1e300, acceleration=1e300).duration == 0
+        )
+        assert motion.minimum_time(law, 0.0, speed=math.inf, acceleration=math.inf).duration == 0
+        assert motion.minimum_time(law, [], speed=1, acceleration=1).duration == 0
+    assert motion.minimum_time("cubic", 1e-99, speed=1.0).duration == pytest.approx(1.5e-99)
 
 
 SAME_M = "q_0, q_1: expected (..., m) with the same m, got "
@@ -538,7 +583,7 @@ SAME_M = "q_0, q_1: expected (..., m) with the same m, got "
 @pytest.mark.parametrize("call, says", [
     (lambda: motion.screw(np.tile(np.eye(4), (2, 1, 1)), np.tile(np.eye(4), (3, 1, 1)), np.zeros(5)),
      "the leading axes do not broadcast: T_s0 (2, 4, 4), T_s1 (3, 4, 4) and s (5,)"),
-    (lambda: motion.lengths(np.tile(np.eye(4), (2, 1, 1)), np.tile(np.eye(4), (3, 1, 1))),
+    (lambda: motion.path_lengths(np.tile(np.eye(4), (2, 1, 1)), np.tile(np.eye(4), (3, 1, 1))),
      "the leading axes do not broadcast: T_s0 (2, 4, 4), T_s1 (3, 4, 4) and s ()"),
     (lambda: motion.joint(np.zeros((2, 3)), np.zeros((4, 3)), np.zeros(5)),
      "q_0, q_1: the leading axes do not broadcast: (2, 3), (4, 3) and s (5,)"),
@@ -546,7 +591,7 @@ SAME_M = "q_0, q_1: expected (..., m) with the same m, got "
     (lambda: motion.joint(np.zeros((4, 4)), np.zeros((4, 3)), 0), f"{SAME_M}(4, 4) and (4, 3)"),
     (lambda: motion.joint(0.0, np.zeros(4), 0), f"{SAME_M}() and (4,)"),
     (lambda: motion.joint(np.zeros(4), 0.0, 0), f"{SAME_M}(4,) and ()"),
-    (lambda: motion.lengths(np.eye(4), np.eye(4), 3),  # type: ignore[arg-type]
+    (lambda: motion.path_lengths(np.eye(4), np.eye(4), 3),  # type: ignore[arg-type]
      "along: expected 'line' or 'screw', got 3"),
 ])  # fmt: skip
 def test_poses_or_joints_that_do_not_fit_are_told_with_their_shapes(call, says):

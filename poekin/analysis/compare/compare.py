@@ -12,8 +12,8 @@ from ...groups import so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ..tolerances import check_tolerances
-from .alignment.hypotheses import Reading, read
-from .alignment.lines import at_rest, cross, direction, sides
+from .alignment.hypotheses import Hypothesis, read
+from .alignment.lines import cross, direction, sides, uncoupled_at_zero
 from .alignment.search import search
 from .comparison import Comparison, JointComparison, PoseErrors
 from .followers import follows
@@ -86,7 +86,7 @@ def _compared(
     is to be told.
     """
     tol_m, tol_rad = tol_mm / 1e3, math.radians(tol_deg)
-    one, other = at_rest(a), at_rest(b)
+    one, other = uncoupled_at_zero(a), uncoupled_at_zero(b)
     x = a.random(seed, samples) @ a.coupling.T
     extra, dropped = None, ()
     if len(one.screws) != len(other.screws):
@@ -126,7 +126,7 @@ def _compared(
     same = (
         not reading.moved.any()
         and not any(joint.coupling_differs for joint in joints)
-        and (not strict or not (reading.blamed.any() or reading.frames))
+        and (not strict or not (reading.implicated.any() or reading.frames))
     )
     return Comparison(
         equal=same and extra is None and ratio == 1,
@@ -138,15 +138,16 @@ def _compared(
         after=None if strict else _pose_errors(
             one.fk(x), reading.base @ other.fk(reading.directions * x + reading.zeros) @ reading.tool
         ),
-        equivalent=tuple(() if strict else equivalents(one, other, reading, others, tol_m, tol_rad)),
-        extra=extra, strict=strict, tol_mm=tol_mm, tol_deg=tol_deg, samples=samples, seed=seed, length_ratio=ratio,
+        alternatives=tuple(() if strict else equivalents(one, other, reading, others, tol_m, tol_rad)),
+        unmatched_joints=extra,
+        strict=strict, tol_mm=tol_mm, tol_deg=tol_deg, samples=samples, seed=seed, length_ratio=ratio,
     ), 1 if reading.link else int(reading.moved.sum())  # fmt: skip
 
 
-def _as_it_is(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading:
+def _as_it_is(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Hypothesis:
     pair = sides(a, b, tol_m, tol_rad)
     base = np.eye(4)
-    base[:3, 3] = pair.b.hub - pair.a.hub
+    base[:3, 3] = pair.b.centre - pair.a.centre
     return read(pair, a, b, base[None], np.zeros((1, pair.n)))[0]
 
 
@@ -155,7 +156,7 @@ def _names(chain: Chain, ks: tuple[int, ...]) -> tuple[str, ...]:
 
 
 def _joints(
-    a: Chain, b: Chain, reading: Reading, tol_rad: float, coupled: list[tuple[str, str, bool]]
+    a: Chain, b: Chain, reading: Hypothesis, tol_rad: float, coupled: list[tuple[str, str, bool]]
 ) -> tuple[JointComparison, ...]:
     pair = sides(a, b, 1.0, tol_rad)
     ours, theirs = direction(a.screws, a.kinds), direction(reading.axes, b.kinds)
@@ -167,7 +168,7 @@ def _joints(
         angle = math.atan2(float(np.linalg.norm(across)), float(w @ u))
         normal = shift = None
         if "prismatic" not in (a.kinds[i], b.kinds[i]):
-            place = pair.a.places[i] + pair.a.hub
+            place = pair.a.places[i] + pair.a.centre
             foot = cross(reading.axes[i, :3], reading.axes[i, 3:])
             gap = foot - place
             shift = 1e3 * float(np.linalg.norm(gap - u * (u @ gap)))
@@ -201,7 +202,7 @@ def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:
 
 
 def _verdict(
-    same: bool, joints: tuple[JointComparison, ...], reading: Reading, extra: tuple[str, ...] | None, ratio: float,
+    same: bool, joints: tuple[JointComparison, ...], reading: Hypothesis, extra: tuple[str, ...] | None, ratio: float,
     strict: bool, tol_mm: float, tol_deg: float,
 ) -> str:  # fmt: skip
     tol = tol_mm / 1e3, math.radians(tol_deg)

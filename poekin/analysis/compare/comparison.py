@@ -24,8 +24,8 @@ class JointComparison:
         tolerance, their distance. shift: distance of b's axis from the point of a's axis nearest to
         the arm's middle, mm: what normal hides where two axes cross far from the arm. None of
         prismatic joints, which have no place.
-    zero: where b's joint stands when a's is at 0, deg (mm of a prismatic joint). flipped: b counts
-    the other way. limits: b's lower and upper limit, in a's zero and direction, less a's; deg or
+    zero_offset: where b's joint stands when a's is at 0, deg (mm of a prismatic joint). reversed: the sign of
+    q is flipped. limits: b's lower and upper limit, in a's zero and direction, less a's; deg or
     mm; 0 where both are unlimited. axis_differs, zero_differs: beyond tolerance (or another kind or
     pitch).
     follows_a, follows_b: how the joint follows others of its model, in words; "" where it moves by
@@ -40,8 +40,8 @@ class JointComparison:
     angle: float
     normal: float | None
     shift: float | None
-    zero: float
-    flipped: bool
+    zero_offset: float
+    reversed: bool
     limits: tuple[float, float]
     axis_differs: bool
     zero_differs: bool
@@ -54,7 +54,7 @@ class JointComparison:
         """Whether anything but limits and name differs: axis, kind, zero position, direction, or
         what it follows.
         """
-        return self.axis_differs or self.zero_differs or self.flipped or self.coupling_differs
+        return self.axis_differs or self.zero_differs or self.reversed or self.coupling_differs
 
     @property
     def unit(self) -> str:
@@ -86,7 +86,7 @@ class Comparison:
     frame in a's; tool
         (4, 4): pose of a's tool frame in b's; m; None where the models could not be matched.
     before, after: `PoseErrors` at the same joint values, as the models stand and under the
-    alignment. strict. equivalent: other readings that say the same. extra: which model ("a" or "b")
+    alignment. strict. alternatives: other readings that say the same. unmatched_joints: which model ("a" or "b")
     has joints that the other has not, and
         their names, one or two; None where both have as many, or no joints can be dropped so that
         the rest agree.
@@ -102,8 +102,8 @@ class Comparison:
     tool: Array | None
     before: PoseErrors | None
     after: PoseErrors | None
-    equivalent: tuple[str, ...]
-    extra: tuple[str, ...] | None
+    alternatives: tuple[str, ...]
+    unmatched_joints: tuple[str, ...] | None
     strict: bool
     tol_mm: float
     tol_deg: float

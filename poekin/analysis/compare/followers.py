@@ -9,13 +9,13 @@ import numpy as np
 from ...errors import quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from .alignment.hypotheses import Reading
+from .alignment.hypotheses import Hypothesis
 
 __all__ = ["follows"]
 
 
 def follows(
-    C_a: Array, C_b: Array, a: Chain, b: Chain, reading: Reading, tol_m: float, tol_rad: float
+    C_a: Array, C_b: Array, a: Chain, b: Chain, reading: Hypothesis, tol_m: float, tol_rad: float
 ) -> list[tuple[str, str, bool]]:
     """How each joint follows earlier ones: in a's words, in b's ("" where it moves by itself), and
     whether they differ.

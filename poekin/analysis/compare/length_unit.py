@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...model.chain import Chain
-from .alignment.lines import at_rest, lines
+from .alignment.lines import lines, uncoupled_at_zero
 
 __all__ = ["length_ratio", "rescaled", "to_one_unit"]
 
@@ -61,4 +61,4 @@ def rescaled(chain: Chain, factor: float) -> Chain:
 
 def _spread(chain: Chain) -> float:
     """Root sum of squares of the distances (m) of all axes to the point nearest to them."""
-    return float(np.linalg.norm(lines(at_rest(chain)).places))
+    return float(np.linalg.norm(lines(uncoupled_at_zero(chain)).places))

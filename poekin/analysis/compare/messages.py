@@ -8,7 +8,7 @@ from ...errors import quote
 from ...groups import se3, so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from .alignment.hypotheses import Reading, still
+from .alignment.hypotheses import Hypothesis, still
 from .comparison import JointComparison
 
 
@@ -44,10 +44,10 @@ def joint_words(joint: JointComparison, tol_mm: float, tol_deg: float) -> str:
             words.append("has another pitch")
     if joint.zero_differs:
         words.append(
-            f"has its zero position {amount(abs(joint.zero), joint.unit)} from the other model's"
+            f"has its zero position {amount(abs(joint.zero_offset), joint.unit)} from the other model's"
         )
-    if joint.flipped and joint.kind_a == joint.kind_b:
-        words.append("counts in the other direction")
+    if joint.reversed and joint.kind_a == joint.kind_b:
+        words.append("has the sign of q flipped")
     if joint.coupling_differs:
         one, other = (said or "moves by itself" for said in (joint.follows_a, joint.follows_b))
         words.append(f"{one} in one model and {other} in the other")
@@ -91,10 +91,10 @@ def unit_words(ratio: float) -> str:
 
 
 def equivalents(
-    a: Chain, b: Chain, first: Reading, others: list[Reading], tol_m: float, tol_rad: float
+    a: Chain, b: Chain, first: Hypothesis, others: list[Hypothesis], tol_m: float, tol_rad: float
 ) -> list[str]:
     """Other readings of the same difference: frames turned about an end joint, other joints that
-    may be blamed.
+    may be implicated.
     """
     said = []
     if len(a.screws):
@@ -116,7 +116,7 @@ def equivalents(
                     f"as a zero offset of {far} of that joint"
                 )
     for other in others:
-        (k,) = np.flatnonzero(other.blamed)
+        (k,) = np.flatnonzero(other.implicated)
         change = (
             "another axis"
             if other.moved[k]

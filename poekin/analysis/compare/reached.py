@@ -9,13 +9,13 @@ import numpy as np
 from ...groups import so3
 from ...model.chain import Chain
 from ...model.sampling import sampling_range
-from .alignment.hypotheses import Reading
+from .alignment.hypotheses import Hypothesis
 from .alignment.lines import Sides
 
 SAMPLES = 8
 
 
-def poses_agree(pair: Sides, a: Chain, b: Chain, reading: Reading) -> bool:
+def poses_agree(pair: Sides, a: Chain, b: Chain, reading: Hypothesis) -> bool:
     """Whether f_a(x) = base f_b(directions x + zeros) tool as nearly as axes within tolerance let
     it be.
 
@@ -50,7 +50,9 @@ def _bounds(pair: Sides, a: Chain, b: Chain) -> tuple[float, float]:
     # The lengths from place to place are those of the links; a slide has no place, and lengthens
     # what is behind it.
     places = [
-        place for place, slide in zip(pair.a.places + pair.a.hub, slides, strict=True) if not slide
+        place
+        for place, slide in zip(pair.a.places + pair.a.centre, slides, strict=True)
+        if not slide
     ]
     lengths = np.linalg.norm(np.diff([*places, a.home[:3, 3]], axis=0), axis=1)
     most = np.maximum(*(np.abs(sampling_range(chain)).max(0) for chain in (a, b)))

@@ -13,9 +13,9 @@ from ...model.chain import Chain
 from . import count_methods as methods
 from . import count_scalars as scalars
 
-__all__ = ["CHARGED", "METHODS", "Count", "count"]
+__all__ = ["COUNTINGS", "METHODS", "Count", "count"]
 
-CHARGED = ("paper", "needed", "everything")
+COUNTINGS = ("paper", "live", "everything")
 
 
 Run = Callable[[Chain, Any, str, bool], Count]
@@ -23,35 +23,35 @@ Run = Callable[[Chain, Any, str, bool], Count]
 
 @dataclass(frozen=True)
 class Method:
-    """A way to count a chain's Jacobian in some frames: run(chain, frame, charged, pose); what may
+    """A way to count a chain's Jacobian in some frames: run(chain, frame, counting, pose); what may
     be charged.
     """
 
     run: Run
     frames: tuple[str, ...] = ("body",)
-    charged: tuple[str, ...] = CHARGED
+    countings: tuple[str, ...] = COUNTINGS
 
 
 def _general(algorithm: scalars.Algorithm, form: scalars.Form) -> Run:
     """An algorithm on links of a form."""
 
-    def run(chain: Chain, frame: Any, charged: str, pose: bool) -> Count:
-        if charged == "paper":
-            return scalars.as_charged(algorithm, chain, pose)
-        if charged == "needed":
-            return scalars.as_needed(algorithm, chain, pose)
-        return scalars.with_everything(algorithm, form, chain, pose)
+    def run(chain: Chain, frame: Any, counting: str, pose: bool) -> Count:
+        if counting == "paper":
+            return scalars.paper_operations(algorithm, chain, pose)
+        if counting == "live":
+            return scalars.live_operations(algorithm, chain, pose)
+        return scalars.all_operations(algorithm, form, chain, pose)
 
     return run
 
 
-def _structured(chain: Chain, frame: Any, charged: str, pose: bool) -> Count:
+def _structured(chain: Chain, frame: Any, counting: str, pose: bool) -> Count:
     return specialised(
-        scalars.generic_structure(chain, tool=charged == "everything"), frame, pose
+        scalars.generic_structure(chain, tool=counting == "everything"), frame, pose
     ).count
 
 
-def _specialised(chain: Chain, frame: Any, charged: str, pose: bool) -> Count:
+def _specialised(chain: Chain, frame: Any, counting: str, pose: bool) -> Count:
     return chain.compile().program(frame, pose=pose).count
 
 
@@ -67,7 +67,7 @@ METHODS: dict[str, tuple[Method, ...]] = {
     "dh_recursive": (Method(_general(methods.orin_schrader, scalars.paul_link)),),
     "dh_paul": (Method(_general(methods.paul, scalars.paul_link)),),
     "dh_modified": (Method(_general(methods.z_aligned, scalars.craig_link)),),
-    "structured": (Method(_structured, ("body", "space", "hybrid"), ("needed", "everything")),),
+    "structured": (Method(_structured, ("body", "space", "hybrid"), ("live", "everything")),),
     "specialised": (Method(_specialised, ("body", "space", "hybrid", "middle"), ("everything",)),),
 }
 
@@ -77,7 +77,7 @@ def count(
     *,
     method: str = "recursive",
     frame: str | int | None = "body",
-    charged: str | None = None,
+    counting: str | None = None,
     pose: bool = False,
 ) -> Count:
     """Operations of one Jacobian, found by running the algorithm: nothing here is a formula in n.
@@ -98,10 +98,10 @@ def count(
         arm, `Chain.compile`).
     frame: "body"; "space" for "direct"; "structured" has "hybrid" too, "specialised" those,
         "middle", each joint's index k, and None, which is the pose alone.
-    charged: "paper": all that the algorithm does, but not the making of the links' poses; "needed":
+    counting: "paper": all that the algorithm does, but not the making of the links' poses; "live":
         only what reaches an output; "everything": that and sines, cosines, links' poses, the
         coupling, and for "structured" a tool.
-        By default "paper", for "structured" "needed", for "specialised" "everything".
+        By default "paper", for "structured" "live", for "specialised" "everything".
     pose: the tool's pose too, out of the same pass.
 
     Returns: Count: multiplications, additions (subtractions among them), sines, cosines; divisions
@@ -116,16 +116,16 @@ def count(
     if not isinstance(pose, bool):
         raise InputError(f"pose: expected True or False, got {safe_repr(pose)}")
     way = _way(method, frame)
-    if charged is None:
-        charged = way.charged[0]
-    elif not isinstance(charged, str) or charged not in way.charged:
+    if counting is None:
+        counting = way.countings[0]
+    elif not isinstance(counting, str) or counting not in way.countings:
         raise InputError(
-            f"charged: expected {' or '.join(way.charged)} for method {method!r}, got {safe_repr(charged)}"
+            f"counting: expected {' or '.join(way.countings)} for method {method!r}, got {safe_repr(counting)}"
         )
     n = len(chain.joint_names)
     if n < 2 and method != "specialised":
         raise InputError(f"method {method!r} counts from 2 joints on, the chain has {n}")
-    return way.run(chain, frame, charged, pose)
+    return way.run(chain, frame, counting, pose)
 
 
 def _way(method: object, frame: object) -> Method:

@@ -44,7 +44,7 @@ class Motion(NamedTuple):
 Form = Callable[[Motion, np.random.Generator], Row]
 
 
-def as_charged(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
+def paper_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
     """What an algorithm does, whether its result needs it or not; the links' poses are given."""
     total = Count()
     poses = counted(
@@ -56,7 +56,7 @@ def as_charged(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
     return total
 
 
-def as_needed(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
+def live_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
     """What an algorithm's result needs; the links' poses are given."""
     graph, numbers = Graph(), itertools.count(1)
     poses = [
@@ -66,7 +66,7 @@ def as_needed(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
     return _count(graph, Angles(graph), finish() if with_pose else (), J)
 
 
-def with_everything(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bool) -> Count:
+def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bool) -> Count:
     """What an algorithm's result needs from q on: sines, cosines, the links' poses in their form,
     and the coupling.
     """

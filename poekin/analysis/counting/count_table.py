@@ -35,7 +35,7 @@ Schrader 1984; their own table has not been looked up here.
 class CountRow:
     """One way to a Jacobian and its cost.
 
-    Attributes: group, a heading of `CountTable`; method, frame, charged, as `count` takes them;
+    Attributes: group, a heading of `CountTable`; method, frame, counting, as `count` takes them;
     what, in words; jacobian and with_pose, the Counts of J alone and of J and the tool's pose (None
     where nobody printed it).
     """
@@ -43,7 +43,7 @@ class CountRow:
     group: str
     method: str
     frame: str | int
-    charged: str
+    counting: str
     what: str
     jacobian: Count
     with_pose: Count | None
@@ -69,11 +69,11 @@ class CountTable:
     verdict: tuple[str, ...]
 
     def __getitem__(self, key: tuple[str, str | int, str]) -> CountRow:
-        """The first row of (method, frame, charged), as in `table["recursive", "body", "needed"]`;
+        """The first row of (method, frame, counting), as in `table["recursive", "body", "live"]`;
         else KeyError.
         """
         for row in self.rows:
-            if (row.method, row.frame, row.charged) == key:
+            if (row.method, row.frame, row.counting) == key:
                 return row
         raise KeyError(key)
 
@@ -105,7 +105,7 @@ class CountTable:
             "groups": {group: MEANING[group] for group in self.groups},
             "rows": [
                 {
-                    "group": row.group, "method": row.method, "frame": row.frame, "charged": row.charged,
+                    "group": row.group, "method": row.method, "frame": row.frame, "counting": row.counting,
                     "what": row.what, "jacobian": row.jacobian.as_dict(),
                     "with_pose": None if row.with_pose is None else row.with_pose.as_dict(),
                 }
@@ -114,13 +114,13 @@ class CountTable:
         }  # fmt: skip
 
 
-PAPER, CHARGED, ALIKE = "printed in the paper", "as the paper charges", "with equal bookkeeping"
+PAPER, COUNTINGS, ALIKE = "printed in the paper", "as the paper charges", "with equal bookkeeping"
 NEEDED, EVERYTHING, STRUCTURED = "as needed", "with everything", "two planar rotations a link"
 THIS, IDEAL = "this arm's own program", "the idealised arm's own program"
 
 MEANING = {
     PAPER: "formulas for n revolute joints; DH as it reports Orin and Schrader, whose own table is unchecked here",
-    CHARGED: "all that an algorithm does, the whole last product too; the links' poses are given",
+    COUNTINGS: "all that an algorithm does, the whole last product too; the links' poses are given",
     ALIKE: "the same; first link, last link and tool in or out for both sides alike",
     NEEDED: "only what reaches an output; the links' poses are given",
     EVERYTHING: "as needed, and what the table leaves out: sines, exponentials or links' poses, coupling",
@@ -131,10 +131,10 @@ MEANING = {
 """What the groups of rows are."""
 
 _WAYS: tuple[tuple[str, str, str, str, str], ...] = (
-    (CHARGED, "direct", "space", "paper", "POE, direct"),
-    (CHARGED, "direct", "body", "paper", "POE, direct"),
-    (CHARGED, "recursive", "body", "paper", "POE, recursive, tool in the last link's frame"),
-    (CHARGED, "dh_recursive", "body", "paper", "DH, recursive: first link and tool charged"),
+    (COUNTINGS, "direct", "space", "paper", "POE, direct"),
+    (COUNTINGS, "direct", "body", "paper", "POE, direct"),
+    (COUNTINGS, "recursive", "body", "paper", "POE, recursive, tool in the last link's frame"),
+    (COUNTINGS, "dh_recursive", "body", "paper", "DH, recursive: first link and tool charged"),
     (ALIKE, "recursive", "body", "paper", "POE, recursive"),
     (ALIKE, "dh_modified", "body", "paper", "DH, recursive on modified (Craig's) frames"),
     (ALIKE, "dh_paul", "body", "paper", "DH, recursive on standard (Paul's) frames"),
@@ -146,17 +146,17 @@ _WAYS: tuple[tuple[str, str, str, str, str], ...] = (
         "paper",
         "POE, recursive, link frames attached anywhere",
     ),
-    (NEEDED, "direct", "body", "needed", "POE, direct"),
-    (NEEDED, "recursive", "body", "needed", "POE, recursive"),
+    (NEEDED, "direct", "body", "live", "POE, direct"),
+    (NEEDED, "recursive", "body", "live", "POE, recursive"),
     (
         NEEDED,
         "recursive_by_cross",
         "body",
-        "needed",
+        "live",
         "POE, recursive, third columns by cross product",
     ),
-    (NEEDED, "dh_modified", "body", "needed", "DH, recursive on modified frames"),
-    (NEEDED, "dh_paul", "body", "needed", "DH, recursive on standard frames"),
+    (NEEDED, "dh_modified", "body", "live", "DH, recursive on modified frames"),
+    (NEEDED, "dh_paul", "body", "live", "DH, recursive on standard frames"),
     (EVERYTHING, "direct", "space", "everything", "POE, direct, exponentials made"),
     (
         EVERYTHING,
@@ -168,7 +168,7 @@ _WAYS: tuple[tuple[str, str, str, str, str], ...] = (
     (EVERYTHING, "recursive", "body", "everything", "POE, recursive, z-aligned frames, no tool"),
     (EVERYTHING, "dh_modified", "body", "everything", "DH, recursive on modified frames, no tool"),
     (EVERYTHING, "dh_recursive", "body", "everything", "DH, recursive on standard frames, tool"),
-    (STRUCTURED, "structured", "body", "needed", "general links"),
+    (STRUCTURED, "structured", "body", "live", "general links"),
 )
 
 
@@ -194,7 +194,7 @@ def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
             ]
         for group, method, frame, charged, what in _WAYS:
             J, both = (
-                count(chain, method=method, frame=frame, charged=charged, pose=pose)
+                count(chain, method=method, frame=frame, counting=charged, pose=pose)
                 for pose in (False, True)
             )
             rows.append(CountRow(group, method, frame, charged, what, J, both))
@@ -258,7 +258,7 @@ def _verdict(chain: Chain) -> Iterator[str]:
         return
 
     def of(method: str) -> Count:
-        return count(chain, method=method, charged="paper")
+        return count(chain, method=method, counting="paper")
 
     def gap(a: Count, b: Count) -> str:
         x, y = a.multiplications - b.multiplications, a.additions - b.additions

@@ -30,15 +30,15 @@ class Singularity:
 
     Attributes: singular, whether smallest ≤ tolerance · largest; tolerance; part, length (m, by
     which v is divided); singular_values (r), descending; rank, of those above the tolerance.
-    lost (6): the twist (omega; v), base axes and the tool's origin, that the arm moves worst, with
+    singular_direction (6): the twist (omega; v), base axes and the tool's origin, that the arm moves worst, with
     the unit size |(omega; v / length)| = 1: lost for good at the singularity itself. It is
     determined up to its sign.
-    lost_all (r - rank, 6): every such twist that is lost within tolerance.
-    idle (m): the rates (|idle| = 1) that move the tool least: by `smallest` as a twist of that
+    singular_subspace (r - rank, 6): every such twist that is lost within tolerance.
+    joint_direction (m): the rates (|joint_direction| = 1) that move the tool least: by `smallest` as a twist of that
     size.
     distance: how far the singularity is, sqrt(Σ dq²) in rad (m for coordinates that slide), to
     first order:
-    smallest ÷ |its gradient|; infinite where the gradient is zero. towards (m): the unit direction
+    smallest ÷ |its gradient|; infinite where the gradient is zero. gradient_direction (m): the unit direction
     that leads there. words: all this in sentences.
     """
 
@@ -48,11 +48,11 @@ class Singularity:
     length: float
     singular_values: tuple[float, ...]
     rank: int
-    lost: Array
-    lost_all: Array
-    idle: Array
+    singular_direction: Array
+    singular_subspace: Array
+    joint_direction: Array
     distance: float
-    towards: Array
+    gradient_direction: Array
     words: str
 
     @property
@@ -68,7 +68,13 @@ class Singularity:
     def as_dict(self) -> dict[str, object]:
         """Everything as plain dicts, lists, strings and numbers; an infinite number is None."""
         arrays = {
-            name: getattr(self, name).tolist() for name in ("lost", "lost_all", "idle", "towards")
+            name: getattr(self, name).tolist()
+            for name in (
+                "singular_direction",
+                "singular_subspace",
+                "joint_direction",
+                "gradient_direction",
+            )
         }
         numbers = {name: _finite(getattr(self, name)) for name in ("condition", "distance")}
         plain = {
@@ -114,8 +120,8 @@ def singularity(
     does not matter.
     Returns: Singularity. Raises: InputError (also for a chain without coordinates), ShapeError,
     UnknownName.
-    Accuracy: singular values within 1e-14 of the largest; lost and idle as well as the gap to the
-    next singular value allows (tests/analysis/dexterity/test_singularity.py). Source: Yoshikawa
+    Accuracy: singular values within 1e-14 of the largest; singular_direction and joint_direction as
+    well as the gap to the next singular value allows (tests/analysis/dexterity/test_singularity.py). Source: Yoshikawa
     1985; Park 1994, Section III.
     """
     check(chain, 1.0 if length is None else length)

@@ -103,7 +103,7 @@ def _show(result: Comparison, a: Chain, b: Chain) -> None:
     for title, errors in (("as they stand", result.before), ("aligned", result.after)):
         if errors is not None:
             say(f"Pose error {title}: {_errors(errors)}")
-    for words in result.equivalent:
+    for words in result.alternatives:
         say(f"Equivalent: {words}")
     say(result.verdict[0].upper() + result.verdict[1:])
 
@@ -118,8 +118,8 @@ def _joint_row(joint: JointComparison, result: Comparison) -> tuple[object, ...]
         _rounded(joint.angle, result.tol_deg),
         _rounded(joint.normal, result.tol_mm),
         _rounded(joint.shift, result.tol_mm),
-        f"{_rounded(joint.zero, tol)} {joint.unit}",
-        "flipped" if joint.flipped else "same",
+        f"{_rounded(joint.zero_offset, tol)} {joint.unit}",
+        "flipped" if joint.reversed else "same",
         " ".join(_rounded(bound, tol) for bound in joint.limits),
     )
 

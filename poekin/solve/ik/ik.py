@@ -44,8 +44,8 @@ def ik(
 
     Parameters
     ----------
-    chain: a `Chain`, or what its `compile` gives. T (..., 4, 4): poses of the tip in the base frame,
-    m.
+    chain: a `Chain`, or what its `compile` gives. T (..., 4, 4): poses of the tip in the base
+    frame, m.
     q0 (m,), (..., m) or a dict: the first try begins there (outside the limits it is moved to them,
         with a warning); without it at `nearest_to`, or else at random.
     task: "pose"; "position" or "rotation" alone; "direction": the position, and the direction of
@@ -57,9 +57,9 @@ def ik(
     solutions that some fifty tries find, the one
         with the least distance from it, in rad and m of the joints; `ik_all` finds them all.
     secondary_objective: null-space objective of an arm with more joints than the task needs:
-        "middle" (of the limits), "nearest" (to q0), "manipulability" (Yoshikawa's measure of what the task asks, in
-        rad and m). It is optimised as far as the arm can move within limits from the first solution,
-        the tool at rest; other q0 may lead to a better one.
+        "middle" (of the limits), "nearest" (to q0), "manipulability" (Yoshikawa's measure of what
+        the task asks, in rad and m). It is optimised as far as the arm can move within limits from
+        the first solution, the tool at rest; other q0 may lead to a better one.
     lock: names of coordinates and the values that they keep.
     weights (6,): of the error's parts (rotation; position) in the axes of the base, while it is
     made small.

@@ -17,25 +17,25 @@ from .ik_all_search import Found
 class AllSolutions:
     """Every solution of each target.
 
-    Of one target: solutions (s, m), rad or m, sorted; copies (s,), how many places within the
+    Of one target: solutions (s, m), rad or m, sorted; n_revolutions (s,), how many places within the
     limits each stands for, being a whole turn of some joints apart (a coordinate without limits
-    counts once; 2^63 - 1 stands for more, too); sure, in words. Of a batch: lists of these, its
-    targets in C order. method: "closed form" or "search".
+    counts once; 2^63 - 1 stands for more, too); complete, in words whether these are
+    all. Of a batch: lists of these, its targets in C order. method: "closed form" or "search".
     Arrays over the batch (...): count, the number of solutions; anywhere, the same without limits;
     continuum, whether there are infinitely many (then one of them is listed, and those that stand
-    alone); chance, of a solution missing:
+    alone); p_missing, the probability of a solution missing:
     0 for the closed form, NaN where nothing was found or there is a continuum; position_error (m)
     and rotation_error (rad), the largest of the listed solutions by `Chain.fk`, NaN without any.
     """
 
     solutions: Any
-    copies: Any
-    sure: Any
+    n_revolutions: Any
+    complete: Any
     method: str
     count: np.ndarray
     anywhere: np.ndarray
     continuum: np.ndarray
-    chance: Array
+    p_missing: Array
     position_error: Array
     rotation_error: Array
 
@@ -51,11 +51,11 @@ class AllSolutions:
 
     def __repr__(self) -> str:
         if self.count.ndim == 0:
-            return f"<AllSolutions by {self.method}: {self.sure}>"
+            return f"<AllSolutions by {self.method}: {self.complete}>"
         return f"<AllSolutions of {self.count.size} targets by {self.method}: {int(self.count.sum())} in all>"
 
 
-def chance_of_more(found: Found) -> float:
+def missing_probability(found: Found) -> float:
     """The chance that a solution is missing which a try finds half as often as the rarest of those
     that were found.
 
@@ -63,7 +63,7 @@ def chance_of_more(found: Found) -> float:
     them with the chance (1 - p)^N; p is set to half the smallest share seen. The closed form misses
     none.
     """
-    if found.moving or found.full or (found.restarts and not len(found.solutions)):
+    if found.self_motion_coordinates or found.full or (found.restarts and not len(found.solutions)):
         return float("nan")
     if not found.restarts:
         return 0.0
@@ -76,9 +76,10 @@ def in_words(found: Found, inside: int, closed: str | None) -> str:
     or None without), and what is known about more of them.
     """
     s = len(found.solutions)
-    if found.moving:
+    if found.self_motion_coordinates:
         alone = f" and {s - 1} that stand{'s' * (s == 2)} alone" if s > 1 else ""
-        said = f"infinitely many solutions, along which {join_names(found.moving)} move; one of them{alone}"
+        names = join_names(found.self_motion_coordinates)
+        said = f"infinitely many solutions, along which {names} move; one of them{alone}"
     else:
         said = f"{'at least ' * found.full}{s} solution{'s' * (s != 1)}"
     if inside != s:
@@ -86,11 +87,11 @@ def in_words(found: Found, inside: int, closed: str | None) -> str:
     if not found.restarts:
         return f"{said}: {closed}"
     said += f": search, {found.restarts} tries"
-    if not s or found.moving or found.full:
+    if not s or found.self_motion_coordinates or found.full:
         return said
     said += (
         f", each found {int(found.hits.min())} times or more; one that is half as easy to find as the rarest is "
-        f"missing with a chance of {chance_of_more(found):.1g}"
+        f"missing with a chance of {missing_probability(found):.1g}"
     )
     odd = s % 2 == 1 and found.solutions.shape[1] == 6
     return said + "; the number is odd: one of them is a double one, or one is missing" * odd

@@ -15,18 +15,18 @@ from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from ..ik.task import targets
 from ..joint_units import joint_units
-from .all_solutions import AllSolutions, chance_of_more, in_words
+from .all_solutions import AllSolutions, in_words, missing_probability
 from .closed_form import ClosedForm, closed_form
 from .ik_all_search import Found, Rule, accepted, periods, pose_errors, search, turns_within
 
 METHODS = ("auto", "closed", "search")
 
 MOST = 4096
-"""The most places that `copies=True` lists for one target."""
+"""The most places that `all_revolutions=True` lists for one target."""
 
 _ANYWHERE = np.array([[-np.inf, np.inf]])  # limits that are none
-_MANY = 2**63 - 1  # the largest number of `copies`
-_BARREN = 200  # tries without any solution, after which a search gives up
+_MANY = 2**63 - 1  # the largest number of `n_revolutions`
+_MAX_MISSES = 200  # tries without any solution, after which a search gives up
 
 
 def ik_all(
@@ -35,8 +35,8 @@ def ik_all(
     *,
     limits: bool = True,
     method: str = "auto",
-    copies: bool = False,
-    often: int = 14,
+    all_revolutions: bool = False,
+    min_hits: int = 14,
     restarts: int = 2000,
     iterations: int = 200,
     seed: int = 0,
@@ -45,7 +45,7 @@ def ik_all(
 
     In closed form by EAIK where it is installed (extra `ik`) and the arm's axes allow it, each
     solution tried down to the target again; else by search: from random starts until each solution
-    was found `often` times.
+    was found `min_hits` times.
 
     Parameters
     ----------
@@ -53,13 +53,13 @@ def ik_all(
     m.
     limits: list only what lies within the chain's limits.
     method: "auto"; "closed", to be refused where there is no closed form; "search", without EAIK.
-    copies: list all places within the limits that are whole turns apart; else of each solution the
-    one nearest to 0. often, restarts, iterations: when the search ends (14 leaves a chance of about
+    all_revolutions: list all places within the limits that are whole turns apart; else of each solution the
+    one nearest to 0. min_hits, restarts, iterations: when the search ends (14 leaves a chance of about
     1e-3 that one is missing, see
-        `AllSolutions.chance`), the most starts, and the most steps from each. seed: of the starts;
+        `AllSolutions.p_missing`), the most starts, and the most steps from each. seed: of the starts;
         the same seed gives the same result.
 
-    Returns: AllSolutions; how sure it is that these are all is in `sure`. A target with infinitely
+    Returns: AllSolutions; `complete` says how sure it is that these are all. A target with infinitely
     many solutions (at some singular poses) is said to be one: one of them is listed. No solution:
     `ik` says why. A target that is not finite has none.
     Raises: InputError for an arm of more than six coordinates, which has infinitely many solutions,
@@ -78,9 +78,9 @@ def ik_all(
     given, units = fast.chain, joint_units(fast)
     fast, chain = units.fast, units.fast.chain
     _check_chain(chain)
-    _check_options(limits, method, copies)
+    _check_options(limits, method, all_revolutions)
     for what, number, least in (
-        ("often", often, 1),
+        ("min_hits", min_hits, 1),
         ("restarts", restarts, 1),
         ("iterations", iterations, 1),
         ("seed", seed, 0),
@@ -91,7 +91,7 @@ def ik_all(
     finite: np.ndarray = np.isfinite(rows).all(axis=(1, 2)).reshape(-1)
     good = rows[finite]
     solver = _solver(chain, method)
-    thorough = Rule(often, restarts, iterations, _BARREN)
+    thorough = Rule(min_hits, restarts, iterations, _MAX_MISSES)
     if solver is None:
         found = search(
             fast, good, [np.empty((0, chain.dof))] * len(good), thorough, int(seed), limits
@@ -104,7 +104,7 @@ def ik_all(
         again = search(fast, good[unsure], [starts[k] for k in unsure], thorough, int(seed), limits)
         for k, f in zip(unsure, again, strict=True):
             found[k] = f
-    places = _places(chain, found, limits, copies)
+    places = _places(chain, found, limits, all_revolutions)
     order = _order(
         places.q if units.scale is None else places.q * np.sign(units.scale), places.owner
     )
@@ -126,8 +126,8 @@ def _check_chain(chain: Chain) -> None:
         raise InputError("ik_all: expected an arm of one to six coordinates, the chain has none")
 
 
-def _check_options(limits: Any, method: Any, copies: Any) -> None:
-    for what, value in (("limits", limits), ("copies", copies)):
+def _check_options(limits: Any, method: Any, all_revolutions: Any) -> None:
+    for what, value in (("limits", limits), ("all_revolutions", all_revolutions)):
         if not isinstance(value, (bool, np.bool_)):
             raise InputError(f"{what}: expected True or False, got {safe_repr(value)}")
     if not isinstance(method, str) or method not in METHODS:
@@ -194,7 +194,7 @@ class _Places(NamedTuple):
     within: np.ndarray
 
 
-def _places(chain: Chain, found: list[Found], limits: bool, copies: bool) -> _Places:
+def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: bool) -> _Places:
     """The solutions within the limits; of those that are whole turns apart the one nearest to 0, or
     all.
     """
@@ -210,11 +210,12 @@ def _places(chain: Chain, found: list[Found], limits: bool, copies: bool) -> _Pl
     nearest = np.clip(np.zeros_like(Q), first, last)
     with np.errstate(invalid="ignore", over="ignore"):  # infinite less infinite
         number = np.where(bounded, last - first + 1, 1.0).prod(axis=1)
-    if copies:
+    if all_revolutions:
         most = np.bincount(owner, number, minlength=1).max(initial=0)
         if most > MOST:
             raise InputError(
-                f"copies: {most:.0f} places for one target, more than {MOST}; `copies` of the result tells"
+                f"all_revolutions: {most:.0f} places for one target, more than {MOST}; "
+                "`n_revolutions` of the result tells"
             )
         ways = [
             list(
@@ -253,8 +254,8 @@ def _result(
     Q, owner, number = places.q[good], places.owner[good], places.number[good]
     ends = np.searchsorted(owner, np.arange(len(found) + 1))
     solutions: list[Array] = []
-    copies: list[np.ndarray] = []
-    sure: list[str] = []
+    n_revolutions: list[np.ndarray] = []
+    complete: list[str] = []
     numbers = np.zeros((6, len(finite)))
     numbers[3:] = np.nan
     known = iter(range(len(found)))
@@ -262,24 +263,33 @@ def _result(
     for at, is_pose in enumerate(finite):
         if not is_pose:
             solutions.append(np.empty((0, chain.dof)))
-            copies.append(np.empty(0, np.int64))
-            sure.append("0 solutions: bad target, it is not made of finite numbers")
+            n_revolutions.append(np.empty(0, np.int64))
+            complete.append("0 solutions: bad target, it is not made of finite numbers")
             continue
         k = next(known)
         part, f = slice(ends[k], ends[k + 1]), found[k]
         solutions.append(Q[part])
-        copies.append(number[part])
-        sure.append(in_words(f, int(places.within[k]), closed))
-        numbers[:4, at] = ends[k + 1] - ends[k], len(f.solutions), bool(f.moving), chance_of_more(f)
+        n_revolutions.append(number[part])
+        complete.append(in_words(f, int(places.within[k]), closed))
+        numbers[:4, at] = (
+            ends[k + 1] - ends[k],
+            len(f.solutions),
+            bool(f.self_motion_coordinates),
+            missing_probability(f),
+        )
         if ends[k + 1] > ends[k]:
             numbers[4:, at] = position[good[part]].max(), rotation[good[part]].max()
     count, anywhere, continuum = (
         row.astype(kind).reshape(batch)
         for row, kind in zip(numbers[:3], (int, int, bool), strict=True)
     )
-    chance, worst_position, worst_rotation = (row.reshape(batch) for row in numbers[3:])
-    whole = (solutions, copies, sure) if batch else (solutions[0], copies[0], sure[0])
+    p_missing, worst_position, worst_rotation = (row.reshape(batch) for row in numbers[3:])
+    whole = (
+        (solutions, n_revolutions, complete)
+        if batch
+        else (solutions[0], n_revolutions[0], complete[0])
+    )
     return AllSolutions(
-        *whole, "search" if solver is None else "closed form", count, anywhere, continuum, chance,
+        *whole, "search" if solver is None else "closed form", count, anywhere, continuum, p_missing,
         worst_position, worst_rotation,
     )  # fmt: skip

@@ -44,7 +44,7 @@ class Found:
 
     Attributes: solutions (s, m); hits (s,), how often each was found; ends, how many tries ended at
     any of them; restarts, 0 where the given starts were enough; full, whether there was no room for
-    more; singular, whether any of them is singular; moving, the coordinates that move along a
+    more; singular, whether any of them is singular; self_motion_coordinates, those that move along a
     continuum of solutions, of which one solution
     is listed; none where there is no continuum.
     """
@@ -55,19 +55,19 @@ class Found:
     restarts: int
     full: bool
     singular: bool = False
-    moving: tuple[str, ...] = ()
+    self_motion_coordinates: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Rule:
-    """How long a search goes on: until each solution was found `often` times, within `restarts`
-    tries of `iterations`; it gives up after `barren` tries without any.
+    """How long a search goes on: until each solution was found `min_hits` times, within `restarts`
+    tries of `iterations`; it gives up after `max_misses` tries without any.
     """
 
-    often: int
+    min_hits: int
     restarts: int
     iterations: int
-    barren: int
+    max_misses: int
 
 
 def periods(chain: Chain) -> Array:
@@ -138,10 +138,10 @@ def _search(
     rules = np.zeros(kernel.RULE)
     rules[kernel.ACCEPTED], rules[kernel.EACH], rules[kernel.RESTARTS] = (
         accepted(chain),
-        rule.often,
+        rule.min_hits,
         rule.restarts,
     )
-    rules[kernel.BARREN] = rule.barren
+    rules[kernel.BARREN] = rule.max_misses
     q, hits, info = np.empty((N, _ROOM, m)), np.empty((N, _ROOM)), np.empty((N, kernel.INFO))
     free = np.tile([-np.inf, np.inf], (m, 1))
     indices = np.arange(first, first + N, dtype=np.float64)
@@ -201,7 +201,9 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
             names = tuple(
                 name for name, size in zip(fast.q_names, most, strict=True) if size > _MOVES
             )
-            result[k] = replace(f, solutions=f.solutions[alone], hits=f.hits[alone], moving=names)
+            result[k] = replace(
+                f, solutions=f.solutions[alone], hits=f.hits[alone], self_motion_coordinates=names
+            )
     return result
 
 

@@ -3,18 +3,18 @@ files of both.
 """
 
 from .csv_io import read_joints, read_poses, write_joints, write_poses
-from .paths import joint, lengths, line, screw
+from .paths import joint, line, path_lengths, screw
 from .plot import plot_joints
-from .timing import Moment, Timing, cubic, fastest, quintic, trapezoidal
+from .timing import Timing, TimingSample, cubic, minimum_time, quintic, trapezoidal
 
 __all__ = [
-    "Moment",
     "Timing",
+    "TimingSample",
     "cubic",
-    "fastest",
     "joint",
-    "lengths",
     "line",
+    "minimum_time",
+    "path_lengths",
     "plot_joints",
     "quintic",
     "read_joints",

@@ -65,11 +65,11 @@ def joint(q_0: ArrayLike, q_1: ArrayLike, s: ArrayLike) -> Array:
         raise ShapeError(f"q_0, q_1: the leading axes do not broadcast: {shapes}") from error
 
 
-def lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: str = "line") -> Array:
+def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: str = "line") -> Array:
     """How long a path between two poses is: the way of the tool's origin (m) and the angle turned
     (rad).
 
-    Both are passed evenly in s, so |p'| = length s' and |omega| = angle s': what `fastest` needs.
+    Both are passed evenly in s, so |p'| = length s' and |omega| = angle s': what `minimum_time` needs.
     Parameters: T_s0, T_s1 (..., 4, 4); along "line" (|p_1 - p_0|) or "screw" (|v| of xi = (omega;
     v), the length of the helix). Returns: (..., 2), m and rad. Raises: PoseError, ShapeError,
     InputError. Accuracy: that of `se3.log`.

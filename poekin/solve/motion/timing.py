@@ -23,7 +23,7 @@ _INSTANT = 1e-100  # s: what takes less takes no time, as its rates would be no 
 _SPARE = 1 + 4e-15  # so that what is computed of a timing keeps the limits to the last digit
 
 
-class Moment(NamedTuple):
+class TimingSample(NamedTuple):
     """s, its rate ds (1/s) and the rate of that dds (1/s^2), each of the shape of t.
 
     Of a path x(s) that is even in s, x' = ds dx/ds and x'' = dds dx/ds.
@@ -36,29 +36,29 @@ class Moment(NamedTuple):
 
 @dataclass(frozen=True)
 class Timing:
-    """s(t) over 0 <= t <= duration (s), at rest before and after. `law` is one of `LAWS`; `ramp`,
+    """s(t) over 0 <= t <= duration (s), at rest before and after. `law` is one of `LAWS`; `acceleration_fraction`,
     of the trapezoidal law, the part of the duration that it speeds up, and slows down, for.
 
-    A call with t (...), s, gives the `Moment` there. s' is symmetric about the middle: s(T - t) = 1
+    A call with t (...), s, gives the `TimingSample` there. s' is symmetric about the middle: s(T - t) = 1
     - s(t).
     - cubic: s = 3 u^2 - 2 u^3, u = t / T: at most s' = 1.5 / T in the middle, |s''| = 6 / T^2 at
       the ends
     - quintic: s = 10 u^3 - 15 u^4 + 6 u^5: s'' = 0 at the ends; at most s' = 1.875 / T, |s''| =
       5.78 / T^2
-    - trapezoidal: s'' = ±1 / (r (1 - r) T^2) for r T at either end, r = ramp, and s' = 1 / ((1 - r)
+    - trapezoidal: s'' = ±1 / (r (1 - r) T^2) for r T at either end, r = acceleration_fraction, and s' = 1 / ((1 - r)
       T) between
     """
 
     law: str
     duration: float
-    ramp: float = 0.5
+    acceleration_fraction: float = 0.5
 
-    def __call__(self, t: ArrayLike) -> Moment:
+    def __call__(self, t: ArrayLike) -> TimingSample:
         """s, s' and s'' at t (...), s. Raises: InputError."""
         t = numbers(t, "t")
         if self.duration == 0:
             s = np.where(np.isnan(t), np.nan, np.where(t < 0, 0.0, 1.0))
-            return Moment(s, 0.0 * s, 0.0 * s)
+            return TimingSample(s, 0.0 * s, 0.0 * s)
         u = np.clip(t / self.duration, 0.0, 1.0)
         h = np.minimum(
             u, 1.0 - u
@@ -68,7 +68,7 @@ class Timing:
         s = np.where(late, 1.0 - s, s)
         dds = np.where(late, -dds, dds)
         rest = np.where(np.isnan(t), np.nan, 0.0)
-        return Moment(
+        return TimingSample(
             s, np.where(moving, ds / self.duration, rest), np.where(moving, dds / self.duration / self.duration, rest)
         )  # fmt: skip
 
@@ -80,7 +80,7 @@ class Timing:
             return (
                 h**3 * (10 + h * (6 * h - 15)), 30 * (h * (1 - h)) ** 2, 60 * h * (1 - h) * (1 - 2 * h)
             )  # fmt: skip
-        r = self.ramp
+        r = self.acceleration_fraction
         top, speeding = 1 / (1 - r), h <= r
         s = np.where(speeding, 0.5 * top / r * h * h, top * (h - 0.5 * r))
         # where there is no even part, the middle belongs to both ramps
@@ -114,7 +114,7 @@ def trapezoidal(duration: float, ramp: float = 0.25) -> Timing:
     return Timing("trapezoidal", _duration(duration), float(ramp))
 
 
-def fastest(
+def minimum_time(
     law: str,
     distance: ArrayLike,
     *,
@@ -124,7 +124,7 @@ def fastest(
     """The shortest timing of a law with |distance| s' <= speed and |distance| |s''| <=
     acceleration, each of them.
 
-    For joints, distance = q_1 - q_0 (m,); for poses, `lengths(T_s0, T_s1)`, the way (m) and the
+    For joints, distance = q_1 - q_0 (m,); for poses, `path_lengths(T_s0, T_s1)`, the way (m) and the
     angle (rad). For a screw motion the acceleration is that along the helix of the tool's origin.
 
     Parameters: law "cubic", "quintic" or "trapezoidal"; distance (...), rad or m; speed,
@@ -142,13 +142,13 @@ def fastest(
         raise InputError(f"distance: expected finite numbers, got {safe_repr(distance)}")
     if speed is None and acceleration is None:
         raise InputError(
-            "fastest: expected a limit of speed, of acceleration, or of both, got none"
+            "minimum_time: expected a limit of speed, of acceleration, or of both, got none"
         )
     a, b = _least(way, speed, "speed"), _least(way, acceleration, "acceleration")
     still = way.max(initial=0.0) < _INSTANT  # then limits may vanish in what underflows
     if a == b == 0 and not still:
         raise InputError(
-            "fastest: expected a finite limit for some distance that is not 0, got none"
+            "minimum_time: expected a finite limit for some distance that is not 0, got none"
         )
     if law in _PEAKS:
         top, rise = _PEAKS[law]
@@ -162,7 +162,7 @@ def fastest(
         ramp = max(b / (a * a + b), 1e-15) if even else 0.5
         duration = a + b / a if even else 2 * math.sqrt(b)
     if duration == math.inf:
-        raise InputError("fastest: the limits are so small that there is no finite duration")
+        raise InputError("minimum_time: the limits are so small that there is no finite duration")
     return Timing(law, float(duration * _SPARE) if duration >= _INSTANT else 0.0, float(ramp))
 
 

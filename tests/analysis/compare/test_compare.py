@@ -152,10 +152,10 @@ def test_a_zero_offset_of_an_end_joint_is_a_turned_base_or_tool_and_both_reading
         compare(chain, chain.rezeroed(q)) for q in ([0.1, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0.2])
     )
     assert (first.equal, first.differing, last.equal, last.differing) == (True, (), True, ())
-    assert "zero offset of -5.73°" in first.equivalent[0]
-    assert "joint 1" in first.equivalent[0]
-    assert "zero offset of -11.46°" in last.equivalent[0]
-    assert "joint 6" in last.equivalent[0]
+    assert "zero offset of -5.73°" in first.alternatives[0]
+    assert "joint 1" in first.alternatives[0]
+    assert "zero offset of -11.46°" in last.alternatives[0]
+    assert "joint 6" in last.alternatives[0]
 
 
 def test_a_tilt_that_is_also_a_zero_offset_is_read_as_what_leaves_the_base_and_the_other_reading_is_given():
@@ -168,7 +168,7 @@ def test_a_tilt_that_is_also_a_zero_offset_is_read_as_what_leaves_the_base_and_t
     assert [j.number for j in tilted.differing] == [2]
     assert any(
         "zero offset of 0.1° of joint 3" in words or "of -0.1° of joint 3" in words
-        for words in tilted.equivalent
+        for words in tilted.alternatives
     )
 
 
@@ -182,10 +182,14 @@ def test_the_extra_joint_is_named_where_one_can_be_dropped():
     )
     for pair, side in (((chain, longer), "b"), ((longer, chain), "a")):
         result = compare(*pair)
-        assert (result.equal, result.extra, result.differing) == (False, (side, "extra"), ())
+        assert (result.equal, result.unmatched_joints, result.differing) == (
+            False,
+            (side, "extra"),
+            (),
+        )
         assert "'extra'" in result.verdict
     lost = compare(arm("ur5e"), chain)
-    assert (lost.equal, lost.extra, lost.joints, lost.base) == (False, None, (), None)
+    assert (lost.equal, lost.unmatched_joints, lost.joints, lost.base) == (False, None, (), None)
     assert "6 joints against 7" in lost.verdict
     json.loads(lost.to_json())
 
@@ -326,7 +330,9 @@ def test_json_is_plain_and_complete():
     document = json.loads(compare(arm("ur5e"), arm("erd:ur5_robot")).to_json())
     assert document["equal"] is False
     assert len(document["joints"]) == 6
-    assert {"angle", "normal", "zero", "unit", "differs", "limits"} <= set(document["joints"][0])
+    assert {"angle", "normal", "zero_offset", "unit", "differs", "limits"} <= set(
+        document["joints"][0]
+    )
 
 
 @pytest.mark.parametrize(
@@ -372,7 +378,7 @@ def test_what_cannot_be_compared_is_said_whole(options: dict[str, Any], message)
     assert str(caught.value) == message
 
 
-REVERSED = "joint 3 ('elbow_joint') counts in the other direction"
+REVERSED = "joint 3 ('elbow_joint') has the sign of q flipped"
 IN_MM = "the models differ; lengths of model b are 1000 times those of model a (millimetres against metres?)"
 
 
@@ -406,7 +412,13 @@ def test_a_verdict_says_what_differs_and_nothing_else(change, aligned, strict):
 def test_numbers_of_joints_that_do_not_fit_are_said_whole(numbers, verdict):
     a, b = (random_arm(k, ("revolute",) * n) for k, n in enumerate(numbers))
     found = compare(a, b, samples=7, seed=3, tol_mm=0.02, tol_deg=0.003)
-    assert (found.verdict, found.equal, found.joints, found.extra, found.equivalent) == (
+    assert (
+        found.verdict,
+        found.equal,
+        found.joints,
+        found.unmatched_joints,
+        found.alternatives,
+    ) == (
         verdict,
         False,
         (),
@@ -433,7 +445,7 @@ def test_a_tolerance_is_one_of_millimetres_or_degrees_to_less_than_a_thousandth(
     if name == "tol_mm":
         motion = np.concatenate([np.zeros(3), 1e-3 * size * across])
     else:
-        place = lines(chain).places[k] + lines(chain).hub
+        place = lines(chain).places[k] + lines(chain).centre
         motion = np.radians(size) * screw.revolute(across, place)
     S[k] = se3.adjoint(se3.exp(motion)) @ S[k]
     tolerances: dict[str, Any] = {"tol_mm": 50.0, "tol_deg": 5.0, name: 0.5}

@@ -39,7 +39,7 @@ def test_one_or_two_extra_joints_are_named_wherever_they_are(seed, places, swapp
     other, added = longer_by(chain, places, rng)
     moved = other.rebased(se3.exp(rng.normal(size=6))).retooled(se3.exp(rng.normal(size=6)))
     result = compare(moved, chain, samples=5) if swapped else compare(chain, moved, samples=5)
-    assert result.extra == ("a" if swapped else "b", *added)
+    assert result.unmatched_joints == ("a" if swapped else "b", *added)
     assert (result.equal, result.differing) == (False, ())
     assert all(f"'{name}'" in result.verdict for name in added)
     assert f"{'two joints' if len(added) == 2 else 'one joint'} more" in result.verdict
@@ -53,7 +53,7 @@ def test_extra_joints_of_the_panda_are_named_under_other_zeros_too(places):
     chain, rng = arm("panda"), np.random.default_rng(2)
     other, added = longer_by(chain, places, rng)
     result = compare(chain, other.rezeroed(0.3 * rng.normal(size=other.dof)), samples=5)
-    assert result.extra == ("b", *added)
+    assert result.unmatched_joints == ("b", *added)
     assert not any(j.axis_differs for j in result.joints)
     assert result.after is not None
     assert result.after.worst_mm < 0.01
@@ -81,13 +81,15 @@ def test_an_extra_joint_of_any_kind_is_named_at_another_zero(extra_joint):
     )
     for pair, side in (((chain, other), "b"), ((other, chain), "a")):
         result = compare(*pair, samples=5)
-        assert result.extra == (side, "extra")
+        assert result.unmatched_joints == (side, "extra")
         assert result.after is not None
         assert result.after.worst_mm < 0.01
     # An axis that is elsewhere as well is no matter of where the joint is held.
     S = np.array(other.screws)
     S[1] = se3.adjoint(se3.exp(np.array([0.01, 0, 0, 0, 0.01, 0]))) @ S[1]
-    assert compare(chain, Chain(S, other.home, joint_names=names), samples=1).extra is None
+    assert (
+        compare(chain, Chain(S, other.home, joint_names=names), samples=1).unmatched_joints is None
+    )
 
 
 def scara():
@@ -141,7 +143,7 @@ def test_extra_joints_beside_each_other_and_beside_parallel_axes_are_named_at_ot
     result = compare(
         chain, other.rezeroed(q).rebased(se3.exp([0.2, 0.5, -0.3, 0.1, 0.2, 0.3])), samples=5
     )
-    assert result.extra == ("b", *added)
+    assert result.unmatched_joints == ("b", *added)
     assert not any(j.axis_differs for j in result.joints)
     assert result.after is not None
     assert result.after.worst_mm < 0.01
@@ -157,7 +159,7 @@ def test_of_parallel_joints_that_fit_alike_rounding_does_not_choose():
     rng = np.random.default_rng(3)
     for _ in range(8):
         moved = other.rebased(se3.exp(rng.normal(size=6)))
-        assert compare(chain, moved, samples=1).extra == ("b", "extra0", "extra1")
+        assert compare(chain, moved, samples=1).unmatched_joints == ("b", "extra0", "extra1")
 
 
 @pytest.mark.parametrize(
@@ -165,7 +167,12 @@ def test_of_parallel_joints_that_fit_alike_rounding_does_not_choose():
 )
 def test_where_no_joints_can_be_dropped_that_is_said(joints, words):
     result = compare(random_arm(1, ("revolute",) * joints), random_arm(2, ("revolute",) * 7))
-    assert (result.equal, result.extra, result.joints, result.base) == (False, None, (), None)
+    assert (result.equal, result.unmatched_joints, result.joints, result.base) == (
+        False,
+        None,
+        (),
+        None,
+    )
     assert f"{joints} joints against 7, and {words}" in result.verdict
 
 
@@ -205,7 +212,7 @@ def test_helical_joints_agree_under_any_convention():
     assert result.after is not None
     assert result.after.worst_mm < 0.2
     flipped = compare(chain, bolt(sign=-1.0))
-    assert (flipped.equal, [j.number for j in flipped.differing if j.flipped]) == (True, [3])
+    assert (flipped.equal, [j.number for j in flipped.differing if j.reversed]) == (True, [3])
 
 
 def test_a_zero_offset_of_a_helical_joint_is_named_and_sized():
@@ -213,7 +220,7 @@ def test_a_zero_offset_of_a_helical_joint_is_named_and_sized():
     result = compare(chain, chain.rezeroed([0, 0, 0.1, 0, 0]))
     (joint,) = result.differing
     assert (joint.number, joint.axis_differs, joint.unit) == (3, False, "deg")
-    assert joint.zero == pytest.approx(-np.degrees(0.1), rel=1e-3)
+    assert joint.zero_offset == pytest.approx(-np.degrees(0.1), rel=1e-3)
 
 
 @pytest.mark.parametrize(

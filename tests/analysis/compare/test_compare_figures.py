@@ -9,7 +9,7 @@ import pytest
 
 from benchmarks.planted_changes import arm, random_arm
 from poekin.analysis.compare.alignment import search as searching
-from poekin.analysis.compare.alignment.hypotheses import Reading
+from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.compare import compare
 from poekin.formats import dh
@@ -34,7 +34,7 @@ def test_limits_of_a_joint_both_reversed_and_rezeroed_are_those_in_the_other_mod
     chain = Chain(chain.screws, chain.home, joint_names=chain.joint_names, limits=limits)
     other = reversed_at(chain.rezeroed([0, 0, 0.4, 0, 0, 0]), 2)
     result = compare(chain, other, samples=1)
-    assert (result.joints[2].flipped, abs(result.joints[2].zero)) == (
+    assert (result.joints[2].reversed, abs(result.joints[2].zero_offset)) == (
         True,
         pytest.approx(np.degrees(0.4)),
     )
@@ -67,7 +67,7 @@ def test_angle_normal_and_shift_are_those_of_the_two_lines(angle):
     assert p is not None
     assert r is not None
     pair = sides(chain, chain, *TOL).a
-    place = pair.places[k] + pair.hub
+    place = pair.places[k] + pair.centre
     assert np.linalg.norm(np.cross(w, place - p)) < 1e-12
     across = np.cross(w, u)
     assert joint.angle == pytest.approx(np.degrees(np.arccos(w @ u)), rel=1e-9)
@@ -97,7 +97,7 @@ def test_pose_errors_are_the_worst_and_the_mean_over_the_configurations():
 def test_an_axis_that_only_turns_says_how_far_it_is_at_the_arm_and_one_that_passes_by_says_both():
     chain, k = random_arm(2), 3
     pair = sides(chain, chain, *TOL).a
-    w, place = chain.screws[k, :3], pair.places[k] + pair.hub
+    w, place = chain.screws[k, :3], pair.places[k] + pair.centre
     across = np.cross(w, [1, 0, 0]) / np.linalg.norm(np.cross(w, [1, 0, 0]))
     # Turned by 0.1 rad about a point of it that is 0.5 m from the arm: it crosses the old one
     # there.
@@ -125,7 +125,7 @@ def test_a_zero_offset_is_read_as_the_lesser_turn():
     other = chain.rezeroed([0, 0, np.radians(10), 0, 0, 0])
     pair = sides(chain, other, *TOL)
     P = np.eye(4)
-    P[:3, 3] = pair.b.hub - pair.a.hub
+    P[:3, 3] = pair.b.centre - pair.a.centre
     z = np.zeros((2, 6))
     z[:, 2] = np.radians([350, -370])
     for reading in searching._simplest(pair, chain, other, np.stack([P, P]), z):
@@ -152,19 +152,19 @@ def test_a_link_that_is_another_one_hides_no_joint_that_is_reversed_behind_it():
     chain, other = dh.to_chain(table), dh.to_chain(dh.Table(table.convention, rows))
     assert "the link between" in compare(chain, other, samples=1).verdict
     result = compare(chain, reversed_at(other, 4), samples=1)
-    assert result.joints[4].flipped
-    assert "joint 5 ('wrist_2_joint') counts in the other direction" in result.verdict
+    assert result.joints[4].reversed
+    assert "joint 5 ('wrist_2_joint') has the sign of q flipped" in result.verdict
 
 
-def reading(moved=(), offset=(), flipped=(), frames=0, link=0, far=100.0):
+def reading(moved=(), offset=(), reversed=(), frames=0, link=0, far=100.0):
     """A reading of six joints that blames these."""
     marks = np.zeros((3, 6), bool)
-    for row, joints in zip(marks, (moved, offset, flipped), strict=True):
+    for row, joints in zip(marks, (moved, offset, reversed), strict=True):
         row[list(joints)] = True
-    misses = np.where(marks[0], far, 0.1)
-    return Reading(
+    deviations = np.where(marks[0], far, 0.1)
+    return Hypothesis(
         np.eye(4), np.eye(4), np.where(marks[1], 0.1, 0.0), np.where(marks[2], -1.0, 1.0), marks[0], marks[1],
-        np.zeros((6, 6)), misses, frames, link,
+        np.zeros((6, 6)), deviations, frames, link,
     )  # fmt: skip
 
 
@@ -174,12 +174,12 @@ def reading(moved=(), offset=(), flipped=(), frames=0, link=0, far=100.0):
     (reading(offset=[2]), reading(moved=[2])),
     (reading(moved=[2]), reading(offset=[2], frames=1)),
     (reading(moved=[2], frames=1), reading(offset=[2, 3])),
-    (reading(moved=[2], frames=1), reading(flipped=[2, 3])),
+    (reading(moved=[2], frames=1), reading(reversed=[2, 3])),
     (reading(offset=[2, 3], frames=2), reading(moved=[2], frames=2)),
     (reading(moved=[2], frames=2), reading(link=2, moved=[3, 4, 5], frames=1)),
     (reading(offset=[2, 3], frames=1), reading(link=2, moved=[2, 3, 4, 5], frames=1)),
     (reading(link=2, moved=[2, 3, 4, 5], frames=1), reading(moved=[3], offset=[2, 4])),
-    (reading(offset=[1, 2, 3, 4], flipped=[1, 3], frames=2), reading(moved=[2], frames=2)),
+    (reading(offset=[1, 2, 3, 4], reversed=[1, 3], frames=2), reading(moved=[2], frames=2)),
     (reading(moved=[2, 3], far=50.0), reading(moved=[2, 3], far=500.0)),
     # one axis, however far it moved
     (reading(moved=[2], offset=[4], far=1000.0), reading(moved=[2, 3], far=2.0)),
@@ -214,7 +214,7 @@ def test_a_zero_offset_that_no_agreeing_axis_needs_is_put_back_though_another_ax
     other = Chain(S, chain.home)
     pair = sides(chain, other, *TOL)
     P, z = np.eye(4)[None].copy(), np.zeros((1, 6))
-    P[0, :3, 3] = pair.b.hub - pair.a.hub
+    P[0, :3, 3] = pair.b.centre - pair.a.centre
     z[0, 5] = 0.4
     (found,) = searching._simplest(pair, chain, other, P, z)
     assert found.zeros.tolist() == [0.0] * 6

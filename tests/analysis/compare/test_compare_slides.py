@@ -86,7 +86,9 @@ def test_no_slide_far_outside_its_limits_makes_up_for_an_axis_that_is_elsewhere(
         for one, two in ((chain, other), (other, chain)):
             result = compare(one, two, samples=5)
             assert not result.equal, result.verdict
-            assert all(joint.unit == "deg" or abs(joint.zero) < 5e3 for joint in result.joints)
+            assert all(
+                joint.unit == "deg" or abs(joint.zero_offset) < 5e3 for joint in result.joints
+            )
 
 
 def test_a_slide_that_is_tilted_within_tolerance_makes_up_for_no_axis_that_is_elsewhere():
@@ -111,7 +113,7 @@ def as_it_stands(chain, other, zeros=(0.0,)):
     """The sides of two arms, and the reading of their bases as they stand."""
     pair = sides(chain, other, *TOL)
     P = np.eye(4)
-    P[:3, 3] = pair.b.hub - pair.a.hub
+    P[:3, 3] = pair.b.centre - pair.a.centre
     (reading,) = read(pair, chain, other, P[None], np.zeros((1, pair.n)) + np.array(zeros))
     return pair, reading
 
@@ -119,7 +121,7 @@ def as_it_stands(chain, other, zeros=(0.0,)):
 def off_by_the_tolerance(chain, rng):
     """The arm with each axis off by all of the tolerances, in direction and at its place."""
     rows, ours = [], sides(chain, chain, *TOL).a
-    for S, place in zip(chain.screws, ours.places + ours.hub, strict=True):
+    for S, place in zip(chain.screws, ours.places + ours.centre, strict=True):
         way = S[:3] if S[:3].any() else S[3:]
         across = np.cross(way, rng.normal(size=3))
         across *= 0.999 / np.linalg.norm(across)
@@ -183,5 +185,5 @@ def test_axes_within_tolerance_keep_the_poses_within_the_bound(kinds):
         other = off_by_the_tolerance(chain, rng)
         pair, reading = as_it_stands(chain, other)
         assert not reading.moved.any()
-        assert reading.misses.min() > 0.99
+        assert reading.deviations.min() > 0.99
         assert poses_agree(pair, chain, other, reading)

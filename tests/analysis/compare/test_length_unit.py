@@ -41,7 +41,7 @@ def test_lengths_a_thousand_times_too_long_or_too_short_are_named_whichever_mode
     for one, two, ratio in ((chain, other, factor), (other, chain, 1 / factor)):
         result = compare(one, two, samples=5)
         assert (result.equal, result.length_ratio) == (False, pytest.approx(ratio))
-        assert not any(j.axis_differs or j.flipped for j in result.joints)
+        assert not any(j.axis_differs or j.reversed for j in result.joints)
         larger, smaller = ("b", "a") if ratio > 1 else ("a", "b")
         assert (
             f"lengths of model {larger} are 1000 times those of model {smaller} (millimetres"
@@ -67,8 +67,8 @@ def test_an_error_in_a_joint_beside_the_wrong_unit_is_named_and_sized(change, sw
     found = {
         "tilt": joint.angle,
         "shift": joint.normal,
-        "zero": abs(joint.zero),
-        "flip": float(joint.flipped),
+        "zero": abs(joint.zero_offset),
+        "flip": float(joint.reversed),
     }[change]
     assert found == pytest.approx(
         {"tilt": 0.1, "shift": 1.0, "zero": 0.5, "flip": 1.0}[change], rel=0.01
@@ -87,7 +87,11 @@ def test_the_unit_is_named_beside_another_link_an_extra_joint_and_in_a_strict_co
     names = [*chain.joint_names[:3], "extra", *chain.joint_names[3:]]
     rows = np.insert(chain.screws, 3, screw.revolute([1, 2, 0], [0.1, 0.3, 0.2]), 0)
     extra = compare(chain, rescaled(Chain(rows, chain.home, joint_names=names), 1000.0), samples=5)
-    assert (extra.length_ratio, extra.extra, extra.before) == (1000, ("b", "extra"), None)
+    assert (extra.length_ratio, extra.unmatched_joints, extra.before) == (
+        1000,
+        ("b", "extra"),
+        None,
+    )
     strict = compare(chain, rescaled(chain, 1000.0), samples=5, strict=True)
     assert (strict.equal, strict.length_ratio, strict.differing) == (False, 1000, ())
     assert strict.verdict.startswith("the models differ; lengths")

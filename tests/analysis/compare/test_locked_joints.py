@@ -89,7 +89,7 @@ def test_the_jacobian_is_that_of_the_misfit(letters):
 def test_a_misfit_is_what_angle_and_place_of_the_axes_miss():
     # Held at 90 degrees, joint 2 takes the axis along x at height 1 to the one along y at height 1.
     ours = at([revolving(Y), revolving(Z), revolving(X, [0, 0, 1])])
-    hub = ours.hub[2]
+    centre = ours.centre[2]
     turned = np.array([[0.0], [np.pi / 2], [np.pi / 6]])
 
     def miss(relation):
@@ -112,7 +112,7 @@ def test_a_misfit_is_what_angle_and_place_of_the_axes_miss():
             assert _misfit(ahead, [1], [2], [near], np.zeros((1, 1)))[0][0] == pytest.approx(
                 [1 - far * far]
             )
-    assert hub == pytest.approx(0.5)
+    assert centre == pytest.approx(0.5)
 
 
 def test_starts_are_evenly_over_a_turn_or_three_about_zero_and_on_both_sides_of_a_slide():

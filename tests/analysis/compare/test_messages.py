@@ -9,7 +9,7 @@ import pytest
 
 import poekin as pk
 from poekin.analysis.compare import messages
-from poekin.analysis.compare.alignment.hypotheses import Reading
+from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.compare import compare
 from poekin.analysis.compare.comparison import JointComparison
 from poekin.model.chain import Chain
@@ -47,7 +47,7 @@ def test_another_reading_says_the_size_of_its_zero_offset(kind, words):
         np.eye(4),
     )
     marks, ones = np.zeros(n, bool), np.ones(n)
-    same = Reading(
+    same = Hypothesis(
         np.eye(4), np.eye(4), np.zeros(n), ones, marks, marks, chain.screws, np.zeros(n), 0
     )
     other = replace(same, zeros=zero * (np.arange(n) == k), offset=np.arange(n) == k)
@@ -63,7 +63,7 @@ SLIDES = replace(TURNS, kind_a="prismatic", kind_b="prismatic", normal=None, shi
 
 @pytest.mark.parametrize("joint, changes, words", [
     (TURNS, {}, ""),
-    (TURNS, {"kind_b": "prismatic", "axis_differs": True, "angle": 3.0, "flipped": True},
+    (TURNS, {"kind_b": "prismatic", "axis_differs": True, "angle": 3.0, "reversed": True},
      "is revolute in one model and prismatic in the other"),
     (TURNS, {"axis_differs": True, "angle": 0.5, "normal": 3.25, "shift": 7.0},
      "has an axis that is 0.5° and 3.25 mm from the other model's (7 mm at the arm)"),
@@ -76,15 +76,15 @@ SLIDES = replace(TURNS, kind_a="prismatic", kind_b="prismatic", normal=None, shi
      "has an axis that is 12.35 mm from the other model's"),
     (TURNS, {"axis_differs": True, "angle": 0.001, "normal": 0.01, "shift": 0.01}, "has another pitch"),
     (SLIDES, {"axis_differs": True}, "has another pitch"),
-    (TURNS, {"zero_differs": True, "zero": -5.7}, "has its zero position 5.7° from the other model's"),
-    (SLIDES, {"zero_differs": True, "zero": 5.7}, "has its zero position 5.7 mm from the other model's"),
-    (TURNS, {"flipped": True}, "counts in the other direction"),
+    (TURNS, {"zero_differs": True, "zero_offset": -5.7}, "has its zero position 5.7° from the other model's"),
+    (SLIDES, {"zero_differs": True, "zero_offset": 5.7}, "has its zero position 5.7 mm from the other model's"),
+    (TURNS, {"reversed": True}, "has the sign of q flipped"),
     (TURNS, {"coupling_differs": True, "follows_a": "follows 2 × 'x'"},
      "follows 2 × 'x' in one model and moves by itself in the other"),
     (TURNS, {"coupling_differs": True, "follows_b": "does not move"},
      "moves by itself in one model and does not move in the other"),
-    (TURNS, {"zero_differs": True, "zero": 1.0, "flipped": True},
-     "has its zero position 1° from the other model's and counts in the other direction"),
+    (TURNS, {"zero_differs": True, "zero_offset": 1.0, "reversed": True},
+     "has its zero position 1° from the other model's and has the sign of q flipped"),
 ])  # fmt: skip
 def test_what_differs_in_a_joint_is_said_whole(joint, changes, words):
     assert messages.joint_words(replace(joint, **changes), 0.01, 0.001) == words
@@ -143,7 +143,7 @@ def two_ends(kind):
 @pytest.mark.parametrize("direction", [1.0, -1.0])
 def test_a_frame_moved_along_or_about_an_end_joint_is_its_zero_offset(kind, size, far, direction):
     chain, marks = two_ends(kind), np.zeros(3, bool)
-    same = Reading(
+    same = Hypothesis(
         np.eye(4), np.eye(4), np.zeros(3), np.ones(3), marks, marks, chain.screws, np.zeros(3), 1
     )
     base = pk.se3.exp(direction * chain.screws[0] * size)
@@ -167,7 +167,7 @@ def test_a_frame_moved_along_or_about_an_end_joint_is_its_zero_offset(kind, size
 def test_other_readings_say_which_joint_is_to_blame_instead_and_for_what():
     chain, ones, nothing = two_ends("revolute"), np.ones(3), np.zeros(3, bool)
     at = np.arange(3) == 2
-    same = Reading(
+    same = Hypothesis(
         np.eye(4), np.eye(4), np.zeros(3), ones, nothing, nothing, chain.screws, np.zeros(3), 0
     )
     others = [

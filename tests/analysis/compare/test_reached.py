@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from poekin.analysis.compare.alignment.hypotheses import Reading
+from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.reached import _bounds, poses_agree
 from poekin.groups import se3
@@ -77,7 +77,7 @@ def test_equal_arms_agree_within_rounding_however_small_the_tolerance():
     chain = planar(screw.revolute(X, [1, 0, 0]), tip=1000.0)
     base, n = se3.exp([0.3, -0.5, 0.7, 1, 2, 3]), 3
     other, nothing = chain.rebased(base), np.zeros(n, bool)
-    reading = Reading(se3.inverse(base), np.eye(4), np.zeros(n), np.ones(n), nothing, nothing, chain.screws,
+    reading = Hypothesis(se3.inverse(base), np.eye(4), np.zeros(n), np.ones(n), nothing, nothing, chain.screws,
                       np.zeros(n), 1)  # fmt: skip
     pair = sides(chain, other, 1e-300, 1e-300)
     assert poses_agree(pair, chain, other, reading)
@@ -100,7 +100,7 @@ def test_poses_are_looked_at_within_the_limits_of_each_arm_in_its_own_zero_and_d
     b = Chain(S, a.home).rezeroed(-zeros)
     b = Chain(b.screws, b.home, limits=theirs + wide * (free == "b"))
     nothing = np.zeros(3, bool)
-    reading = Reading(
+    reading = Hypothesis(
         np.eye(4), np.eye(4), zeros, directions, nothing, nothing, a.screws, np.zeros(3), 0
     )
     assert poses_agree(sides(a, b, TOL_M, TOL_RAD), a, b, reading) == (free == "neither")

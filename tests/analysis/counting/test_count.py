@@ -35,22 +35,22 @@ def numbers(cost):
 
 
 def counts(chain, method, frame, charged, pose=False):
-    return numbers(pk.count(chain, method=method, frame=frame, charged=charged, pose=pose))
+    return numbers(pk.count(chain, method=method, frame=frame, counting=charged, pose=pose))
 
 
 # Multiplications and additions of J alone, from 3 joints on; at 2 joints no product is there to
 # leave something out.
 NEEDED = {
-    ("direct", "space", "needed"): (60, -96, 45, -72),
-    ("direct", "body", "needed"): (60, -96, 45, -72),
-    ("recursive", "body", "needed"): (42, -81, 30, -60),
-    ("recursive_by_cross", "body", "needed"): (39, -75, 27, -54),
-    ("recursive_with_tool", "body", "needed"): (42, -45, 30, -33),
-    ("recursive_general_frames", "body", "needed"): (60, -96, 45, -72),
-    ("dh_recursive", "body", "needed"): (42, -3, 30, -3),
-    ("dh_paul", "body", "needed"): (42, -39, 30, -30),
-    ("dh_modified", "body", "needed"): (42, -81, 30, -60),
-    ("structured", "body", "needed"): (36, -72, 21, -45),
+    ("direct", "space", "live"): (60, -96, 45, -72),
+    ("direct", "body", "live"): (60, -96, 45, -72),
+    ("recursive", "body", "live"): (42, -81, 30, -60),
+    ("recursive_by_cross", "body", "live"): (39, -75, 27, -54),
+    ("recursive_with_tool", "body", "live"): (42, -45, 30, -33),
+    ("recursive_general_frames", "body", "live"): (60, -96, 45, -72),
+    ("dh_recursive", "body", "live"): (42, -3, 30, -3),
+    ("dh_paul", "body", "live"): (42, -39, 30, -30),
+    ("dh_modified", "body", "live"): (42, -81, 30, -60),
+    ("structured", "body", "live"): (36, -72, 21, -45),
     # 15 + 13 for each of n - 1 exponentials
     ("direct", "space", "everything"): (60 + 15, -96 - 15, 45 + 13, -72 - 13),
     ("direct", "body", "everything"): (60 + 15, -96 - 15, 45 + 13, -72 - 13),
@@ -69,8 +69,8 @@ WITH_POSE = {
     ("recursive", "body", "paper"): (42, -42, 30, -30),
     ("recursive_with_tool", "body", "paper"): (42, -6, 30, -3),
     ("recursive_by_cross", "body", "paper"): (39, -39, 27, -27),
-    ("dh_recursive", "body", "needed"): (42, 0, 30, 0),
-    ("dh_paul", "body", "needed"): (42, -36, 30, -27),
+    ("dh_recursive", "body", "live"): (42, 0, 30, 0),
+    ("dh_paul", "body", "live"): (42, -36, 30, -27),
     # 15 + 13 for each of n exponentials, 12 + 6 for each moved link
     ("direct", "space", "everything"): (60 + 15, -24, 45 + 13, -18),
 }
@@ -102,8 +102,8 @@ def test_jacobian_and_pose_together_cost_this_many_operations(way, n):
 
 @pytest.mark.parametrize("n", range(4, 13))
 def test_moved_links_cost_at_most_12_and_6_each_and_a_sine_and_cosine(n):
-    given = pk.count(arm("r" * n), method="recursive", charged="needed")
-    whole = pk.count(arm("r" * n), method="recursive", charged="everything")
+    given = pk.count(arm("r" * n), method="recursive", counting="live")
+    whole = pk.count(arm("r" * n), method="recursive", counting="everything")
     # the last link's constant entries meet constants of the one before: some products are none
     assert 12 * (n - 1) - 8 == whole.multiplications - given.multiplications
     assert 6 * (n - 1) - 1 == whole.additions - given.additions
@@ -112,7 +112,7 @@ def test_moved_links_cost_at_most_12_and_6_each_and_a_sine_and_cosine(n):
 
 @pytest.mark.parametrize("n", JOINTS)
 def test_direct_and_recursive_cost_the_same_in_arbitrary_link_frames(n):
-    for charged in ("paper", "needed"):
+    for charged in ("paper", "live"):
         general = counts(arm("r" * n), "recursive_general_frames", "body", charged)
         assert general == counts(arm("r" * n), "direct", "body", charged)
 
@@ -134,7 +134,7 @@ def test_prismatic_helical_and_mixed_joints_are_counted():
     assert counts(arm("rprr"), "recursive", "body", "paper") == (42 * 4 - 78 - 6, 30 * 4 - 57 - 3)
     assert counts(arm("rprr"), "direct", "body", "paper") == (60 * 4 - 96 - 15, 45 * 4 - 72 - 12)
     assert counts(arm("rhrr"), "recursive", "body", "paper") == (42 * 4 - 78 + 3, 30 * 4 - 57 + 3)
-    assert pk.count(arm("rprr"), charged="everything").sine_cosine_pairs == 2
+    assert pk.count(arm("rprr"), counting="everything").sine_cosine_pairs == 2
     # the pitch: one product for the shift, three for where it goes
     straight, pitched = (counts(arm(k), "direct", "space", "everything") for k in ("rrr", "rhr"))
     assert (pitched[0] - straight[0], pitched[1] - straight[1]) == (3, 3)
@@ -142,9 +142,9 @@ def test_prismatic_helical_and_mixed_joints_are_counted():
 
 def test_a_coupled_joint_costs_its_coupling_and_no_second_sine():
     def cost(*C):
-        return pk.count(arm("rrr", coupling=C), charged="everything")
+        return pk.count(arm("rrr", coupling=C), counting="everything")
 
-    free = pk.count(arm("rrr"), charged="everything")
+    free = pk.count(arm("rrr"), counting="everything")
     # columns 1 and 2 become one: six sums
     tied = cost([1.0, 0.0], [1.0, 0.0], [0.0, 1.0])
     assert numbers(tied) == (free.multiplications, free.additions + 6)
@@ -322,9 +322,9 @@ def test_the_table_has_every_column_and_is_plain_data():
         frame = "space" if method == "direct" else "body"
         assert printed(method, 6) == table[method, "body", "printed"].jacobian
         assert numbers(table[method, frame, "paper"].jacobian) == numbers(printed(method, 6))
-    used = {(r.method, r.charged) for r in table.rows}
+    used = {(r.method, r.counting) for r in table.rows}
     assert {m for m, _ in used} == set(METHODS)
-    assert {c for _, c in used} == {"printed", "paper", "needed", "everything"}
+    assert {c for _, c in used} == {"printed", "paper", "live", "everything"}
     programs = [r.frame for r in table.of("this arm's own program")]
     assert programs == ["space", "body", "hybrid", *range(6), "middle"]
     assert [r.frame for r in table.of("the idealised arm's own program")] == programs
@@ -383,7 +383,7 @@ def test_each_row_says_what_it_is_of_which_joint():
 def test_formulas_of_revolute_joints_are_not_printed_for_other_chains():
     tied = arm("rrr", coupling=[[1.0, 0.0], [0.0, 1.0], [0.0, 1.0]])
     for chain in (arm("rpr"), tied, arm("h" * 3), arm("r")):
-        assert all(r.charged != "printed" for r in count_table(chain).rows)
+        assert all(r.counting != "printed" for r in count_table(chain).rows)
 
 
 def test_short_chains_have_their_own_program_only():
@@ -415,8 +415,8 @@ def test_a_rounded_model_costs_more_than_its_idealised_arm():
     ({"method": ["direct"]}, r"no method .*; there are"),
     ({"method": "direct", "frame": "hybrid"}, r"no method 'direct' in frame 'hybrid'; its frames: body, space"),
     ({"method": "recursive", "frame": 2}, r"no method 'recursive' in frame 2; its frames: body"),
-    ({"charged": "all"}, r"charged: expected paper or needed or everything for method 'recursive', got 'all'"),
-    ({"method": "specialised", "charged": "paper"}, r"charged: expected everything for method 'specialised'"),
+    ({"counting": "all"}, r"counting: expected paper or live or everything for method 'recursive', got 'all'"),
+    ({"method": "specialised", "counting": "paper"}, r"counting: expected everything for method 'specialised'"),
     ({"method": "specialised", "frame": "tool"}, r"frame"),
     ({"method": "specialised", "frame": 3}, r"frame"),
     ({"pose": 1}, r"pose: expected True or False, got 1"),
@@ -528,10 +528,10 @@ REFUSED = {
               "no method 'direct' in frame 'hybrid'; its frames: body, space"),
     "joint": ({"method": "structured", "frame": 2},
               "no method 'structured' in frame 2; its frames: body, space, hybrid"),
-    "charged": ({"charged": "all"},
-                "charged: expected paper or needed or everything for method 'recursive', got 'all'"),
-    "charged 5": ({"method": "specialised", "charged": 5},
-                  "charged: expected everything for method 'specialised', got 5"),
+    "counting": ({"counting": "all"},
+                "counting: expected paper or live or everything for method 'recursive', got 'all'"),
+    "charged 5": ({"method": "specialised", "counting": 5},
+                  "counting: expected everything for method 'specialised', got 5"),
     "pose": ({"pose": 1}, "pose: expected True or False, got 1"),
 }  # fmt: skip
 

@@ -44,11 +44,11 @@ def test_a_stretched_arm_cannot_move_along_itself():
     assert s.singular
     assert s.rank == 5
     assert s.distance <= 1e-15
-    np.testing.assert_allclose(np.abs(s.lost[3:] @ along), s.length, rtol=1e-14)
-    np.testing.assert_allclose(s.lost[:3], np.zeros(3), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(np.abs(s.singular_direction[3:] @ along), s.length, rtol=1e-14)
+    np.testing.assert_allclose(s.singular_direction[:3], np.zeros(3), rtol=0, atol=1e-14)
     assert "the tool cannot move by moving along (" in s.words
     # and the rates that do nothing do nothing
-    assert np.abs(arm.jacobian(ELBOW, "hybrid") @ s.idle).max() < 1e-14
+    assert np.abs(arm.jacobian(ELBOW, "hybrid") @ s.joint_direction).max() < 1e-14
 
 
 def test_aligned_wrist_axes_lose_a_turn_about_what_is_square_to_them():
@@ -59,8 +59,10 @@ def test_aligned_wrist_axes_lose_a_turn_about_what_is_square_to_them():
     # the tool's origin is where the axes meet; to keep it still is part of what the other joints
     # cannot do as well
     for joint in (3, 4, 5):
-        assert abs(s.lost[:3] @ T[joint, :3, 2]) < 1e-14
-    np.testing.assert_allclose(np.abs(s.idle[[3, 5]]), math.sqrt(0.5), rtol=0, atol=1e-14)
+        assert abs(s.singular_direction[:3] @ T[joint, :3, 2]) < 1e-14
+    np.testing.assert_allclose(
+        np.abs(s.joint_direction[[3, 5]]), math.sqrt(0.5), rtol=0, atol=1e-14
+    )
     assert "turning about" in s.words
     assert "The rates 'joint" in s.words
 
@@ -73,7 +75,7 @@ def test_the_distance_is_how_far_the_elbow_is_bent(off):
     # to first order: the relative error is of the order of the distance
     assert s.distance == pytest.approx(abs(off), rel=10 * abs(off) + 1e-6)
     np.testing.assert_allclose(
-        s.towards, [0, 0, -np.sign(off), 0, 0, 0], rtol=0, atol=10 * abs(off)
+        s.gradient_direction, [0, 0, -np.sign(off), 0, 0, 0], rtol=0, atol=10 * abs(off)
     )
     assert s.singular == (abs(off) < 5e-3)
 
@@ -81,7 +83,7 @@ def test_the_distance_is_how_far_the_elbow_is_bent(off):
 def test_two_singularities_at_once_lose_two_motions():
     s = singularity(elbow_arm(), [0.3, -0.7, 0.0, 0.0, 0.0, 0.2])
     assert s.rank == 4
-    assert s.lost_all.shape == (2, 6)
+    assert s.singular_subspace.shape == (2, 6)
     assert s.words.count("; and ") == 1
 
 
@@ -89,8 +91,12 @@ def test_a_part_may_be_regular_where_the_whole_is_not():
     q = [0.3, -0.7, 0.9, 0.4, 0.0, 0.2]
     assert singularity(elbow_arm(), q).singular
     assert not singularity(elbow_arm(), q, part="translation").singular
-    assert singularity(elbow_arm(), ELBOW, part="translation").lost[:3].tolist() == [0, 0, 0]
-    assert singularity(elbow_arm(), q, part="rotation").lost[3:].tolist() == [0, 0, 0]
+    assert singularity(elbow_arm(), ELBOW, part="translation").singular_direction[:3].tolist() == [
+        0,
+        0,
+        0,
+    ]
+    assert singularity(elbow_arm(), q, part="rotation").singular_direction[3:].tolist() == [0, 0, 0]
 
 
 def test_an_arm_of_fewer_joints_is_judged_by_what_it_can_do():
@@ -104,7 +110,7 @@ def test_a_regular_arm_says_how_far_it_is_off():
     s = singularity(elbow_arm(), AWAY)
     assert not s.singular
     assert s.rank == 6
-    assert s.lost_all.shape == (0, 6)
+    assert s.singular_subspace.shape == (0, 6)
     assert s.words.startswith("regular (smallest ÷ largest singular value ")
     assert "What would be lost there: " in s.words
     q = np.array(ELBOW)
@@ -123,12 +129,15 @@ def test_the_least_rates_and_the_lost_motion_are_singular_vectors(data):
     )
     s = singularity(chain, q)
     J = chain.jacobian(q, "hybrid") / np.repeat([1.0, s.length], 3)[:, None]
-    u, size = s.lost / np.repeat([1.0, s.length], 3), 1e-13 * (1 + np.linalg.norm(J, 2))
-    assert abs(np.linalg.norm(J @ s.idle) - s.smallest) <= size
+    u, size = (
+        s.singular_direction / np.repeat([1.0, s.length], 3),
+        1e-13 * (1 + np.linalg.norm(J, 2)),
+    )
+    assert abs(np.linalg.norm(J @ s.joint_direction) - s.smallest) <= size
     assert abs(np.linalg.norm(u) - 1) < 1e-13
-    assert abs(np.linalg.norm(s.idle) - 1) < 1e-13
+    assert abs(np.linalg.norm(s.joint_direction) - 1) < 1e-13
     if chain.dof <= 6:
-        assert np.abs(J.T @ u - (u @ J @ s.idle) * s.idle).max() <= size
+        assert np.abs(J.T @ u - (u @ J @ s.joint_direction) * s.joint_direction).max() <= size
     # no direction of the rates moves the tool less
     others = np.random.default_rng(0).normal(size=(chain.dof, 20))
     if chain.dof <= 6:
@@ -140,9 +149,9 @@ def test_the_least_rates_and_the_lost_motion_are_singular_vectors(data):
 def test_a_lost_motion_in_a_wrong_frame_is_seen(monkeypatch):
     arm, right = elbow_arm(), pk.Chain.jacobian
     J = arm.jacobian(ELBOW, "hybrid")
-    assert np.abs(singularity(arm, ELBOW).lost @ J).max() < 1e-14
+    assert np.abs(singularity(arm, ELBOW).singular_direction @ J).max() < 1e-14
     monkeypatch.setattr(pk.Chain, "jacobian", lambda self, q, frame: right(self, q, "body"))
-    assert np.abs(singularity(arm, ELBOW).lost @ J).max() > 0.01
+    assert np.abs(singularity(arm, ELBOW).singular_direction @ J).max() > 0.01
 
 
 @pytest.mark.parametrize(
@@ -194,8 +203,8 @@ def test_what_is_lost_is_in_metres_of_the_length_and_the_rates_have_their_signs(
     rows = [*planar().screws, pk.screw.prismatic([0, 0, 1])]
     arm = pk.Chain(rows, planar().home, joint_names=["one", "two", "up"])
     found = singularity(arm, [0, 0, 0], part="translation", length=3.0)
-    np.testing.assert_allclose(found.lost, [0, 0, 0, 3, 0, 0], atol=1e-15)
-    np.testing.assert_allclose(found.idle, np.array([-1, 2, 0]) / np.sqrt(5), atol=1e-15)
+    np.testing.assert_allclose(found.singular_direction, [0, 0, 0, 3, 0, 0], atol=1e-15)
+    np.testing.assert_allclose(found.joint_direction, np.array([-1, 2, 0]) / np.sqrt(5), atol=1e-15)
     np.testing.assert_allclose(found.singular_values, [np.sqrt(5), 1, 0], atol=1e-15)
     assert (found.rank, found.distance) == (2, 0)
     assert found.words.endswith(
@@ -204,18 +213,19 @@ def test_what_is_lost_is_in_metres_of_the_length_and_the_rates_have_their_signs(
     )
     bent = singularity(arm, [0.0, 1e-3, 0], part="translation", length=3.0)
     assert bent.distance == pytest.approx(1e-3, rel=1e-3)
-    np.testing.assert_allclose(bent.towards, [0, -1, 0], atol=1e-3)
+    np.testing.assert_allclose(bent.gradient_direction, [0, -1, 0], atol=1e-3)
     assert bent.words.endswith("The rates 'two' +0.89, 'one' -0.45 leave it where it is, nearly.")
     regular = singularity(arm, [0.0, 0.5, 0], part="translation")
     quotient, rates = (
         regular.smallest / regular.singular_values[0],
-        {"one": regular.idle[0], "two": regular.idle[1]},
+        {"one": regular.joint_direction[0], "two": regular.joint_direction[1]},
     )
     assert regular.condition == pytest.approx(1 / quotient)
     assert regular.words == (
         f"regular (smallest ÷ largest singular value {quotient:.3g}, tolerance 0.001): the nearest singularity is "
         f"about {regular.distance:.2g} (rad and m) away, most of it in 'two'. What would be lost there: "
-        f"{motion_words(regular.lost)}; the rates for it: 'two' {rates['two']:+.2f}, 'one' {rates['one']:+.2f}."
+        f"{motion_words(regular.singular_direction)}; "
+        f"the rates for it: 'two' {rates['two']:+.2f}, 'one' {rates['one']:+.2f}."
     )
 
 
@@ -256,7 +266,7 @@ def test_an_arm_that_cannot_move_its_tool_at_all_is_singular_where_it_stands():
     found = singularity(arm, [0.4], part="translation")
     assert (found.singular, found.rank, found.distance, found.smallest) == (True, 0, 0, 0)
     assert found.condition == math.inf
-    assert found.towards.tolist() == [0]
+    assert found.gradient_direction.tolist() == [0]
     assert found.words.startswith(
         "singular (smallest ÷ largest singular value 0, tolerance 0.001): the tool cannot move"
     )

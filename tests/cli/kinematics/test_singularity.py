@@ -59,7 +59,7 @@ def test_json_has_the_numbers_of_the_function(poekin):
     said, result = json.loads(out), singularity(load("panda").chain(tip="panda_hand"), np.zeros(7))
     assert code == 1
     assert said["singular"] is True
-    assert said["lost"] == result.lost.tolist()
+    assert said["singular_direction"] == result.singular_direction.tolist()
     assert said["words"] == result.words
     assert (
         said["manipulability"]["pose"]["condition"] is None

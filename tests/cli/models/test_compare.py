@@ -63,8 +63,8 @@ def test_the_table_and_the_pose_errors_are_those_of_the_comparison(tmp_path, poe
     for joint in result.joints:
         (row,) = [line.split() for line in lines if joint.name_a in line and "revolute" in line]
         assert row[3] == ("DIFFERS" if joint.axis_differs else "same")
-        assert ("flipped" in row) == joint.flipped
-        shown = [joint.angle, joint.normal, joint.shift, joint.zero]
+        assert ("flipped" in row) == joint.reversed
+        shown = [joint.angle, joint.normal, joint.shift, joint.zero_offset]
         tiny = 1e-6 * 0.01  # what is far below tolerance is shown as 0
         values = [0.0 if abs(x) < tiny else x for x in shown if x is not None]
         assert [float(x) for x in row[4 : 4 + len(values)]] == pytest.approx(values, rel=1e-3)
@@ -147,10 +147,10 @@ def test_the_table_has_the_numbers_of_the_function_in_the_order_of_its_heads(tmp
         assert words == [word for word in (
             str(joint.number), title, joint.kind_a, "DIFFERS" if joint.axis_differs else "same",
             f"{joint.angle if abs(joint.angle) >= 1e-9 else 0:.4g}", *lengths,
-            f"{joint.zero if abs(joint.zero) >= 1e-6 * tol else 0:.4g} {joint.unit}",
-            "flipped" if joint.flipped else "same", ends,
+            f"{joint.zero_offset if abs(joint.zero_offset) >= 1e-6 * tol else 0:.4g} {joint.unit}",
+            "flipped" if joint.reversed else "same", ends,
         ) if word]  # fmt: skip
-    assert any(joint.flipped for joint in result.joints)
+    assert any(joint.reversed for joint in result.joints)
     for title, errors in (("as they stand", result.before), ("aligned", result.after)):
         assert errors is not None
         assert (

@@ -75,7 +75,7 @@ def test_json_has_every_row(as_json):
     document = as_json("count", "ur5e", "--tip", "tool0", "--idealise", "1e-6")
     assert document["robot"] == "ur5e"
     assert document["joints"] == 6
-    rows = {(r["group"], r["method"], r["frame"], r["charged"]): r for r in document["rows"]}
+    rows = {(r["group"], r["method"], r["frame"], r["counting"]): r for r in document["rows"]}
     assert (
         rows["as the paper charges", "recursive", "body", "paper"]["jacobian"]["multiplications"]
         == 174

@@ -11,7 +11,7 @@ import pytest
 
 import poekin as pk
 from poekin.model import screw
-from poekin.solve.ik_all.all_solutions import AllSolutions, chance_of_more, in_words
+from poekin.solve.ik_all.all_solutions import AllSolutions, in_words, missing_probability
 from poekin.solve.ik_all.closed_form import ClosedForm
 from poekin.solve.ik_all.ik_all_search import Found, accepted, periods, turns_within
 
@@ -20,19 +20,23 @@ ARM = pk.Chain([screw.revolute(Z, [0, 0, 0]), screw.prismatic(Z), screw.revolute
                limits=[[-4, 8], [-1, 2], [-np.inf, np.inf]])  # fmt: skip
 
 
-def found(count, *, ends=0, restarts=0, full=False, moving=(), width=6, hits=None):
+def found(count, *, ends=0, restarts=0, full=False, self_motion_coordinates=(), width=6, hits=None):
     hits = np.full(count, 7.0) if hits is None else np.array(hits, float)
-    return Found(np.zeros((count, width)), hits, ends, restarts, full, False, moving)
+    return Found(
+        np.zeros((count, width)), hits, ends, restarts, full, False, self_motion_coordinates
+    )
 
 
 @pytest.mark.parametrize("one, inside, closed, words", [
     (found(0), 0, "closed form (EAIK, X)", "0 solutions: closed form (EAIK, X)"),
     (found(1), 1, "by X", "1 solution: by X"),
     (found(8), 3, "by X", "8 solutions, 3 of them within the limits: by X"),
-    (found(1, moving=("a",)), 1, "by X", "infinitely many solutions, along which 'a' move; one of them: by X"),
-    (found(2, moving=("a", "b")), 2, "by X",
+    (found(1, self_motion_coordinates=("a",)), 1, "by X",
+     "infinitely many solutions, along which 'a' move; one of them: by X"),
+    (found(2, self_motion_coordinates=("a", "b")), 2, "by X",
      "infinitely many solutions, along which 'a', 'b' move; one of them and 1 that stands alone: by X"),
-    (found(4, moving=("a",)), 0, "by X", "infinitely many solutions, along which 'a' move; one of them and 3 that "
+    (found(4, self_motion_coordinates=("a",)), 0, "by X",
+     "infinitely many solutions, along which 'a' move; one of them and 3 that "
      "stand alone, 0 of them within the limits: by X"),
 ])  # fmt: skip
 def test_solutions_are_counted_in_words(one, inside, closed, words):
@@ -42,7 +46,7 @@ def test_solutions_are_counted_in_words(one, inside, closed, words):
 def test_a_search_says_how_often_each_was_found_and_an_odd_number():
     even = found(2, ends=30, restarts=40, hits=[20, 10])
     chance = (1 - 0.5 * 10 / 30) ** 30
-    assert chance_of_more(even) == pytest.approx(chance)
+    assert missing_probability(even) == pytest.approx(chance)
     said = in_words(even, 2, None)
     assert said == (
         "2 solutions: search, 40 tries, each found 10 times or more; one that is half as easy to find as the rarest is "
@@ -53,9 +57,13 @@ def test_a_search_says_how_often_each_was_found_and_an_odd_number():
         "; the number is odd: one of them is a double one, or one is missing"
     )
     assert "odd" not in in_words(found(3, ends=30, restarts=40, width=5), 3, None)
-    assert chance_of_more(found(4)) == 0
-    for nothing in (found(2, moving=("a",)), found(40, full=True), found(0, restarts=9)):
-        assert np.isnan(chance_of_more(nothing))
+    assert missing_probability(found(4)) == 0
+    for nothing in (
+        found(2, self_motion_coordinates=("a",)),
+        found(40, full=True),
+        found(0, restarts=9),
+    ):
+        assert np.isnan(missing_probability(nothing))
     assert in_words(found(40, ends=99, restarts=9, full=True), 40, None).startswith(
         "at least 40 solutions"
     )

@@ -69,7 +69,7 @@ def test_every_solution_reaches_its_target_and_the_known_one_is_among_them(name,
         apart(q[k : k + 1], result.solutions[k]).min(initial=np.inf) <= 1e-5 for k in range(len(T))
     ]
     assert np.mean(known) >= 0.995
-    assert all(known | (result.chance > 1e-2))
+    assert all(known | (result.p_missing > 1e-2))
     assert result.position_error.max() <= TOL
     assert result.rotation_error.max() <= TOL
     assert (result.count == [len(Q) for Q in result.solutions]).all()
@@ -83,7 +83,7 @@ def test_of_any_arm_the_known_solution_is_found_or_is_singular(data):
     chain = data.draw(chain_strategies.chains(1, 6, ("revolute", "prismatic"), coupled=False))
     q = data.draw(chain_strategies.coordinates(chain))
     T = chain.fk(q)
-    result = ik_all(chain, T, limits=False, often=40, method="search")
+    result = ik_all(chain, T, limits=False, min_hits=40, method="search")
     assert max(errors(chain, result.solutions, T)) <= TOL
     sizes = np.linalg.svd(chain.jacobian(q, frame="hybrid"), compute_uv=False)
     if sizes[-1] > 1e-3 * sizes[0]:
@@ -196,7 +196,7 @@ def test_an_arm_with_rounded_right_angles_has_a_closed_form_and_its_own_solution
     closed, search = (
         ik_all(chain, T, method=method, limits=False) for method in ("closed", "search")
     )
-    assert "of the arm made exact, at most " in closed.sure[0]
+    assert "of the arm made exact, at most " in closed.complete[0]
     for k in range(len(T)):
         assert max(errors(chain, closed.solutions[k], T[k])) <= TOL
         assert same_sets(closed.solutions[k], search.solutions[k], 1e-5)
@@ -226,7 +226,7 @@ def test_where_solutions_become_one_the_closed_form_is_not_taken_at_its_word():
     chain = arm("ur5")
     usual, straight = ik_all(
         chain, chain.fk([[0.3, -1, 1.2, 0.4, 0.9, 0.1], [0.3, -1, 0, 0.4, 0.9, 0.1]])
-    ).chance
+    ).p_missing
     assert usual == 0
     assert 0 < straight < 2e-3  # of a search
 
@@ -293,22 +293,22 @@ def test_a_target_that_the_closed_form_gives_up_is_searched(monkeypatch):
     found = ik_all(chain, T, limits=False)
     for a, b in zip(found.solutions, expected.solutions, strict=True):
         assert same_sets(a, b, 1e-5)
-    assert "search, " in found.sure[1]
-    assert "search, " not in found.sure[0]
+    assert "search, " in found.complete[1]
+    assert "search, " not in found.complete[0]
 
 
 def test_limits_are_kept_and_all_places_a_turn_apart_are_counted_or_listed():
     chain = arm("puma560")
     wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-1.5 * np.pi, 2 * np.pi], (6, 1)))
     _, T = targets(wide, 7, 30)
-    result, every = ik_all(wide, T), ik_all(wide, T, copies=True)
+    result, every = ik_all(wide, T), ik_all(wide, T, all_revolutions=True)
     for k in range(len(T)):
         Q = every.solutions[k]
         assert (wide.limits[:, 0] <= Q).all()
         assert (wide.limits[:, 1] >= Q).all()
         assert max(errors(wide, Q, T[k])) <= TOL
-        assert len(np.unique(np.round(Q, 6), axis=0)) == len(Q) == result.copies[k].sum()
-        assert (every.copies[k] == 1).all()
+        assert len(np.unique(np.round(Q, 6), axis=0)) == len(Q) == result.n_revolutions[k].sum()
+        assert (every.n_revolutions[k] == 1).all()
         # by hand: how many of q - 2 pi, q, q + 2 pi are within the limits
         by_hand = [
             np.prod(
@@ -319,7 +319,7 @@ def test_limits_are_kept_and_all_places_a_turn_apart_are_counted_or_listed():
             )
             for q in result.solutions[k]
         ]
-        assert result.copies[k].tolist() == by_hand
+        assert result.n_revolutions[k].tolist() == by_hand
 
 
 def test_solutions_outside_the_limits_are_left_out_and_said():
@@ -331,7 +331,7 @@ def test_solutions_outside_the_limits_are_left_out_and_said():
         (anywhere.solutions >= chain.limits[:, 0]) & (anywhere.solutions <= chain.limits[:, 1])
     ).all(axis=1)
     assert 0 < inside.sum() <= len(result.solutions) < 8
-    assert f"8 solutions, {len(result.solutions)} of them within the limits: " in result.sure
+    assert f"8 solutions, {len(result.solutions)} of them within the limits: " in result.complete
 
 
 def test_a_solution_at_a_limit_is_within_it():
@@ -364,9 +364,9 @@ def test_infinitely_many_solutions_are_said_and_one_is_listed(name, q, moving, m
     chain = arm(name)
     result = ik_all(chain, chain.fk(q), method=method, limits=False)
     assert result.continuum
-    assert np.isnan(result.chance)
-    assert all(f"'{joint}'" in result.sure for joint in moving)
-    assert "infinitely many solutions" in result.sure
+    assert np.isnan(result.p_missing)
+    assert all(f"'{joint}'" in result.complete for joint in moving)
+    assert "infinitely many solutions" in result.complete
     sizes = np.linalg.svd(chain.jacobian(result.solutions, "hybrid"), compute_uv=False)
     assert (sizes[:, -1] < 1e-6).sum() == 1
     assert max(errors(chain, result.solutions, chain.fk(q))) <= TOL
@@ -409,7 +409,7 @@ def test_of_an_unreachable_target_none_is_claimed(method):
     T[0, 3] = 9.0
     result = ik_all(arm("ur5"), T, method=method)
     assert result.solutions.shape == (0, 6)
-    assert result.sure.startswith("0 solutions: ")
+    assert result.complete.startswith("0 solutions: ")
     assert np.isnan(result.position_error)
 
 
@@ -447,13 +447,16 @@ def test_batches_of_any_shape(shape):
         result.count,
         result.anywhere,
         result.continuum,
-        result.chance,
+        result.p_missing,
         result.position_error,
     ):
         assert array.shape == shape
     if shape:
         assert (
-            len(result.solutions) == len(result.sure) == len(result.copies) == int(np.prod(shape))
+            len(result.solutions)
+            == len(result.complete)
+            == len(result.n_revolutions)
+            == int(np.prod(shape))
         )
     for index in np.ndindex(*shape):
         assert max(errors(chain, result.of(*index), T[index])) <= TOL
@@ -466,7 +469,7 @@ def test_nan_in_one_target_is_that_targets_own_affair():
     T[1, 0, 3] = np.nan
     result = ik_all(chain, T, limits=False)
     assert result.count[1] == 0
-    assert "bad target" in result.sure[1]
+    assert "bad target" in result.complete[1]
     assert result.count[0] > 0 < result.count[2]
 
 
@@ -474,7 +477,7 @@ def test_a_search_repeats_and_another_seed_finds_the_same():
     chain = arm("jaco")
     _, T = targets(chain, 12, 20)
     first, again, other = (
-        ik_all(chain, T, seed=seed, limits=False, often=40) for seed in (0, 0, 5)
+        ik_all(chain, T, seed=seed, limits=False, min_hits=40) for seed in (0, 0, 5)
     )
     for a, b, c in zip(first.solutions, again.solutions, other.solutions, strict=True):
         assert np.array_equal(a, b)
@@ -485,10 +488,10 @@ def test_the_words_of_a_search_say_how_sure_it_is():
     chain = arm("ur5")
     _, T = targets(chain, 13, 1)
     result = ik_all(chain, T[0], method="search", limits=False)
-    assert 0 < result.chance < 2e-3
-    assert "each found 1" in result.sure
-    assert f"is missing with a chance of {result.chance:.1g}" in result.sure
-    assert ik_all(chain, T[0], method="search", limits=False, often=60).chance < 1e-6
+    assert 0 < result.p_missing < 2e-3
+    assert "each found 1" in result.complete
+    assert f"is missing with a chance of {result.p_missing:.1g}" in result.complete
+    assert ik_all(chain, T[0], method="search", limits=False, min_hits=60).p_missing < 1e-6
 
 
 def test_a_compiled_arm_serves():
@@ -547,8 +550,14 @@ def test_a_redundant_arm_is_refused_and_told_what_to_use():
             id="method",
         ),
         pytest.param({"limits": 1}, r"limits: expected True or False, got 1", id="limits"),
-        pytest.param({"copies": None}, r"copies: expected True or False", id="copies"),
-        pytest.param({"often": 0}, r"often: expected a whole number from 1 on, got 0", id="often"),
+        pytest.param(
+            {"all_revolutions": None},
+            r"all_revolutions: expected True or False",
+            id="all_revolutions",
+        ),
+        pytest.param(
+            {"min_hits": 0}, r"min_hits: expected a whole number from 1 on, got 0", id="min_hits"
+        ),
         pytest.param({"seed": -1}, r"seed: expected a whole number from 0 on", id="seed"),
         pytest.param({"restarts": 1.5}, r"restarts: expected a whole number", id="restarts"),
     ],
@@ -562,11 +571,11 @@ def test_more_places_than_anybody_reads_are_refused():
     chain = arm("ur5")
     wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-9 * np.pi, 9 * np.pi], (6, 1)))
     _, T = targets(wide, 16, 1)
-    assert ik_all(wide, T[0]).copies.min() == 9**6
-    places = ik_all(wide, T[0]).copies.sum()
-    said = f"copies: {places} places for one target, more than 4096; `copies` of the result tells"
+    assert ik_all(wide, T[0]).n_revolutions.min() == 9**6
+    places = ik_all(wide, T[0]).n_revolutions.sum()
+    said = f"all_revolutions: {places} places for one target, more than 4096; `n_revolutions` of the result tells"
     with pytest.raises(InputError, match=f"^{said}$"):
-        ik_all(wide, T[0], copies=True)
+        ik_all(wide, T[0], all_revolutions=True)
 
 
 @pytest.mark.parametrize(
@@ -583,7 +592,7 @@ def test_wide_limits_have_many_places_and_never_less_than_none(bound, places):
     q, T = targets(wide, 16, 1)
     result = ik_all(wide, T[0])
     assert apart(q, result.solutions).min() <= 1e-5
-    for k, numbers in enumerate(result.copies):
+    for k, numbers in enumerate(result.n_revolutions):
         each = [len(np.arange(np.ceil((-bound - x) / (2 * np.pi)), np.floor((bound - x) / (2 * np.pi)) + 1))
                 for x in result.solutions[k]] if places is None else []  # fmt: skip
         assert numbers == (places or np.prod(each))
@@ -593,14 +602,14 @@ def test_as_many_places_are_listed_as_are_said_to_be_the_most(monkeypatch):
     chain = arm("ur5")
     wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-2 * np.pi, 2 * np.pi], (6, 1)))
     _, T = targets(wide, 16, 1)
-    most = int(ik_all(wide, T[0]).copies.sum())
+    most = int(ik_all(wide, T[0]).n_revolutions.sum())
     monkeypatch.setattr(module, "MOST", most)
-    assert ik_all(wide, T[0], copies=True).count == most
+    assert ik_all(wide, T[0], all_revolutions=True).count == most
     monkeypatch.setattr(module, "MOST", most - 1)
     with pytest.raises(
-        InputError, match=rf"copies: {most} places for one target, more than {most - 1}"
+        InputError, match=rf"all_revolutions: {most} places for one target, more than {most - 1}"
     ):
-        ik_all(wide, T[0], copies=True)
+        ik_all(wide, T[0], all_revolutions=True)
 
 
 @pytest.mark.parametrize("joint", [0, 5])
@@ -672,5 +681,5 @@ def test_the_errors_are_the_largest_of_the_listed_solutions_in_place_and_in_dire
     )
     np.testing.assert_array_equal(found.count, [first, 0, last])
     np.testing.assert_array_equal(found.anywhere, [first, 0, last])
-    assert np.isnan(found.chance[1])
-    assert found.sure[1] == "0 solutions: bad target, it is not made of finite numbers"
+    assert np.isnan(found.p_missing[1])
+    assert found.complete[1] == "0 solutions: bad target, it is not made of finite numbers"

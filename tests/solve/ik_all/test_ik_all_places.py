@@ -103,12 +103,12 @@ def test_what_is_known_of_a_bad_target_is_nothing():
     assert result.count.tolist() == result.anywhere.tolist() == [1, 0, 1]
     assert result.continuum.tolist() == [False] * 3
     assert result.solutions[1].shape == (0, 2)
-    assert (result.copies[1].shape, result.copies[1].dtype) == ((0,), np.int64)
-    assert np.isnan([result.chance[1], result.position_error[1], result.rotation_error[1]]).all()
+    assert (result.n_revolutions[1].shape, result.n_revolutions[1].dtype) == ((0,), np.int64)
+    assert np.isnan([result.p_missing[1], result.position_error[1], result.rotation_error[1]]).all()
     assert np.isfinite(
-        [result.chance[[0, 2]], result.position_error[[0, 2]], result.rotation_error[[0, 2]]]
+        [result.p_missing[[0, 2]], result.position_error[[0, 2]], result.rotation_error[[0, 2]]]
     ).all()
-    assert result.sure[1] == "0 solutions: bad target, it is not made of finite numbers"
+    assert result.complete[1] == "0 solutions: bad target, it is not made of finite numbers"
     alone = ik_all(arm([-1, 1]), T[0], method="search")
     np.testing.assert_allclose(alone.solutions, [[0.1, 0.2]], atol=1e-9)
-    assert (alone.copies.tolist(), alone.method) == ([1], "search")
+    assert (alone.n_revolutions.tolist(), alone.method) == ([1], "search")

@@ -86,18 +86,18 @@ def test_what_is_not_said_of_a_search_is_its_usual_rule(monkeypatch):
 
     def search(fast: Any, T: Any, starts: Any, rule: Rule, seed: int, limits: bool) -> list[Found]:
         asked.append((rule, seed, limits, [s.shape for s in starts]))
-        return [Found(np.empty((0, 2)), np.empty(0), 0, rule.barren, False)] * len(T)
+        return [Found(np.empty((0, 2)), np.empty(0), 0, rule.max_misses, False)] * len(T)
 
     monkeypatch.setattr(ik_all_module, "search", search)
     ik_all(arm(), np.tile(np.eye(4), (2, 1, 1)), method="search")
     assert asked == [(Rule(14, 2000, 200, 200), 0, True, [(0, 2)] * 2)]
     accepted: tuple[dict[str, Any], ...] = (
-        {"often": 1}, {"restarts": 1}, {"iterations": 1}, {"seed": 0}, {"seed": 2**62 - 1}
+        {"min_hits": 1}, {"restarts": 1}, {"iterations": 1}, {"seed": 0}, {"seed": 2**62 - 1}
     )  # fmt: skip
     for least in accepted:
         ik_all(arm(), np.eye(4), method="search", **least)
     refused: tuple[tuple[str, Any], ...] = (
-        ("often", 0), ("restarts", 0), ("iterations", 0), ("seed", -1), ("seed", 2**62), ("often", True)
+        ("min_hits", 0), ("restarts", 0), ("iterations", 0), ("seed", -1), ("seed", 2**62), ("min_hits", True)
     )  # fmt: skip
     for word, value in refused:
         said = (
@@ -210,7 +210,7 @@ def test_the_kernel_is_told_starts_ranges_rules_and_the_number_of_each_target(mo
     assert (indices.tolist(), indices.dtype, seed) == ([64, 65, 66], np.float64, 9)
     assert (q.shape, hits.shape, info.shape) == ((3, 40, 2), (3, 40), (3, kernel.INFO))
     assert [len(f.solutions) for f in found] == [len(f.hits) for f in found] == [2, 0, 40]
-    assert [(f.ends, f.restarts, f.full, f.singular, f.moving) for f in found] == [
+    assert [(f.ends, f.restarts, f.full, f.singular, f.self_motion_coordinates) for f in found] == [
         (5, 6, False, False, ()), (5, 0, False, False, ()), (5, 1, True, False, ())
     ]  # fmt: skip
     assert (found[0].solutions == 7).all()

@@ -231,7 +231,7 @@ def test_limits_in_the_way_are_the_reason():
 
 def test_speed_and_acceleration_that_are_exceeded_are_named_with_their_place():
     arm, t = planar(), np.linspace(0, 2, 201)
-    timing = motion.fastest("trapezoidal", 1.0, speed=0.7, acceleration=2.0)
+    timing = motion.minimum_time("trapezoidal", 1.0, speed=0.7, acceleration=2.0)
     q = motion.joint([0.0, 1.0, 0.0], [1.0, 1.0, 0.0], timing(t).s)
     given = {"q0": q[0], "times": t, "task": "position"}
     path = follow(

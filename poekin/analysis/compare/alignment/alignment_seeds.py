@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ....groups import se3
 from ....groups.arrays import Array
-from .lines import Lines, Sides, carried, cross, misses, signs
+from .lines import Lines, Sides, cross, deviations, signs, transformed
 
 # An axis within about a degree of parallel counts as parallel, as the common normal flies about
 # there.
@@ -29,7 +29,7 @@ def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> tuple[NDArray[
     and j to a's, one for each way round that the axes can be taken.
 
     Two axes that are not parallel fix D up to that; parallel ones leave a slide along them, which
-    stays near the hubs. There is none where the pairs differ by more than about a degree.
+    stays near the centres. There is none where the pairs differ by more than about a degree.
     """
     found, ours, theirs = [], [], []
     for i, j in joints:
@@ -54,7 +54,7 @@ def rigid_poses(pair: Sides) -> tuple[NDArray[np.intp], Array]:
     base as it is.
     """
     as_it_is = np.eye(4)
-    as_it_is[:3, 3] = pair.b.hub - pair.a.hub
+    as_it_is[:3, 3] = pair.b.centre - pair.a.centre
     joints, poses = pair_poses(pair, combinations(np.flatnonzero(pair.alike).tolist(), 2))
     return np.concatenate([[[-1, -1]], joints]), np.concatenate([as_it_is[None], poses])
 
@@ -127,7 +127,7 @@ def one_by_one(pair: Sides) -> tuple[Array, Array]:
         row, turn = np.nonzero(good)[0], turn[good]
         P, D, z = P[row], D[row] @ se3.exp(pair.b.screws[k] * turn[:, None]), z[row]
         z[:, k] = turn
-        miss = misses(pair, carried(pair, P, z)[1])[:, k + 1]
+        miss = deviations(pair, transformed(pair, P, z)[1])[:, k + 1]
         loss = loss[row] + np.minimum(miss, 1e4) ** 0.5 + (abs(turn) > pair.zero_tolerance[k])
         kept = np.argsort(loss, kind="stable")[:BEAM]
         P, D, z, loss = P[kept], D[kept], z[kept], loss[kept]
@@ -139,7 +139,7 @@ def _on_the_first_turning_axis(pair: Sides, P: Array) -> Array:
     turns has its own.
 
     That place is where a link that no zero offset changes has it, and not the point nearest the
-    hub.
+    centre.
     """
     turning = [k for k, kind in enumerate(pair.a.kinds) if kind != "prismatic"]
     if not turning or turning[0] == 0:
@@ -173,9 +173,9 @@ def best(pair: Sides, P: Array, z: Array, most: int = 4) -> tuple[Array, Array]:
     Of alignments that differ by rounding alone those with fewer zero offsets and fewer reversed
     axes come first.
     """
-    axes = carried(pair, P, z)[1]
+    axes = transformed(pair, P, z)[1]
     changes = (abs(z) > 0).sum(1) + (signs(pair, axes) < 0).sum(1)
-    loss = np.log1p(np.minimum(misses(pair, axes), 1e6)).sum(1) + 0.01 * changes
+    loss = np.log1p(np.minimum(deviations(pair, axes), 1e6)).sum(1) + 0.01 * changes
     first = np.argsort(loss, kind="stable")[:most]
     return P[first], z[first]
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ....groups import se3
 from ....groups.arrays import Array
-from .lines import Marks, Sides, carried, hinge_screw, residuals, signs
+from .lines import Marks, Sides, residuals, signs, suspect_screw, transformed
 
 STEPS = 60
 
@@ -68,17 +68,17 @@ def _linearised(pair: Sides, P: Array, z: Array, free: Marks, used: Marks) -> tu
     the base and to the zero offsets; none of axes that are not used and of zero offsets that are
     not free.
     """
-    screws, axes = carried(pair, P, z)
-    s, n, k = signs(pair, axes), pair.n, pair.hinge
+    screws, axes = transformed(pair, P, z)
+    s, n, k = signs(pair, axes), pair.n, pair.suspect_joint
     base = (s[..., None, None] * pair.weights) @ -se3.ad(
         axes
     )  # d Ad(e^xi) S = ad(xi) S = -ad(S) xi
     if k >= 0:
-        screws[:, k] = hinge_screw(pair, screws[:, k])
+        screws[:, k] = suspect_screw(pair, screws[:, k])
     # A zero offset turns what is behind it as a turn of the base about the joint's axis would.
     columns = base @ np.swapaxes(screws, 1, 2)[:, None]
     if k >= 0:
-        # Behind the hinge every change further in front is itself turned about a's axis.
+        # Behind the suspect joint every change further in front is itself turned about a's axis.
         base[:, k + 1 :] @= se3.adjoint(se3.exp(screws[:, k] * z[:, k, None]))[:, None]
         columns[:, k + 1 :, :, :k] = base[:, k + 1 :] @ np.swapaxes(screws[:, :k], 1, 2)[:, None]
     columns *= (free[:, None] & np.tri(n, k=-1, dtype=bool))[:, :, None]

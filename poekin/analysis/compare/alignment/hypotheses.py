@@ -11,21 +11,21 @@ import numpy as np
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ....model.chain import Chain
-from .lines import Marks, Sides, carried, carriers, cross, misses, signs
+from .lines import Marks, Sides, carriers, cross, deviations, signs, transformed
 
 ONE = 2.5
 """Cost of one change in one joint, beside which no other conventions are looked for."""
 
 
 @dataclass(frozen=True, eq=False)
-class Reading:
+class Hypothesis:
     """One way to read the difference: f_a(x) = base f_b(direction x + zeros) tool, but for the axes
     that moved.
 
     Attributes: base (4, 4), b's base in a's; tool (4, 4), a's tool in b's; zeros (n), rad or m,
     where b stands when a is at 0; directions (n), +1 or -1; moved (n, bool), axes beyond tolerance;
     offset (n, bool), zeros beyond it;
-    axes (n, 6), b's screws without pitch as they then stand in a's base; misses (n), of each, in
+    axes (n, 6), b's screws without pitch as they then stand in a's base; deviations (n), of each, in
     tolerances;
     frames, how many of base and tool moved; link, k > 0 where the axes behind joint k moved
     together, by a link that is another one: then the tool is the one behind them.
@@ -38,12 +38,12 @@ class Reading:
     moved: Marks
     offset: Marks
     axes: Array
-    misses: Array
+    deviations: Array
     frames: int
     link: int = 0
 
     @property
-    def blamed(self) -> Marks:
+    def implicated(self) -> Marks:
         """Joints (n, bool) that differ in anything."""
         return self.moved | self.offset | (self.directions < 0)
 
@@ -61,30 +61,32 @@ class Reading:
         """
         conventions = int((self.offset | (self.directions < 0)).sum())
         moved, changes = int(self.moved.sum()), int(self.offset.sum() + (self.directions < 0).sum())
-        near = float(np.minimum(self.misses, 10.0).sum())
+        near = float(np.minimum(self.deviations, 10.0).sum())
         if moved + changes <= 1:
             alone = 4.9 if moved and self.frames == 2 else ONE * (moved + changes)
             return (alone, self.frames, moved, near)
         if self.link:
             return (5.25, self.frames, moved, near)
         weight = (0.0, 2.5, 3.5)[conventions] if conventions < 3 else 3.25 + 0.25 * conventions
-        far = float((self.misses[self.moved] ** 0.25).sum()) * (1.0 if moved > 1 else 0.05)
+        far = float((self.deviations[self.moved] ** 0.25).sum()) * (1.0 if moved > 1 else 0.05)
         return (3.0 * moved + far + weight, self.frames, changes, near)
 
 
-def read(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Reading]:
+def read(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Hypothesis]:
     """The readings that alignments (P, z) of a's and b's axes (both at rest), (m, 4, 4) and (m, n),
     stand for.
     """
-    axes = carried(pair, P, z)[1]
-    miss, s = misses(pair, axes), signs(pair, axes)
-    base, last = unhubbed(pair, P), unhubbed(pair, carriers(pair, P, z)[:, -1])
+    axes = transformed(pair, P, z)[1]
+    miss, s = deviations(pair, axes), signs(pair, axes)
+    base, last = off_centre(pair, P), off_centre(pair, carriers(pair, P, z)[:, -1])
     tool = se3.inverse(last @ b.home) @ a.home
-    axes[..., 3:] -= cross(axes[..., :3], pair.a.hub)
+    axes[..., 3:] -= cross(axes[..., :3], pair.a.centre)
     frames = (~still(np.stack([base, tool]), pair.tol_m, pair.tol_rad)).sum(0)
     moved, offset, far = miss > 1.0, abs(z) > pair.zero_tolerance, np.minimum(miss, 1e9)
     return [
-        Reading(base[i], tool[i], z[i], s[i], moved[i], offset[i], axes[i], far[i], int(frames[i]))
+        Hypothesis(
+            base[i], tool[i], z[i], s[i], moved[i], offset[i], axes[i], far[i], int(frames[i])
+        )
         for i in range(len(z))
     ]
 
@@ -98,8 +100,8 @@ def still(T: Array, tol_m: float, tol_rad: float) -> Marks:
     return (moved <= tol_m) & (turned <= tol_rad)
 
 
-def unhubbed(pair: Sides, P: Array) -> Array:
-    """The poses (..., 4, 4) between the arms' own bases, of those between their hubs."""
+def off_centre(pair: Sides, P: Array) -> Array:
+    """The poses (..., 4, 4) between the arms' own bases, of those between their centres."""
     T = P.copy()
-    T[..., :3, 3] += pair.a.hub - P[..., :3, :3] @ pair.b.hub
+    T[..., :3, 3] += pair.a.centre - P[..., :3, :3] @ pair.b.centre
     return T

@@ -2,7 +2,7 @@
 
 A screw is carried by a pose D as Ad(D) S. Model b's base stands at P in model a's, and b's joint k
 reads z_k where a's reads 0; so b's axis i is carried by D_i = P e^{B_1 z_1} ... e^{B_{i-1}
-z_{i-1}}. All is computed about each arm's hub, the point nearest to all its axes, so that a far
+z_{i-1}}. All is computed about each arm's centre, the point nearest to all its axes, so that a far
 base frame costs no digits. Leading axes are the batch: many alignments (P, z) at once, P (..., 4,
 4) and z (..., n).
 """
@@ -23,11 +23,11 @@ Marks = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """The axes of one arm at rest about its hub.
+    """The axes of one arm at rest about its centre.
 
     Attributes: screws (n, 6); axes (n, 6), the same without pitch; ways (n, 3), their unit
     directions; kinds (n); pitches (n), m per rad; places (n, 3), the point of each axis nearest the
-    hub (zero for prismatic joints, which have no place); hub (3,), in the own base.
+    centre (zero for prismatic joints, which have no place); centre (3,), in the own base.
     """
 
     screws: Array
@@ -36,7 +36,7 @@ class Lines:
     kinds: tuple[str, ...]
     pitches: Array
     places: Array
-    hub: Array
+    centre: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,7 @@ class Sides:
     `alike` (n,): same kind and pitch. `weights` (n, 6, 6): what makes of a change of an axis how
     far it moves, in tolerances: direction, then place at a's place on it. `ways` (n, 6): a's
     directions, as what b's axis has for one. `zero_tolerance` (n,): of a zero offset, an angle, or
-    for a prismatic joint a length. `hinge`: a joint of b whose axis is held to be wrong, so that
+    for a prismatic joint a length. `suspect_joint`: a joint of b whose axis is held to be wrong, so that
     its zero offset turns what is behind it about a's axis instead; -1 for none.
     """
 
@@ -58,7 +58,7 @@ class Sides:
     weights: Array
     ways: Array
     zero_tolerance: Array
-    hinge: int = -1
+    suspect_joint: int = -1
 
     @property
     def n(self) -> int:
@@ -74,7 +74,7 @@ def cross(x: Array, y: Array) -> Array:
     return x[..., _NEXT] * y[..., _LAST] - x[..., _LAST] * y[..., _NEXT]
 
 
-def at_rest(chain: Chain) -> Chain:
+def uncoupled_at_zero(chain: Chain) -> Chain:
     """The chain with every joint its own coordinate x, x = 0 where q = 0, and limits where one
     coordinate sets them.
     """
@@ -94,15 +94,15 @@ def at_rest(chain: Chain) -> Chain:
 
 
 def lines(chain: Chain) -> Lines:
-    """The axes of a chain at rest about its hub."""
-    hub = _hub(chain)
+    """The axes of a chain at rest about its centre."""
+    centre = _centre(chain)
     screws = chain.screws.copy()
-    screws[:, 3:] += cross(screws[:, :3], hub)
+    screws[:, 3:] += cross(screws[:, :3], centre)
     axes = screws.copy()
     axes[:, 3:] -= chain.pitches[:, None] * screws[:, :3]
     places = cross(axes[:, :3], axes[:, 3:])
     return Lines(
-        screws, axes, direction(axes, chain.kinds), chain.kinds, chain.pitches, places, hub
+        screws, axes, direction(axes, chain.kinds), chain.kinds, chain.pitches, places, centre
     )
 
 
@@ -128,7 +128,7 @@ def sides(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Sides:
 
 def carriers(pair: Sides, P: Array, z: Array) -> Array:
     """D_1 ... D_{n+1} (..., n + 1, 4, 4): D_i = P e^{B_1 z_1} ... e^{B_{i-1} z_{i-1}}, about the
-    hubs.
+    centres.
     """
     D = np.empty((*z.shape[:-1], pair.n + 1, 4, 4))
     here = P
@@ -136,9 +136,9 @@ def carriers(pair: Sides, P: Array, z: Array) -> Array:
         D[..., i, :, :] = here
         if z[..., i].any():
             turn = z[..., i, None]
-            if i == pair.hinge:
+            if i == pair.suspect_joint:
                 here = (
-                    se3.exp(hinge_screw(pair, se3.adjoint(here) @ pair.b.screws[i]) * turn) @ here
+                    se3.exp(suspect_screw(pair, se3.adjoint(here) @ pair.b.screws[i]) * turn) @ here
                 )
             else:
                 here = here @ se3.exp(pair.b.screws[i] * turn)
@@ -146,17 +146,17 @@ def carriers(pair: Sides, P: Array, z: Array) -> Array:
     return D
 
 
-def hinge_screw(pair: Sides, carried: Array) -> Array:
+def suspect_screw(pair: Sides, carried: Array) -> Array:
     """a's screw (..., 6) of the joint that is held to be wrong, turning the way that b's carried
     one (..., 6) does.
     """
-    own = pair.a.screws[pair.hinge]
-    part = slice(3, 6) if pair.a.kinds[pair.hinge] == "prismatic" else slice(0, 3)
+    own = pair.a.screws[pair.suspect_joint]
+    part = slice(3, 6) if pair.a.kinds[pair.suspect_joint] == "prismatic" else slice(0, 3)
     return np.where((carried[..., part] @ own[part] < 0)[..., None], -own, own)
 
 
-def carried(pair: Sides, P: Array, z: Array) -> tuple[Array, Array]:
-    """Model b's screws and pitch-free axes (..., n, 6) in model a's base, about a's hub."""
+def transformed(pair: Sides, P: Array, z: Array) -> tuple[Array, Array]:
+    """Model b's screws and pitch-free axes (..., n, 6) in model a's base, about a's centre."""
     Ad = se3.adjoint(carriers(pair, P, z)[..., :-1, :, :] if z.any() else P[..., None, :, :])
     return (Ad @ pair.b.screws[..., None])[..., 0], (Ad @ pair.b.axes[..., None])[..., 0]
 
@@ -179,7 +179,7 @@ def residuals(pair: Sides, axes: Array) -> Array:
     return (pair.weights @ change[..., None])[..., 0]
 
 
-def misses(pair: Sides, axes: Array) -> Array:
+def deviations(pair: Sides, axes: Array) -> Array:
     """Tolerances (..., n) by which each of b's carried axes is off in direction or place; inf where
     kinds differ.
     """
@@ -188,7 +188,7 @@ def misses(pair: Sides, axes: Array) -> Array:
     return np.where(pair.alike, worst, np.inf)
 
 
-def _hub(chain: Chain) -> Array:
+def _centre(chain: Chain) -> Array:
     """The point (3,) nearest to all axes; where they leave it free (parallel axes), as near the
     tool as they let it.
     """

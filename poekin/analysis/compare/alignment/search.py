@@ -2,7 +2,7 @@
 
 Each hypothesis, nothing differs, one zero offset, one axis, one joint, one link, all zero offsets,
 all of them and one axis, is fitted by least squares over the axes that it holds to agree. What is
-then beyond tolerance is blamed; the fewest blamed joints win, then the base and tool that stay
+then beyond tolerance is implicated; the fewest implicated joints win, then the base and tool that stay
 where they are, then the fewest changes. So one bad joint is not smeared over its neighbours.
 """
 
@@ -20,11 +20,11 @@ from ....model.chain import Chain
 from ..reached import poses_agree
 from .alignment_seeds import best, one_by_one, one_turn, rigid_poses
 from .fit import fit
-from .hypotheses import ONE, Reading, read, still, unhubbed
-from .lines import Marks, Sides, carried, misses, sides, signs
+from .hypotheses import ONE, Hypothesis, off_centre, read, still
+from .lines import Marks, Sides, deviations, sides, signs, transformed
 
 
-def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, list[Reading]]:
+def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Hypothesis, list[Hypothesis]]:
     """The best reading of the difference of two chains at rest, and the others that blame one joint
     only.
     """
@@ -34,7 +34,7 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, l
     poses = rigid_poses(pair)
     rigid = poses[1], np.zeros((len(poses[1]), n))
 
-    def readings(P: Array, z: Array, free: Marks, used: Marks) -> list[Reading]:
+    def readings(P: Array, z: Array, free: Marks, used: Marks) -> list[Hypothesis]:
         return read(pair, a, b, *fit(pair, P, z, free, used))
 
     found = read(pair, a, b, rigid[0][:1], rigid[1][:1])
@@ -58,7 +58,7 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, l
     found += [
         as_it_starts for as_it_starts in read(pair, a, b, P, z) if as_it_starts.moved.sum() > 1
     ]
-    miss = misses(pair, carried(pair, P, z)[1])
+    miss = deviations(pair, transformed(pair, P, z)[1])
     agree = np.concatenate([miss <= 10.0, miss <= 1.0])
     found += readings(np.tile(P, (2, 1, 1)), np.tile(z, (2, 1)), none, agree)
     if min(found, key=_cost).cost[0] > ONE:
@@ -70,7 +70,7 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Reading, l
     return _simpler(first, found), _others(first, holding)
 
 
-def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading | None:
+def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Hypothesis | None:
     """The best reading of two chains at rest under which all axes agree, or None: `search` without
     what differs.
     """
@@ -90,7 +90,7 @@ def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Reading | None
 
 def _one_joint(
     pair: Sides, a: Chain, b: Chain, poses: tuple[NDArray[np.intp], Array]
-) -> list[Reading]:
+) -> list[Hypothesis]:
     """Readings in which one inner joint alone has a zero offset, its axis agreeing, or held to be
     wrong.
     """
@@ -101,35 +101,37 @@ def _one_joint(
     tries = [(P[i], z[i], own, used) for (P, z), own in starts for most, used in ((4, every), (2, ~own))
              for i in range(len(z[:most]))]  # fmt: skip
     for (P, z), own in starts:
-        agree = misses(pair, carried(pair, P[:2], z[:2])[1]) <= 1.0
+        agree = deviations(pair, transformed(pair, P[:2], z[:2])[1]) <= 1.0
         tries += [(P[i], z[i], own, used) for i, used in enumerate(agree)]
     P, z, free, used = (np.array(column) for column in zip(*tries, strict=True))
     return read(pair, a, b, *fit(pair, P, z, free, used))
 
 
-def _simpler(first: Reading, found: list[Reading]) -> Reading:
+def _simpler(first: Hypothesis, found: list[Hypothesis]) -> Hypothesis:
     """The best reading, or one that blames fewer joints and leaves base and tool where they are,
     which it does not.
     """
     fewer = (
-        r for r in found if not r.frames and r.moved.any() and r.blamed.sum() < first.blamed.sum()
+        r
+        for r in found
+        if not r.frames and r.moved.any() and r.implicated.sum() < first.implicated.sum()
     )
     return next(fewer, first) if first.frames and not first.link else first
 
 
-def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Reading]:
+def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Hypothesis]:
     """Readings in which one link is another: the axes before it agree under one pose, those behind
     under another.
     """
     nothing, found = np.zeros((len(poses), pair.n)), []
-    axes = carried(pair, poses, nothing)[1]
-    agree = (misses(pair, axes) <= 1.0) & (signs(pair, axes) > 0)
+    axes = transformed(pair, poses, nothing)[1]
+    agree = (deviations(pair, axes) <= 1.0) & (signs(pair, axes) > 0)
     for k in range(2, pair.n - 1):
         before, behind = agree[:, :k].all(1), agree[:, k:].all(1)
         if before.any() and behind.any():
-            P, last = poses[before][:1], unhubbed(pair, poses[behind][0])
+            P, last = poses[before][:1], off_centre(pair, poses[behind][0])
             (reading,) = read(pair, a, b, P, nothing[:1])
-            if reading.blamed.sum() < 2:
+            if reading.implicated.sum() < 2:
                 continue
             tool = se3.inverse(last @ b.home) @ a.home
             frames = sum(not still(T, pair.tol_m, pair.tol_rad) for T in (reading.base, tool))
@@ -137,7 +139,7 @@ def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Reading]:
     return found
 
 
-def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Reading]:
+def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Hypothesis]:
     """Readings in which every zero offset is free: with no bad axis, with each one, and with those
     that then miss.
     """
@@ -149,12 +151,14 @@ def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Reading]:
         P, z = np.concatenate([P[:4], tried[0]]), np.concatenate([z[:4], tried[1]])
         for k in np.flatnonzero(pair.alike) if pair.alike.all() else np.flatnonzero(~pair.alike):
             used = np.arange(n) != k
-            for held in (pair, replace(pair, hinge=int(k))):
+            for held in (pair, replace(pair, suspect_joint=int(k))):
                 trial = fit(held, P, z, inner, used)
-                fits = ~(misses(held, carried(held, *trial)[1])[:, used] > 1.0).any(1)
+                fits = ~(deviations(held, transformed(held, *trial)[1])[:, used] > 1.0).any(1)
                 readings = _simplest(held, a, b, trial[0][fits], trial[1][fits])
                 # Zero offsets about a's axis k say nothing of b's, unless that is another one.
-                found += [reading for reading in readings if held.hinge < 0 or reading.moved[k]]
+                found += [
+                    reading for reading in readings if held.suspect_joint < 0 or reading.moved[k]
+                ]
     return found
 
 
@@ -171,14 +175,14 @@ def _other_zeros(pair: Sides) -> tuple[Array, Array, Array, Array]:
     return P, z, *fit(pair, P, z, _inner(pair), np.ones(pair.n, bool))
 
 
-def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Reading]:
+def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Hypothesis]:
     """The readings of alignments with as many zero offsets put back to 0, least first, as the
     agreeing axes allow.
     """
     kinds = np.array(pair.b.kinds)
     z = np.where(kinds == "revolute", np.arctan2(np.sin(z), np.cos(z)), z)
     P = P.copy()
-    agree = misses(pair, carried(pair, P, z)[1]) <= 1.0
+    agree = deviations(pair, transformed(pair, P, z)[1]) <= 1.0
     free = abs(z) > 0
     for ks in np.argsort(abs(z), axis=1).T:
         (row,) = np.nonzero(free[np.arange(len(z)), ks])
@@ -186,21 +190,21 @@ def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Readi
         rest, without = free[row], z[row]
         rest[np.arange(len(row)), k], without[np.arange(len(row)), k] = False, 0.0
         trial = fit(pair, P[row], without, rest, agree[row])
-        fits = ~((misses(pair, carried(pair, *trial)[1]) > 1.0) & agree[row]).any(1)
+        fits = ~((deviations(pair, transformed(pair, *trial)[1]) > 1.0) & agree[row]).any(1)
         P[row[fits]], z[row[fits]], free[row[fits]] = trial[0][fits], trial[1][fits], rest[fits]
     return read(pair, a, b, P, z)
 
 
-def _cost(reading: Reading) -> tuple[float, ...]:
+def _cost(reading: Hypothesis) -> tuple[float, ...]:
     return reading.cost
 
 
-def _others(first: Reading, behind: Iterable[Reading]) -> list[Reading]:
+def _others(first: Hypothesis, behind: Iterable[Hypothesis]) -> list[Hypothesis]:
     """Of the readings behind the first those as short that blame another joint, or it for something
     else; each once.
     """
-    kept: list[Reading] = []
-    if first.blamed.sum() != 1:
+    kept: list[Hypothesis] = []
+    if first.implicated.sum() != 1:
         return kept
     seen = {_signature(first)}
     for reading in behind:
@@ -211,5 +215,5 @@ def _others(first: Reading, behind: Iterable[Reading]) -> list[Reading]:
     return kept
 
 
-def _signature(reading: Reading) -> bytes:
+def _signature(reading: Hypothesis) -> bytes:
     return np.stack([reading.moved, reading.offset, reading.directions < 0]).tobytes()

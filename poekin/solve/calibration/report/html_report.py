@@ -155,7 +155,8 @@ def _changed(found: CalibrationData) -> Iterable[str]:
     yield _caption("Nominal and calibrated arm, aligned and compared (the largest first)")
     lines = sorted(compared.joints, key=lambda j: -max(j.shift or 0.0, j.normal or 0.0, j.angle))
     yield _table(("joint", "angle of the axes (°)", "common normal (mm)", "at the arm (mm)", "zero"), [
-        (j.name_a, *map(_seen, (j.angle, j.normal, j.shift)), f"{_seen(j.zero)} {'mm' if j.unit == 'mm' else '°'}")
+        (j.name_a, *map(_seen, (j.angle, j.normal, j.shift)),
+         f"{_seen(j.zero_offset)} {'mm' if j.unit == 'mm' else '°'}")
         for j in lines[:MOST_ROWS]
     ])  # fmt: skip
     if (e := compared.before) is not None:

@@ -13,7 +13,7 @@ from poekin.analysis.compare.alignment.alignment_seeds import (
     rigid_poses,
     turns,
 )
-from poekin.analysis.compare.alignment.lines import carried, lines, misses, sides
+from poekin.analysis.compare.alignment.lines import deviations, lines, sides, transformed
 from poekin.analysis.compare.compare import compare
 from poekin.groups import se3
 from poekin.model import screw
@@ -32,15 +32,15 @@ def test_an_axis_misses_by_its_angle_and_by_its_distance_at_the_place_of_the_oth
     S = chain.screws.copy()
     foot = np.cross(S[1, :3], S[1, 3:])
     ours = lines(chain)
-    place = ours.places[1] + ours.hub
+    place = ours.places[1] + ours.centre
     across = np.cross(S[1, :3], S[2, :3]) / np.linalg.norm(np.cross(S[1, :3], S[2, :3]))
     # Turned by 1e-3 about a point of it that is 0.5 m from its place, which so moves by 0.5 mm.
     S[1] = se3.adjoint(se3.exp(1e-3 * screw.revolute(across, place + 0.5 * S[1, :3]))) @ S[1]
     pair = sides(chain, Chain(S, chain.home), 1e-5, 1e-3)
     P = np.eye(4)
-    P[:3, 3] = pair.b.hub - pair.a.hub
+    P[:3, 3] = pair.b.centre - pair.a.centre
     nothing = np.zeros((1, 6))
-    assert misses(pair, carried(pair, P[None], nothing)[1])[0] == pytest.approx(
+    assert deviations(pair, transformed(pair, P[None], nothing)[1])[0] == pytest.approx(
         [0, 50, 0, 0, 0, 0], rel=1e-3, abs=1e-9
     )
     assert np.linalg.norm(place - foot) > 1e-2  # else the place would be that of the base
@@ -55,7 +55,7 @@ def test_one_pose_of_each_pair_of_axes_brings_all_of_a_moved_arm_home(chain, sig
     pair = sides(chain, Chain(moved.screws * np.array(signs)[:, None], moved.home), 1e-6, 1e-6)
     for joints in [(0, 1), (0, 2), (1, 2)]:
         found, D = pair_poses(pair, [joints])
-        miss = misses(pair, carried(pair, D, np.zeros((len(D), 3)))[1])
+        miss = deviations(pair, transformed(pair, D, np.zeros((len(D), 3)))[1])
         assert (found == joints).all()
         assert miss[:, joints].max() < 1e-3  # that is 1e-9, far above rounding
         assert miss.max(axis=1).min() < 1e-3
@@ -70,7 +70,7 @@ def test_one_turn_finds_a_zero_offset_from_the_poses_before_the_joint_and_from_t
     for i in (joints[:, 0] >= k, (joints[:, 0] >= 0) & (joints[:, 1] <= k)):
         if i.any():
             P, z = one_turn(pair, (joints[i], D[i]), k)
-            assert misses(pair, carried(pair, P[:1], z[:1])[1]).max() < 1e-3
+            assert deviations(pair, transformed(pair, P[:1], z[:1])[1]).max() < 1e-3
             assert z[0] == pytest.approx(-offset, abs=1e-9)
 
 
@@ -130,13 +130,13 @@ def test_the_frame_of_two_axes_stands_on_the_first_where_their_common_normal_beg
     assert one is not None
     assert other is not None
     frame, cosine, parallel = one
-    assert frame[:3, 3] + SKEW.hub == pytest.approx([1, 2, -1])
+    assert frame[:3, 3] + SKEW.centre == pytest.approx([1, 2, -1])
     assert frame[:3, 2] == pytest.approx([0, 0, 1])
     assert frame[:3, 0] == pytest.approx([-1, 0, 0])  # z cross the other's direction
     assert np.linalg.det(frame[:3, :3]) == pytest.approx(1)
     assert (cosine, parallel) == (pytest.approx(np.sqrt(0.5)), False)
     back = other[0]
-    assert back[:3, 3] + SKEW.hub == pytest.approx([1.5, 2, -1])
+    assert back[:3, 3] + SKEW.centre == pytest.approx([1.5, 2, -1])
     assert back[:3, 2] == pytest.approx(np.sqrt([0, 0.5, 0.5]))
 
 
@@ -160,7 +160,7 @@ def test_the_frame_of_a_slide_stands_on_the_axis_beside_it_and_two_slides_have_o
         side = lines(Chain(rows, np.eye(4)))
         found = alignment_seeds._frame(side, i, j)
         assert found is not None
-        assert found[0][:3, 3] + side.hub == pytest.approx([0, 3, 0])
+        assert found[0][:3, 3] + side.centre == pytest.approx([0, 3, 0])
         assert found[0][:3, 2] == pytest.approx(side.ways[0])
     assert (
         alignment_seeds._frame(
@@ -197,7 +197,7 @@ def test_an_axis_behind_slides_is_anchored_where_the_next_links_that_turn_have_i
         anchor = alignment_seeds._anchor(side, k)
         assert (anchor is None) == (expected is None)
         if anchor is not None:
-            assert anchor + side.hub == pytest.approx(expected)
+            assert anchor + side.centre == pytest.approx(expected)
 
 
 def test_both_turns_that_make_an_axis_parallel_to_its_target_are_within_half_a_turn():
@@ -235,10 +235,10 @@ def test_one_axis_far_off_counts_less_than_several_that_miss():
     S = chain.screws.copy()
     S[3] = screw.prismatic([0, 0, 1])  # another kind, so that it never agrees
     pair = sides(Chain(S, chain.home), chain, 1e-5, 1e-5)
-    hubs = np.eye(4)
-    hubs[:3, 3] = pair.b.hub - pair.a.hub
-    P = np.stack([se3.exp(np.array([0, 0, 0, 5e-4, 0, 0])) @ hubs, hubs])
-    assert alignment_seeds.best(pair, P, np.zeros((2, 4)), 1)[0][0] == pytest.approx(hubs)
+    centres = np.eye(4)
+    centres[:3, 3] = pair.b.centre - pair.a.centre
+    P = np.stack([se3.exp(np.array([0, 0, 0, 5e-4, 0, 0])) @ centres, centres])
+    assert alignment_seeds.best(pair, P, np.zeros((2, 4)), 1)[0][0] == pytest.approx(centres)
 
 
 def test_two_axes_are_aligned_as_one_pair():
@@ -271,7 +271,7 @@ def test_beyond_many_alignments_each_pose_is_tried_with_the_turns_of_one_axis(
         )
         P, z = one_turn(pair, (joints[some], D[some]), k)
         assert kept == [2 * some.sum()]
-        assert misses(pair, carried(pair, P[:1], z[:1])[1]).max() < 1e-3
+        assert deviations(pair, transformed(pair, P[:1], z[:1])[1]).max() < 1e-3
 
 
 def test_a_helical_axis_has_its_line_as_a_revolute_one_has():
@@ -303,9 +303,9 @@ def test_poses_are_moved_along_slides_to_where_the_first_axis_that_turns_has_its
     moved = chain.rezeroed([3.0, 0, 0]).rebased(BASE)  # the slide has moved what is behind it
     pair = sides(chain, moved, 1e-6, 1e-6)
     P = se3.inverse(BASE)
-    P[:3, 3] += P[:3, :3] @ pair.b.hub - pair.a.hub + [0.3, 0.2, 0.1]
+    P[:3, 3] += P[:3, :3] @ pair.b.centre - pair.a.centre + [0.3, 0.2, 0.1]
     (D,) = alignment_seeds._on_the_first_turning_axis(pair, P[None])
-    miss = misses(pair, carried(pair, D[None], np.zeros((1, 3)))[1])[0]
+    miss = deviations(pair, transformed(pair, D[None], np.zeros((1, 3)))[1])[0]
     assert miss[1:].max() < 1e-3
     turning = sides(
         Chain(chain.screws[1:], chain.home), Chain(moved.screws[1:], moved.home), 1e-6, 1e-6
@@ -335,7 +335,7 @@ def test_the_few_alignments_that_are_kept_are_those_that_miss_least_and_change_l
     monkeypatch.setattr(alignment_seeds, "BEAM", 2)
     P, found = alignment_seeds.one_by_one(pair)
     assert len(P) == 2
-    assert misses(pair, carried(pair, P, found)[1])[0].max() < 1e-3
+    assert deviations(pair, transformed(pair, P, found)[1])[0].max() < 1e-3
     assert np.sort((abs(found) > 1e-6).sum(1))[0] <= np.count_nonzero(offset)
 
 
@@ -360,7 +360,7 @@ def test_the_first_pose_is_the_base_as_it_is_and_the_others_are_of_pairs_of_join
     pair = sides(chain, Chain(rows, chain.home), 1e-6, 1e-6)
     joints, D = rigid_poses(pair)
     as_it_is = np.eye(4)
-    as_it_is[:3, 3] = pair.b.hub - pair.a.hub
+    as_it_is[:3, 3] = pair.b.centre - pair.a.centre
     assert joints[0].tolist() == [-1, -1]
     assert pytest.approx(as_it_is) == D[0]
     assert {tuple(map(int, row)) for row in joints[1:]} == {(0, 1), (0, 2), (1, 2)}

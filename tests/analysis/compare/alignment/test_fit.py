@@ -10,7 +10,7 @@ import pytest
 from benchmarks.planted_changes import planted, random_arm
 from poekin.analysis.compare.alignment import fit as fitting
 from poekin.analysis.compare.alignment.fit import _linearised, _step, fit
-from poekin.analysis.compare.alignment.lines import carried, misses, sides
+from poekin.analysis.compare.alignment.lines import deviations, sides, transformed
 from poekin.groups import se3
 
 KINDS = ("revolute", "revolute", "prismatic", "revolute", "revolute")
@@ -30,7 +30,7 @@ def near(seed, count):
 @pytest.mark.parametrize("hinge", [-1, 0, 1, 2, 3])
 def test_the_derivatives_are_those_of_the_residuals(hinge):
     pair, P, z, free, used = near(0, 4)
-    pair, h = replace(pair, hinge=hinge), 1e-6
+    pair, h = replace(pair, suspect_joint=hinge), 1e-6
     J = _linearised(pair, P, z, free, used)[1]
     for c, xi in enumerate(np.eye(11)):
         ahead, back = (
@@ -59,11 +59,11 @@ def test_a_fit_takes_the_base_and_the_free_zero_offsets_to_where_the_used_axes_a
     used = np.arange(5) != 3
     start = z * inner
     fitted = fit(pair, P, start, inner, used)
-    miss = misses(pair, carried(pair, *fitted)[1])
+    miss = deviations(pair, transformed(pair, *fitted)[1])
     assert miss[:, used].max() < 1e-6
     assert miss[:, ~used].min() > 99  # the shift of 1 mm, in tolerances of 0.01 mm
     base = np.eye(4)
-    base[:3, 3] = pair.b.hub - pair.a.hub
+    base[:3, 3] = pair.b.centre - pair.a.centre
     assert fitted[0] == pytest.approx(np.tile(base, (3, 1, 1)), abs=1e-9)
     assert fitted[1] == pytest.approx(np.zeros((3, 5)), abs=1e-9)
 
@@ -105,7 +105,7 @@ def test_a_fit_that_starts_near_takes_few_steps_and_ends_where_none_helps(monkey
     assert taken <= 6
     # The error squares itself: from 100 tolerances beyond 1e-9 in four steps.
     fitted, _ = counted(monkeypatch, 4, pair, P, z * free, free, used)
-    assert misses(pair, carried(pair, *fitted)[1])[:, used].max() < 1e-8
+    assert deviations(pair, transformed(pair, *fitted)[1])[:, used].max() < 1e-8
     # With the axis that differs too, the least squares are none that vanish: from there no step
     # helps, and until the damping has grown from 1e-6 beyond 1e3 ten are tried.
     least, _ = counted(monkeypatch, 60, pair, P, z * free, free, used | True)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from poekin.analysis.compare.alignment.hypotheses import Reading
+from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 
 
 def cost(
@@ -25,10 +25,19 @@ def cost(
     at = np.arange(n)
     moved, offset = at < axes, (at >= axes) & (at < axes + zeros)
     directions = np.where(at >= n - reversed_, -1.0, 1.0)
-    misses = np.where(moved, miss, 0.5)
+    deviations = np.where(moved, miss, 0.5)
     pose = np.eye(4)
-    return Reading(
-        pose, pose, np.zeros(n), directions, moved, offset, np.zeros((n, 6)), misses, frames, link
+    return Hypothesis(
+        pose,
+        pose,
+        np.zeros(n),
+        directions,
+        moved,
+        offset,
+        np.zeros((n, 6)),
+        deviations,
+        frames,
+        link,
     ).cost[0]
 
 

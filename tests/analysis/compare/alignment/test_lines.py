@@ -1,4 +1,4 @@
-"""Axes as lines about a hub, and how far another arm's axes are from them, on arms worked out by
+"""Axes as lines about a centre, and how far another arm's axes are from them, on arms worked out by
 hand.
 """
 
@@ -11,15 +11,15 @@ import pytest
 
 from benchmarks.planted_changes import random_arm
 from poekin.analysis.compare.alignment.lines import (
-    at_rest,
-    carried,
     carriers,
-    hinge_screw,
+    deviations,
     lines,
-    misses,
     residuals,
     sides,
     signs,
+    suspect_screw,
+    transformed,
+    uncoupled_at_zero,
 )
 from poekin.groups import se3
 from poekin.model import screw
@@ -33,7 +33,7 @@ def chain_of(*rows, home=TOOL, **data):
     return Chain(rows, home, **data)
 
 
-@pytest.mark.parametrize("rows, hub", [
+@pytest.mark.parametrize("rows, centre", [
     ([screw.revolute(Z, [1, 2, 0]), screw.revolute(Y, [1, 0, 5])], [1, 2, 5]),  # where they cross
     ([screw.revolute(Z, [1, 2, 0]), screw.revolute(Y, [3, 0, 5])], [2, 2, 5]),  # halfway
     # level with the tool
@@ -44,15 +44,15 @@ def chain_of(*rows, home=TOOL, **data):
     ([screw.prismatic(X)], [0.3, 0.4, 9]),
     ([screw.helical(Z, [1, 2, 0], 0.1)], [1, 2, 9]),
 ])  # fmt: skip
-def test_the_hub_is_the_point_nearest_to_all_axes(rows, hub):
-    assert lines(chain_of(*rows)).hub == pytest.approx(hub, abs=1e-4)
+def test_the_hub_is_the_point_nearest_to_all_axes(rows, centre):
+    assert lines(chain_of(*rows)).centre == pytest.approx(centre, abs=1e-4)
 
 
 def test_lines_are_about_the_hub_and_without_pitch():
     side = lines(
         chain_of(screw.revolute(Z, [1, 2, 0]), screw.helical(Y, [3, 0, 5], 0.2), screw.prismatic(X))
     )
-    assert side.hub == pytest.approx([2, 2, 5])
+    assert side.centre == pytest.approx([2, 2, 5])
     assert side.places == pytest.approx(np.array([[-1, 0, 0], [1, 0, 0], [0, 0, 0]]))
     assert side.ways == pytest.approx(np.array([Z, Y, X]))
     assert side.axes == pytest.approx(
@@ -66,15 +66,17 @@ def test_at_rest_every_joint_is_a_coordinate_whose_limits_are_those_of_the_only_
     C, c = [[-2.0, 0], [0, 1], [1, 1]], np.array([0.5, 0, -0.25])
     chain = chain_of(*rows, coupling=C, offset=c, q_names=["u", "v"], limits=[[-1, 3], [-1, 2]],
                      joint_names=["one", "two", "three"])  # fmt: skip
-    rest = at_rest(chain)
+    rest = uncoupled_at_zero(chain)
     assert rest.limits.tolist() == [[-6, 2], [-1, 2], [-np.inf, np.inf]]
     assert (rest.joint_names, rest.base, rest.tip) == (chain.joint_names, chain.base, chain.tip)
     q = np.array([0.3, -0.7])
     assert rest.fk(np.array(C) @ q) == pytest.approx(chain.fk(q), abs=1e-14)
     plain = chain_of(*rows)
-    assert at_rest(plain) is plain
+    assert uncoupled_at_zero(plain) is plain
     offset = chain_of(*rows, offset=c)
-    assert at_rest(offset).fk(np.zeros(3)) == pytest.approx(offset.fk(np.zeros(3)), abs=1e-14)
+    assert uncoupled_at_zero(offset).fk(np.zeros(3)) == pytest.approx(
+        offset.fk(np.zeros(3)), abs=1e-14
+    )
 
 
 def moved(chain, k, angle=0.0, length=0.0, along=X):
@@ -82,7 +84,7 @@ def moved(chain, k, angle=0.0, length=0.0, along=X):
     place.
     """
     S, side = chain.screws.copy(), lines(chain)
-    place = side.places[k] + side.hub
+    place = side.places[k] + side.centre
     S[k] = se3.adjoint(se3.exp(np.array([0, 0, 0, *(length * along)]))) @ S[k]
     S[k] = se3.adjoint(se3.exp(angle * screw.revolute(along, place))) @ S[k]
     return Chain(S, chain.home)
@@ -95,9 +97,9 @@ def test_a_miss_is_the_larger_of_the_turn_and_the_way_at_its_place_each_in_toler
         other = moved(chain, k, angle, length)
         pair = sides(chain, other, tol_m, tol_rad)
         P = np.eye(4)[None].copy()
-        P[:, :3, 3] = pair.b.hub - pair.a.hub
-        axes = carried(pair, P, nothing)[1]
-        assert misses(pair, axes)[0] == pytest.approx(
+        P[:, :3, 3] = pair.b.centre - pair.a.centre
+        axes = transformed(pair, P, nothing)[1]
+        assert deviations(pair, axes)[0] == pytest.approx(
             np.where(np.arange(3) == k, expected, 0), rel=1e-3, abs=1e-8
         )
         # The direction comes first, as a vector; the place of a slide is its direction once more.
@@ -113,9 +115,9 @@ def test_a_miss_is_the_larger_of_the_turn_and_the_way_at_its_place_each_in_toler
         # And the other way round it is the same axis.
         flipped = Chain(other.screws * np.where(np.arange(3) == k, -1, 1)[:, None], other.home)
         pair = sides(chain, flipped, tol_m, tol_rad)
-        axes = carried(pair, P, nothing)[1]
+        axes = transformed(pair, P, nothing)[1]
         assert signs(pair, axes)[0].tolist() == [-1 if i == k else 1 for i in range(3)]
-        assert misses(pair, axes)[0, k] == pytest.approx(expected, rel=1e-3)
+        assert deviations(pair, axes)[0, k] == pytest.approx(expected, rel=1e-3)
 
 
 def test_joints_are_alike_whose_kind_is_the_same_and_whose_pitch_shows_less_than_the_tolerance_in_a_turn():
@@ -133,8 +135,8 @@ def test_joints_are_alike_whose_kind_is_the_same_and_whose_pitch_shows_less_than
     )
     for one, two, tolerance in ((a, b, 1e-3), (b, a, 1e-5)):
         unlike = sides(one, two, 1e-5, 1e-3)
-        axes = carried(unlike, np.eye(4)[None], np.zeros((1, 2)))[1]
-        assert (unlike.alike.tolist(), misses(unlike, axes)[0, 0]) == ([False, True], np.inf)
+        axes = transformed(unlike, np.eye(4)[None], np.zeros((1, 2)))[1]
+        assert (unlike.alike.tolist(), deviations(unlike, axes)[0, 0]) == ([False, True], np.inf)
         assert unlike.zero_tolerance[0] == tolerance  # of b's joint
 
 
@@ -147,13 +149,13 @@ def test_a_hinge_turns_what_is_behind_it_about_the_other_model_s_axis_the_way_it
         for sign in (1.0, -1.0):
             S = other.screws.copy()
             S[k] *= sign
-            pair = replace(sides(chain, Chain(S, chain.home), 1e-5, 1e-5), hinge=k)
+            pair = replace(sides(chain, Chain(S, chain.home), 1e-5, 1e-5), suspect_joint=k)
             D = carriers(pair, P, z)
             D_k = D[:, k]
             own = sign * pair.a.screws[k]
             part = slice(3, 6) if k == 2 else slice(0, 3)
             assert ((se3.adjoint(D_k) @ pair.b.screws[k])[:, part] @ own[part] > 0).all()
-            assert hinge_screw(pair, se3.adjoint(D_k) @ pair.b.screws[k]) == pytest.approx(
+            assert suspect_screw(pair, se3.adjoint(D_k) @ pair.b.screws[k]) == pytest.approx(
                 np.stack([own, own])
             )
             assert D[:, k + 1] == pytest.approx(se3.exp(own * z[:, k, None]) @ D_k)
@@ -169,9 +171,9 @@ def test_an_axis_that_is_perpendicular_to_its_own_is_not_reversed():
     )
     for sign in (1.0, -1.0):
         turned = Chain(other.screws * [[sign], [1.0]], other.home)
-        pair = replace(sides(chain, turned, 1e-5, 1e-5), hinge=0)
+        pair = replace(sides(chain, turned, 1e-5, 1e-5), suspect_joint=0)
         P = np.eye(4)[None].copy()
-        P[:, :3, 3] = pair.b.hub - pair.a.hub
-        screws, axes = carried(pair, P, np.zeros((1, 2)))
+        P[:, :3, 3] = pair.b.centre - pair.a.centre
+        screws, axes = transformed(pair, P, np.zeros((1, 2)))
         assert signs(pair, axes).tolist() == [[1, 1]]
-        assert hinge_screw(pair, screws[:, 0]) == pytest.approx(pair.a.screws[:1])
+        assert suspect_screw(pair, screws[:, 0]) == pytest.approx(pair.a.screws[:1])

@@ -7,7 +7,7 @@ import pytest
 
 from benchmarks.planted_changes import random_arm
 from poekin.analysis.compare.alignment.alignment_seeds import rigid_poses
-from poekin.analysis.compare.alignment.hypotheses import Reading
+from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.alignment.search import (
     _inner,
@@ -28,7 +28,7 @@ N, TOL = 4, (1e-5, np.radians(1e-3))
 def reading(moved=(), offset=(), reversed_=(), frames=0, link=0):
     """A reading that blames these joints, from 0."""
     at = np.arange(N)
-    return Reading(
+    return Hypothesis(
         np.eye(4), np.eye(4), np.zeros(N), np.where(np.isin(at, reversed_), -1.0, 1.0), np.isin(at, moved),
         np.isin(at, offset), np.zeros((N, 6)), np.zeros(N), frames, link,
     )  # fmt: skip
@@ -114,11 +114,11 @@ def test_zero_offsets_that_no_axis_needs_are_put_back_and_whole_turns_taken_off(
     chain = random_arm(3, ("revolute",) * 5)
     other = chain.rezeroed([0, 0, 0.4, 0, 0])
     pair = sides(chain, other, *TOL)
-    hubs = np.eye(4)
-    hubs[:3, 3] = pair.b.hub - pair.a.hub
+    centres = np.eye(4)
+    centres[:3, 3] = pair.b.centre - pair.a.centre
     # The last offset moves no axis; -0.4 and a turn less are one to a revolute joint.
     z = np.array([[0, 0, -0.4, 0, 0.3], [0, 0, -0.4 + 2 * np.pi, 0, 0.0], [0, 0, -0.4, 1e-9, 0.0]])
-    for found in _simplest(pair, chain, other, np.tile(hubs, (3, 1, 1)), z):
+    for found in _simplest(pair, chain, other, np.tile(centres, (3, 1, 1)), z):
         assert found.zeros == pytest.approx([0, 0, -0.4, 0, 0], abs=1e-9)
         assert (found.zeros == 0).tolist() == [True, True, False, True, True]
         assert not found.moved.any()
@@ -135,8 +135,8 @@ def test_arms_of_few_joints_are_read_too(n, kind):
         S[k] *= -1
     other = Chain(S, chain.home).rezeroed(0.1 * (kind == "zero") * (np.arange(n) == k))
     first, others = search(chain, other, *TOL)
-    assert first.blamed.sum() <= 1
-    assert all(found.blamed.sum() == 1 for found in others)
+    assert first.implicated.sum() <= 1
+    assert all(found.implicated.sum() == 1 for found in others)
     assert compare(chain, other, samples=5).differing or first.frames
     if n == 3:
         assert (first.moved | first.offset | (first.directions < 0)).tolist() == [
@@ -151,4 +151,4 @@ def test_an_arm_of_slides_alone_is_read():
         [screw.prismatic(row) for row in np.random.default_rng(1).normal(size=(3, 3))], np.eye(4)
     )
     first, _ = search(chain, chain.rebased(se3.exp([0.1, 0.2, 0.3, 1, 2, 3])), *TOL)
-    assert not first.blamed.any()
+    assert not first.implicated.any()

@@ -411,7 +411,7 @@ def test_what_changed_stands_in_the_row_of_its_joint(found, tables, text):
             seen(j.angle),
             seen(j.normal),
             seen(j.shift),
-            f"{seen(j.zero)} {'mm' if j.kind_b == 'prismatic' else '°'}",
+            f"{seen(j.zero_offset)} {'mm' if j.kind_b == 'prismatic' else '°'}",
         ]
         for j in lines
     ]
