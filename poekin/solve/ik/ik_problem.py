@@ -60,7 +60,7 @@ def items(lock: Any) -> Any:
     return None if lock is None else tuple(lock.items())
 
 
-def compiled(chain: Chain | CompiledChain, what: str) -> CompiledChain:
+def compiled(chain: Chain | CompiledChain[Chain], what: str) -> CompiledChain[Chain]:
     """Compiled chain of a function's first argument. Raises: InputError."""
     if isinstance(chain, CompiledChain):
         return chain

@@ -88,21 +88,21 @@ def follow(
         parallel=False,
     )
     problem = make_problem(fast, settings)
-    chain = fast.chain
-    most = per_coordinate(max_step, chain, "max_step")
+    given = fast.chain
+    most = per_coordinate(max_step, given, "max_step")
     if isinstance(max_step, Mapping) or np.ndim(max_step):
         most = np.abs(problem.units.of(most))
-    when, limit_v, limit_a = _timing(times, speed, acceleration, chain, len(path))
+    when, limit_v, limit_a = _timing(times, speed, acceleration, given, len(path))
     start = None if q0 is None else first_tries(problem.units, problem.domain, (), 1, q0)[0]
     finite = np.asarray(np.isfinite(path).all(axis=(1, 2)))
     follower = Follower(problem, np.ascontiguousarray(path[finite]), most, progress)
     joints, broken = follower.run(start)
     return PathResult(
-        chain=chain,
+        chain=given,
         solution=_solution(follower, path, finite, problem.coordinates(joints)),
         branch_switches=tuple(int(np.flatnonzero(finite)[k]) for k in broken),
         task=problem.task,
-        limits=chain.limits if limits else np.full_like(chain.limits, [-np.inf, np.inf]),
+        limits=given.limits if limits else np.full_like(given.limits, [-np.inf, np.inf]),
         times=when,
         speed=limit_v,
         acceleration=limit_a,
