@@ -13,14 +13,14 @@ from docutils.nodes import SkipNode  # noqa: E402
 from docutils.utils.math import latex2mathml  # noqa: E402
 
 import poekin  # noqa: E402
-from tools import docs_drawings, docs_equations, docs_floors, docs_names, docs_render  # noqa: E402
+from tools import docs_drawings, docs_equations, docs_floors, docs_names, docs_paper, docs_render  # noqa: E402
 
 project = "poekin"
 author = copyright = "the poekin authors"
 version = release = poekin.__version__
 
 extensions = ["sphinx.ext.autodoc", "myst_parser"]
-exclude_patterns = ["_build", "_generated/floors.md"]
+exclude_patterns = ["_build", "_generated/floors.md", "_generated/paper.md"]
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 highlight_language = "none"  # of indented blocks in docstrings: equations
@@ -92,6 +92,7 @@ def setup(app):
     reference = {f"reference/{name}": text for name, text in docs_names.reference().items()}
     for name, text in {
         "floors.md": docs_floors.page(),
+        "paper.md": docs_paper.page(),
         **docs_drawings.drawings(),
         **reference,
     }.items():

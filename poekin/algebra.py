@@ -100,7 +100,9 @@ def pose_of(R, p):
 
 
 def compose(T_ab, T_bc):
-    """T_ac = T_ab T_bc: 36 multiplications and 27 additions."""
+    """T_ac = T_ab T_bc, as of f' = P f Q in the paper's Section II: 36 multiplications and 27
+    additions.
+    """
     a, b = T_ab, T_bc
     return (
         a[0] * b[0] + a[1] * b[3] + a[2] * b[6],
@@ -141,8 +143,8 @@ def adjoint_inverse(T_ab, V_a):
 
 
 def turned_about_z(T, sine, cosine, slide):
-    """T (Rz, slide z): the pose after a joint about and along its own z axis, its sine and cosine
-    given.
+    """T (Rz, slide z), M_i e^{S_i q_i} of the paper's Section IV: a joint about and along its own z
+    axis. Its sine and cosine are given: a table of them may serve, the paper's alternative.
     """
     return (
         T[0] * cosine + T[1] * sine,

@@ -114,7 +114,10 @@ def lost_anchors(page: Path) -> list[str]:
 def dead(page: Path) -> list[str]:
     """Links and figures of a page that lead nowhere; what is made at the build counts as there."""
     text = page.read_text(encoding="utf-8")
-    made = {f"_generated/{n}" for n in docs_drawings.drawings()} | {"_generated/floors.md"}
+    made = {f"_generated/{n}" for n in docs_drawings.drawings()} | {
+        "_generated/floors.md",
+        "_generated/paper.md",
+    }
     made |= {f"_generated/reference/{n.removesuffix('.rst')}" for n in docs_names.reference()}
     named = re.findall(r"^(?::::|```)\{(?:figure|include)\} (\S+)", text, re.MULTILINE)
     for toctree in re.findall(r"^:::\{toctree\}\n(.*?)^:::", text, re.MULTILINE | re.DOTALL):

@@ -53,7 +53,7 @@ def _across(a):
 
 
 def angle(turn):
-    """phi (rad) of 2 sin(phi / 2) n."""
+    """phi (rad) of 2 sin(phi / 2) n: |log R|, 0 <= phi <= pi, of Remark 2."""
     half_sine = 0.5 * elementary.sqrt(dot(turn, turn))
     return 2.0 * elementary.asin(min(half_sine, 1.0))
 

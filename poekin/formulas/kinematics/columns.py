@@ -3,6 +3,7 @@
 `J` is six rows of one number a joint; on entry it holds each joint's z axis and origin in the base
 frame (`forward.tip_and_axes`), on return the columns (omega; v). `rotates` r and `slides` s are
 those of `forward`.
+Source: Park 1994, Section III, each A_i moved to where its axis is.
 Accuracy: that of `forward` (tests/model/test_chain_laws.py).
 """
 

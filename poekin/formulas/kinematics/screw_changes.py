@@ -43,7 +43,7 @@ UNITS = (
 
 
 def products(exponentials, home, count, P):
-    """P_0 = I, P_i = P_{i-1} e^{A_i x_i}, and f = P_n M, as rows 0 ... n + 1 of P."""
+    """P_0 = I, P_i = P_{i-1} e^{A_i x_i}, and f = P_n M, eq. (1), as rows 0 ... n + 1 of P."""
     T = pose_row(P, 0, IDENTITY)
     for i in range(count):
         T = pose_row(P, i + 1, compose(T, exponentials[i]))

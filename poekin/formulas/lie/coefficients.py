@@ -133,7 +133,9 @@ def _beside_poles(tt, rest):
 
 
 def d_of(tt):
-    """D = (1 - E) / t^2 from t^2, for t < 2 pi."""
+    """D = (1 - E) / t^2 from t^2, for t < 2 pi: the coefficient of Lemma 4, 1/12 at 0 and 1/pi^2 at
+    pi.
+    """
     if not elementary.takes_series(tt):
         return (1.0 - e_of(elementary.sqrt(tt))) / tt if tt != 0 else (tt + 1.0) / 12.0
     first, others = _beside_poles(tt, 0.0)

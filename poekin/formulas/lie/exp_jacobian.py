@@ -46,7 +46,7 @@ def _abc(w, tt):
 
 
 def left(w):
-    """J(w), row by row: d exp[w] = [J(w) dw] exp[w]."""
+    """J(w), row by row: d exp[w] = [J(w) dw] exp[w], Lemma 5."""
     tt = dot(w, w)
     a, b, c = _abc(w, tt)
     return rotation(w, b, c) if elementary.below(tt, NEAR) else turned(w, b, c, a)

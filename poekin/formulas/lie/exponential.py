@@ -73,7 +73,7 @@ def closed(w, tt):
 
 
 def so3(w):
-    """exp [w] = I + A [w] + B [w]^2 of a rotation vector w (rad)."""
+    """exp [w] = I + A [w] + B [w]^2 of a rotation vector w (rad): Lemma 1."""
     tt = dot(w, w)
     if elementary.below(tt, NEAR):
         return rotation(w, 1.0 - tt * c_near(tt), b_near(tt))
@@ -81,7 +81,7 @@ def so3(w):
 
 
 def se3(w, v):
-    """exp of the twist (w; v): the pose (R, p).
+    """exp of the twist (w; v): the pose (R, p), Lemma 2 for any length of w.
 
     p = v + B w x v + C w x (w x v) where theta < 1, and v_along + A v_across + B w x v elsewhere:
     v_along is the part of v along w, v_across the rest. The first has no cancellation near theta =

@@ -70,7 +70,7 @@ def _along(theta, rest, axis):
 
 
 def so3(R):
-    """The rotation vector w (rad) with exp [w] = R, 0 <= |w| <= pi."""
+    """The rotation vector w (rad) with exp [w] = R, 0 <= |w| <= pi: Lemma 3."""
     theta, rest, axis, _ = _polar(R)
     return _along(theta, rest, axis)
 
@@ -92,7 +92,7 @@ def _linear(w, n, p, e):
 
 
 def se3(T):
-    """The twist (w; v) with exp = T, 0 <= |w| <= pi."""
+    """The twist (w; v) with exp = T, 0 <= |w| <= pi: Lemma 4."""
     theta, rest, axis, cotangent = _polar(T)
     w = _along(theta, rest, axis)
     e = 0.5 * theta * cotangent
@@ -125,7 +125,7 @@ def _near(theta, rest, axis, w_near):
 
 
 def so3_near(R, w_near):
-    """Of all w with exp [w] = R the one closest to w_near (rad)."""
+    """Of all w with exp [w] = R, Remark 1's, the one closest to w_near (rad)."""
     theta, rest, axis, _ = _polar(R)
     return _near(theta, rest, axis, w_near)[0]
 

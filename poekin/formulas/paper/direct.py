@@ -12,7 +12,8 @@ from ...algebra import adjoint, adjoint_inverse, compose, pose, set_column
 
 
 def space(screws, exponentials, count, J):
-    """Space Jacobian: column i is Ad(e^{A_1 q_1} ... e^{A_{i-1} q_{i-1}}) A_i.
+    """Space Jacobian: column i is Ad(e^{A_1 q_1} ... e^{A_{i-1} q_{i-1}}) A_i. Example 1's arm is in
+    its test.
 
     `screws` are A_i in the base frame, `exponentials` the poses e^{A_i q_i}. Returns the product of
     all exponentials but the last: times e^{A_n q_n} M it is the pose f.
@@ -27,7 +28,7 @@ def space(screws, exponentials, count, J):
 
 
 def body(screws, exponentials, count, J):
-    """Body Jacobian: column i is Ad(e^{B_{i+1} q_{i+1}} ... e^{B_n q_n})^-1 B_i.
+    """Body Jacobian, eq. (2): column i is Ad(e^{B_{i+1} q_{i+1}} ... e^{B_n q_n})^-1 B_i.
 
     `screws` are B_i in the tool frame, `exponentials` the poses e^{B_i q_i}. Returns the product of
     all exponentials but the first: M e^{B_1 q_1} times it is the pose f.

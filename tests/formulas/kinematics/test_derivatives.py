@@ -7,6 +7,7 @@ import pytest
 
 from poekin.engine.count import Count, counted
 from poekin.formulas.kinematics import derivatives
+from tests.formulas.matrices import Ad, ad, brackets
 from tests.formulas.moving_screws import (
     COUNTS,
     FRAMES,
@@ -83,3 +84,20 @@ def test_a_derivative_costs_what_it_says(formula, n):
     else:
         formula(J, rates, n, of(6, n))
     assert (count.multiplications, count.additions) == COSTS[formula](n)
+
+
+def test_the_bracket_is_that_of_matrices():
+    for V, W in np.random.default_rng(2).normal(size=(20, 2, 6)):
+        X, Y = brackets(V), brackets(W)
+        product = X @ Y - Y @ X
+        np.testing.assert_allclose(brackets(derivatives.bracket(V, W)), product, rtol=0, atol=1e-13)
+        np.testing.assert_allclose(derivatives.bracket(V, W), ad(V) @ W, rtol=0, atol=1e-13)
+
+
+def test_the_velocity_of_a_point_is_the_twist_seen_from_there():
+    for V, p in zip(
+        *np.split(np.random.default_rng(3).normal(size=(20, 9)), [6], axis=1), strict=True
+    ):
+        at = np.eye(4)
+        at[:3, 3] = -p
+        np.testing.assert_allclose(derivatives.at_point(V, p), Ad(at) @ V, rtol=0, atol=1e-14)

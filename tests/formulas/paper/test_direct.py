@@ -13,7 +13,7 @@ from tests.formulas.four_joints import (
     rows,
     same,
 )
-from tests.formulas.matrices import Ad, exp, flat, product
+from tests.formulas.matrices import Ad, exp, flat, matrix, product
 
 
 @COUNTS
@@ -32,6 +32,24 @@ def test_the_direct_method_carries_each_screw_by_the_exponentials_before_or_behi
         ),
     )
     same(behind, flat(product(*EXPONENTIALS[min(1, count - 1) : count])))
+
+
+def test_example_1_of_the_paper():
+    """A 3R arm with L1 = 0.4, L2 = 0.3: M, w_i and v_i as printed; the pose by trigonometry."""
+    screws = [(0, 0, 1, 0, 0, 0), (0, -1, 0, 0, 0, 0), (0, -1, 0, 0, 0, -0.4)]
+    q1, q2, q3 = q = np.array([0.3, 0.8, -1.1])
+    moves = [exp(x * np.array(S)) for S, x in zip(screws, q, strict=True)]
+    J = rows(3)
+    before = direct.space(screws, [flat(E) for E in moves], 3, J)
+    f = product(*moves) @ matrix(np.eye(3), (0.7, 0, 0))
+    along = 0.4 * np.cos(q2) + 0.3 * np.cos(q2 + q3)
+    up = 0.4 * np.sin(q2) + 0.3 * np.sin(q2 + q3)
+    same(f[:3, 3], [along * np.cos(q1), along * np.sin(q1), up])
+    same(before, flat(product(*moves[:2])))
+    # the axes of joints 2 and 3 are horizontal, and joint 3's passes through the elbow
+    z, elbow = np.array([np.sin(q1), -np.cos(q1), 0]), 0.4 * np.cos(q2)
+    o = np.array([elbow * np.cos(q1), elbow * np.sin(q1), 0.4 * np.sin(q2)])
+    same(J, np.transpose([[0, 0, 1, 0, 0, 0], [*z, 0, 0, 0], [*z, *np.cross(o, z)]]))
 
 
 @pytest.mark.parametrize("space", [True, False])
