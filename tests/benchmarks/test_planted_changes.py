@@ -82,7 +82,14 @@ FOUND: dict[str, dict[str, Any]] = {
 
 def result(change: str, joint: dict[str, Any] | None = None, **changes: Any) -> Any:
     j = SimpleNamespace(
-        **{"angle": 0.0, "normal": 0.0, "zero_offset": 0.0, **JOINT, **FOUND[change], **(joint or {})}
+        **{
+            "angle": 0.0,
+            "normal": 0.0,
+            "zero_offset": 0.0,
+            **JOINT,
+            **FOUND[change],
+            **(joint or {}),
+        }
     )
     fields = {
         "differing": [j], "joints": [None, None, j], "equal": change in ("zero", "flip"), "verdict": "joint 3 differs",
