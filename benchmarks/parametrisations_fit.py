@@ -106,10 +106,10 @@ def levenberg_marquardt(
 ) -> Descent:
     """SciPy's (MINPACK's) with its own tolerances and the exact derivative."""
     scale = units(arm, R)
-    slopes: Any = lambda y: identification(arm.moved(scale * y), measured.q, R)  # noqa: E731  SciPy's stubs know no callable here
+    jacobian: Any = lambda y: identification(arm.moved(scale * y), measured.q, R)  # noqa: E731  SciPy's stubs know no callable here
     found = least_squares(
         lambda y: residuals(arm.moved(scale * y), measured, R),
-        np.zeros(len(scale)), slopes, method="lm", max_nfev=evaluations,
+        np.zeros(len(scale)), jacobian, method="lm", max_nfev=evaluations,
     )  # fmt: skip
     end = arm.moved(scale * found.x)
     return Descent(end, int(found.nfev), fresh.error(end.poses(fresh.q)))

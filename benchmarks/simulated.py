@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from poekin import Chain, so3
-from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.model.error_model import ErrorModel
 
 KINDS = ("screws", "home")
 # how far each parameter of the true arm is off the nominal one, rad and m: as real arms are
@@ -26,7 +26,7 @@ def displaced(
 
     directions (P, k), orthonormal, in rad and reaches: those that p may be made of, all where None.
     """
-    arm, scale = Arm(nominal, KINDS, None), scales(nominal)
+    arm, scale = ErrorModel(nominal, KINDS, None), scales(nominal)
     p = OFF * rng.normal(size=len(scale))
     if directions is not None:
         p = scale * (directions @ (directions.T @ (p / scale)))
@@ -36,7 +36,7 @@ def displaced(
 def scales(nominal: Chain) -> np.ndarray:
     """1 for angles, the reach for lengths, of each parameter of the arm."""
     return np.array(
-        [nominal.reach if p.unit == "m" else 1.0 for p in Arm(nominal, KINDS, None).parameters]
+        [nominal.reach if p.unit == "m" else 1.0 for p in ErrorModel(nominal, KINDS, None).parameters]
     )
 
 

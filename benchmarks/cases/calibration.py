@@ -36,7 +36,7 @@ class Seen(NamedTuple):
 
     rank: int
     identified: int
-    expected: int
+    identifiable: int
     parameters: int
     least: float
     lost: float
@@ -120,7 +120,7 @@ def seen(chain: Chain, q: np.ndarray, point: np.ndarray | None) -> Seen:
     return Seen(
         rank,
         said.rank,
-        said.expected,
+        said.identifiable,
         said.size,
         float(sigma[rank - 1]),
         lost,
@@ -134,7 +134,7 @@ def figure(words: str, formula: str, what: str, found: dict[tuple[str, str], lis
     for (kinds, kind), every in found.items():
         if kind == what:
             right = identifiable(kinds, what)
-            wrong += sum({s.rank, s.identified, s.expected} != {right} for s in every)
+            wrong += sum({s.rank, s.identified, s.identifiable} != {right} for s in every)
             total += len(every)
     return Figure(
         f"rank from {words} is {formula}, by all derivatives and by identify: chains where not", wrong, 0,

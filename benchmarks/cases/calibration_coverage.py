@@ -11,8 +11,8 @@ from scipy.stats import chi2
 
 from poekin import Chain, load, se3, so3
 from poekin.solve import calibration as cal
-from poekin.solve.calibration.diagnostics.identification import judged
-from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.diagnostics.identification import identify_directions
+from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 
 from .. import simulated
@@ -161,8 +161,8 @@ def seen(nominal: Chain, q: np.ndarray, kind: str) -> np.ndarray:
     measurements can see.
     """
     exact = measured(nominal.fk(q), np.zeros((len(q), 6)), None, kind)
-    problem = Problem(Arm(nominal, simulated.KINDS, None), q, [exact])
-    free = judged(problem)[1][: problem.arm_size]
+    problem = Problem(ErrorModel(nominal, simulated.KINDS, None), q, [exact])
+    free = identify_directions(problem)[1][: problem.model_size]
     U, s, _ = np.linalg.svd(free, full_matrices=False)
     return U[:, s > 1e-3]
 

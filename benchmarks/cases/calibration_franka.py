@@ -40,7 +40,7 @@ WORDS = (
 
 
 class Kept(NamedTuple):
-    """Residuals on data kept aside, mm and mrad: median and root mean square of each."""
+    """Residuals on held-out data, mm and mrad: median and root mean square of each."""
 
     position: float
     position_rms: float
@@ -76,7 +76,7 @@ def absent(place: Path) -> Topic:
     """The rows of a report without the data: they say so, and no bar is held or missed."""
     note = f"not measured: the data is outside the repository; {VARIABLE} names its file, which is not there"
     return Topic(
-        "A real Franka, data kept aside", WORDS,
+        "A real Franka, held-out data", WORDS,
         [Figure("median position error, screws fitted", None, bar_shown=f"≤ {short(POSITION)} mm", note=note),
          Figure("rms rotation error, screws fitted", None, bar_shown=f"≤ {short(ROTATION)} mrad", note=note)],
     )  # fmt: skip
@@ -86,7 +86,7 @@ def kept_aside(
     arm: Chain, q: np.ndarray, measured: cal.Measurement, loss: str, seed: int
 ) -> tuple[Kept, Kept]:
     """Pooled over the folds: with the screws fitted, and before."""
-    held = cal.calibrate(arm, q, measured, loss=loss, folds=FOLDS, seed=seed).held_out
+    held = cal.calibrate(arm, q, measured, loss=loss, folds=FOLDS, seed=seed).cross_validation
     if held is None:
         raise RuntimeError(f"{len(q)} observations were too few to keep some aside")
     return _kept(held.after), _kept(held.before)
@@ -106,7 +106,7 @@ def report(whole: cal.Calibration, after: Results, before: Results) -> Topic:
     seeds = [seed for loss, seed in after if loss == LOSS]
     said = whole.identification
     return Topic(
-        "A real Franka, data kept aside",
+        "A real Franka, held-out data",
         WORDS,
         figures=[
             Figure("median position error, board and camera fitted only", nominal.position, unit="mm",
@@ -119,7 +119,7 @@ def report(whole: cal.Calibration, after: Results, before: Results) -> Topic:
                    note=f"median {short(first.rotation)} mrad; {_draws(after, 'rotation_rms', ROTATION, 'mrad')}"),
             Figure("both bars at once: draws of the folds of which not", _misses(after, LOSS), shown=
                    f"{_misses(after, LOSS)} of {len(seeds)}", note=f"{LOSS} loss; linear {_misses(after, 'linear')}"),
-            Figure("identification from all: rank", said.rank, shown=f"{said.rank} of {said.expected}",
+            Figure("identification from all: rank", said.rank, shown=f"{said.rank} of {said.identifiable}",
                    note=f"{said.size} parameters, condition {short(float(said.condition))}; residuals of the fit "
                         f"{whole.after}; {len(whole.outliers)} outliers named"),
         ],

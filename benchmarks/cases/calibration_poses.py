@@ -12,7 +12,7 @@ import numpy as np
 from poekin import load, so3
 from poekin.model.chain import Chain
 from poekin.solve.calibration import Points, Poses, calibrate
-from poekin.solve.calibration.design.choice import Figures
+from poekin.solve.calibration.design.choice import DesignMetrics
 from poekin.solve.calibration.design.choose import Choice, choose_poses
 from poekin.solve.calibration.design.exchange import CRITERIA
 
@@ -55,21 +55,21 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
     for name, tip in ARMS:
         arm = load(name).chain(tip=tip)
         for kind, example in KINDS.items():
-            for by in CRITERIA[:1] if quick else CRITERIA:
+            for criterion in CRITERIA[:1] if quick else CRITERIA:
                 start = time.process_time()
-                choice = choose_poses(arm, CHOSEN, CANDIDATES, measurements=example, by=by)
+                choice = choose_poses(arm, CHOSEN, CANDIDATES, measurements=example, criterion=criterion)
                 slowest = max(slowest, seconds := time.process_time() - start)
                 rows.append(
                     (
                         name,
                         kind,
                         choice.rank,
-                        by,
-                        *(f"{gain:.2f}" for gain in choice.gains),
+                        criterion,
+                        *(f"{gain:.2f}" for gain in choice.improvement),
                         short(seconds),
                     )
                 )
-                if by == "amplification":
+                if criterion == "amplification":
                     figures.append(_figure(f"{name}, {kind}", choice))
         say(f"{name}: × {figures[-2].shown} and × {figures[-1].shown}")
     figures.append(Figure("a choice and the 100 random ones it is compared with, the slowest", slowest, unit="s",
@@ -81,7 +81,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         figures=figures,
         tables=[
             Table("By how much a choice is better than the median random choice",
-                  ("arm", "measured", "parameters", "chosen by", *(f"{name} ×" for name in Figures._fields),
+                  ("arm", "measured", "parameters", "chosen by", *(f"{name} ×" for name in DesignMetrics._fields),
                    "time (s)"), rows),
             Table(f"{ARMS[0][0]}, calibrated from {CHOSEN} full poses with noise of {NOISE:g} rad and {NOISE:g} "
                   "reaches: error over 500 fresh configurations, rms of all calibrations",
@@ -92,11 +92,14 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
 
 
 def _figure(what: str, choice: Choice) -> Figure:
+    gain = choice.criterion_improvement
+    best = choice.random_best.amplification / choice.random_median.amplification
+    left = 1 / choice.improvement.prediction
     return Figure(
-        f"{what}: noise amplification index, times better than the median of {choice.compare} random choices",
-        1 / choice.gain, shown=f"{choice.gain:.2f}", bar_shown=f"≥ {BAR}", holds=choice.gain >= BAR,
-        note=f"the best random choice: {choice.best.amplification / choice.random.amplification:.2f}; the error that "
-        f"noise leaves over all candidates: {1 / choice.gains.prediction:.2f} times that of a random choice",
+        f"{what}: noise amplification index, times better than the median of {choice.n_random} random choices",
+        1 / gain, shown=f"{gain:.2f}", bar_shown=f"≥ {BAR}", holds=gain >= BAR,
+        note=f"the best random choice: {best:.2f}; the error that noise leaves over all candidates: {left:.2f} times "
+        "that of a random choice",
     )  # fmt: skip
 
 
@@ -107,7 +110,7 @@ def _simulated(name: str, tip: str | None, repeats: int, say) -> list[tuple[Any,
     arm = load(name).chain(tip=tip)
     candidates, fresh, rng = arm.random(0, CANDIDATES), arm.random(1, 500), np.random.default_rng(2)
     chosen = {
-        f"chosen by {by}": choose_poses(arm, CHOSEN, candidates, by=by)
+        f"chosen by {by}": choose_poses(arm, CHOSEN, candidates, criterion=by)
         for by in ("amplification", "O1", "prediction")
     }
     found = {}
@@ -120,7 +123,8 @@ def _simulated(name: str, tip: str | None, repeats: int, say) -> list[tuple[Any,
         say(f"{what}: {short(1e3 * found[what][0])} mm on fresh configurations")
     whole = {what: float(np.hypot(p / arm.reach, r)) for what, (p, r) in found.items()}
     return [
-        (what, short(1e3 * p), short(1e3 * r), short(1 / chosen[what].gains.prediction) if what in chosen else "1",
+        (what, short(1e3 * p), short(1e3 * r),
+         short(1 / chosen[what].improvement.prediction) if what in chosen else "1",
          short(whole[what] / whole["random, new each time"]))
         for what, (p, r) in found.items()
     ]  # fmt: skip

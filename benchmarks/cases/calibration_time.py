@@ -1,4 +1,4 @@
-"""How long one calibration takes: exact slopes in poekin against SciPy's least squares with finite
+"""How long one calibration takes: exact jacobian in poekin against SciPy's least squares with finite
 differences.
 """
 
@@ -12,9 +12,9 @@ from scipy.optimize import least_squares
 
 from poekin import Chain, load
 from poekin.solve import calibration as cal
-from poekin.solve.calibration.diagnostics.identification import judged
-from poekin.solve.calibration.fit.fitting import fitted
-from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.diagnostics.identification import identify_directions
+from poekin.solve.calibration.fit.fitting import fit_parameters
+from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 
 from .. import simulated
@@ -138,19 +138,19 @@ def calibrated(task: Task) -> cal.Calibration:
 
 def problem_of(task: Task) -> Problem:
     """The same errors and parameters as `calibrate` has."""
-    return Problem(Arm(task.nominal, simulated.KINDS, None), task.q, [task.poses])
+    return Problem(ErrorModel(task.nominal, simulated.KINDS, None), task.q, [task.poses])
 
 
 def prepared(task: Task) -> tuple[Problem, np.ndarray]:
     """The problem and its free directions."""
     problem = problem_of(task)
-    return problem, judged(problem)[1]
+    return problem, identify_directions(problem)[1]
 
 
 def fit_alone(state: tuple[Problem, np.ndarray]):  # type: ignore[no-untyped-def]
     """The fit from the nominal arm on."""
     problem, free = state
-    return fitted(problem, free, "linear", np.zeros(problem.size), None)
+    return fit_parameters(problem, free, "linear", np.zeros(problem.size), None)
 
 
 def residuals(task: Task):  # type: ignore[no-untyped-def]
@@ -175,7 +175,7 @@ def minimised(method: str):  # type: ignore[no-untyped-def]
 
 def off(task: Task, p: np.ndarray) -> float:
     """The rms error of position (mm) on the fresh poses, of the arm with these parameters."""
-    arm = Arm(task.nominal, simulated.KINDS, None).chain(p)
+    arm = ErrorModel(task.nominal, simulated.KINDS, None).chain(p)
     return 1e3 * simulated.errors(arm, task.true, task.fresh)[0]
 
 

@@ -54,7 +54,7 @@ def test_a_chain_that_tells_less_is_counted_as_wrong(what):
     stuck = q * [1.0, 0.0, 1.0]
     good, bad = (ranks.seen(chain, x, point if what == "point" else None) for x in (q, stuck))
     right = ranks.identifiable("RRR", what)
-    assert (good.rank, good.identified, good.expected) == (right, right, right)
+    assert (good.rank, good.identified, good.identifiable) == (right, right, right)
     assert max(bad.rank, bad.identified) < right
     figures = [
         ranks.figure("", "", what, {("RRR", what): every}) for every in ([good, good], [good, bad])

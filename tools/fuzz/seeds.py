@@ -167,7 +167,7 @@ def written() -> dict[str, tuple[bytes, ...]]:
         made = (
             pk.calibrate(arm, q * 1.001 + 0.01, Poses(T), parameters=("offsets", "gains"), folds=0),
             pk.calibrate(arm, q, Points((pk.se3.inverse(X) @ T)[:, :3, 3], frame="unknown"), parameters=("offsets",),
-                         folds=2, deficient="hold"),
+                         folds=2, on_rank_deficiency="fix"),
             pk.calibrate(coupled, q2, Points(p), parameters=("offsets", "gains"), folds=0, loss="huber"),
         )  # fmt: skip
         for k, calibration in enumerate(made):

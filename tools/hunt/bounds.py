@@ -65,7 +65,7 @@ def with_parameters(draw: st.DrawFn) -> tuple[Any, ...]:
     chain = draw(chain_strategies.chains(min_joints=1, max_joints=5))
     kinds = draw(st.lists(st.sampled_from(test_parameters.KINDS), min_size=1, unique=True))
     try:
-        arm = test_parameters.Arm(chain, kinds, None)
+        arm = test_parameters.ErrorModel(chain, kinds, None)
     except InputError:
         reject()
     rng = np.random.default_rng(draw(NUMBERS))

@@ -18,6 +18,7 @@ from ...formats.text.atomic_write import write_whole
 from ...model.robot import Robot
 from ...solve.calibration.calibrate import calibrate
 from ...solve.calibration.calibration import Calibration
+from ...solve.calibration.diagnostics.cross_validation import CrossValidation
 from ...solve.calibration.model.residuals import Residuals
 from ...solve.calibration.report import changes, html_report
 from ...solve.calibration.report.changes import milli
@@ -27,7 +28,7 @@ from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
 from ..output import Progress, as_json, complain, name, number, path_text, say, table
 from . import measured
-from .measured import Measured, Said
+from .measured import Measured, MeasurementOptions
 
 NOT_CONVERGED = 1
 KIND = (
@@ -78,14 +79,15 @@ SigmaAngle = Annotated[
 SigmaLength = Annotated[
     float | None, typer.Option("--sigma-length", help="Standard deviation of measured lengths, m.")
 ]
-Hold = Annotated[
-    bool,
+OnRankDeficiency = Annotated[
+    str,
     typer.Option(
-        "--hold", help="Hold what the measurements do not see, in place of refusing them."
+        "--on-rank-deficiency",
+        help="raise, or fix: unobserved directions stay at nominal values.",
     ),
 ]
 Folds = Annotated[
-    int, typer.Option("--folds", help="Parts that are kept aside in turn; 0: none.", min=0)
+    int, typer.Option("--folds", help="Parts that are held out in turn; 0: none.", min=0)
 ]
 Seed = Annotated[int, typer.Option("--seed", help="Of the drawing of these parts.", min=0)]
 Ignore = Annotated[
@@ -109,13 +111,30 @@ Report = Annotated[
 
 
 def command(
-    file: File, files: Data, tip: Tip = None, base: Base = None, kind: Kind = None, point: Point = None,
-    centre: Centre = None, frame: Frame = None, parameters: Parameters = None, joints: Joints = None,
-    loss: Loss = "linear", prior_angle: PriorAngle = None, prior_length: PriorLength = None,
-    sigma_angle: SigmaAngle = None, sigma_length: SigmaLength = None, hold: Hold = False, folds: Folds = 5,
-    seed: Seed = 0, ignore: Ignore = None, output: Output = None, convention: Convention = "standard",
-    report: Report = None, json: Json = False,
-) -> None:  # fmt: skip
+    file: File,
+    files: Data,
+    tip: Tip = None,
+    base: Base = None,
+    kind: Kind = None,
+    point: Point = None,
+    centre: Centre = None,
+    frame: Frame = None,
+    parameters: Parameters = None,
+    joints: Joints = None,
+    loss: Loss = "linear",
+    prior_angle: PriorAngle = None,
+    prior_length: PriorLength = None,
+    sigma_angle: SigmaAngle = None,
+    sigma_length: SigmaLength = None,
+    on_rank_deficiency: OnRankDeficiency = "raise",
+    folds: Folds = 5,
+    seed: Seed = 0,
+    ignore: Ignore = None,
+    output: Output = None,
+    convention: Convention = "standard",
+    report: Report = None,
+    json: Json = False,
+) -> None:
     """The axes and home pose of an arm as measurements say they are. Exit code 0 done, 1 not
     converged, 2 error.
     """
@@ -126,24 +145,29 @@ def command(
         raise InputError(f"--dh: expected standard or modified, got {quote(convention)}")
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
-    said = Said(kind or (), point or (), centre, frame, sigma_angle, sigma_length, ignore or ())
-    prior = {
-        unit: value
-        for unit, value in (("rad", prior_angle), ("m", prior_length))
-        if value is not None
-    }
+    options = MeasurementOptions(
+        kind or (), point or (), centre, frame, sigma_angle, sigma_length, ignore or ()
+    )
     try:
-        given = measured.read(files, chain, said)
+        given = measured.read(files, chain, options)
         with Progress("calibrating") as progress:
             found = calibrate(
-                chain, given.q, given.sets, parameters=_listed(parameters) or ("screws", "home"), loss=loss,
-                joints=_listed(joints), prior=prior or None, deficient="hold" if hold else "refuse", folds=folds,
-                seed=seed, progress=lambda done, total: progress(done, total, "parts kept aside"),
-            )  # fmt: skip
+                chain,
+                given.q,
+                given.sets,
+                parameters=_listed(parameters) or ("screws", "home"),
+                loss=loss,
+                joints=_listed(joints),
+                prior=_prior(prior_angle, prior_length),
+                on_rank_deficiency=on_rank_deficiency,
+                folds=folds,
+                seed=seed,
+                progress=lambda done, total: progress(done, total, "folds done"),
+            )
     except (InputError, UnknownName) as fault:
         raise type(fault)(_as_options(str(fault))) from fault
     _write(found, robot, outputs, convention, report, given)
-    written = [str(path) for path in (*outputs, *((report,) if report else ()))]
+    written = [str(path) for path in (*outputs, report) if path]
     if json:
         print(as_json(_document(found, robot, given, written)))
     else:
@@ -155,20 +179,31 @@ def command(
     raise typer.Exit(0 if found.success else NOT_CONVERGED)
 
 
-_ENDINGS = (".toml", ".urdf", ".csv")
+def _prior(angle: float | None, length: float | None) -> dict[str, float] | None:
+    """Standard deviations by unit, None without any."""
+    given = {unit: value for unit, value in (("rad", angle), ("m", length)) if value is not None}
+    return given or None
+
+
+_ENDINGS: tuple[str, ...] = (".toml", ".urdf", ".csv")
 _OPTIONS = {
-    "deficient='hold'": "--hold", "covariance=": "--sigma-angle and --sigma-length", "folds=0": "--folds 0",
-    "parameters=": "--parameters", "joints=": "--joints",
-    "prior['rad']": "--prior-angle", "prior['m']": "--prior-length",
-}  # fmt: skip
+    "on_rank_deficiency='fix'": "--on-rank-deficiency fix",
+    "covariance=": "--sigma-angle and --sigma-length",
+    "folds=0": "--folds 0",
+    "parameters=": "--parameters",
+    "joints=": "--joints",
+    "prior['rad']": "--prior-angle",
+    "prior['m']": "--prior-length",
+}
 _IGNORED = re.compile(r"ignore=\[('([\w.:/+-]+)'|'.*')\] passes it over")
 _NAMES = {"points": "--point"} | {
-    w: f"--{w}" for w in ("kind", "parameters", "joints", "loss", "folds", "seed")
+    word: f"--{word.replace('_', '-')}"
+    for word in ("kind", "parameters", "joints", "loss", "folds", "seed", "on_rank_deficiency")
 }
 
 
 def _as_options(message: str) -> str:
-    """What the library says of its parameters, said of the options."""
+    """A message of the library about its parameters, as one about the options."""
     for word, option in _OPTIONS.items():
         message = message.replace(word, option)
     if column := _IGNORED.search(message):
@@ -185,9 +220,9 @@ def _listed(words: Sequence[str] | None) -> list[str] | None:
 
 def _check_places(outputs: Sequence[Path], report: Path | None) -> None:
     """Refuse places that cannot be written to before any work is done. Raises: FileError."""
-    ends = [(path, _ENDINGS) for path in outputs] + (
-        [(report, (".html", ".htm"))] if report else []
-    )
+    ends = [(path, _ENDINGS) for path in outputs]
+    if report:
+        ends.append((report, (".html", ".htm")))
     for path, endings in ends:
         where = f"cannot write {path_text(path)}"
         if path.suffix.lower() not in endings:
@@ -229,68 +264,89 @@ def _write(
 def _document(
     found: Calibration, robot: Robot, given: Measured, written: list[str]
 ) -> dict[str, object]:
-    def of(r: Residuals) -> dict[str, float]:
-        names = ("rms_length", "median_length", "rms_angle", "median_angle")
-        return {name: getattr(r, name) for name in names}
-
-    aside = found.held_out
+    outliers = [o._asdict() | {"source": given.sources[o.row]} for o in found.outliers]
     return {
-        "robot": robot.name, "base": found.chain.base, "tip": found.chain.tip, "success": found.success,
-        "measurements": len(found.after), "steps": len(found.steps), "loss": found.loss,
+        "robot": robot.name,
+        "base": found.chain.base,
+        "tip": found.chain.tip,
+        "success": found.success,
+        "measurements": len(found.after),
+        "steps": len(found.steps),
+        "loss": found.loss,
         "identification": dataclasses.asdict(found.identification),
-        "held_out": None if aside is None else {
-            "folds": aside.folds, "before": of(aside.before), "after": of(aside.after),
-        },
-        "before": of(found.before), "after": of(found.after),
-        "parameters": [
-            p._asdict() | {"value": value, "deviation": deviation}
-            for p, value, deviation in zip(found.parameters, found.values, found.deviations, strict=True)
-        ],
+        "cross_validation": _cross_validation(found.cross_validation),
+        "before": _statistics(found.before),
+        "after": _statistics(found.after),
+        "parameters": _parameters(found),
         "frames": dict(found.frames),
-        "spreads": [None if s is None else s._asdict() for s in found.spreads],
-        "outliers": [o._asdict() | {"source": given.sources[o.row]} for o in found.outliers],
-        "warnings": list(found.warnings), "remarks": list(found.remarks), "written": written,
-    }  # fmt: skip
+        "noise_std": [None if s is None else s._asdict() for s in found.noise_std],
+        "outliers": outliers,
+        "warnings": list(found.warnings),
+        "remarks": list(found.remarks),
+        "written": written,
+    }
+
+
+def _cross_validation(held_out: CrossValidation | None) -> dict[str, object] | None:
+    if held_out is None:
+        return None
+    return {
+        "folds": held_out.folds,
+        "before": _statistics(held_out.before),
+        "after": _statistics(held_out.after),
+    }
+
+
+def _statistics(r: Residuals) -> dict[str, float]:
+    names = ("rms_length", "median_length", "rms_angle", "median_angle")
+    return {name: getattr(r, name) for name in names}
+
+
+def _parameters(found: Calibration) -> list[dict[str, object]]:
+    values = zip(found.values, found.deviations, strict=True)
+    rows = zip(found.parameters, values, strict=True)
+    return [p._asdict() | {"value": value, "deviation": s} for p, (value, s) in rows]
 
 
 def _show(found: Calibration, robot: Robot, given: Measured) -> None:
     can = found.identification
     say(
-        f"{name(robot.name)}, {name(found.chain.base)} → {name(found.chain.tip)}: {len(found.after)} measurements,"
-        f" {can.rank} of {can.expected} parameters seen, condition {number(can.condition, 3)}"
+        f"{name(robot.name)}, {name(found.chain.base)} → {name(found.chain.tip)}: "
+        f"{len(found.after)} measurements, {can.rank} of {can.identifiable} parameters identified, "
+        f"condition {number(can.condition, 3)}"
     )
     say(f"{changes.sentence(found)}\n")
     for words in found.remarks:
         say(f"{words}\n")
     heads = ("", "position rms (mm)", "median", "rotation rms (mrad)", "median")
-    lines = [
-        (words, *(milli(x) for x in (r.rms_length, r.median_length, r.rms_angle, r.median_angle)))
-        for words, r in changes.errors(found)
-    ]
-    width = 3 if np.isnan(found.after.angle).all() else 5
-    table(heads[:width], [line[:width] for line in lines])
+    if np.isnan(found.after.angle).all():
+        heads = heads[:3]
+    table(heads, [_row(words, r)[: len(heads)] for words, r in changes.errors(found)])
     moved = changes.joints(found)
     if moved:
         say()
-        table(("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %"), [
-            (j.name, *(milli(x) for c in (j.tilt, j.shift) for x in (c.size, c.margin))) for j in moved
-        ])  # fmt: skip
+        heads = ("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %")
+        table(heads, [changes.row(j) for j in moved])
     say()
-    for title, words in (
-        ("Held, as no such measurement sees it", can.held),
-        ("Not seen, held", can.unseen),
-    ):
-        for one in words:
-            say(f"{title}: {one}")
+    for words in can.unidentifiable:
+        say(f"Unidentifiable from measurements of this kind, fixed: {words}")
+    for words in can.unobserved:
+        say(f"Unobserved, fixed: {words}")
     if found.outliers:
-        say(f"Outliers: {_places([given.sources[o.row] for o in found.outliers])}")
+        say(f"Outliers: {_locations([given.sources[o.row] for o in found.outliers])}")
 
 
-def _places(sources: Sequence[str]) -> str:
+def _row(words: str, r: Residuals) -> tuple[str, ...]:
+    values = (r.rms_length, r.median_length, r.rms_angle, r.median_angle)
+    return words, *map(milli, values)
+
+
+def _locations(sources: Sequence[str]) -> str:
     """Files and lines, each file named once."""
     lines: dict[str, list[str]] = {}
     for source in sources[:MOST_OUTLIERS]:
         file, _, line = source.rpartition(":")
         lines.setdefault(file, []).append(line)
-    more = f" and {len(sources) - MOST_OUTLIERS} more" if len(sources) > MOST_OUTLIERS else ""
-    return "; ".join(f"{file}:{', '.join(numbers)}" for file, numbers in lines.items()) + more
+    words = "; ".join(f"{file}:{', '.join(numbers)}" for file, numbers in lines.items())
+    more = len(sources) - MOST_OUTLIERS
+    return f"{words} and {more} more" if more > 0 else words

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,8 +16,8 @@ from ..kinematics import poses
 from ..output import Progress, path_text
 
 
-class Said(NamedTuple):
-    """What the options say of measurements: see the help of each."""
+class MeasurementOptions(NamedTuple):
+    """Options about measurements: see the help of each."""
 
     kind: Sequence[str]
     point: Sequence[str]
@@ -43,12 +42,14 @@ _TAKES = {"points": ("point", "frame"), "distances": ("point", "centre")}
 """The options that say something of measurements of a kind."""
 
 
-def read(paths: Sequence[str], chain: Chain, said: Said) -> Measured:
+def read(paths: Sequence[str], chain: Chain, options: MeasurementOptions) -> Measured:
     """The measurements in files, one set a file.
 
     Raises: what `data.read` does; InputError for options that do not fit.
     """
-    kinds = list(said.kind) * (len(paths) if len(said.kind) == 1 else 1) or [None] * len(paths)
+    kinds = list(options.kind) or [None] * len(paths)
+    if len(options.kind) == 1:
+        kinds *= len(paths)
     if len(kinds) != len(paths):
         raise InputError(
             f"--kind: expected one for all files or one for each of {len(paths)}, got {len(kinds)}"
@@ -57,40 +58,43 @@ def read(paths: Sequence[str], chain: Chain, said: Said) -> Measured:
     for path, kind in zip(paths, kinds, strict=True):
         with Progress(f"reading {path_text(path)}") as progress:
             tables.append(
-                data.read_table(path, chain, kind=kind, ignore=said.ignore, progress=progress)
+                data.read_table(path, chain, kind=kind, ignore=options.ignore, progress=progress)
             )
     made = [kind or table.layout.kinds[0] for kind, table in zip(kinds, tables, strict=True)]
-    _check_fit(said, made)
-    readings, sets, sources = [np.empty((0, chain.dof))], [], []
+    _check_fit(options, made)
+    readings = [np.empty((0, chain.dof))]
+    sets: list[Measurement] = []
+    sources: list[str] = []
     for kind, table in zip(made, tables, strict=True):
-        measured = data.measurement_of(
-            table, kind, _known(said, kind, len(table.layout.columns) // 3)
-        )
+        known = _known(options, kind, len(table.layout.columns) // 3)
+        rows = np.arange(len(table.q)) + len(sources)
+        sets.append(data.make_measurement(table, kind, known).with_rows(rows))
         readings.append(table.q)
-        sets.append(replace(measured, rows=np.arange(len(table.q)) + len(sources)))  # type: ignore[type-var]
-        sources += table.places
+        sources += table.sources
     return Measured(np.concatenate(readings), sets, sources)
 
 
-def _check_fit(said: Said, kinds: Sequence[str]) -> None:
+def _check_fit(options: MeasurementOptions, kinds: Sequence[str]) -> None:
     """Refuse options of which no file knows anything."""
     for name in ("point", "frame", "centre"):
         takers = [kind for kind, takes in _TAKES.items() if name in takes]
-        if getattr(said, name) and not set(kinds) & set(takers):
+        if getattr(options, name) and not set(kinds) & set(takers):
             raise InputError(
                 f"--{name}: expected with {' or '.join(takers)} only, got {', '.join(dict.fromkeys(kinds))}"
             )
     for sigma, option in (
-        (said.sigma_angle, "--sigma-angle"),
-        (said.sigma_length, "--sigma-length"),
+        (options.sigma_angle, "--sigma-angle"),
+        (options.sigma_length, "--sigma-length"),
     ):
         if sigma is not None and not 0 < sigma < np.inf:
             raise InputError(f"{option}: expected a standard deviation above 0, got {sigma:g}")
-    if said.sigma_angle is not None and not any(_angular(kind) for kind in kinds):
+    if options.sigma_angle is not None and not any(_angular(kind) for kind in kinds):
         raise InputError(
             "--sigma-angle: expected with measured poses only, and there are lengths alone"
         )
-    if (said.sigma_angle is None) != (said.sigma_length is None) and any(map(_angular, kinds)):
+    if (options.sigma_angle is None) != (options.sigma_length is None) and any(
+        map(_angular, kinds)
+    ):
         raise InputError(
             "--sigma-angle and --sigma-length: of measured poses, both expected or neither"
         )
@@ -100,26 +104,32 @@ def _angular(kind: str) -> bool:
     return bool(data.KINDS.get(kind, Measurement).angular)
 
 
-def _known(said: Said, kind: str, points: int) -> dict[str, Any]:
-    """What else `data.read` is to be told of measurements of this kind."""
+def _known(options: MeasurementOptions, kind: str, points: int) -> dict[str, Any]:
+    """The other arguments of `data.read` for measurements of this kind."""
     known: dict[str, Any] = {}
     takes = _TAKES.get(kind, ())
-    if said.sigma_length is not None:
-        angular = _angular(kind)
-        lengths = 3 if angular else 3 * points if kind == "points" else 1
-        deviations = [said.sigma_angle] * 3 * angular + [said.sigma_length] * lengths
-        known["covariance"] = np.diag(np.square(np.array(deviations, float)))
-        if kind == "distances":
-            known["covariance"] = said.sigma_length**2
-    if said.point and "point" in takes:
-        places = np.array([vector(text, "--point") for text in said.point])
+    if options.sigma_length is not None:
+        known["covariance"] = _covariance(options.sigma_angle, options.sigma_length, kind, points)
+    if options.point and "point" in takes:
+        positions = np.array([vector(text, "--point") for text in options.point])
         # of several, distances are to the first
-        known |= {"points": places} if kind == "points" else {"point": places[0]}
-    if said.frame is not None and "frame" in takes:
-        known["frame"] = said.frame
-    if said.centre is not None and "centre" in takes:
-        known["centre"] = vector(said.centre, "--centre")
+        known |= {"points": positions} if kind == "points" else {"point": positions[0]}
+    if options.frame is not None and "frame" in takes:
+        known["frame"] = options.frame
+    if options.centre is not None and "centre" in takes:
+        known["centre"] = vector(options.centre, "--centre")
     return known
+
+
+def _covariance(angle: float | None, length: float, kind: str, points: int) -> Any:
+    """Covariance of one measurement of this kind, of so many points."""
+    if kind == "distances":
+        return length**2
+    if _angular(kind):
+        deviations = np.repeat(np.array([angle, length], float), 3)
+    else:
+        deviations = np.full(3 * points, length)
+    return np.diag(np.square(deviations))
 
 
 def vector(text: str, option: str) -> Array:

@@ -2,12 +2,12 @@
 
 from .calibrate import calibrate
 from .calibration import Calibration, load
-from .design.choice import Choice, Figures
+from .design.choice import Choice, DesignMetrics
 from .design.choose import choose_poses
-from .design.indices import Indices, indices
-from .diagnostics.cross_validation import HeldOut
+from .design.observability import ObservabilityIndices, observability_indices
+from .diagnostics.cross_validation import CrossValidation
 from .diagnostics.identification import Identification, identify
-from .fit.noise import Spread
+from .fit.noise import NoiseEstimate
 from .measurements.data import read, write
 from .measurements.measurement import Measurement
 from .measurements.points import Distances, Points
@@ -20,26 +20,26 @@ from .result import Outlier
 __all__ = [
     "Calibration",
     "Choice",
+    "CrossValidation",
+    "DesignMetrics",
     "Distances",
     "EyeInHand",
     "EyeToHand",
-    "Figures",
-    "HeldOut",
     "Identification",
-    "Indices",
     "Measurement",
+    "NoiseEstimate",
+    "ObservabilityIndices",
     "Outlier",
     "Parameter",
     "Points",
     "Poses",
     "Residuals",
     "Simulated",
-    "Spread",
     "calibrate",
     "choose_poses",
     "identify",
-    "indices",
     "load",
+    "observability_indices",
     "read",
     "simulated",
     "write",

@@ -22,15 +22,16 @@ class Calibration(CalibrationData):
     """An arm as measurements say it is.
 
     chain, nominal: the calibrated and the nominal arm. parameters, values (P,), covariance (P, P):
-    what moved, in each parameter's unit, unknown frames included; what was held has no variance.
-    frames: unknown frames (4, 4) and points (3,) by name, m. identification: what the measurements
-    can tell. success: whether the search converged; steps: its history. before, after: residuals on
-    all measurements, with unknown frames fitted only and calibrated; held_out: on data kept aside,
-    None where none was. outliers. spreads: the standard deviations estimated for each set without
-    covariances, None for the others. loss: its name. warnings: the tool, or the arm itself, is
-    another one than the nominal, which was off by more than a tenth of its reach, or residuals are
-    larger than a covariance that was given; remarks: it is off by as much, as its base is
-    elsewhere, or residuals are smaller than a covariance.
+    what moved, in each parameter's unit, unknown frames included; fixed directions have no
+    variance. frames: unknown frames (4, 4) and points (3,) by name, m. identification: what the
+    measurements identify. success: whether the search converged; steps: its history. before, after:
+    residuals on all measurements, with unknown frames fitted only and calibrated; cross_validation:
+    residuals on held-out data, None where none was. outliers. noise_std: the standard deviations
+    estimated for each set without covariances, None for the others. loss: its name. error_model: how the
+    parameters move the arm. warnings: the
+    tool, or the arm itself, is another one than the nominal, which was off by more than a tenth of
+    its reach, or residuals are larger than a covariance that was given; remarks: it is off by as
+    much, as its base is elsewhere, or residuals are smaller than a covariance.
     """
 
     def pose_covariance(self, q: Any) -> Array:
@@ -38,7 +39,7 @@ class Calibration(CalibrationData):
 
         Parameters: q (..., m) or a dict. Returns: (..., 6, 6), rad^2 and m^2, of the tip's rotation
         vector and position errors, both in base axes. It knows what was fitted only: neither what
-        was held, nor joints that bend.
+        was fixed, nor joints that bend.
         Raises: ShapeError, UnknownName, InputError. Accuracy: first order in the errors of the
         parameters.
         Source: propagation of covariance through `Chain.screw_derivatives`.
@@ -81,12 +82,11 @@ class Calibration(CalibrationData):
         title: str | None = None,
         sources: Sequence[str] | None = None,
     ) -> None:
-        """Write a page that tells and shows all of it: one HTML file, no scripts, nothing fetched
+        """Write a page that shows all of it: one HTML file, no scripts, nothing fetched
         (extra `report`).
 
         path: of the file; title: of the page; sources: what each row of q came from, such as file
-        and line,
-        to name outliers by.
+        and line, to name outliers by.
         Raises: ShapeError, FileError; MissingExtra without Matplotlib.
         """
         html_report.write(self, path, title, sources)

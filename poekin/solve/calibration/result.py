@@ -11,12 +11,13 @@ import numpy as np
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
-from .diagnostics.cross_validation import HeldOut
+from .diagnostics.cross_validation import CrossValidation
 from .diagnostics.identification import Identification
 from .fit.minimise import Step
-from .fit.noise import Spread
-from .measurements.poses import pose_slopes
-from .model.parameters import Arm, Parameter
+from .fit.noise import NoiseEstimate
+from .measurements.poses import pose_error_jacobian
+from .model.error_model import ErrorModel
+from .model.parameters import Parameter
 from .model.residuals import Residuals
 
 
@@ -45,11 +46,11 @@ class CalibrationData:
     steps: tuple[Step, ...] = field(repr=False)
     before: Residuals = field(repr=False)
     after: Residuals = field(repr=False)
-    held_out: HeldOut | None = field(repr=False)
+    cross_validation: CrossValidation | None = field(repr=False)
     outliers: tuple[Outlier, ...]
-    spreads: tuple[Spread | None, ...]
+    noise_std: tuple[NoiseEstimate | None, ...]
     loss: str
-    arm: Arm = field(repr=False)
+    error_model: ErrorModel = field(repr=False)
     warnings: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
 
@@ -63,8 +64,8 @@ def pose_covariance(found: CalibrationData, q: Any) -> Array:
     """Covariance (..., 6, 6) of the calibrated arm's pose at q; see `Calibration.pose_covariance`."""
     q = coordinates(q, found.nominal.q_names)
     rows = q.reshape(-1, found.nominal.dof)
-    n = len(found.arm.parameters)
-    T, D = found.arm.changes(found.values[:n], rows)
-    slopes = pose_slopes(T, np.zeros((len(T), 6)), D)
-    C = slopes @ found.covariance[:n, :n] @ np.swapaxes(slopes, 1, 2)
+    n = len(found.error_model.parameters)
+    T, D = found.error_model.poses_and_twists(found.values[:n], rows)
+    J = pose_error_jacobian(T, np.zeros((len(T), 6)), D)
+    C = J @ found.covariance[:n, :n] @ np.swapaxes(J, 1, 2)
     return C.reshape(*q.shape[:-1], 6, 6)

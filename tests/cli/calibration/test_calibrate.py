@@ -13,7 +13,7 @@ import pytest
 
 import poekin as pk
 from poekin.cli.calibration import calibrate as command
-from poekin.cli.calibration.measured import Said, read
+from poekin.cli.calibration.measured import MeasurementOptions, read
 from poekin.solve.calibration import Distances, Points, Poses, calibrate
 from poekin.solve.calibration.measurements import data
 from poekin.solve.calibration.measurements.simulated import simulated
@@ -42,13 +42,13 @@ def test_the_summary_begins_with_data_kept_aside(poekin, measured, csv):
     assert (code, err) == (0, "")
     lines = out.splitlines()
     assert lines[0].startswith(
-        "panda, panda_link0 → panda_link8: 50 measurements, 34 of 34 parameters seen, condition "
+        "panda, panda_link0 → panda_link8: 50 measurements, 34 of 34 parameters identified, condition "
     )
-    assert lines[1].startswith("On data kept aside, the median position error goes from ")
+    assert lines[1].startswith("On held-out data, the median position error goes from ")
     names = [line.split("  ")[0] for line in lines if line.startswith(("nominal", "calibrated"))]
     assert names == [
-        "nominal, kept aside",
-        "calibrated, kept aside",
+        "nominal, held out",
+        "calibrated, held out",
         "nominal, all data",
         "calibrated, all data",
     ]
@@ -88,9 +88,11 @@ def test_every_output_holds_the_same_arm(poekin, measured, csv, tmp_path):
     found = toml_io.load(outputs[0])
     expected = calibrate(PANDA, measured.q, data.read(csv, PANDA)[1], loss="tukey", folds=2, seed=3)
     assert found.chain == expected.chain
-    assert found.held_out is not None
-    assert expected.held_out is not None
-    np.testing.assert_array_equal(found.held_out.after.length, expected.held_out.after.length)
+    assert found.cross_validation is not None
+    assert expected.cross_validation is not None
+    np.testing.assert_array_equal(
+        found.cross_validation.after.length, expected.cross_validation.after.length
+    )
     q = PANDA.random(0, 20)
     for path in outputs:
         tip = "panda_link8" if path.suffix != ".csv" else None
@@ -105,7 +107,7 @@ def test_every_output_holds_the_same_arm(poekin, measured, csv, tmp_path):
     assert f"{csv}:{np.flatnonzero(measured.outliers)[0] + 2}</td>" in page
 
 
-SAID = Said([], [], None, None, None, None, [])
+SAID = MeasurementOptions([], [], None, None, None, None, [])
 
 
 def test_deviations_points_and_frames_reach_the_measurements_of_their_kind(tmp_path):
@@ -153,13 +155,13 @@ def test_deviations_points_and_frames_reach_the_measurements_of_their_kind(tmp_p
 def test_text_and_json_hold_the_figures_of_the_library(poekin, as_json, measured, csv):
     expected = calibrate(PANDA, measured.q, data.read(csv, PANDA)[1], loss="huber", folds=2)
     result = as_json(*ARM, csv, "--loss", "huber")
-    aside = expected.held_out
+    aside = expected.cross_validation
     assert aside is not None
     for said, figures in (
         (result["before"], expected.before),
         (result["after"], expected.after),
-        (result["held_out"]["before"], aside.before),
-        (result["held_out"]["after"], aside.after),
+        (result["cross_validation"]["before"], aside.before),
+        (result["cross_validation"]["after"], aside.after),
     ):
         assert said == {
             name: getattr(figures, name)
@@ -176,14 +178,14 @@ def test_text_and_json_hold_the_figures_of_the_library(poekin, as_json, measured
     ]
     text = poekin(*ARM, csv, "--loss", "huber")[1].splitlines()
     assert text[0].endswith(
-        f"34 of 34 parameters seen, condition {expected.identification.condition:.3g}"
+        f"34 of 34 parameters identified, condition {expected.identification.condition:.3g}"
     )
     lines = [re.split(r" {2,}", line) for line in text]
     heads = ["joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %"]
     assert [line for line in lines if line[0] == "joint"] == [heads]
     rows = {line[0]: line[1:] for line in lines if len(line) == 5}
     for title, figures in (
-        ("nominal, kept aside", aside.before), ("calibrated, kept aside", aside.after),
+        ("nominal, held out", aside.before), ("calibrated, held out", aside.after),
         ("nominal, all data", expected.before), ("calibrated, all data", expected.after),
     ):  # fmt: skip
         lengths = (
@@ -204,10 +206,10 @@ def test_json_holds_all_of_it(as_json, measured, csv):
     result = as_json(*ARM, csv, "--loss", "huber")
     assert result["success"] is True
     assert (result["measurements"], result["identification"]["rank"]) == (50, 34)
-    assert result["held_out"]["folds"] == 2
+    assert result["cross_validation"]["folds"] == 2
     assert (
-        result["held_out"]["after"]["median_length"]
-        < 0.2 * result["held_out"]["before"]["median_length"]
+        result["cross_validation"]["after"]["median_length"]
+        < 0.2 * result["cross_validation"]["before"]["median_length"]
     )
     assert [o["row"] for o in result["outliers"]] == np.flatnonzero(measured.outliers).tolist()
     assert result["outliers"][0]["source"] == f"{csv}:{result['outliers'][0]['row'] + 2}"
@@ -274,11 +276,11 @@ def test_several_files_make_one_calibration(as_json, tmp_path):
     assert [p["value"] for p in one["parameters"]] == calibrate(
         PANDA, q, measured, folds=2
     ).values.tolist()
-    assert one["spreads"] == [None]
+    assert one["noise_std"] == [None]
     lines = (tmp_path / "distances.csv").read_text().splitlines()
     noted = [lines[0] + ",note", *(f"{line},x" for line in lines[1:])]
     (tmp_path / "distances.csv").write_text("\n\n".join(noted))
-    arm = [*ARM[:4], "--folds", 0, "--hold"]
+    arm = [*ARM[:4], "--folds", 0, "--on-rank-deficiency", "fix"]
     both = as_json(*arm, words[0], tmp_path / "distances.csv", "--ignore", "note", *words[1:5])
     assert both["measurements"] == 55
 
@@ -294,7 +296,8 @@ def test_mixed_files_take_their_own_options(as_json, tmp_path):
         *ARM[:4],
         "--folds",
         0,
-        "--hold",
+        "--on-rank-deficiency",
+        "fix",
         tmp_path / "p.csv",
         tmp_path / "d.csv",
         "--kind",
@@ -339,12 +342,12 @@ def test_what_is_not_seen_is_refused_or_held(poekin, refused, measured, tmp_path
     path = tmp_path / "still.csv"
     data.write(path, PANDA, q, pk.calibration.Poses(measured.truth.fk(q)))
     said = refused(*ARM, path)
-    assert "these measurements see 30 of 34 parameters. Not seen: " in said
-    assert said.endswith("solve the rest only with --hold\n")
-    code, out, _ = poekin(*ARM, path, "--hold")
+    assert "these measurements identify 30 of 34 parameters. Unobserved: " in said
+    assert said.endswith("estimate the rest only with --on-rank-deficiency fix\n")
+    code, out, _ = poekin(*ARM, path, "--on-rank-deficiency", "fix")
     assert code == 0
-    assert "30 of 34 parameters seen" in out
-    assert "\nNot seen, held: " in out
+    assert "30 of 34 parameters identified" in out
+    assert "\nUnobserved, fixed: " in out
 
 
 def test_a_search_that_does_not_converge_is_exit_code_1_and_written(
@@ -379,13 +382,24 @@ def test_degrees_for_radians_are_suggested_not_converted(refused, measured, tmp_
 
 def test_what_python_calls_its_parameters_is_told_as_options(refused, measured, tmp_path):
     few = tmp_path / "few.csv"
-    data.write(few, PANDA, measured.q[:5], measured.measurements.taken(np.arange(5)))
+    data.write(few, PANDA, measured.q[:5], measured.measurements.subset(np.arange(5)))
     said = refused(*ARM, few)
-    assert "34 parameters are to be found" in said
-    assert "(--parameters, --joints), or hold what is not seen (--hold)" in said
-    assert "or say it with --sigma-angle and --sigma-length\n" in refused(*ARM, few, "--hold")
-    assert "folds: 9 parts of 5 readings; --folds 0 keeps none aside" in refused(
-        *ARM, few, "--hold", "--folds", 9, "--sigma-angle", 1e-3, "--sigma-length", 1e-3
+    assert "34 identifiable parameters" in said
+    assert "(--parameters, --joints), or fix what is unobserved (--on-rank-deficiency fix)" in said
+    assert "or give --sigma-angle and --sigma-length\n" in refused(
+        *ARM, few, "--on-rank-deficiency", "fix"
+    )
+    assert "folds: 9 parts of 5 readings; --folds 0 holds none out" in refused(
+        *ARM,
+        few,
+        "--on-rank-deficiency",
+        "fix",
+        "--folds",
+        9,
+        "--sigma-angle",
+        1e-3,
+        "--sigma-length",
+        1e-3,
     )
 
 
@@ -489,8 +503,8 @@ def test_outliers_beyond_the_first_are_counted():
         file: ", ".join(str(k) for k in range(first, MOST_OUTLIERS, 2))
         for first, file in enumerate(("a", "b"))
     }
-    assert command._places(sources) == f"a.csv:{here['a']}; b.csv:{here['b']} and 2 more"
-    assert command._places(sources[:1]) == "a.csv:0"
-    assert command._places(["a.csv:1"] * (2 * MOST_OUTLIERS + 1)).endswith(
+    assert command._locations(sources) == f"a.csv:{here['a']}; b.csv:{here['b']} and 2 more"
+    assert command._locations(sources[:1]) == "a.csv:0"
+    assert command._locations(["a.csv:1"] * (2 * MOST_OUTLIERS + 1)).endswith(
         f" and {MOST_OUTLIERS + 1} more"
     )

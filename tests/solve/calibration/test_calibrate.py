@@ -22,7 +22,7 @@ from poekin.solve.calibration import (
     choose_poses,
     identify,
 )
-from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.model.error_model import ErrorModel
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.messages import says
 
@@ -36,7 +36,7 @@ def moved(
     arm: pk.Chain, seed: int = 0, size: float = 5e-3, kinds: tuple[str, ...] = ("screws", "home")
 ) -> pk.Chain:
     """An arm off by some milliradians and millimetres in every parameter."""
-    parameters = Arm(arm, kinds, None)
+    parameters = ErrorModel(arm, kinds, None)
     return parameters.chain(
         size * np.random.default_rng(seed).normal(size=len(parameters.parameters))
     )
@@ -222,7 +222,7 @@ def fresh_error(chain: pk.Chain) -> float:
 def test_spreads_are_estimated_where_no_covariance_is_given():
     q, T = noisy(0, 200)
     found = calibrate(PUMA, q, T)
-    (spread,) = found.spreads
+    (spread,) = found.noise_std
     assert spread is not None
     # 600 numbers each: known to 3 %; four deviations
     assert spread.angle == pytest.approx(3e-4, rel=0.12)
@@ -243,22 +243,28 @@ def test_gross_outliers_cost_little_with_a_robust_loss_and_are_named(loss):
 def test_data_kept_aside_are_judged_by_the_others():
     q, T = noisy(1)
     found = calibrate(PUMA, q, T, folds=5)
-    assert found.held_out is not None
-    assert len(found.held_out.after) == len(found.held_out.before) == 60
-    np.testing.assert_array_equal(found.held_out.after.row, np.arange(60))
-    assert found.after.rms_length < found.held_out.after.rms_length < 2 * found.after.rms_length
-    assert found.held_out.after.rms_length < 0.1 * found.held_out.before.rms_length
-    np.testing.assert_allclose(found.held_out.before.length, found.before.length, rtol=1e-12)
+    assert found.cross_validation is not None
+    assert len(found.cross_validation.after) == len(found.cross_validation.before) == 60
+    np.testing.assert_array_equal(found.cross_validation.after.row, np.arange(60))
     assert (
-        calibrate(PUMA, q, T, folds=5, seed=3).held_out.after.rms_length
-        != found.held_out.after.rms_length
+        found.after.rms_length
+        < found.cross_validation.after.rms_length
+        < 2 * found.after.rms_length
+    )
+    assert found.cross_validation.after.rms_length < 0.1 * found.cross_validation.before.rms_length
+    np.testing.assert_allclose(
+        found.cross_validation.before.length, found.before.length, rtol=1e-12
+    )
+    assert (
+        calibrate(PUMA, q, T, folds=5, seed=3).cross_validation.after.rms_length
+        != found.cross_validation.after.rms_length
     )  # type: ignore[union-attr]
 
 
 def test_the_pose_covariance_is_the_scatter_of_the_poses_found():
     q, _ = noisy(0)
     rng = np.random.default_rng(7)
-    parameters = Arm(PUMA, ("screws", "home"), None)
+    parameters = ErrorModel(PUMA, ("screws", "home"), None)
     at = PUMA.random(5)
     true = TRUE.fk(at)
     C = np.diag([9e-8] * 3 + [4e-8] * 3)
@@ -295,7 +301,7 @@ def test_the_result_says_what_it_is_and_goes_on_to_other_forms(tmp_path):
         "34 parameters",
         "converged",
         "rank 34 of 34",
-        "kept aside (5 folds)",
+        "held out (5 folds)",
         "rms mm",
         "median mrad",
     ):
@@ -344,14 +350,17 @@ def test_units_are_told_with_unknown_frames_too(kind):
 
 BAD = {
     "no chain": (
-        {"arm": pk.load("puma560")},
-        "arm: expected a Chain, such as robot.chain(tip=...), got Robot",
+        {"chain": pk.load("puma560")},
+        "chain: expected a Chain, such as robot.chain(tip=...), got Robot",
     ),
     "a loss": (
         {"loss": "l1"},
         "loss: expected one of 'linear', 'huber', 'cauchy', 'tukey', got 'l1'",
     ),
-    "deficient": ({"deficient": True}, "deficient: expected one of 'refuse', 'hold', got True"),
+    "on_rank_deficiency": (
+        {"on_rank_deficiency": True},
+        "on_rank_deficiency: expected one of 'raise', 'fix', got True",
+    ),
     "a prior of a wrong unit": (
         {"prior": {"mm": 1}},
         "prior: expected one of 'rad', 'm', '1', 'm/rad', got 'mm'",
@@ -386,7 +395,7 @@ def test_bad_input_is_refused(what):
     q, T = noisy(0)
     given, message = BAD[what]
     with pytest.raises(InputError) as caught:
-        calibrate(**{"arm": PUMA, "q": q, "measurements": T, **given})
+        calibrate(**{"chain": PUMA, "q": q, "measurements": T, **given})
     assert says(caught.value, message)
 
 

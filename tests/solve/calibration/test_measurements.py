@@ -1,4 +1,4 @@
-"""Each kind of measurement: errors zero where the model is right, slopes those of the errors, bad
+"""Each kind of measurement: errors zero where the model is right, jacobian those of the errors, bad
 input refused.
 """
 
@@ -11,11 +11,12 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, PoseError, ShapeError
+from poekin.solve.calibration.measurements.inputs import parse_measurements, parse_readings
 from poekin.solve.calibration.measurements.measurement import Measurement
 from poekin.solve.calibration.measurements.points import Distances, Points
 from poekin.solve.calibration.measurements.poses import EyeInHand, EyeToHand, Poses
-from poekin.solve.calibration.model.parameters import Arm
-from poekin.solve.calibration.model.problem import Problem, readings, sets_of
+from poekin.solve.calibration.model.error_model import ErrorModel
+from poekin.solve.calibration.model.problem import Problem
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.messages import says
 
@@ -44,9 +45,9 @@ TRUE = {
 @pytest.mark.parametrize("kind", TRUE)
 def test_the_errors_of_a_true_model_are_rounding_and_unknown_frames_are_guessed(kind):
     make, places = TRUE[kind]
-    problem = Problem(Arm(ARM, ("home",), None), Q, [make()])
-    assert len(problem.places) == len(places)
-    for found, true in zip(problem.places, places, strict=True):
+    problem = Problem(ErrorModel(ARM, ("home",), None), Q, [make()])
+    assert len(problem.initial_frames) == len(places)
+    for found, true in zip(problem.initial_frames, places, strict=True):
         np.testing.assert_allclose(found, true, rtol=0, atol=1e-11)
     (errors,) = problem.errors(np.zeros(problem.size))
     assert errors.shape == (12, problem.sets[0].width)
@@ -58,7 +59,7 @@ def test_the_errors_of_a_true_model_are_rounding_and_unknown_frames_are_guessed(
 @given(seed=st.integers(0, 2**16))
 def test_the_slopes_are_those_of_the_errors_away_from_the_truth_too(kind, seed):
     make, places = TRUE[kind]
-    problem = Problem(Arm(ARM, ("screws", "home", "gains"), None), Q, [make()], places)
+    problem = Problem(ErrorModel(ARM, ("screws", "home", "gains"), None), Q, [make()], places)
     p = 0.05 * np.random.default_rng(seed).normal(size=problem.size)
     (linear,) = problem.linearised(p)
     np.testing.assert_array_equal(linear.errors, problem.errors(p)[0])
@@ -66,19 +67,19 @@ def test_the_slopes_are_those_of_the_errors_away_from_the_truth_too(kind, seed):
         step = 1e-5 * np.eye(problem.size)[k]
         slope = (problem.errors(p + step)[0] - problem.errors(p - step)[0]) / 2e-5
         # truncation h² times third derivatives of up to some tens, rounding u / h
-        np.testing.assert_allclose(linear.slopes[..., k], slope, rtol=0, atol=1e-7)
+        np.testing.assert_allclose(linear.jacobian[..., k], slope, rtol=0, atol=1e-7)
 
 
 def test_a_planted_error_in_each_slope_would_be_seen():
     class Wrong(Poses):
-        def slopes(self, T, places, errors, D):
-            slopes, others = super().slopes(T, places, 0 * errors, D)
-            return slopes, others
+        def jacobian(self, T, places, errors, D):
+            jacobian, others = super().jacobian(T, places, 0 * errors, D)
+            return jacobian, others
 
-    problem = Problem(Arm(ARM, ("home",), None), Q, [Wrong(T)])
+    problem = Problem(ErrorModel(ARM, ("home",), None), Q, [Wrong(T)])
     p = np.full(6, 0.05)
-    right = Problem(problem.arm, Q, [Poses(T)]).linearised(p)[0].slopes
-    assert np.abs(problem.linearised(p)[0].slopes - right).max() > 1e-3
+    right = Problem(problem.model, Q, [Poses(T)]).linearised(p)[0].jacobian
+    assert np.abs(problem.linearised(p)[0].jacobian - right).max() > 1e-3
 
 
 def test_an_errors_rotation_comes_first_and_is_in_base_axes():
@@ -86,7 +87,7 @@ def test_an_errors_rotation_comes_first_and_is_in_base_axes():
     turn = pk.so3.exp([0, 0, 0.01])
     turned[:, :3, :3] = turn.T @ T[:, :3, :3]
     turned[:, :3, 3] -= [0, 0.002, 0]
-    (errors,) = Problem(Arm(ARM, ("home",), None), Q, [Poses(turned)]).errors(np.zeros(6))
+    (errors,) = Problem(ErrorModel(ARM, ("home",), None), Q, [Poses(turned)]).errors(np.zeros(6))
     np.testing.assert_allclose(
         errors, np.tile([0, 0, 0.01, 0, 0.002, 0], (12, 1)), rtol=0, atol=1e-14
     )
@@ -95,7 +96,7 @@ def test_an_errors_rotation_comes_first_and_is_in_base_axes():
 def test_rows_say_which_readings_a_set_belongs_to():
     rows = np.array([7, 2, 2])
     problem = Problem(
-        Arm(ARM, ("home",), None), Q, [Poses(T[rows], rows=rows), Points(T[:, :3, 3])]
+        ErrorModel(ARM, ("home",), None), Q, [Poses(T[rows], rows=rows), Points(T[:, :3, 3])]
     )
     one, two = problem.errors(np.zeros(6))
     assert (one.shape, two.shape) == ((3, 6), (12, 3))
@@ -108,8 +109,8 @@ def test_rows_say_which_readings_a_set_belongs_to():
 
 
 def test_a_bare_array_is_poses_or_points():
-    assert [type(s) for s in sets_of(T, 12)] == [Poses]
-    assert [type(s) for s in sets_of(T[:, :3, 3], 12)] == [Points]
+    assert [type(s) for s in parse_measurements(T, 12)] == [Poses]
+    assert [type(s) for s in parse_measurements(T[:, :3, 3], 12)] == [Points]
 
 
 def nan(array):
@@ -260,12 +261,12 @@ BAD: dict[str, tuple] = {
         "rows: expected 12 whole numbers, the row of q of each measurement, got int64 of shape (1,)",
     ),
     "a row beyond q": (
-        lambda: sets_of(Poses(T, rows=np.arange(12) + 1), 12),
+        lambda: parse_measurements(Poses(T, rows=np.arange(12) + 1), 12),
         InputError,
         "measurements: rows names row 12 of q, which has 12",
     ),
     "another number of rows": (
-        lambda: sets_of(T[:5], 12),
+        lambda: parse_measurements(T[:5], 12),
         ShapeError,
         "measurements: 5 Poses for 12 rows of q; say which with rows=",
     ),
@@ -275,7 +276,7 @@ BAD: dict[str, tuple] = {
         "T_base_board: expected shape (..., 4, 4), got (3, 3)",
     ),
     "no measurements": (
-        lambda: sets_of("poses", 12),
+        lambda: parse_measurements("poses", 12),
         ShapeError,
         (
             "measurements: expected Poses, Points, Distances, EyeInHand, EyeToHand, a list of "
@@ -283,12 +284,12 @@ BAD: dict[str, tuple] = {
         ),
     ),
     "a wrong member": (
-        lambda: sets_of([Poses(T), T], 12),
+        lambda: parse_measurements([Poses(T), T], 12),
         InputError,
         "measurements[1]: expected Poses, Points, Distances, EyeInHand or EyeToHand, got ...",
     ),
     "the number of joints": (
-        lambda: readings(ARM, Q[:, :6]),
+        lambda: parse_readings(ARM, Q[:, :6]),
         ShapeError,
         (
             "q: expected 7 coordinates on the last axis ('panda_joint1', 'panda_joint2', "
@@ -297,12 +298,12 @@ BAD: dict[str, tuple] = {
         ),
     ),
     "one configuration": (
-        lambda: readings(ARM, Q[0]),
+        lambda: parse_readings(ARM, Q[0]),
         ShapeError,
         "q: expected readings (N, 7), one row a measurement, got shape (7,)",
     ),
     "configurations in rows": (
-        lambda: readings(ARM, Q[None]),
+        lambda: parse_readings(ARM, Q[None]),
         ShapeError,
         "q: expected readings (N, 7), one row a measurement, got shape (1, 12, 7)",
     ),
@@ -311,9 +312,13 @@ BAD: dict[str, tuple] = {
         ShapeError,
         "T: expected poses (N, 4, 4), got shape (1, 12, 4, 4)",
     ),
-    "no readings": (lambda: readings(ARM, Q[:0]), InputError, "q: expected readings, got none"),
+    "no readings": (
+        lambda: parse_readings(ARM, Q[:0]),
+        InputError,
+        "q: expected readings, got none",
+    ),
     "NaN in q": (
-        lambda: readings(ARM, nan(Q)),
+        lambda: parse_readings(ARM, nan(Q)),
         InputError,
         "q[3]: expected finite numbers, got [nan, nan, nan, nan, nan, nan, nan]",
     ),
@@ -339,9 +344,9 @@ def test_measurements_are_frozen_copies():
 
 
 def test_unknown_frames_are_named_by_their_set_where_there_are_several():
-    home, camera = Arm(ARM, ("home",), None), EyeInHand(pk.se3.inverse(X) @ T @ Z)
-    assert Problem(home, Q, [camera]).place_names == ["T_base_board", "T_tip_camera"]
-    assert Problem(home, Q, [Poses(T), camera]).place_names == [
+    home, camera = ErrorModel(ARM, ("home",), None), EyeInHand(pk.se3.inverse(X) @ T @ Z)
+    assert Problem(home, Q, [camera]).frame_names == ["T_base_board", "T_tip_camera"]
+    assert Problem(home, Q, [Poses(T), camera]).frame_names == [
         "T_base_board of measurement set 1", "T_tip_camera of measurement set 1"
     ]  # fmt: skip
 
@@ -356,18 +361,18 @@ def test_measurements_cannot_be_changed_and_are_equal_to_themselves_alone(kind):
 def test_a_point_that_stands_at_the_centre_of_distances_has_no_slope():
     q = np.zeros((1, 7))
     centre = ARM.fk(q)[0, :3, 3]
-    problem = Problem(Arm(ARM, ("home",), None), q, [Distances([1.0], centre)])
-    assert not problem.slopes(np.zeros(6))[0].any()
-    free = Problem(Arm(ARM, ("home",), None), q, [Distances([1.0], guess=centre)])
-    assert not free.slopes(np.zeros(9))[0].any()
+    problem = Problem(ErrorModel(ARM, ("home",), None), q, [Distances([1.0], centre)])
+    assert not problem.jacobians(np.zeros(6))[0].any()
+    free = Problem(ErrorModel(ARM, ("home",), None), q, [Distances([1.0], guess=centre)])
+    assert not free.jacobians(np.zeros(9))[0].any()
 
 
 def test_an_unknown_frame_has_six_parameters_however_it_is_said():
     for said in (None, "shared", X):
-        for unknown in EyeInHand(T, board=said, camera=said).unknowns:
+        for unknown in EyeInHand(T, board=said, camera=said).unknown_frames:
             assert (unknown.size, unknown.shared) == (
                 6,
                 "shared" if isinstance(said, str) else None,
             )
             assert (unknown.guess is None) == (said is not X)
-    assert Distances([1.0]).unknowns[0].size == 3
+    assert Distances([1.0]).unknown_frames[0].size == 3

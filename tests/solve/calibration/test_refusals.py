@@ -14,11 +14,13 @@ from poekin.errors import InputError, ShapeError
 from poekin.groups import se3
 from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identify
 from poekin.solve.calibration.diagnostics import units
-from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 
 PUMA = pk.load("puma560").chain()
-TRUE = Arm(PUMA, ("screws", "home"), None).chain(2e-3 * np.random.default_rng(0).normal(size=30))
+TRUE = ErrorModel(PUMA, ("screws", "home"), None).chain(
+    2e-3 * np.random.default_rng(0).normal(size=30)
+)
 Q = PUMA.random(0, 40)
 T = TRUE.fk(Q)
 X, Z = se3.exp([0.3, -0.5, 0.2, 1.0, 0.4, -0.3]), se3.exp([-0.1, 0.2, 1.4, 0.05, -0.08, 0.1])
@@ -29,7 +31,7 @@ GANTRY = pk.Chain(
 
 
 def off(arm: pk.Chain, seed: int = 1) -> pk.Chain:
-    parameters = Arm(arm, ("screws", "home"), None)
+    parameters = ErrorModel(arm, ("screws", "home"), None)
     return parameters.chain(
         2e-3 * np.random.default_rng(seed).normal(size=len(parameters.parameters))
     )
@@ -60,7 +62,7 @@ NO_NAMES = {
     "joints": ({"joints": 3}, r"joints: expected names, got 3"),
     "a seed below 0": ({"seed": -1}, r"seed: expected a whole number from 0 on, got -1"),
     "a seed in words": ({"seed": "x"}, r"seed: expected a whole number from 0 on, got 'x'"),
-    "folds": ({"folds": 41}, r"folds: 41 parts of 40 readings; folds=0 keeps none aside"),
+    "folds": ({"folds": 41}, r"folds: 41 parts of 40 readings; folds=0 holds none out"),
 }
 
 
@@ -72,17 +74,17 @@ def test_what_is_no_name_and_no_number_is_refused(what):
 
 
 def test_as_many_numbers_as_parameters_do_not_make_the_arm_known_without_error():
-    words = r"30 numbers for 30 parameters leave nothing to tell from how far they scatter: .*covariance="
+    words = r"30 equations for 30 parameters leave no residuals to estimate the noise from: .*covariance="
     with pytest.raises(InputError, match=words):
         calibrate(PUMA, Q[:5], T[:5], folds=0)
     with pytest.raises(
         InputError,
         match=(
-            r"^6 numbers for 6 parameters leave nothing to tell from how far they scatter: measure "
-            r"more, or say it with covariance=$"
+            r"^6 equations for 6 parameters leave no residuals to estimate the noise from: measure "
+            r"more, or give covariance=$"
         ),
     ):
-        calibrate(PUMA, Q[:1], T[:1], folds=0, deficient="hold")
+        calibrate(PUMA, Q[:1], T[:1], folds=0, on_rank_deficiency="fix")
     found = calibrate(PUMA, Q[:5], Poses(T[:5], 1e-8 * np.eye(6)), folds=0)
     assert (found.deviations > 1e-5).all()
 
@@ -93,10 +95,10 @@ def test_as_many_numbers_as_parameters_do_not_make_the_arm_known_without_error()
 def test_a_prior_does_not_hide_what_it_tells_nothing_of(prior, seen):
     q = Q.copy()
     q[:, 4] = 0.0
-    with pytest.raises(InputError, match=rf"see {seen} of 30 parameters\. Not seen: "):
+    with pytest.raises(InputError, match=rf"identify {seen} of 30 parameters\. Unobserved: "):
         calibrate(PUMA, q, Poses(TRUE.fk(q), 1e-8 * np.eye(6)), prior=prior, folds=0)
     held = calibrate(
-        PUMA, q, Poses(TRUE.fk(q), 1e-8 * np.eye(6)), prior=prior, folds=0, deficient="hold"
+        PUMA, q, Poses(TRUE.fk(q), 1e-8 * np.eye(6)), prior=prior, folds=0, on_rank_deficiency="fix"
     )
     shifts = [k for k, p in enumerate(held.parameters) if p.owner == "joint5" and p.unit == "m"]
     np.testing.assert_allclose(held.values[shifts], 0.0, rtol=0, atol=1e-12)
@@ -122,7 +124,7 @@ def test_an_arm_that_is_far_off_is_not_called_one_in_other_units(seed):
     found for them.
     """
     rng = np.random.default_rng(seed)
-    far = Arm(PUMA, ("screws", "home"), None).chain(0.1 * rng.normal(size=30))
+    far = ErrorModel(PUMA, ("screws", "home"), None).chain(0.1 * rng.normal(size=30))
     camera = EyeInHand(se3.inverse(X) @ far.fk(Q) @ Z, board=X, camera=Z)
     with pytest.warns(pk.PoekinWarning, match=r"no other base and tool explain it"):
         found = calibrate(PUMA, Q, camera, folds=0)
@@ -168,7 +170,7 @@ def test_what_was_said_to_be_noise_is_no_misfit():
 
 def test_few_measurements_with_given_frames_are_solved_where_that_is_asked_for():
     camera = EyeInHand((se3.inverse(X) @ T @ Z)[:1], 1e-8 * np.eye(6), board=X, camera=Z)
-    found = calibrate(PUMA, Q[:1], camera, folds=0, deficient="hold")
+    found = calibrate(PUMA, Q[:1], camera, folds=0, on_rank_deficiency="fix")
     assert found.identification.rank == 6
     assert found.after.rms_length < 1e-9
 
@@ -196,14 +198,14 @@ def test_units_are_looked_at_from_a_tenth_of_the_reach_or_four_turns_on(away, to
     monkeypatch.setattr(units, "_tried", lambda *given: tried.append(given) or np.inf)
     moved = T.copy()
     moved[:, :3, 3] = PUMA.fk(Q)[:, :3, 3] + [0, 0, away * PUMA.reach]
-    problem = Problem(Arm(PUMA, ("screws", "home"), None), Q, [Poses(moved)])
+    problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), Q, [Poses(moved)])
     units.check(problem, np.zeros(problem.size))
     assert bool(tried) == told
     for turns, looked in ((3.9, told), (4.1, True)):
         q = Q.copy()
         q[0, 5] = 2 * np.pi * turns
         tried.clear()
-        problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(moved)])
+        problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(moved)])
         units.check(problem, np.zeros(problem.size))
         assert bool(tried) == looked
 
@@ -229,12 +231,15 @@ def test_other_units_are_told_that_explain_the_data_more_than_four_times_better(
     """
     q, (factors, unit), left = np.ones((3, 2)), LIKE[words], 0.0
 
-    def tried(problem, readings, scale):
+    def tried(problem, tried_units):
+        readings, scale = tried_units
         return scale * (left if np.allclose(readings, q * factors) and scale == unit else 10.0)
 
     monkeypatch.setattr(units, "_tried", tried)
     monkeypatch.setattr(units, "_off", lambda *given: 8.0)
-    problem = Problem(Arm(MIXED, ("screws",), None), q, [Poses(np.tile(np.eye(4), (3, 1, 1)))])
+    problem = Problem(
+        ErrorModel(MIXED, ("screws",), None), q, [Poses(np.tile(np.eye(4), (3, 1, 1)))]
+    )
     left = 8.0 / 4.1
     said = f"the nominal arm is off by 8 m (median) as the data stand, and by {unit * left:.3g} m where {words}"
     with pytest.raises(InputError, match=f"^{re.escape(said)}$"):
@@ -250,13 +255,13 @@ def test_readings_are_converted_by_what_their_joints_are():
     assert pytest.approx(np.pi / 180) == units._DEGREE
 
 
-def test_where_degrees_give_no_first_guess_either_the_readings_are_refused_as_they_stand():
+def test_where_degrees_give_no_initial_guess_either_the_readings_are_refused_as_they_stand():
     q = np.zeros((6, 6))
     q[:, 5] = np.linspace(0.0, 1.0, 6)
-    camera, arm = EyeInHand(se3.inverse(X) @ PUMA.fk(q) @ Z), Arm(PUMA, ("home",), None)
+    camera, arm = EyeInHand(se3.inverse(X) @ PUMA.fk(q) @ Z), ErrorModel(PUMA, ("home",), None)
     with pytest.raises(InputError) as alone:
         Problem(arm, q, [camera])
     assert "was turned about one axis only" in str(alone.value)
     with pytest.raises(InputError) as caught:
-        units.built(arm, q, [camera])
+        units.build_problem(arm, q, [camera])
     assert str(caught.value) == str(alone.value)

@@ -29,7 +29,7 @@ def test_one_camera_sees_two_boards(tmp_path):
     """
     with pytest.raises(
         InputError,
-        match=r"^a first guess of two unknown frames needs 3 measurements or more, got 2$",
+        match=r"^an initial guess of two unknown frames needs 3 measurements or more, got 2$",
     ):
         identify(PANDA, MADE.q, [seen(B, slice(48, 50)), seen(A, slice(48))])
     sets: list[Measurement] = [
@@ -75,10 +75,10 @@ def test_frames_in_common_are_fewer_unknowns_in_every_kind():
 def test_the_folds_keep_frames_in_common():
     sets = [seen(A, slice(25), camera="wrist"), seen(B, slice(25, 50), camera="wrist")]
     found = calibrate(PANDA, MADE.q, sets, folds=2)
-    assert found.held_out is not None
+    assert found.cross_validation is not None
     # what each fold does not see of a board is taken up by the other's: rounding, some hundred
     # times
-    assert found.held_out.after.rms_length < 1e-11
+    assert found.cross_validation.after.rms_length < 1e-11
 
 
 def test_a_name_of_nothing_is_no_name():

@@ -14,39 +14,39 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
-from ..model.tsqr import triangle
+from ..model.tsqr import qr_r
 
 CRITERIA = ("amplification", "O1", "condition", "smallest", "prediction")
-"""What a choice may be made by: one of the four indices (`indices.Indices`), or "prediction", the
-variance that the calibrated model's errors then have, the mean over all candidates (V-optimality,
-Fedorov 1972)."""
+"""Criteria of a choice: one of the four `ObservabilityIndices`, or "prediction", the variance that
+the calibrated model's errors then have, the mean over all candidates (V-optimality, Fedorov 1972).
+"""
 
 # in the logarithm of the criterion: less is rounding, and exchanges for it could go round in
 # circles
-GAIN = 1e-9
-LOWEST, HIGHEST = (
-    8,
-    2,
-)  # eigenvectors for the bounds: more of them make tighter bounds, which cost more
-TOGETHER = 32  # exchanges that are valued in full at a time
-UNSEEN = 1e-9  # of the information of a mean candidate: stands in for what the first few do not see
+MIN_IMPROVEMENT = 1e-9
+# eigenvectors for the bounds: more of them make tighter bounds, which cost more
+LOWEST = 8
+HIGHEST = 2
+TOGETHER = 32  # exchanges that are evaluated in full at a time
+# of the information of a mean candidate: stands in for what the first few do not see
+REGULARISATION = 1e-9
 
 
 def greedy(blocks: Array, n: int, tick: Callable[[], None] = lambda: None) -> list[int]:
     """n rows of blocks (K, r, L), each the one that adds most to log det N; tick() after each."""
     count, rows, size = blocks.shape
     # On axes in which all candidates together show every direction alike: what is best is the same.
-    blocks = blocks @ np.linalg.inv(triangle(blocks.reshape(-1, size)))
-    N = np.eye(size) * (UNSEEN / count)
+    blocks = blocks @ np.linalg.inv(qr_r(blocks.reshape(-1, size)))
+    N = np.eye(size) * (REGULARISATION / count)
     chosen: list[int] = []
     for _ in range(n):
         # det(N + B^T B) = det N det(1 + B N^-1 B^T)
-        gains = np.linalg.slogdet(
-            np.eye(rows) + blocks @ np.linalg.inv(N) @ blocks.transpose(0, 2, 1)
-        )[1]
+        ratios = np.eye(rows) + blocks @ np.linalg.inv(N) @ blocks.transpose(0, 2, 1)
+        gains = np.linalg.slogdet(ratios)[1]
         gains[chosen] = -np.inf
-        chosen.append(int(gains.argmax()))
-        N = N + blocks[chosen[-1]].T @ blocks[chosen[-1]]
+        best = int(gains.argmax())
+        chosen.append(best)
+        N = N + blocks[best].T @ blocks[best]
         tick()
     return chosen
 
@@ -54,23 +54,23 @@ def greedy(blocks: Array, n: int, tick: Callable[[], None] = lambda: None) -> li
 def exchange(
     blocks: Array,
     n: int,
-    by: str = "amplification",
+    criterion: str = "amplification",
     progress: Callable[[int, int], None] | None = None,
 ) -> np.ndarray:
     """The rows of blocks, ascending, of n candidates of which none can be exchanged for a better
     one.
 
-    Parameters: blocks (K, r, L), of which some n see all L directions, n <= K; by, one of
-    `CRITERIA`;
-    progress(done, total), called after each step, total an estimate that may grow. Returns: (n,) of
-    int, the same at every call: a local best, from the greedy start.
-    Accuracy: an exchange counts if it betters the criterion by 1e-9 of it.
+    Parameters: blocks (K, r, L), of which some n see all L directions, n <= K; criterion, one of
+    `CRITERIA`; progress(done, total), called after each step, total an estimate that may grow.
+    Returns: (n,) of int, the same at every call: a local best, from the greedy start.
+    Accuracy: an exchange counts if it improves the criterion by 1e-9 of it.
     Source: Fedorov 1972 ("Theory of optimal experiments"), one of the chosen after the other; the
     greedy start and the exchange are those of DETMAX (Mitchell 1974), which Daney, Papegay and
     Madeline 2005 use for the poses of robots.
     """
     blocks = np.asarray(np.linalg.qr(blocks, mode="r"))  # the same information in min(r, L) rows
-    done, total = 0, 9 * n
+    done = 0
+    total = 9 * n
 
     def tick() -> None:
         nonlocal done, total
@@ -81,17 +81,20 @@ def exchange(
 
     chosen = np.array(greedy(blocks, n, tick))
     mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
-    place, idle, state = 0, 0, seen(blocks, chosen, by, mean)
+    state = design_state(blocks, chosen, criterion, mean)
+    place = 0
+    idle = 0
     while idle < n:
-        better = best_exchange(blocks, chosen, place, by, state)
         idle += 1
+        better = best_exchange(blocks, chosen, place, criterion, state)
         if better is not None:
             other = np.where(np.arange(n) == place, better, chosen)
-            now = seen(blocks, other, by, mean)
-            if (
-                now.value > state.value
-            ):  # where the best is rounding, too: it must not go round in circles
-                chosen, state, idle = other, now, 0
+            now = design_state(blocks, other, criterion, mean)
+            # where the best is rounding, too: it must not go round in circles
+            if now.value > state.value:
+                chosen = other
+                state = now
+                idle = 0
         place = (place + 1) % n
         tick()
     if progress is not None:
@@ -99,10 +102,9 @@ def exchange(
     return np.sort(chosen)
 
 
-class Seen(NamedTuple):
-    """What the chosen show: information N (L, L), the mean (L, L) of a candidate's, the criterion's
-    value, and N^-1, for "O1" and "prediction", or a few eigenvalues (k,) and eigenvectors (L, k) of
-    N.
+class DesignState(NamedTuple):
+    """Information N (L, L) of the chosen, the mean (L, L) of a candidate's, the criterion's value,
+    and N^-1, for "O1" and "prediction", or a few eigenvalues (k,) and eigenvectors (L, k) of N.
     """
 
     N: Array
@@ -113,59 +115,70 @@ class Seen(NamedTuple):
     vectors: np.ndarray
 
 
-def seen(blocks: Array, chosen: np.ndarray, by: str, mean: Array) -> Seen:
-    """What the rows `chosen` of blocks show."""
+def design_state(blocks: Array, chosen: np.ndarray, criterion: str, mean: Array) -> DesignState:
+    """State of the rows `chosen` of blocks."""
     J = blocks[chosen].reshape(-1, blocks.shape[2])
     N = J.T @ J
-    worth = float(value(N, by, mean))
-    if by in ("O1", "prediction"):
-        return Seen(N, mean, worth, np.linalg.inv(N), np.empty(0), np.empty((len(N), 0)))
+    worth = float(value(N, criterion, mean))
+    if criterion in ("O1", "prediction"):
+        return DesignState(N, mean, worth, np.linalg.inv(N), np.empty(0), np.empty((len(N), 0)))
     eigenvalues, V = np.linalg.eigh(N)
-    some = np.r_[:LOWEST, len(N) - HIGHEST : len(N)] if len(N) > LOWEST + HIGHEST else slice(None)
-    return Seen(N, mean, worth, None, eigenvalues[some], V[:, some])
+    some = np.arange(len(N))
+    if len(N) > LOWEST + HIGHEST:
+        some = np.concatenate([some[:LOWEST], some[-HIGHEST:]])
+    return DesignState(N, mean, worth, None, eigenvalues[some], V[:, some])
 
 
 def best_exchange(
-    blocks: Array, chosen: np.ndarray, place: int, by: str, state: Seen
+    blocks: Array, chosen: np.ndarray, place: int, criterion: str, state: DesignState
 ) -> int | None:
-    """The candidate that betters the criterion most in that place of the chosen; None where none
+    """The candidate that improves the criterion most in that place of the chosen; None where none
     does.
     """
     out = blocks[chosen[place]]
-    ahead = promise(blocks, out, by, state)
+    ahead = upper_bound(blocks, out, criterion, state)
     ahead[chosen] = -np.inf
-    left, best, most = state.N - out.T @ out, None, state.value + GAIN
+    left = state.N - out.T @ out
+    best = None
+    most = state.value + MIN_IMPROVEMENT
     order = np.argsort(-ahead, kind="stable")
     for start in range(0, len(order), TOGETHER):
         some = order[start : start + TOGETHER]
         some = some[ahead[some] > most]
         if not len(some):
             break
-        values = value(left + blocks[some].transpose(0, 2, 1) @ blocks[some], by, state.mean)
+        N = left + blocks[some].transpose(0, 2, 1) @ blocks[some]
+        values = value(N, criterion, state.mean)
         if values.max() > most:
-            best, most = int(some[values.argmax()]), float(values.max())
+            best = int(some[values.argmax()])
+            most = float(values.max())
     return best
 
 
-def value(N: Array, by: str, mean: Array) -> Array:
+def value(N: Array, criterion: str, mean: Array) -> Array:
     """The logarithm of the criterion (...) of information matrices N (..., L, L); larger is better.
 
     mean (L, L): the mean information of a candidate, for "prediction".
     """
-    if by == "prediction":
+    if criterion == "prediction":
         # NumPy 1 takes one matrix beside many for a stack of vectors.
-        return -_log(
-            np.trace(np.linalg.solve(N, np.broadcast_to(mean, N.shape)), axis1=-2, axis2=-1), np.inf
-        )
+        spread = np.linalg.solve(N, np.broadcast_to(mean, N.shape))
+        return -_log(np.trace(spread, axis1=-2, axis2=-1), np.inf)
     eigenvalues = np.linalg.eigvalsh(N)
     floor = np.maximum(np.finfo(float).eps * eigenvalues[..., -1:], np.finfo(float).tiny)
     logs = np.log(np.maximum(eigenvalues, floor))
-    return logs.sum(-1) if by == "O1" else _of_extremes(logs[..., 0], logs[..., -1], by)
+    if criterion == "O1":
+        return logs.sum(-1)
+    return _of_extremes(logs[..., 0], logs[..., -1], criterion)
 
 
-def _of_extremes(low: np.ndarray, high: np.ndarray, by: str) -> Array:
+def _of_extremes(low: np.ndarray, high: np.ndarray, criterion: str) -> Array:
     """The logarithm of the square of an index, of those of the extreme eigenvalues."""
-    return low if by == "smallest" else low - high if by == "condition" else 2 * low - high
+    if criterion == "smallest":
+        return low
+    if criterion == "condition":
+        return low - high
+    return 2 * low - high
 
 
 def _log(x: np.ndarray, otherwise: float) -> Array:
@@ -174,33 +187,48 @@ def _log(x: np.ndarray, otherwise: float) -> Array:
     return np.where(good, np.log(np.where(good, x, 1.0)), otherwise)
 
 
-def promise(blocks: Array, out: Array, by: str, state: Seen) -> Array:
-    """What no exchange of the block `out` for candidate j can exceed (K,), so that few need to be
-    valued in full.
-
-    Of the extreme eigenvalues: on a few eigenvectors V of N, the eigenvalues of V^T N' V lie
-    between the smallest and the largest of N' (Rayleigh and Ritz). Of "O1" and "prediction" it is
-    the value itself, with N' = N + W^T S W,
-    W = (B_j; B_out), S = diag(1, -1), and the small matrix C = S + W N^-1 W^T:
-    det N' = det N det(S C), and tr(Q N'^-1) = tr(Q N^-1) - tr(C^-1 W N^-1 Q N^-1 W^T).
+def upper_bound(blocks: Array, out: Array, criterion: str, state: DesignState) -> Array:
+    """Upper bound (K,) of the criterion after each exchange of the block `out` for candidate j, so
+    that few need to be evaluated in full.
     """
     if state.inverse is None:
-        into, gone = blocks @ state.vectors, out @ state.vectors
-        diagonal = state.eigenvalues - (gone**2).sum(0) + (into**2).sum(1)
-        ahead = _of_extremes(_log(diagonal.min(1), -np.inf), _log(diagonal.max(1), np.inf), by)
-        left = np.flatnonzero(ahead > state.value)  # for the others one vector each says enough
-        compressed = (
-            np.diag(state.eigenvalues) - gone.T @ gone + into[left].transpose(0, 2, 1) @ into[left]
-        )
-        ritz = np.linalg.eigvalsh(compressed)
-        ahead[left] = _of_extremes(_log(ritz[:, 0], -np.inf), _log(ritz[:, -1], np.inf), by)
-        return ahead
-    inverse, signs = state.inverse, np.repeat([1.0, -1.0], len(out))
+        return _bound_by_ritz_values(blocks, out, criterion, state)
+    return _exact_update(blocks, out, criterion, state.inverse, state)
+
+
+def _bound_by_ritz_values(blocks: Array, out: Array, criterion: str, state: DesignState) -> Array:
+    """Bound of the extreme eigenvalues: on a few eigenvectors V of N, the eigenvalues of V^T N' V
+    lie between the smallest and the largest of N' (Rayleigh and Ritz).
+    """
+    into = blocks @ state.vectors
+    gone = out @ state.vectors
+    diagonal = state.eigenvalues - (gone**2).sum(0) + (into**2).sum(1)
+    low = _log(diagonal.min(1), -np.inf)
+    high = _log(diagonal.max(1), np.inf)
+    ahead = _of_extremes(low, high, criterion)
+    left = np.flatnonzero(ahead > state.value)  # for the others one vector each says enough
+    some = into[left]
+    compressed = np.diag(state.eigenvalues) - gone.T @ gone + some.transpose(0, 2, 1) @ some
+    ritz = np.linalg.eigvalsh(compressed)
+    low = _log(ritz[:, 0], -np.inf)
+    high = _log(ritz[:, -1], np.inf)
+    ahead[left] = _of_extremes(low, high, criterion)
+    return ahead
+
+
+def _exact_update(
+    blocks: Array, out: Array, criterion: str, inverse: Array, state: DesignState
+) -> Array:
+    """Values of "O1" and "prediction" after each exchange: with N' = N + W^T S W, W = (B_j; B_out),
+    S = diag(1, -1), and the small matrix C = S + W N^-1 W^T: det N' = det N det(S C), and tr(Q
+    N'^-1) = tr(Q N^-1) - tr(C^-1 W N^-1 Q N^-1 W^T).
+    """
+    signs = np.repeat([1.0, -1.0], len(out))
     W = np.concatenate([blocks, np.broadcast_to(out, blocks.shape)], axis=1)
     C = np.diag(signs) + W @ inverse @ W.transpose(0, 2, 1)
     sign, log = np.linalg.slogdet(C)
     regular = sign * signs.prod() > 0
-    if by == "O1":
+    if criterion == "O1":
         return np.where(regular, state.value + log, -np.inf)
     C[~regular] = np.eye(len(signs))
     spread = W @ (inverse @ state.mean @ inverse) @ W.transpose(0, 2, 1)

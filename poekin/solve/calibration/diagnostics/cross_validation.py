@@ -1,25 +1,25 @@
-"""Data kept aside: each part of the readings is judged by a calibration from the others."""
+"""Cross-validation: each fold of the readings is predicted by a calibration from the others."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ....errors import InputError, safe_repr
 from ....groups.arrays import Array
-from ..fit.fitting import frames_only
-from ..fit.refit import settled
-from ..measurements.measurement import Indices
+from ..fit.fitting import fit_frames
+from ..fit.refit import fit_with_refit
+from ..measurements.measurement import Rows
 from ..model.problem import Problem
-from ..model.residuals import Residuals, joined, residuals
+from ..model.residuals import Residuals, concatenate, residuals
 
 Progress = Callable[[int, int], None]
 
 
-class HeldOut(NamedTuple):
-    """Residuals on data kept aside, pooled over the folds: before, with unknown frames fitted only,
+class CrossValidation(NamedTuple):
+    """Residuals on held-out data, pooled over the folds: before, with unknown frames fitted only,
     and after.
     """
 
@@ -28,44 +28,46 @@ class HeldOut(NamedTuple):
     folds: int
 
 
-def held_out(
-    problem: Problem, free: Array, name: str, prior: Array | None, folds: int, seed: int, most: int,
+def cross_validate(
+    problem: Problem,
+    free: Array,
+    name: str,
+    prior: Array | None,
+    folds: int,
+    seed: int,
+    most: int,
     progress: Progress | None,
-) -> HeldOut:  # fmt: skip
-    """The readings in `folds` parts drawn at random; unknown frames are those of the other parts,
-    too.
-    """
+) -> CrossValidation:
+    """The readings in folds drawn at random; unknown frames are those of the other folds, too."""
     order = np.random.default_rng(seed).permutation(len(problem.q))
-    before, after = [], []
-    for k, chosen in enumerate(np.array_split(order, folds)):
+    before = []
+    after = []
+    for k, drawn in enumerate(np.array_split(order, folds)):
         if progress is not None:
             progress(k, folds)
-        chosen = np.sort(chosen)
+        chosen = np.sort(drawn)
         training = problem.part(np.setdiff1d(order, chosen))
         test = problem.part(chosen)
-        p, _ = frames_only(training, name)
-        before.append(_judged(test, p, chosen))
-        after.append(_judged(test, settled(training, free, name, p, prior, most).p, chosen))
+        p, _ = fit_frames(training, name)
+        fit = fit_with_refit(training, free, name, p, prior, most)
+        before.append(_held_out_residuals(test, p, chosen))
+        after.append(_held_out_residuals(test, fit.p, chosen))
     if progress is not None:
         progress(folds, folds)
-    return HeldOut(joined(before), joined(after), folds)
+    return CrossValidation(concatenate(before), concatenate(after), folds)
 
 
-def _judged(test: Problem, p: Array, chosen: Indices) -> Residuals:
+def _held_out_residuals(test: Problem, p: Array, chosen: Rows) -> Residuals:
     return residuals(test.sets, [chosen[rows] for rows in test.rows], test.errors(p))
 
 
-def checked(folds: object, count: int, seed: object) -> int:
-    """How many folds, 0 for none; a seed that draws them. Raises: InputError."""
+def check_folds(folds: Any, count: int, seed: Any) -> int:
+    """Number of folds of `count` readings, 0 for none. Raises: InputError, of the seed too."""
     if not isinstance(seed, (int, np.integer)) or isinstance(seed, bool) or seed < 0:
         raise InputError(f"seed: expected a whole number from 0 on, got {safe_repr(seed)}")
-    if (
-        not isinstance(folds, (int, np.integer))
-        or isinstance(folds, bool)
-        or folds < 0
-        or folds == 1
-    ):
+    whole = isinstance(folds, (int, np.integer)) and not isinstance(folds, bool)
+    if not whole or folds < 0 or folds == 1:
         raise InputError(f"folds: expected 0 for none, or 2 and more, got {safe_repr(folds)}")
     if folds > count:
-        raise InputError(f"folds: {folds} parts of {count} readings; folds=0 keeps none aside")
+        raise InputError(f"folds: {folds} parts of {count} readings; folds=0 holds none out")
     return int(folds)

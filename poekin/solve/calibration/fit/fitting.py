@@ -1,5 +1,5 @@
-"""One fit: unknown frames first, then all that is free; spreads that are not given are estimated
-along.
+"""One fit: unknown frames first, then all that is free; noise that is not given is estimated
+jointly.
 """
 
 from __future__ import annotations
@@ -9,18 +9,17 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
-from ..measurements.measurement import Indices
+from ..measurements.measurement import Rows
 from ..model.problem import Problem
-from ..model.tsqr import triangle
+from ..model.tsqr import qr_r
 from .losses import OUTLIER, chi_square, loss
 from .minimise import STEPS, Outcome, Step, minimise, regular
-from .noise import EVEN, Noise, spreads
+from .noise import EVEN, Noise, estimate_noise
 
 _ROUNDS = 10
-_FIRST = (
-    1e-2  # how even the spreads of angles and lengths are taken to be before anything was fitted
-)
-_SAME = 1e-2  # spreads that change by less are settled: they are known to some per cent only
+# how even the noise of angles and lengths is taken to be before anything was fitted
+_FIRST_EVEN = 1e-2
+_SAME = 1e-2  # noise that changes by less is settled: it is known to some per cent only
 
 
 class Fit(NamedTuple):
@@ -36,105 +35,109 @@ class Fit(NamedTuple):
     free: Array
 
 
-def frames_only(problem: Problem, name: str, most: int = STEPS) -> tuple[Array, bool]:
+def fit_frames(problem: Problem, name: str, most: int = STEPS) -> tuple[Array, bool]:
     """The p with which the nominal arm fits best: only the unknown frames move."""
     p = np.zeros(problem.size)
-    if problem.size == problem.arm_size:
+    if problem.size == problem.model_size:
         return p, True
-    free = np.eye(problem.size)[:, problem.arm_size :]
-    fit = fitted(problem, free, name, p, None, most)
+    free = np.eye(problem.size)[:, problem.model_size :]
+    fit = fit_parameters(problem, free, name, p, None, most)
     return fit.p, fit.converged
 
 
-def fitted(
+def fit_parameters(
     problem: Problem, free: Array, name: str, p: Array, prior: Array | None, most: int = STEPS
 ) -> Fit:
     """The fit from p on, of so many steps at most. A robust loss begins as Huber's, which has one
     minimum near p.
     """
-    robust = name != "linear"
-    reach, k = problem.arm.nominal.reach, free.shape[1]
-
-    def noise_at(p: Array, free: int, even: float = EVEN) -> Noise:
-        return Noise(
-            problem.sets, spreads(problem.sets, problem.errors(p), free, robust, reach, even)
-        )
-
-    noise, steps = noise_at(p, 0, _FIRST), []
-    for number in range(_ROUNDS):
-        for one in ("huber", name) if robust and number == 0 and name != "huber" else (name,):
+    noise = _noise(problem, p, 0, name, _FIRST_EVEN)
+    steps: list[Step] = []
+    losses = [name] if name in ("linear", "huber") else ["huber", name]
+    for _ in range(_ROUNDS):
+        for one in losses:
             outcome = minimise(problem, free, noise, one, p, prior, most - len(steps))
             p = outcome.p
             steps += outcome.steps
+        losses = [name]
         if not noise.estimated:
             break
-        before, noise = noise, noise_at(p, k)
+        before = noise
+        noise = _noise(problem, p, free.shape[1], name)
         if _change(before, noise) < _SAME:
             break
         if len(steps) >= most:
             outcome = outcome._replace(converged=False)
             break
-    return Fit(
-        p,
-        _covariance(problem, free, outcome, noise, name, prior),
-        outcome.converged,
-        steps,
-        noise,
-        free,
-    )
+    covariance = _covariance(problem, free, outcome, noise, name, prior)
+    return Fit(p, covariance, outcome.converged, steps, noise, free)
+
+
+def _noise(problem: Problem, p: Array, free: int, name: str, even: float = EVEN) -> Noise:
+    """Noise by the errors at p, to which `free` parameters were fitted."""
+    robust = name != "linear"
+    reach = problem.model.nominal.reach
+    errors = problem.errors(p)
+    estimates = estimate_noise(problem.sets, errors, free, robust, reach, even)
+    return Noise(problem.sets, estimates)
 
 
 def _change(a: Noise, b: Noise) -> float:
-    both = [
-        (x, y)
-        for s, t in zip(a.spreads, b.spreads, strict=True)
-        if s and t
-        for x, y in zip(s, t, strict=True)
-    ]
-    return max((abs(y / x - 1.0) for x, y in both if x and y), default=0.0)
+    """Largest relative change of a standard deviation."""
+    changes = [0.0]
+    for before, after in zip(a.noise_std, b.noise_std, strict=True):
+        if before and after:
+            pairs = zip(before, after, strict=True)
+            changes += [abs(y / x - 1.0) for x, y in pairs if x and y]
+    return max(changes)
 
 
-def squared(problem: Problem, noise: Noise, p: Array) -> list[Array]:
+def squared_errors(problem: Problem, noise: Noise, p: Array) -> list[Array]:
     """s = e^T C^-1 e of each measurement of each set."""
-    return [
-        np.sum(noise.whitened(k, e[..., None]) ** 2, axis=(1, 2)) for k, e in enumerate(problem.errors(p))
-    ]  # fmt: skip
+    found = []
+    for k, errors in enumerate(problem.errors(p)):
+        e = noise.whitened(k, errors[..., None])
+        found.append(np.sum(e**2, axis=(1, 2)))
+    return found
 
 
-def outliers(problem: Problem, noise: Noise, p: Array) -> list[Indices]:
+def outliers(problem: Problem, noise: Noise, p: Array) -> list[Rows]:
     """The measurements of each set that are off by more than one good one in 10^4 would be."""
-    sets = problem.sets
-    return [
-        np.flatnonzero(s > chi_square(m.width, OUTLIER))
-        for s, m in zip(squared(problem, noise, p), sets, strict=True)
-    ]  # fmt: skip
+    pairs = zip(squared_errors(problem, noise, p), problem.sets, strict=True)
+    return [np.flatnonzero(s > chi_square(m.width, OUTLIER)) for s, m in pairs]
 
 
 def _covariance(
     problem: Problem, free: Array, outcome: Outcome, noise: Noise, name: str, prior: Array | None
 ) -> Array:
-    """Covariance of p: (J^T J)^-1 over the whitened slopes; with a robust loss times mean(psi^2) /
+    """Covariance of p: (J^T J)^-1 of the whitened Jacobian; with a robust loss times mean(psi^2) /
     mean(psi')^2.
 
     Source: Huber, Robust Statistics, 1981, section 7.6.
     """
     B = problem.scale[:, None] * free
-    A = outcome.slopes
+    A = outcome.jacobian
     if prior is not None:
         A = np.concatenate([A, (1.0 / prior)[:, None] * B])
-    R = triangle(A)
-    half = B @ (
-        np.linalg.inv(R) if regular(R) else np.linalg.lstsq(R, np.eye(len(R)), rcond=None)[0]
-    )
+    half = B @ _inverse(qr_r(A))
     covariance = half @ half.T  # a product with its own transpose is symmetric to the last bit
     if name == "linear":
         return covariance
-    spent, bends, total = 0.0, 0.0, 0
-    for s, m in zip(squared(problem, noise, outcome.p), problem.sets, strict=True):
+    psi_squared = 0.0
+    psi_slope = 0.0
+    total = 0
+    for s, m in zip(squared_errors(problem, noise, outcome.p), problem.sets, strict=True):
         rho = loss(name, s, m.width)
-        spent += float(np.sum(rho.weight**2 * s))
-        bends += float(np.sum(m.width * rho.weight + 2.0 * rho.bend * s))
+        psi_squared += float(np.sum(rho.weight**2 * s))
+        psi_slope += float(np.sum(m.width * rho.weight + 2.0 * rho.rho_second * s))
         total += m.width * len(m)
     # residuals after a fit are smaller than the noise, by what the parameters took up
-    spent /= max(total - free.shape[1], 1)
-    return covariance * spent / max(bends / total, 1e-3) ** 2
+    psi_squared /= max(total - free.shape[1], 1)
+    return covariance * psi_squared / max(psi_slope / total, 1e-3) ** 2
+
+
+def _inverse(R: Array) -> Array:
+    """Inverse of a triangle, the pseudoinverse of a singular one."""
+    if regular(R):
+        return np.asarray(np.linalg.inv(R), float)
+    return np.asarray(np.linalg.lstsq(R, np.eye(len(R)), rcond=None)[0], float)

@@ -56,7 +56,7 @@ def hand_eye(T_base_tip: ArrayLike, T_fixed_moving: ArrayLike) -> tuple[Array, A
     Raises: InputError where too little is measured (fewer than 3 poses; a hand that was not turned,
     or about one axis only, or less about a second than the rotations scatter), and where no X and Z
     fit the rotations to 0.2 rad; PoseError, ShapeError. Accuracy: of exact pairs within rounding;
-    without a bound otherwise, it is a first guess. Source: Shah 2013, "Solving the
+    without a bound otherwise, it is an initial guess. Source: Shah 2013, "Solving the
     robot-world/hand-eye calibration problem using the Kronecker product" (J. Mechanisms and
     Robotics 5), with weights; vec runs along the rows here, which swaps the factors of his
     Kronecker product.
@@ -67,7 +67,7 @@ def hand_eye(T_base_tip: ArrayLike, T_fixed_moving: ArrayLike) -> tuple[Array, A
     R_A, R_B = A[:, :3, :3], B[:, :3, :3]
     (R_X, R_Z), turned, kept = _robust(lambda w: _rotations(R_A, R_B, w), len(A), 3, _ROUNDING)
     _check_turns(R_A[kept], float(np.median(turned)))
-    # unknowns t_Z, t_X; a design of rotations alone: no row has more leverage than another
+    # unknown_frames t_Z, t_X; a design of rotations alone: no row has more leverage than another
     design = np.concatenate([R_A, np.broadcast_to(-np.eye(3), R_A.shape)], axis=2)
     there, here = B[:, :3, 3] @ R_X.T, A[:, :3, 3]
     size = max(float(np.median(np.abs(there))), float(np.median(np.abs(here))), _SHORT)
@@ -87,7 +87,7 @@ def registration(a: ArrayLike, b: ArrayLike) -> Array:
     4).
     Raises: InputError for fewer than 3 points, and for points on a line (or no farther from one
     than they scatter); ShapeError. Accuracy: of exact points within rounding times length ÷ width
-    of the set; a first guess otherwise. Source: Kabsch 1976; Umeyama 1991 (IEEE PAMI 13, no. 4) for
+    of the set; an initial guess otherwise. Source: Kabsch 1976; Umeyama 1991 (IEEE PAMI 13, no. 4) for
     the sign; without his scale and with weights.
     """
     a, b = _finite(numbers(a, "a"), "a", 3), _finite(numbers(b, "b"), "b", 3)
@@ -97,7 +97,7 @@ def registration(a: ArrayLike, b: ArrayLike) -> Array:
     for points in (b[kept], a[kept]):
         if _within(_spread(points - points.mean(axis=0)), 1, float(np.median(off))):
             raise InputError(
-                "a first guess of the frame of points needs points that are not on one line, these are "
+                "an initial guess of the frame of points needs points that are not on one line, these are "
                 f"({_reach(points, 1)}): measure more of them, in other poses of the arm"
             )
     return T
@@ -131,7 +131,7 @@ def centre(p: ArrayLike, d: ArrayLike) -> Array:
     c, off, kept = min(linear, nearer, key=lambda guess: float(np.median(guess[1])))
     if _within(_spread(p[kept] - p[kept].mean(axis=0)), 2, float(np.median(off))):
         raise InputError(
-            "a first guess of the centre of distances needs points that are not in one plane, these are "
+            "an initial guess of the centre of distances needs points that are not in one plane, these are "
             f"({_reach(p[kept], 2)}): the centre and its mirror image fit alike; give the centre, or a rough "
             "one (guess=), or measure out of the plane"
         )
@@ -144,7 +144,7 @@ def mean_pose(T: ArrayLike) -> Array:
 
     Parameters: T (N, 4, 4), m, at least one. Returns: (4, 4). Raises: InputError, PoseError,
     ShapeError.
-    Accuracy: a first guess. Source: Moakher 2002, "Means and averaging in the group of rotations"
+    Accuracy: an initial guess. Source: Moakher 2002, "Means and averaging in the group of rotations"
     (SIAM J. Matrix Analysis 24), the projected arithmetic mean, with weights.
     """
     T = _finite(poses(T), "T", 4, 4)
@@ -219,7 +219,7 @@ def _check_turns(R: Array, scatter: float) -> None:
         return
     turns = "was not turned" if w[0] <= max(FLAT, scatter) else "was turned about one axis only"
     raise InputError(
-        f"a first guess of two unknown frames needs a hand that is turned about two axes; it {turns} (by {w[0]:.2g} "
+        f"an initial guess of two unknown frames needs a hand that is turned about two axes; it {turns} (by {w[0]:.2g} "
         f"rad about its first, {w[1]:.2g} about a second, rms, where the rotations scatter by {scatter:.2g}): turn it "
         "more, or give both frames"
     )
@@ -304,7 +304,7 @@ def _check_counts(need: int, what: str, names: str, *arrays: Array) -> None:
         )
     if counts[0] < need:
         raise InputError(
-            f"a first guess of {what} needs {need} measurements or more, got {counts[0]}"
+            f"an initial guess of {what} needs {need} measurements or more, got {counts[0]}"
         )
 
 

@@ -25,11 +25,11 @@ in 10^4.
 
 
 class Loss(NamedTuple):
-    """rho(s), the weight rho'(s) and its slope rho''(s), each (N,)."""
+    """rho(s), the weight rho'(s) and rho''(s), each (N,)."""
 
     rho: Array
     weight: Array
-    bend: Array
+    rho_second: Array
 
 
 def chi_square(width: int, quantile: float) -> float:
@@ -54,11 +54,8 @@ def loss(name: str, s: Array, width: int) -> Loss:
 def _huber(s: Array, c: float) -> Loss:
     near = s <= c
     root = np.sqrt(np.where(near, 1.0, s / c))
-    return Loss(
-        np.where(near, s, c * (2.0 * root - 1.0)),
-        1.0 / root,
-        np.where(near, 0.0, -0.5 / (c * root**3)),
-    )
+    rho = np.where(near, s, c * (2.0 * root - 1.0))
+    return Loss(rho, 1.0 / root, np.where(near, 0.0, -0.5 / (c * root**3)))
 
 
 def _cauchy(s: Array, c: float) -> Loss:
@@ -68,7 +65,8 @@ def _cauchy(s: Array, c: float) -> Loss:
 
 def _tukey(s: Array, c: float) -> Loss:
     u = np.minimum(s / c, 1.0)
-    return Loss(c * u * (1.0 - u + u * u / 3.0), (1.0 - u) ** 2, -2.0 * (1.0 - u) / c)
+    rho = c * u * (1.0 - u + u * u / 3.0)
+    return Loss(rho, (1.0 - u) ** 2, -2.0 * (1.0 - u) / c)
 
 
 _BY_NAME = {"huber": _huber, "cauchy": _cauchy, "tukey": _tukey}

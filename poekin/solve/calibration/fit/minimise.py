@@ -2,7 +2,7 @@
 a robust loss.
 
 An own loop in place of a library's: a loss here belongs to a whole measurement, not to each of its
-numbers, and the slopes are exact, so that a step costs one QR factorisation.
+numbers, and the Jacobian is exact, so that a step costs one QR factorisation.
 """
 
 from __future__ import annotations
@@ -13,18 +13,18 @@ import numpy as np
 
 from ....groups.arrays import Array
 from ..model.problem import Problem
-from ..model.tsqr import times, triangle
+from ..model.tsqr import blocked_product, qr_r
 from .losses import loss
 from .noise import Noise
 
 STEPS = 100
-"""Of a fit in all, each time that its spreads are estimated anew included."""
+"""Of a fit in all, each time that its noise is estimated anew included."""
 _ENOUGH = 1e-10  # a step that would gain less than this part of the cost is not worth another one
 _ROUNDING = 1e-13  # a step or an error smaller than this, in rad and reaches, is rounding
-_REGULAR = (
-    1e-8  # of a triangle's diagonal, least to largest: below it, the shortest solution is taken
-)
-_FIRST_DAMPING, _MOST_DAMPING = 1e-4, 1e12
+# of a triangle's diagonal, least to largest: below it, the shortest solution is taken
+_REGULAR = 1e-8
+_FIRST_DAMPING = 1e-4
+_MOST_DAMPING = 1e12
 
 
 class Step(NamedTuple):
@@ -38,14 +38,41 @@ class Step(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """Where the search ended: p; whether it converged; the steps; whitened slopes (M, k) in the
+    """End of the search: p; whether it converged; the steps; the whitened Jacobian (M, k) in the
     free directions.
     """
 
     p: Array
     converged: bool
     steps: list[Step]
-    slopes: Array
+    jacobian: Array
+
+
+class _Objective(NamedTuple):
+    """Sum of rho(s) and of (p / prior)^2, and the free directions B (P, k) in the units of p."""
+
+    problem: Problem
+    noise: Noise
+    loss: str
+    inverse_prior: Array
+    B: Array
+
+
+class _Linear(NamedTuple):
+    """Triangle R (k, k) and c (k,) with |A z + b|^2 = |R z + c|^2 + constant, of a step z in the
+    free directions.
+    """
+
+    R: Array
+    c: Array
+
+
+class _Trial(NamedTuple):
+    """A step z, the p that it leads to, and the cost there."""
+
+    z: Array
+    p: Array
+    cost: float
 
 
 def minimise(
@@ -62,50 +89,68 @@ def minimise(
     free (P, k): directions, in rad and reaches; prior (P,): standard deviations, infinite where
     there is none.
     """
-    B = problem.scale[:, None] * free
     inverse = np.zeros(len(p)) if prior is None else 1.0 / prior
-    kept = inverse > 0
-    damping, steps = 0.0, []
-    cost = _cost(problem, noise, name, p, inverse)
+    objective = _Objective(problem, noise, name, inverse, problem.scale[:, None] * free)
+    damping = 0.0
+    steps: list[Step] = []
+    cost = _cost(objective, p)
     while True:
-        A, b, slopes = _rows(problem, noise, name, p, B)
+        A, b, jacobian = _rows(objective, p)
         if cost == 0.0 or len(steps) >= most:
-            return Outcome(p, cost == 0.0, steps, slopes)
-        if kept.any():
-            A, b = (
-                np.concatenate([A, (inverse[:, None] * B)[kept]]),
-                np.concatenate([b, (inverse * p)[kept]]),
-            )
-        both = triangle(np.column_stack([A, b]))
-        R, c = both[: free.shape[1], :-1], both[: free.shape[1], -1]
-        z = _solved(R, c, 0.0)
-        # of the full step: a damped one promises little wherever it is
-        done = c @ c - np.sum((R @ z + c) ** 2) <= _ENOUGH * cost or np.linalg.norm(z) <= _ROUNDING
-        while True:
-            if damping > 0.0:
-                z = _solved(R, c, damping)
-            new = p + B @ z
-            after = _cost(problem, noise, name, new, inverse) if np.isfinite(z).all() else np.inf
-            if after <= cost:
-                break
+            return Outcome(p, cost == 0.0, steps, jacobian)
+        linear = _triangular(objective, p, A, b)
+        z = _solution(linear, 0.0)
+        done = _is_last(linear, z, cost)
+        if damping > 0.0:
+            z = _solution(linear, damping)
+        trial = _trial(objective, p, z)
+        while not trial.cost <= cost:
             done = bool(done or _exact(problem, p))
             if done or damping > _MOST_DAMPING:
                 # what is left cannot be told from rounding, or no direction leads down
-                return Outcome(p, done, steps, slopes)
+                return Outcome(p, done, steps, jacobian)
             damping = max(_FIRST_DAMPING, 10.0 * damping)
-        steps.append(Step(cost, float(np.linalg.norm(z)), damping))
-        p, cost = new, after
+            trial = _trial(objective, p, _solution(linear, damping))
+        steps.append(Step(cost, float(np.linalg.norm(trial.z)), damping))
+        p = trial.p
+        cost = trial.cost
         damping = damping / 10.0 if damping > _FIRST_DAMPING else 0.0
         if done:
-            # the step was too short to change the slopes
-            return Outcome(p, True, steps, slopes)
+            # the step was too short to change the Jacobian
+            return Outcome(p, True, steps, jacobian)
 
 
-def _solved(R: Array, c: Array, damping: float) -> Array:
+def _triangular(objective: _Objective, p: Array, A: Array, b: Array) -> _Linear:
+    """Weighted Jacobian A and errors b with the rows of the prior, as a triangle."""
+    inverse = objective.inverse_prior
+    known = inverse > 0
+    if known.any():
+        A = np.concatenate([A, (inverse[:, None] * objective.B)[known]])
+        b = np.concatenate([b, (inverse * p)[known]])
+    size = objective.B.shape[1]
+    both = qr_r(np.column_stack([A, b]))
+    return _Linear(both[:size, :-1], both[:size, -1])
+
+
+def _is_last(linear: _Linear, z: Array, cost: float) -> bool:
+    """Whether the full step z gains next to nothing; a damped one promises little wherever it is."""
+    R, c = linear
+    gain = c @ c - np.sum((R @ z + c) ** 2)
+    return bool(gain <= _ENOUGH * cost or np.linalg.norm(z) <= _ROUNDING)
+
+
+def _trial(objective: _Objective, p: Array, z: Array) -> _Trial:
+    new = p + objective.B @ z
+    return _Trial(z, new, _cost(objective, new) if np.isfinite(z).all() else np.inf)
+
+
+def _solution(linear: _Linear, damping: float) -> Array:
     """The z of the least |R z + c|^2 + damping |diag(|R|) z|^2."""
+    R, c = linear
     if damping > 0.0:
-        more = np.sqrt(damping) * np.maximum(np.linalg.norm(R, axis=0), np.finfo(float).tiny)
-        R, c = np.concatenate([R, np.diag(more)]), np.concatenate([c, np.zeros(len(more))])
+        norms = np.maximum(np.linalg.norm(R, axis=0), np.finfo(float).tiny)
+        R = np.concatenate([R, np.diag(np.sqrt(damping) * norms)])
+        c = np.concatenate([c, np.zeros(len(norms))])
     elif regular(R):
         return np.asarray(np.linalg.solve(R, -c), float)
     return np.asarray(np.linalg.lstsq(R, -c, rcond=None)[0], float)
@@ -113,40 +158,45 @@ def _solved(R: Array, c: Array, damping: float) -> Array:
 
 def regular(R: Array) -> bool:
     """Whether a triangle (k, k) is far from singular."""
+    if R.shape[0] != R.shape[1]:
+        return False
     diagonal = np.abs(np.diag(R))
-    return R.shape[0] == R.shape[1] and bool(
-        diagonal.min(initial=np.inf) > _REGULAR * diagonal.max(initial=0.0)
-    )
+    return bool(diagonal.min(initial=np.inf) > _REGULAR * diagonal.max(initial=0.0))
 
 
 def _exact(problem: Problem, p: Array) -> bool:
     """Whether all errors are rounding."""
-    reach = problem.arm.nominal.reach
-    return all(
-        np.abs(e[:, : s.angular]).max(initial=0.0) <= _ROUNDING
-        and np.abs(e[:, s.angular :]).max(initial=0.0) <= _ROUNDING * reach
-        for s, e in zip(problem.sets, problem.errors(p), strict=True)
-    )
+    reach = problem.model.nominal.reach
+    for s, e in zip(problem.sets, problem.errors(p), strict=True):
+        angle = np.abs(e[:, : s.angular]).max(initial=0.0)
+        length = np.abs(e[:, s.angular :]).max(initial=0.0)
+        if not (angle <= _ROUNDING and length <= _ROUNDING * reach):
+            return False
+    return True
 
 
-def _cost(problem: Problem, noise: Noise, name: str, p: Array, inverse: Array) -> float:
-    total = float(np.sum((inverse * p) ** 2))
-    for k, errors in enumerate(problem.errors(p)):
-        s = np.sum(noise.whitened(k, errors[..., None]) ** 2, axis=(1, 2))
-        total += float(np.sum(loss(name, s, errors.shape[1]).rho))
+def _cost(objective: _Objective, p: Array) -> float:
+    total = float(np.sum((objective.inverse_prior * p) ** 2))
+    for k, errors in enumerate(objective.problem.errors(p)):
+        e = objective.noise.whitened(k, errors[..., None])
+        s = np.sum(e**2, axis=(1, 2))
+        total += float(np.sum(loss(objective.loss, s, errors.shape[1]).rho))
     return total if np.isfinite(total) else np.inf
 
 
-def _rows(
-    problem: Problem, noise: Noise, name: str, p: Array, B: Array
-) -> tuple[Array, Array, Array]:
-    """Weighted slopes (M, k) and errors (M,), and the slopes without the loss's weights."""
-    A, b, plain = [], [], []
-    for k, (errors, slopes) in enumerate(problem.linearised(p)):
-        e = noise.whitened(k, errors[..., None])[..., 0]
-        D = times(noise.whitened(k, slopes).reshape(-1, slopes.shape[-1]), B)
-        root = np.repeat(np.sqrt(loss(name, np.sum(e * e, axis=1), e.shape[1]).weight), e.shape[1])
+def _rows(objective: _Objective, p: Array) -> tuple[Array, Array, Array]:
+    """Weighted Jacobian (M, k) and errors (M,), and the Jacobian without the loss's weights."""
+    A = []
+    b = []
+    plain = []
+    for k, (errors, jacobian) in enumerate(objective.problem.linearised(p)):
+        e = objective.noise.whitened(k, errors[..., None])[..., 0]
+        width = e.shape[1]
+        whitened = objective.noise.whitened(k, jacobian).reshape(-1, jacobian.shape[-1])
+        D = blocked_product(whitened, objective.B)
+        weight = loss(objective.loss, np.sum(e * e, axis=1), width).weight
+        root = np.repeat(np.sqrt(weight), width)
         plain.append(D)
-        A.append(D if name == "linear" else root[:, None] * D)
+        A.append(D if objective.loss == "linear" else root[:, None] * D)
         b.append(root * e.ravel())
     return np.concatenate(A), np.concatenate(b), np.concatenate(plain)

@@ -1,5 +1,5 @@
-"""How far measurements scatter: covariances as given, or spreads of angles and lengths estimated
-from the residuals.
+"""Noise of the measurements: covariances as given, or standard deviations of angles and lengths
+estimated from the residuals.
 """
 
 from __future__ import annotations
@@ -15,16 +15,17 @@ from ..measurements.measurement import Measurement
 
 _NORMAL = 0.6744897501960817  # the median of the absolute value of a normal number
 LEAST = 1e-15
-"""Spreads below it, of angles in rad and of lengths in reaches, are rounding."""
+"""Standard deviations below it, of angles in rad and of lengths in reaches, are rounding."""
 
 
 EVEN = 1e-6
-"""Angles that fit without error, such as those of an arm that does not turn, would leave the
-lengths no weight.
+"""Least ratio of the standard deviations of angles (rad) and lengths (reaches), and of its inverse:
+angles that fit without error, such as those of an arm that does not turn, would leave the lengths
+no weight.
 """
 
 
-class Spread(NamedTuple):
+class NoiseEstimate(NamedTuple):
     """Standard deviations of one set of measurements: of its angles (rad; None without any) and its
     lengths (m).
     """
@@ -34,84 +35,80 @@ class Spread(NamedTuple):
 
 
 class Noise:
-    """What whitens the errors of each set: e -> L^-1 e with C = L L^T.
+    """Whitening of the errors of each set: e -> L^-1 e with C = L L^T.
 
-    `spreads` holds, for each set without covariances, what they are estimated to be, and None for
-    the others.
+    `noise_std` holds, for each set without covariances, the estimated standard deviations, and None
+    for the others.
     """
 
-    def __init__(self, sets: Sequence[Measurement], spreads: Sequence[Spread | None]):
-        self.spreads = tuple(spreads)
+    def __init__(self, sets: Sequence[Measurement], noise_std: Sequence[NoiseEstimate | None]):
+        self.noise_std = tuple(noise_std)
         self._whiten: list[Array] = []
-        for s, spread in zip(sets, spreads, strict=True):
+        for s, estimate in zip(sets, noise_std, strict=True):
             if s.covariance is not None:
                 self._whiten.append(np.linalg.inv(np.linalg.cholesky(s.covariance)))
-            elif spread is not None:
-                deviations = [spread.angle or 1.0] * s.angular + [spread.length] * (
-                    s.width - s.angular
-                )
-                self._whiten.append(1.0 / np.array(deviations)[:, None])
+            elif estimate is not None:
+                sigma = np.full(s.width, estimate.length)
+                sigma[: s.angular] = estimate.angle or 1.0
+                self._whiten.append(1.0 / sigma[:, None])
 
     def whitened(self, k: int, errors: Array) -> Array:
-        """L^-1 times errors or slopes (N, d, ...) of set k, given as (N, d, P)."""
+        """L^-1 times errors or a Jacobian (N, d, ...) of set k, given as (N, d, P)."""
         W = self._whiten[k]
         return W @ errors if W.ndim == 3 else W * errors
 
     @property
     def estimated(self) -> bool:
-        """Whether a spread was estimated."""
-        return any(spread is not None for spread in self.spreads)
+        """Whether a standard deviation was estimated."""
+        return any(estimate is not None for estimate in self.noise_std)
 
 
-def check(sets: Sequence[Measurement], numbers: int, free: int) -> None:
-    """Refuse to estimate spreads from residuals that the fit brings to zero: all would seem known
+def check(sets: Sequence[Measurement], n_equations: int, free: int) -> None:
+    """Refuse to estimate the noise from residuals that the fit brings to zero: all would seem known
     without error.
 
     Raises: InputError.
     """
-    if numbers <= free and any(s.covariance is None for s in sets):
+    if n_equations <= free and any(s.covariance is None for s in sets):
         raise InputError(
-            f"{numbers} numbers for {free} parameters leave nothing to tell from how far they scatter: measure more, "
-            "or say it with covariance="
+            f"{n_equations} equations for {free} parameters leave no residuals to estimate the "
+            "noise from: measure more, or give covariance="
         )
 
 
-def spreads(
+def estimate_noise(
     sets: Sequence[Measurement],
     errors: Sequence[Array],
     free: int,
     robust: bool,
     reach: float,
     even: float = EVEN,
-) -> list[Spread | None]:
-    """The spread of each set without covariances, from its errors (N, d) with `free` parameters
-    fitted to all of them.
+) -> list[NoiseEstimate | None]:
+    """Noise of each set without covariances, from its errors (N, d) with `free` parameters fitted to
+    all of them.
 
     Root mean square, or, robust, the median of absolute values made to agree with it for normal
     errors. That of angles in rad is at least `even` times that of lengths in reaches, and the other
     way round.
     """
-    numbers = sum(e.size for e in errors)
-    more = (numbers / max(numbers - free, 1)) ** 0.5
-    found: list[Spread | None] = []
+    n_equations = sum(e.size for e in errors)
+    inflation = (n_equations / max(n_equations - free, 1)) ** 0.5
+    found: list[NoiseEstimate | None] = []
     for s, e in zip(sets, errors, strict=True):
         if s.covariance is not None:
             found.append(None)
             continue
-        angles, lengths = e[:, : s.angular], e[:, s.angular :]
-        angle = more * _size(angles, robust)
-        length = more * _size(lengths, robust) / reach
-        of_angles, of_lengths = (
-            max(angle, even * length, LEAST),
-            max(length, even * angle * bool(s.angular), LEAST),
-        )
-        found.append(Spread(of_angles if s.angular else None, of_lengths * reach))
+        angle = inflation * _size(e[:, : s.angular], robust)
+        length = inflation * _size(e[:, s.angular :], robust) / reach
+        even_length = max(length, even * angle * bool(s.angular), LEAST)
+        even_angle = max(angle, even * length, LEAST)
+        found.append(NoiseEstimate(even_angle if s.angular else None, even_length * reach))
     return found
 
 
 def _size(errors: Array, robust: bool) -> float:
     if not errors.size:
         return 0.0
-    return (
-        float(np.median(np.abs(errors))) / _NORMAL if robust else float(np.sqrt(np.mean(errors**2)))
-    )
+    if robust:
+        return float(np.median(np.abs(errors))) / _NORMAL
+    return float(np.sqrt(np.mean(errors**2)))

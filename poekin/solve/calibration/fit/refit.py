@@ -1,7 +1,7 @@
 """A fit, and another one where the arm that it found shows more than the nominal one did.
 
 A nominal arm is often special, as with a measured point on its last axis: what tilts that axis
-about the point moves nothing in first order, and is held. The true arm is not special, and to
+about the point moves nothing in first order, and is unidentifiable. The true arm is not special, and to
 second order, some micrometres where it is off by millimetres, it shows these directions.
 """
 
@@ -10,49 +10,48 @@ from __future__ import annotations
 import numpy as np
 
 from ....groups.arrays import Array
-from ..diagnostics.identification import movable_at, seen_at
+from ..diagnostics.identification import free_directions_at, rank_at
 from ..model.problem import Problem
-from .fitting import Fit, fitted, squared
+from .fitting import Fit, fit_parameters, squared_errors
 from .losses import OUTLIER, chi_square, loss
 from .minimise import minimise
 
 _TRIED = 3  # steps: from so near they gain nearly all that there is to gain
 
 
-def settled(
+def fit_with_refit(
     problem: Problem, free: Array, name: str, p: Array, prior: Array | None, most: int
 ) -> Fit:
-    """`fitted`, and what is seen only where it ended fitted too, if the data fit better by more
-    than chance explains.
+    """`fit_parameters`, and again with the directions identified only where it ended, if the data
+    fit better by more than chance explains.
 
-    Directions that noise hides stay held: of the first fit's noise, the sum of rho has to fall by
+    Directions that noise hides stay fixed: of the first fit's noise, the sum of rho has to fall by
     more than it would, once in 10^4 times, for as many directions without any meaning. `Fit.free`
     says what was free in the end.
     Source of the test: Wilks 1938, the likelihood ratio of nested models is distributed as
     chi-square.
     """
-    first = fitted(problem, free, name, p, prior, most)
-    if (
-        not first.converged
-        or free.shape[1] == problem.size
-        or seen_at(problem, first.p) <= free.shape[1]
-    ):
+    first = fit_parameters(problem, free, name, p, prior, most)
+    rank = free.shape[1]
+    if not first.converged or rank == problem.size or rank_at(problem, first.p) <= rank:
         return first
-    more = movable_at(problem, first.p, None if prior is None else np.isfinite(prior))
-    if not free.shape[1] < more.shape[1] < problem.numbers:
+    known = None if prior is None else np.isfinite(prior)
+    more = free_directions_at(problem, first.p, known)
+    if not rank < more.shape[1] < problem.n_equations:
         return first
-    tried = minimise(
-        problem, more, first.noise, name, first.p, prior, min(_TRIED, most - len(first.steps))
-    )
+    left = min(_TRIED, most - len(first.steps))
+    tried = minimise(problem, more, first.noise, name, first.p, prior, left)
     gain = _misfit(problem, name, first, first.p) - _misfit(problem, name, first, tried.p)
-    if gain <= chi_square(more.shape[1] - free.shape[1], OUTLIER):
+    if gain <= chi_square(more.shape[1] - rank, OUTLIER):
         return first
     steps = first.steps + tried.steps
-    second = fitted(problem, more, name, tried.p, prior, most - len(steps))
-    return second._replace(steps=steps + second.steps) if second.converged else first
+    second = fit_parameters(problem, more, name, tried.p, prior, most - len(steps))
+    if not second.converged:
+        return first
+    return second._replace(steps=steps + second.steps)
 
 
 def _misfit(problem: Problem, name: str, fit: Fit, p: Array) -> float:
     """The sum of rho at p, with the noise of that fit."""
-    rho = zip(problem.sets, squared(problem, fit.noise, p), strict=True)
+    rho = zip(problem.sets, squared_errors(problem, fit.noise, p), strict=True)
     return float(sum(np.sum(loss(name, s, m.width).rho) for m, s in rho))

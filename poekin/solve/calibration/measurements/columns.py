@@ -26,6 +26,7 @@ class Layout(NamedTuple):
     format: str = ""
 
 
+EMPTY = Layout((), ())
 _FIXED = (
     *(Layout(pose_rows.columns(format), _OF_POSES, format) for format in ("16", "12")),
     Layout(pose_rows.columns("7", "wxyz"), _OF_POSES, "7"),
@@ -40,7 +41,7 @@ def numbered(count: int) -> tuple[str, ...]:
     return tuple(f"q{i + 1}" for i in range(count))
 
 
-def understood(
+def parse_header(
     header: list[str], q_names: tuple[str, ...], ignore: tuple[str, ...], here: str
 ) -> tuple[tuple[str, ...], Layout]:
     """The names of the coordinates and the layout of the measurement that a header's columns make,
@@ -52,7 +53,8 @@ def understood(
     for word, times in Counter(words).items():
         if times > 1:
             raise InputError(f"{here}: the column {quote(word)} is there {times} times")
-    given, numbers = set(words), numbered(len(q_names))
+    given = set(words)
+    numbers = numbered(len(q_names))
     for names in (q_names, numbers):
         if given >= set(names):
             rest = given - set(names)
@@ -67,14 +69,14 @@ def understood(
                 f"{here}: a first line that names the columns expected, it has numbers alone"
             )
         raise InputError(
-            f"{here}: no column for the coordinate {quote(missing[0])}; expected {join_names(q_names)}, or q1 ... "
-            f"q{len(q_names)}"
+            f"{here}: no column for the coordinate {quote(missing[0])}; expected {join_names(q_names)},"
+            f" or q1 ... q{len(q_names)}"
         )
     raise _fault([word for word in words if word not in names], here)
 
 
 def _fault(rest: list[str], here: str) -> InputError | UnknownName:
-    """What is wrong with columns that make no measurement."""
+    """The error of columns that make no measurement."""
     if not rest:
         return InputError(f"{here}: no column of a measurement; expected {_LAYOUTS}")
     there = set(rest)
@@ -85,31 +87,34 @@ def _fault(rest: list[str], here: str) -> InputError | UnknownName:
         known = set(most.columns)
         extra = quote(next(word for word in rest if word not in known))
         return UnknownName(
-            f"{here}: the column {extra} is neither a coordinate nor one of {said(most)}; ignore=[{extra}] passes it "
-            "over"
+            f"{here}: the column {extra} is neither a coordinate nor one of {describe(most)}; "
+            f"ignore=[{extra}] passes it over"
         )
     begun = max(every, key=lambda layout: len(set(layout.columns) & there) / len(layout.columns))
     missing = [name for name in begun.columns if name not in there]
     if len(missing) < len(begun.columns):
-        return InputError(f"{here}: of the columns {said(begun)}, {quote(missing[0])} is missing")
+        return InputError(
+            f"{here}: of the columns {describe(begun)}, {quote(missing[0])} is missing"
+        )
     close = suggest(rest[0], [name for layout in _FIXED for name in layout.columns], 3)
     return UnknownName(
-        f"{here}: {quote(rest[0])} is neither a coordinate nor part of a measurement ({_LAYOUTS}); {close}"
+        f"{here}: {quote(rest[0])} is neither a coordinate nor part of a measurement ({_LAYOUTS});"
+        f" {close}"
     )
 
 
 def _points(words: set[str]) -> Layout:
     """The columns x1 y1 z1 ... xk yk zk of as many points as the words speak of."""
     numbers = [int(word[1:]) for word in words if re.fullmatch(r"[xyz][1-9][0-9]{0,5}", word)]
-    return Layout(of_points(min(max(numbers, default=0), len(words))), ("points",))
+    return Layout(point_columns(min(max(numbers, default=0), len(words))), ("points",))
 
 
-def of_points(count: int) -> tuple[str, ...]:
+def point_columns(count: int) -> tuple[str, ...]:
     """x1 y1 z1 ... xk yk zk of k points."""
     return tuple(f"{axis}{i + 1}" for i in range(count) for axis in "xyz")
 
 
-def said(layout: Layout) -> str:
+def describe(layout: Layout) -> str:
     """A layout's columns as messages call them."""
     names = layout.columns
     return f"{names[0]} ... {names[-1]}" if len(names) > 7 else " ".join(names)

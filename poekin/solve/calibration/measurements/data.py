@@ -49,7 +49,7 @@ class Table(NamedTuple):
     q: Array
     values: Array
     layout: Layout
-    places: list[str]
+    sources: list[str]
 
 
 def read(
@@ -81,7 +81,7 @@ def read(
     Source: none, a format of poekin's own.
     """
     table = read_table(path, chain, kind=kind, ignore=ignore, progress=progress)
-    return table.q, measurement_of(table, kind, known)
+    return table.q, make_measurement(table, kind, known)
 
 
 def read_table(
@@ -98,29 +98,30 @@ def read_table(
     if kind is not None and kind not in KINDS:
         raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {safe_repr(kind)}")
     ignore = (ignore,) if isinstance(ignore, str) else tuple(ignore)
-    names, layouts = (), []
+    names: tuple[str, ...] = ()
+    layout = columns.EMPTY
 
     def choose(header: list[str], here: str) -> list[int]:
-        nonlocal names
-        joints, layout = columns.understood(header, chain.q_names, ignore, here)
+        nonlocal names, layout
+        joints, layout = columns.parse_header(header, chain.q_names, ignore, here)
         if kind is not None and kind not in layout.kinds:
-            those = f"the columns {columns.said(layout)} are those of {' or '.join(layout.kinds)}"
+            kinds = " or ".join(layout.kinds)
+            those = f"the columns {columns.describe(layout)} are those of {kinds}"
             raise InputError(f"{here}: {those}, and kind is {safe_repr(kind)}")
-        layouts.append(layout)
         names = (*joints, *layout.columns)
-        places = {word: i for i, word in enumerate(header)}
-        return [places[name] for name in names]
+        numbers = {word: i for i, word in enumerate(header)}
+        return [numbers[name] for name in names]
 
     with csv_rows.opened(path) as (stream, where, size):
         rows, lines = csv_rows.read_chosen(stream, choose, where, progress, size)
     if not np.isfinite(rows).all():
         i, k = np.argwhere(~np.isfinite(rows))[0]
         raise InputError(
-            f"{where}:{lines[i]}, column {quote(names[k])}: expected a finite number, got {rows[i, k]}; leave the line "
-            "out where nothing was measured"
+            f"{where}:{lines[i]}, column {quote(names[k])}: expected a finite number, got "
+            f"{rows[i, k]}; leave the line out where nothing was measured"
         )
-    places = [f"{where}:{line}" for line in lines]
-    return Table(rows[:, : chain.dof], rows[:, chain.dof :], layouts[0], places)
+    sources = [f"{where}:{line}" for line in lines]
+    return Table(rows[:, : chain.dof], rows[:, chain.dof :], layout, sources)
 
 
 def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
@@ -135,55 +136,57 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
     measured, values = _columns(measurement)
     q = coordinates(q, chain.q_names)
     rows = np.arange(len(values)) if measurement.rows is None else measurement.rows
-    if (
-        q.ndim != 2
-        or (measurement.rows is None and len(q) != len(values))
-        or (rows >= len(q)).any()
-    ):
+    unlike = measurement.rows is None and len(q) != len(values)
+    if q.ndim != 2 or unlike or (rows >= len(q)).any():
         raise ShapeError(
             f"q: expected shape (N, {chain.dof}) with a row for each of {len(values)}, got {q.shape}"
         )
-    if not np.isfinite(q).all():
-        raise InputError(
-            f"q[{np.argmin(np.isfinite(q).all(axis=1))}]: expected finite numbers, got NaN or infinity"
-        )
-    names, numbered = chain.q_names, columns.numbered(chain.dof)
+    finite = np.isfinite(q).all(axis=1)
+    if not finite.all():
+        raise InputError(f"q[{np.argmin(finite)}]: expected finite numbers, got NaN or infinity")
+    names = chain.q_names
+    numbered = columns.numbered(chain.dof)
     # names that another reader, or this one, would take for something else
     if set(names) & {*measured, *numbered} or any(
         escape_unprintable(name).strip() != name for name in names
     ):
         names = numbered
-    write_whole(
-        path, csv_rows.text((*names, *measured), np.column_stack([q[rows], values])).encode()
-    )
+    text = csv_rows.text((*names, *measured), np.column_stack([q[rows], values]))
+    write_whole(path, text.encode())
 
 
-def measurement_of(table: Table, kind: str | None, known: dict[str, Any]) -> Measurement:
+def make_measurement(table: Table, kind: str | None, known: dict[str, Any]) -> Measurement:
     """The measurement that a table holds. Parameters: kind and known, as those of `read`; so are
     the errors.
     """
-    _, values, layout, places = table
-    kind = kind or layout.kinds[0]
+    kind = kind or table.layout.kinds[0]
     made = KINDS[kind]
     first, *others = (field.name for field in fields(made) if field.name != "rows")  # type: ignore[arg-type]
     for name in known:
         if name not in others:
             raise UnknownName(f"{quote(name)} is nothing that {kind} have; {suggest(name, others)}")
-    if layout.format:
-        T = pose_rows.to_poses(
-            values, layout.format, "wxyz" if layout.format == "7" else None, places.__getitem__
-        )
-        return made(**{first: T}, **known)
+    return made(**{first: _values(table, kind, known)}, **known)
+
+
+def _values(table: Table, kind: str, known: dict[str, Any]) -> Array:
+    """The measured values of a table as the kind of measurement takes them."""
+    values = table.values
+    format = table.layout.format
+    if format:
+        order = "wxyz" if format == "7" else None
+        return pose_rows.to_poses(values, format, order, table.sources.__getitem__)
     if kind == "points":
-        count = len(layout.columns) // 3
+        count = len(table.layout.columns) // 3
         if count > 1 and "points" not in known:
             raise InputError(
-                f"points: the file has {count} points a line; say where they are in the tip frame, (k, 3)"
+                f"points: the file has {count} points a line; say where they are in the tip frame, "
+                "(k, 3)"
             )
-        return made(**{first: values.reshape(-1, count, 3)}, **known)
-    for i in np.flatnonzero(values[:, 0] <= 0):
-        raise InputError(f"{places[i]}: expected a distance above 0, got {values[i, 0]:g}")
-    return made(**{first: values[:, 0]}, **known)
+        return values.reshape(-1, count, 3)
+    distances = values[:, 0]
+    for i in np.flatnonzero(distances <= 0):
+        raise InputError(f"{table.sources[i]}: expected a distance above 0, got {distances[i]:g}")
+    return distances
 
 
 def _columns(measurement: Measurement) -> tuple[tuple[str, ...], Array]:
@@ -192,10 +195,10 @@ def _columns(measurement: Measurement) -> tuple[tuple[str, ...], Array]:
         return pose_rows.columns("12"), pose_rows.to_rows(np.asarray(measurement.T), "12")
     if isinstance(measurement, Points):
         p = np.asarray(measurement.p)
-        return columns.of_points(p.shape[1]) if p.shape[1] > 1 else ("x", "y", "z"), p.reshape(
-            len(p), -1
-        )
+        count = p.shape[1]
+        names = columns.point_columns(count) if count > 1 else ("x", "y", "z")
+        return names, p.reshape(len(p), -1)
     if isinstance(measurement, Distances):
         return ("distance",), np.asarray(measurement.d)[:, None]
-    names = ", ".join(kind.__name__ for kind in KINDS.values())
-    raise InputError(f"measurement: expected one of {names}, got {safe_repr(measurement)}")
+    every = ", ".join(kind.__name__ for kind in KINDS.values())
+    raise InputError(f"measurement: expected one of {every}, got {safe_repr(measurement)}")

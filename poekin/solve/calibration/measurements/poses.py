@@ -12,7 +12,14 @@ from numpy.typing import ArrayLike
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ..fit import initial_guess
-from .measurement import Measurement, carried, covariances, pose_rows, rows_of, unknown_frame
+from .measurement import (
+    Measurement,
+    covariances,
+    make_unknown_frame,
+    parse_rows,
+    pose_rows,
+    transform_twists,
+)
 
 
 def pose_errors(T: Array, measured: Array) -> Array:
@@ -23,15 +30,15 @@ def pose_errors(T: Array, measured: Array) -> Array:
     return np.concatenate([turned, T[:, :3, 3] - measured[:, :3, 3]], axis=1)
 
 
-def pose_slopes(T: Array, errors: Array, D: Array) -> Array:
-    """How `pose_errors` change (N, 6, P) when T moves by the space twists D (N, 6, P): dw =
-    J_l^-1(w) omega,
-    dp = v + omega x p.
+def pose_error_jacobian(T: Array, errors: Array, D: Array) -> Array:
+    """Jacobian (N, 6, P) of `pose_errors` when T moves by the space twists D (N, 6, P): dw =
+    J_l^-1(w) omega, dp = v + omega x p.
     """
-    turns, p = D[:, :3], T[:, :3, 3]
-    return np.concatenate(
-        [so3.left_jacobian_inverse(errors[:, :3]) @ turns, D[:, 3:] - so3.hat(p) @ turns], axis=1
-    )
+    turns = D[:, :3]
+    p = T[:, :3, 3]
+    dw = so3.left_jacobian_inverse(errors[:, :3]) @ turns
+    dp = D[:, 3:] - so3.hat(p) @ turns
+    return np.concatenate([dw, dp], axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,10 +46,9 @@ class Poses(Measurement):
     """Poses of the tip in the base frame.
 
     T (N, 4, 4) = T_base_tip, m; covariance (6, 6) or (N, 6, 6) of the errors: the rotation vector
-    of
-    R_model R_measured^T, then p_model - p_measured, both in base axes, rad^2 and m^2 (None: two
-    spreads, of angles and of lengths, are estimated from the residuals); rows (N,): the row of q of
-    each, default all in order.
+    of R_model R_measured^T, then p_model - p_measured, both in base axes, rad^2 and m^2 (None: two
+    standard deviations, of angles and of lengths, are estimated from the residuals); rows (N,): the
+    row of q of each, default all in order.
     Raises: ShapeError, PoseError, InputError.
     """
 
@@ -51,67 +57,70 @@ class Poses(Measurement):
     rows: Any = None
 
     what = "Poses"
-    width, angular = 6, 3
-    _along = ("T", "rows")
+    width = 6
+    angular = 3
+    _per_measurement = ("T", "rows")
 
     def __post_init__(self):
         T = pose_rows(self.T, "T")
         C = covariances(self.covariance, len(T), 6, self.what)
-        self._settle(T=T, covariance=C, rows=rows_of(self.rows, len(T)))
+        self._set_fields(T=T, covariance=C, rows=parse_rows(self.rows, len(T)))
 
     def __len__(self) -> int:
         return len(self.T)
 
-    def errors(self, T: Array, places: Sequence[Array]) -> Array:
+    def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
         """See `pose_errors`."""
         return pose_errors(T, self.T)
 
-    def slopes(
-        self, T: Array, places: Sequence[Array], errors: Array, D: Array
+    def jacobian(
+        self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
     ) -> tuple[Array, list[Array]]:
-        """See `pose_slopes`."""
-        return pose_slopes(T, errors, D), []
+        """See `pose_error_jacobian`."""
+        return pose_error_jacobian(T, errors, D), []
 
 
 class _HandEye(Measurement):
-    """T_fixed_moving = X^-1 f(q) Z, with X = T_base_fixed and Z = T_tip_moving solved along."""
+    """T_fixed_moving = X^-1 f(q) Z, with X = T_base_fixed and Z = T_tip_moving estimated jointly."""
 
-    width, angular = 6, 3
-    _along = ("T", "rows")
+    width = 6
+    angular = 3
+    _per_measurement = ("T", "rows")
     T: Array
 
     def _set(self, T: ArrayLike, name: str, **said: ArrayLike | str | None) -> None:
         """Keep T, and what is said of X and Z, in this order, by the names of these frames."""
         poses = pose_rows(T, name)
         C = covariances(self.covariance, len(poses), 6, self.what)
-        unknowns = tuple(unknown_frame(frame, value) for frame, value in said.items())
-        self._settle(T=poses, covariance=C, rows=rows_of(self.rows, len(poses)), unknowns=unknowns)
+        unknown = tuple(make_unknown_frame(frame, value) for frame, value in said.items())
+        rows = parse_rows(self.rows, len(poses))
+        self._set_fields(T=poses, covariance=C, rows=rows, unknown_frames=unknown)
 
     def __len__(self) -> int:
         return len(self.T)
 
-    def errors(self, T: Array, places: Sequence[Array]) -> Array:
+    def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
         """See `pose_errors`, in the axes of the board or camera that stands still."""
-        X, Z = places
+        X, Z = frame_values
         return pose_errors(se3.inverse(X) @ T @ Z, self.T)
 
-    def slopes(
-        self, T: Array, places: Sequence[Array], errors: Array, D: Array
+    def jacobian(
+        self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
     ) -> tuple[Array, list[Array]]:
         """With G = X^-1 T Z: dG G^-1 = Ad(X^-1) D; X <- X e^xi gives -xi, Z <- Z e^zeta gives Ad(G)
         zeta.
         """
-        X, Z = places
+        X, Z = frame_values
         back = se3.inverse(X)
         G = back @ T @ Z
         fixed = np.broadcast_to(-np.eye(6), (len(G), 6, 6))
-        both = np.concatenate([carried(back, D), fixed, se3.adjoint(G)], axis=2)
-        slopes = pose_slopes(G, errors, both)
-        return slopes[..., :-12], [slopes[..., -12:-6], slopes[..., -6:]]
+        both = np.concatenate([transform_twists(back, D), fixed, se3.adjoint(G)], axis=2)
+        jacobian = pose_error_jacobian(G, errors, both)
+        return jacobian[..., :-12], [jacobian[..., -12:-6], jacobian[..., -6:]]
 
     def guesses(self, T: Array) -> list[Array]:
-        """X and Z as given; what is not, by the linear method of `first_guess.hand_eye`."""
-        X, Z = (u.guess for u in self.unknowns)
+        """X and Z as given; what is not, by the linear method of `initial_guess.hand_eye`."""
+        X, Z = (u.guess for u in self.unknown_frames)
         if X is not None and Z is not None:
             return [X, Z]
         if X is not None:
@@ -127,7 +136,7 @@ class EyeInHand(_HandEye):
     f(q) T_tip_camera.
 
     T_board_camera (N, 4, 4), m; covariance and rows as `Poses`, the errors in the board's axes;
-    board, camera: rough T_base_board and T_tip_camera where known, else a linear first guess is
+    board, camera: rough T_base_board and T_tip_camera where known, else a linear initial guess is
     made; or a name, such as "wrist": sets in which it is the same have this frame in common.
     Raises: as `Poses`.
     """
@@ -152,7 +161,7 @@ class EyeToHand(_HandEye):
     f(q) T_tip_board.
 
     T_camera_board (N, 4, 4), m; covariance and rows as `Poses`, the errors in the camera's axes;
-    camera, board: rough T_base_camera and T_tip_board where known, else a linear first guess is
+    camera, board: rough T_base_camera and T_tip_board where known, else a linear initial guess is
     made; or names, as of `EyeInHand`.
     Raises: as `Poses`.
     """

@@ -5,7 +5,7 @@ find is known.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +16,7 @@ from ....groups.arrays import Array, numbers
 from ....model.chain import Chain
 from ....model.checks import read_only
 from ....model.coordinates import coordinates
-from ..model.parameters import Arm
+from ..model.error_model import ErrorModel
 from .data import KINDS
 from .measurement import Measurement
 from .points import Distances, Points
@@ -60,7 +60,7 @@ class Simulated:
 
 
 def simulated(
-    arm: Chain,
+    chain: Chain,
     n: int,
     *,
     kind: str = "poses",
@@ -73,7 +73,7 @@ def simulated(
     points: ArrayLike = (0.0, 0.0, 0.0),
     unknown: bool = False,
 ) -> Simulated:
-    """n measurements of an arm like `arm` but for its axes and home pose, by the model that
+    """n measurements of an arm like `chain` but for its axes and home pose, by the model that
     `calibrate` has of errors.
 
     The truth: A_i <- Ad(e^eta_i) A_i, M <- M e^eta with the minimal parameters of `calibrate`
@@ -86,7 +86,7 @@ def simulated(
     distance: longer, or shorter where it
     stays positive).
 
-    Parameters: arm, the nominal Chain; n, how many; kind, "poses", "eye-in-hand", "eye-to-hand",
+    Parameters: chain, the nominal arm; n, how many; kind, "poses", "eye-in-hand", "eye-to-hand",
     "points" or "distances"; tilt, rad; shift, m; noise; outliers, their part, 0 <= outliers < 1;
     seed: the same one gives the same truth, frames and q whatever is measured of them, and how
     exactly; q (n, m), drawn within the limits where it is not given; points (3,) or (k, 3), of the
@@ -97,98 +97,139 @@ def simulated(
     are to 1e-15. Source: Park 1994, Section II; the errors are those of `Poses`, `Points`,
     `Distances`, `EyeInHand`, `EyeToHand`.
     """
-    n, noise = _checked(n, kind, tilt, shift, noise, outliers, seed)
+    noise = _check(n, kind, tilt, shift, noise, outliers, seed)
+    n = int(n)
     body = np.atleast_2d(numbers(points, "points"))
     if body.ndim != 2 or body.shape[1] != 3 or not len(body) or not np.isfinite(body).all():
         raise ShapeError(
             f"points: expected finite (3,) or (k, 3) in the tip frame, got {safe_repr(points)}"
         )
-    arms, places, errors, wild = (np.random.default_rng([seed, part]) for part in range(4))
-    moved = Arm(arm, ("screws", "home"), None)
-    p = np.array(
-        [float(tilt if parameter.unit == "rad" else shift) for parameter in moved.parameters]
+    for_arm, for_frames, for_errors, for_outliers = (
+        np.random.default_rng([seed, part]) for part in range(4)
     )
-    p *= arms.normal(size=len(p))
-    truth = moved.chain(p)
-    q = arm.random(arms, n) if q is None else coordinates(q, arm.q_names).copy()
-    if q.shape != (n, arm.dof) or not np.isfinite(q).all():
-        raise ShapeError(f"q: expected finite ({n}, {arm.dof}), got shape {q.shape}")
+    model = ErrorModel(chain, ("screws", "home"), None)
+    sizes = {"rad": float(tilt), "m": float(shift)}
+    p = np.array([sizes[parameter.unit] for parameter in model.parameters])
+    p *= for_arm.normal(size=len(p))
+    truth = model.chain(p)
+    q = _readings(chain, q, n, for_arm)
     gross = np.zeros(n, bool)
-    gross[wild.permutation(n)[: round(outliers * n)]] = True
-    T, made = truth.fk(q), _Made(arm.reach, noise, errors, wild, gross)
-    X, Z, centre = _frames(places, arm.reach)
-    frames: dict[str, Array] = {}
+    gross[for_outliers.permutation(n)[: round(outliers * n)]] = True
+    sensor = _Sensor(chain.reach, noise, for_errors, for_outliers, gross)
+    setup = _setup(kind, body, unknown, _random_frames(for_frames, chain.reach))
+    return Simulated(
+        truth=truth,
+        parameters=read_only(p),
+        q=read_only(q),
+        measurements=_measure(kind, truth.fk(q), setup, sensor),
+        frames=setup.unknown,
+        points=setup.points,
+        outliers=read_only(gross),
+    )
+
+
+class _Frames(NamedTuple):
+    """T_base_fixed, T_tip_moving and the centre of distances."""
+
+    X: Array
+    Z: Array
+    centre: Array
+
+
+class _Setup(NamedTuple):
+    """Frames, those of them that are unknown by name, and the points of the tool, if any."""
+
+    frames: _Frames
+    unknown: dict[str, Array]
+    points: Array | None
+
+
+def _setup(kind: str, body: Array, unknown: bool, frames: _Frames) -> _Setup:
+    X, Z, centre = frames
+    if kind == "eye-in-hand":
+        return _Setup(frames, {"T_base_board": X, "T_tip_camera": Z}, None)
+    if kind == "eye-to-hand":
+        return _Setup(frames, {"T_base_camera": X, "T_tip_board": Z}, None)
+    if kind == "points":
+        return _Setup(frames, {"T_base_device": X} if unknown else {}, read_only(body))
+    if kind == "distances":
+        return _Setup(frames, {"centre": centre} if unknown else {}, read_only(body[:1]))
+    return _Setup(frames, {}, None)
+
+
+def _measure(kind: str, T: Array, setup: _Setup, sensor: _Sensor) -> Measurement:
+    """Measurements of this kind at the true poses T (N, 4, 4)."""
+    X, Z, centre = setup.frames
     if kind == "poses":
-        measured: Measurement = Poses(made.poses(T), made.covariance(6))
-    elif kind == "eye-in-hand":
-        frames = {"T_base_board": X, "T_tip_camera": Z}
-        measured = EyeInHand(made.poses(se3.inverse(X) @ T @ Z), made.covariance(6))
-    elif kind == "eye-to-hand":
-        frames = {"T_base_camera": X, "T_tip_board": Z}
-        measured = EyeToHand(made.poses(se3.inverse(X) @ T @ Z), made.covariance(6))
-    elif kind == "points":
-        frames = {"T_base_device": X} if unknown else {}
-        there = made.points(se3.inverse(X) @ T if unknown else T, body)
-        measured = Points(
-            there, body, made.covariance(3 * len(body)), frame="unknown" if unknown else "base"
-        )
-    else:
-        body, frames = body[:1], {"centre": centre} if unknown else {}
-        d = made.distances(T, body[0], centre)
-        measured = Distances(d, None if unknown else centre, body[0], made.covariance(1))
-    tool = read_only(body) if kind in ("points", "distances") else None
-    return Simulated(truth, read_only(p), read_only(q), measured, frames, tool, read_only(gross))
+        return Poses(sensor.poses(T), sensor.covariance(3, 3))
+    if setup.points is None:
+        made = EyeInHand if kind == "eye-in-hand" else EyeToHand
+        return made(sensor.poses(se3.inverse(X) @ T @ Z), sensor.covariance(3, 3))
+    covariance = sensor.covariance(0, setup.points.size)
+    if kind == "distances":
+        point = setup.points[0]
+        d = sensor.distances(T, point, centre)
+        return Distances(d, None if setup.unknown else centre, point, sensor.covariance(0, 1))
+    if setup.unknown:
+        p = sensor.points(se3.inverse(X) @ T, setup.points)
+        return Points(p, setup.points, covariance, frame="unknown")
+    return Points(sensor.points(T, setup.points), setup.points, covariance)
+
+
+def _readings(chain: Chain, q: Any, n: int, rng: np.random.Generator) -> Array:
+    q = chain.random(rng, n) if q is None else coordinates(q, chain.q_names).copy()
+    if q.shape != (n, chain.dof) or not np.isfinite(q).all():
+        raise ShapeError(f"q: expected finite ({n}, {chain.dof}), got shape {q.shape}")
+    return q
 
 
 @dataclass(frozen=True, eq=False)
-class _Made:
-    """Measurements at true poses T (N, 4, 4), with noise and gross errors."""
+class _Sensor:
+    """A sensor that measures with noise, and grossly wrong in some rows."""
 
     reach: float
     noise: tuple[float, float]
-    errors: np.random.Generator
-    wild: np.random.Generator
+    rng: np.random.Generator
+    outlier_rng: np.random.Generator
     gross: np.ndarray
 
     def poses(self, T: Array) -> Array:
         """Measured poses (N, 4, 4)."""
         count = int(self.gross.sum())
-        w, e = (sigma * self.errors.normal(size=(len(T), 3)) for sigma in self.noise)
-        w[self.gross] += self.wild.uniform(*GROSS_TURN, (count, 1)) * _directions(self.wild, count)
+        w, e = (sigma * self.rng.normal(size=(len(T), 3)) for sigma in self.noise)
+        turns = self.outlier_rng.uniform(*GROSS_TURN, (count, 1))
+        w[self.gross] += turns * _directions(self.outlier_rng, count)
         e[self.gross] += self._gross_shifts()
         T = T.copy()
-        T[:, :3, :3], T[:, :3, 3] = so3.exp(w) @ T[:, :3, :3], T[:, :3, 3] + e
+        T[:, :3, :3] = so3.exp(w) @ T[:, :3, :3]
+        T[:, :3, 3] += e
         return T
 
     def points(self, T: Array, points: Array) -> Array:
         """Measured positions (N, k, 3) of points of the tool."""
         p = points @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
-        p += self.noise[1] * self.errors.normal(size=p.shape)
+        p += self.noise[1] * self.rng.normal(size=p.shape)
         p[self.gross] += self._gross_shifts()[:, None]
         return p
 
     def distances(self, T: Array, point: Array, centre: Array) -> Array:
         """Measured distances (N,) of a point of the tool from the centre."""
         d = np.linalg.norm(T[:, :3, :3] @ point + T[:, :3, 3] - centre, axis=1)
-        d += self.noise[1] * self.errors.normal(size=d.shape)
-        off = (
-            self.wild.choice([-1.0, 1.0], len(d))
-            * self.reach
-            * self.wild.uniform(*GROSS_SHIFT, len(d))
-        )
-        return np.where(self.gross, np.where(d + off > 0, d + off, d - off), d)
+        d += self.noise[1] * self.rng.normal(size=d.shape)
+        signs = self.outlier_rng.choice([-1.0, 1.0], len(d))
+        off = signs * self.reach * self.outlier_rng.uniform(*GROSS_SHIFT, len(d))
+        wrong = np.where(d + off > 0, d + off, d - off)
+        return np.where(self.gross, wrong, d)
 
-    def covariance(self, width: int) -> Array | None:
-        """Of the errors of one measurement: of an angle and a place (6), or of places alone."""
-        angle, length = np.square(self.noise)
-        diagonal = np.repeat([angle, length], 3) if width == 6 else np.full(width, length)
+    def covariance(self, angles: int, lengths: int) -> Array | None:
+        """Covariance of one measurement's errors, the angles first; None without noise."""
+        diagonal = np.repeat(np.square(self.noise), [angles, lengths])
         return np.diag(diagonal) if diagonal.all() else None
 
     def _gross_shifts(self) -> Array:
         count = int(self.gross.sum())
-        return (
-            self.reach * self.wild.uniform(*GROSS_SHIFT, (count, 1)) * _directions(self.wild, count)
-        )
+        sizes = self.outlier_rng.uniform(*GROSS_SHIFT, (count, 1))
+        return self.reach * sizes * _directions(self.outlier_rng, count)
 
 
 def _directions(rng: np.random.Generator, count: int) -> Array:
@@ -197,19 +238,22 @@ def _directions(rng: np.random.Generator, count: int) -> Array:
     return z / np.linalg.norm(z, axis=1, keepdims=True)
 
 
-def _frames(rng: np.random.Generator, reach: float) -> tuple[Array, Array, Array]:
+def _random_frames(rng: np.random.Generator, reach: float) -> _Frames:
     """X anywhere about the base; Z near the tip, by a tenth of the reach; a centre that the arm
     does not come to.
     """
-    turns, directions = rng.uniform(0.5, 2.5, (2, 1)) * _directions(rng, 2), _directions(rng, 3)
+    turns = rng.uniform(0.5, 2.5, (2, 1)) * _directions(rng, 2)
+    directions = _directions(rng, 3)
     X, Z = (se3.exp([*turn, 0.0, 0.0, 0.0]) for turn in turns)
-    X[:3, 3], Z[:3, 3] = 0.7 * reach * directions[0], 0.1 * reach * directions[1]
-    return read_only(X), read_only(Z), read_only(2.0 * reach * directions[2])
+    X[:3, 3] = 0.7 * reach * directions[0]
+    Z[:3, 3] = 0.1 * reach * directions[1]
+    return _Frames(read_only(X), read_only(Z), read_only(2.0 * reach * directions[2]))
 
 
-def _checked(
+def _check(
     n: Any, kind: Any, tilt: Any, shift: Any, noise: Any, outliers: Any, seed: Any
-) -> tuple[int, tuple[float, float]]:
+) -> tuple[float, float]:
+    """The noise as two numbers. Raises: InputError, ShapeError."""
     if kind not in KINDS:
         raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {safe_repr(kind)}")
     for value, name, least in ((n, "n", 1), (seed, "seed", 0)):
@@ -232,4 +276,4 @@ def _checked(
         raise InputError(
             f"outliers: expected a part of the measurements, 0 <= outliers < 1, got {safe_repr(outliers)}"
         )
-    return int(n), (turn, place)
+    return turn, place

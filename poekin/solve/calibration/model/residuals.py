@@ -1,14 +1,16 @@
-"""How far a model is off the measurements, one by one."""
+"""Residuals: the difference of model and measurement, one by one."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ....groups.arrays import Array
-from ..measurements.measurement import Indices, Measurement
+from ..measurements.measurement import Measurement, Rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,72 +24,81 @@ class Residuals:
 
     length: Array
     angle: Array
-    set: Indices
-    row: Indices
+    set: Rows
+    row: Rows
 
     @property
     def median_length(self) -> float:
         """Median distance, m."""
-        return _of(np.median, self.length)
+        return _median(self.length)
 
     @property
     def rms_length(self) -> float:
         """Root mean square distance, m."""
-        return _of(_rms, self.length)
+        return _rms(self.length)
 
     @property
     def median_angle(self) -> float:
         """Median turn, rad; NaN where no angle was measured."""
-        return _of(np.median, self.angle)
+        return _median(self.angle)
 
     @property
     def rms_angle(self) -> float:
         """Root mean square turn, rad; NaN where no angle was measured."""
-        return _of(_rms, self.angle)
+        return _rms(self.angle)
+
+    def subset(self, chosen: NDArray[Any]) -> Residuals:
+        """Residuals of the measurements `chosen`, indices (k,) or a mask. Raises: nothing of its own.
+
+        Source: none, it selects.
+        """
+        return Residuals(
+            self.length[chosen], self.angle[chosen], self.set[chosen], self.row[chosen]
+        )
 
     def __len__(self) -> int:
         return len(self.length)
 
     def __str__(self) -> str:
-        words = (
-            f"position {1e3 * self.rms_length:.3g} mm rms, median {1e3 * self.median_length:.3g} mm"
-        )
+        rms = 1e3 * self.rms_length
+        words = f"position {rms:.3g} mm rms, median {1e3 * self.median_length:.3g} mm"
         if np.isnan(self.angle).all():
             return words
-        return f"{words}; rotation {1e3 * self.rms_angle:.3g} mrad rms, median {1e3 * self.median_angle:.3g} mrad"
+        rms = 1e3 * self.rms_angle
+        return f"{words}; rotation {rms:.3g} mrad rms, median {1e3 * self.median_angle:.3g} mrad"
 
 
 def residuals(
-    sets: Sequence[Measurement], rows: Sequence[Indices], errors: Sequence[Array]
+    sets: Sequence[Measurement], rows: Sequence[Rows], errors: Sequence[Array]
 ) -> Residuals:
     """Residuals of errors (N, d) of each set, at these rows of q."""
-    lengths, angles, number = [], [], []
+    parts = []
     for k, (s, e) in enumerate(zip(sets, errors, strict=True)):
         points = max(1, (s.width - s.angular) // 3)
-        lengths.append(np.linalg.norm(e[:, s.angular :], axis=1) / np.sqrt(points))
-        angles.append(
-            np.linalg.norm(e[:, : s.angular], axis=1) if s.angular else np.full(len(e), np.nan)
-        )
-        number.append(np.full(len(e), k))
-    return Residuals(
-        np.concatenate(lengths), np.concatenate(angles), np.concatenate(number), np.concatenate(rows)
-    )  # fmt: skip
+        length = np.linalg.norm(e[:, s.angular :], axis=1) / np.sqrt(points)
+        angle = np.full(len(e), np.nan)
+        if s.angular:
+            angle = np.linalg.norm(e[:, : s.angular], axis=1)
+        parts.append(Residuals(length, angle, np.full(len(e), k), rows[k]))
+    return _stacked(parts)
 
 
-def joined(parts: Sequence[Residuals]) -> Residuals:
+def concatenate(parts: Sequence[Residuals]) -> Residuals:
     """All of these, in the order of set and row."""
-    length, angle, number, row = (
-        np.concatenate([getattr(p, name) for p in parts])
-        for name in ("length", "angle", "set", "row")
-    )
-    order = np.lexsort((row, number))
-    return Residuals(length[order], angle[order], number[order], row[order])
+    every = _stacked(parts)
+    return every.subset(np.lexsort((every.row, every.set)))
 
 
-def _rms(values: Array) -> Array:
-    return np.sqrt(np.mean(values**2))
+def _stacked(parts: Sequence[Residuals]) -> Residuals:
+    names = ("length", "angle", "set", "row")
+    return Residuals(*(np.concatenate([getattr(p, name) for p in parts]) for name in names))
 
 
-def _of(what, values: Array) -> float:  # type: ignore[no-untyped-def]
+def _median(values: Array) -> float:
     known = values[~np.isnan(values)]
-    return float(what(known)) if len(known) else float("nan")
+    return float(np.median(known)) if len(known) else np.nan
+
+
+def _rms(values: Array) -> float:
+    known = values[~np.isnan(values)]
+    return float(np.sqrt(np.mean(known**2))) if len(known) else np.nan

@@ -13,18 +13,18 @@ import numpy as np
 
 from ....groups.arrays import Array
 
-_NUMBERS = 8192  # of a matrix times a vector: what each column of a QR is
-_PRODUCTS = 2**18  # of a matrix times a matrix
+_QR_NUMBERS = 8192  # of a matrix times a vector: what each column of a QR is
+_PRODUCT_NUMBERS = 2**18  # of a matrix times a matrix
 
 
-def triangle(A: Array) -> Array:
+def qr_r(A: Array) -> Array:
     """R (min(M, P), P) with R^T R = A^T A of A (M, P), as accurate as the QR of the whole.
 
     Source: Demmel, Grigori, Hoemmen and Langou 2012 (SIAM J. Sci. Comput. 34, 1): QR of the blocks'
     stacked R.
     """
     columns = A.shape[1]
-    rows = max(_NUMBERS // max(columns, 1), 2 * columns)
+    rows = max(_QR_NUMBERS // max(columns, 1), 2 * columns)
     while len(A) > rows:
         blocks = -(-len(A) // rows)
         padded = np.zeros((blocks * rows, columns))
@@ -38,10 +38,11 @@ def _qr(A: Array) -> Array:
     return R
 
 
-def times(A: Array, B: Array) -> Array:
+def blocked_product(A: Array, B: Array) -> Array:
     """A B (M, k), A (M, P), B (P, k)."""
-    rows = max(1, _PRODUCTS // max(B.size, 1))
+    rows = max(1, _PRODUCT_NUMBERS // max(B.size, 1))
     product = np.empty((len(A), B.shape[1]))
     for start in range(0, len(A), rows):
-        np.matmul(A[start : start + rows], B, out=product[start : start + rows])
+        block = slice(start, start + rows)
+        np.matmul(A[block], B, out=product[block])
     return product

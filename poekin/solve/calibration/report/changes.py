@@ -1,4 +1,4 @@
-"""What a calibration changed: the errors, and each joint's axis, with how well that is known."""
+"""Changes by a calibration: the errors, and each joint's axis, with how well that is known."""
 
 from __future__ import annotations
 
@@ -8,34 +8,55 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
+from ..model.parameters import Parameter
 from ..model.residuals import Residuals
 from ..result import CalibrationData
 
 TWO_SIGMA = 1.959963984540054
 """Of a normal number, 95 % lie within so many standard deviations."""
+TILT = "tilt about"
+SHIFT = "shift along"
 
 
-def errors(found: CalibrationData) -> list[tuple[str, Residuals]]:
-    """Residuals and what to call them, those on data kept aside first."""
-    aside = found.held_out
-    kept = (
-        []
-        if aside is None
-        else [("nominal, kept aside", aside.before), ("calibrated, kept aside", aside.after)]
-    )
-    return [*kept, ("nominal, all data", found.before), ("calibrated, all data", found.after)]
+class NamedResiduals(NamedTuple):
+    """Residuals, and their name."""
+
+    name: str
+    residuals: Residuals
+
+
+def errors(found: CalibrationData) -> list[NamedResiduals]:
+    """Residuals of the nominal and the calibrated arm, those on held-out data first."""
+    every = [
+        NamedResiduals("nominal, all data", found.before),
+        NamedResiduals("calibrated, all data", found.after),
+    ]
+    held_out = found.cross_validation
+    if held_out is None:
+        return every
+    return [
+        NamedResiduals("nominal, held out", held_out.before),
+        NamedResiduals("calibrated, held out", held_out.after),
+        *every,
+    ]
 
 
 def sentence(found: CalibrationData) -> str:
-    """What came out, in a sentence or two: on data kept aside, where there are any."""
-    (_, before), (_, after), *_ = errors(found)
-    where = "On the data it was fitted to" if found.held_out is None else "On data kept aside"
-    length = f"the median position error goes from {milli(before.median_length)} to {milli(after.median_length)} mm"
-    angle = f", the rotation error from {milli(before.median_angle)} to {milli(after.median_angle)} mrad"
-    warning = (
-        "" if found.success else "The search did NOT converge: this is the best that was found. "
+    """The result in a sentence or two: on held-out data, where there are any."""
+    before, after, *_ = (r for _, r in errors(found))
+    where = "On the data it was fitted to"
+    if found.cross_validation is not None:
+        where = "On held-out data"
+    words = (
+        f"{where}, the median position error goes from {milli(before.median_length)} to "
+        f"{milli(after.median_length)} mm"
     )
-    return f"{warning}{where}, {length}{'' if math.isnan(after.median_angle) else angle}."
+    if not math.isnan(after.median_angle):
+        angles = (milli(before.median_angle), milli(after.median_angle))
+        words += f", the rotation error from {angles[0]} to {angles[1]} mrad"
+    if not found.success:
+        words = f"The search did NOT converge: this is the best that was found. {words}"
+    return f"{words}."
 
 
 def milli(value: float) -> str:
@@ -55,7 +76,7 @@ class Change(NamedTuple):
     @property
     def size(self) -> float:
         """Their length; NaN where none was a parameter."""
-        return float(np.linalg.norm(self.values)) if len(self.values) else float("nan")
+        return float(np.linalg.norm(self.values)) if len(self.values) else math.nan
 
     @property
     def margins(self) -> Array:
@@ -66,10 +87,13 @@ class Change(NamedTuple):
     def margin(self) -> float:
         """Half the 95 % interval of the length; of a length of 0, that of the worst direction."""
         if not len(self.values):
-            return float("nan")
-        u = self.values / self.size if self.size else None
-        most = np.linalg.eigvalsh(self.covariance)[-1] if u is None else u @ self.covariance @ u
-        return TWO_SIGMA * float(np.sqrt(max(most, 0.0)))
+            return math.nan
+        if self.size:
+            u = self.values / self.size
+            variance = u @ self.covariance @ u
+        else:
+            variance = np.linalg.eigvalsh(self.covariance)[-1]
+        return TWO_SIGMA * float(np.sqrt(max(variance, 0.0)))
 
 
 class Joint(NamedTuple):
@@ -82,22 +106,29 @@ class Joint(NamedTuple):
 
 def joints(found: CalibrationData) -> list[Joint]:
     """The joints whose axes could move, in the order of the chain."""
-    own = {
-        word: [
-            k
-            for k, p in enumerate(found.parameters[: len(found.arm.parameters)])
-            if p.what.startswith(f"{word} (")
-        ]
-        for word in ("tilt about", "shift along")
-    }
-    names = dict.fromkeys(found.parameters[k].owner for rows in own.values() for k in rows)
+    own = found.parameters[: len(found.error_model.parameters)]
+    moved = [p for p in own if p.what.startswith((f"{TILT} (", f"{SHIFT} ("))]
     return [
-        Joint(name, *(_change(found, name, word, rows) for word, rows in own.items()))
-        for name in names
+        Joint(name, _change(found, name, TILT), _change(found, name, SHIFT))
+        for name in _axis_owners(moved)
     ]
 
 
-def _change(found: CalibrationData, name: str, word: str, rows: list[int]) -> Change:
-    mine = [k for k in rows if found.parameters[k].owner == name]
-    directions = tuple(found.parameters[k].what.removeprefix(word).strip() for k in mine)
+def _axis_owners(moved: list[Parameter]) -> list[str]:
+    """Owners of the tilts, then of the shifts, each once."""
+    ordered = sorted(moved, key=lambda p: not p.what.startswith(TILT))
+    return list(dict.fromkeys(p.owner for p in ordered))
+
+
+def _change(found: CalibrationData, name: str, word: str) -> Change:
+    own = found.parameters[: len(found.error_model.parameters)]
+    mine = [k for k, p in enumerate(own) if p.owner == name and p.what.startswith(f"{word} (")]
+    directions = tuple(own[k].what.removeprefix(word).strip() for k in mine)
     return Change(directions, found.values[mine], found.covariance[np.ix_(mine, mine)])
+
+
+def row(joint: Joint) -> tuple[str, ...]:
+    """Name, tilt and its interval (mrad), shift and its interval (mm)."""
+    tilt = (milli(joint.tilt.size), milli(joint.tilt.margin))
+    shift = (milli(joint.shift.size), milli(joint.shift.margin))
+    return joint.name, *tilt, *shift

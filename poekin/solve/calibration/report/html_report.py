@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from string import Template
 
 import numpy as np
 
 from ....analysis.compare.compare import compare
+from ....analysis.compare.comparison import JointComparison
 from ....errors import ShapeError, escape_unprintable
 from ....formats.text.atomic_write import write_whole
 from ....groups import so3
+from ....groups.arrays import Array
 from ..model.residuals import Residuals
 from ..result import CalibrationData, pose_covariance
 from . import changes, page_style, plots
 from .changes import milli
-from .plots import Curve
 
 CONFIGURATIONS = 1000
 """How many random configurations the uncertainty of the pose is shown at."""
@@ -63,166 +64,188 @@ def html(
     )
 
 
-def _residuals(found: CalibrationData) -> Iterable[str]:
-    aside, rows = found.held_out, changes.errors(found)
+def _residuals(found: CalibrationData) -> Iterator[str]:
+    held_out = found.cross_validation
+    rows = changes.errors(found)
     yield from (_p(f"Warning: {words}.") for words in found.warnings)
     yield from (_p(f"{words}.") for words in found.remarks)
-    if aside is None:
+    if held_out is None:
         yield _p(
-            "No data were kept aside: these figures are of the measurements that the arm was fitted to."
+            "No data were held out: these figures are of the measurements that the arm was fitted "
+            "to."
         )
     else:
         yield _p(
-            f"Each of {aside.folds} parts of the readings was kept aside in turn, and judged by a calibration from the"
-            " others. Nominal means: the arm as it is described, with the unknown frames, if there are any, fitted."
+            f"Each of {held_out.folds} folds of the readings was held out in turn, and predicted by"
+            " a calibration from the others. Nominal means: the arm as it is described, with the "
+            "unknown frames, if there are any, fitted."
         )
-    curves = [Curve(name, r) for name, r in rows if aside is None or r is not found.before]
+    curves = [r for r in rows if held_out is None or r.residuals is not found.before]
     yield _table(_HEADS, [(name, *_figures(r)) for name, r in rows])
     yield _figure(
         plots.residuals(curves), "The share of measurements with an error of at most so much."
     )
-    if len(found.spreads) > 1:
-        last = found.after if aside is None else aside.after
-        yield _table(
-            _HEADS,
-            [
-                (f"set {k}, calibrated", *_figures(_of_set(last, k)))
-                for k in range(len(found.spreads))
-            ],
-        )
+    if len(found.noise_std) > 1:
+        last = found.after if held_out is None else held_out.after
+        yield _table(_HEADS, [_set_row(last, k) for k in range(len(found.noise_std))])
+
+
+def _set_row(r: Residuals, k: int) -> tuple[str, ...]:
+    return f"set {k}, calibrated", *_figures(r.subset(r.set == k))
 
 
 def _figures(r: Residuals) -> list[str]:
-    largest = [np.nanmax(x) if not np.isnan(x).all() else math.nan for x in (r.length, r.angle)]
-    numbers = (r.rms_length, r.median_length, largest[0], r.rms_angle, r.median_angle, largest[1])
-    return [milli(x) for x in numbers]
+    lengths = (r.rms_length, r.median_length, _largest(r.length))
+    angles = (r.rms_angle, r.median_angle, _largest(r.angle))
+    return [milli(x) for x in (*lengths, *angles)]
 
 
-def _of_set(r: Residuals, k: int) -> Residuals:
-    mine = r.set == k
-    return Residuals(r.length[mine], r.angle[mine], r.set[mine], r.row[mine])
+def _largest(values: Array) -> float:
+    return math.nan if np.isnan(values).all() else np.nanmax(values)
 
 
-def _measured(found: CalibrationData) -> Iterable[str]:
-    rows = []
-    for k, spread in enumerate(found.spreads):
-        mine = _of_set(found.after, k)
-        what = "lengths" if np.isnan(mine.angle).all() else "positions and rotations"
-        scatter = "as given" if spread is None else f"{milli(spread.length)} mm" + (
-            "" if spread.angle is None else f", {milli(spread.angle)} mrad"
-        )  # fmt: skip
-        rows.append((str(k), str(len(mine)), what, scatter))
-    yield _table(
-        ("set", "measurements", "of", "standard deviation of one number"), rows, words=(2, 3)
-    )
+def _measured(found: CalibrationData) -> Iterator[str]:
+    heads = ("set", "measurements", "of", "standard deviation of one number")
+    rows = [_noise_row(found, k) for k in range(len(found.noise_std))]
+    yield _table(heads, rows, words=(2, 3))
     can = found.identification
     yield _p(
-        f"{can.numbers} numbers were measured for {can.size} parameters. Measurements of this kind can see"
-        f" {can.expected} combinations of them, and these see {can.rank}, with condition {can.condition:.3g} (angles in"
-        f" rad, lengths in reaches of {found.nominal.reach:.3g} m; smallest singular value {can.smallest:.3g}, O1"
-        f" {can.O1:.3g}, noise amplification index {can.amplification:.3g})."
+        f"{can.n_equations} equations for {can.size} parameters. Measurements of this kind can "
+        f"identify {can.identifiable} combinations of them, and these identify {can.rank}, with "
+        f"condition {can.condition:.3g} (angles in rad, lengths in reaches of "
+        f"{found.nominal.reach:.3g} m; smallest singular value {can.smallest:.3g}, O1 {can.O1:.3g},"
+        f" noise amplification index {can.amplification:.3g})."
     )
-    for said, words in (
-        ("Held, as no measurement of this kind sees it", can.held),
-        ("Not seen", can.unseen),
-    ):
-        yield from (_p(f"{said}: {one}.") for one in words)
-    places = [(name, T) for name, T in found.frames.items()]
-    if places:
-        yield _caption("Unknown frames and points, solved along")
-        yield _table(("", "x (m)", "y (m)", "z (m)", "rotation vector (rad)"), [
-            (name, *(f"{x:.6f}" for x in (T[:3, 3] if T.ndim == 2 else T)),
-             ", ".join(f"{w:.5f}" for w in so3.log(T[:3, :3])) if T.ndim == 2 else "")
-            for name, T in places
-        ], words=(0, 4))  # fmt: skip
+    for words in can.unidentifiable:
+        yield _p(f"Unidentifiable from measurements of this kind, fixed: {words}.")
+    for words in can.unobserved:
+        yield _p(f"Unobserved: {words}.")
+    if found.frames:
+        heads = ("", "x (m)", "y (m)", "z (m)", "rotation vector (rad)")
+        yield _caption("Unknown frames and points, estimated jointly")
+        yield _table(heads, [_frame_row(*item) for item in found.frames.items()], words=(0, 4))
 
 
-def _changed(found: CalibrationData) -> Iterable[str]:
+def _noise_row(found: CalibrationData, k: int) -> tuple[str, ...]:
+    mine = found.after.subset(found.after.set == k)
+    what = "lengths" if np.isnan(mine.angle).all() else "positions and rotations"
+    estimate = found.noise_std[k]
+    noise = "as given"
+    if estimate is not None:
+        noise = f"{milli(estimate.length)} mm"
+        if estimate.angle is not None:
+            noise += f", {milli(estimate.angle)} mrad"
+    return str(k), str(len(mine)), what, noise
+
+
+def _frame_row(name: str, frame: Array) -> tuple[str, ...]:
+    """A pose (4, 4) or a point (3,)."""
+    if frame.ndim == 1:
+        return name, *(f"{x:.6f}" for x in frame), ""
+    turn = ", ".join(f"{w:.5f}" for w in so3.log(frame[:3, :3]))
+    return name, *(f"{x:.6f}" for x in frame[:3, 3]), turn
+
+
+def _changed(found: CalibrationData) -> Iterator[str]:
     moved = changes.joints(found)
     if moved:
         yield _p(
-            "How far each joint's axis was tilted and shifted across itself; bars are 95 % intervals."
+            "How far each joint's axis was tilted and shifted across itself; bars are 95 % "
+            "intervals."
         )
         yield _figure(
             plots.joints(moved),
             "Which two directions across an axis these are stands in the table of all parameters.",
         )
-        yield _table(("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %"), [
-            (j.name, *(milli(x) for c in (j.tilt, j.shift) for x in (c.size, c.margin)))
-            for j in moved
-        ])  # fmt: skip
+        heads = ("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %")
+        yield _table(heads, [changes.row(j) for j in moved])
     compared = compare(found.nominal, found.chain)
     yield _caption("Nominal and calibrated arm, aligned and compared (the largest first)")
     lines = sorted(compared.joints, key=lambda j: -max(j.shift or 0.0, j.normal or 0.0, j.angle))
-    yield _table(("joint", "angle of the axes (°)", "common normal (mm)", "at the arm (mm)", "zero"), [
-        (j.name_a, *map(_seen, (j.angle, j.normal, j.shift)),
-         f"{_seen(j.zero_offset)} {'mm' if j.unit == 'mm' else '°'}")
-        for j in lines[:MOST_ROWS]
-    ])  # fmt: skip
+    heads = ("joint", "angle of the axes (°)", "common normal (mm)", "at the arm (mm)", "zero")
+    yield _table(heads, [_compared_row(j) for j in lines[:MOST_ROWS]])
     if (e := compared.before) is not None:
         yield _p(
-            f"As they stand, the two differ by up to {e.worst_mm:.3g} mm and {e.worst_deg:.3g}° over"
-            f" {compared.samples} random configurations, on average by {e.mean_mm:.3g} mm and {e.mean_deg:.3g}°."
+            f"As they stand, the two differ by up to {e.worst_mm:.3g} mm and {e.worst_deg:.3g}° "
+            f"over {compared.samples} random configurations, on average by {e.mean_mm:.3g} mm and "
+            f"{e.mean_deg:.3g}°."
         )
 
 
-def _uncertainty(found: CalibrationData) -> Iterable[str]:
+def _compared_row(j: JointComparison) -> tuple[str, ...]:
+    unit = "mm" if j.unit == "mm" else "°"
+    return (
+        j.name_a,
+        _seen(j.angle),
+        _seen(j.normal),
+        _seen(j.shift),
+        f"{_seen(j.zero_offset)} {unit}",
+    )
+
+
+def _uncertainty(found: CalibrationData) -> Iterator[str]:
     C = pose_covariance(found, found.nominal.random(0, CONFIGURATIONS))
-    angle, length = (
-        np.sqrt(np.maximum(np.trace(C[:, k, k], axis1=1, axis2=2), 0.0))
-        for k in (np.s_[:3], np.s_[3:])
-    )
-    mm, mrad = (
-        [milli(float(x)) for x in (np.median(values), values.max())] for values in (length, angle)
-    )
+    angle = _deviation(C[:, :3, :3])
+    length = _deviation(C[:, 3:, 3:])
     yield _p(
-        f"At {CONFIGURATIONS} random configurations within the limits, the tip's position has a standard deviation of"
-        f" {mm[0]} mm in the median and {mm[1]} mm at most, its rotation of {mrad[0]} and {mrad[1]} mrad: what noise of"
-        " the measurements leaves. What was held counts as known; what the model leaves out, such as bending, is not in"
-        " it."
+        f"At {CONFIGURATIONS} random configurations within the limits, the tip's position has a "
+        f"standard deviation of {milli(float(np.median(length)))} mm in the median and "
+        f"{milli(float(length.max()))} mm at most, its rotation of "
+        f"{milli(float(np.median(angle)))} and {milli(float(angle.max()))} mrad: what noise of the "
+        "measurements leaves. What was fixed counts as known; what the model leaves out, such as "
+        "bending, is not in it."
     )
     yield _figure(
         plots.uncertainty(length, angle), "Standard deviations over random configurations."
     )
 
 
-def _outliers(found: CalibrationData, sources: Sequence[str] | None) -> Iterable[str]:
+def _deviation(C: Array) -> Array:
+    """Standard deviation (N,) of vectors with covariances (N, 3, 3)."""
+    return np.sqrt(np.maximum(np.trace(C, axis1=1, axis2=2), 0.0))
+
+
+def _outliers(found: CalibrationData, sources: Sequence[str] | None) -> Iterator[str]:
     if not found.outliers:
         yield _p("None: no measurement is off by more than one good one in 10 000 would be.")
         return
+    more = "."
+    if len(found.outliers) > MOST_ROWS:
+        more = f"; the first {MOST_ROWS} of them:"
     yield _p(
-        f"{len(found.outliers)} of {len(found.after)} measurements are off by more than one good one in 10 000 would be"
-        + (f"; the first {MOST_ROWS} of them:" if len(found.outliers) > MOST_ROWS else ".")
+        f"{len(found.outliers)} of {len(found.after)} measurements are off by more than one good "
+        f"one in 10 000 would be{more}"
     )
-    heads = ("row", "set", "position error (mm)", "rotation error (mrad)")
+    heads = ["row", "set", "position error (mm)", "rotation error (mrad)"]
+    if sources is not None:
+        heads.append("from")
     rows = []
     for o in found.outliers[:MOST_ROWS]:
         k = np.flatnonzero(found.after.set == o.set)[o.index]
-        angle = float(found.after.angle[k])
-        row = (str(o.row), str(o.set), milli(float(found.after.length[k])), milli(angle))
-        rows.append(row if sources is None else (*row, sources[o.row]))
-    yield _table(heads if sources is None else (*heads, "from"), rows, words=(4,))
+        errors = (milli(float(found.after.length[k])), milli(float(found.after.angle[k])))
+        source = [] if sources is None else [sources[o.row]]
+        rows.append((str(o.row), str(o.set), *errors, *source))
+    yield _table(heads, rows, words=(4,))
 
 
-def _search(found: CalibrationData) -> Iterable[str]:
+def _search(found: CalibrationData) -> Iterator[str]:
     state = "converged" if found.success else "did NOT converge"
     yield _p(
-        f"The search with the loss {found.loss} {state} in {len(found.steps)} steps, counted over all its rounds."
+        f"The search with the loss {found.loss} {state} in {len(found.steps)} steps, counted over "
+        "all its rounds."
     )
     if found.steps:
         yield _figure(
             plots.steps(found.steps),
-            "Each round begins with newly estimated spreads, where none were given.",
+            "Each round begins with newly estimated noise, where no covariance was given.",
         )
 
 
-def _parameters(found: CalibrationData) -> Iterable[str]:
-    rows = [
-        (p.owner, p.what, f"{v:.6g}", f"{d:.2g}", p.unit)
-        for p, v, d in zip(
-            found.parameters, found.values.tolist(), found.deviations.tolist(), strict=True
-        )
-    ]
+def _parameters(found: CalibrationData) -> Iterator[str]:
+    values = zip(found.values.tolist(), found.deviations.tolist(), strict=True)
+    rows = []
+    for p, (value, deviation) in zip(found.parameters, values, strict=True):
+        rows.append((p.owner, p.what, f"{value:.6g}", f"{deviation:.2g}", p.unit))
     table = _table(("of", "what", "value", "standard deviation", "unit"), rows, words=(0, 1, 4))
     yield f"<details><summary>{len(rows)} parameters</summary>{table}</details>"
 
@@ -257,13 +280,20 @@ def _table(heads: Sequence[str], rows: Iterable[Sequence[str]], words: Sequence[
     rows = list(rows)
     kept = [i for i in range(len(heads)) if not rows or any(row[i] for row in rows)]
     kinds = ["word" if i in words else "number" for i in kept]
-    head = "".join(
-        f'<th class="{kind}">{_text(heads[i])}</th>' for kind, i in zip(kinds, kept, strict=True)
+    head = "".join(map(_head, kinds, [heads[i] for i in kept]))
+    body = "".join(_row(map(_cell, kinds, [row[i] for i in kept])) for row in rows)
+    return (
+        f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table>'
+        "</div>"
     )
-    body = "".join(
-        f"<tr>{''.join(map(_cell, kinds, [row[i] for i in kept]))}</tr>\n" for row in rows
-    )
-    return f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>'
+
+
+def _head(kind: str, words: str) -> str:
+    return f'<th class="{kind}">{_text(words)}</th>'
+
+
+def _row(cells: Iterable[str]) -> str:
+    return f"<tr>{''.join(cells)}</tr>\n"
 
 
 def _cell(kind: str, words: str) -> str:

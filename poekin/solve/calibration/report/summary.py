@@ -35,18 +35,17 @@ def _outliers(found: CalibrationData) -> list[str]:
 
 
 def _table(found: CalibrationData) -> list[str]:
-    """Residuals before and after, on all measurements and on those kept aside."""
-    kept = found.held_out
+    """Residuals before and after, on all measurements and on held-out data."""
     rows = [("before", found.before), ("after", found.after)]
-    if kept is not None:
-        rows += [
-            (f"kept aside ({kept.folds} folds), before", kept.before),
-            ("kept aside, after", kept.after),
-        ]
-    angles = not np.isnan(found.before.angle).all()
-    heads = ["median mm", "rms mm"] + ["median mrad", "rms mrad"] * angles
+    held_out = found.cross_validation
+    if held_out is not None:
+        rows.append((f"held out ({held_out.folds} folds), before", held_out.before))
+        rows.append(("held out, after", held_out.after))
+    heads = ["median mm", "rms mm", "median mrad", "rms mrad"]
+    if np.isnan(found.before.angle).all():
+        heads = heads[:2]
     lines = [" " * 29 + "".join(f"{head:>13}" for head in heads)]
     for name, r in rows:
-        values = [r.median_length, r.rms_length] + [r.median_angle, r.rms_angle] * angles
+        values = [r.median_length, r.rms_length, r.median_angle, r.rms_angle][: len(heads)]
         lines.append(f"{name:29}" + "".join(f"{1e3 * value:13.3g}" for value in values))
     return lines

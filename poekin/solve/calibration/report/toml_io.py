@@ -7,198 +7,150 @@ from typing import Any
 
 import numpy as np
 
-from ....errors import ModelError, PoekinError, quote
 from ....formats import chain_toml
 from ....formats.chain_toml import CALIBRATED, FORMAT, VERSION
 from ....formats.text import toml_text
 from ....formats.text.atomic_write import write_whole
 from ....formats.text.toml_text import Keys
-from ....groups.arrays import Array, poses
-from ....model.chain import Chain
-from ....model.checks import read_only
-from ..diagnostics.cross_validation import HeldOut
+from ..diagnostics.cross_validation import CrossValidation
 from ..diagnostics.identification import Identification
 from ..fit.losses import LOSSES
 from ..fit.minimise import Step
-from ..fit.noise import Spread
-from ..model.parameters import Arm, Parameter
+from ..fit.noise import NoiseEstimate
 from ..model.residuals import Residuals
 from ..result import CalibrationData, Outlier
+from . import toml_checks
 
-_SAID = ("warnings", "remarks")  # where there are any
+_OPTIONAL = ("warnings", "remarks")  # written where there are any
 _TOP = (
-    "format", "version", "success", "loss", "kinds", "joints", "outliers", "covariance", "nominal", CALIBRATED,
-    "identification", "frames", "steps", "before", "after", "held_out", "parameter", "spread", *_SAID,
-)  # fmt: skip
-_COUNTS = ("size", "expected", "rank", "numbers")
-_FIGURES = ("condition", "smallest", "O1", "amplification")
-_WORDS = ("held", "unseen")
-_PARTS = ("length", "angle", "set", "row")
-_AGREE = (
-    1e-9  # reaches: how near the calibrated chain is to what its parameters make of the nominal one
+    "format",
+    "version",
+    "success",
+    "loss",
+    "kinds",
+    "joints",
+    "outliers",
+    "covariance",
+    "nominal",
+    CALIBRATED,
+    "identification",
+    "frames",
+    "steps",
+    "before",
+    "after",
+    "cross_validation",
+    "parameter",
+    "noise_std",
+    *_OPTIONAL,
 )
+_COUNTS = ("size", "identifiable", "rank", "n_equations")
+_INDICES = ("condition", "smallest", "O1", "amplification")
+_WORDS = ("unidentifiable", "unobserved")
+_RESIDUALS = ("length", "angle", "set", "row")
 
 
 def save(found: CalibrationData, path: str | os.PathLike[str]) -> None:
     """Write a calibration, whole or not at all; see `Calibration.save`."""
+    model = found.error_model
     data: dict[str, Any] = {
-        "format": FORMAT, "version": VERSION, "success": bool(found.success), "loss": found.loss,
-        "kinds": list(found.arm.kinds), "joints": list(found.arm.moving),
+        "format": FORMAT,
+        "version": VERSION,
+        "success": bool(found.success),
+        "loss": found.loss,
+        "kinds": list(model.kinds),
+        "joints": list(model.moving),
         "outliers": [list(map(int, o)) for o in found.outliers],
         "covariance": found.covariance.tolist(),
-        "nominal": chain_toml.to_data(found.nominal), CALIBRATED: chain_toml.to_data(found.chain),
-        "identification": _identification(found.identification),
-        "frames": {name: place.tolist() for name, place in found.frames.items()},
+        "nominal": chain_toml.to_data(found.nominal),
+        CALIBRATED: chain_toml.to_data(found.chain),
+        "identification": _identification_data(found.identification),
+        "frames": {name: frame.tolist() for name, frame in found.frames.items()},
         "steps": {name: [float(getattr(s, name)) for s in found.steps] for name in Step._fields},
-        "before": _residuals(found.before), "after": _residuals(found.after),
-    }  # fmt: skip
-    if found.held_out is not None:
-        parts = {name: _residuals(getattr(found.held_out, name)) for name in ("before", "after")}
-        data["held_out"] = {"folds": int(found.held_out.folds)} | parts
-    data |= {name: list(getattr(found, name)) for name in _SAID if getattr(found, name)}
-    data["parameter"] = [
-        {"owner": p.owner, "what": p.what, "unit": p.unit, "value": value, "deviation": deviation}
-        for p, value, deviation in zip(
-            found.parameters, found.values.tolist(), found.deviations.tolist(), strict=True
-        )
-    ]  # fmt: skip
-    data["spread"] = [
-        {}
-        if s is None
-        else {"length": float(s.length)} | ({} if s.angle is None else {"angle": float(s.angle)})
-        for s in found.spreads
-    ]
+        "before": _residuals_data(found.before),
+        "after": _residuals_data(found.after),
+    }
+    held_out = found.cross_validation
+    if held_out is not None:
+        data["cross_validation"] = {
+            "folds": int(held_out.folds),
+            "before": _residuals_data(held_out.before),
+            "after": _residuals_data(held_out.after),
+        }
+    data |= {name: list(getattr(found, name)) for name in _OPTIONAL if getattr(found, name)}
+    data["parameter"] = _parameter_data(found)
+    data["noise_std"] = [_noise_data(estimate) for estimate in found.noise_std]
     write_whole(path, toml_text.make_text(data).encode())
 
 
 def load(path: str | os.PathLike[str]) -> CalibrationData:
     """Read what `save` wrote; see `calibration.load`. Raises: FileError, ModelError."""
-    keys = chain_toml.opened(path)
-    keys = Keys(keys.data, keys.place, _TOP)
-    nominal, chain = (chain_toml.to_chain(keys.table(name)) for name in ("nominal", CALIBRATED))
-    arm = _arm(keys, nominal)
-    frames = {name: _place(keys.table("frames"), name) for name in keys.table("frames").data}
-    parameters, values, covariance = _parameters(keys, arm, frames)
-    _agree(keys, arm, values[: len(arm.parameters)], chain)
+    opened = chain_toml.opened(path)
+    keys = Keys(opened.data, opened.place, _TOP)
+    nominal = chain_toml.to_chain(keys.table("nominal"))
+    chain = chain_toml.to_chain(keys.table(CALIBRATED))
+    model = toml_checks.error_model(keys, nominal)
+    frames = toml_checks.frames(keys.table("frames"))
+    named = toml_checks.parameters(keys, model, frames)
+    toml_checks.check_chain(keys, model, named.values, chain)
     found = CalibrationData(
-        nominal=nominal, chain=chain, parameters=parameters, values=values, covariance=covariance, frames=frames,
-        identification=_identified(keys.table("identification", (*_COUNTS, *_FIGURES, *_WORDS, "singular_values"))),
-        success=keys.truth("success"), steps=_steps(keys.table("steps", Step._fields)),
-        before=_residual(keys, "before"), after=_residual(keys, "after"), held_out=_held_out(keys),
+        nominal=nominal,
+        chain=chain,
+        parameters=named.parameters,
+        values=named.values,
+        covariance=named.covariance,
+        frames=frames,
+        identification=_identification(keys),
+        success=keys.truth("success"),
+        steps=_steps(keys.table("steps", Step._fields)),
+        before=_residuals(keys, "before"),
+        after=_residuals(keys, "after"),
+        cross_validation=_cross_validation(keys),
         outliers=tuple(Outlier(*map(int, o)) for o in keys.wholes("outliers", (None, 3))),
-        spreads=tuple(map(_spread, keys.tables("spread", ("length", "angle")))), loss=keys.text("loss", LOSSES),
-        arm=arm, **{name: keys.texts(name) for name in _SAID if name in keys.data},
-    )  # fmt: skip
-    _check_sets(keys, found)
+        noise_std=tuple(map(_noise, keys.tables("noise_std", ("length", "angle")))),
+        loss=keys.text("loss", LOSSES),
+        error_model=model,
+        **{name: keys.texts(name) for name in _OPTIONAL if name in keys.data},
+    )
+    toml_checks.check_sets(keys, found)
     return found
 
 
-def _check_sets(keys: Keys, found: CalibrationData) -> None:
-    """Refuse residuals of sets that there are not, and outliers that are no measurement."""
-    count, after = len(found.spreads), found.after
-    if (after.set >= count).any():
-        raise keys.fault(
-            "after",
-            f"expected sets below {count}, as there is a [[spread]] for each, got {after.set.max()}",
-        )
-    for o in found.outliers:
-        rows = after.row[after.set == o.set]
-        if o.index >= len(rows) or rows[o.index] != o.row:
-            raise keys.fault(
-                "outliers", f"expected set, index and row of a measurement, got {list(o)}"
-            )
-
-
-def _arm(keys: Keys, nominal: Chain) -> Arm:
-    try:
-        return Arm(nominal, keys.texts("kinds"), keys.texts("joints"))
-    except ModelError:
-        raise
-    except PoekinError as fault:
-        raise ModelError(f"{keys.place}: {fault}") from fault
-
-
-def _place(frames: Keys, name: str) -> Array:
-    """A frame (4, 4) or a point (3,)."""
-    value = frames.value(name)
-    place = frames.array(name, (4, 4) if isinstance(value, list) and len(value) == 4 else (3,))
-    if place.ndim == 2:
-        try:
-            poses(place)
-        except PoekinError as fault:
-            raise frames.fault(name, str(fault)) from fault
-    return read_only(place)
-
-
-def _parameters(
-    keys: Keys, arm: Arm, frames: dict[str, Array]
-) -> tuple[tuple[Parameter, ...], Array, Array]:
-    rows = keys.tables("parameter", ("owner", "what", "unit", "value", "deviation"))
-    found = tuple(Parameter(*(row.text(part) for part in Parameter._fields)) for row in rows)
-    size = len(arm.parameters) + sum(6 if T.ndim == 2 else 3 for T in frames.values())
-    if len(found) != size:
-        raise keys.fault(
-            "parameter", f"expected {size} of them, as arm and frames have, got {len(found)}"
-        )
-    for k, (row, own, given) in enumerate(zip(rows, arm.parameters, found, strict=False)):
-        # the directions in a name are rounded numbers, which another machine may round otherwise
-        if (own.owner, _kind(own), own.unit) != (given.owner, _kind(given), given.unit):
-            raise row.fault(
-                "what",
-                f"expected {quote(own.name)}, the arm's parameter {k + 1}, got {quote(given.name)}",
-            )
-    for row, given in zip(rows[len(arm.parameters) :], found[len(arm.parameters) :], strict=True):
-        if given.owner not in frames:
-            raise row.fault("owner", f"expected a name in frames, got {quote(given.owner)}")
-    values = np.array([row.number("value") for row in rows], float)
-    covariance = keys.array("covariance", (size, size))
-    variances = np.diag(covariance)
-    size_of = np.sqrt(np.abs(variances))
-    with np.errstate(over="ignore"):
-        uneven = np.abs(covariance - covariance.T) > 1e-9 * np.outer(size_of, size_of)
-    if (variances < 0).any() or uneven.any():
-        raise keys.fault(
-            "covariance", "expected a symmetric matrix with a diagonal that is not negative"
-        )
-    for row, variance in zip(rows, variances, strict=True):
-        if abs(row.number("deviation") - variance**0.5) > 1e-12 * variance**0.5:
-            raise row.fault(
-                "deviation", f"expected {float(variance**0.5)!r}, as the covariance says"
-            )
-    return found, values, covariance
-
-
-def _kind(parameter: Parameter) -> str:
-    return parameter.what.partition(" (")[0]
-
-
-def _agree(keys: Keys, arm: Arm, p: Array, chain: Chain) -> None:
-    """Refuse a calibrated chain that is not what the parameters make of the nominal one."""
-    try:
-        own = arm.chain(p)
-    except PoekinError as fault:
-        raise ModelError(f"{keys.place}: parameter: {fault}") from fault
-    names = ("joint_names", "q_names", "base", "tip")
-    same = all(getattr(own, name) == getattr(chain, name) for name in names)
-    off = np.inf if not same else max(
-        np.abs(getattr(own, name) - getattr(chain, name)).max(initial=0.0) for name in ("screws", "home", "coupling")
-    )  # fmt: skip
-    if not off <= _AGREE * own.reach:
-        raise keys.fault(CALIBRATED, "the chain is not what the parameters make of the nominal one")
-
-
-def _identification(found: Identification) -> dict[str, Any]:
+def _identification_data(found: Identification) -> dict[str, Any]:
     data: dict[str, Any] = {name: int(getattr(found, name)) for name in _COUNTS}
-    data |= {name: float(getattr(found, name)) for name in _FIGURES}
+    data |= {name: float(getattr(found, name)) for name in _INDICES}
     data |= {name: list(getattr(found, name)) for name in _WORDS}
     return data | {"singular_values": np.asarray(found.singular_values).tolist()}
 
 
-def _identified(keys: Keys) -> Identification:
-    values: dict[str, Any] = {name: keys.whole(name) for name in _COUNTS}
-    values |= {name: keys.number(name, finite=False) for name in _FIGURES}
-    values |= {name: keys.texts(name) for name in _WORDS}
-    return Identification(**values, singular_values=keys.array("singular_values", (None,)))
+def _identification(keys: Keys) -> Identification:
+    own = keys.table("identification", (*_COUNTS, *_INDICES, *_WORDS, "singular_values"))
+    values: dict[str, Any] = {name: own.whole(name) for name in _COUNTS}
+    values |= {name: own.number(name, finite=False) for name in _INDICES}
+    values |= {name: own.texts(name) for name in _WORDS}
+    return Identification(**values, singular_values=own.array("singular_values", (None,)))
+
+
+def _parameter_data(found: CalibrationData) -> list[dict[str, Any]]:
+    rows = []
+    values = found.values.tolist()
+    deviations = found.deviations.tolist()
+    for p, value, deviation in zip(found.parameters, values, deviations, strict=True):
+        rows.append(p._asdict() | {"value": value, "deviation": deviation})
+    return rows
+
+
+def _noise_data(found: NoiseEstimate | None) -> dict[str, float]:
+    if found is None:
+        return {}
+    angle = {} if found.angle is None else {"angle": float(found.angle)}
+    return {"length": float(found.length)} | angle
+
+
+def _noise(keys: Keys) -> NoiseEstimate | None:
+    if "length" not in keys.data:
+        return None
+    angle = keys.number("angle") if "angle" in keys.data else None
+    return NoiseEstimate(angle, keys.number("length"))
 
 
 def _steps(keys: Keys) -> tuple[Step, ...]:
@@ -207,25 +159,23 @@ def _steps(keys: Keys) -> tuple[Step, ...]:
     return tuple(Step(*row) for row in np.column_stack([cost, *others]).tolist())
 
 
-def _residuals(found: Residuals) -> dict[str, Any]:
-    return {name: getattr(found, name).tolist() for name in _PARTS}
+def _residuals_data(found: Residuals) -> dict[str, Any]:
+    return {name: getattr(found, name).tolist() for name in _RESIDUALS}
 
 
-def _residual(keys: Keys, name: str) -> Residuals:
-    own = keys.table(name, _PARTS)
+def _residuals(keys: Keys, name: str) -> Residuals:
+    own = keys.table(name, _RESIDUALS)
     length = own.array("length", (None,))
     angle = own.array("angle", length.shape, finite=False)
-    return Residuals(length, angle, *(own.wholes(part, length.shape) for part in _PARTS[2:]))
+    return Residuals(
+        length, angle, own.wholes("set", length.shape), own.wholes("row", length.shape)
+    )
 
 
-def _held_out(keys: Keys) -> HeldOut | None:
-    if "held_out" not in keys.data:
+def _cross_validation(keys: Keys) -> CrossValidation | None:
+    if "cross_validation" not in keys.data:
         return None
-    own = keys.table("held_out", ("folds", "before", "after"))
-    return HeldOut(_residual(own, "before"), _residual(own, "after"), own.whole("folds"))
-
-
-def _spread(keys: Keys) -> Spread | None:
-    if "length" not in keys.data:
-        return None
-    return Spread(keys.number("angle") if "angle" in keys.data else None, keys.number("length"))
+    own = keys.table("cross_validation", ("folds", "before", "after"))
+    before = _residuals(own, "before")
+    after = _residuals(own, "after")
+    return CrossValidation(before, after, own.whole("folds"))

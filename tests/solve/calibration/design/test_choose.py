@@ -19,8 +19,8 @@ from poekin.solve.calibration import (
     calibrate,
     identify,
 )
-from poekin.solve.calibration.design.choice import Choice, Figures, _over
-from poekin.solve.calibration.design.choose import _enough, _figures, choose_poses
+from poekin.solve.calibration.design.choice import Choice, DesignMetrics, _ratio
+from poekin.solve.calibration.design.choose import _enough, choose_poses, design_metrics
 from poekin.solve.calibration.design.exchange import CRITERIA
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 from tests.messages import says
@@ -75,19 +75,21 @@ def test_thirty_of_2000_beat_the_median_random_choice_by_half_in_the_noise_ampli
     arm = pk.load(name).chain(tip=tip)
     example = "poses" if kind == "poses" else Points([[0, 0, 0]], points=TOOL)
     choice = choose_poses(arm, 30, 2000, measurements=example)
-    assert choice.gain >= 1.5
-    assert choice.figures.amplification >= choice.best.amplification
+    assert choice.criterion_improvement >= 1.5
+    assert choice.metrics.amplification >= choice.random_best.amplification
 
 
 @pytest.mark.parametrize("by", CRITERIA)
 def test_each_criterion_is_bettered_beyond_the_best_random_choice(puma, candidates, by):
-    choice = choose_poses(puma, 20, candidates, by=by)
-    assert choice.gain > 1
-    assert choice.gain == getattr(choice.gains, by)
+    choice = choose_poses(puma, 20, candidates, criterion=by)
+    assert choice.criterion_improvement > 1
+    assert choice.criterion_improvement == getattr(choice.improvement, by)
     smaller = by in ("condition", "prediction")
-    own, best = (getattr(x, by) for x in (choice.figures, choice.best))
+    own, best = (getattr(x, by) for x in (choice.metrics, choice.random_best))
     assert own < best if smaller else own > best
-    for name, median, better in zip(Figures._fields, choice.random, choice.best, strict=True):
+    for name, median, better in zip(
+        DesignMetrics._fields, choice.random_median, choice.random_best, strict=True
+    ):
         assert better < median if name in ("condition", "prediction") else better > median
 
 
@@ -99,21 +101,21 @@ def test_the_indices_are_those_that_identify_finds_once_it_was_measured_there(
     choice = choose_poses(puma, 40, candidates, measurements=example)
     _, measured = as_measured(kind, puma, choice.q)
     found = identify(puma, choice.q, measured)
-    assert (choice.rank, choice.expected) == (found.rank, found.expected)
+    assert (choice.rank, choice.identifiable) == (found.rank, found.identifiable)
     # rounding of both, times the condition, of which the distances' is 1e3
-    for name in Figures._fields[:4]:
-        assert getattr(choice.figures, name) == pytest.approx(getattr(found, name), rel=1e-9)
+    for name in DesignMetrics._fields[:4]:
+        assert getattr(choice.metrics, name) == pytest.approx(getattr(found, name), rel=1e-9)
 
 
 def test_the_prediction_is_the_uncertainty_of_the_calibrated_arm_over_all_candidates(
     puma, candidates
 ):
-    choice = choose_poses(puma, 12, candidates, by="O1")
+    choice = choose_poses(puma, 12, candidates, criterion="O1")
     spread = 1e-5 * np.repeat([1.0, puma.reach], 3)  # as large in reaches as in rad
     measured = Poses(puma.fk(choice.q), covariance=np.diag(spread**2))
     covariance = calibrate(puma, choice.q, measured, folds=0).pose_covariance(candidates)
     variances = np.diagonal(covariance, axis1=-2, axis2=-1) / spread**2
-    assert np.sqrt(variances.mean()) == pytest.approx(choice.figures.prediction, rel=1e-6)
+    assert np.sqrt(variances.mean()) == pytest.approx(choice.metrics.prediction, rel=1e-6)
 
 
 def test_several_measurements_at_each_configuration_count_together(puma, candidates):
@@ -122,27 +124,31 @@ def test_several_measurements_at_each_configuration_count_together(puma, candida
     q = choice.q
     T = puma.fk(q)
     found = identify(puma, q, [Poses(T), Points((T @ at(TOOL))[:, :3, 3], points=TOOL)])
-    assert choice.figures.smallest == pytest.approx(found.smallest, rel=1e-9)
+    assert choice.metrics.smallest == pytest.approx(found.smallest, rel=1e-9)
 
 
 def test_the_random_choices_are_drawn_from_the_same_candidates(puma, candidates):
     everything = choose_poses(puma, 40, candidates[:40])
-    assert everything.gains == pytest.approx((1, 1, 1, 1, 1))
-    assert everything.random == pytest.approx(everything.best)
+    assert everything.improvement == pytest.approx((1, 1, 1, 1, 1))
+    assert everything.random_median == pytest.approx(everything.random_best)
 
 
 def test_the_same_arguments_give_the_same_choice_and_rows_say_which(puma, candidates):
-    a, b = (choose_poses(puma, 15, candidates, seed=4, compare=5) for _ in range(2))
+    a, b = (choose_poses(puma, 15, candidates, seed=4, n_random=5) for _ in range(2))
     assert a.rows.tolist() == b.rows.tolist() == sorted(set(a.rows.tolist()))
     assert np.array_equal(a.q, candidates[a.rows])
-    assert (a.figures, a.random, a.best) == (b.figures, b.random, b.best)
-    c = choose_poses(puma, 15, candidates, seed=5, compare=5)
-    assert (a.figures, a.random) != (c.figures, c.random)
-    assert a.figures == c.figures  # the seed only draws
+    assert (a.metrics, a.random_median, a.random_best) == (
+        b.metrics,
+        b.random_median,
+        b.random_best,
+    )
+    c = choose_poses(puma, 15, candidates, seed=5, n_random=5)
+    assert (a.metrics, a.random_median) != (c.metrics, c.random_median)
+    assert a.metrics == c.metrics  # the seed only draws
 
 
 def test_a_number_of_candidates_is_drawn_within_the_limits(puma):
-    choice = choose_poses(puma, 10, 50, seed=8, compare=1)
+    choice = choose_poses(puma, 10, 50, seed=8, n_random=1)
     assert np.array_equal(choice.q, puma.random(8, 50)[choice.rows])
 
 
@@ -150,18 +156,21 @@ def test_what_no_candidate_shows_is_said_and_the_rest_is_chosen_for(puma, candid
     still = candidates.copy()
     still[:, 2] = 0.3
     choice = choose_poses(puma, 20, still)
-    assert (choice.rank, choice.expected) == (26, 30)
+    assert (choice.rank, choice.identifiable) == (26, 30)
     assert puma.joint_names[2] in str(choice)
-    assert "not seen from any of them" in str(choice)
+    assert "unobserved from any of them" in str(choice)
 
 
 def test_it_says_in_a_sentence_by_how_much_it_is_better(puma, candidates):
-    choice = choose_poses(puma, 20, candidates, compare=7)
+    choice = choose_poses(puma, 20, candidates, n_random=7)
     said = str(choice)
     assert said.startswith("20 of 300 configurations for 30 parameters: noise amplification index ")
-    assert f"{choice.gain:.2f} times better than the median of 7 random choices" in said
-    assert f"noise leaves {1 / choice.gains.prediction:.2f} times the error" in said
-    assert "noise leaves" not in str(choose_poses(puma, 20, candidates, by="prediction"))
+    assert (
+        f"{choice.criterion_improvement:.2f} times better than the median of 7 random choices"
+        in said
+    )
+    assert f"noise leaves {1 / choice.improvement.prediction:.2f} times the error" in said
+    assert "noise leaves" not in str(choose_poses(puma, 20, candidates, criterion="prediction"))
 
 
 def test_chosen_joints_and_parameters_need_fewer_configurations(puma, candidates):
@@ -180,12 +189,12 @@ def test_progress_ends_at_its_total(puma, candidates):
 def test_too_few_configurations_for_the_parameters_are_refused_with_how_many_are_needed(
     puma, candidates, n
 ):
-    message = rf"n: {n} configurations of 6 numbers each are too few for 30 parameters: expected at least (\d+)"
+    message = rf"n: {n} configurations of 6 equations each are too few for 30 parameters: expected at least (\d+)"
     with pytest.raises(InputError, match=message) as refused:
         choose_poses(puma, n, candidates)
     needed = int(str(refused.value).split("at least ")[1].split(",")[0])
     assert needed >= 5  # 30 / 6
-    assert choose_poses(puma, needed, candidates).figures.smallest > 0
+    assert choose_poses(puma, needed, candidates).metrics.smallest > 0
 
 
 def test_a_candidate_outside_the_limits_is_refused_with_its_row(puma, candidates):
@@ -205,16 +214,16 @@ def test_a_candidate_outside_the_limits_is_refused_with_its_row(puma, candidates
 
 
 WRONG = {
-    "no-arm": ({"arm": "puma560"}, InputError, "choose_poses: expected a Chain, got 'puma560'"),
+    "no-arm": ({"chain": "puma560"}, InputError, "choose_poses: expected a Chain, got 'puma560'"),
     "n-zero": ({"n": 0}, InputError, "n: expected a whole number above 0, got 0"),
     "n-bool": ({"n": True}, InputError, "n: expected a whole number above 0, got True"),
     "n-above": ({"n": 301}, InputError, "n: expected at most the 300 candidates, got 301"),
-    "compare": ({"compare": 0}, InputError, "compare: expected a whole number above 0, got 0"),
+    "n_random": ({"n_random": 0}, InputError, "n_random: expected a whole number above 0, got 0"),
     "seed": ({"seed": -1}, InputError, "seed: expected a whole number from 0 up, got -1"),
-    "by": (
-        {"by": "E"},
+    "criterion": (
+        {"criterion": "E"},
         InputError,
-        "by: expected one of 'amplification', 'O1', 'condition', 'smallest', 'prediction', got 'E'",
+        "criterion: expected one of 'amplification', 'O1', 'condition', 'smallest', 'prediction', got 'E'",
     ),
     "none": (
         {"candidates": None},
@@ -300,7 +309,7 @@ WRONG = {
 
 @pytest.mark.parametrize(("changed", "error", "message"), WRONG.values(), ids=WRONG)
 def test_what_cannot_be_chosen_from_is_refused(puma, candidates, changed, error, message):
-    given = {"arm": puma, "n": 20, "candidates": candidates} | changed
+    given = {"chain": puma, "n": 20, "candidates": candidates} | changed
     with pytest.raises(error) as caught:
         choose_poses(**given)
     assert says(caught.value, message)
@@ -317,7 +326,7 @@ def test_what_cannot_be_chosen_from_is_refused(puma, candidates, changed, error,
     ],
 )
 def test_a_random_choice_that_shows_nothing_is_beaten_without_end(a, b, ratio):
-    assert _over(a, b) == ratio
+    assert _ratio(a, b) == ratio
 
 
 def shows(*directions, size=3, times=2):
@@ -340,17 +349,17 @@ def test_as_many_configurations_are_needed_as_show_the_last_direction(n, needed)
     if needed is None:
         _enough(blocks, n)
     else:
-        with pytest.raises(InputError, match=f"n: {n} configurations of 2 numbers each are too few for 3 parameters: "
+        with pytest.raises(InputError, match=f"n: {n} configurations of 2 equations each are too few for 3 parameters: "
                            f"expected at least {needed}, better three times as many"):  # fmt: skip
             _enough(blocks, n)
 
 
 def test_a_choice_that_leaves_a_direction_unseen_is_worth_nothing():
-    assert _figures(np.zeros((4, 3, 3)), np.array([0, 1])) == (0, np.inf, 0, 0, np.inf)
+    assert design_metrics(np.zeros((4, 3, 3)), np.array([0, 1])) == (0, np.inf, 0, 0, np.inf)
     blocks = shows(0, 0, 1, 2)
     for rows in ([0], [0, 1], [0, 2], [1, 2]):
-        assert _figures(blocks, np.array(rows)) == (0, np.inf, 0, 0, np.inf)
-    found = _figures(blocks, np.array([0, 2, 3]))
+        assert design_metrics(blocks, np.array(rows)) == (0, np.inf, 0, 0, np.inf)
+    found = design_metrics(blocks, np.array([0, 2, 3]))
     # Each direction is seen twice: singular values of sqrt(2), and what two numbers tell is known
     # to sqrt(1/2) of one.
     assert found.condition == pytest.approx(1)
@@ -360,9 +369,9 @@ def test_a_choice_that_leaves_a_direction_unseen_is_worth_nothing():
 
 def test_a_choice_says_its_figure_the_median_s_and_the_best_s_and_what_noise_leaves():
     own, median, best = (
-        Figures(1.0, 20.0, 0.3, 0.04, 5.0),
-        Figures(0.5, 60.0, 0.1, 0.01, 9.0),
-        Figures(6, 7, 8, 9, 10),
+        DesignMetrics(1.0, 20.0, 0.3, 0.04, 5.0),
+        DesignMetrics(0.5, 60.0, 0.1, 0.01, 9.0),
+        DesignMetrics(6, 7, 8, 9, 10),
     )
     choice = Choice(
         np.zeros((3, 2)),
@@ -377,11 +386,11 @@ def test_a_choice_says_its_figure_the_median_s_and_the_best_s_and_what_noise_lea
         40,
         7,
     )
-    assert choice.gains == pytest.approx((2, 3, 3, 4, 1.8))
+    assert choice.improvement == pytest.approx((2, 3, 3, 4, 1.8))
     assert str(choice) == (
         "3 of 40 configurations for 12 parameters: condition 20, 3.00 times better than the median of 7 random choices "
         "(60, the best of them 7); noise leaves 0.56 times the error in the calibrated arm that it leaves after those; "
-        "not seen from any of them: 'a' alone; not seen from any of them: 'b'"
+        "unobserved from any of them: 'a' alone; unobserved from any of them: 'b'"
     )
 
 
@@ -398,10 +407,14 @@ def test_where_nothing_is_said_a_hundred_random_choices_are_drawn_by_the_seed_0(
     q = np.random.default_rng(0).uniform(-1, 1, (20, 2))
     said: tuple[dict[str, Any], ...] = (
         {},
-        {"compare": 100, "seed": 0, "by": "amplification"},
+        {"n_random": 100, "seed": 0, "criterion": "amplification"},
         {"seed": 1},
     )
     found, same, other = (choose_poses(arm, 6, q, **options) for options in said)
-    assert (found.compare, found.by) == (100, "amplification")
-    assert (found.figures, found.random, found.best) == (same.figures, same.random, same.best)
-    assert found.random != other.random
+    assert (found.n_random, found.criterion) == (100, "amplification")
+    assert (found.metrics, found.random_median, found.random_best) == (
+        same.metrics,
+        same.random_median,
+        same.random_best,
+    )
+    assert found.random_median != other.random_median

@@ -63,8 +63,8 @@ def test_no_exchange_is_worth_more_than_it_promises(by, case, place):
     blocks, n = case
     chosen = np.array(greedy(blocks, n))
     mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
-    promised = search.promise(
-        blocks, blocks[chosen[place % n]], by, search.seen(blocks, chosen, by, mean)
+    promised = search.upper_bound(
+        blocks, blocks[chosen[place % n]], by, search.design_state(blocks, chosen, by, mean)
     )
     kept = np.delete(chosen, place % n)
     for j in set(range(len(blocks))) - set(chosen):
@@ -172,7 +172,9 @@ def test_an_exchange_that_turns_out_worse_is_not_made(monkeypatch):
     def wrong(blocks, chosen, place, by, state):  # type: ignore[no-untyped-def]
         mean = state.mean
         others = [np.where(np.arange(6) == place, j, chosen) for j in worst - set(chosen)]
-        return min((search.seen(blocks, c, by, mean).value, int(c[place])) for c in others)[1]
+        return min((search.design_state(blocks, c, by, mean).value, int(c[place])) for c in others)[
+            1
+        ]
 
     def no_end(done, total):  # type: ignore[no-untyped-def]
         assert done < 1000
@@ -243,10 +245,10 @@ def test_the_best_exchange_is_the_best_of_all_however_many_are_valued_together(
     mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
     for seed in range(8):
         chosen = np.random.default_rng(seed).choice(90, 4, replace=False)
-        state = search.seen(blocks, chosen, by, mean)
+        state = search.design_state(blocks, chosen, by, mean)
         others = [j for j in range(90) if j not in chosen]
         values = [
-            search.seen(blocks, np.array([chosen[0], j, *chosen[2:]]), by, mean).value
+            search.design_state(blocks, np.array([chosen[0], j, *chosen[2:]]), by, mean).value
             for j in others
         ]
         expected = others[int(np.argmax(values))] if max(values) > state.value else None

@@ -1,4 +1,4 @@
-"""Parts of the readings are kept aside, each once, and judged by a calibration from the others."""
+"""Parts of the readings are held out, each once, and judged by a calibration from the others."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import poekin as pk
 from poekin.errors import InputError
 from poekin.solve.calibration import Distances, Poses, calibrate
 from poekin.solve.calibration.diagnostics import cross_validation
-from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 
 ARM = pk.Chain(
@@ -24,23 +24,23 @@ ARM = pk.Chain(
 @pytest.mark.parametrize("value, words", [
     (True, "folds: expected 0 for none, or 2 and more, got True"), (1, "folds: expected .*, got 1"),
     (-1, "folds: expected .*, got -1"), (2.0, "folds: expected .*, got 2.0"),
-    (7, "folds: 7 parts of 6 readings; folds=0 keeps none aside"),
+    (7, "folds: 7 parts of 6 readings; folds=0 holds none out"),
 ])  # fmt: skip
 def test_what_is_no_number_of_parts_is_refused(value, words):
     with pytest.raises(InputError, match=f"^{words}$"):
-        cross_validation.checked(value, 6, 0)
+        cross_validation.check_folds(value, 6, 0)
 
 
 def test_as_many_parts_as_readings_two_and_none_are_numbers_of_parts():
     assert [
-        cross_validation.checked(np.int64(value), 6, np.int64(value)) for value in (6, 2, 0)
+        cross_validation.check_folds(np.int64(value), 6, np.int64(value)) for value in (6, 2, 0)
     ] == [6, 2, 0]
 
 
 @pytest.mark.parametrize("seed", [True, -1, 0.0])
 def test_what_is_no_seed_is_refused(seed):
     with pytest.raises(InputError, match=f"^seed: expected a whole number from 0 on, got {seed}$"):
-        cross_validation.checked(2, 6, seed)
+        cross_validation.check_folds(2, 6, seed)
 
 
 @pytest.mark.parametrize("count, parts, kept", [
@@ -54,7 +54,7 @@ def test_nothing_is_kept_aside_where_the_rest_has_no_more_numbers_than_parameter
     d = np.linalg.norm(ARM.fk(q)[:, :3, 3] - [1.0, 2.0, 0.5], axis=1)
     measured = Distances(d, [1.0, 2.0, 0.5], covariance=1e-8)
     found = calibrate(ARM, q, measured, parameters=["offsets"], folds=parts)
-    assert (found.held_out is not None) == kept
+    assert (found.cross_validation is not None) == kept
 
 
 def test_each_reading_is_judged_once_by_a_calibration_without_it(monkeypatch):
@@ -62,15 +62,15 @@ def test_each_reading_is_judged_once_by_a_calibration_without_it(monkeypatch):
     fit = SimpleNamespace(p=np.array([1e-3, 0.0]))
     monkeypatch.setattr(
         cross_validation,
-        "frames_only",
+        "fit_frames",
         lambda training, name: trained.append(training.q) or (np.zeros(2), True),
     )
     monkeypatch.setattr(
-        cross_validation, "settled", lambda training, *others: given.append(others) or fit
+        cross_validation, "fit_with_refit", lambda training, *others: given.append(others) or fit
     )
     q, free = ARM.random(0, 7), np.eye(2)
-    problem = Problem(Arm(ARM, ("offsets",), None), q, [Poses(ARM.fk(q))])
-    found = cross_validation.held_out(
+    problem = Problem(ErrorModel(ARM, ("offsets",), None), q, [Poses(ARM.fk(q))])
+    found = cross_validation.cross_validate(
         problem, free, "huber", None, 3, 5, 40, lambda *step: said.append(step)
     )
     assert said == [(0, 3), (1, 3), (2, 3), (3, 3)]
@@ -88,9 +88,9 @@ def test_each_reading_is_judged_once_by_a_calibration_without_it(monkeypatch):
             None,
             40,
         )
-    cross_validation.held_out(problem, free, "huber", None, 3, 5, 40, None)
+    cross_validation.cross_validate(problem, free, "huber", None, 3, 5, 40, None)
     assert all(map(np.array_equal, trained[:3], trained[3:]))  # the seed draws the parts
-    cross_validation.held_out(problem, free, "huber", None, 3, 6, 40, None)
+    cross_validation.cross_validate(problem, free, "huber", None, 3, 6, 40, None)
     assert not all(map(np.array_equal, trained[:3], trained[6:]))
 
 
@@ -103,7 +103,8 @@ def test_where_nothing_is_said_five_parts_are_drawn_by_the_seed_0():
         {"seed": 1},
     )
     found, same, other = (
-        calibrate(ARM, q, Poses(T), parameters=["offsets"], **options).held_out for options in said
+        calibrate(ARM, q, Poses(T), parameters=["offsets"], **options).cross_validation
+        for options in said
     )
     assert found is not None
     assert same is not None

@@ -178,7 +178,7 @@ def test_nothing_is_claimed_of_lengths_from_which_no_place_can_be_told():
     )
     q = arm.random(0, 60)
     d = np.linalg.norm(arm.fk(q)[:, :3, 3] - [0.0, 2.0, 0.5], axis=1)
-    said = warned(arm, q, Distances(d, [1.0, 1.5, 0.5]), deficient="hold")[1]
+    said = warned(arm, q, Distances(d, [1.0, 1.5, 0.5]), on_rank_deficiency="fix")[1]
     assert re.search(r"the calibrated one by [\d.]+ mm: is it this arm, ", said)
 
 
@@ -190,7 +190,7 @@ def test_nothing_is_claimed_of_lengths_from_which_no_place_can_be_told():
 ])  # fmt: skip
 def test_a_tool_is_another_one_beyond_what_it_may_be_off_and_what_the_arm_leaves(tool, left, other):
     found = Explanation(None, Size(*tool), Size(*left))
-    assert explanation._another(found, 5.0) == other
+    assert explanation._is_other_tool(found, 5.0) == other
 
 
 @pytest.mark.parametrize("length, angle, beyond", [
@@ -231,7 +231,8 @@ def residuals(*sizes):
 def kinds(*angular) -> Any:
     sets = [SimpleNamespace(angular=a, what=f"Kind{k}") for k, a in enumerate(angular)]
     return SimpleNamespace(
-        sets=sets, arm=SimpleNamespace(nominal=SimpleNamespace(reach=1.0, base="here", tip="there"))
+        sets=sets,
+        model=SimpleNamespace(nominal=SimpleNamespace(reach=1.0, base="here", tip="there")),
     )
 
 
@@ -248,9 +249,9 @@ def test_of_a_set_that_the_nominal_arm_misses_by_far_it_is_told_what_explains_it
 ):
     monkeypatch.setattr(explanation, "explained", lambda problem, k: other)
     monkeypatch.setattr(explanation, "hint", lambda *given: "the hint")
-    said = explanation.told(kinds(3), residuals(before), residuals(after))
+    said = explanation.explain(kinds(3), residuals(before), residuals(after))
     assert said == (() if warning is None else (warning,), () if remark is None else (remark,))
-    both = explanation.told(kinds(3, 3), residuals(NEAR, before), residuals(NEAR, after))
+    both = explanation.explain(kinds(3, 3), residuals(NEAR, before), residuals(NEAR, after))
     assert [len(words) for words in both] == [len(words) for words in said]
     for one, alone in zip(
         (*both.warnings, *both.remarks), (*said.warnings, *said.remarks), strict=True
@@ -260,7 +261,7 @@ def test_of_a_set_that_the_nominal_arm_misses_by_far_it_is_told_what_explains_it
 
 def test_of_lengths_whose_place_cannot_be_found_no_more_is_claimed(monkeypatch):
     monkeypatch.setattr(explanation, "explained", lambda problem, k: None)
-    (words,), remarks = explanation.told(
+    (words,), remarks = explanation.explain(
         kinds(0), residuals(Size(2.0, 0.0)), residuals(Size(0.01, 0.0))
     )
     assert words.startswith(

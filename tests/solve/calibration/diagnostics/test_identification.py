@@ -13,7 +13,7 @@ import poekin as pk
 from poekin.errors import InputError
 from poekin.solve.calibration import Distances, EyeInHand, Points, Poses, calibrate, identify
 from poekin.solve.calibration.diagnostics import identification
-from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
@@ -42,16 +42,16 @@ def test_rank_is_4r_2p_6_from_poses_and_4r_2p_3_from_one_point(letters, seed):
     least = 4 * letters.count("R") + 2 * letters.count("P")
     T = arm.fk(q)
     full, point = identify(arm, q, Poses(T)), identify(arm, q, Points(T[:, :3, 3], POINT))
-    assert (full.rank, full.expected, full.size) == (least + 6,) * 3
-    assert (point.rank, point.expected, point.size) == (least + 3, least + 3, least + 6)
-    assert full.held == full.unseen == point.unseen == ()
+    assert (full.rank, full.identifiable, full.size) == (least + 6,) * 3
+    assert (point.rank, point.identifiable, point.size) == (least + 3, least + 3, least + 6)
+    assert full.unidentifiable == full.unobserved == point.unobserved == ()
     assert np.isfinite([full.condition, point.condition]).all()
 
 
 def test_offsets_tell_nothing_that_the_screws_do_not():
     q = PUMA.random(0, 40)
     found = identify(PUMA, q, PUMA.fk(q), parameters=("screws", "home", "offsets"))
-    assert (found.size, found.rank, found.expected) == (36, 30, 30)
+    assert (found.size, found.rank, found.identifiable) == (36, 30, 30)
     alone = identify(PUMA, q, PUMA.fk(q), parameters=("offsets",))
     assert (alone.size, alone.rank) == (6, 6)
 
@@ -65,17 +65,17 @@ def test_gains_and_pitches_are_seen():
 def test_what_a_point_never_sees_is_held_and_named():
     q = PUMA.random(0, 40)
     found = identify(PUMA, q, PUMA.fk(q)[:, :3, 3])
-    assert found.rank == found.expected == 21
-    assert "home: turn about x, turn about y, turn about z" in found.held
-    assert found.unseen == ()
+    assert found.rank == found.identifiable == 21
+    assert "home: turn about x, turn about y, turn about z" in found.unidentifiable
+    assert found.unobserved == ()
 
 
 def test_camera_and_board_take_up_what_the_arm_shares_with_them():
     q = PANDA.random(0, 40)
     found = identify(PANDA, q, EyeInHand(PANDA.fk(q)))
-    assert (found.size, found.rank, found.expected) == (46, 34, 34)
-    assert len(found.held) == 1
-    assert "T_base_board and T_tip_camera may move, the arm does not" in found.held[0]
+    assert (found.size, found.rank, found.identifiable) == (46, 34, 34)
+    assert len(found.unidentifiable) == 1
+    assert "T_base_board and T_tip_camera may move, the arm does not" in found.unidentifiable[0]
 
 
 @pytest.mark.parametrize(
@@ -85,18 +85,18 @@ def test_a_joint_that_did_not_move_is_named_with_a_camera_too(at, words):
     q = PANDA.random(0, 40)
     q[:, 3] = at
     found = identify(PANDA, q, EyeInHand(PANDA.fk(q)))
-    assert (found.rank, found.expected) == (30, 34)
-    assert len(found.unseen) == 1
-    assert found.unseen[0].startswith(words)
-    assert found.unseen[0].endswith("(panda_joint4 is the same in all readings)")
+    assert (found.rank, found.identifiable) == (30, 34)
+    assert len(found.unobserved) == 1
+    assert found.unobserved[0].startswith(words)
+    assert found.unobserved[0].endswith("(panda_joint4 is the same in all readings)")
 
 
 def test_a_joint_that_did_not_move_is_named():
     q = PUMA.random(0, 40)
     q[:, 4] = 0.0
     found = identify(PUMA, q, PUMA.fk(q))
-    assert (found.rank, found.expected) == (26, 30)
-    assert found.unseen == ("all 4 parameters of joint5 (joint5 is the same in all readings)",)
+    assert (found.rank, found.identifiable) == (26, 30)
+    assert found.unobserved == ("all 4 parameters of joint5 (joint5 is the same in all readings)",)
 
 
 def test_a_joint_held_at_an_angle_is_named_among_those_it_moves_with():
@@ -104,7 +104,7 @@ def test_a_joint_held_at_an_angle_is_named_among_those_it_moves_with():
     q[:, 2] = 0.4
     found = identify(PUMA, q, PUMA.fk(q))
     assert found.rank == 26
-    assert "joint3" in " ".join(found.unseen)
+    assert "joint3" in " ".join(found.unobserved)
 
 
 @pytest.mark.parametrize(
@@ -112,10 +112,10 @@ def test_a_joint_held_at_an_angle_is_named_among_those_it_moves_with():
     [
         (
             lambda q: PUMA.fk(q),
-            r"24 numbers were measured, and 30 parameters are to be found: measure at least 30",
+            r"24 equations for 30 identifiable parameters: measure at least 30",
         ),
-        (lambda q: PUMA.fk(q)[:, :3, 3], r"12 numbers were measured, and 21 parameters"),
-        (lambda q: Distances(np.ones(4), [1, 1, 0]), r"4 numbers were measured"),
+        (lambda q: PUMA.fk(q)[:, :3, 3], r"12 equations for 21 identifiable parameters"),
+        (lambda q: Distances(np.ones(4), [1, 1, 0]), r"4 equations for 18 identifiable parameters"),
     ],
     ids=["poses", "points", "distances"],
 )
@@ -132,13 +132,13 @@ def test_what_is_not_seen_is_refused_by_name_or_held_when_asked():
     with pytest.raises(
         InputError,
         match=(
-            r"^these measurements see 26 of 30 parameters\. Not seen: all 4 parameters of joint5 "
+            r"^these measurements identify 26 of 30 parameters\. Unobserved: all 4 parameters of joint5 "
             r"\(joint5 is the same in all readings\)\. Measure with these joints in more positions, "
-            r"or solve the rest only with deficient='hold'$"
+            r"or estimate the rest only with on_rank_deficiency='fix'$"
         ),
     ):
         calibrate(PUMA, q, true.fk(q))
-    found = calibrate(PUMA, q, true.fk(q), deficient="hold", folds=0)
+    found = calibrate(PUMA, q, true.fk(q), on_rank_deficiency="fix", folds=0)
     assert found.success
     np.testing.assert_allclose(found.chain.fk(q), true.fk(q), rtol=0, atol=1e-12)
     np.testing.assert_allclose(found.chain.screws[4], PUMA.screws[4], rtol=0, atol=1e-12)
@@ -162,17 +162,17 @@ def test_what_is_seen_and_what_is_left_span_all_directions():
     J = np.array([[3.0, 0, 0, 0], [0, 2, 0, 0], [0, 0, 1e-7, 0]])
     for least, rank in ((1e-9, 3), (1e-6, 2)):
         for rows in (J, np.concatenate([J, J, J])):
-            s, seen = identification._space(rows, least)
+            s, seen = identification._row_space(rows, least)
             assert seen.shape == (4, rank)
             np.testing.assert_allclose(s[0], np.linalg.norm(rows, 2))
-            left = identification._rest(seen)
+            left = identification._complement(seen)
             both = np.concatenate([seen, left], axis=1)
             np.testing.assert_allclose(both.T @ both, np.eye(4), atol=1e-12)
             np.testing.assert_allclose(np.abs(left[3]).max(), 1, atol=1e-12)
-    assert identification._space(np.zeros((3, 4)), 1e-9)[1].shape == (4, 0)
-    assert identification._space(np.zeros((0, 4)), 1e-9)[1].shape == (4, 0)
-    np.testing.assert_array_equal(identification._rest(np.zeros((4, 0))), np.eye(4))
-    assert identification._rest(np.eye(4)).shape == (4, 0)
+    assert identification._row_space(np.zeros((3, 4)), 1e-9).basis.shape == (4, 0)
+    assert identification._row_space(np.zeros((0, 4)), 1e-9).basis.shape == (4, 0)
+    np.testing.assert_array_equal(identification._complement(np.zeros((4, 0))), np.eye(4))
+    assert identification._complement(np.eye(4)).shape == (4, 0)
 
 
 def test_a_span_is_of_the_directions_that_most_point_in():
@@ -189,7 +189,7 @@ def test_where_a_frame_moves_with_the_arm_the_frame_gives_way():
     )  # of two parameters of the arm and two of a frame
 
     class Small:
-        size, arm_size = 4, 2
+        size, model_size = 4, 2
 
     problem: Any = Small()
     free = identification._free(problem, shared[:, None])
@@ -204,11 +204,11 @@ def test_what_is_told_is_a_row_for_each_known_parameter_and_anywhere_every_coord
         size = 3
 
     three: Any = Three()
-    assert identification._told(three, None).shape == (0, 3)
+    assert identification._prior_rows(three, None).shape == (0, 3)
     np.testing.assert_array_equal(
-        identification._told(three, np.array([True, False, True])), np.eye(3)[[0, 2]]
+        identification._prior_rows(three, np.array([True, False, True])), np.eye(3)[[0, 2]]
     )
-    q = identification._anywhere(PUMA, 50)
+    q = identification._random_configurations(PUMA, 50)
     assert q.shape == (50, 6)
     assert (np.ptp(q, axis=0) > np.pi).all()
     assert len(np.unique(q)) == 300
@@ -226,16 +226,16 @@ def test_where_a_fit_ended_as_many_directions_are_seen_as_the_matrix_has_indepen
     for still, count in ((False, 30), (True, 26)):
         if still:
             q[:, 2] = 0.3
-        problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(PUMA.fk(q))])
+        problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(PUMA.fk(q))])
         p = np.zeros(problem.size)
         assert (
-            identification.seen_at(problem, p)
-            == identification.movable_at(problem, p).shape[1]
+            identification.rank_at(problem, p)
+            == identification.free_directions_at(problem, p).shape[1]
             == count
         )
         assert (
-            identification.judged(problem)[0].rank
-            == np.linalg.matrix_rank(identification.normalised(problem))
+            identification.identify_directions(problem)[0].rank
+            == np.linalg.matrix_rank(identification.identification_matrix(problem))
             == count
         )
 
@@ -245,11 +245,11 @@ def test_an_identification_says_its_figures_and_then_what_is_held_and_what_is_no
         7, 6, 5, 42, ("'a' alone", "'b'"), ("c", "d"), np.ones(5), 3.0, 0.5, 0.25, 0.125
     )
     assert str(found) == (
-        "42 numbers for 6 parameters: rank 5 of 6, condition 3, smallest singular value 0.5, O1 0.25, noise "
-        "amplification index 0.125\n"
-        "held, as no measurement of this kind sees it: 'a' alone\n"
-        "held, as no measurement of this kind sees it: 'b'\n"
-        "not seen by these measurements: c\n"
-        "not seen by these measurements: d"
+        "42 equations for 6 identifiable parameters: rank 5 of 6, condition 3, smallest singular "
+        "value 0.5, O1 0.25, noise amplification index 0.125\n"
+        "unidentifiable from measurements of this kind, fixed: 'a' alone\n"
+        "unidentifiable from measurements of this kind, fixed: 'b'\n"
+        "unobserved by these measurements: c\n"
+        "unobserved by these measurements: d"
     )
     assert "array" not in repr(found)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from poekin.solve.calibration.diagnostics.messages import _list, directions, unseen
+from poekin.solve.calibration.diagnostics.messages import _list, directions, unobserved
 from poekin.solve.calibration.model.parameters import Parameter
 
 ARM = [Parameter(owner, what, "rad") for owner in ("a", "b", "c") for what in ("tilt", "shift")]
@@ -20,7 +20,7 @@ def problem(*parameters, q=None, rows=None) -> Any:
     q = np.array([[0.0, 0, 0], [1, 1, 1]]) if q is None else q
     nominal = SimpleNamespace(q_names=("qa", "qb", "qc"))
     return SimpleNamespace(
-        parameters=parameters, arm=SimpleNamespace(parameters=arm, nominal=nominal), place_names=["T_base_board"],
+        parameters=parameters, model=SimpleNamespace(parameters=arm, nominal=nominal), frame_names=["T_base_board"],
         q=q, rows=[np.arange(len(q))] if rows is None else rows,
     )  # fmt: skip
 
@@ -94,11 +94,11 @@ def test_coordinates_that_did_not_change_are_told_beside_what_is_unseen(column, 
     q = np.stack([np.arange(3.0), column, np.arange(3.0)], axis=1)
     arm, none = problem(*ARM, q=q), np.zeros((6, 0))
     N = together(2, size=6)[:, None]
-    assert unseen(arm, N, none) == ["b: tilt" + " (qb is the same in all readings)" * same]
-    assert unseen(arm, np.zeros((6, 0)), none) == []
+    assert unobserved(arm, N, none) == ["b: tilt" + " (qb is the same in all readings)" * same]
+    assert unobserved(arm, np.zeros((6, 0)), none) == []
     # Only the readings at which something was measured count.
     few = problem(*ARM, q=q, rows=[np.array([2]), np.array([2])])
-    assert unseen(few, N, none) == ["b: tilt (qa, qb and qc are the same in all readings)"]
+    assert unobserved(few, N, none) == ["b: tilt (qa, qb and qc are the same in all readings)"]
 
 
 def test_a_list_names_eight_and_counts_the_rest():

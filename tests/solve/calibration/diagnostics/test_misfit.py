@@ -30,11 +30,13 @@ def problem(*sets: tuple[int, Any], numbers: int = 0, reach: float = 2.0) -> Any
         for k, (w, C) in enumerate(sets)
     ]
     arm = SimpleNamespace(nominal=SimpleNamespace(reach=reach))
-    return SimpleNamespace(sets=named, rows=None, errors=lambda p: None, numbers=numbers, arm=arm)
+    return SimpleNamespace(
+        sets=named, rows=None, errors=lambda p: None, n_equations=numbers, model=arm
+    )
 
 
 def contradicted(monkeypatch, squares: list, what: Any, of: Any) -> list[tuple[float, str]]:
-    monkeypatch.setattr(misfit, "squared", lambda *given: squares)
+    monkeypatch.setattr(misfit, "squared_errors", lambda *given: squares)
     return misfit.contradicted(what, of)
 
 
@@ -86,7 +88,7 @@ def checked(
     count = range(len(lengths))
     found = Residuals(np.array(lengths), np.zeros(len(lengths)), np.array(count), np.array(count))
     monkeypatch.setattr(misfit, "residuals", lambda *given: found)
-    monkeypatch.setattr(misfit, "squared", lambda *given: [np.array([s]) for s in squares])
+    monkeypatch.setattr(misfit, "squared_errors", lambda *given: [np.array([s]) for s in squares])
     monkeypatch.setattr(misfit, "explained", lambda *given: other)
     misfit.check(sets, fit())
 

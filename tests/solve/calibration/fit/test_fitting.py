@@ -12,13 +12,13 @@ import poekin as pk
 from poekin.groups import se3
 from poekin.solve import calibration
 from poekin.solve.calibration import EyeInHand, Points, Poses, calibrate
-from poekin.solve.calibration.diagnostics.identification import judged
+from poekin.solve.calibration.diagnostics.identification import identify_directions
 from poekin.solve.calibration.fit import fitting, losses
 from poekin.solve.calibration.fit import minimise as minimising
-from poekin.solve.calibration.fit.fitting import frames_only
-from poekin.solve.calibration.fit.minimise import _exact, _solved, minimise, regular
-from poekin.solve.calibration.fit.noise import Noise, Spread
-from poekin.solve.calibration.model.parameters import Arm
+from poekin.solve.calibration.fit.fitting import fit_frames
+from poekin.solve.calibration.fit.minimise import _exact, _Linear, _solution, minimise, regular
+from poekin.solve.calibration.fit.noise import Noise, NoiseEstimate, estimate_noise
+from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 
 PUMA = pk.load("puma560").chain()
@@ -30,7 +30,7 @@ GANTRY = pk.Chain(
 
 
 def off(arm: pk.Chain, seed: int = 1, size: float = 2e-3) -> pk.Chain:
-    parameters = Arm(arm, ("screws", "home"), None)
+    parameters = ErrorModel(arm, ("screws", "home"), None)
     return parameters.chain(
         size * np.random.default_rng(seed).normal(size=len(parameters.parameters))
     )
@@ -53,7 +53,7 @@ def test_the_most_steps_are_those_of_all_rounds_together(loss, most):
 
 def test_the_folds_make_no_more_steps_either():
     q, T = noisy()
-    few, many = (calibrate(PUMA, q, T, max_iterations=most).held_out for most in (1, 100))
+    few, many = (calibrate(PUMA, q, T, max_iterations=most).cross_validation for most in (1, 100))
     assert few is not None
     assert many is not None
     assert few.after.rms_length != many.after.rms_length
@@ -82,7 +82,7 @@ def test_noise_of_places_alone_is_estimated_beside_rotations_without_any(loss, s
     T[:, :3, 3] += 1e-4 * rng.normal(size=(200, 3))
     found = calibrate(GANTRY, q, EyeInHand(T, board=X, camera=Z), folds=0, loss=loss)
     assert found.success
-    (spread,) = found.spreads
+    (spread,) = found.noise_std
     assert spread is not None
     # 600 numbers: the rms is known to 3 %, the median to 5 %; four deviations
     assert spread.length == pytest.approx(1e-4, rel=0.2)
@@ -95,10 +95,10 @@ def test_a_search_that_only_damped_steps_go_on_in_has_not_converged(seed):
     """
     q = GANTRY.random(0, 30)
     sets = [EyeInHand(se3.inverse(X) @ off(GANTRY, seed, 2e-2).fk(q) @ Z, board=X, camera=Z)]
-    problem = Problem(Arm(GANTRY, ("screws", "home"), None), q, sets)
-    start = frames_only(problem, "linear")[0]
-    narrow = Noise(sets, [Spread(1e-15, 1e-2)])
-    found = minimise(problem, judged(problem)[1], narrow, "linear", start, None)
+    problem = Problem(ErrorModel(GANTRY, ("screws", "home"), None), q, sets)
+    start = fit_frames(problem, "linear")[0]
+    narrow = Noise(sets, [NoiseEstimate(1e-15, 1e-2)])
+    found = minimise(problem, identify_directions(problem)[1], narrow, "linear", start, None)
     assert not found.converged or np.abs(problem.errors(found.p)[0]).max() < 1e-9
 
 
@@ -125,7 +125,7 @@ def test_a_covariance_with_hardly_any_of_what_is_held_is_read_again(tmp_path):
     T[:, :3, 3] += 1e-4 * rng.normal(size=(40, 3))
     camera = se3.inverse(X) @ T @ Z
     found = calibrate(
-        PUMA, q, [Poses(T), EyeInHand(camera)], folds=0, deficient="hold", loss="huber"
+        PUMA, q, [Poses(T), EyeInHand(camera)], folds=0, on_rank_deficiency="fix", loss="huber"
     )
     np.testing.assert_array_equal(found.covariance, found.covariance.T)
     found.save(tmp_path / "arm.toml")
@@ -147,19 +147,21 @@ def test_an_error_is_rounding_by_the_angle_and_by_the_arm_s_reach(part, times, e
     size = 1e-13 * times * (1.0 if part == 0 else reach)
     T = se3.exp(size * np.eye(6)[part]) @ home  # what the home pose is off by, seen from the base
     T[:3, 3] = home[:3, 3] + size * np.eye(3)[2] * (part == 5)
-    problem = Problem(Arm(arm, ("home",), None), np.zeros((1, 1)), [Poses(T[None])])
+    problem = Problem(ErrorModel(arm, ("home",), None), np.zeros((1, 1)), [Poses(T[None])])
     assert _exact(problem, np.zeros(6)) == exact
 
 
 @pytest.mark.parametrize("before, after, change", [
-    ([Spread(1.0, 2.0)], [Spread(1.0, 2.2)], 0.1), ([Spread(1.0, 2.0)], [Spread(0.7, 2.2)], 0.3),
-    ([Spread(None, 2.0)], [Spread(None, 1.0)], 0.5), ([None], [None], 0.0),
-    ([Spread(0.0, 0.0)], [Spread(1.0, 0.0)], 0.0),
-    ([Spread(1.0, 1.0), None, Spread(None, 2.0)], [Spread(1.0, 1.0), None, Spread(None, 3.0)], 0.5),
+    ([NoiseEstimate(1.0, 2.0)], [NoiseEstimate(1.0, 2.2)], 0.1),
+    ([NoiseEstimate(1.0, 2.0)], [NoiseEstimate(0.7, 2.2)], 0.3),
+    ([NoiseEstimate(None, 2.0)], [NoiseEstimate(None, 1.0)], 0.5), ([None], [None], 0.0),
+    ([NoiseEstimate(0.0, 0.0)], [NoiseEstimate(1.0, 0.0)], 0.0),
+    ([NoiseEstimate(1.0, 1.0), None, NoiseEstimate(None, 2.0)],
+     [NoiseEstimate(1.0, 1.0), None, NoiseEstimate(None, 3.0)], 0.5),
 ])  # fmt: skip
 def test_spreads_change_by_the_most_that_one_of_them_does(before, after, change):
-    one: Any = SimpleNamespace(spreads=before)
-    other: Any = SimpleNamespace(spreads=after)
+    one: Any = SimpleNamespace(noise_std=before)
+    other: Any = SimpleNamespace(noise_std=after)
     assert fitting._change(one, other) == pytest.approx(change)
 
 
@@ -180,8 +182,10 @@ def test_a_loss_that_may_have_several_minima_begins_with_one_that_has_one_and_go
 
     monkeypatch.setattr(fitting, "minimise", recorded)
     q, T = noisy()
-    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T)])
-    found = fitting.fitted(problem, judged(problem)[1], loss, np.zeros(problem.size), None)
+    problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T)])
+    found = fitting.fit_parameters(
+        problem, identify_directions(problem)[1], loss, np.zeros(problem.size), None
+    )
     assert [name for name, _, _ in asked] == [*names, *[loss] * (len(asked) - len(names))]
     assert len(asked) > len(names)
     assert [goes_on for _, _, goes_on in asked] == [False, *[True] * (len(asked) - 1)]
@@ -193,12 +197,12 @@ def test_a_loss_that_may_have_several_minima_begins_with_one_that_has_one_and_go
 def test_the_covariance_of_a_robust_loss_is_huber_s():
     q, T = noisy()
     T[:3] = T[:3] @ se3.exp([0, 0, 0, 0.01, 0, 0])
-    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T)])
-    free = judged(problem)[1]
+    problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T)])
+    free = identify_directions(problem)[1]
     for loss in ("huber", "tukey"):
-        fit = fitting.fitted(problem, free, loss, np.zeros(problem.size), None)
+        fit = fitting.fit_parameters(problem, free, loss, np.zeros(problem.size), None)
         J = np.concatenate([
-            fit.noise.whitened(0, slopes).reshape(-1, problem.size) for _, slopes in problem.linearised(fit.p)
+            fit.noise.whitened(0, jacobian).reshape(-1, problem.size) for _, jacobian in problem.linearised(fit.p)
         ]) @ (problem.scale[:, None] * free)  # fmt: skip
         e = fit.noise.whitened(0, problem.errors(fit.p)[0][..., None])[..., 0]
 
@@ -218,7 +222,7 @@ def test_the_covariance_of_a_robust_loss_is_huber_s():
         B = problem.scale[:, None] * free
         expected = B @ np.linalg.inv(J.T @ J) @ B.T * spent / slope**2
         size = np.sqrt(np.diag(expected))
-        # The slopes are whitened by the spreads of the last search, which by then have changed by 1
+        # The jacobian are whitened by the spreads of the last search, which by then have changed by 1
         # % at most.
         assert fit.covariance / np.outer(size, size) == pytest.approx(
             expected / np.outer(size, size), abs=0.03
@@ -228,8 +232,8 @@ def test_the_covariance_of_a_robust_loss_is_huber_s():
 @pytest.mark.parametrize("size", [1e-5, 1e-3])
 def test_a_prior_draws_every_step_as_much_as_the_data_do(size):
     q, T = noisy(10)
-    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T)])
-    free, noise = np.eye(problem.size), Noise(problem.sets, [Spread(1e-3, 1e-3)])
+    problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T)])
+    free, noise = np.eye(problem.size), Noise(problem.sets, [NoiseEstimate(1e-3, 1e-3)])
     prior = np.where(
         np.arange(problem.size) % 3 > 0, size, np.inf
     )  # nothing is said of every third
@@ -238,11 +242,11 @@ def test_a_prior_draws_every_step_as_much_as_the_data_do(size):
     assert len(found.steps) <= 6
     assert all(step.damping == 0 for step in found.steps)
     errors = noise.whitened(0, problem.errors(found.p)[0][..., None]).ravel()
-    slopes = np.concatenate(
+    jacobian = np.concatenate(
         [noise.whitened(0, D).reshape(-1, problem.size) for _, D in problem.linearised(found.p)]
     )
-    pull = np.abs(slopes.T @ errors)
-    np.testing.assert_allclose(slopes.T @ errors + found.p / prior**2, 0, atol=1e-6 * pull.max())
+    pull = np.abs(jacobian.T @ errors)
+    np.testing.assert_allclose(jacobian.T @ errors + found.p / prior**2, 0, atol=1e-6 * pull.max())
     assert pull[prior < np.inf].max() > 1
     assert found.steps[0].cost == pytest.approx(
         np.sum(noise.whitened(0, problem.errors(0 * found.p)[0][..., None]) ** 2)
@@ -261,12 +265,12 @@ def test_a_triangle_is_regular_whose_diagonal_is_not_much_smaller_somewhere():
 def test_a_damped_step_is_held_back_in_proportion_to_its_columns(damping):
     rng = np.random.default_rng(0)
     R, c = np.triu(rng.normal(size=(4, 4))) + np.diag([1, 10, 100, 1e3]), rng.normal(size=4)
-    z = _solved(R, c, damping)
+    z = _solution(_Linear(R, c), damping)
     held = damping * np.diag(np.sum(R**2, axis=0))
     np.testing.assert_allclose((R.T @ R + held) @ z, -R.T @ c, rtol=1e-9)
     # Of a singular one the shortest solution, and none of a column of nothing.
     R[:, 2] = 0.0
-    assert _solved(R, c, damping)[2] == 0
+    assert _solution(_Linear(R, c), damping)[2] == 0
 
 
 def test_an_outlier_is_named_by_its_set_its_place_there_and_its_row_of_the_readings():
@@ -283,15 +287,17 @@ def test_damping_grows_tenfold_with_each_step_that_fails_and_falls_with_each_tha
     monkeypatch,
 ):
     q, T = noisy(10)
-    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T)])
-    noise, calls, cost = Noise(problem.sets, [Spread(1e-3, 1e-3)]), [], minimising._cost
+    problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T)])
+    noise, calls, cost = Noise(problem.sets, [NoiseEstimate(1e-3, 1e-3)]), [], minimising._cost
 
     def failing(*given):
         calls.append(given)
         return np.inf if len(calls) in (2, 3) else cost(*given)  # the first is of the start
 
     monkeypatch.setattr(minimising, "_cost", failing)
-    found = minimise(problem, judged(problem)[1], noise, "linear", np.zeros(problem.size), None)
+    found = minimise(
+        problem, identify_directions(problem)[1], noise, "linear", np.zeros(problem.size), None
+    )
     assert found.converged
     assert [step.damping for step in found.steps[:3]] == pytest.approx([1e-3, 1e-4, 0.0])
     assert found.steps[0].cost > found.steps[1].cost
@@ -301,7 +307,9 @@ def test_damping_grows_tenfold_with_each_step_that_fails_and_falls_with_each_tha
         "_cost",
         lambda *given: calls.append(given) or (1.0 if len(calls) == 1 else np.inf),
     )
-    stuck = minimise(problem, judged(problem)[1], noise, "linear", np.zeros(problem.size), None)
+    stuck = minimise(
+        problem, identify_directions(problem)[1], noise, "linear", np.zeros(problem.size), None
+    )
     assert not stuck.converged
     assert (stuck.steps, stuck.p.tolist()) == ([], [0.0] * problem.size)
     assert (
@@ -312,22 +320,24 @@ def test_damping_grows_tenfold_with_each_step_that_fails_and_falls_with_each_tha
 def test_of_a_fit_of_frames_alone_the_arm_stays_and_without_frames_nothing_is_fitted(monkeypatch):
     q, T = noisy(10)
     rough = EyeInHand(se3.inverse(X) @ T @ Z, board=X @ se3.exp([0.01] * 6), camera=Z)
-    problem = Problem(Arm(PUMA, ("home",), None), q, [rough])
-    p, converged = frames_only(problem, "linear")
+    problem = Problem(ErrorModel(PUMA, ("home",), None), q, [rough])
+    p, converged = fit_frames(problem, "linear")
     assert converged
     assert not p[:6].any()
     assert np.sum(problem.errors(p)[0] ** 2) < 0.1 * np.sum(problem.errors(0 * p)[0] ** 2)
-    monkeypatch.setattr(fitting, "fitted", None)
-    p, converged = frames_only(Problem(Arm(PUMA, ("home",), None), q, [Poses(T)]), "linear")
+    monkeypatch.setattr(fitting, "fit_parameters", None)
+    p, converged = fit_frames(Problem(ErrorModel(PUMA, ("home",), None), q, [Poses(T)]), "linear")
     assert (p.tolist(), converged) == ([0.0] * 6, True)
 
 
 def test_a_prior_counts_in_the_covariance_as_a_measurement_of_each_parameter():
     q, T = noisy(10)
-    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T, 1e-8 * np.eye(6))])
+    problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T, 1e-8 * np.eye(6))])
     prior = np.where(np.arange(problem.size) % 3 > 0, 1e-4, np.inf)
-    fit = fitting.fitted(problem, np.eye(problem.size), "linear", np.zeros(problem.size), prior)
-    J = 1e4 * problem.linearised(fit.p)[0].slopes.reshape(-1, problem.size)
+    fit = fitting.fit_parameters(
+        problem, np.eye(problem.size), "linear", np.zeros(problem.size), prior
+    )
+    J = 1e4 * problem.linearised(fit.p)[0].jacobian.reshape(-1, problem.size)
     expected = np.linalg.inv(J.T @ J + np.diag(1 / prior**2))
     size = np.sqrt(np.diag(expected))
     np.testing.assert_allclose(
@@ -337,23 +347,27 @@ def test_a_prior_counts_in_the_covariance_as_a_measurement_of_each_parameter():
 
 def test_errors_of_exactly_0_take_no_step():
     q, _ = noisy(10)
-    exact = Problem(Arm(PUMA, ("screws", "home"), None), q, [Points(PUMA.fk(q)[:, :3, 3])])
-    noise = Noise(exact.sets, [Spread(None, 1e-3)])
-    found = minimise(exact, judged(exact)[1], noise, "linear", np.zeros(exact.size), None)
+    exact = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Points(PUMA.fk(q)[:, :3, 3])])
+    noise = Noise(exact.sets, [NoiseEstimate(None, 1e-3)])
+    found = minimise(
+        exact, identify_directions(exact)[1], noise, "linear", np.zeros(exact.size), None
+    )
     assert (found.converged, found.steps, found.p.tolist()) == (True, [], [0.0] * exact.size)
 
 
 def test_spreads_are_estimated_before_anything_is_fitted_and_then_for_what_was(monkeypatch):
-    asked, spreads = [], fitting.spreads
+    asked = []
 
     def recorded(sets, errors, free, robust, reach, even):
         asked.append((free, robust, reach, even))
-        return spreads(sets, errors, free, robust, reach, even)
+        return estimate_noise(sets, errors, free, robust, reach, even)
 
-    monkeypatch.setattr(fitting, "spreads", recorded)
+    monkeypatch.setattr(fitting, "estimate_noise", recorded)
     q, T = noisy()
-    problem = Problem(Arm(PUMA, ("screws", "home"), None), q, [Poses(T)])
-    fitting.fitted(problem, judged(problem)[1], "huber", np.zeros(problem.size), None)
+    problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T)])
+    fitting.fit_parameters(
+        problem, identify_directions(problem)[1], "huber", np.zeros(problem.size), None
+    )
     assert asked[0] == (0, True, PUMA.reach, 1e-2)
     assert len(asked) > 1
     assert set(asked[1:]) == {(30, True, PUMA.reach, 1e-6)}

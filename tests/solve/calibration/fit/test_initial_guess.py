@@ -1,4 +1,4 @@
-"""First guesses: exact from exact measurements, not pulled by outliers, and said where they cannot
+"""Initial guesses: exact from exact measurements, not pulled by outliers, and said where they cannot
 be made.
 """
 

@@ -1,4 +1,4 @@
-"""The parts of the first guesses: what is left out, what counts as rounding, and what each
+"""The parts of the initial guesses: what is left out, what counts as rounding, and what each
 least-squares problem is.
 """
 
@@ -62,7 +62,7 @@ def test_what_is_rounding_is_kept_whatever_the_median_is():
 
 @pytest.fixture
 def floors(monkeypatch):
-    """What each robust solution of a first guess takes for rounding, and how many rows it needs."""
+    """What each robust solution of an initial guess takes for rounding, and how many rows it needs."""
     found = []
     monkeypatch.setattr(initial_guess, "_robust", lambda solve, count, need, floor: found.append((count, need, floor))
                         or _robust(solve, count, need, floor))  # fmt: skip
@@ -162,7 +162,7 @@ def test_measurements_that_are_all_zero_are_said_to_be_flat():
     with pytest.raises(
         InputError,
         match=(
-            r"^a first guess of the centre of distances needs points that are not in one plane, these "
+            r"^an initial guess of the centre of distances needs points that are not in one plane, these "
             r"are \(0 m along it and 0 m out of it, rms\): the centre and its mirror image fit alike; "
             r"give the centre, or a rough one \(guess=\), or measure out of the plane$"
         ),
@@ -171,7 +171,7 @@ def test_measurements_that_are_all_zero_are_said_to_be_flat():
     with pytest.raises(
         InputError,
         match=(
-            r"^a first guess of the frame of points needs points that are not on one line, these are "
+            r"^an initial guess of the frame of points needs points that are not on one line, these are "
             r"\(0 m along it and 0 m out of it, rms\): measure more of them, in other poses of the arm$"
         ),
     ):

@@ -14,7 +14,14 @@ import poekin as pk
 from poekin.errors import InputError
 from poekin.solve.calibration import calibrate
 from poekin.solve.calibration.fit.losses import LOSSES, OUTLIER, chi_square, loss
-from poekin.solve.calibration.fit.noise import EVEN, LEAST, Noise, Spread, check, spreads
+from poekin.solve.calibration.fit.noise import (
+    EVEN,
+    LEAST,
+    Noise,
+    NoiseEstimate,
+    check,
+    estimate_noise,
+)
 from poekin.solve.calibration.measurements.points import Points
 from poekin.solve.calibration.measurements.poses import Poses
 
@@ -39,9 +46,9 @@ def test_weight_and_bend_are_the_slopes_of_rho(name, s, width):
     # second order; at Huber's and Tukey's thresholds rho'' jumps, which makes it the first order of
     # rho'
     assert abs(ahead.rho[0] - between) <= 1e-5 * step + 1e-9 * abs(between)
-    if s > 2 * step and np.sign(back.bend[0]) == np.sign(ahead.bend[0]):
+    if s > 2 * step and np.sign(back.rho_second[0]) == np.sign(ahead.rho_second[0]):
         slope = (ahead.weight[0] - back.weight[0]) / (2 * step)
-        assert abs(here.bend[0] - slope) <= 1e-4 * max(abs(slope), 1e-3)
+        assert abs(here.rho_second[0] - slope) <= 1e-4 * max(abs(slope), 1e-3)
 
 
 @pytest.mark.parametrize("name", LOSSES)
@@ -70,7 +77,7 @@ def test_spreads_are_those_of_normal_errors(robust):
     rng = np.random.default_rng(0)
     q = ARM.random(0, 4000)
     errors = rng.normal(size=(4000, 6)) * ([2e-3] * 3 + [5e-4] * 3)
-    (found,) = spreads([Poses(ARM.fk(q))], [errors], 0, robust, 1.0)
+    (found,) = estimate_noise([Poses(ARM.fk(q))], [errors], 0, robust, 1.0)
     assert found is not None
     # 12 000 numbers: the rms is known to 0.65 %, the median to 1.1 %; four deviations
     assert found.angle == pytest.approx(2e-3, rel=0.045)
@@ -81,7 +88,7 @@ def test_outliers_do_not_move_the_robust_spread_much():
     rng = np.random.default_rng(0)
     errors = rng.normal(size=(1000, 6)) * 1e-3
     errors[:50] += 1.0
-    (found,) = spreads([Poses(ARM.fk(ARM.random(0, 1000)))], [errors], 0, True, 1.0)
+    (found,) = estimate_noise([Poses(ARM.fk(ARM.random(0, 1000)))], [errors], 0, True, 1.0)
     assert found is not None
     assert found.length == pytest.approx(1e-3, rel=0.15)
 
@@ -137,17 +144,23 @@ ONE = np.tile(np.eye(4), (2, 1, 1))
 def test_a_spread_is_the_root_mean_square_or_the_median_of_all_numbers_of_its_kind_for_each_parameter_fitted():
     errors = np.array([[1.0, -2, 3, 10, 20, -30], [-4, 5, 6, -40, 50, 60]])
     measured, rms = [Poses(ONE)], np.sqrt(91 / 6)
-    assert spreads(measured, [errors], 0, False, 7.0) == [pytest.approx(Spread(rms, 10 * rms))]
+    assert estimate_noise(measured, [errors], 0, False, 7.0) == [
+        pytest.approx(NoiseEstimate(rms, 10 * rms))
+    ]
     # 12 numbers for 9 parameters: each of the residuals is half as large as the noise.
-    assert spreads(measured, [errors], 9, False, 7.0) == [pytest.approx(Spread(2 * rms, 20 * rms))]
+    assert estimate_noise(measured, [errors], 9, False, 7.0) == [
+        pytest.approx(NoiseEstimate(2 * rms, 20 * rms))
+    ]
     all_fitted = 12**0.5 * rms
-    assert spreads(measured, [errors], 12, False, 7.0) == [
-        pytest.approx(Spread(all_fitted, 10 * all_fitted))
+    assert estimate_noise(measured, [errors], 12, False, 7.0) == [
+        pytest.approx(NoiseEstimate(all_fitted, 10 * all_fitted))
     ]
     median = 3.5 / 0.6744897501960817
-    assert spreads(measured, [errors], 0, True, 7.0) == [pytest.approx(Spread(median, 10 * median))]
+    assert estimate_noise(measured, [errors], 0, True, 7.0) == [
+        pytest.approx(NoiseEstimate(median, 10 * median))
+    ]
     points = [Points(np.zeros((2, 3))), Poses(ONE, np.eye(6)), Poses(ONE)]
-    lengths, given, poses = spreads(points, [errors[:, :3], errors, errors], 12, False, 7.0)
+    lengths, given, poses = estimate_noise(points, [errors[:, :3], errors, errors], 12, False, 7.0)
     more = (30 / 18) ** 0.5  # 30 numbers for 12 parameters
     assert lengths == (None, pytest.approx(more * rms))
     assert given is None
@@ -163,13 +176,13 @@ def test_angles_and_lengths_in_reaches_are_not_taken_to_be_more_uneven_than_that
 ):
     reach = 7.0
     errors = np.repeat([[angle, length * reach]], 3, axis=1).repeat(2, axis=0)
-    (found,) = spreads([Poses(ONE)], [errors], 0, False, reach)
+    (found,) = estimate_noise([Poses(ONE)], [errors], 0, False, reach)
     assert found == pytest.approx((expected[0], expected[1] * reach), rel=1e-12, abs=0)
-    (even,) = spreads([Poses(ONE)], [errors], 0, False, reach, even=0.5)
+    (even,) = estimate_noise([Poses(ONE)], [errors], 0, False, reach, even=0.5)
     assert even is not None
     assert even.length / reach >= 0.5 * (even.angle or 0)
     assert (even.angle or 0) >= 0.5 * even.length / reach
-    (lengths,) = spreads([Points(np.zeros((2, 3)))], [errors[:, 3:]], 0, False, reach)
+    (lengths,) = estimate_noise([Points(np.zeros((2, 3)))], [errors[:, 3:]], 0, False, reach)
     assert lengths == (None, pytest.approx(max(length, LEAST) * reach, rel=1e-12, abs=0))
 
 
@@ -177,7 +190,7 @@ def test_errors_are_whitened_by_their_spreads_or_their_covariance():
     C = np.diag([1.0, 4, 9, 16, 25, 36])
     noise = Noise(
         [Poses(ONE), Points(np.zeros((2, 3))), Poses(ONE, C)],
-        [Spread(2.0, 5.0), Spread(None, 4.0), None],
+        [NoiseEstimate(2.0, 5.0), NoiseEstimate(None, 4.0), None],
     )
     ones = np.ones((2, 6, 1))
     assert noise.whitened(0, ones)[1, :, 0] == pytest.approx([1 / 2] * 3 + [1 / 5] * 3)
@@ -194,7 +207,7 @@ def test_spreads_are_not_estimated_from_no_more_numbers_than_parameters():
     for numbers in (11, 12):
         with pytest.raises(
             InputError,
-            match=f"^{numbers} numbers for 12 parameters leave nothing to tell from how far",
+            match=f"^{numbers} equations for 12 parameters leave no residuals to estimate",
         ):
             check(both, numbers, 12)
 
@@ -223,9 +236,9 @@ def test_a_loss_of_one_number_doubts_from_where_it_is_95_percent_efficient(name)
     np.testing.assert_allclose(found.weight, expected[1], rtol=1e-12, atol=1e-12)
     kinks = {"huber": [0, 0, 0, -0.5 / (c * 1.5**1.5), -0.5 / (8 * c)], "cauchy": -(1 / c) / (1 + u) ** 2,
              "tukey": [-2 / c, -1 / c, 0, 0, 0]}[name]  # fmt: skip
-    np.testing.assert_allclose(found.bend, kinks, rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(found.rho_second, kinks, rtol=1e-12, atol=1e-15)
     squares = loss("linear", s, 1)
-    assert (squares.rho.tolist(), squares.weight.tolist(), squares.bend.tolist()) == (
+    assert (squares.rho.tolist(), squares.weight.tolist(), squares.rho_second.tolist()) == (
         s.tolist(),
         [1.0] * 5,
         [0.0] * 5,

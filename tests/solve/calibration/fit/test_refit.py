@@ -32,9 +32,9 @@ def test_a_point_on_the_last_axis_is_exact_from_exact_data(name, loss):
     found = calibrate(arm, s.q, s.measurements, loss=loss, folds=2)
     assert found.success
     seen = found.identification
-    assert seen.rank == seen.expected > pk.calibration.identify(arm, s.q, s.measurements).rank
-    assert found.held_out is not None
-    assert found.held_out.after.rms_length < 1e-12
+    assert seen.rank == seen.identifiable > pk.calibration.identify(arm, s.q, s.measurements).rank
+    assert found.cross_validation is not None
+    assert found.cross_validation.after.rms_length < 1e-12
     fresh = arm.random(9, 200)
     off = found.chain.fk(fresh)[:, :3, 3] - s.truth.fk(fresh)[:, :3, 3]
     assert np.abs(off).max() < 1e-12
@@ -77,7 +77,7 @@ def test_what_noise_hides_stays_nominal(seed, monkeypatch):
     s = simulated(PANDA, 60, kind="points", noise=(0, 1e-4), seed=seed)
     p = Points(s.measurements.p)  # type: ignore[attr-defined]
     found = calibrate(PANDA, s.q, p, folds=0)
-    monkeypatch.setattr(refit, "seen_at", lambda *_: 0)
+    monkeypatch.setattr(refit, "rank_at", lambda *_: 0)
     np.testing.assert_array_equal(found.values, calibrate(PANDA, s.q, p, folds=0).values)
     assert found.identification.rank == 29
 
@@ -134,7 +134,7 @@ def test_what_is_seen_at_the_end_is_fitted_too_where_it_fits_better_by_more_than
     tried, asked = Outcome(np.full(7, 2.0), True, STEPS[2:3], np.eye(7)), []
     gain = case["times"] * chi_square(2, OUTLIER)
 
-    def fitted(problem, free, name, p, prior, most):
+    def fit_parameters(problem, free, name, p, prior, most):
         asked.append((free is few, name, p[0], prior, most))
         return first if len(asked) == 1 else second
 
@@ -142,16 +142,16 @@ def test_what_is_seen_at_the_end_is_fitted_too_where_it_fits_better_by_more_than
         asked.append((free is many, noise is first.noise, name, p[0], prior, most))
         return tried
 
-    for function in (fitted, minimise):
+    for function in (fit_parameters, minimise):
         monkeypatch.setattr(refit, function.__name__, function)
-    monkeypatch.setattr(refit, "seen_at", lambda *given: case["seen"])
-    monkeypatch.setattr(refit, "movable_at", lambda *given: many)
+    monkeypatch.setattr(refit, "rank_at", lambda *given: case["seen"])
+    monkeypatch.setattr(refit, "free_directions_at", lambda *given: many)
     monkeypatch.setattr(
         refit, "_misfit", lambda problem, name, fit, p: gain if p is first.p else 0.0
     )
-    problem: Any = SimpleNamespace(size=case["size"], numbers=case["numbers"])
+    problem: Any = SimpleNamespace(size=case["size"], n_equations=case["numbers"])
     most = case["most"]
-    found = refit.settled(problem, few, "huber", np.zeros(7), None, most)
+    found = refit.fit_with_refit(problem, few, "huber", np.zeros(7), None, most)
     assert asked[0] == (True, "huber", 0.0, None, most)
     if len(asked) > 1:
         assert asked[1] == (True, True, "huber", 1.0, None, min(3, most - 2))

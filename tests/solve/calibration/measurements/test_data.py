@@ -384,8 +384,8 @@ def test_a_long_file_is_read_in_parts_in_its_order(tmp_path):
     (1, "x1 y1 z1"), (2, "x1 y1 z1 x2 y2 z2"), (3, "x1 ... z3"),
 ])  # fmt: skip
 def test_up_to_seven_columns_are_named_and_of_more_the_first_and_last(count, said):
-    assert columns.said(columns._points({f"x{count}", *"abcdefgh"})) == said
-    assert columns.said(columns._FIXED[2]) == "x y z qw qx qy qz"
+    assert columns.describe(columns._points({f"x{count}", *"abcdefgh"})) == said
+    assert columns.describe(columns._FIXED[2]) == "x y z qw qx qy qz"
 
 
 def test_the_coordinates_that_are_missing_are_those_of_the_names_that_are_there(tmp_path):

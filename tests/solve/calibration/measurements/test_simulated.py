@@ -139,7 +139,7 @@ def test_the_outliers_are_those_that_are_said_and_gross(kind, unknown):
 @pytest.mark.parametrize(("kind", "unknown"), WAYS)
 def test_the_frames_are_those_that_the_measurements_do_not_know(kind, unknown):
     made = simulated(PANDA, 3, kind=kind, unknown=unknown)
-    assert {u.name: (u.size,) for u in made.measurements.unknowns} == {
+    assert {u.name: (u.size,) for u in made.measurements.unknown_frames} == {
         name: (6,) if T.shape == (4, 4) else T.shape for name, T in made.frames.items()
     }
     assert len(made.measurements) == 3

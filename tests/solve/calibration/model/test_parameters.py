@@ -1,4 +1,4 @@
-"""An arm's parameters move its screws as the equations say, and the slopes are those of the poses."""
+"""An arm's parameters move its screws as the equations say, and the jacobian are those of the poses."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError, UnknownName
-from poekin.solve.calibration.model.parameters import KINDS, Arm
+from poekin.solve.calibration.model.error_model import ErrorModel
+from poekin.solve.calibration.model.parameters import KINDS
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.laws.chain_laws import budget
 from poekin.testing.oracles import differences
@@ -21,12 +22,12 @@ FEW = settings(max_examples=max(settings().max_examples // 3, 20))
 PUMA = pk.load("puma560").chain()
 
 
-def drawn(data, **options) -> tuple[pk.Chain, Arm, np.ndarray, np.ndarray]:
+def drawn(data, **options) -> tuple[pk.Chain, ErrorModel, np.ndarray, np.ndarray]:
     """A chain, all its parameters, values of up to some hundredths, and three configurations."""
     chain = data.draw(chain_strategies.chains(min_joints=1, max_joints=5, **options))
     kinds = data.draw(st.lists(st.sampled_from(KINDS), min_size=1, unique=True))
     try:
-        arm = Arm(chain, kinds, None)
+        arm = ErrorModel(chain, kinds, None)
     except InputError:  # pitches of prismatic joints alone, and the like
         reject()
     rng = np.random.default_rng(data.draw(st.integers(0, 2**16)))
@@ -51,8 +52,8 @@ def rounding(chain: pk.Chain, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return angular + moved, linear + moved * (chain.reach + np.abs(x) @ np.abs(chain.local.slides))
 
 
-def slopes_off(arm: Arm, p: np.ndarray, q: np.ndarray, some: np.ndarray) -> np.ndarray:
-    """How far the slopes of some parameters are from those of the poses, by differences of order
+def slopes_off(arm: ErrorModel, p: np.ndarray, q: np.ndarray, some: np.ndarray) -> np.ndarray:
+    """How far the jacobian of some parameters are from those of the poses, by differences of order
     12, ÷ rounding.
 
     Of each parameter and at each configuration.
@@ -61,7 +62,7 @@ def slopes_off(arm: Arm, p: np.ndarray, q: np.ndarray, some: np.ndarray) -> np.n
     ratios and readings. What a difference makes of the rounding of poses is 30 times the rate; the
     screw's own moment is as far as the tool.
     """
-    T, D = arm.changes(p, q)
+    T, D = arm.poses_and_twists(p, q)
     found, x = arm.joints(p), arm.values(p, q)
     rate = 2 + float((np.abs(arm.nominal.coupling) @ (1 + np.abs(q)).T).max())
     angular, linear = (60 * rate * part for part in rounding(found, x))
@@ -78,7 +79,7 @@ def slopes_off(arm: Arm, p: np.ndarray, q: np.ndarray, some: np.ndarray) -> np.n
     return np.array(worst)
 
 
-def chain_off(arm: Arm, p: np.ndarray, q: np.ndarray) -> np.ndarray:
+def chain_off(arm: ErrorModel, p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """How far the poses of the chain of parameters are from those of the parameters ÷ rounding of
     both, at each q.
     """
@@ -95,7 +96,7 @@ def chain_off(arm: Arm, p: np.ndarray, q: np.ndarray) -> np.ndarray:
 @given(data=st.data())
 def test_the_slopes_are_those_of_the_poses(data):
     _, arm, p, q = drawn(data)
-    T, D = arm.changes(p, q)
+    T, D = arm.poses_and_twists(p, q)
     assert D.shape == (3, 6, len(p))
     np.testing.assert_array_equal(T, arm.poses(p, q))
     # four parameters of each arm: a difference takes twelve chains
@@ -129,7 +130,7 @@ def test_without_a_change_the_arm_is_the_nominal_one_to_the_last_digit(data):
 @given(data=st.data())
 def test_axes_stay_unit_and_pitches_what_they_are(data):
     chain = data.draw(chain_strategies.chains(min_joints=1, max_joints=6))
-    arm = Arm(chain, ("screws", "home"), None)
+    arm = ErrorModel(chain, ("screws", "home"), None)
     p = 0.3 * np.random.default_rng(1).normal(size=len(arm.parameters))
     found = arm.chain(p)
     assert found.kinds == chain.kinds
@@ -151,7 +152,7 @@ def test_axes_stay_unit_and_pitches_what_they_are(data):
 
 def test_a_revolute_joint_has_four_parameters_a_prismatic_one_two_and_the_home_pose_six():
     A = [[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 1, 0], [1, 0, 0, 0.3, 0.5, 0.1]]
-    arm = Arm(
+    arm = ErrorModel(
         pk.Chain(A, np.eye(4), joint_names=["turn", "slide", "screw"]), ("screws", "home"), None
     )
     owners = [p.owner for p in arm.parameters]
@@ -171,7 +172,7 @@ def test_a_revolute_joint_has_four_parameters_a_prismatic_one_two_and_the_home_p
 
 
 def test_a_tilt_turns_the_axis_about_what_it_says_and_a_shift_moves_it():
-    arm = Arm(PUMA, ("screws",), ["joint3"])
+    arm = ErrorModel(PUMA, ("screws",), ["joint3"])
     assert [p.what.split(" ")[0] for p in arm.parameters] == ["tilt", "tilt", "shift", "shift"]
     z, foot = PUMA.screws[2, :3], np.cross(PUMA.screws[2, :3], PUMA.screws[2, 3:])
     for k, parameter in enumerate(arm.parameters):
@@ -186,7 +187,7 @@ def test_a_tilt_turns_the_axis_about_what_it_says_and_a_shift_moves_it():
 
 
 def test_offsets_and_gains_are_read_as_q_times_one_plus_g_plus_o():
-    arm = Arm(PUMA, ("offsets", "gains"), ["joint2", "joint5"])
+    arm = ErrorModel(PUMA, ("offsets", "gains"), ["joint2", "joint5"])
     assert [p.name for p in arm.parameters] == [
         "joint2: offset", "joint5: offset", "joint2: gain", "joint5: gain",
     ]  # fmt: skip
@@ -197,7 +198,7 @@ def test_offsets_and_gains_are_read_as_q_times_one_plus_g_plus_o():
 
 
 def test_a_pitch_makes_the_joint_helical():
-    arm = Arm(PUMA, ("pitch",), ["joint1"])
+    arm = ErrorModel(PUMA, ("pitch",), ["joint1"])
     found = arm.chain(np.array([1e-3]))
     assert found.kinds == ("helical",) + ("revolute",) * 5
     q = np.array([0.7, 0, 0, 0, 0, 0])
@@ -227,19 +228,19 @@ def test_a_pitch_makes_the_joint_helical():
 )
 def test_what_cannot_be_free_is_refused(kinds, joints, error, words):
     with pytest.raises(error, match=words):
-        Arm(PUMA, kinds, joints)
+        ErrorModel(PUMA, kinds, joints)
 
 
 def test_offsets_are_in_rad_or_m_as_their_coordinates_are_and_gains_in_neither():
     turn, slide = pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([1, 0, 0])
     chain = pk.Chain([turn, slide, turn], np.eye(4), joint_names=["turn", "slide", "last"])
-    found = Arm(chain, ("offsets", "gains", "pitch"), None).parameters
+    found = ErrorModel(chain, ("offsets", "gains", "pitch"), None).parameters
     assert [(p.owner, p.what, p.unit) for p in found] == [
         ("turn", "pitch", "m/rad"), ("last", "pitch", "m/rad"),
         ("turn", "offset", "rad"), ("slide", "offset", "m"), ("last", "offset", "rad"),
         ("turn", "gain", "1"), ("slide", "gain", "1"), ("last", "gain", "1"),
     ]  # fmt: skip
-    home = Arm(chain, ("home",), None).parameters
+    home = ErrorModel(chain, ("home",), None).parameters
     assert [p.name for p in home] == [
         f"home: {how} {axis}" for how in ("turn about", "shift along") for axis in "xyz"
     ]
@@ -247,8 +248,11 @@ def test_offsets_are_in_rad_or_m_as_their_coordinates_are_and_gains_in_neither()
     tied = pk.Chain(
         [turn, slide, turn], np.eye(4), coupling=[[1, 0], [0, 1], [0.5, 0]], q_names=["a", "b"]
     )
-    assert [p.name for p in Arm(tied, ("offsets",), None).parameters] == ["a: offset", "b: offset"]
-    assert [p.name for p in Arm(tied, ("offsets",), [tied.joint_names[2]]).parameters] == [
+    assert [p.name for p in ErrorModel(tied, ("offsets",), None).parameters] == [
+        "a: offset",
+        "b: offset",
+    ]
+    assert [p.name for p in ErrorModel(tied, ("offsets",), [tied.joint_names[2]]).parameters] == [
         "a: offset"
     ]
 
@@ -267,9 +271,9 @@ def test_offsets_and_gains_leave_the_limits_and_the_constants_of_the_nominal_arm
         (("gains",), [0.05, 0.1]),
         (("offsets", "gains"), [0.2, 0, 0.05, 0]),
     ):
-        found = Arm(nominal, kinds, None).chain(np.array(p))
+        found = ErrorModel(nominal, kinds, None).chain(np.array(p))
         np.testing.assert_array_equal(found.limits, nominal.limits)
         np.testing.assert_array_equal(found.offset, nominal.offset)
         np.testing.assert_allclose(
-            found.fk(q), Arm(nominal, kinds, None).poses(np.array(p), q), rtol=0, atol=1e-14
+            found.fk(q), ErrorModel(nominal, kinds, None).poses(np.array(p), q), rtol=0, atol=1e-14
         )

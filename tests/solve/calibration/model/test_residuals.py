@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from poekin.solve.calibration.model.residuals import Residuals, joined, residuals
+from poekin.solve.calibration.model.residuals import Residuals, concatenate, residuals
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 POSES: Any = SimpleNamespace(width=6, angular=3)
@@ -52,7 +52,7 @@ def test_parts_are_joined_in_the_order_of_set_and_row():
             np.array(rows, float), -np.array(rows, float), np.array(sets), np.array(rows)
         )
 
-    found = joined([part([1, 0], [5, 7]), part([0, 1, 0], [9, 2, 3])])
+    found = concatenate([part([1, 0], [5, 7]), part([0, 1, 0], [9, 2, 3])])
     assert found.set.tolist() == [0, 0, 0, 1, 1]
     assert found.row.tolist() == [3, 7, 9, 2, 5]
     assert found.length.tolist() == [3, 7, 9, 2, 5]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from poekin.solve.calibration.model.tsqr import times, triangle
+from poekin.solve.calibration.model.tsqr import blocked_product, qr_r
 
 
 @pytest.mark.parametrize(
@@ -13,7 +13,7 @@ from poekin.solve.calibration.model.tsqr import times, triangle
 )
 def test_the_triangle_has_the_gram_matrix_of_the_whole(shape):
     A = np.random.default_rng(0).normal(size=shape) * np.geomspace(1, 1e-3, shape[1])
-    R = triangle(A)
+    R = qr_r(A)
     assert R.shape == (min(shape), shape[1])
     sizes = np.linalg.norm(A, axis=0) + (len(A) == 0)
     # the columns' own sizes times rounding, u = 1.1e-16, of sums of up to 20 000 squares
@@ -26,7 +26,7 @@ def test_the_triangle_has_the_gram_matrix_of_the_whole(shape):
 def test_the_product_is_that_of_the_whole(shape):
     rng = np.random.default_rng(0)
     A, B = rng.normal(size=shape[:2]), rng.normal(size=shape[1:])
-    np.testing.assert_allclose(times(A, B), A @ B, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(blocked_product(A, B), A @ B, rtol=0, atol=1e-13)
 
 
 @pytest.mark.parametrize("shape, blocks", [
@@ -38,7 +38,7 @@ def test_a_block_of_a_qr_has_8192_numbers_or_twice_as_many_rows_as_columns(
 ):
     taken, qr = [], np.linalg.qr
     monkeypatch.setattr(np.linalg, "qr", lambda A, mode: taken.append(A.shape) or qr(A, mode=mode))
-    triangle(np.ones(shape))
+    qr_r(np.ones(shape))
     assert taken == blocks
 
 
@@ -52,5 +52,5 @@ def test_a_block_of_a_product_has_as_many_rows_as_stay_within_2_to_the_18_multip
     monkeypatch.setattr(
         np, "matmul", lambda A, B, out: taken.append(len(A)) or matmul(A, B, out=out)
     )
-    times(np.ones(shape[:2]), np.ones(shape[1:]))
+    blocked_product(np.ones(shape[:2]), np.ones(shape[1:]))
     assert taken == rows

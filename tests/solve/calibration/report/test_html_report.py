@@ -118,16 +118,16 @@ def test_names_out_of_files_stand_there_as_text(text):
 
 def test_the_page_tells_what_was_found(found, text):
     assert changes.sentence(found) in text
-    aside = found.held_out
+    aside = found.cross_validation
     assert aside is not None
     figures = [
         milli(x)[0] for r in (aside.before, aside.after) for x in (r.median_length, r.median_angle)
     ]
     assert changes.sentence(found) == (
-        f"On data kept aside, the median position error goes from {figures[0]} to {figures[2]} mm, the rotation error "
+        f"On held-out data, the median position error goes from {figures[0]} to {figures[2]} mm, the rotation error "
         f"from {figures[1]} to {figures[3]} mrad."
     )
-    alone = changes.sentence(dataclasses.replace(found, held_out=None, success=False))
+    alone = changes.sentence(dataclasses.replace(found, cross_validation=None, success=False))
     figures = [
         milli(x)[0] for r in (found.before, found.after) for x in (r.median_length, r.median_angle)
     ]
@@ -137,10 +137,10 @@ def test_the_page_tells_what_was_found(found, text):
         f"{figures[3]} mrad."
     )
     assert (
-        f"{found.identification.numbers} numbers were measured for {found.identification.size} parameters"
+        f"{found.identification.n_equations} equations for {found.identification.size} parameters"
         in text
     )
-    assert "Held, as no measurement of this kind sees it: " in text
+    assert "Unidentifiable from measurements of this kind, fixed: " in text
     assert text.count("<svg") == 4
     assert "T_base_board" in text
     gross = {o.row for o in found.outliers}
@@ -160,7 +160,7 @@ def test_a_page_of_many_measurements_is_below_1_mb():
     )
     assert "in 10 000 would be; the first 60 of them:</p>" in text
     assert len(Tables(text).found["Outliers"][0]) == 61
-    assert "No data were kept aside" in text
+    assert "No data were held out" in text
 
 
 def test_lengths_alone_and_several_sets_have_a_page_too():
@@ -173,10 +173,10 @@ def test_lengths_alone_and_several_sets_have_a_page_too():
         Points(T[:40, :3, 3] + 1e-4 * rng.normal(size=(40, 3)), rows=first),
         Distances(d, rows=last),
     ]
-    found = calibrate(ARM, q, sets, deficient="hold")
+    found = calibrate(ARM, q, sets, on_rank_deficiency="fix")
     text = html_report.html(found)
     assert "rotation error (mrad)" not in text
-    aside = found.held_out
+    aside = found.cross_validation
     assert aside is not None
     assert [row[:4] for row in Tables(text).found["Residuals"][1][1:]] == [
         [f"set {k}, calibrated", *milli(np.sqrt(np.mean(r**2)), np.median(r), r.max())]
@@ -341,8 +341,8 @@ def test_residuals_stand_under_their_names_in_mm_and_mrad(found, tables):
         "median",
         "largest",
     ]
-    aside = found.held_out
-    those = [("nominal, kept aside", aside.before), ("calibrated, kept aside", aside.after),
+    aside = found.cross_validation
+    those = [("nominal, held out", aside.before), ("calibrated, held out", aside.after),
              ("nominal, all data", found.before), ("calibrated, all data", found.after)]  # fmt: skip
     assert rows == [
         [
@@ -362,7 +362,7 @@ def test_residuals_stand_under_their_names_in_mm_and_mrad(found, tables):
 
 def test_what_was_measured_and_what_it_can_tell_stands_there_in_numbers(found, tables, text):
     sets, frames = tables["What was measured, and what it can tell"]
-    (spread,) = found.spreads
+    (spread,) = found.noise_std
     scatter = (
         "as given"
         if spread is None
@@ -374,7 +374,8 @@ def test_what_was_measured_and_what_it_can_tell_stands_there_in_numbers(found, t
         assert row == [name, *(f"{x:.6f}" for x in T[:3, 3]), turn]
     can = found.identification
     assert (
-        f"Measurements of this kind can see {can.expected} combinations of them, and these see {can.rank}, with "
+        f"Measurements of this kind can identify {can.identifiable} combinations of them, and these identify "
+        f"{can.rank}, with "
         f"condition {can.condition:.3g} (angles in rad, lengths in reaches of {ARM.reach:.3g} m; smallest singular "
         f"value {can.smallest:.3g}, O1 {can.O1:.3g}, noise amplification index {can.amplification:.3g})."
     ) in text
@@ -462,10 +463,10 @@ def test_print_says_before_and_after_of_all_and_of_what_was_kept_aside(found):
     lines = str(found).split("\n")
     at = next(i for i, line in enumerate(lines) if "median mm" in line)
     assert lines[at].split() == ["median", "mm", "rms", "mm", "median", "mrad", "rms", "mrad"]
-    aside = found.held_out
+    aside = found.cross_validation
     assert aside is not None
     for line, name, r in zip(
-        lines[at + 1 : at + 5], ("before", "after", "kept aside (3 folds), before", "kept aside, after"),
+        lines[at + 1 : at + 5], ("before", "after", "held out (3 folds), before", "held out, after"),
         (found.before, found.after, aside.before, aside.after), strict=True,
     ):  # fmt: skip
         assert line[:29].strip() == name
@@ -484,6 +485,6 @@ def test_print_says_before_and_after_of_all_and_of_what_was_kept_aside(found):
 
 def test_repr_leaves_the_long_arrays_out(found):
     said = repr(
-        dataclasses.replace(found, nominal="N", chain="C", frames={}, outliers=(), spreads=())
+        dataclasses.replace(found, nominal="N", chain="C", frames={}, outliers=(), noise_std=())
     )
-    assert not re.search(r"array|Step\(|Residuals|Arm|HeldOut", said)
+    assert not re.search(r"array|Step\(|Residuals|Arm|CrossValidation", said)

@@ -11,8 +11,7 @@ from poekin.solve import svg
 from poekin.solve.calibration.fit.minimise import Step
 from poekin.solve.calibration.model.residuals import Residuals
 from poekin.solve.calibration.report import plots
-from poekin.solve.calibration.report.changes import TWO_SIGMA, Change, Joint
-from poekin.solve.calibration.report.plots import Curve
+from poekin.solve.calibration.report.changes import TWO_SIGMA, Change, Joint, NamedResiduals
 
 matplotlib = pytest.importorskip("matplotlib")
 
@@ -52,8 +51,8 @@ def residuals(lengths, angles=None):
 
 
 def test_residuals_are_shown_in_mm_and_mrad_over_the_share_that_is_no_larger(drawn):
-    curves = [Curve("nominal", residuals([0.004, 0.001], [2e-3, 1e-3])),
-              Curve("calibrated", residuals([3e-6, 0.0, 1e-6, 2e-6], [0, 0, 0, 1e-6]))]  # fmt: skip
+    curves = [NamedResiduals("nominal", residuals([0.004, 0.001], [2e-3, 1e-3])),
+              NamedResiduals("calibrated", residuals([3e-6, 0.0, 1e-6, 2e-6], [0, 0, 0, 1e-6]))]  # fmt: skip
     text = plots.residuals(curves)
     assert text.startswith("<svg")
     (figure,) = drawn
@@ -88,9 +87,9 @@ def test_residuals_are_shown_in_mm_and_mrad_over_the_share_that_is_no_larger(dra
 
 
 def test_where_nothing_turns_no_rotations_are_shown(drawn):
-    mixed = Curve("b", residuals([1e-3, 2e-3], [np.nan, 5e-3]))
-    plots.residuals([Curve("a", residuals([1e-3]))])
-    plots.residuals([Curve("a", residuals([1e-3])), mixed])
+    mixed = NamedResiduals("b", residuals([1e-3, 2e-3], [np.nan, 5e-3]))
+    plots.residuals([NamedResiduals("a", residuals([1e-3]))])
+    plots.residuals([NamedResiduals("a", residuals([1e-3])), mixed])
     assert [len(figure.axes) for figure in drawn] == [1, 2]
     _, line, _ = drawn[1].axes[1].lines
     assert (line.get_xdata().tolist(), line.get_ydata().tolist()) == ([5.0], [100.0])

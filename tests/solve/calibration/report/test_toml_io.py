@@ -54,7 +54,7 @@ def case(name):
         )
     kind, _, unknown = name.partition(" ")
     s = simulated(ARM, 40, kind=kind, outliers=0.1, unknown=bool(unknown))
-    return calibrate(ARM, s.q, s.measurements, loss="huber", folds=2, deficient="hold")
+    return calibrate(ARM, s.q, s.measurements, loss="huber", folds=2, on_rank_deficiency="fix")
 
 
 NAMES = ["poses", "eye-in-hand", "points unknown", "distances unknown", "coupled", "pitch"]
@@ -89,9 +89,9 @@ def test_a_calibration_comes_back_to_the_last_bit(found, tmp_path):
     found.save(tmp_path / "arm.toml")
     again = load(tmp_path / "arm.toml")
     for field in fields(found):
-        if field.name != "arm":
+        if field.name != "error_model":
             assert same(getattr(found, field.name), getattr(again, field.name)), field.name
-    assert again.arm.parameters == found.arm.parameters
+    assert again.error_model.parameters == found.error_model.parameters
     assert str(again) == str(found)
     q = found.nominal.random(3, 4)
     np.testing.assert_array_equal(again.pose_covariance(q), found.pose_covariance(q))
@@ -235,14 +235,18 @@ FAULTS = {
     "held out": (
         "folds = 2",
         "folds = -2",
-        r"held_out: folds: expected whole numbers from 0 on, got -2",
+        r"cross_validation: folds: expected whole numbers from 0 on, got -2",
     ),
     "identification": (
         "rank = ",
         "rang = ",
         r"identification: no such key: 'rang'; did you mean 'rank'\?",
     ),
-    "spread": ("spread = [\n    {},", "spread = [\n    1,", r"spread 1: expected a table, got 1"),
+    "noise_std": (
+        "noise_std = [\n    {},",
+        "noise_std = [\n    1,",
+        r"noise_std 1: expected a table, got 1",
+    ),
     "outlier": (
         "outliers = [\n",
         "outliers = [\n    [0, 40, 40],\n",
@@ -264,9 +268,9 @@ FAULTS = {
         r"outliers: expected set, index and row of a measurement, got \[7, 0, 0\]",
     ),
     "sets": (
-        "spread = [\n    {},",
-        "spread = [",
-        r"after: expected sets below 0, as there is a \[\[spread\]\] for each, got 0",
+        "noise_std = [\n    {},",
+        "noise_std = [",
+        r"after: expected sets below 0, as there is a \[\[noise_std\]\] for each, got 0",
     ),
 }
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from poekin.errors import InputError, ShapeError
-from poekin.solve.calibration.design.indices import indices
+from poekin.solve.calibration.design.observability import observability_indices
 from tests.messages import says
 
 TOL = 1e-12  # 100 u times the condition numbers below, with room for the logarithms
@@ -28,7 +28,7 @@ def with_singular_values(sigma, rows, seed):  # type: ignore[no-untyped-def]
 
 @given(sigmas, st.integers(0, 4), st.integers(1, 50), st.integers(0, 99))
 def test_each_index_is_its_definition_in_the_singular_values(sigma, more, m, seed):
-    found = indices(with_singular_values(sigma, len(sigma) + more, seed), m)
+    found = observability_indices(with_singular_values(sigma, len(sigma) + more, seed), m)
     product = 1.0
     for s in sigma:
         product *= s
@@ -45,7 +45,7 @@ def test_measuring_everything_twice_leaves_O1_and_condition_and_gains_root_2_in_
     sigma, seed
 ):
     J = with_singular_values(sigma, len(sigma) + 1, seed)
-    once, twice = indices(J, 7), indices(np.concatenate([J, J]), 14)
+    once, twice = observability_indices(J, 7), observability_indices(np.concatenate([J, J]), 14)
     root = 2**0.5
     expected = once.O1, once.condition, root * once.smallest, root * once.amplification
     assert twice == pytest.approx(expected, rel=1e4 * TOL)
@@ -53,21 +53,25 @@ def test_measuring_everything_twice_leaves_O1_and_condition_and_gains_root_2_in_
 
 def test_many_matrices_at_once_give_what_each_gives_alone():
     J = np.random.default_rng(0).normal(size=(3, 2, 8, 4))
-    found = indices(J, 5)
+    found = observability_indices(J, 5)
     for k in np.ndindex(3, 2):
-        assert [x[k] for x in found] == pytest.approx(indices(J[k], 5), rel=TOL)
+        assert [x[k] for x in found] == pytest.approx(observability_indices(J[k], 5), rel=TOL)
 
 
 def test_the_rank_leaves_out_the_directions_that_nothing_sees():
     J = with_singular_values([5.0, 2.0, 0.5], 6, 0)
     wide = np.concatenate([J, np.zeros((6, 2))], axis=1)
-    assert indices(wide, 3, rank=3) == pytest.approx(indices(J, 3), rel=TOL)
-    assert indices(np.zeros((6, 2)), 3) == (0, np.inf, 0, 0)
+    assert observability_indices(wide, 3, rank=3) == pytest.approx(
+        observability_indices(J, 3), rel=TOL
+    )
+    assert observability_indices(np.zeros((6, 2)), 3) == (0, np.inf, 0, 0)
 
 
 def test_fewer_rows_than_directions_see_nothing_of_some():
-    assert indices(np.eye(4)[:3], 3) == (0, np.inf, 0, 0)
-    for found, none in zip(indices(np.ones((5, 2, 3, 4)), 3), (0, np.inf, 0, 0), strict=True):
+    assert observability_indices(np.eye(4)[:3], 3) == (0, np.inf, 0, 0)
+    for found, none in zip(
+        observability_indices(np.ones((5, 2, 3, 4)), 3), (0, np.inf, 0, 0), strict=True
+    ):
         np.testing.assert_array_equal(found, np.full((5, 2), none))
 
 
@@ -138,5 +142,5 @@ def test_fewer_rows_than_directions_see_nothing_of_some():
 )
 def test_what_is_no_identification_matrix_is_refused(J, m, rank, error, message):
     with pytest.raises(error) as caught:
-        indices(J, m, rank)
+        observability_indices(J, m, rank)
     assert says(caught.value, message)

@@ -18,7 +18,7 @@ from ....errors import InputError, ShapeError, safe_repr
 from ....groups.arrays import numbers
 
 
-class Indices(NamedTuple):
+class ObservabilityIndices(NamedTuple):
     """The four indices of one identification matrix, floats, or arrays (...) of many.
 
     O1: the volume of the error ellipsoid's inverse, a mean over all directions; larger is better.
@@ -33,7 +33,11 @@ class Indices(NamedTuple):
     amplification: Any
 
 
-def indices(J: ArrayLike, m: int, rank: int | None = None) -> Indices:
+UNOBSERVED = ObservabilityIndices(O1=0.0, condition=np.inf, smallest=0.0, amplification=0.0)
+"""Indices where nothing is seen."""
+
+
+def observability_indices(J: ArrayLike, m: int, rank: int | None = None) -> ObservabilityIndices:
     """The observability indices of an identification matrix on the space that can be identified.
 
         O1 = (sigma_1 ... sigma_L)^(1/L) / sqrt(m)      condition = sigma_1 / sigma_L
@@ -45,7 +49,7 @@ def indices(J: ArrayLike, m: int, rank: int | None = None) -> Indices:
 
     Parameters: J (..., rows, P), the parameters' derivatives, scaled; m; rank, L: the number of
     directions that can be seen, by default P. The L largest singular values are taken. Returns:
-    Indices, floats for one matrix, else (...).
+    ObservabilityIndices, floats for one matrix, else (...).
     A matrix with fewer than L rows, or with sigma_L = 0, has O1 = smallest = amplification = 0,
     condition = inf. Raises: ShapeError, InputError. Accuracy: sigma_L within P u sigma_1.
     Source: O1: Borm and Menq 1989 and 1991 (Int. J. Robotics Research 10, 1); condition: Driels and
@@ -70,17 +74,20 @@ def indices(J: ArrayLike, m: int, rank: int | None = None) -> Indices:
             f"m: expected the number of measured configurations, at least 1, got {safe_repr(m)}"
         )
     if matrix.shape[-2] < L:
-        return of_singular_values(np.zeros((*matrix.shape[:-2], L)), m)
-    return of_singular_values(np.linalg.svd(matrix, compute_uv=False)[..., :L], m)
+        return from_singular_values(np.zeros((*matrix.shape[:-2], L)), m)
+    return from_singular_values(np.linalg.svd(matrix, compute_uv=False)[..., :L], m)
 
 
-def of_singular_values(sigma: np.ndarray, m: int) -> Indices:
-    """The same of the L singular values (..., L) themselves, in descending order."""
-    first, last = sigma[..., 0], sigma[..., -1]
+def from_singular_values(sigma: np.ndarray, m: int) -> ObservabilityIndices:
+    """Observability indices of the L singular values (..., L), in descending order."""
+    first = sigma[..., 0]
+    last = sigma[..., -1]
     seen = last > 0
     safe = np.where(seen[..., None], sigma, 1.0)
-    O1 = np.where(seen, np.exp(np.log(safe).mean(-1)) / np.sqrt(m), 0.0)
-    condition = np.where(seen, safe[..., 0] / safe[..., -1], np.inf)
-    amplification = np.where(seen, safe[..., -1] / safe[..., 0] * last, 0.0)
-    found = O1, condition, last, amplification
-    return Indices(*((float(x) for x in found) if first.ndim == 0 else found))
+    indices = ObservabilityIndices(
+        O1=np.where(seen, np.exp(np.log(safe).mean(-1)) / np.sqrt(m), 0.0),
+        condition=np.where(seen, safe[..., 0] / safe[..., -1], np.inf),
+        smallest=last,
+        amplification=np.where(seen, safe[..., -1] / safe[..., 0] * last, 0.0),
+    )
+    return ObservabilityIndices(*map(float, indices)) if first.ndim == 0 else indices

@@ -1,0 +1,138 @@
+"""Checks of a calibration's file: parameters, frames and residuals have to fit together."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ....errors import ModelError, PoekinError, quote
+from ....formats.chain_toml import CALIBRATED
+from ....formats.text.toml_text import Keys
+from ....groups.arrays import Array, poses
+from ....model.chain import Chain
+from ....model.checks import read_only
+from ..model.error_model import ErrorModel
+from ..model.parameters import Parameter
+from ..result import CalibrationData
+
+# reaches: how near the calibrated chain is to what its parameters make of the nominal one
+_AGREE = 1e-9
+_SAME = ("joint_names", "q_names", "base", "tip")
+_NEAR = ("screws", "home", "coupling")
+
+
+class Named(NamedTuple):
+    """Parameters, their values (P,) and covariance (P, P)."""
+
+    parameters: tuple[Parameter, ...]
+    values: Array
+    covariance: Array
+
+
+def error_model(keys: Keys, nominal: Chain) -> ErrorModel:
+    """The error model of the nominal chain. Raises: ModelError."""
+    try:
+        return ErrorModel(nominal, keys.texts("kinds"), keys.texts("joints"))
+    except ModelError:
+        raise
+    except PoekinError as fault:
+        raise ModelError(f"{keys.place}: {fault}") from fault
+
+
+def frames(keys: Keys) -> dict[str, Array]:
+    """Frames (4, 4) and points (3,) by name. Raises: ModelError."""
+    return {name: _frame(keys, name) for name in keys.data}
+
+
+def _frame(keys: Keys, name: str) -> Array:
+    value = keys.value(name)
+    is_pose = isinstance(value, list) and len(value) == 4
+    frame = keys.array(name, (4, 4) if is_pose else (3,))
+    if is_pose:
+        try:
+            poses(frame)
+        except PoekinError as fault:
+            raise keys.fault(name, str(fault)) from fault
+    return read_only(frame)
+
+
+def parameters(keys: Keys, model: ErrorModel, frames: dict[str, Array]) -> Named:
+    """Parameters with values and covariance, those of arm and frames. Raises: ModelError."""
+    rows = keys.tables("parameter", (*Parameter._fields, "value", "deviation"))
+    found = tuple(Parameter(*(row.text(part) for part in Parameter._fields)) for row in rows)
+    own = model.parameters
+    size = len(own) + sum(6 if T.ndim == 2 else 3 for T in frames.values())
+    if len(found) != size:
+        raise keys.fault(
+            "parameter", f"expected {size} of them, as arm and frames have, got {len(found)}"
+        )
+    for k, expected in enumerate(own):
+        if _key(expected) != _key(found[k]):
+            name = quote(expected.name)
+            got = quote(found[k].name)
+            raise rows[k].fault("what", f"expected {name}, the arm's parameter {k + 1}, got {got}")
+    for row, given in zip(rows[len(own) :], found[len(own) :], strict=True):
+        if given.owner not in frames:
+            raise row.fault("owner", f"expected a name in frames, got {quote(given.owner)}")
+    values = np.array([row.number("value") for row in rows], float)
+    return Named(found, values, _covariance(keys, rows))
+
+
+def _key(parameter: Parameter) -> tuple[str, str, str]:
+    """A parameter without the directions in its name, numbers that another machine may round
+    otherwise.
+    """
+    return parameter.owner, parameter.what.partition(" (")[0], parameter.unit
+
+
+def _covariance(keys: Keys, rows: list[Keys]) -> Array:
+    """Covariance (P, P), with the deviations of the parameters. Raises: ModelError."""
+    covariance = keys.array("covariance", (len(rows), len(rows)))
+    variances = np.diag(covariance)
+    sizes = np.sqrt(np.abs(variances))
+    with np.errstate(over="ignore"):
+        uneven = np.abs(covariance - covariance.T) > 1e-9 * np.outer(sizes, sizes)
+    if (variances < 0).any() or uneven.any():
+        raise keys.fault(
+            "covariance", "expected a symmetric matrix with a diagonal that is not negative"
+        )
+    for row, variance in zip(rows, variances, strict=True):
+        expected = variance**0.5
+        if abs(row.number("deviation") - expected) > 1e-12 * expected:
+            raise row.fault("deviation", f"expected {float(expected)!r}, as the covariance says")
+    return covariance
+
+
+def check_chain(keys: Keys, model: ErrorModel, values: Array, chain: Chain) -> None:
+    """Refuse a calibrated chain that is not what the parameters make of the nominal one."""
+    try:
+        own = model.chain(values[: len(model.parameters)])
+    except PoekinError as fault:
+        raise ModelError(f"{keys.place}: parameter: {fault}") from fault
+    same = all(getattr(own, name) == getattr(chain, name) for name in _SAME)
+    if not same or not _distance(own, chain) <= _AGREE * own.reach:
+        raise keys.fault(CALIBRATED, "the chain is not what the parameters make of the nominal one")
+
+
+def _distance(a: Chain, b: Chain) -> float:
+    """Largest difference of a number of the screws, home pose and coupling."""
+    return max(np.abs(getattr(a, name) - getattr(b, name)).max(initial=0.0) for name in _NEAR)
+
+
+def check_sets(keys: Keys, found: CalibrationData) -> None:
+    """Refuse residuals of sets that there are not, and outliers that are no measurement."""
+    count = len(found.noise_std)
+    after = found.after
+    if (after.set >= count).any():
+        raise keys.fault(
+            "after",
+            f"expected sets below {count}, as there is a [[noise_std]] for each, got "
+            f"{after.set.max()}",
+        )
+    for o in found.outliers:
+        rows = after.row[after.set == o.set]
+        if o.index >= len(rows) or rows[o.index] != o.row:
+            raise keys.fault(
+                "outliers", f"expected set, index and row of a measurement, got {list(o)}"
+            )
