@@ -103,7 +103,8 @@ def compose(T_ab, T_bc):
     """T_ac = T_ab T_bc, as of f' = P f Q in the paper's Section II: 36 multiplications and 27
     additions.
     """
-    a, b = T_ab, T_bc
+    a = T_ab
+    b = T_bc
     return (
         a[0] * b[0] + a[1] * b[3] + a[2] * b[6],
         a[0] * b[1] + a[1] * b[4] + a[2] * b[7],
@@ -169,4 +170,9 @@ def column(J, i):
 
 def set_column(J, i, V):
     """Write the twist V into column i of six rows."""
-    J[0][i], J[1][i], J[2][i], J[3][i], J[4][i], J[5][i] = V[0], V[1], V[2], V[3], V[4], V[5]
+    J[0][i] = V[0]
+    J[1][i] = V[1]
+    J[2][i] = V[2]
+    J[3][i] = V[3]
+    J[4][i] = V[4]
+    J[5][i] = V[5]

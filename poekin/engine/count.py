@@ -43,7 +43,8 @@ class Counted:
     __slots__ = ("count", "value")
 
     def __init__(self, value: float, count: Count):
-        self.value, self.count = float(value), count
+        self.value = float(value)
+        self.count = count
 
     def _new(self, value: float, operation: str) -> Counted:
         setattr(self.count, operation, getattr(self.count, operation) + 1)
@@ -51,17 +52,27 @@ class Counted:
 
     def __mul__(self, other):
         if type(other) is int and other in (0, 1, -1):
-            return other if other == 0 else self if other == 1 else -self
+            if other == 0:
+                return other
+            if other == 1:
+                return self
+            return -self
         return self._new(self.value * _value(other), "multiplications")
 
     def __add__(self, other):
-        return self if _is_zero(other) else self._new(self.value + _value(other), "additions")
+        if _is_zero(other):
+            return self
+        return self._new(self.value + _value(other), "additions")
 
     def __sub__(self, other):
-        return self if _is_zero(other) else self._new(self.value - _value(other), "additions")
+        if _is_zero(other):
+            return self
+        return self._new(self.value - _value(other), "additions")
 
     def __rsub__(self, other):
-        return -self if _is_zero(other) else self._new(_value(other) - self.value, "additions")
+        if _is_zero(other):
+            return -self
+        return self._new(_value(other) - self.value, "additions")
 
     def __truediv__(self, other):
         return self._new(self.value / _value(other), "divisions")
@@ -72,7 +83,8 @@ class Counted:
     def __mod__(self, other):
         return self._new(self.value % _value(other), "divisions")
 
-    __rmul__, __radd__ = __mul__, __add__
+    __rmul__ = __mul__
+    __radd__ = __add__
 
     def __neg__(self):
         return Counted(-self.value, self.count)
@@ -105,7 +117,9 @@ class Counted:
 
 
 def _value(x) -> float:
-    return x.value if isinstance(x, Counted) else x
+    if isinstance(x, Counted):
+        return x.value
+    return x
 
 
 def _is_zero(x) -> bool:

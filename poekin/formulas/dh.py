@@ -29,6 +29,11 @@ def screws(links, rotates, slides, count, A):
     T = pose(links[0])
     for i in range(count):
         V = adjoint(T, (0.0, 0.0, rotates[i], 0.0, 0.0, slides[i]))
-        A[i][0], A[i][1], A[i][2], A[i][3], A[i][4], A[i][5] = V[0], V[1], V[2], V[3], V[4], V[5]
+        A[i][0] = V[0]
+        A[i][1] = V[1]
+        A[i][2] = V[2]
+        A[i][3] = V[3]
+        A[i][4] = V[4]
+        A[i][5] = V[5]
         T = compose(T, links[i + 1])
     return T

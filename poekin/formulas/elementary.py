@@ -9,19 +9,27 @@ from types import SimpleNamespace
 
 
 def _float_sqrt(x):
-    return math.sqrt(x) if x >= 0 else math.nan
+    if x >= 0:
+        return math.sqrt(x)
+    return math.nan
 
 
 def _float_sin(x):
-    return math.sin(x) if math.isfinite(x) else math.nan
+    if math.isfinite(x):
+        return math.sin(x)
+    return math.nan
 
 
 def _float_cos(x):
-    return math.cos(x) if math.isfinite(x) else math.nan
+    if math.isfinite(x):
+        return math.cos(x)
+    return math.nan
 
 
 def _float_asin(x):
-    return math.asin(x) if -1 <= x <= 1 else math.nan
+    if -1 <= x <= 1:
+        return math.asin(x)
+    return math.nan
 
 
 # `math`, but NaN where it raises: compiled code gives that too
@@ -81,4 +89,6 @@ def below(x, limit):
     """Whether x is so small, x < limit, that a closed form would cancel; for exact numbers only x =
     0 is.
     """
-    return x < limit if takes_series(x) else x == 0
+    if takes_series(x):
+        return x < limit
+    return x == 0

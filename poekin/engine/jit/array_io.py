@@ -29,13 +29,24 @@ def store_row(row, values):
 
 def store_rotation(M, R):
     """Write nine numbers into a 3x3 matrix, or into the corner of a larger one."""
-    M[0, 0], M[0, 1], M[0, 2] = R[0], R[1], R[2]
-    M[1, 0], M[1, 1], M[1, 2] = R[3], R[4], R[5]
-    M[2, 0], M[2, 1], M[2, 2] = R[6], R[7], R[8]
+    M[0, 0] = R[0]
+    M[0, 1] = R[1]
+    M[0, 2] = R[2]
+    M[1, 0] = R[3]
+    M[1, 1] = R[4]
+    M[1, 2] = R[5]
+    M[2, 0] = R[6]
+    M[2, 1] = R[7]
+    M[2, 2] = R[8]
 
 
 def store_matrix(M, T):
     """Write a pose into a 4x4 matrix."""
     store_rotation(M, T)
-    M[0, 3], M[1, 3], M[2, 3] = T[9], T[10], T[11]
-    M[3, 0], M[3, 1], M[3, 2], M[3, 3] = 0.0, 0.0, 0.0, 1.0
+    M[0, 3] = T[9]
+    M[1, 3] = T[10]
+    M[2, 3] = T[11]
+    M[3, 0] = 0.0
+    M[3, 1] = 0.0
+    M[3, 2] = 0.0
+    M[3, 3] = 1.0

@@ -53,7 +53,9 @@ def directory() -> Path | None:
     if "POEKIN_CACHE_DIR" in os.environ:
         named = os.environ["POEKIN_CACHE_DIR"]
         try:
-            return Path(named).expanduser().absolute() if named else None
+            if named:
+                return Path(named).expanduser().absolute()
+            return None
         except (
             RuntimeError,
             OSError,
@@ -71,7 +73,9 @@ def directory() -> Path | None:
             base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
     except RuntimeError:  # no home directory can be found
         return None
-    return base / "poekin" if base.is_absolute() else None
+    if base.is_absolute():
+        return base / "poekin"
+    return None
 
 
 def most() -> float:
@@ -177,7 +181,8 @@ def read(path: Path) -> bytes | None:
     except OSError as error:
         say_once("entry", "a kernel is compiled anew: %s cannot be read (%s)", path, error.strerror)
         return None
-    digest, payload = data[:32], data[32:]
+    digest = data[:32]
+    payload = data[32:]
     if not trusted or hashlib.sha256(payload).digest() != digest:
         say_once("entry", "a kernel is compiled anew: %s is damaged or not this user's alone", path)
         return None

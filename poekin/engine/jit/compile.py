@@ -103,7 +103,8 @@ def array_type(code: str):
     """
     if code == "int":
         return types.int64
-    kind, dimensions = code[0], int(code[1])
+    kind = code[0]
+    dimensions = int(code[1])
     if kind == "w":
         return types.Array(types.float64, dimensions, "C")
     element = types.int64 if kind == "i" else types.float64
@@ -125,7 +126,9 @@ def compiled(function, arguments: str, returns: str = "", quick: bool = False, b
     dispatcher.compile(signature)
     dispatcher.disable_compile()
     # the entry point unpacks its arguments without asking of what type they are
-    return dispatcher.overloads[signature.args].entry_point if bare else dispatcher
+    if bare:
+        return dispatcher.overloads[signature.args].entry_point
+    return dispatcher
 
 
 _register()

@@ -22,13 +22,11 @@ class Kernel:
     __slots__ = ("arguments", "bare", "call", "function", "quick", "returns")
 
     def __init__(self, function: Callable, arguments: str, returns: str, quick: bool, bare: bool):
-        self.function, self.arguments, self.returns, self.quick, self.bare = (
-            function,
-            arguments,
-            returns,
-            quick,
-            bare,
-        )
+        self.function = function
+        self.arguments = arguments
+        self.returns = returns
+        self.quick = quick
+        self.bare = bare
         self.call: Callable = self._first_call
 
     def ready(self) -> Callable:

@@ -120,7 +120,8 @@ def run_one(arm, q, T, J, scratch):
     )  # full lanes are faster, whatever is in the last of them
     if 2 * whole > scratch.size:
         scratch = np.empty(2 * whole)
-    sines, cosines = scratch[:whole], scratch[whole:]
+    sines = scratch[:whole]
+    cosines = scratch[whole:]
     for k in range(count, whole):
         sines[k] = 0.0
     _angles(angles, q, 0, sines, 1, 0)
@@ -130,7 +131,8 @@ def run_one(arm, q, T, J, scratch):
 
 def _apart(a, b):
     """Whether two arrays share no memory."""
-    start, start2 = a.ctypes.data, b.ctypes.data
+    start = a.ctypes.data
+    start2 = b.ctypes.data
     return start + 8 * a.size <= start2 or start2 + 8 * b.size <= start
 
 
@@ -139,7 +141,8 @@ def pose_one(arm, q, T):
     """f(q) of one configuration."""
     if q.shape[0] != _parts(arm)[1] or T.shape[0] != 4 or T.shape[1] != 4 or not _apart(q, T):
         return 0
-    q, T = borrowed(q), borrowed(T)
+    q = borrowed(q)
+    T = borrowed(T)
     run_one(arm, q, T, T, T.reshape(T.size))
     return 1
 
@@ -150,7 +153,8 @@ def jacobian_one(arm, q, J):
     m = _parts(arm)[1]
     if q.shape[0] != m or J.shape[0] != 6 or J.shape[1] != m or not _apart(q, J):
         return 0
-    q, J = borrowed(q), borrowed(J)
+    q = borrowed(q)
+    J = borrowed(J)
     run_one(arm, q, J, J, J.reshape(J.size))
     return 1
 
@@ -163,7 +167,9 @@ def pose_jacobian_one(arm, q, T, J):
         return 0
     if not (_apart(q, T) and _apart(q, J) and _apart(T, J)):
         return 0
-    q, T, J = borrowed(q), borrowed(T), borrowed(J)
+    q = borrowed(q)
+    T = borrowed(T)
+    J = borrowed(J)
     run_one(arm, q, T, J, J.reshape(J.size))
     return 1
 
@@ -171,7 +177,8 @@ def pose_jacobian_one(arm, q, T, J):
 def _many(arm, q, T, J):
     """All configurations, four at a time, what is left one at a time."""
     count, _, angles, one, four = _parts(arm)
-    sines, cosines = np.empty((count, BLOCK)), np.empty((count, BLOCK))
+    sines = np.empty((count, BLOCK))
+    cosines = np.empty((count, BLOCK))
     for start in range(0, q.shape[0], BLOCK):
         size = min(BLOCK, q.shape[0] - start)
         for k in range(size):

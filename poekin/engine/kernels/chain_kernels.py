@@ -14,8 +14,14 @@ from ..jit.array_io import borrowed, store_matrix, store_row
 from ..jit.kernel import kernel
 from ..straight_line.sincos import sincos
 
-SPACE, BODY, HYBRID = -1, -2, -3
-POSE, ROTATES, SLIDES, OFFSET, COUPLING = 0, 12, 13, 14, 15
+SPACE = -1
+BODY = -2
+HYBRID = -3
+POSE = 0
+ROTATES = 12
+SLIDES = 13
+OFFSET = 14
+COUPLING = 15
 
 
 def scratch(table):
@@ -42,7 +48,9 @@ def motions(table, q, sines, cosines, shifts):
 def pose_one(table, q, T):
     """f(q) of one configuration of a chain that is not coupled."""
     n = table.shape[0] - 1
-    table, q, T = borrowed(table), borrowed(q), borrowed(T)
+    table = borrowed(table)
+    q = borrowed(q)
+    T = borrowed(T)
     sines, cosines, shifts = scratch(table)
     motions(table, q, sines, cosines, shifts)
     store_matrix(T, forward.tip(table, sines, cosines, shifts, n))
@@ -52,7 +60,9 @@ def pose_one(table, q, T):
 def pose_many(table, q, T):
     """f(q) of many configurations."""
     sines, cosines, shifts = scratch(table)
-    table, q, T = borrowed(table), borrowed(q), borrowed(T)
+    table = borrowed(table)
+    q = borrowed(q)
+    T = borrowed(T)
     for k in range(q.shape[0]):
         motions(table, q[k], sines, cosines, shifts)
         store_matrix(T[k], forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
@@ -62,7 +72,10 @@ def pose_many(table, q, T):
 def pose_jacobian_one(table, q, frame, T, J):
     """f(q) and the Jacobian of one configuration, in a named frame, of a chain that is not coupled."""
     n = table.shape[0] - 1
-    table, q, T, J = borrowed(table), borrowed(q), borrowed(T), borrowed(J)
+    table = borrowed(table)
+    q = borrowed(q)
+    T = borrowed(T)
+    J = borrowed(J)
     # the rows of J serve as scratch: taking memory costs as much as three joints
     motions(table, q, J[0], J[1], J[2])
     tip = forward.tip_and_axes(table, J[0], J[1], J[2], n, J)
@@ -79,14 +92,19 @@ def _pose_jacobian(table, q, frame, T, J_x):
     """
     n = table.shape[0] - 1
     sines, cosines, shifts = scratch(table)
-    table, q, T, J_x = borrowed(table), borrowed(q), borrowed(T), borrowed(J_x)
-    rotates, slides = table[:, ROTATES], table[:, SLIDES]
+    table = borrowed(table)
+    q = borrowed(q)
+    T = borrowed(T)
+    J_x = borrowed(J_x)
+    rotates = table[:, ROTATES]
+    slides = table[:, SLIDES]
     for k in range(q.shape[0]):
         motions(table, q[k], sines, cosines, shifts)
         J = J_x[k]
         tip = forward.tip_and_axes(table, sines, cosines, shifts, n, J)
         store_matrix(T[min(k, T.shape[0] - 1)], tip)
-        at, p = tip, translation(tip)
+        at = tip
+        p = translation(tip)
         if frame >= 0:
             at = forward.frame(table, sines, cosines, shifts, frame + 1)
             p = translation(at)
@@ -103,7 +121,8 @@ def pose_jacobian_many(table, q, frame, T, J):
     again.
     """
     if table.shape[1] > OFFSET:
-        J_x, coupling = np.empty((1, 6, table.shape[0] - 1)), table[:, COUPLING:]
+        J_x = np.empty((1, 6, table.shape[0] - 1))
+        coupling = table[:, COUPLING:]
         for k in range(q.shape[0]):
             j = min(k, T.shape[0] - 1)
             _pose_jacobian(table, q[k : k + 1], frame, T[j : j + 1], J_x)
@@ -130,9 +149,11 @@ def joint_poses(table, q, T):
 @kernel("w2 r2 r2 w2")
 def body_velocity(table, q, dq, V):
     """f^-1 f' by the V recursion."""
-    n, m = table.shape[0] - 1, q.shape[1]
+    n = table.shape[0] - 1
+    m = q.shape[1]
     sines, cosines, shifts = scratch(table)
-    links, rates = np.empty((n, 12)), np.empty(n)
+    links = np.empty((n, 12))
+    rates = np.empty(n)
     for k in range(q.shape[0]):
         motions(table, q[k], sines, cosines, shifts)
         for i in range(n):
@@ -144,7 +165,9 @@ def body_velocity(table, q, dq, V):
             else:
                 rates[i] = dq[k, i]
         if n > 0:
-            tool, rotates, slides = pose(table[n]), table[:, ROTATES], table[:, SLIDES]
+            tool = pose(table[n])
+            rotates = table[:, ROTATES]
+            slides = table[:, SLIDES]
             store_row(V[k], recursive.body_velocity(links, tool, rotates, slides, n, rates))
         else:
             store_row(V[k], (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))

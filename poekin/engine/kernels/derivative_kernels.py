@@ -49,10 +49,15 @@ def _rate(J, rates, count, frame, dJ):
 @kernel("w2 r2 r2 int w3")
 def jacobian_rates(table, q, dq, frame, dJ):
     """dJ/dt of many configurations and rates, of a chain with a joint."""
-    table, q, dq, dJ = borrowed(table), borrowed(q), borrowed(dq), borrowed(dJ)
+    table = borrowed(table)
+    q = borrowed(q)
+    dq = borrowed(dq)
+    dJ = borrowed(dJ)
     n = table.shape[0] - 1
     sines, cosines, shifts = scratch(table)
-    J, dJ_x, rates = np.empty((6, n)), np.empty((6, n)), np.empty(n)
+    J = np.empty((6, n))
+    dJ_x = np.empty((6, n))
+    rates = np.empty(n)
     for k in range(q.shape[0]):
         _columns(table, q[k], frame, sines, cosines, shifts, J)
         _followed(table, dq[k], rates)
@@ -66,10 +71,17 @@ def jacobian_rates(table, q, dq, frame, dJ):
 @kernel("w2 r2 r2 r2 int w2")
 def accelerations(table, q, dq, ddq, frame, A):
     """dV/dt of many configurations, rates and accelerations, of a chain with a joint."""
-    table, q, dq, ddq, A = borrowed(table), borrowed(q), borrowed(dq), borrowed(ddq), borrowed(A)
+    table = borrowed(table)
+    q = borrowed(q)
+    dq = borrowed(dq)
+    ddq = borrowed(ddq)
+    A = borrowed(A)
     n = table.shape[0] - 1
     sines, cosines, shifts = scratch(table)
-    J, dJ, rates, more = np.empty((6, n)), np.empty((6, n)), np.empty(n), np.empty(n)
+    J = np.empty((6, n))
+    dJ = np.empty((6, n))
+    rates = np.empty(n)
+    more = np.empty(n)
     for k in range(q.shape[0]):
         _columns(table, q[k], frame, sines, cosines, shifts, J)
         _followed(table, dq[k], rates)
@@ -81,15 +93,16 @@ def accelerations(table, q, dq, ddq, frame, A):
 @kernel("w2 r2 int w4")
 def hessians(table, q, frame, H):
     """dJ/dq of many configurations, of a chain with a joint."""
-    table, q, H = borrowed(table), borrowed(q), borrowed(H)
-    n, m = table.shape[0] - 1, q.shape[1]
+    table = borrowed(table)
+    q = borrowed(q)
+    H = borrowed(H)
+    n = table.shape[0] - 1
+    m = q.shape[1]
     sines, cosines, shifts = scratch(table)
-    J, H_x, half, coupling = (
-        np.empty((6, n)),
-        np.empty((6, n, n)),
-        np.empty((6, m, n)),
-        table[:, COUPLING:],
-    )
+    J = np.empty((6, n))
+    H_x = np.empty((6, n, n))
+    half = np.empty((6, m, n))
+    coupling = table[:, COUPLING:]
     for k in range(q.shape[0]):
         _columns(table, q[k], frame, sines, cosines, shifts, J)
         target = H_x if table.shape[1] > OFFSET else H[k]
@@ -109,10 +122,15 @@ def hessians(table, q, frame, H):
 @kernel("w2 r2 r2 int w3")
 def joint_velocities(table, q, dq, frame, V):
     """The twist of every joint's z-aligned frame, into the rows of V."""
-    table, q, dq, V = borrowed(table), borrowed(q), borrowed(dq), borrowed(V)
+    table = borrowed(table)
+    q = borrowed(q)
+    dq = borrowed(dq)
+    V = borrowed(V)
     n = table.shape[0] - 1
     sines, cosines, shifts = scratch(table)
-    J, W, rates = np.empty((6, n)), np.empty((6, n)), np.empty(n)
+    J = np.empty((6, n))
+    W = np.empty((6, n))
+    rates = np.empty(n)
     for k in range(q.shape[0]):
         _columns(table, q[k], SPACE, sines, cosines, shifts, J)
         _followed(table, dq[k], rates)
@@ -149,10 +167,15 @@ def _products(table, screws, home, q, x, sines, cosines, shifts, exponentials, P
 @kernel("w2 r2 r1 r2 w4")
 def pose_changes(table, screws, home, q, D):
     """What unit conjugations of the screws and of the home pose do to the pose, as space twists."""
-    table, screws, q, D = borrowed(table), borrowed(screws), borrowed(q), borrowed(D)
+    table = borrowed(table)
+    screws = borrowed(screws)
+    q = borrowed(q)
+    D = borrowed(D)
     n = table.shape[0] - 1
     sines, cosines, shifts = scratch(table)
-    x, exponentials, P = np.empty(n), np.empty((n, 12)), np.empty((n + 2, 12))
+    x = np.empty(n)
+    exponentials = np.empty((n, 12))
+    P = np.empty((n + 2, 12))
     for k in range(q.shape[0]):
         _products(table, screws, home, q[k], x, sines, cosines, shifts, exponentials, P)
         screw_changes.pose_changes(P, n, D[k])
@@ -161,12 +184,21 @@ def pose_changes(table, screws, home, q, D):
 @kernel("w2 r2 r1 r2 int w5")
 def jacobian_changes(table, screws, home, q, frame, C):
     """What they do to the Jacobian in a frame."""
-    table, screws, q, C = borrowed(table), borrowed(screws), borrowed(q), borrowed(C)
-    n, m = table.shape[0] - 1, q.shape[1]
+    table = borrowed(table)
+    screws = borrowed(screws)
+    q = borrowed(q)
+    C = borrowed(C)
+    n = table.shape[0] - 1
+    m = q.shape[1]
     sines, cosines, shifts = scratch(table)
-    x, exponentials, P = np.empty(n), np.empty((n, 12)), np.empty((n + 2, 12))
-    J, D, C_x = np.empty((6, n)), np.empty((6, n + 1, 6)), np.empty((6, n, n + 1, 6))
-    coupled, coupling = table.shape[1] > OFFSET, table[:, COUPLING:]
+    x = np.empty(n)
+    exponentials = np.empty((n, 12))
+    P = np.empty((n + 2, 12))
+    J = np.empty((6, n))
+    D = np.empty((6, n + 1, 6))
+    C_x = np.empty((6, n, n + 1, 6))
+    coupled = table.shape[1] > OFFSET
+    coupling = table[:, COUPLING:]
     for k in range(q.shape[0]):
         _products(table, screws, home, q[k], x, sines, cosines, shifts, exponentials, P)
         screw_changes.pose_changes(P, n, D)

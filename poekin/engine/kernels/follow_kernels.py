@@ -21,8 +21,12 @@ def follow(arm, targets, start, limits, fixed, options, most, q, info):
     """
     m = q.shape[1]
     problem = Problem(arm, limits, fixed, options)
-    T, J, H = np.empty((4, 4)), np.empty((6, m)), np.empty((m, m))
-    rows, last, now = scratch_rows(m), start.copy(), np.empty(m)
+    T = np.empty((4, 4))
+    J = np.empty((6, m))
+    H = np.empty((m, m))
+    rows = scratch_rows(m)
+    last = start.copy()
+    now = np.empty(m)
     for k in range(targets.shape[0]):
         store_row(now, last)
         ended, position, rotation, taken = descend(problem, targets[k], now, T, J, H, rows)

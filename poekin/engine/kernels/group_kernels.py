@@ -85,12 +85,11 @@ def se3_adjoint(T_ab, Ad):
     """Ad of poses: [p] R is p x each column of R."""
     for k in range(T_ab.shape[0]):
         T = load_matrix(T_ab[k])
-        R, p = T[:9], translation(T)
-        x, y, z = (
-            cross(p, (R[0], R[3], R[6])),
-            cross(p, (R[1], R[4], R[7])),
-            cross(p, (R[2], R[5], R[8])),
-        )
+        R = T[:9]
+        p = translation(T)
+        x = cross(p, (R[0], R[3], R[6]))
+        y = cross(p, (R[1], R[4], R[7]))
+        z = cross(p, (R[2], R[5], R[8]))
         _store_blocks(Ad[k], R, (x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]))
 
 
@@ -98,7 +97,8 @@ def se3_adjoint(T_ab, Ad):
 def se3_left(xi, J):
     """Left Jacobian of exp at twists."""
     for k in range(xi.shape[0]):
-        w, v = angular(xi[k]), linear(xi[k])
+        w = angular(xi[k])
+        v = linear(xi[k])
         _store_blocks(J[k], exp_jacobian.left(w), exp_jacobian.left_dual(w, v))
 
 
@@ -106,7 +106,8 @@ def se3_left(xi, J):
 def se3_left_inverse(xi, J):
     """Inverse of the left Jacobian of exp at twists."""
     for k in range(xi.shape[0]):
-        w, v = angular(xi[k]), linear(xi[k])
+        w = angular(xi[k])
+        v = linear(xi[k])
         _store_blocks(J[k], exp_jacobian.left_inverse(w), exp_jacobian.left_inverse_dual(w, v))
 
 
@@ -117,10 +118,13 @@ def first_defect(M, found):
     is off; on return `found` holds the largest entry of abs(R R^T - I), det R and the fourth row's
     error. Else -1, or -2 where there is a fourth row with NaN in it.
     """
-    limit, none = found[0], -1
+    limit = found[0]
+    none = -1
     for k in range(M.shape[0]):
         R = load_rotation(M[k])
-        off, sign, last = defect.orthonormality(R), defect.determinant(R), 0.0
+        off = defect.orthonormality(R)
+        sign = defect.determinant(R)
+        last = 0.0
         if M.shape[1] == 4:
             last = abs(M[k][3][0]) + abs(M[k][3][1]) + abs(M[k][3][2]) + abs(M[k][3][3] - 1.0)
         if off > limit or sign < 0.0 or last > limit:

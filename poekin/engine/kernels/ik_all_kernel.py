@@ -30,10 +30,18 @@ from .ik_kernels import (
 # Where each number stands in `rule`: what is accepted (m and rad alike), how often each solution
 # must have been found before a search ends; the most restarts, and the most of them without a
 # solution.
-ACCEPTED, EACH, RESTARTS, BARREN, RULE = 0, 1, 2, 3, 4
+ACCEPTED = 0
+EACH = 1
+RESTARTS = 2
+BARREN = 3
+RULE = 4
 # Where each number stands in a row of `info`: solutions, restarts, ends that are solutions, whether
 # there was no room.
-FOUND, AT_RESTARTS, AT_ENDS, FULL, INFO = 0, 1, 2, 3, 4
+FOUND = 0
+AT_RESTARTS = 1
+AT_ENDS = 2
+FULL = 3
+INFO = 4
 
 # rad or m: nearer ends are one; of farther ones, up to _NEAR, the pose halfway is looked at
 _SAME = 1e-7
@@ -152,9 +160,14 @@ def search(
     """
     m = q.shape[2]
     problem = Problem(arm, limits, np.zeros(m), options)
-    T, J, H = np.empty((4, 4)), np.empty((6, m)), np.empty((m, m))
-    rows, trial, middle = scratch_rows(m), np.empty(m), np.empty(m)
-    ones, singular = np.ones(6), np.zeros(q.shape[1], np.bool_)
+    T = np.empty((4, 4))
+    J = np.empty((6, m))
+    H = np.empty((m, m))
+    rows = scratch_rows(m)
+    trial = np.empty(m)
+    middle = np.empty(m)
+    ones = np.ones(6)
+    singular = np.zeros(q.shape[1], np.bool_)
     limit = rule[ACCEPTED]
     for k in range(targets.shape[0]):
         target = targets[k]

@@ -4,18 +4,21 @@ Numba.
 
 # Where each number stands in `options`: tolerances (m, rad), iterations of a try, restarts, task,
 # the tool's direction (3) of the task DIRECTION, and the weights (6) of the error's parts.
-TOL_POSITION, TOL_ROTATION, ITERATIONS, RESTARTS, TASK, AXIS, WEIGHTS, OPTIONS = (
-    0,
-    1,
-    2,
-    3,
-    4,
-    5,
-    8,
-    14,
-)
+TOL_POSITION = 0
+TOL_ROTATION = 1
+ITERATIONS = 2
+RESTARTS = 3
+TASK = 4
+AXIS = 5
+WEIGHTS = 8
+OPTIONS = 14
 POSE, POSITION, ROTATION, DIRECTION = range(4)
 # Where each number stands in a row of `info`: the errors of q (m, rad), what it took, and how the
 # best try ended.
-AT_POSITION, AT_ROTATION, AT_ITERATIONS, AT_RESTARTS, AT_STATE, INFO = 0, 1, 2, 3, 4, 5
+AT_POSITION = 0
+AT_ROTATION = 1
+AT_ITERATIONS = 2
+AT_RESTARTS = 3
+AT_STATE = 4
+INFO = 5
 SOLVED, STALLED, OUT_OF_ITERATIONS, BAD_TARGET = range(4)

@@ -193,8 +193,11 @@ def solve_many(arm, targets, q0, limits, ranges, fixed, options, indices, seed, 
     """
     m = q.shape[1]
     problem = Problem(arm, limits, fixed, options)
-    T, J, H = np.empty((4, 4)), np.empty((6, m)), np.empty((m, m))
-    rows, trial = scratch_rows(m), np.empty(m)
+    T = np.empty((4, 4))
+    J = np.empty((6, m))
+    H = np.empty((m, m))
+    rows = scratch_rows(m)
+    trial = np.empty(m)
     for k in range(targets.shape[0]):
         target = targets[k]
         row = info[k]

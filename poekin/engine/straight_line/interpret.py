@@ -36,8 +36,7 @@ def outputs(program: Program, sines: Array, cosines: Array, q: Array) -> Array:
     values: dict[int, Any] = {}
     for number, node in program.steps:
         if node.kind == "input":
-            at = int(node.first)
-            values[number] = q[:, -1 - at] if at < 0 else (sines, cosines)[at % 2][:, at // 2]
+            values[number] = _input(int(node.first), sines, cosines, q)
         elif node.kind == "constant":
             values[number] = node.first
         elif node.kind == "scaled":
@@ -45,9 +44,18 @@ def outputs(program: Program, sines: Array, cosines: Array, q: Array) -> Array:
         elif node.kind == "product":
             values[number] = values[int(node.first)] * values[node.second]
         else:
-            first, second = values[int(node.first)], values[node.second]
-            values[number] = first + second if node.sign > 0 else first - second
+            values[number] = values[int(node.first)] + node.sign * values[node.second]
     result = np.empty((len(q), len(program.outputs)))
     for column, (number, sign) in zip(result.T, program.outputs, strict=True):
-        column[:] = sign if number is None else values[number] if sign > 0 else -values[number]
+        if number is None:
+            column[:] = sign
+        else:
+            column[:] = sign * values[number]
     return result
+
+
+def _input(number: int, sines: Array, cosines: Array, q: Array) -> Array:
+    """Values (N,) of an input: a coordinate, or the sine or cosine of an angle."""
+    if number < 0:
+        return q[:, -1 - number]
+    return (sines, cosines)[number % 2][:, number // 2]

@@ -23,6 +23,7 @@ from llvmlite import binding, ir
 from numba.core import codegen, config
 
 from .program import Program
+from .trace import Node
 
 LANES = 4
 LONGEST = 512
@@ -30,7 +31,9 @@ LONGEST = 512
 length.
 """
 CONTRACT = ("contract",)
-_DOUBLE, _INT, _INDEX = ir.DoubleType(), ir.IntType(64), ir.IntType(32)
+_DOUBLE = ir.DoubleType()
+_INT = ir.IntType(64)
+_INDEX = ir.IntType(32)
 _POINTER = _DOUBLE.as_pointer()
 ANGLES = ir.FunctionType(ir.VoidType(), [_POINTER, _POINTER, _INT])
 SIGNATURE = ir.FunctionType(
@@ -42,7 +45,8 @@ def processor() -> tuple[str, str]:
     """LLVM's name and features of the processor: the host's, or those of NUMBA_CPU_NAME and
     NUMBA_CPU_FEATURES.
     """
-    name, features = config.CPU_NAME, config.CPU_FEATURES  # type: ignore[attr-defined]
+    name = config.CPU_NAME  # type: ignore[attr-defined]
+    features = config.CPU_FEATURES
     return (
         name or binding.get_host_cpu_name(),
         codegen.get_host_cpu_features() if features is None else features,
@@ -97,13 +101,11 @@ def _write_angles(module: ir.Module, program: Program) -> None:
         parts = [] if angle.base is None else [values[angle.base]]
         for k, factor in angle.terms:
             x = build.load(build.gep(q, [_INT(k)]), align=8)
-            parts.append(
-                x
-                if factor == 1
-                else build.fneg(x)
-                if factor == -1
-                else build.fmul(_DOUBLE(factor), x)
-            )
+            if factor == -1:
+                x = build.fneg(x)
+            elif factor != 1:
+                x = build.fmul(_DOUBLE(factor), x)
+            parts.append(x)
         if angle.offset:
             parts.append(_DOUBLE(angle.offset))
         total = parts[0]
@@ -121,12 +123,14 @@ class _Function:
     def __init__(self, module: ir.Module, name: str, lanes: int):
         self.function = ir.Function(module, SIGNATURE, name)
         self.build = ir.IRBuilder(self.function.append_basic_block())
-        self.lanes, self.length = lanes, 0
+        self.lanes = lanes
+        self.length = 0
         self.type = _DOUBLE if lanes == 1 else ir.VectorType(_DOUBLE, lanes)
 
     def write(self, program: Program, pose: bool) -> None:
         """All of it: inputs, steps, outputs."""
-        build, values = self.build, {}
+        build = self.build
+        values = {}
         for number, node in program.steps:
             self._lengthen()
             if node.kind == "input":
@@ -138,33 +142,38 @@ class _Function:
                     self._constant(node.first), values[node.second], flags=CONTRACT
                 )
             else:
-                operation = (
-                    build.fmul
-                    if node.kind == "product"
-                    else build.fadd
-                    if node.sign > 0
-                    else build.fsub
-                )
+                operation = self._operation(node)
                 values[number] = operation(
                     values[int(node.first)], values[node.second], flags=CONTRACT
                 )
-        outputs = [
-            self._constant(sign)
-            if number is None
-            else values[number]
-            if sign > 0
-            else build.fneg(values[number])
-            for number, sign in program.outputs
-        ]
+        outputs = [self._output(values, number, sign) for number, sign in program.outputs]
         *_, T, J = self.function.args
         if pose:
-            R, p, zero = outputs[:9], outputs[9:12], self._constant(0.0)
+            R = outputs[:9]
+            p = outputs[9:12]
+            zero = self._constant(0.0)
             self._store(
                 T,
                 [*R[:3], p[0], *R[3:6], p[1], *R[6:], p[2], zero, zero, zero, self._constant(1.0)],
             )
         self._store(J, outputs[12:] if pose else outputs)
         build.ret_void()
+
+    def _operation(self, node: Node) -> Any:
+        """The builder's method for a product or a sum."""
+        if node.kind == "product":
+            return self.build.fmul
+        if node.sign > 0:
+            return self.build.fadd
+        return self.build.fsub
+
+    def _output(self, values: dict[int, Any], number: int | None, sign: float) -> Any:
+        """One output: a constant, or a node with its sign."""
+        if number is None:
+            return self._constant(sign)
+        if sign > 0:
+            return values[number]
+        return self.build.fneg(values[number])
 
     def _lengthen(self, by: int = 1) -> None:
         """Count steps of the block, and begin another where it is long enough."""
@@ -182,7 +191,9 @@ class _Function:
             self.build.position_at_end(following)
 
     def _constant(self, value: float):
-        return _DOUBLE(value) if self.lanes == 1 else ir.Constant(self.type, [value] * self.lanes)
+        if self.lanes == 1:
+            return _DOUBLE(value)
+        return ir.Constant(self.type, [value] * self.lanes)
 
     def _input(self, number: int):
         build = self.build
@@ -203,7 +214,8 @@ class _Function:
         """The values one after the other; of several lanes each lane's, four by four turned from
         columns into rows.
         """
-        build, size = self.build, len(values)
+        build = self.build
+        size = len(values)
         for i in range(0, size, LANES):
             group = values[i : i + LANES]
             self._lengthen(len(group))
@@ -240,4 +252,6 @@ class _Function:
 
     def _wide(self, place, kind):
         """A place in an array of numbers, as one of `kind`."""
-        return place if kind == _DOUBLE else self.build.bitcast(place, kind.as_pointer())
+        if kind == _DOUBLE:
+            return place
+        return self.build.bitcast(place, kind.as_pointer())

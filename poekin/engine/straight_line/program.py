@@ -51,12 +51,15 @@ class Angles:
         else:
             sign = 1 if terms[0][1] > 0 else -1
             if sign < 0:
-                terms, offset, quarters = tuple((k, -f) for k, f in terms), -offset, -quarters
+                terms = tuple((k, -f) for k, f in terms)
+                offset = -offset
+                quarters = -quarters
             form = (terms, offset)
             number = self._numbers.setdefault(form, len(self.forms))
             if number == len(self.forms):
                 self.forms.append(form)
-            sine, cosine = self.graph.input(2 * number), self.graph.input(2 * number + 1)
+            sine = self.graph.input(2 * number)
+            cosine = self.graph.input(2 * number + 1)
         for _ in range(quarters % 4):
             sine, cosine = cosine, -sine
         return sign * sine, cosine
@@ -79,7 +82,8 @@ class Program:
 
 def program(graph: Graph, angles: Angles, outputs: Sequence[Traced | float]) -> Program:
     """What the outputs need of a graph, and what it costs."""
-    nodes, needed = graph.nodes, set()
+    nodes = graph.nodes
+    needed = set()
     stack = [x.number for x in outputs if isinstance(x, Traced)]
     while stack:
         number = stack.pop()
@@ -110,7 +114,9 @@ def program(graph: Graph, angles: Angles, outputs: Sequence[Traced | float]) -> 
 def _operands(node: Node) -> list[int]:
     if node.kind == "scaled":
         return [node.second]
-    return [int(node.first), node.second] if node.kind in ("product", "sum") else []
+    if node.kind in ("product", "sum"):
+        return [int(node.first), node.second]
+    return []
 
 
 def _sums(forms) -> tuple[list[Angle], list[int]]:

@@ -89,7 +89,8 @@ def _traced(
     """
     trace = _Trace(arm)
     if frame is None:
-        T, J = trace.hybrid(outer)[0], []
+        T = trace.hybrid(outer)[0]
+        J = []
     elif frame == "hybrid":
         T, J = trace.hybrid(outer)
     elif frame == "space":
@@ -110,7 +111,8 @@ class _Trace:
     """One recording: an arm's walks on the scalars of one graph."""
 
     def __init__(self, arm: Structure):
-        self.arm, self.n = arm, len(arm.links)
+        self.arm = arm
+        self.n = len(arm.links)
         self.graph = Graph()
         self.angles = Angles(self.graph)
         self.driven_by = [
@@ -122,7 +124,8 @@ class _Trace:
 
     def hybrid(self, seen: bool):
         """The pose, and the Jacobian in the axes of the base and at the tip."""
-        arm, angles = self.arm, self._outward_angles(0)
+        arm = self.arm
+        angles = self._outward_angles(0)
         T = compose(self._outward(arm.base, 0, angles), arm.tool)
         if seen:
             p = structured.tip_seen(
@@ -133,7 +136,8 @@ class _Trace:
 
     def space(self, seen: bool):
         """The pose, and the Jacobian in the base frame."""
-        arm, angles = self.arm, self._outward_angles(0)
+        arm = self.arm
+        angles = self._outward_angles(0)
         T = compose(self._outward(arm.base, 0, angles), arm.tool)
         point = translation(inverse(arm.base))
         structured.seen_outward(point, *self._links(), *angles, 0, self.n, self.points)
@@ -141,7 +145,8 @@ class _Trace:
 
     def body(self, seen: bool):
         """The pose, and the Jacobian in the frame of the tip."""
-        arm, angles = self.arm, self._inward_angles(self.n - 1)
+        arm = self.arm
+        angles = self._inward_angles(self.n - 1)
         T = inverse(compose(self._inward(inverse(arm.tool), self.n - 1, angles), inverse(arm.base)))
         p = structured.seen_inward(
             translation(arm.tool), *self._links(), *angles, self.n - 1, self.points
@@ -180,7 +185,8 @@ class _Trace:
         seen).
         """
         J: list[list[Any]] = [[0.0] * self.n for _ in range(6)]
-        rotates, slides = self.arm.rotates, self.arm.slides
+        rotates = self.arm.rotates
+        slides = self.arm.slides
         for i in range(self.n):
             set_column(J, i, self.rows[i][6:])
         columns.about_point(J, rotates, slides, self.n, p)
@@ -208,7 +214,8 @@ class _Trace:
 
     def _outward_angles(self, begin: int) -> tuple[list, list]:
         pairs: list[tuple[Any, Any]]
-        pairs, start = [(0.0, 1.0)] * self.n, begin
+        pairs = [(0.0, 1.0)] * self.n
+        start = begin
         for i in range(begin, self.n):
             start = start if self.arm.parallel[i] else i
             pairs[i] = self._sine_cosine(range(start, i + 1))
@@ -216,7 +223,8 @@ class _Trace:
 
     def _inward_angles(self, begin: int) -> tuple[list, list]:
         pairs: list[tuple[Any, Any]]
-        pairs, end = [(0.0, 1.0)] * self.n, begin
+        pairs = [(0.0, 1.0)] * self.n
+        end = begin
         for i in range(begin, -1, -1):
             pairs[i] = self._sine_cosine(range(i, end + 1))
             end = end if self.arm.parallel[i] else i - 1
@@ -233,7 +241,8 @@ class _Trace:
         quarters = sum(arm.quarters[i] for i in joints)
         whole = round(offset / HALF_PI)
         if abs(offset - whole * HALF_PI) <= FOLDED:
-            offset, quarters = 0.0, quarters + whole
+            offset = 0.0
+            quarters = quarters + whole
         return self.angles.sine_cosine(factors, offset, quarters)
 
 

@@ -18,7 +18,9 @@ counts as it.
 def folded(value: float) -> float:
     """A constant; one that is 0 or +-1 but for rounding is that."""
     near = round(value) if abs(value) < 2 else value
-    return float(near) if near in (-1, 0, 1) and abs(value - near) <= FOLDED else float(value)
+    if near in (-1, 0, 1) and abs(value - near) <= FOLDED:
+        return float(near)
+    return float(value)
 
 
 class Node(NamedTuple):
@@ -51,17 +53,18 @@ class Graph:
     def scaled(self, x: Traced, factor: float) -> Traced | float:
         """A constant times a scalar."""
         factor = folded(factor)
-        size, number, node = abs(factor), x.number, self.nodes[x.number]
+        size = abs(factor)
+        number = x.number
+        node = self.nodes[x.number]
         if node.kind == "scaled":
-            size, number = node.first * size, node.second
+            size = node.first * size
+            number = node.second
         if size == 0.0:
             return 0.0
         sign = x.sign if factor > 0 else -x.sign
-        return (
-            Traced(self, number, sign)
-            if size == 1.0
-            else self._node(Node("scaled", size, number), sign)
-        )
+        if size == 1.0:
+            return Traced(self, number, sign)
+        return self._node(Node("scaled", size, number), sign)
 
     def product(self, x: Traced, y: Traced) -> Traced:
         """x y."""
@@ -71,7 +74,9 @@ class Graph:
     def sum(self, x: Traced, y: Traced) -> Traced | float:
         """x + y."""
         if x.number == y.number:
-            return self.scaled(x, 2.0) if x.sign == y.sign else 0.0
+            if x.sign == y.sign:
+                return self.scaled(x, 2.0)
+            return 0.0
         first, second = (x, y) if x.number < y.number else (y, x)
         return self._node(
             Node("sum", first.number, second.number, first.sign * second.sign), first.sign
@@ -94,19 +99,21 @@ class Traced:
     __slots__ = ("graph", "number", "sign")
 
     def __init__(self, graph: Graph, number: int, sign: int):
-        self.graph, self.number, self.sign = graph, number, sign
+        self.graph = graph
+        self.number = number
+        self.sign = sign
 
     def __mul__(self, other):
-        return (
-            self.graph.product(self, other)
-            if isinstance(other, Traced)
-            else self.graph.scaled(self, other)
-        )
+        if isinstance(other, Traced):
+            return self.graph.product(self, other)
+        return self.graph.scaled(self, other)
 
     def __add__(self, other):
         if isinstance(other, Traced):
             return self.graph.sum(self, other)
-        return self if abs(other) <= FOLDED else self.graph.sum(self, self.graph.constant(other))
+        if abs(other) <= FOLDED:
+            return self
+        return self.graph.sum(self, self.graph.constant(other))
 
     def __sub__(self, other):
         return self + -other
@@ -114,7 +121,8 @@ class Traced:
     def __rsub__(self, other):
         return -self + other
 
-    __rmul__, __radd__ = __mul__, __add__
+    __rmul__ = __mul__
+    __radd__ = __add__
 
     def __neg__(self):
         return Traced(self.graph, self.number, -self.sign)

@@ -32,7 +32,9 @@ def solve(H, g, count):
             total = H[i][j]
             for k in range(j):
                 total -= H[i][k] * (H[j][k] * H[k][k])
-            H[i][j] = total / H[j][j] if i > j else total
+            if i > j:
+                total = total / H[j][j]
+            H[i][j] = total
     for i in range(count):
         for k in range(i):
             g[i] -= H[i][k] * g[k]

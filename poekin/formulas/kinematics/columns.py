@@ -27,7 +27,9 @@ def about_point(J, rotates, slides, count, p):
     """
     for i in range(count):
         axis = column(J, i)
-        r, s, z = rotates[i], slides[i], angular(axis)
+        r = rotates[i]
+        s = slides[i]
+        z = angular(axis)
         v = cross(z, subtract(p, linear(axis)))
         set_column(J, i, twist(scale(r, z), add(scale(r, v), scale(s, z))))
 

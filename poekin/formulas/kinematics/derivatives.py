@@ -19,7 +19,8 @@ _ZERO = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 def bracket(X, Y):
     """[X, Y] = ad(X) Y = (w_X x w_Y; w_X x v_Y + v_X x w_Y): 18 multiplications and 12 additions."""
-    w, a = angular(X), angular(Y)
+    w = angular(X)
+    a = angular(Y)
     return twist(cross(w, a), add(cross(w, linear(Y)), cross(linear(X), a)))
 
 
@@ -103,7 +104,8 @@ def hybrid_rate(J, rates, count, dJ):
     for i in range(1, count):
         H = column(J, i)
         w = angular(H)
-        before, W = W, add(W, scale(rates[i], w))
+        before = W
+        W = add(W, scale(rates[i], w))
         set_column(dJ, i, twist(cross(before, w), add(linear(column(dJ, i)), cross(W, linear(H)))))
 
 
@@ -117,14 +119,12 @@ def acceleration(J, dJ, rates, accelerations, count):
 
 def set_derivative(H, i, j, V):
     """Write dJ_i/dx_j = V into H, six rows of one row a column i of one number a coordinate j."""
-    H[0][i][j], H[1][i][j], H[2][i][j], H[3][i][j], H[4][i][j], H[5][i][j] = (
-        V[0],
-        V[1],
-        V[2],
-        V[3],
-        V[4],
-        V[5],
-    )
+    H[0][i][j] = V[0]
+    H[1][i][j] = V[1]
+    H[2][i][j] = V[2]
+    H[3][i][j] = V[3]
+    H[4][i][j] = V[4]
+    H[5][i][j] = V[5]
 
 
 def space_hessian(J, count, H):

@@ -46,7 +46,9 @@ def tip_and_axes(links, sines, cosines, shifts, count, axes):
     """
     T = pose(links[0])
     for i in range(count):
-        sine, cosine, shift = sines[i], cosines[i], shifts[i]
+        sine = sines[i]
+        cosine = cosines[i]
+        shift = shifts[i]
         set_column(axes, i, (T[2], T[5], T[8], T[9], T[10], T[11]))
         T = compose(turned_about_z(T, sine, cosine, shift), links[i + 1])
     return T

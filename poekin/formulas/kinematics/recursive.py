@@ -16,7 +16,8 @@ def z_column(T, r, s):
     """Ad(T)^-1 (0, 0, r; 0, 0, s): 6 multiplications and 3 additions of a revolute joint, none of a
     prismatic one.
     """
-    x, y = r * T[9], r * T[10]
+    x = r * T[9]
+    y = r * T[10]
     return (
         r * T[6],
         r * T[7],

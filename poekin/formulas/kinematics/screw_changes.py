@@ -71,14 +71,12 @@ def pose_changes(P, count, D):
 
 
 def _store(D, i, e, V):
-    D[0][i][e], D[1][i][e], D[2][i][e], D[3][i][e], D[4][i][e], D[5][i][e] = (
-        V[0],
-        V[1],
-        V[2],
-        V[3],
-        V[4],
-        V[5],
-    )
+    D[0][i][e] = V[0]
+    D[1][i][e] = V[1]
+    D[2][i][e] = V[2]
+    D[3][i][e] = V[3]
+    D[4][i][e] = V[4]
+    D[5][i][e] = V[5]
 
 
 def _taken(D, i, e):
@@ -113,7 +111,8 @@ def body_changes(J, P, D, count, C):
         S = column(J, k)
         for i in range(count + 1):
             for e in range(6):
-                change, carried = column_change(J, P, D, k, i, e), bracket(_taken(D, i, e), S)
+                change = column_change(J, P, D, k, i, e)
+                carried = bracket(_taken(D, i, e), S)
                 _store_change(C, k, i, e, adjoint_inverse(f, difference(change, carried)))
 
 
@@ -132,5 +131,9 @@ def hybrid_changes(J, P, D, count, C):
 
 
 def _store_change(C, k, i, e, V):
-    C[0][k][i][e], C[1][k][i][e], C[2][k][i][e] = V[0], V[1], V[2]
-    C[3][k][i][e], C[4][k][i][e], C[5][k][i][e] = V[3], V[4], V[5]
+    C[0][k][i][e] = V[0]
+    C[1][k][i][e] = V[1]
+    C[2][k][i][e] = V[2]
+    C[3][k][i][e] = V[3]
+    C[4][k][i][e] = V[4]
+    C[5][k][i][e] = V[5]

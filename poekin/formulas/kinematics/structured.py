@@ -32,13 +32,15 @@ def outward(frame, links, alongs, parallel, sines, cosines, begin, end, rows):
     (X, Y, Z, o).
     """
     X, Y, Z, o = frame
-    run_X, run_Y = X, Y
+    run_X = X
+    run_Y = Y
     for i in range(begin, end):
         sin_alpha, cos_alpha, a, b = link(links[i])
         o = add(add(o, scale(a, X)), scale(b, Y))
         if not parallel[i]:
             Y, Z = turned(Y, Z, sin_alpha, cos_alpha)
-            run_X, run_Y = X, Y
+            run_X = X
+            run_Y = Y
         write(rows[i], run_X, run_Y, Z, o)
         X, Y = turned(run_X, run_Y, sines[i], cosines[i])
         o = add(o, scale(alongs[i], Z))
@@ -50,7 +52,8 @@ def inward(frame, links, alongs, parallel, sines, cosines, begin, rows):
     Z, o).
     """
     X, Y, Z, o = frame
-    run_X, run_Y = X, Y
+    run_X = X
+    run_Y = Y
     for i in range(begin, -1, -1):
         write(rows[i], run_X, run_Y, Z, o)
         o = subtract(o, scale(alongs[i], Z))
@@ -58,7 +61,8 @@ def inward(frame, links, alongs, parallel, sines, cosines, begin, rows):
         sin_alpha, cos_alpha, a, b = link(links[i])
         if not parallel[i]:
             Z, Y = turned(Z, Y, sin_alpha, cos_alpha)
-            run_X, run_Y = X, Y
+            run_X = X
+            run_Y = Y
         o = subtract(subtract(o, scale(a, X)), scale(b, Y))
     return X, Y, Z, o
 
@@ -70,15 +74,19 @@ def seen_outward(point, links, alongs, parallel, sines, cosines, begin, end, poi
     after joint end - 1.
     """
     x, y, z = point
-    sine, cosine = 0.0, 1.0
+    sine = 0.0
+    cosine = 1.0
     for i in range(begin, end):
         sin_alpha, cos_alpha, a, b = link(links[i])
-        x, y = x - (a * cosine - b * sine), y - (a * sine + b * cosine)
+        x = x - (a * cosine - b * sine)
+        y = y - (a * sine + b * cosine)
         if not parallel[i]:
             x, y = turn(x, y, sine, cosine)
             y, z = turn(y, z, sin_alpha, cos_alpha)
-        points[i][0], points[i][1] = x, y
-        sine, cosine = sines[i], cosines[i]
+        points[i][0] = x
+        points[i][1] = y
+        sine = sines[i]
+        cosine = cosines[i]
         z = z - alongs[i]
     x, y = turn(x, y, sine, cosine)
     return x, y, z
@@ -91,16 +99,20 @@ def seen_inward(point, links, alongs, parallel, sines, cosines, begin, points):
     """
     x, y, z = point
     for i in range(begin, -1, -1):
-        points[i][0], points[i][1] = x, y
+        points[i][0] = x
+        points[i][1] = y
         z = z + alongs[i]
-        sine, cosine = sines[i], cosines[i]
+        sine = sines[i]
+        cosine = cosines[i]
         sin_alpha, cos_alpha, a, b = link(links[i])
         if parallel[i]:
-            x, y = x + (a * cosine + b * sine), y + (b * cosine - a * sine)
+            x = x + (a * cosine + b * sine)
+            y = y + (b * cosine - a * sine)
         else:
             y, x = turn(y, x, sine, cosine)
             z, y = turn(z, y, sin_alpha, cos_alpha)
-            x, y = x + a, y + b
+            x = x + a
+            y = y + b
     return x, y, z
 
 
@@ -113,16 +125,16 @@ def tip_seen(point, links, alongs, parallel, sines, cosines, count, points):
         if i == count - 1 or not parallel[i + 1]:
             y, x = turn(y, x, sines[i], cosines[i])
         z = z + alongs[i]
-        points[i][0], points[i][1] = x, y
+        points[i][0] = x
+        points[i][1] = y
         sin_alpha, cos_alpha, a, b = link(links[i])
         if parallel[i]:
-            x, y = (
-                x + (a * cosines[i - 1] - b * sines[i - 1]),
-                y + (a * sines[i - 1] + b * cosines[i - 1]),
-            )
+            x = x + (a * cosines[i - 1] - b * sines[i - 1])
+            y = y + (a * sines[i - 1] + b * cosines[i - 1])
         else:
             z, y = turn(z, y, sin_alpha, cos_alpha)
-            x, y = x + a, y + b
+            x = x + a
+            y = y + b
     return x, y, z
 
 
@@ -131,13 +143,16 @@ def columns_of_axes(rows, points, rotates, slides, begin, end, J):
     they see at (x, y).
     """
     for i in range(begin, end):
-        row, r, s = rows[i], rotates[i], slides[i]
+        row = rows[i]
+        r = rotates[i]
+        s = slides[i]
         Z = (row[6], row[7], row[8])
         v = subtract(
             scale(points[i][0], (row[3], row[4], row[5])),
             scale(points[i][1], (row[0], row[1], row[2])),
         )
-        w, v = scale(r, Z), add(scale(r, v), scale(s, Z))
+        w = scale(r, Z)
+        v = add(scale(r, v), scale(s, Z))
         set_column(J, i, (w[0], w[1], w[2], v[0], v[1], v[2]))
 
 
@@ -160,8 +175,18 @@ def turned(a, b, sine, cosine):
 
 def write(row, X, Y, Z, o):
     """X, Y, Z and o into a row of 12 numbers."""
-    row[0], row[1], row[2], row[3], row[4], row[5] = X[0], X[1], X[2], Y[0], Y[1], Y[2]
-    row[6], row[7], row[8], row[9], row[10], row[11] = Z[0], Z[1], Z[2], o[0], o[1], o[2]
+    row[0] = X[0]
+    row[1] = X[1]
+    row[2] = X[2]
+    row[3] = Y[0]
+    row[4] = Y[1]
+    row[5] = Y[2]
+    row[6] = Z[0]
+    row[7] = Z[1]
+    row[8] = Z[2]
+    row[9] = o[0]
+    row[10] = o[1]
+    row[11] = o[2]
 
 
 def axes(T):

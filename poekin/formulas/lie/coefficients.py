@@ -43,7 +43,8 @@ def _series(term, most=SWITCH):
     """Coefficients of t^0, t^2, ... as the nearest floats, as far as they matter where t^2 is
     `most`.
     """
-    terms, k = [term(0)], 1
+    terms = [term(0)]
+    k = 1
     while abs(term(k)) * int(most) ** k > _NEGLIGIBLE * abs(terms[0]):
         terms.append(term(k))
         k += 1
@@ -58,7 +59,8 @@ def _c(k):
 
 
 B_NEAR = _series(lambda k: Fraction((-1) ** k, factorial(2 * k + 2)), NEAR)
-C_NEAR, C_SERIES = _series(_c, NEAR), _series(_c)
+C_NEAR = _series(_c, NEAR)
+C_SERIES = _series(_c)
 
 
 def _beyond_poles(k):
@@ -68,7 +70,8 @@ def _beyond_poles(k):
     )
 
 
-FIRST, SECOND = float(_TURN), 4 * float(_TURN)
+FIRST = float(_TURN)
+SECOND = 4 * float(_TURN)
 FIRST_REST = float(_TURN - Fraction(FIRST))
 D_SERIES = _series(_beyond_poles, FIRST)
 B_SLOPE_SERIES = _series(lambda k: Fraction((-1) ** (k + 1) * 2 * (k + 1), factorial(2 * k + 4)))
@@ -96,7 +99,9 @@ _D_CHAINS, _D_SLOPE_CHAINS = ((series[0::2], series[1::2]) for series in (D_SERI
 
 def a_of(t):
     """A = sin t / t."""
-    return elementary.sin(t) / t if t != 0 else t + 1.0
+    if t != 0:
+        return elementary.sin(t) / t
+    return t + 1.0
 
 
 def b_near(tt):
@@ -111,18 +116,24 @@ def c_near(tt):
 
 def b_of(tt, t):
     """B = (1 - cos t) / t^2 from t^2 and t."""
-    return b_near(tt) if elementary.below(tt, NEAR) else (1.0 - elementary.cos(t)) / tt
+    if elementary.below(tt, NEAR):
+        return b_near(tt)
+    return (1.0 - elementary.cos(t)) / tt
 
 
 def e_of(t):
     """E = (t/2) cot(t/2), for t < 2 pi."""
     half = 0.5 * t
-    return half * elementary.cos(half) / elementary.sin(half) if half != 0 else t + 1.0
+    if half != 0:
+        return half * elementary.cos(half) / elementary.sin(half)
+    return t + 1.0
 
 
 def c_of(tt, a):
     """C = (1 - A) / t^2 from t^2 and A."""
-    return polynomial(C_SERIES, tt) if elementary.below(tt, SWITCH) else (1.0 - a) / tt
+    if elementary.below(tt, SWITCH):
+        return polynomial(C_SERIES, tt)
+    return (1.0 - a) / tt
 
 
 def _beside_poles(tt, rest):
@@ -137,7 +148,9 @@ def d_of(tt):
     pi.
     """
     if not elementary.takes_series(tt):
-        return (1.0 - e_of(elementary.sqrt(tt))) / tt if tt != 0 else (tt + 1.0) / 12.0
+        if tt != 0:
+            return (1.0 - e_of(elementary.sqrt(tt))) / tt
+        return (tt + 1.0) / 12.0
     first, others = _beside_poles(tt, 0.0)
     return first + others
 
@@ -153,18 +166,25 @@ def d_and_e(tt, rest):
 
 def b_slope(tt, a, b):
     """B'/t = (A - 2 B) / t^2."""
-    return polynomial(B_SLOPE_SERIES, tt) if elementary.below(tt, SWITCH) else (a - 2.0 * b) / tt
+    if elementary.below(tt, SWITCH):
+        return polynomial(B_SLOPE_SERIES, tt)
+    return (a - 2.0 * b) / tt
 
 
 def c_slope(tt, b, c):
     """C'/t = (B - 3 C) / t^2."""
-    return polynomial(C_SLOPE_SERIES, tt) if elementary.below(tt, SWITCH) else (b - 3.0 * c) / tt
+    if elementary.below(tt, SWITCH):
+        return polynomial(C_SLOPE_SERIES, tt)
+    return (b - 3.0 * c) / tt
 
 
 def d_slope(tt):
     """D'/t = (1/(2 B) + E - 2) / t^4 from t^2, for t < 2 pi."""
     if not elementary.takes_series(tt):
         t = elementary.sqrt(tt)
-        return (0.5 / b_of(tt, t) + e_of(t) - 2.0) / (tt * tt) if tt != 0 else (tt + 1.0) / 360.0
-    first, second = 2.0 / (FIRST - tt + FIRST_REST), 2.0 / (SECOND - tt)
+        if tt != 0:
+            return (0.5 / b_of(tt, t) + e_of(t) - 2.0) / (tt * tt)
+        return (tt + 1.0) / 360.0
+    first = 2.0 / (FIRST - tt + FIRST_REST)
+    second = 2.0 / (SECOND - tt)
     return first * first + (second * second + _two_chains(_D_SLOPE_CHAINS, tt))

@@ -29,14 +29,17 @@ def square_rest(w, t, tt):
     """|w|^2 - tt of a vector of which t is the length and tt the square of the length, both to
     rounding.
     """
-    x, y, z = upper(w[0], t), upper(w[1], t), upper(w[2], t)
+    x = upper(w[0], t)
+    y = upper(w[1], t)
+    z = upper(w[2], t)
     below = (w[0] - x) * (w[0] + x) + (w[1] - y) * (w[1] + y) + (w[2] - z) * (w[2] + z)
     return (x * x + y * y + z * z - tt) + below
 
 
 def quotient_rest(a, q, b):
     """a - q b where q is a / b to rounding."""
-    qu, bu = upper(q, q), upper(b, b)
+    qu = upper(q, q)
+    bu = upper(b, b)
     return (a - qu * bu) - (qu * (b - bu) + (q - qu) * b)
 
 

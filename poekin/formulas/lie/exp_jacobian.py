@@ -49,7 +49,9 @@ def left(w):
     """J(w), row by row: d exp[w] = [J(w) dw] exp[w], Lemma 5."""
     tt = dot(w, w)
     a, b, c = _abc(w, tt)
-    return rotation(w, b, c) if elementary.below(tt, NEAR) else turned(w, b, c, a)
+    if elementary.below(tt, NEAR):
+        return rotation(w, b, c)
+    return turned(w, b, c, a)
 
 
 def left_inverse(w):
@@ -62,17 +64,19 @@ def left_inverse(w):
 def _dual(w, v, p, q, r, s):
     """p [v] + q ([w][v] + [v][w]) + (w . v) (r [w] + s [w]^2), row by row."""
     wv = dot(w, v)
-    rr, ss, q2 = r * wv, s * wv, 2.0 * q
+    rr = r * wv
+    ss = s * wv
+    q2 = 2.0 * q
     # symmetric part: q (v w^T + w v^T - 2 (w.v) I) + s (w.v) (w w^T - theta^2 I)
-    xx, yy, zz = (
-        w[0] * (q2 * v[0] + ss * w[0]),
-        w[1] * (q2 * v[1] + ss * w[1]),
-        w[2] * (q2 * v[2] + ss * w[2]),
-    )
+    xx = w[0] * (q2 * v[0] + ss * w[0])
+    yy = w[1] * (q2 * v[1] + ss * w[1])
+    zz = w[2] * (q2 * v[2] + ss * w[2])
     xy = q * (w[0] * v[1] + w[1] * v[0]) + ss * (w[0] * w[1])
     yz = q * (w[1] * v[2] + w[2] * v[1]) + ss * (w[1] * w[2])
     zx = q * (w[2] * v[0] + w[0] * v[2]) + ss * (w[2] * w[0])
-    x, y, z = p * v[0] + rr * w[0], p * v[1] + rr * w[1], p * v[2] + rr * w[2]
+    x = p * v[0] + rr * w[0]
+    y = p * v[1] + rr * w[1]
+    z = p * v[2] + rr * w[2]
     return (-(yy + zz), xy - z, zx + y, xy + z, -(xx + zz), yz - x, zx - y, yz + x, -(xx + yy))
 
 

@@ -15,9 +15,15 @@ from .compensated import length
 
 def rotation(w, a, b):
     """I + a [w] + b [w]^2 of a vector w, row by row: the form of exp and of its Jacobians."""
-    xx, yy, zz = w[0] * w[0], w[1] * w[1], w[2] * w[2]
-    xy, yz, zx = b * (w[0] * w[1]), b * (w[1] * w[2]), b * (w[2] * w[0])
-    x, y, z = a * w[0], a * w[1], a * w[2]
+    xx = w[0] * w[0]
+    yy = w[1] * w[1]
+    zz = w[2] * w[2]
+    xy = b * (w[0] * w[1])
+    yz = b * (w[1] * w[2])
+    zx = b * (w[2] * w[0])
+    x = a * w[0]
+    y = a * w[1]
+    z = a * w[2]
     return (
         *(1.0 - b * (yy + zz), xy - z, zx + y),
         *(xy + z, 1.0 - b * (xx + zz), yz - x),
@@ -38,16 +44,24 @@ def _diagonal(b, along, across, cosine):
     """cos theta + b along = 1 - b across, along + across = theta^2: of the smaller square, so 1
     about a frame axis.
     """
-    return 1.0 - b * across if across < along else cosine + b * along
+    if across < along:
+        return 1.0 - b * across
+    return cosine + b * along
 
 
 def turned(w, a, b, cosine):
     """cos theta I + a [w] + b w w^T, row by row: the same as I + a [w] + b [w]^2 where theta is
     large.
     """
-    xx, yy, zz = w[0] * w[0], w[1] * w[1], w[2] * w[2]
-    xy, yz, zx = b * (w[0] * w[1]), b * (w[1] * w[2]), b * (w[2] * w[0])
-    x, y, z = a * w[0], a * w[1], a * w[2]
+    xx = w[0] * w[0]
+    yy = w[1] * w[1]
+    zz = w[2] * w[2]
+    xy = b * (w[0] * w[1])
+    yz = b * (w[1] * w[2])
+    zx = b * (w[2] * w[0])
+    x = a * w[0]
+    y = a * w[1]
+    z = a * w[2]
     return (
         *(_diagonal(b, xx, yy + zz, cosine), xy - z, zx + y),
         *(xy + z, _diagonal(b, yy, zz + xx, cosine), yz - x),
@@ -63,7 +77,8 @@ def closed(w, tt):
     """
     t, dt, rest = length(w, tt)
     inverse = 1.0 / t
-    sine, cosine = elementary.sin(t), elementary.cos(t)
+    sine = elementary.sin(t)
+    cosine = elementary.cos(t)
     versine = 1.0 - cosine
     a = (sine + dt * (cosine - sine * inverse)) / t
     b = (
@@ -90,7 +105,8 @@ def se3(w, v):
     tt = dot(w, w)
     across = cross(w, v)
     if elementary.below(tt, NEAR):
-        b, c = b_near(tt), c_near(tt)
+        b = b_near(tt)
+        c = c_near(tt)
         return pose_of(
             rotation(w, 1.0 - tt * c, b), displacement(1.0, v, c, cross(w, across), b, across)
         )

@@ -33,8 +33,10 @@ def _polar(R):
     rest is what rounding took, to first order.
     """
     q, q_rest, inverse_square, sign = parts(R)
-    w, w_rest = q[0], q_rest[0]
-    v, v_rest = (q[1], q[2], q[3]), (q_rest[1], q_rest[2], q_rest[3])
+    w = q[0]
+    w_rest = q_rest[0]
+    v = (q[1], q[2], q[3])
+    v_rest = (q_rest[1], q_rest[2], q_rest[3])
     vv = dot(v, v)
     if vv < _UNDERFLOW * w * w:
         return 2.0, 0.0, (v, v_rest, w, 0.0, 1.0 / w), w / w
@@ -112,9 +114,8 @@ def _near(theta, rest, axis, w_near):
     turns = turns - turns % 1.0
     if turns > 0 and t < 1e-15 * reach:
         return scale(turns * _TAU / reach, w_near), turns * _TAU, True
-    if reach + t < 3.0 or (
-        turns == 0 and t < 1e-300
-    ):  # less than half a turn apart on any line, or no line
+    # less than half a turn apart on any line, or no line
+    if reach + t < 3.0 or (turns == 0 and t < 1e-300):
         return w, theta, False
     k = (dot(w, w_near) / t - t) / _TAU + 0.5
     k = k - k % 1.0
@@ -144,7 +145,12 @@ def se3_near(T, w_near, v_near):
         # (phi/2) cot(phi/2): the cotangent is that of theta/2, which has lost no digit
         return twist(w, _linear(w, scale(axis[4], axis[0]), p, 0.5 * phi * cotangent))
     n = scale(1.0 / phi, w)
-    along, p_across = scale(dot(n, p), n), cross(cross(n, p), n)
-    off, size, push = dot(p_across, p_across), dot(p, p), phi * phi * dot(v_near, v_near)
+    along = scale(dot(n, p), n)
+    p_across = cross(cross(n, p), n)
+    off = dot(p_across, p_across)
+    size = dot(p, p)
+    push = phi * phi * dot(v_near, v_near)
     v_across = cross(cross(n, v_near), n)
-    return twist(w, add(along, v_across if off <= 1e-30 * (1.0 + size + push) else scale(_NAN, p)))
+    if off <= 1e-30 * (1.0 + size + push):
+        return twist(w, add(along, v_across))
+    return twist(w, add(along, scale(_NAN, p)))

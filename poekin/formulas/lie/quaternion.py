@@ -23,15 +23,22 @@ def _least(R):
     D = p M - q_v q_v^T is nothing but what R misses a rotation by, and p^2 + |q_v|^2 = 4 p where it
     misses nothing.
     """
-    a, b, c = upper(R[0], _UNIT), upper(R[4], _UNIT), upper(R[8], _UNIT)
-    exact, below = 1.0 + a + b + c, (R[0] - a) + (R[4] - b) + (R[8] - c)
+    a = upper(R[0], _UNIT)
+    b = upper(R[4], _UNIT)
+    c = upper(R[8], _UNIT)
+    exact = 1.0 + a + b + c
+    below = (R[0] - a) + (R[4] - b) + (R[8] - c)
     p = exact + below
     rest = below - (p - exact)
-    x, y, z = R[7] - R[5], R[2] - R[6], R[3] - R[1]
+    x = R[7] - R[5]
+    y = R[2] - R[6]
+    z = R[3] - R[1]
     xx = p * (2.0 - p + 2.0 * R[0] - rest) - x * x
     yy = p * (2.0 - p + 2.0 * R[4] - rest) - y * y
     zz = p * (2.0 - p + 2.0 * R[8] - rest) - z * z
-    xy, yz, zx = p * (R[1] + R[3]) - x * y, p * (R[5] + R[7]) - y * z, p * (R[6] + R[2]) - z * x
+    xy = p * (R[1] + R[3]) - x * y
+    yz = p * (R[5] + R[7]) - y * z
+    zx = p * (R[6] + R[2]) - z * x
     inverse = 0.25 / p
     rests = (
         rest,
@@ -66,7 +73,9 @@ def _about(R):
         return 0
     if R[0] >= R[4] and R[0] >= R[8]:
         return 1
-    return 2 if R[4] >= R[8] else 3
+    if R[4] >= R[8]:
+        return 2
+    return 3
 
 
 def _turned_back(axis, w, x, y, z):
@@ -94,7 +103,10 @@ def parts(R):
     q, rest, inverse = _least(turned)
     q = _turned_back(axis, q[0], q[1], q[2], q[3])
     rest = _turned_back(axis, rest[0], rest[1], rest[2], rest[3])
-    return q, rest, inverse, -1.0 if q[0] + rest[0] < 0 else 1.0
+    sign = 1.0
+    if q[0] + rest[0] < 0:
+        sign = -1.0
+    return q, rest, inverse, sign
 
 
 def quaternion(R):
