@@ -201,14 +201,14 @@ def _bars(bars: Bars, rng: np.random.Generator) -> list[Figure]:
     arm = chain.compile()
     words = "× / + / pairs"
     ends, ends_note = _kept(chain, ("body", "space"), bars.ends)
-    middle, middle_note = _kept(chain, ("middle", *range(chain.dof)), bars.middle)
-    if middle == "middle":
-        k = arm.middle.joint
+    middle, middle_note = _kept(chain, ("cheapest", *range(chain.dof)), bars.middle)
+    if middle == "cheapest":
+        k = arm.cheapest.joint
         middle_note = f"the cheapest frame, that of joint index {k}"
     else:
         k = int(middle)
-        cheapest = "/".join(map(str, _numbers(count(chain, method="specialised", frame="middle"))))
-        joint = arm.middle.joint
+        cheapest = "/".join(map(str, _numbers(count(chain, method="specialised", frame="cheapest"))))
+        joint = arm.cheapest.joint
         middle_note = (
             f"the frame of joint index {k}; the cheapest by sum, of joint index {joint}: {cheapest}"
         )
@@ -243,8 +243,8 @@ def _error(chain: Chain, frame: str | int, rng: np.random.Generator) -> str:
     """
     arm, q = chain.compile(), chain.random(rng, 100)
     J = arm.jacobian(q, frame)
-    if frame == "middle":
-        k, _, T_km = arm.middle
+    if frame == "cheapest":
+        k, _, T_km = arm.cheapest
         expected = se3.adjoint(se3.inverse(T_km)) @ chain.jacobian(q, k)
     else:
         expected = chain.jacobian(q, frame)
@@ -269,12 +269,12 @@ def _arm_row(name: str, chain: Chain, tolerance: float) -> tuple[str | int, ...]
         text = "/".join(
             map(str, _numbers(count(arm, method="specialised", frame=frame, pose=pose)))
         )
-        return text + (f" ({arm.compile().middle.joint})" if frame == "middle" else "")
+        return text + (f" ({arm.compile().cheapest.joint})" if frame == "cheapest" else "")
 
     return (
         name, chain.dof, "/".join(map(str, _numbers(count(chain, method="structured")))),
         *(cost(chain, frame) for frame in ("space", "body", "hybrid")), cost(chain, "hybrid", True),
-        cost(chain, "middle"), f"{tolerance:g}", cost(ideal.chain, "body"), cost(ideal.chain, "middle"),
+        cost(chain, "cheapest"), f"{tolerance:g}", cost(ideal.chain, "body"), cost(ideal.chain, "cheapest"),
         f"{ideal.position_bound:.1e}",
     )  # fmt: skip
 

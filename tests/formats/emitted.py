@@ -14,7 +14,7 @@ import numpy as np
 import poekin as pk
 from poekin.groups import se3
 
-FRAMES = ("space", "body", "hybrid", "middle")
+FRAMES = ("space", "body", "hybrid", "cheapest")
 HOSTILE = (
     "*/ int main(void) { return 1; } /*",
     "*/#error broken",
@@ -89,12 +89,12 @@ def module(text: str) -> SimpleNamespace:
 
 
 def expected(chain: pk.Chain, frame: str | int, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pose and Jacobian by the chain's general kernels; "middle" from the frame of its joint by the
+    """Pose and Jacobian by the chain's general kernels; "cheapest" from the frame of its joint by the
     adjoint.
     """
-    if frame != "middle":
+    if frame != "cheapest":
         return chain.fk_jacobian(q, frame)
-    middle = chain.compile().middle
+    middle = chain.compile().cheapest
     T, J = chain.fk_jacobian(q, middle.joint)
     return T, se3.adjoint(se3.inverse(middle.T_km)) @ J
 

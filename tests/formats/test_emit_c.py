@@ -23,7 +23,7 @@ from .emitted import ARMS, FRAMES, HOSTILE, arm, bound, expected, module, suffix
 
 STRICT = ("-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror")
 CASES = [
-    (name, frame) for name in ARMS for frame in (("hybrid", "middle", 0) if arm(name).kinds else ("hybrid",))
+    (name, frame) for name in ARMS for frame in (("hybrid", "cheapest", 0) if arm(name).kinds else ("hybrid",))
 ] + [("panda", "space"), ("panda", "body"), ("coupled", "space"), ("mixed", "body")]  # fmt: skip
 
 
@@ -194,10 +194,10 @@ def test_a_c_plus_plus_program_can_use_the_header(build, tmp_path):
 
 @pytest.mark.parametrize("name", HOSTILE, ids=range(len(HOSTILE)))
 def test_a_hostile_name_stays_in_its_comment(name, build):
-    source = emit.c(with_name(name), "middle", name=name)
+    source = emit.c(with_name(name), "cheapest", name=name)
     without, plain = (
         [re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL) for text in emitted.files.values()]
-        for emitted in (source, emit.c(with_name("a"), "middle", name=source.name))
+        for emitted in (source, emit.c(with_name("a"), "cheapest", name=source.name))
     )
     assert without == plain
     assert not any(
@@ -261,10 +261,10 @@ def test_the_header_says_the_sizes_of_all_arrays():
 
 def test_the_first_comment_says_what_it_costs():
     chain = arm("panda")
-    source = emit.c(chain, "middle", name="p")
+    source = emit.c(chain, "cheapest", name="p")
     for text in (source.header, source.source):
         first = text[: text.index("*/")]
-        for function, program in (("fk", None), ("jacobian_middle", "middle")):
+        for function, program in (("fk", None), ("jacobian_cheapest", "cheapest")):
             count = chain.compile().program(program).count
             said = f"p_{function}: {count.multiplications} multiplications, {count.additions} additions or subtractions"
             assert f" * {said}, {count.sines} pairs of sine and cosine\n" in first

@@ -83,7 +83,7 @@ def test_it_is_the_program_to_the_last_bit(case):
 @pytest.mark.parametrize("name", ARMS)
 def test_its_statements_are_as_many_as_its_first_lines_say(name):
     chain = arm(name)
-    frame = "middle" if chain.kinds else "space"
+    frame = "cheapest" if chain.kinds else "space"
     text = emit.python(chain, frame)
     functions = {
         node.name: node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)
@@ -101,10 +101,10 @@ def test_its_statements_are_as_many_as_its_first_lines_say(name):
         assert said in text
 
 
-def test_panda_s_middle_frame_is_the_one_its_docstring_gives():
+def test_panda_s_cheapest_frame_is_the_one_its_docstring_gives():
     chain = arm("panda")
-    text = emit.python(chain, "middle")
-    middle = chain.compile().middle
+    text = emit.python(chain, "cheapest")
+    middle = chain.compile().cheapest
     assert (
         f"moves with joint {middle.joint} (counted from 0), '{chain.joint_names[middle.joint]}'"
         in text
@@ -210,8 +210,8 @@ def test_what_cannot_be_emitted_is_refused():
         match=r"^frame: expected 'space', 'body', 'hybrid' or the index of a joint, 0 to 6, got 7$",
     ):
         emit.python(arm("panda"), 7)
-    with pytest.raises(InputError, match=r"^frame 'middle': the chain has no joint$"):
-        emit.python(arm("no joint"), "middle")
+    with pytest.raises(InputError, match=r"^frame 'cheapest': the chain has no joint$"):
+        emit.python(arm("no joint"), "cheapest")
     with pytest.raises(
         InputError,
         match=(

@@ -87,7 +87,7 @@ OF_CALLS = {
     "to_hp, coupled": (lambda: pk.Chain([TURN, TURN], np.eye(4), coupling=[[1], [2]], base="b", tip="t").to_hp(),
                        InputError, "to_hp: expected one coordinate a joint, the 2 joints of 'b' -> 't' are coupled to "
                        "1 coordinates"),
-    "the middle": (lambda: ALONE.compile().middle, InputError, "frame 'middle': the chain has no joint"),
+    "the middle": (lambda: ALONE.compile().cheapest, InputError, "frame 'cheapest': the chain has no joint"),
 }  # fmt: skip
 
 

@@ -68,7 +68,9 @@ METHODS: dict[str, tuple[Method, ...]] = {
     "dh_paul": (Method(_general(methods.paul, scalars.paul_link)),),
     "dh_modified": (Method(_general(methods.z_aligned, scalars.craig_link)),),
     "structured": (Method(_structured, ("body", "space", "hybrid"), ("live", "everything")),),
-    "specialised": (Method(_specialised, ("body", "space", "hybrid", "middle"), ("everything",)),),
+    "specialised": (
+        Method(_specialised, ("body", "space", "hybrid", "cheapest"), ("everything",)),
+    ),
 }
 
 
@@ -97,7 +99,7 @@ def count(
         `formulas.kinematics.structured`); "specialised" (the straight-line program of this very
         arm, `Chain.compile`).
     frame: "body"; "space" for "direct"; "structured" has "hybrid" too, "specialised" those,
-        "middle", each joint's index k, and None, which is the pose alone.
+        "cheapest", each joint's index k, and None, which is the pose alone.
     counting: "paper": all that the algorithm does, but not the making of the links' poses; "live":
         only what reaches an output; "everything": that and sines, cosines, links' poses, the
         coupling, and for "structured" a tool.

@@ -13,7 +13,7 @@ import numpy as np
 from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from ...model.geometry.idealise import Idealised
-from ...model.kinematics.compiled import CompiledChain, Middle
+from ...model.kinematics.compiled import CheapestFrame, CompiledChain
 from .count import Count, count
 
 __all__ = ["PRINTED", "CountRow", "CountTable", "count_table", "printed"]
@@ -54,7 +54,7 @@ class CountTable:
     """What the Jacobian of one arm costs in every way that `count` knows.
 
     Attributes: base, tip, names of the frames; joints n, coordinates m; rows; idealised, the
-    `Idealised` whose rows there are, or None; middle, which frame "middle" is, of the arm as it is;
+    `Idealised` whose rows there are, or None; cheapest, which frame "cheapest" is, of the arm as it is;
     verdict, sentences on which part of the printed advantage over Denavit and Hartenberg is
     bookkeeping.
     """
@@ -65,7 +65,7 @@ class CountTable:
     coordinates: int
     rows: tuple[CountRow, ...]
     idealised: Idealised | None
-    middle: Middle | None
+    cheapest: CheapestFrame | None
     verdict: tuple[str, ...]
 
     def __getitem__(self, key: tuple[str, str | int, str]) -> CountRow:
@@ -94,8 +94,8 @@ class CountTable:
             "tip": self.tip,
             "joints": self.joints,
             "coordinates": self.coordinates,
-            "middle": None if self.middle is None else {
-                "joint": self.middle.joint, "along": self.middle.along, "T_km": self.middle.T_km.tolist()
+            "cheapest": None if self.cheapest is None else {
+                "joint": self.cheapest.joint, "along": self.cheapest.along, "T_km": self.cheapest.T_km.tolist()
             },
             "idealised": None if ideal is None else {
                 "position_bound": ideal.position_bound, "rotation_bound": ideal.rotation_bound,
@@ -202,9 +202,9 @@ def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
     rows += _programs(arm, THIS)
     if ideal is not None:
         rows += _programs(ideal.chain.compile(), IDEAL)
-    middle = arm.middle if n else None
+    cheapest = arm.cheapest if n else None
     return CountTable(
-        chain.base, chain.tip, n, chain.dof, tuple(rows), ideal, middle, tuple(_verdict(chain))
+        chain.base, chain.tip, n, chain.dof, tuple(rows), ideal, cheapest, tuple(_verdict(chain))
     )
 
 
@@ -229,7 +229,7 @@ def _programs(arm: CompiledChain, group: str) -> Iterator[CountRow]:
         "body",
         "hybrid",
         *range(n),
-        *(("middle",) if n else ()),
+        *(("cheapest",) if n else ()),
     )
     for frame in frames:
         what = (
@@ -237,8 +237,8 @@ def _programs(arm: CompiledChain, group: str) -> Iterator[CountRow]:
             if isinstance(frame, int)
             else f"{frame} Jacobian"
         )
-        if frame == "middle":
-            what = f"J in the cheapest frame, that of {arm.joint_names[arm.middle.joint]}"
+        if frame == "cheapest":
+            what = f"J in the cheapest frame, that of {arm.joint_names[arm.cheapest.joint]}"
         J, both = (arm.program(frame, pose=pose).count for pose in (False, True))
         yield CountRow(group, "specialised", frame, "everything", what, J, both)
 

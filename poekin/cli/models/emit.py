@@ -20,9 +20,9 @@ from ..kinematics.arm import Base, File, Tip
 from ..model import model
 from ..output import path_text, say
 
-FRAMES = (*FRAME_NAMES, "middle")
+FRAMES = (*FRAME_NAMES, "cheapest")
 NUMBERS: dict[bool, emit.Real] = {False: "double", True: "float"}
-FRAME_HELP = "The Jacobian's: space | body | hybrid | middle (the one that costs least) | K (of joint K, from 0)."
+FRAME_HELP = "The Jacobian's: space | body | hybrid | cheapest (an intermediate link frame) | K (of joint K, from 0)."
 
 Language = Annotated[
     str, typer.Option("--lang", help="c (C99, math.h only) or python (NumPy, JAX, PyTorch arrays).")

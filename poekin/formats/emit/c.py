@@ -43,7 +43,7 @@ class CSource:
 def c(chain: Chain, frame: str | int, *, name: str = "arm", real: Real = "double") -> CSource:
     """C99 of a chain's pose and Jacobian: straight-line, without allocation, with math.h alone.
 
-    Parameters: chain; frame, "space", "body", "hybrid", "middle" or the index of a joint, as in
+    Parameters: chain; frame, "space", "body", "hybrid", "cheapest" or the index of a joint, as in
     `CompiledChain.jacobian`; name, of which the C names are made (only a-z, 0-9 and _ are kept);
     real, "double" or "float". Returns: CSource with functions NAME_fk, NAME_jacobian_FRAME,
     NAME_fk_jacobian_FRAME of q; each also as ..._angles and ..._sincos, for who has sines and

@@ -145,8 +145,8 @@ def _frame(arm: CompiledChain, frame: str | int) -> list[str]:
 
 def jacobian_frame(arm: CompiledChain, frame: str | int) -> tuple[int, np.ndarray]:
     """Joint k with which the frame moves, and its pose in that joint's frame."""
-    if frame == "middle":
-        return arm.middle.joint, arm.middle.T_km
+    if frame == "cheapest":
+        return arm.cheapest.joint, arm.cheapest.T_km
     return int(frame), np.eye(4)
 
 

@@ -12,7 +12,7 @@ from .statements import Statements, by_outputs, double, statements
 def python(chain: Chain, frame: str | int) -> str:
     """Text of a Python module with a chain's pose and Jacobian, straight-line, without imports.
 
-    Parameters: chain; frame, "space", "body", "hybrid", "middle" or the index of a joint, as in
+    Parameters: chain; frame, "space", "body", "hybrid", "cheapest" or the index of a joint, as in
     `CompiledChain.jacobian`. Returns: a text in ASCII with the functions fk, jacobian_FRAME,
     fk_jacobian_FRAME of
     (q, xp), q (..., m) an array of the module xp: numpy, jax.numpy or torch; each also as

@@ -25,8 +25,8 @@ from . import pose_jacobian
 if TYPE_CHECKING:
     from ...engine.straight_line.arm import Arm
 
-MIDDLE = -4
-"""Code of the frame "middle"; the other frames have those of the general kernels, and None stands
+CHEAPEST = -4
+"""Code of the frame "cheapest"; the other frames have those of the general kernels, and None stands
 for no Jacobian.
 """
 
@@ -39,7 +39,7 @@ _POSE_SHAPE = (4, 4)
 _NOT_PLAIN = (AttributeError, KeyError, TypeError, ValueError)
 
 
-class Middle(NamedTuple):
+class CheapestFrame(NamedTuple):
     """Frame in which the Jacobian costs least: it moves with joint number `joint` (0 ... n -
     1).
 
@@ -59,8 +59,8 @@ class CompiledChain(Generic[AnyChain]):
     `fk`, `jacobian` and `fk_jacobian` take and return what those of the chain do. What is 0, ±1 or
     a right angle in the arm costs nothing; nothing is rounded to that beyond 2 u, u = 2^-53, the
     rounding of the cosine of a right angle (`Chain.idealised` does, where it is asked to). Besides
-    the chain's frames there is "middle", the z-aligned frame in which the Jacobian costs least:
-    `middle` says which.
+    the chain's frames there is "cheapest", the z-aligned frame in which the Jacobian costs least:
+    `cheapest` says which.
     Machine code is made at the first use of a frame, in a fraction of a second, and kept in the
     cache. Pickles as its chain and options, never as code; works in threads and in forked workers.
 
@@ -116,7 +116,7 @@ class CompiledChain(Generic[AnyChain]):
     def jacobian(
         self, q: Any, frame: str | int, *, at: ArrayLike | None = None, out: Array | None = None
     ) -> Array:
-        """J (..., 6, m), as `Chain.jacobian`; frame may be "middle" too."""
+        """J (..., 6, m), as `Chain.jacobian`; frame may be "cheapest" too."""
         try:
             if q.ndim == 1 and at is None:
                 kernel, arm = self._jacobians.get(frame) or self._prepare(
@@ -138,7 +138,7 @@ class CompiledChain(Generic[AnyChain]):
         at: ArrayLike | None = None,
         out: tuple[Array, Array] | None = None,
     ) -> tuple[Array, Array]:
-        """T_sb and J in one pass, as `Chain.fk_jacobian`; frame may be "middle" too."""
+        """T_sb and J in one pass, as `Chain.fk_jacobian`; frame may be "cheapest" too."""
         try:
             if q.ndim == 1 and at is None:
                 kernel, arm = self._both.get(frame) or self._prepare(
@@ -165,16 +165,16 @@ class CompiledChain(Generic[AnyChain]):
         return self._arm(chain_kernels.HYBRID, True, True).address
 
     @cached_property
-    def middle(self) -> Middle:
-        """The frame "middle". Raises InputError for a chain without joints."""
+    def cheapest(self) -> CheapestFrame:
+        """The frame "cheapest". Raises InputError for a chain without joints."""
         if not self.joint_names:
-            raise InputError("frame 'middle': the chain has no joint")
+            raise InputError("frame 'cheapest': the chain has no joint")
         k, h = cheapest_frame(self.structure)
         T_km = np.eye(4)
         T_kf = self.structure.frames[k]
         T_km[:3, :3] = np.array(T_kf[:9]).reshape(3, 3)
         T_km[:3, 3] = np.array(T_kf[9:]) - h * T_km[:3, 2]
-        return Middle(k, h, read_only(T_km))
+        return CheapestFrame(k, h, read_only(T_km))
 
     def program(self, frame: str | int | None, *, pose: bool = False) -> Program:
         """The straight-line program of the Jacobian in a frame, of the pose before it where `pose`;
@@ -185,8 +185,8 @@ class CompiledChain(Generic[AnyChain]):
         return self._program(code, pose or frame is None)
 
     def _program(self, code: int | None, pose: bool) -> Program:
-        if code == MIDDLE:
-            k, h, _ = self.middle
+        if code == CHEAPEST:
+            k, h, _ = self.cheapest
             return specialised(placed(self.structure, k, h), k, pose)
         return specialised(self.structure, _NAMES.get(code, code), pose)
 
@@ -216,8 +216,8 @@ class CompiledChain(Generic[AnyChain]):
             return self._arms[code, pose, jacobian]
 
     def _frame_code(self, frame: object) -> int:
-        if isinstance(frame, str) and frame == "middle":
-            return MIDDLE
+        if isinstance(frame, str) and frame == "cheapest":
+            return CHEAPEST
         return pose_jacobian.frame_code(self.chain, frame)
 
     def _fill(self, rows: Array, code: int | None, T: Array | None, J: Array | None) -> None:

@@ -167,8 +167,8 @@ def test_a_sum_of_angles_is_an_addition():
 
 
 @pytest.mark.parametrize("name, tip, frames", [
-    ("puma560", None, {"body": (55, 26, 5), "middle": (15, 3, 4)}),
-    ("ur5", None, {"body": (46, 21, 5), "middle": (10, 5, 4)}),
+    ("puma560", None, {"body": (55, 26, 5), "cheapest": (15, 3, 4)}),
+    ("ur5", None, {"body": (46, 21, 5), "cheapest": (10, 5, 4)}),
     ("panda", "panda_link8", {"body": (92, 47, 6), 3: (39, 12, 5)}),
 ])  # fmt: skip
 def test_the_catalogue_s_arms_keep_their_bars(name, tip, frames):
@@ -326,7 +326,7 @@ def test_the_table_has_every_column_and_is_plain_data():
     assert {m for m, _ in used} == set(METHODS)
     assert {c for _, c in used} == {"printed", "paper", "live", "everything"}
     programs = [r.frame for r in table.of("this arm's own program")]
-    assert programs == ["space", "body", "hybrid", *range(6), "middle"]
+    assert programs == ["space", "body", "hybrid", *range(6), "cheapest"]
     assert [r.frame for r in table.of("the idealised arm's own program")] == programs
     assert table.idealised is not None
     document = json.loads(json.dumps(table.as_dict()))
@@ -377,7 +377,7 @@ def test_each_row_says_what_it_is_of_which_joint():
         assert row.with_pose is not None
         assert row.with_pose.multiplications > row.jacobian.multiplications
     assert count_table(arm("r")).verdict == ()
-    assert count_table(arm("")).middle is None
+    assert count_table(arm("")).cheapest is None
 
 
 def test_formulas_of_revolute_joints_are_not_printed_for_other_chains():
@@ -390,7 +390,7 @@ def test_short_chains_have_their_own_program_only():
     assert {r.method for r in count_table(arm("r")).rows} == {"specialised"}
     nothing = count_table(pk.Chain(np.empty((0, 6)), np.eye(4)))
     assert [numbers(r.with_pose) for r in nothing.rows] == [(0, 0)] * 3
-    assert nothing.middle is None
+    assert nothing.cheapest is None
     assert nothing.verdict == ()
 
 

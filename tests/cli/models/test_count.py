@@ -82,7 +82,7 @@ def test_json_has_every_row(as_json):
     )
     body = rows["this arm's own program", "specialised", "body", "everything"]
     assert body["with_pose"]["sine_cosine_pairs"] == 6
-    assert ("the idealised arm's own program", "specialised", "middle", "everything") in rows
+    assert ("the idealised arm's own program", "specialised", "cheapest", "everything") in rows
 
 
 def test_joints_that_slide_and_follow_are_counted(poekin, crane):

@@ -28,7 +28,7 @@ def test_c_is_three_files_and_says_what_they_cost(poekin, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "options", [("--frame", "middle"), ("--frame", "3"), ("--float",), ("--name", "My Arm")]
+    "options", [("--frame", "cheapest"), ("--frame", "3"), ("--float",), ("--name", "My Arm")]
 )
 def test_options_reach_the_text(poekin, tmp_path, options):
     assert poekin(*PANDA, "--lang", "c", "--output", tmp_path, *options)[0] == 0
@@ -96,7 +96,7 @@ def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
         (("--lang", "python", "--float"), "--float: expected together with --lang c only"),
         (
             ("--lang", "c", "--frame", "world"),
-            "--frame: space, body, hybrid, middle or the number of a joint",
+            "--frame: space, body, hybrid, cheapest or the number of a joint",
         ),
         (("--lang", "c", "--frame", "7"), "0 to 6, got 7"),
         (("--lang", "c", "--frame", "-1"), "0 to 6, got -1"),

@@ -520,11 +520,11 @@ print(len(got))
 def test_without_compiling_everything_still_runs_and_an_arm_s_program_is_interpreted(tmp_path):
     program = (
         PROGRAM
-        + "print([chain.compile().jacobian([0.3, 0.4], f)[0].round(3).tolist() for f in ('body', 'middle')])"
+        + "print([chain.compile().jacobian([0.3, 0.4], f)[0].round(3).tolist() for f in ('body', 'cheapest')])"
     )
     arm = Chain(SCREWS, HOME).compile()
     compiled = [
-        arm.jacobian([0.3, 0.4], frame)[0].round(3).tolist() for frame in ("body", "middle")
+        arm.jacobian([0.3, 0.4], frame)[0].round(3).tolist() for frame in ("body", "cheapest")
     ]
     assert run(tmp_path, program, NUMBA_DISABLE_JIT="1") == (f"{RIGHT}\n{compiled}", "")
     assert not (tmp_path / ".cache" / "poekin").exists()

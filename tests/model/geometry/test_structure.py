@@ -68,13 +68,13 @@ def check(chain, q, times=1.0):
     code.
     """
     fast = chain.compile()
-    frames = ["space", "body", "hybrid", *([0, "middle"] if chain.kinds else [])]
+    frames = ["space", "body", "hybrid", *([0, "cheapest"] if chain.kinds else [])]
     for frame in frames:
         values = interpret.evaluate(fast.program(frame, pose=True), q)
-        k = fast.middle.joint if frame == "middle" else frame
+        k = fast.cheapest.joint if frame == "cheapest" else frame
         T, J = chain.fk_jacobian(q, k)
-        if frame == "middle":
-            J = pk.se3.adjoint(pk.se3.inverse(fast.middle.T_km)) @ J
+        if frame == "cheapest":
+            J = pk.se3.adjoint(pk.se3.inverse(fast.cheapest.T_km)) @ J
         lengths = np.array([1.0] * 9 + [chain.reach] * 3)
         poses = np.concatenate([T[:, :3, :3].reshape(-1, 9), T[:, :3, 3]], axis=1)
         allowed = near(chain, q) * times
@@ -123,7 +123,7 @@ def test_what_is_parallel_perpendicular_or_meets_is_exactly_so(
 ])  # fmt: skip
 def test_a_nominal_arm_s_jacobian_costs_no_more_than_its_structure_lets_it(name, hybrid, middle):
     fast = pk.load(name).chain(tip={"panda": "panda_hand", "ur5e": "tool0"}.get(name)).compile()
-    for frame, most in (("hybrid", hybrid), ("middle", middle)):
+    for frame, most in (("hybrid", hybrid), ("cheapest", middle)):
         count = fast.program(frame).count
         assert (np.array([count.multiplications, count.additions, count.sines]) <= most).all()
 
