@@ -258,7 +258,7 @@ def _hint(
         return "a package that the subject imports is not installed: nothing was judged"
     if not law.about(case):
         return "nothing that this law is about is in it: what is wrong is something else"
-    if Grade.BROKEN is again.grade >= found.verdict.grade and not again.ended:
+    if again.grade is Grade.BROKEN and not again.ended:
         return _declared_otherwise(law, subject, found.case, case)
     return ""
 
