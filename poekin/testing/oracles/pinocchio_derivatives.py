@@ -57,10 +57,10 @@ def derivatives(
     data = oracle.data
     configurations = oracle.configurations(q)
     count, m = dq.shape
-    velocity = [model.joints[i].idx_v for i in oracle._simple.values()]
+    velocity = [model.joints[i].idx_v for i in oracle.simple_joints.values()]
     C = np.zeros((model.nv, m))
-    C[velocity] = oracle._coupling
-    tip_id = oracle._frame(tip)
+    C[velocity] = oracle.coupling
+    tip_id = oracle.frame_id(tip)
     result = Derivatives(
         {f: np.zeros((count, 6, m)) for f in _REFERENCES},
         {f: np.zeros((count, 6, m, m)) for f in _REFERENCES},
@@ -125,7 +125,7 @@ def _base(
     data = oracle.data
     if base is None:
         return None, np.ones(len(dq))
-    base_id = oracle._frame(base)
+    base_id = oracle.frame_id(base)
     T_0b = pin.updateFramePlacement(model, data, base_id).copy()
     drag = pin.getFrameJacobian(model, data, base_id, pin.LOCAL).reshape(6, model.nv) @ C
     moves = np.abs(drag).max(axis=0, initial=0.0) > FREE_OF

@@ -56,8 +56,9 @@ class PinocchioOracle:
     its joint independent). A continuous joint is one angle, handed to Pinocchio as (cos, sin).
     Floating and planar joints stay at identity.
 
-    Attributes: coordinates (names), slides (set of the coordinates in m), links (names), version
-    (of Pinocchio). Raises: MissingExtra without Pinocchio; ModelError for malformed XML, and when
+    Attributes: coordinates (names), slides (set of the coordinates in m), links (names), coupling and
+    offset (C and c), simple_joints (Pinocchio's numbers of the moving one-degree joints, by name),
+    version (of Pinocchio). Raises: MissingExtra without Pinocchio; ModelError for malformed XML, and when
     Pinocchio refuses the text, with what it says about it, which goes to no other place; InputError
     for a path.
     Source: Pinocchio, https://github.com/stack-of-tasks/pinocchio, release 4.
@@ -75,16 +76,16 @@ class PinocchioOracle:
         self.data: Any = self.model.createData()
         self.version: str = pin.__version__
         self.links = tuple(f.name for f in self.model.frames if f.type == pin.FrameType.BODY)
-        self._simple = {
+        self.simple_joints = {
             self.model.names[i]: i
             for i in range(1, self.model.njoints)
             if self.model.joints[i].nv == 1
         }
-        self.coordinates, self._coupling, self._offset = _coupling(root, tuple(self._simple))
+        self.coordinates, self.coupling, self.offset = _coupling(root, tuple(self.simple_joints))
         self.slides = {name for name in self.coordinates if "JointModelP" in self._kind(name)}
 
     def _kind(self, joint: str) -> str:
-        return self.model.joints[self._simple[joint]].shortname()
+        return self.model.joints[self.simple_joints[joint]].shortname()
 
     def random(
         self,
@@ -131,9 +132,9 @@ class PinocchioOracle:
                 raise InputError(
                     f"q: expected number(s) for {quote(name)}, got {safe_repr(value)}"
                 ) from fault
-        x = values @ self._coupling.T + self._offset
+        x = values @ self.coupling.T + self.offset
         result = np.tile(pinocchio().neutral(self.model), (len(values), 1))
-        for column, index in enumerate(self._simple.values()):
+        for column, index in enumerate(self.simple_joints.values()):
             joint = self.model.joints[index]
             if joint.nq == 2:  # a continuous joint: a point on the unit circle
                 result[:, joint.idx_q] = np.cos(x[:, column])
@@ -182,14 +183,14 @@ class PinocchioOracle:
         pin = pinocchio()
         model = self.model
         data = self.data
-        tip_id = self._frame(tip)
-        base_id = None if base is None else self._frame(base)
+        tip_id = self.frame_id(tip)
+        base_id = None if base is None else self.frame_id(base)
         configurations = self.configurations(q)
         count = len(configurations)
         m = len(self.coordinates)
         T = np.empty((count, 4, 4))
         J = {frame: np.zeros((count, 6, m)) for frame in FRAME_NAMES}
-        velocity = [model.joints[i].idx_v for i in self._simple.values()]
+        velocity = [model.joints[i].idx_v for i in self.simple_joints.values()]
         for k, configuration in enumerate(configurations):
             # Without a degree of freedom Pinocchio's getFrameJacobian ends the process: there is
             # nothing to ask for.
@@ -207,7 +208,7 @@ class PinocchioOracle:
             T[k] = T_0t.homogeneous if base_id is None else T_0b.actInv(T_0t).homogeneous
             if moving:
                 for frame, value in self._jacobians(tip_id, T_0t, base_id, T_0b).items():
-                    J[frame][k] = (value[:, velocity] @ self._coupling)[ANGULAR_FIRST]
+                    J[frame][k] = (value[:, velocity] @ self.coupling)[ANGULAR_FIRST]
         return T, J if jacobians else {}
 
     def _jacobians(
@@ -238,7 +239,8 @@ class PinocchioOracle:
             "hybrid": turn @ (result["hybrid"] - at_tip),
         }
 
-    def _frame(self, link: str) -> int:
+    def frame_id(self, link: str) -> int:
+        """Pinocchio's number of a link's frame. Parameters: link. Returns: it. Raises: UnknownName."""
         if link not in self.links:
             raise UnknownName(f"Pinocchio has no link {quote(link)}; {suggest(link, self.links)}")
         return self.model.getFrameId(link, pinocchio().FrameType.BODY)
