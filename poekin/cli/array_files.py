@@ -72,9 +72,10 @@ def read_rows(
     tail: tuple[int, ...] = (),
     besides: Sequence[str] = (),
 ) -> Rows:
-    """Rows (N, k) of named columns, as `read_configurations` reads them, and the line of each in a
-    CSV file, None for a .npy file; what is a column's kind; tail, how an array may have its last
-    axes instead of (k,); besides, columns that are passed over.
+    """Rows (N, k) of named columns, and the line of each in a CSV file, None for a .npy file.
+
+    Parameters: given, names and errors as in `read_configurations`; what, a column's kind; tail,
+    last axes that an array may have instead of (k,); besides, columns that are passed over.
     """
     if given == STDIN and sys.stdin is None:
         raise FileError("cannot read standard input: it is closed")
@@ -82,10 +83,6 @@ def read_rows(
         if Path(given).suffix.lower() == ".npy":
             return npy.configurations(_content(given), len(names), called(given), tail), None
         return _from_csv(given, names, what, progress, besides)
-    except UnicodeDecodeError as error:
-        raise FileError(
-            f"{called(given)} is no text file: byte {error.start} is not UTF-8"
-        ) from error
     except OSError as error:
         if isinstance(error, FileError):
             raise
@@ -113,9 +110,8 @@ def _from_csv(
     file: str | int = given
     if given == STDIN:
         file = sys.stdin.fileno()
-    with open(file, newline="", encoding="utf-8-sig", closefd=given != STDIN) as stream:
-        size = os.fstat(stream.fileno()).st_size
-        return csv_rows.read(stream, names, called(given), what, progress, size, besides=besides)
+    with csv_rows.opened(file, called(given)) as (stream, where, size):
+        return csv_rows.read(stream, names, where, what, progress, size, besides=besides)
 
 
 def npy_bytes(array: np.ndarray) -> bytes:

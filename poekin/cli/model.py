@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..errors import InputError, quote
+from ..errors import InputError, quote, suggest
 from ..formats.load import load
 from ..formats.xacro import is_xacro
 from ..formats.xacro import xacro as evaluate_xacro
@@ -39,6 +39,14 @@ def model(file: str) -> Robot:
     if arguments is not None and os.path.isfile(file) and is_xacro(file):
         return evaluate_xacro(file, **arguments)
     return load(file)
+
+
+def refuse_options(words: Sequence[str], options: Sequence[str]) -> None:
+    """Refuse what looks like an option and came through as a number might. Raises: InputError."""
+    for word in words:
+        if word.startswith("--"):
+            every = (*options, *OPTIONS)
+            raise InputError(f"there is no option {quote(word)}; {suggest(word, every)}")
 
 
 def takes_models(command: Callable[..., None]) -> Callable[..., None]:

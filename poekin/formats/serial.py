@@ -8,7 +8,6 @@ constant, a master, a follower.
 from __future__ import annotations
 
 import math
-from collections.abc import Container
 from typing import NamedTuple
 
 import numpy as np
@@ -19,8 +18,8 @@ from ..model.chain import Chain
 from ..model.joint import Joint, Mimic
 from ..model.provenance import warn
 from ..model.robot import Robot
-
-Interval = tuple[float, float]
+from .limits import UNBOUNDED, Interval
+from .names import free_name
 
 
 class Value(NamedTuple):
@@ -31,7 +30,7 @@ class Value(NamedTuple):
 
     sign: float = 1.0
     start: float = 0.0
-    limits: Interval = (-math.inf, math.inf)
+    limits: Interval = UNBOUNDED
     mimic: Mimic | None = None
     moves: bool = True
 
@@ -68,10 +67,14 @@ def serial_robot(chain: Chain, name: str | None = None) -> Robot:
             ' name, as in chain.retooled(np.eye(4), tip="tool")'
         )
     ends = {chain.base, chain.tip}
-    links = [chain.base, *(_free(f"{joint}_link", ends) for joint in chain.joint_names), chain.tip]
+    links = [
+        chain.base,
+        *(free_name(f"{joint}_link", ends) for joint in chain.joint_names),
+        chain.tip,
+    ]
     values, masters, changes = _values(chain)
     joints = [_joint(chain, i, value, links[i], links[i + 1]) for i, value in enumerate(values)]
-    fixed = _free(f"{chain.tip}_joint", set(chain.joint_names))
+    fixed = free_name(f"{chain.tip}_joint", set(chain.joint_names))
     joints.append(Joint(fixed, "fixed", links[-2], links[-1], chain.local.frames[-1]))
     robot = Robot(name, links, joints)
     if list(robot.q_names) != masters:
@@ -158,9 +161,3 @@ def _image(limits: Interval, ratio: float, shift: float) -> Interval:
             end = math.nextafter(end, math.copysign(math.inf, outward * ratio))
         ends.append(end)
     return min(ends), max(ends)
-
-
-def _free(name: str, taken: Container[str]) -> str:
-    while name in taken:
-        name += "_"
-    return name

@@ -19,20 +19,19 @@ import os
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from ..errors import InputError, ModelError, quote, safe_repr
+from ..errors import ModelError, quote
 from ..model.checks import LONGEST
 from ..model.joint import FREE, KINDS, MOVING, Joint, Mimic
 from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import rpy
+from .limits import ABSURD, UNBOUNDED, without_absurd
 from .text import xml
 from .text.xml import Element
 from .text.xml_reader import Fields
 
 # An axis this far off unit length is a slip of the pen, not rounding.
 AXIS_TOLERANCE = 1e-6
-# Bounds this large [rad or m] bound nothing.
-ABSURD = 1e4
 URDF_KINDS = tuple(kind for kind in KINDS if kind != "helical")
 _ZERO = (0.0, 0.0, 0.0)
 
@@ -70,10 +69,6 @@ def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robo
 
     Raises and warns as `read`; InputError where text is neither str nor bytes, or name no str.
     """
-    if not isinstance(name, str):
-        raise InputError(
-            f"name: expected what to call the text in messages, a str, got {safe_repr(name)}"
-        )
     root = xml.parse(text, name)
     source = Source(name)
     top = Fields(root, source)
@@ -154,7 +149,7 @@ def _limits(fields: Fields, name: str, repairs: Repairs) -> tuple[float, float]:
     element = fields.child("limit")
     if element is None:
         repairs.limits.append(Repair(fields.line, 0.0, f"{quote(name)} (none; line {fields.line})"))
-        return -math.inf, math.inf
+        return UNBOUNDED
     lower = element.number("lower", finite=False)
     upper = element.number("upper", finite=False)
     if lower is not None and upper is not None and lower > upper:
@@ -166,12 +161,8 @@ def _limits(fields: Fields, name: str, repairs: Repairs) -> tuple[float, float]:
         line = element.line
         repairs.limits.append(Repair(line, 0.0, f"{quote(name)} ({reason}; line {line})"))
     if lower == upper:
-        return -math.inf, math.inf
-    if lower is None or abs(lower) >= ABSURD:
-        lower = -math.inf
-    if upper is None or abs(upper) >= ABSURD:
-        upper = math.inf
-    return lower, upper
+        return UNBOUNDED
+    return without_absurd(lower, upper)
 
 
 def _unusable(lower: float | None, upper: float | None) -> str:

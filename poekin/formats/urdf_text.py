@@ -13,6 +13,7 @@ from ..model.chain import Chain
 from ..model.joint import Joint
 from ..model.robot import Robot
 from . import rpy
+from .limits import UNBOUNDED
 from .serial import serial_robot
 
 UNLIMITED = 1e16
@@ -79,7 +80,7 @@ def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
 
 def _joint(joint: Joint) -> Iterator[str]:
     kind = joint.kind.replace("helical", "revolute")
-    if kind == "revolute" and joint.limits == (-math.inf, math.inf):
+    if kind == "revolute" and joint.limits == UNBOUNDED:
         kind = "continuous"
     yield f'  <joint name={quote_attribute(joint.name, "joint")} type="{kind}">'
     yield f"    <parent link={quote_attribute(joint.parent, 'link')}/>"

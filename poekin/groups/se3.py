@@ -68,7 +68,7 @@ def pose(R: ArrayLike, p: ArrayLike) -> Array:
 
     Notes
     -----
-    Accuracy: exact, R and p are copied (Park 1994, Section II).
+    Accuracy: exact, R and p are copied. Source: Park 1994, Section II.
 
     Examples
     --------

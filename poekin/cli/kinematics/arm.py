@@ -11,11 +11,11 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ...errors import InputError, quote, suggest
+from ...errors import InputError, quote
 from ...formats.text.numbers import real
 from ...model.chain import Chain
 from .. import array_files
-from ..model import OPTIONS, model
+from ..model import model, refuse_options
 from ..output import Progress, as_json, heading, matrix, name, number, path_text, say
 
 FILE_HELP = "A URDF, MJCF, DH table or calibration file, a built-in name (panda), or erd:NAME."
@@ -72,10 +72,7 @@ def take(
     Raises: what `model`, `Robot.chain` and reading do.
     """
     words = list(q or ())
-    for word in words:
-        if word.startswith("--"):  # it came through as a number might
-            options = ("--tip", "--base", "--frame", "--input", "--output", "--json", *OPTIONS)
-            raise InputError(f"there is no option {quote(word)}; {suggest(word, options)}")
+    refuse_options(words, ("--tip", "--base", "--frame", "--input", "--output", "--json"))
     values = [_value(word, i) for i, word in enumerate(words)]
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import Annotated
 
 import typer
@@ -35,7 +36,7 @@ def command(
     if output is not None:
         array_files.check_writable(output)
     array_files.check_apart([output], model=file, configurations=given)
-    which = _frame(frame)
+    which = parse_frame(frame, FRAME_NAMES)
     arm = take(file, tip, base, q, given)
     chain = arm.chain
     values = compute(arm, lambda some: chain.jacobian(some, which), (6, chain.dof))
@@ -51,12 +52,12 @@ def command(
     give(arm, results, output, json)
 
 
-def _frame(word: str) -> str | int:
-    if word in FRAME_NAMES:
+def parse_frame(word: str, names: Sequence[str]) -> str | int:
+    """Frame that --frame names, one of the names or a joint's number. Raises: InputError."""
+    if word in names:
         return word
     if re.fullmatch("-?[0-9]{1,18}", word):
         return int(word)
-    names = ", ".join(FRAME_NAMES)
     raise InputError(
-        f"--frame: {names} or the number of a joint (from 0) expected, got {quote(word)}"
+        f"--frame: {', '.join(names)} or the number of a joint (from 0) expected, got {quote(word)}"
     )

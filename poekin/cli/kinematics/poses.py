@@ -9,13 +9,13 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from ...errors import InputError, quote, suggest
+from ...errors import InputError, quote
 from ...formats.text import pose_rows
 from ...formats.text.numbers import real
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from .. import array_files
-from ..model import OPTIONS
+from ..model import refuse_options
 from ..output import Progress, name
 
 FORMAT_HELP = (
@@ -61,6 +61,10 @@ Task = Annotated[
 ]
 NoLimits = Annotated[bool, typer.Option("--no-limits", help="Let the joints leave their limits.")]
 
+OPTIONS = (
+    *("--tip", "--base", "--input", "--format", "--quaternion", "--q0", "--nearest-to", "--task"),
+    *("--no-limits", "--output", "--json", "--seed"),
+)
 UNSOLVED = 1
 """The exit code where not all is solved."""
 
@@ -71,24 +75,7 @@ def read(
     """The poses (N, 4, 4) that a command line names; NaN where a row is not finite. Raises:
     InputError, PoseError, FileError, with file and line.
     """
-    own = (
-        "--tip",
-        "--base",
-        "--input",
-        "--format",
-        "--quaternion",
-        "--q0",
-        "--nearest-to",
-        "--task",
-        "--no-limits",
-        "--output",
-        "--json",
-        "--seed",
-        *OPTIONS,
-    )
-    for word in words or ():
-        if word.startswith("--"):  # it came through as a number might
-            raise InputError(f"there is no option {quote(word)}; {suggest(word, own)}")
+    refuse_options(words or (), OPTIONS)
     if format is None:
         raise InputError(
             "--format: expected 12, 16 or 7, the numbers of a pose, and the format is never guessed"

@@ -17,6 +17,7 @@ from ...model.chain import Chain
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from .. import array_files
 from ..kinematics.arm import Base, File, Tip
+from ..kinematics.jacobian import parse_frame
 from ..model import model
 from ..output import path_text, say
 
@@ -64,7 +65,7 @@ def command(
     chain = robot.chain(base=base, tip=tip)
     if name is None:
         name = robot.name
-    texts = _texts(chain, language, _frame(frame), name, single)
+    texts = _texts(chain, language, parse_frame(frame, FRAMES), name, single)
     if language == "python" and output.suffix == ".py":
         places = dict.fromkeys([output], *texts.values())
         directory = output.parent
@@ -77,16 +78,6 @@ def command(
         if re.search(r"\d+ multiplications", line):
             say(line.removeprefix(" * "))
     say(f"Written: {', '.join(path_text(place) for place in places)}")
-
-
-def _frame(word: str) -> str | int:
-    if re.fullmatch("-?[0-9]{1,18}", word):
-        return int(word)
-    if word not in FRAMES:
-        raise InputError(
-            f"--frame: {', '.join(FRAMES)} or the number of a joint (from 0) expected, got {quote(word)}"
-        )
-    return word
 
 
 def _texts(

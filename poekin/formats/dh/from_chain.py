@@ -25,6 +25,7 @@ from ...model.geometry.normals import (
     parallel_normal,
     unit,
 )
+from ..limits import UNBOUNDED
 from .table import Convention, Row, Table, check_convention
 from .to_chain import to_chain
 
@@ -217,7 +218,6 @@ class _Walk:
 
 _ORIGIN = (Decimal(0), Decimal(0), Decimal(0))
 _AXES = ((Decimal(1), Decimal(0), Decimal(0)), (Decimal(0), Decimal(1), Decimal(0)))
-_FREE = (-math.inf, math.inf)
 
 
 def _limits(chain: Chain) -> list[tuple[float, float]]:
@@ -225,7 +225,7 @@ def _limits(chain: Chain) -> list[tuple[float, float]]:
     found = []
     for row, shift in zip(chain.coupling, chain.offset.tolist(), strict=True):
         (ks,) = row.nonzero()
-        lower, upper = _FREE
+        lower, upper = UNBOUNDED
         if len(ks) == 1:
             k = ks[0]
             lower, upper = sorted(float(row[k] * x) + shift for x in chain.limits[k])

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from ...errors import InputError, PoekinWarning, ShapeError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.checks import bounds, distinct_names, finite, one_pose, read_only
+from ..limits import UNBOUNDED, Interval
 
 Convention = Literal["standard", "modified"]
 CONVENTIONS: tuple[Convention, ...] = get_args(Convention)
@@ -40,7 +41,7 @@ class Row:
     kind: str = "revolute"
     flip: bool = False
     name: str = ""
-    limits: tuple[float, float] = (-math.inf, math.inf)
+    limits: Interval = UNBOUNDED
 
 
 class Table:

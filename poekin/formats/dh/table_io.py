@@ -19,7 +19,6 @@ from typing import Any
 import numpy as np
 
 from ...errors import (
-    FileError,
     InputError,
     ModelError,
     PoekinError,
@@ -29,6 +28,7 @@ from ...errors import (
     suggest,
 )
 from ...groups.arrays import Array
+from ..limits import UNBOUNDED
 from ..text import toml_text, xml
 from ..text.atomic_write import write_whole
 from ..text.numbers import real
@@ -57,13 +57,7 @@ def read(path: str | os.PathLike[str]) -> Table:
     Accuracy: numbers as they are written.
     """
     name = _path(path)
-    try:
-        text = xml.read_bytes(path).decode("utf-8-sig")
-    except UnicodeDecodeError as fault:
-        raise FileError(
-            f"{escape_unprintable(name, 400)}: not UTF-8 at byte {fault.start}"
-        ) from fault
-    return read_text(text, name)
+    return read_text(xml.decode(xml.read_bytes(path), escape_unprintable(name, 400)), name)
 
 
 def read_text(text: str, name: str) -> Table:
@@ -135,7 +129,7 @@ def _row(joint: dict[str, Any], place: str) -> Row:
             raise ModelError(
                 f"{place}: {column}: expected a finite number, got {quote(joint[column])}"
             )
-    limits = joint.get("limits", [-math.inf, math.inf])
+    limits = joint.get("limits", list(UNBOUNDED))
     if (
         not isinstance(limits, list)
         or len(limits) != 2
@@ -295,7 +289,7 @@ def _to_toml(table: Table) -> str:
     joints = []
     for row in table.rows:
         joint = {key: getattr(row, key) for key in ("name", "kind", *COLUMNS, "flip")}
-        if row.limits != (-math.inf, math.inf):
+        if row.limits != UNBOUNDED:
             joint["limits"] = list(row.limits)
         joints.append(joint)
     data["joint"] = joints

@@ -14,6 +14,7 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.joint import Joint
 from ...model.robot import Robot
+from ..names import free_name
 from .table import Table
 
 
@@ -77,7 +78,7 @@ def to_robot(table: Table) -> Robot:
     for row, parent, child, origin in zip(table.rows, links, links[1:], origins, strict=False):
         axis = (0.0, 0.0, 1.0 - 2.0 * row.flip)
         joints.append(Joint(row.name, row.kind, parent, child, origin, axis, row.limits))
-    fixed = next(name for name in ("tool_mount", "tool_mount_") if name not in table.names)
+    fixed = free_name("tool_mount", set(table.names))
     joints.append(Joint(fixed, "fixed", links[-2], "tool", origins[-1]))
     return Robot(table.name, links, joints)
 

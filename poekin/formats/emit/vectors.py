@@ -17,9 +17,7 @@ COUNT = 8
 
 
 class Vectors(NamedTuple):
-    """q (N, m), T (N, 4, 4), J (N, 6, m), and the error (m, 1, or m per rad) that a sound program
-    stays within.
-    """
+    """Coordinates q (N, m), poses T, Jacobians J (N, 6, m), and the error allowed (m, 1 or m/rad)."""
 
     q: Array
     T: Array

@@ -37,13 +37,11 @@ from typing import Any
 import numpy as np
 
 from ...errors import (
-    InputError,
     MissingExtra,
     ModelError,
     PoekinError,
     escape_unprintable,
     quote,
-    safe_repr,
 )
 from ...groups import se3
 from ...model.provenance import Source, warn
@@ -101,10 +99,6 @@ def read_text(text: str | bytes, name: str = "<text>") -> Robot:
 
     Raises and warns as `read`; InputError where text is neither str nor bytes, or name no str.
     """
-    if not isinstance(name, str):
-        raise InputError(
-            f"name: expected what to call the text in messages, a str, got {safe_repr(name)}"
-        )
 
     def parse_spec(MjSpec: Any) -> Any:
         if isinstance(text, str):
@@ -122,8 +116,8 @@ def is_mjcf(path: str | os.PathLike[str]) -> bool:
 
 
 def _read(data: str | bytes, name: str, parse_spec: Callable[[Any], Any], path: str = "") -> Robot:
-    source = Source(name)
     root = xml.parse(data, name)
+    source = Source(name)
     if root.tag != "mujoco":
         raise ModelError(
             f"{source.place(root.sourceline)}: expected the root element <mujoco>, got {quote(root.tag)}"

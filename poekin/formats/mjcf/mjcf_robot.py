@@ -1,29 +1,41 @@
-"""A compiled model of MuJoCo as a Robot: bodies, joints, sites and joint equalities out of its
-arrays.
-"""
+"""Robots out of compiled models of MuJoCo: bodies, joints, sites and joint equalities."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...errors import ModelError, join_names
 from ...formulas.lie import exponential
+from ...groups import se3
+from ...groups.arrays import Array
 from ...model.joint import Joint, Mimic
 from ...model.provenance import Source
 from ...model.robot import TWELVE, Robot
+from ..limits import UNBOUNDED
+from ..names import free_name
 
 # By the number that MuJoCo gives to a joint's type (mjtJoint).
 KINDS = ("floating", "floating", "prismatic", "revolute")
-FREE_JOINT, BALL = 0, 1
+FREE_JOINT = 0
+BALL = 1
+
+
+class _Motion(NamedTuple):
+    """Motion of a joint: kind, axis, limits, and e^{-S ref}, None for a floating one."""
+
+    kind: str
+    axis: list[float]
+    limits: tuple[float, ...]
+    at_zero: Array | None
 
 
 def make_robot(
     model: Any, bodies: np.ndarray, sites: np.ndarray, name: str, source: Source, other: list[str]
 ) -> tuple[Robot, list[str]]:
-    """The robot of a model, and what there is to warn of.
+    """Robot of a model, and the warnings.
 
     Parameters: model, an mjModel; bodies, sites, the poses (N, 4, 4) [m] of each in its parent
     body's frame; name of the robot; source; other, what constraints the model had that are no joint
@@ -34,9 +46,7 @@ def make_robot(
 
 
 class _Reader:
-    """The names of a model's parts, all different, and its joints as they are made one after the
-    other.
-    """
+    """Reader of a model: the names of its parts, all different, and its joints one by one."""
 
     def __init__(self, model: Any):
         self.model = model
@@ -50,21 +60,15 @@ class _Reader:
         self.order: list[str] = []
 
     def free(self, what: str, wanted: str) -> str:
-        """The wanted name of a link or joint, or one like it that nothing else has; it is taken
-        from now on.
-        """
-        while wanted in self.taken[what] or not wanted:
-            wanted += "_"
-        self.taken[what].add(wanted)
-        return wanted
+        """Name for a link or joint, the wanted one or one like it; it is taken from now on."""
+        return free_name(wanted or "_", self.taken[what])
 
     def _joint_name(self, j: int) -> str:
         body = self.model.jnt_bodyid[j]
-        single = self.model.body_jntnum[body] == 1
-        return self.free(
-            "joint",
-            f"{self.links[body]}_joint{'' if single else j - self.model.body_jntadr[body] + 1}",
-        )
+        name = f"{self.links[body]}_joint"
+        if self.model.body_jntnum[body] > 1:
+            name += str(j - self.model.body_jntadr[body] + 1)
+        return self.free("joint", name)
 
     def robot(
         self, bodies: np.ndarray, sites: np.ndarray, name: str, source: Source, other: list[str]
@@ -79,7 +83,8 @@ class _Reader:
                 self._body(i, bodies[i], mimics, constants)
             self.order.append(self.links[i])
         for s in range(model.nsite):
-            site, body = model.site(s).name, int(model.site_bodyid[s])
+            site = model.site(s).name
+            body = int(model.site_bodyid[s])
             if site and body not in self.gone:
                 link = self.free("link", f"{site}_site" if site in self.taken["link"] else site)
                 self.order.append(link)
@@ -117,64 +122,57 @@ class _Reader:
         T  prod_j  trans(a_j) e^{S_j (q_j - ref_j)} trans(-a_j)  in its parent. A joint's link has
         its origin at a_j.
         """
-        model, link = self.model, self.links[i]
+        model = self.model
+        link = self.links[i]
         parent = self.links[int(model.body_parentid[i])]
-        first, count = int(model.body_jntadr[i]), int(model.body_jntnum[i])
-        for j in range(first, first + count):
-            number = int(model.jnt_type[j])
-            kind = (
-                "continuous"
-                if KINDS[number] == "revolute" and not model.jnt_limited[j]
-                else KINDS[number]
-            )
-            axis = model.jnt_axis[j].tolist()
-            anchor = _anchor(KINDS[number], axis, model.jnt_pos[j])
-            ref = float(model.qpos0[model.jnt_qposadr[j]])
-            if number == FREE_JOINT:
-                T = np.eye(
-                    4
-                )  # the pose in qpos is that in the world; the body's own is only where it starts
+        first = int(model.body_jntadr[i])
+        behind = first + int(model.body_jntnum[i])
+        for j in range(first, behind):
+            if model.jnt_type[j] == FREE_JOINT:  # its pose is in the world
+                T = np.eye(4)
+            motion = self._motion(j, constants)
+            anchor = _anchor(KINDS[model.jnt_type[j]], model.jnt_axis[j], model.jnt_pos[j])
             T = T @ _shift(anchor)
-            limits = (
-                tuple(model.jnt_range[j].tolist())
-                if model.jnt_limited[j]
-                else (-math.inf, math.inf)
-            )
-            if j in constants:
-                kind, limits, T = (
-                    "fixed",
-                    (-math.inf, math.inf),
-                    T @ _moved(KINDS[number], axis, constants[j] - ref),
-                )
-            elif kind != "floating":
-                T = T @ _moved(KINDS[number], axis, -ref)
-            else:
-                axis, limits = (
-                    [1.0, 0.0, 0.0],
-                    (-math.inf, math.inf),
-                )  # as a joint without an axis has
-            last = j == first + count - 1 and not anchor.any()
-            child = link if last else self.free("link", f"{link}_after_{self.names[j]}")
-            if not last:
+            if motion.at_zero is not None:
+                T = T @ motion.at_zero
+            child = link
+            if j < behind - 1 or anchor.any():
+                child = self.free("link", f"{link}_after_{self.names[j]}")
                 self.order.append(child)
+            mimic = mimics.get(j)
+            name = self.names[j]
             self.found.append(
-                Joint(self.names[j], kind, parent, child, T, axis, limits, mimics.get(j))
+                Joint(name, motion.kind, parent, child, T, motion.axis, motion.limits, mimic)
             )
-            parent, T = child, _shift(-anchor)
+            parent = child
+            T = _shift(-anchor)
         if parent != link:
             self.found.append(Joint(self.free("joint", f"{link}_fixed"), "fixed", parent, link, T))
 
+    def _motion(self, j: int, constants: dict[int, float]) -> _Motion:
+        model = self.model
+        kind = KINDS[model.jnt_type[j]]
+        axis = model.jnt_axis[j].tolist()
+        ref = float(model.qpos0[model.jnt_qposadr[j]])
+        if j in constants:
+            return _Motion("fixed", axis, UNBOUNDED, _moved(kind, axis, constants[j] - ref))
+        if kind == "floating":
+            return _Motion(kind, [1.0, 0.0, 0.0], UNBOUNDED, None)
+        at_zero = _moved(kind, axis, -ref)
+        if model.jnt_limited[j]:
+            return _Motion(kind, axis, tuple(model.jnt_range[j].tolist()), at_zero)
+        return _Motion(kind.replace("revolute", "continuous"), axis, UNBOUNDED, at_zero)
+
     def _equalities(self) -> tuple[dict[int, Mimic], dict[int, float]]:
-        """Mimic joints, and joints that are held at a value: y - y_0 = a_0 + a_1 (x - x_0), 0
-        stands for qpos0.
-        """
+        """Mimic joints and joints held at a value: y - y_0 = a_0 + a_1 (x - x_0), q_0 = qpos0."""
         model = self.model
         mimics: dict[int, Mimic] = {}
         constants: dict[int, float] = {}
         masters: dict[int, int] = {}
         refused: dict[str, list[str]] = {}
         for e in range(model.neq):
-            y, x = int(model.eq_obj1id[e]), int(model.eq_obj2id[e])
+            y = int(model.eq_obj1id[e])
+            x = int(model.eq_obj2id[e])
             if not model.eq_active0[e] or not self._here(y):
                 continue
             a = model.eq_data[e, :5].tolist()
@@ -217,7 +215,7 @@ def _below_mocap(model: Any) -> set[int]:
 
 
 def _ancestry(masters: dict[int, int], joint: int) -> set[int]:
-    """A joint, the one that it follows, the one which that follows, ..."""
+    """Joint, its master, the master's own master, and so on."""
     line = {joint}
     while joint in masters:
         joint = masters[joint]
@@ -225,22 +223,19 @@ def _ancestry(masters: dict[int, int], joint: int) -> set[int]:
     return line
 
 
-def _anchor(kind: str, axis: list[float], anchor: np.ndarray) -> np.ndarray:
-    """Where a joint's frame must have its origin; the body's own where the joint moves it in the
-    same way.
-    """
-    along = kind == "revolute" and not np.cross(axis, anchor).any()
-    return np.zeros(3) if kind == "prismatic" or along else anchor
+def _anchor(kind: str, axis: Array, anchor: Array) -> Array:
+    """Origin of a joint's frame; the body's own where the joint moves it in the same way."""
+    if kind == "prismatic" or (kind == "revolute" and not np.cross(axis, anchor).any()):
+        return np.zeros(3)
+    return anchor
 
 
-def _shift(by: np.ndarray) -> np.ndarray:
-    T = np.eye(4)
-    T[:3, 3] = by
-    return T
+def _shift(by: Array) -> Array:
+    return se3.pose(np.eye(3), by)
 
 
-def _moved(kind: str, axis: list[float], x: float) -> np.ndarray:
-    """e^{S x} of a joint in its own frame."""
+def _moved(kind: str, axis: list[float], x: float) -> Array:
+    """Pose e^{S x} of a joint in its own frame."""
     if not math.isfinite(x):
         raise ModelError(f"ref and equality: expected a finite coordinate, got {x}")
     still = (0.0, 0.0, 0.0)

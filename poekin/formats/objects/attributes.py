@@ -27,11 +27,3 @@ def type_name(obj: Any) -> str:
     kind = type(obj)
     name = f"{kind.__module__}.{kind.__qualname__}"
     return escape_unprintable(name.removeprefix("builtins."))
-
-
-def free_name(name: str, taken: set[str]) -> str:
-    """Name that is not taken yet, with underscores behind it; it is taken from now on."""
-    while name in taken:
-        name += "_"
-    taken.add(name)
-    return name

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +13,9 @@ from ...model.chain import Chain
 from ...model.checks import one_pose
 from ...model.joint import Joint, Mimic
 from ...model.robot import Robot
-from .attributes import as_list, free_name, has
+from ..limits import UNBOUNDED
+from ..names import free_name
+from .attributes import as_list, has
 
 _ET = ("isjoint", "axis", "A")
 # Those of space; planar ones (ET2) have other names.
@@ -184,7 +185,7 @@ def _steps(items: list[Any], what: str) -> tuple[list[Step], Array]:
 
 def _limits(qlim: Any) -> tuple[float, float]:
     if qlim is None:
-        return -math.inf, math.inf
+        return UNBOUNDED
     lower, upper = qlim
     return float(lower), float(upper)
 

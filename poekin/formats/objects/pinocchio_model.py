@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,8 +13,9 @@ from ...model.checks import one_pose
 from ...model.joint import Joint, Mimic
 from ...model.provenance import warn
 from ...model.robot import Robot
-from ..urdf import ABSURD
-from .attributes import free_name, has
+from ..limits import UNBOUNDED, without_absurd
+from ..names import free_name
+from .attributes import has
 from .pinocchio_joint import extracted, joint_type, motions
 
 _MODEL = (
@@ -190,7 +190,7 @@ def _moving(
         numbered = f"{name}_{k + 1}"
         called = name if len(parts) == 1 else free_name(numbered, used)
         end = child if k == len(parts) - 1 else free_name(numbered, taken)
-        limits = (-math.inf, math.inf)
+        limits = UNBOUNDED
         if mimic is None and part.kind in _LIMITED:
             limits = _limits(model, int(joint.idx_q) + k, called, unusable)
         pose = origin @ part.origin
@@ -217,9 +217,5 @@ def _limits(model: Any, k: int, name: str, unusable: list[str]) -> tuple[float, 
     upper = float(model.upperPositionLimit[k])
     if lower == upper:
         unusable.append(f"{quote(name)} (equal, {lower!r})")
-        return -math.inf, math.inf
-    if abs(lower) >= ABSURD:
-        lower = -math.inf
-    if abs(upper) >= ABSURD:
-        upper = math.inf
-    return lower, upper
+        return UNBOUNDED
+    return without_absurd(lower, upper)

@@ -30,14 +30,20 @@ MOST = 2**28
 
 
 @contextlib.contextmanager
-def opened(path: str | os.PathLike[str]) -> Iterator[tuple[TextIO, str, int]]:
-    """A file opened for reading as UTF-8 text, its name as messages call it, and its size in bytes.
+def opened(
+    path: str | os.PathLike[str] | int, where: str = ""
+) -> Iterator[tuple[TextIO, str, int]]:
+    """File opened for reading as UTF-8 text, its name as messages call it, and its size in bytes.
 
-    Raises: FileError for what cannot be read, also while the file is being read.
+    Parameters: path, or the number of an open file, which stays open; where, what messages call it
+    (default: its path). Raises: FileError for what cannot be read, also while the file is being
+    read.
     """
-    where = escape_unprintable(os.fsdecode(path), 400)
+    is_open = isinstance(path, int)
+    if not is_open and not where:
+        where = escape_unprintable(os.fsdecode(path), 400)
     try:
-        with open(path, newline="", encoding="utf-8-sig") as stream:
+        with open(path, newline="", encoding="utf-8-sig", closefd=not is_open) as stream:
             yield stream, where, os.fstat(stream.fileno()).st_size
     except UnicodeDecodeError as error:
         raise FileError(f"{where} is no text file: byte {error.start} is not UTF-8") from error

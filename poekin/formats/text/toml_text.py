@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from ...errors import (
-    FileError,
     MissingExtra,
     ModelError,
     escape_unprintable,
@@ -30,10 +29,7 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
     """
     data = xml.read_bytes(path)
     place = escape_unprintable(os.fsdecode(path), 400)
-    try:
-        return parse(data.decode("utf-8-sig"), place)
-    except UnicodeDecodeError as fault:
-        raise FileError(f"{place}: not UTF-8 at byte {fault.start}") from fault
+    return parse(xml.decode(data, place), place)
 
 
 _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*"""
@@ -107,7 +103,7 @@ class Keys:
         return ModelError(f"{self.place}: {escape_unprintable(key, 80)}: {message}")
 
     def value(self, key: str) -> Any:
-        """What the key stands for; it must be there."""
+        """Value of a key, which must be there."""
         if key not in self.data:
             raise ModelError(f"{self.place}: {escape_unprintable(key, 80)} is missing")
         return self.data[key]

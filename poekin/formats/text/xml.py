@@ -75,14 +75,26 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
     return data
 
 
+def decode(data: bytes, place: str) -> str:
+    """Text of the bytes of a file, in UTF-8. Raises: FileError that names the place."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        raise FileError(f"{place}: not UTF-8 at byte {fault.start}") from fault
+
+
 def parse(data: str | bytes, name: str) -> Element:
-    """The root element of an XML document.
+    """Root element of an XML document.
 
     Parameters: data, the document; name, what to call it in messages.
     Raises: InputError where data is no text; ModelError, with file and line, for an empty text, one
     of more than 64 MiB, malformed XML, and any document type declaration, which is refused before
     anything in it is read: no entity is ever expanded.
     """
+    if not isinstance(name, str):
+        raise InputError(
+            f"name: expected what to call the text in messages, a str, got {safe_repr(name)}"
+        )
     source = Source(name)
     if not isinstance(data, (str, bytes, bytearray)):
         raise InputError(f"{source.place()}: expected a text, str or bytes, got {safe_repr(data)}")

@@ -28,10 +28,7 @@ def read_text_file(path: str | os.PathLike[str]) -> tuple[str, str]:
         raise FileError(
             f"{place}: expected a calibration of at most 64 KiB, the file has {len(data) / 2**10:.0f} KiB"
         )
-    try:
-        return data.decode("utf-8-sig"), place
-    except UnicodeDecodeError as fault:
-        raise FileError(f"{place}: not UTF-8 at byte {fault.start}") from fault
+    return xml.decode(data, place), place
 
 
 def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
