@@ -288,6 +288,8 @@ def test_a_table_is_the_product_of_its_matrices(convention, count):
 def test_a_joint_called_like_the_mount_of_the_tool_keeps_its_name():
     robot = dh.to_robot(Table("standard", [Row(name="tool_mount")]))
     assert [joint.name for joint in robot.joints] == ["tool_mount", "tool_mount_"]
+    robot = dh.to_robot(Table("standard", [Row(name="tool_mount"), Row(name="tool_mount_")]))
+    assert robot.joints[-1].name == "tool_mount__"
 
 
 def test_only_a_table_is_one():
