@@ -18,8 +18,8 @@ from ..model.chain import Chain
 from ..model.joint import Joint, Mimic
 from ..model.provenance import warn
 from ..model.robot import Robot
-from .limits import UNBOUNDED, Interval
-from .names import free_name
+from .common.limits import UNBOUNDED, Interval
+from .common.names import free_name
 
 
 class Value(NamedTuple):

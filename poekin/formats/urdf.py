@@ -25,7 +25,7 @@ from ..model.joint import FREE, KINDS, MOVING, Joint, Mimic
 from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import rpy
-from .limits import ABSURD, UNBOUNDED, without_absurd
+from .common.limits import ABSURD, UNBOUNDED, without_absurd
 from .text import xml
 from .text.xml import Element
 from .text.xml_reader import Fields

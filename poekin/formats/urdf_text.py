@@ -13,7 +13,7 @@ from ..model.chain import Chain
 from ..model.joint import Joint
 from ..model.robot import Robot
 from . import rpy
-from .limits import UNBOUNDED
+from .common.limits import UNBOUNDED
 from .serial import serial_robot
 
 UNLIMITED = 1e16

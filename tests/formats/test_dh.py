@@ -260,7 +260,7 @@ def test_a_convention_is_named_and_degrees_are_suspected():
     with pytest.raises(
         InputError, match=r"^convention: expected 'standard' or 'modified', got 'craig'$"
     ):
-        Table("craig", [])
+        Table("craig", [])  # pyright: ignore[reportArgumentType]
     with pytest.warns(
         PoekinWarning,
         match=(

@@ -25,7 +25,7 @@ from ...model.geometry.normals import (
     parallel_normal,
     unit,
 )
-from ..limits import UNBOUNDED
+from ..common.limits import UNBOUNDED
 from .table import Convention, Row, Table, check_convention
 from .to_chain import to_chain
 

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ...errors import InputError, PoekinWarning, ShapeError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.checks import bounds, distinct_names, finite, one_pose, read_only
-from ..limits import UNBOUNDED, Interval
+from ..common.limits import UNBOUNDED, Interval
 
 Convention = Literal["standard", "modified"]
 CONVENTIONS: tuple[Convention, ...] = get_args(Convention)

@@ -28,7 +28,7 @@ from ...errors import (
     suggest,
 )
 from ...groups.arrays import Array
-from ..limits import UNBOUNDED
+from ..common.limits import UNBOUNDED
 from ..text import toml_text, xml
 from ..text.atomic_write import write_whole
 from ..text.numbers import real

@@ -14,7 +14,7 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.joint import Joint
 from ...model.robot import Robot
-from ..names import free_name
+from ..common.names import free_name
 from .table import Table
 
 

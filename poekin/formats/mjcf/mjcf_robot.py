@@ -14,8 +14,8 @@ from ...groups.arrays import Array
 from ...model.joint import Joint, Mimic
 from ...model.provenance import Source
 from ...model.robot import TWELVE, Robot
-from ..limits import UNBOUNDED
-from ..names import free_name
+from ..common.limits import UNBOUNDED
+from ..common.names import free_name
 
 # By the number that MuJoCo gives to a joint's type (mjtJoint).
 KINDS = ("floating", "floating", "prismatic", "revolute")

@@ -13,8 +13,8 @@ from ...model.chain import Chain
 from ...model.checks import one_pose
 from ...model.joint import Joint, Mimic
 from ...model.robot import Robot
-from ..limits import UNBOUNDED
-from ..names import free_name
+from ..common.limits import UNBOUNDED
+from ..common.names import free_name
 from .attributes import as_list, has
 
 _ET = ("isjoint", "axis", "A")

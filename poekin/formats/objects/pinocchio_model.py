@@ -13,8 +13,8 @@ from ...model.checks import one_pose
 from ...model.joint import Joint, Mimic
 from ...model.provenance import warn
 from ...model.robot import Robot
-from ..limits import UNBOUNDED, without_absurd
-from ..names import free_name
+from ..common.limits import UNBOUNDED, without_absurd
+from ..common.names import free_name
 from .attributes import has
 from .pinocchio_joint import extracted, joint_type, motions
 

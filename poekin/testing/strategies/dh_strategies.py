@@ -13,16 +13,16 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 
 from ...formats.dh import Row, Table
+from ...formats.dh.table import CONVENTIONS, Convention
 from . import arguments
 from .chain_strategies import QUARTERS
 from .group_strategies import Arrays, poses, st
 
-CONVENTIONS = ("standard", "modified")
-"""Paul's and Craig's."""
 POWERS = (-12, -3)
 """Powers of 10 between which lie the rad that quarter turns are missed by, and the tiny lengths in
 m.
@@ -68,7 +68,7 @@ def mounts() -> Arrays:
 
 
 def tables(
-    min_joints: int = 1, max_joints: int = 10, conventions: Sequence[str] = CONVENTIONS
+    min_joints: int = 1, max_joints: int = 10, conventions: Sequence[Convention] = CONVENTIONS
 ) -> st.SearchStrategy[Table]:
     """Tables (`poekin.dh.Table`) with base and tool; shrinks towards one row of zeros in standard
     convention.
@@ -88,4 +88,5 @@ def _tables(
     drawn = draw(st.lists(rows(), min_size=bounds[0], max_size=bounds[1]))
     base = np.asarray(draw(mounts()))
     tool = np.asarray(draw(mounts()))
-    return Table(draw(st.sampled_from(conventions)), drawn, base=base, tool=tool)
+    convention = cast(Convention, draw(st.sampled_from(conventions)))
+    return Table(convention, drawn, base=base, tool=tool)

@@ -1,0 +1,1 @@
+"""Limits and names of joints and links, as all formats treat them."""
