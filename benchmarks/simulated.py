@@ -36,7 +36,10 @@ def displaced(
 def scales(nominal: Chain) -> np.ndarray:
     """1 for angles, the reach for lengths, of each parameter of the arm."""
     return np.array(
-        [nominal.reach if p.unit == "m" else 1.0 for p in ErrorModel(nominal, KINDS, None).parameters]
+        [
+            nominal.reach if p.unit == "m" else 1.0
+            for p in ErrorModel(nominal, KINDS, None).parameters
+        ]
     )
 
 

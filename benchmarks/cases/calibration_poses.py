@@ -57,7 +57,9 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         for kind, example in KINDS.items():
             for criterion in CRITERIA[:1] if quick else CRITERIA:
                 start = time.process_time()
-                choice = choose_poses(arm, CHOSEN, CANDIDATES, measurements=example, criterion=criterion)
+                choice = choose_poses(
+                    arm, CHOSEN, CANDIDATES, measurements=example, criterion=criterion
+                )
                 slowest = max(slowest, seconds := time.process_time() - start)
                 rows.append(
                     (

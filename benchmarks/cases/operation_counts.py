@@ -207,7 +207,9 @@ def _bars(bars: Bars, rng: np.random.Generator) -> list[Figure]:
         middle_note = f"the cheapest frame, that of joint index {k}"
     else:
         k = int(middle)
-        cheapest = "/".join(map(str, _numbers(count(chain, method="specialised", frame="cheapest"))))
+        cheapest = "/".join(
+            map(str, _numbers(count(chain, method="specialised", frame="cheapest")))
+        )
         joint = arm.cheapest.joint
         middle_note = (
             f"the frame of joint index {k}; the cheapest by sum, of joint index {joint}: {cheapest}"
