@@ -360,3 +360,11 @@ def test_what_is_not_said_of_a_simulation_is_a_tilt_of_2_mrad_and_a_tenth_of_a_m
     assert point.points is not None
     assert point.points.tolist() == [[0, 0, 0]]
     assert point.frames == {}
+
+
+def test_the_covariance_of_two_points_has_the_noise_of_lengths_alone():
+    points = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0]]
+    made = simulated(
+        pk.load("puma560").chain(), 3, kind="points", points=points, noise=(1e-2, 1e-3)
+    )
+    np.testing.assert_allclose(made.measurements.covariance[0], 1e-6 * np.eye(6), rtol=1e-12)
