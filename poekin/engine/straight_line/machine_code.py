@@ -46,7 +46,7 @@ def processor() -> tuple[str, str]:
     NUMBA_CPU_FEATURES.
     """
     name = config.CPU_NAME  # type: ignore[attr-defined]
-    features = config.CPU_FEATURES
+    features = config.CPU_FEATURES  # type: ignore[attr-defined]
     return (
         name or binding.get_host_cpu_name(),
         codegen.get_host_cpu_features() if features is None else features,
