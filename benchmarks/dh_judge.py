@@ -75,7 +75,7 @@ class Trip:
     dropped: tuple[float, ...]
 
 
-def there_and_back(chain: Chain, convention: str, q: np.ndarray) -> Trip:
+def there_and_back(chain: Chain, convention: dh.Convention, q: np.ndarray) -> Trip:
     """A chain's table in a convention, back to screws, and both compared at q (N, m)."""
     result = dh.from_chain(chain, convention=convention, samples=1)
     x = q @ chain.coupling.T + chain.offset

@@ -117,7 +117,7 @@ def trip_figures(what: str, trips: list[Trip]) -> list[Figure]:
     ]  # fmt: skip
 
 
-def random_table(rng: np.random.Generator, convention: str) -> dh.Table:
+def random_table(rng: np.random.Generator, convention: dh.Convention) -> dh.Table:
     """A table with all that tables go wrong on; one in four is far, as calibration makes them.
 
     Far: between two axes 1e-5 to 1e-2 rad off parallel, one d is 10 to 3000 m up and the next as

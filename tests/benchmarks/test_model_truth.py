@@ -63,7 +63,10 @@ def test_the_product_of_links_sees_what_is_lost(convention, lost):
         else ROWS
     )
     wrong = Table(
-        changed, rows, base=None if lost == "base" else base, tool=None if lost == "tool" else tool
+        changed,  # type: ignore[arg-type]
+        rows,
+        base=None if lost == "base" else base,
+        tool=None if lost == "tool" else tool,
     )
     expected = dh_judge.product(table, X)
     assert dh_judge.error(pk.dh.to_chain(table).fk(X), expected, 1.0) < 1e-15

@@ -163,7 +163,7 @@ def test_levenberg_marquardt_finds_the_far_solution_of_plain_dh():
         300,
     )
     assert found.error < claim.REACHED
-    assert found.error_model.values[claim.D_OF_SHOULDER] == pytest.approx(
+    assert found.arm.values[claim.D_OF_SHOULDER] == pytest.approx(
         -0.4318 / math.tan(1e-2), rel=1e-9
     )
 

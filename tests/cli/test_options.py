@@ -21,7 +21,7 @@ DEFAULTS: dict[str, dict[str, object]] = {
     "axes": {"tol_mm": 0.01, "tol_deg": 0.001, "json": False},
     "calibrate": {
         "loss": "linear",
-        "hold": False,
+        "on_rank_deficiency": "raise",
         "folds": 5,
         "seed": 0,
         "convention": "standard",

@@ -60,7 +60,7 @@ def test_every_method_is_in_the_table():
         for m, ways in METHODS.items()
         for w in ways
         for f in w.frames
-        if "paper" in w.charged
+        if "paper" in w.countings
     }
     assert counted_as_the_paper_does == set(TABLE)
 

@@ -236,7 +236,7 @@ def test_a_helical_joint_and_an_unknown_convention_are_refused():
     with pytest.raises(
         InputError, match=r"^convention: expected 'standard' or 'modified', got 'craig'$"
     ):
-        dh.from_chain(ARM, convention="craig")
+        dh.from_chain(ARM, convention="craig")  # type: ignore[arg-type]
 
 
 ROWS = [

@@ -272,7 +272,7 @@ def test_the_first_comment_says_what_it_costs():
 
 def test_what_cannot_be_emitted_is_refused():
     with pytest.raises(InputError, match=r"^real: expected 'double' or 'float', got 'half'$"):
-        emit.c(arm("panda"), "body", real="half")
+        emit.c(arm("panda"), "body", real="half")  # type: ignore[arg-type]
     with pytest.raises(InputError, match=r"^name: expected a text, got None$"):
         emit.c(arm("panda"), "body", name=None)  # type: ignore[arg-type]
     home = np.eye(4)

@@ -290,12 +290,12 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path):
         InputError,
         match=r"^rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got 'zyx'$",
     ):
-        ur.write(CALIBRATION, path, rpy="zyx")
+        ur.write(CALIBRATION, path, rpy="zyx")  # type: ignore[arg-type]
     with pytest.raises(
         InputError,
         match=r"^rpy: expected 'moving' or 'fixed', the axes that the angles turn about, got 'zyx'$",
     ):
-        ur.read(path, rpy="zyx")
+        ur.read(path, rpy="zyx")  # type: ignore[arg-type]
     with pytest.raises(InputError, match=r"^write: expected a FactoryCalibration, got Table$"):
         ur.write(NOMINAL, path)  # pyright: ignore[reportArgumentType]
     assert ur.read(path) == CALIBRATION

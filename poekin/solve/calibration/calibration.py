@@ -62,7 +62,7 @@ class Calibration(CalibrationData):
         """URDF of `to_robot(robot)`, as text. Raises: as `to_robot` and `pk.to_urdf`."""
         return to_urdf(self.to_robot(robot))
 
-    def to_dh(self, convention: str = "standard") -> FromChain:
+    def to_dh(self, convention: dh.Convention = "standard") -> FromChain:
         """The calibrated arm as a DH table, with error, bound and warnings; see `pk.dh.from_chain`."""
         return dh.from_chain(self.chain, convention=convention)
 

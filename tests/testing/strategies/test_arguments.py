@@ -98,7 +98,7 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
         "2 <= min_joints <= max_joints",
     ),
     "a convention": (
-        lambda: dh_strategies.tables(conventions=("craig",)),
+        lambda: dh_strategies.tables(conventions=("craig",)),  # type: ignore[arg-type]
         "no 'craig'; available: 'standard'",
     ),
     "rows": (lambda: dh_strategies.tables(3, 1), "got min_joints = 3, max_joints = 1"),

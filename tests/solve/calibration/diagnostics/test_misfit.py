@@ -35,7 +35,7 @@ def problem(*sets: tuple[int, Any], numbers: int = 0, reach: float = 2.0) -> Any
     )
 
 
-def contradicted(monkeypatch, squares: list, what: Any, of: Any) -> list[tuple[float, str]]:
+def contradicted(monkeypatch, squares: list, what: Any, of: Any) -> list[misfit.Contradiction]:
     monkeypatch.setattr(misfit, "squared_errors", lambda *given: squares)
     return misfit.contradicted(what, of)
 
