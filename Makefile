@@ -30,7 +30,7 @@ ifneq ($(SETUP_OF),$(CURDIR))
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help report test test-deep test-processors lint style types wheel-check release-check docs mutate fuzz
+.PHONY: help report test test-deep test-processors lint style types readable wheel-check release-check docs mutate fuzz
 
 help:
 	@echo "make test         run all tests; ONLY=tests/groups runs those alone"
@@ -38,6 +38,7 @@ help:
 	@echo "make test-processors  run the numeric tests as older processors would; ONLY='nehalem haswell' takes those"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
 	@echo "make lint         check style (ruff) and types (pyright)"
+	@echo "make readable     measure how the code reads: tokens a line, assignments, ternaries, beside the bars"
 	@echo "make docs         build the pages of docs/ and print where they are"
 	@echo "make mutate       plant every error of 80 000 and say which the tests catch (days); SAMPLE=300 plants that many"
 	@echo "make fuzz         give the readers 10⁶ broken files; COUNT=10000 gives the URDF reader that many, others a tenth"
@@ -69,6 +70,9 @@ style: $(VENV)/lint
 
 types: $(VENV)/lint
 	$(PY) -m pyright --pythonpath $(PY)
+
+readable: $(VENV)/dev
+	$(PY) -m tools.readable
 
 docs: $(VENV)/docs
 	@$(PY) -m sphinx -q -W --keep-going -E -a -b html docs docs/_build

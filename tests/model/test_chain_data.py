@@ -96,3 +96,8 @@ def test_a_coordinate_is_an_angle_where_the_first_joint_that_follows_it_turns():
     for rows, angle in (([TURN, SLIDE], True), ([SLIDE, TURN], False)):
         coupled = pk.Chain(rows, MOVED, coupling=[[1.0, 0.0], [2.0, 0.0]], q_names=["a", "idle"])
         assert [coupled.is_angle(k) for k in range(2)] == [angle, True]
+
+
+def test_a_chain_has_room_for_its_data_alone():
+    with pytest.raises(AttributeError):
+        object.__setattr__(CHAIN, "note", "mine")
