@@ -41,7 +41,8 @@ def shapes(chain: Chain, tol_mm: float, tol_deg: float) -> tuple[Shape, ...]:
     n = len(chain.kinds)
     revolute = [kind == "revolute" for kind in chain.kinds]
     found: list[Shape] = []
-    spherical, parallel = [], []
+    spherical = []
+    parallel = []
     for i in range(n - 2):
         if not all(revolute[i : i + 3]):
             continue

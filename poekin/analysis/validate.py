@@ -264,7 +264,8 @@ def _way(robot: Robot, above: dict[str, Joint], tip: str) -> tuple[str, list[str
     """Where the longest chain to a link starts, its joints that move, and the note on where it
     starts.
     """
-    link, moving = tip, []
+    link = tip
+    moving = []
     while link in above:
         joint = above[link]
         if joint.kind in FREE:

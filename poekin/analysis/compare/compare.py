@@ -85,10 +85,13 @@ def _compared(
     """The comparison of two chains in one length unit, and how many axes or links differ; `ratio`
     is to be told.
     """
-    tol_m, tol_rad = tol_mm / 1e3, math.radians(tol_deg)
-    one, other = uncoupled_at_zero(a), uncoupled_at_zero(b)
+    tol_m = tol_mm / 1e3
+    tol_rad = math.radians(tol_deg)
+    one = uncoupled_at_zero(a)
+    other = uncoupled_at_zero(b)
     x = a.random(seed, samples) @ a.coupling.T
-    extra, dropped = None, ()
+    extra = None
+    dropped = ()
     if len(one.screws) != len(other.screws):
         found = droppable(one, other, tol_mm, tol_deg)
         if found is None:
@@ -104,16 +107,16 @@ def _compared(
             ), max(counts)  # fmt: skip
         ks, held = found
         if len(one.screws) > len(other.screws):
-            extra, one, x = (
-                ("a", *_names(one, ks)),
-                without(one, ks, held),
-                np.delete(x, ks, axis=1),
-            )
+            extra = ("a", *_names(one, ks))
+            one = without(one, ks, held)
+            x = np.delete(x, ks, axis=1)
         else:
-            extra, other = ("b", *_names(other, ks)), without(other, ks, held)
+            extra = ("b", *_names(other, ks))
+            other = without(other, ks, held)
         dropped = ks
     if strict:
-        reading, others = _as_it_is(one, other, tol_m, tol_rad), []
+        reading = _as_it_is(one, other, tol_m, tol_rad)
+        others = []
     else:
         reading, others = search(one, other, tol_m, tol_rad)
     C_a, C_b = (
@@ -159,11 +162,13 @@ def _joints(
     a: Chain, b: Chain, reading: Hypothesis, tol_rad: float, coupled: list[tuple[str, str, bool]]
 ) -> tuple[JointComparison, ...]:
     pair = sides(a, b, 1.0, tol_rad)
-    ours, theirs = direction(a.screws, a.kinds), direction(reading.axes, b.kinds)
+    ours = direction(a.screws, a.kinds)
+    theirs = direction(reading.axes, b.kinds)
     rows = []
     for i in range(pair.n):
         s = float(reading.directions[i])
-        w, u = ours[i], s * theirs[i]
+        w = ours[i]
+        u = s * theirs[i]
         across = cross(w, u)
         angle = math.atan2(float(np.linalg.norm(across)), float(w @ u))
         normal = shift = None

@@ -27,7 +27,8 @@ def follows(
     the same where what a turn of the leading joint (or a metre) makes of them is within tolerance.
     Returns: n triples. Source: none, x = C q.
     """
-    F, G = _ratios(C_a), _ratios(C_b)
+    F = _ratios(C_a)
+    G = _ratios(C_b)
     apart = np.abs(F - reading.directions[:, None] * G * reading.directions)
     found = []
     for i in range(len(F)):

@@ -22,7 +22,8 @@ puts them.
 
 def length_ratio(a: Chain, b: Chain) -> float:
     """Lengths of b by lengths of a where a factor of 1000 is suspected: 1000 or 0.001; 1 otherwise."""
-    ours, theirs = _spread(a), _spread(b)
+    ours = _spread(a)
+    theirs = _spread(b)
     for ratio in (RATIO, 1 / RATIO):
         if ours * ratio / SPAN < theirs < ours * ratio * SPAN:
             return ratio
@@ -45,7 +46,8 @@ def rescaled(chain: Chain, factor: float) -> Chain:
     joints = np.where(slides, factor, 1.0)
     coordinates = np.array([1.0 if chain.is_angle(k) else factor for k in range(chain.dof)])
     # A prismatic joint's screw is a direction: there the joint variable is the length.
-    screws, home = chain.screws.copy(), chain.home.copy()
+    screws = chain.screws.copy()
+    home = chain.home.copy()
     screws[~slides, 3:] *= factor
     home[:3, 3] *= factor
     coupling = (

@@ -129,7 +129,8 @@ def _relations(
         for place, g in enumerate(behind)
     ]
     if _placed(ours, front) and _placed(ours, behind):
-        f, g = front[-1], behind[-1]
+        f = front[-1]
+        g = behind[-1]
         relations.append(_apart(ours.axes[f], wanted[f], wanted[g], len(behind) - 1))
     return relations
 
@@ -186,9 +187,11 @@ def _misfit(
     axes = ours.axes[behind] @ np.swapaxes(se3.adjoint(T), 1, 2)
     # d Ad(e^{S x}) A = ad(S) A dx.
     changes = np.stack([axes @ np.swapaxes(se3.ad(S), 1, 2) for S in screws], axis=-1)
-    r, J = [], []
+    r = []
+    J = []
     for relation in relations:
-        A, dA = axes[:, relation.place], changes[:, relation.place]
+        A = axes[:, relation.place]
+        dA = changes[:, relation.place]
         r.append(A @ relation.C.T - relation.goal)
         J.append(relation.C @ dA)
         if relation.sphere is not None:

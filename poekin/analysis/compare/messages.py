@@ -25,7 +25,8 @@ def joint_words(joint: JointComparison, tol_mm: float, tol_deg: float) -> str:
     if joint.kind_a != joint.kind_b:
         words.append(f"is {joint.kind_a} in one model and {joint.kind_b} in the other")
     elif joint.axis_differs:
-        turned, moved = joint.angle > tol_deg, joint.normal is not None and joint.normal > tol_mm
+        turned = joint.angle > tol_deg
+        moved = joint.normal is not None and joint.normal > tol_mm
         far = (
             ""
             if joint.shift is None or joint.shift <= tol_mm
@@ -75,10 +76,8 @@ def frame_words(what: str, T: Array, tol_m: float, tol_rad: float) -> str:
     """How a frame moved, or empty: "the base frame is moved by 12 mm and turned by 3°"."""
     if still(T, tol_m, tol_rad):
         return ""
-    mm, deg = (
-        float(np.linalg.norm(T[:3, 3])) * 1e3,
-        float(np.degrees(np.linalg.norm(so3.log(T[:3, :3])))),
-    )
+    mm = float(np.linalg.norm(T[:3, 3])) * 1e3
+    deg = float(np.degrees(np.linalg.norm(so3.log(T[:3, :3]))))
     moved = [f"moved by {amount(mm, 'mm')}"] if mm > 1e3 * tol_m else []
     turned = [f"turned by {amount(deg, 'deg')}"] if np.radians(deg) > tol_rad else []
     return f"the {what} frame is {' and '.join(moved + turned)}"

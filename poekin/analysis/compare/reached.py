@@ -30,10 +30,8 @@ def poses_agree(pair: Sides, a: Chain, b: Chain, reading: Hypothesis) -> bool:
     """
     theirs = reading.directions * (b.random(0, SAMPLES) - reading.zeros)
     x = np.concatenate([a.random(0, SAMPLES), theirs])
-    ours, other = (
-        a.fk(x),
-        reading.base @ b.fk(reading.directions * x + reading.zeros) @ reading.tool,
-    )
+    ours = a.fk(x)
+    other = reading.base @ b.fk(reading.directions * x + reading.zeros) @ reading.tool
     moved = np.linalg.norm(ours[:, :3, 3] - other[:, :3, 3], axis=1).max()
     turned = np.linalg.norm(
         so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ other[:, :3, :3]), axis=1

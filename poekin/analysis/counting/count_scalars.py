@@ -58,7 +58,8 @@ def paper_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Cou
 
 def live_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
     """What an algorithm's result needs; the links' poses are given."""
-    graph, numbers = Graph(), itertools.count(1)
+    graph = Graph()
+    numbers = itertools.count(1)
     poses = [
         tuple(graph.input(-next(numbers)) for _ in IDENTITY) for _ in chain.kinds
     ]  # from 0 on they are of angles
@@ -71,7 +72,9 @@ def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bo
     and the coupling.
     """
     graph = Graph()
-    angles, rng, C = Angles(graph), generator(), chain.coupling
+    angles = Angles(graph)
+    rng = generator()
+    C = chain.coupling
     rotates, slides = structure(chain)
     coordinates = [graph.input(-k) for k, _ in enumerate(chain.q_names, 1)]
     poses = []
@@ -138,7 +141,8 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
 
     Base and tip are the frames of the first and last joint, but for a tool.
     """
-    n, rng = len(chain.kinds), generator()
+    n = len(chain.kinds)
+    rng = generator()
     links = [(0.0, 1.0, 0.0, 0.0)]
     for d, alpha in generic(rng, n - 1, 2).tolist():
         links.append((math.sin(alpha), math.cos(alpha), d, 0.0))

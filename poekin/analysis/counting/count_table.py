@@ -114,9 +114,14 @@ class CountTable:
         }  # fmt: skip
 
 
-PAPER, COUNTINGS, ALIKE = "printed in the paper", "as the paper charges", "with equal bookkeeping"
-NEEDED, EVERYTHING, STRUCTURED = "as needed", "with everything", "two planar rotations a link"
-THIS, IDEAL = "this arm's own program", "the idealised arm's own program"
+PAPER = "printed in the paper"
+COUNTINGS = "as the paper charges"
+ALIKE = "with equal bookkeeping"
+NEEDED = "as needed"
+EVERYTHING = "with everything"
+STRUCTURED = "two planar rotations a link"
+THIS = "this arm's own program"
+IDEAL = "the idealised arm's own program"
 
 MEANING = {
     PAPER: "formulas for n revolute joints; DH as it reports Orin and Schrader, whose own table is unchecked here",
@@ -261,10 +266,14 @@ def _verdict(chain: Chain) -> Iterator[str]:
         return count(chain, method=method, counting="paper")
 
     def gap(a: Count, b: Count) -> str:
-        x, y = a.multiplications - b.multiplications, a.additions - b.additions
+        x = a.multiplications - b.multiplications
+        y = a.additions - b.additions
         return f"{x} multiplications and {y} additions" if (x, y) != (0, 0) else "nothing"
 
-    poe, dh, craig, paul = of("recursive"), of("dh_recursive"), of("dh_modified"), of("dh_paul")
+    poe = of("recursive")
+    dh = of("dh_recursive")
+    craig = of("dh_modified")
+    paul = of("dh_paul")
     yield f"The paper's way of counting gives POE an advantage of {gap(dh, poe)} over DH."
     yield (
         "That is bookkeeping at the chain's two ends, not POE: DH is charged for a product with its first link, for "

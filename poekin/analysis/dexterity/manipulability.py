@@ -124,6 +124,7 @@ def svd(J: Array) -> tuple[Array, Array, Array]:
 
 def _measures(J: Array) -> Measures:
     s = svd(J)[1]
-    largest, smallest = s[..., 0], s[..., -1]
+    largest = s[..., 0]
+    smallest = s[..., -1]
     condition = np.divide(largest, smallest, out=np.full(s.shape[:-1], np.inf), where=smallest != 0)
     return Measures(np.prod(s, axis=-1), condition, smallest)

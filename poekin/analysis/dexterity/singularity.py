@@ -144,7 +144,8 @@ def singularity(
     # s_r is known to some u of s_1: below that, q is where s_r is zero
     distance = 0.0 if s[-1] <= 1e-15 * s[0] else float(s[-1] / steep) if steep else math.inf
     motions = np.array([_positive(_twist(u, part, L)) for u in U.T])
-    lost, idle = motions[-1], _positive(V[-1])
+    lost = motions[-1]
+    idle = _positive(V[-1])
     towards = -slope / steep if steep else np.zeros(chain.dof)
     words = _words(
         chain,
@@ -214,13 +215,15 @@ def motion_words(V: Array) -> str:
     """A twist (6,) in base axes at the tool's origin, as the end of a sentence: "turning about the
     base's z axis".
     """
-    w, v = np.linalg.norm(V[:3]), np.linalg.norm(V[3:])
+    w = np.linalg.norm(V[:3])
+    v = np.linalg.norm(V[3:])
     # 2 cm per rad, and 1/50 rad per m, are too little to be told
     if v <= 0.02 * w:
         return f"turning about {_direction(V[:3])}"
     if w <= 0.02 * v:
         return f"moving along {_direction(V[3:])}"
-    turning, moving = f"turning about {_direction(V[:3])}", f"moving along {_direction(V[3:])}"
+    turning = f"turning about {_direction(V[:3])}"
+    moving = f"moving along {_direction(V[3:])}"
     return (
         f"{moving} while {turning} by {w / v:.3g} rad per m"
         if v > w

@@ -18,8 +18,13 @@ start from there.
 """
 
 
-_SLANT, _PARALLEL, _TILT = 0.01, 1e-14, 1e-4  # sines of angles
-_ASKED, _FOUND = 8, 1e-3  # poses, and rad: roots of a polynomial may be as bad, and are starts only
+# sines of angles
+_SLANT = 0.01
+_PARALLEL = 1e-14
+_TILT = 1e-4
+# poses, and rad: roots of a polynomial may be as bad, and are starts only
+_ASKED = 8
+_FOUND = 1e-3
 
 
 class ClosedForm:
@@ -33,9 +38,11 @@ class ClosedForm:
     """
 
     def __init__(self, form: HPForm, solver: Any, position_bound: float, rotation_bound: float):
-        self._R_tn, self._solver = form.R_nt.T, solver
+        self._R_tn = form.R_nt.T
+        self._solver = solver
         self.family: str = solver.getKinematicFamily()
-        self.position_bound, self.rotation_bound = position_bound, rotation_bound
+        self.position_bound = position_bound
+        self.rotation_bound = rotation_bound
 
     def said(self) -> str:
         """How the solutions are found, in words."""
@@ -104,7 +111,8 @@ def _is_safe(form: HPForm) -> bool:
     parallel. Two axes that are neither parallel nor clearly slanted (a sine below 3e-5) it may take
     to meet and then refuses.
     """
-    H, P = form.H, form.P
+    H = form.H
+    P = form.P
     sines = np.linalg.norm(np.cross(H[:-1], H[1:]), axis=1)
     clear = ((sines <= _PARALLEL) | (sines >= _TILT)).all()
     wrist = not P[4:6].any() and sines[3:].min() > _SLANT

@@ -75,8 +75,10 @@ def ik_all(
     )
     if fast is None:
         raise InputError(f"ik_all: expected a Chain, got {safe_repr(arm)}")
-    given, units = fast.chain, joint_units(fast)
-    fast, chain = units.fast, units.fast.chain
+    given = fast.chain
+    units = joint_units(fast)
+    fast = units.fast
+    chain = units.fast.chain
     _check_chain(chain)
     _check_options(limits, method, all_revolutions)
     for what, number, least in (
@@ -87,7 +89,8 @@ def ik_all(
     ):
         _check_whole(what, number, least)
     wanted = targets(T, "T")
-    batch, rows = wanted.shape[:-2], np.ascontiguousarray(wanted.reshape(-1, 4, 4))
+    batch = wanted.shape[:-2]
+    rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
     finite: np.ndarray = np.isfinite(rows).all(axis=(1, 2)).reshape(-1)
     good = rows[finite]
     solver = _solver(chain, method)
@@ -204,7 +207,10 @@ def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: boo
     low, high = chain.limits.T if limits else np.tile([[-np.inf], [np.inf]], (1, chain.dof))
     first, last = turns_within(chain, Q, limits)
     kept = (first <= last).all(axis=1)
-    Q, owner, first, last = Q[kept], owner[kept], first[kept], last[kept]
+    Q = Q[kept]
+    owner = owner[kept]
+    first = first[kept]
+    last = last[kept]
     bounded = np.isfinite(first) & np.isfinite(last)
     within = np.bincount(owner, minlength=len(found))
     nearest = np.clip(np.zeros_like(Q), first, last)
@@ -227,7 +233,9 @@ def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: boo
         ]
         each = [len(w) for w in ways]
         nearest = np.array(list(itertools.chain(*ways))).reshape(-1, chain.dof)
-        Q, owner, number = np.repeat(Q, each, axis=0), np.repeat(owner, each), np.ones(sum(each))
+        Q = np.repeat(Q, each, axis=0)
+        owner = np.repeat(owner, each)
+        number = np.ones(sum(each))
     counts = np.array([int(min(n, _MANY)) for n in number], np.int64)
     return _Places(np.clip(Q + turn * nearest, low, high) + 0.0, owner, counts, within)
 
@@ -251,7 +259,9 @@ def _result(
     """What is handed out of places in order, every solution looked at by `Chain.fk`."""
     position, rotation = pose_errors(chain, places.q, T[places.owner]).T
     good = np.flatnonzero((position <= accepted(chain)) & (rotation <= accepted(chain)))
-    Q, owner, number = places.q[good], places.owner[good], places.number[good]
+    Q = places.q[good]
+    owner = places.owner[good]
+    number = places.number[good]
     ends = np.searchsorted(owner, np.arange(len(found) + 1))
     solutions: list[Array] = []
     n_revolutions: list[np.ndarray] = []
@@ -267,7 +277,8 @@ def _result(
             complete.append("0 solutions: bad target, it is not made of finite numbers")
             continue
         k = next(known)
-        part, f = slice(ends[k], ends[k + 1]), found[k]
+        part = slice(ends[k], ends[k + 1])
+        f = found[k]
         solutions.append(Q[part])
         n_revolutions.append(number[part])
         complete.append(in_words(f, int(places.within[k]), closed))

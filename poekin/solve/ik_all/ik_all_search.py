@@ -85,7 +85,8 @@ def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
     low, high = chain.limits.T if limits else np.tile([[-np.inf], [np.inf]], (1, chain.dof))
     turns = turn > 0
     step = np.where(turns, turn, 1.0)
-    first, last = np.ceil((low - _EDGE - Q) / step), np.floor((high + _EDGE - Q) / step)
+    first = np.ceil((low - _EDGE - Q) / step)
+    last = np.floor((high + _EDGE - Q) / step)
     inside = (low - _EDGE <= Q) & (high + _EDGE >= Q)
     return np.where(turns, first, np.where(inside, 0.0, 1.0)), np.where(turns, last, 0.0)
 
@@ -121,7 +122,9 @@ def _search(
 ) -> list[Found]:
     from ...engine.kernels import ik_all_kernel as kernel  # which imports Numba
 
-    chain, N, m = fast.chain, len(T), fast.dof
+    chain = fast.chain
+    N = len(T)
+    m = fast.dof
     given = np.array([len(Q) for Q in starts], np.float64)
     rows = np.zeros((N, int(given.max(initial=0)), m))
     for k, Q in enumerate(starts):
@@ -132,17 +135,19 @@ def _search(
     low, high = sampling_range(chain)
     ranges = np.where(turn[:, None] > 0, turn[:, None] * [-0.5, 0.5], np.stack([low, high], axis=1))
     options = np.zeros(ik_codes.OPTIONS)
-    options[ik_codes.TOL_POSITION], options[ik_codes.TOL_ROTATION] = _AIM * chain.reach, _AIM
-    options[ik_codes.ITERATIONS], options[ik_codes.TASK] = rule.iterations, ik_codes.POSE
+    options[ik_codes.TOL_POSITION] = _AIM * chain.reach
+    options[ik_codes.TOL_ROTATION] = _AIM
+    options[ik_codes.ITERATIONS] = rule.iterations
+    options[ik_codes.TASK] = ik_codes.POSE
     options[ik_codes.WEIGHTS :] = 1.0
     rules = np.zeros(kernel.RULE)
-    rules[kernel.ACCEPTED], rules[kernel.EACH], rules[kernel.RESTARTS] = (
-        accepted(chain),
-        rule.min_hits,
-        rule.restarts,
-    )
+    rules[kernel.ACCEPTED] = accepted(chain)
+    rules[kernel.EACH] = rule.min_hits
+    rules[kernel.RESTARTS] = rule.restarts
     rules[kernel.BARREN] = rule.max_misses
-    q, hits, info = np.empty((N, _ROOM, m)), np.empty((N, _ROOM)), np.empty((N, kernel.INFO))
+    q = np.empty((N, _ROOM, m))
+    hits = np.empty((N, _ROOM))
+    info = np.empty((N, kernel.INFO))
     free = np.tile([-np.inf, np.inf], (m, 1))
     indices = np.arange(first, first + N, dtype=np.float64)
     T = np.ascontiguousarray(T)
@@ -163,7 +168,8 @@ def _search(
         info,
     )
     counts = info[:, kernel.FOUND].astype(int)
-    ends, restarts = info[:, kernel.AT_ENDS].astype(int), info[:, kernel.AT_RESTARTS].astype(int)
+    ends = info[:, kernel.AT_ENDS].astype(int)
+    restarts = info[:, kernel.AT_RESTARTS].astype(int)
     full = info[:, kernel.FULL] > 0
     return [
         Found(q[k, :s].copy(), hits[k, :s].copy(), int(ends[k]), int(restarts[k]), bool(full[k]))
@@ -184,7 +190,8 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
     sizes = np.linalg.svd(J, compute_uv=False)
     singular = sizes[:, -1] < _SINGULAR * sizes[:, 0]
     for k in np.unique(owner[singular]):
-        f, those = found[k], np.flatnonzero(owner == k)
+        f = found[k]
+        those = np.flatnonzero(owner == k)
         ways = [
             _way_along(fast, T[k], f.solutions[j], J[i]) if singular[i] else None
             for j, i in enumerate(those)

@@ -77,14 +77,16 @@ def write_joints(
     The file appears whole or not at all. Parameters: path; q, times; names, as `read_joints`.
     Raises: ShapeError, InputError, FileError. Source: none, a format of poekin's own.
     """
-    names, q = _names(names), numbers(q, "q")
+    names = _names(names)
+    q = numbers(q, "q")
     if q.ndim != 2 or q.shape[1] != len(names):
         raise ShapeError(f"q: expected shape (N, {len(names)}), got {q.shape}")
     if times is not None:
         t = numbers(times, "times")
         if t.shape != q.shape[:1]:
             raise ShapeError(f"times: expected shape ({len(q)},), got {t.shape}")
-        names, q = (TIME, *names), np.column_stack([t, q])
+        names = (TIME, *names)
+        q = np.column_stack([t, q])
     write_whole(path, csv_rows.text(names, q).encode())
 
 

@@ -38,7 +38,8 @@ def line(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
     Parameters, returns, errors and accuracy: those of `screw`. Source: Park 1994, Lemmas 1 and 3.
     """
     T_s0, T_s1, s = _together(T_s0, T_s1, s)
-    R_0, R_1 = _exact(T_s0)[..., :3, :3], _exact(T_s1)[..., :3, :3]
+    R_0 = _exact(T_s0)[..., :3, :3]
+    R_1 = _exact(T_s1)[..., :3, :3]
     T = T_s0.copy()
     T[..., :3, :3] = R_0 @ so3.exp(s[..., None] * so3.log(np.swapaxes(R_0, -1, -2) @ R_1))
     T[..., :3, 3] += s[..., None] * (T_s1[..., :3, 3] - T_s0[..., :3, 3])
@@ -53,7 +54,9 @@ def joint(q_0: ArrayLike, q_1: ArrayLike, s: ArrayLike) -> Array:
     (..., m), q_0 and q_1 themselves at s = 0 and 1. Raises: ShapeError, InputError. Accuracy: three
     roundings. Source: none, a line.
     """
-    q_0, q_1, s = numbers(q_0, "q_0"), numbers(q_1, "q_1"), numbers(s, "s")[..., None]
+    q_0 = numbers(q_0, "q_0")
+    q_1 = numbers(q_1, "q_1")
+    s = numbers(s, "s")[..., None]
     if not q_0.ndim or not q_1.ndim or q_0.shape[-1] != q_1.shape[-1]:
         raise ShapeError(
             f"q_0, q_1: expected (..., m) with the same m, got {q_0.shape} and {q_1.shape}"
@@ -77,7 +80,8 @@ def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: str = "line") -> Array
     if not isinstance(along, str) or along not in ("line", "screw"):
         raise InputError(f"along: expected 'line' or 'screw', got {safe_repr(along)}")
     T_s0, T_s1, _ = _together(T_s0, T_s1, 0.0)
-    start, end = _exact(T_s0), _exact(T_s1)
+    start = _exact(T_s0)
+    end = _exact(T_s1)
     xi = se3.log(se3.inverse(start) @ end)
     way = xi[..., 3:] if along == "screw" else end[..., :3, 3] - start[..., :3, 3]
     return np.stack([np.linalg.norm(way, axis=-1), np.linalg.norm(xi[..., :3], axis=-1)], axis=-1)
@@ -85,7 +89,9 @@ def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: str = "line") -> Array
 
 def _together(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> tuple[Array, Array, Array]:
     """Two arrays of poses and s, of the same leading axes."""
-    T_s0, T_s1, s = poses(T_s0, "T_s0"), poses(T_s1, "T_s1"), numbers(s, "s")
+    T_s0 = poses(T_s0, "T_s0")
+    T_s1 = poses(T_s1, "T_s1")
+    s = numbers(s, "s")
     try:
         batch = np.broadcast_shapes(T_s0.shape[:-2], T_s1.shape[:-2], s.shape)
     except ValueError as error:

@@ -64,7 +64,8 @@ class Timing:
             u, 1.0 - u
         )  # the first half: the other one is its mirror, so that s ends at 1 exactly
         s, ds, dds = self._half(h)
-        late, moving = u > 0.5, (t >= 0) & (t <= self.duration)
+        late = u > 0.5
+        moving = (t >= 0) & (t <= self.duration)
         s = np.where(late, 1.0 - s, s)
         dds = np.where(late, -dds, dds)
         rest = np.where(np.isnan(t), np.nan, 0.0)
@@ -81,7 +82,8 @@ class Timing:
                 h**3 * (10 + h * (6 * h - 15)), 30 * (h * (1 - h)) ** 2, 60 * h * (1 - h) * (1 - 2 * h)
             )  # fmt: skip
         r = self.acceleration_fraction
-        top, speeding = 1 / (1 - r), h <= r
+        top = 1 / (1 - r)
+        speeding = h <= r
         s = np.where(speeding, 0.5 * top / r * h * h, top * (h - 0.5 * r))
         # where there is no even part, the middle belongs to both ramps
         return s, np.where(speeding, top / r * h, top), np.where(speeding, top / r, 0.0)
@@ -144,7 +146,8 @@ def minimum_time(
         raise InputError(
             "minimum_time: expected a limit of speed, of acceleration, or of both, got none"
         )
-    a, b = _least(way, speed, "speed"), _least(way, acceleration, "acceleration")
+    a = _least(way, speed, "speed")
+    b = _least(way, acceleration, "acceleration")
     still = way.max(initial=0.0) < _INSTANT  # then limits may vanish in what underflows
     if a == b == 0 and not still:
         raise InputError(
@@ -152,7 +155,8 @@ def minimum_time(
         )
     if law in _PEAKS:
         top, rise = _PEAKS[law]
-        duration, ramp = max(top * a, math.sqrt(rise * b)), 0.5
+        duration = max(top * a, math.sqrt(rise * b))
+        ramp = 0.5
     elif acceleration is None or (b == 0 and not still):
         raise InputError(
             "acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time"

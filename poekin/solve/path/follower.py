@@ -20,7 +20,8 @@ PIECES = (8, 64, 512)
 change of branch.
 """
 
-ROUNDS, TRIES = 4, 8
+ROUNDS = 4
+TRIES = 8
 """Starts are looked for in so many rounds of so many tries, until one of them follows the whole
 path.
 """
@@ -61,8 +62,10 @@ class Follower:
     def run(self, q0: Array | None) -> tuple[Array, list[int]]:
         """q (N, m), and before which poses the branch changed."""
         count = len(self.targets)
-        q, changes = np.empty((count, self.dof)), []
-        k, last = 0, q0
+        q = np.empty((count, self.dof))
+        changes = []
+        k = 0
+        last = q0
         while k < count:
             if self.progress is not None:
                 self.progress(k, count)
@@ -72,8 +75,11 @@ class Follower:
                 if end > k and k > 0:
                     changes.append(k)
             if end == k:  # out of reach: as near as it gets
-                end, part = k + 1, self._near(k, last)
-            q[k:end], k, last = part, end, part[-1]
+                end = k + 1
+                part = self._near(k, last)
+            q[k:end] = part
+            k = end
+            last = part[-1]
         if self.progress is not None:
             self.progress(count, count)
         return q, changes
@@ -82,7 +88,9 @@ class Follower:
         """The path from pose k on as far as it goes without a jump, beginning at joints `last`; its
         end, and q.
         """
-        q, start, pose = np.empty((len(self.targets) - k, self.dof)), k, last
+        q = np.empty((len(self.targets) - k, self.dof))
+        start = k
+        pose = last
         while k < len(self.targets):
             done = k + self._descend(
                 self.targets[k:], pose, q[k - start :], anywhere=first and k == start
@@ -101,7 +109,8 @@ class Follower:
         """Of several solutions of pose k the one that gets farthest, and then jumps and moves
         least; its end, and q.
         """
-        found, tried = (k, np.empty((0, self.dof))), np.empty((0, self.dof))
+        found = (k, np.empty((0, self.dof)))
+        tried = np.empty((0, self.dof))
         score: tuple[float, ...] = (k,)
         if self._known is not None and self._known[0] <= k and not self._solution_of(k)[0]:
             return found
@@ -117,7 +126,8 @@ class Follower:
                     else np.linalg.norm(q0 - last)
                 )
                 if (end, -far) > score:
-                    found, score = (end, q), (end, -far)
+                    found = (end, q)
+                    score = (end, -far)
             if found[0] == len(self.targets) or not self._solution_of(found[0])[0]:
                 break
         return found
@@ -139,11 +149,10 @@ class Follower:
         """How many targets are followed from `start`; where `anywhere`, the first of them at any
         distance from it.
         """
-        info, count = np.empty((len(targets), codes.INFO)), 0
-        arm, call = (
-            self.problem.fast.hybrid_address,
-            (self.domain.limits, self.problem.locked, self.problem.options),
-        )
+        info = np.empty((len(targets), codes.INFO))
+        count = 0
+        arm = self.problem.fast.hybrid_address
+        call = (self.domain.limits, self.problem.locked, self.problem.options)
         if anywhere:
             wide = np.full_like(start, np.inf)
             count = self._kernel.call(arm, targets[:1], start.copy(), *call, wide, q[:1], info[:1])
@@ -175,12 +184,11 @@ class Follower:
         if last is None:
             _, solution, at = self._solution_of(k)
             return self.problem.units.of(solution.q[[at]])
-        low, high = (
-            np.clip(last - self.most, *self.domain.limits.T),
-            np.clip(last + self.most, *self.domain.limits.T),
-        )
+        low = np.clip(last - self.most, *self.domain.limits.T)
+        high = np.clip(last + self.most, *self.domain.limits.T)
         low, high = (np.where(self.domain.locked, last, bound) for bound in (low, high))
-        q, damping = last, 1e-3
+        q = last
+        damping = 1e-3
         size, H, g = self._slope(k, q)
         for _ in range(NEAR):
             least = REGULAR * H.diagonal().max()
@@ -190,7 +198,9 @@ class Follower:
             new = self._slope(k, tried)
             if new[0] < size:
                 gain = size - new[0]
-                q, (size, H, g), damping = tried, new, 0.2 * damping
+                q = tried
+                size, H, g = new
+                damping = 0.2 * damping
                 if gain < 1e-9 * size:
                     break
             else:
@@ -199,16 +209,16 @@ class Follower:
 
     def _slope(self, k: int, q: Array) -> tuple[float, Array, Array]:
         """e^T W e, J^T W J and J^T W e at pose k, with the error of the compiled descent."""
-        (T, J), task, e = self.problem.fast.fk_jacobian(q, "hybrid"), self.problem.task, np.empty(6)
+        T, J = self.problem.fast.fk_jacobian(q, "hybrid")
+        task = self.problem.task
+        e = np.empty(6)
         self._errors(task.code, task.axis, T, self.targets[k], J, e)
         return float(task.weights @ e**2), (J.T * task.weights) @ J, (J.T * task.weights) @ e
 
     def _solutions(self, k: int, turn: int, last: Array | None) -> Array:
         """Solutions of pose k: the nearest to the last joints first, then of random starts."""
-        T, number = (
-            np.tile(self.targets[k], (TRIES, 1, 1)),
-            np.arange(TRIES, dtype=float) + TRIES * turn,
-        )
+        T = np.tile(self.targets[k], (TRIES, 1, 1))
+        number = np.arange(TRIES, dtype=float) + TRIES * turn
         q, info = self.problem.solve(T, number, self.domain.anywhere(TRIES), restarts=10)
         q = q[info[:, codes.AT_STATE] == codes.SOLVED]
         if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are

@@ -31,12 +31,16 @@ def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> tuple[NDArray[
     Two axes that are not parallel fix D up to that; parallel ones leave a slide along them, which
     stays near the centres. There is none where the pairs differ by more than about a degree.
     """
-    found, ours, theirs = [], [], []
+    found = []
+    ours = []
+    theirs = []
     for i, j in joints:
-        one, other = _frame(pair.a, i, j), _frame(pair.b, i, j)
+        one = _frame(pair.a, i, j)
+        other = _frame(pair.b, i, j)
         if one is None or other is None:
             continue
-        (T_a, cosine_a, _), (T_b, cosine_b, parallel_b) = one, other
+        T_a, cosine_a, _ = one
+        T_b, cosine_b, parallel_b = other
         for s, t in product((1.0, -1.0), repeat=2):
             if abs(s * t * cosine_b - cosine_a) < 2 * PARALLEL:
                 found.append((i, j))
@@ -65,14 +69,15 @@ def turns(screw: Array, axis: Array, target: Array) -> Array:
 
     The second is NaN where there is but one; 0 where none is better.
     """
-    w, p = screw[..., :3], _place(screw)
-    turns_axis, turns_target = (
-        axis[..., :3].any(-1, keepdims=True),
-        target[..., :3].any(-1, keepdims=True),
-    )
+    w = screw[..., :3]
+    p = _place(screw)
+    turns_axis = axis[..., :3].any(-1, keepdims=True)
+    turns_target = target[..., :3].any(-1, keepdims=True)
     d = np.where(turns_axis, axis[..., :3], axis[..., 3:])
     e = np.where(turns_target, target[..., :3], target[..., 3:])
-    here, there, placed = _place(axis), _place(target), turns_axis & turns_target
+    here = _place(axis)
+    there = _place(target)
+    placed = turns_axis & turns_target
     if not w.any():
         slide = screw[..., 3:] - d * _dot(d, screw[..., 3:])
         long = _dot(slide, slide)
@@ -92,8 +97,11 @@ def one_turn(pair: Sides, rigid: tuple[NDArray[np.intp], Array], k: int) -> tupl
     """Alignments (P, z) in which joint k alone has a zero offset, best first, from the
     `rigid_poses` of both.
     """
-    (i, j), D = rigid[0].T, rigid[1]
-    front, back = j <= k, i >= k  # D is the base's pose, or stands behind joint k
+    i, j = rigid[0].T
+    D = rigid[1]
+    # D is the base's pose, or stands behind joint k
+    front = j <= k
+    back = i >= k
     Ad = se3.adjoint(D)
     turn = turns((Ad @ pair.b.screws[k])[:, None], pair.b.axes @ np.swapaxes(Ad, 1, 2), pair.a.axes)
     # The next axis on the other side of k that is not k's own line tells the offset.
@@ -104,8 +112,10 @@ def one_turn(pair: Sides, rigid: tuple[NDArray[np.intp], Array], k: int) -> tupl
     each = good.sum(-1)
     before = (np.cumsum(each) - each.ravel()).reshape(each.shape)
     good &= ((before <= MOST) | (others == np.where(back, 0, k + 1)[:, None]))[..., None]
-    which, turn = np.nonzero(good)[0], turn[good]
-    z, P = np.zeros((len(turn), pair.n)), D[which]
+    which = np.nonzero(good)[0]
+    turn = turn[good]
+    z = np.zeros((len(turn), pair.n))
+    P = D[which]
     behind = back[which]
     z[:, k] = np.where(behind, -turn, turn)
     P[behind] @= se3.exp(pair.b.screws[k] * turn[behind, None])
@@ -118,19 +128,27 @@ def one_by_one(pair: Sides) -> tuple[Array, Array]:
     """
     P = pair_poses(pair, [(0, 1)] if pair.n > 1 else [])[1]
     P = _on_the_first_turning_axis(pair, P if len(P) else rigid_poses(pair)[1])
-    D, z, loss = P, np.zeros((len(P), pair.n)), np.zeros(len(P))
+    D = P
+    z = np.zeros((len(P), pair.n))
+    loss = np.zeros(len(P))
     for k in range(1, pair.n - 1):
         Ad = se3.adjoint(D)
         turn = turns(Ad @ pair.b.screws[k], Ad @ pair.b.axes[k + 1], pair.a.axes[k + 1])
         turn = np.concatenate([np.zeros((len(turn), 1)), np.where(turn == 0, np.nan, turn)], axis=1)
         good = ~np.isnan(turn)
-        row, turn = np.nonzero(good)[0], turn[good]
-        P, D, z = P[row], D[row] @ se3.exp(pair.b.screws[k] * turn[:, None]), z[row]
+        row = np.nonzero(good)[0]
+        turn = turn[good]
+        P = P[row]
+        D = D[row] @ se3.exp(pair.b.screws[k] * turn[:, None])
+        z = z[row]
         z[:, k] = turn
         miss = deviations(pair, transformed(pair, P, z)[1])[:, k + 1]
         loss = loss[row] + np.minimum(miss, 1e4) ** 0.5 + (abs(turn) > pair.zero_tolerance[k])
         kept = np.argsort(loss, kind="stable")[:BEAM]
-        P, D, z, loss = P[kept], D[kept], z[kept], loss[kept]
+        P = P[kept]
+        D = D[kept]
+        z = z[kept]
+        loss = loss[kept]
     return P, z
 
 
@@ -161,7 +179,8 @@ def _anchor(lines: Lines, k: int) -> Array | None:
             return None
         frame = _frame(lines, m, m + 1)
         if frame is not None and not frame[2]:
-            way, foot = lines.ways[k], frame[0][:3, 3]
+            way = lines.ways[k]
+            foot = frame[0][:3, 3]
             return lines.places[k] + way * (way @ (foot - lines.places[k]))
     return None
 
@@ -185,10 +204,14 @@ def _frame(lines: Lines, i: int, j: int) -> tuple[Array, float, bool] | None:
     they are parallel, x then being the way from i to j. None where there is none: parallel axes on
     one line, or one without a place.
     """
-    z, other = lines.ways[i], lines.ways[j]
-    p, r = lines.places[i], lines.places[j]
-    has_p, has_r = lines.kinds[i] != "prismatic", lines.kinds[j] != "prismatic"
-    x, origin = cross(z, other), p if has_p else r
+    z = lines.ways[i]
+    other = lines.ways[j]
+    p = lines.places[i]
+    r = lines.places[j]
+    has_p = lines.kinds[i] != "prismatic"
+    has_r = lines.kinds[j] != "prismatic"
+    x = cross(z, other)
+    origin = p if has_p else r
     parallel = not x @ x > PARALLEL**2
     if parallel:
         if not has_p or not has_r or (r - p) @ (r - p) <= 1e-10:
@@ -214,7 +237,8 @@ def _angle(w: Array, u: Array, v: Array) -> tuple[Array, Array]:
     """The angle (..., 1) about w from u to v (..., 3), and the lesser of their squared lengths
     across w.
     """
-    u, v = u - w * _dot(w, u), v - w * _dot(w, v)
+    u = u - w * _dot(w, u)
+    v = v - w * _dot(w, v)
     return np.arctan2(_dot(w, cross(u, v)), _dot(u, v)), np.minimum(_dot(u, u), _dot(v, v))
 
 

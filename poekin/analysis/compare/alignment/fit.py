@@ -22,19 +22,24 @@ def fit(pair: Sides, P: Array, z: Array, free: Marks, used: Marks) -> tuple[Arra
     stays where it starts. All starts are stepped at once, each with a damping of its own and until
     it is done.
     """
-    P, z = P.copy(), z.copy()
-    free, used = np.broadcast_to(free, z.shape), np.broadcast_to(used & pair.alike, z.shape)
+    P = P.copy()
+    z = z.copy()
+    free = np.broadcast_to(free, z.shape)
+    used = np.broadcast_to(used & pair.alike, z.shape)
     r, J = _linearised(pair, P, z, free, used)
-    cost, damping = (r * r).sum(1), np.full(len(z), 1e-6)
+    cost = (r * r).sum(1)
+    damping = np.full(len(z), 1e-6)
     going = cost >= 1e-16
     for _ in range(STEPS):
         (live,) = np.nonzero(going)
         if not len(live):
             break
         step = _step(r[live], J[live], damping[live])
-        P_new, z_new = se3.exp(step[:, :6]) @ P[live], z[live] + step[:, 6:]
+        P_new = se3.exp(step[:, :6]) @ P[live]
+        z_new = z[live] + step[:, 6:]
         r_new, J_new = _linearised(pair, P_new, z_new, free[live], used[live])
-        cost_new, old = (r_new * r_new).sum(1), cost[live]
+        cost_new = (r_new * r_new).sum(1)
+        old = cost[live]
         better = cost_new < old
         going[live] = np.where(
             better, (old - cost_new >= 1e-12 * old) & (cost_new >= 1e-16), damping[live] <= 1e3
@@ -69,7 +74,9 @@ def _linearised(pair: Sides, P: Array, z: Array, free: Marks, used: Marks) -> tu
     not free.
     """
     screws, axes = transformed(pair, P, z)
-    s, n, k = signs(pair, axes), pair.n, pair.suspect_joint
+    s = signs(pair, axes)
+    n = pair.n
+    k = pair.suspect_joint
     base = (s[..., None, None] * pair.weights) @ -se3.ad(
         axes
     )  # d Ad(e^xi) S = ad(xi) S = -ad(S) xi

@@ -60,7 +60,8 @@ class Hypothesis:
         by chance under a wild alignment prove nothing.
         """
         conventions = int((self.offset | (self.directions < 0)).sum())
-        moved, changes = int(self.moved.sum()), int(self.offset.sum() + (self.directions < 0).sum())
+        moved = int(self.moved.sum())
+        changes = int(self.offset.sum() + (self.directions < 0).sum())
         near = float(np.minimum(self.deviations, 10.0).sum())
         if moved + changes <= 1:
             alone = 4.9 if moved and self.frames == 2 else ONE * (moved + changes)
@@ -77,12 +78,16 @@ def read(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Hypothesis
     stand for.
     """
     axes = transformed(pair, P, z)[1]
-    miss, s = deviations(pair, axes), signs(pair, axes)
-    base, last = off_centre(pair, P), off_centre(pair, carriers(pair, P, z)[:, -1])
+    miss = deviations(pair, axes)
+    s = signs(pair, axes)
+    base = off_centre(pair, P)
+    last = off_centre(pair, carriers(pair, P, z)[:, -1])
     tool = se3.inverse(last @ b.home) @ a.home
     axes[..., 3:] -= cross(axes[..., :3], pair.a.centre)
     frames = (~still(np.stack([base, tool]), pair.tol_m, pair.tol_rad)).sum(0)
-    moved, offset, far = miss > 1.0, abs(z) > pair.zero_tolerance, np.minimum(miss, 1e9)
+    moved = miss > 1.0
+    offset = abs(z) > pair.zero_tolerance
+    far = np.minimum(miss, 1e9)
     return [
         Hypothesis(
             base[i], tool[i], z[i], s[i], moved[i], offset[i], axes[i], far[i], int(frames[i])
@@ -93,10 +98,8 @@ def read(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Hypothesis
 
 def still(T: Array, tol_m: float, tol_rad: float) -> Marks:
     """Whether poses (..., 4, 4) are the identity within tolerance (...)."""
-    moved, turned = (
-        np.linalg.norm(T[..., :3, 3], axis=-1),
-        np.linalg.norm(so3.log(T[..., :3, :3]), axis=-1),
-    )
+    moved = np.linalg.norm(T[..., :3, 3], axis=-1)
+    turned = np.linalg.norm(so3.log(T[..., :3, :3]), axis=-1)
     return (moved <= tol_m) & (turned <= tol_rad)
 
 

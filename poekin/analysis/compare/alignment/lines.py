@@ -66,7 +66,8 @@ class Sides:
         return len(self.a.kinds)
 
 
-_NEXT, _LAST = [1, 2, 0], [2, 0, 1]
+_NEXT = [1, 2, 0]
+_LAST = [2, 0, 1]
 
 
 def cross(x: Array, y: Array) -> Array:
@@ -108,7 +109,8 @@ def lines(chain: Chain) -> Lines:
 
 def sides(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Sides:
     """Both chains at rest, with equal numbers of joints, ready to be aligned."""
-    one, other = lines(a), lines(b)
+    one = lines(a)
+    other = lines(b)
     # A pitch shows after one turn as a length.
     alike = [
         k == j and abs(g - h) * 2 * np.pi <= tol_m
@@ -117,7 +119,8 @@ def sides(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Sides:
     ours, theirs = (np.array(side.kinds) == "prismatic" for side in (one, other))
     weights = np.zeros((len(alike), 6, 6))
     weights[:, :3, :3] = np.eye(3) / tol_rad
-    weights[:, 3:, :3], weights[:, 3:, 3:] = -so3.hat(one.places), np.eye(3)
+    weights[:, 3:, :3] = -so3.hat(one.places)
+    weights[:, 3:, 3:] = np.eye(3)
     weights[:, 3:] /= np.where(ours, tol_rad, tol_m)[:, None, None]
     ways = np.concatenate([one.ways, one.ways], axis=1) * np.repeat(
         np.stack([~theirs, theirs], axis=1), 3, axis=1

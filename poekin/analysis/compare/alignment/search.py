@@ -29,8 +29,10 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Hypothesis
     only.
     """
     pair = sides(a, b, tol_m, tol_rad)
-    n, alone = pair.n, np.eye(pair.n, dtype=bool)
-    every, none = np.ones(n, bool), np.zeros(n, bool)
+    n = pair.n
+    alone = np.eye(pair.n, dtype=bool)
+    every = np.ones(n, bool)
+    none = np.zeros(n, bool)
     poses = rigid_poses(pair)
     rigid = poses[1], np.zeros((len(poses[1]), n))
 
@@ -75,7 +77,8 @@ def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Hypothesis | N
     what differs.
     """
     pair = sides(a, b, tol_m, tol_rad)
-    none, every = np.zeros(pair.n, bool), np.ones(pair.n, bool)
+    none = np.zeros(pair.n, bool)
+    every = np.ones(pair.n, bool)
     poses = rigid_poses(pair)[1]
     nothing = np.zeros((len(poses), pair.n))
     found = read(pair, a, b, poses[:1], nothing[:1])
@@ -94,7 +97,8 @@ def _one_joint(
     """Readings in which one inner joint alone has a zero offset, its axis agreeing, or held to be
     wrong.
     """
-    alone, every = np.eye(pair.n, dtype=bool), np.ones(pair.n, bool)
+    alone = np.eye(pair.n, dtype=bool)
+    every = np.ones(pair.n, bool)
     starts = [(one_turn(pair, poses, k), alone[k]) for k in range(1, pair.n - 1)]
     # Of each joint all the starts with its axis, then the two best without it, then the two with
     # what agrees alone.
@@ -123,13 +127,16 @@ def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Hypothesis]:
     """Readings in which one link is another: the axes before it agree under one pose, those behind
     under another.
     """
-    nothing, found = np.zeros((len(poses), pair.n)), []
+    nothing = np.zeros((len(poses), pair.n))
+    found = []
     axes = transformed(pair, poses, nothing)[1]
     agree = (deviations(pair, axes) <= 1.0) & (signs(pair, axes) > 0)
     for k in range(2, pair.n - 1):
-        before, behind = agree[:, :k].all(1), agree[:, k:].all(1)
+        before = agree[:, :k].all(1)
+        behind = agree[:, k:].all(1)
         if before.any() and behind.any():
-            P, last = poses[before][:1], off_centre(pair, poses[behind][0])
+            P = poses[before][:1]
+            last = off_centre(pair, poses[behind][0])
             (reading,) = read(pair, a, b, P, nothing[:1])
             if reading.implicated.sum() < 2:
                 continue
@@ -143,12 +150,14 @@ def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Hypothesis]:
     """Readings in which every zero offset is free: with no bad axis, with each one, and with those
     that then miss.
     """
-    n, inner = pair.n, _inner(pair)
+    n = pair.n
+    inner = _inner(pair)
     P, z, P_fitted, z_fitted = _other_zeros(pair)
     found = _simplest(pair, a, b, P_fitted, z_fitted)
     if min(found, key=_cost).moved.any():
         tried = best(pair, np.concatenate([P, P_fitted]), np.concatenate([z, z_fitted]), 2)
-        P, z = np.concatenate([P[:4], tried[0]]), np.concatenate([z[:4], tried[1]])
+        P = np.concatenate([P[:4], tried[0]])
+        z = np.concatenate([z[:4], tried[1]])
         for k in np.flatnonzero(pair.alike) if pair.alike.all() else np.flatnonzero(~pair.alike):
             used = np.arange(n) != k
             for held in (pair, replace(pair, suspect_joint=int(k))):
@@ -187,11 +196,15 @@ def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Hypot
     for ks in np.argsort(abs(z), axis=1).T:
         (row,) = np.nonzero(free[np.arange(len(z)), ks])
         k = ks[row]
-        rest, without = free[row], z[row]
-        rest[np.arange(len(row)), k], without[np.arange(len(row)), k] = False, 0.0
+        rest = free[row]
+        without = z[row]
+        rest[np.arange(len(row)), k] = False
+        without[np.arange(len(row)), k] = 0.0
         trial = fit(pair, P[row], without, rest, agree[row])
         fits = ~((deviations(pair, transformed(pair, *trial)[1]) > 1.0) & agree[row]).any(1)
-        P[row[fits]], z[row[fits]], free[row[fits]] = trial[0][fits], trial[1][fits], rest[fits]
+        P[row[fits]] = trial[0][fits]
+        z[row[fits]] = trial[1][fits]
+        free[row[fits]] = rest[fits]
     return read(pair, a, b, P, z)
 
 
