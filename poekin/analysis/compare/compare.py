@@ -1,9 +1,10 @@
-"""compare: where two models of one arm differ, joint by joint."""
+"""Comparison of two models of one arm, joint by joint."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,9 +26,15 @@ __all__ = ["compare"]
 
 
 def compare(
-    a: Chain, b: Chain, *, strict: bool = False, tol_mm: float = 0.01, tol_deg: float = 0.001,
-    samples: int = 200, seed: int = 0,
-) -> Comparison:  # fmt: skip
+    a: Chain,
+    b: Chain,
+    *,
+    strict: bool = False,
+    tol_mm: float = 0.01,
+    tol_deg: float = 0.001,
+    samples: int = 200,
+    seed: int = 0,
+) -> Comparison:
     """Two models of one arm: which joint differs, by how many millimetres and degrees.
 
     Screws are lines in space, so nothing depends on where link frames stand. Joints are matched in
@@ -61,90 +68,124 @@ def compare(
         raise InputError(
             f"samples: a number of configurations of at least 1 expected, got {safe_repr(samples)}"
         )
-    options = strict, float(tol_mm), float(tol_deg), int(samples), seed
-    result, moved = _compared(a, b, 1.0, *options)
-    ratio = length_ratio(a, b) if moved else 1.0
+    asked = _Asked(strict, float(tol_mm), float(tol_deg), int(samples), seed)
+    result, moved = _compared(a, b, 1.0, asked)
+    if not moved:
+        return result
+    ratio = length_ratio(a, b)
     if ratio != 1:
-        in_one_unit, left = _compared(*to_one_unit(a, b, ratio), ratio, *options)
+        in_one_unit, left = _compared(*to_one_unit(a, b, ratio), ratio, asked)
         # Other arms of unlike size agree in an axis or two by chance.
         if left < moved and 3 * left <= len(in_one_unit.joints):
             return replace(in_one_unit, before=result.before)
     return result
 
 
-def _compared(
-    a: Chain,
-    b: Chain,
-    ratio: float,
-    strict: bool,
-    tol_mm: float,
-    tol_deg: float,
-    samples: int,
-    seed: int,
-) -> tuple[Comparison, int]:
+class _Asked(NamedTuple):
+    """Tolerances and samples of a comparison, and whether it is strict, as the caller gave them."""
+
+    strict: bool
+    tol_mm: float
+    tol_deg: float
+    samples: int
+    seed: int
+
+    @property
+    def tol(self) -> tuple[float, float]:
+        """The tolerances in m and rad."""
+        return self.tol_mm / 1e3, math.radians(self.tol_deg)
+
+
+class _Matched(NamedTuple):
+    """Two chains at rest with equal numbers of joints, the couplings of these, and values x
+    (samples, n) of a's; extra, as `Comparison.unmatched_joints`.
+    """
+
+    a: Chain
+    b: Chain
+    C_a: Array
+    C_b: Array
+    x: Array
+    extra: tuple[str, ...] | None = None
+
+
+def _matched(a: Chain, b: Chain, asked: _Asked) -> _Matched | None:
+    """Both chains at rest, the longer one without the joints that can be dropped; None where none
+    can.
+    """
+    one = uncoupled_at_zero(a)
+    other = uncoupled_at_zero(b)
+    x = a.random(asked.seed, asked.samples) @ a.coupling.T
+    if len(one.screws) == len(other.screws):
+        return _Matched(one, other, a.coupling, b.coupling, x)
+    found = droppable(one, other, asked.tol_mm, asked.tol_deg)
+    if found is None:
+        return None
+    ks, held = found
+    if len(one.screws) > len(other.screws):
+        extra = ("a", *_names(one, ks))
+        left = np.delete(a.coupling, ks, axis=0)
+        shorter = without(one, ks, held)
+        return _Matched(shorter, other, left, b.coupling, np.delete(x, ks, axis=1), extra)
+    extra = ("b", *_names(other, ks))
+    left = np.delete(b.coupling, ks, axis=0)
+    return _Matched(one, without(other, ks, held), a.coupling, left, x, extra)
+
+
+def _unmatched(n_a: int, n_b: int, asked: _Asked) -> Comparison:
+    """The comparison of chains whose numbers of joints differ, none of which can be dropped."""
+    which = {1: "no one joint can", 2: "no two joints can"}.get(
+        abs(n_a - n_b), "more than two must"
+    )
+    end = f"{which} be dropped so that the rest agree"
+    verdict = f"the models differ: {n_a} joints against {n_b}, and {end}"
+    return Comparison(False, verdict, (), None, None, None, None, (), None, *asked)
+
+
+def _compared(a: Chain, b: Chain, ratio: float, asked: _Asked) -> tuple[Comparison, int]:
     """The comparison of two chains in one length unit, and how many axes or links differ; `ratio`
     is to be told.
     """
-    tol_m = tol_mm / 1e3
-    tol_rad = math.radians(tol_deg)
-    one = uncoupled_at_zero(a)
-    other = uncoupled_at_zero(b)
-    x = a.random(seed, samples) @ a.coupling.T
-    extra = None
-    dropped = ()
-    if len(one.screws) != len(other.screws):
-        found = droppable(one, other, tol_mm, tol_deg)
-        if found is None:
-            counts = len(one.screws), len(other.screws)
-            told_apart = f"{counts[0]} joints against {counts[1]}"
-            which = {1: "no one joint can", 2: "no two joints can"}.get(
-                abs(counts[0] - counts[1]), "more than two must"
-            )
-            end = f"{which} be dropped so that the rest agree"
-            return Comparison(
-                False, f"the models differ: {told_apart}, and {end}", (), None, None, None, None, (), None, strict,
-                tol_mm, tol_deg, samples, seed,
-            ), max(counts)  # fmt: skip
-        ks, held = found
-        if len(one.screws) > len(other.screws):
-            extra = ("a", *_names(one, ks))
-            one = without(one, ks, held)
-            x = np.delete(x, ks, axis=1)
-        else:
-            extra = ("b", *_names(other, ks))
-            other = without(other, ks, held)
-        dropped = ks
-    if strict:
-        reading = _as_it_is(one, other, tol_m, tol_rad)
-        others = []
+    pair = _matched(a, b, asked)
+    if pair is None:
+        counts = len(a.screws), len(b.screws)
+        return _unmatched(*counts, asked), max(counts)
+    one, other, C_a, C_b, x, extra = pair
+    others: list[Hypothesis] = []
+    if asked.strict:
+        reading = _as_it_is(one, other, *asked.tol)
     else:
-        reading, others = search(one, other, tol_m, tol_rad)
-    C_a, C_b = (
-        np.delete(c.coupling, dropped, axis=0) if extra and extra[0] == which else c.coupling
-        for which, c in (("a", a), ("b", b))
-    )
-    joints = _joints(
-        one, other, reading, tol_rad, follows(C_a, C_b, one, other, reading, tol_m, tol_rad)
-    )
+        reading, others = search(one, other, *asked.tol)
+    coupled = follows(C_a, C_b, one, other, reading, *asked.tol)
+    joints = _joints(one, other, reading, asked.tol[1], coupled)
     same = (
-        not reading.moved.any()
+        extra is None
+        and ratio == 1
+        and not reading.moved.any()
         and not any(joint.coupling_differs for joint in joints)
-        and (not strict or not (reading.implicated.any() or reading.frames))
+        and (not asked.strict or not (reading.implicated.any() or reading.frames))
     )
-    return Comparison(
-        equal=same and extra is None and ratio == 1,
-        verdict=_verdict(same, joints, reading, extra, ratio, strict, tol_mm, tol_deg),
-        joints=joints,
-        base=reading.base,
-        tool=None if strict else reading.tool,
-        before=_pose_errors(one.fk(x), other.fk(x)),
-        after=None if strict else _pose_errors(
-            one.fk(x), reading.base @ other.fk(reading.directions * x + reading.zeros) @ reading.tool
-        ),
-        alternatives=tuple(() if strict else equivalents(one, other, reading, others, tol_m, tol_rad)),
-        unmatched_joints=extra,
-        strict=strict, tol_mm=tol_mm, tol_deg=tol_deg, samples=samples, seed=seed, length_ratio=ratio,
-    ), 1 if reading.link else int(reading.moved.sum())  # fmt: skip
+    result = Comparison(
+        same,
+        _verdict(same, joints, reading, extra, ratio, asked),
+        joints,
+        reading.base,
+        None,
+        _pose_errors(one.fk(x), other.fk(x)),
+        None,
+        (),
+        extra,
+        *asked,
+        ratio,
+    )
+    if not asked.strict:
+        aligned = other.fk(reading.directions * x + reading.zeros)
+        after = _pose_errors(one.fk(x), reading.base @ aligned @ reading.tool)
+        said = tuple(equivalents(one, other, reading, others, *asked.tol))
+        result = replace(result, tool=reading.tool, after=after, alternatives=said)
+    if reading.link:
+        return result, 1
+    return result, int(reading.moved.sum())
 
 
 def _as_it_is(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Hypothesis:
@@ -167,35 +208,55 @@ def _joints(
     rows = []
     for i in range(pair.n):
         s = float(reading.directions[i])
-        w = ours[i]
-        u = s * theirs[i]
-        across = cross(w, u)
-        angle = math.atan2(float(np.linalg.norm(across)), float(w @ u))
-        normal = shift = None
+        across = cross(ours[i], s * theirs[i])
+        angle = math.atan2(float(np.linalg.norm(across)), float(ours[i] @ (s * theirs[i])))
+        normal = None
+        shift = None
         if "prismatic" not in (a.kinds[i], b.kinds[i]):
-            place = pair.a.places[i] + pair.a.centre
             foot = cross(reading.axes[i, :3], reading.axes[i, 3:])
-            gap = foot - place
-            shift = 1e3 * float(np.linalg.norm(gap - u * (u @ gap)))
-            normal = (
-                shift
-                if angle <= tol_rad
-                else 1e3 * abs(float(gap @ across)) / float(np.linalg.norm(across))
-            )
+            gap = foot - (pair.a.places[i] + pair.a.centre)
+            shift = _distance(gap, s * theirs[i])
+            normal = shift
+            if angle > tol_rad:
+                normal = 1e3 * abs(float(gap @ across)) / float(np.linalg.norm(across))
         scale = 1e3 if b.kinds[i] == "prismatic" else 180 / math.pi
         zero = float(reading.zeros[i])
-        mapped = np.sort(s * (b.limits[i] - zero))
-        # Infinite less infinite is no difference.
-        limits = [
-            0.0 if p == q else float(scale * (p - q))
-            for p, q in zip(mapped, a.limits[i], strict=True)
-        ]
-        rows.append(JointComparison(
-            i + 1, a.joint_names[i], b.joint_names[i], a.kinds[i], b.kinds[i], math.degrees(angle), normal, shift,
-            scale * zero, s < 0, (limits[0], limits[1]), bool(reading.moved[i]), bool(reading.offset[i]),
-            *coupled[i],
-        ))  # fmt: skip
+        follows_a, follows_b, coupling_differs = coupled[i]
+        row = JointComparison(
+            number=i + 1,
+            name_a=a.joint_names[i],
+            name_b=b.joint_names[i],
+            kind_a=a.kinds[i],
+            kind_b=b.kinds[i],
+            angle=math.degrees(angle),
+            normal=normal,
+            shift=shift,
+            zero_offset=scale * zero,
+            reversed=s < 0,
+            limits=_limits_apart(s * (b.limits[i] - zero), a.limits[i], scale),
+            axis_differs=bool(reading.moved[i]),
+            zero_differs=bool(reading.offset[i]),
+            follows_a=follows_a,
+            follows_b=follows_b,
+            coupling_differs=coupling_differs,
+        )
+        rows.append(row)
     return tuple(rows)
+
+
+def _limits_apart(theirs: Array, ours: Array, scale: float) -> tuple[float, float]:
+    """Lower and upper limit of b, in either order, less a's, times `scale`."""
+    # Infinite less infinite is no difference.
+    low, high = (
+        0.0 if p == q else float(scale * (p - q))
+        for p, q in zip(np.sort(theirs), ours, strict=True)
+    )
+    return low, high
+
+
+def _distance(gap: Array, u: Array) -> float:
+    """Distance (mm) of a point from a line along u, `gap` (m) away at some point of it."""
+    return 1e3 * float(np.linalg.norm(gap - u * (u @ gap)))
 
 
 def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:
@@ -207,27 +268,36 @@ def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:
 
 
 def _verdict(
-    same: bool, joints: tuple[JointComparison, ...], reading: Hypothesis, extra: tuple[str, ...] | None, ratio: float,
-    strict: bool, tol_mm: float, tol_deg: float,
-) -> str:  # fmt: skip
-    tol = tol_mm / 1e3, math.radians(tol_deg)
-    found = differences(joints, tol_mm, tol_deg, reading.link)
-    tool = frame_words("home pose's" if strict else "tool", reading.tool, *tol)
+    same: bool,
+    joints: tuple[JointComparison, ...],
+    reading: Hypothesis,
+    extra: tuple[str, ...] | None,
+    ratio: float,
+    asked: _Asked,
+) -> str:
+    found = []
+    if ratio != 1:
+        found.append(unit_words(ratio))
     if extra is not None:
         model, *names = extra
         count = "one joint" if len(names) == 1 else "two joints"
-        found.insert(0, f"model {model} has {count} more, {' and '.join(map(quote, names))}")
-    same = same and extra is None and ratio == 1
-    if ratio != 1:
-        found.insert(0, unit_words(ratio))
-    if strict:
-        return "; ".join(["the models are the same as they stand" if same else "the models differ",
-                          *found, *([tool] if tool else [])])  # fmt: skip
-    aligned = [words for words in (frame_words("base", reading.base, *tol), tool) if words]
+        found.append(f"model {model} has {count} more, {' and '.join(map(quote, names))}")
+    found += differences(joints, asked.tol_mm, asked.tol_deg, reading.link)
+    if asked.strict:
+        found.append(frame_words("home pose's", reading.tool, *asked.tol))
+        head = "the models are the same as they stand" if same else "the models differ"
+        return "; ".join(words for words in (head, *found) if words)
+    frames = [
+        frame_words("base", reading.base, *asked.tol),
+        frame_words("tool", reading.tool, *asked.tol),
+    ]
+    aligned = " and ".join(words for words in frames if words)
     if not same:
         head = "the models differ"
     elif found or aligned:
         head = "the models are the same arm, up to free choices"
     else:
         head = "the models are the same"
-    return "; ".join([head, *found, *([f"aligned: {' and '.join(aligned)}"] if aligned else [])])
+    if aligned:
+        found.append(f"aligned: {aligned}")
+    return "; ".join([head, *found])

@@ -1,4 +1,4 @@
-"""What `compare` found: two models of one arm, joint by joint."""
+"""The result of `compare`: two models of one arm, joint by joint."""
 
 from __future__ import annotations
 
@@ -122,9 +122,9 @@ class Comparison:
         """
         plain = {f.name: getattr(self, f.name) for f in fields(self)}
         plain["joints"] = [asdict(j) | {"differs": j.differs, "unit": j.unit} for j in self.joints]
-        plain["before"], plain["after"] = (
-            None if e is None else asdict(e) for e in (self.before, self.after)
-        )
+        for name in ("before", "after"):
+            if plain[name] is not None:
+                plain[name] = asdict(plain[name])
         return {name: _plain(value) for name, value in plain.items()}
 
     def to_json(self) -> str:

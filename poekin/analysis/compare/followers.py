@@ -17,8 +17,8 @@ __all__ = ["follows"]
 def follows(
     C_a: Array, C_b: Array, a: Chain, b: Chain, reading: Hypothesis, tol_m: float, tol_rad: float
 ) -> list[tuple[str, str, bool]]:
-    """How each joint follows earlier ones: in a's words, in b's ("" where it moves by itself), and
-    whether they differ.
+    """The earlier joints that each joint follows: in a's words, in b's ("" where it moves by
+    itself), and whether they differ.
 
     With directions s of the reading, joint i of b is s_i x_i: so the ratio to joint j is s_i F_ij
     s_j there.
@@ -30,11 +30,13 @@ def follows(
     F = _ratios(C_a)
     G = _ratios(C_b)
     apart = np.abs(F - reading.directions[:, None] * G * reading.directions)
+    slides = np.array([kind == "prismatic" for kind in a.kinds], bool)
+    small = np.where(slides, tol_m, tol_rad)
+    scales = np.where(slides, 1.0, 2 * math.pi)
     found = []
     for i in range(len(F)):
-        small = tol_m if a.kinds[i] == "prismatic" else tol_rad
-        scales = np.array([1.0 if kind == "prismatic" else 2 * math.pi for kind in a.kinds])
-        found.append((_words(F, i, a), _words(G, i, b), bool((apart[i] * scales > small).any())))
+        differs = bool((apart[i] * scales > small[i]).any())
+        found.append((_words(F, i, a), _words(G, i, b), differs))
     return found
 
 
@@ -59,6 +61,10 @@ def _ratios(C: Array) -> Array:
 
 def _words(F: Array, i: int, chain: Chain) -> str:
     if F[i, i]:
-        return "" if F[i, i] == 1.0 else f"follows {F[i, i]:.6g} × its coordinate"
+        if F[i, i] == 1.0:
+            return ""
+        return f"follows {F[i, i]:.6g} × its coordinate"
     terms = [f"{F[i, j]:.6g} × {quote(chain.joint_names[j])}" for j in np.flatnonzero(F[i])]
-    return "follows " + " + ".join(terms) if terms else "does not move"
+    if not terms:
+        return "does not move"
+    return "follows " + " + ".join(terms)

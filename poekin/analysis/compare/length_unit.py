@@ -35,9 +35,9 @@ def to_one_unit(a: Chain, b: Chain, ratio: float) -> tuple[Chain, Chain]:
     keep their size.
     """
     larger_is_wrong = _spread(a) * _spread(b) > SPREAD_M**2
-    return (
-        (a, rescaled(b, 1 / ratio)) if larger_is_wrong == (ratio > 1) else (rescaled(a, ratio), b)
-    )
+    if larger_is_wrong == (ratio > 1):
+        return a, rescaled(b, 1 / ratio)
+    return rescaled(a, ratio), b
 
 
 def rescaled(chain: Chain, factor: float) -> Chain:
@@ -50,15 +50,17 @@ def rescaled(chain: Chain, factor: float) -> Chain:
     home = chain.home.copy()
     screws[~slides, 3:] *= factor
     home[:3, 3] *= factor
-    coupling = (
-        None
-        if chain.nontrivial_coupling is None
-        else joints[:, None] * chain.nontrivial_coupling / coordinates
-    )
+    coupling = chain.nontrivial_coupling
+    if coupling is not None:
+        coupling = joints[:, None] * coupling / coordinates
     return chain.replace(
-        screws=screws, home=home, pitches=chain.pitches * factor, limits=chain.limits * coordinates[:, None],
-        coupling=coupling, offset=chain.offset * joints,
-    )  # fmt: skip
+        screws=screws,
+        home=home,
+        pitches=chain.pitches * factor,
+        limits=chain.limits * coordinates[:, None],
+        coupling=coupling,
+        offset=chain.offset * joints,
+    )
 
 
 def _spread(chain: Chain) -> float:

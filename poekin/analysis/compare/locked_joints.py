@@ -39,7 +39,7 @@ MOST = 16
 
 
 class _Relation(NamedTuple):
-    """How an axis A behind the joints ought to lie to one before them: C A = goal, and |A_v -
+    """Required position of an axis A behind the joints to one before them: C A = goal, and |A_v -
     centre|² = square.
 
     Attributes: place, of A in the axes behind; C (k, 6), goal (k,); sphere, centre (3,) and square,
@@ -55,10 +55,10 @@ class _Relation(NamedTuple):
 def held_positions(
     long: Chain, short: Chain, run: Sequence[int], gone: Sequence[int], tol_m: float, tol_rad: float
 ) -> list[tuple[float, ...]]:
-    """Positions (rad, m) of the neighbouring joints `run` of the longer chain, of whose joints the
-    shorter one lacks `gone`, at which the axes before and behind them lie to each other as there;
-    the best first.
+    """Positions (rad, m) of neighbouring joints at which the axes on both sides lie to each other
+    as in the shorter chain; the best first.
 
+    `run` are these joints, `gone` all that the shorter chain lacks.
     Least squares over what no zero position changes, and another direction by its sign alone: the
     cosine and the mutual moment w1 . v2 + w2 . v1 of the nearest axes on both sides, or the
     distance of parallel ones. A slide leaves directions as they are, so that those of the axes
@@ -107,7 +107,7 @@ def _side(ours: Lines, joints: Iterable[int], gone: Sequence[int]) -> list[int]:
 
 
 def _starts(ours: Lines, run: Sequence[int]) -> Array:
-    """Where to start (m, r)."""
+    """Starts (m, r) of the joints' positions."""
     turn = 2.0 * np.pi * np.arange(TURN) / TURN
     values = {
         "revolute": turn,
@@ -120,7 +120,7 @@ def _starts(ours: Lines, run: Sequence[int]) -> Array:
 def _relations(
     ours: Lines, front: list[int], behind: list[int], wanted: dict[int, Array]
 ) -> list[_Relation]:
-    """How the axes on both sides ought to lie to each other, as those of the other arm (6,) do."""
+    """Relations of the axes on both sides, as those of the other arm (6,) have them."""
     relations = [
         _angle(
             ours.ways[f], _way(ours, f, wanted[f]), _way(ours, g, wanted[g]), place, _part(ours, g)
@@ -145,8 +145,10 @@ def _placed(ours: Lines, side: list[int]) -> bool:
 
 
 def _part(ours: Lines, j: int) -> slice:
-    """Where an axis has its direction."""
-    return slice(3, 6) if ours.kinds[j] == "prismatic" else slice(0, 3)
+    """The part of an axis that is its direction."""
+    if ours.kinds[j] == "prismatic":
+        return slice(3, 6)
+    return slice(0, 3)
 
 
 def _way(ours: Lines, j: int, axis: Array) -> Array:
@@ -156,9 +158,13 @@ def _way(ours: Lines, j: int, axis: Array) -> Array:
 def _angle(w: Array, way: Array, other: Array, place: int, part: slice) -> _Relation:
     """An axis behind makes the angle with direction w that `other` makes with `way`."""
     parallel = bool(np.linalg.norm(np.cross(way, other)) <= PARALLEL)
-    C = np.zeros((3 if parallel else 1, 6))
-    C[:, part] = so3.hat(w) if parallel else w
-    return _Relation(place, C, np.zeros(3) if parallel else np.array([way @ other]))
+    if parallel:
+        C = np.zeros((3, 6))
+        C[:, part] = so3.hat(w)
+        return _Relation(place, C, np.zeros(3))
+    C = np.zeros((1, 6))
+    C[:, part] = w
+    return _Relation(place, C, np.array([way @ other]))
 
 
 def _apart(axis: Array, first: Array, second: Array, place: int) -> _Relation:

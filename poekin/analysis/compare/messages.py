@@ -18,8 +18,8 @@ def amount(value: float, unit: str) -> str:
 
 
 def joint_words(joint: JointComparison, tol_mm: float, tol_deg: float) -> str:
-    """What differs in one joint, as the end of a sentence that begins with its name; empty where
-    nothing does.
+    """Differences of one joint, as the end of a sentence that begins with its name; empty where
+    there are none.
     """
     words = []
     if joint.kind_a != joint.kind_b:
@@ -27,14 +27,14 @@ def joint_words(joint: JointComparison, tol_mm: float, tol_deg: float) -> str:
     elif joint.axis_differs:
         turned = joint.angle > tol_deg
         moved = joint.normal is not None and joint.normal > tol_mm
-        far = (
-            ""
-            if joint.shift is None or joint.shift <= tol_mm
-            else f" ({amount(joint.shift, 'mm')} at the arm)"
-        )
+        far = ""
+        if joint.shift is not None and joint.shift > tol_mm:
+            far = f" ({amount(joint.shift, 'mm')} at the arm)"
         if turned and moved:
-            words.append(f"has an axis that is {amount(joint.angle, 'deg')} and {amount(joint.normal or 0, 'mm')} "
-                         f"from the other model's{far}")  # fmt: skip
+            words.append(
+                f"has an axis that is {amount(joint.angle, 'deg')} and "
+                f"{amount(joint.normal or 0, 'mm')} from the other model's{far}"
+            )
         elif turned:
             words.append(
                 f"has an axis that is turned by {amount(joint.angle, 'deg')} from the other model's{far}"
@@ -58,9 +58,11 @@ def joint_words(joint: JointComparison, tol_mm: float, tol_deg: float) -> str:
 def differences(
     joints: tuple[JointComparison, ...], tol_mm: float, tol_deg: float, link: int = 0
 ) -> list[str]:
-    """One clause a joint that differs: "joint 4 ('elbow') has an axis that is 3.2 mm from the other
-    model's"; where the axes behind joint `link` moved together, one clause for them.
-    """  # fmt: skip
+    """One clause a joint that differs; where the axes behind joint `link` moved together, one for
+    them.
+
+    As in "joint 4 ('elbow') has an axis that is 3.2 mm from the other model's".
+    """
     if link and not any(joint.coupling_differs for joint in joints):
         first = next(joint for joint in joints[link:] if joint.axis_differs)
         return [
@@ -73,18 +75,21 @@ def differences(
 
 
 def frame_words(what: str, T: Array, tol_m: float, tol_rad: float) -> str:
-    """How a frame moved, or empty: "the base frame is moved by 12 mm and turned by 3°"."""
+    """The motion of a frame in words, or empty: "the base frame is moved by 12 mm and turned by 3°"."""
     if still(T, tol_m, tol_rad):
         return ""
     mm = float(np.linalg.norm(T[:3, 3])) * 1e3
     deg = float(np.degrees(np.linalg.norm(so3.log(T[:3, :3]))))
-    moved = [f"moved by {amount(mm, 'mm')}"] if mm > 1e3 * tol_m else []
-    turned = [f"turned by {amount(deg, 'deg')}"] if np.radians(deg) > tol_rad else []
-    return f"the {what} frame is {' and '.join(moved + turned)}"
+    said = []
+    if mm > 1e3 * tol_m:
+        said.append(f"moved by {amount(mm, 'mm')}")
+    if np.radians(deg) > tol_rad:
+        said.append(f"turned by {amount(deg, 'deg')}")
+    return f"the {what} frame is {' and '.join(said)}"
 
 
 def unit_words(ratio: float) -> str:
-    """Which model's lengths are 1000 times the other's: ratio is b's by a's."""
+    """The sentence on lengths of one model that are 1000 times the other's: ratio is b's by a's."""
     larger, smaller, times = ("b", "a", ratio) if ratio > 1 else ("a", "b", 1 / ratio)
     return f"lengths of model {larger} are {times:.4g} times those of model {smaller} (millimetres against metres?)"
 
@@ -97,43 +102,41 @@ def equivalents(
     """
     said = []
     if len(a.screws):
+        last = se3.adjoint(se3.inverse(b.home)) @ b.screws[-1]
         ends = (
-            ("base", first.base, a.screws[0] * first.directions[0], 1, a.joint_names[0], b.kinds[0]),
-            ("tool", first.tool, se3.adjoint(se3.inverse(b.home)) @ b.screws[-1], len(a.screws), a.joint_names[-1],
-             b.kinds[-1]),
-        )  # fmt: skip
-        for what, T, S, number, name, kind in ends:
+            ("base", first.base, a.screws[0] * first.directions[0], 1),
+            ("tool", first.tool, last, len(a.screws)),
+        )
+        for what, T, S, number in ends:
             size = _about(T, S, tol_m, tol_rad)
             if size is not None and not still(T, tol_m, tol_rad):
-                far = (
-                    amount(size * 1e3, "mm")
-                    if kind == "prismatic"
-                    else amount(np.degrees(size), "deg")
-                )
+                far = _offset_words(size, b.kinds[number - 1])
+                name = a.joint_names[number - 1]
                 said.append(
                     f"the {what} moved by {far} along or about the axis of joint {number} ({quote(name)}) is the same "
                     f"as a zero offset of {far} of that joint"
                 )
     for other in others:
         (k,) = np.flatnonzero(other.implicated)
-        change = (
-            "another axis"
-            if other.moved[k]
-            else "a zero offset"
-            if other.offset[k]
-            else "the other direction"
-        )
-        size = ""
+        change = "the other direction"
+        if other.moved[k]:
+            change = "another axis"
+        elif other.offset[k]:
+            change = "a zero offset"
         if other.offset[k]:
-            slide = b.kinds[k] == "prismatic"
-            size = " of " + (
-                amount(other.zeros[k] * 1e3, "mm")
-                if slide
-                else amount(np.degrees(other.zeros[k]), "deg")
-            )
-        said.append(f"{change}{size} of joint {k + 1} ({quote(a.joint_names[k])}), with the base and tool frames "
-                    "aligned to that, explains it as well")  # fmt: skip
+            change += f" of {_offset_words(other.zeros[k], b.kinds[k])}"
+        said.append(
+            f"{change} of joint {k + 1} ({quote(a.joint_names[k])}), with the base and tool frames "
+            "aligned to that, explains it as well"
+        )
     return said
+
+
+def _offset_words(value: float, kind: str) -> str:
+    """A joint's offset (rad or m) for reading."""
+    if kind == "prismatic":
+        return amount(value * 1e3, "mm")
+    return amount(np.degrees(value), "deg")
 
 
 def _about(T: Array, S: Array, tol_m: float, tol_rad: float) -> float | None:

@@ -24,11 +24,16 @@ def droppable(
     a: Chain, b: Chain, tol_mm: float, tol_deg: float
 ) -> tuple[tuple[int, ...], Array] | None:
     """The joints of the longer of two chains at rest without which both agree, and the positions at
-    which they are
-    then held: of several choices the one that leaves least to align. None where there are none, or
-    where the chains differ by more than `MOST` joints.
+    which they are then held.
+
+    Of several choices the one that leaves least to align. None where there are none, or where the
+    chains differ by more than `MOST` joints.
     """
-    long, short = (a, b) if len(a.screws) > len(b.screws) else (b, a)
+    long = a
+    short = b
+    if len(a.screws) <= len(b.screws):
+        long = b
+        short = a
     more = len(long.screws) - len(short.screws)
     if more > MOST:
         return None
@@ -53,38 +58,41 @@ def without(chain: Chain, ks: tuple[int, ...], held: Sequence[float] | Array) ->
     """The chain with some joints held at these positions."""
     q = np.zeros(chain.dof)
     q[list(ks)] = held
-    chain = chain.rezeroed(q) if q.any() else chain
+    if q.any():
+        chain = chain.rezeroed(q)
     names = tuple(name for k, name in enumerate(chain.joint_names) if k not in ks)
     return Chain(
-        np.delete(chain.screws, ks, 0), chain.home, joint_names=names, limits=np.delete(chain.limits, ks, 0),
-        base=chain.base, tip=chain.tip, pitches=np.delete(chain.pitches, ks),
-    )  # fmt: skip
+        np.delete(chain.screws, ks, 0),
+        chain.home,
+        joint_names=names,
+        limits=np.delete(chain.limits, ks, 0),
+        base=chain.base,
+        tip=chain.tip,
+        pitches=np.delete(chain.pitches, ks),
+    )
 
 
 def _positions(
     long: Chain, short: Chain, ks: tuple[int, ...], tol_mm: float, tol_deg: float
 ) -> Iterator[tuple[float, ...]]:
-    """Positions at which joints ks may be held: all at 0, and those at which the axes on both sides
-    of them lie to each other as in the other chain.
+    """Positions at which joints ks may be held: all 0, and those that make the axes on both sides
+    lie as in the other chain.
     """
     zero = (0.0,) * len(ks)
     yield zero
-    runs = [ks] if ks[-1] - ks[0] == len(ks) - 1 else [(k,) for k in ks]
+    runs: list[tuple[int, ...]] = [ks]
+    if ks[-1] - ks[0] != len(ks) - 1:
+        runs = [(k,) for k in ks]
     # End joints are held anywhere, as base and tool are free.
     inner = [run[0] > 0 and run[-1] < len(long.screws) - 1 for run in runs]
     across = tuple(run[0] - 1 - sum(k < run[0] for k in ks) for run in runs)
     if any(inner) and _may_agree(without(long, ks, zero), short, tol_mm, tol_deg, across):
-        tried = [
-            [
-                (0.0,) * len(run),
-                *(
-                    held_positions(long, short, run, ks, tol_mm / 1e3, math.radians(tol_deg))
-                    if free
-                    else ()
-                ),
-            ]
-            for run, free in zip(runs, inner, strict=True)
-        ]
+        tried: list[list[tuple[float, ...]]] = []
+        for run, free in zip(runs, inner, strict=True):
+            tried.append([(0.0,) * len(run)])
+            if free:
+                tol_m = tol_mm / 1e3
+                tried[-1] += held_positions(long, short, run, ks, tol_m, math.radians(tol_deg))
         for parts in product(*tried):
             held = tuple(x for part in parts for x in part)
             if held != zero:
@@ -95,8 +103,10 @@ def _may_agree(
     a: Chain, b: Chain, tol_mm: float, tol_deg: float, but: tuple[int, ...] = ()
 ) -> bool:
     """Whether neighbouring axes of two chains, and those on both sides of a slide, lie to each
-    other alike: no alignment changes that, so the search for one, which takes long, need not begin
-    where they do not. Pairs of neighbours `but`, by their first axis, are left out.
+    other alike.
+
+    No alignment changes that, so the search for one, which takes long, need not begin where they do
+    not. Pairs of neighbours `but`, by their first axis, are left out.
 
     Axes within tolerance of the other model's change their angle by two tolerances at most; four
     are let pass.
@@ -118,7 +128,11 @@ def _may_agree(
             # The common normal of axes near parallel flies about with their angle, unless they
             # count as parallel.
             sine = math.sin(math.radians(p.angle))
-            certain = 1.0 if p.parallel and q.parallel else sine if sine >= 0.1 else 0.0
+            certain = 0.0
+            if p.parallel and q.parallel:
+                certain = 1.0
+            elif sine >= 0.1:
+                certain = sine
             if abs(p.distance - q.distance) * certain > 4 * (tol_mm + lever):
                 return False
     return True

@@ -1,5 +1,4 @@
-"""Where an alignment may start: poses that bring two of b's axes onto a's, and turns that bring one
-more.
+"""Starts of an alignment: poses that bring two of b's axes onto a's, and turns that bring one more.
 
 Alignments come as arrays, P (m, 4, 4) and z (m, n), all of them weighed at once.
 """
@@ -25,9 +24,10 @@ MOST = 600
 
 
 def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> tuple[NDArray[np.intp], Array]:
-    """Pairs i < j of joints (m, 2), of those asked for, and poses D (m, 4, 4) that carry b's axes i
-    and j to a's, one for each way round that the axes can be taken.
+    """Pairs i < j of joints (m, 2), of those asked for, and poses D (m, 4, 4) carrying b's two axes
+    to a's.
 
+    There is a pose for each way round that the axes can be taken.
     Two axes that are not parallel fix D up to that; parallel ones leave a slide along them, which
     stays near the centres. There is none where the pairs differ by more than about a degree.
     """
@@ -47,7 +47,8 @@ def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> tuple[NDArray[
                 ours.append(T_a)
                 # Axes taken s and t times their way: z turns with the one, a common normal with
                 # both.
-                theirs.append(T_b * [1.0 if parallel_b else s * t, s if parallel_b else t, s, 1.0])
+                x = 1.0 if parallel_b else s * t
+                theirs.append(T_b * [x, s * x, s, 1.0])
     if not found:
         return np.empty((0, 2), np.intp), np.empty((0, 4, 4))
     return np.array(found), np.array(ours) @ se3.inverse(np.array(theirs))
@@ -126,8 +127,12 @@ def one_by_one(pair: Sides) -> tuple[Array, Array]:
     """Alignments (P, z) found joint after joint, each zero offset bringing the next axis into its
     place; best first.
     """
-    P = pair_poses(pair, [(0, 1)] if pair.n > 1 else [])[1]
-    P = _on_the_first_turning_axis(pair, P if len(P) else rigid_poses(pair)[1])
+    P = np.empty((0, 4, 4))
+    if pair.n > 1:
+        P = pair_poses(pair, [(0, 1)])[1]
+    if not len(P):
+        P = rigid_poses(pair)[1]
+    P = _on_the_first_turning_axis(pair, P)
     D = P
     z = np.zeros((len(P), pair.n))
     loss = np.zeros(len(P))
@@ -201,8 +206,10 @@ def best(pair: Sides, P: Array, z: Array, most: int = 4) -> tuple[Array, Array]:
 
 def _frame(lines: Lines, i: int, j: int) -> tuple[Array, float, bool] | None:
     """The frame (4, 4) of two axes, z along i, x along the common normal; their cosine; and whether
-    they are parallel, x then being the way from i to j. None where there is none: parallel axes on
-    one line, or one without a place.
+    they are parallel.
+
+    Of parallel axes x is the way from i to j. None where there is none: parallel axes on one line,
+    or one without a place.
     """
     z = lines.ways[i]
     other = lines.ways[j]

@@ -46,9 +46,11 @@ def fit(pair: Sides, P: Array, z: Array, free: Marks, used: Marks) -> tuple[Arra
         )
         damping[live] = np.where(better, np.maximum(damping[live] / 10, 1e-14), damping[live] * 10)
         won = live[better]
-        P[won], z[won], r[won], J[won], cost[won] = (
-            new[better] for new in (P_new, z_new, r_new, J_new, cost_new)
-        )  # fmt: skip
+        P[won] = P_new[better]
+        z[won] = z_new[better]
+        r[won] = r_new[better]
+        J[won] = J_new[better]
+        cost[won] = cost_new[better]
     return P, z
 
 
@@ -69,17 +71,17 @@ def _step(r: Array, J: Array, damping: Array) -> Array:
 
 
 def _linearised(pair: Sides, P: Array, z: Array, free: Marks, used: Marks) -> tuple[Array, Array]:
-    """Residuals (m, 6 n), and their derivatives (m, 6 n, 6 + n) with respect to a turn and move of
-    the base and to the zero offsets; none of axes that are not used and of zero offsets that are
-    not free.
+    """Residuals (m, 6 n), and their derivatives (m, 6 n, 6 + n) by the base's pose and by the zero
+    offsets.
+
+    Those of axes that are not used and by zero offsets that are not free are 0.
     """
     screws, axes = transformed(pair, P, z)
     s = signs(pair, axes)
     n = pair.n
     k = pair.suspect_joint
-    base = (s[..., None, None] * pair.weights) @ -se3.ad(
-        axes
-    )  # d Ad(e^xi) S = ad(xi) S = -ad(S) xi
+    # d Ad(e^xi) S = ad(xi) S = -ad(S) xi
+    base = (s[..., None, None] * pair.weights) @ -se3.ad(axes)
     if k >= 0:
         screws[:, k] = suspect_screw(pair, screws[:, k])
     # A zero offset turns what is behind it as a turn of the base about the joint's axis would.

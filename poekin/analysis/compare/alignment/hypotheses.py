@@ -49,7 +49,7 @@ class Hypothesis:
 
     @property
     def cost(self) -> tuple[float, ...]:
-        """What makes one reading better than another: the smaller, the better.
+        """The order of readings: the smaller, the better.
 
         One change in one joint comes first, whatever it is: base and tool that stay where they are
         decide, then a zero offset rather than a moved axis. One moved axis is likelier than two
@@ -64,12 +64,16 @@ class Hypothesis:
         changes = int(self.offset.sum() + (self.directions < 0).sum())
         near = float(np.minimum(self.deviations, 10.0).sum())
         if moved + changes <= 1:
-            alone = 4.9 if moved and self.frames == 2 else ONE * (moved + changes)
+            alone = ONE * (moved + changes)
+            if moved and self.frames == 2:
+                alone = 4.9
             return (alone, self.frames, moved, near)
         if self.link:
             return (5.25, self.frames, moved, near)
         weight = (0.0, 2.5, 3.5)[conventions] if conventions < 3 else 3.25 + 0.25 * conventions
-        far = float((self.deviations[self.moved] ** 0.25).sum()) * (1.0 if moved > 1 else 0.05)
+        far = float((self.deviations[self.moved] ** 0.25).sum())
+        if moved <= 1:
+            far *= 0.05
         return (3.0 * moved + far + weight, self.frames, changes, near)
 
 

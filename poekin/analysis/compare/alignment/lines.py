@@ -88,10 +88,17 @@ def uncoupled_at_zero(chain: Chain) -> Chain:
         if len(ks) == 1:
             limits[i] = np.sort(row[ks[0]] * chain.limits[ks[0]]) + chain.offset[i]
     bare = Chain(
-        chain.screws, chain.home, joint_names=chain.joint_names, limits=limits, base=chain.base, tip=chain.tip,
+        chain.screws,
+        chain.home,
+        joint_names=chain.joint_names,
+        limits=limits,
+        base=chain.base,
+        tip=chain.tip,
         pitches=chain.pitches,
-    )  # fmt: skip
-    return bare.rezeroed(chain.offset) if chain.offset.any() else bare
+    )
+    if chain.offset.any():
+        return bare.rezeroed(chain.offset)
+    return bare
 
 
 def lines(chain: Chain) -> Lines:
@@ -160,7 +167,10 @@ def suspect_screw(pair: Sides, carried: Array) -> Array:
 
 def transformed(pair: Sides, P: Array, z: Array) -> tuple[Array, Array]:
     """Model b's screws and pitch-free axes (..., n, 6) in model a's base, about a's centre."""
-    Ad = se3.adjoint(carriers(pair, P, z)[..., :-1, :, :] if z.any() else P[..., None, :, :])
+    D = P[..., None, :, :]
+    if z.any():
+        D = carriers(pair, P, z)[..., :-1, :, :]
+    Ad = se3.adjoint(D)
     return (Ad @ pair.b.screws[..., None])[..., 0], (Ad @ pair.b.axes[..., None])[..., 0]
 
 
@@ -175,7 +185,7 @@ def direction(axes: Array, kinds: tuple[str, ...]) -> Array:
 
 
 def residuals(pair: Sides, axes: Array) -> Array:
-    """How far b's carried axes are from a's, in tolerances (..., n, 6): direction, then place at
+    """Distances of b's carried axes from a's, in tolerances (..., n, 6): direction, then place at
     a's place on each.
     """
     change = signs(pair, axes)[..., None] * axes - pair.a.axes

@@ -40,9 +40,8 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Hypothesis
         return read(pair, a, b, *fit(pair, P, z, free, used))
 
     found = read(pair, a, b, rigid[0][:1], rigid[1][:1])
-    if (
-        not found[0].cost[0] and not found[0].frames
-    ):  # the same as they stand: nothing is to be aligned
+    # Alike as they stand: nothing is to be aligned.
+    if not found[0].cost[0] and not found[0].frames:
         return found[0], []
     P, z = best(pair, *rigid)
     found += readings(P, z, none, every)
@@ -102,8 +101,12 @@ def _one_joint(
     starts = [(one_turn(pair, poses, k), alone[k]) for k in range(1, pair.n - 1)]
     # Of each joint all the starts with its axis, then the two best without it, then the two with
     # what agrees alone.
-    tries = [(P[i], z[i], own, used) for (P, z), own in starts for most, used in ((4, every), (2, ~own))
-             for i in range(len(z[:most]))]  # fmt: skip
+    tries = [
+        (P[i], z[i], own, used)
+        for (P, z), own in starts
+        for most, used in ((4, every), (2, ~own))
+        for i in range(len(z[:most]))
+    ]
     for (P, z), own in starts:
         agree = deviations(pair, transformed(pair, P[:2], z[:2])[1]) <= 1.0
         tries += [(P[i], z[i], own, used) for i, used in enumerate(agree)]
@@ -120,7 +123,9 @@ def _simpler(first: Hypothesis, found: list[Hypothesis]) -> Hypothesis:
         for r in found
         if not r.frames and r.moved.any() and r.implicated.sum() < first.implicated.sum()
     )
-    return next(fewer, first) if first.frames and not first.link else first
+    if not first.frames or first.link:
+        return first
+    return next(fewer, first)
 
 
 def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Hypothesis]:
@@ -158,7 +163,8 @@ def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Hypothesis]:
         tried = best(pair, np.concatenate([P, P_fitted]), np.concatenate([z, z_fitted]), 2)
         P = np.concatenate([P[:4], tried[0]])
         z = np.concatenate([z[:4], tried[1]])
-        for k in np.flatnonzero(pair.alike) if pair.alike.all() else np.flatnonzero(~pair.alike):
+        suspects = pair.alike if pair.alike.all() else ~pair.alike
+        for k in np.flatnonzero(suspects):
             used = np.arange(n) != k
             for held in (pair, replace(pair, suspect_joint=int(k))):
                 trial = fit(held, P, z, inner, used)
@@ -213,7 +219,7 @@ def _cost(reading: Hypothesis) -> tuple[float, ...]:
 
 
 def _others(first: Hypothesis, behind: Iterable[Hypothesis]) -> list[Hypothesis]:
-    """Of the readings behind the first those as short that blame another joint, or it for something
+    """The readings behind the first that are as short and blame another joint, or it for something
     else; each once.
     """
     kept: list[Hypothesis] = []
