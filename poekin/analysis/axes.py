@@ -48,17 +48,17 @@ class AxisPair:
         elif self.perpendicular:
             lie = "perpendicular"
         else:
-            near, off = (
-                ("parallel", self.angle) if self.angle < 45 else ("perpendicular", 90 - self.angle)
-            )
-            lie = f"{off:.4g}° from {near}"
+            lie = f"{90 - self.angle:.4g}° from perpendicular"
+            if self.angle < 45:
+                lie = f"{self.angle:.4g}° from parallel"
         if self.distance is None:
             return lie
+        if self.parallel and self.intersecting:
+            return "coaxial"
         if self.intersecting:
-            return "coaxial" if self.parallel else f"{lie}, intersecting"
-        return f"{lie}, {self.distance:.4g} mm " + (
-            "apart" if self.parallel else "from intersecting"
-        )
+            return f"{lie}, intersecting"
+        end = "apart" if self.parallel else "from intersecting"
+        return f"{lie}, {self.distance:.4g} mm {end}"
 
 
 @dataclass(frozen=True)
@@ -75,9 +75,11 @@ class AxesReport:
     tol_deg: float
 
     def has(self, kind: str) -> bool:
-        """Whether a shape of that kind was found: "spherical wrist", "spherical shoulder", "three
-        parallel axes", "Pieper", "S-R-S". Raises: nothing; of another kind there is none.
-        """  # fmt: skip
+        """Whether a shape of that kind was found.
+
+        Parameters: kind, "spherical wrist", "spherical shoulder", "three parallel axes", "Pieper"
+        or "S-R-S". Raises: nothing; of another kind there is none.
+        """
         return any(shape.kind == kind for shape in self.shapes)
 
     def as_dict(self) -> dict[str, object]:
@@ -128,10 +130,19 @@ def axes(chain: Chain, *, tol_mm: float = 0.01, tol_deg: float = 0.001) -> AxesR
     pairs = []
     for i, j in [(i, i + step) for i in range(n) for step in (1, 2) if i + step < n]:
         angle, distance = _between(ways[i], places[i], ways[j], places[j], tol_deg)
-        pairs.append(AxisPair(
-            i + 1, j + 1, rest.joint_names[i], rest.joint_names[j], angle, distance, angle <= tol_deg,
-            90 - angle <= tol_deg, distance is not None and distance <= tol_mm, j == i + 1,
-        ))  # fmt: skip
+        pair = AxisPair(
+            first=i + 1,
+            second=j + 1,
+            name_first=rest.joint_names[i],
+            name_second=rest.joint_names[j],
+            angle=angle,
+            distance=distance,
+            parallel=angle <= tol_deg,
+            perpendicular=90 - angle <= tol_deg,
+            intersecting=distance is not None and distance <= tol_mm,
+            fixed=j == i + 1,
+        )
+        pairs.append(pair)
     return AxesReport(
         tuple(pairs), shapes(rest, float(tol_mm), float(tol_deg)), float(tol_mm), float(tol_deg)
     )

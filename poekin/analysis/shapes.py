@@ -5,6 +5,7 @@ closed form.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,32 +52,39 @@ def shapes(chain: Chain, tol_mm: float, tol_deg: float) -> tuple[Shape, ...]:
         off = _apart(three)
         if off <= tol_deg:
             parallel.append(i)
-            found.append(Shape("three parallel axes", numbers, off, f"joints {_list(numbers)}: three parallel axes"
-                               f" (within {off:.2g}°)"))  # fmt: skip
+            words = f"joints {_list(numbers)}: three parallel axes (within {off:.2g}°)"
+            found.append(Shape("three parallel axes", numbers, off, words))
             continue
         miss = _meeting(three)
         # Neighbours along one line leave two axes only, which is no spherical joint.
         if miss <= tol_mm and min(_apart(three[:2]), _apart(three[1:])) > tol_deg:
             spherical.append(i)
-            kind = (
-                "spherical wrist"
-                if i == n - 3
-                else "spherical shoulder"
-                if i == 0
-                else "spherical joint"
-            )
-            found.append(Shape(kind, numbers, miss, f"joints {_list(numbers)}: {kind}, the axes meet in one point"
-                               f" (within {miss:.2g} mm)"))  # fmt: skip
-    if n == 6 and all(revolute) and (spherical or parallel):
+            kind = "spherical joint"
+            if i == n - 3:
+                kind = "spherical wrist"
+            elif i == 0:
+                kind = "spherical shoulder"
+            words = f"joints {_list(numbers)}: {kind}, the axes meet in one point (within {miss:.2g} mm)"
+            found.append(Shape(kind, numbers, miss, words))
+    return (*found, *_solvable(n, all(revolute), spherical, parallel))
+
+
+def _solvable(
+    n: int, all_revolute: bool, spherical: list[int], parallel: list[int]
+) -> Iterator[Shape]:
+    """Arms of n joints known by three axes that meet or are parallel, told by the first of each."""
+    if n == 6 and all_revolute and (spherical or parallel):
         why = "three axes meet in one point" if spherical else "three axes are parallel"
         first = (spherical or parallel)[0]
         numbers = (first + 1, first + 2, first + 3)
-        found.append(Shape("Pieper", numbers, 0.0, f"Pieper: joints {_list(numbers)}: {why}, so that the inverse "
-                           "kinematics has a closed form"))  # fmt: skip
-    if n == 7 and all(revolute) and 0 in spherical and 4 in spherical:
-        found.append(Shape("S-R-S", tuple(range(1, 8)), 0.0, "S-R-S: a spherical shoulder, an elbow and a spherical "
-                           "wrist, like a human arm"))  # fmt: skip
-    return tuple(found)
+        words = (
+            f"Pieper: joints {_list(numbers)}: {why}, so that the inverse "
+            "kinematics has a closed form"
+        )
+        yield Shape("Pieper", numbers, 0.0, words)
+    if n == 7 and all_revolute and 0 in spherical and 4 in spherical:
+        words = "S-R-S: a spherical shoulder, an elbow and a spherical wrist, like a human arm"
+        yield Shape("S-R-S", tuple(range(1, 8)), 0.0, words)
 
 
 def _apart(screws: Array) -> float:

@@ -1,4 +1,4 @@
-"""What is near enough, as a user gives it: a positive number of millimetres or degrees."""
+"""Tolerances as a user gives them: a positive number of millimetres or degrees."""
 
 from __future__ import annotations
 

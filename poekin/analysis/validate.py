@@ -54,15 +54,15 @@ class ChainErrors:
     @property
     def worst(self) -> float:
         """The largest of the four errors ÷ R; infinite where one is not a number."""
-        return max(
-            e if math.isfinite(e) else math.inf
-            for e in (self.pose, self.space, self.body, self.hybrid)
-        )
+        errors = (self.pose, self.space, self.body, self.hybrid)
+        if not all(map(math.isfinite, errors)):
+            return math.inf
+        return max(errors)
 
 
 @dataclass(frozen=True)
 class Validation:
-    """What `validate` found: one row a chain, and the bar that every row must hold.
+    """The result of `validate`: one row a chain, and the bar that every row must hold.
 
     Attributes: robot (its name), source (where it came from), rows, bar (largest error ÷ R that
     passes), samples (random configurations a chain, beside the zero configuration), seed, pinocchio
@@ -191,16 +191,11 @@ def chain_errors(
         return _row(
             chain, np.full((4, 1), np.inf), {}, f"Pinocchio has no coordinate {quote(unknown[0])}"
         )
-    values = (
-        np.column_stack([np.asarray(q[n], float) for n in oracle.coordinates])
-        if oracle.coordinates
-        else None
-    )
-    count = 1 if values is None else len(values)
     own = [oracle.coordinates.index(name) for name in chain.q_names]
-    configurations = (
-        np.zeros((count, 0)) if values is None else np.ascontiguousarray(values[:, own])
-    )
+    configurations = np.zeros((1, 0))
+    if oracle.coordinates:
+        values = np.column_stack([np.asarray(q[n], float) for n in oracle.coordinates])
+        configurations = np.ascontiguousarray(values[:, own])
     expected, columns = oracle.evaluate(q, chain.tip, chain.base)
     weight = np.array([1.0, 1.0, 1.0, 1 / chain.reach])
     errors = [np.abs((chain.fk(configurations) - expected)[:, :3] * weight).max((1, 2))]
@@ -257,12 +252,14 @@ def routes(robot: Robot) -> Iterator[tuple[str, str, str]]:
         if not covered.issuperset(moving):
             covered.update(moving)
             end = f"ends above the {free.kind} joint {quote(free.name)}"
-            yield base, free.parent, f"{note}, {end}" if note else end
+            if note:
+                end = f"{note}, {end}"
+            yield base, free.parent, end
 
 
 def _way(robot: Robot, above: dict[str, Joint], tip: str) -> tuple[str, list[str], str]:
-    """Where the longest chain to a link starts, its joints that move, and the note on where it
-    starts.
+    """The link that the longest chain to a link starts at, its joints that move, and the note on
+    its start.
     """
     link = tip
     moving = []
@@ -295,7 +292,7 @@ def _both(robot: Robot | str | os.PathLike[str]) -> tuple[Robot, PinocchioOracle
 
 
 def _text(origin: str) -> bytes:
-    """What is in the file that a robot came from; an arm of the built-in catalogue need not be a
+    """The content of the file that a robot came from; an arm of the built-in catalogue need not be a
     file at all.
     """
     if not os.path.isabs(origin):

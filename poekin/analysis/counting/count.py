@@ -1,4 +1,4 @@
-"""What a Jacobian costs, found by running its algorithm on scalars that count or record."""
+"""Cost of a Jacobian, found by running its algorithm on scalars that count or record."""
 
 from __future__ import annotations
 

@@ -20,8 +20,8 @@ Rows = list[list[Any]]
 
 @dataclass(frozen=True)
 class Arm:
-    """What an algorithm is run on: n joints, the poses of their links and, where a formula has
-    them, their screws.
+    """The input of an algorithm: n joints, the poses of their links and, where a formula has them,
+    their screws.
 
     `poses` are of whatever kind the algorithm's form wants: exponentials, or poses of link frames.
     The integers 0 and 1 in rotates and slides are structure and cost nothing.
@@ -77,7 +77,7 @@ def z_aligned(arm: Arm) -> Result:
 
 
 def with_tool(arm: Arm) -> Result:
-    """The same with the constant tool behind the last link."""
+    """Section IV's recursion in z-aligned frames, the constant tool behind the last link."""
     J = empty_rows(arm.n)
     T = recursive.body_with_tool(arm.poses, arm.tool, arm.rotates, arm.slides, arm.n, J)
     return J, lambda: compose(arm.poses[0], T)
@@ -93,8 +93,8 @@ def orin_schrader(arm: Arm) -> Result:
 
 
 def paul(arm: Arm) -> Result:
-    """The same without a tool: J in the last link's frame, as the POE recursion of the paper's
-    table has it.
+    """The recursion on Paul's frames without a tool: J in the last link's frame, as the POE
+    recursion of the paper's table has it.
     """
     J = empty_rows(arm.n)
     T = dh_recursive.body(arm.poses, IDENTITY, arm.rotates, arm.slides, arm.n, J)

@@ -45,11 +45,10 @@ Form = Callable[[Motion, np.random.Generator], Row]
 
 
 def paper_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
-    """What an algorithm does, whether its result needs it or not; the links' poses are given."""
+    """Operations of an algorithm, whether its result needs it or not; the links' poses are given."""
     total = Count()
-    poses = counted(
-        [IDENTITY for _ in chain.kinds], total
-    )  # what is counted does not depend on the numbers
+    # The count does not depend on the numbers.
+    poses = counted([IDENTITY for _ in chain.kinds], total)
     _, finish = algorithm(_arm(chain, poses))
     if with_pose:
         finish()
@@ -57,18 +56,20 @@ def paper_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Cou
 
 
 def live_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
-    """What an algorithm's result needs; the links' poses are given."""
+    """Operations that an algorithm's result needs; the links' poses are given."""
     graph = Graph()
     numbers = itertools.count(1)
-    poses = [
-        tuple(graph.input(-next(numbers)) for _ in IDENTITY) for _ in chain.kinds
-    ]  # from 0 on they are of angles
+    # Inputs from 0 on are of angles.
+    poses = [tuple(graph.input(-next(numbers)) for _ in IDENTITY) for _ in chain.kinds]
     J, finish = algorithm(_arm(chain, poses))
-    return _count(graph, Angles(graph), finish() if with_pose else (), J)
+    T: Row = ()
+    if with_pose:
+        T = finish()
+    return _count(graph, Angles(graph), T, J)
 
 
 def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bool) -> Count:
-    """What an algorithm's result needs from q on: sines, cosines, the links' poses in their form,
+    """Operations that an algorithm's result needs from q on: sines, cosines, the links' poses in their form,
     and the coupling.
     """
     graph = Graph()
@@ -87,7 +88,9 @@ def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bo
         sine, cosine = angles.sine_cosine([float(r * factor) for factor in row], r * c, 0)
         poses.append(form(Motion(kind, x, sine, cosine, s * x), rng))
     J, finish = algorithm(_arm(chain, poses))
-    T = finish() if with_pose else ()
+    T: Row = ()
+    if with_pose:
+        T = finish()
     if not np.array_equal(C, np.eye(len(C))):
         J_q = empty_rows(chain.dof)
         columns.coupled(J, C.tolist(), len(C), chain.dof, J_q)
@@ -114,10 +117,11 @@ def z_link(motion: Motion, rng: np.random.Generator) -> Row:
 def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
     """Rz(theta) Tz(d) Tx(a) Rx(alpha), the joint before its link."""
     d, a, alpha, theta = generic(rng, 4)
-    slides_only = motion.kind == "prismatic"
-    sine, cosine = (
-        (math.sin(theta), math.cos(theta)) if slides_only else (motion.sine, motion.cosine)
-    )
+    sine = motion.sine
+    cosine = motion.cosine
+    if motion.kind == "prismatic":
+        sine = math.sin(theta)
+        cosine = math.cos(theta)
     return dh.link(
         sine, cosine, float(d) + motion.shift, float(a), math.sin(alpha), math.cos(alpha)
     )
@@ -146,9 +150,15 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
     links = [(0.0, 1.0, 0.0, 0.0)]
     for d, alpha in generic(rng, n - 1, 2).tolist():
         links.append((math.sin(alpha), math.cos(alpha), d, 0.0))
+    alongs = tuple(generic(rng, n).tolist())
+    base = IDENTITY
+    end = IDENTITY
+    if tool:
+        base = generic_pose(rng)
+        end = generic_pose(rng)
     return Structure(
         links=tuple(links),
-        alongs=tuple(generic(rng, n).tolist()),
+        alongs=alongs,
         parallel=(0,) * n,
         rotates=tuple(chain.local.rotates.tolist()),
         slides=tuple(chain.local.slides.tolist()),
@@ -156,15 +166,15 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
         shift=tuple(chain.offset.tolist()),
         offsets=(0.0,) * n,
         quarters=(0,) * n,
-        base=generic_pose(rng) if tool else IDENTITY,
-        tool=generic_pose(rng) if tool else IDENTITY,
+        base=base,
+        tool=end,
         frames=(IDENTITY,) * n,
         coordinates=chain.dof,
     )
 
 
 def generator() -> np.random.Generator:
-    """Where generic numbers come from: the same at every call."""
+    """A source of generic numbers, which are the same at every call."""
     return np.random.default_rng(0)
 
 
@@ -184,11 +194,9 @@ def generic_screw(kind: str, rng: np.random.Generator) -> Row:
     axis, point = generic(rng, 2, 3)
     if kind == "prismatic":
         return (0, 0, 0, *screw.prismatic(axis)[3:].tolist())
-    return tuple(
-        (
-            screw.helical(axis, point, 0.1) if kind == "helical" else screw.revolute(axis, point)
-        ).tolist()
-    )
+    if kind == "helical":
+        return tuple(screw.helical(axis, point, 0.1).tolist())
+    return tuple(screw.revolute(axis, point).tolist())
 
 
 def structure(chain: Chain) -> tuple[Sequence[float], Sequence[float]]:

@@ -51,7 +51,7 @@ class CountRow:
 
 @dataclass(frozen=True)
 class CountTable:
-    """What the Jacobian of one arm costs in every way that `count` knows.
+    """Costs of one arm's Jacobian in every way that `count` knows.
 
     Attributes: base, tip, names of the frames; joints n, coordinates m; rows; idealised, the
     `Idealised` whose rows there are, or None; cheapest, which frame "cheapest" is, of the arm as it is;
@@ -88,30 +88,31 @@ class CountTable:
 
     def as_dict(self) -> dict[str, Any]:
         """Everything as plain dicts, lists, numbers and texts."""
-        ideal = self.idealised
+        cheapest = None
+        if self.cheapest is not None:
+            cheapest = {
+                "joint": self.cheapest.joint,
+                "along": self.cheapest.along,
+                "T_km": self.cheapest.T_km.tolist(),
+            }
+        idealised = None
+        if self.idealised is not None:
+            idealised = {
+                "position_bound": self.idealised.position_bound,
+                "rotation_bound": self.idealised.rotation_bound,
+                "changes": list(self.idealised.changes),
+            }
         return {
             "base": self.base,
             "tip": self.tip,
             "joints": self.joints,
             "coordinates": self.coordinates,
-            "cheapest": None if self.cheapest is None else {
-                "joint": self.cheapest.joint, "along": self.cheapest.along, "T_km": self.cheapest.T_km.tolist()
-            },
-            "idealised": None if ideal is None else {
-                "position_bound": ideal.position_bound, "rotation_bound": ideal.rotation_bound,
-                "changes": list(ideal.changes),
-            },
+            "cheapest": cheapest,
+            "idealised": idealised,
             "verdict": list(self.verdict),
             "groups": {group: MEANING[group] for group in self.groups},
-            "rows": [
-                {
-                    "group": row.group, "method": row.method, "frame": row.frame, "counting": row.counting,
-                    "what": row.what, "jacobian": row.jacobian.as_dict(),
-                    "with_pose": None if row.with_pose is None else row.with_pose.as_dict(),
-                }
-                for row in self.rows
-            ],
-        }  # fmt: skip
+            "rows": [_plain(row) for row in self.rows],
+        }
 
 
 PAPER = "printed in the paper"
@@ -227,22 +228,27 @@ def plain(chain: Chain) -> bool:
     return own and set(chain.kinds) == {"revolute"}
 
 
+def _plain(row: CountRow) -> dict[str, Any]:
+    """A row as plain dicts, numbers and texts."""
+    names = ("group", "method", "frame", "counting", "what")
+    plain = {name: getattr(row, name) for name in names}
+    plain["jacobian"] = row.jacobian.as_dict()
+    plain["with_pose"] = None
+    if row.with_pose is not None:
+        plain["with_pose"] = row.with_pose.as_dict()
+    return plain
+
+
 def _programs(arm: CompiledChain, group: str) -> Iterator[CountRow]:
     n = len(arm.joint_names)
-    frames: tuple[str | int, ...] = (
-        "space",
-        "body",
-        "hybrid",
-        *range(n),
-        *(("cheapest",) if n else ()),
-    )
+    frames: list[str | int] = ["space", "body", "hybrid", *range(n)]
+    if n:
+        frames.append("cheapest")
     for frame in frames:
-        what = (
-            f"J in the frame of {arm.joint_names[frame]}"
-            if isinstance(frame, int)
-            else f"{frame} Jacobian"
-        )
-        if frame == "cheapest":
+        what = f"{frame} Jacobian"
+        if isinstance(frame, int):
+            what = f"J in the frame of {arm.joint_names[frame]}"
+        elif frame == "cheapest":
             what = f"J in the cheapest frame, that of {arm.joint_names[arm.cheapest.joint]}"
         J, both = (arm.program(frame, pose=pose).count for pose in (False, True))
         yield CountRow(group, "specialised", frame, "everything", what, J, both)
@@ -258,7 +264,7 @@ def _words(method: str) -> str:
 
 
 def _verdict(chain: Chain) -> Iterator[str]:
-    """What of the printed advantage is bookkeeping, in this arm's own numbers."""
+    """Sentences on the bookkeeping in the printed advantage, in this arm's own numbers."""
     if len(chain.kinds) < 2:
         return
 
@@ -268,7 +274,9 @@ def _verdict(chain: Chain) -> Iterator[str]:
     def gap(a: Count, b: Count) -> str:
         x = a.multiplications - b.multiplications
         y = a.additions - b.additions
-        return f"{x} multiplications and {y} additions" if (x, y) != (0, 0) else "nothing"
+        if x == y == 0:
+            return "nothing"
+        return f"{x} multiplications and {y} additions"
 
     poe = of("recursive")
     dh = of("dh_recursive")

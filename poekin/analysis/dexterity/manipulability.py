@@ -19,8 +19,8 @@ ROWS = {"pose": [0, 1, 2, 3, 4, 5], "translation": [3, 4, 5], "rotation": [0, 1,
 
 
 class Measures(NamedTuple):
-    """Of the singular values s_1 >= ... >= s_r of one part of the Jacobian, r the smaller of its
-    rows and of m.
+    """Measures of one part of the Jacobian, of its singular values s_1 >= ... >= s_r, r the
+    smaller of its rows and of m.
 
     yoshikawa: their product, sqrt(det J J^T) where m is at least the number of rows; condition: s_1
     / s_r, infinite at a singularity; smallest: s_r. Arrays of the batch's shape.
@@ -114,8 +114,9 @@ def scaled(X: Array, axis: int, part: str, length: float) -> Array:
 
 
 def svd(J: Array) -> tuple[Array, Array, Array]:
-    """U (..., k, r), s (..., r) and V^T (..., r, m) of J = U diag(s) V^T; s is NaN where an entry
-    of J is.
+    """The factors U (..., k, r), s (..., r) and V^T (..., r, m) of J = U diag(s) V^T.
+
+    Where an entry of J is NaN, s is.
     """
     bad = np.asarray(~np.isfinite(J).all(axis=(-2, -1), keepdims=True))
     U, s, V = np.linalg.svd(np.where(bad, 0.0, J), full_matrices=False)

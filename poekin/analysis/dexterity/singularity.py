@@ -26,7 +26,7 @@ TOLERANCE = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Singularity:
-    """How an arm stands at one configuration.
+    """Singular values and lost motions of an arm at one configuration.
 
     Attributes: singular, whether smallest ≤ tolerance · largest; tolerance; part, length (m, by
     which v is divided); singular_values (r), descending; rank, of those above the tolerance.
@@ -63,7 +63,9 @@ class Singularity:
     @property
     def condition(self) -> float:
         """s_1 / s_r, infinite where s_r is zero."""
-        return self.singular_values[0] / self.smallest if self.smallest else math.inf
+        if not self.smallest:
+            return math.inf
+        return self.singular_values[0] / self.smallest
 
     def as_dict(self) -> dict[str, object]:
         """Everything as plain dicts, lists, strings and numbers; an infinite number is None."""
@@ -141,42 +143,50 @@ def singularity(
     rank = int((s > tolerance * s[0]).sum())
     slope = np.einsum("r,rij,i->j", U[:, -1], H, V[-1])
     steep = float(np.linalg.norm(slope))
+    distance = math.inf
     # s_r is known to some u of s_1: below that, q is where s_r is zero
-    distance = 0.0 if s[-1] <= 1e-15 * s[0] else float(s[-1] / steep) if steep else math.inf
+    if s[-1] <= 1e-15 * s[0]:
+        distance = 0.0
+    elif steep:
+        distance = float(s[-1] / steep)
     motions = np.array([_positive(_twist(u, part, L)) for u in U.T])
     lost = motions[-1]
     idle = _positive(V[-1])
-    towards = -slope / steep if steep else np.zeros(chain.dof)
-    words = _words(
-        chain,
-        motions[rank:] if rank < len(s) else motions[-1:],
-        s,
-        rank,
-        idle,
-        distance,
-        towards,
-        tolerance,
-    )
+    towards = np.zeros(chain.dof)
+    if steep:
+        towards = -slope / steep
+    told = motions[min(rank, len(s) - 1) :]
+    words = _words(chain, told, s, rank, idle, distance, towards, tolerance)
     return Singularity(
-        rank < len(s), float(tolerance), part, L, tuple(map(float, s)), rank, lost, motions[rank:], idle, distance,
-        towards, words,
-    )  # fmt: skip
+        singular=rank < len(s),
+        tolerance=float(tolerance),
+        part=part,
+        length=L,
+        singular_values=tuple(map(float, s)),
+        rank=rank,
+        singular_direction=lost,
+        singular_subspace=motions[rank:],
+        joint_direction=idle,
+        distance=distance,
+        gradient_direction=towards,
+        words=words,
+    )
 
 
 def _twist(u: Array, part: str, length: float) -> Array:
     """The twist (6,) that a left singular vector stands for."""
     if part == "rotation":
         return np.concatenate([u, np.zeros(3)])
-    return (
-        np.concatenate([np.zeros(3), length * u])
-        if part == "translation"
-        else u * np.repeat([1.0, length], 3)
-    )
+    if part == "translation":
+        return np.concatenate([np.zeros(3), length * u])
+    return u * np.repeat([1.0, length], 3)
 
 
 def _positive(x: Array) -> Array:
     """x or -x: the one whose largest component is positive."""
-    return (-x if x[np.argmax(np.abs(x))] < 0 else x) + 0.0
+    if x[np.argmax(np.abs(x))] < 0:
+        x = -x
+    return x + 0.0
 
 
 def _words(
@@ -189,7 +199,10 @@ def _words(
     towards: Array,
     tolerance: float,
 ) -> str:
-    quotient = f"smallest ÷ largest singular value {s[-1] / s[0] + 0.0 if s[0] else 0.0:.3g}, tolerance {tolerance:g}"
+    ratio = 0.0
+    if s[0]:
+        ratio = s[-1] / s[0] + 0.0
+    quotient = f"smallest ÷ largest singular value {ratio:.3g}, tolerance {tolerance:g}"
     how = [motion_words(motion) for motion in motions]
     names = [
         (name, abs(rate)) for name, rate in zip(chain.q_names, idle, strict=True) if abs(rate) > 0.1
@@ -200,9 +213,12 @@ def _words(
     )
     if rank < len(s):
         lost = "; and ".join(how)
+        nearly = ""
+        if s[-1] > 1e-12 * s[0]:
+            nearly = ", nearly"
         return (
             f"singular ({quotient}): the tool cannot move by {lost}. "
-            f"The rates {rates} leave it where it is{'' if s[-1] <= 1e-12 * s[0] else ', nearly'}."
+            f"The rates {rates} leave it where it is{nearly}."
         )
     near = f"to first order no singularity is within 1 {_unit(chain)}"
     if distance <= 1:
@@ -224,11 +240,9 @@ def motion_words(V: Array) -> str:
         return f"moving along {_direction(V[3:])}"
     turning = f"turning about {_direction(V[:3])}"
     moving = f"moving along {_direction(V[3:])}"
-    return (
-        f"{moving} while {turning} by {w / v:.3g} rad per m"
-        if v > w
-        else (f"{turning} while its origin is {moving} by {v / w:.3g} m per rad")
-    )
+    if v > w:
+        return f"{moving} while {turning} by {w / v:.3g} rad per m"
+    return f"{turning} while its origin is {moving} by {v / w:.3g} m per rad"
 
 
 def _direction(x: Array) -> str:
