@@ -100,4 +100,4 @@ def test_a_coordinate_is_an_angle_where_the_first_joint_that_follows_it_turns():
 
 def test_a_chain_has_room_for_its_data_alone():
     with pytest.raises(AttributeError):
-        object.__setattr__(CHAIN, "note", "mine")
+        object.__setattr__(pk.load("ur5e").chain(tip="tool0"), "note", "mine")
