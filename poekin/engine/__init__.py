@@ -1,1 +1,1 @@
-"""What makes the formulas run: compiled (Numba) with a cache of kernels, and counted."""
+"""Engine that runs the formulas: compiled (Numba) with a cache of kernels, and counted."""

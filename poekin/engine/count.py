@@ -29,7 +29,7 @@ class Count:
 
     @property
     def sine_cosine_pairs(self) -> int:
-        """How many angles' sines and cosines are needed: one routine gives both."""
+        """Number of angles whose sine and cosine are needed: one routine gives both."""
         return max(self.sines, self.cosines)
 
     def as_dict(self) -> dict[str, int]:
@@ -127,7 +127,7 @@ def _is_zero(x) -> bool:
 
 
 class _Functions:
-    """What `formulas.elementary` calls on counting scalars."""
+    """Stand-ins for `formulas.elementary` on counting scalars."""
 
     @staticmethod
     def sqrt(x: Counted) -> Counted:

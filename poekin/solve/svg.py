@@ -34,7 +34,7 @@ def svg(width: float, height: float, purpose: str, draw: Callable[[Any], None]) 
 
 
 def inline(text: str) -> str:
-    """The same without what stands before the picture itself, to be put into a page."""
+    """SVG text without what stands before the picture itself, to be put into a page."""
     return text[text.index("<svg") :]
 
 

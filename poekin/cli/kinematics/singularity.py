@@ -51,7 +51,7 @@ def command(
     tolerance: Tolerance = TOLERANCE,
     json: Json = False,
 ) -> None:
-    """How near Q is to a singularity and which motion is lost there. Exit code 0 regular, 1
+    """Distance of Q from a singularity, and the motion that is lost there. Exit code 0 regular, 1
     singular, 2 error.
     """
     words = (at or "").replace(",", " ").split()

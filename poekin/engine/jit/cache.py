@@ -47,7 +47,7 @@ def say_once(topic: str, message: str, *details: object) -> None:
 
 
 def directory() -> Path | None:
-    """Where kernels are kept: `POEKIN_CACHE_DIR`, else this user's cache directory; None for
+    """Directory of the kernels: `POEKIN_CACHE_DIR`, else this user's cache directory; None for
     nowhere.
     """
     if "POEKIN_CACHE_DIR" in os.environ:
@@ -157,7 +157,7 @@ def _place() -> Path | None:
 
 
 def entry(name: str, key: object) -> Path | None:
-    """Where what is known by a name and a key is kept; None for nowhere."""
+    """Path of the entry of a name and a key; None for nowhere."""
     place = _place()
     if (
         place is None or source_hash.LOADED is None
@@ -168,7 +168,7 @@ def entry(name: str, key: object) -> Path | None:
 
 
 def read(path: Path) -> bytes | None:
-    """What an entry holds; None where there is none, or none that can be trusted."""
+    """Content of an entry; None where there is none, or none that can be trusted."""
     try:
         with open(path, "rb", opener=_as_it_is) as file:
             status = os.fstat(file.fileno())
@@ -214,7 +214,7 @@ def write(path: Path, payload: bytes) -> None:
 
 
 class KernelCache:
-    """What a Numba dispatcher asks for machine code and hands it to, for one kernel."""
+    """Cache that a Numba dispatcher of one kernel takes machine code from and gives it to."""
 
     def __init__(self, name: str):
         self.name = name

@@ -166,7 +166,7 @@ def _products(table, screws, home, q, x, sines, cosines, shifts, exponentials, P
 
 @kernel("w2 r2 r1 r2 w4")
 def pose_changes(table, screws, home, q, D):
-    """What unit conjugations of the screws and of the home pose do to the pose, as space twists."""
+    """Changes of the pose under unit conjugations of the screws and the home pose, as space twists."""
     table = borrowed(table)
     screws = borrowed(screws)
     q = borrowed(q)
@@ -183,7 +183,7 @@ def pose_changes(table, screws, home, q, D):
 
 @kernel("w2 r2 r1 r2 int w5")
 def jacobian_changes(table, screws, home, q, frame, C):
-    """What they do to the Jacobian in a frame."""
+    """Changes of the Jacobian in a frame under the same conjugations."""
     table = borrowed(table)
     screws = borrowed(screws)
     q = borrowed(q)

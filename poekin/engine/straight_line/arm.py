@@ -13,8 +13,8 @@ from .program import Program
 
 
 class Arm:
-    """What the kernels of `engine.kernels.arm_kernels` run: `address` is good as long as this
-    object lives.
+    """Machine code that the kernels of `engine.kernels.arm_kernels` run; `address` is valid as long
+    as this object lives.
     """
 
     __slots__ = ("_loaded", "_numbers", "address")

@@ -231,7 +231,7 @@ class _Function:
                     )
 
     def _transposed(self, group):
-        """Of four vectors, or of two, for each lane the vector of what they have there.
+        """Four vectors, or two, transposed: for each lane the vector of what they have there.
 
         A pose has 16 numbers and a Jacobian 6 m: there is never one left, nor three.
         """

@@ -81,7 +81,7 @@ class Program:
 
 
 def program(graph: Graph, angles: Angles, outputs: Sequence[Traced | float]) -> Program:
-    """What the outputs need of a graph, and what it costs."""
+    """Nodes of a graph that the outputs need, and their cost."""
     nodes = graph.nodes
     needed = set()
     stack = [x.number for x in outputs if isinstance(x, Traced)]

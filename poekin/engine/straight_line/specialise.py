@@ -231,7 +231,7 @@ class _Trace:
         return [s for s, _ in pairs], [c for _, c in pairs]
 
     def _sine_cosine(self, joints: range):
-        """Of the sum of the joints' angles."""
+        """Sine and cosine of the sum of the joints' angles."""
         arm = self.arm
         factors = [0.0] * arm.coordinates
         for i in joints:

@@ -1,5 +1,4 @@
-"""How the pose and the Jacobian change when the screws themselves move: A_i <- Ad(e^eta_i) A_i and
-M <- M e^eta.
+"""Changes of the pose and the Jacobian when the screws move: A_i <- Ad(e^eta_i) A_i, M <- M e^eta.
 
 The conjugation keeps every axis unit and every pitch as it is. With P_i = e^{A_1 x_1} ... e^{A_i
 x_i} it turns
@@ -84,7 +83,7 @@ def _taken(D, i, e):
 
 
 def column_change(J, P, D, k, i, e):
-    """How the space column s_k changes per unit of component e of eta_i; J holds the space columns."""
+    """Change of the space column s_k per unit of component e of eta_i; J holds the space columns."""
     if i < k:
         return bracket(_taken(D, i, e), column(J, k))
     if i == k:
@@ -103,7 +102,7 @@ def space_changes(J, P, D, count, C):
 
 
 def body_changes(J, P, D, count, C):
-    """The same for body columns b_k = Ad(f)^-1 s_k: Ad(f)^-1 (ds_k - [d, s_k]), d the space twist
+    """Change of the body columns b_k = Ad(f)^-1 s_k: Ad(f)^-1 (ds_k - [d, s_k]), d the space twist
     of the pose.
     """
     f = P[count + 1]
@@ -117,7 +116,7 @@ def body_changes(J, P, D, count, C):
 
 
 def hybrid_changes(J, P, D, count, C):
-    """The same for hybrid columns: that of s_k with its velocity at p, and w_k x dp more, p the
+    """Change of the hybrid columns: that of s_k with its velocity at p, and w_k x dp more, p the
     tool's origin.
     """
     p = translation(P[count + 1])

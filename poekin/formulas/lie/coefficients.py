@@ -64,7 +64,7 @@ C_SERIES = _series(_c)
 
 
 def _beyond_poles(k):
-    """Of D's coefficient of t^2k what its first two poles leave."""
+    """Rest of D's coefficient of t^2k behind its first two poles."""
     return abs(_B[2 * k + 2]) / factorial(2 * k + 2) - (2 + Fraction(2, 4 ** (k + 1))) / _TURN ** (
         k + 1
     )
@@ -88,8 +88,8 @@ def polynomial(coefficients, x):
 
 
 def _two_chains(coefficients, x):
-    """The same sum by Horner's rule for even and odd k apart: two short chains of operations for a
-    long one.
+    """Sum of a series by Horner's rule for even and odd k apart: two short chains of operations for
+    a long one.
     """
     return polynomial(coefficients[0], x * x) + x * polynomial(coefficients[1], x * x)
 
@@ -137,7 +137,7 @@ def c_of(tt, a):
 
 
 def _beside_poles(tt, rest):
-    """What D = 2 / ((2 pi)^2 - t^2 - rest) + ... has as its first term, and the sum of the others."""
+    """First term of D = 2 / ((2 pi)^2 - t^2 - rest) + ..., and the sum of the others."""
     return 2.0 / (FIRST - tt + (FIRST_REST - rest)), 2.0 / (SECOND - tt) + _two_chains(
         _D_CHAINS, tt
     )

@@ -1,5 +1,4 @@
-"""What rounding took from a length, a quotient or a sum, so that a formula can put it back to first
-order.
+"""Rounding errors of a length, a quotient or a sum, for a formula to put back to first order.
 
 A number is split in two: its upper digits, of which products and sums of squares are exact, and the
 rest. To add

@@ -1,4 +1,4 @@
-"""How far nine numbers are from a rotation. Accuracy: within 4 u of sums of products of about 1, u
+"""Distance of nine numbers from a rotation. Accuracy: within 4 u of sums of products of about 1, u
 = 2^-53.
 """
 

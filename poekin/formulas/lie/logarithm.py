@@ -126,13 +126,13 @@ def _near(theta, rest, axis, w_near):
 
 
 def so3_near(R, w_near):
-    """Of all w with exp [w] = R, Remark 1's, the one closest to w_near (rad)."""
+    """Logarithm w of R closest to w_near (rad), of all those of Remark 1."""
     theta, rest, axis, _ = _polar(R)
     return _near(theta, rest, axis, w_near)[0]
 
 
 def se3_near(T, w_near, v_near):
-    """Of all twists (w; v) with exp = T the one whose w is closest to w_near.
+    """Logarithm (w; v) of T whose w is closest to w_near.
 
     Where |w| = 2 pi k, k != 0, a logarithm exists only if p is along w, to the rounding of exp at
     (w_near; v_near); then the part of v across w is free, and v_near's is taken. v is NaN where

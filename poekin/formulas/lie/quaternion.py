@@ -65,8 +65,8 @@ def _flipped(R, x, y, z):
 
 
 def _about(R):
-    """Of R (0) and R after a half turn about its x, y or z axis (1, 2, 3) that one whose angle is
-    least.
+    """Index of the least angle among R (0) and R after a half turn about its x, y or z axis
+    (1, 2, 3).
     """
     trace = R[0] + R[4] + R[8]
     if trace >= R[0] and trace >= R[4] and trace >= R[8]:

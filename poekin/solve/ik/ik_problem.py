@@ -30,7 +30,7 @@ SHARED = 256
 
 
 class Settings(NamedTuple):
-    """What `ik` is asked, but for the targets and where to begin; arrays as tuples."""
+    """Arguments of `ik` but for the targets and the start; arrays as tuples."""
 
     task: Any
     axis: Any

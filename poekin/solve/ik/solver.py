@@ -23,7 +23,7 @@ Progress = Callable[[int, int], None]
 
 
 class Wishes(NamedTuple):
-    """What is asked of the solutions besides the task: `nearest_to`, a configuration (m,) or
+    """Wishes for the solutions besides the task: `nearest_to`, a configuration (m,) or
     (..., m); `secondary_objective`, one of `redundancy.OBJECTIVES`; each None where it is not
     asked.
     """

@@ -71,9 +71,8 @@ def missing_probability(found: Found) -> float:
 
 
 def in_words(found: Found, inside: int, closed: str | None) -> str:
-    """How many solutions there are and how many inside the limits, how they were found (`closed`,
-    which closed form,
-    or None without), and what is known about more of them.
+    """Sentences on the number of solutions, how many are inside the limits, how they were found
+    (`closed`, which closed form, or None without), and what is known about more of them.
     """
     s = len(found.solutions)
     if found.self_motion_coordinates:

@@ -45,7 +45,7 @@ class ClosedForm:
         self.rotation_bound = rotation_bound
 
     def said(self) -> str:
-        """How the solutions are found, in words."""
+        """Words for the way in which the solutions are found."""
         if not self.position_bound and not self.rotation_bound:
             return f"closed form (EAIK, {self.family})"
         return (

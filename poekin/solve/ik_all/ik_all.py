@@ -256,7 +256,7 @@ def _result(
     places: _Places,
     solver: ClosedForm | None,
 ) -> AllSolutions:
-    """What is handed out of places in order, every solution looked at by `Chain.fk`."""
+    """Solutions of the places in order, each judged by `Chain.fk`."""
     position, rotation = pose_errors(chain, places.q, T[places.owner]).T
     good = np.flatnonzero((position <= accepted(chain)) & (rotation <= accepted(chain)))
     Q = places.q[good]

@@ -40,7 +40,7 @@ _STEP = 0.05  # rad or m: how far a walk along a continuum goes
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """What was found for one target, limits apart.
+    """Solutions found for one target, limits apart.
 
     Attributes: solutions (s, m); hits (s,), how often each was found; ends, how many tries ended at
     any of them; restarts, 0 where the given starts were enough; full, whether there was no room for
@@ -60,7 +60,7 @@ class Found:
 
 @dataclass(frozen=True)
 class Rule:
-    """How long a search goes on: until each solution was found `min_hits` times, within `restarts`
+    """Length of a search: until each solution was found `min_hits` times, within `restarts`
     tries of `iterations`; it gives up after `max_misses` tries without any.
     """
 
@@ -92,7 +92,7 @@ def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
 
 
 def pose_errors(chain: Chain, q: Array, T: Array) -> Array:
-    """How far the poses of q (S, m) by the kernels of `Chain.fk` are from targets (S, 4, 4): m and
+    """Errors of the poses of q (S, m) by the kernels of `Chain.fk` from targets (S, 4, 4): m and
     rad (S, 2).
     """
     from ...engine.kernels import ik_kernels
@@ -215,13 +215,12 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
 
 
 def _size(chain: Chain) -> float:
-    """How long the links are together (m), 1 where all are points."""
+    """Sum of the links' lengths (m), 1 where all are points."""
     return float(np.linalg.norm(chain.local.frames[1:, :3, 3], axis=1).sum()) or 1.0
 
 
 def _way_along(fast: CompiledChain, T: Array, q: Array, J: Array) -> Array | None:
-    """How the coordinates change along a continuum of solutions through q, or None where there is
-    none.
+    """Direction of a continuum of solutions through q, or None where there is none.
 
     A step in a direction that does not move the tool to first order is tried down to the target
     again: of a double solution it comes back, along a continuum it stays a step away.

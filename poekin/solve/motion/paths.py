@@ -69,8 +69,7 @@ def joint(q_0: ArrayLike, q_1: ArrayLike, s: ArrayLike) -> Array:
 
 
 def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: str = "line") -> Array:
-    """How long a path between two poses is: the way of the tool's origin (m) and the angle turned
-    (rad).
+    """Lengths of a path between two poses: of the tool's origin (m), and the angle turned (rad).
 
     Both are passed evenly in s, so |p'| = length s' and |omega| = angle s': what `minimum_time` needs.
     Parameters: T_s0, T_s1 (..., 4, 4); along "line" (|p_1 - p_0|) or "screw" (|v| of xi = (omega;

@@ -106,8 +106,8 @@ class Follower:
         return k, q
 
     def best(self, k: int, last: Array | None) -> tuple[int, Array]:
-        """Of several solutions of pose k the one that gets farthest, and then jumps and moves
-        least; its end, and q.
+        """Solution of pose k, of several, that gets farthest, and then jumps and moves least; its
+        end, and q.
         """
         found = (k, np.empty((0, self.dof)))
         tried = np.empty((0, self.dof))
@@ -146,7 +146,7 @@ class Follower:
         )
 
     def _descend(self, targets: Array, start: Array, q: Array, anywhere: bool = False) -> int:
-        """How many targets are followed from `start`; where `anywhere`, the first of them at any
+        """Number of targets followed from `start`; where `anywhere`, the first of them at any
         distance from it.
         """
         info = np.empty((len(targets), codes.INFO))

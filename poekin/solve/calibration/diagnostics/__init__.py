@@ -1,1 +1,1 @@
-"""What measurements can tell, and what explains those that do not fit."""
+"""Diagnostics: identifiable parameters, and explanations of measurements that do not fit."""

@@ -1,5 +1,4 @@
-"""What explains measurements that the nominal arm misses by far: another base, another tool, or an
-arm that is another.
+"""Explanations of measurements that the nominal arm misses by far: another base, tool or arm.
 
 Remarks with figures: the nominal arm is fitted with base and tool free, as to a camera and a board.
 """

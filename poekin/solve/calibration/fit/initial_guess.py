@@ -282,7 +282,7 @@ def _within(spread: Array, k: int, scatter: float) -> bool:
 
 
 def _reach(points: Array, k: int) -> str:
-    """What messages say of points that are in a line (k = 1) or plane (k = 2)."""
+    """Words for points that are in a line (k = 1) or plane (k = 2)."""
     spread = _spread(points - points.mean(axis=0))
     return f"{spread[0]:.2g} m along it and {spread[k]:.2g} m out of it, rms"
 

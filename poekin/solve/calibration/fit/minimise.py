@@ -89,7 +89,10 @@ def minimise(
     free (P, k): directions, in rad and reaches; prior (P,): standard deviations, infinite where
     there is none.
     """
-    inverse = np.zeros(len(p)) if prior is None else 1.0 / prior
+    if prior is None:
+        inverse = np.zeros(len(p))
+    else:
+        inverse = 1.0 / prior
     objective = _Objective(problem, noise, name, inverse, problem.scale[:, None] * free)
     damping = 0.0
     steps: list[Step] = []
@@ -114,7 +117,10 @@ def minimise(
         steps.append(Step(cost, float(np.linalg.norm(trial.z)), damping))
         p = trial.p
         cost = trial.cost
-        damping = damping / 10.0 if damping > _FIRST_DAMPING else 0.0
+        if damping > _FIRST_DAMPING:
+            damping = damping / 10.0
+        else:
+            damping = 0.0
         if done:
             # the step was too short to change the Jacobian
             return Outcome(p, True, steps, jacobian)

@@ -35,7 +35,10 @@ def fit_with_refit(
     rank = free.shape[1]
     if not first.converged or rank == problem.size or rank_at(problem, first.p) <= rank:
         return first
-    known = None if prior is None else np.isfinite(prior)
+    if prior is None:
+        known = None
+    else:
+        known = np.isfinite(prior)
     more = free_directions_at(problem, first.p, known)
     if not rank < more.shape[1] < problem.n_equations:
         return first

@@ -89,18 +89,21 @@ class Measurement:
         return self._with(**fields)
 
     def with_rows(self, rows: Rows | None) -> Measurement:
-        """The same measurements at other rows of q. Raises: nothing."""
+        """Copy of the measurements at other rows of q. Raises: nothing."""
         return self._with(rows=rows)
 
     def with_unknown_frames(self, unknown_frames: Sequence[UnknownFrame]) -> Measurement:
-        """The same measurements with other guesses: unknown_frames, one for each. Raises: nothing."""
+        """Copy of the measurements with other guesses: unknown_frames, one for each. Raises: nothing."""
         return self._with(unknown_frames=tuple(unknown_frames))
 
     def scaled(self, unit: float) -> Measurement:
-        """The same measurements with all lengths times `unit`, and no covariance. Raises: nothing."""
+        """Copy of the measurements with all lengths times `unit`, and no covariance. Raises: nothing."""
         name = self._per_measurement[0]
         measured = getattr(self, name).copy()
-        lengths = measured[:, :3, 3] if measured.shape[1:] == (4, 4) else measured
+        if measured.shape[1:] == (4, 4):
+            lengths = measured[:, :3, 3]
+        else:
+            lengths = measured
         lengths *= unit
         return self._with(**{name: measured, "covariance": None})
 

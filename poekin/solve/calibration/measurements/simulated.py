@@ -163,7 +163,10 @@ def _measure(kind: str, T: Array, setup: _Setup, sensor: _Sensor) -> Measurement
     if kind == "poses":
         return Poses(sensor.poses(T), sensor.covariance(3, 3))
     if setup.points is None:
-        made = EyeInHand if kind == "eye-in-hand" else EyeToHand
+        if kind == "eye-in-hand":
+            made = EyeInHand
+        else:
+            made = EyeToHand
         return made(sensor.poses(se3.inverse(X) @ T @ Z), sensor.covariance(3, 3))
     covariance = sensor.covariance(0, setup.points.size)
     if kind == "distances":

@@ -1,1 +1,1 @@
-"""What a calibration changed, as a page, as pictures and as a file."""
+"""Reports of a calibration: changes, page, pictures and file."""

@@ -46,7 +46,10 @@ def html(
         raise ShapeError(
             f"sources: expected what each of {rows} rows of q came from, got {len(sources)}"
         )
-    named = f"Calibration: {found.chain.base} to {found.chain.tip}" if title is None else title
+    if title is None:
+        named = f"Calibration: {found.chain.base} to {found.chain.tip}"
+    else:
+        named = title
     parts = [
         _section("Residuals", *_residuals(found)),
         _section("What was measured, and what it can tell", *_measured(found)),
