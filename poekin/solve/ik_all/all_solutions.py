@@ -47,7 +47,9 @@ class AllSolutions:
         Source: `ik_all`.
         """
         flat = place(index, self.count.shape, "of")
-        return self.solutions[flat] if index else self.solutions
+        if not index:
+            return self.solutions
+        return self.solutions[flat]
 
     def __repr__(self) -> str:
         if self.count.ndim == 0:
@@ -71,12 +73,16 @@ def missing_probability(found: Found) -> float:
 
 
 def in_words(found: Found, inside: int, closed: str | None) -> str:
-    """Sentences on the number of solutions, how many are inside the limits, how they were found
-    (`closed`, which closed form, or None without), and what is known about more of them.
+    """A sentence on the solutions of a target: their number, that inside the limits, the way they
+    were found, and the chance of more.
+
+    `closed` says which closed form found them, None is for the search.
     """
     s = len(found.solutions)
     if found.self_motion_coordinates:
-        alone = f" and {s - 1} that stand{'s' * (s == 2)} alone" if s > 1 else ""
+        alone = ""
+        if s > 1:
+            alone = f" and {s - 1} that stand{'s' * (s == 2)} alone"
         names = join_names(found.self_motion_coordinates)
         said = f"infinitely many solutions, along which {names} move; one of them{alone}"
     else:

@@ -45,7 +45,7 @@ class ClosedForm:
         self.rotation_bound = rotation_bound
 
     def said(self) -> str:
-        """Words for the way in which the solutions are found."""
+        """The way to the solutions, in words."""
         if not self.position_bound and not self.rotation_bound:
             return f"closed form (EAIK, {self.family})"
         return (
@@ -54,23 +54,27 @@ class ClosedForm:
         )
 
     def starts(self, T: Array) -> Array:
-        """Configurations (s, m) for one target (4, 4), s = 0 and more: solutions, and nearest ones
-        where there are none (EAIK's least squares), which the caller has to try and to check.
-        Raises: RuntimeError where EAIK gives up.
+        """Configurations (s, m) for one target (4, 4), s = 0 and more, which the caller has to try
+        and to check.
+
+        Solutions, and nearest ones where there are none (EAIK's least squares). Raises:
+        RuntimeError where EAIK gives up.
         """
         target = T.copy()
         target[:3, :3] = T[:3, :3] @ self._R_tn
         Q = np.asarray(self._solver.IK(target).Q, np.float64)
         width = len(self._solver.getOriginal_H().T)
-        Q = Q.reshape(-1, width) if Q.size else np.empty((0, width))
+        if not Q.size:
+            return np.empty((0, width))
+        Q = Q.reshape(-1, width)
         return Q[np.isfinite(Q).all(axis=1)]
 
 
 def closed_form(chain: Chain) -> ClosedForm | None:
-    """The closed form of an arm, or None where EAIK knows none; first for the arm itself, then for
-    the arm with its geometry made exact within `EXACT` (`Chain.idealised`).
+    """The closed form of an arm, or None where EAIK knows none.
 
-    Raises: MissingExtra without EAIK; InputError, as `Chain.to_hp`, for joints that are not
+    It is looked for of the arm itself, then of the arm with its geometry made exact within `EXACT`
+    (`Chain.idealised`). Raises: MissingExtra without EAIK; InputError, as `Chain.to_hp`, for joints that are not
     revolute or are coupled.
     """
     try:
@@ -95,9 +99,11 @@ def _of(near: Idealised, HPRobot: Any) -> ClosedForm | None:
         if not solver.hasKnownDecomposition() or "unknown" in solver.getKinematicFamily().lower():
             return None
         found = ClosedForm(form, solver, near.position_bound, near.rotation_bound)
-        return found if _finds_what_is_known(found, near.chain) else None
+        if _finds_what_is_known(found, near.chain):
+            return found
     except RuntimeError:  # of axes that it takes to meet and cannot say where
         return None
+    return None
 
 
 def _is_safe(form: HPForm) -> bool:

@@ -13,11 +13,12 @@ from ...errors import InputError, MissingExtra, join_names, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
+from ..ik.ik_problem import compiled
 from ..ik.task import targets
 from ..joint_units import joint_units
 from .all_solutions import AllSolutions, in_words, missing_probability
 from .closed_form import ClosedForm, closed_form
-from .ik_all_search import Found, Rule, accepted, periods, pose_errors, search, turns_within
+from .ik_all_search import Found, Rule, accepted, bounds, periods, pose_errors, search, turns_within
 
 METHODS = ("auto", "closed", "search")
 
@@ -70,11 +71,7 @@ def ik_all(
     apart are one (tests/solve/ik_all/test_ik_all.py).
     Source: Ostermeier, Külz and Althoff 2025 (closed form, EAIK).
     """
-    fast = (
-        arm if isinstance(arm, CompiledChain) else arm.compile() if isinstance(arm, Chain) else None
-    )
-    if fast is None:
-        raise InputError(f"ik_all: expected a Chain, got {safe_repr(arm)}")
+    fast = compiled(arm, "ik_all")
     given = fast.chain
     units = joint_units(fast)
     fast = units.fast
@@ -94,23 +91,13 @@ def ik_all(
     finite: np.ndarray = np.isfinite(rows).all(axis=(1, 2)).reshape(-1)
     good = rows[finite]
     solver = _solver(chain, method)
-    thorough = Rule(min_hits, restarts, iterations, _MAX_MISSES)
-    if solver is None:
-        found = search(
-            fast, good, [np.empty((0, chain.dof))] * len(good), thorough, int(seed), limits
-        )
-    else:
-        starts, given_up = _starts(solver, good)
-        found = search(fast, good, starts, Rule(1, 0, iterations, 0), 0, limits)
-        # where solutions become one or infinitely many, a closed form may lose them
-        unsure = [k for k, f in enumerate(found) if f.singular or k in given_up]
-        again = search(fast, good[unsure], [starts[k] for k in unsure], thorough, int(seed), limits)
-        for k, f in zip(unsure, again, strict=True):
-            found[k] = f
+    rule = Rule(min_hits, restarts, iterations, _MAX_MISSES)
+    found = _found(fast, good, solver, rule, int(seed), limits)
     places = _places(chain, found, limits, all_revolutions)
-    order = _order(
-        places.q if units.scale is None else places.q * np.sign(units.scale), places.owner
-    )
+    signed = places.q
+    if units.scale is not None:
+        signed = places.q * np.sign(units.scale)
+    order = _order(signed, places.owner)
     q = units.coordinates(places.q[order], given.limits if limits else _ANYWHERE)
     places = _Places(q, places.owner[order], places.number[order], places.within)
     return _result(given, good, finite, batch, found, places, solver)
@@ -170,6 +157,27 @@ def _solver(chain: Chain, method: str) -> ClosedForm | None:
     return solver
 
 
+def _found(
+    fast: CompiledChain,
+    T: Array,
+    solver: ClosedForm | None,
+    rule: Rule,
+    seed: int,
+    limits: bool,
+) -> list[Found]:
+    """Solutions of targets (N, 4, 4), by the closed form where there is one, else by search."""
+    if solver is None:
+        return search(fast, T, [np.empty((0, fast.dof))] * len(T), rule, seed, limits)
+    starts, given_up = _starts(solver, T)
+    found = search(fast, T, starts, Rule(1, 0, rule.iterations, 0), 0, limits)
+    # where solutions become one or infinitely many, a closed form may lose them
+    unsure = [k for k, f in enumerate(found) if f.singular or k in given_up]
+    again = search(fast, T[unsure], [starts[k] for k in unsure], rule, seed, limits)
+    for k, f in zip(unsure, again, strict=True):
+        found[k] = f
+    return found
+
+
 def _starts(solver: ClosedForm, T: Array) -> tuple[list[Array], set[int]]:
     """The closed form's solutions of each target, and the numbers of those for which it gives up."""
     starts: list[Array] = []
@@ -187,8 +195,10 @@ _closed_form = lru_cache(maxsize=32)(closed_form)
 
 
 class _Places(NamedTuple):
-    """Configurations (S, m), the target of each, and how many places within the limits each stands
-    for; and how many solutions each target has within them.
+    """Configurations q (S, m) within the limits, and the target of each.
+
+    `number` says for how many places within the limits each stands, `within` how many solutions
+    each target has there.
     """
 
     q: Array
@@ -204,7 +214,7 @@ def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: boo
     owner = np.repeat(np.arange(len(found)), [len(f.solutions) for f in found])
     Q = np.concatenate([np.empty((0, chain.dof)), *(f.solutions for f in found)])
     turn = periods(chain)
-    low, high = chain.limits.T if limits else np.tile([[-np.inf], [np.inf]], (1, chain.dof))
+    low, high = bounds(chain, limits)
     first, last = turns_within(chain, Q, limits)
     kept = (first <= last).all(axis=1)
     Q = Q[kept]
@@ -256,7 +266,7 @@ def _result(
     places: _Places,
     solver: ClosedForm | None,
 ) -> AllSolutions:
-    """Solutions of the places in order, each judged by `Chain.fk`."""
+    """The result, of places in order, every solution looked at by `Chain.fk`."""
     position, rotation = pose_errors(chain, places.q, T[places.owner]).T
     good = np.flatnonzero((position <= accepted(chain)) & (rotation <= accepted(chain)))
     Q = places.q[good]
@@ -269,7 +279,11 @@ def _result(
     numbers = np.zeros((6, len(finite)))
     numbers[3:] = np.nan
     known = iter(range(len(found)))
-    closed = None if solver is None else solver.said()
+    method = "search"
+    closed = None
+    if solver is not None:
+        method = "closed form"
+        closed = solver.said()
     for at, is_pose in enumerate(finite):
         if not is_pose:
             solutions.append(np.empty((0, chain.dof)))
@@ -295,12 +309,8 @@ def _result(
         for row, kind in zip(numbers[:3], (int, int, bool), strict=True)
     )
     p_missing, worst_position, worst_rotation = (row.reshape(batch) for row in numbers[3:])
-    whole = (
-        (solutions, n_revolutions, complete)
-        if batch
-        else (solutions[0], n_revolutions[0], complete[0])
-    )
-    return AllSolutions(
-        *whole, "search" if solver is None else "closed form", count, anywhere, continuum, p_missing,
-        worst_position, worst_rotation,
-    )  # fmt: skip
+    whole: tuple[Any, Any, Any] = (solutions, n_revolutions, complete)
+    if not batch:
+        whole = (solutions[0], n_revolutions[0], complete[0])
+    errors = (worst_position, worst_rotation)
+    return AllSolutions(*whole, method, count, anywhere, continuum, p_missing, *errors)

@@ -26,12 +26,10 @@ def accepted(chain: Chain) -> float:
 
 
 _EDGE = 1e-12  # rad or m: a solution that is outside the limits by less is at them
-_AIM = (
-    1e-13  # m per metre of reach, and rad: where a try ends, some 100 times the rounding of a pose
-)
-_ROOM = (
-    40  # solutions of one target that are kept: isolated ones of six revolute joints are at most 16
-)
+# m per metre of reach, and rad: where a try ends, some 100 times the rounding of a pose
+_AIM = 1e-13
+# solutions of one target that are kept: isolated ones of six revolute joints are at most 16
+_ROOM = 40
 _AT_ONCE = 32  # targets between which an interrupt is seen
 _SINGULAR = 1e-5  # of the largest singular value: below it a solution may be one of a continuum
 _MOVES = 0.02  # of the largest change: what changes by less does not move along a continuum
@@ -60,8 +58,10 @@ class Found:
 
 @dataclass(frozen=True)
 class Rule:
-    """Length of a search: until each solution was found `min_hits` times, within `restarts`
-    tries of `iterations`; it gives up after `max_misses` tries without any.
+    """Length of a search: until each solution was found `min_hits` times, within `restarts` tries
+    of `iterations`.
+
+    It gives up after `max_misses` tries without any.
     """
 
     min_hits: int
@@ -77,12 +77,21 @@ def periods(chain: Chain) -> Array:
     return np.array([period(chain, k) for k in range(chain.dof)])
 
 
+def bounds(chain: Chain, limits: bool) -> tuple[Array, Array]:
+    """Lower and upper limits (m,) of the coordinates, infinite where `limits` do not count."""
+    if not limits:
+        return np.full(chain.dof, -np.inf), np.full(chain.dof, np.inf)
+    low, high = chain.limits.T
+    return low, high
+
+
 def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
-    """The fewest and the most periods (S, m) that may be added to configurations within the limits:
-    more than the most where there is no way, infinite where there is no limit.
+    """The fewest and the most periods (S, m) that may be added to configurations within the limits.
+
+    The fewest are more than the most where there is no way, infinite where there is no limit.
     """
     turn = periods(chain)
-    low, high = chain.limits.T if limits else np.tile([[-np.inf], [np.inf]], (1, chain.dof))
+    low, high = bounds(chain, limits)
     turns = turn > 0
     step = np.where(turns, turn, 1.0)
     first = np.ceil((low - _EDGE - Q) / step)
@@ -92,8 +101,8 @@ def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
 
 
 def pose_errors(chain: Chain, q: Array, T: Array) -> Array:
-    """Errors of the poses of q (S, m) by the kernels of `Chain.fk` from targets (S, 4, 4): m and
-    rad (S, 2).
+    """Errors (S, 2), m and rad, of the poses of q (S, m) by the kernels of `Chain.fk` against
+    targets (S, 4, 4).
     """
     from ...engine.kernels import ik_kernels
 
@@ -134,12 +143,7 @@ def _search(
     # its own range
     low, high = sampling_range(chain)
     ranges = np.where(turn[:, None] > 0, turn[:, None] * [-0.5, 0.5], np.stack([low, high], axis=1))
-    options = np.zeros(ik_codes.OPTIONS)
-    options[ik_codes.TOL_POSITION] = _AIM * chain.reach
-    options[ik_codes.TOL_ROTATION] = _AIM
-    options[ik_codes.ITERATIONS] = rule.iterations
-    options[ik_codes.TASK] = ik_codes.POSE
-    options[ik_codes.WEIGHTS :] = 1.0
+    options = _options(chain, rule)
     rules = np.zeros(kernel.RULE)
     rules[kernel.ACCEPTED] = accepted(chain)
     rules[kernel.EACH] = rule.min_hits
@@ -177,6 +181,17 @@ def _search(
     ]
 
 
+def _options(chain: Chain, rule: Rule) -> Array:
+    """Options of the kernel's descent to a pose."""
+    options = np.zeros(ik_codes.OPTIONS)
+    options[ik_codes.TOL_POSITION] = _AIM * chain.reach
+    options[ik_codes.TOL_ROTATION] = _AIM
+    options[ik_codes.ITERATIONS] = rule.iterations
+    options[ik_codes.TASK] = ik_codes.POSE
+    options[ik_codes.WEIGHTS :] = 1.0
+    return options
+
+
 def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) -> list[Found]:
     """Which targets have singular solutions; of those that belong to a continuum only one is kept,
     within the limits if one is.
@@ -197,7 +212,8 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
             for j, i in enumerate(those)
         ]
         met = [j for j, way in enumerate(ways) if way is not None]
-        result[k] = f = replace(f, singular=True)
+        f = replace(f, singular=True)
+        result[k] = f
         if met:
             first, last = turns_within(fast.chain, f.solutions[met], limits)
             kept = met[int(np.argmax((first <= last).all(axis=1)))]
@@ -215,12 +231,13 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
 
 
 def _size(chain: Chain) -> float:
-    """Sum of the links' lengths (m), 1 where all are points."""
+    """Length of all links together (m), 1 where all are points."""
     return float(np.linalg.norm(chain.local.frames[1:, :3, 3], axis=1).sum()) or 1.0
 
 
 def _way_along(fast: CompiledChain, T: Array, q: Array, J: Array) -> Array | None:
-    """Direction of a continuum of solutions through q, or None where there is none.
+    """Changes of the coordinates along a continuum of solutions through q, or None where there is
+    none.
 
     A step in a direction that does not move the tool to first order is tried down to the target
     again: of a double solution it comes back, along a continuum it stays a step away.

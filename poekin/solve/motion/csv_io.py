@@ -64,8 +64,11 @@ def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array 
     Source: none, a format of poekin's own.
     """
     names = _names(names)
-    rows, _, _ = _read(path, names, "coordinate", () if TIME in names else (TIME,))
-    return (rows[:, 1:], rows[:, 0]) if rows.shape[1] > len(names) else (rows, None)
+    more = () if TIME in names else (TIME,)
+    rows, _, _ = _read(path, names, "coordinate", more)
+    if rows.shape[1] > len(names):
+        return rows[:, 1:], rows[:, 0]
+    return rows, None
 
 
 def write_joints(

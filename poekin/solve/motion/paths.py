@@ -69,7 +69,8 @@ def joint(q_0: ArrayLike, q_1: ArrayLike, s: ArrayLike) -> Array:
 
 
 def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: str = "line") -> Array:
-    """Lengths of a path between two poses: of the tool's origin (m), and the angle turned (rad).
+    """Lengths of a path between two poses: the way of the tool's origin (m) and the angle turned
+    (rad).
 
     Both are passed evenly in s, so |p'| = length s' and |omega| = angle s': what `minimum_time` needs.
     Parameters: T_s0, T_s1 (..., 4, 4); along "line" (|p_1 - p_0|) or "screw" (|v| of xi = (omega;
@@ -82,7 +83,9 @@ def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: str = "line") -> Array
     start = _exact(T_s0)
     end = _exact(T_s1)
     xi = se3.log(se3.inverse(start) @ end)
-    way = xi[..., 3:] if along == "screw" else end[..., :3, 3] - start[..., :3, 3]
+    way = end[..., :3, 3] - start[..., :3, 3]
+    if along == "screw":
+        way = xi[..., 3:]
     return np.stack([np.linalg.norm(way, axis=-1), np.linalg.norm(xi[..., :3], axis=-1)], axis=-1)
 
 

@@ -39,7 +39,9 @@ def plot_joints(
     q = numbers(q, "q")
     if q.ndim != 2 or q.shape[1] != arm.dof:
         raise ShapeError(f"q: expected shape (N, {arm.dof}), got {q.shape}")
-    t = np.arange(len(q), dtype=float) if times is None else numbers(times, "times")
+    t = np.arange(len(q), dtype=float)
+    if times is not None:
+        t = numbers(times, "times")
     if t.shape != q.shape[:1]:
         raise ShapeError(f"times: expected shape ({len(q)},), got {t.shape}")
 

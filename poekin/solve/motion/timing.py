@@ -15,10 +15,8 @@ from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
 
 LAWS = ("cubic", "quintic", "trapezoidal")
-_PEAKS = {
-    "cubic": (1.5, 6.0),
-    "quintic": (1.875, 10 / math.sqrt(3)),
-}  # of s' (1/T) and |s''| (1/T^2)
+# of s' (1/T) and |s''| (1/T^2)
+_PEAKS = {"cubic": (1.5, 6.0), "quintic": (1.875, 10 / math.sqrt(3))}
 _INSTANT = 1e-100  # s: what takes less takes no time, as its rates would be no numbers
 _SPARE = 1 + 4e-15  # so that what is computed of a timing keeps the limits to the last digit
 
@@ -36,9 +34,10 @@ class TimingSample(NamedTuple):
 
 @dataclass(frozen=True)
 class Timing:
-    """s(t) over 0 <= t <= duration (s), at rest before and after. `law` is one of `LAWS`; `acceleration_fraction`,
-    of the trapezoidal law, the part of the duration that it speeds up, and slows down, for.
+    """Time scaling s(t) over 0 <= t <= duration (s), at rest before and after.
 
+    `law` is one of `LAWS`; `acceleration_fraction`, of the trapezoidal law, the part of the duration
+    that it speeds up, and slows down, for.
     A call with t (...), s, gives the `TimingSample` there. s' is symmetric about the middle: s(T - t) = 1
     - s(t).
     - cubic: s = 3 u^2 - 2 u^3, u = t / T: at most s' = 1.5 / T in the middle, |s''| = 6 / T^2 at
@@ -60,27 +59,25 @@ class Timing:
             s = np.where(np.isnan(t), np.nan, np.where(t < 0, 0.0, 1.0))
             return TimingSample(s, 0.0 * s, 0.0 * s)
         u = np.clip(t / self.duration, 0.0, 1.0)
-        h = np.minimum(
-            u, 1.0 - u
-        )  # the first half: the other one is its mirror, so that s ends at 1 exactly
+        # the first half: the other one is its mirror, so that s ends at 1 exactly
+        h = np.minimum(u, 1.0 - u)
         s, ds, dds = self._half(h)
         late = u > 0.5
         moving = (t >= 0) & (t <= self.duration)
         s = np.where(late, 1.0 - s, s)
         dds = np.where(late, -dds, dds)
         rest = np.where(np.isnan(t), np.nan, 0.0)
-        return TimingSample(
-            s, np.where(moving, ds / self.duration, rest), np.where(moving, dds / self.duration / self.duration, rest)
-        )  # fmt: skip
+        ds = np.where(moving, ds / self.duration, rest)
+        dds = np.where(moving, dds / self.duration / self.duration, rest)
+        return TimingSample(s, ds, dds)
 
     def _half(self, h: Array) -> tuple[Array, Array, Array]:
         """s, s' and s'' over u = t / T, for u <= 1/2."""
         if self.law == "cubic":
             return h * h * (3 - 2 * h), 6 * h * (1 - h), 6 - 12 * h
         if self.law == "quintic":
-            return (
-                h**3 * (10 + h * (6 * h - 15)), 30 * (h * (1 - h)) ** 2, 60 * h * (1 - h) * (1 - 2 * h)
-            )  # fmt: skip
+            s = h**3 * (10 + h * (6 * h - 15))
+            return s, 30 * (h * (1 - h)) ** 2, 60 * h * (1 - h) * (1 - 2 * h)
         r = self.acceleration_fraction
         top = 1 / (1 - r)
         speeding = h <= r
@@ -162,12 +159,16 @@ def minimum_time(
             "acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time"
         )
     else:
-        even = 0 < b <= a * a
-        ramp = max(b / (a * a + b), 1e-15) if even else 0.5
-        duration = a + b / a if even else 2 * math.sqrt(b)
+        ramp = 0.5
+        duration = 2 * math.sqrt(b)
+        if 0 < b <= a * a:
+            ramp = max(b / (a * a + b), 1e-15)
+            duration = a + b / a
     if duration == math.inf:
         raise InputError("minimum_time: the limits are so small that there is no finite duration")
-    return Timing(law, float(duration * _SPARE) if duration >= _INSTANT else 0.0, float(ramp))
+    if duration >= _INSTANT:
+        return Timing(law, float(duration * _SPARE), float(ramp))
+    return Timing(law, 0.0, float(ramp))
 
 
 def _least(way: Array, limit: Any, what: str) -> float:

@@ -93,7 +93,9 @@ def follow(
     if isinstance(max_step, Mapping) or np.ndim(max_step):
         most = np.abs(problem.units.of(most))
     when, limit_v, limit_a = _timing(times, speed, acceleration, given, len(path))
-    start = None if q0 is None else first_tries(problem.units, problem.domain, (), 1, q0)[0]
+    start = None
+    if q0 is not None:
+        start = first_tries(problem.units, problem.domain, (), 1, q0)[0]
     finite = np.asarray(np.isfinite(path).all(axis=(1, 2)))
     follower = Follower(problem, np.ascontiguousarray(path[finite]), most, progress)
     joints, broken = follower.run(start)
@@ -166,11 +168,14 @@ def _timing(
     if t.shape != (count,):
         raise ShapeError(f"times: expected one for each pose ({count},), got shape {t.shape}")
     if not np.isfinite(t).all() or not (np.diff(t) > 0).all():
-        k = int(np.argmin(np.isfinite(t[1:]) & (np.diff(t) > 0))) if count > 1 else 0
+        k = 0
+        if count > 1:
+            k = int(np.argmin(np.isfinite(t[1:]) & (np.diff(t) > 0)))
         raise InputError(
             f"times: expected finite ascending seconds, got {safe_repr(t[k : k + 2].tolist())} from times[{k}] on"
         )
-    return (
-        t, None if speed is None else per_coordinate(speed, chain, "speed"),
-        None if acceleration is None else per_coordinate(acceleration, chain, "acceleration"),
-    )  # fmt: skip
+    if speed is not None:
+        speed = per_coordinate(speed, chain, "speed")
+    if acceleration is not None:
+        acceleration = per_coordinate(acceleration, chain, "acceleration")
+    return t, speed, acceleration

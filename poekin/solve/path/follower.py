@@ -69,7 +69,10 @@ class Follower:
         while k < count:
             if self.progress is not None:
                 self.progress(k, count)
-            end, part = (k, q[:0]) if last is None else self.on(k, last, first=k == 0)
+            end = k
+            part = q[:0]
+            if last is not None:
+                end, part = self.on(k, last, first=k == 0)
             if end == k:
                 end, part = self.best(k, last)
                 if end > k and k > 0:
@@ -99,15 +102,16 @@ class Follower:
                 q_a = q[done - 1 - start]
                 q_b = self._in_pieces(q_a, self.targets[done - 1], self.targets[done])
                 if q_b is not None:
-                    q[done - start] = pose = q_b
+                    q[done - start] = q_b
+                    pose = q_b
                     k = done + 1
                     continue
             return done, q[: done - start]
         return k, q
 
     def best(self, k: int, last: Array | None) -> tuple[int, Array]:
-        """Solution of pose k, of several, that gets farthest, and then jumps and moves least; its
-        end, and q.
+        """The one of several solutions of pose k that gets farthest, and then jumps and moves
+        least; its end, and q.
         """
         found = (k, np.empty((0, self.dof)))
         tried = np.empty((0, self.dof))
@@ -120,11 +124,10 @@ class Follower:
                     continue
                 tried = np.concatenate([tried, q0[None]])
                 end, q = self.on(k, q0, first=False)
-                far = float(
-                    np.abs(np.diff(q, axis=0)).max(initial=0.0)
-                    if last is None
-                    else np.linalg.norm(q0 - last)
-                )
+                if last is None:
+                    far = float(np.abs(np.diff(q, axis=0)).max(initial=0.0))
+                else:
+                    far = float(np.linalg.norm(q0 - last))
                 if (end, -far) > score:
                     found = (end, q)
                     score = (end, -far)
@@ -146,7 +149,7 @@ class Follower:
         )
 
     def _descend(self, targets: Array, start: Array, q: Array, anywhere: bool = False) -> int:
-        """Number of targets followed from `start`; where `anywhere`, the first of them at any
+        """Number of targets that are followed from `start`; where `anywhere`, the first of them at any
         distance from it.
         """
         info = np.empty((len(targets), codes.INFO))
@@ -161,7 +164,7 @@ class Follower:
             start = q[0]
         return count + self._kernel.call(
             arm, targets[count:], start.copy(), *call, self.most, q[count:], info[count:]
-        )  # fmt: skip
+        )
 
     def _in_pieces(self, q_a: Array, T_a: Array, T_b: Array) -> Array | None:
         """The joints at T_b, by smaller and smaller steps from q_a at T_a; None where no step is
@@ -222,7 +225,8 @@ class Follower:
         q, info = self.problem.solve(T, number, self.domain.anywhere(TRIES), restarts=10)
         q = q[info[:, codes.AT_STATE] == codes.SOLVED]
         if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are
-            q = self.domain.wrapped(q, self.domain.ranges.mean(axis=1) if last is None else last)
+            near_to = self.domain.ranges.mean(axis=1) if last is None else last
+            q = self.domain.wrapped(q, near_to)
         if last is not None and turn == 0:
             wishes = Wishes(nearest_to=self.problem.coordinates(last))
             near = solve(self.problem, self.targets[k], wishes=wishes)

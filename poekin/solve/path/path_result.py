@@ -27,8 +27,10 @@ met: the rates of some joints are then some hundred times those of others."""
 
 
 class PathInterval(NamedTuple):
-    """Points first ... last of a path: name, of the coordinate ("" for all of them together);
-    value, the worst of them, at the point `worst`; bound, which it is compared with.
+    """Points first ... last of a path.
+
+    Attributes: name, of the coordinate ("" for all of them together); value, the worst of them, at
+    the point `worst`; bound, which it is compared with.
     """
 
     first: int
@@ -152,9 +154,9 @@ class PathResult:
 
     @cached_property
     def inverse_condition(self) -> Array:
-        """(N,): smallest ÷ largest singular value of the Jacobian of what the task asks, in rad and
-        m of the joints, lengths ÷ reach; 0: singular.
+        """Smallest ÷ largest singular value (N,) of the Jacobian of what the task asks; 0: singular.
 
+        In rad and m of the joints, lengths ÷ reach.
         Computed when it is first asked for, which takes longer than to follow the path.
         """
         units = joint_units(self.chain.compile())
@@ -203,7 +205,9 @@ class PathResult:
 
     def __repr__(self) -> str:
         count = len(self.branch_switches)
-        changed = f", {count} change{'s' * (count > 1)} of branch" if count else ""
+        changed = ""
+        if count:
+            changed = f", {count} change{'s' * (count > 1)} of branch"
         solved = f"{int(self.success.sum())} of {len(self.q)} poses"
         return f"<PathResult {solved}, largest step {self.largest_step:.3g}{changed}>"
 
