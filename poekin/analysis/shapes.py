@@ -64,7 +64,8 @@ def shapes(chain: Chain, tol_mm: float, tol_deg: float) -> tuple[Shape, ...]:
                 kind = "spherical wrist"
             elif i == 0:
                 kind = "spherical shoulder"
-            words = f"joints {_list(numbers)}: {kind}, the axes meet in one point (within {miss:.2g} mm)"
+            meet = f"the axes meet in one point (within {miss:.2g} mm)"
+            words = f"joints {_list(numbers)}: {kind}, {meet}"
             found.append(Shape(kind, numbers, miss, words))
     return (*found, *_solvable(n, all(revolute), spherical, parallel))
 

@@ -292,8 +292,8 @@ def _both(robot: Robot | str | os.PathLike[str]) -> tuple[Robot, PinocchioOracle
 
 
 def _text(origin: str) -> bytes:
-    """The content of the file that a robot came from; an arm of the built-in catalogue need not be a
-    file at all.
+    """The content of the file that a robot came from; an arm of the built-in catalogue need not be
+    a file at all.
     """
     if not os.path.isabs(origin):
         return catalogue.text(origin)

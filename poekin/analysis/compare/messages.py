@@ -75,7 +75,7 @@ def differences(
 
 
 def frame_words(what: str, T: Array, tol_m: float, tol_rad: float) -> str:
-    """The motion of a frame in words, or empty: "the base frame is moved by 12 mm and turned by 3°"."""
+    """The motion of a frame, or empty: "the base frame is moved by 12 mm and turned by 3°"."""
     if still(T, tol_m, tol_rad):
         return ""
     mm = float(np.linalg.norm(T[:3, 3])) * 1e3

@@ -45,7 +45,7 @@ Form = Callable[[Motion, np.random.Generator], Row]
 
 
 def paper_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Count:
-    """Operations of an algorithm, whether its result needs it or not; the links' poses are given."""
+    """Operations of an algorithm, needed for its result or not; the links' poses are given."""
     total = Count()
     # The count does not depend on the numbers.
     poses = counted([IDENTITY for _ in chain.kinds], total)
@@ -69,8 +69,8 @@ def live_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Coun
 
 
 def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bool) -> Count:
-    """Operations that an algorithm's result needs from q on: sines, cosines, the links' poses in their form,
-    and the coupling.
+    """Operations that an algorithm's result needs from q on: sines, cosines, the links' poses in
+    their form, and the coupling.
     """
     graph = Graph()
     angles = Angles(graph)

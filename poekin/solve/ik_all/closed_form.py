@@ -74,7 +74,9 @@ def closed_form(chain: Chain) -> ClosedForm | None:
     """The closed form of an arm, or None where EAIK knows none.
 
     It is looked for of the arm itself, then of the arm with its geometry made exact within `EXACT`
-    (`Chain.idealised`). Raises: MissingExtra without EAIK; InputError, as `Chain.to_hp`, for joints that are not
+    (`Chain.idealised`).
+
+    Raises: MissingExtra without EAIK; InputError, as `Chain.to_hp`, for joints that are not
     revolute or are coupled.
     """
     try:

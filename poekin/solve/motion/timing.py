@@ -36,8 +36,8 @@ class TimingSample(NamedTuple):
 class Timing:
     """Time scaling s(t) over 0 <= t <= duration (s), at rest before and after.
 
-    `law` is one of `LAWS`; `acceleration_fraction`, of the trapezoidal law, the part of the duration
-    that it speeds up, and slows down, for.
+    `law` is one of `LAWS`; `acceleration_fraction`, of the trapezoidal law, the part of the
+    duration that it speeds up, and slows down, for.
     A call with t (...), s, gives the `TimingSample` there. s' is symmetric about the middle: s(T - t) = 1
     - s(t).
     - cubic: s = 3 u^2 - 2 u^3, u = t / T: at most s' = 1.5 / T in the middle, |s''| = 6 / T^2 at

@@ -149,8 +149,8 @@ class Follower:
         )
 
     def _descend(self, targets: Array, start: Array, q: Array, anywhere: bool = False) -> int:
-        """Number of targets that are followed from `start`; where `anywhere`, the first of them at any
-        distance from it.
+        """Number of targets that are followed from `start`; where `anywhere`, the first of them at
+        any distance from it.
         """
         info = np.empty((len(targets), codes.INFO))
         count = 0

@@ -154,7 +154,7 @@ class PathResult:
 
     @cached_property
     def inverse_condition(self) -> Array:
-        """Smallest ÷ largest singular value (N,) of the Jacobian of what the task asks; 0: singular.
+        """Smallest ÷ largest singular value (N,) of the Jacobian that the task asks; 0: singular.
 
         In rad and m of the joints, lengths ÷ reach.
         Computed when it is first asked for, which takes longer than to follow the path.
