@@ -57,7 +57,9 @@ class AxisPair:
             return "coaxial"
         if self.intersecting:
             return f"{lie}, intersecting"
-        end = "apart" if self.parallel else "from intersecting"
+        end = "from intersecting"
+        if self.parallel:
+            end = "apart"
         return f"{lie}, {self.distance:.4g} mm {end}"
 
 

@@ -75,7 +75,9 @@ def _solvable(
 ) -> Iterator[Shape]:
     """Arms of n joints known by three axes that meet or are parallel, told by the first of each."""
     if n == 6 and all_revolute and (spherical or parallel):
-        why = "three axes meet in one point" if spherical else "three axes are parallel"
+        why = "three axes are parallel"
+        if spherical:
+            why = "three axes meet in one point"
         first = (spherical or parallel)[0]
         numbers = (first + 1, first + 2, first + 3)
         words = (

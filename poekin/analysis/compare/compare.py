@@ -285,7 +285,9 @@ def _verdict(
     found += differences(joints, asked.tol_mm, asked.tol_deg, reading.link)
     if asked.strict:
         found.append(frame_words("home pose's", reading.tool, *asked.tol))
-        head = "the models are the same as they stand" if same else "the models differ"
+        head = "the models differ"
+        if same:
+            head = "the models are the same as they stand"
         return "; ".join(words for words in (head, *found) if words)
     frames = [
         frame_words("base", reading.base, *asked.tol),

@@ -189,7 +189,9 @@ def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
     """
     if not isinstance(chain, Chain):
         raise InputError(f"expected a Chain, as Robot.chain makes it, got {safe_repr(chain)}")
-    ideal = None if idealise is None else chain.idealised(idealise)
+    ideal = None
+    if idealise is not None:
+        ideal = chain.idealised(idealise)
     n = len(chain.joint_names)
     rows: list[CountRow] = []
     if n >= 2:
@@ -208,7 +210,9 @@ def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
     rows += _programs(arm, THIS)
     if ideal is not None:
         rows += _programs(ideal.chain.compile(), IDEAL)
-    cheapest = arm.cheapest if n else None
+    cheapest = None
+    if n:
+        cheapest = arm.cheapest
     return CountTable(
         chain.base, chain.tip, n, chain.dof, tuple(rows), ideal, cheapest, tuple(_verdict(chain))
     )

@@ -161,7 +161,9 @@ def suspect_screw(pair: Sides, carried: Array) -> Array:
     one (..., 6) does.
     """
     own = pair.a.screws[pair.suspect_joint]
-    part = slice(3, 6) if pair.a.kinds[pair.suspect_joint] == "prismatic" else slice(0, 3)
+    part = slice(0, 3)
+    if pair.a.kinds[pair.suspect_joint] == "prismatic":
+        part = slice(3, 6)
     return np.where((carried[..., part] @ own[part] < 0)[..., None], -own, own)
 
 
