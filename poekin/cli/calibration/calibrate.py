@@ -250,7 +250,7 @@ def _write(
         if path.suffix.lower() == ".urdf":
             texts.append((path, found.to_urdf(robot)))
         elif path.suffix.lower() == ".csv":
-            made = found.to_dh(convention)
+            made = found.to_dh(convention)  # type: ignore[arg-type]  # refused there with the choices
             texts.append((path, dh.table_io.make_text(made.table, ".csv")))
             for words in made.warnings:
                 complain(f"warning: {words}")
