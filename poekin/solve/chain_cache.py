@@ -8,8 +8,8 @@ from typing import Generic, TypeVar
 
 from ..model.kinematics.compiled import CompiledChain
 
-KEPT = 256
-"""Number of results that a cache keeps."""
+KEPT = 64
+"""Number of results that a cache keeps, and so of arms that it may keep alive."""
 
 _Result = TypeVar("_Result")
 
