@@ -110,6 +110,7 @@ def calibrate(
     folds = cross_validation.check_folds(folds, len(q), seed)
     start, _ = fit_frames(problem, loss)
     units.check(problem, start)
+    before = _residuals(problem, start)  # now, while the problem has these errors
     fit = fit_with_refit(problem, free, loss, start, sigma, max_iterations)
     if fit.free is not free:
         identification, _ = identify_directions(problem, p=fit.p)
@@ -119,7 +120,7 @@ def calibrate(
         held_out = cross_validation.cross_validate(
             problem, free, loss, sigma, folds, seed, max_iterations, progress
         )
-    found = _result(problem, start, fit, identification, held_out, loss)
+    found = _result(problem, before, fit, identification, held_out, loss)
     for words in found.warnings:
         warn(words)
     return found
@@ -127,14 +128,13 @@ def calibrate(
 
 def _result(
     problem: Problem,
-    start: Array,
+    before: Residuals,
     fit: Fit,
     identification: Identification,
     held_out: CrossValidation | None,
     loss: str,
 ) -> Calibration:
     """The calibration that a fit makes, with warnings and remarks."""
-    before = _residuals(problem, start)
     after = _residuals(problem, fit.p)
     remarks = explanation.explain(problem, before, after)
     doubts = misfit.contradicted(problem, fit)
