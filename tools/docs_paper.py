@@ -14,15 +14,14 @@ def _code(name: str) -> str:
 def page() -> str:
     """Markdown: one row a lemma or equation."""
     lines = [
-        "| in the paper | equation | formula | yours | method of `Chain` | test |",
-        "|---|---|---|---|---|---|",
+        "| in the paper | formula | called by | test |",
+        "|---|---|---|---|",
     ]
     for row in PAPER:
         equation = row.equation.replace("|", "\\|")
-        user = _code(row.user and f"pk.{row.user}")
-        method = _code(row.method)
-        test = _code(f"tests/{row.test}")
-        lines.append(
-            f"| {row.paper} | `{equation}` | `{row.formula}` | {user} | {method} | {test} |"
-        )
+        calls = [f"pk.{row.user}"] * bool(row.user) + [f"Chain.{row.method}"] * bool(row.method)
+        called = "<br>".join(map(_code, calls)) or "–"
+        place, _, test = row.test.rpartition("/")
+        held = f"`tests/{place}`<br>`{test}`" if place else f"`tests/{test}`"
+        lines.append(f"| {row.paper}<br>`{equation}` | `{row.formula}` | {called} | {held} |")
     return "\n".join(lines) + "\n"

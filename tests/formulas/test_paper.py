@@ -106,5 +106,5 @@ def test_a_name_that_does_not_exist_is_seen(change, fault):
 def test_the_page_has_a_row_for_each():
     lines = docs_paper.page().splitlines()
     assert len(lines) == len(PAPER) + 2
-    assert all(re.split(r"(?<!\\)\|", line)[7:] == [""] for line in lines)
+    assert all(re.split(r"(?<!\\)\|", line)[5:] == [""] for line in lines)
     assert "`pk.se3.log`" in lines[2 + [row.paper for row in PAPER].index("Lemma 4")]
