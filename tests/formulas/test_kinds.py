@@ -135,7 +135,7 @@ CASES = [
     *[(coefficients.d_slope, t * t) for t in SIZES],
     (exponential.rotation, W, 0.3, 0.2),
     (exponential.turned, W, 0.3, 0.2, 0.1),
-    (exponential.displacement, 0.3, W, 0.2, V, 0.1, LONG),
+    (exponential.linear_combination, 0.3, W, 0.2, V, 0.1, LONG),
     (exponential.closed, LONG, 5.46),
     *[(exponential.so3, w) for w in (W, LONG, (0.0, 0.0, 0.0))],
     *[(exponential.se3, w, V) for w in (W, LONG, (0.0, 0.0, 0.0))],

@@ -118,7 +118,7 @@ def acceleration(J, dJ, rates, accelerations, count):
 
 
 def set_derivative(H, i, j, V):
-    """Write dJ_i/dx_j = V into H, six rows of one row a column i of one number a coordinate j."""
+    """Writes V, the derivative of twist i by number j, into H: H[r][i][j] is its component r."""
     H[0][i][j] = V[0]
     H[1][i][j] = V[1]
     H[2][i][j] = V[2]

@@ -28,7 +28,7 @@ from ...algebra import (
     translation,
     twist,
 )
-from .derivatives import at_point, bracket, difference
+from .derivatives import at_point, bracket, difference, set_derivative
 
 _ZERO = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNITS = (
@@ -64,18 +64,9 @@ def pose_changes(P, count, D):
         before = adjoint(P[0], UNITS[e])
         for i in range(count):
             after = adjoint(P[i + 1], UNITS[e])
-            _store(D, i, e, difference(before, after))
+            set_derivative(D, i, e, difference(before, after))
             before = after
-        _store(D, count, e, adjoint(P[count + 1], UNITS[e]))
-
-
-def _store(D, i, e, V):
-    D[0][i][e] = V[0]
-    D[1][i][e] = V[1]
-    D[2][i][e] = V[2]
-    D[3][i][e] = V[3]
-    D[4][i][e] = V[4]
-    D[5][i][e] = V[5]
+        set_derivative(D, count, e, adjoint(P[count + 1], UNITS[e]))
 
 
 def _taken(D, i, e):

@@ -18,6 +18,11 @@ def rotation(w, a, b):
     xx = w[0] * w[0]
     yy = w[1] * w[1]
     zz = w[2] * w[2]
+    return _around(w, a, b, 1.0 - b * (yy + zz), 1.0 - b * (xx + zz), 1.0 - b * (xx + yy))
+
+
+def _around(w, a, b, first, second, third):
+    """a [w] + b w w^T with another diagonal, row by row."""
     xy = b * (w[0] * w[1])
     yz = b * (w[1] * w[2])
     zx = b * (w[2] * w[0])
@@ -25,18 +30,18 @@ def rotation(w, a, b):
     y = a * w[1]
     z = a * w[2]
     return (
-        *(1.0 - b * (yy + zz), xy - z, zx + y),
-        *(xy + z, 1.0 - b * (xx + zz), yz - x),
-        *(zx - y, yz + x, 1.0 - b * (xx + yy)),
+        *(first, xy - z, zx + y),
+        *(xy + z, second, yz - x),
+        *(zx - y, yz + x, third),
     )
 
 
-def displacement(a, along, b, across, c, beyond):
-    """a along + b across + c beyond: the translation of exp in any of its forms."""
+def linear_combination(a, u, b, v, c, w):
+    """a u + b v + c w of three vectors: the translation of exp in any of its forms."""
     return (
-        a * along[0] + b * across[0] + c * beyond[0],
-        a * along[1] + b * across[1] + c * beyond[1],
-        a * along[2] + b * across[2] + c * beyond[2],
+        a * u[0] + b * v[0] + c * w[0],
+        a * u[1] + b * v[1] + c * w[1],
+        a * u[2] + b * v[2] + c * w[2],
     )
 
 
@@ -56,16 +61,13 @@ def turned(w, a, b, cosine):
     xx = w[0] * w[0]
     yy = w[1] * w[1]
     zz = w[2] * w[2]
-    xy = b * (w[0] * w[1])
-    yz = b * (w[1] * w[2])
-    zx = b * (w[2] * w[0])
-    x = a * w[0]
-    y = a * w[1]
-    z = a * w[2]
-    return (
-        *(_diagonal(b, xx, yy + zz, cosine), xy - z, zx + y),
-        *(xy + z, _diagonal(b, yy, zz + xx, cosine), yz - x),
-        *(zx - y, yz + x, _diagonal(b, zz, xx + yy, cosine)),
+    return _around(
+        w,
+        a,
+        b,
+        _diagonal(b, xx, yy + zz, cosine),
+        _diagonal(b, yy, zz + xx, cosine),
+        _diagonal(b, zz, xx + yy, cosine),
     )
 
 
@@ -108,13 +110,13 @@ def se3(w, v):
         b = b_near(tt)
         c = c_near(tt)
         return pose_of(
-            rotation(w, 1.0 - tt * c, b), displacement(1.0, v, c, cross(w, across), b, across)
+            rotation(w, 1.0 - tt * c, b), linear_combination(1.0, v, c, cross(w, across), b, across)
         )
     a, b, cosine = closed(w, tt)
     k = dot(w, v) / tt
     v_across = subtract(v, scale(k, w))
     more = dot(w, v_across) / tt  # of v_across, what rounding left along w
-    p = add(scale(k, w), displacement(a, v_across, (1.0 - a) * more, w, b, across))
+    p = add(scale(k, w), linear_combination(a, v_across, (1.0 - a) * more, w, b, across))
     return pose_of(turned(w, a, b, cosine), p)
 
 
@@ -131,5 +133,5 @@ def joint(w, v, q, sine, cosine):
     versine = 1.0 - cosine
     return pose_of(
         rotation(w, sine, versine),
-        displacement(sine, v_across, versine, across, q, subtract(v, v_across)),
+        linear_combination(sine, v_across, versine, across, q, subtract(v, v_across)),
     )

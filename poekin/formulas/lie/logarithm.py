@@ -15,7 +15,7 @@ from .. import elementary
 from .arctangent import angle
 from .coefficients import SWITCH, d_of
 from .compensated import quotient_rest, square_rest, sum_rest, upper
-from .exponential import displacement
+from .exponential import linear_combination
 from .quaternion import parts
 
 # below it the square of |q_v| has lost digits; there theta = 2 |q_v| / q_w to the last one
@@ -86,11 +86,11 @@ def _linear(w, n, p, e):
     tt = dot(w, w)
     across = cross(w, p)
     if elementary.below(tt, SWITCH):
-        return displacement(1.0, p, d_of(tt), cross(w, across), -0.5, across)
+        return linear_combination(1.0, p, d_of(tt), cross(w, across), -0.5, across)
     k = dot(n, p)
     p_across = subtract(p, scale(k, n))
     more = dot(n, p_across)  # of p_across, what rounding left along n
-    return add(scale(k, n), displacement(e, p_across, (1.0 - e) * more, n, -0.5, across))
+    return add(scale(k, n), linear_combination(e, p_across, (1.0 - e) * more, n, -0.5, across))
 
 
 def se3(T):

@@ -85,4 +85,4 @@ def test_the_forms_that_exp_and_its_jacobians_share_are_sums_of_matrices():
     same(exponential.rotation(w, 0.37, 0.2), (np.eye(3) + 0.37 * W + 0.2 * W @ W).ravel())
     turned = 0.1 * np.eye(3) + 0.37 * W + (1 - 0.1) / (w @ w) * np.outer(w, w)
     same(exponential.turned(w, 0.37, (1 - 0.1) / (w @ w), 0.1), turned.ravel())
-    same(exponential.displacement(0.3, w, 0.37, u, 0.2, p), 0.3 * w + 0.37 * u + 0.2 * p)
+    same(exponential.linear_combination(0.3, w, 0.37, u, 0.2, p), 0.3 * w + 0.37 * u + 0.2 * p)
