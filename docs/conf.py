@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import sys
 from pathlib import Path
 
@@ -45,18 +44,15 @@ html_math_renderer = "mathml"
 
 
 def render(app, what, name, obj, options, lines):
-    """A docstring of the house as reStructuredText, under the paper's equation where it has one."""
-    try:
-        names = set(inspect.signature(obj).parameters)
-    except (TypeError, ValueError):
-        names = set()
-    equation = docs_equations.EQUATIONS.get(name)
-    over = (
-        [".. math::", "", *(f"    {line}" for line in equation.splitlines()), ""]
-        if equation
-        else []
-    )
-    lines[:] = over + docs_render.rest(lines, docs_names.links(name), names)
+    """A docstring of the house as reStructuredText; the paper's equation stands below its first
+    sentence.
+    """
+    summary = lines.index("") if "" in lines else len(lines)
+    links = docs_names.links(name)
+    latex = docs_equations.EQUATIONS.get(name, "").splitlines()
+    equation = [".. math::", "", *(f"    {line}" for line in latex), ""] if latex else []
+    below = docs_render.rest(lines[summary:], links)
+    lines[:] = [*docs_render.rest(lines[:summary], links), *equation, *below]
 
 
 def skip(app, what, name, obj, skipped, options):

@@ -268,41 +268,88 @@ def test_rendering_loses_no_character():
     for name, doc in docstrings().items():
         shown = visible("\n".join(docs_render.rest(doc.splitlines(), {})))
         said = re.sub(r"\s|`|-{3,}", "", doc)
-        # Labels lose their colon, and entries of lists their dash.
+        # Terms lose their colon, and entries of lists their dash.
         assert sorted(re.sub(r"[:-]", "", shown)) == sorted(re.sub(r"[:-]", "", said)), name
 
 
-def test_a_docstring_becomes_paragraphs_equations_lists_and_fields():
-    doc = """
+DOCSTRING = """
 A_i |x| *q* of `fk` and x_ as they stand.
 
     f = e^{A_1 x_1} *
 
-Parameters: q (..., m). Returns: T (..., 4, 4). Raises, accuracy: as `fk`.
+Some text:
 - "body": one
   thing
+- two `Chain.fk`
 
 one  two words
 three  four
 
 Parameters
 ----------
-q, dq (..., m): rad,
-and more. other: no
-T: m (extra `fk`). a_b (3,), c(done): yes. Where c is told: no
-""".splitlines()
-    rest = docs_render.rest(doc, {"fk": "poekin.Chain.fk"}, {"q", "dq", "T", "a_b", "c"})
-    assert [line for line in rest if line] == [
-        "\\ A\\_i \\|x\\| \\*q\\* of \\ :py:obj:`fk <poekin.Chain.fk>`\\  and x\\_ as they stand.",
-        "::", "        f = e^{A_1 x_1} *",
-        ":Parameters: \\ q (..., m).", ":Returns: \\ T (..., 4, 4).",
-        ":Raises, accuracy: \\ as \\ :py:obj:`fk <poekin.Chain.fk>`\\ .",
-        '* \\ "body": one thing',
-        "::", "    one  two words", "    three  four",
-        ":Parameters:", "    * **q**\\ , **dq** \\ (..., m): rad, and more. other: no",
-        "    * **T**\\ : m (extra \\ ``fk``\\ ).",
-        "    * **a\\_b** \\ (3,), **c**\\ (done): yes. Where c is told: no",
-    ]  # fmt: skip
+q, dq : (..., m) array_like
+    Rates, rad/s.
+chain : Chain or None, optional
+    The chain of the extra `fk`.
+*others
+    More.
+
+Returns
+-------
+T : {"a_b", 1}
+    In m.
+
+Raises
+------
+ShapeError
+    If not so.
+
+Notes
+-----
+Source: none.
+
+Examples
+--------
+>>> f(*x)
+1_
+"""
+RENDERED = """
+\\ A\\_i \\|x\\| \\*q\\* of \\ :py:obj:`fk <poekin.Chain.fk>`\\  and x\\_ as they stand.
+::
+        f = e^{A_1 x_1} *
+\\ Some text:
+* \\ "body": one thing
+* \\ two \\ ``Chain.fk``\\
+::
+    one  two words
+    three  four
+:Parameters:
+    **q**, **dq** : \\ *(..., m) array\\_like*\\
+        \\ Rates, rad/s.
+    **chain** : :py:obj:`Chain <poekin.Chain>` \\ *or None, optional*\\
+        \\ The chain of the extra \\ ``fk``\\ .
+    **\\*others**
+        \\ More.
+:Returns:
+    **T** : \\ *{"a\\_b", 1}*\\
+        \\ In m.
+:Raises:
+    :py:obj:`ShapeError <poekin.errors.ShapeError>`
+        \\ If not so.
+.. rubric:: Notes
+\\ Source: none.
+.. rubric:: Examples
+>>> f(*x)
+1_
+"""
+
+
+def test_a_docstring_becomes_paragraphs_equations_lists_and_definitions():
+    dotted = ["poekin.Chain.fk", "poekin.Chain", "poekin.errors.ShapeError"]
+    links = dict(zip(["fk", "Chain", "errors.ShapeError"], dotted, strict=True))
+    rest = docs_render.rest(DOCSTRING.splitlines(), links)
+    assert [line.rstrip() for line in rest if line] == RENDERED.strip("\n").splitlines()
+    assert complaints(rest) == ""
 
 
 def test_markup_that_is_not_escaped_is_caught():
