@@ -7,6 +7,7 @@ what is available.
 from __future__ import annotations
 
 import difflib
+import math
 from collections.abc import Iterable
 
 
@@ -82,6 +83,13 @@ def quote(name: object, width: int = 80) -> str:
 def safe_repr(value: object, width: int = 80) -> str:
     """`repr` of a value, its unprintable characters escaped, cut at `width`."""
     return escape_unprintable(repr(value), width)
+
+
+def show_numbers(values: Iterable[float]) -> str:
+    """Numbers to six digits in brackets; what is rounding beside the largest of them is 0."""
+    row = [float(x) for x in values]
+    small = 1e-12 * max((abs(x) for x in row if math.isfinite(x)), default=0.0)
+    return str([0.0 if abs(x) <= small else float(f"{x:.6g}") for x in row])
 
 
 def join_names(names: Iterable[object], most: int = 12) -> str:

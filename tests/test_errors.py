@@ -26,6 +26,7 @@ from poekin.errors import (  # fmt: skip
     join_names,
     quote,
     safe_repr,
+    show_numbers,
     suggest,
 )
 
@@ -50,6 +51,22 @@ def test_nothing_that_a_terminal_obeys_is_shown(text, width):
 )
 def test_each_character_is_escaped_once_or_not_at_all(name, plain):
     assert quote(name) == plain
+
+
+@pytest.mark.parametrize(
+    "row, text",
+    [
+        ([], "[]"),
+        ([0.0, -0.0], "[0.0, 0.0]"),
+        ([2.7e-49], "[2.7e-49]"),
+        ([2.7e-49, 1.0, -1e-12], "[0.0, 1.0, 0.0]"),
+        ([1.01e-12, 1.0], "[1.01e-12, 1.0]"),
+        (np.array([1 / 3, -20.0]), "[0.333333, -20.0]"),
+        ([float("nan"), float("inf"), 1e-9], "[nan, inf, 1e-09]"),
+    ],
+)
+def test_numbers_are_shown_to_six_digits_and_rounding_as_0(row, text):
+    assert show_numbers(row) == text
 
 
 def test_line_breaks_are_kept_where_that_is_asked():

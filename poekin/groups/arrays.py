@@ -10,12 +10,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..engine.kernels import group_kernels
-from ..errors import InputError, PoseError, ShapeError
+from ..errors import InputError, PoseError, ShapeError, show_numbers
 from .objects import plain
 
 Array = NDArray[np.float64]
 TOLERANCE = 1e-5  # the largest accepted entry of abs(R R^T - I)
+ROUNDED = 2e-2  # of abs(R R^T - I): what rounding to two decimals can do
 LAST_ROW_UNREAD = -2  # of `first_defect`: a NaN in the last row, which kernels do not read
+
+# What may stand in the place of another thing: the axes expected, those that arrived, the remedy.
+REMEDIES = (
+    ((6,), (4, 4), "pk.se3.log of a pose is its twist, pk.se3.vee of a matrix [xi] is xi"),
+    ((4, 4), (3, 3), "pk.se3.pose(R, p) makes a pose of a rotation and a translation"),
+    ((4, 4), (6,), "pk.se3.exp of a twist is a pose"),
+    ((3, 3), (4, 4), "the rotation of a pose is T[..., :3, :3]"),
+    ((3, 3), (4,), "of a quaternion, SciPy's Rotation.from_quat makes what is taken here"),
+    ((3, 3), (3,), "pk.so3.exp of a rotation vector is a rotation"),
+)
 
 
 def numbers(values: ArrayLike, what: str) -> Array:
@@ -43,8 +54,18 @@ def shaped(values: ArrayLike, tail: tuple[int, ...], what: str) -> Array:
     array = numbers(values, what)
     if array.shape[array.ndim - len(tail) :] != tail or array.ndim < len(tail):
         expected = ", ".join(["...", *map(str, tail)])
-        raise ShapeError(f"{what}: expected shape ({expected}), got {array.shape}")
+        raise ShapeError(
+            f"{what}: expected shape ({expected}), got {array.shape}{_remedy(tail, array.shape)}"
+        )
     return array
+
+
+def _remedy(tail: tuple[int, ...], shape: tuple[int, ...]) -> str:
+    """End of a message: what makes `tail` of the thing that has this shape."""
+    for expected, got, remedy in REMEDIES:
+        if tail == expected and shape[-len(got) :] == got:
+            return f": {remedy}"
+    return ""
 
 
 def rotations(values: ArrayLike, what: str = "R") -> Array:
@@ -69,23 +90,50 @@ def _checked(M: Array, what: str, kind: str) -> Array:
     where = element_name(what, np.unravel_index(k, M.shape[:-2]))
     off, determinant, last = found
     if last > TOLERANCE:
+        transposed = "; its transpose is one" if _is_pose(flat[k].T) else ""
         raise PoseError(
-            f"{where} is no {kind}: its last row is {flat[k, 3].tolist()}, expected [0, 0, 0, 1]"
+            f"{where} is no {kind}: its last row is {show_numbers(flat[k, 3])},"
+            f" expected [0, 0, 0, 1]{transposed}"
         )
     if off > TOLERANCE:
+        group = "se3" if kind == "pose" else "so3"
+        rounded = off <= ROUNDED and determinant > 0.0
+        remedy = (
+            f"; if it was rounded, pk.{group}.nearest gives the nearest {kind}" if rounded else ""
+        )
         raise PoseError(
-            f"{where} is no {kind}: its rotation misses orthonormality, max abs(R R^T - I) = {off:.3g}, "
-            f"accepted up to {TOLERANCE:g}"
+            f"{where} is no {kind}: its rotation misses orthonormality,"
+            f" max abs(R R^T - I) = {off:.3g}, accepted up to {TOLERANCE:g}{remedy}"
         )
     raise PoseError(
         f"{where} is no {kind}: its rotation is a reflection, det R = {determinant:.3g}, expected 1"
     )
 
 
+def _is_pose(T: Array) -> bool:
+    found = np.array([TOLERANCE, 0.0, 0.0])
+    return group_kernels.first_defect.call(T[None], found) < 0
+
+
 def element_name(what: str, index: Iterable[SupportsInt]) -> str:
     """Name of an array's element in messages: `T[0, 2]`, and `T` for the batch ()."""
     indices = ", ".join(str(int(i)) for i in index)
     return f"{what}[{indices}]" if indices else what
+
+
+def first_place(bad: ArrayLike, what: str) -> str:
+    """Name of the first element of a batch for which `bad` is true."""
+    return element_name(what, np.argwhere(bad)[0])
+
+
+def direction_and_length(x: Array) -> tuple[Array, Array]:
+    """Unit vectors along the last axis and lengths (...), at any size; a zero has the direction 0."""
+    largest = np.abs(x).max(-1, keepdims=True)
+    with np.errstate(over="ignore", invalid="ignore"):
+        scaled = x / np.where(largest == 0.0, 1.0, largest)
+        size = np.linalg.norm(scaled, axis=-1, keepdims=True)
+        direction = scaled / np.where(size == 0.0, 1.0, size)
+        return direction, (largest * size)[..., 0]
 
 
 def with_rows(matrices: Array, rows: ArrayLike, width: int, what: str) -> tuple[Array, Array]:

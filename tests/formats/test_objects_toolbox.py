@@ -289,7 +289,8 @@ def test_transforms_come_in_whatever_is_like_a_list_and_not_as_a_text():
         (
             [SimpleNamespace(isjoint=False, axis="SE2", A=lambda: np.eye(3))],
             ShapeError,
-            "ETS, transform 0: expected shape (..., 4, 4), got (3, 3)",
+            "ETS, transform 0: expected shape (..., 4, 4), got (3, 3):"
+            " pk.se3.pose(R, p) makes a pose of a rotation and a translation",
         ),
         (
             [SimpleNamespace(isjoint=False, axis="SE3", A=lambda: np.ones((4, 4)))],

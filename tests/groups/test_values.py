@@ -126,6 +126,32 @@ def test_the_last_row_adds_up_and_is_printed():
         poses(wrong)
 
 
+def test_a_transposed_pose_is_recognised():
+    with pytest.raises(PoseError, match=r"expected \[0, 0, 0, 1\]; its transpose is one$"):
+        se3.log(np.stack([T, T.T]))
+    with pytest.raises(PoseError, match=r"expected \[0, 0, 0, 1\]$"):
+        se3.log(np.ones((4, 4)))
+
+
+def test_only_what_may_have_been_rounded_is_sent_to_nearest():
+    off = np.diag([1.009, 1.0, 1.0])  # 0.018 in R R^T, what two decimals can make
+    with pytest.raises(
+        PoseError, match=r"; if it was rounded, pk.so3.nearest gives the nearest rot"
+    ):
+        so3.log(off)
+    with pytest.raises(PoseError, match=r"accepted up to 1e-05$"):
+        so3.log(off * 1.002)
+    with pytest.raises(PoseError, match=r"accepted up to 1e-05$"):
+        so3.log(-off)
+
+
+def test_rounding_beside_larger_numbers_is_printed_as_0():
+    wrong = np.eye(4)
+    wrong[3] = [2.7e-49, 0.25, -1e-17, 0.1234567]
+    with pytest.raises(PoseError, match=r"its last row is \[0.0, 0.25, 0.0, 0.123457\], exp"):
+        poses(wrong)
+
+
 def test_a_defect_is_told_by_its_size_and_a_reflection_by_its_determinant():
     with pytest.raises(
         PoseError, match=r"^T is no pose: .* max abs\(R R\^T - I\) = 0.21, accepted up to 1e-05"
@@ -191,7 +217,30 @@ def test_a_sound_array_is_taken_as_it_is():
             ShapeError,
             r"x: expected shape \(\.\.\., 4, 4\), got \(4,\)",
         ),
-        (lambda: shaped(np.zeros((3, 4)), (4, 4), "x"), ShapeError, r"got \(3, 4\)"),
+        (lambda: shaped(np.zeros((3, 4)), (4, 4), "x"), ShapeError, r"got \(3, 4\)$"),
+        (
+            lambda: se3.exp(np.zeros((5, 4, 4))),
+            ShapeError,
+            r"got \(5, 4, 4\): pk.se3.log of a pose is its twist, pk.se3.vee of a matrix \[xi\] is xi$",
+        ),
+        (
+            lambda: se3.log(R),
+            ShapeError,
+            r"got \(3, 3\): pk.se3.pose\(R, p\) makes a pose of a rotation and a translation$",
+        ),
+        (lambda: se3.log(XI), ShapeError, r"got \(6,\): pk.se3.exp of a twist is a pose$"),
+        (
+            lambda: so3.log(T),
+            ShapeError,
+            r"got \(4, 4\): the rotation of a pose is T\[..., :3, :3\]$",
+        ),
+        (
+            lambda: so3.log([1, 0, 0, 0]),
+            ShapeError,
+            r"got \(4,\): of a quaternion, SciPy's Rotation.from_quat makes what is taken here$",
+        ),
+        (lambda: so3.log(W), ShapeError, r"got \(3,\): pk.so3.exp of a rotation vector is a rota"),
+        (lambda: so3.exp(np.zeros(4)), ShapeError, r"got \(4,\)$"),
         (
             lambda: se3.linear_first(XI, axis=1),
             ShapeError,

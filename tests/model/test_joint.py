@@ -199,7 +199,10 @@ FAULTS = {
     "origin 3x3": (
         {"origin": np.eye(3)},
         ShapeError,
-        "joint 'j': origin: expected shape (..., 4, 4), got (3, 3)",
+        (
+            "joint 'j': origin: expected shape (..., 4, 4), got (3, 3):"
+            " pk.se3.pose(R, p) makes a pose of a rotation and a translation"
+        ),
     ),
     "many origins": (
         {"origin": np.zeros((2, 4, 4))},

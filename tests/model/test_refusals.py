@@ -201,7 +201,7 @@ OF_ROBOTS = {
     "a pose's name": (lambda: FLOATING.fk([0], {"j": np.eye(4)}),
                       "f.urdf: poses names 'j', which is no floating or planar joint; available: 'free'"),
     "a pose": (lambda: FLOATING.fk([0], {"free": np.eye(3)}), "pose of joint 'free': expected shape (..., 4, 4), got "
-               "(3, 3)"),
+               "(3, 3): pk.se3.pose(R, p) makes a pose of a rotation and a translation"),
     "batches": (lambda: FLOATING.fk([[0], [0]], {"free": [np.eye(4)] * 3}),
                 "f.urdf: the leading axes of q and poses do not broadcast: the pose of joint 'free' has (3,), and what "
                 "comes before it (2,)"),

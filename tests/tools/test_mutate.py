@@ -139,7 +139,7 @@ def test_every_module_of_the_package_is_changed():
     for part in (
         "algebra",
         "formulas/logarithm",
-        "groups/se3",
+        "groups/arrays",
         "formats/urdf",
         "engine/ik_kernels",
     ):

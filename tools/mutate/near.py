@@ -44,7 +44,7 @@ NEAR = {
     "formulas/elementary": f"own {_KINDS} {_SMALL_ANGLES}",
     "formulas/exp_jacobian formulas/exponential formulas/logarithm": f"own {_ANGLES}",
     "formulas/structured": "own model/compiled",
-    "groups/": f"groups/values groups/batches groups/objects {GROUPS}",
+    "groups/": f"groups/values groups/batches groups/objects groups/nearest groups/axis_angle {GROUPS}",
     "groups/rpy": "groups/values formats/rpy",
     "engine/array_io": f"groups/batches {CHAINS}",
     "engine/chain_kernels": CHAINS,

@@ -7,8 +7,9 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from ...errors import InputError, PoekinError, PoseError, safe_repr
-from ...groups import se3, so3
+from ...groups import se3
 from ...groups.arrays import Array, poses
+from ...groups.so3.exp_log import exp_of_vectors
 from ...model.kinematics.analytic import quaternion_wxyz
 
 PoseFormat = Literal["12", "16", "7"]
@@ -97,7 +98,8 @@ def _rotation(Q: Array) -> Array:
     """R of unit quaternions (w, x, y, z), by the rotation vector: 2 atan2(|v|, w) about v."""
     size = np.linalg.norm(Q[:, 1:], axis=1, keepdims=True)
     angle = 2 * np.arctan2(size, Q[:, :1])
-    return so3.exp(np.divide(angle, size, out=np.full_like(size, 2.0), where=size > 0) * Q[:, 1:])
+    ratio = np.divide(angle, size, out=np.full_like(size, 2.0), where=size > 0)
+    return exp_of_vectors(ratio * Q[:, 1:])
 
 
 def _check(T: Array, where: str) -> None:

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from ...errors import InputError, ShapeError, safe_repr
 from ...groups import se3, so3
 from ...groups.arrays import Array, numbers, poses
+from ...groups.so3.exp_log import exp_of_vectors
 
 
 def screw(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
@@ -41,7 +42,7 @@ def line(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
     R_0 = _exact(T_s0)[..., :3, :3]
     R_1 = _exact(T_s1)[..., :3, :3]
     T = T_s0.copy()
-    T[..., :3, :3] = R_0 @ so3.exp(s[..., None] * so3.log(np.swapaxes(R_0, -1, -2) @ R_1))
+    T[..., :3, :3] = R_0 @ exp_of_vectors(s[..., None] * so3.log(np.swapaxes(R_0, -1, -2) @ R_1))
     T[..., :3, 3] += s[..., None] * (T_s1[..., :3, 3] - T_s0[..., :3, 3])
     return _with_ends(T, T_s0, T_s1, s)
 
@@ -108,7 +109,7 @@ def _exact(T: Array) -> Array:
     more together.
     """
     T = T.copy()
-    T[..., :3, :3] = so3.exp(so3.log(T[..., :3, :3]))
+    T[..., :3, :3] = exp_of_vectors(so3.log(T[..., :3, :3]))
     return T
 
 

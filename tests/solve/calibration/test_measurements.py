@@ -273,7 +273,8 @@ BAD: dict[str, tuple] = {
     "a guess": (
         lambda: EyeInHand(T, board=np.eye(3)),
         ShapeError,
-        "T_base_board: expected shape (..., 4, 4), got (3, 3)",
+        "T_base_board: expected shape (..., 4, 4), got (3, 3):"
+        " pk.se3.pose(R, p) makes a pose of a rotation and a translation",
     ),
     "no measurements": (
         lambda: parse_measurements("poses", 12),
