@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError, PoseError, ShapeError
 from poekin.groups import se3, so3
-from poekin.solve.calibration.fit import initial_guess
+from poekin.solve.calibration.fit import initial_guess, reweighted
 from poekin.solve.calibration.measurements.simulated import simulated
 from poekin.testing.strategies import group_strategies
 
@@ -77,7 +77,7 @@ def test_one_wild_pose_repeated_leaves_both_frames_near_the_noise():
 
 @pytest.mark.parametrize(
     ("rounds", "gross"),
-    [(0, initial_guess.GROSS), (initial_guess.ROUNDS, 1e30)],
+    [(0, reweighted.GROSS), (reweighted.ROUNDS, 1e30)],
     ids=["flat", "all"],
 )
 def test_without_its_rounds_or_its_trimming_the_guess_is_fooled(rounds, gross, monkeypatch):
@@ -95,8 +95,8 @@ def test_without_its_rounds_or_its_trimming_the_guess_is_fooled(rounds, gross, m
 
     seeds = 48, 49, 56, 142  # those of 200 for which the rounds matter, with 18 of 40 poses wild
     assert max(map(off, seeds)) < EXACT
-    monkeypatch.setattr(initial_guess, "ROUNDS", rounds)
-    monkeypatch.setattr(initial_guess, "GROSS", gross)
+    monkeypatch.setattr(reweighted, "ROUNDS", rounds)
+    monkeypatch.setattr(reweighted, "GROSS", gross)
     assert max(map(off, seeds)) > 1e-3
 
 

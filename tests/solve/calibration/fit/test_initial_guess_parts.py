@@ -1,5 +1,5 @@
-"""The parts of the initial guesses: what is left out, what counts as rounding, and what each
-least-squares problem is.
+"""The parts of the initial guesses: what is taken for rounding, and what each least-squares problem
+is.
 """
 
 from __future__ import annotations
@@ -10,62 +10,20 @@ import pytest
 from poekin.errors import InputError
 from poekin.groups import se3, so3
 from poekin.solve.calibration.fit import initial_guess
-from poekin.solve.calibration.fit.initial_guess import (
-    _multilateral,
-    _nearer,
-    _reach,
-    _rigid,
-    _robust,
-    _spread,
-    _within,
-)
-
-
-def mean_of(values):
-    """The weighted mean of some numbers, and how far each is from it."""
-
-    def solve(w):
-        mean = float(w @ values / w.sum())
-        return mean, np.abs(values - mean)
-
-    return solve
-
-
-def test_rows_beyond_four_medians_are_left_out_and_the_others_count_evenly():
-    values = np.array([-3.9, -1, -1, -1, 0, 1, 1, 1, 3.9, 4.1, -4.1, 1000, -1000])
-    mean, off, kept = _robust(mean_of(values), len(values), 1, 1e-9)
-    assert kept.tolist() == [True] * 9 + [False] * 4
-    assert mean == pytest.approx(0, abs=1e-9)
-    assert off == pytest.approx(np.abs(values - mean))
-
-
-def test_as_many_rows_are_kept_as_there_have_to_be():
-    off = np.array([0.0, 0, 0, 0, 0, 7, 5, 9, 8])
-    for need, more in ((1, []), (5, []), (6, [6]), (7, [5, 6]), (8, [5, 6, 8])):
-        kept = _robust(lambda w: (None, off), 9, need, 0.5)[2]
-        assert np.flatnonzero(kept).tolist() == [0, 1, 2, 3, 4, *more]
-
-
-def test_what_is_rounding_is_kept_whatever_the_median_is():
-    weights = []
-
-    def solve(w):
-        weights.append(w)
-        return None, np.array([0.0, 0, 0, 0, 1e-14, 1e-12])
-
-    kept = _robust(solve, 6, 1, 1e-13)[2]
-    assert kept.tolist() == [True] * 5 + [False]
-    assert len(weights) == 1 + initial_guess.ROUNDS + initial_guess.TRIMS
-    assert weights[0].tolist() == [1.0] * 6
-    assert weights[1] == pytest.approx([1, 1, 1, 1, 1, 0.1])
+from poekin.solve.calibration.fit.initial_guess import _multilateral, _nearer, _rigid
+from poekin.solve.calibration.fit.reweighted import reweighted
 
 
 @pytest.fixture
 def floors(monkeypatch):
     """What each robust solution of an initial guess takes for rounding, and how many rows it needs."""
     found = []
-    monkeypatch.setattr(initial_guess, "_robust", lambda solve, count, need, floor: found.append((count, need, floor))
-                        or _robust(solve, count, need, floor))  # fmt: skip
+
+    def noted(solve, count, need, floor):
+        found.append((count, need, floor))
+        return reweighted(solve, count, need, floor)
+
+    monkeypatch.setattr(initial_guess, "reweighted", noted)
     return found
 
 
@@ -178,24 +136,6 @@ def test_measurements_that_are_all_zero_are_said_to_be_flat():
         initial_guess.registration(np.zeros((4, 3)), np.zeros((4, 3)))
 
 
-def test_a_set_of_points_is_as_long_and_wide_as_its_root_mean_squares():
-    points = np.array([[3.0, 0, 0], [-3, 0, 0], [0, 1, 0], [0, -1, 0]])
-    assert _spread(points) == pytest.approx([np.sqrt(18 / 4), np.sqrt(2 / 4), 0])
-    assert _reach(points + 7.0, 1) == "2.1 m along it and 0.71 m out of it, rms"
-    assert _reach(points + 7.0, 2) == "2.1 m along it and 0 m out of it, rms"
-
-
-@pytest.mark.parametrize("spread, scatter, flat", [
-    ([1.0, 1e-6, 0], 0.0, True), ([1.0, 2e-6, 0], 0.0, False), ([2.0, 2e-6, 0], 0.0, True),
-    ([1.0, 0.05, 0], 0.05, True), ([1.0, 0.06, 0], 0.05, False), ([1.0, 0.05, 0], 0.1, False),
-    ([1.0, 0.05, 0], 0.099, True), ([2.0, 0.05, 0], 0.19, True),
-])  # fmt: skip
-def test_points_lie_flat_that_reach_no_farther_than_rounding_or_than_they_scatter(
-    spread, scatter, flat
-):
-    assert _within(np.array(spread), 1, scatter) == flat
-
-
 @pytest.mark.parametrize("scatter, turns, words", [
     (0.0, [1e-6, 0, 0], r"it was not turned \(by 1e-06 rad about its first, 0 about a second, rms, where the rotations "
      r"scatter by 0\): turn it more, or give both frames$"),
@@ -211,7 +151,7 @@ def test_points_lie_flat_that_reach_no_farther_than_rounding_or_than_they_scatte
 def test_a_hand_has_to_turn_about_two_axes_by_more_than_the_rotations_scatter(
     scatter, turns, words, monkeypatch
 ):
-    monkeypatch.setattr(initial_guess, "_spread", lambda x: np.array(turns))
+    monkeypatch.setattr(initial_guess, "extents", lambda x: np.array(turns))
     R = np.tile(np.eye(3), (3, 1, 1))
     if words is None:
         initial_guess._check_turns(R, scatter)

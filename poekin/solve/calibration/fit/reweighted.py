@@ -1,0 +1,62 @@
+"""Least squares repeated with weights, so that gross outliers do not pull the solution."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Generic, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....groups.arrays import Array
+
+ROUNDS = 20
+TRIMS = 3
+GROSS = 4.0
+"""A row whose residual is more than this many medians is left out at the end: 4 sigma of an error
+along one axis, and 6 of the length of one in space.
+"""
+
+Value = TypeVar("Value")
+
+
+class Weighted(NamedTuple, Generic[Value]):
+    """Solution of a weighted problem, and the residual (N,) of each row."""
+
+    value: Value
+    residuals: Array
+
+    @property
+    def median(self) -> float:
+        """Median residual."""
+        return float(np.median(self.residuals))
+
+
+class Reweighted(NamedTuple, Generic[Value]):
+    """Last solution, its median residual, and the rows (N,) that it was made of."""
+
+    value: Value
+    median: float
+    kept: NDArray[np.bool_]
+
+
+def reweighted(
+    solve: Callable[[Array], Weighted[Value]], count: int, need: int, floor: float
+) -> Reweighted[Value]:
+    """Solution of solve(weights (N,)) after nearly least absolute deviations (weights
+    min(1, median / residual)) and then the rows within `GROSS` medians, evenly.
+
+    need: number of rows that are kept at least; floor: a residual that is rounding.
+    Source of the weights: Huber 1964, with the median of the residuals as his constant.
+    """
+    found = solve(np.ones(count))
+    for _ in range(ROUNDS):
+        scale = max(found.median, floor)
+        found = solve(scale / np.maximum(found.residuals, scale))
+    kept = np.ones(count, bool)
+    for _ in range(TRIMS):
+        r = found.residuals
+        least = float(np.partition(r, need - 1)[need - 1])
+        kept = r <= max(GROSS * found.median, least, floor)
+        found = solve(kept.astype(float))
+    return Reweighted(found.value, found.median, kept)
