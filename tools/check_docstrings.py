@@ -24,6 +24,7 @@ WAIVED = {
     "RT02": "a result has a name, as in SciPy",
 }
 PARAMETERS = {"PR01", "PR02", "PR03"}  # of a class: the fields of a result stand under Attributes
+OVERRIDING = {"PR01", "RT01"}  # of a method: the one that it overrides says these
 
 
 class Fault(NamedTuple):
@@ -41,11 +42,23 @@ def faults(name: str) -> list[Fault]:
     """Faults of the docstring of a public name, such as `poekin.Chain.fk`."""
     thing = docs_names.resolved(name)
     of_class = inspect.isclass(thing)
-    waived = WAIVED.keys() | (PARAMETERS if of_class else set())
+    waived = set(WAIVED)
+    if of_class:
+        waived |= PARAMETERS
+    elif overrides(name):
+        waived |= OVERRIDING
     found = [Fault(name, *error) for error in validate(name)["errors"] if error[0] not in waived]
     if of_class and not issubclass(thing, BaseException):
         found += [Fault(name, "PR01", f"field {field!r} not documented") for field in untold(thing)]
     return found
+
+
+def overrides(name: str) -> bool:
+    """Whether a public name is a method that overrides one of a base of the package."""
+    owner, _, method = name.rpartition(".")
+    above = docs_names.resolved(owner)
+    bases = above.__mro__[1:] if inspect.isclass(above) else ()
+    return any(docs_names.own(base) and method in vars(base) for base in bases)
 
 
 def untold(owner: type) -> list[str]:

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ....errors import InputError, PoseError, ShapeError, safe_repr
-from ....groups import se3
 from ....groups.arrays import Array, numbers, poses
 from ....model.checks import read_only
 
 Rows = NDArray[np.integer]
+MeasurementKind = Literal["poses", "eye-in-hand", "eye-to-hand", "points", "distances"]
 
 
 class UnknownFrame(NamedTuple):
-    """A frame (6 parameters, T <- T e^eta) or a point (3 parameters, m) that is estimated jointly;
+    """A frame (6 parameters, T <- T e^[η]) or a point (3 parameters, m) that is estimated jointly.
+
     guess: its rough value, if given; shared: the name under which sets have it in common, if any.
     """
 
@@ -28,12 +29,23 @@ class UnknownFrame(NamedTuple):
 
 
 class Measurement:
-    """Measurements of one kind, one an element of `rows` of q.
+    """Base of the measurements of one kind, one an element of `rows` of q.
 
-    A kind says what the model predicts: `errors(T, frame_values)` from the poses T = T_base_tip
-    (N, 4, 4) and the values of its unknown frames, and their derivatives, `jacobian(T,
-    frame_values, errors, D)`, with D (N, 6, P) the space twists of T. `angular` of its `width`
-    errors are angles in rad and come first; the others are lengths in m.
+    A kind says what the model predicts, by `errors` and their `jacobian`; the errors that are
+    angles come first, in rad, the others are lengths in m.
+
+    Attributes
+    ----------
+    rows : (N,) ndarray of int or None
+        Row of q of each measurement; None for all rows in order.
+    covariance : (N, width, width) ndarray or None
+        Covariance of each measurement's errors, rad² and m²; None where the noise is estimated.
+    width : int
+        Number of errors of one measurement.
+    angular : int
+        Number of them that are angles.
+    unknown_frames : tuple of UnknownFrame
+        Frames and points that are estimated jointly.
     """
 
     rows: Any
@@ -41,84 +53,200 @@ class Measurement:
     width: int
     angular: int = 0
     unknown_frames: tuple[UnknownFrame, ...] = ()
-    what: str = "measurement"
+    _measured: str = "T"  # the attribute that holds the measured numbers
 
     def __len__(self) -> int:
-        raise NotImplementedError
+        return len(getattr(self, self._measured))
+
+    @property
+    def what(self) -> str:
+        """Name of the kind in messages."""
+        return type(self).__name__
 
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
-        """Model minus measurement (N, width), rad and m.
+        """Model minus measurement, by the equation of the kind.
 
-        Parameters: T (N, 4, 4), poses of the tip in the base frame, m; frame_values, a pose (4, 4)
-        or point (3,) for each of `unknown_frames`. Returns: (N, width). Raises: nothing, it checks
-        nothing. Source: the class's equation.
+        Parameters
+        ----------
+        T : (N, 4, 4) ndarray
+            Poses T_base_tip of the model, m; not checked.
+        frame_values : sequence of ndarray
+            A pose (4, 4) or point (3,), m, for each of `unknown_frames`.
+
+        Returns
+        -------
+        errors : (N, width) ndarray
+            In rad and m.
+
+        Raises
+        ------
+        NotImplementedError
+            By the base class, which has no equation.
+
+        Notes
+        -----
+        Source: the equation of each kind.
         """
         raise NotImplementedError
 
     def jacobian(
         self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
     ) -> tuple[Array, list[Array]]:
-        """Jacobian of the errors in the arm's parameters (N, width, P), and in each unknown frame
-        (N, width, size).
+        """Jacobian of the errors in the parameters of the arm and of each unknown frame.
 
-        Parameters: T (N, 4, 4) and frame_values as `errors`, poses (4, 4) or points (3,); errors
-        (N, width), of the same; D (N, 6, P), space twists of T, (omega; v), rad and m, per unit of
-        each parameter.
-        Returns: an array, and one for each of `unknown_frames`.
-        Raises: nothing, it checks nothing. Source: the class's equation, differentiated.
+        Parameters
+        ----------
+        T : (N, 4, 4) ndarray
+            Poses T_base_tip of the model, m; not checked.
+        frame_values : sequence of ndarray
+            A pose (4, 4) or point (3,), m, for each of `unknown_frames`.
+        errors : (N, width) ndarray
+            Errors of these poses, rad and m.
+        D : (N, 6, P) ndarray
+            Space twists dT T⁻¹, (ω; v), rad and m, per unit of each parameter.
+
+        Returns
+        -------
+        arm : (N, width, P) ndarray
+            Derivatives with respect to the parameters of the arm.
+        frames : list of (N, width, 6) or (N, width, 3) ndarray
+            Derivatives with respect to each unknown frame (T <- T e^[η]) or point.
+
+        Raises
+        ------
+        NotImplementedError
+            By the base class, which has no equation.
+
+        Notes
+        -----
+        Source: the equation of each kind, differentiated.
         """
         raise NotImplementedError
 
     def guesses(self, T: Array) -> list[Array]:
-        """Initial guesses of the unknown frames, given the nominal poses T (N, 4, 4).
+        """Initial guesses of the unknown frames, those that are given as they are given.
 
-        Parameters: T (N, 4, 4), in the base frame, m. Returns: a pose (4, 4) or point (3,) for each
-        of `unknown_frames`. Raises: InputError where they cannot be had from these. Source: see each
-        kind.
+        Parameters
+        ----------
+        T : (N, 4, 4) ndarray
+            Poses T_base_tip of the nominal arm, m.
+
+        Returns
+        -------
+        frames : list of ndarray
+            A pose (4, 4) or point (3,), m, for each of `unknown_frames`.
+
+        Raises
+        ------
+        InputError
+            If these poses do not determine a frame.
+
+        Notes
+        -----
+        Source: hand-eye calibration of Shah 2013, registration of Umeyama 1991, centre of Beck,
+        Stoica and Li 2008, each by repeated weighted least squares.
         """
         return []
 
     def subset(self, chosen: Rows) -> Measurement:
-        """The measurements of the indices `chosen` (k,) into it, as a set of their own. Raises:
-        nothing of its own.
+        """Some of the measurements as a set of their own.
+
+        Parameters
+        ----------
+        chosen : (k,) ndarray of int
+            Indices into the measurements.
+
+        Returns
+        -------
+        measurements : Measurement
+            Of the same kind, with their rows and covariances.
+
+        Raises
+        ------
+        IndexError
+            If there is no measurement of such an index.
         """
-        fields = {}
-        for name in (*self._per_measurement, "covariance"):
-            value = getattr(self, name)
-            fields[name] = None if value is None else value[chosen]
-        return self._with(**fields)
+        names = (self._measured, "rows", "covariance")
+        values = {name: getattr(self, name) for name in names}
+        return self._with(**{k: None if v is None else v[chosen] for k, v in values.items()})
 
     def with_rows(self, rows: Rows | None) -> Measurement:
-        """Copy of the measurements at other rows of q. Raises: nothing."""
+        """Copy of the measurements at other rows of q, unchecked.
+
+        Parameters
+        ----------
+        rows : (N,) ndarray of int or None
+            Row of q of each measurement; None for all rows in order.
+
+        Returns
+        -------
+        measurements : Measurement
+            Copy with these rows.
+
+        Notes
+        -----
+        Raises: nothing, it checks nothing.
+        """
         return self._with(rows=rows)
 
     def with_unknown_frames(self, unknown_frames: Sequence[UnknownFrame]) -> Measurement:
-        """Copy of the measurements with other guesses: unknown_frames, one for each. Raises: nothing."""
+        """Copy of the measurements with other guesses of the unknown frames, unchecked.
+
+        Parameters
+        ----------
+        unknown_frames : sequence of UnknownFrame
+            One for each of `unknown_frames`.
+
+        Returns
+        -------
+        measurements : Measurement
+            Copy with these unknown frames.
+
+        Notes
+        -----
+        Raises: nothing, it checks nothing.
+        """
         return self._with(unknown_frames=tuple(unknown_frames))
 
     def scaled(self, unit: float) -> Measurement:
-        """Copy of the measurements with all lengths times `unit`, and no covariance. Raises: nothing."""
-        name = self._per_measurement[0]
-        measured = getattr(self, name).copy()
+        """Copy of the measurements with all lengths in another unit, and without covariance.
+
+        Parameters
+        ----------
+        unit : float
+            Factor of the measured lengths.
+
+        Returns
+        -------
+        measurements : Measurement
+            Copy with scaled lengths.
+
+        Notes
+        -----
+        Raises: nothing, it checks nothing.
+        """
+        measured = getattr(self, self._measured).copy()
+        lengths = measured
         if measured.shape[1:] == (4, 4):
             lengths = measured[:, :3, 3]
-        else:
-            lengths = measured
         lengths *= unit
-        return self._with(**{name: measured, "covariance": None})
+        return self._with(**{self._measured: measured, "covariance": None})
 
     def _with(self, **changes: Any) -> Measurement:
         """A copy with some attributes changed, unchecked."""
         other = object.__new__(type(self))
-        for name, value in (vars(self) | changes).items():
-            object.__setattr__(other, name, value)
+        other._set_fields(**vars(self) | changes)
         return other
 
-    _per_measurement: tuple[str, ...] = ()
-    """The attributes that have an element for each measurement; the measured numbers first."""
+    def _keep(self, **values: Any) -> None:
+        """Keep checked values, the measured ones among them, with covariances and rows that fit."""
+        self._set_fields(**values)
+        count = len(self)
+        C = covariances(self.covariance, count, self.width, self.what)
+        self._set_fields(covariance=C, rows=parse_rows(self.rows, count))
 
     def _set_fields(self, **values: Any) -> None:
-        """Keep checked values in a frozen object."""
+        """Set attributes of a frozen object."""
         for name, value in values.items():
             if isinstance(value, np.ndarray):
                 value = read_only(value)
@@ -132,16 +260,17 @@ def parse_rows(rows: ArrayLike | None, count: int) -> Rows | None:
     array = np.asarray(rows)
     if array.dtype.kind not in "iu" or array.shape != (count,):
         raise ShapeError(
-            f"rows: expected {count} whole numbers, the row of q of each measurement, got {array.dtype.name} of shape"
-            f" {array.shape}"
+            f"rows: expected {count} whole numbers, the row of q of each measurement, got "
+            f"{array.dtype.name} of shape {array.shape}"
         )
     if count and array.min() < 0:
         raise InputError(f"rows: expected rows of q counted from 0, got {array.min()}")
     return array.astype(np.intp)
 
 
-def finite_rows(array: Array, what: str) -> Array:
-    """The array, all of it finite. Raises: InputError with the first row that is not."""
+def finite_rows(values: ArrayLike, what: str) -> Array:
+    """A copy of the values (N, ...), all finite. Raises: InputError with the first row that is not."""
+    array = numbers(values, what).copy()
     good = np.isfinite(array).all(axis=tuple(range(1, array.ndim)))
     if not good.all():
         row = int(np.argmin(good))
@@ -151,10 +280,10 @@ def finite_rows(array: Array, what: str) -> Array:
 
 def pose_rows(T: ArrayLike, what: str) -> Array:
     """Poses (N, 4, 4), finite."""
-    array = finite_rows(numbers(T, what), what)
+    array = finite_rows(T, what)
     if array.ndim != 3:
         raise ShapeError(f"{what}: expected poses (N, 4, 4), got shape {array.shape}")
-    return poses(array, what).copy()
+    return poses(array, what)
 
 
 def make_unknown_frame(name: str, said: ArrayLike | str | None) -> UnknownFrame:
@@ -216,10 +345,3 @@ def _check_covariance(C: Array, where: str) -> None:
             f"{where} is not positive definite: scaled to a unit diagonal, its least eigenvalue is "
             f"{least:.3g}"
         )
-
-
-def transform_twists(T: Array, D: Array) -> Array:
-    """Space twists D (N, 6, P) seen in a frame whose pose T_ab (4, 4) of the old frame b in it is
-    given.
-    """
-    return se3.adjoint(T) @ D

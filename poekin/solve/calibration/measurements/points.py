@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,14 +13,9 @@ from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
 from ..fit import initial_guess
-from .measurement import (
-    Measurement,
-    UnknownFrame,
-    covariances,
-    finite_rows,
-    parse_rows,
-    transform_twists,
-)
+from .measurement import Measurement, UnknownFrame, finite_rows
+
+PointFrame = Literal["base", "unknown"]
 
 
 def _velocities(D: Array, y: Array) -> Array:
@@ -44,32 +39,50 @@ def _position(value: ArrayLike | None, name: str) -> Array | None:
     """Three finite numbers, or None. Raises: ShapeError."""
     if value is None:
         return None
-    if np.shape(value) != (3,) or not np.isfinite(numbers(value, name)).all():
+    position = numbers(value, name)
+    if position.shape != (3,) or not np.isfinite(position).all():
         raise ShapeError(f"{name}: expected three finite numbers, got {safe_repr(value)}")
-    return numbers(value, name).copy()
+    return position.copy()
 
 
 @dataclass(frozen=True, eq=False)
 class Points(Measurement):
-    """Positions of one or several points of the tool.
+    """Measured positions of one or several points of the tool.
 
-    p (N, 3), or (N, k, 3) for k points, m; points (3,) or (k, 3): where they are in the tip frame,
-    m; covariance (3k, 3k) or (N, 3k, 3k) of p_model - p_measured, m^2 (None: one standard deviation is
-    estimated from the residuals); rows (N,) as `Poses`; frame: "base" if p stands in the base frame, "unknown" if in
-    the frame of a device whose pose T_base_device is estimated jointly. Raises: ShapeError, InputError.
+    Parameters
+    ----------
+    p : (N, 3) or (N, k, 3) array_like
+        Measured positions of k points, m.
+    points : (3,) or (k, 3) array_like, default (0, 0, 0)
+        The points in the tip frame, m.
+    covariance : (3k, 3k) or (N, 3k, 3k) array_like, optional
+        Covariance of p_model − p_measured, m²; by default one standard deviation is estimated from
+        the residuals.
+    rows : (N,) array_like of int, optional
+        Row of q of each measurement; all in order by default.
+    frame : {"base", "unknown"}, default "base"
+        Frame in which p stands: the base frame, or that of a device whose pose T_base_device is
+        estimated jointly.
+
+    Raises
+    ------
+    ShapeError
+        If an array has another shape.
+    InputError
+        If a number is not finite, a covariance is not symmetric and positive definite, or frame is
+        another word.
     """
 
     p: Any
     points: Any = (0.0, 0.0, 0.0)
     covariance: Any = None
     rows: Any = None
-    frame: str = "base"
+    frame: PointFrame = "base"
 
-    what = "Points"
-    _per_measurement = ("p", "rows")
+    _measured = "p"
 
-    def __post_init__(self):
-        p = finite_rows(numbers(self.p, "p"), "p")
+    def __post_init__(self) -> None:
+        p = finite_rows(self.p, "p")
         points = parse_points(self.points)
         k = len(points)
         if p.ndim == 2:
@@ -78,27 +91,19 @@ class Points(Measurement):
             raise ShapeError(
                 f"p: expected positions (N, {k}, 3), of {k} points, got shape {np.shape(self.p)}"
             )
-        if self.frame not in ("base", "unknown"):
+        if self.frame not in get_args(PointFrame):
             raise InputError(f"frame: expected 'base' or 'unknown', got {safe_repr(self.frame)}")
-        device = (UnknownFrame("T_base_device", 6, None),)
-        self._set_fields(
-            p=p.copy(),
-            points=points,
-            covariance=covariances(self.covariance, len(p), 3 * k, self.what),
-            rows=parse_rows(self.rows, len(p)),
-            width=3 * k,
-            unknown_frames=device if self.frame == "unknown" else (),
-        )
-
-    def __len__(self) -> int:
-        return len(self.p)
+        unknown: tuple[UnknownFrame, ...] = ()
+        if self.frame == "unknown":
+            unknown = (UnknownFrame("T_base_device", 6, None),)
+        self._keep(p=p, points=points, width=3 * k, unknown_frames=unknown)
 
     def _at(self, T: Array) -> Array:
         """The points (N, k, 3) in the base frame."""
         return self.points @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
 
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
-        """p_model - p_measured (N, 3k), in the frame in which p stands."""
+        """Errors p_model − p_measured (N, 3k), in the frame in which p stands."""
         for T_base_device in frame_values:
             T = se3.inverse(T_base_device) @ T
         return (self._at(T) - self.p).reshape(len(T), self.width)
@@ -106,14 +111,12 @@ class Points(Measurement):
     def jacobian(
         self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
     ) -> tuple[Array, list[Array]]:
-        """Points move by v + omega x p; T_base_device <- T_base_device e^xi by -xi, seen from the
-        device.
-        """
+        """Points move by v + ω × p; T_base_device <- T_base_device e^[ξ] by −ξ, seen from the device."""
         if not frame_values:
             return self._moved(T, D), []
         back = se3.inverse(frame_values[0])
         device = np.broadcast_to(-np.eye(6), (len(T), 6, 6))
-        twists = np.concatenate([transform_twists(back, D), device], axis=2)
+        twists = np.concatenate([se3.adjoint(back) @ D, device], axis=2)
         both = self._moved(back @ T, twists)
         return both[..., :-6], [both[..., -6:]]
 
@@ -130,14 +133,32 @@ class Points(Measurement):
 
 @dataclass(frozen=True, eq=False)
 class Distances(Measurement):
-    """Distances d = |p(q) - c| of a point of the tool from a point that stands still: a wire
-    sensor, a ball bar.
+    """Measured distances d = |p(q) − c| of a point of the tool from a point that stands still.
 
-    d (N,), m; centre c (3,) in the base frame, m (None: estimated jointly); point (3,) in the tip
-    frame, m; covariance: the variance of d, a number or (N,), m^2 (None: estimated from the residuals); rows (N,) as
-    `Poses`; guess (3,): a rough centre where it is estimated, for points in one plane, on both
-    sides of which one would fit alike.
-    Raises: ShapeError, InputError.
+    A wire sensor or a ball bar measures them.
+
+    Parameters
+    ----------
+    d : (N,) array_like
+        Measured distances, m, above 0.
+    centre : (3,) array_like, optional
+        The point c in the base frame, m; by default it is estimated jointly.
+    point : (3,) array_like, default (0, 0, 0)
+        The point of the tool in the tip frame, m.
+    covariance : float or (N,) array_like, optional
+        Variance of d, m²; by default it is estimated from the residuals.
+    rows : (N,) array_like of int, optional
+        Row of q of each measurement; all in order by default.
+    guess : (3,) array_like, optional
+        Rough centre, m, where it is estimated: for points in one plane, on both sides of which a
+        centre would fit alike.
+
+    Raises
+    ------
+    ShapeError
+        If an array has another shape.
+    InputError
+        If a number is not finite, a distance is not above 0, or a variance is not positive.
     """
 
     d: Any
@@ -147,12 +168,11 @@ class Distances(Measurement):
     rows: Any = None
     guess: Any = None
 
-    what = "Distances"
     width = 1
-    _per_measurement = ("d", "rows")
+    _measured = "d"
 
-    def __post_init__(self):
-        d = finite_rows(numbers(self.d, "d"), "d")
+    def __post_init__(self) -> None:
+        d = finite_rows(self.d, "d")
         if d.ndim != 1:
             raise ShapeError(f"d: expected distances (N,), got shape {d.shape}")
         if (d <= 0).any():
@@ -161,48 +181,37 @@ class Distances(Measurement):
         point = _position(numbers(self.point, "point"), "point")
         centre = _position(self.centre, "centre")
         guess = _position(self.guess, "guess")
-        self._set_fields(
-            d=d.copy(),
-            centre=centre,
-            point=point,
-            covariance=covariances(self.covariance, len(d), 1, self.what),
-            rows=parse_rows(self.rows, len(d)),
-            unknown_frames=(UnknownFrame("centre", 3, guess),) if centre is None else (),
-        )
-
-    def __len__(self) -> int:
-        return len(self.d)
+        unknown: tuple[UnknownFrame, ...] = ()
+        if centre is None:
+            unknown = (UnknownFrame("centre", 3, guess),)
+        self._keep(d=d, centre=centre, point=point, unknown_frames=unknown)
 
     def _point(self, T: Array) -> Array:
         """The point y (N, 3) in the base frame."""
         return T[:, :3, :3] @ self.point + T[:, :3, 3]
 
-    def _centre(self, frame_values: Sequence[Array]) -> Array:
-        return frame_values[0] if frame_values else self.centre
+    def _away(self, y: Array, frame_values: Sequence[Array]) -> Array:
+        """Vectors (N, 3) from the centre to y."""
+        return y - (frame_values[0] if frame_values else self.centre)
 
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
-        """d_model - d_measured (N, 1)."""
-        away = self._point(T) - self._centre(frame_values)
+        """Errors d_model − d_measured (N, 1)."""
+        away = self._away(self._point(T), frame_values)
         return (np.linalg.norm(away, axis=1) - self.d)[:, None]
 
     def jacobian(
         self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
     ) -> tuple[Array, list[Array]]:
-        """With u the unit vector from c to y: u . (v + omega x y), and -u for c. At y = c there is
-        no u: zero.
-        """
+        """Derivatives u · (v + ω × y), and −u for c, u the unit vector from c to y; 0 at y = c."""
         y = self._point(T)
-        away = y - self._centre(frame_values)
+        away = self._away(y, frame_values)
         size = np.linalg.norm(away, axis=1, keepdims=True)
         u = np.divide(away, size, out=np.zeros_like(away), where=size > 0)[:, None]
         return u @ _velocities(D, y), [-u for _ in frame_values]
 
     def guesses(self, T: Array) -> list[Array]:
-        """The point as given, or that whose distances to the nominal positions are nearest to the
-        measured ones.
-        """
+        """The centre as given, or the one nearest to the measured distances."""
         if not self.unknown_frames:
             return []
-        if self.unknown_frames[0].guess is not None:
-            return [self.unknown_frames[0].guess]
-        return [initial_guess.centre(self._point(T), self.d)]
+        guess = self.unknown_frames[0].guess
+        return [initial_guess.centre(self._point(T), self.d) if guess is None else guess]

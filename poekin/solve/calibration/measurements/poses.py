@@ -3,23 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ..fit import initial_guess
-from .measurement import (
-    Measurement,
-    covariances,
-    make_unknown_frame,
-    parse_rows,
-    pose_rows,
-    transform_twists,
-)
+from .measurement import Measurement, make_unknown_frame, pose_rows
 
 
 def pose_errors(T: Array, measured: Array) -> Array:
@@ -43,40 +35,47 @@ def pose_error_jacobian(T: Array, errors: Array, D: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Poses(Measurement):
-    """Poses of the tip in the base frame.
+    """Measured poses of the tip in the base frame, T = f(q).
 
-    T (N, 4, 4) = T_base_tip, m; covariance (6, 6) or (N, 6, 6) of the errors: the rotation vector
-    of R_model R_measured^T, then p_model - p_measured, both in base axes, rad^2 and m^2 (None: two
-    standard deviations, of angles and of lengths, are estimated from the residuals); rows (N,): the
-    row of q of each, default all in order.
-    Raises: ShapeError, PoseError, InputError.
+    Parameters
+    ----------
+    T : (N, 4, 4) array_like
+        Measured T_base_tip, m.
+    covariance : (6, 6) or (N, 6, 6) array_like, optional
+        Covariance of the errors, rad² and m²: the rotation vector of R_model R_measuredᵀ, then
+        p_model − p_measured, both in base axes. By default two standard deviations, of angles and
+        of lengths, are estimated from the residuals.
+    rows : (N,) array_like of int, optional
+        Row of q of each measurement; all in order by default.
+
+    Raises
+    ------
+    ShapeError
+        If an array has another shape.
+    PoseError
+        If an element of T is no pose.
+    InputError
+        If a number is not finite, or a covariance is not symmetric and positive definite.
     """
 
     T: Any
     covariance: Any = None
     rows: Any = None
 
-    what = "Poses"
     width = 6
     angular = 3
-    _per_measurement = ("T", "rows")
 
-    def __post_init__(self):
-        T = pose_rows(self.T, "T")
-        C = covariances(self.covariance, len(T), 6, self.what)
-        self._set_fields(T=T, covariance=C, rows=parse_rows(self.rows, len(T)))
-
-    def __len__(self) -> int:
-        return len(self.T)
+    def __post_init__(self) -> None:
+        self._keep(T=pose_rows(self.T, "T"))
 
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
-        """See `pose_errors`."""
+        """Errors (N, 6), the rotation vector of R_model R_measuredᵀ and p_model − p_measured."""
         return pose_errors(T, self.T)
 
     def jacobian(
         self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
     ) -> tuple[Array, list[Array]]:
-        """See `pose_error_jacobian`."""
+        """Turned by J_l⁻¹(w) ω, w the rotation vector of the error, and moved by v + ω × p."""
         return pose_error_jacobian(T, errors, D), []
 
 
@@ -85,41 +84,34 @@ class _HandEye(Measurement):
 
     width = 6
     angular = 3
-    _per_measurement = ("T", "rows")
+    frames: ClassVar[dict[str, str]]  # the fields that say what is known of X and Z, in this order
     T: Array
 
-    def _set(self, T: ArrayLike, name: str, **said: ArrayLike | str | None) -> None:
-        """Keep T, and what is said of X and Z, in this order, by the names of these frames."""
-        poses = pose_rows(T, name)
-        C = covariances(self.covariance, len(poses), 6, self.what)
+    def __post_init__(self) -> None:
+        name = fields(self)[0].name  # type: ignore[arg-type]
+        said = {frame: getattr(self, own) for frame, own in self.frames.items()}
         unknown = tuple(make_unknown_frame(frame, value) for frame, value in said.items())
-        rows = parse_rows(self.rows, len(poses))
-        self._set_fields(T=poses, covariance=C, rows=rows, unknown_frames=unknown)
-
-    def __len__(self) -> int:
-        return len(self.T)
+        self._keep(T=pose_rows(getattr(self, name), name), unknown_frames=unknown)
 
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
-        """See `pose_errors`, in the axes of the board or camera that stands still."""
+        """Errors (N, 6) as of `Poses`, in the axes of the board or camera that stands still."""
         X, Z = frame_values
         return pose_errors(se3.inverse(X) @ T @ Z, self.T)
 
     def jacobian(
         self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
     ) -> tuple[Array, list[Array]]:
-        """With G = X^-1 T Z: dG G^-1 = Ad(X^-1) D; X <- X e^xi gives -xi, Z <- Z e^zeta gives Ad(G)
-        zeta.
-        """
+        """With G = X⁻¹ T Z: dG G⁻¹ is Ad(X⁻¹) D, −ξ of X <- X e^[ξ], Ad(G) ζ of Z <- Z e^[ζ]."""
         X, Z = frame_values
         back = se3.inverse(X)
         G = back @ T @ Z
         fixed = np.broadcast_to(-np.eye(6), (len(G), 6, 6))
-        both = np.concatenate([transform_twists(back, D), fixed, se3.adjoint(G)], axis=2)
+        both = np.concatenate([se3.adjoint(back) @ D, fixed, se3.adjoint(G)], axis=2)
         jacobian = pose_error_jacobian(G, errors, both)
         return jacobian[..., :-12], [jacobian[..., -12:-6], jacobian[..., -6:]]
 
     def guesses(self, T: Array) -> list[Array]:
-        """X and Z as given; what is not, by the linear method of `initial_guess.hand_eye`."""
+        """Frames as given, else by hand-eye calibration or the mean of the measured poses."""
         X, Z = (u.guess for u in self.unknown_frames)
         if X is not None and Z is not None:
             return [X, Z]
@@ -132,13 +124,27 @@ class _HandEye(Measurement):
 
 @dataclass(frozen=True, eq=False)
 class EyeInHand(_HandEye):
-    """A camera on the tip that sees a board which stands still: T_board_camera = T_base_board^-1
-    f(q) T_tip_camera.
+    """Poses of a board that stands still, seen by a camera on the tip.
 
-    T_board_camera (N, 4, 4), m; covariance and rows as `Poses`, the errors in the board's axes;
-    board, camera: rough T_base_board and T_tip_camera where known, else a linear initial guess is
-    made; or a name, such as "wrist": sets in which it is the same have this frame in common.
-    Raises: as `Poses`.
+    The model is T_board_camera = T_base_board⁻¹ f(q) T_tip_camera; both frames are estimated
+    jointly.
+
+    Parameters
+    ----------
+    T_board_camera : (N, 4, 4) array_like
+        Measured poses of the camera in the frame of the board, m.
+    covariance : (6, 6) or (N, 6, 6) array_like, optional
+        As of `Poses`, the errors in the axes of the board.
+    rows : (N,) array_like of int, optional
+        Row of q of each measurement; all in order by default.
+    board, camera : (4, 4) array_like or str, optional
+        Rough T_base_board and T_tip_camera, m, by default guessed linearly; or a name, such as
+        "wrist": sets in which it is the same have this frame in common.
+
+    Raises
+    ------
+    ShapeError, PoseError, InputError
+        As `Poses`.
     """
 
     T_board_camera: Any
@@ -147,23 +153,32 @@ class EyeInHand(_HandEye):
     board: Any = None
     camera: Any = None
 
-    what = "EyeInHand"
-
-    def __post_init__(self):
-        self._set(
-            self.T_board_camera, "T_board_camera", T_base_board=self.board, T_tip_camera=self.camera
-        )
+    frames: ClassVar = {"T_base_board": "board", "T_tip_camera": "camera"}
 
 
 @dataclass(frozen=True, eq=False)
 class EyeToHand(_HandEye):
-    """A camera that stands still and sees a board on the tip: T_camera_board = T_base_camera^-1
-    f(q) T_tip_board.
+    """Poses of a board on the tip, seen by a camera that stands still.
 
-    T_camera_board (N, 4, 4), m; covariance and rows as `Poses`, the errors in the camera's axes;
-    camera, board: rough T_base_camera and T_tip_board where known, else a linear initial guess is
-    made; or names, as of `EyeInHand`.
-    Raises: as `Poses`.
+    The model is T_camera_board = T_base_camera⁻¹ f(q) T_tip_board; both frames are estimated
+    jointly.
+
+    Parameters
+    ----------
+    T_camera_board : (N, 4, 4) array_like
+        Measured poses of the board in the frame of the camera, m.
+    covariance : (6, 6) or (N, 6, 6) array_like, optional
+        As of `Poses`, the errors in the axes of the camera.
+    rows : (N,) array_like of int, optional
+        Row of q of each measurement; all in order by default.
+    camera, board : (4, 4) array_like or str, optional
+        Rough T_base_camera and T_tip_board, m, by default guessed linearly; or a name, as of
+        `EyeInHand`.
+
+    Raises
+    ------
+    ShapeError, PoseError, InputError
+        As `Poses`.
     """
 
     T_camera_board: Any
@@ -172,9 +187,4 @@ class EyeToHand(_HandEye):
     camera: Any = None
     board: Any = None
 
-    what = "EyeToHand"
-
-    def __post_init__(self):
-        self._set(
-            self.T_camera_board, "T_camera_board", T_base_camera=self.camera, T_tip_board=self.board
-        )
+    frames: ClassVar = {"T_base_camera": "camera", "T_tip_board": "board"}
