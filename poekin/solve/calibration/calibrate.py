@@ -11,6 +11,7 @@ from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.provenance import warn
+from ..option_checks import one_of, whole
 from .calibration import Calibration
 from .diagnostics import cross_validation, explanation, misfit, units
 from .diagnostics.cross_validation import CrossValidation
@@ -95,9 +96,9 @@ def calibrate(
         )
     q = parse_readings(chain, q)
     sets = parse_measurements(measurements, len(q))
-    _one_of(loss, LOSSES, "loss")
-    _one_of(on_rank_deficiency, _ON_RANK_DEFICIENCY, "on_rank_deficiency")
-    _check_iterations(max_iterations)
+    one_of(loss, LOSSES, "loss")
+    one_of(on_rank_deficiency, _ON_RANK_DEFICIENCY, "on_rank_deficiency")
+    whole(max_iterations, "max_iterations", 1)
     problem = units.build_problem(ErrorModel(chain, parameters, joints), q, sets)
     sigma = _prior(prior, problem)
     identification, free = identify_directions(problem)
@@ -172,19 +173,6 @@ def _residuals(problem: Problem, p: Array) -> Residuals:
     return residuals(problem.sets, problem.rows, problem.errors(p))
 
 
-def _one_of(value: object, known: Sequence[str], what: str) -> None:
-    if value not in known:
-        every = ", ".join(map(repr, known))
-        raise InputError(f"{what}: expected one of {every}, got {safe_repr(value)}")
-
-
-def _check_iterations(most: Any) -> None:
-    if not isinstance(most, (int, np.integer)) or isinstance(most, bool) or most < 1:
-        raise InputError(
-            f"max_iterations: expected a whole number from 1 on, got {safe_repr(most)}"
-        )
-
-
 def _prior(prior: Mapping[str, float] | None, problem: Problem) -> Array | None:
     """Standard deviations (P,), infinite for unknown frames and units that are not named."""
     if prior is None:
@@ -195,7 +183,7 @@ def _prior(prior: Mapping[str, float] | None, problem: Problem) -> Array | None:
             f"{safe_repr(prior)}"
         )
     for unit, sigma in prior.items():
-        _one_of(unit, _UNITS, "prior")
+        one_of(unit, _UNITS, "prior")
         number = isinstance(sigma, (int, float, np.number)) and not isinstance(sigma, bool)
         if not number or not 0 < sigma < np.inf:
             raise InputError(

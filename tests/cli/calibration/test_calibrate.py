@@ -426,7 +426,7 @@ def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--kind", "pose"], "--kind: expected one of poses, eye-in-hand,"),
+        (["--kind", "pose"], "--kind: expected one of 'poses', 'eye-in-hand',"),
         (
             ["--kind", "points"],
             "the columns T00 ... T23 are those of poses or eye-in-hand or eye-to-hand",

@@ -146,24 +146,24 @@ BAD: dict[str, tuple] = {
         "p: expected positions (N, 1, 3), of 1 points, got shape (12, 2, 3)",
     ),
     "points of four numbers": (
-        lambda: Points(AT, np.ones((2, 4))),
+        lambda: Points(AT, [[1.0] * 4] * 2),
         ShapeError,
-        "points: expected finite (3,) or (k, 3) in the tip frame, got shape (2, 4)",
+        "points: expected finite (3,) or (k, 3) in the tip frame, got [[1.0, 1.0, 1.0, 1.0], [1.0, 1.0, 1.0, 1.0]]",
     ),
     "a point of two numbers": (
         lambda: Points(AT, [1.0, 2.0]),
         ShapeError,
-        "points: expected finite (3,) or (k, 3) in the tip frame, got shape (1, 2)",
+        "points: expected finite (3,) or (k, 3) in the tip frame, got [1.0, 2.0]",
     ),
     "no points": (
         lambda: Points(AT[:, :0], np.ones((0, 3))),
         ShapeError,
-        "points: expected finite (3,) or (k, 3) in the tip frame, got shape (0, 3)",
+        "points: expected finite (3,) or (k, 3) in the tip frame, got array([], shape=(0, 3), dtype=float64)",
     ),
     "a point that is not finite": (
         lambda: Points(AT[:, 0], [0.0, np.inf, 0.0]),
         ShapeError,
-        "points: expected finite (3,) or (k, 3) in the tip frame, got shape (1, 3)",
+        "points: expected finite (3,) or (k, 3) in the tip frame, got [0.0, inf, 0.0]",
     ),
     "positions of four axes": (
         lambda: Points(AT[None], TOOL),

@@ -11,6 +11,7 @@ from ....errors import InputError, ShapeError, quote, safe_repr
 from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.coordinates import coordinates
+from ...option_checks import is_whole, one_of, whole
 from ..diagnostics.identification import RANK, identification_matrix, identify_directions
 from ..measurements.measurement import Measurement
 from ..measurements.points import Points
@@ -69,7 +70,10 @@ def choose_poses(
     """
     if not isinstance(chain, Chain):
         raise InputError(f"choose_poses: expected a Chain, got {safe_repr(chain)}")
-    _check_options(n, n_random, seed, criterion)
+    whole(n, "n", 1)
+    whole(n_random, "n_random", 1)
+    whole(seed, "seed", 0)
+    one_of(criterion, CRITERIA, "criterion")
     q = _candidates(chain, candidates, seed)
     if n > len(q):
         raise InputError(f"n: expected at most the {len(q)} candidates, got {n}")
@@ -102,24 +106,9 @@ def choose_poses(
     )
 
 
-def _check_options(n: Any, n_random: Any, seed: Any, criterion: Any) -> None:
-    for value, what in ((n, "n"), (n_random, "n_random")):
-        if not _is_count(value):
-            raise InputError(f"{what}: expected a whole number above 0, got {safe_repr(value)}")
-    if not (_is_count(seed) or seed == 0):
-        raise InputError(f"seed: expected a whole number from 0 up, got {safe_repr(seed)}")
-    if criterion not in CRITERIA:
-        known = ", ".join(map(repr, CRITERIA))
-        raise InputError(f"criterion: expected one of {known}, got {safe_repr(criterion)}")
-
-
-def _is_count(value: Any) -> bool:
-    return isinstance(value, (int, np.integer)) and not isinstance(value, bool) and bool(value > 0)
-
-
 def _candidates(chain: Chain, candidates: Any, seed: int) -> Array:
     """The candidates (K, m), finite and within the limits."""
-    if _is_count(candidates):
+    if is_whole(candidates, 1):
         return chain.random(seed, int(candidates))
     scalar = candidates is None or isinstance(candidates, (str, int, float, np.generic))
     q = np.empty(()) if scalar else coordinates(candidates, chain.q_names, "candidates")

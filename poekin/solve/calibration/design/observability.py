@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups.arrays import numbers
+from ...option_checks import is_whole, whole
 
 
 class ObservabilityIndices(NamedTuple):
@@ -65,14 +66,11 @@ def observability_indices(J: ArrayLike, m: int, rank: int | None = None) -> Obse
         raise ShapeError(f"J: expected a matrix (..., rows, P), got shape {matrix.shape}")
     most = matrix.shape[-1]
     L = most if rank is None else rank
-    if not isinstance(L, (int, np.integer)) or isinstance(L, bool) or not 1 <= L <= most:
+    if not is_whole(L, 1) or most < L:
         raise InputError(
             f"rank: expected a whole number from 1 to the {most} parameters, got {safe_repr(rank)}"
         )
-    if not isinstance(m, (int, np.integer)) or isinstance(m, bool) or m < 1:
-        raise InputError(
-            f"m: expected the number of measured configurations, at least 1, got {safe_repr(m)}"
-        )
+    whole(m, "m", 1)
     if matrix.shape[-2] < L:
         return from_singular_values(np.zeros((*matrix.shape[:-2], L)), m)
     return from_singular_values(np.linalg.svd(matrix, compute_uv=False)[..., :L], m)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ....errors import InputError, safe_repr
 from ....groups.arrays import Array
+from ...option_checks import is_whole, whole
 from ..fit.fitting import fit_frames
 from ..fit.refit import fit_with_refit
 from ..measurements.measurement import Rows
@@ -63,10 +64,8 @@ def _held_out_residuals(test: Problem, p: Array, chosen: Rows) -> Residuals:
 
 def check_folds(folds: Any, count: int, seed: Any) -> int:
     """Number of folds of `count` readings, 0 for none. Raises: InputError, of the seed too."""
-    if not isinstance(seed, (int, np.integer)) or isinstance(seed, bool) or seed < 0:
-        raise InputError(f"seed: expected a whole number from 0 on, got {safe_repr(seed)}")
-    whole = isinstance(folds, (int, np.integer)) and not isinstance(folds, bool)
-    if not whole or folds < 0 or folds == 1:
+    whole(seed, "seed", 0)
+    if not is_whole(folds, 0) or folds == 1:
         raise InputError(f"folds: expected 0 for none, or 2 and more, got {safe_repr(folds)}")
     if folds > count:
         raise InputError(f"folds: {folds} parts of {count} readings; folds=0 holds none out")

@@ -25,9 +25,10 @@ from ....formats.text.atomic_write import write_whole
 from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.coordinates import coordinates
+from ...option_checks import one_of
 from . import columns
 from .columns import Layout
-from .measurement import Measurement
+from .measurement import Measurement, MeasurementKind
 from .points import Distances, Points
 from .poses import EyeInHand, EyeToHand, Poses
 
@@ -56,29 +57,56 @@ def read(
     path: Path,
     chain: Chain,
     *,
-    kind: str | None = None,
+    kind: MeasurementKind | None = None,
     ignore: Iterable[str] = (),
     progress: csv_rows.Progress | None = None,
     **known: Any,
 ) -> tuple[Array, Measurement]:
-    """Joint readings q (N, m), rad or m, and the measurements made at them, out of a CSV file with
-    one of them a line.
+    """Joint readings and the measurements made at them, out of a CSV file with one a line.
 
     The first line names the columns, in any order. Coordinates: by the chain's q_names, or q1 ...
     qm in their order. Measurement, all in m: T00 ... T23 or T00 ... T33 (T, row by row), or x, y,
     z, qw, qx, qy, qz (unit quaternion): poses; x, y, z or px, py, pz: one point; x1, y1, z1, x2,
     ...: several; distance. Units are not converted.
 
-    Parameters: path; chain; kind, "poses" (what poses are where it is not said), "eye-in-hand",
-    "eye-to-hand",
-    "points" or "distances"; ignore, columns that are passed over, whatever is in them;
-    progress(characters read, size); known, what else the kind of measurement is made of:
-    covariance, points, frame, centre, point, board, camera. Returns: q and Poses, EyeInHand,
-    EyeToHand, Points or Distances.
-    Raises: FileError; UnknownName for a column that is none of these, InputError for one that is
-    missing or there twice, for a kind that does not fit, and with file and line for a cell that is
-    empty, no number or not finite; PoseError with file and line. Accuracy: the numbers in the file.
-    Source: none, a format of poekin's own.
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Path of the file.
+    chain : Chain
+        The arm whose coordinates were read.
+    kind : {"poses", "eye-in-hand", "eye-to-hand", "points", "distances"}, optional
+        Kind of the measurements; by default as the columns say, and "poses" of poses.
+    ignore : str or iterable of str, default ()
+        Columns that are passed over, whatever is in them.
+    progress : callable, optional
+        Called as progress(characters read, size).
+    **known : Any
+        Other arguments of the kind of measurement: covariance, points, frame, centre, point,
+        guess, board, camera.
+
+    Returns
+    -------
+    q : (N, m) ndarray
+        Joint readings, rad or m.
+    measurements : Poses, EyeInHand, EyeToHand, Points or Distances
+        The measurements; of poses, as of T_base_tip in the base frame.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read.
+    UnknownName
+        If a column is none of these, or `known` names nothing that the kind has.
+    InputError
+        If a column is missing or there twice, the kind does not fit, or, with file and line, a cell
+        is empty, no number or not finite.
+    PoseError
+        With file and line, if the columns make no pose.
+
+    Notes
+    -----
+    Accuracy: the numbers in the file. Source: none, a format of poekin's own.
     """
     table = read_table(path, chain, kind=kind, ignore=ignore, progress=progress)
     return table.q, make_measurement(table, kind, known)
@@ -88,15 +116,15 @@ def read_table(
     path: Path,
     chain: Chain,
     *,
-    kind: str | None = None,
+    kind: MeasurementKind | None = None,
     ignore: Iterable[str] = (),
     progress: csv_rows.Progress | None = None,
 ) -> Table:
     """The numbers of a file of measurements, before anything is made of them; the file is read
     once, so it may be a pipe. Parameters and errors: those of `read`.
     """
-    if kind is not None and kind not in KINDS:
-        raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {safe_repr(kind)}")
+    if kind is not None:
+        one_of(kind, KINDS, "kind")
     ignore = (ignore,) if isinstance(ignore, str) else tuple(ignore)
     names: tuple[str, ...] = ()
     layout = columns.EMPTY
@@ -125,13 +153,43 @@ def read_table(
 
 
 def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
-    """Write measurements and the joint readings they were made at as `read` reads them, to the last
-    bit.
+    """Write measurements and the joint readings they were made at as `read` reads them.
 
-    The kind, covariances and what is known of points and frames are not in the file; of q (N, m)
-    the rows are written that the measurement has. The file appears whole or not at all.
-    Raises: ShapeError, InputError, FileError. Accuracy: exact. Source: none, a format of poekin's
-    own.
+    Kind, covariances and what is known of points and frames are not in the file.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Path of the file, which appears whole or not at all.
+    chain : Chain
+        The arm whose coordinates were read.
+    q : (N, m) array_like or dict
+        Joint readings, rad or m; those are written that the measurement has.
+    measurement : Poses, EyeInHand, EyeToHand, Points or Distances
+        Measurements at rows of q.
+
+    Raises
+    ------
+    ShapeError
+        If q does not have a row for each measurement.
+    InputError
+        If q is not finite, or `measurement` is none.
+    FileError
+        If the file cannot be written.
+
+    Notes
+    -----
+    Accuracy: exact, read back to the last bit. Source: none, a format of poekin's own.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> made = pk.calibration.simulated(arm, 20, kind="points")
+    >>> pk.calibration.write("points.csv", arm, made.q, made.measurements)
+    >>> q, points = pk.calibration.read("points.csv", arm)
+    >>> bool((q == made.q).all()), len(points)
+    (True, 20)
     """
     measured, values = _columns(measurement)
     q = coordinates(q, chain.q_names)

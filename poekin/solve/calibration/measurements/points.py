@@ -30,7 +30,7 @@ def parse_points(points: ArrayLike) -> Array:
     body = np.atleast_2d(numbers(points, "points"))
     if body.ndim != 2 or body.shape[1] != 3 or not len(body) or not np.isfinite(body).all():
         raise ShapeError(
-            f"points: expected finite (3,) or (k, 3) in the tip frame, got shape {body.shape}"
+            f"points: expected finite (3,) or (k, 3) in the tip frame, got {safe_repr(points)}"
         )
     return body.copy()
 

@@ -1,11 +1,9 @@
-"""Simulated measurements of an arm that is not quite as it is described: what a calibration should
-find is known.
-"""
+"""Simulated measurements of an arm that is not quite as it is described, with the truth."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,27 +14,44 @@ from ....groups.arrays import Array, numbers
 from ....model.chain import Chain
 from ....model.checks import read_only
 from ....model.coordinates import coordinates
+from ....results import Result
+from ...option_checks import one_of, whole
 from ..model.error_model import ErrorModel
 from .data import KINDS
-from .measurement import Measurement
-from .points import Distances, Points
+from .measurement import Measurement, MeasurementKind
+from .points import Distances, Points, parse_points
 from .poses import EyeInHand, EyeToHand, Poses
 
-GROSS_TURN, GROSS_SHIFT = (0.1, 1.0), (0.05, 0.5)
-"""Bounds of how far a gross outlier is off: its angle in rad, its place in reaches of the arm."""
+GROSS_TURN = (0.1, 1.0)
+"""Bounds of the angle in rad by which a gross outlier is off."""
+GROSS_SHIFT = (0.05, 0.5)
+"""Bounds of the distance in reaches of the arm by which a gross outlier is off."""
 
 
 @dataclass(frozen=True, eq=False)
-class Simulated:
-    """Measurements and the truth behind them.
+class Simulated(Result):
+    """Simulated measurements and the truth behind them.
 
-    truth, the Chain that was measured; parameters (P,), its errors in the order of `calibrate`'s
-    "screws" and "home", rad and m; q (n, m), the readings; measurements, one set with its
-    covariance; frames, the true value of each frame (4, 4) or point (3,) that the set does not
-    know, by name (T_base_board, T_tip_camera, ..., centre); points (k, 3), of the tool, m, in the
-    tip frame, None where poses are measured; outliers (n,), True for the rows that are
-    grossly wrong.
+    Attributes
+    ----------
+    truth : Chain
+        The arm that was measured.
+    parameters : (P,) ndarray
+        Its errors, "screws" and "home" in the order of `calibrate`, rad and m.
+    q : (n, m) ndarray
+        Joint readings, rad or m.
+    measurements : Measurement
+        One set, with its covariance where there is noise.
+    frames : dict of str to ndarray
+        True value of each frame (4, 4) or point (3,), m, that the set does not know, by name
+        (T_base_board, T_tip_camera, ..., centre).
+    points : (k, 3) ndarray or None
+        Points of the tool in the tip frame, m; None where poses are measured.
+    outliers : (n,) ndarray of bool
+        True for the rows that are grossly wrong.
     """
+
+    left_out: ClassVar = ("truth", "measurements")
 
     truth: Chain
     parameters: Array
@@ -48,22 +63,28 @@ class Simulated:
 
     @property
     def X(self) -> Array | None:
-        """T_base_fixed (4, 4) of what stands still: board, camera or device. None where nothing
-        does.
-        """
-        return next((T for name, T in self.frames.items() if name.startswith("T_base")), None)
+        """Pose T_base_fixed (4, 4) of the board, camera or device that stands still, or None."""
+        return self._frame("T_base")
 
     @property
     def Z(self) -> Array | None:
-        """T_tip_moving (4, 4) of the camera or board on the tip. None where there is none."""
-        return next((T for name, T in self.frames.items() if name.startswith("T_tip")), None)
+        """Pose T_tip_moving (4, 4) of the camera or board on the tip, or None."""
+        return self._frame("T_tip")
+
+    def _frame(self, beginning: str) -> Array | None:
+        return next((T for name, T in self.frames.items() if name.startswith(beginning)), None)
+
+    def summary(self) -> str:
+        """Number and kind of the measurements, and number of gross outliers, as text."""
+        kind = self.measurements.what
+        return f"{len(self.q)} simulated {kind}, {self.outliers.sum()} of them gross outliers"
 
 
 def simulated(
     chain: Chain,
     n: int,
     *,
-    kind: str = "poses",
+    kind: MeasurementKind = "poses",
     tilt: float = 2e-3,
     shift: float = 1e-3,
     noise: tuple[float, float] = (1e-4, 1e-4),
@@ -73,37 +94,75 @@ def simulated(
     points: ArrayLike = (0.0, 0.0, 0.0),
     unknown: bool = False,
 ) -> Simulated:
-    """n measurements of an arm like `chain` but for its axes and home pose, by the model that
-    `calibrate` has of errors.
+    """Simulated measurements of an arm that differs from `chain` by its axes and home pose.
 
-    The truth: A_i <- Ad(e^eta_i) A_i, M <- M e^eta with the minimal parameters of `calibrate`
-    ("screws": two tilts and two shifts across each axis, in the joint's own frame; "home": six),
-    tilts normal of standard deviation `tilt`, shifts of `shift`. A measured pose: R_measured =
-    e^[w] R, p_measured = p + e, w and e normal with standard deviations noise = (rad, m) along each
-    axis of the frame in which it is measured; a point p + e; a distance d + e;
-    q is read without error. Gross outliers, round(outliers n) rows drawn at random, are turned by
-    0.1 to 1 rad about any axis and moved by 0.05 to 0.5 reaches in any direction, uniformly (a
-    distance: longer, or shorter where it
-    stays positive).
+    The true arm is A_i <- Ad(e^[η_i]) A_i, M <- M e^[η] with the minimal parameters of `calibrate`.
+    Noise is normal: a measured pose is R_measured = e^[w] R, p_measured = p + e in the frame in
+    which it is measured, a point p + e, a distance d + e; q is read without error.
 
-    Parameters: chain, the nominal arm; n, how many; kind, "poses", "eye-in-hand", "eye-to-hand",
-    "points" or "distances"; tilt, rad; shift, m; noise; outliers, their part, 0 <= outliers < 1;
-    seed: the same one gives the same truth, frames and q whatever is measured of them, and how
-    exactly; q (n, m), drawn within the limits where it is not given; points (3,) or (k, 3), of the
-    tool, in the tip frame, m (the first of them for distances); unknown, whether the points stand
-    in a device's frame, the distances' centre is not known, and calibration has to find it. The
-    frames of cameras and boards are never known. Without noise no covariance is said.
-    Returns: Simulated. Raises: InputError, ShapeError. Accuracy: axes stay unit and pitches as they
-    are to 1e-15. Source: Park 1994, Section II; the errors are those of `Poses`, `Points`,
-    `Distances`, `EyeInHand`, `EyeToHand`.
+    Parameters
+    ----------
+    chain : Chain
+        The nominal arm.
+    n : int
+        Number of measurements.
+    kind : {"poses", "eye-in-hand", "eye-to-hand", "points", "distances"}, default "poses"
+        Kind of the measurements.
+    tilt, shift : float
+        Standard deviations of the errors of the arm, rad and m.
+    noise : (2,) tuple of float
+        Standard deviations of w (rad) and e (m) along each axis; without noise the measurements
+        have no covariance.
+    outliers : float, default 0
+        Part of the rows, 0 <= outliers < 1, that are grossly wrong: turned by 0.1 to 1 rad about
+        any axis and moved by 0.05 to 0.5 reaches in any direction, uniformly (a distance: longer,
+        or shorter where it stays positive).
+    seed : int, default 0
+        Seed of all that is drawn; the same seed gives the same truth, frames and q whatever is
+        measured of them, and how exactly.
+    q : (n, m) array_like, optional
+        Joint readings, rad or m; by default drawn within the limits.
+    points : (3,) or (k, 3) array_like, default (0, 0, 0)
+        Points of the tool in the tip frame, m; the first of them for distances.
+    unknown : bool, default False
+        Whether the points stand in a device's frame, or the centre of distances is not known, so
+        that calibration has to find it. Frames of cameras and boards are never known.
+
+    Returns
+    -------
+    made : Simulated
+        The measurements and the truth.
+
+    Raises
+    ------
+    InputError
+        If an option is out of its range.
+    ShapeError
+        If q, points or noise have another shape.
+
+    Notes
+    -----
+    Accuracy: axes stay unit and pitches what they are to 1e-15. Source: Park 1994, Section II.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> made = pk.calibration.simulated(arm, 40, kind="eye-in-hand", seed=1)
+    >>> print(made)
+    40 simulated EyeInHand, 0 of them gross outliers
+    >>> sorted(made.frames)
+    ['T_base_board', 'T_tip_camera']
     """
-    noise = _check(n, kind, tilt, shift, noise, outliers, seed)
-    n = int(n)
-    body = np.atleast_2d(numbers(points, "points"))
-    if body.ndim != 2 or body.shape[1] != 3 or not len(body) or not np.isfinite(body).all():
-        raise ShapeError(
-            f"points: expected finite (3,) or (k, 3) in the tip frame, got {safe_repr(points)}"
+    _check_options(n, kind, seed)
+    deviations = _deviations(tilt, shift, noise)
+    part = numbers(outliers, "outliers")
+    if part.shape != () or not 0 <= outliers < 1:
+        raise InputError(
+            "outliers: expected a part of the measurements, 0 <= outliers < 1, got "
+            f"{safe_repr(outliers)}"
         )
+    body = parse_points(points)
     for_arm, for_frames, for_errors, for_outliers = (
         np.random.default_rng([seed, part]) for part in range(4)
     )
@@ -112,10 +171,10 @@ def simulated(
     p = np.array([sizes[parameter.unit] for parameter in model.parameters])
     p *= for_arm.normal(size=len(p))
     truth = model.chain(p)
-    q = _readings(chain, q, n, for_arm)
+    q = _readings(chain, q, int(n), for_arm)
     gross = np.zeros(n, bool)
     gross[for_outliers.permutation(n)[: round(outliers * n)]] = True
-    sensor = _Sensor(chain.reach, noise, for_errors, for_outliers, gross)
+    sensor = _Sensor(chain.reach, deviations, for_errors, for_outliers, gross)
     setup = _setup(kind, body, unknown, _random_frames(for_frames, chain.reach))
     return Simulated(
         truth=truth,
@@ -126,6 +185,9 @@ def simulated(
         points=setup.points,
         outliers=read_only(gross),
     )
+
+
+_HAND_EYE = {"eye-in-hand": EyeInHand, "eye-to-hand": EyeToHand}
 
 
 class _Frames(NamedTuple):
@@ -145,16 +207,15 @@ class _Setup(NamedTuple):
 
 
 def _setup(kind: str, body: Array, unknown: bool, frames: _Frames) -> _Setup:
-    X, Z, centre = frames
-    if kind == "eye-in-hand":
-        return _Setup(frames, {"T_base_board": X, "T_tip_camera": Z}, None)
-    if kind == "eye-to-hand":
-        return _Setup(frames, {"T_base_camera": X, "T_tip_board": Z}, None)
-    if kind == "points":
-        return _Setup(frames, {"T_base_device": X} if unknown else {}, read_only(body))
+    if kind in _HAND_EYE:
+        return _Setup(frames, dict(zip(_HAND_EYE[kind].frames, frames[:2], strict=True)), None)
+    if kind == "poses":
+        return _Setup(frames, {}, None)
+    hidden = {"T_base_device": frames.X}
     if kind == "distances":
-        return _Setup(frames, {"centre": centre} if unknown else {}, read_only(body[:1]))
-    return _Setup(frames, {}, None)
+        body = body[:1]
+        hidden = {"centre": frames.centre}
+    return _Setup(frames, hidden if unknown else {}, read_only(body))
 
 
 def _measure(kind: str, T: Array, setup: _Setup, sensor: _Sensor) -> Measurement:
@@ -163,11 +224,7 @@ def _measure(kind: str, T: Array, setup: _Setup, sensor: _Sensor) -> Measurement
     if kind == "poses":
         return Poses(sensor.poses(T), sensor.covariance(3, 3))
     if setup.points is None:
-        if kind == "eye-in-hand":
-            made = EyeInHand
-        else:
-            made = EyeToHand
-        return made(sensor.poses(se3.inverse(X) @ T @ Z), sensor.covariance(3, 3))
+        return _HAND_EYE[kind](sensor.poses(se3.inverse(X) @ T @ Z), sensor.covariance(3, 3))
     covariance = sensor.covariance(0, setup.points.size)
     if kind == "distances":
         point = setup.points[0]
@@ -253,30 +310,24 @@ def _random_frames(rng: np.random.Generator, reach: float) -> _Frames:
     return _Frames(read_only(X), read_only(Z), read_only(2.0 * reach * directions[2]))
 
 
-def _check(
-    n: Any, kind: Any, tilt: Any, shift: Any, noise: Any, outliers: Any, seed: Any
-) -> tuple[float, float]:
-    """The noise as two numbers. Raises: InputError, ShapeError."""
-    if kind not in KINDS:
-        raise InputError(f"kind: expected one of {', '.join(KINDS)}, got {safe_repr(kind)}")
-    for value, name, least in ((n, "n", 1), (seed, "seed", 0)):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-            raise InputError(
-                f"{name}: expected a whole number of at least {least}, got {safe_repr(value)}"
-            )
+def _check_options(n: Any, kind: Any, seed: Any) -> None:
+    one_of(kind, KINDS, "kind")
+    whole(n, "n", 1)
+    whole(seed, "seed", 0)
+
+
+def _deviations(tilt: Any, shift: Any, noise: Any) -> tuple[float, float]:
+    """The noise as two numbers. Raises: InputError, ShapeError, of the others too."""
     sizes = numbers(noise, "noise")
     if sizes.shape != (2,):
         raise ShapeError(
             f"noise: expected two standard deviations, (rad, m), got {safe_repr(noise)}"
         )
     turn, place = sizes.tolist()
-    for value, name in ((tilt, "tilt"), (shift, "shift"), (turn, "noise[0]"), (place, "noise[1]")):
+    named = {"tilt": tilt, "shift": shift, "noise[0]": turn, "noise[1]": place}
+    for name, value in named.items():
         if numbers(value, name).shape != () or not 0 <= value < np.inf:
             raise InputError(
                 f"{name}: expected a finite number of at least 0, got {safe_repr(value)}"
             )
-    if numbers(outliers, "outliers").shape != () or not 0 <= outliers < 1:
-        raise InputError(
-            f"outliers: expected a part of the measurements, 0 <= outliers < 1, got {safe_repr(outliers)}"
-        )
     return turn, place

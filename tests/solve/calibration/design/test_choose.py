@@ -215,11 +215,11 @@ def test_a_candidate_outside_the_limits_is_refused_with_its_row(puma, candidates
 
 WRONG = {
     "no-arm": ({"chain": "puma560"}, InputError, "choose_poses: expected a Chain, got 'puma560'"),
-    "n-zero": ({"n": 0}, InputError, "n: expected a whole number above 0, got 0"),
-    "n-bool": ({"n": True}, InputError, "n: expected a whole number above 0, got True"),
+    "n-zero": ({"n": 0}, InputError, "n: expected a whole number from 1 on, got 0"),
+    "n-bool": ({"n": True}, InputError, "n: expected a whole number from 1 on, got True"),
     "n-above": ({"n": 301}, InputError, "n: expected at most the 300 candidates, got 301"),
-    "n_random": ({"n_random": 0}, InputError, "n_random: expected a whole number above 0, got 0"),
-    "seed": ({"seed": -1}, InputError, "seed: expected a whole number from 0 up, got -1"),
+    "n_random": ({"n_random": 0}, InputError, "n_random: expected a whole number from 1 on, got 0"),
+    "seed": ({"seed": -1}, InputError, "seed: expected a whole number from 0 on, got -1"),
     "criterion": (
         {"criterion": "E"},
         InputError,

@@ -84,14 +84,14 @@ def test_fewer_rows_than_directions_see_nothing_of_some():
             0,
             None,
             InputError,
-            "m: expected the number of measured configurations, at least 1, got 0",
+            "m: expected a whole number from 1 on, got 0",
         ),
         (
             np.eye(3),
             2.0,
             None,
             InputError,
-            "m: expected the number of measured configurations, at least 1, got 2.0",
+            "m: expected a whole number from 1 on, got 2.0",
         ),
         (
             np.eye(3),
@@ -112,7 +112,7 @@ def test_fewer_rows_than_directions_see_nothing_of_some():
             True,
             None,
             InputError,
-            "m: expected the number of measured configurations, at least 1, got True",
+            "m: expected a whole number from 1 on, got True",
         ),
         (
             np.eye(3),

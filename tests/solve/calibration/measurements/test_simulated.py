@@ -193,13 +193,13 @@ def test_the_arm_the_noise_and_the_frames_are_drawn_apart():
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({"n": 0}, InputError, "n: expected a whole number of at least 1, got 0"),
-        ({"n": True}, InputError, "n: expected a whole number of at least 1, got True"),
-        ({"seed": -1}, InputError, "seed: expected a whole number of at least 0, got -1"),
+        ({"n": 0}, InputError, "n: expected a whole number from 1 on, got 0"),
+        ({"n": True}, InputError, "n: expected a whole number from 1 on, got True"),
+        ({"seed": -1}, InputError, "seed: expected a whole number from 0 on, got -1"),
         (
             {"kind": "pose"},
             InputError,
-            "kind: expected one of poses, eye-in-hand, eye-to-hand, points, distances, got 'pose'",
+            "kind: expected one of 'poses', 'eye-in-hand', 'eye-to-hand', 'points', 'distances', got 'pose'",
         ),
         ({"tilt": -1e-3}, InputError, "tilt: expected a finite number of at least 0, got -0.001"),
         ({"shift": np.nan}, InputError, "shift: expected a finite number of at least 0, got nan"),
@@ -223,7 +223,7 @@ def test_the_arm_the_noise_and_the_frames_are_drawn_apart():
             InputError,
             "outliers: expected a part of the measurements, 0 <= outliers < 1, got -0.1",
         ),
-        ({"seed": True}, InputError, "seed: expected a whole number of at least 0, got True"),
+        ({"seed": True}, InputError, "seed: expected a whole number from 0 on, got True"),
         ({"tilt": [0, 0]}, InputError, "tilt: expected a finite number of at least 0, got [0, 0]"),
         (
             {"points": [[np.nan, 0, 0]]},
