@@ -45,6 +45,11 @@ class Result:
         -------
         text : str
             JSON without NaN or Infinity, which are null.
+
+        Raises
+        ------
+        TypeError
+            If a field is no plain data.
         """
         return json.dumps(self.to_dict(), indent=indent, allow_nan=False)
 
@@ -60,6 +65,8 @@ def plain(value: object) -> object:
         return {f.name: plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, tuple) and hasattr(value, "_asdict"):
+        return plain(value._asdict())
     if isinstance(value, (list, tuple)):
         return [plain(item) for item in value]
     if isinstance(value, (np.ndarray, np.generic)):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import pytest
@@ -15,6 +15,11 @@ from poekin.results import Result, plain
 @dataclass(frozen=True)
 class Part:
     names: tuple[str, ...]
+
+
+class Pair(NamedTuple):
+    left: float
+    right: tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,8 +61,9 @@ def test_a_result_in_a_result_has_what_it_derives():
         (np.int64(3), 3),
         (float("-inf"), None),
         ({1: (2, "x", None)}, {"1": [2, "x", None]}),
+        ([Pair(1.0, (2, 3))], [{"left": 1.0, "right": [2, 3]}]),
     ],
-    ids=["array", "float", "bool", "int", "not finite", "dict"],
+    ids=["array", "float", "bool", "int", "not finite", "dict", "named tuple"],
 )
 def test_numbers_become_those_of_python(value, expected):
     found = plain(value)

@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError, safe_repr
 
 
-def is_whole(value: object, least: int) -> bool:
+def is_whole(value: Any, least: int) -> bool:
     """Whether it is a whole number from `least` on; True and False are none."""
     integer = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     return integer and bool(value >= least)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import typer
@@ -18,7 +17,6 @@ from ...formats.text.atomic_write import write_whole
 from ...model.robot import Robot
 from ...solve.calibration.calibrate import calibrate
 from ...solve.calibration.calibration import Calibration
-from ...solve.calibration.diagnostics.cross_validation import CrossValidation
 from ...solve.calibration.model.residuals import Residuals
 from ...solve.calibration.report import changes, html_report
 from ...solve.calibration.report.changes import milli
@@ -145,24 +143,27 @@ def command(
         raise InputError(f"--dh: expected standard or modified, got {quote(convention)}")
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
-    options = MeasurementOptions(
+    said = MeasurementOptions(
         kind or (), point or (), centre, frame, sigma_angle, sigma_length, ignore or ()
     )
+    options: dict[str, Any] = {
+        "parameters": _listed(parameters) or ("screws", "home"),
+        "loss": loss,
+        "joints": _listed(joints),
+        "prior": _prior(prior_angle, prior_length),
+        "on_rank_deficiency": on_rank_deficiency,
+        "folds": folds,
+        "seed": seed,
+    }
     try:
-        given = measured.read(files, chain, options)
+        given = measured.read(files, chain, said)
         with Progress("calibrating") as progress:
             found = calibrate(
                 chain,
                 given.q,
                 given.sets,
-                parameters=_listed(parameters) or ("screws", "home"),
-                loss=loss,
-                joints=_listed(joints),
-                prior=_prior(prior_angle, prior_length),
-                on_rank_deficiency=on_rank_deficiency,
-                folds=folds,
-                seed=seed,
                 progress=lambda done, total: progress(done, total, "folds done"),
+                **options,
             )
     except (InputError, UnknownName) as fault:
         raise type(fault)(_as_options(str(fault))) from fault
@@ -265,47 +266,8 @@ def _document(
     found: Calibration, robot: Robot, given: Measured, written: list[str]
 ) -> dict[str, object]:
     outliers = [o._asdict() | {"source": given.sources[o.row]} for o in found.outliers]
-    return {
-        "robot": robot.name,
-        "base": found.chain.base,
-        "tip": found.chain.tip,
-        "success": found.success,
-        "measurements": len(found.after),
-        "steps": len(found.steps),
-        "loss": found.loss,
-        "identification": dataclasses.asdict(found.identification),
-        "cross_validation": _cross_validation(found.cross_validation),
-        "before": _statistics(found.before),
-        "after": _statistics(found.after),
-        "parameters": _parameters(found),
-        "frames": dict(found.frames),
-        "noise_std": [None if s is None else s._asdict() for s in found.noise_std],
-        "outliers": outliers,
-        "warnings": list(found.warnings),
-        "remarks": list(found.remarks),
-        "written": written,
-    }
-
-
-def _cross_validation(held_out: CrossValidation | None) -> dict[str, object] | None:
-    if held_out is None:
-        return None
-    return {
-        "folds": held_out.folds,
-        "before": _statistics(held_out.before),
-        "after": _statistics(held_out.after),
-    }
-
-
-def _statistics(r: Residuals) -> dict[str, float]:
-    names = ("rms_length", "median_length", "rms_angle", "median_angle")
-    return {name: getattr(r, name) for name in names}
-
-
-def _parameters(found: Calibration) -> list[dict[str, object]]:
-    values = zip(found.values, found.deviations, strict=True)
-    rows = zip(found.parameters, values, strict=True)
-    return [p._asdict() | {"value": value, "deviation": s} for p, (value, s) in rows]
+    named = {"robot": robot.name} | found.to_dict()
+    return named | {"outliers": outliers, "written": written}
 
 
 def _show(found: Calibration, robot: Robot, given: Measured) -> None:

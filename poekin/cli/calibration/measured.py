@@ -19,7 +19,7 @@ from ..output import Progress, path_text
 class MeasurementOptions(NamedTuple):
     """Options about measurements: see the help of each."""
 
-    kind: Sequence[str]
+    kind: Sequence[Any]
     point: Sequence[str]
     centre: str | None
     frame: str | None

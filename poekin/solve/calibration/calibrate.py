@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
@@ -15,20 +15,23 @@ from ..option_checks import one_of, whole
 from .calibration import Calibration
 from .diagnostics import cross_validation, explanation, misfit, units
 from .diagnostics.cross_validation import CrossValidation
-from .diagnostics.identification import Identification, check_rank, identify_directions
+from .diagnostics.identification import (
+    Identification,
+    OnRankDeficiency,
+    check_rank,
+    identify_directions,
+)
 from .fit import noise
 from .fit.fitting import Fit, fit_frames, outliers
-from .fit.losses import LOSSES
+from .fit.losses import LOSSES, LossName
 from .fit.minimise import STEPS
 from .fit.refit import fit_with_refit
 from .measurements.inputs import parse_measurements, parse_readings
 from .model.error_model import ErrorModel
+from .model.parameters import ParameterKind, Unit
 from .model.problem import Problem
 from .model.residuals import Residuals, residuals
 from .result import Outlier
-
-_UNITS = ("rad", "m", "1", "m/rad")
-_ON_RANK_DEFICIENCY = ("raise", "fix")
 
 
 def calibrate(
@@ -36,59 +39,97 @@ def calibrate(
     q: Any,
     measurements: Any,
     *,
-    parameters: Sequence[str] = ("screws", "home"),
+    parameters: Sequence[ParameterKind] = ("screws", "home"),
     joints: Sequence[str] | None = None,
-    loss: str = "linear",
-    prior: Mapping[str, float] | None = None,
-    on_rank_deficiency: str = "raise",
+    loss: LossName = "linear",
+    prior: Mapping[Unit, float] | None = None,
+    on_rank_deficiency: OnRankDeficiency = "raise",
     folds: int = 5,
     seed: int = 0,
     max_iterations: int = STEPS,
     progress: Callable[[int, int], None] | None = None,
 ) -> Calibration:
-    """Calibration of an arm from measurements: axes and home pose, how well they are known, and
-    what is better for it.
+    """Calibration of an arm from measurements: its axes and home pose, and how well they are known.
 
-        minimise  sum rho(e^T C^-1 e) + sum (p / prior)^2  over p
-        A_i <- Ad(e^eta_i) A_i,  M <- M e^eta
+    The sum of ρ(eᵀ C⁻¹ e) + (p / prior)² is minimised over the parameters p, with A_i <- Ad(e^[η_i])
+    A_i and M <- M e^[η]. Frames that a set does not know, such as board and camera, are estimated
+    jointly.
 
     Parameters
     ----------
-    chain: the nominal arm. q (N, m): joint readings, rad or m, or a dict. measurements: one set of
-    them, a list of sets (`Poses`, `Points`, `Distances`, `EyeInHand`, `EyeToHand`), or an array (N,
-    4, 4) of poses or (N, 3) of positions of the tip. Frames that a set does not know, such as board
-    and camera, are estimated jointly.
-    parameters: "screws" (4 a revolute or helical joint, 2 a prismatic one), "home" (6), "offsets"
-    and "gains" (one a coordinate: q <- (1 + g) q + o), "pitch" (one a revolute joint). joints:
-    names of the joints that may change, all by default. A joint offset tells nothing that screws
-    and home pose do not: it is for calibrating offsets alone.
-    loss: "linear", or robust: "huber", "cauchy", "tukey" (see `losses`); a measurement counts as
-    one.
-    prior: standard deviations of the arm's parameters about the nominal model by unit, {"rad":
-    1e-3, "m": 1e-3}. What it tells something of is not fixed.
-    on_rank_deficiency: "raise" an error where the measurements leave directions unobserved that
-    others of their kind would identify, or "fix" these at nominal values. Unidentifiable
-    directions, which no measurement of that kind sees, are always fixed, and
-    `identification.unidentifiable` names them.
-    folds: parts of the readings that are held out in turn, to be predicted by a calibration from
-    the others; 0 for none, as where the others were too few. seed: of the drawing of the folds.
-    progress(done, folds).
-    max_iterations: of each fit, all rounds in which the noise is estimated together.
+    chain : Chain
+        The nominal arm.
+    q : (N, m) array_like or dict
+        Joint readings, rad or m.
+    measurements : Measurement, sequence of Measurement, or array_like
+        One set of them, several (`Poses`, `Points`, `Distances`, `EyeInHand`, `EyeToHand`), or an
+        array (N, 4, 4) of poses or (N, 3) of positions of the tip in the base frame, m.
+    parameters : sequence of {"screws", "home", "offsets", "gains", "pitch"}
+        What may change: "screws" (4 a revolute or helical joint, 2 a prismatic one), "home" (6),
+        "offsets" and "gains" (one a coordinate: q <- (1 + g) q + o), "pitch" (one a revolute
+        joint). A joint offset tells nothing that screws and home pose do not: it is for calibrating
+        offsets alone. Default ("screws", "home").
+    joints : sequence of str, optional
+        Names of the joints that may change, all by default.
+    loss : {"linear", "huber", "cauchy", "tukey"}, default "linear"
+        Loss ρ; the last three are robust. A measurement counts as one.
+    prior : dict of {"rad", "m", "1", "m/rad"} to float, optional
+        Standard deviations of the arm's parameters about the nominal model by unit, such as
+        {"rad": 1e-3, "m": 1e-3}. What it tells something of is not fixed.
+    on_rank_deficiency : {"raise", "fix"}, default "raise"
+        Raise an error where the measurements leave directions unobserved that others of their kind
+        would identify, or fix these at nominal values. Unidentifiable directions, which no
+        measurement of that kind sees, are always fixed, and `identification.unidentifiable` names
+        them.
+    folds : int, default 5
+        Parts of the readings that are held out in turn, to be predicted by a calibration from the
+        others; 0 for none, as where the others were too few.
+    seed : int, default 0
+        Seed of the drawing of the folds.
+    max_iterations : int, default 100
+        Most steps of each fit, all rounds in which the noise is estimated together.
+    progress : callable, optional
+        Called as progress(done, folds).
 
-    Returns: Calibration; `success` is False where the search did not converge: then it holds the
-    best that was found.
-    A PoekinWarning, and `warnings`, say where only another tool or another arm explains the
-    measurements, such as poses between a camera and a board given as `Poses`, and where residuals
-    are larger than a given covariance says.
-    Raises: ShapeError, InputError, UnknownName: data that do not fit the arm, are not finite or not
-    in SI units, or are explained by no arm near the nominal one; too few measurements, or so few
-    without covariances that nothing says how far they scatter; parameters that are unobserved.
+    Returns
+    -------
+    found : Calibration
+        `success` is False where the search did not converge: then it holds the best that was found.
+
+    Raises
+    ------
+    ShapeError, InputError, UnknownName
+        If the data do not fit the arm, are not finite or not in SI units, or are explained by no
+        arm near the nominal one; if they are too few, or so few without covariances that nothing
+        says how far they scatter; if parameters are unobserved.
+
+    Warns
+    -----
+    PoekinWarning
+        Where only another tool or another arm explains the measurements, such as poses between a
+        camera and a board given as `Poses`, and where residuals are larger than a given covariance
+        says; `warnings` holds the same.
+
+    Notes
+    -----
     Accuracy: with exact data the pose of the calibrated arm is right to 1e-12 m; axes stay unit and
     pitches what they are to 1e-15 (tests/solve/calibration). Where the nominal arm is special, as
     with a measured point on its last axis, what the true arm shows in second order only is found
-    too, as far as it is more than noise. Source: Park 1994, Section V, the POE as the smooth parametrisation for
-    calibration; Okamura and Park 1996 for moving screws by conjugation; 4 r + 2 p + 6 parameters:
-    Everett and Hsu 1988.
+    too, as far as it is more than noise. Source: Park 1994, Section V, the POE as the smooth
+    parametrisation for calibration; Okamura and Park 1996 for moving screws by conjugation; 4 r +
+    2 p + 6 parameters: Everett and Hsu 1988.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> made = pk.calibration.simulated(arm, 40, seed=2)
+    >>> found = pk.calibrate(arm, made.q, made.measurements)
+    >>> found.success, found.identification.rank
+    (True, 30)
+    >>> held_out = found.cross_validation
+    >>> held_out.after.rms_length < 0.1 * held_out.before.rms_length
+    True
     """
     if not isinstance(chain, Chain):
         raise InputError(
@@ -97,7 +138,7 @@ def calibrate(
     q = parse_readings(chain, q)
     sets = parse_measurements(measurements, len(q))
     one_of(loss, LOSSES, "loss")
-    one_of(on_rank_deficiency, _ON_RANK_DEFICIENCY, "on_rank_deficiency")
+    one_of(on_rank_deficiency, get_args(OnRankDeficiency), "on_rank_deficiency")
     whole(max_iterations, "max_iterations", 1)
     problem = units.build_problem(ErrorModel(chain, parameters, joints), q, sets)
     sigma = _prior(prior, problem)
@@ -133,7 +174,7 @@ def _result(
     fit: Fit,
     identification: Identification,
     held_out: CrossValidation | None,
-    loss: str,
+    loss: LossName,
 ) -> Calibration:
     """The calibration that a fit makes, with warnings and remarks."""
     after = _residuals(problem, fit.p)
@@ -173,7 +214,7 @@ def _residuals(problem: Problem, p: Array) -> Residuals:
     return residuals(problem.sets, problem.rows, problem.errors(p))
 
 
-def _prior(prior: Mapping[str, float] | None, problem: Problem) -> Array | None:
+def _prior(prior: Mapping[Unit, float] | None, problem: Problem) -> Array | None:
     """Standard deviations (P,), infinite for unknown frames and units that are not named."""
     if prior is None:
         return None
@@ -183,7 +224,7 @@ def _prior(prior: Mapping[str, float] | None, problem: Problem) -> Array | None:
             f"{safe_repr(prior)}"
         )
     for unit, sigma in prior.items():
-        one_of(unit, _UNITS, "prior")
+        one_of(unit, get_args(Unit), "prior")
         number = isinstance(sigma, (int, float, np.number)) and not isinstance(sigma, bool)
         if not number or not 0 < sigma < np.inf:
             raise InputError(

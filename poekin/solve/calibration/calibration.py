@@ -14,56 +14,157 @@ from ...formats.relink import relinked
 from ...formats.urdf_text import to_urdf
 from ...groups.arrays import Array
 from ...model.robot import Robot
-from .report import html_report, summary, toml_io
+from .report import document, html_report, summary, toml_io
 from .result import CalibrationData, pose_covariance
 
 
 class Calibration(CalibrationData):
-    """An arm as measurements say it is.
+    """Calibrated arm, how well it is known, and what was left over.
 
-    chain, nominal: the calibrated and the nominal arm. parameters, values (P,), covariance (P, P):
-    what moved, in each parameter's unit, unknown frames included; fixed directions have no
-    variance. frames: unknown frames (4, 4) and points (3,) by name, m. identification: what the
-    measurements identify. success: whether the search converged; steps: its history. before, after:
-    residuals on all measurements, with unknown frames fitted only and calibrated; cross_validation:
-    residuals on held-out data, None where none was. outliers. noise_std: the standard deviations
-    estimated for each set without covariances, None for the others. loss: its name. error_model: how the
-    parameters move the arm. warnings: the
-    tool, or the arm itself, is another one than the nominal, which was off by more than a tenth of
-    its reach, or residuals are larger than a covariance that was given; remarks: it is off by as
-    much, as its base is elsewhere, or residuals are smaller than a covariance.
+    Attributes
+    ----------
+    nominal, chain : Chain
+        The nominal and the calibrated arm.
+    parameters : tuple of Parameter
+        Parameters that were estimated, those of unknown frames included.
+    values : (P,) ndarray
+        Their values, each in its unit.
+    covariance : (P, P) ndarray
+        Their covariance; fixed directions have no variance.
+    frames : dict of str to ndarray
+        Unknown frames (4, 4) and points (3,), m, by name.
+    identification : Identification
+        Parameters that the measurements identify.
+    success : bool
+        Whether the search converged.
+    steps : tuple of Step
+        Its history.
+    before, after : Residuals
+        On all measurements, with unknown frames fitted only, and calibrated.
+    cross_validation : CrossValidation or None
+        Residuals on held-out data; None where none was.
+    outliers : tuple of Outlier
+        Measurements that are grossly off.
+    noise_std : tuple of NoiseEstimate or None
+        Standard deviations estimated for each set without covariances, None for the others.
+    loss : {"linear", "huber", "cauchy", "tukey"}
+        Loss that was minimised.
+    error_model : ErrorModel
+        Model by which the parameters move the arm.
+    warnings : tuple of str
+        The tool, or the arm itself, is another one than the nominal, which was off by more than a
+        tenth of its reach, or residuals are larger than a covariance that was given.
+    remarks : tuple of str
+        The nominal arm is off by as much, as its base is elsewhere, or residuals are smaller than a
+        covariance.
     """
 
     def pose_covariance(self, q: Any) -> Array:
-        """Covariance of the calibrated arm's pose at any q: C_T = D C_p D^T.
+        """Covariance of the calibrated arm's pose, C_T = D C_p Dᵀ.
 
-        Parameters: q (..., m) or a dict. Returns: (..., 6, 6), rad^2 and m^2, of the tip's rotation
-        vector and position errors, both in base axes. It knows what was fitted only: neither what
-        was fixed, nor joints that bend.
-        Raises: ShapeError, UnknownName, InputError. Accuracy: first order in the errors of the
-        parameters.
-        Source: propagation of covariance through `Chain.screw_derivatives`.
+        Parameters
+        ----------
+        q : (..., m) array_like or dict
+            Configurations, rad or m.
+
+        Returns
+        -------
+        C : (..., 6, 6) ndarray
+            Covariance of the tip's rotation vector and position errors, both in base axes, rad² and
+            m². It knows what was fitted only: neither what was fixed, nor joints that bend.
+
+        Raises
+        ------
+        ShapeError, UnknownName, InputError
+            If q does not fit the arm.
+
+        Notes
+        -----
+        Accuracy: first order in the errors of the parameters. Source: propagation of covariance
+        through `Chain.screw_derivatives`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import poekin as pk
+        >>> arm = pk.load("ur5").chain()
+        >>> made = pk.calibration.simulated(arm, 30, seed=2)
+        >>> found = pk.calibrate(arm, made.q, made.measurements, folds=0)
+        >>> C = found.pose_covariance(np.zeros(6))
+        >>> deviations = np.sqrt(np.diag(C)[3:])  # of the tip's position, m
+        >>> bool((deviations < 1e-3).all())
+        True
         """
         return pose_covariance(self, q)
 
     def compare(self) -> Comparison:
-        """`pk.compare` of the nominal and the calibrated arm: joint by joint, what is off by how
-        much.
+        """Comparison of the nominal and the calibrated arm, joint by joint.
+
+        Returns
+        -------
+        comparison : Comparison
+            As of `pk.compare`.
         """
         return compare(self.nominal, self.chain)
 
     def to_robot(self, robot: Robot) -> Robot:
-        """The robot whose branch from the chain's base to its tip moves as calibrated; see
-        `pk.relinked`.
+        """Robot whose branch from the chain's base to its tip moves as calibrated.
+
+        Parameters
+        ----------
+        robot : Robot
+            The nominal robot.
+
+        Returns
+        -------
+        calibrated : Robot
+            As of `pk.relinked`.
+
+        Raises
+        ------
+        ModelError, UnknownName
+            As `pk.relinked`.
         """
         return relinked(robot, self.chain, base=self.chain.base, tip=self.chain.tip)
 
     def to_urdf(self, robot: Robot) -> str:
-        """URDF of `to_robot(robot)`, as text. Raises: as `to_robot` and `pk.to_urdf`."""
+        """URDF of `to_robot(robot)`.
+
+        Parameters
+        ----------
+        robot : Robot
+            The nominal robot.
+
+        Returns
+        -------
+        text : str
+            The URDF.
+
+        Raises
+        ------
+        ModelError, UnknownName
+            As `to_robot` and `pk.to_urdf`.
+        """
         return to_urdf(self.to_robot(robot))
 
     def to_dh(self, convention: dh.Convention = "standard") -> FromChain:
-        """The calibrated arm as a DH table, with error, bound and warnings; see `pk.dh.from_chain`."""
+        """Calibrated arm as a DH table, with error, bound and warnings.
+
+        Parameters
+        ----------
+        convention : {"standard", "modified"}, default "standard"
+            Convention of the table.
+
+        Returns
+        -------
+        found : FromChain
+            As of `pk.dh.from_chain`.
+
+        Raises
+        ------
+        InputError
+            If the convention is none.
+        """
         return dh.from_chain(self.chain, convention=convention)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -71,8 +172,18 @@ class Calibration(CalibrationData):
 
         `calibration.load` reads it back to the last bit, and `pk.load` the calibrated chain as a
         robot.
-        Parameters: path, of the file.
-        Raises: FileError; MissingExtra without tomli-w.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+            Path of the file.
+
+        Raises
+        ------
+        FileError
+            If the file cannot be written.
+        MissingExtra
+            Without tomli-w.
         """
         toml_io.save(self, path)
 
@@ -82,12 +193,25 @@ class Calibration(CalibrationData):
         title: str | None = None,
         sources: Sequence[str] | None = None,
     ) -> None:
-        """Write a page that shows all of it: one HTML file, no scripts, nothing fetched
-        (extra `report`).
+        """Write a page that shows all of it: one HTML file, no scripts, nothing fetched.
 
-        path: of the file; title: of the page; sources: what each row of q came from, such as file
-        and line, to name outliers by.
-        Raises: ShapeError, FileError; MissingExtra without Matplotlib.
+        Parameters
+        ----------
+        path : str or os.PathLike
+            Path of the file.
+        title : str, optional
+            Title of the page.
+        sources : sequence of str, optional
+            Source of each row of q, such as file and line, by which outliers are named.
+
+        Raises
+        ------
+        ShapeError
+            If there are fewer sources than rows.
+        FileError
+            If the file cannot be written.
+        MissingExtra
+            Without Matplotlib (extra `report`).
         """
         html_report.write(self, path, title, sources)
 
@@ -95,16 +219,29 @@ class Calibration(CalibrationData):
         """Errors before and after, what could be identified, outliers and warnings, as text."""
         return summary.text_of(self)
 
-    def __str__(self) -> str:
-        return self.summary()
+    def to_dict(self) -> dict[str, object]:
+        """Statistics, parameters, frames and identification as dicts, lists and numbers, in SI."""
+        return document.document(self)
 
 
 def load(path: str | os.PathLike[str]) -> Calibration:
-    """The calibration in a file that `Calibration.save` wrote.
+    """Calibration in a file that `Calibration.save` wrote.
 
-    Parameters: path, of the file. Returns: Calibration, equal to the one that was saved to the last
-    bit.
-    Raises: FileError for a file that cannot be read; ModelError with file and key for one that is
-    no calibration, of another version, or that does not fit together.
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Path of the file.
+
+    Returns
+    -------
+    found : Calibration
+        Equal to the one that was saved to the last bit.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read.
+    ModelError
+        With file and key, if it is no calibration, of another version, or does not fit together.
     """
     return Calibration(**vars(toml_io.load(path)))

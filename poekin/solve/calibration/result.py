@@ -11,8 +11,10 @@ import numpy as np
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
+from ...results import Result
 from .diagnostics.cross_validation import CrossValidation
 from .diagnostics.identification import Identification
+from .fit.losses import LossName
 from .fit.minimise import Step
 from .fit.noise import NoiseEstimate
 from .measurements.poses import pose_error_jacobian
@@ -22,8 +24,16 @@ from .model.residuals import Residuals
 
 
 class Outlier(NamedTuple):
-    """A measurement that is off by more than one good one in 10^4 would be: its set, its index
-    there, its row of q.
+    """A measurement that is off by more than one good one in 10⁴ would be.
+
+    Parameters
+    ----------
+    set : int
+        Its set of measurements.
+    index : int
+        Its index there.
+    row : int
+        Its row of q.
     """
 
     set: int
@@ -32,7 +42,7 @@ class Outlier(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class CalibrationData:
+class CalibrationData(Result):
     """Everything that a calibration found; `Calibration` says what each field holds."""
 
     nominal: Chain
@@ -49,7 +59,7 @@ class CalibrationData:
     cross_validation: CrossValidation | None = field(repr=False)
     outliers: tuple[Outlier, ...]
     noise_std: tuple[NoiseEstimate | None, ...]
-    loss: str
+    loss: LossName
     error_model: ErrorModel = field(repr=False)
     warnings: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()

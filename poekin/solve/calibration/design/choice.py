@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
 from ....groups.arrays import Array
+from ....results import Result
+from .exchange import Criterion
 
 SMALLER_IS_BETTER = ("condition", "prediction")
 """Those of the design metrics of which smaller is better."""
@@ -21,11 +23,15 @@ _NAMES = {
 
 
 class DesignMetrics(NamedTuple):
-    """Metrics of a set of configurations: O1, condition, smallest and amplification, see
-    `observability_indices`.
+    """Metrics of a set of configurations, as of `observability_indices` and by predicted errors.
 
-    prediction: the rms error that noise leaves in the calibrated model, over all candidates, ÷ that
-    of one measurement.
+    Parameters
+    ----------
+    O1, condition, smallest, amplification : float
+        Observability indices.
+    prediction : float
+        Rms error that noise leaves in the calibrated model, over all candidates, ÷ that of one
+        measurement; smaller is better.
     """
 
     O1: float
@@ -36,19 +42,38 @@ class DesignMetrics(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Choice:
-    """Configurations to measure at.
+class Choice(Result):
+    """Configurations to measure at, and by how much they beat random choices.
 
-    q (n, m), rad or m, and rows (n,), ascending: which of the candidates. criterion: what was
-    optimised. metrics: of the choice; random_median: the median of each metric over `n_random`
-    random choices of n candidates; random_best: the best of each. rank of identifiable: how many
-    parameters the candidates identify, and how many can be identified in this way anywhere;
-    unobserved: those that they do not, in words. candidates: how many there were.
+    Attributes
+    ----------
+    q : (n, m) ndarray
+        The configurations, rad or m.
+    rows : (n,) ndarray of int
+        Their rows of the candidates, ascending.
+    criterion : {"amplification", "O1", "condition", "smallest", "prediction"}
+        Criterion that was optimised.
+    metrics : DesignMetrics
+        Metrics of the choice.
+    random_median, random_best : DesignMetrics
+        Median and best of each metric over random choices of n candidates.
+    rank : int
+        Number of parameters that the candidates identify.
+    identifiable : int
+        Number that such measurements can identify anywhere.
+    unobserved : tuple of str
+        Parameters that the candidates do not identify, in words.
+    candidates : int
+        Number of candidates.
+    n_random : int
+        Number of random choices.
     """
+
+    derived: ClassVar = ("improvement", "criterion_improvement")
 
     q: Array
     rows: np.ndarray
-    criterion: str
+    criterion: Criterion
     metrics: DesignMetrics
     random_median: DesignMetrics
     random_best: DesignMetrics
@@ -65,7 +90,7 @@ class Choice:
 
     @property
     def criterion_improvement(self) -> float:
-        """The improvement in the criterion."""
+        """Factor by which the choice is better in its criterion."""
         return self._factor(self.criterion)
 
     def _factor(self, name: str) -> float:
@@ -91,9 +116,6 @@ class Choice:
                 "after those"
             )
         return "; unobserved from any of them: ".join([words, *self.unobserved])
-
-    def __str__(self) -> str:
-        return self.summary()
 
 
 def _ratio(a: float, b: float) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -17,11 +17,12 @@ from ..measurements.measurement import Measurement
 from ..measurements.points import Points
 from ..measurements.poses import Poses
 from ..model.error_model import ErrorModel
+from ..model.parameters import ParameterKind
 from ..model.problem import Problem
 from ..model.tsqr import qr_r
 from . import observability
 from .choice import SMALLER_IS_BETTER, Choice, DesignMetrics
-from .exchange import CRITERIA, exchange, greedy
+from .exchange import CRITERIA, Criterion, exchange, greedy
 
 
 def choose_poses(
@@ -29,44 +30,78 @@ def choose_poses(
     n: int,
     candidates: Any,
     *,
-    measurements: Any = "poses",
-    parameters: Sequence[str] = ("screws", "home"),
+    measurements: Measurement | Sequence[Measurement] | Literal["poses", "points"] = "poses",
+    parameters: Sequence[ParameterKind] = ("screws", "home"),
     joints: Sequence[str] | None = None,
-    criterion: str = "amplification",
+    criterion: Criterion = "amplification",
     n_random: int = 100,
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
 ) -> Choice:
-    """The n of the candidates at which measuring tells most about the parameters of the arm.
+    """Choice of the n candidates at which measuring tells most about the parameters of the arm.
 
     A greedy start, bettered by exchanging one configuration at a time until no exchange helps: a
-    local best.
+    local best. The same arguments give the same choice.
 
     Parameters
     ----------
-    chain: nominal. n: how many configurations. candidates (K, m), rad or m, within the limits, or how
-        many of them to draw within the limits.
-    measurements: what will be measured at each: "poses" or "points" of the tip; or `Points`,
-        `EyeInHand`, ..., or a list of them, as an example: the points, centre, board and camera
-        count, measured numbers and covariances do not. A board or camera has to be given roughly; a
-        device in an unknown frame is taken to stand at the base.
-    parameters, joints: what will be calibrated, as `calibrate`.
-    criterion: "amplification" (noise amplification index), "O1", "condition", "smallest" (singular value),
-        or "prediction": the least mean variance of the calibrated arm's errors over all candidates.
-        The indices look at the worst seen combination of parameters, which poses may hardly depend
-        on: where the arm's accuracy is what matters, take "prediction" or "O1", and look at
-        `improvement`.
-    n_random: random choices to compare with. seed: of what is drawn. progress(done, total): called
-    after each step.
+    chain : Chain
+        The nominal arm.
+    n : int
+        Number of configurations.
+    candidates : (K, m) array_like or int
+        Configurations, rad or m, within the limits, or how many of them to draw within the limits.
+    measurements : {"poses", "points"} or Measurement or sequence of Measurement, default "poses"
+        What will be measured at each: poses or points of the tip, or examples such as `Points` or
+        `EyeInHand`, of which points, centre, board and camera count, measured numbers and
+        covariances do not. A board or camera has to be given roughly; a device in an unknown frame
+        is taken to stand at the base.
+    parameters, joints : sequence of str, optional
+        As of `calibrate`.
+    criterion : {"amplification", "O1", "condition", "smallest", "prediction"}
+        Observability index, or "prediction": the least mean variance of the calibrated arm's errors
+        over all candidates. The indices look at the worst seen combination of parameters, which
+        poses may hardly depend on: where the arm's accuracy is what matters, take "prediction" or
+        "O1", and look at `improvement`. Default "amplification", the noise amplification index.
+    n_random : int, default 100
+        Number of random choices to compare with.
+    seed : int, default 0
+        Seed of what is drawn.
+    progress : callable, optional
+        Called as progress(done, total) after each step.
 
-    Returns: Choice; `print` of it says by how much it beats random choices. The same arguments give
-    the same choice. Raises: InputError, ShapeError: a candidate outside the limits (its row), n too
-    small for the parameters (how many are needed), n above K.
+    Returns
+    -------
+    choice : Choice
+        The configurations, and by how much they beat random choices.
+
+    Raises
+    ------
+    InputError
+        If a candidate is outside the limits (its row), n too small for the parameters (how many are
+        needed), n above K, or an option out of its range.
+    ShapeError
+        If the candidates are no configurations.
+    UnknownName
+        If a joint is not there.
+
+    Notes
+    -----
     Accuracy: as `observability_indices` on the space that the candidates show; angles in rad,
-    lengths in reaches, noise alike in all. Source: indices: see `observability_indices`; search:
-    see `exchange`; prediction: V-optimality, Fedorov 1972, as the test poses of Wu,
-    Klimchik, Pashkevich, Caro and Furet 2013 ("Efficiency improvement of measurement pose selection
-    techniques in robot calibration").
+    lengths in reaches, noise alike in all. Source: indices: `observability_indices`; search:
+    Fedorov 1972 ("Theory of optimal experiments"), Mitchell 1974 (DETMAX); prediction:
+    V-optimality, Fedorov 1972, as the test poses of Wu, Klimchik, Pashkevich, Caro and Furet 2013
+    ("Efficiency improvement of measurement pose selection techniques in robot calibration").
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> choice = pk.choose_poses(arm, 15, 60, n_random=20)
+    >>> choice.q.shape, choice.rank
+    ((15, 6), 30)
+    >>> choice.criterion_improvement > 1
+    True
     """
     if not isinstance(chain, Chain):
         raise InputError(f"choose_poses: expected a Chain, got {safe_repr(chain)}")

@@ -9,14 +9,15 @@ matrix; its eigenvalues are the squares of the singular values that the indices 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
 from ....groups.arrays import Array
 from ..model.tsqr import qr_r
 
-CRITERIA = ("amplification", "O1", "condition", "smallest", "prediction")
+Criterion = Literal["amplification", "O1", "condition", "smallest", "prediction"]
+CRITERIA: tuple[Criterion, ...] = get_args(Criterion)
 """Criteria of a choice: one of the four `ObservabilityIndices`, or "prediction", the variance that
 the calibrated model's errors then have, the mean over all candidates (V-optimality, Fedorov 1972).
 """
@@ -54,7 +55,7 @@ def greedy(blocks: Array, n: int, tick: Callable[[], None] = lambda: None) -> li
 def exchange(
     blocks: Array,
     n: int,
-    criterion: str = "amplification",
+    criterion: Criterion = "amplification",
     progress: Callable[[int, int], None] | None = None,
 ) -> np.ndarray:
     """The rows of blocks, ascending, of n candidates of which none can be exchanged for a better
@@ -115,7 +116,9 @@ class DesignState(NamedTuple):
     vectors: np.ndarray
 
 
-def design_state(blocks: Array, chosen: np.ndarray, criterion: str, mean: Array) -> DesignState:
+def design_state(
+    blocks: Array, chosen: np.ndarray, criterion: Criterion, mean: Array
+) -> DesignState:
     """State of the rows `chosen` of blocks."""
     J = blocks[chosen].reshape(-1, blocks.shape[2])
     N = J.T @ J
@@ -130,7 +133,7 @@ def design_state(blocks: Array, chosen: np.ndarray, criterion: str, mean: Array)
 
 
 def best_exchange(
-    blocks: Array, chosen: np.ndarray, place: int, criterion: str, state: DesignState
+    blocks: Array, chosen: np.ndarray, place: int, criterion: Criterion, state: DesignState
 ) -> int | None:
     """The candidate that improves the criterion most in that place of the chosen; None where none
     does.
@@ -155,7 +158,7 @@ def best_exchange(
     return best
 
 
-def value(N: Array, criterion: str, mean: Array) -> Array:
+def value(N: Array, criterion: Criterion, mean: Array) -> Array:
     """The logarithm of the criterion (...) of information matrices N (..., L, L); larger is better.
 
     mean (L, L): the mean information of a candidate, for "prediction".
@@ -172,7 +175,7 @@ def value(N: Array, criterion: str, mean: Array) -> Array:
     return _of_extremes(logs[..., 0], logs[..., -1], criterion)
 
 
-def _of_extremes(low: np.ndarray, high: np.ndarray, criterion: str) -> Array:
+def _of_extremes(low: np.ndarray, high: np.ndarray, criterion: Criterion) -> Array:
     """The logarithm of the square of an index, of those of the extreme eigenvalues."""
     if criterion == "smallest":
         return low
@@ -187,7 +190,7 @@ def _log(x: np.ndarray, otherwise: float) -> Array:
     return np.where(good, np.log(np.where(good, x, 1.0)), otherwise)
 
 
-def upper_bound(blocks: Array, out: Array, criterion: str, state: DesignState) -> Array:
+def upper_bound(blocks: Array, out: Array, criterion: Criterion, state: DesignState) -> Array:
     """Upper bound (K,) of the criterion after each exchange of the block `out` for candidate j, so
     that few need to be evaluated in full.
     """
@@ -196,7 +199,9 @@ def upper_bound(blocks: Array, out: Array, criterion: str, state: DesignState) -
     return _exact_update(blocks, out, criterion, state.inverse, state)
 
 
-def _bound_by_ritz_values(blocks: Array, out: Array, criterion: str, state: DesignState) -> Array:
+def _bound_by_ritz_values(
+    blocks: Array, out: Array, criterion: Criterion, state: DesignState
+) -> Array:
     """Bound of the extreme eigenvalues: on a few eigenvectors V of N, the eigenvalues of V^T N' V
     lie between the smallest and the largest of N' (Rayleigh and Ritz).
     """
@@ -217,7 +222,7 @@ def _bound_by_ritz_values(blocks: Array, out: Array, criterion: str, state: Desi
 
 
 def _exact_update(
-    blocks: Array, out: Array, criterion: str, inverse: Array, state: DesignState
+    blocks: Array, out: Array, criterion: Criterion, inverse: Array, state: DesignState
 ) -> Array:
     """Values of "O1" and "prediction" after each exchange: with N' = N + W^T S W, W = (B_j; B_out),
     S = diag(1, -1), and the small matrix C = S + W N^-1 W^T: det N' = det N det(S C), and tr(Q

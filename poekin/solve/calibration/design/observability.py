@@ -20,12 +20,18 @@ from ...option_checks import is_whole, whole
 
 
 class ObservabilityIndices(NamedTuple):
-    """The four indices of one identification matrix, floats, or arrays (...) of many.
+    """Observability indices of one identification matrix, floats, or arrays (...) of many.
 
-    O1: the volume of the error ellipsoid's inverse, a mean over all directions; larger is better.
-    condition: how unlike the best and the worst seen direction are, 1 at best; smaller is better.
-    smallest: how well the worst seen direction is seen; larger is better.
-    amplification: how little the noise of the measurements is amplified; larger is better.
+    Parameters
+    ----------
+    O1 : float or (...) ndarray
+        Geometric mean of the singular values ÷ √m; larger is better.
+    condition : float or (...) ndarray
+        Largest ÷ smallest singular value, 1 at best; smaller is better.
+    smallest : float or (...) ndarray
+        Smallest singular value; larger is better.
+    amplification : float or (...) ndarray
+        Noise amplification index, smallest² ÷ largest singular value; larger is better.
     """
 
     O1: Any
@@ -39,27 +45,52 @@ UNOBSERVED = ObservabilityIndices(O1=0.0, condition=np.inf, smallest=0.0, amplif
 
 
 def observability_indices(J: ArrayLike, m: int, rank: int | None = None) -> ObservabilityIndices:
-    """The observability indices of an identification matrix on the space that can be identified.
+    """Observability indices of an identification matrix on the space that can be identified.
 
-        O1 = (sigma_1 ... sigma_L)^(1/L) / sqrt(m)      condition = sigma_1 / sigma_L
-        smallest = sigma_L                              amplification = sigma_L^2 / sigma_1
+    With the singular values σ_1 >= ... >= σ_L of J, O1 = (σ_1 ... σ_L)^(1/L) / √m, condition =
+    σ_1 / σ_L, smallest = σ_L and amplification = σ_L² / σ_1. O1 of a set that is measured twice
+    stays; of the others, the condition stays and the other two gain √2.
 
-    m is the number of measured configurations (not of the matrix' rows): O1 of a set that is
-    measured twice stays, and so the index compares sets of different size, while the other indices
-    gain sqrt(2), or, the condition, stay.
+    Parameters
+    ----------
+    J : (..., rows, P) array_like
+        Derivatives of the measured values with respect to the parameters, scaled: angles in rad,
+        lengths in reaches of the arm, for instance.
+    m : int
+        Number of measured configurations, not of the rows.
+    rank : int, optional
+        L, the number of directions that can be seen, P by default: the L largest singular values
+        are taken.
 
-    Parameters: J (..., rows, P), the parameters' derivatives, scaled; m; rank, L: the number of
-    directions that can be seen, by default P. The L largest singular values are taken. Returns:
-    ObservabilityIndices, floats for one matrix, else (...).
-    A matrix with fewer than L rows, or with sigma_L = 0, has O1 = smallest = amplification = 0,
-    condition = inf. Raises: ShapeError, InputError. Accuracy: sigma_L within P u sigma_1.
-    Source: O1: Borm and Menq 1989 and 1991 (Int. J. Robotics Research 10, 1); condition: Driels and
-    Pathre 1990
-    (J. Robotic Systems 7, 2); smallest and amplification: Nahvi, Hollerbach and Hayward 1994
-    (ICRA), Nahvi and Hollerbach 1996 (ICRA, "The noise amplification index for optimal pose
-    selection in robot calibration"); m as in Daney, Papegay and Madeline 2005 (Int. J. Robotics
-    Research 24, 6); all four side by side: Sun and Hollerbach 2008 (ICRA, "Observability index
-    selection for robot calibration"), where the condition is inverted.
+    Returns
+    -------
+    indices : ObservabilityIndices
+        Floats for one matrix, else arrays (...). A matrix with fewer than L rows, or with σ_L = 0,
+        has O1 = smallest = amplification = 0 and condition = inf.
+
+    Raises
+    ------
+    ShapeError
+        If J is no matrix.
+    InputError
+        If m or rank is no whole number in its range.
+
+    Notes
+    -----
+    Accuracy: σ_L within P u σ_1. Source: O1: Borm and Menq 1989 and 1991 (Int. J. Robotics Research
+    10, 1); condition: Driels and Pathre 1990 (J. Robotic Systems 7, 2); smallest and amplification:
+    Nahvi, Hollerbach and Hayward 1994 (ICRA), Nahvi and Hollerbach 1996 (ICRA, "The noise
+    amplification index for optimal pose selection in robot calibration"); m as in Daney, Papegay
+    and Madeline 2005 (Int. J. Robotics Research 24, 6); all four side by side: Sun and Hollerbach
+    2008 (ICRA, "Observability index selection for robot calibration"), where the condition is
+    inverted.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> indices = pk.calibration.observability_indices([[2, 0], [0, 1], [0, 0]], m=1)
+    >>> indices.condition, indices.amplification
+    (2.0, 0.5)
     """
     matrix = numbers(J, "J")
     if matrix.ndim < 2:

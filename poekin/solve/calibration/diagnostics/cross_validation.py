@@ -11,6 +11,7 @@ from ....errors import InputError, safe_repr
 from ....groups.arrays import Array
 from ...option_checks import is_whole, whole
 from ..fit.fitting import fit_frames
+from ..fit.losses import LossName
 from ..fit.refit import fit_with_refit
 from ..measurements.measurement import Rows
 from ..model.problem import Problem
@@ -20,8 +21,16 @@ Progress = Callable[[int, int], None]
 
 
 class CrossValidation(NamedTuple):
-    """Residuals on held-out data, pooled over the folds: before, with unknown frames fitted only,
-    and after.
+    """Residuals on held-out data, pooled over the folds.
+
+    Parameters
+    ----------
+    before : Residuals
+        Of the nominal arm, with unknown frames fitted to the other folds.
+    after : Residuals
+        Of the arm calibrated from the other folds.
+    folds : int
+        Number of folds.
     """
 
     before: Residuals
@@ -32,7 +41,7 @@ class CrossValidation(NamedTuple):
 def cross_validate(
     problem: Problem,
     free: Array,
-    name: str,
+    name: LossName,
     prior: Array | None,
     folds: int,
     seed: int,

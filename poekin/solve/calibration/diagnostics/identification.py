@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,13 +15,16 @@ from ....errors import InputError
 from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.sampling import half_range
+from ....results import Result
 from ..design import observability
 from ..measurements.inputs import parse_measurements, parse_readings
 from ..model.error_model import ErrorModel
+from ..model.parameters import ParameterKind
 from ..model.problem import Problem
 from ..model.tsqr import qr_r
 from . import messages
 
+OnRankDeficiency = Literal["raise", "fix"]
 RANK = 1e-9
 """Singular values below this part of the largest are those of directions that cannot be identified:
 rounding is 1e-14.
@@ -34,16 +37,30 @@ _LIGHT = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Identification:
-    """Identifiability of the parameters from the measurements at hand, before anything is solved.
+class Identification(Result):
+    """Identifiability of the parameters from the measurements, before anything is solved.
 
-    All of it is about the identification matrix at the nominal arm (at the calibrated one, where
-    that shows more): d errors / d parameters, angles in rad, lengths in reaches, row and column.
-    size: parameters; identifiable: how many combinations of them any measurements of this kind can
-    identify; rank: how many these do; n_equations: how many numbers were measured. unidentifiable:
-    what no measurement of this kind identifies, fixed at nominal values; unobserved: what others of
-    this kind would identify. singular_values (rank,); condition, smallest (singular value), O1 and
-    amplification: observability on the identified space, see `observability_indices`.
+    It is about the identification matrix at the nominal arm (at the calibrated one, where that
+    shows more): d errors / d parameters, angles in rad and lengths in reaches, row and column.
+
+    Attributes
+    ----------
+    size : int
+        Number of parameters.
+    identifiable : int
+        Number of combinations of them that measurements of this kind can identify anywhere.
+    rank : int
+        Number that these measurements identify.
+    n_equations : int
+        Number of measured values.
+    unidentifiable : tuple of str
+        Directions that no measurement of this kind identifies, fixed at nominal values.
+    unobserved : tuple of str
+        Directions that other measurements of this kind would identify.
+    singular_values : (rank,) ndarray
+        Singular values of the identified directions.
+    condition, smallest, O1, amplification : float
+        Observability on the identified space, see `observability_indices`.
     """
 
     size: int
@@ -72,9 +89,6 @@ class Identification:
             lines.append(f"unobserved by these measurements: {words}")
         return "\n".join(lines)
 
-    def __str__(self) -> str:
-        return self.summary()
-
 
 class _RowSpace(NamedTuple):
     """Singular values (k,) of a matrix, its rank, and an orthonormal basis (P, rank) of its rows."""
@@ -92,15 +106,45 @@ def identify(
     q: Any,
     measurements: Any,
     *,
-    parameters: Sequence[str] = ("screws", "home"),
+    parameters: Sequence[ParameterKind] = ("screws", "home"),
     joints: Sequence[str] | None = None,
 ) -> Identification:
-    """Identifiability of these parameters of the arm from these measurements. Nothing is solved.
+    """Identifiability of these parameters of the arm from these measurements; nothing is solved.
 
-    Parameters: as `calibrate`. Returns: Identification. Raises: as `calibrate`, but never for a
-    lack of rank.
+    Parameters
+    ----------
+    chain : Chain
+        The nominal arm.
+    q : (N, m) array_like or dict
+        Joint readings, rad or m.
+    measurements : Measurement, sequence of Measurement, or array_like
+        As of `calibrate`.
+    parameters, joints : sequence of str, optional
+        As of `calibrate`.
+
+    Returns
+    -------
+    identification : Identification
+        Rank, observability and what is not identified, in words.
+
+    Raises
+    ------
+    ShapeError, InputError, UnknownName
+        As `calibrate`, but never for a lack of rank.
+
+    Notes
+    -----
     Accuracy: singular values to 1e-14 of the largest. Source: Borm and Menq 1991; Everett and Hsu
     1988 for the count 4 r + 2 p + 6 of r revolute and p prismatic joints.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> made = pk.calibration.simulated(arm, 20)
+    >>> found = pk.calibration.identify(arm, made.q, made.measurements)
+    >>> found.n_equations, found.identifiable, found.rank
+    (120, 30, 30)
     """
     q = parse_readings(chain, q)
     sets = parse_measurements(measurements, len(q))
@@ -182,7 +226,7 @@ def identify_directions(
     return identification, _free(problem, rest)
 
 
-def check_rank(identification: Identification, on_rank_deficiency: str) -> None:
+def check_rank(identification: Identification, on_rank_deficiency: OnRankDeficiency) -> None:
     """Refuse a rank deficient problem. Raises: InputError that says how many measurements more, or
     what is unobserved.
     """

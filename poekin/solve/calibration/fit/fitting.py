@@ -12,7 +12,7 @@ from ....groups.arrays import Array
 from ..measurements.measurement import Rows
 from ..model.problem import Problem
 from ..model.tsqr import qr_r
-from .losses import OUTLIER, chi_square, loss
+from .losses import OUTLIER, LossName, chi_square, loss
 from .minimise import STEPS, Outcome, Step, minimise, regular
 from .noise import EVEN, Noise, estimate_noise
 
@@ -35,7 +35,7 @@ class Fit(NamedTuple):
     free: Array
 
 
-def fit_frames(problem: Problem, name: str, most: int = STEPS) -> tuple[Array, bool]:
+def fit_frames(problem: Problem, name: LossName, most: int = STEPS) -> tuple[Array, bool]:
     """The p with which the nominal arm fits best: only the unknown frames move."""
     p = np.zeros(problem.size)
     if problem.size == problem.model_size:
@@ -46,14 +46,14 @@ def fit_frames(problem: Problem, name: str, most: int = STEPS) -> tuple[Array, b
 
 
 def fit_parameters(
-    problem: Problem, free: Array, name: str, p: Array, prior: Array | None, most: int = STEPS
+    problem: Problem, free: Array, name: LossName, p: Array, prior: Array | None, most: int = STEPS
 ) -> Fit:
     """The fit from p on, of so many steps at most. A robust loss begins as Huber's, which has one
     minimum near p.
     """
     noise = _noise(problem, p, 0, name, _FIRST_EVEN)
     steps: list[Step] = []
-    losses = [name] if name in ("linear", "huber") else ["huber", name]
+    losses: list[LossName] = [name] if name in ("linear", "huber") else ["huber", name]
     for _ in range(_ROUNDS):
         for one in losses:
             outcome = minimise(problem, free, noise, one, p, prior, most - len(steps))
@@ -73,7 +73,7 @@ def fit_parameters(
     return Fit(p, covariance, outcome.converged, steps, noise, free)
 
 
-def _noise(problem: Problem, p: Array, free: int, name: str, even: float = EVEN) -> Noise:
+def _noise(problem: Problem, p: Array, free: int, name: LossName, even: float = EVEN) -> Noise:
     """Noise by the errors at p, to which `free` parameters were fitted."""
     robust = name != "linear"
     reach = problem.model.nominal.reach
@@ -108,7 +108,12 @@ def outliers(problem: Problem, noise: Noise, p: Array) -> list[Rows]:
 
 
 def _covariance(
-    problem: Problem, free: Array, outcome: Outcome, noise: Noise, name: str, prior: Array | None
+    problem: Problem,
+    free: Array,
+    outcome: Outcome,
+    noise: Noise,
+    name: LossName,
+    prior: Array | None,
 ) -> Array:
     """Covariance of p: (J^T J)^-1 of the whitened Jacobian; with a robust loss times mean(psi^2) /
     mean(psi')^2.

@@ -9,13 +9,14 @@ chi-square.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
 from ....groups.arrays import Array
 
-LOSSES = ("linear", "huber", "cauchy", "tukey")
+LossName = Literal["linear", "huber", "cauchy", "tukey"]
+LOSSES: tuple[LossName, ...] = get_args(LossName)
 # The thresholds' quantiles of one squared normal number, as quantiles of the normal distribution.
 _QUANTILE = {"huber": 0.917, "cauchy": 2.121, "tukey": 4.536}
 OUTLIER = 3.719
@@ -44,7 +45,7 @@ def chi_square(width: int, quantile: float) -> float:
     return width * (1.0 - k + quantile * k**0.5) ** 3
 
 
-def loss(name: str, s: Array, width: int) -> Loss:
+def loss(name: LossName, s: Array, width: int) -> Loss:
     """The loss of that name for squared errors s (N,) of measurements of `width` numbers."""
     if name == "linear":
         return Loss(s, np.ones_like(s), np.zeros_like(s))

@@ -14,7 +14,7 @@ import numpy as np
 from ....groups.arrays import Array
 from ..model.problem import Problem
 from ..model.tsqr import blocked_product, qr_r
-from .losses import loss
+from .losses import LossName, loss
 from .noise import Noise
 
 STEPS = 100
@@ -53,7 +53,7 @@ class _Objective(NamedTuple):
 
     problem: Problem
     noise: Noise
-    loss: str
+    loss: LossName
     inverse_prior: Array
     B: Array
 
@@ -79,7 +79,7 @@ def minimise(
     problem: Problem,
     free: Array,
     noise: Noise,
-    name: str,
+    name: LossName,
     p: Array,
     prior: Array | None,
     most: int = STEPS,

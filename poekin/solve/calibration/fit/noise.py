@@ -26,8 +26,14 @@ no weight.
 
 
 class NoiseEstimate(NamedTuple):
-    """Standard deviations of one set of measurements: of its angles (rad; None without any) and its
-    lengths (m).
+    """Standard deviations of one set of measurements, estimated from the residuals.
+
+    Parameters
+    ----------
+    angle : float or None
+        Of its angles, rad; None where no angle is measured.
+    length : float
+        Of its lengths, m.
     """
 
     angle: float | None
@@ -41,7 +47,9 @@ class Noise:
     for the others.
     """
 
-    def __init__(self, sets: Sequence[Measurement], noise_std: Sequence[NoiseEstimate | None]):
+    def __init__(
+        self, sets: Sequence[Measurement], noise_std: Sequence[NoiseEstimate | None]
+    ) -> None:
         self.noise_std = tuple(noise_std)
         self._whiten: list[Array] = []
         for s, estimate in zip(sets, noise_std, strict=True):

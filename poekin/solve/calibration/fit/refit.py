@@ -13,14 +13,14 @@ from ....groups.arrays import Array
 from ..diagnostics.identification import free_directions_at, rank_at
 from ..model.problem import Problem
 from .fitting import Fit, fit_parameters, squared_errors
-from .losses import OUTLIER, chi_square, loss
+from .losses import OUTLIER, LossName, chi_square, loss
 from .minimise import minimise
 
 _TRIED = 3  # steps: from so near they gain nearly all that there is to gain
 
 
 def fit_with_refit(
-    problem: Problem, free: Array, name: str, p: Array, prior: Array | None, most: int
+    problem: Problem, free: Array, name: LossName, p: Array, prior: Array | None, most: int
 ) -> Fit:
     """`fit_parameters`, and again with the directions identified only where it ended, if the data
     fit better by more than chance explains.
@@ -54,7 +54,7 @@ def fit_with_refit(
     return second._replace(steps=steps + second.steps)
 
 
-def _misfit(problem: Problem, name: str, fit: Fit, p: Array) -> float:
+def _misfit(problem: Problem, name: LossName, fit: Fit, p: Array) -> float:
     """The sum of rho at p, with the noise of that fit."""
     rho = zip(problem.sets, squared_errors(problem, fit.noise, p), strict=True)
     return float(sum(np.sum(loss(name, s, m.width).rho) for m, s in rho))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,9 @@ from ....errors import InputError, UnknownName, quote, safe_repr, suggest
 from ....groups.arrays import Array
 from ....model.chain import Chain
 
-KINDS = ("screws", "home", "offsets", "gains", "pitch")
+ParameterKind = Literal["screws", "home", "offsets", "gains", "pitch"]
+Unit = Literal["rad", "m", "1", "m/rad"]
+KINDS: tuple[ParameterKind, ...] = get_args(ParameterKind)
 ROTATIONS = ("turn about x", "turn about y", "turn about z")
 TRANSLATIONS = ("shift along x", "shift along y", "shift along z")
 # the four directions in which an axis moves: columns of the joint's z-aligned frame
@@ -21,13 +23,21 @@ _SHIFT = slice(2, 4)
 
 
 class Parameter(NamedTuple):
-    """One number that a calibration estimates: its owner (a joint, a coordinate, "home", a frame),
-    what it is, and its unit.
+    """One number that a calibration estimates.
+
+    Parameters
+    ----------
+    owner : str
+        A joint, a coordinate, "home", or an unknown frame.
+    what : str
+        What it is, such as "tilt about (1, 0, 0)".
+    unit : {"rad", "m", "1", "m/rad"}
+        Its unit.
     """
 
     owner: str
     what: str
-    unit: str
+    unit: Unit
 
     @property
     def name(self) -> str:
@@ -77,7 +87,7 @@ def names(nominal: Chain, free: Free, frames: Array) -> tuple[Parameter, ...]:
     if free.home:
         found += frame_parameters("home")
     for k in free.offsets:
-        unit = "rad" if nominal.is_angle(int(k)) else "m"
+        unit: Unit = "rad" if nominal.is_angle(int(k)) else "m"
         found.append(Parameter(nominal.q_names[k], "offset", unit))
     found += [Parameter(nominal.q_names[k], "gain", "1") for k in free.gains]
     return tuple(found)

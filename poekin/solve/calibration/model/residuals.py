@@ -4,23 +4,35 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ....groups.arrays import Array
+from ....results import Result
 from ..measurements.measurement import Measurement, Rows
+
+_FIELDS = ("length", "angle", "set", "row")
 
 
 @dataclass(frozen=True, eq=False)
-class Residuals:
-    """Distance `length` (N,) in m and turn `angle` (N,) in rad of model from measurement; NaN where
-    none is measured.
+class Residuals(Result):
+    """Distances and turns of the model from the measurements, one by one.
 
-    Of several points measured at once, `length` is the root mean square. set, row (N,): the set of
-    measurements that each belongs to, and the row of q.
+    Attributes
+    ----------
+    length : (N,) ndarray
+        Distance, m; of several points measured at once the root mean square.
+    angle : (N,) ndarray
+        Turn, rad; NaN where no angle is measured.
+    set : (N,) ndarray of int
+        Set of measurements that each belongs to.
+    row : (N,) ndarray of int
+        Row of q.
     """
+
+    derived: ClassVar = ("rms_length", "median_length", "rms_angle", "median_angle")
 
     length: Array
     angle: Array
@@ -48,18 +60,34 @@ class Residuals:
         return _rms(self.angle)
 
     def subset(self, chosen: NDArray[Any]) -> Residuals:
-        """Residuals of the measurements `chosen`, indices (k,) or a mask. Raises: nothing of its own.
+        """Residuals of some of the measurements.
 
+        Parameters
+        ----------
+        chosen : (k,) ndarray of int or (N,) ndarray of bool
+            Indices, or a mask.
+
+        Returns
+        -------
+        residuals : Residuals
+            Their residuals, m and rad.
+
+        Raises
+        ------
+        IndexError
+            If there is no measurement of such an index.
+
+        Notes
+        -----
         Source: none, it selects.
         """
-        return Residuals(
-            self.length[chosen], self.angle[chosen], self.set[chosen], self.row[chosen]
-        )
+        return Residuals(*(getattr(self, name)[chosen] for name in _FIELDS))
 
     def __len__(self) -> int:
         return len(self.length)
 
-    def __str__(self) -> str:
+    def summary(self) -> str:
+        """Root mean squares and medians as text, in mm and mrad."""
         rms = 1e3 * self.rms_length
         words = f"position {rms:.3g} mm rms, median {1e3 * self.median_length:.3g} mm"
         if np.isnan(self.angle).all():
@@ -90,15 +118,19 @@ def concatenate(parts: Sequence[Residuals]) -> Residuals:
 
 
 def _stacked(parts: Sequence[Residuals]) -> Residuals:
-    names = ("length", "angle", "set", "row")
-    return Residuals(*(np.concatenate([getattr(p, name) for p in parts]) for name in names))
+    columns = ([getattr(part, name) for part in parts] for name in _FIELDS)
+    return Residuals(*map(np.concatenate, columns))
 
 
 def _median(values: Array) -> float:
     known = values[~np.isnan(values)]
-    return float(np.median(known)) if len(known) else np.nan
+    if not len(known):
+        return np.nan
+    return float(np.median(known))
 
 
 def _rms(values: Array) -> float:
     known = values[~np.isnan(values)]
-    return float(np.sqrt(np.mean(known**2))) if len(known) else np.nan
+    if not len(known):
+        return np.nan
+    return float(np.sqrt(np.mean(known**2)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -60,7 +60,7 @@ def _frame(keys: Keys, name: str) -> Array:
 def parameters(keys: Keys, model: ErrorModel, frames: dict[str, Array]) -> Named:
     """Parameters with values and covariance, those of arm and frames. Raises: ModelError."""
     rows = keys.tables("parameter", (*Parameter._fields, "value", "deviation"))
-    found = tuple(Parameter(*(row.text(part) for part in Parameter._fields)) for row in rows)
+    found = tuple(map(_parameter, rows))
     own = model.parameters
     size = len(own) + sum(6 if T.ndim == 2 else 3 for T in frames.values())
     if len(found) != size:
@@ -77,6 +77,11 @@ def parameters(keys: Keys, model: ErrorModel, frames: dict[str, Array]) -> Named
             raise row.fault("owner", f"expected a name in frames, got {quote(given.owner)}")
     values = np.array([row.number("value") for row in rows], float)
     return Named(found, values, _covariance(keys, rows))
+
+
+def _parameter(row: Keys) -> Parameter:
+    unit: Any = row.text("unit")  # compared with the arm's own below
+    return Parameter(row.text("owner"), row.text("what"), unit)
 
 
 def _key(parameter: Parameter) -> tuple[str, str, str]:

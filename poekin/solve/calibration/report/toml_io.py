@@ -19,7 +19,7 @@ from ..fit.minimise import Step
 from ..fit.noise import NoiseEstimate
 from ..model.residuals import Residuals
 from ..result import CalibrationData, Outlier
-from . import toml_checks
+from . import document, toml_checks
 
 _OPTIONAL = ("warnings", "remarks")  # written where there are any
 _TOP = (
@@ -77,7 +77,7 @@ def save(found: CalibrationData, path: str | os.PathLike[str]) -> None:
             "after": _residuals_data(held_out.after),
         }
     data |= {name: list(getattr(found, name)) for name in _OPTIONAL if getattr(found, name)}
-    data["parameter"] = _parameter_data(found)
+    data["parameter"] = document.parameters(found)
     data["noise_std"] = [_noise_data(estimate) for estimate in found.noise_std]
     write_whole(path, toml_text.make_text(data).encode())
 
@@ -107,7 +107,7 @@ def load(path: str | os.PathLike[str]) -> CalibrationData:
         cross_validation=_cross_validation(keys),
         outliers=tuple(Outlier(*map(int, o)) for o in keys.wholes("outliers", (None, 3))),
         noise_std=tuple(map(_noise, keys.tables("noise_std", ("length", "angle")))),
-        loss=keys.text("loss", LOSSES),
+        loss=keys.text("loss", LOSSES),  # type: ignore[arg-type]  # one of these
         error_model=model,
         **{name: keys.texts(name) for name in _OPTIONAL if name in keys.data},
     )
@@ -128,15 +128,6 @@ def _identification(keys: Keys) -> Identification:
     values |= {name: own.number(name, finite=False) for name in _INDICES}
     values |= {name: own.texts(name) for name in _WORDS}
     return Identification(**values, singular_values=own.array("singular_values", (None,)))
-
-
-def _parameter_data(found: CalibrationData) -> list[dict[str, Any]]:
-    rows = []
-    values = found.values.tolist()
-    deviations = found.deviations.tolist()
-    for p, value, deviation in zip(found.parameters, values, deviations, strict=True):
-        rows.append(p._asdict() | {"value": value, "deviation": deviation})
-    return rows
 
 
 def _noise_data(found: NoiseEstimate | None) -> dict[str, float]:

@@ -368,3 +368,9 @@ def test_the_covariance_of_two_points_has_the_noise_of_lengths_alone():
         pk.load("puma560").chain(), 3, kind="points", points=points, noise=(1e-2, 1e-3)
     )
     np.testing.assert_allclose(made.measurements.covariance[0], 1e-6 * np.eye(6), rtol=1e-12)
+
+
+def test_the_summary_counts_measurements_and_outliers():
+    made = simulated(PANDA, 20, kind="points", outliers=0.1)
+    assert str(made) == "20 simulated Points, 2 of them gross outliers"
+    assert made.to_dict()["outliers"] == made.outliers.tolist()
