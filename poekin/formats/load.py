@@ -25,21 +25,52 @@ ENDINGS = (".urdf", ".xml", ".xacro", ".toml", ".csv", ".yaml", ".yml")
 
 
 def load(name: str | os.PathLike[str]) -> Robot:
-    """The robot of that name.
+    """Robot of a file, of a built-in arm, or of example-robot-data.
 
-    Parameters: name, the path of an existing file, a URDF, an MJCF (.xml with the root <mujoco>,
-    extra `mjcf`), a DH table (.toml, .csv), a file of `Calibration.save` (.toml; the calibrated
-    chain) or a calibration of Universal Robots (.yaml, .yml; see `poekin.formats.ur`); else the
-    name of an arm that comes with poekin, one of `BUILT_IN` ("panda", "ur5e", "puma560", ...); else
-    "erd:" and the name of a robot of the package example-robot-data, as in "erd:talos_left_arm".
-    Xacro is refused: see `poekin.xacro`.
-    A path object is always a path. Returns: Robot.
+    Parameters
+    ----------
+    name : str or os.PathLike
+        The path of an existing file: a URDF; an MJCF (.xml with the root <mujoco>, extra `mjcf`); a
+        DH table (.toml, .csv); a file of `Calibration.save` (.toml, the calibrated chain); or a
+        calibration of Universal Robots (.yaml, .yml). Else the name of a built-in arm ("panda",
+        "ur5e", "puma560", ...). Else "erd:" and the name of a robot of the package
+        example-robot-data, as in "erd:talos_left_arm". A path object is always a path.
 
-    Raises: FileError for a path that does not exist, is a directory, is empty or cannot be read;
-    UnknownName with the closest names; MissingExtra when example-robot-data is asked for and not
-    installed; ModelError, with file and line, for a file that cannot be understood; InputError for
-    a name of another type.
-    Warns: PoekinWarning with file and line for what was repaired, as `poekin.formats.urdf` says.
+    Returns
+    -------
+    robot : Robot
+        Its links, joints and limits, rad and m.
+
+    Raises
+    ------
+    FileError
+        If the path does not exist, is a directory, is empty or cannot be read.
+    UnknownName
+        If there is no built-in arm and no robot of that name; the closest names are listed.
+    MissingExtra
+        If the package that reads the file or holds the robot is not installed.
+    ModelError
+        If the file cannot be understood, with file and line; or if it is xacro, see `poekin.xacro`.
+    InputError
+        If `name` is neither a str nor a path.
+
+    Warns
+    -----
+    PoekinWarning
+        For what was repaired in the file, with file and line.
+
+    Notes
+    -----
+    A file of the working directory comes before a built-in arm of the same name.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> robot = pk.load("panda")
+    >>> robot
+    Robot('panda': 12 links, 11 joints, dof 8, root 'panda_link0', 2 leaves: ...)
+    >>> robot.chain(tip="panda_hand")
+    <Chain 'panda_link0' -> 'panda_hand': 7 revolute joints, reach ... m>
     """
     if isinstance(name, os.PathLike):
         return _read(name)

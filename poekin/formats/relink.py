@@ -24,32 +24,66 @@ ON_AXIS = 1e-11
 def relinked(
     robot: Robot, chain: Chain, *, base: str | None = None, tip: str | None = None
 ) -> Robot:
-    """Robot whose branch from base to tip has the kinematics of the chain: f(q) is the same.
+    """Robot whose branch from base to tip has the kinematics of a chain: f(q) is the same.
 
     A calibrated arm comes as screws and a home pose, and whoever draws it or plans with it has
     nominal links: meshes, masses, sensors on brackets. So each link that a joint moves keeps its
-    frame as nearly as the joint lets it: at
-    x = 0 its origin is the point of the new axis nearest to the nominal origin (the nominal origin
-    itself where the joint is prismatic), and its axes are the nominal ones turned by the smallest
-    angle that makes the joint's axis right. A joint whose new screw points the other way has its
-    axis reversed in place of its link. What the last joint moves is fixed to its link up to the
-    tip: the first of these fixed joints takes up the rest, and where there is none, the tip's frame
-    is the chain's own. All other joints, and the links that hang off the branch, stay as they are
-    relative to their parent link. Names, kinds, limits and mimic are the robot's.
+    frame as nearly as the joint lets it. All other joints, and the links that hang off the branch,
+    stay as they are relative to their parent link. Names, kinds, limits and mimic are the robot's.
 
-    Parameters: robot, the nominal one; chain, with the branch's joints in its order, screws and
-    home pose given at the robot's zero, from the frame of base to the frame of tip; base and tip,
-    as in `Robot.chain`. The chain's coordinates are its joints, x = q, or coupled as the branch is.
-    Returns: Robot.
-    Raises: InputError where the numbers, kinds or order of joints differ, the coupling does, a
-    moving joint is passed from child to parent, there is no joint at all, or the tip is fixed to
-    nothing and off its joint's axis; UnknownName and ModelError as `Robot.chain`.
+    Parameters
+    ----------
+    robot : Robot
+        Nominal robot.
+    chain : Chain
+        Chain from the frame of base to the frame of tip, with the branch's joints in its order and
+        screws and home pose at the robot's zero. Its coordinates are its joints, x = q, or coupled
+        as the branch is.
+    base, tip : str, optional
+        Links at which the branch begins and ends, as in `Robot.chain`.
+
+    Returns
+    -------
+    robot : Robot
+        Robot with new joint origins along the branch.
+
+    Raises
+    ------
+    InputError
+        If the numbers, kinds or order of the joints differ, or the coupling does; if a moving joint
+        is passed from child to parent, or there is no joint at all; if the tip is fixed to nothing
+        and off its joint's axis.
+    UnknownName
+        If there is no link of that name.
+    ModelError
+        If base or tip must be named.
+
+    Notes
+    -----
+    At x = 0 the origin of a link is the point of the new axis nearest to the nominal origin (the
+    nominal origin itself where the joint is prismatic), and its axes are the nominal ones turned by
+    the smallest angle that makes the joint's axis right. A joint whose new screw points the other
+    way has its axis reversed in place of its link. What the last joint moves is fixed to its link
+    up to the tip: the first of these fixed joints takes up the rest, and where there is none, the
+    tip's frame is the chain's own.
+
     Accuracy: that of `Chain.fk` for either, and 24 u n (1 + sum |x|) of both reaches, u = 2^-53, n
     the joints of the branch with the fixed ones; 1e-11 more where the tip is fixed to nothing. A
-    frame moves by the distance between nominal origin and new axis, and turns by the angle between
-    the axes, whatever a DH table of the same arm
-    looks like (tests/formats/test_relink.py). Source: the point of a line nearest to another, and
-    so3.exp.
+    frame moves by the distance [m] between nominal origin and new axis, and turns by the angle
+    [rad] between the axes, whatever a DH table of the same arm looks like
+    (tests/formats/test_relink.py). Source: the point of a line nearest to another, and so3.exp.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> robot = pk.load("ur5e")
+    >>> arm = robot.chain()
+    >>> shift = np.eye(4)
+    >>> shift[2, 3] = 0.001
+    >>> calibrated = pk.relinked(robot, arm.rebased(shift))
+    >>> float(np.round(calibrated.chain().home[2, 3] - arm.home[2, 3], 9))
+    0.001
     """
     if not isinstance(robot, Robot) or not isinstance(chain, Chain):
         raise InputError(

@@ -30,31 +30,58 @@ _MARKUP = '&<>"'
 
 
 def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
-    """The URDF of a robot or a chain: its kinematics, names and limits, and nothing else (no mesh,
-    no inertia).
+    """URDF text of a robot or a chain: kinematics, names and limits, without mesh or inertia.
 
     A `Robot` keeps its tree: links, joints, origins, axes, mimic and order. A `Chain` becomes a
-    robot of one branch as `poekin.formats.serial.serial_robot` says: which joint is a coordinate's
-    master, and where the link frames are.
+    robot of one branch: base, a link after each joint, tip, with the z-aligned link frames of
+    `Chain.local`. Of the joints that follow a coordinate, the first one with x = q is its master
+    and the others mimic it.
 
-    - A revolute joint without limits is continuous, as URDF calls that. A helical one without pitch
-      is revolute.
-    - Where a prismatic joint, or one side of any joint, has no limit, ±1e16 is written; `poekin`
-      reads it back as unlimited, with the PoekinWarning that it has for all such files. Likewise
-      effort and velocity, which URDF demands, and a model here does not have.
-    - Two things are written as they are that `poekin` itself takes for "unlimited" in a URDF: lower
-      = upper, and a bound of 1e4 or more. Limits of fixed and planar joints have no place in the
-      text.
+    Parameters
+    ----------
+    model : Robot or Chain
+        What to write.
+    name : str, optional
+        Name of the robot; by default its own, BASE_to_TIP for a chain.
 
-    Parameters: model; name of the robot, by default its own, BASE_to_TIP for a chain. Returns: the
-    text, indented,
-    the same for equal models, without any path; encode it as UTF-8.
-    Raises: InputError that names the joints where one is helical, or follows several coordinates;
-    for a name with a character that XML cannot hold; for what is neither Robot nor Chain. Warns: as
-    `serial_robot`.
-    Accuracy: lengths, axes, limits and mimic are written so that they read back as the same floats;
-    the rotation of
-    an origin is the one of its roll, pitch and yaw within 1e-15. Source: the URDF specification.
+    Returns
+    -------
+    text : str
+        Indented XML, the same for equal models, without any path. Encode it as UTF-8.
+
+    Raises
+    ------
+    InputError
+        If a joint is helical or follows several coordinates; if a name has a character that XML
+        cannot hold; if `model` is neither Robot nor Chain, or `name` no str.
+
+    Warns
+    -----
+    PoekinWarning
+        If the coordinates of the written robot are not those of the chain: another scale or order,
+        or one left out because no joint follows it.
+
+    Notes
+    -----
+    A revolute joint without limits is continuous, as URDF calls that. A helical one without pitch
+    is revolute. Where a prismatic joint, or one side of any joint, has no limit, ±1e16 is written;
+    `load` reads it back as unlimited, with its warning for such files. Likewise effort and
+    velocity, which URDF demands and a model here does not have. Two things are written that `load`
+    takes for "unlimited": lower = upper, and a bound of 1e4 or more. Limits of fixed and planar
+    joints have no place in the text.
+
+    Accuracy: lengths, axes, limits and mimic read back as the same floats; the rotation of an
+    origin is the one of its roll, pitch and yaw within 1e-15 rad. Source: the URDF specification.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> text = pk.to_urdf(pk.dh.to_chain(pk.dh.published("puma560")), name="puma")
+    >>> print(text[:41])
+    <?xml version="1.0"?>
+    <robot name="puma">
+    >>> text.count("<joint ")
+    7
     """
     if name is not None and not isinstance(name, str):
         raise InputError(f"name: expected the robot's name, a str, got {safe_repr(name)}")

@@ -24,23 +24,43 @@ _one_at_a_time = threading.Lock()
 
 
 def xacro(path: str | os.PathLike[str], /, **arguments: str | float) -> Robot:
-    """The robot in a xacro file, evaluated by xacrodoc (extra `xacro`) and then read as URDF.
+    """Robot in a xacro file, evaluated by xacrodoc (extra `xacro`) and then read as URDF.
 
-    Xacro evaluates expressions that are written in the file and in those which it includes: Python
-    expressions with
-    few names, files and environment variables that it may read. Take it for code in effect, and
-    evaluate only files that you trust. `load` never does it.
+    Xacro evaluates the expressions in the file and in those which it includes: Python expressions
+    with few names, files and environment variables that it may read. Take it for code in effect,
+    and evaluate only files that you trust. `load` never does it.
 
-    Parameters: path, of the file; arguments, values of its <xacro:arg>, as in
-    xacro("arm.urdf.xacro", prefix="left_"). True and False become "true" and "false". Files to
-    include are relative to the file that includes them. Packages, `$(find NAME)`, are looked for in
-    the folders above the file, then where ROS has them (ROS_PACKAGE_PATH, ament),
-    and where `xacrodoc.packages.look_in` was told to. Meshes need not be there. Returns: Robot.
-    Raises: FileError for a file that cannot be read; ModelError, with the file, for what xacro
-    refuses, with its own words, and what `formats.urdf` does not understand of the result: lines
-    are then those of the evaluated text; InputError for an argument that is no text, number or
-    truth value; MissingExtra without the package xacrodoc.
-    Warns: PoekinWarning for what xacro warns of, and as `formats.urdf`.
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Path of the file. Files to include are relative to the file that includes them. Packages,
+        `$(find NAME)`, are looked for in the folders above the file, then where ROS has them
+        (ROS_PACKAGE_PATH, ament), and where `xacrodoc.packages.look_in` was told to. Meshes need
+        not be there.
+    **arguments : str, float or bool
+        Values of the file's <xacro:arg>. True and False become "true" and "false".
+
+    Returns
+    -------
+    robot : Robot
+        Robot of the evaluated text.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read.
+    ModelError
+        If xacro refuses the file, with its own words, or the result cannot be understood as URDF;
+        lines are then those of the evaluated text.
+    InputError
+        If an argument is no text, number or truth value.
+    MissingExtra
+        If the package xacrodoc is not installed.
+
+    Warns
+    -----
+    PoekinWarning
+        For what xacro warns of, and for what was repaired in the URDF.
     """
     data = xml.read_bytes(path)
     name = os.fsdecode(path)

@@ -36,12 +36,21 @@ FAR = 10
 
 @dataclass(frozen=True)
 class FromChain:
-    """A chain as a DH table.
+    """Denavit-Hartenberg table of a chain, and what its making decided.
 
-    Attributes: table; gauge, what was free and how it was chosen, a line a choice; error, the
-    largest pose error of
-    the table against the chain over random configurations (rotations absolute, lengths as multiples
-    of the reach); bound, what it may come to; warnings, with numbers, where DH is ill-conditioned.
+    Attributes
+    ----------
+    table : Table
+        The table, rad and m.
+    gauge : tuple of str
+        What was free and how it was chosen, a line a choice.
+    error : float
+        Largest pose error of the table against the chain over random configurations: rotations
+        absolute, lengths as multiples of the reach.
+    bound : float
+        Bound of the error.
+    warnings : tuple of str
+        Where the parameters are ill-conditioned, with numbers.
     """
 
     table: Table
@@ -54,22 +63,55 @@ class FromChain:
 def from_chain(
     chain: Chain, *, convention: Convention = "standard", samples: int = 100, seed: int = 0
 ) -> FromChain:
-    """The DH table of a chain of revolute and prismatic joints, in either convention.
+    """Denavit-Hartenberg table of a chain of revolute and prismatic joints, in either convention.
 
     The table's variables are the joints' own, x = C q + c of a coupled chain. Base and tool carry
-    what the rows
-    cannot. Parallel axes: the common normal is taken at the previous frame's origin (d = 0);
-    meeting axes: x is along z_i x z_{i+1}; a prismatic axis, which has no place, goes through the
-    previous origin, the first frame stands where axis 1 is nearest to the base's origin, the last
-    where axis n is nearest to the tool's. Axes so nearly parallel that the table's rounding would
-    cost more than their angle are taken as parallel, and that is said.
+    what the rows cannot.
 
-    Parameters: chain; convention, "standard" or "modified"; samples and seed of the measured error.
-    Returns: FromChain. Raises: InputError for a helical joint, which DH cannot express, and an
-    unknown convention. Accuracy: `bound`: 20 u (n + 1) (reach + max(|d|, |a|)) over the reach, u =
-    2^-53, plus 2 delta max(1, l / reach) for each angle delta that was dropped, l the sum of the
-    table's lengths, as the table may have the axis far from the tool (tests/formats/test_dh.py).
-    Source: Park 1994, Section II; the geometry is that of the axes.
+    Parameters
+    ----------
+    chain : Chain
+        Chain without helical joints.
+    convention : {"standard", "modified"}
+        Paul's (distal) or Craig's (proximal) convention, as in `Table`; required.
+    samples : int, default 100
+        Number of random configurations at which the error is measured.
+    seed : int, default 0
+        Seed of these configurations.
+
+    Returns
+    -------
+    result : FromChain
+        Table, choices, error and its bound, and warnings.
+
+    Raises
+    ------
+    InputError
+        If a joint is helical, which DH parameters cannot express; if the convention is missing or
+        unknown; if `chain` is no Chain.
+
+    Notes
+    -----
+    Parallel axes: the common normal is taken at the previous frame's origin (d = 0). Meeting axes:
+    x is along z_i x z_{i+1}. A prismatic axis, which has no place, goes through the previous
+    origin. The first frame stands where axis 1 is nearest to the base's origin, the last where axis
+    n is nearest to the tool's. Axes so nearly parallel that the table's rounding would cost more
+    than their angle are taken as parallel, with a warning in the result.
+
+    Accuracy: `bound`: 20 u (n + 1) (reach + max(|d|, |a|)) over the reach, u = 2^-53, plus
+    2 delta max(1, l / reach) for each angle delta that was dropped, l the sum of the table's
+    lengths, as the table may have the axis far from the tool (tests/formats/test_dh.py). Source:
+    Park 1994, Section II; the geometry is that of the axes.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5e").chain()
+    >>> result = pk.dh.from_chain(arm, convention="modified")
+    >>> result.table.a.round(4).tolist()
+    [0.0, 0.0, 0.425, 0.3922, 0.0, 0.0]
+    >>> result.error < result.bound
+    True
     """
     if not isinstance(chain, Chain):
         raise InputError(

@@ -17,10 +17,36 @@ NAMES = (
 
 
 def published(name: str) -> Table:
-    """Published table of an arm, one of `NAMES`; its source stands at the top of its file.
+    """Published Denavit-Hartenberg table of an arm; its source stands at the top of its file.
 
-    Parameters: name, as "puma560". Returns: Table, rad and m.
-    Raises: UnknownName with the closest names. Accuracy: as published. Source: the one in the file.
+    Parameters
+    ----------
+    name : str
+        One of cobra600, iiwa14, irb140, jaco, kr5, panda, puma560, stanford, ur10, ur10e, ur16e,
+        ur3, ur3e, ur5 and ur5e.
+
+    Returns
+    -------
+    table : Table
+        The table as published, rad and m.
+
+    Raises
+    ------
+    UnknownName
+        If there is no such table, with the closest names.
+
+    Notes
+    -----
+    Accuracy: as published. Source: the one in the file.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> table = pk.dh.published("puma560")
+    >>> table.convention
+    'standard'
+    >>> table.a.tolist()
+    [0.0, 0.4318, 0.0203, 0.0, 0.0, 0.0]
     """
     if name not in NAMES:
         raise UnknownName(f"no published table is named {quote(name)}; {suggest(str(name), NAMES)}")

@@ -25,13 +25,30 @@ COLUMNS = ("theta", "d", "a", "alpha")
 
 @dataclass(frozen=True)
 class Row:
-    """One joint of a table: theta, alpha [rad], d, a [m] at x = 0, kind, flip, name, limits (lower,
-    upper).
+    """Row of a Denavit-Hartenberg table: one joint and the transform that it moves.
 
-    A revolute joint's theta is theta + x, a prismatic joint's d is d + x, with -x in place of x
-    where `flip` is true.
-    A joint's offset stands in theta or d. Of a modified table a and alpha are a_{i-1} and
-    alpha_{i-1}.
+    A revolute joint's angle is theta + x, a prismatic joint's length d + x, with -x in place of x
+    where `flip` is true. A joint's offset stands in theta or d. Of a modified table a and alpha are
+    a_{i-1} and alpha_{i-1}.
+
+    Parameters
+    ----------
+    theta : float, default 0.0
+        Angle about z at x = 0, rad.
+    d : float, default 0.0
+        Length along z at x = 0, m.
+    a : float, default 0.0
+        Length along x, m.
+    alpha : float, default 0.0
+        Angle about x, rad.
+    kind : {"revolute", "prismatic"}, default "revolute"
+        Kind of the joint.
+    flip : bool, default False
+        Whether the joint moves by -x.
+    name : str, default ""
+        Name of the joint; "" becomes joint1, joint2, ... in a table.
+    limits : tuple of two floats, default (-inf, inf)
+        Lower and upper limit of x, rad or m.
     """
 
     theta: float = 0.0
@@ -47,16 +64,65 @@ class Row:
 class Table:
     """Denavit-Hartenberg parameters of n joints, frozen.
 
-    - "standard" (Paul, distal): f = base prod [Rz(theta) Tz(d) Tx(a) Rx(alpha)] tool
-    - "modified" (Craig, proximal): f = base prod [Rx(alpha) Tx(a) Rz(theta) Tz(d)] tool
+    Parameters
+    ----------
+    convention : {"standard", "modified"}
+        Standard (Paul, distal) is f = base prod [Rz(theta) Tz(d) Tx(a) Rx(alpha)] tool; modified
+        (Craig, proximal) is f = base prod [Rx(alpha) Tx(a) Rz(theta) Tz(d)] tool.
+    rows : sequence of Row or dict
+        One a joint; a dict holds the fields of a `Row`.
+    base : (4, 4) array_like, optional
+        Pose of the first frame in the base frame, m; by default the identity.
+    tool : (4, 4) array_like, optional
+        Pose of the tool in the last frame, m; by default the identity.
+    name : str, default "arm"
+        Name of the arm.
 
-    Parameters: convention; rows, `Row`s or dicts of a row's fields; base, tool (4, 4), poses, m;
-    name.
-    Attributes: theta, d, a, alpha (n,), kinds, flips, names (n), limits (n, 2), convention, base,
-    tool, name.
-    Raises: InputError, ShapeError, PoseError. Warns: PoekinWarning where |alpha| > 2 pi looks like
-    degrees.
+    Attributes
+    ----------
+    theta, alpha : (n,) ndarray
+        Angles about z and x, rad.
+    d, a : (n,) ndarray
+        Lengths along z and x, m.
+    kinds : tuple of str
+        "revolute" or "prismatic".
+    flips : tuple of bool
+        Whether a joint moves by -x.
+    names : tuple of str
+        Names of the joints.
+    limits : (n, 2) ndarray
+        Lower and upper limits of x, rad or m.
+
+    Raises
+    ------
+    InputError
+        If the convention, a kind, a name or a number is none, or a dict has other keys.
+    ShapeError
+        If `rows` is no sequence of rows, or base or tool has another shape.
+    PoseError
+        If base or tool is no pose.
+
+    Warns
+    -----
+    PoekinWarning
+        If an angle of more than a turn looks like degrees.
+
+    Notes
+    -----
     Source: Paul 1981 and Craig 1986, as Park 1994, Section II, writes them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> rows = [pk.dh.Row(a=0.5, limits=(-2, 2)), pk.dh.Row(a=0.3)]
+    >>> table = pk.dh.Table("standard", rows, name="planar")
+    >>> table
+    <standard DH table 'planar', 2 joints
+      'joint1': theta 0 + x  d 0  a 0.5  alpha 0
+      'joint2': theta 0 + x  d 0  a 0.3  alpha 0>
+    >>> pk.dh.to_chain(table).fk([0, np.pi / 2]).round(3)[:2, 3]
+    array([0.5, 0.3])
     """
 
     __slots__ = (

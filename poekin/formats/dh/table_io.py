@@ -49,12 +49,38 @@ CSV_COLUMNS: tuple[str, ...] = (
 
 
 def read(path: str | os.PathLike[str]) -> Table:
-    """The table in a .toml or .csv file.
+    """Denavit-Hartenberg table in a .toml or .csv file.
 
-    Parameters: path, of the file. Returns: Table.
-    Raises: FileError for a file that cannot be read; ModelError with the file, and the line of a
-    CSV, for a column that is missing or misspelt, mixed conventions, and numbers that are none.
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Path of the file; its ending says which kind it is.
+
+    Returns
+    -------
+    table : Table
+        The table, rad and m.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read.
+    ModelError
+        If a column is missing or misspelt, the conventions are mixed, or a number is none; with the
+        file, and the line of a CSV.
+    InputError
+        If the path ends in neither .toml nor .csv, or is no path.
+
+    Notes
+    -----
     Accuracy: numbers as they are written.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> pk.dh.write(pk.dh.published("ur5e"), "arm.csv")
+    >>> pk.dh.read("arm.csv").d.tolist()
+    [0.1625, 0.0, 0.0, 0.1333, 0.0997, 0.0996]
     """
     name = _path(path)
     return read_text(xml.decode(xml.read_bytes(path), escape_unprintable(name, 400)), name)
@@ -68,12 +94,33 @@ def read_text(text: str, name: str) -> Table:
 
 
 def write(table: Table, path: str | os.PathLike[str]) -> None:
-    """Write a table as .toml (extra `formats`) or .csv; numbers keep all their digits.
+    """Write a table as a .toml (extra `formats`) or .csv file; numbers keep all their digits.
 
     The file appears whole or not at all; one that was there stays until the new one is complete.
-    Parameters: table; path, of the file, whose ending says which kind it is. Returns: nothing.
-    Raises: InputError for what is no Table; FileError where the file cannot be written;
-    MissingExtra without tomli-w for .toml.
+
+    Parameters
+    ----------
+    table : Table
+        Table to write.
+    path : str or os.PathLike
+        Path of the file; its ending says which kind it is.
+
+    Raises
+    ------
+    InputError
+        If `table` is no Table, or the path ends in neither .toml nor .csv.
+    FileError
+        If the file cannot be written.
+    MissingExtra
+        If tomli-w is not installed, for .toml.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> table = pk.dh.published("ur5e")
+    >>> pk.dh.write(table, "ur5e.csv")
+    >>> pk.dh.read("ur5e.csv") == table
+    True
     """
     if not isinstance(table, Table):
         raise InputError(

@@ -35,14 +35,40 @@ def link_poses(table: Table) -> list[tuple[float, ...]]:
 
 
 def to_chain(table: Table) -> Chain:
-    """Chain of a table: A_i = Ad(K_0 ... K_{i-1}) P_i and M = K_0 ... K_n.
+    """Chain of a Denavit-Hartenberg table, with the table's names and limits.
 
-    A flipped joint's screw is reversed.
+    Its screws are A_i = Ad(K_0 ... K_{i-1}) P_i, reversed for a flipped joint, and its home pose is
+    M = K_0 ... K_n, K the constant link poses.
 
-    Parameters: table. Returns: Chain with the table's names and limits. Raises: InputError for what
-    is no Table. Accuracy: pose within 8 u (n + 1) (2 + sum |x|) of the reach and what slides, u =
-    2^-53, where |d| and |a| are at most the reach; longer ones count in place of it
-    (tests/formats/test_dh.py). Source: Park 1994, Section II.
+    Parameters
+    ----------
+    table : Table
+        Table in either convention.
+
+    Returns
+    -------
+    chain : Chain
+        Chain from the table's base to its tool.
+
+    Raises
+    ------
+    InputError
+        If `table` is no Table.
+
+    Notes
+    -----
+    Accuracy: pose within 8 u (n + 1) (2 + sum |x|) of the reach and what slides, u = 2^-53, where
+    |d| and |a| are at most the reach; longer ones count in place of it (tests/formats/test_dh.py).
+    Source: Park 1994, Section II.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.dh.to_chain(pk.dh.published("puma560"))
+    >>> arm
+    <Chain 'base' -> 'tool': 6 revolute joints, reach 1.69 m>
+    >>> arm.fk([0.0] * 6).round(3)[:3, 3]
+    array([ 0.452, -0.15 ,  1.104])
     """
     _check_table(table, "to_chain")
     signs = 1.0 - 2.0 * np.array(table.flips, float)
@@ -65,11 +91,33 @@ def _twelve(T: Array) -> tuple[float, ...]:
 
 
 def to_robot(table: Table) -> Robot:
-    """Robot of a table, one branch: a link for each joint, its z axis the joint's, and `tool`.
+    """Robot of a Denavit-Hartenberg table: one branch, a link for each joint, z along the joint's axis.
 
-    Parameters: table. Returns: Robot with links base, link1 ... tool. Raises: InputError for what
-    is no Table.
+    Parameters
+    ----------
+    table : Table
+        Table in either convention.
+
+    Returns
+    -------
+    robot : Robot
+        Robot with links base, link1, ..., tool.
+
+    Raises
+    ------
+    InputError
+        If `table` is no Table.
+
+    Notes
+    -----
     Accuracy and source: as `to_chain`.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> robot = pk.dh.to_robot(pk.dh.published("stanford"))
+    >>> robot.links
+    ('base', 'link1', 'link2', 'link3', 'link4', 'link5', 'link6', 'tool')
     """
     _check_table(table, "to_robot")
     links = ["base", *(f"link{i + 1}" for i in range(len(table))), "tool"]

@@ -23,7 +23,19 @@ KINDS: dict[Real, tuple[WriteNumber, type[np.floating]]] = {
 
 @dataclass(frozen=True)
 class CSource:
-    """Texts in ASCII: `header`, `source` and `selftest`; `name` begins their names in `files`."""
+    """C99 of a chain's kinematics, as texts in ASCII.
+
+    Attributes
+    ----------
+    name : str
+        Identifier with which the names of files and functions begin.
+    header : str
+        Declarations, NAME.h.
+    source : str
+        Definitions, NAME.c.
+    selftest : str
+        Program that tests them, NAME_selftest.c.
+    """
 
     name: str
     header: str
@@ -32,7 +44,7 @@ class CSource:
 
     @property
     def files(self) -> dict[str, str]:
-        """File name -> text."""
+        """Texts by the names of their files."""
         return {
             f"{self.name}.h": self.header,
             f"{self.name}.c": self.source,
@@ -43,13 +55,46 @@ class CSource:
 def c(chain: Chain, frame: str | int, *, name: str = "arm", real: Real = "double") -> CSource:
     """C99 of a chain's pose and Jacobian: straight-line, without allocation, with math.h alone.
 
-    Parameters: chain; frame, "space", "body", "hybrid", "cheapest" or the index of a joint, as in
-    `CompiledChain.jacobian`; name, of which the C names are made (only a-z, 0-9 and _ are kept);
-    real, "double" or "float". Returns: CSource with functions NAME_fk, NAME_jacobian_FRAME,
-    NAME_fk_jacobian_FRAME of q; each also as ..._angles and ..._sincos, for who has sines and
-    cosines of the angles. T row by row (16), J row by row (6 m). Raises: InputError, UnknownName.
+    Parameters
+    ----------
+    chain : Chain
+        Chain to write.
+    frame : {"space", "body", "hybrid", "cheapest"} or int
+        Frame of the Jacobian, or the index of a joint, as in `CompiledChain.jacobian`.
+    name : str, default "arm"
+        Name of which the C names are made; only a-z, 0-9 and _ are kept.
+    real : {"double", "float"}, default "double"
+        Type of the numbers.
+
+    Returns
+    -------
+    source : CSource
+        Functions NAME_fk, NAME_jacobian_FRAME and NAME_fk_jacobian_FRAME of q, rad or m; each also
+        as ..._angles and ..._sincos, for who has sines and cosines of the angles. T row by row
+        (16), J row by row (6 m).
+
+    Raises
+    ------
+    InputError
+        If `chain` is no Chain, `real` or the frame is unknown, or the arm needs a number that the
+        type cannot hold.
+    UnknownName
+        If the frame is a name that there is not.
+
+    Notes
+    -----
     Accuracy: that of `Chain.fk` in the arithmetic of `real` (tests/formats/test_emit_c.py). Source:
     Park 1994, Section IV, two planar rotations a link.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.dh.to_chain(pk.dh.published("puma560"))
+    >>> source = pk.emit.c(arm, "hybrid", name="puma")
+    >>> list(source.files)
+    ['puma.h', 'puma.c', 'puma_selftest.c']
+    >>> "void puma_fk(const double *q, double *T);" in source.header
+    True
     """
     if real not in KINDS:
         raise InputError(f"real: expected 'double' or 'float', got {safe_repr(real)}")

@@ -10,16 +10,44 @@ from .statements import Statements, by_outputs, double, statements
 
 
 def python(chain: Chain, frame: str | int) -> str:
-    """Text of a Python module with a chain's pose and Jacobian, straight-line, without imports.
+    """Python module with a chain's pose and Jacobian: straight-line, without imports.
 
-    Parameters: chain; frame, "space", "body", "hybrid", "cheapest" or the index of a joint, as in
-    `CompiledChain.jacobian`. Returns: a text in ASCII with the functions fk, jacobian_FRAME,
-    fk_jacobian_FRAME of
-    (q, xp), q (..., m) an array of the module xp: numpy, jax.numpy or torch; each also as
-    ..._angles(q, xp) and ..._sincos(sines, cosines, q, xp). Nothing is written in place, so vmap,
-    jit and gradients go through.
-    Raises: InputError, UnknownName. Accuracy: that of `Chain.fk` in the arithmetic of q
-    (tests/formats/test_emit_python.py). Source: Park 1994, Section IV, two planar rotations a link.
+    Parameters
+    ----------
+    chain : Chain
+        Chain to write.
+    frame : {"space", "body", "hybrid", "cheapest"} or int
+        Frame of the Jacobian, or the index of a joint, as in `CompiledChain.jacobian`.
+
+    Returns
+    -------
+    text : str
+        ASCII with the functions fk, jacobian_FRAME and fk_jacobian_FRAME of (q, xp), q (..., m) an
+        array of the module xp: numpy, jax.numpy or torch; each also as ..._angles(q, xp) and
+        ..._sincos(sines, cosines, q, xp). Nothing is written in place, so vmap, jit and gradients
+        go through.
+
+    Raises
+    ------
+    InputError
+        If `chain` is no Chain or the frame is no frame.
+    UnknownName
+        If the frame is a name that there is not.
+
+    Notes
+    -----
+    Accuracy: that of `Chain.fk` in the arithmetic of q (tests/formats/test_emit_python.py). Source:
+    Park 1994, Section IV, two planar rotations a link.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> arm = pk.dh.to_chain(pk.dh.published("puma560"))
+    >>> functions = {}
+    >>> exec(pk.emit.python(arm, "hybrid"), functions)
+    >>> functions["fk"](np.zeros(6), np).round(3)[:3, 3]
+    array([ 0.452, -0.15 ,  1.104])
     """
     arm = compile_checked(chain, frame)
     functions = make_tasks(arm, frame)

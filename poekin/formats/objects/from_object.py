@@ -27,28 +27,60 @@ _KNOWN: tuple[tuple[str, Callable[[Any], bool], Callable[[Any], Robot | Chain]],
 
 
 def from_object(obj: Any, *, frame: ScrewFrame | None = None) -> Any:
-    """`Robot` or `Chain` of an object of another library, which is not imported.
+    """Model of an object of Pinocchio, the Robotics Toolbox or Modern Robotics.
 
-    - Pinocchio `Model`: a Robot. Links, joints and their order are those of the URDF it was built
-      from; where it has none, links are its frames. q is in its order, with one angle where
-      Pinocchio has a cosine and a sine.
-    - Robotics Toolbox `DHRobot`: a Chain, by its table (`poekin.formats.objects.make_table`). `Robot`
-      (ERobot): a Robot. `ETS`: a Chain. q is in the toolbox's order, by `jindex`.
-    - Modern Robotics: `from_object((M, Slist))`, a Chain, screws as columns (6, n); with
-      frame="body" (M, Blist).
+    The other library is not imported: objects are known by their attributes, so anything that has
+    the same ones will do. Poses (spatialmath, SciPy, Pinocchio's SE3) need no conversion: each
+    function here that takes a pose takes them.
 
-    Objects are known by their attributes, so anything that has the same ones will do. Poses
-    (spatialmath, SciPy, Pinocchio's SE3) need no conversion: each function here that takes a pose
-    takes them.
+    Parameters
+    ----------
+    obj : object
+        A Pinocchio `Model`, a Robotics Toolbox `DHRobot`, `Robot` (ERobot) or `ETS`, or the pair
+        (M, screws) of Modern Robotics: the home pose (4, 4), and screws (omega; v) as columns
+        (6, n), rad and m.
+    frame : {"space", "body"}, optional
+        Frame of the columns of (M, screws), required there: "space" for Slist, the base frame, or
+        "body" for Blist, the tool frame. Other objects say it themselves.
 
-    Parameters: obj; frame, of the columns of (M, screws): "space" (the default) or "body".
-    Returns: Robot or Chain. Raises: InputError that names the type of what arrived and what is
-    known; ModelError, ScrewError, ShapeError, PoseError with the joint for what cannot be expressed
-    or makes no sense.
-    Warns: PoekinWarning for limits that bound nothing.
+    Returns
+    -------
+    model : Robot or Chain
+        A Robot of a Pinocchio `Model` or a toolbox `Robot`, else a Chain.
+
+    Raises
+    ------
+    InputError
+        If nothing known has these attributes, with the type of what arrived; if `frame` is missing,
+        unknown, or given for an object that says it itself.
+    ModelError, ScrewError, ShapeError, PoseError
+        If the object has what a model cannot express or what makes no sense, with the joint.
+
+    Warns
+    -----
+    PoekinWarning
+        For limits that bound nothing.
+
+    Notes
+    -----
+    Pinocchio: links, joints and their order are those of the URDF that the model was built from;
+    where it has none, links are its frames. q is in its order, with one angle where Pinocchio has a
+    cosine and a sine. `DHRobot`: by its table (`poekin.formats.objects.make_table`). The toolbox's
+    `Robot` and `ETS`: q is in its order, by `jindex`.
+
     Accuracy: within 1e-13 reach of the library's own pose (tests/formats/test_objects.py and those
-    beside it).
-    Source: the libraries' documentation.
+    beside it). Source: the libraries' documentation.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> M = np.eye(4)
+    >>> M[0, 3] = 2.0
+    >>> Slist = np.transpose([[0, 0, 1, 0, 0, 0], [0, 0, 1, 0, -1, 0]])
+    >>> arm = pk.from_object((M, Slist), frame="space")
+    >>> arm.fk([0.0, np.pi / 2]).round(3)[:2, 3]
+    array([1., 1.])
     """
     for what, fits, make in _KNOWN:
         if fits(obj):

@@ -26,17 +26,40 @@ JOINTS = (
 
 @dataclass(frozen=True, eq=False)
 class FactoryCalibration:
-    """Six poses, f(q) = poses_1 Rz(q_1) poses_2 Rz(q_2) ... poses_6 Rz(q_6).
+    """Factory calibration of an arm: six poses, f(q) = poses_1 Rz(q_1) ... poses_6 Rz(q_6).
 
     f is the pose of the flange (ur_description's tool0, the pendant's tool frame without a tool) in
     the controller's base frame (ur_description's `base` and base_link_inertia; its base_link is
-    turned against it by π about z).
+    turned against it by π about z). Frozen; equal where poses and hash are.
 
-    Fields: poses (6, 4, 4), of each of `LINKS` in the link before it at q = 0 [m], joint i turning
-    about its z axis; hash, by which the driver knows the arm again, "" where there is none.
-    Frozen; equal where poses and hash are. Raises: ShapeError, PoseError, InputError.
+    Parameters
+    ----------
+    poses : (6, 4, 4) array_like
+        Pose of each of `LINKS` in the link before it at q = 0, m; joint i turns about its z axis.
+    hash : str, default ""
+        Text by which the driver knows the arm again.
+
+    Raises
+    ------
+    ShapeError
+        If `poses` has another shape.
+    PoseError
+        If one of them is no pose.
+    InputError
+        If `hash` is no text.
+
+    Notes
+    -----
     Source: Universal Robots ROS 2 driver, package ur_calibration, and ur_description,
     urdf/ur_macro.xacro.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> table = pk.dh.published("ur10e")
+    >>> calibration = pk.ur.from_dh(table, nominal=table)
+    >>> calibration.poses.shape
+    (6, 4, 4)
     """
 
     poses: Array
@@ -54,12 +77,23 @@ class FactoryCalibration:
         object.__setattr__(self, "poses", read_only(np.array(exact)))
 
     def to_robot(self, name: str = "ur") -> Robot:
-        """The robot of this calibration, its link frames those of the calibration.
+        """Robot of this calibration, its link frames those of the calibration.
 
-        Parameters: name, of the robot. Raises: InputError for a name that is none.
-        Returns: Robot with links base, shoulder_link ... wrist_3_link and tool0, which is
-        wrist_3_link again, and joints `JOINTS`: the names of ur_description. Limits are none, a
-        calibration has none: see `apply`.
+        Parameters
+        ----------
+        name : str, default "ur"
+            Name of the robot.
+
+        Returns
+        -------
+        robot : Robot
+            Links base, shoulder_link, ..., wrist_3_link and tool0, which is wrist_3_link again, and
+            joints `JOINTS`: the names of ur_description. A calibration has no limits: see `apply`.
+
+        Raises
+        ------
+        InputError
+            If `name` is no name.
         """
         links = ["base", *(f"{link}_link" for link in LINKS), "tool0"]
         joints = [
@@ -69,8 +103,16 @@ class FactoryCalibration:
         return Robot(name, links, [*joints, Joint("tool0_joint", "fixed", links[-2], links[-1])])
 
     def to_chain(self) -> Chain:
-        """The chain from base to tool0. Accuracy: rounding of the product of six poses, 1e-15
-        reach.
+        """Chain from base to tool0.
+
+        Returns
+        -------
+        chain : Chain
+            Chain of the six joints, without limits.
+
+        Notes
+        -----
+        Accuracy: rounding of the product of six poses, 1e-15 reach.
         """
         return self.to_robot().chain()
 
@@ -98,15 +140,50 @@ def apply(
 ) -> Robot:
     """Nominal robot with the kinematics of a calibration and, nearly, its own link frames.
 
-    As `poekin.formats.relink.relinked` says: names, limits, mimic and all that hangs off the arm
-    are the robot's.
+    As `poekin.relinked` does: names, limits, mimic and all that hangs off the arm are the robot's.
 
-    Parameters: robot, of six revolute joints in the order of `JOINTS`; calibration; base and tip,
-    the links that stand for the controller's base frame and for the flange. By default base is the
-    link called "base", else the one called "base_link_inertia", else the root; tip is "tool0", else
-    the only leaf.
-    Returns: Robot. Raises: as `relinked`; InputError for what is no FactoryCalibration. Accuracy: as
-    `relinked`.
+    Parameters
+    ----------
+    robot : Robot
+        Robot with six revolute joints in the order of `JOINTS`.
+    calibration : FactoryCalibration
+        Calibration of the arm.
+    base : str, optional
+        Link that stands for the controller's base frame: by default the one called "base", else
+        "base_link_inertia", else the root.
+    tip : str, optional
+        Link that stands for the flange: by default "tool0", else the only leaf.
+
+    Returns
+    -------
+    robot : Robot
+        The robot, calibrated.
+
+    Raises
+    ------
+    InputError
+        If `calibration` is no FactoryCalibration, or the robot's joints are not those six, as
+        `poekin.relinked` says.
+    UnknownName
+        If there is no link of that name.
+    ModelError
+        If base or tip must be named.
+
+    Notes
+    -----
+    Accuracy: as `poekin.relinked`.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> nominal = pk.dh.published("ur5e")
+    >>> measured = pk.ur.add_deltas(nominal, delta_a=[0, 1e-3, 0, 0, 0, 0])
+    >>> calibration = pk.ur.from_dh(measured, nominal=nominal)
+    >>> robot = pk.ur.apply(pk.load("ur5e"), calibration)
+    >>> q = [0.0] * 6
+    >>> change = robot.chain().fk(q)[:3, 3] - pk.load("ur5e").chain().fk(q)[:3, 3]
+    >>> float(abs(change).max().round(9))
+    0.001
     """
     if not isinstance(calibration, FactoryCalibration):
         raise InputError(f"apply: expected a FactoryCalibration, got {type(calibration).__name__}")

@@ -32,18 +32,43 @@ def read_text_file(path: str | os.PathLike[str]) -> tuple[str, str]:
 
 
 def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
-    """The deltas in a calibration.conf: delta_theta, delta_alpha [rad], delta_a, delta_d [m], one
-    number a joint.
-
-    For `add_deltas`: `pk.ur.add_deltas(pk.dh.published("ur10e"), **pk.ur.read_deltas("calibration.conf"))`.
+    """Deltas in a calibration.conf, the file of a controller of Universal Robots, for `add_deltas`.
 
     The file has lines `delta_a = [ 1e-4, ... ]` under [mounting], and others that do not matter
     here.
-    Parameters: path, of the file. Returns: dict of six numbers each.
-    Raises: FileError for a file that cannot be read or is larger than 64 KiB; ModelError with file
-    and line for a delta that is missing, there twice, not six numbers or not finite.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Path of the file.
+
+    Returns
+    -------
+    deltas : dict
+        The columns delta_theta, delta_alpha [rad], delta_a and delta_d [m], six numbers each.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read or is larger than 64 KiB.
+    ModelError
+        If a delta is missing, there twice, not six numbers or not finite, with file and line.
+
+    Notes
+    -----
     Accuracy: numbers as they are written. Source: such files as owners of arms show them in the
     forum of Universal Robots, as "Calibrated kinamatics info"; there is no published description.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> with open("calibration.conf", "w") as file:
+    ...     for name in ("delta_theta", "delta_a", "delta_d", "delta_alpha"):
+    ...         print(f"{name} = [ 1e-4, 0, 0, 0, 0, 0 ]", file=file)
+    >>> deltas = pk.ur.read_deltas("calibration.conf")
+    >>> table = pk.ur.add_deltas(pk.dh.published("ur10e"), **deltas)
+    >>> round(float(table.a[0]), 9)
+    0.0001
     """
     text, place = read_text_file(path)
     found: dict[str, tuple[float, ...]] = {}

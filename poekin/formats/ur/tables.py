@@ -33,17 +33,43 @@ def add_deltas(
     delta_d: ArrayLike | None = None,
     delta_alpha: ArrayLike | None = None,
 ) -> Table:
-    """The table with deltas added to its columns: an arm's own parameters from the nominal ones.
+    """Table with deltas added to its columns: an arm's own parameters from the nominal ones.
 
-    Parameters: table, as `pk.dh.published("ur10e")`; delta_theta, delta_alpha (n,) [rad], delta_a,
-    delta_d (n,) [m], one number a joint, none for none: as the controller keeps them in
-    calibration.conf (`read_deltas`). Returns: Table of the same convention, base and tool.
-    Raises: InputError for deltas of another number of joints or not finite, and for what is no
-    Table.
+    Parameters
+    ----------
+    table : Table
+        Nominal table, as `pk.dh.published("ur10e")`.
+    delta_theta : (n,) array_like, optional
+        Angles to add, rad, one number a joint, as the controller keeps them in calibration.conf
+        (`read_deltas`).
+    delta_a, delta_d : (n,) array_like, optional
+        Lengths to add, m.
+    delta_alpha : (n,) array_like, optional
+        Angles to add, rad.
+
+    Returns
+    -------
+    table : Table
+        Table of the same convention, base and tool.
+
+    Raises
+    ------
+    InputError
+        If deltas are of another number of joints or not finite, or `table` is no Table.
+
+    Notes
+    -----
     Accuracy: one rounding. A controller takes π/2 to be 1.570796327, which is 2e-10 rad more than
-    in the published tables of poekin, so its own alpha differs from this one by as much.
-    Source: Universal Robots ROS 2 driver, ur_calibration/test/calibration_test.cpp, which adds them
-    so.
+    in the published tables of poekin, so its own alpha differs from this one by as much. Source:
+    Universal Robots ROS 2 driver, ur_calibration/test/calibration_test.cpp, which adds them so.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> nominal = pk.dh.published("ur10e")
+    >>> measured = pk.ur.add_deltas(nominal, delta_d=[2e-4, 0, 0, 0, 0, 0])
+    >>> round(float(measured.d[0] - nominal.d[0]), 9)
+    0.0002
     """
     if not isinstance(table, Table):
         raise InputError(f"add_deltas: expected a dh.Table, got {type(table).__name__}")
@@ -68,20 +94,48 @@ def from_dh(table: Table, *, nominal: Table, hash: str = "") -> FactoryCalibrati
     """Calibration of an arm from its own DH table, with link frames near the nominal ones.
 
     Of two nearly parallel axes DH puts the frames where their common normal is, hundreds of metres
-    away. Here each frame is the one on its joint's axis that is nearest to the nominal link
-    (`poekin.formats.relink`); the last one is the flange itself, so that f(q) is the table's.
+    away. Here each frame is the one on its joint's axis that is nearest to the nominal link, as
+    `poekin.relinked` places it; the last one is the flange itself, so that f(q) is the table's.
 
-    Parameters: table, the arm's, as the controller reports it or `add_deltas` makes it; nominal, the
-    same model's published table, as `pk.dh.published("ur10e")`; hash, as in `FactoryCalibration`. Returns:
-    FactoryCalibration.
-    Raises: InputError for another number or kind of joints than six revolute ones that are not
-    flipped, and for a flange that is off the last axis (a or alpha of the last joint, or a tool),
-    for which the form has no place.
-    Warns: PoekinWarning where a link moves by more than 2 cm: the calibration of another arm, most
-    likely.
+    Parameters
+    ----------
+    table : Table
+        Table of the arm, as the controller reports it or `add_deltas` makes it, rad and m.
+    nominal : Table
+        Published table of the same model, as `pk.dh.published("ur10e")`.
+    hash : str, default ""
+        Text by which the driver knows the arm again.
+
+    Returns
+    -------
+    calibration : FactoryCalibration
+        Six poses whose product is the table's f(q).
+
+    Raises
+    ------
+    InputError
+        If there are other joints than six revolute ones that are not flipped, or the flange is off
+        the last axis (a or alpha of the last joint, or a tool), for which the form has no place.
+
+    Warns
+    -----
+    PoekinWarning
+        If a link moves by more than 2 cm: most likely the calibration of another arm.
+
+    Notes
+    -----
     Accuracy: pose as `pk.dh.to_chain`; tests/formats/test_ur.py has the figures of a real arm.
     Source: the driver's ur_calibration/doc/algorithm.rst says why frames must be moved back; where
     they go is decided here.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> nominal = pk.dh.published("ur10e")
+    >>> measured = pk.ur.add_deltas(nominal, delta_alpha=[0, 1e-4, 0, 0, 0, 0])
+    >>> calibration = pk.ur.from_dh(measured, nominal=nominal, hash="calib_1")
+    >>> calibration.to_chain()
+    <Chain 'base' -> 'tool0': 6 revolute joints, reach ... m>
     """
     for each in (table, nominal):
         _six(each)

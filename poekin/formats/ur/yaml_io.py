@@ -36,16 +36,37 @@ CONVENTIONS: tuple[RpyAxes, ...] = get_args(RpyAxes)
 
 
 def read(path: str | os.PathLike[str], *, rpy: RpyAxes | None = None) -> FactoryCalibration:
-    """The calibration in a YAML file of the driver.
+    """Calibration in a YAML file of the ROS driver of Universal Robots (extra `formats`).
 
-    Parameters: path; rpy, "moving" or "fixed", the axes that roll, pitch and yaw turn about: by
-    default what the file says, and "moving", as the driver writes it, where it says nothing. With
-    "fixed" a file of the driver becomes the arm that a URDF of ur_description has. Returns:
-    FactoryCalibration. Needs the extra `formats`.
-    Raises: FileError for a file that cannot be read or is larger than 64 KiB; ModelError with file
-    and line for what is no YAML, has no `kinematics:`, or a link or key that is missing, misspelt,
-    there twice or no finite number; MissingExtra; InputError for another rpy.
-    Accuracy: lengths as written, rotations to 1e-15.
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Path of the file.
+    rpy : {"moving", "fixed"}, optional
+        Axes that roll, pitch and yaw turn about: by default what the file says, and "moving", as
+        the driver writes it, where it says nothing. With "fixed" a file of the driver becomes the
+        arm that a URDF of ur_description has.
+
+    Returns
+    -------
+    calibration : FactoryCalibration
+        Poses [m] and hash of the file.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read or is larger than 64 KiB.
+    ModelError
+        If the text is no YAML, has no `kinematics:`, or a link or key is missing, misspelt, there
+        twice or no finite number; with file and line.
+    MissingExtra
+        If pyyaml is not installed.
+    InputError
+        If `rpy` is unknown.
+
+    Notes
+    -----
+    Accuracy: lengths as written, rotations to 1e-15 rad.
     """
     text, place = read_text_file(path)
     return read_text(text, place, rpy=rpy)
@@ -86,17 +107,42 @@ def read_text(
 def write(
     calibration: FactoryCalibration, path: str | os.PathLike[str], *, rpy: RpyAxes = "fixed"
 ) -> None:
-    """Write a calibration as a YAML file, for ur_description (`rpy="fixed"`) or as the driver would
-    (`rpy="moving"`).
+    """Write a calibration as a YAML file, for ur_description or as the ROS driver would.
 
     With "fixed", ur_description's URDF is this calibration to the last digits, as one made from the
-    driver's own file is not (see the top of this module). A file of either kind reads back as the
-    same calibration.
+    driver's own file is not: its writer means moving axes, its reader fixed ones. A file of either
+    kind reads back as the same calibration.
 
-    Parameters: calibration; path, of the file; rpy. Returns: nothing.
-    Raises: FileError where it cannot be written, and then nothing is; InputError. Accuracy: lengths
-    keep all their digits, rotations come back within 1e-15. A hash is written as it is: the driver
-    compares it with the arm's.
+    Parameters
+    ----------
+    calibration : FactoryCalibration
+        Calibration to write.
+    path : str or os.PathLike
+        Path of the file.
+    rpy : {"fixed", "moving"}, default "fixed"
+        Axes that roll, pitch and yaw turn about: "fixed" for ur_description, "moving" as the driver
+        writes them.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be written, and then nothing is.
+    InputError
+        If `rpy` is unknown or `calibration` no FactoryCalibration.
+
+    Notes
+    -----
+    Accuracy: lengths keep all their digits, rotations come back within 1e-15 rad. A hash is written
+    as it is: the driver compares it with the arm's.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> table = pk.dh.published("ur10e")
+    >>> pk.ur.write(pk.ur.from_dh(table, nominal=table, hash="calib_1"), "ur10e.yaml")
+    >>> with open("ur10e.yaml") as file:
+    ...     print(file.readline(), end="")
+    rpy: fixed
     """
     write_whole(path, make_text(calibration, rpy=rpy).encode())
 
