@@ -99,15 +99,26 @@ def join_names(names: Iterable[object], most: int = 12) -> str:
     return ", ".join(map(quote, every[:most])) + more
 
 
-def suggest(name: str, available: Iterable[str], most: int = 5) -> str:
+def close_names(name: object, available: Iterable[str], most: int = 5) -> list[str]:
+    """Available names closest to a name, or those alone that differ from it in case only."""
+    asked = str(name).casefold()
+    spelled: dict[str, list[str]] = {}
+    # difflib takes time as the square of a name's length, for each name: of long names only the
+    # first are looked at.
+    for known in list(available)[: 2_000_000 // max(len(asked), 1) ** 2]:
+        spelled.setdefault(known.casefold(), []).append(known)
+    near = difflib.get_close_matches(asked, spelled, n=most, cutoff=0.6)
+    if asked in spelled:
+        near = [asked]
+    return [known for folded in near for known in spelled[folded]][:most]
+
+
+def suggest(name: object, available: Iterable[str], most: int = 5) -> str:
     """End of a message about an unknown name: the available names closest to it."""
     names = list(available)
     if not names:
         return "there are none"
-    # difflib takes time as the square of a name's length, for each name: of long names only the
-    # first are looked at.
-    near = names[: 2_000_000 // max(len(str(name)), 1) ** 2]
-    close = difflib.get_close_matches(str(name), near, n=most, cutoff=0.6)
+    close = close_names(name, names, most)
     if close:
         return "did you mean " + " or ".join(quote(c) for c in close) + "?"
     return "available: " + join_names(names, most)

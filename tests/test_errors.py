@@ -22,6 +22,7 @@ from poekin.errors import (  # fmt: skip
     PoseError,
     ShapeError,
     UnknownName,
+    close_names,
     escape_unprintable,
     join_names,
     quote,
@@ -106,6 +107,13 @@ def test_a_dozen_names_are_listed_and_five_offered():
     assert suggest("joint", near, 2).count("'joint") == 2
     assert suggest("joint", []) == "there are none"
     assert suggest("", ["a"]) == "available: 'a'"
+
+
+def test_a_name_is_found_whatever_its_case():
+    assert suggest("UR5", ["ur3", "ur5", "ur5e"]) == "did you mean 'ur5'?"
+    assert suggest("ur-5", ["ur3", "UR5", "ur5e"]) == "did you mean 'UR5' or 'ur5e'?"
+    assert close_names("TOOL", ["tool", "Tool", "tool0"]) == ["tool", "Tool"]
+    assert close_names("x", ["ur5"]) == []
 
 
 @pytest.mark.parametrize(

@@ -116,7 +116,7 @@ def at_tilt(delta: float, sets: int) -> Tilt:
     by_dh = gauss_newton(plain, measured, fresh, nominal.reach, PATIENCE)
     by_hayati = gauss_newton(hayati, measured, fresh, nominal.reach, STEPS_BAR + 1)
     by_screws = calibrated(screws, measured, fresh, STEPS_BAR + 1)
-    table = dh.from_chain(true)
+    table = dh.from_chain(true, convention="standard")
     exact = link_parameters(table.table)
     return Tilt(
         delta,

@@ -7,11 +7,12 @@ import os
 from ..errors import (
     FileError,
     InputError,
+    MissingExtra,
     ModelError,
     UnknownName,
+    close_names,
     escape_unprintable,
     quote,
-    suggest,
 )
 from ..model.robot import Robot
 from . import catalogue, chain_toml, dh, erd, ur, urdf
@@ -87,12 +88,25 @@ def load(name: str | os.PathLike[str]) -> Robot:
     if _exists(name):
         return urdf.read(name)
     if "/" in name or os.sep in name or name.lower().endswith(ENDINGS):
-        raise FileError(f"{escape_unprintable(name, 400)}: no such file")
-    raise UnknownName(
-        f"no file and no built-in arm is named {quote(name)}; {suggest(name, BUILT_IN)}"
-        f" (built in: {', '.join(BUILT_IN)};"
-        f' "{PREFIX}NAME" is for example-robot-data)'
-    )
+        raise FileError(f"{escape_unprintable(name, 400)}: no such file{_available(name)}")
+    raise UnknownName(f"no file and no built-in arm is named {quote(name)}{_available(name)}")
+
+
+def _available(name: str) -> str:
+    """End of a message: the names closest to one that nothing has, and all that are built in."""
+    stem = os.path.splitext(os.path.basename(name))[0]
+    close = close_names(stem, BUILT_IN) or close_names(name, _example_robots())
+    guess = ""
+    if close:
+        guess = f"; did you mean {' or '.join(map(quote, close))}?"
+    return f'{guess} (built in: {", ".join(BUILT_IN)}; "{PREFIX}NAME" is for example-robot-data)'
+
+
+def _example_robots() -> list[str]:
+    try:
+        return [f"{PREFIX}{name}" for name in erd.available()]
+    except MissingExtra:
+        return []
 
 
 def _read(path: str | os.PathLike[str]) -> Robot:

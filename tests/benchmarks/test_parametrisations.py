@@ -42,8 +42,8 @@ def at_a_thousandth():
     "make",
     [
         lambda: table_with(0.3),
-        lambda: dh.from_chain(tilted(0.1)).table,
-        lambda: dh.from_chain(NOMINAL.rebased(tilted(0.2).home)).table,
+        lambda: dh.from_chain(tilted(0.1), convention="standard").table,
+        lambda: dh.from_chain(NOMINAL.rebased(tilted(0.2).home), convention="standard").table,
     ],
     ids=["twisted", "tilted", "on a base"],
 )
@@ -107,7 +107,7 @@ def test_the_tilted_axis_meets_the_shoulder_s_at_a_over_tan_delta(delta):
     assert angle == pytest.approx(delta, abs=1e-15)
     # reciprocal product zero: the axes have a point in common
     assert abs(A[ELBOW, :3] @ A[SHOULDER, 3:] + A[ELBOW, 3:] @ A[SHOULDER, :3]) <= 1e-15
-    d = dh.from_chain(tilted(delta)).table.d[SHOULDER]
+    d = dh.from_chain(tilted(delta), convention="standard").table.d[SHOULDER]
     # an angle known to 1e-16 rad
     assert d == pytest.approx(
         -table_with(0.0).a[SHOULDER] / math.tan(delta), rel=1e-15 / delta + 1e-14

@@ -1,8 +1,10 @@
 """DH tables into screws and back, against the product of their matrices in 50 digits."""
 
 import copy
+import dataclasses
 import math
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -166,19 +168,19 @@ def test_a_helical_joint_is_refused_by_name():
         InputError,
         match=r"^joint 'bolt' is helical: Denavit-Hartenberg parameters cannot express its pitch$",
     ):
-        dh.from_chain(chain)
+        dh.from_chain(chain, convention="standard")
 
 
 def test_a_coupled_chain_gives_the_table_of_its_joints():
     chain = pk.load("panda").chain(tip="panda_rightfinger")
-    result = dh.from_chain(chain)
+    result = dh.from_chain(chain, convention="standard")
     assert result.table.names == chain.joint_names
     assert result.error <= result.bound
 
 
 def test_a_chain_without_joints_is_a_tool():
     home = pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3])
-    table = dh.from_chain(pk.Chain([], home)).table
+    table = dh.from_chain(pk.Chain([], home), convention="standard").table
     assert len(table) == 0
     np.testing.assert_array_equal(dh.to_chain(table).fk([]), home)
 
@@ -213,14 +215,25 @@ def test_tables_are_values():
         table.d[0] = 2
 
 
+BALL = Row(kind="ball")  # pyright: ignore[reportArgumentType]
+
+
 @pytest.mark.parametrize(
     "rows, error, message",
     [
         ([{"theta": 0, "d": 0, "a": 0}], InputError, "row 0: column alpha is missing"),
         ([{"theta": 0, "d": 0, "a": 0, "alhpa": 0}], InputError, "row 0: no column 'alhpa'"),
-        ([Row(kind="ball")], InputError, "kind must be 'revolute' or 'prismatic', got 'ball'"),
+        (
+            [Row(kind="ball")],
+            InputError,
+            "row 0: kind: expected 'revolute' or 'prismatic', got 'ball'",
+        ),
         ([Row(d=math.nan)], InputError, r"d\[0\]: expected a finite number"),
-        ([Row(), 7], ShapeError, "row 1: expected a Row or a dict, got int"),
+        (
+            [Row(), 7],
+            ShapeError,
+            r"row 1: expected a Row or a dict, as in Row\(theta, .*, got int",
+        ),
         ([Row(limits=(1, 0))], InputError, "lower <= upper"),
         ([Row(name="a"), Row(name="a")], InputError, "more than once"),
     ],
@@ -240,7 +253,11 @@ def test_a_table_of_a_coupled_chain_keeps_the_limits_of_the_joints_own_values():
         S, np.eye(4), coupling=[[1, 0], [-2, 0], [0, 1]], offset=[0, 0.5, 0], q_names=["q", "r"],
         limits=[[-1, 2], [0, 0.3]],
     )  # fmt: skip
-    assert dh.from_chain(chain).table.limits.tolist() == [[-1, 2], [-3.5, 2.5], [0, 0.3]]
+    assert dh.from_chain(chain, convention="standard").table.limits.tolist() == [
+        [-1, 2],
+        [-3.5, 2.5],
+        [0, 0.3],
+    ]
 
 
 def test_what_is_no_chain_is_refused():
@@ -249,25 +266,69 @@ def test_what_is_no_chain_is_refused():
             InputError,
             match=r"from_chain: expected a Chain, as Robot\.chain\(tip=\.\.\.\) makes it, got",
         ):
-            dh.from_chain(wrong)  # pyright: ignore[reportArgumentType]
+            dh.from_chain(wrong, convention="standard")  # pyright: ignore[reportArgumentType]
     with pytest.raises(
         ShapeError, match=r"^rows: expected a list of Rows or dicts, one a joint, got 5$"
     ):
         Table("standard", 5)  # pyright: ignore[reportArgumentType]
 
 
-def test_a_convention_is_named_and_degrees_are_suspected():
-    with pytest.raises(
-        InputError, match=r"^convention: expected 'standard' or 'modified', got 'craig'$"
-    ):
-        Table("craig", [])  # pyright: ignore[reportArgumentType]
+MEANING = (
+    r"; standard \(Paul, distal\) is Rz\(theta\) Tz\(d\) Tx\(a\) Rx\(alpha\),"
+    r" modified \(Craig, proximal\) is Rx\(alpha\) Tx\(a\) Rz\(theta\) Tz\(d\)$"
+)
+CHOICES = r"^convention: expected 'standard' or 'modified', "
+
+
+@pytest.mark.parametrize(
+    "make",
+    [lambda: dh.from_chain(pk.Chain([], np.eye(4))), Table, lambda: Table(rows=[Row()])],
+    ids=["of a chain", "nothing given", "only rows"],
+)
+def test_a_convention_that_is_left_out_is_asked_for_with_what_each_means(make):
+    with pytest.raises(InputError, match=CHOICES + "it was left out" + MEANING):
+        make()
+
+
+@pytest.mark.parametrize("convention", ["craig", "Standard", None, ["standard"], 5])
+def test_what_is_no_convention_is_refused_with_what_each_means(convention):
+    got = re.escape(f"got {convention!r}")
+    with pytest.raises(InputError, match=CHOICES + got + MEANING):
+        Table(convention, [])
+    with pytest.raises(InputError, match=CHOICES + got + MEANING):
+        dh.from_chain(pk.Chain([], np.eye(4)), convention=convention)
+
+
+def test_a_table_without_rows_is_not_taken_for_an_empty_one():
+    with pytest.raises(ShapeError, match=r"^rows: expected a list of Rows or dicts, one a joint"):
+        Table("standard")
+
+
+@pytest.mark.parametrize("column", ["theta", "alpha"])
+def test_degrees_are_suspected(column):
     with pytest.warns(
         PoekinWarning,
         match=(
-            r"^table 'arm': alpha = 90 of joint 'elbow' is more than a turn: degrees\? Expected are rad$"
+            rf"^table 'arm': {column} = -90 of joint 'elbow' is more than a turn: degrees\?"
+            r" Expected are rad, as np\.radians makes them$"
         ),
     ):
-        Table("standard", [Row(), Row(alpha=90.0, name="elbow")])
+        Table("standard", [Row(), dataclasses.replace(Row(name="elbow"), **{column: -90.0})])
+
+
+@pytest.mark.parametrize("name", ["samples", "seed"])
+@pytest.mark.parametrize("value", [-1, 1.5, "3", None])
+def test_samples_and_seed_are_whole_numbers(name, value):
+    with pytest.raises(
+        InputError, match=rf"^{name}: expected a whole number of at least 0, got {value!r}$"
+    ):
+        dh.from_chain(pk.Chain([], np.eye(4)), convention="modified", **{name: value})
+
+
+def test_rounding_is_printed_as_0():
+    table = Table("standard", [Row(d=8e-50, a=-1e-13, alpha=1e-12)])
+    assert "theta 0 + x  d 0  a 0  alpha 1e-12" in repr(table)
+    assert table.d[0] == 8e-50
 
 
 PLANTED = {

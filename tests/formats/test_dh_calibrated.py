@@ -23,7 +23,7 @@ def test_single_precision_keeps_a_micrometre_of_the_screws_and_loses_ten_of_the_
 
 
 def test_the_table_comes_back_from_its_screws_with_a_warning_in_numbers():
-    result = pk.dh.from_chain(pk.dh.to_chain(UR10E))
+    result = pk.dh.from_chain(pk.dh.to_chain(UR10E), convention="standard")
     assert result.error <= result.bound
     np.testing.assert_allclose(np.abs(result.table.d[1:3]), np.abs(UR10E.d[1:3]), rtol=1e-6)
     (warning,) = result.warnings

@@ -244,8 +244,8 @@ def test_a_place_that_cannot_be_written_and_an_ending_that_says_nothing_are_refu
     with pytest.raises(
         InputError,
         match=(
-            r"^write: expected a dh\.Table, got <Chain 'base' -> 'tool': 1 revolute joint, reach 1 m>: "
-            r"dh\.from_chain\(chain\)\.table makes one$"
+            r"^write: expected a dh\.Table, got <Chain 'base' -> 'tool': 1 revolute joint, reach 1 m>; "
+            r"dh\.read\(path\), dh\.published\(name\) and dh\.from_chain\(\.\.\.\)\.table make one$"
         ),
     ):
         pk.dh.write(pk.dh.to_chain(table), tmp_path / "t.csv")  # pyright: ignore[reportArgumentType]

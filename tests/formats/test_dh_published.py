@@ -64,7 +64,9 @@ def test_a_table_is_the_same_arm_as_the_urdf_of_others(name, urdf, base, tip):
 @pytest.mark.filterwarnings("ignore::poekin.errors.PoekinWarning")
 def test_the_kinova_of_example_robot_data_is_the_jaco_with_the_other_wrist():
     curved = pk.dh.published("jaco")
-    spherical = pk.dh.from_chain(pk.load("erd:kinova").chain(tip="j2s6s200_end_effector")).table
+    spherical = pk.dh.from_chain(
+        pk.load("erd:kinova").chain(tip="j2s6s200_end_effector"), convention="standard"
+    ).table
     np.testing.assert_allclose(np.degrees(curved.alpha[3:5]), 60)
     np.testing.assert_allclose(np.degrees(np.abs(spherical.alpha[3:5])), 90)
     assert curved.a[1] == pytest.approx(spherical.a[1], abs=1e-12)

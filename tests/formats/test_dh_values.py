@@ -5,6 +5,7 @@ what is said of it.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -63,10 +64,10 @@ def test_an_arm_of_every_case_has_the_table_that_its_axes_say(convention):
 def test_the_bound_takes_the_largest_length_of_the_table():
     for longest in (Row(d=-7.0, alpha=1.0), Row(a=7.0, alpha=1.0)):
         chain = dh.to_chain(Table("standard", [Row(alpha=1.0), longest, Row()]))
-        assert dh.from_chain(chain).bound == pytest.approx(
+        assert dh.from_chain(chain, convention="standard").bound == pytest.approx(
             20 * UNIT * 4 * (1 + 7.0 / chain.reach), rel=1e-9, abs=0
         )
-    empty = dh.from_chain(pk.Chain([], HOME))
+    empty = dh.from_chain(pk.Chain([], HOME), convention="standard")
     assert (empty.bound, empty.error, empty.gauge, empty.warnings) == (20 * UNIT, 0.0, (), ())
     assert (empty.table.name, empty.table.convention) == ("tool", "standard")
     np.testing.assert_array_equal(empty.table.tool, HOME)
@@ -88,14 +89,14 @@ def test_axes_that_meet_beyond_ten_times_the_reach_are_told_of_and_those_below_a
     for times, told in ((9.95, False), (10.05, True)):
         chain = two(math.atan2(0.4, times * reach), far=arm)
         assert chain.reach == pytest.approx(reach, rel=1e-3)
-        result = dh.from_chain(chain)
+        result = dh.from_chain(chain, convention="standard")
         assert len(result.warnings) == told
         assert result.table.d[0] == pytest.approx(-times * reach, rel=1e-9)
         assert result.error <= result.bound
 
 
 def test_what_is_told_of_axes_that_meet_far_away_has_its_numbers():
-    (warning,) = dh.from_chain(two(1e-8)).warnings
+    (warning,) = dh.from_chain(two(1e-8), convention="standard").warnings
     assert warning == (
         "axes of 'joint1' and 'joint2' are nearly parallel, 1e-08 rad: d is 4e+07 m on an arm of 1 m, and its rounding"
         " 4e-09 m; a product of exponentials has no such number"
@@ -113,14 +114,14 @@ def test_an_angle_that_is_dropped_far_from_the_arm_counts_with_its_lever():
         pk.screw.revolute([z[0], 1e-10, z[2]], [0.5, 0.4, 0]),
     ]
     chain = pk.Chain(rows, np.eye(4))
-    result = dh.from_chain(chain)
+    result = dh.from_chain(chain, convention="standard")
     assert "taken as parallel" in result.warnings[0]
     assert 5e-10 < result.error <= result.bound  # with 2 delta alone the bound would be 2e-10
     table = result.table
     lengths = np.abs(table.d).sum() + np.abs(table.a).sum() + np.linalg.norm(table.tool[:3, 3])
     assert result.bound == pytest.approx(2e-10 * lengths / chain.reach, rel=1e-4)
     slide = pk.Chain([*rows, pk.screw.prismatic(z)], np.eye(4))
-    more = dh.from_chain(slide)
+    more = dh.from_chain(slide, convention="standard")
     assert more.error <= more.bound
     assert more.bound * slide.reach == pytest.approx(
         2e-10
@@ -137,7 +138,10 @@ def test_an_angle_that_is_dropped_far_from_the_arm_counts_with_its_lever():
 def test_axes_are_taken_as_parallel_where_the_rounding_of_d_would_cost_more_than_their_angle():
     """2 angle reach <= u away, and away = 0.4 / angle: that is at sqrt(0.2 u) = 4.7e-9 rad."""
     switch = math.sqrt(0.2 * UNIT)
-    kept, dropped = dh.from_chain(two(1.01 * switch)), dh.from_chain(two(0.99 * switch))
+    kept, dropped = (
+        dh.from_chain(two(1.01 * switch), convention="standard"),
+        dh.from_chain(two(0.99 * switch), convention="standard"),
+    )
     assert "nearly parallel" in kept.warnings[0]
     assert dropped.warnings == (
         f"axes of 'joint1' and 'joint2' are taken as parallel: the angle of {0.99 * switch:.3g} rad between them would "
@@ -149,9 +153,9 @@ def test_axes_are_taken_as_parallel_where_the_rounding_of_d_would_cost_more_than
     assert dropped.error <= dropped.bound
     assert dropped.error > 0.1 * switch  # the angle is gone, and the error says so
     against = pk.Chain([two(0).screws[0], -two(0.99 * switch).screws[1]], np.eye(4))
-    table = dh.from_chain(against).table
+    table = dh.from_chain(against, convention="standard").table
     np.testing.assert_allclose(np.abs(table.alpha), [math.pi, 0], rtol=0, atol=1e-15)
-    assert dh.from_chain(against).error <= dropped.bound
+    assert dh.from_chain(against, convention="standard").error <= dropped.bound
 
 
 def test_axes_at_no_distance_worth_a_number_meet_or_are_one():
@@ -161,20 +165,26 @@ def test_axes_at_no_distance_worth_a_number_meet_or_are_one():
             pk.screw.revolute([0, 0, 1], [0, 0, 0]),
             pk.screw.revolute([1, 0, 0], [0, off, 0]),
         ]
-        result = dh.from_chain(pk.Chain(screws, np.eye(4)))
+        result = dh.from_chain(pk.Chain(screws, np.eye(4)), convention="standard")
         assert any("meet" in line for line in result.gauge) == meets
         one = [screws[0], pk.screw.revolute([0, 0, 1], [0, off, 0])]
-        table = dh.from_chain(pk.Chain(one, np.eye(4))).table
+        table = dh.from_chain(pk.Chain(one, np.eye(4)), convention="standard").table
         assert (table.a[0] == 0.0) == meets
 
 
 def test_the_error_is_measured_at_as_many_places_as_are_asked_for():
     wrong = two(0.99 * math.sqrt(0.2 * UNIT))
-    assert dh.from_chain(wrong, samples=0).error == 0.0
-    few, many = (dh.from_chain(wrong, samples=n).error for n in (1, 200))
+    assert dh.from_chain(wrong, samples=0, convention="standard").error == 0.0
+    few, many = (dh.from_chain(wrong, samples=n, convention="standard").error for n in (1, 200))
     assert 0 < few < many
-    assert dh.from_chain(wrong).error == dh.from_chain(wrong, samples=100, seed=0).error
-    assert dh.from_chain(wrong).error != dh.from_chain(wrong, seed=1).error
+    assert (
+        dh.from_chain(wrong, convention="standard").error
+        == dh.from_chain(wrong, samples=100, seed=0, convention="standard").error
+    )
+    assert (
+        dh.from_chain(wrong, convention="standard").error
+        != dh.from_chain(wrong, seed=1, convention="standard").error
+    )
 
 
 @pytest.mark.parametrize("about", range(3))
@@ -183,7 +193,7 @@ def test_the_error_s_lengths_are_multiples_of_the_reach(about):
     # the tool is 50 m away: a tilt of it is a length of 50 tilt, and 50 m are the reach
     chain = two(tilt, far=50.0).rebased(turn(about, math.pi / 2))
     assert chain.reach >= 50
-    result = dh.from_chain(chain)
+    result = dh.from_chain(chain, convention="standard")
     assert 0 < result.error <= 2.1 * tilt
 
 
@@ -191,7 +201,9 @@ def test_the_error_s_lengths_are_multiples_of_the_reach(about):
 def test_how_long_an_arm_is_counts_in_what_its_axes_angle_is_worth(times, parallel):
     """2 angle reach <= u 0.4 / angle: the same test of an arm of 50 m."""
     reach = two(1e-10, far=50.0).reach
-    result = dh.from_chain(two(times * math.sqrt(0.2 * UNIT / reach), far=50.0))
+    result = dh.from_chain(
+        two(times * math.sqrt(0.2 * UNIT / reach), far=50.0), convention="standard"
+    )
     assert len(result.warnings) == 1
     assert ("taken as parallel" in result.warnings[0]) == parallel
 
@@ -201,7 +213,7 @@ def test_limits_go_with_the_joints_and_are_free_where_two_coordinates_share_one(
         SCREWS[:3], HOME, q_names=["q", "r"], coupling=[[2, 0], [1, 1], [0, -1]], offset=[0.5, 0, 0.1],
         limits=[[-1, 2], [0, 0.3]],
     )  # fmt: skip
-    limits = dh.from_chain(chain).table.limits
+    limits = dh.from_chain(chain, convention="standard").table.limits
     np.testing.assert_allclose(
         limits, [[-1.5, 4.5], [-math.inf, math.inf], [-0.2, 0.1]], rtol=1e-15
     )
@@ -212,13 +224,17 @@ def test_a_first_axis_along_x_takes_y_for_its_x():
     quarter of a turn.
     """
     for axis, x in (([1, 0, 0], [0, 1, 0]), ([0, 1, 0], [1, 0, 0]), ([0, 0, -1], [1, 0, 0])):
-        base = dh.from_chain(pk.Chain([pk.screw.revolute(axis, [0, 0, 0])], np.eye(4))).table.base
+        base = dh.from_chain(
+            pk.Chain([pk.screw.revolute(axis, [0, 0, 0])], np.eye(4)), convention="standard"
+        ).table.base
         np.testing.assert_allclose(
             base[:3, :3], np.array([x, np.cross(axis, x), axis]).T, rtol=0, atol=1e-15
         )
     for lean, uses_x in ((0.89, True), (0.91, False), (-0.91, False)):
         z = np.array([lean, 0, math.sqrt(1 - lean * lean)])
-        base = dh.from_chain(pk.Chain([pk.screw.revolute(z, [0, 0, 0])], np.eye(4))).table.base
+        base = dh.from_chain(
+            pk.Chain([pk.screw.revolute(z, [0, 0, 0])], np.eye(4)), convention="standard"
+        ).table.base
         assert abs(base[1, 0]) < 1e-12 if uses_x else base[1, 0] == pytest.approx(1.0)
 
 
@@ -232,9 +248,9 @@ def test_a_helical_joint_and_an_unknown_convention_are_refused():
         InputError,
         match=r"^joint 'bolt' is helical: Denavit-Hartenberg parameters cannot express its pitch$",
     ):
-        dh.from_chain(bolt)
+        dh.from_chain(bolt, convention="standard")
     with pytest.raises(
-        InputError, match=r"^convention: expected 'standard' or 'modified', got 'craig'$"
+        InputError, match=r"^convention: expected 'standard' or 'modified', got 'craig';"
     ):
         dh.from_chain(ARM, convention="craig")  # type: ignore[arg-type]
 
@@ -292,15 +308,18 @@ def test_a_joint_called_like_the_mount_of_the_tool_keeps_its_name():
     assert robot.joints[-1].name == "tool_mount__"
 
 
+MAKERS = r"dh\.read\(path\), dh\.published\(name\) and dh\.from_chain\(\.\.\.\)\.table make one$"
+
+
 def test_only_a_table_is_one():
     for function in (dh.to_chain, dh.to_robot):
         with pytest.raises(
-            InputError, match=rf"^{function.__name__}: expected a dh.Table, got int$"
+            InputError, match=rf"^{function.__name__}: expected a dh.Table, got 5; {MAKERS}"
         ):
             function(5)  # pyright: ignore[reportArgumentType]
     with pytest.raises(
         InputError,
-        match=r"^write: expected a dh\.Table, got 5: dh\.from_chain\(chain\)\.table makes one$",
+        match=rf"^write: expected a dh\.Table, got 5; {MAKERS}",
     ):
         dh.write(5, "arm.toml")  # pyright: ignore[reportArgumentType]
 
@@ -335,7 +354,7 @@ def test_a_turn_of_alpha_is_taken_and_more_of_it_warned_about(recwarn):
         pk.PoekinWarning,
         match=(
             r"^table 'arm': alpha = -6\.3 of joint 'joint2' is more than a turn: degrees\? Expected "
-            r"are rad$"
+            r"are rad, as np\.radians makes them$"
         ),
     ):
         Table("standard", [Row(), Row(alpha=-6.3), Row(alpha=90)])
@@ -346,7 +365,7 @@ def test_the_warning_of_degrees_points_to_the_line_that_made_the_table():
         pk.PoekinWarning,
         match=(
             r"^table 'arm': alpha = 90 of joint 'joint1' is more than a turn: degrees\? Expected are "
-            r"rad$"
+            r"rad, as np\.radians makes them$"
         ),
     ) as warned:
         Table("standard", [Row(alpha=90)])
@@ -356,7 +375,10 @@ def test_the_warning_of_degrees_points_to_the_line_that_made_the_table():
 def test_of_columns_that_are_unknown_or_missing_the_first_is_named():
     with pytest.raises(
         InputError,
-        match=r"^row 0: no column 'x'; there are theta, d, a, alpha, kind, flip, name, limits$",
+        match=(
+            r"^row 0: no column 'x'; there are theta, d, a, alpha, kind, flip, name, limits;"
+            r" a joint's offset stands in theta or d$"
+        ),
     ):
         Table("standard", [{"x": 1, "y": 2}])  # pyright: ignore[reportArgumentType]
     with pytest.raises(
@@ -366,7 +388,7 @@ def test_of_columns_that_are_unknown_or_missing_the_first_is_named():
 
 
 def test_a_kind_is_what_it_says_whoever_made_the_word():
-    made = "".join(["revo", "lute"])
+    made: Any = "".join(["revo", "lute"])
     assert repr(Table("standard", [Row(kind=made)])) == repr(Table("standard", [Row()]))
 
 
@@ -413,7 +435,7 @@ def test_a_normal_that_is_free_is_not_taken_where_axes_meet_far_away(arm, slides
 
     for times, back in ((9.9, False), (10.1, True)):
         chain = meeting_at(times, three)
-        result = dh.from_chain(chain)
+        result = dh.from_chain(chain, convention="standard")
         away = times * chain.reach
         assert result.table.d[0] == pytest.approx(-away, rel=1e-6)
         # from where the axes meet to the point of the second that is nearest to the base
@@ -422,7 +444,7 @@ def test_a_normal_that_is_free_is_not_taken_where_axes_meet_far_away(arm, slides
 
 
 def test_a_row_and_a_result_are_frozen():
-    for value, field in ((ROWS[0], "d"), (dh.from_chain(ARM), "bound")):
+    for value, field in ((ROWS[0], "d"), (dh.from_chain(ARM, convention="standard"), "bound")):
         with pytest.raises(AttributeError, match=r"cannot assign to field"):
             setattr(value, field, 1.0)
 
@@ -509,9 +531,11 @@ def test_an_arm_of_a_micrometre_has_the_screws_of_a_large_one():
 
 def test_the_first_frame_stands_where_its_axis_is_nearest_to_the_base():
     z, p = np.array([2.0, -3.0, 6.0]) / 7, np.array([0.3, -1.2, 2.5])
-    base = dh.from_chain(pk.Chain([pk.screw.revolute(z, p)], HOME)).table.base
+    base = dh.from_chain(
+        pk.Chain([pk.screw.revolute(z, p)], HOME), convention="standard"
+    ).table.base
     np.testing.assert_allclose(base[:3, 2:], np.transpose([z, p - z * (z @ p)]), rtol=0, atol=1e-15)
-    slide = dh.from_chain(pk.Chain([pk.screw.prismatic(z)], HOME)).table.base
+    slide = dh.from_chain(pk.Chain([pk.screw.prismatic(z)], HOME), convention="standard").table.base
     np.testing.assert_allclose(slide[:3, 2:], np.transpose([z, np.zeros(3)]), rtol=0, atol=1e-15)
 
 

@@ -8,9 +8,12 @@ import json
 import re
 
 import numpy as np
+import pytest
 
 import poekin as pk
+from poekin.errors import InputError
 from poekin.formats import emit
+from poekin.model.checks import REQUIRED
 
 from .emitted import bound
 
@@ -272,6 +275,24 @@ def test_the_self_test_compares_every_result_with_the_chain_s():
     assert "J_EXPECTED[VECTORS][1] = {\n    {0.0},\n" in empty
     assert "double T[16], J[1];" in empty
     assert "compare(J, J_EXPECTED[i], 0);" in empty
+
+
+@pytest.mark.parametrize("write", [emit.c, emit.python])
+def test_a_frame_that_is_left_out_is_asked_for_with_the_choices(write):
+    for frame, got in ((REQUIRED, "it was left out"), (None, "got None"), (1.0, r"got 1\.0")):
+        with pytest.raises(
+            InputError,
+            match=(
+                rf"^frame: expected 'space', 'body', 'hybrid' or 'cheapest', {got}"
+                r" \(or the index of a joint\)$"
+            ),
+        ):
+            write(POLAR, frame)
+
+
+def test_a_compiled_chain_is_written_as_its_chain():
+    assert emit.python(POLAR.compile(), "body") == emit.python(POLAR, "body")
+    assert emit.c(POLAR.compile(), "body") == emit.c(POLAR, "body")
 
 
 def test_python_is_the_same_lines_on_arrays():

@@ -190,9 +190,40 @@ def test_an_unknown_name_is_answered_with_those_that_exist(name):
     )
 
 
+@pytest.mark.parametrize(
+    ("name", "guess"),
+    [
+        ("UR5", "; did you mean 'ur5'? ("),
+        ("Panda", "; did you mean 'panda'? ("),
+        ("UR 10 e", "; did you mean 'ur10e' or "),
+        ("robots/ur5e.urdf", "; did you mean 'ur5e'? ("),
+        ("franka", "named 'franka' (built in: "),
+    ],
+)
+def test_the_closest_name_is_suggested_whatever_its_case_and_folder(name, guess):
+    with pytest.raises((UnknownName, FileError)) as caught:
+        load(name)
+    assert guess in str(caught.value)
+
+
+@pytest.mark.parametrize("installed", [True, False])
+def test_a_robot_of_example_robot_data_is_suggested_where_nothing_built_in_is(
+    installed, monkeypatch
+):
+    def available():
+        if not installed:
+            raise MissingExtra("example-robot-data", "robots", "this")
+        return {"talos_left_arm": "talos_left_arm.urdf"}
+
+    monkeypatch.setattr(erd, "available", available)
+    with pytest.raises(UnknownName) as caught:
+        load("Talos_left_arm")
+    assert ("did you mean 'erd:talos_left_arm'?" in str(caught.value)) is installed
+
+
 def test_a_file_is_named_in_what_is_wrong_with_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(FileError, match=r"^gone\.urdf: no such file$"):
+    with pytest.raises(FileError, match=r"^gone\.urdf: no such file \(built in: cobra600, .*\)$"):
         load("gone.urdf")
     with pytest.raises(InputError, match=r"^load: expected a name or a path, got bytes$"):
         load(b"panda")  # type: ignore[arg-type]
@@ -208,7 +239,7 @@ def test_a_file_is_named_in_what_is_wrong_with_it(tmp_path, monkeypatch):
     long = "x" * 240 + "/" + "y" * 240 + ".urdf"
     with pytest.raises(FileError) as caught:
         load(long)
-    assert str(caught.value) == f"{long[:399]}…: no such file"
+    assert str(caught.value).startswith(f"{long[:399]}…: no such file (built in: ")
 
 
 @pytest.mark.parametrize("name", [7, None, b"panda", ["panda"]])

@@ -13,9 +13,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 
+import poekin as pk
 from poekin.errors import InputError, PoseError, ScrewError, ShapeError
 from poekin.formats.objects import from_object
 from poekin.formats.objects.attributes import type_name
+from poekin.model.checks import REQUIRED
 from poekin.testing.strategies.chain_strategies import chain_cases
 from tests.groups.test_objects import Spatial, library
 
@@ -28,7 +30,7 @@ ROUNDING = 1e-13
 @given(CASES)
 def test_home_and_screws_as_columns_are_a_chain(case):
     chain, _ = case
-    made = from_object((chain.home, chain.screws.T))
+    made = from_object((chain.home, chain.screws.T), frame="space")
     np.testing.assert_array_equal(made.screws, chain.screws)
     np.testing.assert_array_equal(made.home, chain.home)
     assert made.kinds == chain.kinds
@@ -46,14 +48,14 @@ def test_a_pair_moves_as_modern_robotics_says(case):
     chain, q = case
     mr = library("modern_robotics")
     M, Slist, Blist = chain.home, chain.screws.T, chain.body.screws.T
-    space, body = from_object((M, Slist)), from_object((M, Blist), frame="body")
+    space, body = from_object((M, Slist), frame="space"), from_object((M, Blist), frame="body")
     q = np.where(np.abs(q) < 1e-3, 0.0, q)  # below 1e-6 its exponential is the identity
     assert np.abs(space.fk(q) - mr.FKinSpace(M, Slist, q)).max() <= ROUNDING * chain.reach
     assert np.abs(body.fk(q) - mr.FKinBody(M, Blist, q)).max() <= ROUNDING * chain.reach
 
 
 def test_one_screw_may_be_a_vector_and_the_home_pose_an_object():
-    one = from_object([Spatial(np.eye(4)), [0, 0, 1, 0, 0, 0]])
+    one = from_object([Spatial(np.eye(4)), [0, 0, 1, 0, 0, 0]], frame="space")
     assert one.screws.tolist() == [[0, 0, 1, 0, 0, 0]]
 
 
@@ -62,18 +64,37 @@ def test_one_screw_may_be_a_vector_and_the_home_pose_an_object():
     [
         (
             (np.eye(4), np.zeros((3, 6))),
-            None,
+            "space",
             ShapeError,
             r"expected shape \(6, n\), .*got \(3, 6\): transpose it",
         ),
         (
             (np.eye(4), np.zeros((4, 4))),
-            None,
+            "space",
             ShapeError,
             r"expected shape \(6, n\), .*got \(4, 4\)$",
         ),
-        ((np.eye(4), [[0, 0, 2, 0, 0, 0]] * 6), None, ScrewError, r"screws\[0\]"),
-        ((np.ones((4, 4)), np.eye(6)[:, 2:3]), None, PoseError, r"home"),
+        ((np.eye(4), [[0, 0, 2, 0, 0, 0]] * 6), "space", ScrewError, r"screws\[0\]"),
+        (
+            (np.eye(4), np.tile([0, 0, 1, 0, 0, 0], (6, 1))),
+            "space",
+            ShapeError,
+            r"^screws: the rows of \(6, 6\) are screws, its columns are not: transpose it$",
+        ),
+        (
+            (np.eye(6), np.eye(4)),
+            "space",
+            ShapeError,
+            r"got \(4, 4\): the pair is \(M, screws\), in this order$",
+        ),
+        (
+            (np.eye(4), np.eye(6)),
+            REQUIRED,
+            InputError,
+            r"^frame: expected 'space' or 'body', it was left out; the screws are in the space frame in"
+            r" Slist, in the body frame in Blist$",
+        ),
+        ((np.ones((4, 4)), np.eye(6)[:, 2:3]), "space", PoseError, r"home"),
         (
             (np.eye(4), np.eye(6)),
             "tool",
@@ -81,7 +102,10 @@ def test_one_screw_may_be_a_vector_and_the_home_pose_an_object():
             r"frame: expected 'space' or 'body', got 'tool'",
         ),
     ],
-    ids=["transposed", "two poses", "no unit screw", "no pose", "no such frame"],
+    ids=[
+        *("transposed", "two poses", "no unit screw", "six transposed", "swapped", "no frame"),
+        *("no pose", "no such frame"),
+    ],
 )
 def test_a_pair_that_makes_no_sense_is_refused(pair, frame, error, message):
     with pytest.raises(error, match=message):
@@ -107,6 +131,14 @@ def test_what_is_not_known_is_refused_by_its_type_and_told_what_is(thing, name):
         from_object(thing)
 
 
+@pytest.mark.parametrize("made", ["Robot", "Chain", "Table"])
+def test_what_is_of_poekin_already_is_refused(made):
+    table = pk.dh.published("puma560")
+    models = {"Robot": pk.dh.to_robot(table), "Chain": pk.dh.to_chain(table), "Table": table}
+    with pytest.raises(InputError, match=rf"this {made} is one of poekin already"):
+        from_object(models[made])
+
+
 def test_a_frame_is_that_of_a_pair():
     joint = SimpleNamespace(isjoint=True, axis="Rz", A=None)
     with pytest.raises(
@@ -119,7 +151,7 @@ def test_a_frame_is_that_of_a_pair():
 def test_no_other_library_is_imported_for_it():
     code = (
         "import sys, numpy as np; from poekin.formats.objects import from_object;"
-        "from_object((np.eye(4), np.eye(6)[:, 2:3]));"
+        "from_object((np.eye(4), np.eye(6)[:, 2:3]), frame='space');"
         "print([m for m in ('pinocchio', 'roboticstoolbox', 'spatialmath', 'modern_robotics') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
@@ -146,7 +178,7 @@ LINES = {
         "found, expected = np.append(motion.angular, motion.linear), J[:, 0]",
     ),
     "roboticstoolbox": (
-        "table = pk.dh.from_chain(arm).table\n"
+        "table = pk.dh.from_chain(arm, convention='standard').table\n"
         "links = [roboticstoolbox.RevoluteDH(r.d, r.a, r.alpha, r.theta, r.limits, r.flip) for r in table.rows]\n"
         "robot = roboticstoolbox.DHRobot(links, base=SE3(table.base), tool=SE3(table.tool))",
         "found, expected = robot.fkine(q).A, T",

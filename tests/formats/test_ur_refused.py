@@ -16,6 +16,7 @@ from poekin.testing.cases.calibrated_arm import UR10E
 from tests.formats.test_ur import NOMINAL, nominal_robot
 
 ANY: Any = "ur10e"
+MAKERS = "dh.read(path), dh.published(name) and dh.from_chain(...).table make one"
 SEVENTH: Any = 7
 SEVEN = Table("standard", [Row(a=0.1, alpha=0.1 * i) for i in range(7)], name="seven")
 FLIPPED = Table(
@@ -80,8 +81,11 @@ UPSIDE = ur.add_deltas(NOMINAL, delta_alpha=[math.pi, 0, 0, 0, 0, 0])
                 "'panda_joint6', 'panda_joint7'"
             ),
         ),
-        (lambda: ur.from_dh(UR10E, nominal=ANY), "from_dh: expected a dh.Table, got str"),
-        (lambda: ur.add_deltas(ANY), "add_deltas: expected a dh.Table, got str"),
+        (
+            lambda: ur.from_dh(UR10E, nominal=ANY),
+            f"from_dh: expected a dh.Table, got 'ur10e'; {MAKERS}",
+        ),
+        (lambda: ur.add_deltas(ANY), f"add_deltas: expected a dh.Table, got 'ur10e'; {MAKERS}"),
         (
             lambda: ur.add_deltas(NOMINAL, delta_a=[0.0] * 7),
             (

@@ -11,6 +11,7 @@ import typer
 
 from ...errors import quote
 from ...formats import dh
+from ...formats.dh.table import PRODUCTS
 from ...model.chain import Chain
 from .. import array_files
 from ..kinematics.arm import Base, File, Json, Tip
@@ -23,11 +24,6 @@ Convention = Annotated[
 Output = Annotated[
     Path | None, typer.Option("--output", help="Where the table goes: a .toml or .csv file.")
 ]
-
-MATRICES = {
-    "standard": "Rz(theta) Tz(d) Tx(a) Rx(alpha)",
-    "modified": "Tx(a) Rx(alpha) Rz(theta) Tz(d)",
-}
 
 
 def command(
@@ -91,7 +87,7 @@ def _row(index: int, row: dh.Row, nothing: float) -> tuple[object, ...]:
 def _show(chain: Chain, result: dh.FromChain) -> None:
     found = result.table
     say(
-        f"{found.convention} DH parameters of {name(chain.base)} → {name(chain.tip)}: {MATRICES[found.convention]}\n"
+        f"{found.convention} DH parameters of {name(chain.base)} → {name(chain.tip)}: {PRODUCTS[found.convention]}\n"
     )
     nothing = result.bound * chain.reach  # the table in a file has every digit
     rows = [_row(i, row, nothing) for i, row in enumerate(found.rows, 1)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from decimal import Decimal
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from ...errors import InputError, quote, safe_repr
 from ...groups import se3
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...model.checks import REQUIRED
 from ...model.geometry.normals import (
     Normal,
     Vector,
@@ -61,7 +63,7 @@ class FromChain:
 
 
 def from_chain(
-    chain: Chain, *, convention: Convention = "standard", samples: int = 100, seed: int = 0
+    chain: Chain, *, convention: Convention = REQUIRED, samples: int = 100, seed: int = 0
 ) -> FromChain:
     """Denavit-Hartenberg table of a chain of revolute and prismatic joints, in either convention.
 
@@ -118,6 +120,11 @@ def from_chain(
             f"from_chain: expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
         )
     check_convention(convention)
+    for what, value in (("samples", samples), ("seed", seed)):
+        if not isinstance(value, (int, np.integer)) or value < 0:
+            raise InputError(
+                f"{what}: expected a whole number of at least 0, got {safe_repr(value)}"
+            )
     for name, kind in zip(chain.joint_names, chain.kinds, strict=True):
         if kind == "helical":
             raise InputError(
@@ -240,8 +247,9 @@ class _Walk:
         if convention == "standard":
             links.append(links.pop(0))
         limits = _limits(chain)
+        kinds: Any = chain.kinds
         rows = [
-            Row(theta, d, a, alpha, chain.kinds[i], False, chain.joint_names[i], limits[i])
+            Row(theta, d, a, alpha, kinds[i], False, chain.joint_names[i], limits[i])
             for i, ((theta, d), (a, alpha)) in enumerate(zip(self.turns, links, strict=True))
         ]
         return Table(convention, rows, base=_pose(*self.base), tool=self._tool(), name=chain.tip)

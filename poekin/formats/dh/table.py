@@ -13,14 +13,24 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, PoekinWarning, ShapeError, quote, safe_repr
 from ...groups.arrays import Array
-from ...model.checks import bounds, distinct_names, finite, one_pose, read_only
+from ...model.checks import REQUIRED, bounds, choice, distinct_names, finite, one_pose, read_only
 from ..common.limits import UNBOUNDED, Interval
 
 Convention = Literal["standard", "modified"]
 CONVENTIONS: tuple[Convention, ...] = get_args(Convention)
 EITHER = " or ".join(map(repr, CONVENTIONS))
-KINDS = ("revolute", "prismatic")
+RowKind = Literal["revolute", "prismatic"]
+KINDS: tuple[RowKind, ...] = get_args(RowKind)
 COLUMNS = ("theta", "d", "a", "alpha")
+PRODUCTS = {
+    "standard": "Rz(theta) Tz(d) Tx(a) Rx(alpha)",
+    "modified": "Rx(alpha) Tx(a) Rz(theta) Tz(d)",
+}
+"""Transform from one frame to the next, of each convention."""
+_MEANING = (
+    f"; standard (Paul, distal) is {PRODUCTS['standard']},"
+    f" modified (Craig, proximal) is {PRODUCTS['modified']}"
+)
 
 
 @dataclass(frozen=True)
@@ -55,7 +65,7 @@ class Row:
     d: float = 0.0
     a: float = 0.0
     alpha: float = 0.0
-    kind: str = "revolute"
+    kind: RowKind = "revolute"
     flip: bool = False
     name: str = ""
     limits: Interval = UNBOUNDED
@@ -144,7 +154,7 @@ class Table:
     d: Array
     a: Array
     alpha: Array
-    kinds: tuple[str, ...]
+    kinds: tuple[RowKind, ...]
     flips: tuple[bool, ...]
     names: tuple[str, ...]
     limits: Array
@@ -154,13 +164,13 @@ class Table:
 
     def __init__(
         self,
-        convention: Convention,
-        rows: Sequence[Row | dict[str, Any]],
+        convention: Convention = REQUIRED,
+        rows: Sequence[Row | dict[str, Any]] = REQUIRED,
         *,
         base: ArrayLike | None = None,
         tool: ArrayLike | None = None,
         name: str = "arm",
-    ):
+    ) -> None:
         check_convention(convention)
         if isinstance(rows, (str, bytes, dict)) or not isinstance(rows, Iterable):
             raise ShapeError(
@@ -168,10 +178,7 @@ class Table:
             )
         made = [_row(row, i) for i, row in enumerate(rows)]
         for i, row in enumerate(made):
-            if row.kind not in KINDS:
-                raise InputError(
-                    f"row {i}: kind must be 'revolute' or 'prismatic', got {quote(row.kind)}"
-                )
+            choice(row.kind, KINDS, f"row {i}: kind")
         given = [row.name or f"joint{i + 1}" for i, row in enumerate(made)]
         names = distinct_names(given, len(made), "names", "joint")
         values: dict[str, Any] = {
@@ -186,13 +193,15 @@ class Table:
         }
         for column in COLUMNS:
             values[column] = read_only(finite([getattr(row, column) for row in made], column))
-        large = [i for i, alpha in enumerate(values["alpha"].tolist()) if abs(alpha) > 2 * math.pi]
-        if large:
-            first = f"alpha = {values['alpha'][large[0]]:g} of joint {quote(names[large[0]])}"
-            message = (
-                f"table {quote(str(name))}: {first} is more than a turn: degrees? Expected are rad"
-            )
-            warnings.warn(message, PoekinWarning, stacklevel=2)
+        for column in ("theta", "alpha"):
+            large = np.flatnonzero(np.abs(values[column]) > 2 * math.pi)
+            if large.size:
+                angle = values[column][large[0]]
+                message = (
+                    f"table {quote(str(name))}: {column} = {angle:g} of joint {quote(names[large[0]])}"
+                    f" is more than a turn: degrees? Expected are rad, as np.radians makes them"
+                )
+                warnings.warn(message, PoekinWarning, stacklevel=2)
         for field, value in values.items():
             object.__setattr__(self, field, value)
 
@@ -224,14 +233,14 @@ class Table:
     def __hash__(self) -> int:
         return hash((self.convention, self.kinds, self.names, tuple(self.theta.tolist())))
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return _rebuilt, (self.convention, self.rows, self.base, self.tool, self.name)
 
     def __repr__(self) -> str:
         lines = [f"<{self.convention} DH table {quote(self.name)}, {len(self)} joints"]
         lines += [
-            f"  {quote(r.name)}: theta {r.theta:.9g}{_moves(r, 'revolute')}  d {r.d:.9g}{_moves(r, 'prismatic')}"
-            f"  a {r.a:.9g}  alpha {r.alpha:.9g}"
+            f"  {quote(r.name)}: theta {_shown(r.theta)}{_moves(r, 'revolute')}"
+            f"  d {_shown(r.d)}{_moves(r, 'prismatic')}  a {_shown(r.a)}  alpha {_shown(r.alpha)}"
             for r in self.rows
         ]
         return "\n".join(lines) + ">"
@@ -239,14 +248,29 @@ class Table:
 
 def check_convention(convention: object) -> None:
     """Refuse what is no convention of DH parameters. Raises: InputError."""
-    if convention not in CONVENTIONS:
-        raise InputError(f"convention: expected {EITHER}, got {convention!r:.60}")
+    choice(convention, CONVENTIONS, "convention", _MEANING)
+
+
+def check_table(table: object, what: str) -> None:
+    """Refuse what is no table, in a function called `what`. Raises: InputError."""
+    if not isinstance(table, Table):
+        raise InputError(
+            f"{what}: expected a dh.Table, got {safe_repr(table)}; dh.read(path), dh.published(name)"
+            " and dh.from_chain(...).table make one"
+        )
 
 
 def _pose(pose: ArrayLike | None, what: str) -> Array:
     if pose is None:
         return read_only(np.eye(4))
     return read_only(one_pose(pose, what))
+
+
+def _shown(value: float) -> str:
+    """Nine digits of a number, and 0 for what is rounding: 1e-12 rad or m and less."""
+    if abs(value) < 1e-12:
+        return "0"
+    return f"{value:.9g}"
 
 
 def _moves(row: Row, kind: str) -> str:
@@ -266,11 +290,15 @@ def _row(row: Any, index: int) -> Row:
     if isinstance(row, Row):
         return row
     if not isinstance(row, dict):
-        raise ShapeError(f"row {index}: expected a Row or a dict, got {type(row).__name__}")
+        raise ShapeError(
+            f"row {index}: expected a Row or a dict, as in Row(theta, d, a, alpha) [rad, m],"
+            f" got {type(row).__name__}"
+        )
     unknown = [key for key in row if key not in Row.__dataclass_fields__]
     if unknown:
         raise InputError(
-            f"row {index}: no column {quote(unknown[0])}; there are {', '.join(Row.__dataclass_fields__)}"
+            f"row {index}: no column {quote(unknown[0])}; there are"
+            f" {', '.join(Row.__dataclass_fields__)}; a joint's offset stands in theta or d"
         )
     missing = [column for column in COLUMNS if column not in row]
     if missing:

@@ -32,7 +32,7 @@ from ..common.limits import UNBOUNDED
 from ..text import toml_text, xml
 from ..text.atomic_write import write_whole
 from ..text.numbers import real
-from .table import COLUMNS, CONVENTIONS, EITHER, KINDS, Row, Table
+from .table import COLUMNS, CONVENTIONS, EITHER, KINDS, Row, Table, check_table
 
 TOP: tuple[str, ...] = ("convention", "name", "source", "base", "tool", "joint")
 FIELDS: tuple[str, ...] = ("name", "kind", *COLUMNS, "flip", "limits")
@@ -122,10 +122,7 @@ def write(table: Table, path: str | os.PathLike[str]) -> None:
     >>> pk.dh.read("ur5e.csv") == table
     True
     """
-    if not isinstance(table, Table):
-        raise InputError(
-            f"write: expected a dh.Table, got {safe_repr(table)}: dh.from_chain(chain).table makes one"
-        )
+    check_table(table, "write")
     name = _path(path)
     text = _reader(name, os.path.splitext(name)[1], _WRITERS)(table)
     write_whole(path, text.encode())
@@ -278,7 +275,7 @@ class _CsvTable:
         self.convention = convention
 
 
-def _csv_row(record: dict[Any, Any], kind: str, line: str) -> Row:
+def _csv_row(record: dict[Any, Any], kind: Any, line: str) -> Row:
     theta, d, a, alpha = (_number(record[column], f"{line}: {column}") for column in COLUMNS)
     flip = {"": False, "false": False, "true": True}.get((record.get("flip") or "").lower())
     if flip is None:

@@ -7,7 +7,6 @@ import math
 import numpy as np
 
 from ...algebra import compose
-from ...errors import InputError
 from ...formulas import dh
 from ...groups import se3
 from ...groups.arrays import Array
@@ -15,7 +14,7 @@ from ...model.chain import Chain
 from ...model.joint import Joint
 from ...model.robot import Robot
 from ..common.names import free_name
-from .table import Table
+from .table import Table, check_table
 
 
 def link_poses(table: Table) -> list[tuple[float, ...]]:
@@ -70,7 +69,7 @@ def to_chain(table: Table) -> Chain:
     >>> arm.fk([0.0] * 6).round(3)[:3, 3]
     array([ 0.452, -0.15 ,  1.104])
     """
-    _check_table(table, "to_chain")
+    check_table(table, "to_chain")
     signs = 1.0 - 2.0 * np.array(table.flips, float)
     kinds = np.array(table.kinds, str)
     rotates = (signs * (kinds == "revolute")).tolist()
@@ -119,7 +118,7 @@ def to_robot(table: Table) -> Robot:
     >>> robot.links
     ('base', 'link1', 'link2', 'link3', 'link4', 'link5', 'link6', 'tool')
     """
-    _check_table(table, "to_robot")
+    check_table(table, "to_robot")
     links = ["base", *(f"link{i + 1}" for i in range(len(table))), "tool"]
     origins = list(map(_matrix, link_poses(table)))
     joints = []
@@ -129,11 +128,6 @@ def to_robot(table: Table) -> Robot:
     fixed = free_name("tool_mount", set(table.names))
     joints.append(Joint(fixed, "fixed", links[-2], "tool", origins[-1]))
     return Robot(table.name, links, joints)
-
-
-def _check_table(table: object, what: str) -> None:
-    if not isinstance(table, Table):
-        raise InputError(f"{what}: expected a dh.Table, got {type(table).__name__}")
 
 
 def _matrix(K: tuple[float, ...]) -> Array:

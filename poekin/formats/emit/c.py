@@ -9,8 +9,18 @@ import numpy as np
 
 from ...errors import InputError, safe_repr
 from ...model.chain import Chain
+from ...model.checks import REQUIRED, choice
+from ...model.kinematics.compiled import CompiledChain
 from .c_selftest import selftest
-from .messages import Task, angle_lines, compile_checked, header_lines, identifier, make_tasks
+from .messages import (
+    Frame,
+    Task,
+    angle_lines,
+    compile_checked,
+    header_lines,
+    identifier,
+    make_tasks,
+)
 from .statements import Statements, WriteNumber, by_outputs, double, single, statements
 from .vectors import vectors
 
@@ -52,12 +62,18 @@ class CSource:
         }
 
 
-def c(chain: Chain, frame: str | int, *, name: str = "arm", real: Real = "double") -> CSource:
+def c(
+    chain: Chain | CompiledChain,
+    frame: Frame | int = REQUIRED,
+    *,
+    name: str = "arm",
+    real: Real = "double",
+) -> CSource:
     """C99 of a chain's pose and Jacobian: straight-line, without allocation, with math.h alone.
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         Chain to write.
     frame : {"space", "body", "hybrid", "cheapest"} or int
         Frame of the Jacobian, or the index of a joint, as in `CompiledChain.jacobian`.
@@ -96,14 +112,13 @@ def c(chain: Chain, frame: str | int, *, name: str = "arm", real: Real = "double
     >>> "void puma_fk(const double *q, double *T);" in source.header
     True
     """
-    if real not in KINDS:
-        raise InputError(f"real: expected 'double' or 'float', got {safe_repr(real)}")
+    choice(real, tuple(KINDS), "real")
     if not isinstance(name, str):
         raise InputError(f"name: expected a text, got {safe_repr(name)}")
     literal, kind = KINDS[real]
     arm = compile_checked(chain, frame)
     word = identifier(name)
-    functions = [_Function(word, real, literal, task, chain.dof) for task in make_tasks(arm, frame)]
+    functions = [_Function(word, real, literal, task, arm.dof) for task in make_tasks(arm, frame)]
     head = [
         f"{word}: the kinematics of one serial arm as straight-line C99, in {real}. Generated: change the arm instead.",
         "",

@@ -5,16 +5,18 @@ from __future__ import annotations
 import textwrap
 
 from ...model.chain import Chain
-from .messages import Task, angle_lines, compile_checked, header_lines, make_tasks
+from ...model.checks import REQUIRED
+from ...model.kinematics.compiled import CompiledChain
+from .messages import Frame, Task, angle_lines, compile_checked, header_lines, make_tasks
 from .statements import Statements, by_outputs, double, statements
 
 
-def python(chain: Chain, frame: str | int) -> str:
+def python(chain: Chain | CompiledChain, frame: Frame | int = REQUIRED) -> str:
     """Python module with a chain's pose and Jacobian: straight-line, without imports.
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         Chain to write.
     frame : {"space", "body", "hybrid", "cheapest"} or int
         Frame of the Jacobian, or the index of a joint, as in `CompiledChain.jacobian`.
@@ -63,7 +65,7 @@ def python(chain: Chain, frame: str | int) -> str:
         "",
     ]
     return "\n".join(
-        [*(line.rstrip() for line in head), *(_functions(task, chain.dof) for task in functions)]
+        [*(line.rstrip() for line in head), *(_functions(task, arm.dof) for task in functions)]
     )
 
 

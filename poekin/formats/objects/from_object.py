@@ -7,7 +7,9 @@ from typing import Any
 
 from ...errors import InputError
 from ...model.chain import Chain
+from ...model.checks import REQUIRED
 from ...model.robot import Robot
+from ..dh.table import Table
 from ..dh.to_chain import to_chain
 from . import dh_robot, ets, home_and_screws, pinocchio_model
 from .attributes import type_name
@@ -26,7 +28,7 @@ _KNOWN: tuple[tuple[str, Callable[[Any], bool], Callable[[Any], Robot | Chain]],
 )
 
 
-def from_object(obj: Any, *, frame: ScrewFrame | None = None) -> Any:
+def from_object(obj: Any, *, frame: ScrewFrame = REQUIRED) -> Any:
     """Model of an object of Pinocchio, the Robotics Toolbox or Modern Robotics.
 
     The other library is not imported: objects are known by their attributes, so anything that has
@@ -84,13 +86,16 @@ def from_object(obj: Any, *, frame: ScrewFrame | None = None) -> Any:
     """
     for what, fits, make in _KNOWN:
         if fits(obj):
-            if frame is not None:
+            if frame is not REQUIRED:
                 raise InputError(f"frame: it is that of a pair (M, screws), and this is {what}")
             return make(obj)
     if home_and_screws.fits(obj):
-        if frame is None:
-            return home_and_screws.make_chain(obj)
         return home_and_screws.make_chain(obj, frame)
+    if isinstance(obj, (Robot, Chain, Table)):
+        raise InputError(
+            f"from_object: expected an object of another library, this {type(obj).__name__} is one of"
+            " poekin already; of a dh.Table, dh.to_chain(table) is the chain"
+        )
     known = ", ".join(what for what, _, _ in _KNOWN)
     raise InputError(
         f"from_object: expected {known}, or Modern Robotics' pair (M, Slist), got {type_name(obj)}; files are read by"

@@ -6,9 +6,10 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from ...errors import InputError, ShapeError, safe_repr
-from ...groups.arrays import numbers
+from ...errors import ScrewError, ShapeError
+from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
+from ...model.checks import choice
 
 ScrewFrame = Literal["space", "body"]
 FRAMES: tuple[ScrewFrame, ...] = get_args(ScrewFrame)
@@ -19,7 +20,7 @@ def fits(obj: Any) -> bool:
     return isinstance(obj, (tuple, list)) and len(obj) == 2
 
 
-def make_chain(pair: Any, frame: ScrewFrame = "space") -> Chain:
+def make_chain(pair: Any, frame: ScrewFrame) -> Chain:
     """Chain e^{[S_1] q_1} ... e^{[S_n] q_n} M of (M, Slist), or M e^{[B_1] q_1} ... of (M, Blist).
 
     Parameters: pair (M, Slist): M (4, 4), m; Slist (6, n), a column (omega; v) a joint, as in
@@ -30,22 +31,45 @@ def make_chain(pair: Any, frame: ScrewFrame = "space") -> Chain:
     Accuracy: space: as given; body: as `Chain.rebased`. Source: Lynch and Park, Modern Robotics,
     2017, chapter 4.
     """
-    if frame not in FRAMES:
-        choices = " or ".join(map(repr, FRAMES))
-        raise InputError(f"frame: expected {choices}, got {safe_repr(frame)}")
+    choice(
+        frame,
+        FRAMES,
+        "frame",
+        "; the screws are in the space frame in Slist, in the body frame in Blist",
+    )
     M, screws = pair
+    rows = _rows(screws, M)
+    if frame == "space":
+        return Chain(rows, M)
+    # M e^{B q} = P f(q) with P = M and f(q) = e^{B q}: the tool's frame at home is the base of f.
+    return Chain(rows, np.eye(4)).rebased(M)
+
+
+def _rows(screws: Any, M: Any) -> Array:
+    """Screws as rows (n, 6), from columns (6, n)."""
     columns = numbers(screws, "screws")
     if columns.shape == (6,):
-        columns = columns[:, None]
-    if columns.ndim != 2 or columns.shape[0] != 6:
-        message = (
-            "screws: expected shape (6, n), a column (omega; v) a joint as in Slist,"
-            f" got {columns.shape}"
-        )
-        if columns.ndim == 2 and columns.shape[1] == 6:
-            message += ": transpose it"
-        raise ShapeError(message)
-    if frame == "space":
-        return Chain(columns.T, M)
-    # M e^{B q} = P f(q) with P = M and f(q) = e^{B q}: the tool's frame at home is the base of f.
-    return Chain(columns.T, np.eye(4)).rebased(M)
+        return columns[None]
+    if columns.ndim == 2 and columns.shape[0] == 6:
+        if columns.shape[1] == 6 and _are_screws(columns) and not _are_screws(columns.T):
+            raise ShapeError(
+                "screws: the rows of (6, 6) are screws, its columns are not: transpose it"
+            )
+        return columns.T
+    remedy = ""
+    if columns.ndim == 2 and columns.shape[1] == 6:
+        remedy = ": transpose it"
+    elif columns.shape == (4, 4) and np.shape(M)[:1] == (6,):
+        remedy = ": the pair is (M, screws), in this order"
+    raise ShapeError(
+        "screws: expected shape (6, n), a column (omega; v) a joint as in Slist,"
+        f" got {columns.shape}{remedy}"
+    )
+
+
+def _are_screws(rows: Array) -> bool:
+    try:
+        Chain(rows, np.eye(4))
+    except ScrewError:
+        return False
+    return True

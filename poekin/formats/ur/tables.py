@@ -14,7 +14,7 @@ from ...model.checks import finite
 from ...model.provenance import warn
 from .. import dh
 from ..dh import Table
-from ..dh.table import COLUMNS
+from ..dh.table import COLUMNS, check_table
 from ..dh.to_chain import link_poses
 from ..relink import relinked
 from .calibration import JOINTS, LINKS, FactoryCalibration
@@ -71,8 +71,7 @@ def add_deltas(
     >>> round(float(measured.d[0] - nominal.d[0]), 9)
     0.0002
     """
-    if not isinstance(table, Table):
-        raise InputError(f"add_deltas: expected a dh.Table, got {type(table).__name__}")
+    check_table(table, "add_deltas")
     given = dict(zip(COLUMNS, (delta_theta, delta_d, delta_a, delta_alpha), strict=True))
     columns: dict[str, list[float]] = {}
     for column, values in given.items():
@@ -166,8 +165,7 @@ def _frames(table: Table) -> FactoryCalibration:
 
 
 def _six(table: Table) -> None:
-    if not isinstance(table, Table):
-        raise InputError(f"from_dh: expected a dh.Table, got {type(table).__name__}")
+    check_table(table, "from_dh")
     name = quote(table.name)
     if len(table) != len(JOINTS):
         raise InputError(

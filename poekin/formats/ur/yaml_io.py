@@ -20,9 +20,10 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from ...errors import InputError, ModelError, PoekinError, quote, safe_repr, suggest
+from ...errors import InputError, ModelError, PoekinError, quote, suggest
 from ...groups import se3
 from ...groups.arrays import Array
+from ...model.checks import choice
 from .. import rpy as angles
 from ..text import yaml_text
 from ..text.atomic_write import write_whole
@@ -33,6 +34,7 @@ from .conf import read_text_file
 KEYS = ("x", "y", "z", "roll", "pitch", "yaw")
 RpyAxes = Literal["moving", "fixed"]
 CONVENTIONS: tuple[RpyAxes, ...] = get_args(RpyAxes)
+_MEANING = ", the axes that roll, pitch and yaw turn about"
 
 
 def read(path: str | os.PathLike[str], *, rpy: RpyAxes | None = None) -> FactoryCalibration:
@@ -77,7 +79,7 @@ def read_text(
 ) -> FactoryCalibration:
     """The calibration in a text; place stands for the file in messages. Otherwise as `read`."""
     if rpy is not None:
-        _convention(rpy)
+        choice(rpy, CONVENTIONS, "rpy", _MEANING)
     top = yaml_text.parse(text, place)
     _names(top, ("kinematics",), ("rpy",), place, "the file")
     kinematics = top.items["kinematics"]
@@ -149,7 +151,7 @@ def write(
 
 def make_text(calibration: FactoryCalibration, *, rpy: RpyAxes = "fixed") -> str:
     """The text of a calibration's file. Otherwise as `write`."""
-    _convention(rpy)
+    choice(rpy, CONVENTIONS, "rpy", _MEANING)
     if not isinstance(calibration, FactoryCalibration):
         raise InputError(f"write: expected a FactoryCalibration, got {type(calibration).__name__}")
     lines = ["kinematics:"]
@@ -216,14 +218,6 @@ def _names(
         every = ", ".join((*needed, *others))
         raise ModelError(
             f"{place}:{mapping.line}: {what}: {', '.join(missing)} missing; expected are {every}"
-        )
-
-
-def _convention(rpy: object) -> None:
-    if rpy not in CONVENTIONS:
-        raise InputError(
-            f"rpy: expected {' or '.join(map(repr, CONVENTIONS))}, the axes that the angles turn about,"
-            f" got {safe_repr(rpy)}"
         )
 
 

@@ -15,7 +15,7 @@ def test_the_table_is_printed_with_base_tool_choices_error_and_bound(poekin):
     code, out, err = poekin("dh", "panda", "--tip", "panda_hand", "--convention", "modified")
     assert (code, err) == (0, "")
     assert (
-        "modified DH parameters of panda_link0 → panda_hand: Tx(a) Rx(alpha) Rz(theta) Tz(d)" in out
+        "modified DH parameters of panda_link0 → panda_hand: Rx(alpha) Tx(a) Rz(theta) Tz(d)" in out
     )
     row = next(line.split() for line in out.splitlines() if "panda_joint5" in line)
     assert row == [
@@ -101,7 +101,7 @@ def test_limits_base_and_tool_are_printed_where_there_are_such(poekin, tmp_path)
     )
     assert one[-2:] == ["-0.5", "1.25"]
     assert len(two) == len(one) - 2  # without limits
-    found = pk.dh.from_chain(pk.load(tmp_path / "two.csv").chain()).table
+    found = pk.dh.from_chain(pk.load(tmp_path / "two.csv").chain(), convention="standard").table
     for what, T in (("Base:", found.base), ("Tool:", found.tool)):
         at = lines.index(what)
         shown = np.array([line.split() for line in lines[at + 1 : at + 5]], float)
