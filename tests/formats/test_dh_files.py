@@ -86,13 +86,13 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
     [
         (
             "theta,d,a,alpha\n",
-            "t.csv:1: column convention is missing; needed are convention, theta, d, a, alpha",
+            "t.csv:1: convention is missing",
         ),
         (
             "convention,theta,d,a\n",
-            "t.csv:1: column alpha is missing; needed are convention, theta, d, a, alpha",
+            "t.csv:1: alpha is missing",
         ),
-        ("convention,theta,d,a,alhpa\n", "t.csv:1: no such column: 'alhpa'; did you mean 'alpha'?"),
+        ("convention,theta,d,a,alhpa\n", "t.csv:1: no such key: 'alhpa'; did you mean 'alpha'?"),
         (
             "convention,theta,d,a,alpha\nstandard,1,2,3\n",
             "t.csv:2: expected 5 columns as in the header, got 4",
@@ -103,11 +103,11 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
         ),
         (
             "convention,theta,d,a,alpha\nstandard,1,2,3,x\n",
-            "t.csv:2: alpha: expected a finite number, got 'x'",
+            "t.csv:2: alpha: expected a number, got 'x'",
         ),
         (
             "convention,theta,d,a,alpha\nstandard,1,2,nan,1\n",
-            "t.csv:2: a: expected a finite number, got 'nan'",
+            "t.csv:2: a: expected finite numbers, got nan",
         ),
         (
             "convention,theta,d,a,alpha\nstandard,1,2,3,1\nmodified,1,2,3,1\n",
@@ -115,15 +115,15 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
         ),
         (
             "convention,theta,d,a,alpha\ncraig,1,2,3,1\n",
-            "t.csv: convention: expected 'standard' or 'modified', got 'craig'",
+            "t.csv: convention: expected 'standard' or 'modified', got 'craig'; ...",
         ),
         (
             "convention,theta,d,a,alpha,kind,pose\nstandard,,,,,base,1 2\n",
-            "t.csv:2: pose: expected twelve numbers, a pose's first three rows, got 2",
+            "t.csv:2: pose: expected a list of 12 numbers, got 2 of them",
         ),
         (
             f"{POSED}standard,,,,,base,{UNIT} 0\n",
-            "t.csv:2: pose: expected twelve numbers, a pose's first three rows, got 13",
+            "t.csv:2: pose: expected a list of 12 numbers, got 13 of them",
         ),
         (
             "convention,theta,d,a,alpha,flip\nstandard,1,2,3,1,no\n",
@@ -131,7 +131,7 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
         ),
         (
             "convention,theta,d,a,alpha,kind\nstandard,1,2,3,1,ball\n",
-            "t.csv:2: kind: expected 'revolute' or 'prismatic', got 'ball'",
+            "t.csv:2: kind: expected one of 'revolute', 'prismatic', got 'ball'",
         ),
         (
             "convention,theta,d,a,alpha,lower,upper\nstandard,1,2,3,1,2,1\n",
@@ -139,7 +139,7 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
         ),
         (
             "convention,theta,theta,d,a,alpha\nstandard,1,2,3,4,5\n",
-            "t.csv:1: column theta is there 2 times, expected once",
+            "t.csv:1: theta: it is there 2 times, expected once",
         ),
         (
             f"{POSED}modified,1,2,3,1,,\nstandard,,,,,base,{UNIT}\n",
@@ -151,7 +151,7 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
         ),
         ("convention,theta\rstandard,1\r", "t.csv:1: new-line character..."),
         ('convention,theta,d,a,alpha\n"standard\n', "t.csv:1: unexpected end of data..."),
-        ("", "t.csv:1: column convention is missing; needed are convention, theta, d, a, alpha"),
+        ("", "t.csv:1: convention is missing"),
     ],
 )
 def test_a_bad_csv_is_refused_with_its_line(text, message):
@@ -164,35 +164,31 @@ def test_a_bad_csv_is_refused_with_its_line(text, message):
     "text, message",
     [
         ("convention =", "t.toml: not TOML: ..."),
-        ("name = 'x'", "t.toml: convention: expected 'standard' or 'modified', got 'None'"),
+        ("name = 'x'", "t.toml: convention: expected 'standard' or 'modified', got None; ..."),
         (
             "convention = 'standard'\ncolour = 1",
-            "t.toml: no such column: 'colour'; available: 'convention', 'name', 'source', 'base', 'tool' and 1 more",
+            "t.toml: no such key: 'colour'; available: 'convention', 'name', 'source', 'base', 'tool' and 1 more",
         ),
-        ("convention = 'standard'\njoint = 3", "t.toml: expected [[joint]] tables"),
+        ("convention = 'standard'\njoint = 3", "t.toml: joint: expected [[joint]] tables, got 3"),
         (
             "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0",
-            "t.toml: joint 1: alpha is missing; needed are theta, d, a, alpha",
+            "t.toml: joint 1: alpha is missing",
         ),
         (
             "convention = 'standard'\n[[joint]]\ntheta = 'x'\nd = 0\na = 0\nalpha = 0",
-            "t.toml: joint 1: theta: expected a finite number, got 'x'",
+            "t.toml: joint 1: theta: expected a number, got 'x'",
         ),
         (
             "convention = 'standard'\n[[joint]]\ntheta = 0\nd = nan\na = 0\nalpha = 0",
-            "t.toml: joint 1: d: expected a finite number, got 'nan'",
+            "t.toml: joint 1: d: expected finite numbers, got nan",
         ),
         (
             f"convention = 'standard'\n[[joint]]\ntheta = {'9' * 400}\nd = 0\na = 0\nalpha = 0",
-            "t.toml: joint 1: theta: expected a finite number, got '999...",
+            "t.toml: joint 1: theta: expected finite numbers, got inf",
         ),
         (
             f"convention = 'standard'\n[[joint]]\ntheta = {'9' * 5000}\nd = 0\na = 0\nalpha = 0",
             "t.toml: not TOML: ...",
-        ),
-        (
-            f"{JOINT}limits = [0, {'9' * 400}]",
-            "t.toml: joint 1: limits: expected [lower, upper], got '[0, 999...",
         ),
         (
             f"{JOINT}limits = [1, 0]",
@@ -209,19 +205,19 @@ def test_a_bad_csv_is_refused_with_its_line(text, message):
         ),
         (
             "convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nlimits=[1]",
-            "t.toml: joint 1: limits: expected [lower, upper], got '[1]'",
+            "t.toml: joint 1: limits: expected a list of 2 numbers, got 1 of them",
         ),
         (
             "convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nflip=1",
-            "t.toml: joint 1: flip: expected true or false, got '1'",
+            "t.toml: joint 1: flip: expected true or false, got 1",
         ),
         (
             "convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nkind=5",
-            "t.toml: joint 1: kind: expected 'revolute' or 'prismatic', got '5'",
+            "t.toml: joint 1: kind: expected a text, got 5",
         ),
         (
             "convention = 'standard'\n[[joint]]\ntheta=0\nd=0\na=0\nalpha=0\nname=5",
-            "t.toml: joint 1: name: expected a text, got '5'",
+            "t.toml: joint 1: name: expected a text, got 5",
         ),
     ],
 )

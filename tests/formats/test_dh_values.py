@@ -461,7 +461,7 @@ def test_a_joint_that_cannot_move_is_a_joint():
 
 
 def test_of_columns_that_are_there_twice_the_first_is_named():
-    with pytest.raises(ModelError, match=r"^t\.csv:1: column d is there 3 times, expected once$"):
+    with pytest.raises(ModelError, match=r"^t\.csv:1: d: it is there 3 times, expected once$"):
         table_io.read_text("convention,theta,d,d,d,a,a,alpha\n", "t.csv")
 
 
@@ -492,7 +492,8 @@ def test_limits_come_back_from_either_file(limits):
 def test_limits_that_are_no_pair_of_numbers_are_refused(limits):
     text = f"convention='standard'\n[[joint]]\ntheta=1\nd=2\na=3\nalpha=1\nlimits={limits}\n"
     with pytest.raises(
-        ModelError, match=r"^t.toml: joint 1: limits: expected \[lower, upper\], got "
+        ModelError,
+        match=r"^t.toml: joint 1: limits: expected (a list of 2 numbers|lower <= upper|a number), got ",
     ):
         table_io.read_text(text, "t.toml")
 

@@ -18,7 +18,6 @@ from ..common.limits import UNBOUNDED, Interval
 
 Convention = Literal["standard", "modified"]
 CONVENTIONS: tuple[Convention, ...] = get_args(Convention)
-EITHER = " or ".join(map(repr, CONVENTIONS))
 RowKind = Literal["revolute", "prismatic"]
 KINDS: tuple[RowKind, ...] = get_args(RowKind)
 COLUMNS = ("theta", "d", "a", "alpha")

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 import os
 from collections import Counter
 from collections.abc import Callable
@@ -25,27 +24,18 @@ from ...errors import (
     escape_unprintable,
     quote,
     safe_repr,
-    suggest,
 )
 from ...groups.arrays import Array
 from ..common.limits import UNBOUNDED
 from ..text import toml_text, xml
 from ..text.atomic_write import write_whole
 from ..text.numbers import real
-from .table import COLUMNS, CONVENTIONS, EITHER, KINDS, Row, Table, check_table
+from ..text.toml_text import Keys
+from .table import COLUMNS, KINDS, Row, Table, check_table
 
 TOP: tuple[str, ...] = ("convention", "name", "source", "base", "tool", "joint")
 FIELDS: tuple[str, ...] = ("name", "kind", *COLUMNS, "flip", "limits")
-CSV_COLUMNS: tuple[str, ...] = (
-    "convention",
-    "name",
-    "kind",
-    *COLUMNS,
-    "flip",
-    "lower",
-    "upper",
-    "pose",
-)
+CSV_COLUMNS: tuple[str, ...] = ("convention", *FIELDS[:-1], "lower", "upper", "pose")
 
 
 def read(path: str | os.PathLike[str]) -> Table:
@@ -148,75 +138,34 @@ def _reader(name: str, ending: str, known: dict[str, Callable]) -> Callable:
 
 
 def _from_toml(text: str, place: str, stem: str) -> Table:
-    data = toml_text.parse(text, place)
-    _only(data, TOP, place)
-    joints = data.get("joint", [])
-    if not isinstance(joints, list) or not all(isinstance(joint, dict) for joint in joints):
-        raise ModelError(f"{place}: expected [[joint]] tables")
-    rows = [_row(joint, f"{place}: joint {i + 1}") for i, joint in enumerate(joints)]
-    return _table(
-        place,
-        data.get("convention"),
-        rows,
-        data.get("base"),
-        data.get("tool"),
-        data.get("name", stem),
-    )
+    keys = Keys(toml_text.parse(text, place), place, TOP)
+    rows = [_row(joint) for joint in keys.tables("joint", FIELDS)]
+    given = keys.data
+    poses = (given.get("base"), given.get("tool"))
+    return _table(place, given.get("convention"), rows, *poses, given.get("name", stem))
 
 
-def _row(joint: dict[str, Any], place: str) -> Row:
-    _only(joint, FIELDS, place)
-    for column in COLUMNS:
-        if column not in joint:
-            raise ModelError(f"{place}: {column} is missing; needed are {', '.join(COLUMNS)}")
-        if not math.isfinite(_float(joint[column])):
-            raise ModelError(
-                f"{place}: {column}: expected a finite number, got {quote(joint[column])}"
-            )
-    limits = joint.get("limits", list(UNBOUNDED))
-    if (
-        not isinstance(limits, list)
-        or len(limits) != 2
-        or any(map(math.isnan, map(_float, limits)))
-    ):
-        raise ModelError(f"{place}: limits: expected [lower, upper], got {quote(limits)}")
-    if not isinstance(joint.get("flip", False), bool):
-        raise ModelError(f"{place}: flip: expected true or false, got {quote(joint['flip'])}")
-    if not isinstance(joint.get("name", ""), str):
-        raise ModelError(f"{place}: name: expected a text, got {quote(joint['name'])}")
-    numbers: dict[str, Any] = {column: _float(joint[column]) for column in COLUMNS}
-    numbers["limits"] = (_float(limits[0]), _float(limits[1]))
-    return _checked(Row(**(joint | numbers)), place)
-
-
-def _float(value: Any) -> float:
-    """Number of TOML; NaN for anything else, and for an integer that no float can hold."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return math.nan
-    try:
-        return float(value)
-    except OverflowError:
-        return math.nan
-
-
-def _checked(row: Row, place: str) -> Row:
-    """The row, if it can stand in a table: here the place of it is known."""
-    if row.kind not in KINDS:
-        raise ModelError(
-            f"{place}: kind: expected 'revolute' or 'prismatic', got {quote(row.kind)}"
-        )
-    if not row.limits[0] <= row.limits[1]:
-        raise ModelError(
-            f"{place}: limits: expected lower <= upper, got {row.limits[0]} and {row.limits[1]}"
-        )
-    return row
+def _row(keys: Keys) -> Row:
+    """Row of a table in TOML, or of a line of CSV as such a table."""
+    optional: dict[str, Any] = {}
+    if "kind" in keys.data:
+        optional["kind"] = keys.text("kind", KINDS)
+    if "flip" in keys.data:
+        optional["flip"] = keys.truth("flip")
+    if "name" in keys.data:
+        optional["name"] = keys.text("name")
+    if "limits" in keys.data:
+        lower, upper = keys.array("limits", (2,), finite=False).tolist()
+        if not lower <= upper:
+            raise keys.fault("limits", f"expected lower <= upper, got {lower} and {upper}")
+        optional["limits"] = (lower, upper)
+    return Row(**{column: keys.number(column) for column in COLUMNS}, **optional)
 
 
 def _from_csv(text: str, place: str, stem: str) -> Table:
     reader = csv.DictReader(io.StringIO(text), strict=True)
-    found = _CsvTable(place)
     try:
-        found.take_header(list(reader.fieldnames or ()))
+        found = _CsvTable(place, list(reader.fieldnames or ()))
         for record in reader:
             found.take(record, f"{place}:{reader.line_num}")
     except csv.Error as fault:
@@ -228,26 +177,17 @@ def _from_csv(text: str, place: str, stem: str) -> Table:
 class _CsvTable:
     """Rows, poses and convention of a table, taken out of a CSV line by line."""
 
-    def __init__(self, place: str):
-        self.place = place
-        self.header: list[str] = []
+    def __init__(self, place: str, header: list[str]) -> None:
+        self.header = header
         self.rows: list[Row] = []
         self.poses: dict[str, Array] = {}
         self.convention: str | None = None
-
-    def take_header(self, header: list[str]) -> None:
-        """Check the names of the columns."""
-        place = f"{self.place}:1"
-        _only(dict.fromkeys(header), CSV_COLUMNS, place)
-        for column, times in Counter(header).items():
+        keys = Keys(Counter(header), f"{place}:1", CSV_COLUMNS)
+        for column, times in keys.data.items():
             if times > 1:
-                raise ModelError(f"{place}: column {column} is there {times} times, expected once")
+                raise keys.fault(column, f"it is there {times} times, expected once")
         for column in ("convention", *COLUMNS):
-            if column not in header:
-                raise ModelError(
-                    f"{place}: column {column} is missing; needed are convention, {', '.join(COLUMNS)}"
-                )
-        self.header = header
+            keys.value(column)
 
     def take(self, record: dict[Any, Any], line: str) -> None:
         """Take a row or a pose; line is what messages call it."""
@@ -262,11 +202,13 @@ class _CsvTable:
         if record["convention"] or not posed:  # of a pose it may be left out
             self._take_convention(record["convention"], line)
         if not posed:
-            self.rows.append(_checked(_csv_row(record, kind, line), line))
+            self.rows.append(_row(_as_keys(record, line)))
             return
         if kind in self.poses:
             raise ModelError(f"{line}: a second row of the kind {kind}, expected one at most")
-        self.poses[kind] = _pose(record.get("pose", ""), f"{line}: pose")
+        cells = [_cell(word) for word in record.get("pose", "").split()]
+        rows = Keys({"pose": cells}, line).array("pose", (12,)).reshape(3, 4)
+        self.poses[kind] = np.vstack([rows, [0, 0, 0, 1]])
 
     def _take_convention(self, convention: str, line: str) -> None:
         if self.convention not in (None, convention):
@@ -275,46 +217,25 @@ class _CsvTable:
         self.convention = convention
 
 
-def _csv_row(record: dict[Any, Any], kind: Any, line: str) -> Row:
-    theta, d, a, alpha = (_number(record[column], f"{line}: {column}") for column in COLUMNS)
-    flip = {"": False, "false": False, "true": True}.get((record.get("flip") or "").lower())
-    if flip is None:
-        raise ModelError(f"{line}: flip: expected true or false, got {quote(record['flip'])}")
-    lower, upper = (
-        _number(record.get(side) or default, f"{line}: {side}", True) for side, default in _SIDES
-    )
-    return Row(theta, d, a, alpha, kind, flip, record.get("name") or "", (lower, upper))
+def _as_keys(record: dict[str, str], line: str) -> Keys:
+    """Line of CSV as a table in TOML has it; an empty cell stands for the default."""
+    data: dict[str, Any] = {key: record[key] for key in ("kind", "name") if record.get(key)}
+    data |= {column: _cell(record[column]) for column in COLUMNS}
+    data["limits"] = [_cell(record.get("lower") or "-inf"), _cell(record.get("upper") or "inf")]
+    if flip := record.get("flip"):
+        data["flip"] = {"true": True, "false": False}.get(flip.lower(), flip)
+    return Keys(data, line)
 
 
-_SIDES = (("lower", "-inf"), ("upper", "inf"))
-
-
-def _number(text: str, place: str, infinite: bool = False) -> float:
-    value = real(text.strip())
-    if value is None or (not infinite and not math.isfinite(value)):
-        expected = "a number" if infinite else "a finite number"
-        raise ModelError(f"{place}: expected {expected}, got {quote(text)}")
-    return value
-
-
-def _pose(text: str, place: str) -> Array:
-    numbers = [_number(word, place) for word in text.split()]
-    if len(numbers) != 12:
-        raise ModelError(
-            f"{place}: expected twelve numbers, a pose's first three rows, got {len(numbers)}"
-        )
-    return np.vstack([np.reshape(numbers, (3, 4)), [0, 0, 0, 1]])
-
-
-def _only(data: dict[str, Any], known: tuple[str, ...], place: str) -> None:
-    for key in data:
-        if key not in known:
-            raise ModelError(f"{place}: no such column: {quote(key)}; {suggest(str(key), known)}")
+def _cell(text: str) -> float | str:
+    """Number that a cell says, or its text where it says none."""
+    number = real(text.strip())
+    if number is None:
+        return text
+    return number
 
 
 def _table(place: str, convention: Any, rows: list[Row], base: Any, tool: Any, name: str) -> Table:
-    if convention not in CONVENTIONS:
-        raise ModelError(f"{place}: convention: expected {EITHER}, got {quote(convention)}")
     try:
         return Table(convention, rows, base=base, tool=tool, name=name)
     except PoekinError as fault:
