@@ -85,15 +85,15 @@ def fault(result: Any, change: str, k: int) -> str:
     ):
         return f"says {result.verdict}"
     size = {
-        "tilt": (j.angle, 0.1),
-        "shift": (j.normal, 1.0),
-        "zero": (-j.zero_offset, 0.5),
+        "tilt": (j.angle, np.radians(0.1)),
+        "shift": (j.normal, 1e-3),
+        "zero": (-j.zero_offset, np.radians(0.5)),
         "flip": (1, 1),
     }[change]
     if not abs(size[0] - size[1]) <= 0.01 * size[1]:
         return f"size {size}"
-    if change == "tilt" and j.normal > 0.01:
-        return f"tilt shifted by {j.normal}"
+    if change == "tilt" and j.normal > 1e-5:
+        return f"tilt shifted by {j.normal} m"
     if result.equal != (change in ("zero", "flip")) or f"joint {k + 1} " not in result.verdict:
         return f"verdict {result.verdict}"
     if result.base is None or result.tool is None:
@@ -129,4 +129,5 @@ def alignment_fault(result: Any, base: np.ndarray, tool: np.ndarray) -> str:
     off = max(np.abs(result.base - base).max(), np.abs(result.tool - tool).max())
     if not off <= 1e-7:
         return f"alignment off by {off:.1g}"
-    return "" if result.after.worst_mm < 1e-4 else f"{result.after.worst_mm:.1g} mm are left"
+    left = result.after.worst_position
+    return "" if left < 1e-7 else f"{1e3 * left:.1g} mm are left"

@@ -18,7 +18,13 @@ class Result:
     left_out: ClassVar[tuple[str, ...]] = ()  # fields that are no plain data, such as a chain
 
     def summary(self) -> str:
-        """Text for people: lengths in mm, angles in deg."""
+        """Text for people: lengths in mm, angles in deg.
+
+        Returns
+        -------
+        text : str
+            Lines without a line break at the end.
+        """
         raise NotImplementedError
 
     def to_dict(self) -> dict[str, object]:

@@ -91,9 +91,9 @@ def size(result, change: str, k: int) -> float:  # type: ignore[no-untyped-def]
     joint = result.joints[k]
     return float(
         {
-            "tilt": joint.angle,
-            "shift": joint.normal,
-            "zero": abs(joint.zero_offset),
+            "tilt": np.degrees(joint.angle),
+            "shift": 1e3 * (joint.normal or 0.0),
+            "zero": np.degrees(abs(joint.zero_offset)),
             "flip": joint.reversed,
         }[change]
     )

@@ -2,32 +2,45 @@
 
 from __future__ import annotations
 
-import json
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
+from typing import ClassVar, get_args
 
 import numpy as np
 
-from ..errors import InputError, safe_repr
+from ..errors import InputError, join_names, safe_repr
 from ..groups.arrays import Array
 from ..model.chain import Chain
+from ..results import Result
+from .amounts import amount
 from .compare.alignment.lines import cross, direction, uncoupled_at_zero
-from .shapes import Shape, shapes
-from .tolerances import check_tolerances
+from .shapes import Shape, ShapeKind, line_angle, shapes
+from .tolerances import POSITION, ROTATION, check_tolerances
 
 __all__ = ["AxesReport", "AxisPair", "axes"]
 
 
 @dataclass(frozen=True)
-class AxisPair:
-    """Two axes, one or two joints apart, at q = 0.
+class AxisPair(Result):
+    """Two axes of an arm, one or two joints apart, at q = 0.
 
-    Attributes: first, second (joint numbers from 1), name_first, name_second; angle, 0 to 90 deg,
-    between the lines whatever their directions; distance, the common normal's length in mm (None
-    with a prismatic joint, which has no place); parallel, perpendicular, intersecting within
-    tolerance (parallel at distance 0 is one line: coaxial).
-    fixed: whether no joint between them changes it, that is, the axes are of neighbouring joints.
+    Attributes
+    ----------
+    first, second : int
+        Numbers of the joints, from 1.
+    name_first, name_second : str
+        Names of the joints.
+    angle : float
+        Angle between the lines whatever their directions, 0 to π/2 rad.
+    distance : float or None
+        Length of the common normal, m; None with a prismatic joint, whose axis has no place.
+    parallel, perpendicular, intersecting : bool
+        Relation within the tolerances; parallel and intersecting axes are coaxial.
+    fixed : bool
+        Whether it holds at every q, that is, whether the axes are of neighbouring joints.
     """
+
+    derived: ClassVar = ("relation",)
 
     first: int
     second: int
@@ -41,16 +54,16 @@ class AxisPair:
     fixed: bool
 
     @property
-    def words(self) -> str:
-        """The relation in words, with what it misses: "perpendicular, 82.5 mm from intersecting"."""
+    def relation(self) -> str:
+        """Text such as "perpendicular, 82.5 mm from intersecting"."""
         if self.parallel:
             lie = "parallel"
         elif self.perpendicular:
             lie = "perpendicular"
+        elif self.angle < math.pi / 4:
+            lie = f"{amount(self.angle, 'rad')} from parallel"
         else:
-            lie = f"{90 - self.angle:.4g}° from perpendicular"
-            if self.angle < 45:
-                lie = f"{self.angle:.4g}° from parallel"
+            lie = f"{amount(math.pi / 2 - self.angle, 'rad')} from perpendicular"
         if self.distance is None:
             return lie
         if self.parallel and self.intersecting:
@@ -60,106 +73,165 @@ class AxisPair:
         end = "from intersecting"
         if self.parallel:
             end = "apart"
-        return f"{lie}, {self.distance:.4g} mm {end}"
+        return f"{lie}, {amount(self.distance, 'm')} {end}"
+
+    def summary(self) -> str:
+        """Names of both joints and their relation, in mm and degrees.
+
+        Returns
+        -------
+        text : str
+            Line such as "joint1 - joint2: parallel, 425 mm apart".
+        """
+        return f"{self.name_first} - {self.name_second}: {self.relation}"
 
 
 @dataclass(frozen=True)
-class AxesReport:
-    """Geometry of an arm's axes: pairs of neighbours and of every third, and the shapes that they
-    make.
+class AxesReport(Result):
+    """Geometry of an arm's axes; the result of `axes`.
 
-    Attributes: pairs, shapes (see `Shape`), tol_mm, tol_deg.
+    Attributes
+    ----------
+    pairs : tuple of AxisPair
+        Relations of neighbouring axes and of every third.
+    shapes : tuple of Shape
+        Shapes that axes make together, such as a spherical wrist.
+    tol_position, tol_rotation : float
+        Tolerances, m and rad.
     """
 
     pairs: tuple[AxisPair, ...]
     shapes: tuple[Shape, ...]
-    tol_mm: float
-    tol_deg: float
+    tol_position: float
+    tol_rotation: float
 
-    def has(self, kind: str) -> bool:
-        """Whether a shape of that kind was found.
+    def has(self, kind: ShapeKind) -> bool:
+        """Whether a shape of a kind was found.
 
-        Parameters: kind, "spherical wrist", "spherical shoulder", "three parallel axes", "Pieper"
-        or "S-R-S". Raises: nothing; of another kind there is none.
+        Parameters
+        ----------
+        kind : str
+            "spherical wrist", "spherical shoulder", "spherical joint", "three parallel axes",
+            "Pieper" or "S-R-S".
+
+        Returns
+        -------
+        found : bool
+            Whether there is at least one.
+
+        Raises
+        ------
+        InputError
+            If there is no such kind.
         """
+        if kind not in get_args(ShapeKind):
+            kinds = join_names(get_args(ShapeKind))
+            raise InputError(f"kind: expected one of {kinds}, got {safe_repr(kind)}")
         return any(shape.kind == kind for shape in self.shapes)
 
-    def as_dict(self) -> dict[str, object]:
-        """Everything as plain dicts, lists, strings and numbers."""
-        return {
-            "pairs": [asdict(pair) | {"words": pair.words} for pair in self.pairs],
-            "shapes": [asdict(shape) | {"joints": list(shape.joints)} for shape in self.shapes],
-            "tol_mm": self.tol_mm,
-            "tol_deg": self.tol_deg,
-        }
+    def summary(self) -> str:
+        """One line a pair and one a shape, in mm and degrees.
 
-    def to_json(self) -> str:
-        """`as_dict` as JSON text."""
-        return json.dumps(self.as_dict(), indent=2, allow_nan=False)
-
-    def __str__(self) -> str:
-        lines = [f"{p.name_first} - {p.name_second}: {p.words}" for p in self.pairs]
-        return "\n".join([*lines, *(shape.words for shape in self.shapes)])
+        Returns
+        -------
+        text : str
+            Lines such as "joint1 - joint2: parallel, 425 mm apart".
+        """
+        return "\n".join(row.summary() for row in (*self.pairs, *self.shapes))
 
 
-def axes(chain: Chain, *, tol_mm: float = 0.01, tol_deg: float = 0.001) -> AxesReport:
-    """Every pair of consecutive and every third axes of a chain at q = 0, and the shapes that they
-    make.
+def axes(
+    chain: Chain, *, tol_position: float = POSITION, tol_rotation: float = ROTATION
+) -> AxesReport:
+    """Relations of neighbouring and every third axes at q = 0, and the shapes that they make.
 
-    Consecutive axes keep their angle and distance whatever q is; every third pair is as it stands
-    at q = 0. A shape is said to be there only where it holds at every q, by axes that no joint
-    moves against each other.
+    Neighbouring axes keep their angle and distance whatever q is; every third pair is as it stands
+    at q = 0. A shape is reported only where it holds at every q.
 
-    Parameters: chain; tol_mm, tol_deg, how far off parallel, perpendicular or intersecting still is
-    it.
-    Returns: AxesReport. Raises: InputError. Accuracy: an angle or distance built into two screws
-    comes
-    back to 1e-9 of itself, from 0.01 deg and 0.1 mm up (tests/analysis/test_axes.py).
-    Source: Pieper 1968 for what solves in closed form.
+    Parameters
+    ----------
+    chain : Chain
+        Arm to look at.
+    tol_position : float, default 1e-5
+        Distance up to which axes intersect, m.
+    tol_rotation : float, default 1.75e-5
+        Angle up to which they are parallel or perpendicular, rad (0.001 deg).
+
+    Returns
+    -------
+    report : AxesReport
+        Pairs of axes and shapes.
+
+    Raises
+    ------
+    InputError
+        If `chain` is no Chain, or a tolerance no positive number.
+
+    See Also
+    --------
+    compare : Comparison of two models of one arm.
+
+    Notes
+    -----
+    Accuracy: an angle or distance built into two screws comes back to 1e-9 of itself, from 2e-4 rad
+    and 0.1 mm up (tests/analysis/test_axes.py). Source: Pieper 1968 for the arms that have a
+    closed form.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> report = pk.axes(pk.load("panda").chain(tip="panda_hand"))
+    >>> report.has("spherical shoulder"), report.has("spherical wrist")
+    (True, False)
+    >>> print(report.pairs[6])
+    panda_joint4 - panda_joint5: perpendicular, 82.5 mm from intersecting
     """
     if not isinstance(chain, Chain):
         raise InputError(
             f"expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
         )
-    check_tolerances(tol_mm, tol_deg)
+    check_tolerances(tol_position=tol_position, tol_rotation=tol_rotation)
     rest = uncoupled_at_zero(chain)
+    tol = (float(tol_position), float(tol_rotation))
+    numbers = range(1, len(rest.kinds) + 1)
+    near = [(i, i + step) for i in numbers for step in (1, 2) if i + step in numbers]
     ways = direction(rest.screws, rest.kinds)
-    places = [
-        None if k == "prismatic" else cross(S[:3], S[3:])
-        for S, k in zip(rest.screws, rest.kinds, strict=True)
-    ]
-    n = len(rest.kinds)
-    pairs = []
-    for i, j in [(i, i + step) for i in range(n) for step in (1, 2) if i + step < n]:
-        angle, distance = _between(ways[i], places[i], ways[j], places[j], tol_deg)
-        pair = AxisPair(
-            first=i + 1,
-            second=j + 1,
-            name_first=rest.joint_names[i],
-            name_second=rest.joint_names[j],
-            angle=angle,
-            distance=distance,
-            parallel=angle <= tol_deg,
-            perpendicular=90 - angle <= tol_deg,
-            intersecting=distance is not None and distance <= tol_mm,
-            fixed=j == i + 1,
-        )
-        pairs.append(pair)
-    return AxesReport(
-        tuple(pairs), shapes(rest, float(tol_mm), float(tol_deg)), float(tol_mm), float(tol_deg)
+    places = cross(rest.screws[:, :3], rest.screws[:, 3:])
+    pairs = tuple(_pair(rest, ways, places, i - 1, j - 1, *tol) for i, j in near)
+    return AxesReport(pairs, shapes(rest, *tol), *tol)
+
+
+def _pair(
+    rest: Chain,
+    ways: Array,
+    places: Array,
+    i: int,
+    j: int,
+    tol_position: float,
+    tol_rotation: float,
+) -> AxisPair:
+    """Relation of the axes i < j of a chain at rest."""
+    angle = line_angle(ways[i], ways[j])
+    distance = None
+    if "prismatic" not in (rest.kinds[i], rest.kinds[j]):
+        distance = _distance(ways[i], ways[j], places[j] - places[i], angle <= tol_rotation)
+    return AxisPair(
+        first=i + 1,
+        second=j + 1,
+        name_first=rest.joint_names[i],
+        name_second=rest.joint_names[j],
+        angle=angle,
+        distance=distance,
+        parallel=angle <= tol_rotation,
+        perpendicular=math.pi / 2 - angle <= tol_rotation,
+        intersecting=distance is not None and distance <= tol_position,
+        fixed=j == i + 1,
     )
 
 
-def _between(
-    w: Array, p: Array | None, u: Array, r: Array | None, tol_deg: float
-) -> tuple[float, float | None]:
-    """Angle (0 to 90 deg) and common normal (mm) of two lines; of parallel ones their distance."""
+def _distance(w: Array, u: Array, gap: Array, parallel: bool) -> float:
+    """Length (m) of the common normal of lines along w and u, `gap` between them."""
+    if parallel:
+        return float(np.linalg.norm(gap - w * (w @ gap)))
     across = cross(w, u)
-    sine = float(np.linalg.norm(across))
-    angle = math.degrees(math.atan2(sine, abs(float(w @ u))))
-    if p is None or r is None:
-        return angle, None
-    gap = r - p
-    if angle <= tol_deg:
-        return angle, 1e3 * float(np.linalg.norm(gap - w * (w @ gap)))
-    return angle, 1e3 * abs(float(gap @ across)) / sine
+    return abs(float(gap @ across)) / float(np.linalg.norm(across))

@@ -7,32 +7,68 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations
+from typing import Literal
 
 import numpy as np
 
 from ..groups.arrays import Array
 from ..model.chain import Chain
+from ..results import Result
+from .amounts import amount
 from .compare.alignment.lines import cross
 
-__all__ = ["Shape", "shapes"]
+__all__ = ["Shape", "ShapeKind", "shapes"]
+
+ShapeKind = Literal[
+    "spherical wrist",
+    "spherical shoulder",
+    "spherical joint",
+    "three parallel axes",
+    "Pieper",
+    "S-R-S",
+]
 
 
 @dataclass(frozen=True)
-class Shape:
-    """Something that some joints of an arm make together.
+class Shape(Result):
+    """Shape that some joints of an arm make together, at every q.
 
-    Attributes: kind ("spherical wrist", "spherical shoulder", "spherical joint", "three parallel
-    axes", "Pieper", "S-R-S"); joints, their numbers from 1; error, by how much they miss it: mm
-    that axes pass their common point by, or deg from parallel; words.
+    Attributes
+    ----------
+    kind : str
+        Name of the shape: "spherical wrist", "spherical shoulder", "spherical joint",
+        "three parallel axes", "Pieper" or "S-R-S".
+    joints : tuple of int
+        Numbers of the joints, from 1.
+    error : float
+        Largest distance of an axis from the common point, m; of parallel axes the largest angle
+        between two, rad.
+    parallel : bool
+        Whether the axes are parallel, else they meet in a point.
     """
 
-    kind: str
+    kind: ShapeKind
     joints: tuple[int, ...]
     error: float
-    words: str
+    parallel: bool = False
+
+    def summary(self) -> str:
+        """Text with the joints, and by how much they miss the shape, in mm and degrees."""
+        if self.kind == "S-R-S":
+            return "S-R-S: a spherical shoulder, an elbow and a spherical wrist, like a human arm"
+        joints = f"joints {', '.join(map(str, self.joints[:-1]))} and {self.joints[-1]}"
+        if self.kind == "Pieper":
+            why = "three axes are parallel" if self.parallel else "three axes meet in one point"
+            end = "so that the inverse kinematics has a closed form"
+            return f"Pieper: {joints}: {why}, {end}"
+        if self.parallel:
+            return f"{joints}: {self.kind} (within {amount(self.error, 'rad', 2)})"
+        meet = f"the axes meet in one point (within {amount(self.error, 'm', 2)})"
+        return f"{joints}: {self.kind}, {meet}"
 
 
-def shapes(chain: Chain, tol_mm: float, tol_deg: float) -> tuple[Shape, ...]:
+def shapes(chain: Chain, tol_position: float, tol_rotation: float) -> tuple[Shape, ...]:
     """The shapes of a chain at rest.
 
     Three revolute axes that meet in one point at q = 0 meet at every q, as each turns about a line
@@ -42,75 +78,55 @@ def shapes(chain: Chain, tol_mm: float, tol_deg: float) -> tuple[Shape, ...]:
     n = len(chain.kinds)
     revolute = [kind == "revolute" for kind in chain.kinds]
     found: list[Shape] = []
-    spherical = []
-    parallel = []
     for i in range(n - 2):
         if not all(revolute[i : i + 3]):
             continue
         numbers = (i + 1, i + 2, i + 3)
         three = chain.screws[i : i + 3]
-        off = _apart(three)
-        if off <= tol_deg:
-            parallel.append(i)
-            words = f"joints {_list(numbers)}: three parallel axes (within {off:.2g}°)"
-            found.append(Shape("three parallel axes", numbers, off, words))
+        angle = _apart(three)
+        if angle <= tol_rotation:
+            found.append(Shape("three parallel axes", numbers, angle, parallel=True))
             continue
         miss = _meeting(three)
         # Neighbours along one line leave two axes only, which is no spherical joint.
-        if miss <= tol_mm and min(_apart(three[:2]), _apart(three[1:])) > tol_deg:
-            spherical.append(i)
-            kind = "spherical joint"
+        if miss <= tol_position and min(_apart(three[:2]), _apart(three[1:])) > tol_rotation:
+            kind: ShapeKind = "spherical joint"
             if i == n - 3:
                 kind = "spherical wrist"
             elif i == 0:
                 kind = "spherical shoulder"
-            meet = f"the axes meet in one point (within {miss:.2g} mm)"
-            words = f"joints {_list(numbers)}: {kind}, {meet}"
-            found.append(Shape(kind, numbers, miss, words))
-    return (*found, *_solvable(n, all(revolute), spherical, parallel))
+            found.append(Shape(kind, numbers, miss))
+    if all(revolute):
+        return (*found, *_solvable(n, found))
+    return tuple(found)
 
 
-def _solvable(
-    n: int, all_revolute: bool, spherical: list[int], parallel: list[int]
-) -> Iterator[Shape]:
-    """Arms of n joints known by three axes that meet or are parallel, told by the first of each."""
-    if n == 6 and all_revolute and (spherical or parallel):
-        why = "three axes are parallel"
-        if spherical:
-            why = "three axes meet in one point"
-        first = (spherical or parallel)[0]
-        numbers = (first + 1, first + 2, first + 3)
-        words = (
-            f"Pieper: joints {_list(numbers)}: {why}, so that the inverse "
-            "kinematics has a closed form"
-        )
-        yield Shape("Pieper", numbers, 0.0, words)
-    if n == 7 and all_revolute and 0 in spherical and 4 in spherical:
-        words = "S-R-S: a spherical shoulder, an elbow and a spherical wrist, like a human arm"
-        yield Shape("S-R-S", tuple(range(1, 8)), 0.0, words)
+def _solvable(n: int, threes: list[Shape]) -> Iterator[Shape]:
+    """Arms of n revolute joints known by three axes that meet or are parallel."""
+    if n == 6 and threes:
+        first = min(threes, key=lambda shape: shape.parallel)
+        yield Shape("Pieper", first.joints, first.error, first.parallel)
+    ends = [shape for shape in threes if not shape.parallel and shape.joints[0] in (1, 5)]
+    if n == 7 and len(ends) == 2:
+        yield Shape("S-R-S", tuple(range(1, 8)), max(shape.error for shape in ends))
+
+
+def line_angle(w: Array, u: Array) -> float:
+    """Angle between two lines whatever their directions, 0 to π/2 rad."""
+    return math.atan2(float(np.linalg.norm(cross(w, u))), abs(float(w @ u)))
 
 
 def _apart(screws: Array) -> float:
-    """The largest angle between any two axes, as lines, in deg."""
-    return max(
-        math.degrees(
-            math.atan2(float(np.linalg.norm(cross(a[:3], b[:3]))), abs(float(a[:3] @ b[:3])))
-        )
-        for i, a in enumerate(screws)
-        for b in screws[i + 1 :]
-    )
+    """The largest angle between any two axes, as lines, in rad."""
+    return max(line_angle(a[:3], b[:3]) for a, b in combinations(screws, 2))
 
 
 def _meeting(screws: Array) -> float:
-    """The largest distance in mm of the axes from the point that is nearest to all of them."""
+    """The largest distance in m of the axes from the point that is nearest to all of them."""
     feet = cross(screws[:, :3], screws[:, 3:])
     across = np.eye(3) - screws[:, :3, None] * screws[:, None, :3]
     start = feet.mean(axis=0)
     right = (across @ (feet - start)[:, :, None]).reshape(-1)
     # Axes almost parallel meet far away, which is of no use: their meeting point stays near.
     point = start + np.linalg.lstsq(across.reshape(-1, 3), right, rcond=1e-3)[0]
-    return 1e3 * float(np.linalg.norm((across @ (feet - point)[:, :, None])[:, :, 0], axis=1).max())
-
-
-def _list(numbers: tuple[int, ...]) -> str:
-    return f"{', '.join(map(str, numbers[:-1]))} and {numbers[-1]}"
+    return float(np.linalg.norm((across @ (feet - point)[:, :, None])[:, :, 0], axis=1).max())

@@ -41,25 +41,24 @@ def test_the_report_does_not_change_with_the_base_frame_or_the_joints_directions
         )
 
 
-@given(st.floats(0.01, 89), st.floats(0.1, 500))
-def test_two_axes_miss_by_what_was_built_in(angle, mm):
-    a = np.radians(angle)
+@given(st.floats(2e-4, 1.55), st.floats(1e-4, 0.5))
+def test_two_axes_miss_by_what_was_built_in(angle, distance):
     (pair,) = axes(
-        made(((0, 0, 1), (0, 0, 0)), ((0, np.sin(a), np.cos(a)), (mm / 1e3, 0, 0)))
+        made(((0, 0, 1), (0, 0, 0)), ((0, np.sin(angle), np.cos(angle)), (distance, 0, 0)))
     ).pairs
     assert (pair.angle, pair.distance) == (
         pytest.approx(angle, rel=1e-9),
-        pytest.approx(mm, rel=1e-9),
+        pytest.approx(distance, rel=1e-9),
     )
     assert not pair.intersecting
-    assert "mm from intersecting" in pair.words
+    assert "mm from intersecting" in pair.relation
 
 
 def test_parallel_perpendicular_intersecting_and_coaxial_are_said():
     pairs = axes(
         made(((0, 0, 1), (0, 0, 0)), ((0, 0, -1), (0, 0, 2)), ((1, 0, 0), (3, 0, 1)))
     ).pairs
-    assert [p.words for p in pairs] == [
+    assert [p.relation for p in pairs] == [
         "coaxial",
         "perpendicular, intersecting",
         "perpendicular, intersecting",
@@ -69,7 +68,7 @@ def test_parallel_perpendicular_intersecting_and_coaxial_are_said():
         (2, 3, True),
         (1, 3, False),
     }
-    assert axes(made(*PLANE)).pairs[0].words == "parallel, 500 mm apart"
+    assert axes(made(*PLANE)).pairs[0].relation == "parallel, 500 mm apart"
 
 
 def test_shapes_are_found_where_they_are_and_not_where_they_miss():
@@ -82,10 +81,19 @@ def test_shapes_are_found_where_they_are_and_not_where_they_miss():
     assert report.has("spherical shoulder")
     assert not report.has("spherical wrist")
     assert not report.has("S-R-S")
-    assert axes(made(*SHOULDER, *ELBOW, *off), tol_mm=1.0).has("S-R-S")
+    assert axes(made(*SHOULDER, *ELBOW, *off), tol_position=1e-3).has("S-R-S")
     assert not axes(
         made(((0, 0, 1), (0, 0, 0)), ((0, 0, 1), (0, 0, 1)), ((1, 0, 0), (0, 0, 0)))
     ).shapes
+
+
+def test_a_kind_of_shape_that_does_not_exist_is_refused_with_those_that_do():
+    with pytest.raises(InputError) as caught:
+        axes(made(*WRIST)).has("wrist")  # pyright: ignore[reportArgumentType]
+    assert str(caught.value) == (
+        "kind: expected one of 'spherical wrist', 'spherical shoulder', 'spherical joint', 'three parallel axes', "
+        "'Pieper', 'S-R-S', got 'wrist'"
+    )
 
 
 def test_well_known_arms_are_known():
@@ -100,15 +108,15 @@ def test_well_known_arms_are_known():
 def test_prismatic_axes_have_no_place():
     chain = Chain([screw.prismatic([0, 0, 1]), screw.revolute([1, 0, 0], [0, 1, 0])], np.eye(4))
     (pair,) = axes(chain).pairs
-    assert (pair.distance, pair.words) == (None, "perpendicular")
+    assert (pair.distance, pair.relation) == (None, "perpendicular")
 
 
 def test_json_is_plain():
     document = json.loads(axes(made(*PLANE, *WRIST)).to_json())
-    assert {"pairs", "shapes", "tol_mm", "tol_deg"} == set(document)
+    assert {"pairs", "shapes", "tol_position", "tol_rotation"} == set(document)
 
 
-@pytest.mark.parametrize("options", [{"tol_mm": 0}, {"tol_deg": float("inf")}])
+@pytest.mark.parametrize("options", [{"tol_position": 0}, {"tol_rotation": float("inf")}])
 def test_tolerances_out_of_range_are_refused(options):
     with pytest.raises(InputError, match=next(iter(options))):
         axes(made(*PLANE), **options)
@@ -117,22 +125,24 @@ def test_tolerances_out_of_range_are_refused(options):
 
 
 def test_every_shape_names_its_joints_and_by_how_much_it_misses():
-    assert [(s.kind, s.joints, s.words) for s in axes(made(*PLANE, *WRIST)).shapes] == [
+    assert [(s.kind, s.joints, s.summary()) for s in axes(made(*PLANE, *WRIST)).shapes] == [
         ("three parallel axes", (1, 2, 3), "joints 1, 2 and 3: three parallel axes (within 0°)"),
         ("three parallel axes", (2, 3, 4), "joints 2, 3 and 4: three parallel axes (within 0°)"),
         ("spherical wrist", (4, 5, 6), "joints 4, 5 and 6: spherical wrist, the axes meet in one point (within 0 mm)"),
         ("Pieper", (4, 5, 6), "Pieper: joints 4, 5 and 6: three axes meet in one point, so that the inverse kinematics "
          "has a closed form"),
     ]  # fmt: skip
-    (parallel, pieper) = axes(load("ur5e").chain(), tol_deg=0.01).shapes
+    (parallel, pieper) = axes(load("ur5e").chain(), tol_rotation=1e-4).shapes
     assert (parallel.joints, pieper.joints) == ((2, 3, 4), (2, 3, 4))
-    assert pieper.words.startswith("Pieper: joints 2, 3 and 4: three axes are parallel, so that")
+    assert pieper.summary().startswith(
+        "Pieper: joints 2, 3 and 4: three axes are parallel, so that"
+    )
     arm = made(*SHOULDER, *ELBOW, *WRIST)
     kinds = {s.kind: s.joints for s in axes(arm).shapes}
     assert (kinds["spherical shoulder"], kinds["spherical wrist"]) == ((1, 2, 3), (5, 6, 7))
     assert kinds["S-R-S"] == (1, 2, 3, 4, 5, 6, 7)
     assert (
-        axes(arm).shapes[-1].words
+        axes(arm).shapes[-1].summary()
         == "S-R-S: a spherical shoulder, an elbow and a spherical wrist, like a human arm"
     )
     assert "Pieper" not in kinds
@@ -142,18 +152,18 @@ def test_every_shape_names_its_joints_and_by_how_much_it_misses():
     ]
 
 
-@pytest.mark.parametrize("tol_mm, found", [(0.35, False), (0.36, True)])
-def test_axes_meet_that_pass_one_point_within_the_tolerance(tol_mm, found):
+@pytest.mark.parametrize("tol, found", [(0.35e-3, False), (0.36e-3, True)])
+def test_axes_meet_that_pass_one_point_within_the_tolerance(tol, found):
     # Along x, y and z, each 0.5 mm from the others: the nearest point is 0.25 mm off each in two
     # directions.
     far = 5e-4
     three = made(((1, 0, 0), (0, 0, far)), ((0, 1, 0), (far, 0, 0)), ((0, 0, 1), (0, far, 0)))
-    shapes = axes(three, tol_mm=tol_mm).shapes
+    shapes = axes(three, tol_position=tol).shapes
     assert bool(shapes) == found
     if found:
         assert (shapes[0].kind, shapes[0].error) == (
             "spherical wrist",
-            pytest.approx(0.25 * np.sqrt(2)),
+            pytest.approx(0.25e-3 * np.sqrt(2)),
         )
 
 
@@ -165,11 +175,11 @@ def test_three_axes_are_parallel_whichever_way_they_point_within_the_tolerance(t
         ((0, 0, -1), (1, 0, 0)),
         ((0, np.sin(angle), np.cos(angle)), (2, 0, 0)),
     )
-    shapes = axes(three, tol_deg=1.0).shapes
+    shapes = axes(three, tol_rotation=np.radians(1.0)).shapes
     assert [s.kind for s in shapes] == ["three parallel axes"] * found
     if found:
-        assert shapes[0].error == pytest.approx(tilt)
-        assert shapes[0].words.endswith("(within 0.9°)")
+        assert shapes[0].error == pytest.approx(angle)
+        assert shapes[0].summary().endswith("(within 0.9°)")
 
 
 def test_what_slides_makes_no_shape_and_neighbours_on_one_line_no_spherical_joint():
@@ -195,9 +205,9 @@ def test_the_relation_of_two_axes_is_said_in_degrees_and_mm(angle, gap, words):
     (pair,) = axes(
         made(((0, 0, 1), (0, 0, 0)), ((0, np.sin(turned), np.cos(turned)), (gap, 0, 0)))
     ).pairs
-    assert pair.words == words
-    assert pair.angle == pytest.approx(min(angle, 180 - angle), abs=1e-12)
-    assert pair.distance == pytest.approx(1e3 * gap, abs=1e-12)
+    assert pair.relation == words
+    assert pair.angle == pytest.approx(min(turned, np.pi - turned), abs=1e-14)
+    assert pair.distance == pytest.approx(gap, abs=1e-15)
     assert (
         str(axes(made(((0, 0, 1), (0, 0, 0)), ((0, 0, 1), (1, 0, 0)))))
         == "joint1 - joint2: parallel, 1000 mm apart"
@@ -205,7 +215,7 @@ def test_the_relation_of_two_axes_is_said_in_degrees_and_mm(angle, gap, words):
 
 
 @pytest.mark.parametrize("tol", [0, -1.0, math.inf, math.nan, "1", True])
-@pytest.mark.parametrize("name", ["tol_mm", "tol_deg"])
+@pytest.mark.parametrize("name", ["tol_position", "tol_rotation"])
 def test_a_tolerance_is_a_positive_number(name, tol):
     with pytest.raises(InputError) as caught:
         axes(made(*WRIST), **{name: tol})
@@ -222,7 +232,7 @@ def test_shapes_are_said_whole():
     x, y, z = np.eye(3)
     elbow = [(z, [0, 0, 0]), (y, [0, 0, 0]), (x, [0, 0, 0]), (y, [1, 0, 0]), (z, [2, 1e-6, 0]), (y, [2, 0, 0]),
              (x, [2, 0, 0])]  # fmt: skip
-    assert [(shape.kind, shape.joints, shape.words) for shape in axes(made(*elbow)).shapes] == [
+    assert [(shape.kind, shape.joints, shape.summary()) for shape in axes(made(*elbow)).shapes] == [
         ("spherical shoulder", (1, 2, 3), "joints 1, 2 and 3: spherical shoulder, the axes meet in one point (within "
          "0 mm)"),
         ("spherical wrist", (5, 6, 7), "joints 5, 6 and 7: spherical wrist, the axes meet in one point (within 0.0005 "
@@ -231,7 +241,7 @@ def test_shapes_are_said_whole():
          "arm"),
     ]  # fmt: skip
     six = [*elbow[1:3], (x, [0, 1, 0]), (x, [0, 2, 0]), (z, [3, 0, 0]), (y, [4, 0, 1])]
-    assert [(shape.kind, shape.joints, shape.words) for shape in axes(made(*six)).shapes] == [
+    assert [(shape.kind, shape.joints, shape.summary()) for shape in axes(made(*six)).shapes] == [
         ("three parallel axes", (2, 3, 4), "joints 2, 3 and 4: three parallel axes (within 0°)"),
         ("Pieper", (2, 3, 4), "Pieper: joints 2, 3 and 4: three axes are parallel, so that the inverse kinematics has "
          "a closed form"),
@@ -242,7 +252,9 @@ def test_shapes_are_said_whole():
     (44.9, "44.9° from parallel"), (45.0, "45° from perpendicular"), (45.1, "44.9° from perpendicular"),
 ])  # fmt: skip
 def test_an_angle_is_told_from_what_it_is_nearer_to(angle, words):
-    assert AxisPair(1, 2, "a", "b", angle, None, False, False, False, True).words == words
+    pair = AxisPair(1, 2, "a", "b", math.radians(angle), None, False, False, False, True)
+    assert (pair.relation, pair.summary()) == (words, f"a - b: {words}")
+    assert pair.to_dict()["relation"] == words
 
 
 def test_shapes_behind_a_slide_and_behind_parallel_axes_are_found():

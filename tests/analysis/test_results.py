@@ -42,7 +42,7 @@ RESULTS = [
 
 @pytest.mark.parametrize("found", RESULTS, ids=lambda found: type(found).__name__)
 def test_json_is_the_dict_with_two_blanks_a_level(found):
-    assert found.to_json() == json.dumps(found.as_dict(), indent=2)
+    assert found.to_json() == json.dumps(found.to_dict(), indent=2)
 
 
 def test_a_validation_moves_nothing_unless_that_is_said():

@@ -73,9 +73,9 @@ def test_one_change_is_planted_in_one_joint(k):
 
 JOINT = {"number": 3, "axis_differs": False, "zero_differs": False, "reversed": False}
 FOUND: dict[str, dict[str, Any]] = {
-    "tilt": {"axis_differs": True, "angle": 0.1, "normal": 0.001},
-    "shift": {"axis_differs": True, "normal": 1.0},
-    "zero": {"zero_differs": True, "zero_offset": -0.5},
+    "tilt": {"axis_differs": True, "angle": np.radians(0.1), "normal": 1e-6},
+    "shift": {"axis_differs": True, "normal": 1e-3},
+    "zero": {"zero_differs": True, "zero_offset": -np.radians(0.5)},
     "flip": {"reversed": True},
 }
 
@@ -102,9 +102,9 @@ def result(change: str, joint: dict[str, Any] | None = None, **changes: Any) -> 
 def test_a_comparison_that_is_right_has_no_fault(change):
     assert fault(result(change), change, 2) == ""
     little = {
-        "tilt": {"angle": 0.1009},
-        "shift": {"normal": 0.991},
-        "zero": {"zero_offset": -0.5049},
+        "tilt": {"angle": np.radians(0.1009)},
+        "shift": {"normal": 0.991e-3},
+        "zero": {"zero_offset": -np.radians(0.5049)},
         "flip": {},
     }[change]
     assert fault(result(change, little), change, 2) == ""
@@ -127,9 +127,9 @@ def test_an_arm_ends_where_its_link_is_named():
 @pytest.mark.parametrize("change", CHANGES)
 def test_what_is_wrong_with_a_comparison_is_said(change):
     wrong = {
-        "tilt": {"angle": 0.101005},
-        "shift": {"normal": 1.01005},
-        "zero": {"zero_offset": -0.505025},
+        "tilt": {"angle": np.radians(0.101005)},
+        "shift": {"normal": 1.01005e-3},
+        "zero": {"zero_offset": -np.radians(0.505025)},
     }.get(change)
     assert fault(result(change), change, 1) == "blames [3]"
     assert fault(result(change, differing=[]), change, 2) == "blames []"
@@ -139,7 +139,7 @@ def test_what_is_wrong_with_a_comparison_is_said(change):
     assert wrong is None or fault(result(change, wrong), change, 2).startswith("size (")
     assert (
         change != "tilt"
-        or fault(result(change, {"normal": 0.0101}), change, 2) == "tilt shifted by 0.0101"
+        or fault(result(change, {"normal": 1.01e-5}), change, 2) == "tilt shifted by 1.01e-05 m"
     )
     equal = change in ("zero", "flip")
     assert fault(result(change, equal=not equal), change, 2) == "verdict joint 3 differs"
@@ -170,7 +170,7 @@ def test_what_is_wrong_with_an_alignment_is_said():
     def aligned(**changes: Any) -> Any:
         fields = {
             "differing": [], "equal": True, "verdict": "the same arm, aligned", "base": base, "tool": tool,
-            "after": SimpleNamespace(worst_mm=0.99e-4),
+            "after": SimpleNamespace(worst_position=0.99e-7),
         }  # fmt: skip
         return SimpleNamespace(**(fields | changes))
 
@@ -186,6 +186,6 @@ def test_what_is_wrong_with_an_alignment_is_said():
         ({"base": base + off}, "alignment off by 1e-07"),
         ({"tool": tool - off}, "alignment off by 1e-07"),
         ({"base": base + off * 0.8, "tool": tool - off * 0.8}, ""),
-        ({"after": SimpleNamespace(worst_mm=1.1e-4)}, "0.0001 mm are left"),
+        ({"after": SimpleNamespace(worst_position=1.1e-7)}, "0.0001 mm are left"),
     ):
         assert alignment_fault(aligned(**changes), base, tool) == said

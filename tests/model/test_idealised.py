@@ -131,13 +131,13 @@ def test_exact_geometry_comes_back_from_a_rounded_one(pair):
     # The exact table's own screws carry the rounding of their sines.
     np.testing.assert_allclose(ways(result.chain), ways(exact), rtol=0, atol=2e-15)
     np.testing.assert_allclose(result.chain.home[:3, :3], exact.home[:3, :3], rtol=0, atol=2e-15)
-    before, after = axes(exact, tol_mm=1e-9), axes(result.chain, tol_mm=1e-9)
+    before, after = axes(exact, tol_position=1e-12), axes(result.chain, tol_position=1e-12)
     for old, new in zip(before.pairs, after.pairs, strict=True):
         # Axes with one between them may also meet by chance, by lengths that are not 0 and stay as
         # they are.
-        assert not (old.intersecting and old.fixed) or new.intersecting, old.words
+        assert not (old.intersecting and old.fixed) or new.intersecting, old.relation
         apart = [pair.distance or 0.0 for pair in (old, new)]
-        assert not old.fixed or abs(apart[0] - apart[1]) < 1e3 * TOL
+        assert not old.fixed or abs(apart[0] - apart[1]) < TOL
     assert {(s.kind, s.joints) for s in before.shapes} <= {(s.kind, s.joints) for s in after.shapes}
     assert excess(noisy, result) <= 1
     again = result.chain.idealised(TOL)
@@ -190,7 +190,7 @@ def test_every_chain_of_the_real_robots_is_as_exact_as_floats_can_say():
             result = chain.idealised(TOL)
             assert excess(chain, result) <= 1, (name, tip)
             assert result.chain.idealised(TOL).chain == result.chain, (name, tip)
-            before = axes(chain, tol_mm=1e3 * TOL, tol_deg=math.degrees(TOL)).pairs
+            before = axes(chain, tol_position=TOL, tol_rotation=TOL).pairs
             new = ways(result.chain)
             for pair, after in zip(before, axes(result.chain).pairs, strict=True):
                 a, b = new[pair.first - 1], new[pair.second - 1]
@@ -204,9 +204,14 @@ def test_every_chain_of_the_real_robots_is_as_exact_as_floats_can_say():
                         tip,
                         pair,
                     )  # two ulp: rounding of six products' sum
-                if pair.intersecting and not pair.parallel and pair.angle > 15 and chain.reach < 3:
+                if (
+                    pair.intersecting
+                    and not pair.parallel
+                    and pair.angle > math.radians(15)
+                    and chain.reach < 3
+                ):
                     assert after.distance is not None
-                    assert after.distance <= 1e-11, (
+                    assert after.distance <= 1e-14, (
                         name,
                         tip,
                         pair,

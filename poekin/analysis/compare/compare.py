@@ -12,9 +12,9 @@ from ...errors import InputError, quote, safe_repr
 from ...groups import so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ..tolerances import check_tolerances
+from ..tolerances import POSITION, ROTATION, check_tolerances
 from .alignment.hypotheses import Hypothesis, read
-from .alignment.lines import cross, direction, sides, uncoupled_at_zero
+from .alignment.lines import cross, direction, lines, sides, uncoupled_at_zero
 from .alignment.search import search
 from .comparison import Comparison, JointComparison, PoseErrors
 from .followers import follows
@@ -30,45 +30,88 @@ def compare(
     b: Chain,
     *,
     strict: bool = False,
-    tol_mm: float = 0.01,
-    tol_deg: float = 0.001,
+    tol_position: float = POSITION,
+    tol_rotation: float = ROTATION,
     samples: int = 200,
     seed: int = 0,
 ) -> Comparison:
-    """Two models of one arm: which joint differs, by how many millimetres and degrees.
+    """Comparison of two models of one arm: which joint differs, and by how much.
 
     Screws are lines in space, so nothing depends on where link frames stand. Joints are matched in
     order. What is a free choice (base frame, tool frame, zero positions, joint directions) is
-    aligned to the largest set of joints that agree: of all readings the one that blames the fewest
-    joints, then the one that leaves base and tool where they are. One bad joint is so not smeared
-    over its neighbours. Where all axes behind a joint moved together, the verdict names the link
-    (`a` or `alpha` of a DH row); the rows of `joints` then say it of each of these axes. A zero
-    offset of the first joint is a turned base and one of the last joint a turned tool; `equivalent`
-    says so. With different numbers of joints the one or two are named that can be dropped (each
-    held at some position) so that the rest agree. A joint that follows another one otherwise in the
-    other model, or there on its own, differs, however well the axes agree. Where one model is in
-    millimetres that were read as metres, the verdict says so and the joints are compared in one
-    unit.
+    aligned to the largest set of joints that agree, so that one wrong joint is not smeared over its
+    neighbours.
 
-    Parameters: a, b; strict, align nothing, frames and zero positions included; tol_mm, tol_deg,
-    how near is the same (an axis' place is judged at the point of it nearest to the arm's middle);
-    samples and seed, random configurations within a's limits for the pose errors.
-    Returns: Comparison. Raises: InputError.
+    Parameters
+    ----------
+    a, b : Chain
+        Models to compare.
+    strict : bool, default False
+        Align nothing: frames, zero positions and directions count as differences.
+    tol_position : float, default 1e-5
+        Distance up to which two axes, frames or zero positions are the same, m. The place of an
+        axis is judged at the point of it nearest to the arm's middle.
+    tol_rotation : float, default 1.75e-5
+        Angle up to which they are the same, rad (0.001 deg).
+    samples : int, default 200
+        Number of random configurations, within a's limits, for the pose errors.
+    seed : int, default 0
+        Seed of the random configurations.
+
+    Returns
+    -------
+    comparison : Comparison
+        Verdict, joints, alignment and pose errors.
+
+    Raises
+    ------
+    InputError
+        If `a` or `b` is no Chain, a tolerance no positive number, or `samples` below 1.
+
+    See Also
+    --------
+    axes : Relations of the axes of one arm.
+    calibrate : The arm that measured poses belong to.
+
+    Notes
+    -----
+    Of all alignments the one that implicates the fewest joints is taken, then the one that leaves
+    base and tool where they are. Where all axes behind a joint moved together, the verdict names
+    the link (`a` or `alpha` of a DH row). A zero offset of the first joint is a turned base, one of
+    the last joint a turned tool; `alternatives` says so. With different numbers of joints, the one
+    or two are named that can be dropped (each held at some position) so that the rest agree. A
+    joint that follows another joint otherwise in the other model differs, however well the axes
+    agree. Where one model is in millimetres that were read as metres, the joints are compared in
+    one unit, and the verdict says so.
+
     Accuracy: one tilted or shifted axis, zero offset or flip is named and sized within 1 %
-    (tests/analysis). Where all joints differ by much the reading is a local one. Source: none, the
-    lines' geometry.
+    (tests/analysis). Where all joints differ by much, the alignment is a local optimum.
+    Source: none, the geometry of lines.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("panda").chain(tip="panda_hand")
+    >>> lifted = arm.screws.copy()
+    >>> lifted[3] = pk.se3.adjoint(pk.se3.exp([0, 0, 0, 0, 0, 0.003])) @ lifted[3]
+    >>> other = pk.Chain(lifted, arm.home, joint_names=arm.joint_names)
+    >>> result = pk.compare(arm, other)
+    >>> result.verdict
+    "the models differ; joint 4 ('panda_joint4') has an axis that is 3 mm from the other model's"
+    >>> round(result.joints[3].shift, 6)
+    0.003
     """
     for what, value in (("a", a), ("b", b)):
         if not isinstance(value, Chain):
             raise InputError(
                 f"{what}: expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(value)}"
             )
-    check_tolerances(tol_mm, tol_deg)
+    check_tolerances(tol_position=tol_position, tol_rotation=tol_rotation)
     if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
         raise InputError(
             f"samples: a number of configurations of at least 1 expected, got {safe_repr(samples)}"
         )
-    asked = _Asked(strict, float(tol_mm), float(tol_deg), int(samples), seed)
+    asked = _Asked(strict, float(tol_position), float(tol_rotation), int(samples), seed)
     result, moved = _compared(a, b, 1.0, asked)
     if not moved:
         return result
@@ -85,15 +128,15 @@ class _Asked(NamedTuple):
     """Tolerances and samples of a comparison, and whether it is strict, as the caller gave them."""
 
     strict: bool
-    tol_mm: float
-    tol_deg: float
+    tol_position: float
+    tol_rotation: float
     samples: int
     seed: int
 
     @property
     def tol(self) -> tuple[float, float]:
-        """The tolerances in m and rad."""
-        return self.tol_mm / 1e3, math.radians(self.tol_deg)
+        """The tolerances of position (m) and rotation (rad)."""
+        return self.tol_position, self.tol_rotation
 
 
 class _Matched(NamedTuple):
@@ -118,7 +161,7 @@ def _matched(a: Chain, b: Chain, asked: _Asked) -> _Matched | None:
     x = a.random(asked.seed, asked.samples) @ a.coupling.T
     if len(one.screws) == len(other.screws):
         return _Matched(one, other, a.coupling, b.coupling, x)
-    found = droppable(one, other, asked.tol_mm, asked.tol_deg)
+    found = droppable(one, other, *asked.tol)
     if found is None:
         return None
     ks, held = found
@@ -200,40 +243,35 @@ def _names(chain: Chain, ks: tuple[int, ...]) -> tuple[str, ...]:
 
 
 def _joints(
-    a: Chain, b: Chain, reading: Hypothesis, tol_rad: float, coupled: list[tuple[str, str, bool]]
+    a: Chain,
+    b: Chain,
+    reading: Hypothesis,
+    tol_rotation: float,
+    coupled: list[tuple[str, str, bool]],
 ) -> tuple[JointComparison, ...]:
-    pair = sides(a, b, 1.0, tol_rad)
-    ours = direction(a.screws, a.kinds)
-    theirs = direction(reading.axes, b.kinds)
+    ours = lines(a)
+    ways = direction(a.screws, a.kinds)
+    their_ways = reading.directions[:, None] * direction(reading.axes, b.kinds)
+    feet = cross(reading.axes[:, :3], reading.axes[:, 3:])
+    gaps = feet - (ours.places + ours.centre)
     rows = []
-    for i in range(pair.n):
-        s = float(reading.directions[i])
-        across = cross(ours[i], s * theirs[i])
-        angle = math.atan2(float(np.linalg.norm(across)), float(ours[i] @ (s * theirs[i])))
-        normal = None
-        shift = None
-        if "prismatic" not in (a.kinds[i], b.kinds[i]):
-            foot = cross(reading.axes[i, :3], reading.axes[i, 3:])
-            gap = foot - (pair.a.places[i] + pair.a.centre)
-            shift = _distance(gap, s * theirs[i])
-            normal = shift
-            if angle > tol_rad:
-                normal = 1e3 * abs(float(gap @ across)) / float(np.linalg.norm(across))
-        scale = 1e3 if b.kinds[i] == "prismatic" else 180 / math.pi
+    for i, (follows_a, follows_b, coupling_differs) in enumerate(coupled):
+        placed = "prismatic" not in (a.kinds[i], b.kinds[i])
+        gap = gaps[i] if placed else None
+        angle, normal, shift = _apart(ways[i], their_ways[i], gap, tol_rotation)
         zero = float(reading.zeros[i])
-        follows_a, follows_b, coupling_differs = coupled[i]
         row = JointComparison(
             number=i + 1,
             name_a=a.joint_names[i],
             name_b=b.joint_names[i],
             kind_a=a.kinds[i],
             kind_b=b.kinds[i],
-            angle=math.degrees(angle),
+            angle=angle,
             normal=normal,
             shift=shift,
-            zero_offset=scale * zero,
-            reversed=s < 0,
-            limits=_limits_apart(s * (b.limits[i] - zero), a.limits[i], scale),
+            zero_offset=zero,
+            reversed=bool(reading.directions[i] < 0),
+            limits=_limits_apart(reading.directions[i] * (b.limits[i] - zero), a.limits[i]),
             axis_differs=bool(reading.moved[i]),
             zero_differs=bool(reading.offset[i]),
             follows_a=follows_a,
@@ -244,27 +282,36 @@ def _joints(
     return tuple(rows)
 
 
-def _limits_apart(theirs: Array, ours: Array, scale: float) -> tuple[float, float]:
-    """Lower and upper limit of b, in either order, less a's, times `scale`."""
+def _apart(
+    w: Array, u: Array, gap: Array | None, tol_rotation: float
+) -> tuple[float, float | None, float | None]:
+    """Angle (rad), common normal and distance at a place (m) of two axes, `gap` between their
+    places; of axes without a place the angle alone.
+    """
+    across = cross(w, u)
+    angle = math.atan2(float(np.linalg.norm(across)), float(w @ u))
+    if gap is None:
+        return angle, None, None
+    shift = float(np.linalg.norm(gap - u * (u @ gap)))
+    if angle <= tol_rotation:
+        return angle, shift, shift
+    return angle, abs(float(gap @ across)) / float(np.linalg.norm(across)), shift
+
+
+def _limits_apart(theirs: Array, ours: Array) -> tuple[float, float]:
+    """Lower and upper limit of b, in either order, less a's."""
     # Infinite less infinite is no difference.
     low, high = (
-        0.0 if p == q else float(scale * (p - q))
-        for p, q in zip(np.sort(theirs), ours, strict=True)
+        0.0 if p == q else float(p - q) for p, q in zip(np.sort(theirs), ours, strict=True)
     )
     return low, high
 
 
-def _distance(gap: Array, u: Array) -> float:
-    """Distance (mm) of a point from a line along u, `gap` (m) away at some point of it."""
-    return 1e3 * float(np.linalg.norm(gap - u * (u @ gap)))
-
-
 def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:
-    mm = 1e3 * np.linalg.norm(ours[:, :3, 3] - theirs[:, :3, 3], axis=1)
-    deg = np.degrees(
-        np.linalg.norm(so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ theirs[:, :3, :3]), axis=1)
-    )
-    return PoseErrors(float(mm.max()), float(mm.mean()), float(deg.max()), float(deg.mean()))
+    distance = np.linalg.norm(ours[:, :3, 3] - theirs[:, :3, 3], axis=1)
+    turn = so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ theirs[:, :3, :3])
+    angle = np.linalg.norm(turn, axis=1)
+    return PoseErrors(*(float(x) for e in (distance, angle) for x in (e.max(), e.mean())))
 
 
 def _verdict(
@@ -282,7 +329,7 @@ def _verdict(
         model, *names = extra
         count = "one joint" if len(names) == 1 else "two joints"
         found.append(f"model {model} has {count} more, {' and '.join(map(quote, names))}")
-    found += differences(joints, asked.tol_mm, asked.tol_deg, reading.link)
+    found += differences(joints, *asked.tol, reading.link)
     if asked.strict:
         found.append(frame_words("home pose's", reading.tool, *asked.tol))
         head = "the models differ"

@@ -2,35 +2,50 @@
 
 from __future__ import annotations
 
-import json
-import math
-from dataclasses import asdict, dataclass, fields
-from typing import Any
-
-import numpy as np
+from dataclasses import dataclass
+from typing import ClassVar
 
 from ...groups.arrays import Array
+from ...results import Result
+from ..amounts import Unit, amount, joint_unit
 
 
 @dataclass(frozen=True)
-class JointComparison:
-    """One joint of model a beside the one of model b, under the alignment found.
+class JointComparison(Result):
+    """One joint of model a beside the joint of model b, under the alignment found.
 
     Attributes
     ----------
-    number: of the joint, from 1. name_a, name_b, kind_a, kind_b: what the models call it, and what
-    it is.
-    angle: between the axes, deg. normal: length of their common normal, mm; of axes parallel within
-        tolerance, their distance. shift: distance of b's axis from the point of a's axis nearest to
-        the arm's middle, mm: what normal hides where two axes cross far from the arm. None of
-        prismatic joints, which have no place.
-    zero_offset: where b's joint stands when a's is at 0, deg (mm of a prismatic joint). reversed: the sign of
-    q is flipped. limits: b's lower and upper limit, in a's zero and direction, less a's; deg or
-    mm; 0 where both are unlimited. axis_differs, zero_differs: beyond tolerance (or another kind or
-    pitch).
-    follows_a, follows_b: how the joint follows others of its model, in words; "" where it moves by
-    itself. coupling_differs: whether they do so differently.
+    number : int
+        Number of the joint, from 1.
+    name_a, name_b : str
+        Names of the joint in the two models.
+    kind_a, kind_b : str
+        Kinds of the joint: "revolute", "prismatic" or "helical".
+    angle : float
+        Angle between the axes, rad.
+    normal : float or None
+        Length of the common normal of the axes, m; of axes parallel within tolerance, their
+        distance. None of a prismatic joint, whose axis has no place.
+    shift : float or None
+        Distance of b's axis from the point of a's axis nearest to the arm's middle, m: what
+        `normal` hides where two axes cross far from the arm. None as `normal`.
+    zero_offset : float
+        Position of b's joint where a's is at 0, rad, or m of a prismatic joint.
+    reversed : bool
+        Whether the sign of q is flipped.
+    limits : tuple of float
+        Lower and upper limit of b, in a's zero and direction, less a's, rad or m; 0 where both are
+        unlimited.
+    axis_differs, zero_differs : bool
+        Whether axis (or kind, or pitch) and zero position differ by more than the tolerances.
+    follows_a, follows_b : str
+        How the joint follows others of its model, as text; empty where it moves by itself.
+    coupling_differs : bool
+        Whether it follows others differently.
     """
+
+    derived: ClassVar = ("differs", "unit")
 
     number: int
     name_a: str
@@ -51,48 +66,90 @@ class JointComparison:
 
     @property
     def differs(self) -> bool:
-        """Whether anything but limits and name differs: axis, kind, zero position, direction, or
-        what it follows.
-        """
+        """Whether axis, kind, zero position, direction or coupling differ; limits and names may."""
         return self.axis_differs or self.zero_differs or self.reversed or self.coupling_differs
 
     @property
-    def unit(self) -> str:
-        """Unit of zero and limits: "deg", or "mm" of a prismatic joint."""
-        return "mm" if self.kind_a == "prismatic" else "deg"
+    def unit(self) -> Unit:
+        """Unit of `zero_offset` and `limits`: "rad", or "m" where b's joint is prismatic."""
+        return joint_unit(self.kind_b)
+
+    def summary(self) -> str:
+        """Differences of axis, zero position and direction, in mm and degrees.
+
+        Returns
+        -------
+        text : str
+            Line such as "joint 4 (elbow): axes 0.1°, 3.2 mm apart at the arm, zero offset 0°".
+        """
+        found = [f"axes {amount(self.angle, 'rad')}"]
+        if self.shift is not None:
+            found.append(f"{amount(self.shift, 'm')} apart at the arm")
+        found.append(f"zero offset {amount(self.zero_offset, self.unit)}")
+        if self.reversed:
+            found.append("sign of q flipped")
+        return f"joint {self.number} ({self.name_a}): {', '.join(found)}"
 
 
 @dataclass(frozen=True)
-class PoseErrors:
-    """Differences of two models' poses over random configurations: worst and mean, mm and deg."""
-
-    worst_mm: float
-    mean_mm: float
-    worst_deg: float
-    mean_deg: float
-
-
-@dataclass(frozen=True, eq=False)
-class Comparison:
-    """Two models of one arm: f_a(x) = base f_b(direction x + zero) tool, but for the axes that
-    differ.
+class PoseErrors(Result):
+    """Differences of two models' poses over random configurations.
 
     Attributes
     ----------
-    equal: whether the models agree within tolerance, up to what is a free choice (base frame, tool
+    worst_position, mean_position : float
+        Distance of the tool's origins, m.
+    worst_rotation, mean_rotation : float
+        Angle of the rotation between the tool frames, rad.
+    """
+
+    worst_position: float
+    mean_position: float
+    worst_rotation: float
+    mean_rotation: float
+
+    def summary(self) -> str:
+        """Text with the worst and the mean difference, in mm and degrees."""
+        worst = f"{amount(self.worst_position, 'm', 3)}, {amount(self.worst_rotation, 'rad', 3)}"
+        mean = f"{amount(self.mean_position, 'm', 3)}, {amount(self.mean_rotation, 'rad', 3)}"
+        return f"worst {worst}; mean {mean}"
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison(Result):
+    """Two models of one arm, compared joint by joint; the result of `compare`.
+
+    But for the axes that differ, f_a(x) = base f_b(direction x + zero) tool.
+
+    Attributes
+    ----------
+    equal : bool
+        Whether the models agree within tolerance, up to what is a free choice (base frame, tool
         frame, zero positions, joint directions); of a strict comparison, with those too. Limits and
         names never decide it.
-    verdict: the same in words. joints: one `JointComparison` each. base (4, 4): pose of b's base
-    frame in a's; tool
-        (4, 4): pose of a's tool frame in b's; m; None where the models could not be matched.
-    before, after: `PoseErrors` at the same joint values, as the models stand and under the
-    alignment. strict. alternatives: other readings that say the same. unmatched_joints: which model ("a" or "b")
-    has joints that the other has not, and
-        their names, one or two; None where both have as many, or no joints can be dropped so that
-        the rest agree.
-    tol_mm, tol_deg, samples, seed: as asked. length_ratio: b's lengths by a's, 1000 or 0.001 where
-        one model is in millimetres and the other in metres, then all but `before` is of both in one
-        unit; 1 otherwise.
+    verdict : str
+        What differs and what was aligned, in one sentence, with mm and degrees.
+    joints : tuple of JointComparison
+        The joints, from base to tip.
+    base, tool : (4, 4) ndarray or None
+        Pose of b's base frame in a's, and of a's tool frame in b's, m; None where the models could
+        not be matched, and `tool` of a strict comparison.
+    before, after : PoseErrors or None
+        Pose errors at the same joint values, as the models stand and under the alignment.
+    alternatives : tuple of str
+        Other explanations of the same difference.
+    unmatched_joints : tuple of str or None
+        Model ("a" or "b") that has joints more, and the names of these, one or two; None where
+        both have as many, or no joints can be dropped so that the rest agree.
+    strict : bool
+        Whether nothing was aligned.
+    tol_position, tol_rotation : float
+        Tolerances, m and rad.
+    samples, seed : int
+        Number of random configurations for the pose errors, and their seed.
+    length_ratio : float
+        Lengths of b by lengths of a: 1000 or 0.001 where one model is in millimetres and the other
+        in metres, 1 otherwise. All but `before` is then of both in one unit.
     """
 
     equal: bool
@@ -105,8 +162,8 @@ class Comparison:
     alternatives: tuple[str, ...]
     unmatched_joints: tuple[str, ...] | None
     strict: bool
-    tol_mm: float
-    tol_deg: float
+    tol_position: float
+    tol_rotation: float
     samples: int
     seed: int
     length_ratio: float = 1.0
@@ -116,32 +173,17 @@ class Comparison:
         """The joints of which axis, kind, zero position, direction or coupling differ."""
         return tuple(joint for joint in self.joints if joint.differs)
 
-    def as_dict(self) -> dict[str, object]:
-        """Everything as plain dicts, lists, strings and numbers; a number that is not finite is
-        None.
+    def summary(self) -> str:
+        """Pose errors in mm and degrees, other explanations, and last the verdict.
+
+        Returns
+        -------
+        text : str
+            One line each.
         """
-        plain = {f.name: getattr(self, f.name) for f in fields(self)}
-        plain["joints"] = [asdict(j) | {"differs": j.differs, "unit": j.unit} for j in self.joints]
-        for name in ("before", "after"):
-            if plain[name] is not None:
-                plain[name] = asdict(plain[name])
-        return {name: _plain(value) for name, value in plain.items()}
-
-    def to_json(self) -> str:
-        """`as_dict` as JSON text."""
-        return json.dumps(self.as_dict(), indent=2, allow_nan=False)
-
-    def __str__(self) -> str:
-        return self.verdict
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
-    if isinstance(value, dict):
-        return {name: _plain(item) for name, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
+        errors = {"as they stand": self.before, "aligned": self.after}
+        lines = [
+            f"Pose error {title}: {found.summary()}" for title, found in errors.items() if found
+        ]
+        lines += [f"Equivalent: {text}" for text in self.alternatives]
+        return "\n".join([*lines, self.verdict[0].upper() + self.verdict[1:]])

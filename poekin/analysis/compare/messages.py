@@ -8,16 +8,12 @@ from ...errors import quote
 from ...groups import se3, so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ..amounts import amount, joint_unit
 from .alignment.hypotheses import Hypothesis, still
 from .comparison import JointComparison
 
 
-def amount(value: float, unit: str) -> str:
-    """A length or an angle for reading: 3.2 mm, 0.5°."""
-    return f"{value:.4g}" + ("°" if unit == "deg" else f" {unit}")
-
-
-def joint_words(joint: JointComparison, tol_mm: float, tol_deg: float) -> str:
+def joint_words(joint: JointComparison, tol_position: float, tol_rotation: float) -> str:
     """Differences of one joint, as the end of a sentence that begins with its name; empty where
     there are none.
     """
@@ -25,22 +21,22 @@ def joint_words(joint: JointComparison, tol_mm: float, tol_deg: float) -> str:
     if joint.kind_a != joint.kind_b:
         words.append(f"is {joint.kind_a} in one model and {joint.kind_b} in the other")
     elif joint.axis_differs:
-        turned = joint.angle > tol_deg
-        moved = joint.normal is not None and joint.normal > tol_mm
+        turned = joint.angle > tol_rotation
+        moved = joint.normal is not None and joint.normal > tol_position
         far = ""
-        if joint.shift is not None and joint.shift > tol_mm:
-            far = f" ({amount(joint.shift, 'mm')} at the arm)"
+        if joint.shift is not None and joint.shift > tol_position:
+            far = f" ({amount(joint.shift, 'm')} at the arm)"
         if turned and moved:
             words.append(
-                f"has an axis that is {amount(joint.angle, 'deg')} and "
-                f"{amount(joint.normal or 0, 'mm')} from the other model's{far}"
+                f"has an axis that is {amount(joint.angle, 'rad')} and "
+                f"{amount(joint.normal or 0, 'm')} from the other model's{far}"
             )
         elif turned:
             words.append(
-                f"has an axis that is turned by {amount(joint.angle, 'deg')} from the other model's{far}"
+                f"has an axis that is turned by {amount(joint.angle, 'rad')} from the other model's{far}"
             )
-        elif joint.shift is not None and joint.shift > tol_mm:
-            words.append(f"has an axis that is {amount(joint.shift, 'mm')} from the other model's")
+        elif joint.shift is not None and joint.shift > tol_position:
+            words.append(f"has an axis that is {amount(joint.shift, 'm')} from the other model's")
         else:
             words.append("has another pitch")
     if joint.zero_differs:
@@ -56,7 +52,7 @@ def joint_words(joint: JointComparison, tol_mm: float, tol_deg: float) -> str:
 
 
 def differences(
-    joints: tuple[JointComparison, ...], tol_mm: float, tol_deg: float, link: int = 0
+    joints: tuple[JointComparison, ...], tol_position: float, tol_rotation: float, link: int = 0
 ) -> list[str]:
     """One clause a joint that differs; where the axes behind joint `link` moved together, one for
     them.
@@ -68,9 +64,9 @@ def differences(
         return [
             f"the link between joint {link} ({quote(joints[link - 1].name_a)}) and joint {link + 1} "
             f"({quote(joints[link].name_a)}) differs: from joint {first.number} on the axes have moved together, and "
-            f"joint {first.number} {joint_words(first, tol_mm, tol_deg)}"
+            f"joint {first.number} {joint_words(first, tol_position, tol_rotation)}"
         ]
-    named = ((j, joint_words(j, tol_mm, tol_deg)) for j in joints)
+    named = ((j, joint_words(j, tol_position, tol_rotation)) for j in joints)
     return [f"joint {j.number} ({quote(j.name_a)}) {words}" for j, words in named if words]
 
 
@@ -78,13 +74,13 @@ def frame_words(what: str, T: Array, tol_m: float, tol_rad: float) -> str:
     """The motion of a frame, or empty: "the base frame is moved by 12 mm and turned by 3°"."""
     if still(T, tol_m, tol_rad):
         return ""
-    mm = float(np.linalg.norm(T[:3, 3])) * 1e3
-    deg = float(np.degrees(np.linalg.norm(so3.log(T[:3, :3]))))
+    distance = float(np.linalg.norm(T[:3, 3]))
+    angle = float(np.linalg.norm(so3.log(T[:3, :3])))
     said = []
-    if mm > 1e3 * tol_m:
-        said.append(f"moved by {amount(mm, 'mm')}")
-    if np.radians(deg) > tol_rad:
-        said.append(f"turned by {amount(deg, 'deg')}")
+    if distance > tol_m:
+        said.append(f"moved by {amount(distance, 'm')}")
+    if angle > tol_rad:
+        said.append(f"turned by {amount(angle, 'rad')}")
     return f"the {what} frame is {' and '.join(said)}"
 
 
@@ -110,7 +106,7 @@ def equivalents(
         for what, T, S, number in ends:
             size = _about(T, S, tol_m, tol_rad)
             if size is not None and not still(T, tol_m, tol_rad):
-                far = _offset_words(size, b.kinds[number - 1])
+                far = amount(size, joint_unit(b.kinds[number - 1]))
                 name = a.joint_names[number - 1]
                 said.append(
                     f"the {what} moved by {far} along or about the axis of joint {number} ({quote(name)}) is the same "
@@ -124,19 +120,12 @@ def equivalents(
         elif other.offset[k]:
             change = "a zero offset"
         if other.offset[k]:
-            change += f" of {_offset_words(other.zeros[k], b.kinds[k])}"
+            change += f" of {amount(other.zeros[k], joint_unit(b.kinds[k]))}"
         said.append(
             f"{change} of joint {k + 1} ({quote(a.joint_names[k])}), with the base and tool frames "
             "aligned to that, explains it as well"
         )
     return said
-
-
-def _offset_words(value: float, kind: str) -> str:
-    """A joint's offset (rad or m) for reading."""
-    if kind == "prismatic":
-        return amount(value * 1e3, "mm")
-    return amount(np.degrees(value), "deg")
 
 
 def _about(T: Array, S: Array, tol_m: float, tol_rad: float) -> float | None:

@@ -21,7 +21,7 @@ MOST = 2
 
 
 def droppable(
-    a: Chain, b: Chain, tol_mm: float, tol_deg: float
+    a: Chain, b: Chain, tol_position: float, tol_rotation: float
 ) -> tuple[tuple[int, ...], Array] | None:
     """The joints of the longer of two chains at rest without which both agree, and the positions at
     which they are then held.
@@ -39,10 +39,10 @@ def droppable(
         return None
     fitting = []
     for ks in combinations(range(len(long.screws)), more):
-        for held in _positions(long, short, ks, tol_mm, tol_deg):
+        for held in _positions(long, short, ks, tol_position, tol_rotation):
             rest = without(long, ks, held)
-            if _may_agree(rest, short, tol_mm, tol_deg):
-                reading = agreeing(rest, short, tol_mm / 1e3, math.radians(tol_deg))
+            if _may_agree(rest, short, tol_position, tol_rotation):
+                reading = agreeing(rest, short, tol_position, tol_rotation)
                 if reading is not None:
                     *changes, near = reading.cost
                     # Of choices that fit exactly, as parallel joints leave, the first one, and not
@@ -73,7 +73,7 @@ def without(chain: Chain, ks: tuple[int, ...], held: Sequence[float] | Array) ->
 
 
 def _positions(
-    long: Chain, short: Chain, ks: tuple[int, ...], tol_mm: float, tol_deg: float
+    long: Chain, short: Chain, ks: tuple[int, ...], tol_position: float, tol_rotation: float
 ) -> Iterator[tuple[float, ...]]:
     """Positions at which joints ks may be held: all 0, and those that make the axes on both sides
     lie as in the other chain.
@@ -86,13 +86,14 @@ def _positions(
     # End joints are held anywhere, as base and tool are free.
     inner = [run[0] > 0 and run[-1] < len(long.screws) - 1 for run in runs]
     across = tuple(run[0] - 1 - sum(k < run[0] for k in ks) for run in runs)
-    if any(inner) and _may_agree(without(long, ks, zero), short, tol_mm, tol_deg, across):
+    if any(inner) and _may_agree(
+        without(long, ks, zero), short, tol_position, tol_rotation, across
+    ):
         tried: list[list[tuple[float, ...]]] = []
         for run, free in zip(runs, inner, strict=True):
             tried.append([(0.0,) * len(run)])
             if free:
-                tol_m = tol_mm / 1e3
-                tried[-1] += held_positions(long, short, run, ks, tol_m, math.radians(tol_deg))
+                tried[-1] += held_positions(long, short, run, ks, tol_position, tol_rotation)
         for parts in product(*tried):
             held = tuple(x for part in parts for x in part)
             if held != zero:
@@ -100,7 +101,7 @@ def _positions(
 
 
 def _may_agree(
-    a: Chain, b: Chain, tol_mm: float, tol_deg: float, but: tuple[int, ...] = ()
+    a: Chain, b: Chain, tol_position: float, tol_rotation: float, but: tuple[int, ...] = ()
 ) -> bool:
     """Whether neighbouring axes of two chains, and those on both sides of a slide, lie to each
     other alike.
@@ -113,26 +114,28 @@ def _may_agree(
     """
     if a.kinds != b.kinds:
         return False
-    lever = 1e3 * max(a.reach, b.reach) * math.radians(tol_deg)
-    ours, theirs = (axes(chain, tol_mm=tol_mm, tol_deg=tol_deg).pairs for chain in (a, b))
+    lever = max(a.reach, b.reach) * tol_rotation
+    ours, theirs = (
+        axes(chain, tol_position=tol_position, tol_rotation=tol_rotation).pairs for chain in (a, b)
+    )
     for p, q in zip(ours, theirs, strict=True):
         between = range(p.first, p.second - 1)
         if any(i in but for i in (p.first - 1, *between)) or any(
             a.kinds[k] != "prismatic" for k in between
         ):
             continue
-        if abs(p.angle - q.angle) > 4 * tol_deg:
+        if abs(p.angle - q.angle) > 4 * tol_rotation:
             return False
         # A slide moves the axes beyond it.
         if p.fixed and p.distance is not None and q.distance is not None:
             # The common normal of axes near parallel flies about with their angle, unless they
             # count as parallel.
-            sine = math.sin(math.radians(p.angle))
+            sine = math.sin(p.angle)
             certain = 0.0
             if p.parallel and q.parallel:
                 certain = 1.0
             elif sine >= 0.1:
                 certain = sine
-            if abs(p.distance - q.distance) * certain > 4 * (tol_mm + lever):
+            if abs(p.distance - q.distance) * certain > 4 * (tol_position + lever):
                 return False
     return True

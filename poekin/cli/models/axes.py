@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
 import typer
 
 from ...analysis.axes import axes
+from ...analysis.tolerances import check_tolerances
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
 from ..output import as_json, name, number, say, table
@@ -32,24 +34,25 @@ def command(
     wrist, Pieper, …
     """
     chain = model(file).chain(base=base, tip=tip)
-    report = axes(chain, tol_mm=tol_mm, tol_deg=tol_deg)
+    check_tolerances(**{"--tol-mm": tol_mm, "--tol-deg": tol_deg})
+    report = axes(chain, tol_position=tol_mm / 1e3, tol_rotation=math.radians(tol_deg))
     if json:
-        print(as_json({"base": chain.base, "tip": chain.tip} | report.as_dict()))
+        print(as_json({"base": chain.base, "tip": chain.tip} | report.to_dict()))
         return
     say(f"Axes of {name(chain.base)} → {name(chain.tip)} at q = 0\n")
     rows = []
     for p in report.pairs:
-        words = p.words
+        words = p.relation
         if not p.fixed:
             words += " (at q = 0)"
         distance = ""
         if p.distance is not None:
-            distance = number(p.distance)
+            distance = number(1e3 * p.distance)
         first = f"{p.first} {p.name_first}"
         second = f"{p.second} {p.name_second}"
-        rows.append((first, second, words, number(p.angle), distance))
+        rows.append((first, second, words, number(math.degrees(p.angle)), distance))
     table(("axis", "and axis", "are", "angle (deg)", "distance (mm)"), rows, left=3)
     for shape in report.shapes:
-        say(shape.words)
+        say(shape.summary())
     if not report.shapes:
         say("no spherical joint and no three parallel axes")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
 import typer
 
 from ...analysis.compare.compare import compare
-from ...analysis.compare.comparison import Comparison, JointComparison, PoseErrors
+from ...analysis.compare.comparison import Comparison, JointComparison
+from ...analysis.tolerances import check_tolerances
 from ...errors import InputError, join_names
 from ...model.chain import Chain
 from ..kinematics.arm import FILE_HELP, Base, Json, Tip
@@ -59,11 +61,18 @@ def command(
     """
     one = _chain(a, "--tip", base, tip)
     other = _chain(b, "--tip-b", base_b, tip_b, base, tip)
+    check_tolerances(**{"--tol-mm": tol_mm, "--tol-deg": tol_deg})
     result = compare(
-        one, other, strict=strict, tol_mm=tol_mm, tol_deg=tol_deg, samples=samples, seed=seed
+        one,
+        other,
+        strict=strict,
+        tol_position=tol_mm / 1e3,
+        tol_rotation=math.radians(tol_deg),
+        samples=samples,
+        seed=seed,
     )
     if json:
-        print(as_json({"a": _where(a, one), "b": _where(b, other)} | result.as_dict()))
+        print(as_json({"a": _where(a, one), "b": _where(b, other)} | result.to_dict()))
     else:
         _show(result, one, other)
     raise typer.Exit(0 if result.equal else DIFFER)
@@ -100,40 +109,34 @@ def _show(result: Comparison, a: Chain, b: Chain) -> None:
         lengths = ("angle (deg)", "normal (mm)", "at the arm (mm)")
         heads = ("", "joint", "kind", "axis", *lengths, "zero", "direction", "limits")
         table(heads, rows, left=4)
-    for title, errors in (("as they stand", result.before), ("aligned", result.after)):
-        if errors is not None:
-            say(f"Pose error {title}: {_errors(errors)}")
-    for words in result.alternatives:
-        say(f"Equivalent: {words}")
-    say(result.verdict[0].upper() + result.verdict[1:])
+    say(result.summary())
 
 
 def _joint_row(joint: JointComparison, result: Comparison) -> tuple[object, ...]:
-    tol = {"mm": result.tol_mm}.get(joint.unit, result.tol_deg)
+    slides = joint.unit == "m"
+    coordinate = _mm if slides else _deg
+    tol = result.tol_position if slides else result.tol_rotation
     return (
         joint.number,
         " / ".join(dict.fromkeys((joint.name_a, joint.name_b))),
         " / ".join(dict.fromkeys((joint.kind_a, joint.kind_b))),
         "DIFFERS" if joint.axis_differs else "same",
-        _rounded(joint.angle, result.tol_deg),
-        _rounded(joint.normal, result.tol_mm),
-        _rounded(joint.shift, result.tol_mm),
-        f"{_rounded(joint.zero_offset, tol)} {joint.unit}",
+        _deg(joint.angle, result.tol_rotation),
+        _mm(joint.normal, result.tol_position),
+        _mm(joint.shift, result.tol_position),
+        f"{coordinate(joint.zero_offset, tol)} {'mm' if slides else 'deg'}",
         "flipped" if joint.reversed else "same",
-        " ".join(_rounded(bound, tol) for bound in joint.limits),
+        " ".join(coordinate(bound, tol) for bound in joint.limits),
     )
 
 
-def _rounded(value: float | None, tol: float) -> str:
-    """Number to four digits, 0 far below the tolerance; nothing for None."""
+def _mm(value: float | None, tol: float) -> str:
+    """A length in mm to four digits, 0 far below the tolerance; nothing for None."""
     if value is None:
         return ""
-    if abs(value) < 1e-6 * tol:
-        value = 0.0
-    return number(value, 4)
+    return number(1e3 * value * (abs(value) >= 1e-6 * tol), 4)
 
 
-def _errors(errors: PoseErrors) -> str:
-    worst = f"worst {number(errors.worst_mm, 3)} mm, {number(errors.worst_deg, 3)}°"
-    mean = f"mean {number(errors.mean_mm, 3)} mm, {number(errors.mean_deg, 3)}°"
-    return f"{worst}; {mean}"
+def _deg(value: float, tol: float) -> str:
+    """An angle in degrees to four digits, 0 far below the tolerance."""
+    return number(math.degrees(value) * (abs(value) >= 1e-6 * tol), 4)

@@ -90,8 +90,8 @@ def test_two_conventions_of_one_arm_are_equal_and_the_alignment_maps_one_onto_th
     )
     assert result.equal, result.verdict
     assert result.after is not None
-    assert result.after.worst_mm < 0.2
-    assert result.after.worst_deg < 0.02
+    assert result.after.worst_position < 2e-4
+    assert result.after.worst_rotation < np.radians(0.02)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -102,7 +102,7 @@ def test_a_shifted_axis_is_named_even_where_zeros_and_directions_differ_too(seed
     flipped = Chain(other.screws * rng.choice([-1.0, 1.0], 7)[:, None], other.home)
     result = compare(chain, planted(flipped, "shift", 3, rng))
     (moved,) = [j for j in result.joints if j.axis_differs]
-    assert (moved.number, moved.normal) == (4, pytest.approx(1.0, rel=0.01))
+    assert (moved.number, moved.normal) == (4, pytest.approx(1e-3, rel=0.01))
 
 
 def test_two_shifted_axes_are_both_named():
@@ -115,8 +115,8 @@ def test_two_shifted_axes_are_both_named():
     )
     assert [j.number for j in result.joints if j.axis_differs] == [3, 5]
     assert (result.joints[2].normal, result.joints[4].angle) == (
-        pytest.approx(1, rel=1e-2),
-        pytest.approx(0.1, rel=1e-2),
+        pytest.approx(1e-3, rel=1e-2),
+        pytest.approx(np.radians(0.1), rel=1e-2),
     )
 
 
@@ -216,7 +216,7 @@ def test_limits_are_compared_in_the_other_models_zero_and_direction_and_decide_n
     limits[2, 1] -= np.radians(10)
     result = compare(chain, Chain(chain.screws, chain.home, limits=limits))
     assert result.equal
-    assert result.joints[2].limits == pytest.approx((0, -10))
+    assert result.joints[2].limits == pytest.approx((0, -np.radians(10)))
     flipped = compare(chain, planted(chain, "flip", 2, np.random.default_rng(0)))
     assert flipped.joints[2].limits == pytest.approx((0, 0))
 
@@ -237,7 +237,7 @@ def test_axes_that_agree_exactly_share_the_blame_of_no_other_axis():
     result = compare(load("ur10").chain(), load("ur10e").chain(), samples=1)
     assert [j.number for j in result.differing] == [3, 4, 5, 6]
     assert [j.shift for j in result.differing] == pytest.approx(
-        [0.7, 0.05, np.hypot(10.209, 0.05), np.hypot(4.15, 0.05)], rel=1e-6
+        [0.7e-3, 0.05e-3, np.hypot(10.209e-3, 0.05e-3), np.hypot(4.15e-3, 0.05e-3)], rel=1e-6
     )
     assert "°" not in result.verdict
 
@@ -259,14 +259,14 @@ def test_one_link_of_another_length_or_twist_is_named_and_no_zero_offset_is_made
 
 def test_what_is_the_same_within_tolerance_as_it_stands_is_not_aligned():
     chain, rng = arm("random 6b"), np.random.default_rng(0)
-    result = compare(chain, planted(chain, "shift", 2, rng), tol_mm=1.01)
+    result = compare(chain, planted(chain, "shift", 2, rng), tol_position=1.01e-3)
     assert (result.base, result.tool) == (
         pytest.approx(np.eye(4)),
         pytest.approx(np.eye(4), abs=1e-12),
     )
     assert result.after is not None
     assert result.before is not None
-    assert result.after.worst_mm == pytest.approx(result.before.worst_mm, rel=1e-9)
+    assert result.after.worst_position == pytest.approx(result.before.worst_position, rel=1e-9)
 
 
 def _coupled(C, c=None):
@@ -313,10 +313,10 @@ def test_a_ratio_to_a_coordinate_whose_joint_is_not_on_the_chain_is_compared():
     assert (result.equal, [j.number for j in result.differing]) == (False, [5])
 
 
-def test_tolerances_are_millimetres_and_degrees():
+def test_tolerances_are_metres_and_radians():
     chain, rng = arm("random 6b"), np.random.default_rng(0)
-    assert compare(chain, planted(chain, "shift", 2, rng), tol_mm=1.01).equal
-    assert not compare(chain, planted(chain, "shift", 2, rng), tol_mm=0.1).equal
+    assert compare(chain, planted(chain, "shift", 2, rng), tol_position=1.01e-3).equal
+    assert not compare(chain, planted(chain, "shift", 2, rng), tol_position=1e-4).equal
 
 
 def test_chains_without_joints_and_with_one_compare():
@@ -337,7 +337,13 @@ def test_json_is_plain_and_complete():
 
 @pytest.mark.parametrize(
     "options",
-    [{"tol_mm": 0}, {"tol_deg": -1}, {"tol_mm": float("nan")}, {"samples": 0}, {"tol_deg": "x"}],
+    [
+        {"tol_position": 0},
+        {"tol_rotation": -1},
+        {"tol_position": float("nan")},
+        {"samples": 0},
+        {"tol_rotation": "x"},
+    ],
 )
 def test_options_out_of_range_are_refused(options):
     with pytest.raises(InputError, match=next(iter(options))):
@@ -353,8 +359,8 @@ CHAIN = "expected a Chain, as Robot.chain(tip=...) makes it, got 5"
 WHOLE = {
     "a": ({"a": 5}, f"a: {CHAIN}"),
     "b": ({"b": 5}, f"b: {CHAIN}"),
-    "tol_mm": ({"tol_mm": 0}, "tol_mm: a positive number expected, got 0"),
-    "tol_deg": ({"tol_deg": "x"}, "tol_deg: a positive number expected, got 'x'"),
+    "tol_position": ({"tol_position": 0}, "tol_position: a positive number expected, got 0"),
+    "tol_rotation": ({"tol_rotation": "x"}, "tol_rotation: a positive number expected, got 'x'"),
     "no samples": (
         {"samples": 0},
         "samples: a number of configurations of at least 1 expected, got 0",
@@ -411,7 +417,7 @@ def test_a_verdict_says_what_differs_and_nothing_else(change, aligned, strict):
 ])  # fmt: skip
 def test_numbers_of_joints_that_do_not_fit_are_said_whole(numbers, verdict):
     a, b = (random_arm(k, ("revolute",) * n) for k, n in enumerate(numbers))
-    found = compare(a, b, samples=7, seed=3, tol_mm=0.02, tol_deg=0.003)
+    found = compare(a, b, samples=7, seed=3, tol_position=2e-5, tol_rotation=5e-5)
     assert (
         found.verdict,
         found.equal,
@@ -426,29 +432,30 @@ def test_numbers_of_joints_that_do_not_fit_are_said_whole(numbers, verdict):
         (),
     )
     assert (found.base, found.tool, found.before, found.after) == (None, None, None, None)
-    assert (found.strict, found.tol_mm, found.tol_deg, found.samples, found.seed) == (
+    assert (found.strict, found.tol_position, found.tol_rotation, found.samples, found.seed) == (
         False,
-        0.02,
-        0.003,
+        2e-5,
+        5e-5,
         7,
         3,
     )
 
 
 @pytest.mark.parametrize("share", [0.9996, 1.0004])
-@pytest.mark.parametrize("name", ["tol_mm", "tol_deg"])
-def test_a_tolerance_is_one_of_millimetres_or_degrees_to_less_than_a_thousandth(name, share):
+@pytest.mark.parametrize("name", ["tol_position", "tol_rotation"])
+def test_a_tolerance_is_kept_to_less_than_a_thousandth(name, share):
     chain = random_arm(3)
     S, k = chain.screws.copy(), 2
     across = np.cross(S[k, :3], S[0, :3]) / np.linalg.norm(np.cross(S[k, :3], S[0, :3]))
-    size = share * 0.5
-    if name == "tol_mm":
-        motion = np.concatenate([np.zeros(3), 1e-3 * size * across])
+    tol = {"tol_position": 5e-4, "tol_rotation": np.radians(0.5)}[name]
+    size = share * tol
+    if name == "tol_position":
+        motion = np.concatenate([np.zeros(3), size * across])
     else:
         place = lines(chain).places[k] + lines(chain).centre
-        motion = np.radians(size) * screw.revolute(across, place)
+        motion = size * screw.revolute(across, place)
     S[k] = se3.adjoint(se3.exp(motion)) @ S[k]
-    tolerances: dict[str, Any] = {"tol_mm": 50.0, "tol_deg": 5.0, name: 0.5}
+    tolerances: dict[str, Any] = {"tol_position": 0.05, "tol_rotation": 0.1, name: tol}
     found = compare(chain, Chain(S, chain.home), strict=True, samples=1, **tolerances)
     assert [joint.number for joint in found.joints if joint.axis_differs] == (
         [k + 1] if share > 1 else []

@@ -44,7 +44,7 @@ def test_one_or_two_extra_joints_are_named_wherever_they_are(seed, places, swapp
     assert all(f"'{name}'" in result.verdict for name in added)
     assert f"{'two joints' if len(added) == 2 else 'one joint'} more" in result.verdict
     assert result.after is not None
-    assert result.after.worst_mm < 0.01
+    assert result.after.worst_position < 1e-5
     json.loads(result.to_json())
 
 
@@ -56,7 +56,7 @@ def test_extra_joints_of_the_panda_are_named_under_other_zeros_too(places):
     assert result.unmatched_joints == ("b", *added)
     assert not any(j.axis_differs for j in result.joints)
     assert result.after is not None
-    assert result.after.worst_mm < 0.01
+    assert result.after.worst_position < 1e-5
 
 
 @pytest.mark.parametrize(
@@ -83,7 +83,7 @@ def test_an_extra_joint_of_any_kind_is_named_at_another_zero(extra_joint):
         result = compare(*pair, samples=5)
         assert result.unmatched_joints == (side, "extra")
         assert result.after is not None
-        assert result.after.worst_mm < 0.01
+        assert result.after.worst_position < 1e-5
     # An axis that is elsewhere as well is no matter of where the joint is held.
     S = np.array(other.screws)
     S[1] = se3.adjoint(se3.exp(np.array([0.01, 0, 0, 0, 0.01, 0]))) @ S[1]
@@ -146,7 +146,7 @@ def test_extra_joints_beside_each_other_and_beside_parallel_axes_are_named_at_ot
     assert result.unmatched_joints == ("b", *added)
     assert not any(j.axis_differs for j in result.joints)
     assert result.after is not None
-    assert result.after.worst_mm < 0.01
+    assert result.after.worst_position < 1e-5
 
 
 def test_of_parallel_joints_that_fit_alike_rounding_does_not_choose():
@@ -192,8 +192,8 @@ def test_the_quick_look_lets_every_pair_of_models_that_agree_pass(seed, wobble):
     other = (
         Chain(rows, chain.home).rezeroed(rng.normal(size=6)).rebased(se3.exp(rng.normal(size=6)))
     )
-    assert unmatched_joints._may_agree(chain, other, 0.01, 1e-3)
-    assert not unmatched_joints._may_agree(chain, random_arm(seed + 1), 0.01, 1e-3)
+    assert unmatched_joints._may_agree(chain, other, 1e-5, np.radians(1e-3))
+    assert not unmatched_joints._may_agree(chain, random_arm(seed + 1), 1e-5, np.radians(1e-3))
 
 
 def bolt(pitch=0.02, sign=1.0):
@@ -210,7 +210,7 @@ def test_helical_joints_agree_under_any_convention():
     result = compare(chain, moved.retooled(se3.exp(rng.normal(size=6))))
     assert result.equal, result.verdict
     assert result.after is not None
-    assert result.after.worst_mm < 0.2
+    assert result.after.worst_position < 2e-4
     flipped = compare(chain, bolt(sign=-1.0))
     assert (flipped.equal, [j.number for j in flipped.differing if j.reversed]) == (True, [3])
 
@@ -219,8 +219,8 @@ def test_a_zero_offset_of_a_helical_joint_is_named_and_sized():
     chain = bolt()
     result = compare(chain, chain.rezeroed([0, 0, 0.1, 0, 0]))
     (joint,) = result.differing
-    assert (joint.number, joint.axis_differs, joint.unit) == (3, False, "deg")
-    assert joint.zero_offset == pytest.approx(-np.degrees(0.1), rel=1e-3)
+    assert (joint.number, joint.axis_differs, joint.unit) == (3, False, "rad")
+    assert joint.zero_offset == pytest.approx(-0.1, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -239,8 +239,8 @@ def test_another_pitch_is_named_and_nothing_else_is_blamed(pitch, words):
 
 
 def test_a_pitch_that_shows_less_than_the_tolerance_after_a_turn_is_the_same():
-    assert compare(bolt(), bolt(0.02 + 1e-6), tol_mm=0.01).equal
-    assert not compare(bolt(), bolt(0.02 + 2e-6), tol_mm=0.01).equal
+    assert compare(bolt(), bolt(0.02 + 1e-6), tol_position=1e-5).equal
+    assert not compare(bolt(), bolt(0.02 + 2e-6), tol_position=1e-5).equal
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -367,13 +367,13 @@ def test_the_quick_look_lets_four_tolerances_pass(change, agree):
     angle = 0.9 + np.radians(change.get("angle", 0))
     a, b = crossing(0.9, 0.0), crossing(angle, change.get("gap", 0))
     assert (
-        unmatched_joints._may_agree(a, b, 0.01, 1e-3)
-        == unmatched_joints._may_agree(b, a, 0.01, 1e-3)
+        unmatched_joints._may_agree(a, b, 1e-5, np.radians(1e-3))
+        == unmatched_joints._may_agree(b, a, 1e-5, np.radians(1e-3))
         == agree
     )
-    assert unmatched_joints._may_agree(a, b, 0.01, 1e-3, but=(0,))
+    assert unmatched_joints._may_agree(a, b, 1e-5, np.radians(1e-3), but=(0,))
     assert not unmatched_joints._may_agree(
-        a, Chain([a.screws[0], screw.prismatic([0, 0, 1])], np.eye(4)), 0.01, 1e-3
+        a, Chain([a.screws[0], screw.prismatic([0, 0, 1])], np.eye(4)), 1e-5, np.radians(1e-3)
     )
 
 
@@ -390,13 +390,13 @@ def two(angle, gap, tip=1.0):
 def test_the_quick_look_lets_lengths_pass_by_four_tolerances_and_what_angles_make_of_the_reach(
     angle, certain, tip
 ):
-    tol_mm, tol_deg = 0.02, 0.003
+    tol_position, tol_rotation = 2e-5, np.radians(0.003)
     a = two(angle, 500.0)
     reach = max(a.reach, two(angle, 500.0, tip).reach)
-    most = 4 * (tol_mm + 1e3 * reach * np.radians(tol_deg))
+    most = 4 * (tol_position + reach * tol_rotation)
     for share in (0.9996, 1.0004, -0.9996, -1.0004):
-        b = two(angle, 500.0 + share * most / (certain or 1e-3), tip)
-        assert unmatched_joints._may_agree(a, b, tol_mm, tol_deg) == (
+        b = two(angle, 500.0 + 1e3 * share * most / (certain or 1e-3), tip)
+        assert unmatched_joints._may_agree(a, b, tol_position, tol_rotation) == (
             certain == 0 or abs(share) < 1
         )
 
@@ -409,7 +409,7 @@ def test_the_quick_look_looks_at_neighbours_and_across_slides_alone():
         """Whether arms agree of which the second has another axis k."""
         changed = [*rows[:k], other, *rows[k + 1 :]]
         return unmatched_joints._may_agree(
-            Chain(rows, np.eye(4)), Chain(changed, np.eye(4)), 0.01, 1e-3, but
+            Chain(rows, np.eye(4)), Chain(changed, np.eye(4)), 1e-5, np.radians(1e-3), but
         )
 
     assert not agree(turning, 3, screw.revolute([1, 2, 3], [1, 0, 0]))
@@ -429,5 +429,5 @@ def test_the_quick_look_looks_at_neighbours_and_across_slides_alone():
     for but, agreed in (((0,), True), ((1,), True), ((2,), False)):
         assert agree(rows, 2, about @ turning[1], but) == agreed
     assert not unmatched_joints._may_agree(
-        Chain(rows, np.eye(4)), Chain(turning[:3], np.eye(4)), 0.01, 1e-3
+        Chain(rows, np.eye(4)), Chain(turning[:3], np.eye(4)), 1e-5, np.radians(1e-3)
     )

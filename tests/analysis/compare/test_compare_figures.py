@@ -36,7 +36,7 @@ def test_limits_of_a_joint_both_reversed_and_rezeroed_are_those_in_the_other_mod
     result = compare(chain, other, samples=1)
     assert (result.joints[2].reversed, abs(result.joints[2].zero_offset)) == (
         True,
-        pytest.approx(np.degrees(0.4)),
+        pytest.approx(0.4),
     )
     assert result.joints[2].limits == pytest.approx((0, 0), abs=1e-9)
     limits = other.limits.copy()
@@ -48,7 +48,7 @@ def test_limits_of_a_joint_both_reversed_and_rezeroed_are_those_in_the_other_mod
         Chain(other.screws, other.home, joint_names=chain.joint_names, limits=limits),
         samples=1,
     )
-    assert result.joints[2].limits == pytest.approx((20, -10))
+    assert result.joints[2].limits == pytest.approx(np.radians([20, -10]).tolist())
 
 
 def tilted(chain, k, angle, about, along):
@@ -70,11 +70,9 @@ def test_angle_normal_and_shift_are_those_of_the_two_lines(angle):
     place = pair.places[k] + pair.centre
     assert np.linalg.norm(np.cross(w, place - p)) < 1e-12
     across = np.cross(w, u)
-    assert joint.angle == pytest.approx(np.degrees(np.arccos(w @ u)), rel=1e-9)
-    assert joint.normal == pytest.approx(
-        1e3 * abs((r - p) @ across) / np.linalg.norm(across), rel=1e-9
-    )
-    assert joint.shift == pytest.approx(1e3 * np.linalg.norm(np.cross(u, r - place)), rel=1e-9)
+    assert joint.angle == pytest.approx(np.arccos(w @ u), rel=1e-9)
+    assert joint.normal == pytest.approx(abs((r - p) @ across) / np.linalg.norm(across), rel=1e-9)
+    assert joint.shift == pytest.approx(np.linalg.norm(np.cross(u, r - place)), rel=1e-9)
 
 
 def test_pose_errors_are_the_worst_and_the_mean_over_the_configurations():
@@ -83,15 +81,19 @@ def test_pose_errors_are_the_worst_and_the_mean_over_the_configurations():
     found = compare(chain, other, samples=40, seed=5, strict=True).before
     q = chain.random(5, 40)
     ours, theirs = chain.fk(q), other.fk(q)
-    mm = 1e3 * np.linalg.norm(ours[:, :3, 3] - theirs[:, :3, 3], axis=1)
+    distance = np.linalg.norm(ours[:, :3, 3] - theirs[:, :3, 3], axis=1)
     turned = ours[:, :3, :3].swapaxes(1, 2) @ theirs[:, :3, :3]
     # |R - I| = 2 sqrt(2) sin(angle / 2) in the Frobenius norm.
     chord = np.linalg.norm(turned - np.eye(3), axis=(1, 2)) / (2 * np.sqrt(2))
-    deg = np.degrees(2 * np.arcsin(chord))
+    angle = 2 * np.arcsin(chord)
     assert found is not None
-    assert (found.worst_mm, found.mean_mm) == pytest.approx((mm.max(), mm.mean()), rel=1e-9)
-    assert (found.worst_deg, found.mean_deg) == pytest.approx((deg.max(), deg.mean()), rel=1e-9)
-    assert deg.max() > 1.001 * deg.mean()
+    assert (found.worst_position, found.mean_position) == pytest.approx(
+        (distance.max(), distance.mean()), rel=1e-9
+    )
+    assert (found.worst_rotation, found.mean_rotation) == pytest.approx(
+        (angle.max(), angle.mean()), rel=1e-9
+    )
+    assert angle.max() > 1.001 * angle.mean()
 
 
 def test_an_axis_that_only_turns_says_how_far_it_is_at_the_arm_and_one_that_passes_by_says_both():
@@ -200,10 +202,10 @@ def test_each_joint_has_the_name_and_the_kind_of_either_model():
     assert [(j.number, j.name_a, j.name_b) for j in joints] == [
         (k + 1, f"a{k}", f"b{k}") for k in range(6)
     ]
-    assert [(j.kind_a, j.kind_b, j.unit) for j in joints[3:5]] == [("revolute", "revolute", "deg"),
-                                                                   ("revolute", "prismatic", "deg")]  # fmt: skip
+    assert [(j.kind_a, j.kind_b, j.unit) for j in joints[3:5]] == [("revolute", "revolute", "rad"),
+                                                                   ("revolute", "prismatic", "m")]  # fmt: skip
     assert (joints[4].normal, joints[4].shift) == (None, None)
-    assert compare(b, a, samples=1).joints[4].unit == "mm"
+    assert compare(b, a, samples=1).joints[4].unit == "rad"
 
 
 def test_a_zero_offset_that_no_agreeing_axis_needs_is_put_back_though_another_axis_disagrees():

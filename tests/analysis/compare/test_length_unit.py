@@ -49,9 +49,9 @@ def test_lengths_a_thousand_times_too_long_or_too_short_are_named_whichever_mode
         )
         assert result.verdict.startswith("the models differ; lengths")
         assert result.after is not None
-        assert result.after.worst_mm < 0.1
+        assert result.after.worst_position < 1e-4
         assert result.before is not None
-        assert result.before.worst_mm > 100
+        assert result.before.worst_position > 0.1
 
 
 @pytest.mark.parametrize(
@@ -65,9 +65,9 @@ def test_an_error_in_a_joint_beside_the_wrong_unit_is_named_and_sized(change, sw
     assert [j.number for j in result.differing] == [3]
     (joint,) = result.differing
     found = {
-        "tilt": joint.angle,
-        "shift": joint.normal,
-        "zero": abs(joint.zero_offset),
+        "tilt": np.degrees(joint.angle),
+        "shift": 1e3 * (joint.normal or 0.0),
+        "zero": np.degrees(abs(joint.zero_offset)),
         "flip": float(joint.reversed),
     }[change]
     assert found == pytest.approx(

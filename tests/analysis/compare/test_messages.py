@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -58,6 +59,22 @@ def test_another_reading_says_the_size_of_its_zero_offset(kind, words):
 TURNS = JointComparison(
     2, "arm", "b2", "revolute", "revolute", 0.0, 0.0, 0.0, 0.0, False, (0.0, 0.0), False, False
 )
+
+TOL = 1e-5, np.radians(1e-3)
+
+
+def in_si(joint: JointComparison, **changes: Any) -> JointComparison:
+    """The joint with changes that are given in mm and degrees."""
+    angles = {"angle"} | ({"zero_offset"} if joint.unit == "rad" else set())
+    lengths = {"normal", "shift", "zero_offset"} - angles
+    for name, value in changes.items():
+        if name in angles:
+            changes[name] = np.radians(value)
+        elif name in lengths:
+            changes[name] = value / 1e3
+    return replace(joint, **changes)
+
+
 SLIDES = replace(TURNS, kind_a="prismatic", kind_b="prismatic", normal=None, shift=None)
 
 
@@ -87,25 +104,25 @@ SLIDES = replace(TURNS, kind_a="prismatic", kind_b="prismatic", normal=None, shi
      "has its zero position 1° from the other model's and has the sign of q flipped"),
 ])  # fmt: skip
 def test_what_differs_in_a_joint_is_said_whole(joint, changes, words):
-    assert messages.joint_words(replace(joint, **changes), 0.01, 0.001) == words
+    assert messages.joint_words(in_si(joint, **changes), *TOL) == words
 
 
 def test_joints_that_differ_are_named_by_number_and_the_first_model_s_name():
     joints = tuple(
-        replace(TURNS, number=k + 1, name_a=f"a{k + 1}", axis_differs=k > 1, angle=1.0 + k)
+        in_si(TURNS, number=k + 1, name_a=f"a{k + 1}", axis_differs=k > 1, angle=1.0 + k)
         for k in range(4)
     )
     axis = "has an axis that is turned by {}° from the other model's"
     two = [f"joint 3 ('a3') {axis.format(3)}", f"joint 4 ('a4') {axis.format(4)}"]
-    assert messages.differences(joints, 0.01, 0.001) == two
+    assert messages.differences(joints, *TOL) == two
     for link in (1, 2):
-        (sentence,) = messages.differences(joints, 0.01, 0.001, link=link)
+        (sentence,) = messages.differences(joints, *TOL, link=link)
         assert sentence == (
             f"the link between joint {link} ('a{link}') and joint {link + 1} ('a{link + 1}') differs: from joint 3 on "
             f"the axes have moved together, and joint 3 {axis.format(3)}"
         )
     coupled = (*joints[:3], replace(joints[3], axis_differs=False, coupling_differs=True))
-    assert len(messages.differences(coupled, 0.01, 0.001, link=2)) == 2
+    assert len(messages.differences(coupled, *TOL, link=2)) == 2
 
 
 @pytest.mark.parametrize("xi, words", [

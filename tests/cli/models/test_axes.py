@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from poekin.analysis.axes import axes
@@ -19,12 +20,16 @@ def test_the_table_has_angle_and_distance_of_each_pair(poekin):
     lines = poekin("axes", "panda", "--tip", "panda_hand", "--tol-mm", "0.1", "--tol-deg", "0.01")[
         1
     ].splitlines()
-    report = axes(load("panda").chain(tip="panda_hand"), tol_mm=0.1, tol_deg=0.01)
+    report = axes(
+        load("panda").chain(tip="panda_hand"), tol_position=1e-4, tol_rotation=np.radians(0.01)
+    )
     assert any(not pair.fixed for pair in report.pairs)
     for pair in report.pairs:
         (line,) = [x for x in lines if x.split()[:4] == [str(pair.first), pair.name_first, str(pair.second),
                                                          pair.name_second]]  # fmt: skip
-        numbers = [pair.angle] if pair.distance is None else [pair.angle, pair.distance]
+        numbers = [np.degrees(pair.angle)]
+        if pair.distance is not None:
+            numbers.append(1e3 * pair.distance)
         assert [float(x) for x in line.split()[-len(numbers) :]] == pytest.approx(numbers, rel=1e-5)
         assert ("(at q = 0)" in line) == (not pair.fixed)
 
@@ -33,9 +38,9 @@ def test_each_shape_is_said_or_that_there_is_none(poekin, crane):
     report = axes(load("panda").chain(tip="panda_hand"))
     lines = poekin("axes", "panda", "--tip", "panda_hand")[1].splitlines()
     assert lines[0] == "Axes of panda_link0 → panda_hand at q = 0"
-    assert lines[-len(report.shapes) :] == [shape.words for shape in report.shapes]
+    assert lines[-len(report.shapes) :] == [shape.summary() for shape in report.shapes]
     for pair in report.pairs:
-        words = pair.words if pair.fixed else f"{pair.words} (at q = 0)"
+        words = pair.relation if pair.fixed else f"{pair.relation} (at q = 0)"
         ends = [
             str(pair.first),
             pair.name_first,
@@ -59,4 +64,6 @@ def test_json_has_every_pair(as_json):
 
 def test_a_tree_without_a_tip_and_a_bad_tolerance_are_refused(crane, refused):
     assert "hook" in refused("axes", crane)
-    assert "tol_mm" in refused("axes", crane, "--tip", "hook", "--tol-mm", "-1")
+    assert "--tol-mm: a positive number" in refused(
+        "axes", crane, "--tip", "hook", "--tol-mm", "-1"
+    )

@@ -6,6 +6,7 @@ import json
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from poekin.analysis.compare.compare import compare
@@ -57,16 +58,26 @@ def test_the_table_and_the_pose_errors_are_those_of_the_comparison(tmp_path, poe
     for words, errors in (("as they stand", result.before), ("aligned", result.after)):
         (line,) = [line for line in lines if line.startswith(f"Pose error {words}: ")]
         assert errors is not None
-        wanted = [errors.worst_mm, errors.worst_deg, errors.mean_mm, errors.mean_deg]
+        wanted = [
+            1e3 * errors.worst_position,
+            np.degrees(errors.worst_rotation),
+            1e3 * errors.mean_position,
+            np.degrees(errors.mean_rotation),
+        ]
         numbers = [float(x) for x in re.findall(r"[-+.e\d]+(?= mm|°)", line)]
         assert numbers == pytest.approx(wanted, rel=5e-3, abs=1e-9)
     for joint in result.joints:
         (row,) = [line.split() for line in lines if joint.name_a in line and "revolute" in line]
         assert row[3] == ("DIFFERS" if joint.axis_differs else "same")
         assert ("flipped" in row) == joint.reversed
-        shown = [joint.angle, joint.normal, joint.shift, joint.zero_offset]
-        tiny = 1e-6 * 0.01  # what is far below tolerance is shown as 0
-        values = [0.0 if abs(x) < tiny else x for x in shown if x is not None]
+        shown = [
+            np.degrees(joint.angle),
+            1e3 * (joint.normal or 0.0),
+            1e3 * (joint.shift or 0.0),
+            np.degrees(joint.zero_offset),
+        ]
+        tiny = 1e-6 * 0.001  # what is far below tolerance is shown as 0
+        values = [0.0 if abs(x) < tiny else x for x in shown]
         assert [float(x) for x in row[4 : 4 + len(values)]] == pytest.approx(values, rel=1e-3)
 
 
@@ -100,7 +111,7 @@ def test_a_tree_without_a_tip_is_refused_with_its_tips(crane, tmp_path, refused)
 
 def test_what_cannot_be_used_is_refused(tmp_path, refused):
     a = written(tmp_path, "a.urdf", 0)
-    assert "tol_mm" in refused("compare", a, a, "--tol-mm", "0")
+    assert "--tol-mm: a positive number" in refused("compare", a, a, "--tol-mm", "0")
     assert "nowhere.urdf" in refused("compare", a, str(tmp_path / "nowhere.urdf"))
     assert "elsewhere" in refused("compare", a, a, "--tip", "elsewhere")
 
@@ -139,23 +150,24 @@ def test_the_table_has_the_numbers_of_the_function_in_the_order_of_its_heads(tmp
     for title, joint, row in zip(titles, result.joints, rows, strict=True):
         words = [word.strip() for word in row.split("  ") if word.strip()]
         lengths = [
-            "" if x is None else f"{x if abs(x) > 1e-8 else 0:.4g}"
-            for x in (joint.normal, joint.shift)
+            f"{1e3 * x if abs(x) > 1e-11 else 0:.4g}"
+            for x in (joint.normal or 0.0, joint.shift or 0.0)
         ]
-        tol = result.tol_mm if joint.unit == "mm" else result.tol_deg
-        ends = " ".join(f"{x if abs(x) >= 1e-6 * tol else 0:.4g}" for x in joint.limits)
+        angle, zero, *ends = (
+            f"{np.degrees(x) if abs(x) >= 1e-6 * result.tol_rotation else 0:.4g}"
+            for x in (joint.angle, joint.zero_offset, *joint.limits)
+        )
         assert words == [word for word in (
             str(joint.number), title, joint.kind_a, "DIFFERS" if joint.axis_differs else "same",
-            f"{joint.angle if abs(joint.angle) >= 1e-9 else 0:.4g}", *lengths,
-            f"{joint.zero_offset if abs(joint.zero_offset) >= 1e-6 * tol else 0:.4g} {joint.unit}",
-            "flipped" if joint.reversed else "same", ends,
+            angle, *lengths, f"{zero} deg", "flipped" if joint.reversed else "same", " ".join(ends),
         ) if word]  # fmt: skip
     assert any(joint.reversed for joint in result.joints)
     for title, errors in (("as they stand", result.before), ("aligned", result.after)):
         assert errors is not None
         assert (
-            f"Pose error {title}: worst {errors.worst_mm:.3g} mm, {errors.worst_deg:.3g}°;"
-            f" mean {errors.mean_mm:.3g} mm, {errors.mean_deg:.3g}°" in lines
+            f"Pose error {title}: worst {1e3 * errors.worst_position:.3g} mm, {np.degrees(errors.worst_rotation):.3g}°;"
+            f" mean {1e3 * errors.mean_position:.3g} mm, {np.degrees(errors.mean_rotation):.3g}°"
+            in lines
         )
     assert lines[-1].lower() == result.verdict.lower()
 

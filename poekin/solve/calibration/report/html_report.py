@@ -164,26 +164,27 @@ def _changed(found: CalibrationData) -> Iterator[str]:
         yield _table(heads, [changes.row(j) for j in moved])
     compared = compare(found.nominal, found.chain)
     yield _caption("Nominal and calibrated arm, aligned and compared (the largest first)")
-    lines = sorted(compared.joints, key=lambda j: -max(j.shift or 0.0, j.normal or 0.0, j.angle))
+    lines = sorted(compared.joints, key=_difference, reverse=True)
     heads = ("joint", "angle of the axes (°)", "common normal (mm)", "at the arm (mm)", "zero")
     yield _table(heads, [_compared_row(j) for j in lines[:MOST_ROWS]])
     if (e := compared.before) is not None:
         yield _p(
-            f"As they stand, the two differ by up to {e.worst_mm:.3g} mm and {e.worst_deg:.3g}° "
-            f"over {compared.samples} random configurations, on average by {e.mean_mm:.3g} mm and "
-            f"{e.mean_deg:.3g}°."
+            f"As they stand, the two differ by up to {1e3 * e.worst_position:.3g} mm and "
+            f"{math.degrees(e.worst_rotation):.3g}° over {compared.samples} random configurations, "
+            f"on average by {1e3 * e.mean_position:.3g} mm and {math.degrees(e.mean_rotation):.3g}°."
         )
 
 
 def _compared_row(j: JointComparison) -> tuple[str, ...]:
-    unit = "mm" if j.unit == "mm" else "°"
-    return (
-        j.name_a,
-        _seen(j.angle),
-        _seen(j.normal),
-        _seen(j.shift),
-        f"{_seen(j.zero_offset)} {unit}",
-    )
+    zero = f"{_degrees(j.zero_offset)} °"
+    if j.unit == "m":
+        zero = f"{_millimetres(j.zero_offset)} mm"
+    return (j.name_a, _degrees(j.angle), _millimetres(j.normal), _millimetres(j.shift), zero)
+
+
+def _difference(j: JointComparison) -> float:
+    """Largest difference of two axes, in mm or degrees."""
+    return max(1e3 * (j.shift or 0.0), 1e3 * (j.normal or 0.0), math.degrees(j.angle))
 
 
 def _uncertainty(found: CalibrationData) -> Iterator[str]:
@@ -253,9 +254,17 @@ def _parameters(found: CalibrationData) -> Iterator[str]:
     yield f"<details><summary>{len(rows)} parameters</summary>{table}</details>"
 
 
-def _seen(value: float | None) -> str:
+def _millimetres(length: float | None) -> str:
+    return "" if length is None else _seen(1e3 * length)
+
+
+def _degrees(angle: float) -> str:
+    return _seen(math.degrees(angle))
+
+
+def _seen(value: float) -> str:
     """A figure in mm or degrees; what is far below them is rounding."""
-    return "" if value is None else f"{0.0 if abs(value) < 1e-9 else value:.3g}"
+    return f"{0.0 if abs(value) < 1e-9 else value:.3g}"
 
 
 def _text(words: object, width: int | None = None) -> str:

@@ -325,8 +325,10 @@ def test_lengths_of_the_style_have_units_weights_are_those_of_fonts_and_pictures
 
 
 def test_a_figure_that_is_far_below_rounding_is_0():
-    seen = [html_report._seen(x) for x in (None, 0.9e-9, -0.9e-9, 1.1e-9, -1234.5)]
-    assert seen == ["", "0", "0", "1.1e-09", "-1.23e+03"]
+    seen = [html_report._seen(x) for x in (0.9e-9, -0.9e-9, 1.1e-9, -1234.5)]
+    assert seen == ["0", "0", "1.1e-09", "-1.23e+03"]
+    assert [html_report._millimetres(x) for x in (None, 0.0125)] == ["", "12.5"]
+    assert html_report._degrees(np.pi / 6) == "30"
 
 
 def test_residuals_stand_under_their_names_in_mm_and_mrad(found, tables):
@@ -402,17 +404,24 @@ def test_what_changed_stands_in_the_row_of_its_joint(found, tables, text):
     e = result.before
     assert e is not None
     assert (
-        f"the two differ by up to {e.worst_mm:.3g} mm and {e.worst_deg:.3g}° over {result.samples} random "
-        f"configurations, on average by {e.mean_mm:.3g} mm and {e.mean_deg:.3g}°."
+        f"the two differ by up to {1e3 * e.worst_position:.3g} mm and {np.degrees(e.worst_rotation):.3g}° over "
+        f"{result.samples} random configurations, on average by {1e3 * e.mean_position:.3g} mm and "
+        f"{np.degrees(e.mean_rotation):.3g}°."
     ) in text
-    lines = sorted(result.joints, key=lambda j: -max(j.shift or 0.0, j.normal or 0.0, j.angle))
-    seen = lambda x: "" if x is None else f"{0.0 if abs(x) < 1e-9 else x:.3g}"  # noqa: E731
+    mm = lambda x: 1e3 * (x or 0.0)  # noqa: E731
+    lines = sorted(
+        result.joints, key=lambda j: -max(mm(j.shift), mm(j.normal), np.degrees(j.angle))
+    )
+    seen = lambda x: f"{0.0 if abs(x) < 1e-9 else x:.3g}"  # noqa: E731
+    shown = lambda x: "" if x is None else seen(1e3 * x)  # noqa: E731
     assert [row[1:] for row in compared[1:]] == [
         [
-            seen(j.angle),
-            seen(j.normal),
-            seen(j.shift),
-            f"{seen(j.zero_offset)} {'mm' if j.kind_b == 'prismatic' else '°'}",
+            seen(np.degrees(j.angle)),
+            shown(j.normal),
+            shown(j.shift),
+            f"{seen(mm(j.zero_offset))} mm"
+            if j.kind_b == "prismatic"
+            else f"{seen(np.degrees(j.zero_offset))} °",
         ]
         for j in lines
     ]

@@ -1,0 +1,57 @@
+"""A comparison has SI numbers, and a summary in mm and degrees."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+
+import poekin as pk
+from poekin.analysis.compare.comparison import JointComparison, PoseErrors
+
+JOINT = JointComparison(
+    3, "elbow", "e", "revolute", "revolute", math.radians(0.5), 1e-3, 2e-3, math.radians(-4),
+    False, (0.0, 0.1), True, False,
+)  # fmt: skip
+SLIDE = replace(JOINT, kind_a="prismatic", kind_b="prismatic", normal=None, shift=None)
+
+
+def test_a_joint_is_summed_up_in_mm_and_degrees():
+    assert str(JOINT) == "joint 3 (elbow): axes 0.5°, 2 mm apart at the arm, zero offset -4°"
+    slide = replace(SLIDE, zero_offset=0.004, reversed=True)
+    assert slide.summary() == "joint 3 (elbow): axes 0.5°, zero offset 4 mm, sign of q flipped"
+    assert (JOINT.unit, SLIDE.unit) == ("rad", "m")
+    assert replace(SLIDE, kind_b="revolute").unit == "rad", "the offset is one of b's joint"
+
+
+def test_pose_errors_are_summed_up_in_mm_and_degrees():
+    errors = PoseErrors(0.0123, 0.001, math.radians(2), math.radians(0.25))
+    assert str(errors) == "worst 12.3 mm, 2°; mean 1 mm, 0.25°"
+
+
+def test_a_comparison_ends_with_its_verdict_behind_errors_and_other_explanations():
+    arm = pk.load("ur5e").chain()
+    result = pk.compare(arm, arm.rezeroed([0.1, 0, 0, 0, 0, 0]), samples=3)
+    before, after, equivalent, verdict = str(result).splitlines()
+    assert before == f"Pose error as they stand: {result.before}"
+    assert after == f"Pose error aligned: {result.after}"
+    assert equivalent == f"Equivalent: {result.alternatives[0]}"
+    assert verdict == "The" + result.verdict.removeprefix("the")
+    strict = pk.compare(arm, arm, strict=True, samples=1).summary()
+    assert strict.splitlines()[1:] == ["The models are the same as they stand"]
+
+
+def test_the_dict_of_a_comparison_has_all_of_it_in_si():
+    arm = pk.load("ur5e").chain()
+    result = pk.compare(arm, arm, samples=1)
+    document = json.loads(result.to_json())
+    assert document == result.to_dict()
+    assert (document["tol_position"], document["tol_rotation"]) == (1e-5, math.radians(1e-3))
+    assert np.shape(document["base"]) == (4, 4)
+    joint = document["joints"][0]
+    assert (joint["differs"], joint["unit"]) == (False, "rad")
+    assert document["before"] == {
+        "worst_position": 0.0, "mean_position": 0.0, "worst_rotation": 0.0, "mean_rotation": 0.0,
+    }  # fmt: skip
