@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import json
-import math
 import sys
 import time
 from collections.abc import Iterable, Sequence
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from rich.box import SIMPLE_HEAD
@@ -17,6 +16,7 @@ from rich.text import Text
 
 from ..errors import escape_unprintable, quote
 from ..model.chain import Chain
+from ..results import plain as plain_data
 
 LONGEST_PATH = 400
 PAUSE = 10.0
@@ -96,21 +96,9 @@ def heading(robot: str, chain: Chain, **extra: object) -> dict[str, object]:
     return names | extra | {"q_names": list(chain.q_names)}
 
 
-def as_json(value: Any) -> str:
+def as_json(value: object) -> str:
     """JSON text of dicts, lists, arrays and numbers; what is no finite number is null."""
-
-    def clean(item: Any) -> Any:
-        if isinstance(item, np.ndarray):
-            return clean(item.tolist())
-        if isinstance(item, dict):
-            return {str(k): clean(v) for k, v in item.items()}
-        if isinstance(item, (list, tuple)):
-            return [clean(v) for v in item]
-        if isinstance(item, float) and not math.isfinite(item):
-            return None
-        return item
-
-    return json.dumps(clean(value), allow_nan=False)
+    return json.dumps(plain_data(value), allow_nan=False)
 
 
 class Progress:
@@ -120,7 +108,7 @@ class Progress:
     it with (done, total, what is being done), total 0 where nobody knows it.
     """
 
-    def __init__(self, what: str):
+    def __init__(self, what: str) -> None:
         self.what = what
         self.terminal = sys.stderr.isatty()
         self.shown = False

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from ..errors import ModelError, PoekinError, escape_unprintable
+from ..errors import ModelError, PoekinError
 from ..model.chain import Chain
 from ..model.robot import Robot
 from .serial import serial_robot
-from .text import toml_text
+from .text import toml_text, xml
 from .text.toml_text import Keys
 
 FORMAT = "poekin calibration"
@@ -18,32 +18,15 @@ VERSION = 1
 """`version` in the file of a calibration."""
 CALIBRATED = "calibrated"
 """Key of the calibrated chain in the file of a calibration."""
-_KEYS = (
-    "base",
-    "tip",
-    "joint_names",
-    "q_names",
-    "screws",
-    "home",
-    "limits",
-    "offset",
-    "coupling",
-    "pitches",
-)
+_NAMES = ("base", "tip", "joint_names", "q_names")
+_ARRAYS = ("screws", "home", "limits", "offset")
+_KEYS = (*_NAMES, *_ARRAYS, "coupling", "pitches")
 
 
 def to_data(chain: Chain) -> dict[str, Any]:
     """Table of a chain: frames, names, screws, home pose, limits, offset; coupling and pitches."""
-    data: dict[str, Any] = {
-        "base": chain.base,
-        "tip": chain.tip,
-        "joint_names": list(chain.joint_names),
-        "q_names": list(chain.q_names),
-        "screws": chain.screws.tolist(),
-        "home": chain.home.tolist(),
-        "limits": chain.limits.tolist(),
-        "offset": chain.offset.tolist(),
-    }
+    data: dict[str, Any] = {key: getattr(chain, key) for key in _NAMES}
+    data |= {key: getattr(chain, key).tolist() for key in _ARRAYS}
     if chain.nontrivial_coupling is not None:
         data["coupling"] = chain.nontrivial_coupling.tolist()
     if chain.pitches.any():
@@ -92,7 +75,8 @@ def opened(path: str | os.PathLike[str]) -> Keys:
     """The file of a calibration, of a version that is known. Raises: FileError; ModelError with
     file and key.
     """
-    keys = Keys(toml_text.read(path), escape_unprintable(os.fsdecode(path), 400))
+    text, place = xml.read_text(path)
+    keys = Keys(toml_text.parse(text, place), place)
     keys.text("format", (FORMAT,))
     if keys.whole("version") != VERSION:
         raise keys.fault(

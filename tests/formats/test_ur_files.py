@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import FileError, InputError, MissingExtra, ModelError, PoekinError
 from poekin.formats import ur
+from poekin.formats.text import xml
 from poekin.formats.ur import conf
 from poekin.formats.ur.yaml_io import make_text, read_text
 from tests.messages import says
@@ -257,7 +258,7 @@ def test_files_that_cannot_be_read_are_refused_by_name(tmp_path):
     (tmp_path / "latin.yaml").write_bytes(b"kinematics: \xe9\n")
     (tmp_path / "empty.yaml").write_bytes(b"")
     for name, message in {
-        "big.yaml": "expected a calibration of at most 64 KiB, the file has 64 KiB",
+        "big.yaml": "expected at most 64 KiB, the file has 64 KiB",
         "latin.yaml": "not UTF-8 at byte 12",
         "empty.yaml": "the file is empty",
         "gone.yaml": "cannot be read: No such file or directory",
@@ -355,9 +356,7 @@ def test_a_fault_in_a_controller_s_file_is_said_with_its_line(text, message, tmp
 def test_a_file_of_64_kib_is_read_and_a_longer_one_is_not(tmp_path):
     path = tmp_path / "c.conf"
     path.write_bytes(b"#" * 2**16)
-    assert conf.read_text_file(path) == ("#" * 2**16, str(path))
+    assert xml.read_text(path, conf.LARGEST) == ("#" * 2**16, str(path))
     path.write_bytes(b"#" * (2**16 + 1))
-    with pytest.raises(
-        FileError, match=r"c\.conf: expected a calibration of at most 64 KiB, the file has 64 KiB$"
-    ):
-        conf.read_text_file(path)
+    with pytest.raises(FileError, match=r"c\.conf: expected at most 64 KiB, the file has 64 KiB$"):
+        xml.read_text(path, conf.LARGEST)

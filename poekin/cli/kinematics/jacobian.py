@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -52,7 +52,7 @@ def command(
     give(arm, results, output, json)
 
 
-def parse_frame(word: str, names: Sequence[str]) -> str | int:
+def parse_frame(word: str, names: Sequence[str]) -> Any:
     """Frame that --frame names, one of the names or a joint's number. Raises: InputError."""
     if word in names:
         return word

@@ -52,25 +52,11 @@ def command(
 
 
 def _document(chain: Chain, result: dh.FromChain, output: Path | None) -> dict[str, object]:
-    found = result.table
-    columns = ("name", "kind", "theta", "d", "a", "alpha", "limits")
-    written = None
+    document = {"base": chain.base, "tip": chain.tip} | result.to_dict()
+    document["written"] = None
     if output is not None:
-        written = str(output)
-    return {
-        "base": chain.base,
-        "tip": chain.tip,
-        "convention": found.convention,
-        "joints": [{column: getattr(row, column) for column in columns} for row in found.rows],
-        "base_pose": found.base,
-        "tool_pose": found.tool,
-        "gauge": result.gauge,
-        "error": result.error,
-        "bound": result.bound,
-        "reach": chain.reach,
-        "warnings": result.warnings,
-        "written": written,
-    }
+        document["written"] = str(output)
+    return document
 
 
 def _row(index: int, row: dh.Row, nothing: float) -> tuple[object, ...]:
@@ -102,11 +88,4 @@ def _show(chain: Chain, result: dh.FromChain) -> None:
         say(
             "x are the joints' own values: what follows another joint does so by its ratio and offset"
         )
-    for words in result.gauge:
-        say(f"Free choice: {words}")
-    for words in result.warnings:
-        say(f"Warning: {words}")
-    say(
-        f"Pose error ÷ reach ({number(chain.reach, 3)} m): {number(result.error, 2)}"
-        f" over random configurations; at most {number(result.bound, 2)}"
-    )
+    say(result.summary())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -80,9 +80,7 @@ def command(
     say(f"Written: {', '.join(path_text(place) for place in places)}")
 
 
-def _texts(
-    chain: Chain, language: str, frame: str | int, name: str, single: bool
-) -> dict[str, str]:
+def _texts(chain: Chain, language: str, frame: Any, name: str, single: bool) -> dict[str, str]:
     """Texts by the names of their files."""
     if language == "c":
         return emit.c(chain, frame, name=name, real=NUMBERS[single]).files

@@ -145,9 +145,9 @@ def _robot(robot: Robot, chains: list[tuple[Chain, str]]) -> dict[str, object]:
     return {
         "robot": robot.name,
         "root": robot.root,
-        "links": list(robot.links),
+        "links": robot.links,
         "joints": [_joint(joint) for joint in robot.joints],
-        "q_names": list(robot.q_names),
+        "q_names": robot.q_names,
         "limits": robot.limits,
         "chains": documents,
     }
@@ -162,17 +162,11 @@ def _joint(joint: Joint) -> dict[str, object]:
     return document
 
 
+_CHAIN = (
+    *("base", "tip", "reach", "joint_names", "kinds", "q_names", "limits", "screws", "home"),
+    *("coupling", "offset"),
+)
+
+
 def _chain(chain: Chain) -> dict[str, object]:
-    return {
-        "base": chain.base,
-        "tip": chain.tip,
-        "reach": chain.reach,
-        "joint_names": list(chain.joint_names),
-        "kinds": list(chain.kinds),
-        "q_names": list(chain.q_names),
-        "limits": chain.limits,
-        "screws": chain.screws,
-        "home": chain.home,
-        "coupling": chain.coupling,
-        "offset": chain.offset,
-    }
+    return {key: getattr(chain, key) for key in _CHAIN}

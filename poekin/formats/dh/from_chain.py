@@ -27,6 +27,7 @@ from ...model.geometry.normals import (
     parallel_normal,
     unit,
 )
+from ...results import Result, plain
 from ..common.limits import UNBOUNDED
 from .table import Convention, Row, Table, check_convention
 from .to_chain import to_chain
@@ -37,7 +38,7 @@ FAR = 10
 
 
 @dataclass(frozen=True)
-class FromChain:
+class FromChain(Result):
     """Denavit-Hartenberg table of a chain, and what its making decided.
 
     Attributes
@@ -53,13 +54,43 @@ class FromChain:
         Bound of the error.
     warnings : tuple of str
         Where the parameters are ill-conditioned, with numbers.
+    reach : float
+        Reach of the chain, m.
     """
 
+    left_out = ("table",)
     table: Table
     gauge: tuple[str, ...]
     error: float
     bound: float
     warnings: tuple[str, ...]
+    reach: float
+
+    def to_dict(self) -> dict[str, object]:
+        """Table joint by joint with convention, base and tool, and the other fields.
+
+        Returns
+        -------
+        document : dict
+            Lists, strings and numbers, rad and m; a limit that is not finite is None.
+        """
+        table = self.table
+        document = {"convention": table.convention, "joints": plain(table.rows)}
+        document |= {"base_pose": table.base.tolist(), "tool_pose": table.tool.tolist()}
+        return document | super().to_dict()
+
+    def summary(self) -> str:
+        """Free choices, warnings and the error of the table, a line each.
+
+        Returns
+        -------
+        text : str
+            Lines without a line break at the end.
+        """
+        lines = [f"Free choice: {words}" for words in self.gauge]
+        lines += [f"Warning: {words}" for words in self.warnings]
+        error = f"{self.error:.2g} over random configurations; at most {self.bound:.2g}"
+        return "\n".join([*lines, f"Pose error ÷ reach ({self.reach:.3g} m): {error}"])
 
 
 def from_chain(
@@ -143,15 +174,16 @@ def from_chain(
             sum(lengths) + float(np.linalg.norm(table.tool[:3, 3])) + chain.kinds.count("prismatic")
         )
         bound += 2 * sum(walk.dropped) * max(1.0, away / chain.reach)
+    error = _error(chain, table, samples, seed)
     return FromChain(
-        table, tuple(walk.gauge), _error(chain, table, samples, seed), bound, tuple(walk.warnings)
+        table, tuple(walk.gauge), error, bound, tuple(walk.warnings), float(chain.reach)
     )
 
 
 class _Walk:
     """Walk from axis to axis that finds the rows' numbers and the frames of base and tool."""
 
-    def __init__(self, chain: Chain):
+    def __init__(self, chain: Chain) -> None:
         self.chain = chain
         self.gauge: list[str] = []
         self.warnings: list[str] = []

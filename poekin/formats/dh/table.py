@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -70,6 +70,7 @@ class Row:
     limits: Interval = UNBOUNDED
 
 
+@dataclass(frozen=True, init=False, eq=False, repr=False, slots=True)
 class Table:
     """Denavit-Hartenberg parameters of n joints, frozen.
 
@@ -134,20 +135,6 @@ class Table:
     array([0.5, 0.3])
     """
 
-    __slots__ = (
-        "a",
-        "alpha",
-        "base",
-        "convention",
-        "d",
-        "flips",
-        "kinds",
-        "limits",
-        "name",
-        "names",
-        "theta",
-        "tool",
-    )
     convention: Convention
     theta: Array
     d: Array
@@ -215,14 +202,8 @@ class Table:
     def __len__(self) -> int:
         return len(self.kinds)
 
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a Table is frozen: cannot set {name!r}")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a Table is frozen: cannot delete {name!r}")
-
     def _data(self) -> tuple[Any, ...]:
-        return tuple(getattr(self, name) for name in self.__slots__)
+        return tuple(getattr(self, field.name) for field in fields(self))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Table):

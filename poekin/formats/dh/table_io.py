@@ -72,8 +72,7 @@ def read(path: str | os.PathLike[str]) -> Table:
     >>> pk.dh.read("arm.csv").d.tolist()
     [0.1625, 0.0, 0.0, 0.1333, 0.0997, 0.0996]
     """
-    name = _path(path)
-    return read_text(xml.decode(xml.read_bytes(path), escape_unprintable(name, 400)), name)
+    return read_text(xml.read_text(path)[0], os.fsdecode(path))
 
 
 def read_text(text: str, name: str) -> Table:
@@ -113,7 +112,9 @@ def write(table: Table, path: str | os.PathLike[str]) -> None:
     True
     """
     check_table(table, "write")
-    name = _path(path)
+    if not isinstance(path, (str, bytes, os.PathLike)):
+        raise InputError(f"expected the path of a file, got {safe_repr(path)}")
+    name = os.fsdecode(path)
     text = _reader(name, os.path.splitext(name)[1], _WRITERS)(table)
     write_whole(path, text.encode())
 
@@ -121,12 +122,6 @@ def write(table: Table, path: str | os.PathLike[str]) -> None:
 def make_text(table: Table, ending: str) -> str:
     """A table as the text of a .toml or .csv file."""
     return _reader(ending, ending, _WRITERS)(table)
-
-
-def _path(path: str | os.PathLike[str]) -> str:
-    if not isinstance(path, (str, bytes, os.PathLike)):
-        raise InputError(f"expected the path of a file, got {safe_repr(path)}")
-    return os.fsdecode(path)
 
 
 def _reader(name: str, ending: str, known: dict[str, Callable]) -> Callable:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -124,32 +125,20 @@ def c(
         "",
         *(f"{word}_{function.task.cost}" for function in functions),
     ]
+    texts = [function.text() for function in functions]
+    tasks = [function.task for function in functions]
     return CSource(
         word,
         _header(word, [*head, "", *header_lines(arm, frame)], functions),
-        "\n".join(
-            [
-                _comment(head),
-                f'#include "{word}.h"',
-                "",
-                "#include <math.h>",
-                *(f.text() for f in functions),
-            ]
-        ),
-        selftest(
-            word,
-            real,
-            literal,
-            [function.task for function in functions],
-            vectors(arm, frame, kind),
-        ),
+        "\n".join([_comment(head), f'#include "{word}.h"\n\n#include <math.h>', *texts]),
+        selftest(word, real, literal, tasks, vectors(arm, frame, kind)),
     )
 
 
 class _Function:
     """The C of one task: its angles, its statements, and both together."""
 
-    def __init__(self, word: str, real: str, literal: WriteNumber, task: Task, dof: int):
+    def __init__(self, word: str, real: str, literal: WriteNumber, task: Task, dof: int) -> None:
         self.task = task
         self.real = real
         self.literal = literal
@@ -180,27 +169,10 @@ class _Function:
     def text(self) -> str:
         """The definitions."""
         program = statements(self.task.program, self.literal)
-        angles, sincos, whole = self.heads
-        return "\n".join(
-            [
-                "",
-                angles,
-                "{",
-                *self._angles(program),
-                "}",
-                "",
-                sincos,
-                "{",
-                *self._statements(program),
-                "}",
-                "",
-                whole,
-                "{",
-                *self._whole(),
-                "}",
-                "",
-            ]
-        )
+        bodies = (self._angles(program), self._statements(program), self._whole())
+        blocks = zip(self.heads, bodies, strict=True)
+        lines = [line for head, body in blocks for line in ("", head, "{", *body, "}")]
+        return "\n".join([*lines, ""])
 
     def _angles(self, program: Statements) -> list[str]:
         unused = [
@@ -248,31 +220,31 @@ class _Function:
             f"    {self.name}_sincos(s, c, q{results});",
         ]
 
-    def _locals(self, pairs) -> list[str]:
+    def _locals(self, pairs: Iterable[tuple[str, str]]) -> list[str]:
         return [f"    const {self.real} {name} = {text};" for name, text in pairs]
 
 
+_HEADER = """{comment}
+#ifndef {guard}
+#define {guard}
+
+#ifdef __cplusplus
+extern "C" {{
+#endif
+
+{declarations}
+#ifdef __cplusplus
+}}
+#endif
+
+#endif
+"""
+
+
 def _header(word: str, lines: list[str], functions: list[_Function]) -> str:
+    declarations = "\n".join(function.declared() for function in functions)
     guard = f"{word.upper()}_H_INCLUDED"
-    return "\n".join(
-        [
-            _comment(lines),
-            f"#ifndef {guard}",
-            f"#define {guard}",
-            "",
-            "#ifdef __cplusplus",
-            'extern "C" {',
-            "#endif",
-            "",
-            *(function.declared() for function in functions),
-            "#ifdef __cplusplus",
-            "}",
-            "#endif",
-            "",
-            "#endif",
-            "",
-        ]
-    )
+    return _HEADER.format(comment=_comment(lines), guard=guard, declarations=declarations)
 
 
 def _comment(lines: list[str]) -> str:

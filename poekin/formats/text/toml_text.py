@@ -27,9 +27,7 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
     """The content of a TOML file. Raises: FileError for what cannot be read; ModelError for what is
     not TOML.
     """
-    data = xml.read_bytes(path)
-    place = escape_unprintable(os.fsdecode(path), 400)
-    return parse(xml.decode(data, place), place)
+    return parse(*xml.read_text(path))
 
 
 _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*"""

@@ -75,10 +75,20 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
     return data
 
 
-def decode(data: bytes, place: str) -> str:
-    """Text of the bytes of a file, in UTF-8. Raises: FileError that names the place."""
+def read_text(path: str | os.PathLike[str], most: int = MAX_BYTES) -> tuple[str, str]:
+    """Text of a file in UTF-8, and the place as messages call it.
+
+    Raises: as `read_bytes`; FileError where it is larger than `most` bytes or not UTF-8.
+    """
+    data = read_bytes(path)
+    place = Source(os.fsdecode(path)).place()
+    if len(data) > most:
+        raise FileError(
+            f"{place}: expected at most {most / 2**10:.0f} KiB, the file has"
+            f" {len(data) / 2**10:.0f} KiB"
+        )
     try:
-        return data.decode("utf-8-sig")
+        return data.decode("utf-8-sig"), place
     except UnicodeDecodeError as fault:
         raise FileError(f"{place}: not UTF-8 at byte {fault.start}") from fault
 

@@ -5,30 +5,16 @@ from __future__ import annotations
 import os
 import re
 
-from ...errors import FileError, ModelError, escape_unprintable, quote, suggest
+from ...errors import ModelError, quote, suggest
 from ..text import xml
 from ..text.numbers import real
 from .calibration import JOINTS
 
 DELTAS = ("delta_theta", "delta_a", "delta_d", "delta_alpha")
 LARGEST = 64 * 2**10
+"""Bytes of a file: a calibration has one or two thousand."""
 
 _LINE = re.compile(r"\s*([A-Za-z_]\w*)\s*=\s*(.*)")
-
-
-def read_text_file(path: str | os.PathLike[str]) -> tuple[str, str]:
-    """The text of a small file, and what to call the file in messages.
-
-    Raises: FileError where it cannot be read, is larger than 64 KiB (a calibration has 1 or 2) or
-    not UTF-8.
-    """
-    data = xml.read_bytes(path)
-    place = escape_unprintable(os.fsdecode(path), 400)
-    if len(data) > LARGEST:
-        raise FileError(
-            f"{place}: expected a calibration of at most 64 KiB, the file has {len(data) / 2**10:.0f} KiB"
-        )
-    return xml.decode(data, place), place
 
 
 def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
@@ -70,7 +56,7 @@ def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
     >>> round(float(table.a[0]), 9)
     0.0001
     """
-    text, place = read_text_file(path)
+    text, place = xml.read_text(path, LARGEST)
     found: dict[str, tuple[float, ...]] = {}
     lines: dict[str, int] = {}
     similar: list[str] = []

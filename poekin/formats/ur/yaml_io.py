@@ -25,11 +25,11 @@ from ...groups import se3
 from ...groups.arrays import Array
 from ...model.checks import choice
 from .. import rpy as angles
-from ..text import yaml_text
+from ..text import xml, yaml_text
 from ..text.atomic_write import write_whole
 from ..text.numbers import real
 from .calibration import LINKS, FactoryCalibration
-from .conf import read_text_file
+from .conf import LARGEST
 
 KEYS = ("x", "y", "z", "roll", "pitch", "yaw")
 RpyAxes = Literal["moving", "fixed"]
@@ -70,8 +70,7 @@ def read(path: str | os.PathLike[str], *, rpy: RpyAxes | None = None) -> Factory
     -----
     Accuracy: lengths as written, rotations to 1e-15 rad.
     """
-    text, place = read_text_file(path)
-    return read_text(text, place, rpy=rpy)
+    return read_text(*xml.read_text(path, LARGEST), rpy=rpy)
 
 
 def read_text(
