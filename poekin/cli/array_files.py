@@ -14,23 +14,8 @@ import numpy as np
 from ..errors import FileError
 from ..formats.text import csv_rows
 from ..formats.text.atomic_write import write_whole
-from ..formats.text.csv_rows import text as csv_text
 from . import npy
 from .output import path_text
-
-__all__ = [
-    "ERRORS",
-    "STDIN",
-    "TIME",
-    "called",
-    "check_apart",
-    "check_writable",
-    "csv_text",
-    "npy_bytes",
-    "read_configurations",
-    "read_rows",
-    "write_result",
-]
 
 STDIN = "-"
 TIME = "time"

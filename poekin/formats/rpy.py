@@ -18,7 +18,12 @@ def pose(xyz: Sequence[float], turns: Sequence[float]) -> np.ndarray:
     Source: the URDF specification, element <origin>.
     """
     roll, pitch, yaw = turns
-    sr, cr, sp, cp, sy, cy = (f(a) for a in (roll, pitch, yaw) for f in (math.sin, math.cos))
+    sr = math.sin(roll)
+    cr = math.cos(roll)
+    sp = math.sin(pitch)
+    cp = math.cos(pitch)
+    sy = math.sin(yaw)
+    cy = math.cos(yaw)
     return np.array(
         [
             [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr, xyz[0]],

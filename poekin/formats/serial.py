@@ -101,7 +101,17 @@ def _joint(chain: Chain, i: int, value: Value, parent: str, child: str) -> Joint
     if kind == "helical":
         pitch = float(slide)
     axis = (0.0, 0.0, value.sign)
-    return Joint(name, kind, parent, child, origin, axis, value.limits, value.mimic, pitch)
+    return Joint(
+        name,
+        kind,
+        parent,
+        child,
+        origin,
+        axis,
+        value.limits,
+        value.mimic,
+        pitch,
+    )
 
 
 def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
@@ -147,9 +157,12 @@ def _values(chain: Chain) -> tuple[list[Value], list[str], list[str]]:
 
 def _master(ratios: dict[int, float], shifts: list[float]) -> int:
     """The first joint with x = q, else with x = q + c, else with x = -q + c, else the first."""
-    return min(
-        ratios, key=lambda i: ((ratios[i], shifts[i]) != (1, 0), ratios[i] != 1, ratios[i] != -1, i)
-    )
+
+    def rank(i: int) -> tuple[bool, ...]:
+        ratio = ratios[i]
+        return ratio != 1 or shifts[i] != 0, ratio != 1, ratio != -1
+
+    return min(sorted(ratios), key=rank)
 
 
 def _image(limits: Interval, ratio: float, shift: float) -> Interval:

@@ -126,7 +126,15 @@ def _joint(fields: Fields, repairs: Repairs) -> Joint:
         moving["axis"] = _axis(fields, repairs)
     if kind in ("revolute", "prismatic"):
         moving["limits"] = _limits(fields, name, repairs)
-    return Joint(name, kind, ends[0], ends[1], pose, mimic=_mimic(fields, kind), **moving)
+    return Joint(
+        name,
+        kind,
+        ends[0],
+        ends[1],
+        pose,
+        mimic=_mimic(fields, kind),
+        **moving,
+    )
 
 
 def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:

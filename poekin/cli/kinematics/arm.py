@@ -12,6 +12,7 @@ import numpy as np
 import typer
 
 from ...errors import InputError, quote
+from ...formats.text import csv_rows
 from ...formats.text.numbers import real
 from ...model.chain import Chain
 from .. import array_files
@@ -134,7 +135,7 @@ class Results:
         with Progress("writing") as progress:
             # The width is said, not inferred: -1 means nothing where there is no configuration.
             flat = self.values.reshape(len(self.values), math.prod(self.values.shape[1:]))
-            return array_files.csv_text(header, flat, progress)
+            return csv_rows.text(header, flat, progress)
 
     def json(self, arm: ChainArguments, single: bool) -> str:
         """JSON with the configurations; of a single one without the axis of the batch."""

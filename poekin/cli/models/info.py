@@ -12,10 +12,11 @@ from ...model.chain import Chain
 from ...model.joint import Joint
 from ...model.robot import Robot
 from ..kinematics.arm import Base, File, Json, Tip
+from ..kinematics.jacobian import TWIST
 from ..model import model
 from ..output import as_json, matrix, name, number, say, table
 
-SCREW = ("wx", "wy", "wz", "vx", "vy", "vz")
+SCREWS = ("joint", "kind", "coordinate", *TWIST, "lower", "upper")
 
 
 def command(file: File, tip: Tip = None, base: Base = None, json: Json = False) -> None:
@@ -58,7 +59,7 @@ def _show_robot(robot: Robot, chains: list[tuple[Chain, str]]) -> None:
             seen.setdefault((chain.base, joint), (joint, *row))
     if seen:
         say("\nScrews (w; v) at home, seen from each chain's base (rad, m)")
-        table(("joint", "kind", "coordinate", *SCREW, "lower", "upper"), seen.values(), left=3)
+        table(SCREWS, seen.values(), left=3)
 
 
 def _show_chain(chain: Chain) -> None:
@@ -67,7 +68,7 @@ def _show_chain(chain: Chain) -> None:
         f"reach {number(chain.reach)} m\n"
     )
     say(f"Screws (w; v) at home, seen from {name(chain.base)} (rad, m)")
-    table(("joint", "kind", "coordinate", *SCREW, "lower", "upper"), _screw_rows(chain), left=3)
+    table(SCREWS, _screw_rows(chain), left=3)
     say(f"\nHome pose of {name(chain.tip)} in {name(chain.base)} (m)")
     matrix(chain.home)
 

@@ -176,7 +176,12 @@ def from_chain(
         bound += 2 * sum(walk.dropped) * max(1.0, away / chain.reach)
     error = _error(chain, table, samples, seed)
     return FromChain(
-        table, tuple(walk.gauge), error, bound, tuple(walk.warnings), float(chain.reach)
+        table,
+        tuple(walk.gauge),
+        error,
+        bound,
+        tuple(walk.warnings),
+        float(chain.reach),
     )
 
 
@@ -195,7 +200,7 @@ class _Walk:
         if not n:
             return
         z, o = self._axis(0, _ORIGIN)
-        aside = _AXES[0] if abs(z[0]) < Decimal("0.9") else _AXES[1]
+        aside = _X if abs(z[0]) < Decimal("0.9") else _Y
         x = unit(across(aside, z))
         self.base = (x, z, o)
         self.gauge.append(
@@ -281,7 +286,16 @@ class _Walk:
         limits = _limits(chain)
         kinds: Any = chain.kinds
         rows = [
-            Row(theta, d, a, alpha, kinds[i], False, chain.joint_names[i], limits[i])
+            Row(
+                theta,
+                d,
+                a,
+                alpha,
+                kinds[i],
+                False,
+                chain.joint_names[i],
+                limits[i],
+            )
             for i, ((theta, d), (a, alpha)) in enumerate(zip(self.turns, links, strict=True))
         ]
         return Table(convention, rows, base=_pose(*self.base), tool=self._tool(), name=chain.tip)
@@ -289,17 +303,17 @@ class _Walk:
     def _tool(self) -> Array:
         """F^-1 M with the last frame F."""
         x, z, o = self.last
-        axes = (x, cross(z, x), z)
+        *columns, p = map(exact, self.chain.home[:3].T)
         T = np.eye(4)
-        for row, axis in enumerate(axes):
-            for column in range(3):
-                T[row, column] = float(dot(axis, exact(self.chain.home[:3, column])))
-            T[row, 3] = float(dot(axis, subtract(exact(self.chain.home[:3, 3]), o)))
+        for row, axis in enumerate((x, cross(z, x), z)):
+            for column, values in enumerate((*columns, subtract(p, o))):
+                T[row, column] = float(dot(axis, values))
         return T
 
 
-_ORIGIN = (Decimal(0), Decimal(0), Decimal(0))
-_AXES = ((Decimal(1), Decimal(0), Decimal(0)), (Decimal(0), Decimal(1), Decimal(0)))
+_ORIGIN = exact(np.zeros(3))
+_X = exact(np.eye(3)[0])
+_Y = exact(np.eye(3)[1])
 
 
 def _limits(chain: Chain) -> list[tuple[float, float]]:
@@ -317,7 +331,9 @@ def _limits(chain: Chain) -> list[tuple[float, float]]:
 
 def _turn(x: Vector, x2: Vector, z: Vector, along: Vector) -> tuple[float, float]:
     """Angle from x to x2 about z, and how far along z."""
-    return math.atan2(float(dot(cross(x, x2), z)), float(dot(x, x2))), float(dot(along, z))
+    sine = dot(cross(x, x2), z)
+    angle = math.atan2(float(sine), float(dot(x, x2)))
+    return angle, float(dot(along, z))
 
 
 def _pose(x: Vector, z: Vector, o: Vector) -> Array:

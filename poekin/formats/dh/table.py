@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import warnings
 from collections.abc import Iterable, Sequence
@@ -214,7 +215,8 @@ class Table:
         return hash((self.convention, self.kinds, self.names, tuple(self.theta.tolist())))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuilt, (self.convention, self.rows, self.base, self.tool, self.name)
+        make = functools.partial(Table, base=self.base, tool=self.tool, name=self.name)
+        return make, (self.convention, self.rows)
 
     def __repr__(self) -> str:
         lines = [f"<{self.convention} DH table {quote(self.name)}, {len(self)} joints"]
@@ -258,12 +260,6 @@ def _moves(row: Row, kind: str) -> str:
     if row.kind != kind:
         return ""
     return " - x" if row.flip else " + x"
-
-
-def _rebuilt(
-    convention: Convention, rows: Sequence[Row], base: Array, tool: Array, name: str
-) -> Table:
-    return Table(convention, rows, base=base, tool=tool, name=name)
 
 
 def _row(row: Any, index: int) -> Row:

@@ -124,7 +124,17 @@ def to_robot(table: Table) -> Robot:
     joints = []
     for row, parent, child, origin in zip(table.rows, links, links[1:], origins, strict=False):
         axis = (0.0, 0.0, 1.0 - 2.0 * row.flip)
-        joints.append(Joint(row.name, row.kind, parent, child, origin, axis, row.limits))
+        joints.append(
+            Joint(
+                row.name,
+                row.kind,
+                parent,
+                child,
+                origin,
+                axis,
+                row.limits,
+            )
+        )
     fixed = free_name("tool_mount", set(table.names))
     joints.append(Joint(fixed, "fixed", links[-2], "tool", origins[-1]))
     return Robot(table.name, links, joints)

@@ -46,6 +46,5 @@ def vectors(arm: CompiledChain, frame: Frame | int, kind: type[np.floating]) -> 
         J = se3.adjoint(se3.inverse(T_k)) @ J
     x = np.abs(q @ chain.coupling.T + chain.offset).sum(axis=1).max()
     roundoff = float(np.finfo(kind).eps) / 2
-    return Vectors(
-        q, T, J, 2 * roundoff * (8 * (len(chain.kinds) + 1) + 4 * float(x)) * chain.reach
-    )
+    steps = 8 * (len(chain.kinds) + 1) + 4 * float(x)
+    return Vectors(q, T, J, 2 * roundoff * steps * chain.reach)

@@ -142,7 +142,16 @@ class _Reader:
             mimic = mimics.get(j)
             name = self.names[j]
             self.found.append(
-                Joint(name, motion.kind, parent, child, T, motion.axis, motion.limits, mimic)
+                Joint(
+                    name,
+                    motion.kind,
+                    parent,
+                    child,
+                    T,
+                    motion.axis,
+                    motion.limits,
+                    mimic,
+                )
             )
             parent = child
             T = _shift(-anchor)

@@ -152,7 +152,16 @@ class _Tree:
         name = free_name(coordinate, self.used)
         mimic = None if name == coordinate else Mimic(coordinate)
         axis = step.screw[:3] if step.kind == "revolute" else step.screw[3:]
-        joint = Joint(name, step.kind, parent, child, origin, axis, step.limits, mimic)
+        joint = Joint(
+            name,
+            step.kind,
+            parent,
+            child,
+            origin,
+            axis,
+            step.limits,
+            mimic,
+        )
         self.moving.append((step.coordinate, joint))
 
 

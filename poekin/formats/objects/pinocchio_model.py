@@ -195,7 +195,17 @@ def _moving(
             limits = _limits(model, int(joint.idx_q) + k, called, unusable)
         pose = origin @ part.origin
         joints.append(
-            Joint(called, part.kind, parent, end, pose, part.axis, limits, mimic, part.pitch)
+            Joint(
+                called,
+                part.kind,
+                parent,
+                end,
+                pose,
+                part.axis,
+                limits,
+                mimic,
+                part.pitch,
+            )
         )
         parent = end
         origin = np.eye(4)

@@ -97,7 +97,14 @@ class FactoryCalibration:
         """
         links = ["base", *(f"{link}_link" for link in LINKS), "tool0"]
         joints = [
-            Joint(joint, "revolute", parent, child, T, (0.0, 0.0, 1.0))
+            Joint(
+                joint,
+                "revolute",
+                parent,
+                child,
+                T,
+                (0.0, 0.0, 1.0),
+            )
             for joint, parent, child, T in zip(JOINTS, links, links[1:-1], self.poses, strict=False)
         ]
         return Robot(name, links, [*joints, Joint("tool0_joint", "fixed", links[-2], links[-1])])

@@ -7,15 +7,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...algebra import compose
 from ...errors import InputError, join_names, quote
-from ...groups import se3
 from ...model.checks import finite
 from ...model.provenance import warn
 from .. import dh
 from ..dh import Table
 from ..dh.table import COLUMNS, check_table
-from ..dh.to_chain import link_poses
 from ..relink import relinked
 from .calibration import JOINTS, LINKS, FactoryCalibration
 
@@ -154,14 +151,14 @@ def from_dh(table: Table, *, nominal: Table, hash: str = "") -> FactoryCalibrati
 
 def _frames(table: Table) -> FactoryCalibration:
     """Frames of a nominal table as ur_description places them: behind theta and d of each joint."""
-    halves = [
-        half
-        for r in table.rows
-        for half in (dh.Row(theta=r.theta, d=r.d), dh.Row(a=r.a, alpha=r.alpha))
-    ]
-    K = link_poses(Table("standard", halves, base=table.base))
-    frames = np.array([compose(a, b) for a, b in zip(K[0:-1:2], K[1::2], strict=True)])
-    return FactoryCalibration(se3.pose(frames[:, :9].reshape(-1, 3, 3), frames[:, 9:]))
+    # Each row in two: the turn about z, and the normal.
+    halves = []
+    for row in table.rows:
+        halves.append(dh.Row(theta=row.theta, d=row.d))
+        halves.append(dh.Row(a=row.a, alpha=row.alpha))
+    robot = dh.to_robot(Table("standard", halves, base=table.base))
+    origins = [joint.origin for joint in robot.joints]
+    return FactoryCalibration(np.array(origins[:-1:2]) @ np.array(origins[1::2]))
 
 
 def _six(table: Table) -> None:
@@ -186,9 +183,9 @@ def _six(table: Table) -> None:
 
 
 def _warn_if_far(before: dict, after: dict, table: Table, nominal: Table) -> None:
-    moved = {
-        link: float(np.linalg.norm(after[link][:3, 3] - before[link][:3, 3])) for link in before
-    }
+    moved = {}
+    for link, T in before.items():
+        moved[link] = float(np.linalg.norm(after[link][:3, 3] - T[:3, 3]))
     worst = max(moved, key=lambda link: moved[link])
     if moved[worst] > FAR:
         warn(
