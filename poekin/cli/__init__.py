@@ -36,36 +36,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def run(arguments: Sequence[str] | None = None) -> int:
     """Exit code of one command; an error that a user can cause is one message on stderr."""
     try:
-        try:
-            import rich  # noqa: F401  the commands' tables need it: say so at once, not in the middle
-            import typer
-        except ModuleNotFoundError as missing:
-            raise MissingExtra(missing.name or "typer", "cli", "the command line") from missing
-        from .commands import app
-        from .output import complain
-
-        def show(message: Warning | str, category: type[Warning], *_: object) -> None:
-            complain(f"warning: {message}")
-
-        with warnings.catch_warnings():
-            warnings.simplefilter("always", PoekinWarning)
-            warnings.showwarning = show  # type: ignore[assignment]
-            # The base of all usage errors: Click's own, or typer's where typer does without Click.
-            usage: Any = next(
-                c for c in reversed(typer.BadParameter.__mro__) if hasattr(c, "format_message")
-            )
-            if arguments is None:
-                arguments = sys.argv[1:]
-            arguments = arguments or ["--help"]
-            try:
-                code = app(args=arguments, prog_name="poekin", standalone_mode=False)
-            except usage as error:
-                complain(f"error: {error.format_message()}")
-                return ERROR
-            except typer.Abort:
-                return INTERRUPTED
-            except SystemExit:  # typer's answer to a broken pipe, its only own end of a process
-                return NOBODY_READS
+        code = _invoke(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
         _write_no_more()
@@ -89,6 +60,40 @@ def run(arguments: Sequence[str] | None = None) -> int:
         except OSError:  # a full disk
             _write_no_more()
         return ERROR
+    return code
+
+
+def _invoke(arguments: Sequence[str] | None) -> int:
+    """Exit code of a command that is run, or whose arguments are refused."""
+    try:
+        import rich  # noqa: F401  the commands' tables need it: say so at once, not in the middle
+        import typer
+    except ModuleNotFoundError as missing:
+        raise MissingExtra(missing.name or "typer", "cli", "the command line") from missing
+    from .commands import app
+    from .output import complain
+
+    def show(message: Warning | str, *_: object) -> None:
+        complain(f"warning: {message}")
+
+    if arguments is None:
+        arguments = sys.argv[1:]
+    # The base of all usage errors: Click's own, or typer's where typer does without Click.
+    usage: Any = next(
+        c for c in reversed(typer.BadParameter.__mro__) if hasattr(c, "format_message")
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", PoekinWarning)
+        warnings.showwarning = show  # type: ignore[assignment]
+        try:
+            code = app(args=arguments or ["--help"], prog_name="poekin", standalone_mode=False)
+        except usage as error:
+            complain(f"error: {error.format_message()}")
+            return ERROR
+        except typer.Abort:
+            return INTERRUPTED
+        except SystemExit:  # typer's answer to a broken pipe, its only own end of a process
+            return NOBODY_READS
     return int(code or 0)
 
 

@@ -169,7 +169,7 @@ def test_load_evaluates_nothing_and_says_what_does(tmp_path):
             match=r"(?i)arm.*\.xacro: xacro evaluates .*pk\.xacro\(path\) does, and --xacro",
         ):
             load(tmp_path / name)
-    with pytest.raises(FileError, match=r"^gone\.xacro: no such file$"):
+    with pytest.raises(FileError, match=r"^gone\.xacro: no such file \(built in: "):
         load("gone.xacro")
 
 

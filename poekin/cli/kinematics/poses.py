@@ -94,7 +94,7 @@ def read(
         asked = f"{len(names)} numbers expected ({' '.join(names)})"
         raise InputError(f"a pose: {asked}, got {len(words or ())}; or --input with a file")
     row = numbers(words or (), "the pose's number")
-    return pose_rows.to_poses(row[None], format, quaternion, lambda i: "the pose")
+    return pose_rows.to_poses(row[None], format, quaternion, lambda _: "the pose")
 
 
 def _read_file(given: str, names: Sequence[str], format: str, quaternion: str | None) -> Array:

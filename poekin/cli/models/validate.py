@@ -46,6 +46,25 @@ def command(
         skipped = [f"erd:{name}" for name in empty]
     if not names:
         raise InputError("nothing to validate: give FILE… or --all")
+    results, errors = _validate_each(names, samples, seed)
+    passed = all(v.passed for v in results)
+    if json:
+        print(as_json(_document(results, errors, skipped)))
+    else:
+        _show(results, len(errors), skipped)
+    for file, message in errors.items():
+        if file not in message:
+            message = f"{name(file)}: {message}"
+        complain(f"error: {message}")
+    if errors:
+        raise typer.Exit(ERROR)
+    raise typer.Exit(0 if passed else FAILED)
+
+
+def _validate_each(
+    names: list[str], samples: int, seed: int
+) -> tuple[list[Validation], dict[str, str]]:
+    """Results of the models, and the messages for those that could not be validated."""
     results: list[Validation] = []
     errors: dict[str, str] = {}
     with Progress("validating") as progress:
@@ -60,18 +79,7 @@ def command(
                 raise
             except (PoekinError, OSError) as error:
                 errors[file] = str(error)
-    passed = all(v.passed for v in results)
-    if json:
-        print(as_json(_document(results, errors, skipped)))
-    else:
-        _show(results, len(errors), skipped)
-    for file, message in errors.items():
-        if file not in message:
-            message = f"{name(file)}: {message}"
-        complain(f"error: {message}")
-    if errors:
-        raise typer.Exit(ERROR)
-    raise typer.Exit(0 if passed else FAILED)
+    return results, errors
 
 
 def _document(

@@ -162,7 +162,7 @@ def _mujoco() -> ModuleType:
 def _unsaid(mujoco: ModuleType) -> Iterator[None]:
     """Context without MuJoCo's warnings: they are of physics, and it would write a log of them."""
     before = mujoco.get_mju_user_warning()
-    mujoco.set_mju_user_warning(lambda message: None)
+    mujoco.set_mju_user_warning(lambda _: None)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)

@@ -48,7 +48,7 @@ def make_robot(
 class _Reader:
     """Reader of a model: the names of its parts, all different, and its joints one by one."""
 
-    def __init__(self, model: Any):
+    def __init__(self, model: Any) -> None:
         self.model = model
         self.gone = _below_mocap(model)
         named = [model.body(i).name for i in range(model.nbody)]
@@ -99,14 +99,13 @@ class _Reader:
                 " rotation of each as a pose"
             )
         mocap = [self.links[i] for i in range(model.nbody) if model.body_mocapid[i] >= 0]
-        if mocap:
-            self.warnings.append(
-                f"mocap bodies are left out, with all that hangs on them: {join_names(mocap)}"
-            )
-        if other:
-            self.warnings.append(
-                f"constraints are left out (a robot here is a tree): {join_names(other)}"
-            )
+        left_out = {
+            "mocap bodies are left out, with all that hangs on them": mocap,
+            "constraints are left out (a robot here is a tree)": other,
+        }
+        self.warnings += [
+            f"{text}: {join_names(names)}" for text, names in left_out.items() if names
+        ]
         return Robot(name, self.order, self.found, source), self.warnings
 
     def _here(self, j: int) -> bool:
@@ -162,7 +161,7 @@ class _Reader:
         model = self.model
         kind = KINDS[model.jnt_type[j]]
         axis = model.jnt_axis[j].tolist()
-        ref = float(model.qpos0[model.jnt_qposadr[j]])
+        ref = self._at_home(j)
         if j in constants:
             return _Motion("fixed", axis, UNBOUNDED, _moved(kind, axis, constants[j] - ref))
         if kind == "floating":
@@ -185,33 +184,43 @@ class _Reader:
             if not model.eq_active0[e] or not self._here(y):
                 continue
             a = model.eq_data[e, :5].tolist()
-            y_0 = float(model.qpos0[model.jnt_qposadr[y]])
+            y_0 = self._at_home(y)
+            reason = ""
             if y in masters or y in constants:
                 reason = "of which there is an earlier equality"
             elif x < 0:
                 constants[y] = y_0 + a[0]
-                continue
-            elif any(a[2:]):
-                reason = "whose polynomial is not linear"
-            elif not self._here(x):
-                reason = "that follow one that is left out"
-            elif y in _ancestry(masters, x):
-                reason = "that follow each other in a circle"
             else:
-                masters[y] = x
-                x_0 = float(model.qpos0[model.jnt_qposadr[x]])
-                mimics[y] = Mimic(self.names[x], a[1], y_0 + a[0] - a[1] * x_0)
-                continue
-            refused.setdefault(reason, []).append(self.names[y])
+                reason = self._refusal(y, x, a, masters)
+                if not reason:
+                    masters[y] = x
+                    offset = y_0 + a[0] - a[1] * self._at_home(x)
+                    mimics[y] = Mimic(self.names[x], a[1], offset)
+            if reason:
+                refused.setdefault(reason, []).append(self.names[y])
         while held := [y for y in mimics if masters[y] in constants]:
             for y in held:  # it follows what does not move
                 mimic = mimics.pop(y)
                 constants[y] = mimic.multiplier * constants[masters[y]] + mimic.offset
-        for reason, names in refused.items():
-            self.warnings.append(
-                f"equalities are left out for joints {reason}: {join_names(names)}"
-            )
+        self.warnings += [
+            f"equalities are left out for joints {reason}: {join_names(names)}"
+            for reason, names in refused.items()
+        ]
         return mimics, constants
+
+    def _at_home(self, j: int) -> float:
+        """Coordinate of joint j in MuJoCo's reference configuration qpos0."""
+        return float(self.model.qpos0[self.model.jnt_qposadr[j]])
+
+    def _refusal(self, y: int, x: int, a: list[float], masters: dict[int, int]) -> str:
+        """Reason why joint y cannot mimic joint x by the polynomial a; none where it can."""
+        if any(a[2:]):
+            return "whose polynomial is not linear"
+        if not self._here(x):
+            return "that follow one that is left out"
+        if y in _ancestry(masters, x):
+            return "that follow each other in a circle"
+        return ""
 
 
 def _below_mocap(model: Any) -> set[int]:

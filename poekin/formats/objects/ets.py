@@ -113,7 +113,7 @@ def make_robot(robot: Any) -> Robot:
 class _Tree:
     """Links and joints of a toolbox Robot, added link by link."""
 
-    def __init__(self, robot: Any):
+    def __init__(self, robot: Any) -> None:
         self.taken: set[str] = set()  # names of links
         self.used: set[str] = set()  # names of joints
         self.root = free_name("base", {str(link.name) for link in robot.links})

@@ -86,7 +86,9 @@ class Keys:
     expected and what arrived.
     """
 
-    def __init__(self, data: Mapping[str, Any], place: str, known: Iterable[str] | None = None):
+    def __init__(
+        self, data: Mapping[str, Any], place: str, known: Iterable[str] | None = None
+    ) -> None:
         self.data = data
         self.place = place
         if known is None:

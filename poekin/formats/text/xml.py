@@ -38,7 +38,7 @@ class _DoctypeFound(Exception):
 class _DoctypeTrap:
     """A parser target that lets everything pass but a document type declaration."""
 
-    def doctype(self, name: str, public: str | None, system: str | None) -> Never:
+    def doctype(self, *_: str | None) -> Never:
         raise _DoctypeFound
 
     def close(self) -> None:

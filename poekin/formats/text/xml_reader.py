@@ -21,7 +21,7 @@ class Fields:
 
     __slots__ = ("_children", "element", "inside", "source")
 
-    def __init__(self, element: Element, source: Source, inside: Fields | None = None):
+    def __init__(self, element: Element, source: Source, inside: Fields | None = None) -> None:
         self.element = element
         self.source = source
         self.inside = inside

@@ -63,7 +63,7 @@ def parse(text: str, place: str) -> MappingNode:
 class _Builder:
     """Mappings built out of the parser's events, one after the other."""
 
-    def __init__(self, place: str, yaml: ModuleType):
+    def __init__(self, place: str, yaml: ModuleType) -> None:
         self.place = place
         self.yaml = yaml
         self.root: MappingNode | None = None
