@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import ModuleType
 from typing import Annotated
 
 import typer
@@ -19,25 +20,20 @@ app = typer.Typer(
     help="Kinematics of robots by the product of exponentials: rad and m, twists (omega; v).",
 )
 
-# Unknown options pass through to q, so that -0.5 is a number; there are no one-letter options that
-# it could be.
-NUMBERS = {"ignore_unknown_options": True}
+COMMANDS: tuple[ModuleType, ...] = (
+    *(info, fk, jacobian, singularity, ik, follow, calibrate, validate, urdf, compare, conform),
+    *(axes, dh, count, emit),
+)
+# Unknown options of these pass through to q, so that -0.5 is a number; there are no one-letter
+# options that it could be.
+TAKE_NUMBERS = (fk, jacobian, singularity, ik)
 
-app.command("info")(takes_models(info.command))
-app.command("fk", context_settings=NUMBERS)(takes_models(fk.command))
-app.command("jacobian", context_settings=NUMBERS)(takes_models(jacobian.command))
-app.command("singularity", context_settings=NUMBERS)(takes_models(singularity.command))
-app.command("ik", context_settings=NUMBERS)(takes_models(ik.command))
-app.command("follow")(takes_models(follow.command))
-app.command("calibrate")(takes_models(calibrate.command))
-app.command("validate")(takes_models(validate.command))
-app.command("urdf")(takes_models(urdf.command))
-app.command("compare")(takes_models(compare.command))
-app.command("conform")(conform.command)
-app.command("axes")(takes_models(axes.command))
-app.command("dh")(takes_models(dh.command))
-app.command("count")(takes_models(count.command))
-app.command("emit")(takes_models(emit.command))
+for module in COMMANDS:
+    run = module.command
+    if module is not conform:
+        run = takes_models(run)
+    settings = {"ignore_unknown_options": module in TAKE_NUMBERS}
+    app.command(module.__name__.rpartition(".")[2], context_settings=settings)(run)
 
 
 def _version(wanted: bool) -> None:

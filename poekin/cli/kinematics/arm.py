@@ -13,11 +13,11 @@ import typer
 
 from ...errors import InputError, quote
 from ...formats.text import csv_rows
-from ...formats.text.numbers import real
 from ...model.chain import Chain
 from .. import array_files
 from ..model import model, refuse_options
 from ..output import Progress, as_json, heading, matrix, name, number, path_text, say
+from . import poses
 
 FILE_HELP = "A URDF, MJCF, DH table or calibration file, a built-in name (panda), or erd:NAME."
 File = Annotated[str, typer.Argument(metavar="FILE", help=FILE_HELP)]
@@ -42,6 +42,7 @@ Input = Annotated[
 Output = Annotated[
     Path | None, typer.Option("--output", help="Where the results go: a .csv, .npy or .json file.")
 ]
+Seed = Annotated[int, typer.Option("--seed", help="Seed of the random configurations.", min=0)]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 ROWS_AT_ONCE = 20_000
@@ -74,32 +75,19 @@ def take(
     """
     words = list(q or ())
     refuse_options(words, ("--tip", "--base", "--frame", "--input", "--output", "--json"))
-    values = [_value(word, i) for i, word in enumerate(words)]
+    values = poses.numbers(words, "coordinate", " (rad or m)")
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     if given is None:
-        if len(values) != chain.dof:
-            names = ", ".join(map(name, chain.q_names))
-            message = f"{chain.dof} coordinates expected ({names}), got {len(values)}"
-            if many:
-                message += "; or --input with a file"
-            raise InputError(message)
-        row = np.array(values, float).reshape(1, chain.dof)
-        return ChainArguments(robot.name, chain, row, True)
-    if values:
+        poses.check_count(values, chain, remedy="; or --input with a file" * many)
+        return ChainArguments(robot.name, chain, values[None], True)
+    if words:
         raise InputError(
             f"either coordinates or --input expected, got both ({quote(words[0])} and {quote(given)})"
         )
     with Progress(f"reading {array_files.called(given)}") as progress:
         rows = array_files.read_configurations(given, chain.q_names, progress)
     return ChainArguments(robot.name, chain, rows, False)
-
-
-def _value(word: str, index: int) -> float:
-    value = real(word)
-    if value is None:
-        raise InputError(f"coordinate {index + 1}: a number expected (rad or m), got {quote(word)}")
-    return value
 
 
 def compute(

@@ -113,13 +113,21 @@ def _read_file(given: str, names: Sequence[str], format: str, quaternion: str | 
     return pose_rows.to_poses(rows, format, quaternion, where)
 
 
-def numbers(words: Sequence[str], what: str) -> Array:
+def numbers(words: Sequence[str], what: str, unit: str = "") -> Array:
     """Words as numbers. Raises: InputError that says which is none."""
     values = [real(word) for word in words]
     for i, value in enumerate(values):
         if value is None:
-            raise InputError(f"{what} {i + 1}: a number expected, got {quote(words[i])}")
+            raise InputError(f"{what} {i + 1}: a number expected{unit}, got {quote(words[i])}")
     return np.array(values, float)
+
+
+def check_count(values: Array, chain: Chain, where: str = "", remedy: str = "") -> None:
+    """Refuse other than one number for each coordinate. Raises: InputError."""
+    if len(values) != chain.dof:
+        names = ", ".join(map(name, chain.q_names))
+        expected = f"{chain.dof} coordinates expected ({names})"
+        raise InputError(f"{where}{expected}, got {len(values)}{remedy}")
 
 
 def coordinates(text: str | None, chain: Chain, option: str) -> Array | None:
@@ -127,14 +135,13 @@ def coordinates(text: str | None, chain: Chain, option: str) -> Array | None:
     if text is None:
         return None
     values = numbers(text.replace(",", " ").split(), f"{option}: number")
-    if len(values) != chain.dof:
-        names = ", ".join(map(name, chain.q_names))
-        raise InputError(f"{option}: {chain.dof} coordinates expected ({names}), got {len(values)}")
+    check_count(values, chain, f"{option}: ")
     return values
 
 
 def for_each(text: str | None, chain: Chain, option: str) -> Array | float | None:
     """The numbers of an option with one for all coordinates or one for each."""
-    if text is not None and len(text.replace(",", " ").split()) == 1:
-        return float(numbers(text.replace(",", " ").split(), f"{option}: number")[0])
+    words = (text or "").replace(",", " ").split()
+    if len(words) == 1:
+        return float(numbers(words, f"{option}: number")[0])
     return coordinates(text, chain, option)

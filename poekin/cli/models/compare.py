@@ -12,7 +12,7 @@ from ...analysis.compare.comparison import Comparison, JointComparison
 from ...analysis.tolerances import check_tolerances
 from ...errors import InputError, join_names
 from ...model.chain import Chain
-from ..kinematics.arm import FILE_HELP, Base, Json, Tip
+from ..kinematics.arm import FILE_HELP, Base, Json, Seed, Tip
 from ..model import model
 from ..output import as_json, name, number, path_text, say, table
 
@@ -39,7 +39,6 @@ Strict = Annotated[
 Samples = Annotated[
     int, typer.Option("--samples", help="Random configurations for the pose errors.", min=1)
 ]
-Seed = Annotated[int, typer.Option("--seed", help="Seed of the random configurations.", min=0)]
 
 
 def command(

@@ -10,7 +10,7 @@ from ...analysis.validate import BAR, Validation, validate
 from ...errors import InputError, MissingExtra, PoekinError
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from ...testing.cases.example_robots import example_robots
-from ..kinematics.arm import Json
+from ..kinematics.arm import Json, Seed
 from ..model import model
 from ..output import Progress, as_json, complain, name, number, say, table
 
@@ -25,7 +25,6 @@ Every = Annotated[
     bool, typer.Option("--all", help="Every robot of the package example-robot-data.")
 ]
 Samples = Annotated[int, typer.Option("--samples", help="Random configurations a chain.", min=0)]
-Seed = Annotated[int, typer.Option("--seed", help="Seed of the random configurations.", min=0)]
 
 
 def command(
