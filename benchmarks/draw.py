@@ -4,17 +4,15 @@ reader's.
 
 from __future__ import annotations
 
-import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from poekin.errors import MissingExtra
+from poekin.solve import svg
+from poekin.solve.svg import GRID, INK, PALE
 
 from .page import plain
 from .report import Picture
-
-INK, PALE = "#222222", "#9a9a9a"
 
 
 class Panel(NamedTuple):
@@ -28,28 +26,17 @@ class Panel(NamedTuple):
     falling: bool = False
 
 
-def _axes(width: float, height: float):  # type: ignore[no-untyped-def]
-    try:
-        import matplotlib
-    except ModuleNotFoundError as missing:
-        raise MissingExtra("matplotlib", "report", "the report's pictures") from missing
-    from matplotlib.figure import Figure
+def _picture(caption: str, width: float, height: float, draw: Callable[[Any], None]) -> Picture:
+    """The picture that draw(figure) makes, of this size in inches."""
+    return Picture(caption, svg.inline(svg.svg(width, height, "the report's pictures", draw, 10)))
 
-    # The same numbers give the same file: no random identifiers.
-    matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "poekin", "font.size": 10})
-    figure = Figure((width, height), layout="constrained")
-    axes = figure.subplots()
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.grid(axis="y", color="#dddddd", linewidth=0.6)
+
+def _plain(axes: Any) -> Any:
+    """Axes in the house's look, with a grid behind the curves."""
+    svg.plain(axes)
+    axes.grid(axis="y", color=GRID, linewidth=0.6)
     axes.set_axisbelow(True)
-    return figure, axes
-
-
-def _svg(figure) -> str:  # type: ignore[no-untyped-def]
-    out = io.StringIO()
-    figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    text = out.getvalue()
-    return text[text.index("<svg") :]
+    return axes
 
 
 def lines(
@@ -64,31 +51,34 @@ def lines(
     """Curves over x; each has its own line style and marker, as colour alone may not be seen. log:
     on both axes.
     """
-    figure, axes = _axes(7.2, 3.4)
-    styles = [("-", "o"), ("--", "s"), (":", "^"), ("-.", "D"), ("-", "v"), ("--", "x")]
-    for (label, y), (line, marker) in zip(curves.items(), styles, strict=False):
-        axes.plot(
-            x,
-            y,
-            line + marker,
-            markersize=4,
-            color=INK,
-            linewidth=1.1,
-            markerfacecolor="white",
-            label=label,
-        )
-    axes.set_xlabel(x_label)
-    axes.set_ylabel(y_label)
-    if log:
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-    else:
-        axes.set_xticks(list(x))
-    if log:
-        figure.legend(loc="outside upper center", ncols=3, frameon=False)
-    else:
-        axes.legend(frameon=False)
-    return Picture(caption, _svg(figure))
+
+    def draw(figure: Any) -> None:
+        axes = _plain(figure.subplots())
+        styles = [("-", "o"), ("--", "s"), (":", "^"), ("-.", "D"), ("-", "v"), ("--", "x")]
+        for (label, y), (line, marker) in zip(curves.items(), styles, strict=False):
+            axes.plot(
+                x,
+                y,
+                line + marker,
+                markersize=4,
+                color=INK,
+                linewidth=1.1,
+                markerfacecolor="white",
+                label=label,
+            )
+        axes.set_xlabel(x_label)
+        axes.set_ylabel(y_label)
+        if log:
+            axes.set_xscale("log")
+            axes.set_yscale("log")
+        else:
+            axes.set_xticks(list(x))
+        if log:
+            figure.legend(loc="outside upper center", ncols=3, frameon=False)
+        else:
+            axes.legend(frameon=False)
+
+    return _picture(caption, 7.2, 3.4, draw)
 
 
 def dots(
@@ -97,22 +87,25 @@ def dots(
     """Values in ascending order on a logarithmic scale, with the bar as a line; a zero stands at
     the lower edge.
     """
-    figure, axes = _axes(7.2, 3.0)
-    floor = bar / 1e4
-    axes.plot(
-        range(1, len(values) + 1),
-        [max(v, floor) for v in sorted(values)],
-        ".",
-        color=INK,
-        markersize=4,
-    )
-    axes.axhline(bar, color=INK, linewidth=1, linestyle="--")
-    axes.annotate("bar", (1, bar), xytext=(0, 3), textcoords="offset points")
-    axes.set_yscale("log")
-    axes.set_ylim(floor / 1.5, bar * 3)
-    axes.set_xlabel(x_label)
-    axes.set_ylabel(y_label)
-    return Picture(caption, _svg(figure))
+
+    def draw(figure: Any) -> None:
+        axes = _plain(figure.subplots())
+        floor = bar / 1e4
+        axes.plot(
+            range(1, len(values) + 1),
+            [max(v, floor) for v in sorted(values)],
+            ".",
+            color=INK,
+            markersize=4,
+        )
+        axes.axhline(bar, color=INK, linewidth=1, linestyle="--")
+        axes.annotate("bar", (1, bar), xytext=(0, 3), textcoords="offset points")
+        axes.set_yscale("log")
+        axes.set_ylim(floor / 1.5, bar * 3)
+        axes.set_xlabel(x_label)
+        axes.set_ylabel(y_label)
+
+    return _picture(caption, 7.2, 3.0, draw)
 
 
 def bars(caption: str, rows: Mapping[str, Mapping[str, float | None]], *, x_label: str) -> Picture:
@@ -122,47 +115,50 @@ def bars(caption: str, rows: Mapping[str, Mapping[str, float | None]], *, x_labe
     A series is known by its hatching, and each value stands at the end of its bar.
     """
     series = list(dict.fromkeys(name for row in rows.values() for name in row))
-    figure, axes = _axes(7.2, 0.9 + 0.27 * sum(len(row) for row in rows.values()))
-    looks: list[dict[str, Any]] = [
-        {"color": INK},
-        {"facecolor": "white", "edgecolor": INK, "hatch": "////"},
-        {"color": PALE},
-    ]
-    thickness = 0.8 / max(len(series), 1)
-    values = [value for row in rows.values() for value in row.values() if value]
-    least, most = min(values, default=1.0), max(values, default=1.0)
-    for number, name in enumerate(series):
-        there, places = [], []
-        for k, row in enumerate(rows.values()):
-            if value := row.get(name):
-                mates = [other for other in series if row.get(other)]
-                there.append((k, value))
-                places.append(k + (mates.index(name) - (len(mates) - 1) / 2) * thickness)
-        lengths = [value for _, value in there]
-        axes.barh(
-            places,
-            lengths,
-            0.85 * thickness,
-            label=name,
-            linewidth=0.8,
-            **looks[number % len(looks)],
+
+    def draw(figure: Any) -> None:
+        axes = _plain(figure.subplots())
+        looks: list[dict[str, Any]] = [
+            {"color": INK},
+            {"facecolor": "white", "edgecolor": INK, "hatch": "////"},
+            {"color": PALE},
+        ]
+        thickness = 0.8 / max(len(series), 1)
+        values = [value for row in rows.values() for value in row.values() if value]
+        least, most = min(values, default=1.0), max(values, default=1.0)
+        for number, name in enumerate(series):
+            there, places = [], []
+            for k, row in enumerate(rows.values()):
+                if value := row.get(name):
+                    mates = [other for other in series if row.get(other)]
+                    there.append((k, value))
+                    places.append(k + (mates.index(name) - (len(mates) - 1) / 2) * thickness)
+            lengths = [value for _, value in there]
+            axes.barh(
+                places,
+                lengths,
+                0.85 * thickness,
+                label=name,
+                linewidth=0.8,
+                **looks[number % len(looks)],
+            )
+            for place, value in zip(places, lengths, strict=True):
+                axes.annotate(f"{value:.3g}", (value, place), xytext=(3, 0), textcoords="offset points", va="center",
+                              fontsize=8.5)  # fmt: skip
+        # A label is data: a dollar sign in it is no formula.
+        axes.set_yticks(
+            range(len(rows)), [" ".join(plain(label).split()) for label in rows], parse_math=False
         )
-        for place, value in zip(places, lengths, strict=True):
-            axes.annotate(f"{value:.3g}", (value, place), xytext=(3, 0), textcoords="offset points", va="center",
-                          fontsize=8.5)  # fmt: skip
-    # A label is data: a dollar sign in it is no formula.
-    axes.set_yticks(
-        range(len(rows)), [" ".join(plain(label).split()) for label in rows], parse_math=False
-    )
-    axes.invert_yaxis()
-    axes.set_xscale("log")
-    axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.set_xlim(least / 2, most * 3)
-    axes.set_xlabel(x_label)
-    axes.grid(axis="y", visible=False)
-    axes.grid(axis="x", color="#dddddd", linewidth=0.6)
-    figure.legend(loc="outside upper right", ncols=len(series), frameon=False)
-    return Picture(caption, _svg(figure))
+        axes.invert_yaxis()
+        axes.set_xscale("log")
+        axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        axes.set_xlim(least / 2, most * 3)
+        axes.set_xlabel(x_label)
+        axes.grid(axis="y", visible=False)
+        axes.grid(axis="x", color=GRID, linewidth=0.6)
+        figure.legend(loc="outside upper right", ncols=len(series), frameon=False)
+
+    return _picture(caption, 7.2, 0.9 + 0.27 * sum(len(row) for row in rows.values()), draw)
 
 
 def panels(
@@ -173,55 +169,62 @@ def panels(
     An infinite value is its curve's marker at the top edge, where off_scale says what it means; a
     NaN is a gap; what is below bar ÷ 300 is left out.
     """
-    figure, _ = _axes(9.0, 3.9)
-    figure.clear()
-    plots = figure.subplots(1, len(parts), sharey=True, squeeze=False)[0]
-    values = [
-        y for part in parts for curve in part.curves.values() for y in curve if math.isfinite(y)
-    ]
-    floor, top = max(min(values) / 3, bar / 300), max([*values, bar]) * 30
-    styles = [
-        ("-", ""),
-        ("--", "s"),
-        (":", "^"),
-        ("-.", "D"),
-        ("-", "v"),
-        ("--", "x"),
-        (":", "o"),
-        ("-.", "+"),
-    ]
-    for axes, part in zip(plots, parts, strict=True):
-        for number, (label, curve) in enumerate(part.curves.items()):
-            line, marker = styles[number % len(styles)]
-            finite = [y if math.isfinite(y) else math.nan for y in curve]
-            lost = [x for x, y in zip(part.x, curve, strict=True) if math.isinf(y)]
-            every = (number % 4, 4)
-            axes.plot(part.x, finite, line, marker=marker or None, markevery=every, markersize=4.5, color=INK,
-                      linewidth=1.0 if number else 2.6, markerfacecolor="white", label=label)  # fmt: skip
-            axes.plot(
-                lost, [top] * len(lost), marker=marker or "o", linestyle="", color=INK, markersize=5
-            )
-        axes.axhline(bar, color=PALE, linewidth=1.2)
-        axes.set(xscale="log", yscale="log", xlabel=part.x_label, ylim=(floor, top * 3))
-        axes.spines[["top", "right"]].set_visible(False)
-        axes.grid(axis="y", color="#dddddd", linewidth=0.6)
-        axes.set_axisbelow(True)
-        if part.falling:
-            axes.invert_xaxis()
-        if any(math.isinf(y) for curve in part.curves.values() for y in curve):
-            axes.axhline(top / 3, color=PALE, linewidth=0.8, linestyle=":")
-            axes.annotate(
-                off_scale,
-                (0.02, 1.0),
-                xycoords="axes fraction",
-                va="bottom",
-                fontsize=9,
-                color="#444444",
-            )
-    plots[0].set_ylabel(y_label)
-    plots[0].annotate(f"bar {bar:g}", (0.01, bar), xycoords=("axes fraction", "data"), xytext=(0, 3),
-                      textcoords="offset points", fontsize=9)  # fmt: skip
-    figure.legend(
-        *plots[0].get_legend_handles_labels(), loc="outside upper center", ncols=6, frameon=False
-    )
-    return Picture(caption, _svg(figure))
+
+    def draw(figure: Any) -> None:
+        plots = figure.subplots(1, len(parts), sharey=True, squeeze=False)[0]
+        values = [
+            y for part in parts for curve in part.curves.values() for y in curve if math.isfinite(y)
+        ]
+        floor, top = max(min(values) / 3, bar / 300), max([*values, bar]) * 30
+        styles = [
+            ("-", ""),
+            ("--", "s"),
+            (":", "^"),
+            ("-.", "D"),
+            ("-", "v"),
+            ("--", "x"),
+            (":", "o"),
+            ("-.", "+"),
+        ]
+        for axes, part in zip(plots, parts, strict=True):
+            for number, (label, curve) in enumerate(part.curves.items()):
+                line, marker = styles[number % len(styles)]
+                finite = [y if math.isfinite(y) else math.nan for y in curve]
+                lost = [x for x, y in zip(part.x, curve, strict=True) if math.isinf(y)]
+                every = (number % 4, 4)
+                axes.plot(part.x, finite, line, marker=marker or None, markevery=every, markersize=4.5, color=INK,
+                          linewidth=1.0 if number else 2.6, markerfacecolor="white", label=label)  # fmt: skip
+                axes.plot(
+                    lost,
+                    [top] * len(lost),
+                    marker=marker or "o",
+                    linestyle="",
+                    color=INK,
+                    markersize=5,
+                )
+            axes.axhline(bar, color=PALE, linewidth=1.2)
+            axes.set(xscale="log", yscale="log", xlabel=part.x_label, ylim=(floor, top * 3))
+            _plain(axes)
+            if part.falling:
+                axes.invert_xaxis()
+            if any(math.isinf(y) for curve in part.curves.values() for y in curve):
+                axes.axhline(top / 3, color=PALE, linewidth=0.8, linestyle=":")
+                axes.annotate(
+                    off_scale,
+                    (0.02, 1.0),
+                    xycoords="axes fraction",
+                    va="bottom",
+                    fontsize=9,
+                    color="#444444",
+                )
+        plots[0].set_ylabel(y_label)
+        plots[0].annotate(f"bar {bar:g}", (0.01, bar), xycoords=("axes fraction", "data"), xytext=(0, 3),
+                          textcoords="offset points", fontsize=9)  # fmt: skip
+        figure.legend(
+            *plots[0].get_legend_handles_labels(),
+            loc="outside upper center",
+            ncols=6,
+            frameon=False,
+        )
+
+    return _picture(caption, 9.0, 3.9, draw)

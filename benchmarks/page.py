@@ -8,45 +8,57 @@ import json
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
-from html import escape as html_escape
-from pathlib import Path
-from string import Template
 from typing import Any
+
+from poekin.errors import escape_unprintable
+from poekin.solve import html_page
+from poekin.solve.html_page import element, paragraph, text
 
 from .report import Figure, Table, Topic, short
 
 
-def plain(text: str) -> str:
+def plain(words: str) -> str:
     """Text without characters that a terminal or a browser would obey instead of showing; line
     breaks stay.
     """
-    return "".join(
-        c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text
-    )
-
-
-def escape(text: str) -> str:
-    """Text as HTML."""
-    return html_escape(plain(text))
+    return escape_unprintable(words, keep="\n")
 
 
 VERDICT = {True: "holds", False: "MISSED", None: ""}
 
 
+STYLE = """h2 { margin-top: 2.75rem; }
+dl { display: grid; grid-template-columns: repeat(auto-fill, minmax(13rem, 1fr)); gap: .35rem 1.25rem;
+  margin: 1rem 0; padding: .75rem 1rem; border: 1px solid #bbb; font-size: .85rem; }
+dl div { min-width: 0; }
+dt { color: #555; }
+dd { margin: 0; font-weight: 600; overflow-wrap: anywhere; }
+nav ol { columns: 2; margin: .5rem 0; padding-left: 1.5rem; }
+a { color: inherit; }
+.wide:first-of-type td:first-child { min-width: 17rem; }
+td.error { min-width: 11rem; }
+td.verdict { font-weight: 600; white-space: nowrap; }
+td.note { color: #444; font-size: .82rem; }
+tr.missed td { background: #eee; font-weight: 700; }
+figcaption { margin-top: 1rem; }
+pre { overflow-x: auto; background: #f3f3f3; padding: .75rem; font-size: .8rem; }
+.broken { font-weight: 700; }
+@media (max-width: 40rem) { nav ol { columns: 1; } }
+"""
+
+
 def html(topics: Sequence[Topic], machine: dict[str, Any], seconds: float) -> str:
-    """The page, out of `page.html` beside this file."""
-    template = Template(Path(__file__).with_name("page.html").read_text(encoding="utf-8"))
-    return template.substitute(
-        summary=escape(summary(topics)),
-        machine=_definitions(machine, seconds),
-        all_figures=_figures(
-            [f for t in topics for f in t.figures if f.verdict is not None], notes=False
-        ),
-        contents="".join(
-            f'<li><a href="#{i}">{escape(t.title)}</a></li>' for i, t in enumerate(topics, 1)
-        ),
-        topics="\n".join(_topic(i, t) for i, t in enumerate(topics, 1)),
-    )
+    """The page, in the looks of poekin's own."""
+    barred = [f for t in topics for f in t.figures if f.verdict is not None]
+    contents = (f'<li><a href="#{i}">{text(t.title)}</a></li>' for i, t in enumerate(topics, 1))
+    parts = [
+        paragraph(summary(topics), "lead"),
+        _figures(barred, notes=False),
+        element("nav", element("ol", "".join(contents))),
+        element("dl", _definitions(machine, seconds)),
+        *(_topic(i, t) for i, t in enumerate(topics, 1)),
+    ]
+    return html_page.page("poekin: report", parts, STYLE)
 
 
 def markdown(topics: Sequence[Topic], machine: dict[str, Any], seconds: float) -> str:
@@ -103,6 +115,7 @@ def plain_table(topics: Sequence[Topic]) -> str:
 
 
 HEADS = ("what", "figure", "bar", "quartiles", "error in the same run", "", "note")
+KINDS = ("word", "number", "number", "number", "error", "verdict", "note")
 
 
 def _cells(f: Figure) -> list[str]:
@@ -120,69 +133,47 @@ def _figures(figures: Sequence[Figure], *, notes: bool = True) -> str:
         for i, head in enumerate(HEADS)
         if any(row[i] for row in filled) and (notes or head != "note")
     ]
-    head = "".join(f'<th class="{_kind(i)}">{escape(HEADS[i])}</th>' for i in keep)
-    body = ""
-    for figure, row in zip(figures, filled, strict=True):
-        kind = ' class="missed"' if figure.verdict is False else ""
-        cells = "".join(f'<td class="{_kind(i)}">{escape(row[i])}</td>' for i in keep)
-        body += f"<tr{kind}>{cells}</tr>\n"
-    return f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>'
-
-
-def _kind(column: int) -> str:
-    return ("word", "number", "number", "number", "error", "verdict", "note")[column]
+    kinds = [KINDS[i] for i in keep]
+    rows = []
+    for figure, cells in zip(figures, filled, strict=True):
+        kind = "missed" if figure.verdict is False else ""
+        rows.append(html_page.row([cells[i] for i in keep], kinds, kind=kind))
+    return html_page.table([HEADS[i] for i in keep], kinds, rows)
 
 
 def _topic(number: int, topic: Topic) -> str:
-    parts = [f'<section id="{number}"><h2>{escape(topic.title)}</h2>']
-    parts += [f"<p>{escape(paragraph)}</p>" for paragraph in topic.text.split("\n\n") if paragraph]
+    parts = [f'<section id="{number}"><h2>{text(topic.title)}</h2>']
+    parts += [paragraph(words) for words in topic.text.split("\n\n") if words]
     if topic.failure:
-        parts.append(
-            f'<p class="broken">This topic broke off:</p><pre>{escape(topic.failure)}</pre>'
-        )
+        parts.append(paragraph("This topic broke off:", "broken"))
+        parts[-1] += element("pre", text(topic.failure))
     parts.append(_figures(topic.figures))
-    for picture in topic.pictures:
-        parts.append(
-            f"<figure>{picture.svg}<figcaption>{escape(picture.caption)}</figcaption></figure>"
-        )
+    parts += [html_page.figure(picture.svg, picture.caption) for picture in topic.pictures]
     parts += [_table(t) for t in topic.tables]
     return "\n".join(part for part in parts if part) + "</section>"
 
 
 def _table(table: Table) -> str:
     # Numbers that were not measured are empty, and leave a column one of numbers.
-    numeric = [
-        not any(isinstance(row[i], str) and row[i] for row in table.rows)
-        for i in range(len(table.columns))
-    ]
-    heads = zip(table.columns, numeric, strict=True)
-    head = "".join(
-        f'<th class="{"number" if right else "word"}">{escape(c)}</th>' for c, right in heads
-    )
-    body = ""
-    for row in table.rows:
-        kinds = (
-            "number" if right or not isinstance(c, str) else "word"
-            for c, right in zip(row, numeric, strict=True)
-        )
-        cells = (
-            f'<td class="{kind}">{escape(_text(c))}</td>'
-            for c, kind in zip(row, kinds, strict=True)
-        )
-        body += f"<tr>{''.join(cells)}</tr>\n"
-    inner = f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>'
-    caption = escape(table.caption)
+    columns = range(len(table.columns))
+    numeric = [not any(isinstance(r[i], str) and r[i] for r in table.rows) for i in columns]
+    kinds = ["number" if right else "word" for right in numeric]
+    rows = []
+    for cells in table.rows:
+        own = [
+            kind if isinstance(c, str) else "number" for c, kind in zip(cells, kinds, strict=True)
+        ]
+        rows.append(html_page.row(map(_text, cells), own))
+    inner = html_page.table(table.columns, kinds, rows)
     if table.folded:
-        return f"<details><summary>{caption} ({len(table.rows)} rows)</summary>{inner}</details>"
-    return f'<p class="caption">{caption}</p>{inner}'
+        return html_page.details(f"{table.caption} ({len(table.rows)} rows)", inner)
+    return html_page.caption(table.caption) + inner
 
 
 def _definitions(machine: dict[str, Any], seconds: float) -> str:
     items = [(k, v) for k, v in machine.items() if k != "versions"] + [("took", f"{seconds:.0f} s")]
     items += list(machine["versions"].items())
-    return "".join(
-        f"<div><dt>{escape(str(k))}</dt><dd>{escape(str(v))}</dd></div>" for k, v in items
-    )
+    return "".join(f"<div><dt>{text(str(k))}</dt><dd>{text(str(v))}</dd></div>" for k, v in items)
 
 
 def _machine_line(machine: dict[str, Any], seconds: float) -> str:

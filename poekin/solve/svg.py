@@ -8,12 +8,16 @@ from typing import Any
 
 from ..errors import MissingExtra, escape_unprintable
 
-INK, PALE = "#222222", "#9a9a9a"
+INK = "#222222"
+PALE = "#9a9a9a"
+GRID = "#dddddd"
 
 
-def svg(width: float, height: float, purpose: str, draw: Callable[[Any], None]) -> str:
+def svg(
+    width: float, height: float, purpose: str, draw: Callable[[Any], None], size: float = 9
+) -> str:
     """An SVG file of this size (inches), drawn by draw(figure): text stays text, in the reader's
-    own font.
+    own font of `size` points.
 
     purpose: what it is, for the message where Matplotlib is missing. The same numbers give the same
     text.
@@ -25,7 +29,8 @@ def svg(width: float, height: float, purpose: str, draw: Callable[[Any], None]) 
         raise MissingExtra("matplotlib", "report", purpose) from missing
     from matplotlib.figure import Figure
 
-    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "poekin", "font.size": 9}):
+    looks: Any = {"svg.fonttype": "none", "svg.hashsalt": "poekin", "font.size": size}
+    with matplotlib.rc_context(looks):
         figure = Figure((width, height), layout="constrained")
         draw(figure)
         out = io.StringIO()

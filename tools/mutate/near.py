@@ -85,7 +85,7 @@ NEAR = {
     "solve/calibrate": "solve/cross_validation own solve/refusals solve/fitting solve/toml_io",
     "solve/calibration": "solve/html_report solve/calibrate solve/toml_io solve/fitting",
     "solve/losses": "solve/noise solve/fitting solve/refit solve/exchange",
-    "solve/page_style": "solve/html_report",
+    "solve/html_page": "solve/html_report",
     "solve/points solve/poses": _POINTS,
     "solve/result solve/summary": "solve/calibrate solve/html_report solve/toml_io",
     "solve/problem": f"{_FRAMES} solve/refusals solve/fitting solve/calibrate solve/choose",

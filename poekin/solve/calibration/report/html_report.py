@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from html import escape
-from string import Template
 
 import numpy as np
 
@@ -16,9 +14,11 @@ from ....errors import ShapeError, escape_unprintable
 from ....formats.text.atomic_write import write_whole
 from ....groups import so3
 from ....groups.arrays import Array
+from ... import html_page
+from ...html_page import caption, figure, paragraph, text
 from ..model.residuals import Residuals
 from ..result import CalibrationData, pose_covariance
-from . import changes, page_style, plots
+from . import changes, plots
 from .changes import milli
 
 CONFIGURATIONS = 1000
@@ -50,42 +50,38 @@ def html(
         named = f"Calibration: {found.chain.base} to {found.chain.tip}"
     else:
         named = title
-    parts = [
-        _section("Residuals", *_residuals(found)),
-        _section("What was measured, and what it can tell", *_measured(found)),
-        _section("What changed", *_changed(found)),
-        _section("How well the pose is known", *_uncertainty(found)),
-        _section("Outliers", *_outliers(found, sources)),
-        _section("The search", *_search(found)),
-        _section("All parameters", *_parameters(found)),
-    ]
-    return Template(page_style.PAGE).substitute(
-        title=_text(named, 200),
-        lead=_text(changes.sentence(found)),
-        style=page_style.STYLE,
-        sections="\n".join(parts),
-    )
+    sections = {
+        "Residuals": _residuals(found),
+        "What was measured, and what it can tell": _measured(found),
+        "What changed": _changed(found),
+        "How well the pose is known": _uncertainty(found),
+        "Outliers": _outliers(found, sources),
+        "The search": _search(found),
+        "All parameters": _parameters(found),
+    }
+    lead = paragraph(changes.sentence(found), "lead")
+    return html_page.page(named, [lead, *map(_section, sections, sections.values())])
 
 
 def _residuals(found: CalibrationData) -> Iterator[str]:
     held_out = found.cross_validation
     rows = changes.errors(found)
-    yield from (_p(f"Warning: {words}.") for words in found.warnings)
-    yield from (_p(f"{words}.") for words in found.remarks)
+    yield from (paragraph(f"Warning: {words}.") for words in found.warnings)
+    yield from (paragraph(f"{words}.") for words in found.remarks)
     if held_out is None:
-        yield _p(
+        yield paragraph(
             "No data were held out: these figures are of the measurements that the arm was fitted "
             "to."
         )
     else:
-        yield _p(
+        yield paragraph(
             f"Each of {held_out.folds} folds of the readings was held out in turn, and predicted by"
             " a calibration from the others. Nominal means: the arm as it is described, with the "
             "unknown frames, if there are any, fitted."
         )
     curves = [r for r in rows if held_out is None or r.residuals is not found.before]
     yield _table(_HEADS, [(name, *_figures(r)) for name, r in rows])
-    yield _figure(
+    yield figure(
         plots.residuals(curves), "The share of measurements with an error of at most so much."
     )
     if len(found.noise_std) > 1:
@@ -112,7 +108,7 @@ def _measured(found: CalibrationData) -> Iterator[str]:
     rows = [_noise_row(found, k) for k in range(len(found.noise_std))]
     yield _table(heads, rows, words=(2, 3))
     can = found.identification
-    yield _p(
+    yield paragraph(
         f"{can.n_equations} equations for {can.size} parameters. Measurements of this kind can "
         f"identify {can.identifiable} combinations of them, and these identify {can.rank}, with "
         f"condition {can.condition:.3g} (angles in rad, lengths in reaches of "
@@ -120,12 +116,12 @@ def _measured(found: CalibrationData) -> Iterator[str]:
         f" noise amplification index {can.amplification:.3g})."
     )
     for words in can.unidentifiable:
-        yield _p(f"Unidentifiable from measurements of this kind, fixed: {words}.")
+        yield paragraph(f"Unidentifiable from measurements of this kind, fixed: {words}.")
     for words in can.unobserved:
-        yield _p(f"Unobserved: {words}.")
+        yield paragraph(f"Unobserved: {words}.")
     if found.frames:
         heads = ("", "x (m)", "y (m)", "z (m)", "rotation vector (rad)")
-        yield _caption("Unknown frames and points, estimated jointly")
+        yield caption("Unknown frames and points, estimated jointly")
         yield _table(heads, [_frame_row(*item) for item in found.frames.items()], words=(0, 4))
 
 
@@ -152,23 +148,23 @@ def _frame_row(name: str, frame: Array) -> tuple[str, ...]:
 def _changed(found: CalibrationData) -> Iterator[str]:
     moved = changes.joints(found)
     if moved:
-        yield _p(
+        yield paragraph(
             "How far each joint's axis was tilted and shifted across itself; bars are 95 % "
             "intervals."
         )
-        yield _figure(
+        yield figure(
             plots.joints(moved),
             "Which two directions across an axis these are stands in the table of all parameters.",
         )
         heads = ("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %")
         yield _table(heads, [changes.row(j) for j in moved])
     compared = compare(found.nominal, found.chain)
-    yield _caption("Nominal and calibrated arm, aligned and compared (the largest first)")
+    yield caption("Nominal and calibrated arm, aligned and compared (the largest first)")
     lines = sorted(compared.joints, key=_difference, reverse=True)
     heads = ("joint", "angle of the axes (°)", "common normal (mm)", "at the arm (mm)", "zero")
     yield _table(heads, [_compared_row(j) for j in lines[:MOST_ROWS]])
     if (e := compared.before) is not None:
-        yield _p(
+        yield paragraph(
             f"As they stand, the two differ by up to {1e3 * e.worst_position:.3g} mm and "
             f"{math.degrees(e.worst_rotation):.3g}° over {compared.samples} random configurations, "
             f"on average by {1e3 * e.mean_position:.3g} mm and {math.degrees(e.mean_rotation):.3g}°."
@@ -191,7 +187,7 @@ def _uncertainty(found: CalibrationData) -> Iterator[str]:
     C = pose_covariance(found, found.nominal.random(0, CONFIGURATIONS))
     angle = _deviation(C[:, :3, :3])
     length = _deviation(C[:, 3:, 3:])
-    yield _p(
+    yield paragraph(
         f"At {CONFIGURATIONS} random configurations within the limits, the tip's position has a "
         f"standard deviation of {milli(float(np.median(length)))} mm in the median and "
         f"{milli(float(length.max()))} mm at most, its rotation of "
@@ -199,7 +195,7 @@ def _uncertainty(found: CalibrationData) -> Iterator[str]:
         "measurements leaves. What was fixed counts as known; what the model leaves out, such as "
         "bending, is not in it."
     )
-    yield _figure(
+    yield figure(
         plots.uncertainty(length, angle), "Standard deviations over random configurations."
     )
 
@@ -211,12 +207,12 @@ def _deviation(C: Array) -> Array:
 
 def _outliers(found: CalibrationData, sources: Sequence[str] | None) -> Iterator[str]:
     if not found.outliers:
-        yield _p("None: no measurement is off by more than one good one in 10 000 would be.")
+        yield paragraph("None: no measurement is off by more than one good one in 10 000 would be.")
         return
     more = "."
     if len(found.outliers) > MOST_ROWS:
         more = f"; the first {MOST_ROWS} of them:"
-    yield _p(
+    yield paragraph(
         f"{len(found.outliers)} of {len(found.after)} measurements are off by more than one good "
         f"one in 10 000 would be{more}"
     )
@@ -234,12 +230,12 @@ def _outliers(found: CalibrationData, sources: Sequence[str] | None) -> Iterator
 
 def _search(found: CalibrationData) -> Iterator[str]:
     state = "converged" if found.success else "did NOT converge"
-    yield _p(
+    yield paragraph(
         f"The search with the loss {found.loss} {state} in {len(found.steps)} steps, counted over "
         "all its rounds."
     )
     if found.steps:
-        yield _figure(
+        yield figure(
             plots.steps(found.steps),
             "Each round begins with newly estimated noise, where no covariance was given.",
         )
@@ -251,7 +247,7 @@ def _parameters(found: CalibrationData) -> Iterator[str]:
     for p, (value, deviation) in zip(found.parameters, values, strict=True):
         rows.append((p.owner, p.what, f"{value:.6g}", f"{deviation:.2g}", p.unit))
     table = _table(("of", "what", "value", "standard deviation", "unit"), rows, words=(0, 1, 4))
-    yield f"<details><summary>{len(rows)} parameters</summary>{table}</details>"
+    yield html_page.details(f"{len(rows)} parameters", table)
 
 
 def _millimetres(length: float | None) -> str:
@@ -267,24 +263,8 @@ def _seen(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-9 else value:.3g}"
 
 
-def _text(words: object, width: int | None = None) -> str:
-    return escape(escape_unprintable(words, width))
-
-
-def _section(title: str, *parts: str) -> str:
-    return "\n".join(["<section>", f"<h2>{_text(title)}</h2>", *parts, "</section>"])
-
-
-def _p(words: str) -> str:
-    return f"<p>{_text(words)}</p>"
-
-
-def _caption(words: str) -> str:
-    return f'<p class="caption">{_text(words)}</p>'
-
-
-def _figure(svg: str, caption: str) -> str:
-    return f"<figure>{svg}<figcaption>{_text(caption)}</figcaption></figure>"
+def _section(title: str, parts: Iterable[str]) -> str:
+    return "\n".join(["<section>", f"<h2>{text(title)}</h2>", *parts, "</section>"])
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]], words: Sequence[int] = (0,)) -> str:
@@ -292,21 +272,6 @@ def _table(heads: Sequence[str], rows: Iterable[Sequence[str]], words: Sequence[
     rows = list(rows)
     kept = [i for i in range(len(heads)) if not rows or any(row[i] for row in rows)]
     kinds = ["word" if i in words else "number" for i in kept]
-    head = "".join(map(_head, kinds, [heads[i] for i in kept]))
-    body = "".join(_row(map(_cell, kinds, [row[i] for i in kept])) for row in rows)
-    return (
-        f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table>'
-        "</div>"
-    )
-
-
-def _head(kind: str, words: str) -> str:
-    return f'<th class="{kind}">{_text(words)}</th>'
-
-
-def _row(cells: Iterable[str]) -> str:
-    return f"<tr>{''.join(cells)}</tr>\n"
-
-
-def _cell(kind: str, words: str) -> str:
-    return f'<td class="{kind}">{_text(words, 200)}</td>'
+    cells = ([escape_unprintable(row[i], 200) for i in kept] for row in rows)
+    lines = [html_page.row(line, kinds) for line in cells]
+    return html_page.table([heads[i] for i in kept], kinds, lines)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....groups.arrays import Array
 from ... import svg
-from ...svg import INK, PALE
+from ...svg import GRID, INK, PALE
 from ..fit.minimise import Step
 from .changes import Change, Joint, NamedResiduals
 
@@ -57,7 +57,7 @@ def _distributions(axes: Any, label: str, names: Sequence[str], series: Sequence
         axes.plot(np.maximum(x, _LEAST), share, label=name, **style)
     axes.set(xscale="log", xlabel=label)
     axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.grid(color=GRID, linewidth=0.6)
     axes.axhline(50, color=PALE, linewidth=0.8)
     svg.plain(axes)
 
@@ -103,7 +103,7 @@ def _bars(axes: Any, label: str, changes: Sequence[Change]) -> None:
             **style,
         )
     axes.set_xlabel(label)
-    axes.grid(axis="x", color="#dddddd", linewidth=0.6)
+    axes.grid(axis="x", color=GRID, linewidth=0.6)
     svg.plain(axes)
 
 
@@ -160,7 +160,7 @@ def _course(axes: Any, label: str, values: Sequence[float], damped: NDArray[np.b
         axes.set_yscale("log")
     axes.set(xlabel="step", ylabel=label)
     axes.xaxis.get_major_locator().set_params(integer=True)
-    axes.grid(axis="y", color="#dddddd", linewidth=0.6)
+    axes.grid(axis="y", color=GRID, linewidth=0.6)
     svg.plain(axes)
 
 
