@@ -14,6 +14,7 @@ from poekin import Chain, load
 from poekin.solve import calibration as cal
 from poekin.solve.calibration.diagnostics.identification import identify_directions
 from poekin.solve.calibration.fit.fitting import fit_parameters
+from poekin.solve.calibration.fit.minimise import FitOptions
 from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 
@@ -150,7 +151,7 @@ def prepared(task: Task) -> tuple[Problem, np.ndarray]:
 def fit_alone(state: tuple[Problem, np.ndarray]):  # type: ignore[no-untyped-def]
     """The fit from the nominal arm on."""
     problem, free = state
-    return fit_parameters(problem, free, "linear", np.zeros(problem.size), None)
+    return fit_parameters(problem, free, np.zeros(problem.size), FitOptions("linear"))
 
 
 def residuals(task: Task):  # type: ignore[no-untyped-def]

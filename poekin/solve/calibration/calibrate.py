@@ -24,7 +24,7 @@ from .diagnostics.identification import (
 from .fit import noise
 from .fit.fitting import Fit, fit_frames, outliers
 from .fit.losses import LOSSES, LossName
-from .fit.minimise import STEPS
+from .fit.minimise import STEPS, FitOptions
 from .fit.refit import fit_with_refit
 from .measurements.inputs import parse_measurements, parse_readings
 from .model.error_model import ErrorModel
@@ -150,18 +150,17 @@ def calibrate(
         check_rank(with_prior, on_rank_deficiency)
     noise.check(sets, problem.n_equations, free.shape[1])
     folds = cross_validation.check_folds(folds, len(q), seed)
-    start, _ = fit_frames(problem, loss)
+    start = fit_frames(problem, loss)
     units.check(problem, start)
     before = _residuals(problem, start)  # now, while the problem has these errors
-    fit = fit_with_refit(problem, free, loss, start, sigma, max_iterations)
+    options = FitOptions(loss, sigma, max_iterations)
+    fit = fit_with_refit(problem, free, start, options)
     if fit.free is not free:
         identification, _ = identify_directions(problem, p=fit.p)
     misfit.check(problem, fit)
     held_out = None
     if folds and problem.n_equations * (folds - 1) // folds > free.shape[1]:
-        held_out = cross_validation.cross_validate(
-            problem, free, loss, sigma, folds, seed, max_iterations, progress
-        )
+        held_out = cross_validation.cross_validate(problem, free, options, folds, seed, progress)
     found = _result(problem, before, fit, identification, held_out, loss)
     for words in found.warnings:
         warn(words)

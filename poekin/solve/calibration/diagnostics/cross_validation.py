@@ -11,7 +11,7 @@ from ....errors import InputError, safe_repr
 from ....groups.arrays import Array
 from ...option_checks import is_whole, whole
 from ..fit.fitting import fit_frames
-from ..fit.losses import LossName
+from ..fit.minimise import FitOptions
 from ..fit.refit import fit_with_refit
 from ..measurements.measurement import Rows
 from ..model.problem import Problem
@@ -41,11 +41,9 @@ class CrossValidation(NamedTuple):
 def cross_validate(
     problem: Problem,
     free: Array,
-    name: LossName,
-    prior: Array | None,
+    options: FitOptions,
     folds: int,
     seed: int,
-    most: int,
     progress: Progress | None,
 ) -> CrossValidation:
     """The readings in folds drawn at random; unknown frames are those of the other folds, too."""
@@ -58,8 +56,8 @@ def cross_validate(
         chosen = np.sort(drawn)
         training = problem.part(np.setdiff1d(order, chosen))
         test = problem.part(chosen)
-        p, _ = fit_frames(training, name)
-        fit = fit_with_refit(training, free, name, p, prior, most)
+        p = fit_frames(training, options.loss)
+        fit = fit_with_refit(training, free, p, options)
         before.append(_held_out_residuals(test, p, chosen))
         after.append(_held_out_residuals(test, fit.p, chosen))
     if progress is not None:

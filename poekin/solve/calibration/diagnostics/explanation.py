@@ -5,6 +5,7 @@ Remarks with figures: the nominal arm is fitted with base and tool free, as to a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from ....groups.arrays import Array
 from ..fit import initial_guess
 from ..fit.fitting import fit_parameters
 from ..fit.initial_guess import MISFIT
+from ..fit.minimise import FitOptions
 from ..measurements.measurement import Measurement
 from ..measurements.points import Distances, Points
 from ..measurements.poses import EyeInHand, Poses
@@ -114,6 +116,14 @@ def explain(problem: Problem, before: Residuals, after: Residuals) -> Remarks:
     return Remarks(tuple(warnings), tuple(remarks))
 
 
+def set_name(sets: Sequence[Measurement], k: int, alone: str) -> str:
+    """Name of set k in messages: `alone` and its kind where there is no other set."""
+    what = sets[k].what
+    if len(sets) > 1:
+        return f"measurement set {k} ({what})"
+    return f"{alone} {what}"
+
+
 def median(r: Residuals, k: int, s: Measurement) -> Size:
     """The median errors of set k."""
     mine = r.set == k
@@ -147,7 +157,7 @@ def explained(problem: Problem, k: int) -> Explanation | None:
     if own is None:
         return None
     free = identify_directions(own)[1]
-    fit = fit_parameters(own, free, "huber", np.zeros(own.size), None)
+    fit = fit_parameters(own, free, np.zeros(own.size), FitOptions("huber"))
     base, *moving = own.frame_values(fit.p)
     tool = se3.exp(fit.p[: own.model_size])
     for T in moving:

@@ -9,11 +9,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ....errors import InputError
-from ..fit.fitting import Fit, squared_errors
+from ..fit.fitting import Fit
 from ..fit.losses import OUTLIER, chi_square
 from ..model.problem import Problem
 from ..model.residuals import residuals
-from .explanation import explained, far, hint, median
+from .explanation import explained, far, hint, median, set_name
 
 TIMES = 3.0
 """Standard deviations that are given are contradicted by residuals this many times as large, or as
@@ -34,14 +34,14 @@ def check(problem: Problem, fit: Fit) -> None:
     """
     found = residuals(problem.sets, problem.rows, problem.errors(fit.p))
     reach = problem.model.nominal.reach
-    squares = squared_errors(problem, fit.noise, fit.p)
+    squares = fit.noise.squares(problem.errors(fit.p))
     for k, s in enumerate(problem.sets):
         off = median(found, k, s)
         known = s.covariance is not None
         noise = known and np.median(squares[k]) <= chi_square(s.width, OUTLIER)
         if noise or not far(off, reach):
             continue
-        which = f"measurement set {k} ({s.what})" if len(problem.sets) > 1 else f"these {s.what}"
+        which = set_name(problem.sets, k, "these")
         other = explained(problem, k)
         near = ""
         if other is not None and not far(other.left, reach):
@@ -66,7 +66,7 @@ def contradicted(problem: Problem, fit: Fit) -> list[Contradiction]:
     """Covariances that the residuals of a fit that converged contradict."""
     spare = (problem.n_equations - fit.free.shape[1]) * fit.converged
     found = []
-    for k, squares in enumerate(squared_errors(problem, fit.noise, fit.p)):
+    for k, squares in enumerate(fit.noise.squares(problem.errors(fit.p))):
         s = problem.sets[k]
         if s.covariance is None or min(spare, squares.size * s.width) < ENOUGH:
             continue
@@ -74,7 +74,7 @@ def contradicted(problem: Problem, fit: Fit) -> list[Contradiction]:
         ratio = float(np.sqrt(np.median(squares) / usual * problem.n_equations / spare))
         if 1.0 / TIMES <= ratio <= TIMES:
             continue
-        which = f"measurement set {k} ({s.what})" if len(problem.sets) > 1 else f"the {s.what}"
+        which = set_name(problem.sets, k, "the")
         words = (
             f"{which}: the residuals are {ratio:.2g} times as large as covariance= says, and the "
             "deviations of the parameters are wrong by as much; without it they are estimated from "

@@ -102,5 +102,4 @@ def _tried(problem: Problem, units: Units) -> float:
         other = Problem(problem.model, units.q, sets)
     except InputError:
         return np.inf
-    p, _ = fit_frames(other, "huber")
-    return _off(other, p)
+    return _off(other, fit_frames(other, "huber"))

@@ -13,7 +13,7 @@ from ..measurements.measurement import Rows
 from ..model.problem import Problem
 from ..model.tsqr import qr_r
 from .losses import OUTLIER, LossName, chi_square, loss
-from .minimise import STEPS, Outcome, Step, minimise, regular
+from .minimise import FitOptions, Outcome, Step, minimise, regular
 from .noise import EVEN, Noise, estimate_noise
 
 _ROUNDS = 10
@@ -35,28 +35,28 @@ class Fit(NamedTuple):
     free: Array
 
 
-def fit_frames(problem: Problem, name: LossName, most: int = STEPS) -> tuple[Array, bool]:
+def fit_frames(problem: Problem, name: LossName) -> Array:
     """The p with which the nominal arm fits best: only the unknown frames move."""
     p = np.zeros(problem.size)
     if problem.size == problem.model_size:
-        return p, True
+        return p
     free = np.eye(problem.size)[:, problem.model_size :]
-    fit = fit_parameters(problem, free, name, p, None, most)
-    return fit.p, fit.converged
+    return fit_parameters(problem, free, p, FitOptions(name)).p
 
 
-def fit_parameters(
-    problem: Problem, free: Array, name: LossName, p: Array, prior: Array | None, most: int = STEPS
-) -> Fit:
+def fit_parameters(problem: Problem, free: Array, p: Array, options: FitOptions) -> Fit:
     """The fit from p on, of so many steps at most. A robust loss begins as Huber's, which has one
     minimum near p.
     """
+    name = options.loss
+    most = options.max_iterations
     noise = _noise(problem, p, 0, name, _FIRST_EVEN)
     steps: list[Step] = []
     losses: list[LossName] = [name] if name in ("linear", "huber") else ["huber", name]
     for _ in range(_ROUNDS):
         for one in losses:
-            outcome = minimise(problem, free, noise, one, p, prior, most - len(steps))
+            round_options = FitOptions(one, options.prior, most - len(steps))
+            outcome = minimise(problem, free, noise, p, round_options)
             p = outcome.p
             steps += outcome.steps
         losses = [name]
@@ -69,7 +69,7 @@ def fit_parameters(
         if len(steps) >= most:
             outcome = outcome._replace(converged=False)
             break
-    covariance = _covariance(problem, free, outcome, noise, name, prior)
+    covariance = _covariance(problem, free, outcome, noise, options)
     return Fit(p, covariance, outcome.converged, steps, noise, free)
 
 
@@ -92,28 +92,14 @@ def _change(a: Noise, b: Noise) -> float:
     return max(changes)
 
 
-def squared_errors(problem: Problem, noise: Noise, p: Array) -> list[Array]:
-    """s = e^T C^-1 e of each measurement of each set."""
-    found = []
-    for k, errors in enumerate(problem.errors(p)):
-        e = noise.whitened(k, errors[..., None])
-        found.append(np.sum(e**2, axis=(1, 2)))
-    return found
-
-
 def outliers(problem: Problem, noise: Noise, p: Array) -> list[Rows]:
     """The measurements of each set that are off by more than one good one in 10^4 would be."""
-    pairs = zip(squared_errors(problem, noise, p), problem.sets, strict=True)
+    pairs = zip(noise.squares(problem.errors(p)), problem.sets, strict=True)
     return [np.flatnonzero(s > chi_square(m.width, OUTLIER)) for s, m in pairs]
 
 
 def _covariance(
-    problem: Problem,
-    free: Array,
-    outcome: Outcome,
-    noise: Noise,
-    name: LossName,
-    prior: Array | None,
+    problem: Problem, free: Array, outcome: Outcome, noise: Noise, options: FitOptions
 ) -> Array:
     """Covariance of p: (J^T J)^-1 of the whitened Jacobian; with a robust loss times mean(psi^2) /
     mean(psi')^2.
@@ -122,17 +108,17 @@ def _covariance(
     """
     B = problem.scale[:, None] * free
     A = outcome.jacobian
-    if prior is not None:
-        A = np.concatenate([A, (1.0 / prior)[:, None] * B])
+    if options.prior is not None:
+        A = np.concatenate([A, (1.0 / options.prior)[:, None] * B])
     half = B @ _inverse(qr_r(A))
     covariance = half @ half.T  # a product with its own transpose is symmetric to the last bit
-    if name == "linear":
+    if options.loss == "linear":
         return covariance
     psi_squared = 0.0
     psi_slope = 0.0
     total = 0
-    for s, m in zip(squared_errors(problem, noise, outcome.p), problem.sets, strict=True):
-        rho = loss(name, s, m.width)
+    for s, m in zip(noise.squares(problem.errors(outcome.p)), problem.sets, strict=True):
+        rho = loss(options.loss, s, m.width)
         psi_squared += float(np.sum(rho.weight**2 * s))
         psi_slope += float(np.sum(m.width * rho.weight + 2.0 * rho.rho_second * s))
         total += m.width * len(m)

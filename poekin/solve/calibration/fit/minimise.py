@@ -27,6 +27,16 @@ _FIRST_DAMPING = 1e-4
 _MOST_DAMPING = 1e12
 
 
+class FitOptions(NamedTuple):
+    """Loss of a fit, standard deviations (P,) of a prior, infinite where nothing is told, and the
+    most steps.
+    """
+
+    loss: LossName
+    prior: Array | None = None
+    max_iterations: int = STEPS
+
+
 class Step(NamedTuple):
     """One iteration: the cost that it began with, the length of its step (rad and reaches), its
     damping.
@@ -75,31 +85,21 @@ class _Trial(NamedTuple):
     cost: float
 
 
-def minimise(
-    problem: Problem,
-    free: Array,
-    noise: Noise,
-    name: LossName,
-    p: Array,
-    prior: Array | None,
-    most: int = STEPS,
-) -> Outcome:
+def minimise(problem: Problem, free: Array, noise: Noise, p: Array, options: FitOptions) -> Outcome:
     """The p of the least cost, sum of rho(s) and of (p / prior)^2, among p + scale * free z.
 
-    free (P, k): directions, in rad and reaches; prior (P,): standard deviations, infinite where
-    there is none.
+    free (P, k): directions, in rad and reaches.
     """
-    if prior is None:
-        inverse = np.zeros(len(p))
-    else:
-        inverse = 1.0 / prior
-    objective = _Objective(problem, noise, name, inverse, problem.scale[:, None] * free)
+    inverse = np.zeros(len(p))
+    if options.prior is not None:
+        inverse = 1.0 / options.prior
+    objective = _Objective(problem, noise, options.loss, inverse, problem.scale[:, None] * free)
     damping = 0.0
     steps: list[Step] = []
     cost = _cost(objective, p)
     while True:
         A, b, jacobian = _rows(objective, p)
-        if cost == 0.0 or len(steps) >= most:
+        if cost == 0.0 or len(steps) >= options.max_iterations:
             return Outcome(p, cost == 0.0, steps, jacobian)
         linear = _triangular(objective, p, A, b)
         z = _solution(linear, 0.0)
@@ -117,10 +117,7 @@ def minimise(
         steps.append(Step(cost, float(np.linalg.norm(trial.z)), damping))
         p = trial.p
         cost = trial.cost
-        if damping > _FIRST_DAMPING:
-            damping = damping / 10.0
-        else:
-            damping = 0.0
+        damping = damping / 10.0 if damping > _FIRST_DAMPING else 0.0
         if done:
             # the step was too short to change the Jacobian
             return Outcome(p, True, steps, jacobian)
@@ -182,12 +179,17 @@ def _exact(problem: Problem, p: Array) -> bool:
 
 
 def _cost(objective: _Objective, p: Array) -> float:
-    total = float(np.sum((objective.inverse_prior * p) ** 2))
-    for k, errors in enumerate(objective.problem.errors(p)):
-        e = objective.noise.whitened(k, errors[..., None])
-        s = np.sum(e**2, axis=(1, 2))
-        total += float(np.sum(loss(objective.loss, s, errors.shape[1]).rho))
+    of_prior = float(np.sum((objective.inverse_prior * p) ** 2))
+    total = misfit(objective.problem, objective.noise, objective.loss, p, of_prior)
     return total if np.isfinite(total) else np.inf
+
+
+def misfit(
+    problem: Problem, noise: Noise, name: LossName, p: Array, of_prior: float = 0.0
+) -> float:
+    """Sum of rho of all measurements, and the part of the prior."""
+    squares = zip(problem.sets, noise.squares(problem.errors(p)), strict=True)
+    return sum((float(np.sum(loss(name, s, m.width).rho)) for m, s in squares), of_prior)
 
 
 def _rows(objective: _Objective, p: Array) -> tuple[Array, Array, Array]:

@@ -65,6 +65,11 @@ class Noise:
         W = self._whiten[k]
         return W @ errors if W.ndim == 3 else W * errors
 
+    def squares(self, errors: Sequence[Array]) -> list[Array]:
+        """s = e^T C^-1 e of each measurement, of the errors (N, d) of each set."""
+        whitened = (self.whitened(k, e[..., None]) for k, e in enumerate(errors))
+        return [np.sum(e**2, axis=(1, 2)) for e in whitened]
+
     @property
     def estimated(self) -> bool:
         """Whether a standard deviation was estimated."""

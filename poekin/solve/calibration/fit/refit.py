@@ -12,16 +12,14 @@ import numpy as np
 from ....groups.arrays import Array
 from ..diagnostics.identification import free_directions_at, rank_at
 from ..model.problem import Problem
-from .fitting import Fit, fit_parameters, squared_errors
-from .losses import OUTLIER, LossName, chi_square, loss
-from .minimise import minimise
+from .fitting import Fit, fit_parameters
+from .losses import OUTLIER, chi_square
+from .minimise import FitOptions, minimise, misfit
 
 _TRIED = 3  # steps: from so near they gain nearly all that there is to gain
 
 
-def fit_with_refit(
-    problem: Problem, free: Array, name: LossName, p: Array, prior: Array | None, most: int
-) -> Fit:
+def fit_with_refit(problem: Problem, free: Array, p: Array, options: FitOptions) -> Fit:
     """`fit_parameters`, and again with the directions identified only where it ended, if the data
     fit better by more than chance explains.
 
@@ -31,30 +29,24 @@ def fit_with_refit(
     Source of the test: Wilks 1938, the likelihood ratio of nested models is distributed as
     chi-square.
     """
-    first = fit_parameters(problem, free, name, p, prior, most)
+    first = fit_parameters(problem, free, p, options)
     rank = free.shape[1]
     if not first.converged or rank == problem.size or rank_at(problem, first.p) <= rank:
         return first
-    if prior is None:
-        known = None
-    else:
-        known = np.isfinite(prior)
+    known = None if options.prior is None else np.isfinite(options.prior)
     more = free_directions_at(problem, first.p, known)
     if not rank < more.shape[1] < problem.n_equations:
         return first
-    left = min(_TRIED, most - len(first.steps))
-    tried = minimise(problem, more, first.noise, name, first.p, prior, left)
-    gain = _misfit(problem, name, first, first.p) - _misfit(problem, name, first, tried.p)
+    left = options.max_iterations - len(first.steps)
+    trial = options._replace(max_iterations=min(_TRIED, left))
+    tried = minimise(problem, more, first.noise, first.p, trial)
+    was, now = (misfit(problem, first.noise, options.loss, fit.p) for fit in (first, tried))
+    gain = was - now
     if gain <= chi_square(more.shape[1] - rank, OUTLIER):
         return first
     steps = first.steps + tried.steps
-    second = fit_parameters(problem, more, name, tried.p, prior, most - len(steps))
+    rest = options._replace(max_iterations=options.max_iterations - len(steps))
+    second = fit_parameters(problem, more, tried.p, rest)
     if not second.converged:
         return first
     return second._replace(steps=steps + second.steps)
-
-
-def _misfit(problem: Problem, name: LossName, fit: Fit, p: Array) -> float:
-    """The sum of rho at p, with the noise of that fit."""
-    rho = zip(problem.sets, squared_errors(problem, fit.noise, p), strict=True)
-    return float(sum(np.sum(loss(name, s, m.width).rho) for m, s in rho))

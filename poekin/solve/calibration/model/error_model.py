@@ -22,10 +22,9 @@ from ....groups import se3
 from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.checks import read_only
+from .last_result import LastResult
 from .parameters import free_parameters, names, parse_joints, parse_kinds
 from .tsqr import blocked_product
-
-_Key = tuple[bytes, int, bytes]
 
 
 class Errors(NamedTuple):
@@ -55,7 +54,7 @@ class ErrorModel:
     None).
     """
 
-    def __init__(self, nominal: Chain, kinds: Sequence[str], joints: Sequence[str] | None):
+    def __init__(self, nominal: Chain, kinds: Sequence[str], joints: Sequence[str] | None) -> None:
         kinds = parse_kinds(kinds)
         chosen = parse_joints(nominal, joints)
         self.nominal = nominal
@@ -81,10 +80,9 @@ class ErrorModel:
             "base": nominal.base,
             "tip": nominal.tip,
         }
-        # the last results: a fit asks for each several times
-        self._last_joints: tuple[bytes, Chain] | None = None
-        self._last_poses: tuple[_Key, Array] | None = None
-        self._last_twists: tuple[_Key, PosesAndTwists] | None = None
+        self._last_joints = LastResult[Chain]()
+        self._last_poses = LastResult[Array]()
+        self._last_twists = LastResult[PosesAndTwists]()
 
     def errors(self, p: Array) -> Errors:
         """The parameters by what they move."""
@@ -106,16 +104,14 @@ class ErrorModel:
         """The moved screws and home pose as a chain of joint values x, without coupling."""
         if self._plain and not p.any():
             return self.nominal
-        key = p.tobytes()
-        if self._last_joints is not None and self._last_joints[0] == key:
-            return self._last_joints[1]
+        return self._last_joints(p.tobytes(), lambda: self._moved(p))
+
+    def _moved(self, p: Array) -> Chain:
         errors = self.errors(p)
         A = (se3.adjoint(se3.exp(errors.screws)) @ self.nominal.screws[..., None])[..., 0]
         M = self.nominal.home @ se3.exp(errors.home)
         named = self._named_as if self._plain else {}
-        moved = Chain(A, M, pitches=self.nominal.pitches + errors.pitches, **named)
-        self._last_joints = (key, moved)
-        return moved
+        return Chain(A, M, pitches=self.nominal.pitches + errors.pitches, **named)
 
     def values(self, p: Array, q: Array) -> Array:
         """Joint values x = C ((1 + g) q + o) + c of the readings q (N, m)."""
@@ -147,12 +143,7 @@ class ErrorModel:
 
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""
-        key = _key(p, q)
-        if self._last_poses is not None and self._last_poses[0] == key:
-            return self._last_poses[1]
-        T = read_only(self.joints(p).fk(self.values(p, q)))
-        self._last_poses = (key, T)
-        return T
+        return self._last_poses(_key(p, q), lambda: read_only(self.joints(p).fk(self.values(p, q))))
 
     def poses_and_twists(self, p: Array, q: Array) -> PosesAndTwists:
         """Poses at the readings q (N, m), and how the parameters move them.
@@ -160,12 +151,9 @@ class ErrorModel:
         At p the motion of joint i is e^eta_i with d(e^eta) e^-eta = J_l(eta) d eta, and the home
         pose's M e^eta with J_r(eta); a pitch slides along the joint's moved axis.
         """
-        key = _key(p, q)
-        if self._last_twists is not None and self._last_twists[0] == key:
-            return self._last_twists[1]
-        found = PosesAndTwists(self.poses(p, q), read_only(self._twists(p, q)))
-        self._last_twists = (key, found)
-        return found
+        return self._last_twists(
+            _key(p, q), lambda: PosesAndTwists(self.poses(p, q), read_only(self._twists(p, q)))
+        )
 
     def _twists(self, p: Array, q: Array) -> Array:
         """Space twists (N, 6, P) per unit of each parameter."""
@@ -218,6 +206,6 @@ def _scattered(count: int, indices: NDArray[np.integer], values: Array) -> Array
     return array
 
 
-def _key(p: Array, q: Array) -> _Key:
+def _key(p: Array, q: Array) -> tuple[bytes, int, bytes]:
     """Key of parameters and readings (N, m): without coordinates N tells the readings apart."""
     return p.tobytes(), len(q), q.tobytes()

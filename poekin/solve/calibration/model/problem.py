@@ -14,6 +14,7 @@ from ....groups.arrays import Array
 from ....model.checks import read_only
 from ..measurements.measurement import Measurement, Rows, UnknownFrame
 from .error_model import ErrorModel, PosesAndTwists
+from .last_result import LastResult
 from .parameters import frame_parameters, point_parameters
 
 
@@ -37,7 +38,7 @@ class Problem:
         q: Array,
         sets: Sequence[Measurement],
         initial_frames: Sequence[Array] | None = None,
-    ):
+    ) -> None:
         self.model = model
         self.q = q
         self.sets = tuple(sets)
@@ -58,8 +59,7 @@ class Problem:
         lengths = [p.unit in ("m", "m/rad") for p in named]
         self.scale = np.where(lengths, model.nominal.reach, 1.0)
         self.initial_frames = tuple(self._guesses() if initial_frames is None else initial_frames)
-        # the last errors: a fit asks for each several times
-        self._last_errors: tuple[bytes, list[Array]] | None = None
+        self._last_errors = LastResult[list[Array]]()
 
     def _guesses(self) -> list[Array]:
         """Initial guesses of the unknown frames: of those that sets share, by the largest set."""
@@ -96,22 +96,24 @@ class Problem:
 
     def errors(self, p: Array) -> list[Array]:
         """The errors (N, d) of each set."""
-        key = p.tobytes()
-        if self._last_errors is not None and self._last_errors[0] == key:
-            return self._last_errors[1]
+        return self._last_errors(p.tobytes(), lambda: self._errors(p))
+
+    def _errors(self, p: Array) -> list[Array]:
         T = self.model.poses(p[: self.model_size], self.q)
         frames = self.frame_values(p)
         found = []
         for s, rows, own in zip(self.sets, self.rows, self._own, strict=True):
             found.append(read_only(s.errors(T[rows], [frames[i] for i in own])))
-        self._last_errors = (key, found)
         return found
 
     def linearised(self, p: Array) -> list[Linear]:
         """The errors of each set and their Jacobian."""
+        return self._linearised(p, self._moved(p), self.errors(p))
+
+    def _moved(self, p: Array) -> list[PosesAndTwists]:
+        """Poses and their twists at the readings of each set."""
         T, D = self.model.poses_and_twists(p[: self.model_size], self.q)
-        moved = [PosesAndTwists(T[rows], D[rows]) for rows in self.rows]
-        return self._linearised(p, moved, self.errors(p))
+        return [PosesAndTwists(T[rows], D[rows]) for rows in self.rows]
 
     def jacobians(self, p: Array, q: Array | None = None) -> list[Array]:
         """The Jacobian (N, d, P) of each set as if the model were right: no measured value is used.
@@ -119,8 +121,7 @@ class Problem:
         q (K, m): other readings, at each of which every set measures.
         """
         if q is None:
-            T, D = self.model.poses_and_twists(p[: self.model_size], self.q)
-            moved = [PosesAndTwists(T[rows], D[rows]) for rows in self.rows]
+            moved = self._moved(p)
         else:
             moved = [self.model.poses_and_twists(p[: self.model_size], q)] * len(self.sets)
         errors = [np.zeros((len(m.T), s.width)) for m, s in zip(moved, self.sets, strict=True)]

@@ -12,6 +12,7 @@ import poekin as pk
 from poekin.errors import InputError
 from poekin.solve.calibration import Distances, Poses, calibrate
 from poekin.solve.calibration.diagnostics import cross_validation
+from poekin.solve.calibration.fit.minimise import FitOptions
 from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 
@@ -63,15 +64,16 @@ def test_each_reading_is_judged_once_by_a_calibration_without_it(monkeypatch):
     monkeypatch.setattr(
         cross_validation,
         "fit_frames",
-        lambda training, name: trained.append(training.q) or (np.zeros(2), True),
+        lambda training, name: trained.append(training.q) or np.zeros(2),
     )
     monkeypatch.setattr(
         cross_validation, "fit_with_refit", lambda training, *others: given.append(others) or fit
     )
     q, free = ARM.random(0, 7), np.eye(2)
     problem = Problem(ErrorModel(ARM, ("offsets",), None), q, [Poses(ARM.fk(q))])
+    options = FitOptions("huber", None, 40)
     found = cross_validation.cross_validate(
-        problem, free, "huber", None, 3, 5, 40, lambda *step: said.append(step)
+        problem, free, options, 3, 5, lambda *step: said.append(step)
     )
     assert said == [(0, 3), (1, 3), (2, 3), (3, 3)]
     assert found.folds == 3
@@ -80,17 +82,11 @@ def test_each_reading_is_judged_once_by_a_calibration_without_it(monkeypatch):
     assert found.after.angle == pytest.approx(1e-3)
     assert sorted(map(len, trained)) == [4, 5, 5]
     assert [sum((row == rows).all(axis=1).any() for rows in trained) for row in q] == [2] * 7
-    for directions, loss, start, prior, most in given:
-        assert (directions is free, loss, start.tolist(), prior, most) == (
-            True,
-            "huber",
-            [0, 0],
-            None,
-            40,
-        )
-    cross_validation.cross_validate(problem, free, "huber", None, 3, 5, 40, None)
+    for directions, start, asked in given:
+        assert (directions is free, start.tolist(), asked) == (True, [0, 0], options)
+    cross_validation.cross_validate(problem, free, options, 3, 5, None)
     assert all(map(np.array_equal, trained[:3], trained[3:]))  # the seed draws the parts
-    cross_validation.cross_validate(problem, free, "huber", None, 3, 6, 40, None)
+    cross_validation.cross_validate(problem, free, options, 3, 6, None)
     assert not all(map(np.array_equal, trained[:3], trained[6:]))
 
 

@@ -35,22 +35,20 @@ def problem(*sets: tuple[int, Any], numbers: int = 0, reach: float = 2.0) -> Any
     )
 
 
-def contradicted(monkeypatch, squares: list, what: Any, of: Any) -> list[misfit.Contradiction]:
-    monkeypatch.setattr(misfit, "squared_errors", lambda *given: squares)
+def contradicted(squares: list, what: Any, of: Any) -> list[misfit.Contradiction]:
+    of.noise = SimpleNamespace(squares=lambda errors: squares)
     return misfit.contradicted(what, of)
 
 
 @pytest.mark.parametrize(
     "times, said", [(2.9, False), (3.1, True), (1 / 2.9, False), (1 / 3.1, True)]
 )
-def test_a_covariance_is_contradicted_by_residuals_three_times_as_large_or_as_small(
-    times, said, monkeypatch
-):
+def test_a_covariance_is_contradicted_by_residuals_three_times_as_large_or_as_small(times, said):
     # 100 numbers for 20 parameters: the residuals of right covariances are smaller by the root of
     # 80/100
     usual = chi_square(6, 0.0) * 80 / 100
     squares = [times**2 * usual * np.array([0.1, 1.0, 1.0, 1.0, 50.0])]
-    found = contradicted(monkeypatch, squares, problem((6, COVARIANCE), numbers=100), fit(20))
+    found = contradicted(squares, problem((6, COVARIANCE), numbers=100), fit(20))
     if not said:
         assert found == []
         return
@@ -62,10 +60,10 @@ def test_a_covariance_is_contradicted_by_residuals_three_times_as_large_or_as_sm
     )
 
 
-def test_of_several_sets_those_with_a_contradicted_covariance_are_named(monkeypatch):
+def test_of_several_sets_those_with_a_contradicted_covariance_are_named():
     squares = [np.full(40, 1e6), np.full(40, chi_square(1, 0.0)), np.full(40, 1e6)]
     sets = problem((1, None), (1, COVARIANCE), (1, COVARIANCE), numbers=120)
-    ((_, words),) = contradicted(monkeypatch, squares, sets, fit())
+    ((_, words),) = contradicted(squares, sets, fit())
     assert words.startswith("measurement set 2 (Kind2): the residuals are ")
 
 
@@ -74,11 +72,11 @@ def test_of_several_sets_those_with_a_contradicted_covariance_are_named(monkeypa
     (6, 100, 600, 570, True), (6, 100, 600, 571, False),
 ])  # fmt: skip
 def test_a_contradiction_is_told_from_thirty_numbers_beyond_the_parameters(
-    width, count, numbers, free, said, monkeypatch
+    width, count, numbers, free, said
 ):
     sets, squares = problem((width, COVARIANCE), numbers=numbers), [np.full(count, 1e6)]
-    assert bool(contradicted(monkeypatch, squares, sets, fit(free))) == said
-    assert contradicted(monkeypatch, squares, sets, fit(free, converged=False)) == []
+    assert bool(contradicted(squares, sets, fit(free))) == said
+    assert contradicted(squares, sets, fit(free, converged=False)) == []
 
 
 def checked(
@@ -88,9 +86,10 @@ def checked(
     count = range(len(lengths))
     found = Residuals(np.array(lengths), np.zeros(len(lengths)), np.array(count), np.array(count))
     monkeypatch.setattr(misfit, "residuals", lambda *given: found)
-    monkeypatch.setattr(misfit, "squared_errors", lambda *given: [np.array([s]) for s in squares])
     monkeypatch.setattr(misfit, "explained", lambda *given: other)
-    misfit.check(sets, fit())
+    ended = fit()
+    ended.noise = SimpleNamespace(squares=lambda errors: [np.array([s]) for s in squares])
+    misfit.check(sets, ended)
 
 
 def test_a_set_is_refused_that_is_missed_by_more_than_any_arm_is_off_and_than_was_said_to_be_noise(

@@ -16,7 +16,14 @@ from poekin.solve.calibration.diagnostics.identification import identify_directi
 from poekin.solve.calibration.fit import fitting, losses
 from poekin.solve.calibration.fit import minimise as minimising
 from poekin.solve.calibration.fit.fitting import fit_frames
-from poekin.solve.calibration.fit.minimise import _exact, _Linear, _solution, minimise, regular
+from poekin.solve.calibration.fit.minimise import (
+    FitOptions,
+    _exact,
+    _Linear,
+    _solution,
+    minimise,
+    regular,
+)
 from poekin.solve.calibration.fit.noise import Noise, NoiseEstimate, estimate_noise
 from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
@@ -96,9 +103,9 @@ def test_a_search_that_only_damped_steps_go_on_in_has_not_converged(seed):
     q = GANTRY.random(0, 30)
     sets = [EyeInHand(se3.inverse(X) @ off(GANTRY, seed, 2e-2).fk(q) @ Z, board=X, camera=Z)]
     problem = Problem(ErrorModel(GANTRY, ("screws", "home"), None), q, sets)
-    start = fit_frames(problem, "linear")[0]
+    start = fit_frames(problem, "linear")
     narrow = Noise(sets, [NoiseEstimate(1e-15, 1e-2)])
-    found = minimise(problem, identify_directions(problem)[1], narrow, "linear", start, None)
+    found = minimise(problem, identify_directions(problem)[1], narrow, start, FitOptions("linear"))
     assert not found.converged or np.abs(problem.errors(found.p)[0]).max() < 1e-9
 
 
@@ -173,9 +180,9 @@ def test_a_loss_that_may_have_several_minima_begins_with_one_that_has_one_and_go
 ):
     asked, ends, counts = [], [], []
 
-    def recorded(problem, free, noise, name, p, prior, most):
-        asked.append((name, most, any(p is end for end in ends)))
-        found = minimise(problem, free, noise, name, p, prior, most)
+    def recorded(problem, free, noise, p, options):
+        asked.append((options.loss, options.max_iterations, any(p is end for end in ends)))
+        found = minimise(problem, free, noise, p, options)
         ends.append(found.p)
         counts.append(len(found.steps))
         return found
@@ -184,7 +191,7 @@ def test_a_loss_that_may_have_several_minima_begins_with_one_that_has_one_and_go
     q, T = noisy()
     problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T)])
     found = fitting.fit_parameters(
-        problem, identify_directions(problem)[1], loss, np.zeros(problem.size), None
+        problem, identify_directions(problem)[1], np.zeros(problem.size), FitOptions(loss)
     )
     assert [name for name, _, _ in asked] == [*names, *[loss] * (len(asked) - len(names))]
     assert len(asked) > len(names)
@@ -200,7 +207,7 @@ def test_the_covariance_of_a_robust_loss_is_huber_s():
     problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T)])
     free = identify_directions(problem)[1]
     for loss in ("huber", "tukey"):
-        fit = fitting.fit_parameters(problem, free, loss, np.zeros(problem.size), None)
+        fit = fitting.fit_parameters(problem, free, np.zeros(problem.size), FitOptions(loss))
         J = np.concatenate([
             fit.noise.whitened(0, jacobian).reshape(-1, problem.size) for _, jacobian in problem.linearised(fit.p)
         ]) @ (problem.scale[:, None] * free)  # fmt: skip
@@ -237,7 +244,7 @@ def test_a_prior_draws_every_step_as_much_as_the_data_do(size):
     prior = np.where(
         np.arange(problem.size) % 3 > 0, size, np.inf
     )  # nothing is said of every third
-    found = minimise(problem, free, noise, "linear", np.zeros(problem.size), prior)
+    found = minimise(problem, free, noise, np.zeros(problem.size), FitOptions("linear", prior))
     assert found.converged
     assert len(found.steps) <= 6
     assert all(step.damping == 0 for step in found.steps)
@@ -296,7 +303,11 @@ def test_damping_grows_tenfold_with_each_step_that_fails_and_falls_with_each_tha
 
     monkeypatch.setattr(minimising, "_cost", failing)
     found = minimise(
-        problem, identify_directions(problem)[1], noise, "linear", np.zeros(problem.size), None
+        problem,
+        identify_directions(problem)[1],
+        noise,
+        np.zeros(problem.size),
+        FitOptions("linear"),
     )
     assert found.converged
     assert [step.damping for step in found.steps[:3]] == pytest.approx([1e-3, 1e-4, 0.0])
@@ -308,7 +319,11 @@ def test_damping_grows_tenfold_with_each_step_that_fails_and_falls_with_each_tha
         lambda *given: calls.append(given) or (1.0 if len(calls) == 1 else np.inf),
     )
     stuck = minimise(
-        problem, identify_directions(problem)[1], noise, "linear", np.zeros(problem.size), None
+        problem,
+        identify_directions(problem)[1],
+        noise,
+        np.zeros(problem.size),
+        FitOptions("linear"),
     )
     assert not stuck.converged
     assert (stuck.steps, stuck.p.tolist()) == ([], [0.0] * problem.size)
@@ -321,13 +336,12 @@ def test_of_a_fit_of_frames_alone_the_arm_stays_and_without_frames_nothing_is_fi
     q, T = noisy(10)
     rough = EyeInHand(se3.inverse(X) @ T @ Z, board=X @ se3.exp([0.01] * 6), camera=Z)
     problem = Problem(ErrorModel(PUMA, ("home",), None), q, [rough])
-    p, converged = fit_frames(problem, "linear")
-    assert converged
+    p = fit_frames(problem, "linear")
     assert not p[:6].any()
     assert np.sum(problem.errors(p)[0] ** 2) < 0.1 * np.sum(problem.errors(0 * p)[0] ** 2)
     monkeypatch.setattr(fitting, "fit_parameters", None)
-    p, converged = fit_frames(Problem(ErrorModel(PUMA, ("home",), None), q, [Poses(T)]), "linear")
-    assert (p.tolist(), converged) == ([0.0] * 6, True)
+    p = fit_frames(Problem(ErrorModel(PUMA, ("home",), None), q, [Poses(T)]), "linear")
+    assert p.tolist() == [0.0] * 6
 
 
 def test_a_prior_counts_in_the_covariance_as_a_measurement_of_each_parameter():
@@ -335,7 +349,7 @@ def test_a_prior_counts_in_the_covariance_as_a_measurement_of_each_parameter():
     problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T, 1e-8 * np.eye(6))])
     prior = np.where(np.arange(problem.size) % 3 > 0, 1e-4, np.inf)
     fit = fitting.fit_parameters(
-        problem, np.eye(problem.size), "linear", np.zeros(problem.size), prior
+        problem, np.eye(problem.size), np.zeros(problem.size), FitOptions("linear", prior)
     )
     J = 1e4 * problem.linearised(fit.p)[0].jacobian.reshape(-1, problem.size)
     expected = np.linalg.inv(J.T @ J + np.diag(1 / prior**2))
@@ -350,7 +364,7 @@ def test_errors_of_exactly_0_take_no_step():
     exact = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Points(PUMA.fk(q)[:, :3, 3])])
     noise = Noise(exact.sets, [NoiseEstimate(None, 1e-3)])
     found = minimise(
-        exact, identify_directions(exact)[1], noise, "linear", np.zeros(exact.size), None
+        exact, identify_directions(exact)[1], noise, np.zeros(exact.size), FitOptions("linear")
     )
     assert (found.converged, found.steps, found.p.tolist()) == (True, [], [0.0] * exact.size)
 
@@ -366,7 +380,7 @@ def test_spreads_are_estimated_before_anything_is_fitted_and_then_for_what_was(m
     q, T = noisy()
     problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T)])
     fitting.fit_parameters(
-        problem, identify_directions(problem)[1], "huber", np.zeros(problem.size), None
+        problem, identify_directions(problem)[1], np.zeros(problem.size), FitOptions("huber")
     )
     assert asked[0] == (0, True, PUMA.reach, 1e-2)
     assert len(asked) > 1

@@ -14,7 +14,7 @@ from poekin.solve.calibration import Distances, Points, calibrate
 from poekin.solve.calibration.fit import refit
 from poekin.solve.calibration.fit.fitting import Fit
 from poekin.solve.calibration.fit.losses import OUTLIER, chi_square
-from poekin.solve.calibration.fit.minimise import Outcome, Step
+from poekin.solve.calibration.fit.minimise import FitOptions, Outcome, Step
 from poekin.solve.calibration.fit.noise import Noise
 from poekin.solve.calibration.measurements.simulated import simulated
 
@@ -134,12 +134,12 @@ def test_what_is_seen_at_the_end_is_fitted_too_where_it_fits_better_by_more_than
     tried, asked = Outcome(np.full(7, 2.0), True, STEPS[2:3], np.eye(7)), []
     gain = case["times"] * chi_square(2, OUTLIER)
 
-    def fit_parameters(problem, free, name, p, prior, most):
-        asked.append((free is few, name, p[0], prior, most))
+    def fit_parameters(problem, free, p, options):
+        asked.append((free is few, p[0], *options))
         return first if len(asked) == 1 else second
 
-    def minimise(problem, free, noise, name, p, prior, most):
-        asked.append((free is many, noise is first.noise, name, p[0], prior, most))
+    def minimise(problem, free, noise, p, options):
+        asked.append((free is many, noise is first.noise, p[0], *options))
         return tried
 
     for function in (fit_parameters, minimise):
@@ -147,16 +147,16 @@ def test_what_is_seen_at_the_end_is_fitted_too_where_it_fits_better_by_more_than
     monkeypatch.setattr(refit, "rank_at", lambda *given: case["seen"])
     monkeypatch.setattr(refit, "free_directions_at", lambda *given: many)
     monkeypatch.setattr(
-        refit, "_misfit", lambda problem, name, fit, p: gain if p is first.p else 0.0
+        refit, "misfit", lambda problem, noise, name, p: gain if p is first.p else 0.0
     )
     problem: Any = SimpleNamespace(size=case["size"], n_equations=case["numbers"])
     most = case["most"]
-    found = refit.fit_with_refit(problem, few, "huber", np.zeros(7), None, most)
-    assert asked[0] == (True, "huber", 0.0, None, most)
+    found = refit.fit_with_refit(problem, few, np.zeros(7), FitOptions("huber", None, most))
+    assert asked[0] == (True, 0.0, "huber", None, most)
     if len(asked) > 1:
-        assert asked[1] == (True, True, "huber", 1.0, None, min(3, most - 2))
+        assert asked[1] == (True, True, 1.0, "huber", None, min(3, most - 2))
     if len(asked) > 2:
-        assert asked[2] == (False, "huber", 2.0, None, most - 3)
+        assert asked[2] == (False, 2.0, "huber", None, most - 3)
     if again:
         assert len(asked) == 3
         assert (found.steps, found.p[0], found.free is many) == (STEPS[:6], 3.0, True)
