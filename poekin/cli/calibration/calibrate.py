@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import typer
+from typer import Argument, Option
 
 from ...errors import FileError, InputError, UnknownName, quote
 from ...formats import dh
@@ -17,17 +17,17 @@ from ...formats.text.atomic_write import write_whole
 from ...model.robot import Robot
 from ...solve.calibration.calibrate import calibrate
 from ...solve.calibration.calibration import Calibration
-from ...solve.calibration.model.residuals import Residuals
 from ...solve.calibration.report import changes, html_report
-from ...solve.calibration.report.changes import milli
 from ...solve.calibration.report.summary import MOST_OUTLIERS
 from ..array_files import check_apart
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
-from ..output import Progress, as_json, complain, name, number, path_text, say, table
+from ..output import Progress, as_json, complain, name, path_text, say, table
 from . import measured
 from .measured import Measured, MeasurementOptions
 
+Texts = list[str] | None
+Number = float | None
 NOT_CONVERGED = 1
 KIND = (
     "What poses are: poses, eye-in-hand or eye-to-hand; else points or distances. "
@@ -36,12 +36,12 @@ KIND = (
 PARAMETERS = "What may change: some of screws,home,offsets,gains,pitch."
 Data = Annotated[
     list[str],
-    typer.Argument(metavar="DATA.csv...", help="Readings and measurements, one set a file."),
+    Argument(metavar="DATA.csv...", help="Readings and measurements, one set a file."),
 ]
-Kind = Annotated[list[str] | None, typer.Option("--kind", help=KIND)]
+Kind = Annotated[Texts, Option("--kind", help=KIND)]
 Point = Annotated[
-    list[str] | None,
-    typer.Option(
+    Texts,
+    Option(
         "--point",
         metavar="X,Y,Z",
         help="A measured point of the tool, in the tip frame, m; may be repeated, of distances the first.",
@@ -49,63 +49,55 @@ Point = Annotated[
 ]
 Centre = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--centre", metavar="X,Y,Z", help="The point that distances are from (default: unknown)."
     ),
 ]
 Frame = Annotated[
     str | None,
-    typer.Option("--frame", help="base, or unknown: points stand in a device's own frame."),
+    Option("--frame", help="base, or unknown: points stand in a device's own frame."),
 ]
-Parameters = Annotated[
-    list[str] | None, typer.Option("--parameters", help=f"{PARAMETERS} Default: screws,home.")
-]
+Parameters = Annotated[Texts, Option("--parameters", help=f"{PARAMETERS} Default: screws,home.")]
 Joints = Annotated[
-    list[str] | None,
-    typer.Option("--joints", metavar="NAME,...", help="Joints that may change (default: all)."),
+    Texts,
+    Option("--joints", metavar="NAME,...", help="Joints that may change (default: all)."),
 ]
-Loss = Annotated[str, typer.Option("--loss", help="linear, or robust: huber, cauchy, tukey.")]
+Loss = Annotated[str, Option("--loss", help="linear, or robust: huber, cauchy, tukey.")]
 PriorAngle = Annotated[
-    float | None, typer.Option("--prior-angle", help="How far angles may be off nominal, rad.")
+    Number, Option("--prior-angle", help="How far angles may be off nominal, rad.")
 ]
 PriorLength = Annotated[
-    float | None, typer.Option("--prior-length", help="How far lengths may be off nominal, m.")
+    Number, Option("--prior-length", help="How far lengths may be off nominal, m.")
 ]
 SigmaAngle = Annotated[
-    float | None, typer.Option("--sigma-angle", help="Standard deviation of measured angles, rad.")
+    Number, Option("--sigma-angle", help="Standard deviation of measured angles, rad.")
 ]
 SigmaLength = Annotated[
-    float | None, typer.Option("--sigma-length", help="Standard deviation of measured lengths, m.")
+    Number, Option("--sigma-length", help="Standard deviation of measured lengths, m.")
 ]
 OnRankDeficiency = Annotated[
     str,
-    typer.Option(
+    Option(
         "--on-rank-deficiency",
         help="raise, or fix: unobserved directions stay at nominal values.",
     ),
 ]
-Folds = Annotated[
-    int, typer.Option("--folds", help="Parts that are held out in turn; 0: none.", min=0)
-]
-Seed = Annotated[int, typer.Option("--seed", help="Of the drawing of these parts.", min=0)]
+Folds = Annotated[int, Option("--folds", help="Parts that are held out in turn; 0: none.", min=0)]
+Seed = Annotated[int, Option("--seed", help="Of the drawing of these parts.", min=0)]
 Ignore = Annotated[
-    list[str] | None,
-    typer.Option("--ignore", metavar="COLUMN", help="A column to pass over; may be repeated."),
+    Texts,
+    Option("--ignore", metavar="COLUMN", help="A column to pass over; may be repeated."),
 ]
 Output = Annotated[
     list[Path] | None,
-    typer.Option(
+    Option(
         "-o",
         "--output",
         help="Everything (.toml), the calibrated robot (.urdf) or a DH table (.csv); may be repeated.",
     ),
 ]
-Convention = Annotated[
-    str, typer.Option("--dh", help="The convention of a .csv: standard or modified.")
-]
-Report = Annotated[
-    Path | None, typer.Option("--report", help="A page with pictures: an .html file.")
-]
+Convention = Annotated[str, Option("--dh", help="The convention of a .csv: standard or modified.")]
+Report = Annotated[Path | None, Option("--report", help="A page with pictures: an .html file.")]
 
 
 def command(
@@ -271,36 +263,15 @@ def _document(
 
 
 def _show(found: Calibration, robot: Robot, given: Measured) -> None:
-    can = found.identification
-    say(
-        f"{name(robot.name)}, {name(found.chain.base)} → {name(found.chain.tip)}: "
-        f"{len(found.after)} measurements, {can.rank} of {can.identifiable} parameters identified, "
-        f"condition {number(can.condition, 3)}"
-    )
-    say(f"{changes.sentence(found)}\n")
-    for words in found.remarks:
-        say(f"{words}\n")
-    heads = ("", "position rms (mm)", "median", "rotation rms (mrad)", "median")
-    if np.isnan(found.after.angle).all():
-        heads = heads[:3]
-    table(heads, [_row(words, r)[: len(heads)] for words, r in changes.errors(found)])
+    say(f"{name(robot.name)}, {name(found.chain.base)} → {name(found.chain.tip)}")
+    say(changes.sentence(found))
+    say(found.summary())
     moved = changes.joints(found)
     if moved:
         say()
-        heads = ("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %")
-        table(heads, [changes.row(j) for j in moved])
-    say()
-    for words in can.unidentifiable:
-        say(f"Unidentifiable from measurements of this kind, fixed: {words}")
-    for words in can.unobserved:
-        say(f"Unobserved, fixed: {words}")
+        table(changes.HEADS, [changes.row(j) for j in moved])
     if found.outliers:
-        say(f"Outliers: {_locations([given.sources[o.row] for o in found.outliers])}")
-
-
-def _row(words: str, r: Residuals) -> tuple[str, ...]:
-    values = (r.rms_length, r.median_length, r.rms_angle, r.median_angle)
-    return words, *map(milli, values)
+        say(f"\nOutliers: {_locations([given.sources[o.row] for o in found.outliers])}")
 
 
 def _locations(sources: Sequence[str]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -42,22 +42,22 @@ class Residuals(Result):
     @property
     def median_length(self) -> float:
         """Median distance, m."""
-        return _median(self.length)
+        return _known(np.median, self.length)
 
     @property
     def rms_length(self) -> float:
         """Root mean square distance, m."""
-        return _rms(self.length)
+        return _known(_rms, self.length)
 
     @property
     def median_angle(self) -> float:
         """Median turn, rad; NaN where no angle was measured."""
-        return _median(self.angle)
+        return _known(np.median, self.angle)
 
     @property
     def rms_angle(self) -> float:
         """Root mean square turn, rad; NaN where no angle was measured."""
-        return _rms(self.angle)
+        return _known(_rms, self.angle)
 
     def subset(self, chosen: NDArray[Any]) -> Residuals:
         """Residuals of some of the measurements.
@@ -122,15 +122,11 @@ def _stacked(parts: Sequence[Residuals]) -> Residuals:
     return Residuals(*map(np.concatenate, columns))
 
 
-def _median(values: Array) -> float:
+def _known(statistic: Callable[[Array], Any], values: Array) -> float:
+    """Statistic of the values that are not NaN; NaN without any."""
     known = values[~np.isnan(values)]
-    if not len(known):
-        return np.nan
-    return float(np.median(known))
+    return float(statistic(known)) if len(known) else np.nan
 
 
 def _rms(values: Array) -> float:
-    known = values[~np.isnan(values)]
-    if not len(known):
-        return np.nan
-    return float(np.sqrt(np.mean(known**2)))
+    return np.sqrt(np.mean(values**2))

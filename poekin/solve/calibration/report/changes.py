@@ -18,6 +18,9 @@ TILT = "tilt about"
 SHIFT = "shift along"
 
 
+HEADS = ("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %")
+
+
 class NamedResiduals(NamedTuple):
     """Residuals, and their name."""
 

@@ -156,8 +156,7 @@ def _changed(found: CalibrationData) -> Iterator[str]:
             plots.joints(moved),
             "Which two directions across an axis these are stands in the table of all parameters.",
         )
-        heads = ("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %")
-        yield _table(heads, [changes.row(j) for j in moved])
+        yield _table(changes.HEADS, [changes.row(j) for j in moved])
     compared = compare(found.nominal, found.chain)
     yield caption("Nominal and calibrated arm, aligned and compared (the largest first)")
     lines = sorted(compared.joints, key=_difference, reverse=True)

@@ -45,8 +45,7 @@ def residuals(curves: Sequence[NamedResiduals]) -> str:
         for axes, label in zip(every, panels, strict=True):
             _distributions(axes, label, names, panels[label])
         every[0].set(ylabel="share of measurements (%)", ylim=(0, 103))
-        handles, labels = every[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper left", ncols=3, frameon=False)
+        _legend(figure, every[0], 3)
 
     return _inline(9.0, 3.5, draw)
 
@@ -57,9 +56,8 @@ def _distributions(axes: Any, label: str, names: Sequence[str], series: Sequence
         axes.plot(np.maximum(x, _LEAST), share, label=name, **style)
     axes.set(xscale="log", xlabel=label)
     axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.grid(color=GRID, linewidth=0.6)
     axes.axhline(50, color=PALE, linewidth=0.8)
-    svg.plain(axes)
+    _plain(axes, "both")
 
 
 def _shares(values: Array) -> tuple[Array, Array]:
@@ -81,8 +79,7 @@ def joints(found: Sequence[Joint]) -> str:
         _bars(panels[1], "shift (mm)", [j.shift for j in found])
         panels[0].set_yticks(range(len(found)), [svg.label(j.name, 28) for j in found])
         panels[0].set_ylim(len(found) - 0.5, -0.5)
-        handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper left", ncols=2, frameon=False)
+        _legend(figure, panels[0], 2)
 
     return _inline(9.0, 1.3 + 0.36 * len(found), draw)
 
@@ -103,8 +100,7 @@ def _bars(axes: Any, label: str, changes: Sequence[Change]) -> None:
             **style,
         )
     axes.set_xlabel(label)
-    axes.grid(axis="x", color=GRID, linewidth=0.6)
-    svg.plain(axes)
+    _plain(axes, "x")
 
 
 def uncertainty(length: Array, angle: Array) -> str:
@@ -160,7 +156,18 @@ def _course(axes: Any, label: str, values: Sequence[float], damped: NDArray[np.b
         axes.set_yscale("log")
     axes.set(xlabel="step", ylabel=label)
     axes.xaxis.get_major_locator().set_params(integer=True)
-    axes.grid(axis="y", color=GRID, linewidth=0.6)
+    _plain(axes, "y")
+
+
+def _legend(figure: Any, axes: Any, columns: int) -> None:
+    """Legend of one panel above all."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper left", ncols=columns, frameon=False)
+
+
+def _plain(axes: Any, grid: str) -> None:
+    """The house's look, with lines at the ticks of the axis `grid`."""
+    axes.grid(axis=grid, color=GRID, linewidth=0.6)
     svg.plain(axes)
 
 
