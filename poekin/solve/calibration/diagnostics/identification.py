@@ -218,10 +218,7 @@ def identify_directions(
         unidentifiable=tuple(messages.directions(problem, unidentifiable)),
         unobserved=tuple(messages.unobserved(problem, unobserved, unidentifiable)),
         singular_values=sigma,
-        condition=float(indices.condition),
-        smallest=float(indices.smallest),
-        O1=float(indices.O1),
-        amplification=float(indices.amplification),
+        **indices._asdict(),
     )
     return identification, _free(problem, rest)
 

@@ -25,6 +25,16 @@ def _velocities(D: Array, y: Array) -> Array:
     return D[..., 3:, :] - so3.hat(y) @ D[..., :3, :]
 
 
+def points_at(T: Array, points: Array) -> Array:
+    """Points (N, k, 3) in the base frame, of points (k, 3) in the tip frame."""
+    return points @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
+
+
+def point_at(T: Array, point: Array) -> Array:
+    """Point (N, 3) in the base frame, of a point (3,) in the tip frame."""
+    return T[:, :3, :3] @ point + T[:, :3, 3]
+
+
 def parse_points(points: ArrayLike) -> Array:
     """Points of the tool (k, 3) in the tip frame, of one (3,) or several. Raises: ShapeError."""
     body = np.atleast_2d(numbers(points, "points"))
@@ -98,15 +108,11 @@ class Points(Measurement):
             unknown = (UnknownFrame("T_base_device", 6, None),)
         self._keep(p=p, points=points, width=3 * k, unknown_frames=unknown)
 
-    def _at(self, T: Array) -> Array:
-        """The points (N, k, 3) in the base frame."""
-        return self.points @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
-
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
         """Errors p_model − p_measured (N, 3k), in the frame in which p stands."""
         for T_base_device in frame_values:
             T = se3.inverse(T_base_device) @ T
-        return (self._at(T) - self.p).reshape(len(T), self.width)
+        return (points_at(T, self.points) - self.p).reshape(len(T), self.width)
 
     def jacobian(
         self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
@@ -122,13 +128,16 @@ class Points(Measurement):
 
     def _moved(self, T: Array, D: Array) -> Array:
         """Velocities (N, 3k, P) of the points under the space twists D (N, 6, P)."""
-        return _velocities(D[:, None], self._at(T)).reshape(len(T), self.width, D.shape[2])
+        return _velocities(D[:, None], points_at(T, self.points)).reshape(
+            len(T), self.width, D.shape[2]
+        )
 
     def guesses(self, T: Array) -> list[Array]:
         """The rigid motion that brings the measured points nearest to the nominal ones."""
         if not self.unknown_frames:
             return []
-        return [initial_guess.registration(self._at(T).reshape(-1, 3), self.p.reshape(-1, 3))]
+        nominal = points_at(T, self.points).reshape(-1, 3)
+        return [initial_guess.registration(nominal, self.p.reshape(-1, 3))]
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,24 +195,20 @@ class Distances(Measurement):
             unknown = (UnknownFrame("centre", 3, guess),)
         self._keep(d=d, centre=centre, point=point, unknown_frames=unknown)
 
-    def _point(self, T: Array) -> Array:
-        """The point y (N, 3) in the base frame."""
-        return T[:, :3, :3] @ self.point + T[:, :3, 3]
-
     def _away(self, y: Array, frame_values: Sequence[Array]) -> Array:
         """Vectors (N, 3) from the centre to y."""
         return y - (frame_values[0] if frame_values else self.centre)
 
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
         """Errors d_model − d_measured (N, 1)."""
-        away = self._away(self._point(T), frame_values)
+        away = self._away(point_at(T, self.point), frame_values)
         return (np.linalg.norm(away, axis=1) - self.d)[:, None]
 
     def jacobian(
         self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
     ) -> tuple[Array, list[Array]]:
         """Derivatives u · (v + ω × y), and −u for c, u the unit vector from c to y; 0 at y = c."""
-        y = self._point(T)
+        y = point_at(T, self.point)
         away = self._away(y, frame_values)
         size = np.linalg.norm(away, axis=1, keepdims=True)
         u = np.divide(away, size, out=np.zeros_like(away), where=size > 0)[:, None]
@@ -214,4 +219,4 @@ class Distances(Measurement):
         if not self.unknown_frames:
             return []
         guess = self.unknown_frames[0].guess
-        return [initial_guess.centre(self._point(T), self.d) if guess is None else guess]
+        return [initial_guess.centre(point_at(T, self.point), self.d) if guess is None else guess]

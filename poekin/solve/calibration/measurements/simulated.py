@@ -19,7 +19,7 @@ from ...option_checks import one_of, whole
 from ..model.error_model import ErrorModel
 from .data import KINDS
 from .measurement import Measurement, MeasurementKind
-from .points import Distances, Points, parse_points
+from .points import Distances, Points, parse_points, point_at, points_at
 from .poses import EyeInHand, EyeToHand, Poses
 
 GROSS_TURN = (0.1, 1.0)
@@ -267,14 +267,14 @@ class _Sensor:
 
     def points(self, T: Array, points: Array) -> Array:
         """Measured positions (N, k, 3) of points of the tool."""
-        p = points @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
+        p = points_at(T, points)
         p += self.noise[1] * self.rng.normal(size=p.shape)
         p[self.gross] += self._gross_shifts()[:, None]
         return p
 
     def distances(self, T: Array, point: Array, centre: Array) -> Array:
         """Measured distances (N,) of a point of the tool from the centre."""
-        d = np.linalg.norm(T[:, :3, :3] @ point + T[:, :3, 3] - centre, axis=1)
+        d = np.linalg.norm(point_at(T, point) - centre, axis=1)
         d += self.noise[1] * self.rng.normal(size=d.shape)
         signs = self.outlier_rng.choice([-1.0, 1.0], len(d))
         off = signs * self.reach * self.outlier_rng.uniform(*GROSS_SHIFT, len(d))

@@ -12,7 +12,7 @@ import numpy as np
 from ....groups import se3
 from ....groups.arrays import Array
 from ....model.checks import read_only
-from ..measurements.measurement import Measurement, Rows, UnknownFrame
+from ..measurements.measurement import Measurement, Rows
 from .error_model import ErrorModel, PosesAndTwists
 from .last_result import LastResult
 from .parameters import frame_parameters, point_parameters
@@ -165,11 +165,8 @@ def _rows(s: Measurement, count: int) -> Rows:
 def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:
     """Names of the unknown frames of set k: frames that sets share by what they call them."""
     which = f" of measurement set {k}" if len(sets) > 1 else ""
-    return [u.name + _shared(u, which) for u in sets[k].unknown_frames]
-
-
-def _shared(unknown: UnknownFrame, otherwise: str) -> str:
-    return otherwise if unknown.shared is None else f" of {unknown.shared!r}"
+    frames = sets[k].unknown_frames
+    return [u.name + (f" of {u.shared!r}" if u.shared else which) for u in frames]
 
 
 def _moved(frame: Array, eta: Array) -> Array:

@@ -116,10 +116,9 @@ def load(path: str | os.PathLike[str]) -> CalibrationData:
 
 
 def _identification_data(found: Identification) -> dict[str, Any]:
-    data: dict[str, Any] = {name: int(getattr(found, name)) for name in _COUNTS}
-    data |= {name: float(getattr(found, name)) for name in _INDICES}
-    data |= {name: list(getattr(found, name)) for name in _WORDS}
-    return data | {"singular_values": np.asarray(found.singular_values).tolist()}
+    names = (*_COUNTS, *_INDICES, *_WORDS)
+    data: dict[str, Any] = {name: getattr(found, name) for name in names}
+    return data | {"singular_values": found.singular_values.tolist()}
 
 
 def _identification(keys: Keys) -> Identification:
