@@ -44,7 +44,7 @@ DEFAULTS: dict[str, dict[str, object]] = {
     "ik": {"task": "pose", "no_limits": False, "seed": 0, "json": False},
     "info": {"json": False},
     "jacobian": {"json": False},
-    "singularity": {"part": "pose", "tolerance": TOLERANCE, "json": False},
+    "singularity": {"tolerance": TOLERANCE, "json": False},
     "urdf": {},
     "validate": {"every": False, "samples": 100, "seed": 0, "json": False},
 }

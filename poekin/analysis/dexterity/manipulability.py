@@ -4,127 +4,217 @@ changes with q.
 
 from __future__ import annotations
 
-import math
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...results import Result
+from .jacobian_part import Part, check, check_part, generic_rank, scaled, svd
 
 __all__ = ["Manipulability", "Measures", "manipulability", "manipulability_gradient"]
 
-ROWS = {"pose": [0, 1, 2, 3, 4, 5], "translation": [3, 4, 5], "rotation": [0, 1, 2]}
 
+@dataclass(frozen=True, eq=False)
+class Measures(Result):
+    """Measures of one part of the Jacobian, by its g largest singular values s_1 ≥ … ≥ s_g.
 
-class Measures(NamedTuple):
-    """Measures of one part of the Jacobian, of its singular values s_1 >= ... >= s_r, r the
-    smaller of its rows and of m.
+    g is the largest rank that this part has at any configuration.
 
-    yoshikawa: their product, sqrt(det J J^T) where m is at least the number of rows; condition: s_1
-    / s_r, infinite at a singularity; smallest: s_r. Arrays of the batch's shape.
+    Attributes
+    ----------
+    yoshikawa : (...) ndarray
+        Product of the singular values, sqrt(det J Jᵀ) where g is the number of rows.
+    condition : (...) ndarray
+        Condition number s_1 / s_g, infinite at a singularity.
+    smallest : (...) ndarray
+        Smallest of them, s_g.
     """
 
     yoshikawa: Array
     condition: Array
     smallest: Array
 
+    def summary(self) -> str:
+        """The three measures, of a batch the worst of each.
 
-class Manipulability(NamedTuple):
-    """Measures of all six rows, `pose`, of the three of translation (m/s), and of the three of
-    rotation (rad/s).
+        Returns
+        -------
+        text : str
+            Line such as "yoshikawa 0.12, condition 3.4, smallest 0.2".
+        """
+        if not np.size(self.smallest):
+            return "no configuration"
+        measures = (np.min(self.yoshikawa), np.max(self.condition), np.min(self.smallest))
+        w, condition, smallest = (f"{float(x) + 0.0:.4g}" for x in measures)
+        return f"yoshikawa {w}, condition {condition}, smallest {smallest}"
+
+
+@dataclass(frozen=True, eq=False)
+class Manipulability(Result):
+    """Measures of an arm's Jacobian at one or many configurations; the result of `manipulability`.
+
+    Attributes
+    ----------
+    pose : Measures
+        Measures of all six rows, in rad/s and lengths per second.
+    translation : Measures
+        Measures of the rows of the tool origin's velocity, m/s.
+    rotation : Measures
+        Measures of the rows of the angular velocity, rad/s.
     """
 
     pose: Measures
     translation: Measures
     rotation: Measures
 
+    def summary(self) -> str:
+        """One line a part.
+
+        Returns
+        -------
+        text : str
+            Lines such as "translation: yoshikawa 0.12, condition 3.4, smallest 0.2".
+        """
+        parts = {"pose": self.pose, "translation": self.translation, "rotation": self.rotation}
+        return "\n".join(f"{part}: {measures.summary()}" for part, measures in parts.items())
+
 
 def manipulability(chain: Chain, q: Any, *, length: float = 1.0) -> Manipulability:
-    """Yoshikawa's measure, condition number and smallest singular value of the hybrid Jacobian at
-    q.
+    """Yoshikawa's measure, condition number and smallest singular value of the hybrid Jacobian.
 
-    Rows (omega; v), base axes, velocity of the tool's origin. Those of all six mix rad and m: v is
-    divided by `length` first (m); 1 leaves it in SI units, as most tools do. Translation and
-    rotation apart have no such choice and are not divided. Yoshikawa's measure of the six is the
-    same in every frame where m >= 6; the others belong to the tool's origin.
+    The rows are (ω; v), in base axes, with v the velocity of the tool's origin. An arm with fewer
+    than six coordinates, or a planar one, is judged by what it can do at all: only as many singular
+    values count as the Jacobian has at a general configuration.
 
-    Parameters: chain; q (..., m) or a dict; length, m. Returns: Manipulability, each number of
-    shape (...); NaN for a configuration with NaN. Raises: InputError (also for a chain without
-    coordinates), ShapeError, UnknownName. Accuracy: singular values within 1e-14 reach; their
-    product and quotient follow (tests/analysis/dexterity/test_manipulability.py). Source: Yoshikawa
-    1985.
+    Parameters
+    ----------
+    chain : Chain
+        Arm to judge.
+    q : (..., m) array_like or dict
+        Configurations, rad or m.
+    length : float, default 1.0
+        Length by which v is divided in the measures of the pose, m, as these mix rad and m;
+        1 leaves SI units, as most tools do. Translation and rotation apart are not divided.
+
+    Returns
+    -------
+    measures : Manipulability
+        Measures of pose, translation and rotation, each number of shape (...); NaN for a
+        configuration with NaN.
+
+    Raises
+    ------
+    InputError
+        If `chain` is no Chain or has no coordinate, or `length` is not positive.
+    ShapeError
+        If `q` has not m coordinates.
+    UnknownName
+        If a dict `q` names a coordinate that the chain has not.
+
+    See Also
+    --------
+    manipulability_gradient : Gradient of Yoshikawa's measure.
+    singularity : Motion that is lost, and how far away that is.
+
+    Notes
+    -----
+    With m ≥ 6 Yoshikawa's measure of the pose is the same in every frame; all others belong to the
+    tool's origin. Accuracy: singular values within 1e-14 reach; their product and quotient follow
+    (tests/analysis/dexterity/test_manipulability.py). Source: Yoshikawa 1985.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5e").chain(tip="tool0")
+    >>> found = pk.manipulability(arm, [0.0, -1.0, 1.5, -2.0, -1.5, 0.0])
+    >>> round(float(found.translation.yoshikawa), 3)
+    0.16
+    >>> pk.manipulability(arm, np.zeros((10, 6))).pose.condition.shape
+    (10,)
     """
     check(chain, length)
     J = chain.jacobian(q, "hybrid")
-    return Manipulability(*(_measures(scaled(J, -2, part, length)) for part in ROWS))
+    pose, translation, rotation = (
+        _measures(chain, J, part, length) for part in ("pose", "translation", "rotation")
+    )
+    return Manipulability(pose, translation, rotation)
 
 
 def manipulability_gradient(
-    chain: Chain, q: Any, *, part: str = "pose", length: float = 1.0
+    chain: Chain, q: Any, *, part: Part = "pose", length: float = 1.0
 ) -> Array:
-    """d/dq of Yoshikawa's measure: dw/dq_j = sum over a of (product of the other s_b) u_a^T
-    (dJ/dq_j) v_a.
+    """Gradient of Yoshikawa's measure with respect to q.
 
-    J = sum s_a u_a v_a^T, dJ/dq_j from `Chain.hessian`. Where m is at least the number of rows this
-    is
-    w tr(J^+ dJ/dq_j) without a division, so it holds at a singularity too: there w = |...| has a
-    kink, and this is the slope on the side that the signs of u and v say.
+    Parameters
+    ----------
+    chain : Chain
+        Arm to judge.
+    q : (..., m) array_like or dict
+        Configurations, rad or m.
+    part : {"pose", "translation", "rotation"}
+        Part of the tool's motion.
+    length : float, default 1.0
+        Length by which v is divided in the pose, m.
 
-    Parameters: chain; q (..., m) or a dict; part "pose", "translation" or "rotation"; length, m, as
-    `manipulability`. Returns: (..., m), per rad or m. Raises: as `manipulability`. Accuracy: within
-    1e-12 of the measure's size (tests/analysis/dexterity/test_manipulability.py). Source: Yoshikawa
-    1985; Park 1994, Section III, for dJ/dq.
+    Returns
+    -------
+    gradient : (..., m) ndarray
+        Derivatives by the coordinates, per rad or m.
+
+    Raises
+    ------
+    InputError
+        If `chain` is no Chain or has no coordinate, `length` is not positive, or there is no such
+        `part`.
+    ShapeError
+        If `q` has not m coordinates.
+    UnknownName
+        If a dict `q` names a coordinate that the chain has not.
+
+    Notes
+    -----
+    dw/dq_j is the sum over a of (product of the other s_b) u_aᵀ (dJ/dq_j) v_a, with J = Σ s_a u_a
+    v_aᵀ and dJ/dq_j from `Chain.hessian` (hybrid frame). Where m is at least the number of rows
+    this is w tr(J⁺ dJ/dq_j) without a division, so it holds at a singularity too: there w = |…| has
+    a kink, and this is the slope on the side that the signs of u and v say. Accuracy: within 1e-12
+    of the measure's size (tests/analysis/dexterity/test_manipulability.py). Source: Yoshikawa 1985;
+    Park 1994, Section III, for dJ/dq.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5e").chain(tip="tool0")
+    >>> pk.manipulability_gradient(arm, [0.0, -1.0, 1.5, -2.0, -1.5, 0.0]).shape
+    (6,)
     """
     check(chain, length)
     check_part(part)
     J = scaled(chain.jacobian(q, "hybrid"), -2, part, length)
     H = scaled(chain.hessian(q, "hybrid"), -3, part, length)
     U, s, V = svd(J)
-    others = np.stack([np.prod(np.delete(s, a, -1), axis=-1) for a in range(s.shape[-1])], axis=-1)
-    return np.einsum("...a,...ra,...rij,...ai->...j", others, U, H, V, optimize=True)
+    g = _counted(chain, part)
+    others = [np.prod(np.delete(s[..., :g], a, -1), axis=-1) for a in range(g)]
+    return np.einsum(
+        "...a,...ra,...rij,...ai->...j",
+        np.stack(others, axis=-1),
+        U[..., :g],
+        H,
+        V[..., :g, :],
+        optimize=True,
+    )
 
 
-def check(chain: object, length: float) -> None:
-    """Raises InputError where there is no arm to judge, or no length to measure it by."""
-    if not isinstance(chain, Chain):
-        raise InputError(
-            f"expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
-        )
-    if not chain.dof:
-        raise InputError("the chain has no coordinate: nothing moves its tool")
-    if not isinstance(length, (int, float, np.integer, np.floating)) or not 0 < length < math.inf:
-        raise InputError(f"length: expected a positive number of metres, got {safe_repr(length)}")
+def _counted(chain: Chain, part: Part) -> int:
+    """Number of singular values that count; one, which is zero, of an arm that has none."""
+    return max(generic_rank(chain, part), 1)
 
 
-def check_part(part: object) -> None:
-    """Raises InputError for what is no part of a twist."""
-    if not isinstance(part, str) or part not in ROWS:
-        raise InputError(
-            f"part: expected one of {', '.join(map(repr, ROWS))}, got {safe_repr(part)}"
-        )
-
-
-def scaled(X: Array, axis: int, part: str, length: float) -> Array:
-    """The rows of a part, along an axis of J (-2) or of its Hessian (-3); in the whole, v ÷ length."""
-    if part != "pose":
-        return np.take(X, ROWS[part], axis)
-    return X * np.repeat([1.0, 1.0 / length], 3).reshape(6, *[1] * (-1 - axis))
-
-
-def svd(J: Array) -> tuple[Array, Array, Array]:
-    """The factors U (..., k, r), s (..., r) and V^T (..., r, m) of J = U diag(s) V^T.
-
-    Where an entry of J is NaN, s is.
-    """
-    bad = np.asarray(~np.isfinite(J).all(axis=(-2, -1), keepdims=True))
-    U, s, V = np.linalg.svd(np.where(bad, 0.0, J), full_matrices=False)
-    return U, np.where(bad[..., 0], np.nan, s), V
-
-
-def _measures(J: Array) -> Measures:
-    s = svd(J)[1]
+def _measures(chain: Chain, J: Array, part: Part, length: float) -> Measures:
+    s = svd(scaled(J, -2, part, length))[1][..., : _counted(chain, part)]
     largest = s[..., 0]
     smallest = s[..., -1]
     condition = np.divide(largest, smallest, out=np.full(s.shape[:-1], np.inf), where=smallest != 0)

@@ -4,10 +4,9 @@ which way that is.
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -15,165 +14,280 @@ from ...errors import InputError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
-from .manipulability import check, check_part, scaled, svd
+from ...results import Result
+from .jacobian_part import TOLERANCE, Part, check, check_part, generic_rank, scaled, svd
+from .messages import motion_words, rate_words
 
 __all__ = ["Singularity", "singularity"]
 
-TOLERANCE = 1e-3
-"""Least quotient of the smallest and the largest singular value at which an arm counts as regular.
-"""
+ZERO = 1e-12
+"""Quotient of a singular value and the largest, below which it is zero but for rounding."""
 
 
 @dataclass(frozen=True, eq=False)
-class Singularity:
-    """Singular values and lost motions of an arm at one configuration.
+class Singularity(Result):
+    """Singular values and lost motions of an arm at one configuration; the result of `singularity`.
 
-    Attributes: singular, whether smallest ≤ tolerance · largest; tolerance; part, length (m, by
-    which v is divided); singular_values (r), descending; rank, of those above the tolerance.
-    singular_direction (6): the twist (omega; v), base axes and the tool's origin, that the arm moves worst, with
-    the unit size |(omega; v / length)| = 1: lost for good at the singularity itself. It is
-    determined up to its sign.
-    singular_subspace (r - rank, 6): every such twist that is lost within tolerance.
-    joint_direction (m): the rates (|joint_direction| = 1) that move the tool least: by `smallest` as a twist of that
-    size.
-    distance: how far the singularity is, sqrt(Σ dq²) in rad (m for coordinates that slide), to
-    first order:
-    smallest ÷ |its gradient|; infinite where the gradient is zero. gradient_direction (m): the unit direction
-    that leads there. words: all this in sentences.
+    g below is `generic_rank`; a unit twist has the size |(ω; v / length)| = 1.
+
+    Attributes
+    ----------
+    singular : bool
+        Whether the rank is below `generic_rank`.
+    tolerance : float
+        Quotient of a singular value and the largest, up to which a motion is lost.
+    part : {"pose", "translation", "rotation"}
+        Part of the tool's motion that was judged.
+    length : float
+        Length by which v is divided, m.
+    singular_values : tuple of float
+        All singular values of that part of the Jacobian, descending.
+    rank : int
+        Number of singular values above the tolerance, `generic_rank` at most.
+    generic_rank : int
+        Largest rank at any configuration: the number of motions that the arm has at all.
+    singular_direction : (6,) ndarray
+        Unit twist (ω; v), base axes and the tool's origin, that the arm moves worst of those that
+        it has at all; lost for good at the singularity itself. Determined up to its sign.
+    singular_subspace : (g - rank, 6) ndarray
+        Unit twists that are lost within tolerance.
+    joint_direction : (m,) ndarray
+        Rates of size 1 that move the tool least: by `smallest`, as a twist of that size.
+    distance : float
+        Distance of the singularity, sqrt(Σ dq²) in rad (m of coordinates that slide), to first
+        order: smallest ÷ |its gradient|; infinite where the gradient is zero.
+    gradient_direction : (m,) ndarray
+        Unit direction that leads there.
+    q_names : tuple of str
+        Names of the coordinates.
+    unit : {"rad", "m", "rad and m"}
+        Unit of the coordinates and of `distance`.
     """
+
+    derived: ClassVar = ("smallest", "condition")
 
     singular: bool
     tolerance: float
-    part: str
+    part: Part
     length: float
     singular_values: tuple[float, ...]
     rank: int
+    generic_rank: int
     singular_direction: Array
     singular_subspace: Array
     joint_direction: Array
     distance: float
     gradient_direction: Array
-    words: str
+    q_names: tuple[str, ...]
+    unit: str
 
     @property
     def smallest(self) -> float:
-        """s_r, the smallest singular value."""
-        return self.singular_values[-1]
+        """Smallest singular value s_g of the motions that the arm has at all."""
+        return self.singular_values[max(self.generic_rank, 1) - 1]
 
     @property
     def condition(self) -> float:
-        """s_1 / s_r, infinite where s_r is zero."""
+        """Condition number s_1 / s_g, infinite where s_g is zero."""
         if not self.smallest:
             return math.inf
         return self.singular_values[0] / self.smallest
 
-    def as_dict(self) -> dict[str, object]:
-        """Everything as plain dicts, lists, strings and numbers; an infinite number is None."""
-        arrays = {
-            name: getattr(self, name).tolist()
-            for name in (
-                "singular_direction",
-                "singular_subspace",
-                "joint_direction",
-                "gradient_direction",
+    def summary(self) -> str:
+        """Sentences with the lost motion, the rates that it belongs to, and the distance.
+
+        Returns
+        -------
+        text : str
+            One line; distances in rad and m as the coordinates are.
+        """
+        if not self.generic_rank:
+            return (
+                f"regular: the arm has no motion of this part ({self.part}) at any configuration."
             )
-        }
-        numbers = {name: _finite(getattr(self, name)) for name in ("condition", "distance")}
-        plain = {
-            name: getattr(self, name)
-            for name in ("singular", "tolerance", "part", "length", "rank", "smallest")
-        }
-        return {
-            **plain,
-            "singular_values": list(self.singular_values),
-            **numbers,
-            **arrays,
-            "words": self.words,
-        }
-
-    def to_json(self) -> str:
-        """`as_dict` as JSON text."""
-        return json.dumps(self.as_dict(), indent=2, allow_nan=False)
-
-    def __str__(self) -> str:
-        return self.words
+        largest = self.singular_values[0]
+        ratio = 0.0
+        if largest:
+            ratio = self.smallest / largest + 0.0
+        quotient = f"smallest ÷ largest singular value {ratio:.3g}, tolerance {self.tolerance:g}"
+        rates = rate_words(self.q_names, self.joint_direction)
+        if self.singular:
+            lost = "; and ".join(motion_words(motion) for motion in self.singular_subspace)
+            nearly = ""
+            if self.smallest > ZERO * largest:
+                nearly = ", nearly"
+            return (
+                f"singular ({quotient}): the tool cannot move by {lost}. "
+                f"The rates {rates} leave it where it is{nearly}."
+            )
+        unit = {"rad and m": "(rad and m)"}.get(self.unit, self.unit)
+        near = f"to first order no singularity is within 1 {unit}"
+        if self.distance <= 1:
+            lead = self.q_names[int(np.argmax(np.abs(self.gradient_direction)))]
+            near = (
+                f"the nearest singularity is about {self.distance:.2g} {unit} away, "
+                f"most of it in {quote(lead)}"
+            )
+        lost = f"What would be lost there: {motion_words(self.singular_direction)}"
+        return f"regular ({quotient}): {near}. {lost}; the rates for it: {rates}."
 
 
 def singularity(
     chain: Chain,
     q: Any,
     *,
-    part: str = "pose",
+    part: Part | None = None,
     tolerance: float = TOLERANCE,
     length: float | None = None,
 ) -> Singularity:
-    """Singular values of the hybrid Jacobian at q, the motion that is or gets lost, and how far off
-    that is.
+    """Singular values of the Jacobian at q, the motion that is lost, and how far off that is.
 
-    J = Σ s_a u_a v_a^T with v ÷ length in the rows of translation: u_r is the tool's motion that
-    costs most, v_r the rates it takes, and ds_r/dq_j = u_r^T (dJ/dq_j) v_r by `Chain.hessian` says
-    how far q is from s_r = 0. No motion of the arm has a component along u_r at s_r = 0. With fewer
-    coordinates than rows r = m: what the arm can never do does not count as lost, but at s_r = 0
-    itself u_r is then only one of the motions that it has not.
+    An arm is judged by what it can do at all: it is singular where the rank of its Jacobian drops
+    below the largest rank that it has at any configuration. So a planar arm of two links is
+    singular where it is stretched, though it never has six motions.
 
-    Parameters: chain; q (m,) or a dict, one finite configuration; part "pose", "translation" or
-    "rotation" (of the tool's origin, for arms that are only asked for that); tolerance, of smallest
-    ÷ largest; length, m, the chain's reach when it is not given, so that the size of a large arm
-    does not matter.
-    Returns: Singularity. Raises: InputError (also for a chain without coordinates), ShapeError,
-    UnknownName.
-    Accuracy: singular values within 1e-14 of the largest; singular_direction and joint_direction as
-    well as the gap to the next singular value allows (tests/analysis/dexterity/test_singularity.py). Source: Yoshikawa
-    1985; Park 1994, Section III.
+    Parameters
+    ----------
+    chain : Chain
+        Arm to judge.
+    q : (m,) array_like or dict
+        One finite configuration, rad or m.
+    part : {"pose", "translation", "rotation"}, optional
+        Part of the tool's motion. By default "translation" where the position of the tool's origin
+        alone takes all coordinates (a planar arm of two links, an elbow of three joints, a gantry),
+        else "pose".
+    tolerance : float, default 1e-3
+        Quotient of a singular value and the largest, up to which a motion is lost.
+    length : float, optional
+        Length by which v is divided, m; by default the chain's reach, so that the size of a large
+        arm does not matter.
+
+    Returns
+    -------
+    found : Singularity
+        Rank, lost motions, and the distance to the singularity.
+
+    Raises
+    ------
+    InputError
+        If `chain` is no Chain or has no coordinate, `q` is not one finite configuration, there is
+        no such `part`, `tolerance` is not between 0 and 1, or `length` is not positive.
+    ShapeError
+        If `q` has not m coordinates.
+    UnknownName
+        If a dict `q` names a coordinate that the chain has not.
+
+    See Also
+    --------
+    manipulability : Yoshikawa's measure and condition numbers of many configurations.
+
+    Notes
+    -----
+    The hybrid Jacobian is J = Σ s_a u_a v_aᵀ, with v ÷ length in the rows of translation; g is the
+    largest rank of J, found at random configurations. u_g is the tool's motion that costs most, v_g
+    the rates it takes, and ds_g/dq_j = u_gᵀ (dJ/dq_j) v_g, by `Chain.hessian`, says how far q is
+    from s_g = 0, where no motion of the arm has a component along u_g. At s_g = 0 an arm of g < 6
+    lacks more motions than are lost there: lost are those that it gets back first as q moves on.
+
+    Accuracy: singular values within 1e-14 of the largest; `singular_direction` and
+    `joint_direction` as well as the gap to the next singular value allows
+    (tests/analysis/dexterity/test_singularity.py). Source: Yoshikawa 1985; Park 1994, Section III.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> joints = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 0.5)]
+    >>> links = pk.Chain(joints, pk.se3.exp([0, 0, 0, 1, 0, 0]))
+    >>> stretched = pk.singularity(links, [0.0, 0.0])
+    >>> stretched.singular, stretched.rank, stretched.generic_rank
+    (True, 1, 2)
+    >>> pk.singularity(links, [0.0, 1.2]).singular
+    False
     """
     check(chain, 1.0 if length is None else length)
+    if part is None:
+        part = _default_part(chain)
     check_part(part)
     if not isinstance(tolerance, (int, float, np.floating)) or not 0 < tolerance < 1:
         raise InputError(
             f"tolerance: expected a number between 0 and 1, got {safe_repr(tolerance)}"
         )
-    q = coordinates(q, chain.q_names)
-    if q.ndim != 1 or not np.isfinite(q).all():
-        raise InputError(
-            f"q: expected one finite configuration ({chain.dof},), got {safe_repr(q.tolist())}"
-        )
+    q = _configuration(chain, q)
     L = float(chain.reach if length is None else length)
-    U, s, V = svd(scaled(chain.jacobian(q, "hybrid"), -2, part, L))
+    J = scaled(chain.jacobian(q, "hybrid"), -2, part, L)
     H = scaled(chain.hessian(q, "hybrid"), -3, part, L)
-    rank = int((s > tolerance * s[0]).sum())
-    slope = np.einsum("r,rij,i->j", U[:, -1], H, V[-1])
+    U, s, V = svd(J)
+    g = generic_rank(chain, part, min(float(tolerance), TOLERANCE))
+    last = max(g, 1) - 1
+    rank = min(int((s > tolerance * s[0]).sum()), g)
+    if rank < g < len(J):
+        U = _with_lost_motions(U, s, J, H, g)
+    slope = np.einsum("r,rij,i->j", U[:, last], H, V[last])
     steep = float(np.linalg.norm(slope))
-    distance = math.inf
-    # s_r is known to some u of s_1: below that, q is where s_r is zero
-    if s[-1] <= 1e-15 * s[0]:
-        distance = 0.0
-    elif steep:
-        distance = float(s[-1] / steep)
     motions = np.array([_positive(_twist(u, part, L)) for u in U.T])
-    lost = motions[-1]
-    idle = _positive(V[-1])
-    towards = np.zeros(chain.dof)
-    if steep:
-        towards = -slope / steep
-    told = motions[min(rank, len(s) - 1) :]
-    words = _words(chain, told, s, rank, idle, distance, towards, tolerance)
     return Singularity(
-        singular=rank < len(s),
+        singular=rank < g,
         tolerance=float(tolerance),
         part=part,
         length=L,
         singular_values=tuple(map(float, s)),
         rank=rank,
-        singular_direction=lost,
-        singular_subspace=motions[rank:],
-        joint_direction=idle,
-        distance=distance,
-        gradient_direction=towards,
-        words=words,
+        generic_rank=g,
+        singular_direction=motions[last],
+        singular_subspace=motions[rank:g],
+        joint_direction=_positive(V[last]),
+        distance=_distance(s[last], s[0], steep),
+        gradient_direction=-slope / steep if steep else np.zeros(chain.dof),
+        q_names=chain.q_names,
+        unit=" and ".join(sorted({_unit(chain, k) for k in range(chain.dof)}, reverse=True)),
     )
 
 
-def _twist(u: Array, part: str, length: float) -> Array:
+def _configuration(chain: Chain, q: Any) -> Array:
+    q = coordinates(q, chain.q_names)
+    if q.ndim != 1 or not np.isfinite(q).all():
+        raise InputError(
+            f"q: expected one finite configuration ({chain.dof},), got {safe_repr(q.tolist())}"
+        )
+    return q
+
+
+def _default_part(chain: Chain) -> Part:
+    """The translation of an arm whose coordinates all go into the position of its tool's origin."""
+    if chain.dof <= 3 and generic_rank(chain, "translation") == chain.dof:
+        return "translation"
+    return "pose"
+
+
+def _with_lost_motions(U: Array, s: Array, J: Array, H: Array, g: int) -> Array:
+    """U with the motions that come back first to first order, where J has lost some of g for good.
+
+    The left null space of J has those and others that the arm never has. Its block of dJ/dq_j
+    between both null spaces says which of them grow.
+    """
+    rank = int((s > ZERO * s[0]).sum())
+    if rank >= g:
+        return U
+    left, _, right = np.linalg.svd(J)
+    growth = np.einsum("ra,rij,bi->ajb", left[:, rank:], H, right[rank:])
+    order = np.linalg.svd(growth.reshape(len(growth), -1))[0]
+    U = U.copy()
+    U[:, rank:g] = left[:, rank:] @ order[:, : g - rank]
+    return U
+
+
+def _distance(smallest: float, largest: float, steep: float) -> float:
+    """Distance of s_g = 0 to first order."""
+    # s_g is known to some u of s_1: below that, q is where s_g is zero
+    if smallest <= 1e-15 * largest:
+        return 0.0
+    if steep:
+        return float(smallest / steep)
+    return math.inf
+
+
+def _twist(u: Array, part: Part, length: float) -> Array:
     """The twist (6,) that a left singular vector stands for."""
     if part == "rotation":
         return np.concatenate([u, np.zeros(3)])
@@ -189,75 +303,7 @@ def _positive(x: Array) -> Array:
     return x + 0.0
 
 
-def _words(
-    chain: Chain,
-    motions: Array,
-    s: Array,
-    rank: int,
-    idle: Array,
-    distance: float,
-    towards: Array,
-    tolerance: float,
-) -> str:
-    ratio = 0.0
-    if s[0]:
-        ratio = s[-1] / s[0] + 0.0
-    quotient = f"smallest ÷ largest singular value {ratio:.3g}, tolerance {tolerance:g}"
-    how = [motion_words(motion) for motion in motions]
-    names = [
-        (name, abs(rate)) for name, rate in zip(chain.q_names, idle, strict=True) if abs(rate) > 0.1
-    ]
-    rates = ", ".join(
-        f"{quote(n)} {idle[chain.q_names.index(n)]:+.2f}"
-        for n, _ in sorted(names, key=lambda x: -x[1])
-    )
-    if rank < len(s):
-        lost = "; and ".join(how)
-        nearly = ""
-        if s[-1] > 1e-12 * s[0]:
-            nearly = ", nearly"
-        return (
-            f"singular ({quotient}): the tool cannot move by {lost}. "
-            f"The rates {rates} leave it where it is{nearly}."
-        )
-    near = f"to first order no singularity is within 1 {_unit(chain)}"
-    if distance <= 1:
-        lead = chain.q_names[int(np.argmax(np.abs(towards)))]
-        near = f"the nearest singularity is about {distance:.2g} {_unit(chain)} away, most of it in {quote(lead)}"
-    return f"regular ({quotient}): {near}. What would be lost there: {how[0]}; the rates for it: {rates}."
-
-
-def motion_words(V: Array) -> str:
-    """A twist (6,) in base axes at the tool's origin, as the end of a sentence: "turning about the
-    base's z axis".
-    """
-    w = np.linalg.norm(V[:3])
-    v = np.linalg.norm(V[3:])
-    # 2 cm per rad, and 1/50 rad per m, are too little to be told
-    if v <= 0.02 * w:
-        return f"turning about {_direction(V[:3])}"
-    if w <= 0.02 * v:
-        return f"moving along {_direction(V[3:])}"
-    turning = f"turning about {_direction(V[:3])}"
-    moving = f"moving along {_direction(V[3:])}"
-    if v > w:
-        return f"{moving} while {turning} by {w / v:.3g} rad per m"
-    return f"{turning} while its origin is {moving} by {v / w:.3g} m per rad"
-
-
-def _direction(x: Array) -> str:
-    """An axis of the base, where x is within a degree of one, or x as a unit vector."""
-    e = x / np.linalg.norm(x)
-    k = int(np.argmax(np.abs(e)))
-    if abs(e[k]) >= math.cos(math.radians(1)):
-        return f"the base's {'xyz'[k]} axis"
-    return "({})".format(", ".join(f"{value + 0.0:.2f}" for value in np.round(e, 2)))
-
-
-def _unit(chain: Chain) -> str:
-    kinds = {"rad" if chain.is_angle(k) else "m" for k in range(chain.dof)}
-    return kinds.pop() if len(kinds) == 1 else "(rad and m)"
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
+def _unit(chain: Chain, k: int) -> str:
+    if chain.is_angle(k):
+        return "rad"
+    return "m"

@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
+from ...analysis.dexterity.jacobian_part import TOLERANCE
 from ...analysis.dexterity.manipulability import manipulability
-from ...analysis.dexterity.singularity import TOLERANCE, singularity
+from ...analysis.dexterity.singularity import singularity
 from ...errors import InputError
 from ..output import as_json, heading, name, number, say, table
 from .arm import Base, File, Json, Numbers, Tip, take
@@ -32,7 +33,13 @@ At = Annotated[
         help="The coordinates, in rad or m (as Q...; commas may stand between them).",
     ),
 ]
-PartOption = Annotated[Part, typer.Option("--part", help="What the tool is asked for.")]
+PartOption = Annotated[
+    Part | None,
+    typer.Option(
+        "--part",
+        help="What the tool is asked for (default: translation where that takes all coordinates, else pose).",
+    ),
+]
 Tolerance = Annotated[
     float,
     typer.Option(
@@ -47,7 +54,7 @@ def command(
     at: At = None,
     tip: Tip = None,
     base: Base = None,
-    part: PartOption = Part.pose,
+    part: PartOption = None,
     tolerance: Tolerance = TOLERANCE,
     json: Json = False,
 ) -> None:
@@ -60,17 +67,16 @@ def command(
     arm = take(file, tip, base, [*words, *(q or ())], None, many=False)
     chain = arm.chain
     here = arm.q[0]
-    result = singularity(chain, here, part=part.value, tolerance=tolerance)
+    result = singularity(chain, here, part=part.value if part else None, tolerance=tolerance)
     measures = manipulability(chain, here)
     if json:
-        said = {
-            p: dict(zip(m._fields, map(float, m), strict=True))
-            for p, m in measures._asdict().items()
-        }
         head = heading(arm.robot, chain) | {"q": here}
-        print(as_json(head | result.as_dict() | {"manipulability": said}))
+        end = {"summary": result.summary(), "manipulability": measures.to_dict()}
+        print(as_json(head | result.to_dict() | end))
     else:
-        say(f"{name(chain.tip)} in {name(chain.base)}: {result.words}\n")
-        rows = [(p, *(number(float(x), 4) for x in m)) for p, m in measures._asdict().items()]
+        say(f"{name(chain.tip)} in {name(chain.base)}: {result.summary()}\n")
+        rows = [
+            (p, *(number(float(x), 4) for x in vars(m).values())) for p, m in vars(measures).items()
+        ]
         table(("Jacobian (rad, m)", "Yoshikawa", "condition", "smallest singular value"), rows)
     raise typer.Exit(SINGULAR if result.singular else 0)

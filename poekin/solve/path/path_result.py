@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...analysis.dexterity.manipulability import scaled, svd
+from ...analysis.dexterity.jacobian_part import Part, scaled, svd
 from ...analysis.dexterity.singularity import singularity
 from ...errors import quote
 from ...groups.arrays import Array
@@ -241,11 +241,12 @@ class PathResult:
         )
 
     def _singular(self, s: PathInterval) -> str:
-        words = singularity(self.chain, self.q[s.worst], part=self._part()).words
+        words = singularity(self.chain, self.q[s.worst], part=self._part()).summary()
         return f"{_points(s)}: near a singularity, most at {s.worst}: {words}"
 
-    def _part(self) -> str:
-        return {"position": "translation", "rotation": "rotation"}.get(self.task.name, "pose")
+    def _part(self) -> Part:
+        parts: dict[str, Part] = {"position": "translation", "rotation": "rotation"}
+        return parts.get(self.task.name, "pose")
 
     def _above(
         self, values: Array | None, bounds: Array | None, shift: int

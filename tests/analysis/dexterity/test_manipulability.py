@@ -10,7 +10,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
-from poekin.analysis.dexterity.manipulability import ROWS, manipulability, manipulability_gradient
+from poekin.analysis.dexterity.jacobian_part import ROWS, generic_rank
+from poekin.analysis.dexterity.manipulability import manipulability, manipulability_gradient
 from poekin.errors import InputError
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.laws.chain_laws import budget
@@ -44,6 +45,8 @@ def test_the_six_rows_give_the_root_of_the_determinant_in_every_frame(data):
     chain, q = data.draw(
         chain_strategies.chain_cases(("q",), min_joints=6, max_joints=9, coupled=False)
     )
+    if generic_rank(chain, "pose") < 6:
+        return  # fewer singular values count, which are those of one frame
     value = manipulability(chain, q).pose.yoshikawa
     for frame in ("space", "body"):
         J = chain.jacobian(q, frame)
@@ -61,14 +64,14 @@ def test_the_gradient_is_the_derivative(data, part):
     rate = max(float(np.abs(chain.coupling @ dq).sum()), 1e-3)
     here = chain.jacobian(q, "hybrid")
     size = max(float(np.linalg.norm(here, 2)), 1.0) ** 6
-    values = manipulability(chain, q)._asdict()[part]
+    values = getattr(manipulability(chain, q), part)
     # w is a product of absolute values: at a kink there is no derivative to compare with, and near
     # one the
     # stencil would reach across it
     assume(values.yoshikawa > 0 and values.condition < 30)
     step = 60 * rate
     wanted = differences.derivative(
-        lambda at: manipulability(chain, at)._asdict()[part].yoshikawa, q, dq, step
+        lambda at: getattr(manipulability(chain, at), part).yoshikawa, q, dq, step
     )
     found = manipulability_gradient(chain, q, part=part) @ dq
     # rounding of w over a step of 1/600 of the rate
@@ -109,8 +112,8 @@ def test_lengths_in_other_units_change_the_six_rows_only():
     )
     metres, decimetres = manipulability(arm, q), manipulability(arm, q, length=0.1)
     np.testing.assert_allclose(decimetres.pose.yoshikawa, 1000 * metres.pose.yoshikawa, rtol=1e-12)
-    np.testing.assert_array_equal(decimetres.translation, metres.translation)
-    np.testing.assert_array_equal(decimetres.rotation, metres.rotation)
+    assert decimetres.to_dict()["translation"] == metres.to_dict()["translation"]
+    assert decimetres.to_dict()["rotation"] == metres.to_dict()["rotation"]
 
 
 def test_batches_have_their_shapes_and_nan_stays_where_it_is():
@@ -118,7 +121,9 @@ def test_batches_have_their_shapes_and_nan_stays_where_it_is():
     for shape in ((), (0,), (3, 1, 2)):
         q = np.full((*shape, 3), 0.3)
         assert {
-            x.shape for measures in manipulability(arm, q) for x in map(np.asarray, measures)
+            np.shape(x)
+            for measures in vars(manipulability(arm, q)).values()
+            for x in vars(measures).values()
         } == {shape}
         assert manipulability_gradient(arm, q).shape == (*shape, 3)
     q = np.array([[0.1, 0.2, 0.3], [0.1, np.nan, 0.3]])
@@ -151,11 +156,9 @@ def test_a_length_is_a_positive_number_of_metres(length):
 
 def test_without_a_length_lengths_are_in_metres():
     chain, q = pk.load("ur5e").chain(tip="tool0"), np.array([0.1, -0.7, 0.9, 0.4, 0.8, 0.2])
-    for mine, metres in zip(
-        manipulability(chain, q), manipulability(chain, q, length=1.0), strict=True
-    ):
-        assert mine == metres
+    assert manipulability(chain, q).to_dict() == manipulability(chain, q, length=1.0).to_dict()
     np.testing.assert_array_equal(
         manipulability_gradient(chain, q), manipulability_gradient(chain, q, length=1.0)
     )
-    assert manipulability(chain, q, length=2.0).pose != manipulability(chain, q).pose
+    other = manipulability(chain, q, length=2.0)
+    assert other.pose.yoshikawa != manipulability(chain, q).pose.yoshikawa

@@ -60,7 +60,7 @@ def test_json_has_the_numbers_of_the_function(poekin):
     assert code == 1
     assert said["singular"] is True
     assert said["singular_direction"] == result.singular_direction.tolist()
-    assert said["words"] == result.words
+    assert said["summary"] == result.summary()
     assert (
         said["manipulability"]["pose"]["condition"] is None
         or said["manipulability"]["pose"]["condition"] > 1e12
@@ -71,11 +71,12 @@ def test_words_and_measures_are_those_of_the_functions(poekin):
     q = [float(x) for x in AWAY]
     chain = load("panda").chain(tip="panda_hand")
     measures = manipulability(chain, q)
-    words = singularity(chain, q, part="rotation", tolerance=0.01).words
+    words = singularity(chain, q, part="rotation", tolerance=0.01).summary()
     lines = poekin(*panda("--part", "rotation", "--tolerance", 0.01, *AWAY))[1].splitlines()
     assert lines[0] == f"panda_hand in panda_link0: {words}"
     assert [re.split(r" {2,}", line) for line in lines[-3:]] == [
-        [part, *(f"{float(x):.4g}" for x in of)] for part, of in measures._asdict().items()
+        [part, *(f"{float(x):.4g}" for x in vars(of).values())]
+        for part, of in vars(measures).items()
     ]
     said = json.loads(poekin(*panda("--json", *AWAY))[1])
     assert (said["robot"], said["base"], said["tip"], said["q"]) == (
@@ -85,10 +86,7 @@ def test_words_and_measures_are_those_of_the_functions(poekin):
         q,
     )
     assert said["q_names"] == list(chain.q_names)
-    assert said["manipulability"] == {
-        part: {name: float(x) for name, x in of._asdict().items()}
-        for part, of in measures._asdict().items()
-    }
+    assert said["manipulability"] == measures.to_dict()
 
 
 @pytest.mark.parametrize(

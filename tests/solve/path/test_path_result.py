@@ -163,7 +163,7 @@ def test_the_report_says_it_all_in_sentences():
 def test_a_singularity_is_told_in_the_words_of_what_the_task_asks():
     q = [[0.0, 0.5, 0.1], [0.0, 5e-4, 0.1], [0.0, 1e-3, 0.1]]
     (said,) = followed(q).sentences()[1:]
-    words = pk.singularity(ARM, q[1], part="translation").words
+    words = pk.singularity(ARM, q[1], part="translation").summary()
     assert said == f"poses 1 to 2: near a singularity, most at 1: {words}"
     assert "the base's x axis" in said
 

@@ -1,0 +1,82 @@
+"""Parts of a Jacobian: the tool's whole motion, its translation, or its rotation."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import Literal, get_args
+
+import numpy as np
+
+from ...errors import InputError, safe_repr
+from ...groups.arrays import Array
+from ...model.chain import Chain
+from ...model.sampling import half_range
+
+Part = Literal["pose", "translation", "rotation"]
+
+ROWS: dict[Part, slice] = {
+    "pose": slice(0, 6),
+    "translation": slice(3, 6),
+    "rotation": slice(0, 3),
+}
+
+TOLERANCE = 1e-3
+"""Quotient of a singular value and the largest, up to which a motion counts as lost."""
+SAMPLES = 64
+"""Random configurations at one of which the Jacobian has its largest rank."""
+
+
+def check(chain: object, length: float) -> None:
+    """Raises InputError where there is no arm to judge, or no length to measure it by."""
+    if not isinstance(chain, Chain):
+        raise InputError(
+            f"expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
+        )
+    if not chain.dof:
+        raise InputError("the chain has no coordinate: nothing moves its tool")
+    if not isinstance(length, (int, float, np.integer, np.floating)) or not 0 < length < math.inf:
+        raise InputError(f"length: expected a positive number of metres, got {safe_repr(length)}")
+
+
+def check_part(part: object) -> None:
+    """Raises InputError for what is no part of a twist."""
+    if not isinstance(part, str) or part not in ROWS:
+        raise InputError(
+            f"part: expected one of {', '.join(map(repr, get_args(Part)))}, got {safe_repr(part)}"
+        )
+
+
+def scaled(X: Array, axis: int, part: Part, length: float) -> Array:
+    """The rows of a part, along an axis of J (-2) or of its Hessian (-3); of the pose with v ÷
+    length.
+    """
+    if part == "pose":
+        return X * np.repeat([1.0, 1.0 / length], 3).reshape(6, *[1] * (-1 - axis))
+    return X[(..., ROWS[part], *[slice(None)] * (-1 - axis))]
+
+
+def svd(J: Array) -> tuple[Array, Array, Array]:
+    """The factors U (..., k, r), s (..., r) and V^T (..., r, m) of J = U diag(s) V^T.
+
+    Where an entry of J is NaN, s is.
+    """
+    bad = np.asarray(~np.isfinite(J).all(axis=(-2, -1), keepdims=True))
+    U, s, V = np.linalg.svd(np.where(bad, 0.0, J), full_matrices=False)
+    return U, np.where(bad[..., 0], np.nan, s), V
+
+
+@lru_cache(maxsize=64)
+def generic_rank(chain: Chain, part: Part, tolerance: float = TOLERANCE) -> int:
+    """The largest rank of a part of the Jacobian over all configurations, which it has at almost
+    every one of them.
+
+    Lengths are in units of the arm's own size, so that it does not matter.
+    """
+    q = half_range(chain) * np.random.default_rng(0).uniform(-1.0, 1.0, (SAMPLES, chain.dof))
+    J = chain.jacobian(q, "hybrid")
+    size = max(float(np.abs(J[:, 3:]).max()), 1e-6 * chain.reach)
+    s = svd(scaled(J, -2, "pose", size)[:, ROWS[part]])[1]
+    # Below that is rounding: an arm that never moves its tool in this part.
+    least = np.maximum(tolerance * s[:, :1], 1e-9)
+    return int((s > least).sum(axis=1).max())

@@ -1,0 +1,44 @@
+"""Motions of a tool and rates of joints as text."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...errors import quote
+from ...groups.arrays import Array
+
+
+def motion_words(V: Array) -> str:
+    """A twist (6,) in base axes at the tool's origin, as the end of a sentence: "turning about the
+    base's z axis".
+    """
+    w = np.linalg.norm(V[:3])
+    v = np.linalg.norm(V[3:])
+    # 2 cm per rad, and 1/50 rad per m, are too little to be told
+    if v <= 0.02 * w:
+        return f"turning about {_direction(V[:3])}"
+    if w <= 0.02 * v:
+        return f"moving along {_direction(V[3:])}"
+    turning = f"turning about {_direction(V[:3])}"
+    moving = f"moving along {_direction(V[3:])}"
+    if v > w:
+        return f"{moving} while {turning} by {w / v:.3g} rad per m"
+    return f"{turning} while its origin is {moving} by {v / w:.3g} m per rad"
+
+
+def rate_words(q_names: tuple[str, ...], rates: Array) -> str:
+    """Rates of coordinates, of those above 0.1 the largest first: "'elbow' +0.89, 'wrist' -0.45"."""
+    told = [(name, rate) for name, rate in zip(q_names, rates, strict=True) if abs(rate) > 0.1]
+    told.sort(key=lambda pair: -abs(pair[1]))
+    return ", ".join(f"{quote(name)} {rate:+.2f}" for name, rate in told)
+
+
+def _direction(x: Array) -> str:
+    """An axis of the base, where x is within a degree of one, or x as a unit vector."""
+    e = x / np.linalg.norm(x)
+    k = int(np.argmax(np.abs(e)))
+    if abs(e[k]) >= math.cos(math.radians(1)):
+        return f"the base's {'xyz'[k]} axis"
+    return "({})".format(", ".join(f"{value + 0.0:.2f}" for value in np.round(e, 2)))
