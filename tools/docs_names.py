@@ -84,6 +84,8 @@ RESULTS: dict[str, str] = {
     "poekin.solve.ik_all.all_solutions.AllSolutions": "solve",
     "poekin.solve.path.path_result.PathResult": "solve",
     "poekin.analysis.counting.count_table.CountTable": "count",
+    "poekin.analysis.counting.count_table.CountRow": "count",
+    "poekin.engine.count.Count": "count",
 }
 
 
@@ -195,7 +197,9 @@ def links(name: str) -> dict[str, str]:
     found: dict[str, str] = {}
     for dotted in documented():
         parts = dotted.split(".")
-        if not dotted.startswith(("poekin.model.", "poekin.analysis.", "poekin.solve.")):
+        if not dotted.startswith(
+            ("poekin.model.", "poekin.analysis.", "poekin.solve.", "poekin.engine.")
+        ):
             found[".".join(parts[1:])] = found["pk." + ".".join(parts[1:])] = found[dotted] = dotted
         else:
             place = next(i for i, p in enumerate(parts) if p[0].isupper())

@@ -65,7 +65,7 @@ def topic(quick: bool, say) -> Topic:  # type: ignore[no-untyped-def]
         refusals = [(name, _refusal(path)) for name, path in empty.items()]
     warned = len(caught)
     meshes = [name for name in opened if name.lower().endswith(MESHES)]
-    rows = [row for _, v, _ in done for row in v.rows]
+    rows = [row for _, v, _ in done for row in v.chains]
     passed = sum(v.passed for _, v, _ in done)
     worst = max(rows, key=lambda row: row.worst, default=None)
     refused = all(message for _, message in refusals)
@@ -119,12 +119,12 @@ def _refusal(path: str) -> str:
 
 def _row(name: str, v: Validation, seconds: float) -> tuple[str | int | float, ...]:
     errors = [
-        max(getattr(row, what) for row in v.rows) for what in ("pose", "space", "body", "hybrid")
+        max(getattr(row, what) for row in v.chains) for what in ("pose", "space", "body", "hybrid")
     ]
     return (
         name,
-        len(v.rows),
-        max(r.joints for r in v.rows),
+        len(v.chains),
+        max(r.joints for r in v.chains),
         *errors,
         v.worst.tip if v.worst else "",
         seconds,

@@ -4,11 +4,11 @@ three frames.
 
 from __future__ import annotations
 
-import json
 import math
 import os
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from ..model.chain import Chain
 from ..model.joint import FREE, MOVING, Joint
 from ..model.kinematics.pose_jacobian import FRAME_NAMES
 from ..model.robot import Robot
+from ..results import Result
 from ..testing.oracles.pinocchio_oracle import PinocchioOracle
 
 BAR = 2e-14
@@ -30,14 +31,26 @@ Progress = Callable[[int, int, str], None]
 
 
 @dataclass(frozen=True)
-class ChainErrors:
-    """Worst errors of one chain, each ÷ R: the pose's and the Jacobian's in three frames; see
-    `chain_errors`.
+class ChainErrors(Result):
+    """Worst errors of one chain against Pinocchio, each ÷ R, the chain's reach.
 
-    Attributes: base, tip (links); joints (n), dof (m); reach (R, in m); pose, space, body, hybrid
-    (errors ÷ R); configuration (coordinate -> value of the worst configuration, rad or m); note
-    (what the reader ought to know).
+    Attributes
+    ----------
+    base, tip : str
+        Links at the ends of the chain.
+    joints, dof : int
+        Numbers of joints n and coordinates m.
+    reach : float
+        Reach R, m.
+    pose, space, body, hybrid : float
+        Errors of the pose and of the Jacobian in three frames, ÷ R.
+    configuration : dict
+        Worst configuration: coordinate -> value, rad or m.
+    note : str
+        Text on where the chain starts or ends; empty for a chain from root to leaf.
     """
+
+    derived: ClassVar = ("worst", "passed")
 
     base: str
     tip: str
@@ -59,20 +72,54 @@ class ChainErrors:
             return math.inf
         return max(errors)
 
+    @property
+    def passed(self) -> bool:
+        """Whether the errors hold the bar of 2e-14."""
+        return self.worst <= BAR
+
+    def summary(self) -> str:
+        """Largest error, and the configuration at which it is beyond the bar.
+
+        Returns
+        -------
+        text : str
+            Line such as "base → tool is off by 1e-3 R; worst at elbow = 0.25".
+        """
+        note = f" ({self.note})" if self.note else ""
+        if self.passed:
+            return f"{self.base} → {self.tip} is within {self.worst:.3g} R{note}"
+        at = ", ".join(f"{name} = {x + 0.0:.9g}" for name, x in self.configuration.items())
+        off = f"is off by {self.worst:.3g} R{note}; worst at {at or 'home'}"
+        return f"{self.base} → {self.tip} {off}"
+
 
 @dataclass(frozen=True)
-class Validation:
-    """The result of `validate`: one row a chain, and the bar that every row must hold.
+class Validation(Result):
+    """Errors of every chain of a robot, and the bar that they must hold; the result of `validate`.
 
-    Attributes: robot (its name), source (where it came from), rows, bar (largest error ÷ R that
-    passes), samples (random configurations a chain, beside the zero configuration), seed, pinocchio
-    (the oracle's version), moving
-    (the joints of the robot that move).
+    Attributes
+    ----------
+    robot : str
+        Name of the robot.
+    source : str
+        File that it came from.
+    chains : tuple of ChainErrors
+        Errors of each chain.
+    bar : float
+        Largest error ÷ R that passes.
+    samples, seed : int
+        Random configurations of each chain, beside the zero configuration, and their seed.
+    pinocchio : str
+        Version of Pinocchio.
+    moving : int
+        Number of the robot's joints that move.
     """
+
+    derived: ClassVar = ("passed", "error")
 
     robot: str
     source: str
-    rows: tuple[ChainErrors, ...]
+    chains: tuple[ChainErrors, ...]
     bar: float
     samples: int
     seed: int
@@ -82,48 +129,38 @@ class Validation:
     @property
     def worst(self) -> ChainErrors | None:
         """The chain with the largest error, or None for a robot without a link to go to."""
-        return max(self.rows, key=lambda row: row.worst, default=None)
+        return max(self.chains, key=lambda row: row.worst, default=None)
 
     @property
     def error(self) -> float:
         """The largest error ÷ R of all chains."""
-        return max((row.worst for row in self.rows), default=0.0)
+        return max((row.worst for row in self.chains), default=0.0)
 
     @property
     def passed(self) -> bool:
-        """Whether there is a chain and every chain holds the bar; an error that is not a number
-        never does.
+        """Whether there is a chain and all hold the bar; an error that is not a number never does.
 
-        Where joints of the robot move, a chain without one proves nothing: there must be one that
-        has some.
+        Where joints of the robot move, there must be a chain that has some.
         """
-        proof = any(row.joints for row in self.rows) if self.moving else bool(self.rows)
+        proof = any(row.joints for row in self.chains) if self.moving else bool(self.chains)
         return proof and self.error <= self.bar
 
-    def as_dict(self) -> dict[str, object]:
-        """Everything as plain dicts, lists, strings and numbers; an infinite or absent number is
-        None.
-        """
-        rows = []
-        for row in self.rows:
-            values = {k: _finite(v) if isinstance(v, float) else v for k, v in asdict(row).items()}
-            rows.append(values | {"worst": _finite(row.worst), "passed": row.worst <= self.bar})
-        return {
-            "robot": self.robot,
-            "source": self.source,
-            "passed": self.passed,
-            "error": _finite(self.error),
-            "bar": self.bar,
-            "samples": self.samples,
-            "seed": self.seed,
-            "pinocchio": self.pinocchio,
-            "moving": self.moving,
-            "chains": rows,
-        }
+    def summary(self) -> str:
+        """Whether the robot passed, its largest error, and the chains beyond the bar.
 
-    def to_json(self) -> str:
-        """`as_dict` as JSON text."""
-        return json.dumps(self.as_dict(), indent=2, allow_nan=False)
+        Returns
+        -------
+        text : str
+            Line on the robot, and a line for each chain that fails.
+        """
+        head = "fails"
+        if self.passed:
+            head = "passes"
+        lines = [
+            f"{self.robot} {head}: {len(self.chains)} chains against Pinocchio {self.pinocchio}, "
+            f"largest error {self.error:.3g} R, the bar is {self.bar:g} R"
+        ]
+        return "\n".join(lines + [row.summary() for row in self.chains if not row.passed])
 
 
 def validate(
@@ -135,23 +172,44 @@ def validate(
 ) -> Validation:
     """Poses and Jacobians of every chain from the root to a leaf, against Pinocchio.
 
-    Parameters: robot, anything `load` takes, or the text of a URDF (it begins with <), or a Robot;
-    where it came
-    from a URDF file, Pinocchio reads that file again. Any other (a DH table, MJCF, xacro, a Robot
-    built by hand) goes to Pinocchio as the text of `to_urdf`: then what was read is not judged, but
-    all that is computed from it;
-    samples, random configurations a chain, beside the zero configuration: revolute over ±π and
-    prismatic over ±1 m whatever the limits, *all* coordinates of the robot at once, so that one
-    which a chain overlooks shows up too;
-    seed, of the generator; progress, called as (chains done, chains in all, tip).
+    Parameters
+    ----------
+    robot : Robot, str or path-like
+        Anything that `load` takes, or the text of a URDF (it begins with <), or a Robot.
+    samples : int, default 100
+        Random configurations of each chain, beside the zero configuration: revolute over ±π and
+        prismatic over ±1 m whatever the limits, all coordinates of the robot at once, so that one
+        which a chain overlooks shows up too.
+    seed : int, default 0
+        Seed of the configurations.
+    progress : callable, optional
+        Called before each chain as progress(chains done, chains in all, tip).
 
-    A chain that would cross a floating or planar joint starts at the child link of the last such
-    joint, and what moves above that joint is a chain of its own (see `routes`); the notes of the
-    rows say so. The errors are defined in `chain_errors`; each must be at most `BAR` · R.
+    Returns
+    -------
+    found : Validation
+        Errors of each chain, and whether they hold the bar of 2e-14 reaches.
 
-    Raises: what `load` raises; MissingExtra without Pinocchio; ModelError where Pinocchio refuses
-    the URDF; InputError for a Robot that did not come from a URDF and cannot be written as one
-    (helical joints).
+    Raises
+    ------
+    FileError
+        If a file cannot be read; further errors are those of `load`.
+    MissingExtra
+        If Pinocchio is not installed (extra `validate`).
+    ModelError
+        If Pinocchio refuses the URDF.
+    InputError
+        If `samples` is negative, or a Robot did not come from a URDF and cannot be written as one
+        (helical joints).
+
+    Notes
+    -----
+    Where a robot came from a URDF file, Pinocchio reads that file again. Any other (a DH table,
+    MJCF, xacro, a Robot built by hand) goes to Pinocchio as the text of `to_urdf`: then what was
+    read is not judged, but all that is computed from it. A chain that would cross a floating or
+    planar joint starts at the child link of the last such joint, and what moves above that joint is
+    a chain of its own; the notes of the chains say so. Each error is the largest absolute entry of
+    a difference, lengths ÷ R.
     """
     if samples < 0:
         raise InputError(f"samples: a number of configurations ≥ 0 expected, got {samples}")
@@ -213,21 +271,9 @@ def _row(
     chain: Chain, errors: np.ndarray, configuration: dict[str, float], note: str
 ) -> ChainErrors:
     # np.max hands on a NaN, so that one wrong configuration cannot hide among right ones.
-    pose, space, body, hybrid = (float(e) for e in np.max(errors, axis=1))
-    n = len(chain.joint_names)
-    return ChainErrors(
-        chain.base,
-        chain.tip,
-        n,
-        chain.dof,
-        chain.reach,
-        pose,
-        space,
-        body,
-        hybrid,
-        configuration,
-        note,
-    )
+    pose, space, body, hybrid = np.max(errors, axis=1).tolist()
+    ends = (chain.base, chain.tip, len(chain.joint_names), chain.dof, chain.reach)
+    return ChainErrors(*ends, pose, space, body, hybrid, configuration, note)
 
 
 def routes(robot: Robot) -> Iterator[tuple[str, str, str]]:
@@ -299,7 +345,3 @@ def _text(origin: str) -> bytes:
         return catalogue.text(origin)
     with open(origin, "rb") as stream:
         return stream.read()
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

@@ -9,15 +9,26 @@ and so are the integers 0, 1 and -1: they are a formula's structure (a revolute 
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 from ..formulas import elementary
+from ..results import Result
 
 
 @dataclass
-class Count:
-    """Numbers of operations: those of Park's table and the others that a formula may use."""
+class Count(Result):
+    """Numbers of operations: those of Park's table and the others that a formula may use.
+
+    Attributes
+    ----------
+    multiplications, additions, divisions, square_roots : int
+        Numbers of these operations; subtractions are additions.
+    sines, cosines, arctangents : int
+        Numbers of calls of these functions.
+    """
+
+    derived: ClassVar = ("sine_cosine_pairs",)
 
     multiplications: int = 0
     additions: int = 0
@@ -32,9 +43,16 @@ class Count:
         """Number of angles whose sine and cosine are needed: one routine gives both."""
         return max(self.sines, self.cosines)
 
-    def as_dict(self) -> dict[str, int]:
-        """All numbers by name, the pairs too."""
-        return asdict(self) | {"sine_cosine_pairs": self.sine_cosine_pairs}
+    def summary(self) -> str:
+        """Operations that there are, by number and name.
+
+        Returns
+        -------
+        text : str
+            Line such as "174 multiplications, 123 additions".
+        """
+        charged = {name.replace("_", " "): n for name, n in vars(self).items() if n}
+        return ", ".join(f"{n} {name}" for name, n in charged.items()) or "no operations"
 
 
 class Counted:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import pickle
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -164,13 +165,33 @@ def test_a_row_that_is_no_number_never_passes():
     assert not Validation("r", "", (), BAR, 1, 0, "").passed
 
 
+def test_a_validation_is_summed_up_by_its_largest_error_and_the_chains_that_fail():
+    right = ChainErrors("a", "b", 1, 1, 1.0, 1e-15, 2e-15, 0.0, 0.0, note="starts below 'c'")
+    wrong = ChainErrors("a", "d", 2, 2, 1.0, 0.0, 0.0, 3e-14, 0.0, {"x": 0.25, "y": -0.0})
+    assert (right.passed, wrong.passed, replace(wrong, space=BAR, body=0.0).passed) == (
+        True,
+        False,
+        True,
+    )
+    assert str(right) == "a → b is within 2e-15 R (starts below 'c')"
+    off = "a → d is off by 3e-14 R; worst at x = 0.25, y = 0"
+    assert wrong.summary() == off
+    found = Validation("r", "", (right, wrong), BAR, 1, 0, "4.1")
+    said = "r fails: 2 chains against Pinocchio 4.1, largest error 3e-14 R, the bar is 2e-14 R"
+    assert str(found) == f"{said}\n{off}"
+    assert str(replace(found, chains=(right,))).startswith("r passes: 1 chains against")
+    document = found.to_dict()
+    assert (document["passed"], document["error"]) == (False, 3e-14)
+    assert [row["passed"] for row in document["chains"]] == [True, False]  # type: ignore[attr-defined]
+
+
 def test_a_text_a_path_a_name_and_a_robot_are_validated_alike(tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text(URDF)
     results = [validate(given, samples=5) for given in (URDF, path, str(path), load(path))]
     # not their errors: to the last bit these are the processor's
     rows = [
-        [(row.base, row.tip, row.joints, row.dof, row.reach) for row in v.rows] for v in results
+        [(row.base, row.tip, row.joints, row.dof, row.reach) for row in v.chains] for v in results
     ]
     assert rows == [rows[0]] * 4
     assert all(v.passed for v in results)
@@ -184,7 +205,7 @@ def test_the_same_seed_gives_the_same_result_and_another_one_another():
         validate(URDF, samples=5, seed=1),
     )
     assert first == again
-    assert first.rows[0].configuration != other.rows[0].configuration
+    assert first.chains[0].configuration != other.chains[0].configuration
 
 
 def test_configurations_ignore_the_limits(oracle):
@@ -197,7 +218,7 @@ def test_configurations_ignore_the_limits(oracle):
 def test_a_chain_starts_below_a_joint_that_it_cannot_cross(kind):
     text = URDF.replace('type="revolute"', f'type="{kind}"', 1)
     v = validate(text.replace('<mimic joint="bend" multiplier="-2" offset="0.1"/>', ""), samples=5)
-    below, above = v.rows
+    below, above = v.chains
     assert v.passed
     assert (below.base, below.tip, below.joints) == ("c", "tip", 1)
     assert below.note == f"starts below the {kind} joint 'bend'"
@@ -272,7 +293,7 @@ def test_a_robot_out_of_a_text_that_is_called_like_a_file_is_not_read_from_that_
         urdf.read_text(URDF.replace('"turn"', '"twist"'), str(path)), samples=3
     )
     assert named_like_it.passed
-    assert set(named_like_it.rows[0].configuration) == {"twist", "slide", "bend"}
+    assert set(named_like_it.chains[0].configuration) == {"twist", "slide", "bend"}
 
 
 ENCODED = {
@@ -296,7 +317,7 @@ def test_any_encoding_and_namespace_that_xml_allows_is_validated(tmp_path, encod
     path.write_bytes(encode(URDF.replace('"bend"', '"b\xe9nd"')))
     v = validate(path, samples=3)
     assert v.passed
-    assert (v.rows[0].joints, "b\xe9nd" in v.rows[0].configuration) == (4, True)
+    assert (v.chains[0].joints, "b\xe9nd" in v.chains[0].configuration) == (4, True)
 
 
 def test_progress_is_told_before_each_chain():

@@ -177,10 +177,12 @@ def test_a_moved_link_pose_costs_12_and_6():
 
 def test_a_count_is_a_dict_with_pairs_of_sines_and_cosines():
     cost = Count(multiplications=3, sines=2, cosines=1)
-    assert cost.as_dict() == {
+    assert cost.to_dict() == {
         "multiplications": 3, "additions": 0, "divisions": 0, "square_roots": 0, "sines": 2, "cosines": 1,
         "arctangents": 0, "sine_cosine_pairs": 2,
     }  # fmt: skip
+    assert str(Count(12, 6, square_roots=1)) == "12 multiplications, 6 additions, 1 square roots"
+    assert str(Count()) == "no operations"
 
 
 def test_a_float_one_is_a_number_like_any_other():

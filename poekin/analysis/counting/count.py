@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, get_args
 
 from ...engine.count import Count
 from ...engine.straight_line.specialise import specialised
@@ -15,10 +15,22 @@ from . import count_scalars as scalars
 
 __all__ = ["COUNTINGS", "METHODS", "Count", "count"]
 
-COUNTINGS = ("paper", "live", "everything")
+Counting = Literal["paper", "live", "everything"]
+CountMethod = Literal[
+    "direct",
+    "recursive",
+    "recursive_with_tool",
+    "recursive_by_cross",
+    "recursive_general_frames",
+    "dh_recursive",
+    "dh_paul",
+    "dh_modified",
+    "structured",
+    "specialised",
+]
+COUNTINGS: tuple[Counting, ...] = get_args(Counting)
 
-
-Run = Callable[[Chain, Any, str, bool], Count]
+Run = Callable[[Chain, Any, Counting, bool], Count]
 
 
 @dataclass(frozen=True)
@@ -29,13 +41,13 @@ class Method:
 
     run: Run
     frames: tuple[str, ...] = ("body",)
-    countings: tuple[str, ...] = COUNTINGS
+    countings: tuple[Counting, ...] = COUNTINGS
 
 
 def _general(algorithm: scalars.Algorithm, form: scalars.Form) -> Run:
     """An algorithm on links of a form."""
 
-    def run(chain: Chain, frame: Any, counting: str, pose: bool) -> Count:
+    def run(chain: Chain, _frame: Any, counting: Counting, pose: bool) -> Count:
         if counting == "paper":
             return scalars.paper_operations(algorithm, chain, pose)
         if counting == "live":
@@ -45,17 +57,16 @@ def _general(algorithm: scalars.Algorithm, form: scalars.Form) -> Run:
     return run
 
 
-def _structured(chain: Chain, frame: Any, counting: str, pose: bool) -> Count:
-    return specialised(
-        scalars.generic_structure(chain, tool=counting == "everything"), frame, pose
-    ).count
+def _structured(chain: Chain, frame: Any, counting: Counting, pose: bool) -> Count:
+    general = scalars.generic_structure(chain, tool=counting == "everything")
+    return specialised(general, frame, pose).count
 
 
-def _specialised(chain: Chain, frame: Any, counting: str, pose: bool) -> Count:
+def _specialised(chain: Chain, frame: Any, _counting: Counting, pose: bool) -> Count:
     return chain.compile().program(frame, pose=pose).count
 
 
-METHODS: dict[str, tuple[Method, ...]] = {
+METHODS: dict[CountMethod, tuple[Method, ...]] = {
     "direct": (
         Method(_general(methods.direct_body, scalars.exponential)),
         Method(_general(methods.direct_space, scalars.exponential), ("space",)),
@@ -77,41 +88,73 @@ METHODS: dict[str, tuple[Method, ...]] = {
 def count(
     chain: Chain,
     *,
-    method: str = "recursive",
+    method: CountMethod = "recursive",
     frame: str | int | None = "body",
-    counting: str | None = None,
+    counting: Counting | None = None,
     pose: bool = False,
 ) -> Count:
-    """Operations of one Jacobian, found by running the algorithm: nothing here is a formula in n.
+    """Operations of one Jacobian, found by running the algorithm.
 
-    All methods but "specialised" are about any chain of joints like these: of `chain` they take the
-    kinds of the joints and the coupling, and every constant is general.
+    Nothing here is a formula in n. All methods but "specialised" are about any chain of joints like
+    these: of `chain` they take the kinds of the joints and the coupling, and every constant is
+    general.
 
     Parameters
     ----------
-    chain: of n >= 2 joints (any number for "specialised").
-    method: "direct" (Section III); "recursive" (Section IV, z-aligned frames, the tool in the last
-        link's frame), and the same "recursive_with_tool" (a constant tool behind),
-        "recursive_by_cross" (third columns of rotations as cross products) or
-        "recursive_general_frames" (link frames attached anywhere); "dh_recursive" (Orin and
-        Schrader on Paul's frames, with a tool); with the bookkeeping of "recursive" "dh_paul"
-        (Paul's frames) and "dh_modified" (Craig's); "structured" (two planar rotations a link,
-        `formulas.kinematics.structured`); "specialised" (the straight-line program of this very
-        arm, `Chain.compile`).
-    frame: "body"; "space" for "direct"; "structured" has "hybrid" too, "specialised" those,
-        "cheapest", each joint's index k, and None, which is the pose alone.
-    counting: "paper": all that the algorithm does, but not the making of the links' poses; "live":
-        only what reaches an output; "everything": that and sines, cosines, links' poses, the
-        coupling, and for "structured" a tool.
-        By default "paper", for "structured" "live", for "specialised" "everything".
-    pose: the tool's pose too, out of the same pass.
+    chain : Chain
+        Arm of at least two joints (any number for "specialised").
+    method : str, default "recursive"
+        Algorithm, see Notes.
+    frame : {"body", "space", "hybrid", "cheapest"}, int or None
+        Frame of the Jacobian: "body"; "space" for "direct"; "structured" has "hybrid" too,
+        "specialised" those, "cheapest", each joint's index k, and None, which is the pose alone.
+    counting : {"paper", "live", "everything"}, optional
+        Operations that are charged. "paper": all that the algorithm does, but not the making of the
+        links' poses; "live": only those that reach an output; "everything": these and sines,
+        cosines, links' poses, the coupling, and for "structured" a tool. By default "paper", for
+        "structured" "live", for "specialised" "everything".
+    pose : bool, default False
+        Whether the same pass gives the tool's pose too.
 
-    Returns: Count: multiplications, additions (subtractions among them), sines, cosines; divisions
-    and square roots are 0. A constant times a constant and a change of sign cost nothing; adding
-    angles costs additions.
-    Raises: InputError, UnknownName for a frame. Accuracy: exact, by running
-    (tests/analysis/counting/test_count.py). Source: Park 1994, Section IV, the table: 60 n - 96 and
-    45 n - 72, 42 n - 78 and 30 n - 57, 42 n and 30 n.
+    Returns
+    -------
+    cost : Count
+        Multiplications, additions (subtractions among them), sines and cosines; divisions and
+        square roots are 0. A constant times a constant and a change of sign cost nothing; adding
+        angles costs additions.
+
+    Raises
+    ------
+    InputError
+        If `chain` is no Chain or too short, or method, frame, counting and pose do not go together.
+    UnknownName
+        If "specialised" has no such frame.
+
+    See Also
+    --------
+    count_table : The counts of one arm by every method.
+
+    Notes
+    -----
+    Methods: "direct" (Section III); "recursive" (Section IV, z-aligned frames, the tool in the last
+    link's frame), and the same "recursive_with_tool" (a constant tool behind), "recursive_by_cross"
+    (third columns of rotations as cross products) or "recursive_general_frames" (link frames
+    attached anywhere); "dh_recursive" (Orin and Schrader on Paul's frames, with a tool); with the
+    bookkeeping of "recursive", "dh_paul" (Paul's frames) and "dh_modified" (Craig's); "structured"
+    (two planar rotations a link, `formulas.kinematics.structured`); "specialised" (the
+    straight-line program of this very arm, `Chain.compile`).
+
+    Accuracy: exact, by running (tests/analysis/counting/test_count.py). Source: Park 1994,
+    Section IV, the table: 60 n - 96 and 45 n - 72, 42 n - 78 and 30 n - 57, 42 n and 30 n.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5e").chain(tip="tool0")
+    >>> print(pk.count(arm, method="recursive"))
+    174 multiplications, 123 additions
+    >>> print(pk.count(arm, method="specialised", frame="body"))
+    45 multiplications, 21 additions, 5 sines, 5 cosines
     """
     if not isinstance(chain, Chain):
         raise InputError(f"expected a Chain, as Robot.chain makes it, got {safe_repr(chain)}")
@@ -131,9 +174,9 @@ def count(
 
 
 def _way(method: object, frame: object) -> Method:
-    ways = METHODS.get(method) if isinstance(method, str) else None
-    if ways is None:
+    if not isinstance(method, str) or method not in METHODS:
         raise InputError(f"no method {safe_repr(method)}; there are: {', '.join(METHODS)}")
+    ways = METHODS[method]
     if method == "specialised":
         return ways[0]  # its program knows its frames, the joints' indices among them
     for way in ways:

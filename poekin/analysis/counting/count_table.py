@@ -6,19 +6,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import ClassVar, Literal
 
 import numpy as np
 
-from ...errors import InputError, safe_repr
+from ...errors import InputError, join_names, safe_repr
 from ...model.chain import Chain
 from ...model.geometry.idealise import Idealised
 from ...model.kinematics.compiled import CheapestFrame, CompiledChain
-from .count import Count, count
+from ...results import Result, plain
+from .count import Count, Counting, CountMethod, count
 
 __all__ = ["PRINTED", "CountRow", "CountTable", "count_table", "printed"]
 
-PRINTED = {
+Charged = Literal["printed", "paper", "live", "everything"]
+
+PRINTED: dict[CountMethod, tuple[tuple[int, int], tuple[int, int]]] = {
     "direct": ((60, 96), (45, 72)),
     "recursive": ((42, 78), (30, 57)),
     "dh_recursive": ((42, 0), (30, 0)),
@@ -32,32 +35,61 @@ Schrader 1984; their own table has not been looked up here.
 
 
 @dataclass(frozen=True)
-class CountRow:
-    """One way to a Jacobian and its cost.
+class CountRow(Result):
+    """Cost of one way to a Jacobian.
 
-    Attributes: group, a heading of `CountTable`; method, frame, counting, as `count` takes them;
-    what, in words; jacobian and with_pose, the Counts of J alone and of J and the tool's pose (None
-    where nobody printed it).
+    Attributes
+    ----------
+    group : str
+        Heading of `CountTable` that it is under.
+    method, frame, counting : str
+        Arguments of `count`; a frame may be the index of a joint.
+    what : str
+        Description of the method.
+    jacobian, with_pose : Count
+        Operations of J alone, and of J and the tool's pose (None where nobody printed it).
     """
 
     group: str
-    method: str
+    method: CountMethod
     frame: str | int
-    counting: str
+    counting: Charged
     what: str
     jacobian: Count
     with_pose: Count | None
 
+    def summary(self) -> str:
+        """Method, frame and operations.
+
+        Returns
+        -------
+        text : str
+            Line such as "POE, direct, body: 264 multiplications, 198 additions".
+        """
+        return f"{self.what}, {self.frame}: {self.jacobian}"
+
 
 @dataclass(frozen=True)
-class CountTable:
-    """Costs of one arm's Jacobian in every way that `count` knows.
+class CountTable(Result):
+    """Costs of one arm's Jacobian in every way that `count` knows; the result of `count_table`.
 
-    Attributes: base, tip, names of the frames; joints n, coordinates m; rows; idealised, the
-    `Idealised` whose rows there are, or None; cheapest, which frame "cheapest" is, of the arm as it is;
-    verdict, sentences on which part of the printed advantage over Denavit and Hartenberg is
-    bookkeeping.
+    Attributes
+    ----------
+    base, tip : str
+        Names of the frames.
+    joints, coordinates : int
+        Numbers n and m.
+    rows : tuple of CountRow
+        Costs, group by group.
+    idealised : Idealised or None
+        The idealised arm whose rows there are.
+    cheapest : CheapestFrame or None
+        Frame that "cheapest" is, of the arm as it is.
+    verdict : tuple of str
+        Sentences on which part of the printed advantage over Denavit and Hartenberg is bookkeeping.
     """
+
+    left_out: ClassVar = ("idealised", "cheapest")
 
     base: str
     tip: str
@@ -83,35 +115,62 @@ class CountTable:
         return tuple(dict.fromkeys(row.group for row in self.rows))
 
     def of(self, group: str) -> tuple[CountRow, ...]:
-        """The rows under a heading, `group`; none where there is no such heading. Raises: nothing."""
+        """Rows under a heading.
+
+        Parameters
+        ----------
+        group : str
+            One of `groups`.
+
+        Returns
+        -------
+        rows : tuple of CountRow
+            The rows in order.
+
+        Raises
+        ------
+        InputError
+            If there is no such heading.
+        """
+        if group not in self.groups:
+            raise InputError(
+                f"group: expected one of {join_names(self.groups)}, got {safe_repr(group)}"
+            )
         return tuple(row for row in self.rows if row.group == group)
 
-    def as_dict(self) -> dict[str, Any]:
-        """Everything as plain dicts, lists, numbers and texts."""
-        cheapest = None
-        if self.cheapest is not None:
-            cheapest = {
-                "joint": self.cheapest.joint,
-                "along": self.cheapest.along,
-                "T_km": self.cheapest.T_km.tolist(),
-            }
-        idealised = None
-        if self.idealised is not None:
-            idealised = {
-                "position_bound": self.idealised.position_bound,
-                "rotation_bound": self.idealised.rotation_bound,
-                "changes": list(self.idealised.changes),
-            }
-        return {
-            "base": self.base,
-            "tip": self.tip,
-            "joints": self.joints,
-            "coordinates": self.coordinates,
-            "cheapest": cheapest,
-            "idealised": idealised,
-            "verdict": list(self.verdict),
+    def summary(self) -> str:
+        """Every row under its heading, and the verdict.
+
+        Returns
+        -------
+        text : str
+            One line each.
+        """
+        lines = [
+            f"Operations of one Jacobian: {self.joints} joints, {self.coordinates} coordinates"
+        ]
+        for group in self.groups:
+            lines += [f"{group}:", *(f"  {row}" for row in self.of(group))]
+        return "\n".join([*lines, *self.verdict])
+
+    def to_dict(self) -> dict[str, object]:
+        """All counts, the meaning of their groups, the cheapest frame, and bounds of the idealising.
+
+        Returns
+        -------
+        document : dict
+            Dicts, lists, numbers and texts.
+        """
+        ideal = self.idealised
+        return super().to_dict() | {
+            "cheapest": plain(self.cheapest and self.cheapest._asdict()),
+            "idealised": ideal
+            and {
+                "position_bound": ideal.position_bound,
+                "rotation_bound": ideal.rotation_bound,
+                "changes": list(ideal.changes),
+            },
             "groups": {group: MEANING[group] for group in self.groups},
-            "rows": [_plain(row) for row in self.rows],
         }
 
 
@@ -136,56 +195,70 @@ MEANING = {
 }
 """What the groups of rows are."""
 
-_WAYS: tuple[tuple[str, str, str, str, str], ...] = (
-    (COUNTINGS, "direct", "space", "paper", "POE, direct"),
-    (COUNTINGS, "direct", "body", "paper", "POE, direct"),
-    (COUNTINGS, "recursive", "body", "paper", "POE, recursive, tool in the last link's frame"),
-    (COUNTINGS, "dh_recursive", "body", "paper", "DH, recursive: first link and tool charged"),
-    (ALIKE, "recursive", "body", "paper", "POE, recursive"),
-    (ALIKE, "dh_modified", "body", "paper", "DH, recursive on modified (Craig's) frames"),
-    (ALIKE, "dh_paul", "body", "paper", "DH, recursive on standard (Paul's) frames"),
-    (ALIKE, "recursive_with_tool", "body", "paper", "POE, recursive, a constant tool behind"),
-    (
-        ALIKE,
-        "recursive_general_frames",
-        "body",
-        "paper",
-        "POE, recursive, link frames attached anywhere",
-    ),
-    (NEEDED, "direct", "body", "live", "POE, direct"),
-    (NEEDED, "recursive", "body", "live", "POE, recursive"),
-    (
-        NEEDED,
-        "recursive_by_cross",
-        "body",
-        "live",
-        "POE, recursive, third columns by cross product",
-    ),
-    (NEEDED, "dh_modified", "body", "live", "DH, recursive on modified frames"),
-    (NEEDED, "dh_paul", "body", "live", "DH, recursive on standard frames"),
-    (EVERYTHING, "direct", "space", "everything", "POE, direct, exponentials made"),
-    (
-        EVERYTHING,
-        "recursive_with_tool",
-        "body",
-        "everything",
-        "POE, recursive, z-aligned frames, tool",
-    ),
-    (EVERYTHING, "recursive", "body", "everything", "POE, recursive, z-aligned frames, no tool"),
-    (EVERYTHING, "dh_modified", "body", "everything", "DH, recursive on modified frames, no tool"),
-    (EVERYTHING, "dh_recursive", "body", "everything", "DH, recursive on standard frames, tool"),
-    (STRUCTURED, "structured", "body", "live", "general links"),
-)
+_WAYS: tuple[tuple[str, Counting, tuple[tuple[CountMethod, str, str], ...]], ...] = (
+    (COUNTINGS, "paper", (
+        ("direct", "space", "POE, direct"),
+        ("direct", "body", "POE, direct"),
+        ("recursive", "body", "POE, recursive, tool in the last link's frame"),
+        ("dh_recursive", "body", "DH, recursive: first link and tool charged"),
+    )),
+    (ALIKE, "paper", (
+        ("recursive", "body", "POE, recursive"),
+        ("dh_modified", "body", "DH, recursive on modified (Craig's) frames"),
+        ("dh_paul", "body", "DH, recursive on standard (Paul's) frames"),
+        ("recursive_with_tool", "body", "POE, recursive, a constant tool behind"),
+        ("recursive_general_frames", "body", "POE, recursive, link frames attached anywhere"),
+    )),
+    (NEEDED, "live", (
+        ("direct", "body", "POE, direct"),
+        ("recursive", "body", "POE, recursive"),
+        ("recursive_by_cross", "body", "POE, recursive, third columns by cross product"),
+        ("dh_modified", "body", "DH, recursive on modified frames"),
+        ("dh_paul", "body", "DH, recursive on standard frames"),
+    )),
+    (EVERYTHING, "everything", (
+        ("direct", "space", "POE, direct, exponentials made"),
+        ("recursive_with_tool", "body", "POE, recursive, z-aligned frames, tool"),
+        ("recursive", "body", "POE, recursive, z-aligned frames, no tool"),
+        ("dh_modified", "body", "DH, recursive on modified frames, no tool"),
+        ("dh_recursive", "body", "DH, recursive on standard frames, tool"),
+    )),
+    (STRUCTURED, "live", (("structured", "body", "general links"),)),
+)  # fmt: skip
 
 
 def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
-    """The operation counts of one arm's Jacobian, in every way that `count` knows.
+    """Operation counts of one arm's Jacobian, in every way that `count` knows.
 
-    Parameters: chain, of n joints; from n = 2 on the paper's methods are in it, and the printed
-    formulas where all joints are revolute and uncoupled. idealise: a tolerance (rad and m), for the
-    program of the idealised chain too. Returns: CountTable. Raises: InputError. Accuracy: exact, by
-    running; only the printed lines are formulas.
-    Source: Park 1994, Section IV; the programs are those that `Chain.compile` runs.
+    Parameters
+    ----------
+    chain : Chain
+        Arm of n joints; from n = 2 on the paper's methods are in the table, and the printed
+        formulas where all joints are revolute and uncoupled.
+    idealise : float, optional
+        Tolerance, rad and m: the program of the idealised chain is counted too.
+
+    Returns
+    -------
+    table : CountTable
+        Rows of counts in groups.
+
+    Raises
+    ------
+    InputError
+        If `chain` is no Chain, or `idealise` out of range.
+
+    Notes
+    -----
+    Accuracy: exact, by running; only the printed lines are formulas. Source: Park 1994, Section IV;
+    the programs are those that `Chain.compile` runs.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> table = pk.count_table(pk.load("ur5e").chain(tip="tool0"))
+    >>> print(table["recursive", "body", "paper"])
+    POE, recursive, tool in the last link's frame, body: 174 multiplications, 123 additions
     """
     if not isinstance(chain, Chain):
         raise InputError(f"expected a Chain, as Robot.chain makes it, got {safe_repr(chain)}")
@@ -195,17 +268,7 @@ def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
     n = len(chain.joint_names)
     rows: list[CountRow] = []
     if n >= 2:
-        if plain(chain):
-            rows += [
-                CountRow(PAPER, m, "body", "printed", _words(m), printed(m, n), None)
-                for m in PRINTED
-            ]
-        for group, method, frame, charged, what in _WAYS:
-            J, both = (
-                count(chain, method=method, frame=frame, counting=charged, pose=pose)
-                for pose in (False, True)
-            )
-            rows.append(CountRow(group, method, frame, charged, what, J, both))
+        rows += _methods(chain)
     arm = chain.compile()
     rows += _programs(arm, THIS)
     if ideal is not None:
@@ -218,29 +281,31 @@ def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
     )
 
 
-def printed(method: str, n: int) -> Count:
+def _methods(chain: Chain) -> Iterator[CountRow]:
+    """Rows of the paper's methods and of their variants."""
+    if uncoupled_revolute(chain):
+        for method in PRINTED:
+            cost = printed(method, len(chain.joint_names))
+            yield CountRow(PAPER, method, "body", "printed", _words(method), cost, None)
+    for group, counting, ways in _WAYS:
+        for method, frame, what in ways:
+            J, both = (
+                count(chain, method=method, frame=frame, counting=counting, pose=pose)
+                for pose in (False, True)
+            )
+            yield CountRow(group, method, frame, counting, what, J, both)
+
+
+def printed(method: CountMethod, n: int) -> Count:
     """The paper's formula of a method of `PRINTED` for n revolute joints."""
     (a, b), (c, d) = PRINTED[method]
     return Count(multiplications=a * n - b, additions=c * n - d)
 
 
-def plain(chain: Chain) -> bool:
-    """Whether the paper's formulas speak of a chain: revolute joints only, each its own coordinate."""
-    own = chain.coupling.shape == (chain.dof,) * 2 and bool(
-        (chain.coupling == np.eye(chain.dof)).all()
-    )
-    return own and set(chain.kinds) == {"revolute"}
-
-
-def _plain(row: CountRow) -> dict[str, Any]:
-    """A row as plain dicts, numbers and texts."""
-    names = ("group", "method", "frame", "counting", "what")
-    plain = {name: getattr(row, name) for name in names}
-    plain["jacobian"] = row.jacobian.as_dict()
-    plain["with_pose"] = None
-    if row.with_pose is not None:
-        plain["with_pose"] = row.with_pose.as_dict()
-    return plain
+def uncoupled_revolute(chain: Chain) -> bool:
+    """Whether all joints are revolute, each its own coordinate, as in the paper's formulas."""
+    C = chain.coupling
+    return set(chain.kinds) == {"revolute"} and np.array_equal(C, np.eye(len(C)))
 
 
 def _programs(arm: CompiledChain, group: str) -> Iterator[CountRow]:
@@ -258,7 +323,7 @@ def _programs(arm: CompiledChain, group: str) -> Iterator[CountRow]:
         yield CountRow(group, "specialised", frame, "everything", what, J, both)
 
 
-def _words(method: str) -> str:
+def _words(method: CountMethod) -> str:
     mult, add = (f"{a}n" + (f" - {b}" if b else "") for a, b in PRINTED[method])
     return {
         "direct": "POE, direct",
@@ -272,7 +337,7 @@ def _verdict(chain: Chain) -> Iterator[str]:
     if len(chain.kinds) < 2:
         return
 
-    def of(method: str) -> Count:
+    def of(method: CountMethod) -> Count:
         return count(chain, method=method, counting="paper")
 
     def gap(a: Count, b: Count) -> str:

@@ -30,7 +30,7 @@ class Measures(Result):
     condition : (...) ndarray
         Condition number s_1 / s_g, infinite at a singularity.
     smallest : (...) ndarray
-        Smallest of them, s_g.
+        Smallest of them, s_g: rad/s or m/s of the tool for rates of size 1.
     """
 
     yoshikawa: Array

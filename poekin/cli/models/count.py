@@ -32,7 +32,7 @@ def command(
     chain = robot.chain(base=base, tip=tip)
     counts = count_table(chain, idealise=idealise)
     if json:
-        print(as_json({"robot": robot.name} | counts.as_dict()))
+        print(as_json({"robot": robot.name} | counts.to_dict()))
     else:
         _show(counts)
 

@@ -87,7 +87,7 @@ def _document(
     passed = not errors and all(v.passed for v in results)
     return {
         "passed": passed,
-        "robots": [v.as_dict() for v in results],
+        "robots": [v.to_dict() for v in results],
         "errors": errors,
         "skipped": skipped,
     }
@@ -97,13 +97,14 @@ def _show(results: list[Validation], unread: int, skipped: list[str]) -> None:
     rows = []
     for v in results:
         errors = [
-            number(max(getattr(row, what) for row in v.rows), 3) for what in ("pose", *FRAME_NAMES)
+            number(max(getattr(row, what) for row in v.chains), 3)
+            for what in ("pose", *FRAME_NAMES)
         ]
         worst = v.worst
         way = ""
         if worst:
             way = f"{worst.base} → {worst.tip}"
-        rows.append((v.robot, "pass" if v.passed else "FAIL", way, len(v.rows), *errors))
+        rows.append((v.robot, "pass" if v.passed else "FAIL", way, len(v.chains), *errors))
     if rows:
         say(
             f"Worst error of all chains from root to leaf against Pinocchio, each ÷ R; the bar is {number(BAR)}"
@@ -114,14 +115,9 @@ def _show(results: list[Validation], unread: int, skipped: list[str]) -> None:
             left=3,
         )
     for v in results:
-        for row in v.rows:
-            if row.worst > v.bar:
-                at = ", ".join(f"{k} = {number(x, 9)}" for k, x in row.configuration.items())
-                note = f" ({row.note})" if row.note else ""
-                off = number(row.worst, 3)
-                say(
-                    f"{v.robot}: {row.base} → {row.tip} is off by {off} R{note}; worst at {at or 'home'}"
-                )
+        for row in v.chains:
+            if not row.passed:
+                say(f"{v.robot}: {row.summary()}")
             elif row.note:
                 say(f"{v.robot}: {row.base} → {row.tip} {row.note}")
     for file in skipped:

@@ -329,13 +329,25 @@ def test_the_table_has_every_column_and_is_plain_data():
     assert programs == ["space", "body", "hybrid", *range(6), "cheapest"]
     assert [r.frame for r in table.of("the idealised arm's own program")] == programs
     assert table.idealised is not None
-    document = json.loads(json.dumps(table.as_dict()))
+    document = json.loads(table.to_json())
     assert len(document["rows"]) == len(table.rows)
     assert document["idealised"]["position_bound"] == table.idealised.position_bound
     assert document["rows"][0]["jacobian"]["multiplications"] == 264
     assert set(document["groups"]) == set(table.groups)
     with pytest.raises(KeyError):
         table["direct", "hybrid", "paper"]
+    with pytest.raises(
+        pk.errors.InputError, match=r"^group: expected one of 'printed in the paper', .*, got 'x'$"
+    ):
+        table.of("x")
+    row = table["recursive", "body", "paper"]
+    assert row.summary() == f"{row.what}, body: 174 multiplications, 123 additions"
+    lines = str(table).splitlines()
+    assert lines[0] == "Operations of one Jacobian: 6 joints, 6 coordinates"
+    assert len(lines) == 1 + len(table.groups) + len(table.rows) + len(table.verdict)
+    assert lines[-1] == table.verdict[-1]
+    assert table.cheapest is not None
+    assert document["cheapest"]["joint"] == table.cheapest.joint
 
 
 def test_the_verdict_is_in_the_arm_s_own_numbers():

@@ -139,7 +139,7 @@ def test_what_cannot_be_judged_is_refused():
     with pytest.raises(
         InputError, match=r"^part: expected one of 'pose', 'translation', 'rotation', got 'linear'"
     ):
-        manipulability_gradient(planar(1.0), [0.0], part="linear")
+        manipulability_gradient(planar(1.0), [0.0], part="linear")  # pyright: ignore[reportArgumentType]
     with pytest.raises(
         InputError, match=r"^expected a Chain, as Robot.chain\(tip=...\) makes it, got 3"
     ):

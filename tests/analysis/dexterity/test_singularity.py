@@ -260,7 +260,7 @@ def test_what_cannot_be_judged_is_refused():
     with pytest.raises(InputError, match=r"^tolerance: expected a number between 0 and 1, got 2"):
         singularity(arm, ELBOW, tolerance=2)
     with pytest.raises(InputError, match=r"^part: "):
-        singularity(arm, ELBOW, part="all")
+        singularity(arm, ELBOW, part="all")  # pyright: ignore[reportArgumentType]
 
 
 def test_an_arm_that_never_moves_its_tool_has_no_motion_to_lose():

@@ -36,8 +36,8 @@ def test_a_wrong_robot_fails_with_one_and_says_where(crane, poekin, monkeypatch)
 
     def wrong(*args, **options):
         v = right(*args, **options)
-        row = dataclasses.replace(v.rows[0], body=1e-3)
-        return dataclasses.replace(v, rows=(row, *v.rows[1:]))
+        row = dataclasses.replace(v.chains[0], body=1e-3)
+        return dataclasses.replace(v, chains=(row, *v.chains[1:]))
 
     monkeypatch.setattr(command, "validate", wrong)
     code, out, _ = poekin("validate", crane, "--samples", 3)
