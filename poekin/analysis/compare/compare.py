@@ -235,7 +235,7 @@ def _as_it_is(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Hypothesis:
     pair = sides(a, b, tol_m, tol_rad)
     base = np.eye(4)
     base[:3, 3] = pair.b.centre - pair.a.centre
-    return read(pair, a, b, base[None], np.zeros((1, pair.n)))[0]
+    return read(pair, base[None], np.zeros((1, pair.n)))[0]
 
 
 def _names(chain: Chain, ks: tuple[int, ...]) -> tuple[str, ...]:

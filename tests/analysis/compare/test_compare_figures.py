@@ -130,7 +130,7 @@ def test_a_zero_offset_is_read_as_the_lesser_turn():
     P[:3, 3] = pair.b.centre - pair.a.centre
     z = np.zeros((2, 6))
     z[:, 2] = np.radians([350, -370])
-    for reading in searching._simplest(pair, chain, other, np.stack([P, P]), z):
+    for reading in searching._simplest(pair, np.stack([P, P]), z):
         assert np.degrees(reading.zeros) == pytest.approx([0, 0, -10, 0, 0, 0], abs=1e-9)
         assert not reading.moved.any()
 
@@ -218,7 +218,7 @@ def test_a_zero_offset_that_no_agreeing_axis_needs_is_put_back_though_another_ax
     P, z = np.eye(4)[None].copy(), np.zeros((1, 6))
     P[0, :3, 3] = pair.b.centre - pair.a.centre
     z[0, 5] = 0.4
-    (found,) = searching._simplest(pair, chain, other, P, z)
+    (found,) = searching._simplest(pair, P, z)
     assert found.zeros.tolist() == [0.0] * 6
     assert found.moved.sum() >= 1
 

@@ -112,7 +112,7 @@ def as_it_stands(chain, other, zeros=(0.0,)):
     pair = sides(chain, other, *TOL)
     P = np.eye(4)
     P[:3, 3] = pair.b.centre - pair.a.centre
-    (reading,) = read(pair, chain, other, P[None], np.zeros((1, pair.n)) + np.array(zeros))
+    (reading,) = read(pair, P[None], np.zeros((1, pair.n)) + np.array(zeros))
     return pair, reading
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ....groups import se3
 from ....groups.arrays import Array
-from .lines import Lines, Sides, cross, deviations, signs, transformed
+from .lines import Lines, Sides, aligned_deviations, cross, deviations, signs, transformed
 
 # An axis within about a degree of parallel counts as parallel, as the common normal flies about
 # there.
@@ -147,7 +147,7 @@ def one_by_one(pair: Sides) -> tuple[Array, Array]:
         D = D[row] @ se3.exp(pair.b.screws[k] * turn[:, None])
         z = z[row]
         z[:, k] = turn
-        miss = deviations(pair, transformed(pair, P, z)[1])[:, k + 1]
+        miss = aligned_deviations(pair, P, z)[:, k + 1]
         loss = loss[row] + np.minimum(miss, 1e4) ** 0.5 + (abs(turn) > pair.zero_tolerance[k])
         kept = np.argsort(loss, kind="stable")[:BEAM]
         P = P[kept]

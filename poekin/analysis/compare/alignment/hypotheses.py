@@ -5,16 +5,44 @@ other readings.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ....model.chain import Chain
 from .lines import Marks, Sides, carriers, cross, deviations, signs, transformed
 
-ONE = 2.5
-"""Cost of one change in one joint, beside which no other conventions are looked for."""
+
+class Costs(NamedTuple):
+    """Costs of what differs between two models, of which only the order matters.
+
+    One change in one joint < two or more zeros and directions alone < one other link < a moved axis
+    that zeros help < several moved axes.
+    """
+
+    # One change in one joint, whatever it is: beside it no other conventions are looked for.
+    one_change: float = 2.5
+    # One moved axis where base and tool moved too: behind six other zeros alone (4.75), which are
+    # likelier where conventions differ at all, and before seven (5).
+    axis_in_moved_frames: float = 4.9
+    # All axes behind a link: before one moved axis and one other zero (5.55 or more).
+    link: float = 5.25
+    # Each of several moved axes: likelier than two zeros (3.5), less so than one (2.5).
+    axis: float = 3.0
+    # Share of its distance that one moved axis counts: a tie-break. Of several it counts in full,
+    # as the few axes that agree by chance under a wild alignment prove nothing.
+    distance_of_one_axis: float = 0.05
+    # One and two joints of another zero or direction, then a start and a step for each: models
+    # whose conventions differ do so in many joints, so that each more says little.
+    conventions: tuple[float, float, float] = (0.0, 2.5, 3.5)
+    conventions_start: float = 3.25
+    conventions_step: float = 0.25
+    # Tolerances beyond which a deviation counts no more where all else is equal.
+    largest_deviation: float = 10.0
+
+
+COSTS = Costs()
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,44 +77,40 @@ class Hypothesis:
 
     @property
     def cost(self) -> tuple[float, ...]:
-        """The order of readings: the smaller, the better.
+        """The order of readings: the smaller, the better; the reasons stand in `Costs`.
 
-        One change in one joint comes first, whatever it is: base and tool that stay where they are
-        decide, then a zero offset rather than a moved axis. One moved axis is likelier than two
-        zero offsets; but where conventions differ they differ in many joints, and each more says
-        little: where base and tool both moved, other zeros and directions alone come before one
-        moved axis. One other link, which moves all axes behind it, is likelier than a moved axis
-        that zero offsets help. Of several moved axes it counts how far they are: the few that agree
-        by chance under a wild alignment prove nothing.
+        Of readings that cost the same, base and tool that stay where they are decide, then a zero
+        offset rather than a moved axis, then how near the axes are.
         """
-        conventions = int((self.offset | (self.directions < 0)).sum())
+        reversed_ = self.directions < 0
+        conventions = int((self.offset | reversed_).sum())
         moved = int(self.moved.sum())
-        changes = int(self.offset.sum() + (self.directions < 0).sum())
-        near = float(np.minimum(self.deviations, 10.0).sum())
+        changes = int(self.offset.sum() + reversed_.sum())
+        near = float(np.minimum(self.deviations, COSTS.largest_deviation).sum())
         if moved + changes <= 1:
-            alone = ONE * (moved + changes)
+            alone = COSTS.one_change * (moved + changes)
             if moved and self.frames == 2:
-                alone = 4.9
+                alone = COSTS.axis_in_moved_frames
             return (alone, self.frames, moved, near)
         if self.link:
-            return (5.25, self.frames, moved, near)
-        weight = (0.0, 2.5, 3.5)[conventions] if conventions < 3 else 3.25 + 0.25 * conventions
+            return (COSTS.link, self.frames, moved, near)
+        weight = COSTS.conventions_start + COSTS.conventions_step * conventions
+        if conventions < len(COSTS.conventions):
+            weight = COSTS.conventions[conventions]
         far = float((self.deviations[self.moved] ** 0.25).sum())
         if moved <= 1:
-            far *= 0.05
-        return (3.0 * moved + far + weight, self.frames, changes, near)
+            far *= COSTS.distance_of_one_axis
+        return (COSTS.axis * moved + far + weight, self.frames, changes, near)
 
 
-def read(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Hypothesis]:
-    """The readings that alignments (P, z) of a's and b's axes (both at rest), (m, 4, 4) and (m, n),
-    stand for.
-    """
+def read(pair: Sides, P: Array, z: Array) -> list[Hypothesis]:
+    """The readings that alignments (P, z) of both axes, (m, 4, 4) and (m, n), stand for."""
     axes = transformed(pair, P, z)[1]
     miss = deviations(pair, axes)
     s = signs(pair, axes)
     base = off_centre(pair, P)
     last = off_centre(pair, carriers(pair, P, z)[:, -1])
-    tool = se3.inverse(last @ b.home) @ a.home
+    tool = se3.inverse(last @ pair.b.home) @ pair.a.home
     axes[..., 3:] -= cross(axes[..., :3], pair.a.centre)
     frames = (~still(np.stack([base, tool]), pair.tol_m, pair.tol_rad)).sum(0)
     moved = miss > 1.0

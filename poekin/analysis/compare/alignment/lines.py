@@ -27,7 +27,8 @@ class Lines:
 
     Attributes: screws (n, 6); axes (n, 6), the same without pitch; ways (n, 3), their unit
     directions; kinds (n); pitches (n), m per rad; places (n, 3), the point of each axis nearest the
-    centre (zero for prismatic joints, which have no place); centre (3,), in the own base.
+    centre (zero for prismatic joints, which have no place); centre (3,) and home (4, 4), in the own
+    base.
     """
 
     screws: Array
@@ -37,6 +38,7 @@ class Lines:
     pitches: Array
     places: Array
     centre: Array
+    home: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,9 +111,9 @@ def lines(chain: Chain) -> Lines:
     axes = screws.copy()
     axes[:, 3:] -= chain.pitches[:, None] * screws[:, :3]
     places = cross(axes[:, :3], axes[:, 3:])
-    return Lines(
-        screws, axes, direction(axes, chain.kinds), chain.kinds, chain.pitches, places, centre
-    )
+    ways = direction(axes, chain.kinds)
+    kinds = chain.kinds
+    return Lines(screws, axes, ways, kinds, chain.pitches, places, centre, chain.home)
 
 
 def sides(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Sides:
@@ -201,6 +203,11 @@ def deviations(pair: Sides, axes: Array) -> Array:
     r = residuals(pair, axes)
     worst = np.linalg.norm(r.reshape(*r.shape[:-1], 2, 3), axis=-1).max(-1)
     return np.where(pair.alike, worst, np.inf)
+
+
+def aligned_deviations(pair: Sides, P: Array, z: Array) -> Array:
+    """The `deviations` (m, n) under alignments (P, z)."""
+    return deviations(pair, transformed(pair, P, z)[1])
 
 
 def _centre(chain: Chain) -> Array:

@@ -20,8 +20,8 @@ from ....model.chain import Chain
 from ..reached import poses_agree
 from .alignment_seeds import best, one_by_one, one_turn, rigid_poses
 from .fit import fit
-from .hypotheses import ONE, Hypothesis, off_centre, read, still
-from .lines import Marks, Sides, deviations, sides, signs, transformed
+from .hypotheses import COSTS, Hypothesis, off_centre, read, still
+from .lines import Marks, Sides, aligned_deviations, deviations, sides, signs, transformed
 
 
 def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Hypothesis, list[Hypothesis]]:
@@ -30,40 +30,34 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Hypothesis
     """
     pair = sides(a, b, tol_m, tol_rad)
     n = pair.n
-    alone = np.eye(pair.n, dtype=bool)
-    every = np.ones(n, bool)
-    none = np.zeros(n, bool)
+    alone = np.eye(n, dtype=bool)
     poses = rigid_poses(pair)
-    rigid = poses[1], np.zeros((len(poses[1]), n))
+    rigid = (poses[1], np.zeros((len(poses[1]), n)))
 
-    def readings(P: Array, z: Array, free: Marks, used: Marks) -> list[Hypothesis]:
-        return read(pair, a, b, *fit(pair, P, z, free, used))
+    def rigidly(P: Array, z: Array, used: Marks) -> list[Hypothesis]:
+        return read(pair, *fit(pair, P, z, np.zeros(n, bool), used))
 
-    found = read(pair, a, b, rigid[0][:1], rigid[1][:1])
+    found = read(pair, rigid[0][:1], rigid[1][:1])
     # Alike as they stand: nothing is to be aligned.
     if not found[0].cost[0] and not found[0].frames:
         return found[0], []
     P, z = best(pair, *rigid)
-    found += readings(P, z, none, every)
+    found += rigidly(P, z, np.ones(n, bool))
     first = min(found, key=_cost)
     if first.cost[0] == 0:
         return first, []
-    two = len(z[:2])
-    found += readings(
-        np.tile(P[:2], (n, 1, 1)), np.tile(z[:2], (n, 1)), none, ~alone.repeat(two, 0)
-    )
+    all_but_one = ~alone.repeat(len(z[:2]), 0)
+    found += rigidly(np.tile(P[:2], (n, 1, 1)), np.tile(z[:2], (n, 1)), all_but_one)
     if n > 2:
-        found += _one_joint(pair, a, b, poses)
-    found += _links(pair, a, b, poses[1])
+        found += _one_joint(pair, poses)
+    found += _links(pair, poses[1])
     # Where several axes differ, those that most starts agree on; one bad axis is looked for above.
-    found += [
-        as_it_starts for as_it_starts in read(pair, a, b, P, z) if as_it_starts.moved.sum() > 1
-    ]
-    miss = deviations(pair, transformed(pair, P, z)[1])
+    found += [as_it_starts for as_it_starts in read(pair, P, z) if as_it_starts.moved.sum() > 1]
+    miss = aligned_deviations(pair, P, z)
     agree = np.concatenate([miss <= 10.0, miss <= 1.0])
-    found += readings(np.tile(P, (2, 1, 1)), np.tile(z, (2, 1)), none, agree)
-    if min(found, key=_cost).cost[0] > ONE:
-        found += _conventions(pair, a, b)
+    found += rigidly(np.tile(P, (2, 1, 1)), np.tile(z, (2, 1)), agree)
+    if min(found, key=_cost).cost[0] > COSTS.one_change:
+        found += _conventions(pair)
     # The reading of the models as they stand holds, and so there is one that does.
     found.sort(key=_cost)
     holding = (r for r in found if r.moved.any() or poses_agree(pair, a, b, r))
@@ -80,19 +74,17 @@ def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Hypothesis | N
     every = np.ones(pair.n, bool)
     poses = rigid_poses(pair)[1]
     nothing = np.zeros((len(poses), pair.n))
-    found = read(pair, a, b, poses[:1], nothing[:1])
-    found += read(pair, a, b, *fit(pair, *best(pair, poses, nothing), none, every))
+    found = read(pair, poses[:1], nothing[:1])
+    found += read(pair, *fit(pair, *best(pair, poses, nothing), none, every))
     if min(found, key=_cost).cost[0]:
-        found += _simplest(pair, a, b, *_other_zeros(pair)[2:])
+        found += _simplest(pair, *_other_zeros(pair)[2:])
     holding = (
         r for r in sorted(found, key=_cost) if not r.moved.any() and poses_agree(pair, a, b, r)
     )
     return next(holding, None)
 
 
-def _one_joint(
-    pair: Sides, a: Chain, b: Chain, poses: tuple[NDArray[np.intp], Array]
-) -> list[Hypothesis]:
+def _one_joint(pair: Sides, poses: tuple[NDArray[np.intp], Array]) -> list[Hypothesis]:
     """Readings in which one inner joint alone has a zero offset, its axis agreeing, or held to be
     wrong.
     """
@@ -108,10 +100,10 @@ def _one_joint(
         for i in range(len(z[:most]))
     ]
     for (P, z), own in starts:
-        agree = deviations(pair, transformed(pair, P[:2], z[:2])[1]) <= 1.0
+        agree = aligned_deviations(pair, P[:2], z[:2]) <= 1.0
         tries += [(P[i], z[i], own, used) for i, used in enumerate(agree)]
     P, z, free, used = (np.array(column) for column in zip(*tries, strict=True))
-    return read(pair, a, b, *fit(pair, P, z, free, used))
+    return read(pair, *fit(pair, P, z, free, used))
 
 
 def _simpler(first: Hypothesis, found: list[Hypothesis]) -> Hypothesis:
@@ -128,7 +120,7 @@ def _simpler(first: Hypothesis, found: list[Hypothesis]) -> Hypothesis:
     return next(fewer, first)
 
 
-def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Hypothesis]:
+def _links(pair: Sides, poses: Array) -> list[Hypothesis]:
     """Readings in which one link is another: the axes before it agree under one pose, those behind
     under another.
     """
@@ -142,23 +134,23 @@ def _links(pair: Sides, a: Chain, b: Chain, poses: Array) -> list[Hypothesis]:
         if before.any() and behind.any():
             P = poses[before][:1]
             last = off_centre(pair, poses[behind][0])
-            (reading,) = read(pair, a, b, P, nothing[:1])
+            (reading,) = read(pair, P, nothing[:1])
             if reading.implicated.sum() < 2:
                 continue
-            tool = se3.inverse(last @ b.home) @ a.home
+            tool = se3.inverse(last @ pair.b.home) @ pair.a.home
             frames = sum(not still(T, pair.tol_m, pair.tol_rad) for T in (reading.base, tool))
             found.append(replace(reading, tool=tool, frames=frames, link=k))
     return found
 
 
-def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Hypothesis]:
+def _conventions(pair: Sides) -> list[Hypothesis]:
     """Readings in which every zero offset is free: with no bad axis, with each one, and with those
     that then miss.
     """
     n = pair.n
     inner = _inner(pair)
     P, z, P_fitted, z_fitted = _other_zeros(pair)
-    found = _simplest(pair, a, b, P_fitted, z_fitted)
+    found = _simplest(pair, P_fitted, z_fitted)
     if min(found, key=_cost).moved.any():
         tried = best(pair, np.concatenate([P, P_fitted]), np.concatenate([z, z_fitted]), 2)
         P = np.concatenate([P[:4], tried[0]])
@@ -168,8 +160,8 @@ def _conventions(pair: Sides, a: Chain, b: Chain) -> list[Hypothesis]:
             used = np.arange(n) != k
             for held in (pair, replace(pair, suspect_joint=int(k))):
                 trial = fit(held, P, z, inner, used)
-                fits = ~(deviations(held, transformed(held, *trial)[1])[:, used] > 1.0).any(1)
-                readings = _simplest(held, a, b, trial[0][fits], trial[1][fits])
+                fits = ~(aligned_deviations(held, *trial)[:, used] > 1.0).any(1)
+                readings = _simplest(held, trial[0][fits], trial[1][fits])
                 # Zero offsets about a's axis k say nothing of b's, unless that is another one.
                 found += [
                     reading for reading in readings if held.suspect_joint < 0 or reading.moved[k]
@@ -190,14 +182,14 @@ def _other_zeros(pair: Sides) -> tuple[Array, Array, Array, Array]:
     return P, z, *fit(pair, P, z, _inner(pair), np.ones(pair.n, bool))
 
 
-def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Hypothesis]:
+def _simplest(pair: Sides, P: Array, z: Array) -> list[Hypothesis]:
     """The readings of alignments with as many zero offsets put back to 0, least first, as the
     agreeing axes allow.
     """
     kinds = np.array(pair.b.kinds)
     z = np.where(kinds == "revolute", np.arctan2(np.sin(z), np.cos(z)), z)
     P = P.copy()
-    agree = deviations(pair, transformed(pair, P, z)[1]) <= 1.0
+    agree = aligned_deviations(pair, P, z) <= 1.0
     free = abs(z) > 0
     for ks in np.argsort(abs(z), axis=1).T:
         (row,) = np.nonzero(free[np.arange(len(z)), ks])
@@ -207,11 +199,11 @@ def _simplest(pair: Sides, a: Chain, b: Chain, P: Array, z: Array) -> list[Hypot
         rest[np.arange(len(row)), k] = False
         without[np.arange(len(row)), k] = 0.0
         trial = fit(pair, P[row], without, rest, agree[row])
-        fits = ~((deviations(pair, transformed(pair, *trial)[1]) > 1.0) & agree[row]).any(1)
+        fits = ~((aligned_deviations(pair, *trial) > 1.0) & agree[row]).any(1)
         P[row[fits]] = trial[0][fits]
         z[row[fits]] = trial[1][fits]
         free[row[fits]] = rest[fits]
-    return read(pair, a, b, P, z)
+    return read(pair, P, z)
 
 
 def _cost(reading: Hypothesis) -> tuple[float, ...]:
