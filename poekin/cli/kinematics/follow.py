@@ -13,7 +13,7 @@ from ...formats.text import csv_rows
 from ...formats.text.atomic_write import write_whole
 from ...model.chain import Chain
 from ...solve.path.follow import follow
-from ...solve.path.path_result import PathInterval, PathResult
+from ...solve.path.path_result import PathResult
 from .. import array_files
 from ..model import model
 from ..output import Progress, as_json, complain, heading, path_text, say
@@ -130,7 +130,7 @@ def _check_plot(plot: Path) -> None:
 
 def _give(robot: str, chain: Chain, path: PathResult, output: Path | None, json: bool) -> None:
     def document() -> str:
-        return as_json(heading(robot, chain) | {"q": path.q} | _report(path))
+        return as_json(heading(robot, chain) | _report(path))
 
     def sheet() -> str:
         if path.times is None:
@@ -142,7 +142,9 @@ def _give(robot: str, chain: Chain, path: PathResult, output: Path | None, json:
     if output is not None:
         array_files.write_result(output, sheet, path.q, document)
         if json:
-            print(as_json({"written": str(output)} | _report(path)))
+            report = _report(path)
+            del report["q"]
+            print(as_json({"written": str(output)} | report))
         else:
             say(f"{len(path.q)} × q written to {path_text(output)}")
             say(path)
@@ -150,27 +152,10 @@ def _give(robot: str, chain: Chain, path: PathResult, output: Path | None, json:
         print(document())
     else:
         print(sheet(), end="")
-        for sentence in path.sentences():
+        for sentence in path.summary().splitlines():
             complain(sentence)
 
 
 def _report(path: PathResult) -> dict[str, object]:
-    def plain(intervals: tuple[PathInterval, ...]) -> list[dict[str, object]]:
-        return [s._asdict() for s in intervals]
-
-    return {
-        "ok": path.ok,
-        "poses": len(path.q),
-        "solved": int(path.success.sum()),
-        "success": path.success,
-        "reason": path.reason,
-        "position_error": path.position_error,
-        "rotation_error": path.rotation_error,
-        "largest_step": path.largest_step,
-        "branch_switches": list(path.branch_switches),
-        "at_limits": plain(path.at_limits),
-        "speed_violations": plain(path.speed_violations),
-        "acceleration_violations": plain(path.acceleration_violations),
-        "near_singular": plain(path.near_singular),
-        "words": path.sentences(),
-    }
+    counts = {"poses": len(path.q), "solved": int(path.success.sum())}
+    return path.to_dict() | counts | {"words": path.summary().splitlines()}

@@ -84,7 +84,7 @@ def _give(
     named = unsolved
     if not (json or output):
         named = unsolved[:MOST_TOLD]
-    reasons = {k: found.why(k) for k in named}
+    reasons = {k: found.summary(k) for k in named}
 
     def document() -> str:
         return as_json(heading(robot, chain) | _report(found, reasons, single and output is None))
@@ -110,21 +110,9 @@ def _give(
 
 
 def _report(found: Solution, reasons: dict[int, str], single: bool) -> dict[str, object]:
-    parts = {
-        key: getattr(found, key).tolist()
-        for key in (
-            "q",
-            "success",
-            "reason",
-            "position_error",
-            "rotation_error",
-            "iterations",
-            "restarts",
-        )
-    }
-    parts["why"] = [reasons.get(k) for k in range(len(found.q))]
+    parts = found.to_dict() | {"why": [reasons.get(k) for k in range(len(found.q))]}
     if single:
-        return {key: values[0] for key, values in parts.items()}
+        return {key: next(iter(values), ()) for key, values in parts.items()}
     return parts
 
 
@@ -133,7 +121,7 @@ def _show(chain: Chain, found: Solution) -> None:
     if found.success[0]:
         words = (
             f"solved, {1e3 * found.position_error[0]:.2g} mm"
-            f" and {1e3 * found.rotation_error[0]:.2g} mrad off"
+            f" and {np.degrees(found.rotation_error[0]):.2g}° off"
         )
     say(f"{name(chain.tip)} in {name(chain.base)}: {words}")
     show_coordinates(chain, found.q[0])

@@ -56,7 +56,8 @@ Task = Annotated[
     str,
     typer.Option(
         "--task",
-        help="What to hold: pose, position, rotation, or direction (position and tool's z axis).",
+        help="What to hold: pose, position, rotation, direction (position and tool's z axis), or "
+        "planar (position in the arm's plane and the angle in it).",
     ),
 ]
 NoLimits = Annotated[bool, typer.Option("--no-limits", help="Let the joints leave their limits.")]

@@ -3,7 +3,8 @@ Numba.
 """
 
 # Where each number stands in `options`: tolerances (m, rad), iterations of a try, restarts, task,
-# the tool's direction (3) of the task DIRECTION, and the weights (6) of the error's parts.
+# the tool's direction (3) of the task DIRECTION or the plane's normal of PLANAR, and the weights (6)
+# of the error's parts.
 TOL_POSITION = 0
 TOL_ROTATION = 1
 ITERATIONS = 2
@@ -12,7 +13,7 @@ TASK = 4
 AXIS = 5
 WEIGHTS = 8
 OPTIONS = 14
-POSE, POSITION, ROTATION, DIRECTION = range(4)
+POSE, POSITION, ROTATION, DIRECTION, PLANAR = range(5)
 # Where each number stands in a row of `info`: the errors of q (m, rad), what it took, and how the
 # best try ended.
 AT_POSITION = 0

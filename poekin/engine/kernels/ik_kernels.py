@@ -30,6 +30,7 @@ from .ik_codes import (
     DIRECTION,
     ITERATIONS,
     OUT_OF_ITERATIONS,
+    PLANAR,
     POSITION,
     RESTARTS,
     ROTATION,
@@ -86,16 +87,20 @@ def uniform(state, interval):
 
 def error_parts(task, axis, T, target, J, e):
     """Writes the error into e and returns its parts (m, rad), 0 for a part that the task does not
-    ask for. Of a direction, J loses the turn about it.
+    ask for. J loses what the task leaves free of a direction or out of a plane.
     """
     now = load_matrix(T)
     then = load_matrix(target)
+    off = subtract(translation(then), translation(now))
     if task == DIRECTION:
         a, turn = pose_error.direction_error(now, then, axis)
         pose_error.remove_turn_about(a, J, J.shape[1])
+    elif task == PLANAR:
+        turn = pose_error.planar_error(now, then, axis)
+        off = pose_error.across(axis, off)
+        pose_error.keep_in_plane(axis, J, J.shape[1])
     else:
         turn = pose_error.rotation_error(now, then)
-    off = subtract(translation(then), translation(now))
     store_row(e, twist(turn, off))
     position = pose_error.distance(e)
     rotation = pose_error.angle(turn)
@@ -240,6 +245,8 @@ def judge(table, q, targets, task, axis, errors):
         now = load_matrix(T)
         then = load_matrix(targets[k])
         off = subtract(translation(then), translation(now))
+        if task == PLANAR:
+            off = pose_error.across(axis, off)
         errors[k, 0] = math.sqrt(dot(off, off))
         errors[k, 1] = 0.0
         if task == ROTATION:
@@ -247,5 +254,7 @@ def judge(table, q, targets, task, axis, errors):
         if task == DIRECTION:
             _, turn = pose_error.direction_error(now, then, axis)
             errors[k, 1] = pose_error.angle(turn)
+        elif task == PLANAR:
+            errors[k, 1] = pose_error.angle(pose_error.planar_error(now, then, axis))
         elif task != POSITION:
             errors[k, 1] = pose_error.angle(pose_error.rotation_error(now, then))

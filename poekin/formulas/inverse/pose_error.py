@@ -9,19 +9,38 @@ pi that counts 1 / cos(phi / 2) times (tests/formulas/inverse/test_pose_error.py
 Source: the quaternion of `formulas.lie.quaternion`, 2 q_v where w >= 0.
 """
 
-from ...algebra import cross, dot, rotate, scale
+from ...algebra import cross, dot, rotate, scale, subtract
 from .. import elementary
 from ..lie import quaternion
 
 
 def rotation_error(R, R_target):
     """2 sin(phi / 2) n of the rotation R* R^T by phi about n."""
+    w, x, y, z = quaternion.quaternion(_turn_to(R, R_target))
+    k = 2.0 / elementary.sqrt(w * w + x * x + y * y + z * z)
+    return (k * x, k * y, k * z)
+
+
+def planar_error(R, R_target, normal):
+    """2 sin(phi / 2) n of the turn by phi about the unit normal n of a plane that is in R* R^T.
+
+    R* R^T is that turn and then one about a line in the plane (swing and twist). Where the latter
+    is half a turn, the tool is upside down: no phi is right, and half a turn is returned.
+    """
+    w, x, y, z = quaternion.quaternion(_turn_to(R, R_target))
+    along = dot(normal, (x, y, z))
+    size = elementary.sqrt(w * w + along * along)
+    if not size > 0.0:
+        return scale(2.0, normal)
+    return scale(2.0 * along / size, normal)
+
+
+def _turn_to(R, R_target):
+    """R* R^T, row by row."""
     row_1 = rotate(R, R_target[0:3])
     row_2 = rotate(R, R_target[3:6])
     row_3 = rotate(R, R_target[6:9])
-    w, x, y, z = quaternion.quaternion((*row_1, *row_2, *row_3))
-    k = 2.0 / elementary.sqrt(w * w + x * x + y * y + z * z)
-    return (k * x, k * y, k * z)
+    return (*row_1, *row_2, *row_3)
 
 
 def direction_error(R, R_target, axis):
@@ -58,6 +77,17 @@ def angle(turn):
     return 2.0 * elementary.asin(min(half_sine, 1.0))
 
 
+def downhill(e):
+    """(cos(phi / 2) turn; p* - p): J^T W of it is -d(e^T W e / 2)/dq, where W weighs all turns
+    alike.
+
+    J^T W e itself is that only near the target: |turn| = 2 sin(phi / 2) grows with cos(phi / 2).
+    """
+    half_sine = 0.5 * elementary.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
+    cosine = elementary.sqrt(max(1.0 - half_sine * half_sine, 0.0))
+    return (cosine * e[0], cosine * e[1], cosine * e[2], e[3], e[4], e[5])
+
+
 def distance(e):
     """|p* - p| (m) of an error."""
     p = (e[3], e[4], e[5])
@@ -72,3 +102,18 @@ def remove_turn_about(a, J, count):
         J[0][i] = w[0] - along * a[0]
         J[1][i] = w[1] - along * a[1]
         J[2][i] = w[2] - along * a[2]
+
+
+def across(normal, v):
+    """v without its part along a unit normal."""
+    return subtract(v, scale(dot(normal, v), normal))
+
+
+def keep_in_plane(normal, J, count):
+    """Leaves of the columns of J the turn about a unit normal and the velocity across it."""
+    for i in range(count):
+        turn = scale(dot(normal, (J[0][i], J[1][i], J[2][i])), normal)
+        velocity = across(normal, (J[3][i], J[4][i], J[5][i]))
+        for r in range(3):
+            J[r][i] = turn[r]
+            J[3 + r][i] = velocity[r]

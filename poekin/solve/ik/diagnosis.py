@@ -4,18 +4,33 @@ in time.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from ...engine.kernels import ik_codes as codes
+from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from .ik_problem import Problem
 from .joint_domain import JointDomain, free_ranges
+from .least_error import least_error, slope_at
 from .solution import BAD_TARGET, ITERATIONS, LIMITS, SOLVED, UNREACHABLE
-from .task import Task
+from .task import Task, TaskName
 
 KIND = "<U12"  # of an array of reasons
 AT_LIMIT = 1e-9  # rad or m
+
+OTHER_TASKS: dict[TaskName, tuple[TaskName, ...]] = {
+    "pose": ("direction", "planar", "position", "rotation"),
+    "direction": ("planar", "position"),
+    "planar": ("position", "rotation"),
+    "position": ("planar",),
+    "rotation": ("planar",),
+}
+"""Tasks that are tried for a target out of reach of an arm with too few coordinates."""
+
+OTHER_RESTARTS = 20
 
 
 def diagnose(
@@ -61,6 +76,9 @@ def distance_beyond_reach(chain: Chain, task: Task, targets: Array, limits: Arra
     nothing = np.zeros(len(targets))
     if task.name == "rotation" or not len(chain.screws):
         return nothing
+    offsets = targets[:, :3, 3] - chain.local.frames[0, :3, 3]
+    if task.name == "planar":
+        offsets = offsets - np.outer(offsets @ task.axis, task.axis)
     frames = chain.local.frames
     slides = np.abs(chain.local.slides)
     length = np.linalg.norm(frames[1:, :3, 3], axis=1).sum()
@@ -70,8 +88,39 @@ def distance_beyond_reach(chain: Chain, task: Task, targets: Array, limits: Arra
             length += slide * (shift + (row[row > 0] * bounds).sum())
     if not np.isfinite(length):
         return nothing
-    far = np.linalg.norm(targets[:, :3, 3] - frames[0, :3, 3], axis=1)
-    return np.maximum(far - length * (1 + 1e-12), 0.0)
+    return np.maximum(np.linalg.norm(offsets, axis=1) - length * (1 + 1e-12), 0.0)
+
+
+def settle(problem: Problem, targets: Array, q: Array, info: Array, rows: np.ndarray) -> None:
+    """Takes the joints of these rows on to the least error, where they come to rest.
+
+    The tries end where a step hardly helps: enough for a target that is reached, and not where the
+    arm has too few coordinates to reach most.
+    """
+    domain = problem.domain
+    low, high = (np.where(domain.locked, domain.locked_values, b) for b in domain.limits.T)
+    for k in rows:
+        nearest = least_error(partial(slope_at, problem, targets[k]), q[k], low, high)
+        q[k] = domain.wrapped(nearest, q[k])
+        info[k, codes.AT_STATE] = codes.STALLED
+
+
+def reachable_tasks(
+    problem: Problem, targets: Array, first: Array, rows: np.ndarray
+) -> tuple[tuple[TaskName, ...], ...]:
+    """Other tasks that reach these rows of the targets, found by trying; () for all others."""
+    tasks: list[tuple[TaskName, ...]] = [()] * len(targets)
+    for name in OTHER_TASKS[problem.task.name]:
+        try:
+            other = problem.with_task(name)
+        except InputError:  # the arm has no plane
+            continue
+        restarts = min(OTHER_RESTARTS, problem.settings.restarts)
+        q, _ = other.solve(targets[rows], rows.astype(float), first[rows], restarts=restarts)
+        _, success = other.pose_errors(targets[rows], other.coordinates(q))
+        for k in rows[success]:
+            tasks[k] = (*tasks[k], name)
+    return tuple(tasks)
 
 
 def limits_hit(

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
+from .choice.redundancy import check_objective
 from .ik_problem import Settings, compiled, hashable, items, make_problem
-from .redundancy import check_objective
 from .solution import Solution
 from .solver import Wishes, solve
 from .task import targets

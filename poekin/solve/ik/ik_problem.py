@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +17,8 @@ from ...model.kinematics.compiled import CompiledChain
 from ..chain_cache import ChainCache
 from ..joint_units import joint_units
 from .joint_domain import JointDomain, make_joint_domain
-from .task import Task, check_joints, make_task
+from .plane import plane_normal
+from .task import Task, TaskName, make_task
 
 STEPS = 800_000
 """Most steps of one call of a kernel, which no interrupt ends: some tenths of a second."""
@@ -73,8 +75,8 @@ class Problem:
     """Task, domain of the joints and kernel options of one arm, in joint units (`joint_units`).
 
     Attributes: settings; given, the user's chain; units; fast, the compiled chain in joint units;
-    task; domain; locked (m,), 1 where a coordinate keeps its value; options, as the kernels take
-    them.
+    task; domain; underactuated, whether the task constrains more degrees of freedom than the arm
+    has; locked (m,), 1 where a coordinate keeps its value; options, as the kernels take them.
     """
 
     def __init__(self, fast: CompiledChain, settings: Settings):
@@ -85,13 +87,15 @@ class Problem:
         self.given = fast.chain
         self.units = joint_units(fast)
         self.fast = self.units.fast
-        self.task: Task = make_task(settings.task, settings.axis, settings.weights)
         self.domain: JointDomain = make_joint_domain(self.units, settings.lock, settings.limits)
-        check_joints(self.fast.chain, self.task, int((~self.domain.locked).sum()))
+        self.task: Task = _task(settings, self.fast.chain, self.domain)
+        free = int((~self.domain.locked).sum())
+        self.underactuated = free < self.task.constrained_dof
         self.locked = self.domain.locked.astype(float)
         self.options = _options(settings, self.task)
         self._solve = ik_kernels.solve_many
         self._judge = ik_kernels.judge
+        self._error_parts = ik_kernels.error_parts
         self._address = self.fast.hybrid_address
         self._rows = _rows(settings.restarts, settings.iterations)
 
@@ -117,6 +121,17 @@ class Problem:
         near = errors[:, 0] <= self.settings.tol_position
         aligned = errors[:, 1] <= self.settings.tol_rotation
         return errors, near & aligned
+
+    def error(self, T: Array, target: Array, J: Array) -> Array:
+        """Error (6,), rotation first, between two poses; J loses what the task leaves free."""
+        e = np.empty(6)
+        self._error_parts(self.task.code, self.task.axis, T, target, J, e)
+        return e
+
+    def with_task(self, name: TaskName) -> Problem:
+        """Problem that differs in its task. Raises: InputError where the arm has no plane for it."""
+        settings = self.settings._replace(task=name, axis=None)
+        return make_problem(self.given.compile(), settings)
 
     def solve(
         self,
@@ -179,6 +194,16 @@ def make_problem(fast: CompiledChain, settings: Settings) -> Problem:
     except TypeError:  # no number, and so no key: the checks say what it is
         kept = None
     return _PROBLEMS.keep(fast, Problem(fast, settings), key) if kept is None else kept
+
+
+def _task(settings: Settings, chain: Chain, domain: JointDomain) -> Task:
+    task = make_task(settings.task, settings.axis, settings.weights)
+    if domain.locked.all():
+        which = "none" if not chain.dof else "all of them locked"
+        raise InputError(f"expected an arm with a coordinate that may move, the chain has {which}")
+    if task.name != "planar":
+        return task
+    return replace(task, axis=plane_normal(chain, domain))
 
 
 def _options(settings: Settings, task: Task) -> Array:

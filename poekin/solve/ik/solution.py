@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from ...errors import ShapeError, quote
 from ...groups.arrays import Array
+from ...results import Result
 
 SOLVED = "solved"
 UNREACHABLE = "unreachable"
@@ -16,15 +18,9 @@ LIMITS = "limits"
 ITERATIONS = "iterations"
 BAD_TARGET = "bad target"
 REASONS = (SOLVED, UNREACHABLE, LIMITS, ITERATIONS, BAD_TARGET)
-"""All reasons.
+"""All reasons, as `Solution.reason` explains them."""
 
-- "solved": the pose of q is the target within both tolerances
-- "unreachable": the target is beyond the arm's reach, or no try came nearer and all of them had
-  come to rest
-- "limits": the target can be reached, but only outside the limits of some coordinates
-- "iterations": the nearest try was still moving when its iterations ended
-- "bad target": the target holds NaN, or infinity
-"""
+Reason = Literal["solved", "unreachable", "limits", "iterations", "bad target"]
 
 
 def place(index: tuple[int, ...], shape: tuple[int, ...], what: str) -> int:
@@ -35,17 +31,32 @@ def place(index: tuple[int, ...], shape: tuple[int, ...], what: str) -> int:
 
 
 @dataclass(frozen=True, eq=False)
-class Solution:
-    """One solution for each target; arrays over the batch (...), of the shape () for a single
-    target.
+class Solution(Result):
+    """One solution for each target, by `ik`; arrays over the batch (...), () for a single target.
 
-    q (..., m), rad or m: where `success` is False, the nearest that was found. success (...): the
-    errors are within
-    the tolerances. reason (...): one of `REASONS`. position_error (m), rotation_error (rad): of q,
-    computed anew by `Chain.fk`; of what the task asks, else 0. iterations and restarts, of all
-    tries. distance_beyond_reach (...): how much farther the target is than the arm's reach (m),
-    else 0. limits_hit: for each target (in order, the batch made flat) the names of the coordinates whose
-    limits are in the way.
+    Attributes
+    ----------
+    q : (..., m) ndarray
+        Coordinates, rad or m: where `success` is False, the nearest that was found.
+    success : (...) ndarray of bool
+        Whether both errors are within the tolerances.
+    reason : (...) ndarray of str
+        "solved"; "unreachable", beyond the arm's reach, or no try came nearer and all of them had
+        come to rest; "limits", solvable, but only outside the limits of some coordinates;
+        "iterations", the nearest try was still moving when its iterations ended; "bad target",
+        NaN or infinity in it.
+    position_error, rotation_error : (...) ndarray
+        Errors of q, m and rad, computed anew by `Chain.fk`; 0 for what the task does not ask.
+    iterations, restarts : (...) ndarray of int
+        Numbers of steps and of restarts, of all tries.
+    distance_beyond_reach : (...) ndarray
+        Distance of the target beyond the arm's reach, m; 0 within it.
+    limits_hit : tuple of tuple of str
+        Names of the coordinates whose limits are in the way, for each target of the batch in C
+        order; empty where all are solved.
+    reachable_tasks : tuple of tuple of str
+        Tasks that reach the target of an arm with too few coordinates for the one asked, for each
+        target in C order; empty where it has enough, or all are solved.
     """
 
     q: Array
@@ -57,41 +68,65 @@ class Solution:
     restarts: np.ndarray
     distance_beyond_reach: Array
     limits_hit: tuple[tuple[str, ...], ...] = ()
+    reachable_tasks: tuple[tuple[str, ...], ...] = ()
 
-    def why(self, *index: int) -> str:
-        """Reason in words, with its numbers; index of the target in the batch. Raises: ShapeError,
-        IndexError.
+    def summary(self, *index: int) -> str:
+        """Reason of one target with its numbers, or how many targets of a batch have which.
+
+        Parameters
+        ----------
+        *index : int
+            Index of a target in the batch; without it, all targets are counted.
+
+        Returns
+        -------
+        text : str
+            Lengths in mm, angles in deg.
+
+        Raises
+        ------
+        ShapeError
+            If the index has not as many numbers as the batch has axes.
+        IndexError
+            If there is no such target.
         """
-        flat = place(index, self.success.shape, "why")
+        if self.success.ndim and not index:
+            return self._counts()
+        flat = place(index, self.success.shape, "summary")
         reason = str(self.reason[index])
-        position = float(self.position_error[index])
-        rotation = float(self.rotation_error[index])
-        off = f"{1e3 * position:.4g} mm and {1e3 * rotation:.4g} mrad off"
+        off = f"{1e3 * self.position_error[index]:.4g} mm"
+        off += f" and {np.degrees(self.rotation_error[index]):.4g}° off"
         if reason == SOLVED:
             return f"solved: {off}"
         if reason == BAD_TARGET:
             return "bad target: it is not made of finite numbers"
-        nearest = f"the nearest pose found is {off}"
-        if reason == LIMITS:
-            names = ", ".join(map(quote, self.limits_hit[flat]))
-            return (
-                f"limits: solvable without them, in the way are those of {names}; "
-                f"within them {nearest}"
-            )
-        if reason == ITERATIONS:
-            return f"iterations: the nearest try was still moving when they ended; {nearest}"
-        beyond = self.distance_beyond_reach[index]
-        if beyond > 0:
-            return (
-                f"unreachable: the target is farther than the arm's reach by {beyond:.4g} m; "
-                f"{nearest}"
-            )
-        return f"unreachable: {nearest}"
+        return f"{reason}: {self._cause(reason, index, flat)}the nearest pose found is {off}{self._others(flat)}"
 
-    def __repr__(self) -> str:
-        if self.success.ndim == 0:
-            return f"<Solution {self.why()}: q = {self.q.tolist()}>"
+    def _counts(self) -> str:
         solved = int(self.success.sum())
         others = {reason: int((self.reason == reason).sum()) for reason in REASONS[1:]}
         rest = "".join(f", {count} {reason}" for reason, count in others.items() if count)
-        return f"<Solution {solved} of {self.success.size} solved{rest}>"
+        return f"{solved} of {self.success.size} solved{rest}"
+
+    def _cause(self, reason: str, index: tuple[int, ...], flat: int) -> str:
+        beyond = self.distance_beyond_reach[index]
+        if reason == LIMITS:
+            names = ", ".join(map(quote, self.limits_hit[flat]))
+            return f"solvable without them, in the way are those of {names}; within them "
+        if reason == ITERATIONS:
+            return "the nearest try was still moving when they ended; "
+        if beyond > 0:
+            return f"the target is farther than the arm's reach by {1e3 * beyond:.4g} mm; "
+        return ""
+
+    def _others(self, flat: int) -> str:
+        """Tasks that the arm can do, where it has too few coordinates for the one asked."""
+        tasks = self.reachable_tasks[flat] if self.reachable_tasks else ()
+        if not tasks:
+            return ""
+        named = " or ".join(f"task={task!r}" for task in tasks)
+        return f"; with so few coordinates the arm reaches this target only with {named}"
+
+    def __repr__(self) -> str:
+        joints = f": q = {self.q.tolist()}" * (self.success.ndim == 0)
+        return f"<Solution {self.summary()}{joints}>"

@@ -9,12 +9,12 @@ import numpy as np
 
 from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
-from .diagnosis import KIND, diagnose
+from .choice.nearest import nearest
+from .choice.redundancy import optimise
+from .diagnosis import KIND, diagnose, reachable_tasks, settle
 from .ik_problem import Problem
 from .joint_domain import first_tries, for_targets
-from .nearest import nearest
-from .redundancy import optimise
-from .solution import SOLVED, UNREACHABLE, Solution
+from .solution import ITERATIONS, SOLVED, UNREACHABLE, Solution
 
 AT_ONCE = 20_000
 """Targets between two calls of `progress`."""
@@ -65,12 +65,20 @@ def solve(
     reason = np.full(count, SOLVED, dtype=KIND)
     beyond = np.zeros(count)
     limits_hit: tuple[tuple[str, ...], ...] = ()
+    tasks: tuple[tuple[str, ...], ...] = ()
+    if problem.underactuated and not success.all():
+        known = ~success & (info[:, codes.AT_STATE] != codes.BAD_TARGET)
+        settle(problem, rows, u, info, np.flatnonzero(known))
+        success = problem.pose_errors(rows, problem.coordinates(u))[1]
     if not success.all():
         reason, beyond, limits_hit = diagnose(problem, rows, u, info, success)
         q = problem.coordinates(u)
         errors, success = problem.pose_errors(rows, q)
         # by a rounding, where the tolerance is no larger
         reason[(reason == SOLVED) & ~success] = UNREACHABLE
+        if problem.underactuated:
+            unreached = (reason == UNREACHABLE) | (reason == ITERATIONS)
+            tasks = reachable_tasks(problem, rows, first, np.flatnonzero(unreached))
     return Solution(
         q=q.reshape(*batch, problem.fast.dof),
         success=success.reshape(batch),
@@ -81,6 +89,7 @@ def solve(
         restarts=info[:, codes.AT_RESTARTS].astype(np.int64).reshape(batch),
         distance_beyond_reach=beyond.reshape(batch),
         limits_hit=limits_hit,
+        reachable_tasks=tasks,
     )
 
 

@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...engine.kernels import ik_codes as codes
 from ...errors import InputError, PoseError, safe_repr
+from ...formulas.inverse import pose_error
 from ...groups.arrays import Array, poses, shaped
-from ...model.chain import Chain
 
 TASKS = {
     "pose": (codes.POSE, 6),
     "position": (codes.POSITION, 3),
     "rotation": (codes.ROTATION, 3),
     "direction": (codes.DIRECTION, 5),
+    "planar": (codes.PLANAR, 3),
 }
-"""Each task's code, and how many degrees of freedom it constrains: a chain needs at least as many
-free coordinates.
-"""
+"""Each task's code, and how many degrees of freedom it constrains."""
+
+TaskName = Literal["pose", "position", "rotation", "direction", "planar"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,11 +30,11 @@ class Task:
     """Part of a pose to be reached.
 
     name, one of `TASKS`; axis (3,), the unit direction in the tool frame that the task "direction"
-    aligns; weights (6,) of the error's parts (rotation; position), the largest 1, 0 for those that the task
-    leaves free.
+    aligns, or the unit normal in the base frame of the plane of the task "planar"; weights (6,) of
+    the error's parts (rotation; position), the largest 1, 0 for those that the task leaves free.
     """
 
-    name: str
+    name: TaskName
     axis: Array
     weights: Array
 
@@ -48,14 +49,18 @@ class Task:
         return TASKS[self.name][1]
 
     def jacobian(self, T: Array, J: Array) -> Array:
-        """Hybrid Jacobians J (..., 6, m) at poses T (..., 4, 4), of a direction without the turn
-        about it.
+        """Hybrid Jacobians J (..., 6, m) at poses T (..., 4, 4), without the turn about a
+        direction, or without what leads out of the plane.
         """
-        if self.name != "direction":
+        if self.name not in ("direction", "planar"):
             return J
-        a = T[..., :3, :3] @ self.axis
-        turns = J[..., :3, :] - a[..., :, None] * (a[..., None, :] @ J[..., :3, :])
-        return np.concatenate([turns, J[..., 3:, :]], axis=-2)
+        columns = np.moveaxis(J, (-2, -1), (0, 1)).copy()
+        if self.name == "planar":
+            pose_error.keep_in_plane(self.axis, columns, J.shape[-1])
+        else:
+            a = np.moveaxis(T[..., :3, :3] @ self.axis, -1, 0)
+            pose_error.remove_turn_about(a, columns, J.shape[-1])
+        return np.moveaxis(columns, (0, 1), (-2, -1))
 
 
 def targets(T: ArrayLike, what: str) -> Array:
@@ -89,18 +94,4 @@ def make_task(name: Any, axis: Any, weights: Any) -> Task:
         w[:3] = 0.0
     if name == "rotation":
         w[3:] = 0.0
-    return Task(name, a / np.linalg.norm(a), w / w.max())
-
-
-def check_joints(chain: Chain, task: Task, free: int) -> None:
-    """Raises InputError where a chain has too few coordinates for a task; says which tasks fit."""
-    needed = task.constrained_dof
-    if free >= needed:
-        return
-    locked = f", {chain.dof - free} of them locked" if free < chain.dof else ""
-    fit = [name for name, (_, number) in TASKS.items() if number <= free]
-    others = f"; what fits: {', '.join(map(repr, fit))}" if fit else ""
-    raise InputError(
-        f"task {task.name!r} constrains {needed} degrees of freedom, and the chain has "
-        f"{chain.dof} coordinates{locked}{others}"
-    )
+    return Task(cast(TaskName, name), a / np.linalg.norm(a), w / w.max())

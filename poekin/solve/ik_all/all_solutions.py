@@ -3,35 +3,49 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from ...errors import join_names
 from ...groups.arrays import Array
+from ...results import Result
 from ..ik.solution import place
 from .ik_all_search import Found
 
 
 @dataclass(frozen=True, eq=False)
-class AllSolutions:
-    """Every solution of each target.
+class AllSolutions(Result):
+    """Every solution of each target, by `ik_all`.
 
-    Of one target: solutions (s, m), rad or m, sorted; n_revolutions (s,), how many places within the
-    limits each stands for, being a whole turn of some joints apart (a coordinate without limits
-    counts once; 2^63 - 1 stands for more, too); complete, in words whether these are
-    all. Of a batch: lists of these, its targets in C order. method: "closed form" or "search".
-    Arrays over the batch (...): count, the number of solutions; anywhere, the same without limits;
-    continuum, whether there are infinitely many (then one of them is listed, and those that stand
-    alone); p_missing, the probability of a solution missing:
-    0 for the closed form, NaN where nothing was found or there is a continuum; position_error (m)
-    and rotation_error (rad), the largest of the listed solutions by `Chain.fk`, NaN without any.
+    Attributes
+    ----------
+    solutions : (s, m) ndarray, or list of them
+        Coordinates, rad or m, sorted; of a batch a list, its targets in C order.
+    n_revolutions : (s,) ndarray of int, or list of them
+        Number of places within the limits that each solution stands for, whole turns of some joints
+        apart. A coordinate without limits counts once; 2^63 - 1 stands for more, too.
+    complete : str, or list of them
+        Statement of how sure it is that these are all.
+    method : {"closed form", "search"}
+        Method that found them.
+    count : (...) ndarray of int
+        Number of solutions.
+    anywhere : (...) ndarray of int
+        Number of solutions without limits.
+    continuum : (...) ndarray of bool
+        Whether there are infinitely many: one of them is listed, and those that stand alone.
+    p_missing : (...) ndarray
+        Probability of a solution missing: 0 for the closed form, NaN where nothing was found or
+        there is a continuum.
+    position_error, rotation_error : (...) ndarray
+        Largest errors of the listed solutions by `Chain.fk`, m and rad; NaN without any.
     """
 
     solutions: Any
     n_revolutions: Any
     complete: Any
-    method: str
+    method: Literal["closed form", "search"]
     count: np.ndarray
     anywhere: np.ndarray
     continuum: np.ndarray
@@ -40,16 +54,45 @@ class AllSolutions:
     rotation_error: Array
 
     def of(self, *index: int) -> Array:
-        """Solutions (s, m), rad or m, of one target of a batch.
+        """Solutions of one target of a batch.
 
-        Parameters: index, of the target in the batch. Returns: (s, m). Raises: ShapeError,
-        IndexError.
-        Source: `ik_all`.
+        Parameters
+        ----------
+        *index : int
+            Index of the target in the batch.
+
+        Returns
+        -------
+        solutions : (s, m) ndarray
+            Coordinates, rad or m.
+
+        Raises
+        ------
+        ShapeError
+            If the index has not as many numbers as the batch has axes.
+        IndexError
+            If there is no such target.
+
+        Notes
+        -----
+        Source: those of `ik_all`.
         """
         flat = place(index, self.count.shape, "of")
         if not index:
             return self.solutions
         return self.solutions[flat]
+
+    def summary(self) -> str:
+        """`complete` of one target, or the number of all solutions of a batch.
+
+        Returns
+        -------
+        text : str
+            One sentence.
+        """
+        if self.count.ndim == 0:
+            return self.complete
+        return f"{int(self.count.sum())} solutions of {self.count.size} targets, by {self.method}"
 
     def __repr__(self) -> str:
         if self.count.ndim == 0:

@@ -125,11 +125,22 @@ def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array)
     reason[success] = SOLVED
     beyond = np.zeros(count)
     hit: list[tuple[str, ...]] = [()] * count
+    tasks: list[tuple[str, ...]] = [()] * count
     for k in np.flatnonzero(finite & ~success):
-        reason[k], beyond[k], hit[k] = follower.failure(int(np.searchsorted(at, k)))
+        failure = follower.failure(int(np.searchsorted(at, k)))
+        reason[k], beyond[k], hit[k], tasks[k] = failure
     nothing = np.zeros(count, np.int64)
     return Solution(
-        q, success, reason, errors[:, 0], errors[:, 1], nothing, nothing, beyond, tuple(hit)
+        q,
+        success,
+        reason,
+        errors[:, 0],
+        errors[:, 1],
+        nothing,
+        nothing,
+        beyond,
+        tuple(hit),
+        tuple(tasks) if problem.underactuated else (),
     )
 
 

@@ -5,12 +5,15 @@ then anew.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
 from ..ik.ik_problem import Problem
+from ..ik.least_error import Slope, least_error, slope_at
 from ..ik.solution import ITERATIONS, Solution
 from ..ik.solver import Wishes, solve
 from ..motion import paths
@@ -26,13 +29,14 @@ TRIES = 8
 path.
 """
 
-NEAR = 30
-"""Steps towards a pose that is out of reach."""
 
-REGULAR = 1e-13
-"""The least damping of such a step, of the largest number on the diagonal: J^T W J may be singular
-to its rounding.
-"""
+class Failure(NamedTuple):
+    """Entries of `Solution` for a pose that is not reached."""
+
+    reason: str
+    distance_beyond_reach: float = 0.0
+    limits_hit: tuple[str, ...] = ()
+    reachable_tasks: tuple[str, ...] = ()
 
 
 class Follower:
@@ -47,10 +51,9 @@ class Follower:
         most: Array,
         progress: Callable[[int, int], None] | None,
     ):
-        from ...engine.kernels import follow_kernels, ik_kernels  # imports Numba
+        from ...engine.kernels import follow_kernels  # imports Numba
 
         self._kernel = follow_kernels.follow
-        self._errors = ik_kernels.error_parts
         self.problem = problem
         self.targets = targets
         self.most = most
@@ -135,17 +138,16 @@ class Follower:
                 break
         return found
 
-    def failure(self, k: int) -> tuple[str, float, tuple[str, ...]]:
-        """Why pose k is not reached: the reason, how far it is beyond the reach, and the limits in
-        the way.
-        """
+    def failure(self, k: int) -> Failure:
+        """Cause for which pose k is not reached."""
         success, solution, at = self._solution_of(k)
         if success:
-            return ITERATIONS, 0.0, ()
-        return (
+            return Failure(ITERATIONS)
+        return Failure(
             str(solution.reason[at]),
             float(solution.distance_beyond_reach[at]),
             solution.limits_hit[at],
+            solution.reachable_tasks[at] if solution.reachable_tasks else (),
         )
 
     def _descend(self, targets: Array, start: Array, q: Array, anywhere: bool = False) -> int:
@@ -173,50 +175,41 @@ class Follower:
         for pieces in PIECES:
             between = paths.screw(T_a, T_b, np.arange(1, pieces + 1) / pieces)
             q = np.empty((pieces, self.dof))
-            if self._descend(between, q_a, q) == pieces:
+            if self.problem.underactuated:
+                q[-2] = self._beside(between[:-1], q_a)
+                if self._descend(between[-1:], q[-2], q[-1:]):
+                    return q[-1]
+            elif self._descend(between, q_a, q) == pieces:
                 return q[-1]
         return None
+
+    def _beside(self, poses: Array, q: Array) -> Array:
+        """Joints at the last of some poses, as near to each as one step from the one before gets.
+
+        An arm with few coordinates reaches the ends of a screw motion, and seldom what is between.
+        """
+        for target in poses:
+            q = least_error(partial(slope_at, self.problem, target), q, *self._bounds(q))
+        return q
+
+    def _bounds(self, q: Array) -> tuple[Array, Array]:
+        """Lower and upper bounds (m,) of the joints that are one step from q."""
+        low = np.clip(q - self.most, *self.domain.limits.T)
+        high = np.clip(q + self.most, *self.domain.limits.T)
+        locked = self.domain.locked
+        return np.where(locked, q, low), np.where(locked, q, high)
 
     def _near(self, k: int, last: Array | None) -> Array:
         """Joints (1, m) as near to pose k as they get within one step of the last ones, else the
         nearest of `ik`.
-
-        A step is taken only where it makes the error smaller: beyond the reach, where the arm is
-        stretched out, the descent to a target that can be reached would leap about.
         """
         if last is None:
             _, solution, at = self._solution_of(k)
             return self.problem.units.of(solution.q[[at]])
-        low = np.clip(last - self.most, *self.domain.limits.T)
-        high = np.clip(last + self.most, *self.domain.limits.T)
-        low, high = (np.where(self.domain.locked, last, bound) for bound in (low, high))
-        q = last
-        damping = 1e-3
-        size, H, g = self._slope(k, q)
-        for _ in range(NEAR):
-            least = REGULAR * H.diagonal().max()
-            tried = np.clip(
-                q + np.linalg.solve(H + max(damping, least) * np.eye(self.dof), g), low, high
-            )
-            new = self._slope(k, tried)
-            if new[0] < size:
-                gain = size - new[0]
-                q = tried
-                size, H, g = new
-                damping = 0.2 * damping
-                if gain < 1e-9 * size:
-                    break
-            else:
-                damping *= 5
-        return q[None]
+        return least_error(partial(self._slope, k), last, *self._bounds(last))[None]
 
-    def _slope(self, k: int, q: Array) -> tuple[float, Array, Array]:
-        """e^T W e, J^T W J and J^T W e at pose k, with the error of the compiled descent."""
-        T, J = self.problem.fast.fk_jacobian(q, "hybrid")
-        task = self.problem.task
-        e = np.empty(6)
-        self._errors(task.code, task.axis, T, self.targets[k], J, e)
-        return float(task.weights @ e**2), (J.T * task.weights) @ J, (J.T * task.weights) @ e
+    def _slope(self, k: int, q: Array) -> Slope:
+        return slope_at(self.problem, self.targets[k], q)
 
     def _solutions(self, k: int, turn: int, last: Array | None) -> Array:
         """Solutions of pose k: the nearest to the last joints first, then of random starts."""

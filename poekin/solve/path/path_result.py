@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ...analysis.dexterity.singularity import singularity
 from ...errors import quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...results import Result
 from ..ik.diagnosis import AT_LIMIT
 from ..ik.solution import BAD_TARGET, Solution
 from ..ik.task import Task
@@ -26,11 +27,22 @@ NEAR_SINGULAR = 1e-2
 met: the rates of some joints are then some hundred times those of others."""
 
 
-class PathInterval(NamedTuple):
-    """Points first ... last of a path.
+@dataclass(frozen=True, order=True)
+class PathInterval:
+    """Points of a path between which something holds.
 
-    Attributes: name, of the coordinate ("" for all of them together); value, the worst of them, at
-    the point `worst`; bound, which it is compared with.
+    Attributes
+    ----------
+    first, last : int
+        Numbers of the first and the last point.
+    name : str
+        Name of the coordinate; "" for all of them together.
+    worst : int
+        Number of the worst point.
+    value : float
+        Value there.
+    bound : float
+        Number with which it is compared.
     """
 
     first: int
@@ -42,15 +54,41 @@ class PathInterval(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class PathResult:
+class PathResult(Result):
     """Joints along a path of N poses, as `follow` finds them, and a report about them.
 
-    chain; solution, of all poses: `q` (N, m), rad or m, `success`, `reason`, `position_error`,
-    `rotation_error` (N,) are also attributes here; branch_switches, the numbers of the poses before
-    which the branch changed, so that q jumps; task, what the poses ask for; limits (m, 2); times (N,), s,
-    speed and acceleration, limits (m,), where they were given. `print` of it says all of this in
-    words.
+    Attributes
+    ----------
+    chain : Chain
+        The arm.
+    solution : Solution
+        Solutions of all poses.
+    branch_switches : tuple of int
+        Numbers of the poses before which the branch changed, so that q jumps.
+    task : Task
+        Part of the poses that the tool had to reach.
+    limits : (m, 2) ndarray
+        Limits of the coordinates, rad or m; infinite where they do not count.
+    times : (N,) ndarray or None
+        Time of each pose, s.
+    speed, acceleration : (m,) ndarray or None
+        Limits of each coordinate, per s and s².
     """
+
+    derived = (
+        "q",
+        "success",
+        "reason",
+        "position_error",
+        "rotation_error",
+        "ok",
+        "largest_step",
+        "at_limits",
+        "speed_violations",
+        "acceleration_violations",
+        "near_singular",
+    )
+    left_out = ("chain", "solution")
 
     chain: Chain
     solution: Solution
@@ -63,29 +101,29 @@ class PathResult:
 
     @property
     def q(self) -> Array:
-        """(N, m), rad or m; where `success` is False, the nearest that was found; NaN for a bad
-        target.
+        """Coordinates (N, m), rad or m: the nearest that was found where `success` is False, NaN
+        for a bad target.
         """
         return self.solution.q
 
     @property
     def success(self) -> np.ndarray:
-        """(N,): the pose of q is the target within the tolerances."""
+        """Whether the pose of q is the target within the tolerances (N,)."""
         return self.solution.success
 
     @property
     def reason(self) -> np.ndarray:
-        """(N,): one of `solution.REASONS`."""
+        """Reason of each pose (N,), as `Solution.reason`."""
         return self.solution.reason
 
     @property
     def position_error(self) -> Array:
-        """(N,), m, by `Chain.fk`."""
+        """Error of each position (N,), m, by `Chain.fk`."""
         return self.solution.position_error
 
     @property
     def rotation_error(self) -> Array:
-        """(N,), rad, by `Chain.fk`."""
+        """Error of each rotation (N,), rad, by `Chain.fk`."""
         return self.solution.rotation_error
 
     @property
@@ -99,7 +137,7 @@ class PathResult:
 
     @cached_property
     def steps(self) -> Array:
-        """(N - 1,): largest change of a coordinate from each point to the next, rad or m."""
+        """Largest change of a coordinate from each point to the next (N - 1,), rad or m."""
         return np.abs(np.diff(self.q, axis=0)).max(axis=1, initial=0.0)
 
     @property
@@ -109,8 +147,8 @@ class PathResult:
 
     @cached_property
     def rates(self) -> Array | None:
-        """(N - 1, m): (q_{k+1} - q_k) / (t_{k+1} - t_k), the mean rate between two points; None
-        without times.
+        """Mean rates (N - 1, m) between two points, (q_{k+1} - q_k) / (t_{k+1} - t_k); None without
+        times.
         """
         if self.times is None:
             return None
@@ -118,10 +156,9 @@ class PathResult:
 
     @cached_property
     def accelerations(self) -> Array | None:
-        """(N - 2, m): differences of `rates` ÷ the time from the middle of one step to that of the
-        next.
+        """Differences (N - 2, m) of `rates` ÷ the time from the middle of one step to the next.
 
-        An error of 1e-9 in q is 4e-9 / dt^2 here.
+        None without times. An error of 1e-9 in q is 4e-9 / dt^2 here.
         """
         if self.times is None or self.rates is None:
             return None
@@ -173,24 +210,53 @@ class PathResult:
         values = _Values(value, -value, NEAR_SINGULAR)
         return tuple(_intervals(values, value < NEAR_SINGULAR))
 
-    def why(self, k: int) -> str:
-        """Reason of pose k in words. Raises: IndexError."""
-        return self.solution.why(range(len(self.q))[k])
-
     def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write q, and times where there are any, as `motion.read_joints` reads it. Raises:
-        FileError.
+        """Writes q, and times where there are any, as `motion.read_joints` reads it.
+
+        Parameters
+        ----------
+        path : path_like
+            The file; it appears whole or not at all.
+
+        Raises
+        ------
+        FileError
+            If it cannot be written.
         """
         write_joints(path, self.q, self.chain, times=self.times)
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> str:
-        """Joints over time as SVG text, and into a file; as `motion.plot_joints`. Raises as it."""
+        """Plot of the joints over time, as `motion.plot_joints` draws it.
+
+        Parameters
+        ----------
+        path : path_like, optional
+            File that it is written to.
+
+        Returns
+        -------
+        svg : str
+            The plot as SVG text.
+
+        Raises
+        ------
+        MissingExtra
+            If Matplotlib (extra `report`) is not installed.
+        FileError
+            If the file cannot be written.
+        """
         breaks = self.branch_switches
         return plot_joints(self.q, self.chain, times=self.times, breaks=breaks, path=path)
 
-    def sentences(self) -> list[str]:
-        """Report, a sentence each."""
-        return [
+    def summary(self) -> str:
+        """Report, one sentence a line: poses not reached, changes of branch, limits, singularities.
+
+        Returns
+        -------
+        text : str
+            Errors in mm and deg, coordinates in rad and m.
+        """
+        sentences = [
             self._reached(),
             *self._failures(),
             *map(self._switch, self.branch_switches),
@@ -199,9 +265,7 @@ class PathResult:
             *(_exceeds(s, "acceleration", "s^2") for s in self.acceleration_violations),
             *map(self._singular, self.near_singular),
         ]
-
-    def __str__(self) -> str:
-        return "\n".join(self.sentences())
+        return "\n".join(sentences)
 
     def __repr__(self) -> str:
         count = len(self.branch_switches)
@@ -216,12 +280,12 @@ class PathResult:
         rotation = float(np.max(self.rotation_error[self.success], initial=0.0))
         return (
             f"{int(self.success.sum())} of {len(self.q)} poses reached, "
-            f"within {1e3 * position:.2g} mm and {1e3 * rotation:.2g} mrad; "
+            f"within {1e3 * position:.2g} mm and {np.degrees(rotation):.2g}°; "
             f"largest step {self.largest_step:.3g} (rad or m)"
         )
 
     def _failures(self) -> list[str]:
-        """Sentence for each run of poses that are not reached, bad targets apart."""
+        """Sentence for each run of poses that are not reached; bad targets are runs of their own."""
         size = np.nan_to_num(self.position_error + self.rotation_error)
         bad = self.reason == BAD_TARGET
         said = []
@@ -229,7 +293,7 @@ class PathResult:
             worst = first + int(np.argmax(size[first : last + 1]))
             interval = PathInterval(first, last, "", worst, float(size[worst]), 0.0)
             where = "" if first == last else f", least of all {worst}"
-            said.append(f"{_points(interval)} not reached{where}: {self.why(worst)}")
+            said.append(f"{_points(interval)} not reached{where}: {self.solution.summary(worst)}")
         return said
 
     def _switch(self, k: int) -> str:

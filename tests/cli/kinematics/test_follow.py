@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -94,11 +95,11 @@ def test_numbers_and_options_are_those_of_the_library(poekin, arm, T, given):
         assert result[name] == getattr(expected, name).tolist()
     for name in ("at_limits", "speed_violations", "acceleration_violations", "near_singular"):
         assert result[name] == json.loads(
-            as_json_text([s._asdict() for s in getattr(expected, name)])
+            as_json_text([asdict(s) for s in getattr(expected, name)])
         )
     assert result["branch_switches"] == list(expected.branch_switches)
     assert result["largest_step"] == expected.largest_step
-    assert result["words"] == expected.sentences()
+    assert result["words"] == expected.summary().splitlines()
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".npy", ".json"])

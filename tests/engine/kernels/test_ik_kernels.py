@@ -110,6 +110,20 @@ def test_of_a_direction_the_jacobian_loses_the_turn_about_it():
     assert np.array_equal(J[3:], full[3:])
 
 
+def test_of_a_plane_the_error_and_the_jacobian_lose_what_leads_out_of_it():
+    T, target = ARM.fk(Q), se3.exp([0.1, 0.2, -0.3, 0.5, 0.4, 0.1])
+    J, e = ARM.jacobian(Q, "hybrid").copy(), np.zeros(6)
+    position, rotation = ik_kernels.error_parts(codes.PLANAR, N, T, target, J, e)
+    off = (np.eye(3) - np.outer(N, N)) @ (target[:3, 3] - T[:3, 3])
+    turn = pose_error.planar_error(T[:3, :3].ravel(), target[:3, :3].ravel(), N)
+    assert e == pytest.approx([*turn, *off], abs=1e-15)
+    assert position == pytest.approx(np.linalg.norm(off), rel=1e-14)
+    assert rotation == pytest.approx(pose_error.angle(turn), rel=1e-14)
+    full = ARM.jacobian(Q, "hybrid")
+    assert J[:3] == pytest.approx(np.outer(N, N) @ full[:3], abs=1e-15)
+    assert J[3:] == pytest.approx((np.eye(3) - np.outer(N, N)) @ full[3:], abs=1e-15)
+
+
 def descended(
     q: np.ndarray,
     target: np.ndarray,

@@ -83,6 +83,51 @@ def test_towards_the_opposite_direction_any_half_turn_across_will_do(turned):
         assert along is None or abs(a[0]) < 0.6 or error[0] == 0
 
 
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3, -2.0, 3.1])
+@pytest.mark.parametrize("swing", [0.0, 1e-9, 0.7, 3.0])
+def test_the_error_in_a_plane_is_the_turn_about_its_normal_whatever_the_swing(angle, swing):
+    R = rotation([0.3, 0.8, -0.5])
+    across = np.cross(N, [1.0, 2.0, 3.0])
+    turned = rotation(swing * across / np.linalg.norm(across)) @ rotation(angle * N)
+    found = pose_error.planar_error(flat(R), flat(turned @ R), N)
+    assert found == pytest.approx(2 * math.sin(angle / 2) * N, abs=4e-15 / math.cos(swing / 2))
+
+
+def test_upside_down_the_error_in_a_plane_is_half_a_turn():
+    flipped = pose_error.planar_error(
+        flat(np.eye(3)), flat(np.diag([1.0, -1, -1])), (0.0, 0.0, 1.0)
+    )
+    assert flipped == (0.0, 0.0, 2.0)
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 8))
+def test_in_a_plane_the_columns_have_the_turn_about_the_normal_and_what_is_across_it(seed, m):
+    rng = np.random.default_rng(seed)
+    J, v, n = rng.normal(size=(6, m)), rng.normal(size=3), rng.normal(size=3)
+    n /= np.linalg.norm(n)
+    along = np.outer(n, n)
+    left = J.copy()
+    pose_error.keep_in_plane(n, left, m)
+    np.testing.assert_allclose(left[:3], along @ J[:3], rtol=0, atol=1e-14)
+    np.testing.assert_allclose(left[3:], (np.eye(3) - along) @ J[3:], rtol=0, atol=1e-14)
+    assert pose_error.across(n, v) == pytest.approx((np.eye(3) - along) @ v, abs=1e-14)
+
+
+@given(st.tuples(NUMBERS, NUMBERS, NUMBERS), st.tuples(NUMBERS, NUMBERS, NUMBERS))
+def test_downhill_is_the_derivative_of_the_half_square_of_the_error(w, w_target):
+    R, S = rotation(w), rotation(w_target)
+    e = (*pose_error.rotation_error(flat(R), flat(S)), 0.3, -0.2, 0.1)
+    found = pose_error.downhill(e)
+    assert found[3:] == e[3:]
+    # E = |turn|^2 / 2 = 1 - cos(phi) = (3 - tr(S R^T)) / 2, and R' = [w] R
+    expected = [0.5 * np.trace(S @ (np.cross(np.eye(3), -axis) @ R).T) for axis in np.eye(3)]
+    assert np.abs(found[:3]) == pytest.approx(np.abs(expected), abs=3e-8)
+
+
+def test_of_a_rounded_half_turn_there_is_no_way_downhill():
+    assert pose_error.downhill((2.0 + 1e-9, 0.0, 0.0, 1.0, 2.0, 3.0)) == (0, 0, 0, 1, 2, 3)
+
+
 def test_the_distance_is_the_length_of_the_linear_half():
     assert pose_error.distance((9.0, 9.0, 9.0, 2.0, 3.0, 6.0)) == 7.0
 

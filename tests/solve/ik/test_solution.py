@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -18,7 +21,7 @@ def made(reason, position=2e-3, rotation=3e-4, beyond=0.0, blocked=((),)):
     )  # fmt: skip
 
 
-OFF = "2 mm and 0.3 mrad off"
+OFF = "2 mm and 0.01719° off"
 
 
 @pytest.mark.parametrize("solution, words", [
@@ -30,10 +33,10 @@ OFF = "2 mm and 0.3 mrad off"
      f"iterations: the nearest try was still moving when they ended; the nearest pose found is {OFF}"),
     (made("unreachable"), f"unreachable: the nearest pose found is {OFF}"),
     (made("unreachable", beyond=0.123456),
-     f"unreachable: the target is farther than the arm's reach by 0.1235 m; the nearest pose found is {OFF}"),
+     f"unreachable: the target is farther than the arm's reach by 123.5 mm; the nearest pose found is {OFF}"),
 ])  # fmt: skip
 def test_why_is_said_with_all_its_numbers(solution, words):
-    assert solution.why() == words
+    assert solution.summary() == str(solution) == words
     assert repr(solution) == f"<Solution {words}: q = [1.0, 1.0]>"
 
 
@@ -41,13 +44,32 @@ def test_of_many_each_is_counted_by_its_reason_and_asked_by_its_place():
     reason = [["solved", "limits", "solved"], ["unreachable", "limits", "bad target"]]
     blocked = ((), ("a",), (), (), ("b",), ())
     many = made(reason, blocked=blocked)
+    assert many.summary() == "2 of 6 solved, 1 unreachable, 2 limits, 1 bad target"
     assert repr(many) == "<Solution 2 of 6 solved, 1 unreachable, 2 limits, 1 bad target>"
-    assert "those of 'a';" in many.why(0, 1)
-    assert "those of 'b';" in many.why(1, 1)
-    assert "those of 'b';" in many.why(-1, -2)
+    assert "those of 'a';" in many.summary(0, 1)
+    assert "those of 'b';" in many.summary(1, 1)
+    assert "those of 'b';" in many.summary(-1, -2)
     assert repr(made(["solved", "iterations"])) == "<Solution 1 of 2 solved, 1 iterations>"
     assert repr(made(["solved"] * 3)) == "<Solution 3 of 3 solved>"
     assert set(reason[0] + reason[1]) < set(REASONS)
+
+
+def test_an_arm_with_too_few_coordinates_is_told_which_tasks_reach_the_target():
+    few = replace(made(["solved", "unreachable"]), reachable_tasks=((), ("planar", "position")))
+    assert few.summary(1) == (
+        f"unreachable: the nearest pose found is {OFF}; with so few coordinates the arm reaches "
+        "this target only with task='planar' or task='position'"
+    )
+    assert few.summary(0) == f"solved: {OFF}"
+    assert replace(few, reachable_tasks=((), ())).summary(1).endswith(OFF)
+
+
+def test_a_solution_is_plain_data_and_json():
+    found = made(["solved", "limits"], blocked=((), ("a",)))
+    document = found.to_dict()
+    assert document["reason"] == ["solved", "limits"]
+    assert document["limits_hit"] == [[], ["a"]]
+    assert json.loads(found.to_json()) == document
 
 
 def test_a_place_in_a_batch_is_counted_in_c_order():

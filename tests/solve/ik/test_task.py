@@ -1,28 +1,32 @@
-"""What a task constrains, and what is said of one that is none or that an arm is too short for."""
+"""What a task constrains, and what is said of one that is none."""
 
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import poekin as pk
 from poekin.errors import InputError, PoseError
-from poekin.model import screw
-from poekin.solve.ik.task import TASKS, check_joints, make_task, targets
+from poekin.solve.ik.task import TASKS, make_task, targets
 
 
 @pytest.mark.parametrize("name, weights, expected", [
     ("pose", None, [1] * 6), ("pose", [2, 4, 1, 1, 1, 1], [0.5, 1, 0.25, 0.25, 0.25, 0.25]),
     ("position", [9, 9, 9, 1, 2, 1], [0, 0, 0, 0.5, 1, 0.5]), ("rotation", [1, 2, 4, 9, 9, 9], [0.25, 0.5, 1, 0, 0, 0]),
     ("direction", [1, 1, 1, 2, 2, 2], [0.5, 0.5, 0.5, 1, 1, 1]),
+    ("planar", [1, 1, 1, 2, 2, 2], [0.5, 0.5, 0.5, 1, 1, 1]),
 ])  # fmt: skip
 def test_weights_are_scaled_to_1_and_0_where_a_task_takes_no_hold(name, weights, expected):
     task = make_task(name, None, weights)
     assert (task.name, task.weights.tolist(), task.axis.tolist()) == (name, expected, [0, 0, 1])
     assert (task.code, task.constrained_dof) == TASKS[name]
-    assert task.constrained_dof == {"pose": 6, "position": 3, "rotation": 3, "direction": 5}[name]
+    assert (
+        task.constrained_dof
+        == {"pose": 6, "position": 3, "rotation": 3, "direction": 5, "planar": 3}[name]
+    )
 
 
 def test_the_axis_of_a_direction_is_a_unit_vector_however_long_it_is_given():
@@ -45,9 +49,18 @@ def test_the_jacobian_of_a_direction_has_no_turn_about_it():
     assert make_task("pose", None, None).jacobian(T, J) is J
 
 
+def test_the_jacobian_of_the_planar_task_has_the_turn_about_the_normal_and_what_is_across_it():
+    rng = np.random.default_rng(0)
+    T, J = pk.se3.exp(rng.normal(size=(3, 6))), rng.normal(size=(3, 6, 4))
+    n = np.array([2, 3, -6]) / 7
+    found = replace(make_task("planar", None, None), axis=n).jacobian(T, J)
+    np.testing.assert_allclose(found[:, :3], np.outer(n, n) @ J[:, :3], atol=1e-14)
+    np.testing.assert_allclose(found[:, 3:], (np.eye(3) - np.outer(n, n)) @ J[:, 3:], atol=1e-14)
+
+
 @pytest.mark.parametrize("given, words", [
-    (("dance", None, None), "task: expected one of pose, position, rotation, direction, got 'dance'"),
-    ((3, None, None), "task: expected one of pose, position, rotation, direction, got 3"),
+    (("dance", None, None), "task: expected one of pose, position, rotation, direction, planar, got 'dance'"),
+    ((3, None, None), "task: expected one of pose, position, rotation, direction, planar, got 3"),
     (("pose", [1, 0, 0], None), "axis: only the task 'direction' has one, the task is 'pose'"),
     (("direction", [0, 0, 0], None), "axis: expected a direction (3,) that is not zero, got [0, 0, 0]"),
     (("direction", [[0, 0, 1]], None), "axis: expected a direction (3,) that is not zero, got [[0, 0, 1]]"),
@@ -64,25 +77,6 @@ def test_the_jacobian_of_a_direction_has_no_turn_about_it():
 def test_what_is_no_task_is_told(given, words):
     with pytest.raises(InputError, match=f"^{re.escape(words)}$"):
         make_task(*given)
-
-
-@pytest.mark.parametrize("dof, free, name, words", [
-    (2, 2, "pose", "task 'pose' constrains 6 degrees of freedom, and the chain has 2 coordinates"),
-    (5, 5, "pose", "task 'pose' constrains 6 degrees of freedom, and the chain has 5 coordinates; "
-     "what fits: 'position', 'rotation', 'direction'"),
-    (7, 5, "pose", "task 'pose' constrains 6 degrees of freedom, and the chain has 7 coordinates, 2 of them locked; "
-     "what fits: 'position', 'rotation', 'direction'"),
-    (4, 4, "direction", "task 'direction' constrains 5 degrees of freedom, and the chain has 4 coordinates; what fits: "
-     "'position', 'rotation'"),
-    (6, 6, "pose", None), (3, 3, "position", None),
-])  # fmt: skip
-def test_an_arm_of_too_few_joints_is_told_what_fits(dof, free, name, words):
-    chain = pk.Chain([screw.revolute([0, 0, 1], [x, 0, 0]) for x in range(dof)], np.eye(4))
-    if words is None:
-        check_joints(chain, make_task(name, None, None), free)
-    else:
-        with pytest.raises(InputError, match=f"^{re.escape(words)}$"):
-            check_joints(chain, make_task(name, None, None), free)
 
 
 def test_a_target_that_is_not_finite_is_nan_and_one_that_is_no_pose_is_named():

@@ -163,8 +163,8 @@ def test_a_pose_out_of_reach_is_told_and_the_path_goes_on_after_it():
     path = follow(arm, T, q0=[-0.7, 1.4, 0.0], task="position")
     np.testing.assert_array_equal(path.success, x <= 2)
     k = int(np.argmax(x))
-    assert path.why(k).startswith(
-        "unreachable: the target is farther than the arm's reach by 0.1 m"
+    assert path.solution.summary(k).startswith(
+        "unreachable: the target is farther than the arm's reach by 100 mm"
     )
     # the nearest is at full length; the links' length and what the lift could do are the bound of
     # the reach
@@ -173,7 +173,7 @@ def test_a_pose_out_of_reach_is_told_and_the_path_goes_on_after_it():
     # enough
     assert len(path.branch_switches) <= 1
     assert path.largest_step < 0.5
-    said = next(s for s in path.sentences() if "not reached" in s)
+    said = next(s for s in path.summary().splitlines() if "not reached" in s)
     assert said.startswith(f"poses 36 to 63 not reached, least of all {k}: unreachable: ")
 
 
@@ -222,7 +222,7 @@ def test_limits_in_the_way_are_the_reason():
     path = follow(arm, T, task="position")
     assert list(path.reason) == ["solved", "solved", "limits", "limits"]
     assert path.position_error[2] == pytest.approx(0.2, abs=1e-6)
-    assert "in the way are those of 'lift'" in path.why(2)
+    assert "in the way are those of 'lift'" in path.solution.summary(2)
     free = follow(arm, T, limits=False, task="position")
     assert free.ok
     np.testing.assert_array_equal(free.limits, np.tile([-np.inf, np.inf], (arm.dof, 1)))
@@ -444,7 +444,7 @@ def test_it_is_said_of_a_pose_that_is_reached_after_all_that_the_steps_ended(ur5
     T = ur5.fk(np.array([UR5_Q, UR5_Q]))
     T[1, 0, 3] += 9
     one = follower_of(ur5, T)
-    assert one.failure(0) == ("iterations", 0.0, ())
-    reason, beyond, blocked = one.failure(1)
+    assert one.failure(0) == ("iterations", 0.0, (), ())
+    reason, beyond, blocked, _ = one.failure(1)
     assert (reason, blocked) == ("unreachable", ())
     assert 7 < beyond < 9

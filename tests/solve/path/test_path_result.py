@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 
@@ -142,35 +144,47 @@ def test_the_report_says_it_all_in_sentences():
         speed=[0.55, 3, 1],
         acceleration=[9, 9, 0.35],
     )
-    assert path.sentences() == [
-        "4 of 7 poses reached, within 2e-06 mm and 3e-06 mrad; largest step 0.6 (rad or m)",
-        f"poses 2 to 3 not reached, least of all 3: {path.why(3)}",
+    assert path.summary().splitlines() == [
+        "4 of 7 poses reached, within 2e-06 mm and 1.7e-07°; largest step 0.6 (rad or m)",
+        f"poses 2 to 3 not reached, least of all 3: {path.solution.summary(3)}",
         "pose 4 not reached: bad target: it is not made of finite numbers",
         "the branch changes before pose 5: no way on from pose 3; the joints jump by 2.5, most of it in 'elbow'",
         "poses 2 to 3: 'lift' at its limit 0.5",
         "pose 5: 'shoulder' exceeds its speed, 0.6 of 0.55 (rad or m)/s at 5",
         "poses 1 to 2: 'lift' exceeds its acceleration, 0.4 of 0.35 (rad or m)/s^2 at 1",
     ]
-    assert "in the way are those of 'lift'" in path.why(3)
-    assert str(path) == "\n".join(path.sentences())
+    assert "in the way are those of 'lift'" in path.solution.summary(3)
+    assert str(path) == path.summary()
     assert repr(path) == "<PathResult 4 of 7 poses, largest step 0.6, 1 change of branch>"
     assert repr(followed(q[:2], changes=[1, 2])).endswith(", 2 changes of branch>")
     assert repr(followed(q[:2])) == "<PathResult 2 of 2 poses, largest step 0.1>"
     with pytest.raises(IndexError):
-        path.why(7)
+        path.solution.summary(7)
 
 
 def test_a_singularity_is_told_in_the_words_of_what_the_task_asks():
     q = [[0.0, 0.5, 0.1], [0.0, 5e-4, 0.1], [0.0, 1e-3, 0.1]]
-    (said,) = followed(q).sentences()[1:]
+    (said,) = followed(q).summary().splitlines()[1:]
     words = pk.singularity(ARM, q[1], part="translation").summary()
     assert said == f"poses 1 to 2: near a singularity, most at 1: {words}"
     assert "the base's x axis" in said
 
 
+def test_a_path_is_plain_data_without_its_chain():
+    q = [[0, 1, 0.1], [0.1, 1, 0.5]]
+    document = json.loads(followed(q, times=[0, 1.0], speed=[0.05, 3, 1]).to_json())
+    assert document["q"] == q
+    assert document["task"]["name"] == "position"
+    assert document["ok"] is False
+    assert document["speed_violations"] == [
+        {"first": 0, "last": 0, "name": "shoulder", "worst": 0, "value": 0.1, "bound": 0.05}
+    ]
+    assert not {"chain", "solution"} & set(document)
+
+
 def test_where_nothing_is_reached_nothing_is_off():
     path = followed([[0, 1, 0.1]], reason=["unreachable"], errors=[[0.5, 0.25]])
     assert (
-        path.sentences()[0]
-        == "0 of 1 poses reached, within 0 mm and 0 mrad; largest step 0 (rad or m)"
+        path.summary().splitlines()[0]
+        == "0 of 1 poses reached, within 0 mm and 0°; largest step 0 (rad or m)"
     )

@@ -6,9 +6,9 @@ import itertools
 
 import numpy as np
 
-from ...engine.kernels import ik_codes as codes
-from ...groups.arrays import Array
-from .ik_problem import Problem
+from ....engine.kernels import ik_codes as codes
+from ....groups.arrays import Array
+from ..ik_problem import Problem
 
 NEAREST_OF = 48
 """Number of tries for each target after the first."""

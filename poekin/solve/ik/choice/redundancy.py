@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ...engine.kernels import ik_codes as codes
-from ...errors import InputError, safe_repr
-from ...groups.arrays import Array
-from .ik_problem import Problem
+from ....engine.kernels import ik_codes as codes
+from ....errors import InputError, safe_repr
+from ....groups.arrays import Array
+from ..ik_problem import Problem
 
 OBJECTIVES = ("middle", "nearest", "manipulability")
 STEPS = 25

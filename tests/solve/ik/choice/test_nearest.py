@@ -7,7 +7,7 @@ import pytest
 
 import poekin as pk
 from poekin.engine.kernels import ik_codes as codes
-from poekin.solve.ik import nearest
+from poekin.solve.ik.choice import nearest
 from poekin.solve.ik.ik_problem import Settings, make_problem
 
 ARM = pk.load("ur5").chain().compile()

@@ -14,7 +14,7 @@ import poekin as pk
 from poekin.engine.kernels import ik_codes as codes
 from poekin.errors import InputError
 from poekin.model import screw
-from poekin.solve.ik import redundancy
+from poekin.solve.ik.choice import redundancy
 from poekin.solve.ik.ik import ik
 from poekin.solve.ik.ik_problem import Settings, make_problem
 

@@ -1,0 +1,58 @@
+"""Descent to the least error: downhill, within bounds, and exact where rotation is traded too."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import poekin as pk
+from poekin.groups import se3
+from poekin.model import screw
+from poekin.solve.ik.ik_problem import Settings, make_problem
+from poekin.solve.ik.least_error import least_error, slope_at
+
+SETTINGS = Settings("pose", None, True, 1e-9, 1e-9, None, None, 100, 30, 0, False)
+ARM = pk.Chain(
+    [screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1)], se3.exp([0, 0, 0, 1.7, 0, 0])
+).compile()
+FREE = np.full(2, -np.inf), np.full(2, np.inf)
+
+
+def bowl(q):
+    """|q - (1, 2)|^2."""
+    off = np.array([1.0, 2.0]) - q
+    return float(off @ off), np.eye(2), off
+
+
+def test_the_bottom_is_found_and_bounds_hold():
+    np.testing.assert_allclose(least_error(bowl, np.zeros(2), *FREE), [1, 2], atol=1e-9)
+    q = least_error(bowl, np.zeros(2), FREE[0], np.array([0.25, 9.0]))
+    np.testing.assert_allclose(q, [0.25, 2], atol=1e-9)
+
+
+def test_no_step_is_taken_uphill():
+    asked = []
+
+    def wrong(q):
+        asked.append(q)
+        size, H, g = bowl(q)
+        return size, H, -g
+
+    assert least_error(wrong, np.zeros(2), *FREE).tolist() == [0, 0]
+    assert len(asked) == 31
+
+
+@pytest.mark.parametrize("task, exact", [("pose", True), ("position", True), ("direction", True)])
+def test_half_the_slope_of_the_error_is_that_of_differences_far_from_the_target_too(task, exact):
+    problem = make_problem(ARM, SETTINGS._replace(task=task))
+    target = se3.exp([0.9, -0.8, 1.1, 0.5, 0.7, 0.3])
+    q = np.array([0.4, 0.9])
+    size, H, g = slope_at(problem, target, q)
+    h = 1e-6
+    differences = [
+        slope_at(problem, target, q + h * e)[0] - slope_at(problem, target, q - h * e)[0]
+        for e in np.eye(2)
+    ]
+    np.testing.assert_allclose(g, np.array(differences) / (-4 * h), rtol=1e-8)
+    np.testing.assert_allclose(H, H.T)
+    assert size > 0
