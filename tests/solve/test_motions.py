@@ -291,7 +291,7 @@ def test_limits_for_way_and_angle_of_a_pose():
     [
         (lambda: motion.cubic(0), r"duration: expected a positive number of seconds, got 0"),
         (lambda: motion.quintic(math.nan), r"duration: .* got nan"),
-        (lambda: motion.trapezoidal(1, 0.6), r"ramp: .* at most 0\.5, got 0\.6"),
+        (lambda: motion.trapezoidal(1, 0.6), r"acceleration_fraction: .* at most 0\.5, got 0\.6"),
         (
             lambda: motion.minimum_time("linear", 1, speed=1),
             r"law: expected one of cubic, .*, got 'linear'",
@@ -549,8 +549,8 @@ def test_each_joint_has_its_own_limits():
     (lambda: motion.cubic(1e-101), "duration: expected a positive number of seconds, got 1e-101"),
     (lambda: motion.cubic("1"),  # type: ignore[arg-type]
      "duration: expected a positive number of seconds, got '1'"),
-    (lambda: motion.trapezoidal(1, 0), "ramp: expected a number above 0 and at most 0.5, got 0"),
-    (lambda: motion.trapezoidal(1, True), "ramp: expected a number above 0 and at most 0.5, got True"),
+    (lambda: motion.trapezoidal(1, 0), "acceleration_fraction: expected a number above 0 and at most 0.5, got 0"),
+    (lambda: motion.trapezoidal(1, True), "acceleration_fraction: expected a number above 0 and at most 0.5, got True"),
     (lambda: motion.minimum_time("cubic", [0, 1], acceleration=[1, -1]),
      "acceleration: expected positive limits, got [1, -1]"),
     (lambda: motion.minimum_time("cubic", 1e300, acceleration=1e-300),

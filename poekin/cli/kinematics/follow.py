@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, cast
 
 import numpy as np
 import typer
@@ -12,6 +12,7 @@ from ...errors import FileError, InputError
 from ...formats.text import csv_rows
 from ...formats.text.atomic_write import write_whole
 from ...model.chain import Chain
+from ...solve.ik.task import TaskName
 from ...solve.path.follow import follow
 from ...solve.path.path_result import PathResult
 from .. import array_files
@@ -94,7 +95,7 @@ def command(
             times=_times(duration, len(T)),
             speed=poses.for_each(speed, chain, "--speed"),
             max_step=max_step,
-            task=task,
+            task=cast(TaskName, task),
             limits=not no_limits,
             acceleration=poses.for_each(acceleration, chain, "--acceleration"),
             seed=seed,

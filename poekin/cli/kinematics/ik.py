@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, cast
 
 import numpy as np
 import typer
@@ -12,6 +12,7 @@ from ...formats.text import csv_rows
 from ...model.chain import Chain
 from ...solve.ik.ik import ik
 from ...solve.ik.solution import Solution
+from ...solve.ik.task import TaskName
 from .. import array_files
 from ..model import model
 from ..output import Progress, as_json, complain, heading, name, path_text, say
@@ -66,7 +67,7 @@ def command(
             T,
             q0=start,
             nearest_to=near,
-            task=task,
+            task=cast(TaskName, task),
             limits=not no_limits,
             seed=seed,
             progress=progress,
@@ -110,7 +111,7 @@ def _give(
 
 
 def _report(found: Solution, reasons: dict[int, str], single: bool) -> dict[str, object]:
-    parts = found.to_dict() | {"why": [reasons.get(k) for k in range(len(found.q))]}
+    parts: dict[str, Any] = found.to_dict() | {"why": [reasons.get(k) for k in range(len(found.q))]}
     if single:
         return {key: next(iter(values), ()) for key, values in parts.items()}
     return parts

@@ -9,11 +9,11 @@ from numpy.typing import ArrayLike
 
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
-from .choice.redundancy import check_objective
+from .choice.redundancy import Objective, check_objective
 from .ik_problem import Settings, compiled, hashable, items, make_problem
 from .solution import Solution
 from .solver import Wishes, solve
-from .task import targets
+from .task import TaskName, targets
 
 
 def ik(
@@ -21,13 +21,13 @@ def ik(
     T: ArrayLike,
     *,
     q0: Any = None,
-    task: str = "pose",
+    task: TaskName = "pose",
     axis: ArrayLike | None = None,
     limits: bool = True,
     tol_position: float = 1e-9,
     tol_rotation: float = 1e-9,
     nearest_to: Any = None,
-    secondary_objective: str | None = None,
+    secondary_objective: Objective | None = None,
     lock: Mapping[str, float] | None = None,
     weights: ArrayLike | None = None,
     restarts: int = 100,
@@ -36,43 +36,108 @@ def ik(
     parallel: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> Solution:
-    """Joints q with f(q) = T, for one target or a batch.
+    """Joint coordinates q with f(q) = T, for one target pose or a batch.
 
     Damped least squares over the arm's own machine code, from q0 or from random starts within the
     limits, again and again until the true pose error is within both tolerances. A coordinate stays
-    within its limits at every step.
+    within its limits at every step. An arm may have any number of coordinates: what it can reach is
+    solved, and else q is the nearest that was found.
 
     Parameters
     ----------
-    chain: a `Chain`, or what its `compile` gives. T (..., 4, 4): poses of the tip in the base
-    frame, m.
-    q0 (m,), (..., m) or a dict: the first try begins there (outside the limits it is moved to them,
-        with a warning); without it at `nearest_to`, or else at random.
-    task: "pose"; "position" or "rotation" alone; "direction": the position, and the direction of
-    the tool's `axis`
-        (3,) (in the tool frame, by default its z axis), for arms of five joints.
-    limits: whether q has to lie within the chain's limits.
-    tol_position (m), tol_rotation (rad): what is solved, by |p* - p| and by the angle of the
-    rotation between the two. nearest_to (m,), (..., m) or a dict, within the limits or not: of the
-    solutions that some fifty tries find, the one
-        with the least distance from it, in rad and m of the joints; `ik_all` finds them all.
-    secondary_objective: null-space objective of an arm with more joints than the task needs:
-        "middle" (of the limits), "nearest" (to q0), "manipulability" (Yoshikawa's measure of what
-        the task asks, in rad and m). It is optimised as far as the arm can move within limits from
-        the first solution, the tool at rest; other q0 may lead to a better one.
-    lock: names of coordinates and the values that they keep.
-    weights (6,): of the error's parts (rotation; position) in the axes of the base, while it is
-    made small.
-    restarts, iterations: the most tries after the first, and the most steps of a try. seed: of the
-        random starts; the same seed gives the same result. parallel: share out a long batch among
-        threads.
-    progress(done, total): called from time to time on a long batch.
+    chain : Chain or CompiledChain
+        The arm.
+    T : (..., 4, 4) array_like
+        Target poses of the tip in the base frame, m.
+    q0 : (m,) or (..., m) array_like or dict, optional
+        Start of the first try, rad or m; outside the limits it is moved to them. Without it the
+        first try begins at `nearest_to`, or else at random.
+    task : {"pose", "position", "rotation", "direction", "planar"}, default "pose"
+        Part of the target to be reached. "direction" is the position and the direction of the
+        tool's `axis`, for arms of five joints; "planar" the position in the plane in which the arm
+        moves and the angle about its normal, for arms whose turning axes are all parallel.
+    axis : (3,) array_like, optional
+        Direction in the tool frame for the task "direction"; by default its z axis.
+    limits : bool, default True
+        Whether q has to lie within the limits of the chain.
+    tol_position : float, default 1e-9
+        Largest |p* - p| of a solution, m.
+    tol_rotation : float, default 1e-9
+        Largest angle of the rotation between target and solution, rad.
+    nearest_to : (m,) or (..., m) array_like or dict, optional
+        Configuration, within the limits or not, to be near to: of the solutions that some fifty
+        tries find, the one with the least distance from it is taken, in rad and m of the joints.
+    secondary_objective : {"middle", "nearest", "manipulability"}, optional
+        Null-space objective of an arm with more joints than the task needs: the middle of the
+        limits, nearness to q0, or Yoshikawa's measure of what the task asks, in rad and m. It is
+        optimised as far as the arm can move within limits from the first solution, the tool at
+        rest; another q0 may lead to a better one.
+    lock : dict of str to float, optional
+        Names of coordinates and the values that they keep.
+    weights : (6,) array_like, optional
+        Weights of the error's parts (rotation; position) in the axes of the base, while it is made
+        small.
+    restarts : int, default 100
+        Largest number of tries after the first.
+    iterations : int, default 30
+        Largest number of steps of a try.
+    seed : int, default 0
+        Seed of the random starts; the same seed gives the same result.
+    parallel : bool, default False
+        Whether a long batch is shared out among threads.
+    progress : callable, optional
+        Function of (done, total), called from time to time on a long batch.
 
-    Returns: Solution. Raises: PoseError that says which element is no pose and by how much;
-    InputError, ShapeError, UnknownName. NaN or infinity in a target gives NaN in its q, the reason
-    "bad target", and no error.
-    Accuracy: `success` means what `tol_position` and `tol_rotation` say of `Chain.fk(q)`: the
-    errors are computed anew. Source: Chan and Lawrence 1988, Sugihara 2011 (error-scaled damping).
+    Returns
+    -------
+    solution : Solution
+        Coordinates, errors, and the reason where there is no solution. NaN or infinity in a target
+        gives NaN in its q and the reason "bad target".
+
+    Raises
+    ------
+    PoseError
+        If an element of T is no pose; the message says which, and by how much.
+    ShapeError
+        If an array does not have the shape above.
+    InputError
+        If an argument is none of those above, or no coordinate may move.
+    UnknownName
+        If `lock` or a dict names a coordinate that the chain has not.
+
+    Warns
+    -----
+    PoekinWarning
+        If q0 is outside the limits.
+
+    See Also
+    --------
+    ik_all : Every solution.
+    follow : Joints along a path of poses.
+
+    Notes
+    -----
+    Accuracy: `success` means what `tol_position` and `tol_rotation` say of `Chain.fk`: the errors
+    are computed anew. Where an arm has fewer coordinates than the task constrains and no
+    configuration reaches the target, q is a least of the weighted squares of both errors nearby.
+    Source: Chan and Lawrence 1988, Sugihara 2011 (error-scaled damping).
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> T = arm.fk([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
+    >>> found = pk.ik(arm, T)
+    >>> bool(found.success), found.q.shape
+    (True, (6,))
+    >>> T[:3, 3] = 2.0, 0.0, 0.0
+    >>> print(pk.ik(arm, T).summary().split(";")[0])
+    unreachable: the target is farther than the arm's reach by ... mm
+
+    Five joints hold a position and a direction:
+
+    >>> bool(pk.ik(arm, arm.fk([0.3] * 6), task="direction", lock={arm.q_names[5]: 0.0}).success)
+    True
     """
     fast = compiled(chain, "ik")
     settings = Settings(

@@ -10,7 +10,7 @@ import numpy as np
 from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
 from .choice.nearest import nearest
-from .choice.redundancy import optimise
+from .choice.redundancy import Objective, optimise
 from .diagnosis import KIND, diagnose, reachable_tasks, settle
 from .ik_problem import Problem
 from .joint_domain import first_tries, for_targets
@@ -29,7 +29,7 @@ class Wishes(NamedTuple):
     """
 
     nearest_to: Any = None
-    secondary_objective: str | None = None
+    secondary_objective: Objective | None = None
 
 
 NOTHING = Wishes()
@@ -98,7 +98,7 @@ def _in_parts(
     rows: Array,
     first: Array,
     near: Array | None,
-    objective: str | None,
+    objective: Objective | None,
     progress: Progress | None,
 ) -> tuple[Array, Array]:
     """q and info of many targets, some at a time, each with all that is asked of it."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,8 @@ from .all_solutions import AllSolutions, in_words, missing_probability
 from .closed_form import ClosedForm, closed_form
 from .ik_all_search import Found, Rule, accepted, bounds, periods, pose_errors, search, turns_within
 
-METHODS = ("auto", "closed", "search")
+Method = Literal["auto", "closed", "search"]
+METHODS: tuple[Method, ...] = get_args(Method)
 
 MOST = 4096
 """The most places that `all_revolutions=True` lists for one target."""
@@ -31,18 +32,18 @@ _MAX_MISSES = 200  # tries without any solution, after which a search gives up
 
 
 def ik_all(
-    arm: Chain | CompiledChain,
+    chain: Chain | CompiledChain,
     T: ArrayLike,
     *,
     limits: bool = True,
-    method: str = "auto",
+    method: Method = "auto",
     all_revolutions: bool = False,
     min_hits: int = 14,
     restarts: int = 2000,
     iterations: int = 200,
     seed: int = 0,
 ) -> AllSolutions:
-    """All q with f(q) = T of an arm of up to six coordinates, for one target or a batch.
+    """Every solution q of f(q) = T, of an arm of up to six coordinates, for one target or a batch.
 
     In closed form by EAIK where it is installed (extra `ik`) and the arm's axes allow it, each
     solution tried down to the target again; else by search: from random starts until each solution
@@ -50,33 +51,70 @@ def ik_all(
 
     Parameters
     ----------
-    arm: a `Chain`, or what its `compile` gives. T (..., 4, 4): poses of the tip in the base frame,
-    m.
-    limits: list only what lies within the chain's limits.
-    method: "auto"; "closed", to be refused where there is no closed form; "search", without EAIK.
-    all_revolutions: list all places within the limits that are whole turns apart; else of each solution the
-    one nearest to 0. min_hits, restarts, iterations: when the search ends (14 leaves a chance of about
-    1e-3 that one is missing, see
-        `AllSolutions.p_missing`), the most starts, and the most steps from each. seed: of the starts;
-        the same seed gives the same result.
+    chain : Chain or CompiledChain
+        The arm.
+    T : (..., 4, 4) array_like
+        Target poses of the tip in the base frame, m.
+    limits : bool, default True
+        Whether only solutions within the chain's limits are listed.
+    method : {"auto", "closed", "search"}, default "auto"
+        "closed" refuses an arm without a closed form; "search" does without EAIK.
+    all_revolutions : bool, default False
+        Whether all places within the limits that are whole turns apart are listed; else the one
+        nearest to 0 of each solution.
+    min_hits : int, default 14
+        How often the search finds each solution before it ends; 14 leaves a chance of about 1e-3
+        that one is missing, see `AllSolutions.p_missing`.
+    restarts : int, default 2000
+        Largest number of starts of the search.
+    iterations : int, default 200
+        Largest number of steps from each start.
+    seed : int, default 0
+        Seed of the starts; the same seed gives the same result.
 
-    Returns: AllSolutions; `complete` says how sure it is that these are all. A target with infinitely
-    many solutions (at some singular poses) is said to be one: one of them is listed. No solution:
-    `ik` says why. A target that is not finite has none.
-    Raises: InputError for an arm of more than six coordinates, which has infinitely many solutions,
-    or of none, and for "closed" where the arm has no closed form; MissingExtra for "closed" without
-    EAIK; PoseError, ShapeError.
+    Returns
+    -------
+    solutions : AllSolutions
+        All solutions; `complete` says how sure it is that these are all. Of infinitely many, at
+        some singular poses, one is listed. A target that is not finite has none, and of one without
+        solutions `ik` says why.
+
+    Raises
+    ------
+    InputError
+        If the arm has more than six coordinates, and so infinitely many solutions, or none; if it
+        has no closed form and "closed" is asked; if an option is none of those above.
+    MissingExtra
+        If "closed" is asked and EAIK is not installed.
+    PoseError
+        If an element of T is no pose.
+    ShapeError
+        If T has another shape.
+
+    See Also
+    --------
+    ik : One solution, and the reason where there is none.
+
+    Notes
+    -----
     Accuracy: every solution is within 1e-10 m and 1e-10 rad of its target by `Chain.fk` (of arms
     with a reach of more than 100 m, within 1e-12 of that); solutions that rounding cannot tell
     apart are one (tests/solve/ik_all/test_ik_all.py).
     Source: Ostermeier, Külz and Althoff 2025 (closed form, EAIK).
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> every = pk.ik_all(arm, arm.fk([0.4, -1.2, 1.5, -0.3, 0.8, 0.0]), method="search")
+    >>> len(every.solutions), every.method
+    (8, 'search')
     """
-    fast = compiled(arm, "ik_all")
-    given = fast.chain
-    units = joint_units(fast)
+    compiled_chain = compiled(chain, "ik_all")
+    given = compiled_chain.chain
+    units = joint_units(compiled_chain)
     fast = units.fast
-    chain = units.fast.chain
-    _check_chain(chain)
+    _check_chain(given)
     _check_options(limits, method, all_revolutions)
     for what, number, least in (
         ("min_hits", min_hits, 1),
@@ -90,10 +128,10 @@ def ik_all(
     rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
     finite: np.ndarray = np.isfinite(rows).all(axis=(1, 2)).reshape(-1)
     good = rows[finite]
-    solver = _solver(chain, method)
+    solver = _solver(fast.chain, method)
     rule = Rule(min_hits, restarts, iterations, _MAX_MISSES)
     found = _found(fast, good, solver, rule, int(seed), limits)
-    places = _places(chain, found, limits, all_revolutions)
+    places = _places(fast.chain, found, limits, all_revolutions)
     signed = places.q
     if units.scale is not None:
         signed = places.q * np.sign(units.scale)
@@ -135,7 +173,7 @@ def _check_whole(what: str, number: Any, least: int) -> None:
         )
 
 
-def _solver(chain: Chain, method: str) -> ClosedForm | None:
+def _solver(chain: Chain, method: Method) -> ClosedForm | None:
     """The closed form to use, or None for the search."""
     if method == "search":
         return None

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ...errors import InputError, ShapeError, safe_repr
 from ...formats.text import csv_rows, pose_rows
 from ...formats.text.atomic_write import write_whole
+from ...formats.text.pose_rows import PoseFormat, QuaternionOrder
 from ...groups.arrays import Array, numbers, poses
 from ...model.chain import Chain
 
@@ -19,31 +20,83 @@ Path = str | os.PathLike[str]
 TIME = "time"
 
 
-def read_poses(path: Path, format: str, *, quaternion: str | None = None) -> Array:
-    """Poses (N, 4, 4), m, out of a CSV file with one pose a line, all in one frame.
+def read_poses(
+    path: Path, format: PoseFormat, *, quaternion: QuaternionOrder | None = None
+) -> Array:
+    """Poses read from a CSV file with one pose a line, all in one frame.
 
-    Parameters: path;
-    format: "12", the first three rows of T, row by row (T00 T01 T02 T03 T10 ... T23); "16", all
-    four rows; "7": x y z and a unit quaternion, whose order has to be said: quaternion "wxyz" or
-    "xyzw". A first line may name the columns (T00 ..., or x y z qw qx qy qz) and so order them. A
-    line with nan gives a pose of NaN.
-    Returns: T (N, 4, 4). Source: none, a format of poekin's own.
-    Raises: FileError; PoseError and InputError with file and line; UnknownName for a header with
-    another name.
+    A first line may name the columns (T00 ..., or x y z qw qx qy qz) and so order them. A line with
+    nan gives a pose of NaN.
+
+    Parameters
+    ----------
+    path : path_like
+        The file.
+    format : {"12", "16", "7"}
+        Numbers of a pose: "12", the first three rows of T, row by row (T00 T01 T02 T03 T10 ...
+        T23); "16", all four rows; "7", x y z and a unit quaternion.
+    quaternion : {"wxyz", "xyzw"}, optional
+        Order of the quaternion, which the format "7" needs.
+
+    Returns
+    -------
+    T : (N, 4, 4) ndarray
+        Poses, m.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read.
+    PoseError, InputError
+        If a line is no pose; the message has file and line.
+    UnknownName
+        If the header has another name.
+
+    Notes
+    -----
+    Source: none, a format of poekin's own.
     """
     names = pose_rows.columns(format, quaternion)
     rows, lines, where = _read(path, names, "column")
     return pose_rows.to_poses(rows, format, quaternion, lambda i: f"{where}:{lines[i]}")
 
 
-def write_poses(path: Path, T: ArrayLike, format: str, *, quaternion: str | None = None) -> None:
-    """Write poses (N, 4, 4) as `read_poses` reads them, with a header; the file appears whole or
-    not at all.
+def write_poses(
+    path: Path, T: ArrayLike, format: PoseFormat, *, quaternion: QuaternionOrder | None = None
+) -> None:
+    """Writes poses as `read_poses` reads them, with a header.
 
     Numbers are written in the shortest form that reads back as the same float.
 
-    Parameters: path; T (N, 4, 4), m, in any one frame; format and quaternion, as `read_poses`.
-    Raises: PoseError, ShapeError, InputError, FileError. Source: none, a format of poekin's own.
+    Parameters
+    ----------
+    path : path_like
+        The file; it appears whole or not at all.
+    T : (N, 4, 4) array_like
+        Poses, m, in any one frame.
+    format, quaternion : str
+        As in `read_poses`.
+
+    Raises
+    ------
+    PoseError, ShapeError
+        If T is no array of poses of that shape.
+    InputError
+        If the format or the order is none of those.
+    FileError
+        If the file cannot be written.
+
+    Notes
+    -----
+    Source: none, a format of poekin's own.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> pk.motion.write_poses("poses.csv", [np.eye(4)], "7", quaternion="xyzw")
+    >>> pk.motion.read_poses("poses.csv", "7", quaternion="xyzw").shape
+    (1, 4, 4)
     """
     T = poses(T)
     if T.ndim != 3:
@@ -53,14 +106,36 @@ def write_poses(path: Path, T: ArrayLike, format: str, *, quaternion: str | None
 
 
 def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array | None]:
-    """q (N, m), rad or m, out of a CSV file with one configuration a line, and times (N,), s, where
-    it has them.
+    """Configurations, and times where it has them, from a CSV file with one of them a line.
 
-    Parameters: path; names, of the coordinates, or the chain that has them.
-    A first line may name the columns, in any order; with a
-    further column `time`, the first or in any place that the header says, there are times. Returns:
-    q and times or None. Raises: FileError; InputError with file and line; UnknownName for a header
-    with another name.
+    A first line may name the columns, in any order; with a further column `time`, the first or in
+    any place that the header says, there are times.
+
+    Parameters
+    ----------
+    path : path_like
+        The file.
+    names : Chain or sequence of str
+        Names of the coordinates, or the chain that has them.
+
+    Returns
+    -------
+    q : (N, m) ndarray
+        Coordinates in the order of the names, rad or m.
+    times : (N,) ndarray or None
+        Times, s.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read.
+    InputError
+        If a line is no configuration; the message has file and line.
+    UnknownName
+        If the header has another name.
+
+    Notes
+    -----
     Source: none, a format of poekin's own.
     """
     names = _names(names)
@@ -74,11 +149,31 @@ def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array 
 def write_joints(
     path: Path, q: ArrayLike, names: Chain | Sequence[str], *, times: ArrayLike | None = None
 ) -> None:
-    """Write q (N, m) as `read_joints` reads it, with a header and, where given, times (N,) in the
-    first column.
+    """Writes configurations as `read_joints` reads them, with a header.
 
-    The file appears whole or not at all. Parameters: path; q, times; names, as `read_joints`.
-    Raises: ShapeError, InputError, FileError. Source: none, a format of poekin's own.
+    Parameters
+    ----------
+    path : path_like
+        The file; it appears whole or not at all.
+    q : (N, m) array_like
+        Coordinates, rad or m.
+    names : Chain or sequence of str
+        Names of the coordinates, or the chain that has them.
+    times : (N,) array_like, optional
+        Times, s, for the first column.
+
+    Raises
+    ------
+    ShapeError
+        If q or `times` has another shape.
+    InputError
+        If `names` are no names.
+    FileError
+        If the file cannot be written.
+
+    Notes
+    -----
+    Source: none, a format of poekin's own.
     """
     names = _names(names)
     q = numbers(q, "q")

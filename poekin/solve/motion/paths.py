@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -10,20 +12,50 @@ from ...groups import se3, so3
 from ...groups.arrays import Array, numbers, poses
 from ...groups.so3.exp_log import exp_of_vectors
 
+Path = Literal["line", "screw"]
+
 
 def screw(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
-    """T(s) = T_s0 e^{s xi}, xi = log(T_s0^-1 T_s1): one screw motion, of constant body twist xi per
-    unit of s.
+    """Screw motion T(s) = T_s0 e^{s ξ}, ξ = log(T_s0⁻¹ T_s1), of constant body twist ξ per unit of s.
 
     The tool turns about one axis and slides along it, all the time; its origin runs on a helix, on
     a straight line only where the two poses have the same rotation (`line`).
 
-    Parameters: T_s0, T_s1 (..., 4, 4), poses of the tool in one frame, m; s (...), also outside 0
-    ... 1. Leading axes are broadcast: two poses and s (N,) give (N, 4, 4). Returns: (..., 4, 4),
-    T_s0 and T_s1 themselves at s = 0 and 1. At half a turn, where there are two ways round, the one
-    of `se3.log`. NaN in an element gives NaN in that element. Raises: PoseError, ShapeError,
-    InputError. Accuracy: that of `se3.log` and `se3.exp`
-    (tests/solve/test_motions.py). Source: Park 1994, Lemmas 2 and 4.
+    Parameters
+    ----------
+    T_s0, T_s1 : (..., 4, 4) array_like
+        Poses of the tool in one frame, m.
+    s : (...) array_like
+        Parameter of the path, also outside 0 ... 1, broadcast against the leading axes: two poses
+        and s (N,) give (N, 4, 4).
+
+    Returns
+    -------
+    T : (..., 4, 4) ndarray
+        Poses, T_s0 and T_s1 themselves at s = 0 and 1. Of the two ways round at half a turn, that
+        of `se3.log`. NaN in an element gives NaN in that element.
+
+    Raises
+    ------
+    PoseError
+        If an element of T_s0 or T_s1 is no pose.
+    ShapeError
+        If the shapes do not fit.
+    InputError
+        If an argument is no array of numbers.
+
+    Notes
+    -----
+    Accuracy: that of `se3.log` and `se3.exp` (tests/solve/test_motions.py).
+    Source: Park 1994, Lemmas 2 and 4.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> T = pk.motion.screw(np.eye(4), pk.se3.exp([0, 0, 1, 0.5, 0, 0]), [0, 0.5, 1])
+    >>> [round(float(w[2]), 6) for w in pk.se3.log(T)]
+    [0.0, 0.5, 1.0]
     """
     T_s0, T_s1, s = _together(T_s0, T_s1, s)
     start = _exact(T_s0)
@@ -32,11 +64,39 @@ def screw(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
 
 
 def line(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
-    """p(s) = p_0 + s (p_1 - p_0) and R(s) = R_0 e^{s w}, w = log(R_0^T R_1): the tool's origin on a
-    straight line.
+    """Straight line of the tool's origin, with an even turn about one axis beside it.
 
-    The rotation is apart from it: about one axis, of constant angular velocity per unit of s.
-    Parameters, returns, errors and accuracy: those of `screw`. Source: Park 1994, Lemmas 1 and 3.
+    p(s) = p_0 + s (p_1 - p_0) and R(s) = R_0 e^{s w}, w = log(R_0ᵀ R_1): of constant velocity and
+    angular velocity per unit of s.
+
+    Parameters
+    ----------
+    T_s0, T_s1 : (..., 4, 4) array_like
+        Poses of the tool in one frame, m.
+    s : (...) array_like
+        Parameter of the path, as in `screw`.
+
+    Returns
+    -------
+    T : (..., 4, 4) ndarray
+        Poses, as of `screw`.
+
+    Raises
+    ------
+    PoseError, ShapeError, InputError
+        As `screw`.
+
+    Notes
+    -----
+    Accuracy: that of `screw`. Source: Park 1994, Lemmas 1 and 3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> T = pk.motion.line(np.eye(4), pk.se3.exp([0, 0, 0, 0.5, 0, 0]), np.linspace(0, 1, 3))
+    >>> [round(float(x), 6) for x in T[:, 0, 3]]
+    [0.0, 0.25, 0.5]
     """
     T_s0, T_s1, s = _together(T_s0, T_s1, s)
     R_0 = _exact(T_s0)[..., :3, :3]
@@ -48,12 +108,30 @@ def line(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
 
 
 def joint(q_0: ArrayLike, q_1: ArrayLike, s: ArrayLike) -> Array:
-    """q(s) = q_0 + s (q_1 - q_0): a straight line in the space of the coordinates, without taking
-    turns off.
+    """Straight line q(s) = q_0 + s (q_1 - q_0) in the space of the coordinates; no turns are taken off.
 
-    Parameters: q_0, q_1 (..., m), rad or m; s (...), broadcast against their leading axes. Returns:
-    (..., m), q_0 and q_1 themselves at s = 0 and 1. Raises: ShapeError, InputError. Accuracy: three
-    roundings. Source: none, a line.
+    Parameters
+    ----------
+    q_0, q_1 : (..., m) array_like
+        Configurations, rad or m.
+    s : (...) array_like
+        Parameter of the path, broadcast against their leading axes.
+
+    Returns
+    -------
+    q : (..., m) ndarray
+        Configurations, q_0 and q_1 themselves at s = 0 and 1.
+
+    Raises
+    ------
+    ShapeError
+        If the shapes do not fit.
+    InputError
+        If an argument is no array of numbers.
+
+    Notes
+    -----
+    Accuracy: three roundings. Source: none, a line.
     """
     q_0 = numbers(q_0, "q_0")
     q_1 = numbers(q_1, "q_1")
@@ -69,14 +147,40 @@ def joint(q_0: ArrayLike, q_1: ArrayLike, s: ArrayLike) -> Array:
         raise ShapeError(f"q_0, q_1: the leading axes do not broadcast: {shapes}") from error
 
 
-def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: str = "line") -> Array:
-    """Lengths of a path between two poses: the way of the tool's origin (m) and the angle turned
-    (rad).
+def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: Path = "line") -> Array:
+    """Lengths of a path between two poses: the way of the tool's origin and the angle turned.
 
-    Both are passed evenly in s, so |p'| = length s' and |omega| = angle s': what `minimum_time` needs.
-    Parameters: T_s0, T_s1 (..., 4, 4); along "line" (|p_1 - p_0|) or "screw" (|v| of xi = (omega;
-    v), the length of the helix). Returns: (..., 2), m and rad. Raises: PoseError, ShapeError,
-    InputError. Accuracy: that of `se3.log`.
+    Both are passed evenly in s, so |p'| = length s' and |ω| = angle s': what `minimum_time` needs.
+
+    Parameters
+    ----------
+    T_s0, T_s1 : (..., 4, 4) array_like
+        Poses of the tool in one frame, m.
+    along : {"line", "screw"}, default "line"
+        Path: the straight line, |p_1 - p_0|, or the helix of the screw motion, |v| of ξ = (ω; v).
+
+    Returns
+    -------
+    lengths : (..., 2) ndarray
+        Length and angle, m and rad.
+
+    Raises
+    ------
+    PoseError, ShapeError
+        As `screw`.
+    InputError
+        If `along` is neither, or an argument is no array of numbers.
+
+    Notes
+    -----
+    Accuracy: that of `se3.log`. Source: none, norms.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> pk.motion.path_lengths(np.eye(4), pk.se3.exp([0, 0, 0.5, 0, 0, 0.2])).round(6).tolist()
+    [0.2, 0.5]
     """
     if not isinstance(along, str) or along not in ("line", "screw"):
         raise InputError(f"along: expected 'line' or 'screw', got {safe_repr(along)}")

@@ -18,27 +18,54 @@ from .. import svg
 
 def plot_joints(
     q: ArrayLike,
-    arm: Chain,
+    chain: Chain,
     *,
     times: ArrayLike | None = None,
     breaks: Sequence[int] = (),
     path: str | os.PathLike[str] | None = None,
 ) -> str:
-    """Each coordinate over time, or over the number of the point, one below the other, as the text
-    of an SVG.
+    """Plot of each coordinate over time, or over the number of the point, one below the other.
 
-    The shaded part of a plot is within the coordinate's limits, where they are not far off; dotted
-    lines stand at `breaks`, numbers of points before which the path is broken (`PathResult.branch_switches`).
-    The same
-    numbers give the same text.
+    The shaded part of a plot is within the coordinate's limits, where they are not far off. The
+    same numbers give the same text.
 
-    Parameters: q (N, m), rad or m; arm; times (N,), s; breaks; path: a file that it is written to,
-    whole or not at all. Returns: the text. Source: none, a drawing.
-    Raises: MissingExtra without Matplotlib (extra `report`); ShapeError, InputError, FileError.
+    Parameters
+    ----------
+    q : (N, m) array_like
+        Coordinates, rad or m.
+    chain : Chain
+        The arm, for names and limits.
+    times : (N,) array_like, optional
+        Times, s.
+    breaks : sequence of int, optional
+        Numbers of points before which the path is broken (`PathResult.branch_switches`): there
+        dotted lines stand.
+    path : path_like, optional
+        File that it is written to, whole or not at all.
+
+    Returns
+    -------
+    svg : str
+        The plot as SVG text.
+
+    Raises
+    ------
+    MissingExtra
+        If Matplotlib (extra `report`) is not installed.
+    ShapeError
+        If q or `times` has another shape.
+    InputError
+        If an argument is no array of numbers.
+    FileError
+        If the file cannot be written.
+
+    Notes
+    -----
+    Source: none, a drawing.
     """
     q = numbers(q, "q")
-    if q.ndim != 2 or q.shape[1] != arm.dof:
-        raise ShapeError(f"q: expected shape (N, {arm.dof}), got {q.shape}")
+    if q.ndim != 2 or q.shape[1] != chain.dof:
+        raise ShapeError(f"q: expected shape (N, {chain.dof}), got {q.shape}")
     t = np.arange(len(q), dtype=float)
     if times is not None:
         t = numbers(times, "times")
@@ -46,15 +73,15 @@ def plot_joints(
         raise ShapeError(f"times: expected shape ({len(q)},), got {t.shape}")
 
     def draw(figure: Any) -> None:
-        rows: Any = figure.subplots(max(arm.dof, 1), sharex=True, squeeze=False)[:, 0]
-        for k, name in enumerate(arm.q_names):
-            _one(rows[k], t, q[:, k], arm.limits[k], [b for b in breaks if 0 < b < len(t)])
+        rows: Any = figure.subplots(max(chain.dof, 1), sharex=True, squeeze=False)[:, 0]
+        for k, name in enumerate(chain.q_names):
+            _one(rows[k], t, q[:, k], chain.limits[k], [b for b in breaks if 0 < b < len(t)])
             rows[k].set_title(
-                f"{svg.label(name)} ({'rad' if arm.is_angle(k) else 'm'})", loc="left", fontsize=9
+                f"{svg.label(name)} ({'rad' if chain.is_angle(k) else 'm'})", loc="left", fontsize=9
             )
         rows[-1].set_xlabel("point" if times is None else "time (s)")
 
-    text = svg.svg(7.2, 0.5 + 1.1 * max(arm.dof, 1), "a plot of joints", draw)
+    text = svg.svg(7.2, 0.5 + 1.1 * max(chain.dof, 1), "a plot of joints", draw)
     if path is not None:
         write_whole(path, text.encode())
     return svg.inline(text)

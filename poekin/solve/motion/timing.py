@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike
 from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
 
-LAWS = ("cubic", "quintic", "trapezoidal")
+Law = Literal["cubic", "quintic", "trapezoidal"]
+LAWS: tuple[Law, ...] = get_args(Law)
 # of s' (1/T) and |s''| (1/T^2)
 _PEAKS = {"cubic": (1.5, 6.0), "quintic": (1.875, 10 / math.sqrt(3))}
 _INSTANT = 1e-100  # s: what takes less takes no time, as its rates would be no numbers
@@ -22,9 +23,18 @@ _SPARE = 1 + 4e-15  # so that what is computed of a timing keeps the limits to t
 
 
 class TimingSample(NamedTuple):
-    """s, its rate ds (1/s) and the rate of that dds (1/s^2), each of the shape of t.
+    """Values of a time scaling at some times; arrays of the shape of t.
 
     Of a path x(s) that is even in s, x' = ds dx/ds and x'' = dds dx/ds.
+
+    Attributes
+    ----------
+    s : (...) ndarray
+        Parameter of the path, 0 to 1.
+    ds : (...) ndarray
+        Its rate s', 1/s.
+    dds : (...) ndarray
+        Its second rate s'', 1/s².
     """
 
     s: Array
@@ -34,21 +44,33 @@ class TimingSample(NamedTuple):
 
 @dataclass(frozen=True)
 class Timing:
-    """Time scaling s(t) over 0 <= t <= duration (s), at rest before and after.
+    """Time scaling s(t) over 0 <= t <= duration, at rest before and after.
 
-    `law` is one of `LAWS`; `acceleration_fraction`, of the trapezoidal law, the part of the
-    duration that it speeds up, and slows down, for.
-    A call with t (...), s, gives the `TimingSample` there. s' is symmetric about the middle: s(T - t) = 1
-    - s(t).
-    - cubic: s = 3 u^2 - 2 u^3, u = t / T: at most s' = 1.5 / T in the middle, |s''| = 6 / T^2 at
-      the ends
-    - quintic: s = 10 u^3 - 15 u^4 + 6 u^5: s'' = 0 at the ends; at most s' = 1.875 / T, |s''| =
-      5.78 / T^2
-    - trapezoidal: s'' = ±1 / (r (1 - r) T^2) for r T at either end, r = acceleration_fraction, and s' = 1 / ((1 - r)
-      T) between
+    A call with t (...), s, gives the `TimingSample` there. s' is symmetric about the middle: s(T -
+    t) = 1 - s(t). With u = t / T:
+
+    - cubic: s = 3 u² - 2 u³: at most s' = 1.5 / T in the middle, |s''| = 6 / T² at the ends
+    - quintic: s = 10 u³ - 15 u⁴ + 6 u⁵: s'' = 0 at the ends; at most s' = 1.875 / T, |s''| =
+      5.78 / T²
+    - trapezoidal: s'' = ±1 / (r (1 - r) T²) for r T at either end, r = acceleration_fraction, and
+      s' = 1 / ((1 - r) T) between
+
+    Parameters
+    ----------
+    law : {"cubic", "quintic", "trapezoidal"}
+        Form of s(t).
+    duration : float
+        Duration T, s.
+    acceleration_fraction : float, default 0.5
+        Part of the duration for which the trapezoidal law speeds up, and slows down.
+
+    Raises
+    ------
+    InputError
+        If a time of the call is no number.
     """
 
-    law: str
+    law: Law
     duration: float
     acceleration_fraction: float = 0.5
 
@@ -87,52 +109,126 @@ class Timing:
 
 
 def cubic(duration: float) -> Timing:
-    """s = 3 u^2 - 2 u^3 with u = t / duration (s): at rest at both ends. Returns: Timing. Raises:
-    InputError.
+    """Cubic time scaling s = 3 u² - 2 u³, u = t / duration: at rest at both ends.
+
+    Parameters
+    ----------
+    duration : float
+        Duration, s.
+
+    Returns
+    -------
+    timing : Timing
+        The time scaling.
+
+    Raises
+    ------
+    InputError
+        If the duration is no positive number.
     """
     return Timing("cubic", _duration(duration))
 
 
 def quintic(duration: float) -> Timing:
-    """s = 10 u^3 - 15 u^4 + 6 u^5, u = t / duration (s): at rest and without acceleration at both
-    ends.
+    """Quintic time scaling s = 10 u³ - 15 u⁴ + 6 u⁵, u = t / duration, without jerks at the ends.
 
-    Returns: Timing. Raises: InputError.
+    It is at rest and without acceleration at both ends.
+
+    Parameters
+    ----------
+    duration : float
+        Duration, s.
+
+    Returns
+    -------
+    timing : Timing
+        The time scaling.
+
+    Raises
+    ------
+    InputError
+        If the duration is no positive number.
     """
     return Timing("quintic", _duration(duration))
 
 
-def trapezoidal(duration: float, ramp: float = 0.25) -> Timing:
-    """s' rises evenly for ramp · duration (s), stays, and falls as it rose. ramp: above 0, at most
-    1/2.
+def trapezoidal(duration: float, acceleration_fraction: float = 0.25) -> Timing:
+    """Trapezoidal time scaling: s' rises evenly, stays, and falls as it rose.
 
-    Returns: Timing. Raises: InputError.
+    Parameters
+    ----------
+    duration : float
+        Duration, s.
+    acceleration_fraction : float, default 0.25
+        Part of the duration for which s' rises, above 0 and at most 1/2.
+
+    Returns
+    -------
+    timing : Timing
+        The time scaling.
+
+    Raises
+    ------
+    InputError
+        If the duration is no positive number, or the part is out of its range.
     """
-    if not _real(ramp) or not 0 < ramp <= 0.5:
-        raise InputError(f"ramp: expected a number above 0 and at most 0.5, got {safe_repr(ramp)}")
-    return Timing("trapezoidal", _duration(duration), float(ramp))
+    fraction = acceleration_fraction
+    if not _real(fraction) or not 0 < fraction <= 0.5:
+        raise InputError(
+            "acceleration_fraction: expected a number above 0 and at most 0.5, "
+            f"got {safe_repr(fraction)}"
+        )
+    return Timing("trapezoidal", _duration(duration), float(fraction))
 
 
 def minimum_time(
-    law: str,
+    law: Law,
     distance: ArrayLike,
     *,
     speed: ArrayLike | None = None,
     acceleration: ArrayLike | None = None,
 ) -> Timing:
-    """The shortest timing of a law with |distance| s' <= speed and |distance| |s''| <=
-    acceleration, each of them.
+    """Shortest timing of a law with |distance| s' <= speed and |distance| |s''| <= acceleration.
 
-    For joints, distance = q_1 - q_0 (m,); for poses, `path_lengths(T_s0, T_s1)`, the way (m) and the
-    angle (rad). For a screw motion the acceleration is that along the helix of the tool's origin.
+    For joints, distance = q_1 - q_0 (m,); for poses, `path_lengths`, the way and the angle. For a
+    screw motion the acceleration is that along the helix of the tool's origin.
 
-    Parameters: law "cubic", "quintic" or "trapezoidal"; distance (...), rad or m; speed,
-    acceleration, positive, per s and s^2, broadcast against it, infinite or left out where there is
-    no limit. The trapezoidal law needs the latter. Returns: Timing, of the duration 0 where every
-    distance is (next to) 0. Raises: InputError, ShapeError.
+    Parameters
+    ----------
+    law : {"cubic", "quintic", "trapezoidal"}
+        Form of s(t); the trapezoidal law needs an acceleration.
+    distance : (...) array_like
+        Distances, rad or m.
+    speed, acceleration : (...) array_like, optional
+        Positive limits for each distance, per s and s², broadcast against it; infinite or left out
+        where there is none.
+
+    Returns
+    -------
+    timing : Timing
+        The time scaling, of the duration 0 where every distance is (next to) 0.
+
+    Raises
+    ------
+    InputError
+        If the law is none of those, or the limits do not bound the duration.
+    ShapeError
+        If a limit does not fit the distances.
+
+    Notes
+    -----
     Accuracy: longer than the shortest by 1e-14 of it, so that the limits hold in float64 too.
     Source: cubic and quintic from their greatest rates, see `Timing`; trapezoidal: a triangle where
-    the speed is not reached, v^2 >= a |distance|.
+    the speed is not reached, v² >= a |distance|.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> timing = pk.motion.minimum_time("quintic", [0.5, 1.0], speed=2.0, acceleration=4.0)
+    >>> round(timing.duration, 3)
+    1.201
+    >>> round(float(timing(timing.duration / 2).s), 6)
+    0.5
     """
     if not isinstance(law, str) or law not in LAWS:
         raise InputError(f"law: expected one of {', '.join(LAWS)}, got {safe_repr(law)}")
@@ -153,22 +249,22 @@ def minimum_time(
     if law in _PEAKS:
         top, rise = _PEAKS[law]
         duration = max(top * a, math.sqrt(rise * b))
-        ramp = 0.5
+        fraction = 0.5
     elif acceleration is None or (b == 0 and not still):
         raise InputError(
             "acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time"
         )
     else:
-        ramp = 0.5
+        fraction = 0.5
         duration = 2 * math.sqrt(b)
         if 0 < b <= a * a:
-            ramp = max(b / (a * a + b), 1e-15)
+            fraction = max(b / (a * a + b), 1e-15)
             duration = a + b / a
     if duration == math.inf:
         raise InputError("minimum_time: the limits are so small that there is no finite duration")
     if duration >= _INSTANT:
-        return Timing(law, float(duration * _SPARE), float(ramp))
-    return Timing(law, 0.0, float(ramp))
+        return Timing(law, float(duration * _SPARE), float(fraction))
+    return Timing(law, 0.0, float(fraction))
 
 
 def _least(way: Array, limit: Any, what: str) -> float:

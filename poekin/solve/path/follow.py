@@ -17,7 +17,7 @@ from ..ik.diagnosis import KIND
 from ..ik.ik_problem import Settings, compiled, hashable, items, make_problem
 from ..ik.joint_domain import first_tries
 from ..ik.solution import BAD_TARGET, SOLVED, Solution
-from ..ik.task import targets
+from ..ik.task import TaskName, targets
 from .follower import Follower
 from .path_result import PathResult
 
@@ -31,7 +31,7 @@ def follow(
     speed: Any = None,
     acceleration: Any = None,
     max_step: Any = 0.1,
-    task: str = "pose",
+    task: TaskName = "pose",
     axis: ArrayLike | None = None,
     limits: bool = True,
     lock: Mapping[str, float] | None = None,
@@ -40,37 +40,77 @@ def follow(
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
 ) -> PathResult:
-    """Joints q_k with f(q_k) = T_k along a path, each reached from the one before it without a
-    jump.
+    """Joint coordinates along a path of poses, each reached from the one before it without a jump.
 
     Each pose is solved from the joints of the last, without any new start. Where that fails or
     moves a coordinate by more than `max_step`, the step is taken in up to 512 pieces of the screw
-    motion between the two poses; where that fails too, the arm cannot go on as it stands: the
-    branch changes, to the solution that gets farthest along the path (of equals, the nearest), and
-    `branch_switches` says where. A pose that is out of reach gets
-    the joints within one step of the last that come nearest to it.
+    motion between the two poses, or, by an arm with too few coordinates to stay on it, beside it.
+    Where that fails too, the arm cannot go on as it stands: the branch changes, to the solution
+    that gets farthest along the path (of equals, the nearest), and `branch_switches` says where. A
+    pose that is out of reach gets the joints within one step of the last that come nearest to it.
 
     Parameters
     ----------
-    chain: a `Chain`, or what its `compile` gives. poses (N, 4, 4): of the tip in the base frame, m,
-    in order.
-    q0 (m,) or a dict: the arm goes on from there: the first pose gets the solution that is reached
-        from it, else the one nearest to it. Without it, 8 to 32 starts are tried, those that follow
-        the whole path are preferred to all others, and of them the one whose largest step is
-        smallest.
-    times (N,), s, ascending: when each pose is to be reached. speed, acceleration: limits of each
-        coordinate, a number, (m,) or a dict, per s and s^2; they are compared with what the
-        differences of q over `times` say.
-    max_step: how far a coordinate may move between two poses, or pieces: a number, in rad or m of
-        the joint that it moves most, or (m,) or a dict, in its own unit.
-    task, axis, limits, lock, tol_position (m), tol_rotation (rad), seed: as `ik`.
-    progress(done, total): called from time to time.
+    chain : Chain or CompiledChain
+        The arm.
+    poses : (N, 4, 4) array_like
+        Poses of the tip in the base frame, m, in order.
+    q0 : (m,) array_like or dict, optional
+        Configuration from which the arm goes on, rad or m: the first pose gets the solution that is
+        reached from it, else the one nearest to it. Without it, 8 to 32 starts are tried, those
+        that follow the whole path are preferred to all others, and of them the one whose largest
+        step is smallest.
+    times : (N,) array_like, optional
+        Time of each pose, s, ascending.
+    speed, acceleration : float, (m,) array_like or dict, optional
+        Limits of each coordinate, per s and s², with which the differences of q over `times` are
+        compared.
+    max_step : float, (m,) array_like or dict, default 0.1
+        Largest change of a coordinate between two poses, or pieces: a number, in rad or m of the
+        joint that it moves most, or one of each coordinate in its own unit.
+    task, axis, limits, lock, tol_position, tol_rotation, seed : optional
+        As in `ik`.
+    progress : callable, optional
+        Function of (done, total), called from time to time.
 
-    Returns: PathResult; `print` of it says everything in words. Raises: PoseError that says which
-    pose is none; ShapeError, InputError, UnknownName. A pose of NaN gets the reason "bad target",
-    and the path goes on after it. Accuracy: `success` as of `ik`: the errors are computed anew by
-    `Chain.fk` (tests/solve/path/test_follow.py). Source: the damped least squares of `ik`;
-    continuation from pose to pose.
+    Returns
+    -------
+    path : PathResult
+        Coordinates and a report, which `print` shows. A pose of NaN gets the reason "bad target",
+        and the path goes on after it.
+
+    Raises
+    ------
+    PoseError
+        If an element of `poses` is no pose; the message says which.
+    ShapeError
+        If an array does not have the shape above.
+    InputError
+        If an argument is none of those above, or `speed` or `acceleration` come without `times`.
+    UnknownName
+        If `lock` or a dict names a coordinate that the chain has not.
+
+    See Also
+    --------
+    ik : Joints for single poses.
+    motion : Poses along a line or a screw motion, and their timing.
+
+    Notes
+    -----
+    Accuracy: `success` as of `ik`: the errors are computed anew by `Chain.fk`
+    (tests/solve/path/test_follow.py).
+    Source: the damped least squares of `ik`; continuation from pose to pose.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> T_s0 = arm.fk([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
+    >>> T_s1 = T_s0 @ pk.se3.exp([0, 0, 0.5, 0, 0, 0.1])
+    >>> path = pk.follow(arm, pk.motion.line(T_s0, T_s1, np.linspace(0, 1, 50)))
+    >>> path.ok, path.q.shape
+    (True, (50, 6))
     """
     fast = compiled(chain, "follow")
     path = _path(poses)

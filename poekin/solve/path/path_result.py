@@ -101,9 +101,7 @@ class PathResult(Result):
 
     @property
     def q(self) -> Array:
-        """Coordinates (N, m), rad or m: the nearest that was found where `success` is False, NaN
-        for a bad target.
-        """
+        """Coordinates (N, m), rad or m: the nearest found where `success` is False, else of a bad NaN."""
         return self.solution.q
 
     @property
@@ -128,8 +126,9 @@ class PathResult(Result):
 
     @property
     def ok(self) -> bool:
-        """Whether the arm can do it: every pose solved, no change of branch, speed and acceleration
-        within limits.
+        """Whether the arm can do it.
+
+        Every pose is solved, no branch changes, and speed and acceleration are within limits.
         """
         return bool(self.success.all()) and not (
             self.branch_switches or self.speed_violations or self.acceleration_violations
@@ -147,9 +146,7 @@ class PathResult(Result):
 
     @cached_property
     def rates(self) -> Array | None:
-        """Mean rates (N - 1, m) between two points, (q_{k+1} - q_k) / (t_{k+1} - t_k); None without
-        times.
-        """
+        """Mean rates (N - 1, m), (q_{k+1} - q_k) / (t_{k+1} - t_k); None without times."""
         if self.times is None:
             return None
         return np.diff(self.q, axis=0) / np.diff(self.times)[:, None]
@@ -167,9 +164,7 @@ class PathResult(Result):
 
     @cached_property
     def at_limits(self) -> tuple[PathInterval, ...]:
-        """Intervals in which a coordinate is at its limit: `worst` is the first point, `bound` the
-        limit.
-        """
+        """Intervals in which a coordinate is at its limit, `bound`; `worst` is the first point."""
         found = []
         for k, name in enumerate(self.chain.q_names):
             for bound in self.limits[k]:

@@ -4,7 +4,7 @@ followed by a new solve.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -13,7 +13,8 @@ from ....errors import InputError, safe_repr
 from ....groups.arrays import Array
 from ..ik_problem import Problem
 
-OBJECTIVES = ("middle", "nearest", "manipulability")
+Objective = Literal["middle", "nearest", "manipulability"]
+OBJECTIVES: tuple[Objective, ...] = get_args(Objective)
 STEPS = 25
 STEP = 0.5  # of the way that the objective asks for
 # rad or m, for the gradient of the manipulability: its error is far below what a step needs
@@ -31,7 +32,7 @@ def check_objective(objective: Any, q0: Any) -> None:
         raise InputError("secondary_objective: 'nearest' needs q0, what to be near to")
 
 
-def optimise(problem: Problem, targets: Array, q: Array, q0: Array, objective: str) -> Array:
+def optimise(problem: Problem, targets: Array, q: Array, q0: Array, objective: Objective) -> Array:
     """Solutions with a better value of the objective, of targets that are solved already."""
     known = ~np.isnan(q).any(axis=1)
     if not known.all():  # of a bad target nothing is known
@@ -54,7 +55,7 @@ def optimise(problem: Problem, targets: Array, q: Array, q0: Array, objective: s
     return best
 
 
-def _value(problem: Problem, q: Array, q0: Array, objective: str) -> Array:
+def _value(problem: Problem, q: Array, q0: Array, objective: Objective) -> Array:
     """Value that the objective makes small: the manipulability is that of the task, by the
     coordinates that may move.
     """
@@ -67,7 +68,7 @@ def _value(problem: Problem, q: Array, q0: Array, objective: str) -> Array:
     return (off**2 * _weights(problem, objective)).sum(axis=1)
 
 
-def _moved(problem: Problem, q: Array, q0: Array, objective: str, step: Array) -> Array:
+def _moved(problem: Problem, q: Array, q0: Array, objective: Objective, step: Array) -> Array:
     """Configurations one step downhill in the null space of the task's Jacobian."""
     if objective == "manipulability":
         z = _gradient(problem, q, q0, objective)
@@ -80,7 +81,7 @@ def _moved(problem: Problem, q: Array, q0: Array, objective: str, step: Array) -
     return np.where(problem.domain.locked, q, np.clip(moved, *problem.domain.limits.T))
 
 
-def _gradient(problem: Problem, q: Array, q0: Array, objective: str) -> Array:
+def _gradient(problem: Problem, q: Array, q0: Array, objective: Objective) -> Array:
     """Downhill gradient of the objective by central differences; 0 at a singularity, where no
     direction is better.
     """
@@ -101,7 +102,7 @@ def _jacobian(problem: Problem, q: Array) -> Array:
     return np.where(problem.domain.locked, 0.0, rows)
 
 
-def _goal(problem: Problem, q0: Array, objective: str) -> Array:
+def _goal(problem: Problem, q0: Array, objective: Objective) -> Array:
     if objective == "nearest":
         return q0
     limited = _limited(problem)
@@ -109,7 +110,7 @@ def _goal(problem: Problem, q0: Array, objective: str) -> Array:
     return np.where(limited, bounds.mean(axis=1), q0)
 
 
-def _weights(problem: Problem, objective: str) -> Array:
+def _weights(problem: Problem, objective: Objective) -> Array:
     limited = _limited(problem)
     return np.ones(len(limited)) if objective == "nearest" else limited.astype(float)
 
