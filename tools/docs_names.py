@@ -45,11 +45,12 @@ TESTING: dict[str, tuple[str, tuple[str, ...]]] = {
         "strategies.dh_strategies", "strategies.decoding.bytes_reader",
     )),
     "testing_laws": ("poekin.testing.laws", (
-        "laws.laws", "laws.group", "laws.group_laws", "laws.near_laws", "laws.chain_laws", "laws.change_laws",
-        "laws.derivative_laws", "laws.method_laws", "laws.measures",
+        "laws.laws", "laws.group", "laws.group_laws", "laws.adjoint_laws", "laws.near_laws", "laws.chain_laws",
+        "laws.jacobian_laws", "laws.chain_bounds", "laws.measures",
     )),
     "testing_oracles": ("poekin.testing.oracles", (
-        "oracles.exact", "oracles.differences", "oracles.pinocchio_oracle", "oracles.pinocchio_derivatives",
+        "oracles.exact", "oracles.exact_chain", "oracles.differences", "oracles.pinocchio_oracle",
+        "oracles.pinocchio_derivatives",
     )),
     "testing_accuracy": ("poekin.testing.accuracy", (
         "accuracy.accuracy_laws", "accuracy.error_bounds", "accuracy.falsify",

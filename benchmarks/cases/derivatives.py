@@ -16,7 +16,7 @@ from poekin.errors import PoekinWarning
 from poekin.formats.load import BUILT_IN
 from poekin.model.kinematics.pose_jacobian import FRAME_NAMES
 from poekin.testing.cases.example_robots import example_robots
-from poekin.testing.laws.derivative_laws import exact_changes
+from poekin.testing.oracles.exact_chain import screw_changes
 from poekin.testing.oracles.pinocchio_derivatives import DerivativeErrors, derivative_errors
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
@@ -134,10 +134,10 @@ def screw_errors(name: str, chain: Chain) -> ScrewErrors:
     columns = [chain.jacobian_screw_derivatives(q, frame) for frame in FRAME_NAMES]
     errors = []
     for i in range(len(chain.joint_names)):
-        truth = exact_changes(chain, q, i)
+        truth = screw_changes(chain, q, i)
         off = (
-            [motion.screws[:, i] - truth.motion],
-            [entries.screws[:, i] - truth.entries],
+            [motion.screws[:, i] - truth.twist],
+            [entries.screws[:, i] - truth.components],
             [motion.home - truth.home],
             [c.screws[:, :, i] - t for c, t in zip(columns, truth.columns, strict=True)]
             + [c.home - t for c, t in zip(columns, truth.home_columns, strict=True)],

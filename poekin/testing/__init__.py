@@ -13,15 +13,16 @@ strategies: what to try
 
 laws: what must hold, as plain functions that raise LawViolation with the error and its bound
     laws, measures     LawViolation, and how an error is measured
-    group, group_laws  SO(3) and SE(3) as plain functions, and their laws
+    group, group_laws, adjoint_laws
+                       SO(3) and SE(3) as plain functions, and their laws
     near_laws          the branches of log
-    chain_laws         laws of a serial chain
-    change_laws        laws of a chain with another base, tool, zero position or link frames
-    derivative_laws    laws of the Jacobian's derivatives
-    method_laws        the algorithms for the Jacobian agree
+    chain_laws, jacobian_laws
+                       laws of a serial chain
+    chain_bounds       bounds on the rounding of its poses and twists
 
 oracles: what is true, by code that shares nothing with what it judges
     exact              so(3) and se(3) in 60 digits and more (mpmath)
+    exact_chain        poses, Jacobians and their derivatives of a serial chain, as exact
     differences        finite differences on the group
     pinocchio_oracle, pinocchio_derivatives
                        poses, Jacobians and their derivatives of a URDF by Pinocchio

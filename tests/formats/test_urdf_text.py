@@ -26,7 +26,7 @@ from poekin.model.joint import FREE
 from poekin.model.robot import Robot
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.cases.example_robots import example_robots
-from poekin.testing.laws.chain_laws import budget
+from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from poekin.testing.strategies.chain_strategies import chains
 from tests.model.test_robot import random_q, robots, seeds, size

@@ -15,11 +15,11 @@ from hypothesis import strategies as st
 from poekin.groups import se3
 from poekin.model.chain import Chain
 from poekin.testing.accuracy import falsify
-from poekin.testing.laws import change_laws, method_laws
 from poekin.testing.laws.chain_laws import CHAIN_LAWS
-from poekin.testing.laws.change_laws import CHANGE_LAWS
-from poekin.testing.laws.method_laws import METHOD_LAWS
 from poekin.testing.strategies import chain_strategies
+from tests.model.laws import change_laws, method_laws
+from tests.model.laws.change_laws import CHANGE_LAWS
+from tests.model.laws.method_laws import METHOD_LAWS
 
 LAWS = {law.name: law for law in (*CHAIN_LAWS, *CHANGE_LAWS, *METHOD_LAWS)}
 # A chain and its truth in 60 digits take some hundredths of a second.

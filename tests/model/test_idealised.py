@@ -22,7 +22,7 @@ from poekin.formats import catalogue, dh
 from poekin.formats.dh import Row, Table, published_tables
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.cases.example_robots import example_robots
-from poekin.testing.laws.chain_laws import budget
+from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.strategies import chain_strategies
 
 TOL = 1e-4

@@ -1,12 +1,9 @@
 """Accuracy as laws: exp, log and the Jacobians of exp against `exact`, in every decade and across
 every switch.
 
-Parameters: group, the functions under test (`group.Group`, of which a law uses those that its
-equation names); twists xi, eta, zeta (6,), (ω; v) in rad and m, or rotation vectors (3,); X, Y,
-poses (4, 4) of a frame in the base frame, or rotations (3, 3). Returns: error ÷ bound, 0 to 1; a
-pure number.
-Raises: LawViolation above 1, with the law, the error, its bound and the arguments; InputError where
-the group lacks a function that the law needs.
+The subject is a `group.Group` of the functions under test; one that a law needs and that is not
+there is an InputError, which names it. Poses are those of a frame in the base frame.
+Raises: LawViolation, by the laws alone.
 Errors of exp and log are multiples of what float64 can attain (`error_bounds`), as the law's name
 says in a message. Source: the definitions, in 60 digits (`exact`).
 """
@@ -16,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..laws.group import Group
-from ..laws.laws import Law, check_bounds
+from ..laws.laws import Law, Pairs, checked
 from ..oracles import exact
 from . import error_bounds
 
@@ -32,20 +29,59 @@ NOISE_BAR = 2e-15
 """log of a noisy rotation may differ by this much (rad) from the log of its polar projection."""
 
 
-def exp_is_attained(group: Group, xi: np.ndarray) -> float:
-    """The exponential within EXP_LOG_BAR of what float64 can attain, |ω| up to 10."""
-    return check_bounds(
-        "exp is attained (÷ attainable)",
-        (error_bounds.ratio_exp(xi, group.exp(xi)), EXP_LOG_BAR),
-        xi=xi,
-    )
+@checked("exp is attained (÷ attainable)")
+def exp_is_attained(
+    group: Group,
+    xi: np.ndarray,
+) -> Pairs:
+    """Law: the exponential is within EXP_LOG_BAR of what float64 can attain.
+
+    Parameters
+    ----------
+    group : Group
+        Functions under test; the law uses exp.
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m, or rotation vector in rad, |ω| up to 10.
+
+    Returns
+    -------
+    ratio : float
+        Error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        If an error exceeds its bound.
+    """
+    return [(error_bounds.ratio_exp(xi, group.exp(xi)), EXP_LOG_BAR)]
 
 
-def log_is_attained(group: Group, X: np.ndarray) -> float:
-    """The logarithm within EXP_LOG_BAR of what float64 can attain; no NaN, and no 0 for a rotation
-    that is not I.
+@checked("log is attained (÷ attainable)")
+def log_is_attained(
+    group: Group,
+    X: np.ndarray,
+) -> Pairs:
+    """Law: the logarithm is within EXP_LOG_BAR of what float64 can attain.
 
-    Below |ω| = 1e-150 squares underflow, and only the last two are asked for.
+    It is never NaN, and not 0 for a rotation that is not I. Below |ω| = 1e-150 squares underflow, and
+    only these two are asked for.
+
+    Parameters
+    ----------
+    group : Group
+        Functions under test; the law uses log.
+    X : (4, 4) or (3, 3) ndarray
+        Pose of a frame in the base frame, m, or rotation.
+
+    Returns
+    -------
+    ratio : float
+        Error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        If an error exceeds its bound.
     """
     xi = group.log(X)
     w = exact.log(X[:3, :3])
@@ -55,37 +91,146 @@ def log_is_attained(group: Group, X: np.ndarray) -> float:
             ratio = 0.0
     else:
         ratio = error_bounds.ratio_log(X, xi)
-    return check_bounds("log is attained (÷ attainable)", (ratio, EXP_LOG_BAR), X=X)
+    return [(ratio, EXP_LOG_BAR)]
 
 
-def log_forgives_noise(group: Group, X: np.ndarray) -> float:
-    """ω of log X is that of X's polar projection, to NOISE_BAR, for noise up to 1e-8; either sign
-    within 8 u of π.
+@checked()
+def log_forgives_noise(
+    group: Group,
+    X: np.ndarray,
+) -> Pairs:
+    """Law: ω of log X is that of the polar projection of X, to NOISE_BAR.
+
+    Either sign is right within 8 u of π.
+
+    Parameters
+    ----------
+    group : Group
+        Functions under test; the law uses log.
+    X : (4, 4) or (3, 3) ndarray
+        Pose of a frame in the base frame, m, or rotation, with noise of up to 1e-8 in each entry.
+
+    Returns
+    -------
+    ratio : float
+        Error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        If an error exceeds its bound.
     """
     w = group.log(X)[:3]
     truth = exact.log(X[:3, :3])
-    error = error_bounds.log_error(w, truth)
-    return check_bounds("log forgives noise", (error, NOISE_BAR), X=X)
+    return [(error_bounds.log_error(w, truth), NOISE_BAR)]
 
 
-def left_jacobian_is_attained(group: Group, xi: np.ndarray) -> float:
-    """J_l(ξ) = Σ ad(ξ)^k / (k+1)!, to JACOBIAN_BAR, |ω| up to 10."""
-    return _jacobian_law("left_jacobian", group, xi)
+@checked()
+def left_jacobian_is_attained(
+    group: Group,
+    xi: np.ndarray,
+) -> Pairs:
+    """Law: the left Jacobian of exp is Σ ad(ξ)^k / (k+1)!, to JACOBIAN_BAR.
+
+    Parameters
+    ----------
+    group : Group
+        Functions under test; the law uses left_jacobian.
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m, or rotation vector in rad, |ω| up to 10.
+
+    Returns
+    -------
+    ratio : float
+        Error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        If an error exceeds its bound.
+    """
+    return _of_jacobian(group.left_jacobian(xi), exact.left_jacobian(xi), xi)
 
 
-def right_jacobian_is_attained(group: Group, xi: np.ndarray) -> float:
-    """J_r(ξ) = J_l(-ξ), to JACOBIAN_BAR, |ω| up to 10."""
-    return _jacobian_law("right_jacobian", group, xi)
+@checked()
+def right_jacobian_is_attained(
+    group: Group,
+    xi: np.ndarray,
+) -> Pairs:
+    """Law: the right Jacobian of exp is J_l(-ξ), to JACOBIAN_BAR.
+
+    Parameters
+    ----------
+    group : Group
+        Functions under test; the law uses right_jacobian.
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m, or rotation vector in rad, |ω| up to 10.
+
+    Returns
+    -------
+    ratio : float
+        Error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        If an error exceeds its bound.
+    """
+    return _of_jacobian(group.right_jacobian(xi), exact.right_jacobian(xi), xi)
 
 
-def left_jacobian_inverse_is_attained(group: Group, xi: np.ndarray) -> float:
-    """J_l(ξ)⁻¹, to JACOBIAN_BAR, |ω| up to π."""
-    return _jacobian_law("left_jacobian_inverse", group, xi)
+@checked()
+def left_jacobian_inverse_is_attained(
+    group: Group,
+    xi: np.ndarray,
+) -> Pairs:
+    """Law: the inverse left Jacobian of exp is J_l(ξ)⁻¹, to JACOBIAN_BAR.
+
+    Parameters
+    ----------
+    group : Group
+        Functions under test; the law uses left_jacobian_inverse.
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m, or rotation vector in rad, |ω| up to π.
+
+    Returns
+    -------
+    ratio : float
+        Error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        If an error exceeds its bound.
+    """
+    return _of_jacobian(group.left_jacobian_inverse(xi), exact.left_jacobian_inverse(xi), xi)
 
 
-def right_jacobian_inverse_is_attained(group: Group, xi: np.ndarray) -> float:
-    """J_r(ξ)⁻¹, to JACOBIAN_BAR, |ω| up to π."""
-    return _jacobian_law("right_jacobian_inverse", group, xi)
+@checked()
+def right_jacobian_inverse_is_attained(
+    group: Group,
+    xi: np.ndarray,
+) -> Pairs:
+    """Law: the inverse right Jacobian of exp is J_r(ξ)⁻¹, to JACOBIAN_BAR.
+
+    Parameters
+    ----------
+    group : Group
+        Functions under test; the law uses right_jacobian_inverse.
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m, or rotation vector in rad, |ω| up to π.
+
+    Returns
+    -------
+    ratio : float
+        Error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        If an error exceeds its bound.
+    """
+    return _of_jacobian(group.right_jacobian_inverse(xi), exact.right_jacobian_inverse(xi), xi)
 
 
 ACCURACY_LAWS = (
@@ -105,11 +250,21 @@ def jacobian_errors(
     truth: np.ndarray,
     xi: np.ndarray,
 ) -> tuple[float, float]:
-    """Frobenius errors of a Jacobian of exp: of its 3×3 diagonal blocks (the worse), and of its Q
-    block ÷ ‖v‖.
+    """Frobenius errors of a Jacobian of exp.
 
-    Parameters: J, truth (6, 6) or (3, 3), as measured and as it ought to be; xi (6,) or (3,).
-    Returns: both errors, the second 0 for (3, 3).
+    Parameters
+    ----------
+    J, truth : (6, 6) or (3, 3) ndarray
+        Jacobian under test, and the true one in numbers of `exact`, to twists of one frame.
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m, or rotation vector in rad, that they are at.
+
+    Returns
+    -------
+    diagonal : float
+        Error of the 3×3 blocks on and above the diagonal, the worst of them.
+    corner : float
+        Error of the Q block ÷ ‖v‖; 0 of a 3×3.
     """
     error = exact.exactly(J) - truth
     diagonal = max(exact.norm(block) for block in (error[:3, :3], error[3:, 3:], error[:3, 3:]))
@@ -118,12 +273,9 @@ def jacobian_errors(
     return float(diagonal), error_bounds.ratio(Q, v)
 
 
-def _jacobian_law(
-    name: str,
-    group: Group,
+def _of_jacobian(
+    J: np.ndarray,
+    truth: np.ndarray,
     xi: np.ndarray,
-) -> float:
-    errors = jacobian_errors(getattr(group, name)(xi), getattr(exact, name)(xi), xi)
-    return check_bounds(
-        name.replace("_", " ") + " is attained", *((error, JACOBIAN_BAR) for error in errors), xi=xi
-    )
+) -> Pairs:
+    return [(error, JACOBIAN_BAR) for error in jacobian_errors(J, truth, xi)]

@@ -10,11 +10,9 @@ argument. The truth of exp is that of the float64 argument, and the truth of log
 logarithm of the float64 matrix as it stands (of its polar projection). ∂t/∂ω is at fixed v, ∂v/∂ω
 at fixed t.
 
-Parameters: xi, the twist (6,), (ω; v) in rad and m, or rotation vector (3,); T, the pose (4, 4) in
-the base frame, or rotation (3, 3), that goes with it. Returns: ratios are pure numbers; 1 is as
-good as float64 can be.
-Raises: ShapeError where the two do not go together; as `exact`. Source: the first-order response to
-rounding.
+Poses are those of a frame in the base frame. Ratios are pure numbers; 1 is as good as float64 can
+be. Raises: ShapeError for other shapes.
+Source: the first-order response to rounding.
 Accuracy: the ratios are right to many more digits than anybody reads;
 tests/testing/accuracy/test_error_bounds.py holds the derivatives to differences in high precision.
 """
@@ -37,8 +35,14 @@ BOTH_SIGNS = 8 * UNIT
 
 
 class Bound(NamedTuple):
-    """The largest error that float64 cannot avoid, of a result. Fields: angular [rad], linear [m],
-    mpmath numbers.
+    """Largest error of a result that float64 cannot avoid.
+
+    Attributes
+    ----------
+    angular : mpf
+        Bound on ‖ΔR‖ or ‖Δω‖, rad.
+    linear : mpf
+        Bound on ‖Δt‖ or ‖Δv‖, m.
     """
 
     angular: Any
@@ -46,7 +50,23 @@ class Bound(NamedTuple):
 
 
 def exp_bound(xi: ArrayLike) -> Bound:
-    """The attainable ‖ΔR‖ and ‖Δt‖ of exp at xi (6,) or (3,) (then the second is 0)."""
+    """Attainable errors ‖ΔR‖ and ‖Δt‖ of the exponential.
+
+    Parameters
+    ----------
+    xi : (6,) or (3,) array_like
+        Twist (ω; v) in rad and m, or rotation vector in rad.
+
+    Returns
+    -------
+    bound : Bound
+        The two errors; the second is 0 for a rotation vector.
+
+    Raises
+    ------
+    ShapeError
+        For another shape.
+    """
     x = exact.exactly(xi)
     theta = norm(x[:3])
     angular = UNIT * (1 + mp.sqrt(2) * theta)
@@ -58,7 +78,23 @@ def exp_bound(xi: ArrayLike) -> Bound:
 
 
 def log_bound(xi: ArrayLike) -> Bound:
-    """The attainable ‖Δω‖ and ‖Δv‖ of log where the exact logarithm is xi (6,) or (3,)."""
+    """Attainable errors ‖Δω‖ and ‖Δv‖ of the logarithm.
+
+    Parameters
+    ----------
+    xi : (6,) or (3,) array_like
+        Exact logarithm (ω; v) in rad and m, or rotation vector in rad.
+
+    Returns
+    -------
+    bound : Bound
+        The two errors; the second is 0 for a rotation vector.
+
+    Raises
+    ------
+    ShapeError
+        For another shape.
+    """
     x = exact.exactly(xi)
     theta = norm(x[:3])
     kappa = mp.one
@@ -74,11 +110,36 @@ def log_bound(xi: ArrayLike) -> Bound:
     return Bound(angular, UNIT * (norm(x[3:]) + kappa * norm(t) + theta * slope))
 
 
-def ratio_exp(xi: ArrayLike, T: ArrayLike) -> float:
-    """Error of T as the exponential of xi ÷ attainable error, the worse of R and t; `inf` where T
-    is not finite.
+def ratio_exp(
+    xi: ArrayLike,
+    T: ArrayLike,
+) -> float:
+    """Error of an exponential ÷ attainable error, the worse of R and t.
 
-    xi (6,) and T (4, 4), or xi (3,) and T (3, 3).
+    Parameters
+    ----------
+    xi : (6,) or (3,) array_like
+        Twist (ω; v) in rad and m, or rotation vector in rad.
+    T : (4, 4) or (3, 3) array_like
+        Result under test: pose in the base frame, m, or rotation.
+
+    Returns
+    -------
+    ratio : float
+        Pure number, 1 where float64 can do no better; inf if T is not finite.
+
+    Raises
+    ------
+    ShapeError
+        If the two do not go together.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> from poekin.testing.accuracy import error_bounds
+    >>> xi = [0.3, 0.0, 0.0, 1.0, 2.0, 3.0]
+    >>> error_bounds.ratio_exp(xi, pk.se3.exp(xi)) < 1
+    True
     """
     _together(xi, T)
     if not np.all(np.isfinite(np.asarray(T, dtype=float))):
@@ -95,19 +156,53 @@ def ratio_exp(xi: ArrayLike, T: ArrayLike) -> float:
     return max(worse, ratio(norm(E[:3, 3]), bound.linear))
 
 
-def ratio_log(T: ArrayLike, xi: ArrayLike) -> float:
-    """Error of xi as the principal logarithm of T ÷ attainable error, the worse of ω and v; `inf`
-    if not finite.
+def ratio_log(
+    T: ArrayLike,
+    xi: ArrayLike,
+) -> float:
+    """Error of a principal logarithm ÷ attainable error, the worse of ω and v.
 
-    T (4, 4) and xi (6,), or T (3, 3) and xi (3,). Where π - θ < 8 u both signs of ω are right, with
-    the v that goes with each.
+    Where π - θ < 8 u both signs of ω are right, with the v that goes with each.
+
+    Parameters
+    ----------
+    T : (4, 4) or (3, 3) array_like
+        Pose of a frame in the base frame, m, or rotation.
+    xi : (6,) or (3,) array_like
+        Result under test: twist (ω; v) in rad and m, or rotation vector in rad.
+
+    Returns
+    -------
+    ratio : float
+        Pure number, 1 where float64 can do no better; inf if xi is not finite.
+
+    Raises
+    ------
+    ShapeError
+        If the two do not go together.
     """
     _together(xi, T)
     return ratio_to(exact.log(T), xi)
 
 
-def ratio_to(truth: np.ndarray, xi: ArrayLike) -> float:
-    """As `ratio_log` where the exact logarithm of T, truth (6,) or (3,), is known; xi (6,) or (3,)."""
+def ratio_to(
+    truth: np.ndarray,
+    xi: ArrayLike,
+) -> float:
+    """Error of a logarithm ÷ attainable error, where the exact logarithm is known.
+
+    Parameters
+    ----------
+    truth : (6,) or (3,) ndarray
+        Exact logarithm in numbers of `exact`.
+    xi : (6,) or (3,) array_like
+        Result under test: twist (ω; v) in rad and m, or rotation vector in rad.
+
+    Returns
+    -------
+    ratio : float
+        As of `ratio_log`.
+    """
     if not np.all(np.isfinite(np.asarray(xi, dtype=float))):
         return math.inf
     x = exact.exactly(xi)
@@ -122,9 +217,21 @@ def log_error(
     truth: np.ndarray,
     gap: float = BOTH_SIGNS,
 ) -> float:
-    """Error of w (3,) as the logarithm whose exact value is truth (3,), in rad.
+    """Error of a logarithm of a rotation, of either sign near π.
 
-    Either sign is right where π - θ is below `gap`.
+    Parameters
+    ----------
+    w : (3,) array_like
+        Result under test: rotation vector, rad.
+    truth : (3,) ndarray
+        Exact logarithm in numbers of `exact`.
+    gap : float, optional
+        Either sign is right if π - θ is below it, rad.
+
+    Returns
+    -------
+    error : float
+        Euclidean norm of the difference, rad.
     """
     x = exact.exactly(w)
     error = norm(x - truth)
@@ -133,7 +240,10 @@ def log_error(
     return float(error)
 
 
-def _together(xi: ArrayLike, T: ArrayLike) -> None:
+def _together(
+    xi: ArrayLike,
+    T: ArrayLike,
+) -> None:
     shapes = np.shape(xi), np.shape(T)
     if shapes not in (((3,), (3, 3)), ((6,), (4, 4))):
         raise ShapeError(
@@ -141,7 +251,10 @@ def _together(xi: ArrayLike, T: ArrayLike) -> None:
         )
 
 
-def _log_ratio(x: np.ndarray, truth: np.ndarray) -> float:
+def _log_ratio(
+    x: np.ndarray,
+    truth: np.ndarray,
+) -> float:
     bound = log_bound(truth)
     angular = ratio(norm(x[:3] - truth[:3]), bound.angular)
     return max(angular, ratio(norm(x[3:] - truth[3:]), bound.linear))
@@ -157,7 +270,10 @@ def _other_sign(truth: np.ndarray) -> np.ndarray:
     )
 
 
-def _translation_slope(x: np.ndarray, t: np.ndarray) -> np.ndarray:
+def _translation_slope(
+    x: np.ndarray,
+    t: np.ndarray,
+) -> np.ndarray:
     """∂t/∂ω of exp at fixed v, from the left Jacobian: dt is the velocity v_s + ω_s × t of the
     moving origin.
     """
@@ -165,8 +281,22 @@ def _translation_slope(x: np.ndarray, t: np.ndarray) -> np.ndarray:
     return J[3:, :3] - exact.hat(t) @ J[:3, :3]
 
 
-def ratio(error: Any, bound: Any) -> float:
-    """error ÷ bound; with a bound of 0, 0 for no error and infinite for any other."""
+def ratio(
+    error: Any,
+    bound: Any,
+) -> float:
+    """Error ÷ bound; with a bound of 0, 0 for no error and infinite for any other.
+
+    Parameters
+    ----------
+    error, bound : float or mpf
+        Numbers of one unit, 0 or more.
+
+    Returns
+    -------
+    ratio : float
+        The quotient.
+    """
     if bound:
         return float(error / bound)
     if error:

@@ -1,10 +1,7 @@
-"""Hunt for a case that breaks a law, outside any test: to show that a battery catches a planted
+"""Search for a case that breaks a law, outside any test: to show that a battery catches a planted
 error.
 
-Parameters: check, which returns error ÷ bound; cases, a strategy of tuples of its arguments; laws,
-a battery; examples, how many are tried of each law. Returns: nothing, or a violation. Raises:
-LawViolation, where it says so.
-Source: Hypothesis, targeted search.
+Raises: what a check raises, where it says so. Source: Hypothesis, targeted search.
 """
 
 from __future__ import annotations
@@ -28,12 +25,21 @@ def for_each(
     examples: int,
     check: Callable[[Any], object],
 ) -> None:
-    """Call check(case) on drawn cases, steered by `hypothesis.target`; nothing is stored or shrunk.
+    """Call a check on drawn cases, steered by `hypothesis.target`; nothing is stored or shrunk.
 
-    The cases are the same in every run and in every program, whatever it has imported. A seed says
-    which ones, as those of `derandomize` depend on the text of the function.
+    The cases are the same in every run and in every program, whatever it has imported.
+
+    Parameters
+    ----------
+    cases : SearchStrategy
+        Strategy of the cases.
+    examples : int
+        Number of cases.
+    check : callable
+        Function of a case; what it raises ends the search.
     """
 
+    # Cases of `derandomize` would depend on the text of the function; a seed does not.
     @seed(0)
     @settings(
         max_examples=examples,
@@ -43,8 +49,8 @@ def for_each(
         report_multiple_bugs=False,
         print_blob=False,
         verbosity=Verbosity.quiet,
-        # How fast cases come, and how many a strategy rejects, matters to a test; a hunt only looks
-        # for a violation.
+        # How fast cases come, and how many a strategy rejects, matters to a test; here only a
+        # violation does.
         suppress_health_check=[
             HealthCheck.too_slow,
             HealthCheck.data_too_large,
@@ -87,11 +93,22 @@ def hunt(
     cases: Cases,
     examples: int = 100,
 ) -> None:
-    """Call check(*case) -> error ÷ bound on drawn cases, steered towards the worst; the same cases
-    in every run.
+    """Call a law on drawn cases, steered towards the worst; the same cases in every run.
 
-    Raises LawViolation with the first case that breaks the law, as it was drawn (a test that uses
-    the law shrinks it).
+    Parameters
+    ----------
+    check : callable
+        The law, check(*case), which returns error ÷ bound.
+    cases : SearchStrategy
+        Strategy of tuples of its arguments.
+    examples : int, optional
+        Number of cases.
+
+    Raises
+    ------
+    LawViolation
+        With the first case that breaks the law, as it was drawn (a test that uses the law shrinks
+        it).
     """
     for_each(cases, examples, lambda case: target(check(*case)))
 
@@ -102,11 +119,40 @@ def first_violation(
     cases: Callable[[tuple[str, ...]], Cases],
     examples: int = 100,
 ) -> LawViolation | None:
-    """The first violation that a battery finds in a subject, or None where the subject keeps every
-    law.
+    """First violation that a battery of laws finds in a subject.
 
-    `check(law, *case)` calls the law on the subject; `cases(law.kinds)` is the strategy of its
-    arguments.
+    Parameters
+    ----------
+    laws : iterable of Law
+        The battery.
+    check : callable
+        Call of a law on the subject, check(law, *case), which returns error ÷ bound.
+    cases : callable
+        Strategy of the arguments of a law by their kinds, cases(law.kinds).
+    examples : int, optional
+        Number of cases of each law.
+
+    Returns
+    -------
+    violation : LawViolation or None
+        The violation; None if the subject keeps every law.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> from poekin.testing import strategies
+    >>> from poekin.testing.accuracy import falsify
+    >>> from poekin.testing.laws.group import make_group
+    >>> from poekin.testing.laws.group_laws import GROUP_LAWS
+    >>> wrong = make_group(pk.so3, 3)._replace(exp=lambda w: np.eye(3) + pk.so3.hat(w))
+    >>> violation = falsify.first_violation(
+    ...     GROUP_LAWS,
+    ...     lambda law, *case: law.check(wrong, *case),
+    ...     lambda kinds: strategies.group_cases(kinds, 3),
+    ... )
+    >>> violation.law
+    'exp lands in the group'
     """
     for law in laws:
         try:

@@ -4,28 +4,40 @@ bound.
 A law returns error ÷ bound (hand it to `hypothesis.target`, which then hunts the worst case) and
 raises LawViolation where that exceeds 1. Laws use neither Hypothesis nor pytest, so any test-suite
 can call them.
-Source: each law names its own.
+Raises: LawViolation, by the laws alone. Source: each law names its own.
 """
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
 
+P = ParamSpec("P")
+S = TypeVar("S")
+Pairs = list[tuple[float, float]]
+"""Measured errors, each with its bound."""
 SHOWN = 400
 """Arrays of more numbers than this are cut short in a message."""
 
 
 class LawViolation(AssertionError):
-    """A law does not hold: the message has its name, the measured error, its bound, and each
-    argument in full.
+    """Violation of a law: its name, the measured error, its bound, and each argument in full.
 
-    Fields: law (its name), error, bound (in the unit of the law: rad, m, or multiples of what
-    float64 can attain where the name says so), seen (a dict of the arguments). Arrays in the
-    message can be pasted, with NumPy as np.
+    Arrays in the message can be pasted, with NumPy as np.
+
+    Parameters
+    ----------
+    law : str
+        Name of the law.
+    error, bound : float
+        Error and bound in the unit of the law: rad, m, or multiples of what float64 can attain where
+        the name says so.
+    seen : Mapping
+        Arguments of the law by their names.
     """
 
     def __init__(
@@ -34,7 +46,7 @@ class LawViolation(AssertionError):
         error: float,
         bound: float,
         seen: Mapping[str, Any],
-    ):
+    ) -> None:
         arguments = "".join(f"\n  {name} = {_pasted(value)}" for name, value in seen.items())
         super().__init__(f"{law}: error {error:.3g} exceeds {bound:.3g}{arguments}")
         self.law = law
@@ -42,16 +54,20 @@ class LawViolation(AssertionError):
         self.bound = bound
         self.seen = dict(seen)
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.law, self.error, self.bound, self.seen)
 
 
 class Law(NamedTuple):
-    """A law of a battery: `check(subject, *arguments) -> error ÷ bound`, and the kinds of its
-    arguments.
+    """Law of a battery, and the kinds of its arguments.
 
-    Fields: check; kinds, names such as "twist" or "q", which `strategies.group_cases` and
-    `chain_strategies.chain_cases` turn into Hypothesis strategies.
+    Parameters
+    ----------
+    check : callable
+        The law, check(subject, *arguments), which returns error ÷ bound.
+    kinds : tuple of str
+        Kinds of the arguments, such as "twist" or "q", which `strategies.group_cases` and
+        `strategies.chain_cases` turn into Hypothesis strategies.
     """
 
     check: Callable[..., float]
@@ -59,7 +75,7 @@ class Law(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The law's name, for test ids and messages."""
+        """Name of the law, for test ids and messages."""
         return self.check.__name__
 
 
@@ -68,12 +84,34 @@ def check_bounds(
     *measured: tuple[float, float],
     **seen: object,
 ) -> float:
-    """The worst error ÷ bound of the measured (error, bound) pairs, where none exceeds 1: what a
-    law ends with.
+    """Worst error ÷ bound of measured errors, none of which exceeds its bound.
 
-    Parameters: law, its name for the message; measured, pairs (error, bound), of which a bound of 0
-    asks for an error of 0; seen, the law's arguments by their names. Returns: 0 to 1.
-    Raises: LawViolation with the first pair that does not hold (NaN never does).
+    A law ends with it. A bound of 0 asks for an error of 0.
+
+    Parameters
+    ----------
+    law : str
+        Name of the law, for the message.
+    *measured : tuple of float
+        Pairs (error, bound), in the unit of the law.
+    **seen : object
+        Arguments of the law by their names, for the message.
+
+    Returns
+    -------
+    ratio : float
+        Largest error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        At the first pair that does not hold; NaN never does.
+
+    Examples
+    --------
+    >>> from poekin.testing.laws.laws import check_bounds
+    >>> check_bounds("my law", (1e-16, 2e-16), (0.0, 0.0), q=[0.1, 0.2])
+    0.5
     """
     worst = 0.0
     for error, bound in measured:
@@ -84,6 +122,50 @@ def check_bounds(
     if not math.isfinite(worst):
         return 0.0
     return worst
+
+
+def _nothing_else(_: object) -> dict[str, object]:
+    """No further numbers for a message."""
+    return {}
+
+
+def checked(
+    title: str = "", further: Callable[[Any], Mapping[str, object]] = _nothing_else
+) -> Callable[[Callable[Concatenate[S, P], Pairs]], Callable[Concatenate[S, P], float]]:
+    """Decorator that makes a law of a function that measures pairs (error, bound) of a subject.
+
+    Parameters
+    ----------
+    title : str, optional
+        Name of the law for the message; the function's own by default.
+    further : callable, optional
+        Further numbers of the subject for the message, by their names.
+
+    Returns
+    -------
+    decorate : callable
+        Makes measure(subject, *arguments) a law of the same arguments, that ends with `check_bounds`.
+    """
+
+    def decorate(
+        measure: Callable[Concatenate[S, P], Pairs],
+    ) -> Callable[Concatenate[S, P], float]:
+        names = measure.__code__.co_varnames[1 : measure.__code__.co_argcount]
+        name = title or measure.__name__.replace("_", " ")
+
+        @functools.wraps(measure)
+        def law(
+            subject: S,
+            *arguments: P.args,
+            **named: P.kwargs,
+        ) -> float:
+            seen: dict[str, Any] = dict(zip(names, arguments, strict=False))
+            pairs = measure(subject, *arguments, **named)
+            return check_bounds(name, *pairs, **seen, **named, **further(subject))
+
+        return law
+
+    return decorate
 
 
 def _pasted(value: object) -> str:

@@ -1,14 +1,8 @@
 """Measures of errors: on ω and v apart, on R and t apart, on the blocks of a 6×6 apart.
 
-One number for both halves would let a large translation hide a wrong angle. Every function returns
-pairs
-(error, bound), as `laws.check_bounds` takes them; those without their own bound get 12 u times a size.
-
-Parameters: x, any array (...); xi, error, a twist (6,), (ω; v), or rotation vector (3,); X, Y,
-poses (4, 4) in one frame, or rotations (3, 3); of_blocks takes error (6, 6) or (3, 3); angular,
-linear, diagonal, lower: bounds, or sizes that they are in proportion to. Returns: floats in rad and
-m, or pairs of them. Raises: nothing.
-Source: u = 2⁻⁵³, half the distance from 1 to the next float.
+One number for both halves would let a large translation hide a wrong angle. The functions of errors
+return pairs (error, bound), as `laws.check_bounds` takes them.
+Raises: nothing. Source: u = 2⁻⁵³, half the distance from 1 to the next float.
 """
 
 from __future__ import annotations
@@ -16,12 +10,22 @@ from __future__ import annotations
 import numpy as np
 
 from ..accuracy.error_bounds import UNIT
-
-Pairs = list[tuple[float, float]]
+from .laws import Pairs
 
 
 def size(x: np.ndarray) -> float:
-    """Euclidean or Frobenius norm, without underflow; NaN or inf where an entry is."""
+    """Euclidean or Frobenius norm, without underflow.
+
+    Parameters
+    ----------
+    x : (...) ndarray
+        Numbers of any unit.
+
+    Returns
+    -------
+    norm : float
+        The norm; NaN or inf if an entry is.
+    """
     entries = np.abs(np.asarray(x, dtype=float)).ravel()
     largest = float(entries.max(initial=0.0))
     if not np.isfinite(largest):
@@ -32,17 +36,50 @@ def size(x: np.ndarray) -> float:
 
 
 def angle(xi: np.ndarray) -> float:
-    """|ω| of a twist (6,) or rotation vector (3,)."""
+    """Angle |ω| of a twist or rotation vector.
+
+    Parameters
+    ----------
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m in any frame, or rotation vector in rad.
+
+    Returns
+    -------
+    angle : float
+        The angle, rad.
+    """
     return size(xi[:3])
 
 
 def length(xi: np.ndarray) -> float:
-    """|v| of a twist; 0 for a rotation vector."""
+    """Length |v| of a twist; 0 of a rotation vector.
+
+    Parameters
+    ----------
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m in any frame, or rotation vector in rad.
+
+    Returns
+    -------
+    length : float
+        The length, m.
+    """
     return size(xi[3:])
 
 
 def shift(X: np.ndarray) -> float:
-    """|t| of a pose; 0 for a rotation."""
+    """Length |t| of the translation of a pose; 0 of a rotation.
+
+    Parameters
+    ----------
+    X : (4, 4) or (3, 3) ndarray
+        Pose of a frame in the base frame, m, or rotation.
+
+    Returns
+    -------
+    length : float
+        The length, m.
+    """
     return size(X[:3, 3:])
 
 
@@ -52,7 +89,20 @@ def of_elements(
     angular: float,
     linear: float,
 ) -> Pairs:
-    """‖ΔR‖ and ‖Δt‖ of two rotations or poses, against 12 u times a size each."""
+    """Differences ‖ΔR‖ and ‖Δt‖ of two rotations or poses, against 12 u times a size each.
+
+    Parameters
+    ----------
+    X, Y : (4, 4) or (3, 3) ndarray
+        Poses in one frame, m, or rotations.
+    angular, linear : float
+        Sizes that the bounds of R and t are in proportion to, rad and m.
+
+    Returns
+    -------
+    pairs : list of tuple
+        Pairs (error, bound).
+    """
     pairs = [(size(X[:3, :3] - Y[:3, :3]), 12 * UNIT * angular)]
     if len(X) == 4:
         pairs.append((size(X[:3, 3] - Y[:3, 3]), 12 * UNIT * linear))
@@ -64,7 +114,20 @@ def of_twist(
     angular: float,
     linear: float,
 ) -> Pairs:
-    """‖Δω‖ and ‖Δv‖ against bounds of their own."""
+    """Errors ‖Δω‖ and ‖Δv‖ against bounds of their own.
+
+    Parameters
+    ----------
+    error : (6,) or (3,) ndarray
+        Difference of two twists (ω; v) in one frame, rad and m, or of two rotation vectors.
+    angular, linear : float
+        Bounds of ω and v, rad and m.
+
+    Returns
+    -------
+    pairs : list of tuple
+        Pairs (error, bound).
+    """
     pairs = [(size(error[:3]), angular)]
     if len(error) == 6:
         pairs.append((size(error[3:]), linear))
@@ -76,8 +139,19 @@ def of_blocks(
     diagonal: float,
     lower: float,
 ) -> Pairs:
-    """The error of a 3×3, or of the blocks [P 0; Q P] of a 6×6, with bounds for P and Q; the 0 must
-    be exact.
+    """Errors of the blocks [P 0; Q P] of a 6×6, or of a 3×3; the 0 must be exact.
+
+    Parameters
+    ----------
+    error : (6, 6) or (3, 3) ndarray
+        Difference of two matrices between twists (ω; v), rad and m.
+    diagonal, lower : float
+        Bounds of P and of Q.
+
+    Returns
+    -------
+    pairs : list of tuple
+        Pairs (error, bound).
     """
     if len(error) == 3:
         return [(size(error), diagonal)]

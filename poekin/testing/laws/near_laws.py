@@ -1,12 +1,8 @@
 """Laws of the branches of the logarithm, `log(X, near=…)`; and `NEAR_LAWS`, the battery of them.
 
 Of the logarithms ω (1 + 2πk/|ω|) of a rotation the one closest to ω_near is meant; of a pose, the
-twist with that ω. Parameters: group, the functions under test (`group.Group`, of which a law uses
-those that its equation names); twists xi, near (6,), (ω; v) in rad and m, or rotation vectors (3,);
-X, Y, poses (4, 4) of a frame in the base frame, or rotations (3, 3). Returns: error ÷ bound, 0 to
-1; a pure number.
-Raises: LawViolation above 1, with the law, the error, its bound and the arguments; InputError where
-the group lacks a function that the law needs; `log` must take the argument near.
+twist with that ω. The subject is a `group.Group` of the functions under test, whose log takes the
+argument near; one that is not there is an InputError. Poses are those of a frame in the base frame.
 Source: Park 1994, Remark 1: every (2k + 1) π is a logarithm's angle at π, and so it is elsewhere
 with 2πk added.
 """
@@ -19,8 +15,8 @@ import numpy as np
 
 from ..accuracy.error_bounds import UNIT
 from .group import Group
-from .laws import Law, check_bounds
-from .measures import angle, of_elements, of_twist, shift, size
+from .laws import Law, Pairs, check_bounds, checked
+from .measures import angle, length, of_elements, of_twist, shift, size
 
 
 def near_picks_the_closest_branch(
@@ -28,12 +24,28 @@ def near_picks_the_closest_branch(
     xi: np.ndarray,
     near: np.ndarray,
 ) -> float:
-    """The logarithm near a given one is a logarithm, on the line of the principal one, and none is
-    closer.
+    """Law: the logarithm near a given one is a logarithm, and none is closer.
 
-    Also near what lies on that line, both ways. Where the rotation is the identity to 1e-12 its
-    axis is free, and so
-    is which logarithm is the closest.
+    It lies on the line of the principal logarithm. Also held near what lies on that line, both ways.
+    Where the rotation is the identity to 1e-12 its axis is free, and so is which logarithm is the
+    closest.
+
+    Parameters
+    ----------
+    group : Group
+        Functions under test; the law uses exp and log.
+    xi, near : (6,) or (3,) ndarray
+        Twists (ω; v) in rad and m, or rotation vectors in rad.
+
+    Returns
+    -------
+    ratio : float
+        Error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        If an error exceeds its bound.
     """
     X = group.exp(xi)
     principal = group.log(X)
@@ -49,23 +61,42 @@ def near_picks_the_closest_branch(
     return max(_closest(group, X, principal, guess, xi) for guess in guesses)
 
 
-def a_logarithm_is_nearest_to_itself(group: Group, xi: np.ndarray) -> float:
-    """log(exp ξ, near=ξ) = ξ on every branch, |ω| up to 10, but at the multiples of 2π, where v has
-    no bound.
+@checked()
+def a_logarithm_is_nearest_to_itself(
+    group: Group,
+    xi: np.ndarray,
+) -> Pairs:
+    """Law: the logarithm nearest to ξ of exp ξ is ξ, on every branch.
+
+    log(exp ξ, near=ξ) = ξ, but at the multiples of 2π, where v has no bound.
+
+    Parameters
+    ----------
+    group : Group
+        Functions under test; the law uses exp and log.
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m, or rotation vector in rad, |ω| up to 10.
+
+    Returns
+    -------
+    ratio : float
+        Error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        If an error exceeds its bound.
     """
-    gap = abs(math.remainder(angle(xi), 2 * math.pi))
-    if gap < 0.1 < angle(xi):
-        return 0.0
-    extent = 1 + angle(xi)
+    theta = angle(xi)
+    gap = abs(math.remainder(theta, 2 * math.pi))
+    if gap < 0.1 < theta:
+        return []
     error = group.log(group.exp(xi), near=xi) - xi
-    far = angle(xi) > math.pi + 1e-9
-    pairs = of_twist(
-        error, (64 if far else 24) * UNIT * angle(xi), 512 * UNIT * extent**2 * size(xi[3:])
-    )
     # Within rounding of π both signs are as near; of the two, either may come back.
-    if abs(angle(xi) - math.pi) < 1e-14:
-        return 0.0
-    return check_bounds("a logarithm is nearest to itself", *pairs, xi=xi)
+    if abs(theta - math.pi) < 1e-14:
+        return []
+    angular = (64 if theta > math.pi + 1e-9 else 24) * UNIT * theta
+    return of_twist(error, angular, 512 * UNIT * (1 + theta) ** 2 * length(xi))
 
 
 NEAR_LAWS = (
@@ -76,7 +107,11 @@ NEAR_LAWS = (
 
 
 def _closest(
-    group: Group, X: np.ndarray, principal: np.ndarray, near: np.ndarray, xi: np.ndarray
+    group: Group,
+    X: np.ndarray,
+    principal: np.ndarray,
+    near: np.ndarray,
+    xi: np.ndarray,
 ) -> float:
     found = group.log(X, near=near)
     theta = angle(principal)

@@ -4,14 +4,8 @@ to poses.
 The derivative of the pose's entries is the central difference of order 12 on 12 points; Ṫ T⁻¹ and
 T⁻¹ Ṫ are taken from it. Nothing is asked of the function but values.
 
-    differences.jacobian(my_fk, [0.1, -0.5, 0.3], "space")     (6, 3), to hold my own Jacobian to
-
-Parameters: f, the function, of q (m,) in rad or m, its pose (4, 4) that of the tool in the base
-frame; q, dq (m,); frame, "space", "body" or "hybrid"; rate. Returns: twists and columns as (ω; v),
-per unit of dq, rad/s and m/s.
-Raises: InputError, ShapeError for what is none of these, and where f returns another shape.
 Source: the definition of the three Jacobians in the README; the stencil is the interpolating
-polynomial's derivative. Accuracy: about 1e-14 · rate · size, where `rate` (the default is 1) bounds
+polynomial's derivative. Accuracy: about 1e-14 · rate · size, where `rate` bounds
 by how many rad the tool turns about any joint per unit of a coordinate, all joints added up, and
 `size` is the largest entry of the pose (at least 1). Truncation is 1e-16 · rate · size at the step
 0.1/rate that is taken, and rounding of the values makes up the rest.
@@ -21,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import factorial
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -36,6 +31,7 @@ _WEIGHTS = [
 ]
 
 Pose = Callable[[np.ndarray], np.ndarray]
+NamedFrame = Literal["space", "body", "hybrid"]
 
 
 def derivative(
@@ -44,7 +40,29 @@ def derivative(
     dq: ArrayLike,
     rate: float = 1.0,
 ) -> np.ndarray:
-    """d/ds f(q + s dq) at s = 0, entry by entry: q and dq (m,), f(q) any shape."""
+    """Derivative of an array along a direction, d/ds f(q + s dq) at s = 0, entry by entry.
+
+    Parameters
+    ----------
+    f : callable
+        Function of q (m,) that returns an array.
+    q, dq : (m,) array_like
+        Coordinates and direction, rad or m, and per s.
+    rate : float, default 1.0
+        Bound on how fast f turns along dq, rad per unit of s.
+
+    Returns
+    -------
+    df : (...) ndarray
+        The derivative, in the shape of f(q).
+
+    Raises
+    ------
+    InputError
+        If f is no function, or q, dq or rate are no numbers.
+    ShapeError
+        If q and dq are not of one shape (m,).
+    """
     at = _coordinates("q", q)
     direction = _coordinates("dq", dq)
     if at.shape != direction.shape:
@@ -54,11 +72,12 @@ def derivative(
     if not callable(f):
         raise InputError(f"f: expected a function of q, got {safe_repr(f)}")
     step = 0.1 / max(arguments.number("rate", rate, 0.0, 1e100), 1.0)
-    terms = [
-        (w / step)
-        * (np.asarray(f(at + k * step * direction)) - np.asarray(f(at - k * step * direction)))
-        for k, w in enumerate(_WEIGHTS, start=1)
-    ]
+    terms = []
+    for k, weight in enumerate(_WEIGHTS, start=1):
+        change = k * step * direction
+        ahead = np.asarray(f(at + change))
+        behind = np.asarray(f(at - change))
+        terms.append(weight / step * (ahead - behind))
     return np.sum(terms, axis=0)
 
 
@@ -66,13 +85,33 @@ def velocity(
     f: Pose,
     q: ArrayLike,
     dq: ArrayLike,
-    frame: str,
+    frame: NamedFrame,
     rate: float = 1.0,
 ) -> np.ndarray:
-    """The twist (ω; v) of the pose f(q) at rate dq: "space" Ṫ T⁻¹, "body" T⁻¹ Ṫ, or "hybrid" (ω of
-    space, ṗ).
+    """Twist (ω; v) of a moving pose, by finite differences.
 
-    q and dq (m,), f(q) (4, 4); returns (6,). Raises InputError for another frame.
+    Parameters
+    ----------
+    f : callable
+        Function of q (m,) that returns the pose (4, 4) of the tool in the base frame.
+    q, dq : (m,) array_like
+        Coordinates and rates, rad or m, and per s.
+    frame : {"space", "body", "hybrid"}
+        Ṫ T⁻¹, T⁻¹ Ṫ, or ω of space with ṗ.
+    rate : float, default 1.0
+        Bound on how fast the tool turns along dq, rad/s.
+
+    Returns
+    -------
+    V : (6,) ndarray
+        The twist, rad/s and m/s.
+
+    Raises
+    ------
+    InputError
+        For another frame, and as `derivative`.
+    ShapeError
+        If f returns another shape, and as `derivative`.
     """
     dT = derivative(f, q, dq, rate)
     T = np.asarray(f(_coordinates("q", q)))
@@ -95,13 +134,48 @@ def velocity(
 def jacobian(
     f: Pose,
     q: ArrayLike,
-    frame: str,
+    frame: NamedFrame,
     rate: float = 1.0,
 ) -> np.ndarray:
-    """The Jacobian (6, m) of f at q (m,), rows (ω; v): `velocity` of each coordinate in turn."""
+    """Jacobian of a function that returns poses, by finite differences.
+
+    Parameters
+    ----------
+    f : callable
+        Function of q (m,) that returns the pose (4, 4) of the tool in the base frame.
+    q : (m,) array_like
+        Coordinates, rad or m.
+    frame : {"space", "body", "hybrid"}
+        Frame of the rows, as of `velocity`.
+    rate : float, default 1.0
+        Bound on how far the tool turns, rad per unit of a coordinate.
+
+    Returns
+    -------
+    J : (6, m) ndarray
+        Rows (ω; v), rad and m per unit of q.
+
+    Raises
+    ------
+    InputError
+        As `velocity`.
+    ShapeError
+        As `velocity`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> from poekin.testing.oracles import differences
+    >>> arm = pk.load("ur5e").chain(tip="tool0")
+    >>> q = [0.1, -1.2, 0.9, -0.5, 0.3, 0.2]
+    >>> J = differences.jacobian(arm.fk, q, "hybrid")  # of one's own function
+    >>> bool(np.abs(arm.jacobian(q, "hybrid") - J).max() < 1e-13)
+    True
+    """
     at = _coordinates("q", q)
     columns = [velocity(f, at, direction, frame, rate) for direction in np.eye(len(at))]
-    return np.stack(columns, axis=1) if columns else np.zeros((6, 0))
+    return np.reshape(columns, (len(at), 6)).T
 
 
 def _coordinates(name: str, q: ArrayLike) -> np.ndarray:
@@ -115,5 +189,6 @@ def _coordinates(name: str, q: ArrayLike) -> np.ndarray:
 
 
 def _axial(X: np.ndarray) -> np.ndarray:
-    """The vector of the skew part of X."""
-    return np.array([X[2, 1] - X[1, 2], X[0, 2] - X[2, 0], X[1, 0] - X[0, 1]]) / 2
+    """Vector of the skew part of X."""
+    K = X - X.T
+    return np.array([K[2, 1], K[0, 2], K[1, 0]]) / 2

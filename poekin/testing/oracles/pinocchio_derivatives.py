@@ -20,10 +20,16 @@ FREE_OF = 1e-12  # entries of a Jacobian below it are rounding
 
 
 class Derivatives(NamedTuple):
-    """Derivatives at N configurations and rates of all m coordinates, by frame "space", "body", "hybrid".
+    """Derivatives at N configurations and rates of all m coordinates, by "space", "body", "hybrid".
 
-    rate {frame: (N, 6, m)}, hessian {frame: (N, 6, m, m)} (column, then coordinate), acceleration
-    {frame: (N, 6)}.
+    Attributes
+    ----------
+    rate : dict
+        Rate of the Jacobian (N, 6, m), in each frame.
+    hessian : dict
+        Hessian (N, 6, m, m), column, then coordinate, in each frame.
+    acceleration : dict
+        Acceleration (N, 6), rad/s² and m/s², in each frame.
     """
 
     rate: dict[str, np.ndarray]
@@ -45,12 +51,31 @@ def derivatives(
     LOCAL and LOCAL_WORLD_ALIGNED. The acceleration is getFrameAcceleration in WORLD and LOCAL, and
     for hybrid getFrameClassicalAcceleration.
 
-    Parameters: oracle; q, values (N,) for each of `oracle.coordinates`; dq, ddq (N, m), in the
-    order of these; tip, base, links. A base that is not the root must stand still in the root: what
-    moves it gets a column of zeros, and rates and accelerations that are not zero for it are
-    refused.
-    Returns: `Derivatives`. Accuracy: Pinocchio's own rounding.
-    Raises: as `PinocchioOracle.evaluate`; InputError for a base that moves.
+    Parameters
+    ----------
+    oracle : PinocchioOracle
+        The robot.
+    q : dict
+        Values (N,) for each of the coordinates of the oracle, rad or m.
+    dq, ddq : (N, m) ndarray
+        Rates and accelerations in the order of these, rad or m per s, and per s².
+    tip : str
+        Name of the link that moves.
+    base : str, optional
+        Link in whose frame it does, the root by default. It must stand still in the root: a
+        coordinate that moves it gets a column of zeros.
+
+    Returns
+    -------
+    derivatives : Derivatives
+        The derivatives, to Pinocchio's own rounding.
+
+    Raises
+    ------
+    UnknownName
+        For a name that is no coordinate, or no link.
+    InputError
+        If the base moves, and as `PinocchioOracle.configurations`.
     """
     pin = pinocchio()
     model = oracle.model
@@ -115,7 +140,11 @@ def _turn(frame: str, T_0b: Any) -> np.ndarray:
 
 
 def _base(
-    oracle: PinocchioOracle, base: str | None, C: np.ndarray, dq: np.ndarray, ddq: np.ndarray
+    oracle: PinocchioOracle,
+    base: str | None,
+    C: np.ndarray,
+    dq: np.ndarray,
+    ddq: np.ndarray,
 ) -> tuple[Any, np.ndarray]:
     """The pose of the base, and 1 for each coordinate that leaves it where it is, 0 for others
     (m,).
@@ -135,8 +164,16 @@ def _base(
 
 
 class DerivativeErrors(NamedTuple):
-    """Worst errors of one chain, each ÷ R where it is a length. Fields: rate (of dJ/dt), hessian,
-    acceleration.
+    """Worst errors of the derivatives of one chain, those of linear rows ÷ its reach.
+
+    Attributes
+    ----------
+    rate : float
+        Error of the rate of the Jacobian, dJ/dt.
+    hessian : float
+        Error of the Hessian.
+    acceleration : float
+        Error of the acceleration.
     """
 
     rate: float
@@ -150,18 +187,40 @@ class DerivativeErrors(NamedTuple):
 
 
 def derivative_errors(
-    chain: Any, oracle: PinocchioOracle, samples: int, seed: int = 0
+    chain: Any,
+    oracle: PinocchioOracle,
+    samples: int,
+    seed: int = 0,
 ) -> DerivativeErrors:
-    """A chain of the oracle's robot against `derivatives`, in all three frames, at `samples`
-    configurations.
+    """Errors of the derivatives of a chain against those of Pinocchio, in all three frames.
 
     Configurations are those of `PinocchioOracle.random`, the first all zeros; rates and
     accelerations of the chain's coordinates are uniform in ±1 (rad or m per s, per s²). An error is
     the largest absolute entry of a difference, its linear rows ÷ R, R the chain's reach; columns of
     coordinates that the chain does not have must be zero.
-    Parameters: chain; oracle; samples; seed, of what is drawn. Returns: `DerivativeErrors`.
-    Raises: UnknownName for a coordinate of the chain that Pinocchio does not know, and as
-    `derivatives`.
+
+    Parameters
+    ----------
+    chain : Chain
+        A chain of the oracle's robot.
+    oracle : PinocchioOracle
+        The robot.
+    samples : int
+        Number of configurations.
+    seed : int, default 0
+        Seed of the random configurations.
+
+    Returns
+    -------
+    errors : DerivativeErrors
+        The worst errors.
+
+    Raises
+    ------
+    UnknownName
+        For a coordinate of the chain that Pinocchio does not know.
+    InputError
+        As `derivatives`.
     """
     rng = np.random.default_rng(seed)
     m = len(oracle.coordinates)

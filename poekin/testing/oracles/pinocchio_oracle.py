@@ -1,9 +1,9 @@
 """Pinocchio as an oracle: poses and Jacobians of a URDF by code that poekin shares nothing with.
 
 Only the text of the URDF goes in. Pinocchio parses it, its `<mimic>` elements are found apart from
-that, and everything is addressed by name, so that neither poekin's reader of robots nor its order
-of joints can hide an error here. XML is decoded, and refused where it is not safe, by
-`poekin.formats.text.xml`, which is lxml. This is the one file of poekin that imports Pinocchio.
+that (`pinocchio_urdf`), and everything is addressed by name, so that neither poekin's reader of
+robots nor its order of joints can hide an error here. This is the one file of poekin that imports
+Pinocchio.
 """
 
 from __future__ import annotations
@@ -13,16 +13,16 @@ import os
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import Any
 
 import numpy as np
-from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
 
 from ...errors import InputError, MissingExtra, ModelError, UnknownName, quote, safe_repr, suggest
 from ...formats.text import xml
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
+from . import pinocchio_urdf
 
 # Pinocchio's rows are (v; omega); poekin's are (omega; v).
 ANGULAR_FIRST = [3, 4, 5, 0, 1, 2]
@@ -42,13 +42,10 @@ def pinocchio() -> ModuleType:
 
 
 class PinocchioOracle:
-    """One URDF in Pinocchio: poses and Jacobians between two links, as functions of named
-    independent coordinates.
+    """One URDF in Pinocchio: poses and Jacobians between two links, by named coordinates.
 
-    Parameters: text, the URDF itself (str, or bytes in the encoding that it declares); no mesh is
-    read, and no file but what the text says is opened. Pinocchio knows neither encodings nor
-    namespaces: it gets the text decoded, with the elements of the root's namespace under their
-    plain names and those of others left out.
+    Pinocchio knows neither encodings nor namespaces: it gets the text decoded, with the elements of
+    the root's namespace under their plain names and those of others left out. No mesh is read.
 
     Coordinates are the moving one-degree joints that mimic no other, by name, in rad or m. The
     model is built with mimic=False: x = C q + c, and J_q = J_x C, are applied here (mimic of mimic
@@ -56,22 +53,48 @@ class PinocchioOracle:
     its joint independent). A continuous joint is one angle, handed to Pinocchio as (cos, sin).
     Floating and planar joints stay at identity.
 
-    Attributes: coordinates (names), slides (set of the coordinates in m), links (names), coupling and
-    offset (C and c), simple_joints (Pinocchio's numbers of the moving one-degree joints, by name),
-    version (of Pinocchio). Raises: MissingExtra without Pinocchio; ModelError for malformed XML, and when
-    Pinocchio refuses the text, with what it says about it, which goes to no other place; InputError
-    for a path.
+    Parameters
+    ----------
+    text : str or bytes
+        The URDF itself, bytes in the encoding that it declares.
+
+    Attributes
+    ----------
+    coordinates : tuple of str
+        Names of the coordinates.
+    slides : set of str
+        Coordinates in m; the others are in rad.
+    links : tuple of str
+        Names of the links.
+    coupling, offset : ndarray
+        C (n, m) and c (n,) of x = C q + c.
+    simple_joints : dict
+        Pinocchio's numbers of the moving one-degree joints, by name.
+    version : str
+        Version of Pinocchio.
+
+    Raises
+    ------
+    MissingExtra
+        Without Pinocchio.
+    ModelError
+        For malformed XML, and if Pinocchio refuses the text; with its reasons.
+    InputError
+        For a path in place of the text.
+
+    Notes
+    -----
     Source: Pinocchio, https://github.com/stack-of-tasks/pinocchio, release 4.
     """
 
-    def __init__(self, text: str | bytes):
+    def __init__(self, text: str | bytes) -> None:
         pin = pinocchio()
         if isinstance(text, str) and "<" not in text:
             raise InputError(
                 f"text: expected a URDF itself, not where it is: Path(...).read_text(); got {safe_repr(text)}"
             )
-        root = _plain(xml.parse(text, "<text>"))
-        content = etree.tostring(root, encoding="unicode")
+        root = pinocchio_urdf.plain(xml.parse(text, "<text>"))
+        content = pinocchio_urdf.text_of(root)
         self.model: Any = _built(lambda: pin.buildModelFromXML(content))
         self.data: Any = self.model.createData()
         self.version: str = pin.__version__
@@ -81,22 +104,28 @@ class PinocchioOracle:
             for i in range(1, self.model.njoints)
             if self.model.joints[i].nv == 1
         }
-        self.coordinates, self.coupling, self.offset = _coupling(root, tuple(self.simple_joints))
+        self.coordinates, self.coupling, self.offset = pinocchio_urdf.coupling_of(
+            root, tuple(self.simple_joints)
+        )
         self.slides = {name for name in self.coordinates if "JointModelP" in self._kind(name)}
 
     def _kind(self, joint: str) -> str:
         return self.model.joints[self.simple_joints[joint]].shortname()
 
-    def random(
-        self,
-        rng: np.random.Generator,
-        size: int,
-    ) -> dict[str, np.ndarray]:
-        """Configurations for every coordinate: revolute within ±π, prismatic within ±1 m, whatever
-        the limits say.
+    def random(self, rng: np.random.Generator, size: int) -> dict[str, np.ndarray]:
+        """Random configurations: revolute within ±π rad, prismatic within ±1 m, whatever the limits.
 
-        Parameters: rng, NumPy's generator; size. Returns: a dict from coordinate to (size,) values
-        [rad or m].
+        Parameters
+        ----------
+        rng : numpy.random.Generator
+            Source of random numbers.
+        size : int
+            Number of configurations.
+
+        Returns
+        -------
+        q : dict
+            Values (size,) of each coordinate, rad or m.
         """
         return {
             name: rng.uniform(-1, 1, size) * (1.0 if name in self.slides else np.pi)
@@ -104,13 +133,24 @@ class PinocchioOracle:
         }
 
     def configurations(self, q: Mapping[str, Any]) -> np.ndarray:
-        """Pinocchio's own configurations (N, nq) for coordinates by name; one that is not named
-        stands at 0.
+        """Pinocchio's own configurations for coordinates by name; one that is not named is 0.
 
-        Parameters: q, a dict from coordinate to a number or N of them. Returns: (N, nq),
-        Pinocchio's order.
-        Raises: UnknownName for a name that is no coordinate; InputError for values of different
-        lengths, or no numbers.
+        Parameters
+        ----------
+        q : dict
+            A number or N of them for each coordinate, rad or m.
+
+        Returns
+        -------
+        x : (N, nq) ndarray
+            Configurations in Pinocchio's order.
+
+        Raises
+        ------
+        UnknownName
+            For a name that is no coordinate.
+        InputError
+            For values of different lengths, or no numbers.
         """
         if not isinstance(q, Mapping):
             raise InputError(f"q: expected a dict from coordinate to value(s), got {safe_repr(q)}")
@@ -149,36 +189,96 @@ class PinocchioOracle:
         tip: str,
         base: str | None = None,
     ) -> np.ndarray:
-        """Poses T_base,tip (N, 4, 4) [m] at N configurations; base is the root link when it is not
-        given.
+        """Poses of a link at N configurations.
 
-        Parameters: q, as of `configurations`; tip, base, links. Returns: these.
-        Raises: as `configurations`; UnknownName for an unknown link.
+        Parameters
+        ----------
+        q : dict
+            A number or N of them for each coordinate, rad or m.
+        tip : str
+            Name of the link.
+        base : str, optional
+            Link in whose frame the poses are, the root by default.
+
+        Returns
+        -------
+        T : (N, 4, 4) ndarray
+            Poses of tip in base, m.
+
+        Raises
+        ------
+        UnknownName
+            For a name that is no coordinate, or no link.
+        InputError
+            As `configurations`.
         """
         return self.evaluate(q, tip, base, jacobians=False)[0]
 
     def link_poses(self, q: Mapping[str, Any]) -> dict[str, np.ndarray]:
-        """Poses (N, 4, 4) [m] of every link in the root link's frame. Parameters, returns, raises:
-        as `poses`.
+        """Poses of every link in the frame of the root.
+
+        Parameters
+        ----------
+        q : dict
+            A number or N of them for each coordinate, rad or m.
+
+        Returns
+        -------
+        poses : dict
+            Poses (N, 4, 4) of each link by its name, m.
+
+        Raises
+        ------
+        UnknownName
+            For a name that is no coordinate.
+        InputError
+            As `configurations`.
         """
         return {link: self.poses(q, link) for link in self.links}
 
     def evaluate(
-        self, q: Mapping[str, Any], tip: str, base: str | None = None, *, jacobians: bool = True
+        self,
+        q: Mapping[str, Any],
+        tip: str,
+        base: str | None = None,
+        *,
+        jacobians: bool = True,
     ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """Poses (N, 4, 4) of tip in base and Jacobians {"space" | "body" | "hybrid": (N, 6, m)}
-        w.r.t. the coordinates.
+        """Poses and Jacobians of a link at N configurations.
 
-        Rows (omega [rad/s]; v [m/s]) per unit rate, columns in the order of `coordinates` (all of
-        the robot's: those of joints off the way are zero). Space: base axes, the point at base's
-        origin; body: tip axes, tip's origin; hybrid: base axes, tip's origin. Motion is relative to
-        base, which may itself move in the tree.
+        Motion is relative to base, which may itself move in the tree. Space: base axes, the point at
+        base's origin; body: tip axes, tip's origin; hybrid: base axes, tip's origin.
 
-        Parameters: q, tip, base, as of `poses`; jacobians, False where only poses are wanted.
-        Returns: both.
+        Parameters
+        ----------
+        q : dict
+            A number or N of them for each coordinate, rad or m.
+        tip : str
+            Name of the link.
+        base : str, optional
+            Link in whose frame the poses are, the root by default.
+        jacobians : bool, default True
+            Whether Jacobians are wanted beside the poses.
+
+        Returns
+        -------
+        T : (N, 4, 4) ndarray
+            Poses of tip in base, m.
+        J : dict
+            Jacobians (N, 6, m) by "space", "body" and "hybrid": rows (ω; v), rad/s and m/s per unit
+            rate, columns in the order of `coordinates` (those of joints off the way are zero).
+
+        Raises
+        ------
+        UnknownName
+            For a name that is no coordinate, or no link.
+        InputError
+            As `configurations`.
+
+        Notes
+        -----
         Accuracy: Pinocchio's own rounding; where base is the root link its arrays pass through
         unchanged.
-        Raises: as `poses`.
         """
         pin = pinocchio()
         model = self.model
@@ -200,11 +300,9 @@ class PinocchioOracle:
             else:
                 pin.forwardKinematics(model, data, configuration)
             T_0t = pin.updateFramePlacement(model, data, tip_id).copy()
-            T_0b = (
-                pin.SE3.Identity()
-                if base_id is None
-                else pin.updateFramePlacement(model, data, base_id).copy()
-            )
+            T_0b = pin.SE3.Identity()
+            if base_id is not None:
+                T_0b = pin.updateFramePlacement(model, data, base_id).copy()
             T[k] = T_0t.homogeneous if base_id is None else T_0b.actInv(T_0t).homogeneous
             if moving:
                 for frame, value in self._jacobians(tip_id, T_0t, base_id, T_0b).items():
@@ -212,7 +310,11 @@ class PinocchioOracle:
         return T, J if jacobians else {}
 
     def _jacobians(
-        self, tip_id: int, T_0t: Any, base_id: int | None, T_0b: Any
+        self,
+        tip_id: int,
+        T_0t: Any,
+        base_id: int | None,
+        T_0b: Any,
     ) -> dict[str, np.ndarray]:
         """The three Jacobians in Pinocchio's row order, w.r.t. its own velocities, relative to the
         base frame.
@@ -240,7 +342,23 @@ class PinocchioOracle:
         }
 
     def frame_id(self, link: str) -> int:
-        """Pinocchio's number of a link's frame. Parameters: link. Returns: it. Raises: UnknownName."""
+        """Pinocchio's number of the frame of a link.
+
+        Parameters
+        ----------
+        link : str
+            Name of the link.
+
+        Returns
+        -------
+        frame : int
+            The number.
+
+        Raises
+        ------
+        UnknownName
+            For an unknown link.
+        """
         if link not in self.links:
             raise UnknownName(f"Pinocchio has no link {quote(link)}; {suggest(link, self.links)}")
         return self.model.getFrameId(link, pinocchio().FrameType.BODY)
@@ -279,55 +397,3 @@ def _built(build: Callable[[], Any]) -> Any:
             if before is not None:
                 os.dup2(before, 2)
                 os.close(before)
-
-
-def _plain(root: xml.Element) -> xml.Element:
-    """The elements of the root's namespace under their names without it, and no others."""
-    space, bracket, _ = root.tag.rpartition("}")
-
-    def parts(element: xml.Element) -> tuple[str, dict[str, str]]:
-        return element.tag.rpartition("}")[2], {
-            k: v for k, v in element.attrib.items() if not k.startswith("{")
-        }
-
-    plain = etree.Element(*parts(root))
-    copies = {root: plain}
-    for element in root.iterdescendants(f"{space}{bracket}*" if bracket else "{}*"):
-        above = copies.get(element.getparent())
-        if above is not None:  # else it is inside of an element of another namespace
-            copies[element] = etree.SubElement(above, *parts(element))
-    return plain
-
-
-def _coupling(
-    root: xml.Element, joints: Sequence[str]
-) -> tuple[tuple[str, ...], np.ndarray, np.ndarray]:
-    """Independent coordinates, C (n, m) and c (n,): x = C q + c for the moving joints, out of the
-    `<mimic>` tags.
-    """
-    elements = {e.get("name"): e for e in root.findall("joint")}
-    mimics: dict[str, tuple[str, float, float]] = {}
-    for name in joints:
-        mimic = elements[name].find("mimic")
-        if mimic is not None and mimic.get("joint") in elements:
-            scale = float(mimic.get("multiplier", 1))
-            shift = float(mimic.get("offset", 0))
-            mimics[name] = str(mimic.get("joint")), scale, shift
-    coordinates = tuple(name for name in joints if name not in mimics)
-    C = np.zeros((len(joints), len(coordinates)))
-    c = np.zeros(len(joints))
-    for row, name in enumerate(joints):
-        master = name
-        scale = 1.0
-        shift = 0.0
-        for _ in range(len(mimics)):
-            if master not in mimics:
-                break
-            master, factor, step = mimics[master]
-            scale, shift = scale * factor, shift + scale * step
-        if master in mimics:
-            raise ModelError(f"the joints that mimic {quote(master)} go round in a circle")
-        c[row] = shift
-        if master in coordinates:
-            C[row, coordinates.index(master)] = scale
-    return coordinates, C, c

@@ -14,7 +14,7 @@ from poekin.analysis.dexterity.jacobian_part import ROWS, generic_rank
 from poekin.analysis.dexterity.manipulability import manipulability, manipulability_gradient
 from poekin.errors import InputError
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.laws.chain_laws import budget
+from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.oracles import differences
 from poekin.testing.strategies import chain_strategies
 

@@ -13,7 +13,7 @@ from poekin.formats import rpy
 from poekin.model.kinematics import analytic
 from poekin.model.kinematics.analytic import KINDS
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.laws.chain_laws import budget
+from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.oracles import differences
 from poekin.testing.strategies import chain_strategies
 

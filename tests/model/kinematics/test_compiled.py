@@ -19,7 +19,7 @@ from poekin.model import screw
 from poekin.model.geometry.structure import structure
 from poekin.model.kinematics import compiled
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.laws import chain_laws
+from poekin.testing.laws import chain_bounds
 from poekin.testing.laws.chain_laws import CHAIN_LAWS
 from poekin.testing.strategies import chain_strategies
 
@@ -74,7 +74,7 @@ def test_machine_code_keeps_the_laws_of_chains(name, data):
 def within(times: float):
     """The laws of chains, with so many times their bounds."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(chain_laws, "UNIT", times * chain_laws.UNIT)
+        patch.setattr(chain_bounds, "UNIT", times * chain_bounds.UNIT)
         yield
 
 
@@ -86,7 +86,7 @@ def near(chain, q):
     times what a coordinate's joints turn and slide by.
     """
     with within(1 + FOLDS):
-        bounds = np.reshape([chain_laws.budget(chain, row) for row in q], (len(q), 2)) / [
+        bounds = np.reshape([chain_bounds.budget(chain, row) for row in q], (len(q), 2)) / [
             1,
             chain.reach,
         ]

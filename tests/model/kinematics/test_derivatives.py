@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import InputError, ShapeError, UnknownName
 from poekin.model.kinematics.derivatives import JacobianChanges, PoseChanges
-from poekin.testing.laws.derivative_laws import DERIVATIVE_LAWS
 from poekin.testing.laws.laws import LawViolation
 from poekin.testing.strategies import chain_strategies
+from tests.model.laws.derivative_laws import DERIVATIVE_LAWS
 
 LAWS = {law.name: law for law in DERIVATIVE_LAWS}
 # A chain and its truth in 80 digits take some tenths of a second.

@@ -14,7 +14,7 @@ from poekin.testing.accuracy import error_bounds
 from poekin.testing.conform.laws import of_arms, of_groups
 from poekin.testing.conform.subjects.precision import DOUBLE, SINGLE
 from poekin.testing.laws.laws import LawViolation
-from poekin.testing.oracles import exact
+from poekin.testing.oracles import exact, exact_chain
 
 U = 2.0**-53
 N = np.array([2.0, 3.0, -6.0]) / 7
@@ -67,7 +67,7 @@ def test_each_number_of_a_pose_is_in_its_part(precision):
 
 @pytest.mark.parametrize("frame", ["space", "body", "hybrid"])
 def test_the_worst_column_of_a_jacobian_counts(frame):
-    truth = exact.rounded(of_arms.exact_jacobians(ARM, exact.exactly(Q)))
+    truth = exact.rounded(exact_chain.jacobians(ARM, exact.exactly(Q)))
     angular, lengths = of_arms.error_bound(ARM, Q)
     J = truth[["space", "body", "hybrid"].index(frame)]
     for i, j in np.ndindex(6, 3):
@@ -85,7 +85,7 @@ def test_the_worst_column_of_a_jacobian_counts(frame):
     assert (v.scale, v.error_bound()) == (2 * lengths + 1, 0.0)
     assert v.least == pytest.approx(ratios * angular * (2 * lengths + 1), rel=1e-12)
     turning = of_arms.arm(SCREWS[[0, 2]], HOME)
-    J = exact.rounded(of_arms.exact_jacobians(turning, exact.exactly(Q[:2])))[0]
+    J = exact.rounded(exact_chain.jacobians(turning, exact.exactly(Q[:2])))[0]
     assert of_arms.jacobian_parts("space", turning, Q[:2], J)[1].scale == 2 * turning.reach
     fixed = ARM._replace(coupling=np.zeros((3, 0)), dof=0)
     parts = of_arms.jacobian_parts("space", fixed, np.zeros(0), np.zeros((6, 0)))

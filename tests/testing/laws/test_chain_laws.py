@@ -14,12 +14,14 @@ import pytest
 from poekin.groups import se3
 from poekin.model.chain import Chain
 from poekin.model.robot import Robot
-from poekin.testing.laws import chain_laws, change_laws, derivative_laws, method_laws
+from poekin.testing.laws import chain_bounds, chain_laws, jacobian_laws, laws
 from poekin.testing.laws.chain_laws import CHAIN_LAWS
-from poekin.testing.laws.change_laws import CHANGE_LAWS
-from poekin.testing.laws.derivative_laws import DERIVATIVE_LAWS
 from poekin.testing.laws.laws import LawViolation
-from poekin.testing.laws.method_laws import METHOD_LAWS
+from poekin.testing.oracles import exact_chain
+from tests.model.laws import change_laws, derivative_laws
+from tests.model.laws.change_laws import CHANGE_LAWS
+from tests.model.laws.derivative_laws import DERIVATIVE_LAWS
+from tests.model.laws.method_laws import METHOD_LAWS
 
 U = 2.0**-53
 LAWS = {law.name: law for law in (*CHAIN_LAWS, *CHANGE_LAWS, *METHOD_LAWS, *DERIVATIVE_LAWS)}
@@ -50,14 +52,12 @@ def measured(law: str, chain: Any, monkeypatch, **changed: Any) -> Pairs:
     """The pairs (error, bound) that a law holds."""
     pairs: Pairs = []
 
-    def check_chain_bounds(
-        name: str, chain: Any, *found: tuple[float, float], **seen: object
-    ) -> float:
+    def check_bounds(name: str, *found: tuple[float, float], **seen: object) -> float:
         pairs.extend(found)
         return 0.0
 
-    for module in (chain_laws, change_laws, derivative_laws, method_laws):
-        monkeypatch.setattr(module, "check_chain_bounds", check_chain_bounds)
+    for module in (laws, chain_bounds):
+        monkeypatch.setattr(module, "check_bounds", check_bounds)
     m = chain.dof
     values = {
         "q": Q[:m], "dq": DQ[:m], "joint": 1, "point": POINT, "pose": POSE, "frames": FRAMES,
@@ -146,8 +146,8 @@ def test_a_law_sees_every_number_of_every_function(law, monkeypatch):
     right = measured(law, sound, monkeypatch)
     assert all(error <= bound for error, bound in right)
     if law == "screw_derivatives_are_differences_on_the_group":
-        truth = derivative_laws.exact_changes(COUPLED, Q[:2], 1)  # which takes long
-        monkeypatch.setattr(derivative_laws, "exact_changes", lambda *_: truth)
+        truth = exact_chain.screw_changes(COUPLED, Q[:2], 1)  # which takes long
+        monkeypatch.setattr(exact_chain, "screw_changes", lambda *_: truth)
     unseen: dict[str, set[int]] = {}
     for name, (count, numbers) in sound.calls.items():
         for call in {0, 1, count - 1} & set(range(count)):
@@ -261,7 +261,7 @@ def test_the_bounds_of_a_law_are_those_that_are_stated(law, monkeypatch):
 
 def test_the_budget_grows_with_joints_angles_slides_and_what_home_misses():
     for chain, q in ((COUPLED, Q2), (PLAIN, Q)):
-        assert chain_laws.budget(chain, q) == pytest.approx(budget(q, chain), rel=1e-9, abs=0)
+        assert chain_bounds.budget(chain, q) == pytest.approx(budget(q, chain), rel=1e-9, abs=0)
 
 
 def test_slow_rates_do_not_make_a_difference_more_exact(monkeypatch):
@@ -388,14 +388,14 @@ def test_a_violation_says_how_joints_are_coupled_where_they_are():
     ):
         chain = Chain(SCREWS, PLAIN.home, coupling=coupling, q_names=["a", "b", "c"])
         with pytest.raises(LawViolation) as caught:
-            chain_laws.check_chain_bounds("a law", chain, (1.0, 0.5), q=Q)
+            chain_bounds.check_chain_bounds("a law", chain, (1.0, 0.5), q=Q)
         assert ("coupling" in caught.value.seen) == ("offset" in caught.value.seen) == told
         assert np.array_equal(caught.value.seen["screws"], SCREWS)
 
 
 def test_adjoint_and_inverse_of_a_pose_are_those_of_the_definition():
     R, t = POSE[:3, :3], POSE[:3, 3]
-    inverse, adjoint = chain_laws.inverse(POSE), chain_laws.adjoint(POSE)
+    inverse, adjoint = chain_bounds.inverse(POSE), chain_bounds.adjoint(POSE)
     assert inverse @ POSE == pytest.approx(np.eye(4), abs=1e-15)
     assert inverse[3].tolist() == [0, 0, 0, 1]
     V = np.arange(1.0, 7.0)
@@ -410,17 +410,17 @@ def test_screw_derivatives_are_looked_at_of_every_joint(joint):
 
 def test_without_a_coordinate_there_is_no_column():
     chain = Chain(np.zeros((0, 6)), PLAIN.home)
-    assert derivative_laws.exact_jacobians(chain, np.zeros(0)).shape == (3, 6, 0)
+    assert exact_chain.jacobians(chain, np.zeros(0)).shape == (3, 6, 0)
 
 
 @pytest.mark.parametrize("row", range(6))
 def test_halves_are_measured_apart(row, monkeypatch):
     error, halves = np.eye(6)[row], [float(row < 3), float(row >= 3)]
-    assert [e for e, _ in chain_laws.of_twists(PLAIN, Q, DQ, error)] == halves
+    assert [e for e, _ in chain_bounds.of_twists(PLAIN, Q, DQ, error)] == halves
     assert [e for e, _ in derivative_laws._of_columns(PLAIN, Q, error[:, None], 1.0)] == halves
     assert [e for e, _ in change_laws._of_screws(PLAIN, Q, [error[None]])] == halves
     monkeypatch.setattr(
-        chain_laws.differences,
+        jacobian_laws.differences,
         "velocity",
         lambda fk, q, dq, frame, rate: PLAIN.jacobian(q, frame) @ dq - error,
     )
@@ -436,9 +436,9 @@ def test_halves_are_measured_apart(row, monkeypatch):
         wrong = part.copy()
         wrong[(row, 0) if k < 3 else (1, row, 0, 0)] += 1.0
         parts = [*right[:k], wrong, *right[k + 1 :]]
-        truth = derivative_laws.Changes(*parts)
+        truth = exact_chain.ScrewChanges(*parts)
         monkeypatch.setattr(
-            derivative_laws, "exact_changes", lambda chain, q, joint, truth=truth: truth
+            exact_chain, "screw_changes", lambda chain, q, joint, truth=truth: truth
         )
         pairs = measured("screw_derivatives_are_differences_on_the_group", PLAIN, monkeypatch)
         places = [(0,), (1,), (2, 3), (6,), (7,)][k]
@@ -451,7 +451,7 @@ def test_rotation_translation_and_last_row_of_a_pose_are_measured_apart(i, j):
     T = np.eye(4)
     T[i, j] += 1.0
     expected = [float(i < 3 and j < 3), float(i < 3 and j == 3), float(i == 3)]
-    assert [e for e, _ in chain_laws.of_poses(PLAIN, Q, T, np.eye(4))] == expected
+    assert [e for e, _ in chain_bounds.of_poses(PLAIN, Q, T, np.eye(4))] == expected
 
 
 def test_derivatives_of_a_batch_may_differ_by_rounding_of_their_size(monkeypatch):

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from poekin.groups import se3, so3
-from poekin.testing.laws import group_laws, measures, near_laws
+from poekin.testing.laws import group_laws, laws, measures, near_laws
 from poekin.testing.laws.group import Group, make_group
 from poekin.testing.laws.group_laws import GROUP_LAWS
 from poekin.testing.laws.near_laws import NEAR_LAWS
@@ -88,7 +88,7 @@ def measured(law: str, group: Group, monkeypatch, *arguments: Any) -> Pairs:
         pairs.extend(found)
         return 0.0
 
-    monkeypatch.setattr(group_laws, "check_bounds", check_bounds)
+    monkeypatch.setattr(laws, "check_bounds", check_bounds)
     monkeypatch.setattr(near_laws, "check_bounds", check_bounds)
     LAWS[law].check(group, *arguments)
     return pairs

@@ -18,7 +18,7 @@ from poekin.errors import InputError
 from poekin.groups import se3
 from poekin.model.chain import Chain
 from poekin.testing.accuracy import falsify
-from poekin.testing.laws import chain_laws, group_laws, measures
+from poekin.testing.laws import chain_bounds, group_laws, measures
 from poekin.testing.laws.group import Group, make_group
 from poekin.testing.laws.laws import Law, LawViolation, check_bounds
 
@@ -57,13 +57,13 @@ def test_a_chain_that_breaks_a_law_is_in_the_message_with_its_numbers():
     with pytest.raises(
         LawViolation, match=r"coupling = np\.array\(\[\[1\.0\], \[2\.0\]\]\)"
     ) as first_violation:
-        chain_laws.check_chain_bounds("a law", arm, (2.0, 1.0), q=np.zeros(1))
+        chain_bounds.check_chain_bounds("a law", arm, (2.0, 1.0), q=np.zeros(1))
     assert "screws = np.array([[0.0, 0.0, 1.0, 0.3333333333333333, 0.0, 0.0], " in str(
         first_violation.value
     )
     assert list(first_violation.value.seen) == ["q", "screws", "home", "coupling", "offset"]
     with pytest.raises(LawViolation) as plain:
-        chain_laws.check_chain_bounds("a law", Chain(rows, np.eye(4)), (2.0, 1.0))
+        chain_bounds.check_chain_bounds("a law", Chain(rows, np.eye(4)), (2.0, 1.0))
     assert list(plain.value.seen) == ["screws", "home"]
 
 

@@ -9,10 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ....model.kinematics.pose_jacobian import FRAME_NAMES
-from ...laws.chain_laws import exact_displacements
-from ...laws.derivative_laws import exact_jacobians
 from ...laws.measures import size
-from ...oracles import exact
+from ...oracles import exact, exact_chain
 from ...strategies.configuration_strategies import at_limits, bounds, within_limits
 from ...strategies.group_strategies import (
     SMALLEST,
@@ -208,12 +206,12 @@ def confirmed(
     jacobian: bool,
 ) -> bool:
     """Whether pose and space Jacobian of an arm stand against the second oracle."""
-    x = exact_displacements(arm, q)
+    x = exact_chain.displacements(arm, q)
     if not confirm.of_pose(arm.screws, arm.home, x):
         return False
     every = of_arms.arm(arm.screws, arm.home)
     return not jacobian or confirm.of_velocities(
-        arm.screws, arm.home, x, exact_jacobians(every, x)[0]
+        arm.screws, arm.home, x, exact_chain.jacobians(every, x)[0]
     )
 
 
@@ -245,7 +243,7 @@ def truth(
     the largest is 0.
     """
     if jacobian:
-        J = exact_jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(subject.frame)]
+        J = exact_chain.jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(subject.frame)]
         return subject.rows(_without_rounding(J))
     return _without_rounding(of_arms.pose(arm, q))
 

@@ -24,10 +24,8 @@ import numpy as np
 
 from ....model.kinematics.pose_jacobian import FRAME_NAMES
 from ...accuracy.error_bounds import UNIT
-from ...laws.chain_laws import exact_displacements
-from ...laws.derivative_laws import exact_jacobians
 from ...laws.measures import size
-from ...oracles import exact
+from ...oracles import exact, exact_chain
 from ..grades import Grade, Part, Verdict, graded
 from ..process.calls import called
 from ..subjects.precision import DOUBLE, Precision
@@ -65,7 +63,7 @@ def arm(screws: np.ndarray, home: np.ndarray) -> ArmData:
 
 def pose(arm: Any, q: np.ndarray) -> np.ndarray:
     """e^{A_1 x_1} ⋯ e^{A_n x_n} M (4, 4), exactly."""
-    return exact.forward(arm.screws, arm.home, exact_displacements(arm, q))
+    return exact_chain.pose(arm, q)
 
 
 def error_bound(
@@ -78,7 +76,7 @@ def error_bound(
     Whoever made a `poekin.Chain` had numbers of his own for it: a radian for each joint, and its
     reach.
     """
-    x = exact.rounded(exact_displacements(arm, q))
+    x = exact.rounded(exact_chain.displacements(arm, q))
     A = _floats(arm.screws)
     M = _floats(arm.home)
     turns = np.any(A[:, :3] != 0, axis=1)
@@ -141,7 +139,7 @@ def jacobian_parts(
     frame: str, arm: Any, q: np.ndarray, J: np.ndarray, precision: Precision = DOUBLE
 ) -> list[Part]:
     """The errors of the worst column's ω and v."""
-    truth = exact_jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(frame)]
+    truth = exact_chain.jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(frame)]
     error = exact.exactly(J) - truth
     angular, lengths = error_bound(arm, q, precision.unit)
     ratios = 1 + size(arm.coupling)

@@ -14,7 +14,7 @@ from poekin.errors import InputError, UnknownName
 from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.parameters import KINDS
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.laws.chain_laws import budget
+from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.oracles import differences
 from poekin.testing.strategies import chain_strategies
 

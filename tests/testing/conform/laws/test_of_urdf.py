@@ -12,7 +12,7 @@ from poekin.testing.conform import Grade, Subject, confirm
 from poekin.testing.conform.laws import arm_cases, of_arms, of_urdf, small_urdf
 from poekin.testing.conform.laws.law import Shown
 from poekin.testing.conform.process.calls import Undeclared
-from poekin.testing.oracles import exact
+from poekin.testing.oracles import exact, exact_chain
 from tests.testing.small_tree import CASE
 
 SUBJECT = Subject(Poekin)
@@ -151,7 +151,7 @@ def test_a_jacobian_that_is_missing_is_undeclared_and_one_that_cannot_be_asked_i
 
     assert of_urdf.check(subject(Raises(), "space"), CASE, True).fault == "ValueError: not today"
     arm, q, _ = small_urdf.arm(CASE)
-    truth = exact.rounded(of_arms.exact_jacobians(arm, exact.exactly(q)))[0]
+    truth = exact.rounded(exact_chain.jacobians(arm, exact.exactly(q)))[0]
     wrong = of_urdf.check(subject(Read(jacobian=lambda q: truth), "space"), CASE, True)
     assert wrong.fault == "shape (6, 2) where (6, 3) was expected"
     ordered = np.column_stack([np.full(6, 7.0), truth[:, 1], truth[:, 0]])

@@ -25,10 +25,14 @@ from poekin import algebra
 from poekin.formulas.kinematics import recursive
 from poekin.formulas.lie import exponential
 from poekin.formulas.paper import dh_recursive, direct
-
-from .chain_laws import adjoint, check_chain_bounds, displacements, inverse, of_poses, of_twists
-from .laws import Law
-from .measures import Pairs
+from poekin.testing.laws.chain_bounds import (
+    adjoint,
+    check_chain_bounds,
+    inverse,
+    of_poses,
+    of_twists,
+)
+from poekin.testing.laws.laws import Law, Pairs
 
 Method = Callable[[Any, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
@@ -109,7 +113,7 @@ def methods_agree(
     """Direct = recursive = DH recursive, pose and Jacobian, and the V recursion; `joint` says that
     there is one.
     """
-    x = displacements(chain, q)
+    x = chain.coupling @ q + chain.offset
     rates = chain.coupling @ dq
     pairs = Pairs()
     V = chain.jacobian(q, "body") @ dq

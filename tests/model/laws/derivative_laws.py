@@ -3,7 +3,7 @@
 
 Truth is the definition in 80 digits, differentiated by a central difference of step 1e-20: its own
 error is 1e-39. Nothing is asked of the chain but its screws, home pose and coupling. Bounds are
-those of `chain_laws.budget` times the rates and a small number.
+those of `chain_bounds.budget` times the rates and a small number.
 Parameters: chain, `poekin.Chain` or what has its attributes and methods, with as many of them
 replaced as one likes;
 q, dq (m,), coordinates and rates, rad or m, and per s; batch (*shape, m); joint, its number;
@@ -15,52 +15,45 @@ Source: Park 1994, Sections II to IV, by definition.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from ...model.kinematics.pose_jacobian import FRAME_NAMES
-from ..oracles import exact
-from .chain_laws import (
-    Shaped,
-    budget,
-    check_batch,
-    check_chain_bounds,
-    exact_displacements,
-    exact_joint_pose,
-)
-from .laws import Law
-from .measures import Pairs, of_twist, size
-
-STEP = exact.mp.mpf(10) ** -20
+from poekin.model.kinematics.pose_jacobian import FRAME_NAMES
+from poekin.testing.laws.chain_bounds import Shaped, budget, chain_law, check_batch
+from poekin.testing.laws.laws import Law, Pairs
+from poekin.testing.laws.measures import of_twist, size
+from poekin.testing.oracles import exact, exact_chain
 
 
+@chain_law()
 def jacobian_rate_is_the_derivative(
     chain: Any,
     q: np.ndarray,
     dq: np.ndarray,
-) -> float:
+) -> Pairs:
     """dJ/dt along dq, in space, body and hybrid frame."""
-    pairs = []
-    truth = slope(lambda t: exact_jacobians(chain, line(t, q, dq)))
+    pairs: Pairs = []
+    truth = slope(lambda t: exact_chain.jacobians(chain, along(t, q, dq)))
     for frame, rate in zip(FRAME_NAMES, truth, strict=True):
         pairs += _of_columns(chain, q, chain.jacobian_rate(q, dq, frame) - rate, _size(chain, dq))
-    return check_chain_bounds("jacobian rate is the derivative", chain, *pairs, q=q, dq=dq)
+    return pairs
 
 
-def hessian_is_the_derivative(chain: Any, q: np.ndarray) -> float:
+@chain_law()
+def hessian_is_the_derivative(chain: Any, q: np.ndarray) -> Pairs:
     """H[..., j] = dJ/dq_j for every coordinate."""
-    pairs = []
+    pairs: Pairs = []
     found = [chain.hessian(q, frame) for frame in FRAME_NAMES]
     for j, direction in enumerate(np.eye(chain.dof)):
-        truth = slope(lambda t, d=direction: exact_jacobians(chain, line(t, q, d)))
+        truth = slope(lambda t, d=direction: exact_chain.jacobians(chain, along(t, q, d)))
         for H, rate in zip(found, truth, strict=True):
             pairs += _of_columns(chain, q, H[:, :, j] - rate, _size(chain, direction))
-    return check_chain_bounds("hessian is the derivative", chain, *pairs, q=q)
+    return pairs
 
 
-def hessian_of_a_point_is_symmetric(chain: Any, q: np.ndarray) -> float:
+@chain_law()
+def hessian_of_a_point_is_symmetric(chain: Any, q: np.ndarray) -> Pairs:
     """The linear rows of the hybrid Hessian are second derivatives of p: to the last bit where
     nothing is coupled.
     """
@@ -69,67 +62,68 @@ def hessian_of_a_point_is_symmetric(chain: Any, q: np.ndarray) -> float:
     bound = 0.0
     if chain.nontrivial_coupling is not None:
         bound = 8 * budget(chain, q)[1] * (1 + size(chain.coupling) ** 2)
-    return check_chain_bounds("hessian of a point is symmetric", chain, (error, bound), q=q)
+    return [(error, bound)]
 
 
+@chain_law()
 def acceleration_is_the_derivative_of_the_velocity(
     chain: Any, q: np.ndarray, dq: np.ndarray
-) -> float:
+) -> Pairs:
     """d/dt of V along q + t dq + t²/2 ddq, with ddq = (dq, backwards) + q."""
     ddq = dq[::-1] + q
 
     def velocities(t: Any) -> np.ndarray:
-        J = exact_jacobians(chain, line(t, q, dq))  # of second order, ddq is of no account to J
+        J = exact_chain.jacobians(
+            chain, along(t, q, dq)
+        )  # of second order, ddq is of no account to J
         if not chain.dof:
             return exact.exactly(np.zeros((3, 6)))
-        return J @ line(t, dq, ddq)
+        return J @ along(t, dq, ddq)
 
-    pairs = []
+    pairs: Pairs = []
     grown = _size(chain, dq) ** 2 + _size(chain, ddq)
     for frame, truth in zip(FRAME_NAMES, slope(velocities), strict=True):
         error = chain.acceleration(q, dq, ddq, frame) - truth
         pairs += _of_columns(chain, q, error[:, None], grown)
-    return check_chain_bounds(
-        "acceleration is the derivative of the velocity", chain, *pairs, q=q, dq=dq
-    )
+    return pairs
 
 
+@chain_law()
 def joint_velocities_are_those_of_the_joint_poses(
     chain: Any, q: np.ndarray, dq: np.ndarray
-) -> float:
+) -> Pairs:
     """The twist of each z-aligned frame, by its pose's derivative, in space, body and hybrid frame."""
     found = {frame: chain.joint_velocities(q, dq, frame) for frame in FRAME_NAMES}
-    pairs = []
+    pairs: Pairs = []
     for k in range(len(chain.screws)):
 
         def pose(t: Any, k: int = k) -> np.ndarray:
-            return exact_joint_pose(chain, exact_displacements(chain, line(t, q, dq)), k)
+            return exact_chain.joint_pose(chain, along(t, q, dq), k)
 
         T = pose(exact.mp.zero)
-        dT = (pose(STEP) - pose(-STEP)) / (2 * STEP)
-        truth = exact.rounded(_seen(_vee(dT @ exact.inverse(T))[:, None], T))
+        V_s = exact_chain.space_twist(pose, T)
+        truth = exact.rounded(exact_chain.in_frames(V_s[:, None], T))
         for V, twist in zip(found.values(), truth, strict=True):
             pairs += _of_columns(chain, q, V[k][:, None] - twist, _size(chain, dq))
-    return check_chain_bounds(
-        "joint velocities are those of the joint poses", chain, *pairs, q=q, dq=dq
-    )
+    return pairs
 
 
+@chain_law()
 def screw_derivatives_are_differences_on_the_group(
     chain: Any,
     q: np.ndarray,
     joint: int,
-) -> float:
+) -> Pairs:
     """df f⁻¹ and dJ under A_i ← Ad(e^η) A_i and M ← M e^η, and df f⁻¹ under A_i ← A_i + dA."""
-    truth = exact_changes(chain, q, joint)
+    truth = exact_chain.screw_changes(chain, q, joint)
     motion = chain.screw_derivatives(q)
     entries = chain.screw_derivatives(q, by="entries")
     angular, linear = budget(chain, q)
     reach = 1 + linear / angular
     x = float(chain.coupling[joint] @ q + chain.offset[joint])
     errors = [
-        (motion.screws[:, joint] - truth.motion, 1.0),
-        (entries.screws[:, joint] - truth.entries, 1 + abs(x)),
+        (motion.screws[:, joint] - truth.twist, 1.0),
+        (entries.screws[:, joint] - truth.components, 1 + abs(x)),
         (motion.home - truth.home, 1.0),
         (entries.home - truth.home, 1.0),
     ]
@@ -143,70 +137,7 @@ def screw_derivatives_are_differences_on_the_group(
         # per unit of a twist, which at arm's length is as much as the reach
         bound = 16 * weight * reach
         pairs += of_twist(error, bound * angular, bound * linear)
-    return check_chain_bounds(
-        "screw derivatives are differences on the group", chain, *pairs, q=q, joint=joint
-    )
-
-
-class Changes(NamedTuple):
-    """Truth for one joint: motion, entries and home (6, 6), rows of df f⁻¹, a column per unit of
-    each of six numbers; columns and home_columns (3, 6, m, 6), of the Jacobian in each of
-    FRAME_NAMES.
-    """
-
-    motion: np.ndarray
-    entries: np.ndarray
-    home: np.ndarray
-    columns: np.ndarray
-    home_columns: np.ndarray
-
-
-def exact_changes(
-    chain: Any,
-    q: np.ndarray,
-    joint: int,
-) -> Changes:
-    """Effects of unit changes of one screw and of the home pose, by central differences on the group
-    in 80 digits.
-
-    Returns: `Changes`, as floats. Raises: nothing.
-    """
-    x = exact_displacements(chain, q)
-    A = exact.exactly(chain.screws)
-    M = exact.exactly(chain.home)
-    turns = _exponentials(A, x)
-    before = exact.product(turns[:joint])
-    after = exact.product(turns[joint + 1 :]) @ M
-    pose = before @ turns[joint] @ after
-    back = exact.inverse(pose)
-
-    def twist(pose: Callable[[Any], np.ndarray]) -> np.ndarray:
-        return exact.rounded(_vee((pose(STEP) - pose(-STEP)) / (2 * STEP) @ back))
-
-    def one(unit: np.ndarray) -> tuple[np.ndarray, ...]:
-        e = exact.exactly(unit)
-
-        def carried(t: Any) -> np.ndarray:
-            return exact.adjoint(exact.exp(e * t)) @ A[joint]
-
-        def turn(screw: np.ndarray) -> np.ndarray:
-            return exact.exp(screw * x[joint])
-
-        def columns(screw: np.ndarray) -> np.ndarray:
-            screws = [*A[:joint], screw, *A[joint + 1 :]]
-            return _exact_columns(
-                chain, screws, [*turns[:joint], turn(screw), *turns[joint + 1 :]], M
-            )
-
-        return (
-            twist(lambda t: before @ turn(carried(t)) @ after),
-            twist(lambda t: before @ turn(A[joint] + e * t) @ after),
-            twist(lambda t: pose @ exact.exp(e * t)),
-            slope(lambda t: columns(carried(t))),
-            slope(lambda t: _exact_columns(chain, A, turns, M @ exact.exp(e * t))),
-        )
-
-    return Changes(*(np.stack(parts, axis=-1) for parts in zip(*map(one, np.eye(6)), strict=True)))
+    return pairs
 
 
 def derivatives_of_batches_are_those_of_single_configurations(
@@ -240,61 +171,14 @@ def derivatives_of_batches_are_those_of_single_configurations(
     )
 
 
-def exact_jacobians(chain: Any, q: np.ndarray) -> np.ndarray:
-    """J(q) (3, 6, m), a frame of FRAME_NAMES each, in 80 digits: screws carried by the exponentials
-    before them.
-
-    Returns: numbers of `exact`. Raises: nothing.
-    """
-    A = exact.exactly(chain.screws)
-    turns = _exponentials(A, exact_displacements(chain, q))
-    return _exact_columns(chain, A, turns, exact.exactly(chain.home))
-
-
-def line(
-    t: Any,
-    q: np.ndarray,
-    dq: np.ndarray,
-) -> np.ndarray:
-    """q + t dq (m,) in 80 digits. Returns: numbers of `exact`. Raises: nothing."""
+def along(t: Any, q: np.ndarray, dq: np.ndarray) -> np.ndarray:
+    """q + t dq (m,) in 80 digits."""
     return exact.exactly(q) + exact.exactly(dq) * t
 
 
-def slope(f: Callable[[Any], np.ndarray]) -> np.ndarray:
-    """df/dt at 0 of a function f of one number in 80 digits. Returns: floats (...), f's shape.
-    Raises: nothing.
-    """
-    return exact.rounded((f(STEP) - f(-STEP)) / (2 * STEP))
-
-
-def _exponentials(A: np.ndarray, x: np.ndarray) -> list[np.ndarray]:
-    return [exact.exp(screw * amount) for screw, amount in zip(A, x, strict=True)]
-
-
-def _exact_columns(
-    chain: Any, screws: Iterable[np.ndarray], turns: Iterable[np.ndarray], home: np.ndarray
-) -> np.ndarray:
-    T = exact.exactly(np.eye(4))
-    columns = []
-    for screw, turn in zip(screws, turns, strict=True):
-        columns.append(exact.adjoint(T) @ screw)
-        T = T @ turn
-    if not chain.dof:
-        return exact.exactly(np.zeros((3, 6, 0)))
-    return _seen(np.array(columns, dtype=object).T @ exact.exactly(chain.coupling), T @ home)
-
-
-def _seen(S: np.ndarray, T: np.ndarray) -> np.ndarray:
-    """Space twists (6, k) of what stands at T in the three frames (3, 6, k), in the order of
-    FRAME_NAMES.
-    """
-    moved = S[3:] + np.array([exact.cross(w, T[:3, 3]) for w in S[:3].T], dtype=object).T
-    return np.stack([S, exact.adjoint(exact.inverse(T)) @ S, np.concatenate([S[:3], moved])])
-
-
-def _vee(X: np.ndarray) -> np.ndarray:
-    w = np.array([X[2, 1] - X[1, 2], X[0, 2] - X[2, 0], X[1, 0] - X[0, 1]], dtype=object) / 2
-    return np.concatenate([w, X[:3, 3]])
+def slope(f: exact_chain.Function) -> np.ndarray:
+    """df/dt at 0 of a function of one number in 80 digits, as floats."""
+    return exact.rounded(exact_chain.derivative(f))
 
 
 def _size(chain: Any, dq: np.ndarray) -> float:

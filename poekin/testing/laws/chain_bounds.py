@@ -1,0 +1,253 @@
+"""Bounds on the rounding of a chain's poses and twists, and errors measured against them.
+
+Rotations and translations, ω and v, are held apart. A chain is `poekin.Chain`, or anything with its
+attributes and methods; poses are in the base frame, in rad and m.
+Raises: nothing, unless stated. Source: u = 2⁻⁵³, half the distance from 1 to the next float, for
+each of the n + 1 factors of Park 1994, eq. (1), and for each of their angles.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..accuracy.error_bounds import UNIT
+from .laws import Pairs, check_bounds, checked
+from .measures import of_twist, size
+
+Shaped = tuple[Callable[[np.ndarray], np.ndarray], tuple[int, ...]]
+"""A function of configurations, and the shape of its value for a single one."""
+
+
+def budget(
+    chain: Any,
+    q: np.ndarray,
+) -> tuple[float, float]:
+    """Bounds on the rounding of a pose: of its rotation, and of its translation.
+
+    The angular bound is u (8 (n + 1) + 4 Σ |x_i|); the linear bound is that times the reach and what
+    the joints slide beyond it. Where the home pose's rotation R misses being one by δ = |R Rᵀ - I|,
+    the forms are different motions: M e^{B x}, whose B = Ad(M)⁻¹ A takes Rᵀ for the inverse, turns
+    otherwise by up to δ (1 + Σ |x_i|/2), and moves by up to δ (2 + Σ |x_i|/2) times the same.
+
+    Parameters
+    ----------
+    chain : Chain
+        The chain.
+    q : (m,) ndarray
+        Coordinates, rad or m.
+
+    Returns
+    -------
+    angular : float
+        Bound on the Frobenius norm of the error of R, rad.
+    linear : float
+        Bound on the error of the translation, m.
+    """
+    x = chain.coupling @ q + chain.offset
+    R = chain.home[:3, :3]
+    turned = float(np.abs(x).sum())
+    missed = size(R @ R.T - np.eye(3))
+    angular = UNIT * (8 * (len(x) + 1) + 4 * turned) + missed * (1 + turned / 2)
+    return angular, (angular + missed) * (chain.reach + float(np.abs(chain.local.slides * x).sum()))
+
+
+def of_poses(
+    chain: Any,
+    q: np.ndarray,
+    T: np.ndarray,
+    expected: np.ndarray,
+) -> Pairs:
+    """Errors of R, of t and of the last row of a pose, with their bounds.
+
+    Parameters
+    ----------
+    chain : Chain
+        The chain.
+    q : (m,) ndarray
+        Coordinates, rad or m.
+    T, expected : (4, 4) ndarray
+        Pose under test and true pose, in the base frame.
+
+    Returns
+    -------
+    pairs : list of tuple
+        Pairs (error, bound), rad and m.
+    """
+    angular, linear = budget(chain, q)
+    error = T - np.asarray(expected, dtype=float)
+    return [(size(error[:3, :3]), angular), (size(error[:3, 3]), linear), (size(error[3]), 0.0)]
+
+
+def of_twists(
+    chain: Any,
+    q: np.ndarray,
+    dq: np.ndarray,
+    error: np.ndarray,
+    factor: float = 1.0,
+) -> Pairs:
+    """Errors of ω and v of a twist, with the budget times the joints' rates as bounds.
+
+    Parameters
+    ----------
+    chain : Chain
+        The chain.
+    q, dq : (m,) ndarray
+        Coordinates and rates, rad or m, and per s.
+    error : (6,) ndarray
+        Difference of two twists (ω; v) in one frame.
+    factor : float, optional
+        Multiple of the budget that is allowed.
+
+    Returns
+    -------
+    pairs : list of tuple
+        Pairs (error, bound), rad/s and m/s.
+    """
+    angular, linear = budget(chain, q)
+    rates = chain.coupling @ dq
+    turning = size(chain.local.rotates * rates)
+    sliding = size(chain.local.slides * rates)
+    grown = factor * (1 + len(rates))
+    return of_twist(error, grown * angular * turning, grown * linear * (turning + sliding))
+
+
+def chain_numbers(chain: Any) -> dict[str, object]:
+    """Screws and home pose of a chain, and its coupling where there is one.
+
+    Parameters
+    ----------
+    chain : Chain
+        The chain.
+
+    Returns
+    -------
+    numbers : dict
+        Arrays by their names: without them nobody could repeat a violation.
+    """
+    numbers = {"screws": chain.screws, "home": chain.home}
+    if not np.array_equal(chain.coupling, np.eye(chain.dof)):
+        numbers |= {"coupling": chain.coupling, "offset": chain.offset}
+    return numbers
+
+
+chain_law = functools.partial(checked, further=chain_numbers)
+"""Decorator that makes a law of a chain of a function that measures pairs (error, bound)."""
+
+
+def check_chain_bounds(
+    law: str,
+    chain: Any,
+    *measured: tuple[float, float],
+    **seen: object,
+) -> float:
+    """Worst error ÷ bound, as `check_bounds`; a violation has the chain's numbers, too.
+
+    Parameters
+    ----------
+    law : str
+        Name of the law.
+    chain : Chain
+        The chain.
+    *measured : tuple of float
+        Pairs (error, bound), rad or m.
+    **seen : object
+        Arguments of the law by their names.
+
+    Returns
+    -------
+    ratio : float
+        Largest error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        At the first pair that does not hold.
+    """
+    return check_bounds(law, *measured, **seen, **chain_numbers(chain))
+
+
+def check_batch(
+    law: str,
+    chain: Any,
+    batch: np.ndarray,
+    functions: Sequence[Shaped],
+    bound: Callable[[np.ndarray, np.ndarray], float],
+) -> float:
+    """Check that functions of a batch are, element by element, those of single configurations.
+
+    Parameters
+    ----------
+    law : str
+        Name of the law.
+    chain : Chain
+        The chain.
+    batch : (..., m) ndarray
+        Configurations, rad or m.
+    functions : sequence of tuple
+        Each function of configurations, with the shape of its value for a single one.
+    bound : callable
+        Bound on the error at one configuration, bound(q, value).
+
+    Returns
+    -------
+    ratio : float
+        Largest error ÷ bound, 0 to 1.
+
+    Raises
+    ------
+    LawViolation
+        If a value has another shape, or a value of the batch another value.
+    """
+    shape = batch.shape[:-1]
+    pairs: Pairs = []
+    for function, tail in functions:
+        together = function(batch)
+        expected = (*shape, *tail)
+        if together.shape != expected:
+            seen = {"shape": together.shape, "expected": expected}
+            return check_chain_bounds("batches have their shape", chain, (np.inf, 0.0), **seen)
+        for index in np.ndindex(shape):
+            q = batch[index]
+            value = function(q)
+            pairs.append((size(together[index] - value), bound(q, value)))
+    return check_chain_bounds(law, chain, *pairs, batch=batch)
+
+
+def adjoint(T: np.ndarray) -> np.ndarray:
+    """Adjoint matrix Ad(T) = [R 0; [t] R R] of a pose, by NumPy alone.
+
+    Parameters
+    ----------
+    T : (4, 4) ndarray
+        Pose of a frame in the base frame, m.
+
+    Returns
+    -------
+    X : (6, 6) ndarray
+        Matrix from twists (ω; v) of the frame to those of the base frame.
+    """
+    R = T[:3, :3]
+    x, y, z = T[:3, 3]
+    corner = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]) @ R
+    return np.block([[R, np.zeros((3, 3))], [corner, R]])
+
+
+def inverse(T: np.ndarray) -> np.ndarray:
+    """Inverse of a pose, by NumPy alone.
+
+    Parameters
+    ----------
+    T : (4, 4) ndarray
+        Pose of a frame in the base frame, m.
+
+    Returns
+    -------
+    X : (4, 4) ndarray
+        Pose of the base in the frame.
+    """
+    R = T[:3, :3].T
+    return np.block([[R, -(R @ T[:3, 3:])], [np.zeros((1, 3)), np.ones((1, 1))]])
