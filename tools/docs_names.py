@@ -40,7 +40,8 @@ PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
 # and its functions.
 TESTING: dict[str, tuple[str, tuple[str, ...]]] = {
     "testing_strategies": ("poekin.testing.strategies", (
-        "strategies.group_strategies", "strategies.near_strategies", "strategies.chain_strategies",
+        "strategies.group_strategies", "strategies.batch_strategies", "strategies.near_strategies",
+        "strategies.chain_strategies",
         "strategies.configuration_strategies", "strategies.robot_strategies", "strategies.urdf_strategies",
         "strategies.dh_strategies", "strategies.decoding.bytes_reader",
     )),

@@ -1,8 +1,8 @@
 """Hypothesis strategies, laws and oracles, for poekin's own tests and for other projects' tests.
 
 strategies: what to try
-    group_strategies   angles, axes, vectors, rotations, noisy rotations, twists, poses; batches and
-                       their shapes
+    group_strategies   angles, axes, vectors, rotations, noisy rotations, twists, poses
+    batch_strategies   batches of them, and their shapes
     near_strategies    the same close to 0, to π or to any other angle
     chain_strategies   screws, chains, coordinates
     configuration_strategies  configurations within and at limits, singular ones

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from poekin.errors import PoseError
 from poekin.groups import se3, so3
-from poekin.testing.strategies import group_strategies
+from poekin.testing.strategies import batch_strategies, group_strategies
 
 OF_TWISTS = [
     "hat",
@@ -72,7 +72,7 @@ def one_by_one(
 @given(data=st.data())
 def test_a_batch_is_its_elements(module, name, shape, data):
     function, strategy = getattr(module, name), elements(module, name)
-    batch = data.draw(group_strategies.batches(strategy, shape))
+    batch = data.draw(batch_strategies.batches(strategy, shape))
     tail = batch.ndim - len(shape)
     single = function(example(module, name, ()))
     result = function(batch)

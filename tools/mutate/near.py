@@ -99,7 +99,7 @@ NEAR = {
     "testing/bytes_reader testing/decoders": _BY_BYTES,
     "testing/chain_bounds testing/chain_laws testing/jacobian_laws": _CHAIN_LAWS,
     "testing/chain_strategies testing/configuration_strategies": f"own {_BY_BYTES}",
-    "testing/group_strategies testing/near_strategies": f"own {_BY_BYTES}",
+    "testing/arrays testing/batch_strategies testing/group_strategies testing/near_strategies": f"own {_BY_BYTES}",
     "testing/robot_strategies": f"own {_BY_BYTES}",
     "testing/adjoint_laws": f"testing/group_laws {_LAWS}",
     "testing/exact": "own testing/error_bounds",

@@ -2,14 +2,13 @@
 URDF texts.
 """
 
+from .batch_strategies import batch_shapes, batches
 from .chain_strategies import chain_cases, chains, coordinates, placements, points, screws
 from .configuration_strategies import at_limits, singular_cases, within_limits
 from .dh_strategies import tables
 from .group_strategies import (
     angles,
     axes,
-    batch_shapes,
-    batches,
     group_cases,
     magnitudes,
     noisy_rotations,

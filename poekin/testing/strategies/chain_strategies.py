@@ -5,9 +5,8 @@ Twists and screws are (ω; v) in the base frame, lengths in m, angles in rad; ar
 read-only. Whole trees are drawn by `robot_strategies`, configurations within limits by
 `configuration_strategies`.
 
-Parameters of several: kinds or joint_kinds, of `KINDS`; min_joints, max_joints, how many, each
-number as often as any. Returns: a strategy. Raises: InputError, at the call, for kinds, numbers of
-joints or shapes that there are not. Accuracy: a screw's axis has unit length, and v of a revolute
+Raises: InputError, at the call, for kinds, numbers of joints or shapes that there are not.
+Accuracy: a screw's axis has unit length, and v of a revolute
 one is at right angles to it, to rounding.
 Source: Park 1994, Section II: f(q) = e^{A_1 x_1} ⋯ e^{A_n x_n} M, x = C q + c.
 """
@@ -24,8 +23,9 @@ import numpy as np
 from poekin.model.chain import Chain
 
 from . import arguments
+from .batch_strategies import batch_shapes
 from .decoding.bytes_reader import BytesReader
-from .group_strategies import Arrays, axes, batch_shapes, frozen, poses, read, st, vectors
+from .group_strategies import Arrays, axes, frozen, poses, read, st, vectors
 
 KINDS = ("revolute", "prismatic", "helical")
 """What a chain's joints may be; a continuous joint is a revolute one without limits."""
@@ -43,17 +43,36 @@ PARTS = ("q", "dq", "batch", "pose", "point", "joint", "frames")
 
 @functools.cache
 def points() -> Arrays:
-    """Points of an arm (3,) in m, in the base frame: the origin, or at a log-uniform distance of 1
-    mm to 3 m.
+    """Points of an arm: the origin, or at a log-uniform distance of 1 mm to 3 m.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (3,), m, in the base frame; shrinks to 0.
     """
     return vectors(REACHES)
 
 
 def screws(kinds: Sequence[str] = KINDS) -> Arrays:
-    """Screws (6,) of joints: axis, point and pitch (1 mm to 1 m per rad, either sign) independent
-    of each other.
+    """Screws of joints: axis, point and pitch independent of each other.
 
-    Shrinks to a revolute joint about x through the origin.
+    Pitches are 1 mm to 1 m per rad, of either sign.
+
+    Parameters
+    ----------
+    kinds : sequence of str
+        Kinds of joints, of `KINDS`.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (6,), (ω; v) in the base frame; shrinks to a revolute joint about x through
+        the origin.
+
+    Raises
+    ------
+    InputError
+        For kinds that there are not.
     """
     return _screws(arguments.some("kinds", kinds, KINDS))
 
@@ -79,7 +98,13 @@ def _screws(kinds: tuple[str, ...]) -> Arrays:
 
 @functools.cache
 def placements() -> Arrays:
-    """Poses (4, 4) of frames of an arm: any rotation, and an origin as in `points`."""
+    """Poses of frames of an arm: any rotation, and an origin as in `points`.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (4, 4), in the base frame, m; shrinks to I.
+    """
     return poses(REACHES)
 
 
@@ -91,13 +116,40 @@ def chains(
     offsets: bool = True,
     limits: bool = False,
 ) -> st.SearchStrategy[Chain]:
-    """Chains (`poekin.Chain`) of any kinds of joints, and any home pose.
+    """Serial chains of any kinds of joints, with any home pose.
 
-    Parameters: min_joints, max_joints; joint_kinds; coupled, whether joints may follow a coordinate
-    by a ratio (also 0: they stand still), where None draws both coupled and uncoupled chains;
-    offsets, whether they also do so with one; limits, whether coordinates have some: two, equal
-    ones, a lower or an upper one alone, or none, in rad or m.
-    Shrinks to no joint; to those that matter, revolute about x through the origin, and M = I.
+    Parameters
+    ----------
+    min_joints, max_joints : int, default 0 and 12
+        Smallest and largest number of joints, each number as often as any.
+    joint_kinds : sequence of str
+        Kinds of joints, of `KINDS`.
+    coupled : bool, optional
+        Whether joints may follow a coordinate by a ratio (also 0: they stand still); by default coupled
+        and uncoupled chains are drawn.
+    offsets : bool, default True
+        Whether coupled joints also have an offset.
+    limits : bool, default False
+        Whether coordinates have limits: two, equal ones, a lower or an upper one alone, or none, rad or m.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of `Chain`; shrinks to the joints that matter, revolute about x through the origin, and
+        M = I.
+
+    Raises
+    ------
+    InputError
+        For kinds or numbers of joints that there are not.
+
+    Examples
+    --------
+    >>> from hypothesis import find
+    >>> from poekin.testing import strategies
+    >>> arms = strategies.chains(min_joints=2, joint_kinds=["revolute"])
+    >>> find(arms, lambda chain: True).kinds
+    ('revolute', 'revolute')
     """
     bounds = arguments.counts(min_joints, max_joints)
     return _chains(
@@ -170,11 +222,24 @@ def _drawn_limits(
 
 
 def coordinates(chain: Any, shape: Sequence[int] = ()) -> Arrays:
-    """Configurations (*shape, m): 0 and quarter turns (1 of 4), and anything up to ±π, rad or m;
-    shrinks to 0.
+    """Configurations: 0 and quarter turns (1 of 4), and anything up to ±π.
 
-    Parameters: chain, or a robot, of which only `dof` is asked: limits are none here; shape, of the
-    leading axes.
+    Parameters
+    ----------
+    chain : Chain or Robot
+        Model, of which only `dof` is asked: limits are none here.
+    shape : sequence of int, default ()
+        Shape of the leading axes.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (*shape, m), rad or m; shrinks to 0.
+
+    Raises
+    ------
+    InputError
+        For what is no model, or no shape.
     """
     m = arguments.moves(chain)
     shape = arguments.shape(shape)
@@ -191,14 +256,26 @@ def coordinates(chain: Any, shape: Sequence[int] = ()) -> Arrays:
 
 
 def chain_cases(kinds: Sequence[str], **options: Any) -> st.SearchStrategy[tuple[Any, ...]]:
-    """A chain and the arguments of its law by their kinds (`laws.Law`).
+    """Chains with the arguments of their law, by their kinds.
 
-    Parameters: kinds, of `PARTS`: "q", "dq", configuration and rates (m,); "batch", configurations
-    (*shape, m);
-    "pose", a pose (4, 4); "point", a point (3,); "joint", the number of a joint (of a chain that
-    has one); "frames", poses (n, 2, 4, 4), to re-attach the frame of each joint and of each link;
-    options, as of `chains`.
-    Returns: a strategy of tuples, the chain first.
+    Parameters
+    ----------
+    kinds : sequence of str
+        Kinds of `PARTS`: "q", "dq", configuration and rates (m,); "batch", configurations (*shape, m);
+        "pose", a pose (4, 4); "point", a point (3,); "joint", the number of a joint (of a chain that has
+        one); "frames", poses (n, 2, 4, 4), to re-attach the frame of each joint and of each link.
+    **options : object
+        Options of `chains`.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of tuples, the chain first; rad and m, in the base frame.
+
+    Raises
+    ------
+    InputError
+        For other kinds, and as `chains`.
     """
     parts: tuple[str, ...] = ()
     if kinds:

@@ -3,9 +3,8 @@ singular ones.
 
 Any configuration, whatever the limits say, is drawn by `chain_strategies.coordinates`.
 
-Parameters of several: chain, a `poekin.Chain` or `poekin.Robot`, of which `dof` and `limits` are
-asked. Returns: a strategy of float64 arrays, read-only, in rad or m. Raises: InputError, at the
-call, for what is none of the two, and for numbers of joints that there are not.
+Arrays are float64 and read-only, in rad or m. Raises: InputError, at the call, for what is no chain
+or robot, and for numbers of joints that there are not.
 Source: of singular cases, that a column of the Jacobian is the joint's screw where the arm has
 carried it (Park 1994, eq. (11)), in the base frame.
 """
@@ -27,8 +26,22 @@ from .group_strategies import Arrays, frozen, read, st
 
 
 def bounds(chain: Any) -> np.ndarray:
-    """The limits (m, 2) of a chain in rad or m; ± π where a coordinate has none, or one beyond 1e6.
-    Returns: these.
+    """Limits of a chain, ±π where a coordinate has none, or one beyond 1e6.
+
+    Parameters
+    ----------
+    chain : Chain or Robot
+        Model, of which `dof` and `limits` are asked.
+
+    Returns
+    -------
+    limits : (m, 2) ndarray
+        Lower and upper limits, rad or m.
+
+    Raises
+    ------
+    InputError
+        For what is no model.
     """
     arguments.moves(chain)
     limits = np.array(chain.limits, dtype=float)
@@ -36,20 +49,56 @@ def bounds(chain: Any) -> np.ndarray:
 
 
 def within_limits(chain: Any) -> Arrays:
-    """Configurations (m,) evenly within the limits, each coordinate by itself; 0 where it lies
-    within, 1 of 8.
+    """Configurations evenly within the limits, each coordinate by itself.
 
-    Shrinks to 0 where that lies within, else to the lower limit.
+    0 is drawn 1 of 8 times if it lies within.
+
+    Parameters
+    ----------
+    chain : Chain or Robot
+        Model, of which `dof` and `limits` are asked.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (m,), rad or m; shrinks to 0 if that lies within, else to the lower limit.
+
+    Raises
+    ------
+    InputError
+        For what is no model.
+
+    Examples
+    --------
+    >>> from hypothesis import find
+    >>> import poekin as pk
+    >>> from poekin.testing import strategies
+    >>> arm = pk.load("panda").chain(tip="panda_hand")
+    >>> q = find(strategies.within_limits(arm), lambda q: True)
+    >>> bool((q >= arm.limits[:, 0]).all() and (q <= arm.limits[:, 1]).all())
+    True
     """
     pairs = bounds(chain).tolist()
     return read(4 * len(pairs), lambda r: frozen([_inside(r, *pair) for pair in pairs]))
 
 
 def at_limits(chain: Any) -> Arrays:
-    """Configurations (m,) with each coordinate at its lower limit, at its upper one or inside, each
-    1 of 3.
+    """Configurations with each coordinate at a limit, or inside, each 1 of 3.
 
-    Shrinks to the lower limits.
+    Parameters
+    ----------
+    chain : Chain or Robot
+        Model, of which `dof` and `limits` are asked.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (m,), rad or m; shrinks to the lower limits.
+
+    Raises
+    ------
+    InputError
+        For what is no model.
     """
     pairs = bounds(chain).tolist()
 
@@ -78,12 +127,26 @@ def _inside(
 def singular_cases(
     min_joints: int = 2, max_joints: int = 7
 ) -> st.SearchStrategy[tuple[Chain, np.ndarray]]:
-    """A chain and a configuration (m,) in which two of its joints move alike: their Jacobian
-    columns are equal.
+    """Chains with a configuration in which two of its joints move alike.
 
-    Joint j's screw is A_j = Ad((e^{A_{i+1} q_{i+1}} ⋯ e^{A_{j-1} q_{j-1}})⁻¹) A_i, to rounding, of
-    any two joints. Parameters: min_joints, at least 2, and max_joints. Shrinks to the smallest
-    number of joints.
+    Joint j's screw is A_j = Ad((e^{A_{i+1} q_{i+1}} ⋯ e^{A_{j-1} q_{j-1}})⁻¹) A_i, to rounding, of any
+    two joints: two columns of the Jacobian are equal.
+
+    Parameters
+    ----------
+    min_joints, max_joints : int, default 2 and 7
+        Smallest and largest number of joints, 2 and more.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of pairs of `Chain` and an array (m,), rad or m; shrinks to the smallest number of
+        joints.
+
+    Raises
+    ------
+    InputError
+        For numbers of joints that there are not.
     """
     return _singular_cases(arguments.counts(min_joints, max_joints, floor=2))
 

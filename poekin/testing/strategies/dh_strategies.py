@@ -31,8 +31,12 @@ m.
 
 @functools.cache
 def angles() -> st.SearchStrategy[float]:
-    """Angles of a table in rad: quarter turns, those by 1e-12 to 1e-3 off, or any from -3 to 3;
-    shrinks towards 0.
+    """Angles of a table: quarter turns, those by 1e-12 to 1e-3 rad off, or any from -3 to 3.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of floats, rad; shrinks towards 0.
     """
     quarters = st.sampled_from(QUARTERS)
     missed = st.builds(
@@ -46,7 +50,13 @@ def angles() -> st.SearchStrategy[float]:
 
 @functools.cache
 def lengths() -> st.SearchStrategy[float]:
-    """Lengths of a table in m: 0, from -2 to 2, or 1e-12 to 1e-3; shrinks towards 0."""
+    """Lengths of a table: 0, from -2 to 2 m, or 1e-12 to 1e-3 m.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of floats, m; shrinks towards 0.
+    """
     return st.one_of(
         st.just(0.0), st.floats(-2, 2), st.floats(*POWERS).map(lambda power: 10.0**power)
     )
@@ -54,8 +64,12 @@ def lengths() -> st.SearchStrategy[float]:
 
 @functools.cache
 def rows() -> st.SearchStrategy[Row]:
-    """Rows of a table: revolute or prismatic, turning either way; each number independent of the
-    others.
+    """Rows of a table: revolute or prismatic, turning either way, each number independent.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of `poekin.dh.Row`.
     """
     kinds = st.sampled_from(["revolute", "prismatic"])
     return st.builds(Row, angles(), lengths(), lengths(), angles(), kinds, st.booleans())
@@ -63,17 +77,45 @@ def rows() -> st.SearchStrategy[Row]:
 
 @functools.cache
 def mounts() -> Arrays:
-    """Poses (4, 4) of bases and tools: any rotation, and an origin that is 0 or 1 mm to 2 m away."""
+    """Poses of bases and tools: any rotation, and an origin that is 0 or 1 mm to 2 m away.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (4, 4), of a frame in the frame before it, m.
+    """
     return poses(lengths=(1e-3, 2.0))
 
 
 def tables(
     min_joints: int = 1, max_joints: int = 10, conventions: Sequence[Convention] = CONVENTIONS
 ) -> st.SearchStrategy[Table]:
-    """Tables (`poekin.dh.Table`) with base and tool; shrinks towards one row of zeros in standard
-    convention.
+    """Denavit-Hartenberg tables with base and tool.
 
-    Parameters: min_joints, max_joints, how many rows; conventions, of `CONVENTIONS`.
+    Parameters
+    ----------
+    min_joints, max_joints : int, default 1 and 10
+        Smallest and largest number of rows.
+    conventions : sequence of str
+        Conventions, of `CONVENTIONS`.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of `poekin.dh.Table`; shrinks towards one row of zeros in standard convention.
+
+    Raises
+    ------
+    InputError
+        For conventions or numbers of joints that there are not.
+
+    Examples
+    --------
+    >>> from hypothesis import find
+    >>> from poekin.testing import strategies
+    >>> table = find(strategies.tables(min_joints=2), lambda table: True)
+    >>> table.convention, len(table.theta)
+    ('standard', 2)
     """
     bounds = arguments.counts(min_joints, max_joints)
     return _tables(bounds, arguments.some("conventions", conventions, CONVENTIONS))

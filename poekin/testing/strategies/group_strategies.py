@@ -9,11 +9,7 @@ purpose.
 Everything shrinks, towards 0 and the x axis. All arrays are float64 and read-only, in rad and m,
 twists (ω; v), poses of a frame in the base frame; what is drawn is no more exact than its rounding.
 
-Parameters of many: largest and smallest, of |ω| in rad beside 0; lengths, (smallest, largest) of
-|v| or |t| in m beside 0. Returns: a strategy, to be given to `hypothesis.given` or drawn from in a
-composite one.
-Raises: InputError, at the call, for bounds that are no finite numbers, or not 0 < smallest <=
-largest.
+Raises: InputError, at the call, for bounds that are no finite numbers.
 Source: how peers' tests miss what these find is measured in
 tests/testing/strategies/test_group_strategies.py.
 """
@@ -22,25 +18,19 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable, Sequence
-from typing import TypeVar
+from collections.abc import Sequence
 
 import numpy as np
 
-from poekin.errors import InputError, MissingExtra, safe_repr
-
-try:
-    from hypothesis import strategies as st
-except ImportError as error:
-    raise MissingExtra("hypothesis", "testing", "poekin.testing.strategies") from error
+from poekin.errors import InputError, safe_repr
 
 from . import arguments
 from .decoding import decoders
+from .decoding.arrays import Arrays, Reals, frozen, pose, read, st
 from .decoding.bytes_reader import BytesReader
 from .decoding.decoders import SMALLEST, SWITCHES, around
 
 __all__ = [
-    "BATCH_SHAPES",
     "KINDS",
     "LENGTHS",
     "SMALLEST",
@@ -48,8 +38,6 @@ __all__ = [
     "angles",
     "around",
     "axes",
-    "batch_shapes",
-    "batches",
     "frozen",
     "group_cases",
     "magnitudes",
@@ -66,49 +54,55 @@ __all__ = [
 
 LENGTHS = (1e-12, 1e3)
 """The smallest length in m that is drawn beside 0, and the largest."""
-BATCH_SHAPES = ((), (1,), (0,), (3, 1, 2))
-"""The shapes of leading axes that a function of batches has to know: none, one, an empty one,
-several.
-"""
-
-T = TypeVar("T")
-Arrays = st.SearchStrategy[np.ndarray]
-Reals = st.SearchStrategy[float]
-
-
-def frozen(x: object) -> np.ndarray:
-    """A read-only float64 array of the numbers x, of any shape (...)."""
-    array = np.array(x, dtype=float)
-    array.flags.writeable = False
-    return array
-
-
-def read(size: int, decode: Callable[[BytesReader], T]) -> st.SearchStrategy[T]:
-    """Strategy of decode(r) of `size` random bytes r, which it gets as a `BytesReader`: to write
-    strategies like these.
-
-    Hypothesis spreads bytes evenly; of its numbers it draws most next to 0, and of a case made of
-    several choices it tries many with one of them set to its simplest, where nothing is learnt
-    here. As bytes a case is one choice.
-    """
-    return st.binary(min_size=size, max_size=size).map(lambda data: decode(BytesReader(data)))
 
 
 def magnitudes(smallest: float = SMALLEST, largest: float = 1e3) -> Reals:
-    """0 (one time in sixteen), or log-uniform from smallest to largest; shrinks to 0, then to 1 and
-    powers of 10.
+    """Numbers that are 0, one time in sixteen, or log-uniform.
+
+    Parameters
+    ----------
+    smallest : float, default 1e-150
+        Smallest number beside 0.
+    largest : float, default 1e3
+        Largest number.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of floats; shrinks to 0, then to 1 and powers of 10.
+
+    Raises
+    ------
+    InputError
+        If bounds are no finite numbers, or not 0 < smallest <= largest.
     """
     bounds = arguments.magnitudes("smallest, largest", (smallest, largest))
     return read(4, lambda r: r.magnitude(*bounds))
 
 
 def angles(largest: float = math.pi, smallest: float = SMALLEST) -> Reals:
-    """Rotation angles in rad, 0 to largest: log-uniform, uniform, and the special ones; shrinks to
-    0.
+    """Rotation angles: log-uniform, uniform, and special ones.
 
-    Special are the switches ± 1 ulp, π/2, π - 10⁻ᵏ, π and 2π. Log-uniform ones are mostly above
-    1e-12, where most formulas go wrong. Of 24 angles one lies within 1e-12 of π; for all of them
+    Special are the switches of formulas ± 1 ulp, π/2, π - 10⁻ᵏ, π and 2π. Log-uniform ones are mostly
+    above 1e-12, where most formulas go wrong. Of 24 angles one lies within 1e-12 of π; for all of them
     there, see `near_strategies`.
+
+    Parameters
+    ----------
+    largest : float, default π
+        Largest angle, rad.
+    smallest : float, default 1e-150
+        Smallest angle beside 0, rad.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of floats, rad; shrinks to 0.
+
+    Raises
+    ------
+    InputError
+        If bounds are no finite numbers, or not 0 < smallest <= largest.
     """
     smallest, largest = _turning(largest, smallest)
     return read(6, functools.partial(decoders.angle, largest=largest, smallest=smallest))
@@ -116,23 +110,59 @@ def angles(largest: float = math.pi, smallest: float = SMALLEST) -> Reals:
 
 @functools.cache
 def axes() -> Arrays:
-    """Unit vectors (3,): along an axis of the frame (1 of 4), nearly so (1 of 4), or anywhere;
-    shrinks to x.
+    """Unit vectors: along an axis of the frame (1 of 4), nearly so (1 of 4), or anywhere.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (3,); shrinks to x.
     """
     return read(12, lambda r: frozen(decoders.axis(r)))
 
 
 def vectors(lengths: tuple[float, float] = LENGTHS) -> Arrays:
-    """Vectors (3,) in m: 0 or a log-uniform length within the bounds, times an independent
-    direction as in `axes`.
+    """Vectors of length 0, or of log-uniform length, in an independent direction.
+
+    Directions are as in `axes`.
+
+    Parameters
+    ----------
+    lengths : tuple of float, default (1e-12, 1e3)
+        Smallest |v| beside 0, and largest, m.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (3,), m; shrinks to 0.
+
+    Raises
+    ------
+    InputError
+        If bounds are no finite numbers, or not 0 < smallest <= largest.
     """
     bounds = arguments.magnitudes("lengths", lengths)
     return read(16, lambda r: frozen(decoders.vector(r, bounds)))
 
 
 def rotation_vectors(largest: float = math.pi, smallest: float = SMALLEST) -> Arrays:
-    """Rotation vectors ω (3,) in rad, |ω| as in `angles` (to the rounding of |ω|), its axis as in
-    `axes`.
+    """Rotation vectors ω, |ω| as in `angles`, with an axis as in `axes`.
+
+    Parameters
+    ----------
+    largest : float, default π
+        Largest |ω|, rad.
+    smallest : float, default 1e-150
+        Smallest |ω| beside 0, rad.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (3,), rad; shrinks to 0.
+
+    Raises
+    ------
+    InputError
+        If bounds are no finite numbers, or not 0 < smallest <= largest.
     """
     smallest, largest = _turning(largest, smallest)
     return read(18, lambda r: frozen(decoders.angle(r, largest, smallest) * decoders.axis(r)))
@@ -141,8 +171,42 @@ def rotation_vectors(largest: float = math.pi, smallest: float = SMALLEST) -> Ar
 def twists(
     largest: float = math.pi, lengths: tuple[float, float] = LENGTHS, smallest: float = SMALLEST
 ) -> Arrays:
-    """Twists (ω; v) (6,): |ω| as in `angles`, |v| as in `vectors`, each with its own direction; all
-    independent.
+    """Twists (ω; v), |ω| as in `angles`, |v| as in `vectors`, all independent.
+
+    Each half has its own direction. With both scaled together an exponential that is wrong passes.
+
+    Parameters
+    ----------
+    largest : float, default π
+        Largest |ω|, rad.
+    lengths : tuple of float, default (1e-12, 1e3)
+        Smallest |v| beside 0, and largest, m.
+    smallest : float, default 1e-150
+        Smallest |ω| beside 0, rad.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (6,), rad and m, of any frame; shrinks to 0.
+
+    Raises
+    ------
+    InputError
+        If bounds are no finite numbers, or not 0 < smallest <= largest.
+
+    Examples
+    --------
+    >>> from hypothesis import find, settings
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> from poekin.testing import strategies
+    >>> def hasty(xi):  # as if a small rotation were none
+    ...     return pk.se3.exp(xi if abs(xi[:3]).max() > 1e-5 else [0, 0, 0, *xi[3:]])
+    >>> def wrong(xi):
+    ...     return np.abs(hasty(xi) - pk.se3.exp(xi)).max() > 1e-9
+    >>> xi = find(strategies.twists(), wrong, settings=settings(database=None, derandomize=True))
+    >>> int(np.count_nonzero(xi)) <= 2
+    True
     """
     smallest, largest = _turning(largest, smallest)
     bounds = arguments.magnitudes("lengths", lengths)
@@ -156,17 +220,33 @@ def twists(
 
 @functools.cache
 def rotations() -> Arrays:
-    """Rotations (3, 3), orthonormal to a few roundings: e^{[n]θ} by NumPy alone, θ as in `angles`,
-    n as in `axes`.
+    """Rotations e^{[n]θ}, θ as in `angles`, n as in `axes`.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (3, 3), orthonormal to a few roundings; shrinks to I.
     """
     return read(18, lambda r: frozen(decoders.rotation(r)))
 
 
 def noisy_rotations(noise: tuple[float, float] = (1e-17, 1e-8)) -> Arrays:
-    """Rotations (3, 3) as in `rotations`, each entry off by up to a size that is 0, or log-uniform
-    between the bounds.
+    """Rotations as in `rotations`, with noise in each entry.
 
-    Parameters: noise, (smallest, largest) of that size. Shrinks to no noise.
+    Parameters
+    ----------
+    noise : tuple of float, default (1e-17, 1e-8)
+        Smallest size of the noise beside 0, and largest.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (3, 3); shrinks to no noise.
+
+    Raises
+    ------
+    InputError
+        If bounds are no finite numbers, or not 0 < smallest <= largest.
     """
     bounds = arguments.magnitudes("noise", noise)
 
@@ -179,8 +259,22 @@ def noisy_rotations(noise: tuple[float, float] = (1e-17, 1e-8)) -> Arrays:
 
 
 def poses(lengths: tuple[float, float] = LENGTHS) -> Arrays:
-    """Poses (4, 4) with a rotation as in `rotations` and an independent translation as in
-    `vectors`.
+    """Poses with a rotation as in `rotations` and an independent translation.
+
+    Parameters
+    ----------
+    lengths : tuple of float, default (1e-12, 1e3)
+        Smallest |t| beside 0, and largest, m.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (4, 4), of a frame in the base frame, m; shrinks to I.
+
+    Raises
+    ------
+    InputError
+        If bounds are no finite numbers, or not 0 < smallest <= largest.
     """
     bounds = arguments.magnitudes("lengths", lengths)
     return read(34, lambda r: pose(decoders.rotation(r), decoders.vector(r, bounds)))
@@ -188,11 +282,14 @@ def poses(lengths: tuple[float, float] = LENGTHS) -> Arrays:
 
 @functools.cache
 def quaternions_wxyz() -> Arrays:
-    """Unit quaternions (4,), w first: (cos θ/2, n sin θ/2), θ as in `angles`, n as in `axes`; of
-    both signs.
+    """Unit quaternions (cos θ/2, n sin θ/2), w first, of both signs.
 
-    Of length 1 to rounding, and near w = 0 where θ is near π. x y z w is `np.roll(q, -1)`. Shrinks
-    to (1, 0, 0, 0).
+    θ is as in `angles`, n as in `axes`; w is near 0 where θ is near π. x y z w is np.roll(q, -1).
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (4,), of length 1 to rounding; shrinks to (1, 0, 0, 0).
     """
 
     def quaternion(r: BytesReader) -> np.ndarray:
@@ -204,51 +301,30 @@ def quaternions_wxyz() -> Arrays:
     return read(19, quaternion)
 
 
-def pose(R: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """The read-only pose (4, 4) of a rotation R (3, 3) and a translation t (3,) in m, in the same
-    frame.
-    """
-    T = np.eye(4)
-    T[:3, :3] = R
-    T[:3, 3] = t
-    return frozen(T)
-
-
-def batch_shapes() -> st.SearchStrategy[tuple[int, ...]]:
-    """Shapes of leading axes, `BATCH_SHAPES`, each as often as any: none, one, an empty one,
-    several; shrinks to ().
-    """
-    return st.sampled_from(BATCH_SHAPES)
-
-
-def batches(elements: Arrays, shape: Sequence[int]) -> Arrays:
-    """Arrays (*shape, ...) of elements drawn independently of each other.
-
-    Parameters: elements, a strategy of arrays of one shape (...) each; shape, of the leading axes,
-    such as `batch_shapes` draws: `batch_shapes().flatmap(lambda shape: batches(twists(), shape))`.
-    Where the shape holds
-    none, one element is drawn for its own shape.
-    """
-    sizes = arguments.shape(shape)
-    if not isinstance(elements, st.SearchStrategy):
-        raise InputError(f"elements: expected a strategy of arrays, got {safe_repr(elements)}")
-    count = math.prod(sizes)
-    drawn = st.lists(elements, min_size=max(count, 1), max_size=max(count, 1))
-    return drawn.map(lambda x: frozen(np.stack(x)[:count].reshape(*sizes, *np.shape(x[0]))))
-
-
 KINDS = ("twist", "far_twist", "element", "noisy_element")
 """What a law of a group may ask for."""
 
 
 def group_cases(kinds: Sequence[str], size: int) -> st.SearchStrategy[tuple[np.ndarray, ...]]:
-    """Arguments of a group's law by their kinds (`laws.Law`), for SO(3) (size 3) or SE(3) (size 6).
+    """Arguments of a law of a group by their kinds.
 
-    Parameters: kinds, of `KINDS`: "twist" is principal (|ω| up to π), "far_twist" has |ω| up to 10,
-    "element" is a rotation (3, 3) or pose (4, 4), and "noisy_element" one with a defect of up to
-    1e-8 an entry; size, 3 or 6.
-    Returns: a strategy of tuples of twists (size,) and elements, one for each kind. Raises:
-    InputError for others.
+    Parameters
+    ----------
+    kinds : sequence of str
+        Kinds of `KINDS`: "twist" is principal (|ω| up to π), "far_twist" has |ω| up to 10, "element" is a
+        rotation (3, 3) or pose (4, 4), and "noisy_element" one with a defect of up to 1e-8 an entry.
+    size : {3, 6}
+        Length of the twists, 3 for SO(3), 6 for SE(3).
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of tuples of twists (size,) and elements, rad and m, one for each kind.
+
+    Raises
+    ------
+    InputError
+        For other kinds or sizes.
     """
     if size == 3:
         known = {"twist": rotation_vectors(), "far_twist": rotation_vectors(10.0)}

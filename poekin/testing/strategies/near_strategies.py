@@ -6,13 +6,8 @@ There a logarithm loses its sign or its axis (π), a series is cut too early and
 `group_strategies`: axes and lengths
 independent of it.
 
-    near_rotations(math.pi)     near_twists(0.0)     near_poses(1.0, beyond=True)
-
-Parameters of all: at, the angle in rad, 0 or more, π by default; widest, the largest distance from
-it in rad; beyond, whether angles above `at` are drawn as well (at 0 there are no others); lengths,
-(smallest, largest) of |v| or |t| in m beside 0. Returns: a strategy of float64, arrays read-only;
-twists are (ω; v), poses those of a frame in the base frame. It shrinks to `at` itself, then to
-powers of 10 away from it.
+Arrays are float64 and read-only; twists are (ω; v) in rad and m, poses those of a frame in the base
+frame. Everything shrinks to `at` itself, then to powers of 10 away from it.
 Raises: InputError, at the call, for bounds that are none. Accuracy: distances are kept to the
 rounding of the angle. Source: the worst places of the logarithm and of the Jacobians of exp, as
 `accuracy` measures them.
@@ -42,11 +37,29 @@ def near_angles(
     widest: float = WIDEST,
     beyond: bool = False,
 ) -> Reals:
-    """Angles in rad close to `at`: it, the 8 floats next to it, and log-uniform distances from 1
-    ulp to widest.
+    """Angles close to one angle: it, the 8 floats next to it, and log-uniform distances.
 
-    Of four angles one is within 8 floats. At 0 the distances are log-uniform from 1e-12, and one
-    time in four from 1e-150.
+    Of four angles one is within 8 floats. Distances are from 1 ulp on; at 0 they are log-uniform from
+    1e-12, and one time in four from 1e-150.
+
+    Parameters
+    ----------
+    at : float, default π
+        Angle in the middle, rad, 0 or more.
+    widest : float, default 1e-3
+        Largest distance from it, rad.
+    beyond : bool, default False
+        Whether angles above `at` are drawn as well (at 0 there are no others).
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of floats, rad.
+
+    Raises
+    ------
+    InputError
+        If bounds are none.
     """
     return read(7, _angle_near(at, widest, beyond))
 
@@ -54,7 +67,27 @@ def near_angles(
 def near_rotation_vectors(
     at: float = math.pi, widest: float = WIDEST, beyond: bool = False
 ) -> Arrays:
-    """Rotation vectors ω (3,) in rad, |ω| as in `near_angles` (to the rounding of |ω|)."""
+    """Rotation vectors ω with |ω| as in `near_angles`.
+
+    Parameters
+    ----------
+    at : float, default π
+        Angle in the middle, rad, 0 or more.
+    widest : float, default 1e-3
+        Largest distance from it, rad.
+    beyond : bool, default False
+        Whether angles above `at` are drawn as well (at 0 there are no others).
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (3,), rad.
+
+    Raises
+    ------
+    InputError
+        If bounds are none.
+    """
     angle = _angle_near(at, widest, beyond)
     return read(19, lambda r: frozen(angle(r) * decoders.axis(r)))
 
@@ -64,7 +97,37 @@ def near_rotations(
     widest: float = WIDEST,
     beyond: bool = False,
 ) -> Arrays:
-    """Rotations (3, 3) by an angle as in `near_angles`, orthonormal to a few roundings."""
+    """Rotations by an angle as in `near_angles`.
+
+    Parameters
+    ----------
+    at : float, default π
+        Angle in the middle, rad, 0 or more.
+    widest : float, default 1e-3
+        Largest distance from it, rad.
+    beyond : bool, default False
+        Whether angles above `at` are drawn as well (at 0 there are no others).
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (3, 3), orthonormal to a few roundings.
+
+    Raises
+    ------
+    InputError
+        If bounds are none.
+
+    Examples
+    --------
+    >>> from hypothesis import find
+    >>> from poekin.testing import strategies
+    >>> half_turns = strategies.near_rotations()
+    >>> print(find(half_turns, lambda R: R[0, 0] < 0).round(3) + 0.0)
+    [[-1.  0.  0.]
+     [ 0.  1.  0.]
+     [ 0.  0. -1.]]
+    """
     angle = _angle_near(at, widest, beyond)
     return read(19, lambda r: frozen(_rotation(r, angle(r))))
 
@@ -75,7 +138,29 @@ def near_twists(
     lengths: tuple[float, float] = LENGTHS,
     beyond: bool = False,
 ) -> Arrays:
-    """Twists (ω; v) (6,), |ω| as in `near_angles` in rad, v in m independent of it."""
+    """Twists (ω; v) with |ω| as in `near_angles`, and v independent of it.
+
+    Parameters
+    ----------
+    at : float, default π
+        Angle in the middle, rad, 0 or more.
+    widest : float, default 1e-3
+        Largest distance from it, rad.
+    lengths : tuple of float, default (1e-12, 1e3)
+        Smallest |v| beside 0, and largest, m.
+    beyond : bool, default False
+        Whether angles above `at` are drawn as well (at 0 there are no others).
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (6,), rad and m, of any frame.
+
+    Raises
+    ------
+    InputError
+        If bounds are none.
+    """
     angle = _angle_near(at, widest, beyond)
     bounds = arguments.magnitudes("lengths", lengths)
     return read(
@@ -90,7 +175,29 @@ def near_poses(
     lengths: tuple[float, float] = LENGTHS,
     beyond: bool = False,
 ) -> Arrays:
-    """Poses (4, 4) with a rotation as in `near_rotations` and a translation in m independent of it."""
+    """Poses with a rotation as in `near_rotations`, and an independent translation.
+
+    Parameters
+    ----------
+    at : float, default π
+        Angle in the middle, rad, 0 or more.
+    widest : float, default 1e-3
+        Largest distance from it, rad.
+    lengths : tuple of float, default (1e-12, 1e3)
+        Smallest |t| beside 0, and largest, m.
+    beyond : bool, default False
+        Whether angles above `at` are drawn as well (at 0 there are no others).
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of arrays (4, 4), of a frame in the base frame, m.
+
+    Raises
+    ------
+    InputError
+        If bounds are none.
+    """
     angle = _angle_near(at, widest, beyond)
     bounds = arguments.magnitudes("lengths", lengths)
     return read(35, lambda r: pose(_rotation(r, angle(r)), decoders.vector(r, bounds)))

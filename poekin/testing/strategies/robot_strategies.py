@@ -40,27 +40,52 @@ def robots(
     limits: bool = True,
     still: bool = False,
 ) -> st.SearchStrategy[Robot]:
-    """Robots (`poekin.Robot`): a tree of joints, of which some mimic others; shrinks to one link,
-    then to short chains.
+    """Robots: trees of joints, of which some mimic others.
 
     Half of the joints go on from the link before, the others branch off anywhere. Origins are as in
-    `chain_strategies.placements` (m), axes as in `strategies.axes`, each in its own joint's frame.
-    A mimic joint follows any other one that moves, above it, below it or beside, by a ratio (also 0
-    and negative) and an offset,
-    also by way of a third. Limits hold 0 or not, and are missing on continuous joints; those of a
-    mimic joint may be narrower than what follows from its master, and always leave something of it.
+    `chain_strategies.placements` (m), axes as in `strategies.axes`, each in its own joint's frame. A
+    mimic joint follows any other one that moves, above it, below it or beside, by a ratio (also 0 and
+    negative) and an offset, also by way of a third. Limits hold 0 or not, and are missing on continuous
+    joints; those of a mimic joint may be narrower than what follows from its master, and always leave
+    something of it. Multipliers, offsets, limits and pitches have one decimal or three, and shrink to 0,
+    1 or one decimal.
 
-    Multipliers, offsets, limits and pitches have one decimal or three, and shrink to 0, 1 or one
-    decimal.
+    Parameters
+    ----------
+    kinds : sequence of str
+        Kinds of joints, of `poekin.model.joint.KINDS`.
+    min_joints, max_joints : int, default 0 and 7
+        Smallest and largest number of joints, fixed ones included.
+    mimics : bool, default True
+        Whether there are mimic joints.
+    limits : bool, default True
+        Whether revolute, prismatic and helical joints have limits.
+    still : bool, default False
+        Whether fixed joints, too, mimic and are mimicked (what follows one is constant).
 
-    Parameters: kinds, of `poekin.model.joint.KINDS`; min_joints, max_joints, how many, fixed ones
-    included; mimics, whether there are any; limits, whether revolute, prismatic and helical joints
-    have some; still, whether fixed joints, too, mimic and are mimicked (what follows one is
-    constant).
-    Returns: a strategy of robots with links "l0" (the root), "l1", … and joints "j1", …, joint jk
-    moving link lk, each in any order. Raises: InputError, at the call, for kinds or numbers of
-    joints that there are not.
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of `Robot` with links "l0" (the root), "l1", … and joints "j1", …, joint jk moving link
+        lk, each in any order; shrinks to one link, then to short chains.
+
+    Raises
+    ------
+    InputError
+        For kinds or numbers of joints that there are not.
+
+    Notes
+    -----
     Source: what URDF readers are known to get wrong (`conform.laws.urdf_cases`).
+
+    Examples
+    --------
+    >>> from hypothesis import find
+    >>> import poekin as pk
+    >>> from poekin.testing import strategies
+    >>> files = strategies.robots(min_joints=1).map(pk.to_urdf)
+    >>> "<joint" in find(files, lambda text: True)
+    True
     """
     least, most = arguments.counts(min_joints, max_joints)
     some = arguments.some("kinds", kinds, KINDS)

@@ -1,7 +1,6 @@
 """Hypothesis strategies for URDF texts as they are found in the wild: of a robot that is known,
 with an oddity or none.
 
-Parameters of several: oddities, of `ODDITIES`; max_joints of the robot. Returns: a strategy.
 Raises: InputError, at the call, for oddities that there are not and for numbers of joints that are
 none.
 Source: 1206 URDFs of public collections, in which each of these was met; Pinocchio reads them all.
@@ -21,8 +20,16 @@ from .robot_strategies import robots
 
 
 class OddURDF(NamedTuple):
-    """A URDF: text; the oddity in it, a name of `ODDITIES`; robot, the `poekin.Robot` that it
-    describes.
+    """URDF text as it is found in the wild, with the robot that it describes.
+
+    Attributes
+    ----------
+    text : str
+        The URDF.
+    oddity : str
+        Name of the oddity in it, of `ODDITIES`.
+    robot : Robot
+        The robot that it describes.
     """
 
     text: str
@@ -85,8 +92,24 @@ ODDITIES: dict[str, Callable[[str], str]] = {
 def odd_urdfs(
     oddities: Sequence[str] = tuple(ODDITIES), max_joints: int = 4
 ) -> st.SearchStrategy[OddURDF]:
-    """URDFs of robots as in `robot_strategies.robots`, each with one of the oddities; shrinks to
-    none, and one link.
+    """URDFs of robots as in `robots`, each with one oddity.
+
+    Parameters
+    ----------
+    oddities : sequence of str
+        Names of oddities, of `ODDITIES`; all by default.
+    max_joints : int, default 4
+        Largest number of joints.
+
+    Returns
+    -------
+    strategy : SearchStrategy
+        Strategy of `OddURDF`; shrinks to no oddity, and one link.
+
+    Raises
+    ------
+    InputError
+        For oddities or numbers of joints that there are not.
     """
     chosen = arguments.some("oddities", oddities, ODDITIES)
     return st.builds(_odd, st.sampled_from(chosen), robots(max_joints=max_joints))

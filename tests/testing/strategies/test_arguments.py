@@ -17,6 +17,7 @@ from poekin.errors import InputError
 from poekin.model.chain import Chain
 from poekin.testing.strategies import (
     arguments,
+    batch_strategies,
     chain_strategies,
     configuration_strategies,
     dh_strategies,
@@ -28,6 +29,7 @@ from poekin.testing.strategies import (
 
 # Whatever the types say.
 S: Any = group_strategies
+B: Any = batch_strategies
 C: Any = chain_strategies
 ARM = Chain([[0, 0, 1, 0, 0, 0]], np.eye(4))
 
@@ -45,12 +47,12 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     "noise of NaN": (lambda: S.noisy_rotations((math.nan, 1.0)), "noise: expected"),
     "a truth for a number": (lambda: S.magnitudes(True, 2.0), "got (True, 2.0)"),
     "a shape that is a number": (
-        lambda: S.batches(S.twists(), 3),
+        lambda: B.batches(S.twists(), 3),
         "such as () or (3, 1, 2), got 3",
     ),
-    "a negative axis": (lambda: S.batches(S.twists(), (-1,)), "got (-1,)"),
+    "a negative axis": (lambda: B.batches(S.twists(), (-1,)), "got (-1,)"),
     "elements that are an array": (
-        lambda: S.batches(np.eye(3), (3,)),
+        lambda: B.batches(np.eye(3), (3,)),
         "elements: expected a strategy",
     ),
     "a kind of argument": (lambda: S.group_cases(("twst",), 6), "no 'twst'; did you mean 'twist'"),

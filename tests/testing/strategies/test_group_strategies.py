@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from poekin.errors import InputError
 from poekin.formulas.lie import coefficients
-from poekin.testing.strategies import group_strategies
+from poekin.testing.strategies import batch_strategies, group_strategies
 from poekin.testing.strategies.decoding import decoders
 from poekin.testing.strategies.decoding.bytes_reader import BytesReader
 from tests.testing.drawing import QUICK, drawn
@@ -113,9 +113,9 @@ def test_rotations_are_rotations_and_noise_is_as_large_as_said():
 
 @pytest.mark.parametrize("shape", [(), (0,), (1,), (3, 1, 2)])
 def test_batches_have_their_shape(shape):
-    (batch,) = drawn(group_strategies.batches(group_strategies.twists(), shape), 1)
+    (batch,) = drawn(batch_strategies.batches(group_strategies.twists(), shape), 1)
     assert batch.shape == (*shape, 6)
-    assert shape in drawn(group_strategies.batch_shapes(), 50)
+    assert shape in drawn(batch_strategies.batch_shapes(), 50)
 
 
 def test_parts_are_read_off_in_turn_each_by_itself(monkeypatch):

@@ -10,12 +10,11 @@ import numpy as np
 
 from ...laws.measures import size
 from ...oracles import exact
+from ...strategies.batch_strategies import batch_shapes, batches
 from ...strategies.group_strategies import (
     LENGTHS,
     SMALLEST,
     Arrays,
-    batch_shapes,
-    batches,
     noisy_rotations,
     rotation_vectors,
     st,

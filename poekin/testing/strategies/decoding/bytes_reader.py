@@ -15,23 +15,43 @@ T = TypeVar("T")
 
 
 class BytesReader:
-    """Reads bytes in order; after the last one it reads zeros.
+    """Reader of bytes in order; after the last one it reads zeros.
 
-    Parameters: data, the bytes. Raises: nothing.
+    Raises: nothing for any bytes; bounds are trusted.
+
+    Parameters
+    ----------
+    data : bytes
+        The bytes.
     """
 
     __slots__ = ("_rest",)
 
-    def __init__(self, data: bytes):
+    def __init__(self, data: bytes) -> None:
         self._rest = iter(data)
 
     def byte(self) -> int:
-        """0 to 255."""
+        """Next byte.
+
+        Returns
+        -------
+        byte : int
+            0 to 255.
+        """
         return next(self._rest, 0)
 
     def pick(self, options: Sequence[T]) -> T:
-        """One of the options, each as often as any; the first one for a zero. Takes 1 byte. Raises:
-        nothing.
+        """One of several options, each as often as any; takes 1 byte.
+
+        Parameters
+        ----------
+        options : sequence
+            The options.
+
+        Returns
+        -------
+        option : object
+            One of them, the first for a zero.
         """
         return options[self.byte() * len(options) // 256]
 
@@ -40,11 +60,17 @@ class BytesReader:
         low: float,
         high: float,
     ) -> float:
-        """A number from low to high, evenly spread between neighbouring whole numbers, ends
-        included. Takes 3 bytes.
+        """Number from low to high, evenly spread between neighbouring whole numbers; takes 3 bytes.
 
-        Zeros give the whole number next to 0. Parameters: low, high. Returns: the number. Raises:
-        nothing.
+        Parameters
+        ----------
+        low, high : float
+            Bounds, included.
+
+        Returns
+        -------
+        number : float
+            The number; for zeros the whole number next to 0.
         """
         wholes = range(math.floor(low), max(math.ceil(high), math.floor(low) + 1))
         k = self.pick(sorted(wholes, key=abs))
@@ -57,10 +83,17 @@ class BytesReader:
         low: float,
         high: float,
     ) -> float:
-        """A number from low to high with few digits: three decimals, or one, to which it shrinks.
-        Takes 4 bytes.
+        """Number from low to high with three decimals, or one, to which it shrinks; takes 4 bytes.
 
-        Parameters: low, high. Returns: the number, within the bounds. Raises: nothing.
+        Parameters
+        ----------
+        low, high : float
+            Bounds, included.
+
+        Returns
+        -------
+        number : float
+            The number.
         """
         decimals = 3
         if self.byte() < 128:
@@ -72,10 +105,17 @@ class BytesReader:
         smallest: float,
         largest: float,
     ) -> float:
-        """0 (one time in sixteen), or a number whose logarithm is spread evenly between two. Takes
-        4 bytes.
+        """Number that is 0, one time in sixteen, or log-uniform; takes 4 bytes.
 
-        Parameters: smallest, largest, above 0. Returns: 0, or smallest to largest. Raises: nothing.
+        Parameters
+        ----------
+        smallest, largest : float
+            Bounds, above 0.
+
+        Returns
+        -------
+        number : float
+            0, or smallest to largest.
         """
         nought = self.byte() < 16
         exponent = self.fraction(math.log10(smallest), math.log10(largest))

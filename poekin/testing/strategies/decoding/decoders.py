@@ -24,7 +24,18 @@ SMALLEST = 1e-150
 
 
 def around(x: float) -> tuple[float, float, float]:
-    """The number x and the floats on both sides of it."""
+    """Number with the floats on both sides of it.
+
+    Parameters
+    ----------
+    x : float
+        The number.
+
+    Returns
+    -------
+    neighbours : tuple of float
+        The number, the float below it and the float above it.
+    """
     return x, math.nextafter(x, -math.inf), math.nextafter(x, math.inf)
 
 
