@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import enum
 import inspect
 import sys
 from collections.abc import Sequence
@@ -48,7 +49,7 @@ def faults(name: str) -> list[Fault]:
     elif overrides(name):
         waived |= OVERRIDING
     found = [Fault(name, *error) for error in validate(name)["errors"] if error[0] not in waived]
-    if of_class and not issubclass(thing, BaseException):
+    if of_class and not issubclass(thing, (BaseException, enum.Enum)):
         found += [Fault(name, "PR01", f"field {field!r} not documented") for field in untold(thing)]
     return found
 

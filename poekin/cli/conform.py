@@ -97,7 +97,7 @@ def command(
             limits=Limits(limit),
         )
     if json:
-        print(as_json(report.as_dict()))
+        print(as_json(report.to_dict()))
     else:
         say(report)
     raise typer.Exit(0 if report.conforms else FINDINGS)

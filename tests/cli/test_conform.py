@@ -66,7 +66,7 @@ def test_options_reach_the_function_and_its_report_the_exit_code(monkeypatch, po
 
     def told(*words, **options):
         asked.append((*words[:4], options))
-        return SimpleNamespace(conforms=len(asked) == 1, as_dict=dict, __str__=lambda: "")
+        return SimpleNamespace(conforms=len(asked) == 1, to_dict=dict, __str__=lambda: "")
 
     monkeypatch.setattr(conform, "conform", told)
     monkeypatch.setattr(sys, "path", [place for place in sys.path if place])

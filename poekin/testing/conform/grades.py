@@ -20,9 +20,12 @@ import re
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from ..accuracy import error_bounds
 from ..accuracy.accuracy_laws import EXP_LOG_BAR
 from ..laws.laws import LawViolation
+from ..oracles import exact
 from .process.calls import ENDED, LOST, UNANSWERED
 from .subjects.precision import DOUBLE, Precision
 
@@ -31,7 +34,7 @@ NO_RESULT = "no result"
 
 
 class Grade(enum.IntEnum):
-    """The four grades; the larger, the worse."""
+    """Grade of a result, the larger, the worse: EXACT, GOOD, POOR, BROKEN."""
 
     EXACT = 0
     GOOD = 1
@@ -40,36 +43,47 @@ class Grade(enum.IntEnum):
 
     @property
     def word(self) -> str:
-        """As it is printed."""
+        """Word of the grade, as it is printed."""
         return self.name.lower()
 
 
 class Part(NamedTuple):
-    """One measured error: what it is of, its size, the scale it is in proportion to, and what
-    floats can attain.
+    """Measured error, with its scale and what floats can attain.
 
-    `error_bound` is called only where `error` exceeds 3 × `least`, a lower bound of it that costs
-    nothing;
-    `precision` is what the subject computes in.
+    Parameters
+    ----------
+    what : str
+        Quantity in error.
+    error : float
+        Size of the error, in the quantity's own unit.
+    scale : float
+        Size that the error is in proportion to.
+    least : float
+        Lower bound of what floats can attain, which costs nothing.
+    error_bound : callable, optional
+        Function that computes what floats can attain; called only if the error exceeds 3 × `least`. By
+        default it is `least`.
+    precision : Precision, optional
+        Precision that the subject computes in.
     """
 
     what: str
     error: float
     scale: float
     least: float
-    error_bound: Callable[[], float]
+    error_bound: Callable[[], float] | None = None
     precision: Precision = DOUBLE
 
     @property
     def size(self) -> float:
-        """error ÷ scale; where the scale is 0, an error of 0 is 0 and any other infinite."""
+        """Error ÷ scale; where the scale is 0, an error of 0 is 0 and any other infinite."""
         return error_bounds.ratio(self.error, self.scale)
 
     @property
     def bound(self) -> float:
-        """The largest error that is exact."""
+        """Largest error that is exact."""
         cheap = EXP_LOG_BAR * self.least
-        if self.error <= cheap:
+        if self.error <= cheap or self.error_bound is None:
             return cheap
         return max(cheap, EXP_LOG_BAR * self.error_bound())
 
@@ -86,8 +100,18 @@ class Part(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """Verdict on one case. Fields: grade; size, the error ÷ scale that decided it; what, the
-    quantity in error; fault, if any.
+    """Verdict on one case.
+
+    Attributes
+    ----------
+    grade : Grade
+        Grade of the worst part.
+    size : float
+        Error ÷ scale that decided it.
+    what : str
+        Quantity in error.
+    fault : str
+        Fault, where there is no result; "" else.
     """
 
     grade: Grade
@@ -108,8 +132,13 @@ class Verdict(NamedTuple):
 
     @property
     def rank(self) -> tuple[int, float]:
-        """To find the worst of many."""
+        """Grade and size, to find the worst of many."""
         return self.grade, self.size
+
+
+def norm(x: np.ndarray) -> float:
+    """Euclidean or Frobenius norm of floats or of numbers of `exact`, rounded once."""
+    return float(exact.norm(exact.exactly(x)))
 
 
 def graded(

@@ -36,12 +36,39 @@ def check_conformance(
     at_most: Grade = Grade.GOOD,
     leave_out: Sequence[str] = (),
 ) -> Report:
-    """Hold a subject to the laws, as `run.conform` does, and return the report.
+    """Hold a subject to the laws, and fail where it does not keep them.
 
-    Parameters: thing, laws, examples, seconds, leave_out, as of `run.conform`; at_most, the worst
-    `Grade` let pass. Returns: Report.
-    Raises: LawViolation, with every counterexample, where a confirmed grade is worse than
-    `at_most`; as `run.conform`.
+    Parameters
+    ----------
+    thing : type, object or str
+        Class or object of functions, as `Subject` takes it, or "MODULE:NAME" of one.
+    laws : sequence of str, optional
+        Names of the laws, or one name; by default all that apply.
+    examples : int, optional
+        Cases of each law; by default as many as are its own, so that a grade does not depend on the
+        machine.
+    seconds : float, default 600.0
+        Time for all laws together, s; shrinking (half a minute a finding at most) and confirming is not
+        counted. A law for which it does not suffice is graded by ten examples at least, and the report
+        says so.
+    at_most : Grade, optional
+        Worst grade that conforms.
+    leave_out : sequence of str, optional
+        Names of laws that it is not held to.
+
+    Returns
+    -------
+    report : Report
+        Outcome of each law.
+
+    Raises
+    ------
+    LawViolation
+        With every counterexample, if a confirmed grade is worse than `at_most`.
+    InputError
+        If the subject cannot be used or does not declare what is needed, or a law does not apply.
+    UnknownName
+        For a name that is no law.
     """
     report = conform(thing, laws, examples, seconds, leave_out=leave_out, at_most=at_most)
     wrong = tuple(

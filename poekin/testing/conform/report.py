@@ -7,30 +7,62 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
 from ...errors import escape_unprintable
+from ...results import Result, plain
 from .grades import NO_RESULT, Grade
 from .laws.law import Case
+from .subjects.precision import PrecisionName
 
 FEW = 100
 """Fewer examples than these say little of a law that seems to hold."""
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """One law and one subject.
+class Outcome(Result):
+    """Outcome of one law and one subject.
 
-    grade; worst: the largest size of an error met (inf: no result), of `what`; examples: how many
-    were tried; late: whether there was no time for all of them. Of a finding (poor or broken, or
-    worse than was asked for) also the shrunk case with its numbers; its error, `error_of` what, or
-    its fault (a text) where there was no result; the case in words, as Python to paste (`paste`),
-    and what ought to come of it (`expected`, any shape; `names`, those that a URDF has to be read
-    with); a hint; precision, the floats that the subject computes in.
-    unconfirmed: why it is no finding, where its truth did not stand against the second oracle; the
-    grade says nothing then.
+    Attributes
+    ----------
+    law : str
+        Name of the law.
+    says : str
+        Claim of the law in words.
+    grade : Grade
+        Worst grade of all examples.
+    worst : float
+        Largest size of an error met, of `what`; inf where there was no result.
+    what : str
+        Quantity in error.
+    examples : int
+        Number of examples tried.
+    error : float
+        Error of the counterexample of a finding, of `error_of`.
+    error_of : str
+        Quantity in error in the counterexample.
+    fault : str
+        Fault of the counterexample, where there was no result.
+    case : Case or None
+        Counterexample, shrunk, of a finding: poor or broken, or worse than was asked for.
+    words : str
+        Counterexample in words.
+    paste : str
+        Counterexample as Python to paste.
+    expected : (...) ndarray or None
+        Exact result of the counterexample.
+    hint : str
+        Hint on the cause.
+    unconfirmed : str
+        Reason why it is no finding, where its truth did not stand against the second oracle; the grade
+        says nothing then.
+    late : bool
+        Whether there was no time for all examples.
+    names : tuple of str
+        Coordinates that a URDF has to be read with.
+    precision : {"float64", "float32"}
+        Floats that the subject computes in.
     """
 
     law: str
@@ -50,11 +82,11 @@ class Outcome:
     unconfirmed: str = ""
     late: bool = False
     names: tuple[str, ...] = ()
-    precision: str = "float64"
+    precision: PrecisionName = "float64"
 
     @property
     def finding(self) -> bool:
-        """Whether it is to be printed with its counterexample."""
+        """Whether the outcome is to be printed with its counterexample."""
         return self.case is not None and not self.unconfirmed
 
     @property
@@ -71,9 +103,15 @@ class Outcome:
             return "not judged"
         return self.grade.word
 
-    def as_dict(self) -> dict[str, Any]:
-        """Plain data; an infinite error is None."""
-        plain: dict[str, Any] = {
+    def to_dict(self) -> dict[str, object]:
+        """Outcome as plain data.
+
+        Returns
+        -------
+        document : dict
+            Lists, strings and numbers; an infinite error is None.
+        """
+        found: dict[str, object] = {
             "law": self.law,
             "says": self.says,
             "grade": self.word,
@@ -84,9 +122,9 @@ class Outcome:
             "precision": self.precision,
         }
         if self.unconfirmed:
-            return plain | {"unconfirmed": self.unconfirmed}
-        if self.case is not None:
-            plain |= {
+            found["unconfirmed"] = self.unconfirmed
+        elif self.case is not None:
+            found |= {
                 "error": self.error,
                 "error_of": self.error_of,
                 "fault": self.fault,
@@ -94,19 +132,23 @@ class Outcome:
                 "python": self.paste,
                 "numbers": self.case.numbers,
                 "expected": self.expected,
-                "names": list(self.names),
+                "names": self.names,
                 "hint": self.hint,
             }
-        return plain
+        return {key: plain(value) for key, value in found.items()}
 
-    def __str__(self) -> str:
-        return self.told()
+    def summary(self, before: Mapping[str, str] = MappingProxyType({})) -> str:
+        """Outcome in a few lines of text.
 
-    def told(self, before: Mapping[str, str] = MappingProxyType({})) -> str:
-        """The outcome in a few lines; Python that another law printed `before`, as {Python: law},
-        is not repeated.
+        Parameters
+        ----------
+        before : Mapping, optional
+            Python that other laws printed before, with their names; it is not repeated.
 
-        Returns: the text. Raises: nothing.
+        Returns
+        -------
+        text : str
+            The lines.
         """
         if self.unconfirmed:
             lines = [self.unconfirmed]
@@ -155,11 +197,19 @@ def _sized(error: float, of: str) -> str:
 
 
 @dataclass(frozen=True)
-class Report:
-    """All outcomes of one subject, and what else is to be known of them.
+class Report(Result):
+    """Report on a subject: all outcomes, and what else is to be known of them.
 
-    notes: laws that it was not held to, names that are none of a subject's, and the like; at_most:
-    the worst grade that conforms.
+    Attributes
+    ----------
+    subject : str
+        Name and version of the subject.
+    outcomes : tuple of Outcome
+        Outcome of each law.
+    notes : tuple of str
+        Laws that it was not held to, names that are none of a subject's, and the like.
+    at_most : Grade
+        Worst grade that conforms.
     """
 
     subject: str
@@ -169,9 +219,7 @@ class Report:
 
     @property
     def findings(self) -> tuple[Outcome, ...]:
-        """The outcomes with a counterexample, which was confirmed: poor, broken, or worse than
-        `at_most`.
-        """
+        """Outcomes with a confirmed counterexample: poor, broken, or worse than `at_most`."""
         return tuple(outcome for outcome in self.outcomes if outcome.finding)
 
     @property
@@ -187,21 +235,27 @@ class Report:
                 return outcome
         raise KeyError(law)
 
-    def as_dict(self) -> dict[str, Any]:
-        """Plain data, as `poekin conform --json` prints it."""
-        laws = [outcome.as_dict() for outcome in self.outcomes]
+    def to_dict(self) -> dict[str, object]:
+        """Report as plain data, as `poekin conform --json` prints it.
+
+        Returns
+        -------
+        document : dict
+            Dicts, lists, strings and numbers; an infinite error is None.
+        """
         return {
             "subject": self.subject,
             "conforms": self.conforms,
-            "laws": laws,
-            "notes": list(self.notes),
+            "laws": plain(self.outcomes),
+            "notes": plain(self.notes),
         }
 
-    def __str__(self) -> str:
+    def summary(self) -> str:
+        """Text of all outcomes and notes."""
         lines = [escape_unprintable(self.subject, 200)]
         before = dict[str, str]()
         for outcome in self.outcomes:
-            lines.append(escape_unprintable(outcome.told(before), keep="\n"))
+            lines.append(escape_unprintable(outcome.summary(before), keep="\n"))
             before.setdefault(outcome.paste, outcome.law)
         lines += [f"note: {escape_unprintable(note)}" for note in self.notes]
         return "\n".join(lines)

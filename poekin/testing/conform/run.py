@@ -29,14 +29,35 @@ SECONDS = 600.0
 LIMITS = Limits()
 
 
+def _say_nothing(*_: object) -> None:
+    """Without a report of progress."""
+
+
 def applicable(
     subject: Subject, names: Sequence[str] = (), leave_out: Sequence[str] = ()
 ) -> list[SubjectLaw]:
-    """The laws that a subject can be held to; with names, of these only, and without those to
-    `leave_out`.
+    """Laws that a subject can be held to.
 
-    Returns: a list of `law.SubjectLaw`. Raises: UnknownName for a name that is no law; InputError where
-    one of those named does not apply, or none is left.
+    Parameters
+    ----------
+    subject : Subject
+        The subject.
+    names : sequence of str, optional
+        Names of the laws; by default all that apply.
+    leave_out : sequence of str, optional
+        Names of laws that it is not held to.
+
+    Returns
+    -------
+    laws : list of SubjectLaw
+        The laws, in the order of the report.
+
+    Raises
+    ------
+    InputError
+        If the subject cannot be used or does not declare what is needed, or a law does not apply.
+    UnknownName
+        For a name that is no law.
     """
     for name in (*names, *leave_out):
         if name not in {law.name for law in LAWS}:
@@ -61,10 +82,28 @@ def applicable(
 def law_names(
     thing: Any, leave_out: Sequence[str] = (), limits: Limits | None = LIMITS
 ) -> list[str]:
-    """The names of the laws that a subject can be held to: for `pytest.mark.parametrize`, a test
-    each.
+    """Names of the laws that a subject can be held to, for `pytest.mark.parametrize`.
 
-    Parameters: thing, leave_out, limits, as of `conform`. Returns: the names. Raises: as `conform`.
+    Parameters
+    ----------
+    thing : type, object or str
+        Class or object of functions, as `Subject` takes it, or "MODULE:NAME" of one.
+    leave_out : sequence of str, optional
+        Names of laws that it is not held to.
+    limits : Limits, optional
+        Limits of each call in a process of its own, or None for calls in this one.
+
+    Returns
+    -------
+    names : list of str
+        The names, in the order of the report.
+
+    Raises
+    ------
+    InputError
+        If the subject cannot be used or does not declare what is needed, or a law does not apply.
+    UnknownName
+        For a name that is no law.
     """
     with opened(thing, limits) as subject:
         return [law.name for law in applicable(subject, (), _listed(leave_out))]
@@ -129,27 +168,60 @@ def conform(
     laws: Sequence[str] = (),
     examples: int | None = None,
     seconds: float = SECONDS,
-    say: Callable[[int, int, str], object] = lambda done, total, name: None,
+    say: Callable[[int, int, str], object] = _say_nothing,
     *,
     leave_out: Sequence[str] = (),
     at_most: Grade = Grade.GOOD,
     limits: Limits | None = LIMITS,
 ) -> Report:
-    """Hold a subject (`subject`) to the laws, and report each with a grade (`grades`).
+    """Hold a subject to the laws, and report each with a grade.
 
-    Parameters: thing, a class or object of functions, or "MODULE:NAME" of one; laws, names, or one
-    name, all that apply by default; examples of each law, by default as many as are its own, so
-    that a grade does not depend on the
-    machine; seconds for all laws together, shrinking (half a minute a finding at most) and
-    confirming not counted: a law for which they do not suffice is graded by ten examples at least,
-    and the report says so; say(done, total,
-    law), of progress; leave_out, names of laws that it is not held to; at_most, the worst `Grade`
-    that conforms; limits, of each call in a process of its own (`limits.Limits`), or None for calls
-    in this one.
-    Returns: Report, of the same cases in every run.
-    Every finding was confirmed by the second oracle (`confirm`).
-    Raises: InputError for a subject that cannot be used or does not declare what is needed, and for
-    laws that do not apply; UnknownName for a law that does not exist.
+    Cases are the same in every run. Every finding was confirmed by the second oracle (`confirm`).
+
+    Parameters
+    ----------
+    thing : type, object or str
+        Class or object of functions, as `Subject` takes it, or "MODULE:NAME" of one.
+    laws : sequence of str, optional
+        Names of the laws, or one name; by default all that apply.
+    examples : int, optional
+        Cases of each law; by default as many as are its own, so that a grade does not depend on the
+        machine.
+    seconds : float, default 600.0
+        Time for all laws together, s; shrinking (half a minute a finding at most) and confirming is not
+        counted. A law for which it does not suffice is graded by ten examples at least, and the report
+        says so.
+    say : callable, optional
+        Function say(done, total, law), which is told of progress.
+    leave_out : sequence of str, optional
+        Names of laws that it is not held to.
+    at_most : Grade, optional
+        Worst grade that conforms.
+    limits : Limits, optional
+        Limits of each call in a process of its own, or None for calls in this one.
+
+    Returns
+    -------
+    report : Report
+        Outcome of each law, with counterexamples.
+
+    Raises
+    ------
+    InputError
+        If the subject cannot be used or does not declare what is needed, or a law does not apply.
+    UnknownName
+        For a name that is no law.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> from poekin.testing.conform import conform
+    >>> class Mine:
+    ...     def so3_exp(self, w):
+    ...         return pk.so3.exp(w)  # or code of one's own
+    >>> report = conform(Mine, examples=20, limits=None)
+    >>> report["so3_exp"].grade.word
+    'exact'
     """
     if (examples is not None and examples < 1) or not seconds > 0:
         raise InputError(f"examples ≥ 1 and seconds > 0 expected, got {examples} and {seconds}")

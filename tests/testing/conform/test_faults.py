@@ -215,7 +215,7 @@ def test_a_finding_that_the_second_oracle_does_not_confirm_is_not_printed(monkey
     report = conform(FAULTS["d"][0], examples=200)
     assert report.conforms
     assert "do not agree" in str(report)
-    assert report["so3_exp"].as_dict()["grade"] == "not judged"
+    assert report["so3_exp"].to_dict()["grade"] == "not judged"
 
 
 def test_keyboard_interrupts_pass():
@@ -297,7 +297,7 @@ def test_what_is_wrong_with_names_alone_is_printed_by_the_python_to_paste():
     assert "joint1" in printed.getvalue().splitlines()[0]
     assert "j1" in outcome.names
     assert "# names: " in str(outcome)
-    assert outcome.as_dict()["names"] == list(outcome.names)
+    assert outcome.to_dict()["names"] == list(outcome.names)
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ INDENT = "\n           "
 
 
 def told(before: dict[str, str] | None = None, **fields: Any) -> str:
-    return Outcome(**fields).told(before or {})
+    return Outcome(**fields).summary(before or {})
 
 
 @pytest.mark.parametrize(
@@ -47,7 +47,7 @@ def told(before: dict[str, str] | None = None, **fields: Any) -> str:
 def test_what_was_not_found_wanting_is_two_lines(more, second):
     word = "not judged" if "unconfirmed" in more else "good      "
     outcome = Outcome(**{**SOUND, **more})
-    assert str(outcome) == outcome.told() == f"{word} exp: exp is exp{INDENT}{second}"
+    assert str(outcome) == outcome.summary() == f"{word} exp: exp is exp{INDENT}{second}"
     assert not outcome.finding
 
 
@@ -82,20 +82,20 @@ def test_plain_data_has_what_is_known():
         "law": "exp", "says": "exp is exp", "grade": "good", "worst": 1.234e-12, "of": "R (rad)", "examples": 100,
         "time_ran_out": False, "precision": "float64",
     }  # fmt: skip
-    assert Outcome(**SOUND).as_dict() == plain
-    late = Outcome(**SOUND, late=True, unconfirmed="why", precision="float32").as_dict()
+    assert Outcome(**SOUND).to_dict() == plain
+    late = Outcome(**SOUND, late=True, unconfirmed="why", precision="float32").to_dict()
     assert late == plain | {
         "grade": "not judged", "time_ran_out": True, "unconfirmed": "why", "precision": "float32"
     }  # fmt: skip
-    found = Outcome(**FOUND).as_dict()
-    assert found.pop("numbers").tolist() == [0, 2, -1]
-    assert found.pop("expected").tolist() == [[0, 0, 0.5]]
+    found = Outcome(**FOUND).to_dict()
+    assert found.pop("numbers") == [0, 2, -1]
+    assert found.pop("expected") == [[0, 0, 0.5]]
     assert found == plain | {
         "grade": "poor", "error": 2.5e-7, "error_of": "t", "fault": "", "counterexample": "ω = 2",
         "python": "print(1)", "names": ["a", "b"], "hint": "look there",
     }  # fmt: skip
     failed = {**SOUND, "grade": Grade.BROKEN, "fault": "NaN", "case": CASE}
-    assert Outcome(**failed).as_dict()["error"] == 0.0
+    assert Outcome(**failed).to_dict()["error"] == 0.0
 
 
 def outcomes(*grades: Grade, **more: Any) -> tuple[Outcome, ...]:
@@ -130,7 +130,7 @@ def test_a_report_is_printed_with_each_python_once_and_its_notes():
     assert report["law exact"].grade is Grade.EXACT
     with pytest.raises(KeyError, match="'nothing'"):
         report["nothing"]
-    plain = report.as_dict()
+    plain = report.to_dict()
     assert (plain["subject"], plain["conforms"], plain["notes"]) == (
         "Mine 1.0",
         False,

@@ -245,7 +245,7 @@ def truth(
     if jacobian:
         J = exact_chain.jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(subject.frame)]
         return subject.rows(_without_rounding(J))
-    return _without_rounding(of_arms.pose(arm, q))
+    return _without_rounding(exact_chain.pose(arm, q))
 
 
 def _without_rounding(found: np.ndarray) -> np.ndarray:

@@ -25,7 +25,7 @@ from ..grades import Grade, Verdict, graded
 from ..process.calls import called
 from ..subjects.subject import JACOBIANS, SE3, SO3, Subject
 from . import of_groups
-from .law import Case, Shown, SubjectLaw, drawable, typed
+from .law import Case, Shown, SubjectLaw, drawable, nothing, typed
 
 FAR = 10.0
 """The largest |ω| in rad that exp and the Jacobians of exp are tried at; log, and inverses, to π.
@@ -161,7 +161,7 @@ def _group_law(name: str) -> SubjectLaw:
         name=name,
         says=SAYS.get(name, SAYS.get(name.removeprefix("so3_"), "")),
         needs=name,
-        cases=lambda subject: _numbers(name).map(Case),
+        cases=lambda _: _numbers(name).map(Case),
         check=measured,
         confirm=lambda subject, case: _confirmed(subject, name, case.numbers),
         show=show,
@@ -205,11 +205,11 @@ def _noise_law() -> SubjectLaw:
         needs="so3_log",
         cases=cases,
         check=check,
-        confirm=lambda subject, case: confirm.of_log(R(case)),
+        confirm=lambda _, case: confirm.of_log(R(case)),
         show=show,
-        triples=lambda case: (),
+        triples=nothing,
         # Shrinking would leave the neighbourhood of the rotations.
-        allowed=lambda case: False,
+        allowed=lambda _: False,
         applies=lambda subject: subject.noise > 0,
         unless="noise is not declared",
         examples=EXAMPLES,
@@ -228,7 +228,7 @@ class _BatchLaw:
     def tail(self, subject: Subject) -> tuple[int, ...]:
         return _truth(subject, self.name, np.zeros(_count(self.name))).shape
 
-    def cases(self, subject: Subject) -> st.SearchStrategy[Case]:
+    def cases(self, _: Subject) -> st.SearchStrategy[Case]:
         def of(shape: tuple[int, ...]) -> st.SearchStrategy[Case]:
             elements = batches(_numbers(self.name), shape)
             return elements.map(lambda x: Case(np.asarray(x).ravel(), shape))

@@ -18,10 +18,14 @@ if TYPE_CHECKING:
 
 
 class Case(NamedTuple):
-    """Arguments of a law as float64 numbers (k,), 0 where nothing is, and the layout that says what
-    they belong to.
+    """Case that a law is tried on: numbers that shrink towards zero.
 
-    Of a group's law the numbers are exponential coordinates, ω or (ω; v).
+    Parameters
+    ----------
+    numbers : (k,) ndarray
+        Arguments of the law, 0 where nothing is; of a group's law exponential coordinates ω or (ω; v).
+    layout : Hashable, default ()
+        Record of what the numbers belong to.
     """
 
     numbers: np.ndarray
@@ -29,10 +33,18 @@ class Case(NamedTuple):
 
 
 class Shown(NamedTuple):
-    """A case for people: in words, as Python to paste, and what ought to come of it (None where it
-    is no one array).
+    """Case for people.
 
-    names: of the coordinates that a URDF has to be read with, which the Python prints first.
+    Parameters
+    ----------
+    words : str
+        The case in words.
+    paste : str
+        Python that makes the call and prints its result.
+    expected : ndarray or None
+        Exact result; None where it is no one array.
+    names : tuple of str, optional
+        Coordinates that a URDF has to be read with, which the Python prints first.
     """
 
     words: str
@@ -41,22 +53,51 @@ class Shown(NamedTuple):
     names: tuple[str, ...] = ()
 
 
-def nothing_simpler(case: Case) -> Iterable[Case]:
-    """For cases that have no parts which could be left out."""
+def nothing(_: Case) -> Iterable[Any]:
+    """Neither parts that could be left out, nor places."""
     return ()
 
 
-class SubjectLaw(NamedTuple):
-    """One law: `check(subject, case)` measures, `confirm(subject, case)` asks the second oracle
-    about the truth.
+def always(_: object) -> bool:
+    """Whether a law holds of any case or subject: it does."""
+    return True
 
-    name: as on the command line; says: what is held, in words; needs: the function of the subject
-    that it is about; cases(subject): what it is tried on; show(subject, case): for people;
-    simpler(case): cases with a part left out; triples: where among the numbers three are a vector,
-    each one's first place; directions: the same of unit vectors; allowed(case): whether the law
-    could have drawn it; about(case): whether what the law is about is in it at all;
-    applies(subject): whether it is to be held to it; unless, why it is not; examples, how many
-    cases it is tried on.
+
+class SubjectLaw(NamedTuple):
+    """Law that a subject can be held to, with the cases that it is tried on.
+
+    Parameters
+    ----------
+    name : str
+        Name on the command line.
+    says : str
+        Claim in words.
+    needs : str
+        Function of the subject that the law is about.
+    cases : callable
+        Strategy of the cases for a subject.
+    check : callable
+        Measurement, check(subject, case), which returns a verdict.
+    confirm : callable
+        Whether the truth of a case stands against the second oracle, confirm(subject, case).
+    show : callable
+        The case for people, show(subject, case).
+    simpler : callable, optional
+        Cases with a part left out.
+    triples : callable, optional
+        First places of those three numbers that are a vector.
+    directions : callable, optional
+        First places of those three numbers that are a unit vector.
+    allowed : callable, optional
+        Whether the law could have drawn a case.
+    applies : callable, optional
+        Whether a subject is held to the law.
+    about : callable, optional
+        Whether what the law is about is in a case at all.
+    unless : str, optional
+        Reason why a subject is not held to it.
+    examples : int, default 100
+        Number of cases.
     """
 
     name: str
@@ -66,12 +107,12 @@ class SubjectLaw(NamedTuple):
     check: Callable[[Subject, Case], Verdict]
     confirm: Callable[[Subject, Case], bool]
     show: Callable[[Subject, Case], Shown]
-    simpler: Callable[[Case], Iterable[Case]] = nothing_simpler
+    simpler: Callable[[Case], Iterable[Case]] = nothing
     triples: Callable[[Case], Iterable[int]] = lambda case: range(0, len(case.numbers) - 2, 3)
-    directions: Callable[[Case], Iterable[int]] = lambda case: ()
-    allowed: Callable[[Case], bool] = lambda case: True
-    applies: Callable[[Subject], bool] = lambda subject: True
-    about: Callable[[Case], bool] = lambda case: True
+    directions: Callable[[Case], Iterable[int]] = nothing
+    allowed: Callable[[Case], bool] = always
+    applies: Callable[[Subject], bool] = always
+    about: Callable[[Case], bool] = always
     unless: str = ""
     examples: int = 100
 

@@ -5,13 +5,7 @@ factor and the result are rounded once, and so is each angle, of joints and of t
 that times the arm's lengths for t: all that go into it, and what slides. The same holds for the
 columns of the Jacobian.
 
-Parameters: fk, jacobian, the functions under test, of q (m,) in rad or m; arm, an `ArmData` or a
-`poekin.Chain`; screws
-(n, 6), (ω; v), and home (4, 4) in the base frame; q (m,); T (4, 4), J (6, m), what came of it;
-frame, "space", "body" or "hybrid"; at_most, the worst `Grade` that is let pass; precision that the
-function computes in (`precision.SINGLE`, unit 2⁻²⁴). Returns: `Verdict`, or the parts that it is
-made of.
-Raises: LawViolation where the grade is worse than `at_most`.
+An arm is an `ArmData` or a `poekin.Chain`. Raises: LawViolation, by the laws alone.
 Source: Park 1994, eqs. (1) and (11), in 80 digits (`exact`).
 """
 
@@ -26,7 +20,8 @@ from ....model.kinematics.pose_jacobian import FRAME_NAMES
 from ...accuracy.error_bounds import UNIT
 from ...laws.measures import size
 from ...oracles import exact, exact_chain
-from ..grades import Grade, Part, Verdict, graded
+from ...oracles.differences import NamedFrame
+from ..grades import Grade, Part, Verdict, graded, norm
 from ..process.calls import called
 from ..subjects.precision import DOUBLE, Precision
 
@@ -34,14 +29,23 @@ Function = Callable[[np.ndarray], Any]
 
 
 class ArmData(NamedTuple):
-    """An arm as data, in floats or in numbers of `exact`: screws (n, 6) and home (4, 4) in the base
-    frame, x = C q + c.
+    """Arm as data, in floats or in numbers of `exact`, with what is asked of a `poekin.Chain` here.
 
-    Further fields: coupling (n, m) and offset (n,), C and c; dof, m.
-
-    It has what is asked of a `poekin.Chain` here. reach: the lengths that went into it, in m; a
-    pose's translation may come out much smaller, and then no better than theirs. turned: the angles
-    in rad that went into it beside q.
+    Parameters
+    ----------
+    screws : (n, 6) ndarray
+        Screws (ω; v) of the joints in the base frame, rad and m.
+    home : (4, 4) ndarray
+        Home pose in the base frame.
+    coupling, offset : ndarray
+        C (n, m) and c (n,) of x = C q + c.
+    dof : int
+        Number m of coordinates.
+    reach : float
+        Lengths that went into it, m; a pose's translation may come out much smaller, and then no
+        better than theirs.
+    turned : float, default 0.0
+        Angles that went into it beside q, rad.
     """
 
     screws: np.ndarray
@@ -54,37 +58,54 @@ class ArmData(NamedTuple):
 
 
 def arm(screws: np.ndarray, home: np.ndarray) -> ArmData:
-    """An arm with a coordinate for each joint, made of these numbers."""
+    """Arm with a coordinate for each joint.
+
+    Parameters
+    ----------
+    screws : (n, 6) ndarray
+        Screws (ω; v) of the joints in the base frame, rad and m.
+    home : (4, 4) ndarray
+        Home pose in the base frame.
+
+    Returns
+    -------
+    arm : ArmData
+        The arm.
+    """
     n = len(screws)
     turns = np.any(screws[:, :3] != 0, axis=1)
     reach = size(home[:3, 3]) + sum(size(v) for v in screws[turns, 3:])
     return ArmData(screws, home, np.eye(n), np.zeros(n), n, reach)
 
 
-def pose(arm: Any, q: np.ndarray) -> np.ndarray:
-    """e^{A_1 x_1} ⋯ e^{A_n x_n} M (4, 4), exactly."""
-    return exact_chain.pose(arm, q)
-
-
-def error_bound(
-    arm: Any,
-    q: np.ndarray,
-    unit: float = UNIT,
-) -> tuple[float, float]:
-    """Error of R that float64 can attain, and the lengths that the error of t is in proportion to.
+def error_bound(arm: Any, q: np.ndarray, unit: float = UNIT) -> tuple[float, float]:
+    """Error of a pose that float64 can attain.
 
     Whoever made a `poekin.Chain` had numbers of his own for it: a radian for each joint, and its
     reach.
+
+    Parameters
+    ----------
+    arm : ArmData or Chain
+        The arm.
+    q : (m,) ndarray
+        Coordinates, rad or m.
+    unit : float, optional
+        Half the distance from 1 to the next float.
+
+    Returns
+    -------
+    angular : float
+        Attainable Frobenius norm of the error of R, rad.
+    lengths : float
+        Lengths that the error of t is in proportion to, m.
     """
     x = exact.rounded(exact_chain.displacements(arm, q))
-    A = _floats(arm.screws)
-    M = _floats(arm.home)
-    turns = np.any(A[:, :3] != 0, axis=1)
+    turns = _turning(arm)
+    R = exact.rounded(exact.exactly(arm.home))[:3, :3]
     angles = float(np.abs(x[turns]).sum()) + float(getattr(arm, "turned", len(x)))
     lengths = arm.reach + float(np.abs(x[~turns]).sum())
-    return unit * (2 + len(x) + 2**0.5 * angles) + size(
-        M[:3, :3] @ M[:3, :3].T - np.eye(3)
-    ), lengths
+    return unit * (2 + len(x) + 2**0.5 * angles) + size(R @ R.T - np.eye(3)), lengths
 
 
 def fk_is_the_product_of_exponentials(
@@ -94,7 +115,40 @@ def fk_is_the_product_of_exponentials(
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
 ) -> Verdict:
-    """fk(q) (4, 4) = e^{A_1 x_1} ⋯ e^{A_n x_n} M of the arm (`ArmData`, or a `poekin.Chain`)."""
+    """Law: fk(q) = e^{A_1 x_1} ⋯ e^{A_n x_n} M of the arm.
+
+    Parameters
+    ----------
+    fk : callable
+        Function of q (m,) under test, that returns a pose (4, 4) in the base frame.
+    arm : ArmData or Chain
+        The arm.
+    q : (m,) ndarray
+        Coordinates, rad or m.
+    at_most : Grade, optional
+        Worst grade that is let pass.
+    precision : Precision, optional
+        Precision that the function computes in, `conform.DOUBLE` or `conform.SINGLE`.
+
+    Returns
+    -------
+    verdict : Verdict
+        The verdict on the worst part.
+
+    Raises
+    ------
+    LawViolation
+        If the grade is worse than `at_most`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> from poekin.testing.conform.laws import of_arms
+    >>> arm = pk.load("ur5e").chain(tip="tool0")
+    >>> of_arms.fk_is_the_product_of_exponentials(arm.fk, arm, np.full(6, 0.3)).grade.word
+    'exact'
+    """
     T, fault = called(fk, (4, 4), q)
     parts = fault or pose_parts(arm, q, T, precision)
     return graded("fk is the product of exponentials", parts, at_most, q=q)
@@ -106,29 +160,68 @@ def pose_parts(
     T: np.ndarray,
     precision: Precision = DOUBLE,
 ) -> list[Part]:
-    """The errors of R and t, and of the last row."""
-    error = exact.exactly(T) - pose(arm, q)
+    """Errors of R, of t and of the last row of a pose.
+
+    Parameters
+    ----------
+    arm : ArmData or Chain
+        The arm.
+    q : (m,) ndarray
+        Coordinates, rad or m.
+    T : (4, 4) ndarray
+        Result under test, in the base frame.
+    precision : Precision, optional
+        Precision that the function computes in, `conform.DOUBLE` or `conform.SINGLE`.
+
+    Returns
+    -------
+    parts : list of Part
+        The errors, each with its scale and what floats can attain.
+    """
+    error = exact.exactly(T) - exact_chain.pose(arm, q)
     angular, lengths = error_bound(arm, q, precision.unit)
-    t = float(exact.norm(error[:3, 3]))
+    t = norm(error[:3, 3])
     return [
-        Part(
-            "R (rad)", float(exact.norm(error[:3, :3])), 2**0.5, angular, lambda: angular, precision
-        ),
-        Part("t ÷ the arm's lengths", t, lengths, angular * lengths, lambda: 0.0, precision),
-        Part("last row", float(exact.norm(error[3])), 1.0, 0.0, lambda: 0.0, precision),
+        Part("R (rad)", norm(error[:3, :3]), 2**0.5, angular, precision=precision),
+        Part("t ÷ the arm's lengths", t, lengths, angular * lengths, precision=precision),
+        Part("last row", norm(error[3]), 1.0, 0.0, precision=precision),
     ]
 
 
 def jacobian_is_the_derivative(
     jacobian: Function,
-    frame: str,
+    frame: NamedFrame,
     arm: Any,
     q: np.ndarray,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
 ) -> Verdict:
-    """jacobian(q) (6, m), rows (omega; v), is the derivative of the product of exponentials, seen
-    in `frame`.
+    """Law: jacobian(q) is the derivative of the product of exponentials.
+
+    Parameters
+    ----------
+    jacobian : callable
+        Function of q (m,) under test, that returns (6, m), rows (ω; v).
+    frame : {"space", "body", "hybrid"}
+        Frame of the rows.
+    arm : ArmData or Chain
+        The arm.
+    q : (m,) ndarray
+        Coordinates, rad or m.
+    at_most : Grade, optional
+        Worst grade that is let pass.
+    precision : Precision, optional
+        Precision that the function computes in, `conform.DOUBLE` or `conform.SINGLE`.
+
+    Returns
+    -------
+    verdict : Verdict
+        The verdict on the worst part.
+
+    Raises
+    ------
+    LawViolation
+        If the grade is worse than `at_most`.
     """
     J, fault = called(jacobian, (6, arm.dof), q)
     parts = fault or jacobian_parts(frame, arm, q, J, precision)
@@ -136,31 +229,46 @@ def jacobian_is_the_derivative(
 
 
 def jacobian_parts(
-    frame: str, arm: Any, q: np.ndarray, J: np.ndarray, precision: Precision = DOUBLE
+    frame: NamedFrame,
+    arm: Any,
+    q: np.ndarray,
+    J: np.ndarray,
+    precision: Precision = DOUBLE,
 ) -> list[Part]:
-    """The errors of the worst column's ω and v."""
+    """Errors of ω and v of the worst column of a Jacobian.
+
+    Parameters
+    ----------
+    frame : {"space", "body", "hybrid"}
+        Frame of the rows.
+    arm : ArmData or Chain
+        The arm.
+    q : (m,) ndarray
+        Coordinates, rad or m.
+    J : (6, m) ndarray
+        Result under test, rows (ω; v), rad and m per unit of q.
+    precision : Precision, optional
+        Precision that the function computes in, `conform.DOUBLE` or `conform.SINGLE`.
+
+    Returns
+    -------
+    parts : list of Part
+        The errors, each with its scale and what floats can attain.
+    """
     truth = exact_chain.jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(frame)]
     error = exact.exactly(J) - truth
     angular, lengths = error_bound(arm, q, precision.unit)
     ratios = 1 + size(arm.coupling)
-    slides = 0.0 if np.all(np.any(_floats(arm.screws)[:, :3] != 0, axis=1)) else 1.0
-    w, v = (
-        max((float(exact.norm(column)) for column in half.T), default=0.0)
-        for half in (error[:3], error[3:])
-    )
-    scale = 2 * lengths + slides
+    scale = 2 * lengths + float(not np.all(_turning(arm)))
+    w = max(map(norm, error[:3].T), default=0.0)
+    v = max(map(norm, error[3:].T), default=0.0)
+    least = ratios * angular * scale
     return [
-        Part("ω of a column", w, 1.0, ratios * angular, lambda: 0.0, precision),
-        Part(
-            "v of a column ÷ the arm's lengths",
-            v,
-            scale,
-            ratios * angular * scale,
-            lambda: 0.0,
-            precision,
-        ),
+        Part("ω of a column", w, 1.0, ratios * angular, precision=precision),
+        Part("v of a column ÷ the arm's lengths", v, scale, least, precision=precision),
     ]
 
 
-def _floats(x: np.ndarray) -> np.ndarray:
-    return exact.rounded(exact.exactly(x))
+def _turning(arm: Any) -> np.ndarray:
+    """Whether each joint turns."""
+    return np.any(exact.rounded(exact.exactly(arm.screws))[:, :3] != 0, axis=1)

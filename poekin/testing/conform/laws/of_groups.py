@@ -1,18 +1,12 @@
 """Laws of exp, log, the adjoint and the Jacobians of exp, of SO(3) and SE(3), against the truth in
 80 digits.
 
-Each law is a plain function of a subject's function with twists (omega; v), and of an argument: it
+Each law is a plain function of a subject's function with twists (ω; v), and of an argument: it
 returns the verdict, and raises LawViolation where that is worse than `at_most`. What float64 can
 attain is `error_bounds`'s for exp and log, and a third of `accuracy_laws.JACOBIAN_BAR` for the
-Jacobians; in float32, 2²⁹ times as much.
-
-Parameters: the function under test; xi, the twist (6,), (ω; v) in rad and m, or rotation vector
-(3,); X, T, a pose
-(4, 4) of a frame in the base frame, or R, X, a rotation (3, 3); at_most, the worst `Grade` that is
-let pass; precision that the function computes in (`precision.DOUBLE`, `SINGLE`), and xi, X, T are
-floats of; name, of one of `subject.JACOBIANS`. Returns: `Verdict`, or the parts that it is made of.
-Raises: LawViolation where the grade is worse than `at_most`. Source: Park 1994, Lemmas 1 to 5, in
-80 digits (`exact`).
+Jacobians; in float32, 2²⁹ times as much. Arguments are floats of the precision that the function
+computes in; poses are those of a frame in the base frame.
+Raises: LawViolation, by the laws alone. Source: Park 1994, Lemmas 1 to 5, in 80 digits (`exact`).
 """
 
 from __future__ import annotations
@@ -25,9 +19,10 @@ import numpy as np
 from ...accuracy import error_bounds
 from ...accuracy.accuracy_laws import EXP_LOG_BAR, JACOBIAN_BAR, NOISE_BAR, jacobian_errors
 from ...oracles import exact
-from ..grades import Grade, Part, Verdict, graded
+from ..grades import Grade, Part, Verdict, graded, norm
 from ..process.calls import called
 from ..subjects.precision import DOUBLE, Precision
+from ..subjects.subject import JacobianName
 
 Function = Callable[[np.ndarray], Any]
 ELEMENT_SIZE = {3: 3, 6: 4}
@@ -39,60 +34,125 @@ TWIST_SIZE = {3: 3, 4: 6}
 def exp_is_e_to_the_xi(
     exp: Function, xi: np.ndarray, at_most: Grade = Grade.EXACT, precision: Precision = DOUBLE
 ) -> Verdict:
-    """exp ξ = e^[ξ], of a twist (6,) or rotation vector (3,); R as it is, t in proportion to |v|."""
+    """Law: exp ξ = e^[ξ]; R as it is, t in proportion to |v|.
+
+    Parameters
+    ----------
+    exp : callable
+        Function under test.
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m, or rotation vector in rad.
+    at_most : Grade, optional
+        Worst grade that is let pass.
+    precision : Precision, optional
+        Precision that the function computes in, `conform.DOUBLE` or `conform.SINGLE`.
+
+    Returns
+    -------
+    verdict : Verdict
+        The verdict on the worst part.
+
+    Raises
+    ------
+    LawViolation
+        If the grade is worse than `at_most`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import poekin as pk
+    >>> from poekin.testing.conform.laws import of_groups
+    >>> xi = np.array([0.3, 0.0, 0.0, 1.0, 2.0, 3.0])
+    >>> of_groups.exp_is_e_to_the_xi(pk.se3.exp, xi).grade.word  # of one's own function
+    'exact'
+    """
     size = ELEMENT_SIZE.get(len(xi), 4)
     X, fault = called(exp, (size, size), xi)
     return graded("exp is e to the xi", fault or exp_parts(xi, X, precision), at_most, xi=xi)
 
 
-def exp_parts(
-    xi: np.ndarray,
-    X: np.ndarray,
-    precision: Precision = DOUBLE,
-) -> list[Part]:
-    """The errors of R and t, and of the last row, of X as the exponential of ξ."""
+def exp_parts(xi: np.ndarray, X: np.ndarray, precision: Precision = DOUBLE) -> list[Part]:
+    """Errors of R, of t and of the last row of an exponential.
+
+    Parameters
+    ----------
+    xi : (6,) or (3,) ndarray
+        Twist (ω; v) in rad and m, or rotation vector in rad.
+    X : (4, 4) or (3, 3) ndarray
+        Result under test: pose in the base frame, m, or rotation.
+    precision : Precision, optional
+        Precision that the function computes in, `conform.DOUBLE` or `conform.SINGLE`.
+
+    Returns
+    -------
+    parts : list of Part
+        The errors, each with its scale and what floats can attain.
+    """
     error = exact.exactly(X) - exact.exp(xi)
-    theta = float(exact.norm(exact.exactly(xi[:3])))
-    angular = precision.unit * (1 + 2**0.5 * theta)
-    parts = [
-        Part(
-            "R (rad)", float(exact.norm(error[:3, :3])), 2**0.5, angular, lambda: angular, precision
-        )
-    ]
-    if len(xi) == 6:
-        v = float(exact.norm(exact.exactly(xi[3:])))
-        linear = float(exact.norm(error[:3, 3]))
+    angular = precision.unit * (1 + 2**0.5 * norm(xi[:3]))
+    parts = [Part("R (rad)", norm(error[:3, :3]), 2**0.5, angular, precision=precision)]
+    if len(xi) == 3:
+        return parts
+    v = norm(xi[3:])
 
-        def bound() -> float:
-            return precision.coarser * float(error_bounds.exp_bound(xi).linear)
+    def bound() -> float:
+        return precision.coarser * float(error_bounds.exp_bound(xi).linear)
 
-        parts.append(Part("t ÷ |v|", linear, v, precision.unit * v, bound, precision))
-        parts.append(
-            Part("last row", float(exact.norm(error[3])), 1.0, 0.0, lambda: 0.0, precision)
-        )
+    parts.append(Part("t ÷ |v|", norm(error[:3, 3]), v, precision.unit * v, bound, precision))
+    parts.append(Part("last row", norm(error[3]), 1.0, 0.0, precision=precision))
     return parts
 
 
 def log_is_the_principal_logarithm(
     log: Function, X: np.ndarray, at_most: Grade = Grade.EXACT, precision: Precision = DOUBLE
 ) -> Verdict:
-    """log X of a rotation (3, 3) or pose (4, 4), 0 ≤ |ω| ≤ π; ω in rad, v in proportion to the
-    lengths.
+    """Law: log X is the principal logarithm, 0 ≤ |ω| ≤ π; v in proportion to the lengths.
 
     Within 8 u of π both signs of ω count as right, each with its v.
+
+    Parameters
+    ----------
+    log : callable
+        Function under test.
+    X : (4, 4) or (3, 3) ndarray
+        Pose of a frame in the base frame, m, or rotation.
+    at_most : Grade, optional
+        Worst grade that is let pass.
+    precision : Precision, optional
+        Precision that the function computes in, `conform.DOUBLE` or `conform.SINGLE`.
+
+    Returns
+    -------
+    verdict : Verdict
+        The verdict on the worst part.
+
+    Raises
+    ------
+    LawViolation
+        If the grade is worse than `at_most`.
     """
     xi, fault = called(log, (TWIST_SIZE.get(len(X), 6),), X)
-    return graded(
-        "log is the principal logarithm", fault or log_parts(X, xi, precision), at_most, X=X
-    )
+    parts = fault or log_parts(X, xi, precision)
+    return graded("log is the principal logarithm", parts, at_most, X=X)
 
 
-def log_parts(
-    X: np.ndarray,
-    xi: np.ndarray,
-    precision: Precision = DOUBLE,
-) -> list[Part]:
-    """The errors of ω and v of ξ as the logarithm of X."""
+def log_parts(X: np.ndarray, xi: np.ndarray, precision: Precision = DOUBLE) -> list[Part]:
+    """Errors of ω and v of a logarithm.
+
+    Parameters
+    ----------
+    X : (4, 4) or (3, 3) ndarray
+        Pose of a frame in the base frame, m, or rotation.
+    xi : (6,) or (3,) ndarray
+        Result under test: twist (ω; v) in rad and m, or rotation vector in rad.
+    precision : Precision, optional
+        Precision that the function computes in, `conform.DOUBLE` or `conform.SINGLE`.
+
+    Returns
+    -------
+    parts : list of Part
+        The errors, each with its scale and what floats can attain.
+    """
     truth = exact.log(X)
     candidates = [_log_parts(truth, xi, X, precision)]
     if exact.mp.pi - exact.norm(truth[:3]) < precision.coarser * error_bounds.BOTH_SIGNS:
@@ -112,7 +172,7 @@ def _log_parts(
     truth: np.ndarray, xi: np.ndarray, X: np.ndarray, precision: Precision
 ) -> list[Part]:
     error = exact.exactly(xi) - truth
-    theta = float(exact.norm(truth[:3]))
+    theta = norm(truth[:3])
     # Below the smallest angle squares underflow: all that is asked for is a small number that is
     # none of the faults.
     least = precision.smallest
@@ -125,60 +185,106 @@ def _log_parts(
     def linear() -> float:
         return precision.coarser * float(error_bounds.log_bound(truth).linear)
 
-    parts = [Part("ω (rad)", float(exact.norm(error[:3])), 1.0, least, angular, precision)]
+    parts = [Part("ω (rad)", norm(error[:3]), 1.0, least, angular, precision)]
     if len(xi) == 6:
-        v = float(exact.norm(truth[3:]))
-        t = float(exact.norm(exact.exactly(X[:3, 3])))
-        missed = float(exact.norm(error[3:]))
-        parts.append(Part("v ÷ |v|", missed, max(v, t), precision.unit * v, linear, precision))
+        v = norm(truth[3:])
+        scale = max(v, norm(X[:3, 3]))
+        parts.append(Part("v ÷ |v|", norm(error[3:]), scale, precision.unit * v, linear, precision))
     return parts
 
 
 def log_forgives_noise(
     log: Function, R: np.ndarray, at_most: Grade = Grade.EXACT, precision: Precision = DOUBLE
 ) -> Verdict:
-    """log of a rotation (3, 3) with noise is that of the nearest rotation; either sign within 8 u
-    of π.
+    """Law: log of a rotation with noise is that of the nearest rotation.
+
+    Either sign is right within 8 u of π.
+
+    Parameters
+    ----------
+    log : callable
+        Function under test.
+    R : (3, 3) ndarray
+        Rotation with noise in its entries.
+    at_most : Grade, optional
+        Worst grade that is let pass.
+    precision : Precision, optional
+        Precision that the function computes in, `conform.DOUBLE` or `conform.SINGLE`.
+
+    Returns
+    -------
+    verdict : Verdict
+        The verdict on the worst part.
+
+    Raises
+    ------
+    LawViolation
+        If the grade is worse than `at_most`.
     """
     w, fault = called(log, (3,), R)
     if fault:
         return graded("log forgives noise", fault, at_most, R=R)
-    truth = exact.log(R)
-    error = error_bounds.log_error(w, truth, precision.coarser * error_bounds.BOTH_SIGNS)
+    error = error_bounds.log_error(w, exact.log(R), precision.coarser * error_bounds.BOTH_SIGNS)
     least = precision.coarser * NOISE_BAR / EXP_LOG_BAR
-    return graded(
-        "log forgives noise",
-        [Part("ω (rad)", error, 1.0, least, lambda: least, precision)],
-        at_most,
-        R=R,
-    )
+    parts = [Part("ω (rad)", error, 1.0, least, precision=precision)]
+    return graded("log forgives noise", parts, at_most, R=R)
 
 
 def adjoint_is_its_matrix(
     adjoint: Function, T: np.ndarray, at_most: Grade = Grade.EXACT, precision: Precision = DOUBLE
 ) -> Verdict:
-    """Ad(T) = [R 0; [t] R R] (6, 6) of a pose (4, 4); the lower corner in proportion to |t|."""
+    """Law: Ad(T) = [R 0; [t] R R]; the lower corner in proportion to |t|.
+
+    Parameters
+    ----------
+    adjoint : callable
+        Function under test.
+    T : (4, 4) ndarray
+        Pose of a frame in the base frame, m.
+    at_most : Grade, optional
+        Worst grade that is let pass.
+    precision : Precision, optional
+        Precision that the function computes in, `conform.DOUBLE` or `conform.SINGLE`.
+
+    Returns
+    -------
+    verdict : Verdict
+        The verdict on the worst part.
+
+    Raises
+    ------
+    LawViolation
+        If the grade is worse than `at_most`.
+    """
     X, fault = called(adjoint, (6, 6), T)
     if fault:
         return graded("adjoint is its matrix", fault, at_most, T=T)
     error = exact.exactly(X) - exact.adjoint(T)
-    t = float(exact.norm(exact.exactly(T[:3, 3])))
-    corner = exact.norm(error[3:, :3])
-    rest = float(max(map(exact.norm, (error[:3, :3], error[3:, 3:], error[:3, 3:]))))
+    t = norm(T[:3, 3])
+    rest = max(map(norm, (error[:3, :3], error[3:, 3:], error[:3, 3:])))
     # R is there already; of [t] R each entry is a difference of two products.
     u = precision.unit
     parts = [
-        Part("R", rest, 1.0, u, lambda: u, precision),
-        Part("[t] R ÷ |t|", float(corner), t, 2 * u * t, lambda: 2 * u * t, precision),
+        Part("R", rest, 1.0, u, precision=precision),
+        Part("[t] R ÷ |t|", norm(error[3:, :3]), t, 2 * u * t, precision=precision),
     ]
     return graded("adjoint is its matrix", parts, at_most, T=T)
 
 
-def jacobian_of_exp(name: str) -> Callable[..., Verdict]:
-    """The law of one of `subject.JACOBIANS`, as (function, ω or ξ, at_most): it is that of `exact`,
-    |ω| up to 10 or π.
+def jacobian_of_exp(name: JacobianName) -> Callable[..., Verdict]:
+    """Law of one of the Jacobians of exp: it is that of `exact`, |ω| up to 10 or π.
 
-    3×3 blocks as they are, the Q block in proportion to |v|.
+    3×3 blocks are taken as they are, the Q block in proportion to |v|.
+
+    Parameters
+    ----------
+    name : {"left_jacobian", "right_jacobian", "left_jacobian_inverse", "right_jacobian_inverse"}
+        Name of the Jacobian.
+
+    Returns
+    -------
+    law : callable
+        The law, law(function, xi, at_most, precision), of a twist (6,) or rotation vector (3,).
     """
     truth = getattr(exact, name)
 
@@ -194,9 +300,9 @@ def jacobian_of_exp(name: str) -> Callable[..., Verdict]:
             return graded(title, fault, at_most, xi=xi)
         diagonal, corner = jacobian_errors(J, truth(xi), xi)
         least = precision.coarser * JACOBIAN_BAR / EXP_LOG_BAR
-        parts = [Part("3×3 block", diagonal, 1.0, least, lambda: least, precision)]
+        parts = [Part("3×3 block", diagonal, 1.0, least, precision=precision)]
         if len(xi) == 6:
-            parts.append(Part("Q block ÷ |v|", corner, 1.0, least, lambda: least, precision))
+            parts.append(Part("Q block ÷ |v|", corner, 1.0, least, precision=precision))
         return graded(title, parts, at_most, xi=xi)
 
     law.__name__ = f"{name}_is_attained"

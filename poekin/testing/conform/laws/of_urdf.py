@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ...oracles import exact_chain
 from .. import confirm
 from ..grades import Verdict, graded
 from ..process.calls import Undeclared, called, made, untouched
@@ -105,7 +106,7 @@ def confirmed(
     """Whether the exact poses of links, and the Jacobian, stand against the second oracle."""
     for k in links:
         arm, q, _ = small_urdf.arm(case, k)
-        pose = confirm.near(confirm.chain_of(small_urdf.factors(case, k)), of_arms.pose(arm, q))
+        pose = confirm.near(confirm.chain_of(small_urdf.factors(case, k)), exact_chain.pose(arm, q))
         if not pose or not arm_cases.confirmed(arm, q, jacobian):
             return False
     return True

@@ -10,7 +10,7 @@ import numpy as np
 from ...laws.measures import size
 from ...strategies.group_strategies import Arrays, angles, axes, frozen, magnitudes, st, vectors
 from . import of_urdf, small_urdf
-from .law import Case, SubjectLaw, drawable, unit
+from .law import Case, SubjectLaw, always, drawable, nothing, unit
 from .small_urdf import UrdfJoint, UrdfLayout
 
 NAMES = ("j0", "j1", "j2")
@@ -219,7 +219,7 @@ def _law(
     name: str,
     says: str,
     cases: Callable[[], st.SearchStrategy[Case]],
-    about: About = lambda case: True,
+    about: About = always,
     axis: Fits = _frame_axis,
     largest: float = math.pi,
     function: str = "fk",
@@ -234,9 +234,9 @@ def _law(
         name=name,
         says=says,
         needs="read_urdf",
-        cases=lambda subject: cases(),
+        cases=lambda _: cases(),
         check=lambda subject, case: of_urdf.check(subject, case, jacobian),
-        confirm=lambda subject, case: of_urdf.confirmed(case, jacobian),
+        confirm=lambda _, case: of_urdf.confirmed(case, jacobian),
         show=lambda subject, case: of_urdf.show(subject, case, function),
         simpler=small_urdf.simpler,
         triples=triples,
@@ -246,11 +246,6 @@ def _law(
         about=about,
         unless="jacobian_frame is not declared",
     )
-
-
-def nothing(case: Case) -> Iterable[int]:
-    """No places at all."""
-    return ()
 
 
 def _axes_and_origins(case: Case) -> Iterable[int]:
@@ -267,9 +262,9 @@ def _robot_law(
         name=name,
         says=says,
         needs="read_robot",
-        cases=lambda subject: trees(mimic),
+        cases=lambda _: trees(mimic),
         check=of_urdf.check_robot,
-        confirm=lambda subject, case: of_urdf.confirmed(
+        confirm=lambda _, case: of_urdf.confirmed(
             case, False, range(len(small_urdf.rows_of(case)))
         ),
         show=lambda subject, case: of_urdf.show(subject, case, "poses"),

@@ -81,7 +81,7 @@ class Child:
         self,
         thing: Any,
         limits: Limits,
-    ):
+    ) -> None:
         self._thing = thing
         self._limits = limits
         self._process: _Forked | _Fresh | None = None
@@ -181,7 +181,7 @@ class Child:
 class Remote:
     """The functions of a subject in a child."""
 
-    def __init__(self, child: Child):
+    def __init__(self, child: Child) -> None:
         self._child = child
 
     def __getattr__(self, name: str) -> Any:
@@ -209,7 +209,7 @@ class RemoteRead:
         self,
         child: Child,
         members: list[str],
-    ):
+    ) -> None:
         self._child = child
         self._members = members
 
@@ -231,7 +231,7 @@ class RemoteRead:
 class RemotePoses(Mapping[str, Any]):
     """Poses of links, each an array or what is wrong with it, which raises Fault."""
 
-    def __init__(self, replies: dict[str, worker.Reply]):
+    def __init__(self, replies: dict[str, worker.Reply]) -> None:
         self._replies = replies
 
     def __len__(self) -> int:
@@ -254,7 +254,7 @@ class _Forked:
         self,
         thing: Any,
         limits: Limits,
-    ):
+    ) -> None:
         sys.stdout.flush()
         sys.stderr.flush()
         there, requests = os.pipe()

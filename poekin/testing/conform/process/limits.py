@@ -18,15 +18,30 @@ STARTING = 120.0
 class Limits(NamedTuple):
     """Limits of a subject's process.
 
-    seconds: that one call may take, the first one with what it compiles: late, it is made again
-    once; memory: bytes that the process may take beyond those of its start (Linux).
+    Parameters
+    ----------
+    seconds : float, default 60.0
+        Time of one call, the first one with what it compiles, s; late, it is made again once.
+    memory : int, default 4 GiB
+        Bytes that the process may take beyond those of its start (Linux).
     """
 
     seconds: float = 60.0
     memory: int = 4 * 2**30
 
     def checked(self) -> Limits:
-        """These limits. Raises: InputError where they are no positive numbers."""
+        """These limits, if they are positive numbers.
+
+        Returns
+        -------
+        limits : Limits
+            The same.
+
+        Raises
+        ------
+        InputError
+            If one is no positive number.
+        """
         for what, value in self._asdict().items():
             if not isinstance(value, int | float) or not 0 < value < math.inf:
                 raise InputError(f"{what}: expected a positive number, got {safe_repr(value)}")

@@ -126,7 +126,7 @@ def reply(function: Callable[..., Any], *arguments: Any) -> Reply:
 class Answers:
     """One method for each kind of request; what was read last is kept, and asked."""
 
-    def __init__(self, subject: Subject):
+    def __init__(self, subject: Subject) -> None:
         self._own = subject.own
         self._read: Any = None
 

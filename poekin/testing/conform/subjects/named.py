@@ -40,9 +40,22 @@ def parted(text: str) -> tuple[str, str]:
 
 
 def loaded(text: str) -> Any:
-    """The class or object that a text "MODULE:NAME" names; NAME may be OUTER.INNER.
+    """Class or object by its name.
 
-    Raises: InputError where it cannot be imported, with what the import says.
+    Parameters
+    ----------
+    text : str
+        "MODULE:NAME", where NAME may be OUTER.INNER.
+
+    Returns
+    -------
+    thing : object
+        The class or object.
+
+    Raises
+    ------
+    InputError
+        If it cannot be imported, with what the import says.
     """
     module, name = parted(text)
     thing: Any = None

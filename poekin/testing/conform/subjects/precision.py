@@ -2,21 +2,33 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from ...accuracy.error_bounds import UNIT
 
+PrecisionName = Literal["float64", "float32"]
+
 
 class Precision(NamedTuple):
-    """name, of the floats; unit, u; good and poor, where these grades end; smallest angle whose
-    square is no subnormal.
+    """Precision that a subject may compute in.
 
     The grades of float32 end at about the same share of its digits as those of float64.
+
+    Parameters
+    ----------
+    name : {"float64", "float32"}
+        Name of the floats.
+    unit : float
+        Half the distance from 1 to the next float, u.
+    good, poor : float
+        Errors at which these grades end.
+    smallest : float
+        Smallest angle whose square is no subnormal, rad.
     """
 
-    name: str
+    name: PrecisionName
     unit: float
     good: float
     poor: float
@@ -28,9 +40,7 @@ class Precision(NamedTuple):
         return self.unit / UNIT
 
     def rounded(self, x: np.ndarray) -> np.ndarray:
-        """The floats (...) of this precision nearest to x, as float64; what would be subnormal is
-        0. Returns: these.
-        """
+        """Floats of this precision nearest to x, as float64; what would be subnormal is 0."""
         if self is not SINGLE:
             return x
         near = np.asarray(x, dtype=np.float32).astype(float)
@@ -43,5 +53,5 @@ PRECISIONS = {precision.name: precision for precision in (DOUBLE, SINGLE)}
 
 
 def seen(value: Any) -> Precision:
-    """The precision of a result, by its `dtype`; float64 where it has none that is known."""
+    """Precision of a result, by its `dtype`; float64 where it has none that is known."""
     return PRECISIONS.get(str(getattr(value, "dtype", "")).rpartition(".")[2], DOUBLE)

@@ -35,24 +35,25 @@ A function that writes into an argument is broken: an array is its caller's.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable
+from typing import Any, Literal, get_args
 
 import numpy as np
 
-from ....errors import InputError, safe_repr
+from ....errors import InputError
 from ....groups import se3
-from ....model.chain import Chain
 from ....model.kinematics.pose_jacobian import FRAME_NAMES
 from ..process.calls import made, real, untouched
+from .declarations import Declarations
 from .misspelt import misspelt
 from .named import Source, loaded, source
 from .precision import DOUBLE, PRECISIONS, Precision, seen
 
 ORDERS = ("angular first", "linear first")
-JACOBIANS = tuple(
-    f"{side}_jacobian{inverse}" for inverse in ("", "_inverse") for side in ("left", "right")
-)
+JacobianName = Literal[
+    "left_jacobian", "right_jacobian", "left_jacobian_inverse", "right_jacobian_inverse"
+]
+JACOBIANS: tuple[JacobianName, ...] = get_args(JacobianName)
 SO3 = ("so3_exp", "so3_log", *(f"so3_{name}" for name in JACOBIANS))
 SE3 = ("exp", "log", "adjoint", *JACOBIANS)
 ARMS = ("fk", "jacobian")
@@ -83,15 +84,32 @@ Function = Callable[..., Any]
 
 
 class Subject:
-    """A subject's functions with twists as (omega; v), and its declarations, checked.
+    """Functions of a subject with twists as (ω; v), and its declarations, checked.
 
-    Parameters: thing, a class without parameters or an object, as the module's text says, or
-    "MODULE:NAME" of one. Raises: InputError where it cannot be made, has none of the functions or
-    one with other parameters, or a
-    declaration is missing or none of the words expected; as `named.loaded`.
+    Parameters
+    ----------
+    thing : type, object or str
+        Class without parameters or object, as the module's text says, or "MODULE:NAME" of one.
+
+    Raises
+    ------
+    InputError
+        If it cannot be imported or made, has none of the functions or one with other parameters, or
+        if a declaration is missing or none of the words expected.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> from poekin.testing.conform import Subject
+    >>> class Mine:
+    ...     twist_order = "angular first"
+    ...     def exp(self, xi):
+    ...         return pk.se3.exp(xi)
+    >>> Subject(Mine).functions
+    ('exp',)
     """
 
-    def __init__(self, thing: Any):
+    def __init__(self, thing: Any) -> None:
         where = ""
         if isinstance(thing, str):
             where = thing
@@ -104,127 +122,66 @@ class Subject:
             self.own, fault = made(thing)
             if fault:
                 raise InputError(f"{self.title} cannot be made as {self.title}(): {fault}")
-        self.functions = tuple(name for name in FUNCTIONS if callable(self._attribute(name)))
+        has = Declarations(self.title, self.own)
+        self.functions = tuple(name for name in FUNCTIONS if callable(has.attribute(name)))
         self.misspelt = misspelt(self.own, (*FUNCTIONS, *DECLARATIONS))
         if not self.functions:
             names = "; ".join([", ".join(FUNCTIONS), *self.misspelt])
             raise InputError(f"{self.title} has none of the functions of a subject: {names}")
-        self.name = str(self._attribute("name") or self.title)
-        self.version = str(self._attribute("version") or "")
-        self.noise = self._noise()
-        self.pastes = self._pastes()
+        self.name = str(has.attribute("name") or self.title)
+        self.version = str(has.attribute("version") or "")
+        self.noise = has.noise()
+        self.pastes = has.pastes()
         self.declared: Precision | None = None
-        if self._attribute("precision") is not None:
-            self.declared = PRECISIONS[self._declared("precision", (*PRECISIONS,), "results")]
+        if has.attribute("precision") is not None:
+            self.declared = PRECISIONS[has.choice("precision", (*PRECISIONS,), "results")]
         self._seen: dict[str, Precision] = {}
-        self.batch = self._flag("batch")
-        self.helical = self._flag("helical")
-        self.arm: Chain | None = self._attribute("arm")
-        if not isinstance(self.arm, Chain | None):
-            raise InputError(
-                f"{self.title}: arm: expected a poekin.Chain, got {safe_repr(self.arm)}"
-            )
+        self.batch = has.flag("batch")
+        self.helical = has.flag("helical")
+        self.arm = has.arm()
         for name in self.functions:
-            self._check_parameters(name)
+            has.check_parameters(name, *self._parameters(name))
         self.linear_first = False
         self.frame = ""
-        self._declare_conventions()
+        self._declare_conventions(has)
 
-    def _declare_conventions(self) -> None:
+    def _parameters(self, name: str) -> tuple[str, str]:
+        """Parameters expected of a function, and a hint on them."""
+        if name not in ARMS:
+            return PARAMETERS[name], ""
+        if self.arm is None:
+            return "screws, home, q", " (declare `arm` for fk(q) of one arm)"
+        return "q", " with `arm` declared"
+
+    def _declare_conventions(self, has: Declarations) -> None:
         """Set the order of twists and the frame of Jacobians, as far as any function needs them."""
         twisted = [name for name in self.functions if name in SE3 or name in ARMS]
         if twisted == ["fk"] and self.arm is not None:
             twisted = []  # of one arm, known to poekin: no twist goes in or comes out
-        read = "read_urdf" in self.functions and self._attribute("jacobian_frame") is not None
+        read = "read_urdf" in self.functions and has.attribute("jacobian_frame") is not None
         if read and not twisted:  # what it reads has a Jacobian
             twisted = ["jacobian_frame"]
         if twisted:
-            self.linear_first = self._declared("twist_order", ORDERS, twisted[0]) == ORDERS[1]
+            self.linear_first = has.choice("twist_order", ORDERS, twisted[0]) == ORDERS[1]
         if read or "jacobian" in self.functions:
-            self.frame = self._declared("jacobian_frame", FRAME_NAMES, "jacobian")
+            self.frame = has.choice("jacobian_frame", FRAME_NAMES, "jacobian")
 
     def __getstate__(self) -> dict[str, Any]:
-        # What another process is told of a subject: all but the subject itself.
+        # Another process is told all of a subject but the subject itself.
         return {key: value for key, value in vars(self).items() if key != "own"}
 
-    def _pastes(self) -> dict[str, str]:
-        value = self._attribute("paste")
-        if not isinstance(value, Mapping | None):
-            raise InputError(
-                f"{self.title}: paste: expected a text for each function, got {safe_repr(value)}"
-            )
-        return {str(name): str(text) for name, text in (value or {}).items()}
-
-    def _attribute(self, name: str) -> Any:
-        value, fault = made(lambda: getattr(self.own, name, None))
-        if fault:
-            raise InputError(f"{self.title}: {name}: {fault}")
-        return value
-
-    def _declared(
-        self,
-        what: str,
-        words: tuple[str, ...],
-        function: str,
-    ) -> str:
-        value = self._attribute(what)
-        choice = " or ".join(f'"{word}"' for word in words)
-        if value is None:
-            raise InputError(
-                f"{self.title} has {function}, and does not declare {what}: expected {what} = {choice}"
-            )
-        if not isinstance(value, str) or value not in words:
-            raise InputError(f"{self.title}: {what}: expected {choice}, got {safe_repr(value)}")
-        return value
-
-    def _flag(self, what: str) -> bool:
-        value = self._attribute(what)
-        if not isinstance(value, bool | None):
-            raise InputError(
-                f"{self.title}: {what}: expected True or False, got {safe_repr(value)}"
-            )
-        return bool(value)
-
-    def _noise(self) -> float:
-        value = self._attribute("noise")
-        if value is None:
-            return 0.0
-        if not isinstance(value, int | float) or not 0 <= value <= 1e-5:
-            raise InputError(
-                f"{self.title}: noise: expected a number from 0 to 1e-5, got {safe_repr(value)}"
-            )
-        return float(value)
-
-    def _check_parameters(self, name: str) -> None:
-        hint = ""
-        if name in ARMS:
-            expected = "screws, home, q"
-            hint = " (declare `arm` for fk(q) of one arm)"
-            if self.arm is not None:
-                expected = "q"
-                hint = " with `arm` declared"
-        else:
-            expected = PARAMETERS[name]
-        function = getattr(self.own, name)
-        try:
-            given = inspect.signature(function)
-            given.bind(*expected.split(", "))
-        except TypeError:
-            raise InputError(
-                f"{self.title}: {name}: expected parameters ({expected}){hint}, got {given}"
-            ) from None
-        except (
-            ValueError
-        ):  # compiled, without a signature; or a method that does not even take itself
-            if inspect.ismethod(function):
-                raise InputError(
-                    f"{self.title}: {name}: expected parameters (self, {expected}), got none"
-                ) from None
-
     def precision(self, name: str) -> Precision:
-        """The precision of a function: as declared, else that of its results so far.
+        """Precision of a function: as declared, else that of its results so far.
 
-        Parameters: name, one of `FUNCTIONS`. Returns: `precision.Precision`. Raises: nothing.
+        Parameters
+        ----------
+        name : str
+            Name of the function, of `FUNCTIONS`.
+
+        Returns
+        -------
+        precision : Precision
+            The precision.
         """
         return self.declared or self._seen.get(name, DOUBLE)
 
@@ -233,10 +190,19 @@ class Subject:
         name: str,
         value: Any,
     ) -> Any:
-        """The result of a function, whose precision is remembered.
+        """Result of a function, whose precision is remembered.
 
-        Parameters: name, one of `FUNCTIONS`; value, the result. Returns: the value. Raises:
-        nothing.
+        Parameters
+        ----------
+        name : str
+            Name of the function, of `FUNCTIONS`.
+        value : object
+            The result.
+
+        Returns
+        -------
+        value : object
+            The same.
         """
         self._seen.setdefault(name, seen(value))
         return value
@@ -247,42 +213,106 @@ class Subject:
         return f"{self.name} {self.version}".strip()
 
     def twist(self, x: np.ndarray) -> np.ndarray:
-        """Twists x (..., 6), (omega; v), of any frame, in the subject's order, and back.
+        """Twists in the subject's order, and back.
 
-        Returns: the same shape. Source: `poekin.se3.linear_first`.
+        Parameters
+        ----------
+        x : (..., 6) ndarray
+            Twists (ω; v) of any frame, rad and m.
+
+        Returns
+        -------
+        x : (..., 6) ndarray
+            Twists in the subject's order.
+
+        Notes
+        -----
+        Source: `poekin.se3.linear_first`.
         """
         if not self.linear_first:
             return x
         return se3.linear_first(x)
 
     def square(self, X: np.ndarray) -> np.ndarray:
-        """A matrix X (..., 6, 6) between twists of one frame in the subject's order, and back.
+        """Matrices between twists of one frame in the subject's order, and back.
 
-        Returns: the same shape. Source: `poekin.se3.linear_first`.
+        Parameters
+        ----------
+        X : (..., 6, 6) ndarray
+            Matrices between twists (ω; v), rad and m.
+
+        Returns
+        -------
+        X : (..., 6, 6) ndarray
+            Matrices in the subject's order.
+
+        Notes
+        -----
+        Source: `poekin.se3.linear_first`.
         """
         return self.twist(self.rows(X))
 
     def rows(self, J: np.ndarray) -> np.ndarray:
-        """A Jacobian J (6, m), of any frame, its rows in the subject's order, and back.
+        """Jacobians of any frame with rows in the subject's order, and back.
 
-        Returns: the same shape. Source: `poekin.se3.linear_first`.
+        Parameters
+        ----------
+        J : (6, m) ndarray
+            Jacobian with rows (ω; v), rad and m per unit of a coordinate.
+
+        Returns
+        -------
+        J : (6, m) ndarray
+            Jacobian with rows in the subject's order.
+
+        Notes
+        -----
+        Source: `poekin.se3.linear_first`.
         """
         if not self.linear_first:
             return J
         return se3.linear_first(J, axis=-2)
 
     def plain(self, name: str) -> Function:
-        """A function as the subject has it, but that it raises ArgumentChanged where it writes into
-        an argument.
+        """Function as the subject has it, which raises where it writes into an argument.
 
-        Parameters: name, one of `FUNCTIONS`. Returns: the function, in the subject's own order.
-        Raises: AttributeError where the subject has none.
+        Parameters
+        ----------
+        name : str
+            Name of the function, of `FUNCTIONS`.
+
+        Returns
+        -------
+        function : callable
+            The function, in the subject's own order; it raises ArgumentChanged where it leaves other numbers
+            in an argument.
+
+        Raises
+        ------
+        AttributeError
+            If the subject has none.
         """
         function = untouched(getattr(self.own, name))
         return lambda *arguments: self.noted(name, function(*arguments))
 
     def function(self, name: str) -> Function:
-        """The function of a group of that name, with twists as (omega; v)."""
+        """Function of a group of that name, with twists as (ω; v).
+
+        Parameters
+        ----------
+        name : str
+            Name of the function, of `FUNCTIONS`.
+
+        Returns
+        -------
+        function : callable
+            The function.
+
+        Raises
+        ------
+        AttributeError
+            If the subject has none.
+        """
         own = self.plain(name)
         if name in SO3:
             return own
@@ -308,8 +338,17 @@ class Subject:
     ) -> str:
         """Python that calls a function of the subject and prints its result.
 
-        Parameters: name, of the function; arguments, Python texts by their names. Returns: the
-        text.
+        Parameters
+        ----------
+        name : str
+            Name of the function, of `FUNCTIONS`.
+        **arguments : str
+            Python texts by their names.
+
+        Returns
+        -------
+        text : str
+            The Python, in one line.
         """
         text = self.pastes.get(name)
         if text is not None:

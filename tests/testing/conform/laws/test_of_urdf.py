@@ -9,7 +9,7 @@ import pytest
 
 from benchmarks.subjects import Poekin
 from poekin.testing.conform import Grade, Subject, confirm
-from poekin.testing.conform.laws import arm_cases, of_arms, of_urdf, small_urdf
+from poekin.testing.conform.laws import arm_cases, of_urdf, small_urdf
 from poekin.testing.conform.laws.law import Shown
 from poekin.testing.conform.process.calls import Undeclared
 from poekin.testing.oracles import exact, exact_chain
@@ -69,7 +69,7 @@ class Read:
 
     def exactly(self, k: int = small_urdf.TIP) -> np.ndarray:
         arm, q, _ = small_urdf.arm(CASE, k)
-        return exact.rounded(of_arms.pose(arm, q))
+        return exact.rounded(exact_chain.pose(arm, q))
 
     def fk(self, q: np.ndarray) -> np.ndarray:
         self.asked.append(q)

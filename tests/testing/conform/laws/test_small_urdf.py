@@ -15,11 +15,11 @@ from benchmarks.subjects import Poekin
 from poekin.errors import PoekinWarning
 from poekin.formats.urdf import read_text
 from poekin.testing.conform import Subject
-from poekin.testing.conform.laws import of_arms, small_urdf
+from poekin.testing.conform.laws import small_urdf
 from poekin.testing.conform.laws.law import Case
 from poekin.testing.conform.laws.small_urdf import EACH, UrdfJoint, UrdfLayout, chain
 from poekin.testing.conform.laws.urdf_cases import URDF_LAWS
-from poekin.testing.oracles import exact
+from poekin.testing.oracles import exact, exact_chain
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from tests.testing.drawing import drawn
 from tests.testing.small_tree import CASE, JOINTS, ROWS
@@ -31,7 +31,7 @@ SUBJECT = Subject(Poekin)
 def test_what_the_numbers_say_is_what_pinocchio_and_poekin_read(law):
     for case in drawn(law.cases(SUBJECT), 12):
         arm, q, names = small_urdf.arm(case)
-        truth = exact.rounded(of_arms.pose(arm, q))
+        truth = exact.rounded(exact_chain.pose(arm, q))
         text = small_urdf.text(case)
         oracle = PinocchioOracle(text)
         given = {name: [value] for name, value in small_urdf.coordinates(case).items()}
@@ -42,7 +42,7 @@ def test_what_the_numbers_say_is_what_pinocchio_and_poekin_read(law):
                 own, values, _ = small_urdf.arm(case, k)
                 found = oracle.poses(given, small_urdf.link(case, k), "base")[0]
                 np.testing.assert_allclose(
-                    found, exact.rounded(of_arms.pose(own, values)), rtol=0, atol=1e-13
+                    found, exact.rounded(exact_chain.pose(own, values)), rtol=0, atol=1e-13
                 )
         # The lengths go up to 3 m a joint, and more by 10 m that a joint may slide.
         np.testing.assert_allclose(oracle.poses(given, "tip", "base")[0], truth, rtol=0, atol=1e-13)
