@@ -138,7 +138,7 @@ class Outcome(Result):
         return {key: plain(value) for key, value in found.items()}
 
     def summary(self, before: Mapping[str, str] = MappingProxyType({})) -> str:
-        """Outcome in a few lines of text.
+        """Outcome in a few lines of text. Raises: nothing.
 
         Parameters
         ----------
