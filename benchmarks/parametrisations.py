@@ -46,7 +46,9 @@ class Elementary:
     @functools.cached_property
     def chain(self) -> Chain:
         """The chain of one joint a parameter: its coordinates are the parameters."""
-        return Chain([UNITS[motion] for motion in self.motions], self.tool).rebased(self.base)
+        return Chain.from_space([UNITS[motion] for motion in self.motions], self.tool).rebased(
+            self.base
+        )
 
     @property
     def lengths(self) -> Array:
@@ -119,4 +121,4 @@ def tilted(delta: float) -> Chain:
         se3.adjoint(se3.exp(delta * np.concatenate([normal, np.cross(p[ELBOW], normal)])))
         @ A[ELBOW]
     )
-    return Chain(A, nominal.home, limits=nominal.limits)
+    return Chain.from_space(A, nominal.home, limits=nominal.limits)

@@ -38,7 +38,7 @@ def random_arm(seed: int, kinds: Sequence[str] = ("revolute",) * 6) -> Chain:
         else screw.revolute(rng.normal(size=3), p)
         for kind, p in zip(kinds, 0.3 * rng.normal(size=(len(kinds), 3)), strict=True)
     ]
-    return Chain(rows, se3.exp(rng.normal(size=6)))
+    return Chain.from_space(rows, se3.exp(rng.normal(size=6)))
 
 
 @functools.cache
@@ -68,7 +68,7 @@ def planted(chain: Chain, change: str, k: int, rng: np.random.Generator) -> Chai
         S[k] = screw.revolute(w, p + 1e-3 * across)
     else:
         S[k], limits[k] = -S[k], -limits[k, ::-1]
-    return Chain(S, chain.home, joint_names=chain.joint_names, limits=limits)
+    return Chain.from_space(S, chain.home, joint_names=chain.joint_names, limits=limits)
 
 
 def fault(result: Any, change: str, k: int) -> str:

@@ -5,6 +5,8 @@
 T_ab is the pose of frame b in frame a; twists are (omega; v), the angular part first; rad, m, s.
 """
 
+from typing import TYPE_CHECKING
+
 from . import errors
 from .analysis.axes import axes
 from .analysis.compare.compare import compare
@@ -24,6 +26,7 @@ from .groups import se3, so3
 from .model import screw
 from .model.chain import Chain
 from .model.joint import Joint, Mimic
+from .model.methods.peer_names import OF_PACKAGE, no_attribute
 from .model.robot import Robot
 from .solve import calibration, motion
 from .solve.calibration import calibrate, choose_poses
@@ -68,3 +71,8 @@ __all__ = [
     "validate",
     "xacro",
 ]
+
+if not TYPE_CHECKING:  # which would take any name for an attribute
+
+    def __getattr__(name: str) -> object:
+        raise no_attribute("poekin", name, OF_PACKAGE, __all__)

@@ -127,7 +127,7 @@ def faults(name: Name) -> list[str]:
         signature = inspect.signature(name.thing)
     except (TypeError, ValueError):
         return [f"{name.dotted}: no signature"]
-    parameters = {n: p for n, p in signature.parameters.items() if n != "self"}
+    parameters = {n: p for n, p in signature.parameters.items() if n not in ("self", "cls")}
     for parameter, about in parameters.items():
         if not re.search(rf"(?<![\w.]){re.escape(parameter)}s?(?!\w)", text):
             lacking.append(f"parameter {parameter}")

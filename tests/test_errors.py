@@ -165,7 +165,7 @@ def test_of_long_names_only_the_first_are_looked_at():
     )
 
 
-ARM = pk.Chain([pk.screw.revolute([0, 0, 1], [i, 0, 0]) for i in range(2)], np.eye(4))
+ARM = pk.Chain.from_space([pk.screw.revolute([0, 0, 1], [i, 0, 0]) for i in range(2)], np.eye(4))
 
 
 @pytest.mark.parametrize(

@@ -134,7 +134,7 @@ def arm() -> str:
     y, z = [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]
     home = np.eye(4)
     home[0, 3] = L1 + L2
-    chain = pk.Chain(
+    chain = pk.Chain.from_space(
         [
             pk.screw.revolute(z, [0, 0, 0]),
             pk.screw.revolute(y, [0, 0, 0]),

@@ -93,7 +93,7 @@ def random_chain(kinds: str, rng: np.random.Generator) -> tuple[Chain, np.ndarra
     home[:3, :3], home[:3, 3] = so3.exp(rng.normal(size=3)), rng.uniform(-0.5, 0.5, 3)
     span = np.array([0.5 if kind == "P" else np.pi for kind in kinds])
     point = rng.uniform(0.06, 0.17, 3) * rng.choice([-1.0, 1.0], 3)
-    return Chain(screws, home), rng.uniform(-span, span, (MEASURED, len(kinds))), point
+    return Chain.from_space(screws, home), rng.uniform(-span, span, (MEASURED, len(kinds))), point
 
 
 def seen(chain: Chain, q: np.ndarray, point: np.ndarray | None) -> Seen:

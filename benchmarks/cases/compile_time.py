@@ -17,7 +17,7 @@ JOINTS = 50
 # Another arm, so that the kernels which all arms share are there, and this arm's code is not.
 OTHER = """
 import poekin as pk, numpy as np
-pair = pk.Chain([pk.screw.revolute([0, 0, 1], [k, 0, 0]) for k in range(2)], np.eye(4))
+pair = pk.Chain.from_space([pk.screw.revolute([0, 0, 1], [k, 0, 0]) for k in range(2)], np.eye(4))
 pair.compile().fk_jacobian(np.zeros(2), "hybrid")
 """
 
@@ -33,7 +33,7 @@ import json, time
 import poekin as pk, numpy as np
 rng = np.random.default_rng(0)
 axes, points = rng.normal(size=(2, {JOINTS}, 3))
-chain = pk.Chain([pk.screw.revolute(w / np.linalg.norm(w), p) for w, p in zip(axes, points / 3)], np.eye(4))
+chain = pk.Chain.from_space([pk.screw.revolute(w / np.linalg.norm(w), p) for w, p in zip(axes, points / 3)], np.eye(4))
 q = rng.uniform(-np.pi, np.pi, chain.dof)
 """
 
@@ -44,7 +44,7 @@ made = time.perf_counter() - start
 T, J = arm.fk_jacobian(q, "hybrid")
 called = time.perf_counter() - start
 start = time.perf_counter()
-other = pk.Chain(chain.screws, chain.home).compile()
+other = pk.Chain.from_space(chain.screws, chain.home).compile()
 other.fk_jacobian(q, "body")
 again = time.perf_counter() - start
 from poekin.testing.oracles import exact

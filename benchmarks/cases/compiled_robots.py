@@ -18,6 +18,7 @@ import numpy as np
 from poekin import Chain, load
 from poekin.analysis.validate import BAR, ChainErrors, chain_errors, routes
 from poekin.errors import PoekinWarning
+from poekin.model.kinematics.pose_jacobian import Frame
 from poekin.testing.cases.example_robots import example_robots
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
@@ -39,7 +40,7 @@ class Compiled:
         """The pose that comes with the hybrid Jacobian."""
         return self.arm.fk_jacobian(q, "hybrid")[0]
 
-    def jacobian(self, q: np.ndarray, frame: str) -> np.ndarray:
+    def jacobian(self, q: np.ndarray, frame: Frame) -> np.ndarray:
         """The Jacobian that comes with a pose."""
         return self.arm.fk_jacobian(q, frame)[1]
 

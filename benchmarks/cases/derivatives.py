@@ -130,7 +130,7 @@ def arms_of_the_catalogue() -> list[tuple[str, Chain]]:
 def screw_errors(name: str, chain: Chain) -> ScrewErrors:
     """One arm at a random configuration within ±3 rad or m."""
     q = np.random.default_rng(0).uniform(-3, 3, chain.dof)
-    motion, entries = chain.screw_derivatives(q), chain.screw_derivatives(q, by="entries")
+    motion, entries = chain.screw_derivatives(q), chain.screw_derivatives(q, wrt="components")
     columns = [chain.jacobian_screw_derivatives(q, frame) for frame in FRAME_NAMES]
     errors = []
     for i in range(len(chain.joint_names)):

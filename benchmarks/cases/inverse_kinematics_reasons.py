@@ -31,7 +31,7 @@ def tightened(chain: Chain, part: float) -> Chain:
     lower, upper = chain.limits.T
     middle, half = (lower + upper) / 2, part * (upper - lower) / 2
     limits = np.stack([middle - half, middle + half], 1)
-    return Chain(chain.screws, chain.home, joint_names=chain.joint_names, limits=limits)
+    return Chain.from_space(chain.screws, chain.home, joint_names=chain.joint_names, limits=limits)
 
 
 def blocked_poses(chain: Chain, rng: np.random.Generator, count: int) -> tuple[np.ndarray, int]:

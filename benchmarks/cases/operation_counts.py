@@ -5,6 +5,7 @@ program costs.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -239,7 +240,7 @@ def _kept(chain: Chain, frames, bars: tuple[int, ...]) -> tuple[str | int, str]:
     return best, "; ".join(f"{f}: {'/'.join(map(str, n))}" for f, n in found.items() if f != best)
 
 
-def _error(chain: Chain, frame: str | int, rng: np.random.Generator) -> str:
+def _error(chain: Chain, frame: Any, rng: np.random.Generator) -> str:
     """Largest difference ÷ R between the compiled program's Jacobian and the chain's own, over 100
     configurations.
     """
@@ -295,7 +296,7 @@ def _arm(rng: np.random.Generator, n: int) -> tuple[Chain, np.ndarray]:
     for row in table:
         screws.append(se3.adjoint(T) @ z)
         T = T @ _link(0.0, *row)
-    return Chain(screws, T), table
+    return Chain.from_space(screws, T), table
 
 
 def _link(theta: float, d: float, a: float, alpha: float) -> np.ndarray:

@@ -70,7 +70,7 @@ def random_chain(n: int) -> Chain:
     axes, points = rng.normal(size=(2, n, 3))
     home = np.eye(4)
     home[:3, 3] = rng.normal(size=3)
-    return Chain(
+    return Chain.from_space(
         [screw.revolute(w / np.linalg.norm(w), p / 3) for w, p in zip(axes, points, strict=True)], home,
         joint_names=[f"joint{k + 1}" for k in range(n)],
     )  # fmt: skip

@@ -149,7 +149,7 @@ class RoboticsToolbox(ByText):
     def _sequence(self, screws: np.ndarray, home: np.ndarray) -> Any:
         rtb = module("roboticstoolbox")
         sequence = rtb.ETS()
-        fixed, last = links.z_aligned(Chain(screws, home))
+        fixed, last = links.z_aligned(Chain.from_space(screws, home))
         for T, turns in fixed:
             sequence = sequence * rtb.ET.SE3(T) * (rtb.ET.Rz() if turns else rtb.ET.tz())
         return sequence * rtb.ET.SE3(last)

@@ -42,10 +42,10 @@ class Poekin:
     so3_right_jacobian_inverse = staticmethod(pk.so3.right_jacobian_inverse)
 
     def fk(self, screws: np.ndarray, home: np.ndarray, q: np.ndarray) -> np.ndarray:
-        return pk.Chain(screws, home).fk(q)
+        return pk.Chain.from_space(screws, home).fk(q)
 
     def jacobian(self, screws: np.ndarray, home: np.ndarray, q: np.ndarray) -> np.ndarray:
-        return pk.Chain(screws, home).jacobian(q, frame="body")
+        return pk.Chain.from_space(screws, home).jacobian(q, frame="body")
 
     def read_urdf(self, text: str, base: str, tip: str) -> Any:
         chain = _read(text).chain(base=base, tip=tip)

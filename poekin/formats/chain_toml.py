@@ -46,7 +46,7 @@ def to_chain(keys: Keys) -> Chain:
     optional = {"coupling": (n, m), "pitches": (n,)}
     arrays = {key: keys.array(key, shape) for key, shape in optional.items() if key in keys.data}
     try:
-        return Chain(
+        return Chain.from_space(
             keys.array("screws", (n, 6)),
             keys.array("home", (4, 4)),
             joint_names=joints,

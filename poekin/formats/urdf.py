@@ -17,11 +17,11 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from ..errors import ModelError, quote
 from ..model.checks import LONGEST
-from ..model.joint import FREE, KINDS, MOVING, Joint, Mimic
+from ..model.joint import FREE, KINDS, MOVING, Joint, JointKind, Mimic
 from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import rpy
@@ -128,7 +128,7 @@ def _joint(fields: Fields, repairs: Repairs) -> Joint:
         moving["limits"] = _limits(fields, name, repairs)
     return Joint(
         name,
-        kind,
+        cast("JointKind", kind),
         ends[0],
         ends[1],
         pose,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Self, TypeVar
+from typing import Any, Literal, NamedTuple, Self, TypedDict, TypeVar, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,9 +13,10 @@ from ..engine.kernels import chain_kernels
 from ..errors import ShapeError, quote
 from ..groups import se3
 from ..groups.arrays import Array
-from . import screw
 from .checks import (
+    REQUIRED,
     bounds,
+    choice,
     coupling_matrix,
     distinct_names,
     finite,
@@ -25,21 +26,47 @@ from .checks import (
     read_only,
 )
 from .geometry.local import LocalForm, kernel_table, local_form
+from .screw_rows.unit_screws import pitches_of, unit_screws, with_pitches
+
+ScrewFrame = Literal["space", "body"]
+"""Frame of a chain's screws: the base frame, or the tool frame at home."""
+
+ScrewKind = Literal["revolute", "prismatic", "helical"]
+
+_ENTRANCES = "; or write Chain.from_space(A, M), from_body(B, M) or from_local(S, M_i)"
 
 
 class ScrewForm(NamedTuple):
-    """One global form of the product of exponentials: screws (n, 6), per rad or m, in one frame;
-    home (4, 4), m.
+    """One global form of the product of exponentials.
+
+    Attributes
+    ----------
+    screws : (n, 6) ndarray
+        Screws (ω; v) in one frame, per rad or m.
+    home : (4, 4) ndarray
+        Home pose, m.
     """
 
     screws: Array
     home: Array
 
 
+class ChainOptions(TypedDict, total=False):
+    """Optional arguments of a chain, by name."""
+
+    joint_names: Sequence[str] | None
+    q_names: Sequence[str] | None
+    limits: ArrayLike | None
+    coupling: ArrayLike | None
+    offset: ArrayLike | None
+    base: str
+    tip: str
+    pitches: ArrayLike | None
+
+
 @dataclass(slots=True, init=False, eq=False, repr=False)
 class ChainData:
-    """Frozen numbers and names of a serial chain, checked and made exact once. They know nothing of
-    kinematics.
+    """Frozen numbers and names of a serial chain, checked and made exact once.
 
     Parameters and errors: as `Chain`, its face. Further attributes
     - kinds (n): "revolute", "prismatic" or "helical"; local: the local form; reach, m.
@@ -59,7 +86,7 @@ class ChainData:
     tip: str
     pitches: Array
     nontrivial_coupling: Array | None
-    kinds: tuple[str, ...]
+    kinds: tuple[ScrewKind, ...]
     local: LocalForm
     reach: float
     kernel_table: Array
@@ -71,6 +98,7 @@ class ChainData:
         screws: ArrayLike,
         home: ArrayLike,
         *,
+        frame: ScrewFrame = REQUIRED,
         joint_names: Sequence[str] | None = None,
         q_names: Sequence[str] | None = None,
         limits: ArrayLike | None = None,
@@ -80,11 +108,15 @@ class ChainData:
         tip: str = "tool",
         pitches: ArrayLike | None = None,
     ):
+        choice(frame, get_args(ScrewFrame), "frame", _ENTRANCES)
         given_names = ordered_names(joint_names, "joint_names")
-        A = screw.checked(screws, given_names)
-        h = screw.pitches_of(A, pitches, given_names)
-        if pitches is not None:
-            A = screw.with_pitches(A, h)
+        A = unit_screws(screws, given_names)
+        h = pitches_of(A, pitches, given_names)
+        M = one_pose(home)
+        if frame == "body":
+            A = unit_screws(A @ se3.adjoint(M).T)
+        if pitches is not None or frame == "body":
+            A = with_pitches(A, h)
         n = len(A)
         joints = distinct_names(joint_names, n, "joint_names", "joint")
         C = coupling_matrix(coupling, n)
@@ -95,7 +127,6 @@ class ChainData:
         elif q_names is None:
             q_names = joints
         names = distinct_names(q_names, m, "q_names", "q")
-        M = one_pose(home)
         form = local_form(A, M, h)
         table = kernel_table(form, C, c)
         plain = table.shape[1] == chain_kernels.OFFSET
@@ -125,28 +156,37 @@ class ChainData:
 
     @property
     def dof(self) -> int:
-        """m, the number of coordinates."""
+        """Number m of coordinates."""
         return len(self.q_names)
 
     @property
     def coupling(self) -> Array:
-        """C (n, m) of x = C q + c: made anew at each call where every joint is its own coordinate."""
+        """Matrix C (n, m) of x = C q + c; made anew where every joint is its own coordinate."""
         C = self.nontrivial_coupling
         return read_only(np.eye(self.dof) if C is None else C)
 
     @property
     def space(self) -> ScrewForm:
-        """A_1 ... A_n in the base frame and M: f = e^{A_1 x_1} ... e^{A_n x_n} M."""
+        """Screws A (n, 6) in the base frame and M: f = e^{A_1 x_1} ... e^{A_n x_n} M."""
         return ScrewForm(self.screws, self.home)
 
     @property
     def body(self) -> ScrewForm:
-        """B_i = Ad(M)^-1 A_i in the tool frame and M: f = M e^{B_1 x_1} ... e^{B_n x_n}."""
+        """Screws B = Ad(M)^-1 A (n, 6) in the tool frame and M: f = M e^{B_1 x_1} ... e^{B_n x_n}."""
         return ScrewForm(self.screws @ se3.adjoint(se3.inverse(self.home)).T, self.home)
 
     def is_angle(self, k: int) -> bool:
-        """Whether coordinate number k is an angle [rad] and no length [m]: the first joint that
-        follows it turns.
+        """Whether a coordinate is an angle, rad, and no length, m: the first joint it moves turns.
+
+        Parameters
+        ----------
+        k : int
+            Number of the coordinate, from 0.
+
+        Returns
+        -------
+        angle : bool
+            True for an angle, and where no joint follows the coordinate.
         """
         C = self.nontrivial_coupling
         followers = [k] if C is None else np.flatnonzero(C[:, k])
@@ -155,9 +195,30 @@ class ChainData:
     def replace(self, **changes: Any) -> Self:
         """Copy with some parameters changed.
 
-        Parameters: changes, parameters of `Chain` by name. Returns: Chain. Raises: as `Chain`.
+        Parameters
+        ----------
+        **changes : dict
+            Parameters of `Chain` by name; new `screws` are in the base frame, unless `frame` says
+            otherwise.
+
+        Returns
+        -------
+        chain : Chain
+            Chain with these parameters, the others as they are.
+
+        Raises
+        ------
+        InputError
+            If `Chain` refuses a parameter: ShapeError, ScrewError, PoseError or InputError itself.
+
+        Examples
+        --------
+        >>> import poekin as pk
+        >>> arm = pk.load("ur5e").chain()
+        >>> arm.replace(tip="flange").tip
+        'flange'
         """
-        return type(self)(**{**self._data(), **changes})
+        return type(self)(**{"frame": "space", **self._data(), **changes})
 
     def _data(self) -> dict[str, Any]:
         data: dict[str, Any] = {name: getattr(self, name) for name in _DATA}
@@ -198,11 +259,11 @@ AnyChain = TypeVar("AnyChain", bound=ChainData)
 """The class of the chain that is given: a function of a `Chain` that makes a new one makes a Chain."""
 
 _DATA = ("screws", "home", "joint_names", "q_names", "limits", "offset", "base", "tip", "pitches")
-_KINDS = ("revolute", "prismatic", "helical")
+_KINDS: tuple[ScrewKind, ...] = get_args(ScrewKind)
 
 
 def _rebuilt(kind: type[ChainData], data: dict[str, Any]) -> ChainData:
-    return kind(**data)
+    return kind(**data, frame="space")
 
 
 def _offset(given: ArrayLike | None, n: int) -> Array:
@@ -215,7 +276,7 @@ def _offset(given: ArrayLike | None, n: int) -> Array:
     return c
 
 
-def _kind(rotates: float, slides: float) -> str:
+def _kind(rotates: float, slides: float) -> ScrewKind:
     """Kind of the joint that turns by rotates x and slides by slides x."""
     if rotates == 0:
         return "prismatic"

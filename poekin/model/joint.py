@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -12,9 +12,10 @@ from ..errors import InputError, ModelError, quote, safe_repr
 from . import screw
 from .checks import LONGEST, one_pose, read_only
 
-MOVING = ("revolute", "continuous", "prismatic", "helical")
-FREE = ("floating", "planar")
-KINDS = (*MOVING, "fixed", *FREE)
+JointKind = Literal["revolute", "continuous", "prismatic", "helical", "fixed", "floating", "planar"]
+KINDS: tuple[JointKind, ...] = get_args(JointKind)
+MOVING = KINDS[:4]
+FREE = KINDS[5:]
 
 # A vector this close to unit length stays as it is, so that a joint made from a joint's own axis
 # equals it.
@@ -25,9 +26,26 @@ UNIT = 1e-15
 class Mimic:
     """A joint that follows another one: x = multiplier x_joint + offset.
 
-    Fields: joint, the name of the joint to follow; multiplier [own unit per the other's]; offset
-    [rad or m].
-    Raises: ModelError for numbers that are not finite or a name that is none.
+    Parameters
+    ----------
+    joint : str
+        Name of the joint to follow.
+    multiplier : float, default 1.0
+        Own unit per the other's.
+    offset : float, default 0.0
+        Value where the other's is 0, rad or m.
+
+    Raises
+    ------
+    ModelError
+        If a number is not finite, or the name is none.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> finger = pk.Joint("right", "prismatic", "hand", "finger", mimic=pk.Mimic("left"))
+    >>> print(finger)
+    Joint('right', prismatic, 'hand' -> 'finger', mimic='left')
     """
 
     joint: str
@@ -42,31 +60,59 @@ class Mimic:
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """The child link's pose in the parent link's frame, T_pc(x) = origin e^{S x}, S the joint's
-    screw in its own frame.
+    """Joint of two links: T_pc(x) = origin e^{S x}, S the screw in the joint's own frame.
 
-    Fields
-    - name, parent, child: its own name and those of the two links.
-    - kind: "revolute", "continuous", "prismatic", "helical"; "fixed"; "floating", "planar" (kept in
-      the tree, but no chain can cross them).
-    - origin (4, 4): pose of the joint's frame in the parent's [m].
-    - axis (3,): direction of the axis in the joint's frame; any length, kept as a unit vector.
-    - limits: lower and upper bound of x [rad or m], -inf and inf where there is none; a continuous
-      joint has none.
-    - mimic: the joint that it follows, or None. A fixed joint stays where it is, whatever it is
-      said to mimic.
-    - pitch [m per rad]: of a helical joint.
+    T_pc is the pose of the child link in the parent link's frame.
 
-    Frozen, and equal to a joint of the same numbers. Raises: ModelError that names the joint and
-    the field;
-    ShapeError, InputError or PoseError for an origin that is no pose; lengths above 1e100 m are
-    refused.
-    Accuracy: the axis is a unit vector to 1e-15, the origin's rotation orthonormal to 4e-15 (the
-    nearest rotation to what is given); all else is kept as given.
+    Parameters
+    ----------
+    name : str
+        Name of the joint.
+    kind : {"revolute", "continuous", "prismatic", "helical", "fixed", "floating", "planar"}
+        Kind of the motion; "floating" and "planar" are kept in the tree, but no chain can cross
+        them.
+    parent, child : str
+        Names of the two links.
+    origin : (4, 4) array_like, optional
+        Pose of the joint's frame in the parent's, m; the identity where it is left out.
+    axis : (3,) array_like, default (1, 0, 0)
+        Direction of the axis in the joint's frame; any length, kept as a unit vector.
+    limits : (2,) array_like, optional
+        Lower and upper bound of x, rad or m; infinite where there is none, and for a continuous
+        joint.
+    mimic : Mimic, optional
+        Joint that it follows. A fixed joint stays where it is, whatever it is said to mimic.
+    pitch : float, default 0.0
+        Pitch of a helical joint, m per rad.
+
+    Raises
+    ------
+    ModelError
+        If a field cannot be used, with the joint and the field; lengths above 1e100 m are refused.
+    ShapeError
+        If the origin has another shape.
+    PoseError
+        If the origin is no pose.
+    InputError
+        If the origin holds anything but real numbers.
+
+    Notes
+    -----
+    Frozen, and equal to a joint of the same numbers. Accuracy: the axis is a unit vector to 1e-15,
+    the origin's rotation orthonormal to 4e-15 (the nearest rotation to what is given); all else is
+    kept as given.
+
+    Examples
+    --------
+    >>> import math
+    >>> import poekin as pk
+    >>> elbow = pk.Joint("elbow", "revolute", "upper", "lower", axis=(0, 0, 2), limits=(0, math.pi))
+    >>> elbow.screw
+    (0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
     """
 
     name: str
-    kind: str
+    kind: JointKind
     parent: str
     child: str
     origin: Any = None
@@ -107,9 +153,7 @@ class Joint:
 
     @property
     def screw(self) -> tuple[float, ...]:
-        """S = (omega; v) in the joint's own frame, all zeros where it has no coordinate (fixed,
-        floating, planar).
-        """
+        """Screw S = (ω; v) in the joint's own frame; zeros where it has no coordinate."""
         x, y, z = self.axis
         if self.kind in ("revolute", "continuous", "helical"):
             return (x, y, z, self.pitch * x, self.pitch * y, self.pitch * z)

@@ -37,6 +37,14 @@ def half_range(chain: ChainData) -> Array:
     return np.array([x / abs(dominant_ratio(chain, k)) for k, x in enumerate(motions)])
 
 
+def radians_per_unit(chain: ChainData) -> Array:
+    """Radians (m,) by which the joint that a coordinate moves most turns with its unit; 0 for a
+    length.
+    """
+    angles = [chain.is_angle(k) for k in range(chain.dof)]
+    return np.where(angles, np.pi / half_range(chain), 0.0)
+
+
 def dominant_ratio(chain: ChainData, k: int) -> float:
     """Ratio of largest size to coordinate k, of joints that turn where it is an angle and slide
     where not.

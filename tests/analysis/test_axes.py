@@ -19,7 +19,7 @@ from poekin.model.chain import Chain
 
 
 def made(*rows):
-    return Chain([screw.revolute(w, p) for w, p in rows], np.eye(4))
+    return Chain.from_space([screw.revolute(w, p) for w, p in rows], np.eye(4))
 
 
 WRIST = [((0, 0, 1), (1, 0, 0)), ((0, 1, 0), (1, 0, 0)), ((1, 0, 0), (0, 0, 0))]
@@ -33,7 +33,7 @@ def test_the_report_does_not_change_with_the_base_frame_or_the_joints_directions
     rng = np.random.default_rng(seed)
     chain = made(*[(rng.normal(size=3), rng.normal(size=3)) for _ in range(5)])
     other = chain.rebased(se3.exp(rng.normal(size=6)))
-    flipped = Chain(other.screws * rng.choice([-1.0, 1.0], 5)[:, None], other.home)
+    flipped = Chain.from_space(other.screws * rng.choice([-1.0, 1.0], 5)[:, None], other.home)
     for p, q in zip(axes(chain).pairs, axes(flipped).pairs, strict=True):
         assert (p.angle, p.distance) == (
             pytest.approx(q.angle, abs=1e-6),
@@ -106,7 +106,9 @@ def test_well_known_arms_are_known():
 
 
 def test_prismatic_axes_have_no_place():
-    chain = Chain([screw.prismatic([0, 0, 1]), screw.revolute([1, 0, 0], [0, 1, 0])], np.eye(4))
+    chain = Chain.from_space(
+        [screw.prismatic([0, 0, 1]), screw.revolute([1, 0, 0], [0, 1, 0])], np.eye(4)
+    )
     (pair,) = axes(chain).pairs
     assert (pair.distance, pair.relation) == (None, "perpendicular")
 
@@ -187,10 +189,12 @@ def test_what_slides_makes_no_shape_and_neighbours_on_one_line_no_spherical_join
     assert not axes(made(z, z, y)).shapes
     assert not axes(made(y, z, z)).shapes
     assert axes(made(z, y, z)).shapes[0].kind == "spherical wrist"
-    slide = Chain([screw.prismatic([1, 0, 0]), *made(z, y, z).screws], np.eye(4))
+    slide = Chain.from_space([screw.prismatic([1, 0, 0]), *made(z, y, z).screws], np.eye(4))
     assert [s.joints for s in axes(slide).shapes] == [(2, 3, 4)]
     assert not axes(
-        Chain([*made(z, y).screws, screw.prismatic([1, 0, 0]), *made(z).screws], np.eye(4))
+        Chain.from_space(
+            [*made(z, y).screws, screw.prismatic([1, 0, 0]), *made(z).screws], np.eye(4)
+        )
     ).shapes
 
 
@@ -260,7 +264,7 @@ def test_an_angle_is_told_from_what_it_is_nearer_to(angle, words):
 def test_shapes_behind_a_slide_and_behind_parallel_axes_are_found():
     x, y, z = np.eye(3)
     wrist = [(z, [2, 0, 0]), (y, [2, 0, 0]), (x, [2, 0, 0])]
-    rail = Chain([screw.prismatic(x), *made(*wrist).screws], np.eye(4))
+    rail = Chain.from_space([screw.prismatic(x), *made(*wrist).screws], np.eye(4))
     assert [(shape.kind, shape.joints) for shape in axes(rail).shapes] == [
         ("spherical wrist", (2, 3, 4))
     ]

@@ -63,7 +63,7 @@ def _with(chain: Chain, **changes: Any) -> Chain:
             "tip",
         )
     }
-    return Chain(**{**data, **changes})
+    return Chain(**{**data, **changes}, frame="space")
 
 
 def _add(array: np.ndarray, where: tuple[int, ...], amount: float) -> np.ndarray:
@@ -106,14 +106,14 @@ def test_a_planted_error_fails(chain, oracle, q, plant):
 class _Wrong:
     """A chain whose Jacobian of one frame is another one's."""
 
-    def __init__(self, chain: Chain, wrong: str, other: str):
+    def __init__(self, chain: Chain, wrong: Any, other: Any):
         self._chain, self._swap = chain, {wrong: other}
 
     def __getattr__(self, name):
         return getattr(self._chain, name)
 
     def jacobian(self, q, frame):
-        return self._chain.jacobian(q, str(self._swap.get(frame, frame)))
+        return self._chain.jacobian(q, self._swap.get(frame, frame))
 
 
 @pytest.mark.parametrize(
@@ -226,7 +226,7 @@ def test_a_chain_starts_below_a_joint_that_it_cannot_cross(kind):
     assert above.note == f"ends above the {kind} joint 'bend'"
 
 
-def _tree(*joints: tuple[str, str, str]) -> Robot:
+def _tree(*joints: tuple[Any, str, str]) -> Robot:
     """Joints (kind, parent, child), named by parent and child."""
     links = dict.fromkeys(link for _, parent, child in joints for link in (parent, child))
     return Robot(

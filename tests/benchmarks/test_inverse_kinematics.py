@@ -186,7 +186,7 @@ def test_blocked_poses_have_solutions_but_none_within_the_limits():
     np.testing.assert_allclose(tight.limits, np.tile([-np.pi / 2, np.pi / 2], (6, 1)))
     T, passed = reasons.blocked_poses(tight, np.random.default_rng(0), 20)
     assert passed <= 1
-    free = pk.Chain(UR5.screws, UR5.home, limits=np.tile([-np.pi, np.pi], (6, 1)))
+    free = pk.Chain.from_space(UR5.screws, UR5.home, limits=np.tile([-np.pi, np.pi], (6, 1)))
     assert judgement_of(ik(free, T), free, T).solved.all()
     # A search of another kind than EAIK's: many starts, and no one gets there.
     assert not ik(tight, T, restarts=1000).success.any()

@@ -102,7 +102,7 @@ def nearly_parallel() -> pk.Chain:
         pk.screw.revolute([0, 0, 1], [0, 0, 0]),
         pk.screw.revolute([math.sin(angle), 0, 1], [0.4, 0, 0]),
     ]
-    return pk.Chain(axes, np.eye(4))
+    return pk.Chain.from_space(axes, np.eye(4))
 
 
 def test_a_dropped_angle_counts_only_where_it_is_said(monkeypatch):
@@ -177,7 +177,9 @@ def test_a_urdf_with_a_lost_rotation_is_missed(monkeypatch, tmp_path):
 
 
 def test_a_refused_chain_stands_in_the_report_with_its_reason():
-    bolt = pk.Chain([pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1)], np.eye(4), joint_names=["bolt"])
+    bolt = pk.Chain.from_space(
+        [pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1)], np.eye(4), joint_names=["bolt"]
+    )
     way = model_truth_robots.way("press", bolt, "")
     assert (way.trips, way.urdf) == ((), None)
     assert "'bolt' is helical" in way.refusal

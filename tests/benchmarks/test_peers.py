@@ -41,7 +41,7 @@ def arm(*kinds: str) -> pk.Chain:
     rng = np.random.default_rng(1)
     make = {"revolute": lambda: pk.screw.revolute(rng.normal(size=3), rng.normal(size=3)),
             "prismatic": lambda: pk.screw.prismatic(rng.normal(size=3))}  # fmt: skip
-    return pk.Chain([make[kind]() for kind in kinds], se3.exp(rng.normal(size=6)))
+    return pk.Chain.from_space([make[kind]() for kind in kinds], se3.exp(rng.normal(size=6)))
 
 
 ARMS = {
@@ -94,10 +94,10 @@ def test_pose_and_jacobian_of_a_peer_are_those_of_the_chain(name, which):
 @pytest.mark.parametrize(
     ("chain", "words"),
     [
-        (pk.Chain([[0, 0, 1, 0, 0, 0.1]], np.eye(4)), "helical"),
-        (pk.Chain([[0, 0, 1, 0, 0, 0]], np.eye(4), offset=[0.5]), "without offset"),
+        (pk.Chain.from_space([[0, 0, 1, 0, 0, 0.1]], np.eye(4)), "helical"),
+        (pk.Chain.from_space([[0, 0, 1, 0, 0, 0]], np.eye(4), offset=[0.5]), "without offset"),
         (
-            pk.Chain([[0, 0, 1, 0, 0, 0]] * 2, np.eye(4), coupling=[[1.0], [1.0]]),
+            pk.Chain.from_space([[0, 0, 1, 0, 0, 0]] * 2, np.eye(4), coupling=[[1.0], [1.0]]),
             "coordinate of its own",
         ),
     ],

@@ -35,7 +35,7 @@ HOME = se3.exp([0.3, -0.4, 0.5, 1.7, 0.2, -0.6])
 def test_a_coordinate_is_stood_for_by_the_joint_that_is_most_like_it(ratios, offsets, expected):
     names = [f"joint{k + 1}" for k in range(4)]
     screws = [SCREWS[0]] * 4
-    chain = Chain(
+    chain = Chain.from_space(
         screws,
         HOME,
         coupling=np.array(ratios)[:, None],
@@ -48,7 +48,7 @@ def test_a_coordinate_is_stood_for_by_the_joint_that_is_most_like_it(ratios, off
 
 def test_a_coordinate_that_moves_nothing_is_stood_for_by_none():
     names = ["a", "b"]
-    chain = Chain(
+    chain = Chain.from_space(
         SCREWS[:2],
         HOME,
         coupling=[[0, 1.0], [0, 0]],
@@ -80,7 +80,7 @@ class Off:
         return answer
 
 
-CHAIN = Chain(
+CHAIN = Chain.from_space(
     SCREWS,
     HOME,
     coupling=[[1.0, 0], [0, 1], [-0.5, 0]],
@@ -123,7 +123,7 @@ def test_configurations_are_five_within_three_radians_by_the_seed():
 
 
 def test_what_the_text_does_not_have_is_infinitely_wrong_and_what_stands_still_is_not():
-    other = Chain(SCREWS, HOME, joint_names=["a", "b", "c"])
+    other = Chain.from_space(SCREWS, HOME, joint_names=["a", "b", "c"])
     assert pinocchio_errors(other, to_urdf(CHAIN), 0).max() == math.inf
-    still = Chain(np.zeros((0, 6)), HOME)
+    still = Chain.from_space(np.zeros((0, 6)), HOME)
     assert pinocchio_errors(still, to_urdf(still), 0).max() < 1e-14

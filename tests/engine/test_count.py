@@ -28,7 +28,7 @@ def cost(formula, *arguments):
 
 def generic_arm(n, seed=0):
     rng = np.random.default_rng(seed)
-    return pk.Chain(
+    return pk.Chain.from_space(
         [pk.screw.revolute(*rng.normal(size=(2, 3))) for _ in range(n)],
         pk.se3.exp(rng.normal(size=6)),
     )
@@ -208,7 +208,7 @@ def random_dh_arm(n, rng):
     for N in constants:
         screws.append(pk.se3.adjoint(F) @ [0, 0, 1, 0, 0, 0])
         F = F @ N
-    return constants, tool, pk.Chain(screws, F @ tool)
+    return constants, tool, pk.Chain.from_space(screws, F @ tool)
 
 
 def row(T):

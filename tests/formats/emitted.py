@@ -13,6 +13,7 @@ import numpy as np
 
 import poekin as pk
 from poekin.groups import se3
+from poekin.model.kinematics.pose_jacobian import AnyFrame
 
 FRAMES = ("space", "body", "hybrid", "cheapest")
 HOSTILE = (
@@ -42,20 +43,20 @@ def arm(name: str) -> pk.Chain:
     arms: dict[str, Any] = {
         "panda": lambda: pk.load("panda").chain(tip="panda_hand"),
         "ur5e": lambda: pk.load("ur5e").chain(tip="tool0"),
-        "general 6R": lambda: pk.Chain(turning, home),
-        "mixed": lambda: pk.Chain(
+        "general 6R": lambda: pk.Chain.from_space(turning, home),
+        "mixed": lambda: pk.Chain.from_space(
             [turning[0], sliding[0], helical[0], turning[1], sliding[1]], home
         ),
-        "coupled": lambda: pk.Chain(
+        "coupled": lambda: pk.Chain.from_space(
             [turning[0], sliding[0], turning[2]],
             home,
             coupling=[[1, 0], [0.5, 0], [-2, 1]],
             offset=[0.1, 0, -0.3],
             q_names=["a", "b"],
         ),
-        "one joint": lambda: pk.Chain(turning[:1], home),
-        "one slide": lambda: pk.Chain(sliding[:1], home),
-        "no joint": lambda: pk.Chain(np.zeros((0, 6)), home),
+        "one joint": lambda: pk.Chain.from_space(turning[:1], home),
+        "one slide": lambda: pk.Chain.from_space(sliding[:1], home),
+        "no joint": lambda: pk.Chain.from_space(np.zeros((0, 6)), home),
     }
     return arms[name]()
 
@@ -65,7 +66,7 @@ ARMS = ("panda", "ur5e", "general 6R", "mixed", "coupled", "one joint", "one sli
 
 def with_name(name: str) -> pk.Chain:
     """An arm of two joints that has one name wherever it can have one."""
-    return pk.Chain(
+    return pk.Chain.from_space(
         [[0, 0, 1, 0, 0, 0], [0, 1, 0, 0.2, 0, 0]],
         np.eye(4),
         joint_names=[name, name + "2"],
@@ -88,7 +89,7 @@ def module(text: str) -> SimpleNamespace:
     )
 
 
-def expected(chain: pk.Chain, frame: str | int, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def expected(chain: pk.Chain, frame: AnyFrame, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Pose and Jacobian by the chain's general kernels; "cheapest" from the frame of its joint by the
     adjoint.
     """

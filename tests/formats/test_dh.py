@@ -124,7 +124,7 @@ def test_a_tilt_in_the_plane_of_two_axes_throws_d_far_and_moves_the_screw_by_no_
     straight = [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([0, 0, 1], [a, 0, 0])]
     tilted = [straight[0], pk.screw.revolute([np.sin(delta), 0, np.cos(delta)], [a, 0, 0])]
     assert np.abs(tilted[1] - straight[1]).max() <= delta
-    result = dh.from_chain(pk.Chain(tilted, home), convention="standard")
+    result = dh.from_chain(pk.Chain.from_space(tilted, home), convention="standard")
     assert abs(result.table.d[0]) == pytest.approx(a / np.tan(delta), rel=1e-9)
     (warning,) = result.warnings
     assert "nearly parallel, 0.0001 rad: d is 4.32e+03 m" in warning
@@ -163,7 +163,9 @@ def test_every_chain_of_the_real_robots_has_a_table(convention):
 
 
 def test_a_helical_joint_is_refused_by_name():
-    chain = pk.Chain([pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1)], np.eye(4), joint_names=["bolt"])
+    chain = pk.Chain.from_space(
+        [pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1)], np.eye(4), joint_names=["bolt"]
+    )
     with pytest.raises(
         InputError,
         match=r"^joint 'bolt' is helical: Denavit-Hartenberg parameters cannot express its pitch$",
@@ -180,7 +182,7 @@ def test_a_coupled_chain_gives_the_table_of_its_joints():
 
 def test_a_chain_without_joints_is_a_tool():
     home = pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3])
-    table = dh.from_chain(pk.Chain([], home), convention="standard").table
+    table = dh.from_chain(pk.Chain.from_space([], home), convention="standard").table
     assert len(table) == 0
     np.testing.assert_array_equal(dh.to_chain(table).fk([]), home)
 
@@ -249,7 +251,7 @@ def test_a_table_of_a_coupled_chain_keeps_the_limits_of_the_joints_own_values():
         screw.revolute([0, 1, 0], [0.4, 0, 0]),
         screw.prismatic([1, 0, 0]),
     ]
-    chain = Chain(
+    chain = Chain.from_space(
         S, np.eye(4), coupling=[[1, 0], [-2, 0], [0, 1]], offset=[0, 0.5, 0], q_names=["q", "r"],
         limits=[[-1, 2], [0, 0.3]],
     )  # fmt: skip
@@ -282,7 +284,7 @@ CHOICES = r"^convention: expected 'standard' or 'modified', "
 
 @pytest.mark.parametrize(
     "make",
-    [lambda: dh.from_chain(pk.Chain([], np.eye(4))), Table, lambda: Table(rows=[Row()])],
+    [lambda: dh.from_chain(pk.Chain.from_space([], np.eye(4))), Table, lambda: Table(rows=[Row()])],
     ids=["of a chain", "nothing given", "only rows"],
 )
 def test_a_convention_that_is_left_out_is_asked_for_with_what_each_means(make):
@@ -296,7 +298,7 @@ def test_what_is_no_convention_is_refused_with_what_each_means(convention):
     with pytest.raises(InputError, match=CHOICES + got + MEANING):
         Table(convention, [])
     with pytest.raises(InputError, match=CHOICES + got + MEANING):
-        dh.from_chain(pk.Chain([], np.eye(4)), convention=convention)
+        dh.from_chain(pk.Chain.from_space([], np.eye(4)), convention=convention)
 
 
 def test_a_table_without_rows_is_not_taken_for_an_empty_one():
@@ -322,7 +324,7 @@ def test_samples_and_seed_are_whole_numbers(name, value):
     with pytest.raises(
         InputError, match=rf"^{name}: expected a whole number of at least 0, got {value!r}$"
     ):
-        dh.from_chain(pk.Chain([], np.eye(4)), convention="modified", **{name: value})
+        dh.from_chain(pk.Chain.from_space([], np.eye(4)), convention="modified", **{name: value})
 
 
 def test_rounding_is_printed_as_0():

@@ -15,6 +15,7 @@ from poekin import errors
 from poekin.errors import InputError, ModelError, PoekinError
 from poekin.formats import dh
 from poekin.formats.dh import Row, Table, table_io
+from poekin.model.screw_rows.unit_screws import pitches_of
 
 UNIT = 2.0**-53
 HALF = math.pi / 2
@@ -26,7 +27,7 @@ SCREWS = [
     pk.screw.revolute([1, 0, 0], [0.5, 0.9, 1.3]),
     pk.screw.revolute([0.6, 0, 0.8], [0.9, 0.4, 1.5]),
 ]
-ARM = pk.Chain(SCREWS, HOME, joint_names=list("abcde"))
+ARM = pk.Chain.from_space(SCREWS, HOME, joint_names=list("abcde"))
 GAUGE = (
     "zero of 'a' and place along its axis: nearest to the base frame",
     "axes of 'a' and 'b' are parallel: their normal is taken at the origin before it",
@@ -67,7 +68,7 @@ def test_the_bound_takes_the_largest_length_of_the_table():
         assert dh.from_chain(chain, convention="standard").bound == pytest.approx(
             20 * UNIT * 4 * (1 + 7.0 / chain.reach), rel=1e-9, abs=0
         )
-    empty = dh.from_chain(pk.Chain([], HOME), convention="standard")
+    empty = dh.from_chain(pk.Chain.from_space([], HOME), convention="standard")
     assert (empty.bound, empty.error, empty.gauge, empty.warnings) == (20 * UNIT, 0.0, (), ())
     assert (empty.table.name, empty.table.convention) == ("tool", "standard")
     np.testing.assert_array_equal(empty.table.tool, HOME)
@@ -80,7 +81,7 @@ def two(tilt, apart=0.4, far=0.0):
     home = np.eye(4)
     home[2, 3] = far
     second = pk.screw.revolute([math.sin(tilt), 0, math.cos(tilt)], [apart, 0, 0])
-    return pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0]), second], home)
+    return pk.Chain.from_space([pk.screw.revolute([0, 0, 1], [0, 0, 0]), second], home)
 
 
 @pytest.mark.parametrize("arm", [0.0, 2.6])
@@ -113,14 +114,14 @@ def test_an_angle_that_is_dropped_far_from_the_arm_counts_with_its_lever():
         pk.screw.revolute(z, [0.5, 0.2, 0]),
         pk.screw.revolute([z[0], 1e-10, z[2]], [0.5, 0.4, 0]),
     ]
-    chain = pk.Chain(rows, np.eye(4))
+    chain = pk.Chain.from_space(rows, np.eye(4))
     result = dh.from_chain(chain, convention="standard")
     assert "taken as parallel" in result.warnings[0]
     assert 5e-10 < result.error <= result.bound  # with 2 delta alone the bound would be 2e-10
     table = result.table
     lengths = np.abs(table.d).sum() + np.abs(table.a).sum() + np.linalg.norm(table.tool[:3, 3])
     assert result.bound == pytest.approx(2e-10 * lengths / chain.reach, rel=1e-4)
-    slide = pk.Chain([*rows, pk.screw.prismatic(z)], np.eye(4))
+    slide = pk.Chain.from_space([*rows, pk.screw.prismatic(z)], np.eye(4))
     more = dh.from_chain(slide, convention="standard")
     assert more.error <= more.bound
     assert more.bound * slide.reach == pytest.approx(
@@ -152,7 +153,7 @@ def test_axes_are_taken_as_parallel_where_the_rounding_of_d_would_cost_more_than
     np.testing.assert_array_equal(dropped.table.alpha, [0, 0])
     assert dropped.error <= dropped.bound
     assert dropped.error > 0.1 * switch  # the angle is gone, and the error says so
-    against = pk.Chain([two(0).screws[0], -two(0.99 * switch).screws[1]], np.eye(4))
+    against = pk.Chain.from_space([two(0).screws[0], -two(0.99 * switch).screws[1]], np.eye(4))
     table = dh.from_chain(against, convention="standard").table
     np.testing.assert_allclose(np.abs(table.alpha), [math.pi, 0], rtol=0, atol=1e-15)
     assert dh.from_chain(against, convention="standard").error <= dropped.bound
@@ -165,10 +166,10 @@ def test_axes_at_no_distance_worth_a_number_meet_or_are_one():
             pk.screw.revolute([0, 0, 1], [0, 0, 0]),
             pk.screw.revolute([1, 0, 0], [0, off, 0]),
         ]
-        result = dh.from_chain(pk.Chain(screws, np.eye(4)), convention="standard")
+        result = dh.from_chain(pk.Chain.from_space(screws, np.eye(4)), convention="standard")
         assert any("meet" in line for line in result.gauge) == meets
         one = [screws[0], pk.screw.revolute([0, 0, 1], [0, off, 0])]
-        table = dh.from_chain(pk.Chain(one, np.eye(4)), convention="standard").table
+        table = dh.from_chain(pk.Chain.from_space(one, np.eye(4)), convention="standard").table
         assert (table.a[0] == 0.0) == meets
 
 
@@ -209,7 +210,7 @@ def test_how_long_an_arm_is_counts_in_what_its_axes_angle_is_worth(times, parall
 
 
 def test_limits_go_with_the_joints_and_are_free_where_two_coordinates_share_one():
-    chain = pk.Chain(
+    chain = pk.Chain.from_space(
         SCREWS[:3], HOME, q_names=["q", "r"], coupling=[[2, 0], [1, 1], [0, -1]], offset=[0.5, 0, 0.1],
         limits=[[-1, 2], [0, 0.3]],
     )  # fmt: skip
@@ -225,7 +226,8 @@ def test_a_first_axis_along_x_takes_y_for_its_x():
     """
     for axis, x in (([1, 0, 0], [0, 1, 0]), ([0, 1, 0], [1, 0, 0]), ([0, 0, -1], [1, 0, 0])):
         base = dh.from_chain(
-            pk.Chain([pk.screw.revolute(axis, [0, 0, 0])], np.eye(4)), convention="standard"
+            pk.Chain.from_space([pk.screw.revolute(axis, [0, 0, 0])], np.eye(4)),
+            convention="standard",
         ).table.base
         np.testing.assert_allclose(
             base[:3, :3], np.array([x, np.cross(axis, x), axis]).T, rtol=0, atol=1e-15
@@ -233,13 +235,13 @@ def test_a_first_axis_along_x_takes_y_for_its_x():
     for lean, uses_x in ((0.89, True), (0.91, False), (-0.91, False)):
         z = np.array([lean, 0, math.sqrt(1 - lean * lean)])
         base = dh.from_chain(
-            pk.Chain([pk.screw.revolute(z, [0, 0, 0])], np.eye(4)), convention="standard"
+            pk.Chain.from_space([pk.screw.revolute(z, [0, 0, 0])], np.eye(4)), convention="standard"
         ).table.base
         assert abs(base[1, 0]) < 1e-12 if uses_x else base[1, 0] == pytest.approx(1.0)
 
 
 def test_a_helical_joint_and_an_unknown_convention_are_refused():
-    bolt = pk.Chain(
+    bolt = pk.Chain.from_space(
         [SCREWS[0], pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1)],
         np.eye(4),
         joint_names=["a", "bolt"],
@@ -431,7 +433,7 @@ def test_a_normal_that_is_free_is_not_taken_where_axes_meet_far_away(arm, slides
         first = two(tilt, far=arm)
         z = first.screws[1][:3]
         third = pk.screw.prismatic([0, 1, 0]) if slides else pk.screw.revolute(z, [0.4, 0.1, 0])
-        return pk.Chain([*first.screws, third], first.home)
+        return pk.Chain.from_space([*first.screws, third], first.home)
 
     for times, back in ((9.9, False), (10.1, True)):
         chain = meeting_at(times, three)
@@ -513,11 +515,7 @@ def test_a_far_base_makes_no_pitch_of_its_rounding(convention):
     ):
         chain = dh.to_chain(table)
         assert chain.kinds == table.kinds
-        assert (
-            pk.screw.pitches_of(chain.screws).tolist()
-            == chain.pitches.tolist()
-            == [0.0] * len(table)
-        )
+        assert pitches_of(chain.screws).tolist() == chain.pitches.tolist() == [0.0] * len(table)
 
 
 def test_an_arm_of_a_micrometre_has_the_screws_of_a_large_one():
@@ -533,10 +531,12 @@ def test_an_arm_of_a_micrometre_has_the_screws_of_a_large_one():
 def test_the_first_frame_stands_where_its_axis_is_nearest_to_the_base():
     z, p = np.array([2.0, -3.0, 6.0]) / 7, np.array([0.3, -1.2, 2.5])
     base = dh.from_chain(
-        pk.Chain([pk.screw.revolute(z, p)], HOME), convention="standard"
+        pk.Chain.from_space([pk.screw.revolute(z, p)], HOME), convention="standard"
     ).table.base
     np.testing.assert_allclose(base[:3, 2:], np.transpose([z, p - z * (z @ p)]), rtol=0, atol=1e-15)
-    slide = dh.from_chain(pk.Chain([pk.screw.prismatic(z)], HOME), convention="standard").table.base
+    slide = dh.from_chain(
+        pk.Chain.from_space([pk.screw.prismatic(z)], HOME), convention="standard"
+    ).table.base
     np.testing.assert_allclose(slide[:3, 2:], np.transpose([z, np.zeros(3)]), rtol=0, atol=1e-15)
 
 

@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -264,7 +265,8 @@ def test_the_first_comment_says_what_it_costs():
     source = emit.c(chain, "cheapest", name="p")
     for text in (source.header, source.source):
         first = text[: text.index("*/")]
-        for function, program in (("fk", None), ("jacobian_cheapest", "cheapest")):
+        programs: list[tuple[str, Any]] = [("fk", None), ("jacobian_cheapest", "cheapest")]
+        for function, program in programs:
             count = chain.compile().program(program).count
             said = f"p_{function}: {count.multiplications} multiplications, {count.additions} additions or subtractions"
             assert f" * {said}, {count.sines} pairs of sine and cosine\n" in first
@@ -281,4 +283,4 @@ def test_what_cannot_be_emitted_is_refused():
         InputError,
         match=r"^emit: the arm needs the number 1e\+39, which single precision cannot hold$",
     ):
-        emit.c(pk.Chain([[0, 0, 1, 0, 0, 0]], home), "body", real="float")
+        emit.c(pk.Chain.from_space([[0, 0, 1, 0, 0, 0]], home), "body", real="float")

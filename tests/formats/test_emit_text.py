@@ -20,7 +20,7 @@ from .emitted import bound
 HOME = [[1, 0, 0, 0.5], [0, 1, 0, 0], [0, 0, 1, 0.25], [0, 0, 0, 1]]
 LISTS = str.maketrans("{}", "[]")
 TURN, SLIDE = [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]
-POLAR = pk.Chain(
+POLAR = pk.Chain.from_space(
     [TURN, SLIDE],
     HOME,
     limits=[[-1, 2.5], [0, 1]],
@@ -270,7 +270,7 @@ def test_the_self_test_compares_every_result_with_the_chain_s():
     q, T, J = (np.array(json.loads(f"[{rows}]".translate(LISTS))) for _, _, rows in tables)
     assert np.abs(T - POLAR.fk(q).reshape(8, 16)).max() <= bound(POLAR, q)
     assert np.abs(J - POLAR.jacobian(q, "body").reshape(8, 12)).max() <= bound(POLAR, q)
-    empty = emit.c(pk.Chain(np.zeros((0, 6)), HOME), "body").selftest
+    empty = emit.c(pk.Chain.from_space(np.zeros((0, 6)), HOME), "body").selftest
     assert "Q[VECTORS][1] = {\n    {0.0},\n" in empty
     assert "J_EXPECTED[VECTORS][1] = {\n    {0.0},\n" in empty
     assert "double T[16], J[1];" in empty
@@ -308,6 +308,6 @@ def test_python_is_the_same_lines_on_arrays():
     assert PYTHON_FK in text
     assert PYTHON_JACOBIAN in text
     assert "    return T, J\n" in text
-    still = emit.python(pk.Chain(np.zeros((0, 6)), HOME), "body")
+    still = emit.python(pk.Chain.from_space(np.zeros((0, 6)), HOME), "body")
     assert "    J = xp.reshape(q, tuple(q.shape[:-1]) + (6, 0))\n" in still
     assert "J = xp.stack" not in still

@@ -15,7 +15,7 @@ from poekin.formats.emit.statements import by_outputs
 from .emitted import arm
 
 LIMITS = [[-1, 2.5], [-np.inf, np.inf], [0.12345678, np.inf]]
-CRANE = pk.Chain(
+CRANE = pk.Chain.from_space(
     [[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 0, 1], [0, 0, 1, 0, -2, 0]],
     np.eye(4),
     limits=LIMITS,

@@ -37,7 +37,8 @@ def arms(draw, most: int = 5, mimics: bool = True) -> Robot:
         )
     )
     joints = []
-    for i, kind in enumerate([*kinds, "fixed"]):
+    every: list[Any] = [*kinds, "fixed"]
+    for i, kind in enumerate(every):
         pitch = draw(st.sampled_from([-0.2, 0.1])) if kind == "helical" else 0.0
         child = f"l{i + 1}" if i < len(kinds) else "tip"
         limits = (-2.0, 3.0) if kind == "revolute" else (-math.inf, math.inf)
@@ -65,7 +66,7 @@ def cases(draw, **options) -> tuple[Robot, pk.Chain]:
     nominal = robot.chain("l0", "tip")
     A = [draw(screws((kind,))) for kind in nominal.kinds]
     C = nominal.coupling
-    other = pk.Chain(
+    other = pk.Chain.from_space(
         A,
         draw(placements()),
         joint_names=nominal.joint_names,
@@ -192,7 +193,7 @@ def test_a_frame_moves_no_more_than_its_axis_does(robot, data):
     A = np.array(
         [pk.se3.adjoint(pk.se3.exp(t)) @ S for t, S in zip(twists, chain.screws, strict=True)]
     )
-    result = relinked(robot, pk.Chain(A, chain.home), base="l0", tip="tip")
+    result = relinked(robot, pk.Chain.from_space(A, chain.home), base="l0", tip="tip")
     before, after = at_zero(robot), at_zero(result)
     for joint in moved_links(robot):
         H, G = before[joint.child], after[joint.child]
@@ -206,7 +207,7 @@ def test_a_screw_that_points_the_other_way_turns_the_axis_and_not_the_link():
     chain = robot.chain()
     A = chain.screws.copy()
     A[2] *= -1
-    result = relinked(robot, pk.Chain(A, chain.home))
+    result = relinked(robot, pk.Chain.from_space(A, chain.home))
     assert result.joint("elbow_joint").axis == (0, 0, -1)
     before, after = robot.fk(np.zeros(6)), result.fk(np.zeros(6))
     assert max(np.abs(before[link] - after[link]).max() for link in robot.links) <= 1e-15
@@ -224,7 +225,7 @@ def test_the_first_joint_behind_the_last_moving_one_takes_up_the_rest():
     ]
     robot = Robot("r", ["base", "wrist", "flange", "tip"], joints)
     home = pk.se3.exp([0, 0, 0, 0.25, 0.01, 0])
-    result = relinked(robot, pk.Chain([pk.screw.revolute(z, [0, 0, 0])], home))
+    result = relinked(robot, pk.Chain.from_space([pk.screw.revolute(z, [0, 0, 0])], home))
     assert result.joint("tool") == robot.joint("tool")
     assert result.joint("mount").origin[:2, 3].tolist() == pytest.approx([0.15, 0.01], abs=1e-16)
 
@@ -278,7 +279,7 @@ def test_another_number_or_kind_of_joints_is_refused(case, data):
     robot, chain = case
     n = len(chain.kinds)
     keep = data.draw(st.integers(0, n - 1))
-    shorter = pk.Chain(chain.screws[:keep], chain.home)
+    shorter = pk.Chain.from_space(chain.screws[:keep], chain.home)
     with pytest.raises(
         InputError, match=rf"has {n} joints from 'l0' to 'tip': 'j\d+'.*; the chain has {keep}: "
     ):
@@ -293,7 +294,10 @@ def test_another_number_or_kind_of_joints_is_refused(case, data):
         match=rf"joint '{name}' of the robot is \w+, and '{name}' of the chain is prismatic",
     ):
         relinked(
-            robot, pk.Chain(A, chain.home, joint_names=chain.joint_names), base="l0", tip="tip"
+            robot,
+            pk.Chain.from_space(A, chain.home, joint_names=chain.joint_names),
+            base="l0",
+            tip="tip",
         )
 
 
@@ -302,7 +306,7 @@ SIX = UR5E.chain()
 ANY_CHAIN: Any = SIX
 ANY_ROBOT: Any = UR5E
 BACK = SIX.joint_names[::-1]
-COUPLED = pk.Chain(SIX.screws, SIX.home, coupling=np.eye(6) * 2, q_names=SIX.q_names)
+COUPLED = pk.Chain.from_space(SIX.screws, SIX.home, coupling=np.eye(6) * 2, q_names=SIX.q_names)
 FLOATING = Robot("r", ["a", "b"], [Joint("free", "floating", "a", "b")])
 
 
@@ -330,7 +334,7 @@ FLOATING = Robot("r", ["a", "b"], [Joint("free", "floating", "a", "b")])
             "catalogue/ur5e.urdf: no tip link 'tool'; did you mean 'tool0'?",
         ),
         (
-            lambda: relinked(UR5E, pk.Chain(SIX.screws, SIX.home, joint_names=BACK)),
+            lambda: relinked(UR5E, pk.Chain.from_space(SIX.screws, SIX.home, joint_names=BACK)),
             InputError,
             (
                 "the joints come in another order: the robot's are 'shoulder_pan_joint', "
@@ -359,7 +363,7 @@ FLOATING = Robot("r", ["a", "b"], [Joint("free", "floating", "a", "b")])
             "joint 'wrist_3_joint' lies between 'tool0' and the root: choose a base above it",
         ),
         (
-            lambda: relinked(UR5E, pk.Chain([], np.eye(4)), base="wrist_3_link"),
+            lambda: relinked(UR5E, pk.Chain.from_space([], np.eye(4)), base="wrist_3_link"),
             InputError,
             "no joint moves between 'wrist_3_link' and 'tool0'",
         ),
@@ -380,6 +384,8 @@ def test_a_calibrated_arm_as_urdf_keeps_its_links():
     A = np.array(
         [pk.se3.adjoint(pk.se3.exp(t)) @ S for t, S in zip(tilts, chain.screws, strict=True)]
     )
-    text = pk.to_urdf(relinked(robot, pk.Chain(A, chain.home, joint_names=chain.joint_names)))
+    text = pk.to_urdf(
+        relinked(robot, pk.Chain.from_space(A, chain.home, joint_names=chain.joint_names))
+    )
     assert text.count('lower="-6.283185307179586"') == 6
     assert all(f'<link name="{link}"/>' in text for link in robot.links)

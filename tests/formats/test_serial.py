@@ -22,7 +22,7 @@ def test_a_follower_does_not_narrow_the_limits_of_its_master():
     for ratio, shift in np.random.default_rng(0).uniform(-3, 3, (50, 2)):
         A = [[0, 0, 1, 0, 0, 0], [0, 0, 1, 0, 0, 0]]
         limits = [[-0.1, 0.7]]
-        chain = Chain(
+        chain = Chain.from_space(
             A, np.eye(4), coupling=[[1], [ratio]], offset=[0, shift], q_names=["q"], limits=limits
         )
         assert again(chain).limits.tolist() == limits
@@ -34,7 +34,9 @@ def test_a_follower_does_not_narrow_the_limits_of_its_master():
 
 def two(coupling, offset=(0, 0), kinds=("turn", "turn"), **options) -> Chain:
     A = [[0, 0, 1, 0, 0, 0] if kind == "turn" else [0, 0, 0, 1, 0, 0] for kind in kinds]
-    return Chain(A, np.eye(4), coupling=coupling, offset=offset, joint_names=["a", "b"], **options)
+    return Chain.from_space(
+        A, np.eye(4), coupling=coupling, offset=offset, joint_names=["a", "b"], **options
+    )
 
 
 @pytest.mark.parametrize(
@@ -75,7 +77,9 @@ def test_a_joint_that_follows_nothing_stands_where_it_stood():
 
 def test_links_are_called_after_their_joints_and_differ_from_base_and_tip():
     A = [[0, 0, 1, 0, 0, 0]] * 2
-    robot = serial_robot(Chain(A, np.eye(4), joint_names=["a", "t_joint"], base="a_link", tip="t"))
+    robot = serial_robot(
+        Chain.from_space(A, np.eye(4), joint_names=["a", "t_joint"], base="a_link", tip="t")
+    )
     assert robot.links == ("a_link", "a_link_", "t_joint_link", "t")
     assert [joint.name for joint in robot.joints] == ["a", "t_joint", "t_joint_"]
     assert robot.name == "a_link_to_t"
@@ -95,7 +99,7 @@ def test_a_joint_that_follows_several_coordinates_is_refused_by_name():
 
 def test_a_helical_joint_keeps_the_sign_of_its_pitch():
     A = [[0, 0, 1, 0, 0, -0.3], [0, 1, 0, 0, 0.2, 0]]
-    chain = Chain(A, np.eye(4), coupling=[[1], [-2]], offset=[0.1, 0.4], q_names=["q"])
+    chain = Chain.from_space(A, np.eye(4), coupling=[[1], [-2]], offset=[0.1, 0.4], q_names=["q"])
     robot = serial_robot(chain)
     assert [joint.pitch for joint in robot.joints] == [-0.3, 0.2, 0.0]
     assert np.abs(robot.chain().fk([0.7]) - chain.fk([0.7])).max() <= 1e-15
@@ -103,7 +107,7 @@ def test_a_helical_joint_keeps_the_sign_of_its_pitch():
 
 def test_a_chain_whose_base_and_tip_are_one_name_for_two_frames_is_refused():
     with pytest.raises(InputError, match=r"both called 'x'.*chain\.retooled"):
-        serial_robot(Chain(np.zeros((0, 6)), np.diag([1, -1, -1, 1]), base="x", tip="x"))
+        serial_robot(Chain.from_space(np.zeros((0, 6)), np.diag([1, -1, -1, 1]), base="x", tip="x"))
 
 
 def test_what_is_no_chain_is_refused():

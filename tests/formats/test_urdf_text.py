@@ -108,7 +108,7 @@ def scaled_chains(draw) -> Chain:
     C = chain.coupling * (np.array(scale) if draw(st.booleans()) else 1.0)
     names = [f"q{k}" for k in range(chain.dof)]
     limits = np.reshape(limits, (chain.dof, 2))
-    return Chain(
+    return Chain.from_space(
         chain.screws, chain.home, q_names=names, limits=limits, coupling=C, offset=chain.offset
     )
 
@@ -119,7 +119,7 @@ def pull() -> Chain:
     """
     place = [[0, 0, 1, 3 * np.sin(k), -3 * np.cos(k), 0] for k in range(12)]
     ratios = [3.0, -6.0, 1.5] * 4
-    return Chain(
+    return Chain.from_space(
         place, np.eye(4), coupling=np.reshape(ratios, (12, 1)), offset=np.linspace(-1, 1, 12)
     )
 
@@ -167,7 +167,7 @@ def test_pinocchio_sees_a_chain_in_its_text(chain, seed):
 def test_a_chain_comes_back_from_its_text_to_the_last_digit_of_all_but_its_frames(chain):
     limits = np.random.default_rng(0).uniform(-1, 0, (chain.dof, 2)).cumsum(1)[:, ::-1]
     masters = [v[0] for v in values_of(chain) if v]
-    limited = Chain(
+    limited = Chain.from_space(
         chain.screws, chain.home, limits=limits, coupling=chain.coupling, q_names=masters
     )
     back = again(limited).chain(tip="tool")
@@ -224,7 +224,9 @@ def limb() -> Chain:
     A[2] = [0, 0, 0, *w[2]]
     C = np.array([[-1.0, 0, 0], [0, 1, 0], [0, -0.5, 0], [0, 0, 1], [0, 0, 1]])
     home = urdf.rpy.pose((0.1, 0.2, 0.3), (0.4, 0.5, 0.6))
-    return Chain(A, home, coupling=C, offset=[0.25, 0, 0.125, 0, 0.5], q_names=["j1", "j2", "j4"])
+    return Chain.from_space(
+        A, home, coupling=C, offset=[0.25, 0, 0.125, 0, 0.5], q_names=["j1", "j2", "j4"]
+    )
 
 
 def sub(pattern: str, new: str | Callable, text: str) -> str:

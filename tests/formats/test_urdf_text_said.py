@@ -17,7 +17,7 @@ from poekin.formats import urdf
 from poekin.formats.load import load
 from poekin.formats.urdf_text import UNLIMITED, to_urdf
 from poekin.model.chain import Chain
-from poekin.model.joint import Joint, Mimic
+from poekin.model.joint import Joint, JointKind, Mimic
 from poekin.model.robot import Robot
 from poekin.testing.oracles.pinocchio_oracle import pinocchio
 from tests.formats.test_urdf_text import again, limb
@@ -86,7 +86,7 @@ def test_a_robot_read_from_a_file_does_not_say_where(tmp_path):
     assert '<robot name="arm">' in to_urdf(urdf.read(path))
 
 
-def slider(lower: float = -INF, upper: float = INF, kind: str = "prismatic") -> Robot:
+def slider(lower: float = -INF, upper: float = INF, kind: JointKind = "prismatic") -> Robot:
     return Robot("r", ["a", "b"], [Joint("j", kind, "a", "b", limits=(lower, upper))])
 
 
@@ -108,7 +108,7 @@ def test_a_bound_that_is_not_there_comes_back_as_none_and_is_huge_to_others(limi
 
 REFUSED = {
     "helical": (
-        Chain([[0, 0, 1, 0, 0, 0.1]], np.eye(4), joint_names=["nut"]),
+        Chain.from_space([[0, 0, 1, 0, 0, 0.1]], np.eye(4), joint_names=["nut"]),
         "helical joints.*'nut'",
     ),
     "a helical joint of a robot": (

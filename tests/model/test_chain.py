@@ -26,7 +26,7 @@ HOME = pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3])
 
 
 def arm(**options):
-    return pk.Chain([RZ, RY, PX], HOME, joint_names=["pan", "lift", "slide"], **options)
+    return pk.Chain.from_space([RZ, RY, PX], HOME, joint_names=["pan", "lift", "slide"], **options)
 
 
 def test_a_chain_is_compiled_for_one_thread_once_and_for_several_where_that_is_asked_for():
@@ -96,9 +96,13 @@ FAR = st.floats(-1, 4).map(lambda power: 10.0**power)
 
 
 @given(chain_strategies.chain_cases(("q",), min_joints=1, max_joints=4), FAR)
-@example((pk.Chain([PX, RY, RZ], HOME), np.array([1.0, 2.0, 3.0])), 1e4)
+@example((pk.Chain.from_space([PX, RY, RZ], HOME), np.array([1.0, 2.0, 3.0])), 1e4)
 @example(
-    (pk.Chain([pk.screw.helical([0, 0, 1], [1, 0, 0], 0.5), RY], HOME), np.array([1.0, -2.0])), 1e3
+    (
+        pk.Chain.from_space([pk.screw.helical([0, 0, 1], [1, 0, 0], 0.5), RY], HOME),
+        np.array([1.0, -2.0]),
+    ),
+    1e3,
 )
 def test_a_rezeroed_chain_is_as_exact_as_the_way_is_long(case, times):
     chain, q = case
@@ -110,7 +114,7 @@ def test_example_1_of_the_paper():
     M = np.eye(4)
     M[0, 3] = L1 + L2
     screws = [[0, 0, 1, 0, 0, 0], [0, -1, 0, 0, 0, 0], [0, -1, 0, 0, 0, -L1]]
-    chain = pk.Chain(screws, M)
+    chain = pk.Chain.from_space(screws, M)
     np.testing.assert_array_equal(pk.screw.revolute([0, -1, 0], [L1, 0, 0]), screws[2])
     q1, q2, q3 = 0.3, -0.8, 1.1
     R = pk.so3.exp([0, 0, q1]) @ pk.so3.exp([0, -(q2 + q3), 0])
@@ -139,7 +143,9 @@ def test_equal_chains_are_equal_and_hash_and_pickle_alike():
     ):
         assert a == b
         assert hash(a) == hash(b)
-    coupled = pk.Chain([RZ, RY, PX], HOME, coupling=[[1, 0], [-2, 0], [0, 1]], offset=[0, 0.1, 0])
+    coupled = pk.Chain.from_space(
+        [RZ, RY, PX], HOME, coupling=[[1, 0], [-2, 0], [0, 1]], offset=[0, 0.1, 0]
+    )
     assert pickle.loads(pickle.dumps(coupled)) == coupled
     assert coupled != a
 
@@ -154,8 +160,8 @@ def test_chains_that_differ_are_not_equal(change):
 
 def test_minus_zero_makes_no_difference():
     a, b = (
-        pk.Chain([[0, 0, 1, 0, 0, 0]], np.eye(4)),
-        pk.Chain([[-0.0, -0.0, 1, -0.0, 0, 0]], np.eye(4)),
+        pk.Chain.from_space([[0, 0, 1, 0, 0, 0]], np.eye(4)),
+        pk.Chain.from_space([[-0.0, -0.0, 1, -0.0, 0, 0]], np.eye(4)),
     )
     assert a == b
     assert hash(a) == hash(b)
@@ -168,8 +174,8 @@ def test_making_exact_twice_changes_nothing():
         S = pk.screw.revolute(w, p) * (1 + rng.uniform(-1e-9, 1e-9) * 0.9)
         M = pk.se3.exp(rng.normal(size=6))
         M[:3, :3] += rng.uniform(-1e-7, 1e-7, (3, 3))
-        chain = pk.Chain([S], M)
-        again = pk.Chain(chain.screws, chain.home)
+        chain = pk.Chain.from_space([S], M)
+        again = pk.Chain.from_space(chain.screws, chain.home)
         assert again == chain
         assert (
             np.abs(chain.home[:3, :3] @ chain.home[:3, :3].T - np.eye(3)).max() < 4e-15
@@ -192,23 +198,23 @@ def test_nothing_of_a_chain_can_be_changed():
 
 def test_the_arrays_given_are_copied():
     screws, home = np.array([RZ]), np.eye(4)
-    chain = pk.Chain(screws, home)
+    chain = pk.Chain.from_space(screws, home)
     screws[0, 0], home[0, 3] = 7, 7
-    assert chain == pk.Chain([RZ], np.eye(4))
+    assert chain == pk.Chain.from_space([RZ], np.eye(4))
 
 
 def test_the_repr_says_where_from_where_to_and_how_far():
     assert repr(arm()) == "<Chain 'base' -> 'tool': 2 revolute, 1 prismatic joints, reach 4.85 m>"
     assert (
-        repr(pk.Chain([], np.eye(4), tip="\x1b[31m"))
+        repr(pk.Chain.from_space([], np.eye(4), tip="\x1b[31m"))
         == r"<Chain 'base' -> '\x1b[31m': no joints, reach 1 m>"
     )
-    coupled = pk.Chain([RZ, RY], HOME, coupling=[[1], [-1]])
+    coupled = pk.Chain.from_space([RZ, RY], HOME, coupling=[[1], [-1]])
     assert "2 revolute joints, 1 coordinate," in repr(coupled)
 
 
 def test_a_chain_without_joints_is_legal():
-    chain = pk.Chain([], HOME)
+    chain = pk.Chain.from_space([], HOME)
     assert chain.dof == 0
     for q in ([], np.empty(0), {}):
         np.testing.assert_array_equal(chain.fk(q), HOME)
@@ -291,7 +297,7 @@ def test_a_frame_that_does_not_exist_is_refused(frame):
 )
 def test_six_numbers_that_are_no_screw_are_refused(screw, message):
     with pytest.raises(ScrewError, match=message):
-        pk.Chain([RZ, screw], np.eye(4), joint_names=["a", "b"])
+        pk.Chain.from_space([RZ, screw], np.eye(4), joint_names=["a", "b"])
 
 
 @pytest.mark.parametrize(
@@ -324,7 +330,7 @@ def test_six_numbers_that_are_no_screw_are_refused(screw, message):
 def test_data_that_make_no_chain_are_refused(options, error, message):
     data = {"screws": [RZ, RY, PX], "home": HOME, "joint_names": ["pan", "lift", "slide"]} | options
     with pytest.raises(error, match=message):
-        pk.Chain(**data)
+        pk.Chain(**data, frame="space")
 
 
 def test_results_go_into_the_arrays_that_are_given():
@@ -412,9 +418,9 @@ def test_random_stays_within_the_limits_and_in_one_turn_where_there_are_none():
 ])  # fmt: skip
 def test_a_coordinate_without_a_limit_is_drawn_within_one_turn_or_two_metres(limits, low, high):
     turn, slide = [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]
-    chain = pk.Chain([turn, slide], np.eye(4), limits=[limits] * 2)
+    chain = pk.Chain.from_space([turn, slide], np.eye(4), limits=[limits] * 2)
     # of two joints on one coordinate the first says what it is
-    coupled = pk.Chain(
+    coupled = pk.Chain.from_space(
         [turn, slide, slide, turn], np.eye(4), limits=[limits] * 2, coupling=[[1, 0], [2, 0], [0, 1], [0, 2]],
         q_names=["a", "b"],
     )  # fmt: skip
@@ -429,13 +435,13 @@ def test_a_coordinate_without_a_limit_is_drawn_within_one_turn_or_two_metres(lim
 def test_random_of_a_geared_coordinate_without_limits_is_one_turn_of_the_fastest_joint():
     plain = arm(limits=[[-np.inf, np.inf], [1, np.inf], [-np.inf, np.inf]])
     units = np.array([100.0, 1e-3, 1e3])
-    geared = pk.Chain(plain.screws, plain.home, coupling=np.diag(1 / units), q_names=["a", "b", "c"],
+    geared = pk.Chain.from_space(plain.screws, plain.home, coupling=np.diag(1 / units), q_names=["a", "b", "c"],
                       limits=plain.limits * units[:, None])  # fmt: skip
     # low + (high - low) r of numbers up to 8, each factor rounded once more: within 8 · 8 u
     np.testing.assert_allclose(
         geared.random(3, 50) / units, plain.random(3, 50), rtol=0, atol=64 * 2.0**-53
     )
-    one = pk.Chain(
+    one = pk.Chain.from_space(
         plain.screws, plain.home, coupling=[[0.5], [-2.0], [30.0]], q_names=["a"]
     )  # the last slides
     q = one.random(3, 2000)
@@ -476,7 +482,7 @@ def test_one_call_and_a_batch_give_the_same_bits():
 
 def test_a_hundred_thousand_joints_make_a_chain():
     n = 100_000
-    chain = pk.Chain(np.tile(PX, (n, 1)), np.eye(4))
+    chain = pk.Chain.from_space(np.tile(PX, (n, 1)), np.eye(4))
     assert chain.dof == n
     assert chain.fk(np.full(n, 1e-3))[0, 3] == pytest.approx(100)
 
@@ -496,7 +502,7 @@ def test_coordinates_without_limits_are_drawn_from_a_turn_or_a_metre_of_their_fa
         ([RZ], [[0.0]], np.pi),
         ([PX], [[0.0]], np.pi),
     ):
-        chain = pk.Chain(rows, np.eye(4), coupling=C, q_names=["q"])
+        chain = pk.Chain.from_space(rows, np.eye(4), coupling=C, q_names=["q"])
         low, high = sampling_range(chain)
         assert (low, high) == (pytest.approx([-most]), pytest.approx([most]))
     for limits, span in (
@@ -504,14 +510,14 @@ def test_coordinates_without_limits_are_drawn_from_a_turn_or_a_metre_of_their_fa
         ([-np.inf, 2], (2 - 2 * np.pi, 2)),
         ([3, 4], (3, 4)),
     ):
-        low, high = sampling_range(pk.Chain([bolt], np.eye(4), limits=[limits]))
+        low, high = sampling_range(pk.Chain.from_space([bolt], np.eye(4), limits=[limits]))
         assert (low[0], high[0]) == pytest.approx(span)
 
 
 def test_the_reach_is_the_length_of_all_links_a_metre_for_each_slide_and_one_at_least():
     x = pk.se3.exp([0, 0, 0, 3, 0, 4])
-    assert pk.Chain([], np.eye(4)).reach == 1
-    assert pk.Chain([], x).reach == pytest.approx(5)
-    assert pk.Chain([PX, PX], x).reach == pytest.approx(7)
+    assert pk.Chain.from_space([], np.eye(4)).reach == 1
+    assert pk.Chain.from_space([], x).reach == pytest.approx(5)
+    assert pk.Chain.from_space([PX, PX], x).reach == pytest.approx(7)
     turn = pk.screw.revolute([0, 0, 1], [3, 0, 0])
-    assert pk.Chain([turn, PX], x).reach == pytest.approx(3 + 4 + 1)
+    assert pk.Chain.from_space([turn, PX], x).reach == pytest.approx(3 + 4 + 1)

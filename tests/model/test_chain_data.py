@@ -25,6 +25,7 @@ def data_of(chain):
     return ChainData(
         chain.screws,
         chain.home,
+        frame="space",
         joint_names=chain.joint_names,
         q_names=chain.q_names,
         limits=chain.limits,
@@ -51,7 +52,14 @@ def test_the_functions_take_data_and_give_what_the_methods_give(chain):
 
 @pytest.mark.parametrize("kind", [ChainData, pk.Chain])
 def test_a_copy_with_something_changed_is_of_the_class_of_its_original(kind):
-    chain = kind([TURN, SLIDE], MOVED, coupling=[[1.0], [2.0]], q_names=["a"], base="world")
+    chain = kind(
+        [TURN, SLIDE],
+        MOVED,
+        frame="space",
+        coupling=[[1.0], [2.0]],
+        q_names=["a"],
+        base="world",
+    )
     copies = [
         chain.replace(tip="hand"),
         other_frames.rebased(chain, MOVED, None),
@@ -69,7 +77,7 @@ def test_a_copy_with_something_changed_is_of_the_class_of_its_original(kind):
 
 
 def test_a_copy_is_checked_as_a_new_chain_is():
-    chain = pk.Chain([TURN], MOVED)
+    chain = pk.Chain.from_space([TURN], MOVED)
     with pytest.raises(ShapeError, match="offset"):
         chain.replace(offset=[1.0, 2.0])
     with pytest.raises(InputError, match="base"):
@@ -79,22 +87,24 @@ def test_a_copy_is_checked_as_a_new_chain_is():
 
 
 def test_only_a_chain_whose_joints_are_its_coordinates_goes_straight_to_the_kernel():
-    plain = pk.Chain([TURN, SLIDE], MOVED)
+    plain = pk.Chain.from_space([TURN, SLIDE], MOVED)
     assert plain.plain_shape == (2,)
     assert plain.nontrivial_coupling is None
     assert plain.kernel_table.shape == (3, chain_kernels.OFFSET)
-    shifted = pk.Chain([TURN, SLIDE], MOVED, offset=[0.0, 1.0])
-    coupled = pk.Chain([TURN, SLIDE], MOVED, coupling=[[1.0], [0.0]], q_names=["a"])
+    shifted = pk.Chain.from_space([TURN, SLIDE], MOVED, offset=[0.0, 1.0])
+    coupled = pk.Chain.from_space([TURN, SLIDE], MOVED, coupling=[[1.0], [0.0]], q_names=["a"])
     assert shifted.plain_shape is coupled.plain_shape is None
     assert (plain.jacobian_shape, coupled.jacobian_shape) == ((6, 2), (6, 1))
     np.testing.assert_array_equal(coupled.nontrivial_coupling, [[1.0], [0.0]])
 
 
 def test_a_coordinate_is_an_angle_where_the_first_joint_that_follows_it_turns():
-    chain = pk.Chain([TURN, SLIDE], MOVED)
+    chain = pk.Chain.from_space([TURN, SLIDE], MOVED)
     assert [chain.is_angle(k) for k in range(2)] == [True, False]
     for rows, angle in (([TURN, SLIDE], True), ([SLIDE, TURN], False)):
-        coupled = pk.Chain(rows, MOVED, coupling=[[1.0, 0.0], [2.0, 0.0]], q_names=["a", "idle"])
+        coupled = pk.Chain.from_space(
+            rows, MOVED, coupling=[[1.0, 0.0], [2.0, 0.0]], q_names=["a", "idle"]
+        )
         assert [coupled.is_angle(k) for k in range(2)] == [angle, True]
 
 

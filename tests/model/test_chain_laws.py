@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from poekin.groups import se3
 from poekin.model.chain import Chain
+from poekin.model.kinematics.pose_jacobian import Frame
 from poekin.testing.accuracy import falsify
 from poekin.testing.laws.chain_laws import CHAIN_LAWS
 from poekin.testing.strategies import chain_strategies
@@ -46,7 +47,7 @@ def test_methods_agree_where_the_home_pose_is_turned_by_no_exact_rotation():
         ]
     )
     assert np.linalg.norm(home[:3, :3] @ home[:3, :3].T - np.eye(3)) > 1.7e-15
-    chain = Chain([[1.0, 0, 0, 0, -0.06345643296552192, 0.03801836574876627]], home)
+    chain = Chain.from_space([[1.0, 0, 0, 0, -0.06345643296552192, 0.03801836574876627]], home)
     # M e^{B x} moves the tool by 4.8 m and back, along directions that are that far off.
     LAWS["methods_agree"].check(
         chain, np.array([-3.01684376787039]), np.array([-1.3431296253910125]), 0
@@ -77,7 +78,7 @@ def test_the_shortest_and_the_longest_chains_keep_the_law(name, joints, data):
 
 def test_example_1_of_the_paper():
     # A 3R arm with L1 = 0.4, L2 = 0.3: M, ω_i and v_i as printed.
-    arm = Chain(
+    arm = Chain.from_space(
         [[0, 0, 1, 0, 0, 0], [0, -1, 0, 0, 0, 0], [0, -1, 0, 0, 0, -0.4]],
         se3.exp([0, 0, 0, 0.4 + 0.3, 0, 0]),
     )
@@ -109,7 +110,7 @@ class Planted:
 
 def with_screws(chain: Chain, screws: Any, **changes: Any) -> Chain:
     data = {"home": chain.home, "coupling": chain.coupling, "offset": chain.offset, **changes}
-    return Chain(screws, q_names=chain.q_names, **data)
+    return Chain(screws, frame="space", q_names=chain.q_names, **data)
 
 
 def without_pitch(chain: Chain) -> Any:
@@ -123,7 +124,7 @@ def without_pitch(chain: Chain) -> Any:
     return Planted(wrong, screws=chain.screws)
 
 
-def frames_swapped(chain: Chain, asked: str, given_: str) -> Any:
+def frames_swapped(chain: Chain, asked: Frame, given_: Frame) -> Any:
     def jacobian(q, frame, **options):
         return chain.jacobian(q, given_ if frame == asked else frame, **options)
 

@@ -237,7 +237,7 @@ def test_pi_halves_of_five_digits_are_put_right_where_they_are_and_said_in_words
         T = T @ pk.se3.exp([0, 0, 0, 0, 0, d])
         screws.append(pk.screw.revolute(T[:3, :3] @ up, T[:3, 3]))
         T = T @ pk.se3.exp([right, 0, 0, 0, 0, 0])
-    chain = pk.Chain(screws, T, joint_names=["a", "b{0}", "c"])
+    chain = pk.Chain.from_space(screws, T, joint_names=["a", "b{0}", "c"])
     result = chain.idealised(1e-5)
     np.testing.assert_array_equal(ways(result.chain), [[0, 0, 1], [0, -1, 0], [0, 0, -1]])
     np.testing.assert_array_equal(
@@ -258,7 +258,7 @@ def test_pi_halves_of_five_digits_are_put_right_where_they_are_and_said_in_words
 
 def test_the_bound_of_one_wrong_turn_is_reached():
     tilted = pk.screw.revolute([0, math.sin(1e-6), math.cos(1e-6)], [0, 0, 0])
-    chain = pk.Chain([tilted], pk.se3.exp([0, 0, 0, 2.0, 0, 0]))
+    chain = pk.Chain.from_space([tilted], pk.se3.exp([0, 0, 0, 2.0, 0, 0]))
     result = chain.idealised(1e-5)
     far, turned = pose_errors(chain, result.chain, np.linspace(0, 2 * np.pi, 100)[:, None])
     assert 0.5 * result.position_bound < far <= result.position_bound
@@ -272,7 +272,7 @@ def test_a_tilt_beyond_the_tolerance_stays_and_nearly_parallel_axes_throw_nothin
         pk.screw.revolute([math.sin(lean), 1e-5, math.cos(lean)], [0.4, 1e-5, 0]),
         pk.screw.revolute([math.sin(lean), 1e-5, math.cos(lean) + 1e-5], [0.8, 0, 0]),
     ]
-    result = pk.Chain(screws, np.eye(4)).idealised(1e-3)
+    result = pk.Chain.from_space(screws, np.eye(4)).idealised(1e-3)
     one, two, three = ways(result.chain)
     np.testing.assert_array_equal(one, [0, 0, 1])
     np.testing.assert_allclose(
@@ -280,18 +280,20 @@ def test_a_tilt_beyond_the_tolerance_stays_and_nearly_parallel_axes_throw_nothin
     )  # 1e-5 squared, what y had
     np.testing.assert_array_equal(two, three)
     assert result.position_bound < 1e-4
-    alone = pk.Chain(screws[:2], np.eye(4))
+    alone = pk.Chain.from_space(screws[:2], np.eye(4))
     np.testing.assert_allclose(ways(alone.idealised(1e-6).chain), ways(alone), rtol=0, atol=2e-16)
 
 
 def test_far_away_and_very_small_numbers_are_no_trouble():
-    far = pk.Chain([pk.screw.revolute([0, 1e-6, 1], [1e99, 0, 0])], np.eye(4)).idealised(1e-5)
+    far = pk.Chain.from_space([pk.screw.revolute([0, 1e-6, 1], [1e99, 0, 0])], np.eye(4)).idealised(
+        1e-5
+    )
     np.testing.assert_array_equal(far.chain.screws, [[0, 0, 1, 0, -1e99, 0]])
     assert far.position_bound == pytest.approx(1e93, rel=1e-6)
     assert (
         far.changes[0] == "axis of 'joint1' turned by 1e-06 rad to be parallel to the base's z axis"
     )
-    near = pk.Chain([pk.screw.revolute([0, 0, 1], [1e-200, 0, 0])], np.eye(4))
+    near = pk.Chain.from_space([pk.screw.revolute([0, 0, 1], [1e-200, 0, 0])], np.eye(4))
     assert near.idealised(1e-300).chain is near
     np.testing.assert_array_equal(near.idealised(1e-9).chain.screws, [[0, 0, 1, 0, 0, 0]])
 
@@ -299,7 +301,7 @@ def test_far_away_and_very_small_numbers_are_no_trouble():
 def test_a_joint_that_slides_counts_as_far_as_it_can():
     tilted = pk.screw.prismatic([0, 1e-6, 1.0])
     bounds = {
-        length: pk.Chain([tilted], np.eye(4), limits=[[-length, length]])
+        length: pk.Chain.from_space([tilted], np.eye(4), limits=[[-length, length]])
         .idealised(1e-5)
         .position_bound
         for length in (1.0, 10.0, np.inf)
@@ -314,7 +316,7 @@ def test_nothing_changes_without_a_tolerance_or_without_a_need():
     nothing = chain.idealised(0)
     assert nothing.chain is chain
     assert (nothing.position_bound, nothing.rotation_bound, nothing.changes) == (0.0, 0.0, ())
-    none = pk.Chain([], pk.se3.exp([0, 0, 1e-6, 1, 0, 0]))
+    none = pk.Chain.from_space([], pk.se3.exp([0, 0, 1e-6, 1, 0, 0]))
     np.testing.assert_array_equal(none.idealised(1e-5).chain.home[:3, :3], np.eye(3))
     result = none.idealised(1e-5)
     assert pickle.loads(pickle.dumps(result)) == result

@@ -26,7 +26,7 @@ def mixed(pitch: float) -> pk.Chain:
         pk.screw.helical([0.2, -1, 0.5], [0, 0.4, 0.2], pitch),
         pk.screw.prismatic([1, 1, 0]),
     ]
-    return pk.Chain(rows, pk.se3.exp([0.3, 0.2, 0.1, 1, 2, 3]), pitches=[0, pitch, 0])
+    return pk.Chain.from_space(rows, pk.se3.exp([0.3, 0.2, 0.1, 1, 2, 3]), pitches=[0, pitch, 0])
 
 
 @pytest.mark.parametrize("far", [10.0, 1e3, 1e8])
@@ -47,7 +47,7 @@ def test_far_arms_of_large_lengths_keep_their_kinds():
     # 36 to 57 of 60 came back with helical joints.
     rng = np.random.default_rng(1)
     for size in (100.0, 1000.0):
-        chain = pk.Chain(UR5E.screws * [1, 1, 1, size, size, size], UR5E.home)
+        chain = pk.Chain.from_space(UR5E.screws * [1, 1, 1, size, size, size], UR5E.home)
         for xi in rng.normal(size=(20, 6)):
             P = pk.se3.exp(xi)
             assert set(chain.rebased(P).rebased(pk.se3.inverse(P)).kinds) == {"revolute"}
@@ -66,12 +66,17 @@ def test_an_arm_behind_a_joint_of_a_kilometre_is_the_same_arm():
 
 def test_pitches_that_are_given_decide_and_the_screws_are_made_exact():
     S = pk.screw.helical([0, 0, 1], [1, 0, 0], 1e-9)
-    found, turned = pk.Chain([S], np.eye(4)), pk.Chain([S], np.eye(4), pitches=[0])
+    found, turned = (
+        pk.Chain.from_space([S], np.eye(4)),
+        pk.Chain.from_space([S], np.eye(4), pitches=[0]),
+    )
     assert (found.kinds, found.pitches) == (("helical",), pytest.approx([1e-9]))
     assert (turned.kinds, turned.pitches.tolist()) == (("revolute",), [0.0])
     assert turned.screws[0].tolist() == [0, 0, 1, 0, -1, 0]
     assert turned.fk([2.0])[2, 3] == 0.0
-    fine = pk.Chain([pk.screw.revolute([0, 0, 1], [1, 0, 0])], np.eye(4), pitches=[1e-18])
+    fine = pk.Chain.from_space(
+        [pk.screw.revolute([0, 0, 1], [1, 0, 0])], np.eye(4), pitches=[1e-18]
+    )
     assert (fine.kinds, fine.fk([2.0])[2, 3]) == (("helical",), 2e-18)
     assert fine != turned
     assert pickle.loads(pickle.dumps(fine)) == fine
@@ -106,7 +111,9 @@ def test_a_chain_in_a_file_keeps_its_pitches():
 def test_pitches_that_make_no_sense_are_refused(pitches, error, message):
     chain = mixed(0.1)
     with pytest.raises(error, match=message):
-        pk.Chain(chain.screws, chain.home, joint_names=["turn", "bolt", "slide"], pitches=pitches)
+        pk.Chain.from_space(
+            chain.screws, chain.home, joint_names=["turn", "bolt", "slide"], pitches=pitches
+        )
 
 
 def test_the_joints_of_a_robot_say_what_the_pitches_are_however_far_away_they_stand():
@@ -127,7 +134,7 @@ def test_the_joints_of_a_robot_say_what_the_pitches_are_however_far_away_they_st
 def test_a_pitch_far_beyond_the_reach_is_in_the_bound_of_fk(pitch):
     rng = np.random.default_rng(0)
     for place in rng.normal(size=(10, 3)):
-        chain = pk.Chain(
+        chain = pk.Chain.from_space(
             [pk.screw.helical([1, 2, 3], place, pitch), UR5E.screws[1]],
             UR5E.home,
             pitches=[pitch, 0],

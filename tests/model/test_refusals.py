@@ -10,17 +10,17 @@ import numpy as np
 import pytest
 
 import poekin as pk
+import poekin.model.tree.chain_between as between
 from poekin.errors import InputError, ModelError, PoseError, ScrewError, ShapeError, UnknownName
 from poekin.model import checks, screw
-from poekin.model import robot as robots
 from poekin.model.joint import Joint, Mimic
 from poekin.model.provenance import Source
 from poekin.model.robot import Robot
 from tests.messages import says
 
 TURN, SLIDE = screw.revolute([0, 0, 1], [1, 0, 0]), screw.prismatic([1, 0, 0])
-ARM = pk.Chain([TURN, SLIDE], np.eye(4), joint_names=["pan", "slide"])
-ALONE = pk.Chain([], np.eye(4))
+ARM = pk.Chain.from_space([TURN, SLIDE], np.eye(4), joint_names=["pan", "slide"])
+ALONE = pk.Chain.from_space([], np.eye(4))
 Q, NAN = np.zeros(2), float("nan")
 T, J = np.empty((4, 4)), np.empty((6, 2))
 FRAMES = "frame: expected 'space', 'body', 'hybrid' or the index of a joint"
@@ -39,7 +39,7 @@ OF_CALLS = {
     "values": (lambda: ARM.fk({"pan": [0, 1], "slide": [0, 1, 2]}), ShapeError,
                "q: the values' shapes do not broadcast: (2,), (3,)"),
     "dq": (lambda: ARM.velocity(np.zeros((3, 2)), np.zeros((4, 2)), "body"), ShapeError,
-           "q and dq do not broadcast: shapes (3, 2) and (4, 2)"),
+           "q, dq do not broadcast: shapes (3, 2), (4, 2)"),
     "dq of a rate": (lambda: ARM.jacobian_rate(np.zeros((3, 2)), np.zeros((4, 2)), "body"), ShapeError,
                      "q, dq do not broadcast: shapes (3, 2), (4, 2)"),
     "q0": (lambda: ARM.rezeroed([0, NAN]), InputError, "q0: expected one finite configuration (2,), got [0.0, nan]"),
@@ -50,7 +50,7 @@ OF_CALLS = {
                          "frame: expected 'space', 'body' or 'hybrid' (the chain has no joint), got 0"),
     "a derivative's frame": (lambda: ARM.hessian(Q, 0), InputError,
                              "frame: expected 'space', 'body' or 'hybrid', got 0"),
-    "by": (lambda: ARM.screw_derivatives(Q, "eta"), InputError, "by: expected 'motion' or 'entries', got 'eta'"),
+    "wrt": (lambda: ARM.screw_derivatives(Q, "eta"), InputError, "wrt: expected 'twist' or 'components', got 'eta'"),
     "at": (lambda: ARM.jacobian(Q, "body", at=[0, NAN, 1]), InputError,
            "at: expected one finite point (3,), got [0, nan, 1]"),
     "at in space": (lambda: ARM.jacobian(Q, 1, at=[0, 0, 1]), InputError,
@@ -82,17 +82,19 @@ OF_CALLS = {
     "T and J": (lambda: (lambda M: ARM.fk_jacobian(Q, "body", out=(M[:16].reshape(4, 4), M[12:24].reshape(6, 2))))(
         np.empty(24)), InputError, "out: T and J share memory"),
     "kind": (lambda: ARM.pose_coordinates(Q, "euler"), InputError,
-             "kind: expected one of 'rotation_vector', 'quaternion_wxyz', 'rpy', got 'euler'"),
+             "kind: expected 'rotation_vector', 'quaternion_wxyz' or 'rpy', got 'euler'"),
     "to_hp": (lambda: ARM.to_hp(), InputError, "to_hp: expected revolute joints only, 'slide' is prismatic"),
-    "to_hp, coupled": (lambda: pk.Chain([TURN, TURN], np.eye(4), coupling=[[1], [2]], base="b", tip="t").to_hp(),
-                       InputError, "to_hp: expected one coordinate a joint, the 2 joints of 'b' -> 't' are coupled to "
+    "to_hp, coupled": (lambda: chain(TURN, TURN, coupling=[[1], [2]], base="b", tip="t").to_hp(), InputError,
+                       "to_hp: expected one coordinate a joint, the 2 joints of 'b' -> 't' are coupled to "
                        "1 coordinates"),
     "the middle": (lambda: ALONE.compile().cheapest, InputError, "frame 'cheapest': the chain has no joint"),
 }  # fmt: skip
 
 
 def chain(*screws, home=None, **options):
-    return pk.Chain(screws or [TURN, SLIDE], np.eye(4) if home is None else home, **options)
+    return pk.Chain.from_space(
+        screws or [TURN, SLIDE], np.eye(4) if home is None else home, **options
+    )
 
 
 def pose(*places):
@@ -228,7 +230,7 @@ def test_what_is_no_part_of_a_chain_is_said_whole(options, error, message):
 @pytest.mark.parametrize("screws, options, error, message", OF_SCREWS.values(), ids=OF_SCREWS)
 def test_what_is_no_screw_is_said_whole(screws, options, error, message):
     with pytest.raises(error) as caught:
-        pk.Chain(screws, np.eye(4), **options)
+        pk.Chain.from_space(screws, np.eye(4), **options)
     assert says(caught.value, message)
 
 
@@ -259,7 +261,7 @@ def test_limits_that_contradict_each_other_are_warned_of_whole(followers, more):
     "q, where", [([0, np.pi / 2, 0], "q"), ([[0, 0, 0], [0, np.pi / 2, 0]], "q[1]")]
 )
 def test_a_gimbal_s_lock_is_said_with_its_place_and_pitch(q, where):
-    wrist = pk.Chain(
+    wrist = pk.Chain.from_space(
         [screw.revolute(z, [0, 0, 0]) for z in ([0, 0, 1], [0, 1, 0], [1, 0, 0])], np.eye(4)
     )
     cosine = np.hypot(*wrist.fk(q)[..., :2, 0].reshape(-1, 2)[-1])
@@ -316,7 +318,7 @@ def test_of_many_roots_five_are_named(count, more):
 
 @pytest.mark.parametrize("largest, made", [(6, True), (5, False)])
 def test_a_coupling_matrix_that_would_be_too_large_is_said_whole(largest, made, monkeypatch):
-    monkeypatch.setattr(robots, "LARGEST", largest)
+    monkeypatch.setattr(between, "LARGEST", largest)
     arm = robot(
         hung("i", "a", "b"), hung("j", "b", "c"), hung("k", "c", "d", mimic=Mimic("i", 2.0))
     )
@@ -358,7 +360,7 @@ def test_a_joint_is_found_by_its_name_wherever_it_stands():
 
 def test_compiled_arms_are_equal_that_do_the_same_in_the_same_way():
     plain, parallel = ARM.compile(), ARM.compile(parallel=True)
-    again = pk.Chain(ARM.screws, ARM.home, joint_names=ARM.joint_names).compile()
+    again = pk.Chain.from_space(ARM.screws, ARM.home, joint_names=ARM.joint_names).compile()
     assert plain == again
     assert hash(plain) == hash(again)
     for one, other in (

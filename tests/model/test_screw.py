@@ -117,3 +117,29 @@ def test_an_axis_may_have_any_length():
 def test_what_makes_no_screw_is_refused(function, arguments, error):
     with pytest.raises(error):
         function(*arguments)
+
+
+@given(axes, vectors, pitches, st.floats(0.992, 1.008))
+def test_a_rounded_screw_is_brought_back_to_its_axis(z, p, h, scale):
+    S = pk.screw.helical(z, p, h)
+    found = pk.screw.normalised(scale * S)
+    assert np.abs(found - S).max() <= 8 * U * max(1.0, np.abs(S).max())
+    slide = pk.screw.prismatic(z)
+    assert np.abs(pk.screw.normalised([scale * slide, slide])[0] - slide).max() <= 8 * U
+
+
+def test_what_is_far_from_a_unit_screw_is_not_normalised():
+    line = [0, 0, 1, 0, -0.5, 0]
+    with pytest.raises(ScrewError, match=r"^screws\[1\]: expected \|omega\| = 1, or omega = 0 and"):
+        pk.screw.normalised([line, [0, 0, 1.011, 0, 0, 0]])
+    with pytest.raises(
+        ScrewError, match=r"^screws: .* within 0\.01; got \[0\.0, 0\.0, 0\.0, 0\.0, 0\.0, 0\.0\]"
+    ):
+        pk.screw.normalised(np.zeros(6))
+    assert pk.screw.normalised([0, 0, 1.1, 0, 0, 0], tolerance=0.2).tolist() == [0, 0, 1, 0, 0, 0]
+    assert pk.screw.normalised([1e-10, 0, 0, 0, 0, 1]).tolist() == [0, 0, 0, 0, 0, 1]
+    assert pk.screw.normalised(np.zeros((0, 6))).shape == (0, 6)
+    with pytest.raises(ShapeError, match=r"expected shape \(\.\.\., 6\), got \(1, 5\)"):
+        pk.screw.normalised([line[:5]])
+    with pytest.raises(InputError, match=r"screws\[0\]: expected a finite number, got nan"):
+        pk.screw.normalised([float("nan"), *line[1:]])

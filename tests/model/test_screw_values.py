@@ -8,6 +8,7 @@ import pytest
 import poekin as pk
 from poekin.errors import InputError, ScrewError, ShapeError
 from poekin.model import screw
+from poekin.model.screw_rows.unit_screws import pitch_of, pitches_of, unit_screws, with_pitches
 
 Z, P = np.array([2.0, -3.0, 6.0]) / 7, np.array([0.3, -1.2, 2.5])
 AXIS = np.array([2.0, -3.0, 6.0])
@@ -49,7 +50,7 @@ def test_an_axis_along_a_coordinate_is_no_slide(axis):
     np.testing.assert_allclose(found.point, np.where(axis, 0.0, P), rtol=0, atol=1e-15)
     assert found.pitch == pytest.approx(0.5, abs=1e-15)
     with pytest.raises(ScrewError, match=r"omega must have length 1"):
-        screw.checked([[*(2.0 * np.array(axis)), 0, 0, 0]])
+        unit_screws([[*(2.0 * np.array(axis)), 0, 0, 0]])
 
 
 @pytest.mark.parametrize("far", [0.0, 1.0, 3.0, 1000.0])
@@ -63,19 +64,19 @@ def test_a_pitch_is_nothing_up_to_4e_15_of_the_distance(far):
         (-1.1 * limit, True),
     ):
         S = np.array([0, 0, 1, far, 0, pitch])
-        assert screw.pitch_of(S) == (pitch if seen else 0.0)
-    assert screw.pitch_of(np.array([0, 0, 1, 0, 0, 4e-15])) == 0.0
+        assert pitch_of(S) == (pitch if seen else 0.0)
+    assert pitch_of(np.array([0, 0, 1, 0, 0, 4e-15])) == 0.0
 
 
 def test_screws_are_given_their_pitches_and_those_that_have_them_stay_to_the_last_bit():
     line, slide = np.array([*Z, *np.cross(P, Z)]), np.array([0, 0, 0, *Z])
     bolt = line + 0.3 * np.array([0, 0, 0, *Z])
-    out = screw.with_pitches(np.array([bolt, bolt, line, slide]), np.array([0.0, 0.3, -0.2, 0.0]))
+    out = with_pitches(np.array([bolt, bolt, line, slide]), np.array([0.0, 0.3, -0.2, 0.0]))
     np.testing.assert_allclose(out[0], line, rtol=0, atol=2e-15)
     np.testing.assert_allclose(out[2], [*Z, *(np.cross(P, Z) - 0.2 * Z)], rtol=0, atol=2e-15)
     assert np.array_equal(out[[1, 3]], [bolt, slide])
     far = np.array([[0, 0, 1, 1000.0, 0, 3.9e-12], [0, 0, 1, 1000.0, 0, 4.1e-12]])
-    assert screw.with_pitches(far, np.zeros(2))[:, 5].tolist() == [3.9e-12, 0.0]
+    assert with_pitches(far, np.zeros(2))[:, 5].tolist() == [3.9e-12, 0.0]
 
 
 @pytest.mark.parametrize("far", [10.0, 1e3, 1e8])
@@ -90,19 +91,19 @@ def test_a_point_far_along_or_beside_the_axis_makes_no_pitch(far):
 
 def test_the_pitches_of_screws_are_those_given_or_those_that_they_have():
     S = np.array([[*Z, *np.cross(P, Z)], [*Z, *(np.cross(P, Z) + 0.3 * Z)], [0, 0, 0, *Z]])
-    assert screw.pitches_of(S) == pytest.approx([0.0, 0.3, 0.0], abs=1e-15)
-    assert screw.pitches_of(S)[[0, 2]].tolist() == [0.0, 0.0]
-    assert screw.pitches_of(S, [1e-20, -1, 0]).tolist() == [1e-20, -1.0, 0.0]
-    assert screw.pitches_of(np.zeros((0, 6)), []).shape == (0,)
+    assert pitches_of(S) == pytest.approx([0.0, 0.3, 0.0], abs=1e-15)
+    assert pitches_of(S)[[0, 2]].tolist() == [0.0, 0.0]
+    assert pitches_of(S, [1e-20, -1, 0]).tolist() == [1e-20, -1.0, 0.0]
+    assert pitches_of(np.zeros((0, 6)), []).shape == (0,)
 
 
 @pytest.mark.parametrize("off", [9e-10, -9e-10, 1e-12, -1e-14])
 def test_a_screw_of_nearly_unit_length_is_made_exact_and_stays_on_its_line(off):
     S = np.array([*Z, *(np.cross(P, Z) + 0.3 * Z)]) * (1 + off)
-    (exact,) = screw.checked([S])
+    (exact,) = unit_screws([S])
     assert abs(np.linalg.norm(exact[:3]) - 1) <= 2.3e-16
     np.testing.assert_allclose(exact, S / (1 + off), rtol=1e-15, atol=1e-15)
-    (slide,) = screw.checked([[0, 0, 0, *(Z * (1 + off))]])
+    (slide,) = unit_screws([[0, 0, 0, *(Z * (1 + off))]])
     np.testing.assert_allclose(slide[3:], Z, rtol=0, atol=3e-16)
 
 
@@ -110,19 +111,19 @@ def test_a_screw_of_unit_length_is_kept_to_the_last_bit():
     S = np.array([[0.6, 0.0, 0.8, 0.1, 0.2, 0.3], [0, 0, 0, 0.6, 0.0, 0.8], [*Z, *P]])
     S[2, :3] /= np.linalg.norm(S[2, :3])
     assert abs(np.linalg.norm(S[2, :3]) - 1) <= 2.3e-16
-    assert np.array_equal(screw.checked(S), S)
+    assert np.array_equal(unit_screws(S), S)
     # a length one unit in the last place above 1 is rounding, and dividing by it would only add to
     # it
     up = np.array([[1 + 2**-52, 0, 0, 0.1, 0.7, 0.3]])
-    assert np.array_equal(screw.checked(up), up)
+    assert np.array_equal(unit_screws(up), up)
     lengths = 1 + np.array([2, 3, 4]) * 2.0**-52
-    kept = [screw.checked([[0, x, 0, 0.1, 0, 0.3]])[0, 1] for x in lengths]
+    kept = [unit_screws([[0, x, 0, 0.1, 0, 0.3]])[0, 1] for x in lengths]
     assert kept == [lengths[0], 1.0, 1.0]
 
 
 def test_minus_zero_becomes_zero_and_the_argument_stays_as_it_was():
     given = np.array([[-0.0, 0, 1, 0, -0.0, 0]])
-    found = screw.checked(given)
+    found = unit_screws(given)
     assert not np.signbit(found).any()
     found[0, 2] = 7.0
     assert np.signbit(given[0, 0])
@@ -130,10 +131,11 @@ def test_minus_zero_becomes_zero_and_the_argument_stays_as_it_was():
 
 
 def test_no_screws_are_screws_too():
-    assert screw.checked([]).shape == (0, 6)
-    assert screw.checked(np.zeros((0, 6))).shape == (0, 6)
+    assert unit_screws([]).shape == (0, 6)
+    assert unit_screws(np.zeros((0, 6))).shape == (0, 6)
 
 
+ROUNDED = "; its rows are unit screws but for rounding: pass pk.screw.normalised(screws)"
 REFUSED = [
     (
         [[0, 0, 1, 0, 0]],
@@ -169,12 +171,14 @@ REFUSED = [
     (
         [[0, 0, 1 + 1.1e-9, 0, 0, 0]],
         ScrewError,
-        "screws[0]: omega must have length 1 to 1e-09, got 1.0000000011 in [0.0, 0.0, 1.0000000011, 0.0, 0.0, 0.0]",
+        "screws[0]: omega must have length 1 to 1e-09, got 1.0000000011 in [0.0, 0.0, 1.0000000011, 0.0, 0.0, 0.0]"
+        + ROUNDED,
     ),
     (
         [[0, 0, 1 - 1.1e-9, 0, 0, 0]],
         ScrewError,
-        "screws[0]: omega must have length 1 to 1e-09, got 0.9999999989 in [0.0, 0.0, 0.9999999989, 0.0, 0.0, 0.0]",
+        "screws[0]: omega must have length 1 to 1e-09, got 0.9999999989 in [0.0, 0.0, 0.9999999989, 0.0, 0.0, 0.0]"
+        + ROUNDED,
     ),
     (
         [[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 2, 0]],
@@ -189,7 +193,8 @@ REFUSED = [
     (
         [[1e-12, 0, 0, 0, 1, 0]],
         ScrewError,
-        "screws[0]: omega must have length 1 to 1e-09, got 1e-12 in [1e-12, 0.0, 0.0, 0.0, 1.0, 0.0]",
+        "screws[0]: omega must have length 1 to 1e-09, got 1e-12 in [1e-12, 0.0, 0.0, 0.0, 1.0, 0.0]"
+        + ROUNDED,
     ),
     (
         [[0, 0, 1, 0, np.nan, 0]],
@@ -214,20 +219,20 @@ REFUSED = [
 )
 def test_what_is_no_screw_is_said(screws, error, message):
     with pytest.raises(error) as caught:
-        screw.checked(screws)
+        unit_screws(screws)
     assert str(caught.value) == message
 
 
 def test_the_longest_number_is_still_one():
-    assert screw.checked([[0, 0, 1, 1e100, -1e100, 0]])[0, 3] == 1e100
+    assert unit_screws([[0, 0, 1, 1e100, -1e100, 0]])[0, 3] == 1e100
 
 
 def test_the_joint_is_named_where_its_name_is_known():
     bad = [[0, 0, 2, 0, 0, 0]]
     with pytest.raises(ScrewError, match=r"screws\[0\] \(joint 'elbow'\): omega"):
-        screw.checked(bad, ("elbow",))
+        unit_screws(bad, ("elbow",))
     with pytest.raises(ScrewError, match=r"screws\[1\]: omega"):
-        screw.checked([[0, 0, 1, 0, 0, 0], *bad], ("elbow",))
+        unit_screws([[0, 0, 1, 0, 0, 0], *bad], ("elbow",))
 
 
 @pytest.mark.parametrize(

@@ -94,7 +94,9 @@ def test_threads_may_ask_one_arm_in_more_ways_than_are_kept(monkeypatch):
 
 
 def test_the_joint_units_of_a_geared_arm_are_made_once():
-    geared = pk.Chain(UR5.screws, UR5.home, coupling=2 * np.eye(6), q_names=list("abcdef"))
+    geared = pk.Chain.from_space(
+        UR5.screws, UR5.home, coupling=2 * np.eye(6), q_names=list("abcdef")
+    )
     fast = geared.compile()
     units = joint_units.joint_units(fast)
     assert units.scale is not None

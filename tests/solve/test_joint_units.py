@@ -27,7 +27,7 @@ def geared(arm: pk.Chain, scale: float | np.ndarray) -> tuple[pk.Chain, np.ndarr
     sizes = np.broadcast_to(scale, (7,))[: arm.dof] if np.ndim(scale) else np.full(arm.dof, scale)
     limits = np.sort(arm.limits * sizes[:, None], axis=1)
     C = arm.coupling / sizes
-    return pk.Chain(
+    return pk.Chain.from_space(
         arm.screws, arm.home, coupling=C, offset=arm.offset, q_names=arm.q_names, limits=limits
     ), sizes
 
@@ -39,7 +39,7 @@ def coupled() -> pk.Chain:
     home = pk.se3.exp([0.1, 0.2, 0.3, 0.5, 0, 0.8])
     limits = [[-3, 3], [-3, 2], [-2, 2], [-2, 2], [-0.4, 0.5], [-2, 2]]
     axes = [*UR5E.screws[:4], pk.screw.prismatic([0, 0.6, 0.8]), *UR5E.screws[4:]]
-    return pk.Chain(axes, home, coupling=C, q_names=list("abcdef"), limits=limits)
+    return pk.Chain.from_space(axes, home, coupling=C, q_names=list("abcdef"), limits=limits)
 
 
 ARMS = {"ur5e": UR5E, "panda": PANDA, "coupled": coupled()}
@@ -69,7 +69,7 @@ def test_ik_finds_the_same_joints_in_every_unit(name, options, scale):
 
 
 def test_the_target_of_the_report_is_reached_in_degrees():
-    deg = pk.Chain(
+    deg = pk.Chain.from_space(
         UR5E.screws,
         UR5E.home,
         coupling=np.eye(6) * np.pi / 180,
@@ -112,7 +112,9 @@ def test_a_locked_coordinate_keeps_its_value_to_the_last_digit_in_every_unit(sca
 
 def test_what_is_at_a_limit_is_within_it_in_every_unit(scale):
     q = np.array([0.3, -0.5, 0.2, -1.5, 0.4, 1.0, 0.1])
-    tight = pk.Chain(PANDA.screws, PANDA.home, limits=np.stack([q - 0.17, q + 0.13], axis=1))
+    tight = pk.Chain.from_space(
+        PANDA.screws, PANDA.home, limits=np.stack([q - 0.17, q + 0.13], axis=1)
+    )
     other, _ = geared(tight, scale)
     found = ik(other, PANDA.fk(PANDA.random(3, 60)), restarts=2)
     lower, upper = other.limits.T
@@ -174,7 +176,7 @@ def test_follow_changes_its_branch_and_comes_as_near_in_every_unit(start, scale)
     # is out of reach
     axes = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1)]
     limits = [[-0.2, 3.0], [-2.5, 2.5], [-1, 1]]
-    arm = pk.Chain(
+    arm = pk.Chain.from_space(
         [*axes, pk.screw.prismatic([0, 0, 1])], pk.se3.exp([0, 0, 0, 2, 0, 0]), limits=limits
     )
     other, sizes = geared(arm, scale)
@@ -197,7 +199,9 @@ def test_follow_changes_its_branch_and_comes_as_near_in_every_unit(start, scale)
 def test_the_period_of_a_coordinate_brings_every_joint_back(ratios, turns):
     axes = [pk.screw.revolute([0, 0, 1], [0.3 * k, 0, 0]) for k in range(len(ratios))]
     for unit in (1.0, np.pi / 180, 1e4):
-        arm = pk.Chain(axes, np.eye(4), coupling=np.array([ratios]).T * unit, q_names=["a"])
+        arm = pk.Chain.from_space(
+            axes, np.eye(4), coupling=np.array([ratios]).T * unit, q_names=["a"]
+        )
         units = joint_units(arm.compile())
         found = period(units.fast.chain, 0)
         assert found == pytest.approx(2 * np.pi * turns, abs=1e-12)
@@ -208,14 +212,14 @@ def test_the_period_of_a_coordinate_brings_every_joint_back(ratios, turns):
 
 def test_a_coordinate_that_slides_or_screws_has_no_period():
     for joint in (pk.screw.prismatic([0, 0, 1]), pk.screw.helical([0, 0, 1], [0, 0, 0], 0.1)):
-        assert period(pk.Chain([joint], np.eye(4)), 0) == 0
+        assert period(pk.Chain.from_space([joint], np.eye(4)), 0) == 0
 
 
 @pytest.mark.parametrize("unit", [1.0, 100.0])
 def test_a_joint_that_turns_half_as_fast_is_told_apart_over_both_its_turns(unit):
     axes = [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([1, 0, 0], [0, 0.4, 0])]
     home = pk.se3.exp([0, 0, 0, 0.1, 0.7, 0.2])
-    arm = pk.Chain(axes, home, coupling=np.array([[1.0], [0.5]]) * unit, q_names=["a"])
+    arm = pk.Chain.from_space(axes, home, coupling=np.array([[1.0], [0.5]]) * unit, q_names=["a"])
     for x in (-5.0, 1.0, 5.0):  # of ±2 pi: outside ±pi there are others
         np.testing.assert_allclose(
             ik_all(arm, arm.fk([x / unit])).solutions, [[x / unit]], rtol=1e-9
@@ -237,13 +241,13 @@ def test_of_a_bad_target_among_others_the_locked_coordinate_is_unknown_too():
 )
 def test_a_period_is_of_up_to_twelve_turns_of_the_fastest_joint(gear, turns):
     axes = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1)]
-    chain = pk.Chain(axes, np.eye(4), coupling=[[1.0], [gear]])
+    chain = pk.Chain.from_space(axes, np.eye(4), coupling=[[1.0], [gear]])
     assert period(chain, 0) == pytest.approx(2 * np.pi * turns, rel=1e-15)
 
 
 @pytest.mark.parametrize("gear", [1.0, -0.5])
 @pytest.mark.parametrize("axis", [[1.0, 0, 0], [-1.0, 0, 0]])
 def test_a_coordinate_that_slides_a_joint_too_has_no_period(gear, axis):
-    chain = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic(axis)], np.eye(4),
+    chain = pk.Chain.from_space([pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic(axis)], np.eye(4),
                      coupling=[[1.0], [gear]])  # fmt: skip
     assert period(chain, 0) == 0

@@ -446,7 +446,9 @@ def test_what_cannot_be_read_or_written_is_said(tmp_path):
 
 def test_a_plot_is_svg_with_names_made_harmless(tmp_path):
     pytest.importorskip("matplotlib")
-    arm = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4), joint_names=["<b>$x^$\n"])
+    arm = pk.Chain.from_space(
+        [pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4), joint_names=["<b>$x^$\n"]
+    )
     text = motion.plot_joints(
         [[0.0], [1.0], [2.0], [np.nan]], arm, breaks=[2], path=tmp_path / "q.svg"
     )
@@ -460,7 +462,9 @@ def test_a_plot_is_svg_with_names_made_harmless(tmp_path):
 def test_a_plot_without_matplotlib_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(MissingExtra, match=r"pip install 'poekin\[report\]'"):
-        motion.plot_joints([[0.0]], pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4)))
+        motion.plot_joints(
+            [[0.0]], pk.Chain.from_space([pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4))
+        )
 
 
 @pytest.mark.parametrize("T", [1.0, 2.5])

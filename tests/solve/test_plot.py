@@ -11,7 +11,7 @@ from poekin.solve import motion
 
 pytest.importorskip("matplotlib")
 
-ARM = pk.Chain(
+ARM = pk.Chain.from_space(
     [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([1, 0, 0])], np.eye(4),
     joint_names=["turn", "slide"], limits=[[-50, 50], [0.25, 1.5]],
 )  # fmt: skip
@@ -63,7 +63,7 @@ def test_what_is_within_the_limits_is_shaded_behind_the_curve_and_limits_far_off
 
 
 def test_an_arm_without_joints_has_an_empty_picture(drawn_figures):
-    motion.plot_joints(np.zeros((3, 0)), pk.Chain(np.zeros((0, 6)), np.eye(4)))
+    motion.plot_joints(np.zeros((3, 0)), pk.Chain.from_space(np.zeros((0, 6)), np.eye(4)))
     assert drawn_figures[0].get_size_inches() == pytest.approx([7.2, 1.6])
     assert len(drawn_figures[0].axes) == 1
 

@@ -24,7 +24,7 @@ from poekin.testing.strategies import (
 from poekin.testing.strategies.decoding import bytes_reader, decoders
 from tests.testing.drawing import drawn
 
-ARM = Chain(
+ARM = Chain.from_space(
     [[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [1, 0, 0, 0, 0, 0]],
     np.eye(4),
     limits=[[-1, 1], [2, 3], [-3, 0]],

@@ -59,7 +59,7 @@ def test_a_hasty_exp_does_not():
 
 
 SCREWS = np.array([[0, 0, 1, 0, 0, 0], [0, 1, 0, -0.4, 0, 0], [0, 1, 0, -0.4, 0, 0.5]])
-ARM = pk.Chain(SCREWS, np.eye(4))
+ARM = pk.Chain.from_space(SCREWS, np.eye(4))
 
 
 def my_fk(q):

@@ -136,7 +136,9 @@ def chain() -> pk.Chain:
         pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([0, 1, 0], [0, 0, 0.5]),
         pk.screw.prismatic([1, 0, 0]),
     ]  # fmt: skip
-    return pk.Chain(screws, np.eye(4), q_names=["a", "b", "c"], joint_names=["a", "b", "c"])
+    return pk.Chain.from_space(
+        screws, np.eye(4), q_names=["a", "b", "c"], joint_names=["a", "b", "c"]
+    )
 
 
 @cache
@@ -152,7 +154,7 @@ def written() -> dict[str, tuple[bytes, ...]]:
     arm, found = chain(), {}
     q = arm.random(0, 12)
     T = arm.fk(q)
-    coupled = pk.Chain(
+    coupled = pk.Chain.from_space(
         arm.screws, arm.home, joint_names=["a", "b", "c"], q_names=["a", "b"], coupling=[[1, 0], [0, 1], [0, -0.5]],
         offset=[0, 0, 0.1],
     )  # fmt: skip

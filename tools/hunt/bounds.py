@@ -159,7 +159,7 @@ def redrawn(chain: pk.Chain, r: BytesReader) -> pk.Chain:
         )
 
     A = [made(kind) for kind in chain.kinds]
-    return pk.Chain(
+    return pk.Chain.from_space(
         np.reshape(A, (-1, 6)), placed(r), coupling=chain.coupling, offset=chain.offset, joint_names=chain.joint_names,
         q_names=chain.q_names,
     )  # fmt: skip

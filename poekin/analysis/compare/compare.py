@@ -94,7 +94,7 @@ def compare(
     >>> arm = pk.load("panda").chain(tip="panda_hand")
     >>> lifted = arm.screws.copy()
     >>> lifted[3] = pk.se3.adjoint(pk.se3.exp([0, 0, 0, 0, 0, 0.003])) @ lifted[3]
-    >>> other = pk.Chain(lifted, arm.home, joint_names=arm.joint_names)
+    >>> other = pk.Chain.from_space(lifted, arm.home, joint_names=arm.joint_names)
     >>> result = pk.compare(arm, other)
     >>> result.verdict
     "the models differ; joint 4 ('panda_joint4') has an axis that is 3 mm from the other model's"

@@ -61,7 +61,7 @@ def without(chain: Chain, ks: tuple[int, ...], held: Sequence[float] | Array) ->
     if q.any():
         chain = chain.rezeroed(q)
     names = tuple(name for k, name in enumerate(chain.joint_names) if k not in ks)
-    return Chain(
+    return Chain.from_space(
         np.delete(chain.screws, ks, 0),
         chain.home,
         joint_names=names,

@@ -13,7 +13,9 @@ import numpy as np
 from ...errors import InputError, join_names, safe_repr
 from ...model.chain import Chain
 from ...model.geometry.idealise import Idealised
-from ...model.kinematics.compiled import CheapestFrame, CompiledChain
+from ...model.kinematics.compiled import CompiledChain
+from ...model.kinematics.pose_jacobian import AnyFrame
+from ...model.kinematics.programs import CheapestFrame
 from ...results import Result, plain
 from .count import Count, Counting, CountMethod, count
 
@@ -310,7 +312,7 @@ def uncoupled_revolute(chain: Chain) -> bool:
 
 def _programs(arm: CompiledChain, group: str) -> Iterator[CountRow]:
     n = len(arm.joint_names)
-    frames: list[str | int] = ["space", "body", "hybrid", *range(n)]
+    frames: list[AnyFrame] = ["space", "body", "hybrid", *range(n)]
     if n:
         frames.append("cheapest")
     for frame in frames:

@@ -198,7 +198,7 @@ def singularity(
     >>> import numpy as np
     >>> import poekin as pk
     >>> joints = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 0.5)]
-    >>> links = pk.Chain(joints, pk.se3.exp([0, 0, 0, 1, 0, 0]))
+    >>> links = pk.Chain.from_space(joints, pk.se3.exp([0, 0, 0, 1, 0, 0]))
     >>> stretched = pk.singularity(links, [0.0, 0.0])
     >>> stretched.singular, stretched.rank, stretched.generic_rank
     (True, 1, 2)

@@ -343,7 +343,7 @@ def _pose(x: Vector, z: Vector, o: Vector) -> Array:
 
 def _error(chain: Chain, table: Table, samples: int, seed: int) -> float:
     """Largest pose error over a turn of each revolute joint and 1 m of each prismatic one."""
-    joints = Chain(chain.screws, chain.home, joint_names=chain.joint_names)
+    joints = Chain.from_space(chain.screws, chain.home, joint_names=chain.joint_names)
     x = joints.random(seed, samples)
     difference = to_chain(table).fk(x) - joints.fk(x)
     difference[:, :3, 3] /= chain.reach

@@ -76,7 +76,7 @@ def to_chain(table: Table) -> Chain:
     slides = (signs * (kinds == "prismatic")).tolist()
     A = np.zeros((len(table), 6))
     home = _matrix(dh.screws(link_poses(table), rotates, slides, len(table), A))
-    return Chain(
+    return Chain.from_space(
         A, home, joint_names=table.names, limits=table.limits, pitches=np.zeros(len(table))
     )
 

@@ -11,14 +11,15 @@ from ...errors import ModelError, join_names
 from ...formulas.lie import exponential
 from ...groups import se3
 from ...groups.arrays import Array
-from ...model.joint import Joint, Mimic
+from ...model.joint import Joint, JointKind, Mimic
 from ...model.provenance import Source
-from ...model.robot import TWELVE, Robot
+from ...model.robot import Robot
+from ...model.tree.chain_between import TWELVE
 from ..common.limits import UNBOUNDED
 from ..common.names import free_name
 
 # By the number that MuJoCo gives to a joint's type (mjtJoint).
-KINDS = ("floating", "floating", "prismatic", "revolute")
+KINDS: tuple[JointKind, ...] = ("floating", "floating", "prismatic", "revolute")
 FREE_JOINT = 0
 BALL = 1
 
@@ -26,7 +27,7 @@ BALL = 1
 class _Motion(NamedTuple):
     """Motion of a joint: kind, axis, limits, and e^{-S ref}, None for a floating one."""
 
-    kind: str
+    kind: JointKind
     axis: list[float]
     limits: tuple[float, ...]
     at_zero: Array | None
@@ -169,7 +170,9 @@ class _Reader:
         at_zero = _moved(kind, axis, -ref)
         if model.jnt_limited[j]:
             return _Motion(kind, axis, tuple(model.jnt_range[j].tolist()), at_zero)
-        return _Motion(kind.replace("revolute", "continuous"), axis, UNBOUNDED, at_zero)
+        if kind == "revolute":
+            kind = "continuous"
+        return _Motion(kind, axis, UNBOUNDED, at_zero)
 
     def _equalities(self) -> tuple[dict[int, Mimic], dict[int, float]]:
         """Mimic joints and joints held at a value: y - y_0 = a_0 + a_1 (x - x_0), q_0 = qpos0."""

@@ -11,7 +11,7 @@ from ...groups import se3
 from ...groups.arrays import Array, shaped
 from ...model.chain import Chain
 from ...model.checks import one_pose
-from ...model.joint import Joint, Mimic
+from ...model.joint import Joint, JointKind, Mimic
 from ...model.robot import Robot
 from ..common.limits import UNBOUNDED
 from ..common.names import free_name
@@ -19,7 +19,7 @@ from .attributes import as_list, has
 
 _ET = ("isjoint", "axis", "A")
 # Those of space; planar ones (ET2) have other names.
-_KINDS = {"R": "revolute", "t": "prismatic"}
+_KINDS: dict[str, JointKind] = {"R": "revolute", "t": "prismatic"}
 _AXES = ("Rx", "Ry", "Rz", "tx", "ty", "tz")
 
 
@@ -27,7 +27,7 @@ class Step(NamedTuple):
     """Joint of a sequence: pose of its frame behind the joint before, kind, screw, coordinate."""
 
     origin: Array
-    kind: str
+    kind: JointKind
     screw: Array
     coordinate: int
     limits: tuple[float, float]
@@ -75,7 +75,7 @@ def make_chain(ets: Any) -> Chain:
     used = sorted({step.coordinate for step in steps})
     rows = [[float(step.coordinate == k) for k in used] for step in steps]
     C = np.array(rows).reshape(len(steps), len(used))
-    return Chain(
+    return Chain.from_space(
         screws,
         T @ last,
         coupling=C,

@@ -99,5 +99,5 @@ def from_object(obj: Any, *, frame: ScrewFrame = REQUIRED) -> Any:
     known = ", ".join(what for what, _, _ in _KNOWN)
     raise InputError(
         f"from_object: expected {known}, or Modern Robotics' pair (M, Slist), got {type_name(obj)}; files are read by"
-        f" load, and a chain of your own is made by Chain(screws, home)"
+        f" load, and a chain of your own is made by Chain.from_space(screws, home)"
     )

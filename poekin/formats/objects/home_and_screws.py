@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, get_args
+from typing import Any, get_args
 
 import numpy as np
 
 from ...errors import ScrewError, ShapeError
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
+from ...model.chain_data import ScrewFrame
 from ...model.checks import choice
 
-ScrewFrame = Literal["space", "body"]
 FRAMES: tuple[ScrewFrame, ...] = get_args(ScrewFrame)
 
 
@@ -28,7 +28,7 @@ def make_chain(pair: Any, frame: ScrewFrame) -> Chain:
     Returns: Chain with joints joint1, joint2, ... without limits.
     Raises: ShapeError, PoseError; ScrewError for a column that is no unit screw, with its number;
     InputError.
-    Accuracy: space: as given; body: as `Chain.rebased`. Source: Lynch and Park, Modern Robotics,
+    Accuracy: space: as given; body: as `Chain.from_body`. Source: Lynch and Park, Modern Robotics,
     2017, chapter 4.
     """
     choice(
@@ -38,11 +38,7 @@ def make_chain(pair: Any, frame: ScrewFrame) -> Chain:
         "; the screws are in the space frame in Slist, in the body frame in Blist",
     )
     M, screws = pair
-    rows = _rows(screws, M)
-    if frame == "space":
-        return Chain(rows, M)
-    # M e^{B q} = P f(q) with P = M and f(q) = e^{B q}: the tool's frame at home is the base of f.
-    return Chain(rows, np.eye(4)).rebased(M)
+    return Chain(_rows(screws, M), M, frame=frame)
 
 
 def _rows(screws: Any, M: Any) -> Array:
@@ -69,7 +65,7 @@ def _rows(screws: Any, M: Any) -> Array:
 
 def _are_screws(rows: Array) -> bool:
     try:
-        Chain(rows, np.eye(4))
+        Chain.from_space(rows, np.eye(4))
     except ScrewError:
         return False
     return True

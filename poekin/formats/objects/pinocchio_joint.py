@@ -8,6 +8,7 @@ import numpy as np
 
 from ...errors import ModelError, quote
 from ...groups.arrays import Array
+from ...model.joint import JointKind
 from .attributes import has
 
 _PREFIX = "JointModel"
@@ -15,13 +16,18 @@ _UNIT = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 _X, _Y, _Z = _UNIT.values()
 # Joints of several degrees of freedom that are elementary motions one after the other, with the
 # axes in their order.
-_SERIES = {
+_SERIES: dict[str, tuple[tuple[JointKind, tuple[float, ...]], ...]] = {
     "SphericalZYX": (("revolute", _Z), ("revolute", _Y), ("revolute", _X)),
     "Translation": (("prismatic", _X), ("prismatic", _Y), ("prismatic", _Z)),
 }
-_FREE = {"FreeFlyer": "floating", "Planar": "planar"}
-_KINDS = {"R": "revolute", "RUB": "continuous", "P": "prismatic", "H": "helical"}
-_UNALIGNED = {
+_FREE: dict[str, JointKind] = {"FreeFlyer": "floating", "Planar": "planar"}
+_KINDS: dict[str, JointKind] = {
+    "R": "revolute",
+    "RUB": "continuous",
+    "P": "prismatic",
+    "H": "helical",
+}
+_UNALIGNED: dict[str, JointKind] = {
     "RevoluteUnaligned": "revolute",
     "RevoluteUnboundedUnaligned": "continuous",
     "PrismaticUnaligned": "prismatic",
@@ -33,7 +39,7 @@ class Motion(NamedTuple):
     """Elementary motion: pose of its frame in the one before, kind, axis, pitch [m per rad]."""
 
     origin: Array
-    kind: str
+    kind: JointKind
     axis: tuple[float, ...]
     pitch: float = 0.0
 
@@ -89,7 +95,7 @@ def motions(joint: Any, name: str) -> list[Motion]:
     )
 
 
-def _by_subspace(joint: Any, bare: Any, name: str, kind: str | None) -> Motion:
+def _by_subspace(joint: Any, bare: Any, name: str, kind: JointKind | None) -> Motion:
     """Motion of a joint whose axis stands only in its constant motion subspace S = (v; omega)."""
     scaling = float(getattr(bare, "scaling", 1.0))
     S = np.asarray(joint.createData().S, dtype=float).ravel()

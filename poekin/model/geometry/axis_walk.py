@@ -21,7 +21,18 @@ from ...algebra import add, cross, dot, scale, subtract
 from ...errors import quote
 from ...groups.arrays import Array
 from ..chain_data import ChainData
-from .normals import ZERO, Vector, across, axis_near, common_normal, exact, length, unit
+from .normals import (
+    ZERO,
+    Frame,
+    Vector,
+    across,
+    axis_near,
+    common_normal,
+    exact,
+    frame_on_line,
+    length,
+    unit,
+)
 
 SLANT = Decimal("0.1")
 """The sine of the angle below which two lines are walked without their common normal."""
@@ -30,27 +41,6 @@ ROUNDING = 1e-14
 """Changes up to this [rad], or this many times the reach [m], are the input's own rounding, and not
 worth a word.
 """
-
-
-class Frame(NamedTuple):
-    """A frame whose z axis lies on a line: its x and z direction and its origin, in the base frame."""
-
-    x: Vector
-    z: Vector
-    o: Vector
-
-    @property
-    def y(self) -> Vector:
-        """Its y direction."""
-        return cross(self.z, self.x)
-
-    def of(self, v: Vector) -> Vector:
-        """A direction of the base frame, as this frame sees it."""
-        return dot(self.x, v), dot(self.y, v), dot(self.z, v)
-
-    def out(self, v: Vector) -> Vector:
-        """A direction of this frame, as the base frame sees it."""
-        return add(add(scale(v[0], self.x), scale(v[1], self.y)), scale(v[2], self.z))
 
 
 class Turn(NamedTuple):
@@ -87,7 +77,7 @@ class Walk:
         z = unit(exact(chain.home[:3, 2]))
         p = exact(chain.home[:3, 3])
         self._step(z, add(p, scale(dot(subtract(self.given[-1].o, p), z), z)))
-        self._end(Frame(unit(across(x, z)), z, p))
+        self._end(frame_on_line(unit(across(x, z)), z, p))
 
     def _step(self, z: Vector, p: Vector) -> None:
         """To the next line, of direction z through p, its point nearest to the last frame's origin."""
@@ -120,14 +110,16 @@ class Walk:
         turned = new.out((theta.cosine, theta.sine, ZERO))
         up = add(scale(alpha.cosine, new.z), scale(alpha.sine, cross(turned, new.z)))
         origin = add(new.o, add(scale(d, new.z), scale(a, turned)))
-        return Frame(x, z, add(normal.foot, scale(normal.a, x))), Frame(turned, up, origin)
+        return frame_on_line(x, z, add(normal.foot, scale(normal.a, x))), frame_on_line(
+            turned, up, origin
+        )
 
     def _aside(self, z: Vector, p: Vector) -> tuple[Frame, Frame]:
         """By the smallest turn, to the next line's point nearest to the last origin."""
         last = self.given[-1]
         new = self.exact[-1]
         before, name = self._lines()
-        given = Frame(unit(across(last.x, z)), z, p)
+        given = frame_on_line(unit(across(last.x, z)), z, p)
         u, v, w = last.of(z)
         straight = self._is_zero(u) and self._is_zero(v)
         parallel = f"to lie in a plane of the frame on {before}"
@@ -142,7 +134,7 @@ class Walk:
         x, y = self._zeros(x, y, self.noise, f"{name} moved by {{0:.3g}} m {line}")
         turned = unit(across(new.x, up))
         origin = add(new.o, add(scale(x, turned), scale(y, cross(up, turned))))
-        return given, Frame(turned, up, origin)
+        return given, frame_on_line(turned, up, origin)
 
     def _end(self, tool: Frame) -> None:
         """Along the tool's z axis and about it, to the tool frame."""
@@ -160,7 +152,7 @@ class Walk:
         )
         x = new.out((theta.cosine, theta.sine, ZERO))
         self.given[-1] = tool
-        self.exact[-1] = Frame(x, new.z, add(new.o, scale(d, new.z)))
+        self.exact[-1] = frame_on_line(x, new.z, add(new.o, scale(d, new.z)))
 
     def _lines(self) -> list[str]:
         """Names of the last line and of the next."""
@@ -219,7 +211,7 @@ class Walk:
         return T
 
 
-BASE = Frame((Decimal(1), ZERO, ZERO), (ZERO, ZERO, Decimal(1)), (ZERO, ZERO, ZERO))
+BASE = frame_on_line((Decimal(1), ZERO, ZERO), (ZERO, ZERO, Decimal(1)), (ZERO, ZERO, ZERO))
 
 
 def _cosine(k: int) -> Decimal:

@@ -29,11 +29,19 @@ be known well.
 
 
 class HPForm(NamedTuple):
-    """f(q) = (E_n R_nt, P_0 + E_1 P_1 + ... + E_n P_n) with E_i = e^{[h_1] q_1} ... e^{[h_i] q_i}.
+    """Directions and steps: f(q) = (E_n R_nt, P_0 + E_1 P_1 + ... + E_n P_n).
 
-    H (n, 3): unit directions h_i of the axes in the base frame at q = 0. P (n + 1, 3): the steps
-    from the base's origin to a point of the first axis, from there to a point of the second, ...,
-    and to the tip, in base axes at q = 0, m. R_nt (3, 3): the rotation of the tip at q = 0.
+    E_i = e^{[h_1] q_1} ... e^{[h_i] q_i}.
+
+    Attributes
+    ----------
+    H : (n, 3) ndarray
+        Unit directions h_i of the axes in the base frame at q = 0.
+    P : (n + 1, 3) ndarray
+        Steps from the base's origin to a point of the first axis, from there to a point of the
+        second, ..., and to the tip, in base axes at q = 0, m.
+    R_nt : (3, 3) ndarray
+        Rotation of the tip at q = 0.
     """
 
     H: Array

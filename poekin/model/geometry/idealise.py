@@ -11,17 +11,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Generic, NamedTuple
+from typing import ClassVar, Generic
 
 import numpy as np
 
 from ...algebra import add, dot, scale, subtract
 from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
+from ...results import Result
 from ..chain_data import AnyChain, ChainData
 from ..sampling import sampling_range
-from .axis_walk import Frame, Walk
-from .normals import Vector, digits, length
+from .axis_walk import Walk
+from .normals import Frame, digits, length
 
 LARGEST = 0.05
 """The largest tolerance [rad, m] that is accepted: nothing has more than one multiple of 15 degrees
@@ -32,18 +33,42 @@ UNIT = 2.0**-53
 
 
 @dataclass(frozen=True)
-class Idealised(Generic[AnyChain]):
-    """A chain in exact geometry, and what that costs.
+class Idealised(Result, Generic[AnyChain]):
+    """Chain in exact geometry, and what that costs.
 
-    Attributes: chain; position_bound [m] and rotation_bound [rad], how far its tip's pose may be
-    from the given chain's, at the same coordinates; changes, each in words. Changes of the size of
-    rounding (1e-14 rad, 1e-14 of the reach) are made, but not listed.
+    Attributes
+    ----------
+    chain : Chain
+        Chain with exact angles and lengths.
+    position_bound : float
+        Bound of the distance of its tip from the given chain's at the same coordinates, m.
+    rotation_bound : float
+        Bound of the angle between their orientations, rad.
+    changes : tuple of str
+        Each change in words. Changes of the size of rounding (1e-14 rad, 1e-14 of the reach) are
+        made, but not listed.
     """
+
+    left_out: ClassVar[tuple[str, ...]] = ("chain",)
 
     chain: AnyChain
     position_bound: float
     rotation_bound: float
     changes: tuple[str, ...]
+
+    def summary(self) -> str:
+        """Text for people.
+
+        Returns
+        -------
+        text : str
+            Bounds in mm and deg, and the changes, one a line.
+        """
+        position = f"{1e3 * self.position_bound:.3g} mm"
+        rotation = f"{math.degrees(self.rotation_bound):.3g} deg"
+        if not self.changes:
+            return f"nothing was changed but rounding: within {position} and {rotation}"
+        return "\n".join([f"within {position} and {rotation}", *self.changes])
 
 
 def idealised(chain: AnyChain, tol: float) -> Idealised[AnyChain]:
@@ -80,14 +105,14 @@ def _bounds(chain: ChainData, given: list[Frame], exact: list[Frame]) -> tuple[f
     travel = [0.0, *_travel(chain).tolist()]
     behind = position = rotation = 0.0
     for i in reversed(range(len(given) - 1)):
-        link = _link(given[i], given[i + 1])
-        exact_link = _link(exact[i], exact[i + 1])
-        columns = map(subtract, link.axes, exact_link.axes)
+        link = given[i + 1].seen_by(given[i])
+        exact_link = exact[i + 1].seen_by(exact[i])
+        *columns, moved = map(subtract, exact_link, link)
         chord = math.sqrt(sum(dot(column, column) for column in columns) / 2)
-        shift = length(subtract(exact_link.origin, link.origin))
+        shift = length(moved)
         position += float(shift) + chord * behind
         rotation += 2 * math.asin(chord / 2)  # of a few tolerances, far from half a turn
-        behind += float(length(link.origin)) + travel[i]
+        behind += float(length(link.o)) + travel[i]
     rounding = 8 * UNIT * len(given)  # of the numbers that the new screws are written in
     return position + rounding * max(behind, chain.reach), rotation + rounding
 
@@ -98,18 +123,6 @@ def _travel(chain: ChainData) -> Array:
     C = chain.coupling
     middle = np.abs(C @ (low / 2 + high / 2) + chain.offset)
     return np.abs(chain.local.slides) * (middle + np.abs(C) @ (high / 2 - low / 2))
-
-
-class _Link(NamedTuple):
-    """Axes and origin of a frame as the frame before it sees them."""
-
-    axes: tuple[Vector, Vector, Vector]
-    origin: Vector
-
-
-def _link(before: Frame, frame: Frame) -> _Link:
-    axes = before.of(frame.x), before.of(frame.y), before.of(frame.z)
-    return _Link(axes, before.of(subtract(frame.o, before.o)))
 
 
 def _nearest(chain: ChainData, frames: list[Frame]) -> list[Frame]:

@@ -22,10 +22,18 @@ from ..checks import read_only
 class LocalForm(NamedTuple):
     """Constant poses and z-aligned screws of a chain of n joints.
 
-    `frames` (n + 1, 4, 4) are M_1 ... M_{n+1} (m). rotates (n,), slides (n,): joint i turns by
-    rotates[i] x_i (rad)
-    and slides by slides[i] x_i (m) along its z axis. Source: Park 1994, Section IV, with a trailing
-    tool M_{n+1}.
+    Attributes
+    ----------
+    frames : (n + 1, 4, 4) ndarray
+        Poses M_1 ... M_{n+1} of each joint's frame in the one before, and of the tool, m.
+    rotates : (n,) ndarray
+        Factors: joint i turns by rotates[i] x_i about its z axis, rad.
+    slides : (n,) ndarray
+        Factors: joint i slides by slides[i] x_i along its z axis, m.
+
+    Notes
+    -----
+    Source: Park 1994, Section IV, with a trailing tool M_{n+1}.
     """
 
     frames: Array

@@ -48,6 +48,33 @@ def across(a: Vector, z: Vector) -> Vector:
     return subtract(a, scale(dot(a, z), z))
 
 
+class Frame(NamedTuple):
+    """A frame by its three directions and its origin, in the base frame."""
+
+    x: Vector
+    y: Vector
+    z: Vector
+    o: Vector
+
+    def of(self, v: Vector) -> Vector:
+        """A direction of the base frame, as this frame sees it."""
+        return dot(self.x, v), dot(self.y, v), dot(self.z, v)
+
+    def out(self, v: Vector) -> Vector:
+        """A direction of this frame, as the base frame sees it."""
+        return add(add(scale(v[0], self.x), scale(v[1], self.y)), scale(v[2], self.z))
+
+    def seen_by(self, other: Frame) -> Frame:
+        """Frame by its directions and origin in another one."""
+        o = other.of(subtract(self.o, other.o))
+        return Frame(other.of(self.x), other.of(self.y), other.of(self.z), o)
+
+
+def frame_on_line(x: Vector, z: Vector, o: Vector) -> Frame:
+    """Frame whose z axis lies on the line of direction z through o."""
+    return Frame(x, cross(z, x), z, o)
+
+
 def axis_near(S: np.ndarray, slides: bool, origin: Vector) -> tuple[Vector, Vector]:
     """Direction of a screw's axis and its point nearest to `origin`, which is that itself where a
     joint only slides.

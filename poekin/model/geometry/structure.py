@@ -22,24 +22,21 @@ from ...engine.straight_line.trace import FOLDED
 from ...groups.arrays import Array
 from ..chain_data import ChainData
 from .local import turned_least
-from .normals import ZERO, Vector, across, axis_near, digits, exact, length, unit
+from .normals import (
+    ZERO,
+    Frame,
+    Vector,
+    across,
+    axis_near,
+    digits,
+    exact,
+    frame_on_line,
+    length,
+    unit,
+)
 
 SLANT = 0.1
 """The sine of the angle below which the common normal of two axes is too far away."""
-
-
-class _Frame(NamedTuple):
-    """A frame by its three directions and its origin, in the base frame."""
-
-    x: Vector
-    y: Vector
-    z: Vector
-    o: Vector
-
-    def pose(self) -> Pose:
-        """Its twelve numbers, rotation row by row, then position."""
-        rows = zip(self.x, self.y, self.z, strict=True)
-        return (*(float(value) for row in rows for value in row), *map(float, self.o))
 
 
 @dataclass
@@ -56,10 +53,10 @@ class _Joint:
     offset: float = 0.0
     pose: Pose = ()
 
-    def end(self, before: _Frame, after: _Frame) -> None:
+    def end(self, before: Frame, after: Frame) -> None:
         """Sets its angle, which turns x from the frame before to the frame after, about z."""
         self.quarters, self.offset = _angle((dot(after.x, before.x), dot(after.x, before.y)))
-        self.pose = after.pose()
+        self.pose = _pose(after)
 
 
 class _Step(NamedTuple):
@@ -87,36 +84,36 @@ def structure(chain: ChainData) -> Structure:
 
 
 def _structure(chain: ChainData) -> Structure:
-    frame = _Frame(*_columns(np.eye(3)), exact((0.0, 0.0, 0.0)))
-    base = frame.pose()
+    frame = Frame(*_columns(np.eye(3)), exact((0.0, 0.0, 0.0)))
+    base = _pose(frame)
     joints: list[_Joint] = []
     for S, kind in zip(chain.screws, chain.kinds, strict=True):
         slides = kind == "prismatic"
         z, p = axis_near(S, slides, frame.o)
         if not joints:
             x, y, _ = _columns(turned_least(np.array(z, float)))
-            frame = _Frame(x, y, z, p)
-            base = frame.pose()
+            frame = Frame(x, y, z, p)
+            base = _pose(frame)
             joints.append(_Joint())
             continue
         step = _step(frame, z, p, slides)
         o = add(frame.o, scale(step.d, frame.z))
-        end = _Frame(step.x, cross(frame.z, step.x), frame.z, o)
+        end = frame_on_line(step.x, frame.z, o)
         joints[-1].along += float(step.d)
         joints[-1].end(frame, end)
         link = float(step.sine), float(step.cosine), float(step.a), float(step.b)
         joints.append(_Joint(link, step.parallel, step.sign))
         o = add(o, add(scale(step.a, end.x), scale(step.b, end.y)))
-        frame = _Frame(step.x, cross(step.z, step.x), step.z, o)
-    tip = _Frame(*map(exact, chain.home[:3].T))
+        frame = frame_on_line(step.x, step.z, o)
+    tip = Frame(*map(exact, chain.home[:3].T))
     if joints:
-        end = _Frame(*_least_turned(tip, frame.z), frame.z, frame.o)
+        end = frame_on_line(_least_turned(tip, frame.z), frame.z, frame.o)
         joints[-1].end(frame, end)
         frame = end
-    return _as_structure(chain, joints, base, _seen(tip, frame).pose())
+    return _as_structure(chain, joints, base, _pose(tip.seen_by(frame)))
 
 
-def _step(frame: _Frame, z: Vector, p: Vector, slides: bool) -> _Step:
+def _step(frame: Frame, z: Vector, p: Vector, slides: bool) -> _Step:
     """To the axis of direction z through p, which is of no matter where the joint only slides."""
     sine = length(cross(frame.z, z))
     cosine = dot(frame.z, z)
@@ -138,20 +135,10 @@ def _step(frame: _Frame, z: Vector, p: Vector, slides: bool) -> _Step:
     return _Step(x, z, sine, cosine, a=dot(w, x), d=dot(w, frame.z))
 
 
-def _least_turned(tip: _Frame, z: Vector) -> tuple[Vector, Vector]:
-    """Directions x and y beside z that are turned from those of the tip as little as possible."""
-    columns = tip[:3]
-    u = np.array([dot(column, z) for column in columns], float)
-    factors = map(Decimal, turned_least(u)[:, 0].tolist())
-    first, second, third = map(scale, factors, columns)
-    x = unit(across(add(add(first, second), third), z))
-    return x, cross(z, x)
-
-
-def _seen(frame: _Frame, by: _Frame) -> _Frame:
-    """A frame as another one sees it."""
-    columns = (*frame[:3], subtract(frame.o, by.o))
-    return _Frame(*((dot(by.x, v), dot(by.y, v), dot(by.z, v)) for v in columns))
+def _least_turned(tip: Frame, z: Vector) -> Vector:
+    """Direction x beside z that is turned from the tip's as little as possible."""
+    u = np.array(tip.of(z), float)
+    return unit(across(tip.out(exact(turned_least(u)[:, 0])), z))
 
 
 def _as_structure(chain: ChainData, joints: list[_Joint], base: Pose, tool: Pose) -> Structure:
@@ -184,6 +171,12 @@ def _angle(turn: tuple[Decimal, Decimal]) -> tuple[int, float]:
     if abs(float(left)) <= FOLDED:
         return quarters % 4, 0.0
     return 0, angle
+
+
+def _pose(frame: Frame) -> Pose:
+    """The twelve numbers of a frame, rotation row by row, then position."""
+    *columns, o = frame
+    return (*(float(value) for row in zip(*columns, strict=True) for value in row), *map(float, o))
 
 
 def _columns(R: Array) -> tuple[Vector, Vector, Vector]:

@@ -9,13 +9,17 @@ each kind of numbers.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
-from ...errors import InputError, safe_repr
+from ...errors import InputError
 from ...groups import rpy, so3
 from ...groups.arrays import Array
+from ..checks import choice
+
+RotationKind = Literal["rotation_vector", "quaternion_wxyz", "rpy"]
+KINDS: tuple[RotationKind, ...] = get_args(RotationKind)
 
 GIMBAL = 1e-8
 """Least cos(pitch) at which roll and yaw have rates: there they turn 1e8 times as fast as the tool,
@@ -41,11 +45,10 @@ class RotationNumbers(NamedTuple):
         return np.concatenate([rates, J[..., 3:, :]], axis=-2)
 
 
-def rotation_numbers(kind: object) -> RotationNumbers:
-    """The numbers of a kind. Raises InputError for a kind that is none of `KINDS`."""
-    if isinstance(kind, str) and kind in _ROTATION_NUMBERS:
-        return _ROTATION_NUMBERS[kind]
-    raise InputError(f"kind: expected one of {', '.join(map(repr, KINDS))}, got {safe_repr(kind)}")
+def rotation_numbers(kind: RotationKind) -> RotationNumbers:
+    """Numbers of a kind. Raises InputError for any other kind."""
+    choice(kind, KINDS, "kind")
+    return _ROTATION_NUMBERS[kind]
 
 
 def quaternion_wxyz(R: Array) -> Array:
@@ -106,9 +109,8 @@ def _gimbal_lock(cosine: Array, sine: Array) -> InputError:
     )
 
 
-_ROTATION_NUMBERS = {
+_ROTATION_NUMBERS: dict[RotationKind, RotationNumbers] = {
     "rotation_vector": RotationNumbers(so3.log, _vector_rates),
     "quaternion_wxyz": RotationNumbers(quaternion_wxyz, _quaternion_rates),
     "rpy": RotationNumbers(rpy.angles, _rpy_rates),
 }
-KINDS = tuple(_ROTATION_NUMBERS)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,24 +12,17 @@ from ...engine.jit import threads
 from ...engine.jit.locks import COMPILING
 from ...engine.kernels import chain_kernels
 from ...engine.straight_line import interpret
-from ...engine.straight_line.program import Program
-from ...engine.straight_line.specialise import Structure, cheapest_frame, placed, specialised
 from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ..chain_data import AnyChain
-from ..checks import read_only
-from ..geometry.structure import structure
+from ..checks import REQUIRED
 from . import pose_jacobian
+from .pose_jacobian import AnyFrame
+from .programs import ChainPrograms
 
 if TYPE_CHECKING:
     from ...engine.straight_line.arm import Arm
 
-CHEAPEST = -4
-"""Code of the frame "cheapest"; the other frames have those of the general kernels, and None stands
-for no Jacobian.
-"""
-
-_NAMES: dict[int | None, Any] = {code: name for name, code in pose_jacobian.FRAME_CODES.items()}
 _Calls = dict[object, tuple[Callable, int]]
 # Names looked up once: one call takes less than a microsecond.
 _empty = np.empty
@@ -39,39 +31,47 @@ _POSE_SHAPE = (4, 4)
 _NOT_PLAIN = (AttributeError, KeyError, TypeError, ValueError)
 
 
-class CheapestFrame(NamedTuple):
-    """Frame in which the Jacobian costs least: it moves with joint number `joint` (0 ... n -
-    1).
-
-    Its z axis is the joint's; `T_km` (4, 4) is its pose in the joint's own frame k
-    (`Chain.joint_poses`). `along` (m) is where the frame of `CompiledChain.structure` stands on
-    that z axis.
-    """
-
-    joint: int
-    along: float
-    T_km: Array
-
-
-class CompiledChain(Generic[AnyChain]):
-    """The kinematics of one arm, as `Chain` has them, by code that was made for its numbers.
+class CompiledChain(ChainPrograms[AnyChain]):
+    """Kinematics of one arm, as `Chain` has them, by code that was made for its numbers.
 
     `fk`, `jacobian` and `fk_jacobian` take and return what those of the chain do. What is 0, ±1 or
     a right angle in the arm costs nothing; nothing is rounded to that beyond 2 u, u = 2^-53, the
     rounding of the cosine of a right angle (`Chain.idealised` does, where it is asked to). Besides
     the chain's frames there is "cheapest", the z-aligned frame in which the Jacobian costs least:
     `cheapest` says which.
+
+    Parameters
+    ----------
+    chain : Chain
+        Chain to compile; `Chain.compile` keeps one for each chain.
+    parallel : bool, default False
+        Whether large batches are shared out among threads.
+
+    Attributes
+    ----------
+    chain : Chain
+        Chain that was compiled.
+    parallel : bool
+        As given.
+    joint_names, q_names : tuple of str
+        Names of joints and coordinates, as the chain's.
+    dof : int
+        Number m of coordinates.
+
+    Raises
+    ------
+    InputError
+        If parallel is no truth value.
+
+    Notes
+    -----
     Machine code is made at the first use of a frame, in a fraction of a second, and kept in the
     cache. Pickles as its chain and options, never as code; works in threads and in forked workers.
-
-    Attributes: chain; parallel, whether large batches are shared out among threads; joint_names,
-    q_names, dof. Raises: InputError where parallel is no truth value.
     Accuracy: within u (40 (n + 1) + 4 sum |x|) reach of the product of exponentials: the rounding
-    of `Chain.fk`, and
-    32 u (n + 1) for the constants that are taken for 0 or ±1
+    of `Chain.fk`, and 32 u (n + 1) for the constants that are taken for 0 or ±1
     (tests/model/kinematics/test_compiled.py). An entry that does not depend on a coordinate is a
-    number even where that coordinate is NaN.
-    Source: Park 1994, Section IV, each link as two planar rotations.
+    number even where that coordinate is NaN. Source: Park 1994, Section IV, each link as two planar
+    rotations.
     """
 
     def __init__(self, chain: AnyChain, parallel: bool = False):
@@ -100,7 +100,33 @@ class CompiledChain(Generic[AnyChain]):
         self._both: _Calls = {}
 
     def fk(self, q: Any, *, out: Array | None = None) -> Array:
-        """T_sb (..., 4, 4), as `Chain.fk`."""
+        """Poses of the tip in the base frame, as `Chain.fk`.
+
+        Parameters
+        ----------
+        q : (..., m) array_like or dict
+            Configurations, rad or m.
+        out : (..., 4, 4) ndarray, optional
+            C-contiguous float64 array of the result's shape to write into.
+
+        Returns
+        -------
+        T : (..., 4, 4) ndarray
+            Poses of the tip in the base frame, m.
+
+        Raises
+        ------
+        ShapeError
+            If an array has another shape.
+        UnknownName
+            If a name is no coordinate.
+        InputError
+            If values cannot be used.
+
+        Notes
+        -----
+        Accuracy: see the class. Source: as `Chain.fk`.
+        """
         try:
             if q.ndim == 1:
                 kernel, arm = self._poses.get(None) or self._prepare(
@@ -114,9 +140,44 @@ class CompiledChain(Generic[AnyChain]):
         return pose_jacobian.fk(self.chain, q, out, self._fill)
 
     def jacobian(
-        self, q: Any, frame: str | int, *, at: ArrayLike | None = None, out: Array | None = None
+        self,
+        q: Any,
+        frame: AnyFrame = REQUIRED,
+        *,
+        at: ArrayLike | None = None,
+        out: Array | None = None,
     ) -> Array:
-        """J (..., 6, m), as `Chain.jacobian`; frame may be "cheapest" too."""
+        """Jacobians as `Chain.jacobian`; the frame may be "cheapest" too.
+
+        Parameters
+        ----------
+        q : (..., m) array_like or dict
+            Configurations, rad or m.
+        frame : {"space", "body", "hybrid", "cheapest"} or int
+            Frame of the Jacobian; there is no default.
+        at : (3,) array_like, optional
+            Point of the tool in its own frame, m, as in `Chain.jacobian`.
+        out : (..., 6, m) ndarray, optional
+            C-contiguous float64 array of the result's shape to write into.
+
+        Returns
+        -------
+        J : (..., 6, m) ndarray
+            Jacobians, rows (ω; v): rad/s and m/s per unit of dq.
+
+        Raises
+        ------
+        ShapeError
+            If an array has another shape.
+        UnknownName
+            If a name is no coordinate, or a string no frame.
+        InputError
+            If the frame is left out, or values cannot be used.
+
+        Notes
+        -----
+        Accuracy: see the class. Source: as `Chain.jacobian`.
+        """
         try:
             if q.ndim == 1 and at is None:
                 kernel, arm = self._jacobians.get(frame) or self._prepare(
@@ -133,12 +194,44 @@ class CompiledChain(Generic[AnyChain]):
     def fk_jacobian(
         self,
         q: Any,
-        frame: str | int,
+        frame: AnyFrame = REQUIRED,
         *,
         at: ArrayLike | None = None,
         out: tuple[Array, Array] | None = None,
     ) -> tuple[Array, Array]:
-        """T_sb and J in one pass, as `Chain.fk_jacobian`; frame may be "cheapest" too."""
+        """Pose and Jacobian in one pass, as `Chain.fk_jacobian`; the frame may be "cheapest" too.
+
+        Parameters
+        ----------
+        q : (..., m) array_like or dict
+            Configurations, rad or m.
+        frame : {"space", "body", "hybrid", "cheapest"} or int
+            Frame of the Jacobian; there is no default.
+        at : (3,) array_like, optional
+            Point of the tool in its own frame, m, as in `Chain.jacobian`.
+        out : tuple of ndarray, optional
+            Arrays (T, J) of the results' shapes to write into.
+
+        Returns
+        -------
+        T : (..., 4, 4) ndarray
+            Poses of the tip in the base frame, m.
+        J : (..., 6, m) ndarray
+            Jacobians, rows (ω; v): rad/s and m/s per unit of dq.
+
+        Raises
+        ------
+        ShapeError
+            If an array has another shape.
+        UnknownName
+            If a name is no coordinate, or a string no frame.
+        InputError
+            If the frame is left out, or values cannot be used.
+
+        Notes
+        -----
+        Accuracy: see the class. Source: as `Chain.fk_jacobian`.
+        """
         try:
             if q.ndim == 1 and at is None:
                 kernel, arm = self._both.get(frame) or self._prepare(
@@ -152,43 +245,10 @@ class CompiledChain(Generic[AnyChain]):
         code = self._frame_code(frame)
         return pose_jacobian.fk_jacobian(self.chain, q, frame, at, out, code, self._fill)
 
-    @cached_property
-    def structure(self) -> Structure:
-        """The chain as the formulas that are specialised take it."""
-        return structure(self.chain)
-
     @property
     def hybrid_address(self) -> int:
-        """The machine code of pose and hybrid Jacobian, as kernels of the engine take it; as long
-        as this lives.
-        """
+        """Address of the code of pose and hybrid Jacobian; valid as long as this object lives."""
         return self._arm(chain_kernels.HYBRID, True, True).address
-
-    @cached_property
-    def cheapest(self) -> CheapestFrame:
-        """The frame "cheapest". Raises InputError for a chain without joints."""
-        if not self.joint_names:
-            raise InputError("frame 'cheapest': the chain has no joint")
-        k, h = cheapest_frame(self.structure)
-        T_km = np.eye(4)
-        T_kf = self.structure.frames[k]
-        T_km[:3, :3] = np.array(T_kf[:9]).reshape(3, 3)
-        T_km[:3, 3] = np.array(T_kf[9:]) - h * T_km[:3, 2]
-        return CheapestFrame(k, h, read_only(T_km))
-
-    def program(self, frame: str | int | None, *, pose: bool = False) -> Program:
-        """The straight-line program of the Jacobian in a frame, of the pose before it where `pose`;
-        of the pose alone where frame is None. Its `count` says what it costs. Raises: as
-        `jacobian`.
-        """
-        code = None if frame is None else self._frame_code(frame)
-        return self._program(code, pose or frame is None)
-
-    def _program(self, code: int | None, pose: bool) -> Program:
-        if code == CHEAPEST:
-            k, h, _ = self.cheapest
-            return specialised(placed(self.structure, k, h), k, pose)
-        return specialised(self.structure, _NAMES.get(code, code), pose)
 
     def _prepare(
         self, calls: _Calls, frame: object, kernel: str, pose: bool, jacobian: bool
@@ -214,11 +274,6 @@ class CompiledChain(Generic[AnyChain]):
                     key, lambda: self._program(code, pose), self.dof, pose
                 )
             return self._arms[code, pose, jacobian]
-
-    def _frame_code(self, frame: object) -> int:
-        if isinstance(frame, str) and frame == "cheapest":
-            return CHEAPEST
-        return pose_jacobian.frame_code(self.chain, frame)
 
     def _fill(self, rows: Array, code: int | None, T: Array | None, J: Array | None) -> None:
         """Poses into T and Jacobians in the frame of a code into J, where these are given."""

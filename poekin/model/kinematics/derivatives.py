@@ -6,27 +6,31 @@ All are with respect to q and in one of the three frames in which `jacobian` giv
 
 from __future__ import annotations
 
-import math
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
 from ...engine.kernels import derivative_kernels
-from ...errors import InputError, ShapeError, safe_repr
 from ...groups import se3
 from ...groups.arrays import Array
 from ..chain_data import ChainData
-from ..coordinates import coordinates
-from .pose_jacobian import FRAME_CODES
+from ..checks import choice
+from .configurations import broadcast_rows, configurations
+from .pose_jacobian import FRAME_CODES, FRAME_NAMES, Frame
+
+Parameters = Literal["twist", "components"]
+"""Parameters of a screw: the twist that moves it, or its six numbers."""
 
 
 class PoseChanges(NamedTuple):
-    """Change of the pose with the model: df f^-1, a space twist (omega; v), per unit of each
-    parameter.
+    """Change of the pose with the model: df f^-1, a space twist (ω; v), per unit of a parameter.
 
-    Rows in base axes, rad and m.
-    screws (..., 6, n, 6): [..., :, i, e] of component e of joint i's six; home (..., 6, 6): of
-    component e of the home pose's eta, M <- M e^eta.
+    Attributes
+    ----------
+    screws : (..., 6, n, 6) ndarray
+        Change [..., :, i, e] with component e of joint i's six, in base axes, rad and m.
+    home : (..., 6, 6) ndarray
+        Change [..., :, e] with component e of the home pose's eta, M <- M e^eta.
     """
 
     screws: Array
@@ -36,38 +40,43 @@ class PoseChanges(NamedTuple):
 class JacobianChanges(NamedTuple):
     """Change of the Jacobian with the model, per unit of each parameter of `PoseChanges`.
 
-    Rows (omega; v), rad/s and m/s, in the frame of that Jacobian.
-    screws (..., 6, m, n, 6): [..., :, k, i, e] is the change of column k; home (..., 6, m, 6).
+    Attributes
+    ----------
+    screws : (..., 6, m, n, 6) ndarray
+        Change [..., :, k, i, e] of column k with component e of joint i's twist: rows (ω; v), rad/s
+        and m/s, in the frame of that Jacobian.
+    home : (..., 6, m, 6) ndarray
+        Change [..., :, k, e] of column k with component e of the home pose's eta.
     """
 
     screws: Array
     home: Array
 
 
-def jacobian_rate(chain: ChainData, q: Any, dq: Any, frame: str) -> Array:
+def jacobian_rate(chain: ChainData, q: Any, dq: Any, frame: Frame) -> Array:
     """dJ/dt (..., 6, m) along the rates dq."""
     code = _code(frame)
-    batch, (rows, rates) = _together(chain, q=q, dq=dq)
+    batch, (rows, rates) = broadcast_rows(chain, q=q, dq=dq)
     dJ = np.zeros((len(rows), 6, chain.dof))
     if chain.joint_names:
         derivative_kernels.jacobian_rates.call(chain.kernel_table, rows, rates, code, dJ)
     return dJ.reshape(*batch, 6, chain.dof)
 
 
-def hessian(chain: ChainData, q: Any, frame: str) -> Array:
+def hessian(chain: ChainData, q: Any, frame: Frame) -> Array:
     """dJ/dq (..., 6, m, m), the column first, then the coordinate."""
     code = _code(frame)
-    batch, (rows,) = _together(chain, q=q)
+    batch, rows = configurations(chain, q)
     H = np.zeros((len(rows), 6, chain.dof, chain.dof))
     if chain.joint_names:
         derivative_kernels.hessians.call(chain.kernel_table, rows, code, H)
     return H.reshape(*batch, 6, chain.dof, chain.dof)
 
 
-def acceleration(chain: ChainData, q: Any, dq: Any, ddq: Any, frame: str) -> Array:
+def acceleration(chain: ChainData, q: Any, dq: Any, ddq: Any, frame: Frame) -> Array:
     """dV/dt (..., 6) = J ddq + (dJ/dt) dq."""
     code = _code(frame)
-    batch, (rows, rates, accelerations) = _together(chain, q=q, dq=dq, ddq=ddq)
+    batch, (rows, rates, accelerations) = broadcast_rows(chain, q=q, dq=dq, ddq=ddq)
     A = np.zeros((len(rows), 6))
     if chain.joint_names:
         derivative_kernels.accelerations.call(
@@ -76,10 +85,10 @@ def acceleration(chain: ChainData, q: Any, dq: Any, ddq: Any, frame: str) -> Arr
     return A.reshape(*batch, 6)
 
 
-def joint_velocities(chain: ChainData, q: Any, dq: Any, frame: str) -> Array:
+def joint_velocities(chain: ChainData, q: Any, dq: Any, frame: Frame) -> Array:
     """Twists (..., n, 6) of the joints' z-aligned frames."""
     code = _code(frame)
-    batch, (rows, rates) = _together(chain, q=q, dq=dq)
+    batch, (rows, rates) = broadcast_rows(chain, q=q, dq=dq)
     n = len(chain.joint_names)
     V = np.zeros((len(rows), n, 6))
     if n:
@@ -87,11 +96,10 @@ def joint_velocities(chain: ChainData, q: Any, dq: Any, frame: str) -> Array:
     return V.reshape(*batch, n, 6)
 
 
-def screw_derivatives(chain: ChainData, q: Any, by: str = "motion") -> PoseChanges:
+def screw_derivatives(chain: ChainData, q: Any, wrt: Parameters) -> PoseChanges:
     """Change of the pose with each screw and the home pose."""
-    if not isinstance(by, str) or by not in ("motion", "entries"):
-        raise InputError(f"by: expected 'motion' or 'entries', got {safe_repr(by)}")
-    batch, (rows,) = _together(chain, q=q)
+    choice(wrt, get_args(Parameters), "wrt")
+    batch, rows = configurations(chain, q)
     n = len(chain.joint_names)
     D = np.zeros((len(rows), 6, n + 1, 6))
     derivative_kernels.pose_changes.call(
@@ -100,7 +108,7 @@ def screw_derivatives(chain: ChainData, q: Any, by: str = "motion") -> PoseChang
     D = D.reshape(*batch, 6, n + 1, 6)
     motions = D[..., :n, :]
     home = D[..., n, :]
-    if by == "motion" or not n:
+    if wrt == "twist" or not n:
         return PoseChanges(motions.copy(), home.copy())
     # Ad(P_{i-1}) is what is left of the space twist of the home pose when the joints from i on are
     # taken back.
@@ -113,10 +121,10 @@ def screw_derivatives(chain: ChainData, q: Any, by: str = "motion") -> PoseChang
     return PoseChanges(np.moveaxis(entries, -3, -2).copy(), home.copy())
 
 
-def jacobian_screw_derivatives(chain: ChainData, q: Any, frame: str) -> JacobianChanges:
+def jacobian_screw_derivatives(chain: ChainData, q: Any, frame: Frame) -> JacobianChanges:
     """Change of the Jacobian with each screw and the home pose, each moved."""
     code = _code(frame)
-    batch, (rows,) = _together(chain, q=q)
+    batch, rows = configurations(chain, q)
     n = len(chain.joint_names)
     m = chain.dof
     D = np.zeros((len(rows), 6, m, n + 1, 6))
@@ -134,19 +142,5 @@ def _home_row(chain: ChainData) -> Array:
 
 
 def _code(frame: object) -> int:
-    if isinstance(frame, str) and frame in FRAME_CODES:
-        return FRAME_CODES[frame]
-    raise InputError(f"frame: expected 'space', 'body' or 'hybrid', got {safe_repr(frame)}")
-
-
-def _together(chain: ChainData, **given: Any) -> tuple[tuple[int, ...], list[Array]]:
-    """The common batch shape of configurations, rates, ... and each as rows (N, m)."""
-    arrays = [coordinates(value, chain.q_names, name) for name, value in given.items()]
-    try:
-        shape = np.broadcast_shapes(*(a.shape for a in arrays))
-    except ValueError as error:
-        shapes = ", ".join(str(a.shape) for a in arrays)
-        raise ShapeError(f"{', '.join(given)} do not broadcast: shapes {shapes}") from error
-    batch = shape[:-1]
-    rows = [np.broadcast_to(a, shape).reshape(math.prod(batch), chain.dof) for a in arrays]
-    return batch, rows
+    choice(frame, FRAME_NAMES, "frame")
+    return FRAME_CODES[frame]

@@ -5,23 +5,25 @@ The kernels are those of any chain, or, of a compiled chain, those made for its 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...engine.kernels import chain_kernels
-from ...errors import InputError, ShapeError, UnknownName, quote
+from ...errors import InputError, UnknownName, quote
 from ...groups import se3, so3
 from ...groups.arrays import Array, shaped
 from ..chain_data import ChainData
-from ..coordinates import coordinates
+from ..checks import REQUIRED
+from .configurations import broadcast_rows, configurations
 from .outputs import checked_out, checked_pair
 
-FRAME_NAMES = ("space", "body", "hybrid")
+Frame = Literal["space", "body", "hybrid"]
+AnyFrame = Frame | Literal["cheapest"] | int
+FRAME_NAMES: tuple[Frame, ...] = get_args(Frame)
 FRAME_CODES: dict[object, int] = {
     "space": chain_kernels.SPACE,
     "body": chain_kernels.BODY,
@@ -46,7 +48,7 @@ def _fill(
 
 def fk(chain: ChainData, q: Any, out: Array | None = None, fill: Fill | None = None) -> Array:
     """Poses T_sb (..., 4, 4) of the tip."""
-    batch, rows = _rows(chain, q)
+    batch, rows = configurations(chain, q)
     shape = (*batch, 4, 4)
     T = np.empty(shape) if out is None else checked_out(out, shape, "out", q)
     T_rows = T.reshape(len(rows), 4, 4)
@@ -60,7 +62,7 @@ def fk(chain: ChainData, q: Any, out: Array | None = None, fill: Fill | None = N
 def fk_jacobian(
     chain: ChainData,
     q: Any,
-    frame: str | int,
+    frame: AnyFrame,
     at: ArrayLike | None = None,
     out: tuple[Array, Array] | None = None,
     code: int | None = None,
@@ -70,7 +72,7 @@ def fk_jacobian(
     if code is None:
         code = frame_code(chain, frame)
     point = _point(frame, at)
-    batch, rows = _rows(chain, q)
+    batch, rows = configurations(chain, q)
     T_shape = (*batch, 4, 4)
     J_shape = (*batch, 6, chain.dof)
     if out is None:
@@ -88,7 +90,7 @@ def fk_jacobian(
 def jacobian(
     chain: ChainData,
     q: Any,
-    frame: str | int,
+    frame: AnyFrame,
     at: ArrayLike | None = None,
     out: Array | None = None,
     code: int | None = None,
@@ -98,7 +100,7 @@ def jacobian(
     if code is None:
         code = frame_code(chain, frame)
     point = _point(frame, at)
-    batch, rows = _rows(chain, q)
+    batch, rows = configurations(chain, q)
     shape = (*batch, 6, chain.dof)
     J = np.empty(shape) if out is None else checked_out(out, shape, "out", q)
     J_rows = J.reshape(len(rows), 6, chain.dof)
@@ -112,23 +114,15 @@ def jacobian(
     return J
 
 
-def velocity(chain: ChainData, q: Any, dq: Any, frame: str | int) -> Array:
+def velocity(chain: ChainData, q: Any, dq: Any, frame: Frame | int) -> Array:
     """Twists V (..., 6) of the tool by the paper's recursion for the body velocity."""
     code = frame_code(chain, frame)
-    q = coordinates(q, chain.q_names)
-    dq = coordinates(dq, chain.q_names, "dq")
-    try:
-        shape = np.broadcast_shapes(q.shape, dq.shape)
-    except ValueError as error:
-        raise ShapeError(f"q and dq do not broadcast: shapes {q.shape} and {dq.shape}") from error
-    N = math.prod(shape[:-1])
-    rows = np.broadcast_to(q, shape).reshape(N, chain.dof)
-    rates = np.broadcast_to(dq, shape).reshape(N, chain.dof)
-    V = np.empty((N, 6))
+    batch, (rows, rates) = broadcast_rows(chain, q=q, dq=dq)
+    V = np.empty((len(rows), 6))
     chain_kernels.body_velocity.call(chain.kernel_table, rows, rates, V)
     if code != chain_kernels.BODY:
         V = _in_frame(chain, rows, code, V)
-    return V.reshape(*shape[:-1], 6)
+    return V.reshape(*batch, 6)
 
 
 def _in_frame(chain: ChainData, rows: Array, code: int, V: Array) -> Array:
@@ -145,7 +139,7 @@ def _in_frame(chain: ChainData, rows: Array, code: int, V: Array) -> Array:
 
 def joint_poses(chain: ChainData, q: Any) -> Array:
     """Poses (..., n, 4, 4) of the joints' z-aligned frames, moved."""
-    batch, rows = _rows(chain, q)
+    batch, rows = configurations(chain, q)
     n = len(chain.joint_names)
     T = np.empty((len(rows), n, 4, 4))
     chain_kernels.joint_poses.call(chain.kernel_table, rows, T)
@@ -166,17 +160,11 @@ def frame_code(chain: ChainData, frame: object) -> int:
     expected = "'space', 'body' or 'hybrid' (the chain has no joint)"
     if n:
         expected = f"'space', 'body', 'hybrid' or the index of a joint, 0 to {n - 1}"
-    raise InputError(f"frame: expected {expected}, got {frame!r}")
+    got = "it was left out" if frame is REQUIRED else f"got {frame!r}"
+    raise InputError(f"frame: expected {expected}, {got}")
 
 
-def _rows(chain: ChainData, q: Any) -> tuple[tuple[int, ...], Array]:
-    """The batch shape of q and its configurations as rows."""
-    q = coordinates(q, chain.q_names)
-    batch = q.shape[:-1]
-    return batch, q.reshape(math.prod(batch), chain.dof)
-
-
-def _point(frame: str | int, at: ArrayLike | None) -> Array | None:
+def _point(frame: AnyFrame, at: ArrayLike | None) -> Array | None:
     """The point of the tool whose velocity is meant, or None for its origin."""
     if at is None:
         return None
@@ -190,7 +178,7 @@ def _point(frame: str | int, at: ArrayLike | None) -> Array | None:
     return p
 
 
-def _move(J: Array, p: Array, frame: str | int, T: Array) -> None:
+def _move(J: Array, p: Array, frame: AnyFrame, T: Array) -> None:
     """v += omega x p of every column, with p in the axes of the frame, tool ("body") or base."""
     if frame != "body":
         p = T[..., :3, :3] @ p

@@ -243,7 +243,7 @@ class PinocchioOracle:
         base: str | None = None,
         *,
         jacobians: bool = True,
-    ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    ) -> tuple[np.ndarray, dict[Any, np.ndarray]]:
         """Poses and Jacobians of a link at N configurations.
 
         Motion is relative to base, which may itself move in the tree. Space: base axes, the point at

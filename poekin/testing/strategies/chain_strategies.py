@@ -186,7 +186,7 @@ def _chains(
     if n and coupled is None:
         coupled = draw(st.booleans())
     if n == 0 or not coupled:
-        return Chain(np.reshape(A, (n, 6)), home, limits=_drawn_limits(draw, n, limits))
+        return Chain.from_space(np.reshape(A, (n, 6)), home, limits=_drawn_limits(draw, n, limits))
     m = draw(st.integers(1, n))
     C = np.zeros((n, m))
     c = np.zeros(n)
@@ -201,7 +201,7 @@ def _chains(
             c[i] = draw(read(3, lambda r: r.fraction(-1.0, 1.0)))
     order = list(draw(st.permutations(range(n))))
     pairs = _drawn_limits(draw, m, limits)
-    return Chain(
+    return Chain.from_space(
         A,
         home,
         coupling=C[order],

@@ -156,11 +156,11 @@ def _singular_cases(draw: st.DrawFn, bounds: tuple[int, int]) -> tuple[Chain, np
     n = draw(st.integers(*bounds))
     A = [np.array(draw(screws(("revolute", "prismatic")))) for _ in range(n)]
     home = draw(placements())
-    q = np.asarray(draw(coordinates(Chain(A, home))))
+    q = np.asarray(draw(coordinates(Chain.from_space(A, home))))
     i = draw(st.integers(0, n - 2))
     j = draw(st.integers(i + 1, n - 1))
     between = np.eye(4)
     for k in range(i + 1, j):
         between = between @ se3.exp(A[k] * q[k])
     A[j] = se3.adjoint(se3.inverse(between)) @ A[i]
-    return Chain(A, home), frozen(q)
+    return Chain.from_space(A, home), frozen(q)

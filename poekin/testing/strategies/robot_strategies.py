@@ -11,11 +11,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...model.joint import KINDS, MOVING, Joint, Mimic
+from ...model.joint import KINDS, MOVING, Joint, JointKind, Mimic
 from ...model.robot import Robot
 from . import arguments
 from .chain_strategies import RATIOS, REACHES
@@ -96,7 +96,7 @@ def robots(
 class _Row(NamedTuple):
     """Draws for one joint, as far as it goes without the others; whole numbers are bytes."""
 
-    kind: str
+    kind: JointKind
     branches: bool
     parent: int
     follows: bool
@@ -115,7 +115,7 @@ class _Row(NamedTuple):
 _BYTES = 87
 
 
-def _row(r: BytesReader, kinds: tuple[str, ...]) -> _Row:
+def _row(r: BytesReader, kinds: Sequence[Any]) -> _Row:
     # Zeros: the first kind, onwards from the link before, of its own, in the tree's order, at the
     # origin, about x.
     return _Row(

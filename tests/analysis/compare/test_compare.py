@@ -57,7 +57,9 @@ def test_the_battery_catches_a_wrong_joint_a_wrong_size_and_a_smeared_change():
     S[2] = screw.revolute(
         S[2, :3], np.cross(S[2, :3], S[2, 3:]) + 1.02e-3 * np.cross(S[2, :3], S[0, :3])
     )
-    assert fault(compare(chain, Chain(S, chain.home), samples=1), "shift", 2).startswith("size")
+    assert fault(compare(chain, Chain.from_space(S, chain.home), samples=1), "shift", 2).startswith(
+        "size"
+    )
     assert "blames" in fault(
         compare(chain, chain.rezeroed([0, 0.01, 0.01, 0, 0, 0]), samples=1), "zero", 1
     )
@@ -86,7 +88,8 @@ def test_two_conventions_of_one_arm_are_equal_and_the_alignment_maps_one_onto_th
     other = chain.rezeroed(rng.uniform(-1.2, 1.2, chain.dof)).rebased(se3.exp(rng.normal(size=6)))
     signs = rng.choice([-1.0, 1.0], chain.dof)
     result = compare(
-        chain, Chain(other.screws * signs[:, None], other.home @ se3.exp(rng.normal(size=6)))
+        chain,
+        Chain.from_space(other.screws * signs[:, None], other.home @ se3.exp(rng.normal(size=6))),
     )
     assert result.equal, result.verdict
     assert result.after is not None
@@ -99,7 +102,7 @@ def test_a_shifted_axis_is_named_even_where_zeros_and_directions_differ_too(seed
     rng = np.random.default_rng(seed)
     chain = arm("panda")
     other = chain.rezeroed(rng.normal(size=7)).rebased(se3.exp(rng.normal(size=6)))
-    flipped = Chain(other.screws * rng.choice([-1.0, 1.0], 7)[:, None], other.home)
+    flipped = Chain.from_space(other.screws * rng.choice([-1.0, 1.0], 7)[:, None], other.home)
     result = compare(chain, planted(flipped, "shift", 3, rng))
     (moved,) = [j for j in result.joints if j.axis_differs]
     assert (moved.number, moved.normal) == (4, pytest.approx(1e-3, rel=0.01))
@@ -164,7 +167,7 @@ def test_a_tilt_that_is_also_a_zero_offset_is_read_as_what_leaves_the_base_and_t
     chain = arm("panda")
     S = chain.screws.copy()
     S[1] = se3.adjoint(se3.exp(S[0] * np.radians(0.1))) @ S[1]
-    tilted = compare(chain, Chain(S, chain.home, joint_names=chain.joint_names))
+    tilted = compare(chain, Chain.from_space(S, chain.home, joint_names=chain.joint_names))
     assert [j.number for j in tilted.differing] == [2]
     assert any(
         "zero offset of 0.1° of joint 3" in words or "of -0.1° of joint 3" in words
@@ -175,7 +178,7 @@ def test_a_tilt_that_is_also_a_zero_offset_is_read_as_what_leaves_the_base_and_t
 def test_the_extra_joint_is_named_where_one_can_be_dropped():
     chain = arm("panda")
     names = [*chain.joint_names[:4], "extra", *chain.joint_names[4:]]
-    longer = Chain(
+    longer = Chain.from_space(
         np.insert(chain.screws, 4, screw.revolute([1, 2, 0], [0.1, 0.3, 0.2]), 0),
         chain.home,
         joint_names=names,
@@ -214,7 +217,7 @@ def test_limits_are_compared_in_the_other_models_zero_and_direction_and_decide_n
     chain = arm("ur5e")
     limits = chain.limits.copy()
     limits[2, 1] -= np.radians(10)
-    result = compare(chain, Chain(chain.screws, chain.home, limits=limits))
+    result = compare(chain, Chain.from_space(chain.screws, chain.home, limits=limits))
     assert result.equal
     assert result.joints[2].limits == pytest.approx((0, -np.radians(10)))
     flipped = compare(chain, planted(chain, "flip", 2, np.random.default_rng(0)))
@@ -225,7 +228,7 @@ def test_another_kind_of_joint_is_said():
     chain = random_arm(1)
     S = chain.screws.copy()
     S[2] = screw.prismatic(S[2, :3])
-    result = compare(chain, Chain(S, chain.home))
+    result = compare(chain, Chain.from_space(S, chain.home))
     assert (result.equal, [j.number for j in result.differing]) == (False, [3])
     assert "is revolute in one model and prismatic in the other" in result.verdict
     assert "direction" not in result.verdict
@@ -271,7 +274,7 @@ def test_what_is_the_same_within_tolerance_as_it_stands_is_not_aligned():
 
 def _coupled(C, c=None):
     chain = arm("ur5e")
-    return Chain(
+    return Chain.from_space(
         chain.screws, chain.home, joint_names=chain.joint_names, coupling=C, offset=c,
         q_names=[f"q{k}" for k in range(np.shape(C)[1])],
     )  # fmt: skip
@@ -300,7 +303,9 @@ def test_joints_that_follow_others_differently_differ_though_all_axes_agree():
     chain = _coupled(ratio[2.0])
     S = chain.screws * np.array([1, 1, -1, 1, 1, 1])[:, None]
     C = np.diag([1.0, 1.0, -1.0, 1.0, 1.0, 1.0]) @ ratio[2.0]
-    turned = Chain(S, chain.home, joint_names=chain.joint_names, coupling=C, q_names=chain.q_names)
+    turned = Chain.from_space(
+        S, chain.home, joint_names=chain.joint_names, coupling=C, q_names=chain.q_names
+    )
     result = compare(chain, turned, samples=1)
     assert result.equal
     assert not any(j.coupling_differs for j in result.joints)
@@ -320,9 +325,9 @@ def test_tolerances_are_metres_and_radians():
 
 
 def test_chains_without_joints_and_with_one_compare():
-    none = Chain(np.zeros((0, 6)), np.eye(4))
+    none = Chain.from_space(np.zeros((0, 6)), np.eye(4))
     assert compare(none, none.retooled(se3.exp([1, 0, 0, 1, 0, 0]))).equal
-    one = Chain([screw.revolute([0, 0, 1], [1, 0, 0])], np.eye(4))
+    one = Chain.from_space([screw.revolute([0, 0, 1], [1, 0, 0])], np.eye(4))
     assert compare(one, one.rebased(se3.exp([1, 2, 0, 1, 0, 0]))).equal
 
 
@@ -405,7 +410,7 @@ def test_a_verdict_says_what_differs_and_nothing_else(change, aligned, strict):
         home[:3, 3] *= 1e3
     if change == "tool":
         home = home @ se3.exp([0, 0, 0, 0, 0, 0.1])
-    other = Chain(S, home, joint_names=chain.joint_names)
+    other = Chain.from_space(S, home, joint_names=chain.joint_names)
     assert compare(chain, other, samples=1).verdict == aligned
     assert compare(chain, other, samples=1, strict=True).verdict == strict
 
@@ -456,7 +461,7 @@ def test_a_tolerance_is_kept_to_less_than_a_thousandth(name, share):
         motion = size * screw.revolute(across, place)
     S[k] = se3.adjoint(se3.exp(motion)) @ S[k]
     tolerances: dict[str, Any] = {"tol_position": 0.05, "tol_rotation": 0.1, name: tol}
-    found = compare(chain, Chain(S, chain.home), strict=True, samples=1, **tolerances)
+    found = compare(chain, Chain.from_space(S, chain.home), strict=True, samples=1, **tolerances)
     assert [joint.number for joint in found.joints if joint.axis_differs] == (
         [k + 1] if share > 1 else []
     )

@@ -28,7 +28,7 @@ def longer_by(chain, places, rng):
         rows.insert(k, screw.revolute(rng.normal(size=3), 0.3 * rng.normal(size=3)))
         names.insert(k, f"extra{k}")
         added.insert(0, f"extra{k}")
-    return Chain(rows, chain.home, joint_names=names), tuple(added)
+    return Chain.from_space(rows, chain.home, joint_names=names), tuple(added)
 
 
 @settings(max_examples=10, deadline=None)
@@ -74,9 +74,11 @@ def test_an_extra_joint_of_any_kind_is_named_at_another_zero(extra_joint):
     chain = random_arm(3, ("revolute",) * 5)
     rows = np.insert(chain.screws, 3, extra_joint(chain.screws), 0)
     names = [*chain.joint_names[:3], "extra", *chain.joint_names[3:]]
-    other = Chain(rows, chain.home, joint_names=names).rezeroed([0.2, -0.1, 0.3, 0.4, -0.2, 0.1])
+    other = Chain.from_space(rows, chain.home, joint_names=names).rezeroed(
+        [0.2, -0.1, 0.3, 0.4, -0.2, 0.1]
+    )
     # The joint behind it counts the other way.
-    other = Chain(
+    other = Chain.from_space(
         other.screws * np.array([1, 1, 1, 1, -1, 1])[:, None], other.home, joint_names=names
     )
     for pair, side in (((chain, other), "b"), ((other, chain), "a")):
@@ -88,14 +90,17 @@ def test_an_extra_joint_of_any_kind_is_named_at_another_zero(extra_joint):
     S = np.array(other.screws)
     S[1] = se3.adjoint(se3.exp(np.array([0.01, 0, 0, 0, 0.01, 0]))) @ S[1]
     assert (
-        compare(chain, Chain(S, other.home, joint_names=names), samples=1).unmatched_joints is None
+        compare(
+            chain, Chain.from_space(S, other.home, joint_names=names), samples=1
+        ).unmatched_joints
+        is None
     )
 
 
 def scara():
     """Three parallel axes and a quill along them."""
     turning = [screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 0.4, 0.7)]
-    return Chain(
+    return Chain.from_space(
         [*turning[:2], screw.prismatic([0, 0, -1]), turning[2]], se3.exp([0, 0, 0, 0.7, 0, 0.3])
     )
 
@@ -118,7 +123,7 @@ OPPOSITE = [screw.revolute([0, 0, 1], [0, 0, 0]), screw.revolute([0, 0, -1], [0.
         (random_arm(1, ("revolute", "prismatic", "revolute", "revolute")), 2, [OTHER]),
         (scara(), 1, [ALONG]),  # parallel to both neighbours: a distance alone tells where
         # one of them the other way round
-        (Chain([*OPPOSITE, ACROSS, OTHER], np.eye(4)), 1, [ALONG]),
+        (Chain.from_space([*OPPOSITE, ACROSS, OTHER], np.eye(4)), 1, [ALONG]),
         (scara(), 2, [ALONG]),  # the same across a slide
         (scara(), 3, [SLIDE]),
         # held anywhere that leaves the distance
@@ -135,7 +140,7 @@ def test_extra_joints_beside_each_other_and_beside_parallel_axes_are_named_at_ot
     added = [f"extra{i}" for i in range(len(extra_joints))]
     names = [*chain.joint_names[:k], *added, *chain.joint_names[k:]]
     rows = np.concatenate([chain.screws[:k], extra_joints, chain.screws[k:]])
-    other = Chain(rows, chain.home, joint_names=names)
+    other = Chain.from_space(rows, chain.home, joint_names=names)
     q = np.where(np.array(other.kinds) == "prismatic", 0.1, 0.7) * np.resize(
         [1, -1, 0.8], len(names)
     )
@@ -155,7 +160,9 @@ def test_of_parallel_joints_that_fit_alike_rounding_does_not_choose():
     )  # of its parallel axes and two more, extra0 and joint2 can be dropped as exactly as the two
     rows = [chain.screws[0], ALONG, screw.revolute([0, 0, 1], [0.4, 0.1, 0]), *chain.screws[1:]]
     names = ["joint1", "extra0", "extra1", *chain.joint_names[1:]]
-    other = Chain(rows, chain.home, joint_names=names).rezeroed([0.7, -0.7, 0.6, 0.7, -0.1, 0.6])
+    other = Chain.from_space(rows, chain.home, joint_names=names).rezeroed(
+        [0.7, -0.7, 0.6, 0.7, -0.1, 0.6]
+    )
     rng = np.random.default_rng(3)
     for _ in range(8):
         moved = other.rebased(se3.exp(rng.normal(size=6)))
@@ -190,7 +197,9 @@ def test_the_quick_look_lets_every_pair_of_models_that_agree_pass(seed, wobble):
         across *= 0.5 * part / np.linalg.norm(across)
         rows.append(screw.revolute(z + np.radians(1e-3) * across, p + 1e-5 * across))
     other = (
-        Chain(rows, chain.home).rezeroed(rng.normal(size=6)).rebased(se3.exp(rng.normal(size=6)))
+        Chain.from_space(rows, chain.home)
+        .rezeroed(rng.normal(size=6))
+        .rebased(se3.exp(rng.normal(size=6)))
     )
     assert unmatched_joints._may_agree(chain, other, 1e-5, np.radians(1e-3))
     assert not unmatched_joints._may_agree(chain, random_arm(seed + 1), 1e-5, np.radians(1e-3))
@@ -201,7 +210,7 @@ def bolt(pitch=0.02, sign=1.0):
     rng = np.random.default_rng(0)
     rows = [screw.revolute(z, 0.3 * p) for z, p in rng.normal(size=(5, 2, 3))]
     rows[2] = sign * screw.helical(rows[2][:3], np.cross(rows[2][:3], rows[2][3:]), pitch)
-    return Chain(rows, se3.exp(rng.normal(size=6)))
+    return Chain.from_space(rows, se3.exp(rng.normal(size=6)))
 
 
 def test_helical_joints_agree_under_any_convention():
@@ -266,7 +275,7 @@ def test_an_axis_three_tolerances_off_does_not_agree_though_the_poses_nearly_do(
     S = chain.screws.copy()
     across = np.cross(S[2, :3], S[0, :3])
     S[2, 3:] += np.cross(3e-5 * across / np.linalg.norm(across), S[2, :3])
-    assert agreeing(chain, Chain(S, chain.home), 1e-5, np.radians(1e-3)) is None
+    assert agreeing(chain, Chain.from_space(S, chain.home), 1e-5, np.radians(1e-3)) is None
 
 
 KINDS = [(a, k, b) for a in "rph" for k in "rph" for b in "rph"]
@@ -280,8 +289,9 @@ def arm_of(letters, seed=0):
         "h": lambda z, p: screw.helical(z, p, 0.05),
         "p": lambda z, p: screw.prismatic(z),
     }
-    return Chain([make[letter](z, 0.4 * p) for letter, (z, p) in zip(letters, rng.normal(size=(len(letters), 2, 3)),
-                                                                    strict=True)], np.eye(4))  # fmt: skip
+    lines = rng.normal(size=(len(letters), 2, 3))
+    rows = [make[letter](z, 0.4 * p) for letter, (z, p) in zip(letters, lines, strict=True)]
+    return Chain.from_space(rows, np.eye(4))
 
 
 def off(x, y):
@@ -311,14 +321,14 @@ def test_a_joint_parallel_to_a_neighbour_is_held_where_the_moment_of_the_axes_be
     rows = chain.screws.copy()
     way = rows[1, :3]
     rows[2] = screw.revolute(way, [0.3, -0.2, 0.1])
-    chain = Chain(rows, np.eye(4))
+    chain = Chain.from_space(rows, np.eye(4))
     short = unmatched_joints.without(chain, (2,), [0.8])
     found = held_at(chain, short)
     assert min(off(x, 0.8) for x in found) < 1e-9
     # No position tells where neither angle nor moment changes: a joint on the line of its
     # neighbour.
     rows[2] = rows[1]
-    assert held_at(Chain(rows, np.eye(4)), short) == []
+    assert held_at(Chain.from_space(rows, np.eye(4)), short) == []
 
 
 def test_joints_at_the_ends_alone_are_held_at_zero_alone():
@@ -347,7 +357,7 @@ def test_joints_at_the_ends_alone_are_held_at_zero_alone():
 
 
 def test_what_is_left_of_a_chain_without_joints_keeps_its_names_limits_and_poses():
-    chain = Chain(arm_of("rphr").screws, se3.exp([0.1, 0.2, 0.3, 1, 2, 3]), joint_names=list("abcd"),
+    chain = Chain.from_space(arm_of("rphr").screws, se3.exp([0.1, 0.2, 0.3, 1, 2, 3]), joint_names=list("abcd"),
                   limits=[[-1, 1], [-2, 2], [-3, 3], [-4, 4]], base="floor", tip="hand")  # fmt: skip
     rest = unmatched_joints.without(chain, (1, 3), [0.3, -0.2])
     assert (rest.joint_names, rest.base, rest.tip) == (("a", "c"), "floor", "hand")
@@ -362,7 +372,7 @@ def test_what_is_left_of_a_chain_without_joints_keeps_its_names_limits_and_poses
 def test_the_quick_look_lets_four_tolerances_pass(change, agree):
     def crossing(angle, gap):
         slant = screw.revolute([0, np.sin(angle), np.cos(angle)], [1 + 1e-3 * gap, 0, 0])
-        return Chain([screw.revolute([0, 0, 1], [0, 0, 0]), slant], np.eye(4))
+        return Chain.from_space([screw.revolute([0, 0, 1], [0, 0, 0]), slant], np.eye(4))
 
     angle = 0.9 + np.radians(change.get("angle", 0))
     a, b = crossing(0.9, 0.0), crossing(angle, change.get("gap", 0))
@@ -373,14 +383,19 @@ def test_the_quick_look_lets_four_tolerances_pass(change, agree):
     )
     assert unmatched_joints._may_agree(a, b, 1e-5, np.radians(1e-3), but=(0,))
     assert not unmatched_joints._may_agree(
-        a, Chain([a.screws[0], screw.prismatic([0, 0, 1])], np.eye(4)), 1e-5, np.radians(1e-3)
+        a,
+        Chain.from_space([a.screws[0], screw.prismatic([0, 0, 1])], np.eye(4)),
+        1e-5,
+        np.radians(1e-3),
     )
 
 
 def two(angle, gap, tip=1.0):
     """An axis along z and one at a gap (mm) along x, at an angle to it."""
     slant = screw.revolute([0, np.sin(angle), np.cos(angle)], [1e-3 * gap, 0, 0])
-    return Chain([screw.revolute([0, 0, 1], [0, 0, 0]), slant], se3.exp([0, 0, 0, tip, 0, 0]))
+    return Chain.from_space(
+        [screw.revolute([0, 0, 1], [0, 0, 0]), slant], se3.exp([0, 0, 0, tip, 0, 0])
+    )
 
 
 @pytest.mark.parametrize(
@@ -409,7 +424,11 @@ def test_the_quick_look_looks_at_neighbours_and_across_slides_alone():
         """Whether arms agree of which the second has another axis k."""
         changed = [*rows[:k], other, *rows[k + 1 :]]
         return unmatched_joints._may_agree(
-            Chain(rows, np.eye(4)), Chain(changed, np.eye(4)), 1e-5, np.radians(1e-3), but
+            Chain.from_space(rows, np.eye(4)),
+            Chain.from_space(changed, np.eye(4)),
+            1e-5,
+            np.radians(1e-3),
+            but,
         )
 
     assert not agree(turning, 3, screw.revolute([1, 2, 3], [1, 0, 0]))
@@ -429,5 +448,8 @@ def test_the_quick_look_looks_at_neighbours_and_across_slides_alone():
     for but, agreed in (((0,), True), ((1,), True), ((2,), False)):
         assert agree(rows, 2, about @ turning[1], but) == agreed
     assert not unmatched_joints._may_agree(
-        Chain(rows, np.eye(4)), Chain(turning[:3], np.eye(4)), 1e-5, np.radians(1e-3)
+        Chain.from_space(rows, np.eye(4)),
+        Chain.from_space(turning[:3], np.eye(4)),
+        1e-5,
+        np.radians(1e-3),
     )

@@ -24,14 +24,14 @@ def reversed_at(chain, k):
     """The arm with joint k the other way round, its limits too."""
     S, limits = chain.screws.copy(), chain.limits.copy()
     S[k], limits[k] = -S[k], -limits[k, ::-1]
-    return Chain(S, chain.home, joint_names=chain.joint_names, limits=limits)
+    return Chain.from_space(S, chain.home, joint_names=chain.joint_names, limits=limits)
 
 
 def test_limits_of_a_joint_both_reversed_and_rezeroed_are_those_in_the_other_models_zero_and_direction():
     chain = arm("ur5e")
     limits = chain.limits.copy()
     limits[2] = np.radians([-100, 130])
-    chain = Chain(chain.screws, chain.home, joint_names=chain.joint_names, limits=limits)
+    chain = Chain.from_space(chain.screws, chain.home, joint_names=chain.joint_names, limits=limits)
     other = reversed_at(chain.rezeroed([0, 0, 0.4, 0, 0, 0]), 2)
     result = compare(chain, other, samples=1)
     assert (result.joints[2].reversed, abs(result.joints[2].zero_offset)) == (
@@ -45,7 +45,7 @@ def test_limits_of_a_joint_both_reversed_and_rezeroed_are_those_in_the_other_mod
     )  # in the other direction: the upper end 10 less, the lower one 20 more
     result = compare(
         chain,
-        Chain(other.screws, other.home, joint_names=chain.joint_names, limits=limits),
+        Chain.from_space(other.screws, other.home, joint_names=chain.joint_names, limits=limits),
         samples=1,
     )
     assert result.joints[2].limits == pytest.approx(np.radians([20, -10]).tolist())
@@ -55,7 +55,7 @@ def tilted(chain, k, angle, about, along):
     """The arm with axis k turned by an angle about the line through a point along a direction."""
     S = chain.screws.copy()
     S[k] = se3.adjoint(se3.exp(angle * screw.revolute(along, about))) @ S[k]
-    return Chain(S, chain.home, joint_names=chain.joint_names)
+    return Chain.from_space(S, chain.home, joint_names=chain.joint_names)
 
 
 @pytest.mark.parametrize("angle", [0.02, 0.7])
@@ -112,12 +112,12 @@ def test_an_axis_that_only_turns_says_how_far_it_is_at_the_arm_and_one_that_pass
     )
     S = crossing.screws.copy()
     S[k, 3:] += np.cross(0.02 * across, S[k, :3])
-    words = compare(chain, Chain(S, chain.home), samples=1, strict=True).verdict
+    words = compare(chain, Chain.from_space(S, chain.home), samples=1, strict=True).verdict
     far = f"{1e3 * np.hypot(0.5 * np.sin(0.1), 0.02):.4g} mm at the arm"
     assert f"has an axis that is 5.73° and 20 mm from the other model's ({far})" in words
     S = chain.screws.copy()
     S[k, 3:] += np.cross(0.02 * across, w)
-    words = compare(chain, Chain(S, chain.home), samples=1, strict=True).verdict
+    words = compare(chain, Chain.from_space(S, chain.home), samples=1, strict=True).verdict
     assert "has an axis that is 20 mm from the other model's" in words
     assert "at the arm" not in words
 
@@ -195,7 +195,7 @@ def test_each_joint_has_the_name_and_the_kind_of_either_model():
     S = b.screws.copy()
     S[4] = screw.prismatic(S[4, :3])
     a, b = (
-        Chain(rows, a.home, joint_names=[f"{name}{k}" for k in range(6)])
+        Chain.from_space(rows, a.home, joint_names=[f"{name}{k}" for k in range(6)])
         for rows, name in ((a.screws, "a"), (S, "b"))
     )
     joints = compare(a, b, samples=1).joints
@@ -213,7 +213,7 @@ def test_a_zero_offset_that_no_agreeing_axis_needs_is_put_back_though_another_ax
     S = chain.screws.copy()
     across = np.cross(S[2, :3], S[0, :3])
     S[2, 3:] += np.cross(1e-3 * across / np.linalg.norm(across), S[2, :3])
-    other = Chain(S, chain.home)
+    other = Chain.from_space(S, chain.home)
     pair = sides(chain, other, *TOL)
     P, z = np.eye(4)[None].copy(), np.zeros((1, 6))
     P[0, :3, 3] = pair.b.centre - pair.a.centre

@@ -27,7 +27,7 @@ TOL = 1e-5, np.radians(1e-3)
 def on_a_rail(chain, *ways):
     """The arm on one slide or more of 2 m, along these directions."""
     rails = [screw.prismatic(way) for way in ways]
-    return Chain(
+    return Chain.from_space(
         [*rails, *chain.screws], chain.home, limits=[*([-1, 1] for _ in rails), *chain.limits]
     )
 
@@ -50,7 +50,7 @@ def in_other_conventions(chain, rng):
         se3.exp(rng.normal(size=6))
     )
     signs = rng.choice([-1.0, 1.0], chain.dof)
-    return Chain(moved.screws * signs[:, None], moved.home @ se3.exp(rng.normal(size=6)))
+    return Chain.from_space(moved.screws * signs[:, None], moved.home @ se3.exp(rng.normal(size=6)))
 
 
 @pytest.mark.parametrize("name", RAILS)
@@ -72,7 +72,7 @@ def shifted(chain, k, size):
     places = np.cross(S[:, :3], S[:, 3:])
     way = places[k] - places[k - 2]
     S[k] = screw.revolute(S[k, :3], places[k] + size * way / np.linalg.norm(way))
-    return Chain(S, chain.home, limits=chain.limits)
+    return Chain.from_space(S, chain.home, limits=chain.limits)
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_a_slide_that_is_tilted_within_tolerance_makes_up_for_no_axis_that_is_el
     S, way = other.screws.copy(), np.cross(other.screws[3, :3], other.screws[3, 3:])
     way = way / np.linalg.norm(way)
     S[2] = screw.prismatic(S[2, 3:] + 0.5 * TOL[1] * way)
-    other = Chain(S, other.home, limits=other.limits)
+    other = Chain.from_space(S, other.home, limits=other.limits)
     moved = other.rebased(se3.exp([0.1, -0.4, 0.2, 1, 2, 3])).retooled(
         se3.exp([0.3, 0, 0.1, 0.5, 0, 0])
     )
@@ -129,7 +129,7 @@ def off_by_the_tolerance(chain, rng):
         else:
             another = pitch + 0.999 * TOL[0] / (2 * np.pi) if pitch else 0.0
             rows.append(screw.helical(tilted, place + TOL[0] * np.cross(way, across), another))
-    return Chain(rows, chain.home, limits=chain.limits)
+    return Chain.from_space(rows, chain.home, limits=chain.limits)
 
 
 def test_a_reading_without_a_bad_axis_holds_where_the_poses_agree_within_the_limits_of_both():
@@ -148,9 +148,9 @@ def test_a_reading_without_a_bad_axis_holds_where_the_poses_agree_within_the_lim
     # 100 m away.
     S = chain.screws.copy()
     S[3] = se3.adjoint(se3.exp([0.5 * TOL[1], 0, 0, 0, 0, 0])) @ S[3]
-    tilted = Chain(S, chain.home, limits=chain.limits)
+    tilted = Chain.from_space(S, chain.home, limits=chain.limits)
     far = tilted.rezeroed([0, 0, 0, 100.0, 0])
-    elsewhere = Chain(far.screws, far.home, limits=chain.limits)
+    elsewhere = Chain.from_space(far.screws, far.home, limits=chain.limits)
     for two, z, holds in ((tilted, 0.0, True), (far, -100.0, True), (elsewhere, -100.0, False)):
         pair, held = as_it_stands(chain, two, [0, 0, 0, z, 0])
         assert not held.moved.any()
@@ -173,13 +173,13 @@ def test_axes_within_tolerance_keep_the_poses_within_the_bound(kinds):
     ]
     rng = np.random.default_rng(0)
     for _ in range(20):
-        chain = Chain([way[kind] for kind in kinds], home, limits=limits)
+        chain = Chain.from_space([way[kind] for kind in kinds], home, limits=limits)
         if len(kinds) > 2:
             S = random_arm(
                 int(rng.integers(100)),
                 [{"r": "revolute", "p": "prismatic"}[kind] for kind in kinds],
             )
-            chain = Chain(S.screws, S.home, limits=limits)
+            chain = Chain.from_space(S.screws, S.home, limits=limits)
         other = off_by_the_tolerance(chain, rng)
         pair, reading = as_it_stands(chain, other)
         assert not reading.moved.any()

@@ -20,7 +20,7 @@ MAKE = {
 
 
 def arm(kinds, mark=""):
-    return Chain(
+    return Chain.from_space(
         [MAKE[kind] for kind in kinds],
         np.eye(4),
         joint_names=[f"{mark}{k + 1}" for k in range(len(kinds))],

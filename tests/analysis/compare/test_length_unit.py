@@ -18,7 +18,9 @@ from poekin.model.chain import Chain
 from poekin.model.sampling import sampling_range
 
 COBRA = load("cobra600").chain()
-RAIL = Chain([screw.prismatic([0, 1, 0]), *random_arm(4, ("revolute",) * 4).screws], np.eye(4))
+RAIL = Chain.from_space(
+    [screw.prismatic([0, 1, 0]), *random_arm(4, ("revolute",) * 4).screws], np.eye(4)
+)
 
 
 def in_other_conventions(chain, seed):
@@ -81,12 +83,14 @@ def test_the_unit_is_named_beside_another_link_an_extra_joint_and_in_a_strict_co
     longer = np.array(chain.screws)
     lengthened = se3.adjoint(se3.exp(np.array([0, 0, 0, 0.005, 0, 0])))
     longer[2:] = longer[2:] @ lengthened.T
-    link = compare(chain, rescaled(Chain(longer, chain.home), 1000.0), samples=5)
+    link = compare(chain, rescaled(Chain.from_space(longer, chain.home), 1000.0), samples=5)
     assert link.length_ratio == 1000
     assert "the link between joint 2 (" in link.verdict
     names = [*chain.joint_names[:3], "extra", *chain.joint_names[3:]]
     rows = np.insert(chain.screws, 3, screw.revolute([1, 2, 0], [0.1, 0.3, 0.2]), 0)
-    extra = compare(chain, rescaled(Chain(rows, chain.home, joint_names=names), 1000.0), samples=5)
+    extra = compare(
+        chain, rescaled(Chain.from_space(rows, chain.home, joint_names=names), 1000.0), samples=5
+    )
     assert (extra.length_ratio, extra.unmatched_joints, extra.before) == (
         1000,
         ("b", "extra"),
@@ -100,7 +104,7 @@ def test_the_unit_is_named_beside_another_link_an_extra_joint_and_in_a_strict_co
 def elbow(length):
     """Three axes of which the first two intersect: in one unit or the other one of them differs."""
     places = ([0, 0, 1], [0, 0, 0]), ([0, 1, 0], [0, 0, 0]), ([0, 1, 0], [length, 0, 0])
-    return Chain([screw.revolute(*place) for place in places], np.eye(4))
+    return Chain.from_space([screw.revolute(*place) for place in places], np.eye(4))
 
 
 def test_arms_that_truly_differ_and_arms_of_another_size_are_no_matter_of_units():
@@ -124,7 +128,7 @@ def test_a_rescaled_chain_reaches_the_same_poses_with_lengths_multiplied():
     ]  # fmt: skip
     # Joint 2 follows a slide, joint 3 turns by itself.
     C, c = np.array([[1.0, 0.0], [0.5, 0.0], [0.0, 2.0]]), [0.1, 0.2, 0.3]
-    chain = Chain(rows, se3.exp(rng.normal(size=6)), coupling=C, offset=c, q_names=["slide", "turn"],
+    chain = Chain.from_space(rows, se3.exp(rng.normal(size=6)), coupling=C, offset=c, q_names=["slide", "turn"],
                   limits=[[-0.5, 0.5], [-1, 1]])  # fmt: skip
     large = rescaled(chain, 1000.0)
     q = chain.random(0, 5)
@@ -134,7 +138,7 @@ def test_a_rescaled_chain_reaches_the_same_poses_with_lengths_multiplied():
     assert large.limits.tolist() == [[-500, 500], [-1, 1]]
     assert compare(chain, large, samples=1).length_ratio == 1000
     C[1, 0] = 0.6
-    geared = Chain(rows, chain.home, coupling=C, offset=c, q_names=["slide", "turn"])
+    geared = Chain.from_space(rows, chain.home, coupling=C, offset=c, q_names=["slide", "turn"])
     assert [j.number for j in compare(geared, large, samples=1).differing] == [2]
 
 

@@ -38,13 +38,13 @@ def arm_of(letters, seed=0):
         "p": lambda z, p: screw.prismatic(z),
     }
     rows = rng.normal(size=(len(letters), 2, 3))
-    return Chain(
+    return Chain.from_space(
         [make[letter](z, 0.4 * p) for letter, (z, p) in zip(letters, rows, strict=True)], np.eye(4)
     )
 
 
 def at(rows):
-    return lines(Chain(rows, np.eye(4)))
+    return lines(Chain.from_space(rows, np.eye(4)))
 
 
 def revolving(z, p=(0, 0, 0)):
@@ -198,7 +198,7 @@ def test_the_other_model_s_axes_may_point_either_way(letters, flipped):
     chain = arm_of(letters, seed=2)
     short = unmatched_joints.without(chain, (2,), [0.9])
     S = np.array([-row if k in flipped else row for k, row in enumerate(short.screws)])
-    found = held_positions(chain, Chain(S, short.home), (2,), (2,), *TOL)
+    found = held_positions(chain, Chain.from_space(S, short.home), (2,), (2,), *TOL)
     assert min(abs(x - 0.9) for (x,) in found) < 1e-9
     assert all(abs(x) <= np.pi for (x,) in found)
 
@@ -231,15 +231,17 @@ def test_a_length_may_be_missed_by_ten_tolerances_of_length_and_of_angle_by_the_
     def arm(far):
         return [revolving(Z), revolving(Z, [0.5 * size, 0, 0]), revolving(X, [0, -far, 0])]
 
-    chain = Chain(arm(size), np.eye(4))
+    chain = Chain.from_space(arm(size), np.eye(4))
     scale = float(np.linalg.norm(lines(chain).places))
-    short = Chain(np.delete(arm((1.5 + 0.4 * share) * size), 1, 0), np.eye(4))
+    short = Chain.from_space(np.delete(arm((1.5 + 0.4 * share) * size), 1, 0), np.eye(4))
     tol_m, tol_rad = 0.03 * size, 0.01 * size / scale
     assert bool(held_positions(chain, short, (1,), (1,), tol_m, tol_rad)) == found
 
 
 def test_of_a_continuum_of_positions_sixteen_are_tried_that_differ():
-    chain = Chain([revolving(Z, [x, 0, 0]) for x in (0.0, 0.4, 0.6, 0.7, 1.0)], np.eye(4))
+    chain = Chain.from_space(
+        [revolving(Z, [x, 0, 0]) for x in (0.0, 0.4, 0.6, 0.7, 1.0)], np.eye(4)
+    )
     found = positions(chain, (1, 2), (1, 2), [0.5, -0.9])
     assert len(found) == 16
     assert all(
@@ -257,15 +259,15 @@ def test_ten_tolerances_of_angle_and_of_length_by_the_arm_s_size_may_be_missed(
         first, way = ([np.sin(angle), 0, np.cos(angle)] for angle in (0.1, 0.1 + np.arccos(cosine)))
         return [screw.prismatic(first), revolving(Z), revolving(way, [0, metres, 0])]
 
-    chain = Chain(arm(np.cos(0.2)), np.eye(4))
+    chain = Chain.from_space(arm(np.cos(0.2)), np.eye(4))
     size = float(np.linalg.norm(lines(chain).places))
     assert size == pytest.approx(metres / np.sqrt(2))
-    short = Chain(np.delete(arm(np.cos(0.2) + 0.019 * share), 1, 0), np.eye(4))
+    short = Chain.from_space(np.delete(arm(np.cos(0.2) + 0.019 * share), 1, 0), np.eye(4))
     assert bool(held_positions(chain, short, (1,), (1,), 9e-4 * size, 1e-3)) == found
 
 
 def test_without_any_place_the_tolerance_is_the_size():
-    chain = Chain([screw.prismatic(X), revolving(Z), screw.prismatic(X)], np.eye(4))
+    chain = Chain.from_space([screw.prismatic(X), revolving(Z), screw.prismatic(X)], np.eye(4))
     ((x,), *_) = positions(chain, (1,), (1,), [0.5])
     assert abs(x) == pytest.approx(0.5)
 
@@ -273,7 +275,7 @@ def test_without_any_place_the_tolerance_is_the_size():
 def test_positions_come_the_best_first():
     # The mutual moment tells 0.5 alone; with it off by less than ten tolerances both signs of the
     # angle are near.
-    chain = Chain(
+    chain = Chain.from_space(
         [revolving(X, [0, 0, 0.3]), revolving(Z), revolving([1, 0, 0.5], [0, 0.4, -0.2])], np.eye(4)
     )
     found = [x for (x,) in positions(chain, (1,), (1,), [0.5], (0.02, 0.02))]

@@ -21,7 +21,9 @@ UR = pk.load("ur5e").chain(tip="tool0")
 def test_another_link_is_named_by_the_joints_at_both_of_its_ends():
     S = UR.screws.copy()
     S[3:] = (pk.se3.adjoint(pk.se3.exp([0, 0, 0, 0.01, 0.02, 0])) @ S[3:].T).T
-    verdict = compare(UR, Chain(S, UR.home, joint_names=UR.joint_names), samples=1).verdict
+    verdict = compare(
+        UR, Chain.from_space(S, UR.home, joint_names=UR.joint_names), samples=1
+    ).verdict
     names = UR.joint_names
     assert (
         f"the link between joint 3 ('{names[2]}') and joint 4 ('{names[3]}') differs: from joint 4 on"
@@ -43,7 +45,7 @@ def test_another_reading_says_the_size_of_its_zero_offset(kind, words):
     make = {"revolute": pk.screw.revolute, "prismatic": lambda z, p: pk.screw.prismatic(z),
             "helical": lambda z, p: pk.screw.helical(z, p, 0.1)}  # fmt: skip
     joint = make[kind](z, p)
-    chain = Chain(
+    chain = Chain.from_space(
         [pk.screw.revolute([1, 0, 0], [0, 0, 0]), joint, pk.screw.revolute([0, 1, 0], [0, 0, 0])],
         np.eye(4),
     )
@@ -151,7 +153,9 @@ def two_ends(kind):
         pk.screw.prismatic if kind == "prismatic" else lambda z: pk.screw.revolute(z, [0.1, 0.2, 0])
     )
     rows = [make([0, 0, 1.0]), pk.screw.revolute([0, 1, 0], [0.3, 0, 0]), make([1.0, 0, 0])]
-    return Chain(rows, pk.se3.exp([0.3, 0.2, 0.1, 1, 0, 0]), joint_names=["first", "mid", "last"])
+    return Chain.from_space(
+        rows, pk.se3.exp([0.3, 0.2, 0.1, 1, 0, 0]), joint_names=["first", "mid", "last"]
+    )
 
 
 @pytest.mark.parametrize("kind, size, far", [
@@ -202,7 +206,7 @@ def test_the_verdict_says_what_is_the_same_what_differs_and_what_was_aligned():
     base, tool = pk.se3.exp([0, 0, np.radians(10), 0, 0, 0]), pk.se3.exp([0, 0, 0, 0.05, 0, 0])
     S = UR.screws.copy()
     S[2, 3:] += np.cross([0, 0, 0.003], S[2, :3])
-    bent = Chain(S, UR.home, joint_names=UR.joint_names)
+    bent = Chain.from_space(S, UR.home, joint_names=UR.joint_names)
     name = UR.joint_names[2]
     third = f"joint 3 ('{name}') has an axis that is 3 mm from the other model's"
 

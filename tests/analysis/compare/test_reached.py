@@ -25,7 +25,7 @@ def planar(last, limits=((-1, 2), (-1, 1), (-1, 1)), tip=6.0):
     """A joint about z at 0, another joint, one about z at 2 on the way to a tip at `tip`, along x."""
     home = np.eye(4)
     home[0, 3] = tip
-    return Chain(
+    return Chain.from_space(
         [screw.revolute(Z, [0, 0, 0]), last, screw.revolute(Z, [2, 0, 0])], home, limits=limits
     )
 
@@ -66,7 +66,7 @@ def test_the_larger_travel_and_the_larger_reach_of_both_arms_count():
     limits = [[-1, 2], [-3, 1], [-1, 1]]
     small = planar(screw.prismatic(X), limits)
     large = planar(screw.prismatic(X), [[-1, 2], [-3, 7], [-1, 1]])
-    long = Chain(small.screws, planar(small.screws[1], tip=6e9).home, limits=limits)
+    long = Chain.from_space(small.screws, planar(small.screws[1], tip=6e9).home, limits=limits)
     assert bounds(small, large) == bounds(large, small) == bounds(large)
     assert bounds(small, long)[0] - bounds(small)[0] == pytest.approx(
         1e-12 * (long.reach - small.reach), rel=1e-6
@@ -97,8 +97,8 @@ def test_poses_are_looked_at_within_the_limits_of_each_arm_in_its_own_zero_and_d
     theirs, wide = np.repeat(zeros[:, None], 2, axis=1), np.array([-0.2, 0.3])
     a = planar(screw.revolute(X, [1, 0, 0]), at_zero + wide * (free == "a"))
     S = a.screws * np.array([1, -1, -1])[:, None]
-    b = Chain(S, a.home).rezeroed(-zeros)
-    b = Chain(b.screws, b.home, limits=theirs + wide * (free == "b"))
+    b = Chain.from_space(S, a.home).rezeroed(-zeros)
+    b = Chain.from_space(b.screws, b.home, limits=theirs + wide * (free == "b"))
     nothing = np.zeros(3, bool)
     reading = Hypothesis(
         np.eye(4), np.eye(4), zeros, directions, nothing, nothing, a.screws, np.zeros(3), 0

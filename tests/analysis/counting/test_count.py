@@ -27,7 +27,9 @@ def arm(kinds, seed=0, **options):
         "p": lambda: pk.screw.prismatic(rng.normal(size=3)),
         "h": lambda: pk.screw.helical(*rng.normal(size=(2, 3)), pitch=0.1),
     }
-    return pk.Chain([make[kind]() for kind in kinds], pk.se3.exp(rng.normal(size=6)), **options)
+    return pk.Chain.from_space(
+        [make[kind]() for kind in kinds], pk.se3.exp(rng.normal(size=6)), **options
+    )
 
 
 def numbers(cost):
@@ -157,7 +159,7 @@ def test_a_coupled_joint_costs_its_coupling_and_no_second_sine():
 
 
 def test_a_sum_of_angles_is_an_addition():
-    planar = pk.Chain(
+    planar = pk.Chain.from_space(
         [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 1.0)],
         [[1, 0, 0, 2], *np.eye(4)[1:]],
     )
@@ -275,8 +277,11 @@ def test_the_variants_compute_one_and_the_same_jacobian(kinds):
                           row(chain.home))
         for screws in (chain.screws, chain.screws @ pk.se3.adjoint(pk.se3.inverse(chain.home)).T)
     )  # fmt: skip
-    for direct, arm_, frame in ((count_methods.direct_space, in_space, "space"),
-                                (count_methods.direct_body, in_body, "body")):  # fmt: skip
+    ways: list[tuple[Any, Any, Any]] = [
+        (count_methods.direct_space, in_space, "space"),
+        (count_methods.direct_body, in_body, "body"),
+    ]
+    for direct, arm_, frame in ways:
         J, finish = direct(arm_)
         np.testing.assert_allclose(J, chain.jacobian(q, frame), atol=1e-13 * chain.reach)
         np.testing.assert_allclose(finish(), row(chain.fk(q)), atol=1e-13 * chain.reach)
@@ -400,7 +405,7 @@ def test_formulas_of_revolute_joints_are_not_printed_for_other_chains():
 
 def test_short_chains_have_their_own_program_only():
     assert {r.method for r in count_table(arm("r")).rows} == {"specialised"}
-    nothing = count_table(pk.Chain(np.empty((0, 6)), np.eye(4)))
+    nothing = count_table(pk.Chain.from_space(np.empty((0, 6)), np.eye(4)))
     assert [numbers(r.with_pose) for r in nothing.rows] == [(0, 0)] * 3
     assert nothing.cheapest is None
     assert nothing.verdict == ()
@@ -409,7 +414,7 @@ def test_short_chains_have_their_own_program_only():
 def test_a_rounded_model_costs_more_than_its_idealised_arm():
     exact = pk.load("ur5").chain()
     noise = np.random.default_rng(0).normal(size=(6, 6)) * 1e-7
-    rounded = pk.Chain(
+    rounded = pk.Chain.from_space(
         [pk.se3.adjoint(pk.se3.exp(e)) @ A for e, A in zip(noise, exact.screws, strict=True)],
         exact.home,
     )

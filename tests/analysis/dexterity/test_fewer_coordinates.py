@@ -24,7 +24,7 @@ def chain(*joints, tool):
         pk.screw.prismatic(axis) if point is None else pk.screw.revolute(axis, point)
         for axis, point in joints
     ]
-    return pk.Chain(rows, se3.exp([0, 0, 0, *tool]))
+    return pk.Chain.from_space(rows, se3.exp([0, 0, 0, *tool]))
 
 
 def planar(*lengths):
@@ -141,7 +141,9 @@ def test_the_largest_rank_is_counted_in_lengths_of_the_arm_and_rounding_is_no_mo
     )
     assert generic_rank(turned, "translation") == 0
     tilted = [*planar(0.5, 0.4, 0.3).screws, pk.screw.revolute([0, 3.7e-6, 1], [1.2, 0, 0])]
-    assert generic_rank(pk.Chain(tilted, planar(1.4).home), "pose") == 3, "rpy of 1.5708 is no 4th"
+    assert generic_rank(pk.Chain.from_space(tilted, planar(1.4).home), "pose") == 3, (
+        "rpy of 1.5708 is no 4th"
+    )
 
 
 def test_manipulability_of_a_planar_arm_is_that_of_its_plane():

@@ -24,7 +24,9 @@ FEW = settings(max_examples=max(settings().max_examples // 3, 20))
 def planar(*lengths):
     """A planar arm of revolute joints about z."""
     at = np.concatenate([[0.0], np.cumsum(lengths)])
-    return pk.Chain([[0, 0, 1, 0, -x, 0] for x in at[:-1]], pk.se3.exp([0, 0, 0, at[-1], 0, 0]))
+    return pk.Chain.from_space(
+        [[0, 0, 1, 0, -x, 0] for x in at[:-1]], pk.se3.exp([0, 0, 0, at[-1], 0, 0])
+    )
 
 
 def test_yoshikawa_of_a_planar_arm_is_l1_l2_sin_q2():
@@ -133,7 +135,7 @@ def test_batches_have_their_shapes_and_nan_stays_where_it_is():
 
 def test_what_cannot_be_judged_is_refused():
     with pytest.raises(InputError, match=r"^the chain has no coordinate"):
-        manipulability(pk.Chain(np.zeros((0, 6)), np.eye(4)), [])
+        manipulability(pk.Chain.from_space(np.zeros((0, 6)), np.eye(4)), [])
     with pytest.raises(InputError, match=r"^length: expected a positive number of metres, got 0"):
         manipulability(planar(1.0), [0.0], length=0)
     with pytest.raises(

@@ -36,7 +36,9 @@ def elbow_arm():
         (y, [1, 0, 0]),
         (x, [1, 0, 0]),
     ]
-    return pk.Chain([[*w, *np.cross(p, w)] for w, p in axes], pk.se3.exp([0, 0, 0, 1, 0, 0]))
+    return pk.Chain.from_space(
+        [[*w, *np.cross(p, w)] for w, p in axes], pk.se3.exp([0, 0, 0, 1, 0, 0])
+    )
 
 
 def test_a_stretched_arm_cannot_move_along_itself():
@@ -187,15 +189,16 @@ def planar(lengths=(1.0, 1.0), slides=False):
         if slides
         else pk.screw.revolute([0, 0, 1], [lengths[0], 0, 0])
     )
-    return pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0]), second], pk.se3.exp([0, 0, 0, sum(lengths), 0, 0]),
-                    joint_names=["one", "two"])  # fmt: skip
+    first = pk.screw.revolute([0, 0, 1], [0, 0, 0])
+    home = pk.se3.exp([0, 0, 0, sum(lengths), 0, 0])
+    return pk.Chain.from_space([first, second], home, joint_names=["one", "two"])
 
 
 def test_what_is_lost_is_in_metres_of_the_length_and_the_rates_have_their_signs():
     # Stretched, two links of 1 m cannot move along themselves, and -1 at one with 2 at two leaves
     # the tip.
     rows = [*planar().screws, pk.screw.prismatic([0, 0, 1])]
-    arm = pk.Chain(rows, planar().home, joint_names=["one", "two", "up"])
+    arm = pk.Chain.from_space(rows, planar().home, joint_names=["one", "two", "up"])
     found = singularity(arm, [0, 0, 0], part="translation", length=3.0)
     np.testing.assert_allclose(found.singular_direction, [0, 0, 0, 3, 0, 0], atol=1e-15)
     np.testing.assert_allclose(found.joint_direction, np.array([-1, 2, 0]) / np.sqrt(5), atol=1e-15)
@@ -233,7 +236,7 @@ def test_the_distance_is_told_in_the_unit_of_the_coordinates(slides, unit):
         f" {unit} away" in found.summary()
         or f"no singularity is within 1 {unit}" in found.summary()
     )
-    slide = pk.Chain([pk.screw.prismatic([1, 0, 0])], np.eye(4))
+    slide = pk.Chain.from_space([pk.screw.prismatic([1, 0, 0])], np.eye(4))
     assert (
         "): to first order no singularity is within 1 m. What"
         in singularity(slide, [0.0]).summary()
@@ -264,7 +267,7 @@ def test_what_cannot_be_judged_is_refused():
 
 
 def test_an_arm_that_never_moves_its_tool_has_no_motion_to_lose():
-    arm = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4))
+    arm = pk.Chain.from_space([pk.screw.revolute([0, 0, 1], [0, 0, 0])], np.eye(4))
     found = singularity(arm, [0.4], part="translation")
     assert (found.singular, found.rank, found.generic_rank, found.smallest) == (False, 0, 0, 0)
     assert found.condition == math.inf

@@ -106,20 +106,22 @@ def test_a_joint_s_coordinate_is_written_with_factor_and_offset():
     assert _coordinate(CHAIN, [], 0.0) == "0"
 
 
-CHAIN = Chain(
+CHAIN = Chain.from_space(
     np.tile([0, 0, 1.0, 0, 0, 0], (2, 1)), np.eye(4), q_names=["a", "b"], coupling=np.eye(2)
 )
 
 
 def test_a_joint_has_the_limits_of_the_coordinate_that_it_follows():
     limits = [[-1, 2], [-3, 4]]
-    swapped = Chain(
+    swapped = Chain.from_space(
         CHAIN.screws, np.eye(4), coupling=[[0, 1], [2, 0]], limits=limits, joint_names=["x", "y"]
     )
     assert [(row[0], row[2], row[-2:]) for row in _screw_rows(swapped)] == [
         ("x", "q2", ("-3", "4")), ("y", "2 q1", ("-1", "2")),
     ]  # fmt: skip
-    both = Chain(CHAIN.screws, np.eye(4), coupling=[[1, 1], [0, 0]], offset=[0, 0.5], limits=limits)
+    both = Chain.from_space(
+        CHAIN.screws, np.eye(4), coupling=[[1, 1], [0, 0]], offset=[0, 0.5], limits=limits
+    )
     rows = list(_screw_rows(both))
     assert [(row[2], row[-2:]) for row in rows] == [("q1 + q2", ("-1", "2")), ("0.5", ("0", "0"))]
     assert {len(row) for row in rows} == {11}

@@ -33,7 +33,7 @@ PROGRAM = f"""
 from poekin.groups import so3
 from poekin.model.chain import Chain
 print(so3.hat([1, 2, 3])[0].tolist(), so3.exp([0.0, 0.0, 0.0]).tolist())
-chain = Chain({SCREWS}, {HOME})
+chain = Chain.from_space({SCREWS}, {HOME})
 print((chain.compile().fk([[0.0, 0.0]])[0, 0] + 0.0).tolist())
 """
 RIGHT = "[0.0, -3.0, 2.0] [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]\n[1.0, 0.0, 0.0, 2.0]"
@@ -105,7 +105,7 @@ class Session:
     def arm(self) -> list[str]:
         """The pose of an arm whose machine code has to be loaded or made."""
         self._begin()
-        T = Chain(SCREWS, HOME).compile().fk([[0.0, 0.0]])
+        T = Chain.from_space(SCREWS, HOME).compile().fk([[0.0, 0.0]])
         np.testing.assert_array_equal(T[0], HOME)
         return self.caplog.messages
 
@@ -503,7 +503,7 @@ import sys, threading
 import numpy as np
 from poekin.groups import se3
 sys.setswitchinterval(1e-6)
-arm, q, got = Chain({SCREWS}, {HOME}), np.zeros(2), []
+arm, q, got = Chain.from_space({SCREWS}, {HOME}), np.zeros(2), []
 calls = [lambda: so3.left_jacobian(q @ np.zeros((2, 3))), lambda: so3.exp(np.zeros(3)), lambda: arm.compile().fk([q]),
          lambda: arm.joint_poses(q)]
 threads = [threading.Thread(target=lambda call=call: got.append(call())) for call in calls * 2]
@@ -522,7 +522,7 @@ def test_without_compiling_everything_still_runs_and_an_arm_s_program_is_interpr
         PROGRAM
         + "print([chain.compile().jacobian([0.3, 0.4], f)[0].round(3).tolist() for f in ('body', 'cheapest')])"
     )
-    arm = Chain(SCREWS, HOME).compile()
+    arm = Chain.from_space(SCREWS, HOME).compile()
     compiled = [
         arm.jacobian([0.3, 0.4], frame)[0].round(3).tolist() for frame in ("body", "cheapest")
     ]

@@ -22,7 +22,7 @@ LOCKS = {"poekin's": COMPILING, "Numba's": global_compiler_lock, "LLVM's": ffi.l
 def _compile() -> None:
     with COMPILING, global_compiler_lock:
         pass
-    program = Chain([[0, 0, 1, 0, 0, 0]], np.eye(4)).compile().program("hybrid")
+    program = Chain.from_space([[0, 0, 1, 0, 0, 0]], np.eye(4)).compile().program("hybrid")
     Arm(object_code(program, False), len(program.angles), 1)
 
 

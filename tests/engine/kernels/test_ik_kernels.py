@@ -17,7 +17,7 @@ from poekin.model.chain import Chain
 
 MASK = 2**64 - 1
 N = np.array([2.0, 3.0, -6.0]) / 7
-ARM = Chain(
+ARM = Chain.from_space(
     [[0, 0, 1, 0, 0, 0], [0, 1, 0, -0.4, 0, 0], [0, 1, 0, -0.4, 0, 0.5], [1, 0, 0, 0, 0.4, 0]],
     se3.exp([0.2, -0.1, 0.3, 0.9, 0.1, 0.4]),
 )

@@ -41,7 +41,9 @@ def test_the_memory_of_an_arm_s_machine_code_is_freed_with_the_arm():
     for _ in range(20):
         axes = rng.normal(size=(2, 3))
         axes /= np.linalg.norm(axes, axis=1)[:, None]
-        arm = Chain(np.hstack([axes, np.cross(rng.normal(size=(2, 3)), axes)]), np.eye(4))
+        arm = Chain.from_space(
+            np.hstack([axes, np.cross(rng.normal(size=(2, 3)), axes)]), np.eye(4)
+        )
         programs.append(arm.compile().program("hybrid", pose=True))
 
     def use(programs):
@@ -61,7 +63,7 @@ def test_a_long_program_is_compiled_in_blocks_and_computes_the_same(monkeypatch)
     screws = rng.normal(size=(5, 6))
     screws[:, :3] /= np.linalg.norm(screws[:, :3], axis=1)[:, None]
     screws[3] = 0, 0, 0, 1, 0, 0
-    chain, q = Chain(screws, np.eye(4)), rng.normal(size=(7, 5))
+    chain, q = Chain.from_space(screws, np.eye(4)), rng.normal(size=(7, 5))
     program = chain.compile().program("hybrid", pose=True)
     texts = []
     parse = binding.parse_assembly

@@ -92,15 +92,15 @@ ACROSS = pk.se3.exp([RIGHT, 0, 0, 0, 0, 0])
       for angle in (-165, -90, -15, 15, 90, 165, 180)),
 ])  # fmt: skip
 def test_planes_and_angles_from_minus_165_to_180_degrees_are_named(screw, home, words):
-    assert pk.Chain([screw], home).idealised(TOL).changes[0] == words
+    assert pk.Chain.from_space([screw], home).idealised(TOL).changes[0] == words
 
 
 @pytest.mark.parametrize("off, listed", [(3e-15, 0), (3e-14, 1)])
 def test_what_rounding_makes_is_put_right_and_not_listed(off, listed):
-    turned = pk.Chain([TURN], about_z(off)).idealised(TOL)
-    moved = pk.Chain([TURN], pk.se3.exp([0, 0, 0, off, 0, 0])).idealised(TOL)
+    turned = pk.Chain.from_space([TURN], about_z(off)).idealised(TOL)
+    moved = pk.Chain.from_space([TURN], pk.se3.exp([0, 0, 0, off, 0, 0])).idealised(TOL)
     screws = np.array([TURN, pk.screw.revolute([1, 0, 0], [0, off, 20.0])])
-    far = pk.Chain(screws, np.eye(4)).idealised(TOL)
+    far = pk.Chain.from_space(screws, np.eye(4)).idealised(TOL)
     assert [len(result.changes) for result in (turned, moved)] == [listed] * 2
     assert far.changes == ()  # lengths are seen beside the reach, 20 m
     # axis and tool are moved by `off`; the numbers are rounded beside the 40 m to joint 2 and from
@@ -111,7 +111,7 @@ def test_what_rounding_makes_is_put_right_and_not_listed(off, listed):
 
 
 def test_a_joint_s_name_in_braces_is_said_as_it_is():
-    named = pk.Chain([leaning(OFF, 0)], np.eye(4), joint_names=["{0}"])
+    named = pk.Chain.from_space([leaning(OFF, 0)], np.eye(4), joint_names=["{0}"])
     assert (
         named.idealised(TOL).changes[0]
         == "axis of '{0}' turned by 2e-06 rad to be parallel to the base's z axis"

@@ -78,7 +78,7 @@ def test_the_form_keeps_base_tool_and_zero_offsets():
     P, Q = pk.se3.exp([0.3, -0.2, 0.9, 1.0, 2.0, -0.5]), pk.se3.exp([-1.0, 0.4, 0.1, 0.1, 0.0, 0.3])
     moved = chain.rebased(P).retooled(Q)
     offset = np.array([0.1, -0.4, 0.0, 2.0, 0.7, -3.0])
-    moved = pk.Chain(moved.screws, moved.home, offset=offset)
+    moved = pk.Chain.from_space(moved.screws, moved.home, offset=offset)
     assert excess(moved, moved.to_hp(), moved.random(2, 50)).max() <= 1
 
 
@@ -113,20 +113,20 @@ def test_three_axes_that_meet_come_before_two():
     # 2 meets 1 in one point, and 3 and 4 in another
     o = (0, 0, 0)
     S = [screw((0, 0, 1), (1, 0, 0)), screw((1, 0, 0), o), screw((0, 1, 0), o), screw((0, 0, 1), o)]
-    P = pk.Chain(S, np.eye(4)).to_hp().P
+    P = pk.Chain.from_space(S, np.eye(4)).to_hp().P
     assert not P[2:].any()
     assert P[1].tolist() == [-1.0, 0.0, 0.0]
 
 
 def test_axes_that_pass_each_other_by_more_than_rounding_do_not_share_a_point():
     S = [screw((0, 0, 1), (0, 0, 0)), screw((1, 0, 0), (0, 1e-12, 0.5))]
-    P = pk.Chain(S, np.eye(4)).to_hp().P
+    P = pk.Chain.from_space(S, np.eye(4)).to_hp().P
     assert P[1].any()
 
 
 def test_a_chain_without_joints_has_one_step():
     T = pk.se3.exp([0.1, 0.2, 0.3, 1.0, 2.0, 3.0])
-    form = pk.Chain(np.empty((0, 6)), T).to_hp()
+    form = pk.Chain.from_space(np.empty((0, 6)), T).to_hp()
     assert form.H.shape == (0, 3)
     assert form.P.tolist() == [T[:3, 3].tolist()]
 
@@ -152,7 +152,7 @@ def test_joints_that_slide_are_refused_by_name():
 
 def test_coupled_joints_are_refused():
     S = [screw((0, 0, 1), (0, 0, 0)), screw((0, 0, 1), (1, 0, 0))]
-    chain = pk.Chain(S, np.eye(4), coupling=[[1.0], [1.0]], q_names=["q"])
+    chain = pk.Chain.from_space(S, np.eye(4), coupling=[[1.0], [1.0]], q_names=["q"])
     with pytest.raises(
         InputError, match=r"the 2 joints of 'base' -> 'tool' are coupled to 1 coordinates"
     ):

@@ -11,9 +11,9 @@ import pytest
 
 from poekin.model import screw
 from poekin.model.chain import Chain
-from poekin.model.geometry.axis_walk import Frame, Walk
+from poekin.model.geometry.axis_walk import Walk
 from poekin.model.geometry.idealise import UNIT, _nearest, _settled, _way
-from poekin.model.geometry.normals import digits, exact
+from poekin.model.geometry.normals import digits, exact, frame_on_line
 
 OFF, TOL = 1e-6, 1e-5
 Z = [0, 0, 1]
@@ -23,7 +23,7 @@ TILTED = [0, math.sin(OFF), math.cos(OFF)]
 def bounds(*screws, home=(0, 0, 0), **options):
     T = np.eye(4)
     T[:3, 3] = home
-    result = Chain(screws, T, **options).idealised(TOL)
+    result = Chain.from_space(screws, T, **options).idealised(TOL)
     return result.position_bound / OFF, result.rotation_bound / OFF
 
 
@@ -68,12 +68,12 @@ def test_what_is_behind_a_turn_counts_with_all_its_lengths_and_slides():
 
 
 def frame(z, o):
-    return Frame(exact((1, 0, 0)), exact(z), exact(o))
+    return frame_on_line(exact((1, 0, 0)), exact(z), exact(o))
 
 
 def test_frames_slide_along_their_lines_to_be_nearest_to_the_one_before():
     rows = [screw.revolute(Z, [1, 0, 0]), screw.prismatic(Z), screw.revolute([0, 1, 0], [3, 0, 5])]
-    chain = Chain(rows, np.eye(4))
+    chain = Chain.from_space(rows, np.eye(4))
     frames = [frame(Z, (0, 0, 2)), frame(Z, (1, 0, 7)), frame(Z, (5, 5, 5)), frame((0, 1, 0), (3, 4, 5)),
               frame(Z, (9, 9, 9))]  # fmt: skip
     with digits():
@@ -92,7 +92,7 @@ def test_a_chain_is_settled_where_last_digits_differ_alone():
     rows = [screw.revolute([0.6, 0, 0.8], [0.3, 0, 0]), screw.revolute([0, 0.6, 0.8], [0.5, 0, 0])]
     T = np.eye(4)
     T[:3, 3] = 0.3, 0.7, 20.0
-    chain = Chain(rows, T)
+    chain = Chain.from_space(rows, T)
     size = 16 * UNIT * chain.reach
     assert chain.reach > 20
 
@@ -115,19 +115,19 @@ def test_a_chain_is_not_settled_where_a_zero_or_a_one_is_missed_by_its_last_digi
         T[0, 3] = number + off
         other = T.copy()
         other[0, 3] = number
-        chain = Chain([S], T)
+        chain = Chain.from_space([S], T)
         assert _settled(chain, chain.screws, T)
         assert not _settled(chain, chain.screws, other)
     S = screw.prismatic([0.6, 0, 0.8])
-    assert Chain([S], np.eye(4)).idealised(TOL).chain.screws[0].tolist() == S.tolist()
+    assert Chain.from_space([S], np.eye(4)).idealised(TOL).chain.screws[0].tolist() == S.tolist()
 
 
 def test_a_chain_is_not_settled_where_axes_are_not_parallel_to_the_last_bit():
     old = [screw.revolute([0.6, 0, 0.8], [0, 0, 0]), screw.revolute([-0.6, 0, -0.8], [1, 0, 0])]
-    chain = Chain(old, np.eye(4))
+    chain = Chain.from_space(old, np.eye(4))
     assert _settled(chain, chain.screws, chain.home)
     for bit in (2**-52, -(2**-52)):
-        apart = Chain([old[0], old[1] + [0, 0, bit, 0, 0, 0]], np.eye(4))
+        apart = Chain.from_space([old[0], old[1] + [0, 0, bit, 0, 0, 0]], np.eye(4))
         assert not _settled(apart, chain.screws, chain.home)
         assert _settled(
             chain, apart.screws, chain.home
@@ -145,7 +145,7 @@ def test_a_chain_in_which_nothing_is_put_right_stays_the_very_same():
     # Its direction is a digit short of 1, which is more than the exact walk leaves: that is no
     # reason to change it.
     S = np.array([1e-9, 0, 1 - 2**-53, 0, 0, 0])
-    chain = Chain([S], np.eye(4))
+    chain = Chain.from_space([S], np.eye(4))
     assert chain.idealised(1e-12).chain is chain
     with digits():
         assert not Walk(chain, 1e-12).snapped
@@ -158,4 +158,4 @@ def test_a_chain_in_which_nothing_is_put_right_stays_the_very_same():
     ids=lambda x: f"{type(x).__name__} {x}",
 )
 def test_a_tolerance_up_to_the_largest_is_taken(tol):
-    assert Chain([screw.revolute(Z, [0, 0, 0])], np.eye(4)).idealised(tol).changes == ()
+    assert Chain.from_space([screw.revolute(Z, [0, 0, 0])], np.eye(4)).idealised(tol).changes == ()

@@ -65,7 +65,7 @@ def test_joints_turn_and_slide_by_their_kind():
         screw.prismatic([0, 1, 0]),
         screw.helical([1, 0, 0], [0, 0, 2], -0.3),
     ]
-    chain = Chain(rows, se3.exp([0, 0, 0, 1, 2, 3]))
+    chain = Chain.from_space(rows, se3.exp([0, 0, 0, 1, 2, 3]))
     assert chain.local.rotates.tolist() == [1, 0, 1]
     assert chain.local.slides.tolist() == [0, 1, -0.3]
     assert not any(part.flags.writeable for part in chain.local)
@@ -75,7 +75,7 @@ def test_joints_turn_and_slide_by_their_kind():
     "C, c", [(None, 0.0), (None, 0.5), ([[1.0], [2.0]], 0.0), ([[1.0], [2.0]], 0.5)]
 )
 def test_the_table_of_the_kernels_has_a_row_a_link_and_columns_for_what_is_needed(C, c):
-    chain = Chain(
+    chain = Chain.from_space(
         [screw.revolute(Z, [1, 0, 0]), screw.helical([1, 0, 0], [0, 0, 2], -0.3)],
         np.diag([-1, -1, 1, 1]),
     )

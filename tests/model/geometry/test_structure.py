@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from decimal import Decimal
+from typing import Any
 
 import numpy as np
 import pytest
@@ -52,13 +53,16 @@ SECOND = {
 }
 LAST = turn([0.2, -1, 0.4], [0.2, 0.8, 0.3])
 CHAINS = {
-    **{name: pk.Chain([turn(UP), second, LAST], HOME) for name, second in SECOND.items()},
-    **{f"{name}, after a slide": pk.Chain([slide([0.2, 0.1, 1]), second], HOME) for name, second in SECOND.items()},
-    "coupled": pk.Chain(
+    **{name: pk.Chain.from_space([turn(UP), second, LAST], HOME) for name, second in SECOND.items()},
+    **{
+        f"{name}, after a slide": pk.Chain.from_space([slide([0.2, 0.1, 1]), second], HOME)
+        for name, second in SECOND.items()
+    },
+    "coupled": pk.Chain.from_space(
         np.array([turn(UP), SECOND["oblique"], LAST]), HOME, coupling=[[1, 0], [-0.5, 2], [0, 1]],
         offset=[0.1, math.pi / 2, -0.3],
     ),
-    "no joint": pk.Chain(np.empty((0, 6)), HOME),
+    "no joint": pk.Chain.from_space(np.empty((0, 6)), HOME),
     **{name: pk.load(name).chain(tip={"panda": "panda_hand"}.get(name)) for name in ("panda", "puma560", "stanford")},
 }  # fmt: skip
 
@@ -123,7 +127,8 @@ def test_what_is_parallel_perpendicular_or_meets_is_exactly_so(
 ])  # fmt: skip
 def test_a_nominal_arm_s_jacobian_costs_no_more_than_its_structure_lets_it(name, hybrid, middle):
     fast = pk.load(name).chain(tip={"panda": "panda_hand", "ur5e": "tool0"}.get(name)).compile()
-    for frame, most in (("hybrid", hybrid), ("cheapest", middle)):
+    frames: list[tuple[Any, Any]] = [("hybrid", hybrid), ("cheapest", middle)]
+    for frame, most in frames:
         count = fast.program(frame).count
         assert (np.array([count.multiplications, count.additions, count.sines]) <= most).all()
 
@@ -157,7 +162,7 @@ def test_a_pose_is_seen_from_the_frame_of_each_joint():
 
 def chain_of_three():
     rows = np.random.default_rng(4).normal(size=(3, 2, 3))
-    return pk.Chain([pk.screw.revolute(z, p) for z, p in rows], np.eye(4))
+    return pk.Chain.from_space([pk.screw.revolute(z, p) for z, p in rows], np.eye(4))
 
 
 @pytest.mark.parametrize("tilt, slanted", [(0.09, False), (0.11, True)])
@@ -170,7 +175,7 @@ def test_links_follow_common_normals_but_between_nearly_parallel_axes(tilt, slan
         (z, [0.5, 0, 2.0]),
         (-z, np.array([0.5, 0, 2.0]) + 0.25 * np.array([1, 0, 0])),
     ]
-    found = structure(pk.Chain([pk.screw.revolute(*row) for row in rows], np.eye(4)))
+    found = structure(pk.Chain.from_space([pk.screw.revolute(*row) for row in rows], np.eye(4)))
     assert found.links[0] == (0, 1, 0, 0)
     sine, cosine, across, aside = found.links[1]
     assert sine == pytest.approx(np.sin(tilt))

@@ -22,12 +22,16 @@ FEW = settings(max_examples=max(settings().max_examples // 2, 20))
 
 def turn(axis, angle):
     """An arm of one joint about an axis, its tool on it turned by an angle."""
-    return pk.Chain([[*axis, 0, 0, 0]], pk.se3.exp([*(angle * np.array(axis, float)), 0, 0, 0]))
+    return pk.Chain.from_space(
+        [[*axis, 0, 0, 0]], pk.se3.exp([*(angle * np.array(axis, float)), 0, 0, 0])
+    )
 
 
 def wrist(pitch):
     """Three joints that are roll, pitch and yaw themselves, and its configuration with that pitch."""
-    arm = pk.Chain([[0, 0, 1, 0, 0, 0], [0, 1, 0, 0, 0, 0], [1, 0, 0, 0, 0, 0]], np.eye(4))
+    arm = pk.Chain.from_space(
+        [[0, 0, 1, 0, 0, 0], [0, 1, 0, 0, 0, 0], [1, 0, 0, 0, 0, 0]], np.eye(4)
+    )
     return arm, np.array([0.3, pitch, -0.7])
 
 
@@ -197,7 +201,7 @@ def test_batches_have_their_shapes_and_nan_stays_where_it_is(kind):
 def test_a_kind_that_is_none_is_refused(kind):
     with pytest.raises(
         InputError,
-        match=r"^kind: expected one of 'rotation_vector', 'quaternion_wxyz', 'rpy', got ",
+        match=r"^kind: expected 'rotation_vector', 'quaternion_wxyz' or 'rpy', got ",
     ):
         wrist(0.1)[0].analytic_jacobian([0.0] * 3, kind)
 

@@ -17,7 +17,7 @@ import poekin as pk
 from poekin.errors import InputError, PoekinError, ShapeError, UnknownName
 from poekin.model import screw
 from poekin.model.geometry.structure import structure
-from poekin.model.kinematics import compiled
+from poekin.model.kinematics import compiled, programs
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.laws import chain_bounds
 from poekin.testing.laws.chain_laws import CHAIN_LAWS
@@ -101,7 +101,7 @@ NEAR = near(ARM, np.abs(ARM.limits).max(axis=1)[None])[0] * ARM.reach
     "tool", [[2.2e-16] * 3 + [0] * 3, [9.9e-16] * 3 + [0] * 3, [3e-16] * 6], ids=str
 )
 def test_a_chain_without_joints_is_its_tool(tool):
-    chain = pk.Chain(np.empty((0, 6)), pk.se3.exp(tool))
+    chain = pk.Chain.from_space(np.empty((0, 6)), pk.se3.exp(tool))
     np.testing.assert_allclose(chain.compile().fk([]), chain.home, rtol=0, atol=2 * UNIT)
 
 
@@ -115,7 +115,7 @@ def test_what_is_taken_for_a_right_angle_is_within_the_bound():
             @ pk.se3.exp([0, 0, lean, 0, 0, 0])
             @ pk.se3.exp([lean + (i % 2) * np.pi / 2, 0, 0, lean, lean, lean])
         )
-    chain = pk.Chain(A, home)
+    chain = pk.Chain.from_space(A, home)
     q = np.random.default_rng(0).uniform(-3, 3, (20, 6))
     assert apart(chain, q, NAMED).max() <= 1
 
@@ -161,7 +161,7 @@ def test_nearly_parallel_axes_do_not_blow_up(tilts, sign, seed):
         axis = z + tilt * rng.normal(size=3)
         axes.append(screw.revolute(sign * axis / np.linalg.norm(axis), rng.normal(size=3)))
         sign = -sign if rng.random() < 0.5 else sign
-    chain = pk.Chain(axes, pk.se3.exp(rng.normal(size=6)))
+    chain = pk.Chain.from_space(axes, pk.se3.exp(rng.normal(size=6)))
     arm = structure(chain)
     lengths = [*(x for link in arm.links for x in link[2:]), *arm.alongs]
     assert np.abs(lengths).max() <= chain.reach * (1 + LONGER)
@@ -419,7 +419,7 @@ def test_parallel_is_a_truth_value(parallel):
 
 
 def test_a_chain_without_joints_compiles():
-    chain = pk.Chain(np.empty((0, 6)), pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3]))
+    chain = pk.Chain.from_space(np.empty((0, 6)), pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3]))
     fast = chain.compile()
     np.testing.assert_allclose(
         fast.fk(np.empty((3, 0))), chain.fk(np.empty((3, 0))), rtol=0, atol=2 * UNIT
@@ -433,7 +433,7 @@ def test_joints_that_follow_and_slide_and_turn_backwards():
     z = [0.0, 0.0, 1.0]
     joints = [screw.revolute(z, [0, 0, 0]), screw.revolute([0, 0, -1], [1, 0, 0]), screw.prismatic(z),
               screw.helical([0, 1, 0], [0, 0, 1], 0.2)]  # fmt: skip
-    chain = pk.Chain(joints, pk.se3.exp([0, 0, 0, 1, 1, 1]), coupling=[[1, 0], [-0.5, 0], [0, 1], [2, 0]],
+    chain = pk.Chain.from_space(joints, pk.se3.exp([0, 0, 0, 1, 1, 1]), coupling=[[1, 0], [-0.5, 0], [0, 1], [2, 0]],
                      offset=[0, 0.3, 0.1, 0], q_names=["a", "b"])  # fmt: skip
     q = np.random.default_rng(0).normal(size=(50, 2))
     assert apart(chain, q, (*NAMED, 0, 1, 2, 3)).max() <= 1
@@ -473,8 +473,8 @@ def test_the_code_that_is_kept_is_that_of_the_arm_s_structure(monkeypatch, tmp_p
     chain = pk.load("puma560").chain()
     before = chain.compile().fk(chain.random(0))
     longer = replace(structure(chain), tool=(*structure(chain).tool[:9], 1.0, 2.0, 3.0))
-    monkeypatch.setattr(compiled, "structure", lambda chain: longer)
-    again = type(chain)(
+    monkeypatch.setattr(programs, "structure", lambda chain: longer)
+    again = type(chain).from_space(
         chain.screws, chain.home, joint_names=chain.joint_names, limits=chain.limits
     )
     assert np.abs(again.compile().fk(chain.random(0)) - before).max() > 1.0

@@ -73,7 +73,7 @@ def crane() -> pk.Chain:
         [0.8, 0, 0.6, 0.6, 1.0, -0.8],
     ]
     home = pk.se3.exp([0.3, -0.4, 0.9, 0.5, 0.2, -0.7])
-    return pk.Chain(
+    return pk.Chain.from_space(
         A,
         home,
         q_names=["a", "b", "c"],
@@ -101,14 +101,14 @@ def classical_for_spatial(chain, q, dq, ddq, frame):
     return A + np.concatenate([np.zeros(3), np.cross(V[:3], V[3:])]) if frame == "body" else A
 
 
-def by_body(chain, q, by="motion"):
-    motion = chain.screw_derivatives(q, by)
+def by_body(chain, q, wrt="twist"):
+    motion = chain.screw_derivatives(q, wrt)
     return PoseChanges(motion.screws, pk.se3.adjoint(pk.se3.inverse(chain.fk(q))) @ motion.home)
 
 
-def tail_of_screws(chain, q, by="motion"):
+def tail_of_screws(chain, q, wrt="twist"):
     """Only the joint's own exponential moves, not what carries it back: Ad(P_{i-1})."""
-    motion = chain.screw_derivatives(q, by)
+    motion = chain.screw_derivatives(q, wrt)
     return PoseChanges(0.999999999 * motion.screws, motion.home)
 
 
@@ -167,7 +167,7 @@ def test_nan_in_one_configuration_stays_there():
 
 
 def test_the_acceleration_on_a_circle_points_to_its_centre():
-    arm = pk.Chain([[0, 0, 1, 0, 0, 0]], pk.se3.exp([0, 0, 0, 2.0, 0, 0]))
+    arm = pk.Chain.from_space([[0, 0, 1, 0, 0, 0]], pk.se3.exp([0, 0, 0, 2.0, 0, 0]))
     np.testing.assert_allclose(
         arm.acceleration([0.0], [3.0], [0.0], "hybrid"), [0, 0, 0, -18, 0, 0], rtol=0, atol=1e-14
     )
@@ -197,5 +197,5 @@ def test_what_does_not_fit_is_said_with_its_name():
         arm.acceleration(np.zeros((2, 3)), np.zeros((4, 3)), np.zeros(3), "body")
     with pytest.raises(UnknownName, match=r"no coordinate 'd'"):
         arm.hessian({"a": 0, "b": 0, "d": 0}, "body")
-    with pytest.raises(InputError, match=r"^by: expected 'motion' or 'entries', got 'eta'"):
-        arm.screw_derivatives(np.zeros(3), by="eta")
+    with pytest.raises(InputError, match=r"^wrt: expected 'twist' or 'components', got 'eta'"):
+        arm.screw_derivatives(np.zeros(3), wrt="eta")  # type: ignore[arg-type]

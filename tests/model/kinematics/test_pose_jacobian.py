@@ -64,7 +64,10 @@ def test_a_bad_point_is_named(at):
 
 def test_comparing_coupled_and_uncoupled_chains_is_no_error():
     A = [[0, 0, 1, 0, 0, 0], [0, 1, 0, 0, 0, 0]]
-    plain, coupled = pk.Chain(A, np.eye(4)), pk.Chain(A, np.eye(4), coupling=2 * np.eye(2))
+    plain, coupled = (
+        pk.Chain.from_space(A, np.eye(4)),
+        pk.Chain.from_space(A, np.eye(4), coupling=2 * np.eye(2)),
+    )
     assert plain != coupled
     assert coupled != plain
     assert coupled.q_names == ("q1", "q2")
@@ -77,7 +80,7 @@ def test_the_arrays_of_a_chain_cannot_be_made_writable_again():
 
 
 def test_a_small_pitch_is_kept():
-    chain = pk.Chain([pk.screw.helical([0, 0, 1], [0, 0, 0], 5e-14)], np.eye(4))
+    chain = pk.Chain.from_space([pk.screw.helical([0, 0, 1], [0, 0, 0], 5e-14)], np.eye(4))
     assert chain.kinds == ("helical",)
     assert chain.fk([3.0])[2, 3] == pytest.approx(1.5e-13, rel=1e-9)
 
@@ -104,7 +107,7 @@ def test_no_joint_of_a_real_robot_looks_helical():
 @pytest.mark.parametrize("kind", ["f4", ">f8", "g", "i8", "i1"])
 @pytest.mark.parametrize("coupled", [False, True])
 def test_numbers_of_any_kind_are_taken_for_what_they_are(kind, coupled):
-    chain = pk.Chain(
+    chain = pk.Chain.from_space(
         ARM.screws[:3], np.eye(4), coupling=[[1.0, 0, 0], [0, 2, 0], [1, 0, 1]] if coupled else None
     )
     q = np.array([2, -1, 3])

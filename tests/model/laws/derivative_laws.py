@@ -117,7 +117,7 @@ def screw_derivatives_are_differences_on_the_group(
     """df f⁻¹ and dJ under A_i ← Ad(e^η) A_i and M ← M e^η, and df f⁻¹ under A_i ← A_i + dA."""
     truth = exact_chain.screw_changes(chain, q, joint)
     motion = chain.screw_derivatives(q)
-    entries = chain.screw_derivatives(q, by="entries")
+    entries = chain.screw_derivatives(q, wrt="components")
     angular, linear = budget(chain, q)
     reach = 1 + linear / angular
     x = float(chain.coupling[joint] @ q + chain.offset[joint])
@@ -158,9 +158,9 @@ def derivatives_of_batches_are_those_of_single_configurations(
             (lambda q, f=frame: chain.jacobian_screw_derivatives(q, f).screws, (6, m, n, 6)),
             (lambda q, f=frame: chain.jacobian_screw_derivatives(q, f).home, (6, m, 6)),
         ]
-    for by in ("motion", "entries"):
-        functions.append((lambda q, by=by: chain.screw_derivatives(q, by).screws, (6, n, 6)))
-        functions.append((lambda q, by=by: chain.screw_derivatives(q, by).home, (6, 6)))
+    for wrt in ("twist", "components"):
+        functions.append((lambda q, wrt=wrt: chain.screw_derivatives(q, wrt).screws, (6, n, 6)))
+        functions.append((lambda q, wrt=wrt: chain.screw_derivatives(q, wrt).home, (6, 6)))
     # Products of matrices may be summed in another order in a batch.
     return check_batch(
         "derivatives of batches are those of single configurations",

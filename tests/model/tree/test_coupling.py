@@ -4,6 +4,8 @@ made by hand.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -14,7 +16,7 @@ from poekin.model.tree.coupling import Coupling, coupling_of, shared_limits
 INF = np.inf
 
 
-def joint(name, kind="revolute", mimic=None):
+def joint(name, kind: Any = "revolute", mimic=None):
     return Joint(name, kind, "a", "b", mimic=mimic)
 
 

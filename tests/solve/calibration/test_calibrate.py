@@ -55,7 +55,7 @@ def test_exact_poses_give_the_exact_arm(letters, seed):
         "P": lambda: pk.screw.prismatic(rng.normal(size=3)),
         "H": lambda: pk.screw.helical(rng.normal(size=3), rng.uniform(-1, 1, 3), 0.1),
     }
-    arm = pk.Chain([make[letter]() for letter in letters], se3.exp(rng.normal(size=6)))
+    arm = pk.Chain.from_space([make[letter]() for letter in letters], se3.exp(rng.normal(size=6)))
     true = moved(arm, seed)
     q = rng.uniform(-2, 2, (30, arm.dof))
     found = calibrate(arm, q, true.fk(q), folds=0)
@@ -77,7 +77,7 @@ def test_a_tilted_axis_is_found_in_five_steps_to_1e_12_m(tilt):
     turn = tilt * across
     A = arm.screws.copy()
     A[2] = se3.adjoint(se3.exp([*turn, *np.cross(point, turn)])) @ A[2]
-    true = pk.Chain(A, arm.home)
+    true = pk.Chain.from_space(A, arm.home)
     q = arm.random(0, 40)
     found = calibrate(arm, q, true.fk(q), folds=0, max_iterations=5)
     np.testing.assert_allclose(found.chain.fk(FRESH), true.fk(FRESH), rtol=0, atol=1e-12)
@@ -407,7 +407,7 @@ def test_progress_counts_the_folds():
 
 @pytest.mark.parametrize("folds", [0, 4])
 def test_an_arm_without_joints_has_its_constant_pose_calibrated(folds):
-    fixed, rng = pk.Chain(np.empty((0, 6)), np.eye(4)), np.random.default_rng(0)
+    fixed, rng = pk.Chain.from_space(np.empty((0, 6)), np.eye(4)), np.random.default_rng(0)
     home, q = se3.exp([0.01, 0.02, -0.01, 0.04, 0.02, 0.03]), np.empty((12, 0))
     T = home @ se3.exp(1e-4 * rng.normal(size=(12, 6)))
     found = calibrate(fixed, q, T, folds=folds)

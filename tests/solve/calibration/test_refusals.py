@@ -24,7 +24,7 @@ TRUE = ErrorModel(PUMA, ("screws", "home"), None).chain(
 Q = PUMA.random(0, 40)
 T = TRUE.fk(Q)
 X, Z = se3.exp([0.3, -0.5, 0.2, 1.0, 0.4, -0.3]), se3.exp([-0.1, 0.2, 1.4, 0.05, -0.08, 0.1])
-GANTRY = pk.Chain(
+GANTRY = pk.Chain.from_space(
     [pk.screw.prismatic([1, 0, 0]), pk.screw.prismatic([0, 1, 0]), pk.screw.prismatic([0, 0, 1])],
     se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
 )
@@ -210,7 +210,7 @@ def test_units_are_looked_at_from_a_tenth_of_the_reach_or_four_turns_on(away, to
         assert bool(tried) == looked
 
 
-MIXED = pk.Chain(
+MIXED = pk.Chain.from_space(
     [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([0, 0, 1])], np.eye(4)
 )
 LIKE = {

@@ -21,7 +21,7 @@ def test_limits_between_which_nothing_stops_the_arm_are_named_by_the_solution_be
     z, x, origin = np.array([0, 0, 1.0]), np.array([1.0, 0, 0]), np.zeros(3)
     axes = [screw.revolute(z, origin), screw.prismatic(z), screw.revolute(x, origin)]
     names, limits = ["turn", "lift", "roll"], [[-1.5, 1.5], [-1, 1], [-np.inf, np.inf]]
-    arm = pk.Chain(axes, pk.se3.exp([*origin, *x]), limits=limits, joint_names=names)
+    arm = pk.Chain.from_space(axes, pk.se3.exp([*origin, *x]), limits=limits, joint_names=names)
     q0 = [0.0, 0.5, 0.2]
     found = ik(arm, arm.fk([np.pi, 0.5, 0.2]), task="position", q0=q0, restarts=0)
     assert found.reason == "limits"
@@ -36,7 +36,7 @@ def line(*, coupling, offset, limits):
     axes = [screw.revolute([0, 1.0, 0], [0, 0, 1]), screw.prismatic([1.0, 0, 0])]
     home = np.eye(4)
     home[:3, 3] = 0.75, 0, 1
-    return pk.Chain(axes, home, coupling=coupling, offset=offset, limits=limits)
+    return pk.Chain.from_space(axes, home, coupling=coupling, offset=offset, limits=limits)
 
 
 def lengths(chain):
@@ -73,7 +73,9 @@ def test_the_reach_is_that_of_links_and_slides_within_their_limits(
         == 0
     ).all()
     assert (
-        diagnosis.distance_beyond_reach(pk.Chain([], np.eye(4)), task, targets, np.empty((0, 2)))
+        diagnosis.distance_beyond_reach(
+            pk.Chain.from_space([], np.eye(4)), task, targets, np.empty((0, 2))
+        )
         == 0
     ).all()
 

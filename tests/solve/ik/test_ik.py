@@ -145,7 +145,7 @@ def test_no_pose_of_the_arm_is_beyond_its_reach(name):
 
 def test_the_reach_of_a_slide_begins_at_its_offset():
     axes = [screw.prismatic(axis) for axis in np.eye(3)]
-    gantry = pk.Chain(axes, np.eye(4), offset=[5.0, 0.0, -3.0], limits=[[-1, 1]] * 3)
+    gantry = pk.Chain.from_space(axes, np.eye(4), offset=[5.0, 0.0, -3.0], limits=[[-1, 1]] * 3)
     T = gantry.fk(gantry.random(0, 50))
     assert (
         ik(gantry, T, task="position", restarts=0, iterations=1).distance_beyond_reach == 0
@@ -163,7 +163,9 @@ def test_the_reach_of_a_slide_begins_at_its_offset():
 def test_limits_that_are_in_the_way_are_named():
     q = np.array([0.3, -0.5, 0.2, -1.5, 0.4, 1.0, 0.1])
     limits = np.stack([q - 0.2, q + 0.2], axis=1)
-    arm = pk.Chain(PANDA.screws, PANDA.home, limits=limits, joint_names=PANDA.joint_names)
+    arm = pk.Chain.from_space(
+        PANDA.screws, PANDA.home, limits=limits, joint_names=PANDA.joint_names
+    )
     q_far = q.copy()
     q_far[3] -= 1.0
     found = ik(arm, PANDA.fk(q_far))
@@ -177,7 +179,7 @@ def test_limits_that_are_in_the_way_are_named():
 
 
 def test_who_says_limits_names_them():
-    tight = pk.Chain(
+    tight = pk.Chain.from_space(
         UR5.screws, UR5.home, limits=np.tile([-1.5, 1.0], (6, 1)), joint_names=UR5.joint_names
     )
     found = ik(tight, UR5.fk(UR5.random(1, 200)), restarts=3)
@@ -258,7 +260,7 @@ def test_locked_coordinates_stay():
     with pytest.raises(InputError, match="a coordinate that may move, the chain has all of them"):
         ik(PANDA, PANDA.fk(q), lock=dict.fromkeys(PANDA.q_names, 0.0) | {"panda_joint4": -1.0})
     with pytest.raises(InputError, match="a coordinate that may move, the chain has none"):
-        ik(pk.Chain([], np.eye(4)), np.eye(4))
+        ik(pk.Chain.from_space([], np.eye(4)), np.eye(4))
     with pytest.raises(UnknownName, match="no coordinate 'joint3'; did you mean"):
         ik(PANDA, PANDA.fk(q), lock={"joint3": 0.25})
     with pytest.raises(InputError, match="'panda_joint3': expected a number within"):
@@ -309,7 +311,7 @@ def test_coupled_and_helical_and_sliding_joints_are_solved():
               screw.revolute([1, 0, 0], [0, 0.1, 0.6]), screw.revolute([0, 1, 0], [0.6, 0, 0.6])]  # fmt: skip
     C = np.eye(7)[:, :6]
     C[6, 3] = -0.5
-    chain = pk.Chain(joints, pk.se3.exp([0.1, 0.2, 0.3, 0.5, 0, 0.8]), coupling=C, q_names=list("abcdef"),
+    chain = pk.Chain.from_space(joints, pk.se3.exp([0.1, 0.2, 0.3, 0.5, 0, 0.8]), coupling=C, q_names=list("abcdef"),
                      limits=[[-2, 2], [-0.5, 0.5], [-2, 2], [-2, 2], [-2, 2], [-2, 2]])  # fmt: skip
     T = chain.fk(chain.random(rng, 200))
     found = ik(chain, T)
@@ -322,7 +324,7 @@ def test_coupled_and_helical_and_sliding_joints_are_solved():
 
 
 def test_coordinates_without_limits_come_within_a_turn():
-    arm = pk.Chain(PUMA.screws, PUMA.home)
+    arm = pk.Chain.from_space(PUMA.screws, PUMA.home)
     found = ik(arm, arm.fk(arm.random(0, 200)))
     assert np.abs(found.q).max() <= np.pi + 1e-12
 
@@ -377,7 +379,9 @@ def upright(n):
     """n joints with vertical axes, 0.2 m apart: the tool's z axis is up for good."""
     home = np.eye(4)
     home[0, 3] = 0.2 * n
-    return pk.Chain([screw.revolute([0.0, 0.0, 1.0], [0.2 * k, 0, 0]) for k in range(n)], home)
+    return pk.Chain.from_space(
+        [screw.revolute([0.0, 0.0, 1.0], [0.2 * k, 0, 0]) for k in range(n)], home
+    )
 
 
 def test_a_tool_that_points_the_opposite_way_is_not_taken_for_solved():
@@ -464,7 +468,7 @@ def test_an_arm_of_few_joints_improves_the_manipulability_of_its_position():
         screw.revolute([0.0, 0.0, 1.0], [0, 0, 0]),
         *(screw.revolute(y, [x, 0, 0]) for x in (0, 0.4, 0.8)),
     ]
-    arm = pk.Chain(axes, pk.se3.exp([0, 0, 0, 1.2, 0, 0]))
+    arm = pk.Chain.from_space(axes, pk.se3.exp([0, 0, 0, 1.2, 0, 0]))
     q0 = arm.random(2, 50)
     T = arm.fk(arm.random(1, 50))
     plain, served = (
@@ -502,7 +506,7 @@ def test_a_bad_nearest_to_is_named_and_q0_beside_it_is_looked_at():
 
 
 def test_nearest_to_is_measured_from_where_it_is_said_outside_the_limits_too():
-    arm = pk.Chain(UR5.screws, UR5.home, limits=[[-1.5, 4.5]] * 6)
+    arm = pk.Chain.from_space(UR5.screws, UR5.home, limits=[[-1.5, 4.5]] * 6)
     T, near = arm.fk(arm.random(5, 60)), np.full(6, -2.0)
     found, every = (
         ik(arm, T, nearest_to=near),
@@ -532,7 +536,7 @@ def test_turns_are_taken_off_to_the_nearest_place_within_the_limits():
     np.testing.assert_allclose(
         room.wrapped(np.full((1, 6), -6.0), np.full((1, 6), 6.0)), 2 * np.pi - 6, rtol=0, atol=1e-14
     )
-    arm = pk.Chain(UR5.screws, UR5.home, limits=[[-np.pi, 3.0]] * 6)
+    arm = pk.Chain.from_space(UR5.screws, UR5.home, limits=[[-np.pi, 3.0]] * 6)
     narrow = make_joint_domain(joint_units(arm.compile()), None, True)
     np.testing.assert_allclose(
         narrow.wrapped(np.full((1, 6), 10.0), np.full((1, 6), 3.0)),
@@ -552,12 +556,12 @@ def test_a_locked_coordinate_is_not_said_to_be_in_the_way():
 
 
 def test_a_long_way_to_slide_is_gone():
-    gantry = pk.Chain([screw.prismatic(axis) for axis in np.eye(3)], np.eye(4))
+    gantry = pk.Chain.from_space([screw.prismatic(axis) for axis in np.eye(3)], np.eye(4))
     far = [500.0, -300.0, 1000.0]
     np.testing.assert_allclose(
         ik(gantry, gantry.fk(far), task="position").q, far, rtol=0, atol=1e-9
     )
-    rail = pk.Chain(
+    rail = pk.Chain.from_space(
         np.vstack([screw.prismatic([1, 0, 0]), UR5.screws]),
         UR5.home,
         limits=[[0, 1000], *UR5.limits],
@@ -592,7 +596,7 @@ def test_long_arms_with_joints_to_spare_give_numbers(size, seed):
     ]
     home = np.eye(4)
     home[:3, 3] = size * rng.integers(-2, 3, 3)
-    arm = pk.Chain(axes, home, limits=np.tile([-1.0, 1.0], (n, 1)))
+    arm = pk.Chain.from_space(axes, home, limits=np.tile([-1.0, 1.0], (n, 1)))
     T = arm.fk(arm.random(rng, 30))
     found = ik(arm, T, restarts=1)
     assert np.isfinite(found.q).all()
@@ -649,7 +653,7 @@ def test_an_interrupt_is_seen_between_some_of_many_targets(parallel, monkeypatch
 
 @pytest.mark.parametrize("scale", [1.0, 100.0])
 def test_the_nearest_solution_of_an_arm_without_limits_is_turns_away_from_zero(scale):
-    arm = pk.Chain(
+    arm = pk.Chain.from_space(
         UR5.screws,
         UR5.home,
         coupling=None if scale == 1 else np.eye(6) / scale,

@@ -33,26 +33,28 @@ def home(*p):
 def planar(lengths):
     """Arm of parallel axes with these links along x."""
     ends = np.cumsum([0, *lengths])
-    return pk.Chain(revolutes(*ends[:-1]), home(ends[-1], 0, 0))
+    return pk.Chain.from_space(revolutes(*ends[:-1]), home(ends[-1], 0, 0))
 
 
 def scara(a, b):
     axes = [*revolutes(0, a, a + b), screw.prismatic(-Z)]
     limits = [[-3, 3], [-2.5, 2.5], [-6, 6], [0, 0.5]]
-    return pk.Chain(axes, home(a + b, 0, 0.2), limits=limits)
+    return pk.Chain.from_space(axes, home(a + b, 0, 0.2), limits=limits)
 
 
 def rrp(a, b):
     axes = [screw.revolute(Z, [0, 0, 0]), screw.revolute([0, 1, 0], [0, 0, a])]
     limits = [[-3, 3], [-1.4, 1.4], [0.1, 1]]
-    return pk.Chain([*axes, screw.prismatic([1, 0, 0])], home(b, 0, a), limits=limits)
+    return pk.Chain.from_space([*axes, screw.prismatic([1, 0, 0])], home(b, 0, a), limits=limits)
 
 
 def five(a, b):
     points = [[0, 0, 0.3], [a, 0, 0.3], [a + b, 0, 0.3]]
     axes = [screw.revolute([0, 1, 0], p) for p in points]
     roll = screw.revolute([1, 0, 0], points[2])
-    return pk.Chain([screw.revolute(Z, [0, 0, 0]), *axes, roll], home(a + b + 0.1, 0, 0.3))
+    return pk.Chain.from_space(
+        [screw.revolute(Z, [0, 0, 0]), *axes, roll], home(a + b + 0.1, 0, 0.3)
+    )
 
 
 MAKERS = {

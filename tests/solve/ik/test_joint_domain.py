@@ -18,7 +18,9 @@ AXES = [screw.revolute([0, 0, 1.0], [x, 0, 0]) for x in (0, 0.4)]
 
 def room(coupling=None, limits=None) -> JointDomain:
     return make_joint_domain(
-        joint_units(pk.Chain(AXES, np.eye(4), coupling=coupling, limits=limits).compile()),
+        joint_units(
+            pk.Chain.from_space(AXES, np.eye(4), coupling=coupling, limits=limits).compile()
+        ),
         None,
         True,
     )
@@ -46,7 +48,7 @@ def test_a_turn_that_rounding_would_take_beyond_a_limit_is_not_taken():
 
 
 def test_a_domain_has_what_its_limits_and_locks_say_in_joint_units():
-    units = joint_units(pk.Chain(AXES, np.eye(4), coupling=[[0.5, 0], [0, -2.0]], q_names=["a", "b"],
+    units = joint_units(pk.Chain.from_space(AXES, np.eye(4), coupling=[[0.5, 0], [0, -2.0]], q_names=["a", "b"],
                                  limits=[[-2, 4], [-np.inf, np.inf]]).compile())  # fmt: skip
     found = make_joint_domain(units, (("a", 3.0),), True)
     np.testing.assert_array_equal(found.limits, [[-1, 2], [-np.inf, np.inf]])
@@ -69,11 +71,13 @@ def test_a_domain_has_what_its_limits_and_locks_say_in_joint_units():
 
 
 def test_a_slide_without_limits_is_begun_within_a_metre_either_way():
-    slide = joint_units(pk.Chain([AXES[0], screw.prismatic([1.0, 0, 0])], np.eye(4)).compile())
+    slide = joint_units(
+        pk.Chain.from_space([AXES[0], screw.prismatic([1.0, 0, 0])], np.eye(4)).compile()
+    )
     found = make_joint_domain(slide, None, True)
     np.testing.assert_allclose(found.ranges, [[-np.pi, np.pi], [-1, 1]])
     np.testing.assert_allclose(found.periods, [2 * np.pi, 0])
-    alone = joint_units(pk.Chain([screw.prismatic([1.0, 0, 0])], np.eye(4)).compile())
+    alone = joint_units(pk.Chain.from_space([screw.prismatic([1.0, 0, 0])], np.eye(4)).compile())
     assert not make_joint_domain(alone, None, True).has_unbounded_angle
 
 
@@ -86,7 +90,7 @@ def test_a_slide_without_limits_is_begun_within_a_metre_either_way():
     ({"b": "1"}, InputError, "lock: 'b': expected a number within [-1.5, 1.0], got '1'"),
 ])  # fmt: skip
 def test_a_lock_that_is_none_is_told_in_the_user_s_units(lock, error, words):
-    units = joint_units(pk.Chain(AXES, np.eye(4), coupling=[[0.5, 0], [0, -2.0]], q_names=["a", "b"],
+    units = joint_units(pk.Chain.from_space(AXES, np.eye(4), coupling=[[0.5, 0], [0, -2.0]], q_names=["a", "b"],
                                  limits=[[-2, 4], [-1.5, 1]]).compile())  # fmt: skip
     with pytest.raises(error, match=f"^{re.escape(words)}"):
         make_joint_domain(units, tuple(lock.items()), True)
@@ -120,7 +124,9 @@ def test_whole_periods_are_taken_off_towards_zero_or_what_is_near():
 
 def test_the_first_try_is_at_q0_within_the_limits_or_anywhere_and_at_what_is_locked():
     units = joint_units(
-        pk.Chain(AXES, np.eye(4), limits=[[-1, 1], [-2, 2]], joint_names=["a", "b"]).compile()
+        pk.Chain.from_space(
+            AXES, np.eye(4), limits=[[-1, 1], [-2, 2]], joint_names=["a", "b"]
+        ).compile()
     )
     free, locked = (
         make_joint_domain(units, None, True),
@@ -141,7 +147,7 @@ def test_the_first_try_is_at_q0_within_the_limits_or_anywhere_and_at_what_is_loc
 
 
 def test_a_configuration_is_given_for_all_targets_or_for_each():
-    chain = pk.Chain(AXES, np.eye(4), joint_names=["a", "b"])
+    chain = pk.Chain.from_space(AXES, np.eye(4), joint_names=["a", "b"])
     np.testing.assert_array_equal(for_targets(chain, (2, 3), 6, [1, 2], "q0"), [[1, 2]] * 6)
     each = np.arange(12.0).reshape(2, 3, 2)
     np.testing.assert_array_equal(for_targets(chain, (2, 3), 6, each, "q0"), each.reshape(6, 2))

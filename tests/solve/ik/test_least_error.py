@@ -12,7 +12,7 @@ from poekin.solve.ik.ik_problem import Settings, make_problem
 from poekin.solve.ik.least_error import least_error, slope_at
 
 SETTINGS = Settings("pose", None, True, 1e-9, 1e-9, None, None, 100, 30, 0, False)
-ARM = pk.Chain(
+ARM = pk.Chain.from_space(
     [screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1)], se3.exp([0, 0, 0, 1.7, 0, 0])
 ).compile()
 FREE = np.full(2, -np.inf), np.full(2, np.inf)

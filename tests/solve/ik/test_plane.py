@@ -20,7 +20,7 @@ U = np.array([3.0, 6.0, 2.0]) / 7
 
 
 def normal(*axes, lock=(), **options):
-    units = joint_units(pk.Chain(list(axes), np.eye(4), **options).compile())
+    units = joint_units(pk.Chain.from_space(list(axes), np.eye(4), **options).compile())
     return plane_normal(units.fast.chain, make_joint_domain(units, lock, True))
 
 
@@ -91,7 +91,7 @@ def test_a_joint_that_mimics_a_locked_one_does_not_count():
 
 def test_the_normal_is_in_the_base_frame_of_the_arm():
     P = se3.exp([0.4, -0.3, 0.9, 1, 2, 3])
-    arm = pk.Chain([screw.revolute(Z, [0, 0, 0])], np.eye(4)).rebased(P)
+    arm = pk.Chain.from_space([screw.revolute(Z, [0, 0, 0])], np.eye(4)).rebased(P)
     units = joint_units(arm.compile())
     found = plane_normal(units.fast.chain, make_joint_domain(units, (), True))
     np.testing.assert_allclose(found, P[:3, 2], rtol=0, atol=1e-15)

@@ -16,7 +16,7 @@ from poekin.solve.ik_all.closed_form import ClosedForm
 from poekin.solve.ik_all.ik_all_search import Found, accepted, periods, turns_within
 
 Z = [0, 0, 1.0]
-ARM = pk.Chain([screw.revolute(Z, [0, 0, 0]), screw.prismatic(Z), screw.revolute(Z, [1, 0, 0])], np.eye(4),
+ARM = pk.Chain.from_space([screw.revolute(Z, [0, 0, 0]), screw.prismatic(Z), screw.revolute(Z, [1, 0, 0])], np.eye(4),
                limits=[[-4, 8], [-1, 2], [-np.inf, np.inf]])  # fmt: skip
 
 
@@ -125,5 +125,5 @@ def test_whole_turns_that_may_be_added_within_the_limits_are_counted_from_the_fe
 
 @pytest.mark.parametrize("length, bound", [(1.0, 1e-10), (99.0, 1e-10), (1000.0, 1e-9)])
 def test_of_a_long_arm_a_solution_is_as_near_as_its_pose_is_known(length, bound):
-    arm = pk.Chain([screw.revolute(Z, [0, 0, 0])], pk.se3.exp([0, 0, 0, length, 0, 0]))
+    arm = pk.Chain.from_space([screw.revolute(Z, [0, 0, 0])], pk.se3.exp([0, 0, 0, length, 0, 0]))
     assert accepted(arm) == pytest.approx(bound, rel=0.01)

@@ -215,9 +215,11 @@ def test_the_arm_itself_is_asked_of_before_the_one_with_exact_geometry(monkeypat
     assert module.closed_form(ARM) == "of the arm"  # type: ignore[comparison-overlap]
     axes = [screw.revolute([0, 0, 1.0], [x, 0, 0]) for x in range(7)]
     for count in (5, 7):
-        assert module.closed_form(pk.Chain(axes[:count], np.eye(4))) is None
+        assert module.closed_form(pk.Chain.from_space(axes[:count], np.eye(4))) is None
     with pytest.raises(InputError):  # a joint that slides is in the way of any closed form
-        module.closed_form(pk.Chain([*axes[:4], screw.prismatic([0, 0, 1.0])], np.eye(4)))
+        module.closed_form(
+            pk.Chain.from_space([*axes[:4], screw.prismatic([0, 0, 1.0])], np.eye(4))
+        )
     assert len(asked) == 3
 
 

@@ -109,7 +109,7 @@ def test_a_long_arm_has_solutions_as_exact_as_its_poses():
     D = np.diag([1, 1, 1, 1e5, 1e5, 1e5])
     home = chain.home.copy()
     home[:3, 3] *= 1e5
-    long = pk.Chain(chain.screws @ D, home)
+    long = pk.Chain.from_space(chain.screws @ D, home)
     T = long.fk([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
     for method in ("auto", "search"):
         result = ik_all(long, T, method=method)
@@ -190,7 +190,9 @@ def test_an_arm_with_rounded_right_angles_has_a_closed_form_and_its_own_solution
     pytest.importorskip("eaik", reason="needs EAIK")
     whole = arm("ur5")
     tilt = pk.se3.adjoint(pk.se3.exp([2e-7, -3e-7, 0.0, 1e-7, 0.0, 2e-7]))
-    chain = pk.Chain([*whole.screws[:2], tilt @ whole.screws[2], *whole.screws[3:]], whole.home)
+    chain = pk.Chain.from_space(
+        [*whole.screws[:2], tilt @ whole.screws[2], *whole.screws[3:]], whole.home
+    )
     assert closed_form_module.closed_form(chain) is not None
     _, T = targets(chain, 6, 50)
     closed, search = (
@@ -212,7 +214,7 @@ def test_axes_that_are_parallel_but_for_a_rounding_are_solved(joint, tilt):
     first = [[0, 1, 0], turned, [1, 0, 0]] if joint == 0 else [[0, 0, 1], [0, 1, 0], turned]
     wrist = [pk.screw.revolute(z, [0.9, 0, 0.3]) for z in ([1, 0, 0], [0, 1, 0], [1, 0, 0])]
     places = ([0, 0, 0], [0.1, 0, 0.2], [0.5, 0, 0.25])
-    chain = pk.Chain([*map(pk.screw.revolute, first, places), *wrist], home)
+    chain = pk.Chain.from_space([*map(pk.screw.revolute, first, places), *wrist], home)
     q, T = targets(chain, 21, 3)
     found, searched = (ik_all(chain, T, method=method) for method in ("auto", "search"))
     for k in range(3):
@@ -244,7 +246,7 @@ def test_an_arm_that_eaik_turns_round_for_ever_is_searched(cross):
         (z, [0, 0.4, 0]),
         (y, [0, 0.4, 0]),
     ]
-    chain = pk.Chain(
+    chain = pk.Chain.from_space(
         [pk.screw.revolute(*axis) for axis in axes], pk.se3.exp([0.1, 0.2, 0.3, 0.5, 0, 0.8])
     )
     assert not closed_form_module._is_safe(chain.to_hp())
@@ -299,7 +301,9 @@ def test_a_target_that_the_closed_form_gives_up_is_searched(monkeypatch):
 
 def test_limits_are_kept_and_all_places_a_turn_apart_are_counted_or_listed():
     chain = arm("puma560")
-    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-1.5 * np.pi, 2 * np.pi], (6, 1)))
+    wide = pk.Chain.from_space(
+        chain.screws, chain.home, limits=np.tile([-1.5 * np.pi, 2 * np.pi], (6, 1))
+    )
     _, T = targets(wide, 7, 30)
     result, every = ik_all(wide, T), ik_all(wide, T, all_revolutions=True)
     for k in range(len(T)):
@@ -338,7 +342,9 @@ def test_a_solution_at_a_limit_is_within_it():
     chain = arm("ur5")
     q = np.array([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
     below, above = np.array([0, 1, 1, 1, 1, 1]), np.array([1, 0, 1, 1, 1, 1])
-    tight = pk.Chain(chain.screws, chain.home, limits=np.stack([q - below, q + above], axis=1))
+    tight = pk.Chain.from_space(
+        chain.screws, chain.home, limits=np.stack([q - below, q + above], axis=1)
+    )
     result = ik_all(tight, tight.fk(q))
     assert apart(q[None], result.solutions).min() <= 1e-9
     assert (result.solutions >= tight.limits[:, 0]).all()
@@ -392,7 +398,7 @@ def test_a_continuum_does_not_depend_on_the_unit_of_length(method):
     D = np.diag([1, 1, 1, 0.02, 0.02, 0.02])
     home = chain.home.copy()
     home[:3, 3] *= 0.02
-    small = pk.Chain(chain.screws @ D, home)
+    small = pk.Chain.from_space(chain.screws @ D, home)
     right = np.pi / 4
     # two solutions that lie close together, an ordinary pose, and one of a continuum
     q = np.array([[3 * right, right, -4 * right, 2 * right, right, 2 * right],
@@ -426,7 +432,7 @@ def test_an_arm_with_a_slide_is_searched(name):
 @pytest.mark.parametrize("joints", [1, 2, 3, 4, 5])
 def test_an_arm_of_fewer_joints_has_its_solutions_where_it_reaches(joints):
     chain = arm("puma560")
-    short = pk.Chain(chain.screws[:joints], chain.home)
+    short = pk.Chain.from_space(chain.screws[:joints], chain.home)
     q, T = targets(short, 9, 20)
     for method in ("auto", "search"):
         result = ik_all(short, T, method=method)
@@ -569,7 +575,9 @@ def test_options_that_are_none_are_refused(options, message):
 
 def test_more_places_than_anybody_reads_are_refused():
     chain = arm("ur5")
-    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-9 * np.pi, 9 * np.pi], (6, 1)))
+    wide = pk.Chain.from_space(
+        chain.screws, chain.home, limits=np.tile([-9 * np.pi, 9 * np.pi], (6, 1))
+    )
     _, T = targets(wide, 16, 1)
     assert ik_all(wide, T[0]).n_revolutions.min() == 9**6
     places = ik_all(wide, T[0]).n_revolutions.sum()
@@ -588,7 +596,7 @@ def test_more_places_than_anybody_reads_are_refused():
 )
 def test_wide_limits_have_many_places_and_never_less_than_none(bound, places):
     chain = arm("ur5")
-    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-bound, bound], (6, 1)))
+    wide = pk.Chain.from_space(chain.screws, chain.home, limits=np.tile([-bound, bound], (6, 1)))
     q, T = targets(wide, 16, 1)
     result = ik_all(wide, T[0])
     assert apart(q, result.solutions).min() <= 1e-5
@@ -600,7 +608,9 @@ def test_wide_limits_have_many_places_and_never_less_than_none(bound, places):
 
 def test_as_many_places_are_listed_as_are_said_to_be_the_most(monkeypatch):
     chain = arm("ur5")
-    wide = pk.Chain(chain.screws, chain.home, limits=np.tile([-2 * np.pi, 2 * np.pi], (6, 1)))
+    wide = pk.Chain.from_space(
+        chain.screws, chain.home, limits=np.tile([-2 * np.pi, 2 * np.pi], (6, 1))
+    )
     _, T = targets(wide, 16, 1)
     most = int(ik_all(wide, T[0]).n_revolutions.sum())
     monkeypatch.setattr(module, "MOST", most)
@@ -619,7 +629,7 @@ def test_a_solution_so_many_turns_away_that_its_pose_is_lost_is_not_listed(joint
     chain = arm("ur5")
     limits = np.tile([-np.pi, np.pi], (6, 1))
     limits[joint] += 2 * np.pi * turns
-    far = pk.Chain(chain.screws, chain.home, limits=limits)
+    far = pk.Chain.from_space(chain.screws, chain.home, limits=limits)
     T = chain.fk([0.1, -1.0, 1.2, 0.4, 0.9, -0.3])
     result = ik_all(far, T)
     assert result.anywhere == 8
@@ -630,7 +640,7 @@ def test_a_place_that_is_lost_by_so_many_turns_alone_is_not_listed_either():
     # two parallel axes that turn against each other: only the position shows it
     axes = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 0.5)]
     bounds = 2 * np.pi * 1e8 + np.array([[-np.pi, np.pi]])
-    chain = pk.Chain(
+    chain = pk.Chain.from_space(
         axes,
         pk.se3.exp([0, 0, 0, 0.7, 0, 0]),
         coupling=[[1.0], [-1.0]],
@@ -647,7 +657,7 @@ def test_what_is_no_arm_and_what_is_no_pose_is_refused():
     with pytest.raises(InputError, match=r"ik_all: expected a Chain, got 'ur5'"):
         ik_all("ur5", np.eye(4))  # type: ignore[arg-type]
     with pytest.raises(InputError, match=r"the chain has none"):
-        ik_all(pk.Chain(np.empty((0, 6)), np.eye(4)), np.eye(4))
+        ik_all(pk.Chain.from_space(np.empty((0, 6)), np.eye(4)), np.eye(4))
     with pytest.raises(PoseError, match=r"T\[1\] is no pose"):
         ik_all(arm("ur5"), [np.eye(4), 2 * np.eye(4)])
 

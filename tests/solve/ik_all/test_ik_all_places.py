@@ -20,7 +20,7 @@ AXES = [screw.revolute([0, 0, 1.0], [0, 0, 0]), screw.prismatic([0, 0, 1.0])]
 def arm(turn: list[float] | None = None) -> pk.Chain:
     """A joint that turns, within limits or without, and a slide from -0.5 to 1."""
     limits = [[-np.inf, np.inf] if turn is None else turn, [-0.5, 1.0]]
-    return pk.Chain(AXES, pk.se3.exp([0, 0, 0, 0.75, 0, 0]), limits=limits)
+    return pk.Chain.from_space(AXES, pk.se3.exp([0, 0, 0, 0.75, 0, 0]), limits=limits)
 
 
 def found(*q: list[float]) -> Found:

@@ -24,7 +24,7 @@ LIMITS = [[-1.5 * np.pi, 4 * np.pi], [-0.5, 1.0]]
 def arm(reach: float = 0.75) -> pk.Chain:
     """A joint that turns, and a slide 0.5 m away from it."""
     axes = [screw.revolute([0, 0, 1.0], [0, 0, 0]), screw.prismatic([0, 0, 1.0])]
-    return pk.Chain(axes, pk.se3.exp([0, 0, 0, reach, 0, 0]), limits=LIMITS)
+    return pk.Chain.from_space(axes, pk.se3.exp([0, 0, 0, reach, 0, 0]), limits=LIMITS)
 
 
 @pytest.mark.parametrize(
@@ -60,8 +60,10 @@ def test_a_pose_is_accepted_within_1e_10_or_a_share_of_a_long_arm_s_reach():
 def test_the_links_are_so_long_together_and_points_count_as_a_metre():
     z = [0, 0, 1.0]
     axes = [screw.revolute(z, [1.0, 0, 0]), screw.revolute(z, [1.0, 0.5, 0])]
-    assert module._size(pk.Chain(axes, pk.se3.exp([0, 0, 0, 1, 0.5, 0.25]))) == pytest.approx(0.75)
-    assert module._size(pk.Chain(axes[:1], pk.se3.exp([0, 0, 0, 1, 0, 0]))) == 1.0
+    assert module._size(
+        pk.Chain.from_space(axes, pk.se3.exp([0, 0, 0, 1, 0.5, 0.25]))
+    ) == pytest.approx(0.75)
+    assert module._size(pk.Chain.from_space(axes[:1], pk.se3.exp([0, 0, 0, 1, 0, 0]))) == 1.0
 
 
 def test_a_long_batch_is_searched_32_targets_at_a_time_each_with_its_own_number(monkeypatch):
@@ -159,7 +161,7 @@ def test_a_motion_is_lost_where_its_singular_value_is_1e_5_of_the_largest(
 
 
 def test_the_kernel_is_told_starts_ranges_rules_and_the_number_of_each_target(monkeypatch):
-    chain = pk.Chain(arm().screws, arm().home, limits=[[-1.0, 2.0], [-0.5, 1.0]])
+    chain = pk.Chain.from_space(arm().screws, arm().home, limits=[[-1.0, 2.0], [-0.5, 1.0]])
     fast, asked = chain.compile(), list[tuple[Any, ...]]()
 
     def call(*words: Any) -> None:

@@ -37,7 +37,9 @@ def planar(limits=None):  # type: ignore[no-untyped-def]
     home[0, 3] = 2
     axes = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1)]
     slide = pk.screw.prismatic([0, 0, 1])
-    return pk.Chain([*axes, slide], home, joint_names=["shoulder", "elbow", "lift"], limits=limits)
+    return pk.Chain.from_space(
+        [*axes, slide], home, joint_names=["shoulder", "elbow", "lift"], limits=limits
+    )
 
 
 def straight(arm, q, by, count):  # type: ignore[no-untyped-def]
@@ -369,7 +371,7 @@ def test_a_path_out_of_reach_ends_in_numbers_where_the_arm_is_singular(seed):
     ]
     home = np.eye(4)
     home[:3, 3] = rng.integers(-2, 3, 3) * 0.5
-    arm = pk.Chain(axes, home)
+    arm = pk.Chain.from_space(axes, home)
     T_s0 = arm.fk(arm.random(rng))
     T_s1 = T_s0.copy()
     T_s1[:3, 3] += [5, 1, 2]
@@ -382,7 +384,9 @@ def test_a_path_out_of_reach_ends_in_numbers_where_the_arm_is_singular(seed):
 def test_a_tool_that_cannot_turn_far_enough_turns_as_far_as_it_can():
     slides = [pk.screw.prismatic(axis) for axis in np.eye(3)]
     tilts = [pk.screw.revolute(axis, [0, 0, 0]) for axis in ([0, 1, 0], [1, 0, 0])]
-    arm = pk.Chain([*slides, *tilts], np.eye(4), limits=[*[[-1, 1]] * 3, [-0.5, 1.0], [-0.1, 0.1]])
+    arm = pk.Chain.from_space(
+        [*slides, *tilts], np.eye(4), limits=[*[[-1, 1]] * 3, [-0.5, 1.0], [-0.1, 0.1]]
+    )
     target = pk.se3.exp([0, 2.5, 0, 0.2, 0.1, 0])  # 2.5 rad: farther off than a right angle
     path = follow(arm, np.tile(target, (15, 1, 1)), q0=np.zeros(5), task="direction")
     assert set(path.reason) == {"limits"}

@@ -22,7 +22,7 @@ from poekin.solve.path import follower
 SETTINGS = Settings("position", None, True, 1e-9, 1e-9, None, None, 100, 30, 0, False)
 HOME = np.eye(4)
 HOME[0, 3] = 2
-ARM = pk.Chain(
+ARM = pk.Chain.from_space(
     [*(screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 1)), screw.prismatic([0, 0, 1])], HOME,
     limits=[[-3, 3], [-3, 3], [-1, 1]],
 ).compile()  # fmt: skip
@@ -292,7 +292,9 @@ def test_of_a_matrix_without_inverse_the_damping_is_a_share_of_its_largest_numbe
 def test_other_solutions_of_a_pose_lie_turns_away_towards_the_last_joints_or_the_middle_of_the_limits(
     last,
 ):
-    wide = pk.Chain(ARM.chain.screws, HOME, limits=[[10, 40], [-40, 30], [-1, 1]]).compile()
+    wide = pk.Chain.from_space(
+        ARM.chain.screws, HOME, limits=[[10, 40], [-40, 30], [-1, 1]]
+    ).compile()
     f = follower.Follower(make_problem(wide, SETTINGS), ARM.fk(Q)[None], np.full(3, 0.1), None)
     near = np.array([25.0, -5.0, 0.0] if last is None else last)
     found = f._solutions(0, 2, None if last is None else near)

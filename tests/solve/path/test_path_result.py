@@ -14,7 +14,7 @@ from poekin.solve.ik.task import make_task
 from poekin.solve.path.path_result import NEAR_SINGULAR, PathInterval, PathResult
 
 Z = [0, 0, 1.0]
-ARM = pk.Chain(
+ARM = pk.Chain.from_space(
     [screw.revolute(Z, [0, 0, 0]), screw.revolute(Z, [1, 0, 0]), screw.prismatic(Z)], pk.se3.exp([0, 0, 0, 2, 0, 0]),
     joint_names=["shoulder", "elbow", "lift"], limits=[[-1, 2], [-2, 2], [0, 0.5]],
 )  # fmt: skip

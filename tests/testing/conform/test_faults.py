@@ -18,7 +18,7 @@ import pytest
 
 from benchmarks.subjects import FAULTS, Poekin
 from benchmarks.subjects.faulty import NoMimic, _Reader
-from poekin.model.screw import with_pitches
+from poekin.model.screw_rows.unit_screws import with_pitches
 from poekin.testing.conform import LAWS, Grade, Limits, Report, Subject, applicable, conform
 from poekin.testing.laws.laws import LawViolation
 

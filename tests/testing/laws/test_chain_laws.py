@@ -32,11 +32,11 @@ SCREWS = [
 ]
 HOME = se3.exp([0.3, -0.4, 0.5, 0.7, 0.2, -0.6])
 HOME[:3, :3] *= 1 + 2.0**-40  # R Rᵀ misses I, by far more than rounding
-COUPLED = Chain(
+COUPLED = Chain.from_space(
     SCREWS, HOME, coupling=[[1.0, 0.5], [-2.0, 0], [0.25, 3.0]], offset=[0.1, -0.2, 0.3], q_names=["a", "b"],
     limits=[[-1.0, 2.0], [-3.0, 1.5]],
 )  # fmt: skip
-PLAIN = Chain(SCREWS, se3.exp([0.3, -0.4, 0.5, 0.7, 0.2, -0.6]))
+PLAIN = Chain.from_space(SCREWS, se3.exp([0.3, -0.4, 0.5, 0.7, 0.2, -0.6]))
 Q, DQ, POINT = np.array([0.7, -1.3, 0.4]), np.array([1.5, -0.6, 0.9]), np.array([0.3, -0.4, 1.2])
 POSE = se3.exp([0.5, 0.2, -0.7, 2.0, -1.0, 0.5])
 FRAMES = np.stack(
@@ -279,14 +279,14 @@ def test_frames_of_too_few_joints_are_no_frames_of_the_chain():
 
 
 def test_another_number_of_joints_is_no_chain_of_other_frames():
-    fewer = Chain(SCREWS[:2], PLAIN.home)
-    more = Chain([*SCREWS, SCREWS[0]], PLAIN.home)
+    fewer = Chain.from_space(SCREWS[:2], PLAIN.home)
+    more = Chain.from_space([*SCREWS, SCREWS[0]], PLAIN.home)
     for other in (fewer, more):
         with pytest.raises(LawViolation, match="link frames do not matter: error inf exceeds 0\n"):
             change_laws.link_frames_do_not_matter(
                 PLAIN, FRAMES, built=lambda chain, frames, other=other: other
             )
-    none = Chain(np.zeros((0, 6)), PLAIN.home)
+    none = Chain.from_space(np.zeros((0, 6)), PLAIN.home)
     assert change_laws.link_frames_do_not_matter(none, np.zeros((0, 2, 4, 4))) <= 1
 
 
@@ -386,7 +386,7 @@ def test_a_violation_says_how_joints_are_coupled_where_they_are():
         (np.diag([1, 1, 2.0]), True),
         (one[::-1], True),
     ):
-        chain = Chain(SCREWS, PLAIN.home, coupling=coupling, q_names=["a", "b", "c"])
+        chain = Chain.from_space(SCREWS, PLAIN.home, coupling=coupling, q_names=["a", "b", "c"])
         with pytest.raises(LawViolation) as caught:
             chain_bounds.check_chain_bounds("a law", chain, (1.0, 0.5), q=Q)
         assert ("coupling" in caught.value.seen) == ("offset" in caught.value.seen) == told
@@ -409,7 +409,7 @@ def test_screw_derivatives_are_looked_at_of_every_joint(joint):
 
 
 def test_without_a_coordinate_there_is_no_column():
-    chain = Chain(np.zeros((0, 6)), PLAIN.home)
+    chain = Chain.from_space(np.zeros((0, 6)), PLAIN.home)
     assert exact_chain.jacobians(chain, np.zeros(0)).shape == (3, 6, 0)
 
 
@@ -426,7 +426,7 @@ def test_halves_are_measured_apart(row, monkeypatch):
     )
     pairs = measured("jacobian_is_the_derivative", PLAIN, monkeypatch)
     assert [e for e, _ in pairs] == pytest.approx(halves * 3, abs=1e-12)
-    motion, entries = PLAIN.screw_derivatives(Q), PLAIN.screw_derivatives(Q, by="entries")
+    motion, entries = PLAIN.screw_derivatives(Q), PLAIN.screw_derivatives(Q, wrt="components")
     frames = [PLAIN.jacobian_screw_derivatives(Q, frame) for frame in ("space", "body", "hybrid")]
     right = (
         motion.screws[:, 1], entries.screws[:, 1], motion.home, np.stack([c.screws[:, :, 1] for c in frames]),
@@ -465,11 +465,11 @@ def test_derivatives_of_a_batch_may_differ_by_rounding_of_their_size(monkeypatch
                     COUPLED.joint_velocities(q, q, frame), screws.screws, screws.home,
                 )  # fmt: skip
                 bounds.append(1e-14 * (1 + norm(values[part])))
-    for by in ("motion", "entries"):
+    for wrt in ("twist", "components"):
         for part in ("screws", "home"):
             for q in (Q2, DQ2, -Q2):
                 bounds.append(
-                    1e-14 * (1 + norm(getattr(COUPLED.screw_derivatives(q, by=by), part)))
+                    1e-14 * (1 + norm(getattr(COUPLED.screw_derivatives(q, wrt=wrt), part)))
                 )
     pairs = measured(
         "derivatives_of_batches_are_those_of_single_configurations", COUPLED, monkeypatch

@@ -53,7 +53,7 @@ def test_the_arguments_of_a_violation_can_be_pasted_to_the_last_digit():
 
 def test_a_chain_that_breaks_a_law_is_in_the_message_with_its_numbers():
     rows = [[0, 0, 1, 1 / 3, 0, 0], [0, 1, 0, 0, 0, 0]]
-    arm = Chain(rows, np.eye(4), coupling=[[1], [2]], offset=[0, 0.5], q_names=["q"])
+    arm = Chain.from_space(rows, np.eye(4), coupling=[[1], [2]], offset=[0, 0.5], q_names=["q"])
     with pytest.raises(
         LawViolation, match=r"coupling = np\.array\(\[\[1\.0\], \[2\.0\]\]\)"
     ) as first_violation:
@@ -63,7 +63,7 @@ def test_a_chain_that_breaks_a_law_is_in_the_message_with_its_numbers():
     )
     assert list(first_violation.value.seen) == ["q", "screws", "home", "coupling", "offset"]
     with pytest.raises(LawViolation) as plain:
-        chain_bounds.check_chain_bounds("a law", Chain(rows, np.eye(4)), (2.0, 1.0))
+        chain_bounds.check_chain_bounds("a law", Chain.from_space(rows, np.eye(4)), (2.0, 1.0))
     assert list(plain.value.seen) == ["screws", "home"]
 
 

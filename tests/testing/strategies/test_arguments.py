@@ -31,7 +31,7 @@ from poekin.testing.strategies import (
 S: Any = group_strategies
 B: Any = batch_strategies
 C: Any = chain_strategies
-ARM = Chain([[0, 0, 1, 0, 0, 0]], np.eye(4))
+ARM = Chain.from_space([[0, 0, 1, 0, 0, 0]], np.eye(4))
 
 REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     "an angle of NaN": (lambda: S.angles(math.nan), "smallest <= largest, got (1e-150, nan)"),

@@ -59,7 +59,10 @@ def test_limits_are_read_off_their_bytes():
 
 @pytest.mark.parametrize("shape", [(), (2,), (2, 3)])
 def test_coordinates_are_read_off_their_bytes(shape, monkeypatch):
-    chain, count = Chain([[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]], np.eye(4)), 2 * math.prod(shape)
+    chain, count = (
+        Chain.from_space([[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]], np.eye(4)),
+        2 * math.prod(shape),
+    )
     monkeypatch.setattr(chain_strategies, "read", lambda size, decode: (size, decode))
     asked: Any = chain_strategies.coordinates(chain, shape)
     size, decode = asked
@@ -139,7 +142,7 @@ def test_axis_and_point_of_a_screw_are_independent():
 
 
 def test_coordinates_hold_zeros_quarter_turns_and_all_between():
-    chain = Chain([[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]], np.eye(4))
+    chain = Chain.from_space([[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]], np.eye(4))
     q = np.concatenate(drawn(chain_strategies.coordinates(chain, (3,)), 100))
     assert q.shape == (300, 2)
     assert np.abs(q).max() <= math.pi

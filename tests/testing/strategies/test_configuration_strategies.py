@@ -14,7 +14,7 @@ from poekin.testing.strategies.decoding.bytes_reader import BytesReader
 from tests.testing.drawing import drawn
 
 PANDA = pk.load("panda").chain(tip="panda_hand")
-FREE = pk.Chain(
+FREE = pk.Chain.from_space(
     [pk.screw.revolute([0, 0, 1], [0, 0, 0])] * 2,
     np.eye(4),
     limits=[[-np.inf, np.inf], [-1e16, 1e16]],
@@ -49,7 +49,9 @@ def test_a_coordinate_without_limits_turns_once():
 
 def test_a_limit_up_to_a_million_is_one():
     for far in (999_999.5, -999_999.5, 1_000_000.5, -1_000_000.5):
-        chain = pk.Chain(FREE.screws, np.eye(4), limits=[[min(far, 0), max(far, 0)], [-1, 2]])
+        chain = pk.Chain.from_space(
+            FREE.screws, np.eye(4), limits=[[min(far, 0), max(far, 0)], [-1, 2]]
+        )
         wide = [-math.pi, 0.0] if far < 0 else [0.0, math.pi]
         expected = sorted((far, 0.0)) if abs(far) < 1e6 else wide
         np.testing.assert_array_equal(bounds(chain), [expected, [-1, 2]])

@@ -89,7 +89,7 @@ def uncoupled_at_zero(chain: Chain) -> Chain:
         (ks,) = np.nonzero(row)
         if len(ks) == 1:
             limits[i] = np.sort(row[ks[0]] * chain.limits[ks[0]]) + chain.offset[i]
-    bare = Chain(
+    bare = Chain.from_space(
         chain.screws,
         chain.home,
         joint_names=chain.joint_names,

@@ -111,7 +111,7 @@ class ErrorModel:
         A = (se3.adjoint(se3.exp(errors.screws)) @ self.nominal.screws[..., None])[..., 0]
         M = self.nominal.home @ se3.exp(errors.home)
         named = self._named_as if self._plain else {}
-        return Chain(A, M, pitches=self.nominal.pitches + errors.pitches, **named)
+        return Chain.from_space(A, M, pitches=self.nominal.pitches + errors.pitches, **named)
 
     def values(self, p: Array, q: Array) -> Array:
         """Joint values x = C ((1 + g) q + o) + c of the readings q (N, m)."""
@@ -139,7 +139,9 @@ class ErrorModel:
 
     def _rebuilt(self, arm: Chain, C: Array | None) -> Chain:
         """A chain of these screws, named as the nominal one."""
-        return Chain(arm.screws, arm.home, coupling=C, pitches=arm.pitches, **self._named_as)
+        return Chain.from_space(
+            arm.screws, arm.home, coupling=C, pitches=arm.pitches, **self._named_as
+        )
 
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""

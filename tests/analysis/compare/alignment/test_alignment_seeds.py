@@ -19,7 +19,7 @@ from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
 
-PARALLEL = Chain(
+PARALLEL = Chain.from_space(
     [screw.revolute([0, 0, 1], [x, 0.1 * x * x, 0]) for x in (0.0, 0.4, 0.7)], np.eye(4)
 )
 RNG = np.random.default_rng(0)
@@ -36,7 +36,7 @@ def test_an_axis_misses_by_its_angle_and_by_its_distance_at_the_place_of_the_oth
     across = np.cross(S[1, :3], S[2, :3]) / np.linalg.norm(np.cross(S[1, :3], S[2, :3]))
     # Turned by 1e-3 about a point of it that is 0.5 m from its place, which so moves by 0.5 mm.
     S[1] = se3.adjoint(se3.exp(1e-3 * screw.revolute(across, place + 0.5 * S[1, :3]))) @ S[1]
-    pair = sides(chain, Chain(S, chain.home), 1e-5, 1e-3)
+    pair = sides(chain, Chain.from_space(S, chain.home), 1e-5, 1e-3)
     P = np.eye(4)
     P[:3, 3] = pair.b.centre - pair.a.centre
     nothing = np.zeros((1, 6))
@@ -52,7 +52,9 @@ def test_an_axis_misses_by_its_angle_and_by_its_distance_at_the_place_of_the_oth
 )
 def test_one_pose_of_each_pair_of_axes_brings_all_of_a_moved_arm_home(chain, signs):
     moved = chain.rebased(BASE)
-    pair = sides(chain, Chain(moved.screws * np.array(signs)[:, None], moved.home), 1e-6, 1e-6)
+    pair = sides(
+        chain, Chain.from_space(moved.screws * np.array(signs)[:, None], moved.home), 1e-6, 1e-6
+    )
     for joints in [(0, 1), (0, 2), (1, 2)]:
         found, D = pair_poses(pair, [joints])
         miss = deviations(pair, transformed(pair, D, np.zeros((len(D), 3)))[1])
@@ -93,7 +95,7 @@ def test_a_turn_brings_an_axis_onto_its_target_whether_it_slants_or_is_parallel_
 def test_parallel_axes_that_point_opposite_ways_are_turned_with_the_base(ways, xi):
     places = [0.0, 0.5, 1.2]
     rows = [screw.revolute([0, 0, way], [x, 0, 0]) for way, x in zip(ways, places, strict=False)]
-    chain = Chain(rows, np.eye(4))
+    chain = Chain.from_space(rows, np.eye(4))
     result = compare(chain, chain.rebased(se3.exp(xi)), samples=1)
     assert (result.equal, result.differing, result.tool) == (
         True,
@@ -106,7 +108,7 @@ def test_parallel_axes_that_point_opposite_ways_are_turned_with_the_base(ways, x
 def two_lines(cosine, gap=0.5):
     """An axis along z, and one at `gap` along x whose direction has this cosine to it."""
     way = [0, np.sqrt(1 - cosine * cosine), cosine]
-    return Chain(
+    return Chain.from_space(
         [screw.revolute([0, 0, 1], [0, 0, 0]), screw.revolute(way, [gap, 0, 0])], np.eye(4)
     )
 
@@ -120,7 +122,9 @@ def test_axes_at_another_angle_are_not_carried_onto_each_other(cosine, poses):
 
 
 SKEW = lines(
-    Chain([screw.revolute([0, 0, 2], [1, 2, 0]), screw.revolute([0, 1, 1], [1.5, 7, 4])], np.eye(4))
+    Chain.from_space(
+        [screw.revolute([0, 0, 2], [1, 2, 0]), screw.revolute([0, 1, 1], [1.5, 7, 4])], np.eye(4)
+    )
 )
 
 
@@ -157,25 +161,25 @@ def test_the_frame_of_parallel_axes_looks_from_the_one_to_the_other(tilt, gap, f
 def test_the_frame_of_a_slide_stands_on_the_axis_beside_it_and_two_slides_have_one_only_where_they_cross():
     slide, turn = screw.prismatic([1, 0, 0]), screw.revolute([0, 0, 1], [0, 3, 0])
     for rows, i, j in (([slide, turn], 0, 1), ([turn, slide], 0, 1)):
-        side = lines(Chain(rows, np.eye(4)))
+        side = lines(Chain.from_space(rows, np.eye(4)))
         found = alignment_seeds._frame(side, i, j)
         assert found is not None
         assert found[0][:3, 3] + side.centre == pytest.approx([0, 3, 0])
         assert found[0][:3, 2] == pytest.approx(side.ways[0])
     assert (
         alignment_seeds._frame(
-            lines(Chain([slide, screw.prismatic([1, 1e-3, 0])], np.eye(4))), 0, 1
+            lines(Chain.from_space([slide, screw.prismatic([1, 1e-3, 0])], np.eye(4))), 0, 1
         )
         is None
     )
     assert (
         alignment_seeds._frame(
-            lines(Chain([slide, screw.revolute([1, 0, 0], [0, 3, 0])], np.eye(4))), 0, 1
+            lines(Chain.from_space([slide, screw.revolute([1, 0, 0], [0, 3, 0])], np.eye(4))), 0, 1
         )
         is None
     )
     crossing = alignment_seeds._frame(
-        lines(Chain([slide, screw.prismatic([0, 1, 0])], np.eye(4))), 0, 1
+        lines(Chain.from_space([slide, screw.prismatic([0, 1, 0])], np.eye(4))), 0, 1
     )
     assert crossing is not None
     assert (crossing[0][:3, 3] == 0).all()
@@ -193,7 +197,7 @@ def test_an_axis_behind_slides_is_anchored_where_the_next_links_that_turn_have_i
         ([slide, first, beside, first], 1, None),
         ([slide, first, beside, slide, across], 1, None),
     ):
-        side = lines(Chain(rows, np.eye(4)))
+        side = lines(Chain.from_space(rows, np.eye(4)))
         anchor = alignment_seeds._anchor(side, k)
         assert (anchor is None) == (expected is None)
         if anchor is not None:
@@ -234,7 +238,7 @@ def test_one_axis_far_off_counts_less_than_several_that_miss():
     chain = random_arm(3, ("revolute",) * 4)
     S = chain.screws.copy()
     S[3] = screw.prismatic([0, 0, 1])  # another kind, so that it never agrees
-    pair = sides(Chain(S, chain.home), chain, 1e-5, 1e-5)
+    pair = sides(Chain.from_space(S, chain.home), chain, 1e-5, 1e-5)
     centres = np.eye(4)
     centres[:3, 3] = pair.b.centre - pair.a.centre
     P = np.stack([se3.exp(np.array([0, 0, 0, 5e-4, 0, 0])) @ centres, centres])
@@ -247,7 +251,7 @@ def test_two_axes_are_aligned_as_one_pair():
     P, z = alignment_seeds.one_by_one(pair)
     assert pytest.approx(pair_poses(pair, [(0, 1)])[1]) == P
     assert (z == np.zeros((2, 2))).all()
-    alone = Chain(chain.screws[:1], chain.home)
+    alone = Chain.from_space(chain.screws[:1], chain.home)
     assert alignment_seeds.one_by_one(sides(alone, alone, 1e-6, 1e-6))[0] == pytest.approx(
         np.eye(4)[None]
     )
@@ -278,10 +282,14 @@ def test_a_helical_axis_has_its_line_as_a_revolute_one_has():
     rng = np.random.default_rng(3)
     ways, places = rng.normal(size=(2, 3, 3))
     plain = lines(
-        Chain([screw.revolute(*line) for line in zip(ways, places, strict=True)], np.eye(4))
+        Chain.from_space(
+            [screw.revolute(*line) for line in zip(ways, places, strict=True)], np.eye(4)
+        )
     )
     bolts = lines(
-        Chain([screw.helical(*line, 0.1) for line in zip(ways, places, strict=True)], np.eye(4))
+        Chain.from_space(
+            [screw.helical(*line, 0.1) for line in zip(ways, places, strict=True)], np.eye(4)
+        )
     )
     for i, j in ((0, 1), (1, 2), (2, 0)):
         one, other = alignment_seeds._frame(plain, i, j), alignment_seeds._frame(bolts, i, j)
@@ -299,7 +307,7 @@ def test_poses_are_moved_along_slides_to_where_the_first_axis_that_turns_has_its
         first([0, 0, 1], [1, 2, 0]),
         screw.revolute([0, 1, 0], [4, 0, -7]),
     ]
-    chain = Chain(rows, np.eye(4))
+    chain = Chain.from_space(rows, np.eye(4))
     moved = chain.rezeroed([3.0, 0, 0]).rebased(BASE)  # the slide has moved what is behind it
     pair = sides(chain, moved, 1e-6, 1e-6)
     P = se3.inverse(BASE)
@@ -308,7 +316,10 @@ def test_poses_are_moved_along_slides_to_where_the_first_axis_that_turns_has_its
     miss = deviations(pair, transformed(pair, D[None], np.zeros((1, 3)))[1])[0]
     assert miss[1:].max() < 1e-3
     turning = sides(
-        Chain(chain.screws[1:], chain.home), Chain(moved.screws[1:], moved.home), 1e-6, 1e-6
+        Chain.from_space(chain.screws[1:], chain.home),
+        Chain.from_space(moved.screws[1:], moved.home),
+        1e-6,
+        1e-6,
     )
     assert alignment_seeds._on_the_first_turning_axis(turning, P[None]) == pytest.approx(P[None])
 
@@ -330,7 +341,11 @@ def test_the_few_alignments_that_are_kept_are_those_that_miss_least_and_change_l
         (y, [1, 0, 0.2]),
         (x, [1, 0, 0.2]),
     ]
-    chain = Chain([screw.revolute(*row) for row in rows], np.eye(4)) if wrists else random_arm(4)
+    chain = (
+        Chain.from_space([screw.revolute(*row) for row in rows], np.eye(4))
+        if wrists
+        else random_arm(4)
+    )
     pair = sides(chain, chain.rezeroed(offset).rebased(BASE), 1e-6, 1e-6)
     monkeypatch.setattr(alignment_seeds, "BEAM", 2)
     P, found = alignment_seeds.one_by_one(pair)
@@ -341,14 +356,16 @@ def test_the_few_alignments_that_are_kept_are_those_that_miss_least_and_change_l
 
 def test_pairs_without_a_frame_or_at_another_angle_are_passed_over():
     z, x = [0, 0, 1], [1, 0, 0]
-    one = Chain(
+    one = Chain.from_space(
         [screw.revolute(*row) for row in ((z, [0, 0, 0]), (z, [0, 0, 1]), (x, [0, 1, 0]))],
         np.eye(4),
     )
     pair = sides(one, one, 1e-6, 1e-6)
     joints, _ = pair_poses(pair, [(0, 1), (0, 2), (1, 2)])
     assert sorted({tuple(map(int, row)) for row in joints}) == [(0, 2), (1, 2)]
-    other = sides(one, Chain([one.screws[0], *one.screws[[2, 2]]], np.eye(4)), 1e-6, 1e-6)
+    other = sides(
+        one, Chain.from_space([one.screws[0], *one.screws[[2, 2]]], np.eye(4)), 1e-6, 1e-6
+    )
     assert {tuple(map(int, row)) for row in pair_poses(other, [(0, 1), (1, 2), (0, 2)])[0]} == {
         (0, 2)
     }
@@ -357,7 +374,7 @@ def test_pairs_without_a_frame_or_at_another_angle_are_passed_over():
 def test_the_first_pose_is_the_base_as_it_is_and_the_others_are_of_pairs_of_joints_of_the_same_kind():
     chain = random_arm(4, ("revolute",) * 4)
     rows = [*chain.screws[:3], screw.prismatic([1, 2, 3])]
-    pair = sides(chain, Chain(rows, chain.home), 1e-6, 1e-6)
+    pair = sides(chain, Chain.from_space(rows, chain.home), 1e-6, 1e-6)
     joints, D = rigid_poses(pair)
     as_it_is = np.eye(4)
     as_it_is[:3, 3] = pair.b.centre - pair.a.centre

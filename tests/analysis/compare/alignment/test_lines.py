@@ -30,7 +30,7 @@ TOOL = se3.exp(np.array([0, 0, 0, 0.3, 0.4, 9.0]))
 
 
 def chain_of(*rows, home=TOOL, **data):
-    return Chain(rows, home, **data)
+    return Chain.from_space(rows, home, **data)
 
 
 @pytest.mark.parametrize("rows, centre", [
@@ -87,7 +87,7 @@ def moved(chain, k, angle=0.0, length=0.0, along=X):
     place = side.places[k] + side.centre
     S[k] = se3.adjoint(se3.exp(np.array([0, 0, 0, *(length * along)]))) @ S[k]
     S[k] = se3.adjoint(se3.exp(angle * screw.revolute(along, place))) @ S[k]
-    return Chain(S, chain.home)
+    return Chain.from_space(S, chain.home)
 
 
 def test_a_miss_is_the_larger_of_the_turn_and_the_way_at_its_place_each_in_tolerances():
@@ -113,7 +113,9 @@ def test_a_miss_is_the_larger_of_the_turn_and_the_way_at_its_place_each_in_toler
                 False,
             )
         # And the other way round it is the same axis.
-        flipped = Chain(other.screws * np.where(np.arange(3) == k, -1, 1)[:, None], other.home)
+        flipped = Chain.from_space(
+            other.screws * np.where(np.arange(3) == k, -1, 1)[:, None], other.home
+        )
         pair = sides(chain, flipped, tol_m, tol_rad)
         axes = transformed(pair, P, nothing)[1]
         assert signs(pair, axes)[0].tolist() == [-1 if i == k else 1 for i in range(3)]
@@ -143,13 +145,15 @@ def test_joints_are_alike_whose_kind_is_the_same_and_whose_pitch_shows_less_than
 def test_a_hinge_turns_what_is_behind_it_about_the_other_model_s_axis_the_way_its_own_turns():
     chain = random_arm(3, ("revolute", "revolute", "prismatic", "revolute"))
     rng = np.random.default_rng(0)
-    other = Chain(moved(moved(chain, 1, 0.1), 2, 0.2).screws, chain.home)
+    other = Chain.from_space(moved(moved(chain, 1, 0.1), 2, 0.2).screws, chain.home)
     P, z = se3.exp(0.1 * rng.normal(size=(2, 6))), 0.2 * rng.normal(size=(2, 4))
     for k in (1, 2):
         for sign in (1.0, -1.0):
             S = other.screws.copy()
             S[k] *= sign
-            pair = replace(sides(chain, Chain(S, chain.home), 1e-5, 1e-5), suspect_joint=k)
+            pair = replace(
+                sides(chain, Chain.from_space(S, chain.home), 1e-5, 1e-5), suspect_joint=k
+            )
             D = carriers(pair, P, z)
             D_k = D[:, k]
             own = sign * pair.a.screws[k]
@@ -170,7 +174,7 @@ def test_an_axis_that_is_perpendicular_to_its_own_is_not_reversed():
         chain_of(screw.revolute(w, [0, 0, 0]), screw.revolute(Y, [1, 0, 0])) for w in (Z, X)
     )
     for sign in (1.0, -1.0):
-        turned = Chain(other.screws * [[sign], [1.0]], other.home)
+        turned = Chain.from_space(other.screws * [[sign], [1.0]], other.home)
         pair = replace(sides(chain, turned, 1e-5, 1e-5), suspect_joint=0)
         P = np.eye(4)[None].copy()
         P[:, :3, 3] = pair.b.centre - pair.a.centre

@@ -85,7 +85,7 @@ def test_a_link_of_another_shape_moves_what_is_behind_it_and_the_tool_with_it(n,
     S = np.concatenate([chain.screws[:k], chain.screws[k:] @ se3.adjoint(bent).T])
     for tool, frames in ((np.eye(4), 1), (se3.exp([0, 0, 0, 0, 0, 0.1]), 2)):
         # The tool is the one behind the link: it has moved with it.
-        other = Chain(S, bent @ chain.home @ tool).rebased(base)
+        other = Chain.from_space(S, bent @ chain.home @ tool).rebased(base)
         pair = sides(chain, other, *TOL)
         (found,) = _links(pair, rigid_poses(pair)[1])
         assert (found.link, found.frames, found.moved.tolist()) == (
@@ -102,7 +102,7 @@ def test_a_link_with_one_axis_behind_it_is_an_axis_that_moved():
     chain = random_arm(7, ("revolute",) * 4)
     S = chain.screws.copy()
     S[3] = se3.adjoint(se3.exp([0.02, 0.01, 0.03, 0.1, 0.2, 0.1])) @ S[3]
-    other = Chain(S, chain.home)
+    other = Chain.from_space(S, chain.home)
     pair = sides(chain, other, *TOL)
     assert _links(pair, rigid_poses(pair)[1]) == []
 
@@ -130,7 +130,7 @@ def test_arms_of_few_joints_are_read_too(n, kind):
         S[k] = se3.adjoint(se3.exp([0.01, 0.02, 0.01, 0.05, 0, 0.03])) @ S[k]
     if kind == "direction":
         S[k] *= -1
-    other = Chain(S, chain.home).rezeroed(0.1 * (kind == "zero") * (np.arange(n) == k))
+    other = Chain.from_space(S, chain.home).rezeroed(0.1 * (kind == "zero") * (np.arange(n) == k))
     first, others = search(chain, other, *TOL)
     assert first.implicated.sum() <= 1
     assert all(found.implicated.sum() == 1 for found in others)
@@ -144,7 +144,7 @@ def test_arms_of_few_joints_are_read_too(n, kind):
 
 
 def test_an_arm_of_slides_alone_is_read():
-    chain = Chain(
+    chain = Chain.from_space(
         [screw.prismatic(row) for row in np.random.default_rng(1).normal(size=(3, 3))], np.eye(4)
     )
     first, _ = search(chain, chain.rebased(se3.exp([0.1, 0.2, 0.3, 1, 2, 3])), *TOL)

@@ -400,7 +400,7 @@ def test_a_choice_cannot_be_changed_and_is_equal_to_itself_alone(kind):
 
 
 def test_where_nothing_is_said_a_hundred_random_choices_are_drawn_by_the_seed_0():
-    arm = pk.Chain(
+    arm = pk.Chain.from_space(
         [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([0, 1, 0], [0.3, 0, 0.5])],
         at(TOOL),
     )

@@ -16,7 +16,7 @@ from poekin.solve.calibration.fit.minimise import FitOptions
 from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 
-ARM = pk.Chain(
+ARM = pk.Chain.from_space(
     [pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.revolute([0, 1, 0], [0.3, 0, 0.5])],
     pk.se3.exp([0.1, -0.2, 0.3, 0.9, 0.1, 0.4]),
 )

@@ -27,7 +27,7 @@ TOOL = np.array([0.2, 0.1, 0.4])  # 0.458 m
 ARMS = {
     "ur5": pk.load("ur5").chain(),
     "stanford": pk.load("stanford").chain(),
-    "scara": pk.Chain(
+    "scara": pk.Chain.from_space(
         [
             pk.screw.revolute([0, 0, 1], [0, 0, 0]),
             pk.screw.revolute([0, 0, 1], [0.4, 0, 0]),
@@ -172,7 +172,7 @@ def test_nothing_is_claimed_of_lengths_from_which_no_place_can_be_told():
     """A planar arm's distances: the place they are from, were it not the one that was said, cannot
     be found.
     """
-    arm = pk.Chain(
+    arm = pk.Chain.from_space(
         [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 0.4, 0.7)],
         se3.exp([0, 0, 0, 0.9, 0, 0]),
     )

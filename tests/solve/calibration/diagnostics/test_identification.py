@@ -30,7 +30,7 @@ def random_chain(letters: str, seed: int) -> pk.Chain:
     for letter in letters:
         axis, point = rng.normal(size=3), rng.uniform(-1, 1, 3)
         A.append(pk.screw.revolute(axis, point) if letter == "R" else pk.screw.prismatic(axis))
-    return pk.Chain(A, pk.se3.exp(rng.normal(size=6)))
+    return pk.Chain.from_space(A, pk.se3.exp(rng.normal(size=6)))
 
 
 @pytest.mark.parametrize("letters", CHAINS)
@@ -149,10 +149,10 @@ def test_the_condition_does_not_depend_on_units_of_the_arm():
     home = PUMA.home.copy()
     home[:3, 3] *= 1e3
     # reach is at least 1 m: of two large arms one is a thousand times the other
-    large = pk.Chain(PUMA.screws * scale, home)
+    large = pk.Chain.from_space(PUMA.screws * scale, home)
     larger_home = home.copy()
     larger_home[:3, 3] *= 1e3
-    larger = pk.Chain(PUMA.screws * [1, 1, 1, 1e6, 1e6, 1e6], larger_home)
+    larger = pk.Chain.from_space(PUMA.screws * [1, 1, 1, 1e6, 1e6, 1e6], larger_home)
     q = PUMA.random(0, 30)
     a, b = identify(large, q, large.fk(q)), identify(larger, q, larger.fk(q))
     np.testing.assert_allclose(a.singular_values, b.singular_values, rtol=1e-9)

@@ -30,7 +30,7 @@ from poekin.solve.calibration.model.problem import Problem
 
 PUMA = pk.load("puma560").chain()
 X, Z = se3.exp([0.3, -0.5, 0.2, 1.0, 0.4, -0.3]), se3.exp([-0.1, 0.2, 1.4, 0.05, -0.08, 0.1])
-GANTRY = pk.Chain(
+GANTRY = pk.Chain.from_space(
     [pk.screw.prismatic([1, 0, 0]), pk.screw.prismatic([0, 1, 0]), pk.screw.prismatic([0, 0, 1])],
     se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
 )
@@ -113,7 +113,9 @@ def test_a_base_a_kilometre_away_converges_to_rounding():
     rng = np.random.default_rng(7)
     there = se3.exp([0, 0, 0, 1000.0, 1000.0, 1000.0])
     screws = [pk.screw.revolute(rng.normal(size=3), rng.uniform(-1, 1, 3)) for _ in range(7)]
-    arm = pk.Chain(np.array(screws) @ se3.adjoint(there).T, there @ se3.exp(rng.normal(size=6)))
+    arm = pk.Chain.from_space(
+        np.array(screws) @ se3.adjoint(there).T, there @ se3.exp(rng.normal(size=6))
+    )
     q = rng.uniform(-1.5, 1.5, (30, 7))
     true = off(arm)
     found = calibrate(arm, q, true.fk(q)[:, :3, 3], folds=0)
@@ -150,7 +152,7 @@ def test_no_configurations_have_no_pose_covariances():
 @pytest.mark.parametrize("part", [0, 5])
 def test_an_error_is_rounding_by_the_angle_and_by_the_arm_s_reach(part, times, exact, reach):
     home = se3.exp([0, 0, 0, reach, 0, 0])
-    arm = pk.Chain([pk.screw.revolute([0, 0, 1], [0, 0, 0])], home)
+    arm = pk.Chain.from_space([pk.screw.revolute([0, 0, 1], [0, 0, 0])], home)
     size = 1e-13 * times * (1.0 if part == 0 else reach)
     T = se3.exp(size * np.eye(6)[part]) @ home  # what the home pose is off by, seen from the base
     T[:3, 3] = home[:3, 3] + size * np.eye(3)[2] * (part == 5)

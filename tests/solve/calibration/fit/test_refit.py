@@ -55,7 +55,7 @@ def test_distances_from_a_place_that_is_not_known_are_exact_from_exact_data():
 
 
 def test_points_in_one_plane_take_a_rough_centre_on_either_side():
-    arm = pk.Chain(
+    arm = pk.Chain.from_space(
         [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0, 0.4, 0.7)],
         pk.se3.exp([0, 0, 0, 0.9, 0, 0]),
     )

@@ -19,9 +19,11 @@ from poekin.solve.calibration.measurements.simulated import simulated
 from poekin.testing.strategies import chain_strategies
 
 UP = pk.screw.revolute([0, 0, 1], [0, 0, 0])
-ONE = pk.Chain([UP], np.eye(4), joint_names=["shoulder"])
-TWO = pk.Chain([UP, pk.screw.prismatic([1, 0, 0])], np.eye(4), joint_names=["shoulder", "slide"])
-GANTRY = pk.Chain(
+ONE = pk.Chain.from_space([UP], np.eye(4), joint_names=["shoulder"])
+TWO = pk.Chain.from_space(
+    [UP, pk.screw.prismatic([1, 0, 0])], np.eye(4), joint_names=["shoulder", "slide"]
+)
+GANTRY = pk.Chain.from_space(
     [pk.screw.prismatic(axis) for axis in np.eye(3)], np.eye(4), joint_names=["x", "y", "z"]
 )
 T_COLUMNS = ",".join(f"T{i}{j}" for i in range(3) for j in range(4))

@@ -81,7 +81,9 @@ def test_without_tilt_and_shift_the_truth_is_the_arm_itself(arm, seed):
 
 def test_axes_are_tilted_and_shifted_by_what_is_said():
     n = 400
-    line = pk.Chain([pk.screw.revolute([0, 0, 1], [0.01 * i, 0, 0]) for i in range(n)], np.eye(4))
+    line = pk.Chain.from_space(
+        [pk.screw.revolute([0, 0, 1], [0.01 * i, 0, 0]) for i in range(n)], np.eye(4)
+    )
     tilted = simulated(line, 1, tilt=1e-3, shift=0).truth.screws[:, :3]
     shifted = simulated(line, 1, tilt=0, shift=1e-3).truth.screws
     np.testing.assert_array_equal(shifted[:, :3], line.screws[:, :3])
@@ -164,7 +166,7 @@ def test_q_may_be_given():
 
 
 def test_a_distance_never_becomes_negative():
-    here = pk.Chain([], np.eye(4))
+    here = pk.Chain.from_space([], np.eye(4))
     for seed in range(50):
         centre = simulated(here, 1, kind="distances", unknown=True, seed=seed).frames["centre"]
         made = simulated(
@@ -326,7 +328,7 @@ def test_what_was_simulated_cannot_be_changed_and_is_equal_to_itself_alone(kind)
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_gross_errors_are_as_many_reaches_of_a_large_arm(kind):
-    large = pk.Chain(
+    large = pk.Chain.from_space(
         [pk.screw.revolute([0, 0, 1], [0, 0, 0])], pk.se3.exp([0, 0, 0, 40.0, 0, 30.0])
     )
     made = simulated(large, 60, kind=kind, outliers=0.5, noise=(0, 0), tilt=0, shift=0)

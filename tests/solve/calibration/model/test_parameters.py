@@ -46,7 +46,7 @@ def rounding(chain: pk.Chain, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     The budget of `fk`; and a screw that was moved, by its own parameters and those of the joints
     before it, is off by 24 u a joint, and moves what is behind it by that times its x.
     """
-    joints = pk.Chain(chain.screws, chain.home, pitches=chain.pitches)
+    joints = pk.Chain.from_space(chain.screws, chain.home, pitches=chain.pitches)
     angular, linear = np.transpose([budget(joints, row) for row in x])
     moved = 24 * UNIT * (len(chain.screws) + 1) * (1 + np.abs(x).sum(axis=1))
     return angular + moved, linear + moved * (chain.reach + np.abs(x) @ np.abs(chain.local.slides))
@@ -153,7 +153,9 @@ def test_axes_stay_unit_and_pitches_what_they_are(data):
 def test_a_revolute_joint_has_four_parameters_a_prismatic_one_two_and_the_home_pose_six():
     A = [[0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 1, 0], [1, 0, 0, 0.3, 0.5, 0.1]]
     arm = ErrorModel(
-        pk.Chain(A, np.eye(4), joint_names=["turn", "slide", "screw"]), ("screws", "home"), None
+        pk.Chain.from_space(A, np.eye(4), joint_names=["turn", "slide", "screw"]),
+        ("screws", "home"),
+        None,
     )
     owners = [p.owner for p in arm.parameters]
     assert [owners.count(name) for name in ("turn", "slide", "screw", "home")] == [4, 2, 4, 6]
@@ -233,7 +235,9 @@ def test_what_cannot_be_free_is_refused(kinds, joints, error, words):
 
 def test_offsets_are_in_rad_or_m_as_their_coordinates_are_and_gains_in_neither():
     turn, slide = pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([1, 0, 0])
-    chain = pk.Chain([turn, slide, turn], np.eye(4), joint_names=["turn", "slide", "last"])
+    chain = pk.Chain.from_space(
+        [turn, slide, turn], np.eye(4), joint_names=["turn", "slide", "last"]
+    )
     found = ErrorModel(chain, ("offsets", "gains", "pitch"), None).parameters
     assert [(p.owner, p.what, p.unit) for p in found] == [
         ("turn", "pitch", "m/rad"), ("last", "pitch", "m/rad"),
@@ -245,7 +249,7 @@ def test_offsets_are_in_rad_or_m_as_their_coordinates_are_and_gains_in_neither()
         f"home: {how} {axis}" for how in ("turn about", "shift along") for axis in "xyz"
     ]
     # A coordinate that moves several joints is one offset of its own.
-    tied = pk.Chain(
+    tied = pk.Chain.from_space(
         [turn, slide, turn], np.eye(4), coupling=[[1, 0], [0, 1], [0.5, 0]], q_names=["a", "b"]
     )
     assert [p.name for p in ErrorModel(tied, ("offsets",), None).parameters] == [
@@ -259,7 +263,7 @@ def test_offsets_are_in_rad_or_m_as_their_coordinates_are_and_gains_in_neither()
 
 def test_offsets_and_gains_leave_the_limits_and_the_constants_of_the_nominal_arm():
     turn, slide = pk.screw.revolute([0, 0, 1], [0, 0, 0]), pk.screw.prismatic([1, 0, 0])
-    nominal = pk.Chain(
+    nominal = pk.Chain.from_space(
         [turn, slide],
         pk.se3.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
         limits=[(-1, 2), (0, 0.5)],

@@ -29,7 +29,7 @@ HOSTILE = [
     '"><img src=x onerror=alert(1)>',
     "$\\frac{1}{0}$ & $x^$",
 ]
-ARM = pk.Chain(
+ARM = pk.Chain.from_space(
     [
         pk.screw.revolute([0, 0, 1], [0, 0, 0]),
         pk.screw.revolute([0, 1, 0], [0.3, 0, 0.5]),

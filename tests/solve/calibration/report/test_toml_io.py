@@ -25,7 +25,7 @@ SCREWS = [
     pk.screw.revolute([0, 0, 1], [0.7, 0, 0.1]),
 ]  # fmt: skip
 HOME = se3.exp([0.1, -0.2, 0.3, 0.9, 0.1, 0.4])
-ARM = pk.Chain(
+ARM = pk.Chain.from_space(
     SCREWS,
     HOME,
     limits=[[-np.inf, 2], [0, 1], [-1, 1], [-3, np.inf], [-2, 2]],
@@ -33,7 +33,7 @@ ARM = pk.Chain(
     tip="t",
 )
 # joint 1 follows two coordinates, joints 2 and 3 one; the last follows none
-COUPLED = pk.Chain(
+COUPLED = pk.Chain.from_space(
     SCREWS, HOME, coupling=[[1, 0, 0], [0.5, 1, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]], q_names=["u", "v", "w"],
     offset=[0.1, 0, 0.2, 0, 0.3],
 )  # fmt: skip

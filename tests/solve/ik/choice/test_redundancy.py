@@ -23,7 +23,7 @@ def test_only_a_coordinate_with_two_limits_has_a_middle():
     # two slides along one line: what the first gives up the second takes over, which has no middle
     # to be drawn to
     limits, q0 = [[-1, 1], [0, np.inf], [-1, 1], [-1, 1]], [1.0, 1.0, 0.5, 0.5]
-    arm = pk.Chain(
+    arm = pk.Chain.from_space(
         [screw.prismatic(way) for way in np.eye(3)[[0, 0, 1, 2]]], np.eye(4), limits=limits
     )
     found = ik(arm, arm.fk(q0), task="position", q0=q0, secondary_objective="middle")
@@ -35,7 +35,7 @@ def test_only_a_coordinate_with_two_limits_has_a_middle():
 def test_a_step_that_is_too_long_is_made_shorter(length):
     # a table that slides far to the side: what brings the slides back turns the tip about a circle
     axes = [*map(screw.prismatic, np.eye(3)), screw.revolute([0, 0, 1.0], [0, 0, 0])]
-    arm = pk.Chain(axes, pk.se3.exp([0, 0, 0, length, 0, 0]))
+    arm = pk.Chain.from_space(axes, pk.se3.exp([0, 0, 0, length, 0, 0]))
     found = ik(
         arm, arm.fk([0, 10.0, 0, 0]), task="position", q0=np.zeros(4), secondary_objective="nearest"
     )
@@ -54,7 +54,9 @@ def solver(task="position", lock=None):
     """
     axes = [*map(screw.prismatic, np.eye(3)), screw.revolute([0, 0, 1.0], [0, 0, 0])]
     limits = [[-1, 3], [-np.inf, np.inf], [0, np.inf], [-2, 1]]
-    chain = pk.Chain(axes, pk.se3.exp([0, 0, 0, 1, 0, 0]), limits=limits, joint_names=list("abcd"))
+    chain = pk.Chain.from_space(
+        axes, pk.se3.exp([0, 0, 0, 1, 0, 0]), limits=limits, joint_names=list("abcd")
+    )
     return make_problem(
         chain.compile(), Settings(task, None, True, 1e-9, 1e-9, lock, None, 5, 30, 0, False)
     )
@@ -76,7 +78,7 @@ def test_the_manipulability_is_that_of_the_task_by_what_may_move(task, rows):
     for lock in (None, (("b", 0.5),)):
         arm = solver(task, lock) if task == "position" else None
         if arm is None:
-            ball = pk.Chain([screw.revolute(axis, [0, 0, 0]) for axis in np.eye(3)[[0, 1, 2, 0]]], np.eye(4),
+            ball = pk.Chain.from_space([screw.revolute(axis, [0, 0, 0]) for axis in np.eye(3)[[0, 1, 2, 0]]], np.eye(4),
                             joint_names=list("abcd"))  # fmt: skip
             arm = make_problem(
                 ball.compile(), Settings(task, None, True, 1e-9, 1e-9, lock, None, 5, 30, 0, False)

@@ -109,7 +109,7 @@ def test_what_may_be_drawn_is_allowed(what):
 
 
 def test_a_declared_arm_stays_within_its_limits():
-    arm = Chain(
+    arm = Chain.from_space(
         [[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0]], np.eye(4), limits=[[-0.5, 1.5], [0.25, 2.0]]
     )  # fmt: skip
     subject: Any = Subject(
@@ -173,9 +173,10 @@ def test_what_is_shown_of_an_arm_can_be_pasted_and_is_exact():
     assert pose.words.startswith("screws revolute (ω = (0.6, 0, 0.8), v = (")
     assert "; prismatic (ω = (0, 0, 0), v = (0, 0.8, -0.6))" in pose.words
     assert pose.words.endswith("M = e^ξ of ω = (0.3, -0.2, 0.1), v = (1, -2, 0.5); q = [0.7, 1.5]")
-    chain = Chain(arm.screws, arm.home)
+    chain = Chain.from_space(arm.screws, arm.home)
     assert pose.expected == pytest.approx(chain.fk(q), abs=1e-14)
-    assert J.expected == pytest.approx(chain.jacobian(q, SUBJECT.frame), abs=1e-14)
+    assert SUBJECT.frame == "hybrid"
+    assert J.expected == pytest.approx(chain.jacobian(q, "hybrid"), abs=1e-14)
     for shown, function in ((pose, "fk"), (J, "jacobian")):
         assert f".{function}(" in shown.paste
         found: list[str] = []

@@ -1,0 +1,117 @@
+"""Screws of a chain's joints as they are given: checked, and made exact to the last digit."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import ScrewError, ShapeError, quote
+from ...groups.arrays import Array, numbers
+from ..checks import LONGEST, finite
+from .remedies import UNIT, matrix_among, other_reading
+
+_EXACT = 4.5e-16  # two units in the last place of 1
+_NO_PITCH = 4e-15  # m per rad, relative to max(1 m, |v|): the rounding of omega . v
+
+
+def unit_screws(screws: ArrayLike, names: tuple[str, ...] = (), what: str = "screws") -> Array:
+    """Screws (n, 6) with |omega| = 1, or omega = 0 and |v| = 1, to the last digit.
+
+    Accepted where that holds to 1e-9; anything else is refused, as rescaling it would rescale q.
+    Raises: ShapeError; ScrewError with the joint's name or index. Both name the remedy, if another
+    reading of the numbers fits.
+    """
+    S = _rows(screws, what)
+    for i, row in enumerate(S):
+        where = f"{what}[{i}]" + (f" (joint {names[i]!r})" if i < len(names) else "")
+        if not (np.abs(row) <= LONGEST).all():
+            raise ScrewError(
+                f"{where}: expected finite numbers of at most {LONGEST:g}, got {row.tolist()}"
+            )
+        part = row[:3]
+        name = "omega"
+        if not part.any():
+            part = row[3:]
+            name = "v, where omega = 0,"
+        length = float(np.linalg.norm(part))
+        if abs(length - 1.0) > UNIT:
+            remedy = other_reading(S, what) or other_reading(row, f"{what}[{i}]")
+            raise ScrewError(
+                f"{where}: {name} must have length 1 to {UNIT:g}, got {length:.12g} in"
+                f" {row.tolist()}{remedy}"
+            )
+        if abs(length - 1.0) > _EXACT:
+            row /= length  # all six, which leaves the line where it is
+    return S
+
+
+def _rows(screws: ArrayLike, what: str) -> Array:
+    """A copy (n, 6) of the numbers, no zero with a sign."""
+    try:
+        S = numbers(screws, what).copy() + 0.0
+    except ShapeError as fault:
+        raise ShapeError(f"{fault}{matrix_among(screws)}") from fault.__cause__
+    if S.shape == (0,):
+        S = S.reshape(0, 6)
+    if S.ndim == 2 and S.shape[1] == 6:
+        return S
+    remedy = ""
+    if S.ndim == 2:
+        remedy = other_reading(S, what)
+    if not remedy:
+        remedy = matrix_among([S] if S.ndim == 2 else S)
+    raise ShapeError(
+        f"{what}: expected shape (n, 6), one row (omega; v) a joint, got {S.shape}{remedy}"
+    )
+
+
+def pitch_of(screw: Array) -> float:
+    """omega . v of a unit screw (6,) with omega != 0, in m per rad; exactly 0 where it is rounding."""
+    pitch = float(screw[:3] @ screw[3:])
+    if abs(pitch) <= _NO_PITCH * max(1.0, float(np.linalg.norm(screw[3:]))):
+        return 0.0
+    return pitch
+
+
+def pitches_of(screws: Array, given: ArrayLike | None = None, names: tuple[str, ...] = ()) -> Array:
+    """Pitches (n,) of unit screws (n, 6), in m per rad; 0 for a prismatic joint, which has none.
+
+    Raises: ShapeError; ScrewError for a pitch of a prismatic joint or one above 1e100; InputError
+    for one that is not finite.
+    """
+    turns = np.any(screws[:, :3], axis=1)
+    if given is None:
+        return np.array(
+            [pitch_of(S) if turning else 0.0 for S, turning in zip(screws, turns, strict=True)]
+        )
+    pitches = finite(given, "pitches")
+    if pitches.shape != (len(screws),):
+        raise ShapeError(
+            f"pitches: expected shape ({len(screws)},), one number a joint, got {pitches.shape}"
+        )
+    for i, (pitch, turning) in enumerate(zip(pitches.tolist(), turns, strict=True)):
+        where = f"pitches[{i}]" + (f" (joint {quote(names[i])})" if i < len(names) else "")
+        if abs(pitch) > LONGEST:
+            raise ScrewError(f"{where}: expected at most {LONGEST:g} m per rad, got {pitch:g}")
+        if pitch and not turning:
+            raise ScrewError(
+                f"{where}: expected 0 for a prismatic joint, which has no pitch, got {pitch:g}"
+            )
+    return pitches
+
+
+def with_pitches(screws: Array, pitches: Array) -> Array:
+    """Screws (n, 6) on the same lines whose omega . v is the pitch, to their own rounding.
+
+    A screw moved by a far pose comes back with the rounding of that distance, which would pass for
+    a pitch. A screw that has its pitch already stays as it is, to the last bit, and so does a
+    prismatic one. omega . v is then within 4e-15 max(1 m, |v|) of the pitch.
+    """
+    w = screws[:, :3]
+    v = screws[:, 3:]
+    missing = pitches - (w * v).sum(1)
+    far = np.maximum(1.0, np.linalg.norm(v, axis=1))
+    put = np.any(w, axis=1) & (np.abs(missing) > _NO_PITCH * far)
+    out = screws.copy()
+    out[put, 3:] += missing[put, None] * w[put]
+    return out
