@@ -96,7 +96,9 @@ class Choice(Result):
     def _factor(self, name: str) -> float:
         own = getattr(self.metrics, name)
         median = getattr(self.random_median, name)
-        return _ratio(median, own) if name in SMALLER_IS_BETTER else _ratio(own, median)
+        if name in SMALLER_IS_BETTER:
+            return _ratio(median, own)
+        return _ratio(own, median)
 
     def summary(self) -> str:
         """The criterion of the choice and of random choices, and what is unobserved, as text."""
@@ -124,4 +126,6 @@ def _ratio(a: float, b: float) -> float:
         return 1.0
     if np.isinf(b):
         return 0.0
-    return float(np.inf) if b == 0 else a / b
+    if b == 0:
+        return float(np.inf)
+    return a / b

@@ -160,7 +160,9 @@ def _candidates(chain: Chain, candidates: Any, seed: int) -> Array:
         if np.isfinite(q[row, k]):
             fault = f"is outside its limits {lower[k]:.6g} to {upper[k]:.6g}"
         many = int(bad.any(axis=1).sum())
-        others = f"; {many} of the {len(q)} candidates cannot be taken" if many > 1 else ""
+        others = ""
+        if many > 1:
+            others = f"; {many} of the {len(q)} candidates cannot be taken"
         name = quote(chain.q_names[k])
         raise InputError(f"candidates[{row}]: {name} = {q[row, k]:.6g} {fault}{others}")
     return q

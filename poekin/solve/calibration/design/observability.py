@@ -119,4 +119,6 @@ def from_singular_values(sigma: np.ndarray, m: int) -> ObservabilityIndices:
         smallest=last,
         amplification=np.where(seen, safe[..., -1] / safe[..., 0] * last, 0.0),
     )
-    return ObservabilityIndices(*map(float, indices)) if first.ndim == 0 else indices
+    if first.ndim == 0:
+        return ObservabilityIndices(*map(float, indices))
+    return indices

@@ -54,7 +54,9 @@ class Size(NamedTuple):
 
     def __str__(self) -> str:
         length = _short(self.length, "m")
-        return length if self.angle is None else f"{length} and {_short(self.angle, 'rad')}"
+        if self.angle is None:
+            return length
+        return f"{length} and {_short(self.angle, 'rad')}"
 
 
 class Explanation(NamedTuple):
@@ -94,13 +96,17 @@ def explain(problem: Problem, before: Residuals, after: Residuals) -> Remarks:
         now = median(after, k, s)
         if not far(was, arm.reach) or far(now, arm.reach):
             continue
-        which = f"measurement set {k} ({s.what}): " if len(problem.sets) > 1 else ""
+        which = ""
+        if len(problem.sets) > 1:
+            which = f"measurement set {k} ({s.what}): "
         head = f"{which}the nominal arm is off by {was} (median), the calibrated one by {now}"
         found = explained(problem, k)
         if found is None or far(found.left, arm.reach):
             # of lengths without an initial guess of where they are from nothing more is known
             known = found is not None or s.angular
-            why = ", and no other base and tool explain it" if known else ""
+            why = ""
+            if known:
+                why = ", and no other base and tool explain it"
             warnings.append(
                 f"{head}{why}: is it this arm, in its order of joints, are lengths in m and angles "
                 "in rad? compare() says which joints changed"

@@ -195,7 +195,9 @@ def identify_directions(
     the arm's is fixed. known (P,): parameters that a prior tells something of, as a measurement of
     each would. p: where a fit ended.
     """
-    least = RANK if p is None else THERE
+    least = THERE
+    if p is None:
+        least = RANK
     prior = _prior_rows(problem, known)
     observed = _row_space(np.concatenate([identification_matrix(problem, p=p), prior]), least)
     identifiable = observed

@@ -44,13 +44,18 @@ def _combined(problem: Problem, rest: Array) -> str:
     owners = list(dict.fromkeys(problem.parameters[j].owner for j in involved))
     count = rest.shape[1]
     if len(owners) == 1:
-        combinations = f"{count} combinations" if count > 1 else "a combination"
+        combinations = "a combination"
+        if count > 1:
+            combinations = f"{count} combinations"
         return f"{combinations} of the parameters of {_list(owners)}"
     joints = {p.owner for p in problem.model.parameters} - {"home"}
     if len(joints) > 2 and joints <= set(owners):
         owners = ["the arm as a whole", *(o for o in owners if o not in joints and o != "home")]
-    changes = f"{count} combined changes" if count > 1 else "a combined change"
-    cancel = "that cancel out" if count > 1 else "that cancels out"
+    changes = "a combined change"
+    cancel = "that cancels out"
+    if count > 1:
+        changes = f"{count} combined changes"
+        cancel = "that cancel out"
     return f"{changes} of {_list(owners)} {cancel}{_common(problem, owners)}"
 
 
@@ -63,7 +68,9 @@ def unobserved(problem: Problem, N: Array, unidentifiable: Array) -> list[str]:
     pairs = zip(problem.model.nominal.q_names, used.T, strict=True)
     still = [name for name, column in pairs if np.ptp(column) <= _STILL]
     if words and still:
-        are = "is" if len(still) == 1 else "are"
+        are = "are"
+        if len(still) == 1:
+            are = "is"
         words[-1] += f" ({_list(still)} {are} the same in all readings)"
     return words
 
@@ -71,7 +78,9 @@ def unobserved(problem: Problem, N: Array, unidentifiable: Array) -> list[str]:
 def _common(problem: Problem, owners: list[str]) -> str:
     """Remark on which of them may move, where unknown frames take part."""
     frames = [o for o in owners if o in problem.frame_names]
-    return f": {_list(frames)} may move, the arm does not" if frames else ""
+    if frames:
+        return f": {_list(frames)} may move, the arm does not"
+    return ""
 
 
 def _alone(problem: Problem, alone: Rows) -> list[str]:

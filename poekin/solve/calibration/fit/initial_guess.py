@@ -195,7 +195,9 @@ def _check_turns(R: Array, scatter: float) -> None:
     least = max(FLAT, scatter)
     if second > least:
         return
-    turns = "was turned about one axis only" if first > least else "was not turned"
+    turns = "was not turned"
+    if first > least:
+        turns = "was turned about one axis only"
     raise InputError(
         "an initial guess of two unknown frames needs a hand that is turned about two axes; it "
         f"{turns} (by {first:.2g} rad about its first, {second:.2g} about a second, rms, where the "

@@ -117,7 +117,10 @@ def minimise(problem: Problem, free: Array, noise: Noise, p: Array, options: Fit
         steps.append(Step(cost, float(np.linalg.norm(trial.z)), damping))
         p = trial.p
         cost = trial.cost
-        damping = damping / 10.0 if damping > _FIRST_DAMPING else 0.0
+        if damping > _FIRST_DAMPING:
+            damping = damping / 10.0
+        else:
+            damping = 0.0
         if done:
             # the step was too short to change the Jacobian
             return Outcome(p, True, steps, jacobian)
@@ -181,7 +184,9 @@ def _exact(problem: Problem, p: Array) -> bool:
 def _cost(objective: _Objective, p: Array) -> float:
     of_prior = float(np.sum((objective.inverse_prior * p) ** 2))
     total = misfit(objective.problem, objective.noise, objective.loss, p, of_prior)
-    return total if np.isfinite(total) else np.inf
+    if np.isfinite(total):
+        return total
+    return np.inf
 
 
 def misfit(

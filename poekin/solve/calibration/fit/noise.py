@@ -63,7 +63,9 @@ class Noise:
     def whitened(self, k: int, errors: Array) -> Array:
         """L^-1 times errors or a Jacobian (N, d, ...) of set k, given as (N, d, P)."""
         W = self._whiten[k]
-        return W @ errors if W.ndim == 3 else W * errors
+        if W.ndim == 3:
+            return W @ errors
+        return W * errors
 
     def squares(self, errors: Sequence[Array]) -> list[Array]:
         """s = e^T C^-1 e of each measurement, of the errors (N, d) of each set."""

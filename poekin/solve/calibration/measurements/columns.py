@@ -61,7 +61,9 @@ def parse_header(
             for layout in (*_FIXED, _points(rest)):
                 if rest and rest == set(layout.columns):
                     return names, layout
-    names = q_names if len(given & set(q_names)) > len(given & set(numbers)) else numbers
+    names = numbers
+    if len(given & set(q_names)) > len(given & set(numbers)):
+        names = q_names
     missing = [name for name in names if name not in given]
     if missing:
         if all(real(word) is not None for word in words):
@@ -117,4 +119,6 @@ def point_columns(count: int) -> tuple[str, ...]:
 def describe(layout: Layout) -> str:
     """A layout's columns as messages call them."""
     names = layout.columns
-    return f"{names[0]} ... {names[-1]}" if len(names) > 7 else " ".join(names)
+    if len(names) > 7:
+        return f"{names[0]} ... {names[-1]}"
+    return " ".join(names)

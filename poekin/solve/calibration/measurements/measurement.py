@@ -319,7 +319,9 @@ def covariances(values: ArrayLike | None, count: int, width: int, what: str) -> 
         )
     C = C.reshape(-1, width, width)
     for k, one in enumerate(C):
-        which = f"[{k}]" if len(C) > 1 else ""
+        which = ""
+        if len(C) > 1:
+            which = f"[{k}]"
         _check_covariance(one, f"{what}: covariance{which}")
     return np.broadcast_to(C, (count, width, width)).copy()
 

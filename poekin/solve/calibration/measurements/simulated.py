@@ -284,7 +284,9 @@ class _Sensor:
     def covariance(self, angles: int, lengths: int) -> Array | None:
         """Covariance of one measurement's errors, the angles first; None without noise."""
         diagonal = np.repeat(np.square(self.noise), [angles, lengths])
-        return np.diag(diagonal) if diagonal.all() else None
+        if diagonal.all():
+            return np.diag(diagonal)
+        return None
 
     def _gross_shifts(self) -> Array:
         count = int(self.gross.sum())

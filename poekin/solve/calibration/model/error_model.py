@@ -173,7 +173,9 @@ class ErrorModel:
         if free.home:
             parts.append(derivatives.home @ se3.right_jacobian(errors.home))
         if len(free.offsets) or len(free.gains):
-            J_q = J if self._coupling is None else J @ self._coupling
+            J_q = J
+            if self._coupling is not None:
+                J_q = J @ self._coupling
             parts.append(J_q[..., free.offsets])
             parts.append(J_q[..., free.gains] * q[:, None, free.gains])
         return np.concatenate(parts, axis=2)

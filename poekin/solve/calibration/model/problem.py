@@ -159,16 +159,22 @@ class Problem:
 
 
 def _rows(s: Measurement, count: int) -> Rows:
-    return np.arange(count) if s.rows is None else s.rows
+    if s.rows is None:
+        return np.arange(count)
+    return s.rows
 
 
 def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:
     """Names of the unknown frames of set k: frames that sets share by what they call them."""
-    which = f" of measurement set {k}" if len(sets) > 1 else ""
+    which = ""
+    if len(sets) > 1:
+        which = f" of measurement set {k}"
     frames = sets[k].unknown_frames
     return [u.name + (f" of {u.shared!r}" if u.shared else which) for u in frames]
 
 
 def _moved(frame: Array, eta: Array) -> Array:
     """A pose moved about its own axes, or a point."""
-    return frame @ se3.exp(eta) if len(eta) == 6 else frame + eta
+    if len(eta) == 6:
+        return frame @ se3.exp(eta)
+    return frame + eta

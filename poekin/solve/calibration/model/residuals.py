@@ -125,7 +125,9 @@ def _stacked(parts: Sequence[Residuals]) -> Residuals:
 def _known(statistic: Callable[[Array], Any], values: Array) -> float:
     """Statistic of the values that are not NaN; NaN without any."""
     known = values[~np.isnan(values)]
-    return float(statistic(known)) if len(known) else np.nan
+    if len(known):
+        return float(statistic(known))
+    return np.nan
 
 
 def _rms(values: Array) -> float:

@@ -64,7 +64,9 @@ def sentence(found: CalibrationData) -> str:
 
 def milli(value: float) -> str:
     """A length in m as mm, an angle in rad as mrad, to three digits; nothing where there is none."""
-    return "" if math.isnan(value) else f"{1e3 * value + 0.0:.3g}"
+    if math.isnan(value):
+        return ""
+    return f"{1e3 * value + 0.0:.3g}"
 
 
 class Change(NamedTuple):
@@ -79,7 +81,9 @@ class Change(NamedTuple):
     @property
     def size(self) -> float:
         """Their length; NaN where none was a parameter."""
-        return float(np.linalg.norm(self.values)) if len(self.values) else math.nan
+        if len(self.values):
+            return float(np.linalg.norm(self.values))
+        return math.nan
 
     @property
     def margins(self) -> Array:

@@ -100,7 +100,9 @@ def _figures(r: Residuals) -> list[str]:
 
 
 def _largest(values: Array) -> float:
-    return math.nan if np.isnan(values).all() else np.nanmax(values)
+    if np.isnan(values).all():
+        return math.nan
+    return np.nanmax(values)
 
 
 def _measured(found: CalibrationData) -> Iterator[str]:
@@ -127,7 +129,9 @@ def _measured(found: CalibrationData) -> Iterator[str]:
 
 def _noise_row(found: CalibrationData, k: int) -> tuple[str, ...]:
     mine = found.after.subset(found.after.set == k)
-    what = "lengths" if np.isnan(mine.angle).all() else "positions and rotations"
+    what = "positions and rotations"
+    if np.isnan(mine.angle).all():
+        what = "lengths"
     estimate = found.noise_std[k]
     noise = "as given"
     if estimate is not None:
@@ -228,7 +232,9 @@ def _outliers(found: CalibrationData, sources: Sequence[str] | None) -> Iterator
 
 
 def _search(found: CalibrationData) -> Iterator[str]:
-    state = "converged" if found.success else "did NOT converge"
+    state = "did NOT converge"
+    if found.success:
+        state = "converged"
     yield paragraph(
         f"The search with the loss {found.loss} {state} in {len(found.steps)} steps, counted over "
         "all its rounds."
@@ -250,7 +256,9 @@ def _parameters(found: CalibrationData) -> Iterator[str]:
 
 
 def _millimetres(length: float | None) -> str:
-    return "" if length is None else _seen(1e3 * length)
+    if length is None:
+        return ""
+    return _seen(1e3 * length)
 
 
 def _degrees(angle: float) -> str:

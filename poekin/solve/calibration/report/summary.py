@@ -12,7 +12,9 @@ MOST_OUTLIERS = 12
 
 def text_of(found: CalibrationData) -> str:
     """Lines that `print` of a calibration shows."""
-    state = "converged" if found.success else "NOT converged: the best that was found"
+    state = "NOT converged: the best that was found"
+    if found.success:
+        state = "converged"
     lines = [
         f"{len(found.parameters)} parameters, {len(found.after)} measurements, {state} in "
         f"{len(found.steps)} steps",
@@ -30,7 +32,9 @@ def _outliers(found: CalibrationData) -> list[str]:
         return []
     rows = ", ".join(str(o.row) for o in found.outliers[:MOST_OUTLIERS])
     more = len(found.outliers) - MOST_OUTLIERS
-    rest = f" and {more} more" if more > 0 else ""
+    rest = ""
+    if more > 0:
+        rest = f" and {more} more"
     return [f"outliers: rows {rows}{rest}"]
 
 
