@@ -164,9 +164,7 @@ def command(
     if json:
         print(as_json(_document(found, robot, given, written)))
     else:
-        _show(found, robot, given)
-        for path in written:
-            say(f"written: {path_text(path)}")
+        _show(found, robot, given, written)
     if not found.success:
         complain("the search did not converge: this is the best that was found")
     raise typer.Exit(0 if found.success else NOT_CONVERGED)
@@ -262,7 +260,7 @@ def _document(
     return named | {"outliers": outliers, "written": written}
 
 
-def _show(found: Calibration, robot: Robot, given: Measured) -> None:
+def _show(found: Calibration, robot: Robot, given: Measured, written: Sequence[str]) -> None:
     say(f"{name(robot.name)}, {name(found.chain.base)} → {name(found.chain.tip)}")
     say(changes.sentence(found))
     say(found.summary())
@@ -272,6 +270,8 @@ def _show(found: Calibration, robot: Robot, given: Measured) -> None:
         table(changes.HEADS, [changes.row(j) for j in moved])
     if found.outliers:
         say(f"\nOutliers: {_locations([given.sources[o.row] for o in found.outliers])}")
+    for path in written:
+        say(f"written: {path_text(path)}")
 
 
 def _locations(sources: Sequence[str]) -> str:

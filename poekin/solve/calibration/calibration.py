@@ -104,6 +104,15 @@ class Calibration(CalibrationData):
         -------
         comparison : Comparison
             As of `pk.compare`.
+
+        Examples
+        --------
+        >>> import poekin as pk
+        >>> arm = pk.load("ur5").chain()
+        >>> made = pk.calibration.simulated(arm, 30, seed=2)
+        >>> found = pk.calibrate(arm, made.q, made.measurements, folds=0)
+        >>> len(found.compare().joints)
+        6
         """
         return compare(self.nominal, self.chain)
 

@@ -81,6 +81,18 @@ class Points(Measurement):
     InputError
         If a number is not finite, a covariance is not symmetric and positive definite, or frame is
         another word.
+
+    Examples
+    --------
+    A laser tracker that sees a reflector at the tip, in a frame of its own:
+
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> made = pk.calibration.simulated(arm, 30, kind="points", unknown=True)
+    >>> points = pk.calibration.Points(made.measurements.p, frame="unknown")
+    >>> found = pk.calibrate(arm, made.q, points, folds=0)
+    >>> found.frames["T_base_device"].shape
+    (4, 4)
     """
 
     p: Any
@@ -168,6 +180,12 @@ class Distances(Measurement):
         If an array has another shape.
     InputError
         If a number is not finite, a distance is not above 0, or a variance is not positive.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> pk.calibration.Distances([0.8, 0.9, 1.1], centre=[1.0, 0.0, 0.5]).width
+    1
     """
 
     d: Any

@@ -145,6 +145,16 @@ class EyeInHand(_HandEye):
     ------
     ShapeError, PoseError, InputError
         As `Poses`.
+
+    Examples
+    --------
+    >>> import poekin as pk
+    >>> arm = pk.load("ur5").chain()
+    >>> made = pk.calibration.simulated(arm, 30, kind="eye-in-hand")
+    >>> seen = pk.calibration.EyeInHand(made.measurements.T)
+    >>> found = pk.calibrate(arm, made.q, seen, folds=0)
+    >>> sorted(found.frames)
+    ['T_base_board', 'T_tip_camera']
     """
 
     T_board_camera: Any
