@@ -88,7 +88,11 @@ def _invoke(arguments: Sequence[str] | None) -> int:
         try:
             code = app(args=arguments or ["--help"], prog_name="poekin", standalone_mode=False)
         except usage as error:
-            complain(f"error: {error.format_message()}")
+            message = error.format_message()
+            choices = getattr(getattr(error, "param", None), "help", None)
+            if choices and message.startswith("Missing"):
+                message = f"{message.removesuffix('.')}: {choices}"
+            complain(f"error: {message}")
             return ERROR
         except typer.Abort:
             return INTERRUPTED

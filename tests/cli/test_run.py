@@ -43,6 +43,19 @@ def test_an_unknown_command_is_one_message(refused):
     assert "fks" in refused("fks")
 
 
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["jacobian", "ur5e"], "Missing option '--frame': space | body | hybrid "),
+        (["emit", "ur5e"], "Missing option '--lang': c (C99, math.h only) or python "),
+        (["fk"], "Missing argument 'FILE': A URDF, MJCF, "),
+    ],
+    ids=["frame", "language", "file"],
+)
+def test_a_required_choice_that_is_left_out_lists_the_choices(refused, words, message):
+    assert message in refused(*words)
+
+
 @pytest.mark.parametrize("command", ["info", "fk", "jacobian", "validate"])
 @pytest.mark.parametrize(
     ("content", "message"),
