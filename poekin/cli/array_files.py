@@ -84,7 +84,7 @@ def _content(given: str) -> bytes:
         content = stream.read(csv_rows.MOST + 1)
     if len(content) > csv_rows.MOST:
         raise FileError(
-            f"{called(given)}: at most {csv_rows.MOST} bytes expected out of a pipe; a file may be larger"
+            f"{called(given)}: at most {csv_rows.MOST} bytes expected from a pipe; a file may be larger"
         )
     return content
 

@@ -48,9 +48,7 @@ def configurations(content: bytes, m: int, where: str, tail: tuple[int, ...] = (
     needed = count * dtype.itemsize
     there = len(content) - start
     if needed > there:
-        raise FileError(
-            f"{where} is damaged: its header speaks of {needed} bytes, {there} are there"
-        )
+        raise FileError(f"{where} is damaged: its header says {needed} bytes, the file has {there}")
     flat = np.zeros(0, dtype)
     if count:  # NumPy refuses an empty buffer
         flat = np.frombuffer(content, dtype, count, start)
@@ -63,7 +61,7 @@ def configurations(content: bytes, m: int, where: str, tail: tuple[int, ...] = (
 def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:
     """Type of the elements, whether the first axis runs fastest, shape, and first byte of data."""
     if not content.startswith(MAGIC):
-        raise ValueError("it does not begin like one")
+        raise ValueError("its first bytes are not those of a .npy file")
     version = content[6:8]
     if version not in _START_OF_HEADER:
         raise ValueError("its version is unknown")
@@ -87,7 +85,7 @@ def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:
     if not isinstance(shape, tuple) or not all(
         type(size) is int and 0 <= size <= MOST_ROWS for size in shape
     ):
-        raise ValueError("its header's shape is none")
+        raise ValueError("its header's shape is not valid")
     return np.dtype(descr), column_major, shape, start + length
 
 

@@ -111,7 +111,7 @@ def _joint(fields: Fields, repairs: Repairs) -> Joint:
     for role in ("parent", "child"):
         end = fields.child(role)
         if end is None:
-            raise fields.fault(f'expected an element <{role} link="..."/>, none there')
+            raise fields.fault(f'expected an element <{role} link="..."/>, there is none')
         ends.append(end.name("link"))
     origin = fields.child("origin")
     pose = rpy.pose(_ZERO, _ZERO)
@@ -143,7 +143,7 @@ def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
         return 1.0, 0.0, 0.0
     axis = element.vector("xyz")
     if axis is None:
-        raise element.fault('expected an attribute xyz="...", none there')
+        raise element.fault('expected an attribute xyz="...", there is none')
     if not any(axis):
         raise element.fault("xyz must not be zero")
     length = math.hypot(*axis)

@@ -115,10 +115,10 @@ REASONS = {
     "a type that is none": "an array of real numbers expected, its elements are '<f3'",
     "a type of objects": "an array of real numbers expected, its elements are '|O'",
     "an order that is none": "its header's fortran_order is neither True nor False",
-    "a shape that is a number": "its header's shape is none",
-    "a shape of truths": "its header's shape is none",
-    "a shape below 0": "its header's shape is none",
-    "a shape too large for C": "its header's shape is none",
+    "a shape that is a number": "its header's shape is not valid",
+    "a shape of truths": "its header's shape is not valid",
+    "a shape below 0": "its header's shape is not valid",
+    "a shape too large for C": "its header's shape is not valid",
     "a header without end": "its header is longer than 10000 bytes",
 }
 
@@ -133,7 +133,7 @@ def test_what_is_wrong_with_a_header_is_said(name):
 def test_what_is_wrong_with_the_whole_is_said():
     good = _saved(np.ones((3, 2)))
     for content, reason in (
-        (b"PK\3\4" + good, "it does not begin like one"),
+        (b"PK\3\4" + good, "its first bytes are not those of a .npy file"),
         (good[:6] + b"\7\0" + good[8:], "its version is unknown"),
         (good[:100], "it ends within its header"),
         (good[:9], "it ends within its header"),
@@ -142,7 +142,7 @@ def test_what_is_wrong_with_the_whole_is_said():
             configurations(content, 2, "q")
         assert str(caught.value) == f"q is no .npy file of numbers: {reason}"
     with pytest.raises(
-        FileError, match=r"^q is damaged: its header speaks of 48 bytes, 47 are there$"
+        FileError, match=r"^q is damaged: its header says 48 bytes, the file has 47$"
     ):
         configurations(good[:-1], 2, "q")
     with pytest.raises(InputError, match=r"^q: an array of shape \(N, 3\) expected, got \(3, 2\)$"):
@@ -156,7 +156,7 @@ def test_what_is_as_long_as_it_may_be_is_read():
         configurations(_file(header.ljust(10_001), bytes(48)), 2, "q")
     many = header.replace("(3, 2)", f"({2**40}, 0)")
     assert configurations(_file(many), 0, "q").shape == (2**40, 0)
-    with pytest.raises(FileError, match="its header's shape is none"):
+    with pytest.raises(FileError, match="its header's shape is not valid"):
         configurations(_file(header.replace("(3, 2)", f"({2**40 + 1}, 0)")), 0, "q")
     long = header.replace("'<f8'", f"'{'x' * 50}'")
     with pytest.raises(FileError, match=rf"its elements are '{'x' * 40}'$"):
@@ -208,4 +208,4 @@ def test_the_command_names_the_file(tmp_path, crane, refused):
     path = tmp_path / "q.npy"
     path.write_bytes(_file(DAMAGED["more rows than memory"]))
     message = refused("fk", crane, "--tip", "hook", "--input", path)
-    assert f"'{path}' is damaged: its header speaks of 16000000000000 bytes, 0 are there" in message
+    assert f"'{path}' is damaged: its header says 16000000000000 bytes, the file has 0" in message

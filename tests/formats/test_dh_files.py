@@ -139,7 +139,7 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
         ),
         (
             "convention,theta,theta,d,a,alpha\nstandard,1,2,3,4,5\n",
-            "t.csv:1: theta: it is there 2 times, expected once",
+            "t.csv:1: theta: it appears 2 times, expected once",
         ),
         (
             f"{POSED}modified,1,2,3,1,,\nstandard,,,,,base,{UNIT}\n",

@@ -463,7 +463,7 @@ def test_a_joint_that_cannot_move_is_a_joint():
 
 
 def test_of_columns_that_are_there_twice_the_first_is_named():
-    with pytest.raises(ModelError, match=r"^t\.csv:1: d: it is there 3 times, expected once$"):
+    with pytest.raises(ModelError, match=r"^t\.csv:1: d: it appears 3 times, expected once$"):
         table_io.read_text("convention,theta,d,d,d,a,a,alpha\n", "t.csv")
 
 

@@ -133,12 +133,12 @@ BAD = {
         changed("    yaw: .*\n", ""),
         "f.yaml:3: shoulder: yaw missing; expected are x, y, z, roll, pitch, yaw",
     ),
-    "key twice": (changed("    y: ", "    x: "), "f.yaml:4: 'x' is there twice (first: line 3)"),
+    "key twice": (changed("    y: ", "    x: "), "f.yaml:4: 'x' appears twice (first: line 3)"),
     "link twice": (
         changed("upper_arm", "shoulder"),
-        "f.yaml:9: 'shoulder' is there twice (first: line 2)",
+        "f.yaml:9: 'shoulder' appears twice (first: line 2)",
     ),
-    "kinematics twice": (TEXT + TEXT, "f.yaml:45: 'kinematics' is there twice (first: line 1)"),
+    "kinematics twice": (TEXT + TEXT, "f.yaml:45: 'kinematics' appears twice (first: line 1)"),
     "nan": (
         changed("z: .*", "z: .nan"),
         "f.yaml:5: shoulder: z: expected a finite number, got '.nan'",
@@ -336,7 +336,7 @@ def test_deltas_are_read_from_a_controller_s_file(tmp_path):
 BAD_CONF = {
     "missing": (changed("delta_d .*\n", "", CONF), r"c\.conf: delta_d is missing; needed are delta_theta, delta_a"),
     "misspelt": (changed("delta_d ", "delta_dd ", CONF), r"c\.conf: delta_d is missing; .*did you mean 'delta_dd'"),
-    "twice": (CONF + CONF, r"c\.conf:7: delta_theta: it is there twice \(first: line 2\)"),
+    "twice": (CONF + CONF, r"c\.conf:7: delta_theta: it appears twice \(first: line 2\)"),
     "seven": (changed("0, 0,", "0, 0, 0,", CONF), r"c\.conf:2: delta_theta: expected 6 numbers, one a joint, got 7"),
     "no bracket": (changed(r"-4\]", "-4", CONF), r"c\.conf:2: delta_theta: expected numbers in brackets, got '\[ 0,"),
     "a word": (changed("1e-3", "one", CONF), r"c\.conf:2: delta_theta: expected a finite number, got 'one'"),

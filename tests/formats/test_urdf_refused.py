@@ -145,7 +145,7 @@ REFUSED = {
     ),
     "a nameless link": (
         "<robot>\n<link/></robot>",
-        r'^x\.urdf:2: <link>: expected an attribute name="\.\.\.", none there$',
+        r'^x\.urdf:2: <link>: expected an attribute name="\.\.\.", there is none$',
     ),
     "an empty name": (
         '<robot>\n<link name=""/></robot>',
@@ -187,7 +187,7 @@ REFUSED = {
     # the joint
     "a nameless joint": (
         joint_of('type="fixed"'),
-        r'^x\.urdf:3: <joint>: expected an attribute name="\.\.\.", none there$',
+        r'^x\.urdf:3: <joint>: expected an attribute name="\.\.\.", there is none$',
     ),
     "no type": (joint_of('name="j"'), r"^x\.urdf:3: joint 'j': expected an attribute type"),
     "an unknown type": (
@@ -205,7 +205,7 @@ REFUSED = {
     ),
     "two children": (
         joint_of(ends='<parent link="a"/><child link="b"/><child link="b"/>'),
-        r"^x\.urdf:4: joint 'j': <child>: it is there 2 times, expected once$",
+        r"^x\.urdf:4: joint 'j': <child>: it appears 2 times, expected once$",
     ),
     "two numbers": (
         one_joint('<origin xyz="0 0"/>'),
@@ -490,14 +490,14 @@ SENTENCES = {
     "root": ("<mujoco/>", "x.urdf:1: expected the root element <robot>, got 'mujoco'"),
     "empty name": ('<robot>\n<link name=""/></robot>',
                    "x.urdf:2: <link>: expected an attribute name=\"...\", it is empty"),
-    "no type": (joint_of('name="j"'), "x.urdf:3: joint 'j': expected an attribute type=\"...\", none there"),
+    "no type": (joint_of('name="j"'), "x.urdf:3: joint 'j': expected an attribute type=\"...\", there is none"),
     "type": (joint_of('name="j" type="ball"'),
              "x.urdf:3: joint 'j': type must be one of revolute, continuous, prismatic, fixed, floating, planar,"
              " got 'ball'"),
     "no child": (joint_of(ends='<parent link="a"/>'),
-                 "x.urdf:3: joint 'j': expected an element <child link=\"...\"/>, none there"),
+                 "x.urdf:3: joint 'j': expected an element <child link=\"...\"/>, there is none"),
     "two": (joint_of(ends='<parent link="a"/><child link="b"/><child link="b"/>'),
-            "x.urdf:4: joint 'j': <child>: it is there 2 times, expected once"),
+            "x.urdf:4: joint 'j': <child>: it appears 2 times, expected once"),
     "count": (one_joint('<origin xyz="0 1"/>'),
               "x.urdf:4: joint 'j': <origin>: xyz must be three numbers, got 2: '0 1'"),
     "xacro": (one_joint('<origin rpy="${x} 0 0"/>'),
@@ -505,7 +505,7 @@ SENTENCES = {
               " (an unprocessed xacro expression?)"),
     "far": (one_joint('<origin xyz="0 -1e155 0"/>'),
             "x.urdf:4: joint 'j': <origin>: xyz: expected lengths of at most 1e+100 m, got (0.0, -1e+155, 0.0)"),
-    "axis": (one_joint("<axis/>"), "x.urdf:4: joint 'j': <axis>: expected an attribute xyz=\"...\", none there"),
+    "axis": (one_joint("<axis/>"), "x.urdf:4: joint 'j': <axis>: expected an attribute xyz=\"...\", there is none"),
     "limits": (one_joint('<limit lower="1" upper="-1.5"/>'),
                "x.urdf:4: joint 'j': <limit>: lower must not be above upper, got lower = 1.0, upper = -1.5"),
     "limit": (one_joint('<limit lower="0" upper="high"/>'),

@@ -364,7 +364,7 @@ def test_a_header_orders_the_quaternion(tmp_path):
 @pytest.mark.parametrize(
     ("text", "format", "order", "kind", "says"),
     [
-        ("1,2,3,0,0,0,1", "7", None, InputError, r"needs the order of its quaternion, wxyz or xyzw; it is not said"),
+        ("1,2,3,0,0,0,1", "7", None, InputError, r"needs the order of its quaternion, wxyz or xyzw; none was given"),
         ("1,2,3,0,0,0,1", "7", "xyz", InputError, r"wxyz or xyzw; got 'xyz'"),
         ("1,2,3,0,0,0,1", "12", "xyzw", InputError, r"the format 12 has none"),
         ("1,2,3", "8", None, InputError, r"expected one of 12, 16, 7 \(numbers a pose\), got '8'"),

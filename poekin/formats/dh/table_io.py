@@ -180,7 +180,7 @@ class _CsvTable:
         keys = Keys(Counter(header), f"{place}:1", CSV_COLUMNS)
         for column, times in keys.data.items():
             if times > 1:
-                raise keys.fault(column, f"it is there {times} times, expected once")
+                raise keys.fault(column, f"it appears {times} times, expected once")
         for column in ("convention", *COLUMNS):
             keys.value(column)
 

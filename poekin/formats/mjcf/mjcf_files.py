@@ -78,7 +78,7 @@ def look_through(root: xml.Element, source: Source, folder: str, path: str = "")
             count += 1
             where = f"{opened.source.place(element.sourceline)}: <{element.tag}>"
             if inner.above[-1] in opened.above:
-                raise ModelError(f"{where}: {inner.source.place()} leads back to itself")
+                raise ModelError(f"{where}: {inner.source.place()} includes itself")
             if count > MOST_FILES:
                 raise ModelError(
                     f"{where}: expected at most {MOST_FILES} files, one for each time that one is named"

@@ -135,7 +135,7 @@ def _bounded(stream: TextIO, where: str) -> Iterator[str]:
             )
         if left < 0:
             raise FileError(
-                f"{where}:{number}: at most {MOST} characters expected out of a pipe; a file may be larger"
+                f"{where}:{number}: at most {MOST} characters expected from a pipe; a file may be larger"
             )
         yield line
 
@@ -225,7 +225,7 @@ def _order(
             )
     missing = [n for n in names if n not in words]
     if missing or len(set(words)) != len(words):
-        fault = "a name stands twice"
+        fault = "a name appears twice"
         if missing:
             fault = f"{quote(missing[0])} is missing"
         raise InputError(

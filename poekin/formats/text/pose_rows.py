@@ -44,7 +44,7 @@ def columns(format: Any, quaternion: Any = None) -> tuple[str, ...]:
     if not isinstance(quaternion, str) or quaternion not in ORDERS:
         asked = f"got {safe_repr(quaternion)}"
         if quaternion is None:
-            asked = "it is not said"
+            asked = "none was given"
         raise InputError(
             f"quaternion: the format 7 needs the order of its quaternion, {' or '.join(ORDERS)}; {asked}"
         )

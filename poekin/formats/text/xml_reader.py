@@ -57,7 +57,7 @@ class Fields:
         if not value:
             found = "it is empty"
             if value is None:
-                found = "none there"
+                found = "there is none"
             raise self.fault(f'expected an attribute {attribute}="...", {found}')
         return value
 
@@ -80,7 +80,7 @@ class Fields:
             return None
         if len(found) > 1:
             raise Fields(found[1], self.source, self).fault(
-                f"it is there {len(found)} times, expected once"
+                f"it appears {len(found)} times, expected once"
             )
         return Fields(found[0], self.source, self)
 

@@ -121,5 +121,5 @@ def _key(value: TextNode | MappingNode, mapping: MappingNode, where: str) -> Tex
         raise ModelError(f"{where}: expected the name of a key, got a mapping")
     if value.text in mapping.items:
         first = mapping.key_lines[value.text]
-        raise ModelError(f"{where}: {quote(value.text)} is there twice (first: line {first})")
+        raise ModelError(f"{where}: {quote(value.text)} appears twice (first: line {first})")
     return value

@@ -70,7 +70,7 @@ def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
             continue
         where = f"{place}:{number}: {name}"
         if name in found:
-            raise ModelError(f"{where}: it is there twice (first: line {lines[name]})")
+            raise ModelError(f"{where}: it appears twice (first: line {lines[name]})")
         found[name] = _numbers(value, where)
         lines[name] = number
     for name in DELTAS:

@@ -166,7 +166,7 @@ def test_what_ik_and_follow_write_beside_the_coordinates_is_passed_over(
     assert as_json("fk", crane, "--tip", "hook", "--input", given)["q"] == [[0.1, 0.2]]
     given.write_text("time,turn,slide,turn\n0.5,0.1,0.2,1.0\n")
     code, _, err = poekin("fk", crane, "--tip", "hook", "--input", given)
-    assert (code, "a name stands twice" in err) == (2, True)
+    assert (code, "a name appears twice" in err) == (2, True)
     given.write_text("time,turn,slide\n0.5,0.1\n")
     code, _, err = poekin("fk", crane, "--tip", "hook", "--input", given)
     assert (code, ":2: 3 values expected, as the header has, got 2" in err) == (2, True)
@@ -255,7 +255,7 @@ def test_nan_gives_null_for_that_configuration_only(crane, as_json, tmp_path):
         ),
         (
             "turn,slide,turn\n1,2,3\n",
-            ":1: the header has to name each of the 2 coordinates once; a name stands twice",
+            ":1: the header has to name each of the 2 coordinates once; a name appears twice",
         ),
     ],
 )

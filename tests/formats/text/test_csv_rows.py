@@ -36,7 +36,7 @@ REFUSED = {
     "unknown": ("a,b,cc\n", UnknownName, "f.csv:1: 'cc' is neither a number nor a coordinate; did you mean 'c'?"),
     "missing": ("a,b\n", InputError, "f.csv:1: the header has to name each of the 3 coordinates once; 'c' is missing"),
     "twice": ("a,b,c,b\n", InputError,
-              "f.csv:1: the header has to name each of the 3 coordinates once; a name stands twice"),
+              "f.csv:1: the header has to name each of the 3 coordinates once; a name appears twice"),
 }  # fmt: skip
 
 

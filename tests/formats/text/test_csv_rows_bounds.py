@@ -46,7 +46,7 @@ def test_a_device_without_an_end_is_no_csv(zeros):
 def test_a_device_without_an_end_is_no_array(zeros, monkeypatch):
     monkeypatch.setattr(csv_rows, "MOST", 4096)
     with pytest.raises(
-        FileError, match="at most 4096 bytes expected out of a pipe; a file may be larger"
+        FileError, match="at most 4096 bytes expected from a pipe; a file may be larger"
     ):
         array_files.read_configurations(str(zeros), ["a"], lambda done, total: None)
 
@@ -88,7 +88,7 @@ def test_a_pipe_is_read_up_to_a_bound(monkeypatch, more):
         if more:
             with pytest.raises(
                 FileError,
-                match=r"^q\.csv:3: at most 8 characters expected out of a pipe; a file may be larger$",
+                match=r"^q\.csv:3: at most 8 characters expected from a pipe; a file may be larger$",
             ):
                 read(stream)
         else:

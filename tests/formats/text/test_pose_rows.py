@@ -62,7 +62,7 @@ REFUSED = {
     "no quaternion": (lambda: pose_rows.columns("16", "wxyz"),
                       "quaternion: the format 16 has none; expected together with the format 7 only"),
     "no order": (lambda: pose_rows.columns("7"),
-                 "quaternion: the format 7 needs the order of its quaternion, wxyz or xyzw; it is not said"),
+                 "quaternion: the format 7 needs the order of its quaternion, wxyz or xyzw; none was given"),
     "another order": (lambda: pose_rows.columns("7", "zyxw"),
                       "quaternion: the format 7 needs the order of its quaternion, wxyz or xyzw; got 'zyxw'"),
 }  # fmt: skip

@@ -158,6 +158,6 @@ def test_a_huge_number_anywhere_in_a_table_is_a_model_error(old):
 
 def test_a_column_that_is_there_thousands_of_times_is_said_once():
     with pytest.raises(
-        ModelError, match=r"^t\.csv:1: theta: it is there 20000 times, expected once$"
+        ModelError, match=r"^t\.csv:1: theta: it appears 20000 times, expected once$"
     ):
         table_io.read_text(",".join(["theta"] * 20_000), "t.csv")

@@ -15,7 +15,7 @@ REFUSED = {
     "a list": ("a:\n - 1\n", "f:2: expected names and numbers, got a list"),
     "a text": ("\nword\n", "f:2: expected a mapping, as in \"kinematics:\", got 'word'"),
     "no key": ("? {a: 1}\n: 2\n", "f:1: expected the name of a key, got a mapping"),
-    "twice": ("x:\n  a: 1\n  b: 1\n  a: 2\n", "f:4: 'a' is there twice (first: line 2)"),
+    "twice": ("x:\n  a: 1\n  b: 1\n  a: 2\n", "f:4: 'a' appears twice (first: line 2)"),
     "deep": ("{a: " * 9 + "1" + "}" * 9, "f:1: expected at most 8 levels, got more"),
     "empty": ("# nothing\n", "f: the text is empty"),
 }
