@@ -2,6 +2,7 @@
 
 import copy
 import dataclasses
+import json
 import math
 import pickle
 import re
@@ -178,6 +179,27 @@ def test_a_coupled_chain_gives_the_table_of_its_joints():
     result = dh.from_chain(chain, convention="standard")
     assert result.table.names == chain.joint_names
     assert result.error <= result.bound
+
+
+def test_a_table_s_result_says_what_it_chose_and_becomes_plain_data():
+    result = dh.from_chain(pk.load("stanford").chain(), convention="modified")
+    lines = str(result).splitlines()
+    assert lines[:-1] == [f"Free choice: {words}" for words in result.gauge]
+    assert lines[-1].startswith(f"Pose error ÷ reach ({result.reach:.3g} m): {result.error:.2g} ")
+    document = json.loads(result.to_json())
+    assert list(document) == [
+        *("convention", "joints", "base_pose", "tool_pose"),
+        *("gauge", "error", "bound", "warnings", "reach"),
+    ]
+    rows = [Row(**joint | {"limits": (-math.inf, math.inf)}) for joint in document["joints"]]
+    poses = {"base": document["base_pose"], "tool": document["tool_pose"]}
+    made = Table(document["convention"], rows, **poses)
+    x = np.linspace(-1, 1, len(made))
+    np.testing.assert_array_equal(dh.to_chain(made).fk(x), dh.to_chain(result.table).fk(x))
+    near = pk.screw.revolute([math.sin(1e-5), 0, math.cos(1e-5)], [1, 0, 0])
+    tilted = [pk.screw.revolute([0, 0, 1], [0, 0, 0]), near]
+    far = dh.from_chain(pk.Chain(tilted, np.eye(4)), convention="standard")
+    assert f"Warning: {far.warnings[0]}" in far.summary().splitlines()
 
 
 def test_a_chain_without_joints_is_a_tool():
