@@ -27,7 +27,6 @@ from ..model.robot import Robot
 from . import rpy
 from .common.limits import ABSURD, UNBOUNDED, without_absurd
 from .text import xml
-from .text.xml import Element
 from .text.xml_reader import Fields
 
 # An axis this far off unit length is a slip of the pen, not rounding.
@@ -76,15 +75,15 @@ def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robo
         raise ModelError(
             f"{source.place(top.line)}: expected the root element <robot>, got {quote(top.tag)}"
         )
-    links = top.all("link")
-    if not links:
-        raise top.fault(f"expected at least one <link>, there is none{_xacro(root)}")
     for element in root:
         if "xacro" in element.tag:
             what = f"<xacro:{Fields(element, source).tag}> is xacro that was not processed yet, which may hold joints"
             raise ModelError(
                 f"{source.place(element.sourceline)}: {what}: pk.xacro(path) evaluates it, and --xacro"
             )
+    links = top.all("link")
+    if not links:
+        raise top.fault("expected at least one <link>, there is none")
     repairs = Repairs([], [], [])
     elements = top.all("joint")
     joints = [_joint(fields, repairs) for fields in elements]
@@ -233,9 +232,3 @@ def _others(repairs: list[Repair], named: Repair, rank: str) -> str:
     if len(lines) > 10:
         lines[10:] = ["..."]
     return f" ({rank} {len(repairs)}; the others on line {', '.join(lines)})"
-
-
-def _xacro(root: Element) -> str:
-    if any("xacro" in str(element.tag) for element in root):
-        return " (xacro that was not processed yet?)"
-    return ""

@@ -63,26 +63,25 @@ class Fields:
 
     def all(self, tag: str) -> list[Fields]:
         """The direct children of that tag, in order."""
-        space, bracket, _ = self.element.tag.rpartition("}")
-        return [
-            Fields(element, self.source)
-            for element in self.element.iterchildren(space + bracket + tag)
-        ]
+        return [Fields(element, self.source) for element in self._found(tag)]
 
     def child(self, tag: str) -> Fields | None:
         """The only child of that tag, or None."""
-        if not self._children:
-            for element in self.element:
-                self._children.setdefault(element.tag, []).append(element)
-        space, bracket, _ = self.element.tag.rpartition("}")
-        found = self._children.get(space + bracket + tag)
-        if found is None:
-            return None
+        found = self._found(tag)
         if len(found) > 1:
             raise Fields(found[1], self.source, self).fault(
                 f"it appears {len(found)} times, expected once"
             )
-        return Fields(found[0], self.source, self)
+        for element in found:
+            return Fields(element, self.source, self)
+        return None
+
+    def _found(self, tag: str) -> list[Element]:
+        if not self._children:
+            for element in self.element:
+                self._children.setdefault(element.tag, []).append(element)
+        space, bracket, _ = self.element.tag.rpartition("}")
+        return self._children.get(space + bracket + tag, [])
 
     def number(self, attribute: str, *, finite: bool = True) -> float | None:
         """Number, never NaN, infinite only if not `finite`; None where the attribute is missing."""
