@@ -248,7 +248,7 @@ BALL = Row(kind="ball")  # pyright: ignore[reportArgumentType]
         ([{"theta": 0, "d": 0, "a": 0}], InputError, "row 0: column alpha is missing"),
         ([{"theta": 0, "d": 0, "a": 0, "alhpa": 0}], InputError, "row 0: no column 'alhpa'"),
         (
-            [Row(kind="ball")],
+            [BALL],
             InputError,
             "row 0: kind: expected 'revolute' or 'prismatic', got 'ball'",
         ),

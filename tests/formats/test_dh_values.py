@@ -346,7 +346,7 @@ def test_two_tables_are_equal_when_all_of_them_is():
     assert table != 5
     assert len({table, Table("standard", ROWS, name="t"), Table("standard", ROWS, name="u")}) == 2
     with pytest.raises(AttributeError, match=r"^cannot delete field 'd'$"):
-        del table.d
+        del table.d  # pyright: ignore[reportAttributeAccessIssue]
 
 
 def test_a_turn_of_alpha_is_taken_and_more_of_it_warned_about(recwarn):

@@ -204,7 +204,7 @@ def test_what_cannot_be_emitted_is_refused():
         UnknownName,
         match=r"^frame: expected 'space', 'body', 'hybrid' or the index of a joint, got 'world'$",
     ):
-        emit.python(arm("panda"), "world")
+        emit.python(arm("panda"), "world")  # pyright: ignore[reportArgumentType]
     with pytest.raises(
         InputError,
         match=r"^frame: expected 'space', 'body', 'hybrid' or the index of a joint, 0 to 6, got 7$",
