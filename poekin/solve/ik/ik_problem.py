@@ -16,6 +16,7 @@ from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from ..chain_cache import ChainCache
 from ..joint_units import joint_units
+from ..option_checks import KERNEL_INT, is_real, true_or_false, whole
 from .joint_domain import JointDomain, make_joint_domain
 from .plane import plane_normal
 from .task import Task, TaskName, make_task
@@ -156,23 +157,15 @@ class Problem:
         info = np.empty((len(targets), codes.INFO))
         limits = self.domain.limits if limits is None else limits
         ranges = self.domain.ranges if ranges is None else ranges
-        kernel = self._solve
-        address = self._address
-        locked = self.locked
-        seed = self.settings.seed
-        if len(targets) <= rows:
-            kernel.call(
-                address, targets, q0, limits, ranges, locked, options, indices, seed, q, info
-            )
-            return q, info
 
         def run(targets: Array, q0: Array, indices: Array, q: Array, info: Array) -> None:
-            kernel.call(
-                address, targets, q0, limits, ranges, locked, options, indices, seed, q, info
-            )
+            args = (limits, ranges, self.locked, options, indices, self.settings.seed, q, info)
+            self._solve.call(self._address, targets, q0, *args)
 
         arrays = (targets, q0, indices, q, info)
-        if self.settings.parallel:
+        if len(targets) <= rows:
+            run(*arrays)
+        elif self.settings.parallel:
             threads.share_out(run, *arrays, rows=min(rows, SHARED))
         else:
             for start in range(0, len(targets), rows):
@@ -226,17 +219,9 @@ def _rows(restarts: int, iterations: int) -> int:
 def _check_numbers(settings: Settings) -> None:
     for what in ("tol_position", "tol_rotation"):
         tol = getattr(settings, what)
-        real = isinstance(tol, (int, float, np.integer, np.floating)) and not isinstance(tol, bool)
-        if not real or not 0 < tol < np.inf:
+        if not is_real(tol) or not 0 < tol < np.inf:
             raise InputError(f"{what}: expected a positive number, got {safe_repr(tol)}")
     for what, least in (("restarts", 0), ("iterations", 1), ("seed", 0)):
-        number = getattr(settings, what)
-        whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
-        if not whole or not least <= number < 2**62:
-            raise InputError(
-                f"{what}: expected a whole number from {least} on, got {safe_repr(number)}"
-            )
+        whole(getattr(settings, what), what, least, KERNEL_INT)
     for what in ("limits", "parallel"):
-        value = getattr(settings, what)
-        if not isinstance(value, (bool, np.bool_)):
-            raise InputError(f"{what}: expected True or False, got {safe_repr(value)}")
+        true_or_false(getattr(settings, what), what)

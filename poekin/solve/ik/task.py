@@ -12,6 +12,7 @@ from ...engine.kernels import ik_codes as codes
 from ...errors import InputError, PoseError, safe_repr
 from ...formulas.inverse import pose_error
 from ...groups.arrays import Array, poses, shaped
+from ..option_checks import one_of
 
 TASKS = {
     "pose": (codes.POSE, 6),
@@ -77,8 +78,7 @@ def targets(T: ArrayLike, what: str) -> Array:
 
 def make_task(name: Any, axis: Any, weights: Any) -> Task:
     """Task by the name that a user gives. Raises: InputError."""
-    if not isinstance(name, str) or name not in TASKS:
-        raise InputError(f"task: expected one of {', '.join(TASKS)}, got {safe_repr(name)}")
+    one_of(name, TASKS, "task")
     if axis is not None and name != "direction":
         raise InputError(f"axis: only the task 'direction' has one, the task is {name!r}")
     a = shaped([0.0, 0.0, 1.0] if axis is None else axis, (3,), "axis")

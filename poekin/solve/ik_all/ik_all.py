@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import itertools
 from functools import lru_cache
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, MissingExtra, join_names, safe_repr
+from ...errors import InputError, MissingExtra, join_names
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from ..ik.ik_problem import compiled
 from ..ik.task import targets
 from ..joint_units import joint_units
+from ..option_checks import KERNEL_INT, one_of, true_or_false, whole
 from .all_solutions import AllSolutions, in_words, missing_probability
 from .closed_form import ClosedForm, closed_form
 from .ik_all_search import Found, Rule, accepted, bounds, periods, pose_errors, search, turns_within
@@ -115,14 +116,13 @@ def ik_all(
     units = joint_units(compiled_chain)
     fast = units.fast
     _check_chain(given)
-    _check_options(limits, method, all_revolutions)
-    for what, number, least in (
-        ("min_hits", min_hits, 1),
-        ("restarts", restarts, 1),
-        ("iterations", iterations, 1),
-        ("seed", seed, 0),
-    ):
-        _check_whole(what, number, least)
+    true_or_false(limits, "limits")
+    true_or_false(all_revolutions, "all_revolutions")
+    one_of(method, METHODS, "method")
+    whole(min_hits, "min_hits", 1, KERNEL_INT)
+    whole(restarts, "restarts", 1, KERNEL_INT)
+    whole(iterations, "iterations", 1, KERNEL_INT)
+    whole(seed, "seed", 0, KERNEL_INT)
     wanted = targets(T, "T")
     batch = wanted.shape[:-2]
     rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
@@ -154,36 +154,13 @@ def _check_chain(chain: Chain) -> None:
         raise InputError("ik_all: expected an arm of one to six coordinates, the chain has none")
 
 
-def _check_options(limits: Any, method: Any, all_revolutions: Any) -> None:
-    for what, value in (("limits", limits), ("all_revolutions", all_revolutions)):
-        if not isinstance(value, (bool, np.bool_)):
-            raise InputError(f"{what}: expected True or False, got {safe_repr(value)}")
-    if not isinstance(method, str) or method not in METHODS:
-        raise InputError(f"method: expected one of {', '.join(METHODS)}, got {safe_repr(method)}")
-
-
-def _check_whole(what: str, number: Any, least: int) -> None:
-    if (
-        not isinstance(number, (int, np.integer))
-        or isinstance(number, bool)
-        or not least <= number < 2**62
-    ):
-        raise InputError(
-            f"{what}: expected a whole number from {least} on, got {safe_repr(number)}"
-        )
-
-
 def _solver(chain: Chain, method: Method) -> ClosedForm | None:
     """The closed form to use, or None for the search."""
     if method == "search":
         return None
     try:
         solver = _closed_form(chain)
-    except MissingExtra:
-        if method == "closed":
-            raise
-        return None
-    except InputError:  # joints that slide, or are coupled
+    except (MissingExtra, InputError):  # of joints that slide, or are coupled
         if method == "closed":
             raise
         return None
@@ -307,48 +284,51 @@ def _result(
     """The result, of places in order, every solution looked at by `Chain.fk`."""
     position, rotation = pose_errors(chain, places.q, T[places.owner]).T
     good = np.flatnonzero((position <= accepted(chain)) & (rotation <= accepted(chain)))
-    Q = places.q[good]
-    owner = places.owner[good]
-    number = places.number[good]
-    ends = np.searchsorted(owner, np.arange(len(found) + 1))
-    solutions: list[Array] = []
-    n_revolutions: list[np.ndarray] = []
-    complete: list[str] = []
-    numbers = np.zeros((6, len(finite)))
-    numbers[3:] = np.nan
-    known = iter(range(len(found)))
-    method = "search"
-    closed = None
-    if solver is not None:
-        method = "closed form"
-        closed = solver.said()
-    for at, is_pose in enumerate(finite):
-        if not is_pose:
-            solutions.append(np.empty((0, chain.dof)))
-            n_revolutions.append(np.empty(0, np.int64))
-            complete.append("0 solutions: bad target, it is not made of finite numbers")
-            continue
-        k = next(known)
-        part = slice(ends[k], ends[k + 1])
-        f = found[k]
-        solutions.append(Q[part])
-        n_revolutions.append(number[part])
-        complete.append(in_words(f, int(places.within[k]), closed))
-        numbers[:4, at] = (
-            ends[k + 1] - ends[k],
-            len(f.solutions),
-            bool(f.self_motion_coordinates),
-            missing_probability(f),
+    ends = np.searchsorted(places.owner[good], np.arange(len(found) + 1))
+    closed = None if solver is None else solver.said()
+    rows = [_BAD_TARGET._replace(solutions=np.empty((0, chain.dof)))] * len(finite)
+    for k, at in enumerate(np.flatnonzero(finite)):
+        own = good[ends[k] : ends[k + 1]]
+        listed = len(own) > 0
+        rows[at] = _Target(
+            solutions=places.q[own],
+            n_revolutions=places.number[own],
+            complete=in_words(found[k], int(places.within[k]), closed),
+            count=len(own),
+            anywhere=len(found[k].solutions),
+            continuum=bool(found[k].self_motion_coordinates),
+            p_missing=missing_probability(found[k]),
+            position_error=position[own].max() if listed else np.nan,
+            rotation_error=rotation[own].max() if listed else np.nan,
         )
-        if ends[k + 1] > ends[k]:
-            numbers[4:, at] = position[good[part]].max(), rotation[good[part]].max()
-    count, anywhere, continuum = (
-        row.astype(kind).reshape(batch)
-        for row, kind in zip(numbers[:3], (int, int, bool), strict=True)
+    columns = [[row[i] for row in rows] for i in range(len(_Target._fields))]
+    return AllSolutions(
+        *(column if batch else column[0] for column in columns[:3]),
+        "search" if solver is None else "closed form",
+        *(
+            np.array(column, kind).reshape(batch)
+            for column, kind in zip(columns[3:], _KINDS, strict=True)
+        ),
     )
-    p_missing, worst_position, worst_rotation = (row.reshape(batch) for row in numbers[3:])
-    whole: tuple[Any, Any, Any] = (solutions, n_revolutions, complete)
-    if not batch:
-        whole = (solutions[0], n_revolutions[0], complete[0])
-    errors = (worst_position, worst_rotation)
-    return AllSolutions(*whole, method, count, anywhere, continuum, p_missing, *errors)
+
+
+class _Target(NamedTuple):
+    """Entries of one target in `AllSolutions`."""
+
+    solutions: Array
+    n_revolutions: np.ndarray
+    complete: str
+    count: int = 0
+    anywhere: int = 0
+    continuum: bool = False
+    p_missing: float = np.nan
+    position_error: float = np.nan
+    rotation_error: float = np.nan
+
+
+_KINDS = (int, int, bool, float, float, float)
+_BAD_TARGET = _Target(
+    np.empty((0, 0)),
+    np.empty(0, np.int64),
+    "0 solutions: bad target, it is not made of finite numbers",
+)

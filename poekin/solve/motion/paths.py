@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, ShapeError, safe_repr
+from ...errors import ShapeError
 from ...groups import se3, so3
 from ...groups.arrays import Array, numbers, poses
 from ...groups.so3.exp_log import exp_of_vectors
+from ..option_checks import one_of
 
 Path = Literal["line", "screw"]
 
@@ -182,8 +183,7 @@ def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: Path = "line") -> Arra
     >>> pk.motion.path_lengths(np.eye(4), pk.se3.exp([0, 0, 0.5, 0, 0, 0.2])).round(6).tolist()
     [0.2, 0.5]
     """
-    if not isinstance(along, str) or along not in ("line", "screw"):
-        raise InputError(f"along: expected 'line' or 'screw', got {safe_repr(along)}")
+    one_of(along, get_args(Path), "along")
     T_s0, T_s1, _ = _together(T_s0, T_s1, 0.0)
     start = _exact(T_s0)
     end = _exact(T_s1)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
+from ..option_checks import is_real, one_of
 
 Law = Literal["cubic", "quintic", "trapezoidal"]
 LAWS: tuple[Law, ...] = get_args(Law)
@@ -173,7 +174,7 @@ def trapezoidal(duration: float, acceleration_fraction: float = 0.25) -> Timing:
         If the duration is no positive number, or the part is out of its range.
     """
     fraction = acceleration_fraction
-    if not _real(fraction) or not 0 < fraction <= 0.5:
+    if not is_real(fraction) or not 0 < fraction <= 0.5:
         raise InputError(
             "acceleration_fraction: expected a number above 0 and at most 0.5, "
             f"got {safe_repr(fraction)}"
@@ -230,8 +231,7 @@ def minimum_time(
     >>> round(float(timing(timing.duration / 2).s), 6)
     0.5
     """
-    if not isinstance(law, str) or law not in LAWS:
-        raise InputError(f"law: expected one of {', '.join(LAWS)}, got {safe_repr(law)}")
+    one_of(law, LAWS, "law")
     way = np.abs(numbers(distance, "distance"))
     if not np.isfinite(way).all():
         raise InputError(f"distance: expected finite numbers, got {safe_repr(distance)}")
@@ -284,12 +284,8 @@ def _least(way: Array, limit: Any, what: str) -> float:
 
 
 def _duration(duration: Any) -> float:
-    if not _real(duration) or not _INSTANT <= duration < math.inf:
+    if not is_real(duration) or not _INSTANT <= duration < math.inf:
         raise InputError(
             f"duration: expected a positive number of seconds, got {safe_repr(duration)}"
         )
     return float(duration)
-
-
-def _real(value: Any) -> bool:
-    return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)

@@ -330,7 +330,7 @@ def test_coordinates_without_limits_come_within_a_turn():
 
 
 @pytest.mark.parametrize("options, error, message", [
-    ({"task": "pos"}, InputError, "task: expected one of pose, position, rotation, direction, planar, got 'pos'"),
+    ({"task": "pos"}, InputError, "task: expected one of 'pose', 'position', .*, 'planar', got 'pos'"),
     ({"axis": [0, 0, 1]}, InputError, "axis: only the task 'direction'"),
     ({"task": "direction", "axis": [0, 0, 0]}, InputError, "axis: expected a direction"),
     ({"tol_position": 0}, InputError, "tol_position: expected a positive number, got 0"),
@@ -342,7 +342,7 @@ def test_coordinates_without_limits_come_within_a_turn():
     ({"weights": [1, 2]}, ShapeError, r"weights: expected shape \(..., 6\)"),
     ({"weights": [1, 1, 1, 1, 1, 0]}, InputError, "weights: expected six positive numbers"),
     ({"secondary_objective": "top"}, InputError,
-     "secondary_objective: expected one of middle, nearest, manipulability, got 'top'"),
+     "secondary_objective: expected one of 'middle', 'nearest', 'manipulability', got 'top'"),
     ({"secondary_objective": "nearest"}, InputError, "'nearest' needs q0"),
     ({"q0": [0, 0]}, ShapeError, "q0: expected 7 coordinates"),
     ({"q0": np.zeros((3, 7))}, ShapeError, r"q0: shape \(3, 7\) does not fit"),

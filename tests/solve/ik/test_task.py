@@ -59,8 +59,8 @@ def test_the_jacobian_of_the_planar_task_has_the_turn_about_the_normal_and_what_
 
 
 @pytest.mark.parametrize("given, words", [
-    (("dance", None, None), "task: expected one of pose, position, rotation, direction, planar, got 'dance'"),
-    ((3, None, None), "task: expected one of pose, position, rotation, direction, planar, got 3"),
+    (("dance", None, None), "task: expected one of 'pose', 'position', 'rotation', 'direction', 'planar', got 'dance'"),
+    ((3, None, None), "task: expected one of 'pose', 'position', 'rotation', 'direction', 'planar', got 3"),
     (("pose", [1, 0, 0], None), "axis: only the task 'direction' has one, the task is 'pose'"),
     (("direction", [0, 0, 0], None), "axis: expected a direction (3,) that is not zero, got [0, 0, 0]"),
     (("direction", [[0, 0, 1]], None), "axis: expected a direction (3,) that is not zero, got [[0, 0, 1]]"),

@@ -552,7 +552,7 @@ def test_a_redundant_arm_is_refused_and_told_what_to_use():
     [
         pytest.param(
             {"method": "eaik"},
-            r"method: expected one of auto, closed, search, got 'eaik'",
+            r"method: expected one of 'auto', 'closed', 'search', got 'eaik'",
             id="method",
         ),
         pytest.param({"limits": 1}, r"limits: expected True or False, got 1", id="limits"),

@@ -9,8 +9,9 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from ....engine.kernels import ik_codes as codes
-from ....errors import InputError, safe_repr
+from ....errors import InputError
 from ....groups.arrays import Array
+from ...option_checks import one_of
 from ..ik_problem import Problem
 
 Objective = Literal["middle", "nearest", "manipulability"]
@@ -23,11 +24,8 @@ DIFFERENCE = 1e-6
 
 def check_objective(objective: Any, q0: Any) -> None:
     """Raises InputError for what is no objective, and for "nearest" to nothing."""
-    known = isinstance(objective, str) and objective in OBJECTIVES
-    if objective is not None and not known:
-        raise InputError(
-            f"secondary_objective: expected one of {', '.join(OBJECTIVES)}, got {safe_repr(objective)}"
-        )
+    if objective is not None:
+        one_of(objective, OBJECTIVES, "secondary_objective")
     if objective == "nearest" and q0 is None:
         raise InputError("secondary_objective: 'nearest' needs q0, what to be near to")
 
