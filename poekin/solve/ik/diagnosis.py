@@ -5,6 +5,7 @@ in time.
 from __future__ import annotations
 
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,9 +34,36 @@ OTHER_TASKS: dict[TaskName, tuple[TaskName, ...]] = {
 OTHER_RESTARTS = 20
 
 
+class Causes(NamedTuple):
+    """Entries of `Solution` that say why targets are not solved."""
+
+    reason: np.ndarray
+    distance_beyond_reach: Array
+    limits_hit: tuple[tuple[str, ...], ...] = ()
+    reachable_tasks: tuple[tuple[str, ...], ...] = ()
+
+
 def diagnose(
+    problem: Problem, targets: Array, first: Array, q: Array, info: Array, success: np.ndarray
+) -> Causes:
+    """Causes for which targets are not solved, by tries that began at `first` and ended at q.
+
+    A target that is solved after all, from other starts without limits, or where the arm comes to
+    rest, gets that solution in q.
+    """
+    if not problem.underactuated:
+        return find_causes(problem, targets, q, info, success)
+    known = ~success & (info[:, codes.AT_STATE] != codes.BAD_TARGET)
+    settle(problem, targets, q, info, np.flatnonzero(known))
+    success = problem.pose_errors(targets, problem.coordinates(q))[1]
+    causes = find_causes(problem, targets, q, info, success)
+    unreached = np.flatnonzero(causes.reason == UNREACHABLE)
+    return causes._replace(reachable_tasks=reachable_tasks(problem, targets, first, unreached))
+
+
+def find_causes(
     problem: Problem, targets: Array, q: Array, info: Array, success: np.ndarray
-) -> tuple[np.ndarray, Array, tuple[tuple[str, ...], ...]]:
+) -> Causes:
     """Reason of each target, its distance beyond the reach, and the limits that were hit.
 
     A target that is solved within the limits after all, from other starts, gets that solution in q.
@@ -51,7 +79,7 @@ def diagnose(
     hit: list[tuple[str, ...]] = [()] * len(q)
     open_ones = np.flatnonzero(~success & (state != codes.BAD_TARGET) & (beyond == 0))
     if not len(open_ones) or not np.isfinite(domain.limits).any():
-        return reason, beyond, tuple(hit)
+        return Causes(reason, beyond, tuple(hit))
     found, ended = _without_limits(problem, targets, open_ones)
     for u, k, state_of_k in zip(found, open_ones, ended, strict=True):
         if state_of_k != codes.SOLVED:
@@ -63,7 +91,7 @@ def diagnose(
         else:
             reason[k] = LIMITS
             hit[k] = limits_hit(domain, q[k], within, problem.fast.q_names)
-    return reason, beyond, tuple(hit)
+    return Causes(reason, beyond, tuple(hit))
 
 
 def distance_beyond_reach(chain: Chain, task: Task, targets: Array, limits: Array) -> Array:

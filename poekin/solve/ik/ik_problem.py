@@ -80,7 +80,7 @@ class Problem:
     has; locked (m,), 1 where a coordinate keeps its value; options, as the kernels take them.
     """
 
-    def __init__(self, fast: CompiledChain, settings: Settings):
+    def __init__(self, fast: CompiledChain, settings: Settings) -> None:
         _check_numbers(settings)
         from ...engine.kernels import ik_kernels  # imports Numba
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -123,7 +124,7 @@ def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: 
         ) from error
 
 
-def _locked(units: JointUnits, lock: Any, limits: Array):
+def _locked(units: JointUnits, lock: Any, limits: Array) -> Iterator[tuple[int, float]]:
     """Index and value, in joint units, of each coordinate that is locked; lock are pairs of name
     and value.
     """

@@ -11,10 +11,10 @@ from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
 from .choice.nearest import nearest
 from .choice.redundancy import Objective, optimise
-from .diagnosis import KIND, diagnose, reachable_tasks, settle
+from .diagnosis import KIND, Causes, diagnose
 from .ik_problem import Problem
 from .joint_domain import first_tries, for_targets
-from .solution import ITERATIONS, SOLVED, UNREACHABLE, Solution
+from .solution import SOLVED, UNREACHABLE, Solution
 
 AT_ONCE = 20_000
 """Targets between two calls of `progress`."""
@@ -60,36 +60,26 @@ def solve(
         u, info = _in_parts(problem, rows, first, near, objective, progress)
     if problem.domain.has_unbounded_angle and near is None:
         u = problem.domain.wrapped(u)
-    q = u if problem.units.scale is None else problem.coordinates(u)
+    q = problem.coordinates(u)
     errors, success = problem.pose_errors(rows, q)
-    reason = np.full(count, SOLVED, dtype=KIND)
-    beyond = np.zeros(count)
-    limits_hit: tuple[tuple[str, ...], ...] = ()
-    tasks: tuple[tuple[str, ...], ...] = ()
-    if problem.underactuated and not success.all():
-        known = ~success & (info[:, codes.AT_STATE] != codes.BAD_TARGET)
-        settle(problem, rows, u, info, np.flatnonzero(known))
-        success = problem.pose_errors(rows, problem.coordinates(u))[1]
+    causes = Causes(np.full(count, SOLVED, dtype=KIND), np.zeros(count))
     if not success.all():
-        reason, beyond, limits_hit = diagnose(problem, rows, u, info, success)
+        causes = diagnose(problem, rows, first, u, info, success)
         q = problem.coordinates(u)
         errors, success = problem.pose_errors(rows, q)
         # by a rounding, where the tolerance is no larger
-        reason[(reason == SOLVED) & ~success] = UNREACHABLE
-        if problem.underactuated:
-            unreached = (reason == UNREACHABLE) | (reason == ITERATIONS)
-            tasks = reachable_tasks(problem, rows, first, np.flatnonzero(unreached))
+        causes.reason[(causes.reason == SOLVED) & ~success] = UNREACHABLE
     return Solution(
         q=q.reshape(*batch, problem.fast.dof),
         success=success.reshape(batch),
-        reason=reason.reshape(batch),
+        reason=causes.reason.reshape(batch),
         position_error=errors[:, 0].reshape(batch),
         rotation_error=errors[:, 1].reshape(batch),
         iterations=info[:, codes.AT_ITERATIONS].astype(np.int64).reshape(batch),
         restarts=info[:, codes.AT_RESTARTS].astype(np.int64).reshape(batch),
-        distance_beyond_reach=beyond.reshape(batch),
-        limits_hit=limits_hit,
-        reachable_tasks=tasks,
+        distance_beyond_reach=causes.distance_beyond_reach.reshape(batch),
+        limits_hit=causes.limits_hit,
+        reachable_tasks=causes.reachable_tasks,
     )
 
 

@@ -37,7 +37,9 @@ class ClosedForm:
     Inverse Kinematics.
     """
 
-    def __init__(self, form: HPForm, solver: Any, position_bound: float, rotation_bound: float):
+    def __init__(
+        self, form: HPForm, solver: Any, position_bound: float, rotation_bound: float
+    ) -> None:
         self._R_tn = form.R_nt.T
         self._solver = solver
         self.family: str = solver.getKinematicFamily()

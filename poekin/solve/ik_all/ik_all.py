@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from functools import lru_cache
-from typing import Literal, NamedTuple, get_args
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -301,15 +301,15 @@ def _result(
             position_error=position[own].max() if listed else np.nan,
             rotation_error=rotation[own].max() if listed else np.nan,
         )
-    columns = [[row[i] for row in rows] for i in range(len(_Target._fields))]
-    return AllSolutions(
-        *(column if batch else column[0] for column in columns[:3]),
-        "search" if solver is None else "closed form",
-        *(
-            np.array(column, kind).reshape(batch)
-            for column, kind in zip(columns[3:], _KINDS, strict=True)
-        ),
-    )
+    columns: dict[str, Any] = {
+        name: [row[i] for row in rows] for i, name in enumerate(_Target._fields)
+    }
+    for name, kind in _KINDS.items():
+        columns[name] = np.array(columns[name], kind).reshape(batch)
+    if not batch:
+        for name in ("solutions", "n_revolutions", "complete"):
+            (columns[name],) = columns[name]
+    return AllSolutions(method="search" if solver is None else "closed form", **columns)
 
 
 class _Target(NamedTuple):
@@ -326,7 +326,14 @@ class _Target(NamedTuple):
     rotation_error: float = np.nan
 
 
-_KINDS = (int, int, bool, float, float, float)
+_KINDS = {
+    "count": int,
+    "anywhere": int,
+    "continuum": bool,
+    "p_missing": float,
+    "position_error": float,
+    "rotation_error": float,
+}
 _BAD_TARGET = _Target(
     np.empty((0, 0)),
     np.empty(0, np.int64),

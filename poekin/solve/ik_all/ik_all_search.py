@@ -143,7 +143,6 @@ def _search(
     # its own range
     low, high = sampling_range(chain)
     ranges = np.where(turn[:, None] > 0, turn[:, None] * [-0.5, 0.5], np.stack([low, high], axis=1))
-    options = _options(chain, rule)
     rules = np.zeros(kernel.RULE)
     rules[kernel.ACCEPTED] = accepted(chain)
     rules[kernel.EACH] = rule.min_hits
@@ -154,23 +153,9 @@ def _search(
     info = np.empty((N, kernel.INFO))
     free = np.tile([-np.inf, np.inf], (m, 1))
     indices = np.arange(first, first + N, dtype=np.float64)
+    tries = (rows, given, free, ranges, turn, _options(chain, rule), rules, indices, seed)
     T = np.ascontiguousarray(T)
-    kernel.search.call(
-        fast.hybrid_address,
-        T,
-        rows,
-        given,
-        free,
-        ranges,
-        turn,
-        options,
-        rules,
-        indices,
-        seed,
-        q,
-        hits,
-        info,
-    )
+    kernel.search.call(fast.hybrid_address, T, *tries, q, hits, info)
     counts = info[:, kernel.FOUND].astype(int)
     ends = info[:, kernel.AT_ENDS].astype(int)
     restarts = info[:, kernel.AT_RESTARTS].astype(int)

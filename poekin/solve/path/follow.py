@@ -167,8 +167,7 @@ def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array)
     hit: list[tuple[str, ...]] = [()] * count
     tasks: list[tuple[str, ...]] = [()] * count
     for k in np.flatnonzero(finite & ~success):
-        failure = follower.failure(int(np.searchsorted(at, k)))
-        reason[k], beyond[k], hit[k], tasks[k] = failure
+        reason[k], beyond[k], hit[k], tasks[k] = follower.failure(int(np.searchsorted(at, k)))
     nothing = np.zeros(count, np.int64)
     return Solution(
         q,

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
@@ -30,15 +29,6 @@ path.
 """
 
 
-class Failure(NamedTuple):
-    """Entries of `Solution` for a pose that is not reached."""
-
-    reason: str
-    distance_beyond_reach: float = 0.0
-    limits_hit: tuple[str, ...] = ()
-    reachable_tasks: tuple[str, ...] = ()
-
-
 class Follower:
     """One path of finite poses, and what is known of it; all joints are in joint units
     (`joint_units`).
@@ -50,7 +40,7 @@ class Follower:
         targets: Array,
         most: Array,
         progress: Callable[[int, int], None] | None,
-    ):
+    ) -> None:
         from ...engine.kernels import follow_kernels  # imports Numba
 
         self._kernel = follow_kernels.follow
@@ -138,17 +128,14 @@ class Follower:
                 break
         return found
 
-    def failure(self, k: int) -> Failure:
-        """Cause for which pose k is not reached."""
+    def failure(self, k: int) -> tuple[str, float, tuple[str, ...], tuple[str, ...]]:
+        """Cause for which pose k is not reached: its entries in `Causes`."""
         success, solution, at = self._solution_of(k)
         if success:
-            return Failure(ITERATIONS)
-        return Failure(
-            str(solution.reason[at]),
-            float(solution.distance_beyond_reach[at]),
-            solution.limits_hit[at],
-            solution.reachable_tasks[at] if solution.reachable_tasks else (),
-        )
+            return ITERATIONS, 0.0, (), ()
+        tasks = solution.reachable_tasks[at] if solution.reachable_tasks else ()
+        beyond = float(solution.distance_beyond_reach[at])
+        return str(solution.reason[at]), beyond, solution.limits_hit[at], tasks
 
     def _descend(self, targets: Array, start: Array, q: Array, anywhere: bool = False) -> int:
         """Number of targets that are followed from `start`; where `anywhere`, the first of them at

@@ -143,12 +143,12 @@ def asked(solver, q):  # type: ignore[no-untyped-def]
     T[4, 0, 3] = 100.0
     T[2] = np.nan
     success = np.array([False, False, False, True, False, False])
-    return diagnosis.diagnose(solver, T, q, info, success)
+    return diagnosis.find_causes(solver, T, q, info, success)
 
 
 def test_a_reason_is_that_of_the_state_in_which_the_tries_ended():
     solver = Tries(FREE, np.zeros((0, 2)), [])
-    reason, beyond, blocked = asked(solver, np.zeros((6, 2)))
+    reason, beyond, blocked, _ = asked(solver, np.zeros((6, 2)))
     assert reason.tolist() == [
         "unreachable",
         "iterations",
@@ -169,7 +169,7 @@ def test_what_is_solved_without_limits_is_in_their_way_or_within_them_after_all(
         [codes.SOLVED, codes.SOLVED, codes.STALLED],
     )
     q = np.tile([1.0, 0.25], (6, 1))
-    reason, beyond, blocked = asked(solver, q)
+    reason, beyond, blocked, _ = asked(solver, q)
     assert reason.tolist() == [
         "solved",
         "limits",

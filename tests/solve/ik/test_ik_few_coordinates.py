@@ -103,6 +103,14 @@ def test_the_task_that_is_named_for_a_tilted_pose_solves_it(arm, seed, angle):
             assert repr(task) in found.summary(int(k))
 
 
+def test_what_is_solved_only_as_it_comes_to_rest_has_the_errors_of_a_solution():
+    arm = planar([1.0, 0.7])
+    found = ik(arm, arm.fk([[0.3, 0.9], [0.2, 0.8]]), q0=[0.1, 0.7], restarts=0, iterations=1)
+    assert found.success.all()
+    assert (found.reason == "solved").all()
+    assert max(found.position_error.max(), found.rotation_error.max()) <= 1e-9
+
+
 @pytest.mark.parametrize("name", sorted(MAKERS))
 def test_out_of_reach_an_arm_comes_to_rest_at_the_least_error_nearby(name):
     arm = MAKERS[name](0.7, 0.4)
