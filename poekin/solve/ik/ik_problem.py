@@ -158,14 +158,17 @@ class Problem:
         limits = self.domain.limits if limits is None else limits
         ranges = self.domain.ranges if ranges is None else ranges
 
-        def run(targets: Array, q0: Array, indices: Array, q: Array, info: Array) -> None:
+        if len(targets) <= rows:
             args = (limits, ranges, self.locked, options, indices, self.settings.seed, q, info)
             self._solve.call(self._address, targets, q0, *args)
+            return q, info
+
+        def run(targets: Array, q0: Array, indices: Array, q: Array, info: Array) -> None:
+            asked = {"restarts": restarts, "limits": limits, "ranges": ranges}
+            q[:], info[:] = self.solve(targets, indices, q0, **asked)
 
         arrays = (targets, q0, indices, q, info)
-        if len(targets) <= rows:
-            run(*arrays)
-        elif self.settings.parallel:
+        if self.settings.parallel:
             threads.share_out(run, *arrays, rows=min(rows, SHARED))
         else:
             for start in range(0, len(targets), rows):

@@ -99,7 +99,8 @@ def first_tries(
     if q0 is None:
         return domain.anywhere(count)
     given = units.of(for_targets(chain, batch, count, q0, "q0"))
-    first = np.clip(given, *domain.limits.T)
+    low, high = domain.limits.T
+    first = np.minimum(np.maximum(given, low), high)  # np.clip takes thrice as long
     moved = ((first != given) & ~domain.locked).any(axis=0)
     if moved.any():
         names = join_names(np.array(chain.q_names)[moved])
