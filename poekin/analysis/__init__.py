@@ -1,8 +1,1 @@
-"""Tools that look at models: count the operations of an algorithm, validate a robot against an
-oracle.
-"""
-
-from .counting.count import Count, count
-from .validate import ChainErrors, Validation, chain_errors, validate
-
-__all__ = ["ChainErrors", "Count", "Validation", "chain_errors", "count", "validate"]
+"""Tools that look at models: comparison, axes, counting, dexterity, and validation against an oracle."""

@@ -13,9 +13,9 @@ from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..results import Result
 from .amounts import amount
+from .checks import POSITION, ROTATION, check_chain, check_tolerances
 from .compare.alignment.lines import cross, direction, uncoupled_at_zero
 from .shapes import Shape, ShapeKind, line_angle, shapes
-from .tolerances import POSITION, ROTATION, check_tolerances
 
 __all__ = ["AxesReport", "AxisPair", "axes"]
 
@@ -186,10 +186,7 @@ def axes(
     >>> print(report.pairs[6])
     panda_joint4 - panda_joint5: perpendicular, 82.5 mm from intersecting
     """
-    if not isinstance(chain, Chain):
-        raise InputError(
-            f"expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
-        )
+    check_chain(chain)
     check_tolerances(tol_position=tol_position, tol_rotation=tol_rotation)
     rest = uncoupled_at_zero(chain)
     tol = (float(tol_position), float(tol_rotation))

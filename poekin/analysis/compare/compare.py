@@ -12,7 +12,7 @@ from ...errors import InputError, quote, safe_repr
 from ...groups import so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ..tolerances import POSITION, ROTATION, check_tolerances
+from ..checks import POSITION, ROTATION, check_chain, check_tolerances
 from .alignment.hypotheses import Hypothesis, read
 from .alignment.lines import cross, direction, lines, sides, uncoupled_at_zero
 from .alignment.search import search
@@ -101,11 +101,8 @@ def compare(
     >>> round(result.joints[3].shift, 6)
     0.003
     """
-    for what, value in (("a", a), ("b", b)):
-        if not isinstance(value, Chain):
-            raise InputError(
-                f"{what}: expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(value)}"
-            )
+    check_chain(a, "a: ")
+    check_chain(b, "b: ")
     check_tolerances(tol_position=tol_position, tol_rotation=tol_rotation)
     if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
         raise InputError(

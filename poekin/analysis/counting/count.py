@@ -10,6 +10,7 @@ from ...engine.count import Count
 from ...engine.straight_line.specialise import specialised
 from ...errors import InputError, safe_repr
 from ...model.chain import Chain
+from ..checks import check_chain
 from . import count_methods as methods
 from . import count_scalars as scalars
 
@@ -156,8 +157,7 @@ def count(
     >>> print(pk.count(arm, method="specialised", frame="body"))
     45 multiplications, 21 additions, 5 sines, 5 cosines
     """
-    if not isinstance(chain, Chain):
-        raise InputError(f"expected a Chain, as Robot.chain makes it, got {safe_repr(chain)}")
+    check_chain(chain)
     if not isinstance(pose, bool):
         raise InputError(f"pose: expected True or False, got {safe_repr(pose)}")
     way = _way(method, frame)

@@ -1,6 +1,6 @@
 """The Jacobian algorithms of the paper's table and their variants, as `count` runs them.
 
-Each takes an `Arm` of scalars and returns J (six rows) and a function that goes on to the pose.
+Each takes `Links` of scalars and returns J (six rows) and a function that goes on to the pose.
 Source: Park 1994, Sections III and IV.
 """
 
@@ -19,7 +19,7 @@ Rows = list[list[Any]]
 
 
 @dataclass(frozen=True)
-class Arm:
+class Links:
     """The input of an algorithm: n joints, the poses of their links and, where a formula has them,
     their screws.
 
@@ -35,7 +35,7 @@ class Arm:
     tool: Row
 
 
-Result = tuple[Rows, Callable[[], Row]]
+JacobianThenPose = tuple[Rows, Callable[[], Row]]
 
 
 def empty_rows(columns: int) -> Rows:
@@ -43,76 +43,76 @@ def empty_rows(columns: int) -> Rows:
     return [[0.0] * columns for _ in range(6)]
 
 
-def direct_space(arm: Arm) -> Result:
+def direct_space(links: Links) -> JacobianThenPose:
     """Section III in the base frame. The pose takes two products more."""
-    J = empty_rows(arm.n)
-    T = direct.space(arm.screws, arm.poses, arm.n, J)
-    return J, lambda: compose(compose(T, arm.poses[-1]), arm.tool)
+    J = empty_rows(links.n)
+    T = direct.space(links.screws, links.poses, links.n, J)
+    return J, lambda: compose(compose(T, links.poses[-1]), links.tool)
 
 
-def direct_body(arm: Arm) -> Result:
+def direct_body(links: Links) -> JacobianThenPose:
     """Section III in the tool's frame. The pose takes two products more."""
-    J = empty_rows(arm.n)
-    T = direct.body(arm.screws, arm.poses, arm.n, J)
-    return J, lambda: compose(arm.tool, compose(arm.poses[0], T))
+    J = empty_rows(links.n)
+    T = direct.body(links.screws, links.poses, links.n, J)
+    return J, lambda: compose(links.tool, compose(links.poses[0], T))
 
 
-def general_frames(arm: Arm) -> Result:
+def general_frames(links: Links) -> JacobianThenPose:
     """Section IV's recursion where link frames are attached anywhere: column i is Ad(f_{i,i+1} ...
     f_{n-1,n})^-1 S_i.
 
     That is the direct method's own loop with S_i in place of B_i and f_{i-1,i} in place of e^{B_i
     x_i}.
     """
-    J = empty_rows(arm.n)
-    T = direct.body(arm.screws, arm.poses, arm.n, J)
-    return J, lambda: compose(arm.poses[0], T)
+    J = empty_rows(links.n)
+    T = direct.body(links.screws, links.poses, links.n, J)
+    return J, lambda: compose(links.poses[0], T)
 
 
-def z_aligned(arm: Arm) -> Result:
+def z_aligned(links: Links) -> JacobianThenPose:
     """Section IV's recursion in z-aligned frames, the tool in the last link's frame."""
-    J = empty_rows(arm.n)
-    T = recursive.body(arm.poses, arm.rotates, arm.slides, arm.n, J)
-    return J, lambda: compose(arm.poses[0], T)
+    J = empty_rows(links.n)
+    T = recursive.body(links.poses, links.rotates, links.slides, links.n, J)
+    return J, lambda: compose(links.poses[0], T)
 
 
-def with_tool(arm: Arm) -> Result:
+def with_tool(links: Links) -> JacobianThenPose:
     """Section IV's recursion in z-aligned frames, the constant tool behind the last link."""
-    J = empty_rows(arm.n)
-    T = recursive.body_with_tool(arm.poses, arm.tool, arm.rotates, arm.slides, arm.n, J)
-    return J, lambda: compose(arm.poses[0], T)
+    J = empty_rows(links.n)
+    T = recursive.body_with_tool(links.poses, links.tool, links.rotates, links.slides, links.n, J)
+    return J, lambda: compose(links.poses[0], T)
 
 
-def orin_schrader(arm: Arm) -> Result:
+def orin_schrader(links: Links) -> JacobianThenPose:
     """The recursion on Paul's frames as the paper charges Denavit and Hartenberg: tool and first
     link included.
     """
-    J = empty_rows(arm.n)
-    T = dh_recursive.body(arm.poses, arm.tool, arm.rotates, arm.slides, arm.n, J)
+    J = empty_rows(links.n)
+    T = dh_recursive.body(links.poses, links.tool, links.rotates, links.slides, links.n, J)
     return J, lambda: T
 
 
-def paul(arm: Arm) -> Result:
+def paul(links: Links) -> JacobianThenPose:
     """The recursion on Paul's frames without a tool: J in the last link's frame, as the POE
     recursion of the paper's table has it.
     """
-    J = empty_rows(arm.n)
-    T = dh_recursive.body(arm.poses, IDENTITY, arm.rotates, arm.slides, arm.n, J)
+    J = empty_rows(links.n)
+    T = dh_recursive.body(links.poses, IDENTITY, links.rotates, links.slides, links.n, J)
     return J, lambda: T
 
 
-def by_cross(arm: Arm) -> Result:
+def by_cross(links: Links) -> JacobianThenPose:
     """Section IV's recursion, z-aligned, each product's third column of R as the cross product of
     the first two.
     """
-    J = empty_rows(arm.n)
-    set_column(J, -1, (0.0, 0.0, arm.rotates[-1], 0.0, 0.0, arm.slides[-1]))
-    T = pose(arm.poses[-1])
-    for i in reversed(range(arm.n - 1)):
-        set_column(J, i, recursive.z_column(T, arm.rotates[i], arm.slides[i]))
+    J = empty_rows(links.n)
+    set_column(J, -1, (0.0, 0.0, links.rotates[-1], 0.0, 0.0, links.slides[-1]))
+    T = pose(links.poses[-1])
+    for i in reversed(range(links.n - 1)):
+        set_column(J, i, recursive.z_column(T, links.rotates[i], links.slides[i]))
         if i:
-            T = product_by_cross(arm.poses[i], T)
-    return J, lambda: product_by_cross(arm.poses[0], T)
+            T = product_by_cross(links.poses[i], T)
+    return J, lambda: product_by_cross(links.poses[0], T)
 
 
 def product_by_cross(a: Row, b: Row) -> Row:

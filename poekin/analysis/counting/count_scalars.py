@@ -26,9 +26,9 @@ from ...groups import se3
 from ...groups.arrays import Array
 from ...model import screw
 from ...model.chain import Chain
-from .count_methods import Arm, Result, Row, Rows, empty_rows
+from .count_methods import JacobianThenPose, Links, Row, Rows, empty_rows
 
-Algorithm = Callable[[Arm], Result]
+Algorithm = Callable[[Links], JacobianThenPose]
 
 
 class Motion(NamedTuple):
@@ -49,9 +49,7 @@ def paper_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Cou
     total = Count()
     # The count does not depend on the numbers.
     poses = counted([IDENTITY for _ in chain.kinds], total)
-    _, finish = algorithm(_arm(chain, poses))
-    if with_pose:
-        finish()
+    _run(algorithm, chain, poses, with_pose)
     return total
 
 
@@ -61,10 +59,7 @@ def live_operations(algorithm: Algorithm, chain: Chain, with_pose: bool) -> Coun
     numbers = itertools.count(1)
     # Inputs from 0 on are of angles.
     poses = [tuple(graph.input(-next(numbers)) for _ in IDENTITY) for _ in chain.kinds]
-    J, finish = algorithm(_arm(chain, poses))
-    T: Row = ()
-    if with_pose:
-        T = finish()
+    J, T = _run(algorithm, chain, poses, with_pose)
     return _count(graph, Angles(graph), T, J)
 
 
@@ -87,10 +82,7 @@ def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bo
             x = x + graph.scaled(q, float(factor))
         sine, cosine = angles.sine_cosine([float(r * factor) for factor in row], r * c, 0)
         poses.append(form(Motion(kind, x, sine, cosine, s * x), rng))
-    J, finish = algorithm(_arm(chain, poses))
-    T: Row = ()
-    if with_pose:
-        T = finish()
+    J, T = _run(algorithm, chain, poses, with_pose)
     if not np.array_equal(C, np.eye(len(C))):
         J_q = empty_rows(chain.dof)
         columns.coupled(J, C.tolist(), len(C), chain.dof, J_q)
@@ -206,11 +198,18 @@ def structure(chain: Chain) -> tuple[Sequence[float], Sequence[float]]:
     return rotates, slides
 
 
-def _arm(chain: Chain, poses: Sequence[Row]) -> Arm:
+def _run(
+    algorithm: Algorithm, chain: Chain, poses: Sequence[Row], with_pose: bool
+) -> tuple[Rows, Row]:
+    """J and the pose, which is empty where it is not asked for."""
     rng = generator()
     rotates, slides = structure(chain)
     screws = [generic_screw(kind, rng) for kind in chain.kinds]
-    return Arm(len(poses), rotates, slides, screws, poses, generic_pose(rng))
+    links = Links(len(poses), rotates, slides, screws, poses, generic_pose(rng))
+    J, finish = algorithm(links)
+    if not with_pose:
+        return J, ()
+    return J, finish()
 
 
 def _count(graph: Graph, angles: Angles, T: Row, J: Rows) -> Count:

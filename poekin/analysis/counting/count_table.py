@@ -17,6 +17,7 @@ from ...model.kinematics.compiled import CompiledChain
 from ...model.kinematics.pose_jacobian import AnyFrame
 from ...model.kinematics.programs import CheapestFrame
 from ...results import Result, plain
+from ..checks import check_chain
 from .count import Count, Counting, CountMethod, count
 
 __all__ = ["PRINTED", "CountRow", "CountTable", "count_table", "printed"]
@@ -262,8 +263,7 @@ def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
     >>> print(table["recursive", "body", "paper"])
     POE, recursive, tool in the last link's frame, body: 174 multiplications, 123 additions
     """
-    if not isinstance(chain, Chain):
-        raise InputError(f"expected a Chain, as Robot.chain makes it, got {safe_repr(chain)}")
+    check_chain(chain)
     ideal = None
     if idealise is not None:
         ideal = chain.idealised(idealise)

@@ -12,6 +12,7 @@ from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.sampling import half_range
+from ..checks import check_chain
 
 Part = Literal["pose", "translation", "rotation"]
 
@@ -27,12 +28,9 @@ SAMPLES = 64
 """Random configurations at one of which the Jacobian has its largest rank."""
 
 
-def check(chain: object, length: float) -> None:
+def check(chain: Chain, length: float) -> None:
     """Raises InputError where there is no arm to judge, or no length to measure it by."""
-    if not isinstance(chain, Chain):
-        raise InputError(
-            f"expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
-        )
+    check_chain(chain)
     if not chain.dof:
         raise InputError("the chain has no coordinate: nothing moves its tool")
     if not isinstance(length, (int, float, np.integer, np.floating)) or not 0 < length < math.inf:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ...analysis.axes import axes
-from ...analysis.tolerances import check_tolerances
+from ...analysis.checks import check_tolerances
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
 from ..output import as_json, name, number, say, table

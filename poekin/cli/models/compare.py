@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
+from ...analysis.checks import check_tolerances
 from ...analysis.compare.compare import compare
 from ...analysis.compare.comparison import Comparison, JointComparison
-from ...analysis.tolerances import check_tolerances
 from ...errors import InputError, join_names
 from ...model.chain import Chain
 from ..kinematics.arm import FILE_HELP, Base, Json, Seed, Tip

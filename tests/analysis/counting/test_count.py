@@ -258,7 +258,7 @@ def test_the_variants_compute_one_and_the_same_jacobian(kinds):
     local = chain.local
     links = [row(M @ Z) for M, Z in zip(local.frames, turns, strict=False)]
     bare = chain.retooled(pk.se3.inverse(local.frames[n]))
-    given = count_methods.Arm(n, rotates, slides, (), links, row(local.frames[n]))
+    given = count_methods.Links(n, rotates, slides, (), links, row(local.frames[n]))
     # link frames attached anywhere: M_i = G_{i-1}^-1 G_i, S_i = Ad(G_i)^-1 A_i, the last one being
     # the tool's
     G = [np.eye(4), *(pk.se3.exp(rng.normal(size=6)) for _ in range(n - 1)), chain.home]
@@ -267,13 +267,13 @@ def test_the_variants_compute_one_and_the_same_jacobian(kinds):
         row(pk.se3.inverse(a) @ b @ pk.se3.exp(s * x))
         for a, b, s, x in zip(G, G[1:], S, q, strict=False)
     ]
-    general = count_methods.Arm(n, (), (), [s.tolist() for s in S], moved, ())
+    general = count_methods.Links(n, (), (), [s.tolist() for s in S], moved, ())
     # Paul's frames: the joint before its link, no tool
     behind = [row(Z @ M) for Z, M in zip(turns, local.frames[1:], strict=True)]
-    paul = count_methods.Arm(n, rotates, slides, (), behind, ())
+    paul = count_methods.Links(n, rotates, slides, (), behind, ())
     from_first = chain.rebased(pk.se3.inverse(local.frames[0]))
     in_space, in_body = (
-        count_methods.Arm(n, (), (), screws.tolist(), [row(pk.se3.exp(S * x)) for S, x in zip(screws, q, strict=True)],
+        count_methods.Links(n, (), (), screws.tolist(), [row(pk.se3.exp(S * x)) for S, x in zip(screws, q, strict=True)],
                           row(chain.home))
         for screws in (chain.screws, chain.screws @ pk.se3.adjoint(pk.se3.inverse(chain.home)).T)
     )  # fmt: skip
@@ -285,7 +285,7 @@ def test_the_variants_compute_one_and_the_same_jacobian(kinds):
         J, finish = direct(arm_)
         np.testing.assert_allclose(J, chain.jacobian(q, frame), atol=1e-13 * chain.reach)
         np.testing.assert_allclose(finish(), row(chain.fk(q)), atol=1e-13 * chain.reach)
-    with_end = count_methods.Arm(
+    with_end = count_methods.Links(
         n, rotates, slides, (), behind, row(pk.se3.exp([0.1, 0.2, 0.3, 1, 2, 3]))
     )
     J, finish = count_methods.orin_schrader(with_end)
@@ -459,7 +459,7 @@ def test_the_paper_s_methods_count_from_two_joints_on():
         pk.count(arm("r"))
     robot: Any = pk.load("ur5e")
     with pytest.raises(
-        pk.errors.InputError, match=r"expected a Chain, as Robot.chain makes it, got"
+        pk.errors.InputError, match=r"expected a Chain, as Robot.chain\(tip=...\) makes it, got"
     ):
         pk.count(robot)
     with pytest.raises(pk.errors.InputError, match=r"expected a Chain"):

@@ -1,4 +1,4 @@
-"""Tolerances as a user gives them: positive numbers."""
+"""Checks of arguments: chains and tolerances."""
 
 from __future__ import annotations
 
@@ -8,11 +8,20 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, safe_repr
+from ..model.chain import Chain
 
 POSITION = 1e-5
 """Default of `tol_position`, m: 0.01 mm."""
 ROTATION = math.radians(1e-3)
 """Default of `tol_rotation`, rad: 0.001 deg."""
+
+
+def check_chain(chain: object, what: str = "") -> None:
+    """Raises InputError for what is no Chain; `what` begins the message."""
+    if not isinstance(chain, Chain):
+        raise InputError(
+            f"{what}expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
+        )
 
 
 def check_tolerances(**tolerances: Any) -> None:
