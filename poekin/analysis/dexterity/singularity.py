@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -19,6 +19,8 @@ from .jacobian_part import TOLERANCE, Part, check, check_part, generic_rank, sca
 from .messages import motion_words, rate_words
 
 __all__ = ["Singularity", "singularity"]
+
+Unit = Literal["rad", "m", "rad and m"]
 
 ZERO = 1e-12
 """Quotient of a singular value and the largest, below which it is zero but for rounding."""
@@ -79,7 +81,7 @@ class Singularity(Result):
     distance: float
     gradient_direction: Array
     q_names: tuple[str, ...]
-    unit: str
+    unit: Unit
 
     @property
     def smallest(self) -> float:
@@ -240,7 +242,7 @@ def singularity(
         distance=_distance(s[last], s[0], steep),
         gradient_direction=-slope / steep if steep else np.zeros(chain.dof),
         q_names=chain.q_names,
-        unit=" and ".join(sorted({_unit(chain, k) for k in range(chain.dof)}, reverse=True)),
+        unit=_unit(chain),
     )
 
 
@@ -303,7 +305,10 @@ def _positive(x: Array) -> Array:
     return x + 0.0
 
 
-def _unit(chain: Chain, k: int) -> str:
-    if chain.is_angle(k):
+def _unit(chain: Chain) -> Unit:
+    angles = [chain.is_angle(k) for k in range(chain.dof)]
+    if all(angles):
         return "rad"
+    if any(angles):
+        return "rad and m"
     return "m"
