@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import InputError, quote, safe_repr
-from ...groups import so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ..checks import POSITION, ROTATION, check_chain, check_tolerances
@@ -20,6 +19,7 @@ from .comparison import Comparison, JointComparison, PoseErrors
 from .followers import follows
 from .length_unit import length_ratio, to_one_unit
 from .messages import differences, equivalents, frame_words, unit_words
+from .reached import pose_differences
 from .unmatched_joints import droppable, without
 
 __all__ = ["compare"]
@@ -305,10 +305,8 @@ def _limits_apart(theirs: Array, ours: Array) -> tuple[float, float]:
 
 
 def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:
-    distance = np.linalg.norm(ours[:, :3, 3] - theirs[:, :3, 3], axis=1)
-    turn = so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ theirs[:, :3, :3])
-    angle = np.linalg.norm(turn, axis=1)
-    return PoseErrors(*(float(x) for e in (distance, angle) for x in (e.max(), e.mean())))
+    apart = pose_differences(ours, theirs)
+    return PoseErrors(*(float(x) for e in apart for x in (e.max(), e.mean())))
 
 
 def _verdict(

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ...errors import quote
-from ...groups import se3, so3
+from ...groups import se3
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ..amounts import amount, joint_unit
-from .alignment.hypotheses import Hypothesis, still
+from .alignment.hypotheses import Hypothesis, motion_sizes, still
 from .comparison import JointComparison
 
 
@@ -74,8 +74,7 @@ def frame_words(what: str, T: Array, tol_m: float, tol_rad: float) -> str:
     """The motion of a frame, or empty: "the base frame is moved by 12 mm and turned by 3°"."""
     if still(T, tol_m, tol_rad):
         return ""
-    distance = float(np.linalg.norm(T[:3, 3]))
-    angle = float(np.linalg.norm(so3.log(T[:3, :3])))
+    distance, angle = map(float, motion_sizes(T))
     said = []
     if distance > tol_m:
         said.append(f"moved by {amount(distance, 'm')}")

@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...groups import so3
+from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.sampling import sampling_range
 from .alignment.hypotheses import Hypothesis
@@ -32,12 +33,16 @@ def poses_agree(pair: Sides, a: Chain, b: Chain, reading: Hypothesis) -> bool:
     x = np.concatenate([a.random(0, SAMPLES), theirs])
     ours = a.fk(x)
     other = reading.base @ b.fk(reading.directions * x + reading.zeros) @ reading.tool
-    moved = np.linalg.norm(ours[:, :3, 3] - other[:, :3, 3], axis=1).max()
-    turned = np.linalg.norm(
-        so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ other[:, :3, :3]), axis=1
-    ).max()
+    moved, turned = pose_differences(ours, other)
     most_moved, most_turned = _bounds(pair, a, b)
-    return bool(moved <= most_moved and turned <= most_turned)
+    return bool(moved.max() <= most_moved and turned.max() <= most_turned)
+
+
+def pose_differences(ours: Array, theirs: Array) -> tuple[Array, Array]:
+    """Distances (m) and angles (rad) between two rows of poses (m, 4, 4)."""
+    turns = so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ theirs[:, :3, :3])
+    distances = np.linalg.norm(ours[:, :3, 3] - theirs[:, :3, 3], axis=1)
+    return distances, np.linalg.norm(turns, axis=1)
 
 
 def _bounds(pair: Sides, a: Chain, b: Chain) -> tuple[float, float]:

@@ -71,9 +71,14 @@ class Hypothesis:
     link: int = 0
 
     @property
+    def changes(self) -> Marks:
+        """Changes (3, n, bool) of each joint: another axis, another zero, another direction."""
+        return np.stack([self.moved, self.offset, self.directions < 0])
+
+    @property
     def implicated(self) -> Marks:
         """Joints (n, bool) that differ in anything."""
-        return self.moved | self.offset | (self.directions < 0)
+        return np.asarray(self.changes.any(axis=0))
 
     @property
     def cost(self) -> tuple[float, ...]:
@@ -82,10 +87,10 @@ class Hypothesis:
         Of readings that cost the same, base and tool that stay where they are decide, then a zero
         offset rather than a moved axis, then how near the axes are.
         """
-        reversed_ = self.directions < 0
-        conventions = int((self.offset | reversed_).sum())
+        of_convention = self.changes[1:]
+        conventions = int(of_convention.any(axis=0).sum())
+        changes = int(of_convention.sum())
         moved = int(self.moved.sum())
-        changes = int(self.offset.sum() + reversed_.sum())
         near = float(np.minimum(self.deviations, COSTS.largest_deviation).sum())
         if moved + changes <= 1:
             alone = COSTS.one_change * (moved + changes)
@@ -126,9 +131,14 @@ def read(pair: Sides, P: Array, z: Array) -> list[Hypothesis]:
 
 def still(T: Array, tol_m: float, tol_rad: float) -> Marks:
     """Whether poses (..., 4, 4) are the identity within tolerance (...)."""
-    moved = np.linalg.norm(T[..., :3, 3], axis=-1)
-    turned = np.linalg.norm(so3.log(T[..., :3, :3]), axis=-1)
+    moved, turned = motion_sizes(T)
     return (moved <= tol_m) & (turned <= tol_rad)
+
+
+def motion_sizes(T: Array) -> tuple[Array, Array]:
+    """Lengths (m) and angles (rad) of motions (..., 4, 4)."""
+    turned = np.linalg.norm(so3.log(T[..., :3, :3]), axis=-1)
+    return np.linalg.norm(T[..., :3, 3], axis=-1), turned
 
 
 def off_centre(pair: Sides, P: Array) -> Array:

@@ -217,14 +217,10 @@ def _others(first: Hypothesis, behind: Iterable[Hypothesis]) -> list[Hypothesis]
     kept: list[Hypothesis] = []
     if first.implicated.sum() != 1:
         return kept
-    seen = {_signature(first)}
+    seen = {first.changes.tobytes()}
     for reading in behind:
-        single = reading.moved.sum() + reading.offset.sum() + (reading.directions < 0).sum() == 1
-        if single and _signature(reading) not in seen:
-            seen.add(_signature(reading))
+        signature = reading.changes.tobytes()
+        if reading.changes.sum() == 1 and signature not in seen:
+            seen.add(signature)
             kept.append(reading)
     return kept
-
-
-def _signature(reading: Hypothesis) -> bytes:
-    return np.stack([reading.moved, reading.offset, reading.directions < 0]).tobytes()
