@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
 from ....model.kinematics.pose_jacobian import FRAME_NAMES
 from ...laws.measures import size
 from ...oracles import exact, exact_chain
+from ...oracles.differences import NamedFrame
 from ...strategies.configuration_strategies import at_limits, bounds, within_limits
 from ...strategies.group_strategies import (
     SMALLEST,
@@ -35,10 +36,27 @@ EACH = 8
 """Numbers of a joint: axis, a point on it, q, pitch; six more at the end are the home pose's ω and
 v.
 """
+TAIL = 6
 LENGTHS = (1e-3, 3.0)
 PITCHES = (1e-3, 1.0)
 TRAVELS = (1e-6, 2.0)
+TURNS = (SMALLEST, math.pi)
 KINDS = ("revolute", "prismatic")
+
+
+class ScrewNumbers(NamedTuple):
+    """Numbers of a joint: its axis, a point on it, q, and its pitch."""
+
+    axis: np.ndarray
+    point: np.ndarray
+    q: float
+    pitch: float
+
+
+def numbers_of(case: Case) -> list[ScrewNumbers]:
+    """Numbers of each joint."""
+    rows = case.numbers[:-TAIL].reshape(-1, EACH)
+    return [ScrewNumbers(x[:3], x[3:6], *x[6:].tolist()) for x in rows]
 
 
 class CoordinateLimits(NamedTuple):
@@ -96,17 +114,17 @@ def _case(joints: list[tuple[str, np.ndarray]], home: np.ndarray) -> Case:
 
 def drawn(case: Case) -> tuple[ArmData, np.ndarray]:
     """The arm in floats, and q."""
-    kinds = _kinds(case)
-    rows = case.numbers[:-6].reshape(-1, EACH)
-    screws = np.zeros((len(rows), 6))
-    for kind, row, screw in zip(kinds, rows, screws, strict=True):
-        n = row[:3] / math.hypot(*row[:3])
+    joints = numbers_of(case)
+    screws = np.zeros((len(joints), 6))
+    for kind, joint, screw in zip(_kinds(case), joints, screws, strict=True):
+        n = joint.axis / math.hypot(*joint.axis)
         if kind == "prismatic":
             screw[3:] = n
         else:
             screw[:3] = n
-            screw[3:] = np.cross(row[3:6], n) + row[7] * n
-    return of_arms.arm(screws, element(case.numbers[-6:])), rows[:, 6]
+            screw[3:] = np.cross(joint.point, n) + joint.pitch * n
+    q = np.array([joint.q for joint in joints])
+    return of_arms.arm(screws, element(case.numbers[-TAIL:])), q
 
 
 def simpler(case: Case) -> Iterable[Case]:
@@ -124,21 +142,18 @@ def allowed(case: Case) -> bool:
         return bool(
             np.all(case.numbers >= case.layout.lower) and np.all(case.numbers <= case.layout.upper)
         )
-    angle = size(case.numbers[-6:-3])
-    length = size(case.numbers[-3:])
-    if not (drawable(angle, (SMALLEST, math.pi)) and drawable(length, LENGTHS)):
+    w, v = np.split(case.numbers[-TAIL:], 2)
+    if not (drawable(size(w), TURNS) and drawable(size(v), LENGTHS)):
         return False
-    rows = case.numbers[:-6].reshape(-1, EACH)
-    return all(_allowed(kind, row) for kind, row in zip(_kinds(case), rows, strict=True))
+    return all(map(_allowed, _kinds(case), numbers_of(case)))
 
 
-def _allowed(kind: str, row: np.ndarray) -> bool:
-    amounts = {"prismatic": TRAVELS}.get(kind, (SMALLEST, math.pi))
+def _allowed(kind: str, joint: ScrewNumbers) -> bool:
     return (
-        unit(row[:3])
-        and drawable(size(row[3:6]), LENGTHS)
-        and drawable(row[6], amounts)
-        and drawable(row[7], PITCHES)
+        unit(joint.axis)
+        and drawable(size(joint.point), LENGTHS)
+        and drawable(joint.q, TRAVELS if kind == "prismatic" else TURNS)
+        and drawable(joint.pitch, PITCHES)
     )
 
 
@@ -195,9 +210,9 @@ def _check_jacobian(subject: Subject, case: Case) -> Verdict:
             return J
         return subject.rows(J)
 
-    return of_arms.jacobian_is_the_derivative(
-        jacobian, subject.frame, arm, q, Grade.BROKEN, subject.precision("jacobian")
-    )
+    frame = cast(NamedFrame, subject.frame)
+    precision = subject.precision("jacobian")
+    return of_arms.jacobian_is_the_derivative(jacobian, frame, arm, q, Grade.BROKEN, precision)
 
 
 def confirmed(
@@ -228,7 +243,7 @@ def _show(
         screws = "; ".join(
             f"{kind} ({coordinates(S)})" for kind, S in zip(_kinds(case), arm.screws, strict=True)
         )
-        words = f"screws {screws}; M = e^ξ of {coordinates(case.numbers[-6:])}; {words}"
+        words = f"screws {screws}; M = e^ξ of {coordinates(case.numbers[-TAIL:])}; {words}"
     expected = truth(subject, arm, q, name == "jacobian")
     return Shown(words, subject.call(name, **dict(zip(names, values, strict=True))), expected)
 
@@ -270,7 +285,7 @@ def _law(
         kinds = (*KINDS, "helical")
 
     def about(case: Case) -> bool:
-        return not helical or bool(np.any(case.numbers[:-6].reshape(-1, EACH)[:, 7]))
+        return not helical or any(joint.pitch for joint in numbers_of(case))
 
     return SubjectLaw(
         name=name,

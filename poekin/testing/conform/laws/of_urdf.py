@@ -5,11 +5,12 @@ how to show it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from ...oracles import exact_chain
+from ...oracles.differences import NamedFrame
 from .. import confirm
 from ..grades import Verdict, graded
 from ..process.calls import Undeclared, called, made, untouched
@@ -45,8 +46,9 @@ def check(
     J, fault = called(lambda q: subject.noted(law, read.jacobian(q)), (6, len(found)), values)
     if fault:
         return graded(law, fault)
+    frame = cast(NamedFrame, subject.frame)
     J = subject.rows(J)[:, [found.index(name) for name in names]]
-    return graded(law, of_arms.jacobian_parts(subject.frame, arm, q, J, subject.precision(law)))
+    return graded(law, of_arms.jacobian_parts(frame, arm, q, J, subject.precision(law)))
 
 
 def check_robot(subject: Subject, case: Case) -> Verdict:
@@ -152,21 +154,21 @@ def show(
 def _words(case: Case) -> str:
     """Each joint in a few words."""
     layout = small_urdf.layout_of(case)
-    rows = small_urdf.rows_of(case)
     said = []
-    for k, (joint, row) in enumerate(zip(layout.joints, rows, strict=True)):
+    for k, (joint, own) in enumerate(zip(layout.joints, small_urdf.numbers_of(case), strict=True)):
         words = f"{joint.name} {joint.kind}"
         if layout.after[k] != k - 1:
             words += f" behind {small_urdf.link(case, layout.after[k])}"
         if joint.kind != "fixed":
             axis = "no axis written (which means x)"
             if joint.axis:
-                axis = f"axis {typed(row[:3])}"
+                axis = f"axis {typed(own.axis)}"
             words += f", {axis}"
-        for what, numbers in (("xyz", row[3:6]), ("rpy", row[6:9])):
+        for what, numbers in (("xyz", own.xyz), ("rpy", own.rpy)):
             if np.any(numbers):
                 words += f", {what} {typed(numbers)}"
         if joint.follows >= 0:
-            words += f", mimics {layout.joints[joint.follows].name} × {1 + row[9]:g} + {row[10]:g}"
+            master = layout.joints[joint.follows].name
+            words += f", mimics {master} × {1 + own.factor:g} + {own.shift:g}"
         said.append(words)
     return "; ".join(said)

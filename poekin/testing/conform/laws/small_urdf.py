@@ -9,7 +9,7 @@ together here in 80 digits from the format's definition; no reader of poekin's i
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from .law import Case
 from .of_arms import ArmData
 
 EACH = 12
+MIMIC = slice(9, 11)
+VALUE = 11
+"""Places of the mimic numbers, and of q, among those of a joint."""
 LIMIT = 10.0
 """Limits are ± this, in rad or m, beyond every q that is drawn."""
 TIP = -1
@@ -46,6 +49,20 @@ class UrdfLayout(NamedTuple):
     after: tuple[int, ...]
 
 
+class JointNumbers(NamedTuple):
+    """Numbers of a joint, 0 where the URDF need not say anything, but for the axis.
+
+    The mimic multiplier is `factor` + 1, the mimic offset `shift`.
+    """
+
+    axis: np.ndarray
+    xyz: np.ndarray
+    rpy: np.ndarray
+    factor: float
+    shift: float
+    q: float
+
+
 def chain(joints: tuple[UrdfJoint, ...], order: tuple[int, ...] = ()) -> UrdfLayout:
     """Joints one after the other, in the file in that order or another one."""
     return UrdfLayout(joints, order or tuple(range(len(joints))), tuple(range(-1, len(joints) - 1)))
@@ -61,6 +78,11 @@ def layout_of(case: Case) -> UrdfLayout:
 def rows_of(case: Case) -> np.ndarray:
     """Its numbers (n, 12)."""
     return case.numbers.reshape(-1, EACH)
+
+
+def numbers_of(case: Case) -> list[JointNumbers]:
+    """Numbers of each joint."""
+    return [JointNumbers(x[:3], x[3:6], x[6:9], *x[9:].tolist()) for x in rows_of(case)]
 
 
 def moving(case: Case) -> list[int]:
@@ -92,57 +114,47 @@ def path(case: Case, k: int) -> list[int]:
 
 def coordinates(case: Case) -> dict[str, float]:
     """q by the names of the joints that have one of their own."""
-    layout = layout_of(case)
-    rows = rows_of(case)
-    return {layout.joints[k].name: float(rows[k, 11]) for k in moving(case)}
+    joints = layout_of(case).joints
+    numbers = numbers_of(case)
+    return {joints[k].name: numbers[k].q for k in moving(case)}
 
 
 def text(case: Case) -> str:
     """The URDF."""
     layout = layout_of(case)
-    rows = rows_of(case)
-    names = [link(case, k) for k in range(-1, len(rows))]
+    numbers = numbers_of(case)
+    names = [link(case, k) for k in range(-1, len(numbers))]
     content = [f'<link name="{name}"/>' for name in names]
-    content += [
-        _joint(layout, k, rows[k], names[layout.after[k] + 1], names[k + 1]) for k in layout.order
-    ]
+    for k in layout.order:
+        ends = f'<parent link="{names[layout.after[k] + 1]}"/><child link="{names[k + 1]}"/>'
+        content.append(_joint(layout, layout.joints[k], numbers[k], ends))
     return f'<robot name="small">{"".join(content)}</robot>'
 
 
-def _joint(
-    layout: UrdfLayout,
-    k: int,
-    row: np.ndarray,
-    parent: str,
-    child: str,
-) -> str:
-    joint = layout.joints[k]
-    inside = f'<parent link="{parent}"/><child link="{child}"/>'
-    if np.any(row[3:9]):
-        inside += f'<origin xyz="{_numbers(row[3:6])}"{_attribute("rpy", row[6:9])}/>'
+def _joint(layout: UrdfLayout, joint: UrdfJoint, numbers: JointNumbers, ends: str) -> str:
+    inside = ends
+    if np.any(numbers.xyz) or np.any(numbers.rpy):
+        inside += f'<origin xyz="{_text(numbers.xyz)}"{_attribute("rpy", numbers.rpy)}/>'
     if joint.kind != "fixed" and joint.axis:
-        inside += f'<axis xyz="{_numbers(row[:3])}"/>'
+        inside += f'<axis xyz="{_text(numbers.axis)}"/>'
     if joint.kind in ("revolute", "prismatic"):
         inside += f'<limit lower="-{LIMIT:g}" upper="{LIMIT:g}" effort="1" velocity="1"/>'
     if joint.follows >= 0:
         master = layout.joints[joint.follows].name
-        factor = _attribute("multiplier", row[9:10], 1)
-        inside += f'<mimic joint="{master}"{factor}{_attribute("offset", row[10:11])}/>'
+        factor = _attribute("multiplier", np.array([numbers.factor]), 1)
+        shift = _attribute("offset", np.array([numbers.shift]))
+        inside += f'<mimic joint="{master}"{factor}{shift}/>'
     return f'<joint name="{joint.name}" type="{joint.kind}">{inside}</joint>'
 
 
-def _attribute(
-    name: str,
-    x: np.ndarray,
-    default: float = 0,
-) -> str:
+def _attribute(name: str, x: np.ndarray, default: float = 0) -> str:
     """An attribute of numbers x more than its default; none where nothing is more."""
     if not np.any(x):
         return ""
-    return f' {name}="{_numbers(default + x)}"'
+    return f' {name}="{_text(default + x)}"'
 
 
-def _numbers(x: np.ndarray) -> str:
+def _text(x: np.ndarray) -> str:
     return " ".join(repr(value + 0.0).removesuffix(".0") for value in x.tolist())
 
 
@@ -167,29 +179,28 @@ def arm(case: Case, tip: int = TIP) -> tuple[ArmData, np.ndarray, list[str]]:
 
     These are those of `coordinates`, in that order, which the pose depends on.
     """
-    layout = layout_of(case)
-    rows = rows_of(case)
+    joints = layout_of(case).joints
+    numbers = numbers_of(case)
     on = path(case, tip)
-    masters = {k if layout.joints[k].follows < 0 else layout.joints[k].follows for k in on}
+    masters = [joints[k].follows if joints[k].follows >= 0 else k for k in on]
     own = [k for k in moving(case) if k in masters]
     T = exact.exactly(np.eye(4))
     screws = []
     coupling = []
     offset = []
-    for k in on:
+    for k, master in zip(on, masters, strict=True):
         origin, screw = _link(case, k)
-        for xi in origin:
-            T = T @ exact.exp(xi)
+        T = exact.product([T, *map(exact.exp, origin)])
         if screw is None:
             continue
         screws.append(exact.adjoint(T) @ screw)
-        master = layout.joints[k].follows
-        if master >= 0:
-            coupling.append(np.equal(own, master) * (1 + rows[k, 9]))
-            offset.append(rows[k, 10])
-        else:
-            coupling.append(np.equal(own, k) * 1.0)
+        follows = np.equal(own, master)
+        if master == k:
+            coupling.append(follows * 1.0)
             offset.append(0.0)
+        else:
+            coupling.append(follows * (1 + numbers[k].factor))
+            offset.append(numbers[k].shift)
     n = len(screws)
     found = ArmData(
         screws=np.array(screws, dtype=object).reshape(n, 6),
@@ -197,11 +208,11 @@ def arm(case: Case, tip: int = TIP) -> tuple[ArmData, np.ndarray, list[str]]:
         coupling=np.reshape(coupling, (n, len(own))),
         offset=np.array(offset, dtype=float),
         dof=len(own),
-        reach=sum(map(size, rows[on, 3:6])),
+        reach=sum(size(numbers[k].xyz) for k in on),
         # A fixed joint is a factor, too.
-        turned=float(np.abs(rows[on, 6:9]).sum()) + len(on),
+        turned=float(np.abs([numbers[k].rpy for k in on]).sum()) + len(on),
     )
-    return found, rows[own, 11], [layout.joints[k].name for k in own]
+    return found, np.array([numbers[k].q for k in own]), [joints[k].name for k in own]
 
 
 def simpler(case: Case) -> Iterable[Case]:
@@ -216,11 +227,9 @@ def simpler(case: Case) -> Iterable[Case]:
     for k, joint in enumerate(layout.joints):
         if joint.follows >= 0:
             free = (*layout.joints[:k], joint._replace(follows=-1), *layout.joints[k + 1 :])
-            places = np.arange(len(case.numbers)) - EACH * k
-            yield Case(
-                np.where((places == 9) | (places == 10), 0.0, case.numbers),
-                layout._replace(joints=free),
-            )
+            numbers = rows.copy()
+            numbers[k, MIMIC] = 0.0
+            yield Case(numbers.ravel(), layout._replace(joints=free))
     plain = chain(layout.joints)
     written = tuple(joint._replace(axis=True) for joint in layout.joints)
     for other in (plain, layout._replace(order=plain.order), layout._replace(joints=written)):
@@ -266,28 +275,26 @@ def axes(case: Case) -> Iterable[int]:
     return range(0, len(case.numbers), EACH)
 
 
-def _values(case: Case) -> list:
-    layout = layout_of(case)
-    rows = rows_of(case)
+def _values(case: Case) -> list[Any]:
+    numbers = numbers_of(case)
     values = []
-    for row, joint in zip(rows, layout.joints, strict=True):
+    for joint, own in zip(layout_of(case).joints, numbers, strict=True):
         if joint.follows < 0:
-            values.append(exact.mp.mpf(float(row[11]) * (joint.kind != "fixed")))
+            values.append(exact.mp.mpf(own.q * (joint.kind != "fixed")))
         else:
             # The multiplier is what is written: the sum, rounded.
-            values.append(
-                exact.mp.mpf(float(1 + row[9])) * float(rows[joint.follows, 11]) + float(row[10])
-            )
+            factor = exact.mp.mpf(1 + own.factor)
+            values.append(factor * numbers[joint.follows].q + own.shift)
     return values
 
 
 def _link(case: Case, k: int) -> tuple[list[np.ndarray], np.ndarray | None]:
     """The twists of a joint's origin, and its screw in its own frame, with a unit axis."""
     joint = layout_of(case).joints[k]
-    row = rows_of(case)[k]
-    roll, pitch, yaw = row[6:9]
+    numbers = numbers_of(case)[k]
+    roll, pitch, yaw = numbers.rpy
     origin = [
-        [0, 0, 0, *row[3:6]],
+        [0, 0, 0, *numbers.xyz],
         [0, 0, yaw, 0, 0, 0],
         [0, pitch, 0, 0, 0, 0],
         [roll, 0, 0, 0, 0, 0],
@@ -297,9 +304,10 @@ def _link(case: Case, k: int) -> tuple[list[np.ndarray], np.ndarray | None]:
         return origin, None
     axis = exact.exactly([1.0, 0.0, 0.0])
     if joint.axis:
-        axis = exact.exactly(row[:3])
-    n = axis / exact.norm(axis)
-    nought = exact.exactly(np.zeros(3))
+        axis = exact.exactly(numbers.axis)
+    screw = exact.exactly(np.zeros(6))
+    half = slice(3)
     if joint.kind == "prismatic":
-        return origin, np.concatenate([nought, n])
-    return origin, np.concatenate([n, nought])
+        half = slice(3, 6)
+    screw[half] = axis / exact.norm(axis)
+    return origin, screw

@@ -11,7 +11,7 @@ from ...laws.measures import size
 from ...strategies.group_strategies import Arrays, angles, axes, frozen, magnitudes, st, vectors
 from . import of_urdf, small_urdf
 from .law import Case, SubjectLaw, always, drawable, nothing, unit
-from .small_urdf import UrdfJoint, UrdfLayout
+from .small_urdf import JointNumbers, UrdfJoint, UrdfLayout
 
 NAMES = ("j0", "j1", "j2")
 LENGTHS = (1e-3, 3.0)
@@ -103,9 +103,9 @@ def _numbers(layout: UrdfLayout, rows: Iterable[np.ndarray]) -> Case:
     for joint, row in zip(layout.joints, rows, strict=False):
         own = np.array(row)
         if joint.follows >= 0:
-            own[11] = 0.0
+            own[small_urdf.VALUE] = 0.0
         else:
-            own[9:11] = 0.0
+            own[small_urdf.MIMIC] = 0.0
         numbers.append(own)
     return Case(np.concatenate(numbers), layout)
 
@@ -201,15 +201,14 @@ def _allowed(axis: Fits, largest: float = math.pi) -> About:
     """
 
     def allowed(case: Case) -> bool:
-        return small_urdf.allowed(case) and all(map(fits, small_urdf.rows_of(case)))
+        return small_urdf.allowed(case) and all(map(fits, small_urdf.numbers_of(case)))
 
-    def fits(row: np.ndarray) -> bool:
-        turned = all(drawable(angle, ANGLES) for angle in row[6:9])
+    def fits(numbers: JointNumbers) -> bool:
         return (
-            axis(row[:3])
-            and drawable(size(row[3:6]), LENGTHS)
-            and turned
-            and drawable(row[11], (ANGLES[0], largest))
+            axis(numbers.axis)
+            and drawable(size(numbers.xyz), LENGTHS)
+            and all(drawable(angle, ANGLES) for angle in numbers.rpy)
+            and drawable(numbers.q, (ANGLES[0], largest))
         )
 
     return allowed
@@ -276,13 +275,13 @@ def _robot_law(
     )
 
 
-def _axes(case: Case) -> np.ndarray:
-    moving = [joint.kind != "fixed" for joint in small_urdf.layout_of(case).joints]
-    return small_urdf.rows_of(case)[moving, :3]
+def _axes(case: Case) -> list[np.ndarray]:
+    joints = zip(small_urdf.layout_of(case).joints, small_urdf.numbers_of(case), strict=True)
+    return [numbers.axis for joint, numbers in joints if joint.kind != "fixed"]
 
 
 def _oblique(case: Case) -> bool:
-    return bool(np.any(np.count_nonzero(_axes(case), axis=1) > 1))
+    return any(np.count_nonzero(axis) > 1 for axis in _axes(case))
 
 
 def _long(case: Case) -> bool:
@@ -294,7 +293,7 @@ def _missing(case: Case) -> bool:
 
 
 def _many_turns(case: Case) -> bool:
-    return bool(np.any(np.abs(small_urdf.rows_of(case)[:, 11]) > math.pi))
+    return any(abs(numbers.q) > math.pi for numbers in small_urdf.numbers_of(case))
 
 
 def _mimic(case: Case) -> bool:
