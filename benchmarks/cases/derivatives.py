@@ -17,9 +17,9 @@ from poekin.formats.load import BUILT_IN
 from poekin.model.kinematics.pose_jacobian import FRAME_NAMES
 from poekin.testing.cases.example_robots import example_robots
 from poekin.testing.oracles.exact_chain import screw_changes
-from poekin.testing.oracles.pinocchio_derivatives import DerivativeErrors, derivative_errors
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
+from ..derivative_errors import DerivativeErrors, derivative_errors
 from ..draw import dots
 from ..report import Figure, Table, Topic
 

@@ -267,10 +267,11 @@ def jacobian_errors(
         Error of the Q block ÷ ‖v‖; 0 of a 3×3.
     """
     error = exact.exactly(J) - truth
-    diagonal = max(exact.norm(block) for block in (error[:3, :3], error[3:, 3:], error[:3, 3:]))
-    Q = exact.norm(error[3:, :3])
+    rest = (error[:3, :3], error[3:, 3:], error[:3, 3:])
+    diagonal = max(map(exact.norm, rest))
+    corner = exact.norm(error[3:, :3])
     v = exact.norm(exact.exactly(xi[3:]))
-    return float(diagonal), error_bounds.ratio(Q, v)
+    return float(diagonal), error_bounds.ratio(corner, v)
 
 
 def _of_jacobian(

@@ -244,10 +244,11 @@ def _together(
     xi: ArrayLike,
     T: ArrayLike,
 ) -> None:
-    shapes = np.shape(xi), np.shape(T)
-    if shapes not in (((3,), (3, 3)), ((6,), (4, 4))):
+    size = np.shape(xi)
+    shape = np.shape(T)
+    if (size, shape) not in (((3,), (3, 3)), ((6,), (4, 4))):
         raise ShapeError(
-            f"expected xi (6,) with T (4, 4), or xi (3,) with T (3, 3), got {shapes[0]} with {shapes[1]}"
+            f"expected xi (6,) with T (4, 4), or xi (3,) with T (3, 3), got {size} with {shape}"
         )
 
 
@@ -265,9 +266,8 @@ def _other_sign(truth: np.ndarray) -> np.ndarray:
     w = -truth[:3]
     if len(truth) == 3:
         return w
-    return np.concatenate(
-        [w, exact.left_jacobian_inverse(w) @ (exact.left_jacobian(truth[:3]) @ truth[3:])]
-    )
+    t = exact.left_jacobian(truth[:3]) @ truth[3:]
+    return np.concatenate([w, exact.left_jacobian_inverse(w) @ t])
 
 
 def _translation_slope(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
+from unittest import mock
 
 from ..laws.laws import Law, LawViolation
 from ..strategies.group_strategies import st
@@ -78,14 +79,10 @@ def _without_constants_of_modules() -> Iterator[None]:
     if not hasattr(providers, "CONSTANTS_CACHE"):
         yield
         return
-    none = type(providers._local_constants)()
-    before = (providers._get_local_constants, providers.CONSTANTS_CACHE)
-    providers._get_local_constants = lambda: none
-    providers.CONSTANTS_CACHE = {}
-    try:
+    none = type(vars(providers)["_local_constants"])()
+    emptied = {"_get_local_constants": lambda: none, "CONSTANTS_CACHE": {}}
+    with mock.patch.multiple(providers, **emptied):
         yield
-    finally:
-        providers._get_local_constants, providers.CONSTANTS_CACHE = before
 
 
 def hunt(

@@ -25,7 +25,10 @@ def of_exp(xi: np.ndarray) -> bool:
     return is_exp(xi, exact.exp(xi))
 
 
-def is_exp(xi: np.ndarray, truth: np.ndarray) -> bool:
+def is_exp(
+    xi: np.ndarray,
+    truth: np.ndarray,
+) -> bool:
     """Whether a matrix is mpmath's exponential of ω (3,) or (ω; v) (6,)."""
     return near(_expm(xi), truth)
 
@@ -35,7 +38,10 @@ def of_log(X: np.ndarray) -> bool:
     return is_log(X, exact.log(X))
 
 
-def is_log(X: np.ndarray, truth: np.ndarray) -> bool:
+def is_log(
+    X: np.ndarray,
+    truth: np.ndarray,
+) -> bool:
     """Whether e^truth has X's translation and X's polar factor P for rotation, |ω| ≤ π.
 
     P is the polar factor where Pᵀ R is symmetric and P is near R: the other rotations with a
@@ -55,7 +61,10 @@ def is_log(X: np.ndarray, truth: np.ndarray) -> bool:
     return bool(_mp.norm([_mp.mpf(w) for w in truth[:3]]) <= _mp.pi + AGREE)
 
 
-def of_adjoint(T: np.ndarray, within: float = 1e-14) -> bool:
+def of_adjoint(
+    T: np.ndarray,
+    within: float = 1e-14,
+) -> bool:
     """Whether T [ξ] = [Ad(T) ξ] T for each unit twist ξ, to 14 digits, or `within`: T is a pose to
     no more.
     """
@@ -63,11 +72,15 @@ def of_adjoint(T: np.ndarray, within: float = 1e-14) -> bool:
     Ad = exact.adjoint(T)
     # T's rotation is one only to rounding, and so is the identity.
     scale = 1 + _largest(X)
-    error = max(_largest(X * _hat(e) - _hat(Ad[:, k]) * X) for k, e in enumerate(np.eye(6)))
-    return bool(error < within * scale**2)
+    twists = zip(np.eye(6), Ad.T, strict=True)
+    errors = [_largest(X * _hat(unit) - _hat(carried) * X) for unit, carried in twists]
+    return bool(max(errors) < within * scale**2)
 
 
-def of_jacobian(name: str, xi: np.ndarray) -> bool:
+def of_jacobian(
+    name: str,
+    xi: np.ndarray,
+) -> bool:
     """Whether a Jacobian of exp of `exact` is ∫ e^{± s ad ξ} ds, 0 ≤ s ≤ 1, or the inverse of that.
 
     The integral is the upper right block of the exponential of [± ad ξ, I; 0, 0].
@@ -81,7 +94,7 @@ def of_jacobian(name: str, xi: np.ndarray) -> bool:
     big[:n, n:] = _mp.eye(n)
     J = _mp.expm(big)[:n, n:]
     truth = _matrix(getattr(exact, name)(xi))
-    scale = 1 + max(abs(_mp.mpf(float(x))) for x in xi)
+    scale = 1 + float(np.abs(xi).max())
     if name.endswith("_inverse"):
         return bool(_largest(J * truth - _mp.eye(n)) < AGREE * scale**2)
     return bool(_largest(J - truth) < AGREE * scale)
@@ -147,7 +160,10 @@ def _shifted(
     return moved
 
 
-def near(X: Any, truth: np.ndarray) -> bool:
+def near(
+    X: Any,
+    truth: np.ndarray,
+) -> bool:
     """Whether an mpmath matrix and an array of `exact` are the same to 60 digits of the largest
     entry.
     """

@@ -142,7 +142,10 @@ def norm(x: np.ndarray) -> float:
 
 
 def graded(
-    law: str, parts: Sequence[Part] | str, at_most: Grade = Grade.BROKEN, **seen: object
+    law: str,
+    parts: Sequence[Part] | str,
+    at_most: Grade = Grade.BROKEN,
+    **seen: object,
 ) -> Verdict:
     """The verdict on a case: that of the worst of its parts, or on a fault (a text: no result at
     all).

@@ -34,7 +34,9 @@ def _say_nothing(*_: object) -> None:
 
 
 def applicable(
-    subject: Subject, names: Sequence[str] = (), leave_out: Sequence[str] = ()
+    subject: Subject,
+    names: Sequence[str] = (),
+    leave_out: Sequence[str] = (),
 ) -> list[SubjectLaw]:
     """Laws that a subject can be held to.
 
@@ -80,7 +82,9 @@ def applicable(
 
 
 def law_names(
-    thing: Any, leave_out: Sequence[str] = (), limits: Limits | None = LIMITS
+    thing: Any,
+    leave_out: Sequence[str] = (),
+    limits: Limits | None = LIMITS,
 ) -> list[str]:
     """Names of the laws that a subject can be held to, for `pytest.mark.parametrize`.
 

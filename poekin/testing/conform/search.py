@@ -49,7 +49,11 @@ class _Over(Exception):
 
 
 def worst(
-    law: SubjectLaw, subject: Subject, examples: int, seconds: float, at_most: Grade = Grade.GOOD
+    law: SubjectLaw,
+    subject: Subject,
+    examples: int,
+    seconds: float,
+    at_most: Grade = Grade.GOOD,
 ) -> Found:
     """Hunt the worst case, towards larger errors; shrink it where it is poor or broken, or worse
     than `at_most`.

@@ -19,7 +19,10 @@ BUDGET = 1500
 
 
 def shrunk(
-    law: SubjectLaw, case: Case, fails: Callable[[Case], bool], budget: int = BUDGET
+    law: SubjectLaw,
+    case: Case,
+    fails: Callable[[Case], bool],
+    budget: int = BUDGET,
 ) -> Case:
     """The simplest case found, from this one on, that fails as well; the case itself where there is
     none.

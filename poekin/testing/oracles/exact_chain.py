@@ -250,8 +250,11 @@ def in_frames(
     V : (3, 6, k) ndarray
         The twists in the three frames in this order.
     """
-    moved = S[3:] + np.array([exact.cross(w, T[:3, 3]) for w in S[:3].T], dtype=object).T
-    return np.stack([S, exact.adjoint(exact.inverse(T)) @ S, np.concatenate([S[:3], moved])])
+    t = T[:3, 3]
+    carried = np.array([exact.cross(w, t) for w in S[:3].T], dtype=object).T
+    body = exact.adjoint(exact.inverse(T)) @ S
+    hybrid = np.concatenate([S[:3], S[3:] + carried])
+    return np.stack([S, body, hybrid])
 
 
 def _exponentials(

@@ -287,7 +287,9 @@ def chain_cases(kinds: Sequence[str], **options: Any) -> st.SearchStrategy[tuple
 
 @st.composite
 def _cases(
-    draw: st.DrawFn, kinds: tuple[str, ...], some: st.SearchStrategy[Chain]
+    draw: st.DrawFn,
+    kinds: tuple[str, ...],
+    some: st.SearchStrategy[Chain],
 ) -> tuple[Any, ...]:
     chain = draw(some)
     n = len(chain.screws)

@@ -118,10 +118,12 @@ def _inside(
     upper: float,
 ) -> float:
     at_nought = r.byte() < 32 and lower <= 0.0 <= upper
-    # Of low and high rounded, the sum may be beyond.
     if at_nought:
         return 0.0
-    return min(lower + (upper - lower) * r.fraction(0.0, 1.0), upper)
+    width = upper - lower
+    share = r.fraction(0.0, 1.0)
+    # Of low and high rounded, the sum may be beyond.
+    return min(lower + width * share, upper)
 
 
 def singular_cases(

@@ -88,7 +88,9 @@ def mounts() -> Arrays:
 
 
 def tables(
-    min_joints: int = 1, max_joints: int = 10, conventions: Sequence[Convention] = CONVENTIONS
+    min_joints: int = 1,
+    max_joints: int = 10,
+    conventions: Sequence[Convention] = CONVENTIONS,
 ) -> st.SearchStrategy[Table]:
     """Denavit-Hartenberg tables with base and tool.
 

@@ -169,7 +169,9 @@ def rotation_vectors(largest: float = math.pi, smallest: float = SMALLEST) -> Ar
 
 
 def twists(
-    largest: float = math.pi, lengths: tuple[float, float] = LENGTHS, smallest: float = SMALLEST
+    largest: float = math.pi,
+    lengths: tuple[float, float] = LENGTHS,
+    smallest: float = SMALLEST,
 ) -> Arrays:
     """Twists (ω; v), |ω| as in `angles`, |v| as in `vectors`, all independent.
 

@@ -65,7 +65,9 @@ def near_angles(
 
 
 def near_rotation_vectors(
-    at: float = math.pi, widest: float = WIDEST, beyond: bool = False
+    at: float = math.pi,
+    widest: float = WIDEST,
+    beyond: bool = False,
 ) -> Arrays:
     """Rotation vectors ω with |ω| as in `near_angles`.
 

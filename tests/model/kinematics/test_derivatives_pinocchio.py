@@ -9,11 +9,12 @@ import warnings
 import numpy as np
 import pytest
 
+from benchmarks.derivative_errors import derivative_errors
 from poekin.analysis.validate import routes
 from poekin.errors import InputError, PoekinWarning
 from poekin.formats.load import load
 from poekin.testing.cases.example_robots import example_robots
-from poekin.testing.oracles.pinocchio_derivatives import derivative_errors, derivatives
+from poekin.testing.oracles.pinocchio_derivatives import derivatives
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from tests.versions import needs
 

@@ -10,13 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks.derivative_errors import DerivativeErrors, derivative_errors
 from poekin.errors import InputError
 from poekin.formats import urdf
-from poekin.testing.oracles.pinocchio_derivatives import (
-    DerivativeErrors,
-    derivative_errors,
-    derivatives,
-)
+from poekin.testing.oracles.pinocchio_derivatives import derivatives
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from tests.testing.oracles.test_pinocchio_oracle import TWO_LINKS, URDF
 from tests.versions import needs

@@ -275,7 +275,10 @@ def _kinds(case: Case) -> tuple[str, ...]:
 
 
 def _law(
-    function: str, says: str, check: Callable[[Subject, Case], Verdict], helical: bool = False
+    function: str,
+    says: str,
+    check: Callable[[Subject, Case], Verdict],
+    helical: bool = False,
 ) -> SubjectLaw:
     jacobian = function == "jacobian"
     name = function

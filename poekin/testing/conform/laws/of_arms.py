@@ -78,7 +78,11 @@ def arm(screws: np.ndarray, home: np.ndarray) -> ArmData:
     return ArmData(screws, home, np.eye(n), np.zeros(n), n, reach)
 
 
-def error_bound(arm: Any, q: np.ndarray, unit: float = UNIT) -> tuple[float, float]:
+def error_bound(
+    arm: Any,
+    q: np.ndarray,
+    unit: float = UNIT,
+) -> tuple[float, float]:
     """Error of a pose that float64 can attain.
 
     Whoever made a `poekin.Chain` had numbers of his own for it: a radian for each joint, and its
@@ -180,10 +184,12 @@ def pose_parts(
     """
     error = exact.exactly(T) - exact_chain.pose(arm, q)
     angular, lengths = error_bound(arm, q, precision.unit)
-    t = norm(error[:3, 3])
+    turned = norm(error[:3, :3])
+    moved = norm(error[:3, 3])
+    linear = angular * lengths
     return [
-        Part("R (rad)", norm(error[:3, :3]), 2**0.5, angular, precision=precision),
-        Part("t ÷ the arm's lengths", t, lengths, angular * lengths, precision=precision),
+        Part("R (rad)", turned, 2**0.5, angular, precision=precision),
+        Part("t ÷ the arm's lengths", moved, lengths, linear, precision=precision),
         Part("last row", norm(error[3]), 1.0, 0.0, precision=precision),
     ]
 

@@ -32,7 +32,10 @@ TWIST_SIZE = {3: 3, 4: 6}
 
 
 def exp_is_e_to_the_xi(
-    exp: Function, xi: np.ndarray, at_most: Grade = Grade.EXACT, precision: Precision = DOUBLE
+    exp: Function,
+    xi: np.ndarray,
+    at_most: Grade = Grade.EXACT,
+    precision: Precision = DOUBLE,
 ) -> Verdict:
     """Law: exp ξ = e^[ξ]; R as it is, t in proportion to |v|.
 
@@ -71,7 +74,11 @@ def exp_is_e_to_the_xi(
     return graded("exp is e to the xi", fault or exp_parts(xi, X, precision), at_most, xi=xi)
 
 
-def exp_parts(xi: np.ndarray, X: np.ndarray, precision: Precision = DOUBLE) -> list[Part]:
+def exp_parts(
+    xi: np.ndarray,
+    X: np.ndarray,
+    precision: Precision = DOUBLE,
+) -> list[Part]:
     """Errors of R, of t and of the last row of an exponential.
 
     Parameters
@@ -90,21 +97,26 @@ def exp_parts(xi: np.ndarray, X: np.ndarray, precision: Precision = DOUBLE) -> l
     """
     error = exact.exactly(X) - exact.exp(xi)
     angular = precision.unit * (1 + 2**0.5 * norm(xi[:3]))
-    parts = [Part("R (rad)", norm(error[:3, :3]), 2**0.5, angular, precision=precision)]
+    turned = norm(error[:3, :3])
+    parts = [Part("R (rad)", turned, 2**0.5, angular, precision=precision)]
     if len(xi) == 3:
         return parts
+    moved = norm(error[:3, 3])
     v = norm(xi[3:])
 
     def bound() -> float:
         return precision.coarser * float(error_bounds.exp_bound(xi).linear)
 
-    parts.append(Part("t ÷ |v|", norm(error[:3, 3]), v, precision.unit * v, bound, precision))
+    parts.append(Part("t ÷ |v|", moved, v, precision.unit * v, bound, precision))
     parts.append(Part("last row", norm(error[3]), 1.0, 0.0, precision=precision))
     return parts
 
 
 def log_is_the_principal_logarithm(
-    log: Function, X: np.ndarray, at_most: Grade = Grade.EXACT, precision: Precision = DOUBLE
+    log: Function,
+    X: np.ndarray,
+    at_most: Grade = Grade.EXACT,
+    precision: Precision = DOUBLE,
 ) -> Verdict:
     """Law: log X is the principal logarithm, 0 ≤ |ω| ≤ π; v in proportion to the lengths.
 
@@ -136,7 +148,11 @@ def log_is_the_principal_logarithm(
     return graded("log is the principal logarithm", parts, at_most, X=X)
 
 
-def log_parts(X: np.ndarray, xi: np.ndarray, precision: Precision = DOUBLE) -> list[Part]:
+def log_parts(
+    X: np.ndarray,
+    xi: np.ndarray,
+    precision: Precision = DOUBLE,
+) -> list[Part]:
     """Errors of ω and v of a logarithm.
 
     Parameters
@@ -169,7 +185,10 @@ def _other_sign(truth: np.ndarray, X: np.ndarray) -> np.ndarray:
 
 
 def _log_parts(
-    truth: np.ndarray, xi: np.ndarray, X: np.ndarray, precision: Precision
+    truth: np.ndarray,
+    xi: np.ndarray,
+    X: np.ndarray,
+    precision: Precision,
 ) -> list[Part]:
     error = exact.exactly(xi) - truth
     theta = norm(truth[:3])
@@ -189,12 +208,16 @@ def _log_parts(
     if len(xi) == 6:
         v = norm(truth[3:])
         scale = max(v, norm(X[:3, 3]))
-        parts.append(Part("v ÷ |v|", norm(error[3:]), scale, precision.unit * v, linear, precision))
+        missed = norm(error[3:])
+        parts.append(Part("v ÷ |v|", missed, scale, precision.unit * v, linear, precision))
     return parts
 
 
 def log_forgives_noise(
-    log: Function, R: np.ndarray, at_most: Grade = Grade.EXACT, precision: Precision = DOUBLE
+    log: Function,
+    R: np.ndarray,
+    at_most: Grade = Grade.EXACT,
+    precision: Precision = DOUBLE,
 ) -> Verdict:
     """Law: log of a rotation with noise is that of the nearest rotation.
 
@@ -231,7 +254,10 @@ def log_forgives_noise(
 
 
 def adjoint_is_its_matrix(
-    adjoint: Function, T: np.ndarray, at_most: Grade = Grade.EXACT, precision: Precision = DOUBLE
+    adjoint: Function,
+    T: np.ndarray,
+    at_most: Grade = Grade.EXACT,
+    precision: Precision = DOUBLE,
 ) -> Verdict:
     """Law: Ad(T) = [R 0; [t] R R]; the lower corner in proportion to |t|.
 
@@ -261,12 +287,13 @@ def adjoint_is_its_matrix(
         return graded("adjoint is its matrix", fault, at_most, T=T)
     error = exact.exactly(X) - exact.adjoint(T)
     t = norm(T[:3, 3])
+    corner = norm(error[3:, :3])
     rest = max(map(norm, (error[:3, :3], error[3:, 3:], error[:3, 3:])))
     # R is there already; of [t] R each entry is a difference of two products.
     u = precision.unit
     parts = [
         Part("R", rest, 1.0, u, precision=precision),
-        Part("[t] R ÷ |t|", norm(error[3:, :3]), t, 2 * u * t, precision=precision),
+        Part("[t] R ÷ |t|", corner, t, 2 * u * t, precision=precision),
     ]
     return graded("adjoint is its matrix", parts, at_most, T=T)
 

@@ -131,7 +131,12 @@ def text(case: Case) -> str:
     return f'<robot name="small">{"".join(content)}</robot>'
 
 
-def _joint(layout: UrdfLayout, joint: UrdfJoint, numbers: JointNumbers, ends: str) -> str:
+def _joint(
+    layout: UrdfLayout,
+    joint: UrdfJoint,
+    numbers: JointNumbers,
+    ends: str,
+) -> str:
     inside = ends
     if np.any(numbers.xyz) or np.any(numbers.rpy):
         inside += f'<origin xyz="{_text(numbers.xyz)}"{_attribute("rpy", numbers.rpy)}/>'
@@ -147,7 +152,11 @@ def _joint(layout: UrdfLayout, joint: UrdfJoint, numbers: JointNumbers, ends: st
     return f'<joint name="{joint.name}" type="{joint.kind}">{inside}</joint>'
 
 
-def _attribute(name: str, x: np.ndarray, default: float = 0) -> str:
+def _attribute(
+    name: str,
+    x: np.ndarray,
+    default: float = 0,
+) -> str:
     """An attribute of numbers x more than its default; none where nothing is more."""
     if not np.any(x):
         return ""

@@ -24,7 +24,12 @@ class Declarations(NamedTuple):
             raise InputError(f"{self.title}: {name}: {fault}")
         return value
 
-    def choice(self, what: str, words: tuple[str, ...], function: str) -> str:
+    def choice(
+        self,
+        what: str,
+        words: tuple[str, ...],
+        function: str,
+    ) -> str:
         """Declaration that is one of some words, and that a function needs."""
         value = self.attribute(what)
         choice = " or ".join(f'"{word}"' for word in words)
@@ -66,7 +71,12 @@ class Declarations(NamedTuple):
             raise self._expected("arm", "a poekin.Chain", value)
         return value
 
-    def check_parameters(self, name: str, expected: str, hint: str) -> None:
+    def check_parameters(
+        self,
+        name: str,
+        expected: str,
+        hint: str,
+    ) -> None:
         """Check that a function takes the parameters expected."""
         function = getattr(self.own, name)
         try:
@@ -82,5 +92,10 @@ class Declarations(NamedTuple):
                     f"{self.title}: {name}: expected parameters (self, {expected}), got none"
                 ) from None
 
-    def _expected(self, what: str, expected: str, value: object) -> InputError:
+    def _expected(
+        self,
+        what: str,
+        expected: str,
+        value: object,
+    ) -> InputError:
         return InputError(f"{self.title}: {what}: expected {expected}, got {safe_repr(value)}")

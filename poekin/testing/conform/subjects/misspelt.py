@@ -32,10 +32,10 @@ def misspelt(own: Any, known: Sequence[str]) -> list[str]:
 
 def _public(own: Any) -> list[str]:
     """Names that the subject and its classes have, without asking for their values."""
-    classes = [kind for kind in type(own).__mro__ if kind is not object]
-    names = dict.fromkeys(
-        name for holder in (own, *classes) for name in getattr(holder, "__dict__", {})
-    )
+    names: dict[str, None] = {}
+    for holder in (own, *type(own).__mro__):
+        if holder is not object:
+            names |= dict.fromkeys(getattr(holder, "__dict__", {}))
     return [name for name in names if not name.startswith("_")]
 
 

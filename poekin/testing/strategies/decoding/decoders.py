@@ -62,9 +62,10 @@ def axis(r: BytesReader) -> np.ndarray:
     """A unit vector (3,): an axis of the frame, nearly one, or any. Takes 12 bytes."""
     kind = r.byte() % 4
     place = r.byte()
-    n = np.array([1.0, 0.0, 0.0])
+    sign = 1.0
     if r.byte() >= 128:
-        n[0] = -1.0
+        sign = -1.0
+    n = np.array([sign, 0.0, 0.0])
     if kind == 1:
         n[1] = 10.0 ** -r.fraction(1.0, 17.0)
         n[2] = -(10.0 ** -r.fraction(1.0, 17.0))
@@ -100,6 +101,6 @@ def _marks(largest: float, smallest: float) -> list[float]:
     for switch in SWITCHES:
         marks += around(switch)
     marks.append(math.pi)
-    for centre in (math.pi, math.pi / 2, 2 * math.pi):
-        marks += around(centre)
+    for quarters in (2, 1, 4):
+        marks += around(quarters * math.pi / 2)
     return [x for x in marks if smallest <= x <= largest]
