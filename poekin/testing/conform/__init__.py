@@ -34,7 +34,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .grades import Grade, Part, Verdict
+    from .grades import ErrorPart, Grade, Verdict
     from .laws.law import Case, SubjectLaw
     from .process.limits import Limits
     from .report import Outcome, Report
@@ -49,10 +49,10 @@ __all__ = [
     "LAWS",
     "SINGLE",
     "Case",
+    "ErrorPart",
     "Grade",
     "Limits",
     "Outcome",
-    "Part",
     "Report",
     "Subject",
     "SubjectLaw",
@@ -63,7 +63,7 @@ __all__ = [
     "loaded",
 ]
 _HOMES = {
-    "grades": ("Grade", "Part", "Verdict"),
+    "grades": ("Grade", "ErrorPart", "Verdict"),
     "laws.law": ("Case", "SubjectLaw"),
     "process.limits": ("Limits",),
     "subjects.named": ("loaded",),

@@ -47,7 +47,7 @@ class Grade(enum.IntEnum):
         return self.name.lower()
 
 
-class Part(NamedTuple):
+class ErrorPart(NamedTuple):
     """Measured error, with its scale and what floats can attain.
 
     Parameters
@@ -143,7 +143,7 @@ def norm(x: np.ndarray) -> float:
 
 def graded(
     law: str,
-    parts: Sequence[Part] | str,
+    parts: Sequence[ErrorPart] | str,
     at_most: Grade = Grade.BROKEN,
     **seen: object,
 ) -> Verdict:

@@ -20,7 +20,7 @@ from .process.calls import LOST, UNANSWERED, Undeclared
 from .process.child import isolated, obstacle
 from .process.limits import Limits
 from .report import Outcome, Report
-from .search import Found, worst
+from .search import SearchResult, worst
 from .subjects.subject import FUNCTIONS, ORDERS, Subject
 
 LAWS: tuple[SubjectLaw, ...] = (*GROUP_LAWS, *ARM_LAWS, *URDF_LAWS)
@@ -263,7 +263,7 @@ def conform(
 def outcome(
     law: SubjectLaw,
     subject: Subject,
-    found: Found,
+    found: SearchResult,
 ) -> Outcome:
     """Outcome of a hunt: a finding only where the two oracles agree on the exact result."""
     verdict = found.verdict
@@ -325,7 +325,7 @@ def _repeated(
 def _hint(
     law: SubjectLaw,
     subject: Subject,
-    found: Found,
+    found: SearchResult,
     again: Verdict,
 ) -> str:
     """A hint on the cause of a finding; "" where there is none."""

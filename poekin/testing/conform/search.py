@@ -30,7 +30,7 @@ SHORT = 2.0
 """Seconds after which a call that is not answered is given up while shrinking."""
 
 
-class Found(NamedTuple):
+class SearchResult(NamedTuple):
     """Result of a search: the number of cases tried, the worst one, its verdict, and the shrunk case
     where it is a finding.
 
@@ -54,7 +54,7 @@ def worst(
     examples: int,
     seconds: float,
     at_most: Grade = Grade.GOOD,
-) -> Found:
+) -> SearchResult:
     """Hunt the worst case, towards larger errors; shrink it where it is poor or broken, or worse
     than `at_most`.
     """
@@ -91,7 +91,7 @@ def worst(
     small = None
     if verdict.grade > min(at_most, Grade.GOOD):
         small = simplest(law, subject, case, verdict)
-    return Found(count, case, verdict, small, late)
+    return SearchResult(count, case, verdict, small, late)
 
 
 def rounded(

@@ -30,12 +30,12 @@ _WEIGHTS = [
     for k in range(1, _SIDE + 1)
 ]
 
-Pose = Callable[[np.ndarray], np.ndarray]
+PoseFunction = Callable[[np.ndarray], np.ndarray]
 NamedFrame = Literal["space", "body", "hybrid"]
 
 
 def derivative(
-    f: Pose,
+    f: PoseFunction,
     q: ArrayLike,
     dq: ArrayLike,
     rate: float = 1.0,
@@ -82,7 +82,7 @@ def derivative(
 
 
 def velocity(
-    f: Pose,
+    f: PoseFunction,
     q: ArrayLike,
     dq: ArrayLike,
     frame: NamedFrame,
@@ -132,7 +132,7 @@ def velocity(
 
 
 def jacobian(
-    f: Pose,
+    f: PoseFunction,
     q: ArrayLike,
     frame: NamedFrame,
     rate: float = 1.0,

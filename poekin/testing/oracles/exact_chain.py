@@ -18,7 +18,7 @@ from . import exact
 from .exact_numbers import skew_part
 
 STEP = exact.mp.mpf(10) ** -20
-Function = Callable[[Any], np.ndarray]
+Curve = Callable[[Any], np.ndarray]
 
 
 class ScrewChanges(NamedTuple):
@@ -194,7 +194,7 @@ def screw_changes(
     return ScrewChanges(*(np.stack(parts, axis=-1) for parts in units))
 
 
-def derivative(f: Function) -> np.ndarray:
+def derivative(f: Curve) -> np.ndarray:
     """Derivative df/dt at t = 0, by a central difference.
 
     Parameters
@@ -211,7 +211,7 @@ def derivative(f: Function) -> np.ndarray:
 
 
 def space_twist(
-    f: Function,
+    f: Curve,
     T: np.ndarray,
 ) -> np.ndarray:
     """Twist df/dt T⁻¹ of a moving pose at t = 0.

@@ -176,7 +176,7 @@ def along(t: Any, q: np.ndarray, dq: np.ndarray) -> np.ndarray:
     return exact.exactly(q) + exact.exactly(dq) * t
 
 
-def slope(f: exact_chain.Function) -> np.ndarray:
+def slope(f: exact_chain.Curve) -> np.ndarray:
     """df/dt at 0 of a function of one number in 80 digits, as floats."""
     return exact.rounded(exact_chain.derivative(f))
 

@@ -16,7 +16,7 @@ from poekin.testing.conform import FUNCTIONS, LAWS, Subject, run
 from poekin.testing.conform.grades import NO_RESULT, Grade, Verdict
 from poekin.testing.conform.laws.law import Case, Shown, SubjectLaw
 from poekin.testing.conform.process.calls import ENDED, LOST, UNANSWERED, Undeclared
-from poekin.testing.conform.search import Found
+from poekin.testing.conform.search import SearchResult
 from poekin.testing.conform.subjects.precision import SINGLE
 from poekin.testing.strategies.group_strategies import st
 
@@ -89,11 +89,11 @@ def hunted(monkeypatch):
 
     def worst(
         law: SubjectLaw, subject: Subject, examples: int, seconds: float, at_most: Grade
-    ) -> Found:
+    ) -> SearchResult:
         asked.append((law.name, examples))
         if law.name == "so3_exp" and examples == 3:
             raise Undeclared("it has no such thing")
-        return Found(
+        return SearchResult(
             examples, Case(np.zeros(3)), Verdict(Grade.EXACT, 0.5, "x"), None, examples == 2
         )
 
@@ -182,7 +182,7 @@ def test_a_finding_is_measured_again_and_the_worse_of_both_is_reported(
     first, again, about, expected
 ):
     found = run.outcome(
-        law(lambda subject, case: again, about), stub(), Found(7, WORST, first, SMALL, True)
+        law(lambda subject, case: again, about), stub(), SearchResult(7, WORST, first, SMALL, True)
     )  # fmt: skip
     assert (found.grade, found.worst, found.error, found.fault, found.hint) == expected
     assert (found.case, found.words, found.paste, found.names, found.precision) == (
@@ -191,13 +191,15 @@ def test_a_finding_is_measured_again_and_the_worse_of_both_is_reported(
     assert (found.examples, found.late, found.unconfirmed) == (7, True, "")
     assert (found.law, found.says) == ("a law", "says")
     doubted = run.outcome(
-        law(lambda subject, case: again, about, False), stub(), Found(7, WORST, first, SMALL, True)
+        law(lambda subject, case: again, about, False),
+        stub(),
+        SearchResult(7, WORST, first, SMALL, True),
     )
     assert doubted.unconfirmed == "the two oracles do not agree on the exact result"
 
 
 def test_what_is_no_finding_is_not_measured_again():
-    found = run.outcome(law(None), stub(), Found(7, WORST, verdict(G, 2.0), None, True))
+    found = run.outcome(law(None), stub(), SearchResult(7, WORST, verdict(G, 2.0), None, True))
     assert (found.grade, found.worst, found.what, found.examples, found.late) == (
         G,
         2.0,
@@ -238,7 +240,7 @@ def test_other_declarations_with_which_it_would_hold_are_said_and_not_assumed(
     found = run._declared_otherwise(law(check), subject, WORST, SMALL)
     assert found == (f"with {declared} it would hold" if declared else "")
     assert (subject.linear_first, subject.frame) == (linear, frame)
-    report = run.outcome(law(check), subject, Found(1, WORST, verdict(B), SMALL, False))
+    report = run.outcome(law(check), subject, SearchResult(1, WORST, verdict(B), SMALL, False))
     assert report.hint == found
     for one in (WORST, SMALL):  # it has to hold of both cases
 
@@ -255,5 +257,7 @@ def test_a_poor_finding_is_not_asked_of_other_declarations():
         next(asked)
         return verdict(P)
 
-    assert run.outcome(law(check), stub(), Found(1, WORST, verdict(P), SMALL, False)).hint == ""
+    assert (
+        run.outcome(law(check), stub(), SearchResult(1, WORST, verdict(P), SMALL, False)).hint == ""
+    )
     assert next(asked) == 1

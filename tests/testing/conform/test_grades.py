@@ -6,12 +6,12 @@ import math
 
 import pytest
 
-from poekin.testing.conform.grades import Grade, Part, graded
+from poekin.testing.conform.grades import ErrorPart, Grade, graded
 from poekin.testing.laws.laws import LawViolation
 
 
 def part(error, scale=1.0, least=0.0, error_bound=1e-16):
-    return Part("x", error, scale, least, lambda: error_bound)
+    return ErrorPart("x", error, scale, least, lambda: error_bound)
 
 
 @pytest.mark.parametrize(
@@ -31,7 +31,7 @@ def test_what_float64_can_attain_is_asked_only_where_the_lower_bound_does_not_do
         raise AssertionError
 
     for error in (0.0, 2e-16, 3e-16):
-        assert Part("x", error, 1.0, 1e-16, never).grade is Grade.EXACT
+        assert ErrorPart("x", error, 1.0, 1e-16, never).grade is Grade.EXACT
 
 
 def test_an_error_goes_in_proportion_to_its_scale_and_no_scale_allows_no_error():

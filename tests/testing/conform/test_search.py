@@ -60,7 +60,7 @@ def verdict(grade: Grade, size: float = 1.0, fault: str = "") -> Verdict:
 
 def worst(
     check: Callable[[Case], Verdict], examples: int, seconds: float = 60.0, **more: Any
-) -> search.Found:
+) -> search.SearchResult:
     subject: Any = more.pop("subject", Stub())
     return search.worst(law(check, **more), subject, examples, seconds)
 

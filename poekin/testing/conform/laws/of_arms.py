@@ -11,7 +11,6 @@ Source: Park 1994, eqs. (1) and (11), in 80 digits (`exact`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,11 +20,9 @@ from ...accuracy.error_bounds import UNIT
 from ...laws.measures import size
 from ...oracles import exact, exact_chain
 from ...oracles.differences import NamedFrame
-from ..grades import Grade, Part, Verdict, graded, norm
-from ..process.calls import called
+from ..grades import ErrorPart, Grade, Verdict, graded, norm
+from ..process.calls import ArrayFunction, called
 from ..subjects.precision import DOUBLE, Precision
-
-Function = Callable[[np.ndarray], Any]
 
 
 class ArmData(NamedTuple):
@@ -113,7 +110,7 @@ def error_bound(
 
 
 def fk_is_the_product_of_exponentials(
-    fk: Function,
+    fk: ArrayFunction,
     arm: Any,
     q: np.ndarray,
     at_most: Grade = Grade.EXACT,
@@ -163,7 +160,7 @@ def pose_parts(
     q: np.ndarray,
     T: np.ndarray,
     precision: Precision = DOUBLE,
-) -> list[Part]:
+) -> list[ErrorPart]:
     """Errors of R, of t and of the last row of a pose.
 
     Parameters
@@ -179,7 +176,7 @@ def pose_parts(
 
     Returns
     -------
-    parts : list of Part
+    parts : list of ErrorPart
         The errors, each with its scale and what floats can attain.
     """
     error = exact.exactly(T) - exact_chain.pose(arm, q)
@@ -188,14 +185,14 @@ def pose_parts(
     moved = norm(error[:3, 3])
     linear = angular * lengths
     return [
-        Part("R (rad)", turned, 2**0.5, angular, precision=precision),
-        Part("t ÷ the arm's lengths", moved, lengths, linear, precision=precision),
-        Part("last row", norm(error[3]), 1.0, 0.0, precision=precision),
+        ErrorPart("R (rad)", turned, 2**0.5, angular, precision=precision),
+        ErrorPart("t ÷ the arm's lengths", moved, lengths, linear, precision=precision),
+        ErrorPart("last row", norm(error[3]), 1.0, 0.0, precision=precision),
     ]
 
 
 def jacobian_is_the_derivative(
-    jacobian: Function,
+    jacobian: ArrayFunction,
     frame: NamedFrame,
     arm: Any,
     q: np.ndarray,
@@ -240,7 +237,7 @@ def jacobian_parts(
     q: np.ndarray,
     J: np.ndarray,
     precision: Precision = DOUBLE,
-) -> list[Part]:
+) -> list[ErrorPart]:
     """Errors of ω and v of the worst column of a Jacobian.
 
     Parameters
@@ -258,7 +255,7 @@ def jacobian_parts(
 
     Returns
     -------
-    parts : list of Part
+    parts : list of ErrorPart
         The errors, each with its scale and what floats can attain.
     """
     truth = exact_chain.jacobians(arm, exact.exactly(q))[FRAME_NAMES.index(frame)]
@@ -270,8 +267,8 @@ def jacobian_parts(
     v = max(map(norm, error[3:].T), default=0.0)
     least = ratios * angular * scale
     return [
-        Part("ω of a column", w, 1.0, ratios * angular, precision=precision),
-        Part("v of a column ÷ the arm's lengths", v, scale, least, precision=precision),
+        ErrorPart("ω of a column", w, 1.0, ratios * angular, precision=precision),
+        ErrorPart("v of a column ÷ the arm's lengths", v, scale, least, precision=precision),
     ]
 
 

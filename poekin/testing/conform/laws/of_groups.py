@@ -12,19 +12,17 @@ Raises: LawViolation, by the laws alone. Source: Park 1994, Lemmas 1 to 5, in 80
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from ...accuracy import error_bounds
 from ...accuracy.accuracy_laws import EXP_LOG_BAR, JACOBIAN_BAR, NOISE_BAR, jacobian_errors
 from ...oracles import exact
-from ..grades import Grade, Part, Verdict, graded, norm
-from ..process.calls import called
+from ..grades import ErrorPart, Grade, Verdict, graded, norm
+from ..process.calls import ArrayFunction, called
 from ..subjects.precision import DOUBLE, Precision
 from ..subjects.subject import JacobianName
 
-Function = Callable[[np.ndarray], Any]
 ELEMENT_SIZE = {3: 3, 6: 4}
 """Rows of a rotation or pose, by the length of its twist."""
 TWIST_SIZE = {3: 3, 4: 6}
@@ -32,7 +30,7 @@ TWIST_SIZE = {3: 3, 4: 6}
 
 
 def exp_is_e_to_the_xi(
-    exp: Function,
+    exp: ArrayFunction,
     xi: np.ndarray,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
@@ -78,7 +76,7 @@ def exp_parts(
     xi: np.ndarray,
     X: np.ndarray,
     precision: Precision = DOUBLE,
-) -> list[Part]:
+) -> list[ErrorPart]:
     """Errors of R, of t and of the last row of an exponential.
 
     Parameters
@@ -92,13 +90,13 @@ def exp_parts(
 
     Returns
     -------
-    parts : list of Part
+    parts : list of ErrorPart
         The errors, each with its scale and what floats can attain.
     """
     error = exact.exactly(X) - exact.exp(xi)
     angular = precision.unit * (1 + 2**0.5 * norm(xi[:3]))
     turned = norm(error[:3, :3])
-    parts = [Part("R (rad)", turned, 2**0.5, angular, precision=precision)]
+    parts = [ErrorPart("R (rad)", turned, 2**0.5, angular, precision=precision)]
     if len(xi) == 3:
         return parts
     moved = norm(error[:3, 3])
@@ -107,13 +105,13 @@ def exp_parts(
     def bound() -> float:
         return precision.coarser * float(error_bounds.exp_bound(xi).linear)
 
-    parts.append(Part("t ÷ |v|", moved, v, precision.unit * v, bound, precision))
-    parts.append(Part("last row", norm(error[3]), 1.0, 0.0, precision=precision))
+    parts.append(ErrorPart("t ÷ |v|", moved, v, precision.unit * v, bound, precision))
+    parts.append(ErrorPart("last row", norm(error[3]), 1.0, 0.0, precision=precision))
     return parts
 
 
 def log_is_the_principal_logarithm(
-    log: Function,
+    log: ArrayFunction,
     X: np.ndarray,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
@@ -152,7 +150,7 @@ def log_parts(
     X: np.ndarray,
     xi: np.ndarray,
     precision: Precision = DOUBLE,
-) -> list[Part]:
+) -> list[ErrorPart]:
     """Errors of ω and v of a logarithm.
 
     Parameters
@@ -166,7 +164,7 @@ def log_parts(
 
     Returns
     -------
-    parts : list of Part
+    parts : list of ErrorPart
         The errors, each with its scale and what floats can attain.
     """
     truth = exact.log(X)
@@ -189,7 +187,7 @@ def _log_parts(
     xi: np.ndarray,
     X: np.ndarray,
     precision: Precision,
-) -> list[Part]:
+) -> list[ErrorPart]:
     error = exact.exactly(xi) - truth
     theta = norm(truth[:3])
     # Below the smallest angle squares underflow: all that is asked for is a small number that is
@@ -204,17 +202,17 @@ def _log_parts(
     def linear() -> float:
         return precision.coarser * float(error_bounds.log_bound(truth).linear)
 
-    parts = [Part("ω (rad)", norm(error[:3]), 1.0, least, angular, precision)]
+    parts = [ErrorPart("ω (rad)", norm(error[:3]), 1.0, least, angular, precision)]
     if len(xi) == 6:
         v = norm(truth[3:])
         scale = max(v, norm(X[:3, 3]))
         missed = norm(error[3:])
-        parts.append(Part("v ÷ |v|", missed, scale, precision.unit * v, linear, precision))
+        parts.append(ErrorPart("v ÷ |v|", missed, scale, precision.unit * v, linear, precision))
     return parts
 
 
 def log_forgives_noise(
-    log: Function,
+    log: ArrayFunction,
     R: np.ndarray,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
@@ -249,12 +247,12 @@ def log_forgives_noise(
         return graded("log forgives noise", fault, at_most, R=R)
     error = error_bounds.log_error(w, exact.log(R), precision.coarser * error_bounds.BOTH_SIGNS)
     least = precision.coarser * NOISE_BAR / EXP_LOG_BAR
-    parts = [Part("ω (rad)", error, 1.0, least, precision=precision)]
+    parts = [ErrorPart("ω (rad)", error, 1.0, least, precision=precision)]
     return graded("log forgives noise", parts, at_most, R=R)
 
 
 def adjoint_is_its_matrix(
-    adjoint: Function,
+    adjoint: ArrayFunction,
     T: np.ndarray,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
@@ -292,8 +290,8 @@ def adjoint_is_its_matrix(
     # R is there already; of [t] R each entry is a difference of two products.
     u = precision.unit
     parts = [
-        Part("R", rest, 1.0, u, precision=precision),
-        Part("[t] R ÷ |t|", corner, t, 2 * u * t, precision=precision),
+        ErrorPart("R", rest, 1.0, u, precision=precision),
+        ErrorPart("[t] R ÷ |t|", corner, t, 2 * u * t, precision=precision),
     ]
     return graded("adjoint is its matrix", parts, at_most, T=T)
 
@@ -316,7 +314,7 @@ def jacobian_of_exp(name: JacobianName) -> Callable[..., Verdict]:
     truth = getattr(exact, name)
 
     def law(
-        function: Function,
+        function: ArrayFunction,
         xi: np.ndarray,
         at_most: Grade = Grade.EXACT,
         precision: Precision = DOUBLE,
@@ -327,9 +325,9 @@ def jacobian_of_exp(name: JacobianName) -> Callable[..., Verdict]:
             return graded(title, fault, at_most, xi=xi)
         diagonal, corner = jacobian_errors(J, truth(xi), xi)
         least = precision.coarser * JACOBIAN_BAR / EXP_LOG_BAR
-        parts = [Part("3×3 block", diagonal, 1.0, least, precision=precision)]
+        parts = [ErrorPart("3×3 block", diagonal, 1.0, least, precision=precision)]
         if len(xi) == 6:
-            parts.append(Part("Q block ÷ |v|", corner, 1.0, least, precision=precision))
+            parts.append(ErrorPart("Q block ÷ |v|", corner, 1.0, least, precision=precision))
         return graded(title, parts, at_most, xi=xi)
 
     law.__name__ = f"{name}_is_attained"

@@ -15,6 +15,7 @@ from ....errors import escape_unprintable
 ENDED = "ended the process"
 UNANSWERED = "no answer in"
 LOST = "cannot be made again"
+ArrayFunction = Callable[[np.ndarray], Any]
 HERE = os.path.dirname(os.path.dirname(__file__))
 
 
@@ -68,14 +69,14 @@ class ArgumentChanged(Exception):
     """A function wrote into an argument, which is its caller's."""
 
 
-class Result(NamedTuple):
+class CallResult(NamedTuple):
     """Result of a call, or None and the fault."""
 
     value: Any
     fault: str = ""
 
 
-def made(call: Callable[[], Any]) -> Result:
+def made(call: Callable[[], Any]) -> CallResult:
     """Anything that a call of a subject's returns, or None and the fault, which is an exception.
     Warnings are none.
     """
@@ -83,7 +84,7 @@ def made(call: Callable[[], Any]) -> Result:
     with Attempt() as attempt, warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
         value = call()
-    return Result(value, attempt.fault)
+    return CallResult(value, attempt.fault)
 
 
 def untouched(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -109,7 +110,7 @@ def called(
     function: Callable[..., Any],
     shape: tuple[int, ...],
     *arguments: np.ndarray,
-) -> Result:
+) -> CallResult:
     """The array of finite numbers, in the shape expected, that a function makes of copies of the
     arguments.
 
@@ -120,14 +121,14 @@ def called(
         lambda: real(untouched(function)(*(np.array(x) for x in arguments))).astype(float)
     )
     if fault:
-        return Result(None, fault)
+        return CallResult(None, fault)
     if value.shape != shape:
-        return Result(None, f"shape {value.shape} where {shape} was expected")
+        return CallResult(None, f"shape {value.shape} where {shape} was expected")
     if np.isnan(value).any():
-        return Result(None, "NaN")
+        return CallResult(None, "NaN")
     if not np.isfinite(value).all():
-        return Result(None, "infinite")
-    return Result(value)
+        return CallResult(None, "infinite")
+    return CallResult(value)
 
 
 def real(value: Any) -> np.ndarray:

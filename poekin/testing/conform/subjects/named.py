@@ -14,7 +14,7 @@ from ....errors import InputError, escape_unprintable, quote, suggest
 from ..process.calls import Attempt
 
 
-class Source(NamedTuple):
+class SubjectSource(NamedTuple):
     """Lines of Python to have a subject's class, and the expression that makes the subject."""
 
     lines: tuple[str, ...]
@@ -76,7 +76,7 @@ def loaded(text: str) -> Any:
     return thing
 
 
-def source(thing: Any, text: str = "") -> Source:
+def source(thing: Any, text: str = "") -> SubjectSource:
     """Python that makes a subject: by "MODULE:NAME" where it was named so, else by what its class's
     module calls it.
 
@@ -96,12 +96,12 @@ def source(thing: Any, text: str = "") -> Source:
         if not name and is_class and "<locals>" not in kind.__qualname__:
             name = kind.__qualname__
     if name:
-        return Source(
+        return SubjectSource(
             (f"from {_importable(module)} import {name.partition('.')[0]}",), f"{name}{brackets}"
         )
     if is_class:
-        return Source((), f"{kind.__name__}()")
-    return Source((), "subject")
+        return SubjectSource((), f"{kind.__name__}()")
+    return SubjectSource((), "subject")
 
 
 def _importable(module: str) -> str:

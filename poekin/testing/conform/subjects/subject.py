@@ -46,7 +46,7 @@ from ....model.kinematics.pose_jacobian import FRAME_NAMES
 from ..process.calls import made, real, untouched
 from .declarations import Declarations
 from .misspelt import misspelt
-from .named import Source, loaded, source
+from .named import SubjectSource, loaded, source
 from .precision import DOUBLE, PRECISIONS, Precision, seen
 
 ORDERS = ("angular first", "linear first")
@@ -114,7 +114,7 @@ class Subject:
         if isinstance(thing, str):
             where = thing
             thing = loaded(where)
-        self.source: Source = source(thing, where)
+        self.source: SubjectSource = source(thing, where)
         self.title = type(thing).__name__
         self.own: Any = thing
         if inspect.isclass(thing):
