@@ -12,12 +12,16 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, Concatenate, NamedTuple, ParamSpec, TypeVar
+from typing import Any, Concatenate, Literal, NamedTuple, ParamSpec, TypeVar
 
 import numpy as np
 
 P = ParamSpec("P")
 S = TypeVar("S")
+GroupKind = Literal["twist", "far_twist", "element", "noisy_element"]
+ChainKind = Literal["q", "dq", "batch", "pose", "point", "joint", "frames"]
+ArgumentKind = GroupKind | ChainKind
+"""Kinds of arguments that a law of a group or of a chain may ask for."""
 Pairs = list[tuple[float, float]]
 """Measured errors, each with its bound."""
 SHOWN = 400
@@ -65,13 +69,13 @@ class Law(NamedTuple):
     ----------
     check : callable
         The law, check(subject, *arguments), which returns error ÷ bound.
-    kinds : tuple of str
+    kinds : tuple of ArgumentKind
         Kinds of the arguments, such as "twist" or "q", which `strategies.group_cases` and
         `strategies.chain_cases` turn into Hypothesis strategies.
     """
 
     check: Callable[..., float]
-    kinds: tuple[str, ...]
+    kinds: tuple[ArgumentKind, ...]
 
     @property
     def name(self) -> str:

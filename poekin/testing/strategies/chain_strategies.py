@@ -16,18 +16,20 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 
 from poekin.model.chain import Chain
 
+from ..laws.laws import ArgumentKind, ChainKind
 from . import arguments
 from .batch_strategies import batch_shapes
 from .decoding.bytes_reader import BytesReader
 from .group_strategies import Arrays, axes, frozen, poses, read, st, vectors
 
-KINDS = ("revolute", "prismatic", "helical")
+ScrewKind = Literal["revolute", "prismatic", "helical"]
+KINDS: tuple[ScrewKind, ...] = get_args(ScrewKind)
 """What a chain's joints may be; a continuous joint is a revolute one without limits."""
 REACHES = (1e-3, 3.0)
 """The smallest distance in m of an arm's points, beside 0, and the largest."""
@@ -37,7 +39,7 @@ RATIOS = (1.0, -1.0, 0.5, -2.0, 0.0)
 """By which coupled joints follow a coordinate."""
 LIMITS = ("none", "both", "both", "both", "equal", "lower", "upper")
 """Which limits coordinates of a chain have, each as often as any."""
-PARTS = ("q", "dq", "batch", "pose", "point", "joint", "frames")
+PARTS = get_args(ChainKind)
 """What a law of a chain may ask for."""
 
 
@@ -53,7 +55,7 @@ def points() -> Arrays:
     return vectors(REACHES)
 
 
-def screws(kinds: Sequence[str] = KINDS) -> Arrays:
+def screws(kinds: Sequence[ScrewKind] = KINDS) -> Arrays:
     """Screws of joints: axis, point and pitch independent of each other.
 
     Pitches are 1 mm to 1 m per rad, of either sign.
@@ -111,7 +113,7 @@ def placements() -> Arrays:
 def chains(
     min_joints: int = 0,
     max_joints: int = 12,
-    joint_kinds: Sequence[str] = KINDS,
+    joint_kinds: Sequence[ScrewKind] = KINDS,
     coupled: bool | None = None,
     offsets: bool = True,
     limits: bool = False,
@@ -255,7 +257,9 @@ def coordinates(chain: Any, shape: Sequence[int] = ()) -> Arrays:
     )
 
 
-def chain_cases(kinds: Sequence[str], **options: Any) -> st.SearchStrategy[tuple[Any, ...]]:
+def chain_cases(
+    kinds: Sequence[ArgumentKind], **options: Any
+) -> st.SearchStrategy[tuple[Any, ...]]:
     """Chains with the arguments of their law, by their kinds.
 
     Parameters

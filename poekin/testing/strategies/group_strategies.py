@@ -19,11 +19,13 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Sequence
+from typing import get_args
 
 import numpy as np
 
 from poekin.errors import InputError, safe_repr
 
+from ..laws.laws import ArgumentKind, GroupKind
 from . import arguments
 from .decoding import decoders
 from .decoding.arrays import Arrays, Reals, frozen, pose, read, st
@@ -303,11 +305,13 @@ def quaternions_wxyz() -> Arrays:
     return read(19, quaternion)
 
 
-KINDS = ("twist", "far_twist", "element", "noisy_element")
+KINDS = get_args(GroupKind)
 """What a law of a group may ask for."""
 
 
-def group_cases(kinds: Sequence[str], size: int) -> st.SearchStrategy[tuple[np.ndarray, ...]]:
+def group_cases(
+    kinds: Sequence[ArgumentKind], size: int
+) -> st.SearchStrategy[tuple[np.ndarray, ...]]:
     """Arguments of a law of a group by their kinds.
 
     Parameters

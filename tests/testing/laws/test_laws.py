@@ -109,8 +109,8 @@ def test_a_hunt_climbs_to_a_case_that_sampling_would_miss():
 
 def test_a_battery_names_the_law_that_caught_an_error():
     laws = (
-        Law(lambda subject, x: check_bounds("sound", (0.0, 1.0)), ("x",)),
-        Law(below_a_million, ("x",)),
+        Law(lambda subject, x: check_bounds("sound", (0.0, 1.0)), ("q",)),
+        Law(below_a_million, ("q",)),
     )
     violation = falsify.first_violation(
         laws, lambda law, x: law.check(5.0, x), lambda kinds: st.tuples(st.floats(0, 100))

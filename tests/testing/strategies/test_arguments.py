@@ -149,4 +149,4 @@ def test_numpy_numbers_lists_and_single_words_are_taken():
     assert arguments.counts(np.int64(1), 2) == (1, 2)
     assert arguments.some("kinds", "revolute", ("revolute", "fixed")) == ("revolute",)
     assert arguments.number("at", np.float64(1.0), 0.0, 2.0) == 1.0
-    assert chain_strategies.screws(["revolute"]) is chain_strategies.screws("revolute")
+    assert C.screws(["revolute"]) is C.screws("revolute")
