@@ -208,7 +208,7 @@ def ratio_to(
     x = exact.exactly(xi)
     candidates = [truth]
     if mp.pi - norm(truth[:3]) < BOTH_SIGNS:
-        candidates.append(_other_sign(truth))
+        candidates.append(other_sign(truth))
     return min(_log_ratio(x, candidate) for candidate in candidates)
 
 
@@ -261,8 +261,19 @@ def _log_ratio(
     return max(angular, ratio(norm(x[3:] - truth[3:]), bound.linear))
 
 
-def _other_sign(truth: np.ndarray) -> np.ndarray:
-    """The logarithm with the opposite ω of the pose whose logarithm is `truth`."""
+def other_sign(truth: np.ndarray) -> np.ndarray:
+    """Logarithm with the opposite ω, of the same rotation by π or of the same pose.
+
+    Parameters
+    ----------
+    truth : (6,) or (3,) ndarray
+        Exact logarithm in numbers of `exact`, rad and m.
+
+    Returns
+    -------
+    xi : (6,) or (3,) ndarray
+        The other one: -ω, with the v that goes with it.
+    """
     w = -truth[:3]
     if len(truth) == 3:
         return w

@@ -170,16 +170,8 @@ def log_parts(
     truth = exact.log(X)
     candidates = [_log_parts(truth, xi, X, precision)]
     if exact.mp.pi - exact.norm(truth[:3]) < precision.coarser * error_bounds.BOTH_SIGNS:
-        candidates.append(_log_parts(_other_sign(truth, X), xi, X, precision))
+        candidates.append(_log_parts(error_bounds.other_sign(truth), xi, X, precision))
     return min(candidates, key=lambda parts: max((part.grade, part.size) for part in parts))
-
-
-def _other_sign(truth: np.ndarray, X: np.ndarray) -> np.ndarray:
-    """The logarithm of X with the opposite ω, one turn the other way round."""
-    w = -truth[:3]
-    if len(X) == 3:
-        return w
-    return np.concatenate([w, exact.left_jacobian_inverse(w) @ exact.exactly(X[:3, 3])])
 
 
 def _log_parts(
