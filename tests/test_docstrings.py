@@ -1,13 +1,12 @@
 """Every public name says what goes in and comes out: shapes, units, frame, errors, source.
 
-The rule is mechanical. A docstring counts with those that it defers to ("as `fk`"), with its
-class's, and for the functions of a public module with the module's. Then, of a function or method:
-- it names each of its parameters, and an array with its shape;
-- where there are parameters, it says what it returns and what it raises;
-- where there are arrays, it has a unit; where there are poses, twists or Jacobians, a frame; and it
-  has a source.
-A class names its parameters, and what it raises where it checks them. A property has its shape
-where it is an array.
+numpydoc's validator judges the form (`python -m tools.check_docstrings`); this holds what a user of
+arrays needs besides:
+- the type of an array, taken or returned, has its shape;
+- what checks its arguments says what it raises;
+- where there are arrays, there is a unit; where there are poses, twists or Jacobians, a frame;
+- what computes arrays from arrays has a source.
+The class or the module may say all but the shapes.
 """
 
 from __future__ import annotations
@@ -15,39 +14,29 @@ from __future__ import annotations
 import enum
 import inspect
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import pytest
 
-from tools import docs_names
+from tools import docs_names, docs_render
 
-SHAPE = (
-    r"\((?:\d+|[a-zA-Z]{1,2})\)"
-    r"|\((?:\.\.\.|\*?\w+(?: [-+*] \w+)?)?(?:, ?(?:\.\.\.|\w+(?: [-+*] \w+)?)?)+\)|\(\.\.\.\)"
-)
+SHAPE = r"\((?:\.\.\.|\*?\w+(?: ?[-+*] ?\w+)?)(?:, ?(?:\.\.\.|\w+(?: ?[-+*] ?\w+)?)?)*\)"
 UNIT = r"(?<![\w.])(?:rad|m|mm|deg|s|degrees|metres|radians|seconds|m/s|rad/s|unit|SI)(?![\w(])"
 FRAME = r"\b(?:frames?|axes|base|tool|tip)\b|\b[TRV]_[a-z]{1,2}\b"
-SPATIAL = r"4, ?4\)|(?:\.\.\.|[nN]), ?6[,)]|\(6,?\)"
-OF_THE_BATCH = (
-    r"\b[Aa]rrays? (?:over|of) the batch"  # what a class may say of all its fields at once
-)
-DEFERS = (
-    r"(?:\b[Aa]s|\bof|\b[Ss]ee|\bto|\bby)((?:[\s,(]+(?:in|of|and|that|those|what)?\s*`[\w.]+`)+)"
-)
+SPATIAL = r"\((?:[\w.]+, ?)*(?:4, ?4|6)\)|\(6, [nm]\)"
 NAMED_Q = {"q", "dq", "ddq", "q0", "T", "p", "d", "poses"}  # annotated as Any: a dict will do too
-LABELS = {"returns": r"[Rr]eturns", "raises": r"[Rr]aises|errors", "source": r"[Ss]ource"}
+ARRAY = r"(ArrayLike|Array|NDArray|(np\.)?ndarray)\b"
+IN = ("Parameters", "Other Parameters", "Attributes")
 
 
 @dataclass(frozen=True)
 class Name:
-    """A public name: what it stands for, and the docstrings that count beside its own."""
+    """A public name: what it stands for, and the docstrings of its class or module."""
 
     dotted: str
     thing: Any
-    around: str
-    links: Mapping[str, str]
+    around: str = ""
 
 
 def doc_of(thing: object) -> str:
@@ -59,119 +48,82 @@ def public() -> list[Name]:
     for dotted in docs_names.documented():
         thing = docs_names.resolved(dotted)
         above = docs_names.resolved(dotted.rsplit(".", 1)[0])
-        of_page = (
-            dotted.count(".") == 2 or getattr(above, "__name__", "") in docs_names.testing_modules()
-        )
-        around = doc_of(above) if inspect.isclass(above) or of_page else ""
         if inspect.isclass(above):
-            name = dotted.rsplit(".", 1)[1]
-            thing = dict(docs_names.members(above))[name]
-            # What overrides a method of a base keeps what that one promises.
-            around += "".join(
-                "\n" + doc_of(getattr(base, name, None))
-                for base in above.__mro__[1:]
-                if docs_names.own(base)
-            )
-        names.append(Name(dotted, thing, around, docs_names.links(dotted)))
+            method = dotted.rsplit(".", 1)[1]
+            thing = dict(docs_names.members(above))[method]
+            if overrides(above, method):
+                continue
+        names.append(Name(dotted, thing, doc_of(above)))
     return names
 
 
-def deferred(text: str, links: Mapping[str, str], seen: frozenset[str] = frozenset()) -> str:
-    """The docstrings of all that a docstring sends its readers to: "as `fk` and `jacobian`", "see
-    `x`".
-    """
-    found = ""
-    for chain in re.findall(DEFERS, text):
-        for word in re.findall(r"`([\w.]+)`", chain):
-            dotted = links.get(word)
-            if dotted and dotted not in seen:
-                inner = doc_of(docs_names.resolved(dotted))
-                found += "\n" + inner + deferred(inner, docs_names.links(dotted), seen | {dotted})
+def overrides(owner: type, method: str) -> bool:
+    """Whether a method is that of a base in poekin, which says what goes in and comes out."""
+    bases = [base for base in owner.__mro__[1:] if docs_names.own(base)]
+    return any(doc_of(vars(base).get(method)) for base in bases if method in vars(base))
+
+
+def entries(text: str) -> dict[str, dict[str, str]]:
+    """Types of the entries of each section, by name."""
+    found: dict[str, dict[str, str]] = {}
+    for title, lines in docs_render.sections(text.splitlines()):
+        heads = [line.partition(" : ") for line in lines if line and not line.startswith(" ")]
+        found[title] = {
+            name.lstrip("*"): kind for names, _, kind in heads for name in names.split(", ")
+        }
     return found
 
 
-def labelled(text: str, label: str) -> bool:
-    """Whether a label stands in the text, alone ("Returns:") or among others ("Raises, accuracy,
-    source:").
-    """
-    heads = re.findall(r"(?:^|[\s.;)])((?:[A-Z]\w+)(?:,? (?:and )?\w+){0,5}):(?=\s)", text)
-    underlined = re.findall(r"^(\w+)\n-{3,}", text, re.MULTILINE)
-    return any(re.search(rf"\b(?:{LABELS[label]})\b", head) for head in [*heads, *underlined])
-
-
-def is_array(annotation: object, name: str) -> bool:
+def is_array(annotation: object, name: str = "") -> bool:
     """Arrays as they are annotated here: ArrayLike, Array; or Any, of the names that arrays have."""
-    text = (
-        annotation
-        if isinstance(annotation, str)
-        else getattr(annotation, "__name__", str(annotation))
-    )
-    return "Array" in text or "ndarray" in text or (text == "Any" and name in NAMED_Q)
+    text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", "")
+    if any(re.match(ARRAY, kind) for kind in text.split(" | ")):
+        return True
+    return text == "Any" and name in NAMED_Q
+
+
+def checks(thing: Any) -> bool:
+    """Whether a function, or the making of a class, may refuse its arguments."""
+    if not inspect.isclass(thing):
+        return True
+    made_by_hand = "__dataclass_fields__" not in vars(thing) and "__init__" in vars(thing)
+    return made_by_hand or "__post_init__" in vars(thing)
 
 
 def faults(name: Name) -> list[str]:
     """What a name's docstring lacks, one line each."""
     own = doc_of(name.thing)
-    if not own:
-        return [f"{name.dotted}: no docstring"]
-    lacking: list[str] = []
-    text = f"{own}\n{deferred(own, name.links)}\n{name.around}"
-    text = re.sub(
-        r"eqs?\. \(\d+\)(?: and \(\d+\))?", "", text
-    )  # the number of an equation is no shape
-    whole = own if inspect.isclass(name.thing) else text
     is_class = inspect.isclass(name.thing)
     if is_class and issubclass(name.thing, (BaseException, enum.Enum)):
         return []
-    try:
-        signature = inspect.signature(name.thing)
-    except (TypeError, ValueError):
-        return [f"{name.dotted}: no signature"]
+    signature = inspect.signature(name.thing)
     parameters = {n: p for n, p in signature.parameters.items() if n not in ("self", "cls")}
-    for parameter, about in parameters.items():
-        if not re.search(rf"(?<![\w.]){re.escape(parameter)}s?(?!\w)", text):
-            lacking.append(f"parameter {parameter}")
-        elif is_array(about.annotation, parameter) and not re.search(
-            # Its own shape, or one given to several names at once: "q, dq (..., m)".
-            rf"(?<![\w.]){re.escape(parameter)}\b[^.;]{{0,60}}?(?:{SHAPE}|shape|number|broadcast)"
-            + (f"|{OF_THE_BATCH}" if is_class else ""),
-            text,
-        ):
-            lacking.append(f"shape of {parameter}")
-    returned = signature.return_annotation
-    gives = not is_class and returned not in ("None", None, inspect.Signature.empty)
-    arrays = any(is_array(p.annotation, n) for n, p in parameters.items()) or (
-        gives and is_array(returned, "")
-    )
-    checks = not is_class or any(
-        k in vars(name.thing) and getattr(vars(name.thing)[k], "__module__", "").startswith("poekin")
-        and (k == "__post_init__" or "__dataclass_fields__" not in vars(name.thing))
-        for k in ("__init__", "__post_init__")
-    )  # fmt: skip
-    if (
-        gives
-        and (len(parameters) > 1 or (parameters and is_array(returned, "")))
-        and not labelled(whole, "returns")
-    ):
-        lacking.append("returns")
-    if gives and is_array(returned, "") and not re.search(SHAPE, text):
+    sections = entries(own)
+    told = {n: kind for section in IN for n, kind in sections.get(section, {}).items()}
+    taken = [n for n, p in parameters.items() if is_array(p.annotation, n)]
+    given = not is_class and is_array(signature.return_annotation)
+    lacking = [f"shape of {n}" for n in taken if not re.search(SHAPE, told.get(n, ""))]
+    returned = " ".join(sections.get("Returns", {}).values()) if parameters else own
+    if given and not re.search(SHAPE, returned):
         lacking.append("shape of what it returns")
-    if parameters and checks and not labelled(whole, "raises"):
+    whole = f"{own}\n{name.around}"
+    if parameters and checks(name.thing) and "Raises" not in whole:
         lacking.append("raises")
-    bare = re.sub(SHAPE, " ", text)
-    if arrays and not re.search(UNIT, bare):
+    if (taken or given) and not re.search(UNIT, re.sub(SHAPE, " ", whole)):
         lacking.append("unit")
-    if arrays and re.search(SPATIAL, own) and not re.search(FRAME, text):
+    if (taken or given) and re.search(SPATIAL, own) and not re.search(FRAME, whole):
         lacking.append("frame")
-    if arrays and not is_class and parameters and not labelled(whole, "source"):
+    if taken and given and "Source" not in whole and "References" not in sections:
         lacking.append("source")
     return [f"{name.dotted}: {what}" for what in lacking]
 
 
+NAMES = public()
+
+
 def test_every_public_name_says_shapes_units_frame_errors_and_source():
-    names = public()
-    assert len(names) > 400, "hardly anything was checked"
-    assert [fault for name in names for fault in faults(name)] == []
+    assert len(NAMES) > 400, "hardly anything was checked"
+    assert [fault for name in NAMES for fault in faults(name)] == []
 
 
 def test_every_public_name_is_on_exactly_one_page_of_the_reference():
@@ -182,8 +134,24 @@ def test_every_public_name_is_on_exactly_one_page_of_the_reference():
 
 SOUND = """Pose of the tool.
 
-    Parameters: q (..., m), rad or m. Returns: T (..., 4, 4), in the base frame.
-    Raises: ShapeError. Source: Park 1994, eq. (1).
+    Parameters
+    ----------
+    q : (..., m) array_like
+        Coordinates, rad or m.
+
+    Returns
+    -------
+    T : (..., 4, 4) ndarray
+        Pose in the base frame.
+
+    Raises
+    ------
+    ShapeError
+        If q has another length.
+
+    Notes
+    -----
+    Source: Park 1994, eq. (1).
 """
 
 
@@ -193,31 +161,23 @@ def planted(doc: str | None, code: str = "def f(q: 'ArrayLike') -> 'Array': ..."
     exec(code, {"__name__": "poekin.planted"}, space)
     (thing,) = space.values()
     thing.__doc__ = doc
-    return [
-        fault.removeprefix("f: ")
-        for fault in faults(Name("f", thing, "", {"fk": "poekin.Chain.fk"}))
-    ]
+    return [fault.removeprefix("f: ") for fault in faults(Name("f", thing))]
 
 
 def test_a_sound_docstring_has_no_fault():
     assert planted(SOUND) == []
-    assert planted("As `fk`, otherwise written.") == []
+    assert planted("No arrays.", "def f() -> 'int': ...") == []
 
 
 PLANTED = {
-    "no docstring": (None, "no docstring"),
-    "the parameter is not named": (SOUND.replace("q (", "x ("), "parameter q"),
-    "no shape": (SOUND.replace("q (..., m)", "q"), "shape of q"),
-    "no returns": (SOUND.replace("Returns: ", ""), "returns"),
-    "no shape of the result": (
-        SOUND.replace("q (..., m)", "q, a number").replace("(..., 4, 4), in", "in"), "shape of what it returns"
-    ),
-    "no raises": (SOUND.replace("Raises: ShapeError. ", ""), "raises"),
+    "no shape": (SOUND.replace("(..., m) ", ""), "shape of q"),
+    "the parameter is not named": (SOUND.replace("q :", "x :"), "shape of q"),
+    "no shape of the result": (SOUND.replace("(..., 4, 4) ", ""), "shape of what it returns"),
+    "no raises": (SOUND.replace("Raises\n    ------", "Warns\n    -----"), "raises"),
     "no unit": (SOUND.replace(", rad or m", ""), "unit"),
-    "no frame": (SOUND.replace("in the base frame", "so").replace("of the tool", ""), "frame"),
-    "no source": (SOUND.replace("Source", "By"), "source"),
-    "sent to what says nothing of it": ("Otherwise like `fk`.", "parameter q"),
-}  # fmt: skip
+    "no frame": (SOUND.replace(" in the base frame", "").replace(" of the tool", ""), "frame"),
+    "no source": (SOUND.replace("Source:", "By"), "source"),
+}
 
 
 @pytest.mark.parametrize(("doc", "fault"), PLANTED.values(), ids=PLANTED)
@@ -226,11 +186,39 @@ def test_a_planted_fault_is_caught(doc, fault):
 
 
 def test_a_class_that_checks_its_fields_says_what_it_raises():
-    code = "class f:\n    def __init__(self, screws: 'ArrayLike'): ..."
-    says = "Screws.\n\nParameters: screws (n, 6), rad and m, in the base frame."
-    assert planted(says, code) == ["raises"]
-    assert planted(says + " Raises: ScrewError.", code) == []
-    assert (
-        planted(says.replace("screws (n, 6)", "none"), code)
-        == ["parameter screws", "raises", "unit"][:2]
-    )
+    code = "class f:\n    def __init__(self, q: 'ArrayLike'): ..."
+    assert planted(SOUND, code) == []
+    assert planted(SOUND.replace("Raises\n    ------", "Warns\n    -----"), code) == ["raises"]
+
+
+# Options: parameters that take one of a few strings.
+
+OPTIONS = {
+    *("by", "convention", "counting", "criterion", "format", "frame", "kind", "loss"),
+    *("method", "on_rank_deficiency", "part", "quaternion", "secondary_objective", "task", "wrt"),
+}
+FREE = {"base", "name", "tip", "title"}  # strings with a default that are no options
+
+
+def loose_options(name: Name) -> list[str]:
+    """Parameters that take one of a few strings and are annotated as any string."""
+    try:
+        parameters = inspect.signature(name.thing).parameters.values()
+    except ValueError:
+        return []
+    return [
+        f"{name.dotted}: {p.name}"
+        for p in parameters
+        if str(p.annotation).partition(" |")[0] == "str"
+        and (p.name in OPTIONS or (p.default and isinstance(p.default, str) and p.name not in FREE))
+    ]
+
+
+def test_an_option_names_its_choices_in_its_type():
+    assert [found for name in NAMES for found in loose_options(name)] == []
+
+
+def test_an_option_of_any_string_is_caught():
+    space: dict = {}
+    exec("def f(frame: str, along: str = 'line', tip: str = 'tool'): ...", space)
+    assert loose_options(Name("f", space["f"])) == ["f: frame", "f: along"]

@@ -10,6 +10,7 @@ from ...engine.count import Count
 from ...engine.straight_line.specialise import specialised
 from ...errors import InputError, safe_repr
 from ...model.chain import Chain
+from ...model.kinematics.pose_jacobian import AnyFrame
 from ..checks import check_chain
 from . import count_methods as methods
 from . import count_scalars as scalars
@@ -90,7 +91,7 @@ def count(
     chain: Chain,
     *,
     method: CountMethod = "recursive",
-    frame: str | int | None = "body",
+    frame: AnyFrame | None = "body",
     counting: Counting | None = None,
     pose: bool = False,
 ) -> Count:

@@ -55,7 +55,7 @@ class CountRow(Result):
 
     group: str
     method: CountMethod
-    frame: str | int
+    frame: AnyFrame
     counting: Charged
     what: str
     jacobian: Count
@@ -198,7 +198,7 @@ MEANING = {
 }
 """What the groups of rows are."""
 
-_WAYS: tuple[tuple[str, Counting, tuple[tuple[CountMethod, str, str], ...]], ...] = (
+_WAYS: tuple[tuple[str, Counting, tuple[tuple[CountMethod, AnyFrame, str], ...]], ...] = (
     (COUNTINGS, "paper", (
         ("direct", "space", "POE, direct"),
         ("direct", "body", "POE, direct"),

@@ -144,7 +144,7 @@ def of_blocks(
     Parameters
     ----------
     error : (6, 6) or (3, 3) ndarray
-        Difference of two matrices between twists (ω; v), rad and m.
+        Difference of two matrices from twists (ω; v) to twists of the same frames, rad and m.
     diagonal, lower : float
         Bounds of P and of Q.
 

@@ -273,8 +273,10 @@ def test_the_variants_compute_one_and_the_same_jacobian(kinds):
     paul = count_methods.Links(n, rotates, slides, (), behind, ())
     from_first = chain.rebased(pk.se3.inverse(local.frames[0]))
     in_space, in_body = (
-        count_methods.Links(n, (), (), screws.tolist(), [row(pk.se3.exp(S * x)) for S, x in zip(screws, q, strict=True)],
-                          row(chain.home))
+        count_methods.Links(
+            n, (), (), screws.tolist(),
+            [row(pk.se3.exp(S * x)) for S, x in zip(screws, q, strict=True)], row(chain.home),
+        )
         for screws in (chain.screws, chain.screws @ pk.se3.adjoint(pk.se3.inverse(chain.home)).T)
     )  # fmt: skip
     ways: list[tuple[Any, Any, Any]] = [

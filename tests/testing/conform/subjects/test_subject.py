@@ -384,7 +384,9 @@ def test_the_time_that_is_left_is_shared_by_the_laws_that_are_left(monkeypatch):
     def worst(law, subject, examples, seconds, at_most):
         shares.append((law.name, examples, seconds))
         clock[0] += 4.0 if len(shares) == 1 else 100.0
-        return search.SearchResult(1, Case(np.zeros(3)), Verdict(Grade.EXACT, 0.0, "x"), None, False)
+        return search.SearchResult(
+            1, Case(np.zeros(3)), Verdict(Grade.EXACT, 0.0, "x"), None, False
+        )
 
     monkeypatch.setattr(run, "worst", worst)
     monkeypatch.setattr(run.time, "monotonic", lambda: clock[0])
