@@ -155,7 +155,7 @@ SOUND = """Pose of the tool.
 """
 
 
-def planted(doc: str | None, code: str = "def f(q: 'ArrayLike') -> 'Array': ...") -> list[str]:
+def planted(doc: str | None, code: str = "def f(q: ArrayLike) -> Array: ...") -> list[str]:
     """The faults of a function or class of that docstring."""
     space: dict = {}
     exec(code, {"__name__": "poekin.planted"}, space)
@@ -166,7 +166,7 @@ def planted(doc: str | None, code: str = "def f(q: 'ArrayLike') -> 'Array': ..."
 
 def test_a_sound_docstring_has_no_fault():
     assert planted(SOUND) == []
-    assert planted("No arrays.", "def f() -> 'int': ...") == []
+    assert planted("No arrays.", "def f() -> int: ...") == []
 
 
 PLANTED = {
@@ -186,7 +186,7 @@ def test_a_planted_fault_is_caught(doc, fault):
 
 
 def test_a_class_that_checks_its_fields_says_what_it_raises():
-    code = "class f:\n    def __init__(self, q: 'ArrayLike'): ..."
+    code = "class f:\n    def __init__(self, q: ArrayLike): ..."
     assert planted(SOUND, code) == []
     assert planted(SOUND.replace("Raises\n    ------", "Warns\n    -----"), code) == ["raises"]
 
