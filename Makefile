@@ -37,7 +37,7 @@ help:
 	@echo "make test-deep    run them with twenty times as many new examples (hours); ONLY=tests/groups runs those alone"
 	@echo "make test-processors  run the numeric tests as older processors would; ONLY='nehalem haswell' takes those"
 	@echo "make report       validate every robot, count, measure, and print where the page is"
-	@echo "make lint         check style (ruff) and types (pyright)"
+	@echo "make lint         check style (ruff), docstrings (numpydoc) and types (pyright)"
 	@echo "make readable     measure how the code reads: tokens a line, assignments, ternaries, beside the bars"
 	@echo "make docs         build the pages of docs/ and print where they are"
 	@echo "make mutate       plant every error of 80 000 and say which the tests catch (days); SAMPLE=300 plants that many"
@@ -67,6 +67,7 @@ lint: style types
 style: $(VENV)/lint
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
+	$(PY) -m tools.check_docstrings
 
 types: $(VENV)/lint
 	$(PY) -m pyright --pythonpath $(PY)
