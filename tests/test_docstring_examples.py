@@ -11,7 +11,7 @@ import pytest
 from tools import docs_names
 
 OPTIONS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
-FEWEST = 1
+FEWEST = 100
 
 
 def examples() -> dict[str, doctest.DocTest]:

@@ -68,9 +68,11 @@ def follow(
     max_step : float, (m,) array_like or dict, default 0.1
         Largest change of a coordinate between two poses, or pieces: a number, in rad or m of the
         joint that it moves most, or one of each coordinate in its own unit.
+    task : {"pose", "position", "rotation", "direction", "planar"}, default "pose"
+        Part of each pose that has to be reached, as in `ik`.
     axis : (3,) array_like, optional
         Direction of the tool for the task "direction", as in `ik`.
-    task, limits, lock, tol_position, tol_rotation, seed : optional
+    limits, lock, tol_position, tol_rotation, seed : optional
         As in `ik`.
     progress : callable, optional
         Function of (done, total), called from time to time.
