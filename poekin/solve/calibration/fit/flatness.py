@@ -14,7 +14,7 @@ for angles).
 
 def extents(x: Array) -> Array:
     """Root mean square (3,) of vectors (N, 3) along their principal directions, largest first."""
-    return np.linalg.svd(x, full_matrices=False, compute_uv=False) / np.sqrt(len(x))
+    return np.linalg.svd(x, compute_uv=False) / np.sqrt(len(x))
 
 
 def is_flat(sizes: Array, k: int, scatter: float) -> bool:
