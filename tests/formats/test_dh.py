@@ -198,7 +198,7 @@ def test_a_table_s_result_says_what_it_chose_and_becomes_plain_data():
     np.testing.assert_array_equal(dh.to_chain(made).fk(x), dh.to_chain(result.table).fk(x))
     near = pk.screw.revolute([math.sin(1e-5), 0, math.cos(1e-5)], [1, 0, 0])
     tilted = [pk.screw.revolute([0, 0, 1], [0, 0, 0]), near]
-    far = dh.from_chain(pk.Chain(tilted, np.eye(4)), convention="standard")
+    far = dh.from_chain(pk.Chain.from_space(tilted, np.eye(4)), convention="standard")
     assert f"Warning: {far.warnings[0]}" in far.summary().splitlines()
 
 

@@ -78,8 +78,8 @@ def test_one_screw_may_be_a_vector_and_the_home_pose_an_object():
         (
             (np.eye(4), np.tile([0, 0, 1, 0, 0, 0], (6, 1))),
             "space",
-            ShapeError,
-            r"^screws: the rows of \(6, 6\) are screws, its columns are not: transpose it$",
+            ScrewError,
+            r"its columns are unit screws, as in a Slist: pass screws\.T$",
         ),
         (
             (np.eye(6), np.eye(4)),

@@ -1,7 +1,6 @@
 """Kinematics of an arm as source text: C99, and Python for NumPy, JAX and PyTorch arrays."""
 
 from .c import CSource, Real, c
-from .messages import Frame
 from .python import python
 
-__all__ = ["CSource", "Frame", "Real", "c", "python"]
+__all__ = ["CSource", "Real", "c", "python"]

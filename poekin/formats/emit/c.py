@@ -12,9 +12,9 @@ from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from ...model.checks import REQUIRED, choice
 from ...model.kinematics.compiled import CompiledChain
+from ...model.kinematics.pose_jacobian import AnyFrame
 from .c_selftest import selftest
 from .messages import (
-    Frame,
     Task,
     angle_lines,
     compile_checked,
@@ -65,7 +65,7 @@ class CSource:
 
 def c(
     chain: Chain | CompiledChain,
-    frame: Frame | int = REQUIRED,
+    frame: AnyFrame = REQUIRED,
     *,
     name: str = "arm",
     real: Real = "double",

@@ -6,7 +6,6 @@ import math
 import re
 import string
 from dataclasses import dataclass
-from typing import Literal, get_args
 
 import numpy as np
 
@@ -15,9 +14,8 @@ from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from ...model.checks import choice
 from ...model.kinematics.compiled import CompiledChain
+from ...model.kinematics.pose_jacobian import FRAME_NAMES, AnyFrame
 
-Frame = Literal["space", "body", "hybrid", "cheapest"]
-"""Frame of an emitted Jacobian, as in `CompiledChain.jacobian`."""
 _PLAIN = set(string.ascii_letters + string.digits + string.punctuation + " ") - set("*?\\\"'`")
 _LONGEST = 80
 
@@ -66,19 +64,19 @@ class Task:
         return "".join(f", {result}" for result in self.results)
 
 
-def compile_checked(chain: Chain | CompiledChain, frame: Frame | int) -> CompiledChain:
+def compile_checked(chain: Chain | CompiledChain, frame: AnyFrame) -> CompiledChain:
     """The chain with its programs. Raises: InputError, UnknownName for a frame that there is not."""
     if isinstance(chain, Chain):
         chain = chain.compile()
     if not isinstance(chain, CompiledChain):
         raise InputError(f"chain: expected a Chain, got {safe_repr(chain)}")
     if not isinstance(frame, (str, int, np.integer)):
-        choice(frame, get_args(Frame), "frame", " (or the index of a joint)")
+        choice(frame, (*FRAME_NAMES, "cheapest"), "frame", " (or the index of a joint)")
     chain.program(frame)
     return chain
 
 
-def make_tasks(arm: CompiledChain, frame: Frame | int) -> tuple[Task, Task, Task]:
+def make_tasks(arm: CompiledChain, frame: AnyFrame) -> tuple[Task, Task, Task]:
     """Pose, Jacobian, and both in one pass."""
     which = frame
     if not isinstance(frame, str):
@@ -90,7 +88,7 @@ def make_tasks(arm: CompiledChain, frame: Frame | int) -> tuple[Task, Task, Task
     )
 
 
-def header_lines(arm: CompiledChain, frame: Frame | int) -> list[str]:
+def header_lines(arm: CompiledChain, frame: AnyFrame) -> list[str]:
     """Lines about the arm, its coordinates, its frames and the layout of the arrays."""
     chain = arm.chain
     lines = [
@@ -128,7 +126,7 @@ def angle_lines(task: Task) -> list[str]:
     return lines
 
 
-def _frame(arm: CompiledChain, frame: Frame | int) -> list[str]:
+def _frame(arm: CompiledChain, frame: AnyFrame) -> list[str]:
     """The frame of the Jacobian."""
     chain = arm.chain
     if frame == "space":
@@ -150,7 +148,7 @@ def _frame(arm: CompiledChain, frame: Frame | int) -> list[str]:
     ]
 
 
-def jacobian_frame(arm: CompiledChain, frame: Frame | int) -> tuple[int, np.ndarray]:
+def jacobian_frame(arm: CompiledChain, frame: AnyFrame) -> tuple[int, np.ndarray]:
     """Joint k with which the frame moves, and its pose in that joint's frame."""
     if frame == "cheapest":
         return arm.cheapest.joint, arm.cheapest.T_km

@@ -11,7 +11,8 @@ import numpy as np
 from ...groups import se3
 from ...groups.arrays import Array
 from ...model.kinematics.compiled import CompiledChain
-from .messages import Frame, jacobian_frame
+from ...model.kinematics.pose_jacobian import AnyFrame
+from .messages import jacobian_frame
 
 COUNT = 8
 
@@ -25,7 +26,7 @@ class Vectors(NamedTuple):
     tolerance: float
 
 
-def vectors(arm: CompiledChain, frame: Frame | int, kind: type[np.floating]) -> Vectors:
+def vectors(arm: CompiledChain, frame: AnyFrame, kind: type[np.floating]) -> Vectors:
     """Test vectors at coordinates that numbers of that kind hold exactly: zero, and seven within
     half a turn (or 1 m).
 

@@ -6,7 +6,7 @@ from typing import Any, get_args
 
 import numpy as np
 
-from ...errors import ScrewError, ShapeError
+from ...errors import ShapeError
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
 from ...model.chain_data import ScrewFrame
@@ -47,10 +47,6 @@ def _rows(screws: Any, M: Any) -> Array:
     if columns.shape == (6,):
         return columns[None]
     if columns.ndim == 2 and columns.shape[0] == 6:
-        if columns.shape[1] == 6 and _are_screws(columns) and not _are_screws(columns.T):
-            raise ShapeError(
-                "screws: the rows of (6, 6) are screws, its columns are not: transpose it"
-            )
         return columns.T
     remedy = ""
     if columns.ndim == 2 and columns.shape[1] == 6:
@@ -61,11 +57,3 @@ def _rows(screws: Any, M: Any) -> Array:
         "screws: expected shape (6, n), a column (omega; v) a joint as in Slist,"
         f" got {columns.shape}{remedy}"
     )
-
-
-def _are_screws(rows: Array) -> bool:
-    try:
-        Chain.from_space(rows, np.eye(4))
-    except ScrewError:
-        return False
-    return True
