@@ -17,9 +17,9 @@ from ..checks import check_chain
 Part = Literal["pose", "translation", "rotation"]
 
 ROWS: dict[Part, slice] = {
-    "pose": slice(0, 6),
-    "translation": slice(3, 6),
-    "rotation": slice(0, 3),
+    "pose": slice(None),
+    "translation": slice(3, None),
+    "rotation": slice(None, 3),
 }
 
 TOLERANCE = 1e-3
