@@ -20,6 +20,7 @@ from tests.messages import says
 TURN = [0, 0, 1, 0, 0, 0]
 SLIDE = [0, 0, 0, 1, 0, 0]
 HOME = se3.exp([0.3, -0.2, 0.1, 0.5, 1.0, -0.4])
+CONSTRUCTOR = pk.Chain
 CHOICES = "; or write Chain.from_space(A, M), from_body(B, M) or from_local(S, M_i)"
 
 
@@ -91,7 +92,7 @@ def test_a_planted_error_is_caught(wrong, monkeypatch):
 
 
 REFUSED = {
-    "no frame": (lambda: pk.Chain.from_space([TURN], HOME), InputError,
+    "no frame": (lambda: CONSTRUCTOR([TURN], HOME), InputError,
                  f"frame: expected 'space' or 'body', it was left out{CHOICES}"),
     "another frame": (lambda: pk.Chain([TURN], HOME, frame="hybrid"), InputError,
                       f"frame: expected 'space' or 'body', got 'hybrid'{CHOICES}"),
