@@ -159,3 +159,21 @@ def test_a_chain_in_which_nothing_is_put_right_stays_the_very_same():
 )
 def test_a_tolerance_up_to_the_largest_is_taken(tol):
     assert Chain.from_space([screw.revolute(Z, [0, 0, 0])], np.eye(4)).idealised(tol).changes == ()
+
+
+def test_a_result_says_its_bounds_in_mm_and_degrees_and_keeps_si_in_numbers():
+    leaning = screw.revolute([0, 1e-3, 1], [0, 0, 0])
+    result = Chain.from_space([leaning], np.eye(4)).idealised(0.01)
+    bounds, *changes = result.summary().splitlines()
+    assert bounds == (
+        f"within {1e3 * result.position_bound:.3g} mm and {np.degrees(result.rotation_bound):.3g} deg"
+    )
+    assert tuple(changes) == result.changes != ()
+    assert str(result) == result.summary()
+    assert result.to_dict() == {
+        "position_bound": result.position_bound,
+        "rotation_bound": result.rotation_bound,
+        "changes": list(result.changes),
+    }
+    exact = Chain.from_space([screw.revolute(Z, [0, 0, 0])], np.eye(4)).idealised(0.01)
+    assert exact.summary() == "nothing was changed but rounding: within 0 mm and 0 deg"
