@@ -6,8 +6,9 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
+import re
 
-ARRAYS = ("Array", "Marks", "ndarray", "Any")
+ARRAYS = re.compile(r"\b(Array|Marks|ndarray|Any)\b")
 
 
 def dataclasses_of(package: str, names: str) -> list[type]:
@@ -31,6 +32,6 @@ def dataclasses_of(package: str, names: str) -> list[type]:
 def frozen_and_equal_only_where_its_parts_can_be(kind: type) -> bool:
     """Whether a dataclass is frozen, and has an == of its own unless it holds arrays."""
     parts = [str(part.type) for part in dataclasses.fields(kind)]  # type: ignore[arg-type]
-    arrays = any(word in said for said in parts for word in ARRAYS)
+    arrays = any(ARRAYS.search(said) for said in parts)
     parameters = kind.__dataclass_params__  # type: ignore[attr-defined]
     return (parameters.frozen, parameters.eq) == (True, not arrays)
