@@ -54,11 +54,11 @@ class FileError(PoekinError, OSError):
 class MissingExtra(PoekinError, ImportError):
     """An optional package is not installed; names the extra that brings it."""
 
-    def __init__(self, package: str, extra: str, purpose: str):
+    def __init__(self, package: str, extra: str, purpose: str) -> None:
         super().__init__(f"{purpose} needs the package {package}: pip install 'poekin[{extra}]'")
         self.package, self.extra, self.purpose = package, extra, purpose
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.package, self.extra, self.purpose)
 
 

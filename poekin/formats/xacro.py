@@ -138,15 +138,15 @@ def _packages() -> tuple[ModuleType, ModuleType]:
 @contextmanager
 def _packages_above(name: str, packages: Any) -> Iterator[None]:
     """Context in which packages in the folders above a file come first, for this file only."""
-    before = packages._finder
+    before = packages._finder  # noqa: SLF001 - xacrodoc has no other way to set it
     finder = packages.PackageFinder()
     finder.finder_funcs = [(before.get_path, packages.PackageNotFoundError)]
     finder.walk_up_from(os.path.abspath(name))
-    packages._finder = finder
+    packages._finder = finder  # noqa: SLF001
     try:
         yield
     finally:
-        packages._finder = before
+        packages._finder = before  # noqa: SLF001
 
 
 def _reason(fault: BaseException, xacrodoc: Any) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import SupportsInt
+from typing import Any, SupportsInt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -150,7 +150,7 @@ def with_rows(matrices: Array, rows: ArrayLike, width: int, what: str) -> tuple[
 
 
 def map_kernel(
-    kernel, element_axes: int, tail: tuple[int, ...], source: Array, *others: Array
+    kernel: Any, element_axes: int, tail: tuple[int, ...], source: Array, *others: Array
 ) -> Array:
     """Results of a kernel, elements of shape `tail`, over the leading axes of `source`.
 

@@ -93,7 +93,7 @@ class ChainData:
     plain_shape: tuple[int, ...] | None
     jacobian_shape: tuple[int, int]
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - the data of a chain
         self,
         screws: ArrayLike,
         home: ArrayLike,
@@ -107,7 +107,7 @@ class ChainData:
         base: str = "base",
         tip: str = "tool",
         pitches: ArrayLike | None = None,
-    ):
+    ) -> None:
         choice(frame, get_args(ScrewFrame), "frame", _ENTRANCES)
         given_names = ordered_names(joint_names, "joint_names")
         A = unit_screws(screws, given_names)
@@ -243,7 +243,7 @@ class ChainData:
         values = self._data().values()
         return hash(tuple(a.tobytes() if isinstance(a, np.ndarray) else a for a in values))
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[object, ...]:
         return _rebuilt, (type(self), self._data())
 
     def __repr__(self) -> str:

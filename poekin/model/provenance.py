@@ -45,7 +45,7 @@ def warn(message: str) -> None:
     """A `PoekinWarning` that Python shows at the first line outside of poekin: the line that asked
     for the robot.
     """
-    frame = sys._getframe(1)
+    frame = sys._getframe(1)  # noqa: SLF001 - the way to the caller
     level = 2
     while (
         frame.f_back is not None

@@ -57,7 +57,7 @@ class Walk:
     tool frame last; snapped, whether the two differ; changes, in words.
     """
 
-    def __init__(self, chain: ChainData, tol: float):
+    def __init__(self, chain: ChainData, tol: float) -> None:
         self.chain = chain
         self.tol = tol
         self.noise = ROUNDING * chain.reach

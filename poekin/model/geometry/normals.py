@@ -7,7 +7,7 @@ its numbers' own rounding lets it be.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from decimal import Context, Decimal, localcontext
 from typing import NamedTuple
@@ -27,7 +27,7 @@ def digits() -> Iterator[None]:
         yield
 
 
-def exact(values) -> Vector:
+def exact(values: Iterable[float]) -> Vector:
     """Three floats as they are."""
     x, y, z = values
     return Decimal(float(x)), Decimal(float(y)), Decimal(float(z))

@@ -74,7 +74,7 @@ class CompiledChain(ChainPrograms[AnyChain]):
     rotations.
     """
 
-    def __init__(self, chain: AnyChain, parallel: bool = False):
+    def __init__(self, chain: AnyChain, parallel: bool = False) -> None:
         if not isinstance(parallel, bool):
             raise InputError(f"parallel: expected True or False, got {safe_repr(parallel)}")
         with COMPILING:  # the import of Numba, after all that only reads a model
@@ -313,13 +313,13 @@ class CompiledChain(ChainPrograms[AnyChain]):
     def __hash__(self) -> int:
         return hash((self.chain, self.parallel))
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[object, ...]:
         return CompiledChain, (self.chain, self.parallel)
 
     def __repr__(self) -> str:
         return f"<CompiledChain of {self.chain!r}{', parallel' * self.parallel}>"
 
 
-def _refusing(*arguments: object) -> int:
+def _refusing(*_arguments: object) -> int:
     """A kernel that takes nothing."""
     return 0

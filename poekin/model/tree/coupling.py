@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import ModelError, quote, suggest
 from ..checks import read_only
-from ..joint import FREE, MOVING, Joint
+from ..joint import FREE, MOVING, Joint, Mimic
 from ..provenance import Source, warn
 
 
@@ -134,19 +134,24 @@ def _resolve(
             )
         index = master
     for index in reversed(walk):
-        joint = joints[index]
-        if joint.mimic is None:
-            continue
-        if joint.kind == "fixed":
-            known[index] = (-1, 0.0, 0.0)
-            continue
-        master, ratio, shift = known[numbers[joint.mimic.joint]]
-        ratio = joint.mimic.multiplier * ratio
-        shift = joint.mimic.multiplier * shift + joint.mimic.offset
-        if not (math.isfinite(ratio) and math.isfinite(shift)):
-            where = _where(index, joints, source)
-            raise ModelError(f"{where}: the product of its chain of multipliers is not finite")
-        known[index] = (master, ratio, shift)
+        mimic = joints[index].mimic
+        if mimic is not None:
+            known[index] = _composed(index, mimic, known[numbers[mimic.joint]], joints, source)
+
+
+def _composed(
+    index: int, mimic: Mimic, followed: _Value, joints: Sequence[Joint], source: Source
+) -> _Value:
+    """Value of a joint that mimics another, of which this is the value."""
+    if joints[index].kind == "fixed":
+        return -1, 0.0, 0.0
+    master, ratio, shift = followed
+    ratio = mimic.multiplier * ratio
+    shift = mimic.multiplier * shift + mimic.offset
+    if not (math.isfinite(ratio) and math.isfinite(shift)):
+        where = _where(index, joints, source)
+        raise ModelError(f"{where}: the product of its chain of multipliers is not finite")
+    return master, ratio, shift
 
 
 def _where(index: int, joints: Sequence[Joint], source: Source) -> str:

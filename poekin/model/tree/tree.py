@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from ...errors import ModelError, quote, safe_repr, suggest
@@ -99,7 +99,7 @@ def _joints_above(tree: Tree, link: int) -> list[int]:
     return joints
 
 
-def _unique(names: Sequence[str], what: str, place) -> dict[str, int]:
+def _unique(names: Sequence[str], what: str, place: Callable[[int], str]) -> dict[str, int]:
     numbers: dict[str, int] = {}
     for index, name in enumerate(names):
         if not isinstance(name, str) or not name:
@@ -121,7 +121,7 @@ def _cycle(
     parent_joint: list[int],
     parent_link: list[int],
     source: Source,
-):
+) -> ModelError:
     # Upward from a joint that the root does not reach there is no end, so the walk runs into a
     # cycle.
     walked: dict[int, int] = {}

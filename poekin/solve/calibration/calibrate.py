@@ -34,7 +34,7 @@ from .model.residuals import Residuals, residuals
 from .result import Outlier
 
 
-def calibrate(
+def calibrate(  # noqa: PLR0913 - options by keyword
     chain: Chain,
     q: Any,
     measurements: Any,

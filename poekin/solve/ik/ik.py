@@ -16,7 +16,7 @@ from .solver import Wishes, solve
 from .task import TaskName, targets
 
 
-def ik(
+def ik(  # noqa: PLR0913 - options by keyword
     chain: Chain | CompiledChain,
     T: ArrayLike,
     *,

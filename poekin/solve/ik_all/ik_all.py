@@ -32,7 +32,7 @@ _MANY = 2**63 - 1  # the largest number of `n_revolutions`
 _MAX_MISSES = 200  # tries without any solution, after which a search gives up
 
 
-def ik_all(
+def ik_all(  # noqa: PLR0913 - options by keyword
     chain: Chain | CompiledChain,
     T: ArrayLike,
     *,

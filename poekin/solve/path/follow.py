@@ -22,7 +22,7 @@ from .follower import Follower
 from .path_result import PathResult
 
 
-def follow(
+def follow(  # noqa: PLR0913 - options by keyword
     chain: Chain | CompiledChain,
     poses: ArrayLike,
     *,

@@ -25,7 +25,7 @@ from .choice import SMALLER_IS_BETTER, Choice, DesignMetrics
 from .exchange import CRITERIA, Criterion, exchange, greedy
 
 
-def choose_poses(
+def choose_poses(  # noqa: PLR0913 - options by keyword
     chain: Chain,
     n: int,
     candidates: Any,

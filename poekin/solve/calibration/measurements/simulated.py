@@ -80,7 +80,7 @@ class Simulated(Result):
         return f"{len(self.q)} simulated {kind}, {self.outliers.sum()} of them gross outliers"
 
 
-def simulated(
+def simulated(  # noqa: PLR0913 - options by keyword
     chain: Chain,
     n: int,
     *,
