@@ -30,7 +30,7 @@ def planar_error(R, R_target, normal):
     w, x, y, z = quaternion.quaternion(_turn_to(R, R_target))
     along = dot(normal, (x, y, z))
     size = elementary.sqrt(w * w + along * along)
-    if not size > 0.0:
+    if size == 0.0:
         return scale(2.0, normal)
     return scale(2.0 * along / size, normal)
 

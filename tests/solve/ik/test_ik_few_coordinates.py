@@ -189,6 +189,8 @@ def test_a_batch_of_few_coordinates_has_a_reason_for_each_of_its_targets():
         ("direction", "position", "rotation"),
     )
     assert np.isnan(found.q[1, 0]).all()
+    bad = ik(arm, T[1, 0], task="planar")
+    assert np.isnan([bad.position_error, bad.rotation_error]).all()
 
 
 def test_fewer_restarts_than_the_other_tasks_would_get_are_theirs_too():
