@@ -76,27 +76,14 @@ def twist(w, v):
     return (w[0], w[1], w[2], v[0], v[1], v[2])
 
 
-def pose(row):
-    """The pose held by the first twelve numbers of a row."""
-    return (
-        row[0],
-        row[1],
-        row[2],
-        row[3],
-        row[4],
-        row[5],
-        row[6],
-        row[7],
-        row[8],
-        row[9],
-        row[10],
-        row[11],
-    )
-
-
-def pose_of(R, p):
+def make_pose(R, p):
     """The pose (R, p) of a rotation and a vector."""
     return (R[0], R[1], R[2], R[3], R[4], R[5], R[6], R[7], R[8], p[0], p[1], p[2])
+
+
+def pose(row):
+    """Pose held by the first twelve numbers of a row."""
+    return make_pose(row, translation(row))
 
 
 def compose(T_ab, T_bc):
@@ -176,3 +163,9 @@ def set_column(J, i, V):
     J[3][i] = V[3]
     J[4][i] = V[4]
     J[5][i] = V[5]
+
+
+def store_row(row, values):
+    """Write the numbers of a tuple into a row."""
+    for k in range(len(values)):
+        row[k] = values[k]

@@ -38,7 +38,7 @@ CASES = {
     "translation": (algebra.translation(Q), p),
     "twist": (algebra.twist(a, b), np.r_[a, b]),
     "pose": (algebra.pose([*Q, 7.0, 8.0]), Q),
-    "pose_of": (algebra.pose_of(R.ravel(), p), Q),
+    "make_pose": (algebra.make_pose(R.ravel(), p), Q),
     "compose": (algebra.compose(Q, P), flat(T @ W)),
     "inverse": (algebra.inverse(Q), flat(np.linalg.inv(T))),
     "adjoint": (algebra.adjoint(Q, V), Ad(T) @ V),

@@ -9,7 +9,9 @@ and so are the integers 0, 1 and -1: they are a formula's structure (a revolute 
 from __future__ import annotations
 
 import math
+import operator
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any, ClassVar
 
 from ..formulas import elementary
@@ -55,85 +57,6 @@ class Count(Result):
         return ", ".join(f"{n} {name}" for name, n in charged.items()) or "no operations"
 
 
-class Counted:
-    """A float that adds what is done with it to a `Count`."""
-
-    __slots__ = ("count", "value")
-
-    def __init__(self, value: float, count: Count):
-        self.value = float(value)
-        self.count = count
-
-    def _new(self, value: float, operation: str) -> Counted:
-        setattr(self.count, operation, getattr(self.count, operation) + 1)
-        return Counted(value, self.count)
-
-    def __mul__(self, other):
-        if type(other) is int and other in (0, 1, -1):
-            if other == 0:
-                return other
-            if other == 1:
-                return self
-            return -self
-        return self._new(self.value * _value(other), "multiplications")
-
-    def __add__(self, other):
-        if _is_zero(other):
-            return self
-        return self._new(self.value + _value(other), "additions")
-
-    def __sub__(self, other):
-        if _is_zero(other):
-            return self
-        return self._new(self.value - _value(other), "additions")
-
-    def __rsub__(self, other):
-        if _is_zero(other):
-            return -self
-        return self._new(_value(other) - self.value, "additions")
-
-    def __truediv__(self, other):
-        return self._new(self.value / _value(other), "divisions")
-
-    def __rtruediv__(self, other):
-        return self._new(_value(other) / self.value, "divisions")
-
-    def __mod__(self, other):
-        return self._new(self.value % _value(other), "divisions")
-
-    __rmul__ = __mul__
-    __radd__ = __add__
-
-    def __neg__(self):
-        return Counted(-self.value, self.count)
-
-    def __abs__(self):
-        return Counted(abs(self.value), self.count)
-
-    def __eq__(self, other):
-        return self.value == _value(other)
-
-    def __lt__(self, other):
-        return self.value < _value(other)
-
-    def __le__(self, other):
-        return self.value <= _value(other)
-
-    def __gt__(self, other):
-        return self.value > _value(other)
-
-    def __ge__(self, other):
-        return self.value >= _value(other)
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __float__(self) -> float:
-        return self.value
-
-    def __repr__(self) -> str:
-        return f"Counted({self.value!r})"
-
-
 def _value(x) -> float:
     if isinstance(x, Counted):
         return x.value
@@ -144,31 +67,94 @@ def _is_zero(x) -> bool:
     return type(x) is int and x == 0
 
 
-class _Functions:
-    """Stand-ins for `formulas.elementary` on counting scalars."""
-
-    @staticmethod
-    def sqrt(x: Counted) -> Counted:
-        return x._new(math.sqrt(x.value), "square_roots")
-
-    @staticmethod
-    def sin(x: Counted) -> Counted:
-        return x._new(math.sin(x.value), "sines")
-
-    @staticmethod
-    def cos(x: Counted) -> Counted:
-        return x._new(math.cos(x.value), "cosines")
-
-    @staticmethod
-    def asin(x: Counted) -> Counted:
-        return x._new(math.asin(x.value), "arctangents")  # asin x = atan2(x, sqrt(1 - x^2))
-
-    @staticmethod
-    def atan2(y: Counted, x) -> Counted:
-        return y._new(math.atan2(y.value, _value(x)), "arctangents")
+def _comparison(compare):
+    """A method of `Counted` that compares the values, which is free."""
+    return lambda self, other: compare(self.value, _value(other))
 
 
-elementary.provide(Counted, _Functions)
+class Counted:
+    """A float that adds what is done with it to a `Count`."""
+
+    __slots__ = ("count", "value")
+
+    def __init__(self, value: float, count: Count):
+        self.value = float(value)
+        self.count = count
+
+    def made(self, value: float, operation: str) -> Counted:
+        """The result of one operation, which is counted."""
+        setattr(self.count, operation, getattr(self.count, operation) + 1)
+        return Counted(value, self.count)
+
+    def __mul__(self, other):
+        if type(other) is int and other in (0, 1, -1):
+            return (other, self, -self)[other]
+        return self.made(self.value * _value(other), "multiplications")
+
+    def __add__(self, other):
+        if _is_zero(other):
+            return self
+        return self.made(self.value + _value(other), "additions")
+
+    def __sub__(self, other):
+        if _is_zero(other):
+            return self
+        return self.made(self.value - _value(other), "additions")
+
+    def __rsub__(self, other):
+        if _is_zero(other):
+            return -self
+        return self.made(_value(other) - self.value, "additions")
+
+    def __truediv__(self, other):
+        return self.made(self.value / _value(other), "divisions")
+
+    def __rtruediv__(self, other):
+        return self.made(_value(other) / self.value, "divisions")
+
+    def __mod__(self, other):
+        return self.made(self.value % _value(other), "divisions")
+
+    __rmul__ = __mul__
+    __radd__ = __add__
+
+    def __neg__(self):
+        return Counted(-self.value, self.count)
+
+    def __abs__(self):
+        return Counted(abs(self.value), self.count)
+
+    __eq__ = _comparison(operator.eq)
+    __lt__ = _comparison(operator.lt)
+    __le__ = _comparison(operator.le)
+    __gt__ = _comparison(operator.gt)
+    __ge__ = _comparison(operator.ge)
+    __hash__ = None  # type: ignore[assignment]
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __repr__(self) -> str:
+        return f"Counted({self.value!r})"
+
+
+def _counting(function, operation: str):
+    """A function of `formulas.elementary` on counting scalars."""
+
+    def run(x: Counted, *others) -> Counted:
+        return x.made(function(x.value, *map(_value, others)), operation)
+
+    return run
+
+
+FUNCTIONS = SimpleNamespace(
+    sqrt=_counting(math.sqrt, "square_roots"),
+    sin=_counting(math.sin, "sines"),
+    cos=_counting(math.cos, "cosines"),
+    asin=_counting(math.asin, "arctangents"),  # asin x = atan2(x, sqrt(1 - x^2))
+    atan2=_counting(math.atan2, "arctangents"),
+)
+elementary.provide(Counted, FUNCTIONS)
 
 
 def counted(values: Any, count: Count) -> Any:

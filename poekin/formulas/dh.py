@@ -11,7 +11,7 @@ Source: Park 1994, Section II, "Denavit-Hartenberg", with M_i <- e^{P_i x_0} M_i
 offset x_0.
 """
 
-from ..algebra import adjoint, compose, pose
+from ..algebra import adjoint, compose, pose, store_row
 
 
 def link(sin_theta, cos_theta, d, a, sin_alpha, cos_alpha):
@@ -28,12 +28,6 @@ def screws(links, rotates, slides, count, A):
     """A_i into the rows of A; returns the home pose M. `links` are K_0 ... K_n."""
     T = pose(links[0])
     for i in range(count):
-        V = adjoint(T, (0.0, 0.0, rotates[i], 0.0, 0.0, slides[i]))
-        A[i][0] = V[0]
-        A[i][1] = V[1]
-        A[i][2] = V[2]
-        A[i][3] = V[3]
-        A[i][4] = V[4]
-        A[i][5] = V[5]
+        store_row(A[i], adjoint(T, (0.0, 0.0, rotates[i], 0.0, 0.0, slides[i])))
         T = compose(T, links[i + 1])
     return T

@@ -8,34 +8,25 @@ import math
 from types import SimpleNamespace
 
 
-def _float_sqrt(x):
-    if x >= 0:
-        return math.sqrt(x)
-    return math.nan
+def _or_nan(function):
+    """A function of floats with NaN where it raises: compiled code gives that too."""
+
+    def defined(x):
+        try:
+            return function(x)
+        except ValueError:
+            return math.nan
+
+    return defined
 
 
-def _float_sin(x):
-    if math.isfinite(x):
-        return math.sin(x)
-    return math.nan
-
-
-def _float_cos(x):
-    if math.isfinite(x):
-        return math.cos(x)
-    return math.nan
-
-
-def _float_asin(x):
-    if -1 <= x <= 1:
-        return math.asin(x)
-    return math.nan
-
-
-# `math`, but NaN where it raises: compiled code gives that too
 _FLOATS = (
     SimpleNamespace(
-        sqrt=_float_sqrt, sin=_float_sin, cos=_float_cos, asin=_float_asin, atan2=math.atan2
+        sqrt=_or_nan(math.sqrt),
+        sin=_or_nan(math.sin),
+        cos=_or_nan(math.cos),
+        asin=_or_nan(math.asin),
+        atan2=math.atan2,
     ),
     True,
 )

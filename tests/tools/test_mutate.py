@@ -334,7 +334,7 @@ def test_a_mutant_finds_no_kernel_of_another(tmp_path):
 
 
 def test_a_mutant_of_the_engine_finds_no_kernel_that_it_is_compiled_into():
-    assert suites.kernels_of(names.module("engine/arm")) == []
+    assert suites.kernels_of(names.module("engine/arm_code")) == []
     own = set(suites.kernels_of(names.module("engine/follow_kernels")))
     assert own == {
         name for name, value in vars(follow_kernels).items() if isinstance(value, Kernel)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
 from ...engine.count import Count
-from ...engine.straight_line.specialise import specialised
+from ...engine.straight_line.specialise import cheapest_program
 from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from ...model.kinematics.pose_jacobian import AnyFrame
@@ -61,7 +61,7 @@ def _general(algorithm: scalars.Algorithm, form: scalars.Form) -> Run:
 
 def _structured(chain: Chain, frame: Any, counting: Counting, pose: bool) -> Count:
     general = scalars.generic_structure(chain, tool=counting == "everything")
-    return specialised(general, frame, pose).count
+    return cheapest_program(general, frame, pose).count
 
 
 def _specialised(chain: Chain, frame: Any, _counting: Counting, pose: bool) -> Count:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ...algebra import IDENTITY, compose, cross, pose, pose_of, set_column
+from ...algebra import IDENTITY, compose, cross, make_pose, pose, set_column
 from ...formulas.kinematics import recursive
 from ...formulas.paper import dh_recursive, direct
 
@@ -122,4 +122,4 @@ def product_by_cross(a: Row, b: Row) -> Row:
     )
     Z = cross(X, Y)
     p = [a[k] * b[9] + a[k + 1] * b[10] + a[k + 2] * b[11] + a[9 + k // 3] for k in (0, 3, 6)]
-    return pose_of((X[0], Y[0], Z[0], X[1], Y[1], Z[1], X[2], Y[2], Z[2]), p)
+    return make_pose((X[0], Y[0], Z[0], X[1], Y[1], Z[1], X[2], Y[2], Z[2]), p)

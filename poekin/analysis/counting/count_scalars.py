@@ -142,7 +142,7 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
     links = [(0.0, 1.0, 0.0, 0.0)]
     for d, alpha in generic(rng, n - 1, 2).tolist():
         links.append((math.sin(alpha), math.cos(alpha), d, 0.0))
-    alongs = tuple(generic(rng, n).tolist())
+    d_offsets = tuple(generic(rng, n).tolist())
     base = IDENTITY
     end = IDENTITY
     if tool:
@@ -150,7 +150,7 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
         end = generic_pose(rng)
     return Structure(
         links=tuple(links),
-        alongs=alongs,
+        d_offsets=d_offsets,
         parallel=(0,) * n,
         rotates=tuple(chain.local.rotates.tolist()),
         slides=tuple(chain.local.slides.tolist()),

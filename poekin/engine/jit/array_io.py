@@ -1,9 +1,9 @@
 """Between the rows and matrices of arrays and the tuples of the formulas."""
 
-from ...algebra import pose_of
+from ...algebra import make_pose
 
 
-def borrowed(array):
+def without_refcount(array):
     """The array itself; in compiled code without a count of its references, which would go up and
     down with every view and cost more than the arithmetic. For arguments of kernels only: their
     caller holds them.
@@ -18,13 +18,7 @@ def load_rotation(R):
 
 def load_matrix(T):
     """The pose in a 4x4 matrix."""
-    return pose_of(load_rotation(T), (T[0, 3], T[1, 3], T[2, 3]))
-
-
-def store_row(row, values):
-    """Write a tuple into a row."""
-    for k in range(len(values)):
-        row[k] = values[k]
+    return make_pose(load_rotation(T), (T[0, 3], T[1, 3], T[2, 3]))
 
 
 def store_rotation(M, R):

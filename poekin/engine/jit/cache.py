@@ -32,18 +32,23 @@ from numba.core.runtime.nrt import rtsys
 from . import cache_size, source_hash
 
 MIB = 2**20
-LARGEST = 64 * MIB
+MAX_ENTRY = 64 * MIB
 """Bytes of an entry: a larger one is none."""
-USUAL_SIZE = 100 * MIB
+DEFAULT_SIZE = 100 * MIB
 log = logging.getLogger("poekin")
-_said: set[str] = set()
+_logged: set[str] = set()
 
 
-def say_once(topic: str, message: str, *details: object) -> None:
+def log_once(topic: str, message: str, *details: object) -> None:
     """One log line for a topic in this process, however often it comes up."""
-    if topic not in _said:
-        _said.add(topic)
+    if topic not in _logged:
+        _logged.add(topic)
         log.warning("poekin: " + message, *details)
+
+
+def log_no_cache(reason: str, *details: object) -> None:
+    """One log line of this process on why no kernel is kept."""
+    log_once("place", "kernels are compiled anew in each run: " + reason, *details)
 
 
 def directory() -> Path | None:
@@ -60,9 +65,7 @@ def directory() -> Path | None:
             RuntimeError,
             OSError,
         ) as error:  # a user who is not known, or no working directory any more
-            say_once(
-                "place", "kernels are compiled anew in each run: no cache in %s (%s)", named, error
-            )
+            log_no_cache("no cache in %s (%s)", named, error)
             return None
     try:
         if sys.platform == "win32":
@@ -78,20 +81,20 @@ def directory() -> Path | None:
     return None
 
 
-def most() -> float:
+def size_limit() -> float:
     """The bytes that all entries together may take: `POEKIN_CACHE_SIZE` in MiB."""
     said = os.environ.get("POEKIN_CACHE_SIZE", "").strip()
     try:
-        size = float(said) * MIB if said else USUAL_SIZE
+        size = float(said) * MIB if said else DEFAULT_SIZE
     except ValueError:
         size = math.nan
     if size >= 0:
         return size
-    usual = USUAL_SIZE // MIB
-    say_once(
+    usual = DEFAULT_SIZE // MIB
+    log_once(
         "size", "POEKIN_CACHE_SIZE=%.80s is no number of MiB from 0 on: %d are taken", said, usual
     )
-    return USUAL_SIZE
+    return DEFAULT_SIZE
 
 
 def machine_key() -> str:
@@ -121,14 +124,14 @@ def machine_key() -> str:
 
 def _private(status: os.stat_result) -> bool:
     """Whether a file or directory belongs to this user and nobody else may write or read it."""
-    return _own(status) and (os.name == "nt" or not stat.S_IMODE(status.st_mode) & 0o077)
+    return _owned_by_user(status) and (os.name == "nt" or not stat.S_IMODE(status.st_mode) & 0o077)
 
 
-def _own(status: os.stat_result) -> bool:
+def _owned_by_user(status: os.stat_result) -> bool:
     return not hasattr(os, "geteuid") or status.st_uid == os.geteuid()
 
 
-def _place() -> Path | None:
+def _usable_directory() -> Path | None:
     """The cache directory, made if needed, or None where it cannot be trusted or used."""
     place = directory()
     if place is None:
@@ -137,28 +140,22 @@ def _place() -> Path | None:
         place.mkdir(mode=0o700, parents=True, exist_ok=True)
         status = place.stat()
     except OSError as error:
-        say_once(
-            "place",
-            "kernels are compiled anew in each run: no cache in %s (%s)",
-            place,
-            error.strerror,
-        )
+        log_no_cache("no cache in %s (%s)", place, error.strerror)
         return None
     if not stat.S_ISDIR(status.st_mode) or not _private(status):
-        reason = "others may read or write it" if _own(status) else "it belongs to another user"
-        say_once(
-            "place",
-            "kernels are compiled anew in each run: %s is not used, %s (expected mode 0700)",
-            place,
-            reason,
+        reason = (
+            "others may read or write it"
+            if _owned_by_user(status)
+            else "it belongs to another user"
         )
+        log_no_cache("%s is not used, %s (expected mode 0700)", place, reason)
         return None
     return place
 
 
 def entry(name: str, key: object) -> Path | None:
     """Path of the entry of a name and a key; None for nowhere."""
-    place = _place()
+    place = _usable_directory()
     if (
         place is None or source_hash.LOADED is None
     ):  # the package runs from where its source cannot be read
@@ -170,21 +167,21 @@ def entry(name: str, key: object) -> Path | None:
 def read(path: Path) -> bytes | None:
     """Content of an entry; None where there is none, or none that can be trusted."""
     try:
-        with open(path, "rb", opener=_as_it_is) as file:
+        with open(path, "rb", opener=_open_regular) as file:
             status = os.fstat(file.fileno())
             trusted = (
-                stat.S_ISREG(status.st_mode) and status.st_size <= LARGEST and _private(status)
+                stat.S_ISREG(status.st_mode) and status.st_size <= MAX_ENTRY and _private(status)
             )
-            data = file.read(LARGEST) if trusted else b""
+            data = file.read(MAX_ENTRY) if trusted else b""
     except FileNotFoundError:
         return None
     except OSError as error:
-        say_once("entry", "a kernel is compiled anew: %s cannot be read (%s)", path, error.strerror)
+        log_once("entry", "a kernel is compiled anew: %s cannot be read (%s)", path, error.strerror)
         return None
     digest = data[:32]
     payload = data[32:]
     if not trusted or hashlib.sha256(payload).digest() != digest:
-        say_once("entry", "a kernel is compiled anew: %s is damaged or not this user's alone", path)
+        log_once("entry", "a kernel is compiled anew: %s is damaged or not this user's alone", path)
         return None
     with contextlib.suppress(OSError):  # in a directory that is read-only
         os.utime(path)  # it is in use: the last that the bound on the cache's size removes
@@ -200,14 +197,9 @@ def write(path: Path, payload: bytes) -> None:
         with os.fdopen(handle, "wb") as file:
             file.write(hashlib.sha256(payload).digest() + payload)
         os.replace(partial, path)
-        cache_size.bound(path.parent, len(payload) + 32, most())
+        cache_size.bound(path.parent, len(payload) + 32, size_limit())
     except OSError as error:
-        say_once(
-            "place",
-            "kernels are compiled anew in each run: %s cannot be written (%s)",
-            path,
-            error.strerror,
-        )
+        log_no_cache("%s cannot be written (%s)", path, error.strerror)
         if partial is not None:
             with contextlib.suppress(OSError):
                 os.unlink(partial)
@@ -230,7 +222,7 @@ class KernelCache:
         kept = None if path is None else read(path)
         if kept is None:
             where = "not kept" if path is None else f"kept in {path.parent}"
-            say_once(
+            log_once(
                 "compiling", "compiling kernels for this machine, a few seconds each (%s)", where
             )
             return None
@@ -247,6 +239,6 @@ class KernelCache:
             write(path, serialize.dumps(compiled._reduce()))
 
 
-def _as_it_is(path, flags):
+def _open_regular(path, flags):
     """Opened without following a link, and without waiting where it is a pipe."""
     return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))

@@ -33,7 +33,7 @@ def _modules():
 
 _OVERLOADED = (
     *(elementary.sqrt, elementary.sin, elementary.cos, elementary.asin, elementary.atan2),
-    *(elementary.takes_series, elementary.below, array_io.borrowed),
+    *(elementary.takes_series, elementary.below, array_io.without_refcount),
 )
 
 
@@ -55,7 +55,7 @@ def _register() -> None:
     overload(elementary.atan2)(lambda y, x: lambda y, x: math.atan2(y, x))
     overload(elementary.takes_series)(lambda x: lambda x: True)
     overload(elementary.below)(lambda x, limit: lambda x, limit: x < limit)
-    overload(array_io.borrowed)(lambda array: lambda array: _without_references(array))  # type: ignore[call-arg]
+    overload(array_io.without_refcount)(lambda array: lambda array: _without_references(array))  # type: ignore[call-arg]
     for module in _modules():
         _register_functions(module)
 

@@ -19,7 +19,7 @@ from typing import Any
 COMPILING = threading.RLock()
 """Held while Numba is imported, and while machine code is made or loaded."""
 
-PATIENCE = 60.0
+FORK_TIMEOUT = 60.0
 """Seconds after which a fork waits no longer, should a thread that compiles wait for what the
 forking one holds.
 """
@@ -43,7 +43,7 @@ def _before_fork() -> None:
 
 
 def _hold(lock: Any) -> None:
-    if lock.acquire(timeout=PATIENCE):
+    if lock.acquire(timeout=FORK_TIMEOUT):
         _held.append(lock)
 
 

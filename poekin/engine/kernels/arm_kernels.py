@@ -1,7 +1,7 @@
 """Kernels that run the machine code of one arm over configurations: sines and cosines, then the
 arm.
 
-An arm comes as the address of five integers (`engine.straight_line.arm.Arm`): how many angles and
+An arm comes as the address of five integers (`engine.straight_line.arm_code.ArmCode`): how many angles and
 coordinates it has, and where its three functions are; one integer is handed over in less time than
 an array. T or J is left alone where the arm's program does not have it: then the other one stands
 in its place. A kernel for one configuration returns 0, and has done nothing, where the arrays'
@@ -16,7 +16,7 @@ from numba import carray, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from ..jit.array_io import borrowed
+from ..jit.array_io import without_refcount
 from ..jit.kernel import kernel
 from ..straight_line.machine_code import ANGLES, LANES, SIGNATURE
 from ..straight_line.sincos import MODERATE, moderate, sincos
@@ -87,12 +87,12 @@ def _integers(typing_context, address):
     return types.CPointer(types.int64)(address), generate
 
 
-def _parts(arm):
+def _header(arm):
     """Angles, coordinates, and the addresses of the functions `angles`, `one` and `four` of an arm."""
     return carray(_integers(arm), 5)
 
 
-def _usual(sines, count):
+def _all_moderate(sines, count):
     """Whether all angles are moderate."""
     usual = True
     for k in range(count):
@@ -102,7 +102,7 @@ def _usual(sines, count):
 
 def _sines_cosines(sines, cosines, count):
     """Angles to sines, in place, and cosines."""
-    if _usual(sines, count):
+    if _all_moderate(sines, count):
         for k in range(count):
             sines[k], cosines[k] = moderate(sines[k])
     else:
@@ -114,7 +114,7 @@ def run_one(arm, q, T, J, scratch):
     """One configuration; the memory of the results holds the sines and cosines until they are
     overwritten.
     """
-    count, _, angles, one, _ = _parts(arm)
+    count, _, angles, one, _ = _header(arm)
     whole = (
         (count + LANES - 1) // LANES * LANES
     )  # full lanes are faster, whatever is in the last of them
@@ -139,10 +139,10 @@ def _apart(a, b):
 @kernel("int w1 w2", returns="int", quick=True)
 def pose_one(arm, q, T):
     """f(q) of one configuration."""
-    if q.shape[0] != _parts(arm)[1] or T.shape[0] != 4 or T.shape[1] != 4 or not _apart(q, T):
+    if q.shape[0] != _header(arm)[1] or T.shape[0] != 4 or T.shape[1] != 4 or not _apart(q, T):
         return 0
-    q = borrowed(q)
-    T = borrowed(T)
+    q = without_refcount(q)
+    T = without_refcount(T)
     run_one(arm, q, T, T, T.reshape(T.size))
     return 1
 
@@ -150,11 +150,11 @@ def pose_one(arm, q, T):
 @kernel("int w1 w2", returns="int", quick=True)
 def jacobian_one(arm, q, J):
     """The Jacobian of one configuration."""
-    m = _parts(arm)[1]
+    m = _header(arm)[1]
     if q.shape[0] != m or J.shape[0] != 6 or J.shape[1] != m or not _apart(q, J):
         return 0
-    q = borrowed(q)
-    J = borrowed(J)
+    q = without_refcount(q)
+    J = without_refcount(J)
     run_one(arm, q, J, J, J.reshape(J.size))
     return 1
 
@@ -162,21 +162,21 @@ def jacobian_one(arm, q, J):
 @kernel("int w1 w2 w2", returns="int", quick=True)
 def pose_jacobian_one(arm, q, T, J):
     """f(q) and the Jacobian of one configuration."""
-    m = _parts(arm)[1]
+    m = _header(arm)[1]
     if q.shape[0] != m or T.shape[0] != 4 or T.shape[1] != 4 or J.shape[0] != 6 or J.shape[1] != m:
         return 0
     if not (_apart(q, T) and _apart(q, J) and _apart(T, J)):
         return 0
-    q = borrowed(q)
-    T = borrowed(T)
-    J = borrowed(J)
+    q = without_refcount(q)
+    T = without_refcount(T)
+    J = without_refcount(J)
     run_one(arm, q, T, J, J.reshape(J.size))
     return 1
 
 
 def _many(arm, q, T, J):
     """All configurations, four at a time, what is left one at a time."""
-    count, _, angles, one, four = _parts(arm)
+    count, _, angles, one, four = _header(arm)
     sines = np.empty((count, BLOCK))
     cosines = np.empty((count, BLOCK))
     for start in range(0, q.shape[0], BLOCK):
@@ -195,16 +195,16 @@ def _many(arm, q, T, J):
 @kernel("int w2 w3")
 def pose_many(arm, q, T):
     """f(q) of many configurations."""
-    _many(arm, borrowed(q), borrowed(T), borrowed(T))
+    _many(arm, without_refcount(q), without_refcount(T), without_refcount(T))
 
 
 @kernel("int w2 w3")
 def jacobian_many(arm, q, J):
     """The Jacobian of many configurations."""
-    _many(arm, borrowed(q), borrowed(J), borrowed(J))
+    _many(arm, without_refcount(q), without_refcount(J), without_refcount(J))
 
 
 @kernel("int w2 w3 w3")
 def pose_jacobian_many(arm, q, T, J):
     """f(q) and the Jacobian of many configurations."""
-    _many(arm, borrowed(q), borrowed(T), borrowed(J))
+    _many(arm, without_refcount(q), without_refcount(T), without_refcount(J))

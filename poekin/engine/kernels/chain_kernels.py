@@ -8,9 +8,9 @@ SPACE, BODY or HYBRID.
 
 import numpy as np
 
-from ...algebra import pose, translation, turned_about_z
+from ...algebra import pose, store_row, translation, turned_about_z
 from ...formulas.kinematics import columns, forward, recursive
-from ..jit.array_io import borrowed, store_matrix, store_row
+from ..jit.array_io import store_matrix, without_refcount
 from ..jit.kernel import kernel
 from ..straight_line.sincos import sincos
 
@@ -25,13 +25,13 @@ COUPLING = 15
 
 
 def scratch(table):
-    """Room for the sines, cosines and shifts of the joints' motions."""
+    """Memory for the sines, cosines and shifts of the joints' motions."""
     n = table.shape[0] - 1
     return np.empty(n), np.empty(n), np.empty(n)
 
 
-def motions(table, q, sines, cosines, shifts):
-    """sin(r x), cos(r x) and s x of every joint, x = C q + c."""
+def set_motions(table, q, sines, cosines, shifts):
+    """Write sin(r x), cos(r x) and s x of every joint, x = C q + c."""
     coupled = table.shape[1] > OFFSET
     for i in range(table.shape[0] - 1):
         if coupled:
@@ -44,15 +44,34 @@ def motions(table, q, sines, cosines, shifts):
         shifts[i] = table[i, SLIDES] * x
 
 
+def set_rates(table, dq, dx):
+    """Write dx = C dq: of the rates or accelerations of the coordinates, those of the joints."""
+    coupled = table.shape[1] > OFFSET
+    for i in range(table.shape[0] - 1):
+        if coupled:
+            dx[i] = 0.0
+            for k in range(len(dq)):
+                dx[i] += table[i, COUPLING + k] * dq[k]
+        else:
+            dx[i] = dq[i]
+
+
+def joint_frame(T, table, sines, cosines, shifts, i):
+    """Pose of joint i's frame after its motion, T that of the joint before it."""
+    if i == 0:
+        return turned_about_z(pose(table[0]), sines[0], cosines[0], shifts[0])
+    return forward.next_frame(T, table[i], sines[i], cosines[i], shifts[i])
+
+
 @kernel("w2 r1 w2", bare=True)
 def pose_one(table, q, T):
     """f(q) of one configuration of a chain that is not coupled."""
     n = table.shape[0] - 1
-    table = borrowed(table)
-    q = borrowed(q)
-    T = borrowed(T)
+    table = without_refcount(table)
+    q = without_refcount(q)
+    T = without_refcount(T)
     sines, cosines, shifts = scratch(table)
-    motions(table, q, sines, cosines, shifts)
+    set_motions(table, q, sines, cosines, shifts)
     store_matrix(T, forward.tip(table, sines, cosines, shifts, n))
 
 
@@ -60,11 +79,11 @@ def pose_one(table, q, T):
 def pose_many(table, q, T):
     """f(q) of many configurations."""
     sines, cosines, shifts = scratch(table)
-    table = borrowed(table)
-    q = borrowed(q)
-    T = borrowed(T)
+    table = without_refcount(table)
+    q = without_refcount(q)
+    T = without_refcount(T)
     for k in range(q.shape[0]):
-        motions(table, q[k], sines, cosines, shifts)
+        set_motions(table, q[k], sines, cosines, shifts)
         store_matrix(T[k], forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
 
 
@@ -72,18 +91,18 @@ def pose_many(table, q, T):
 def pose_jacobian_one(table, q, frame, T, J):
     """f(q) and the Jacobian of one configuration, in a named frame, of a chain that is not coupled."""
     n = table.shape[0] - 1
-    table = borrowed(table)
-    q = borrowed(q)
-    T = borrowed(T)
-    J = borrowed(J)
+    table = without_refcount(table)
+    q = without_refcount(q)
+    T = without_refcount(T)
+    J = without_refcount(J)
     # the rows of J serve as scratch: taking memory costs as much as three joints
-    motions(table, q, J[0], J[1], J[2])
+    set_motions(table, q, J[0], J[1], J[2])
     tip = forward.tip_and_axes(table, J[0], J[1], J[2], n, J)
     store_matrix(T, tip)
     p = (0.0, 0.0, 0.0) if frame == SPACE else translation(tip)
     columns.about_point(J, table[:, ROTATES], table[:, SLIDES], n, p)
     if frame == BODY:
-        columns.turned_into(J, n, tip)
+        columns.rotate_columns(J, n, tip)
 
 
 def _pose_jacobian(table, q, frame, T, J_x):
@@ -92,14 +111,14 @@ def _pose_jacobian(table, q, frame, T, J_x):
     """
     n = table.shape[0] - 1
     sines, cosines, shifts = scratch(table)
-    table = borrowed(table)
-    q = borrowed(q)
-    T = borrowed(T)
-    J_x = borrowed(J_x)
+    table = without_refcount(table)
+    q = without_refcount(q)
+    T = without_refcount(T)
+    J_x = without_refcount(J_x)
     rotates = table[:, ROTATES]
     slides = table[:, SLIDES]
     for k in range(q.shape[0]):
-        motions(table, q[k], sines, cosines, shifts)
+        set_motions(table, q[k], sines, cosines, shifts)
         J = J_x[k]
         tip = forward.tip_and_axes(table, sines, cosines, shifts, n, J)
         store_matrix(T[min(k, T.shape[0] - 1)], tip)
@@ -112,7 +131,7 @@ def _pose_jacobian(table, q, frame, T, J_x):
             p = (0.0, 0.0, 0.0)
         columns.about_point(J, rotates, slides, n, p)
         if frame != SPACE and frame != HYBRID:
-            columns.turned_into(J, n, at)
+            columns.rotate_columns(J, n, at)
 
 
 @kernel("w2 r2 int w3 w3")
@@ -136,13 +155,10 @@ def joint_poses(table, q, T):
     """The z-aligned frame of every joint in the base frame, after its motion."""
     sines, cosines, shifts = scratch(table)
     for k in range(q.shape[0]):
-        motions(table, q[k], sines, cosines, shifts)
+        set_motions(table, q[k], sines, cosines, shifts)
         frame = pose(table[0])
         for i in range(table.shape[0] - 1):
-            if i == 0:
-                frame = turned_about_z(frame, sines[0], cosines[0], shifts[0])
-            else:
-                frame = forward.next_frame(frame, table[i], sines[i], cosines[i], shifts[i])
+            frame = joint_frame(frame, table, sines, cosines, shifts, i)
             store_matrix(T[k, i], frame)
 
 
@@ -150,20 +166,14 @@ def joint_poses(table, q, T):
 def body_velocity(table, q, dq, V):
     """f^-1 f' by the V recursion."""
     n = table.shape[0] - 1
-    m = q.shape[1]
     sines, cosines, shifts = scratch(table)
     links = np.empty((n, 12))
     rates = np.empty(n)
     for k in range(q.shape[0]):
-        motions(table, q[k], sines, cosines, shifts)
+        set_motions(table, q[k], sines, cosines, shifts)
+        set_rates(table, dq[k], rates)
         for i in range(n):
             store_row(links[i], turned_about_z(pose(table[i]), sines[i], cosines[i], shifts[i]))
-            if table.shape[1] > OFFSET:
-                rates[i] = 0.0
-                for j in range(m):
-                    rates[i] += table[i, COUPLING + j] * dq[k, j]
-            else:
-                rates[i] = dq[k, i]
         if n > 0:
             tool = pose(table[n])
             rotates = table[:, ROTATES]

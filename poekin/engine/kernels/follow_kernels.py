@@ -5,10 +5,10 @@ Importing this module imports Numba.
 
 import numpy as np
 
-from ..jit.array_io import store_row
+from ...algebra import store_row
 from ..jit.kernel import kernel
-from .ik_codes import AT_ITERATIONS, AT_POSITION, AT_RESTARTS, AT_ROTATION, AT_STATE, SOLVED
-from .ik_kernels import Problem, descend, scratch_rows
+from .ik_codes import SOLVED
+from .ik_kernels import Problem, descend, scratch_of_try, set_info
 
 
 @kernel("int w3 w1 w2 w1 w1 w1 w2 w2", returns="int")
@@ -21,21 +21,13 @@ def follow(arm, targets, start, limits, fixed, options, most, q, info):
     """
     m = q.shape[1]
     problem = Problem(arm, limits, fixed, options)
-    T = np.empty((4, 4))
-    J = np.empty((6, m))
-    H = np.empty((m, m))
-    rows = scratch_rows(m)
+    work = scratch_of_try(m)
     last = start.copy()
     now = np.empty(m)
     for k in range(targets.shape[0]):
         store_row(now, last)
-        ended, position, rotation, taken = descend(problem, targets[k], now, T, J, H, rows)
-        row = info[k]
-        row[AT_POSITION] = position
-        row[AT_ROTATION] = rotation
-        row[AT_ITERATIONS] = taken
-        row[AT_RESTARTS] = 0
-        row[AT_STATE] = ended
+        ended, position, rotation, taken = descend(problem, targets[k], now, work)
+        set_info(info[k], position, rotation, taken, ended)
         store_row(q[k], now)
         near = True
         for i in range(m):

@@ -1,8 +1,8 @@
 """Kernels of SO(3) and SE(3): each maps one formula over the rows of an array."""
 
-from ...algebra import angular, cross, inverse, linear, translation
+from ...algebra import angular, cross, inverse, linear, store_row, translation
 from ...formulas.lie import defect, exp_jacobian, exponential, logarithm
-from ..jit.array_io import load_matrix, load_rotation, store_matrix, store_rotation, store_row
+from ..jit.array_io import load_matrix, load_rotation, store_matrix, store_rotation
 from ..jit.kernel import kernel
 
 
@@ -10,7 +10,7 @@ from ..jit.kernel import kernel
 def so3_exp(w, R):
     """exp [w] of rows."""
     for k in range(w.shape[0]):
-        store_rotation(R[k], exponential.so3((w[k][0], w[k][1], w[k][2])))
+        store_rotation(R[k], exponential.so3(angular(w[k])))
 
 
 @kernel("r3 w2")
@@ -24,23 +24,21 @@ def so3_log(R, w):
 def so3_log_near(R, near, w):
     """The log nearest to a given one."""
     for k in range(w.shape[0]):
-        store_row(
-            w[k], logarithm.so3_near(load_rotation(R[k]), (near[k][0], near[k][1], near[k][2]))
-        )
+        store_row(w[k], logarithm.so3_near(load_rotation(R[k]), angular(near[k])))
 
 
 @kernel("r2 w3")
 def so3_left(w, J):
     """J(w) of rows."""
     for k in range(w.shape[0]):
-        store_rotation(J[k], exp_jacobian.left((w[k][0], w[k][1], w[k][2])))
+        store_rotation(J[k], exp_jacobian.left(angular(w[k])))
 
 
 @kernel("r2 w3")
 def so3_left_inverse(w, J):
     """J(w)^-1 of rows."""
     for k in range(w.shape[0]):
-        store_rotation(J[k], exp_jacobian.left_inverse((w[k][0], w[k][1], w[k][2])))
+        store_rotation(J[k], exp_jacobian.left_inverse(angular(w[k])))
 
 
 @kernel("r2 w3")

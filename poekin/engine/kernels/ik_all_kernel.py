@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
+from ...algebra import store_row
 from ...formulas.inverse import least_squares
-from ..jit.array_io import store_row
 from ..jit.kernel import kernel
 from .ik_codes import POSE, SOLVED
 from .ik_kernels import (
@@ -22,7 +22,7 @@ from .ik_kernels import (
     descend,
     errors_at,
     next_random,
-    scratch_rows,
+    scratch_of_try,
     seeded,
     uniform,
 )
@@ -30,10 +30,10 @@ from .ik_kernels import (
 # Where each number stands in `rule`: what is accepted (m and rad alike), how often each solution
 # must have been found before a search ends; the most restarts, and the most of them without a
 # solution.
-ACCEPTED = 0
-EACH = 1
+MAX_ERROR = 0
+MIN_HITS = 1
 RESTARTS = 2
-BARREN = 3
+MAX_MISSES = 3
 RULE = 4
 # Where each number stands in a row of `info`: solutions, restarts, ends that are solutions, whether
 # there was no room.
@@ -49,14 +49,14 @@ _NEAR = 1e-2
 # of the largest pivot of J^T J: about the square of the smallest singular value over the largest
 _SINGULAR = 1e-10
 # singular solutions that are kept of one target: of a continuum there would be no end
-_MEMBERS = 12
+_MAX_SINGULAR = 12
 # times a try is gone on with that is near enough to be accepted and not yet at an end
-_AGAIN = 4
+_CONTINUATIONS = 4
 # so many times longer a search goes on while the number of solutions is odd, see `search`
-_ODD = 8.0
+_ODD_FACTOR = 8.0
 
 
-def around(d, period):
+def wrapped_difference(d, period):
     """Difference of an angle by the shorter way round; a coordinate without a period has 0 for it."""
     if period > 0.0:
         return d - period * math.floor(d / period + 0.5)
@@ -68,22 +68,25 @@ def is_accepted(position, rotation, limit):
     return position <= limit and rotation <= limit
 
 
-def is_same(problem, target, ends, periods, limit, T, J, rows):
-    """Whether two ends are one solution; `ends` are both and scratch, as T, J and `rows` are."""
+def is_same(problem, target, ends, periods, limit, work):
+    """Whether two ends are one solution; `ends` are both, and memory for their middle."""
     a, b, middle = ends
     apart = 0.0
     for i in range(len(a)):
-        d = around(b[i] - a[i], periods[i])
+        d = wrapped_difference(b[i] - a[i], periods[i])
         apart = max(apart, abs(d))
         middle[i] = a[i] + 0.5 * d
     if apart <= _SAME or apart > _NEAR:
         return apart <= _SAME
-    position, rotation = errors_at(problem, POSE, target, middle, T, J, rows)
+    position, rotation = errors_at(problem, POSE, target, middle, work.T, work.J, work.rows)
     return is_accepted(position, rotation, limit)
 
 
-def is_singular(J, ones, H, rows):
-    """Whether the Jacobian has nearly dependent columns; H and `rows` are scratch."""
+def is_singular(ones, work):
+    """Whether the Jacobian of `work` has nearly dependent columns."""
+    J = work.J
+    H = work.H
+    rows = work.rows
     m = J.shape[1]
     store_row(rows[ERROR], (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
     least_squares.normal_equations(J, rows[ERROR], ones, 1e-30, ones, m, H, rows[STEP])
@@ -105,20 +108,20 @@ def is_enough(hits, singular, count, each, pairs):
             members += 1
             together += hits[j]
     if pairs and count % 2 == 1 and members == 0:
-        each *= _ODD
+        each *= _ODD_FACTOR
     for j in range(count):
         if not singular[j] and hits[j] < each:
             return False
     return together >= each * members
 
 
-def reach(problem, target, q, limit, T, J, H, rows):
+def reach(problem, target, q, limit, work):
     """Whether a try from q ends at a solution, q then.
 
     Where solutions are nearly one, the last digits take long: then it is gone on with.
     """
-    for _ in range(_AGAIN):
-        ended, position, rotation, _ = descend(problem, target, q, T, J, H, rows)
+    for _ in range(_CONTINUATIONS):
+        ended, position, rotation, _ = descend(problem, target, q, work)
         accepted = is_accepted(position, rotation, limit)
         if ended == SOLVED or not accepted:
             return accepted
@@ -127,7 +130,7 @@ def reach(problem, target, q, limit, T, J, H, rows):
 
 def is_over(attempts, count, rule):
     """Whether a search has had all its restarts, or too many of them without a solution."""
-    if count == 0 and attempts >= int(rule[BARREN]):
+    if count == 0 and attempts >= int(rule[MAX_MISSES]):
         return True
     return attempts >= int(rule[RESTARTS])
 
@@ -160,15 +163,12 @@ def search(
     """
     m = q.shape[2]
     problem = Problem(arm, limits, np.zeros(m), options)
-    T = np.empty((4, 4))
-    J = np.empty((6, m))
-    H = np.empty((m, m))
-    rows = scratch_rows(m)
+    work = scratch_of_try(m)
     trial = np.empty(m)
     middle = np.empty(m)
     ones = np.ones(6)
     singular = np.zeros(q.shape[1], np.bool_)
-    limit = rule[ACCEPTED]
+    limit = rule[MAX_ERROR]
     for k in range(targets.shape[0]):
         target = targets[k]
         state = seeded(seed, int(indices[k]))
@@ -180,7 +180,7 @@ def search(
         attempt = 0
         while not full and not is_over(attempt - first, count, rule):
             tried = attempt > first and count > 0
-            if tried and is_enough(hits[k], singular, count, rule[EACH], m == 6):
+            if tried and is_enough(hits[k], singular, count, rule[MIN_HITS], m == 6):
                 break
             for i in range(m):
                 if attempt < first:
@@ -189,20 +189,20 @@ def search(
                     state = next_random(state)
                     trial[i] = uniform(state, ranges[i])
             attempt += 1
-            if not reach(problem, target, trial, limit, T, J, H, rows):
+            if not reach(problem, target, trial, limit, work):
                 continue
             ends += 1.0
-            bad = is_singular(J, ones, H, rows)
+            bad = is_singular(ones, work)
             for i in range(m):
-                trial[i] = around(trial[i], periods[i])
+                trial[i] = wrapped_difference(trial[i], periods[i])
             j = 0
             while j < count and not is_same(
-                problem, target, (q[k, j], trial, middle), periods, limit, T, J, rows
+                problem, target, (q[k, j], trial, middle), periods, limit, work
             ):
                 j += 1
             if j < count:
                 hits[k, j] += 1.0
-            elif bad and members >= _MEMBERS:
+            elif bad and members >= _MAX_SINGULAR:
                 continue
             elif count < q.shape[1]:
                 singular[count] = bad

@@ -12,13 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...algebra import dot, subtract, translation, twist
+from ...algebra import dot, store_row, subtract, translation, twist
 from ...formulas.inverse import damped_step, pose_error
 from ...formulas.kinematics import forward
-from ..jit.array_io import load_matrix, store_matrix, store_row
+from ..jit.array_io import load_matrix, store_matrix
 from ..jit.kernel import kernel
 from .arm_kernels import run_one
-from .chain_kernels import motions, scratch
+from .chain_kernels import scratch, set_motions
 from .ik_codes import (
     AT_ITERATIONS,
     AT_POSITION,
@@ -45,9 +45,9 @@ from .ik_codes import (
 _SLOW = 0.9  # a step that leaves more than this of the error hardly moves
 _PATIENCE = 3  # such steps one after the other end a try
 # Rows of a try's scratch memory: the error, the step, which coordinates are free, and what the
-# arm's code needs. `ROOM` more than four times as wide as the arm, it suffices for any arm.
+# arm's code needs. `SPARE` more than four times as wide as the arm, it suffices for any arm.
 ERROR, STEP, FREE, CODE = range(4)
-ROOM = 16
+SPARE = 16
 
 
 class Problem(NamedTuple):
@@ -57,6 +57,22 @@ class Problem(NamedTuple):
     limits: np.ndarray
     fixed: np.ndarray
     options: np.ndarray
+
+
+class Scratch(NamedTuple):
+    """Memory of a try: pose, Jacobian, normal equations, and the rows ERROR, STEP, FREE, CODE."""
+
+    T: np.ndarray
+    J: np.ndarray
+    H: np.ndarray
+    rows: np.ndarray
+
+
+def scratch_of_try(m):
+    """Memory of a try of m coordinates."""
+    return Scratch(
+        np.empty((4, 4)), np.empty((6, m)), np.empty((m, m)), np.empty((4, 4 * m + SPARE))
+    )
 
 
 def next_random(state):
@@ -111,11 +127,6 @@ def error_parts(task, axis, T, target, J, e):
     return position, rotation
 
 
-def scratch_rows(m):
-    """Scratch memory of a try."""
-    return np.empty((4, 4 * m + ROOM))
-
-
 def errors_at(problem, task, target, q, T, J, rows):
     """Pose, Jacobian and error at q into T, J and `rows`; returns the error's parts (m, rad)."""
     run_one(problem.arm, q, T, J, rows[CODE])
@@ -134,15 +145,19 @@ def choose_free(problem, weights, q, J, rows):
             rows[FREE, i] = 0.0
 
 
-def descend(problem, target, q, T, J, H, rows):
+def descend(problem, target, q, work):
     """One try: q goes downhill until it is solved, hardly moves or is out of iterations.
 
-    Returns the state, the errors (m, rad), and the iterations taken. T, J, H and `rows` are scratch.
+    Returns the state, the errors (m, rad), and the iterations taken.
     """
     m = len(q)
     options = problem.options
     task = int(options[TASK])
     weights = options[WEIGHTS : WEIGHTS + 6]
+    T = work.T
+    J = work.J
+    H = work.H
+    rows = work.rows
     e = rows[ERROR]
     dq = rows[STEP]
     last = math.inf
@@ -181,11 +196,16 @@ def _fail(q, row):
     """The result for a target that is not finite."""
     for i in range(len(q)):
         q[i] = math.nan
-    row[AT_POSITION] = math.nan
-    row[AT_ROTATION] = math.nan
-    row[AT_ITERATIONS] = 0.0
-    row[AT_RESTARTS] = 0.0
-    row[AT_STATE] = BAD_TARGET
+    set_info(row, math.nan, math.nan, 0, BAD_TARGET)
+
+
+def set_info(row, position, rotation, iterations, state):
+    """Write the errors of q (m, rad), what it took without a restart, and how it ended."""
+    row[AT_POSITION] = position
+    row[AT_ROTATION] = rotation
+    row[AT_ITERATIONS] = iterations
+    row[AT_RESTARTS] = 0
+    row[AT_STATE] = state
 
 
 @kernel("int w3 w2 w2 w2 w1 w1 w1 int w2 w2")
@@ -198,10 +218,7 @@ def solve_many(arm, targets, q0, limits, ranges, fixed, options, indices, seed, 
     """
     m = q.shape[1]
     problem = Problem(arm, limits, fixed, options)
-    T = np.empty((4, 4))
-    J = np.empty((6, m))
-    H = np.empty((m, m))
-    rows = scratch_rows(m)
+    work = scratch_of_try(m)
     trial = np.empty(m)
     for k in range(targets.shape[0]):
         target = targets[k]
@@ -218,13 +235,11 @@ def solve_many(arm, targets, q0, limits, ranges, fixed, options, indices, seed, 
                 if (attempt > 0 or q0[k, i] != q0[k, i]) and fixed[i] == 0.0:
                     state = next_random(state)
                     trial[i] = uniform(state, ranges[i])
-            ended, position, rotation, taken = descend(problem, target, trial, T, J, H, rows)
+            ended, position, rotation, taken = descend(problem, target, trial, work)
             total += taken
             if position + rotation < best or best != best or attempt == 0:
                 best = position + rotation
-                row[AT_POSITION] = position
-                row[AT_ROTATION] = rotation
-                row[AT_STATE] = ended
+                set_info(row, position, rotation, total, ended)
                 store_row(q[k], trial)
             row[AT_ITERATIONS] = total
             row[AT_RESTARTS] = attempt
@@ -233,14 +248,14 @@ def solve_many(arm, targets, q0, limits, ranges, fixed, options, indices, seed, 
 
 
 @kernel("w2 w2 w3 int w1 w2")
-def judge(table, q, targets, task, axis, errors):
+def pose_errors(table, q, targets, task, axis, errors):
     """|p* - p| (m) and the angle (rad) between the targets and the poses of q, by the kernels of
     any chain; a part that the task does not ask for is 0.
     """
     sines, cosines, shifts = scratch(table)
     T = np.empty((4, 4))
     for k in range(q.shape[0]):
-        motions(table, q[k], sines, cosines, shifts)
+        set_motions(table, q[k], sines, cosines, shifts)
         store_matrix(T, forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
         now = load_matrix(T)
         then = load_matrix(targets[k])

@@ -77,7 +77,7 @@ def object_code(program: Program, pose: bool) -> bytes:
     return target_machine().emit_object(parsed)
 
 
-class Loaded:
+class LoadedCode:
     """Machine code in memory: the addresses `angles`, `one` and `four` hold as long as this object
     lives.
     """
@@ -132,7 +132,7 @@ class _Function:
         build = self.build
         values = {}
         for number, node in program.steps:
-            self._lengthen()
+            self._extend_block()
             if node.kind == "input":
                 values[number] = self._input(int(node.first))
             elif node.kind == "constant":
@@ -175,7 +175,7 @@ class _Function:
             return values[number]
         return self.build.fneg(values[number])
 
-    def _lengthen(self, by: int = 1) -> None:
+    def _extend_block(self, by: int = 1) -> None:
         """Count steps of the block, and begin another where it is long enough."""
         self.length += by
         if self.length > LONGEST:
@@ -200,7 +200,7 @@ class _Function:
         sines, cosines, stride, q, width, *_ = self.function.args
         if number >= 0:
             place = build.gep((sines, cosines)[number % 2], [build.mul(stride, _INT(number // 2))])
-            return build.load(self._wide(place, self.type), align=8)
+            return build.load(self._cast_pointer(place, self.type), align=8)
         value = build.load(build.gep(q, [_INT(-1 - number)]), align=8)
         if self.lanes == 1:
             return value
@@ -218,7 +218,7 @@ class _Function:
         size = len(values)
         for i in range(0, size, LANES):
             group = values[i : i + LANES]
-            self._lengthen(len(group))
+            self._extend_block(len(group))
             if self.lanes == 1:
                 for k, value in enumerate(group):
                     build.store(value, build.gep(start, [_INT(i + k)]), align=8)
@@ -226,7 +226,7 @@ class _Function:
                 for lane, row in enumerate(self._transposed(group)):
                     build.store(
                         row,
-                        self._wide(build.gep(start, [_INT(lane * size + i)]), row.type),
+                        self._cast_pointer(build.gep(start, [_INT(lane * size + i)]), row.type),
                         align=8,
                     )
 
@@ -238,19 +238,19 @@ class _Function:
         if len(group) == LANES:
             (even, odd), (even2, odd2) = self._even_odd(*group[:2]), self._even_odd(*group[2:])
             return [
-                self._mixed(a, b, mask)
+                self._shuffled(a, b, mask)
                 for mask in ([0, 1, 4, 5], [2, 3, 6, 7])
                 for a, b in ((even, even2), (odd, odd2))
             ]
-        return [self._mixed(*group, [lane, LANES + lane]) for lane in range(LANES)]
+        return [self._shuffled(*group, [lane, LANES + lane]) for lane in range(LANES)]
 
     def _even_odd(self, a, b):
-        return self._mixed(a, b, [0, 4, 2, 6]), self._mixed(a, b, [1, 5, 3, 7])
+        return self._shuffled(a, b, [0, 4, 2, 6]), self._shuffled(a, b, [1, 5, 3, 7])
 
-    def _mixed(self, a, b, mask):
+    def _shuffled(self, a, b, mask):
         return self.build.shuffle_vector(a, b, ir.Constant(ir.VectorType(_INDEX, len(mask)), mask))
 
-    def _wide(self, place, kind):
+    def _cast_pointer(self, place, kind):
         """A place in an array of numbers, as one of `kind`."""
         if kind == _DOUBLE:
             return place

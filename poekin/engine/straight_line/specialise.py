@@ -11,19 +11,20 @@ from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
-from ...algebra import IDENTITY, add, compose, inverse, pose_of, rotate, set_column, translation
+from ...algebra import IDENTITY, add, compose, inverse, make_pose, rotate, set_column, translation
 from ...formulas.kinematics import columns, structured
 from .program import HALF_PI, Angles, Program, program
-from .trace import FOLDED, Graph
+from .trace import FOLD_TOLERANCE, Graph
 
 Pose = tuple[float, ...]
+Walk = tuple[Any, Any, Any, list[Any], list[Any]]
 
 
 @dataclass(frozen=True)
 class Structure:
     """An arm of n joints and m coordinates as the formulas of `structured` take it.
 
-    `links` (n, 4): sin alpha, cos alpha, a, b; `alongs` (n): d, without what slides; `parallel`
+    `links` (n, 4): sin alpha, cos alpha, a, b; `d_offsets` (n): d, without what slides; `parallel`
     (n).
     Joint i turns by rotates[i] x_i and slides by slides[i] x_i along its z axis, x = C q + c with
     `coupling` (n, m) and `shift` (n). Its angle at x = 0 is offsets[i] (rad) plus quarters[i] right
@@ -34,7 +35,7 @@ class Structure:
     """
 
     links: tuple[tuple[float, float, float, float], ...]
-    alongs: tuple[float, ...]
+    d_offsets: tuple[float, ...]
     parallel: tuple[int, ...]
     rotates: tuple[float, ...]
     slides: tuple[float, ...]
@@ -48,7 +49,7 @@ class Structure:
     coordinates: int
 
 
-def specialised(arm: Structure, frame: str | int | None, pose: bool) -> Program:
+def cheapest_program(arm: Structure, frame: str | int | None, pose: bool) -> Program:
     """The cheapest program of an arm's Jacobian in a frame ("space", "body", "hybrid" or a joint's
     index), or of its pose alone where frame is None; of both where `pose`. Outputs: the twelve
     numbers of the pose, then six rows of J.
@@ -62,13 +63,14 @@ def cheapest_frame(arm: Structure) -> tuple[int, float]:
     """The joint k in whose frame the Jacobian costs least, and how far the structure's frame k
     stands from that frame's origin, along z: 0 or the joint's d (m).
     """
-    places = [(k, h) for k, along in enumerate(arm.alongs) for h in dict.fromkeys((0.0, along))]
+    places = [(k, h) for k, along in enumerate(arm.d_offsets) for h in dict.fromkeys((0.0, along))]
     return min(
-        places, key=lambda place: _cost(specialised(placed(arm, *place), place[0], pose=False))
+        places,
+        key=lambda place: _cost(cheapest_program(with_frame_at(arm, *place), place[0], pose=False)),
     )
 
 
-def placed(arm: Structure, k: int, h: float) -> Structure:
+def with_frame_at(arm: Structure, k: int, h: float) -> Structure:
     """The arm for a user whose frame of joint k has the structure's frame at (0, 0, h) and is
     turned as it.
     """
@@ -118,67 +120,63 @@ class _Trace:
         self.driven_by = [
             [(k, factor) for k, factor in enumerate(row) if factor] for row in arm.coupling
         ]
-        self.alongs = [d + self._slide(i) for i, d in enumerate(arm.alongs)]
+        self.d_offsets = [d + self._slide(i) for i, d in enumerate(arm.d_offsets)]
         self.rows: list[list[Any]] = [[0.0] * 12 for _ in range(self.n)]
         self.points: list[list[Any]] = [[0.0] * 2 for _ in range(self.n)]
 
     def hybrid(self, seen: bool):
         """The pose, and the Jacobian in the axes of the base and at the tip."""
-        arm = self.arm
-        angles = self._outward_angles(0)
-        T = compose(self._outward(arm.base, 0, angles), arm.tool)
+        walk, T = self._outward_from_base()
         if seen:
-            p = structured.tip_seen(
-                translation(arm.tool), *self._links(), *angles, self.n, self.points
-            )
-            T = pose_of(T, add(rotate(arm.base, p), translation(arm.base)))
+            tool = translation(self.arm.tool)
+            T = self._with_tip(T, structured.tip_seen(tool, *walk, self.n, self.points))
         return T, self._jacobian([(0, self.n, seen)], translation(T))
 
     def space(self, seen: bool):
         """The pose, and the Jacobian in the base frame."""
-        arm = self.arm
-        angles = self._outward_angles(0)
-        T = compose(self._outward(arm.base, 0, angles), arm.tool)
-        point = translation(inverse(arm.base))
-        structured.seen_outward(point, *self._links(), *angles, 0, self.n, self.points)
+        walk, T = self._outward_from_base()
+        structured.seen_outward(translation(inverse(self.arm.base)), *walk, 0, self.points)
         return T, self._jacobian([(0, self.n, seen)])
 
     def body(self, seen: bool):
         """The pose, and the Jacobian in the frame of the tip."""
         arm = self.arm
-        angles = self._inward_angles(self.n - 1)
-        T = inverse(compose(self._inward(inverse(arm.tool), self.n - 1, angles), inverse(arm.base)))
-        p = structured.seen_inward(
-            translation(arm.tool), *self._links(), *angles, self.n - 1, self.points
-        )
+        last = self.n - 1
+        walk = self._inward_walk(last)
+        T = inverse(compose(self._inward(inverse(arm.tool), last, walk), inverse(arm.base)))
+        p = structured.seen_inward(translation(arm.tool), *walk, last, self.points)
         if seen:
-            T = pose_of(T, add(rotate(arm.base, p), translation(arm.base)))
+            T = self._with_tip(T, p)
         return T, self._jacobian([(0, self.n, seen)])
 
     def joint(self, k: int, inner: bool, outer: bool):
         """The Jacobian in the frame of joint k."""
         T_k = self.arm.frames[k]
         point = translation(inverse(T_k))
-        angles = self._inward_angles(k)
-        self._inward(T_k, k, angles)
-        structured.seen_inward(point, *self._links(), *angles, k, self.points)
-        angles = self._outward_angles(k + 1)
-        self._outward(T_k, k + 1, angles)
-        structured.seen_outward(point, *self._links(), *angles, k + 1, self.n, self.points)
+        walk = self._inward_walk(k)
+        self._inward(T_k, k, walk)
+        structured.seen_inward(point, *walk, k, self.points)
+        walk = self._outward_walk(k + 1)
+        self._outward(T_k, k + 1, walk)
+        structured.seen_outward(point, *walk, k + 1, self.points)
         return self._jacobian([(0, k + 1, inner), (k + 1, self.n, outer)])
 
-    def _outward(self, T, begin: int, angles: tuple[list, list]):
-        """The pose of the frame after the last joint where T is the one before joint `begin`."""
-        frame = structured.axes(T)
-        return structured.pose(
-            structured.outward(frame, *self._links(), *angles, begin, self.n, self.rows)
-        )
+    def _outward_from_base(self):
+        """The outward walk from the base, and the pose of the tip that it leads to."""
+        walk = self._outward_walk(0)
+        return walk, compose(self._outward(self.arm.base, 0, walk), self.arm.tool)
 
-    def _inward(self, T, begin: int, angles: tuple[list, list]):
+    def _with_tip(self, T, p):
+        """The pose T with its origin at p, given in the frame before joint 0."""
+        return make_pose(T, add(rotate(self.arm.base, p), translation(self.arm.base)))
+
+    def _outward(self, T, begin: int, walk: Walk):
+        """The pose of the frame after the last joint where T is the one before joint `begin`."""
+        return structured.pose(structured.outward(structured.axes(T), *walk, begin, self.rows))
+
+    def _inward(self, T, begin: int, walk: Walk):
         """The pose of the frame before joint 0 where T is the one after joint `begin`."""
-        return structured.pose(
-            structured.inward(structured.axes(T), *self._links(), *angles, begin, self.rows)
-        )
+        return structured.pose(structured.inward(structured.axes(T), *walk, begin, self.rows))
 
     def _jacobian(self, parts, p=(0, 0, 0)):
         """J from what the walks have written: velocity of the point p; parts are (begin, end,
@@ -199,9 +197,6 @@ class _Trace:
         columns.coupled(J, self.arm.coupling, self.n, self.arm.coordinates, J_q)
         return J_q
 
-    def _links(self) -> tuple[Any, Any, Any]:
-        return self.arm.links, self.alongs, self.arm.parallel
-
     def _slide(self, i: int):
         """s x_i, what joint i slides."""
         shift: Any = self.arm.slides[i] * self.arm.shift[i]
@@ -212,23 +207,32 @@ class _Trace:
                 )
         return shift
 
-    def _outward_angles(self, begin: int) -> tuple[list, list]:
-        pairs: list[tuple[Any, Any]]
-        pairs = [(0.0, 1.0)] * self.n
+    def _outward_walk(self, begin: int) -> Walk:
+        """Walk from joint `begin` to the last: a run of axes adds its angles up from its beginning."""
+        joints = {}
         start = begin
         for i in range(begin, self.n):
             start = start if self.arm.parallel[i] else i
-            pairs[i] = self._sine_cosine(range(start, i + 1))
-        return [s for s, _ in pairs], [c for _, c in pairs]
+            joints[i] = range(start, i + 1)
+        return self._walk(joints)
 
-    def _inward_angles(self, begin: int) -> tuple[list, list]:
-        pairs: list[tuple[Any, Any]]
-        pairs = [(0.0, 1.0)] * self.n
+    def _inward_walk(self, begin: int) -> Walk:
+        """Walk from joint `begin` to the first: a run of axes adds its angles up from its end."""
+        joints = {}
         end = begin
         for i in range(begin, -1, -1):
-            pairs[i] = self._sine_cosine(range(i, end + 1))
+            joints[i] = range(i, end + 1)
             end = end if self.arm.parallel[i] else i - 1
-        return [s for s, _ in pairs], [c for _, c in pairs]
+        return self._walk(joints)
+
+    def _walk(self, joints: dict[int, range]) -> Walk:
+        """Arguments of a walk, its sines and cosines of the sums of the angles of `joints`."""
+        pairs: list[tuple[Any, Any]] = [(0.0, 1.0)] * self.n
+        for i, summed in joints.items():
+            pairs[i] = self._sine_cosine(summed)
+        sines = [sine for sine, _ in pairs]
+        cosines = [cosine for _, cosine in pairs]
+        return self.arm.links, self.d_offsets, self.arm.parallel, sines, cosines
 
     def _sine_cosine(self, joints: range):
         """Sine and cosine of the sum of the joints' angles."""
@@ -240,7 +244,7 @@ class _Trace:
         offset = sum(arm.rotates[i] * arm.shift[i] + arm.offsets[i] for i in joints)
         quarters = sum(arm.quarters[i] for i in joints)
         whole = round(offset / HALF_PI)
-        if abs(offset - whole * HALF_PI) <= FOLDED:
+        if abs(offset - whole * HALF_PI) <= FOLD_TOLERANCE:
             offset = 0.0
             quarters = quarters + whole
         return self.angles.sine_cosine(factors, offset, quarters)

@@ -1,6 +1,6 @@
 """A scalar that records: run a formula on it and get the expression graph of what it computes.
 
-A product with 0 or +-1 and a sum with 0 are never recorded (`FOLDED` says how near), equal nodes
+A product with 0 or +-1 and a sum with 0 are never recorded (`FOLD_TOLERANCE` says how near), equal nodes
 are one node, signs stand beside nodes and cost nothing, and constants that meet are multiplied
 beforehand. What no output needs is left out when the graph is read.
 """
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-FOLDED = 2.0**-52
+FOLD_TOLERANCE = 2.0**-52
 """A constant that differs from 0 or +-1 by at most this, the rounding of a cosine of a right angle,
 counts as it.
 """
@@ -18,7 +18,7 @@ counts as it.
 def folded(value: float) -> float:
     """A constant; one that is 0 or +-1 but for rounding is that."""
     near = round(value) if abs(value) < 2 else value
-    if near in (-1, 0, 1) and abs(value - near) <= FOLDED:
+    if near in (-1, 0, 1) and abs(value - near) <= FOLD_TOLERANCE:
         return float(near)
     return float(value)
 
@@ -111,7 +111,7 @@ class Traced:
     def __add__(self, other):
         if isinstance(other, Traced):
             return self.graph.sum(self, other)
-        if abs(other) <= FOLDED:
+        if abs(other) <= FOLD_TOLERANCE:
             return self
         return self.graph.sum(self, self.graph.constant(other))
 

@@ -34,7 +34,7 @@ def about_point(J, rotates, slides, count, p):
         set_column(J, i, twist(scale(r, z), add(scale(r, v), scale(s, z))))
 
 
-def turned_into(J, count, R):
+def rotate_columns(J, count, R):
     """Both halves of every column times R^T: from base axes to the axes whose rotation in the base
     is R.
     """

@@ -24,17 +24,17 @@ def bracket(X, Y):
     return twist(cross(w, a), add(cross(w, linear(Y)), cross(linear(X), a)))
 
 
-def times(k, V):
+def scale_twist(k, V):
     """k V of a scalar and a twist."""
     return twist(scale(k, angular(V)), scale(k, linear(V)))
 
 
-def total(V, W):
+def add_twists(V, W):
     """V + W of two twists."""
     return twist(add(angular(V), angular(W)), add(linear(V), linear(W)))
 
 
-def difference(V, W):
+def subtract_twists(V, W):
     """V - W of two twists."""
     return twist(subtract(angular(V), angular(W)), subtract(linear(V), linear(W)))
 
@@ -45,16 +45,16 @@ def at_point(V, p):
     return twist(w, add(linear(V), cross(w, p)))
 
 
-def running(J, rates, count, V):
+def cumulative_twists(J, rates, count, V):
     """V_i = the sum over j <= i of J_j dx_j: the velocity of what follows joint i, written as
     column i of V.
 
     6 n multiplications and 6 n - 6 additions.
     """
-    W = times(rates[0], column(J, 0))
+    W = scale_twist(rates[0], column(J, 0))
     set_column(V, 0, W)
     for i in range(1, count):
-        W = total(W, times(rates[i], column(J, i)))
+        W = add_twists(W, scale_twist(rates[i], column(J, i)))
         set_column(V, i, W)
 
 
@@ -64,11 +64,11 @@ def space_rate(J, rates, count, dJ):
     24 n - 18 multiplications and 18 n - 18 additions.
     """
     set_column(dJ, 0, _ZERO)
-    V = times(rates[0], column(J, 0))
+    V = scale_twist(rates[0], column(J, 0))
     for i in range(1, count):
         S = column(J, i)
         set_column(dJ, i, bracket(V, S))
-        V = total(V, times(rates[i], S))
+        V = add_twists(V, scale_twist(rates[i], S))
 
 
 def body_rate(J, rates, count, dJ):
@@ -77,11 +77,11 @@ def body_rate(J, rates, count, dJ):
     24 n - 18 multiplications and 18 n - 18 additions.
     """
     set_column(dJ, count - 1, _ZERO)
-    U = times(rates[count - 1], column(J, count - 1))
+    U = scale_twist(rates[count - 1], column(J, count - 1))
     for i in range(count - 2, -1, -1):
         B = column(J, i)
         set_column(dJ, i, bracket(B, U))
-        U = total(U, times(rates[i], B))
+        U = add_twists(U, scale_twist(rates[i], B))
 
 
 def hybrid_rate(J, rates, count, dJ):
@@ -111,20 +111,23 @@ def hybrid_rate(J, rates, count, dJ):
 
 def acceleration(J, dJ, rates, accelerations, count):
     """dV/dt = J ddx + (dJ/dt) dx, in the frame of J: 12 n multiplications and 12 n - 6 additions."""
-    A = total(times(accelerations[0], column(J, 0)), times(rates[0], column(dJ, 0)))
+    A = add_twists(
+        scale_twist(accelerations[0], column(J, 0)), scale_twist(rates[0], column(dJ, 0))
+    )
     for i in range(1, count):
-        A = total(A, total(times(accelerations[i], column(J, i)), times(rates[i], column(dJ, i))))
+        A = add_twists(
+            A,
+            add_twists(
+                scale_twist(accelerations[i], column(J, i)), scale_twist(rates[i], column(dJ, i))
+            ),
+        )
     return A
 
 
 def set_derivative(H, i, j, V):
     """Writes V, the derivative of twist i by number j, into H: H[r][i][j] is its component r."""
-    H[0][i][j] = V[0]
-    H[1][i][j] = V[1]
-    H[2][i][j] = V[2]
-    H[3][i][j] = V[3]
-    H[4][i][j] = V[4]
-    H[5][i][j] = V[5]
+    for r in range(6):
+        H[r][i][j] = V[r]
 
 
 def space_hessian(J, count, H):

@@ -25,20 +25,14 @@ from ...algebra import (
     cross,
     linear,
     pose,
+    store_row,
     translation,
     twist,
 )
-from .derivatives import at_point, bracket, difference, set_derivative
+from .derivatives import at_point, bracket, set_derivative, subtract_twists
 
 _ZERO = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-UNITS = (
-    (1, 0, 0, 0, 0, 0),
-    (0, 1, 0, 0, 0, 0),
-    (0, 0, 1, 0, 0, 0),
-    (0, 0, 0, 1, 0, 0),
-    (0, 0, 0, 0, 1, 0),
-    (0, 0, 0, 0, 0, 1),
-)
+UNITS = tuple(tuple(int(k == e) for k in range(6)) for e in range(6))
 
 
 def products(exponentials, home, count, P):
@@ -51,8 +45,7 @@ def products(exponentials, home, count, P):
 
 def pose_row(P, i, T):
     """Write the pose T into row i of P, and hand out what stands there."""
-    for k in range(12):
-        P[i][k] = T[k]
+    store_row(P[i], T)
     return pose(P[i])
 
 
@@ -64,19 +57,19 @@ def pose_changes(P, count, D):
         before = adjoint(P[0], UNITS[e])
         for i in range(count):
             after = adjoint(P[i + 1], UNITS[e])
-            set_derivative(D, i, e, difference(before, after))
+            set_derivative(D, i, e, subtract_twists(before, after))
             before = after
         set_derivative(D, count, e, adjoint(P[count + 1], UNITS[e]))
 
 
-def _taken(D, i, e):
+def _derivative(D, i, e):
     return (D[0][i][e], D[1][i][e], D[2][i][e], D[3][i][e], D[4][i][e], D[5][i][e])
 
 
 def column_change(J, P, D, k, i, e):
     """Change of the space column s_k per unit of component e of eta_i; J holds the space columns."""
     if i < k:
-        return bracket(_taken(D, i, e), column(J, k))
+        return bracket(_derivative(D, i, e), column(J, k))
     if i == k:
         return bracket(adjoint(P[k], UNITS[e]), column(J, k))
     return _ZERO
@@ -102,8 +95,8 @@ def body_changes(J, P, D, count, C):
         for i in range(count + 1):
             for e in range(6):
                 change = column_change(J, P, D, k, i, e)
-                carried = bracket(_taken(D, i, e), S)
-                _store_change(C, k, i, e, adjoint_inverse(f, difference(change, carried)))
+                relative = bracket(_derivative(D, i, e), S)
+                _store_change(C, k, i, e, adjoint_inverse(f, subtract_twists(change, relative)))
 
 
 def hybrid_changes(J, P, D, count, C):
@@ -116,14 +109,10 @@ def hybrid_changes(J, P, D, count, C):
         for i in range(count + 1):
             for e in range(6):
                 change = at_point(column_change(J, P, D, k, i, e), p)
-                dp = linear(at_point(_taken(D, i, e), p))
+                dp = linear(at_point(_derivative(D, i, e), p))
                 _store_change(C, k, i, e, twist(angular(change), add(linear(change), cross(w, dp))))
 
 
 def _store_change(C, k, i, e, V):
-    C[0][k][i][e] = V[0]
-    C[1][k][i][e] = V[1]
-    C[2][k][i][e] = V[2]
-    C[3][k][i][e] = V[3]
-    C[4][k][i][e] = V[4]
-    C[5][k][i][e] = V[5]
+    for r in range(6):
+        C[r][k][i][e] = V[r]

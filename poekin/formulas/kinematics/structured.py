@@ -6,7 +6,7 @@ normal of two axes.
 F_i is the frame of joint i after its motion, z along the joint's axis. b is 0 where x runs along
 the common normal of two axes; where they are nearly parallel the common normal lies far away, and b
 takes the place of a large d.
-`links` holds sin alpha, cos alpha, a, b of the link that leads to joint i, `alongs` the d + s x_i
+`links` holds sin alpha, cos alpha, a, b of the link that leads to joint i, `d_offsets` the d + s x_i
 of the joint.
 
 A walk carries a frame's axes X, Y, Z and its origin o, seen from the frame where it begins: outward
@@ -24,30 +24,30 @@ n revolute joints 36 n - 68 and 21 n - 44 at most. Accuracy: as `forward`
 Source: Park 1994, Section IV, each link's constant pose taken apart as Denavit and Hartenberg do.
 """
 
-from ...algebra import add, scale, set_column, subtract
+from ...algebra import add, make_pose, scale, set_column, store_row, subtract, translation, twist
 
 
-def outward(frame, links, alongs, parallel, sines, cosines, begin, end, rows):
-    """From the frame before joint `begin` to the frame after joint end - 1, which is returned as
+def outward(frame, links, d_offsets, parallel, sines, cosines, begin, rows):
+    """From the frame before joint `begin` to the frame after the last joint, which is returned as
     (X, Y, Z, o).
     """
     X, Y, Z, o = frame
     run_X = X
     run_Y = Y
-    for i in range(begin, end):
+    for i in range(begin, len(links)):
         sin_alpha, cos_alpha, a, b = link(links[i])
         o = add(add(o, scale(a, X)), scale(b, Y))
         if not parallel[i]:
-            Y, Z = turned(Y, Z, sin_alpha, cos_alpha)
+            Y, Z = turn_axes(Y, Z, sin_alpha, cos_alpha)
             run_X = X
             run_Y = Y
         write(rows[i], run_X, run_Y, Z, o)
-        X, Y = turned(run_X, run_Y, sines[i], cosines[i])
-        o = add(o, scale(alongs[i], Z))
+        X, Y = turn_axes(run_X, run_Y, sines[i], cosines[i])
+        o = add(o, scale(d_offsets[i], Z))
     return X, Y, Z, o
 
 
-def inward(frame, links, alongs, parallel, sines, cosines, begin, rows):
+def inward(frame, links, d_offsets, parallel, sines, cosines, begin, rows):
     """From the frame after joint `begin` to the frame before joint 0, which is returned as (X, Y,
     Z, o).
     """
@@ -56,43 +56,43 @@ def inward(frame, links, alongs, parallel, sines, cosines, begin, rows):
     run_Y = Y
     for i in range(begin, -1, -1):
         write(rows[i], run_X, run_Y, Z, o)
-        o = subtract(o, scale(alongs[i], Z))
-        Y, X = turned(run_Y, run_X, sines[i], cosines[i])
+        o = subtract(o, scale(d_offsets[i], Z))
+        Y, X = turn_axes(run_Y, run_X, sines[i], cosines[i])
         sin_alpha, cos_alpha, a, b = link(links[i])
         if not parallel[i]:
-            Z, Y = turned(Z, Y, sin_alpha, cos_alpha)
+            Z, Y = turn_axes(Z, Y, sin_alpha, cos_alpha)
             run_X = X
             run_Y = Y
         o = subtract(subtract(o, scale(a, X)), scale(b, Y))
     return X, Y, Z, o
 
 
-def seen_outward(point, links, alongs, parallel, sines, cosines, begin, end, points):
+def seen_outward(point, links, d_offsets, parallel, sines, cosines, begin, points):
     """A point, given in the frame before joint `begin`, as each joint of an outward walk sees it.
 
     x and y in the axes of the joint's run into rows of `points`; returned are x, y, z in the frame
-    after joint end - 1.
+    after the last joint.
     """
     x, y, z = point
     sine = 0.0
     cosine = 1.0
-    for i in range(begin, end):
+    for i in range(begin, len(links)):
         sin_alpha, cos_alpha, a, b = link(links[i])
         x = x - (a * cosine - b * sine)
         y = y - (a * sine + b * cosine)
         if not parallel[i]:
-            x, y = turn(x, y, sine, cosine)
-            y, z = turn(y, z, sin_alpha, cos_alpha)
+            x, y = turn_coordinates(x, y, sine, cosine)
+            y, z = turn_coordinates(y, z, sin_alpha, cos_alpha)
         points[i][0] = x
         points[i][1] = y
         sine = sines[i]
         cosine = cosines[i]
-        z = z - alongs[i]
-    x, y = turn(x, y, sine, cosine)
+        z = z - d_offsets[i]
+    x, y = turn_coordinates(x, y, sine, cosine)
     return x, y, z
 
 
-def seen_inward(point, links, alongs, parallel, sines, cosines, begin, points):
+def seen_inward(point, links, d_offsets, parallel, sines, cosines, begin, points):
     """A point, given in the frame after joint `begin`, as each joint of an inward walk sees it.
 
     Returned are x, y, z in the frame before joint 0.
@@ -101,7 +101,7 @@ def seen_inward(point, links, alongs, parallel, sines, cosines, begin, points):
     for i in range(begin, -1, -1):
         points[i][0] = x
         points[i][1] = y
-        z = z + alongs[i]
+        z = z + d_offsets[i]
         sine = sines[i]
         cosine = cosines[i]
         sin_alpha, cos_alpha, a, b = link(links[i])
@@ -109,22 +109,22 @@ def seen_inward(point, links, alongs, parallel, sines, cosines, begin, points):
             x = x + (a * cosine + b * sine)
             y = y + (b * cosine - a * sine)
         else:
-            y, x = turn(y, x, sine, cosine)
-            z, y = turn(z, y, sin_alpha, cos_alpha)
+            y, x = turn_coordinates(y, x, sine, cosine)
+            z, y = turn_coordinates(z, y, sin_alpha, cos_alpha)
             x = x + a
             y = y + b
     return x, y, z
 
 
-def tip_seen(point, links, alongs, parallel, sines, cosines, count, points):
+def tip_seen(point, links, d_offsets, parallel, sines, cosines, count, points):
     """A point, given in the frame after the last joint, as each joint of an *outward* walk sees it:
     in the axes of its runs, by its angles. Returned are x, y, z in the frame before joint 0.
     """
     x, y, z = point
     for i in range(count - 1, -1, -1):
         if i == count - 1 or not parallel[i + 1]:
-            y, x = turn(y, x, sines[i], cosines[i])
-        z = z + alongs[i]
+            y, x = turn_coordinates(y, x, sines[i], cosines[i])
+        z = z + d_offsets[i]
         points[i][0] = x
         points[i][1] = y
         sin_alpha, cos_alpha, a, b = link(links[i])
@@ -132,7 +132,7 @@ def tip_seen(point, links, alongs, parallel, sines, cosines, count, points):
             x = x + (a * cosines[i - 1] - b * sines[i - 1])
             y = y + (a * sines[i - 1] + b * cosines[i - 1])
         else:
-            z, y = turn(z, y, sin_alpha, cos_alpha)
+            z, y = turn_coordinates(z, y, sin_alpha, cos_alpha)
             x = x + a
             y = y + b
     return x, y, z
@@ -153,7 +153,7 @@ def columns_of_axes(rows, points, rotates, slides, begin, end, J):
         )
         w = scale(r, Z)
         v = add(scale(r, v), scale(s, Z))
-        set_column(J, i, (w[0], w[1], w[2], v[0], v[1], v[2]))
+        set_column(J, i, twist(w, v))
 
 
 def link(row):
@@ -161,40 +161,29 @@ def link(row):
     return row[0], row[1], row[2], row[3]
 
 
-def turn(a, b, sine, cosine):
+def turn_coordinates(a, b, sine, cosine):
     """(cosine a + sine b, cosine b - sine a): two coordinates of a point in axes that are turned
     about the third.
     """
     return cosine * a + sine * b, cosine * b - sine * a
 
 
-def turned(a, b, sine, cosine):
+def turn_axes(a, b, sine, cosine):
     """(cosine a + sine b, cosine b - sine a): two axes of a frame after a turn about the third."""
     return add(scale(cosine, a), scale(sine, b)), subtract(scale(cosine, b), scale(sine, a))
 
 
 def write(row, X, Y, Z, o):
     """X, Y, Z and o into a row of 12 numbers."""
-    row[0] = X[0]
-    row[1] = X[1]
-    row[2] = X[2]
-    row[3] = Y[0]
-    row[4] = Y[1]
-    row[5] = Y[2]
-    row[6] = Z[0]
-    row[7] = Z[1]
-    row[8] = Z[2]
-    row[9] = o[0]
-    row[10] = o[1]
-    row[11] = o[2]
+    store_row(row, (*X, *Y, *Z, *o))
 
 
 def axes(T):
     """The axes X, Y, Z and the origin of a pose."""
-    return (T[0], T[3], T[6]), (T[1], T[4], T[7]), (T[2], T[5], T[8]), (T[9], T[10], T[11])
+    return (T[0], T[3], T[6]), (T[1], T[4], T[7]), (T[2], T[5], T[8]), translation(T)
 
 
 def pose(frame):
     """The pose of the axes X, Y, Z and the origin."""
     X, Y, Z, o = frame
-    return (X[0], Y[0], Z[0], X[1], Y[1], Z[1], X[2], Y[2], Z[2], o[0], o[1], o[2])
+    return make_pose((X[0], Y[0], Z[0], X[1], Y[1], Z[1], X[2], Y[2], Z[2]), o)

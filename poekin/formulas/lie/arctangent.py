@@ -34,7 +34,7 @@ ODD_SERIES = tuple(_coefficient(k) for k in range(1, _TERMS, 2))
 EVEN_SERIES = tuple(_coefficient(k) for k in range(2, _TERMS, 2))
 
 
-def _turned_back(y, x):
+def _reduce_angle(y, x):
     """(y', x', c, rest): the point turned back by c = 0, pi/4 or pi/2, and stretched, so that
     abs(y') <= x'/2.
     """
@@ -49,7 +49,7 @@ def angle(y, x):
     """(angle, rest) of the point (x, y), y >= 0 and x >= 0, in rad; rest is what rounding took."""
     if not elementary.takes_series(y):
         return elementary.atan2(y, x), y - y
-    y, x, start, start_rest = _turned_back(y, x)
+    y, x, start, start_rest = _reduce_angle(y, x)
     t = y / x
     tt = t * t
     beyond = t * tt * (polynomial(ODD_SERIES, tt * tt) + tt * polynomial(EVEN_SERIES, tt * tt))

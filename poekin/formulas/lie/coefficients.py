@@ -6,8 +6,8 @@ theta.
 
 A and E cancel nowhere. B and C subtract nearly equal numbers when t is small: there they are one
 Taylor polynomial
-in t^2, B below t = 1, C and the slopes below t = 2, where the closed form still loses a factor of
-10. exp takes the polynomials of B and C below t = 1 alone, which are shorter there. D and its slope
+in t^2, B below t = 1, C and the derivatives below t = 2, where the closed form still loses a
+factor of 10. exp takes the polynomials of B and C below t = 1 alone, which are shorter there. D and D'/t
 are sums of partial fractions,
 
     D = sum over k of 2 / ((2 pi k)^2 - t^2)        D'/t = sum over k of 4 / ((2 pi k)^2 - t^2)^2,
@@ -70,13 +70,18 @@ def _beyond_poles(k):
     )
 
 
+def _derivative_term(k, order):
+    """Coefficient of t^2k of B'/t (order 4) and C'/t (order 5)."""
+    return Fraction((-1) ** (k + 1) * 2 * (k + 1), factorial(2 * k + order))
+
+
 FIRST = float(_TURN)
 SECOND = 4 * float(_TURN)
 FIRST_REST = float(_TURN - Fraction(FIRST))
 D_SERIES = _series(_beyond_poles, FIRST)
-B_SLOPE_SERIES = _series(lambda k: Fraction((-1) ** (k + 1) * 2 * (k + 1), factorial(2 * k + 4)))
-C_SLOPE_SERIES = _series(lambda k: Fraction((-1) ** (k + 1) * 2 * (k + 1), factorial(2 * k + 5)))
-D_SLOPE_SERIES = _series(lambda k: 2 * (k + 1) * _beyond_poles(k + 1), FIRST)
+B_DERIVATIVE_SERIES = _series(lambda k: _derivative_term(k, 4))
+C_DERIVATIVE_SERIES = _series(lambda k: _derivative_term(k, 5))
+D_DERIVATIVE_SERIES = _series(lambda k: 2 * (k + 1) * _beyond_poles(k + 1), FIRST)
 
 
 def polynomial(coefficients, x):
@@ -94,7 +99,9 @@ def _two_chains(coefficients, x):
     return polynomial(coefficients[0], x * x) + x * polynomial(coefficients[1], x * x)
 
 
-_D_CHAINS, _D_SLOPE_CHAINS = ((series[0::2], series[1::2]) for series in (D_SERIES, D_SLOPE_SERIES))
+_D_CHAINS, _D_DERIVATIVE_CHAINS = (
+    (series[0::2], series[1::2]) for series in (D_SERIES, D_DERIVATIVE_SERIES)
+)
 
 
 def a_of(t):
@@ -164,21 +171,21 @@ def d_and_e(tt, rest):
     return first + others, 1.0 - tt * first - (tt * others + rest * first)
 
 
-def b_slope(tt, a, b):
+def b_derivative(tt, a, b):
     """B'/t = (A - 2 B) / t^2."""
     if elementary.below(tt, SWITCH):
-        return polynomial(B_SLOPE_SERIES, tt)
+        return polynomial(B_DERIVATIVE_SERIES, tt)
     return (a - 2.0 * b) / tt
 
 
-def c_slope(tt, b, c):
+def c_derivative(tt, b, c):
     """C'/t = (B - 3 C) / t^2."""
     if elementary.below(tt, SWITCH):
-        return polynomial(C_SLOPE_SERIES, tt)
+        return polynomial(C_DERIVATIVE_SERIES, tt)
     return (b - 3.0 * c) / tt
 
 
-def d_slope(tt):
+def d_derivative(tt):
     """D'/t = (1/(2 B) + E - 2) / t^4 from t^2, for t < 2 pi."""
     if not elementary.takes_series(tt):
         t = elementary.sqrt(tt)
@@ -187,4 +194,4 @@ def d_slope(tt):
         return (tt + 1.0) / 360.0
     first = 2.0 / (FIRST - tt + FIRST_REST)
     second = 2.0 / (SECOND - tt)
-    return first * first + (second * second + _two_chains(_D_SLOPE_CHAINS, tt))
+    return first * first + (second * second + _two_chains(_D_DERIVATIVE_CHAINS, tt))

@@ -17,17 +17,17 @@ from .. import elementary
 from .coefficients import (
     NEAR,
     SWITCH,
+    b_derivative,
     b_near,
-    b_slope,
+    c_derivative,
     c_near,
     c_of,
-    c_slope,
     d_and_e,
+    d_derivative,
     d_of,
-    d_slope,
 )
 from .compensated import length, square_rest
-from .exponential import closed, rotation, turned
+from .exponential import closed_form, rotation, rotation_by_cosine
 
 _SIZE = 8.0  # a power of two above 2 pi
 
@@ -37,7 +37,7 @@ def _abc(w, tt):
     if elementary.below(tt, NEAR):
         c = c_near(tt)
         return 1.0 - tt * c, b_near(tt), c
-    a, b, _ = closed(w, tt)
+    a, b, _ = closed_form(w, tt)
     c = c_of(tt, a)
     if elementary.below(tt, SWITCH):
         return a, b, c
@@ -51,14 +51,14 @@ def left(w):
     a, b, c = _abc(w, tt)
     if elementary.below(tt, NEAR):
         return rotation(w, b, c)
-    return turned(w, b, c, a)
+    return rotation_by_cosine(w, b, c, a)
 
 
 def left_inverse(w):
     """J(w)^-1, row by row, for |w| < 2 pi."""
     tt = dot(w, w)
     d, e = d_and_e(tt, square_rest(w, _SIZE, tt))
-    return turned(w, -0.5, d, e)
+    return rotation_by_cosine(w, -0.5, d, e)
 
 
 def _dual(w, v, p, q, r, s):
@@ -84,7 +84,7 @@ def left_dual(w, v):
     """Q(w, v), the lower left block of the left Jacobian on SE(3), row by row."""
     tt = dot(w, w)
     a, b, c = _abc(w, tt)
-    return _dual(w, v, b, c, b_slope(tt, a, b), c_slope(tt, b, c))
+    return _dual(w, v, b, c, b_derivative(tt, a, b), c_derivative(tt, b, c))
 
 
 def left_inverse_dual(w, v):
@@ -92,4 +92,4 @@ def left_inverse_dual(w, v):
     pi.
     """
     tt = dot(w, w)
-    return _dual(w, v, -0.5, d_of(tt), 0.0, d_slope(tt))
+    return _dual(w, v, -0.5, d_of(tt), 0.0, d_derivative(tt))

@@ -7,7 +7,7 @@ and within twice that in every case that the property tests draw. |w| beyond 1e1
 Source: Park 1994, Lemmas 1 and 2.
 """
 
-from ...algebra import add, cross, dot, pose_of, scale, subtract
+from ...algebra import add, cross, dot, make_pose, scale, subtract
 from .. import elementary
 from .coefficients import NEAR, b_near, c_near
 from .compensated import length
@@ -18,10 +18,10 @@ def rotation(w, a, b):
     xx = w[0] * w[0]
     yy = w[1] * w[1]
     zz = w[2] * w[2]
-    return _around(w, a, b, 1.0 - b * (yy + zz), 1.0 - b * (xx + zz), 1.0 - b * (xx + yy))
+    return _with_diagonal(w, a, b, 1.0 - b * (yy + zz), 1.0 - b * (xx + zz), 1.0 - b * (xx + yy))
 
 
-def _around(w, a, b, first, second, third):
+def _with_diagonal(w, a, b, first, second, third):
     """a [w] + b w w^T with another diagonal, row by row."""
     xy = b * (w[0] * w[1])
     yz = b * (w[1] * w[2])
@@ -54,14 +54,14 @@ def _diagonal(b, along, across, cosine):
     return cosine + b * along
 
 
-def turned(w, a, b, cosine):
+def rotation_by_cosine(w, a, b, cosine):
     """cos theta I + a [w] + b w w^T, row by row: the same as I + a [w] + b [w]^2 where theta is
     large.
     """
     xx = w[0] * w[0]
     yy = w[1] * w[1]
     zz = w[2] * w[2]
-    return _around(
+    return _with_diagonal(
         w,
         a,
         b,
@@ -71,7 +71,7 @@ def turned(w, a, b, cosine):
     )
 
 
-def closed(w, tt):
+def closed_form(w, tt):
     """(A, B, cos theta) of a rotation vector, theta >= 1, from tt = |w|^2 to rounding.
 
     What rounding took from tt and from its root is put back to first order: else it would count
@@ -94,7 +94,7 @@ def so3(w):
     tt = dot(w, w)
     if elementary.below(tt, NEAR):
         return rotation(w, 1.0 - tt * c_near(tt), b_near(tt))
-    return turned(w, *closed(w, tt))
+    return rotation_by_cosine(w, *closed_form(w, tt))
 
 
 def se3(w, v):
@@ -109,15 +109,15 @@ def se3(w, v):
     if elementary.below(tt, NEAR):
         b = b_near(tt)
         c = c_near(tt)
-        return pose_of(
+        return make_pose(
             rotation(w, 1.0 - tt * c, b), linear_combination(1.0, v, c, cross(w, across), b, across)
         )
-    a, b, cosine = closed(w, tt)
+    a, b, cosine = closed_form(w, tt)
     k = dot(w, v) / tt
     v_across = subtract(v, scale(k, w))
     more = dot(w, v_across) / tt  # of v_across, what rounding left along w
     p = add(scale(k, w), linear_combination(a, v_across, (1.0 - a) * more, w, b, across))
-    return pose_of(turned(w, a, b, cosine), p)
+    return make_pose(rotation_by_cosine(w, a, b, cosine), p)
 
 
 def joint(w, v, q, sine, cosine):
@@ -131,7 +131,7 @@ def joint(w, v, q, sine, cosine):
     across = cross(w, v)
     v_across = cross(across, w)
     versine = 1.0 - cosine
-    return pose_of(
+    return make_pose(
         rotation(w, sine, versine),
         linear_combination(sine, v_across, versine, across, q, subtract(v, v_across)),
     )

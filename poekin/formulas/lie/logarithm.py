@@ -58,7 +58,7 @@ def _product(k, k_rest, x, x_rest, size):
     return k * x_upper + (k * (x - x_upper + x_rest) + k_rest * x)
 
 
-def _along(theta, rest, axis):
+def _rotation_vector(theta, rest, axis):
     """(theta + rest) n, rounded once."""
     v, v_rest, r, r_rest, inverse = axis
     k = theta * inverse
@@ -74,10 +74,10 @@ def _along(theta, rest, axis):
 def so3(R):
     """The rotation vector w (rad) with exp [w] = R, 0 <= |w| <= pi: Lemma 3."""
     theta, rest, axis, _ = _polar(R)
-    return _along(theta, rest, axis)
+    return _rotation_vector(theta, rest, axis)
 
 
-def _linear(w, n, p, e):
+def _linear_part(w, n, p, e):
     """J(w)^-1 p, the linear part of log, in the form that does not cancel.
 
     p + D w x (w x p) - w x p / 2 where theta < 2, and p_along + E p_across - w x p / 2 elsewhere:
@@ -96,18 +96,18 @@ def _linear(w, n, p, e):
 def se3(T):
     """The twist (w; v) with exp = T, 0 <= |w| <= pi: Lemma 4."""
     theta, rest, axis, cotangent = _polar(T)
-    w = _along(theta, rest, axis)
+    w = _rotation_vector(theta, rest, axis)
     e = 0.5 * theta * cotangent
-    return twist(w, _linear(w, scale(axis[4], axis[0]), translation(T), e))
+    return twist(w, _linear_part(w, scale(axis[4], axis[0]), translation(T), e))
 
 
-def _near(theta, rest, axis, w_near):
+def _nearest_branch(theta, rest, axis, w_near):
     """(w, phi, free): the logarithm w = phi n that is closest to w_near, phi = theta + 2 pi k.
 
     A rotation that is the identity to rounding has logarithms of 2 pi k about any axis: then n is
     that of w_near and `free` is true.
     """
-    w = _along(theta, rest, axis)
+    w = _rotation_vector(theta, rest, axis)
     t = elementary.sqrt(dot(w, w))
     reach = elementary.sqrt(dot(w_near, w_near))
     turns = reach / _TAU + 0.5
@@ -122,13 +122,13 @@ def _near(theta, rest, axis, w_near):
     turned = k * _TAU
     phi = theta + turned
     rest = rest + (sum_rest(theta, turned, phi) + (k * _TAU_REST - quotient_rest(turned, k, _TAU)))
-    return _along(phi, rest, axis), phi, False
+    return _rotation_vector(phi, rest, axis), phi, False
 
 
 def so3_near(R, w_near):
     """Logarithm w of R closest to w_near (rad), of all those of Remark 1."""
     theta, rest, axis, _ = _polar(R)
-    return _near(theta, rest, axis, w_near)[0]
+    return _nearest_branch(theta, rest, axis, w_near)[0]
 
 
 def se3_near(T, w_near, v_near):
@@ -139,11 +139,11 @@ def se3_near(T, w_near, v_near):
     there is none.
     """
     theta, rest, axis, cotangent = _polar(T)
-    w, phi, free = _near(theta, rest, axis, w_near)
+    w, phi, free = _nearest_branch(theta, rest, axis, w_near)
     p = translation(T)
     if not free:
         # (phi/2) cot(phi/2): the cotangent is that of theta/2, which has lost no digit
-        return twist(w, _linear(w, scale(axis[4], axis[0]), p, 0.5 * phi * cotangent))
+        return twist(w, _linear_part(w, scale(axis[4], axis[0]), p, 0.5 * phi * cotangent))
     n = scale(1.0 / phi, w)
     along = scale(dot(n, p), n)
     p_across = cross(cross(n, p), n)

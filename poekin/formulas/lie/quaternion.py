@@ -14,7 +14,7 @@ from .compensated import upper
 _UNIT = 2.0**-25  # as `size` of `upper`: digits down to the last one of 4
 
 
-def _least(R):
+def _of_smallest_angle(R):
     """q = (p; q_v), rest and 1 / |q|^2 of a rotation of which w is the largest component: p = 4
     w^2.
 
@@ -49,7 +49,7 @@ def _least(R):
     return (p, x, y, z), rests, inverse
 
 
-def _flipped(R, x, y, z):
+def _scale_columns(R, x, y, z):
     """R with its columns times x, y and z."""
     return (
         x * R[0],
@@ -64,7 +64,7 @@ def _flipped(R, x, y, z):
     )
 
 
-def _about(R):
+def _half_turn_axis(R):
     """Index of the least angle among R (0) and R after a half turn about its x, y or z axis
     (1, 2, 3).
     """
@@ -78,8 +78,8 @@ def _about(R):
     return 3
 
 
-def _turned_back(axis, w, x, y, z):
-    """The quaternion before the half turn about an axis that `_about` names."""
+def _undo_half_turn(axis, w, x, y, z):
+    """The quaternion before the half turn about an axis that `_half_turn_axis` names."""
     if axis == 1:
         return -x, w, z, -y
     if axis == 2:
@@ -96,13 +96,13 @@ def parts(R):
     Where w = 0 (theta = pi) the component of largest magnitude is positive; this settles the sign
     that Remark 1 leaves open.
     """
-    axis = _about(R)
-    turned = _flipped(
+    axis = _half_turn_axis(R)
+    turned = _scale_columns(
         R, -1.0 if axis > 1 else 1.0, -1.0 if axis % 2 else 1.0, -1.0 if axis in (1, 2) else 1.0
     )
-    q, rest, inverse = _least(turned)
-    q = _turned_back(axis, q[0], q[1], q[2], q[3])
-    rest = _turned_back(axis, rest[0], rest[1], rest[2], rest[3])
+    q, rest, inverse = _of_smallest_angle(turned)
+    q = _undo_half_turn(axis, *q)
+    rest = _undo_half_turn(axis, *rest)
     sign = 1.0
     if q[0] + rest[0] < 0:
         sign = -1.0

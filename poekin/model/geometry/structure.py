@@ -18,7 +18,7 @@ import numpy as np
 
 from ...algebra import add, cross, dot, scale, subtract
 from ...engine.straight_line.specialise import Pose, Structure
-from ...engine.straight_line.trace import FOLDED
+from ...engine.straight_line.trace import FOLD_TOLERANCE
 from ...groups.arrays import Array
 from ..chain_data import ChainData
 from .local import turned_least
@@ -77,7 +77,7 @@ class _Step(NamedTuple):
 
 def structure(chain: ChainData) -> Structure:
     """The structure of a chain. Its kinematics are the chain's within 1e-15 reach a joint (see
-    `trace.FOLDED`).
+    `trace.FOLD_TOLERANCE`).
     """
     with digits():
         return _structure(chain)
@@ -118,10 +118,10 @@ def _step(frame: Frame, z: Vector, p: Vector, slides: bool) -> _Step:
     sine = length(cross(frame.z, z))
     cosine = dot(frame.z, z)
     w = subtract(p, frame.o)
-    if sine <= FOLDED:
+    if sine <= FOLD_TOLERANCE:
         w = across(w, frame.z)
         a = length(w)
-        x = unit(w) if a > FOLDED else frame.x
+        x = unit(w) if a > FOLD_TOLERANCE else frame.x
         sign = math.copysign(1.0, cosine)
         return _Step(x, frame.z, ZERO, Decimal(1), a, parallel=1, sign=sign)
     x = unit(cross(frame.z, z))
@@ -145,7 +145,7 @@ def _as_structure(chain: ChainData, joints: list[_Joint], base: Pose, tool: Pose
     signs = np.array([joint.sign for joint in joints])
     return Structure(
         links=tuple(joint.link for joint in joints),
-        alongs=tuple(joint.along for joint in joints),
+        d_offsets=tuple(joint.along for joint in joints),
         parallel=tuple(joint.parallel for joint in joints),
         rotates=tuple((signs * chain.local.rotates).tolist()),
         slides=tuple((signs * chain.local.slides).tolist()),
@@ -168,7 +168,7 @@ def _angle(turn: tuple[Decimal, Decimal]) -> tuple[int, float]:
     angle = math.atan2(sine, cosine)
     quarters = round(angle / (math.pi / 2))
     left = sine if quarters % 2 == 0 else cosine
-    if abs(float(left)) <= FOLDED:
+    if abs(float(left)) <= FOLD_TOLERANCE:
         return quarters % 4, 0.0
     return 0, angle
 

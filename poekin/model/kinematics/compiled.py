@@ -21,7 +21,7 @@ from .pose_jacobian import AnyFrame
 from .programs import ChainPrograms
 
 if TYPE_CHECKING:
-    from ...engine.straight_line.arm import Arm
+    from ...engine.straight_line.arm_code import ArmCode
 
 _Calls = dict[object, tuple[Callable, int]]
 # Names looked up once: one call takes less than a microsecond.
@@ -90,7 +90,7 @@ class CompiledChain(ChainPrograms[AnyChain]):
         self._kernels = arm_kernels
         self._interpreted = bool(config.DISABLE_JIT)  # type: ignore[attr-defined]
         self._shape = chain.jacobian_shape
-        self._arms: dict[tuple[int | None, bool, bool], Arm] = {}
+        self._arms: dict[tuple[int | None, bool, bool], ArmCode] = {}
         # The kernel and the arm that one configuration needs, by the frame as the user says it. A
         # kernel refuses what is not exactly one float64 configuration and its results; then the
         # longer way is taken, which takes everything and says what is wrong. Only the order of a
@@ -261,16 +261,16 @@ class CompiledChain(ChainPrograms[AnyChain]):
         calls[frame] = ready, self._arm(code, pose, jacobian).address
         return calls[frame]
 
-    def _arm(self, code: int | None, pose: bool, jacobian: bool) -> Arm:
+    def _arm(self, code: int | None, pose: bool, jacobian: bool) -> ArmCode:
         """The machine code for a frame."""
         with COMPILING:
             if (code, pose, jacobian) not in self._arms:
-                from ...engine.straight_line.arm import arm
+                from ...engine.straight_line.arm_code import arm_code
 
                 # the structure, not the chain's numbers: it also holds what the modules of this
                 # room make of them
                 key = self.structure, code, jacobian
-                self._arms[code, pose, jacobian] = arm(
+                self._arms[code, pose, jacobian] = arm_code(
                     key, lambda: self._program(code, pose), self.dof, pose
                 )
             return self._arms[code, pose, jacobian]

@@ -8,7 +8,12 @@ from typing import Any, Generic, NamedTuple
 import numpy as np
 
 from ...engine.straight_line.program import Program
-from ...engine.straight_line.specialise import Structure, cheapest_frame, placed, specialised
+from ...engine.straight_line.specialise import (
+    Structure,
+    cheapest_frame,
+    cheapest_program,
+    with_frame_at,
+)
 from ...errors import InputError
 from ...groups.arrays import Array
 from ..chain_data import AnyChain
@@ -92,8 +97,8 @@ class ChainPrograms(Generic[AnyChain]):
     def _program(self, code: int | None, pose: bool) -> Program:
         if code == CHEAPEST:
             k, h, _ = self.cheapest
-            return specialised(placed(self.structure, k, h), k, pose)
-        return specialised(self.structure, _NAMES.get(code, code), pose)
+            return cheapest_program(with_frame_at(self.structure, k, h), k, pose)
+        return cheapest_program(self.structure, _NAMES.get(code, code), pose)
 
     def _frame_code(self, frame: object) -> int:
         if isinstance(frame, str) and frame == "cheapest":

@@ -95,7 +95,7 @@ class Problem:
         self.locked = self.domain.locked.astype(float)
         self.options = _options(settings, self.task)
         self._solve = ik_kernels.solve_many
-        self._judge = ik_kernels.judge
+        self._judge = ik_kernels.pose_errors
         self._error_parts = ik_kernels.error_parts
         self._address = self.fast.hybrid_address
         self._rows = _rows(settings.restarts, settings.iterations)

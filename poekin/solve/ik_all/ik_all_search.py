@@ -107,7 +107,7 @@ def pose_errors(chain: Chain, q: Array, T: Array) -> Array:
     from ...engine.kernels import ik_kernels
 
     errors = np.empty((len(q), 2))
-    ik_kernels.judge.call(
+    ik_kernels.pose_errors.call(
         chain.kernel_table, q, np.ascontiguousarray(T), ik_codes.POSE, np.zeros(3), errors
     )
     return errors
@@ -144,10 +144,10 @@ def _search(
     low, high = sampling_range(chain)
     ranges = np.where(turn[:, None] > 0, turn[:, None] * [-0.5, 0.5], np.stack([low, high], axis=1))
     rules = np.zeros(kernel.RULE)
-    rules[kernel.ACCEPTED] = accepted(chain)
-    rules[kernel.EACH] = rule.min_hits
+    rules[kernel.MAX_ERROR] = accepted(chain)
+    rules[kernel.MIN_HITS] = rule.min_hits
     rules[kernel.RESTARTS] = rule.restarts
-    rules[kernel.BARREN] = rule.max_misses
+    rules[kernel.MAX_MISSES] = rule.max_misses
     q = np.empty((N, _ROOM, m))
     hits = np.empty((N, _ROOM))
     info = np.empty((N, kernel.INFO))

@@ -495,7 +495,7 @@ def test_a_generic_arm_has_the_joints_and_the_coupling_of_the_user_s_and_links_o
         assert (np.hypot(sine, cosine), rest) == (pytest.approx(1), 0)
         assert 0.2 <= d <= 0.9
         assert 0.2 <= np.arctan2(sine, cosine) <= 0.9
-    assert len({*found.alongs, *(link[2] for link in found.links[1:])}) == 7
+    assert len({*found.d_offsets, *(link[2] for link in found.links[1:])}) == 7
     here = (*np.eye(3).ravel(), 0, 0, 0)
     assert found.frames == (here,) * 4
     assert (found.base == here, found.tool == here) == (not tool, not tool)

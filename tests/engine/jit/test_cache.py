@@ -111,7 +111,7 @@ class Session:
 
     def _begin(self) -> None:
         self.caplog.clear()
-        self.monkeypatch.setattr(cache, "_said", set())
+        self.monkeypatch.setattr(cache, "_logged", set())
 
 
 @pytest.fixture
@@ -244,7 +244,7 @@ def test_what_names_no_place_is_one_log_line(tmp_path, monkeypatch, caplog, plac
     folder = tmp_path / "folder"
     folder.mkdir()
     monkeypatch.chdir(folder)
-    monkeypatch.setattr(cache, "_said", set())
+    monkeypatch.setattr(cache, "_logged", set())
     monkeypatch.setenv("POEKIN_CACHE_DIR", NO_PLACES[place](folder))
     assert cache.entry("arm", 0) is None
     assert cache.entry("arm", 1) is None
@@ -256,7 +256,7 @@ def test_what_names_no_place_is_one_log_line(tmp_path, monkeypatch, caplog, plac
 def place(tmp_path, monkeypatch, caplog):
     """A cache that is empty."""
     monkeypatch.setenv("POEKIN_CACHE_DIR", str(tmp_path / "kernels"))
-    monkeypatch.setattr(cache, "_said", set())
+    monkeypatch.setattr(cache, "_logged", set())
     return tmp_path / "kernels"
 
 
@@ -281,7 +281,7 @@ def test_an_entry_larger_than_any_is_not_read(place, monkeypatch, caplog):
     entry = cache.entry("arm", 0)
     assert entry is not None
     cache.write(entry, bytes(68))
-    monkeypatch.setattr(cache, "LARGEST", 100)
+    monkeypatch.setattr(cache, "MAX_ENTRY", 100)
     assert cache.read(entry) == bytes(68)
     cache.write(entry, bytes(69))
     assert cache.read(entry) is None
@@ -306,7 +306,7 @@ def test_the_bound_counts_the_bytes_of_the_file_written(place, monkeypatch):
     entry = cache.entry("arm", 0)
     assert entry is not None
     cache.write(entry, b"code")
-    assert told == [(place, entry.stat().st_size, cache.most())]
+    assert told == [(place, entry.stat().st_size, cache.size_limit())]
 
 
 def test_an_entry_is_kept_by_name_key_source_versions_and_options(place, monkeypatch):
@@ -333,7 +333,7 @@ def test_an_entry_is_kept_by_name_key_source_versions_and_options(place, monkeyp
 def kept(place: Path) -> list[str]:
     """The names of all entries, the sizes of which are together within the bound."""
     files = list(place.iterdir())
-    assert sum(file.stat().st_size for file in files) <= cache.most()
+    assert sum(file.stat().st_size for file in files) <= cache.size_limit()
     return sorted(file.name.partition(".")[0] for file in files)
 
 
@@ -384,15 +384,15 @@ def test_what_a_process_left_half_written_is_removed_in_its_turn(place, monkeypa
 )
 def test_the_size_of_the_cache_is_the_user_s_in_mib(monkeypatch, caplog, said, size):
     monkeypatch.setenv("POEKIN_CACHE_SIZE", said)
-    assert cache.most() == size * 2**20
+    assert cache.size_limit() == size * 2**20
     assert not caplog.messages
 
 
 @pytest.mark.parametrize("said", ["-1", "nan", "much", "1 GiB"])
 def test_a_size_that_is_none_is_one_log_line_and_the_usual_size(monkeypatch, caplog, said):
-    monkeypatch.setattr(cache, "_said", set())
+    monkeypatch.setattr(cache, "_logged", set())
     monkeypatch.setenv("POEKIN_CACHE_SIZE", said)
-    assert cache.most() == cache.most() == 100 * 2**20
+    assert cache.size_limit() == cache.size_limit() == 100 * 2**20
     (message,) = caplog.messages
     assert f"POEKIN_CACHE_SIZE={said} is no number of MiB from 0 on: 100 are taken" in message
 
@@ -533,8 +533,8 @@ def test_without_compiling_everything_still_runs_and_an_arm_s_program_is_interpr
 def test_where_a_system_has_no_flags_for_links_and_pipes_files_are_opened_as_they_are(monkeypatch):
     opened: list[int] = []
     monkeypatch.setattr(os, "open", lambda path, flags: opened.append(flags))
-    cache._as_it_is("file", os.O_RDONLY)
+    cache._open_regular("file", os.O_RDONLY)
     monkeypatch.delattr(os, "O_NOFOLLOW", raising=False)
     monkeypatch.delattr(os, "O_NONBLOCK", raising=False)
-    cache._as_it_is("file", os.O_RDWR)
+    cache._open_regular("file", os.O_RDWR)
     assert opened[1] == os.O_RDWR

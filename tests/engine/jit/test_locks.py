@@ -12,7 +12,7 @@ from llvmlite.binding import ffi
 from numba.core.compiler_lock import global_compiler_lock
 
 from poekin.engine.jit.locks import COMPILING
-from poekin.engine.straight_line.arm import Arm
+from poekin.engine.straight_line.arm_code import ArmCode
 from poekin.engine.straight_line.machine_code import object_code
 from poekin.model.chain import Chain
 
@@ -23,7 +23,7 @@ def _compile() -> None:
     with COMPILING, global_compiler_lock:
         pass
     program = Chain.from_space([[0, 0, 1, 0, 0, 0]], np.eye(4)).compile().program("hybrid")
-    Arm(object_code(program, False), len(program.angles), 1)
+    ArmCode(object_code(program, False), len(program.angles), 1)
 
 
 def _forked(work) -> int:

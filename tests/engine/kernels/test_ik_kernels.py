@@ -135,9 +135,8 @@ def descended(
     row = options(**changed)
     row[codes.WEIGHTS :] = weights
     m = len(q)
-    T, J, H = np.empty((4, 4)), np.empty((6, m)), np.empty((m, m))
     problem = ik_kernels.Problem(ARM, limits, fixed, row)  # type: ignore[arg-type]
-    return q, ik_kernels.descend(problem, target, q, T, J, H, ik_kernels.scratch_rows(m))
+    return q, ik_kernels.descend(problem, target, q, ik_kernels.scratch_of_try(m))
 
 
 def step(q: np.ndarray, target: np.ndarray, weights: np.ndarray, free: list[int]) -> np.ndarray:
@@ -405,7 +404,7 @@ def test_a_path_ends_where_a_coordinate_moves_too_far(k, monkeypatch):
 def test_results_are_judged_by_the_chain_in_the_parts_of_the_task(task):
     q, axis = np.stack([Q, Q + 0.1, -Q]), np.array([0.48, 0.6, 0.64])
     targets, errors = np.stack([TARGET, ARM.fk(Q + 0.1), np.eye(4)]), np.full((3, 2), -1.0)
-    ik_kernels.judge.function(ARM.kernel_table, q, targets, task, axis, errors)
+    ik_kernels.pose_errors.function(ARM.kernel_table, q, targets, task, axis, errors)
     for target, row, (position, rotation) in zip(targets, q, errors, strict=True):
         T = ARM.fk(row)
         a, b = T[:3, :3] @ axis, target[:3, :3] @ axis
@@ -425,7 +424,7 @@ def test_an_angle_goes_the_shorter_way_round():
         (0.3, turn, 0.3), (-0.3, turn, -0.3), (3.5, turn, 3.5 - turn), (-3.5, turn, turn - 3.5),
         (turn + 0.1, turn, 0.1), (-3 * turn - 0.1, turn, -0.1), (3.5, 0.0, 3.5), (0.7, 0.5, 0.2), (100.0, 0.0, 100.0),
     ):  # fmt: skip
-        assert ik_all_kernel.around(d, period) == pytest.approx(expected, abs=1e-12)
+        assert ik_all_kernel.wrapped_difference(d, period) == pytest.approx(expected, abs=1e-12)
 
 
 PERIODS = np.array([2 * math.pi, 0.0, 2 * math.pi, 0.0])
@@ -433,8 +432,9 @@ PERIODS = np.array([2 * math.pi, 0.0, 2 * math.pi, 0.0])
 
 def is_same(target: Any, a: Any, b: Any, middle: np.ndarray, limit: float) -> bool:
     problem: Any = ik_kernels.Problem(ARM, WIDE, FREE, options())  # type: ignore[arg-type]
-    T, J, rows = np.empty((4, 4)), np.empty((6, 4)), ik_kernels.scratch_rows(4)
-    return ik_all_kernel.is_same(problem, target, (a, b, middle), PERIODS, limit, T, J, rows)
+    return ik_all_kernel.is_same(
+        problem, target, (a, b, middle), PERIODS, limit, ik_kernels.scratch_of_try(4)
+    )
 
 
 @pytest.mark.parametrize("k", range(4))
@@ -466,16 +466,16 @@ def test_two_ends_are_one_where_they_are_one_place_or_the_pose_halfway_is_the_ta
 def test_columns_are_nearly_dependent_below_1e_5_of_each_other(m):
     rng = np.random.default_rng(m)
     U = np.linalg.qr(rng.normal(size=(6, 6)))[0][:, :m]
-    H, rows, ones = np.empty((m, m)), ik_kernels.scratch_rows(m), np.ones(6)
+    work, ones = ik_kernels.scratch_of_try(m), np.ones(6)
     for k in range(m):
         for small, singular in ((1.1e-5, False), (0.9e-5, m > 1)):
             sizes = np.ones(m)
             sizes[k] = small
-            assert ik_all_kernel.is_singular(U * sizes, ones, H, rows) == singular
+            assert ik_all_kernel.is_singular(ones, work._replace(J=U * sizes)) == singular
     if m > 1:
         J = U.copy()
         J[:, -1] = J[:, 0] + 1e-9 * J[:, -1]
-        assert ik_all_kernel.is_singular(J, ones, H, rows)
+        assert ik_all_kernel.is_singular(ones, work._replace(J=J))
 
 
 def test_solutions_were_found_often_enough():
@@ -500,7 +500,7 @@ class Search:
     def __init__(self, monkeypatch, ends: Any, room: int = 8, given: int = 2, **rule: float):
         self.begun: list[np.ndarray] = []
         self.ends = iter(ends)
-        numbers = {"ACCEPTED": 1e-6, "EACH": 2.0, "RESTARTS": 20, "BARREN": 5} | rule
+        numbers = {"MAX_ERROR": 1e-6, "MIN_HITS": 2.0, "RESTARTS": 20, "MAX_MISSES": 5} | rule
         self.rule = np.zeros(ik_all_kernel.RULE)
         for name, value in numbers.items():
             self.rule[getattr(ik_all_kernel, name)] = value
@@ -557,8 +557,12 @@ def test_what_is_not_accepted_is_no_solution(monkeypatch):
 
 def test_a_search_without_a_solution_ends_early(monkeypatch):
     assert Search(monkeypatch, [(1, 1.0)] * 20).found == ([], [], [0, 5, 0, 0])
-    assert Search(monkeypatch, [(1, 1.0)] * 20, given=3, BARREN=1).found == ([], [], [0, 1, 0, 0])
-    assert Search(monkeypatch, [(1, 1.0)] * 20, BARREN=50, RESTARTS=7).found == (
+    assert Search(monkeypatch, [(1, 1.0)] * 20, given=3, MAX_MISSES=1).found == (
+        [],
+        [],
+        [0, 1, 0, 0],
+    )
+    assert Search(monkeypatch, [(1, 1.0)] * 20, MAX_MISSES=50, RESTARTS=7).found == (
         [],
         [],
         [0, 7, 0, 0],
@@ -579,7 +583,7 @@ def test_without_room_a_search_ends_and_says_so(monkeypatch):
 
 
 def test_of_a_continuum_twelve_members_are_kept(monkeypatch):
-    found = Search(monkeypatch, ((k, 0, True) for k in range(100)), room=50, EACH=5.0)
+    found = Search(monkeypatch, ((k, 0, True) for k in range(100)), room=50, MIN_HITS=5.0)
     assert found.found == (list(range(12)), [1] * 12, [12, 20, 22, 0])
 
 

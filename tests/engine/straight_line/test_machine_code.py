@@ -10,7 +10,7 @@ import pytest
 from llvmlite import binding
 from numba.core import config
 
-from poekin.engine.straight_line.arm import arm
+from poekin.engine.straight_line.arm_code import arm_code
 from poekin.engine.straight_line.machine_code import object_code, processor
 from poekin.formats.load import load
 
@@ -50,5 +50,5 @@ def test_the_code_of_each_processor_is_kept_by_itself(monkeypatch, tmp_path, pro
     monkeypatch.setenv("POEKIN_CACHE_DIR", str(tmp_path / "cache"))
     for name in (None, "generic"):
         named(monkeypatch, name)
-        arm("key", lambda: program, 6, True)
+        arm_code("key", lambda: program, 6, True)
     assert len(list((tmp_path / "cache").glob("arm-*.kernel"))) == 2

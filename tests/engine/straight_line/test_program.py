@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from poekin.engine.kernels import arm_kernels
 from poekin.engine.straight_line import interpret
-from poekin.engine.straight_line.arm import Arm
+from poekin.engine.straight_line.arm_code import ArmCode
 from poekin.engine.straight_line.machine_code import object_code
 from poekin.engine.straight_line.program import Angle, Angles, Program, program
 from poekin.engine.straight_line.trace import Graph
@@ -79,7 +79,7 @@ def programs(draw):
 def by_machine(made: Program, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The outputs by machine code: of all rows, and of each by itself."""
     m = q.shape[1]
-    arm = Arm(object_code(made, pose=False), len(made.angles), m)
+    arm = ArmCode(object_code(made, pose=False), len(made.angles), m)
     many, one = np.full((len(q), 6, m), np.nan), np.full((len(q), 6, m), np.nan)
     arm_kernels.jacobian_many.ready()(arm.address, q, many)
     for row, J in zip(q, one, strict=True):

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from poekin.engine.straight_line.program import Angles, program
-from poekin.engine.straight_line.trace import FOLDED, Graph, Traced
+from poekin.engine.straight_line.trace import FOLD_TOLERANCE, Graph, Traced
 
 EPS = 1e-16
 
@@ -20,14 +20,14 @@ def cost(graph, *outputs):
     return count.multiplications, count.additions
 
 
-@pytest.mark.parametrize("zero", [0.0, -0.0, 0, FOLDED, -FOLDED])
+@pytest.mark.parametrize("zero", [0.0, -0.0, 0, FOLD_TOLERANCE, -FOLD_TOLERANCE])
 def test_a_product_with_zero_and_a_sum_with_zero_are_never_recorded(zero):
     graph, x, _, _ = traced()
     assert x * zero == 0.0
     assert cost(graph, x + zero, zero - x, zero + x * 1.0) == (0, 0)
 
 
-@pytest.mark.parametrize("one", [1.0, 1, 1 + FOLDED, 1 - FOLDED, -1.0, -1])
+@pytest.mark.parametrize("one", [1.0, 1, 1 + FOLD_TOLERANCE, 1 - FOLD_TOLERANCE, -1.0, -1])
 def test_a_product_with_one_is_the_number_itself_or_its_negative(one):
     graph, x, _, _ = traced()
     result = x * one
@@ -36,7 +36,9 @@ def test_a_product_with_one_is_the_number_itself_or_its_negative(one):
     assert cost(graph, result) == (0, 0)
 
 
-@pytest.mark.parametrize("near", [2 * FOLDED, 1 + 2 * FOLDED, -1 + 2 * FOLDED])
+@pytest.mark.parametrize(
+    "near", [2 * FOLD_TOLERANCE, 1 + 2 * FOLD_TOLERANCE, -1 + 2 * FOLD_TOLERANCE]
+)
 def test_what_is_near_zero_or_one_but_not_within_rounding_stays(near):
     graph, x, _, _ = traced()
     assert cost(graph, x * near) == (1, 0)
@@ -44,12 +46,12 @@ def test_what_is_near_zero_or_one_but_not_within_rounding_stays(near):
 
 def test_a_sum_with_a_number_that_is_not_quite_zero_is_an_addition():
     graph, x, _, _ = traced()
-    assert cost(graph, x + 2 * FOLDED) == (0, 1)
+    assert cost(graph, x + 2 * FOLD_TOLERANCE) == (0, 1)
 
 
 def test_constants_that_meet_are_0_or_1_only_exactly():
     graph, x, _, _ = traced()
-    assert cost(graph, x * 1e-9 * 1e-9, x * 3.0 * ((1 + FOLDED) / 3.0)) == (2, 0)
+    assert cost(graph, x * 1e-9 * 1e-9, x * 3.0 * ((1 + FOLD_TOLERANCE) / 3.0)) == (2, 0)
     assert cost(graph, x * 1e-200 * 1e-200, x * 0.5 * 2.0) == (0, 0)
 
 

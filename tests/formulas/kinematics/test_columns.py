@@ -29,7 +29,7 @@ def test_columns_are_velocities_of_a_point_turned_and_coupled(count):
     expected = np.concatenate([(ROTATES[:count, None] * z).T, np.transpose(v)])
     same(J, expected)
     R = TOOL[:3, :3]
-    columns.turned_into(J, count, R.ravel())
+    columns.rotate_columns(J, count, R.ravel())
     same(J, np.concatenate([R.T @ expected[:3], R.T @ expected[3:]]))
     coupling, J_q = rng.normal(size=(count, 3)), rows(3)
     columns.coupled(expected, coupling, count, 3, J_q)

@@ -23,7 +23,7 @@ from tests.formulas.moving_screws import (
 
 # multiplications and additions for n joints
 COSTS = {
-    derivatives.running: lambda n: (6 * n, 6 * n - 6),
+    derivatives.cumulative_twists: lambda n: (6 * n, 6 * n - 6),
     derivatives.space_rate: lambda n: (24 * n - 18, 18 * n - 18),
     derivatives.body_rate: lambda n: (24 * n - 18, 18 * n - 18),
     derivatives.hybrid_rate: lambda n: (24 * n - 12, 18 * n - 12),
@@ -64,7 +64,7 @@ def test_a_hessian_is_the_difference_of_jacobians_along_each_joint(frame, count)
 def test_velocities_run_along_the_chain(count):
     J = jacobian(SCREWS[:count], HOME, X[:count], "space")
     V = np.full((6, count), np.nan)
-    derivatives.running(J, RATES[:count], count, V)
+    derivatives.cumulative_twists(J, RATES[:count], count, V)
     np.testing.assert_allclose(V, np.cumsum(J * RATES[:count], axis=1), rtol=0, atol=1e-13)
 
 

@@ -104,7 +104,7 @@ def test_an_outward_walk_meets_each_joint_s_axis(parallel, begin):
     frame = structured.axes((*START[:3, :3].ravel(), *START[:3, 3]))
     same_frame(frame, START)
     end = structured.outward(
-        frame, links(parallel), ALONG, parallel, np.sin(sums), np.cos(sums), begin, N, rows
+        frame, links(parallel), ALONG, parallel, np.sin(sums), np.cos(sums), begin, rows
     )
     expected, T = rows_seen(parallel, begin, True)
     same_frame(end, T)
@@ -150,7 +150,7 @@ def local(T, p):
 def test_a_point_of_the_frame_behind_is_seen_by_every_joint_outward(parallel, begin):
     sums, points = outward_sums(parallel, begin), np.full((N, 2), np.nan)
     walk = (links(parallel), ALONG, parallel, np.sin(sums), np.cos(sums))
-    end = structured.seen_outward(POINT, *walk, begin, N, points)
+    end = structured.seen_outward(POINT, *walk, begin, points)
     rows, T = rows_seen(parallel, begin, True)
     p = world(START, POINT)
     for i, xy in seen(rows, p).items():

@@ -28,9 +28,9 @@ SERIES = {
     "C": coefficients.C_SERIES,
     "C near": coefficients.C_NEAR,
     "D": coefficients.D_SERIES,
-    "B'/t": coefficients.B_SLOPE_SERIES,
-    "C'/t": coefficients.C_SLOPE_SERIES,
-    "D'/t": coefficients.D_SLOPE_SERIES,
+    "B'/t": coefficients.B_DERIVATIVE_SERIES,
+    "C'/t": coefficients.C_DERIVATIVE_SERIES,
+    "D'/t": coefficients.D_DERIVATIVE_SERIES,
 }
 
 
@@ -51,9 +51,9 @@ def computed(t):
     tt, a, e = t * t, coefficients.a_of(t), coefficients.e_of(t)
     b, c, d = coefficients.b_of(tt, t), coefficients.c_of(tt, a), coefficients.d_of(tt)
     slopes = {
-        "B'/t": coefficients.b_slope(tt, a, b),
-        "C'/t": coefficients.c_slope(tt, b, c),
-        "D'/t": coefficients.d_slope(tt),
+        "B'/t": coefficients.b_derivative(tt, a, b),
+        "C'/t": coefficients.c_derivative(tt, b, c),
+        "D'/t": coefficients.d_derivative(tt),
     }
     return {"A": a, "B": b, "C": c, "E": e, "D": d, **slopes}
 

@@ -20,7 +20,7 @@ UNIT = 2.0**-53
 def errors(w):
     """Of theta A, theta^2 B and cos theta, in units of 2^-53."""
     w = tuple(map(float, w))
-    a, b, cosine = exponential.closed(w, dot(w, w))
+    a, b, cosine = exponential.closed_form(w, dot(w, w))
     t = exact.norm(exact.exactly(w))
     return [
         abs(float(e)) / UNIT
@@ -84,5 +84,5 @@ def test_the_forms_that_exp_and_its_jacobians_share_are_sums_of_matrices():
     W = hat(w)
     same(exponential.rotation(w, 0.37, 0.2), (np.eye(3) + 0.37 * W + 0.2 * W @ W).ravel())
     turned = 0.1 * np.eye(3) + 0.37 * W + (1 - 0.1) / (w @ w) * np.outer(w, w)
-    same(exponential.turned(w, 0.37, (1 - 0.1) / (w @ w), 0.1), turned.ravel())
+    same(exponential.rotation_by_cosine(w, 0.37, (1 - 0.1) / (w @ w), 0.1), turned.ravel())
     same(exponential.linear_combination(0.3, w, 0.37, u, 0.2, p), 0.3 * w + 0.37 * u + 0.2 * p)

@@ -58,7 +58,7 @@ def test_what_a_matrix_misses_a_rotation_by_enters_squared(noise):
 def test_the_square_of_w_has_lost_nothing_that_its_rest_has_not(noise):
     # digits down to 2^-25 add up without rounding, and what is below is 2^-25 at most
     for R in rotations(noise):
-        (p, *_), (rest, *_), inverse = quaternion._least(tuple(map(float, R.ravel())))
+        (p, *_), (rest, *_), inverse = quaternion._of_smallest_angle(tuple(map(float, R.ravel())))
         exact = 1 + sum(Fraction(float(R[k, k])) for k in range(3))
         assert abs(Fraction(p) + Fraction(rest) - exact) <= Fraction(1, 2**76)
         assert abs(rest) <= UNIT * max(abs(p), 1.0)

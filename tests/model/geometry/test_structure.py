@@ -14,7 +14,7 @@ from hypothesis import given, settings
 
 import poekin as pk
 from poekin.engine.straight_line import interpret
-from poekin.engine.straight_line.trace import FOLDED
+from poekin.engine.straight_line.trace import FOLD_TOLERANCE
 from poekin.model.geometry.structure import _angle, _in_local, structure
 from poekin.testing.strategies import chain_strategies
 from tests.model.kinematics.test_compiled import LONGER, near
@@ -143,7 +143,7 @@ def test_a_quarter_turn_is_one_within_rounding_and_else_an_angle(quarter, cosine
         (-1.1, False),
         (1e15, False),
     ):
-        small = off * FOLDED
+        small = off * FOLD_TOLERANCE
         c, s = cosine - small * sine, sine + small * cosine
         quarters, angle = _angle((Decimal(c), Decimal(s)))
         assert (quarters, angle) == ((quarter, 0) if folded else (0, math.atan2(s, c)))

@@ -163,7 +163,7 @@ def test_nearly_parallel_axes_do_not_blow_up(tilts, sign, seed):
         sign = -sign if rng.random() < 0.5 else sign
     chain = pk.Chain.from_space(axes, pk.se3.exp(rng.normal(size=6)))
     arm = structure(chain)
-    lengths = [*(x for link in arm.links for x in link[2:]), *arm.alongs]
+    lengths = [*(x for link in arm.links for x in link[2:]), *arm.d_offsets]
     assert np.abs(lengths).max() <= chain.reach * (1 + LONGER)
     # a d that long is rounded that much more coarsely
     q = rng.uniform(-3, 3, (20, chain.dof))

@@ -181,7 +181,7 @@ def _turned(
 
 
 def _twelve(T: np.ndarray) -> tuple[float, ...]:
-    return algebra.pose_of(T[:3, :3].ravel().tolist(), T[:3, 3].tolist())
+    return algebra.make_pose(T[:3, :3].ravel().tolist(), T[:3, 3].tolist())
 
 
 def _matrix(T: Any) -> np.ndarray:

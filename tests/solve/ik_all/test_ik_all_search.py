@@ -207,7 +207,7 @@ def test_the_kernel_is_told_starts_ranges_rules_and_the_number_of_each_target(mo
     expected[ik_codes.TOL_POSITION], expected[ik_codes.TOL_ROTATION] = 1e-13 * chain.reach, 1e-13
     expected[ik_codes.ITERATIONS], expected[ik_codes.WEIGHTS :] = 5, 1
     np.testing.assert_allclose(options, expected, rtol=1e-12)
-    wanted = {kernel.ACCEPTED: 1e-10, kernel.EACH: 3, kernel.RESTARTS: 4, kernel.BARREN: 6}
+    wanted = {kernel.MAX_ERROR: 1e-10, kernel.MIN_HITS: 3, kernel.RESTARTS: 4, kernel.MAX_MISSES: 6}
     assert dict(enumerate(rules.tolist())) == {k: wanted.get(k, 0) for k in range(kernel.RULE)}
     assert (indices.tolist(), indices.dtype, seed) == ([64, 65, 66], np.float64, 9)
     assert (q.shape, hits.shape, info.shape) == ((3, 40, 2), (3, 40), (3, kernel.INFO))

@@ -8,11 +8,11 @@ import llvmlite
 import numpy as np
 
 from ..jit import cache
-from .machine_code import Loaded, object_code, processor
+from .machine_code import LoadedCode, object_code, processor
 from .program import Program
 
 
-class Arm:
+class ArmCode:
     """Machine code that the kernels of `engine.kernels.arm_kernels` run; `address` is valid as long
     as this object lives.
     """
@@ -20,14 +20,14 @@ class Arm:
     __slots__ = ("_loaded", "_numbers", "address")
 
     def __init__(self, code: bytes, angles: int, coordinates: int):
-        code_at = self._loaded = Loaded(code)
+        code_at = self._loaded = LoadedCode(code)
         self._numbers = np.array(
             [angles, coordinates, code_at.angles, code_at.one, code_at.four], np.int64
         )
         self.address = int(self._numbers.ctypes.data)
 
 
-def arm(key: object, make: Callable[[], Program], coordinates: int, pose: bool) -> Arm:
+def arm_code(key: object, make: Callable[[], Program], coordinates: int, pose: bool) -> ArmCode:
     """The machine code of the program that `make` makes. key: all that it depends on besides
     poekin's source.
     """
@@ -38,4 +38,4 @@ def arm(key: object, make: Callable[[], Program], coordinates: int, pose: bool) 
         kept = len(program.angles).to_bytes(8, "little") + object_code(program, pose)
         if path is not None:
             cache.write(path, kept)
-    return Arm(kept[8:], int.from_bytes(kept[:8], "little"), coordinates)
+    return ArmCode(kept[8:], int.from_bytes(kept[:8], "little"), coordinates)

@@ -9,7 +9,7 @@ from llvmlite import binding
 
 from poekin.engine.kernels import arm_kernels
 from poekin.engine.straight_line import machine_code
-from poekin.engine.straight_line.arm import Arm
+from poekin.engine.straight_line.arm_code import ArmCode
 from poekin.engine.straight_line.machine_code import object_code
 from poekin.model.chain import Chain
 
@@ -48,7 +48,7 @@ def test_the_memory_of_an_arm_s_machine_code_is_freed_with_the_arm():
 
     def use(programs):
         for program in programs:
-            Arm(object_code(program, True), len(program.angles), 2)
+            ArmCode(object_code(program, True), len(program.angles), 2)
 
     use(programs[:8])
     before = _in_use()
@@ -71,7 +71,7 @@ def test_a_long_program_is_compiled_in_blocks_and_computes_the_same(monkeypatch)
     monkeypatch.setattr(
         binding, "parse_assembly", lambda text, *more: texts.append(text) or parse(text, *more)
     )
-    arm = Arm(object_code(program, True), len(program.angles), 5)
+    arm = ArmCode(object_code(program, True), len(program.angles), 5)
     T, J = np.empty((7, 4, 4)), np.empty((7, 6, 5))
     arm_kernels.pose_jacobian_many.call(
         arm.address, q, T, J
