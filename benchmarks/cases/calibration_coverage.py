@@ -12,6 +12,7 @@ from scipy.stats import chi2
 from poekin import Chain, load, se3, so3
 from poekin.solve import calibration as cal
 from poekin.solve.calibration.diagnostics.identification import identify_directions
+from poekin.solve.calibration.fit.losses import LossName
 from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.problem import Problem
 
@@ -45,7 +46,7 @@ class Row(NamedTuple):
 
     words: str
     kind: str = "poses"
-    loss: str = "linear"
+    loss: LossName = "linear"
     told: bool = True
     part: float = 1.0
     bar: bool = False

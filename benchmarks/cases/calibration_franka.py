@@ -12,6 +12,7 @@ import numpy as np
 
 from poekin import Chain, load
 from poekin.solve import calibration as cal
+from poekin.solve.calibration.fit.losses import LossName
 from poekin.solve.calibration.measurements import data
 
 from ..report import Figure, Table, Topic, short
@@ -83,7 +84,7 @@ def absent(place: Path) -> Topic:
 
 
 def kept_aside(
-    arm: Chain, q: np.ndarray, measured: cal.Measurement, loss: str, seed: int
+    arm: Chain, q: np.ndarray, measured: cal.Measurement, loss: LossName, seed: int
 ) -> tuple[Kept, Kept]:
     """Pooled over the folds: with the screws fitted, and before."""
     held = cal.calibrate(arm, q, measured, loss=loss, folds=FOLDS, seed=seed).cross_validation

@@ -10,6 +10,7 @@ import numpy as np
 from poekin import Chain, load, so3
 from poekin.errors import PoekinWarning
 from poekin.solve import calibration as cal
+from poekin.solve.calibration.fit.losses import LossName
 
 from .. import simulated
 from ..report import Figure, Table, Topic, short
@@ -137,7 +138,7 @@ def draw(
     spoilt[bad, :3, 3] += _away(rng, size)
     C = np.diag(simulated.SPREADS**2) if told else None
 
-    def calibrated(T: np.ndarray, loss: str) -> cal.Calibration:
+    def calibrated(T: np.ndarray, loss: LossName) -> cal.Calibration:
         return cal.calibrate(nominal, q, cal.Poses(T, covariance=C), loss=loss, folds=0)
 
     clean = simulated.errors(calibrated(T, "linear").chain, true, fresh)

@@ -10,6 +10,7 @@ from collections import Counter
 import numpy as np
 
 from poekin import dh, se3
+from poekin.formats.dh.table import KINDS
 from poekin.testing.cases.calibrated_arm import UR10E, single_precision_errors
 
 from ..dh_judge import FAR, WELL, Trip, ceiling, error, largest, product, there_and_back
@@ -130,9 +131,7 @@ def random_table(rng: np.random.Generator, convention: dh.Convention) -> dh.Tabl
         rows[i : i + 2, 1] += up, -up
         rows[i + (convention == "modified"), 3] = rng.choice([-1, 1]) * 10 ** rng.uniform(-5, -2)
     listed = [
-        dh.Row(
-            *numbers, kind=str(rng.choice(["revolute", "prismatic"])), flip=bool(rng.random() < 0.5)
-        )
+        dh.Row(*numbers, kind=KINDS[rng.integers(2)], flip=bool(rng.random() < 0.5))
         for numbers in rows.tolist()
     ]
     base, tool = se3.exp(rng.normal(size=(2, 6)))

@@ -10,11 +10,13 @@ from typing import Any
 import numpy as np
 
 from poekin import Chain, count, dh, load, se3
+from poekin.analysis.counting.count import Counting, CountMethod
 from poekin.analysis.counting.count_table import PRINTED, count_table, printed
 from poekin.engine.count import Count
 from poekin.formats.dh.published_tables import NAMES as PUBLISHED
 from poekin.formulas.kinematics import recursive
 from poekin.formulas.paper import dh_recursive, direct
+from poekin.model.kinematics.pose_jacobian import AnyFrame
 from poekin.testing.cases.calibrated_arm import UR10E
 
 from ..draw import lines
@@ -25,7 +27,13 @@ TOLERANCE = 1e-4  # rad and m: more than models are rounded by
 CALIBRATED = 1e-2  # rad and m: what arms are built to
 NAMES = {"direct": "POE, direct", "recursive": "POE, recursive", "dh_recursive": "DH, recursive"}
 
-CURVES = (
+ROWS: tuple[tuple[CountMethod, Counting], ...] = (
+    ("recursive_with_tool", "paper"),
+    ("recursive", "live"),
+    ("dh_paul", "paper"),
+    ("structured", "live"),
+)
+CURVES: tuple[tuple[str, CountMethod, Counting], ...] = (
     ("POE, direct, as printed", "direct", "paper"),
     ("DH, recursive, as printed", "dh_recursive", "paper"),
     ("DH, standard frames, charged alike", "dh_paul", "paper"),
@@ -35,7 +43,7 @@ CURVES = (
 )
 
 # What else must come out, from n joints on: (multiplications, additions) as (a n - b).
-CLAIMS = (
+CLAIMS: tuple[tuple[str, int, CountMethod, Counting, Any], ...] = (
     ("counted as needed: POE, recursive, 42n − 81 and 30n − 60", 3, "recursive", "live", ((42, 81), (30, 60))),
     ("equal bookkeeping: DH on modified frames, 42n − 78 and 30n − 57", 2, "dh_modified", "paper",
      ((42, 78), (30, 57))),
@@ -170,16 +178,14 @@ def _paper_s_table(arms: dict[int, Chain]) -> tuple[list[list[int | str]], int, 
                 cells += 1
                 wrong += value != expected
                 row.append(value if value == expected else f"{value} (printed {expected})")
-        for method, charged in (
-            ("recursive_with_tool", "paper"), ("recursive", "live"), ("dh_paul", "paper"), ("structured", "live"),
-        ):  # fmt: skip
+        for method, charged in ROWS:
             row += _numbers(count(arm, method=method, counting=charged))[:2]
         rows.append(row)
     return rows, wrong, cells
 
 
 def _claim(
-    arms: dict[int, Chain], what: str, first: int, method: str, charged: str, formulas
+    arms: dict[int, Chain], what: str, first: int, method: CountMethod, charged: Counting, formulas
 ) -> Figure:  # type: ignore[no-untyped-def]
     """A figure that is exact where every count is a n - b, else says how many are not."""
     joints = [n for n in arms if n >= first]
@@ -228,7 +234,7 @@ def _bars(bars: Bars, rng: np.random.Generator) -> list[Figure]:
     ]  # fmt: skip
 
 
-def _kept(chain: Chain, frames, bars: tuple[int, ...]) -> tuple[str | int, str]:  # type: ignore[no-untyped-def]
+def _kept(chain: Chain, frames, bars: tuple[int, ...]) -> tuple[AnyFrame, str]:  # type: ignore[no-untyped-def]
     """The first of the frames in which all bars are kept (else the first), and the counts of the
     others in words.
     """
@@ -268,7 +274,7 @@ def _arm_row(name: str, chain: Chain, tolerance: float) -> tuple[str | int, ...]
     """One arm's own program as it is, and idealised within a tolerance."""
     ideal = chain.idealised(tolerance)
 
-    def cost(arm: Chain, frame: str, pose: bool = False) -> str:
+    def cost(arm: Chain, frame: AnyFrame, pose: bool = False) -> str:
         text = "/".join(
             map(str, _numbers(count(arm, method="specialised", frame=frame, pose=pose)))
         )

@@ -7,6 +7,7 @@ import os
 import re
 import sys
 from dataclasses import FrozenInstanceError
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ import poekin as pk
 from poekin.errors import FileError, InputError, MissingExtra, PoseError, ShapeError, UnknownName
 from poekin.groups import se3, so3
 from poekin.solve import motion
+from poekin.solve.motion.paths import Path as PathKind
 
 U = 2.0**-53
 parts = st.floats(0, 1)
@@ -124,7 +126,8 @@ def test_a_line_is_straight_and_turns_evenly_about_one_axis(T_s0, T_s1, s):
 def test_lengths_are_those_of_a_path_cut_into_pieces(T_s0, T_s1):
     s = np.linspace(0, 1, 400)
     rounding = 400 * 40 * U * length(T_s0[:3, 3], T_s1[:3, 3])  # of each piece
-    for along, path in (("line", motion.line), ("screw", motion.screw)):
+    ways: tuple[tuple[PathKind, Any], ...] = (("line", motion.line), ("screw", motion.screw))
+    for along, path in ways:
         T = path(T_s0, T_s1, s)
         way = np.linalg.norm(np.diff(T[:, :3, 3], axis=0), axis=1).sum()
         turn = np.linalg.norm(
@@ -293,7 +296,7 @@ def test_limits_for_way_and_angle_of_a_pose():
         (lambda: motion.quintic(math.nan), r"duration: .* got nan"),
         (lambda: motion.trapezoidal(1, 0.6), r"acceleration_fraction: .* at most 0\.5, got 0\.6"),
         (
-            lambda: motion.minimum_time("linear", 1, speed=1),
+            lambda: motion.minimum_time("linear", 1, speed=1),  # type: ignore[arg-type]
             r"law: expected one of 'cubic', .*, got 'linear'",
         ),
         (
@@ -325,7 +328,10 @@ def test_limits_for_way_and_angle_of_a_pose():
             lambda: motion.minimum_time("trapezoidal", 1, speed=1),
             r"acceleration: the trapezoidal law needs a finite one",
         ),
-        (lambda: motion.path_lengths(np.eye(4), np.eye(4), "arc"), r"along: expected one of .*, got 'arc'"),
+        (
+            lambda: motion.path_lengths(np.eye(4), np.eye(4), "arc"),  # type: ignore[arg-type]
+            r"along: expected one of .*, got 'arc'",
+        ),
     ],
     ids=["zero", "nan", "ramp", "law", "no-limit", "far", "infinite", "both", "no-speed", "nan-speed", "shape",
          "trapezoid", "along"],

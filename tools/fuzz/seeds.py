@@ -19,6 +19,7 @@ from poekin.errors import MissingExtra
 from poekin.formats import catalogue, dh, erd, ur
 from poekin.formats.dh import table_io as dh_files
 from poekin.formats.dh.published_tables import NAMES
+from poekin.formats.text.pose_rows import PoseFormat, QuaternionOrder
 from poekin.formats.ur import yaml_io
 
 SMALL = 16_000
@@ -162,7 +163,10 @@ def written() -> dict[str, tuple[bytes, ...]]:
     p = coupled.fk(q2 * 1.001 + 0.01)[:, :3, 3]
     p[3] += 0.2
     with tempfile.TemporaryDirectory() as folder:
-        for format, order in (("12", None), ("16", None), ("7", "wxyz")):
+        ways: list[tuple[PoseFormat, QuaternionOrder | None]] = [
+            ("12", None), ("16", None), ("7", "wxyz")
+        ]  # fmt: skip
+        for format, order in ways:
             motion.write_poses(f"{folder}/poses{format}.csv", T[:5], format, quaternion=order)
         motion.write_joints(f"{folder}/joints.csv", q[:5], arm, times=np.arange(5.0))
         data.write(f"{folder}/measured.csv", arm, q[:5], Poses(T[:5]))

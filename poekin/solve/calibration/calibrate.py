@@ -39,7 +39,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     q: Any,
     measurements: Any,
     *,
-    parameters: Sequence[ParameterKind] = ("screws", "home"),
+    parameters: ParameterKind | Sequence[ParameterKind] = ("screws", "home"),
     joints: Sequence[str] | None = None,
     loss: LossName = "linear",
     prior: Mapping[Unit, float] | None = None,

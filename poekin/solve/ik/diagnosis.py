@@ -40,7 +40,7 @@ class Causes(NamedTuple):
     reason: np.ndarray
     distance_beyond_reach: Array
     limits_hit: tuple[tuple[str, ...], ...] = ()
-    reachable_tasks: tuple[tuple[str, ...], ...] = ()
+    reachable_tasks: tuple[tuple[TaskName, ...], ...] = ()
 
 
 def diagnose(

@@ -11,6 +11,7 @@ import numpy as np
 from ...errors import ShapeError, quote
 from ...groups.arrays import Array
 from ...results import Result
+from .task import TaskName
 
 SOLVED = "solved"
 UNREACHABLE = "unreachable"
@@ -68,7 +69,7 @@ class Solution(Result):
     restarts: np.ndarray
     distance_beyond_reach: Array
     limits_hit: tuple[tuple[str, ...], ...] = ()
-    reachable_tasks: tuple[tuple[str, ...], ...] = ()
+    reachable_tasks: tuple[tuple[TaskName, ...], ...] = ()
 
     def summary(self, *index: int) -> str:
         """Reason of one target with its numbers, or how many targets of a batch have which.

@@ -169,7 +169,7 @@ def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array)
     reason[success] = SOLVED
     beyond = np.zeros(count)
     hit: list[tuple[str, ...]] = [()] * count
-    tasks: list[tuple[str, ...]] = [()] * count
+    tasks: list[tuple[TaskName, ...]] = [()] * count
     for k in np.flatnonzero(finite & ~success):
         reason[k], beyond[k], hit[k], tasks[k] = follower.failure(int(np.searchsorted(at, k)))
     nothing = np.zeros(count, np.int64)

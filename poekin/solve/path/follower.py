@@ -15,6 +15,7 @@ from ..ik.ik_problem import Problem
 from ..ik.least_error import Slope, least_error, slope_at
 from ..ik.solution import ITERATIONS, Solution
 from ..ik.solver import Wishes, solve
+from ..ik.task import TaskName
 from ..motion import paths
 
 PIECES = (8, 64, 512)
@@ -128,7 +129,7 @@ class Follower:
                 break
         return found
 
-    def failure(self, k: int) -> tuple[str, float, tuple[str, ...], tuple[str, ...]]:
+    def failure(self, k: int) -> tuple[str, float, tuple[str, ...], tuple[TaskName, ...]]:
         """Cause for which pose k is not reached: its entries in `Causes`."""
         success, solution, at = self._solution_of(k)
         if success:

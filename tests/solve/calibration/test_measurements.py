@@ -206,7 +206,7 @@ BAD: dict[str, tuple] = {
         "Poses: covariance: expected finite numbers",
     ),
     "a frame": (
-        lambda: Points(AT[:, 0], frame="device"),
+        lambda: Points(AT[:, 0], frame="device"),  # type: ignore[arg-type]
         InputError,
         "frame: expected 'base' or 'unknown', got 'device'",
     ),

@@ -136,7 +136,9 @@ def test_a_report_is_printed_with_each_python_once_and_its_notes():
         False,
         ["one", "two\x1b"],
     )
-    assert [law["law"] for law in plain["laws"]] == ["exp", "law exact", "log", "fk"]
+    laws = plain["laws"]
+    assert isinstance(laws, list)
+    assert [law["law"] for law in laws] == ["exp", "law exact", "log", "fk"]
 
 
 def test_outcomes_and_reports_do_not_change():

@@ -31,7 +31,7 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
     candidates: Any,
     *,
     measurements: Measurement | Sequence[Measurement] | Literal["poses", "points"] = "poses",
-    parameters: Sequence[ParameterKind] = ("screws", "home"),
+    parameters: ParameterKind | Sequence[ParameterKind] = ("screws", "home"),
     joints: Sequence[str] | None = None,
     criterion: Criterion = "amplification",
     n_random: int = 100,

@@ -106,7 +106,7 @@ def identify(
     q: Any,
     measurements: Any,
     *,
-    parameters: Sequence[ParameterKind] = ("screws", "home"),
+    parameters: ParameterKind | Sequence[ParameterKind] = ("screws", "home"),
     joints: Sequence[str] | None = None,
 ) -> Identification:
     """Identifiability of these parameters of the arm from these measurements; nothing is solved.

@@ -16,6 +16,7 @@ from poekin.solve.calibration.diagnostics.identification import identify_directi
 from poekin.solve.calibration.fit import fitting, losses
 from poekin.solve.calibration.fit import minimise as minimising
 from poekin.solve.calibration.fit.fitting import fit_frames
+from poekin.solve.calibration.fit.losses import LossName
 from poekin.solve.calibration.fit.minimise import (
     FitOptions,
     _exact,
@@ -208,14 +209,15 @@ def test_the_covariance_of_a_robust_loss_is_huber_s():
     T[:3] = T[:3] @ se3.exp([0, 0, 0, 0.01, 0, 0])
     problem = Problem(ErrorModel(PUMA, ("screws", "home"), None), q, [Poses(T)])
     free = identify_directions(problem)[1]
-    for loss in ("huber", "tukey"):
+    names: tuple[LossName, ...] = ("huber", "tukey")
+    for loss in names:
         fit = fitting.fit_parameters(problem, free, np.zeros(problem.size), FitOptions(loss))
         J = np.concatenate([
             fit.noise.whitened(0, jacobian).reshape(-1, problem.size) for _, jacobian in problem.linearised(fit.p)
         ]) @ (problem.scale[:, None] * free)  # fmt: skip
         e = fit.noise.whitened(0, problem.errors(fit.p)[0][..., None])[..., 0]
 
-        def psi(e, loss=loss):
+        def psi(e, loss: LossName = loss):
             return e * np.sqrt(losses.loss(loss, (e**2).sum(1), 6).weight[:, None]) ** 2
 
         # psi(e) = w e of all six numbers of a measurement, its divergence by differences
