@@ -25,7 +25,8 @@ _KEYS = (*_NAMES, *_ARRAYS, "coupling", "pitches")
 
 def to_data(chain: Chain) -> dict[str, Any]:
     """Table of a chain: frames, names, screws, home pose, limits, offset; coupling and pitches."""
-    data: dict[str, Any] = {key: getattr(chain, key) for key in _NAMES}
+    data: dict[str, Any] = {"base": chain.base, "tip": chain.tip}
+    data |= {key: list(getattr(chain, key)) for key in ("joint_names", "q_names")}
     data |= {key: getattr(chain, key).tolist() for key in _ARRAYS}
     if chain.nontrivial_coupling is not None:
         data["coupling"] = chain.nontrivial_coupling.tolist()

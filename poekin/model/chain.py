@@ -19,11 +19,11 @@ from .kinematics import pose_jacobian
 from .kinematics.compiled import CompiledChain
 from .kinematics.outputs import checked_out, checked_pair
 from .kinematics.pose_jacobian import Frame
-from .methods.coordinates import ChainCoordinates
-from .methods.derivatives import ChainDerivatives
+from .methods.chain_derivatives import ChainDerivatives
 from .methods.entrances import ChainEntrances
 from .methods.frames import ChainFrames
 from .methods.peer_names import OF_CHAINS, no_attribute
+from .methods.pose_coordinates import ChainCoordinates
 
 # Names looked up once: one call for a pose and a Jacobian takes about a microsecond in all.
 _ndarray = np.ndarray

@@ -42,7 +42,7 @@ def test_random_arms_are_as_asked_within_some_decimetres():
 @pytest.mark.parametrize("k", [0, 3, 5])
 def test_one_change_is_planted_in_one_joint(k):
     limits = np.stack([np.arange(6) - 3.0, np.arange(6) + 0.5], axis=1)
-    arm = type(ARM)(ARM.screws, ARM.home, limits=limits)
+    arm = type(ARM).from_space(ARM.screws, ARM.home, limits=limits)
     found = {change: planted(arm, change, k, RNG(k)) for change in CHANGES}
     others = [i for i in range(6) if i != k]
     S = arm.screws[k]

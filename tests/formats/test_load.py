@@ -104,7 +104,7 @@ def test_a_built_in_arm_agrees_with_the_makers_table(name, data):
     q = data.draw(st.lists(st.floats(-7, 7), min_size=count, max_size=count))
     chain = load(name).chain(tip=tip)
     assert chain.dof == count
-    assert np.abs(chain.fk(q) - table(q)).max() <= 1e-14 * chain.reach
+    assert np.abs(chain.fk(np.array(q)) - table(q)).max() <= 1e-14 * chain.reach
 
 
 @pytest.mark.parametrize("name", ARMS)

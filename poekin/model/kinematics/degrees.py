@@ -25,13 +25,14 @@ def warn_of_degrees(
     `scale` gives the radians of each coordinate's unit, 0 for a length. The text holds no value:
     so Python shows it once for each line of the user's.
     """
-    sizes = np.abs(q)
+    sizes = np.where(np.isfinite(q), np.abs(q), 0.0)
     if not (sizes > TURN).any():
         return
     bounds = np.abs(limits).max(axis=1)
+    bounds[np.isinf(bounds)] = MANY
     radians = scale()
-    most = np.where(np.isfinite(bounds), np.maximum(bounds * radians, TURN), MANY)
-    beyond = np.isfinite(q) & (sizes * radians > most)
+    with np.errstate(over="ignore"):
+        beyond = sizes * radians > np.maximum(bounds * radians, TURN)
     for k in np.flatnonzero(beyond.reshape(-1, len(names)).any(axis=0))[:1]:
         warn(
             f"{what}: {quote(names[k])} is more than a turn, and beyond its limits; if these are"
