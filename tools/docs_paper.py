@@ -14,7 +14,7 @@ def _code(name: str) -> str:
 def page() -> str:
     """Markdown: one row a lemma or equation."""
     lines = [
-        "| in the paper | formula | called by | test |",
+        "| in the paper | formula | used by | test |",
         "|---|---|---|---|",
     ]
     for row in PAPER:

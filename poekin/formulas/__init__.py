@@ -63,7 +63,7 @@ PAPER = (
     Place(
         "Section II, f' = P f Q",
         "A' = Ad(P) A, M' = P M Q",
-        "algebra.compose",
+        "algebra.adjoint",
         "",
         "rebased",
         "test_algebra.py",

@@ -14,8 +14,8 @@ from .checks import LONGEST, one_pose, read_only
 
 JointKind = Literal["revolute", "continuous", "prismatic", "helical", "fixed", "floating", "planar"]
 KINDS: tuple[JointKind, ...] = get_args(JointKind)
-MOVING = KINDS[:4]
-FREE = KINDS[5:]
+MOVING: tuple[JointKind, ...] = ("revolute", "continuous", "prismatic", "helical")
+FREE: tuple[JointKind, ...] = ("floating", "planar")
 
 # A vector this close to unit length stays as it is, so that a joint made from a joint's own axis
 # equals it.

@@ -12,7 +12,7 @@ from ...errors import InputError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ..checks import POSITION, ROTATION, check_chain, check_tolerances
-from .alignment.hypotheses import Hypothesis, read
+from .alignment.hypotheses import Hypothesis, make_hypotheses
 from .alignment.lines import cross, direction, lines, sides, uncoupled_at_zero
 from .alignment.search import search
 from .comparison import Comparison, JointComparison, PoseErrors
@@ -232,7 +232,7 @@ def _as_it_is(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Hypothesis:
     pair = sides(a, b, tol_m, tol_rad)
     base = np.eye(4)
     base[:3, 3] = pair.b.centre - pair.a.centre
-    return read(pair, base[None], np.zeros((1, pair.n)))[0]
+    return make_hypotheses(pair, base[None], np.zeros((1, pair.n)))[0]
 
 
 def _names(chain: Chain, ks: tuple[int, ...]) -> tuple[str, ...]:

@@ -6,7 +6,9 @@
 the diagonal of `weights`. Far from the target the step is careful, near it Newton's. `free` is 1
 for a coordinate that may move and 0 for one that stays.
 Accuracy: that of `least_squares` (tests/formulas/inverse/test_damped_step.py).
-Source: Chan and Lawrence 1988 (error-scaled damping), as in Sugihara 2011.
+Source: Chan and Lawrence, "General inverse kinematics with the error damped pseudoinverse", ICRA
+1988; Sugihara, "Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method", IEEE
+Transactions on Robotics 27, 2011, whose constant bias of the damping is left out.
 """
 
 from . import least_squares

@@ -24,8 +24,9 @@ from math import comb, factorial
 
 from .. import elementary
 
-NEAR = 1.0  # t^2 below which B is its polynomial too
-SWITCH = 4.0  # t^2 at which the polynomials take over, that is t = 2
+# t^2 below which B, and in exp C too, is its polynomial: from t = 1 on 1 - cos t loses no digit.
+NEAR = 1.0
+SWITCH = 4.0  # t^2 below which C is its polynomial, and the derivatives, which cancel more: t = 2
 _TURN = Fraction("39.478417604357434475337963999504604541254797628963162505653398")  # (2 pi)^2
 _NEGLIGIBLE = Fraction(1, 10**20)  # relative to the first term, at the switch
 

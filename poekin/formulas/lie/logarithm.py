@@ -94,7 +94,7 @@ def _linear_part(w, n, p, e):
 
 
 def se3(T):
-    """The twist (w; v) with exp = T, 0 <= |w| <= pi: Lemma 4."""
+    """The twist (w; v) with exp = T, 0 <= |w| <= pi: Lemma 4; `quaternion.parts` has the sign at pi."""
     theta, rest, axis, cotangent = _polar(T)
     w = _rotation_vector(theta, rest, axis)
     e = 0.5 * theta * cotangent

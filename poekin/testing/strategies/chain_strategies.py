@@ -16,11 +16,12 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Sequence
-from typing import Any, Literal, get_args
+from typing import Any, get_args
 
 import numpy as np
 
 from poekin.model.chain import Chain
+from poekin.model.chain_data import ScrewKind
 
 from ..laws.laws import ArgumentKind, ChainKind
 from . import arguments
@@ -28,7 +29,6 @@ from .batch_strategies import batch_shapes
 from .decoding.bytes_reader import BytesReader
 from .group_strategies import Arrays, axes, frozen, poses, read, st, vectors
 
-ScrewKind = Literal["revolute", "prismatic", "helical"]
 KINDS: tuple[ScrewKind, ...] = get_args(ScrewKind)
 """What a chain's joints may be; a continuous joint is a revolute one without limits."""
 REACHES = (1e-3, 3.0)

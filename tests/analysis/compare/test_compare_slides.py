@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from benchmarks.planted_changes import random_arm
-from poekin.analysis.compare.alignment.hypotheses import read
+from poekin.analysis.compare.alignment.hypotheses import make_hypotheses
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.alignment.search import search
 from poekin.analysis.compare.compare import compare
@@ -112,7 +112,7 @@ def as_it_stands(chain, other, zeros=(0.0,)):
     pair = sides(chain, other, *TOL)
     P = np.eye(4)
     P[:3, 3] = pair.b.centre - pair.a.centre
-    (reading,) = read(pair, P[None], np.zeros((1, pair.n)) + np.array(zeros))
+    (reading,) = make_hypotheses(pair, P[None], np.zeros((1, pair.n)) + np.array(zeros))
     return pair, reading
 
 

@@ -108,8 +108,13 @@ class Hypothesis:
         return (COSTS.axis * moved + far + weight, self.frames, changes, near)
 
 
-def read(pair: Sides, P: Array, z: Array) -> list[Hypothesis]:
-    """The readings that alignments (P, z) of both axes, (m, 4, 4) and (m, n), stand for."""
+def make_hypotheses(pair: Sides, P: Array, z: Array) -> list[Hypothesis]:
+    """Hypotheses that alignments (P, z) of both models' axes, (m, 4, 4) and (m, n), stand for.
+
+    An axis is the same where its deviation is at most 1: the larger of the angle between the
+    directions by `tol_rotation` and of the distance between the lines by `tol_position`
+    (`lines.deviations`); kind and pitch have agreed before.
+    """
     axes = transformed(pair, P, z)[1]
     miss = deviations(pair, axes)
     s = signs(pair, axes)

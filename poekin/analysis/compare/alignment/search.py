@@ -20,7 +20,7 @@ from ....model.chain import Chain
 from ..reached import poses_agree
 from .alignment_seeds import best, one_by_one, one_turn, rigid_poses
 from .fit import fit
-from .hypotheses import COSTS, Hypothesis, off_centre, read, still
+from .hypotheses import COSTS, Hypothesis, make_hypotheses, off_centre, still
 from .lines import Marks, Sides, aligned_deviations, deviations, sides, signs, transformed
 
 
@@ -35,9 +35,9 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Hypothesis
     rigid = (poses[1], np.zeros((len(poses[1]), n)))
 
     def rigidly(P: Array, z: Array, used: Marks) -> list[Hypothesis]:
-        return read(pair, *fit(pair, P, z, np.zeros(n, bool), used))
+        return make_hypotheses(pair, *fit(pair, P, z, np.zeros(n, bool), used))
 
-    found = read(pair, rigid[0][:1], rigid[1][:1])
+    found = make_hypotheses(pair, rigid[0][:1], rigid[1][:1])
     # Alike as they stand: nothing is to be aligned.
     if not found[0].cost[0] and not found[0].frames:
         return found[0], []
@@ -52,7 +52,9 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Hypothesis
         found += _one_joint(pair, poses)
     found += _links(pair, poses[1])
     # Where several axes differ, those that most starts agree on; one bad axis is looked for above.
-    found += [as_it_starts for as_it_starts in read(pair, P, z) if as_it_starts.moved.sum() > 1]
+    found += [
+        as_it_starts for as_it_starts in make_hypotheses(pair, P, z) if as_it_starts.moved.sum() > 1
+    ]
     miss = aligned_deviations(pair, P, z)
     agree = np.concatenate([miss <= 10.0, miss <= 1.0])
     found += rigidly(np.tile(P, (2, 1, 1)), np.tile(z, (2, 1)), agree)
@@ -74,8 +76,8 @@ def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Hypothesis | N
     every = np.ones(pair.n, bool)
     poses = rigid_poses(pair)[1]
     nothing = np.zeros((len(poses), pair.n))
-    found = read(pair, poses[:1], nothing[:1])
-    found += read(pair, *fit(pair, *best(pair, poses, nothing), none, every))
+    found = make_hypotheses(pair, poses[:1], nothing[:1])
+    found += make_hypotheses(pair, *fit(pair, *best(pair, poses, nothing), none, every))
     if min(found, key=_cost).cost[0]:
         found += _simplest(pair, *_other_zeros(pair)[2:])
     holding = (
@@ -103,7 +105,7 @@ def _one_joint(pair: Sides, poses: tuple[NDArray[np.intp], Array]) -> list[Hypot
         agree = aligned_deviations(pair, P[:2], z[:2]) <= 1.0
         tries += [(P[i], z[i], own, used) for i, used in enumerate(agree)]
     P, z, free, used = (np.array(column) for column in zip(*tries, strict=True))
-    return read(pair, *fit(pair, P, z, free, used))
+    return make_hypotheses(pair, *fit(pair, P, z, free, used))
 
 
 def _simpler(first: Hypothesis, found: list[Hypothesis]) -> Hypothesis:
@@ -134,7 +136,7 @@ def _links(pair: Sides, poses: Array) -> list[Hypothesis]:
         if before.any() and behind.any():
             P = poses[before][:1]
             last = off_centre(pair, poses[behind][0])
-            (reading,) = read(pair, P, nothing[:1])
+            (reading,) = make_hypotheses(pair, P, nothing[:1])
             if reading.implicated.sum() < 2:
                 continue
             tool = se3.inverse(last @ pair.b.home) @ pair.a.home
@@ -203,7 +205,7 @@ def _simplest(pair: Sides, P: Array, z: Array) -> list[Hypothesis]:
         P[row[fits]] = trial[0][fits]
         z[row[fits]] = trial[1][fits]
         free[row[fits]] = rest[fits]
-    return read(pair, P, z)
+    return make_hypotheses(pair, P, z)
 
 
 def _cost(reading: Hypothesis) -> tuple[float, ...]:
