@@ -34,7 +34,7 @@ def half_range(chain: ChainData) -> Array:
     opposite.
     """
     motions = [np.pi if chain.is_angle(k) else 1.0 for k in range(chain.dof)]
-    return np.array([x / abs(dominant_ratio(chain, k)) for k, x in enumerate(motions)])
+    return np.array(motions) / joint_ratios(chain)
 
 
 def radians_per_unit(chain: ChainData) -> Array:
@@ -43,6 +43,11 @@ def radians_per_unit(chain: ChainData) -> Array:
     """
     angles = [chain.is_angle(k) for k in range(chain.dof)]
     return np.where(angles, np.pi / half_range(chain), 0.0)
+
+
+def joint_ratios(chain: ChainData) -> Array:
+    """Radians or metres (m,) by which the joint that a coordinate moves most goes with its unit."""
+    return np.array([abs(dominant_ratio(chain, k)) for k in range(chain.dof)])
 
 
 def dominant_ratio(chain: ChainData, k: int) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ...model.sampling import half_range
+from ...model.sampling import half_range, joint_ratios
 from ..checks import check_chain
 
 Part = Literal["pose", "translation", "rotation"]
@@ -64,17 +64,27 @@ def svd(J: Array) -> tuple[Array, Array, Array]:
     return U, np.where(bad[..., 0], np.nan, s), V
 
 
-@lru_cache(maxsize=64)
-def generic_rank(chain: Chain, part: Part, tolerance: float = TOLERANCE) -> int:
-    """The largest rank of a part of the Jacobian over all configurations, which it has at almost
-    every one of them.
+def random_configurations(chain: Chain) -> Array:
+    """Configurations (SAMPLES, m), at one of which a Jacobian has its largest rank."""
+    return half_range(chain) * np.random.default_rng(0).uniform(-1.0, 1.0, (SAMPLES, chain.dof))
+
+
+def largest_rank(J: Array, reach: float, part: Part, tolerance: float = TOLERANCE) -> int:
+    """The largest rank of a part of hybrid Jacobians (N, 6, m) per rad or m of the joints.
 
     Lengths are in units of the arm's own size, so that it does not matter.
     """
-    q = half_range(chain) * np.random.default_rng(0).uniform(-1.0, 1.0, (SAMPLES, chain.dof))
-    J = chain.jacobian(q, "hybrid")
-    size = max(float(np.abs(J[:, 3:]).max()), 1e-6 * chain.reach)
+    size = max(float(np.abs(J[:, 3:]).max()), 1e-6 * reach)
     s = svd(scaled(J, -2, "pose", size)[:, ROWS[part]])[1]
     # Below that is rounding: an arm that never moves its tool in this part.
     least = np.maximum(tolerance * s[:, :1], 1e-9)
     return int((s > least).sum(axis=1).max())
+
+
+@lru_cache(maxsize=64)
+def generic_rank(chain: Chain, part: Part, tolerance: float = TOLERANCE) -> int:
+    """The largest rank of a part of the Jacobian over all configurations, which it has at almost
+    every one of them, in whatever units the coordinates are.
+    """
+    J = chain.jacobian(random_configurations(chain), "hybrid") / joint_ratios(chain)
+    return largest_rank(J, chain.reach, part, tolerance)

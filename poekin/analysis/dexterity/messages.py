@@ -28,11 +28,18 @@ def motion_words(V: Array) -> str:
     return f"{turning} while its origin is {moving} by {v / w:.3g} m per rad"
 
 
-def rate_words(q_names: tuple[str, ...], rates: Array) -> str:
-    """Rates of coordinates, of those above 0.1 the largest first: "'elbow' +0.89, 'wrist' -0.45"."""
-    told = [(name, rate) for name, rate in zip(q_names, rates, strict=True) if abs(rate) > 0.1]
-    told.sort(key=lambda pair: -abs(pair[1]))
-    return ", ".join(f"{quote(name)} {rate:+.2f}" for name, rate in told)
+def rate_words(q_names: tuple[str, ...], rates: Array, ratios: Array) -> str:
+    """Rates of coordinates as "'elbow' +0.89, 'wrist' -0.45": those whose joints go by more than
+    0.1, the fastest joint first.
+    """
+    speeds = np.abs(rates * ratios)
+    told = [k for k in np.argsort(-speeds, kind="stable") if speeds[k] > 0.1]
+    return ", ".join(f"{quote(q_names[k])} {_rate(float(rates[k]))}" for k in told)
+
+
+def _rate(rate: float) -> str:
+    """A rate with two decimals, or with three digits where those say too little or too much."""
+    return f"{rate:+.2f}" if 0.1 < abs(rate) < 100 else f"{rate:+.3g}"
 
 
 def _direction(x: Array) -> str:

@@ -14,6 +14,7 @@ from ...errors import InputError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
+from ...model.sampling import joint_ratios
 from ...results import Result
 from .jacobian_part import TOLERANCE, Part, check, check_part, generic_rank, scaled, svd
 from .messages import motion_words, rate_words
@@ -30,7 +31,8 @@ ZERO = 1e-12
 class Singularity(Result):
     """Singular values and lost motions of an arm at one configuration; the result of `singularity`.
 
-    g below is `generic_rank`; a unit twist has the size |(ω; v / length)| = 1.
+    g below is `generic_rank`; a unit twist has the size |(ω; v / length)| = 1, and rates of size 1
+    are |joint_ratios · dq| = 1, so that the unit of a coordinate does not matter.
 
     Attributes
     ----------
@@ -43,7 +45,7 @@ class Singularity(Result):
     length : float
         Length by which v is divided, m.
     singular_values : tuple of float
-        All singular values of that part of the Jacobian, descending.
+        All singular values of that part of the Jacobian per rad or m of the joints, descending.
     rank : int
         Number of singular values above the tolerance, `generic_rank` at most.
     generic_rank : int
@@ -56,14 +58,16 @@ class Singularity(Result):
     joint_direction : (m,) ndarray
         Rates of size 1 that move the tool least: by `smallest`, as a twist of that size.
     distance : float
-        Distance of the singularity, sqrt(Σ dq²) in rad (m of coordinates that slide), to first
-        order: smallest ÷ |its gradient|; infinite where the gradient is zero.
+        Distance of the singularity, |joint_ratios · dq| in rad (m of coordinates that slide), to
+        first order: smallest ÷ |its gradient|; infinite where the gradient is zero.
     gradient_direction : (m,) ndarray
-        Unit direction that leads there.
+        Direction of size 1 that leads there.
+    joint_ratios : (m,) ndarray
+        Rad or m of the joint that each coordinate moves most, per unit of the coordinate.
     q_names : tuple of str
         Names of the coordinates.
     unit : {"rad", "m", "rad and m"}
-        Unit of the coordinates and of `distance`.
+        Unit of `distance`, and of the coordinates that are those of their joints.
     """
 
     derived: ClassVar = ("smallest", "condition")
@@ -80,6 +84,7 @@ class Singularity(Result):
     joint_direction: Array
     distance: float
     gradient_direction: Array
+    joint_ratios: Array
     q_names: tuple[str, ...]
     unit: Unit
 
@@ -112,7 +117,7 @@ class Singularity(Result):
         if largest:
             ratio = self.smallest / largest + 0.0
         quotient = f"smallest ÷ largest singular value {ratio:.3g}, tolerance {self.tolerance:g}"
-        rates = rate_words(self.q_names, self.joint_direction)
+        rates = rate_words(self.q_names, self.joint_direction, self.joint_ratios)
         if self.singular:
             lost = "; and ".join(motion_words(motion) for motion in self.singular_subspace)
             nearly = ""
@@ -125,7 +130,8 @@ class Singularity(Result):
         unit = {"rad and m": "(rad and m)"}.get(self.unit, self.unit)
         near = f"to first order no singularity is within 1 {unit}"
         if self.distance <= 1:
-            lead = self.q_names[int(np.argmax(np.abs(self.gradient_direction)))]
+            shares = np.abs(self.gradient_direction * self.joint_ratios)
+            lead = self.q_names[int(np.argmax(shares))]
             near = (
                 f"the nearest singularity is about {self.distance:.2g} {unit} away, "
                 f"most of it in {quote(lead)}"
@@ -185,7 +191,8 @@ def singularity(
 
     Notes
     -----
-    The hybrid Jacobian is J = Σ s_a u_a v_aᵀ, with v ÷ length in the rows of translation; g is the
+    The hybrid Jacobian per rad or m of the joints is J = Σ s_a u_a v_aᵀ, with v ÷ length in the rows
+    of translation; the ratios of gears or degrees do not change the verdict. g is the
     largest rank of J, found at random configurations. u_g is the tool's motion that costs most, v_g
     the rates it takes, and ds_g/dq_j = u_gᵀ (dJ/dq_j) v_g, by `Chain.hessian`, says how far q is
     from s_g = 0, where no motion of the arm has a component along u_g. At s_g = 0 an arm of g < 6
@@ -217,8 +224,9 @@ def singularity(
         )
     q = _configuration(chain, q)
     L = float(chain.reach if length is None else length)
-    J = scaled(chain.jacobian(q, "hybrid"), -2, part, L)
-    H = scaled(chain.hessian(q, "hybrid"), -3, part, L)
+    ratios = joint_ratios(chain)
+    J = scaled(chain.jacobian(q, "hybrid") / ratios, -2, part, L)
+    H = scaled(chain.hessian(q, "hybrid") / np.outer(ratios, ratios), -3, part, L)
     U, s, V = svd(J)
     g = generic_rank(chain, part, min(float(tolerance), TOLERANCE))
     last = max(g, 1) - 1
@@ -238,9 +246,10 @@ def singularity(
         generic_rank=g,
         singular_direction=motions[last],
         singular_subspace=motions[rank:g],
-        joint_direction=_positive(V[last]),
+        joint_direction=_positive(V[last]) / ratios,
         distance=_distance(s[last], s[0], steep),
-        gradient_direction=-slope / steep if steep else np.zeros(chain.dof),
+        gradient_direction=-slope / steep / ratios if steep else np.zeros(chain.dof),
+        joint_ratios=ratios,
         q_names=chain.q_names,
         unit=_unit(chain),
     )
