@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -99,6 +100,11 @@ class Problem:
         self._error_parts = ik_kernels.error_parts
         self._address = self.fast.hybrid_address
         self._rows = _rows(settings.restarts, settings.iterations)
+
+    @cached_property
+    def generic_rank(self) -> int:
+        """Number of the task's degrees of freedom that the arm can serve by what may move."""
+        return self.task.generic_rank(self.fast.chain, self.domain.anywhere(1)[0])
 
     def coordinates(self, u: Array) -> Array:
         """The user's coordinates q (..., m) of joint units u (..., m)."""

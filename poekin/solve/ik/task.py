@@ -8,10 +8,12 @@ from typing import Any, Literal, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...analysis.dexterity.jacobian_part import Part, largest_rank, random_configurations
 from ...engine.kernels import ik_codes as codes
 from ...errors import InputError, PoseError, safe_repr
 from ...formulas.inverse import pose_error
 from ...groups.arrays import Array, poses, shaped
+from ...model.chain import Chain
 from ..option_checks import one_of
 
 TASKS = {
@@ -48,6 +50,23 @@ class Task:
     def constrained_dof(self) -> int:
         """Number of degrees of freedom that the task constrains."""
         return TASKS[self.name][1]
+
+    @property
+    def part(self) -> Part:
+        """Part of the tool's motion with the rows of `jacobian` that count."""
+        parts: dict[str, Part] = {"position": "translation", "rotation": "rotation"}
+        return parts.get(self.name, "pose")
+
+    def generic_rank(self, chain: Chain, locked: Array | None = None) -> int:
+        """Number of degrees of freedom that an arm in joint units can serve at all: the largest
+        rank of `jacobian`. `locked` (m,): values of locked coordinates, NaN for those that move.
+        """
+        if locked is None:
+            locked = np.full(chain.dof, np.nan)
+        moves = np.isnan(locked)
+        q = np.where(moves, random_configurations(chain), locked)
+        T, J = chain.fk_jacobian(q, "hybrid")
+        return largest_rank(np.where(moves, self.jacobian(T, J), 0.0), chain.reach, self.part)
 
     def jacobian(self, T: Array, J: Array) -> Array:
         """Hybrid Jacobians J (..., 6, m) at poses T (..., 4, 4), without the turn about a

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...analysis.dexterity.jacobian_part import Part, scaled, svd
+from ...analysis.dexterity.jacobian_part import scaled, svd
 from ...analysis.dexterity.singularity import singularity
 from ...errors import quote
 from ...groups.arrays import Array
@@ -188,14 +188,18 @@ class PathResult(Result):
     def inverse_condition(self) -> Array:
         """Smallest ÷ largest singular value (N,) of the Jacobian that the task asks; 0: singular.
 
-        In rad and m of the joints, lengths ÷ reach.
+        Smallest of the motions that the arm has at all; 1 where it has none that the task asks. In
+        rad and m of the joints, lengths ÷ reach.
         Computed when it is first asked for, which takes longer than to follow the path.
         """
         units = joint_units(self.chain.compile())
+        rank = self.task.generic_rank(units.fast.chain)
+        if not rank:
+            return np.ones(len(self.q))
         T, J = units.fast.chain.fk_jacobian(units.of(self.q), "hybrid")
         J = self.task.jacobian(T, J)
-        s = svd(scaled(J, -2, self._part(), self.chain.reach))[1]
-        last = min(self.task.constrained_dof, self.chain.dof) - 1
+        s = svd(scaled(J, -2, self.task.part, self.chain.reach))[1]
+        last = rank - 1
         return np.divide(s[..., last], s[..., 0], out=np.zeros(len(s)), where=s[..., 0] != 0)
 
     @cached_property
@@ -300,12 +304,17 @@ class PathResult(Result):
         )
 
     def _singular(self, s: PathInterval) -> str:
-        words = singularity(self.chain, self.q[s.worst], part=self._part()).summary()
-        return f"{_points(s)}: near a singularity, most at {s.worst}: {words}"
-
-    def _part(self) -> Part:
-        parts: dict[str, Part] = {"position": "translation", "rotation": "rotation"}
-        return parts.get(self.task.name, "pose")
+        where = f"{_points(s)}: near a singularity, most at {s.worst}"
+        # `singularity` has no part with the rows of the other tasks
+        if self.task.name in ("pose", "position", "rotation"):
+            found = singularity(self.chain, self.q[s.worst], part=self.task.part)
+            words = found.summary()
+            if found.singular:
+                return f"{where}: {words}"
+            # farther off there is none: the arm is badly conditioned all the way
+            if found.distance <= 1:
+                return f"{where} {words.removeprefix('regular ')}"
+        return f"{where} (smallest ÷ largest singular value {s.value:.3g})"
 
     def _above(
         self, values: Array | None, bounds: Array | None, shift: int

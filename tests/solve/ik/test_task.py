@@ -58,6 +58,45 @@ def test_the_jacobian_of_the_planar_task_has_the_turn_about_the_normal_and_what_
     np.testing.assert_allclose(found[:, 3:], (np.eye(3) - np.outer(n, n)) @ J[:, 3:], atol=1e-14)
 
 
+Z = [0, 0, 1.0]
+PLANAR = [pk.screw.revolute(Z, [x, 0, 0]) for x in (0.0, 0.5, 0.9, 1.0)]
+HOME = pk.se3.exp([0, 0, 0, 1.2, 0, 0])
+ARMS = {
+    "UR5e": pk.load("ur5e").chain(tip="tool0"),
+    "4R": pk.Chain.from_space(PLANAR, HOME),
+    "SCARA": pk.Chain.from_space([*PLANAR[:3], pk.screw.prismatic(Z)], HOME),
+    "gantry": pk.Chain.from_space([pk.screw.prismatic(way) for way in np.eye(3)], HOME),
+}
+
+
+@pytest.mark.parametrize("arm, ranks", [
+    ("UR5e", {"pose": 6, "position": 3, "rotation": 3, "direction": 5}),
+    ("4R", {"pose": 3, "position": 2, "rotation": 1, "direction": 2, "planar": 3}),
+    ("SCARA", {"pose": 4, "position": 3, "rotation": 1, "direction": 3, "planar": 3}),
+    ("gantry", {"pose": 3, "position": 3, "rotation": 0, "direction": 3, "planar": 2}),
+])  # fmt: skip
+def test_an_arm_serves_as_many_degrees_of_freedom_of_a_task_as_it_has_motions(arm, ranks):
+    found = {name: make_task(name, None, None).generic_rank(ARMS[arm]) for name in ranks}
+    assert found == ranks
+
+
+def test_a_locked_coordinate_is_no_motion_and_keeps_its_value():
+    task = make_task("position", None, None)
+    nan = np.nan
+    arm = pk.Chain.from_space(PLANAR[:3], HOME)
+    assert task.generic_rank(arm, np.array([nan, 0.0, nan])) == 2
+    assert task.generic_rank(arm, np.array([nan, nan, 0.0])) == 2
+    assert task.generic_rank(arm, np.array([nan, 0.0, 0.0])) == 1
+    # two axes are one where the joint between them is straight
+    rotating = make_task("rotation", None, None)
+    ball = pk.Chain.from_space(
+        [pk.screw.revolute(axis, [0, 0, 0]) for axis in np.eye(3)[[0, 1, 0]]], np.eye(4)
+    )
+    assert rotating.generic_rank(ball) == 3
+    assert rotating.generic_rank(ball, np.array([nan, 0.4, nan])) == 2
+    assert rotating.generic_rank(ball, np.array([nan, 0.0, nan])) == 1
+
+
 @pytest.mark.parametrize("given, words", [
     (("dance", None, None), "task: expected one of 'pose', 'position', 'rotation', 'direction', 'planar', got 'dance'"),
     ((3, None, None), "task: expected one of 'pose', 'position', 'rotation', 'direction', 'planar', got 3"),

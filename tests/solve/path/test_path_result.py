@@ -20,7 +20,9 @@ ARM = pk.Chain.from_space(
 )  # fmt: skip
 
 
-def followed(q, reason=None, errors=None, changes=(), task="position", limits=None, **given):
+def followed(
+    q, reason=None, errors=None, changes=(), task="position", limits=None, arm=ARM, **given
+):
     """A path of which this is known; solved where nothing else is said."""
     q = np.array(q, float)
     n = len(q)
@@ -31,13 +33,13 @@ def followed(q, reason=None, errors=None, changes=(), task="position", limits=No
     solution = Solution(
         q, reason == "solved", reason, off[:, 0], off[:, 1], nothing, nothing, np.zeros(n), blocked
     )
-    bounds = ARM.limits if limits is None else np.array(limits, float)
+    bounds = arm.limits if limits is None else np.array(limits, float)
     times, speed, acceleration = (
         None if given.get(name) is None else np.array(given[name], float)
         for name in ("times", "speed", "acceleration")
     )
     return PathResult(
-        ARM,
+        arm,
         solution,
         tuple(changes),
         make_task(task, None, None),
@@ -112,9 +114,8 @@ def test_regularity_is_the_quotient_of_the_singular_values_of_what_the_task_asks
     (near,) = path.near_singular
     assert near == PathInterval(1, 2, "", 2, path.inverse_condition[2], NEAR_SINGULAR)
     rotation = followed(q, task="rotation")
-    assert rotation.inverse_condition == pytest.approx(
-        np.zeros(4)
-    )  # three numbers, and the arm turns about one axis alone
+    # three numbers, and the arm turns about one axis alone, but about that one everywhere
+    assert rotation.inverse_condition == pytest.approx(np.ones(4))
     whole = np.linalg.svd(
         ARM.jacobian(q, "hybrid") / np.repeat([1, ARM.reach], 3)[:, None], compute_uv=False
     )
@@ -168,6 +169,75 @@ def test_a_singularity_is_told_in_the_words_of_what_the_task_asks():
     words = pk.singularity(ARM, q[1], part="translation").summary()
     assert said == f"poses 1 to 2: near a singularity, most at 1: {words}"
     assert "the base's x axis" in said
+
+
+def arm_along_x(*joints):
+    """An arm of joints about z at these x, and its tool at 1.2 m."""
+    axes = [screw.revolute(Z, [x, 0, 0]) for x in joints]
+    return pk.Chain.from_space(axes, pk.se3.exp([0, 0, 0, 1.2, 0, 0]))
+
+
+@pytest.mark.parametrize("task", ["pose", "position", "rotation", "direction", "planar"])
+def test_a_planar_arm_is_near_a_singularity_where_it_is_stretched_and_nowhere_else(task):
+    arm = arm_along_x(0.0, 0.5, 0.9)
+    q = np.array([0.4, 0.5, 0.6]) + np.linspace(0, 0.1, 5)[:, None]
+    path = pk.follow(arm, arm.fk(q), task=task, q0=q[0])
+    assert (path.inverse_condition > NEAR_SINGULAR).all()
+    assert path.near_singular == ()
+    assert path.summary().count("\n") == 0
+    straight = followed([[0.4, 0, 0]], task=task, arm=arm)
+    assert len(straight.near_singular) == (task != "rotation")
+
+
+def test_an_arm_without_any_motion_that_the_task_asks_is_nowhere_near_a_singularity():
+    slides = pk.Chain.from_space([screw.prismatic(way) for way in np.eye(3)], np.eye(4))
+    path = followed(np.zeros((2, 3)), task="rotation", arm=slides)
+    assert path.inverse_condition.tolist() == [1, 1]
+    assert path.near_singular == ()
+
+
+@pytest.mark.parametrize("task", ["pose", "position"])
+def test_near_a_singularity_is_not_called_regular(task):
+    arm = arm_along_x(0.0, 0.5, 0.9)
+    q = [[0.4, 0.02, 0.02]]
+    path = followed(q, task=task, arm=arm)
+    (near,) = path.near_singular
+    part = "translation" if task == "position" else "pose"
+    found = pk.singularity(arm, q[0], part=part)
+    assert not found.singular
+    assert near.value == pytest.approx(found.smallest / found.singular_values[0])
+    words = path.summary().splitlines()[1]
+    assert words == (
+        "pose 0: near a singularity, most at 0 " + found.summary().removeprefix("regular ")
+    )
+    assert f"at 0 (smallest ÷ largest singular value {near.value:.3g}, tolerance 0.001): " in words
+    assert "the nearest singularity is about 0.0" in words
+    assert "regular" not in words
+
+
+@pytest.mark.parametrize("task", ["direction", "planar"])
+def test_of_other_tasks_the_quotient_alone_is_told(task):
+    path = followed([[0.4, 0, 0]], task=task, arm=arm_along_x(0.0, 0.5, 0.9))
+    words = path.summary().splitlines()[1]
+    assert words.startswith("pose 0: near a singularity, most at 0 (smallest ÷ largest singular ")
+    assert words.endswith(f" value {path.inverse_condition[0]:.3g})")
+
+
+@pytest.mark.parametrize("elbow", [np.pi / 2, 1.0, 0.7])
+def test_of_an_arm_that_is_badly_conditioned_everywhere_no_singularity_is_said_to_be_far(elbow):
+    # the elbow is bent by what it is, and the distance is about its tangent
+    arm = arm_along_x(0.0, 1.195)
+    q = [[0.4, elbow]]
+    path = followed(q, arm=arm)
+    found = pk.singularity(arm, q[0], part="translation")
+    assert not found.singular
+    assert found.distance == pytest.approx(np.tan(elbow), rel=0.05) or elbow > 1.5
+    (near,) = path.near_singular
+    words = f" (smallest ÷ largest singular value {near.value:.3g})"
+    if elbow == 0.7:
+        words = " " + found.summary().removeprefix("regular ")
+        assert "singularity is about 0.84 rad away" in words
+    assert path.summary().splitlines()[1] == f"pose 0: near a singularity, most at 0{words}"
 
 
 def test_a_path_is_plain_data_without_its_chain():

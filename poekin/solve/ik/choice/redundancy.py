@@ -55,11 +55,10 @@ def optimise(problem: Problem, targets: Array, q: Array, q0: Array, objective: O
 
 def _value(problem: Problem, q: Array, q0: Array, objective: Objective) -> Array:
     """Value that the objective makes small: the manipulability is that of the task, by the
-    coordinates that may move.
+    coordinates that may move, in as many motions as they have at all.
     """
     if objective == "manipulability":
-        n = problem.task.constrained_dof
-        sizes = np.linalg.svd(_jacobian(problem, q), compute_uv=False)[:, :n]
+        sizes = np.linalg.svd(_jacobian(problem, q), compute_uv=False)[:, : problem.generic_rank]
         with np.errstate(divide="ignore"):
             return -np.log(sizes).sum(axis=1)
     off = q - _goal(problem, q0, objective)

@@ -93,6 +93,44 @@ def test_the_manipulability_is_that_of_the_task_by_what_may_move(task, rows):
         )
 
 
+def planar(*points):
+    axes = [screw.revolute([0, 0, 1.0], [x, 0, 0]) for x in points]
+    return pk.Chain.from_space(axes, pk.se3.exp([0, 0, 0, 1.2, 0, 0]))
+
+
+def in_the_plane(arm, q, rows):
+    J = arm.jacobian(q, "hybrid")[rows]
+    return np.sqrt(np.linalg.det(J @ J.T))
+
+
+@pytest.mark.parametrize("task, points, rows", [
+    ("pose", (0.0, 0.4, 0.7, 1.0), [2, 3, 4]), ("planar", (0.0, 0.4, 0.7, 1.0), [2, 3, 4]),
+    ("position", (0.0, 0.5, 0.9), [3, 4]), ("direction", (0.0, 0.5, 0.9), [3, 4]),
+])  # fmt: skip
+def test_the_manipulability_of_an_arm_in_a_plane_is_that_of_its_plane(task, points, rows):
+    arm = planar(*points)
+    q0 = np.array([0.3, 0.9, -0.4, 0.7][: len(points)])
+    asked = Settings(task, None, True, 1e-9, 1e-9, None, None, 5, 30, 0, False)
+    problem = make_problem(arm.compile(), asked)
+    value = redundancy._value(problem, q0[None], q0[None], "manipulability")
+    np.testing.assert_allclose(value, -np.log(in_the_plane(arm, q0, rows)), rtol=1e-9)
+    found = ik(arm, arm.fk(q0), task=task, q0=q0, secondary_objective="manipulability")
+    assert found.success
+    # at the best there is, no motion that the task leaves free changes it
+    spare = np.linalg.svd(arm.jacobian(found.q, "hybrid")[rows])[2][-1]
+    up, down = (in_the_plane(arm, found.q + s * spare, rows) for s in (1e-4, -1e-4))
+    assert in_the_plane(arm, found.q, rows) > 1.01 * in_the_plane(arm, q0, rows)
+    assert abs(up - down) / 2e-4 < 2e-3
+
+
+def test_an_arm_without_a_motion_of_the_task_stays_where_it_is():
+    slides = pk.Chain.from_space([screw.prismatic(way) for way in np.eye(3)], np.eye(4))
+    q0 = [0.1, 0.2, 0.3]
+    found = ik(slides, np.eye(4), task="rotation", q0=q0, secondary_objective="manipulability")
+    assert found.success
+    np.testing.assert_array_equal(found.q, q0)
+
+
 def test_a_move_leaves_the_task_to_first_order_and_goes_down_the_aim_within_the_limits():
     arm, q = solver(), np.array([[2.5, 0.2, 0.3, 0.7]])
     moved = redundancy._moved(arm, q, q + 0.3, "nearest", np.array([0.5]))
