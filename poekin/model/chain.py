@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +22,7 @@ from .kinematics.pose_jacobian import Frame
 from .methods.chain_derivatives import ChainDerivatives
 from .methods.entrances import ChainEntrances
 from .methods.frames import ChainFrames
-from .methods.peer_names import OF_CHAINS, no_attribute
+from .methods.peer_names import OF_CHAINS, answer_peer_names
 from .methods.pose_coordinates import ChainCoordinates
 
 # Names looked up once: one call for a pose and a Jacobian takes about a microsecond in all.
@@ -99,10 +99,8 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates):
 
     __slots__ = ("_compiled",)
 
-    if not TYPE_CHECKING:  # which would take any name for an attribute
-
-        def __getattr__(self, name: str) -> Any:
-            raise no_attribute("Chain", name, OF_CHAINS, dir(type(self)))
+    def __dir__(self) -> list[str]:
+        return [name for name in super().__dir__() if name not in OF_CHAINS]
 
     def fk(self, q: Any, *, out: Array | None = None) -> Array:
         """Forward kinematics T_sb = f(q) = e^{A_1 x_1} ... e^{A_n x_n} M with x = C q + c.
@@ -383,3 +381,6 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates):
         (2, 3, 6)
         """
         return sampling.random(self, rng, size)
+
+
+answer_peer_names(Chain, OF_CHAINS)

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import ModelError, UnknownName, quote, safe_repr, suggest
 from .chain import Chain
 from .joint import Joint
-from .methods.peer_names import OF_ROBOTS, no_attribute
+from .methods.peer_names import OF_CHAINS, OF_ROBOTS, no_attribute
 from .provenance import Source
 from .tree.all_poses import all_poses
 from .tree.chain_between import chain_between, only_leaf
@@ -127,7 +127,9 @@ class Robot:
     if not TYPE_CHECKING:  # which would take any name for an attribute
 
         def __getattr__(self, name: str) -> Any:
-            of_chain = {word: f"chain(tip=...).{word}" for word in dir(Chain)}
+            of_chain = {
+                word: f"chain(tip=...).{word}" for word in dir(Chain) if word not in OF_CHAINS
+            }
             raise no_attribute("Robot", name, of_chain | OF_ROBOTS, dir(type(self)))
 
     @property

@@ -53,7 +53,8 @@ def test_an_unknown_command_is_one_message(refused):
     ids=["frame", "language", "file"],
 )
 def test_a_required_choice_that_is_left_out_lists_the_choices(refused, words, message):
-    assert message in refused(*words)
+    said = refused(*words).replace(" (env var: 'None')", "")  # which older versions of Typer add
+    assert message in said
 
 
 @pytest.mark.parametrize("command", ["info", "fk", "jacobian", "validate"])

@@ -25,6 +25,8 @@ def warn_of_degrees(
     `scale` gives the radians of each coordinate's unit, 0 for a length. The text holds no value:
     so Python shows it once for each line of the user's.
     """
+    if q.ndim == 1 and all(-TURN <= angle <= TURN for angle in q.tolist()):
+        return  # in a third of the time
     sizes = np.where(np.isfinite(q), np.abs(q), 0.0)
     if not (sizes > TURN).any():
         return

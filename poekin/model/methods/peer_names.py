@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Mapping
+from typing import NoReturn
 
 _CHAIN_NAMES = {
     'acceleration(q, dq, ddq, frame="hybrid")': "getFrameClassicalAcceleration",
@@ -77,6 +78,28 @@ def _by_name(table: Mapping[str, str], prefix: str = "") -> dict[str, str]:
 OF_CHAINS = _by_name(_CHAIN_NAMES)
 OF_ROBOTS = _by_name(_CHAIN_NAMES, "chain(tip=...).")
 OF_PACKAGE = _by_name(_CHAIN_NAMES, "Chain.") | _by_name(_PACKAGE_NAMES, "Chain.")
+
+
+class _PeerName:
+    """Attribute that is none: asked for, it says what does it here.
+
+    `__getattr__` would do without these, and make every attribute of a chain slower.
+    """
+
+    __slots__ = ("message",)
+
+    def __init__(self, message: str) -> None:
+        self.message = message
+
+    def __get__(self, instance: object, owner: type) -> NoReturn:
+        raise AttributeError(self.message)
+
+
+def answer_peer_names(owner: type, peers: Mapping[str, str]) -> None:
+    """Make the attributes of a class that have these names say what does it here."""
+    for name, here in peers.items():
+        message = f"{owner.__name__} has no attribute {name!r}; here it is {here}"
+        setattr(owner, name, _PeerName(message))
 
 
 def no_attribute(

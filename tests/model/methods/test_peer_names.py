@@ -34,6 +34,12 @@ def test_a_chains_name_in_another_library_is_told(name):
     assert told(ARM, name) == f"Robot has no attribute '{name}'; here it is {of_robot}"
 
 
+def test_names_of_other_libraries_are_not_listed_and_others_are_pythons_own():
+    assert not set(peer_names.OF_CHAINS) & set(dir(CHAIN))
+    assert {"fk", "jacobian", "screws"} <= set(dir(CHAIN))
+    assert told(CHAIN, "colour") == "'Chain' object has no attribute 'colour'"
+
+
 def test_what_is_told_exists():
     for here in {*peer_names.OF_CHAINS.values(), *peer_names.OF_PACKAGE.values()}:
         owner, path = (pk, here.split("(")[0].removeprefix("pk."))
@@ -51,13 +57,13 @@ def test_what_a_chain_of_a_robot_does_is_told_of_the_robot():
 
 
 @pytest.mark.parametrize("owner, name, words", [
-    (CHAIN, "jacobain", "Chain has no attribute 'jacobain'; did you mean jacobian?"),
-    (CHAIN, "forwardKinematic", "Chain has no attribute 'forwardKinematic'; did you mean fk(q)?"),
+    (ARM, "jacobain", "Robot has no attribute 'jacobain'; did you mean chain(tip=...).jacobian?"),
     (ARM, "jonts", "Robot has no attribute 'jonts'; did you mean joints?"),
     (pk, "calibrte", "poekin has no attribute 'calibrte'; did you mean calibrate?"),
-    (CHAIN, "colour", "Chain has no attribute 'colour'"),
-    (CHAIN, "_jacobian", "Chain has no attribute '_jacobian'"),
-    (CHAIN, "x" * 10_000, f"Chain has no attribute '{'x' * 10_000}'"),
+    (pk, "forwardKinematic", "poekin has no attribute 'forwardKinematic'; did you mean Chain.fk(q)?"),
+    (ARM, "colour", "Robot has no attribute 'colour'"),
+    (ARM, "_jacobian", "Robot has no attribute '_jacobian'"),
+    (ARM, "x" * 10_000, f"Robot has no attribute '{'x' * 10_000}'"),
 ])  # fmt: skip
 def test_a_name_that_nobody_has_is_answered_with_the_closest(owner, name, words):
     assert told(owner, name) == words
