@@ -12,7 +12,7 @@ import numpy as np
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...results import Result
-from .jacobian_part import Part, check, check_part, generic_rank, scaled, svd
+from .jacobian_part import ROWS, Part, check, check_part, generic_rank, scaled, svd
 
 __all__ = ["Manipulability", "Measures", "manipulability", "manipulability_gradient"]
 
@@ -78,8 +78,7 @@ class Manipulability(Result):
         text : str
             Lines such as "translation: yoshikawa 0.12, condition 3.4, smallest 0.2".
         """
-        parts = {"pose": self.pose, "translation": self.translation, "rotation": self.rotation}
-        return "\n".join(f"{part}: {measures.summary()}" for part, measures in parts.items())
+        return "\n".join(f"{part}: {measures}" for part, measures in vars(self).items())
 
 
 def manipulability(chain: Chain, q: Any, *, length: float = 1.0) -> Manipulability:
@@ -138,10 +137,7 @@ def manipulability(chain: Chain, q: Any, *, length: float = 1.0) -> Manipulabili
     """
     check(chain, length)
     J = chain.jacobian(q, "hybrid")
-    pose, translation, rotation = (
-        _measures(chain, J, part, length) for part in ("pose", "translation", "rotation")
-    )
-    return Manipulability(pose, translation, rotation)
+    return Manipulability(**{part: _measures(chain, J, part, length) for part in ROWS})
 
 
 def manipulability_gradient(

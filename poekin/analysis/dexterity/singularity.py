@@ -16,7 +16,7 @@ from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ...model.sampling import joint_ratios
 from ...results import Result
-from .jacobian_part import TOLERANCE, Part, check, check_part, generic_rank, scaled, svd
+from .jacobian_part import ROWS, TOLERANCE, Part, check, check_part, generic_rank, scaled, svd
 from .messages import motion_words, rate_words
 
 __all__ = ["Singularity", "singularity"]
@@ -300,11 +300,9 @@ def _distance(smallest: float, largest: float, steep: float) -> float:
 
 def _twist(u: Array, part: Part, length: float) -> Array:
     """The twist (6,) that a left singular vector stands for."""
-    if part == "rotation":
-        return np.concatenate([u, np.zeros(3)])
-    if part == "translation":
-        return np.concatenate([np.zeros(3), length * u])
-    return u * np.repeat([1.0, length], 3)
+    twist = np.zeros(6)
+    twist[ROWS[part]] = u
+    return twist * np.repeat([1.0, length], 3)
 
 
 def _positive(x: Array) -> Array:

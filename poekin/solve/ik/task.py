@@ -16,14 +16,14 @@ from ...groups.arrays import Array, poses, shaped
 from ...model.chain import Chain
 from ..option_checks import one_of
 
-TASKS = {
-    "pose": (codes.POSE, 6),
-    "position": (codes.POSITION, 3),
-    "rotation": (codes.ROTATION, 3),
-    "direction": (codes.DIRECTION, 5),
-    "planar": (codes.PLANAR, 3),
+TASKS: dict[str, tuple[int, int, Part]] = {
+    "pose": (codes.POSE, 6, "pose"),
+    "position": (codes.POSITION, 3, "translation"),
+    "rotation": (codes.ROTATION, 3, "rotation"),
+    "direction": (codes.DIRECTION, 5, "pose"),
+    "planar": (codes.PLANAR, 3, "pose"),
 }
-"""Each task's code, and how many degrees of freedom it constrains."""
+"""Each task's code, how many degrees of freedom it constrains, and the part with its rows."""
 
 TaskName = Literal["pose", "position", "rotation", "direction", "planar"]
 
@@ -54,15 +54,12 @@ class Task:
     @property
     def part(self) -> Part:
         """Part of the tool's motion with the rows of `jacobian` that count."""
-        parts: dict[str, Part] = {"position": "translation", "rotation": "rotation"}
-        return parts.get(self.name, "pose")
+        return TASKS[self.name][2]
 
-    def generic_rank(self, chain: Chain, locked: Array | None = None) -> int:
+    def generic_rank(self, chain: Chain, locked: Array | float = np.nan) -> int:
         """Number of degrees of freedom that an arm in joint units can serve at all: the largest
         rank of `jacobian`. `locked` (m,): values of locked coordinates, NaN for those that move.
         """
-        if locked is None:
-            locked = np.full(chain.dof, np.nan)
         moves = np.isnan(locked)
         q = np.where(moves, random_configurations(chain), locked)
         T, J = chain.fk_jacobian(q, "hybrid")

@@ -308,12 +308,11 @@ class PathResult(Result):
         # `singularity` has no part with the rows of the other tasks
         if self.task.name in ("pose", "position", "rotation"):
             found = singularity(self.chain, self.q[s.worst], part=self.task.part)
-            words = found.summary()
             if found.singular:
-                return f"{where}: {words}"
+                return f"{where}: {found}"
             # farther off there is none: the arm is badly conditioned all the way
             if found.distance <= 1:
-                return f"{where} {words.removeprefix('regular ')}"
+                return f"{where} {str(found).removeprefix('regular ')}"
         return f"{where} (smallest ÷ largest singular value {s.value:.3g})"
 
     def _above(

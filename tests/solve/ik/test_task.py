@@ -22,7 +22,7 @@ from poekin.solve.ik.task import TASKS, make_task, targets
 def test_weights_are_scaled_to_1_and_0_where_a_task_takes_no_hold(name, weights, expected):
     task = make_task(name, None, weights)
     assert (task.name, task.weights.tolist(), task.axis.tolist()) == (name, expected, [0, 0, 1])
-    assert (task.code, task.constrained_dof) == TASKS[name]
+    assert (task.code, task.constrained_dof, task.part) == TASKS[name]
     assert (
         task.constrained_dof
         == {"pose": 6, "position": 3, "rotation": 3, "direction": 5, "planar": 3}[name]

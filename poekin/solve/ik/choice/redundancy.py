@@ -83,9 +83,7 @@ def _gradient(problem: Problem, q: Array, q0: Array, objective: Objective) -> Ar
     direction is better.
     """
     z = np.empty_like(q)
-    for k in range(q.shape[1]):
-        h = np.zeros(q.shape[1])
-        h[k] = DIFFERENCE
+    for k, h in enumerate(DIFFERENCE * np.eye(q.shape[1])):
         with np.errstate(invalid="ignore"):  # infinite less infinite
             less = _value(problem, q - h, q0, objective)
             z[:, k] = less - _value(problem, q + h, q0, objective)
