@@ -240,6 +240,15 @@ def test_of_an_arm_that_is_badly_conditioned_everywhere_no_singularity_is_said_t
     assert path.summary().splitlines()[1] == f"pose 0: near a singularity, most at 0{words}"
 
 
+def test_where_the_tool_stands_still_whatever_moves_is_a_singularity():
+    # two links folded in step move their end along a line, and not at all where they are stretched
+    axes = [screw.revolute(Z, [x, 0, 0]) for x in (0.0, 1.0)]
+    arm = pk.Chain.from_space(axes, pk.se3.exp([0, 0, 0, 2, 0, 0]), coupling=[[1], [-2]])
+    path = followed([[0.0], [0.5]], arm=arm)
+    assert path.inverse_condition.tolist() == [0, 1]
+    assert "pose 0: near a singularity, most at 0: singular" in path.summary()
+
+
 def test_a_path_is_plain_data_without_its_chain():
     q = [[0, 1, 0.1], [0.1, 1, 0.5]]
     document = json.loads(followed(q, times=[0, 1.0], speed=[0.05, 3, 1]).to_json())
