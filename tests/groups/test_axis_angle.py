@@ -91,7 +91,7 @@ def test_a_screw_of_an_arm_comes_back_from_the_pose_that_it_makes():
 
 def test_a_pose_and_a_matrix_of_a_vector_are_refused():
     with pytest.raises(
-        ShapeError, match=r"^V: expected shape \(..., 6\), got \(4, 4\): pk.se3.log of"
+        ShapeError, match=r"^xi: expected shape \(..., 6\), got \(4, 4\): pk.se3.log of"
     ):
         se3.axis_angle(np.eye(4))
     with pytest.raises(ShapeError, match=r"so3.vee of it is w"):

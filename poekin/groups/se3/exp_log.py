@@ -138,26 +138,26 @@ def log(T: ArrayLike, near: ArrayLike | None = None) -> Array:
     return xi
 
 
-def axis_angle(V: ArrayLike) -> ScrewMotion:
-    """Unit screw and angle of a twist, V = screw · theta.
+def axis_angle(xi: ArrayLike) -> ScrewMotion:
+    """Unit screw and angle of a twist, xi = screw · theta.
 
     Parameters
     ----------
-    V : (..., 6) array_like
+    xi : (..., 6) array_like
         Twist (ω; v), rad and m; `log` makes one of a pose.
 
     Returns
     -------
     motion : ScrewMotion
         Screw (..., 6) and theta (...). Where ω ≠ 0, theta = |ω| in rad; where ω = 0 it is |v|
-        in m, and the screw is the translation along v; of V = 0 the one along z.
+        in m, and the screw is the translation along v; of xi = 0 the one along z.
 
     Raises
     ------
     ShapeError
-        If the last axis of V is not 6.
+        If the last axis of xi is not 6.
     InputError
-        If V holds anything but real numbers.
+        If xi holds anything but real numbers.
 
     Notes
     -----
@@ -177,14 +177,14 @@ def axis_angle(V: ArrayLike) -> ScrewMotion:
     >>> print(screw, float(theta))
     [0. 0. 0. 1. 0. 0.] 0.3
     """
-    V = shaped(V, (6,), "V")
-    axis, angle = direction_and_length(V[..., :3])
-    direction, length = direction_and_length(V[..., 3:])
+    xi = shaped(xi, (6,), "xi")
+    axis, angle = direction_and_length(xi[..., :3])
+    direction, length = direction_and_length(xi[..., 3:])
     turns = angle != 0.0
     theta = np.where(turns, angle, length)
     with np.errstate(over="ignore", invalid="ignore"):
         v = np.where(
-            turns[..., None], V[..., 3:] / np.where(turns, angle, 1.0)[..., None], direction
+            turns[..., None], xi[..., 3:] / np.where(turns, angle, 1.0)[..., None], direction
         )
     screw = np.concatenate([axis, v], axis=-1)
     return ScrewMotion(np.where(theta[..., None] == 0.0, ALONG_Z, screw), theta)
