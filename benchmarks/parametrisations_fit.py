@@ -125,7 +125,7 @@ def calibrated(arm: Chain, measured: Sample, fresh: Sample, steps: int) -> Found
     poses = calibration.Poses(measured.T, covariance=np.diag([1.0] * 3 + [arm.reach**2] * 3))
     errors, found = [fresh.error(arm.fk(fresh.q))], arm
     for most in range(1, steps + 1):
-        result = calibration.calibrate(arm, measured.q, poses, folds=0, max_iterations=most)
+        result = calibration.calibrate(arm, measured.q, poses, folds=0, iterations=most)
         if any(step.damping for step in result.steps):
             raise RuntimeError("a step was damped: it is no Gauss-Newton step")
         if len(result.steps) < most:

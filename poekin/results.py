@@ -5,10 +5,13 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import ClassVar
 
 import numpy as np
+
+Progress = Callable[[int, int], None]
+"""Called as progress(done, all) while a result is made."""
 
 
 class Result:

@@ -8,13 +8,13 @@ from typing import ClassVar, get_args
 
 import numpy as np
 
-from ..errors import InputError, join_names, safe_repr
+from ..checks import choice, positive
 from ..groups.arrays import Array
 from ..model.chain import Chain
+from ..model.kinematics.arm import Arm, chain_of
 from ..results import Result
 from .amounts import amount
-from .checks import POSITION, ROTATION, check_chain, check_tolerances
-from .compare.alignment.lines import cross, direction, uncoupled_at_zero
+from .axis_lines import POSITION, ROTATION, cross, direction, uncoupled_at_zero
 from .shapes import Shape, ShapeKind, line_angle, shapes
 
 __all__ = ["AxesReport", "AxisPair", "axes"]
@@ -124,9 +124,7 @@ class AxesReport(Result):
         InputError
             If there is no such kind.
         """
-        if kind not in get_args(ShapeKind):
-            kinds = join_names(get_args(ShapeKind))
-            raise InputError(f"kind: expected one of {kinds}, got {safe_repr(kind)}")
+        choice(kind, get_args(ShapeKind), "kind")
         return any(shape.kind == kind for shape in self.shapes)
 
     def summary(self) -> str:
@@ -141,7 +139,7 @@ class AxesReport(Result):
 
 
 def axes(
-    chain: Chain, *, tol_position: float = POSITION, tol_rotation: float = ROTATION
+    chain: Arm, *, tol_position: float = POSITION, tol_rotation: float = ROTATION
 ) -> AxesReport:
     """Relations of neighbouring and every third axes at q = 0, and the shapes that they make.
 
@@ -150,7 +148,7 @@ def axes(
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         Arm to look at.
     tol_position : float, default 1e-5
         Distance up to which axes intersect, m.
@@ -186,10 +184,9 @@ def axes(
     >>> print(report.pairs[6])
     panda_joint4 - panda_joint5: perpendicular, 82.5 mm from intersecting
     """
-    check_chain(chain)
-    check_tolerances(tol_position=tol_position, tol_rotation=tol_rotation)
+    chain = chain_of(chain)
+    tol = (positive(tol_position, "tol_position"), positive(tol_rotation, "tol_rotation"))
     rest = uncoupled_at_zero(chain)
-    tol = (float(tol_position), float(tol_rotation))
     numbers = range(1, len(rest.kinds) + 1)
     near = [(i, i + step) for i in numbers for step in (1, 2) if i + step in numbers]
     ways = direction(rest.screws, rest.kinds)

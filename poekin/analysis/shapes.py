@@ -16,7 +16,7 @@ from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..results import Result
 from .amounts import amount
-from .compare.alignment.lines import cross
+from .axis_lines import cross
 
 __all__ = ["Shape", "ShapeKind", "shapes"]
 

@@ -12,7 +12,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..errors import FileError, InputError, quote
+from ..checks import whole
+from ..errors import FileError, quote
 from ..formats import catalogue, urdf
 from ..formats.load import load
 from ..formats.urdf_text import to_urdf
@@ -211,8 +212,7 @@ def validate(
     a chain of its own; the notes of the chains say so. Each error is the largest absolute entry of
     a difference, lengths ÷ R.
     """
-    if samples < 0:
-        raise InputError(f"samples: a number of configurations ≥ 0 expected, got {samples}")
+    whole(samples, "samples", 0)
     model, oracle = _both(robot)
     q = oracle.random(np.random.default_rng(seed), samples + 1)
     for values in q.values():

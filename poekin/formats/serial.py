@@ -16,6 +16,7 @@ from ..errors import InputError, join_names, quote
 from ..groups import se3
 from ..model.chain import Chain
 from ..model.joint import Joint, Mimic
+from ..model.kinematics.arm import Arm, chain_of
 from ..model.provenance import warn
 from ..model.robot import Robot
 from .common.limits import UNBOUNDED, Interval
@@ -35,7 +36,7 @@ class Value(NamedTuple):
     moves: bool = True
 
 
-def serial_robot(chain: Chain, name: str | None = None) -> Robot:
+def serial_robot(chain: Arm, name: str | None = None) -> Robot:
     """The robot of one branch with the kinematics of a chain: base, a link after each joint, tip.
 
     Frames are the z-aligned ones of `chain.local`: a chain does not know its links' own. Joint i
@@ -55,8 +56,7 @@ def serial_robot(chain: Chain, name: str | None = None) -> Robot:
     the same: another scale, another order, a coordinate left out because no joint follows it.
     Accuracy: that of the local form; about 1e-16 reach a joint. Source: Park 1994, Section IV.
     """
-    if not isinstance(chain, Chain):
-        raise InputError(f"expected a Chain, got {type(chain).__name__}")
+    chain = chain_of(chain)
     if name is None:
         name = f"{chain.base}_to_{chain.tip}"
     if chain.base == chain.tip:

@@ -11,6 +11,8 @@ import numpy as np
 from ..errors import InputError, join_names, quote, safe_repr
 from ..model.chain import Chain
 from ..model.joint import Joint
+from ..model.kinematics.arm import Arm
+from ..model.kinematics.compiled import CompiledChain
 from ..model.robot import Robot
 from . import rpy
 from .common.limits import UNBOUNDED
@@ -29,7 +31,7 @@ _IMPOSSIBLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]
 _MARKUP = '&<>"'
 
 
-def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
+def to_urdf(model: Robot | Arm, *, name: str | None = None) -> str:
     """URDF text of a robot or a chain: kinematics, names and limits, without mesh or inertia.
 
     A `Robot` keeps its tree: links, joints, origins, axes, mimic and order. A `Chain` becomes a
@@ -39,7 +41,7 @@ def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
 
     Parameters
     ----------
-    model : Robot or Chain
+    model : Robot or Chain or CompiledChain
         What to write.
     name : str, optional
         Name of the robot; by default its own, BASE_to_TIP for a chain.
@@ -85,10 +87,10 @@ def to_urdf(model: Robot | Chain, *, name: str | None = None) -> str:
     """
     if name is not None and not isinstance(name, str):
         raise InputError(f"name: expected the robot's name, a str, got {safe_repr(name)}")
-    if not isinstance(model, (Robot, Chain)):
+    if not isinstance(model, (Robot, Chain, CompiledChain)):
         raise InputError(f"to_urdf: expected a Robot or a Chain, got {type(model).__name__}")
     robot = model
-    if isinstance(robot, Chain):
+    if not isinstance(robot, Robot):
         robot = serial_robot(robot)
     if name is None:
         name = robot.name

@@ -14,6 +14,7 @@ from ..errors import InputError, PoseError, ShapeError, show_numbers
 from .objects import plain
 
 Array = NDArray[np.float64]
+ROUNDOFF = 2.0**-53  # u of a double
 TOLERANCE = 1e-5  # the largest accepted entry of abs(R R^T - I)
 ROUNDED = 2e-2  # of abs(R R^T - I): what rounding to two decimals can do
 LAST_ROW_UNREAD = -2  # of `first_defect`: a NaN in the last row, which kernels do not read

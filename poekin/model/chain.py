@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..checks import REQUIRED
 from ..engine.kernels import chain_kernels
 from ..groups.arrays import Array
 from . import sampling
-from .checks import REQUIRED
 from .kinematics import pose_jacobian
 from .kinematics.compiled import CompiledChain
 from .kinematics.outputs import checked_out, checked_pair

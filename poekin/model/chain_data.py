@@ -9,14 +9,13 @@ from typing import Any, Literal, NamedTuple, Self, TypedDict, TypeVar, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..checks import REQUIRED, choice
 from ..engine.kernels import chain_kernels
 from ..errors import ShapeError, quote
 from ..groups import se3
 from ..groups.arrays import Array
 from .checks import (
-    REQUIRED,
     bounds,
-    choice,
     coupling_matrix,
     distinct_names,
     finite,

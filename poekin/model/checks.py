@@ -18,26 +18,8 @@ LONGEST = 1e100
 """
 
 
-class _Required:
-    """Default of an argument that must be given, so that its absence can list the choices."""
-
-    def __repr__(self) -> str:
-        return "<required>"
-
-
-REQUIRED: Any = _Required()
-
 _EXACT = 4e-15  # a pose whose rotation is off by more is replaced by the nearest rotation
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
-
-
-def choice(value: object, choices: Sequence[str], what: str, hint: str = "") -> None:
-    """Raises InputError that lists the choices, unless the value is one of them."""
-    if isinstance(value, str) and value in choices:
-        return
-    *others, last = map(repr, choices)
-    got = "it was left out" if value is REQUIRED else f"got {safe_repr(value)}"
-    raise InputError(f"{what}: expected {', '.join(others)} or {last}, {got}{hint}")
 
 
 def finite(values: ArrayLike, what: str) -> Array:

@@ -91,8 +91,8 @@ def test_a_kind_of_shape_that_does_not_exist_is_refused_with_those_that_do():
     with pytest.raises(InputError) as caught:
         axes(made(*WRIST)).has("wrist")  # pyright: ignore[reportArgumentType]
     assert str(caught.value) == (
-        "kind: expected one of 'spherical wrist', 'spherical shoulder', 'spherical joint', 'three parallel axes', "
-        "'Pieper', 'S-R-S', got 'wrist'"
+        "kind: expected 'spherical wrist', 'spherical shoulder', 'spherical joint', 'three parallel axes', "
+        "'Pieper' or 'S-R-S', got 'wrist'"
     )
 
 
@@ -223,13 +223,13 @@ def test_the_relation_of_two_axes_is_said_in_degrees_and_mm(angle, gap, words):
 def test_a_tolerance_is_a_positive_number(name, tol):
     with pytest.raises(InputError) as caught:
         axes(made(*WRIST), **{name: tol})
-    assert str(caught.value) == f"{name}: a positive number expected, got {tol!r}"
+    assert str(caught.value) == f"{name}: expected a positive number, got {tol!r}"
 
 
 def test_an_arm_is_a_chain():
     with pytest.raises(InputError) as caught:
         axes(5)  # pyright: ignore[reportArgumentType]
-    assert str(caught.value) == "expected a Chain, as Robot.chain(tip=...) makes it, got 5"
+    assert str(caught.value) == "chain: expected a Chain, as Robot.chain(tip=...) makes it, got 5"
 
 
 def test_shapes_are_said_whole():

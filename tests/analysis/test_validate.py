@@ -394,7 +394,7 @@ def test_what_a_chain_does_not_cross_is_said_whole():
 def test_samples_below_none_are_said_whole():
     with pytest.raises(InputError) as caught:
         validate("ur5e", samples=-1)
-    assert str(caught.value) == "samples: a number of configurations ≥ 0 expected, got -1"
+    assert str(caught.value) == "samples: expected a whole number from 0 on, got -1"
 
 
 @pytest.mark.parametrize("samples", [0, 1, 4])

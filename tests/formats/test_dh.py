@@ -288,7 +288,7 @@ def test_what_is_no_chain_is_refused():
     for wrong in (None, Table("standard", [Row()])):
         with pytest.raises(
             InputError,
-            match=r"from_chain: expected a Chain, as Robot\.chain\(tip=\.\.\.\) makes it, got",
+            match=r"chain: expected a Chain, as Robot\.chain\(tip=\.\.\.\) makes it, got",
         ):
             dh.from_chain(wrong, convention="standard")  # pyright: ignore[reportArgumentType]
     with pytest.raises(
@@ -344,7 +344,7 @@ def test_degrees_are_suspected(column):
 @pytest.mark.parametrize("value", [-1, 1.5, "3", None])
 def test_samples_and_seed_are_whole_numbers(name, value):
     with pytest.raises(
-        InputError, match=rf"^{name}: expected a whole number of at least 0, got {value!r}$"
+        InputError, match=rf"^{name}: expected a whole number from 0 on, got {value!r}$"
     ):
         dh.from_chain(pk.Chain.from_space([], np.eye(4)), convention="modified", **{name: value})
 

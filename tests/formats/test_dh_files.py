@@ -131,7 +131,7 @@ JOINT = "convention = 'standard'\n[[joint]]\ntheta = 0\nd = 0\na = 0\nalpha = 0\
         ),
         (
             "convention,theta,d,a,alpha,kind\nstandard,1,2,3,1,ball\n",
-            "t.csv:2: kind: expected one of 'revolute', 'prismatic', got 'ball'",
+            "t.csv:2: kind: expected 'revolute' or 'prismatic', got 'ball'",
         ),
         (
             "convention,theta,d,a,alpha,lower,upper\nstandard,1,2,3,1,2,1\n",

@@ -215,8 +215,8 @@ def test_what_cannot_be_emitted_is_refused():
     with pytest.raises(
         InputError,
         match=(
-            r"^chain: expected a Chain, got Robot\('panda': 12 links, 11 joints, dof 8, root "
-            r"'panda_link0', 2 leaves: 'panda…$"
+            r"^chain: expected a Chain, as Robot.chain\(tip=...\) makes it, got "
+            r"Robot\('panda': 12 links, 11 joints, dof 8, root 'panda_link0', 2 leaves: 'panda…$"
         ),
     ):
         emit.python(pk.load("panda"), "body")  # type: ignore[arg-type]

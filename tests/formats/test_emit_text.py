@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.checks import REQUIRED
 from poekin.errors import InputError
 from poekin.formats import emit
-from poekin.model.checks import REQUIRED
 
 from .emitted import bound
 

@@ -14,10 +14,10 @@ import pytest
 from hypothesis import given
 
 import poekin as pk
+from poekin.checks import REQUIRED
 from poekin.errors import InputError, PoseError, ScrewError, ShapeError
 from poekin.formats.objects import from_object
 from poekin.formats.objects.attributes import type_name
-from poekin.model.checks import REQUIRED
 from poekin.testing.strategies.chain_strategies import chain_cases
 from tests.groups.test_objects import Spatial, library
 

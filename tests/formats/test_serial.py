@@ -111,5 +111,5 @@ def test_a_chain_whose_base_and_tip_are_one_name_for_two_frames_is_refused():
 
 
 def test_what_is_no_chain_is_refused():
-    with pytest.raises(InputError, match=r"^expected a Chain, got Robot$"):
+    with pytest.raises(InputError, match=r"^chain: expected a Chain, as .* makes it, got Robot"):
         serial_robot(load("panda"))  # pyright: ignore[reportArgumentType]

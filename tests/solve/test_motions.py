@@ -297,7 +297,7 @@ def test_limits_for_way_and_angle_of_a_pose():
         (lambda: motion.trapezoidal(1, 0.6), r"acceleration_fraction: .* at most 0\.5, got 0\.6"),
         (
             lambda: motion.minimum_time("linear", 1, speed=1),  # type: ignore[arg-type]
-            r"law: expected one of 'cubic', .*, got 'linear'",
+            r"law: expected 'cubic', .* or .*, got 'linear'",
         ),
         (
             lambda: motion.minimum_time("cubic", 1),
@@ -330,7 +330,7 @@ def test_limits_for_way_and_angle_of_a_pose():
         ),
         (
             lambda: motion.path_lengths(np.eye(4), np.eye(4), "arc"),  # type: ignore[arg-type]
-            r"along: expected one of .*, got 'arc'",
+            r"along: expected .*, got 'arc'",
         ),
     ],
     ids=["zero", "nan", "ramp", "law", "no-limit", "far", "infinite", "both", "no-speed", "nan-speed", "shape",
@@ -570,7 +570,7 @@ def test_each_joint_has_its_own_limits():
     (lambda: motion.minimum_time("cubic", [1, 2], acceleration=[1, 2, 3]),
      "acceleration: shape (3,) does not fit the distances' (2,)"),
     (lambda: motion.minimum_time(3, 1, speed=1),  # type: ignore[arg-type]
-     "law: expected one of 'cubic', 'quintic', 'trapezoidal', got 3"),
+     "law: expected 'cubic', 'quintic' or 'trapezoidal', got 3"),
 ])  # fmt: skip
 def test_why_there_is_no_timing_is_said_whole(call, says):
     with pytest.raises(InputError, match=f"^{re.escape(says)}$"):
@@ -602,7 +602,7 @@ SAME_M = "q_0, q_1: expected (..., m) with the same m, got "
     (lambda: motion.joint(0.0, np.zeros(4), 0), f"{SAME_M}() and (4,)"),
     (lambda: motion.joint(np.zeros(4), 0.0, 0), f"{SAME_M}(4,) and ()"),
     (lambda: motion.path_lengths(np.eye(4), np.eye(4), 3),  # type: ignore[arg-type]
-     "along: expected one of 'line', 'screw', got 3"),
+     "along: expected 'line' or 'screw', got 3"),
 ])  # fmt: skip
 def test_poses_or_joints_that_do_not_fit_are_told_with_their_shapes(call, says):
     with pytest.raises(InputError, match=f"^{re.escape(says)}$"):

@@ -61,6 +61,7 @@ NEAR = {
     "engine/trace": "own engine/program analysis/count model/compiled",
     "engine/tree_kernels": "model/tree model/robot",
     "model/analytic model/hp model/pose_jacobian": f"own {_REFUSALS} {CHAINS}",
+    "model/arm": "own formats/emit_python solve/ik",
     "model/axis_walk": "own model/idealised",
     "model/chain model/chain_data model/other_frames model/outputs model/sampling": (
         f"{CHAINS} model/chain_data {_REFUSALS} model/coordinates model/pitches"
@@ -87,12 +88,13 @@ NEAR = {
     "solve/losses": "solve/noise solve/fitting solve/refit solve/exchange",
     "solve/html_page": "own solve/html_report",
     "solve/last_result": "own solve/fitting",
-    "solve/option_checks": "own solve/refusals solve/choose",
+    "checks": "own model/refusals solve/refusals solve/choose analysis/axes",
     "solve/reweighted solve/flatness": "own solve/initial_guess_parts solve/initial_guess",
     "solve/points solve/poses": _POINTS,
     "solve/result solve/summary": "solve/calibrate solve/html_report solve/toml_io",
     "solve/problem": f"{_FRAMES} solve/refusals solve/fitting solve/calibrate solve/choose",
     "analysis/axes analysis/shapes": _AXES,
+    "analysis/axis_lines": f"own analysis/lines {_COMPARES}",
     "analysis/comparison": f"analysis/messages {_COMPARES}",
     "analysis/count analysis/count_methods": _COUNTS,
     "analysis/count_scalars analysis/count_table": _COUNTS,

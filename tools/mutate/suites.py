@@ -66,6 +66,7 @@ _BY_MODEL = (
 )
 WHOLE = {
     "__init__ errors": "errors public_names cli/ formats/",
+    "checks": "checks model/ formats/ analysis/ solve/",
     f"{_INTERPRETED} groups/": _ALL_FORMULAS,
     "engine/": f"engine/ {_COMPILED_ARMS} {BY_ARMS} {CHAINS} {GROUPS}",
     "model/": f"model/ {_COMPILED_ARMS} {_BY_MODEL}",

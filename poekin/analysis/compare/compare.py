@@ -8,12 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import InputError, quote, safe_repr
+from ...checks import positive, whole
+from ...errors import quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ..checks import POSITION, ROTATION, check_chain, check_tolerances
+from ...model.kinematics.arm import Arm, chain_of
+from ..axis_lines import POSITION, ROTATION, cross, direction, uncoupled_at_zero
 from .alignment.hypotheses import Hypothesis, make_hypotheses
-from .alignment.lines import cross, direction, lines, sides, uncoupled_at_zero
+from .alignment.lines import lines, sides
 from .alignment.search import search
 from .comparison import Comparison, JointComparison, PoseErrors
 from .followers import follows
@@ -26,8 +28,8 @@ __all__ = ["compare"]
 
 
 def compare(
-    a: Chain,
-    b: Chain,
+    a: Arm,
+    b: Arm,
     *,
     strict: bool = False,
     tol_position: float = POSITION,
@@ -44,7 +46,7 @@ def compare(
 
     Parameters
     ----------
-    a, b : Chain
+    a, b : Chain or CompiledChain
         Models to compare.
     strict : bool, default False
         Align nothing: frames, zero positions and directions count as differences.
@@ -101,14 +103,15 @@ def compare(
     >>> round(result.joints[3].shift, 6)
     0.003
     """
-    check_chain(a, "a: ")
-    check_chain(b, "b: ")
-    check_tolerances(tol_position=tol_position, tol_rotation=tol_rotation)
-    if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
-        raise InputError(
-            f"samples: a number of configurations of at least 1 expected, got {safe_repr(samples)}"
-        )
-    asked = _Asked(strict, float(tol_position), float(tol_rotation), int(samples), seed)
+    a = chain_of(a, "a")
+    b = chain_of(b, "b")
+    asked = _Asked(
+        strict,
+        positive(tol_position, "tol_position"),
+        positive(tol_rotation, "tol_rotation"),
+        whole(samples, "samples", 1),
+        seed,
+    )
     result, moved = _compared(a, b, 1.0, asked)
     if not moved:
         return result

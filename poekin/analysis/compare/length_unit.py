@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...model.chain import Chain
-from .alignment.lines import lines, uncoupled_at_zero
+from ..axis_lines import uncoupled_at_zero
+from .alignment.lines import lines
 
 __all__ = ["length_ratio", "rescaled", "to_one_unit"]
 

@@ -6,12 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
+from ...checks import choice, true_or_false
 from ...engine.count import Count
 from ...engine.straight_line.specialise import cheapest_program
 from ...errors import InputError, safe_repr
 from ...model.chain import Chain
+from ...model.kinematics.arm import Arm, chain_of
 from ...model.kinematics.pose_jacobian import AnyFrame
-from ..checks import check_chain
 from . import count_methods as methods
 from . import count_scalars as scalars
 
@@ -88,7 +89,7 @@ METHODS: dict[CountMethod, tuple[Method, ...]] = {
 
 
 def count(
-    chain: Chain,
+    chain: Arm,
     *,
     method: CountMethod = "recursive",
     frame: AnyFrame | None = "body",
@@ -103,7 +104,7 @@ def count(
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         Arm of at least two joints (any number for "specialised").
     method : str, default "recursive"
         Algorithm, see Notes.
@@ -158,16 +159,13 @@ def count(
     >>> print(pk.count(arm, method="specialised", frame="body"))
     45 multiplications, 21 additions, 5 sines, 5 cosines
     """
-    check_chain(chain)
-    if not isinstance(pose, bool):
-        raise InputError(f"pose: expected True or False, got {safe_repr(pose)}")
+    chain = chain_of(chain)
+    true_or_false(pose, "pose")
     way = _way(method, frame)
     if counting is None:
         counting = way.countings[0]
-    elif not isinstance(counting, str) or counting not in way.countings:
-        raise InputError(
-            f"counting: expected {' or '.join(way.countings)} for method {method!r}, got {safe_repr(counting)}"
-        )
+    else:
+        choice(counting, way.countings, "counting", f", for method {method!r}")
     n = len(chain.joint_names)
     if n < 2 and method != "specialised":
         raise InputError(f"method {method!r} counts from 2 joints on, the chain has {n}")

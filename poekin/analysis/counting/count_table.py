@@ -10,14 +10,14 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from ...errors import InputError, join_names, safe_repr
+from ...checks import choice
 from ...model.chain import Chain
 from ...model.geometry.idealise import Idealised
+from ...model.kinematics.arm import Arm, chain_of
 from ...model.kinematics.compiled import CompiledChain
 from ...model.kinematics.pose_jacobian import AnyFrame
 from ...model.kinematics.programs import CheapestFrame
 from ...results import Result, plain
-from ..checks import check_chain
 from .count import Count, Counting, CountMethod, count
 
 __all__ = ["PRINTED", "CountRow", "CountTable", "count_table", "printed"]
@@ -135,10 +135,7 @@ class CountTable(Result):
         InputError
             If there is no such heading.
         """
-        if group not in self.groups:
-            raise InputError(
-                f"group: expected one of {join_names(self.groups)}, got {safe_repr(group)}"
-            )
+        choice(group, self.groups, "group")
         return tuple(row for row in self.rows if row.group == group)
 
     def summary(self) -> str:
@@ -230,12 +227,12 @@ _WAYS: tuple[tuple[str, Counting, tuple[tuple[CountMethod, AnyFrame, str], ...]]
 )  # fmt: skip
 
 
-def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
+def count_table(chain: Arm, *, idealise: float | None = None) -> CountTable:
     """Operation counts of one arm's Jacobian, in every way that `count` knows.
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         Arm of n joints; from n = 2 on the paper's methods are in the table, and the printed
         formulas where all joints are revolute and uncoupled.
     idealise : float, optional
@@ -263,7 +260,7 @@ def count_table(chain: Chain, *, idealise: float | None = None) -> CountTable:
     >>> print(table["recursive", "body", "paper"])
     POE, recursive, tool in the last link's frame, body: 174 multiplications, 123 additions
     """
-    check_chain(chain)
+    chain = chain_of(chain)
     ideal = None
     if idealise is not None:
         ideal = chain.idealised(idealise)

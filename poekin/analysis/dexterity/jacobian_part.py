@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
-from typing import Literal, get_args
+from typing import Literal
 
 import numpy as np
 
-from ...errors import InputError, safe_repr
+from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...model.kinematics.arm import Arm, chain_of
 from ...model.sampling import half_range, joint_ratios
-from ..checks import check_chain
 
 Part = Literal["pose", "translation", "rotation"]
 
@@ -28,21 +27,12 @@ SAMPLES = 64
 """Random configurations at one of which the Jacobian has its largest rank."""
 
 
-def check(chain: Chain, length: float) -> None:
-    """Raises InputError where there is no arm to judge, or no length to measure it by."""
-    check_chain(chain)
+def moving_chain(arm: Arm) -> Chain:
+    """The chain of an arm that has a coordinate. Raises: InputError for any other."""
+    chain = chain_of(arm)
     if not chain.dof:
         raise InputError("the chain has no coordinate: nothing moves its tool")
-    if not isinstance(length, (int, float, np.integer, np.floating)) or not 0 < length < math.inf:
-        raise InputError(f"length: expected a positive number of metres, got {safe_repr(length)}")
-
-
-def check_part(part: object) -> None:
-    """Raises InputError for what is no part of a twist."""
-    if not isinstance(part, str) or part not in ROWS:
-        raise InputError(
-            f"part: expected one of {', '.join(map(repr, get_args(Part)))}, got {safe_repr(part)}"
-        )
+    return chain
 
 
 def scaled(X: Array, axis: int, part: Part, length: float) -> Array:

@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from ...checks import choice, positive
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...model.kinematics.arm import Arm
 from ...results import Result
-from .jacobian_part import ROWS, Part, check, check_part, generic_rank, scaled, svd
+from .jacobian_part import ROWS, Part, generic_rank, moving_chain, scaled, svd
 
 __all__ = ["Manipulability", "Measures", "manipulability", "manipulability_gradient"]
 
@@ -90,7 +92,7 @@ def manipulability(chain: Chain, q: Any, *, length: float = 1.0) -> Manipulabili
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         Arm to judge.
     q : (..., m) array_like or dict
         Configurations, rad or m.
@@ -135,19 +137,20 @@ def manipulability(chain: Chain, q: Any, *, length: float = 1.0) -> Manipulabili
     >>> pk.manipulability(arm, np.zeros((10, 6))).pose.condition.shape
     (10,)
     """
-    check(chain, length)
+    chain = moving_chain(chain)
+    length = positive(length, "length")
     J = chain.jacobian(q, "hybrid")
     return Manipulability(**{part: _measures(chain, J, part, length) for part in ROWS})
 
 
 def manipulability_gradient(
-    chain: Chain, q: Any, *, part: Part = "pose", length: float = 1.0
+    chain: Arm, q: Any, *, part: Part = "pose", length: float = 1.0
 ) -> Array:
     """Gradient of Yoshikawa's measure with respect to q.
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         Arm to judge.
     q : (..., m) array_like or dict
         Configurations, rad or m.
@@ -187,8 +190,9 @@ def manipulability_gradient(
     >>> pk.manipulability_gradient(arm, [0.0, -1.0, 1.5, -2.0, -1.5, 0.0]).shape
     (6,)
     """
-    check(chain, length)
-    check_part(part)
+    chain = moving_chain(chain)
+    length = positive(length, "length")
+    choice(part, ROWS, "part")
     J = scaled(chain.jacobian(q, "hybrid"), -2, part, length)
     H = scaled(chain.hessian(q, "hybrid"), -3, part, length)
     U, s, V = svd(J)

@@ -10,13 +10,15 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from ...checks import choice, is_real, positive
 from ...errors import InputError, quote, safe_repr
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
+from ...model.kinematics.arm import Arm
 from ...model.sampling import joint_ratios
 from ...results import Result
-from .jacobian_part import ROWS, TOLERANCE, Part, check, check_part, generic_rank, scaled, svd
+from .jacobian_part import ROWS, TOLERANCE, Part, generic_rank, moving_chain, scaled, svd
 from .messages import motion_words, rate_words
 
 __all__ = ["Singularity", "singularity"]
@@ -141,7 +143,7 @@ class Singularity(Result):
 
 
 def singularity(
-    chain: Chain,
+    chain: Arm,
     q: Any,
     *,
     part: Part | None = None,
@@ -156,7 +158,7 @@ def singularity(
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         Arm to judge.
     q : (m,) array_like or dict
         One finite configuration, rad or m.
@@ -214,16 +216,16 @@ def singularity(
     >>> pk.singularity(links, [0.0, 1.2]).singular
     False
     """
-    check(chain, 1.0 if length is None else length)
+    chain = moving_chain(chain)
+    L = chain.reach if length is None else positive(length, "length")
     if part is None:
         part = _default_part(chain)
-    check_part(part)
-    if not isinstance(tolerance, (int, float, np.floating)) or not 0 < tolerance < 1:
+    choice(part, ROWS, "part")
+    if not is_real(tolerance) or not 0 < tolerance < 1:
         raise InputError(
             f"tolerance: expected a number between 0 and 1, got {safe_repr(tolerance)}"
         )
     q = _configuration(chain, q)
-    L = float(chain.reach if length is None else length)
     ratios = joint_ratios(chain)
     J = scaled(chain.jacobian(q, "hybrid") / ratios, -2, part, L)
     H = scaled(chain.hessian(q, "hybrid") / np.outer(ratios, ratios), -3, part, L)

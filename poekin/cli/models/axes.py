@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ...analysis.axes import axes
-from ...analysis.checks import check_tolerances
+from ...checks import positive
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
 from ..output import as_json, name, number, say, table
@@ -34,7 +34,8 @@ def command(
     wrist, Pieper, …
     """
     chain = model(file).chain(base=base, tip=tip)
-    check_tolerances(**{"--tol-mm": tol_mm, "--tol-deg": tol_deg})
+    positive(tol_mm, "--tol-mm")
+    positive(tol_deg, "--tol-deg")
     report = axes(chain, tol_position=tol_mm / 1e3, tol_rotation=math.radians(tol_deg))
     if json:
         print(as_json({"base": chain.base, "tip": chain.tip} | report.to_dict()))

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from ...analysis.checks import check_tolerances
 from ...analysis.compare.compare import compare
 from ...analysis.compare.comparison import Comparison, JointComparison
+from ...checks import positive
 from ...errors import InputError, join_names
 from ...model.chain import Chain
 from ..kinematics.arm import FILE_HELP, Base, Json, Seed, Tip
@@ -60,7 +60,8 @@ def command(
     """
     one = _chain(a, "--tip", base, tip)
     other = _chain(b, "--tip-b", base_b, tip_b, base, tip)
-    check_tolerances(**{"--tol-mm": tol_mm, "--tol-deg": tol_deg})
+    positive(tol_mm, "--tol-mm")
+    positive(tol_deg, "--tol-deg")
     result = compare(
         one,
         other,

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from ...algebra import add, cross, dot, scale, subtract
-from ...errors import InputError, quote, safe_repr
+from ...checks import REQUIRED, whole
+from ...errors import InputError, quote
 from ...groups import se3
-from ...groups.arrays import Array
+from ...groups.arrays import ROUNDOFF, Array
 from ...model.chain import Chain
-from ...model.checks import REQUIRED
 from ...model.geometry.normals import (
     Normal,
     Vector,
@@ -27,12 +27,12 @@ from ...model.geometry.normals import (
     parallel_normal,
     unit,
 )
+from ...model.kinematics.arm import Arm, chain_of
 from ...results import Result, plain
 from ..common.limits import UNBOUNDED
 from .table import Convention, Row, Table, check_convention
 from .to_chain import to_chain
 
-UNIT = 2.0**-53
 FAR = 10
 """Parameters beyond this many times the reach are worth a warning."""
 
@@ -94,7 +94,7 @@ class FromChain(Result):
 
 
 def from_chain(
-    chain: Chain, *, convention: Convention = REQUIRED, samples: int = 100, seed: int = 0
+    chain: Arm, *, convention: Convention = REQUIRED, samples: int = 100, seed: int = 0
 ) -> FromChain:
     """Denavit-Hartenberg table of a chain of revolute and prismatic joints, in either convention.
 
@@ -103,7 +103,7 @@ def from_chain(
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         Chain without helical joints.
     convention : {"standard", "modified"}
         Paul's (distal) or Craig's (proximal) convention, as in `Table`; required.
@@ -146,16 +146,10 @@ def from_chain(
     >>> result.error < result.bound
     True
     """
-    if not isinstance(chain, Chain):
-        raise InputError(
-            f"from_chain: expected a Chain, as Robot.chain(tip=...) makes it, got {safe_repr(chain)}"
-        )
+    chain = chain_of(chain)
     check_convention(convention)
-    for what, value in (("samples", samples), ("seed", seed)):
-        if not isinstance(value, (int, np.integer)) or value < 0:
-            raise InputError(
-                f"{what}: expected a whole number of at least 0, got {safe_repr(value)}"
-            )
+    whole(samples, "samples", 0)
+    whole(seed, "seed", 0)
     for name, kind in zip(chain.joint_names, chain.kinds, strict=True):
         if kind == "helical":
             raise InputError(
@@ -165,7 +159,7 @@ def from_chain(
         walk = _Walk(chain)
         table = walk.table(convention)
     lengths = [0.0, *np.abs(table.d).tolist(), *np.abs(table.a).tolist()]
-    bound = 20 * UNIT * (len(table) + 1) * (1 + max(lengths) / chain.reach)
+    bound = 20 * ROUNDOFF * (len(table) + 1) * (1 + max(lengths) / chain.reach)
     if walk.dropped:
         # A joint that turns about an axis off by delta turns what is behind it by at most 2 delta
         # more or less, and moves the tool by that times its distance: the lengths behind, and the
@@ -252,7 +246,7 @@ class _Walk:
             return parallel_normal(o, z, p2, z2, x, nothing), z2
         normal = common_normal(o, z, p2, z2)
         away = max(length(subtract(normal.foot, o)), length(subtract(p2, normal.foot)))
-        if 2 * angle * self.reach <= Decimal(UNIT) * away:
+        if 2 * angle * self.reach <= Decimal(ROUNDOFF) * away:
             self.dropped.append(float(angle))
             self.warnings.append(
                 f"axes of {names} are taken as parallel: the angle of {float(angle):.3g} rad between them would put "
@@ -265,7 +259,7 @@ class _Walk:
         if away > self.reach * FAR:
             self.warnings.append(
                 f"axes of {names} are nearly parallel, {float(angle):.3g} rad: d is {float(away):.3g} m on an arm of "
-                f"{self.chain.reach:.3g} m, and its rounding {UNIT * float(away):.1g} m; a product of exponentials "
+                f"{self.chain.reach:.3g} m, and its rounding {ROUNDOFF * float(away):.1g} m; a product of exponentials "
                 "has no such number"
             )
         if normal.a <= nothing:

@@ -12,9 +12,10 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...checks import REQUIRED, choice
 from ...errors import InputError, PoekinWarning, ShapeError, quote, safe_repr
 from ...groups.arrays import Array
-from ...model.checks import REQUIRED, bounds, choice, distinct_names, finite, one_pose, read_only
+from ...model.checks import bounds, distinct_names, finite, one_pose, read_only
 from ..common.limits import UNBOUNDED, Interval
 
 Convention = Literal["standard", "modified"]

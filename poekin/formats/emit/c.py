@@ -8,10 +8,9 @@ from typing import Literal
 
 import numpy as np
 
+from ...checks import REQUIRED, choice
 from ...errors import InputError, safe_repr
-from ...model.chain import Chain
-from ...model.checks import REQUIRED, choice
-from ...model.kinematics.compiled import CompiledChain
+from ...model.kinematics.arm import Arm
 from ...model.kinematics.pose_jacobian import AnyFrame
 from .c_selftest import selftest
 from .messages import (
@@ -64,7 +63,7 @@ class CSource:
 
 
 def c(
-    chain: Chain | CompiledChain,
+    chain: Arm,
     frame: AnyFrame = REQUIRED,
     *,
     name: str = "arm",

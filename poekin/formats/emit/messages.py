@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...checks import choice
 from ...engine.straight_line.program import Program
-from ...errors import InputError, safe_repr
 from ...model.chain import Chain
-from ...model.checks import choice
+from ...model.kinematics.arm import Arm, compiled
 from ...model.kinematics.compiled import CompiledChain
 from ...model.kinematics.pose_jacobian import FRAME_NAMES, AnyFrame
 
@@ -64,16 +64,13 @@ class Task:
         return "".join(f", {result}" for result in self.results)
 
 
-def compile_checked(chain: Chain | CompiledChain, frame: AnyFrame) -> CompiledChain:
+def compile_checked(chain: Arm, frame: AnyFrame) -> CompiledChain:
     """The chain with its programs. Raises: InputError, UnknownName for a frame that there is not."""
-    if isinstance(chain, Chain):
-        chain = chain.compile()
-    if not isinstance(chain, CompiledChain):
-        raise InputError(f"chain: expected a Chain, got {safe_repr(chain)}")
+    fast = compiled(chain)
     if not isinstance(frame, (str, int, np.integer)):
         choice(frame, (*FRAME_NAMES, "cheapest"), "frame", " (or the index of a joint)")
-    chain.program(frame)
-    return chain
+    fast.program(frame)
+    return fast
 
 
 def make_tasks(arm: CompiledChain, frame: AnyFrame) -> tuple[Task, Task, Task]:

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import textwrap
 
-from ...model.chain import Chain
-from ...model.checks import REQUIRED
-from ...model.kinematics.compiled import CompiledChain
+from ...checks import REQUIRED
+from ...model.kinematics.arm import Arm
 from ...model.kinematics.pose_jacobian import AnyFrame
 from .messages import Task, angle_lines, compile_checked, header_lines, make_tasks
 from .statements import Statements, by_outputs, double, statements
 
 
-def python(chain: Chain | CompiledChain, frame: AnyFrame = REQUIRED) -> str:
+def python(chain: Arm, frame: AnyFrame = REQUIRED) -> str:
     """Python module with a chain's pose and Jacobian: straight-line, without imports.
 
     Parameters

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from ...checks import REQUIRED
 from ...errors import InputError
 from ...model.chain import Chain
-from ...model.checks import REQUIRED
 from ...model.robot import Robot
 from ..dh.table import Table
 from ..dh.to_chain import to_chain

@@ -6,11 +6,11 @@ from typing import Any, get_args
 
 import numpy as np
 
+from ...checks import choice
 from ...errors import ShapeError
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
 from ...model.chain_data import ScrewFrame
-from ...model.checks import choice
 
 FRAMES: tuple[ScrewFrame, ...] = get_args(ScrewFrame)
 

@@ -15,10 +15,10 @@ from typing import NamedTuple, TextIO
 import numpy as np
 
 from ...errors import FileError, InputError, UnknownName, escape_unprintable, quote, suggest
+from ...results import Progress
 from .atomic_write import reason
 from .numbers import real
 
-Progress = Callable[[int, int], None]
 Line = tuple[int, list[str]]
 AT_ONCE = 10_000
 """Lines that become an array together: more are never held as Python's numbers."""

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ...checks import alternatives
 from ...errors import (
     MissingExtra,
     ModelError,
@@ -130,9 +131,7 @@ class Keys:
         if not isinstance(value, str):
             raise self.fault(key, f"expected a text, got {safe_repr(value)}")
         if among is not None and value not in among:
-            raise self.fault(
-                key, f"expected one of {', '.join(map(quote, among))}, got {quote(value)}"
-            )
+            raise self.fault(key, f"expected {alternatives(among)}, got {quote(value)}")
         return value
 
     def texts(self, key: str) -> tuple[str, ...]:

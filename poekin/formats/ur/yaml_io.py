@@ -20,10 +20,10 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from ...checks import choice
 from ...errors import InputError, ModelError, PoekinError, quote, suggest
 from ...groups import se3
 from ...groups.arrays import Array
-from ...model.checks import choice
 from .. import rpy as angles
 from ..text import xml, yaml_text
 from ..text.atomic_write import write_whole

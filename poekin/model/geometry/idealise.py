@@ -16,8 +16,9 @@ from typing import ClassVar, Generic
 import numpy as np
 
 from ...algebra import add, dot, scale, subtract
+from ...checks import is_real
 from ...errors import InputError, safe_repr
-from ...groups.arrays import Array
+from ...groups.arrays import ROUNDOFF, Array
 from ...results import Result
 from ..chain_data import AnyChain, ChainData
 from ..sampling import sampling_range
@@ -28,8 +29,6 @@ LARGEST = 0.05
 """The largest tolerance [rad, m] that is accepted: nothing has more than one multiple of 15 degrees
 that near.
 """
-
-UNIT = 2.0**-53
 
 
 @dataclass(frozen=True)
@@ -73,8 +72,7 @@ class Idealised(Result, Generic[AnyChain]):
 
 def idealised(chain: AnyChain, tol: float) -> Idealised[AnyChain]:
     """The chain with its geometry made exact where it is so within a tolerance."""
-    real = isinstance(tol, (int, float, np.integer, np.floating)) and not isinstance(tol, bool)
-    if not real or not 0 <= tol <= LARGEST:
+    if not is_real(tol) or not 0 <= tol <= LARGEST:
         raise InputError(
             f"tol: a number from 0 to {LARGEST} expected (rad and m), got {safe_repr(tol)}"
         )
@@ -113,7 +111,7 @@ def _bounds(chain: ChainData, given: list[Frame], exact: list[Frame]) -> tuple[f
         position += float(shift) + chord * behind
         rotation += 2 * math.asin(chord / 2)  # of a few tolerances, far from half a turn
         behind += float(length(link.o)) + travel[i]
-    rounding = 8 * UNIT * len(given)  # of the numbers that the new screws are written in
+    rounding = 8 * ROUNDOFF * len(given)  # of the numbers that the new screws are written in
     return position + rounding * max(behind, chain.reach), rotation + rounding
 
 
@@ -142,7 +140,7 @@ def _settled(chain: ChainData, screws: Array, home: Array) -> bool:
     """
     for old, new in ((chain.screws, screws), (chain.home, home)):
         size = max(1.0, chain.reach, float(np.abs(old).max(initial=0)))
-        if (np.abs(old - new) > 16 * UNIT * size).any():
+        if (np.abs(old - new) > 16 * ROUNDOFF * size).any():
             return False
         if (np.isin(new, (-1.0, 0.0, 1.0)) & (old != new)).any():
             return False

@@ -13,10 +13,10 @@ from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
+from ...checks import choice
 from ...errors import InputError
 from ...groups import rpy, so3
 from ...groups.arrays import Array
-from ..checks import choice
 
 RotationKind = Literal["rotation_vector", "quaternion_wxyz", "rpy"]
 KINDS: tuple[RotationKind, ...] = get_args(RotationKind)

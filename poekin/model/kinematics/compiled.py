@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...checks import REQUIRED
 from ...engine.jit import threads
 from ...engine.jit.locks import COMPILING
 from ...engine.kernels import chain_kernels
@@ -15,7 +16,6 @@ from ...engine.straight_line import interpret
 from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ..chain_data import AnyChain
-from ..checks import REQUIRED
 from . import pose_jacobian
 from .pose_jacobian import AnyFrame
 from .programs import ChainPrograms

@@ -10,11 +10,11 @@ from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
+from ...checks import choice
 from ...engine.kernels import derivative_kernels
 from ...groups import se3
 from ...groups.arrays import Array
 from ..chain_data import ChainData
-from ..checks import choice
 from .configurations import broadcast_rows, configurations
 from .pose_jacobian import FRAME_CODES, FRAME_NAMES, Frame
 

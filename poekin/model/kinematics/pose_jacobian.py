@@ -12,12 +12,12 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...checks import REQUIRED
 from ...engine.kernels import chain_kernels
 from ...errors import InputError, UnknownName, quote
 from ...groups import se3, so3
 from ...groups.arrays import Array, shaped
 from ..chain_data import ChainData
-from ..checks import REQUIRED
 from .configurations import broadcast_rows, configurations
 from .outputs import checked_out, checked_pair
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from ...checks import REQUIRED
 from ...groups.arrays import Array
 from ..chain_data import ChainData
-from ..checks import REQUIRED
 from ..kinematics import derivatives, pose_jacobian
 from ..kinematics.derivatives import JacobianChanges, Parameters, PoseChanges
 from ..kinematics.pose_jacobian import Frame

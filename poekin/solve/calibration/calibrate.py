@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
 import numpy as np
 
+from ...checks import choice, positive, whole
 from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
-from ...model.chain import Chain
+from ...model.kinematics.arm import Arm, chain_of
 from ...model.provenance import warn
-from ..option_checks import one_of, whole
+from ...results import Progress
 from .calibration import Calibration
 from .diagnostics import cross_validation, explanation, misfit, units
 from .diagnostics.cross_validation import CrossValidation
@@ -35,7 +36,7 @@ from .result import Outlier
 
 
 def calibrate(  # noqa: PLR0913 - options by keyword
-    chain: Chain,
+    chain: Arm,
     q: Any,
     measurements: Any,
     *,
@@ -46,8 +47,8 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     on_rank_deficiency: OnRankDeficiency = "raise",
     folds: int = 5,
     seed: int = 0,
-    max_iterations: int = STEPS,
-    progress: Callable[[int, int], None] | None = None,
+    iterations: int = STEPS,
+    progress: Progress | None = None,
 ) -> Calibration:
     """Calibration of an arm from measurements: its axes and home pose, and how well they are known.
 
@@ -57,7 +58,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         The nominal arm.
     q : (N, m) array_like or dict
         Joint readings, rad or m.
@@ -86,7 +87,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
         others; 0 for none, as where the others were too few.
     seed : int, default 0
         Seed of the drawing of the folds.
-    max_iterations : int, default 100
+    iterations : int, default 100
         Most steps of each fit, all rounds in which the noise is estimated together.
     progress : callable, optional
         Called as progress(done, folds).
@@ -131,15 +132,12 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     >>> held_out.after.rms_length < 0.1 * held_out.before.rms_length
     True
     """
-    if not isinstance(chain, Chain):
-        raise InputError(
-            f"chain: expected a Chain, such as robot.chain(tip=...), got {type(chain).__name__}"
-        )
+    chain = chain_of(chain)
     q = parse_readings(chain, q)
     sets = parse_measurements(measurements, len(q))
-    one_of(loss, LOSSES, "loss")
-    one_of(on_rank_deficiency, get_args(OnRankDeficiency), "on_rank_deficiency")
-    whole(max_iterations, "max_iterations", 1)
+    choice(loss, LOSSES, "loss")
+    choice(on_rank_deficiency, get_args(OnRankDeficiency), "on_rank_deficiency")
+    whole(iterations, "iterations", 1)
     problem = units.build_problem(ErrorModel(chain, parameters, joints), q, sets)
     sigma = _prior(prior, problem)
     identification, free = identify_directions(problem)
@@ -153,7 +151,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     start = fit_frames(problem, loss)
     units.check(problem, start)
     before = _residuals(problem, start)  # now, while the problem has these errors
-    options = FitOptions(loss, sigma, max_iterations)
+    options = FitOptions(loss, sigma, iterations)
     fit = fit_with_refit(problem, free, start, options)
     if fit.free is not free:
         identification, _ = identify_directions(problem, p=fit.p)
@@ -223,12 +221,8 @@ def _prior(prior: Mapping[Unit, float] | None, problem: Problem) -> Array | None
             f"{safe_repr(prior)}"
         )
     for unit, sigma in prior.items():
-        one_of(unit, get_args(Unit), "prior")
-        number = isinstance(sigma, (int, float, np.number)) and not isinstance(sigma, bool)
-        if not number or not 0 < sigma < np.inf:
-            raise InputError(
-                f"prior[{unit!r}]: expected a standard deviation above 0, got {safe_repr(sigma)}"
-            )
+        choice(unit, get_args(Unit), "prior")
+        positive(sigma, f"prior[{unit!r}]")
     sigmas = np.full(problem.size, np.inf)
     sigmas[: problem.model_size] = [prior.get(p.unit, np.inf) for p in problem.model.parameters]
     return sigmas

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from numpy.typing import ArrayLike
 
-from ...model.chain import Chain
-from ...model.kinematics.compiled import CompiledChain
+from ...model.kinematics.arm import Arm, compiled
+from ...results import Progress
 from .choice.redundancy import Objective, check_objective
-from .ik_problem import Settings, compiled, hashable, items, make_problem
+from .ik_problem import Settings, hashable, items, make_problem
 from .solution import Solution
 from .solver import Wishes, solve
 from .task import TaskName, targets
 
 
 def ik(  # noqa: PLR0913 - options by keyword
-    chain: Chain | CompiledChain,
+    chain: Arm,
     T: ArrayLike,
     *,
     q0: Any = None,
@@ -34,7 +34,7 @@ def ik(  # noqa: PLR0913 - options by keyword
     iterations: int = 30,
     seed: int = 0,
     parallel: bool = False,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Solution:
     """Joint coordinates q with f(q) = T, for one target pose or a batch.
 
@@ -139,7 +139,7 @@ def ik(  # noqa: PLR0913 - options by keyword
     >>> bool(pk.ik(arm, arm.fk([0.3] * 6), task="direction", lock={arm.q_names[5]: 0.0}).success)
     True
     """
-    fast = compiled(chain, "ik")
+    fast = compiled(chain)
     settings = Settings(
         task,
         hashable(axis, "axis"),

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...checks import KERNEL_INT, positive, true_or_false, whole
 from ...engine.jit import threads
 from ...engine.kernels import ik_codes as codes
 from ...errors import InputError, safe_repr
@@ -17,7 +18,6 @@ from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from ..chain_cache import ChainCache
 from ..joint_units import joint_units
-from ..option_checks import KERNEL_INT, is_real, true_or_false, whole
 from .joint_domain import JointDomain, make_joint_domain
 from .plane import plane_normal
 from .task import Task, TaskName, make_task
@@ -62,15 +62,6 @@ def items(lock: Any) -> Any:
     if lock is not None and not isinstance(lock, Mapping):
         raise InputError(f"lock: expected a dict of names and values, got {safe_repr(lock)}")
     return None if lock is None else tuple(lock.items())
-
-
-def compiled(chain: Chain | CompiledChain[Chain], what: str) -> CompiledChain[Chain]:
-    """Compiled chain of a function's first argument. Raises: InputError."""
-    if isinstance(chain, CompiledChain):
-        return chain
-    if isinstance(chain, Chain):
-        return chain.compile()
-    raise InputError(f"{what}: expected a Chain, got {safe_repr(chain)}")
 
 
 class Problem:
@@ -227,9 +218,7 @@ def _rows(restarts: int, iterations: int) -> int:
 
 def _check_numbers(settings: Settings) -> None:
     for what in ("tol_position", "tol_rotation"):
-        tol = getattr(settings, what)
-        if not is_real(tol) or not 0 < tol < np.inf:
-            raise InputError(f"{what}: expected a positive number, got {safe_repr(tol)}")
+        positive(getattr(settings, what), what)
     for what, least in (("restarts", 0), ("iterations", 1), ("seed", 0)):
         whole(getattr(settings, what), what, least, KERNEL_INT)
     for what in ("limits", "parallel"):

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...checks import is_real
 from ...errors import InputError, ShapeError, UnknownName, join_names, quote, safe_repr, suggest
 from ...groups.arrays import Array
 from ...model.chain import Chain
@@ -135,7 +136,7 @@ def _locked(units: JointUnits, lock: Any, limits: Array) -> Iterator[tuple[int, 
             raise UnknownName(f"lock: no coordinate {quote(name)}; {suggest(str(name), names)}")
         k = names.index(name)
         scale = 1.0 if units.scale is None else float(units.scale[k])
-        real = isinstance(value, (int, float, np.integer, np.floating)) and np.isfinite(value)
+        real = is_real(value) and np.isfinite(value)
         if not real or not limits[k, 0] <= scale * value <= limits[k, 1]:
             within = sorted((limits[k] / scale).tolist())
             raise InputError(

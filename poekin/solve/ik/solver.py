@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
+from ...results import Progress
 from .choice.nearest import nearest
 from .choice.redundancy import Objective, optimise
 from .diagnosis import KIND, Causes, diagnose
@@ -18,8 +18,6 @@ from .solution import SOLVED, UNREACHABLE, Solution
 
 AT_ONCE = 20_000
 """Targets between two calls of `progress`."""
-
-Progress = Callable[[int, int], None]
 
 
 class Wishes(NamedTuple):

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...analysis.dexterity.jacobian_part import Part, largest_rank, random_configurations
+from ...checks import choice
 from ...engine.kernels import ik_codes as codes
 from ...errors import InputError, PoseError, safe_repr
 from ...formulas.inverse import pose_error
 from ...groups.arrays import Array, poses, shaped
 from ...model.chain import Chain
-from ..option_checks import one_of
 
 TASKS: dict[str, tuple[int, int, Part]] = {
     "pose": (codes.POSE, 6, "pose"),
@@ -94,7 +94,7 @@ def targets(T: ArrayLike, what: str) -> Array:
 
 def make_task(name: Any, axis: Any, weights: Any) -> Task:
     """Task by the name that a user gives. Raises: InputError."""
-    one_of(name, TASKS, "task")
+    choice(name, TASKS, "task")
     if axis is not None and name != "direction":
         raise InputError(f"axis: only the task 'direction' has one, the task is {name!r}")
     a = shaped([0.0, 0.0, 1.0] if axis is None else axis, (3,), "axis")

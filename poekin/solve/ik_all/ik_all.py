@@ -9,14 +9,14 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...checks import KERNEL_INT, choice, true_or_false, whole
 from ...errors import InputError, MissingExtra, join_names
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ...model.kinematics.arm import Arm, compiled
 from ...model.kinematics.compiled import CompiledChain
-from ..ik.ik_problem import compiled
 from ..ik.task import targets
 from ..joint_units import joint_units
-from ..option_checks import KERNEL_INT, one_of, true_or_false, whole
 from .all_solutions import AllSolutions, in_words, missing_probability
 from .closed_form import ClosedForm, closed_form
 from .ik_all_search import Found, Rule, accepted, bounds, periods, pose_errors, search, turns_within
@@ -33,7 +33,7 @@ _MAX_MISSES = 200  # tries without any solution, after which a search gives up
 
 
 def ik_all(  # noqa: PLR0913 - options by keyword
-    chain: Chain | CompiledChain,
+    chain: Arm,
     T: ArrayLike,
     *,
     limits: bool = True,
@@ -111,14 +111,14 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     >>> len(every.solutions), every.method
     (8, 'search')
     """
-    compiled_chain = compiled(chain, "ik_all")
+    compiled_chain = compiled(chain)
     given = compiled_chain.chain
     units = joint_units(compiled_chain)
     fast = units.fast
     _check_chain(given)
     true_or_false(limits, "limits")
     true_or_false(all_revolutions, "all_revolutions")
-    one_of(method, METHODS, "method")
+    choice(method, METHODS, "method")
     whole(min_hits, "min_hits", 1, KERNEL_INT)
     whole(restarts, "restarts", 1, KERNEL_INT)
     whole(iterations, "iterations", 1, KERNEL_INT)

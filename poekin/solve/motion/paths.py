@@ -7,11 +7,11 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...checks import choice
 from ...errors import ShapeError
 from ...groups import se3, so3
 from ...groups.arrays import Array, numbers, poses
 from ...groups.so3.exp_log import exp_of_vectors
-from ..option_checks import one_of
 
 Path = Literal["line", "screw"]
 
@@ -183,7 +183,7 @@ def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: Path = "line") -> Arra
     >>> pk.motion.path_lengths(np.eye(4), pk.se3.exp([0, 0, 0.5, 0, 0, 0.2])).round(6).tolist()
     [0.2, 0.5]
     """
-    one_of(along, get_args(Path), "along")
+    choice(along, get_args(Path), "along")
     T_s0, T_s1, _ = _together(T_s0, T_s1, 0.0)
     start = _exact(T_s0)
     end = _exact(T_s1)

@@ -11,9 +11,9 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...checks import choice, is_real
 from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
-from ..option_checks import is_real, one_of
 
 Law = Literal["cubic", "quintic", "trapezoidal"]
 LAWS: tuple[Law, ...] = get_args(Law)
@@ -231,7 +231,7 @@ def minimum_time(
     >>> round(float(timing(timing.duration / 2).s), 6)
     0.5
     """
-    one_of(law, LAWS, "law")
+    choice(law, LAWS, "law")
     way = np.abs(numbers(distance, "distance"))
     if not np.isfinite(way).all():
         raise InputError(f"distance: expected finite numbers, got {safe_repr(distance)}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -12,9 +12,10 @@ from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
 from ...model.coordinates import coordinates
-from ...model.kinematics.compiled import CompiledChain
+from ...model.kinematics.arm import Arm, compiled
+from ...results import Progress
 from ..ik.diagnosis import KIND
-from ..ik.ik_problem import Settings, compiled, hashable, items, make_problem
+from ..ik.ik_problem import Settings, hashable, items, make_problem
 from ..ik.joint_domain import first_tries
 from ..ik.solution import BAD_TARGET, SOLVED, Solution
 from ..ik.task import TaskName, targets
@@ -23,7 +24,7 @@ from .path_result import PathResult
 
 
 def follow(  # noqa: PLR0913 - options by keyword
-    chain: Chain | CompiledChain,
+    chain: Arm,
     poses: ArrayLike,
     *,
     q0: Any = None,
@@ -38,7 +39,7 @@ def follow(  # noqa: PLR0913 - options by keyword
     tol_position: float = 1e-9,
     tol_rotation: float = 1e-9,
     seed: int = 0,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> PathResult:
     """Joint coordinates along a path of poses, each reached from the one before it without a jump.
 
@@ -116,7 +117,7 @@ def follow(  # noqa: PLR0913 - options by keyword
     >>> path.ok, path.q.shape
     (True, (50, 6))
     """
-    fast = compiled(chain, "follow")
+    fast = compiled(chain)
     path = _path(poses)
     settings = Settings(
         task,

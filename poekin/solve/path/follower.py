@@ -4,13 +4,13 @@ then anew.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 
 from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
+from ...results import Progress
 from ..ik.ik_problem import Problem
 from ..ik.least_error import Slope, least_error, slope_at
 from ..ik.solution import ITERATIONS, Solution
@@ -40,7 +40,7 @@ class Follower:
         problem: Problem,
         targets: Array,
         most: Array,
-        progress: Callable[[int, int], None] | None,
+        progress: Progress | None,
     ) -> None:
         from ...engine.kernels import follow_kernels  # imports Numba
 

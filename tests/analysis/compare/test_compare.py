@@ -364,19 +364,19 @@ CHAIN = "expected a Chain, as Robot.chain(tip=...) makes it, got 5"
 WHOLE = {
     "a": ({"a": 5}, f"a: {CHAIN}"),
     "b": ({"b": 5}, f"b: {CHAIN}"),
-    "tol_position": ({"tol_position": 0}, "tol_position: a positive number expected, got 0"),
-    "tol_rotation": ({"tol_rotation": "x"}, "tol_rotation: a positive number expected, got 'x'"),
+    "tol_position": ({"tol_position": 0}, "tol_position: expected a positive number, got 0"),
+    "tol_rotation": ({"tol_rotation": "x"}, "tol_rotation: expected a positive number, got 'x'"),
     "no samples": (
         {"samples": 0},
-        "samples: a number of configurations of at least 1 expected, got 0",
+        "samples: expected a whole number from 1 on, got 0",
     ),
     "half a sample": (
         {"samples": 1.5},
-        "samples: a number of configurations of at least 1 expected, got 1.5",
+        "samples: expected a whole number from 1 on, got 1.5",
     ),
     "a truth value": (
         {"samples": True},
-        "samples: a number of configurations of at least 1 expected, got True",
+        "samples: expected a whole number from 1 on, got True",
     ),
 }
 

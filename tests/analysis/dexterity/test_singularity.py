@@ -281,10 +281,12 @@ def test_an_arm_that_never_moves_its_tool_has_no_motion_to_lose():
 @pytest.mark.parametrize("options, words", [
     ({"tolerance": 0}, "tolerance: expected a number between 0 and 1, got 0"),
     ({"tolerance": 1.0}, "tolerance: expected a number between 0 and 1, got 1.0"),
+    ({"tolerance": True}, "tolerance: expected a number between 0 and 1, got True"),
     ({"tolerance": "1"}, "tolerance: expected a number between 0 and 1, got '1'"),
-    ({"length": 0}, "length: expected a positive number of metres, got 0"),
-    ({"length": math.inf}, "length: expected a positive number of metres, got inf"),
-    ({"length": "1"}, "length: expected a positive number of metres, got '1'"),
+    ({"length": 0}, "length: expected a positive number, got 0"),
+    ({"length": math.inf}, "length: expected a positive number, got inf"),
+    ({"length": True}, "length: expected a positive number, got True"),
+    ({"length": "1"}, "length: expected a positive number, got '1'"),
 ])  # fmt: skip
 def test_tolerance_and_length_are_within_what_they_mean(options, words):
     with pytest.raises(InputError) as caught:

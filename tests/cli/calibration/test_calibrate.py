@@ -332,7 +332,7 @@ def test_what_is_not_seen_is_refused_or_held(poekin, refused, measured, tmp_path
 def test_a_search_that_does_not_converge_is_exit_code_1_and_written(
     poekin, csv, monkeypatch, tmp_path
 ):
-    monkeypatch.setattr(command, "calibrate", functools.partial(calibrate, max_iterations=1))
+    monkeypatch.setattr(command, "calibrate", functools.partial(calibrate, iterations=1))
     code, out, err = poekin(*ARM, csv, "-o", tmp_path / "best.toml", "--json")
     assert code == 1
     assert err == "poekin: the search did not converge: this is the best that was found\n"
@@ -405,7 +405,7 @@ def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--kind", "pose"], "--kind: expected one of 'poses', 'eye-in-hand',"),
+        (["--kind", "pose"], "--kind: expected 'poses', 'eye-in-hand',"),
         (
             ["--kind", "points"],
             "the columns T00 ... T23 are those of poses or eye-in-hand or eye-to-hand",
@@ -430,7 +430,7 @@ def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(
             ["--sigma-angle", "1", "--sigma-length", "0"],
             "--sigma-length: expected a standard deviation above 0, got 0",
         ),
-        (["--loss", "l1"], "--loss: expected one of 'linear', 'huber'"),
+        (["--loss", "l1"], "--loss: expected 'linear', 'huber'"),
         (["--parameters", "screw"], "--parameters: expected some of"),
         (["--joints", "elbow"], "--joints: no joint 'elbow'"),
         (["--folds", "1"], "--folds: expected 0 for none, or 2 and more, got 1"),

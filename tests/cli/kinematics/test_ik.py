@@ -201,7 +201,7 @@ def test_an_empty_file_is_an_empty_batch(poekin, tmp_path):
         (["--format", 12, *range(12)], "the pose: its rotation misses orthonormality"),
         (["--format", 12, "--inptu", "x"], "there is no option '--inptu'; did you mean '--input'"),
         (["--format", 12, "--no-limit", "x"], "there is no option '--no-limit'; did you mean '--no-limits'"),
-        (["--format", 12, "--task", "pos", *[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "task: expected one of 'pose'"),
+        (["--format", 12, "--task", "pos", *[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "task: expected 'pose'"),
         (["--format", 12, "--input", "T.csv", 1], "either a pose or --input expected, got both"),
         (["--format", 12, "--input", "no.csv"], "cannot read 'no.csv'"),
         (["--format", 12, "--q0", "1,2", *[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]], "--q0: 7 coordinates expected"),

@@ -40,7 +40,7 @@ REFUSED = {
     "no text": (lambda k: k.text("one"), "f: one: expected a text, got 1"),
     "none of those": (
         lambda k: k.text("word", ("b", "c")),
-        "f: word: expected one of 'b', 'c', got 'a'",
+        "f: word: expected 'b' or 'c', got 'a'",
     ),
     "no texts": (lambda k: k.texts("mixed"), "f: mixed: expected a list of texts, got [1, 'a']"),
     "no truth": (lambda k: k.truth("one"), "f: one: expected true or false, got 1"),

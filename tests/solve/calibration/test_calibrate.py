@@ -79,7 +79,7 @@ def test_a_tilted_axis_is_found_in_five_steps_to_1e_12_m(tilt):
     A[2] = se3.adjoint(se3.exp([*turn, *np.cross(point, turn)])) @ A[2]
     true = pk.Chain.from_space(A, arm.home)
     q = arm.random(0, 40)
-    found = calibrate(arm, q, true.fk(q), folds=0, max_iterations=5)
+    found = calibrate(arm, q, true.fk(q), folds=0, iterations=5)
     np.testing.assert_allclose(found.chain.fk(FRESH), true.fk(FRESH), rtol=0, atol=1e-12)
 
 
@@ -284,7 +284,7 @@ def test_the_pose_covariance_is_the_scatter_of_the_poses_found():
 
 def test_what_did_not_converge_says_so_and_keeps_the_best():
     q, T = noisy(0)
-    found = calibrate(PUMA, q, T, folds=0, max_iterations=1)
+    found = calibrate(PUMA, q, T, folds=0, iterations=1)
     assert not found.success
     assert "NOT converged" in str(found)
     assert found.after.rms_length < found.before.rms_length
@@ -350,19 +350,19 @@ def test_units_are_told_with_unknown_frames_too(kind):
 BAD = {
     "no chain": (
         {"chain": pk.load("puma560")},
-        "chain: expected a Chain, such as robot.chain(tip=...), got Robot",
+        "chain: expected a Chain, as Robot.chain(tip=...) makes it, got Robot(...",
     ),
     "a loss": (
         {"loss": "l1"},
-        "loss: expected one of 'linear', 'huber', 'cauchy', 'tukey', got 'l1'",
+        "loss: expected 'linear', 'huber', 'cauchy' or 'tukey', got 'l1'",
     ),
     "on_rank_deficiency": (
         {"on_rank_deficiency": True},
-        "on_rank_deficiency: expected one of 'raise', 'fix', got True",
+        "on_rank_deficiency: expected 'raise' or 'fix', got True",
     ),
     "a prior of a wrong unit": (
         {"prior": {"mm": 1}},
-        "prior: expected one of 'rad', 'm', '1', 'm/rad', got 'mm'",
+        "prior: expected 'rad', 'm', '1' or 'm/rad', got 'mm'",
     ),
     "a prior of nothing": (
         {"prior": {}},
@@ -375,14 +375,14 @@ BAD = {
     **{
         f"a prior of {sigma}": (
             {"prior": {"m": sigma}},
-            f"prior['m']: expected a standard deviation above 0, got {sigma}",
+            f"prior['m']: expected a positive number, got {sigma!r}",
         )
-        for sigma in (0.0, -1.0, np.inf, np.nan, True, [1])
+        for sigma in (0.0, -1.0, np.inf, np.nan, True, [1], np.complex128(2))
     },
     **{
         f"{most} steps": (
-            {"max_iterations": most},
-            f"max_iterations: expected a whole number from 1 on, got {most}",
+            {"iterations": most},
+            f"iterations: expected a whole number from 1 on, got {most}",
         )
         for most in (0, True, 1.5)
     },

@@ -98,8 +98,8 @@ def test_a_locked_coordinate_is_no_motion_and_keeps_its_value():
 
 
 @pytest.mark.parametrize("given, words", [
-    (("dance", None, None), "task: expected one of 'pose', 'position', 'rotation', 'direction', 'planar', got 'dance'"),
-    ((3, None, None), "task: expected one of 'pose', 'position', 'rotation', 'direction', 'planar', got 3"),
+    (("dance", None, None), "task: expected 'pose', 'position', 'rotation', 'direction' or 'planar', got 'dance'"),
+    ((3, None, None), "task: expected 'pose', 'position', 'rotation', 'direction' or 'planar', got 3"),
     (("pose", [1, 0, 0], None), "axis: only the task 'direction' has one, the task is 'pose'"),
     (("direction", [0, 0, 0], None), "axis: expected a direction (3,) that is not zero, got [0, 0, 0]"),
     (("direction", [[0, 0, 1]], None), "axis: expected a direction (3,) that is not zero, got [[0, 0, 1]]"),

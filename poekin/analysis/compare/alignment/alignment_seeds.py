@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from ....groups import se3
 from ....groups.arrays import Array
-from .lines import Lines, Sides, aligned_deviations, cross, deviations, signs, transformed
+from ...axis_lines import cross
+from .lines import Lines, Sides, aligned_deviations, deviations, signs, transformed
 
 # An axis within about a degree of parallel counts as parallel, as the common normal flies about
 # there.

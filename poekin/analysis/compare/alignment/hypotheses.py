@@ -11,7 +11,8 @@ import numpy as np
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from .lines import Marks, Sides, carriers, cross, deviations, signs, transformed
+from ...axis_lines import cross
+from .lines import Marks, Sides, carriers, deviations, signs, transformed
 
 
 class Costs(NamedTuple):

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ....model.chain import Chain
+from ...axis_lines import cross, direction
 
 Marks = NDArray[np.bool_]
 
@@ -66,41 +67,6 @@ class Sides:
     def n(self) -> int:
         """Number of joints."""
         return len(self.a.kinds)
-
-
-_NEXT = [1, 2, 0]
-_LAST = [2, 0, 1]
-
-
-def cross(x: Array, y: Array) -> Array:
-    """x × y over the last axis (..., 3): `numpy.cross` takes four times as long for so few numbers."""
-    return x[..., _NEXT] * y[..., _LAST] - x[..., _LAST] * y[..., _NEXT]
-
-
-def uncoupled_at_zero(chain: Chain) -> Chain:
-    """The chain with every joint its own coordinate x, x = 0 where q = 0, and limits where one
-    coordinate sets them.
-    """
-    C = chain.coupling
-    if np.array_equal(C, np.eye(len(C))) and not chain.offset.any():
-        return chain
-    limits = np.tile([-np.inf, np.inf], (len(C), 1))
-    for i, row in enumerate(C):
-        (ks,) = np.nonzero(row)
-        if len(ks) == 1:
-            limits[i] = np.sort(row[ks[0]] * chain.limits[ks[0]]) + chain.offset[i]
-    bare = Chain.from_space(
-        chain.screws,
-        chain.home,
-        joint_names=chain.joint_names,
-        limits=limits,
-        base=chain.base,
-        tip=chain.tip,
-        pitches=chain.pitches,
-    )
-    if chain.offset.any():
-        return bare.rezeroed(chain.offset)
-    return bare
 
 
 def lines(chain: Chain) -> Lines:
@@ -181,11 +147,6 @@ def transformed(pair: Sides, P: Array, z: Array) -> tuple[Array, Array]:
 def signs(pair: Sides, axes: Array) -> Array:
     """+1 or -1 (..., n): whether each of b's carried axes (..., n, 6) points the same way as a's."""
     return np.where((pair.ways * axes).sum(-1) < 0, -1.0, 1.0)
-
-
-def direction(axes: Array, kinds: tuple[str, ...]) -> Array:
-    """Unit directions (n, 3) of axes of these kinds."""
-    return np.where((np.array(kinds) == "prismatic")[:, None], axes[:, 3:], axes[:, :3])
 
 
 def residuals(pair: Sides, axes: Array) -> Array:

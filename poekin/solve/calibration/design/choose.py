@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
 
+from ....checks import choice, is_whole, whole
 from ....errors import InputError, ShapeError, quote, safe_repr
 from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.coordinates import coordinates
-from ...option_checks import is_whole, one_of, whole
+from ....model.kinematics.arm import Arm, chain_of
+from ....results import Progress
 from ..diagnostics.identification import RANK, identification_matrix, identify_directions
 from ..measurements.measurement import Measurement
 from ..measurements.points import Points
@@ -26,7 +28,7 @@ from .exchange import CRITERIA, Criterion, exchange, greedy
 
 
 def choose_poses(  # noqa: PLR0913 - options by keyword
-    chain: Chain,
+    chain: Arm,
     n: int,
     candidates: Any,
     *,
@@ -36,7 +38,7 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
     criterion: Criterion = "amplification",
     n_random: int = 100,
     seed: int = 0,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Choice:
     """Choice of the n candidates at which measuring tells most about the parameters of the arm.
 
@@ -45,7 +47,7 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
 
     Parameters
     ----------
-    chain : Chain
+    chain : Chain or CompiledChain
         The nominal arm.
     n : int
         Number of configurations.
@@ -103,12 +105,11 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
     >>> choice.criterion_improvement > 1
     True
     """
-    if not isinstance(chain, Chain):
-        raise InputError(f"choose_poses: expected a Chain, got {safe_repr(chain)}")
+    chain = chain_of(chain)
     whole(n, "n", 1)
     whole(n_random, "n_random", 1)
     whole(seed, "seed", 0)
-    one_of(criterion, CRITERIA, "criterion")
+    choice(criterion, CRITERIA, "criterion")
     q = _candidates(chain, candidates, seed)
     if n > len(q):
         raise InputError(f"n: expected at most the {len(q)} candidates, got {n}")

@@ -14,6 +14,7 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 
 from ....groups.arrays import Array
+from ....results import Progress
 from ..model.tsqr import qr_r
 
 Criterion = Literal["amplification", "O1", "condition", "smallest", "prediction"]
@@ -56,7 +57,7 @@ def exchange(
     blocks: Array,
     n: int,
     criterion: Criterion = "amplification",
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> np.ndarray:
     """The rows of blocks, ascending, of n candidates of which none can be exchanged for a better
     one.

@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ....checks import is_whole, whole
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups.arrays import numbers
-from ...option_checks import is_whole, whole
 
 
 class ObservabilityIndices(NamedTuple):

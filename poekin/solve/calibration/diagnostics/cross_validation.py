@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ....checks import is_whole, whole
 from ....errors import InputError, safe_repr
 from ....groups.arrays import Array
-from ...option_checks import is_whole, whole
+from ....results import Progress
 from ..fit.fitting import fit_frames
 from ..fit.minimise import FitOptions
 from ..fit.refit import fit_with_refit
 from ..measurements.measurement import Rows
 from ..model.problem import Problem
 from ..model.residuals import Residuals, concatenate, residuals
-
-Progress = Callable[[int, int], None]
 
 
 class CrossValidation(NamedTuple):

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ....checks import choice
 from ....errors import (
     InputError,
     ShapeError,
@@ -25,7 +26,6 @@ from ....formats.text.atomic_write import write_whole
 from ....groups.arrays import Array
 from ....model.chain import Chain
 from ....model.coordinates import coordinates
-from ...option_checks import one_of
 from . import columns
 from .columns import Layout
 from .measurement import Measurement, MeasurementKind
@@ -124,7 +124,7 @@ def read_table(
     once, so it may be a pipe. Parameters and errors: those of `read`.
     """
     if kind is not None:
-        one_of(kind, KINDS, "kind")
+        choice(kind, KINDS, "kind")
     ignore = (ignore,) if isinstance(ignore, str) else tuple(ignore)
     names: tuple[str, ...] = ()
     layout = columns.EMPTY

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ....checks import choice, whole
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
@@ -15,7 +16,6 @@ from ....model.chain import Chain
 from ....model.checks import read_only
 from ....model.coordinates import coordinates
 from ....results import Result
-from ...option_checks import one_of, whole
 from ..model.error_model import ErrorModel
 from .data import KINDS
 from .measurement import Measurement, MeasurementKind
@@ -313,7 +313,7 @@ def _random_frames(rng: np.random.Generator, reach: float) -> _Frames:
 
 
 def _check_options(n: Any, kind: Any, seed: Any) -> None:
-    one_of(kind, KINDS, "kind")
+    choice(kind, KINDS, "kind")
     whole(n, "n", 1)
     whole(seed, "seed", 0)
 

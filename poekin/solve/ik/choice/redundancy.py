@@ -8,10 +8,10 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
+from ....checks import choice
 from ....engine.kernels import ik_codes as codes
 from ....errors import InputError
 from ....groups.arrays import Array
-from ...option_checks import one_of
 from ..ik_problem import Problem
 
 Objective = Literal["middle", "nearest", "manipulability"]
@@ -25,7 +25,7 @@ DIFFERENCE = 1e-6
 def check_objective(objective: Any, q0: Any) -> None:
     """Raises InputError for what is no objective, and for "nearest" to nothing."""
     if objective is not None:
-        one_of(objective, OBJECTIVES, "secondary_objective")
+        choice(objective, OBJECTIVES, "secondary_objective")
     if objective == "nearest" and q0 is None:
         raise InputError("secondary_objective: 'nearest' needs q0, what to be near to")
 

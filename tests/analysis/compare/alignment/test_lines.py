@@ -19,7 +19,6 @@ from poekin.analysis.compare.alignment.lines import (
     signs,
     suspect_screw,
     transformed,
-    uncoupled_at_zero,
 )
 from poekin.groups import se3
 from poekin.model import screw
@@ -59,24 +58,6 @@ def test_lines_are_about_the_hub_and_without_pitch():
         np.array([[0, 0, 1, 0, 1, 0], [0, 1, 0, 0, 0, 1], [0, 0, 0, 1, 0, 0]])
     )
     assert side.screws[1] - side.axes[1] == pytest.approx([0, 0, 0, 0, 0.2, 0])
-
-
-def test_at_rest_every_joint_is_a_coordinate_whose_limits_are_those_of_the_only_one_that_moves_it():
-    rows = [screw.revolute(Z, [k, 0, 0]) for k in range(3)]
-    C, c = [[-2.0, 0], [0, 1], [1, 1]], np.array([0.5, 0, -0.25])
-    chain = chain_of(*rows, coupling=C, offset=c, q_names=["u", "v"], limits=[[-1, 3], [-1, 2]],
-                     joint_names=["one", "two", "three"])  # fmt: skip
-    rest = uncoupled_at_zero(chain)
-    assert rest.limits.tolist() == [[-6, 2], [-1, 2], [-np.inf, np.inf]]
-    assert (rest.joint_names, rest.base, rest.tip) == (chain.joint_names, chain.base, chain.tip)
-    q = np.array([0.3, -0.7])
-    assert rest.fk(np.array(C) @ q) == pytest.approx(chain.fk(q), abs=1e-14)
-    plain = chain_of(*rows)
-    assert uncoupled_at_zero(plain) is plain
-    offset = chain_of(*rows, offset=c)
-    assert uncoupled_at_zero(offset).fk(np.zeros(3)) == pytest.approx(
-        offset.fk(np.zeros(3)), abs=1e-14
-    )
 
 
 def moved(chain, k, angle=0.0, length=0.0, along=X):

@@ -214,7 +214,11 @@ def test_a_candidate_outside_the_limits_is_refused_with_its_row(puma, candidates
 
 
 WRONG = {
-    "no-arm": ({"chain": "puma560"}, InputError, "choose_poses: expected a Chain, got 'puma560'"),
+    "no-arm": (
+        {"chain": "puma560"},
+        InputError,
+        "chain: expected a Chain, as Robot.chain(tip=...) makes it, got 'puma560'",
+    ),
     "n-zero": ({"n": 0}, InputError, "n: expected a whole number from 1 on, got 0"),
     "n-bool": ({"n": True}, InputError, "n: expected a whole number from 1 on, got True"),
     "n-above": ({"n": 301}, InputError, "n: expected at most the 300 candidates, got 301"),
@@ -223,7 +227,7 @@ WRONG = {
     "criterion": (
         {"criterion": "E"},
         InputError,
-        "criterion: expected one of 'amplification', 'O1', 'condition', 'smallest', 'prediction', got 'E'",
+        "criterion: expected 'amplification', 'O1', 'condition', 'smallest' or 'prediction', got 'E'",
     ),
     "none": (
         {"candidates": None},

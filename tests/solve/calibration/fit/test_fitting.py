@@ -54,14 +54,14 @@ def noisy(count: int = 40) -> tuple[np.ndarray, np.ndarray]:
 @pytest.mark.parametrize("most", [1, 2, 4])
 def test_the_most_steps_are_those_of_all_rounds_together(loss, most):
     q, T = noisy()
-    found = calibrate(PUMA, q, T, loss=loss, folds=0, max_iterations=most)
+    found = calibrate(PUMA, q, T, loss=loss, folds=0, iterations=most)
     assert len(found.steps) <= most + (loss == "tukey")
     assert not found.success
 
 
 def test_the_folds_make_no_more_steps_either():
     q, T = noisy()
-    few, many = (calibrate(PUMA, q, T, max_iterations=most).cross_validation for most in (1, 100))
+    few, many = (calibrate(PUMA, q, T, iterations=most).cross_validation for most in (1, 100))
     assert few is not None
     assert many is not None
     assert few.after.rms_length != many.after.rms_length

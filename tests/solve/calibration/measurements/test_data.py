@@ -287,7 +287,7 @@ POSE = f"q1,{T_COLUMNS}"
             POSE + "\n",
             {"kind": "pose"},
             InputError,
-            "kind: expected one of 'poses', 'eye-in-hand', 'eye-to-hand', 'points', 'distances', got 'pose'",
+            "kind: expected 'poses', 'eye-in-hand', 'eye-to-hand', 'points' or 'distances', got 'pose'",
         ),
         (
             "q1,x1,y1,z1,x2,y2,z2\n1,2,3,4,5,6,7\n",

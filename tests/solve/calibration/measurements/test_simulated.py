@@ -201,7 +201,7 @@ def test_the_arm_the_noise_and_the_frames_are_drawn_apart():
         (
             {"kind": "pose"},
             InputError,
-            "kind: expected one of 'poses', 'eye-in-hand', 'eye-to-hand', 'points', 'distances', got 'pose'",
+            "kind: expected 'poses', 'eye-in-hand', 'eye-to-hand', 'points' or 'distances', got 'pose'",
         ),
         ({"tilt": -1e-3}, InputError, "tilt: expected a finite number of at least 0, got -0.001"),
         ({"shift": np.nan}, InputError, "shift: expected a finite number of at least 0, got nan"),

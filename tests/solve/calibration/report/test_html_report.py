@@ -205,7 +205,7 @@ def test_parameters_without_screws_have_a_page_too():
 
 def test_a_search_that_did_not_converge_is_told_first_and_then_warnings_and_remarks():
     s = simulated(ARM, 40, tilt=0.02, shift=0.02)
-    found = calibrate(ARM, s.q, s.measurements, folds=0, max_iterations=1)
+    found = calibrate(ARM, s.q, s.measurements, folds=0, iterations=1)
     assert not found.success
     text = html_report.html(
         dataclasses.replace(found, warnings=("a <b> tool",), remarks=("another base",))

@@ -122,7 +122,7 @@ FAULTS = {
     "format": (
         '"poekin calibration"',
         '"DH"',
-        r"format: expected one of 'poekin calibration', got 'DH'",
+        r"format: expected 'poekin calibration', got 'DH'",
     ),
     "version": (
         "version = 1",
@@ -138,7 +138,7 @@ FAULTS = {
     "loss": (
         'loss = "huber"',
         'loss = "none"',
-        r"loss: expected one of 'linear', 'huber', 'cauchy', 'tukey', got 'none'",
+        r"loss: expected 'linear', 'huber', 'cauchy' or 'tukey', got 'none'",
     ),
     "unknown key": (
         "version = 1",

@@ -146,8 +146,8 @@ def test_a_move_leaves_the_task_to_first_order_and_goes_down_the_aim_within_the_
 
 
 @pytest.mark.parametrize("aim, q0, words", [
-    ("best", None, r"^secondary_objective: expected one of 'middle', 'nearest', 'manipulability', got 'best'$"),
-    (3, None, r"^secondary_objective: expected one of 'middle', 'nearest', 'manipulability', got 3$"),
+    ("best", None, r"^secondary_objective: expected 'middle', 'nearest' or 'manipulability', got 'best'$"),
+    (3, None, r"^secondary_objective: expected 'middle', 'nearest' or 'manipulability', got 3$"),
     ("nearest", None, r"^secondary_objective: 'nearest' needs q0, what to be near to$"),
 ])  # fmt: skip
 def test_what_is_no_aim_is_told(aim, q0, words):
