@@ -20,11 +20,14 @@ ROUNDED = 2e-2  # of abs(R R^T - I): what rounding to two decimals can do
 LAST_ROW_UNREAD = -2  # of `first_defect`: a NaN in the last row, which kernels do not read
 
 # What may stand in the place of another thing: the axes expected, those that arrived, the remedy.
+# The first that fits is named: matrices before rows of numbers.
 REMEDIES = (
     ((6,), (4, 4), "pk.se3.log of a pose is its twist, pk.se3.vee of a matrix [xi] is xi"),
     ((4, 4), (3, 3), "pk.se3.pose(R, p) makes a pose of a rotation and a translation"),
     ((4, 4), (6,), "pk.se3.exp of a twist is a pose"),
     ((3, 3), (4, 4), "the rotation of a pose is T[..., :3, :3]"),
+    ((3, 3), (3, 4), "of three rows of a pose, the rotation is T[..., :3, :3]"),
+    ((4, 4), (3, 4), "to three rows of a pose, add the row 0 0 0 1"),
     ((3, 3), (4,), "of a quaternion, SciPy's Rotation.from_quat makes what is taken here"),
     ((3, 3), (3,), "pk.so3.exp of a rotation vector is a rotation"),
 )

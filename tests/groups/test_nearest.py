@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -117,6 +119,25 @@ def test_the_distance_that_is_accepted_can_be_set():
     T[:3, :3] *= 1.5
     assert np.abs(se3.nearest(T, max_moved=1.0).T - T_0).max() < 1e-15
     assert se3.nearest(changed(T_0, (3, 0), 0.9e-5)).moved.shape == (2,)
+
+
+@pytest.mark.parametrize("most", [np.nan, -1e-9, -np.inf, True, "a", None, [0.1], np.array(0.1)])
+def test_the_distance_that_is_accepted_is_a_number_from_0_up(most):
+    message = rf"^max_moved: expected a number from 0 up, got {re.escape(repr(most))}$"
+    for call in (
+        lambda: so3.nearest(R_0, max_moved=most),
+        lambda: se3.nearest(T_0, max_moved=most),
+    ):
+        with pytest.raises(InputError, match=message):
+            call()
+
+
+@pytest.mark.parametrize("most", [0, 0.0, 1, np.inf, np.float32(0.5), np.int64(2)])
+def test_a_distance_of_0_accepts_what_is_exact_and_an_infinite_one_everything(most):
+    assert np.array_equal(so3.nearest(np.eye(3), max_moved=most).R, np.eye(3))
+    assert np.array_equal(se3.nearest(np.eye(4), max_moved=most).T, np.eye(4))
+    if most == np.inf:
+        assert np.abs(so3.nearest(1e3 * R_0, max_moved=most).R - R_0).max() < 1e-14
 
 
 def test_what_has_another_shape_or_holds_no_numbers_is_refused():

@@ -217,7 +217,22 @@ def test_a_sound_array_is_taken_as_it_is():
             ShapeError,
             r"x: expected shape \(\.\.\., 4, 4\), got \(4,\)",
         ),
-        (lambda: shaped(np.zeros((3, 4)), (4, 4), "x"), ShapeError, r"got \(3, 4\)$"),
+        (
+            lambda: se3.log(T[:3]),
+            ShapeError,
+            r"got \(3, 4\): to three rows of a pose, add the row 0 0 0 1$",
+        ),
+        (
+            lambda: so3.log([T[:3], T[:3]]),
+            ShapeError,
+            r"got \(2, 3, 4\): of three rows of a pose, the rotation is T\[..., :3, :3\]$",
+        ),
+        (
+            lambda: so3.log(np.ones((2, 4))),
+            ShapeError,
+            r"got \(2, 4\): of a quaternion, SciPy's Rotation.from_quat makes what is taken here$",
+        ),
+        (lambda: shaped(np.zeros((3, 4)), (6,), "x"), ShapeError, r"got \(3, 4\)$"),
         (
             lambda: se3.exp(np.zeros((5, 4, 4))),
             ShapeError,

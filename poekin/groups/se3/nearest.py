@@ -7,9 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import PoseError
-from ..arrays import TOLERANCE, Array, first_place, shaped
-from ..so3.nearest import FARTHEST, project
+from ..arrays import TOLERANCE, Array, shaped
+from ..so3.nearest import FARTHEST, project, refuse
 
 
 class NearestPose(NamedTuple):
@@ -35,7 +34,7 @@ def nearest(M: ArrayLike, *, max_moved: float = FARTHEST) -> NearestPose:
     M : (..., 4, 4) array_like
         Rounded or drifted pose T_ab, lengths in m.
     max_moved : float, default 0.1
-        Largest accepted Frobenius distance between the rotations, without unit.
+        Largest accepted Frobenius distance between the rotations, 0 or more, without unit.
 
     Returns
     -------
@@ -50,7 +49,7 @@ def nearest(M: ArrayLike, *, max_moved: float = FARTHEST) -> NearestPose:
     ShapeError
         If the last axes of M are not (4, 4).
     InputError
-        If M holds anything but real numbers.
+        If M holds anything but real numbers, or max_moved is no number, NaN or below 0.
 
     Notes
     -----
@@ -75,11 +74,8 @@ def nearest(M: ArrayLike, *, max_moved: float = FARTHEST) -> NearestPose:
     """
     M = shaped(M, (4, 4), "M")
     off = ~(np.abs(M[..., 3, :] - (0.0, 0.0, 0.0, 1.0)).sum(-1) <= TOLERANCE)
-    if off.any():
-        raise PoseError(f"{first_place(off, 'M')}: expected the last row [0, 0, 0, 1]")
-    lost = ~np.isfinite(M[..., :3, 3]).all(-1)
-    if lost.any():
-        raise PoseError(f"{first_place(lost, 'M')}: expected finite numbers")
+    refuse(off, "M", "expected the last row [0, 0, 0, 1]")
+    refuse(~np.isfinite(M[..., :3, 3]).all(-1), "M", "expected finite numbers")
     R, moved = project(M[..., :3, :3], max_moved, "M")
     T = np.zeros(M.shape)
     T[..., :3, :3] = R

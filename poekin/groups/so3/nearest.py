@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import PoseError
+from ...checks import is_real
+from ...errors import InputError, PoseError, safe_repr
 from ..arrays import Array, first_place, shaped
 
 FARTHEST = 0.1  # a rotation given to one decimal moves by up to 0.15, to two by up to 0.015
@@ -36,7 +37,7 @@ def nearest(M: ArrayLike, *, max_moved: float = FARTHEST) -> NearestRotation:
     M : (..., 3, 3) array_like
         Rounded or drifted rotation R_ab.
     max_moved : float, default 0.1
-        Largest accepted Frobenius distance between M and the rotation, without unit.
+        Largest accepted Frobenius distance between M and the rotation, 0 or more, without unit.
 
     Returns
     -------
@@ -51,7 +52,7 @@ def nearest(M: ArrayLike, *, max_moved: float = FARTHEST) -> NearestRotation:
     ShapeError
         If the last axes of M are not (3, 3).
     InputError
-        If M holds anything but real numbers.
+        If M holds anything but real numbers, or max_moved is no number, NaN or below 0.
 
     Notes
     -----
@@ -76,20 +77,23 @@ def nearest(M: ArrayLike, *, max_moved: float = FARTHEST) -> NearestRotation:
 
 def project(M: Array, max_moved: float, what: str) -> NearestRotation:
     """`nearest` of an array that messages call `what`."""
+    if not is_real(max_moved) or not max_moved >= 0:
+        raise InputError(f"max_moved: expected a number from 0 up, got {safe_repr(max_moved)}")
     finite = np.isfinite(M).all((-1, -2))
-    _refuse(~finite, what, "expected finite numbers")
+    refuse(~finite, what, "expected finite numbers")
     sign, _ = np.linalg.slogdet(M)
-    _refuse(sign <= 0.0, what, "near no rotation, its determinant is 0 or less")
+    refuse(sign <= 0.0, what, "near no rotation, its determinant is 0 or less")
     U, _, V = np.linalg.svd(M)
     R = U @ V
     with np.errstate(over="ignore"):
         moved = np.linalg.norm(R - M, axis=(-2, -1))
-    _refuse(
+    refuse(
         moved > max_moved, what, f"farther than {max_moved:g} (Frobenius norm) from every rotation"
     )
     return NearestRotation(R, moved)
 
 
-def _refuse(bad: ArrayLike, what: str, reason: str) -> None:
+def refuse(bad: ArrayLike, what: str, reason: str) -> None:
+    """Raises PoseError with the place of the first matrix that is bad."""
     if np.any(bad):
         raise PoseError(f"{first_place(bad, what)}: {reason}")

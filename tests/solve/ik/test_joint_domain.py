@@ -86,6 +86,7 @@ def test_a_slide_without_limits_is_begun_within_a_metre_either_way():
     ({"a": 5.0}, InputError, "lock: 'a': expected a number within [-2.0, 4.0], got 5.0"),
     ({"a": -2.1}, InputError, "lock: 'a': expected a number within [-2.0, 4.0], got -2.1"),
     ({"b": 2.0}, InputError, "lock: 'b': expected a number within [-1.5, 1.0], got 2.0"),
+    ({"b": True}, InputError, "lock: 'b': expected a number within [-1.5, 1.0], got True"),
     ({"b": np.nan}, InputError, "lock: 'b': expected a number within [-1.5, 1.0], got nan"),
     ({"b": "1"}, InputError, "lock: 'b': expected a number within [-1.5, 1.0], got '1'"),
 ])  # fmt: skip
