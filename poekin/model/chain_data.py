@@ -197,8 +197,8 @@ class ChainData:
         Parameters
         ----------
         **changes : dict
-            Parameters of `Chain` by name; new `screws` are in the base frame, unless `frame` says
-            otherwise.
+            Parameters of `Chain` by name. New `screws` are in the base frame, unless `frame` says
+            otherwise, and their pitches are found anew, unless `pitches` says them.
 
         Returns
         -------
@@ -207,6 +207,9 @@ class ChainData:
 
         Raises
         ------
+        ShapeError
+            If there are more or fewer screws than before, and the parameters of each joint and each
+            coordinate are not given with them.
         InputError
             If `Chain` refuses a parameter: ShapeError, ScrewError, PoseError or InputError itself.
 
@@ -217,7 +220,17 @@ class ChainData:
         >>> arm.replace(tip="flange").tip
         'flange'
         """
-        return type(self)(**{"frame": "space", **self._data(), **changes})
+        kept = self._data()
+        if "screws" in changes:
+            kept["pitches"] = None
+            count = _row_count(changes["screws"])
+            needed = [name for name in _SIZED if name not in changes and kept[name] is not None]
+            if count not in (None, len(self.screws)) and needed:
+                raise ShapeError(
+                    f"screws: {count} in place of {len(self.screws)}: give {', '.join(needed)} too,"
+                    " or None for the default"
+                )
+        return type(self)(**{"frame": "space", **kept, **changes})
 
     def _data(self) -> dict[str, Any]:
         data: dict[str, Any] = {name: getattr(self, name) for name in _DATA}
@@ -258,11 +271,23 @@ AnyChain = TypeVar("AnyChain", bound=ChainData)
 """The class of the chain that is given: a function of a `Chain` that makes a new one makes a Chain."""
 
 _DATA = ("screws", "home", "joint_names", "q_names", "limits", "offset", "base", "tip", "pitches")
+_SIZED = ("joint_names", "q_names", "limits", "coupling", "offset")  # by the number of joints
 _KINDS: tuple[ScrewKind, ...] = get_args(ScrewKind)
 
 
 def _rebuilt(kind: type[ChainData], data: dict[str, Any]) -> ChainData:
     return kind(**data, frame="space")
+
+
+def _row_count(screws: Any) -> int | None:
+    """Number of screws that are given as rows; None of anything else."""
+    try:
+        shape = np.shape(screws)
+    except ValueError:
+        return None
+    if shape == (0,) or shape[1:] == (6,):
+        return shape[0]
+    return None
 
 
 def _offset(given: ArrayLike | None, n: int) -> Array:

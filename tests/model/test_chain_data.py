@@ -86,6 +86,69 @@ def test_a_copy_is_checked_as_a_new_chain_is():
         chain.replace(colour="red")
 
 
+REVOLUTE = pk.screw.revolute([0, 0, 1], [0.1, 0, 0])
+HELICAL = pk.screw.helical([0, 0, 1], [0.1, 0, 0], 0.01)
+
+
+@pytest.mark.parametrize("old", [REVOLUTE, HELICAL, SLIDE])
+@pytest.mark.parametrize(
+    "new, kind, pitch",
+    [(REVOLUTE, "revolute", 0.0), (HELICAL, "helical", 0.01), (SLIDE, "prismatic", 0.0)],
+)
+def test_new_screws_have_pitches_of_their_own_unless_pitches_are_given(old, new, kind, pitch):
+    chain = pk.Chain.from_space([old], MOVED)
+    found = chain.replace(screws=[new])
+    assert found == pk.Chain.from_space([new], MOVED)
+    assert found.kinds == (kind,)
+    assert found.pitches == pytest.approx([pitch])
+    np.testing.assert_array_equal(chain.replace(tip="hand").pitches, chain.pitches)
+    if kind != "prismatic":
+        assert chain.replace(screws=[new], pitches=[0.02]).pitches.tolist() == [0.02]
+
+
+NAMES = ["a", "b", "c"]
+THREE = pk.Chain.from_space([TURN, SLIDE, TURN], MOVED, joint_names=NAMES, offset=[0, 0, 1])
+GEARED = pk.Chain.from_space([TURN, SLIDE, TURN], MOVED, coupling=[[1, 0], [2, 0], [0, 1]])
+DEFAULTS = {"joint_names": None, "offset": None, "q_names": None, "limits": None}
+
+
+@pytest.mark.parametrize(
+    "chain, given_too, missing",
+    [
+        (THREE, (), "joint_names, q_names, limits, offset"),
+        (THREE, ("limits", "joint_names"), "q_names, offset"),
+        (GEARED, (), "joint_names, q_names, limits, coupling, offset"),
+        (GEARED, ("q_names", "coupling"), "joint_names, limits, offset"),
+    ],
+)
+def test_more_or_fewer_screws_say_what_has_to_be_given_with_them(chain, given_too, missing):
+    with pytest.raises(ShapeError) as caught:
+        chain.replace(screws=chain.screws[:2], **dict.fromkeys(given_too))
+    expected = f"screws: 2 in place of 3: give {missing} too, or None for the default"
+    assert str(caught.value) == expected
+
+
+@pytest.mark.parametrize("screws", [[], [TURN], [TURN] * 4], ids=len)
+def test_another_number_of_screws_is_taken_with_what_belongs_to_it(screws):
+    names = [f"j{i}" for i in range(len(screws))]
+    found = THREE.replace(screws=screws, **{**DEFAULTS, "joint_names": names})
+    assert found == pk.Chain.from_space(screws, MOVED, joint_names=names)
+    uncoupled = GEARED.replace(screws=screws, coupling=None, **DEFAULTS)
+    assert uncoupled == pk.Chain.from_space(screws, MOVED)
+    C = np.ones((4, 2))
+    geared = GEARED.replace(screws=[TURN] * 4, coupling=C, **DEFAULTS)
+    assert geared == pk.Chain.from_space([TURN] * 4, MOVED, coupling=C)
+
+
+@pytest.mark.parametrize("screws", [None, 5, [[1], [1, 2]], np.zeros((6, 2)), np.zeros((2, 1, 6))])
+def test_new_screws_that_are_no_rows_are_refused_as_those_of_a_new_chain(screws):
+    with pytest.raises(InputError) as expected:
+        pk.Chain.from_space(screws, MOVED)
+    with pytest.raises(InputError) as caught:
+        THREE.replace(screws=screws)
+    assert str(caught.value) == str(expected.value)
+
+
 def test_only_a_chain_whose_joints_are_its_coordinates_goes_straight_to_the_kernel():
     plain = pk.Chain.from_space([TURN, SLIDE], MOVED)
     assert plain.plain_shape == (2,)

@@ -43,6 +43,19 @@ def test_a_chain_that_is_moved_far_away_and_back_keeps_kinds_and_pitches(far):
                 assert np.array_equal(moved.local.slides, chain.local.slides)
 
 
+@pytest.mark.parametrize("far", [1.0, 1e3])
+def test_exact_geometry_has_the_pitches_that_were_given(far):
+    leaning = pk.screw.revolute([0, 1e-3, 1], [far, 0, 0])
+    rng = np.random.default_rng(2)
+    pitches = [0.0, *rng.normal(size=5)]
+    rows = [pk.screw.helical(rng.normal(size=3), far * rng.normal(size=3), h) for h in pitches[1:]]
+    chain = pk.Chain.from_space([leaning, *rows], np.eye(4), pitches=pitches)
+    exact = chain.idealised(0.01)
+    assert exact.changes
+    assert exact.chain.kinds == chain.kinds
+    assert exact.chain.pitches.tolist() == pitches
+
+
 def test_far_arms_of_large_lengths_keep_their_kinds():
     # 36 to 57 of 60 came back with helical joints.
     rng = np.random.default_rng(1)

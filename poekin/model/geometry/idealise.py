@@ -61,10 +61,10 @@ class Idealised(Result, Generic[AnyChain]):
         Returns
         -------
         text : str
-            Bounds in mm and deg, and the changes, one a line.
+            Bounds in mm and degrees, and the changes, one a line.
         """
         position = f"{1e3 * self.position_bound:.3g} mm"
-        rotation = f"{math.degrees(self.rotation_bound):.3g} deg"
+        rotation = f"{math.degrees(self.rotation_bound):.3g}°"
         if not self.changes:
             return f"nothing was changed but rounding: within {position} and {rotation}"
         return "\n".join([f"within {position} and {rotation}", *self.changes])
@@ -86,7 +86,7 @@ def idealised(chain: AnyChain, tol: float) -> Idealised[AnyChain]:
         if not walk.snapped or _settled(chain, screws, home):
             return unchanged
         position, rotation = _bounds(chain, walk.given, walk.exact)
-    exact = chain.replace(screws=screws, home=home)
+    exact = chain.replace(screws=screws, home=home, pitches=chain.pitches)
     return Idealised(exact, position, rotation, tuple(walk.changes))
 
 

@@ -18,7 +18,12 @@ def rebased(chain: AnyChain, P: ArrayLike, base: str | None) -> AnyChain:
     """f' = P f: A' = Ad(P) A, M' = P M."""
     P = one_pose(P, "P")
     screws = chain.screws @ se3.adjoint(P).T
-    return chain.replace(screws=screws, home=P @ chain.home, base=base or chain.base)
+    return chain.replace(
+        screws=screws,
+        home=P @ chain.home,
+        base=base or chain.base,
+        pitches=chain.pitches,
+    )
 
 
 def retooled(chain: AnyChain, Q: ArrayLike, tip: str | None) -> AnyChain:
@@ -38,4 +43,9 @@ def rezeroed(chain: AnyChain, q0: Any) -> AnyChain:
     for i, S in enumerate(chain.screws):
         A[i] = se3.adjoint(P) @ S
         P = P @ se3.exp(S * shifts[i])
-    return chain.replace(screws=A, home=P @ chain.home, limits=chain.limits - q0[:, None])
+    return chain.replace(
+        screws=A,
+        home=P @ chain.home,
+        limits=chain.limits - q0[:, None],
+        pitches=chain.pitches,
+    )

@@ -166,7 +166,7 @@ def test_a_result_says_its_bounds_in_mm_and_degrees_and_keeps_si_in_numbers():
     result = Chain.from_space([leaning], np.eye(4)).idealised(0.01)
     bounds, *changes = result.summary().splitlines()
     assert bounds == (
-        f"within {1e3 * result.position_bound:.3g} mm and {np.degrees(result.rotation_bound):.3g} deg"
+        f"within {1e3 * result.position_bound:.3g} mm and {np.degrees(result.rotation_bound):.3g}°"
     )
     assert tuple(changes) == result.changes != ()
     assert str(result) == result.summary()
@@ -176,4 +176,4 @@ def test_a_result_says_its_bounds_in_mm_and_degrees_and_keeps_si_in_numbers():
         "changes": list(result.changes),
     }
     exact = Chain.from_space([screw.revolute(Z, [0, 0, 0])], np.eye(4)).idealised(0.01)
-    assert exact.summary() == "nothing was changed but rounding: within 0 mm and 0 deg"
+    assert exact.summary() == "nothing was changed but rounding: within 0 mm and 0°"
