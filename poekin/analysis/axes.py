@@ -153,7 +153,7 @@ def axes(
     tol_position : float, default 1e-5
         Distance up to which axes intersect, m.
     tol_rotation : float, default 1.75e-5
-        Angle up to which they are parallel or perpendicular, rad (0.001 deg).
+        Angle up to which they are parallel or perpendicular, rad (0.001 degrees).
 
     Returns
     -------
@@ -192,7 +192,8 @@ def axes(
     ways = direction(rest.screws, rest.kinds)
     places = cross(rest.screws[:, :3], rest.screws[:, 3:])
     pairs = tuple(_pair(rest, ways, places, i - 1, j - 1, *tol) for i, j in near)
-    return AxesReport(pairs, shapes(rest, *tol), *tol)
+    coaxial = [pair.parallel and pair.intersecting for pair in pairs if pair.fixed]
+    return AxesReport(pairs, shapes(rest, coaxial, *tol), *tol)
 
 
 def _pair(

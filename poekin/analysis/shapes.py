@@ -5,7 +5,7 @@ closed form.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal
@@ -68,12 +68,15 @@ class Shape(Result):
         return f"{joints}: {self.kind}, {meet}"
 
 
-def shapes(chain: Chain, tol_position: float, tol_rotation: float) -> tuple[Shape, ...]:
-    """The shapes of a chain at rest.
+def shapes(
+    chain: Chain, coaxial: Sequence[bool], tol_position: float, tol_rotation: float
+) -> tuple[Shape, ...]:
+    """The shapes of a chain at rest, of whose joints k and k + 1 are coaxial or not.
 
     Three revolute axes that meet in one point at q = 0 meet at every q, as each turns about a line
-    through the point; three parallel axes stay parallel for the same reason. Three that lie along
-    one another are neither.
+    through the point; three parallel axes stay parallel for the same reason. Neighbours along one
+    line turn as one joint: with a third axis they make no shape, and an arm of six or seven joints
+    that has them is solved by none.
     """
     n = len(chain.kinds)
     revolute = [kind == "revolute" for kind in chain.kinds]
@@ -85,7 +88,8 @@ def shapes(chain: Chain, tol_position: float, tol_rotation: float) -> tuple[Shap
         three = chain.screws[i : i + 3]
         angle = _apart(three)
         if angle <= tol_rotation:
-            found.append(Shape("three parallel axes", numbers, angle, parallel=True))
+            if not any(coaxial[i : i + 2]):
+                found.append(Shape("three parallel axes", numbers, angle, parallel=True))
             continue
         miss = _meeting(three)
         # Neighbours along one line leave two axes only, which is no spherical joint.
@@ -96,7 +100,7 @@ def shapes(chain: Chain, tol_position: float, tol_rotation: float) -> tuple[Shap
             elif i == 0:
                 kind = "spherical shoulder"
             found.append(Shape(kind, numbers, miss))
-    if all(revolute):
+    if all(revolute) and not any(coaxial):
         return (*found, *_solvable(n, found))
     return tuple(found)
 

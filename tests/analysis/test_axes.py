@@ -23,7 +23,7 @@ def made(*rows):
 
 
 WRIST = [((0, 0, 1), (1, 0, 0)), ((0, 1, 0), (1, 0, 0)), ((1, 0, 0), (0, 0, 0))]
-PLANE = [((0, 0, 1), (x, 0, 0)) for x in (0.0, 0.5, 1.0)]
+PLANE = [((0, 0, 1), (x, 0, 0)) for x in (0.0, 0.5, 0.9)]
 SHOULDER = [((0, 0, 1), (0, 0, 0)), ((0, 1, 0), (0, 0, 0)), ((1, 0, 0), (0, 0, 0))]
 ELBOW = [((0, 1, 0), (0.5, 0, 0))]
 
@@ -196,6 +196,51 @@ def test_what_slides_makes_no_shape_and_neighbours_on_one_line_no_spherical_join
             [*made(z, y).screws, screw.prismatic([1, 0, 0]), *made(z).screws], np.eye(4)
         )
     ).shapes
+
+
+ALONG = [((0, 0, 1), (0, 0, z)) for z in (0.0, 0.1, 0.2)]
+ACROSS = [((1, 0, 0), (0, y, 0)) for y in (0.0, 0.1, 0.3)]
+
+
+@pytest.mark.parametrize(
+    "first, found",
+    [
+        (ALONG, 0),
+        ([*ALONG[:2], ((0, 0, -1), (0.5, 0, 0))], 0),
+        ([((0, 0, -1), (0.5, 0, 0)), *ALONG[:2]], 0),
+        ([ALONG[0], ((0, 0, 1), (0.5, 0, 0)), ALONG[1]], 1),
+        ([((0, 0, 1), (0.5, 0, 0)), *ALONG[:1], ((0, 0, 1), (2e-5, 0, 0))], 1),
+        ([((0, 0, 1), (0.5, 0, 0)), *ALONG[:1], ((0, 0, 1), (0.9e-5, 0, 0))], 0),
+    ],
+    ids=["all", "first two", "last two", "first and last", "a hair apart", "within the tolerance"],
+)
+def test_parallel_neighbours_along_one_line_are_one_joint_and_solve_no_arm(first, found):
+    """First and last may coincide at one q: as two links of equal lengths that are folded up."""
+    assert [s.kind for s in axes(made(*first)).shapes] == ["three parallel axes"] * found
+    shapes = [(s.kind, s.joints) for s in axes(made(*first, *ACROSS)).shapes]
+    assert shapes == [
+        *[("three parallel axes", (1, 2, 3))] * found,
+        ("three parallel axes", (4, 5, 6)),
+        *[("Pieper", (1, 2, 3))] * found,
+    ]
+    assert made(*first, *ACROSS).dof == 6
+
+
+def test_three_parallel_axes_stay_a_shape_beside_another_along_the_last_of_them():
+    shapes = axes(made(*PLANE, (PLANE[2][0], (0.9, 0, 1.0)))).shapes
+    assert [(s.kind, s.joints) for s in shapes] == [("three parallel axes", (1, 2, 3))]
+
+
+def test_neighbours_along_one_line_beside_a_shape_leave_no_arm_that_it_solves():
+    x, y, z = np.eye(3)
+    wrist = [(z, [2, 0, 0]), (y, [2, 0, 0]), (x, [2, 0, 0])]
+    arm = made((z, [0, 0, 0]), (-z, [0, 0, 1]), (y, [1, 0, 0]), *wrist)
+    assert [s.kind for s in axes(arm).shapes] == ["spherical wrist"]
+    seven = made(*SHOULDER, (x, [0.5, 0, 0]), *wrist)
+    kinds = [s.kind for s in axes(seven).shapes]
+    assert kinds == ["spherical shoulder", "spherical joint", "spherical wrist"]
+    # Axes that meet at an angle, or slides, are no neighbours along one line.
+    assert axes(made((z, [0, 0, 0]), (y, [0, 0, 0]), (y, [1, 0, 0]), *wrist)).has("Pieper")
 
 
 @pytest.mark.parametrize("angle, gap, words", [
