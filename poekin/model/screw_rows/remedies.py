@@ -38,6 +38,10 @@ _READINGS = (
         lambda S: np.roll(S.T, 3, axis=-1),
     ),
 )
+_MENDS = (
+    (ROUNDED, " but for rounding: pass pk.screw.normalised({})"),
+    (UNIT, ": pass {}"),
+)
 
 
 def length_errors(S: Array) -> Array:
@@ -48,16 +52,21 @@ def length_errors(S: Array) -> Array:
 
 
 def other_reading(S: Array, what: str) -> str:
-    """End of a message: the expression that makes unit screws of an array that was refused."""
-    for most in (UNIT, ROUNDED):
-        for reading in _READINGS:
-            rows = reading.read(np.atleast_2d(S))
+    """End of a message: the expressions that make unit screws of an array that was refused.
+
+    Rounded numbers may be exact when read in another way: then both readings are named.
+    """
+    ways: dict[str, str] = {}
+    for most, mend in _MENDS:
+        for expression, means, read in _READINGS:
+            rows = read(np.atleast_2d(S))
             if rows.size and rows.shape[-1] == 6 and (length_errors(rows) <= most).all():
-                remedy = reading.expression.format(what)
-                if most == UNIT and remedy != what:
-                    return f"; {reading.means}: pass {remedy}"
-                return f"; {reading.means} but for rounding: pass pk.screw.normalised({remedy})"
-    return ""
+                if most == ROUNDED or expression != "{}":
+                    ways[means] = f"{means}{mend.format(expression.format(what))}"
+                break
+    if not ways:
+        return ""
+    return f"; {'; or '.join(ways.values())}"
 
 
 def matrix_among(values: Any) -> str:

@@ -61,6 +61,28 @@ def test_the_message_has_the_expression_that_makes_the_screws_that_were_meant(
         assert np.abs(chain.screws - meant).max() < 1e-3
 
 
+BOTH = (
+    "; its {0} are unit screws{2} but for rounding: pass pk.screw.normalised({1})"
+    "; or its {0} are unit screws in the order (v; omega): pass pk.se3.linear_first({1})"
+)
+AMBIGUOUS = np.array([[0.866, 0.5, 0, 0, 0, 1]])
+
+
+@pytest.mark.parametrize(
+    "screws, words",
+    [
+        (AMBIGUOUS, BOTH.format("rows", "screws", "")),
+        (AMBIGUOUS.T, BOTH.format("columns", "screws.T", ", as in a Slist")),
+        (np.array([[0, 0, 2, 0, 0, 0], AMBIGUOUS[0]])[::-1], BOTH.format("rows", "screws[0]", "")),
+    ],
+    ids=["rows", "columns", "one row"],
+)
+def test_where_rounding_and_another_order_both_fit_both_are_named_rounding_first(screws, words):
+    with pytest.raises((ScrewError, ShapeError)) as caught:
+        pk.Chain.from_space(screws, HOME)
+    assert str(caught.value).endswith(words)
+
+
 @given(chain_strategies.chains())
 def test_screws_that_are_sound_are_never_refused(chain):
     assert pk.Chain.from_space(chain.screws, chain.home, pitches=chain.pitches).dof == len(
