@@ -21,7 +21,7 @@ class Result:
     left_out: ClassVar[tuple[str, ...]] = ()  # fields that are no plain data, such as a chain
 
     def summary(self) -> str:
-        """Text for people: lengths in mm, angles in deg.
+        """Text for people: lengths in mm, angles in degrees or mrad.
 
         Returns
         -------

@@ -54,7 +54,7 @@ def compare(
         Distance up to which two axes, frames or zero positions are the same, m. The place of an
         axis is judged at the point of it nearest to the arm's middle.
     tol_rotation : float, default 1.75e-5
-        Angle up to which they are the same, rad (0.001 deg).
+        Angle up to which they are the same, rad (0.001 degrees).
     samples : int, default 200
         Number of random configurations, within a's limits, for the pose errors.
     seed : int, default 0

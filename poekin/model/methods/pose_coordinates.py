@@ -68,7 +68,7 @@ class ChainCoordinates(ChainData):
           the branch that w is on: w itself jumps)
         - "quaternion_wxyz": dQ/dt = (-ω · v; w ω + ω × v) / 2 with Q = (w; v), of the sign that
           `pose_coordinates` gives; regular everywhere, and Q · dQ = 0
-        - "rpy": singular at pitch = ±90 deg, where roll and yaw turn about one axis and cannot give
+        - "rpy": singular at pitch = ±90°, where roll and yaw turn about one axis and cannot give
           every ω
 
         Parameters

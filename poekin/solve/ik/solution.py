@@ -82,7 +82,7 @@ class Solution(Result):
         Returns
         -------
         text : str
-            Lengths in mm, angles in deg.
+            Lengths in mm, angles in degrees.
 
         Raises
         ------

@@ -253,7 +253,7 @@ class PathResult(Result):
         Returns
         -------
         text : str
-            Errors in mm and deg, coordinates in rad and m.
+            Errors in mm and degrees, coordinates in rad and m.
         """
         sentences = [
             self._reached(),
