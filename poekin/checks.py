@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 
@@ -29,9 +29,9 @@ def is_real(value: Any) -> bool:
     return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
 
 
-def is_whole(value: Any, least: int) -> bool:
+def is_whole(value: Any, least: int) -> TypeGuard[int]:
     """Whether it is a whole number from `least` on; True and False are none."""
-    return is_real(value) and not isinstance(value, (float, np.floating)) and bool(value >= least)
+    return is_real(value) and not isinstance(value, (float, np.floating)) and value >= least
 
 
 def positive(value: Any, what: str) -> float:

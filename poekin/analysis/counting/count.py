@@ -164,8 +164,7 @@ def count(
     way = _way(method, frame)
     if counting is None:
         counting = way.countings[0]
-    else:
-        choice(counting, way.countings, "counting", f", for method {method!r}")
+    choice(counting, way.countings, "counting", f", for method {method!r}")
     n = len(chain.joint_names)
     if n < 2 and method != "specialised":
         raise InputError(f"method {method!r} counts from 2 joints on, the chain has {n}")

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...checks import positive
 from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
@@ -86,8 +87,8 @@ def _check_fit(options: MeasurementOptions, kinds: Sequence[str]) -> None:
         (options.sigma_angle, "--sigma-angle"),
         (options.sigma_length, "--sigma-length"),
     ):
-        if sigma is not None and not 0 < sigma < np.inf:
-            raise InputError(f"{option}: expected a standard deviation above 0, got {sigma:g}")
+        if sigma is not None:
+            positive(sigma, option)
     if options.sigma_angle is not None and not any(_angular(kind) for kind in kinds):
         raise InputError(
             "--sigma-angle: expected with measured poses only, and there are lengths alone"

@@ -8,6 +8,7 @@ from typing import Annotated, cast
 import numpy as np
 import typer
 
+from ...checks import positive
 from ...errors import FileError, InputError
 from ...formats.text import csv_rows
 from ...formats.text.atomic_write import write_whole
@@ -115,9 +116,7 @@ def command(
 def _times(duration: float | None, count: int) -> np.ndarray | None:
     if duration is None:
         return None
-    if not 0 < duration < np.inf:
-        raise InputError(f"--duration: a positive number of seconds expected, got {duration:g}")
-    return np.linspace(0, duration, count)
+    return np.linspace(0, positive(duration, "--duration"), count)
 
 
 def _check_plot(plot: Path) -> None:

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...checks import REQUIRED
+from ...checks import REQUIRED, true_or_false
 from ...engine.jit import threads
 from ...engine.jit.locks import COMPILING
 from ...engine.kernels import chain_kernels
 from ...engine.straight_line import interpret
-from ...errors import InputError, safe_repr
 from ...groups.arrays import Array
 from ..chain_data import AnyChain
 from . import pose_jacobian
@@ -75,8 +74,7 @@ class CompiledChain(ChainPrograms[AnyChain]):
     """
 
     def __init__(self, chain: AnyChain, parallel: bool = False) -> None:
-        if not isinstance(parallel, bool):
-            raise InputError(f"parallel: expected True or False, got {safe_repr(parallel)}")
+        true_or_false(parallel, "parallel")
         with COMPILING:  # the import of Numba, after all that only reads a model
             from numba.core import config
 

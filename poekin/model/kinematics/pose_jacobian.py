@@ -12,7 +12,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...checks import REQUIRED
+from ...checks import REQUIRED, is_whole
 from ...engine.kernels import chain_kernels
 from ...errors import InputError, UnknownName, quote
 from ...groups import se3, so3
@@ -155,7 +155,7 @@ def frame_code(chain: ChainData, frame: object) -> int:
         raise UnknownName(
             f"frame: expected 'space', 'body', 'hybrid' or the index of a joint, got {quote(frame)}"
         )
-    if isinstance(frame, (int, np.integer)) and not isinstance(frame, bool) and 0 <= frame < n:
+    if is_whole(frame, 0) and frame < n:
         return int(frame)
     expected = "'space', 'body' or 'hybrid' (the chain has no joint)"
     if n:

@@ -9,11 +9,11 @@ expected and what arrived.
 from __future__ import annotations
 
 import math
-import numbers
 import operator
 from collections.abc import Collection
 from typing import Any
 
+from ...checks import is_real
 from ...errors import InputError, safe_repr, suggest
 
 
@@ -25,7 +25,7 @@ def number(
 ) -> float:
     """A finite number from low to high, which are both allowed."""
     real = math.nan
-    if _is_real(value):
+    if is_real(value):
         real = float(value)
     if not low <= real <= high:
         raise InputError(
@@ -43,15 +43,11 @@ def magnitudes(what: str, value: Any) -> tuple[float, float]:
         smallest, largest = value
     except (TypeError, ValueError) as fault:
         raise InputError(expected) from fault
-    if not (_is_real(smallest) and _is_real(largest)):
+    if not (is_real(smallest) and is_real(largest)):
         raise InputError(expected)
     if not 0 < smallest <= largest < math.inf:
         raise InputError(expected)
     return float(smallest), float(largest)
-
-
-def _is_real(value: Any) -> bool:
-    return isinstance(value, numbers.Real) and not isinstance(value, bool)
 
 
 def counts(

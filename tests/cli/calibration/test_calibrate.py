@@ -423,12 +423,12 @@ def test_a_column_that_is_none_is_told_with_the_option_as_it_is_typed(
         ),
         (
             ["--sigma-angle", "-1", "--sigma-length", "1"],
-            "--sigma-angle: expected a standard deviation above 0, got -1",
+            "--sigma-angle: expected a positive number, got -1.0",
         ),
-        (["--prior-angle", "0"], "--prior-angle: expected a standard deviation above 0, got 0"),
+        (["--prior-angle", "0"], "--prior-angle: expected a positive number, got 0"),
         (
             ["--sigma-angle", "1", "--sigma-length", "0"],
-            "--sigma-length: expected a standard deviation above 0, got 0",
+            "--sigma-length: expected a positive number, got 0",
         ),
         (["--loss", "l1"], "--loss: expected 'linear', 'huber'"),
         (["--parameters", "screw"], "--parameters: expected some of"),

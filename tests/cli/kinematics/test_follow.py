@@ -199,9 +199,9 @@ def test_what_cannot_be_done_is_refused_at_once(call, says, refused):
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (["--duration", "-1"], "--duration: a positive number of seconds expected, got -1"),
-        (["--duration", "nan"], "--duration: a positive"),
-        (["--duration", "0"], "--duration: a positive number of seconds expected, got 0"),
+        (["--duration", "-1"], "--duration: expected a positive number, got -1"),
+        (["--duration", "nan"], "--duration: expected a positive number, got nan"),
+        (["--duration", "0"], "--duration: expected a positive number, got 0"),
         (["--speed", "1"], "--speed and --acceleration: expected together with --duration"),
         (["--acceleration", "1"], "--speed and --acceleration: expected together with --duration"),
         (["--duration", "1", "--speed", "0"], "speed: expected positive numbers"),

@@ -5,11 +5,10 @@ may take up.
 from __future__ import annotations
 
 import contextlib
-import math
 import sys
 from typing import NamedTuple
 
-from ....errors import InputError, safe_repr
+from ....checks import positive
 
 STARTING = 120.0
 """Seconds that importing and making a subject may take, at least."""
@@ -43,8 +42,7 @@ class Limits(NamedTuple):
             If one is no positive number.
         """
         for what, value in self._asdict().items():
-            if not isinstance(value, int | float) or not 0 < value < math.inf:
-                raise InputError(f"{what}: expected a positive number, got {safe_repr(value)}")
+            positive(value, what)
         return self
 
     @property
