@@ -9,10 +9,11 @@ import math
 import numpy as np
 import pytest
 
+from poekin.groups.arrays import ROUNDOFF
 from poekin.model import screw
 from poekin.model.chain import Chain
 from poekin.model.geometry.axis_walk import Walk
-from poekin.model.geometry.idealise import UNIT, _nearest, _settled, _way
+from poekin.model.geometry.idealise import _nearest, _settled, _way
 from poekin.model.geometry.normals import digits, exact, frame_on_line
 
 OFF, TOL = 1e-6, 1e-5
@@ -93,7 +94,7 @@ def test_a_chain_is_settled_where_last_digits_differ_alone():
     T = np.eye(4)
     T[:3, 3] = 0.3, 0.7, 20.0
     chain = Chain.from_space(rows, T)
-    size = 16 * UNIT * chain.reach
+    size = 16 * ROUNDOFF * chain.reach
     assert chain.reach > 20
 
     def settled(change, where):
