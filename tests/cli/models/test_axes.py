@@ -64,6 +64,6 @@ def test_json_has_every_pair(as_json):
 
 def test_a_tree_without_a_tip_and_a_bad_tolerance_are_refused(crane, refused):
     assert "hook" in refused("axes", crane)
-    assert "--tol-mm: a positive number" in refused(
+    assert "--tol-mm: expected a positive number" in refused(
         "axes", crane, "--tip", "hook", "--tol-mm", "-1"
     )

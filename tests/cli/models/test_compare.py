@@ -111,7 +111,7 @@ def test_a_tree_without_a_tip_is_refused_with_its_tips(crane, tmp_path, refused)
 
 def test_what_cannot_be_used_is_refused(tmp_path, refused):
     a = written(tmp_path, "a.urdf", 0)
-    assert "--tol-mm: a positive number" in refused("compare", a, a, "--tol-mm", "0")
+    assert "--tol-mm: expected a positive number" in refused("compare", a, a, "--tol-mm", "0")
     assert "nowhere.urdf" in refused("compare", a, str(tmp_path / "nowhere.urdf"))
     assert "elsewhere" in refused("compare", a, a, "--tip", "elsewhere")
 

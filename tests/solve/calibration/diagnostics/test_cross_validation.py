@@ -95,7 +95,7 @@ def test_where_nothing_is_said_five_parts_are_drawn_by_the_seed_0():
     T = ARM.fk(q) @ pk.se3.exp(1e-4 * np.random.default_rng(1).normal(size=(12, 6)))
     said: tuple[dict[str, Any], ...] = (
         {},
-        {"folds": 5, "seed": 0, "max_iterations": 100},
+        {"folds": 5, "seed": 0, "iterations": 100},
         {"seed": 1},
     )
     found, same, other = (
