@@ -23,10 +23,9 @@ def unit_screws(screws: ArrayLike, names: tuple[str, ...] = (), what: str = "scr
     """
     S = _rows(screws, what)
     for i, row in enumerate(S):
-        where = f"{what}[{i}]" + (f" (joint {names[i]!r})" if i < len(names) else "")
         if not (np.abs(row) <= LONGEST).all():
             raise ScrewError(
-                f"{where}: expected finite numbers of at most {LONGEST:g}, got {row.tolist()}"
+                f"{_place(what, i, names)}: expected finite numbers of at most {LONGEST:g}, got {row.tolist()}"
             )
         part = row[:3]
         name = "omega"
@@ -37,12 +36,17 @@ def unit_screws(screws: ArrayLike, names: tuple[str, ...] = (), what: str = "scr
         if abs(length - 1.0) > UNIT:
             remedy = other_reading(S, what) or other_reading(row, f"{what}[{i}]")
             raise ScrewError(
-                f"{where}: {name} must have length 1 to {UNIT:g}, got {length:.12g} in"
+                f"{_place(what, i, names)}: {name} must have length 1 to {UNIT:g}, got {length:.12g} in"
                 f" {row.tolist()}{remedy}"
             )
         if abs(length - 1.0) > _EXACT:
             row /= length  # all six, which leaves the line where it is
     return S
+
+
+def _place(what: str, i: int, names: tuple[str, ...]) -> str:
+    """Name of row i in messages."""
+    return f"{what}[{i}]" + (f" (joint {quote(names[i])})" if i < len(names) else "")
 
 
 def _rows(screws: ArrayLike, what: str) -> Array:
@@ -90,10 +94,11 @@ def pitches_of(screws: Array, given: ArrayLike | None = None, names: tuple[str, 
             f"pitches: expected shape ({len(screws)},), one number a joint, got {pitches.shape}"
         )
     for i, (pitch, turning) in enumerate(zip(pitches.tolist(), turns, strict=True)):
-        where = f"pitches[{i}]" + (f" (joint {quote(names[i])})" if i < len(names) else "")
         if abs(pitch) > LONGEST:
+            where = _place("pitches", i, names)
             raise ScrewError(f"{where}: expected at most {LONGEST:g} m per rad, got {pitch:g}")
         if pitch and not turning:
+            where = _place("pitches", i, names)
             raise ScrewError(
                 f"{where}: expected 0 for a prismatic joint, which has no pitch, got {pitch:g}"
             )
