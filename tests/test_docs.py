@@ -363,6 +363,7 @@ def test_every_link_out_of_a_docstring_leads_to_a_documented_name():
     for name in documented:
         assert set(docs_names.links(name).values()) <= documented
     assert docs_names.links("poekin.Chain.jacobian")["fk"] == "poekin.Chain.fk"
+    assert docs_names.links("poekin.Chain")["from_space"] == "poekin.Chain.from_space"
     assert docs_names.links("poekin.so3.log")["exp"] == "poekin.so3.exp"
     assert docs_names.links("poekin.compare")["Chain.fk"] == "poekin.Chain.fk"
 

@@ -207,10 +207,9 @@ def links(name: str) -> dict[str, str]:
             place = next(i for i, p in enumerate(parts) if p[0].isupper())
             found[".".join(parts[place:])] = dotted
     scope = name
-    while "." in scope:  # names beside it, and beside its class, go without what they belong to
+    while "." in scope:  # a class's own names, and names beside it, go without what they belong to
+        found |= {d[len(scope) + 1 :]: d for d in documented() if d.startswith(scope + ".")}
         scope = scope.rsplit(".", 1)[0]
-        if scope != "poekin":
-            found |= {d[len(scope) + 1 :]: d for d in documented() if d.startswith(scope + ".")}
     return found
 
 
