@@ -31,10 +31,12 @@ def warn_of_degrees(
     if not (sizes > TURN).any():
         return
     bounds = np.abs(limits).max(axis=1)
-    bounds[np.isinf(bounds)] = MANY
+    unlimited = np.isinf(bounds)
+    bounds[unlimited] = 0.0
     radians = scale()
     with np.errstate(over="ignore"):
-        beyond = sizes * radians > np.maximum(bounds * radians, TURN)
+        most = np.where(unlimited, MANY, np.maximum(bounds * radians, TURN))
+        beyond = sizes * radians > most
     for k in np.flatnonzero(beyond.reshape(-1, len(names)).any(axis=0))[:1]:
         warn(
             f"{what}: {quote(names[k])} is more than a turn, and beyond its limits; if these are"

@@ -93,3 +93,11 @@ def test_what_is_no_angle_is_never_looked_at_closer():
 
     q = np.array([[degrees.TURN, -degrees.TURN]])
     degrees.warn_of_degrees(q, ("a", "b"), np.zeros((2, 2)), never, "q")
+
+
+@pytest.mark.parametrize("unit", [1.0, np.pi / 180], ids=["rad", "deg"])
+def test_a_coordinate_without_limits_may_be_two_turns_in_any_unit(unit):
+    arm = pk.Chain.from_space([TURN], np.eye(4), coupling=[[unit]], q_names=["a"])
+    two_turns = 4 * np.pi / unit
+    assert warned(lambda: arm.fk([(1 - 1e-9) * two_turns])) == []
+    assert len(warned(lambda: arm.fk([(1 + 1e-9) * two_turns]))) == 1
