@@ -139,7 +139,10 @@ class AxesReport(Result):
 
 
 def axes(
-    chain: Arm, *, tol_position: float = POSITION, tol_rotation: float = ROTATION
+    chain: Arm,
+    *,
+    tol_position: float = POSITION,
+    tol_rotation: float = ROTATION,
 ) -> AxesReport:
     """Relations of neighbouring and every third axes at q = 0, and the shapes that they make.
 

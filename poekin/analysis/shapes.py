@@ -69,7 +69,10 @@ class Shape(Result):
 
 
 def shapes(
-    chain: Chain, coaxial: Sequence[bool], tol_position: float, tol_rotation: float
+    chain: Chain,
+    coaxial: Sequence[bool],
+    tol_position: float,
+    tol_rotation: float,
 ) -> tuple[Shape, ...]:
     """The shapes of a chain at rest, of whose joints k and k + 1 are coaxial or not.
 

@@ -225,12 +225,23 @@ def validate(
         rows.append(chain_errors(model.chain(base=base, tip=tip), oracle, q, note=note))
     moving = sum(joint.kind in MOVING for joint in model.joints)
     return Validation(
-        model.name, str(model.source), tuple(rows), BAR, samples, seed, oracle.version, moving
+        model.name,
+        str(model.source),
+        tuple(rows),
+        BAR,
+        samples,
+        seed,
+        oracle.version,
+        moving,
     )
 
 
 def chain_errors(
-    chain: Chain, oracle: PinocchioOracle, q: dict[str, np.ndarray], *, note: str = ""
+    chain: Chain,
+    oracle: PinocchioOracle,
+    q: dict[str, np.ndarray],
+    *,
+    note: str = "",
 ) -> ChainErrors:
     """Worst errors of one chain over configurations of *all* the robot's coordinates, by name, (N,)
     values each.
@@ -247,7 +258,10 @@ def chain_errors(
     unknown = [name for name in chain.q_names if name not in oracle.coordinates]
     if unknown:
         return _row(
-            chain, np.full((4, 1), np.inf), {}, f"Pinocchio has no coordinate {quote(unknown[0])}"
+            chain,
+            np.full((4, 1), np.inf),
+            {},
+            f"Pinocchio has no coordinate {quote(unknown[0])}",
         )
     own = [oracle.coordinates.index(name) for name in chain.q_names]
     configurations = np.zeros((1, 0))
@@ -268,7 +282,10 @@ def chain_errors(
 
 
 def _row(
-    chain: Chain, errors: np.ndarray, configuration: dict[str, float], note: str
+    chain: Chain,
+    errors: np.ndarray,
+    configuration: dict[str, float],
+    note: str,
 ) -> ChainErrors:
     # np.max hands on a NaN, so that one wrong configuration cannot hide among right ones.
     pose, space, body, hybrid = np.max(errors, axis=1).tolist()

@@ -32,7 +32,9 @@ def called(given: str) -> str:
 
 
 def read_configurations(
-    given: str, q_names: Sequence[str], progress: csv_rows.Progress
+    given: str,
+    q_names: Sequence[str],
+    progress: csv_rows.Progress,
 ) -> np.ndarray:
     """Configurations (N, m) out of a .npy file or, whatever else its name ends in, a CSV file; "-"
     is CSV on stdin.
@@ -90,7 +92,11 @@ def _content(given: str) -> bytes:
 
 
 def _from_csv(
-    given: str, names: Sequence[str], what: str, progress: csv_rows.Progress, besides: Sequence[str]
+    given: str,
+    names: Sequence[str],
+    what: str,
+    progress: csv_rows.Progress,
+    besides: Sequence[str],
 ) -> Rows:
     file: str | int = given
     if given == STDIN:
@@ -107,7 +113,10 @@ def npy_bytes(array: np.ndarray) -> bytes:
 
 
 def write_result(
-    path: Path, csv: Callable[[], str], array: np.ndarray, json: Callable[[], str]
+    path: Path,
+    csv: Callable[[], str],
+    array: np.ndarray,
+    json: Callable[[], str],
 ) -> None:
     """Write a result as CSV, .npy or JSON, whichever the path ends in. Raises: FileError."""
     suffix = path.suffix.lower()

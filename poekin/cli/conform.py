@@ -23,16 +23,20 @@ Subject = Annotated[
 Laws = Annotated[
     list[str] | None,
     typer.Option(
-        "--law", help="Hold it to this law only; may be repeated (default: all that apply)."
+        "--law",
+        help="Hold it to this law only; may be repeated (default: all that apply).",
     ),
 ]
 Without = Annotated[
-    list[str] | None, typer.Option("--except", help="Leave out this law; may be repeated.")
+    list[str] | None,
+    typer.Option("--except", help="Leave out this law; may be repeated."),
 ]
 Examples = Annotated[
     int | None,
     typer.Option(
-        "--examples", help="Cases of each law (default: 100 to 400, each law its own).", min=1
+        "--examples",
+        help="Cases of each law (default: 100 to 400, each law its own).",
+        min=1,
     ),
 ]
 Seconds = Annotated[
@@ -58,7 +62,8 @@ class Bar(enum.StrEnum):
 
 
 AtMost = Annotated[
-    Bar, typer.Option("--at-most", help="The worst grade that is let pass with exit code 0.")
+    Bar,
+    typer.Option("--at-most", help="The worst grade that is let pass with exit code 0."),
 ]
 
 

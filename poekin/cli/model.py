@@ -54,7 +54,10 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
 
     @functools.wraps(command)
     def run(
-        *args: Any, xacro: bool = False, xacro_arg: Sequence[str] | None = None, **options: Any
+        *args: Any,
+        xacro: bool = False,
+        xacro_arg: Sequence[str] | None = None,
+        **options: Any,
     ) -> None:
         if xacro_arg and not xacro:
             raise InputError("--xacro-arg: expected together with --xacro only")
@@ -71,7 +74,10 @@ def takes_models(command: Callable[..., None]) -> Callable[..., None]:
     own = inspect.signature(command, eval_str=True)
     more = [
         inspect.Parameter(
-            name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation
+            name,
+            inspect.Parameter.KEYWORD_ONLY,
+            default=default,
+            annotation=annotation,
         )
         for name, default, annotation in (("xacro", False, Xacro), ("xacro_arg", None, Given))
     ]

@@ -22,7 +22,11 @@ ON_AXIS = 1e-11
 
 
 def relinked(
-    robot: Robot, chain: Chain, *, base: str | None = None, tip: str | None = None
+    robot: Robot,
+    chain: Chain,
+    *,
+    base: str | None = None,
+    tip: str | None = None,
 ) -> Robot:
     """Robot whose branch from base to tip has the kinematics of a chain: f(q) is the same.
 
@@ -134,7 +138,8 @@ def _check_alike(nominal: Chain, chain: Chain) -> None:
             )
     free = np.array_equal(chain.coupling, np.eye(len(mine))) and not chain.offset.any()
     same = np.array_equal(chain.coupling, nominal.coupling) and np.array_equal(
-        chain.offset, nominal.offset
+        chain.offset,
+        nominal.offset,
     )
     if not (free or same):
         raise InputError(

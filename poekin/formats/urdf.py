@@ -93,7 +93,10 @@ def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robo
         for joint, fields in zip(joints, elements, strict=True)
     ]
     lines = Source(
-        name, tuple(link.line for link in links), tuple(fields.line for fields in elements), origin
+        name,
+        tuple(link.line for link in links),
+        tuple(fields.line for fields in elements),
+        origin,
     )
     stem = os.path.splitext(os.path.basename(name))[0]
     robot = Robot(root.get("name") or stem, [link.name("name") for link in links], joints, lines)

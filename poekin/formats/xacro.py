@@ -113,7 +113,9 @@ def _evaluated(name: str, robot: str | None, values: dict[str, str]) -> str:
     try:
         with _one_at_a_time, _packages_above(name, xacrodoc.packages), redirect_stderr(said):
             result = xacrodoc.XacroDoc.from_string(
-                text, subargs=values, resolve_packages=False
+                text,
+                subargs=values,
+                resolve_packages=False,
             ).dom.toxml()
     except refusals as fault:
         raise ModelError(f"{Source(name).place()}: xacro: {_reason(fault, xacrodoc)}") from fault

@@ -154,7 +154,11 @@ def with_rows(matrices: Array, rows: ArrayLike, width: int, what: str) -> tuple[
 
 
 def map_kernel(
-    kernel: Any, element_axes: int, tail: tuple[int, ...], source: Array, *others: Array
+    kernel: Any,
+    element_axes: int,
+    tail: tuple[int, ...],
+    source: Array,
+    *others: Array,
 ) -> Array:
     """Results of a kernel, elements of shape `tail`, over the leading axes of `source`.
 

@@ -102,7 +102,10 @@ def ordered_names(names: Any, what: str) -> tuple[str, ...]:
 
 
 def distinct_names(
-    names: Sequence[str] | None, count: int, what: str, letter: str
+    names: Sequence[str] | None,
+    count: int,
+    what: str,
+    letter: str,
 ) -> tuple[str, ...]:
     """`count` names as `ordered_names` takes them; without any given, the letter and a number."""
     if names is None:

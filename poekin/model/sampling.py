@@ -9,7 +9,9 @@ from .chain_data import ChainData
 
 
 def random(
-    chain: ChainData, rng: np.random.Generator | int, size: int | tuple[int, ...] = ()
+    chain: ChainData,
+    rng: np.random.Generator | int,
+    size: int | tuple[int, ...] = (),
 ) -> Array:
     """Configurations (*size, m) drawn uniformly from `sampling_range`."""
     rng = np.random.default_rng(rng)

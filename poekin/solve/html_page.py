@@ -52,7 +52,9 @@ summary { cursor: pointer; font-weight: 600; font-size: .88rem; }
 def page(title: str, body: Iterable[str], style: str = "") -> str:
     """Page of parts that are HTML already; style: CSS behind that of all pages."""
     return Template(_PAGE).substitute(
-        title=text(title, 200), style=_STYLE + style, body="\n".join(body)
+        title=text(title, 200),
+        style=_STYLE + style,
+        body="\n".join(body),
     )
 
 

@@ -14,7 +14,11 @@ GRID = "#dddddd"
 
 
 def svg(
-    width: float, height: float, purpose: str, draw: Callable[[Any], None], size: float = 9
+    width: float,
+    height: float,
+    purpose: str,
+    draw: Callable[[Any], None],
+    size: float = 9,
 ) -> str:
     """An SVG file of this size (inches), drawn by draw(figure): text stays text, in the reader's
     own font of `size` points.

@@ -178,7 +178,8 @@ def _matched(a: Chain, b: Chain, asked: _Asked) -> _Matched | None:
 def _unmatched(n_a: int, n_b: int, asked: _Asked) -> Comparison:
     """The comparison of chains whose numbers of joints differ, none of which can be dropped."""
     which = {1: "no one joint can", 2: "no two joints can"}.get(
-        abs(n_a - n_b), "more than two must"
+        abs(n_a - n_b),
+        "more than two must",
     )
     end = f"{which} be dropped so that the rest agree"
     verdict = f"the models differ: {n_a} joints against {n_b}, and {end}"
@@ -283,7 +284,10 @@ def _joints(
 
 
 def _apart(
-    w: Array, u: Array, gap: Array | None, tol_rotation: float
+    w: Array,
+    u: Array,
+    gap: Array | None,
+    tol_rotation: float,
 ) -> tuple[float, float | None, float | None]:
     """Angle (rad), common normal and distance at a place (m) of two axes, `gap` between their
     places; of axes without a place the angle alone.

@@ -15,7 +15,13 @@ __all__ = ["follows"]
 
 
 def follows(
-    C_a: Array, C_b: Array, a: Chain, b: Chain, reading: Hypothesis, tol_m: float, tol_rad: float
+    C_a: Array,
+    C_b: Array,
+    a: Chain,
+    b: Chain,
+    reading: Hypothesis,
+    tol_m: float,
+    tol_rad: float,
 ) -> list[tuple[str, str, bool]]:
     """The earlier joints that each joint follows: in a's words, in b's ("" where it moves by
     itself), and whether they differ.

@@ -53,7 +53,12 @@ class _Relation(NamedTuple):
 
 
 def held_positions(
-    long: Chain, short: Chain, run: Sequence[int], gone: Sequence[int], tol_m: float, tol_rad: float
+    long: Chain,
+    short: Chain,
+    run: Sequence[int],
+    gone: Sequence[int],
+    tol_m: float,
+    tol_rad: float,
 ) -> list[tuple[float, ...]]:
     """Positions (rad, m) of neighbouring joints at which the axes on both sides lie to each other
     as in the shorter chain; the best first.
@@ -118,12 +123,19 @@ def _starts(ours: Lines, run: Sequence[int]) -> Array:
 
 
 def _relations(
-    ours: Lines, front: list[int], behind: list[int], wanted: dict[int, Array]
+    ours: Lines,
+    front: list[int],
+    behind: list[int],
+    wanted: dict[int, Array],
 ) -> list[_Relation]:
     """Relations of the axes on both sides, as those of the other arm (6,) have them."""
     relations = [
         _angle(
-            ours.ways[f], _way(ours, f, wanted[f]), _way(ours, g, wanted[g]), place, _part(ours, g)
+            ours.ways[f],
+            _way(ours, f, wanted[f]),
+            _way(ours, g, wanted[g]),
+            place,
+            _part(ours, g),
         )
         for f in front
         for place, g in enumerate(behind)
@@ -173,14 +185,20 @@ def _apart(axis: Array, first: Array, second: Array, place: int) -> _Relation:
     if np.linalg.norm(np.cross(first[:3], second[:3])) > PARALLEL:
         moment = np.concatenate([axis[3:], axis[:3]])
         return _Relation(
-            place, moment[None], np.array([first[:3] @ second[3:] + first[3:] @ second[:3]])
+            place,
+            moment[None],
+            np.array([first[:3] @ second[3:] + first[3:] @ second[:3]]),
         )
     gap = second[3:] - sign * first[3:]
     return _Relation(place, np.zeros((0, 6)), np.zeros(0), (sign * axis[3:], float(gap @ gap)))
 
 
 def _misfit(
-    ours: Lines, run: Sequence[int], behind: Sequence[int], relations: list[_Relation], x: Array
+    ours: Lines,
+    run: Sequence[int],
+    behind: Sequence[int],
+    relations: list[_Relation],
+    x: Array,
 ) -> tuple[Array, Array]:
     """Residuals (m, k) of the relations at positions x (m, r) of the joints, and their Jacobian (m,
     k, r).

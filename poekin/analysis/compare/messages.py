@@ -52,7 +52,10 @@ def joint_words(joint: JointComparison, tol_position: float, tol_rotation: float
 
 
 def differences(
-    joints: tuple[JointComparison, ...], tol_position: float, tol_rotation: float, link: int = 0
+    joints: tuple[JointComparison, ...],
+    tol_position: float,
+    tol_rotation: float,
+    link: int = 0,
 ) -> list[str]:
     """One clause a joint that differs; where the axes behind joint `link` moved together, one for
     them.
@@ -90,7 +93,12 @@ def unit_words(ratio: float) -> str:
 
 
 def equivalents(
-    a: Chain, b: Chain, first: Hypothesis, others: list[Hypothesis], tol_m: float, tol_rad: float
+    a: Chain,
+    b: Chain,
+    first: Hypothesis,
+    others: list[Hypothesis],
+    tol_m: float,
+    tol_rad: float,
 ) -> list[str]:
     """Other readings of the same difference: frames turned about an end joint, other joints that
     may be implicated.

@@ -21,7 +21,10 @@ MOST = 2
 
 
 def droppable(
-    a: Chain, b: Chain, tol_position: float, tol_rotation: float
+    a: Chain,
+    b: Chain,
+    tol_position: float,
+    tol_rotation: float,
 ) -> tuple[tuple[int, ...], Array] | None:
     """The joints of the longer of two chains at rest without which both agree, and the positions at
     which they are then held.
@@ -73,7 +76,11 @@ def without(chain: Chain, ks: tuple[int, ...], held: Sequence[float] | Array) ->
 
 
 def _positions(
-    long: Chain, short: Chain, ks: tuple[int, ...], tol_position: float, tol_rotation: float
+    long: Chain,
+    short: Chain,
+    ks: tuple[int, ...],
+    tol_position: float,
+    tol_rotation: float,
 ) -> Iterator[tuple[float, ...]]:
     """Positions at which joints ks may be held: all 0, and those that make the axes on both sides
     lie as in the other chain.
@@ -87,7 +94,11 @@ def _positions(
     inner = [run[0] > 0 and run[-1] < len(long.screws) - 1 for run in runs]
     across = tuple(run[0] - 1 - sum(k < run[0] for k in ks) for run in runs)
     if any(inner) and _may_agree(
-        without(long, ks, zero), short, tol_position, tol_rotation, across
+        without(long, ks, zero),
+        short,
+        tol_position,
+        tol_rotation,
+        across,
     ):
         tried: list[list[tuple[float, ...]]] = []
         for run, free in zip(runs, inner, strict=True):
@@ -101,7 +112,11 @@ def _positions(
 
 
 def _may_agree(
-    a: Chain, b: Chain, tol_position: float, tol_rotation: float, but: tuple[int, ...] = ()
+    a: Chain,
+    b: Chain,
+    tol_position: float,
+    tol_rotation: float,
+    but: tuple[int, ...] = (),
 ) -> bool:
     """Whether neighbouring axes of two chains, and those on both sides of a slide, lie to each
     other alike.

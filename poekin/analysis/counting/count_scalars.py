@@ -75,7 +75,12 @@ def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bo
     coordinates = [graph.input(-k) for k, _ in enumerate(chain.q_names, 1)]
     poses = []
     for kind, r, s, row, c in zip(
-        chain.kinds, rotates, slides, C, chain.offset.tolist(), strict=True
+        chain.kinds,
+        rotates,
+        slides,
+        C,
+        chain.offset.tolist(),
+        strict=True,
     ):
         x: Any = c
         for q, factor in zip(coordinates, row, strict=True):
@@ -115,7 +120,12 @@ def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
         sine = math.sin(theta)
         cosine = math.cos(theta)
     return dh.link(
-        sine, cosine, float(d) + motion.shift, float(a), math.sin(alpha), math.cos(alpha)
+        sine,
+        cosine,
+        float(d) + motion.shift,
+        float(a),
+        math.sin(alpha),
+        math.cos(alpha),
     )
 
 
@@ -199,7 +209,10 @@ def structure(chain: Chain) -> tuple[Sequence[float], Sequence[float]]:
 
 
 def _run(
-    algorithm: Algorithm, chain: Chain, poses: Sequence[Row], with_pose: bool
+    algorithm: Algorithm,
+    chain: Chain,
+    poses: Sequence[Row],
+    with_pose: bool,
 ) -> tuple[Rows, Row]:
     """J and the pose, which is empty where it is not asked for."""
     rng = generator()

@@ -276,7 +276,14 @@ def count_table(chain: Arm, *, idealise: float | None = None) -> CountTable:
     if n:
         cheapest = arm.cheapest
     return CountTable(
-        chain.base, chain.tip, n, chain.dof, tuple(rows), ideal, cheapest, tuple(_verdict(chain))
+        chain.base,
+        chain.tip,
+        n,
+        chain.dof,
+        tuple(rows),
+        ideal,
+        cheapest,
+        tuple(_verdict(chain)),
     )
 
 

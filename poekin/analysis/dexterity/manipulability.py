@@ -144,7 +144,11 @@ def manipulability(chain: Chain, q: Any, *, length: float = 1.0) -> Manipulabili
 
 
 def manipulability_gradient(
-    chain: Arm, q: Any, *, part: Part = "pose", length: float = 1.0
+    chain: Arm,
+    q: Any,
+    *,
+    part: Part = "pose",
+    length: float = 1.0,
 ) -> Array:
     """Gradient of Yoshikawa's measure with respect to q.
 

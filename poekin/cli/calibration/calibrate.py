@@ -50,7 +50,9 @@ Point = Annotated[
 Centre = Annotated[
     str | None,
     Option(
-        "--centre", metavar="X,Y,Z", help="The point that distances are from (default: unknown)."
+        "--centre",
+        metavar="X,Y,Z",
+        help="The point that distances are from (default: unknown).",
     ),
 ]
 Frame = Annotated[
@@ -64,16 +66,20 @@ Joints = Annotated[
 ]
 Loss = Annotated[str, Option("--loss", help="linear, or robust: huber, cauchy, tukey.")]
 PriorAngle = Annotated[
-    Number, Option("--prior-angle", help="How far angles may be off nominal, rad.")
+    Number,
+    Option("--prior-angle", help="How far angles may be off nominal, rad."),
 ]
 PriorLength = Annotated[
-    Number, Option("--prior-length", help="How far lengths may be off nominal, m.")
+    Number,
+    Option("--prior-length", help="How far lengths may be off nominal, m."),
 ]
 SigmaAngle = Annotated[
-    Number, Option("--sigma-angle", help="Standard deviation of measured angles, rad.")
+    Number,
+    Option("--sigma-angle", help="Standard deviation of measured angles, rad."),
 ]
 SigmaLength = Annotated[
-    Number, Option("--sigma-length", help="Standard deviation of measured lengths, m.")
+    Number,
+    Option("--sigma-length", help="Standard deviation of measured lengths, m."),
 ]
 OnRankDeficiency = Annotated[
     str,
@@ -136,7 +142,13 @@ def command(
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
     said = MeasurementOptions(
-        kind or (), point or (), centre, frame, sigma_angle, sigma_length, ignore or ()
+        kind or (),
+        point or (),
+        centre,
+        frame,
+        sigma_angle,
+        sigma_length,
+        ignore or (),
     )
     options: dict[str, Any] = {
         "parameters": _listed(parameters) or ("screws", "home"),
@@ -253,7 +265,10 @@ def _write(
 
 
 def _document(
-    found: Calibration, robot: Robot, given: Measured, written: list[str]
+    found: Calibration,
+    robot: Robot,
+    given: Measured,
+    written: list[str],
 ) -> dict[str, object]:
     outliers = [o._asdict() | {"source": given.sources[o.row]} for o in found.outliers]
     named = {"robot": robot.name} | found.to_dict()

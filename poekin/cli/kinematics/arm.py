@@ -26,10 +26,12 @@ Tip = Annotated[
     typer.Option("--tip", help="The link whose motion it is (may be left out for one leaf)."),
 ]
 Base = Annotated[
-    str | None, typer.Option("--base", help="The link it is seen from (default: the root).")
+    str | None,
+    typer.Option("--base", help="The link it is seen from (default: the root)."),
 ]
 Numbers = Annotated[
-    list[str] | None, typer.Argument(metavar="Q...", help="The coordinates, in rad or m.")
+    list[str] | None,
+    typer.Argument(metavar="Q...", help="The coordinates, in rad or m."),
 ]
 Input = Annotated[
     str | None,
@@ -40,7 +42,8 @@ Input = Annotated[
     ),
 ]
 Output = Annotated[
-    Path | None, typer.Option("--output", help="Where the results go: a .csv, .npy or .json file.")
+    Path | None,
+    typer.Option("--output", help="Where the results go: a .csv, .npy or .json file."),
 ]
 Seed = Annotated[int, typer.Option("--seed", help="Seed of the random configurations.", min=0)]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
@@ -91,7 +94,9 @@ def take(
 
 
 def compute(
-    arm: ChainArguments, function: Callable[[np.ndarray], np.ndarray], shape: tuple[int, ...]
+    arm: ChainArguments,
+    function: Callable[[np.ndarray], np.ndarray],
+    shape: tuple[int, ...],
 ) -> np.ndarray:
     """Results (N, *shape) of a function of configurations, computed in parts with progress."""
     results = np.empty((len(arm.q), *shape))
@@ -153,7 +158,10 @@ def give(arm: ChainArguments, results: Results, output: Path | None, json: bool)
     """Write the results to a file, or print them."""
     if output is not None:
         array_files.write_result(
-            output, results.csv, results.values, lambda: results.json(arm, False)
+            output,
+            results.csv,
+            results.values,
+            lambda: results.json(arm, False),
         )
         count = len(results.values)
         if json:

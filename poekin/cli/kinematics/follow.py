@@ -25,7 +25,9 @@ from .arm import Base, File, Json, Tip
 Start = Annotated[
     str | None,
     typer.Option(
-        "--q0", metavar="Q,...", help="Where the arm is (commas between); default: chosen by trial."
+        "--q0",
+        metavar="Q,...",
+        help="Where the arm is (commas between); default: chosen by trial.",
     ),
 ]
 Duration = Annotated[
@@ -33,22 +35,27 @@ Duration = Annotated[
     typer.Option("--duration", help="Seconds from the first pose to the last, evenly."),
 ]
 Speed = Annotated[
-    str | None, typer.Option("--speed", metavar="V[,...]", help="Limits of speed, with --duration.")
+    str | None,
+    typer.Option("--speed", metavar="V[,...]", help="Limits of speed, with --duration."),
 ]
 Acceleration = Annotated[
     str | None,
     typer.Option(
-        "--acceleration", metavar="A[,...]", help="Limits of acceleration, with --duration."
+        "--acceleration",
+        metavar="A[,...]",
+        help="Limits of acceleration, with --duration.",
     ),
 ]
 Step = Annotated[
     float,
     typer.Option(
-        "--max-step", help="How far (rad or m) a joint may go at a step; longer ones are divided."
+        "--max-step",
+        help="How far (rad or m) a joint may go at a step; longer ones are divided.",
     ),
 ]
 Plot = Annotated[
-    Path | None, typer.Option("--plot", help="Draw the joints over time: an .svg file.")
+    Path | None,
+    typer.Option("--plot", help="Draw the joints over time: an .svg file."),
 ]
 
 
@@ -136,7 +143,8 @@ def _give(robot: str, chain: Chain, path: PathResult, output: Path | None, json:
         if path.times is None:
             return csv_rows.text(chain.q_names, path.q)
         return csv_rows.text(
-            [array_files.TIME, *chain.q_names], np.column_stack([path.times, path.q])
+            [array_files.TIME, *chain.q_names],
+            np.column_stack([path.times, path.q]),
         )
 
     if output is not None:

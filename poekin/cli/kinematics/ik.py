@@ -23,13 +23,17 @@ MOST_TOLD = 20
 Start = Annotated[
     str | None,
     typer.Option(
-        "--q0", metavar="Q,...", help="Where the search begins (commas between); default: random."
+        "--q0",
+        metavar="Q,...",
+        help="Where the search begins (commas between); default: random.",
     ),
 ]
 Nearest = Annotated[
     str | None,
     typer.Option(
-        "--nearest-to", metavar="Q,...", help="Of several solutions, the one nearest to this."
+        "--nearest-to",
+        metavar="Q,...",
+        help="Of several solutions, the one nearest to this.",
     ),
 ]
 
@@ -77,7 +81,12 @@ def command(
 
 
 def _give(
-    robot: str, chain: Chain, found: Solution, single: bool, output: Path | None, json: bool
+    robot: str,
+    chain: Chain,
+    found: Solution,
+    single: bool,
+    output: Path | None,
+    json: bool,
 ) -> None:
     count = len(found.q)
     unsolved = np.flatnonzero(~found.success).tolist()

@@ -44,12 +44,15 @@ Input = Annotated[
     ),
 ]
 Output = Annotated[
-    Path | None, typer.Option("--output", help="Where the joints go: a .csv, .npy or .json file.")
+    Path | None,
+    typer.Option("--output", help="Where the joints go: a .csv, .npy or .json file."),
 ]
 Seed = Annotated[
     int,
     typer.Option(
-        "--seed", min=0, help="Of the random starts: the same seed gives the same result."
+        "--seed",
+        min=0,
+        help="Of the random starts: the same seed gives the same result.",
     ),
 ]
 Task = Annotated[
@@ -71,7 +74,10 @@ UNSOLVED = 1
 
 
 def read(
-    words: Sequence[str] | None, given: str | None, format: str | None, quaternion: str | None
+    words: Sequence[str] | None,
+    given: str | None,
+    format: str | None,
+    quaternion: str | None,
 ) -> Array:
     """The poses (N, 4, 4) that a command line names; NaN where a row is not finite. Raises:
     InputError, PoseError, FileError, with file and line.

@@ -43,7 +43,8 @@ PartOption = Annotated[
 Tolerance = Annotated[
     float,
     typer.Option(
-        "--tolerance", help="Singular at or below this smallest ÷ largest singular value."
+        "--tolerance",
+        help="Singular at or below this smallest ÷ largest singular value.",
     ),
 ]
 

@@ -14,7 +14,8 @@ from ..model import model
 from ..output import as_json, name, number, say, table
 
 TolMm = Annotated[
-    float, typer.Option("--tol-mm", help="Axes that pass each other by up to this intersect, mm.")
+    float,
+    typer.Option("--tol-mm", help="Axes that pass each other by up to this intersect, mm."),
 ]
 TolDeg = Annotated[
     float,

@@ -30,14 +30,16 @@ BaseB = Annotated[
 ]
 TolMm = Annotated[float, typer.Option("--tol-mm", help="Lengths up to this are the same, mm.")]
 TolDeg = Annotated[
-    float, typer.Option("--tol-deg", help="Angles up to this are the same, degrees.")
+    float,
+    typer.Option("--tol-deg", help="Angles up to this are the same, degrees."),
 ]
 Strict = Annotated[
     bool,
     typer.Option("--strict", help="Align nothing: frames, zero positions and directions count."),
 ]
 Samples = Annotated[
-    int, typer.Option("--samples", help="Random configurations for the pose errors.", min=1)
+    int,
+    typer.Option("--samples", help="Random configurations for the pose errors.", min=1),
 ]
 
 

@@ -15,7 +15,9 @@ from ..output import as_json, name, number, say, table
 Idealise = Annotated[
     float | None,
     typer.Option(
-        "--idealise", metavar="TOL", help="Count the arm made exact within TOL (rad and m) too."
+        "--idealise",
+        metavar="TOL",
+        help="Count the arm made exact within TOL (rad and m) too.",
     ),
 ]
 
@@ -23,7 +25,11 @@ HEADS = ("", "frame", "×", "+", "sin/cos", "with pose: ×", "+", "sin/cos")
 
 
 def command(
-    file: File, tip: Tip = None, base: Base = None, idealise: Idealise = None, json: Json = False
+    file: File,
+    tip: Tip = None,
+    base: Base = None,
+    idealise: Idealise = None,
+    json: Json = False,
 ) -> None:
     """Multiplications, additions and sine/cosine pairs of one Jacobian, in every way there is to
     compute it.

@@ -19,10 +19,12 @@ from ..model import model
 from ..output import as_json, matrix, name, number, path_text, say, table
 
 Convention = Annotated[
-    str, typer.Option("--convention", help="standard (Paul, distal) or modified (Craig, proximal).")
+    str,
+    typer.Option("--convention", help="standard (Paul, distal) or modified (Craig, proximal)."),
 ]
 Output = Annotated[
-    Path | None, typer.Option("--output", help="Where the table goes: a .toml or .csv file.")
+    Path | None,
+    typer.Option("--output", help="Where the table goes: a .toml or .csv file."),
 ]
 
 

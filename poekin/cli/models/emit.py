@@ -26,7 +26,8 @@ NUMBERS: dict[bool, emit.Real] = {False: "double", True: "float"}
 FRAME_HELP = "The Jacobian's: space | body | hybrid | cheapest (an intermediate link frame) | K (of joint K, from 0)."
 
 Language = Annotated[
-    str, typer.Option("--lang", help="c (C99, math.h only) or python (NumPy, JAX, PyTorch arrays).")
+    str,
+    typer.Option("--lang", help="c (C99, math.h only) or python (NumPy, JAX, PyTorch arrays)."),
 ]
 Output = Annotated[
     Path,
@@ -38,7 +39,8 @@ Output = Annotated[
 Frame = Annotated[str, typer.Option("--frame", help=FRAME_HELP)]
 Single = Annotated[bool, typer.Option("--float/--double", help="C only: the type of its numbers.")]
 Name = Annotated[
-    str | None, typer.Option("--name", help="What names begin with (default: the robot's name).")
+    str | None,
+    typer.Option("--name", help="What names begin with (default: the robot's name)."),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
 

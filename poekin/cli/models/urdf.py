@@ -20,7 +20,8 @@ from ..output import path_text, say
 
 Tip = Annotated[str | None, typer.Option("--tip", help="The last link of the one chain to write.")]
 Output = Annotated[
-    Path | None, typer.Option("--output", help="Where the text goes (default: it is printed).")
+    Path | None,
+    typer.Option("--output", help="Where the text goes (default: it is printed)."),
 ]
 
 

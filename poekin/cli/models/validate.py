@@ -22,7 +22,8 @@ Files = Annotated[
     typer.Argument(metavar="FILE...", help="Model files, built-in names, or erd:NAME."),
 ]
 Every = Annotated[
-    bool, typer.Option("--all", help="Every robot of the package example-robot-data.")
+    bool,
+    typer.Option("--all", help="Every robot of the package example-robot-data."),
 ]
 Samples = Annotated[int, typer.Option("--samples", help="Random configurations a chain.", min=0)]
 
@@ -61,7 +62,9 @@ def command(
 
 
 def _validate_each(
-    names: list[str], samples: int, seed: int
+    names: list[str],
+    samples: int,
+    seed: int,
 ) -> tuple[list[Validation], dict[str, str]]:
     """Results of the models, and the messages for those that could not be validated."""
     results: list[Validation] = []
@@ -82,7 +85,9 @@ def _validate_each(
 
 
 def _document(
-    results: list[Validation], errors: dict[str, str], skipped: list[str]
+    results: list[Validation],
+    errors: dict[str, str],
+    skipped: list[str],
 ) -> dict[str, object]:
     passed = not errors and all(v.passed for v in results)
     return {

@@ -92,7 +92,10 @@ def size_limit() -> float:
         return size
     usual = DEFAULT_SIZE // MIB
     log_once(
-        "size", "POEKIN_CACHE_SIZE=%.80s is no number of MiB from 0 on: %d are taken", said, usual
+        "size",
+        "POEKIN_CACHE_SIZE=%.80s is no number of MiB from 0 on: %d are taken",
+        said,
+        usual,
     )
     return DEFAULT_SIZE
 
@@ -223,7 +226,9 @@ class KernelCache:
         if kept is None:
             where = "not kept" if path is None else f"kept in {path.parent}"
             log_once(
-                "compiling", "compiling kernels for this machine, a few seconds each (%s)", where
+                "compiling",
+                "compiling kernels for this machine, a few seconds each (%s)",
+                where,
             )
             return None
         # Of what Numba loads before it compiles, code that is complete needs the runtime alone,

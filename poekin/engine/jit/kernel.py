@@ -38,7 +38,11 @@ class Kernel:
                 from .compile import compiled
 
                 self.call = compiled(
-                    self.function, self.arguments, self.returns, self.quick, self.bare
+                    self.function,
+                    self.arguments,
+                    self.returns,
+                    self.quick,
+                    self.bare,
                 )
         return self.call
 

@@ -46,7 +46,8 @@ def _angles(typing_context, code, q, row, sines, stride, lane):
         q, sines = (_array(context, builder, signature, values, i).data for i in (1, 3))
         start = builder.mul(values[2], _width(context, builder, signature, values, 1))
         builder.call(
-            function, [builder.gep(q, [start]), builder.gep(sines, [values[5]]), values[4]]
+            function,
+            [builder.gep(q, [start]), builder.gep(sines, [values[5]]), values[4]],
         )
         return context.get_dummy_value()
 

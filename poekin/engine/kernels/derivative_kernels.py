@@ -156,7 +156,8 @@ def set_exponentials(table, screws, q, x, sines, cosines, exponentials):
             x[i] += table[i, OFFSET]
         A = screws[i]
         store_row(
-            exponentials[i], exponential.joint(angular(A), linear(A), x[i], sines[i], cosines[i])
+            exponentials[i],
+            exponential.joint(angular(A), linear(A), x[i], sines[i], cosines[i]),
         )
 
 

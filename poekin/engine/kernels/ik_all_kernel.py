@@ -197,7 +197,12 @@ def search(
                 trial[i] = wrapped_difference(trial[i], periods[i])
             j = 0
             while j < count and not is_same(
-                problem, target, (q[k, j], trial, middle), periods, limit, work
+                problem,
+                target,
+                (q[k, j], trial, middle),
+                periods,
+                limit,
+                work,
             ):
                 j += 1
             if j < count:

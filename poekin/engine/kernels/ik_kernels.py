@@ -71,7 +71,10 @@ class Scratch(NamedTuple):
 def scratch_of_try(m):
     """Memory of a try of m coordinates."""
     return Scratch(
-        np.empty((4, 4)), np.empty((6, m)), np.empty((m, m)), np.empty((4, 4 * m + SPARE))
+        np.empty((4, 4)),
+        np.empty((6, m)),
+        np.empty((m, m)),
+        np.empty((4, 4 * m + SPARE)),
     )
 
 

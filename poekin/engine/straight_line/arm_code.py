@@ -22,7 +22,8 @@ class ArmCode:
     def __init__(self, code: bytes, angles: int, coordinates: int):
         code_at = self._loaded = LoadedCode(code)
         self._numbers = np.array(
-            [angles, coordinates, code_at.angles, code_at.one, code_at.four], np.int64
+            [angles, coordinates, code_at.angles, code_at.one, code_at.four],
+            np.int64,
         )
         self.address = int(self._numbers.ctypes.data)
 

@@ -37,7 +37,8 @@ _INDEX = ir.IntType(32)
 _POINTER = _DOUBLE.as_pointer()
 ANGLES = ir.FunctionType(ir.VoidType(), [_POINTER, _POINTER, _INT])
 SIGNATURE = ir.FunctionType(
-    ir.VoidType(), [_POINTER, _POINTER, _INT, _POINTER, _INT, _POINTER, _POINTER]
+    ir.VoidType(),
+    [_POINTER, _POINTER, _INT, _POINTER, _INT, _POINTER, _POINTER],
 )
 
 
@@ -60,7 +61,11 @@ def target_machine() -> Any:
     name, features = processor()
     target = binding.Target.from_default_triple()
     return target.create_target_machine(
-        cpu=name, features=features, opt=3, jit=True, codemodel="jitdefault"
+        cpu=name,
+        features=features,
+        opt=3,
+        jit=True,
+        codemodel="jitdefault",
     )
 
 
@@ -88,7 +93,8 @@ class LoadedCode:
         self._engine.add_object_file(binding.ObjectFileRef.from_data(code))
         self._engine.finalize_object()
         self.angles, self.one, self.four = map(
-            self._engine.get_function_address, ("angles", "one", "four")
+            self._engine.get_function_address,
+            ("angles", "one", "four"),
         )
 
 
@@ -139,12 +145,16 @@ class _Function:
                 values[number] = self._constant(node.first)
             elif node.kind == "scaled":
                 values[number] = build.fmul(
-                    self._constant(node.first), values[node.second], flags=CONTRACT
+                    self._constant(node.first),
+                    values[node.second],
+                    flags=CONTRACT,
                 )
             else:
                 operation = self._operation(node)
                 values[number] = operation(
-                    values[int(node.first)], values[node.second], flags=CONTRACT
+                    values[int(node.first)],
+                    values[node.second],
+                    flags=CONTRACT,
                 )
         outputs = [self._output(values, number, sign) for number, sign in program.outputs]
         *_, T, J = self.function.args
@@ -184,7 +194,8 @@ class _Function:
             # a branch that is always taken, which LLVM cannot know: it would make one block of two
             # otherwise
             with self.build.if_then(
-                self.build.icmp_signed("<=", self.function.args[2], _INT(0)), likely=False
+                self.build.icmp_signed("<=", self.function.args[2], _INT(0)),
+                likely=False,
             ):
                 self.build.ret_void()
             self.build.branch(following)

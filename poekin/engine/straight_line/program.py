@@ -124,7 +124,8 @@ def _sums(forms) -> tuple[list[Angle], list[int]]:
     order = sorted(range(len(forms)), key=lambda j: (len(forms[j][0]), j))
     chosen: list[Angle] = []
     having: dict[
-        int, list[int]
+        int,
+        list[int],
     ] = {}  # the angles so far that have a coordinate: no other one saves an addition
     for position, j in enumerate(order):
         terms, offset = forms[j]

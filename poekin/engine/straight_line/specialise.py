@@ -55,7 +55,8 @@ def cheapest_program(arm: Structure, frame: str | int | None, pose: bool) -> Pro
     numbers of the pose, then six rows of J.
     """
     return min(
-        (_traced(arm, frame, pose, *ways) for ways in product((False, True), repeat=2)), key=_cost
+        (_traced(arm, frame, pose, *ways) for ways in product((False, True), repeat=2)),
+        key=_cost,
     )
 
 
@@ -84,7 +85,11 @@ def _cost(way: Program) -> int:
 
 
 def _traced(
-    arm: Structure, frame: str | int | None, pose: bool, inner: bool, outer: bool
+    arm: Structure,
+    frame: str | int | None,
+    pose: bool,
+    inner: bool,
+    outer: bool,
 ) -> Program:
     """One way: velocities of the axes, inward and outward, by the point that they see (True) or by
     their origins.
@@ -203,7 +208,8 @@ class _Trace:
         if self.arm.slides[i]:
             for k, factor in self.driven_by[i]:
                 shift = shift + self.graph.scaled(
-                    self.graph.input(-1 - k), self.arm.slides[i] * factor
+                    self.graph.input(-1 - k),
+                    self.arm.slides[i] * factor,
                 )
         return shift
 

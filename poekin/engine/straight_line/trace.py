@@ -79,7 +79,8 @@ class Graph:
             return 0.0
         first, second = (x, y) if x.number < y.number else (y, x)
         return self._node(
-            Node("sum", first.number, second.number, first.sign * second.sign), first.sign
+            Node("sum", first.number, second.number, first.sign * second.sign),
+            first.sign,
         )
 
     def constant(self, value: float) -> Traced:

@@ -94,7 +94,11 @@ class FromChain(Result):
 
 
 def from_chain(
-    chain: Arm, *, convention: Convention = REQUIRED, samples: int = 100, seed: int = 0
+    chain: Arm,
+    *,
+    convention: Convention = REQUIRED,
+    samples: int = 100,
+    seed: int = 0,
 ) -> FromChain:
     """Denavit-Hartenberg table of a chain of revolute and prismatic joints, in either convention.
 
@@ -233,7 +237,13 @@ class _Walk:
         return axis_near(self.chain.screws[i], self.chain.kinds[i] == "prismatic", origin)
 
     def _normal(
-        self, i: int, o: Vector, z: Vector, p2: Vector, z2: Vector, x: Vector
+        self,
+        i: int,
+        o: Vector,
+        z: Vector,
+        p2: Vector,
+        z2: Vector,
+        x: Vector,
     ) -> tuple[Normal, Vector]:
         """Common normal of axes i and i + 1, and the direction of axis i + 1 in the table."""
         angle = length(cross(z, z2))

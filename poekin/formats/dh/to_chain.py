@@ -77,7 +77,11 @@ def to_chain(table: Table) -> Chain:
     A = np.zeros((len(table), 6))
     home = _matrix(dh.screws(link_poses(table), rotates, slides, len(table), A))
     return Chain.from_space(
-        A, home, joint_names=table.names, limits=table.limits, pitches=np.zeros(len(table))
+        A,
+        home,
+        joint_names=table.names,
+        limits=table.limits,
+        pitches=np.zeros(len(table)),
     )
 
 

@@ -63,7 +63,11 @@ int main(void)
 
 
 def selftest(
-    word: str, real: str, literal: WriteNumber, tasks: Sequence[Task], wanted: Vectors
+    word: str,
+    real: str,
+    literal: WriteNumber,
+    tasks: Sequence[Task],
+    wanted: Vectors,
 ) -> str:
     """The text of the program."""
     dof = wanted.q.shape[1]

@@ -101,7 +101,8 @@ def _angle(angle: Angle, literal: WriteNumber) -> str:
 
 
 def by_outputs(
-    outputs: Sequence[str | float], pose: bool
+    outputs: Sequence[str | float],
+    pose: bool,
 ) -> tuple[list[str | float], list[str | float]]:
     """Entries of the pose row by row, none without a pose, and those of J."""
     if not pose:

@@ -89,7 +89,10 @@ def read(path: str | os.PathLike[str]) -> Robot:
     data = xml.read_bytes(path)
     name = os.fsdecode(path)
     return _read(
-        data, name, lambda MjSpec: MjSpec.from_file(os.path.abspath(name)), os.path.abspath(name)
+        data,
+        name,
+        lambda MjSpec: MjSpec.from_file(os.path.abspath(name)),
+        os.path.abspath(name),
     )
 
 

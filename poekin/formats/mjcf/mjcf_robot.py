@@ -34,7 +34,12 @@ class _Motion(NamedTuple):
 
 
 def make_robot(
-    model: Any, bodies: np.ndarray, sites: np.ndarray, name: str, source: Source, other: list[str]
+    model: Any,
+    bodies: np.ndarray,
+    sites: np.ndarray,
+    name: str,
+    source: Source,
+    other: list[str],
 ) -> tuple[Robot, list[str]]:
     """Robot of a model, and the warnings.
 
@@ -72,7 +77,12 @@ class _Reader:
         return self.free("joint", name)
 
     def robot(
-        self, bodies: np.ndarray, sites: np.ndarray, name: str, source: Source, other: list[str]
+        self,
+        bodies: np.ndarray,
+        sites: np.ndarray,
+        name: str,
+        source: Source,
+        other: list[str],
     ) -> tuple[Robot, list[str]]:
         """The robot and the warnings."""
         model = self.model
@@ -113,7 +123,11 @@ class _Reader:
         return int(self.model.jnt_bodyid[j]) not in self.gone
 
     def _body(
-        self, i: int, T: np.ndarray, mimics: dict[int, Mimic], constants: dict[int, float]
+        self,
+        i: int,
+        T: np.ndarray,
+        mimics: dict[int, Mimic],
+        constants: dict[int, float],
     ) -> None:
         """The joints from a body's parent to itself.
 

@@ -97,7 +97,8 @@ def make_robot(model: Any) -> Robot:
     for j in range(1, len(names)):
         place = above(int(model.parents[j]), own.get(j))
         origin = se3.inverse(place.pose) @ one_pose(
-            model.jointPlacements[j], f"placement of joint {quote(names[j])}"
+            model.jointPlacements[j],
+            f"placement of joint {quote(names[j])}",
         )
         joints += _moving(model, j, place.link, origin, holders[j], taken, used, unusable)
     # The frames of fixed joints first: their names are joints' names already.
@@ -151,7 +152,10 @@ def _bodies(frames: list[Frame], own: set[int]) -> dict[int, int]:
 
 
 def _link_names(
-    frames: list[Frame], names: list[str], own: dict[int, int], bodies: dict[int, int]
+    frames: list[Frame],
+    names: list[str],
+    own: dict[int, int],
+    bodies: dict[int, int],
 ) -> tuple[list[str], list[str], set[str]]:
     """Link of each frame, link of each joint, and all names taken; BODY frames keep theirs first."""
     taken: set[str] = set()

@@ -31,7 +31,8 @@ MOST = 2**28
 
 @contextlib.contextmanager
 def opened(
-    path: str | os.PathLike[str] | int, where: str = ""
+    path: str | os.PathLike[str] | int,
+    where: str = "",
 ) -> Iterator[tuple[TextIO, str, int]]:
     """File opened for reading as UTF-8 text, its name as messages call it, and its size in bytes.
 
@@ -168,7 +169,11 @@ class _Columns(NamedTuple):
 
 
 def _rows(
-    lines: Iterable[Line], columns: _Columns, where: str, progress: Progress | None, size: int
+    lines: Iterable[Line],
+    columns: _Columns,
+    where: str,
+    progress: Progress | None,
+    size: int,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows (N, k) of the chosen columns, and the lines' numbers."""
     chosen = columns.chosen
@@ -216,7 +221,11 @@ def _is_header(words: Sequence[str], names: Sequence[str]) -> bool:
 
 
 def _order(
-    words: Sequence[str], names: Sequence[str], besides: Sequence[str], where: str, what: str
+    words: Sequence[str],
+    names: Sequence[str],
+    besides: Sequence[str],
+    where: str,
+    what: str,
 ) -> Sequence[int]:
     for word in words:
         if word not in names and word not in besides:

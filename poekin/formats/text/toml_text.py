@@ -88,7 +88,10 @@ class Keys:
     """
 
     def __init__(
-        self, data: Mapping[str, Any], place: str, known: Iterable[str] | None = None
+        self,
+        data: Mapping[str, Any],
+        place: str,
+        known: Iterable[str] | None = None,
     ) -> None:
         self.data = data
         self.place = place
@@ -174,7 +177,11 @@ class Keys:
         return array.astype(np.intp)
 
     def _collect(
-        self, key: str, value: Any, shape: tuple[int | None, ...], found: list[float]
+        self,
+        key: str,
+        value: Any,
+        shape: tuple[int | None, ...],
+        found: list[float],
     ) -> None:
         if shape:
             if not isinstance(value, list) or shape[0] not in (None, len(value)):

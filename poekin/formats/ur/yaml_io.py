@@ -74,7 +74,10 @@ def read(path: str | os.PathLike[str], *, rpy: RpyAxes | None = None) -> Factory
 
 
 def read_text(
-    text: str, place: str = "<text>", *, rpy: RpyAxes | None = None
+    text: str,
+    place: str = "<text>",
+    *,
+    rpy: RpyAxes | None = None,
 ) -> FactoryCalibration:
     """The calibration in a text; place stands for the file in messages. Otherwise as `read`."""
     if rpy is not None:
@@ -106,7 +109,10 @@ def read_text(
 
 
 def write(
-    calibration: FactoryCalibration, path: str | os.PathLike[str], *, rpy: RpyAxes = "fixed"
+    calibration: FactoryCalibration,
+    path: str | os.PathLike[str],
+    *,
+    rpy: RpyAxes = "fixed",
 ) -> None:
     """Write a calibration as a YAML file, for ur_description or as the ROS driver would.
 
@@ -172,7 +178,10 @@ def make_text(calibration: FactoryCalibration, *, rpy: RpyAxes = "fixed") -> str
 
 
 def _pose(
-    link: yaml_text.MappingNode | yaml_text.TextNode, name: str, place: str, rpy: str
+    link: yaml_text.MappingNode | yaml_text.TextNode,
+    name: str,
+    place: str,
+    rpy: str,
 ) -> Array:
     if not isinstance(link, yaml_text.MappingNode):
         raise ModelError(

@@ -112,13 +112,15 @@ def hybrid_rate(J, rates, count, dJ):
 def acceleration(J, dJ, rates, accelerations, count):
     """dV/dt = J ddx + (dJ/dt) dx, in the frame of J: 12 n multiplications and 12 n - 6 additions."""
     A = add_twists(
-        scale_twist(accelerations[0], column(J, 0)), scale_twist(rates[0], column(dJ, 0))
+        scale_twist(accelerations[0], column(J, 0)),
+        scale_twist(rates[0], column(dJ, 0)),
     )
     for i in range(1, count):
         A = add_twists(
             A,
             add_twists(
-                scale_twist(accelerations[i], column(J, i)), scale_twist(rates[i], column(dJ, i))
+                scale_twist(accelerations[i], column(J, i)),
+                scale_twist(rates[i], column(dJ, i)),
             ),
         )
     return A

@@ -147,7 +147,8 @@ def c_of(tt, a):
 def _beside_poles(tt, rest):
     """First term of D = 2 / ((2 pi)^2 - t^2 - rest) + ..., and the sum of the others."""
     return 2.0 / (FIRST - tt + (FIRST_REST - rest)), 2.0 / (SECOND - tt) + _two_chains(
-        _D_CHAINS, tt
+        _D_CHAINS,
+        tt,
     )
 
 

@@ -110,7 +110,8 @@ def se3(w, v):
         b = b_near(tt)
         c = c_near(tt)
         return make_pose(
-            rotation(w, 1.0 - tt * c, b), linear_combination(1.0, v, c, cross(w, across), b, across)
+            rotation(w, 1.0 - tt * c, b),
+            linear_combination(1.0, v, c, cross(w, across), b, across),
         )
     a, b, cosine = closed_form(w, tt)
     k = dot(w, v) / tt

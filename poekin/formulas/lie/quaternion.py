@@ -98,7 +98,10 @@ def parts(R):
     """
     axis = _half_turn_axis(R)
     turned = _scale_columns(
-        R, -1.0 if axis > 1 else 1.0, -1.0 if axis % 2 else 1.0, -1.0 if axis in (1, 2) else 1.0
+        R,
+        -1.0 if axis > 1 else 1.0,
+        -1.0 if axis % 2 else 1.0,
+        -1.0 if axis in (1, 2) else 1.0,
     )
     q, rest, inverse = _of_smallest_angle(turned)
     q = _undo_half_turn(axis, *q)

@@ -184,7 +184,9 @@ def axis_angle(xi: ArrayLike) -> ScrewMotion:
     theta = np.where(turns, angle, length)
     with np.errstate(over="ignore", invalid="ignore"):
         v = np.where(
-            turns[..., None], xi[..., 3:] / np.where(turns, angle, 1.0)[..., None], direction
+            turns[..., None],
+            xi[..., 3:] / np.where(turns, angle, 1.0)[..., None],
+            direction,
         )
     screw = np.concatenate([axis, v], axis=-1)
     return ScrewMotion(np.where(theta[..., None] == 0.0, ALONG_Z, screw), theta)

@@ -88,7 +88,9 @@ def project(M: Array, max_moved: float, what: str) -> NearestRotation:
     with np.errstate(over="ignore"):
         moved = np.linalg.norm(R - M, axis=(-2, -1))
     refuse(
-        moved > max_moved, what, f"farther than {max_moved:g} (Frobenius norm) from every rotation"
+        moved > max_moved,
+        what,
+        f"farther than {max_moved:g} (Frobenius norm) from every rotation",
     )
     return NearestRotation(R, moved)
 

@@ -105,13 +105,17 @@ class Walk:
         )
         a = self._length(normal.a, f"{name} moved by {{0:.3g}} m to meet {before}")
         alpha = self._angle(
-            normal.cosine, normal.sine, f"{name} turned by {{0:.3g}} rad to be {{2}} to {before}"
+            normal.cosine,
+            normal.sine,
+            f"{name} turned by {{0:.3g}} rad to be {{2}} to {before}",
         )
         turned = new.out((theta.cosine, theta.sine, ZERO))
         up = add(scale(alpha.cosine, new.z), scale(alpha.sine, cross(turned, new.z)))
         origin = add(new.o, add(scale(d, new.z), scale(a, turned)))
         return frame_on_line(x, z, add(normal.foot, scale(normal.a, x))), frame_on_line(
-            turned, up, origin
+            turned,
+            up,
+            origin,
         )
 
     def _aside(self, z: Vector, p: Vector) -> tuple[Frame, Frame]:

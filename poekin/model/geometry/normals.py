@@ -120,7 +120,12 @@ def common_normal(p: Vector, z: Vector, p2: Vector, z2: Vector) -> Normal:
 
 
 def parallel_normal(
-    p: Vector, z: Vector, p2: Vector, z2: Vector, x: Vector, nothing: Decimal
+    p: Vector,
+    z: Vector,
+    p2: Vector,
+    z2: Vector,
+    x: Vector,
+    nothing: Decimal,
 ) -> Normal:
     """Common normal of two parallel lines, taken at p; of one and the same line (distance at most
     `nothing`) x stays as it is.

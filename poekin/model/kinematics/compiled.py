@@ -128,7 +128,11 @@ class CompiledChain(ChainPrograms[AnyChain]):
         try:
             if q.ndim == 1:
                 kernel, arm = self._poses.get(None) or self._prepare(
-                    self._poses, None, "pose_one", True, False
+                    self._poses,
+                    None,
+                    "pose_one",
+                    True,
+                    False,
                 )
                 T = _empty(_POSE_SHAPE) if out is None else out
                 if q.dtype is T.dtype is _float64 and kernel(arm, q, T):
@@ -179,7 +183,11 @@ class CompiledChain(ChainPrograms[AnyChain]):
         try:
             if q.ndim == 1 and at is None:
                 kernel, arm = self._jacobians.get(frame) or self._prepare(
-                    self._jacobians, frame, "jacobian_one", False, True
+                    self._jacobians,
+                    frame,
+                    "jacobian_one",
+                    False,
+                    True,
                 )
                 J = _empty(self._shape) if out is None else out
                 if q.dtype is J.dtype is _float64 and kernel(arm, q, J):
@@ -233,7 +241,11 @@ class CompiledChain(ChainPrograms[AnyChain]):
         try:
             if q.ndim == 1 and at is None:
                 kernel, arm = self._both.get(frame) or self._prepare(
-                    self._both, frame, "pose_jacobian_one", True, True
+                    self._both,
+                    frame,
+                    "pose_jacobian_one",
+                    True,
+                    True,
                 )
                 T, J = (_empty(_POSE_SHAPE), _empty(self._shape)) if out is None else out
                 if q.dtype is T.dtype is J.dtype is _float64 and kernel(arm, q, T, J):
@@ -249,7 +261,12 @@ class CompiledChain(ChainPrograms[AnyChain]):
         return self._arm(chain_kernels.HYBRID, True, True).address
 
     def _prepare(
-        self, calls: _Calls, frame: object, kernel: str, pose: bool, jacobian: bool
+        self,
+        calls: _Calls,
+        frame: object,
+        kernel: str,
+        pose: bool,
+        jacobian: bool,
     ) -> tuple[Callable, int]:
         """The kernel and the arm for a frame, from now on in `calls`."""
         if self._interpreted:
@@ -269,7 +286,10 @@ class CompiledChain(ChainPrograms[AnyChain]):
                 # room make of them
                 key = self.structure, code, jacobian
                 self._arms[code, pose, jacobian] = arm_code(
-                    key, lambda: self._program(code, pose), self.dof, pose
+                    key,
+                    lambda: self._program(code, pose),
+                    self.dof,
+                    pose,
                 )
             return self._arms[code, pose, jacobian]
 

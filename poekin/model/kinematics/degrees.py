@@ -18,7 +18,11 @@ MANY = 2 * TURN
 
 
 def warn_of_degrees(
-    q: Array, names: tuple[str, ...], limits: Array, scale: Callable[[], Array], what: str
+    q: Array,
+    names: tuple[str, ...],
+    limits: Array,
+    scale: Callable[[], Array],
+    what: str,
 ) -> None:
     """A `PoekinWarning` for the first coordinate with such an angle among configurations (..., m).
 

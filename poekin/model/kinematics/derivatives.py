@@ -80,7 +80,12 @@ def acceleration(chain: ChainData, q: Any, dq: Any, ddq: Any, frame: Frame) -> A
     A = np.zeros((len(rows), 6))
     if chain.joint_names:
         derivative_kernels.accelerations.call(
-            chain.kernel_table, rows, rates, accelerations, code, A
+            chain.kernel_table,
+            rows,
+            rates,
+            accelerations,
+            code,
+            A,
         )
     return A.reshape(*batch, 6)
 
@@ -103,7 +108,11 @@ def screw_derivatives(chain: ChainData, q: Any, wrt: Parameters) -> PoseChanges:
     n = len(chain.joint_names)
     D = np.zeros((len(rows), 6, n + 1, 6))
     derivative_kernels.pose_changes.call(
-        chain.kernel_table, chain.screws, _home_row(chain), rows, D
+        chain.kernel_table,
+        chain.screws,
+        _home_row(chain),
+        rows,
+        D,
     )
     D = D.reshape(*batch, 6, n + 1, 6)
     motions = D[..., :n, :]
@@ -130,7 +139,12 @@ def jacobian_screw_derivatives(chain: ChainData, q: Any, frame: Frame) -> Jacobi
     D = np.zeros((len(rows), 6, m, n + 1, 6))
     if n:
         derivative_kernels.jacobian_changes.call(
-            chain.kernel_table, chain.screws, _home_row(chain), rows, code, D
+            chain.kernel_table,
+            chain.screws,
+            _home_row(chain),
+            rows,
+            code,
+            D,
         )
     D = D.reshape(*batch, 6, m, n + 1, 6)
     return JacobianChanges(D[..., :n, :].copy(), D[..., n, :].copy())

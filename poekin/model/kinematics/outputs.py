@@ -31,7 +31,10 @@ def checked_out(out: Any, shape: tuple[int, ...], what: str, q: Any) -> Array:
 
 
 def checked_pair(
-    out: Any, T_shape: tuple[int, ...], J_shape: tuple[int, ...], q: Any
+    out: Any,
+    T_shape: tuple[int, ...],
+    J_shape: tuple[int, ...],
+    q: Any,
 ) -> tuple[Array, Array]:
     """The pair `out` = (T, J) itself where a kernel can write into both while it reads q."""
     if not isinstance(out, (tuple, list)) or len(out) != 2:

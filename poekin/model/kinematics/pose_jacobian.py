@@ -38,7 +38,11 @@ code into J (N, 6, m), where these are given.
 
 
 def _fill(
-    chain: ChainData, rows: Array, code: int | None, T: Array | None, J: Array | None
+    chain: ChainData,
+    rows: Array,
+    code: int | None,
+    T: Array | None,
+    J: Array | None,
 ) -> None:
     """A `Fill` of Jacobians by the kernel of any chain."""
     if T is None:

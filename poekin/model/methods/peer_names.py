@@ -103,7 +103,10 @@ def answer_peer_names(owner: type, peers: Mapping[str, str]) -> None:
 
 
 def no_attribute(
-    owner: str, name: str, peers: Mapping[str, str], known: Iterable[str]
+    owner: str,
+    name: str,
+    peers: Mapping[str, str],
+    known: Iterable[str],
 ) -> AttributeError:
     """The error for a name that is none: with what does it here, or the closest names."""
     message = f"{owner} has no attribute {name!r}"

@@ -61,7 +61,9 @@ def _free_poses(parts: RobotParts, poses: Mapping[str, Any]) -> dict[int, np.nda
 
 
 def _common_batch(
-    parts: RobotParts, q: tuple[int, ...], poses: Mapping[int, np.ndarray]
+    parts: RobotParts,
+    q: tuple[int, ...],
+    poses: Mapping[int, np.ndarray],
 ) -> tuple[int, ...]:
     """The leading axes that those of q and of the poses broadcast to."""
     batch = q

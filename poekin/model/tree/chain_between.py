@@ -31,14 +31,18 @@ def only_leaf(parts: RobotParts, leaves: tuple[str, ...]) -> str:
 
 
 def chain_between(
-    parts: RobotParts, base: str, tip: str
+    parts: RobotParts,
+    base: str,
+    tip: str,
 ) -> tuple[np.ndarray, np.ndarray, ChainOptions]:
     """Screws (n, 6) in the base link's frame, home pose (4, 4) and options of the chain to a tip."""
     screws = []
     moving = []
     H: Any = IDENTITY
     for number, forward in path(
-        parts.tree, link_number(parts, base, "base"), link_number(parts, tip, "tip")
+        parts.tree,
+        link_number(parts, base, "base"),
+        link_number(parts, tip, "tip"),
     ):
         joint = parts.joints[number]
         if joint.kind in FREE:

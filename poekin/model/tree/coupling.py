@@ -60,7 +60,9 @@ def coupling_of(joints: Sequence[Joint], source: Source) -> Coupling:
 
 
 def shared_limits(
-    coupling: Coupling, bounds: np.ndarray, joints: np.ndarray
+    coupling: Coupling,
+    bounds: np.ndarray,
+    joints: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Limits (m, 2) on q that keep every one of `joints` (numbers) within its bounds (J, 2), and
     where there are none.
@@ -75,7 +77,8 @@ def shared_limits(
     followers = joints[(coupling.coordinate[joints] >= 0) & (coupling.ratio[joints] != 0)]
     with np.errstate(over="ignore"):  # a bound beyond the largest number is no bound
         ends = (bounds[followers] - coupling.shift[followers, None]) / coupling.ratio[
-            followers, None
+            followers,
+            None,
         ]
     coordinate = coupling.coordinate[followers]
     np.maximum.at(lower, coordinate, ends.min(axis=1))
@@ -86,7 +89,10 @@ def shared_limits(
 
 
 def warn_of_torn_limits(
-    coupling: Coupling, torn: np.ndarray, joints: Sequence[Joint], source: Source
+    coupling: Coupling,
+    torn: np.ndarray,
+    joints: Sequence[Joint],
+    source: Source,
 ) -> None:
     """One warning for all coordinates whose followers' limits leave nothing in common."""
     if len(torn):
@@ -140,7 +146,11 @@ def _resolve(
 
 
 def _composed(
-    index: int, mimic: Mimic, followed: _Value, joints: Sequence[Joint], source: Source
+    index: int,
+    mimic: Mimic,
+    followed: _Value,
+    joints: Sequence[Joint],
+    source: Source,
 ) -> _Value:
     """Value of a joint that mimics another, of which this is the value."""
     if joints[index].kind == "fixed":

@@ -38,7 +38,10 @@ class RobotParts(NamedTuple):
 
 
 def make_parts(
-    name: str, links: Iterable[str], joints: Iterable[Joint], source: Source | None
+    name: str,
+    links: Iterable[str],
+    joints: Iterable[Joint],
+    source: Source | None,
 ) -> RobotParts:
     """Parts of a robot. Raises: ModelError where links and joints make no tree."""
     all_links = _items(links, "links", name)

@@ -44,7 +44,12 @@ class Causes(NamedTuple):
 
 
 def diagnose(
-    problem: Problem, targets: Array, first: Array, q: Array, info: Array, success: np.ndarray
+    problem: Problem,
+    targets: Array,
+    first: Array,
+    q: Array,
+    info: Array,
+    success: np.ndarray,
 ) -> Causes:
     """Causes for which targets are not solved, by tries that began at `first` and ended at q.
 
@@ -62,7 +67,11 @@ def diagnose(
 
 
 def find_causes(
-    problem: Problem, targets: Array, q: Array, info: Array, success: np.ndarray
+    problem: Problem,
+    targets: Array,
+    q: Array,
+    info: Array,
+    success: np.ndarray,
 ) -> Causes:
     """Reason of each target, its distance beyond the reach, and the limits that were hit.
 
@@ -134,7 +143,10 @@ def settle(problem: Problem, targets: Array, q: Array, info: Array, rows: np.nda
 
 
 def reachable_tasks(
-    problem: Problem, targets: Array, first: Array, rows: np.ndarray
+    problem: Problem,
+    targets: Array,
+    first: Array,
+    rows: np.ndarray,
 ) -> tuple[tuple[TaskName, ...], ...]:
     """Other tasks that reach these rows of the targets, found by trying; () for all others."""
     tasks: list[tuple[TaskName, ...]] = [()] * len(targets)
@@ -152,7 +164,10 @@ def reachable_tasks(
 
 
 def limits_hit(
-    domain: JointDomain, q: Array, found: Array, names: tuple[str, ...]
+    domain: JointDomain,
+    q: Array,
+    found: Array,
+    names: tuple[str, ...],
 ) -> tuple[str, ...]:
     """Coordinates at a limit in the nearest pose within them; where there is none, those outside in
     the solution without limits.

@@ -114,7 +114,12 @@ class Problem:
         """
         errors = np.empty((len(q), 2))
         self._judge.call(
-            self.given.kernel_table, q, targets, self.task.code, self.task.axis, errors
+            self.given.kernel_table,
+            q,
+            targets,
+            self.task.code,
+            self.task.axis,
+            errors,
         )
         near = errors[:, 0] <= self.settings.tol_position
         aligned = errors[:, 1] <= self.settings.tol_rotation

@@ -89,7 +89,11 @@ def free_ranges(chain: Chain) -> Array:
 
 
 def first_tries(
-    units: JointUnits, domain: JointDomain, batch: tuple[int, ...], count: int, q0: Any
+    units: JointUnits,
+    domain: JointDomain,
+    batch: tuple[int, ...],
+    count: int,
+    q0: Any,
 ) -> Array:
     """Start of the first try of each of `count` targets (N, m), in joint units: q0 within the
     limits, NaN for anywhere.

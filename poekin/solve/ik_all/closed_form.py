@@ -38,7 +38,11 @@ class ClosedForm:
     """
 
     def __init__(
-        self, form: HPForm, solver: Any, position_bound: float, rotation_bound: float
+        self,
+        form: HPForm,
+        solver: Any,
+        position_bound: float,
+        rotation_bound: float,
     ) -> None:
         self._R_tn = form.R_nt.T
         self._solver = solver

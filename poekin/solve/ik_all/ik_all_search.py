@@ -108,13 +108,23 @@ def pose_errors(chain: Chain, q: Array, T: Array) -> Array:
 
     errors = np.empty((len(q), 2))
     ik_kernels.pose_errors.call(
-        chain.kernel_table, q, np.ascontiguousarray(T), ik_codes.POSE, np.zeros(3), errors
+        chain.kernel_table,
+        q,
+        np.ascontiguousarray(T),
+        ik_codes.POSE,
+        np.zeros(3),
+        errors,
     )
     return errors
 
 
 def search(
-    fast: CompiledChain, T: Array, starts: Sequence[Array], rule: Rule, seed: int, limits: bool
+    fast: CompiledChain,
+    T: Array,
+    starts: Sequence[Array],
+    rule: Rule,
+    seed: int,
+    limits: bool,
 ) -> list[Found]:
     """Solutions of targets (N, 4, 4) from given starts (s, m) of each and then from random ones, by
     the rule.
@@ -127,7 +137,12 @@ def search(
 
 
 def _search(
-    fast: CompiledChain, T: Array, starts: Sequence[Array], rule: Rule, seed: int, first: int
+    fast: CompiledChain,
+    T: Array,
+    starts: Sequence[Array],
+    rule: Rule,
+    seed: int,
+    first: int,
 ) -> list[Found]:
     from ...engine.kernels import ik_all_kernel as kernel  # which imports Numba
 
@@ -204,13 +219,17 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
             kept = met[int(np.argmax((first <= last).all(axis=1)))]
             alone = sorted({*range(len(ways))} - {*met} | {kept})
             most = np.max(
-                [np.abs(way) / np.abs(way).max() for way in ways if way is not None], axis=0
+                [np.abs(way) / np.abs(way).max() for way in ways if way is not None],
+                axis=0,
             )
             names = tuple(
                 name for name, size in zip(fast.q_names, most, strict=True) if size > _MOVES
             )
             result[k] = replace(
-                f, solutions=f.solutions[alone], hits=f.hits[alone], self_motion_coordinates=names
+                f,
+                solutions=f.solutions[alone],
+                hits=f.hits[alone],
+                self_motion_coordinates=names,
             )
     return result
 

@@ -21,7 +21,10 @@ TIME = "time"
 
 
 def read_poses(
-    path: Path, format: PoseFormat, *, quaternion: QuaternionOrder | None = None
+    path: Path,
+    format: PoseFormat,
+    *,
+    quaternion: QuaternionOrder | None = None,
 ) -> Array:
     """Poses read from a CSV file with one pose a line, all in one frame.
 
@@ -62,7 +65,11 @@ def read_poses(
 
 
 def write_poses(
-    path: Path, T: ArrayLike, format: PoseFormat, *, quaternion: QuaternionOrder | None = None
+    path: Path,
+    T: ArrayLike,
+    format: PoseFormat,
+    *,
+    quaternion: QuaternionOrder | None = None,
 ) -> None:
     """Writes poses as `read_poses` reads them, with a header.
 
@@ -147,7 +154,11 @@ def read_joints(path: Path, names: Chain | Sequence[str]) -> tuple[Array, Array 
 
 
 def write_joints(
-    path: Path, q: ArrayLike, names: Chain | Sequence[str], *, times: ArrayLike | None = None
+    path: Path,
+    q: ArrayLike,
+    names: Chain | Sequence[str],
+    *,
+    times: ArrayLike | None = None,
 ) -> None:
     """Writes configurations as `read_joints` reads them, with a header.
 
@@ -197,7 +208,10 @@ def _names(names: Any) -> tuple[str, ...]:
 
 
 def _read(
-    path: Path, names: Sequence[str], what: str, first: Sequence[str] = ()
+    path: Path,
+    names: Sequence[str],
+    what: str,
+    first: Sequence[str] = (),
 ) -> tuple[Array, np.ndarray, str]:
     with csv_rows.opened(path) as (stream, where, _):
         return *csv_rows.read(stream, names, where, what, first=first), where

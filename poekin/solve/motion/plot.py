@@ -77,7 +77,9 @@ def plot_joints(
         for k, name in enumerate(chain.q_names):
             _one(rows[k], t, q[:, k], chain.limits[k], [b for b in breaks if 0 < b < len(t)])
             rows[k].set_title(
-                f"{svg.label(name)} ({'rad' if chain.is_angle(k) else 'm'})", loc="left", fontsize=9
+                f"{svg.label(name)} ({'rad' if chain.is_angle(k) else 'm'})",
+                loc="left",
+                fontsize=9,
             )
         rows[-1].set_xlabel("point" if times is None else "time (s)")
 
@@ -88,7 +90,11 @@ def plot_joints(
 
 
 def _one(
-    axes: Any, t: np.ndarray, x: np.ndarray, limits: np.ndarray, breaks: Sequence[int]
+    axes: Any,
+    t: np.ndarray,
+    x: np.ndarray,
+    limits: np.ndarray,
+    breaks: Sequence[int],
 ) -> None:
     """One coordinate; it is not joined across a break."""
     for part in np.split(np.arange(len(t)), breaks):

@@ -210,7 +210,11 @@ def _path(T: ArrayLike) -> Array:
 
 
 def _timing(
-    times: Any, speed: Any, acceleration: Any, chain: Chain, count: int
+    times: Any,
+    speed: Any,
+    acceleration: Any,
+    chain: Chain,
+    count: int,
 ) -> tuple[Array | None, Array | None, Array | None]:
     """Times (N,) and the limits (m,) of speed and acceleration, where they are given."""
     if times is None:

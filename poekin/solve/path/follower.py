@@ -90,7 +90,10 @@ class Follower:
         pose = last
         while k < len(self.targets):
             done = k + self._descend(
-                self.targets[k:], pose, q[k - start :], anywhere=first and k == start
+                self.targets[k:],
+                pose,
+                q[k - start :],
+                anywhere=first and k == start,
             )
             if done < len(self.targets) and done > start:
                 q_a = q[done - 1 - start]
@@ -153,7 +156,13 @@ class Follower:
                 return 0
             start = q[0]
         return count + self._kernel.call(
-            arm, targets[count:], start.copy(), *call, self.most, q[count:], info[count:]
+            arm,
+            targets[count:],
+            start.copy(),
+            *call,
+            self.most,
+            q[count:],
+            info[count:],
         )
 
     def _in_pieces(self, q_a: Array, T_a: Array, T_b: Array) -> Array | None:

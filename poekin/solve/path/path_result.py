@@ -316,7 +316,10 @@ class PathResult(Result):
         return f"{where} (smallest ÷ largest singular value {s.value:.3g})"
 
     def _above(
-        self, values: Array | None, bounds: Array | None, shift: int
+        self,
+        values: Array | None,
+        bounds: Array | None,
+        shift: int,
     ) -> tuple[PathInterval, ...]:
         """Intervals in which values are above their bounds; value number i belongs to point i +
         shift.

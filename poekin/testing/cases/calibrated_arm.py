@@ -43,7 +43,9 @@ THETA = [
 ]
 
 UR10E = Table(
-    "standard", [Row(*row) for row in zip(THETA, D, A, ALPHA, strict=True)], name="ur10e_calibrated"
+    "standard",
+    [Row(*row) for row in zip(THETA, D, A, ALPHA, strict=True)],
+    name="ur10e_calibrated",
 )
 
 
@@ -64,12 +66,16 @@ def single_precision_errors(table: Table, q: np.ndarray) -> dict[str, np.ndarray
     rows = np.array([table.theta, table.d, table.a, table.alpha], dtype=single).T
     poe = dh_pose = tuple(single(x) for x in IDENTITY)
     for S, (theta, d, a, alpha), x in zip(
-        chain.screws.astype(single), rows, q.astype(single).T, strict=True
+        chain.screws.astype(single),
+        rows,
+        q.astype(single).T,
+        strict=True,
     ):
         poe = compose(poe, exponential.joint(tuple(S[:3]), tuple(S[3:]), x, np.sin(x), np.cos(x)))
         turn = theta + x
         dh_pose = compose(
-            dh_pose, dh.link(np.sin(turn), np.cos(turn), d, a, np.sin(alpha), np.cos(alpha))
+            dh_pose,
+            dh.link(np.sin(turn), np.cos(turn), d, a, np.sin(alpha), np.cos(alpha)),
         )
     positions = {"POE": np.stack(compose(poe, home)[9:], -1), "DH": np.stack(dh_pose[9:], -1)}
     wider = [what for what, position in positions.items() if position.dtype != single]

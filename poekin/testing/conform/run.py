@@ -241,7 +241,11 @@ def conform(
             start = time.monotonic()
             try:
                 found = worst(
-                    law, subject, examples or law.examples, left / (len(chosen) - done), at_most
+                    law,
+                    subject,
+                    examples or law.examples,
+                    left / (len(chosen) - done),
+                    at_most,
                 )
             except Undeclared as error:
                 unjudged = Outcome(law.name, law.says, Grade.EXACT, 0.0, NO_RESULT, 0)
@@ -350,7 +354,8 @@ def _declared_otherwise(
     frame = subject.frame
     found = ""
     for other in itertools.product(
-        (order, not order), (frame, *(f for f in FRAME_NAMES if frame and f != frame))
+        (order, not order),
+        (frame, *(f for f in FRAME_NAMES if frame and f != frame)),
     ):
         subject.linear_first, subject.frame = other
         if not found and all(

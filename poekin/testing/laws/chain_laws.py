@@ -184,7 +184,11 @@ def batches_are_made_of_single_configurations(
 
     law = "batches are made of single configurations"
     return check_batch(
-        law, chain, batch, functions, lambda q, _: budget(chain, q)[1] * (1 + size(q))
+        law,
+        chain,
+        batch,
+        functions,
+        lambda q, _: budget(chain, q)[1] * (1 + size(q)),
     )
 
 

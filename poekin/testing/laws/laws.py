@@ -134,7 +134,8 @@ def _nothing_else(_: object) -> dict[str, object]:
 
 
 def checked(
-    title: str = "", further: Callable[[Any], Mapping[str, object]] = _nothing_else
+    title: str = "",
+    further: Callable[[Any], Mapping[str, object]] = _nothing_else,
 ) -> Callable[[Callable[Concatenate[S, P], Pairs]], Callable[Concatenate[S, P], float]]:
     """Decorator that makes a law of a function that measures pairs (error, bound) of a subject.
 
@@ -151,9 +152,7 @@ def checked(
         Makes measure(subject, *arguments) a law of the same arguments, that ends with `check_bounds`.
     """
 
-    def decorate(
-        measure: Callable[Concatenate[S, P], Pairs],
-    ) -> Callable[Concatenate[S, P], float]:
+    def decorate(measure: Callable[Concatenate[S, P], Pairs]) -> Callable[Concatenate[S, P], float]:
         names = measure.__code__.co_varnames[1 : measure.__code__.co_argcount]
         name = title or measure.__name__.replace("_", " ")
 

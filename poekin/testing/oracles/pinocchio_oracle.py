@@ -105,7 +105,8 @@ class PinocchioOracle:
             if self.model.joints[i].nv == 1
         }
         self.coordinates, self.coupling, self.offset = pinocchio_urdf.coupling_of(
-            root, tuple(self.simple_joints)
+            root,
+            tuple(self.simple_joints),
         )
         self.slides = {name for name in self.coordinates if "JointModelP" in self._kind(name)}
 
@@ -323,9 +324,8 @@ class PinocchioOracle:
 
         def jacobian(frame: int, reference: Any) -> np.ndarray:
             # With one degree of freedom Pinocchio's Python hands out a vector.
-            return pin.getFrameJacobian(self.model, self.data, frame, reference).reshape(
-                6, self.model.nv
-            )
+            J = pin.getFrameJacobian(self.model, self.data, frame, reference)
+            return J.reshape(6, self.model.nv)
 
         reference = {"space": pin.WORLD, "body": pin.LOCAL, "hybrid": pin.LOCAL_WORLD_ALIGNED}
         result = {name: jacobian(tip_id, r) for name, r in reference.items()}

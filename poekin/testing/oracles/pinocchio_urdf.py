@@ -38,7 +38,8 @@ def plain(root: xml.Element) -> xml.Element:
 
 
 def coupling_of(
-    root: xml.Element, joints: Sequence[str]
+    root: xml.Element,
+    joints: Sequence[str],
 ) -> tuple[tuple[str, ...], np.ndarray, np.ndarray]:
     """Independent coordinates, C (n, m) and c (n,): x = C q + c for the moving joints, out of the
     `<mimic>` tags.

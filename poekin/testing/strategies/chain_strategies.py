@@ -155,7 +155,11 @@ def chains(
     """
     bounds = arguments.counts(min_joints, max_joints)
     return _chains(
-        bounds, arguments.some("joint_kinds", joint_kinds, KINDS), coupled, offsets, limits
+        bounds,
+        arguments.some("joint_kinds", joint_kinds, KINDS),
+        coupled,
+        offsets,
+        limits,
     )
 
 
@@ -253,12 +257,14 @@ def coordinates(chain: Any, shape: Sequence[int] = ()) -> Arrays:
         return r.fraction(-math.pi, math.pi)
 
     return read(
-        4 * count, lambda r: frozen(np.reshape([value(r) for _ in range(count)], (*shape, m)))
+        4 * count,
+        lambda r: frozen(np.reshape([value(r) for _ in range(count)], (*shape, m))),
     )
 
 
 def chain_cases(
-    kinds: Sequence[ArgumentKind], **options: Any
+    kinds: Sequence[ArgumentKind],
+    **options: Any,
 ) -> st.SearchStrategy[tuple[Any, ...]]:
     """Chains with the arguments of their law, by their kinds.
 

@@ -127,7 +127,8 @@ def _inside(
 
 
 def singular_cases(
-    min_joints: int = 2, max_joints: int = 7
+    min_joints: int = 2,
+    max_joints: int = 7,
 ) -> st.SearchStrategy[tuple[Chain, np.ndarray]]:
     """Chains with a configuration in which two of its joints move alike.
 

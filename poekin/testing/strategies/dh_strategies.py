@@ -58,7 +58,9 @@ def lengths() -> st.SearchStrategy[float]:
         Strategy of floats, m; shrinks towards 0.
     """
     return st.one_of(
-        st.just(0.0), st.floats(-2, 2), st.floats(*POWERS).map(lambda power: 10.0**power)
+        st.just(0.0),
+        st.floats(-2, 2),
+        st.floats(*POWERS).map(lambda power: 10.0**power),
     )
 
 

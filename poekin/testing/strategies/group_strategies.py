@@ -310,7 +310,8 @@ KINDS = get_args(GroupKind)
 
 
 def group_cases(
-    kinds: Sequence[ArgumentKind], size: int
+    kinds: Sequence[ArgumentKind],
+    size: int,
 ) -> st.SearchStrategy[tuple[np.ndarray, ...]]:
     """Arguments of a law of a group by their kinds.
 

@@ -71,12 +71,15 @@ ODDITIES: dict[str, Callable[[str], str]] = {
     "blank line before the prolog": lambda text: _prolog(text, '\n<?xml version="1.0"?>\n'),
     "no prolog": lambda text: _prolog(text, ""),
     "comments and unknown elements": lambda text: _first_joint(
-        text, "<!-- j --><unknown a='1'><b/></unknown>"
+        text,
+        "<!-- j --><unknown a='1'><b/></unknown>",
     ),
     "Windows line ends": lambda text: text.replace("\n", "\r\n"),
     "plus signs and exponents": lambda text: re.sub(r'upper="(\d[^"]*)"', r'upper="+\1e+00"', text),
     "more than one space between numbers": lambda text: re.sub(
-        r'xyz="(\S+) (\S+) (\S+)"', r'xyz=" \1  \2   \3 "', text
+        r'xyz="(\S+) (\S+) (\S+)"',
+        r'xyz=" \1  \2   \3 "',
+        text,
     ),
     "single quotes": lambda text: re.sub(r'(type|xyz|rpy)="([^"]*)"', r"\1='\2'", text),
     "axes off unit length": _longer_axes,
@@ -90,7 +93,8 @@ ODDITIES: dict[str, Callable[[str], str]] = {
 
 
 def odd_urdfs(
-    oddities: Sequence[str] = tuple(ODDITIES), max_joints: int = 4
+    oddities: Sequence[str] = tuple(ODDITIES),
+    max_joints: int = 4,
 ) -> st.SearchStrategy[OddURDF]:
     """URDFs of robots as in `robots`, each with one oddity.
 

@@ -91,7 +91,8 @@ def turns(screw: Array, axis: Array, target: Array) -> Array:
     turned = size > PARALLEL**2
     other = np.where(turned, np.where(z > 0, z - np.pi, z + np.pi), np.nan)
     return np.concatenate(
-        [np.where(turned, z, np.where(placed & (radius >= 1e-8), about, 0.0)), other], axis=-1
+        [np.where(turned, z, np.where(placed & (radius >= 1e-8), about, 0.0)), other],
+        axis=-1,
     )
 
 

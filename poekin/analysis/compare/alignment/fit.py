@@ -42,7 +42,9 @@ def fit(pair: Sides, P: Array, z: Array, free: Marks, used: Marks) -> tuple[Arra
         old = cost[live]
         better = cost_new < old
         going[live] = np.where(
-            better, (old - cost_new >= 1e-12 * old) & (cost_new >= 1e-16), damping[live] <= 1e3
+            better,
+            (old - cost_new >= 1e-12 * old) & (cost_new >= 1e-16),
+            damping[live] <= 1e3,
         )
         damping[live] = np.where(better, np.maximum(damping[live] / 10, 1e-14), damping[live] * 10)
         won = live[better]

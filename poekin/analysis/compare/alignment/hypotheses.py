@@ -129,7 +129,15 @@ def make_hypotheses(pair: Sides, P: Array, z: Array) -> list[Hypothesis]:
     far = np.minimum(miss, 1e9)
     return [
         Hypothesis(
-            base[i], tool[i], z[i], s[i], moved[i], offset[i], axes[i], far[i], int(frames[i])
+            base[i],
+            tool[i],
+            z[i],
+            s[i],
+            moved[i],
+            offset[i],
+            axes[i],
+            far[i],
+            int(frames[i]),
         )
         for i in range(len(z))
     ]

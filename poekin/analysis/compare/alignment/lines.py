@@ -98,7 +98,9 @@ def sides(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Sides:
     weights[:, 3:, 3:] = np.eye(3)
     weights[:, 3:] /= np.where(ours, tol_rad, tol_m)[:, None, None]
     ways = np.concatenate([one.ways, one.ways], axis=1) * np.repeat(
-        np.stack([~theirs, theirs], axis=1), 3, axis=1
+        np.stack([~theirs, theirs], axis=1),
+        3,
+        axis=1,
     )
     zero_tolerance = np.where(theirs, tol_m, tol_rad)
     return Sides(one, other, tol_m, tol_rad, np.array(alike, bool), weights, ways, zero_tolerance)

@@ -252,6 +252,7 @@ def design_metrics(blocks: Array, rows: np.ndarray) -> DesignMetrics:
 
 
 def _with_prediction(
-    indices: observability.ObservabilityIndices, prediction: float
+    indices: observability.ObservabilityIndices,
+    prediction: float,
 ) -> DesignMetrics:
     return DesignMetrics(*map(float, indices), prediction)  # type: ignore[call-arg]

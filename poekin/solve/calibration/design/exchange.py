@@ -118,7 +118,10 @@ class DesignState(NamedTuple):
 
 
 def design_state(
-    blocks: Array, chosen: np.ndarray, criterion: Criterion, mean: Array
+    blocks: Array,
+    chosen: np.ndarray,
+    criterion: Criterion,
+    mean: Array,
 ) -> DesignState:
     """State of the rows `chosen` of blocks."""
     J = blocks[chosen].reshape(-1, blocks.shape[2])
@@ -134,7 +137,11 @@ def design_state(
 
 
 def best_exchange(
-    blocks: Array, chosen: np.ndarray, place: int, criterion: Criterion, state: DesignState
+    blocks: Array,
+    chosen: np.ndarray,
+    place: int,
+    criterion: Criterion,
+    state: DesignState,
 ) -> int | None:
     """The candidate that improves the criterion most in that place of the chosen; None where none
     does.
@@ -201,7 +208,10 @@ def upper_bound(blocks: Array, out: Array, criterion: Criterion, state: DesignSt
 
 
 def _bound_by_ritz_values(
-    blocks: Array, out: Array, criterion: Criterion, state: DesignState
+    blocks: Array,
+    out: Array,
+    criterion: Criterion,
+    state: DesignState,
 ) -> Array:
     """Bound of the extreme eigenvalues: on a few eigenvectors V of N, the eigenvalues of V^T N' V
     lie between the smallest and the largest of N' (Rayleigh and Ritz).
@@ -223,7 +233,11 @@ def _bound_by_ritz_values(
 
 
 def _exact_update(
-    blocks: Array, out: Array, criterion: Criterion, inverse: Array, state: DesignState
+    blocks: Array,
+    out: Array,
+    criterion: Criterion,
+    inverse: Array,
+    state: DesignState,
 ) -> Array:
     """Values of "O1" and "prediction" after each exchange: with N' = N + W^T S W, W = (B_j; B_out),
     S = diag(1, -1), and the small matrix C = S + W N^-1 W^T: det N' = det N det(S C), and tr(Q

@@ -153,7 +153,9 @@ def identify(
 
 
 def identification_matrix(
-    problem: Problem, q: Array | None = None, p: Array | None = None
+    problem: Problem,
+    q: Array | None = None,
+    p: Array | None = None,
 ) -> Array:
     """The identification matrix (M, P) at the nominal arm, or p: angles in rad, lengths in reaches,
     row and column.
@@ -186,7 +188,9 @@ def free_directions_at(problem: Problem, p: Array, known: NDArray[np.bool_] | No
 
 
 def identify_directions(
-    problem: Problem, known: NDArray[np.bool_] | None = None, p: Array | None = None
+    problem: Problem,
+    known: NDArray[np.bool_] | None = None,
+    p: Array | None = None,
 ) -> tuple[Identification, Array]:
     """The identification, and a basis (P, k) in rad and reaches of what these measurements can
     move: the rest is fixed.

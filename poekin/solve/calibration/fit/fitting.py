@@ -99,7 +99,11 @@ def outliers(problem: Problem, noise: Noise, p: Array) -> list[Rows]:
 
 
 def _covariance(
-    problem: Problem, free: Array, outcome: Outcome, noise: Noise, options: FitOptions
+    problem: Problem,
+    free: Array,
+    outcome: Outcome,
+    noise: Noise,
+    options: FitOptions,
 ) -> Array:
     """Covariance of p: (J^T J)^-1 of the whitened Jacobian; with a robust loss times mean(psi^2) /
     mean(psi')^2.

@@ -190,7 +190,11 @@ def _cost(objective: _Objective, p: Array) -> float:
 
 
 def misfit(
-    problem: Problem, noise: Noise, name: LossName, p: Array, of_prior: float = 0.0
+    problem: Problem,
+    noise: Noise,
+    name: LossName,
+    p: Array,
+    of_prior: float = 0.0,
 ) -> float:
     """Sum of rho of all measurements, and the part of the prior."""
     squares = zip(problem.sets, noise.squares(problem.errors(p)), strict=True)

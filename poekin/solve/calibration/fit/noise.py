@@ -48,7 +48,9 @@ class Noise:
     """
 
     def __init__(
-        self, sets: Sequence[Measurement], noise_std: Sequence[NoiseEstimate | None]
+        self,
+        sets: Sequence[Measurement],
+        noise_std: Sequence[NoiseEstimate | None],
     ) -> None:
         self.noise_std = tuple(noise_std)
         self._whiten: list[Array] = []

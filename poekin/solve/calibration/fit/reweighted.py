@@ -41,7 +41,10 @@ class Reweighted(NamedTuple, Generic[Value]):
 
 
 def reweighted(
-    solve: Callable[[Array], Weighted[Value]], count: int, need: int, floor: float
+    solve: Callable[[Array], Weighted[Value]],
+    count: int,
+    need: int,
+    floor: float,
 ) -> Reweighted[Value]:
     """Solution of solve(weights (N,)) after nearly least absolute deviations (weights
     min(1, median / residual)) and then the rows within `GROSS` medians, evenly.

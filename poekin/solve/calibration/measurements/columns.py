@@ -42,7 +42,10 @@ def numbered(count: int) -> tuple[str, ...]:
 
 
 def parse_header(
-    header: list[str], q_names: tuple[str, ...], ignore: tuple[str, ...], here: str
+    header: list[str],
+    q_names: tuple[str, ...],
+    ignore: tuple[str, ...],
+    here: str,
 ) -> tuple[tuple[str, ...], Layout]:
     """The names of the coordinates and the layout of the measurement that a header's columns make,
     with none left.

@@ -90,7 +90,11 @@ class Measurement:
         raise NotImplementedError
 
     def jacobian(
-        self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
+        self,
+        T: Array,
+        frame_values: Sequence[Array],
+        errors: Array,
+        D: Array,
     ) -> tuple[Array, list[Array]]:
         """Jacobian of the errors in the parameters of the arm and of each unknown frame.
 

@@ -127,7 +127,11 @@ class Points(Measurement):
         return (points_at(T, self.points) - self.p).reshape(len(T), self.width)
 
     def jacobian(
-        self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
+        self,
+        T: Array,
+        frame_values: Sequence[Array],
+        errors: Array,
+        D: Array,
     ) -> tuple[Array, list[Array]]:
         """Points move by v + ω × p; T_base_device <- T_base_device e^[ξ] by −ξ, seen from the device."""
         if not frame_values:
@@ -141,7 +145,9 @@ class Points(Measurement):
     def _moved(self, T: Array, D: Array) -> Array:
         """Velocities (N, 3k, P) of the points under the space twists D (N, 6, P)."""
         return _velocities(D[:, None], points_at(T, self.points)).reshape(
-            len(T), self.width, D.shape[2]
+            len(T),
+            self.width,
+            D.shape[2],
         )
 
     def guesses(self, T: Array) -> list[Array]:
@@ -223,7 +229,11 @@ class Distances(Measurement):
         return (np.linalg.norm(away, axis=1) - self.d)[:, None]
 
     def jacobian(
-        self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
+        self,
+        T: Array,
+        frame_values: Sequence[Array],
+        errors: Array,
+        D: Array,
     ) -> tuple[Array, list[Array]]:
         """Derivatives u · (v + ω × y), and −u for c, u the unit vector from c to y; 0 at y = c."""
         y = point_at(T, self.point)

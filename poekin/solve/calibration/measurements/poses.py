@@ -73,7 +73,11 @@ class Poses(Measurement):
         return pose_errors(T, self.T)
 
     def jacobian(
-        self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
+        self,
+        T: Array,
+        frame_values: Sequence[Array],
+        errors: Array,
+        D: Array,
     ) -> tuple[Array, list[Array]]:
         """Turned by J_l⁻¹(w) ω, w the rotation vector of the error, and moved by v + ω × p."""
         return pose_error_jacobian(T, errors, D), []
@@ -99,7 +103,11 @@ class _HandEye(Measurement):
         return pose_errors(se3.inverse(X) @ T @ Z, self.T)
 
     def jacobian(
-        self, T: Array, frame_values: Sequence[Array], errors: Array, D: Array
+        self,
+        T: Array,
+        frame_values: Sequence[Array],
+        errors: Array,
+        D: Array,
     ) -> tuple[Array, list[Array]]:
         """With G = X⁻¹ T Z: dG G⁻¹ is Ad(X⁻¹) D, −ξ of X <- X e^[ξ], Ad(G) ζ of Z <- Z e^[ζ]."""
         X, Z = frame_values

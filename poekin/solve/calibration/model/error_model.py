@@ -140,7 +140,11 @@ class ErrorModel:
     def _rebuilt(self, arm: Chain, C: Array | None) -> Chain:
         """A chain of these screws, named as the nominal one."""
         return Chain.from_space(
-            arm.screws, arm.home, coupling=C, pitches=arm.pitches, **self._named_as
+            arm.screws,
+            arm.home,
+            coupling=C,
+            pitches=arm.pitches,
+            **self._named_as,
         )
 
     def poses(self, p: Array, q: Array) -> Array:
@@ -154,7 +158,8 @@ class ErrorModel:
         pose's M e^eta with J_r(eta); a pitch slides along the joint's moved axis.
         """
         return self._last_twists(
-            _key(p, q), lambda: PosesAndTwists(self.poses(p, q), read_only(self._twists(p, q)))
+            _key(p, q),
+            lambda: PosesAndTwists(self.poses(p, q), read_only(self._twists(p, q))),
         )
 
     def _twists(self, p: Array, q: Array) -> Array:

@@ -128,7 +128,10 @@ class Problem:
         return [linear.jacobian for linear in self._linearised(p, moved, errors)]
 
     def _linearised(
-        self, p: Array, moved: Sequence[PosesAndTwists], errors: Sequence[Array]
+        self,
+        p: Array,
+        moved: Sequence[PosesAndTwists],
+        errors: Sequence[Array],
     ) -> list[Linear]:
         frames = self.frame_values(p)
         found = []

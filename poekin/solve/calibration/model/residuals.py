@@ -97,7 +97,9 @@ class Residuals(Result):
 
 
 def residuals(
-    sets: Sequence[Measurement], rows: Sequence[Rows], errors: Sequence[Array]
+    sets: Sequence[Measurement],
+    rows: Sequence[Rows],
+    errors: Sequence[Array],
 ) -> Residuals:
     """Residuals of errors (N, d) of each set, at these rows of q."""
     parts = []

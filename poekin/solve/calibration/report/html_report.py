@@ -38,7 +38,9 @@ def write(
 
 
 def html(
-    found: CalibrationData, title: str | None = None, sources: Sequence[str] | None = None
+    found: CalibrationData,
+    title: str | None = None,
+    sources: Sequence[str] | None = None,
 ) -> str:
     """The page as text. Raises: ShapeError where sources do not name all rows; MissingExtra."""
     rows = int(found.after.row.max()) + 1
@@ -82,7 +84,8 @@ def _residuals(found: CalibrationData) -> Iterator[str]:
     curves = [r for r in rows if held_out is None or r.residuals is not found.before]
     yield _table(_HEADS, [(name, *_figures(r)) for name, r in rows])
     yield figure(
-        plots.residuals(curves), "The share of measurements with an error of at most so much."
+        plots.residuals(curves),
+        "The share of measurements with an error of at most so much.",
     )
     if len(found.noise_std) > 1:
         last = found.after if held_out is None else held_out.after
@@ -199,7 +202,8 @@ def _uncertainty(found: CalibrationData) -> Iterator[str]:
         "bending, is not in it."
     )
     yield figure(
-        plots.uncertainty(length, angle), "Standard deviations over random configurations."
+        plots.uncertainty(length, angle),
+        "Standard deviations over random configurations.",
     )
 
 

@@ -65,7 +65,8 @@ def parameters(keys: Keys, model: ErrorModel, frames: dict[str, Array]) -> Named
     size = len(own) + sum(6 if T.ndim == 2 else 3 for T in frames.values())
     if len(found) != size:
         raise keys.fault(
-            "parameter", f"expected {size} of them, as arm and frames have, got {len(found)}"
+            "parameter",
+            f"expected {size} of them, as arm and frames have, got {len(found)}",
         )
     for k, expected in enumerate(own):
         if _key(expected) != _key(found[k]):
@@ -100,7 +101,8 @@ def _covariance(keys: Keys, rows: list[Keys]) -> Array:
         uneven = np.abs(covariance - covariance.T) > 1e-9 * np.outer(sizes, sizes)
     if (variances < 0).any() or uneven.any():
         raise keys.fault(
-            "covariance", "expected a symmetric matrix with a diagonal that is not negative"
+            "covariance",
+            "expected a symmetric matrix with a diagonal that is not negative",
         )
     for row, variance in zip(rows, variances, strict=True):
         expected = variance**0.5
@@ -139,5 +141,6 @@ def check_sets(keys: Keys, found: CalibrationData) -> None:
         rows = after.row[after.set == o.set]
         if o.index >= len(rows) or rows[o.index] != o.row:
             raise keys.fault(
-                "outliers", f"expected set, index and row of a measurement, got {list(o)}"
+                "outliers",
+                f"expected set, index and row of a measurement, got {list(o)}",
             )

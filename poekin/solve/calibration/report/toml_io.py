@@ -158,7 +158,10 @@ def _residuals(keys: Keys, name: str) -> Residuals:
     length = own.array("length", (None,))
     angle = own.array("angle", length.shape, finite=False)
     return Residuals(
-        length, angle, own.wholes("set", length.shape), own.wholes("row", length.shape)
+        length,
+        angle,
+        own.wholes("set", length.shape),
+        own.wholes("row", length.shape),
     )
 
 

@@ -22,7 +22,11 @@ CLOSE = 0.25
 
 
 def nearest(
-    problem: Problem, targets: Array, indices: Array, q0: Array, near: Array
+    problem: Problem,
+    targets: Array,
+    indices: Array,
+    q0: Array,
+    near: Array,
 ) -> tuple[Array, Array]:
     """q and info of the solution nearest to the configuration `near`, for each target.
 

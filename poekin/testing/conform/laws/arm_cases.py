@@ -89,7 +89,11 @@ def _joints(kinds: tuple[str, ...]) -> st.SearchStrategy[tuple[str, np.ndarray]]
     one = {
         "revolute": st.builds(_numbers, axes(), vectors(LENGTHS), turns, nought),
         "prismatic": st.builds(
-            _numbers, axes(), st.just(np.zeros(3)), magnitudes(*TRAVELS), nought
+            _numbers,
+            axes(),
+            st.just(np.zeros(3)),
+            magnitudes(*TRAVELS),
+            nought,
         ),
         "helical": st.builds(_numbers, axes(), vectors(LENGTHS), turns, pitches),
     }
@@ -226,7 +230,10 @@ def confirmed(
         return False
     every = of_arms.arm(arm.screws, arm.home)
     return not jacobian or confirm.of_velocities(
-        arm.screws, arm.home, x, exact_chain.jacobians(every, x)[0]
+        arm.screws,
+        arm.home,
+        x,
+        exact_chain.jacobians(every, x)[0],
     )
 
 
@@ -312,11 +319,16 @@ def _law(
 ARM_LAWS = (
     _law("fk", "fk is the product of exponentials", _check_fk),
     _law(
-        "jacobian", "the Jacobian is the derivative of the product of exponentials", _check_jacobian
+        "jacobian",
+        "the Jacobian is the derivative of the product of exponentials",
+        _check_jacobian,
     ),
     _law("fk", "a joint with a pitch turns and slides at once", _check_fk, True),
     _law(
-        "jacobian", "the Jacobian of joints with a pitch is the derivative", _check_jacobian, True
+        "jacobian",
+        "the Jacobian of joints with a pitch is the derivative",
+        _check_jacobian,
+        True,
     ),
 )
 """The battery for poses and Jacobians of arms."""

@@ -196,7 +196,10 @@ def _noise_law() -> SubjectLaw:
     def check(subject: Subject, case: Case) -> Verdict:
         precision = subject.precision("so3_log")
         return of_groups.log_forgives_noise(
-            subject.function("so3_log"), R(case), Grade.BROKEN, precision
+            subject.function("so3_log"),
+            R(case),
+            Grade.BROKEN,
+            precision,
         )
 
     return SubjectLaw(

@@ -31,7 +31,9 @@ def frame_axes() -> Arrays:
 def long_axes() -> Arrays:
     """Axes of the frame of a length from 1e-3 to 1e3."""
     return st.builds(
-        lambda n, length: frozen(n * (length or 2.0)), frame_axes(), magnitudes(*AXIS_LENGTHS)
+        lambda n, length: frozen(n * (length or 2.0)),
+        frame_axes(),
+        magnitudes(*AXIS_LENGTHS),
     )
 
 
@@ -43,7 +45,9 @@ def signed_angles(largest: float = math.pi) -> st.SearchStrategy[float]:
 def turns() -> Arrays:
     """Roll, pitch and yaw: none, quarter turns, or anything up to a half turn."""
     one = st.one_of(
-        st.just(0.0), st.sampled_from([math.pi / 2, -math.pi / 2, math.pi]), signed_angles()
+        st.just(0.0),
+        st.sampled_from([math.pi / 2, -math.pi / 2, math.pi]),
+        signed_angles(),
     )
     return st.builds(lambda *x: frozen(x), one, one, one)
 
@@ -168,7 +172,8 @@ def orders() -> st.SearchStrategy[Case]:
     ) -> Case:
         count = len(order)
         layout = small_urdf.chain(
-            tuple(UrdfJoint("revolute", name) for name in names[:count]), tuple(order)
+            tuple(UrdfJoint("revolute", name) for name in names[:count]),
+            tuple(order),
         )
         if side and count > 2:  # the first one goes nowhere, and the second one begins at the base
             layout = layout._replace(after=(-1, -1, *range(1, count - 1)))
@@ -264,7 +269,9 @@ def _robot_law(
         cases=lambda _: trees(mimic),
         check=of_urdf.check_robot,
         confirm=lambda _, case: of_urdf.confirmed(
-            case, False, range(len(small_urdf.rows_of(case)))
+            case,
+            False,
+            range(len(small_urdf.rows_of(case))),
         ),
         show=lambda subject, case: of_urdf.show(subject, case, "poses"),
         simpler=small_urdf.simpler,
@@ -373,7 +380,10 @@ URDF_LAWS = (
     ),
     _robot_law("robot", "the pose of each link of a tree", False, _branches),
     _robot_law(
-        "robot mimic", "of each link, where a joint mimics one of another branch", True, _mimic
+        "robot mimic",
+        "of each link, where a joint mimics one of another branch",
+        True,
+        _mimic,
     ),
 )
 """The battery for URDF readers."""

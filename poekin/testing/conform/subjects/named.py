@@ -97,7 +97,8 @@ def source(thing: Any, text: str = "") -> SubjectSource:
             name = kind.__qualname__
     if name:
         return SubjectSource(
-            (f"from {_importable(module)} import {name.partition('.')[0]}",), f"{name}{brackets}"
+            (f"from {_importable(module)} import {name.partition('.')[0]}",),
+            f"{name}{brackets}",
         )
     if is_class:
         return SubjectSource((), f"{kind.__name__}()")

@@ -51,7 +51,10 @@ from .precision import DOUBLE, PRECISIONS, Precision, seen
 
 ORDERS = ("angular first", "linear first")
 JacobianName = Literal[
-    "left_jacobian", "right_jacobian", "left_jacobian_inverse", "right_jacobian_inverse"
+    "left_jacobian",
+    "right_jacobian",
+    "left_jacobian_inverse",
+    "right_jacobian_inverse",
 ]
 JACOBIANS: tuple[JacobianName, ...] = get_args(JacobianName)
 SO3 = ("so3_exp", "so3_log", *(f"so3_{name}" for name in JACOBIANS))
