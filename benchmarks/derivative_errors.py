@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from poekin.model.kinematics.pose_jacobian import FRAME_NAMES
-from poekin.testing.oracles.pinocchio_derivatives import derivatives
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
+
+from .pinocchio_derivatives import derivatives
 
 
 class DerivativeErrors(NamedTuple):

@@ -10,10 +10,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from poekin import se3
-from poekin.testing.accuracy.accuracy_laws import REPORT_BAR
 from poekin.testing.oracles import exact
 
 from ..accuracy import longdouble_oracle, worst_cases
+from ..accuracy.worst_errors import REPORT_BAR
 from ..draw import Panel, panels
 from ..report import Figure, Picture, Table, Topic, short
 from . import accuracy_peers as libraries

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from poekin import se3
-from poekin.testing.accuracy.accuracy_laws import REPORT_BAR
 
 from .. import peers
+from ..accuracy.worst_errors import REPORT_BAR
 from ..hunt import QUANTITIES, Effort, Function, Worst, hunt
 from ..report import Figure, Table, Topic, short
 

@@ -18,8 +18,8 @@ import numpy as np
 from poekin import Chain, load
 from poekin.analysis.validate import BAR, ChainErrors, chain_errors, routes
 from poekin.errors import PoekinWarning
+from poekin.formats.erd import example_robots
 from poekin.model.kinematics.pose_jacobian import Frame
-from poekin.testing.cases.example_robots import example_robots
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
 from ..draw import dots

@@ -13,14 +13,14 @@ import numpy as np
 from poekin import Chain, load
 from poekin.analysis.validate import routes
 from poekin.errors import PoekinWarning
+from poekin.formats.erd import example_robots
 from poekin.formats.load import BUILT_IN
 from poekin.model.kinematics.pose_jacobian import FRAME_NAMES
-from poekin.testing.cases.example_robots import example_robots
-from poekin.testing.oracles.exact_chain import screw_changes
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
 from ..derivative_errors import DerivativeErrors, derivative_errors
 from ..draw import dots
+from ..exact_derivatives import screw_changes
 from ..report import Figure, Table, Topic
 
 BAR, SCREW_BAR = 1e-13, 1e-12

@@ -12,7 +12,7 @@ import numpy as np
 from poekin import Chain, load, to_urdf
 from poekin.analysis.validate import routes
 from poekin.errors import PoekinError, PoekinWarning
-from poekin.testing.cases.example_robots import example_robots
+from poekin.formats.erd import example_robots
 
 from ..dh_judge import WELL, Trip, there_and_back
 from ..draw import dots

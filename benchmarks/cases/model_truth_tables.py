@@ -11,8 +11,8 @@ import numpy as np
 
 from poekin import dh, se3
 from poekin.formats.dh.table import KINDS
-from poekin.testing.cases.calibrated_arm import UR10E, single_precision_errors
 
+from ..calibrated_arm import UR10E, single_precision_errors
 from ..dh_judge import FAR, WELL, Trip, ceiling, error, largest, product, there_and_back
 from ..report import Figure, Table, Topic, short
 

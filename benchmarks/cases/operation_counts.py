@@ -17,8 +17,8 @@ from poekin.formats.dh.published_tables import NAMES as PUBLISHED
 from poekin.formulas.kinematics import recursive
 from poekin.formulas.paper import dh_recursive, direct
 from poekin.model.kinematics.pose_jacobian import AnyFrame
-from poekin.testing.cases.calibrated_arm import UR10E
 
+from ..calibrated_arm import UR10E
 from ..draw import lines
 from ..report import Figure, Table, Topic, side_by_side
 

@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from poekin import load, validate
 from poekin.analysis.validate import BAR, Validation
 from poekin.errors import PoekinError, PoekinWarning
-from poekin.testing.cases.example_robots import example_robots
+from poekin.formats.erd import example_robots
 
 from ..draw import dots
 from ..report import Figure, Table, Topic

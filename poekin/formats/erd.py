@@ -37,6 +37,23 @@ def available() -> dict[str, str]:
     return dict(sorted(named.items()))
 
 
+def example_robots() -> tuple[dict[str, str], dict[str, str]]:
+    """URDF files of the package in two dicts from name to path: robots, and files without one.
+
+    A file without a single `<link>` holds no robot; the standard library's XML reader decides that,
+    not poekin's. Raises: MissingExtra when example-robot-data is not installed.
+    """
+    # Imported where it is used, which is for the command line alone.
+    from xml.etree import ElementTree
+
+    robots = {}
+    empty = {}
+    for name, path in available().items():
+        has_link = ElementTree.parse(path).getroot().find("link") is not None
+        (robots if has_link else empty)[name] = path
+    return robots, empty
+
+
 def read(name: str) -> Robot:
     """The robot of that name, one of `available()`.
 

@@ -16,16 +16,12 @@ laws: what must hold, as plain functions that raise LawViolation with the error 
     group, group_laws, adjoint_laws
                        SO(3) and SE(3) as plain functions, and their laws
     near_laws          the branches of log
-    chain_laws, jacobian_laws
-                       laws of a serial chain
-    chain_bounds       bounds on the rounding of its poses and twists
 
 oracles: what is true, by code that shares nothing with what it judges
     exact              so(3) and se(3) in 60 digits and more (mpmath)
-    exact_chain        poses, Jacobians and their derivatives of a serial chain, as exact
+    exact_chain        poses and Jacobians of a serial chain, as exact
     differences        finite differences on the group
-    pinocchio_oracle, pinocchio_derivatives
-                       poses, Jacobians and their derivatives of a URDF by Pinocchio
+    pinocchio_oracle   poses and Jacobians of a URDF by Pinocchio
 
 accuracy: how far exp, log and the Jacobians of exp are from the truth
     accuracy_laws      each of them against `oracles.exact`

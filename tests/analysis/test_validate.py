@@ -14,11 +14,11 @@ import pytest
 from poekin.analysis.validate import BAR, ChainErrors, Validation, chain_errors, routes, validate
 from poekin.errors import FileError, InputError, ModelError
 from poekin.formats import urdf
+from poekin.formats.erd import example_robots
 from poekin.formats.load import load
 from poekin.model.chain import Chain
 from poekin.model.joint import Joint
 from poekin.model.robot import Robot
-from poekin.testing.cases.example_robots import example_robots
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 
 URDF = """<robot name="r"><link name="root"/><link name="a"/><link name="b"/><link name="c"/><link name="tip"/>

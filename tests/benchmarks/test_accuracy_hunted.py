@@ -11,12 +11,12 @@ import pytest
 
 from benchmarks import hunt, peers
 from benchmarks.accuracy import worst_cases
+from benchmarks.accuracy.worst_errors import REPORT_BAR
 from benchmarks.cases import accuracy_hunted
 from benchmarks.cases.accuracy_hunted import Hunted
 from benchmarks.hunt import QUANTITIES, Effort, Worst
 from poekin import se3
 from poekin.testing.accuracy import error_bounds
-from poekin.testing.accuracy.accuracy_laws import REPORT_BAR
 
 SOME = Effort(300, 3)
 NAMES = [quantity.name for quantity in QUANTITIES]

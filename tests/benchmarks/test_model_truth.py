@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from benchmarks import dh_judge
+from benchmarks import calibrated_arm, dh_judge
 from benchmarks.cases import model_truth_compare, model_truth_robots, model_truth_tables
 from poekin.formats.dh import Row, Table
-from poekin.testing.cases import calibrated_arm
 
 
 def silent(_: str) -> None:

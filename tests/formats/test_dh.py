@@ -17,10 +17,10 @@ from poekin.analysis.validate import routes
 from poekin.errors import InputError, PoekinWarning, ShapeError
 from poekin.formats import dh
 from poekin.formats.dh import Row, Table
+from poekin.formats.erd import example_robots
 from poekin.model import screw
 from poekin.model.chain import Chain
 from poekin.model.joint import MOVING
-from poekin.testing.cases.example_robots import example_robots
 from poekin.testing.strategies import dh_strategies
 from poekin.testing.strategies.dh_strategies import tables
 from tests.formats import dh_product

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
-from poekin.testing.cases.calibrated_arm import UR10E, single_precision_errors
+from benchmarks.calibrated_arm import UR10E, single_precision_errors
 
 
 def test_no_entry_of_a_screw_is_large_although_two_of_the_table_s_are_440_m():

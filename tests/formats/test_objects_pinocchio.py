@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.errors import ModelError, PoekinWarning, PoseError
 from poekin.formats import urdf
+from poekin.formats.erd import example_robots
 from poekin.formats.objects import from_object
-from poekin.testing.cases.example_robots import example_robots
 from poekin.testing.strategies import group_strategies
 from tests.groups.test_objects import library
 from tests.versions import needs

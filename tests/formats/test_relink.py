@@ -19,9 +19,9 @@ from poekin.formats.relink import relinked
 from poekin.model.joint import Joint, Mimic
 from poekin.model.robot import Robot
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.strategies.chain_strategies import placements, screws
 from poekin.testing.strategies.group_strategies import axes
+from tests.model.laws.chain_bounds import budget
 
 KINDS = ("revolute", "continuous", "prismatic", "helical")
 

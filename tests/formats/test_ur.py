@@ -13,13 +13,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import poekin as pk
+from benchmarks.calibrated_arm import UR10E
 from poekin.errors import PoekinWarning
 from poekin.formats import ur
 from poekin.formats.dh import Table
 from poekin.formats.ur.yaml_io import make_text, read_text
 from poekin.formats.urdf import read_text as read_urdf
 from poekin.model.robot import Robot
-from poekin.testing.cases.calibrated_arm import UR10E
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from tests.formats import dh_product
 

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import poekin as pk
+from benchmarks.calibrated_arm import UR10E
 from poekin.formats import ur
 from poekin.formats.dh import Table
 from poekin.formats.ur.yaml_io import read_text
-from poekin.testing.cases.calibrated_arm import UR10E
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from tests.formats.test_ur import ZERO, arms, conf_arm, worst
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from benchmarks.calibrated_arm import UR10E
 from poekin.errors import PoekinError
 from poekin.formats import ur
 from poekin.formats.dh import Row, Table
-from poekin.testing.cases.calibrated_arm import UR10E
 from tests.formats.test_ur import NOMINAL, nominal_robot
 
 ANY: Any = "ur10e"

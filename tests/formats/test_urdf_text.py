@@ -18,6 +18,7 @@ from benchmarks.urdf_errors import SAMPLES, pinocchio_errors, values_of
 from poekin.analysis.validate import routes
 from poekin.errors import PoekinWarning
 from poekin.formats import urdf
+from poekin.formats.erd import example_robots
 from poekin.formats.load import load
 from poekin.formats.serial import serial_robot
 from poekin.formats.urdf_text import to_urdf
@@ -25,10 +26,9 @@ from poekin.model.chain import Chain
 from poekin.model.joint import FREE
 from poekin.model.robot import Robot
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.cases.example_robots import example_robots
-from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from poekin.testing.strategies.chain_strategies import chains
+from tests.model.laws.chain_bounds import budget
 from tests.model.test_robot import random_q, robots, seeds, size
 from tests.model.test_robot import rounding as poses_rounding
 

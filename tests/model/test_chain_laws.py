@@ -16,9 +16,9 @@ from poekin.groups import se3
 from poekin.model.chain import Chain
 from poekin.model.kinematics.pose_jacobian import Frame
 from poekin.testing.accuracy import falsify
-from poekin.testing.laws.chain_laws import CHAIN_LAWS
 from poekin.testing.strategies import chain_strategies
 from tests.model.laws import change_laws, method_laws
+from tests.model.laws.chain_laws import CHAIN_LAWS
 from tests.model.laws.change_laws import CHANGE_LAWS
 from tests.model.laws.method_laws import METHOD_LAWS
 

@@ -20,10 +20,10 @@ from poekin.analysis.validate import routes
 from poekin.errors import InputError, PoekinWarning
 from poekin.formats import catalogue, dh
 from poekin.formats.dh import Row, Table, published_tables
+from poekin.formats.erd import example_robots
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.cases.example_robots import example_robots
-from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.strategies import chain_strategies
+from tests.model.laws.chain_bounds import budget
 
 TOL = 1e-4
 FEW = settings(max_examples=max(settings().max_examples // 2, 20))

@@ -14,7 +14,7 @@ from poekin.errors import InputError, ScrewError, ShapeError
 from poekin.formats import chain_toml
 from poekin.formats.text.toml_text import Keys
 from poekin.model.joint import Joint
-from poekin.testing.laws.chain_laws import fk_is_the_product_of_exponentials
+from tests.model.laws.chain_laws import fk_is_the_product_of_exponentials
 
 UR5E = pk.load("ur5e").chain(tip="tool0")
 

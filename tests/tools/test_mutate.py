@@ -233,7 +233,7 @@ def test_every_module_has_tests_that_exist():
         ("formats/urdf", "formats/urdf"),
         ("formats/ur/conf", "formats/ur"),  # by the name of its folder
         ("solve/path_result", "solve/path_result"),
-        ("testing/example_robots", "analysis/validate"),  # by the tests that import it
+        ("formats/attributes", "formats/objects"),  # by the tests that import it
         ("engine/ik_codes", "engine/ik_kernels"),
         ("model/tree_arrays", "model/robot"),  # by what imports it
         ("solve/measurement", "solve/measurements"),

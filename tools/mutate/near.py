@@ -23,7 +23,6 @@ _EMITTED = "formats/emit_words formats/emit_python formats/emit_c cli/emit"
 _FRAMES = "solve/measurements solve/shared_frames"
 _POINTS = "solve/measurements solve/data solve/noise solve/simulated solve/choose"
 _BY_BYTES = "testing/bytes_read testing/arguments testing/group_strategies"
-_CHAIN_LAWS = "testing/chain_laws model/chain_laws"
 _LAWS = "testing/laws groups/planted"
 _CASES = "testing/shrink testing/false_findings testing/subject"
 _CONFORM = f"{_CASES} testing/faults"
@@ -79,6 +78,7 @@ NEAR = {
     "model/screw": f"model/screw_values own {_REFUSALS} model/pitches model/checks {CHAINS}",
     "model/structure": "own model/compiled",
     "formats/dh/": f"{DH} formats/dh_calibrated --deselect={_SLOW}",
+    "formats/erd": "formats/load",
     "formats/emit/c formats/emit/c_selftest": f"formats/emit_text {_EMITTED}",
     "formats/emit/python formats/emit/statements": f"formats/emit_text {_EMITTED}",
     "formats/emit/messages": _EMITTED,
@@ -102,14 +102,13 @@ NEAR = {
     "analysis/singularity": "own analysis/results cli/singularity",
     "analysis/validate": "own analysis/results cli/validate",
     "testing/bytes_reader testing/decoders": _BY_BYTES,
-    "testing/chain_bounds testing/chain_laws testing/jacobian_laws": _CHAIN_LAWS,
     "testing/chain_strategies testing/configuration_strategies": f"own {_BY_BYTES}",
     "testing/arrays testing/batch_strategies": _BY_BYTES,
     "testing/group_strategies testing/near_strategies": f"own {_BY_BYTES}",
     "testing/robot_strategies": f"own {_BY_BYTES}",
     "testing/adjoint_laws": f"testing/group_laws {_LAWS}",
     "testing/exact": "own testing/error_bounds",
-    "testing/exact_chain": "testing/chain_laws model/derivatives",
+    "testing/exact_chain": "model/law_bounds model/derivatives",
     "testing/exact_jacobians testing/exact_numbers": "testing/exact testing/error_bounds",
     "testing/group_laws": f"own {_LAWS}",
     "testing/pinocchio_urdf": "testing/pinocchio_oracle",

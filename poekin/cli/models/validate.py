@@ -8,8 +8,8 @@ import typer
 
 from ...analysis.validate import BAR, Validation, validate
 from ...errors import InputError, MissingExtra, PoekinError
+from ...formats.erd import example_robots
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
-from ...testing.cases.example_robots import example_robots
 from ..kinematics.arm import Json, Seed
 from ..model import model
 from ..output import Progress, as_json, complain, name, number, say, table

@@ -19,12 +19,8 @@ from . import error_bounds
 
 EXP_LOG_BAR = 3.0
 """exp and log may err by this many times what float64 can attain (`error_bounds`)."""
-REPORT_BAR = 1.5
-"""What the report asks of exp and log, as multiples of the same (`accuracy`)."""
 JACOBIAN_BAR = 1e-15
 """The Jacobians' 3×3 block, and their Q block ÷ ‖v‖, may err by this much (Frobenius)."""
-JACOBIAN_REPORT_BAR = 5e-16
-"""What the report asks of the same (`accuracy`)."""
 NOISE_BAR = 2e-15
 """log of a noisy rotation may differ by this much (rad) from the log of its polar projection."""
 

@@ -14,9 +14,9 @@ from poekin.analysis.dexterity.jacobian_part import ROWS, generic_rank
 from poekin.analysis.dexterity.manipulability import manipulability, manipulability_gradient
 from poekin.errors import InputError
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.oracles import differences
 from poekin.testing.strategies import chain_strategies
+from tests.model.laws.chain_bounds import budget
 
 FEW = settings(max_examples=max(settings().max_examples // 3, 20))
 

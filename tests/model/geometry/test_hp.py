@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import poekin as pk
 from poekin.errors import InputError
-from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.strategies import chain_strategies
+from tests.model.laws.chain_bounds import budget
 
 ARMS = ("puma560", "ur3", "ur5", "ur5e", "ur10", "ur10e", "ur16e", "irb140", "kr5", "jaco")
 

@@ -13,9 +13,9 @@ from poekin.formats import rpy
 from poekin.model.kinematics import analytic
 from poekin.model.kinematics.analytic import KINDS
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.oracles import differences
 from poekin.testing.strategies import chain_strategies
+from tests.model.laws.chain_bounds import budget
 
 FEW = settings(max_examples=max(settings().max_examples // 2, 20))
 

@@ -19,9 +19,9 @@ from poekin.model import screw
 from poekin.model.geometry.structure import structure
 from poekin.model.kinematics import compiled, programs
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.laws import chain_bounds
-from poekin.testing.laws.chain_laws import CHAIN_LAWS
 from poekin.testing.strategies import chain_strategies
+from tests.model.laws import chain_bounds
+from tests.model.laws.chain_laws import CHAIN_LAWS
 
 ARM = pk.load("panda").chain(tip="panda_hand")
 FAST = ARM.compile()

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from benchmarks.derivative_errors import derivative_errors
+from benchmarks.pinocchio_derivatives import derivatives
 from poekin.analysis.validate import routes
 from poekin.errors import InputError, PoekinWarning
+from poekin.formats.erd import example_robots
 from poekin.formats.load import load
-from poekin.testing.cases.example_robots import example_robots
-from poekin.testing.oracles.pinocchio_derivatives import derivatives
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from tests.versions import needs
 

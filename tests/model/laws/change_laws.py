@@ -23,7 +23,9 @@ import numpy as np
 from poekin.model.joint import Joint
 from poekin.model.kinematics.pose_jacobian import FRAME_NAMES
 from poekin.model.robot import Robot
-from poekin.testing.laws.chain_bounds import (
+from poekin.testing.laws.laws import Law, Pairs
+from poekin.testing.laws.measures import of_twist, size
+from tests.model.laws.chain_bounds import (
     adjoint,
     budget,
     chain_law,
@@ -31,8 +33,6 @@ from poekin.testing.laws.chain_bounds import (
     inverse,
     of_poses,
 )
-from poekin.testing.laws.laws import Law, Pairs
-from poekin.testing.laws.measures import of_twist, size
 
 
 @chain_law()

@@ -19,11 +19,12 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks import exact_derivatives
 from poekin.model.kinematics.pose_jacobian import FRAME_NAMES
-from poekin.testing.laws.chain_bounds import Shaped, budget, chain_law, check_batch
 from poekin.testing.laws.laws import Law, Pairs
 from poekin.testing.laws.measures import of_twist, size
 from poekin.testing.oracles import exact, exact_chain
+from tests.model.laws.chain_bounds import Shaped, budget, chain_law, check_batch
 
 
 @chain_law()
@@ -101,7 +102,7 @@ def joint_velocities_are_those_of_the_joint_poses(
             return exact_chain.joint_pose(chain, along(t, q, dq), k)
 
         T = pose(exact.mp.zero)
-        V_s = exact_chain.space_twist(pose, T)
+        V_s = exact_derivatives.space_twist(pose, T)
         truth = exact.rounded(exact_chain.in_frames(V_s[:, None], T))
         for V, twist in zip(found.values(), truth, strict=True):
             pairs += _of_columns(chain, q, V[k][:, None] - twist, _size(chain, dq))
@@ -115,7 +116,7 @@ def screw_derivatives_are_differences_on_the_group(
     joint: int,
 ) -> Pairs:
     """df f⁻¹ and dJ under A_i ← Ad(e^η) A_i and M ← M e^η, and df f⁻¹ under A_i ← A_i + dA."""
-    truth = exact_chain.screw_changes(chain, q, joint)
+    truth = exact_derivatives.screw_changes(chain, q, joint)
     motion = chain.screw_derivatives(q)
     entries = chain.screw_derivatives(q, wrt="components")
     angular, linear = budget(chain, q)
@@ -176,9 +177,9 @@ def along(t: Any, q: np.ndarray, dq: np.ndarray) -> np.ndarray:
     return exact.exactly(q) + exact.exactly(dq) * t
 
 
-def slope(f: exact_chain.Curve) -> np.ndarray:
+def slope(f: exact_derivatives.Curve) -> np.ndarray:
     """df/dt at 0 of a function of one number in 80 digits, as floats."""
-    return exact.rounded(exact_chain.derivative(f))
+    return exact.rounded(exact_derivatives.derivative(f))
 
 
 def _size(chain: Any, dq: np.ndarray) -> float:

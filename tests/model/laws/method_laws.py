@@ -25,14 +25,14 @@ from poekin import algebra
 from poekin.formulas.kinematics import recursive
 from poekin.formulas.lie import exponential
 from poekin.formulas.paper import dh_recursive, direct
-from poekin.testing.laws.chain_bounds import (
+from poekin.testing.laws.laws import Law, Pairs
+from tests.model.laws.chain_bounds import (
     adjoint,
     check_chain_bounds,
     inverse,
     of_poses,
     of_twists,
 )
-from poekin.testing.laws.laws import Law, Pairs
 
 Method = Callable[[Any, np.ndarray], tuple[np.ndarray, np.ndarray]]
 

@@ -18,9 +18,10 @@ from poekin.errors import InputError
 from poekin.groups import se3
 from poekin.model.chain import Chain
 from poekin.testing.accuracy import falsify
-from poekin.testing.laws import chain_bounds, group_laws, measures
+from poekin.testing.laws import group_laws, measures
 from poekin.testing.laws.group import Group, make_group
 from poekin.testing.laws.laws import Law, LawViolation, check_bounds
+from tests.model.laws import chain_bounds
 
 ROOT = Path(__file__).resolve().parents[3]
 

@@ -14,9 +14,9 @@ from poekin.errors import InputError, UnknownName
 from poekin.solve.calibration.model.error_model import ErrorModel
 from poekin.solve.calibration.model.parameters import KINDS
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.laws.chain_bounds import budget
 from poekin.testing.oracles import differences
 from poekin.testing.strategies import chain_strategies
+from tests.model.laws.chain_bounds import budget
 
 FEW = settings(max_examples=max(settings().max_examples // 3, 20))
 PUMA = pk.load("puma560").chain()

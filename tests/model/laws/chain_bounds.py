@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from ..accuracy.error_bounds import UNIT
-from .laws import Pairs, check_bounds, checked
-from .measures import of_twist, size
+from poekin.testing.accuracy.error_bounds import UNIT
+from poekin.testing.laws.laws import Pairs, check_bounds, checked
+from poekin.testing.laws.measures import of_twist, size
 
 Shaped = tuple[Callable[[np.ndarray], np.ndarray], tuple[int, ...]]
 """A function of configurations, and the shape of its value for a single one."""

@@ -11,14 +11,15 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks import exact_derivatives
 from poekin.groups import se3
 from poekin.model.chain import Chain
 from poekin.model.robot import Robot
-from poekin.testing.laws import chain_bounds, chain_laws, jacobian_laws, laws
-from poekin.testing.laws.chain_laws import CHAIN_LAWS
+from poekin.testing.laws import laws
 from poekin.testing.laws.laws import LawViolation
 from poekin.testing.oracles import exact_chain
-from tests.model.laws import change_laws, derivative_laws
+from tests.model.laws import chain_bounds, chain_laws, change_laws, derivative_laws, jacobian_laws
+from tests.model.laws.chain_laws import CHAIN_LAWS
 from tests.model.laws.change_laws import CHANGE_LAWS
 from tests.model.laws.derivative_laws import DERIVATIVE_LAWS
 from tests.model.laws.method_laws import METHOD_LAWS
@@ -146,8 +147,8 @@ def test_a_law_sees_every_number_of_every_function(law, monkeypatch):
     right = measured(law, sound, monkeypatch)
     assert all(error <= bound for error, bound in right)
     if law == "screw_derivatives_are_differences_on_the_group":
-        truth = exact_chain.screw_changes(COUPLED, Q[:2], 1)  # which takes long
-        monkeypatch.setattr(exact_chain, "screw_changes", lambda *_: truth)
+        truth = exact_derivatives.screw_changes(COUPLED, Q[:2], 1)  # which takes long
+        monkeypatch.setattr(exact_derivatives, "screw_changes", lambda *_: truth)
     unseen: dict[str, set[int]] = {}
     for name, (count, numbers) in sound.calls.items():
         for call in {0, 1, count - 1} & set(range(count)):
@@ -436,9 +437,9 @@ def test_halves_are_measured_apart(row, monkeypatch):
         wrong = part.copy()
         wrong[(row, 0) if k < 3 else (1, row, 0, 0)] += 1.0
         parts = [*right[:k], wrong, *right[k + 1 :]]
-        truth = exact_chain.ScrewChanges(*parts)
+        truth = exact_derivatives.ScrewChanges(*parts)
         monkeypatch.setattr(
-            exact_chain, "screw_changes", lambda chain, q, joint, truth=truth: truth
+            exact_derivatives, "screw_changes", lambda chain, q, joint, truth=truth: truth
         )
         pairs = measured("screw_derivatives_are_differences_on_the_group", PLAIN, monkeypatch)
         places = [(0,), (1,), (2, 3), (6,), (7,)][k]

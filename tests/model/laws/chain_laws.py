@@ -16,12 +16,12 @@ from typing import Any
 
 import numpy as np
 
-from ...model.kinematics.pose_jacobian import FRAME_NAMES
-from ..oracles import exact, exact_chain
-from . import jacobian_laws
-from .chain_bounds import Shaped, budget, chain_law, check_batch, of_poses
-from .laws import Law, Pairs
-from .measures import size
+from poekin.model.kinematics.pose_jacobian import FRAME_NAMES
+from poekin.testing.laws.laws import Law, Pairs
+from poekin.testing.laws.measures import size
+from poekin.testing.oracles import exact, exact_chain
+from tests.model.laws import jacobian_laws
+from tests.model.laws.chain_bounds import Shaped, budget, chain_law, check_batch, of_poses
 
 
 @chain_law()

@@ -6,10 +6,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...algebra import IDENTITY, compose
-from ...formats.dh import Row, Table, to_chain
-from ...formulas import dh
-from ...formulas.lie import exponential
+from poekin.algebra import IDENTITY, compose
+from poekin.formats.dh import Row, Table, to_chain
+from poekin.formulas import dh
+from poekin.formulas.lie import exponential
 
 # Published in the documentation of the Universal Robots ROS 2 driver, package ur_calibration: a
 # real UR10e-size arm.

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from ...model.kinematics.pose_jacobian import FRAME_NAMES
-from ..oracles import differences
-from .chain_bounds import adjoint, budget, chain_law, of_poses, of_twists
-from .laws import Pairs
-from .measures import of_twist, size
+from poekin.model.kinematics.pose_jacobian import FRAME_NAMES
+from poekin.testing.laws.laws import Pairs
+from poekin.testing.laws.measures import of_twist, size
+from poekin.testing.oracles import differences
+from tests.model.laws.chain_bounds import adjoint, budget, chain_law, of_poses, of_twists
 
 
 @chain_law()

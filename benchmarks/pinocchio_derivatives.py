@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import InputError
-from .pinocchio_oracle import ANGULAR_FIRST, PinocchioOracle, pinocchio
+from poekin.errors import InputError
+from poekin.testing.oracles.pinocchio_oracle import ANGULAR_FIRST, PinocchioOracle, pinocchio
 
 FREE_OF = 1e-12  # entries of a Jacobian below it are rounding
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from benchmarks.derivative_errors import DerivativeErrors, derivative_errors
+from benchmarks.pinocchio_derivatives import derivatives
 from poekin.errors import InputError
 from poekin.formats import urdf
-from poekin.testing.oracles.pinocchio_derivatives import derivatives
 from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
 from tests.testing.oracles.test_pinocchio_oracle import TWO_LINKS, URDF
 from tests.versions import needs

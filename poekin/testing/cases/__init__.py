@@ -1,1 +1,0 @@
-"""Robots to test on, and changes planted in them."""
