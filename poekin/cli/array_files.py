@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import FileError
 from ..formats.text import csv_rows
-from ..formats.text.atomic_write import write_whole
+from ..formats.text.atomic_write import reason, write_whole
 from . import npy
 from .output import path_text
 
@@ -73,7 +73,7 @@ def read_rows(
     except OSError as error:
         if isinstance(error, FileError):
             raise
-        raise FileError(f"cannot read {called(given)}: {error.strerror or error}") from error
+        raise FileError(f"cannot read {called(given)}: {reason(error)}") from error
 
 
 def _content(given: str) -> bytes:

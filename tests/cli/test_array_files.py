@@ -12,6 +12,24 @@ from poekin.errors import FileError
 from poekin.formats.text.atomic_write import write_whole
 
 
+@pytest.mark.parametrize(
+    "error",
+    [
+        FileNotFoundError(2, "No such file or directory", "q.npy"),
+        OSError("No such file or directory"),
+    ],
+    ids=["with a number", "words alone"],
+)
+def test_of_a_file_that_cannot_be_read_the_reason_is_said_without_a_number(error, monkeypatch):
+    def fails(*_):
+        raise error
+
+    monkeypatch.setattr(array_files, "_content", fails)
+    with pytest.raises(FileError) as refused:
+        array_files.read_rows("q.npy", ["a"], "coordinate", lambda *_: None)
+    assert str(refused.value) == "cannot read 'q.npy': No such file or directory"
+
+
 def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
     path = tmp_path / "T.csv"
     path.write_text("old")

@@ -21,7 +21,7 @@ from poekin.testing.strategies import (
     near_strategies,
     robot_strategies,
 )
-from poekin.testing.strategies.decoding import bytes_reader, decoders
+from poekin.testing.strategies.decoding import arrays, bytes_reader, decoders
 from tests.testing.drawing import drawn
 
 ARM = Chain.from_space(
@@ -69,12 +69,13 @@ def test_a_strategy_asks_for_as_many_bytes_as_it_reads(name, monkeypatch):
             self.count[1] += 1
             return super().byte()
 
-    monkeypatch.setattr(group_strategies, "BytesReader", Counting)
+    monkeypatch.setattr(arrays, "BytesReader", Counting)
     drawn(STRATEGIES[name](), 150)
     most: dict[int, int] = defaultdict(int)
     for size, used in read:
         most[size] = max(most[size], used)
     spare = 4 if name == "robots" else 1  # what no draw, or hardly any, comes to read
+    assert most, "nothing was read"
     assert all(size - spare <= used <= size for size, used in most.items()), dict(most)
 
 
@@ -198,6 +199,14 @@ def test_an_axis_is_of_one_of_three_kinds():
         assert axis(kind, 0, 0, 0, 25, 0, *[0] * 6) == [1, 0, 0]
         assert axis(kind, 0, 200, 0, 28, 0, *[0] * 6) == [1, 0, 0]
         assert axis(kind, 0, 200, 0, 25, 0, *[0] * 6) == [-1, 0, 0]
+
+
+def test_an_axis_in_four_is_of_the_frame_one_nearly_so_and_two_are_anywhere():
+    rest = [200, 40, 0, 90, 80, 0, 200, 120, 0]
+    others = [np.sort(np.abs(decoders.axis(read(k, 0, 0, *rest)))) for k in range(256)]
+    assert sum(second == 0 for _, second, _ in others) == 64
+    assert sum(0 < second < 0.1 for _, second, _ in others) == 64
+    assert sum(second > 0.1 for _, second, _ in others) == 128
 
 
 def test_vectors_and_rotations_are_an_axis_and_a_size():

@@ -12,7 +12,7 @@ import typer
 from ...errors import FileError, InputError, quote
 from ...formats import emit
 from ...formats.emit.messages import identifier
-from ...formats.text.atomic_write import write_whole
+from ...formats.text.atomic_write import reason, write_whole
 from ...model.chain import Chain
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from .. import array_files
@@ -100,7 +100,7 @@ def _write(places: dict[Path, str], directory: Path, force: bool) -> None:
         directory.mkdir(exist_ok=True)
     except OSError as error:
         raise FileError(
-            f"cannot make the directory {path_text(directory)}: {error.strerror or error}"
+            f"cannot make the directory {path_text(directory)}: {reason(error)}"
         ) from error
     for place, text in places.items():
         write_whole(place, text.encode("ascii"))

@@ -49,6 +49,16 @@ def test_noise_at_pi_leaves_both_signs_right():
     assert of_groups.log_forgives_noise(lambda R: w + 1e-9, R, Grade.BROKEN).grade is Grade.POOR
 
 
+def test_the_blocks_of_an_adjoint_are_measured_each_by_itself():
+    T = Poekin.exp(np.array([0.3, -0.2, 0.5, *V]))
+    wrong = Poekin.adjoint(T)
+    wrong[0, 2] += 3e-5
+    wrong[0, 3] += 4e-5
+    verdict = of_groups.adjoint_is_its_matrix(lambda T: wrong, T, Grade.BROKEN)
+    assert verdict.what == "R"
+    assert verdict.size == pytest.approx(4e-5, rel=1e-6)
+
+
 def test_angles_are_in_rad_and_lengths_in_proportion():
     xi = np.array([0.3, 0, 0, 1e3, 0, 0])
     turned = Poekin.exp(xi + np.array([1e-8, 0, 0, 0, 0, 0]))
