@@ -18,8 +18,8 @@ from poekin.checks import REQUIRED
 from poekin.errors import InputError, PoseError, ScrewError, ShapeError
 from poekin.formats.objects import from_object
 from poekin.formats.objects.attributes import type_name
-from poekin.testing.strategies.chain_strategies import chain_cases
 from tests.groups.test_objects import Spatial, library
+from tests.model.laws.chain_cases import chain_cases
 
 CASES = chain_cases(("q",), coupled=False)
 # The matrices of up to a dozen joints multiplied in another order, each rounding by u of the reach,

@@ -18,6 +18,7 @@ from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.oracles import exact
 from poekin.testing.strategies import chain_strategies
 from poekin.testing.strategies.group_strategies import poses
+from tests.model.laws.chain_cases import chain_cases
 
 RZ = pk.screw.revolute([0, 0, 1], [0, 0, 0])
 RY = pk.screw.revolute([0, 1, 0], [0, 0, 0.5])
@@ -95,7 +96,7 @@ def rezeroed_off(chain, q0):
 FAR = st.floats(-1, 4).map(lambda power: 10.0**power)
 
 
-@given(chain_strategies.chain_cases(("q",), min_joints=1, max_joints=4), FAR)
+@given(chain_cases(("q",), min_joints=1, max_joints=4), FAR)
 @example((pk.Chain.from_space([PX, RY, RZ], HOME), np.array([1.0, 2.0, 3.0])), 1e4)
 @example(
     (

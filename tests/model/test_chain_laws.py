@@ -16,8 +16,8 @@ from poekin.groups import se3
 from poekin.model.chain import Chain
 from poekin.model.kinematics.pose_jacobian import Frame
 from poekin.testing.accuracy import falsify
-from poekin.testing.strategies import chain_strategies
 from tests.model.laws import change_laws, method_laws
+from tests.model.laws.chain_cases import chain_cases
 from tests.model.laws.chain_laws import CHAIN_LAWS
 from tests.model.laws.change_laws import CHANGE_LAWS
 from tests.model.laws.method_laws import METHOD_LAWS
@@ -31,7 +31,7 @@ FEWER = settings(max_examples=max(settings().max_examples // 3, 20))
 @FEWER
 @given(data=st.data())
 def test_chains_keep_the_law(name, data):
-    target(LAWS[name].check(*data.draw(chain_strategies.chain_cases(LAWS[name].kinds))))
+    target(LAWS[name].check(*data.draw(chain_cases(LAWS[name].kinds))))
 
 
 def test_methods_agree_where_the_home_pose_is_turned_by_no_exact_rotation():
@@ -59,7 +59,7 @@ def test_methods_agree_where_the_home_pose_is_turned_by_no_exact_rotation():
 @given(data=st.data())
 def test_chains_of_one_kind_keep_every_law(kinds, data):
     name = data.draw(st.sampled_from(sorted(LAWS)))
-    chain, *arguments = data.draw(chain_strategies.chain_cases(LAWS[name].kinds, joint_kinds=kinds))
+    chain, *arguments = data.draw(chain_cases(LAWS[name].kinds, joint_kinds=kinds))
     assert set(chain.kinds) <= set(kinds)
     LAWS[name].check(chain, *arguments)
 
@@ -70,9 +70,7 @@ def test_chains_of_one_kind_keep_every_law(kinds, data):
 @given(data=st.data())
 def test_the_shortest_and_the_longest_chains_keep_the_law(name, joints, data):
     LAWS[name].check(
-        *data.draw(
-            chain_strategies.chain_cases(LAWS[name].kinds, min_joints=joints, max_joints=joints)
-        )
+        *data.draw(chain_cases(LAWS[name].kinds, min_joints=joints, max_joints=joints))
     )
 
 
@@ -349,7 +347,7 @@ def catch(law: str, wrong: Callable[[Chain], Any]):
     return falsify.first_violation(
         [LAWS[law]],
         lambda law, chain, *arguments: law.check(wrong(chain), *arguments),
-        chain_strategies.chain_cases,
+        chain_cases,
         MOST,
     )
 
@@ -363,7 +361,7 @@ def test_a_planted_error_is_caught(error):
 def test_a_link_frame_that_leaks_into_the_screws_is_caught():
     law = LAWS["link_frames_do_not_matter"]
     check = lambda law, chain, frames: law.check(chain, frames, built=leaking)  # noqa: E731
-    assert falsify.first_violation([law], check, chain_strategies.chain_cases, MOST) is not None
+    assert falsify.first_violation([law], check, chain_cases, MOST) is not None
 
 
 @pytest.mark.parametrize("method", method_laws.METHODS)
@@ -374,7 +372,7 @@ def test_a_method_with_a_wrong_column_is_caught(method):
 
     methods = {**method_laws.METHODS, method: wrong}
     check = lambda law, *case: law.check(*case, methods=methods)  # noqa: E731
-    assert falsify.first_violation(METHOD_LAWS, check, chain_strategies.chain_cases, 60) is not None
+    assert falsify.first_violation(METHOD_LAWS, check, chain_cases, 60) is not None
 
 
 def test_every_law_catches_an_error():

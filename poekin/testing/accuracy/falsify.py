@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 from unittest import mock
 
-from ..laws.laws import ArgumentKind, Law, LawViolation
+from ..laws.laws import Law, LawViolation
 from ..strategies.group_strategies import st
 
 # `group_strategies` has said what to install where hypothesis is missing.
@@ -113,7 +113,7 @@ def hunt(
 def first_violation(
     laws: Iterable[Law],
     check: Callable[..., float],
-    cases: Callable[[tuple[ArgumentKind, ...]], Cases],
+    cases: Callable[[tuple[Any, ...]], Cases],
     examples: int = 100,
 ) -> LawViolation | None:
     """First violation that a battery of laws finds in a subject.

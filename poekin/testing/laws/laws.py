@@ -19,9 +19,7 @@ import numpy as np
 P = ParamSpec("P")
 S = TypeVar("S")
 GroupKind = Literal["twist", "far_twist", "element", "noisy_element"]
-ChainKind = Literal["q", "dq", "batch", "pose", "point", "joint", "frames"]
-ArgumentKind = GroupKind | ChainKind
-"""Kinds of arguments that a law of a group or of a chain may ask for."""
+"""Kinds of arguments that a law of a group may ask for."""
 Pairs = list[tuple[float, float]]
 """Measured errors, each with its bound."""
 SHOWN = 400
@@ -69,13 +67,13 @@ class Law(NamedTuple):
     ----------
     check : callable
         The law, check(subject, *arguments), which returns error ÷ bound.
-    kinds : tuple of ArgumentKind
-        Kinds of the arguments, such as "twist" or "q", which `strategies.group_cases` and
-        `strategies.chain_cases` turn into Hypothesis strategies.
+    kinds : tuple of str
+        Kinds of the arguments, such as "twist", which `strategies.group_cases` turns into Hypothesis
+        strategies.
     """
 
     check: Callable[..., float]
-    kinds: tuple[ArgumentKind, ...]
+    kinds: tuple[Any, ...]
 
     @property
     def name(self) -> str:

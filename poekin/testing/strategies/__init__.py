@@ -3,7 +3,7 @@ URDF texts.
 """
 
 from .batch_strategies import batch_shapes, batches
-from .chain_strategies import chain_cases, chains, coordinates, placements, points, screws
+from .chain_strategies import chains, coordinates, placements, points, screws
 from .configuration_strategies import at_limits, singular_cases, within_limits
 from .dh_strategies import tables
 from .group_strategies import (
@@ -35,7 +35,6 @@ __all__ = [
     "axes",
     "batch_shapes",
     "batches",
-    "chain_cases",
     "chains",
     "coordinates",
     "group_cases",

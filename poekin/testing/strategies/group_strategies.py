@@ -25,7 +25,7 @@ import numpy as np
 
 from poekin.errors import InputError, safe_repr
 
-from ..laws.laws import ArgumentKind, GroupKind
+from ..laws.laws import GroupKind
 from . import arguments
 from .decoding import decoders
 from .decoding.arrays import Arrays, Reals, frozen, pose, read, st
@@ -310,7 +310,7 @@ KINDS = get_args(GroupKind)
 
 
 def group_cases(
-    kinds: Sequence[ArgumentKind],
+    kinds: Sequence[GroupKind],
     size: int,
 ) -> st.SearchStrategy[tuple[np.ndarray, ...]]:
     """Arguments of a law of a group by their kinds.

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import poekin as pk
 from poekin.analysis.dexterity.jacobian_part import ROWS, generic_rank
 from poekin.analysis.dexterity.messages import rate_words
-from poekin.testing.strategies import chain_strategies
+from tests.model.laws.chain_cases import chain_cases
 
 FEW = settings(max_examples=max(settings().max_examples // 3, 20))
 Z = [0, 0, 1]
@@ -63,7 +63,7 @@ def test_a_verdict_is_the_same_in_every_unit(name, seed):
 @FEW
 @given(data=st.data(), seed=st.integers(0, 10**6))
 def test_the_largest_rank_is_the_same_in_every_unit(data, seed):
-    arm = data.draw(chain_strategies.chain_cases((), min_joints=1, max_joints=7))[0]
+    arm = data.draw(chain_cases((), min_joints=1, max_joints=7))[0]
     ratios = 10.0 ** np.random.default_rng(seed).uniform(-5, 5, arm.dof)
     for part in ROWS:
         assert generic_rank(geared(arm, ratios), part) == generic_rank(arm, part)

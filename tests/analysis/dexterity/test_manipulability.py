@@ -15,8 +15,8 @@ from poekin.analysis.dexterity.manipulability import manipulability, manipulabil
 from poekin.errors import InputError
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.oracles import differences
-from poekin.testing.strategies import chain_strategies
 from tests.model.laws.chain_bounds import budget
+from tests.model.laws.chain_cases import chain_cases
 
 FEW = settings(max_examples=max(settings().max_examples // 3, 20))
 
@@ -44,9 +44,7 @@ def test_yoshikawa_of_a_planar_arm_is_l1_l2_sin_q2():
 @FEW
 @given(data=st.data())
 def test_the_six_rows_give_the_root_of_the_determinant_in_every_frame(data):
-    chain, q = data.draw(
-        chain_strategies.chain_cases(("q",), min_joints=6, max_joints=9, coupled=False)
-    )
+    chain, q = data.draw(chain_cases(("q",), min_joints=6, max_joints=9, coupled=False))
     if generic_rank(chain, "pose") < 6:
         return  # fewer singular values count, which are those of one frame
     value = manipulability(chain, q).pose.yoshikawa
@@ -62,7 +60,7 @@ def test_the_six_rows_give_the_root_of_the_determinant_in_every_frame(data):
 @FEW
 @given(data=st.data(), part=st.sampled_from(sorted(ROWS)))
 def test_the_gradient_is_the_derivative(data, part):
-    chain, q, dq = data.draw(chain_strategies.chain_cases(("q", "dq"), min_joints=1, max_joints=8))
+    chain, q, dq = data.draw(chain_cases(("q", "dq"), min_joints=1, max_joints=8))
     rate = max(float(np.abs(chain.coupling @ dq).sum()), 1e-3)
     here = chain.jacobian(q, "hybrid")
     size = max(float(np.linalg.norm(here, 2)), 1.0) ** 6

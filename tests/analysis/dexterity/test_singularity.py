@@ -16,7 +16,7 @@ import poekin as pk
 from poekin.analysis.dexterity.messages import motion_words
 from poekin.analysis.dexterity.singularity import singularity
 from poekin.errors import InputError, ShapeError
-from poekin.testing.strategies import chain_strategies
+from tests.model.laws.chain_cases import chain_cases
 
 FEW = settings(max_examples=max(settings().max_examples // 3, 20))
 ELBOW = [0.3, -0.7, 0.0, 0.4, 0.8, 0.2]
@@ -120,9 +120,7 @@ def test_a_regular_arm_says_how_far_it_is_off():
 @FEW
 @given(data=st.data())
 def test_the_least_rates_and_the_lost_motion_are_singular_vectors(data):
-    chain, q = data.draw(
-        chain_strategies.chain_cases(("q",), min_joints=1, max_joints=8, coupled=False)
-    )
+    chain, q = data.draw(chain_cases(("q",), min_joints=1, max_joints=8, coupled=False))
     s = singularity(chain, q, part="pose")
     J = chain.jacobian(q, "hybrid") / np.repeat([1.0, s.length], 3)[:, None]
     u, size = (

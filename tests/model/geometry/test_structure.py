@@ -16,8 +16,8 @@ import poekin as pk
 from poekin.engine.straight_line import interpret
 from poekin.engine.straight_line.trace import FOLD_TOLERANCE
 from poekin.model.geometry.structure import _angle, _in_local, structure
-from poekin.testing.strategies import chain_strategies
 from tests.model.kinematics.test_compiled import LONGER, near
+from tests.model.laws.chain_cases import chain_cases
 
 FEW = settings(max_examples=max(settings().max_examples // 5, 20))
 HOME = pk.se3.exp([0.3, -0.7, 0.5, 0.4, 0.1, 0.6])
@@ -95,7 +95,7 @@ def test_the_parts_move_as_the_chain(name):
 
 
 @FEW
-@given(chain_strategies.chain_cases(("q",), max_joints=5))
+@given(chain_cases(("q",), max_joints=5))
 def test_the_parts_of_any_chain_move_as_it_does(case):
     chain, q = case
     check(chain, q[None], 1 + LONGER)

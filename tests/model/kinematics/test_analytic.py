@@ -14,8 +14,8 @@ from poekin.model.kinematics import analytic
 from poekin.model.kinematics.analytic import KINDS
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.oracles import differences
-from poekin.testing.strategies import chain_strategies
 from tests.model.laws.chain_bounds import budget
+from tests.model.laws.chain_cases import chain_cases
 
 FEW = settings(max_examples=max(settings().max_examples // 2, 20))
 
@@ -38,7 +38,7 @@ def wrist(pitch):
 @FEW
 @given(data=st.data(), kind=st.sampled_from(KINDS))
 def test_it_is_the_derivative_of_the_numbers(data, kind):
-    chain, q, dq = data.draw(chain_strategies.chain_cases(("q", "dq")))
+    chain, q, dq = data.draw(chain_cases(("q", "dq")))
     rate = float(np.abs(chain.coupling @ dq).sum()) if chain.dof else 0.0
     x = chain.pose_coordinates(q, kind)
     # the stencil must not cross half a turn, where the vector and the quaternion jump, nor come
@@ -118,7 +118,7 @@ def numbers_off(chain, q):
     return np.max([*worst, np.abs((Q * Q).sum(axis=1) - 1)], axis=0) / size
 
 
-ANY = chain_strategies.chain_cases(("q",), max_joints=6)
+ANY = chain_cases(("q",), max_joints=6)
 
 
 @FEW

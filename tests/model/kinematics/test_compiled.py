@@ -21,6 +21,7 @@ from poekin.model.kinematics import compiled, programs
 from poekin.testing.accuracy.error_bounds import UNIT
 from poekin.testing.strategies import chain_strategies
 from tests.model.laws import chain_bounds
+from tests.model.laws.chain_cases import chain_cases
 from tests.model.laws.chain_laws import CHAIN_LAWS
 
 ARM = pk.load("panda").chain(tip="panda_hand")
@@ -65,7 +66,7 @@ LAWS = {law.name: law for law in CHAIN_LAWS}
 @FEW
 @given(data=st.data())
 def test_machine_code_keeps_the_laws_of_chains(name, data):
-    chain, *arguments = data.draw(chain_strategies.chain_cases(LAWS[name].kinds, max_joints=5))
+    chain, *arguments = data.draw(chain_cases(LAWS[name].kinds, max_joints=5))
     with within(FOLDS):
         LAWS[name].check(Swapped(chain), *arguments)
 

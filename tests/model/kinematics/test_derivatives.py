@@ -15,7 +15,7 @@ import poekin as pk
 from poekin.errors import InputError, ShapeError, UnknownName
 from poekin.model.kinematics.derivatives import JacobianChanges, PoseChanges
 from poekin.testing.laws.laws import LawViolation
-from poekin.testing.strategies import chain_strategies
+from tests.model.laws.chain_cases import chain_cases
 from tests.model.laws.derivative_laws import DERIVATIVE_LAWS
 
 LAWS = {law.name: law for law in DERIVATIVE_LAWS}
@@ -35,7 +35,7 @@ METHODS = (
 @given(data=st.data())
 def test_derivatives_keep_the_law(name, data):
     options = {"max_joints": 6} if name.startswith(("screw", "hessian_is")) else {}
-    target(LAWS[name].check(*data.draw(chain_strategies.chain_cases(LAWS[name].kinds, **options))))
+    target(LAWS[name].check(*data.draw(chain_cases(LAWS[name].kinds, **options))))
 
 
 @pytest.mark.parametrize("kind", ["revolute", "prismatic", "helical"])
@@ -43,11 +43,7 @@ def test_derivatives_keep_the_law(name, data):
 @given(data=st.data())
 def test_chains_of_one_kind_keep_every_law(kind, data):
     name = data.draw(st.sampled_from(sorted(LAWS)))
-    LAWS[name].check(
-        *data.draw(
-            chain_strategies.chain_cases(LAWS[name].kinds, joint_kinds=(kind,), max_joints=5)
-        )
-    )
+    LAWS[name].check(*data.draw(chain_cases(LAWS[name].kinds, joint_kinds=(kind,), max_joints=5)))
 
 
 @pytest.mark.parametrize("joints", [0, 1, 12])
@@ -56,9 +52,7 @@ def test_chains_of_one_kind_keep_every_law(kind, data):
 @given(data=st.data())
 def test_the_shortest_and_the_longest_chains_keep_the_law(name, joints, data):
     LAWS[name].check(
-        *data.draw(
-            chain_strategies.chain_cases(LAWS[name].kinds, min_joints=joints, max_joints=joints)
-        )
+        *data.draw(chain_cases(LAWS[name].kinds, min_joints=joints, max_joints=joints))
     )
 
 

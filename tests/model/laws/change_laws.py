@@ -157,7 +157,7 @@ CHANGE_LAWS = (
     Law(link_frames_do_not_matter, ("frames",)),
 )
 """The battery: each law with the kinds of its arguments after the chain
-(`chain_strategies.chain_cases`).
+(`chain_cases.chain_cases`).
 """
 
 

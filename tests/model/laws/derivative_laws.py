@@ -209,5 +209,5 @@ DERIVATIVE_LAWS = (
     Law(derivatives_of_batches_are_those_of_single_configurations, ("batch",)),
 )
 """The battery: each law with the kinds of its arguments after the chain
-(`chain_strategies.chain_cases`).
+(`chain_cases.chain_cases`).
 """

@@ -88,7 +88,6 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "more at least than at most": (lambda: C.chains(5, 3), "got min_joints = 5, max_joints = 3"),
     "half a joint": (lambda: C.chains(1.5, 3), "expected whole numbers with 0 <= min_joints"),
-    "a part of a case": (lambda: C.chain_cases(("q", "speed")), "kinds: there is no 'speed'"),
     "no chain": (
         lambda: C.coordinates("arm"),
         "expected a chain or a robot, with `dof` and `limits`, got 'arm'",

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import find, settings
 
-from poekin.errors import InputError
 from poekin.model.chain import Chain
 from poekin.testing.strategies import chain_strategies
 from poekin.testing.strategies.decoding.bytes_reader import BytesReader
@@ -155,12 +154,6 @@ def test_coordinates_hold_zeros_quarter_turns_and_all_between():
     assert np.histogram(q, bins=8)[0].min() > 20
 
 
-def test_an_unknown_kind_of_argument_is_refused():
-    strategies: Any = chain_strategies  # whatever the types say
-    with pytest.raises(InputError, match="speed"):
-        strategies.chain_cases(("q", "speed"))
-
-
 def test_chains_have_limits_of_every_kind_where_they_are_asked_for():
     every = drawn(chain_strategies.chains(max_joints=5, limits=True), 120)
     lower, upper = np.concatenate([chain.limits for chain in every]).T
@@ -174,22 +167,3 @@ def test_chains_have_limits_of_every_kind_where_they_are_asked_for():
     assert np.all(
         np.isinf(np.concatenate([chain.limits for chain in drawn(chain_strategies.chains(), 20)]))
     )
-
-
-def test_the_arguments_of_a_law_are_drawn_by_their_kinds():
-    for chain, q, dq, batch, pose, point, joint, frames in drawn(
-        chain_strategies.chain_cases(chain_strategies.PARTS), 40
-    ):
-        n, m = len(chain.screws), chain.dof
-        assert q.shape == dq.shape == (m,)
-        assert batch.shape[-1:] == (m,)
-        assert (pose.shape, point.shape, frames.shape) == ((4, 4), (3,), (n, 2, 4, 4))
-        assert 0 <= joint < n
-        assert np.array_equal(frames[..., 3, :], np.broadcast_to([0, 0, 0, 1], (n, 2, 4)))
-    (chain, frames), *_ = drawn(
-        chain_strategies.chain_cases(("frames",), min_joints=3, max_joints=3), 1
-    )
-    assert frames.shape == (3, 2, 4, 4)
-    assert {
-        case[-1] for case in drawn(chain_strategies.chain_cases(("joint",), max_joints=3), 60)
-    } == {0, 1, 2}
