@@ -60,19 +60,19 @@ class ErrorPart(NamedTuple):
         Size that the error is in proportion to.
     least : float
         Lower bound of what floats can attain, which costs nothing.
+    precision : Precision, optional
+        Precision that the subject computes in.
     error_bound : callable, optional
         Function that computes what floats can attain; called only if the error exceeds 3 × `least`. By
         default it is `least`.
-    precision : Precision, optional
-        Precision that the subject computes in.
     """
 
     what: str
     error: float
     scale: float
     least: float
-    error_bound: Callable[[], float] | None = None
     precision: Precision = DOUBLE
+    error_bound: Callable[[], float] | None = None
 
     @property
     def size(self) -> float:

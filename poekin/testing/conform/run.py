@@ -124,12 +124,11 @@ def opened(thing: Any, limits: Limits | None) -> contextlib.AbstractContextManag
     """The subject in a process of its own where that can be, and was not declined, else in this
     one.
     """
-    if limits is None:
-        return contextlib.nullcontext(Subject(thing))
-    limits.checked()
-    if obstacle(thing):
-        return contextlib.nullcontext(Subject(thing))
-    return isolated(thing, limits)
+    if limits is not None:
+        limits.checked()
+        if not obstacle(thing):
+            return isolated(thing, limits)
+    return contextlib.nullcontext(Subject(thing))
 
 
 def reason(law: SubjectLaw, subject: Subject) -> str:

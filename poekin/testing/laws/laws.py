@@ -126,14 +126,8 @@ def check_bounds(
     return worst
 
 
-def _nothing_else(_: object) -> dict[str, object]:
-    """No further numbers for a message."""
-    return {}
-
-
 def checked(
     title: str = "",
-    further: Callable[[Any], Mapping[str, object]] = _nothing_else,
 ) -> Callable[[Callable[Concatenate[S, P], Pairs]], Callable[Concatenate[S, P], float]]:
     """Decorator that makes a law of a function that measures pairs (error, bound) of a subject.
 
@@ -141,8 +135,6 @@ def checked(
     ----------
     title : str, optional
         Name of the law for the message; the function's own by default.
-    further : callable, optional
-        Further numbers of the subject for the message, by their names.
 
     Returns
     -------
@@ -161,8 +153,7 @@ def checked(
             **named: P.kwargs,
         ) -> float:
             seen: dict[str, Any] = dict(zip(names, arguments, strict=False))
-            pairs = measure(subject, *arguments, **named)
-            return check_bounds(name, *pairs, **seen, **named, **further(subject))
+            return check_bounds(name, *measure(subject, *arguments, **named), **seen, **named)
 
         return law
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from poekin.testing.accuracy.error_bounds import UNIT
-from poekin.testing.laws.laws import Pairs, check_bounds, checked
+from poekin.testing.laws.laws import LawViolation, Pairs, check_bounds, checked
 from poekin.testing.laws.measures import of_twist, size
 
 Shaped = tuple[Callable[[np.ndarray], np.ndarray], tuple[int, ...]]
@@ -134,8 +134,25 @@ def chain_numbers(chain: Any) -> dict[str, object]:
     return numbers
 
 
-chain_law = functools.partial(checked, further=chain_numbers)
-"""Decorator that makes a law of a chain of a function that measures pairs (error, bound)."""
+def chain_law(title: str = "") -> Callable[[Callable[..., Pairs]], Callable[..., float]]:
+    """Decorator that makes a law of a chain of a function that measures pairs (error, bound); a
+    violation has the chain's numbers, too.
+    """
+
+    def decorate(measure: Callable[..., Pairs]) -> Callable[..., float]:
+        plain = checked(title)(measure)
+
+        @functools.wraps(measure)
+        def law(chain: Any, *arguments: Any, **named: Any) -> float:
+            try:
+                return plain(chain, *arguments, **named)
+            except LawViolation as found:
+                seen = found.seen | chain_numbers(chain)
+                raise LawViolation(found.law, found.error, found.bound, seen) from None
+
+        return law
+
+    return decorate
 
 
 def check_chain_bounds(

@@ -11,7 +11,7 @@ from poekin.testing.laws.laws import LawViolation
 
 
 def part(error, scale=1.0, least=0.0, error_bound=1e-16):
-    return ErrorPart("x", error, scale, least, lambda: error_bound)
+    return ErrorPart("x", error, scale, least, error_bound=lambda: error_bound)
 
 
 @pytest.mark.parametrize(
@@ -31,7 +31,7 @@ def test_what_float64_can_attain_is_asked_only_where_the_lower_bound_does_not_do
         raise AssertionError
 
     for error in (0.0, 2e-16, 3e-16):
-        assert ErrorPart("x", error, 1.0, 1e-16, never).grade is Grade.EXACT
+        assert ErrorPart("x", error, 1.0, 1e-16, error_bound=never).grade is Grade.EXACT
 
 
 def test_an_error_goes_in_proportion_to_its_scale_and_no_scale_allows_no_error():

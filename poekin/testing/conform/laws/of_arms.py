@@ -185,9 +185,9 @@ def pose_parts(
     moved = norm(error[:3, 3])
     linear = angular * lengths
     return [
-        ErrorPart("R (rad)", turned, 2**0.5, angular, precision=precision),
-        ErrorPart("t ÷ the arm's lengths", moved, lengths, linear, precision=precision),
-        ErrorPart("last row", norm(error[3]), 1.0, 0.0, precision=precision),
+        ErrorPart("R (rad)", turned, 2**0.5, angular, precision),
+        ErrorPart("t ÷ the arm's lengths", moved, lengths, linear, precision),
+        ErrorPart("last row", norm(error[3]), 1.0, 0.0, precision),
     ]
 
 
@@ -267,8 +267,8 @@ def jacobian_parts(
     v = max(map(norm, error[3:].T), default=0.0)
     least = ratios * angular * scale
     return [
-        ErrorPart("ω of a column", w, 1.0, ratios * angular, precision=precision),
-        ErrorPart("v of a column ÷ the arm's lengths", v, scale, least, precision=precision),
+        ErrorPart("ω of a column", w, 1.0, ratios * angular, precision),
+        ErrorPart("v of a column ÷ the arm's lengths", v, scale, least, precision),
     ]
 
 

@@ -96,7 +96,7 @@ def exp_parts(
     error = exact.exactly(X) - exact.exp(xi)
     angular = precision.unit * (1 + 2**0.5 * norm(xi[:3]))
     turned = norm(error[:3, :3])
-    parts = [ErrorPart("R (rad)", turned, 2**0.5, angular, precision=precision)]
+    parts = [ErrorPart("R (rad)", turned, 2**0.5, angular, precision)]
     if len(xi) == 3:
         return parts
     moved = norm(error[:3, 3])
@@ -105,8 +105,8 @@ def exp_parts(
     def bound() -> float:
         return precision.coarser * float(error_bounds.exp_bound(xi).linear)
 
-    parts.append(ErrorPart("t ÷ |v|", moved, v, precision.unit * v, bound, precision))
-    parts.append(ErrorPart("last row", norm(error[3]), 1.0, 0.0, precision=precision))
+    parts.append(ErrorPart("t ÷ |v|", moved, v, precision.unit * v, precision, bound))
+    parts.append(ErrorPart("last row", norm(error[3]), 1.0, 0.0, precision))
     return parts
 
 
@@ -194,12 +194,12 @@ def _log_parts(
     def linear() -> float:
         return precision.coarser * float(error_bounds.log_bound(truth).linear)
 
-    parts = [ErrorPart("ω (rad)", norm(error[:3]), 1.0, least, angular, precision)]
+    parts = [ErrorPart("ω (rad)", norm(error[:3]), 1.0, least, precision, angular)]
     if len(xi) == 6:
         v = norm(truth[3:])
         scale = max(v, norm(X[:3, 3]))
         missed = norm(error[3:])
-        parts.append(ErrorPart("v ÷ |v|", missed, scale, precision.unit * v, linear, precision))
+        parts.append(ErrorPart("v ÷ |v|", missed, scale, precision.unit * v, precision, linear))
     return parts
 
 
@@ -239,7 +239,7 @@ def log_forgives_noise(
         return graded("log forgives noise", fault, at_most, R=R)
     error = error_bounds.log_error(w, exact.log(R), precision.coarser * error_bounds.BOTH_SIGNS)
     least = precision.coarser * NOISE_BAR / EXP_LOG_BAR
-    parts = [ErrorPart("ω (rad)", error, 1.0, least, precision=precision)]
+    parts = [ErrorPart("ω (rad)", error, 1.0, least, precision)]
     return graded("log forgives noise", parts, at_most, R=R)
 
 
@@ -282,8 +282,8 @@ def adjoint_is_its_matrix(
     # R is there already; of [t] R each entry is a difference of two products.
     u = precision.unit
     parts = [
-        ErrorPart("R", rest, 1.0, u, precision=precision),
-        ErrorPart("[t] R ÷ |t|", corner, t, 2 * u * t, precision=precision),
+        ErrorPart("R", rest, 1.0, u, precision),
+        ErrorPart("[t] R ÷ |t|", corner, t, 2 * u * t, precision),
     ]
     return graded("adjoint is its matrix", parts, at_most, T=T)
 
@@ -317,9 +317,9 @@ def jacobian_of_exp(name: JacobianName) -> Callable[..., Verdict]:
             return graded(title, fault, at_most, xi=xi)
         diagonal, corner = jacobian_errors(J, truth(xi), xi)
         least = precision.coarser * JACOBIAN_BAR / EXP_LOG_BAR
-        parts = [ErrorPart("3×3 block", diagonal, 1.0, least, precision=precision)]
+        parts = [ErrorPart("3×3 block", diagonal, 1.0, least, precision)]
         if len(xi) == 6:
-            parts.append(ErrorPart("Q block ÷ |v|", corner, 1.0, least, precision=precision))
+            parts.append(ErrorPart("Q block ÷ |v|", corner, 1.0, least, precision))
         return graded(title, parts, at_most, xi=xi)
 
     law.__name__ = f"{name}_is_attained"
