@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...groups.arrays import Array
 from ..laws.group import Group
 from ..laws.laws import Law, Pairs, checked
 from ..oracles import exact
@@ -28,7 +29,7 @@ NOISE_BAR = 2e-15
 @checked("exp is attained (÷ attainable)")
 def exp_is_attained(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the exponential is within EXP_LOG_BAR of what float64 can attain.
 
@@ -55,7 +56,7 @@ def exp_is_attained(
 @checked("log is attained (÷ attainable)")
 def log_is_attained(
     group: Group,
-    X: np.ndarray,
+    X: Array,
 ) -> Pairs:
     """Law: the logarithm is within EXP_LOG_BAR of what float64 can attain.
 
@@ -93,7 +94,7 @@ def log_is_attained(
 @checked()
 def log_forgives_noise(
     group: Group,
-    X: np.ndarray,
+    X: Array,
 ) -> Pairs:
     """Law: ω of log X is that of the polar projection of X, to NOISE_BAR.
 
@@ -124,7 +125,7 @@ def log_forgives_noise(
 @checked()
 def left_jacobian_is_attained(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the left Jacobian of exp is Σ ad(ξ)^k / (k+1)!, to JACOBIAN_BAR.
 
@@ -151,7 +152,7 @@ def left_jacobian_is_attained(
 @checked()
 def right_jacobian_is_attained(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the right Jacobian of exp is J_l(-ξ), to JACOBIAN_BAR.
 
@@ -178,7 +179,7 @@ def right_jacobian_is_attained(
 @checked()
 def left_jacobian_inverse_is_attained(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the inverse left Jacobian of exp is J_l(ξ)⁻¹, to JACOBIAN_BAR.
 
@@ -205,7 +206,7 @@ def left_jacobian_inverse_is_attained(
 @checked()
 def right_jacobian_inverse_is_attained(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the inverse right Jacobian of exp is J_r(ξ)⁻¹, to JACOBIAN_BAR.
 
@@ -242,9 +243,9 @@ ACCURACY_LAWS = (
 
 
 def jacobian_errors(
-    J: np.ndarray,
+    J: Array,
     truth: np.ndarray,
-    xi: np.ndarray,
+    xi: Array,
 ) -> tuple[float, float]:
     """Frobenius errors of a Jacobian of exp.
 
@@ -271,8 +272,8 @@ def jacobian_errors(
 
 
 def _of_jacobian(
-    J: np.ndarray,
+    J: Array,
     truth: np.ndarray,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     return [(error, JACOBIAN_BAR) for error in jacobian_errors(J, truth, xi)]

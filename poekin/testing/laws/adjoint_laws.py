@@ -12,6 +12,7 @@ import functools
 
 import numpy as np
 
+from ...groups.arrays import Array
 from ..accuracy.error_bounds import UNIT
 from ..oracles import exact
 from .group import Group
@@ -22,8 +23,8 @@ from .measures import angle, length, of_blocks, of_twist, shift
 @checked()
 def ad_is_the_bracket(
     group: Group,
-    xi: np.ndarray,
-    eta: np.ndarray,
+    xi: Array,
+    eta: Array,
 ) -> Pairs:
     """Law: ad is the Lie bracket.
 
@@ -57,7 +58,7 @@ def ad_is_the_bracket(
 @checked()
 def adjoint_of_exp_is_exp_of_ad(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the adjoint of exp is the exponential of ad.
 
@@ -89,8 +90,8 @@ def adjoint_of_exp_is_exp_of_ad(
 @checked()
 def adjoint_is_a_homomorphism(
     group: Group,
-    X: np.ndarray,
-    Y: np.ndarray,
+    X: Array,
+    Y: Array,
 ) -> Pairs:
     """Law: the adjoint of a product is the product of adjoints.
 
@@ -120,8 +121,8 @@ def adjoint_is_a_homomorphism(
 @checked()
 def adjoint_conjugates(
     group: Group,
-    X: np.ndarray,
-    xi: np.ndarray,
+    X: Array,
+    xi: Array,
 ) -> Pairs:
     """Law: the adjoint carries a twist as conjugation does.
 
@@ -155,7 +156,7 @@ def adjoint_conjugates(
 @checked()
 def jacobians_meet_in_the_adjoint(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the adjoint of exp ties the left Jacobian to the right one.
 
@@ -186,7 +187,7 @@ def jacobians_meet_in_the_adjoint(
 @checked()
 def jacobians_have_inverses(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the inverses undo the Jacobians of exp, left and right.
 
@@ -221,7 +222,7 @@ def jacobians_have_inverses(
 @checked("left jacobian is Lemma 5's integral")
 def left_jacobian_is_lemma_5s_integral(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the left Jacobian is the integral of Lemma 5, by Gauss's rule on 24 points.
 
@@ -252,6 +253,6 @@ def left_jacobian_is_lemma_5s_integral(
 
 
 @functools.cache
-def _gauss() -> tuple[np.ndarray, np.ndarray]:
+def _gauss() -> tuple[Array, Array]:
     nodes, weights = np.polynomial.legendre.leggauss(24)
     return (nodes + 1) / 2, weights / 2

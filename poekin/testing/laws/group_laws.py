@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...groups.arrays import Array
 from ..accuracy.error_bounds import UNIT
 from ..oracles import exact
 from . import adjoint_laws
@@ -23,7 +24,7 @@ from .measures import angle, length, of_elements, of_twist, shift, size
 @checked()
 def hat_and_vee_are_inverse(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: `vee` undoes `hat`, to the last bit.
 
@@ -54,7 +55,7 @@ def hat_and_vee_are_inverse(
 @checked()
 def exp_lands_in_the_group(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the exponential is an element of the group.
 
@@ -88,7 +89,7 @@ def exp_lands_in_the_group(
 @checked()
 def identity_is_neutral(
     group: Group,
-    X: np.ndarray,
+    X: Array,
 ) -> Pairs:
     """Law: the identity is neutral, exactly.
 
@@ -120,7 +121,7 @@ def identity_is_neutral(
 @checked()
 def inverse_undoes(
     group: Group,
-    X: np.ndarray,
+    X: Array,
 ) -> Pairs:
     """Law: the inverse undoes an element, from both sides.
 
@@ -152,7 +153,7 @@ def inverse_undoes(
 @checked("exp of minus is the inverse")
 def exp_of_minus_is_inverse(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the exponential of -ξ is the inverse of that of ξ.
 
@@ -182,7 +183,7 @@ def exp_of_minus_is_inverse(
 @checked()
 def exp_adds_along_a_line(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: exponentials along one line add.
 
@@ -224,9 +225,9 @@ def exp_adds_along_a_line(
 @checked()
 def products_associate(
     group: Group,
-    xi: np.ndarray,
-    eta: np.ndarray,
-    zeta: np.ndarray,
+    xi: Array,
+    eta: Array,
+    zeta: Array,
 ) -> Pairs:
     """Law: products of three exponentials associate.
 
@@ -259,7 +260,7 @@ def products_associate(
 @checked()
 def log_undoes_exp(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the logarithm undoes the exponential on the principal branch.
 
@@ -293,7 +294,7 @@ def log_undoes_exp(
 @checked()
 def exp_undoes_log(
     group: Group,
-    X: np.ndarray,
+    X: Array,
 ) -> Pairs:
     """Law: the exponential undoes the logarithm.
 

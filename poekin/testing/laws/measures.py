@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...groups.arrays import Array
 from ..accuracy.error_bounds import UNIT
 from .laws import Pairs
 
@@ -35,7 +36,7 @@ def size(x: np.ndarray) -> float:
     return float(np.ldexp(np.linalg.norm(np.ldexp(entries, -power)), power))
 
 
-def angle(xi: np.ndarray) -> float:
+def angle(xi: Array) -> float:
     """Angle |ω| of a twist or rotation vector.
 
     Parameters
@@ -51,7 +52,7 @@ def angle(xi: np.ndarray) -> float:
     return size(xi[:3])
 
 
-def length(xi: np.ndarray) -> float:
+def length(xi: Array) -> float:
     """Length |v| of a twist; 0 of a rotation vector.
 
     Parameters
@@ -67,7 +68,7 @@ def length(xi: np.ndarray) -> float:
     return size(xi[3:])
 
 
-def shift(X: np.ndarray) -> float:
+def shift(X: Array) -> float:
     """Length |t| of the translation of a pose; 0 of a rotation.
 
     Parameters
@@ -84,8 +85,8 @@ def shift(X: np.ndarray) -> float:
 
 
 def of_elements(
-    X: np.ndarray,
-    Y: np.ndarray,
+    X: Array,
+    Y: Array,
     angular: float,
     linear: float,
 ) -> Pairs:
@@ -110,7 +111,7 @@ def of_elements(
 
 
 def of_twist(
-    error: np.ndarray,
+    error: Array,
     angular: float,
     linear: float,
 ) -> Pairs:
@@ -135,7 +136,7 @@ def of_twist(
 
 
 def of_blocks(
-    error: np.ndarray,
+    error: Array,
     diagonal: float,
     lower: float,
 ) -> Pairs:

@@ -13,6 +13,7 @@ import math
 
 import numpy as np
 
+from ...groups.arrays import Array
 from ..accuracy.error_bounds import UNIT
 from .group import Group
 from .laws import Law, Pairs, check_bounds, checked
@@ -21,8 +22,8 @@ from .measures import angle, length, of_elements, of_twist, shift, size
 
 def near_picks_the_closest_branch(
     group: Group,
-    xi: np.ndarray,
-    near: np.ndarray,
+    xi: Array,
+    near: Array,
 ) -> float:
     """Law: the logarithm near a given one is a logarithm, and none is closer.
 
@@ -64,7 +65,7 @@ def near_picks_the_closest_branch(
 @checked()
 def a_logarithm_is_nearest_to_itself(
     group: Group,
-    xi: np.ndarray,
+    xi: Array,
 ) -> Pairs:
     """Law: the logarithm nearest to ξ of exp ξ is ξ, on every branch.
 
@@ -108,10 +109,10 @@ NEAR_LAWS = (
 
 def _closest(
     group: Group,
-    X: np.ndarray,
-    principal: np.ndarray,
-    near: np.ndarray,
-    xi: np.ndarray,
+    X: Array,
+    principal: Array,
+    near: Array,
+    xi: Array,
 ) -> float:
     found = group.log(X, near=near)
     theta = angle(principal)

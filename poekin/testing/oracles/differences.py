@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 
 from poekin.errors import InputError, ShapeError, safe_repr
 
+from ...groups.arrays import Array
 from ..strategies import arguments
 
 _SIDE = 6
@@ -30,7 +31,7 @@ _WEIGHTS = [
     for k in range(1, _SIDE + 1)
 ]
 
-PoseFunction = Callable[[np.ndarray], np.ndarray]
+PoseFunction = Callable[[Array], Array]
 NamedFrame = Literal["space", "body", "hybrid"]
 
 
@@ -39,7 +40,7 @@ def derivative(
     q: ArrayLike,
     dq: ArrayLike,
     rate: float = 1.0,
-) -> np.ndarray:
+) -> Array:
     """Derivative of an array along a direction, d/ds f(q + s dq) at s = 0, entry by entry.
 
     Parameters
@@ -87,7 +88,7 @@ def velocity(
     dq: ArrayLike,
     frame: NamedFrame,
     rate: float = 1.0,
-) -> np.ndarray:
+) -> Array:
     """Twist (ω; v) of a moving pose, by finite differences.
 
     Parameters
@@ -136,7 +137,7 @@ def jacobian(
     q: ArrayLike,
     frame: NamedFrame,
     rate: float = 1.0,
-) -> np.ndarray:
+) -> Array:
     """Jacobian of a function that returns poses, by finite differences.
 
     Parameters
@@ -178,7 +179,7 @@ def jacobian(
     return np.reshape(columns, (len(at), 6)).T
 
 
-def _coordinates(name: str, q: ArrayLike) -> np.ndarray:
+def _coordinates(name: str, q: ArrayLike) -> Array:
     try:
         values = np.asarray(q, dtype=float)
     except (TypeError, ValueError) as fault:
@@ -188,7 +189,7 @@ def _coordinates(name: str, q: ArrayLike) -> np.ndarray:
     return values
 
 
-def _axial(X: np.ndarray) -> np.ndarray:
+def _axial(X: Array) -> Array:
     """Vector of the skew part of X."""
     K = X - X.T
     return np.array([K[2, 1], K[0, 2], K[1, 0]]) / 2

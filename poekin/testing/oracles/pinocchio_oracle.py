@@ -21,6 +21,7 @@ import numpy as np
 
 from ...errors import InputError, MissingExtra, ModelError, UnknownName, quote, safe_repr, suggest
 from ...formats.text import xml
+from ...groups.arrays import Array
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
 from . import pinocchio_urdf
 
@@ -113,7 +114,7 @@ class PinocchioOracle:
     def _kind(self, joint: str) -> str:
         return self.model.joints[self.simple_joints[joint]].shortname()
 
-    def random(self, rng: np.random.Generator, size: int) -> dict[str, np.ndarray]:
+    def random(self, rng: np.random.Generator, size: int) -> dict[str, Array]:
         """Random configurations: revolute within ±π rad, prismatic within ±1 m, whatever the limits.
 
         Parameters
@@ -133,7 +134,7 @@ class PinocchioOracle:
             for name in self.coordinates
         }
 
-    def configurations(self, q: Mapping[str, Any]) -> np.ndarray:
+    def configurations(self, q: Mapping[str, Any]) -> Array:
         """Pinocchio's own configurations for coordinates by name; one that is not named is 0.
 
         Parameters
@@ -189,7 +190,7 @@ class PinocchioOracle:
         q: Mapping[str, Any],
         tip: str,
         base: str | None = None,
-    ) -> np.ndarray:
+    ) -> Array:
         """Poses of a link at N configurations.
 
         Parameters
@@ -215,7 +216,7 @@ class PinocchioOracle:
         """
         return self.evaluate(q, tip, base, jacobians=False)[0]
 
-    def link_poses(self, q: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    def link_poses(self, q: Mapping[str, Any]) -> dict[str, Array]:
         """Poses of every link in the frame of the root.
 
         Parameters
@@ -244,7 +245,7 @@ class PinocchioOracle:
         base: str | None = None,
         *,
         jacobians: bool = True,
-    ) -> tuple[np.ndarray, dict[Any, np.ndarray]]:
+    ) -> tuple[Array, dict[Any, Array]]:
         """Poses and Jacobians of a link at N configurations.
 
         Motion is relative to base, which may itself move in the tree. Space: base axes, the point at
@@ -316,13 +317,13 @@ class PinocchioOracle:
         T_0t: Any,
         base_id: int | None,
         T_0b: Any,
-    ) -> dict[str, np.ndarray]:
+    ) -> dict[str, Array]:
         """The three Jacobians in Pinocchio's row order, w.r.t. its own velocities, relative to the
         base frame.
         """
         pin = pinocchio()
 
-        def jacobian(frame: int, reference: Any) -> np.ndarray:
+        def jacobian(frame: int, reference: Any) -> Array:
             # With one degree of freedom Pinocchio's Python hands out a vector.
             J = pin.getFrameJacobian(self.model, self.data, frame, reference)
             return J.reshape(6, self.model.nv)

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
+from ....groups.arrays import Array
 from ....model.kinematics.pose_jacobian import FRAME_NAMES
 from ...laws.measures import size
 from ...oracles import exact, exact_chain
@@ -47,8 +48,8 @@ KINDS = ("revolute", "prismatic")
 class ScrewNumbers(NamedTuple):
     """Numbers of a joint: its axis, a point on it, q, and its pitch."""
 
-    axis: np.ndarray
-    point: np.ndarray
+    axis: Array
+    point: Array
     q: float
     pitch: float
 
@@ -81,7 +82,7 @@ def cases(subject: Subject, kinds: tuple[str, ...] = KINDS) -> st.SearchStrategy
     )
 
 
-def _joints(kinds: tuple[str, ...]) -> st.SearchStrategy[tuple[str, np.ndarray]]:
+def _joints(kinds: tuple[str, ...]) -> st.SearchStrategy[tuple[str, Array]]:
     signs = st.sampled_from([1.0, -1.0])
     turns = st.builds(lambda x, sign: x * sign, angles(), signs)
     pitches = st.builds(lambda x, sign: x * sign, magnitudes(*PITCHES), signs)
@@ -101,22 +102,22 @@ def _joints(kinds: tuple[str, ...]) -> st.SearchStrategy[tuple[str, np.ndarray]]
 
 
 def _numbers(
-    axis: np.ndarray,
-    point: np.ndarray,
+    axis: Array,
+    point: Array,
     q: float,
     pitch: float,
-) -> np.ndarray:
+) -> Array:
     return frozen([*axis, *point, q, pitch])
 
 
-def _case(joints: list[tuple[str, np.ndarray]], home: np.ndarray) -> Case:
+def _case(joints: list[tuple[str, Array]], home: Array) -> Case:
     return Case(
         np.concatenate([*(numbers for _, numbers in joints), home]),
         tuple(kind for kind, _ in joints),
     )
 
 
-def drawn(case: Case) -> tuple[ArmData, np.ndarray]:
+def drawn(case: Case) -> tuple[ArmData, Array]:
     """The arm in floats, and q."""
     joints = numbers_of(case)
     screws = np.zeros((len(joints), 6))
@@ -178,7 +179,7 @@ def _of(
     subject: Subject,
     name: str,
     case: Case,
-) -> tuple[Any, np.ndarray]:
+) -> tuple[Any, Array]:
     if subject.arm is not None:
         return subject.arm, case.numbers
     arm, q = drawn(case)
@@ -186,7 +187,7 @@ def _of(
     return of_arms.arm(rounded(arm.screws), rounded(arm.home)), q
 
 
-def _arguments(subject: Subject, arm: Any) -> tuple[np.ndarray, ...]:
+def _arguments(subject: Subject, arm: Any) -> tuple[Array, ...]:
     if subject.arm is not None:
         return ()
     return subject.twist(arm.screws), arm.home
@@ -208,7 +209,7 @@ def _check_jacobian(subject: Subject, case: Case) -> Verdict:
     arm, q = _of(subject, "jacobian", case)
     first = _arguments(subject, arm)
 
-    def jacobian(q: np.ndarray) -> np.ndarray:
+    def jacobian(q: Array) -> Array:
         J = real(subject.plain("jacobian")(*map(np.array, first), q))
         if J.shape != (6, len(q)):
             return J
@@ -221,7 +222,7 @@ def _check_jacobian(subject: Subject, case: Case) -> Verdict:
 
 def confirmed(
     arm: Any,
-    q: np.ndarray,
+    q: Array,
     jacobian: bool,
 ) -> bool:
     """Whether pose and space Jacobian of an arm stand against the second oracle."""
@@ -258,9 +259,9 @@ def _show(
 def truth(
     subject: Subject,
     arm: Any,
-    q: np.ndarray,
+    q: Array,
     jacobian: bool,
-) -> np.ndarray:
+) -> Array:
     """The exact pose, or the Jacobian as the subject has it, in floats; what is 0 to 60 digits of
     the largest is 0.
     """
@@ -270,7 +271,7 @@ def truth(
     return _without_rounding(exact_chain.pose(arm, q))
 
 
-def _without_rounding(found: np.ndarray) -> np.ndarray:
+def _without_rounding(found: Array) -> Array:
     x = exact.rounded(found)
     return np.where(np.abs(x) < 1e-60 * np.max(np.abs(x), initial=0.0), 0.0, x)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ....groups.arrays import Array
 from ...laws.measures import size
 from ...oracles import exact
 from ...strategies.batch_strategies import batch_shapes, batches
@@ -36,7 +37,7 @@ NOTHING = Verdict(Grade.EXACT, 0.0, "empty batch")
 Checked = Callable[..., Verdict]
 
 
-def element(xi: np.ndarray) -> np.ndarray:
+def element(xi: Array) -> Array:
     """The rotation or pose of floats nearest to the exact e^ξ."""
     return exact.rounded(exact.exp(xi))
 
@@ -59,7 +60,7 @@ def _count(name: str) -> int:
     return 6
 
 
-def _drawable(name: str, xi: np.ndarray) -> bool:
+def _drawable(name: str, xi: Array) -> bool:
     angle = size(xi[:3])
     return (
         drawable(angle, (SMALLEST, math.inf))
@@ -75,8 +76,8 @@ def _takes_element(name: str) -> bool:
 def _argument(
     subject: Subject,
     name: str,
-    xi: np.ndarray,
-) -> np.ndarray:
+    xi: Array,
+) -> Array:
     if not _takes_element(name):
         return xi
     return subject.precision(name).rounded(element(xi))
@@ -96,7 +97,7 @@ def _checked(name: str) -> Checked:
 def _confirmed(
     subject: Subject,
     name: str,
-    xi: np.ndarray,
+    xi: Array,
 ) -> bool:
     plain = name.removeprefix("so3_")
     if plain in JACOBIANS:
@@ -115,16 +116,16 @@ def _confirmed(
 def _truth(
     subject: Subject,
     name: str,
-    xi: np.ndarray,
-) -> np.ndarray:
+    xi: Array,
+) -> Array:
     return exact.rounded(getattr(exact, name.removeprefix("so3_"))(_argument(subject, name, xi)))
 
 
 def _in_order(
     subject: Subject,
     name: str,
-    x: np.ndarray,
-) -> np.ndarray:
+    x: Array,
+) -> Array:
     """An argument or a result of a function, in the subject's own order."""
     if name in SO3 or x.shape[-2:] == (4, 4):
         return x
@@ -133,7 +134,7 @@ def _in_order(
     return subject.twist(x)
 
 
-def coordinates(xi: np.ndarray) -> str:
+def coordinates(xi: Array) -> str:
     """Exponential coordinates in words, to the last digit."""
     texts = [f"{x + 0.0!r}".removesuffix(".0") for x in xi.tolist()]
     words = f"ω = ({', '.join(texts[:3])})"
@@ -186,7 +187,7 @@ def _noise_law() -> SubjectLaw:
     def cases(subject: Subject) -> st.SearchStrategy[Case]:
         return noisy_rotations((1e-17, subject.noise)).map(lambda R: Case(np.asarray(R).ravel()))
 
-    def R(case: Case) -> np.ndarray:
+    def R(case: Case) -> Array:
         return case.numbers.reshape(3, 3)
 
     def show(subject: Subject, case: Case) -> Shown:
@@ -225,7 +226,7 @@ class _BatchLaw:
 
     name: str
 
-    def rows(self, case: Case) -> np.ndarray:
+    def rows(self, case: Case) -> Array:
         return case.numbers.reshape(-1, _count(self.name))
 
     def tail(self, subject: Subject) -> tuple[int, ...]:
@@ -238,7 +239,7 @@ class _BatchLaw:
 
         return batch_shapes().flatmap(of)
 
-    def arguments(self, subject: Subject, case: Case) -> np.ndarray:
+    def arguments(self, subject: Subject, case: Case) -> Array:
         made = [_argument(subject, self.name, row) for row in self.rows(case)]
         one = _argument(subject, self.name, np.zeros(_count(self.name)))
         return np.reshape(made, (*_shape(case), *one.shape))

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ....groups.arrays import Array
 from ....model.kinematics.pose_jacobian import FRAME_NAMES
 from ...accuracy.error_bounds import UNIT
 from ...laws.measures import size
@@ -45,16 +46,16 @@ class ArmData(NamedTuple):
         Angles that went into it beside q, rad.
     """
 
-    screws: np.ndarray
-    home: np.ndarray
-    coupling: np.ndarray
-    offset: np.ndarray
+    screws: Array
+    home: Array
+    coupling: Array
+    offset: Array
     dof: int
     reach: float
     turned: float = 0.0
 
 
-def arm(screws: np.ndarray, home: np.ndarray) -> ArmData:
+def arm(screws: Array, home: Array) -> ArmData:
     """Arm with a coordinate for each joint.
 
     Parameters
@@ -77,7 +78,7 @@ def arm(screws: np.ndarray, home: np.ndarray) -> ArmData:
 
 def error_bound(
     arm: Any,
-    q: np.ndarray,
+    q: Array,
     unit: float = UNIT,
 ) -> tuple[float, float]:
     """Error of a pose that float64 can attain.
@@ -112,7 +113,7 @@ def error_bound(
 def fk_is_the_product_of_exponentials(
     fk: ArrayFunction,
     arm: Any,
-    q: np.ndarray,
+    q: Array,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
 ) -> Verdict:
@@ -157,8 +158,8 @@ def fk_is_the_product_of_exponentials(
 
 def pose_parts(
     arm: Any,
-    q: np.ndarray,
-    T: np.ndarray,
+    q: Array,
+    T: Array,
     precision: Precision = DOUBLE,
 ) -> list[ErrorPart]:
     """Errors of R, of t and of the last row of a pose.
@@ -195,7 +196,7 @@ def jacobian_is_the_derivative(
     jacobian: ArrayFunction,
     frame: NamedFrame,
     arm: Any,
-    q: np.ndarray,
+    q: Array,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
 ) -> Verdict:
@@ -234,8 +235,8 @@ def jacobian_is_the_derivative(
 def jacobian_parts(
     frame: NamedFrame,
     arm: Any,
-    q: np.ndarray,
-    J: np.ndarray,
+    q: Array,
+    J: Array,
     precision: Precision = DOUBLE,
 ) -> list[ErrorPart]:
     """Errors of ω and v of the worst column of a Jacobian.

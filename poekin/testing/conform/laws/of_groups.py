@@ -15,6 +15,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ....groups.arrays import Array
 from ...accuracy import error_bounds
 from ...accuracy.accuracy_laws import EXP_LOG_BAR, JACOBIAN_BAR, NOISE_BAR, jacobian_errors
 from ...oracles import exact
@@ -31,7 +32,7 @@ TWIST_SIZE = {3: 3, 4: 6}
 
 def exp_is_e_to_the_xi(
     exp: ArrayFunction,
-    xi: np.ndarray,
+    xi: Array,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
 ) -> Verdict:
@@ -73,8 +74,8 @@ def exp_is_e_to_the_xi(
 
 
 def exp_parts(
-    xi: np.ndarray,
-    X: np.ndarray,
+    xi: Array,
+    X: Array,
     precision: Precision = DOUBLE,
 ) -> list[ErrorPart]:
     """Errors of R, of t and of the last row of an exponential.
@@ -112,7 +113,7 @@ def exp_parts(
 
 def log_is_the_principal_logarithm(
     log: ArrayFunction,
-    X: np.ndarray,
+    X: Array,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
 ) -> Verdict:
@@ -147,8 +148,8 @@ def log_is_the_principal_logarithm(
 
 
 def log_parts(
-    X: np.ndarray,
-    xi: np.ndarray,
+    X: Array,
+    xi: Array,
     precision: Precision = DOUBLE,
 ) -> list[ErrorPart]:
     """Errors of ω and v of a logarithm.
@@ -176,8 +177,8 @@ def log_parts(
 
 def _log_parts(
     truth: np.ndarray,
-    xi: np.ndarray,
-    X: np.ndarray,
+    xi: Array,
+    X: Array,
     precision: Precision,
 ) -> list[ErrorPart]:
     error = exact.exactly(xi) - truth
@@ -205,7 +206,7 @@ def _log_parts(
 
 def log_forgives_noise(
     log: ArrayFunction,
-    R: np.ndarray,
+    R: Array,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
 ) -> Verdict:
@@ -245,7 +246,7 @@ def log_forgives_noise(
 
 def adjoint_is_its_matrix(
     adjoint: ArrayFunction,
-    T: np.ndarray,
+    T: Array,
     at_most: Grade = Grade.EXACT,
     precision: Precision = DOUBLE,
 ) -> Verdict:
@@ -307,7 +308,7 @@ def jacobian_of_exp(name: JacobianName) -> Callable[..., Verdict]:
 
     def law(
         function: ArrayFunction,
-        xi: np.ndarray,
+        xi: Array,
         at_most: Grade = Grade.EXACT,
         precision: Precision = DOUBLE,
     ) -> Verdict:

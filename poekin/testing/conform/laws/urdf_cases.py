@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
+from ....groups.arrays import Array
 from ...laws.measures import size
 from ...strategies.group_strategies import Arrays, angles, axes, frozen, magnitudes, st, vectors
 from . import of_urdf, small_urdf
@@ -86,7 +87,7 @@ def arms(
         rows = st.tuples(*(_row(axis, signed_angles(largest)) for _ in range(count)))
         return st.builds(make, sorts, rows)
 
-    def make(sorts: tuple[str, ...], rows: tuple[np.ndarray, ...]) -> Case:
+    def make(sorts: tuple[str, ...], rows: tuple[Array, ...]) -> Case:
         joints = tuple(
             UrdfJoint(kind, name, axis_written) for kind, name in zip(sorts, NAMES, strict=False)
         )
@@ -99,7 +100,7 @@ def _followers() -> Arrays:
     return _row(frame_axes(), signed_angles(), mimic=True)
 
 
-def _numbers(layout: UrdfLayout, rows: Iterable[np.ndarray]) -> Case:
+def _numbers(layout: UrdfLayout, rows: Iterable[Array]) -> Case:
     """The case of these joints: multiplier and offset of those that follow another, q of the
     others.
     """
@@ -120,7 +121,7 @@ def mimics() -> st.SearchStrategy[Case]:
     def make(
         first: int,
         kind: str,
-        rows: tuple[np.ndarray, ...],
+        rows: tuple[Array, ...],
     ) -> Case:
         joints = [UrdfJoint(kind, NAMES[0]), UrdfJoint(kind, NAMES[1])]
         joints[1 - first] = joints[1 - first]._replace(follows=first)
@@ -140,7 +141,7 @@ def trees(mimic: bool = False) -> st.SearchStrategy[Case]:
         kinds: tuple[str, ...],
         places: tuple[int, ...],
         order: list[int],
-        rows: tuple[np.ndarray, ...],
+        rows: tuple[Array, ...],
     ) -> Case:
         last = len(order) - 1
         after = [-1, *(min(place, k) for k, place in enumerate(places))][: last + 1]
@@ -168,7 +169,7 @@ def orders() -> st.SearchStrategy[Case]:
         names: list[str],
         order: list[int],
         side: bool,
-        rows: tuple[np.ndarray, ...],
+        rows: tuple[Array, ...],
     ) -> Case:
         count = len(order)
         layout = small_urdf.chain(
@@ -185,18 +186,18 @@ def orders() -> st.SearchStrategy[Case]:
 
 
 About = Callable[[Case], bool]
-Fits = Callable[[np.ndarray], bool]
+Fits = Callable[[Array], bool]
 
 
-def _along(axis: np.ndarray) -> bool:
+def _along(axis: Array) -> bool:
     return np.count_nonzero(axis) == 1
 
 
-def _frame_axis(axis: np.ndarray) -> bool:
+def _frame_axis(axis: Array) -> bool:
     return _along(axis) and unit(axis)
 
 
-def _long_axis(axis: np.ndarray) -> bool:
+def _long_axis(axis: Array) -> bool:
     return _along(axis) and drawable(size(axis), AXIS_LENGTHS)
 
 
@@ -282,7 +283,7 @@ def _robot_law(
     )
 
 
-def _axes(case: Case) -> list[np.ndarray]:
+def _axes(case: Case) -> list[Array]:
     joints = zip(small_urdf.layout_of(case).joints, small_urdf.numbers_of(case), strict=True)
     return [numbers.axis for joint, numbers in joints if joint.kind != "fixed"]
 

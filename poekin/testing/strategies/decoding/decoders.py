@@ -13,6 +13,7 @@ import math
 
 import numpy as np
 
+from ....groups.arrays import Array
 from .bytes_reader import BytesReader
 
 SWITCHES = (2e-140, 1.0, 2.0)
@@ -58,7 +59,7 @@ def angle(
     return r.fraction(0.0, largest)
 
 
-def axis(r: BytesReader) -> np.ndarray:
+def axis(r: BytesReader) -> Array:
     """A unit vector (3,): an axis of the frame, nearly one, or any. Takes 12 bytes."""
     kind = r.byte() % 4
     place = r.byte()
@@ -76,18 +77,18 @@ def axis(r: BytesReader) -> np.ndarray:
     return np.roll(n / math.hypot(*n), place)
 
 
-def vector(r: BytesReader, lengths: tuple[float, float]) -> np.ndarray:
+def vector(r: BytesReader, lengths: tuple[float, float]) -> Array:
     """A vector (3,) in m, of length 0 or within lengths. Takes 16 bytes."""
     return r.magnitude(*lengths) * axis(r)
 
 
-def rotation(r: BytesReader) -> np.ndarray:
+def rotation(r: BytesReader) -> Array:
     """A rotation (3, 3) by 0 to π. Takes 18 bytes."""
     n = axis(r)
     return turned(n, angle(r, math.pi, SMALLEST))
 
 
-def turned(n: np.ndarray, by: float) -> np.ndarray:
+def turned(n: Array, by: float) -> Array:
     """The rotation (3, 3) by an angle `by` in rad about the unit vector n (3,): I + sin θ [n] + 2
     sin²(θ/2) [n]².
     """
