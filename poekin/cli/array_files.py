@@ -143,6 +143,15 @@ def check_writable(path: Path) -> None:
         )
 
 
+def check_place(path: Path, endings: Sequence[str]) -> None:
+    """Refuse a place that has none of these endings, or no directory. Raises: FileError."""
+    where = f"cannot write {path_text(path)}"
+    if path.suffix.lower() not in endings:
+        raise FileError(f"{where}: a name that ends in {' or '.join(endings)} expected")
+    if path.is_dir() or not path.parent.is_dir():
+        raise FileError(f"{where}: it is a directory, or there is none for it")
+
+
 def check_apart(results: Iterable[Path | None], **read: str | Sequence[str] | None) -> None:
     """Refuse to write over a file that is read, or two results into one file.
 

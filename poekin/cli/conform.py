@@ -6,7 +6,7 @@ import enum
 import sys
 from typing import Annotated
 
-import typer
+from typer import Argument, Exit, Option
 
 from .kinematics.arm import Json
 from .output import Progress, as_json, say
@@ -15,25 +15,25 @@ FINDINGS = 1
 
 Subject = Annotated[
     str,
-    typer.Argument(
+    Argument(
         metavar="MODULE:CLASS",
         help="The class with the functions, in a module that Python finds from this directory.",
     ),
 ]
 Laws = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--law",
         help="Hold it to this law only; may be repeated (default: all that apply).",
     ),
 ]
 Without = Annotated[
     list[str] | None,
-    typer.Option("--except", help="Leave out this law; may be repeated."),
+    Option("--except", help="Leave out this law; may be repeated."),
 ]
 Examples = Annotated[
     int | None,
-    typer.Option(
+    Option(
         "--examples",
         help="Cases of each law (default: 100 to 400, each law its own).",
         min=1,
@@ -41,7 +41,7 @@ Examples = Annotated[
 ]
 Seconds = Annotated[
     float,
-    typer.Option(
+    Option(
         "--seconds",
         help="Time for all laws together; shrinking a finding comes on top. Said where it runs out.",
         min=0.1,
@@ -49,7 +49,7 @@ Seconds = Annotated[
 ]
 Limit = Annotated[
     float,
-    typer.Option("--limit", help="Seconds that one call may take, with what it compiles.", min=0.1),
+    Option("--limit", help="Seconds that one call may take, with what it compiles.", min=0.1),
 ]
 
 
@@ -63,7 +63,7 @@ class Bar(enum.StrEnum):
 
 AtMost = Annotated[
     Bar,
-    typer.Option("--at-most", help="The worst grade that is let pass with exit code 0."),
+    Option("--at-most", help="The worst grade that is let pass with exit code 0."),
 ]
 
 
@@ -105,4 +105,4 @@ def command(
         print(as_json(report.to_dict()))
     else:
         say(report)
-    raise typer.Exit(0 if report.conforms else FINDINGS)
+    raise Exit(0 if report.conforms else FINDINGS)

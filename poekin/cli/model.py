@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from contextvars import ContextVar
 from typing import Annotated, Any
 
-import typer
+from typer import Option
 
 from ..errors import InputError, quote, suggest
 from ..formats.load import load
@@ -18,10 +18,10 @@ from ..formats.xacro import xacro as evaluate_xacro
 from ..model.robot import Robot
 
 XACRO_HELP = "Evaluate each FILE that is xacro: this runs the expressions in it, so only do it with files you trust."
-Xacro = Annotated[bool, typer.Option("--xacro", help=XACRO_HELP)]
+Xacro = Annotated[bool, Option("--xacro", help=XACRO_HELP)]
 Given = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--xacro-arg",
         metavar="NAME=VALUE",
         help="With --xacro: the value of a <xacro:arg>; may be repeated.",

@@ -20,8 +20,8 @@ NESTED = 100
 # No array has more rows: a shape whose other axis is 0 could otherwise claim any number of them.
 MOST_ROWS = 2**40
 _ORDER: dict[bool, Literal["C", "F"]] = {False: "C", True: "F"}
-_START_OF_HEADER = {b"\1\0": 10, b"\2\0": 12, b"\3\0": 12}
-_ENCODING = {b"\1\0": "latin-1", b"\2\0": "latin-1", b"\3\0": "utf-8"}
+# Of each version, the first byte of the header and its encoding.
+_HEADERS = {b"\1\0": (10, "latin-1"), b"\2\0": (12, "latin-1"), b"\3\0": (12, "utf-8")}
 
 
 def configurations(content: bytes, m: int, where: str, tail: tuple[int, ...] = ()) -> np.ndarray:
@@ -63,16 +63,16 @@ def _header(content: bytes) -> tuple[np.dtype, bool, tuple[int, ...], int]:
     if not content.startswith(MAGIC):
         raise ValueError("its first bytes are not those of a .npy file")
     version = content[6:8]
-    if version not in _START_OF_HEADER:
+    if version not in _HEADERS:
         raise ValueError("its version is unknown")
-    start = _START_OF_HEADER[version]
+    start, encoding = _HEADERS[version]
     length = int.from_bytes(content[8:start], "little")
     text = content[start : start + length]
     if len(content) < start or len(text) < length:
         raise ValueError("it ends within its header")
     if length > LONGEST_HEADER:
         raise ValueError(f"its header is longer than {LONGEST_HEADER} bytes")
-    header = _literal(text, _ENCODING[version])
+    header = _literal(text, encoding)
     if not isinstance(header, dict) or set(header) != {"descr", "fortran_order", "shape"}:
         raise ValueError("its header does not say descr, fortran_order and shape")
     descr = header["descr"]

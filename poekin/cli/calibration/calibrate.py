@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 from typer import Argument, Option
 
-from ...errors import FileError, InputError, UnknownName, quote
+from ...errors import InputError, UnknownName, quote
 from ...formats import dh
 from ...formats.dh.table import CONVENTIONS
 from ...formats.text.atomic_write import write_whole
@@ -19,7 +19,7 @@ from ...solve.calibration.calibrate import calibrate
 from ...solve.calibration.calibration import Calibration
 from ...solve.calibration.report import changes, html_report
 from ...solve.calibration.report.summary import MOST_OUTLIERS
-from ..array_files import check_apart
+from ..array_files import check_apart, check_place
 from ..kinematics.arm import Base, File, Json, Tip
 from ..model import model
 from ..output import Progress, as_json, complain, name, path_text, say, table
@@ -135,7 +135,10 @@ def command(
     converged, 2 error.
     """
     outputs = list(output or ())
-    _check_places(outputs, report)
+    for place in outputs:
+        check_place(place, _ENDINGS)
+    if report:
+        check_place(report, (".html", ".htm"))
     check_apart([*outputs, report], model=file, measurements=files)
     if convention not in CONVENTIONS:
         raise InputError(f"--dh: expected standard or modified, got {quote(convention)}")
@@ -219,19 +222,6 @@ def _as_options(message: str) -> str:
 def _listed(words: Sequence[str] | None) -> list[str] | None:
     """The names in a repeated option, each of which may hold several with commas between."""
     return None if words is None else [part.strip() for word in words for part in word.split(",")]
-
-
-def _check_places(outputs: Sequence[Path], report: Path | None) -> None:
-    """Refuse places that cannot be written to before any work is done. Raises: FileError."""
-    ends = [(path, _ENDINGS) for path in outputs]
-    if report:
-        ends.append((report, (".html", ".htm")))
-    for path, endings in ends:
-        where = f"cannot write {path_text(path)}"
-        if path.suffix.lower() not in endings:
-            raise FileError(f"{where}: a name that ends in {' or '.join(endings)} expected")
-        if path.is_dir() or not path.parent.is_dir():
-            raise FileError(f"{where}: it is a directory, or there is none for it")
 
 
 def _write(

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-import typer
+from typer import Argument, Option
 
 from ...errors import InputError, quote
 from ...formats.text import csv_rows
@@ -20,22 +20,22 @@ from ..output import Progress, as_json, heading, matrix, name, number, path_text
 from . import poses
 
 FILE_HELP = "A URDF, MJCF, DH table or calibration file, a built-in name (panda), or erd:NAME."
-File = Annotated[str, typer.Argument(metavar="FILE", help=FILE_HELP)]
+File = Annotated[str, Argument(metavar="FILE", help=FILE_HELP)]
 Tip = Annotated[
     str | None,
-    typer.Option("--tip", help="The link whose motion it is (may be left out for one leaf)."),
+    Option("--tip", help="The link whose motion it is (may be left out for one leaf)."),
 ]
 Base = Annotated[
     str | None,
-    typer.Option("--base", help="The link it is seen from (default: the root)."),
+    Option("--base", help="The link it is seen from (default: the root)."),
 ]
 Numbers = Annotated[
     list[str] | None,
-    typer.Argument(metavar="Q...", help="The coordinates, in rad or m."),
+    Argument(metavar="Q...", help="The coordinates, in rad or m."),
 ]
 Input = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--input",
         metavar="FILE",
         help="Many configurations: a .csv or .npy file, or - (CSV on stdin).",
@@ -43,10 +43,10 @@ Input = Annotated[
 ]
 Output = Annotated[
     Path | None,
-    typer.Option("--output", help="Where the results go: a .csv, .npy or .json file."),
+    Option("--output", help="Where the results go: a .csv, .npy or .json file."),
 ]
-Seed = Annotated[int, typer.Option("--seed", help="Seed of the random configurations.", min=0)]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Seed = Annotated[int, Option("--seed", help="Seed of the random configurations.", min=0)]
+Json = Annotated[bool, Option("--json", help="Print JSON.")]
 
 ROWS_AT_ONCE = 20_000
 

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Annotated, cast
 
 import numpy as np
-import typer
+from typer import Exit, Option
 
 from ...checks import positive
-from ...errors import FileError, InputError
+from ...errors import InputError
 from ...formats.text import csv_rows
 from ...formats.text.atomic_write import write_whole
 from ...model.chain import Chain
@@ -24,7 +24,7 @@ from .arm import Base, File, Json, Tip
 
 Start = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--q0",
         metavar="Q,...",
         help="Where the arm is (commas between); default: chosen by trial.",
@@ -32,15 +32,15 @@ Start = Annotated[
 ]
 Duration = Annotated[
     float | None,
-    typer.Option("--duration", help="Seconds from the first pose to the last, evenly."),
+    Option("--duration", help="Seconds from the first pose to the last, evenly."),
 ]
 Speed = Annotated[
     str | None,
-    typer.Option("--speed", metavar="V[,...]", help="Limits of speed, with --duration."),
+    Option("--speed", metavar="V[,...]", help="Limits of speed, with --duration."),
 ]
 Acceleration = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--acceleration",
         metavar="A[,...]",
         help="Limits of acceleration, with --duration.",
@@ -48,14 +48,14 @@ Acceleration = Annotated[
 ]
 Step = Annotated[
     float,
-    typer.Option(
+    Option(
         "--max-step",
         help="How far (rad or m) a joint may go at a step; longer ones are divided.",
     ),
 ]
 Plot = Annotated[
     Path | None,
-    typer.Option("--plot", help="Draw the joints over time: an .svg file."),
+    Option("--plot", help="Draw the joints over time: an .svg file."),
 ]
 
 
@@ -86,7 +86,7 @@ def command(
     if output is not None:
         array_files.check_writable(output)
     if plot is not None:
-        _check_plot(plot)
+        array_files.check_place(plot, (".svg",))
     if given is None:
         raise InputError("--input: a file of poses expected, got none")
     array_files.check_apart([output, plot], model=file, poses=given)
@@ -117,22 +117,13 @@ def command(
         write_whole(plot, svg.encode())
         if not json:
             say(f"joints drawn in {path_text(plot)}")
-    raise typer.Exit(0 if path.ok else poses.UNSOLVED)
+    raise Exit(0 if path.ok else poses.UNSOLVED)
 
 
 def _times(duration: float | None, count: int) -> np.ndarray | None:
     if duration is None:
         return None
     return np.linspace(0, positive(duration, "--duration"), count)
-
-
-def _check_plot(plot: Path) -> None:
-    if plot.suffix.lower() != ".svg":
-        raise FileError(f"cannot write {path_text(plot)}: a name that ends in .svg expected")
-    if plot.is_dir() or not plot.parent.is_dir():
-        raise FileError(
-            f"cannot write {path_text(plot)}: it is a directory, or there is none for it"
-        )
 
 
 def _give(robot: str, chain: Chain, path: PathResult, output: Path | None, json: bool) -> None:

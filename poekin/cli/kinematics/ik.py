@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Any, cast
 
 import numpy as np
-import typer
+from typer import Exit, Option
 
 from ...formats.text import csv_rows
 from ...model.chain import Chain
@@ -22,7 +22,7 @@ from .arm import Base, File, Json, Tip, show_coordinates
 MOST_TOLD = 20
 Start = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--q0",
         metavar="Q,...",
         help="Where the search begins (commas between); default: random.",
@@ -30,7 +30,7 @@ Start = Annotated[
 ]
 Nearest = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--nearest-to",
         metavar="Q,...",
         help="Of several solutions, the one nearest to this.",
@@ -77,7 +77,7 @@ def command(
             progress=progress,
         )
     _give(robot.name, chain, found, given is None, output, json)
-    raise typer.Exit(0 if found.success.all() else poses.UNSOLVED)
+    raise Exit(0 if found.success.all() else poses.UNSOLVED)
 
 
 def _give(

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-import typer
+from typer import Argument, Option
 
 from ...errors import InputError, quote
 from ...formats.text import pose_rows
@@ -24,12 +24,12 @@ FORMAT_HELP = (
 )
 Poses = Annotated[
     list[str] | None,
-    typer.Argument(metavar="POSE...", help="One pose, in the numbers of --format."),
+    Argument(metavar="POSE...", help="One pose, in the numbers of --format."),
 ]
-Format = Annotated[str | None, typer.Option("--format", metavar="12|16|7", help=FORMAT_HELP)]
+Format = Annotated[str | None, Option("--format", metavar="12|16|7", help=FORMAT_HELP)]
 Quaternion = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--quaternion",
         metavar="wxyz|xyzw",
         help="The order of the quaternion in --format 7; never guessed.",
@@ -37,7 +37,7 @@ Quaternion = Annotated[
 ]
 Input = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--input",
         metavar="FILE",
         help="Poses, one a row: a .csv or .npy file, or - (CSV on stdin).",
@@ -45,11 +45,11 @@ Input = Annotated[
 ]
 Output = Annotated[
     Path | None,
-    typer.Option("--output", help="Where the joints go: a .csv, .npy or .json file."),
+    Option("--output", help="Where the joints go: a .csv, .npy or .json file."),
 ]
 Seed = Annotated[
     int,
-    typer.Option(
+    Option(
         "--seed",
         min=0,
         help="Of the random starts: the same seed gives the same result.",
@@ -57,13 +57,13 @@ Seed = Annotated[
 ]
 Task = Annotated[
     str,
-    typer.Option(
+    Option(
         "--task",
         help="What to hold: pose, position, rotation, direction (position and tool's z axis), or "
         "planar (position in the arm's plane and the angle in it).",
     ),
 ]
-NoLimits = Annotated[bool, typer.Option("--no-limits", help="Let the joints leave their limits.")]
+NoLimits = Annotated[bool, Option("--no-limits", help="Let the joints leave their limits.")]
 
 OPTIONS = (
     *("--tip", "--base", "--input", "--format", "--quaternion", "--q0", "--nearest-to", "--task"),

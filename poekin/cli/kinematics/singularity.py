@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Annotated
 
-import typer
+from typer import Exit, Option
 
 from ...analysis.dexterity.jacobian_part import TOLERANCE
 from ...analysis.dexterity.manipulability import manipulability
@@ -27,7 +27,7 @@ class Part(StrEnum):
 
 At = Annotated[
     str | None,
-    typer.Option(
+    Option(
         "--at",
         metavar="Q...",
         help="The coordinates, in rad or m (as Q...; commas may stand between them).",
@@ -35,14 +35,14 @@ At = Annotated[
 ]
 PartOption = Annotated[
     Part | None,
-    typer.Option(
+    Option(
         "--part",
         help="What the tool is asked for (default: translation where that takes all coordinates, else pose).",
     ),
 ]
 Tolerance = Annotated[
     float,
-    typer.Option(
+    Option(
         "--tolerance",
         help="Singular at or below this smallest ÷ largest singular value.",
     ),
@@ -80,4 +80,4 @@ def command(
             (p, *(number(float(x), 4) for x in vars(m).values())) for p, m in vars(measures).items()
         ]
         table(("Jacobian (rad, m)", "Yoshikawa", "condition", "smallest singular value"), rows)
-    raise typer.Exit(SINGULAR if result.singular else 0)
+    raise Exit(SINGULAR if result.singular else 0)

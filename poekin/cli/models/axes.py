@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-import typer
+from typer import Option
 
 from ...analysis.axes import axes
 from ...checks import positive
@@ -15,11 +15,11 @@ from ..output import as_json, name, number, say, table
 
 TolMm = Annotated[
     float,
-    typer.Option("--tol-mm", help="Axes that pass each other by up to this intersect, mm."),
+    Option("--tol-mm", help="Axes that pass each other by up to this intersect, mm."),
 ]
 TolDeg = Annotated[
     float,
-    typer.Option("--tol-deg", help="Angles up to this off are parallel or perpendicular, deg."),
+    Option("--tol-deg", help="Angles up to this off are parallel or perpendicular, deg."),
 ]
 
 

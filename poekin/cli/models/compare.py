@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-import typer
+from typer import Argument, Exit, Option
 
 from ...analysis.compare.compare import compare
 from ...analysis.compare.comparison import Comparison, JointComparison
@@ -18,28 +18,28 @@ from ..output import as_json, name, number, path_text, say, table
 
 DIFFER = 1
 
-A = Annotated[str, typer.Argument(metavar="A", help=FILE_HELP)]
-B = Annotated[str, typer.Argument(metavar="B", help="The model that it is compared with.")]
+A = Annotated[str, Argument(metavar="A", help=FILE_HELP)]
+B = Annotated[str, Argument(metavar="B", help="The model that it is compared with.")]
 TipB = Annotated[
     str | None,
-    typer.Option("--tip-b", help="The link in B (default: as --tip where B has that link)."),
+    Option("--tip-b", help="The link in B (default: as --tip where B has that link)."),
 ]
 BaseB = Annotated[
     str | None,
-    typer.Option("--base-b", help="B's base (default: as --base where B has that link)."),
+    Option("--base-b", help="B's base (default: as --base where B has that link)."),
 ]
-TolMm = Annotated[float, typer.Option("--tol-mm", help="Lengths up to this are the same, mm.")]
+TolMm = Annotated[float, Option("--tol-mm", help="Lengths up to this are the same, mm.")]
 TolDeg = Annotated[
     float,
-    typer.Option("--tol-deg", help="Angles up to this are the same, degrees."),
+    Option("--tol-deg", help="Angles up to this are the same, degrees."),
 ]
 Strict = Annotated[
     bool,
-    typer.Option("--strict", help="Align nothing: frames, zero positions and directions count."),
+    Option("--strict", help="Align nothing: frames, zero positions and directions count."),
 ]
 Samples = Annotated[
     int,
-    typer.Option("--samples", help="Random configurations for the pose errors.", min=1),
+    Option("--samples", help="Random configurations for the pose errors.", min=1),
 ]
 
 
@@ -77,7 +77,7 @@ def command(
         print(as_json({"a": _where(a, one), "b": _where(b, other)} | result.to_dict()))
     else:
         _show(result, one, other)
-    raise typer.Exit(0 if result.equal else DIFFER)
+    raise Exit(0 if result.equal else DIFFER)
 
 
 def _chain(

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated, cast
 
 import numpy as np
-import typer
+from typer import Option
 
 from ...errors import quote
 from ...formats import dh
@@ -20,11 +20,11 @@ from ..output import as_json, matrix, name, number, path_text, say, table
 
 Convention = Annotated[
     str,
-    typer.Option("--convention", help="standard (Paul, distal) or modified (Craig, proximal)."),
+    Option("--convention", help="standard (Paul, distal) or modified (Craig, proximal)."),
 ]
 Output = Annotated[
     Path | None,
-    typer.Option("--output", help="Where the table goes: a .toml or .csv file."),
+    Option("--output", help="Where the table goes: a .toml or .csv file."),
 ]
 
 
@@ -54,11 +54,8 @@ def command(
 
 
 def _document(chain: Chain, result: dh.FromChain, output: Path | None) -> dict[str, object]:
-    document = {"base": chain.base, "tip": chain.tip} | result.to_dict()
-    document["written"] = None
-    if output is not None:
-        document["written"] = str(output)
-    return document
+    written = None if output is None else str(output)
+    return {"base": chain.base, "tip": chain.tip} | result.to_dict() | {"written": written}
 
 
 def _row(index: int, row: dh.Row, nothing: float) -> tuple[object, ...]:

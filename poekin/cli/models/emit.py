@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
+from typer import Option
 
 from ...errors import FileError, InputError, quote
 from ...formats import emit
@@ -27,22 +27,22 @@ FRAME_HELP = "The Jacobian's: space | body | hybrid | cheapest (an intermediate 
 
 Language = Annotated[
     str,
-    typer.Option("--lang", help="c (C99, math.h only) or python (NumPy, JAX, PyTorch arrays)."),
+    Option("--lang", help="c (C99, math.h only) or python (NumPy, JAX, PyTorch arrays)."),
 ]
 Output = Annotated[
     Path,
-    typer.Option(
+    Option(
         "--output",
         help="A directory for the files (made where there is none); for python also a .py.",
     ),
 ]
-Frame = Annotated[str, typer.Option("--frame", help=FRAME_HELP)]
-Single = Annotated[bool, typer.Option("--float/--double", help="C only: the type of its numbers.")]
+Frame = Annotated[str, Option("--frame", help=FRAME_HELP)]
+Single = Annotated[bool, Option("--float/--double", help="C only: the type of its numbers.")]
 Name = Annotated[
     str | None,
-    typer.Option("--name", help="What names begin with (default: the robot's name)."),
+    Option("--name", help="What names begin with (default: the robot's name)."),
 ]
-Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
+Force = Annotated[bool, Option("--force", help="Replace files that exist.")]
 
 
 def command(

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Option
 
 from ...errors import quote
 from ...formats.text.atomic_write import write_whole
@@ -18,10 +18,10 @@ from ..kinematics.arm import Base, File
 from ..model import model
 from ..output import path_text, say
 
-Tip = Annotated[str | None, typer.Option("--tip", help="The last link of the one chain to write.")]
+Tip = Annotated[str | None, Option("--tip", help="The last link of the one chain to write.")]
 Output = Annotated[
     Path | None,
-    typer.Option("--output", help="Where the text goes (default: it is printed)."),
+    Option("--output", help="Where the text goes (default: it is printed)."),
 ]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
+from typer import Argument, Exit, Option
 
 from ...analysis.validate import BAR, Validation, validate
 from ...errors import InputError, MissingExtra, PoekinError
@@ -19,13 +19,13 @@ ERROR = 2
 
 Files = Annotated[
     list[str] | None,
-    typer.Argument(metavar="FILE...", help="Model files, built-in names, or erd:NAME."),
+    Argument(metavar="FILE...", help="Model files, built-in names, or erd:NAME."),
 ]
 Every = Annotated[
     bool,
-    typer.Option("--all", help="Every robot of the package example-robot-data."),
+    Option("--all", help="Every robot of the package example-robot-data."),
 ]
-Samples = Annotated[int, typer.Option("--samples", help="Random configurations a chain.", min=0)]
+Samples = Annotated[int, Option("--samples", help="Random configurations a chain.", min=0)]
 
 
 def command(
@@ -47,9 +47,11 @@ def command(
     if not names:
         raise InputError("nothing to validate: give FILE… or --all")
     results, errors = _validate_each(names, samples, seed)
-    passed = all(v.passed for v in results)
+    passed = not errors and all(v.passed for v in results)
     if json:
-        print(as_json(_document(results, errors, skipped)))
+        robots = [v.to_dict() for v in results]
+        document = {"passed": passed, "robots": robots, "errors": errors, "skipped": skipped}
+        print(as_json(document))
     else:
         _show(results, len(errors), skipped)
     for file, message in errors.items():
@@ -57,8 +59,8 @@ def command(
             message = f"{name(file)}: {message}"
         complain(f"error: {message}")
     if errors:
-        raise typer.Exit(ERROR)
-    raise typer.Exit(0 if passed else FAILED)
+        raise Exit(ERROR)
+    raise Exit(0 if passed else FAILED)
 
 
 def _validate_each(
@@ -82,20 +84,6 @@ def _validate_each(
             except (PoekinError, OSError) as error:
                 errors[file] = str(error)
     return results, errors
-
-
-def _document(
-    results: list[Validation],
-    errors: dict[str, str],
-    skipped: list[str],
-) -> dict[str, object]:
-    passed = not errors and all(v.passed for v in results)
-    return {
-        "passed": passed,
-        "robots": [v.to_dict() for v in results],
-        "errors": errors,
-        "skipped": skipped,
-    }
 
 
 def _show(results: list[Validation], unread: int, skipped: list[str]) -> None:
