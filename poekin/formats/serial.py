@@ -36,7 +36,7 @@ class Value(NamedTuple):
     moves: bool = True
 
 
-def serial_robot(chain: Arm, name: str | None = None) -> Robot:
+def serial_robot(chain: Arm) -> Robot:
     """The robot of one branch with the kinematics of a chain: base, a link after each joint, tip.
 
     Frames are the z-aligned ones of `chain.local`: a chain does not know its links' own. Joint i
@@ -50,15 +50,14 @@ def serial_robot(chain: Arm, name: str | None = None) -> Robot:
     joint's own x. A joint that follows no coordinate becomes a fixed one. Limits of masters are
     those of the chain to the last digit; a follower's are as wide as its master's leave it.
 
-    Parameters: chain; name of the robot, by default BASE_to_TIP. Returns: Robot; its q is in order
-    of first appearance. Raises: InputError for a joint that follows several coordinates, for base
-    and tip of the same name, and for what is no chain. Warns: PoekinWarning where q is no longer
-    the same: another scale, another order, a coordinate left out because no joint follows it.
+    Parameters: chain. Returns: Robot, called BASE_to_TIP; its q is in order of first appearance.
+    Raises: InputError for a joint that follows several coordinates, for base and tip of the same
+    name, and for what is no chain. Warns: PoekinWarning where q is no longer the same: another
+    scale, another order, a coordinate left out because no joint follows it.
     Accuracy: that of the local form; about 1e-16 reach a joint. Source: Park 1994, Section IV.
     """
     chain = chain_of(chain)
-    if name is None:
-        name = f"{chain.base}_to_{chain.tip}"
+    name = f"{chain.base}_to_{chain.tip}"
     if chain.base == chain.tip:
         if not chain.joint_names and np.array_equal(chain.home, np.eye(4)):
             return Robot(name, [chain.base], [])

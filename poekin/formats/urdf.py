@@ -36,11 +36,11 @@ _ZERO = (0.0, 0.0, 0.0)
 
 
 class Repair(NamedTuple):
-    """Repair of a joint: the line, the size of the fault, and the words for it."""
+    """Repair of a joint: the line, the words for it, and the size of the fault."""
 
     line: int
-    size: float
     text: str
+    size: float = 0.0
 
 
 class Repairs(NamedTuple):
@@ -151,14 +151,14 @@ def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
     length = math.hypot(*axis)
     if abs(length - 1.0) > AXIS_TOLERANCE:
         text = f"the axis of {fields.what} has length {length:.9g} and was normalised"
-        repairs.axes.append(Repair(element.line, abs(length - 1.0), text))
+        repairs.axes.append(Repair(element.line, text, abs(length - 1.0)))
     return axis
 
 
 def _limits(fields: Fields, name: str, repairs: Repairs) -> tuple[float, float]:
     element = fields.child("limit")
     if element is None:
-        repairs.limits.append(Repair(fields.line, 0.0, f"{quote(name)} (none; line {fields.line})"))
+        repairs.limits.append(Repair(fields.line, f"{quote(name)} (none; line {fields.line})"))
         return UNBOUNDED
     lower = element.number("lower", finite=False)
     upper = element.number("upper", finite=False)
@@ -169,7 +169,7 @@ def _limits(fields: Fields, name: str, repairs: Repairs) -> tuple[float, float]:
     reason = _unusable(lower, upper)
     if reason:
         line = element.line
-        repairs.limits.append(Repair(line, 0.0, f"{quote(name)} ({reason}; line {line})"))
+        repairs.limits.append(Repair(line, f"{quote(name)} ({reason}; line {line})"))
     if lower == upper:
         return UNBOUNDED
     return without_absurd(lower, upper)
@@ -206,7 +206,7 @@ def _with_known_master(joint: Joint, fields: Fields, known: set[str], repairs: R
         return joint
     element = fields.child("mimic") or fields
     text = f"{fields.what} mimics {quote(joint.mimic.joint)}, which does not exist"
-    repairs.mimics.append(Repair(element.line, 0.0, text))
+    repairs.mimics.append(Repair(element.line, text))
     return replace(joint, mimic=None)
 
 

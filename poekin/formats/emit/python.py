@@ -112,7 +112,7 @@ def _angles(program: Statements) -> list[str]:
     return [
         *(f"    {name} = q[..., {k}]" for name, _, k in program.angle_reads),
         *(f"    x{j} = {text}" for j, text in enumerate(program.angles)),
-        *_call("return xp.stack", [f"x{j}" for j in range(len(program.angles))], ", -1)"),
+        *_stack("return", [f"x{j}" for j in range(len(program.angles))]),
     ]
 
 
@@ -128,18 +128,18 @@ def _statements(program: Statements, task: Task, dof: int) -> list[str]:
         lines.append("    zero = xp.sum(q[..., :0], -1)")
         lines += [f"    {names[x]} = xp.full_like(zero, {double(x)})" for x in constants]
     if task.pose:
-        lines += _call("T = xp.stack", [names.get(x, str(x)) for x in T], ", -1)")
+        lines += _stack("T =", [names.get(x, str(x)) for x in T])
         lines.append("    T = xp.reshape(T, tuple(q.shape[:-1]) + (4, 4))")
     if task.jacobian:
         entries = "q"
         if dof:
             entries = "J"
-            lines += _call("J = xp.stack", [names.get(x, str(x)) for x in J], ", -1)")
+            lines += _stack("J =", [names.get(x, str(x)) for x in J])
         lines.append(f"    J = xp.reshape({entries}, tuple(q.shape[:-1]) + (6, {dof}))")
     return lines
 
 
-def _call(head: str, parts: list[str], tail: str) -> list[str]:
-    """One call over a list, in lines of no more than 110 characters."""
+def _stack(head: str, parts: list[str]) -> list[str]:
+    """A call of xp.stack over a list, in lines of no more than 110 characters."""
     body = textwrap.wrap(", ".join(parts), 102, break_long_words=False, break_on_hyphens=False)
-    return [f"    {head}([", *(f"        {line}" for line in body), f"    ]{tail}"]
+    return [f"    {head} xp.stack([", *(f"        {line}" for line in body), "    ], -1)"]

@@ -48,7 +48,7 @@ from ...model.provenance import Source, warn
 from ...model.robot import Robot
 from ..text import xml
 from .mjcf_files import look_through
-from .mjcf_robot import make_robot
+from .mjcf_robot import ModelReader
 
 # What is named first refers to what comes after it.
 WITHOUT_KINEMATICS = (
@@ -143,7 +143,7 @@ def _read(data: str | bytes, name: str, parse_spec: Callable[[Any], Any], path: 
         sites = _poses(model.site_pos, model.site_quat, mujoco)
         # What comes of numbers too large is refused as a joint's origin.
         with np.errstate(all="ignore"):
-            robot, said = make_robot(model, bodies, sites, title, source, other)
+            robot, said = ModelReader(model).robot(bodies, sites, title, source, other)
     except PoekinError as fault:
         raise ModelError(
             f"{source.place()}: {str(fault).removeprefix(f'{source.place()}: ')}"

@@ -33,26 +33,8 @@ class _Motion(NamedTuple):
     at_zero: Array | None
 
 
-def make_robot(
-    model: Any,
-    bodies: np.ndarray,
-    sites: np.ndarray,
-    name: str,
-    source: Source,
-    other: list[str],
-) -> tuple[Robot, list[str]]:
-    """Robot of a model, and the warnings.
-
-    Parameters: model, an mjModel; bodies, sites, the poses (N, 4, 4) [m] of each in its parent
-    body's frame; name of the robot; source; other, what constraints the model had that are no joint
-    equalities.
-    Raises: what `Joint` and `Robot` raise.
-    """
-    return _Reader(model).robot(bodies, sites, name, source, other)
-
-
-class _Reader:
-    """Reader of a model: the names of its parts, all different, and its joints one by one."""
+class ModelReader:
+    """Reader of an mjModel: the names of its parts, all different, and its joints one by one."""
 
     def __init__(self, model: Any) -> None:
         self.model = model
@@ -84,7 +66,12 @@ class _Reader:
         source: Source,
         other: list[str],
     ) -> tuple[Robot, list[str]]:
-        """The robot and the warnings."""
+        """Robot of the model, and the warnings.
+
+        Parameters: bodies, sites, the poses (N, 4, 4) [m] of each in its parent body's frame; name
+        of the robot; source; other, what constraints the model had that are no joint equalities.
+        Raises: what `Joint` and `Robot` raise.
+        """
         model = self.model
         mimics, constants = self._equalities()
         for i in range(model.nbody):

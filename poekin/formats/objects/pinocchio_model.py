@@ -87,8 +87,10 @@ def make_robot(model: Any) -> Robot:
         """The link below which something on a joint hangs: the frame i's own parent, or the joint's
         link.
         """
-        if i is not None and frames[i].above != i and frames[frames[i].above].joint == joint:
-            return Place(links[frames[i].above], frames[frames[i].above].pose)
+        if i is not None and frames[i].above != i:
+            k = frames[i].above
+            if frames[k].joint == joint:
+                return Place(links[k], frames[k].pose)
         return places[joint]
 
     joints: list[Joint] = []

@@ -9,6 +9,7 @@ import itertools
 import math
 import os
 import stat
+from array import array
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple, TextIO
 
@@ -21,7 +22,7 @@ from .numbers import real
 
 Line = tuple[int, list[str]]
 AT_ONCE = 10_000
-"""Lines that become an array together: more are never held as Python's numbers."""
+"""Lines after which progress is said, and that are written together."""
 LONGEST = 2**20
 """Characters in a line: what has no line breaks is no CSV, and might have no end."""
 AS_HEADER = ", as the header has"
@@ -177,10 +178,9 @@ def _rows(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows (N, k) of the chosen columns, and the lines' numbers."""
     chosen = columns.chosen
-    parts = [np.empty((0, len(chosen)))]
-    places = [np.empty(0, int)]
-    rows: list[list[float]] = []
-    numbers: list[int] = []
+    # Packed: Python's own numbers would take several times as much memory.
+    values = array("d")
+    numbers = array("q")
     done = 0
     for line, cells in lines:
         done += sum(map(len, cells)) + len(cells)
@@ -188,17 +188,11 @@ def _rows(
             raise InputError(
                 f"{where}:{line}: {columns.width} values expected{columns.names}, got {len(cells)}"
             )
-        rows.append([_real(cells[i], f"{where}:{line}, column {i + 1}") for i in chosen])
+        values.extend(_real(cells[i], f"{where}:{line}, column {i + 1}") for i in chosen)
         numbers.append(line)
-        if len(rows) == AT_ONCE:
-            parts.append(np.array(rows, float).reshape(len(rows), len(chosen)))
-            places.append(np.array(numbers, int))
-            rows = []
-            numbers = []
-            if progress is not None:
-                progress(done, size)
-    parts.append(np.array(rows, float).reshape(len(rows), len(chosen)))
-    return np.concatenate(parts), np.concatenate([*places, np.array(numbers, int)])
+        if progress is not None and len(numbers) % AT_ONCE == 0:
+            progress(done, size)
+    return np.array(values).reshape(len(numbers), len(chosen)), np.array(numbers, int)
 
 
 def text(header: Sequence[str], rows: np.ndarray, progress: Progress | None = None) -> str:

@@ -79,10 +79,9 @@ class _Builder:
         where = f"{self.place}:{line}"
         if isinstance(event, yaml.DocumentStartEvent) and self.root is not None:
             raise ModelError(f"{where}: expected one document, a second one begins here")
-        if isinstance(event, yaml.AliasEvent):
-            raise ModelError(f"{where}: expected names and numbers, got an alias")
-        if isinstance(event, yaml.SequenceStartEvent):
-            raise ModelError(f"{where}: expected names and numbers, got a list")
+        for kind, got in ((yaml.AliasEvent, "an alias"), (yaml.SequenceStartEvent, "a list")):
+            if isinstance(event, kind):
+                raise ModelError(f"{where}: expected names and numbers, got {got}")
         if isinstance(event, yaml.MappingEndEvent):
             self.open.pop()
         if not isinstance(event, (yaml.MappingStartEvent, yaml.ScalarEvent)):

@@ -215,15 +215,15 @@ def _names(
     what: str,
 ) -> None:
     """Check that a mapping has all these keys and no other."""
+    known = (*needed, *others)
+    every = ", ".join(known)
     for key, line in mapping.key_lines.items():
-        if key not in (*needed, *others):
+        if key not in known:
             raise ModelError(
-                f"{place}:{line}: {what}: {quote(key)} is not expected, only {', '.join((*needed, *others))};"
-                f" {suggest(key, (*needed, *others))}"
+                f"{place}:{line}: {what}: {quote(key)} is not expected, only {every}; {suggest(key, known)}"
             )
     missing = [key for key in needed if key not in mapping.items]
     if missing:
-        every = ", ".join((*needed, *others))
         raise ModelError(
             f"{place}:{mapping.line}: {what}: {', '.join(missing)} missing; expected are {every}"
         )
