@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 from ..errors import ModelError, PoekinError
@@ -10,6 +9,7 @@ from ..model.chain import Chain
 from ..model.robot import Robot
 from .serial import serial_robot
 from .text import toml_text, xml
+from .text.atomic_write import FilePath
 from .text.toml_text import Keys
 
 FORMAT = "poekin calibration"
@@ -64,7 +64,7 @@ def to_chain(keys: Keys) -> Chain:
         raise ModelError(f"{keys.place}: {fault}") from fault
 
 
-def is_calibration(path: str | os.PathLike[str]) -> bool:
+def is_calibration(path: FilePath) -> bool:
     """Whether a .toml file says that it is a calibration; what cannot be read is none."""
     try:
         return toml_text.read(path).get("format") == FORMAT
@@ -72,7 +72,7 @@ def is_calibration(path: str | os.PathLike[str]) -> bool:
         return False
 
 
-def opened(path: str | os.PathLike[str]) -> Keys:
+def opened(path: FilePath) -> Keys:
     """The file of a calibration, of a version that is known. Raises: FileError; ModelError with
     file and key.
     """
@@ -87,7 +87,7 @@ def opened(path: str | os.PathLike[str]) -> Keys:
     return keys
 
 
-def read(path: str | os.PathLike[str]) -> Robot:
+def read(path: FilePath) -> Robot:
     """The robot of one branch that moves as the calibrated chain in the file of a calibration.
 
     Raises: FileError; ModelError with file and key. Warns: as `serial_robot`, where q is not that

@@ -18,6 +18,7 @@ from ..model.robot import Robot
 from . import catalogue, chain_toml, dh, erd, ur, urdf
 from .dh.published_tables import NAMES as TABLES
 from .mjcf import mjcf
+from .text.atomic_write import FilePath
 
 PREFIX = "erd:"
 BUILT_IN = tuple(sorted({*catalogue.NAMES, *TABLES}))
@@ -25,7 +26,7 @@ ENDINGS = (".urdf", ".xml", ".xacro", ".toml", ".csv", ".yaml", ".yml")
 """Endings of a name that means a file, whether there is one or not."""
 
 
-def load(name: str | os.PathLike[str]) -> Robot:
+def load(name: FilePath) -> Robot:
     """Robot of a file, of a built-in arm, or of example-robot-data.
 
     Parameters
@@ -109,7 +110,7 @@ def _example_robots() -> list[str]:
         return []
 
 
-def _read(path: str | os.PathLike[str]) -> Robot:
+def _read(path: FilePath) -> Robot:
     name = os.fsdecode(path).lower()
     if name.endswith(".toml") and chain_toml.is_calibration(path):
         return chain_toml.read(path)

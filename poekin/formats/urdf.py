@@ -25,8 +25,9 @@ from ..model.joint import FREE, KINDS, MOVING, Joint, JointKind, Mimic
 from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import rpy
-from .common.limits import ABSURD, UNBOUNDED, without_absurd
+from .common.limits import ABSURD, UNBOUNDED, Interval, without_absurd
 from .text import xml
+from .text.atomic_write import FilePath
 from .text.xml_reader import Fields
 
 # An axis this far off unit length is a slip of the pen, not rounding.
@@ -51,7 +52,7 @@ class Repairs(NamedTuple):
     mimics: list[Repair]
 
 
-def read(path: str | os.PathLike[str]) -> Robot:
+def read(path: FilePath) -> Robot:
     """The robot in a URDF file.
 
     Raises: FileError for a file that cannot be read, is empty, a directory or larger than 64 MiB;
@@ -155,7 +156,7 @@ def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
     return axis
 
 
-def _limits(fields: Fields, name: str, repairs: Repairs) -> tuple[float, float]:
+def _limits(fields: Fields, name: str, repairs: Repairs) -> Interval:
     element = fields.child("limit")
     if element is None:
         repairs.limits.append(Repair(fields.line, f"{quote(name)} (none; line {fields.line})"))

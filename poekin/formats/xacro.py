@@ -17,13 +17,14 @@ from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import urdf
 from .text import xml
+from .text.atomic_write import FilePath
 from .urdf_text import quote_attribute
 
 # The packages xacro and xacrodoc keep what they are at in variables of their modules.
 _one_at_a_time = threading.Lock()
 
 
-def xacro(path: str | os.PathLike[str], /, **arguments: str | float) -> Robot:
+def xacro(path: FilePath, /, **arguments: str | float) -> Robot:
     """Robot in a xacro file, evaluated by xacrodoc (extra `xacro`) and then read as URDF.
 
     Xacro evaluates the expressions in the file and in those which it includes: Python expressions
@@ -69,7 +70,7 @@ def xacro(path: str | os.PathLike[str], /, **arguments: str | float) -> Robot:
     return urdf.read_text(_evaluated(name, root.get("name"), values), f"{name} (evaluated)")
 
 
-def is_xacro(path: str | os.PathLike[str]) -> bool:
+def is_xacro(path: FilePath) -> bool:
     """Whether a file is xacro: it ends in .xacro or declares xacro's namespace. Raises: FileError."""
     return os.fsdecode(path).lower().endswith(".xacro") or b"ros.org/wiki/xacro" in xml.read_bytes(
         path

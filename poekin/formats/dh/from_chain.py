@@ -29,7 +29,7 @@ from ...model.geometry.normals import (
 )
 from ...model.kinematics.arm import Arm, chain_of
 from ...results import Result, plain
-from ..common.limits import UNBOUNDED
+from ..common.limits import UNBOUNDED, Interval
 from .table import Convention, Row, Table, check_convention
 from .to_chain import to_chain
 
@@ -320,7 +320,7 @@ _X = exact(np.eye(3)[0])
 _Y = exact(np.eye(3)[1])
 
 
-def _limits(chain: Chain) -> list[tuple[float, float]]:
+def _limits(chain: Chain) -> list[Interval]:
     """Limits of the joints' own values, where one coordinate alone sets them."""
     found = []
     for row, shift in zip(chain.coupling, chain.offset.tolist(), strict=True):

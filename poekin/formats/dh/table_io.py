@@ -28,7 +28,7 @@ from ...errors import (
 from ...groups.arrays import Array
 from ..common.limits import UNBOUNDED
 from ..text import toml_text, xml
-from ..text.atomic_write import write_whole
+from ..text.atomic_write import FilePath, write_whole
 from ..text.numbers import real
 from ..text.toml_text import Keys
 from .table import COLUMNS, KINDS, Row, Table, check_table
@@ -38,7 +38,7 @@ FIELDS: tuple[str, ...] = ("name", "kind", *COLUMNS, "flip", "limits")
 CSV_COLUMNS: tuple[str, ...] = ("convention", *FIELDS[:-1], "lower", "upper", "pose")
 
 
-def read(path: str | os.PathLike[str]) -> Table:
+def read(path: FilePath) -> Table:
     """Denavit-Hartenberg table in a .toml or .csv file.
 
     Parameters
@@ -82,7 +82,7 @@ def read_text(text: str, name: str) -> Table:
     return reader(text, escape_unprintable(name, 400), stem)
 
 
-def write(table: Table, path: str | os.PathLike[str]) -> None:
+def write(table: Table, path: FilePath) -> None:
     """Write a table as a .toml (extra `formats`) or .csv file; numbers keep all their digits.
 
     The file appears whole or not at all; one that was there stays until the new one is complete.

@@ -47,6 +47,7 @@ from ...groups import se3
 from ...model.provenance import Source, warn
 from ...model.robot import Robot
 from ..text import xml
+from ..text.atomic_write import FilePath
 from .mjcf_files import look_through
 from .mjcf_robot import ModelReader
 
@@ -73,7 +74,7 @@ WITHOUT_KINEMATICS = (
 )
 
 
-def read(path: str | os.PathLike[str]) -> Robot:
+def read(path: FilePath) -> Robot:
     """The robot in an MJCF file, as MuJoCo reads it (extra `mjcf`); its q is MuJoCo's qpos, in the
     order of the joints.
 
@@ -111,7 +112,7 @@ def read_text(text: str | bytes, name: str = "<text>") -> Robot:
     return _read(text, name, parse_spec)
 
 
-def is_mjcf(path: str | os.PathLike[str]) -> bool:
+def is_mjcf(path: FilePath) -> bool:
     """Whether the root element of an XML file is <mujoco>. Raises: as `read` for what is no file or
     no safe XML.
     """

@@ -13,7 +13,7 @@ from ...model.chain import Chain
 from ...model.checks import one_pose
 from ...model.joint import Joint, JointKind, Mimic
 from ...model.robot import Robot
-from ..common.limits import UNBOUNDED
+from ..common.limits import UNBOUNDED, Interval
 from ..common.names import free_name
 from .attributes import as_list, has
 
@@ -30,7 +30,7 @@ class Step(NamedTuple):
     kind: JointKind
     screw: Array
     coordinate: int
-    limits: tuple[float, float]
+    limits: Interval
 
 
 def fits(obj: Any) -> bool:
@@ -192,14 +192,14 @@ def _steps(items: list[Any], what: str) -> tuple[list[Step], Array]:
     return steps, T
 
 
-def _limits(qlim: Any) -> tuple[float, float]:
+def _limits(qlim: Any) -> Interval:
     if qlim is None:
         return UNBOUNDED
     lower, upper = qlim
     return float(lower), float(upper)
 
 
-def _shared(steps: list[Step], coordinate: int) -> tuple[float, float]:
+def _shared(steps: list[Step], coordinate: int) -> Interval:
     """Intersection of the limits of the joints that move together."""
     limits = [step.limits for step in steps if step.coordinate == coordinate]
     return max(lower for lower, _ in limits), min(upper for _, upper in limits)

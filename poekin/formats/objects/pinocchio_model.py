@@ -13,7 +13,7 @@ from ...model.checks import one_pose
 from ...model.joint import Joint, Mimic
 from ...model.provenance import warn
 from ...model.robot import Robot
-from ..common.limits import UNBOUNDED, without_absurd
+from ..common.limits import UNBOUNDED, Interval, without_absurd
 from ..common.names import free_name
 from .attributes import has
 from .pinocchio_joint import extracted, joint_type, motions
@@ -227,7 +227,7 @@ def _mimic(model: Any, j: int, joint: Any) -> Mimic | None:
     return Mimic(str(model.names[masters[j]]), float(bare.scaling), float(bare.offset))
 
 
-def _limits(model: Any, k: int, name: str, unusable: list[str]) -> tuple[float, float]:
+def _limits(model: Any, k: int, name: str, unusable: list[str]) -> Interval:
     """Bounds of coordinate k of the model."""
     lower = float(model.lowerPositionLimit[k])
     upper = float(model.upperPositionLimit[k])

@@ -9,8 +9,11 @@ from pathlib import Path
 
 from ...errors import FileError, quote
 
+FilePath = str | os.PathLike[str]
+"""Path of a file, as users give it."""
 
-def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
+
+def write_whole(path: FilePath, content: bytes) -> None:
     """Write a file so that it appears whole or not at all; an old one stays until then.
 
     A new file has the mode that the process's umask leaves of 0666; one that was there keeps its

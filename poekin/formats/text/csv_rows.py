@@ -17,7 +17,7 @@ import numpy as np
 
 from ...errors import FileError, InputError, UnknownName, escape_unprintable, quote, suggest
 from ...results import Progress
-from .atomic_write import reason
+from .atomic_write import FilePath, reason
 from .numbers import real
 
 Line = tuple[int, list[str]]
@@ -32,7 +32,7 @@ MOST = 2**28
 
 @contextlib.contextmanager
 def opened(
-    path: str | os.PathLike[str] | int,
+    path: FilePath | int,
     where: str = "",
 ) -> Iterator[tuple[TextIO, str, int]]:
     """File opened for reading as UTF-8 text, its name as messages call it, and its size in bytes.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
@@ -22,9 +21,10 @@ from ...errors import (
 )
 from ...groups.arrays import Array
 from . import xml
+from .atomic_write import FilePath
 
 
-def read(path: str | os.PathLike[str]) -> dict[str, Any]:
+def read(path: FilePath) -> dict[str, Any]:
     """The content of a TOML file. Raises: FileError for what cannot be read; ModelError for what is
     not TOML.
     """

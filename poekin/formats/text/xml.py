@@ -10,7 +10,7 @@ from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is co
 
 from ...errors import FileError, InputError, ModelError, quote, safe_repr
 from ...model.provenance import Source
-from .atomic_write import reason
+from .atomic_write import FilePath, reason
 
 MAX_BYTES = 64 * 2**20
 
@@ -45,7 +45,7 @@ class _DoctypeTrap:
         """Nothing to hand back."""
 
 
-def read_bytes(path: str | os.PathLike[str]) -> bytes:
+def read_bytes(path: FilePath) -> bytes:
     """The bytes of a file of text.
 
     Raises: FileError for a file that does not exist or cannot be read, a directory, a device, an
@@ -75,7 +75,7 @@ def read_bytes(path: str | os.PathLike[str]) -> bytes:
     return data
 
 
-def read_text(path: str | os.PathLike[str], most: int = MAX_BYTES) -> tuple[str, str]:
+def read_text(path: FilePath, most: int = MAX_BYTES) -> tuple[str, str]:
     """Text of a file in UTF-8, and the place as messages call it.
 
     Raises: as `read_bytes`; FileError where it is larger than `most` bytes or not UTF-8.

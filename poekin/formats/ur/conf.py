@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import re
 
 from ...errors import ModelError, quote, suggest
 from ..text import xml
+from ..text.atomic_write import FilePath
 from ..text.numbers import real
 from .calibration import JOINTS
 
@@ -17,7 +17,7 @@ LARGEST = 64 * 2**10
 _LINE = re.compile(r"\s*([A-Za-z_]\w*)\s*=\s*(.*)")
 
 
-def read_deltas(path: str | os.PathLike[str]) -> dict[str, tuple[float, ...]]:
+def read_deltas(path: FilePath) -> dict[str, tuple[float, ...]]:
     """Deltas in a calibration.conf, the file of a controller of Universal Robots, for `add_deltas`.
 
     The file has lines `delta_a = [ 1e-4, ... ]` under [mounting], and others that do not matter

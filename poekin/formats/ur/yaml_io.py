@@ -14,7 +14,6 @@ where other readers pass it over.
 from __future__ import annotations
 
 import math
-import os
 import re
 from typing import Literal, get_args
 
@@ -26,7 +25,7 @@ from ...groups import se3
 from ...groups.arrays import Array
 from .. import rpy as angles
 from ..text import xml, yaml_text
-from ..text.atomic_write import write_whole
+from ..text.atomic_write import FilePath, write_whole
 from ..text.numbers import real
 from .calibration import LINKS, FactoryCalibration
 from .conf import LARGEST
@@ -37,7 +36,7 @@ CONVENTIONS: tuple[RpyAxes, ...] = get_args(RpyAxes)
 _MEANING = ", the axes that roll, pitch and yaw turn about"
 
 
-def read(path: str | os.PathLike[str], *, rpy: RpyAxes | None = None) -> FactoryCalibration:
+def read(path: FilePath, *, rpy: RpyAxes | None = None) -> FactoryCalibration:
     """Calibration in a YAML file of the ROS driver of Universal Robots (extra `formats`).
 
     Parameters
@@ -110,7 +109,7 @@ def read_text(
 
 def write(
     calibration: FactoryCalibration,
-    path: str | os.PathLike[str],
+    path: FilePath,
     *,
     rpy: RpyAxes = "fixed",
 ) -> None:

@@ -30,7 +30,7 @@ from ..process.calls import real
 from ..subjects.subject import Subject
 from . import of_arms
 from .group_cases import coordinates, element
-from .law import Case, Shown, SubjectLaw, drawable, typed, unit
+from .law import Case, Cases, Shown, SubjectLaw, drawable, typed, unit
 from .of_arms import ArmData
 
 EACH = 8
@@ -67,7 +67,7 @@ class CoordinateLimits(NamedTuple):
     upper: tuple[float, ...]
 
 
-def cases(subject: Subject, kinds: tuple[str, ...] = KINDS) -> st.SearchStrategy[Case]:
+def cases(subject: Subject, kinds: tuple[str, ...] = KINDS) -> Cases:
     """Arms of one to four joints of these kinds, and configurations; of a declared arm, the latter
     only.
 

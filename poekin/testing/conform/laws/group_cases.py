@@ -18,7 +18,6 @@ from ...strategies.group_strategies import (
     Arrays,
     noisy_rotations,
     rotation_vectors,
-    st,
     twists,
 )
 from .. import confirm
@@ -26,7 +25,7 @@ from ..grades import Grade, Verdict, graded
 from ..process.calls import called
 from ..subjects.subject import JACOBIANS, SE3, SO3, Subject
 from . import of_groups
-from .law import Case, Shown, SubjectLaw, drawable, nothing, typed
+from .law import Case, Cases, Shown, SubjectLaw, drawable, nothing, typed
 
 FAR = 10.0
 """The largest |ω| in rad that exp and the Jacobians of exp are tried at; log, and inverses, to π.
@@ -184,7 +183,7 @@ SAYS = {
 
 
 def _noise_law() -> SubjectLaw:
-    def cases(subject: Subject) -> st.SearchStrategy[Case]:
+    def cases(subject: Subject) -> Cases:
         return noisy_rotations((1e-17, subject.noise)).map(lambda R: Case(np.asarray(R).ravel()))
 
     def R(case: Case) -> Array:
@@ -232,8 +231,8 @@ class _BatchLaw:
     def tail(self, subject: Subject) -> tuple[int, ...]:
         return _truth(subject, self.name, np.zeros(_count(self.name))).shape
 
-    def cases(self, _: Subject) -> st.SearchStrategy[Case]:
-        def of(shape: tuple[int, ...]) -> st.SearchStrategy[Case]:
+    def cases(self, _: Subject) -> Cases:
+        def of(shape: tuple[int, ...]) -> Cases:
             elements = batches(_numbers(self.name), shape)
             return elements.map(lambda x: Case(np.asarray(x).ravel(), shape))
 

@@ -32,6 +32,9 @@ class Case(NamedTuple):
     layout: Hashable = ()
 
 
+Cases = st.SearchStrategy[Case]
+
+
 class Shown(NamedTuple):
     """Case for people.
 
@@ -103,7 +106,7 @@ class SubjectLaw(NamedTuple):
     name: str
     says: str
     needs: str
-    cases: Callable[[Subject], st.SearchStrategy[Case]]
+    cases: Callable[[Subject], Cases]
     check: Callable[[Subject, Case], Verdict]
     confirm: Callable[[Subject, Case], bool]
     show: Callable[[Subject, Case], Shown]

@@ -11,7 +11,7 @@ from ....groups.arrays import Array
 from ...laws.measures import size
 from ...strategies.group_strategies import Arrays, angles, axes, frozen, magnitudes, st, vectors
 from . import of_urdf, small_urdf
-from .law import Case, SubjectLaw, always, drawable, nothing, unit
+from .law import Case, Cases, SubjectLaw, always, drawable, nothing, unit
 from .small_urdf import JointNumbers, UrdfJoint, UrdfLayout
 
 NAMES = ("j0", "j1", "j2")
@@ -78,10 +78,10 @@ def arms(
     kinds: tuple[str, ...] = ("revolute", "prismatic", "fixed"),
     axis_written: bool = True,
     largest: float = math.pi,
-) -> st.SearchStrategy[Case]:
+) -> Cases:
     """One to three joints of these kinds, the first one moving, in the file's order."""
 
-    def of(count: int) -> st.SearchStrategy[Case]:
+    def of(count: int) -> Cases:
         first = st.sampled_from([kind for kind in kinds if kind != "fixed"])
         sorts = st.tuples(first, *[st.sampled_from(kinds)] * (count - 1))
         rows = st.tuples(*(_row(axis, signed_angles(largest)) for _ in range(count)))
@@ -115,7 +115,7 @@ def _numbers(layout: UrdfLayout, rows: Iterable[Array]) -> Case:
     return Case(np.concatenate(numbers), layout)
 
 
-def mimics() -> st.SearchStrategy[Case]:
+def mimics() -> Cases:
     """Two joints, one of which follows the other one, whichever comes first."""
 
     def make(
@@ -131,7 +131,7 @@ def mimics() -> st.SearchStrategy[Case]:
     return st.builds(make, st.integers(0, 1), kinds, st.tuples(_followers(), _followers()))
 
 
-def trees(mimic: bool = False) -> st.SearchStrategy[Case]:
+def trees(mimic: bool = False) -> Cases:
     """Three or four joints of a tree with two branches or more, the file in any order.
 
     mimic: the last joint follows the last but one, which is on another branch.
@@ -160,7 +160,7 @@ def trees(mimic: bool = False) -> st.SearchStrategy[Case]:
     return st.builds(make, st.tuples(*[kinds] * 4), places, files, st.tuples(*[_followers()] * 4))
 
 
-def orders() -> st.SearchStrategy[Case]:
+def orders() -> Cases:
     """Two to four joints whose order in the file, and by name, is not that from base to tip; one
     may branch off.
     """
@@ -223,7 +223,7 @@ def _allowed(axis: Fits, largest: float = math.pi) -> About:
 def _law(
     name: str,
     says: str,
-    cases: Callable[[], st.SearchStrategy[Case]],
+    cases: Callable[[], Cases],
     about: About = always,
     axis: Fits = _frame_axis,
     largest: float = math.pi,
