@@ -46,7 +46,7 @@ TESTING: dict[str, tuple[str, tuple[str, ...]]] = {
         "strategies.dh_strategies", "strategies.decoding.bytes_reader",
     )),
     "testing_laws": ("poekin.testing.laws", (
-        "laws.laws", "laws.group", "laws.group_laws", "laws.adjoint_laws", "laws.near_laws", "laws.measures",
+        "laws.laws", "laws.group", "laws.group_laws", "laws.adjoint_laws", "laws.measures",
     )),
     "testing_oracles": ("poekin.testing.oracles", (
         "oracles.exact", "oracles.exact_chain", "oracles.differences", "oracles.pinocchio_oracle",

@@ -15,7 +15,6 @@ laws: what must hold, as plain functions that raise LawViolation with the error 
     laws, measures     LawViolation, and how an error is measured
     group, group_laws, adjoint_laws
                        SO(3) and SE(3) as plain functions, and their laws
-    near_laws          the branches of log
 
 oracles: what is true, by code that shares nothing with what it judges
     exact              so(3) and se(3) in 60 digits and more (mpmath)

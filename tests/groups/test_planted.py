@@ -13,9 +13,9 @@ from poekin.testing.accuracy.accuracy_laws import ACCURACY_LAWS
 from poekin.testing.accuracy.falsify import first_violation
 from poekin.testing.laws.group import Group, make_group
 from poekin.testing.laws.group_laws import GROUP_LAWS
-from poekin.testing.laws.near_laws import NEAR_LAWS
 from poekin.testing.oracles import exact
 from poekin.testing.strategies import group_strategies
+from tests.groups.near_laws import NEAR_LAWS
 
 SE3, SO3 = make_group(se3, 6), make_group(so3, 3)
 LAWS = {law.name: law for law in (*ACCURACY_LAWS, *GROUP_LAWS, *NEAR_LAWS)}

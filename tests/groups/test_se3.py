@@ -11,8 +11,8 @@ from poekin.errors import BranchError, PoseError, ShapeError
 from poekin.groups import se3
 from poekin.testing.laws.group import make_group
 from poekin.testing.laws.group_laws import GROUP_LAWS
-from poekin.testing.laws.near_laws import NEAR_LAWS
 from poekin.testing.strategies import group_strategies
+from tests.groups.near_laws import NEAR_LAWS
 
 SE3 = make_group(se3, 6)
 

@@ -11,8 +11,8 @@ from poekin.errors import PoseError, ShapeError
 from poekin.groups import so3
 from poekin.testing.laws.group import make_group
 from poekin.testing.laws.group_laws import GROUP_LAWS
-from poekin.testing.laws.near_laws import NEAR_LAWS
 from poekin.testing.strategies import group_strategies
+from tests.groups.near_laws import NEAR_LAWS
 
 SO3 = make_group(so3, 3)
 

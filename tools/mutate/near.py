@@ -113,7 +113,6 @@ NEAR = {
     "testing/group_laws": f"own {_LAWS}",
     "testing/pinocchio_urdf": "testing/pinocchio_oracle",
     "testing/measures": f"testing/laws testing/group_laws {_LAWS}",
-    "testing/near_laws": f"testing/group_laws {_LAWS} groups/near",
     "testing/conform/": _CONFORM,
     "testing/conform/arm_cases testing/conform/group_cases": f"own {_CASES}",
     "testing/conform/calls": f"{_CALLS} {_CONFORM}",

@@ -61,32 +61,6 @@ def pose(
     return exact.forward(chain.screws, chain.home, displacements(chain, q))
 
 
-def joint_pose(
-    chain: Any,
-    q: np.ndarray,
-    joint: int,
-) -> np.ndarray:
-    """Pose of the z-aligned frame of a joint, e^{A_1 x_1} ⋯ e^{A_k x_k} M_1 ⋯ M_k.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain, with its local form.
-    q : (m,) array_like
-        Coordinates, rad or m.
-    joint : int
-        Number k of the joint, from 0.
-
-    Returns
-    -------
-    T : (4, 4) ndarray
-        Numbers of `exact`, in the base frame.
-    """
-    first = slice(joint + 1)
-    x = displacements(chain, q)
-    return exact.forward(chain.screws[first], exact.product(chain.local.frames[first]), x[first])
-
-
 def jacobians(
     chain: Any,
     q: np.ndarray,

@@ -25,6 +25,7 @@ from poekin.testing.laws.laws import Law, Pairs
 from poekin.testing.laws.measures import of_twist, size
 from poekin.testing.oracles import exact, exact_chain
 from tests.model.laws.chain_bounds import Shaped, budget, chain_law, check_batch
+from tests.model.laws.chain_laws import joint_pose
 
 
 @chain_law()
@@ -99,7 +100,7 @@ def joint_velocities_are_those_of_the_joint_poses(
     for k in range(len(chain.screws)):
 
         def pose(t: Any, k: int = k) -> np.ndarray:
-            return exact_chain.joint_pose(chain, along(t, q, dq), k)
+            return joint_pose(chain, along(t, q, dq), k)
 
         T = pose(exact.mp.zero)
         V_s = exact_derivatives.space_twist(pose, T)

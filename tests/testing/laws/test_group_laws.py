@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 
 from poekin.groups import se3, so3
-from poekin.testing.laws import group_laws, laws, measures, near_laws
+from poekin.testing.laws import group_laws, laws, measures
 from poekin.testing.laws.group import Group, make_group
 from poekin.testing.laws.group_laws import GROUP_LAWS
-from poekin.testing.laws.near_laws import NEAR_LAWS
+from tests.groups import near_laws
+from tests.groups.near_laws import NEAR_LAWS
 
 U = 2.0**-53
 GROUPS = {6: make_group(se3, 6), 3: make_group(so3, 3)}

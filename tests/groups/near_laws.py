@@ -13,11 +13,11 @@ import math
 
 import numpy as np
 
-from ...groups.arrays import Array
-from ..accuracy.error_bounds import UNIT
-from .group import Group
-from .laws import Law, Pairs, check_bounds, checked
-from .measures import angle, length, of_elements, of_twist, shift, size
+from poekin.groups.arrays import Array
+from poekin.testing.accuracy.error_bounds import UNIT
+from poekin.testing.laws.group import Group
+from poekin.testing.laws.laws import Law, Pairs, check_bounds, checked
+from poekin.testing.laws.measures import angle, length, of_elements, of_twist, shift, size
 
 
 def near_picks_the_closest_branch(
