@@ -16,7 +16,7 @@ from benchmarks.subjects.faulty import _Reader
 from poekin.testing.conform import LAWS, Case, Grade, Subject, shrink
 from poekin.testing.conform.grades import graded
 from poekin.testing.conform.laws.arm_cases import ARM_LAWS
-from poekin.testing.conform.laws.small_urdf import UrdfJoint, chain, layout_of
+from poekin.testing.conform.laws.small_urdf import UrdfJoint, chain
 from poekin.testing.conform.laws.urdf_cases import URDF_LAWS
 from poekin.testing.conform.search import simplest
 from poekin.testing.conform.shrink import cost, shrunk
@@ -81,10 +81,10 @@ def test_arms_shrink_to_one_joint_and_keep_their_axes(law):
 def test_what_does_not_matter_of_a_tree_goes_and_its_joints_stay():
     law = next(law for law in URDF_LAWS if law.name == "robot mimic")
     for case in drawn(law.cases(Subject(Poekin)), 3):
-        count = len(layout_of(case).joints)
-        small = layout_of(
-            shrunk(law, case, lambda other, count=count: len(layout_of(other).joints) == count)
-        )
+        count = len(case.layout.joints)
+        small = shrunk(
+            law, case, lambda other, count=count: len(other.layout.joints) == count
+        ).layout
         assert small == chain(small.joints)
         assert all(joint.follows < 0 for joint in small.joints)
 

@@ -277,9 +277,9 @@ def _without_rounding(found: Array) -> Array:
 
 
 def _kinds(case: Case) -> tuple[str, ...]:
-    if isinstance(case.layout, tuple) and not isinstance(case.layout, CoordinateLimits):
-        return case.layout
-    return ()
+    if isinstance(case.layout, CoordinateLimits):
+        return ()
+    return case.layout
 
 
 def _law(

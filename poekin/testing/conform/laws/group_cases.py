@@ -241,16 +241,16 @@ class _BatchLaw:
     def arguments(self, subject: Subject, case: Case) -> Array:
         made = [_argument(subject, self.name, row) for row in self.rows(case)]
         one = _argument(subject, self.name, np.zeros(_count(self.name)))
-        return np.reshape(made, (*_shape(case), *one.shape))
+        return np.reshape(made, (*case.layout, *one.shape))
 
     def check(self, subject: Subject, case: Case) -> Verdict:
         x = self.arguments(subject, case)
-        shape = (*_shape(case), *self.tail(subject))
+        shape = (*case.layout, *self.tail(subject))
         result, fault = called(subject.function(self.name), shape, x)
         if fault:
             return graded(f"batches of {self.name}", fault)
         results = result.reshape(-1, *self.tail(subject))
-        flat = x.reshape(-1, *x.shape[len(_shape(case)) :])
+        flat = x.reshape(-1, *x.shape[len(case.layout) :])
         check = _checked(self.name)
         precision = subject.precision(self.name)
         verdicts = [
@@ -263,8 +263,8 @@ class _BatchLaw:
         x = _in_order(subject, self.name, self.arguments(subject, case))
         text = f"np.reshape({typed(x.ravel())}, {x.shape})"
         truth = np.array([_truth(subject, self.name, row) for row in self.rows(case)])
-        truth = truth.reshape(*_shape(case), *self.tail(subject))
-        words = f"a batch {_shape(case)} of {'; '.join(map(coordinates, self.rows(case)))}"
+        truth = truth.reshape(*case.layout, *self.tail(subject))
+        words = f"a batch {case.layout} of {'; '.join(map(coordinates, self.rows(case)))}"
         expected = _in_order(subject, self.name, truth)
         return Shown(words, subject.call(self.name, x=text), expected)
 
@@ -289,12 +289,6 @@ def _batch_law(name: str) -> SubjectLaw:
         applies=lambda subject: subject.batch,
         unless="batch = True is not declared",
     )
-
-
-def _shape(case: Case) -> tuple[int, ...]:
-    if isinstance(case.layout, tuple):
-        return case.layout
-    return ()
 
 
 GROUP_LAWS = (

@@ -4,7 +4,7 @@ zero.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -24,12 +24,12 @@ class Case(NamedTuple):
     ----------
     numbers : (k,) ndarray
         Arguments of the law, 0 where nothing is; of a group's law exponential coordinates ω or (ω; v).
-    layout : Hashable, default ()
+    layout : hashable, default ()
         Record of what the numbers belong to.
     """
 
     numbers: np.ndarray
-    layout: Hashable = ()
+    layout: Any = ()
 
 
 Cases = st.SearchStrategy[Case]

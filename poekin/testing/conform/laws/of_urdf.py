@@ -153,7 +153,7 @@ def show(
 
 def _words(case: Case) -> str:
     """Each joint in a few words."""
-    layout = small_urdf.layout_of(case)
+    layout = case.layout
     said = []
     for k, (joint, own) in enumerate(zip(layout.joints, small_urdf.numbers_of(case), strict=True)):
         words = f"{joint.name} {joint.kind}"

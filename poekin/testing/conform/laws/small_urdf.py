@@ -68,13 +68,6 @@ def chain(joints: tuple[UrdfJoint, ...], order: tuple[int, ...] = ()) -> UrdfLay
     return UrdfLayout(joints, order or tuple(range(len(joints))), tuple(range(-1, len(joints) - 1)))
 
 
-def layout_of(case: Case) -> UrdfLayout:
-    """The layout of a URDF's case."""
-    if not isinstance(case.layout, UrdfLayout):
-        raise TypeError(f"a case of a URDF expected, got {case.layout!r}")
-    return case.layout
-
-
 def rows_of(case: Case) -> np.ndarray:
     """Its numbers (n, 12)."""
     return case.numbers.reshape(-1, EACH)
@@ -89,7 +82,7 @@ def moving(case: Case) -> list[int]:
     """The places of joints that have a coordinate of their own."""
     return [
         k
-        for k, joint in enumerate(layout_of(case).joints)
+        for k, joint in enumerate(case.layout.joints)
         if joint.kind != "fixed" and joint.follows < 0
     ]
 
@@ -98,14 +91,14 @@ def link(case: Case, k: int) -> str:
     """The name of the link behind a joint; -1 is none: the root's."""
     if k < 0:
         return "base"
-    if k == len(layout_of(case).joints) - 1:
+    if k == len(case.layout.joints) - 1:
         return "tip"
     return f"link{k + 1}"
 
 
 def path(case: Case, k: int) -> list[int]:
     """The places of the joints from the base to the link behind a joint."""
-    after = layout_of(case).after
+    after = case.layout.after
     places = [k % len(after)]
     while after[places[0]] >= 0:
         places.insert(0, after[places[0]])
@@ -114,14 +107,14 @@ def path(case: Case, k: int) -> list[int]:
 
 def coordinates(case: Case) -> dict[str, float]:
     """q by the names of the joints that have one of their own."""
-    joints = layout_of(case).joints
+    joints = case.layout.joints
     numbers = numbers_of(case)
     return {joints[k].name: numbers[k].q for k in moving(case)}
 
 
 def text(case: Case) -> str:
     """The URDF."""
-    layout = layout_of(case)
+    layout = case.layout
     numbers = numbers_of(case)
     names = [link(case, k) for k in range(-1, len(numbers))]
     content = [f'<link name="{name}"/>' for name in names]
@@ -188,7 +181,7 @@ def arm(case: Case, tip: int = TIP) -> tuple[ArmData, np.ndarray, list[str]]:
 
     These are those of `coordinates`, in that order, which the pose depends on.
     """
-    joints = layout_of(case).joints
+    joints = case.layout.joints
     numbers = numbers_of(case)
     on = path(case, tip)
     masters = [joints[k].follows if joints[k].follows >= 0 else k for k in on]
@@ -228,7 +221,7 @@ def simpler(case: Case) -> Iterable[Case]:
     """With a joint or a mimic less, with the file in order, one joint after the other, with all
     axes written.
     """
-    layout = layout_of(case)
+    layout = case.layout
     rows = rows_of(case)
     for k in range(len(rows)):
         if len(rows) > 1 and not any(joint.follows == k for joint in layout.joints):
@@ -248,7 +241,7 @@ def simpler(case: Case) -> Iterable[Case]:
 
 def _without_joint(case: Case, k: int) -> Case:
     """The case without joint k, which no other mimics; joints behind it follow the one before."""
-    layout = layout_of(case)
+    layout = case.layout
 
     def moved(j: int) -> int:
         return j - (j > k)
@@ -287,7 +280,7 @@ def axes(case: Case) -> Iterable[int]:
 def _values(case: Case) -> list[Any]:
     numbers = numbers_of(case)
     values = []
-    for joint, own in zip(layout_of(case).joints, numbers, strict=True):
+    for joint, own in zip(case.layout.joints, numbers, strict=True):
         if joint.follows < 0:
             values.append(exact.mp.mpf(own.q * (joint.kind != "fixed")))
         else:
@@ -299,7 +292,7 @@ def _values(case: Case) -> list[Any]:
 
 def _link(case: Case, k: int) -> tuple[list[np.ndarray], np.ndarray | None]:
     """The twists of a joint's origin, and its screw in its own frame, with a unit axis."""
-    joint = layout_of(case).joints[k]
+    joint = case.layout.joints[k]
     numbers = numbers_of(case)[k]
     roll, pitch, yaw = numbers.rpy
     origin = [

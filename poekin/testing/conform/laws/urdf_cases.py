@@ -284,7 +284,7 @@ def _robot_law(
 
 
 def _axes(case: Case) -> list[Array]:
-    joints = zip(small_urdf.layout_of(case).joints, small_urdf.numbers_of(case), strict=True)
+    joints = zip(case.layout.joints, small_urdf.numbers_of(case), strict=True)
     return [numbers.axis for joint, numbers in joints if joint.kind != "fixed"]
 
 
@@ -297,7 +297,7 @@ def _long(case: Case) -> bool:
 
 
 def _missing(case: Case) -> bool:
-    return any(not joint.axis for joint in small_urdf.layout_of(case).joints)
+    return any(not joint.axis for joint in case.layout.joints)
 
 
 def _many_turns(case: Case) -> bool:
@@ -305,22 +305,22 @@ def _many_turns(case: Case) -> bool:
 
 
 def _mimic(case: Case) -> bool:
-    return any(joint.follows >= 0 for joint in small_urdf.layout_of(case).joints)
+    return any(joint.follows >= 0 for joint in case.layout.joints)
 
 
 def _mimic_across(case: Case) -> bool:
     on = small_urdf.path(case, small_urdf.TIP)
-    joints = small_urdf.layout_of(case).joints
+    joints = case.layout.joints
     return any(joints[k].follows not in (-1, *on) for k in on)
 
 
 def _branches(case: Case) -> bool:
-    layout = small_urdf.layout_of(case)
+    layout = case.layout
     return layout.after != small_urdf.chain(layout.joints).after
 
 
 def _disordered(case: Case) -> bool:
-    layout = small_urdf.layout_of(case)
+    layout = case.layout
     names = [joint.name for joint in layout.joints]
     return layout.order != tuple(range(len(names))) or names != sorted(names) or _branches(case)
 

@@ -78,9 +78,9 @@ def test_each_law_draws_what_its_name_says():
     for case, found in joints("robot mimic"):
         (master,) = [mimic.get("joint") for j in found for mimic in j.iter("mimic")]
         assert master not in [
-            small_urdf.layout_of(case).joints[k].name for k in small_urdf.path(case, small_urdf.TIP)
+            case.layout.joints[k].name for k in small_urdf.path(case, small_urdf.TIP)
         ]
-    trees = [small_urdf.layout_of(case) for case, _ in joints("robot")]
+    trees = [case.layout for case, _ in joints("robot")]
     assert all(tree.after != tuple(range(-1, len(tree.joints) - 1)) for tree in trees)
     assert len({tree.after for tree in trees}) > 3
     orders = {tuple(j.get("name") for j in found) for _, found in joints("urdf order")}
@@ -88,11 +88,6 @@ def test_each_law_draws_what_its_name_says():
     lengths = [np.linalg.norm(case.numbers[:3]) for case, _ in joints("urdf long axis")]
     assert min(lengths) < 0.1
     assert max(lengths) > 10
-
-
-def test_a_case_of_something_else_is_refused():
-    with pytest.raises(TypeError, match=r"a case of a URDF expected"):
-        small_urdf.text(Case(np.zeros(12)))
 
 
 LIMIT = '<limit lower="-10" upper="10" effort="1" velocity="1"/>'

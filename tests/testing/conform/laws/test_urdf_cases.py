@@ -49,10 +49,10 @@ def test_what_a_law_draws_is_allowed_and_about_it_now_and_then(name):
 def test_numbers_are_drawn_with_all_their_kinds():
     cases = found("urdf", 100)
     every = rows(cases)
-    kinds = [joint.kind for case in cases for joint in small_urdf.layout_of(case).joints]
+    kinds = [joint.kind for case in cases for joint in case.layout.joints]
     assert set(kinds) == {"revolute", "prismatic", "fixed"}
     assert {len(small_urdf.rows_of(case)) for case in cases} == {1, 2, 3}
-    assert all(small_urdf.layout_of(case).joints[0].kind != "fixed" for case in cases)
+    assert all(case.layout.joints[0].kind != "fixed" for case in cases)
     assert {tuple(axis) for axis in every[:, :3]} == {tuple(axis) for axis in urdf_cases.FRAME_AXES}
     assert {0.0, math.pi / 2, -math.pi / 2, math.pi} <= set(every[:, 6:9].ravel())
     assert {-1.0, 0.0, 1.0} <= set(np.sign(every[:, 11]))
@@ -70,9 +70,7 @@ def test_a_follower_has_a_multiplier_and_an_offset_and_its_master_a_value():
         pairs = [
             (joint, row)
             for case in cases
-            for joint, row in zip(
-                small_urdf.layout_of(case).joints, small_urdf.rows_of(case), strict=True
-            )
+            for joint, row in zip(case.layout.joints, small_urdf.rows_of(case), strict=True)
         ]
         following = np.array([row for joint, row in pairs if joint.follows >= 0])
         others = np.array([row for joint, row in pairs if joint.follows < 0])
@@ -82,13 +80,13 @@ def test_a_follower_has_a_multiplier_and_an_offset_and_its_master_a_value():
         assert not following[:, 11].any()
         assert not others[:, 9:11].any()
         assert others[:, 11].any()
-    layouts = [small_urdf.layout_of(case) for case in found("urdf mimic", 40)]
+    layouts = [case.layout for case in found("urdf mimic", 40)]
     assert {layout.joints[0].follows for layout in layouts} == {-1, 1}
     assert {layout.joints[1].follows for layout in layouts} == {-1, 0}
 
 
 def test_trees_branch_in_many_ways_and_files_have_any_order():
-    layouts = [small_urdf.layout_of(case) for case in found("robot", 100)]
+    layouts = [case.layout for case in found("robot", 100)]
     assert {len(layout.joints) for layout in layouts} == {3, 4}
     for layout in layouts:
         last = len(layout.joints) - 1
@@ -98,14 +96,14 @@ def test_trees_branch_in_many_ways_and_files_have_any_order():
         assert sorted(layout.order) == list(range(last + 1))
     assert len({layout.after for layout in layouts}) > 8
     assert len({layout.order for layout in layouts}) > 8
-    followers = [small_urdf.layout_of(case).joints for case in found("robot mimic", 60)]
+    followers = [case.layout.joints for case in found("robot mimic", 60)]
     assert all(joints[-1].follows == len(joints) - 2 for joints in followers)
     assert all(joints[-1].kind == joints[-2].kind for joints in followers)
     assert all(joint.kind != "fixed" for joints in followers for joint in joints)
 
 
 def test_orders_have_a_branch_or_none():
-    layouts = [small_urdf.layout_of(case) for case in found("urdf order", 100)]
+    layouts = [case.layout for case in found("urdf order", 100)]
     assert {layout.after for layout in layouts} == {
         (-1, 0), (-1, 0, 1), (-1, 0, 1, 2), (-1, -1, 1), (-1, -1, 1, 2)
     }  # fmt: skip
