@@ -141,6 +141,11 @@ def norm(x: np.ndarray) -> float:
     return float(exact.norm(exact.exactly(x)))
 
 
+def largest_size(grade: Grade, precision: Precision) -> float:
+    """Largest error ÷ scale of a grade, where only the size decides; else 0."""
+    return {Grade.GOOD: precision.good, Grade.POOR: precision.poor}.get(grade, 0.0)
+
+
 def graded(
     law: str,
     parts: Sequence[ErrorPart] | str,
@@ -161,9 +166,8 @@ def graded(
     else:
         worst = max(parts, key=lambda part: (part.grade, part.size))
         verdict = Verdict(worst.grade, worst.size, worst.what)
-        ends = {Grade.GOOD: worst.precision.good, Grade.POOR: worst.precision.poor}
         error = worst.size
-        bound = ends.get(at_most, 0.0)
+        bound = largest_size(at_most, worst.precision)
         if at_most is Grade.EXACT:
             error = worst.error
             bound = worst.bound

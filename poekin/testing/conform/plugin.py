@@ -22,7 +22,7 @@ from typing import Any
 import pytest
 
 from ..laws.laws import LawViolation
-from .grades import Grade
+from .grades import Grade, largest_size
 from .report import Report
 from .run import SECONDS, conform
 from .subjects.precision import PRECISIONS
@@ -78,8 +78,7 @@ def check_conformance(
     )
     if wrong:
         worst = max(wrong, key=lambda outcome: (outcome.grade, outcome.worst))
-        precision = PRECISIONS[worst.precision]
-        bound = {Grade.GOOD: precision.good, Grade.POOR: precision.poor}.get(at_most, 0.0)
+        bound = largest_size(at_most, PRECISIONS[worst.precision])
         seen = {outcome.law: outcome.words or "see the report" for outcome in wrong}
         violation = LawViolation(f"{report.subject} does not conform", worst.worst, bound, seen)
         violation.add_note(str(Report(report.subject, wrong)))

@@ -61,11 +61,10 @@ def applicable(
     UnknownName
         For a name that is no law.
     """
+    known = [law.name for law in LAWS]
     for name in (*names, *leave_out):
-        if name not in {law.name for law in LAWS}:
-            raise UnknownName(
-                f"there is no law {quote(name)}; {suggest(name, [law.name for law in LAWS])}"
-            )
+        if name not in known:
+            raise UnknownName(f"there is no law {quote(name)}; {suggest(name, known)}")
     every = [law for law in LAWS if not reason(law, subject)]
     those = f"those that do: {', '.join(law.name for law in every)}"
     for law in LAWS:

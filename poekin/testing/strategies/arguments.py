@@ -43,9 +43,8 @@ def magnitudes(what: str, value: Any) -> tuple[float, float]:
         smallest, largest = value
     except (TypeError, ValueError) as fault:
         raise InputError(expected) from fault
-    if not (is_real(smallest) and is_real(largest)):
-        raise InputError(expected)
-    if not 0 < smallest <= largest < math.inf:
+    numbers = is_real(smallest) and is_real(largest)
+    if not numbers or not 0 < smallest <= largest < math.inf:
         raise InputError(expected)
     return float(smallest), float(largest)
 
