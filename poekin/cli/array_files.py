@@ -129,8 +129,10 @@ def write_result(
     write_whole(path, content)
 
 
-def check_writable(path: Path) -> None:
+def check_writable(path: Path | None) -> None:
     """Refuse a place that cannot be written to before any work is done. Raises: FileError."""
+    if path is None:
+        return
     if path.suffix.lower() not in (".csv", ".npy", ".json"):
         raise FileError(
             f"cannot write {path_text(path)}: a name that ends in .csv, .npy or .json expected"

@@ -20,8 +20,7 @@ def command(
     json: Json = False,
 ) -> None:
     """Pose (4×4, in m) of the link --tip in the link --base, at Q or at every line of --input."""
-    if output is not None:
-        array_files.check_writable(output)
+    array_files.check_writable(output)
     array_files.check_apart([output], model=file, configurations=given)
     arm = take(file, tip, base, q, given)
     poses = compute(arm, arm.chain.fk, (4, 4))

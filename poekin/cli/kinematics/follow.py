@@ -83,8 +83,7 @@ def command(
     Exit code 0: followed, within the limits; 1: some pose is not reached, the branch changes, or a
     limit of speed or acceleration is exceeded; 2: an error.
     """
-    if output is not None:
-        array_files.check_writable(output)
+    array_files.check_writable(output)
     if plot is not None:
         array_files.check_place(plot, (".svg",))
     if given is None:
