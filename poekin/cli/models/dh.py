@@ -54,7 +54,7 @@ def command(
 
 
 def _document(chain: Chain, result: dh.FromChain, output: Path | None) -> dict[str, object]:
-    written = None if output is None else str(output)
+    written = output and str(output)
     return {"base": chain.base, "tip": chain.tip} | result.to_dict() | {"written": written}
 
 
