@@ -4,9 +4,12 @@ Source: the URDF specification (elements <robot>, <link>, <joint>). Where files 
 real ones do:
 - a missing <axis> is (1, 0, 0), but one that is there must have xyz; an axis that is not of unit
   length is normalised, with a warning above 1e-6;
-- limits that are missing, equal, infinite or absurd (1e4 and more) mean "unlimited", with one
-  warning for the file. A bound that is missing alone is unlimited on its side. Continuous joints
+- limits that are missing, equal, infinite, absurd (1e4 and more) or lower above upper mean
+  "unlimited", with one warning for the file. A bound that is missing alone is unlimited on its side. Continuous joints
   have no limits;
+- of two <axis>, <origin> or <limit> in a joint the first counts, with a warning;
+- an <origin> may have quat_xyzw in place of rpy where <robot> says version="1.1" or later; before
+  that, nobody reads it, and a warning says so;
 - a joint that mimics one that does not exist stays independent, with a warning;
 - only direct children of <robot> count: what <gazebo>, <transmission> and elements of other
   namespaces hold does not.
@@ -19,14 +22,17 @@ import os
 from dataclasses import replace
 from typing import Any, NamedTuple, cast
 
+import numpy as np
+
 from ..errors import ModelError, quote
+from ..groups.arrays import Array
 from ..model.checks import LONGEST
 from ..model.joint import FREE, KINDS, MOVING, Joint, JointKind, Mimic
 from ..model.provenance import Source, warn
 from ..model.robot import Robot
 from . import rpy
 from .common.limits import ABSURD, UNBOUNDED, Interval, without_absurd
-from .text import xml
+from .text import pose_rows, xml
 from .text.atomic_write import FilePath
 from .text.xml_reader import Fields
 
@@ -50,6 +56,8 @@ class Repairs(NamedTuple):
     axes: list[Repair]
     limits: list[Repair]
     mimics: list[Repair]
+    doubles: list[Repair]
+    quaternions: list[Repair]
 
 
 def read(path: FilePath) -> Robot:
@@ -85,9 +93,10 @@ def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robo
     links = top.all("link")
     if not links:
         raise top.fault("expected at least one <link>, there is none")
-    repairs = Repairs([], [], [])
+    repairs = Repairs([], [], [], [], [])
+    quaternions = (top.number("version") or 1.0) >= 1.1
     elements = top.all("joint")
-    joints = [_joint(fields, repairs) for fields in elements]
+    joints = [_joint(fields, repairs, quaternions) for fields in elements]
     known = {joint.name for joint in joints}
     joints = [
         _with_known_master(joint, fields, known, repairs)
@@ -105,7 +114,7 @@ def read_text(text: str | bytes, name: str = "<text>", origin: str = "") -> Robo
     return robot
 
 
-def _joint(fields: Fields, repairs: Repairs) -> Joint:
+def _joint(fields: Fields, repairs: Repairs, quaternions: bool) -> Joint:
     name = fields.name("name")
     kind = fields.name("type")
     if kind not in URDF_KINDS:
@@ -116,14 +125,6 @@ def _joint(fields: Fields, repairs: Repairs) -> Joint:
         if end is None:
             raise fields.fault(f'expected an element <{role} link="..."/>, there is none')
         ends.append(end.name("link"))
-    origin = fields.child("origin")
-    pose = rpy.pose(_ZERO, _ZERO)
-    if origin:
-        xyz = origin.vector("xyz") or _ZERO
-        angles = origin.vector("rpy") or _ZERO
-        if max(map(abs, xyz)) > LONGEST:
-            raise origin.fault(f"xyz: expected lengths of at most {LONGEST:g} m, got {xyz}")
-        pose = rpy.pose(xyz, angles)
     moving: dict[str, Any] = {}
     if kind in MOVING or kind == "planar":
         moving["axis"] = _axis(fields, repairs)
@@ -134,14 +135,46 @@ def _joint(fields: Fields, repairs: Repairs) -> Joint:
         cast("JointKind", kind),
         ends[0],
         ends[1],
-        pose,
+        _origin(_first(fields, "origin", repairs), repairs, quaternions),
         mimic=_mimic(fields, kind),
         **moving,
     )
 
 
+def _first(fields: Fields, tag: str, repairs: Repairs) -> Fields | None:
+    """The first child of that tag, which counts; None where there is none."""
+    found = fields.children(tag)
+    for double in found[1:]:
+        text = f"{double.what} stands there once more, and the first one counts"
+        repairs.doubles.append(Repair(double.line, text))
+    return next(iter(found), None)
+
+
+def _origin(element: Fields | None, repairs: Repairs, quaternions: bool) -> Array:
+    if element is None:
+        return np.eye(4)
+    xyz = element.vector("xyz") or _ZERO
+    if max(map(abs, xyz)) > LONGEST:
+        raise element.fault(f"xyz: expected lengths of at most {LONGEST:g} m, got {xyz}")
+    turns = element.vector("rpy")
+    quaternion = element.numbers("quat_xyzw", 4)
+    if quaternion is None:
+        return rpy.pose(xyz, turns or _ZERO)
+    if not quaternions:
+        text = f'{element.what}: quat_xyzw is not read: it needs <robot version="1.1">'
+        repairs.quaternions.append(Repair(element.line, text))
+        return rpy.pose(xyz, turns or _ZERO)
+    if turns is not None:
+        raise element.fault("either rpy or quat_xyzw expected, got both")
+    length = math.hypot(*quaternion)
+    if not length:
+        raise element.fault("quat_xyzw must not be zero")
+    row = np.array([[*xyz, *(x / length for x in quaternion)]])
+    return pose_rows.to_poses(row, "7", "xyzw", lambda _: element.what)[0]
+
+
 def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
-    element = fields.child("axis")
+    element = _first(fields, "axis", repairs)
     if element is None:
         return 1.0, 0.0, 0.0
     axis = element.vector("xyz")
@@ -157,21 +190,17 @@ def _axis(fields: Fields, repairs: Repairs) -> tuple[float, float, float]:
 
 
 def _limits(fields: Fields, name: str, repairs: Repairs) -> Interval:
-    element = fields.child("limit")
+    element = _first(fields, "limit", repairs)
     if element is None:
         repairs.limits.append(Repair(fields.line, f"{quote(name)} (none; line {fields.line})"))
         return UNBOUNDED
     lower = element.number("lower", finite=False)
     upper = element.number("upper", finite=False)
-    if lower is not None and upper is not None and lower > upper:
-        raise element.fault(
-            f"lower must not be above upper, got lower = {lower!r}, upper = {upper!r}"
-        )
     reason = _unusable(lower, upper)
     if reason:
         line = element.line
         repairs.limits.append(Repair(line, f"{quote(name)} ({reason}; line {line})"))
-    if lower == upper:
+    if lower is not None and upper is not None and lower >= upper:
         return UNBOUNDED
     return without_absurd(lower, upper)
 
@@ -186,6 +215,8 @@ def _unusable(lower: float | None, upper: float | None) -> str:
         return "no upper bound"
     if lower == upper:
         return f"equal, {lower!r}"
+    if lower > upper:
+        return f"lower {lower!r} above upper {upper!r}"
     if max(abs(lower), abs(upper)) >= ABSURD:
         return f"{lower!r} to {upper!r}"
     return ""
@@ -217,10 +248,15 @@ def _warn(repairs: Repairs, source: Source) -> None:
         warn(
             f"{source.place(worst.line)}: {worst.text}{_others(repairs.axes, worst, 'the worst of')}"
         )
-    if repairs.mimics:
-        first = repairs.mimics[0]
-        others = _others(repairs.mimics, first, "the first of")
-        warn(f"{source.place(first.line)}: {first.text}, and stays independent{others}")
+    for found, end in (
+        (repairs.mimics, ", and stays independent"),
+        (repairs.doubles, ""),
+        (repairs.quaternions, ""),
+    ):
+        if found:
+            first = found[0]
+            others = _others(found, first, "the first of")
+            warn(f"{source.place(first.line)}: {first.text}{end}{others}")
     if repairs.limits:
         joints = ", ".join(repair.text for repair in repairs.limits[:4])
         if len(repairs.limits) > 4:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from poekin.errors import PoekinWarning
 from poekin.formats import urdf
@@ -134,6 +135,7 @@ def test_limits_below_ten_thousand_and_axes_of_nearly_unit_length_are_taken_as_t
     ("", "none; line 3", (-math.inf, math.inf)),
     ("<limit/>", "none; line 4", (-math.inf, math.inf)),
     ('<limit lower="0.5" upper="0.5"/>', "equal, 0.5; line 4", (-math.inf, math.inf)),
+    ('<limit lower="1" upper="-1"/>', "lower 1.0 above upper -1.0; line 4", (-math.inf, math.inf)),
     ('<limit upper="0.5"/>', "no lower bound; line 4", (-math.inf, 0.5)),
     ('<limit lower="0.5"/>', "no upper bound; line 4", (0.5, math.inf)),
     ('<limit lower="-1e9" upper="0.5"/>', "-1000000000.0 to 0.5; line 4", (-math.inf, 0.5)),
@@ -205,6 +207,7 @@ LIMITS = {
     '<limit upper="2"/>': (-INF, 2),
     '<limit lower="2"/>': (2, INF),
     '<limit lower="inf" upper="inf"/>': (-INF, INF),
+    '<limit lower="0.1" upper="0"/>': (-INF, INF),
 }
 
 
@@ -233,6 +236,52 @@ def test_all_unusable_limits_of_a_file_make_one_warning():
     ) as caught:
         urdf.read_text(text)
     assert len(caught) == 1
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ('<axis xyz="0 0 1"/>', '<axis xyz="0 1 0"/>'),
+        ('<origin xyz="1 0 0"/>', '<origin xyz="2 0 0"/>'),
+        (LIMIT, '<limit lower="-2" upper="2"/>'),
+    ],
+)
+def test_of_two_elements_the_first_counts_as_with_other_readers(first, second):
+    rest = "" if first == LIMIT else LIMIT
+    tag = first[1 : first.index(" ")]
+    words = rf"^x\.urdf:5: joint 'j': <{tag}> stands there once more, and the first one counts$"
+    with pytest.warns(PoekinWarning, match=words):
+        robot = read(f"{first}\n{second}\n{rest}")
+    assert robot.joints == read(first + rest).joints
+    more = "\n".join([first, second, second, rest])
+    with pytest.warns(PoekinWarning, match=r"counts \(the first of 2; the others on line 6\)$"):
+        read(more)
+
+
+@given(st.lists(st.floats(-2, 2), min_size=4, max_size=4).filter(lambda q: np.linalg.norm(q) > 0.1))
+def test_a_quaternion_turns_an_origin_where_the_robot_says_version_1_1(quaternion):
+    values = " ".join(map(repr, quaternion))
+    text = one_joint(f'<origin xyz="1 2 3" quat_xyzw="{values}"/>{LIMIT}')
+    for version in ("1.1", "1.2"):
+        said = text.replace('<robot name="r"', f'<robot name="r" version="{version}"')
+        T = urdf.read_text(said).joints[0].origin
+        assert T[:3, 3].tolist() == [1, 2, 3]
+        np.testing.assert_allclose(
+            T[:3, :3], Rotation.from_quat(quaternion).as_matrix(), rtol=0, atol=2e-15
+        )
+
+
+@pytest.mark.parametrize("version", ["", ' version="1.0"'])
+def test_a_quaternion_that_nobody_reads_is_told(version):
+    text = one_joint(f'<origin quat_xyzw="0 0 1 0"/>{LIMIT}').replace(
+        'name="r"', f'name="r"{version}'
+    )
+    words = (
+        r"""^f:4: joint 'j': <origin>: quat_xyzw is not read: it needs <robot version="1\.1">$"""
+    )
+    with pytest.warns(PoekinWarning, match=words):
+        robot = urdf.read_text(text, "f")
+    assert (robot.joints[0].origin == np.eye(4)).all()
 
 
 def test_a_continuous_joint_has_no_limits_and_no_warning():

@@ -286,12 +286,25 @@ REFUSED = {
         one_joint('<axis xyz="0 0 nan"/>'),
         r"^x\.urdf:4: joint 'j': <axis>: xyz must be three finite numbers, got '0 0 nan'$",
     ),
-    "lower above upper": (
-        one_joint('<limit lower="1" upper="-1"/>'),
-        (
-            r"^x\.urdf:4: joint 'j': <limit>: lower must not be above upper, got lower = 1\.0, upper = "
-            r"-1\.0$"
-        ),
+    "four angles": (
+        one_joint('<origin rpy="0 0 0 0"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: rpy must be three numbers, got 4: '0 0 0 0'$",
+    ),
+    "angles and a quaternion": (
+        one_joint('<origin rpy="0 0 0" quat_xyzw="0 0 0 1"/>').replace('name="r"', 'version="1.1"'),
+        r"^x\.urdf:4: joint 'j': <origin>: either rpy or quat_xyzw expected, got both$",
+    ),
+    "a quaternion of zeros": (
+        one_joint('<origin quat_xyzw="0 0 0 0"/>').replace('name="r"', 'version="1.1"'),
+        r"^x\.urdf:4: joint 'j': <origin>: quat_xyzw must not be zero$",
+    ),
+    "a quaternion of three numbers": (
+        one_joint('<origin quat_xyzw="0 0 0"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: quat_xyzw must be four numbers, got 3: '0 0 0'$",
+    ),
+    "a quaternion that is not finite": (
+        one_joint('<origin quat_xyzw="0 0 0 inf"/>'),
+        r"^x\.urdf:4: joint 'j': <origin>: quat_xyzw must be four finite numbers, got '0 0 0 inf'$",
     ),
     "NaN in limits": (
         one_joint('<limit lower="nan" upper="1"/>'),
@@ -503,8 +516,6 @@ SENTENCES = {
     "far": (one_joint('<origin xyz="0 -1e155 0"/>'),
             "x.urdf:4: joint 'j': <origin>: xyz: expected lengths of at most 1e+100 m, got (0.0, -1e+155, 0.0)"),
     "axis": (one_joint("<axis/>"), "x.urdf:4: joint 'j': <axis>: expected an attribute xyz=\"...\", there is none"),
-    "limits": (one_joint('<limit lower="1" upper="-1.5"/>'),
-               "x.urdf:4: joint 'j': <limit>: lower must not be above upper, got lower = 1.0, upper = -1.5"),
     "limit": (one_joint('<limit lower="0" upper="high"/>'),
               "x.urdf:4: joint 'j': <limit>: upper must be a number, got 'high'"),
     "multiplier": (one_joint(LIMIT + '<mimic joint="j" multiplier="inf"/>'),

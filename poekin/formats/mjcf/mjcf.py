@@ -116,7 +116,7 @@ def is_mjcf(path: FilePath) -> bool:
     """Whether the root element of an XML file is <mujoco>. Raises: as `read` for what is no file or
     no safe XML.
     """
-    return xml.parse(xml.read_bytes(path), os.fsdecode(path)).tag == "mujoco"
+    return xml.parse(xml.read_bytes(path), os.fsdecode(path), tell=False).tag == "mujoco"
 
 
 def _read(data: str | bytes, name: str, parse_spec: Callable[[Any], Any], path: str = "") -> Robot:

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import os
+import re
 import stat
 from typing import Any, Never
+from xml.parsers import expat
 
 from lxml import etree  # pyright: ignore[reportAttributeAccessIssue]  (it is compiled and has no stubs)
 
-from ...errors import FileError, InputError, ModelError, quote, safe_repr
-from ...model.provenance import Source
+from ...errors import (
+    FileError,
+    InputError,
+    ModelError,
+    escape_unprintable,
+    quote,
+    safe_repr,
+)
+from ...model.provenance import Source, warn
 from .atomic_write import FilePath, reason
 
 MAX_BYTES = 64 * 2**20
@@ -29,6 +38,13 @@ SAFE: dict[str, Any] = {
     "remove_comments": True,
     "remove_pis": True,
 }
+
+# Slips of real files that other readers of robots pass over, by libxml2's names of them.
+SLIPS = {
+    "ERR_UNKNOWN_VERSION": "the text is read as XML 1.0",
+    "NS_ERR_UNDEFINED_NAMESPACE": "what the prefix marks is passed over",
+}
+_LATE_PROLOG = re.compile(rb"(\xef\xbb\xbf)?(\s+)(<\?xml\s[^>]*\?>)")
 
 
 class _DoctypeFound(Exception):
@@ -93,13 +109,14 @@ def read_text(path: FilePath, most: int = MAX_BYTES) -> tuple[str, str]:
         raise FileError(f"{place}: not UTF-8 at byte {fault.start}") from fault
 
 
-def parse(data: str | bytes, name: str) -> Element:
+def parse(data: str | bytes, name: str, *, tell: bool = True) -> Element:
     """Root element of an XML document.
 
-    Parameters: data, the document; name, what to call it in messages.
+    Parameters: data, the document; name, what to call it in messages; tell, whether to warn.
     Raises: InputError where data is no text; ModelError, with file and line, for an empty text, one
     of more than 64 MiB, malformed XML, and any document type declaration, which is refused before
-    anything in it is read: no entity is ever expanded.
+    anything in it is read: no entity is ever expanded. Warns: PoekinWarning for blanks before the
+    XML declaration and for `SLIPS`.
     """
     if not isinstance(name, str):
         raise InputError(
@@ -113,29 +130,82 @@ def parse(data: str | bytes, name: str) -> Element:
     if isinstance(data, str):
         encoding = "utf-8"
         data = data.encode("utf-8", "surrogatepass")
-    content = bytes(data)
+    content = _bounded(bytes(data), source)
+    said: list[str] = []
+    late = _LATE_PROLOG.match(content)
+    if late:
+        said.append(f"{source.place(1)}: blanks before the XML declaration are passed over")
+        # the blanks go behind it, so that each line keeps its number
+        content = (late[1] or b"") + late[3] + late[2] + content[late.end() :]
+    try:
+        root, slips = _parsed(content, encoding)
+    except _DoctypeFound:
+        raise ModelError(
+            f"{source.place(_doctype_line(content))}: a document type declaration (DOCTYPE) is refused: no DTD, entity"
+            " or external reference is read"
+        ) from None
+    except (etree.XMLSyntaxError, expat.ExpatError) as fault:
+        hint = ""
+        if b"\0" in content[:1024]:
+            hint = " (binary data?)"
+        words = quote(str(getattr(fault, "msg", None) or fault), 200)
+        raise ModelError(
+            f"{source.place(fault.lineno or 1)}: malformed XML{hint}: {words}"
+        ) from None
+    if tell:
+        for words in said + _told(slips, source):
+            warn(words)
+    return root
+
+
+def _bounded(content: bytes, source: Source) -> bytes:
     if len(content) > MAX_BYTES:
         raise ModelError(
             f"{source.place()}: expected at most 64 MiB, got {len(content) / 2**20:.1f} MiB"
         )
     if not content.strip():
         raise ModelError(f"{source.place()}: the text is empty")
+    return content
+
+
+def _parsed(content: bytes, encoding: str | None) -> tuple[Element, list[Any]]:
+    """Root element, and the slips that were passed over. Raises: what libxml2 or expat says of the
+    text.
+    """
     try:
-        etree.fromstring(content, etree.XMLParser(target=_DoctypeTrap(), encoding=encoding, **SAFE))
-        return etree.fromstring(content, etree.XMLParser(encoding=encoding, **SAFE))
-    except _DoctypeFound:
-        raise ModelError(
-            f"{source.place(_doctype_line(content))}: a document type declaration (DOCTYPE) is refused: no DTD, entity"
-            " or external reference is read"
-        ) from None
+        return _read(content, encoding)[0], []
     except etree.XMLSyntaxError as fault:
-        hint = ""
-        if b"\0" in content[:1024]:
-            hint = " (binary data?)"
-        words = quote(fault.msg or "not XML", 200)
-        raise ModelError(
-            f"{source.place(fault.lineno or 1)}: malformed XML{hint}: {words}"
-        ) from None
+        root, slips = _read(content, encoding, recover=True)
+        refused = {slip.type_name for slip in slips} - SLIPS.keys()
+        # what a prefix marks may be passed over, but xacro's may hold joints
+        if refused or any("prefix xacro " in slip.message for slip in slips):
+            raise fault from None
+        # libxml2 keeps silent of what stands behind its first complaint
+        expat.ParserCreate(encoding).Parse(content, True)
+        return root, slips
+
+
+def _read(
+    content: bytes,
+    encoding: str | None,
+    *,
+    recover: bool = False,
+) -> tuple[Element, list[Any]]:
+    """Root element, and what libxml2 complained of; never of a text with a DTD."""
+    options = {"encoding": encoding, "recover": recover, **SAFE}
+    etree.fromstring(content, etree.XMLParser(target=_DoctypeTrap(), **options))
+    parser = etree.XMLParser(**options)
+    root = etree.fromstring(content, parser)
+    return root, list(parser.error_log)
+
+
+def _told(slips: list[Any], source: Source) -> list[str]:
+    """A warning for each kind of slip, by the first of them."""
+    first = {slip.type_name: slip for slip in reversed(slips)}
+    return [
+        f"{source.place(slip.line)}: {escape_unprintable(slip.message, 200)}: {SLIPS[kind]}"
+        for kind, slip in sorted(first.items())
+    ]
 
 
 def _doctype_line(content: bytes) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 from ...errors import ModelError, quote
 from ...model.provenance import Source
@@ -65,16 +66,16 @@ class Fields:
         """The direct children of that tag, in order."""
         return [Fields(element, self.source) for element in self._found(tag)]
 
+    def children(self, tag: str) -> list[Fields]:
+        """The direct children of that tag, which messages call after this element."""
+        return [Fields(element, self.source, self) for element in self._found(tag)]
+
     def child(self, tag: str) -> Fields | None:
         """The only child of that tag, or None."""
-        found = self._found(tag)
+        found = self.children(tag)
         if len(found) > 1:
-            raise Fields(found[1], self.source, self).fault(
-                f"it appears {len(found)} times, expected once"
-            )
-        for element in found:
-            return Fields(element, self.source, self)
-        return None
+            raise found[1].fault(f"it appears {len(found)} times, expected once")
+        return next(iter(found), None)
 
     def _found(self, tag: str) -> list[Element]:
         if not self._children:
@@ -98,20 +99,29 @@ class Fields:
 
     def vector(self, attribute: str) -> tuple[float, float, float] | None:
         """Three finite numbers apart by blanks, or None where the attribute is missing."""
+        values = self.numbers(attribute, 3)
+        if values is None:
+            return None
+        x, y, z = values
+        return x, y, z
+
+    def numbers(self, attribute: str, count: Literal[3, 4]) -> list[float] | None:
+        """As many finite numbers apart by blanks, or None where the attribute is missing."""
         text = self.element.get(attribute)
         if text is None:
             return None
         values = [real(part) for part in text.split()]
-        if len(values) != 3:
+        words = {3: "three", 4: "four"}[count]
+        if len(values) != count:
             raise self.fault(
-                f"{attribute} must be three numbers, got {len(values)}: {quote(text)}{_hint(text)}"
+                f"{attribute} must be {words} numbers, got {len(values)}: {quote(text)}{_hint(text)}"
             )
-        if not all(value is not None and math.isfinite(value) for value in values):
+        finite = [value for value in values if value is not None and math.isfinite(value)]
+        if len(finite) != count:
             raise self.fault(
-                f"{attribute} must be three finite numbers, got {quote(text)}{_hint(text)}"
+                f"{attribute} must be {words} finite numbers, got {quote(text)}{_hint(text)}"
             )
-        x, y, z = (value for value in values if value is not None)
-        return x, y, z
+        return finite
 
 
 def _hint(text: str) -> str:

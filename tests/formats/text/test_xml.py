@@ -1,0 +1,92 @@
+"""XML: slips of real files that other readers pass over are read and told; all else is refused."""
+
+from __future__ import annotations
+
+import warnings
+
+import pytest
+
+from poekin.errors import ModelError, PoekinWarning
+from poekin.formats import urdf
+from poekin.formats.mjcf import mjcf
+from poekin.formats.text import xml
+from tests.formats.texts import LIMIT, one_joint
+
+TEXT = one_joint(LIMIT)
+PREFIX = "Namespace prefix drake for acceleration on limit is not defined"
+SLIPS = {
+    "a version that there is not": (
+        '<?xml version="0.0" ?>\n' + TEXT,
+        "f:1: Unsupported version '0.0': the text is read as XML 1.0",
+    ),
+    "blanks before the declaration": (
+        ' \n\n<?xml version="1.0"?>' + TEXT,
+        "f:1: blanks before the XML declaration are passed over",
+    ),
+    "a prefix of an attribute": (
+        one_joint('<limit lower="-1" upper="1" drake:acceleration="2"/>'),
+        f"f:4: {PREFIX}: what the prefix marks is passed over",
+    ),
+    "a prefix of a joint": (
+        one_joint(LIMIT + '\n</joint>\n<drake:joint name="k"><parent link="a"/>').replace(
+            "\n</joint>\n</robot>", "\n</drake:joint>\n</robot>"
+        ),
+        "f:6: Namespace prefix drake on joint is not defined: what the prefix marks is passed over",
+    ),
+}
+
+
+@pytest.mark.parametrize(("text", "words"), SLIPS.values(), ids=SLIPS)
+def test_a_slip_that_others_pass_over_is_read_and_told_with_its_line(text, words):
+    for content in (text, text.encode()):
+        with pytest.warns(PoekinWarning) as caught:
+            robot = urdf.read_text(content, "f")
+        assert [str(warning.message) for warning in caught] == [words]
+        assert robot.joints == urdf.read_text(TEXT).joints
+
+
+def test_a_declaration_behind_blanks_still_says_the_encoding():
+    text = '\n<?xml version="1.0" encoding="iso-8859-1"?>' + TEXT.replace('"a"', '"ä"')
+    with pytest.warns(PoekinWarning, match="blanks before"):
+        robot = urdf.read_text(text.encode("iso-8859-1"))
+    assert robot.links[0] == "ä"
+
+
+def test_faults_behind_a_slip_keep_their_lines():
+    text = '\n\n<?xml version="0.0"?>\n' + one_joint('<axis xyz="0 0 0"/>')
+    with (
+        pytest.warns(PoekinWarning),
+        pytest.raises(ModelError, match=r"^f:7: joint 'j': <axis>: xyz"),
+    ):
+        urdf.read_text(text, "f")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '<?xml version="0.0"?><robot><link></robot>',
+        '<!-- a comment --><?xml version="1.0"?><robot/>',
+        '\n<?xml version="1.0"?><robot><?xml version="1.0"?></robot>',
+        '<?xml version="0.0"?><robot a="1" a="2"/>',
+        "<robot><a:b/></robot><robot/>",
+        '<?xml version="0.0"?><robot/>text',
+        '<robot xmlns:a="a" a:b="1" c:d="2"></robot>\n<a:b>',
+    ],
+)
+def test_a_slip_hides_no_fault(text):
+    with pytest.raises(ModelError, match="malformed XML"):
+        xml.parse(text, "f")
+
+
+@pytest.mark.parametrize("head", ['<?xml version="0.0"?>', '\n<?xml version="1.0"?>', ""])
+def test_a_document_type_is_refused_behind_a_slip(head):
+    with pytest.raises(ModelError, match="DOCTYPE"):
+        xml.parse(head + '<!DOCTYPE r [<!ENTITY e "x">]><r:robot name="&e;"/>', "f")
+
+
+def test_asking_what_a_file_is_tells_nothing(tmp_path):
+    file = tmp_path / "a.xml"
+    file.write_text('<?xml version="0.0"?><mujoco/>')
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert mjcf.is_mjcf(file)
