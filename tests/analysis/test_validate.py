@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import pickle
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -12,14 +13,14 @@ import numpy as np
 import pytest
 
 from poekin.analysis.validate import BAR, ChainErrors, Validation, chain_errors, routes, validate
-from poekin.errors import FileError, InputError, ModelError
+from poekin.errors import FileError, InputError, ModelError, PoekinWarning
 from poekin.formats import urdf
 from poekin.formats.erd import example_robots
 from poekin.formats.load import load
 from poekin.model.chain import Chain
 from poekin.model.joint import Joint
 from poekin.model.robot import Robot
-from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle
+from poekin.testing.oracles.pinocchio_oracle import PinocchioOracle, pinocchio
 
 URDF = """<robot name="r"><link name="root"/><link name="a"/><link name="b"/><link name="c"/><link name="tip"/>
 <joint name="turn" type="continuous"><parent link="root"/><child link="a"/><origin xyz="0.1 0.2 0.3" rpy="0.2 0 1"/>
@@ -318,6 +319,25 @@ def test_any_encoding_and_namespace_that_xml_allows_is_validated(tmp_path, encod
     v = validate(path, samples=3)
     assert v.passed
     assert (v.chains[0].joints, "b\xe9nd" in v.chains[0].configuration) == (4, True)
+
+
+@pytest.mark.skipif(
+    int(pinocchio().__version__.split(".")[0]) < 4, reason="an older Pinocchio reads no quaternion"
+)
+@pytest.mark.parametrize("quaternion", ["0 0 1 0", "0.5 -0.1 2 1", "0 0 0 -3"])
+def test_a_quaternion_of_a_urdf_turns_as_pinocchio_says(quaternion):
+    turned = URDF.replace("<robot ", '<robot version="1.1" ', 1)
+    turned = re.sub('rpy="[^"]*"', f'quat_xyzw="{quaternion}"', turned, count=1)
+    assert quaternion in turned
+    assert validate(turned, samples=3).passed
+
+
+def test_what_a_prefix_without_declaration_marks_is_passed_over_by_both():
+    marked = URDF.replace("<robot ", '<robot a:b="1" ', 1)
+    marked = marked.replace("</robot>", '<a:joint name="x"><a:axis/><axis/></a:joint></robot>')
+    with pytest.warns(PoekinWarning, match="Namespace prefix a"):
+        result = validate(marked, samples=3)
+    assert result.passed
 
 
 def test_progress_is_told_before_each_chain():

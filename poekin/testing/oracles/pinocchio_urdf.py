@@ -20,19 +20,23 @@ def text_of(root: xml.Element) -> str:
 
 
 def plain(root: xml.Element) -> xml.Element:
-    """Elements of the root's namespace under their names without it, and no others."""
+    """Elements of the root's namespace under their names without it, and no others; nothing with a
+    prefix that is not declared.
+    """
     space, bracket, _ = root.tag.rpartition("}")
 
     def parts(element: xml.Element) -> tuple[str, dict[str, str]]:
         return element.tag.rpartition("}")[2], {
-            k: v for k, v in element.attrib.items() if not k.startswith("{")
+            k: v for k, v in element.attrib.items() if not k.startswith("{") and ":" not in k
         }
 
     plain = etree.Element(*parts(root))
     copies = {root: plain}
     for element in root.iterdescendants(f"{space}{bracket}*" if bracket else "{}*"):
         above = copies.get(element.getparent())
-        if above is not None:  # else it is inside of an element of another namespace
+        if (
+            above is not None and ":" not in parts(element)[0]
+        ):  # else it is inside of an element of another namespace
             copies[element] = etree.SubElement(above, *parts(element))
     return plain
 
