@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from . import conform
+from . import conform, warm
 from .calibration import calibrate
 from .kinematics import fk, follow, ik, jacobian, singularity
 from .model import takes_models
@@ -22,7 +22,7 @@ app = typer.Typer(
 
 COMMANDS: tuple[ModuleType, ...] = (
     *(info, fk, jacobian, singularity, ik, follow, calibrate, validate, urdf, compare, conform),
-    *(axes, dh, count, emit),
+    *(axes, dh, count, emit, warm),
 )
 # Unknown options of these pass through to q, so that -0.5 is a number; there are no one-letter
 # options that it could be.
@@ -30,7 +30,7 @@ TAKE_NUMBERS = (fk, jacobian, singularity, ik)
 
 for module in COMMANDS:
     run = module.command
-    if module is not conform:
+    if module not in (conform, warm):
         run = takes_models(run)
     settings = {"ignore_unknown_options": module in TAKE_NUMBERS}
     app.command(module.__name__.rpartition(".")[2], context_settings=settings)(run)

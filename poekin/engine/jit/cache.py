@@ -125,40 +125,42 @@ def machine_key() -> str:
     ).hexdigest()
 
 
-def _private(status: os.stat_result) -> bool:
-    """Whether a file or directory belongs to this user and nobody else may write or read it."""
-    return _owned_by_user(status) and (os.name == "nt" or not stat.S_IMODE(status.st_mode) & 0o077)
+def _trusted(status: os.stat_result) -> bool:
+    """Whether nobody but this user, or root, owns a file or directory or may write it."""
+    return _owned_by_user(status) and (os.name == "nt" or not stat.S_IMODE(status.st_mode) & 0o022)
 
 
 def _owned_by_user(status: os.stat_result) -> bool:
-    return not hasattr(os, "geteuid") or status.st_uid == os.geteuid()
+    return not hasattr(os, "geteuid") or status.st_uid in (os.geteuid(), 0)
 
 
-def _usable_directory() -> Path | None:
-    """The cache directory, made if needed, or None where it cannot be trusted or used."""
+def usable_directory() -> Path | None:
+    """The cache directory, made if needed, or None where it cannot be trusted or used.
+
+    One that `POEKIN_CACHE_DIR` names is made so that others may read it: of an image, say.
+    """
     place = directory()
     if place is None:
         return None
+    mode = 0o755 if "POEKIN_CACHE_DIR" in os.environ else 0o700
     try:
-        place.mkdir(mode=0o700, parents=True, exist_ok=True)
+        place.mkdir(mode=mode, parents=True, exist_ok=True)
         status = place.stat()
     except OSError as error:
         log_no_cache("no cache in %s (%s)", place, error.strerror)
         return None
-    if not stat.S_ISDIR(status.st_mode) or not _private(status):
-        reason = (
-            "others may read or write it"
-            if _owned_by_user(status)
-            else "it belongs to another user"
-        )
-        log_no_cache("%s is not used, %s (expected mode 0700)", place, reason)
+    if not stat.S_ISDIR(status.st_mode) or not _trusted(status):
+        reason = "it belongs to another user"
+        if _owned_by_user(status):
+            reason = "others may write it (expected mode 0755 or 0700)"
+        log_no_cache("%s is not used, %s", place, reason)
         return None
     return place
 
 
 def entry(name: str, key: object) -> Path | None:
     """Path of the entry of a name and a key; None for nowhere."""
-    place = _usable_directory()
+    place = usable_directory()
     if (
         place is None or source_hash.LOADED is None
     ):  # the package runs from where its source cannot be read
@@ -173,7 +175,7 @@ def read(path: Path) -> bytes | None:
         with open(path, "rb", opener=_open_regular) as file:
             status = os.fstat(file.fileno())
             trusted = (
-                stat.S_ISREG(status.st_mode) and status.st_size <= MAX_ENTRY and _private(status)
+                stat.S_ISREG(status.st_mode) and status.st_size <= MAX_ENTRY and _trusted(status)
             )
             data = file.read(MAX_ENTRY) if trusted else b""
     except FileNotFoundError:
@@ -184,7 +186,7 @@ def read(path: Path) -> bytes | None:
     digest = data[:32]
     payload = data[32:]
     if not trusted or hashlib.sha256(payload).digest() != digest:
-        log_once("entry", "a kernel is compiled anew: %s is damaged or not this user's alone", path)
+        log_once("entry", "a kernel is compiled anew: %s is damaged, or others may write it", path)
         return None
     with contextlib.suppress(OSError):  # in a directory that is read-only
         os.utime(path)  # it is in use: the last that the bound on the cache's size removes
@@ -195,10 +197,10 @@ def write(path: Path, payload: bytes) -> None:
     """Keep an entry; the file appears whole or not at all."""
     partial = None
     try:
-        # mkstemp gives mode 0600
         handle, partial = tempfile.mkstemp(dir=path.parent, prefix=path.name)
         with os.fdopen(handle, "wb") as file:
             file.write(hashlib.sha256(payload).digest() + payload)
+        os.chmod(partial, 0o644)  # whoever may read the directory may read its entries
         os.replace(partial, path)
         cache_size.bound(path.parent, len(payload) + 32, size_limit())
     except OSError as error:

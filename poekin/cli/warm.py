@@ -1,0 +1,38 @@
+"""`poekin warm`: all kernels compiled and kept, for images and classrooms."""
+
+from __future__ import annotations
+
+import time
+
+import typer
+
+from ..engine.jit import cache
+from ..engine.warm import kernels
+from ..errors import FileError
+from .kinematics.arm import Json
+from .output import Progress, as_json, path_text, say
+
+
+def command(json: Json = False) -> None:
+    """Compile all kernels once and keep them in the cache directory (POEKIN_CACHE_DIR, or the
+    user's). Exit code 0 done, 2 where nothing can be kept.
+    """
+    place = cache.usable_directory()
+    if place is None:
+        raise FileError(
+            "no cache directory can be used: POEKIN_CACHE_DIR=DIRECTORY names one that nobody else may write"
+        )
+    start = time.monotonic()
+    found = kernels()
+    with Progress("compiling") as progress:
+        for done, (name, kernel) in enumerate(found.items()):
+            progress(done, len(found), name)
+            kernel.ready()
+    kept = [file.stat().st_size for file in place.glob("*.kernel")]
+    seconds = time.monotonic() - start
+    if json:
+        print(as_json({"kernels": len(found), "directory": str(place), "seconds": seconds}))
+    else:
+        size = sum(kept) / cache.MIB
+        say(f"{len(found)} kernels in {path_text(place)}, {size:.1f} MiB, {seconds:.0f} s")
+    raise typer.Exit(0)

@@ -1,0 +1,43 @@
+"""`poekin warm` compiles every kernel there is and says where they lie."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import poekin
+from poekin.engine import warm
+from poekin.engine.jit import cache
+
+
+def in_the_source() -> int:
+    folder = Path(poekin.__file__).parent / "engine" / "kernels"
+    return sum(len(re.findall(r"(?m)^@kernel\(", file.read_text())) for file in folder.glob("*.py"))
+
+
+def test_every_kernel_is_compiled_and_kept(poekin):
+    found = warm.kernels()
+    assert len(found) == in_the_source() > 30
+    code, out, err = poekin("warm")
+    assert (code, err) == (0, "")
+    assert out.startswith(f"{len(found)} kernels in ")
+    assert all(kernel.call == kernel.ready() for kernel in found.values())
+    place = cache.usable_directory()
+    assert place is not None
+    names = {file.name.rpartition("-")[0] for file in place.glob("*.kernel")}
+    assert {name.rpartition(".")[2] for name in found} <= names
+
+
+def test_json_says_how_many_and_where(as_json):
+    document = as_json("warm")
+    assert document["kernels"] == in_the_source()
+    assert Path(document["directory"]) == cache.usable_directory()
+
+
+def test_without_a_directory_that_can_be_used_nothing_is_compiled(refused, tmp_path, monkeypatch):
+    for place in ("", str(tmp_path / "open")):
+        monkeypatch.setenv("POEKIN_CACHE_DIR", place)
+        (tmp_path / "open").mkdir(exist_ok=True)
+        (tmp_path / "open").chmod(0o777)
+        words = refused("warm")
+        assert "no cache directory can be used: POEKIN_CACHE_DIR=DIRECTORY names one" in words
