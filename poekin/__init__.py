@@ -33,8 +33,7 @@ from .solve.calibration import calibrate, choose_poses
 from .solve.ik.ik import ik
 from .solve.ik_all.ik_all import ik_all
 from .solve.path.follow import follow
-
-__version__ = "0.1.0"
+from .version import __version__ as __version__
 
 __all__ = [
     "Chain",

@@ -38,7 +38,7 @@ for module in COMMANDS:
 
 def _version(wanted: bool) -> None:
     if wanted:
-        from .. import __version__
+        from ..version import __version__
 
         print(f"poekin {__version__}")
         raise typer.Exit

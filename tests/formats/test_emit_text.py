@@ -32,6 +32,7 @@ POLAR = pk.Chain.from_space(
 HEADER = """\
 /*
  * rod: the kinematics of one serial arm as straight-line C99, in double. Generated: change the arm instead.
+ * Made by poekin VERSION
  *
  * rod_fk: 2 multiplications, 1 additions or subtractions, 1 pairs of sine and cosine
  * rod_jacobian_body: 0 multiplications, 1 additions or subtractions, 0 pairs of sine and cosine
@@ -87,7 +88,7 @@ void rod_fk_jacobian_body_angles(const double *q, double *x);
 #endif
 
 #endif
-"""
+""".replace("VERSION", pk.__version__)
 
 FK = """\
 void rod_fk_angles(const double *q, double *x)
@@ -295,10 +296,26 @@ def test_a_compiled_chain_is_written_as_its_chain():
     assert emit.c(POLAR.compile(), "body") == emit.c(POLAR, "body")
 
 
+def test_the_head_says_where_the_arm_is_from_and_nothing_ends_a_comment():
+    origin = 'the robot */ \'\\""", file a.urdf with the SHA-256 ' + "0123456789abcdef" * 4
+    for text in (
+        emit.c(POLAR, "body", origin=origin).header,
+        emit.python(POLAR, "body", origin=origin),
+    ):
+        head = re.sub(r"\n(?: \* )?", " ", text[:600])
+        assert f"Made by poekin {pk.__version__} from the robot <U+002A>/ <U+0027>" in head
+        assert f"a.urdf with the SHA-256 {'0123456789abcdef' * 4}" in head
+        assert max(map(len, text[:600].splitlines())) < 115
+    for write in (emit.c, emit.python):
+        with pytest.raises(InputError, match=r"^origin: expected a text, got 3$"):
+            write(POLAR, "body", origin=3)
+
+
 def test_python_is_the_same_lines_on_arrays():
     text = emit.python(POLAR, "body")
     assert text.startswith(
-        '"""The kinematics of one serial arm as straight-line code. Generated: change the arm instead.\n\nfk: 2 mult'
+        '"""The kinematics of one serial arm as straight-line code. Generated: change the arm instead.\n'
+        f"Made by poekin {pk.__version__}\n\nfk: 2 mult"
     )
     assert (
         "\nJ is the body Jacobian: axes of the tip, v of the origin of the tip.\n\nq is (..., m), an array"

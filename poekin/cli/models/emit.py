@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 from pathlib import Path
@@ -15,6 +16,7 @@ from ...formats.emit.messages import identifier
 from ...formats.text.atomic_write import reason, write_whole
 from ...model.chain import Chain
 from ...model.kinematics.pose_jacobian import FRAME_NAMES
+from ...model.robot import Robot
 from .. import array_files
 from ..kinematics.arm import Base, File, Tip
 from ..kinematics.jacobian import parse_frame
@@ -43,6 +45,10 @@ Name = Annotated[
     Option("--name", help="What names begin with (default: the robot's name)."),
 ]
 Force = Annotated[bool, Option("--force", help="Replace files that exist.")]
+Idealise = Annotated[
+    float | None,
+    Option("--idealise", metavar="TOL", help="The arm made exact within TOL (rad and m)."),
+]
 
 
 def command(
@@ -54,6 +60,7 @@ def command(
     frame: Frame = "hybrid",
     single: Single = False,
     name: Name = None,
+    idealise: Idealise = None,
     force: Force = False,
 ) -> None:
     """Pose and Jacobian of one chain as straight-line source text that needs no poekin."""
@@ -65,9 +72,15 @@ def command(
         )
     robot = model(file)
     chain = robot.chain(base=base, tip=tip)
+    origin = _origin(file, robot)
+    ideal = None
+    if idealise is not None:
+        ideal = chain.idealised(idealise)
+        chain = ideal.chain
+        origin += f", idealised within {idealise:g} (rad and m)"
     if name is None:
         name = robot.name
-    texts = _texts(chain, language, parse_frame(frame, FRAMES), name, single)
+    texts = _texts(chain, language, parse_frame(frame, FRAMES), name, single, origin)
     if language == "python" and output.suffix == ".py":
         places = dict.fromkeys([output], *texts.values())
         directory = output.parent
@@ -79,14 +92,32 @@ def command(
     for line in next(iter(texts.values())).splitlines():
         if re.search(r"\d+ multiplications", line):
             say(line.removeprefix(" * "))
+    if ideal is not None:
+        say(f"The idealised arm: {ideal.summary()}")
     say(f"Written: {', '.join(path_text(place) for place in places)}")
 
 
-def _texts(chain: Chain, language: str, frame: Any, name: str, single: bool) -> dict[str, str]:
+def _origin(file: str, robot: Robot) -> str:
+    """The robot, and the file with its checksum where it is one."""
+    words = f"the robot {robot.name}"
+    if os.path.isfile(file):
+        digest = hashlib.sha256(Path(file).read_bytes()).hexdigest()
+        words += f", file {os.path.basename(file)} with the SHA-256 {digest}"
+    return words
+
+
+def _texts(
+    chain: Chain,
+    language: str,
+    frame: Any,
+    name: str,
+    single: bool,
+    origin: str,
+) -> dict[str, str]:
     """Texts by the names of their files."""
     if language == "c":
-        return emit.c(chain, frame, name=name, real=NUMBERS[single]).files
-    return {f"{identifier(name)}.py": emit.python(chain, frame)}
+        return emit.c(chain, frame, name=name, real=NUMBERS[single], origin=origin).files
+    return {f"{identifier(name)}.py": emit.python(chain, frame, origin=origin)}
 
 
 def _write(places: dict[Path, str], directory: Path, force: bool) -> None:
@@ -97,7 +128,7 @@ def _write(places: dict[Path, str], directory: Path, force: bool) -> None:
             f"{', '.join(path_text(place) for place in there)}: exists already; --force replaces it"
         )
     try:
-        directory.mkdir(exist_ok=True)
+        directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FileError(
             f"cannot make the directory {path_text(directory)}: {reason(error)}"

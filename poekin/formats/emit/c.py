@@ -19,6 +19,7 @@ from .messages import (
     compile_checked,
     header_lines,
     identifier,
+    made_by,
     make_tasks,
 )
 from .statements import Statements, WriteNumber, by_outputs, double, single, statements
@@ -68,6 +69,7 @@ def c(
     *,
     name: str = "arm",
     real: Real = "double",
+    origin: str = "",
 ) -> CSource:
     """C99 of a chain's pose and Jacobian: straight-line, without allocation, with math.h alone.
 
@@ -81,6 +83,8 @@ def c(
         Name of which the C names are made; only a-z, 0-9 and _ are kept.
     real : {"double", "float"}, default "double"
         Type of the numbers.
+    origin : str, default ""
+        Words for the head of the text on where the arm is from: a file and its SHA-256, say.
 
     Returns
     -------
@@ -92,7 +96,7 @@ def c(
     Raises
     ------
     InputError
-        If `chain` is no Chain, `real` or the frame is unknown, or the arm needs a number that the
+        If `chain` is no Chain, `real` or the frame is unknown, `origin` is no text, or the arm needs a number that the
         type cannot hold.
     UnknownName
         If the frame is a name that there is not.
@@ -121,6 +125,7 @@ def c(
     functions = [_Function(word, real, literal, task, arm.dof) for task in make_tasks(arm, frame)]
     head = [
         f"{word}: the kinematics of one serial arm as straight-line C99, in {real}. Generated: change the arm instead.",
+        *made_by(origin),
         "",
         *(f"{word}_{function.task.cost}" for function in functions),
     ]

@@ -5,16 +5,19 @@ from __future__ import annotations
 import math
 import re
 import string
+import textwrap
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...checks import choice
 from ...engine.straight_line.program import Program
+from ...errors import InputError, safe_repr
 from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, compiled
 from ...model.kinematics.compiled import CompiledChain
 from ...model.kinematics.pose_jacobian import FRAME_NAMES, AnyFrame
+from ...version import __version__
 
 _PLAIN = set(string.ascii_letters + string.digits + string.punctuation + " ") - set("*?\\\"'`")
 _LONGEST = 80
@@ -32,7 +35,21 @@ def quote_ascii(name: str) -> str:
     """Name in ASCII for a comment of C or a docstring; a character that could end it as <U+002A>."""
     if len(name) > _LONGEST:
         name = name[: _LONGEST - 3] + "..."
-    return "'" + "".join(c if c in _PLAIN else f"<U+{ord(c):04X}>" for c in name) + "'"
+    return f"'{_plain(name)}'"
+
+
+def _plain(text: str) -> str:
+    return "".join(c if c in _PLAIN else f"<U+{ord(c):04X}>" for c in text)
+
+
+def made_by(origin: str) -> list[str]:
+    """Lines on the version of poekin, and where the arm is from."""
+    if not isinstance(origin, str):
+        raise InputError(f"origin: expected a text, got {safe_repr(origin)}")
+    words = f"Made by poekin {__version__}"
+    if origin:
+        words += f" from {origin}"
+    return textwrap.wrap(_plain(words), 110)
 
 
 @dataclass(frozen=True)

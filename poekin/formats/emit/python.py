@@ -7,11 +7,11 @@ import textwrap
 from ...checks import REQUIRED
 from ...model.kinematics.arm import Arm
 from ...model.kinematics.pose_jacobian import AnyFrame
-from .messages import Task, angle_lines, compile_checked, header_lines, make_tasks
+from .messages import Task, angle_lines, compile_checked, header_lines, made_by, make_tasks
 from .statements import Statements, by_outputs, double, statements
 
 
-def python(chain: Arm, frame: AnyFrame = REQUIRED) -> str:
+def python(chain: Arm, frame: AnyFrame = REQUIRED, *, origin: str = "") -> str:
     """Python module with a chain's pose and Jacobian: straight-line, without imports.
 
     Parameters
@@ -20,6 +20,8 @@ def python(chain: Arm, frame: AnyFrame = REQUIRED) -> str:
         Chain to write.
     frame : {"space", "body", "hybrid", "cheapest"} or int
         Frame of the Jacobian, or the index of a joint, as in `CompiledChain.jacobian`.
+    origin : str, default ""
+        Words for the head of the text on where the arm is from: a file and its SHA-256, say.
 
     Returns
     -------
@@ -32,7 +34,7 @@ def python(chain: Arm, frame: AnyFrame = REQUIRED) -> str:
     Raises
     ------
     InputError
-        If `chain` is no Chain or the frame is no frame.
+        If `chain` is no Chain, the frame is no frame, or `origin` no text.
     UnknownName
         If the frame is a name that there is not.
 
@@ -55,6 +57,7 @@ def python(chain: Arm, frame: AnyFrame = REQUIRED) -> str:
     functions = make_tasks(arm, frame)
     head = [
         '"""The kinematics of one serial arm as straight-line code. Generated: change the arm instead.',
+        *made_by(origin),
         "",
         *(task.cost for task in functions),
         "",

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -14,7 +17,12 @@ PANDA = ("emit", "panda", "--tip", "panda_hand")
 def test_c_is_three_files_and_says_what_they_cost(poekin, tmp_path):
     code, out, err = poekin(*PANDA, "--lang", "c", "--output", tmp_path / "made")
     assert (code, err) == (0, "")
-    source = emit.c(pk.load("panda").chain(tip="panda_hand"), "hybrid", name="panda")
+    source = emit.c(
+        pk.load("panda").chain(tip="panda_hand"),
+        "hybrid",
+        name="panda",
+        origin="the robot panda",
+    )
     written = {
         path.name: path.read_text(encoding="ascii") for path in (tmp_path / "made").iterdir()
     }
@@ -39,6 +47,38 @@ def test_options_reach_the_text(poekin, tmp_path, options):
     real = "float" if options == ("--float",) else "double"
     suffix = "joint3" if frame == "3" else frame
     assert f"void {name}_fk_jacobian_{suffix}(const {real} *q, {real} *T, {real} *J);" in text
+
+
+def test_directories_are_made_and_the_head_says_the_file_and_its_checksum(poekin, tmp_path, crane):
+    place = tmp_path / "some" / "where"
+    words = ("emit", crane, "--tip", "hook", "--lang", "c", "--output", place)
+    assert poekin(*words)[0] == 0
+    digest = hashlib.sha256(Path(crane).read_bytes()).hexdigest()
+    head = (place / "crane.h").read_text(encoding="ascii").replace("\n * ", " ")
+    said = f"from the robot crane, file crane.urdf with the SHA-256 {digest}"
+    assert f"Made by poekin {pk.__version__} {said}" in head
+    assert str(tmp_path) not in head
+
+
+def test_the_idealised_arm_is_written_and_what_that_changed_is_said(poekin, tmp_path):
+    arm = pk.load("panda").chain(tip="panda_hand")
+    bent = arm.screws.copy()
+    bent[3] = pk.se3.adjoint(pk.se3.exp([1e-5, 0, 0, 0, 0, 0])) @ bent[3]
+    file = tmp_path / "bent.urdf"
+    file.write_text(pk.to_urdf(pk.Chain.from_space(bent, arm.home)), encoding="utf-8")
+    _, as_it_is, _ = poekin("emit", file, "--lang", "c", "--output", tmp_path / "a")
+    code, out, _ = poekin(
+        *("emit", file, "--lang", "c", "--output", tmp_path / "b", "--idealise", "1e-4")
+    )
+    assert code == 0
+    ideal = pk.load(file).chain().idealised(1e-4)
+    assert ideal.changes
+    assert f"The idealised arm: {ideal.summary().splitlines()[0]}" in out
+    assert int(out.split()[1]) < int(as_it_is.split()[1])
+    _, code_of_it = emit.c(ideal.chain, "hybrid", name="base_to_tool").source.split("#include", 1)
+    assert (tmp_path / "b" / "base_to_tool.c").read_text(encoding="ascii").endswith(code_of_it)
+    head = (tmp_path / "b" / "base_to_tool.h").read_text(encoding="ascii")
+    assert "idealised within 0.0001 (rad and m)" in head.replace("\n * ", " ")
 
 
 @pytest.mark.parametrize("place", ["arm.py", "somewhere"])
@@ -101,6 +141,8 @@ def test_a_name_that_points_nowhere_exists_already(refused, tmp_path):
         (("--lang", "c", "--frame", "7"), "0 to 6, got 7"),
         (("--lang", "c", "--frame", "-1"), "0 to 6, got -1"),
         (("--lang", "c", "--tip", "nose"), "nose"),
+        (("--lang", "c", "--idealise", "1"), "a number from 0 to 0.05 expected"),
+        (("--lang", "c", "--idealise", "-1e-4"), "a number from 0 to 0.05 expected"),
     ],
     ids=lambda x: "-".join(x) if isinstance(x, tuple) else "",
 )
@@ -111,7 +153,7 @@ def test_what_cannot_be_is_refused_and_nothing_is_written(refused, tmp_path, wor
 
 def test_places_that_cannot_be_written_are_refused(refused, tmp_path):
     (tmp_path / "file").write_text("mine", encoding="ascii")
-    for place, reason in (("none/deeper", "No such file or directory"), ("file", "File exists")):
+    for place, reason in (("file/deeper", "Not a directory"), ("file", "File exists")):
         said = refused(*PANDA, "--lang", "c", "--output", tmp_path / place)
         assert f"cannot make the directory '{tmp_path / place}': {reason}" in said
     (tmp_path / "arm.py").mkdir()
