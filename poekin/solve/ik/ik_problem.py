@@ -218,7 +218,7 @@ def _options(settings: Settings, task: Task) -> Array:
 
 def _rows(restarts: int, iterations: int) -> int:
     """Number of targets of one call of a kernel."""
-    return int(max(STEPS // ((restarts + 1) * iterations), 1))
+    return max(STEPS // ((restarts + 1) * iterations), 1)
 
 
 def _check_numbers(settings: Settings) -> None:

@@ -153,6 +153,7 @@ def follow(  # noqa: PLR0913 - options by keyword
         times=when,
         speed=limit_v,
         acceleration=limit_a,
+        lock=dict(lock or {}),
     )
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
@@ -73,6 +74,8 @@ class PathResult(Result):
         Time of each pose, s.
     speed, acceleration : (m,) ndarray or None
         Limits of each coordinate, per s and s².
+    lock : dict of str to float
+        Locked coordinates and their values, rad or m.
     """
 
     derived = (
@@ -98,6 +101,7 @@ class PathResult(Result):
     times: Array | None
     speed: Array | None
     acceleration: Array | None
+    lock: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def q(self) -> Array:
@@ -188,16 +192,17 @@ class PathResult(Result):
     def inverse_condition(self) -> Array:
         """Smallest ÷ largest singular value (N,) of the Jacobian that the task asks; 0: singular.
 
-        Smallest of the motions that the arm has at all; 1 where it has none that the task asks. In
-        rad and m of the joints, lengths ÷ reach.
+        Smallest of the motions that the arm has at all, what is locked at rest; 1 where it has none
+        that the task asks. In rad and m of the joints, lengths ÷ reach.
         Computed when it is first asked for, which takes longer than to follow the path.
         """
         units = joint_units(self.chain.compile())
-        rank = self.task.generic_rank(units.fast.chain)
+        locked = self._locked
+        rank = self.task.generic_rank(units.fast.chain, units.of(locked))
         if not rank:
             return np.ones(len(self.q))
         T, J = units.fast.chain.fk_jacobian(units.of(self.q), "hybrid")
-        J = self.task.jacobian(T, J)
+        J = np.where(np.isnan(locked), self.task.jacobian(T, J), 0.0)
         s = svd(scaled(J, -2, self.task.part, self.chain.reach))[1]
         last = rank - 1
         return np.divide(s[..., last], s[..., 0], out=np.zeros(len(s)), where=s[..., 0] != 0)
@@ -307,13 +312,36 @@ class PathResult(Result):
         where = f"{_points(s)}: near a singularity, most at {s.worst}"
         # `singularity` has no part with the rows of the other tasks
         if self.task.name in ("pose", "position", "rotation"):
-            found = singularity(self.chain, self.q[s.worst], part=self.task.part)
+            free = np.isnan(self._locked)
+            found = singularity(
+                self._moving_chain(free),
+                self.q[s.worst, free],
+                part=self.task.part,
+                length=self.chain.reach,
+            )
             if found.singular:
                 return f"{where}: {found}"
             # farther off there is none: the arm is badly conditioned all the way
             if found.distance <= 1:
                 return f"{where} {str(found).removeprefix('regular ')}"
         return f"{where} (smallest ÷ largest singular value {s.value:.3g})"
+
+    @property
+    def _locked(self) -> Array:
+        """Values (m,) of locked coordinates, NaN for those that move."""
+        return np.array([self.lock.get(name, np.nan) for name in self.chain.q_names])
+
+    def _moving_chain(self, free: np.ndarray) -> Chain:
+        """Arm whose coordinates are the free ones alone; the locked ones are constants of it."""
+        if free.all():
+            return self.chain
+        chain = self.chain
+        return chain.replace(
+            coupling=chain.coupling[:, free],
+            offset=chain.offset + chain.coupling @ np.where(free, 0.0, self._locked),
+            q_names=[name for name in chain.q_names if name not in self.lock],
+            limits=chain.limits[free],
+        )
 
     def _above(
         self,

@@ -324,6 +324,8 @@ def test_progress_is_told_and_files_are_written(ur5, tmp_path):
         ({"q0": np.full(6, np.nan)}, InputError, r"q0: expected finite"),
         ({"times": [0.0]}, ShapeError, r"times: expected one for each pose \(3,\), got shape \(1,\)"),
         ({"times": [0, 2, 1]}, InputError, r"times: expected finite asc.*, got \[2\.0, 1\.0\] from times\[1\]"),
+        ({"times": [0, 1, 0.5]}, InputError, r"ascending seconds, got \[1\.0, 0\.5\] from times\[1\]"),
+        ({"times": [0, 0, 1]}, InputError, r"ascending seconds, got \[0\.0, 0\.0\] from times\[0\]"),
         ({"times": [0, 1, np.inf]}, InputError, r"ascending seconds, got \[1\.0, inf\]"),
         ({"speed": 1}, InputError, r"expected together with times"),
         ({"times": [0, 1, 2], "speed": -1}, InputError, r"speed: expected positive numbers"),

@@ -189,6 +189,28 @@ def test_a_planar_arm_is_near_a_singularity_where_it_is_stretched_and_nowhere_el
     assert len(straight.near_singular) == (task != "rotation")
 
 
+def test_a_locked_coordinate_leads_out_of_no_singularity():
+    arm = arm_along_x(0.0, 0.5, 0.9)
+    name = arm.q_names[2]
+    tip = arm.fk([0, 0, 1.0])[:2, 3] - [0.5, 0]
+    stretched = [0.4, -np.arctan2(tip[1], tip[0]), 1.0]
+    q = np.array(stretched) + np.outer(np.linspace(-0.3, 0.3, 7), [0, 1, 0])
+    path = pk.follow(arm, arm.fk(q), task="position", q0=q[0], lock={name: 1.0}, max_step=0.2)
+    assert path.q == pytest.approx(q, abs=1e-3)  # along the arm's direction the tool stands still
+    J = arm.jacobian(path.q, "hybrid")[:, 3:5, :2]
+    s = np.linalg.svd(J, compute_uv=False)
+    assert path.inverse_condition == pytest.approx(s[:, 1] / s[:, 0], abs=1e-12)
+    (near,) = path.near_singular
+    assert (near.first, near.last) == (3, 3)
+    assert path.to_dict()["lock"] == {name: 1.0}
+    words = path.summary().splitlines()[1]
+    assert words.startswith("pose 3: near a singularity, most at 3: singular (")
+    assert name not in words
+    free = followed(q, arm=arm)
+    assert free.near_singular == ()
+    assert free.lock == {}
+
+
 def test_an_arm_without_any_motion_that_the_task_asks_is_nowhere_near_a_singularity():
     slides = pk.Chain.from_space([screw.prismatic(way) for way in np.eye(3)], np.eye(4))
     path = followed(np.zeros((2, 3)), task="rotation", arm=slides)
