@@ -65,6 +65,16 @@ def _joint_units(fast: CompiledChain) -> JointUnits:
     return JointUnits(scaled.compile(), scale)
 
 
+def bounds(chain: Chain, limits: bool) -> Array:
+    """Limits (m, 2) of the coordinates, infinite where `limits` do not count."""
+    return chain.limits.copy() if limits else np.tile([-np.inf, np.inf], (chain.dof, 1))
+
+
+def periods(chain: Chain) -> Array:
+    """Periods (m,) of the coordinates, see `period`."""
+    return np.array([period(chain, k) for k in range(chain.dof)])
+
+
 def period(chain: Chain, k: int) -> float:
     """Period of coordinate k, after which its joints are where they were, in their units (rad); 0
     for never.

@@ -13,6 +13,7 @@ from ...engine.kernels import ik_codes as codes
 from ...errors import InputError
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ..joint_units import bounds
 from .ik_problem import Problem
 from .joint_domain import JointDomain, free_ranges
 from .least_error import least_error, slope_at
@@ -121,8 +122,9 @@ def distance_beyond_reach(chain: Chain, task: Task, targets: Array, limits: Arra
     length = np.linalg.norm(frames[1:, :3, 3], axis=1).sum()
     for slide, row, shift in zip(slides, np.abs(chain.coupling), np.abs(chain.offset), strict=True):
         if slide:
-            bounds = np.abs(limits[row > 0]).max(axis=1)
-            length += slide * (shift + (row[row > 0] * bounds).sum())
+            ratios = row[row > 0]
+            farthest = np.abs(limits[row > 0]).max(axis=1)
+            length += slide * (shift + (ratios * farthest).sum())
     if not np.isfinite(length):
         return nothing
     return np.maximum(np.linalg.norm(offsets, axis=1) - length * (1 + 1e-12), 0.0)
@@ -135,7 +137,7 @@ def settle(problem: Problem, targets: Array, q: Array, info: Array, rows: np.nda
     arm has too few coordinates to reach most.
     """
     domain = problem.domain
-    low, high = (np.where(domain.locked, domain.locked_values, b) for b in domain.limits.T)
+    low, high = map(domain.held, domain.limits.T)
     for k in rows:
         nearest = least_error(partial(slope_at, problem, targets[k]), q[k], low, high)
         q[k] = domain.wrapped(nearest, q[k])
@@ -187,7 +189,7 @@ def _without_limits(problem: Problem, targets: Array, rows: np.ndarray) -> tuple
         targets[rows],
         rows.astype(float),
         problem.domain.anywhere(len(rows)),
-        limits=np.tile([-np.inf, np.inf], (chain.dof, 1)),
+        limits=bounds(chain, False),
         ranges=free_ranges(chain),
     )
     return q, info[:, codes.AT_STATE]

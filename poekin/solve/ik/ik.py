@@ -12,7 +12,7 @@ from ...results import Progress
 from .choice.redundancy import Objective, check_objective
 from .ik_problem import Settings, hashable, items, make_problem
 from .solution import Solution
-from .solver import Wishes, solve
+from .solver import solve
 from .task import TaskName, targets
 
 
@@ -156,5 +156,11 @@ def ik(  # noqa: PLR0913 - options by keyword
     if secondary_objective is not None:
         check_objective(secondary_objective, q0)
     problem = make_problem(fast, settings)
-    wishes = Wishes(nearest_to, secondary_objective)
-    return solve(problem, targets(T, "T"), q0, wishes, progress)
+    return solve(
+        problem,
+        targets(T, "T"),
+        q0,
+        nearest_to=nearest_to,
+        objective=secondary_objective,
+        progress=progress,
+    )

@@ -17,10 +17,10 @@ from ...groups.arrays import Array, numbers
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from ..chain_cache import ChainCache
-from ..joint_units import joint_units
+from ..joint_units import bounds, joint_units
 from .joint_domain import JointDomain, make_joint_domain
 from .plane import plane_normal
-from .task import Task, TaskName, make_task
+from .task import Task, TaskName, make_task, pose_errors
 
 STEPS = 800_000
 """Most steps of one call of a kernel, which no interrupt ends: some tenths of a second."""
@@ -85,9 +85,14 @@ class Problem:
         free = int((~self.domain.locked).sum())
         self.underactuated = free < self.task.constrained_dof
         self.locked = self.domain.locked.astype(float)
-        self.options = _options(settings, self.task)
+        self.options = kernel_options(
+            self.task,
+            MARGIN * settings.tol_position,
+            MARGIN * settings.tol_rotation,
+            settings.iterations,
+            settings.restarts,
+        )
         self._solve = ik_kernels.solve_many
-        self._judge = ik_kernels.pose_errors
         self._error_parts = ik_kernels.error_parts
         self._address = self.fast.hybrid_address
         self._rows = _rows(settings.restarts, settings.iterations)
@@ -95,14 +100,13 @@ class Problem:
     @cached_property
     def generic_rank(self) -> int:
         """Number of the task's degrees of freedom that the arm can serve by what may move."""
-        return self.task.generic_rank(self.fast.chain, self.domain.anywhere(1)[0])
+        return self.task.generic_rank(self.fast.chain, self.domain.locked_values)
 
     def coordinates(self, u: Array) -> Array:
         """The user's coordinates q (..., m) of joint units u (..., m)."""
-        scale = self.units.scale
-        if scale is None:
+        if self.units.scale is None:
             return u
-        q = self.units.coordinates(u, self.given.limits) if self.settings.limits else u / scale
+        q = self.units.coordinates(u, bounds(self.given, self.settings.limits))
         for name, value in self.settings.lock or ():  # to the last digit
             k = self.given.q_names.index(name)
             q[..., k] = np.where(np.isnan(q).any(axis=-1), np.nan, value)
@@ -112,15 +116,7 @@ class Problem:
         """Errors of q (N, 2) in m and rad by the kernels of any chain; whether the tolerances
         hold (N,).
         """
-        errors = np.empty((len(q), 2))
-        self._judge.call(
-            self.given.kernel_table,
-            q,
-            targets,
-            self.task.code,
-            self.task.axis,
-            errors,
-        )
+        errors = pose_errors(self.given, self.task, q, targets)
         near = errors[:, 0] <= self.settings.tol_position
         aligned = errors[:, 1] <= self.settings.tol_rotation
         return errors, near & aligned
@@ -204,12 +200,19 @@ def _task(settings: Settings, chain: Chain, domain: JointDomain) -> Task:
     return replace(task, axis=plane_normal(chain, domain))
 
 
-def _options(settings: Settings, task: Task) -> Array:
+def kernel_options(
+    task: Task,
+    tol_position: float,
+    tol_rotation: float,
+    iterations: int,
+    restarts: int = 0,
+) -> Array:
+    """Options of the kernel's descent, see `ik_codes`."""
     options = np.zeros(codes.OPTIONS)
-    options[codes.TOL_POSITION] = MARGIN * settings.tol_position
-    options[codes.TOL_ROTATION] = MARGIN * settings.tol_rotation
-    options[codes.ITERATIONS] = settings.iterations
-    options[codes.RESTARTS] = settings.restarts
+    options[codes.TOL_POSITION] = tol_position
+    options[codes.TOL_ROTATION] = tol_rotation
+    options[codes.ITERATIONS] = iterations
+    options[codes.RESTARTS] = restarts
     options[codes.TASK] = task.code
     options[codes.AXIS : codes.AXIS + 3] = task.axis
     options[codes.WEIGHTS :] = task.weights

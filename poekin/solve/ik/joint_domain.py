@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,29 +15,40 @@ from ...model.chain import Chain
 from ...model.coordinates import coordinates
 from ...model.provenance import warn
 from ...model.sampling import half_range, sampling_range
-from ..joint_units import JointUnits, period
+from ..joint_units import JointUnits, bounds, periods
 
 
 @dataclass(frozen=True, eq=False)
 class JointDomain:
     """Domain of the coordinates, in the units of the joints.
 
-    limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie; locked
-    (m), whether a coordinate is locked, and locked_values (m), its value there; periods (m), after
-    which the configuration is the same, 0 for never; has_unbounded_angle, whether any coordinate
-    with a period has no limits.
+    limits (m, 2), infinite where there are none; ranges (m, 2), where random starts lie;
+    locked_values (m), NaN for coordinates that are not locked; periods (m), after which the
+    configuration is the same, 0 for never.
     """
 
     limits: Array
     ranges: Array
-    locked: np.ndarray
     locked_values: Array
     periods: Array
-    has_unbounded_angle: bool
+
+    @cached_property
+    def locked(self) -> np.ndarray:
+        """Whether coordinates are locked (m,)."""
+        return ~np.isnan(self.locked_values)
+
+    @cached_property
+    def has_unbounded_angle(self) -> bool:
+        """Whether any coordinate with a period has no limits."""
+        return bool(((self.periods > 0) & np.isinf(self.limits).all(axis=1)).any())
 
     def anywhere(self, count: int) -> Array:
         """Starts of tries (count, m): NaN, for anywhere, but for what is locked."""
-        return np.tile(np.where(self.locked, self.locked_values, np.nan), (count, 1))
+        return np.tile(self.locked_values, (count, 1))
+
+    def held(self, q: Array) -> Array:
+        """Configurations (..., m) with what is locked at its value."""
+        return np.where(self.locked, self.locked_values, q)
 
     def contains(self, q: Array) -> np.ndarray:
         """Whether configurations (..., m) are within the limits (...)."""
@@ -64,26 +75,18 @@ def make_joint_domain(units: JointUnits, lock: Any, limits: bool) -> JointDomain
     UnknownName.
     """
     chain = units.fast.chain
-    m = chain.dof
-    bounds = chain.limits.copy() if limits else np.tile([-np.inf, np.inf], (m, 1))
-    periods = np.array([period(chain, k) for k in range(m)])
-    ranges = np.stack(sampling_range(chain), axis=1) if limits else free_ranges(chain)
-    unlimited = np.isinf(bounds).all(axis=1)
-    ranges[unlimited] = free_ranges(chain)[unlimited]
-    locked = np.zeros(m, bool)
-    values = np.zeros(m)
-    for k, value in _locked(units, lock, bounds):
-        locked[k] = True
-        values[k] = value
-    unbounded = bool(((periods > 0) & unlimited).any())
-    return JointDomain(bounds, ranges, locked, values, periods, unbounded)
+    within = bounds(chain, limits)
+    ranges = free_ranges(chain)
+    limited = np.isfinite(within).any(axis=1)
+    ranges[limited] = np.stack(sampling_range(chain), axis=1)[limited]
+    return JointDomain(within, ranges, _locked_values(units, lock, within), periods(chain))
 
 
 def free_ranges(chain: Chain) -> Array:
     """Ranges of random starts (m, 2) without limits: a whole period, else a turn, or 1 m either
     way.
     """
-    half = np.array([0.5 * period(chain, k) for k in range(chain.dof)])
+    half = 0.5 * periods(chain)
     half = np.where(half > 0, half, half_range(chain))
     return np.stack([-half, half], axis=1)
 
@@ -110,7 +113,7 @@ def first_tries(
     if moved.any():
         names = join_names(np.array(chain.q_names)[moved])
         warn(f"q0 is outside the limits of {names} and is moved to them")
-    return np.where(domain.locked, domain.locked_values, first)
+    return domain.held(first)
 
 
 def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: str) -> Array:
@@ -130,20 +133,23 @@ def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: 
         ) from error
 
 
-def _locked(units: JointUnits, lock: Any, limits: Array) -> Iterator[tuple[int, float]]:
-    """Index and value, in joint units, of each coordinate that is locked; lock are pairs of name
-    and value.
+def _locked_values(units: JointUnits, lock: Any, limits: Array) -> Array:
+    """Values (m,) of what is locked, in joint units, NaN for the others; lock are pairs of name and
+    value.
     """
     names = units.fast.q_names
+    scales = np.ones(len(names)) if units.scale is None else units.scale
+    values = np.full(len(names), np.nan)
     for name, value in lock or ():
         if name not in names:
             raise UnknownName(f"lock: no coordinate {quote(name)}; {suggest(str(name), names)}")
         k = names.index(name)
-        scale = 1.0 if units.scale is None else float(units.scale[k])
+        scale = float(scales[k])
         real = is_real(value) and np.isfinite(value)
         if not real or not limits[k, 0] <= scale * value <= limits[k, 1]:
             within = sorted((limits[k] / scale).tolist())
             raise InputError(
                 f"lock: {quote(name)}: expected a number within {within}, got {safe_repr(value)}"
             )
-        yield k, scale * float(value)
+        values[k] = scale * float(value)
+    return values

@@ -22,7 +22,7 @@ def plane_normal(chain: Chain, domain: JointDomain) -> Array:
     """
     moves = (chain.coupling[:, ~domain.locked] != 0).any(axis=1)
     names = np.array(chain.joint_names)[moves]
-    turns, slides = _directions(chain, np.where(domain.locked, domain.locked_values, 0.0))[:, moves]
+    turns, slides = _directions(chain, np.nan_to_num(domain.locked_values))[:, moves]
     turning = turns.any(axis=1)
     if not turning.any():
         _, sizes, V = np.linalg.svd(slides)

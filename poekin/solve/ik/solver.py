@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -20,27 +20,16 @@ AT_ONCE = 20_000
 """Targets between two calls of `progress`."""
 
 
-class Wishes(NamedTuple):
-    """Wishes for the solutions besides the task: `nearest_to`, a configuration (m,) or
-    (..., m); `secondary_objective`, one of `redundancy.OBJECTIVES`; each None where it is not
-    asked.
-    """
-
-    nearest_to: Any = None
-    secondary_objective: Objective | None = None
-
-
-NOTHING = Wishes()
-
-
 def solve(
     problem: Problem,
     T: Array,
     q0: Any = None,
-    wishes: Wishes = NOTHING,
+    *,
+    nearest_to: Any = None,
+    objective: Objective | None = None,
     progress: Progress | None = None,
 ) -> Solution:
-    """Solutions of targets (..., 4, 4)."""
+    """Solutions of targets (..., 4, 4); `nearest_to`, a configuration (m,) or (..., m)."""
     batch = T.shape[:-2]
     rows = np.ascontiguousarray(T.reshape(-1, 4, 4))
     if not (rows.flags.writeable and rows.flags.aligned):  # the kernels take no others
@@ -48,10 +37,8 @@ def solve(
     count = len(rows)
     first = first_tries(problem.units, problem.domain, batch, count, q0)
     near = None
-    if wishes.nearest_to is not None:
-        given = for_targets(problem.given, batch, count, wishes.nearest_to, "nearest_to")
-        near = problem.units.of(given)
-    objective = wishes.secondary_objective
+    if nearest_to is not None:
+        near = problem.units.of(for_targets(problem.given, batch, count, nearest_to, "nearest_to"))
     if count <= AT_ONCE and near is None and objective is None and progress is None:
         u, info = problem.solve(rows, np.arange(count, dtype=float), first)
     else:

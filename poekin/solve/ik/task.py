@@ -80,6 +80,17 @@ class Task:
         return np.moveaxis(columns, (0, 1), (-2, -1))
 
 
+def pose_errors(chain: Chain, task: Task, q: Array, T: Array) -> Array:
+    """Errors (N, 2), m and rad, of the poses of q (N, m) by the kernels of `Chain.fk` against
+    targets (N, 4, 4).
+    """
+    from ...engine.kernels import ik_kernels  # imports Numba
+
+    errors = np.empty((len(q), 2))
+    ik_kernels.pose_errors.call(chain.kernel_table, q, T, task.code, task.axis, errors)
+    return errors
+
+
 def targets(T: ArrayLike, what: str) -> Array:
     """Poses (..., 4, 4); what is infinite is no error, but NaN. Raises: PoseError, ShapeError,
     InputError.

@@ -15,11 +15,11 @@ from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, compiled
 from ...model.kinematics.compiled import CompiledChain
-from ..ik.task import targets
-from ..joint_units import joint_units
+from ..ik.task import pose_errors, targets
+from ..joint_units import bounds, joint_units, periods
 from .all_solutions import AllSolutions, in_words, missing_probability
 from .closed_form import ClosedForm, closed_form
-from .ik_all_search import Found, Rule, accepted, bounds, periods, pose_errors, search, turns_within
+from .ik_all_search import POSE, Found, Rule, accepted, joined, search, turns_within
 
 Method = Literal["auto", "closed", "search"]
 METHODS: tuple[Method, ...] = get_args(Method)
@@ -27,7 +27,7 @@ METHODS: tuple[Method, ...] = get_args(Method)
 MOST = 4096
 """The most places that `all_revolutions=True` lists for one target."""
 
-_ANYWHERE = np.array([[-np.inf, np.inf]])  # limits that are none
+_BAD_TARGET = "0 solutions: bad target, it is not made of finite numbers"
 _MANY = 2**63 - 1  # the largest number of `n_revolutions`
 _MAX_MISSES = 200  # tries without any solution, after which a search gives up
 
@@ -124,21 +124,26 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     whole(iterations, "iterations", 1, KERNEL_INT)
     whole(seed, "seed", 0, KERNEL_INT)
     wanted = targets(T, "T")
-    batch = wanted.shape[:-2]
     rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
-    finite: np.ndarray = np.isfinite(rows).all(axis=(1, 2)).reshape(-1)
-    good = rows[finite]
+    finite = np.isfinite(rows).all(axis=(1, 2))
     solver = _solver(fast.chain, method)
     rule = Rule(min_hits, restarts, iterations, _MAX_MISSES)
-    found = _found(fast, good, solver, rule, int(seed), limits)
-    places = _places(fast.chain, found, limits, all_revolutions)
-    signed = places.q
-    if units.scale is not None:
-        signed = places.q * np.sign(units.scale)
-    order = _order(signed, places.owner)
-    q = units.coordinates(places.q[order], given.limits if limits else _ANYWHERE)
+    found = _found(fast, rows[finite], solver, rule, int(seed), limits)
+    every = [Found(np.empty((0, fast.dof)), np.empty(0), 0, 1, False)] * len(rows)
+    for k, f in zip(np.flatnonzero(finite), found, strict=True):
+        every[k] = f
+    places = _places(fast.chain, every, limits, all_revolutions)
+    order = _order(places.q * np.sign(units.of(np.ones(fast.dof))), places.owner)
+    q = units.coordinates(places.q[order], bounds(given, limits))
     places = _Places(q, places.owner[order], places.number[order], places.within)
-    return _result(given, good, finite, batch, found, places, solver)
+    closed = None if solver is None else solver.said()
+    complete = [
+        in_words(f, int(inside), closed) if known else _BAD_TARGET
+        for f, inside, known in zip(every, places.within, finite, strict=True)
+    ]
+    return _result(
+        given, wanted, every, places, complete, "search" if solver is None else "closed form"
+    )
 
 
 def _check_chain(chain: Chain) -> None:
@@ -226,21 +231,20 @@ def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: boo
     """The solutions within the limits; of those that are whole turns apart the one nearest to 0, or
     all.
     """
-    owner = np.repeat(np.arange(len(found)), [len(f.solutions) for f in found])
-    Q = np.concatenate([np.empty((0, chain.dof)), *(f.solutions for f in found)])
-    turn = periods(chain)
-    low, high = bounds(chain, limits)
+    Q, owner = joined(found, chain.dof)
     first, last = turns_within(chain, Q, limits)
     kept = (first <= last).all(axis=1)
     Q = Q[kept]
     owner = owner[kept]
     first = first[kept]
     last = last[kept]
-    bounded = np.isfinite(first) & np.isfinite(last)
     within = np.bincount(owner, minlength=len(found))
-    nearest = np.clip(np.zeros_like(Q), first, last)
-    with np.errstate(invalid="ignore", over="ignore"):  # infinite less infinite
-        number = np.where(bounded, last - first + 1, 1.0).prod(axis=1)
+    nearest = np.clip(0.0, first, last)
+    bounded = np.isfinite(first) & np.isfinite(last)
+    first = np.where(bounded, first, nearest)
+    last = np.where(bounded, last, nearest)
+    with np.errstate(over="ignore"):
+        number = (last - first + 1).prod(axis=1)
     if all_revolutions:
         most = np.bincount(owner, number, minlength=1).max(initial=0)
         if most > MOST:
@@ -248,21 +252,18 @@ def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: boo
                 f"all_revolutions: {most:.0f} places for one target, more than {MOST}; "
                 "`n_revolutions` of the result tells"
             )
-        ways = [
-            list(
-                itertools.product(
-                    *(np.arange(f, g + 1) if b else [k] for f, g, b, k in zip(*row, strict=True))
-                )
-            )
-            for row in zip(first, last, bounded, nearest, strict=True)
-        ]
-        each = [len(w) for w in ways]
+        ways = (
+            itertools.product(*map(np.arange, f, g + 1)) for f, g in zip(first, last, strict=True)
+        )
         nearest = np.array(list(itertools.chain(*ways))).reshape(-1, chain.dof)
+        each = number.astype(int)
         Q = np.repeat(Q, each, axis=0)
         owner = np.repeat(owner, each)
-        number = np.ones(sum(each))
+        number = np.ones(len(Q))
     counts = np.array([int(min(n, _MANY)) for n in number], np.int64)
-    return _Places(np.clip(Q + turn * nearest, low, high) + 0.0, owner, counts, within)
+    low, high = bounds(chain, limits).T
+    q = np.clip(Q + periods(chain) * nearest, low, high) + 0.0
+    return _Places(q, owner, counts, within)
 
 
 def _order(q: Array, owner: np.ndarray) -> np.ndarray:
@@ -275,67 +276,35 @@ def _order(q: Array, owner: np.ndarray) -> np.ndarray:
 def _result(
     chain: Chain,
     T: Array,
-    finite: np.ndarray,
-    batch: tuple[int, ...],
     found: list[Found],
     places: _Places,
-    solver: ClosedForm | None,
+    complete: list[str],
+    method: Literal["closed form", "search"],
 ) -> AllSolutions:
     """The result, of places in order, every solution looked at by `Chain.fk`."""
-    position, rotation = pose_errors(chain, places.q, T[places.owner]).T
-    good = np.flatnonzero((position <= accepted(chain)) & (rotation <= accepted(chain)))
+    batch = T.shape[:-2]
+    errors = pose_errors(chain, POSE, places.q, T.reshape(-1, 4, 4)[places.owner])
+    good = np.flatnonzero((errors <= accepted(chain)).all(axis=1))
     ends = np.searchsorted(places.owner[good], np.arange(len(found) + 1))
-    closed = None if solver is None else solver.said()
-    rows = [_BAD_TARGET._replace(solutions=np.empty((0, chain.dof)))] * len(finite)
-    for k, at in enumerate(np.flatnonzero(finite)):
-        own = good[ends[k] : ends[k + 1]]
-        listed = len(own) > 0
-        rows[at] = _Target(
-            solutions=places.q[own],
-            n_revolutions=places.number[own],
-            complete=in_words(found[k], int(places.within[k]), closed),
-            count=len(own),
-            anywhere=len(found[k].solutions),
-            continuum=bool(found[k].self_motion_coordinates),
-            p_missing=missing_probability(found[k]),
-            position_error=position[own].max() if listed else np.nan,
-            rotation_error=rotation[own].max() if listed else np.nan,
-        )
-    columns: dict[str, Any] = {
-        name: [row[i] for row in rows] for i, name in enumerate(_Target._fields)
+    own = [good[a:b] for a, b in itertools.pairwise(ends)]
+    worst = [errors[k].max(axis=0) if len(k) else (np.nan, np.nan) for k in own]
+    position, rotation = np.reshape(worst, (-1, 2)).T
+    lists: dict[str, Any] = {
+        "solutions": [places.q[k] for k in own],
+        "n_revolutions": [places.number[k] for k in own],
+        "complete": complete,
     }
-    for name, kind in _KINDS.items():
-        columns[name] = np.array(columns[name], kind).reshape(batch)
     if not batch:
-        for name in ("solutions", "n_revolutions", "complete"):
-            (columns[name],) = columns[name]
-    return AllSolutions(method="search" if solver is None else "closed form", **columns)
-
-
-class _Target(NamedTuple):
-    """Entries of one target in `AllSolutions`."""
-
-    solutions: Array
-    n_revolutions: np.ndarray
-    complete: str
-    count: int = 0
-    anywhere: int = 0
-    continuum: bool = False
-    p_missing: float = np.nan
-    position_error: float = np.nan
-    rotation_error: float = np.nan
-
-
-_KINDS = {
-    "count": int,
-    "anywhere": int,
-    "continuum": bool,
-    "p_missing": float,
-    "position_error": float,
-    "rotation_error": float,
-}
-_BAD_TARGET = _Target(
-    np.empty((0, 0)),
-    np.empty(0, np.int64),
-    "0 solutions: bad target, it is not made of finite numbers",
-)
+        lists = {name: one for name, (one,) in lists.items()}
+    return AllSolutions(
+        **lists,
+        method=method,
+        count=np.diff(ends).reshape(batch),
+        anywhere=np.array([len(f.solutions) for f in found], int).reshape(batch),
+        continuum=np.array([len(f.self_motion_coordinates) > 0 for f in found], bool).reshape(
+            batch
+        ),
+        p_missing=np.array([missing_probability(f) for f in found]).reshape(batch),
+        position_error=position.reshape(batch),
+        rotation_error=rotation.reshape(batch),
+    )

@@ -10,12 +10,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...engine.kernels import ik_codes
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.compiled import CompiledChain
 from ...model.sampling import sampling_range
-from ..joint_units import period
+from ..ik.ik_problem import kernel_options
+from ..ik.task import Task
+from ..joint_units import bounds, periods
+
+POSE = Task("pose", axis=np.zeros(3), weights=np.ones(6))
 
 
 def accepted(chain: Chain) -> float:
@@ -70,28 +73,13 @@ class Rule:
     max_misses: int
 
 
-def periods(chain: Chain) -> Array:
-    """After how much each coordinate has all its joints where they were (m,): whole turns, or 0 for
-    never.
-    """
-    return np.array([period(chain, k) for k in range(chain.dof)])
-
-
-def bounds(chain: Chain, limits: bool) -> tuple[Array, Array]:
-    """Lower and upper limits (m,) of the coordinates, infinite where `limits` do not count."""
-    if not limits:
-        return np.full(chain.dof, -np.inf), np.full(chain.dof, np.inf)
-    low, high = chain.limits.T
-    return low, high
-
-
 def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
     """The fewest and the most periods (S, m) that may be added to configurations within the limits.
 
     The fewest are more than the most where there is no way, infinite where there is no limit.
     """
     turn = periods(chain)
-    low, high = bounds(chain, limits)
+    low, high = bounds(chain, limits).T
     turns = turn > 0
     step = np.where(turns, turn, 1.0)
     first = np.ceil((low - _EDGE - Q) / step)
@@ -100,22 +88,10 @@ def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
     return np.where(turns, first, np.where(inside, 0.0, 1.0)), np.where(turns, last, 0.0)
 
 
-def pose_errors(chain: Chain, q: Array, T: Array) -> Array:
-    """Errors (S, 2), m and rad, of the poses of q (S, m) by the kernels of `Chain.fk` against
-    targets (S, 4, 4).
-    """
-    from ...engine.kernels import ik_kernels
-
-    errors = np.empty((len(q), 2))
-    ik_kernels.pose_errors.call(
-        chain.kernel_table,
-        q,
-        np.ascontiguousarray(T),
-        ik_codes.POSE,
-        np.zeros(3),
-        errors,
-    )
-    return errors
+def joined(found: list[Found], dof: int) -> tuple[Array, np.ndarray]:
+    """Solutions (S, m) of all targets, and the number of the target of each."""
+    owner = np.repeat(np.arange(len(found)), [len(f.solutions) for f in found])
+    return np.concatenate([np.empty((0, dof)), *(f.solutions for f in found)]), owner
 
 
 def search(
@@ -166,9 +142,10 @@ def _search(
     q = np.empty((N, _ROOM, m))
     hits = np.empty((N, _ROOM))
     info = np.empty((N, kernel.INFO))
-    free = np.tile([-np.inf, np.inf], (m, 1))
+    free = bounds(chain, False)
     indices = np.arange(first, first + N, dtype=np.float64)
-    tries = (rows, given, free, ranges, turn, _options(chain, rule), rules, indices, seed)
+    options = kernel_options(POSE, _AIM * chain.reach, _AIM, rule.iterations)
+    tries = (rows, given, free, ranges, turn, options, rules, indices, seed)
     T = np.ascontiguousarray(T)
     kernel.search.call(fast.hybrid_address, T, *tries, q, hits, info)
     counts = info[:, kernel.FOUND].astype(int)
@@ -181,26 +158,13 @@ def _search(
     ]
 
 
-def _options(chain: Chain, rule: Rule) -> Array:
-    """Options of the kernel's descent to a pose."""
-    options = np.zeros(ik_codes.OPTIONS)
-    options[ik_codes.TOL_POSITION] = _AIM * chain.reach
-    options[ik_codes.TOL_ROTATION] = _AIM
-    options[ik_codes.ITERATIONS] = rule.iterations
-    options[ik_codes.TASK] = ik_codes.POSE
-    options[ik_codes.WEIGHTS :] = 1.0
-    return options
-
-
 def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) -> list[Found]:
     """Which targets have singular solutions; of those that belong to a continuum only one is kept,
     within the limits if one is.
     """
     result = list(found)
-    if not any(len(f.solutions) for f in found):
-        return result
-    owner = np.repeat(np.arange(len(found)), [len(f.solutions) for f in found])
-    J = fast.chain.jacobian(np.concatenate([f.solutions for f in found]), frame="hybrid")
+    q, owner = joined(found, fast.dof)
+    J = fast.chain.jacobian(q, frame="hybrid")
     J[:, 3:] /= _size(fast.chain)  # so that the unit of length is of no matter
     sizes = np.linalg.svd(J, compute_uv=False)
     singular = sizes[:, -1] < _SINGULAR * sizes[:, 0]

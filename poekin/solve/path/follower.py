@@ -14,7 +14,7 @@ from ...results import Progress
 from ..ik.ik_problem import Problem
 from ..ik.least_error import Slope, least_error, slope_at
 from ..ik.solution import ITERATIONS, Solution
-from ..ik.solver import Wishes, solve
+from ..ik.solver import solve
 from ..ik.task import TaskName
 from ..motion import paths
 
@@ -218,8 +218,8 @@ class Follower:
             near_to = self.domain.ranges.mean(axis=1) if last is None else last
             q = self.domain.wrapped(q, near_to)
         if last is not None and turn == 0:
-            wishes = Wishes(nearest_to=self.problem.coordinates(last))
-            near = solve(self.problem, self.targets[k], wishes=wishes)
+            here = self.problem.coordinates(last)
+            near = solve(self.problem, self.targets[k], nearest_to=here)
             q = np.concatenate([self.problem.units.of(near.q[None])[: int(near.success)], q])
         if not len(q):
             success, solution, at = self._solution_of(k)

@@ -81,11 +81,9 @@ def test_the_reach_is_that_of_links_and_slides_within_their_limits(
 
 
 def test_what_is_at_its_limit_is_in_the_way_else_what_is_outside_beyond_it_and_nothing_that_is_locked():
-    limits, locked = np.array([[-1, 1], [-2, 2], [-3, 3.0]]), np.array([False, False, True])
-    nothing = np.zeros(3)
-    room = JointDomain(
-        limits, np.zeros((3, 2)), locked, nothing, nothing, has_unbounded_angle=False
-    )
+    limits = np.array([[-1, 1], [-2, 2], [-3, 3.0]])
+    locked_values = np.array([np.nan, np.nan, 0.0])
+    room = JointDomain(limits, np.zeros((3, 2)), locked_values, np.zeros(3))
 
     def named(q, found):
         return diagnosis.limits_hit(
@@ -106,15 +104,8 @@ class Tries:
         chain = line(coupling=None, offset=None, limits=[[-3, 3], [-0.5, 2.0]])
         self.fast = SimpleNamespace(chain=chain, q_names=("turn", "slide"))
         self.task = make_task("position", None, None)
-        nothing = np.zeros(2)
-        self.domain = JointDomain(
-            np.array(limits, float),
-            np.zeros((2, 2)),
-            nothing > 0,
-            nothing,
-            nothing,
-            has_unbounded_angle=False,
-        )
+        free = np.full(2, np.nan)
+        self.domain = JointDomain(np.array(limits, float), np.zeros((2, 2)), free, np.zeros(2))
         self.found, self.states, self.asked = np.array(found, float), states, []
 
     def solve(self, targets, numbers, q0, limits, ranges):  # type: ignore[no-untyped-def]

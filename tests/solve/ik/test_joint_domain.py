@@ -54,7 +54,7 @@ def test_a_domain_has_what_its_limits_and_locks_say_in_joint_units():
     np.testing.assert_array_equal(found.limits, [[-1, 2], [-np.inf, np.inf]])
     np.testing.assert_allclose(found.ranges, [[-1, 2], [-np.pi, np.pi]])
     np.testing.assert_allclose(found.periods, [2 * np.pi] * 2)
-    np.testing.assert_array_equal([found.locked, found.locked_values], [[1, 0], [1.5, 0]])
+    np.testing.assert_array_equal([found.locked, found.locked_values], [[1, 0], [1.5, np.nan]])
     assert found.has_unbounded_angle
     free = make_joint_domain(units, None, False)
     np.testing.assert_array_equal(free.limits, np.tile([-np.inf, np.inf], (2, 1)))
@@ -115,11 +115,9 @@ def test_whole_periods_are_taken_off_towards_zero_or_what_is_near():
     np.testing.assert_allclose(
         limited.wrapped(np.array([-3.5, 0.5]), np.array([20.0, 7])), [2 * np.pi - 3.5, 0.5]
     )
-    free, fixed = np.full((2, 2), [-np.inf, np.inf]), np.array([True, False])
+    nowhere = np.full((2, 2), [-np.inf, np.inf])
     periods = np.full(2, 2 * np.pi)
-    locked = JointDomain(
-        free, np.zeros((2, 2)), fixed, np.array([7.0, 0]), periods, has_unbounded_angle=True
-    )
+    locked = JointDomain(nowhere, np.zeros((2, 2)), np.array([7.0, np.nan]), periods)
     np.testing.assert_allclose(locked.wrapped(np.array([7.0, 7.0])), [7, 7 - 2 * np.pi])
 
 

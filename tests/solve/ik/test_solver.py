@@ -18,10 +18,15 @@ GIVEN = Settings("pose", None, True, 1e-9, 2e-9, None, None, 7, 30, 3, False)
 def test_targets_in_parts_are_solved_as_all_together(near, aim, monkeypatch):
     T = ARM.fk(ARM.chain.random(0, 20))
     made, told = make_problem(ARM, GIVEN._replace(task="position")), []
-    wishes = solver.Wishes(near, aim)
-    whole = solver.solve(made, T, None, wishes)
+    whole = solver.solve(made, T, nearest_to=near, objective=aim)
     monkeypatch.setattr(solver, "AT_ONCE", 7)
-    parts = solver.solve(made, T, None, wishes, lambda done, count: told.append((done, count)))
+    parts = solver.solve(
+        made,
+        T,
+        nearest_to=near,
+        objective=aim,
+        progress=lambda done, count: told.append((done, count)),
+    )
     assert told == [(7, 20), (14, 20), (20, 20)]
     np.testing.assert_array_equal(parts.success, whole.success)
     if near is None:  # random starts of the others depend on how many there are in a part

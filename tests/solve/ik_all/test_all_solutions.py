@@ -13,7 +13,8 @@ import poekin as pk
 from poekin.model import screw
 from poekin.solve.ik_all.all_solutions import AllSolutions, in_words, missing_probability
 from poekin.solve.ik_all.closed_form import ClosedForm
-from poekin.solve.ik_all.ik_all_search import Found, accepted, periods, turns_within
+from poekin.solve.ik_all.ik_all_search import Found, accepted, turns_within
+from poekin.solve.joint_units import periods
 
 Z = [0, 0, 1.0]
 ARM = pk.Chain.from_space([screw.revolute(Z, [0, 0, 0]), screw.prismatic(Z), screw.revolute(Z, [1, 0, 0])], np.eye(4),

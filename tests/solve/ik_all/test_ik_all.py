@@ -676,8 +676,8 @@ def test_the_errors_are_the_largest_of_the_listed_solutions_in_place_and_in_dire
     T[1] = np.nan
     right = module.pose_errors
 
-    def known(chain, q, wanted):
-        assert right(chain, q, wanted).max() < 1e-10
+    def known(chain, task, q, wanted):
+        assert right(chain, task, q, wanted).max() < 1e-10
         return np.arange(1.0, len(q) + 1)[:, None] * [1e-13, -2e-13] + [0, 1e-11]
 
     monkeypatch.setattr(module, "pose_errors", known)

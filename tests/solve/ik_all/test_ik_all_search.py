@@ -16,6 +16,7 @@ from poekin.solve.ik_all import ik_all as ik_all_module
 from poekin.solve.ik_all import ik_all_search as module
 from poekin.solve.ik_all.ik_all import ik_all
 from poekin.solve.ik_all.ik_all_search import Found, Rule
+from poekin.solve.joint_units import periods
 
 TURN = 2 * np.pi
 LIMITS = [[-1.5 * np.pi, 4 * np.pi], [-0.5, 1.0]]
@@ -54,7 +55,7 @@ def test_so_many_turns_may_be_added_within_the_limits(q, first, last):
 def test_a_pose_is_accepted_within_1e_10_or_a_share_of_a_long_arm_s_reach():
     assert module.accepted(arm()) == 1e-10
     assert module.accepted(arm(1e4)) == pytest.approx(1e-12 * arm(1e4).reach)
-    assert module.periods(arm()).tolist() == [TURN, 0]
+    assert periods(arm()).tolist() == [TURN, 0]
 
 
 def test_the_links_are_so_long_together_and_points_count_as_a_metre():

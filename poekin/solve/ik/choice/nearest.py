@@ -8,6 +8,7 @@ import numpy as np
 
 from ....engine.kernels import ik_codes as codes
 from ....groups.arrays import Array
+from ...joint_units import bounds
 from ..ik_problem import Problem
 
 NEAREST_OF = 48
@@ -33,15 +34,15 @@ def nearest(
     The first try starts from q0 or, where that is anywhere, from `near` within the limits.
     """
     domain = problem.domain
-    within = np.where(domain.locked, domain.locked_values, np.clip(near, *domain.limits.T))
+    within = domain.held(np.clip(near, *domain.limits.T))
     q, kept = problem.solve(targets, indices, np.where(np.isnan(q0), within, q0))
     best = domain.wrapped(q, near)
     distance = _distance(best, near, kept)
     rng = np.random.default_rng(problem.settings.seed)
     low, high = domain.ranges.T
-    anywhere = np.full_like(domain.limits, [-np.inf, np.inf])
+    anywhere = bounds(problem.fast.chain, False)
     for limited, close in itertools.islice(itertools.cycle(NEAREST_TRIES), NEAREST_OF):
-        start = np.where(domain.locked, within, low + (high - low) * rng.random(near.shape))
+        start = domain.held(low + (high - low) * rng.random(near.shape))
         if close:
             start = within + CLOSE * (start - within)
         limits = None if limited else anywhere

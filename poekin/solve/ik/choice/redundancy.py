@@ -4,7 +4,7 @@ followed by a new solve.
 
 from __future__ import annotations
 
-from typing import Any, Literal, get_args
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
@@ -32,20 +32,22 @@ def check_objective(objective: Any, q0: Any) -> None:
 
 def optimise(problem: Problem, targets: Array, q: Array, q0: Array, objective: Objective) -> Array:
     """Solutions with a better value of the objective, of targets that are solved already."""
-    known = ~np.isnan(q).any(axis=1)
-    if not known.all():  # of a bad target nothing is known
-        best = q.copy()
-        best[known] = optimise(problem, targets[known], q[known], q0[known], objective)
-        return best
-    q0 = np.where(np.isnan(q0), q, q0)
     best = q.copy()
-    value = _value(problem, q, q0, objective)
-    step = np.full(len(q), STEP)
-    indices = np.arange(len(q), dtype=float)
+    known = ~np.isnan(q).any(axis=1)  # of a bad target nothing is known
+    start = q[known]
+    aim = make_aim(problem, np.where(np.isnan(q0[known]), start, q0[known]), objective)
+    best[known] = _improved(aim, targets[known], start)
+    return best
+
+
+def _improved(aim: Aim, targets: Array, best: Array) -> Array:
+    value = aim.value(best)
+    step = np.full(len(best), STEP)
+    indices = np.arange(len(best), dtype=float)
     for _ in range(STEPS):
-        tried = _moved(problem, best, q0, objective, step)
-        found, info = problem.solve(targets, indices, tried, restarts=0)
-        new = _value(problem, found, q0, objective)
+        tried = aim.moved(best, step)
+        found, info = aim.problem.solve(targets, indices, tried, restarts=0)
+        new = aim.value(found)
         better = (info[:, codes.AT_STATE] == codes.SOLVED) & (new < value)
         best[better] = found[better]
         value[better] = new[better]
@@ -53,41 +55,58 @@ def optimise(problem: Problem, targets: Array, q: Array, q0: Array, objective: O
     return best
 
 
-def _value(problem: Problem, q: Array, q0: Array, objective: Objective) -> Array:
-    """Value that the objective makes small: the manipulability is that of the task, by the
-    coordinates that may move, in as many motions as they have at all.
+class Aim(NamedTuple):
+    """An objective of some configurations q (N, m): the weighted square of the distance from `goal`
+    (N, m), or without a goal the manipulability.
     """
-    if objective == "manipulability":
-        sizes = np.linalg.svd(_jacobian(problem, q), compute_uv=False)[:, : problem.generic_rank]
+
+    problem: Problem
+    goal: Array | None = None
+    weights: Array | float = 1.0
+
+    def value(self, q: Array) -> Array:
+        """Value that is made small: the manipulability is that of the task, by the coordinates that
+        may move, in as many motions as they have at all.
+        """
+        if self.goal is not None:
+            return ((q - self.goal) ** 2 * self.weights).sum(axis=1)
+        sizes = np.linalg.svd(_jacobian(self.problem, q), compute_uv=False)
         with np.errstate(divide="ignore"):
-            return -np.log(sizes).sum(axis=1)
-    off = q - _goal(problem, q0, objective)
-    return (off**2 * _weights(problem, objective)).sum(axis=1)
+            return -np.log(sizes[:, : self.problem.generic_rank]).sum(axis=1)
+
+    def moved(self, q: Array, step: Array) -> Array:
+        """Configurations one step downhill in the null space of the task's Jacobian."""
+        domain = self.problem.domain
+        J = _jacobian(self.problem, q)
+        z = self._way(q)
+        within_task = (np.linalg.pinv(J) @ (J @ z[..., None]))[..., 0]
+        moved = q + step[:, None] * (z - within_task)
+        return domain.held(np.clip(moved, *domain.limits.T))
+
+    def _way(self, q: Array) -> Array:
+        """Way downhill: to the goal, or along the gradient by central differences, of size 1 at
+        most; 0 at a singularity, where no direction is better.
+        """
+        if self.goal is not None:
+            return (self.goal - q) * self.weights
+        z = np.empty_like(q)
+        for k, h in enumerate(DIFFERENCE * np.eye(q.shape[1])):
+            with np.errstate(invalid="ignore"):  # infinite less infinite
+                z[:, k] = self.value(q - h) - self.value(q + h)
+        z = np.where(np.isfinite(z), z, 0.0) * (0.5 / DIFFERENCE)
+        return z / np.maximum(np.linalg.norm(z, axis=1, keepdims=True), 1.0)
 
 
-def _moved(problem: Problem, q: Array, q0: Array, objective: Objective, step: Array) -> Array:
-    """Configurations one step downhill in the null space of the task's Jacobian."""
+def make_aim(problem: Problem, q0: Array, objective: Objective) -> Aim:
+    """Aim of an objective; a coordinate without both limits has no middle."""
     if objective == "manipulability":
-        z = _gradient(problem, q, q0, objective)
-        z /= np.maximum(np.linalg.norm(z, axis=1, keepdims=True), 1.0)
-    else:
-        z = (_goal(problem, q0, objective) - q) * _weights(problem, objective)
-    J = _jacobian(problem, q)
-    within_task = (np.linalg.pinv(J) @ (J @ z[..., None]))[..., 0]
-    moved = q + step[:, None] * (z - within_task)
-    return np.where(problem.domain.locked, q, np.clip(moved, *problem.domain.limits.T))
-
-
-def _gradient(problem: Problem, q: Array, q0: Array, objective: Objective) -> Array:
-    """Downhill gradient of the objective by central differences; 0 at a singularity, where no
-    direction is better.
-    """
-    z = np.empty_like(q)
-    for k, h in enumerate(DIFFERENCE * np.eye(q.shape[1])):
-        with np.errstate(invalid="ignore"):  # infinite less infinite
-            less = _value(problem, q - h, q0, objective)
-            z[:, k] = less - _value(problem, q + h, q0, objective)
-    return np.where(np.isfinite(z), z, 0.0) * (0.5 / DIFFERENCE)
+        return Aim(problem)
+    if objective == "nearest":
+        return Aim(problem, q0)
+    limits = problem.domain.limits
+    limited = np.isfinite(limits).all(axis=1)
+    middles = np.where(limited[:, None], limits, 0.0).mean(axis=1)
+    return Aim(problem, np.where(limited, middles, q0), limited.astype(float))
 
 
 def _jacobian(problem: Problem, q: Array) -> Array:
@@ -95,21 +114,3 @@ def _jacobian(problem: Problem, q: Array) -> Array:
     T, J = problem.fast.fk_jacobian(q, "hybrid")
     rows = problem.task.jacobian(T, J)[:, problem.task.weights > 0]
     return np.where(problem.domain.locked, 0.0, rows)
-
-
-def _goal(problem: Problem, q0: Array, objective: Objective) -> Array:
-    if objective == "nearest":
-        return q0
-    limited = _limited(problem)
-    bounds = np.where(limited[:, None], problem.domain.limits, 0.0)
-    return np.where(limited, bounds.mean(axis=1), q0)
-
-
-def _weights(problem: Problem, objective: Objective) -> Array:
-    limited = _limited(problem)
-    return np.ones(len(limited)) if objective == "nearest" else limited.astype(float)
-
-
-def _limited(problem: Problem) -> np.ndarray:
-    """Whether a coordinate has both limits (m,)."""
-    return np.asarray(np.isfinite(problem.domain.limits).all(axis=1))

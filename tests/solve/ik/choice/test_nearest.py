@@ -40,7 +40,7 @@ def test_the_nearest_is_looked_for_with_limits_and_without_from_near_and_from_an
     _, info = nearest.nearest(made, targets, np.arange(2.0), anywhere, near)
     assert info[:, codes.AT_ITERATIONS].tolist() == [49, 49]
     first, *others = asked
-    begin = np.where(made.domain.locked, made.domain.locked_values, near)
+    begin = made.domain.held(near)
     np.testing.assert_array_equal(first[0], begin)
     assert first[1:] == (None, None)
     assert len(others) == 48

@@ -64,12 +64,14 @@ def solver(task="position", lock=None):
 
 def test_an_aim_is_measured_from_q0_or_from_the_middle_of_the_limits_that_there_are():
     arm, q0, q = solver(), np.array([[0.5, 6.0, 7.0, 0.25]]), np.array([[2.0, 5.0, 5.0, 0.5]])
-    np.testing.assert_array_equal(redundancy._goal(arm, q0, "nearest"), q0)
-    np.testing.assert_array_equal(redundancy._goal(arm, q0, "middle"), [[1, 6, 7, -0.5]])
-    np.testing.assert_array_equal(redundancy._weights(arm, "nearest"), np.ones(4))
-    np.testing.assert_array_equal(redundancy._weights(arm, "middle"), [1, 0, 0, 1])
-    np.testing.assert_allclose(redundancy._value(arm, q, q0, "nearest"), 1.5**2 + 1 + 4 + 0.25**2)
-    np.testing.assert_allclose(redundancy._value(arm, q, q0, "middle"), 1 + 1)
+    nearest = redundancy.make_aim(arm, q0, "nearest")
+    middle = redundancy.make_aim(arm, q0, "middle")
+    np.testing.assert_array_equal(nearest.goal, q0)
+    np.testing.assert_array_equal(middle.goal, [[1, 6, 7, -0.5]])
+    assert nearest.weights == 1
+    np.testing.assert_array_equal(middle.weights, [1, 0, 0, 1])
+    np.testing.assert_allclose(nearest.value(q), 1.5**2 + 1 + 4 + 0.25**2)
+    np.testing.assert_allclose(middle.value(q), 1 + 1)
 
 
 @pytest.mark.parametrize("task, rows", [("position", slice(3, 6)), ("rotation", slice(0, 3))])
@@ -88,9 +90,8 @@ def test_the_manipulability_is_that_of_the_task_by_what_may_move(task, rows):
             J[..., 1] = 0
         np.testing.assert_allclose(redundancy._jacobian(arm, q), J, atol=1e-14)
         expected = -0.5 * np.log(np.linalg.det(J @ J.swapaxes(1, 2)))
-        np.testing.assert_allclose(
-            redundancy._value(arm, q, q, "manipulability"), expected, atol=1e-12
-        )
+        value = redundancy.make_aim(arm, q, "manipulability").value(q)
+        np.testing.assert_allclose(value, expected, atol=1e-12)
 
 
 def planar(*points):
@@ -112,7 +113,7 @@ def test_the_manipulability_of_an_arm_in_a_plane_is_that_of_its_plane(task, poin
     q0 = np.array([0.3, 0.9, -0.4, 0.7][: len(points)])
     asked = Settings(task, None, True, 1e-9, 1e-9, None, None, 5, 30, 0, False)
     problem = make_problem(arm.compile(), asked)
-    value = redundancy._value(problem, q0[None], q0[None], "manipulability")
+    value = redundancy.make_aim(problem, q0[None], "manipulability").value(q0[None])
     np.testing.assert_allclose(value, -np.log(in_the_plane(arm, q0, rows)), rtol=1e-9)
     found = ik(arm, arm.fk(q0), task=task, q0=q0, secondary_objective="manipulability")
     assert found.success
@@ -133,15 +134,15 @@ def test_an_arm_without_a_motion_of_the_task_stays_where_it_is():
 
 def test_a_move_leaves_the_task_to_first_order_and_goes_down_the_aim_within_the_limits():
     arm, q = solver(), np.array([[2.5, 0.2, 0.3, 0.7]])
-    moved = redundancy._moved(arm, q, q + 0.3, "nearest", np.array([0.5]))
+    moved = redundancy.Aim(arm, q + 0.3).moved(q, np.array([0.5]))
     J = arm.fast.chain.jacobian(q[0], "hybrid")[3:]
     way = (moved - q)[0]
     np.testing.assert_allclose(J @ way, 0, atol=1e-12)
     spare = np.linalg.svd(J)[2][-1]
     np.testing.assert_allclose(way, 0.5 * spare * (spare @ np.full(4, 0.3)), atol=1e-12)
-    held = redundancy._moved(solver(lock=(("a", 2.5),)), q, q + 5, "nearest", np.array([1.0]))
+    held = redundancy.Aim(solver(lock=(("a", 2.5),)), q + 5).moved(q, np.array([1.0]))
     assert held[0, 0] == 2.5
-    far = redundancy._moved(arm, q, q + 50, "nearest", np.array([1.0]))
+    far = redundancy.Aim(arm, q + 50).moved(q, np.array([1.0]))
     assert ((far >= arm.domain.limits[:, 0]) & (far <= arm.domain.limits[:, 1])).all()
 
 
@@ -161,7 +162,7 @@ def test_what_is_no_aim_is_told(aim, q0, words):
 def test_an_aim_is_served_in_25_steps_each_half_as_long_after_one_that_is_no_better(monkeypatch):
     moves, asked = [], []
 
-    def moved(solver, q, q0, aim, step):
+    def moved(aim, q, step):
         moves.append((q.copy(), step.copy()))
         return q + 1.0
 
@@ -174,11 +175,11 @@ def test_an_aim_is_served_in_25_steps_each_half_as_long_after_one_that_is_no_bet
     # the first target gets better twice and then as good, the second worse, the third better but is
     # not solved
     values = iter([[9.0, 9, 9], [8, 9.5, 1], [7, 9, 1], *[[7.0, 10, 1]] * 30])
-    monkeypatch.setattr(redundancy, "_moved", moved)
-    monkeypatch.setattr(redundancy, "_value", lambda *_: np.array(next(values)))
+    monkeypatch.setattr(redundancy.Aim, "moved", moved)
+    monkeypatch.setattr(redundancy.Aim, "value", lambda *_: np.array(next(values)))
     q = np.zeros((3, 2))
     stub: Any = SimpleNamespace(solve=solve)
-    found = redundancy.optimise(stub, np.zeros((3, 4, 4)), q, np.full((3, 2), np.nan), "middle")
+    found = redundancy.optimise(stub, np.zeros((3, 4, 4)), q, np.full((3, 2), np.nan), "nearest")
     assert asked == [(3, [0, 1, 2], 0)] * 25
     assert found.tolist() == [[2, 2], [0, 0], [0, 0]]
     assert not q.any()
@@ -194,8 +195,8 @@ def test_of_bad_targets_nothing_is_asked(monkeypatch):
         asked.append(targets[:, 0, 0].tolist())
         return q0, np.zeros((len(targets), codes.INFO))
 
-    monkeypatch.setattr(redundancy, "_moved", lambda solver, q, *_: q - 1.0)
-    monkeypatch.setattr(redundancy, "_value", lambda solver, q, *_: q[:, 0])
+    monkeypatch.setattr(redundancy.Aim, "moved", lambda aim, q, *_: q - 1.0)
+    monkeypatch.setattr(redundancy.Aim, "value", lambda aim, q: q[:, 0])
     q, T = np.array([[5.0], [np.nan], [7.0]]), np.arange(3.0)[:, None, None] * np.ones((3, 4, 4))
     stub: Any = SimpleNamespace(solve=solve)
     found = redundancy.optimise(stub, T, q, q, "nearest")
