@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -27,28 +28,26 @@ _ASKED = 8
 _FOUND = 1e-3
 
 
+@dataclass(frozen=True, eq=False)
 class ClosedForm:
     """EAIK's solver of one arm: starts that are solutions to rounding, or of an arm that is nearly
     the given one.
 
-    Attributes: family, the name that EAIK has for the arm's kind; position_bound, rotation_bound,
-    how far (m, rad) the arm that is solved is from the given one: 0 where it is the same.
+    Attributes: form, the arm's axes; solver, EAIK's; position_bound, rotation_bound, how far (m,
+    rad) the arm that is solved is from the given one: 0 where it is the same.
     Source: Ostermeier, Külz and Althoff 2025, Automatic Geometric Decomposition for Analytical
     Inverse Kinematics.
     """
 
-    def __init__(
-        self,
-        form: HPForm,
-        solver: Any,
-        position_bound: float,
-        rotation_bound: float,
-    ) -> None:
-        self._R_tn = form.R_nt.T
-        self._solver = solver
-        self.family: str = solver.getKinematicFamily()
-        self.position_bound = position_bound
-        self.rotation_bound = rotation_bound
+    form: HPForm
+    solver: Any
+    position_bound: float
+    rotation_bound: float
+
+    @property
+    def family(self) -> str:
+        """Name that EAIK has for the arm's kind."""
+        return self.solver.getKinematicFamily()
 
     def said(self) -> str:
         """The way to the solutions, in words."""
@@ -67,12 +66,9 @@ class ClosedForm:
         RuntimeError where EAIK gives up.
         """
         target = T.copy()
-        target[:3, :3] = T[:3, :3] @ self._R_tn
-        Q = np.asarray(self._solver.IK(target).Q, np.float64)
-        width = len(self._solver.getOriginal_H().T)
-        if not Q.size:
-            return np.empty((0, width))
-        Q = Q.reshape(-1, width)
+        target[:3, :3] = T[:3, :3] @ self.form.R_nt.T
+        Q = np.asarray(self.solver.IK(target).Q, np.float64)
+        Q = Q.reshape(-1, len(self.solver.getOriginal_H().T))
         return Q[np.isfinite(Q).all(axis=1)]
 
 

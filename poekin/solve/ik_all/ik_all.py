@@ -22,7 +22,6 @@ from .closed_form import ClosedForm, closed_form
 from .ik_all_search import POSE, Found, Rule, accepted, joined, search, turns_within
 
 Method = Literal["auto", "closed", "search"]
-METHODS: tuple[Method, ...] = get_args(Method)
 
 MOST = 4096
 """The most places that `all_revolutions=True` lists for one target."""
@@ -118,14 +117,14 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     _check_chain(given)
     true_or_false(limits, "limits")
     true_or_false(all_revolutions, "all_revolutions")
-    choice(method, METHODS, "method")
+    choice(method, get_args(Method), "method")
     whole(min_hits, "min_hits", 1, KERNEL_INT)
     whole(restarts, "restarts", 1, KERNEL_INT)
     whole(iterations, "iterations", 1, KERNEL_INT)
     whole(seed, "seed", 0, KERNEL_INT)
     wanted = targets(T, "T")
     rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
-    finite = np.isfinite(rows).all(axis=(1, 2))
+    finite: np.ndarray = np.isfinite(rows).all(axis=(1, 2))
     solver = _solver(fast.chain, method)
     rule = Rule(min_hits, restarts, iterations, _MAX_MISSES)
     found = _found(fast, rows[finite], solver, rule, int(seed), limits)

@@ -187,16 +187,30 @@ def write_joints(
     Source: none, a format of poekin's own.
     """
     names = _names(names)
-    q = numbers(q, "q")
-    if q.ndim != 2 or q.shape[1] != len(names):
-        raise ShapeError(f"q: expected shape (N, {len(names)}), got {q.shape}")
-    if times is not None:
-        t = numbers(times, "times")
-        if t.shape != q.shape[:1]:
-            raise ShapeError(f"times: expected shape ({len(q)},), got {t.shape}")
+    rows, t = joints_over_time(q, times, len(names))
+    if t is not None:
         names = (TIME, *names)
-        q = np.column_stack([t, q])
-    write_whole(path, csv_rows.text(names, q).encode())
+        rows = np.column_stack([t, rows])
+    write_whole(path, csv_rows.text(names, rows).encode())
+
+
+def joints_over_time(
+    q: ArrayLike,
+    times: ArrayLike | None,
+    count: int,
+) -> tuple[Array, Array | None]:
+    """Configurations (N, count) and their times (N,), where there are any. Raises: ShapeError,
+    InputError.
+    """
+    rows = numbers(q, "q")
+    if rows.ndim != 2 or rows.shape[1] != count:
+        raise ShapeError(f"q: expected shape (N, {count}), got {rows.shape}")
+    if times is None:
+        return rows, None
+    t = numbers(times, "times")
+    if t.shape != rows.shape[:1]:
+        raise ShapeError(f"times: expected shape ({len(rows)},), got {t.shape}")
+    return rows, t
 
 
 def _names(names: Any) -> tuple[str, ...]:

@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import ShapeError
 from ...formats.text.atomic_write import write_whole
-from ...groups.arrays import numbers
 from ...model.chain import Chain
 from .. import svg
+from .csv_io import joints_over_time
 
 
 def plot_joints(
@@ -63,25 +62,22 @@ def plot_joints(
     -----
     Source: none, a drawing.
     """
-    q = numbers(q, "q")
-    if q.ndim != 2 or q.shape[1] != chain.dof:
-        raise ShapeError(f"q: expected shape (N, {chain.dof}), got {q.shape}")
-    t = np.arange(len(q), dtype=float)
-    if times is not None:
-        t = numbers(times, "times")
-    if t.shape != q.shape[:1]:
-        raise ShapeError(f"times: expected shape ({len(q)},), got {t.shape}")
+    joints, t = joints_over_time(q, times, chain.dof)
+    unit = "time (s)"
+    if t is None:
+        unit = "point"
+        t = np.arange(len(joints), dtype=float)
 
     def draw(figure: Any) -> None:
         rows: Any = figure.subplots(max(chain.dof, 1), sharex=True, squeeze=False)[:, 0]
         for k, name in enumerate(chain.q_names):
-            _one(rows[k], t, q[:, k], chain.limits[k], [b for b in breaks if 0 < b < len(t)])
+            _one(rows[k], t, joints[:, k], chain.limits[k], [b for b in breaks if 0 < b < len(t)])
             rows[k].set_title(
                 f"{svg.label(name)} ({'rad' if chain.is_angle(k) else 'm'})",
                 loc="left",
                 fontsize=9,
             )
-        rows[-1].set_xlabel("point" if times is None else "time (s)")
+        rows[-1].set_xlabel(unit)
 
     text = svg.svg(7.2, 0.5 + 1.1 * max(chain.dof, 1), "a plot of joints", draw)
     if path is not None:

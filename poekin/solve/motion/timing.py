@@ -16,7 +16,6 @@ from ...errors import InputError, ShapeError, safe_repr
 from ...groups.arrays import Array, numbers
 
 Law = Literal["cubic", "quintic", "trapezoidal"]
-LAWS: tuple[Law, ...] = get_args(Law)
 # of s' (1/T) and |s''| (1/T^2)
 _PEAKS = {"cubic": (1.5, 6.0), "quintic": (1.875, 10 / math.sqrt(3))}
 _INSTANT = 1e-100  # s: what takes less takes no time, as its rates would be no numbers
@@ -231,7 +230,7 @@ def minimum_time(
     >>> round(float(timing(timing.duration / 2).s), 6)
     0.5
     """
-    choice(law, LAWS, "law")
+    choice(law, get_args(Law), "law")
     way = np.abs(numbers(distance, "distance"))
     if not np.isfinite(way).all():
         raise InputError(f"distance: expected finite numbers, got {safe_repr(distance)}")
@@ -246,25 +245,24 @@ def minimum_time(
         raise InputError(
             "minimum_time: expected a finite limit for some distance that is not 0, got none"
         )
+    fraction = 0.5
     if law in _PEAKS:
         top, rise = _PEAKS[law]
         duration = max(top * a, math.sqrt(rise * b))
-        fraction = 0.5
     elif acceleration is None or (b == 0 and not still):
         raise InputError(
             "acceleration: the trapezoidal law needs a finite one, or it would reach its speed in no time"
         )
     else:
-        fraction = 0.5
         duration = 2 * math.sqrt(b)
         if 0 < b <= a * a:
             fraction = max(b / (a * a + b), 1e-15)
             duration = a + b / a
     if duration == math.inf:
         raise InputError("minimum_time: the limits are so small that there is no finite duration")
-    if duration >= _INSTANT:
-        return Timing(law, float(duration * _SPARE), float(fraction))
-    return Timing(law, 0.0, float(fraction))
+    if duration < _INSTANT:
+        duration = 0.0
+    return Timing(law, float(duration * _SPARE), float(fraction))
 
 
 def _least(way: Array, limit: Any, what: str) -> float:

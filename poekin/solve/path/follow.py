@@ -19,6 +19,7 @@ from ..ik.ik_problem import Settings, hashable, items, make_problem
 from ..ik.joint_domain import first_tries
 from ..ik.solution import BAD_TARGET, SOLVED, Solution
 from ..ik.task import TaskName, targets
+from ..joint_units import bounds
 from .follower import Follower
 from .path_result import PathResult
 
@@ -118,7 +119,9 @@ def follow(  # noqa: PLR0913 - options by keyword
     (True, (50, 6))
     """
     fast = compiled(chain)
-    path = _path(poses)
+    path = np.array(targets(poses, "poses"), order="C")
+    if path.ndim != 3:
+        raise ShapeError(f"poses: expected a path (N, 4, 4), got shape {path.shape}")
     settings = Settings(
         task,
         hashable(axis, "axis"),
@@ -142,14 +145,14 @@ def follow(  # noqa: PLR0913 - options by keyword
     if q0 is not None:
         start = first_tries(problem.units, problem.domain, (), 1, q0)[0]
     finite = np.asarray(np.isfinite(path).all(axis=(1, 2)))
-    follower = Follower(problem, np.ascontiguousarray(path[finite]), most, progress)
+    follower = Follower(problem, path[finite], most, progress)
     joints, broken = follower.run(start)
     return PathResult(
         chain=given,
         solution=_solution(follower, path, finite, problem.coordinates(joints)),
         branch_switches=tuple(int(np.flatnonzero(finite)[k]) for k in broken),
         task=problem.task,
-        limits=given.limits if limits else np.full_like(given.limits, [-np.inf, np.inf]),
+        limits=bounds(given, limits),
         times=when,
         speed=limit_v,
         acceleration=limit_a,
@@ -164,9 +167,7 @@ def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array)
     count = len(path)
     q = np.full((count, problem.given.dof), np.nan)
     q[at] = found
-    errors = np.full((count, 2), np.nan)
-    success = np.zeros(count, bool)
-    errors[at], success[at] = problem.pose_errors(path[finite], found)
+    errors, success = problem.pose_errors(path, q)
     reason = np.full(count, BAD_TARGET, KIND)
     reason[success] = SOLVED
     beyond = np.zeros(count)
@@ -203,13 +204,6 @@ def per_coordinate(value: Any, chain: Chain, what: str) -> Array:
     return np.ascontiguousarray(array)
 
 
-def _path(T: ArrayLike) -> Array:
-    path = targets(T, "poses")
-    if path.ndim != 3:
-        raise ShapeError(f"poses: expected a path (N, 4, 4), got shape {path.shape}")
-    return path
-
-
 def _timing(
     times: Any,
     speed: Any,
@@ -227,10 +221,10 @@ def _timing(
     t = numbers(times, "times")
     if t.shape != (count,):
         raise ShapeError(f"times: expected one for each pose ({count},), got shape {t.shape}")
-    if not np.isfinite(t).all() or not (np.diff(t) > 0).all():
-        k = 0
-        if count > 1:
-            k = int(np.argmin(np.isfinite(t[1:]) & (np.diff(t) > 0)))
+    good = np.isfinite(t)
+    good[1:] &= np.diff(t) > 0
+    if not good.all():
+        k = max(int(np.argmin(good)) - 1, 0)
         raise InputError(
             f"times: expected finite ascending seconds, got {safe_repr(t[k : k + 2].tolist())} from times[{k}] on"
         )

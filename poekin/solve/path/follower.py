@@ -12,7 +12,7 @@ from ...engine.kernels import ik_codes as codes
 from ...groups.arrays import Array
 from ...results import Progress
 from ..ik.ik_problem import Problem
-from ..ik.least_error import Slope, least_error, slope_at
+from ..ik.least_error import least_error, slope_at
 from ..ik.solution import ITERATIONS, Solution
 from ..ik.solver import solve
 from ..ik.task import TaskName
@@ -85,26 +85,21 @@ class Follower:
         """The path from pose k on as far as it goes without a jump, beginning at joints `last`; its
         end, and q.
         """
-        q = np.empty((len(self.targets) - k, self.dof))
-        start = k
-        pose = last
-        while k < len(self.targets):
-            done = k + self._descend(
-                self.targets[k:],
-                pose,
-                q[k - start :],
-                anywhere=first and k == start,
-            )
-            if done < len(self.targets) and done > start:
-                q_a = q[done - 1 - start]
-                q_b = self._in_pieces(q_a, self.targets[done - 1], self.targets[done])
-                if q_b is not None:
-                    q[done - start] = q_b
-                    pose = q_b
-                    k = done + 1
-                    continue
-            return done, q[: done - start]
-        return k, q
+        targets = self.targets[k:]
+        q = np.empty((len(targets), self.dof))
+        done = 0
+        while done < len(targets):
+            anywhere = first and not done
+            done += self._descend(targets[done:], last, q[done:], anywhere)
+            if done in (0, len(targets)):
+                break
+            next_q = self._in_pieces(q[done - 1], targets[done - 1], targets[done])
+            if next_q is None:
+                break
+            q[done] = next_q
+            last = next_q
+            done += 1
+        return k + done, q[:done]
 
     def best(self, k: int, last: Array | None) -> tuple[int, Array]:
         """The one of several solutions of pose k that gets farthest, and then jumps and moves
@@ -145,25 +140,19 @@ class Follower:
         """Number of targets that are followed from `start`; where `anywhere`, the first of them at
         any distance from it.
         """
-        info = np.empty((len(targets), codes.INFO))
-        count = 0
         arm = self.problem.fast.hybrid_address
-        call = (self.domain.limits, self.problem.locked, self.problem.options)
-        if anywhere:
-            wide = np.full_like(start, np.inf)
-            count = self._kernel.call(arm, targets[:1], start.copy(), *call, wide, q[:1], info[:1])
-            if not count:
-                return 0
-            start = q[0]
-        return count + self._kernel.call(
-            arm,
-            targets[count:],
-            start.copy(),
-            *call,
-            self.most,
-            q[count:],
-            info[count:],
-        )
+        asked = (self.domain.limits, self.problem.locked, self.problem.options)
+        info = np.empty((len(targets), codes.INFO))
+
+        def go(some: slice, start: Array, most: Array) -> int:
+            place = (most, q[some], info[some])
+            return self._kernel.call(arm, targets[some], start.copy(), *asked, *place)
+
+        if not anywhere:
+            return go(slice(None), start, self.most)
+        if not go(slice(1), start, np.full_like(start, np.inf)):
+            return 0
+        return 1 + go(slice(1, None), q[0], self.most)
 
     def _in_pieces(self, q_a: Array, T_a: Array, T_b: Array) -> Array | None:
         """The joints at T_b, by smaller and smaller steps from q_a at T_a; None where no step is
@@ -186,15 +175,8 @@ class Follower:
         An arm with few coordinates reaches the ends of a screw motion, and seldom what is between.
         """
         for target in poses:
-            q = least_error(partial(slope_at, self.problem, target), q, *self._bounds(q))
+            q = self._towards(target, q)
         return q
-
-    def _bounds(self, q: Array) -> tuple[Array, Array]:
-        """Lower and upper bounds (m,) of the joints that are one step from q."""
-        low = np.clip(q - self.most, *self.domain.limits.T)
-        high = np.clip(q + self.most, *self.domain.limits.T)
-        locked = self.domain.locked
-        return np.where(locked, q, low), np.where(locked, q, high)
 
     def _near(self, k: int, last: Array | None) -> Array:
         """Joints (1, m) as near to pose k as they get within one step of the last ones, else the
@@ -203,10 +185,14 @@ class Follower:
         if last is None:
             _, solution, at = self._solution_of(k)
             return self.problem.units.of(solution.q[[at]])
-        return least_error(partial(self._slope, k), last, *self._bounds(last))[None]
+        return self._towards(self.targets[k], last)[None]
 
-    def _slope(self, k: int, q: Array) -> Slope:
-        return slope_at(self.problem, self.targets[k], q)
+    def _towards(self, target: Array, q: Array) -> Array:
+        """Joints (m,) as near to a pose as they get within one step of q."""
+        limits = self.domain.limits.T
+        low = self.domain.held(np.clip(q - self.most, *limits))
+        high = self.domain.held(np.clip(q + self.most, *limits))
+        return least_error(partial(slope_at, self.problem, target), q, low, high)
 
     def _solutions(self, k: int, turn: int, last: Array | None) -> Array:
         """Solutions of pose k: the nearest to the last joints first, then of random starts."""

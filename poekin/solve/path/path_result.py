@@ -6,7 +6,6 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -171,11 +170,10 @@ class PathResult(Result):
         """Intervals in which a coordinate is at its limit, `bound`; `worst` is the first point."""
         found = []
         for k, name in enumerate(self.chain.q_names):
+            q = self.q[:, k]
             for bound in self.limits[k]:
-                if np.isfinite(bound):
-                    q = self.q[:, k]
-                    off = np.abs(q - bound)
-                    found += _intervals(_Values(q, -off, bound, name), off <= AT_LIMIT)
+                off = np.abs(q - bound)
+                found += _intervals(off <= AT_LIMIT, q, -off, bound, name)
         return tuple(sorted(found))
 
     @cached_property
@@ -211,8 +209,7 @@ class PathResult(Result):
     def near_singular(self) -> tuple[PathInterval, ...]:
         """Intervals in which `inverse_condition` is below 0.01."""
         value = self.inverse_condition
-        values = _Values(value, -value, NEAR_SINGULAR)
-        return tuple(_intervals(values, value < NEAR_SINGULAR))
+        return tuple(_intervals(value < NEAR_SINGULAR, value, -value, NEAR_SINGULAR))
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Writes q, and times where there are any, as `motion.read_joints` reads it.
@@ -293,11 +290,9 @@ class PathResult(Result):
         size = np.nan_to_num(self.position_error + self.rotation_error)
         bad = self.reason == BAD_TARGET
         said = []
-        for first, last in sorted(_runs(bad) + _runs(~self.success & ~bad)):
-            worst = first + int(np.argmax(size[first : last + 1]))
-            interval = PathInterval(first, last, "", worst, float(size[worst]), 0.0)
-            where = "" if first == last else f", least of all {worst}"
-            said.append(f"{_points(interval)} not reached{where}: {self.solution.summary(worst)}")
+        for s in sorted(_intervals(bad, size, size) + _intervals(~self.success & ~bad, size, size)):
+            where = "" if s.first == s.last else f", least of all {s.worst}"
+            said.append(f"{_points(s)} not reached{where}: {self.solution.summary(s.worst)}")
         return said
 
     def _switch(self, k: int) -> str:
@@ -357,36 +352,35 @@ class PathResult(Result):
         found = []
         for k, name in enumerate(self.chain.q_names):
             size = np.abs(values[:, k])
-            found += _intervals(_Values(size, size, bounds[k], name), size > bounds[k], shift)
+            found += _intervals(size > bounds[k], size, size, bounds[k], name, shift)
         return tuple(sorted(found))
 
 
-class _Values(NamedTuple):
-    """Values along a path, how bad each is, and the bound that they are compared with."""
-
-    values: Array
-    badness: Array
-    bound: float
-    name: str = ""
-
-
-def _intervals(of: _Values, mask: np.ndarray, shift: int = 0) -> list[PathInterval]:
+def _intervals(
+    mask: np.ndarray,
+    values: Array,
+    badness: Array,
+    bound: float = 0.0,
+    name: str = "",
+    shift: int = 0,
+) -> list[PathInterval]:
     """Interval for each run of True, shifted; the worst point of it is where the badness is
     largest.
     """
-    found = []
-    for first, last in _runs(mask):
-        worst = first + int(np.argmax(of.badness[first : last + 1]))
-        value = float(of.values[worst])
-        place = (first + shift, last + shift, of.name, worst + shift)
-        found.append(PathInterval(*place, value, float(of.bound)))
-    return found
-
-
-def _runs(mask: np.ndarray) -> list[tuple[int, int]]:
-    """First and last index of each run of True."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
-    return [(int(a), int(b) - 1) for a, b in edges.reshape(-1, 2)]
+    found = []
+    for first, end in edges.reshape(-1, 2).tolist():
+        worst = first + int(np.argmax(badness[first:end]))
+        interval = PathInterval(
+            first=first + shift,
+            last=end - 1 + shift,
+            name=name,
+            worst=worst + shift,
+            value=float(values[worst]),
+            bound=float(bound),
+        )
+        found.append(interval)
+    return found
 
 
 def _exceeds(s: PathInterval, what: str, unit: str) -> str:

@@ -12,6 +12,7 @@ from poekin.errors import InputError, PoseError, ShapeError, UnknownName
 from poekin.solve import motion
 from poekin.solve.ik.ik import ik
 from poekin.solve.ik.ik_problem import Settings, make_problem
+from poekin.solve.ik.least_error import slope_at
 from poekin.solve.path import follower
 from poekin.solve.path.follow import follow
 from poekin.solve.path.path_result import NEAR_SINGULAR
@@ -438,7 +439,7 @@ def test_a_step_towards_a_pose_out_of_reach_goes_no_farther_than_is_allowed_and_
     assert np.linalg.norm(arm.fk(far)[:3, 3] - T[0, :3, 3]) == pytest.approx(
         np.hypot(3, 0.5) - 2, abs=1e-5
     )
-    e2, H, g = one._slope(0, last)
+    e2, H, g = slope_at(one.problem, T[0], last)
     error = T[0, :3, 3] - arm.fk(last)[:3, 3]
     J = arm.chain.jacobian(last, "hybrid")[3:]
     assert e2 == pytest.approx(error @ error)

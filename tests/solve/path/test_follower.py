@@ -243,15 +243,17 @@ def test_eight_tries_a_round_each_with_numbers_of_its_own(monkeypatch):
     ]
 
 
-def test_thirty_steps_are_tried_towards_what_is_out_of_reach():
+def test_thirty_steps_are_tried_towards_what_is_out_of_reach(monkeypatch):
     f = one()
     asked: list[np.ndarray] = []
 
-    def slope(k: int, q: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
+    def slope(
+        problem: Any, target: np.ndarray, q: np.ndarray
+    ) -> tuple[float, np.ndarray, np.ndarray]:
         asked.append(q)
         return 1.0, np.eye(3), np.full(3, 0.01)
 
-    f._slope = slope  # type: ignore[method-assign]
+    monkeypatch.setattr(follower, "slope_at", slope)
     assert f._near(0, Q)[0].tolist() == Q.tolist()
     assert len(asked) == 31
     steps = [float(np.abs(q - Q).max()) for q in asked[1:]]
@@ -261,11 +263,13 @@ def test_thirty_steps_are_tried_towards_what_is_out_of_reach():
     asked.clear()
     sizes = iter([1.0, 0.5, 0.2, 0.2 - 1e-10, 0.1])
 
-    def better(k: int, q: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
+    def better(
+        problem: Any, target: np.ndarray, q: np.ndarray
+    ) -> tuple[float, np.ndarray, np.ndarray]:
         asked.append(q)
         return next(sizes), np.eye(3), np.full(3, 0.01)
 
-    f._slope = better  # type: ignore[method-assign]
+    monkeypatch.setattr(follower, "slope_at", better)
     f._near(0, Q)
     ways = [float((b - a)[0]) for a, b in itertools.pairwise(asked)]
     assert ways == pytest.approx([0.01 / (1 + 1e-3 * 0.2**k) for k in range(3)], rel=1e-9), (
@@ -273,15 +277,17 @@ def test_thirty_steps_are_tried_towards_what_is_out_of_reach():
     )
 
 
-def test_of_a_matrix_without_inverse_the_damping_is_a_share_of_its_largest_number():
+def test_of_a_matrix_without_inverse_the_damping_is_a_share_of_its_largest_number(monkeypatch):
     f = one(most=1e3)
     asked: list[np.ndarray] = []
 
-    def slope(k: int, q: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
+    def slope(
+        problem: Any, target: np.ndarray, q: np.ndarray
+    ) -> tuple[float, np.ndarray, np.ndarray]:
         asked.append(q)
         return 1.0 / len(asked), np.diag([1e14, 0, 0]), np.array([0, 7.0, 0])
 
-    f._slope = slope  # type: ignore[method-assign]
+    monkeypatch.setattr(follower, "slope_at", slope)
     f._near(0, Q)
     assert (asked[1] - asked[0])[1] == pytest.approx(
         0.7, rel=1e-9

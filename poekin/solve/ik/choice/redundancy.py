@@ -15,7 +15,6 @@ from ....groups.arrays import Array
 from ..ik_problem import Problem
 
 Objective = Literal["middle", "nearest", "manipulability"]
-OBJECTIVES: tuple[Objective, ...] = get_args(Objective)
 STEPS = 25
 STEP = 0.5  # of the way that the objective asks for
 # rad or m, for the gradient of the manipulability: its error is far below what a step needs
@@ -25,7 +24,7 @@ DIFFERENCE = 1e-6
 def check_objective(objective: Any, q0: Any) -> None:
     """Raises InputError for what is no objective, and for "nearest" to nothing."""
     if objective is not None:
-        choice(objective, OBJECTIVES, "secondary_objective")
+        choice(objective, get_args(Objective), "secondary_objective")
     if objective == "nearest" and q0 is None:
         raise InputError("secondary_objective: 'nearest' needs q0, what to be near to")
 
@@ -104,7 +103,7 @@ def make_aim(problem: Problem, q0: Array, objective: Objective) -> Aim:
     if objective == "nearest":
         return Aim(problem, q0)
     limits = problem.domain.limits
-    limited = np.isfinite(limits).all(axis=1)
+    limited: np.ndarray = np.isfinite(limits).all(axis=1)
     middles = np.where(limited[:, None], limits, 0.0).mean(axis=1)
     return Aim(problem, np.where(limited, middles, q0), limited.astype(float))
 
