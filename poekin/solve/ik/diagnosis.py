@@ -4,6 +4,7 @@ in time.
 
 from __future__ import annotations
 
+import itertools
 from functools import partial
 from typing import NamedTuple
 
@@ -17,13 +18,13 @@ from ..joint_units import bounds
 from .ik_problem import Problem
 from .joint_domain import JointDomain, free_ranges
 from .least_error import least_error, slope_at
-from .solution import BAD_TARGET, ITERATIONS, LIMITS, SOLVED, UNREACHABLE
-from .task import Task, TaskName
+from .solution import BAD_TARGET, ITERATIONS, LIMITS, SOLVED, UNREACHABLE, Names
+from .task import Task, TaskName, TaskNames
 
 KIND = "<U12"  # of an array of reasons
 AT_LIMIT = 1e-9  # rad or m
 
-OTHER_TASKS: dict[TaskName, tuple[TaskName, ...]] = {
+OTHER_TASKS: dict[TaskName, TaskNames] = {
     "pose": ("direction", "planar", "position", "rotation"),
     "direction": ("planar", "position"),
     "planar": ("position", "rotation"),
@@ -40,8 +41,8 @@ class Causes(NamedTuple):
 
     reason: np.ndarray
     distance_beyond_reach: Array
-    limits_hit: tuple[tuple[str, ...], ...] = ()
-    reachable_tasks: tuple[tuple[TaskName, ...], ...] = ()
+    limits_hit: tuple[Names, ...] = ()
+    reachable_tasks: tuple[TaskNames, ...] = ()
 
 
 def diagnose(
@@ -86,7 +87,7 @@ def find_causes(
     reason[(state == codes.OUT_OF_ITERATIONS) & (beyond == 0)] = ITERATIONS
     reason[state == codes.BAD_TARGET] = BAD_TARGET
     reason[success] = SOLVED
-    hit: list[tuple[str, ...]] = [()] * len(q)
+    hit: list[Names] = [()] * len(q)
     open_ones = np.flatnonzero(~success & (state != codes.BAD_TARGET) & (beyond == 0))
     if not len(open_ones) or not np.isfinite(domain.limits).any():
         return Causes(reason, beyond, tuple(hit))
@@ -149,9 +150,9 @@ def reachable_tasks(
     targets: Array,
     first: Array,
     rows: np.ndarray,
-) -> tuple[tuple[TaskName, ...], ...]:
+) -> tuple[TaskNames, ...]:
     """Other tasks that reach these rows of the targets, found by trying; () for all others."""
-    tasks: list[tuple[TaskName, ...]] = [()] * len(targets)
+    tasks: list[TaskNames] = [()] * len(targets)
     for name in OTHER_TASKS[problem.task.name]:
         try:
             other = problem.with_task(name)
@@ -169,8 +170,8 @@ def limits_hit(
     domain: JointDomain,
     q: Array,
     found: Array,
-    names: tuple[str, ...],
-) -> tuple[str, ...]:
+    names: Names,
+) -> Names:
     """Coordinates at a limit in the nearest pose within them; where there is none, those outside in
     the solution without limits.
     """
@@ -179,7 +180,7 @@ def limits_hit(
     hit = at_bound & ~domain.locked
     if not hit.any():
         hit = (found < lower) | (found > upper)
-    return tuple(name for name, stops in zip(names, hit, strict=True) if stops)
+    return tuple(itertools.compress(names, hit))
 
 
 def _without_limits(problem: Problem, targets: Array, rows: np.ndarray) -> tuple[Array, Array]:

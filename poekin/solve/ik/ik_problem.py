@@ -156,17 +156,14 @@ class Problem:
         limits = self.domain.limits if limits is None else limits
         ranges = self.domain.ranges if ranges is None else ranges
 
-        if len(targets) <= rows:
-            args = (limits, ranges, self.locked, options, indices, self.settings.seed, q, info)
-            self._solve.call(self._address, targets, q0, *args)
-            return q, info
-
         def run(targets: Array, q0: Array, indices: Array, q: Array, info: Array) -> None:
-            asked = {"restarts": restarts, "limits": limits, "ranges": ranges}
-            q[:], info[:] = self.solve(targets, indices, q0, **asked)
+            asked = (limits, ranges, self.locked, options, indices, self.settings.seed)
+            self._solve.call(self._address, targets, q0, *asked, q, info)
 
         arrays = (targets, q0, indices, q, info)
-        if self.settings.parallel:
+        if len(targets) <= rows:
+            run(*arrays)
+        elif self.settings.parallel:
             threads.share_out(run, *arrays, rows=min(rows, SHARED))
         else:
             for start in range(0, len(targets), rows):

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from ...errors import ShapeError, quote
 from ...groups.arrays import Array
 from ...results import Result
-from .task import TaskName
+from .task import TaskNames
 
 SOLVED = "solved"
 UNREACHABLE = "unreachable"
@@ -21,7 +20,7 @@ BAD_TARGET = "bad target"
 REASONS = (SOLVED, UNREACHABLE, LIMITS, ITERATIONS, BAD_TARGET)
 """All reasons, as `Solution.reason` explains them."""
 
-Reason = Literal["solved", "unreachable", "limits", "iterations", "bad target"]
+Names = tuple[str, ...]
 
 
 def place(index: tuple[int, ...], shape: tuple[int, ...], what: str) -> int:
@@ -68,8 +67,8 @@ class Solution(Result):
     iterations: np.ndarray
     restarts: np.ndarray
     distance_beyond_reach: Array
-    limits_hit: tuple[tuple[str, ...], ...] = ()
-    reachable_tasks: tuple[tuple[TaskName, ...], ...] = ()
+    limits_hit: tuple[Names, ...] = ()
+    reachable_tasks: tuple[TaskNames, ...] = ()
 
     def summary(self, *index: int) -> str:
         """Reason of one target with its numbers, or how many targets of a batch have which.

@@ -26,6 +26,7 @@ TASKS: dict[str, tuple[int, int, Part]] = {
 """Each task's code, how many degrees of freedom it constrains, and the part with its rows."""
 
 TaskName = Literal["pose", "position", "rotation", "direction", "planar"]
+TaskNames = tuple[TaskName, ...]
 
 
 @dataclass(frozen=True, eq=False)

@@ -124,7 +124,7 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     whole(seed, "seed", 0, KERNEL_INT)
     wanted = targets(T, "T")
     rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
-    finite: np.ndarray = np.isfinite(rows).all(axis=(1, 2))
+    finite = np.asarray(np.isfinite(rows).all(axis=(1, 2)))
     solver = _solver(fast.chain, method)
     rule = Rule(min_hits, restarts, iterations, _MAX_MISSES)
     found = _found(fast, rows[finite], solver, rule, int(seed), limits)

@@ -5,6 +5,7 @@ Arms and configurations are in joint units (`joint_units`).
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -148,14 +149,18 @@ def _search(
     tries = (rows, given, free, ranges, turn, options, rules, indices, seed)
     T = np.ascontiguousarray(T)
     kernel.search.call(fast.hybrid_address, T, *tries, q, hits, info)
-    counts = info[:, kernel.FOUND].astype(int)
-    ends = info[:, kernel.AT_ENDS].astype(int)
-    restarts = info[:, kernel.AT_RESTARTS].astype(int)
-    full = info[:, kernel.FULL] > 0
-    return [
-        Found(q[k, :s].copy(), hits[k, :s].copy(), int(ends[k]), int(restarts[k]), bool(full[k]))
-        for k, s in enumerate(counts)
-    ]
+    found = []
+    for k, numbers in enumerate(info.astype(int).tolist()):
+        count = numbers[kernel.FOUND]
+        one = Found(
+            solutions=q[k, :count].copy(),
+            hits=hits[k, :count].copy(),
+            ends=numbers[kernel.AT_ENDS],
+            restarts=numbers[kernel.AT_RESTARTS],
+            full=numbers[kernel.FULL] > 0,
+        )
+        found.append(one)
+    return found
 
 
 def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) -> list[Found]:
@@ -169,31 +174,24 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
     sizes = np.linalg.svd(J, compute_uv=False)
     singular = sizes[:, -1] < _SINGULAR * sizes[:, 0]
     for k in np.unique(owner[singular]):
-        f = found[k]
-        those = np.flatnonzero(owner == k)
-        ways = [
-            _way_along(fast, T[k], f.solutions[j], J[i]) if singular[i] else None
-            for j, i in enumerate(those)
-        ]
-        met = [j for j, way in enumerate(ways) if way is not None]
-        f = replace(f, singular=True)
+        f = replace(found[k], singular=True)
         result[k] = f
-        if met:
+        ways: dict[int, Array] = {}
+        for j, i in enumerate(np.flatnonzero(owner == k)):
+            way = _way_along(fast, T[k], q[i], J[i]) if singular[i] else None
+            if way is not None:
+                ways[j] = np.abs(way) / np.abs(way).max()
+        if ways:
+            met = list(ways)
             first, last = turns_within(fast.chain, f.solutions[met], limits)
             kept = met[int(np.argmax((first <= last).all(axis=1)))]
-            alone = sorted({*range(len(ways))} - {*met} | {kept})
-            most = np.max(
-                [np.abs(way) / np.abs(way).max() for way in ways if way is not None],
-                axis=0,
-            )
-            names = tuple(
-                name for name, size in zip(fast.q_names, most, strict=True) if size > _MOVES
-            )
+            alone = [j for j in range(len(f.hits)) if j == kept or j not in ways]
+            moves = np.max(list(ways.values()), axis=0) > _MOVES
             result[k] = replace(
                 f,
                 solutions=f.solutions[alone],
                 hits=f.hits[alone],
-                self_motion_coordinates=names,
+                self_motion_coordinates=tuple(itertools.compress(fast.q_names, moves)),
             )
     return result
 

@@ -17,8 +17,8 @@ from ...results import Progress
 from ..ik.diagnosis import KIND
 from ..ik.ik_problem import Settings, hashable, items, make_problem
 from ..ik.joint_domain import first_tries
-from ..ik.solution import BAD_TARGET, SOLVED, Solution
-from ..ik.task import TaskName, targets
+from ..ik.solution import BAD_TARGET, SOLVED, Names, Solution
+from ..ik.task import TaskName, TaskNames, targets
 from ..joint_units import bounds
 from .follower import Follower
 from .path_result import PathResult
@@ -171,8 +171,8 @@ def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array)
     reason = np.full(count, BAD_TARGET, KIND)
     reason[success] = SOLVED
     beyond = np.zeros(count)
-    hit: list[tuple[str, ...]] = [()] * count
-    tasks: list[tuple[TaskName, ...]] = [()] * count
+    hit: list[Names] = [()] * count
+    tasks: list[TaskNames] = [()] * count
     for k in np.flatnonzero(finite & ~success):
         reason[k], beyond[k], hit[k], tasks[k] = follower.failure(int(np.searchsorted(at, k)))
     nothing = np.zeros(count, np.int64)

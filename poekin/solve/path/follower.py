@@ -13,9 +13,9 @@ from ...groups.arrays import Array
 from ...results import Progress
 from ..ik.ik_problem import Problem
 from ..ik.least_error import least_error, slope_at
-from ..ik.solution import ITERATIONS, Solution
+from ..ik.solution import ITERATIONS, Names, Solution
 from ..ik.solver import solve
-from ..ik.task import TaskName
+from ..ik.task import TaskNames
 from ..motion import paths
 
 PIECES = (8, 64, 512)
@@ -127,7 +127,7 @@ class Follower:
                 break
         return found
 
-    def failure(self, k: int) -> tuple[str, float, tuple[str, ...], tuple[TaskName, ...]]:
+    def failure(self, k: int) -> tuple[str, float, Names, TaskNames]:
         """Cause for which pose k is not reached: its entries in `Causes`."""
         success, solution, at = self._solution_of(k)
         if success:

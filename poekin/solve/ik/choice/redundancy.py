@@ -103,7 +103,7 @@ def make_aim(problem: Problem, q0: Array, objective: Objective) -> Aim:
     if objective == "nearest":
         return Aim(problem, q0)
     limits = problem.domain.limits
-    limited: np.ndarray = np.isfinite(limits).all(axis=1)
+    limited = np.asarray(np.isfinite(limits).all(axis=1))
     middles = np.where(limited[:, None], limits, 0.0).mean(axis=1)
     return Aim(problem, np.where(limited, middles, q0), limited.astype(float))
 
