@@ -67,7 +67,9 @@ def _joint_units(fast: CompiledChain) -> JointUnits:
 
 def bounds(chain: Chain, limits: bool) -> Array:
     """Limits (m, 2) of the coordinates, infinite where `limits` do not count."""
-    return chain.limits.copy() if limits else np.tile([-np.inf, np.inf], (chain.dof, 1))
+    if limits:
+        return chain.limits.copy()
+    return np.tile([-np.inf, np.inf], (chain.dof, 1))
 
 
 def periods(chain: Chain) -> Array:

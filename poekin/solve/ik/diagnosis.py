@@ -91,10 +91,15 @@ def find_causes(
     open_ones = np.flatnonzero(~success & (state != codes.BAD_TARGET) & (beyond == 0))
     if not len(open_ones) or not np.isfinite(domain.limits).any():
         return Causes(reason, beyond, tuple(hit))
-    found, ended = _without_limits(problem, targets, open_ones)
-    for u, k, state_of_k in zip(found, open_ones, ended, strict=True):
-        if state_of_k != codes.SOLVED:
-            continue
+    free, ends = problem.solve(
+        targets[open_ones],
+        open_ones.astype(float),
+        domain.anywhere(len(open_ones)),
+        limits=bounds(problem.fast.chain, False),
+        ranges=free_ranges(problem.fast.chain),
+    )
+    solved = ends[:, codes.AT_STATE] == codes.SOLVED
+    for u, k in zip(free[solved], open_ones[solved], strict=True):
         within = domain.wrapped(u, np.clip(u, *domain.limits.T))
         if domain.contains(within):
             q[k] = within
@@ -118,14 +123,13 @@ def distance_beyond_reach(chain: Chain, task: Task, targets: Array, limits: Arra
     offsets = targets[:, :3, 3] - chain.local.frames[0, :3, 3]
     if task.name == "planar":
         offsets = offsets - np.outer(offsets @ task.axis, task.axis)
-    frames = chain.local.frames
-    slides = np.abs(chain.local.slides)
-    length = np.linalg.norm(frames[1:, :3, 3], axis=1).sum()
-    for slide, row, shift in zip(slides, np.abs(chain.coupling), np.abs(chain.offset), strict=True):
-        if slide:
-            ratios = row[row > 0]
-            farthest = np.abs(limits[row > 0]).max(axis=1)
-            length += slide * (shift + (ratios * farthest).sum())
+    length = np.linalg.norm(chain.local.frames[1:, :3, 3], axis=1).sum()
+    ratios = np.abs(chain.coupling)
+    farthest = np.abs(limits).max(axis=1, initial=0.0)
+    for k in np.flatnonzero(chain.local.slides):
+        moves = ratios[k] > 0
+        way = (ratios[k, moves] * farthest[moves]).sum()
+        length += abs(chain.local.slides[k]) * (abs(chain.offset[k]) + way)
     if not np.isfinite(length):
         return nothing
     return np.maximum(np.linalg.norm(offsets, axis=1) - length * (1 + 1e-12), 0.0)
@@ -181,16 +185,3 @@ def limits_hit(
     if not hit.any():
         hit = (found < lower) | (found > upper)
     return tuple(itertools.compress(names, hit))
-
-
-def _without_limits(problem: Problem, targets: Array, rows: np.ndarray) -> tuple[Array, Array]:
-    """Joints and final states of these rows of the targets, limits left out."""
-    chain = problem.fast.chain
-    q, info = problem.solve(
-        targets[rows],
-        rows.astype(float),
-        problem.domain.anywhere(len(rows)),
-        limits=bounds(chain, False),
-        ranges=free_ranges(chain),
-    )
-    return q, info[:, codes.AT_STATE]

@@ -153,8 +153,7 @@ def ik(  # noqa: PLR0913 - options by keyword
         seed,
         parallel,
     )
-    if secondary_objective is not None:
-        check_objective(secondary_objective, q0)
+    check_objective(secondary_objective, q0)
     problem = make_problem(fast, settings)
     return solve(
         problem,

@@ -95,6 +95,7 @@ class Problem:
         self._solve = ik_kernels.solve_many
         self._error_parts = ik_kernels.error_parts
         self._address = self.fast.hybrid_address
+        self._tolerances = np.array([settings.tol_position, settings.tol_rotation])
         self._rows = _rows(settings.restarts, settings.iterations)
 
     @cached_property
@@ -117,9 +118,8 @@ class Problem:
         hold (N,).
         """
         errors = pose_errors(self.given, self.task, q, targets)
-        near = errors[:, 0] <= self.settings.tol_position
-        aligned = errors[:, 1] <= self.settings.tol_rotation
-        return errors, near & aligned
+        within = errors <= self._tolerances
+        return errors, within[:, 0] & within[:, 1]
 
     def error(self, T: Array, target: Array, J: Array) -> Array:
         """Error (6,), rotation first, between two poses; J loses what the task leaves free."""

@@ -40,7 +40,8 @@ class JointDomain:
     @cached_property
     def has_unbounded_angle(self) -> bool:
         """Whether any coordinate with a period has no limits."""
-        return bool(((self.periods > 0) & np.isinf(self.limits).all(axis=1)).any())
+        unlimited = np.isinf(self.limits).all(axis=1)
+        return bool(self.periods[unlimited].any())
 
     def anywhere(self, count: int) -> Array:
         """Starts of tries (count, m): NaN, for anywhere, but for what is locked."""
@@ -52,7 +53,8 @@ class JointDomain:
 
     def contains(self, q: Array) -> np.ndarray:
         """Whether configurations (..., m) are within the limits (...)."""
-        return np.asarray(((q >= self.limits[:, 0]) & (q <= self.limits[:, 1])).all(axis=-1))
+        within = np.clip(q, *self.limits.T)
+        return np.asarray((q == within).all(axis=-1))
 
     def wrapped(self, q: Array, near: Array | None = None) -> Array:
         """Configurations with whole periods taken off: nearest to `near` within the limits;
@@ -64,8 +66,9 @@ class JointDomain:
             free = free & np.isinf(lower) & np.isinf(upper)
         period = np.where(free, self.periods, 1.0)
         center = 0.0 if near is None else near
-        times = np.round((center - q) / period)
-        times = np.clip(times, np.ceil((lower - q) / period), np.floor((upper - q) / period))
+        least = np.ceil((lower - q) / period)
+        most = np.floor((upper - q) / period)
+        times = np.clip(np.round((center - q) / period), least, most)
         moved = q + np.where(free, period * times, 0.0)
         return np.where((moved >= lower) & (moved <= upper), moved, q)
 

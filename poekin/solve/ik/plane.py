@@ -55,6 +55,8 @@ def _directions(chain: Chain, q: Array) -> Array:
     directions = np.zeros((2, len(chain.screws), 3))
     for k, x in enumerate(chain.coupling @ q + chain.offset):
         turn, slide = chain.screws[k].reshape(2, 3) @ R.T
-        directions[int(not turn.any()), k] = turn if turn.any() else slide
+        directions[0, k] = turn
+        if not turn.any():
+            directions[1, k] = slide
         R = R @ so3.exp(chain.screws[k, :3] * x)
     return directions

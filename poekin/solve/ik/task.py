@@ -109,11 +109,15 @@ def make_task(name: Any, axis: Any, weights: Any) -> Task:
     choice(name, TASKS, "task")
     if axis is not None and name != "direction":
         raise InputError(f"axis: only the task 'direction' has one, the task is {name!r}")
-    a = shaped([0.0, 0.0, 1.0] if axis is None else axis, (3,), "axis")
+    if axis is None:
+        axis = [0.0, 0.0, 1.0]
+    a = shaped(axis, (3,), "axis")
     if a.ndim != 1 or not np.isfinite(a).all() or not a.any():
         raise InputError(f"axis: expected a direction (3,) that is not zero, got {safe_repr(axis)}")
     a = a / np.abs(a).max()  # so that no square of it overflows
-    w = shaped(np.ones(6) if weights is None else weights, (6,), "weights").copy()
+    if weights is None:
+        weights = np.ones(6)
+    w = shaped(weights, (6,), "weights").copy()
     if w.ndim != 1 or not np.isfinite(w).all() or (w <= 0).any():
         raise InputError(
             f"weights: expected six positive numbers (rotation; position), got {safe_repr(weights)}"

@@ -133,8 +133,9 @@ def _search(
     turn = periods(chain)
     # a coordinate that turns is free, and brought into its limits at the end; another one has only
     # its own range
-    low, high = sampling_range(chain)
-    ranges = np.where(turn[:, None] > 0, turn[:, None] * [-0.5, 0.5], np.stack([low, high], axis=1))
+    ranges = np.stack(sampling_range(chain), axis=1)
+    turns = turn > 0
+    ranges[turns] = turn[turns, None] * [-0.5, 0.5]
     rules = np.zeros(kernel.RULE)
     rules[kernel.MAX_ERROR] = accepted(chain)
     rules[kernel.MIN_HITS] = rule.min_hits
@@ -215,7 +216,7 @@ def _way_along(fast: CompiledChain, T: Array, q: Array, J: Array) -> Array | Non
         (end,) = _search(fast, T[None], [(q + _STEP * way)[None]], Rule(1, 0, 200, 0), 0, 0)
         if len(end.solutions):
             step = end.solutions[0] - q
-            step -= turn * np.round(np.divide(step, turn, out=np.zeros_like(step), where=turn > 0))
+            step -= turn * np.round(step / np.where(turn > 0, turn, np.inf))
             if _STEP / 4 < np.linalg.norm(step) < 2 * _STEP:
                 return step
     return None

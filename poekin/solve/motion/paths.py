@@ -103,8 +103,10 @@ def line(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
     R_0 = _exact(T_s0)[..., :3, :3]
     R_1 = _exact(T_s1)[..., :3, :3]
     T = T_s0.copy()
-    T[..., :3, :3] = R_0 @ exp_of_vectors(s[..., None] * so3.log(np.swapaxes(R_0, -1, -2) @ R_1))
-    T[..., :3, 3] += s[..., None] * (T_s1[..., :3, 3] - T_s0[..., :3, 3])
+    w = so3.log(np.swapaxes(R_0, -1, -2) @ R_1)
+    way = T_s1[..., :3, 3] - T_s0[..., :3, 3]
+    T[..., :3, :3] = R_0 @ exp_of_vectors(s[..., None] * w)
+    T[..., :3, 3] += s[..., None] * way
     return _with_ends(T, T_s0, T_s1, s)
 
 
@@ -191,7 +193,8 @@ def path_lengths(T_s0: ArrayLike, T_s1: ArrayLike, along: Path = "line") -> Arra
     way = end[..., :3, 3] - start[..., :3, 3]
     if along == "screw":
         way = xi[..., 3:]
-    return np.stack([np.linalg.norm(way, axis=-1), np.linalg.norm(xi[..., :3], axis=-1)], axis=-1)
+    lengths = [np.linalg.norm(x, axis=-1) for x in (way, xi[..., :3])]
+    return np.stack(lengths, axis=-1)
 
 
 def _together(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> tuple[Array, Array, Array]:

@@ -78,7 +78,7 @@ class Timing:
         """s, s' and s'' at t (...), s. Raises: InputError."""
         t = numbers(t, "t")
         if self.duration == 0:
-            s = np.where(np.isnan(t), np.nan, np.where(t < 0, 0.0, 1.0))
+            s = np.heaviside(t, 1.0)
             return TimingSample(s, 0.0 * s, 0.0 * s)
         u = np.clip(t / self.duration, 0.0, 1.0)
         # the first half: the other one is its mirror, so that s ends at 1 exactly
@@ -96,16 +96,21 @@ class Timing:
     def _half(self, h: Array) -> tuple[Array, Array, Array]:
         """s, s' and s'' over u = t / T, for u <= 1/2."""
         if self.law == "cubic":
-            return h * h * (3 - 2 * h), 6 * h * (1 - h), 6 - 12 * h
+            s = h * h * (3 - 2 * h)
+            ds = 6 * h * (1 - h)
+            return s, ds, 6 - 12 * h
         if self.law == "quintic":
             s = h**3 * (10 + h * (6 * h - 15))
-            return s, 30 * (h * (1 - h)) ** 2, 60 * h * (1 - h) * (1 - 2 * h)
+            ds = 30 * (h * (1 - h)) ** 2
+            dds = 60 * h * (1 - h) * (1 - 2 * h)
+            return s, ds, dds
         r = self.acceleration_fraction
         top = 1 / (1 - r)
         speeding = h <= r
         s = np.where(speeding, 0.5 * top / r * h * h, top * (h - 0.5 * r))
+        ds = np.where(speeding, top / r * h, top)
         # where there is no even part, the middle belongs to both ramps
-        return s, np.where(speeding, top / r * h, top), np.where(speeding, top / r, 0.0)
+        return s, ds, np.where(speeding, top / r, 0.0)
 
 
 def cubic(duration: float) -> Timing:

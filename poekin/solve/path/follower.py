@@ -108,13 +108,13 @@ class Follower:
         found = (k, np.empty((0, self.dof)))
         tried = np.empty((0, self.dof))
         score: tuple[float, ...] = (k,)
-        if self._known is not None and self._known[0] <= k and not self._solution_of(k)[0]:
+        if self._known is not None and self._known[0] <= k and not self._solved(k):
             return found
         for turn in range(ROUNDS):
             for q0 in self._solutions(k, turn, last):
-                if len(tried) and (np.abs(tried - q0).max(axis=1) < 1e-6).any():
+                if (np.abs(tried - q0).max(axis=1) < 1e-6).any():
                     continue
-                tried = np.concatenate([tried, q0[None]])
+                tried = np.vstack([tried, q0])
                 end, q = self.on(k, q0, first=False)
                 if last is None:
                     far = float(np.abs(np.diff(q, axis=0)).max(initial=0.0))
@@ -123,14 +123,14 @@ class Follower:
                 if (end, -far) > score:
                     found = (end, q)
                     score = (end, -far)
-            if found[0] == len(self.targets) or not self._solution_of(found[0])[0]:
+            if found[0] == len(self.targets) or not self._solved(found[0]):
                 break
         return found
 
     def failure(self, k: int) -> tuple[str, float, Names, TaskNames]:
         """Cause for which pose k is not reached: its entries in `Causes`."""
-        success, solution, at = self._solution_of(k)
-        if success:
+        solution, at = self._solution_of(k)
+        if solution.success[at]:
             return ITERATIONS, 0.0, (), ()
         tasks = solution.reachable_tasks[at] if solution.reachable_tasks else ()
         beyond = float(solution.distance_beyond_reach[at])
@@ -183,7 +183,7 @@ class Follower:
         nearest of `ik`.
         """
         if last is None:
-            _, solution, at = self._solution_of(k)
+            solution, at = self._solution_of(k)
             return self.problem.units.of(solution.q[[at]])
         return self._towards(self.targets[k], last)[None]
 
@@ -206,17 +206,19 @@ class Follower:
         if last is not None and turn == 0:
             here = self.problem.coordinates(last)
             near = solve(self.problem, self.targets[k], nearest_to=here)
-            q = np.concatenate([self.problem.units.of(near.q[None])[: int(near.success)], q])
-        if not len(q):
-            success, solution, at = self._solution_of(k)
-            q = self.problem.units.of(solution.q[[at]])[: int(success)]
+            if near.success:
+                q = np.vstack([self.problem.units.of(near.q), q])
+        if not len(q) and self._solved(k):
+            return self._near(k, None)
         return q
 
-    def _solution_of(self, k: int) -> tuple[bool, Solution, int]:
-        """Whether `ik` solves pose k; what it says of it and all that follow, asked once; and where
-        k stands there.
-        """
+    def _solved(self, k: int) -> bool:
+        solution, at = self._solution_of(k)
+        return bool(solution.success[at])
+
+    def _solution_of(self, k: int) -> tuple[Solution, int]:
+        """Solutions by `ik` of pose k and all that follow, asked once; and where k stands there."""
         if self._known is None or self._known[0] > k:
             self._known = k, solve(self.problem, self.targets[k:])
         first, solution = self._known
-        return bool(solution.success[k - first]), solution, k - first
+        return solution, k - first

@@ -202,8 +202,9 @@ class PathResult(Result):
         T, J = units.fast.chain.fk_jacobian(units.of(self.q), "hybrid")
         J = np.where(np.isnan(locked), self.task.jacobian(T, J), 0.0)
         s = svd(scaled(J, -2, self.task.part, self.chain.reach))[1]
-        last = rank - 1
-        return np.divide(s[..., last], s[..., 0], out=np.zeros(len(s)), where=s[..., 0] != 0)
+        largest = s[:, 0]
+        least = s[:, rank - 1]
+        return np.divide(least, largest, out=np.zeros(len(s)), where=largest != 0)
 
     @cached_property
     def near_singular(self) -> tuple[PathInterval, ...]:

@@ -177,7 +177,7 @@ class Choice:
             return end, q0 + step * np.tile(np.arange(end - k, dtype=float)[:, None], (1, 3))
 
         self.f._solutions, self.f.on = solutions, on  # type: ignore[method-assign]
-        self.f._solution_of = lambda k: (k in solved, None, 0)  # type: ignore[method-assign, return-value, assignment]
+        self.f._solved = lambda k: k in solved  # type: ignore[method-assign]
 
 
 def test_the_start_that_gets_farthest_and_then_has_the_smallest_largest_step_is_chosen():
