@@ -126,13 +126,15 @@ def ik_all(  # noqa: PLR0913 - options by keyword
     rows = np.ascontiguousarray(wanted.reshape(-1, 4, 4))
     finite = np.asarray(np.isfinite(rows).all(axis=(1, 2)))
     solver = _solver(fast.chain, method)
-    rule = Rule(min_hits, restarts, iterations, _MAX_MISSES)
-    found = _found(fast, rows[finite], solver, rule, int(seed), limits)
-    every = [Found(np.empty((0, fast.dof)), np.empty(0), 0, 1, False)] * len(rows)
+    rule = Rule(min_hits, restarts, iterations, _MAX_MISSES, int(seed))
+    found = _found(fast, rows[finite], solver, rule, limits)
+    nothing = Found(np.empty((0, fast.dof)), np.empty(0), 0, 1, False)
+    every = [nothing] * len(rows)
     for k, f in zip(np.flatnonzero(finite), found, strict=True):
         every[k] = f
     places = _places(fast.chain, every, limits, all_revolutions)
-    order = _order(places.q * np.sign(units.of(np.ones(fast.dof))), places.owner)
+    signs = np.sign(units.of(np.ones(fast.dof)))
+    order = _order(places.q * signs, places.owner)
     q = units.coordinates(places.q[order], bounds(given, limits))
     places = _Places(q, places.owner[order], places.number[order], places.within)
     closed = None if solver is None else solver.said()
@@ -181,17 +183,18 @@ def _found(
     T: Array,
     solver: ClosedForm | None,
     rule: Rule,
-    seed: int,
     limits: bool,
 ) -> list[Found]:
     """Solutions of targets (N, 4, 4), by the closed form where there is one, else by search."""
     if solver is None:
-        return search(fast, T, [np.empty((0, fast.dof))] * len(T), rule, seed, limits)
+        none = np.empty((0, fast.dof))
+        return search(fast, T, [none] * len(T), rule, limits)
     starts, given_up = _starts(solver, T)
-    found = search(fast, T, starts, Rule(1, 0, rule.iterations, 0), 0, limits)
+    these_alone = Rule(1, 0, rule.iterations)
+    found = search(fast, T, starts, these_alone, limits)
     # where solutions become one or infinitely many, a closed form may lose them
     unsure = [k for k, f in enumerate(found) if f.singular or k in given_up]
-    again = search(fast, T[unsure], [starts[k] for k in unsure], rule, seed, limits)
+    again = search(fast, T[unsure], [starts[k] for k in unsure], rule, limits)
     for k, f in zip(unsure, again, strict=True):
         found[k] = f
     return found
@@ -251,10 +254,14 @@ def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: boo
                 f"all_revolutions: {most:.0f} places for one target, more than {MOST}; "
                 "`n_revolutions` of the result tells"
             )
-        ways = (
-            itertools.product(*map(np.arange, f, g + 1)) for f, g in zip(first, last, strict=True)
+        nearest = np.array(
+            [
+                turns
+                for f, g in zip(first, last, strict=True)
+                for turns in itertools.product(*map(np.arange, f, g + 1))
+            ]
         )
-        nearest = np.array(list(itertools.chain(*ways))).reshape(-1, chain.dof)
+        nearest = nearest.reshape(-1, chain.dof)
         each = number.astype(int)
         Q = np.repeat(Q, each, axis=0)
         owner = np.repeat(owner, each)
@@ -282,7 +289,8 @@ def _result(
 ) -> AllSolutions:
     """The result, of places in order, every solution looked at by `Chain.fk`."""
     batch = T.shape[:-2]
-    errors = pose_errors(chain, POSE, places.q, T.reshape(-1, 4, 4)[places.owner])
+    wanted = T.reshape(-1, 4, 4)[places.owner]
+    errors = pose_errors(chain, POSE, places.q, wanted)
     good = np.flatnonzero((errors <= accepted(chain)).all(axis=1))
     ends = np.searchsorted(places.owner[good], np.arange(len(found) + 1))
     own = [good[a:b] for a, b in itertools.pairwise(ends)]

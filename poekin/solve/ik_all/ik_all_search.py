@@ -65,13 +65,14 @@ class Rule:
     """Length of a search: until each solution was found `min_hits` times, within `restarts` tries
     of `iterations`.
 
-    It gives up after `max_misses` tries without any.
+    It gives up after `max_misses` tries without any; the seed is that of the random starts.
     """
 
     min_hits: int
     restarts: int
     iterations: int
-    max_misses: int
+    max_misses: int = 0
+    seed: int = 0
 
 
 def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
@@ -86,13 +87,16 @@ def turns_within(chain: Chain, Q: Array, limits: bool) -> tuple[Array, Array]:
     first = np.ceil((low - _EDGE - Q) / step)
     last = np.floor((high + _EDGE - Q) / step)
     inside = (low - _EDGE <= Q) & (high + _EDGE >= Q)
-    return np.where(turns, first, np.where(inside, 0.0, 1.0)), np.where(turns, last, 0.0)
+    first = np.where(turns, first, ~inside)
+    last = np.where(turns, last, 0.0)
+    return first, last
 
 
 def joined(found: list[Found], dof: int) -> tuple[Array, np.ndarray]:
     """Solutions (S, m) of all targets, and the number of the target of each."""
-    owner = np.repeat(np.arange(len(found)), [len(f.solutions) for f in found])
-    return np.concatenate([np.empty((0, dof)), *(f.solutions for f in found)]), owner
+    parts = [f.solutions for f in found]
+    owner = np.repeat(np.arange(len(found)), [len(q) for q in parts])
+    return np.concatenate([np.empty((0, dof)), *parts]), owner
 
 
 def search(
@@ -100,7 +104,6 @@ def search(
     T: Array,
     starts: Sequence[Array],
     rule: Rule,
-    seed: int,
     limits: bool,
 ) -> list[Found]:
     """Solutions of targets (N, 4, 4) from given starts (s, m) of each and then from random ones, by
@@ -109,7 +112,7 @@ def search(
     found: list[Found] = []
     for first in range(0, len(T), _AT_ONCE):
         some = slice(first, first + _AT_ONCE)
-        found += _search(fast, T[some], starts[some], rule, seed, first)
+        found += _search(fast, T[some], starts[some], rule, first)
     return _looked_at(fast, T, found, limits)
 
 
@@ -118,8 +121,7 @@ def _search(
     T: Array,
     starts: Sequence[Array],
     rule: Rule,
-    seed: int,
-    first: int,
+    first: int = 0,
 ) -> list[Found]:
     from ...engine.kernels import ik_all_kernel as kernel  # which imports Numba
 
@@ -147,7 +149,7 @@ def _search(
     free = bounds(chain, False)
     indices = np.arange(first, first + N, dtype=np.float64)
     options = kernel_options(POSE, _AIM * chain.reach, _AIM, rule.iterations)
-    tries = (rows, given, free, ranges, turn, options, rules, indices, seed)
+    tries = (rows, given, free, ranges, turn, options, rules, indices, rule.seed)
     T = np.ascontiguousarray(T)
     kernel.search.call(fast.hybrid_address, T, *tries, q, hits, info)
     found = []
@@ -199,7 +201,8 @@ def _looked_at(fast: CompiledChain, T: Array, found: list[Found], limits: bool) 
 
 def _size(chain: Chain) -> float:
     """Length of all links together (m), 1 where all are points."""
-    return float(np.linalg.norm(chain.local.frames[1:, :3, 3], axis=1).sum()) or 1.0
+    links = np.linalg.norm(chain.local.frames[1:, :3, 3], axis=1)
+    return float(links.sum()) or 1.0
 
 
 def _way_along(fast: CompiledChain, T: Array, q: Array, J: Array) -> Array | None:
@@ -212,8 +215,10 @@ def _way_along(fast: CompiledChain, T: Array, q: Array, J: Array) -> Array | Non
     _, sizes, V = np.linalg.svd(J)
     lost = V[: len(sizes)][sizes < _SINGULAR * sizes[0]]
     turn = periods(fast.chain)
+    rule = Rule(min_hits=1, restarts=0, iterations=200)
     for way in lost:
-        (end,) = _search(fast, T[None], [(q + _STEP * way)[None]], Rule(1, 0, 200, 0), 0, 0)
+        start = q + _STEP * way
+        (end,) = _search(fast, T[None], [start[None]], rule)
         if len(end.solutions):
             step = end.solutions[0] - q
             step -= turn * np.round(step / np.where(turn > 0, turn, np.inf))

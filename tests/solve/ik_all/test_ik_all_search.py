@@ -70,30 +70,28 @@ def test_the_links_are_so_long_together_and_points_count_as_a_metre():
 def test_a_long_batch_is_searched_32_targets_at_a_time_each_with_its_own_number(monkeypatch):
     asked: list[tuple[Any, ...]] = []
 
-    def part(
-        fast: Any, T: np.ndarray, starts: Any, rule: Rule, seed: int, first: int
-    ) -> list[Found]:
-        asked.append((len(T), float(starts[0][0, 0]), rule, seed, first))
+    def part(fast: Any, T: np.ndarray, starts: Any, rule: Rule, first: int = 0) -> list[Found]:
+        asked.append((len(T), float(starts[0][0, 0]), rule, first))
         return [Found(np.empty((0, 2)), np.empty(0), 0, 1, False)] * len(T)
 
     monkeypatch.setattr(module, "_search", part)
-    rule = Rule(3, 4, 5, 6)
+    rule = Rule(3, 4, 5, 6, 9)
     starts = [np.full((1, 2), float(k)) for k in range(70)]
-    found = module.search(arm().compile(), np.tile(np.eye(4), (70, 1, 1)), starts, rule, 9, True)
-    assert asked == [(32, 0.0, rule, 9, 0), (32, 32.0, rule, 9, 32), (6, 64.0, rule, 9, 64)]
+    found = module.search(arm().compile(), np.tile(np.eye(4), (70, 1, 1)), starts, rule, True)
+    assert asked == [(32, 0.0, rule, 0), (32, 32.0, rule, 32), (6, 64.0, rule, 64)]
     assert len(found) == 70
 
 
 def test_what_is_not_said_of_a_search_is_its_usual_rule(monkeypatch):
     asked: list[tuple[Any, ...]] = []
 
-    def search(fast: Any, T: Any, starts: Any, rule: Rule, seed: int, limits: bool) -> list[Found]:
-        asked.append((rule, seed, limits, [s.shape for s in starts]))
+    def search(fast: Any, T: Any, starts: Any, rule: Rule, limits: bool) -> list[Found]:
+        asked.append((rule, limits, [s.shape for s in starts]))
         return [Found(np.empty((0, 2)), np.empty(0), 0, rule.max_misses, False)] * len(T)
 
     monkeypatch.setattr(ik_all_module, "search", search)
     ik_all(arm(), np.tile(np.eye(4), (2, 1, 1)), method="search")
-    assert asked == [(Rule(14, 2000, 200, 200), 0, True, [(0, 2)] * 2)]
+    assert asked == [(Rule(14, 2000, 200, 200, 0), True, [(0, 2)] * 2)]
     accepted: tuple[dict[str, Any], ...] = (
         {"min_hits": 1}, {"restarts": 1}, {"iterations": 1}, {"seed": 0}, {"seed": 2**62 - 1}
     )  # fmt: skip
@@ -125,17 +123,15 @@ def test_a_walk_that_comes_to_rest_a_step_away_is_along_a_continuum(
     J = np.zeros((6, 2))
     J[0, 1] = 2.0  # the first coordinate moves nothing
 
-    def search(
-        fast: Any, T: np.ndarray, starts: Any, rule: Rule, seed: int, first: int
-    ) -> list[Found]:
-        asked.append((T.shape, starts[0] - q, rule, seed, first))
+    def search(fast: Any, T: np.ndarray, starts: Any, rule: Rule, first: int = 0) -> list[Found]:
+        asked.append((T.shape, starts[0] - q, rule, first))
         end = q + np.array([size + TURN * turns, 0])
         return [Found(np.array([end, end + 1]), np.ones(2), 1, 0, False)]
 
     monkeypatch.setattr(module, "_search", search)
     way = module._way_along(arm().compile(), np.eye(4), q, J)
-    ((shape, start, rule, seed, first),) = asked
-    assert (shape, rule, seed, first) == ((1, 4, 4), Rule(1, 0, 200, 0), 0, 0), (
+    ((shape, start, rule, first),) = asked
+    assert (shape, rule, first) == ((1, 4, 4), Rule(1, 0, 200, 0, 0), 0), (
         "one try, from there alone"
     )
     np.testing.assert_allclose(np.abs(start), [[STEP, 0]], atol=1e-15)
@@ -179,7 +175,7 @@ def test_the_kernel_is_told_starts_ranges_rules_and_the_number_of_each_target(mo
     monkeypatch.setattr(kernel, "search", SimpleNamespace(call=call))
     T = np.tile(np.eye(4), (3, 1, 1))
     starts = [np.array([[0.1, 0.2]]), np.empty((0, 2)), np.array([[0.3, 0.4], [0.5, 0.6]])]
-    found = module._search(fast, T, starts, Rule(3, 4, 5, 6), 9, 64)
+    found = module._search(fast, T, starts, Rule(3, 4, 5, 6, 9), 64)
     (words,) = asked
     (
         address,
@@ -219,5 +215,5 @@ def test_the_kernel_is_told_starts_ranges_rules_and_the_number_of_each_target(mo
     assert (found[0].solutions == 7).all()
     q[:] = 0.0
     assert (found[0].solutions == 7).all(), "a copy"
-    module._search(fast, T[:3], [np.empty((0, 2))] * 3, Rule(3, 4, 5, 6), 9, 0)
+    module._search(fast, T[:3], [np.empty((0, 2))] * 3, Rule(3, 4, 5, 6, 9))
     assert asked[1][2].shape == (3, 0, 2)

@@ -35,7 +35,8 @@ def nearest(
     """
     domain = problem.domain
     within = domain.held(np.clip(near, *domain.limits.T))
-    q, kept = problem.solve(targets, indices, np.where(np.isnan(q0), within, q0))
+    first = np.where(np.isnan(q0), within, q0)
+    q, kept = problem.solve(targets, indices, first)
     best = domain.wrapped(q, near)
     distance = _distance(best, near, kept)
     rng = np.random.default_rng(problem.settings.seed)
@@ -48,7 +49,8 @@ def nearest(
         limits = None if limited else anywhere
         other, info = problem.solve(targets, indices, start, restarts=0, limits=limits)
         other = domain.wrapped(other, near)
-        far = np.where(domain.contains(other), _distance(other, near, info), np.inf)
+        far = _distance(other, near, info)
+        far[~domain.contains(other)] = np.inf
         nearer = far < distance
         best[nearer] = other[nearer]
         distance[nearer] = far[nearer]
@@ -59,4 +61,5 @@ def nearest(
 def _distance(q: Array, near: Array, info: Array) -> Array:
     """Distance of solutions from a configuration; infinite where there is no solution."""
     solved = info[:, codes.AT_STATE] == codes.SOLVED
-    return np.where(solved, np.linalg.norm(q - near, axis=1), np.inf)
+    distance = np.linalg.norm(q - near, axis=1)
+    return np.where(solved, distance, np.inf)

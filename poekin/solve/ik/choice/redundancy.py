@@ -34,7 +34,9 @@ def optimise(problem: Problem, targets: Array, q: Array, q0: Array, objective: O
     best = q.copy()
     known = ~np.isnan(q).any(axis=1)  # of a bad target nothing is known
     start = q[known]
-    aim = make_aim(problem, np.where(np.isnan(q0[known]), start, q0[known]), objective)
+    near = q0[known]
+    near = np.where(np.isnan(near), start, near)
+    aim = make_aim(problem, near, objective)
     best[known] = _improved(aim, targets[known], start)
     return best
 
@@ -68,18 +70,20 @@ class Aim(NamedTuple):
         may move, in as many motions as they have at all.
         """
         if self.goal is not None:
-            return ((q - self.goal) ** 2 * self.weights).sum(axis=1)
+            squares = (q - self.goal) ** 2
+            return (squares * self.weights).sum(axis=1)
         sizes = np.linalg.svd(_jacobian(self.problem, q), compute_uv=False)
+        sizes = sizes[:, : self.problem.generic_rank]
         with np.errstate(divide="ignore"):
-            return -np.log(sizes[:, : self.problem.generic_rank]).sum(axis=1)
+            return -np.log(sizes).sum(axis=1)
 
     def moved(self, q: Array, step: Array) -> Array:
         """Configurations one step downhill in the null space of the task's Jacobian."""
         domain = self.problem.domain
         J = _jacobian(self.problem, q)
         z = self._way(q)
-        within_task = (np.linalg.pinv(J) @ (J @ z[..., None]))[..., 0]
-        moved = q + step[:, None] * (z - within_task)
+        within_task = np.linalg.pinv(J) @ (J @ z[..., None])
+        moved = q + step[:, None] * (z - within_task[..., 0])
         return domain.held(np.clip(moved, *domain.limits.T))
 
     def _way(self, q: Array) -> Array:
@@ -93,7 +97,8 @@ class Aim(NamedTuple):
             with np.errstate(invalid="ignore"):  # infinite less infinite
                 z[:, k] = self.value(q - h) - self.value(q + h)
         z = np.where(np.isfinite(z), z, 0.0) * (0.5 / DIFFERENCE)
-        return z / np.maximum(np.linalg.norm(z, axis=1, keepdims=True), 1.0)
+        size = np.linalg.norm(z, axis=1, keepdims=True)
+        return z / np.maximum(size, 1.0)
 
 
 def make_aim(problem: Problem, q0: Array, objective: Objective) -> Aim:
