@@ -91,8 +91,10 @@ def details(words: str, inner: str) -> str:
 
 def row(cells: Iterable[str], kinds: Sequence[str], kind: str = "", tag: str = "td") -> str:
     """Row of a table, of a class: texts, and the class of each."""
-    inner = (element(tag, text(words), k) for words, k in zip(cells, kinds, strict=True))
-    return element("tr", "".join(inner), kind)
+    inner = ""
+    for words, cell_kind in zip(cells, kinds, strict=True):
+        inner += element(tag, text(words), cell_kind)
+    return element("tr", inner, kind)
 
 
 def table(heads: Sequence[str], kinds: Sequence[str], rows: Iterable[str]) -> str:

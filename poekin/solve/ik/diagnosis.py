@@ -120,19 +120,22 @@ def distance_beyond_reach(chain: Chain, task: Task, targets: Array, limits: Arra
     nothing = np.zeros(len(targets))
     if task.name == "rotation" or not len(chain.screws):
         return nothing
-    offsets = targets[:, :3, 3] - chain.local.frames[0, :3, 3]
+    frames = chain.local.frames
+    offsets = targets[:, :3, 3] - frames[0, :3, 3]
     if task.name == "planar":
         offsets = offsets - np.outer(offsets @ task.axis, task.axis)
-    length = np.linalg.norm(chain.local.frames[1:, :3, 3], axis=1).sum()
+    length = np.linalg.norm(frames[1:, :3, 3], axis=1).sum()
     ratios = np.abs(chain.coupling)
     farthest = np.abs(limits).max(axis=1, initial=0.0)
-    for k in np.flatnonzero(chain.local.slides):
+    slides = np.abs(chain.local.slides)
+    for k in np.flatnonzero(slides):
         moves = ratios[k] > 0
-        way = (ratios[k, moves] * farthest[moves]).sum()
-        length += abs(chain.local.slides[k]) * (abs(chain.offset[k]) + way)
+        ways = ratios[k, moves] * farthest[moves]
+        length += slides[k] * (abs(chain.offset[k]) + ways.sum())
     if not np.isfinite(length):
         return nothing
-    return np.maximum(np.linalg.norm(offsets, axis=1) - length * (1 + 1e-12), 0.0)
+    far = np.linalg.norm(offsets, axis=1)
+    return np.maximum(far - length * (1 + 1e-12), 0.0)
 
 
 def settle(problem: Problem, targets: Array, q: Array, info: Array, rows: np.ndarray) -> None:
@@ -144,7 +147,8 @@ def settle(problem: Problem, targets: Array, q: Array, info: Array, rows: np.nda
     domain = problem.domain
     low, high = map(domain.held, domain.limits.T)
     for k in rows:
-        nearest = least_error(partial(slope_at, problem, targets[k]), q[k], low, high)
+        slope = partial(slope_at, problem, targets[k])
+        nearest = least_error(slope, q[k], low, high)
         q[k] = domain.wrapped(nearest, q[k])
         info[k, codes.AT_STATE] = codes.STALLED
 
@@ -180,8 +184,8 @@ def limits_hit(
     the solution without limits.
     """
     lower, upper = domain.limits.T
-    at_bound = (np.abs(q - lower) <= AT_LIMIT) | (np.abs(q - upper) <= AT_LIMIT)
-    hit = at_bound & ~domain.locked
+    off = np.minimum(np.abs(q - lower), np.abs(q - upper))
+    hit = (off <= AT_LIMIT) & ~domain.locked
     if not hit.any():
         hit = (found < lower) | (found > upper)
     return tuple(itertools.compress(names, hit))

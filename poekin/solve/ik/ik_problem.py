@@ -110,7 +110,8 @@ class Problem:
         q = self.units.coordinates(u, bounds(self.given, self.settings.limits))
         for name, value in self.settings.lock or ():  # to the last digit
             k = self.given.q_names.index(name)
-            q[..., k] = np.where(np.isnan(q).any(axis=-1), np.nan, value)
+            unknown = np.isnan(q).any(axis=-1)
+            q[..., k] = np.where(unknown, np.nan, value)
         return q
 
     def pose_errors(self, targets: Array, q: Array) -> tuple[Array, np.ndarray]:
@@ -184,7 +185,7 @@ def make_problem(fast: CompiledChain, settings: Settings) -> Problem:
         kept = _PROBLEMS.get(fast, key)
     except TypeError:  # no number, and so no key: the checks say what it is
         kept = None
-    return _PROBLEMS.keep(fast, Problem(fast, settings), key) if kept is None else kept
+    return kept or _PROBLEMS.keep(fast, Problem(fast, settings), key)
 
 
 def _task(settings: Settings, chain: Chain, domain: JointDomain) -> Task:

@@ -127,10 +127,10 @@ def for_targets(chain: Chain, batch: tuple[int, ...], count: int, q: Any, what: 
     given = coordinates(q, chain.q_names, what)
     if not np.isfinite(given).all():
         raise InputError(f"{what}: expected finite numbers, got {safe_repr(q)}")
+    expected = (*batch, chain.dof)
     try:
-        return np.broadcast_to(given, (*batch, chain.dof)).reshape(count, chain.dof).copy()
+        return np.broadcast_to(given, expected).reshape(count, chain.dof).copy()
     except ValueError as error:
-        expected = (*batch, chain.dof)
         raise ShapeError(
             f"{what}: shape {given.shape} does not fit the targets' {expected}"
         ) from error

@@ -38,7 +38,8 @@ def solve(
     first = first_tries(problem.units, problem.domain, batch, count, q0)
     near = None
     if nearest_to is not None:
-        near = problem.units.of(for_targets(problem.given, batch, count, nearest_to, "nearest_to"))
+        near = for_targets(problem.given, batch, count, nearest_to, "nearest_to")
+        near = problem.units.of(near)
     if count <= AT_ONCE and near is None and objective is None and progress is None:
         u, info = problem.solve(rows, np.arange(count, dtype=float), first)
     else:

@@ -64,7 +64,8 @@ class Task:
         moves = np.isnan(locked)
         q = np.where(moves, random_configurations(chain), locked)
         T, J = chain.fk_jacobian(q, "hybrid")
-        return largest_rank(np.where(moves, self.jacobian(T, J), 0.0), chain.reach, self.part)
+        J = np.where(moves, self.jacobian(T, J), 0.0)
+        return largest_rank(J, chain.reach, self.part)
 
     def jacobian(self, T: Array, J: Array) -> Array:
         """Hybrid Jacobians J (..., 6, m) at poses T (..., 4, 4), without the turn about a
@@ -76,8 +77,8 @@ class Task:
         if self.name == "planar":
             pose_error.keep_in_plane(self.axis, columns, J.shape[-1])
         else:
-            a = np.moveaxis(T[..., :3, :3] @ self.axis, -1, 0)
-            pose_error.remove_turn_about(a, columns, J.shape[-1])
+            a = T[..., :3, :3] @ self.axis
+            pose_error.remove_turn_about(np.moveaxis(a, -1, 0), columns, J.shape[-1])
         return np.moveaxis(columns, (0, 1), (-2, -1))
 
 
@@ -100,7 +101,8 @@ def targets(T: ArrayLike, what: str) -> Array:
         return poses(T, what)
     except PoseError:
         rows = shaped(T, (4, 4), what).copy()
-        rows[~np.isfinite(rows).all(axis=(-2, -1))] = np.nan
+        finite = np.isfinite(rows).all(axis=(-2, -1))
+        rows[~finite] = np.nan
         return poses(rows, what)
 
 
@@ -126,4 +128,5 @@ def make_task(name: Any, axis: Any, weights: Any) -> Task:
         w[:3] = 0.0
     if name == "rotation":
         w[3:] = 0.0
-    return Task(cast(TaskName, name), a / np.linalg.norm(a), w / w.max())
+    a = a / np.linalg.norm(a)
+    return Task(cast(TaskName, name), a, w / w.max())

@@ -131,8 +131,10 @@ def _is_safe(form: HPForm) -> bool:
 
 def _finds_what_is_known(solver: ClosedForm, chain: Chain) -> bool:
     """Whether the configurations that poses were made of are among the starts for them."""
-    for q in np.random.default_rng(0).uniform(-np.pi, np.pi, (_ASKED, chain.dof)):
-        off = (solver.starts(chain.fk(q)) - q + np.pi) % (2 * np.pi) - np.pi
-        if not (np.abs(off).max(axis=1, initial=0.0) < _FOUND).any():
+    rng = np.random.default_rng(0)
+    for q in rng.uniform(-np.pi, np.pi, (_ASKED, chain.dof)):
+        off = solver.starts(chain.fk(q)) - q
+        off = np.abs((off + np.pi) % (2 * np.pi) - np.pi)
+        if not (off.max(axis=1, initial=0.0) < _FOUND).any():
             return False
     return True

@@ -61,7 +61,8 @@ def screw(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
     T_s0, T_s1, s = _together(T_s0, T_s1, s)
     start = _exact(T_s0)
     xi = se3.log(se3.inverse(start) @ _exact(T_s1))
-    return _with_ends(start @ se3.exp(s[..., None] * xi), T_s0, T_s1, s)
+    T = start @ se3.exp(s[..., None] * xi)
+    return _with_ends(T, T_s0, T_s1, s)
 
 
 def line(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> Array:
@@ -207,8 +208,9 @@ def _together(T_s0: ArrayLike, T_s1: ArrayLike, s: ArrayLike) -> tuple[Array, Ar
     except ValueError as error:
         shapes = f"T_s0 {T_s0.shape}, T_s1 {T_s1.shape} and s {s.shape}"
         raise ShapeError(f"the leading axes do not broadcast: {shapes}") from error
-    shape = (*batch, 4, 4)
-    return np.broadcast_to(T_s0, shape), np.broadcast_to(T_s1, shape), np.broadcast_to(s, batch)
+    T_s0 = np.broadcast_to(T_s0, (*batch, 4, 4))
+    T_s1 = np.broadcast_to(T_s1, (*batch, 4, 4))
+    return T_s0, T_s1, np.broadcast_to(s, batch)
 
 
 def _exact(T: Array) -> Array:
@@ -223,4 +225,5 @@ def _exact(T: Array) -> Array:
 def _with_ends(T: Array, T_s0: Array, T_s1: Array, s: Array) -> Array:
     """The path with the poses as they were given at its ends."""
     s = s[..., None, None]
-    return np.where(s == 0, T_s0, np.where(s == 1, T_s1, T))
+    T = np.where(s == 1, T_s1, T)
+    return np.where(s == 0, T_s0, T)

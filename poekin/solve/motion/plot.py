@@ -70,8 +70,9 @@ def plot_joints(
 
     def draw(figure: Any) -> None:
         rows: Any = figure.subplots(max(chain.dof, 1), sharex=True, squeeze=False)[:, 0]
+        inside = [b for b in breaks if 0 < b < len(t)]
         for k, name in enumerate(chain.q_names):
-            _one(rows[k], t, joints[:, k], chain.limits[k], [b for b in breaks if 0 < b < len(t)])
+            _one(rows[k], t, joints[:, k], chain.limits[k], inside)
             rows[k].set_title(
                 f"{svg.label(name)} ({'rad' if chain.is_angle(k) else 'm'})",
                 loc="left",

@@ -108,22 +108,26 @@ class Follower:
         found = (k, np.empty((0, self.dof)))
         tried = np.empty((0, self.dof))
         score: tuple[float, ...] = (k,)
-        if self._known is not None and self._known[0] <= k and not self._solved(k):
+        known = self._known is not None and self._known[0] <= k
+        if known and not self._solved(k):
             return found
         for turn in range(ROUNDS):
             for q0 in self._solutions(k, turn, last):
-                if (np.abs(tried - q0).max(axis=1) < 1e-6).any():
+                far = np.abs(tried - q0).max(axis=1)
+                if (far < 1e-6).any():
                     continue
                 tried = np.vstack([tried, q0])
                 end, q = self.on(k, q0, first=False)
                 if last is None:
-                    far = float(np.abs(np.diff(q, axis=0)).max(initial=0.0))
+                    steps = np.abs(np.diff(q, axis=0))
+                    jump = float(steps.max(initial=0.0))
                 else:
-                    far = float(np.linalg.norm(q0 - last))
-                if (end, -far) > score:
+                    jump = float(np.linalg.norm(q0 - last))
+                if (end, -jump) > score:
                     found = (end, q)
-                    score = (end, -far)
-            if found[0] == len(self.targets) or not self._solved(found[0]):
+                    score = (end, -jump)
+            end = found[0]
+            if end == len(self.targets) or not self._solved(end):
                 break
         return found
 
@@ -198,7 +202,8 @@ class Follower:
         """Solutions of pose k: the nearest to the last joints first, then of random starts."""
         T = np.tile(self.targets[k], (TRIES, 1, 1))
         number = np.arange(TRIES, dtype=float) + TRIES * turn
-        q, info = self.problem.solve(T, number, self.domain.anywhere(TRIES), restarts=10)
+        anywhere = self.domain.anywhere(TRIES)
+        q, info = self.problem.solve(T, number, anywhere, restarts=10)
         q = q[info[:, codes.AT_STATE] == codes.SOLVED]
         if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are
             near_to = self.domain.ranges.mean(axis=1) if last is None else last

@@ -140,7 +140,8 @@ class PathResult(Result):
     @cached_property
     def steps(self) -> Array:
         """Largest change of a coordinate from each point to the next (N - 1,), rad or m."""
-        return np.abs(np.diff(self.q, axis=0)).max(axis=1, initial=0.0)
+        steps = np.abs(np.diff(self.q, axis=0))
+        return steps.max(axis=1, initial=0.0)
 
     @property
     def largest_step(self) -> float:
@@ -201,7 +202,7 @@ class PathResult(Result):
             return np.ones(len(self.q))
         T, J = units.fast.chain.fk_jacobian(units.of(self.q), "hybrid")
         J = np.where(np.isnan(locked), self.task.jacobian(T, J), 0.0)
-        s = svd(scaled(J, -2, self.task.part, self.chain.reach))[1]
+        _, s, _ = svd(scaled(J, -2, self.task.part, self.chain.reach))
         largest = s[:, 0]
         least = s[:, rank - 1]
         return np.divide(least, largest, out=np.zeros(len(s)), where=largest != 0)
@@ -291,13 +292,15 @@ class PathResult(Result):
         size = np.nan_to_num(self.position_error + self.rotation_error)
         bad = self.reason == BAD_TARGET
         said = []
-        for s in sorted(_intervals(bad, size, size) + _intervals(~self.success & ~bad, size, size)):
+        missed = ~self.success & ~bad
+        for s in sorted(_intervals(bad, size, size) + _intervals(missed, size, size)):
             where = "" if s.first == s.last else f", least of all {s.worst}"
             said.append(f"{_points(s)} not reached{where}: {self.solution.summary(s.worst)}")
         return said
 
     def _switch(self, k: int) -> str:
-        before = int(np.flatnonzero(np.isfinite(self.q[:k]).all(axis=1))[-1])
+        known = np.isfinite(self.q[:k]).all(axis=1)
+        before = int(np.flatnonzero(known)[-1])
         jump = np.abs(self.q[k] - self.q[before])
         return (
             f"the branch changes before pose {k}: no way on from pose {before}; the joints jump by "
@@ -368,7 +371,7 @@ def _intervals(
     """Interval for each run of True, shifted; the worst point of it is where the badness is
     largest.
     """
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
+    edges = np.flatnonzero(np.diff(mask, prepend=False, append=False))
     found = []
     for first, end in edges.reshape(-1, 2).tolist():
         worst = first + int(np.argmax(badness[first:end]))
