@@ -100,7 +100,8 @@ def find_causes(
     )
     solved = ends[:, codes.AT_STATE] == codes.SOLVED
     for u, k in zip(free[solved], open_ones[solved], strict=True):
-        within = domain.wrapped(u, np.clip(u, *domain.limits.T))
+        near = np.clip(u, *domain.limits.T)
+        within = domain.wrapped(u, near)
         if domain.contains(within):
             q[k] = within
             reason[k] = SOLVED
@@ -166,8 +167,12 @@ def reachable_tasks(
             other = problem.with_task(name)
         except InputError:  # the arm has no plane
             continue
-        restarts = min(OTHER_RESTARTS, problem.settings.restarts)
-        q, _ = other.solve(targets[rows], rows.astype(float), first[rows], restarts=restarts)
+        q, _ = other.solve(
+            targets[rows],
+            rows.astype(float),
+            first[rows],
+            restarts=min(OTHER_RESTARTS, problem.settings.restarts),
+        )
         _, success = other.pose_errors(targets[rows], other.coordinates(q))
         for k in rows[success]:
             tasks[k] = (*tasks[k], name)

@@ -35,7 +35,8 @@ def least_error(slope: Callable[[Array], Slope], q: Array, low: Array, high: Arr
     size, H, g = slope(q)
     for _ in range(STEPS):
         least = REGULAR * H.diagonal().max()
-        step = np.linalg.solve(H + max(damping, least) * np.eye(len(q)), g)
+        damped = H + max(damping, least) * np.eye(len(q))
+        step = np.linalg.solve(damped, g)
         tried = np.clip(q + step, low, high)
         new = slope(tried)
         if new[0] < size:
@@ -61,4 +62,5 @@ def slope_at(problem: Problem, target: Array, q: Array) -> Slope:
     size = float(weights @ e**2)
     if problem.underactuated:
         e = np.array(pose_error.downhill(e))
-    return size, (J.T * weights) @ J, (J.T * weights) @ e
+    weighted = J.T * weights
+    return size, weighted @ J, weighted @ e

@@ -22,7 +22,8 @@ def plane_normal(chain: Chain, domain: JointDomain) -> Array:
     """
     moves = (chain.coupling[:, ~domain.locked] != 0).any(axis=1)
     names = np.array(chain.joint_names)[moves]
-    turns, slides = _directions(chain, np.nan_to_num(domain.locked_values))[:, moves]
+    q = np.nan_to_num(domain.locked_values)
+    turns, slides = _directions(chain, q)[:, moves]
     turning = turns.any(axis=1)
     if not turning.any():
         _, sizes, V = np.linalg.svd(slides)
@@ -30,8 +31,10 @@ def plane_normal(chain: Chain, domain: JointDomain) -> Array:
             return V[2]
         raise _no_plane("it has no turning axis, and its slides span no plane")
     first = turns[turning][0]
-    turns = np.where((turns @ first < 0)[:, None], -turns, turns)
-    slanted = np.linalg.norm(np.cross(turns, first), axis=1) > PARALLEL
+    opposite = turns @ first < 0
+    turns[opposite] *= -1
+    sines = np.linalg.norm(np.cross(turns, first), axis=1)
+    slanted = sines > PARALLEL
     if slanted.any():
         raise _no_plane(
             f"{join_names(names[slanted])} not parallel to {join_names(names[turning][:1])}"

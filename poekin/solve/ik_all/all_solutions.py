@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -108,11 +109,13 @@ def missing_probability(found: Found) -> float:
     them with the chance (1 - p)^N; p is set to half the smallest share seen. The closed form misses
     none.
     """
-    if found.self_motion_coordinates or found.full or (found.restarts and not len(found.solutions)):
-        return float("nan")
+    nothing = found.restarts and not len(found.solutions)
+    if found.self_motion_coordinates or found.full or nothing:
+        return math.nan
     if not found.restarts:
         return 0.0
-    return float((1.0 - 0.5 * found.hits.min() / found.ends) ** found.ends)
+    share = 0.5 * found.hits.min() / found.ends
+    return float((1.0 - share) ** found.ends)
 
 
 def in_words(found: Found, inside: int, closed: str | None) -> str:

@@ -292,7 +292,8 @@ def _result(
     wanted = T.reshape(-1, 4, 4)[places.owner]
     errors = pose_errors(chain, POSE, places.q, wanted)
     good = np.flatnonzero((errors <= accepted(chain)).all(axis=1))
-    ends = np.searchsorted(places.owner[good], np.arange(len(found) + 1))
+    numbers = np.arange(len(found) + 1)
+    ends = np.searchsorted(places.owner[good], numbers)
     own = [good[a:b] for a, b in itertools.pairwise(ends)]
     worst = [errors[k].max(axis=0) if len(k) else (np.nan, np.nan) for k in own]
     position, rotation = np.reshape(worst, (-1, 2)).T

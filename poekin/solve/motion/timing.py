@@ -107,7 +107,8 @@ class Timing:
         r = self.acceleration_fraction
         top = 1 / (1 - r)
         speeding = h <= r
-        s = np.where(speeding, 0.5 * top / r * h * h, top * (h - 0.5 * r))
+        even = top * (h - 0.5 * r)
+        s = np.where(speeding, 0.5 * top / r * h * h, even)
         ds = np.where(speeding, top / r * h, top)
         # where there is no even part, the middle belongs to both ramps
         return s, ds, np.where(speeding, top / r, 0.0)

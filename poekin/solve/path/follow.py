@@ -150,7 +150,7 @@ def follow(  # noqa: PLR0913 - options by keyword
     return PathResult(
         chain=given,
         solution=_solution(follower, path, finite, problem.coordinates(joints)),
-        branch_switches=tuple(int(np.flatnonzero(finite)[k]) for k in broken),
+        branch_switches=tuple(np.flatnonzero(finite)[broken].tolist()),
         task=problem.task,
         limits=bounds(given, limits),
         times=when,
@@ -173,8 +173,9 @@ def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array)
     beyond = np.zeros(count)
     hit: list[Names] = [()] * count
     tasks: list[TaskNames] = [()] * count
-    for k in np.flatnonzero(finite & ~success):
-        reason[k], beyond[k], hit[k], tasks[k] = follower.failure(int(np.searchsorted(at, k)))
+    for number, k in enumerate(at):
+        if not success[k]:
+            reason[k], beyond[k], hit[k], tasks[k] = follower.failure(number)
     nothing = np.zeros(count, np.int64)
     return Solution(
         q,

@@ -4,6 +4,7 @@ then anew.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -30,33 +31,22 @@ path.
 """
 
 
+@dataclass(eq=False)
 class Follower:
     """One path of finite poses, and what is known of it; all joints are in joint units
     (`joint_units`).
     """
 
-    def __init__(
-        self,
-        problem: Problem,
-        targets: Array,
-        most: Array,
-        progress: Progress | None,
-    ) -> None:
-        from ...engine.kernels import follow_kernels  # imports Numba
-
-        self._kernel = follow_kernels.follow
-        self.problem = problem
-        self.targets = targets
-        self.most = most
-        self.progress = progress
-        self.dof = problem.fast.dof
-        self.domain = problem.domain
-        self._known: tuple[int, Solution] | None = None
+    problem: Problem
+    targets: Array
+    most: Array
+    progress: Progress | None
+    _known: tuple[int, Solution] | None = None
 
     def run(self, q0: Array | None) -> tuple[Array, list[int]]:
         """q (N, m), and before which poses the branch changed."""
         count = len(self.targets)
-        q = np.empty((count, self.dof))
+        q = np.empty((count, len(self.most)))
         changes = []
         k = 0
         last = q0
@@ -86,7 +76,7 @@ class Follower:
         end, and q.
         """
         targets = self.targets[k:]
-        q = np.empty((len(targets), self.dof))
+        q = np.empty((len(targets), len(self.most)))
         done = 0
         while done < len(targets):
             anywhere = first and not done
@@ -105,8 +95,8 @@ class Follower:
         """The one of several solutions of pose k that gets farthest, and then jumps and moves
         least; its end, and q.
         """
-        found = (k, np.empty((0, self.dof)))
-        tried = np.empty((0, self.dof))
+        found = (k, np.empty((0, len(self.most))))
+        tried = np.empty((0, len(self.most)))
         score: tuple[float, ...] = (k,)
         known = self._known is not None and self._known[0] <= k
         if known and not self._solved(k):
@@ -144,13 +134,15 @@ class Follower:
         """Number of targets that are followed from `start`; where `anywhere`, the first of them at
         any distance from it.
         """
+        from ...engine.kernels import follow_kernels  # imports Numba
+
         arm = self.problem.fast.hybrid_address
-        asked = (self.domain.limits, self.problem.locked, self.problem.options)
+        asked = (self.problem.domain.limits, self.problem.locked, self.problem.options)
         info = np.empty((len(targets), codes.INFO))
 
         def go(some: slice, start: Array, most: Array) -> int:
             place = (most, q[some], info[some])
-            return self._kernel.call(arm, targets[some], start.copy(), *asked, *place)
+            return follow_kernels.follow.call(arm, targets[some], start.copy(), *asked, *place)
 
         if not anywhere:
             return go(slice(None), start, self.most)
@@ -164,7 +156,7 @@ class Follower:
         """
         for pieces in PIECES:
             between = paths.screw(T_a, T_b, np.arange(1, pieces + 1) / pieces)
-            q = np.empty((pieces, self.dof))
+            q = np.empty((pieces, len(self.most)))
             if self.problem.underactuated:
                 q[-2] = self._beside(between[:-1], q_a)
                 if self._descend(between[-1:], q[-2], q[-1:]):
@@ -193,21 +185,22 @@ class Follower:
 
     def _towards(self, target: Array, q: Array) -> Array:
         """Joints (m,) as near to a pose as they get within one step of q."""
-        limits = self.domain.limits.T
-        low = self.domain.held(np.clip(q - self.most, *limits))
-        high = self.domain.held(np.clip(q + self.most, *limits))
-        return least_error(partial(slope_at, self.problem, target), q, low, high)
+        domain = self.problem.domain
+        low = np.clip(q - self.most, *domain.limits.T)
+        high = np.clip(q + self.most, *domain.limits.T)
+        slope = partial(slope_at, self.problem, target)
+        return least_error(slope, q, domain.held(low), domain.held(high))
 
     def _solutions(self, k: int, turn: int, last: Array | None) -> Array:
         """Solutions of pose k: the nearest to the last joints first, then of random starts."""
         T = np.tile(self.targets[k], (TRIES, 1, 1))
         number = np.arange(TRIES, dtype=float) + TRIES * turn
-        anywhere = self.domain.anywhere(TRIES)
+        anywhere = self.problem.domain.anywhere(TRIES)
         q, info = self.problem.solve(T, number, anywhere, restarts=10)
         q = q[info[:, codes.AT_STATE] == codes.SOLVED]
         if turn % 2 == 0:  # turns are taken off, towards the middle of the limits; else as they are
-            near_to = self.domain.ranges.mean(axis=1) if last is None else last
-            q = self.domain.wrapped(q, near_to)
+            near_to = self.problem.domain.ranges.mean(axis=1) if last is None else last
+            q = self.problem.domain.wrapped(q, near_to)
         if last is not None and turn == 0:
             here = self.problem.coordinates(last)
             near = solve(self.problem, self.targets[k], nearest_to=here)

@@ -153,7 +153,8 @@ class PathResult(Result):
         """Mean rates (N - 1, m), (q_{k+1} - q_k) / (t_{k+1} - t_k); None without times."""
         if self.times is None:
             return None
-        return np.diff(self.q, axis=0) / np.diff(self.times)[:, None]
+        dt = np.diff(self.times)
+        return np.diff(self.q, axis=0) / dt[:, None]
 
     @cached_property
     def accelerations(self) -> Array | None:
@@ -164,7 +165,8 @@ class PathResult(Result):
         if self.times is None or self.rates is None:
             return None
         middles = 0.5 * (self.times[1:] + self.times[:-1])
-        return np.diff(self.rates, axis=0) / np.diff(middles)[:, None]
+        dt = np.diff(middles)
+        return np.diff(self.rates, axis=0) / dt[:, None]
 
     @cached_property
     def at_limits(self) -> tuple[PathInterval, ...]:
@@ -248,8 +250,13 @@ class PathResult(Result):
         FileError
             If the file cannot be written.
         """
-        breaks = self.branch_switches
-        return plot_joints(self.q, self.chain, times=self.times, breaks=breaks, path=path)
+        return plot_joints(
+            self.q,
+            self.chain,
+            times=self.times,
+            breaks=self.branch_switches,
+            path=path,
+        )
 
     def summary(self) -> str:
         """Report, one sentence a line: poses not reached, changes of branch, limits, singularities.
