@@ -9,10 +9,19 @@ import pytest
 from poekin.solve.ik import joint_domain, solution, task
 from poekin.solve.ik_all import all_solutions, ik_all_search
 from poekin.solve.motion import timing
-from poekin.solve.path import path_result
+from poekin.solve.path import path_interval, path_result
 from tests import findings
 
-OWN = (all_solutions, path_result, ik_all_search, solution, joint_domain, task, timing)
+OWN = (
+    all_solutions,
+    path_interval,
+    path_result,
+    ik_all_search,
+    solution,
+    joint_domain,
+    task,
+    timing,
+)
 FOUND = [
     *(kind for module in OWN for kind in findings.dataclasses_of(*module.__name__.rsplit(".", 1))),
 ]

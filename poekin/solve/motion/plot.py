@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,7 +11,7 @@ from numpy.typing import ArrayLike
 from ...formats.text.atomic_write import write_whole
 from ...model.chain import Chain
 from .. import svg
-from .csv_io import joints_over_time
+from .csv_io import Path, joints_over_time
 
 
 def plot_joints(
@@ -21,7 +20,7 @@ def plot_joints(
     *,
     times: ArrayLike | None = None,
     breaks: Sequence[int] = (),
-    path: str | os.PathLike[str] | None = None,
+    path: Path | None = None,
 ) -> str:
     """Plot of each coordinate over time, or over the number of the point, one below the other.
 

@@ -168,6 +168,7 @@ def _solution(follower: Follower, path: Array, finite: np.ndarray, found: Array)
     q = np.full((count, problem.given.dof), np.nan)
     q[at] = found
     errors, success = problem.pose_errors(path, q)
+    errors[~finite] = np.nan
     reason = np.full(count, BAD_TARGET, KIND)
     reason[success] = SOLVED
     beyond = np.zeros(count)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -19,38 +18,13 @@ from ..ik.diagnosis import AT_LIMIT
 from ..ik.solution import BAD_TARGET, Solution
 from ..ik.task import Task
 from ..joint_units import joint_units
-from ..motion.csv_io import write_joints
+from ..motion.csv_io import Path, write_joints
 from ..motion.plot import plot_joints
+from .path_interval import PathInterval, intervals
 
 NEAR_SINGULAR = 1e-2
 """Smallest ÷ largest singular value of the Jacobian, lengths ÷ reach, below which a singularity is
 met: the rates of some joints are then some hundred times those of others."""
-
-
-@dataclass(frozen=True, order=True)
-class PathInterval:
-    """Points of a path between which something holds.
-
-    Attributes
-    ----------
-    first, last : int
-        Numbers of the first and the last point.
-    name : str
-        Name of the coordinate; "" for all of them together.
-    worst : int
-        Number of the worst point.
-    value : float
-        Value there.
-    bound : float
-        Number with which it is compared.
-    """
-
-    first: int
-    last: int
-    name: str
-    worst: int
-    value: float
-    bound: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,7 +150,7 @@ class PathResult(Result):
             q = self.q[:, k]
             for bound in self.limits[k]:
                 off = np.abs(q - bound)
-                found += _intervals(off <= AT_LIMIT, q, -off, bound, name)
+                found += intervals(off <= AT_LIMIT, q, -off, bound, name)
         return tuple(sorted(found))
 
     @cached_property
@@ -213,9 +187,9 @@ class PathResult(Result):
     def near_singular(self) -> tuple[PathInterval, ...]:
         """Intervals in which `inverse_condition` is below 0.01."""
         value = self.inverse_condition
-        return tuple(_intervals(value < NEAR_SINGULAR, value, -value, NEAR_SINGULAR))
+        return tuple(intervals(value < NEAR_SINGULAR, value, -value, NEAR_SINGULAR))
 
-    def to_csv(self, path: str | os.PathLike[str]) -> None:
+    def to_csv(self, path: Path) -> None:
         """Writes q, and times where there are any, as `motion.read_joints` reads it.
 
         Parameters
@@ -230,7 +204,7 @@ class PathResult(Result):
         """
         write_joints(path, self.q, self.chain, times=self.times)
 
-    def plot(self, path: str | os.PathLike[str] | None = None) -> str:
+    def plot(self, path: Path | None = None) -> str:
         """Plot of the joints over time, as `motion.plot_joints` draws it.
 
         Parameters
@@ -300,7 +274,7 @@ class PathResult(Result):
         bad = self.reason == BAD_TARGET
         said = []
         missed = ~self.success & ~bad
-        for s in sorted(_intervals(bad, size, size) + _intervals(missed, size, size)):
+        for s in sorted(intervals(bad, size, size) + intervals(missed, size, size)):
             where = "" if s.first == s.last else f", least of all {s.worst}"
             said.append(f"{_points(s)} not reached{where}: {self.solution.summary(s.worst)}")
         return said
@@ -363,35 +337,8 @@ class PathResult(Result):
         found = []
         for k, name in enumerate(self.chain.q_names):
             size = np.abs(values[:, k])
-            found += _intervals(size > bounds[k], size, size, bounds[k], name, shift)
+            found += intervals(size > bounds[k], size, size, bounds[k], name, shift)
         return tuple(sorted(found))
-
-
-def _intervals(
-    mask: np.ndarray,
-    values: Array,
-    badness: Array,
-    bound: float = 0.0,
-    name: str = "",
-    shift: int = 0,
-) -> list[PathInterval]:
-    """Interval for each run of True, shifted; the worst point of it is where the badness is
-    largest.
-    """
-    edges = np.flatnonzero(np.diff(mask, prepend=False, append=False))
-    found = []
-    for first, end in edges.reshape(-1, 2).tolist():
-        worst = first + int(np.argmax(badness[first:end]))
-        interval = PathInterval(
-            first=first + shift,
-            last=end - 1 + shift,
-            name=name,
-            worst=worst + shift,
-            value=float(values[worst]),
-            bound=float(bound),
-        )
-        found.append(interval)
-    return found
 
 
 def _exceeds(s: PathInterval, what: str, unit: str) -> str:

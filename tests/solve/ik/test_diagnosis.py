@@ -80,6 +80,16 @@ def test_the_reach_is_that_of_links_and_slides_within_their_limits(
     ).all()
 
 
+def test_a_target_beside_the_plane_of_an_arm_is_as_far_as_its_foot_in_the_plane():
+    axes = [screw.revolute([0, 0, 1.0], [x, 0, 0]) for x in (0, 1)]
+    arm = pk.Chain.from_space(axes, pk.se3.exp([0, 0, 0, 2, 0, 0]))
+    targets = np.tile(np.eye(4), (2, 1, 1))
+    targets[:, :3, 3] = [[3, 4, 12], [0.5, 0, 12]]
+    task = make_task("planar", None, None)
+    beyond = diagnosis.distance_beyond_reach(arm, task, targets, arm.limits)
+    np.testing.assert_allclose(beyond, [3, 0], atol=1e-11)
+
+
 def test_what_is_at_its_limit_is_in_the_way_else_what_is_outside_beyond_it_and_nothing_that_is_locked():
     limits = np.array([[-1, 1], [-2, 2], [-3, 3.0]])
     locked_values = np.array([np.nan, np.nan, 0.0])

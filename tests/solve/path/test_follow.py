@@ -404,6 +404,13 @@ def test_bad_targets_are_told_apart_from_poses_that_are_not_reached(ur5):
     assert "pose 2 not reached: unreachable" in said
 
 
+def test_the_errors_of_a_bad_target_are_not_known(ur5):
+    T = np.tile(ur5.fk(UR5_Q), (2, 1, 1))
+    T[1] = np.nan
+    path = follow(ur5, T, q0=UR5_Q, task="position")
+    assert np.isnan([path.position_error[1], path.rotation_error[1]]).all()
+
+
 def follower_of(arm, T, most=0.1, **options):  # type: ignore[no-untyped-def]
     """What follows a path, before it does."""
     settings = {"task": "pose", "axis": None, "limits": True, "tol_position": TOL, "tol_rotation": TOL, "lock": None,

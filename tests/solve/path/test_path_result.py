@@ -11,7 +11,8 @@ import poekin as pk
 from poekin.model import screw
 from poekin.solve.ik.solution import Solution
 from poekin.solve.ik.task import make_task
-from poekin.solve.path.path_result import NEAR_SINGULAR, PathInterval, PathResult
+from poekin.solve.path.path_interval import PathInterval
+from poekin.solve.path.path_result import NEAR_SINGULAR, PathResult
 
 Z = [0, 0, 1.0]
 ARM = pk.Chain.from_space(

@@ -124,6 +124,18 @@ def test_the_manipulability_of_an_arm_in_a_plane_is_that_of_its_plane(task, poin
     assert abs(up - down) / 2e-4 < 2e-3
 
 
+@pytest.mark.parametrize("elbow, steep", [(1.4, False), (0.05, True)])
+def test_the_way_to_more_manipulability_is_along_its_gradient_and_of_size_1_at_most(elbow, steep):
+    asked = Settings("position", None, True, 1e-9, 1e-9, None, None, 5, 30, 0, False)
+    aim = redundancy.Aim(make_problem(planar(0.0, 0.5, 0.9).compile(), asked))
+    q = np.array([[0.3, elbow, elbow]])
+    h = 1e-5 * np.eye(3)
+    gradient = np.array([aim.value(q + e)[0] - aim.value(q - e)[0] for e in h]) / 2e-5
+    size = np.linalg.norm(gradient)
+    assert (size > 1) == steep
+    np.testing.assert_allclose(aim._way(q)[0], -gradient / max(size, 1.0), rtol=1e-4, atol=1e-7)
+
+
 def test_an_arm_without_a_motion_of_the_task_stays_where_it_is():
     slides = pk.Chain.from_space([screw.prismatic(way) for way in np.eye(3)], np.eye(4))
     q0 = [0.1, 0.2, 0.3]
