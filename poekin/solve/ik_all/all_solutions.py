@@ -14,6 +14,8 @@ from ...results import Result
 from ..ik.solution import place
 from .ik_all_search import Found
 
+MethodUsed = Literal["closed form", "search"]
+
 
 @dataclass(frozen=True, eq=False)
 class AllSolutions(Result):
@@ -46,7 +48,7 @@ class AllSolutions(Result):
     solutions: Any
     n_revolutions: Any
     complete: Any
-    method: Literal["closed form", "search"]
+    method: MethodUsed
     count: np.ndarray
     anywhere: np.ndarray
     continuum: np.ndarray

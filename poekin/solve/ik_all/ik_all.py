@@ -17,7 +17,7 @@ from ...model.kinematics.arm import Arm, compiled
 from ...model.kinematics.compiled import CompiledChain
 from ..ik.task import pose_errors, targets
 from ..joint_units import bounds, joint_units, periods
-from .all_solutions import AllSolutions, in_words, missing_probability
+from .all_solutions import AllSolutions, MethodUsed, in_words, missing_probability
 from .closed_form import ClosedForm, closed_form
 from .ik_all_search import POSE, Found, Rule, accepted, joined, search, turns_within
 
@@ -142,9 +142,8 @@ def ik_all(  # noqa: PLR0913 - options by keyword
         in_words(f, int(inside), closed) if known else _BAD_TARGET
         for f, inside, known in zip(every, places.within, finite, strict=True)
     ]
-    return _result(
-        given, wanted, every, places, complete, "search" if solver is None else "closed form"
-    )
+    method_used = "search" if solver is None else "closed form"
+    return _result(given, wanted, every, places, complete, method_used)
 
 
 def _check_chain(chain: Chain) -> None:
@@ -254,14 +253,7 @@ def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: boo
                 f"all_revolutions: {most:.0f} places for one target, more than {MOST}; "
                 "`n_revolutions` of the result tells"
             )
-        nearest = np.array(
-            [
-                turns
-                for f, g in zip(first, last, strict=True)
-                for turns in itertools.product(*map(np.arange, f, g + 1))
-            ]
-        )
-        nearest = nearest.reshape(-1, chain.dof)
+        nearest = _turns_between(first, last)
         each = number.astype(int)
         Q = np.repeat(Q, each, axis=0)
         owner = np.repeat(owner, each)
@@ -270,6 +262,16 @@ def _places(chain: Chain, found: list[Found], limits: bool, all_revolutions: boo
     low, high = bounds(chain, limits).T
     q = np.clip(Q + periods(chain) * nearest, low, high) + 0.0
     return _Places(q, owner, counts, within)
+
+
+def _turns_between(first: Array, last: Array) -> Array:
+    """All whole turns (S, m) from the first to the last ones (s, m), row after row."""
+    turns = [
+        product
+        for f, g in zip(first, last, strict=True)
+        for product in itertools.product(*map(np.arange, f, g + 1))
+    ]
+    return np.array(turns, float).reshape(-1, first.shape[1])
 
 
 def _order(q: Array, owner: np.ndarray) -> np.ndarray:
@@ -285,7 +287,7 @@ def _result(
     found: list[Found],
     places: _Places,
     complete: list[str],
-    method: Literal["closed form", "search"],
+    method: MethodUsed,
 ) -> AllSolutions:
     """The result, of places in order, every solution looked at by `Chain.fk`."""
     batch = T.shape[:-2]
@@ -297,6 +299,7 @@ def _result(
     own = [good[a:b] for a, b in itertools.pairwise(ends)]
     worst = [errors[k].max(axis=0) if len(k) else (np.nan, np.nan) for k in own]
     position, rotation = np.reshape(worst, (-1, 2)).T
+    moving = [len(f.self_motion_coordinates) > 0 for f in found]
     lists: dict[str, Any] = {
         "solutions": [places.q[k] for k in own],
         "n_revolutions": [places.number[k] for k in own],
@@ -309,9 +312,7 @@ def _result(
         method=method,
         count=np.diff(ends).reshape(batch),
         anywhere=np.array([len(f.solutions) for f in found], int).reshape(batch),
-        continuum=np.array([len(f.self_motion_coordinates) > 0 for f in found], bool).reshape(
-            batch
-        ),
+        continuum=np.array(moving, bool).reshape(batch),
         p_missing=np.array([missing_probability(f) for f in found]).reshape(batch),
         position_error=position.reshape(batch),
         rotation_error=rotation.reshape(batch),
