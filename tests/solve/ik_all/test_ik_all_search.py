@@ -217,3 +217,18 @@ def test_the_kernel_is_told_starts_ranges_rules_and_the_number_of_each_target(mo
     assert (found[0].solutions == 7).all(), "a copy"
     module._search(fast, T[:3], [np.empty((0, 2))] * 3, Rule(3, 4, 5, 6, 9))
     assert asked[1][2].shape == (3, 0, 2)
+
+
+def test_where_a_closed_form_gives_up_there_is_no_start():
+    def starts(T: np.ndarray) -> np.ndarray:
+        if T[0, 3] > 1:
+            raise RuntimeError
+        return np.full((2, 6), T[0, 3])
+
+    T = np.tile(np.eye(4), (3, 1, 1))
+    T[:, 0, 3] = [0.5, 2.0, 0.25]
+    solver: Any = SimpleNamespace(starts=starts)
+    found, given_up = ik_all_module._starts(solver, T)
+    assert [len(q) for q in found] == [2, 0, 2]
+    assert found[1].shape == (0, 6)
+    assert given_up == {1}
