@@ -289,6 +289,11 @@ def test_limits_for_way_and_angle_of_a_pose():
     assert timing.duration == pytest.approx(1.875 * 0.5 / 0.25)
 
 
+def test_the_middle_of_a_timing_without_an_even_part_still_speeds_up():
+    middle = motion.trapezoidal(2.0, 0.5)(1.0)
+    assert (middle.s, middle.ds, middle.dds) == (0.5, 1.0, 1.0)
+
+
 @pytest.mark.parametrize(
     ("call", "says"),
     [
