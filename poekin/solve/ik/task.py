@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Literal, cast
 
 import numpy as np
@@ -86,11 +87,16 @@ def pose_errors(chain: Chain, task: Task, q: Array, T: Array) -> Array:
     """Errors (N, 2), m and rad, of the poses of q (N, m) by the kernels of `Chain.fk` against
     targets (N, 4, 4).
     """
+    errors = np.empty((len(q), 2))
+    _kernel().call(chain.kernel_table, q, T, task.code, task.axis, errors)
+    return errors
+
+
+@cache
+def _kernel() -> Any:
     from ...engine.kernels import ik_kernels  # imports Numba
 
-    errors = np.empty((len(q), 2))
-    ik_kernels.pose_errors.call(chain.kernel_table, q, T, task.code, task.axis, errors)
-    return errors
+    return ik_kernels.pose_errors
 
 
 def targets(T: ArrayLike, what: str) -> Array:
