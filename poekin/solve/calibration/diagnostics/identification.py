@@ -164,8 +164,7 @@ def identification_matrix(
         p = np.zeros(problem.size)
     rows = [np.empty((0, problem.size))]
     for s, jacobian in zip(problem.sets, problem.jacobians(p, q), strict=True):
-        unit = np.full(s.width, problem.model.nominal.reach)
-        unit[: s.angular] = 1.0
+        unit = s.per_error(1.0, problem.model.nominal.reach)
         scaled = jacobian * problem.scale / unit[:, None]
         rows.append(scaled.reshape(-1, problem.size))
     return np.concatenate(rows)

@@ -11,7 +11,7 @@ import numpy as np
 from ....groups.arrays import Array
 from ..measurements.measurement import Rows
 from ..model.problem import Problem
-from ..model.tsqr import qr_r
+from ..model.tsqr import least_squares, qr_r
 from .losses import OUTLIER, LossName, chi_square, loss
 from .minimise import FitOptions, Outcome, Step, minimise, regular
 from .noise import EVEN, Noise, estimate_noise
@@ -135,4 +135,4 @@ def _inverse(R: Array) -> Array:
     """Inverse of a triangle, the pseudoinverse of a singular one."""
     if regular(R):
         return np.asarray(np.linalg.inv(R), float)
-    return np.asarray(np.linalg.lstsq(R, np.eye(len(R)), rcond=None)[0], float)
+    return least_squares(R, np.eye(len(R)))

@@ -11,12 +11,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ....errors import InputError, ShapeError
+from ....errors import InputError
 from ....groups import se3, so3
-from ....groups.arrays import Array, numbers, poses
-from ....model.checks import finite
+from ....groups.arrays import Array
+from ..model.tsqr import least_squares
 from .flatness import FLAT, describe, extents, is_flat
 from .reweighted import Weighted, reweighted
 
@@ -25,6 +24,7 @@ MISFIT = 0.2
 """rad: rotations that turn more than this and miss by more than this in the median do not belong
 together.
 """
+_TINY = np.finfo(float).tiny
 _ROUNDING = 1e-13
 _SHORT = 1e-3  # m: of lengths that are all shorter, rounding is taken to be that of one so long
 
@@ -36,40 +36,45 @@ class _Turns(NamedTuple):
     Z: Array
 
 
-def hand_eye(T_base_tip: ArrayLike, T_fixed_moving: ArrayLike) -> tuple[Array, Array]:
-    """X = T_base_fixed and Z = T_tip_moving (4, 4) with T_fixed_moving = X^-1 T_base_tip Z, of at
-    least 3 pairs (N, 4, 4), m.
+def hand_eye(A: Array, B: Array) -> tuple[Array, Array]:
+    """X = T_base_fixed and Z = T_tip_moving (4, 4) with B = X^-1 A Z, of at least 3 pairs (N, 4, 4)
+    of A = T_base_tip and B = T_fixed_moving, m.
 
-    A Z = X B of poses A = T_base_tip, B = T_fixed_moving. The rotations first: with K = sum of w
-    R_A kron R_B, K vec(R_Z) = sum of w vec(R_X), so that vec(R_X) and vec(R_Z) are the first
-    singular vectors of K. Then R_A t_Z - t_X = R_X t_B - t_A is linear in the two translations.
+    A Z = X B; the rotations first: with K = sum of w R_A kron R_B, K vec(R_Z) = sum of w vec(R_X),
+    so that vec(R_X) and vec(R_Z) are the first singular vectors of K. Then R_A t_Z - t_X = R_X t_B
+    - t_A is linear in the two translations.
 
     Raises: InputError where too little is measured (fewer than 3 poses; a hand that was not turned,
     or about one axis only, or less about a second than the rotations scatter), and where no X and Z
-    fit the rotations to 0.2 rad; PoseError, ShapeError.
+    fit the rotations to 0.2 rad.
     Source: Shah 2013, "Solving the robot-world/hand-eye calibration problem using the Kronecker
     product" (J. Mechanisms and Robotics 5), with weights; vec runs along the rows here, which swaps
     the factors of his Kronecker product.
     """
-    A = _finite(poses(T_base_tip, "T_base_tip"), "T_base_tip", 4, 4)
-    B = _finite(poses(T_fixed_moving, "T_fixed_moving"), "T_fixed_moving", 4, 4)
-    _check_counts(3, "two unknown frames", "T_base_tip and T_fixed_moving", A, B)
+    count = len(A)
+    _check_count(count, 3, "two unknown frames")
     R_A = A[:, :3, :3]
     R_B = B[:, :3, :3]
-    turned = reweighted(lambda w: _rotations(R_A, R_B, w), len(A), 3, _ROUNDING)
+    turned = reweighted(lambda w: _rotations(R_A, R_B, w), count, 3, _ROUNDING)
     R_X, R_Z = turned.value
     _check_turns(R_A[turned.kept], turned.median)
     # unknowns t_Z, t_X; a design of rotations alone: no row has more leverage than another
-    design = np.concatenate([R_A, np.broadcast_to(-np.eye(3), R_A.shape)], axis=2)
+    fixed = np.broadcast_to(-np.eye(3), R_A.shape)
+    design = np.concatenate([R_A, fixed], axis=2)
     there = B[:, :3, 3] @ R_X.T
     here = A[:, :3, 3]
-    rhs = there - here
     floor = _rounding(np.median(np.abs(there)), np.median(np.abs(here)))
-    t = reweighted(lambda w: _linear(design, rhs, turned.kept * w), len(A), 3, floor).value
-    return se3.pose(R_X, t[3:]), se3.pose(R_Z, t[:3])
+    placed = reweighted(
+        lambda w: _linear(design, there - here, turned.kept * w),
+        count,
+        3,
+        floor,
+    )
+    t_Z, t_X = np.split(placed.value, 2)
+    return se3.pose(R_X, t_X), se3.pose(R_Z, t_Z)
 
 
-def registration(a: ArrayLike, b: ArrayLike) -> Array:
+def registration(a: Array, b: Array) -> Array:
     """T_ab (4, 4) with p_a = T_ab p_b: the pose of b's frame in a's out of the same points (N, 3)
     in both, m, at least 3.
 
@@ -77,13 +82,11 @@ def registration(a: ArrayLike, b: ArrayLike) -> Array:
     - mean b)^T, the rotation (never the reflection) of least squares, and t = mean a - R mean b.
 
     Raises: InputError for fewer than 3 points, and for points on a line (or no farther from one
-    than they scatter); ShapeError. Accuracy: of exact points within rounding times length ÷ width
-    of the set. Source: Kabsch 1976; Umeyama 1991 (IEEE PAMI 13, no. 4) for the sign; without his
-    scale and with weights.
+    than they scatter). Accuracy: of exact points within rounding times length ÷ width of the set.
+    Source: Kabsch 1976; Umeyama 1991 (IEEE PAMI 13, no. 4) for the sign; without his scale and with
+    weights.
     """
-    a = _finite(numbers(a, "a"), "a", 3)
-    b = _finite(numbers(b, "b"), "b", 3)
-    _check_counts(3, "the frame of points", "a and b", a, b)
+    _check_count(len(a), 3, "the frame of points")
     floor = _rounding(np.abs(a).max(), np.abs(b).max())
     found = reweighted(lambda w: _rigid(a, b, w), len(a), 3, floor)
     for points in (b[found.kept], a[found.kept]):
@@ -96,7 +99,7 @@ def registration(a: ArrayLike, b: ArrayLike) -> Array:
     return found.value
 
 
-def centre(p: ArrayLike, d: ArrayLike) -> Array:
+def centre(p: Array, d: Array) -> Array:
     """The point c (3,), m, whose distances to the points p (N, 3) are d (N,): |p_i - c| = d_i.
 
     Squared, 2 p_i . c - (|c|^2) = |p_i|^2 - d_i^2 is linear in c and in |c|^2, which is taken as a
@@ -104,23 +107,21 @@ def centre(p: ArrayLike, d: ArrayLike) -> Array:
     fourth unknown lets outliers hide: from there three Gauss-Newton steps of |p_i - c| = d_i itself
     are made, where that brings the median residual down.
 
-    Raises: InputError for fewer than 4 points, for a distance below 0, and for points in one plane
-    (or no farther from one than the distances scatter), where c and its mirror image fit alike;
-    ShapeError. Accuracy: of exact distances within rounding times (distance ÷ thickness of the
-    set)^2. Source: Beck, Stoica and Li 2008, "Exact and approximate solutions of source
-    localization problems" (IEEE Trans. Signal Processing 56), the unconstrained squared-range least
-    squares, with weights.
+    Raises: InputError for fewer than 4 points, and for points in one plane (or no farther from one
+    than the distances scatter), where c and its mirror image fit alike. Accuracy: of exact
+    distances within rounding times (distance ÷ thickness of the set)^2. Source: Beck, Stoica and Li
+    2008, "Exact and approximate solutions of source localization problems" (IEEE Trans. Signal
+    Processing 56), the unconstrained squared-range least squares, with weights.
     """
-    p = _finite(numbers(p, "p"), "p", 3)
-    d = _finite(numbers(d, "d"), "d")
-    _check_counts(4, "the centre of distances", "p and d", p, d)
-    if (d < 0).any():
-        raise InputError(f"d: expected distances of at least 0 m, got {d.min():g}")
-    floor = _rounding(np.abs(p - p.mean(axis=0)).max(), np.median(d))
-    linear = reweighted(lambda w: _multilateral(p, d, w), len(p), 4, floor)
-    nearer = reweighted(lambda w: _nearer(p, d, w, linear.value), len(p), 4, floor)
+    count = len(p)
+    _check_count(count, 4, "the centre of distances")
+    spread = np.abs(p - p.mean(axis=0)).max()
+    floor = _rounding(spread, np.median(d))
+    linear = reweighted(lambda w: _multilateral(p, d, w), count, 4, floor)
+    nearer = reweighted(lambda w: _nearer(p, d, w, linear.value), count, 4, floor)
     found = min(linear, nearer, key=lambda guess: guess.median)
-    sizes = extents(p[found.kept] - p[found.kept].mean(axis=0))
+    kept = p[found.kept]
+    sizes = extents(kept - kept.mean(axis=0))
     if is_flat(sizes, 2, found.median):
         raise InputError(
             "an initial guess of the centre of distances needs points that are not in one plane, "
@@ -130,17 +131,16 @@ def centre(p: ArrayLike, d: ArrayLike) -> Array:
     return found.value
 
 
-def mean_pose(T: ArrayLike) -> Array:
+def mean_pose(T: Array) -> Array:
     """The pose (4, 4) nearest to poses (N, 4, 4), m: the rotation nearest to the sum of w R, and
     the sum of w t, weights of sum 1.
 
-    Raises: InputError, PoseError, ShapeError. Source: Moakher 2002, "Means and averaging in the
-    group of rotations" (SIAM J. Matrix Analysis 24), the projected arithmetic mean, with weights.
+    Source: Moakher 2002, "Means and averaging in the group of rotations" (SIAM J. Matrix Analysis
+    24), the projected arithmetic mean, with weights.
     """
-    T = _finite(poses(T), "T", 4, 4)
-    _check_counts(1, "a pose", "T", T)
+    R = T[:, :3, :3]
     t = T[:, :3, 3]
-    turned = reweighted(lambda w: _mean_rotation(T[:, :3, :3], w), len(T), 1, _ROUNDING)
+    turned = reweighted(lambda w: _mean_rotation(R, w), len(T), 1, _ROUNDING)
     placed = reweighted(lambda w: _mean_place(t, w), len(T), 1, _rounding(np.abs(t).max()))
     return se3.pose(turned.value, placed.value)
 
@@ -157,13 +157,14 @@ def _mean_rotation(R: Array, w: Array) -> Weighted[Array]:
 
 def _mean_place(t: Array, w: Array) -> Weighted[Array]:
     mean = w @ t / w.sum()
-    return Weighted(mean, np.linalg.norm(t - mean, axis=1))
+    return Weighted(mean, _lengths(t - mean))
 
 
 def _rotations(R_A: Array, R_B: Array, w: Array) -> Weighted[_Turns]:
     """R_X, R_Z of R_A R_Z = R_X R_B, and the angle (as a chord) by which each pair misses."""
     K = R_A.reshape(-1, 9).T @ (w[:, None] * R_B.reshape(-1, 9))
-    U, _, V = np.linalg.svd(K.reshape(3, 3, 3, 3).swapaxes(1, 2).reshape(9, 9))
+    kron = K.reshape(3, 3, 3, 3).swapaxes(1, 2)
+    U, _, V = np.linalg.svd(kron.reshape(9, 9))
     X = U[:, 0].reshape(3, 3)
     sign = np.copysign(1.0, np.linalg.det(X))  # the singular vectors are those of both signs
     R_X = _rotation(sign * X)
@@ -208,32 +209,34 @@ def _check_turns(R: Array, scatter: float) -> None:
 def _linear(design: Array, rhs: Array, w: Array) -> Weighted[Array]:
     """x of design x = rhs, (N, 3, k) and (N, 3), and the length of each row's residual."""
     root = np.sqrt(w)[:, None]
-    rows = (root[:, :, None] * design).reshape(-1, design.shape[2])
-    x: Array = np.linalg.lstsq(rows, (root * rhs).ravel(), rcond=None)[0].astype(float)
-    return Weighted(x, np.linalg.norm(design @ x - rhs, axis=1))
+    rows = root[:, :, None] * design
+    x = least_squares(rows.reshape(-1, design.shape[2]), (root * rhs).ravel())
+    return Weighted(x, _lengths(design @ x - rhs))
 
 
 def _rigid(a: Array, b: Array, w: Array) -> Weighted[Array]:
     w = w / w.sum()
     mean_a = w @ a
     mean_b = w @ b
-    R = _rotation((a - mean_a).T @ (w[:, None] * (b - mean_b)))
+    weighted = w[:, None] * (b - mean_b)
+    R = _rotation((a - mean_a).T @ weighted)
     t = mean_a - R @ mean_b
-    return Weighted(se3.pose(R, t), np.linalg.norm(b @ R.T + t - a, axis=1))
+    return Weighted(se3.pose(R, t), _lengths(b @ R.T + t - a))
 
 
 def _multilateral(p: Array, d: Array, w: Array) -> Weighted[Array]:
-    tiny = np.finfo(float).tiny
     mean = w @ p / w.sum()
     x = p - mean
     squares = x * x
     # a point that the centre may stand on has d = 0: its row is divided by what is usual
-    row = np.sqrt(w) / (2 * np.maximum(d, 0.1 * np.median(d) + tiny))
+    usual = 0.1 * np.median(d)
+    row = np.sqrt(w) / (2 * np.maximum(d, usual + _TINY))
     # brings the fourth column to the size of the others
-    length = np.sqrt(np.mean(squares)) + tiny
-    design = np.column_stack([2 * x, np.full(len(x), -length)]) * row[:, None]
-    c = np.linalg.lstsq(design, (squares.sum(axis=1) - d * d) * row, rcond=None)[0][:3]
-    return Weighted(c + mean, np.abs(np.linalg.norm(x - c, axis=1) - d))
+    length = np.sqrt(np.mean(squares)) + _TINY
+    design = np.column_stack([2 * x, np.full(len(x), -length)])
+    rhs = squares.sum(axis=1) - d * d
+    c = least_squares(design * row[:, None], rhs * row)[:3]
+    return Weighted(c + mean, np.abs(_lengths(x - c) - d))
 
 
 def _nearer(p: Array, d: Array, w: Array, c: Array) -> Weighted[Array]:
@@ -243,26 +246,19 @@ def _nearer(p: Array, d: Array, w: Array, c: Array) -> Weighted[Array]:
     root = np.sqrt(w)
     for _ in range(STEPS):
         away = c - p
-        length = np.linalg.norm(away, axis=1)
-        u = np.divide(away, length[:, None], out=np.zeros_like(away), where=length[:, None] > 0)
-        c = c - np.linalg.lstsq(u * root[:, None], (length - d) * root, rcond=None)[0]
-    return Weighted(c, np.abs(np.linalg.norm(p - c, axis=1) - d))
+        length = _lengths(away)
+        u = away / np.maximum(length, _TINY)[:, None]
+        c = c - least_squares(u * root[:, None], (length - d) * root)
+    return Weighted(c, np.abs(_lengths(p - c) - d))
 
 
-def _finite(array: Array, name: str, *tail: int) -> Array:
-    """The array, finite and with rows of this shape."""
-    if array.ndim != 1 + len(tail) or array.shape[1:] != tail:
-        expected = ", ".join(["N", *map(str, tail)])
-        raise ShapeError(f"{name}: expected shape ({expected}), got {array.shape}")
-    return finite(array, name)
+def _lengths(vectors: Array) -> Array:
+    """Lengths (N,) of vectors (N, 3)."""
+    return np.linalg.norm(vectors, axis=1)
 
 
-def _check_counts(need: int, what: str, names: str, *arrays: Array) -> None:
-    counts = [len(array) for array in arrays]
-    if len(set(counts)) > 1:
-        got = " and ".join(map(str, counts))
-        raise ShapeError(f"{names}: expected as many rows in both, got {got}")
-    if counts[0] < need:
+def _check_count(count: int, need: int, what: str) -> None:
+    if count < need:
         raise InputError(
-            f"an initial guess of {what} needs {need} measurements or more, got {counts[0]}"
+            f"an initial guess of {what} needs {need} measurements or more, got {count}"
         )

@@ -13,7 +13,7 @@ import numpy as np
 
 from ....groups.arrays import Array
 from ..model.problem import Problem
-from ..model.tsqr import blocked_product, qr_r
+from ..model.tsqr import blocked_product, least_squares, qr_r
 from .losses import LossName, loss
 from .noise import Noise
 
@@ -98,10 +98,10 @@ def minimise(problem: Problem, free: Array, noise: Noise, p: Array, options: Fit
     steps: list[Step] = []
     cost = _cost(objective, p)
     while True:
-        A, b, jacobian = _rows(objective, p)
+        rows, jacobian = _rows(objective, p)
         if cost == 0.0 or len(steps) >= options.max_iterations:
             return Outcome(p, cost == 0.0, steps, jacobian)
-        linear = _triangular(objective, p, A, b)
+        linear = _triangular(objective, p, rows)
         z = _solution(linear, 0.0)
         done = _is_last(linear, z, cost)
         if damping > 0.0:
@@ -113,7 +113,8 @@ def minimise(problem: Problem, free: Array, noise: Noise, p: Array, options: Fit
                 # what is left cannot be told from rounding, or no direction leads down
                 return Outcome(p, done, steps, jacobian)
             damping = max(_FIRST_DAMPING, 10.0 * damping)
-            trial = _trial(objective, p, _solution(linear, damping))
+            z = _solution(linear, damping)
+            trial = _trial(objective, p, z)
         steps.append(Step(cost, float(np.linalg.norm(trial.z)), damping))
         p = trial.p
         cost = trial.cost
@@ -126,16 +127,13 @@ def minimise(problem: Problem, free: Array, noise: Noise, p: Array, options: Fit
             return Outcome(p, True, steps, jacobian)
 
 
-def _triangular(objective: _Objective, p: Array, A: Array, b: Array) -> _Linear:
-    """Weighted Jacobian A and errors b with the rows of the prior, as a triangle."""
-    inverse = objective.inverse_prior
-    known = inverse > 0
-    if known.any():
-        A = np.concatenate([A, (inverse[:, None] * objective.B)[known]])
-        b = np.concatenate([b, (inverse * p)[known]])
-    size = objective.B.shape[1]
-    both = qr_r(np.column_stack([A, b]))
-    return _Linear(both[:size, :-1], both[:size, -1])
+def _triangular(objective: _Objective, p: Array, rows: Array) -> _Linear:
+    """Weighted Jacobian and errors (M, k + 1) with the rows of the prior, as a triangle."""
+    known = np.flatnonzero(objective.inverse_prior)
+    inverse = objective.inverse_prior[known]
+    of_prior = np.column_stack([inverse[:, None] * objective.B[known], inverse * p[known]])
+    R = qr_r(np.concatenate([rows, of_prior]))[: rows.shape[1] - 1]
+    return _Linear(R[:, :-1], R[:, -1])
 
 
 def _is_last(linear: _Linear, z: Array, cost: float) -> bool:
@@ -147,7 +145,10 @@ def _is_last(linear: _Linear, z: Array, cost: float) -> bool:
 
 def _trial(objective: _Objective, p: Array, z: Array) -> _Trial:
     new = p + objective.B @ z
-    return _Trial(z, new, _cost(objective, new) if np.isfinite(z).all() else np.inf)
+    cost = np.inf
+    if np.isfinite(z).all():
+        cost = _cost(objective, new)
+    return _Trial(z, new, cost)
 
 
 def _solution(linear: _Linear, damping: float) -> Array:
@@ -159,7 +160,7 @@ def _solution(linear: _Linear, damping: float) -> Array:
         c = np.concatenate([c, np.zeros(len(norms))])
     elif regular(R):
         return np.asarray(np.linalg.solve(R, -c), float)
-    return np.asarray(np.linalg.lstsq(R, -c, rcond=None)[0], float)
+    return least_squares(R, -c)
 
 
 def regular(R: Array) -> bool:
@@ -173,20 +174,13 @@ def regular(R: Array) -> bool:
 def _exact(problem: Problem, p: Array) -> bool:
     """Whether all errors are rounding."""
     reach = problem.model.nominal.reach
-    for s, e in zip(problem.sets, problem.errors(p), strict=True):
-        angle = np.abs(e[:, : s.angular]).max(initial=0.0)
-        length = np.abs(e[:, s.angular :]).max(initial=0.0)
-        if not (angle <= _ROUNDING and length <= _ROUNDING * reach):
-            return False
-    return True
+    pairs = zip(problem.sets, problem.errors(p), strict=True)
+    return all((np.abs(e) <= _ROUNDING * s.per_error(1.0, reach)).all() for s, e in pairs)
 
 
 def _cost(objective: _Objective, p: Array) -> float:
     of_prior = float(np.sum((objective.inverse_prior * p) ** 2))
-    total = misfit(objective.problem, objective.noise, objective.loss, p, of_prior)
-    if np.isfinite(total):
-        return total
-    return np.inf
+    return misfit(objective.problem, objective.noise, objective.loss, p, of_prior)
 
 
 def misfit(
@@ -197,23 +191,24 @@ def misfit(
     of_prior: float = 0.0,
 ) -> float:
     """Sum of rho of all measurements, and the part of the prior."""
-    squares = zip(problem.sets, noise.squares(problem.errors(p)), strict=True)
-    return sum((float(np.sum(loss(name, s, m.width).rho)) for m, s in squares), of_prior)
+    total = of_prior
+    for s, squares in zip(problem.sets, noise.squares(problem.errors(p)), strict=True):
+        rho = loss(name, squares, s.width).rho
+        total += float(np.sum(rho))
+    return total
 
 
-def _rows(objective: _Objective, p: Array) -> tuple[Array, Array, Array]:
-    """Weighted Jacobian (M, k) and errors (M,), and the Jacobian without the loss's weights."""
-    A = []
-    b = []
+def _rows(objective: _Objective, p: Array) -> tuple[Array, Array]:
+    """Weighted Jacobian and errors (M, k + 1), and the Jacobian without the loss's weights."""
+    weighted = []
     plain = []
     for k, (errors, jacobian) in enumerate(objective.problem.linearised(p)):
         e = objective.noise.whitened(k, errors[..., None])[..., 0]
         width = e.shape[1]
-        whitened = objective.noise.whitened(k, jacobian).reshape(-1, jacobian.shape[-1])
-        D = blocked_product(whitened, objective.B)
+        whitened = objective.noise.whitened(k, jacobian)
+        D = blocked_product(whitened.reshape(-1, jacobian.shape[2]), objective.B)
         weight = loss(objective.loss, np.sum(e * e, axis=1), width).weight
         root = np.repeat(np.sqrt(weight), width)
         plain.append(D)
-        A.append(D if objective.loss == "linear" else root[:, None] * D)
-        b.append(root * e.ravel())
-    return np.concatenate(A), np.concatenate(b), np.concatenate(plain)
+        weighted.append(root[:, None] * np.column_stack([D, e.ravel()]))
+    return np.concatenate(weighted), np.concatenate(plain)

@@ -58,8 +58,7 @@ class Noise:
             if s.covariance is not None:
                 self._whiten.append(np.linalg.inv(np.linalg.cholesky(s.covariance)))
             elif estimate is not None:
-                sigma = np.full(s.width, estimate.length)
-                sigma[: s.angular] = estimate.angle or 1.0
+                sigma = s.per_error(estimate.angle, estimate.length)
                 self._whiten.append(1.0 / sigma[:, None])
 
     def whitened(self, k: int, errors: Array) -> Array:

@@ -28,7 +28,7 @@ from ....model.chain import Chain
 from ....model.coordinates import coordinates
 from . import columns
 from .columns import Layout
-from .measurement import Measurement, MeasurementKind
+from .measurement import Measurement, MeasurementKind, finite_rows
 from .points import Distances, Points
 from .poses import EyeInHand, EyeToHand, Poses
 
@@ -199,9 +199,7 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
         raise ShapeError(
             f"q: expected shape (N, {chain.dof}) with a row for each of {len(values)}, got {q.shape}"
         )
-    finite = np.isfinite(q).all(axis=1)
-    if not finite.all():
-        raise InputError(f"q[{np.argmin(finite)}]: expected finite numbers, got NaN or infinity")
+    q = finite_rows(q, "q")
     names = chain.q_names
     numbered = columns.numbered(chain.dof)
     # names that another reader, or this one, would take for something else

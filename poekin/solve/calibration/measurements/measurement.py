@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ....errors import InputError, PoseError, ShapeError, safe_repr
+from ....groups import se3
 from ....groups.arrays import Array, numbers, poses
 from ....model.checks import read_only
 
@@ -24,7 +25,7 @@ class UnknownFrame(NamedTuple):
 
     name: str
     size: int
-    guess: Array | None
+    guess: Array | None = None
     shared: str | None = None
 
 
@@ -62,6 +63,27 @@ class Measurement:
     def what(self) -> str:
         """Name of the kind in messages."""
         return type(self).__name__
+
+    def per_error(self, angle: float | None, length: float) -> Array:
+        """One number for each error of a measurement, by what the error is.
+
+        Parameters
+        ----------
+        angle, length : float
+            Number for each error that is an angle, and for each that is a length. Where nothing
+            turns, `angle` is not read.
+
+        Returns
+        -------
+        numbers : (width,) ndarray
+            The numbers, in the order of the errors.
+
+        Notes
+        -----
+        Raises: nothing, it checks nothing. Source: none, it repeats them.
+        """
+        counts = [self.angular, self.width - self.angular]
+        return np.repeat(np.array([angle, length], float), counts)
 
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
         """Model minus measurement, by the equation of the kind.
@@ -290,16 +312,25 @@ def pose_rows(T: ArrayLike, what: str) -> Array:
     return poses(array, what)
 
 
+def seen_from(X: Array, T: Array, D: Array) -> tuple[Array, Array]:
+    """Poses X^-1 T of a frame X, and their twists (N, 6, P + 6): Ad(X^-1) D of T's twists D, and -xi
+    of X <- X e^[xi].
+    """
+    back = se3.inverse(X)
+    fixed = np.broadcast_to(-np.eye(6), (len(T), 6, 6))
+    return back @ T, np.concatenate([se3.adjoint(back) @ D, fixed], axis=2)
+
+
 def make_unknown_frame(name: str, said: ArrayLike | str | None) -> UnknownFrame:
     """A frame to be estimated jointly: given by a rough pose (4, 4), by a name that sets have in
     common, or not at all.
     """
     if said is None:
-        return UnknownFrame(name, 6, None)
+        return UnknownFrame(name, 6)
     if isinstance(said, str):
         if not said:
             raise InputError(f"{name}: expected a pose, a name or None, got ''")
-        return UnknownFrame(name, 6, None, said)
+        return UnknownFrame(name, 6, shared=said)
     array = poses(said, name)
     if array.shape != (4, 4) or not np.isfinite(array).all():
         raise PoseError(f"{name}: expected one finite pose (4, 4) or None, got shape {array.shape}")

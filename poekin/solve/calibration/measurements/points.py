@@ -13,7 +13,7 @@ from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
 from ..fit import initial_guess
-from .measurement import Measurement, UnknownFrame, finite_rows
+from .measurement import Measurement, UnknownFrame, finite_rows, seen_from
 
 PointFrame = Literal["base", "unknown"]
 
@@ -117,7 +117,7 @@ class Points(Measurement):
             raise InputError(f"frame: expected 'base' or 'unknown', got {safe_repr(self.frame)}")
         unknown: tuple[UnknownFrame, ...] = ()
         if self.frame == "unknown":
-            unknown = (UnknownFrame("T_base_device", 6, None),)
+            unknown = (UnknownFrame("T_base_device", 6),)
         self._keep(p=p, points=points, width=3 * k, unknown_frames=unknown)
 
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
@@ -136,19 +136,14 @@ class Points(Measurement):
         """Points move by v + ω × p; T_base_device <- T_base_device e^[ξ] by −ξ, seen from the device."""
         if not frame_values:
             return self._moved(T, D), []
-        back = se3.inverse(frame_values[0])
-        device = np.broadcast_to(-np.eye(6), (len(T), 6, 6))
-        twists = np.concatenate([se3.adjoint(back) @ D, device], axis=2)
-        both = self._moved(back @ T, twists)
-        return both[..., :-6], [both[..., -6:]]
+        seen, twists = seen_from(frame_values[0], T, D)
+        arm, *frames = np.split(self._moved(seen, twists), [-6], axis=2)
+        return arm, frames
 
     def _moved(self, T: Array, D: Array) -> Array:
         """Velocities (N, 3k, P) of the points under the space twists D (N, 6, P)."""
-        return _velocities(D[:, None], points_at(T, self.points)).reshape(
-            len(T),
-            self.width,
-            D.shape[2],
-        )
+        moved = _velocities(D[:, None], points_at(T, self.points))
+        return moved.reshape(len(T), self.width, D.shape[2])
 
     def guesses(self, T: Array) -> list[Array]:
         """The rigid motion that brings the measured points nearest to the nominal ones."""
@@ -221,7 +216,7 @@ class Distances(Measurement):
 
     def _away(self, y: Array, frame_values: Sequence[Array]) -> Array:
         """Vectors (N, 3) from the centre to y."""
-        return y - (frame_values[0] if frame_values else self.centre)
+        return y - next(iter(frame_values), self.centre)
 
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
         """Errors d_model − d_measured (N, 1)."""
@@ -239,7 +234,7 @@ class Distances(Measurement):
         y = point_at(T, self.point)
         away = self._away(y, frame_values)
         size = np.linalg.norm(away, axis=1, keepdims=True)
-        u = np.divide(away, size, out=np.zeros_like(away), where=size > 0)[:, None]
+        u = (away / np.maximum(size, np.finfo(float).tiny))[:, None]
         return u @ _velocities(D, y), [-u for _ in frame_values]
 
     def guesses(self, T: Array) -> list[Array]:
@@ -247,4 +242,6 @@ class Distances(Measurement):
         if not self.unknown_frames:
             return []
         guess = self.unknown_frames[0].guess
-        return [initial_guess.centre(point_at(T, self.point), self.d) if guess is None else guess]
+        if guess is None:
+            guess = initial_guess.centre(point_at(T, self.point), self.d)
+        return [guess]

@@ -11,7 +11,7 @@ import numpy as np
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ..fit import initial_guess
-from .measurement import Measurement, make_unknown_frame, pose_rows
+from .measurement import Measurement, make_unknown_frame, pose_rows, seen_from
 
 
 def pose_errors(T: Array, measured: Array) -> Array:
@@ -93,9 +93,9 @@ class _HandEye(Measurement):
 
     def __post_init__(self) -> None:
         name = fields(self)[0].name  # type: ignore[arg-type]
-        said = {frame: getattr(self, own) for frame, own in self.frames.items()}
-        unknown = tuple(make_unknown_frame(frame, value) for frame, value in said.items())
-        self._keep(T=pose_rows(getattr(self, name), name), unknown_frames=unknown)
+        pairs = self.frames.items()
+        unknown = (make_unknown_frame(frame, getattr(self, own)) for frame, own in pairs)
+        self._keep(T=pose_rows(getattr(self, name), name), unknown_frames=tuple(unknown))
 
     def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
         """Errors (N, 6) as of `Poses`, in the axes of the board or camera that stands still."""
@@ -111,12 +111,11 @@ class _HandEye(Measurement):
     ) -> tuple[Array, list[Array]]:
         """With G = X⁻¹ T Z: dG G⁻¹ is Ad(X⁻¹) D, −ξ of X <- X e^[ξ], Ad(G) ζ of Z <- Z e^[ζ]."""
         X, Z = frame_values
-        back = se3.inverse(X)
-        G = back @ T @ Z
-        fixed = np.broadcast_to(-np.eye(6), (len(G), 6, 6))
-        both = np.concatenate([se3.adjoint(back) @ D, fixed, se3.adjoint(G)], axis=2)
-        jacobian = pose_error_jacobian(G, errors, both)
-        return jacobian[..., :-12], [jacobian[..., -12:-6], jacobian[..., -6:]]
+        seen, twists = seen_from(X, T, D)
+        G = seen @ Z
+        both = np.concatenate([twists, se3.adjoint(G)], axis=2)
+        arm, *frames = np.split(pose_error_jacobian(G, errors, both), [-12, -6], axis=2)
+        return arm, frames
 
     def guesses(self, T: Array) -> list[Array]:
         """Frames as given, else by hand-eye calibration or the mean of the measured poses."""

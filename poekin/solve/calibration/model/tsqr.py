@@ -1,4 +1,4 @@
-"""Products and QR in blocks of rows that stay below what makes OpenBLAS start threads.
+"""Least squares; products and QR in blocks of rows, below what makes OpenBLAS start threads.
 
 The matrices of a calibration are tall and narrow. At some hundred rows of forty numbers, waking
 threads and waiting for them costs more than the work itself, many times more where another process
@@ -36,6 +36,12 @@ def qr_r(A: Array) -> Array:
 def _qr(A: Array) -> Array:
     R: Any = np.linalg.qr(A, mode="r")
     return R
+
+
+def least_squares(A: Array, b: Array) -> Array:
+    """The shortest x (P,) of the least |A x - b|, or (P, k) of b (M, k)."""
+    x: Any = np.linalg.lstsq(A, b, rcond=None)[0]
+    return x
 
 
 def blocked_product(A: Array, B: Array) -> Array:

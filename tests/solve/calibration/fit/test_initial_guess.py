@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import poekin as pk
-from poekin.errors import InputError, PoseError, ShapeError
+from poekin.errors import InputError
 from poekin.groups import se3, so3
 from poekin.solve.calibration.fit import initial_guess, reweighted
 from poekin.solve.calibration.measurements.simulated import simulated
@@ -273,70 +273,14 @@ I3 = np.tile(np.eye(4), (3, 1, 1))
 
 
 @pytest.mark.parametrize(
-    ("call", "kind", "says"),
+    ("call", "says"),
     [
-        (
-            lambda: initial_guess.hand_eye(I3[:2], I3[:2]),
-            InputError,
-            r"two unknown frames needs 3 .* or more, got 2",
-        ),
-        (
-            lambda: initial_guess.hand_eye(I3, I3[:2]),
-            ShapeError,
-            r"expected as many rows in both, got 3 and 2",
-        ),
-        (
-            lambda: initial_guess.hand_eye(I3[0], I3[0]),
-            ShapeError,
-            r"T_base_tip: expected shape \(N, 4, 4\), got",
-        ),
-        (lambda: initial_guess.hand_eye(I3, 2 * I3), PoseError, r"T_fixed_moving\[0\] is no pose"),
-        (
-            lambda: initial_guess.hand_eye(I3 * np.nan, I3),
-            InputError,
-            r"T_base_tip\[0, 0, 0\]: .* finite",
-        ),
-        (
-            lambda: initial_guess.registration(np.eye(3)[:2], np.eye(3)[:2]),
-            InputError,
-            r"points needs 3 .* got 2",
-        ),
-        (
-            lambda: initial_guess.registration(np.eye(4), np.eye(3)),
-            ShapeError,
-            r"a: expected shape \(N, 3\), got \(4, 4",
-        ),
-        (
-            lambda: initial_guess.centre(np.eye(3), np.ones(3)),
-            InputError,
-            r"centre of distances needs 4 .* got 3",
-        ),
-        (
-            lambda: initial_guess.centre(np.eye(3), np.eye(3)),
-            ShapeError,
-            r"d: expected shape \(N\), got \(3, 3\)",
-        ),
-        (
-            lambda: initial_guess.centre(np.ones((4, 3)), [1, 1, 1, -1]),
-            InputError,
-            r"d: .* at least 0 m, got -1",
-        ),
-        (lambda: initial_guess.mean_pose(I3[:0]), InputError, r"a pose needs 1 .* got 0"),
+        (lambda: initial_guess.hand_eye(I3[:2], I3[:2]), "two unknown frames needs 3 .*, got 2"),
+        (lambda: initial_guess.registration(I3[0, :2, :3], I3[0, :2, :3]), "points needs 3 .* 2"),
+        (lambda: initial_guess.centre(np.eye(3), np.ones(3)), "centre of distances needs 4 .* 3"),
     ],
-    ids=[
-        "few poses",
-        "two counts",
-        "one pose",
-        "no pose",
-        "nan",
-        "few points",
-        "shape",
-        "few",
-        "d",
-        "negative",
-        "none",
-    ],
+    ids=["poses", "points", "distances"],
 )
-def test_what_is_no_measurement_is_refused(call, kind, says):
-    with pytest.raises(kind, match=says):
+def test_too_few_measurements_are_refused(call, says):
+    with pytest.raises(InputError, match=says):
         call()
