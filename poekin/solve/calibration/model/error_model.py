@@ -11,11 +11,9 @@ frame of the local form, so the numbers stay small.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....errors import InputError
 from ....groups import se3
@@ -28,8 +26,8 @@ from .tsqr import blocked_product
 
 
 class Errors(NamedTuple):
-    """Parameters p by what they move: eta_i (n, 6), pitches (n,), eta of the home pose (6,), offsets
-    (m,), gains (m,); 0 where they are not free.
+    """Parameters p by what they move, in this order: eta_i (n, 6), pitches (n,), eta of the home pose
+    (6,), offsets (m,), gains (m,); 0 where they are not free.
     """
 
     screws: Array
@@ -68,37 +66,19 @@ class ErrorModel:
         if not self.parameters:
             listed = ", ".join(map(repr, kinds))
             raise InputError(f"parameters: {listed} of these joints: nothing to calibrate")
-        ends = np.cumsum([0, *self._free.counts]).tolist()
-        self._parts = [slice(start, stop) for start, stop in pairwise(ends)]
         self._coupling = nominal.nontrivial_coupling
         self._plain = self._coupling is None and not nominal.offset.any()
-        self._named_as: dict[str, Any] = {
-            "joint_names": nominal.joint_names,
-            "q_names": nominal.q_names,
-            "limits": nominal.limits,
-            "offset": nominal.offset,
-            "base": nominal.base,
-            "tip": nominal.tip,
-        }
         self._last_joints = LastResult[Chain]()
         self._last_poses = LastResult[Array]()
         self._last_twists = LastResult[PosesAndTwists]()
 
     def errors(self, p: Array) -> Errors:
         """The parameters by what they move."""
-        moves, pitches, home, offsets, gains = (p[part] for part in self._parts)
-        free = self._free
-        n = len(free.screws)
-        m = self.nominal.dof
-        across = np.zeros((n, 4))
-        across[free.screws] = moves
-        return Errors(
-            screws=(self._across @ across[..., None])[..., 0],
-            pitches=_scattered(n, free.pitches, pitches),
-            home=home if free.home else np.zeros(6),
-            offsets=_scattered(m, free.offsets, offsets),
-            gains=_scattered(m, free.gains, gains),
-        )
+        parts = [part.ravel() for part in self._free]
+        every = np.zeros(sum(map(len, parts)))
+        every[np.concatenate(parts)] = p
+        across, *others = np.split(every, np.cumsum([len(part) for part in parts[:-1]]))
+        return Errors((self._across @ across.reshape(-1, 4, 1))[..., 0], *others)
 
     def joints(self, p: Array) -> Chain:
         """The moved screws and home pose as a chain of joint values x, without coupling."""
@@ -110,8 +90,10 @@ class ErrorModel:
         errors = self.errors(p)
         A = (se3.adjoint(se3.exp(errors.screws)) @ self.nominal.screws[..., None])[..., 0]
         M = self.nominal.home @ se3.exp(errors.home)
-        named = self._named_as if self._plain else {}
-        return Chain.from_space(A, M, pitches=self.nominal.pitches + errors.pitches, **named)
+        pitches = self.nominal.pitches + errors.pitches
+        if self._plain:
+            return self.nominal.replace(screws=A, home=M, pitches=pitches)
+        return Chain.from_space(A, M, pitches=pitches)
 
     def values(self, p: Array, q: Array) -> Array:
         """Joint values x = C ((1 + g) q + o) + c of the readings q (N, m)."""
@@ -130,22 +112,15 @@ class ErrorModel:
         errors = self.errors(p)
         if self._plain and not errors.offsets.any() and not errors.gains.any():
             return moved
-        arm = self._rebuilt(moved, self._coupling)
+        arm = self.nominal.replace(
+            screws=moved.screws,
+            home=moved.home,
+            pitches=moved.pitches,
+        )
         if errors.offsets.any():
             arm = arm.rezeroed(errors.offsets)
-        if not errors.gains.any():
-            return self._rebuilt(arm, self._coupling)
-        return self._rebuilt(arm, self.nominal.coupling * (1.0 + errors.gains))
-
-    def _rebuilt(self, arm: Chain, C: Array | None) -> Chain:
-        """A chain of these screws, named as the nominal one."""
-        return Chain.from_space(
-            arm.screws,
-            arm.home,
-            coupling=C,
-            pitches=arm.pitches,
-            **self._named_as,
-        )
+        C = self.nominal.coupling * (1.0 + errors.gains)
+        return arm.replace(coupling=C, limits=self.nominal.limits)
 
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""
@@ -170,31 +145,32 @@ class ErrorModel:
         free = self._free
         derivatives = joints.screw_derivatives(x)
         parts = [self._screw_twists(errors.screws, derivatives.screws)]
-        if any(map(len, (free.pitches, free.offsets, free.gains))):
+        readings = []
+        if any(part.any() for part in (free.pitches, free.offsets, free.gains)):
             J = joints.jacobian(x, frame="space")
             slides = np.zeros_like(J)
             slides[:, 3:] = J[:, :3] * x[:, None]
             parts.append(slides[..., free.pitches])
-        if free.home:
-            parts.append(derivatives.home @ se3.right_jacobian(errors.home))
-        if len(free.offsets) or len(free.gains):
-            J_q = J
             if self._coupling is not None:
-                J_q = J @ self._coupling
-            parts.append(J_q[..., free.offsets])
-            parts.append(J_q[..., free.gains] * q[:, None, free.gains])
-        return np.concatenate(parts, axis=2)
+                J = J @ self._coupling
+            readings = [J[..., free.offsets], J[..., free.gains] * q[:, None, free.gains]]
+        if free.home.any():
+            parts.append(derivatives.home @ se3.right_jacobian(errors.home))
+        return np.concatenate([*parts, *readings], axis=2)
 
     def _screw_twists(self, eta: Array, derivatives: Array) -> Array:
         """Space twists (N, 6, k) of the tilts and shifts, from those of the screws (N, 6, n, 6)."""
         n = len(eta)
         N = len(derivatives)
-        count = self._free.counts[0]
         each = np.arange(n)
         across = np.zeros((n, 6, n, 4))
         across[each, :, each] = se3.left_jacobian(eta) @ self._across
-        moves = across[:, :, self._free.screws].reshape(6 * n, count)
-        twists = blocked_product(derivatives.reshape(N * 6, 6 * n), moves)
+        moves = across[:, :, self._free.screws]
+        count = moves.shape[2]
+        twists = blocked_product(
+            derivatives.reshape(N * 6, 6 * n),
+            moves.reshape(6 * n, count),
+        )
         return twists.reshape(N, 6, count)
 
 
@@ -206,13 +182,6 @@ def _joint_frames(nominal: Chain) -> Array:
         F = F @ M_i
         frames[i] = F
     return frames
-
-
-def _scattered(count: int, indices: NDArray[np.integer], values: Array) -> Array:
-    """Zeros (count,), and the values at these indices."""
-    array = np.zeros(count)
-    array[indices] = values
-    return array
 
 
 def _key(p: Array, q: Array) -> tuple[bytes, int, bytes]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import compress
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
@@ -14,6 +15,7 @@ from ....model.chain import Chain
 
 ParameterKind = Literal["screws", "home", "offsets", "gains", "pitch"]
 Unit = Literal["rad", "m", "1", "m/rad"]
+Mask = NDArray[np.bool_]
 KINDS: tuple[ParameterKind, ...] = get_args(ParameterKind)
 ROTATIONS = ("turn about x", "turn about y", "turn about z")
 TRANSLATIONS = ("shift along x", "shift along y", "shift along z")
@@ -46,50 +48,44 @@ class Parameter(NamedTuple):
 
 
 class Free(NamedTuple):
-    """Free parameters: tilts and shifts of the axes (n, 4), joints whose pitch, coordinates whose
-    offset and gain are free (indices), and whether the home pose is.
+    """Masks of the free parameters: tilts and shifts of the axes (n, 4), pitches (n,), the home pose
+    (6,), offsets and gains (m,).
     """
 
-    screws: NDArray[np.bool_]
-    pitches: NDArray[np.integer]
-    home: bool
-    offsets: NDArray[np.integer]
-    gains: NDArray[np.integer]
-
-    @property
-    def counts(self) -> list[int]:
-        """Number of parameters of each kind, in their order in p."""
-        sizes = (self.screws.sum(), len(self.pitches), 6 * self.home)
-        return [*map(int, sizes), len(self.offsets), len(self.gains)]
+    screws: Mask
+    pitches: Mask
+    home: Mask
+    offsets: Mask
+    gains: Mask
 
 
-def free_parameters(nominal: Chain, kinds: tuple[str, ...], chosen: NDArray[np.bool_]) -> Free:
+def free_parameters(nominal: Chain, kinds: tuple[str, ...], chosen: Mask) -> Free:
     """Parameters of these kinds of the chosen joints (n,), and of the coordinates that move them."""
-    screws = np.zeros((len(chosen), 4), bool)
-    if "screws" in kinds:
-        screws[chosen] = True
-        screws[nominal.local.rotates == 0, _SHIFT] = False
+    screws = np.tile(chosen[:, None], 4)
+    screws[nominal.local.rotates == 0, _SHIFT] = False
     pitched = chosen & (np.array(nominal.kinds, "U9") != "prismatic")
-    moved = np.flatnonzero(np.abs(nominal.coupling[chosen]).sum(0) > 0)
+    moved = nominal.coupling[chosen].any(axis=0)
     return Free(
-        screws=screws,
-        pitches=np.flatnonzero(pitched & ("pitch" in kinds)),
-        home="home" in kinds,
-        offsets=moved[: len(moved) * ("offsets" in kinds)],
-        gains=moved[: len(moved) * ("gains" in kinds)],
+        screws=screws & ("screws" in kinds),
+        pitches=pitched & ("pitch" in kinds),
+        home=np.full(6, "home" in kinds),
+        offsets=moved & ("offsets" in kinds),
+        gains=moved & ("gains" in kinds),
     )
 
 
 def names(nominal: Chain, free: Free, frames: Array) -> tuple[Parameter, ...]:
     """Names of the free parameters in the order of p; frames (n, 4, 4) of the joints at home."""
     found = _axis_names(nominal.joint_names, free, frames)
-    found += [Parameter(nominal.joint_names[i], "pitch", "m/rad") for i in free.pitches]
-    if free.home:
+    pitched = compress(nominal.joint_names, free.pitches)
+    found += [Parameter(name, "pitch", "m/rad") for name in pitched]
+    if free.home.any():
         found += frame_parameters("home")
-    for k in free.offsets:
+    for k in np.flatnonzero(free.offsets):
         unit: Unit = "rad" if nominal.is_angle(int(k)) else "m"
         found.append(Parameter(nominal.q_names[k], "offset", unit))
-    found += [Parameter(nominal.q_names[k], "gain", "1") for k in free.gains]
+    scaled = compress(nominal.q_names, free.gains)
+    found += [Parameter(name, "gain", "1") for name in scaled]
     return tuple(found)
 
 
@@ -127,7 +123,7 @@ def parse_kinds(kinds: Sequence[str]) -> tuple[str, ...]:
     return every
 
 
-def parse_joints(chain: Chain, joints: Sequence[str] | None) -> NDArray[np.bool_]:
+def parse_joints(chain: Chain, joints: Sequence[str] | None) -> Mask:
     """Mask (n,) of the joints that are named, all of them for None. Raises: UnknownName."""
     if joints is None:
         return np.ones(len(chain.joint_names), bool)
