@@ -31,7 +31,7 @@ from .measurements.inputs import parse_measurements, parse_readings
 from .model.error_model import ErrorModel
 from .model.parameters import ParameterKind, Unit
 from .model.problem import Problem
-from .model.residuals import Residuals, residuals
+from .model.residuals import Residuals
 from .result import Outlier
 
 
@@ -150,7 +150,7 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     folds = cross_validation.check_folds(folds, len(q), seed)
     start = fit_frames(problem, loss)
     units.check(problem, start)
-    before = _residuals(problem, start)  # now, while the problem has these errors
+    before = problem.residuals(start)  # now, while the problem has these errors
     options = FitOptions(loss, sigma, iterations)
     fit = fit_with_refit(problem, free, start, options)
     if fit.free is not free:
@@ -174,17 +174,16 @@ def _result(
     loss: LossName,
 ) -> Calibration:
     """The calibration that a fit makes, with warnings and remarks."""
-    after = _residuals(problem, fit.p)
+    after = problem.residuals(fit.p)
     remarks = explanation.explain(problem, before, after)
     doubts = misfit.contradicted(problem, fit)
-    frames = zip(problem.frame_names, problem.frame_values(fit.p), strict=True)
     return Calibration(
         nominal=problem.model.nominal,
         chain=problem.model.chain(fit.p[: problem.model_size]),
         parameters=problem.parameters,
         values=fit.p,
         covariance=fit.covariance,
-        frames=dict(frames),
+        frames=problem.frame_values(fit.p),
         identification=identification,
         success=fit.converged,
         steps=tuple(fit.steps),
@@ -205,10 +204,6 @@ def _outliers(problem: Problem, fit: Fit) -> tuple[Outlier, ...]:
     for k, indices in enumerate(outliers(problem, fit.noise, fit.p)):
         found += [Outlier(k, int(i), int(problem.rows[k][i])) for i in indices]
     return tuple(found)
-
-
-def _residuals(problem: Problem, p: Array) -> Residuals:
-    return residuals(problem.sets, problem.rows, problem.errors(p))
 
 
 def _prior(prior: Mapping[Unit, float] | None, problem: Problem) -> Array | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from ..fit.minimise import FitOptions
 from ..fit.refit import fit_with_refit
 from ..measurements.measurement import Rows
 from ..model.problem import Problem
-from ..model.residuals import Residuals, concatenate, residuals
+from ..model.residuals import Residuals, concatenate
 
 
 class CrossValidation(NamedTuple):
@@ -64,7 +65,8 @@ def cross_validate(
 
 
 def _held_out_residuals(test: Problem, p: Array, chosen: Rows) -> Residuals:
-    return residuals(test.sets, [chosen[rows] for rows in test.rows], test.errors(p))
+    found = test.residuals(p)
+    return replace(found, row=chosen[found.row])
 
 
 def check_folds(folds: Any, count: int, seed: Any) -> int:

@@ -22,7 +22,7 @@ from ..measurements.points import Distances, Points
 from ..measurements.poses import EyeInHand, Poses
 from ..model.error_model import ErrorModel
 from ..model.problem import Problem
-from ..model.residuals import Residuals, residuals
+from ..model.residuals import Residuals
 from .identification import identify_directions
 from .units import LARGE
 
@@ -164,14 +164,14 @@ def explained(problem: Problem, k: int) -> Explanation | None:
         return None
     free = identify_directions(own)[1]
     fit = fit_parameters(own, free, np.zeros(own.size), FitOptions("huber"))
-    base, *moving = own.frame_values(fit.p)
+    base, *moving = own.frame_values(fit.p).values()
     tool = se3.exp(fit.p[: own.model_size])
     for T in moving:
         tool = tool @ T
     moved = _size(tool)
     if s.width <= 3:  # one point does not tell how the tool is turned
         moved = moved._replace(angle=None)
-    left = median(residuals(own.sets, own.rows, own.errors(fit.p)), 0, own.sets[0])
+    left = median(own.residuals(fit.p), 0, own.sets[0])
     return Explanation(_base(s, base), moved, left)
 
 

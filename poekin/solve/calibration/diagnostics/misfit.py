@@ -12,7 +12,6 @@ from ....errors import InputError
 from ..fit.fitting import Fit
 from ..fit.losses import OUTLIER, chi_square
 from ..model.problem import Problem
-from ..model.residuals import residuals
 from .explanation import explained, far, hint, median, set_name
 
 TIMES = 3.0
@@ -32,7 +31,7 @@ def check(problem: Problem, fit: Fit) -> None:
 
     Raises: InputError that names the set, by how much it is missed, and what may be wrong.
     """
-    found = residuals(problem.sets, problem.rows, problem.errors(fit.p))
+    found = problem.residuals(fit.p)
     reach = problem.model.nominal.reach
     squares = fit.noise.squares(problem.errors(fit.p))
     for k, s in enumerate(problem.sets):

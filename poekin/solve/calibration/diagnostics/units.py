@@ -16,7 +16,6 @@ from ..fit.fitting import fit_frames
 from ..measurements.measurement import Measurement
 from ..model.error_model import ErrorModel
 from ..model.problem import Problem
-from ..model.residuals import residuals
 
 LARGE = 0.1  # reaches: a nominal arm is off by millimetres
 _BETTER = 4.0  # how many times better the other unit has to explain the data
@@ -46,7 +45,7 @@ def check(problem: Problem, p: Array) -> None:
     Raises: InputError that says which and by how much, where the nominal arm is off by more than a
     tenth of its reach.
     """
-    off = _off(problem, p)
+    off = problem.residuals(p).median_length
     arm = problem.model.nominal
     if off <= LARGE * arm.reach and np.abs(problem.q).max(initial=0.0) <= 4 * _TURN:
         return
@@ -91,10 +90,6 @@ def converted(chain: Chain, q: Array, angle: float = 1.0, length: float = 1.0) -
     return q * [angle if chain.is_angle(k) else length for k in range(chain.dof)]
 
 
-def _off(problem: Problem, p: Array) -> float:
-    return residuals(problem.sets, problem.rows, problem.errors(p)).median_length
-
-
 def _tried(problem: Problem, units: Units) -> float:
     """The median distance in these units; frames that are not given are estimated anew."""
     sets = [s.scaled(units.length) for s in problem.sets]
@@ -102,4 +97,5 @@ def _tried(problem: Problem, units: Units) -> float:
         other = Problem(problem.model, units.q, sets)
     except InputError:
         return np.inf
-    return _off(other, fit_frames(other, "huber"))
+    p = fit_frames(other, "huber")
+    return other.residuals(p).median_length

@@ -89,14 +89,11 @@ def names(nominal: Chain, free: Free, frames: Array) -> tuple[Parameter, ...]:
     return tuple(found)
 
 
-def frame_parameters(owner: str) -> list[Parameter]:
-    """The six parameters of a pose."""
-    return [Parameter(owner, what, "rad") for what in ROTATIONS] + point_parameters(owner)
-
-
-def point_parameters(owner: str) -> list[Parameter]:
-    """The three parameters of a point."""
-    return [Parameter(owner, what, "m") for what in TRANSLATIONS]
+def frame_parameters(owner: str, size: int = 6) -> list[Parameter]:
+    """The six parameters of a pose, or the three of a point."""
+    rotations = [Parameter(owner, what, "rad") for what in ROTATIONS]
+    translations = [Parameter(owner, what, "m") for what in TRANSLATIONS]
+    return [*rotations, *translations][-size:]
 
 
 def _axis_names(joint_names: Sequence[str], free: Free, frames: Array) -> list[Parameter]:

@@ -15,7 +15,8 @@ from ....model.checks import read_only
 from ..measurements.measurement import Measurement, Rows
 from .error_model import ErrorModel, PosesAndTwists
 from .last_result import LastResult
-from .parameters import frame_parameters, point_parameters
+from .parameters import frame_parameters
+from .residuals import Residuals, residuals
 
 
 class Linear(NamedTuple):
@@ -43,36 +44,35 @@ class Problem:
         self.q = q
         self.sets = tuple(sets)
         self.rows = [_rows(s, len(q)) for s in self.sets]
-        names = [_frame_names(k, self.sets) for k in range(len(self.sets))]
-        sizes: dict[str, int] = {}
-        for s, own in zip(self.sets, names, strict=True):
-            sizes |= {name: u.size for name, u in zip(own, s.unknown_frames, strict=True)}
-        self.frame_names = list(sizes)
-        # of all unknown frames, those of each set
-        self._own = [[self.frame_names.index(name) for name in own] for own in names]
+        self._own = [_frame_names(k, self.sets) for k in range(len(self.sets))]
         named = list(model.parameters)
-        self._parts: list[slice] = []
-        for name, size in sizes.items():
-            self._parts.append(slice(len(named), len(named) + size))
-            named += frame_parameters(name) if size == 6 else point_parameters(name)
+        self._parts: dict[str, slice] = {}
+        for s, own in zip(self.sets, self._own, strict=True):
+            for name, frame in zip(own, s.unknown_frames, strict=True):
+                if name not in self._parts:
+                    self._parts[name] = slice(len(named), len(named) + frame.size)
+                    named += frame_parameters(name, frame.size)
+        self.frame_names = list(self._parts)
         self.parameters = tuple(named)
         lengths = [p.unit in ("m", "m/rad") for p in named]
         self.scale = np.where(lengths, model.nominal.reach, 1.0)
-        self.initial_frames = tuple(self._guesses() if initial_frames is None else initial_frames)
+        if initial_frames is None:
+            initial_frames = self._guesses()
+        self.initial_frames = tuple(initial_frames)
         self._last_errors = LastResult[list[Array]]()
 
     def _guesses(self) -> list[Array]:
         """Initial guesses of the unknown frames: of those that sets share, by the largest set."""
         T = self.model.nominal.fk(self.q)
-        found: dict[int, Array] = {}
+        found: dict[str, Array] = {}
         for k in sorted(range(len(self.sets)), key=lambda k: -len(self.sets[k])):
             s = self.sets[k]
             own = self._own[k]
             pairs = zip(own, s.unknown_frames, strict=True)
-            known = [u._replace(guess=found.get(i, u.guess)) for i, u in pairs]
+            known = [u._replace(guess=found.get(name, u.guess)) for name, u in pairs]
             guesses = s.with_unknown_frames(known).guesses(T[self.rows[k]])
             found |= dict(zip(own, guesses, strict=True))
-        return [found[i] for i in range(len(found))]
+        return [found[name] for name in self.frame_names]
 
     @property
     def size(self) -> int:
@@ -89,10 +89,14 @@ class Problem:
         """Number of measured values."""
         return sum(len(s) * s.width for s in self.sets)
 
-    def frame_values(self, p: Array) -> list[Array]:
-        """The unknown frames (4, 4) and points (3,) at p."""
-        pairs = zip(self.initial_frames, self._parts, strict=True)
-        return [_moved(frame, p[part]) for frame, part in pairs]
+    def frame_values(self, p: Array) -> dict[str, Array]:
+        """The unknown frames (4, 4) and points (3,) at p, by name."""
+        pairs = zip(self.initial_frames, self._parts.items(), strict=True)
+        return {name: _moved(frame, p[part]) for frame, (name, part) in pairs}
+
+    def residuals(self, p: Array) -> Residuals:
+        """Residuals of all measurements."""
+        return residuals(self.sets, self.rows, self.errors(p))
 
     def errors(self, p: Array) -> list[Array]:
         """The errors (N, d) of each set."""
@@ -103,12 +107,14 @@ class Problem:
         frames = self.frame_values(p)
         found = []
         for s, rows, own in zip(self.sets, self.rows, self._own, strict=True):
-            found.append(read_only(s.errors(T[rows], [frames[i] for i in own])))
+            errors = s.errors(T[rows], [frames[name] for name in own])
+            found.append(read_only(errors))
         return found
 
     def linearised(self, p: Array) -> list[Linear]:
         """The errors of each set and their Jacobian."""
-        return self._linearised(p, self._moved(p), self.errors(p))
+        errors = self.errors(p)
+        return list(map(Linear, errors, self._jacobians(p, self._moved(p), errors)))
 
     def _moved(self, p: Array) -> list[PosesAndTwists]:
         """Poses and their twists at the readings of each set."""
@@ -125,29 +131,27 @@ class Problem:
         else:
             moved = [self.model.poses_and_twists(p[: self.model_size], q)] * len(self.sets)
         errors = [np.zeros((len(m.T), s.width)) for m, s in zip(moved, self.sets, strict=True)]
-        return [linear.jacobian for linear in self._linearised(p, moved, errors)]
+        return self._jacobians(p, moved, errors)
 
-    def _linearised(
+    def _jacobians(
         self,
         p: Array,
         moved: Sequence[PosesAndTwists],
         errors: Sequence[Array],
-    ) -> list[Linear]:
+    ) -> list[Array]:
         frames = self.frame_values(p)
         found = []
-        for k, s in enumerate(self.sets):
-            own = self._own[k]
-            mine = [frames[i] for i in own]
-            of_model, of_frames = s.jacobian(moved[k].T, mine, errors[k], moved[k].D)
-            jacobian = np.zeros((*errors[k].shape, self.size))
+        for s, own, (T, D), e in zip(self.sets, self._own, moved, errors, strict=True):
+            of_model, of_frames = s.jacobian(T, [frames[name] for name in own], e, D)
+            jacobian = np.zeros((*e.shape, self.size))
             jacobian[..., : self.model_size] = of_model
-            for i, of_frame in zip(own, of_frames, strict=True):
-                part = self._parts[i]
+            for name, of_frame in zip(own, of_frames, strict=True):
+                part = self._parts[name]
                 if of_frame.shape[2] == 6:
                     # at T e^eta with eta != 0 the frame moves by J_r(eta) d eta
                     of_frame = of_frame @ se3.right_jacobian(p[part])
                 jacobian[..., part] = of_frame
-            found.append(Linear(errors[k], jacobian))
+            found.append(jacobian)
         return found
 
     def part(self, chosen: Rows) -> Problem:
