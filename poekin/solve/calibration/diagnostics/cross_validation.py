@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any, NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from ....checks import is_whole, whole
 from ....errors import InputError, safe_repr
 from ....groups.arrays import Array
-from ....results import Progress
+from ....results import Progress, Result
 from ..fit.fitting import fit_frames
 from ..fit.minimise import FitOptions
 from ..fit.refit import fit_with_refit
@@ -19,7 +19,8 @@ from ..model.problem import Problem
 from ..model.residuals import Residuals, concatenate
 
 
-class CrossValidation(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class CrossValidation(Result):
     """Residuals on held-out data, pooled over the folds.
 
     Parameters
@@ -35,6 +36,10 @@ class CrossValidation(NamedTuple):
     before: Residuals
     after: Residuals
     folds: int
+
+    def summary(self) -> str:
+        """Residuals of the nominal and the calibrated arm as text, in mm and mrad."""
+        return f"{self.folds} folds\nbefore: {self.before}\nafter: {self.after}"
 
 
 def cross_validate(

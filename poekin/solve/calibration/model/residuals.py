@@ -13,7 +13,7 @@ from ....groups.arrays import Array
 from ....results import Result
 from ..measurements.measurement import Measurement, Rows
 
-_FIELDS = ("length", "angle", "set", "row")
+FIELDS = ("length", "angle", "set", "row")
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +81,7 @@ class Residuals(Result):
         -----
         Source: none, it selects.
         """
-        return Residuals(*(getattr(self, name)[chosen] for name in _FIELDS))
+        return Residuals(*(getattr(self, name)[chosen] for name in FIELDS))
 
     def __len__(self) -> int:
         return len(self.length)
@@ -120,7 +120,7 @@ def concatenate(parts: Sequence[Residuals]) -> Residuals:
 
 
 def _stacked(parts: Sequence[Residuals]) -> Residuals:
-    columns = ([getattr(part, name) for part in parts] for name in _FIELDS)
+    columns = ([getattr(part, name) for part in parts] for name in FIELDS)
     return Residuals(*map(np.concatenate, columns))
 
 

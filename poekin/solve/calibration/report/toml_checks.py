@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ....errors import ModelError, PoekinError, quote
+from ....errors import ModelError, PoekinError, PoseError, quote
 from ....formats.chain_toml import CALIBRATED
 from ....formats.text.toml_text import Keys
 from ....groups.arrays import Array, poses
@@ -32,10 +32,10 @@ class Named(NamedTuple):
 
 def error_model(keys: Keys, nominal: Chain) -> ErrorModel:
     """The error model of the nominal chain. Raises: ModelError."""
+    kinds = keys.texts("kinds")
+    joints = keys.texts("joints")
     try:
-        return ErrorModel(nominal, keys.texts("kinds"), keys.texts("joints"))
-    except ModelError:
-        raise
+        return ErrorModel(nominal, kinds, joints)
     except PoekinError as fault:
         raise ModelError(f"{keys.place}: {fault}") from fault
 
@@ -47,14 +47,12 @@ def frames(keys: Keys) -> dict[str, Array]:
 
 def _frame(keys: Keys, name: str) -> Array:
     value = keys.value(name)
-    is_pose = isinstance(value, list) and len(value) == 4
-    frame = keys.array(name, (4, 4) if is_pose else (3,))
-    if is_pose:
-        try:
-            poses(frame)
-        except PoekinError as fault:
-            raise keys.fault(name, str(fault)) from fault
-    return read_only(frame)
+    if not isinstance(value, list) or len(value) != 4:
+        return read_only(keys.array(name, (3,)))
+    try:
+        return read_only(poses(keys.array(name, (4, 4))))
+    except PoseError as fault:
+        raise keys.fault(name, str(fault)) from fault
 
 
 def parameters(keys: Keys, model: ErrorModel, frames: dict[str, Array]) -> Named:
