@@ -14,7 +14,12 @@ from ....model.chain import Chain
 from ....model.coordinates import coordinates
 from ....model.kinematics.arm import Arm, chain_of
 from ....results import Progress
-from ..diagnostics.identification import RANK, identification_matrix, identify_directions
+from ..diagnostics.identification import (
+    RANK,
+    identification_matrix,
+    identify_directions,
+    scaled_jacobians,
+)
 from ..measurements.measurement import Measurement
 from ..measurements.points import Points
 from ..measurements.poses import Poses
@@ -205,11 +210,8 @@ def _blocks(problem: Problem, rank: int) -> Array:
     show.
     """
     J = identification_matrix(problem)
-    count = len(problem.q)
-    ends = np.cumsum([count * s.width for s in problem.sets])[:-1]
-    parts = [part.reshape(count, -1, problem.size) for part in np.split(J, ends)]
     _, _, Vt = np.linalg.svd(qr_r(J), full_matrices=False)
-    return np.concatenate(parts, axis=1) @ Vt[:rank].T
+    return np.concatenate(scaled_jacobians(problem), axis=1) @ Vt[:rank].T
 
 
 def _enough(blocks: Array, n: int) -> None:
@@ -243,16 +245,9 @@ def design_metrics(blocks: Array, rows: np.ndarray) -> DesignMetrics:
     J = blocks[rows].reshape(-1, blocks.shape[2])
     _, s, Vt = np.linalg.svd(qr_r(J), full_matrices=False)
     if len(s) < J.shape[1] or s[-1] <= RANK * s[0]:
-        return _with_prediction(observability.UNOBSERVED, np.inf)
+        return DesignMetrics(*observability.UNOBSERVED, np.inf)
     indices = observability.from_singular_values(s, len(rows))
     # the errors at the candidates are B_k dp, and the covariance of dp is (J^T J)^-1 = V s^-2 V^T
     spread = blocks @ (Vt.T / s)
-    prediction = float(np.sqrt(np.mean(np.sum(spread**2, axis=2))))
-    return _with_prediction(indices, prediction)
-
-
-def _with_prediction(
-    indices: observability.ObservabilityIndices,
-    prediction: float,
-) -> DesignMetrics:
-    return DesignMetrics(*map(float, indices), prediction)  # type: ignore[call-arg]
+    prediction = np.sqrt(np.mean(np.sum(spread**2, axis=2)))
+    return DesignMetrics(*indices, float(prediction))

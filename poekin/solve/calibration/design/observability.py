@@ -109,16 +109,17 @@ def observability_indices(J: ArrayLike, m: int, rank: int | None = None) -> Obse
 
 def from_singular_values(sigma: np.ndarray, m: int) -> ObservabilityIndices:
     """Observability indices of the L singular values (..., L), in descending order."""
-    first = sigma[..., 0]
-    last = sigma[..., -1]
-    seen = last > 0
+    smallest = sigma[..., -1]
+    seen = smallest > 0
     safe = np.where(seen[..., None], sigma, 1.0)
+    first = safe[..., 0]
+    last = safe[..., -1]
     indices = ObservabilityIndices(
         O1=np.where(seen, np.exp(np.log(safe).mean(-1)) / np.sqrt(m), 0.0),
-        condition=np.where(seen, safe[..., 0] / safe[..., -1], np.inf),
-        smallest=last,
-        amplification=np.where(seen, safe[..., -1] / safe[..., 0] * last, 0.0),
+        condition=np.where(seen, first / last, np.inf),
+        smallest=smallest,
+        amplification=np.where(seen, last / first * last, 0.0),
     )
-    if first.ndim == 0:
+    if sigma.ndim == 1:
         return ObservabilityIndices(*map(float, indices))
     return indices

@@ -132,9 +132,8 @@ def set_name(sets: Sequence[Measurement], k: int, alone: str) -> str:
 
 def median(r: Residuals, k: int, s: Measurement) -> Size:
     """The median errors of set k."""
-    mine = r.set == k
-    angle = float(np.median(r.angle[mine])) if s.angular else None
-    return Size(float(np.median(r.length[mine])), angle)
+    mine = r.of_set(k)
+    return Size(mine.median_length, mine.median_angle if s.angular else None)
 
 
 def far(size: Size, reach: float) -> bool:

@@ -4,6 +4,7 @@ in words.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
@@ -160,14 +161,19 @@ def identification_matrix(
     """The identification matrix (M, P) at the nominal arm, or p: angles in rad, lengths in reaches,
     row and column.
     """
+    parts = scaled_jacobians(problem, q, p)
+    return np.concatenate([part.reshape(-1, problem.size) for part in parts])
+
+
+def scaled_jacobians(
+    problem: Problem, q: Array | None = None, p: Array | None = None
+) -> list[Array]:
+    """The identification matrix by sets (N, d, P)."""
     if p is None:
         p = np.zeros(problem.size)
-    rows = [np.empty((0, problem.size))]
-    for s, jacobian in zip(problem.sets, problem.jacobians(p, q), strict=True):
-        unit = s.per_error(1.0, problem.model.nominal.reach)
-        scaled = jacobian * problem.scale / unit[:, None]
-        rows.append(scaled.reshape(-1, problem.size))
-    return np.concatenate(rows)
+    reach = problem.model.nominal.reach
+    pairs = zip(problem.sets, problem.jacobians(p, q), strict=True)
+    return [jacobian * problem.scale / s.per_error(1.0, reach)[:, None] for s, jacobian in pairs]
 
 
 def rank_at(problem: Problem, p: Array) -> int:
@@ -205,8 +211,8 @@ def identify_directions(
     observed = _row_space(np.concatenate([identification_matrix(problem, p=p), prior]), least)
     identifiable = observed
     if observed.rank < problem.size:
-        width = max(sum(m.width for m in problem.sets), 1)
-        q = _random_configurations(problem.model.nominal, max(1, -(-3 * problem.size // width)))
+        width = sum(s.width for s in problem.sets)
+        q = _random_configurations(problem.model.nominal, math.ceil(3 * problem.size / width))
         anywhere = identification_matrix(problem, q, p)
         identifiable = _row_space(np.concatenate([anywhere, prior]), least)
     unidentifiable = _complement(identifiable.basis)
@@ -214,7 +220,9 @@ def identify_directions(
     lost = rest - unidentifiable @ (unidentifiable.T @ rest)
     unobserved = _span(lost, identifiable.rank - observed.rank)
     sigma = observed.singular_values[: observed.rank]
-    indices = _indices(sigma, problem)
+    indices = observability.UNOBSERVED
+    if len(sigma):
+        indices = observability.from_singular_values(sigma, sum(map(len, problem.sets)))
     identification = Identification(
         size=problem.size,
         identifiable=identifiable.rank,
@@ -250,12 +258,6 @@ def check_rank(identification: Identification, on_rank_deficiency: OnRankDeficie
     )
 
 
-def _indices(sigma: Array, problem: Problem) -> observability.ObservabilityIndices:
-    if not len(sigma):
-        return observability.UNOBSERVED
-    return observability.from_singular_values(sigma, max(sum(map(len, problem.sets)), 1))
-
-
 def _prior_rows(problem: Problem, known: NDArray[np.bool_] | None) -> Array:
     """A row for each parameter that a prior tells something of."""
     if known is None:
@@ -278,10 +280,7 @@ def _row_space(J: Array, least: float) -> _RowSpace:
 
 def _complement(V: Array) -> Array:
     """An orthonormal basis of what is orthogonal to the columns of V (P, k)."""
-    P, k = V.shape
-    if k in (0, P):  # all or nothing, as where everything is identified
-        return np.eye(P)[:, k:]
-    return np.linalg.qr(V, mode="complete")[0][:, k:]
+    return np.linalg.qr(V, mode="complete")[0][:, V.shape[1] :]
 
 
 def _span(N: Array, count: int) -> Array:

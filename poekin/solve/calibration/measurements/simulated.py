@@ -154,7 +154,9 @@ def simulated(  # noqa: PLR0913 - options by keyword
     >>> sorted(made.frames)
     ['T_base_board', 'T_tip_camera']
     """
-    _check_options(n, kind, seed)
+    choice(kind, KINDS, "kind")
+    whole(n, "n", 1)
+    whole(seed, "seed", 0)
     deviations = _deviations(tilt, shift, noise)
     part = numbers(outliers, "outliers")
     if part.shape != () or not 0 <= outliers < 1:
@@ -162,27 +164,28 @@ def simulated(  # noqa: PLR0913 - options by keyword
             "outliers: expected a part of the measurements, 0 <= outliers < 1, got "
             f"{safe_repr(outliers)}"
         )
-    body = parse_points(points)
+    body = read_only(parse_points(points))
     for_arm, for_frames, for_errors, for_outliers = (
         np.random.default_rng([seed, part]) for part in range(4)
     )
     model = ErrorModel(chain, ("screws", "home"), None)
-    sizes = {"rad": float(tilt), "m": float(shift)}
-    p = np.array([sizes[parameter.unit] for parameter in model.parameters])
+    sizes = {"rad": tilt, "m": shift}
+    p = np.array([sizes[parameter.unit] for parameter in model.parameters], float)
     p *= for_arm.normal(size=len(p))
     truth = model.chain(p)
     q = _readings(chain, q, int(n), for_arm)
     gross = np.zeros(n, bool)
     gross[for_outliers.permutation(n)[: round(outliers * n)]] = True
     sensor = _Sensor(chain.reach, deviations, for_errors, for_outliers, gross)
-    setup = _setup(kind, body, unknown, _random_frames(for_frames, chain.reach))
+    frames = _random_frames(for_frames, chain.reach)
+    made = _measure(kind, truth.fk(q), frames, body, unknown, sensor)
     return Simulated(
         truth=truth,
         parameters=read_only(p),
         q=read_only(q),
-        measurements=_measure(kind, truth.fk(q), setup, sensor),
-        frames=setup.unknown,
-        points=setup.points,
+        measurements=made.measurements,
+        frames=made.frames,
+        points=made.points,
         outliers=read_only(gross),
     )
 
@@ -198,42 +201,44 @@ class _Frames(NamedTuple):
     centre: Array
 
 
-class _Setup(NamedTuple):
-    """Frames, those of them that are unknown by name, and the points of the tool, if any."""
+class _Made(NamedTuple):
+    """Measurements, their unknown frames by name, and the points of the tool, if any."""
 
-    frames: _Frames
-    unknown: dict[str, Array]
-    points: Array | None
-
-
-def _setup(kind: str, body: Array, unknown: bool, frames: _Frames) -> _Setup:
-    if kind in _HAND_EYE:
-        return _Setup(frames, dict(zip(_HAND_EYE[kind].frames, frames[:2], strict=True)), None)
-    if kind == "poses":
-        return _Setup(frames, {}, None)
-    hidden = {"T_base_device": frames.X}
-    if kind == "distances":
-        body = body[:1]
-        hidden = {"centre": frames.centre}
-    return _Setup(frames, hidden if unknown else {}, read_only(body))
+    measurements: Measurement
+    frames: dict[str, Array]
+    points: Array | None = None
 
 
-def _measure(kind: str, T: Array, setup: _Setup, sensor: _Sensor) -> Measurement:
+def _measure(
+    kind: str,
+    T: Array,
+    frames: _Frames,
+    points: Array,
+    unknown: bool,
+    sensor: _Sensor,
+) -> _Made:
     """Measurements of this kind at the true poses T (N, 4, 4)."""
-    X, Z, centre = setup.frames
+    X, Z, centre = frames
     if kind == "poses":
-        return Poses(sensor.poses(T), sensor.covariance(3, 3))
-    if setup.points is None:
-        return _HAND_EYE[kind](sensor.poses(se3.inverse(X) @ T @ Z), sensor.covariance(3, 3))
-    covariance = sensor.covariance(0, setup.points.size)
+        return _Made(Poses(sensor.poses(T), sensor.covariance(3, 3)), {})
+    if kind in _HAND_EYE:
+        seen = sensor.poses(se3.inverse(X) @ T @ Z)
+        measured = _HAND_EYE[kind](seen, sensor.covariance(3, 3))
+        return _Made(measured, dict(zip(measured.frames, (X, Z), strict=True)))
     if kind == "distances":
-        point = setup.points[0]
-        d = sensor.distances(T, point, centre)
-        return Distances(d, None if setup.unknown else centre, point, sensor.covariance(0, 1))
-    if setup.unknown:
-        p = sensor.points(se3.inverse(X) @ T, setup.points)
-        return Points(p, setup.points, covariance, frame="unknown")
-    return Points(sensor.points(T, setup.points), setup.points, covariance)
+        points = points[:1]
+        d = sensor.distances(T, points[0], centre)
+        covariance = sensor.covariance(0, 1)
+        if unknown:
+            hidden = {"centre": centre}
+            return _Made(Distances(d, None, points[0], covariance), hidden, points)
+        return _Made(Distances(d, centre, points[0], covariance), {}, points)
+    covariance = sensor.covariance(0, points.size)
+    if unknown:
+        p = sensor.points(se3.inverse(X) @ T, points)
+        measured = Points(p, points, covariance, frame="unknown")
+        return _Made(measured, {"T_base_device": X}, points)
+    return _Made(Points(sensor.points(T, points), points, covariance), {}, points)
 
 
 def _readings(chain: Chain, q: Any, n: int, rng: np.random.Generator) -> Array:
@@ -310,12 +315,6 @@ def _random_frames(rng: np.random.Generator, reach: float) -> _Frames:
     X[:3, 3] = 0.7 * reach * directions[0]
     Z[:3, 3] = 0.1 * reach * directions[1]
     return _Frames(read_only(X), read_only(Z), read_only(2.0 * reach * directions[2]))
-
-
-def _check_options(n: Any, kind: Any, seed: Any) -> None:
-    choice(kind, KINDS, "kind")
-    whole(n, "n", 1)
-    whole(seed, "seed", 0)
 
 
 def _deviations(tilt: Any, shift: Any, noise: Any) -> tuple[float, float]:

@@ -42,22 +42,22 @@ class Residuals(Result):
     @property
     def median_length(self) -> float:
         """Median distance, m."""
-        return _known(np.median, self.length)
+        return median(self.length)
 
     @property
     def rms_length(self) -> float:
         """Root mean square distance, m."""
-        return _known(_rms, self.length)
+        return rms(self.length)
 
     @property
     def median_angle(self) -> float:
         """Median turn, rad; NaN where no angle was measured."""
-        return _known(np.median, self.angle)
+        return median(self.angle)
 
     @property
     def rms_angle(self) -> float:
         """Root mean square turn, rad; NaN where no angle was measured."""
-        return _known(_rms, self.angle)
+        return rms(self.angle)
 
     def subset(self, chosen: NDArray[Any]) -> Residuals:
         """Residuals of some of the measurements.
@@ -83,17 +83,36 @@ class Residuals(Result):
         """
         return Residuals(*(getattr(self, name)[chosen] for name in FIELDS))
 
+    def of_set(self, k: int) -> Residuals:
+        """Residuals of one set of measurements.
+
+        Parameters
+        ----------
+        k : int
+            Number of the set, from 0.
+
+        Returns
+        -------
+        residuals : Residuals
+            Their residuals, m and rad; none where there is no such set.
+
+        Notes
+        -----
+        Raises: nothing. Source: none, it selects.
+        """
+        return self.subset(self.set == k)
+
     def __len__(self) -> int:
         return len(self.length)
 
     def summary(self) -> str:
         """Root mean squares and medians as text, in mm and mrad."""
-        rms = 1e3 * self.rms_length
-        words = f"position {rms:.3g} mm rms, median {1e3 * self.median_length:.3g} mm"
+        size = 1e3 * self.rms_length
+        words = f"position {size:.3g} mm rms, median {1e3 * self.median_length:.3g} mm"
         if np.isnan(self.angle).all():
             return words
-        rms = 1e3 * self.rms_angle
-        return f"{words}; rotation {rms:.3g} mrad rms, median {1e3 * self.median_angle:.3g} mrad"
+        size = 1e3 * self.rms_angle
+        return f"{words}; rotation {size:.3g} mrad rms, median {1e3 * self.median_angle:.3g} mrad"
 
 
 def residuals(
@@ -124,13 +143,23 @@ def _stacked(parts: Sequence[Residuals]) -> Residuals:
     return Residuals(*map(np.concatenate, columns))
 
 
+def median(values: Array) -> float:
+    """Median of the values that are not NaN; NaN without any."""
+    return _known(np.median, values)
+
+
+def rms(values: Array) -> float:
+    """Root mean square of the values that are not NaN; NaN without any."""
+    return _known(lambda known: np.sqrt(np.mean(known**2)), values)
+
+
+def largest(values: Array) -> float:
+    """Largest of the values that are not NaN; NaN without any."""
+    return _known(np.max, values)
+
+
 def _known(statistic: Callable[[Array], Any], values: Array) -> float:
-    """Statistic of the values that are not NaN; NaN without any."""
     known = values[~np.isnan(values)]
     if len(known):
         return float(statistic(known))
     return np.nan
-
-
-def _rms(values: Array) -> float:
-    return np.sqrt(np.mean(values**2))

@@ -8,14 +8,14 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
-from ..model.parameters import Parameter
 from ..model.residuals import Residuals
 from ..result import CalibrationData
 
 TWO_SIGMA = 1.959963984540054
 """Of a normal number, 95 % lie within so many standard deviations."""
-TILT = "tilt about"
-SHIFT = "shift along"
+# of an axis: a home pose is shifted "along x"
+TILT = "tilt about ("
+SHIFT = "shift along ("
 
 
 HEADS = ("joint", "tilt (mrad)", "± 95 %", "shift (mm)", "± 95 %")
@@ -46,7 +46,7 @@ def errors(found: CalibrationData) -> list[NamedResiduals]:
 
 def sentence(found: CalibrationData) -> str:
     """The result in a sentence or two: on held-out data, where there are any."""
-    before, after, *_ = (r for _, r in errors(found))
+    before, after, *_ = (r.residuals for r in errors(found))
     where = "On the data it was fitted to"
     if found.cross_validation is not None:
         where = "On held-out data"
@@ -55,8 +55,8 @@ def sentence(found: CalibrationData) -> str:
         f"{milli(after.median_length)} mm"
     )
     if not math.isnan(after.median_angle):
-        angles = (milli(before.median_angle), milli(after.median_angle))
-        words += f", the rotation error from {angles[0]} to {angles[1]} mrad"
+        was = milli(before.median_angle)
+        words += f", the rotation error from {was} to {milli(after.median_angle)} mrad"
     if not found.success:
         words = f"The search did NOT converge: this is the best that was found. {words}"
     return f"{words}."
@@ -71,10 +71,9 @@ def milli(value: float) -> str:
 
 class Change(NamedTuple):
     """The tilts (rad) or shifts (m) of one joint's axis: values (k,), k = 0 or 2, with covariance
-    (k, k), about or along these directions in base axes.
+    (k, k).
     """
 
-    directions: tuple[str, ...]
     values: Array
     covariance: Array
 
@@ -113,29 +112,18 @@ class Joint(NamedTuple):
 
 def joints(found: CalibrationData) -> list[Joint]:
     """The joints whose axes could move, in the order of the chain."""
-    own = found.parameters[: len(found.error_model.parameters)]
-    moved = [p for p in own if p.what.startswith((f"{TILT} (", f"{SHIFT} ("))]
-    return [
-        Joint(name, _change(found, name, TILT), _change(found, name, SHIFT))
-        for name in _axis_owners(moved)
-    ]
-
-
-def _axis_owners(moved: list[Parameter]) -> list[str]:
-    """Owners of the tilts, then of the shifts, each once."""
-    ordered = sorted(moved, key=lambda p: not p.what.startswith(TILT))
-    return list(dict.fromkeys(p.owner for p in ordered))
+    own = found.error_model.parameters
+    tilted = dict.fromkeys(p.owner for p in own if p.what.startswith(TILT))
+    return [Joint(name, _change(found, name, TILT), _change(found, name, SHIFT)) for name in tilted]
 
 
 def _change(found: CalibrationData, name: str, word: str) -> Change:
-    own = found.parameters[: len(found.error_model.parameters)]
-    mine = [k for k, p in enumerate(own) if p.owner == name and p.what.startswith(f"{word} (")]
-    directions = tuple(own[k].what.removeprefix(word).strip() for k in mine)
-    return Change(directions, found.values[mine], found.covariance[np.ix_(mine, mine)])
+    own = found.error_model.parameters
+    mine = [k for k, p in enumerate(own) if p.owner == name and p.what.startswith(word)]
+    return Change(found.values[mine], found.covariance[np.ix_(mine, mine)])
 
 
 def row(joint: Joint) -> tuple[str, ...]:
     """Name, tilt and its interval (mrad), shift and its interval (mm)."""
-    tilt = (milli(joint.tilt.size), milli(joint.tilt.margin))
-    shift = (milli(joint.shift.size), milli(joint.shift.margin))
-    return joint.name, *tilt, *shift
+    moved = (joint.tilt, joint.shift)
+    return joint.name, *(milli(x) for change in moved for x in (change.size, change.margin))

@@ -39,9 +39,9 @@ def document(found: CalibrationData) -> dict[str, object]:
 
 def parameters(found: CalibrationData) -> list[dict[str, object]]:
     """Owner, what, unit, value and deviation of each parameter."""
-    values = zip(found.values.tolist(), found.deviations.tolist(), strict=True)
-    rows = zip(found.parameters, values, strict=True)
-    return [p._asdict() | {"value": value, "deviation": s} for p, (value, s) in rows]
+    columns = (found.values.tolist(), found.deviations.tolist())
+    rows = zip(found.parameters, *columns, strict=True)
+    return [p._asdict() | {"value": value, "deviation": s} for p, value, s in rows]
 
 
 def _statistics(r: Residuals) -> dict[str, float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import starmap
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from ....groups import so3
 from ....groups.arrays import Array
 from ... import html_page
 from ...html_page import caption, figure, paragraph, text
-from ..model.residuals import Residuals
+from ..model.residuals import Residuals, largest, median, rms
 from ..result import CalibrationData, pose_covariance
 from . import changes, plots
 from .changes import milli
@@ -49,9 +50,7 @@ def html(
             f"sources: expected what each of {rows} rows of q came from, got {len(sources)}"
         )
     if title is None:
-        named = f"Calibration: {found.chain.base} to {found.chain.tip}"
-    else:
-        named = title
+        title = f"Calibration: {found.chain.base} to {found.chain.tip}"
     sections = {
         "Residuals": _residuals(found),
         "What was measured, and what it can tell": _measured(found),
@@ -62,7 +61,7 @@ def html(
         "All parameters": _parameters(found),
     }
     lead = paragraph(changes.sentence(found), "lead")
-    return html_page.page(named, [lead, *map(_section, sections, sections.values())])
+    return html_page.page(title, [lead, *starmap(_section, sections.items())])
 
 
 def _residuals(found: CalibrationData) -> Iterator[str]:
@@ -82,30 +81,21 @@ def _residuals(found: CalibrationData) -> Iterator[str]:
             "unknown frames, if there are any, fitted."
         )
     curves = [r for r in rows if held_out is None or r.residuals is not found.before]
-    yield _table(_HEADS, [(name, *_figures(r)) for name, r in rows])
+    yield _table(_HEADS, [_residuals_row(name, r) for name, r in rows])
     yield figure(
         plots.residuals(curves),
         "The share of measurements with an error of at most so much.",
     )
     if len(found.noise_std) > 1:
-        last = found.after if held_out is None else held_out.after
-        yield _table(_HEADS, [_set_row(last, k) for k in range(len(found.noise_std))])
+        last = rows[1].residuals
+        sets = range(len(found.noise_std))
+        lines = [_residuals_row(f"set {k}, calibrated", last.of_set(k)) for k in sets]
+        yield _table(_HEADS, lines)
 
 
-def _set_row(r: Residuals, k: int) -> tuple[str, ...]:
-    return f"set {k}, calibrated", *_figures(r.subset(r.set == k))
-
-
-def _figures(r: Residuals) -> list[str]:
-    lengths = (r.rms_length, r.median_length, _largest(r.length))
-    angles = (r.rms_angle, r.median_angle, _largest(r.angle))
-    return [milli(x) for x in (*lengths, *angles)]
-
-
-def _largest(values: Array) -> float:
-    if np.isnan(values).all():
-        return math.nan
-    return np.nanmax(values)
+def _residuals_row(name: str, r: Residuals) -> list[str]:
+    figures = [f(x) for x in (r.length, r.angle) for f in (rms, median, largest)]
+    return [name, *map(milli, figures)]
 
 
 def _measured(found: CalibrationData) -> Iterator[str]:
@@ -131,7 +121,7 @@ def _measured(found: CalibrationData) -> Iterator[str]:
 
 
 def _noise_row(found: CalibrationData, k: int) -> tuple[str, ...]:
-    mine = found.after.subset(found.after.set == k)
+    mine = found.after.of_set(k)
     what = "positions and rotations"
     if np.isnan(mine.angle).all():
         what = "lengths"
@@ -193,13 +183,12 @@ def _uncertainty(found: CalibrationData) -> Iterator[str]:
     C = pose_covariance(found, found.nominal.random(0, CONFIGURATIONS))
     angle = _deviation(C[:, :3, :3])
     length = _deviation(C[:, 3:, 3:])
+    lengths, angles = ([milli(median(x)), milli(largest(x))] for x in (length, angle))
     yield paragraph(
         f"At {CONFIGURATIONS} random configurations within the limits, the tip's position has a "
-        f"standard deviation of {milli(float(np.median(length)))} mm in the median and "
-        f"{milli(float(length.max()))} mm at most, its rotation of "
-        f"{milli(float(np.median(angle)))} and {milli(float(angle.max()))} mrad: what noise of the "
-        "measurements leaves. What was fixed counts as known; what the model leaves out, such as "
-        "bending, is not in it."
+        f"standard deviation of {lengths[0]} mm in the median and {lengths[1]} mm at most, its "
+        f"rotation of {angles[0]} and {angles[1]} mrad: what noise of the measurements leaves. "
+        "What was fixed counts as known; what the model leaves out, such as bending, is not in it."
     )
     yield figure(
         plots.uncertainty(length, angle),
@@ -223,15 +212,15 @@ def _outliers(found: CalibrationData, sources: Sequence[str] | None) -> Iterator
         f"{len(found.outliers)} of {len(found.after)} measurements are off by more than one good "
         f"one in 10 000 would be{more}"
     )
-    heads = ["row", "set", "position error (mm)", "rotation error (mrad)"]
-    if sources is not None:
-        heads.append("from")
+    heads = ("row", "set", "position error (mm)", "rotation error (mrad)", "from")
     rows = []
     for o in found.outliers[:MOST_ROWS]:
-        k = np.flatnonzero(found.after.set == o.set)[o.index]
-        errors = (milli(float(found.after.length[k])), milli(float(found.after.angle[k])))
-        source = [] if sources is None else [sources[o.row]]
-        rows.append((str(o.row), str(o.set), *errors, *source))
+        mine = found.after.of_set(o.set)
+        errors = (milli(mine.length[o.index]), milli(mine.angle[o.index]))
+        source = ""
+        if sources is not None:
+            source = sources[o.row]
+        rows.append((str(o.row), str(o.set), *errors, source))
     yield _table(heads, rows, words=(4,))
 
 
@@ -251,11 +240,11 @@ def _search(found: CalibrationData) -> Iterator[str]:
 
 
 def _parameters(found: CalibrationData) -> Iterator[str]:
-    values = zip(found.values.tolist(), found.deviations.tolist(), strict=True)
+    heads = ("of", "what", "value", "standard deviation", "unit")
     rows = []
-    for p, (value, deviation) in zip(found.parameters, values, strict=True):
-        rows.append((p.owner, p.what, f"{value:.6g}", f"{deviation:.2g}", p.unit))
-    table = _table(("of", "what", "value", "standard deviation", "unit"), rows, words=(0, 1, 4))
+    for p, value, s in zip(found.parameters, found.values, found.deviations, strict=True):
+        rows.append((p.owner, p.what, f"{value:.6g}", f"{s:.2g}", p.unit))
+    table = _table(heads, rows, words=(0, 1, 4))
     yield html_page.details(f"{len(rows)} parameters", table)
 
 

@@ -136,7 +136,7 @@ def check_sets(keys: Keys, found: CalibrationData) -> None:
             f"{after.set.max()}",
         )
     for o in found.outliers:
-        rows = after.row[after.set == o.set]
+        rows = after.of_set(o.set).row
         if o.index >= len(rows) or rows[o.index] != o.row:
             raise keys.fault(
                 "outliers",

@@ -107,7 +107,7 @@ def test_many_measurements_are_thinned_out_evenly():
 
 def change(*values):
     k = len(values)
-    return Change(("x", "y")[:k], np.array(values), np.diag([1e-8, 4e-8][:k]).reshape(k, k))
+    return Change(np.array(values), np.diag([1e-8, 4e-8][:k]).reshape(k, k))
 
 
 def test_the_changes_of_each_joint_stand_in_its_row_with_their_intervals(drawn):
