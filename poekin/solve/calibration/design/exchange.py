@@ -9,7 +9,7 @@ matrix; its eigenvalues are the squares of the singular values that the indices 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, NamedTuple, get_args
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
@@ -83,15 +83,16 @@ def exchange(
 
     chosen = np.array(greedy(blocks, n, tick))
     mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
-    state = design_state(blocks, chosen, criterion, mean)
+    search = Search(blocks, criterion, mean)
+    state = design_state(search, chosen)
     place = 0
     idle = 0
     while idle < n:
         idle += 1
-        better = best_exchange(blocks, chosen, place, criterion, state)
+        better = best_exchange(search, state, chosen, place)
         if better is not None:
             other = np.where(np.arange(n) == place, better, chosen)
-            now = design_state(blocks, other, criterion, mean)
+            now = design_state(search, other)
             # where the best is rounding, too: it must not go round in circles
             if now.value > state.value:
                 chosen = other
@@ -104,50 +105,54 @@ def exchange(
     return np.sort(chosen)
 
 
+class Search(NamedTuple):
+    """Rows (K, r, L) of each candidate, the criterion, and the mean information (L, L) of a
+    candidate.
+    """
+
+    blocks: Array
+    criterion: Criterion
+    mean: Array
+
+
 class DesignState(NamedTuple):
-    """Information N (L, L) of the chosen, the mean (L, L) of a candidate's, the criterion's value,
-    and N^-1, for "O1" and "prediction", or a few eigenvalues (k,) and eigenvectors (L, k) of N.
+    """Information N (L, L) of the chosen, the criterion's value, and N^-1, for "O1" and
+    "prediction", or a few eigenvalues (k,) and eigenvectors (L, k) of N.
     """
 
     N: Array
-    mean: Array
     value: float
-    inverse: np.ndarray | None
-    eigenvalues: np.ndarray
-    vectors: np.ndarray
+    inverse: Any = None
+    eigenvalues: Any = None
+    vectors: Any = None
 
 
-def design_state(
-    blocks: Array,
-    chosen: np.ndarray,
-    criterion: Criterion,
-    mean: Array,
-) -> DesignState:
-    """State of the rows `chosen` of blocks."""
-    J = blocks[chosen].reshape(-1, blocks.shape[2])
+def design_state(search: Search, chosen: np.ndarray) -> DesignState:
+    """State of the rows `chosen` of the candidates."""
+    J = search.blocks[chosen].reshape(-1, search.blocks.shape[2])
     N = J.T @ J
-    worth = float(value(N, criterion, mean))
-    if criterion in ("O1", "prediction"):
-        return DesignState(N, mean, worth, np.linalg.inv(N), np.empty(0), np.empty((len(N), 0)))
+    worth = float(value(N, search.criterion, search.mean))
+    if search.criterion in ("O1", "prediction"):
+        return DesignState(N, worth, np.linalg.inv(N))
     eigenvalues, V = np.linalg.eigh(N)
     some = np.arange(len(N))
     if len(N) > LOWEST + HIGHEST:
         some = np.concatenate([some[:LOWEST], some[-HIGHEST:]])
-    return DesignState(N, mean, worth, None, eigenvalues[some], V[:, some])
+    return DesignState(N, worth, eigenvalues=eigenvalues[some], vectors=V[:, some])
 
 
 def best_exchange(
-    blocks: Array,
+    search: Search,
+    state: DesignState,
     chosen: np.ndarray,
     place: int,
-    criterion: Criterion,
-    state: DesignState,
 ) -> int | None:
     """The candidate that improves the criterion most in that place of the chosen; None where none
     does.
     """
+    blocks = search.blocks
     out = blocks[chosen[place]]
-    ahead = upper_bound(blocks, out, criterion, state)
+    ahead = upper_bound(search, state, out)
     ahead[chosen] = -np.inf
     left = state.N - out.T @ out
     best = None
@@ -159,7 +164,7 @@ def best_exchange(
         if not len(some):
             break
         N = left + blocks[some].transpose(0, 2, 1) @ blocks[some]
-        values = value(N, criterion, state.mean)
+        values = value(N, search.criterion, search.mean)
         if values.max() > most:
             best = int(some[values.argmax()])
             most = float(values.max())
@@ -198,59 +203,51 @@ def _log(x: np.ndarray, otherwise: float) -> Array:
     return np.where(good, np.log(np.where(good, x, 1.0)), otherwise)
 
 
-def upper_bound(blocks: Array, out: Array, criterion: Criterion, state: DesignState) -> Array:
+def upper_bound(search: Search, state: DesignState, out: Array) -> Array:
     """Upper bound (K,) of the criterion after each exchange of the block `out` for candidate j, so
     that few need to be evaluated in full.
     """
     if state.inverse is None:
-        return _bound_by_ritz_values(blocks, out, criterion, state)
-    return _exact_update(blocks, out, criterion, state.inverse, state)
+        return _bound_by_ritz_values(search, state, out)
+    return _exact_update(search, state, out)
 
 
-def _bound_by_ritz_values(
-    blocks: Array,
-    out: Array,
-    criterion: Criterion,
-    state: DesignState,
-) -> Array:
+def _bound_by_ritz_values(search: Search, state: DesignState, out: Array) -> Array:
     """Bound of the extreme eigenvalues: on a few eigenvectors V of N, the eigenvalues of V^T N' V
     lie between the smallest and the largest of N' (Rayleigh and Ritz).
     """
-    into = blocks @ state.vectors
+    into = search.blocks @ state.vectors
     gone = out @ state.vectors
     diagonal = state.eigenvalues - (gone**2).sum(0) + (into**2).sum(1)
-    low = _log(diagonal.min(1), -np.inf)
-    high = _log(diagonal.max(1), np.inf)
-    ahead = _of_extremes(low, high, criterion)
+    ahead = _between(diagonal.min(1), diagonal.max(1), search.criterion)
     left = np.flatnonzero(ahead > state.value)  # for the others one vector each says enough
     some = into[left]
     compressed = np.diag(state.eigenvalues) - gone.T @ gone + some.transpose(0, 2, 1) @ some
     ritz = np.linalg.eigvalsh(compressed)
-    low = _log(ritz[:, 0], -np.inf)
-    high = _log(ritz[:, -1], np.inf)
-    ahead[left] = _of_extremes(low, high, criterion)
+    ahead[left] = _between(ritz[:, 0], ritz[:, -1], search.criterion)
     return ahead
 
 
-def _exact_update(
-    blocks: Array,
-    out: Array,
-    criterion: Criterion,
-    inverse: Array,
-    state: DesignState,
-) -> Array:
+def _between(low: Array, high: Array, criterion: Criterion) -> Array:
+    """Bound (K,) of the criterion where all eigenvalues span from low to high at least."""
+    return _of_extremes(_log(low, -np.inf), _log(high, np.inf), criterion)
+
+
+def _exact_update(search: Search, state: DesignState, out: Array) -> Array:
     """Values of "O1" and "prediction" after each exchange: with N' = N + W^T S W, W = (B_j; B_out),
     S = diag(1, -1), and the small matrix C = S + W N^-1 W^T: det N' = det N det(S C), and tr(Q
     N'^-1) = tr(Q N^-1) - tr(C^-1 W N^-1 Q N^-1 W^T).
     """
+    blocks = search.blocks
     signs = np.repeat([1.0, -1.0], len(out))
     W = np.concatenate([blocks, np.broadcast_to(out, blocks.shape)], axis=1)
-    C = np.diag(signs) + W @ inverse @ W.transpose(0, 2, 1)
+    C = np.diag(signs) + W @ state.inverse @ W.transpose(0, 2, 1)
     sign, log = np.linalg.slogdet(C)
     regular = sign * signs.prod() > 0
-    if criterion == "O1":
+    if search.criterion == "O1":
         return np.where(regular, state.value + log, -np.inf)
     C[~regular] = np.eye(len(signs))
-    spread = W @ (inverse @ state.mean @ inverse) @ W.transpose(0, 2, 1)
+    weighted = state.inverse @ search.mean
+    spread = W @ (weighted @ state.inverse) @ W.transpose(0, 2, 1)
     less = np.trace(np.linalg.solve(C, spread), axis1=-2, axis2=-1)
-    return np.where(regular, -_log(np.trace(inverse @ state.mean) - less, np.inf), -np.inf)
+    return np.where(regular, -_log(np.trace(weighted) - less, np.inf), -np.inf)

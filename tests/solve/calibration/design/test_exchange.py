@@ -63,9 +63,8 @@ def test_no_exchange_is_worth_more_than_it_promises(by, case, place):
     blocks, n = case
     chosen = np.array(greedy(blocks, n))
     mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
-    promised = search.upper_bound(
-        blocks, blocks[chosen[place % n]], by, search.design_state(blocks, chosen, by, mean)
-    )
+    of = search.Search(blocks, by, mean)
+    promised = search.upper_bound(of, search.design_state(of, chosen), blocks[chosen[place % n]])
     kept = np.delete(chosen, place % n)
     for j in set(range(len(blocks))) - set(chosen):
         N = np.einsum("kri,krj->ij", blocks[[*kept, j]], blocks[[*kept, j]])
@@ -169,12 +168,9 @@ def test_an_exchange_that_turns_out_worse_is_not_made(monkeypatch):
     start = sorted(greedy(blocks, 6))
     worst = set(range(40)) - set(start)
 
-    def wrong(blocks, chosen, place, by, state):  # type: ignore[no-untyped-def]
-        mean = state.mean
+    def wrong(of, state, chosen, place):  # type: ignore[no-untyped-def]
         others = [np.where(np.arange(6) == place, j, chosen) for j in worst - set(chosen)]
-        return min((search.design_state(blocks, c, by, mean).value, int(c[place])) for c in others)[
-            1
-        ]
+        return min((search.design_state(of, c).value, int(c[place])) for c in others)[1]
 
     def no_end(done, total):  # type: ignore[no-untyped-def]
         assert done < 1000
@@ -229,7 +225,7 @@ def test_the_progress_of_a_search_of_many_steps_stays_a_choice_s_length_ahead_of
     monkeypatch.setattr(
         search,
         "best_exchange",
-        lambda blocks, chosen, *given: int(chosen[0]) + 1 if chosen[0] < 29 else None,
+        lambda of, state, chosen, place: int(chosen[0]) + 1 if chosen[0] < 29 else None,
     )
     assert exchange(blocks, 1, progress=lambda *step: said.append(step)) == [29]
     assert said == [(k, max(9, k + 1)) for k in range(1, 32)] + [(31, 31)]
@@ -245,14 +241,14 @@ def test_the_best_exchange_is_the_best_of_all_however_many_are_valued_together(
     mean = np.einsum("kri,krj->ij", blocks, blocks) / len(blocks)
     for seed in range(8):
         chosen = np.random.default_rng(seed).choice(90, 4, replace=False)
-        state = search.design_state(blocks, chosen, by, mean)
+        of = search.Search(blocks, by, mean)
+        state = search.design_state(of, chosen)
         others = [j for j in range(90) if j not in chosen]
         values = [
-            search.design_state(blocks, np.array([chosen[0], j, *chosen[2:]]), by, mean).value
-            for j in others
+            search.design_state(of, np.array([chosen[0], j, *chosen[2:]])).value for j in others
         ]
         expected = others[int(np.argmax(values))] if max(values) > state.value else None
-        assert search.best_exchange(blocks, chosen, 1, by, state) == expected
+        assert search.best_exchange(of, state, chosen, 1) == expected
 
 
 def test_the_greedy_start_takes_what_shows_a_new_direction_before_what_shows_an_old_one_well():
