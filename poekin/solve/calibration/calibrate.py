@@ -23,8 +23,8 @@ from .diagnostics.identification import (
     identify_directions,
 )
 from .fit import noise
-from .fit.fitting import Fit, fit_frames, outliers
-from .fit.losses import LOSSES, LossName
+from .fit.fitting import Fit, fit_frames
+from .fit.losses import LOSSES, OUTLIER, LossName, chi_square
 from .fit.minimise import STEPS, FitOptions
 from .fit.refit import fit_with_refit
 from .measurements.inputs import parse_measurements, parse_readings
@@ -141,11 +141,10 @@ def calibrate(  # noqa: PLR0913 - options by keyword
     problem = units.build_problem(ErrorModel(chain, parameters, joints), q, sets)
     sigma = _prior(prior, problem)
     identification, free = identify_directions(problem)
-    if sigma is None:
-        check_rank(identification, on_rank_deficiency)
-    else:
+    with_prior = identification
+    if sigma is not None:
         with_prior, free = identify_directions(problem, np.isfinite(sigma))
-        check_rank(with_prior, on_rank_deficiency)
+    check_rank(with_prior, on_rank_deficiency)
     noise.check(sets, problem.n_equations, free.shape[1])
     folds = cross_validation.check_folds(folds, len(q), seed)
     start = fit_frames(problem, loss)
@@ -200,9 +199,11 @@ def _result(
 
 
 def _outliers(problem: Problem, fit: Fit) -> tuple[Outlier, ...]:
+    """The measurements that are off by more than one good one in 10^4 would be."""
     found = []
-    for k, indices in enumerate(outliers(problem, fit.noise, fit.p)):
-        found += [Outlier(k, int(i), int(problem.rows[k][i])) for i in indices]
+    for k, squares in enumerate(fit.noise.squares(problem.errors(fit.p))):
+        gross = squares > chi_square(problem.sets[k].width, OUTLIER)
+        found += [Outlier(k, i, int(problem.rows[k][i])) for i in np.flatnonzero(gross).tolist()]
     return tuple(found)
 
 

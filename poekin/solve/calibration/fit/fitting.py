@@ -9,10 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
-from ..measurements.measurement import Rows
 from ..model.problem import Problem
 from ..model.tsqr import least_squares, qr_r
-from .losses import OUTLIER, LossName, chi_square, loss
+from .losses import LossName, loss
 from .minimise import FitOptions, Outcome, Step, minimise, regular
 from .noise import EVEN, Noise, estimate_noise
 
@@ -60,7 +59,7 @@ def fit_parameters(problem: Problem, free: Array, p: Array, options: FitOptions)
             p = outcome.p
             steps += outcome.steps
         losses = [name]
-        if not noise.estimated:
+        if not any(noise.noise_std):
             break
         before = noise
         noise = _noise(problem, p, free.shape[1], name)
@@ -90,12 +89,6 @@ def _change(a: Noise, b: Noise) -> float:
             pairs = zip(before, after, strict=True)
             changes += [abs(y / x - 1.0) for x, y in pairs if x and y]
     return max(changes)
-
-
-def outliers(problem: Problem, noise: Noise, p: Array) -> list[Rows]:
-    """The measurements of each set that are off by more than one good one in 10^4 would be."""
-    pairs = zip(noise.squares(problem.errors(p)), problem.sets, strict=True)
-    return [np.flatnonzero(s > chi_square(m.width, OUTLIER)) for s, m in pairs]
 
 
 def _covariance(

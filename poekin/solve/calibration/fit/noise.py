@@ -73,11 +73,6 @@ class Noise:
         whitened = (self.whitened(k, e[..., None]) for k, e in enumerate(errors))
         return [np.sum(e**2, axis=(1, 2)) for e in whitened]
 
-    @property
-    def estimated(self) -> bool:
-        """Whether a standard deviation was estimated."""
-        return any(estimate is not None for estimate in self.noise_std)
-
 
 def check(sets: Sequence[Measurement], n_equations: int, free: int) -> None:
     """Refuse to estimate the noise from residuals that the fit brings to zero: all would seem known

@@ -96,11 +96,9 @@ def _fault(rest: list[str], here: str) -> InputError | UnknownName:
             f"ignore=[{extra}] passes it over"
         )
     begun = max(every, key=lambda layout: len(set(layout.columns) & there) / len(layout.columns))
-    missing = [name for name in begun.columns if name not in there]
-    if len(missing) < len(begun.columns):
-        return InputError(
-            f"{here}: of the columns {describe(begun)}, {quote(missing[0])} is missing"
-        )
+    if not there.isdisjoint(begun.columns):
+        missing = next(name for name in begun.columns if name not in there)
+        return InputError(f"{here}: of the columns {describe(begun)}, {quote(missing)} is missing")
     close = suggest(rest[0], [name for layout in _FIXED for name in layout.columns], 3)
     return UnknownName(
         f"{here}: {quote(rest[0])} is neither a coordinate nor part of a measurement ({_LAYOUTS});"

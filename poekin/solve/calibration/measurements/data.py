@@ -193,7 +193,7 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
     """
     measured, values = _columns(measurement)
     q = coordinates(q, chain.q_names)
-    rows = np.arange(len(values)) if measurement.rows is None else measurement.rows
+    rows = measurement.rows_of(len(values))
     unlike = measurement.rows is None and len(q) != len(values)
     if q.ndim != 2 or unlike or (rows >= len(q)).any():
         raise ShapeError(

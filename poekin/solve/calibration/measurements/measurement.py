@@ -15,6 +15,10 @@ from ....model.checks import read_only
 
 Rows = NDArray[np.integer]
 MeasurementKind = Literal["poses", "eye-in-hand", "eye-to-hand", "points", "distances"]
+Frames = Sequence[Array]
+"""A pose (4, 4) or point (3,), m, for each unknown frame."""
+Derivatives = tuple[Array, list[Array]]
+"""Jacobians in the parameters of the arm, and in each unknown frame."""
 
 
 class UnknownFrame(NamedTuple):
@@ -85,7 +89,7 @@ class Measurement:
         counts = [self.angular, self.width - self.angular]
         return np.repeat(np.array([angle, length], float), counts)
 
-    def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
+    def errors(self, T: Array, frame_values: Frames) -> Array:
         """Model minus measurement, by the equation of the kind.
 
         Parameters
@@ -114,10 +118,10 @@ class Measurement:
     def jacobian(
         self,
         T: Array,
-        frame_values: Sequence[Array],
+        frame_values: Frames,
         errors: Array,
         D: Array,
-    ) -> tuple[Array, list[Array]]:
+    ) -> Derivatives:
         """Jacobian of the errors in the parameters of the arm and of each unknown frame.
 
         Parameters
@@ -195,6 +199,27 @@ class Measurement:
         names = (self._measured, "rows", "covariance")
         values = {name: getattr(self, name) for name in names}
         return self._with(**{k: None if v is None else v[chosen] for k, v in values.items()})
+
+    def rows_of(self, count: int) -> Rows:
+        """Row of q of each measurement.
+
+        Parameters
+        ----------
+        count : int
+            Number of rows of q.
+
+        Returns
+        -------
+        rows : (N,) ndarray of int
+            `rows`, or all in order.
+
+        Notes
+        -----
+        Raises: nothing, it checks nothing. Source: none, it counts them.
+        """
+        if self.rows is None:
+            return np.arange(count)
+        return self.rows
 
     def with_rows(self, rows: Rows | None) -> Measurement:
         """Copy of the measurements at other rows of q, unchecked.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
@@ -13,7 +12,7 @@ from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
 from ..fit import initial_guess
-from .measurement import Measurement, UnknownFrame, finite_rows, seen_from
+from .measurement import Derivatives, Frames, Measurement, UnknownFrame, finite_rows, seen_from
 
 PointFrame = Literal["base", "unknown"]
 
@@ -120,7 +119,7 @@ class Points(Measurement):
             unknown = (UnknownFrame("T_base_device", 6),)
         self._keep(p=p, points=points, width=3 * k, unknown_frames=unknown)
 
-    def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
+    def errors(self, T: Array, frame_values: Frames) -> Array:
         """Errors p_model − p_measured (N, 3k), in the frame in which p stands."""
         for T_base_device in frame_values:
             T = se3.inverse(T_base_device) @ T
@@ -129,10 +128,10 @@ class Points(Measurement):
     def jacobian(
         self,
         T: Array,
-        frame_values: Sequence[Array],
+        frame_values: Frames,
         errors: Array,
         D: Array,
-    ) -> tuple[Array, list[Array]]:
+    ) -> Derivatives:
         """Points move by v + ω × p; T_base_device <- T_base_device e^[ξ] by −ξ, seen from the device."""
         if not frame_values:
             return self._moved(T, D), []
@@ -214,11 +213,11 @@ class Distances(Measurement):
             unknown = (UnknownFrame("centre", 3, guess),)
         self._keep(d=d, centre=centre, point=point, unknown_frames=unknown)
 
-    def _away(self, y: Array, frame_values: Sequence[Array]) -> Array:
+    def _away(self, y: Array, frame_values: Frames) -> Array:
         """Vectors (N, 3) from the centre to y."""
         return y - next(iter(frame_values), self.centre)
 
-    def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
+    def errors(self, T: Array, frame_values: Frames) -> Array:
         """Errors d_model − d_measured (N, 1)."""
         away = self._away(point_at(T, self.point), frame_values)
         return (np.linalg.norm(away, axis=1) - self.d)[:, None]
@@ -226,10 +225,10 @@ class Distances(Measurement):
     def jacobian(
         self,
         T: Array,
-        frame_values: Sequence[Array],
+        frame_values: Frames,
         errors: Array,
         D: Array,
-    ) -> tuple[Array, list[Array]]:
+    ) -> Derivatives:
         """Derivatives u · (v + ω × y), and −u for c, u the unit vector from c to y; 0 at y = c."""
         y = point_at(T, self.point)
         away = self._away(y, frame_values)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
@@ -11,7 +10,7 @@ import numpy as np
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ..fit import initial_guess
-from .measurement import Measurement, make_unknown_frame, pose_rows, seen_from
+from .measurement import Derivatives, Frames, Measurement, make_unknown_frame, pose_rows, seen_from
 
 
 def pose_errors(T: Array, measured: Array) -> Array:
@@ -68,17 +67,17 @@ class Poses(Measurement):
     def __post_init__(self) -> None:
         self._keep(T=pose_rows(self.T, "T"))
 
-    def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
+    def errors(self, T: Array, frame_values: Frames) -> Array:
         """Errors (N, 6), the rotation vector of R_model R_measuredᵀ and p_model − p_measured."""
         return pose_errors(T, self.T)
 
     def jacobian(
         self,
         T: Array,
-        frame_values: Sequence[Array],
+        frame_values: Frames,
         errors: Array,
         D: Array,
-    ) -> tuple[Array, list[Array]]:
+    ) -> Derivatives:
         """Turned by J_l⁻¹(w) ω, w the rotation vector of the error, and moved by v + ω × p."""
         return pose_error_jacobian(T, errors, D), []
 
@@ -97,7 +96,7 @@ class _HandEye(Measurement):
         unknown = (make_unknown_frame(frame, getattr(self, own)) for frame, own in pairs)
         self._keep(T=pose_rows(getattr(self, name), name), unknown_frames=tuple(unknown))
 
-    def errors(self, T: Array, frame_values: Sequence[Array]) -> Array:
+    def errors(self, T: Array, frame_values: Frames) -> Array:
         """Errors (N, 6) as of `Poses`, in the axes of the board or camera that stands still."""
         X, Z = frame_values
         return pose_errors(se3.inverse(X) @ T @ Z, self.T)
@@ -105,10 +104,10 @@ class _HandEye(Measurement):
     def jacobian(
         self,
         T: Array,
-        frame_values: Sequence[Array],
+        frame_values: Frames,
         errors: Array,
         D: Array,
-    ) -> tuple[Array, list[Array]]:
+    ) -> Derivatives:
         """With G = X⁻¹ T Z: dG G⁻¹ is Ad(X⁻¹) D, −ξ of X <- X e^[ξ], Ad(G) ζ of Z <- Z e^[ζ]."""
         X, Z = frame_values
         seen, twists = seen_from(X, T, D)

@@ -11,6 +11,7 @@ frame of the local form, so the numbers stay small.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
@@ -59,7 +60,8 @@ class ErrorModel:
         self.kinds = kinds
         self.moving = tuple(np.array(nominal.joint_names, object)[chosen])
         self._free = free_parameters(nominal, kinds, chosen)
-        frames = _joint_frames(nominal)
+        frames = np.array(list(accumulate(nominal.local.frames[:-1], np.matmul)))
+        frames = frames.reshape(-1, 4, 4)  # of each joint's z-aligned frame in the base at home
         # (n, 6, 4): columns tilt, tilt, shift, shift
         self._across = se3.adjoint(frames)[..., [0, 1, 3, 4]]
         self.parameters = names(nominal, self._free, frames)
@@ -172,16 +174,6 @@ class ErrorModel:
             moves.reshape(6 * n, count),
         )
         return twists.reshape(N, 6, count)
-
-
-def _joint_frames(nominal: Chain) -> Array:
-    """Pose (n, 4, 4) of each joint's z-aligned frame in the base at home."""
-    frames = np.empty((len(nominal.local.frames) - 1, 4, 4))
-    F = np.eye(4)
-    for i, M_i in enumerate(nominal.local.frames[:-1]):
-        F = F @ M_i
-        frames[i] = F
-    return frames
 
 
 def _key(p: Array, q: Array) -> tuple[bytes, int, bytes]:

@@ -43,7 +43,7 @@ class Problem:
         self.model = model
         self.q = q
         self.sets = tuple(sets)
-        self.rows = [_rows(s, len(q)) for s in self.sets]
+        self.rows = [s.rows_of(len(q)) for s in self.sets]
         self._own = [_frame_names(k, self.sets) for k in range(len(self.sets))]
         named = list(model.parameters)
         self._parts: dict[str, slice] = {}
@@ -163,12 +163,6 @@ class Problem:
             kept = np.flatnonzero(new[rows] >= 0)
             sets.append(s.subset(kept).with_rows(new[rows[kept]]))
         return Problem(self.model, self.q[chosen], sets, self.initial_frames)
-
-
-def _rows(s: Measurement, count: int) -> Rows:
-    if s.rows is None:
-        return np.arange(count)
-    return s.rows
 
 
 def _frame_names(k: int, sets: Sequence[Measurement]) -> list[str]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import starmap
 
 import numpy as np
 
@@ -60,8 +59,10 @@ def html(
         "The search": _search(found),
         "All parameters": _parameters(found),
     }
-    lead = paragraph(changes.sentence(found), "lead")
-    return html_page.page(title, [lead, *starmap(_section, sections.items())])
+    parts = [paragraph(changes.sentence(found), "lead")]
+    for head, section in sections.items():
+        parts += ["<section>", f"<h2>{text(head)}</h2>", *section, "</section>"]
+    return html_page.page(title, parts)
 
 
 def _residuals(found: CalibrationData) -> Iterator[str]:
@@ -261,10 +262,6 @@ def _degrees(angle: float) -> str:
 def _seen(value: float) -> str:
     """A figure in mm or degrees; what is far below them is rounding."""
     return f"{0.0 if abs(value) < 1e-9 else value:.3g}"
-
-
-def _section(title: str, parts: Iterable[str]) -> str:
-    return "\n".join(["<section>", f"<h2>{text(title)}</h2>", *parts, "</section>"])
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]], words: Sequence[int] = (0,)) -> str:

@@ -15,27 +15,23 @@ def text_of(found: CalibrationData) -> str:
     state = "NOT converged: the best that was found"
     if found.success:
         state = "converged"
+    outliers = []
+    if found.outliers:
+        rows = ", ".join(str(o.row) for o in found.outliers[:MOST_OUTLIERS])
+        more = len(found.outliers) - MOST_OUTLIERS
+        outliers = [f"outliers: rows {rows}"]
+        if more > 0:
+            outliers[0] += f" and {more} more"
     lines = [
         f"{len(found.parameters)} parameters, {len(found.after)} measurements, {state} in "
         f"{len(found.steps)} steps",
         str(found.identification),
         *_table(found),
-        *_outliers(found),
+        *outliers,
         *(f"warning: {words}" for words in found.warnings),
         *found.remarks,
     ]
     return "\n".join(escape_unprintable(line, keep="\n") for line in lines)
-
-
-def _outliers(found: CalibrationData) -> list[str]:
-    if not found.outliers:
-        return []
-    rows = ", ".join(str(o.row) for o in found.outliers[:MOST_OUTLIERS])
-    more = len(found.outliers) - MOST_OUTLIERS
-    rest = ""
-    if more > 0:
-        rest = f" and {more} more"
-    return [f"outliers: rows {rows}{rest}"]
 
 
 def _table(found: CalibrationData) -> list[str]:

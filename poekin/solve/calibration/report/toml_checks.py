@@ -116,13 +116,9 @@ def check_chain(keys: Keys, model: ErrorModel, values: Array, chain: Chain) -> N
     except PoekinError as fault:
         raise ModelError(f"{keys.place}: parameter: {fault}") from fault
     same = all(getattr(own, name) == getattr(chain, name) for name in _SAME)
-    if not same or not _distance(own, chain) <= _AGREE * own.reach:
+    off = [np.abs(getattr(own, name) - getattr(chain, name)).max(initial=0.0) for name in _NEAR]
+    if not same or not max(off) <= _AGREE * own.reach:
         raise keys.fault(CALIBRATED, "the chain is not what the parameters make of the nominal one")
-
-
-def _distance(a: Chain, b: Chain) -> float:
-    """Largest difference of a number of the screws, home pose and coupling."""
-    return max(np.abs(getattr(a, name) - getattr(b, name)).max(initial=0.0) for name in _NEAR)
 
 
 def check_sets(keys: Keys, found: CalibrationData) -> None:

@@ -139,8 +139,8 @@ def _noise(keys: Keys) -> NoiseEstimate | None:
 
 def _steps(keys: Keys) -> tuple[Step, ...]:
     cost = keys.array("cost", (None,))
-    others = (keys.array(name, cost.shape) for name in Step._fields[1:])
-    return tuple(Step(*row) for row in np.column_stack([cost, *others]).tolist())
+    columns = [keys.array(name, cost.shape).tolist() for name in Step._fields]
+    return tuple(map(Step, *columns))
 
 
 def _residuals(keys: Keys, name: str) -> Residuals:

@@ -196,8 +196,6 @@ def test_errors_are_whitened_by_their_spreads_or_their_covariance():
     assert noise.whitened(0, ones)[1, :, 0] == pytest.approx([1 / 2] * 3 + [1 / 5] * 3)
     assert noise.whitened(1, ones[:, :3])[0, :, 0] == pytest.approx([1 / 4] * 3)
     assert noise.whitened(2, ones)[1, :, 0] == pytest.approx(1 / np.arange(1, 7))
-    assert noise.estimated
-    assert not Noise([Poses(ONE, C)], [None]).estimated
 
 
 def test_spreads_are_not_estimated_from_no_more_numbers_than_parameters():
