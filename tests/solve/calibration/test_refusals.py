@@ -233,7 +233,7 @@ def test_other_units_are_told_that_explain_the_data_more_than_four_times_better(
     q, (factors, unit), left = np.ones((3, 2)), LIKE[words], 0.0
 
     def tried(problem, tried_units):
-        readings, scale = tried_units
+        readings, scale = units.converted(MIXED, q, tried_units), tried_units.length
         return scale * (left if np.allclose(readings, q * factors) and scale == unit else 10.0)
 
     monkeypatch.setattr(units, "_tried", tried)
@@ -251,9 +251,9 @@ def test_other_units_are_told_that_explain_the_data_more_than_four_times_better(
 
 def test_readings_are_converted_by_what_their_joints_are():
     np.testing.assert_allclose(
-        units.converted(MIXED, np.ones((2, 2)), angle=3.0, length=5.0), [[3, 5], [3, 5]]
+        units.converted(MIXED, np.ones((2, 2)), units.Units("", 3.0, 5.0)), [[3, 5], [3, 5]]
     )
-    assert pytest.approx(np.pi / 180) == units._DEGREE
+    assert pytest.approx(np.pi / 180) == units._DEGREES.angle
 
 
 def test_where_degrees_give_no_initial_guess_either_the_readings_are_refused_as_they_stand():

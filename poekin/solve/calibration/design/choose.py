@@ -126,19 +126,23 @@ def choose_poses(  # noqa: PLR0913 - options by keyword
         raise InputError(
             f"choose_poses: such measurements identify none of the {problem.size} parameters anywhere"
         )
-    blocks = _blocks(problem, identification.rank)
+    _, _, Vt = np.linalg.svd(qr_r(identification_matrix(problem)), full_matrices=False)
+    # of each candidate (K, r, L), on the space that all of them together show
+    blocks = np.concatenate(scaled_jacobians(problem), axis=1) @ Vt[: identification.rank].T
     _enough(blocks, n)
     rows = exchange(blocks, n, criterion, progress)
     rng = np.random.default_rng((seed, 1))
     drawn = [rng.choice(len(q), n, replace=False) for _ in range(n_random)]
     others = np.array([design_metrics(blocks, some) for some in drawn])
+    smaller = [name in SMALLER_IS_BETTER for name in DesignMetrics._fields]
+    best = np.where(smaller, others.min(axis=0), others.max(axis=0))
     return Choice(
         q=q[rows],
         rows=rows,
         criterion=criterion,
         metrics=design_metrics(blocks, rows),
         random_median=DesignMetrics(*np.median(others, axis=0).tolist()),
-        random_best=_best(others),
+        random_best=DesignMetrics(*best.tolist()),
         rank=identification.rank,
         identifiable=identification.identifiable,
         unobserved=identification.unobserved,
@@ -205,15 +209,6 @@ def _rough_frames(sets: list[Measurement]) -> list[Array]:
     return frames
 
 
-def _blocks(problem: Problem, rank: int) -> Array:
-    """The identification matrix of each candidate (K, r, L), on the space that all of them together
-    show.
-    """
-    J = identification_matrix(problem)
-    _, _, Vt = np.linalg.svd(qr_r(J), full_matrices=False)
-    return np.concatenate(scaled_jacobians(problem), axis=1) @ Vt[:rank].T
-
-
 def _enough(blocks: Array, n: int) -> None:
     """Raises InputError that says how many configurations show what all candidates show, where n do
     not.
@@ -232,12 +227,6 @@ def _enough(blocks: Array, n: int) -> None:
             f"parameters: expected at least {needed}, better three times as many; or calibrate less"
             " (parameters=, joints=)"
         )
-
-
-def _best(metrics: Array) -> DesignMetrics:
-    """The best of each metric (K, 5)."""
-    smaller = [name in SMALLER_IS_BETTER for name in DesignMetrics._fields]
-    return DesignMetrics(*np.where(smaller, metrics.min(axis=0), metrics.max(axis=0)).tolist())
 
 
 def design_metrics(blocks: Array, rows: np.ndarray) -> DesignMetrics:

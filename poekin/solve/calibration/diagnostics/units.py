@@ -20,23 +20,46 @@ from ..model.problem import Problem
 LARGE = 0.1  # reaches: a nominal arm is off by millimetres
 _BETTER = 4.0  # how many times better the other unit has to explain the data
 _TURN = 2.0 * np.pi
-_DEGREE = _TURN / 360.0
-_LENGTHS = "the lengths look like millimetres: give metres (divide by 1000)"
-_SLIDES = "the readings of sliding joints look like millimetres: give metres (divide by 1000)"
-_DEGREES = "the joint angles look like degrees: give radians (numpy.deg2rad)"
-_ALL_LENGTHS = (
-    "all lengths look like millimetres, those of sliding joints, too: give metres (divide by 1000)"
-)
-_BOTH = (
-    "the lengths look like millimetres and the joint angles like degrees: give metres and radians"
-)
 
 
 class Units(NamedTuple):
-    """Readings, and the factor of measured lengths."""
+    """Other units in words, and factors of readings that are angles, of those that are lengths, and
+    of measured lengths.
+    """
 
-    q: Array
-    length: float
+    words: str
+    angle: float = 1.0
+    slide: float = 1.0
+    length: float = 1.0
+
+
+_DEGREES = Units(
+    "the joint angles look like degrees: give radians (numpy.deg2rad)",
+    angle=_TURN / 360.0,
+)
+_TRIES = (
+    Units(
+        "the lengths look like millimetres: give metres (divide by 1000)",
+        length=1e-3,
+    ),
+    _DEGREES,
+    Units(
+        "the readings of sliding joints look like millimetres: give metres (divide by 1000)",
+        slide=1e-3,
+    ),
+    Units(
+        "all lengths look like millimetres, those of sliding joints, too: give metres (divide by "
+        "1000)",
+        slide=1e-3,
+        length=1e-3,
+    ),
+    Units(
+        "the lengths look like millimetres and the joint angles like degrees: give metres and "
+        "radians",
+        angle=_DEGREES.angle,
+        length=1e-3,
+    ),
+)
 
 
 def check(problem: Problem, p: Array) -> None:
@@ -49,24 +72,14 @@ def check(problem: Problem, p: Array) -> None:
     arm = problem.model.nominal
     if off <= LARGE * arm.reach and np.abs(problem.q).max(initial=0.0) <= 4 * _TURN:
         return
-    in_degrees = converted(arm, problem.q, angle=_DEGREE)
-    in_millimetres = converted(arm, problem.q, length=1e-3)
-    tries = {
-        _LENGTHS: Units(problem.q, 1e-3),
-        _DEGREES: Units(in_degrees, 1.0),
-        _SLIDES: Units(in_millimetres, 1.0),
-        _ALL_LENGTHS: Units(in_millimetres, 1e-3),
-        _BOTH: Units(in_degrees, 1e-3),
-    }
     # in the units as they stand: whatever the model, lengths made a thousandth are off by a
     # thousandth
-    found = {words: _tried(problem, units) / units.length for words, units in tries.items()}
-    words = min(found, key=lambda words: found[words])
-    if found[words] * _BETTER < off:
-        best = found[words] * tries[words].length
+    found = {units: _tried(problem, units) / units.length for units in _TRIES}
+    best = min(found, key=found.__getitem__)
+    if found[best] * _BETTER < off:
         raise InputError(
-            f"the nominal arm is off by {off:.3g} m (median) as the data stand, and by {best:.3g} m"
-            f" where {words}"
+            f"the nominal arm is off by {off:.3g} m (median) as the data stand, and by "
+            f"{found[best] * best.length:.3g} m where {best.words}"
         )
 
 
@@ -79,22 +92,23 @@ def build_problem(model: ErrorModel, q: Array, sets: Sequence[Measurement]) -> P
         return Problem(model, q, sets)
     except InputError as fault:
         try:
-            Problem(model, converted(model.nominal, q, angle=_DEGREE), sets)
+            Problem(model, converted(model.nominal, q, _DEGREES), sets)
         except InputError:
             raise fault from None
-        raise InputError(f"{_DEGREES}; as the data stand, {fault}") from fault
+        raise InputError(f"{_DEGREES.words}; as the data stand, {fault}") from fault
 
 
-def converted(chain: Chain, q: Array, angle: float = 1.0, length: float = 1.0) -> Array:
-    """Readings (N, m), those of angles times `angle`, of lengths times `length`."""
-    return q * [angle if chain.is_angle(k) else length for k in range(chain.dof)]
+def converted(chain: Chain, q: Array, units: Units) -> Array:
+    """Readings (N, m) in other units."""
+    return q * [units.angle if chain.is_angle(k) else units.slide for k in range(chain.dof)]
 
 
 def _tried(problem: Problem, units: Units) -> float:
     """The median distance in these units; frames that are not given are estimated anew."""
     sets = [s.scaled(units.length) for s in problem.sets]
+    q = converted(problem.model.nominal, problem.q, units)
     try:
-        other = Problem(problem.model, units.q, sets)
+        other = Problem(problem.model, q, sets)
     except InputError:
         return np.inf
     p = fit_frames(other, "huber")

@@ -113,12 +113,11 @@ def _covariance(
         return covariance
     psi_squared = 0.0
     psi_slope = 0.0
-    total = 0
+    total = problem.n_equations
     for s, m in zip(noise.squares(problem.errors(outcome.p)), problem.sets, strict=True):
         rho = loss(options.loss, s, m.width)
         psi_squared += float(np.sum(rho.weight**2 * s))
         psi_slope += float(np.sum(m.width * rho.weight + 2.0 * rho.rho_second * s))
-        total += m.width * len(m)
     # residuals after a fit are smaller than the noise, by what the parameters took up
     psi_squared /= max(total - free.shape[1], 1)
     return covariance * psi_squared / max(psi_slope / total, 1e-3) ** 2

@@ -260,11 +260,9 @@ class _Sensor:
 
     def poses(self, T: Array) -> Array:
         """Measured poses (N, 4, 4)."""
-        count = int(self.gross.sum())
         w, e = (sigma * self.rng.normal(size=(len(T), 3)) for sigma in self.noise)
-        turns = self.outlier_rng.uniform(*GROSS_TURN, (count, 1))
-        w[self.gross] += turns * _directions(self.outlier_rng, count)
-        e[self.gross] += self._gross_shifts()
+        w[self.gross] += self._gross_vectors(GROSS_TURN)
+        e[self.gross] += self._gross_vectors(GROSS_SHIFT, self.reach)
         T = T.copy()
         T[:, :3, :3] = so3.exp(w) @ T[:, :3, :3]
         T[:, :3, 3] += e
@@ -274,7 +272,7 @@ class _Sensor:
         """Measured positions (N, k, 3) of points of the tool."""
         p = points_at(T, points)
         p += self.noise[1] * self.rng.normal(size=p.shape)
-        p[self.gross] += self._gross_shifts()[:, None]
+        p[self.gross] += self._gross_vectors(GROSS_SHIFT, self.reach)[:, None]
         return p
 
     def distances(self, T: Array, point: Array, centre: Array) -> Array:
@@ -293,10 +291,10 @@ class _Sensor:
             return np.diag(diagonal)
         return None
 
-    def _gross_shifts(self) -> Array:
+    def _gross_vectors(self, bounds: tuple[float, float], unit: float = 1.0) -> Array:
         count = int(self.gross.sum())
-        sizes = self.outlier_rng.uniform(*GROSS_SHIFT, (count, 1))
-        return self.reach * sizes * _directions(self.outlier_rng, count)
+        sizes = self.outlier_rng.uniform(*bounds, (count, 1))
+        return unit * sizes * _directions(self.outlier_rng, count)
 
 
 def _directions(rng: np.random.Generator, count: int) -> Array:
