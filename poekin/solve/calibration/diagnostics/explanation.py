@@ -5,6 +5,7 @@ Remarks with figures: the nominal arm is fitted with base and tool free, as to a
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -47,14 +48,14 @@ _TOOL = "take the tip whose pose was measured, or put the tool on that it has (r
 
 
 class Size(NamedTuple):
-    """Size of an error: m, and rad, None where nothing turns."""
+    """Size of an error: m, and rad, NaN where nothing turns."""
 
     length: float
-    angle: float | None
+    angle: float = math.nan
 
     def __str__(self) -> str:
         length = _short(self.length, "m")
-        if self.angle is None:
+        if math.isnan(self.angle):
             return length
         return f"{length} and {_short(self.angle, 'rad')}"
 
@@ -92,8 +93,8 @@ def explain(problem: Problem, before: Residuals, after: Residuals) -> Remarks:
     remarks = []
     arm = problem.model.nominal
     for k, s in enumerate(problem.sets):
-        was = median(before, k, s)
-        now = median(after, k, s)
+        was = median(before, k)
+        now = median(after, k)
         if not far(was, arm.reach) or far(now, arm.reach):
             continue
         which = ""
@@ -130,15 +131,15 @@ def set_name(sets: Sequence[Measurement], k: int, alone: str) -> str:
     return f"{alone} {what}"
 
 
-def median(r: Residuals, k: int, s: Measurement) -> Size:
+def median(r: Residuals, k: int) -> Size:
     """The median errors of set k."""
     mine = r.of_set(k)
-    return Size(mine.median_length, mine.median_angle if s.angular else None)
+    return Size(mine.median_length, mine.median_angle)
 
 
 def far(size: Size, reach: float) -> bool:
     """Whether that is more than any arm is off."""
-    return size.length > LARGE * reach or (size.angle or 0.0) > MISFIT
+    return size.length > LARGE * reach or size.angle > MISFIT
 
 
 def hint(s: Measurement, found: Explanation, reach: float) -> str:
@@ -169,8 +170,8 @@ def explained(problem: Problem, k: int) -> Explanation | None:
         tool = tool @ T
     moved = _size(tool)
     if s.width <= 3:  # one point does not tell how the tool is turned
-        moved = moved._replace(angle=None)
-    left = median(own.residuals(fit.p), 0, own.sets[0])
+        moved = Size(moved.length)
+    left = median(own.residuals(fit.p), 0)
     return Explanation(_base(s, base), moved, left)
 
 
@@ -194,7 +195,7 @@ def _base(s: Measurement, base: Array) -> Size | None:
     if s.unknown_frames:
         return None
     if isinstance(s, Distances):
-        return Size(float(np.linalg.norm(base - s.centre)), None)
+        return Size(float(np.linalg.norm(base - s.centre)))
     return _size(base)
 
 
@@ -215,7 +216,7 @@ def _is_other_tool(found: Explanation, reach: float) -> bool:
     tool = found.tool
     left = found.left
     shifted = tool.length > max(TOOL * reach, _MORE * left.length)
-    return shifted or (tool.angle or 0.0) > max(TURN, _MORE * (left.angle or 0.0))
+    return shifted or tool.angle > np.fmax(TURN, _MORE * left.angle)
 
 
 def _size(T: Array) -> Size:

@@ -35,7 +35,7 @@ def check(problem: Problem, fit: Fit) -> None:
     reach = problem.model.nominal.reach
     squares = fit.noise.squares(problem.errors(fit.p))
     for k, s in enumerate(problem.sets):
-        off = median(found, k, s)
+        off = median(found, k)
         known = s.covariance is not None
         noise = known and np.median(squares[k]) <= chi_square(s.width, OUTLIER)
         if noise or not far(off, reach):
