@@ -34,7 +34,11 @@ TOGETHER = 32  # exchanges that are evaluated in full at a time
 REGULARISATION = 1e-9
 
 
-def greedy(blocks: Array, n: int, tick: Callable[[], None] = lambda: None) -> list[int]:
+def greedy(
+    blocks: Array,
+    n: int,
+    tick: Callable[[], None] = lambda: None,
+) -> list[int]:
     """n rows of blocks (K, r, L), each the one that adds most to log det N; tick() after each."""
     count, rows, size = blocks.shape
     # On axes in which all candidates together show every direction alike: what is best is the same.
@@ -43,8 +47,8 @@ def greedy(blocks: Array, n: int, tick: Callable[[], None] = lambda: None) -> li
     chosen: list[int] = []
     for _ in range(n):
         # det(N + B^T B) = det N det(1 + B N^-1 B^T)
-        ratios = np.eye(rows) + blocks @ np.linalg.inv(N) @ blocks.transpose(0, 2, 1)
-        gains = np.linalg.slogdet(ratios)[1]
+        products = blocks @ np.linalg.inv(N) @ blocks.transpose(0, 2, 1)
+        gains = np.linalg.slogdet(np.eye(rows) + products)[1]
         gains[chosen] = -np.inf
         best = int(gains.argmax())
         chosen.append(best)
@@ -181,7 +185,8 @@ def value(N: Array, criterion: Criterion, mean: Array) -> Array:
         spread = np.linalg.solve(N, np.broadcast_to(mean, N.shape))
         return -_log(np.trace(spread, axis1=-2, axis2=-1), np.inf)
     eigenvalues = np.linalg.eigvalsh(N)
-    floor = np.maximum(np.finfo(float).eps * eigenvalues[..., -1:], np.finfo(float).tiny)
+    rounding = np.finfo(float).eps * eigenvalues[..., -1:]
+    floor = np.maximum(rounding, np.finfo(float).tiny)
     logs = np.log(np.maximum(eigenvalues, floor))
     if criterion == "O1":
         return logs.sum(-1)
@@ -222,8 +227,8 @@ def _bound_by_ritz_values(search: Search, state: DesignState, out: Array) -> Arr
     ahead = _between(diagonal.min(1), diagonal.max(1), search.criterion)
     left = np.flatnonzero(ahead > state.value)  # for the others one vector each says enough
     some = into[left]
-    compressed = np.diag(state.eigenvalues) - gone.T @ gone + some.transpose(0, 2, 1) @ some
-    ritz = np.linalg.eigvalsh(compressed)
+    left_over = np.diag(state.eigenvalues) - gone.T @ gone
+    ritz = np.linalg.eigvalsh(left_over + some.transpose(0, 2, 1) @ some)
     ahead[left] = _between(ritz[:, 0], ritz[:, -1], search.criterion)
     return ahead
 

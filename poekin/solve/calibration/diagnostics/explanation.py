@@ -220,7 +220,10 @@ def _is_other_tool(found: Explanation, reach: float) -> bool:
 
 
 def _size(T: Array) -> Size:
-    return Size(float(np.linalg.norm(T[:3, 3])), float(np.linalg.norm(so3.log(T[:3, :3]))))
+    return Size(
+        float(np.linalg.norm(T[:3, 3])),
+        float(np.linalg.norm(so3.log(T[:3, :3]))),
+    )
 
 
 def _short(value: float, unit: str) -> str:

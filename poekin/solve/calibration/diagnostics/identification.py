@@ -172,8 +172,9 @@ def scaled_jacobians(
     if p is None:
         p = np.zeros(problem.size)
     reach = problem.model.nominal.reach
-    pairs = zip(problem.sets, problem.jacobians(p, q), strict=True)
-    return [jacobian * problem.scale / s.per_error(1.0, reach)[:, None] for s, jacobian in pairs]
+    units = [s.per_error(1.0, reach)[:, None] for s in problem.sets]
+    pairs = zip(problem.jacobians(p, q), units, strict=True)
+    return [jacobian * problem.scale / unit for jacobian, unit in pairs]
 
 
 def rank_at(problem: Problem, p: Array) -> int:
@@ -185,7 +186,11 @@ def rank_at(problem: Problem, p: Array) -> int:
     return int(np.sum(eigenvalues > THERE**2 * eigenvalues[-1]))
 
 
-def free_directions_at(problem: Problem, p: Array, known: NDArray[np.bool_] | None = None) -> Array:
+def free_directions_at(
+    problem: Problem,
+    p: Array,
+    known: NDArray[np.bool_] | None = None,
+) -> Array:
     """Basis (P, k) as of `identify_directions` of what is identified at p, where a fit ended."""
     J = identification_matrix(problem, p=p)
     seen = _row_space(np.concatenate([J, _prior_rows(problem, known)]), THERE)
@@ -208,7 +213,8 @@ def identify_directions(
     if p is None:
         least = RANK
     prior = _prior_rows(problem, known)
-    observed = _row_space(np.concatenate([identification_matrix(problem, p=p), prior]), least)
+    here = identification_matrix(problem, p=p)
+    observed = _row_space(np.concatenate([here, prior]), least)
     identifiable = observed
     if observed.rank < problem.size:
         width = sum(s.width for s in problem.sets)

@@ -15,7 +15,11 @@ _STILL = 1e-9  # rad or m: a reading that changes by less does not move
 MOST = 8
 
 
-def directions(problem: Problem, N: Array, unidentifiable: Array | None = None) -> list[str]:
+def directions(
+    problem: Problem,
+    N: Array,
+    unidentifiable: Array | None = None,
+) -> list[str]:
     """Words for the orthonormal directions N (P, k), in rad and reaches: parameters alone first,
     then combinations.
 

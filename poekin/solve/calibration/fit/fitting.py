@@ -51,7 +51,9 @@ def fit_parameters(problem: Problem, free: Array, p: Array, options: FitOptions)
     most = options.max_iterations
     noise = _noise(problem, p, 0, name, _FIRST_EVEN)
     steps: list[Step] = []
-    losses: list[LossName] = [name] if name in ("linear", "huber") else ["huber", name]
+    losses: list[LossName] = [name]
+    if name not in ("linear", "huber"):
+        losses = ["huber", name]
     for _ in range(_ROUNDS):
         for one in losses:
             round_options = FitOptions(one, options.prior, most - len(steps))
@@ -72,7 +74,13 @@ def fit_parameters(problem: Problem, free: Array, p: Array, options: FitOptions)
     return Fit(p, covariance, outcome.converged, steps, noise, free)
 
 
-def _noise(problem: Problem, p: Array, free: int, name: LossName, even: float = EVEN) -> Noise:
+def _noise(
+    problem: Problem,
+    p: Array,
+    free: int,
+    name: LossName,
+    even: float = EVEN,
+) -> Noise:
     """Noise by the errors at p, to which `free` parameters were fitted."""
     robust = name != "linear"
     reach = problem.model.nominal.reach

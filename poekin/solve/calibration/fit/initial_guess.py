@@ -141,7 +141,8 @@ def mean_pose(T: Array) -> Array:
     R = T[:, :3, :3]
     t = T[:, :3, 3]
     turned = reweighted(lambda w: _mean_rotation(R, w), len(T), 1, _ROUNDING)
-    placed = reweighted(lambda w: _mean_place(t, w), len(T), 1, _rounding(np.abs(t).max()))
+    floor = _rounding(np.abs(t).max())
+    placed = reweighted(lambda w: _mean_place(t, w), len(T), 1, floor)
     return se3.pose(turned.value, placed.value)
 
 
@@ -162,7 +163,8 @@ def _mean_place(t: Array, w: Array) -> Weighted[Array]:
 
 def _rotations(R_A: Array, R_B: Array, w: Array) -> Weighted[_Turns]:
     """R_X, R_Z of R_A R_Z = R_X R_B, and the angle (as a chord) by which each pair misses."""
-    K = R_A.reshape(-1, 9).T @ (w[:, None] * R_B.reshape(-1, 9))
+    weighted = w[:, None] * R_B.reshape(-1, 9)
+    K = R_A.reshape(-1, 9).T @ weighted
     kron = K.reshape(3, 3, 3, 3).swapaxes(1, 2)
     U, _, V = np.linalg.svd(kron.reshape(9, 9))
     X = U[:, 0].reshape(3, 3)
@@ -210,7 +212,10 @@ def _linear(design: Array, rhs: Array, w: Array) -> Weighted[Array]:
     """x of design x = rhs, (N, 3, k) and (N, 3), and the length of each row's residual."""
     root = np.sqrt(w)[:, None]
     rows = root[:, :, None] * design
-    x = least_squares(rows.reshape(-1, design.shape[2]), (root * rhs).ravel())
+    x = least_squares(
+        rows.reshape(-1, design.shape[2]),
+        (root * rhs).ravel(),
+    )
     return Weighted(x, _lengths(design @ x - rhs))
 
 
@@ -239,7 +244,12 @@ def _multilateral(p: Array, d: Array, w: Array) -> Weighted[Array]:
     return Weighted(c + mean, np.abs(_lengths(x - c) - d))
 
 
-def _nearer(p: Array, d: Array, w: Array, c: Array) -> Weighted[Array]:
+def _nearer(
+    p: Array,
+    d: Array,
+    w: Array,
+    c: Array,
+) -> Weighted[Array]:
     """Gauss-Newton steps from c: the distance to it changes along u, the unit vector from a point
     to c.
     """

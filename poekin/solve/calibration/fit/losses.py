@@ -55,19 +55,31 @@ def loss(name: LossName, s: Array, width: int) -> Loss:
 def _huber(s: Array, c: float) -> Loss:
     near = s <= c
     root = np.sqrt(np.where(near, 1.0, s / c))
-    rho = np.where(near, s, c * (2.0 * root - 1.0))
-    return Loss(rho, 1.0 / root, np.where(near, 0.0, -0.5 / (c * root**3)))
+    return Loss(
+        rho=np.where(near, s, c * (2.0 * root - 1.0)),
+        weight=1.0 / root,
+        rho_second=np.where(near, 0.0, -0.5 / (c * root**3)),
+    )
 
 
 def _cauchy(s: Array, c: float) -> Loss:
-    weight = 1.0 / (1.0 + s / c)
-    return Loss(c * np.log1p(s / c), weight, -(weight**2) / c)
+    u = s / c
+    weight = 1.0 / (1.0 + u)
+    return Loss(
+        rho=c * np.log1p(u),
+        weight=weight,
+        rho_second=-(weight**2) / c,
+    )
 
 
 def _tukey(s: Array, c: float) -> Loss:
     u = np.minimum(s / c, 1.0)
-    rho = c * u * (1.0 - u + u * u / 3.0)
-    return Loss(rho, (1.0 - u) ** 2, -2.0 * (1.0 - u) / c)
+    left = 1.0 - u
+    return Loss(
+        rho=c * u * (left + u * u / 3.0),
+        weight=left**2,
+        rho_second=-2.0 * left / c,
+    )
 
 
 _BY_NAME = {"huber": _huber, "cauchy": _cauchy, "tukey": _tukey}

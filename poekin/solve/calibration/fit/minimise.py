@@ -85,7 +85,13 @@ class _Trial(NamedTuple):
     cost: float
 
 
-def minimise(problem: Problem, free: Array, noise: Noise, p: Array, options: FitOptions) -> Outcome:
+def minimise(
+    problem: Problem,
+    free: Array,
+    noise: Noise,
+    p: Array,
+    options: FitOptions,
+) -> Outcome:
     """The p of the least cost, sum of rho(s) and of (p / prior)^2, among p + scale * free z.
 
     free (P, k): directions, in rad and reaches.
@@ -93,7 +99,8 @@ def minimise(problem: Problem, free: Array, noise: Noise, p: Array, options: Fit
     inverse = np.zeros(len(p))
     if options.prior is not None:
         inverse = 1.0 / options.prior
-    objective = _Objective(problem, noise, options.loss, inverse, problem.scale[:, None] * free)
+    B = problem.scale[:, None] * free
+    objective = _Objective(problem, noise, options.loss, inverse, B)
     damping = 0.0
     steps: list[Step] = []
     cost = _cost(objective, p)
@@ -102,19 +109,15 @@ def minimise(problem: Problem, free: Array, noise: Noise, p: Array, options: Fit
         if cost == 0.0 or len(steps) >= options.max_iterations:
             return Outcome(p, cost == 0.0, steps, jacobian)
         linear = _triangular(objective, p, rows)
-        z = _solution(linear, 0.0)
-        done = _is_last(linear, z, cost)
-        if damping > 0.0:
-            z = _solution(linear, damping)
-        trial = _trial(objective, p, z)
+        done = _is_last(linear, cost)
+        trial = _trial(objective, p, linear, damping)
         while not trial.cost <= cost:
             done = bool(done or _exact(problem, p))
             if done or damping > _MOST_DAMPING:
                 # what is left cannot be told from rounding, or no direction leads down
                 return Outcome(p, done, steps, jacobian)
             damping = max(_FIRST_DAMPING, 10.0 * damping)
-            z = _solution(linear, damping)
-            trial = _trial(objective, p, z)
+            trial = _trial(objective, p, linear, damping)
         steps.append(Step(cost, float(np.linalg.norm(trial.z)), damping))
         p = trial.p
         cost = trial.cost
@@ -131,19 +134,22 @@ def _triangular(objective: _Objective, p: Array, rows: Array) -> _Linear:
     """Weighted Jacobian and errors (M, k + 1) with the rows of the prior, as a triangle."""
     known = np.flatnonzero(objective.inverse_prior)
     inverse = objective.inverse_prior[known]
-    of_prior = np.column_stack([inverse[:, None] * objective.B[known], inverse * p[known]])
-    R = qr_r(np.concatenate([rows, of_prior]))[: rows.shape[1] - 1]
+    B = inverse[:, None] * objective.B[known]
+    of_prior = np.column_stack([B, inverse * p[known]])
+    R = qr_r(np.concatenate([rows, of_prior]))[: B.shape[1]]
     return _Linear(R[:, :-1], R[:, -1])
 
 
-def _is_last(linear: _Linear, z: Array, cost: float) -> bool:
-    """Whether the full step z gains next to nothing; a damped one promises little wherever it is."""
+def _is_last(linear: _Linear, cost: float) -> bool:
+    """Whether the full step gains next to nothing; a damped one promises little wherever it is."""
     R, c = linear
+    z = _solution(linear, 0.0)
     gain = c @ c - np.sum((R @ z + c) ** 2)
     return bool(gain <= _ENOUGH * cost or np.linalg.norm(z) <= _ROUNDING)
 
 
-def _trial(objective: _Objective, p: Array, z: Array) -> _Trial:
+def _trial(objective: _Objective, p: Array, linear: _Linear, damping: float) -> _Trial:
+    z = _solution(linear, damping)
     new = p + objective.B @ z
     cost = np.inf
     if np.isfinite(z).all():
@@ -168,7 +174,8 @@ def regular(R: Array) -> bool:
     if R.shape[0] != R.shape[1]:
         return False
     diagonal = np.abs(np.diag(R))
-    return bool(diagonal.min(initial=np.inf) > _REGULAR * diagonal.max(initial=0.0))
+    least = diagonal.min(initial=np.inf)
+    return bool(least > _REGULAR * diagonal.max(initial=0.0))
 
 
 def _exact(problem: Problem, p: Array) -> bool:
@@ -207,8 +214,10 @@ def _rows(objective: _Objective, p: Array) -> tuple[Array, Array]:
         width = e.shape[1]
         whitened = objective.noise.whitened(k, jacobian)
         D = blocked_product(whitened.reshape(-1, jacobian.shape[2]), objective.B)
-        weight = loss(objective.loss, np.sum(e * e, axis=1), width).weight
+        squares = np.sum(e * e, axis=1)
+        weight = loss(objective.loss, squares, width).weight
         root = np.repeat(np.sqrt(weight), width)
+        rows = np.column_stack([D, e.ravel()])
+        weighted.append(root[:, None] * rows)
         plain.append(D)
-        weighted.append(root[:, None] * np.column_stack([D, e.ravel()]))
     return np.concatenate(weighted), np.concatenate(plain)

@@ -211,7 +211,11 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
     write_whole(path, text.encode())
 
 
-def make_measurement(table: Table, kind: str | None, known: dict[str, Any]) -> Measurement:
+def make_measurement(
+    table: Table,
+    kind: str | None,
+    known: dict[str, Any],
+) -> Measurement:
     """The measurement that a table holds. Parameters: kind and known, as those of `read`; so are
     the errors.
     """
@@ -224,7 +228,11 @@ def make_measurement(table: Table, kind: str | None, known: dict[str, Any]) -> M
     return made(**{first: _values(table, kind, known)}, **known)
 
 
-def _values(table: Table, kind: str, known: dict[str, Any]) -> Array:
+def _values(
+    table: Table,
+    kind: str,
+    known: dict[str, Any],
+) -> Array:
     """The measured values of a table as the kind of measurement takes them."""
     values = table.values
     format = table.layout.format

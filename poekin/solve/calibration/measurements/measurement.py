@@ -196,9 +196,12 @@ class Measurement:
         IndexError
             If there is no measurement of such an index.
         """
-        names = (self._measured, "rows", "covariance")
-        values = {name: getattr(self, name) for name in names}
-        return self._with(**{k: None if v is None else v[chosen] for k, v in values.items()})
+        changes = {}
+        for name in (self._measured, "rows", "covariance"):
+            value = getattr(self, name)
+            if value is not None:
+                changes[name] = value[chosen]
+        return self._with(**changes)
 
     def rows_of(self, count: int) -> Rows:
         """Row of q of each measurement.
@@ -337,7 +340,11 @@ def pose_rows(T: ArrayLike, what: str) -> Array:
     return poses(array, what)
 
 
-def seen_from(X: Array, T: Array, D: Array) -> tuple[Array, Array]:
+def seen_from(
+    X: Array,
+    T: Array,
+    D: Array,
+) -> tuple[Array, Array]:
     """Poses X^-1 T of a frame X, and their twists (N, 6, P + 6): Ad(X^-1) D of T's twists D, and -xi
     of X <- X e^[xi].
     """
@@ -362,7 +369,12 @@ def make_unknown_frame(name: str, said: ArrayLike | str | None) -> UnknownFrame:
     return UnknownFrame(name, 6, array.copy())
 
 
-def covariances(values: ArrayLike | None, count: int, width: int, what: str) -> Array | None:
+def covariances(
+    values: ArrayLike | None,
+    count: int,
+    width: int,
+    what: str,
+) -> Array | None:
     """Covariances (N, width, width) of one for all, or one each; None stays None.
 
     Raises: ShapeError; InputError with the element that is not symmetric or not positive definite.

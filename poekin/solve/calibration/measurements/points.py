@@ -26,7 +26,8 @@ def _velocities(D: Array, y: Array) -> Array:
 
 def points_at(T: Array, points: Array) -> Array:
     """Points (N, k, 3) in the base frame, of points (k, 3) in the tip frame."""
-    return points @ np.swapaxes(T[:, :3, :3], 1, 2) + T[:, None, :3, 3]
+    back = np.swapaxes(T[:, :3, :3], 1, 2)
+    return points @ back + T[:, None, :3, 3]
 
 
 def point_at(T: Array, point: Array) -> Array:
@@ -123,7 +124,8 @@ class Points(Measurement):
         """Errors p_model − p_measured (N, 3k), in the frame in which p stands."""
         for T_base_device in frame_values:
             T = se3.inverse(T_base_device) @ T
-        return (points_at(T, self.points) - self.p).reshape(len(T), self.width)
+        errors = points_at(T, self.points) - self.p
+        return errors.reshape(len(T), self.width)
 
     def jacobian(
         self,

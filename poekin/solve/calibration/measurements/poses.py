@@ -17,8 +17,9 @@ def pose_errors(T: Array, measured: Array) -> Array:
     """Errors (N, 6): the rotation vector of R R_measured^T (rad), and p - p_measured (m), both in
     the fixed axes.
     """
-    turned = so3.log(T[:, :3, :3] @ np.swapaxes(measured[:, :3, :3], 1, 2))
-    return np.concatenate([turned, T[:, :3, 3] - measured[:, :3, 3]], axis=1)
+    turns = T[:, :3, :3] @ np.swapaxes(measured[:, :3, :3], 1, 2)
+    moved = T[:, :3, 3] - measured[:, :3, 3]
+    return np.concatenate([so3.log(turns), moved], axis=1)
 
 
 def pose_error_jacobian(T: Array, errors: Array, D: Array) -> Array:
@@ -113,7 +114,8 @@ class _HandEye(Measurement):
         seen, twists = seen_from(X, T, D)
         G = seen @ Z
         both = np.concatenate([twists, se3.adjoint(G)], axis=2)
-        arm, *frames = np.split(pose_error_jacobian(G, errors, both), [-12, -6], axis=2)
+        jacobian = pose_error_jacobian(G, errors, both)
+        arm, *frames = np.split(jacobian, [-12, -6], axis=2)
         return arm, frames
 
     def guesses(self, T: Array) -> list[Array]:

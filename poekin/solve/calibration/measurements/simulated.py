@@ -241,8 +241,15 @@ def _measure(
     return _Made(Points(sensor.points(T, points), points, covariance), {}, points)
 
 
-def _readings(chain: Chain, q: Any, n: int, rng: np.random.Generator) -> Array:
-    q = chain.random(rng, n) if q is None else coordinates(q, chain.q_names).copy()
+def _readings(
+    chain: Chain,
+    q: Any,
+    n: int,
+    rng: np.random.Generator,
+) -> Array:
+    if q is None:
+        return chain.random(rng, n)
+    q = coordinates(q, chain.q_names).copy()
     if q.shape != (n, chain.dof) or not np.isfinite(q).all():
         raise ShapeError(f"q: expected finite ({n}, {chain.dof}), got shape {q.shape}")
     return q
@@ -291,7 +298,11 @@ class _Sensor:
             return np.diag(diagonal)
         return None
 
-    def _gross_vectors(self, bounds: tuple[float, float], unit: float = 1.0) -> Array:
+    def _gross_vectors(
+        self,
+        bounds: tuple[float, float],
+        unit: float = 1.0,
+    ) -> Array:
         count = int(self.gross.sum())
         sizes = self.outlier_rng.uniform(*bounds, (count, 1))
         return unit * sizes * _directions(self.outlier_rng, count)
@@ -315,7 +326,11 @@ def _random_frames(rng: np.random.Generator, reach: float) -> _Frames:
     return _Frames(read_only(X), read_only(Z), read_only(2.0 * reach * directions[2]))
 
 
-def _deviations(tilt: Any, shift: Any, noise: Any) -> tuple[float, float]:
+def _deviations(
+    tilt: Any,
+    shift: Any,
+    noise: Any,
+) -> tuple[float, float]:
     """The noise as two numbers. Raises: InputError, ShapeError, of the others too."""
     sizes = numbers(noise, "noise")
     if sizes.shape != (2,):

@@ -53,15 +53,21 @@ class ErrorModel:
     None).
     """
 
-    def __init__(self, nominal: Chain, kinds: Sequence[str], joints: Sequence[str] | None) -> None:
+    def __init__(
+        self,
+        nominal: Chain,
+        kinds: Sequence[str],
+        joints: Sequence[str] | None,
+    ) -> None:
         kinds = parse_kinds(kinds)
         chosen = parse_joints(nominal, joints)
         self.nominal = nominal
         self.kinds = kinds
         self.moving = tuple(np.array(nominal.joint_names, object)[chosen])
         self._free = free_parameters(nominal, kinds, chosen)
-        frames = np.array(list(accumulate(nominal.local.frames[:-1], np.matmul)))
-        frames = frames.reshape(-1, 4, 4)  # of each joint's z-aligned frame in the base at home
+        # pose of each joint's z-aligned frame in the base at home
+        poses = list(accumulate(nominal.local.frames[:-1], np.matmul))
+        frames = np.reshape(poses, (-1, 4, 4))
         # (n, 6, 4): columns tilt, tilt, shift, shift
         self._across = se3.adjoint(frames)[..., [0, 1, 3, 4]]
         self.parameters = names(nominal, self._free, frames)
@@ -79,8 +85,10 @@ class ErrorModel:
         parts = [part.ravel() for part in self._free]
         every = np.zeros(sum(map(len, parts)))
         every[np.concatenate(parts)] = p
-        across, *others = np.split(every, np.cumsum([len(part) for part in parts[:-1]]))
-        return Errors((self._across @ across.reshape(-1, 4, 1))[..., 0], *others)
+        ends = np.cumsum([len(part) for part in parts])
+        across, *others = np.split(every, ends[:-1])
+        screws = self._across @ across.reshape(-1, 4, 1)
+        return Errors(screws[..., 0], *others)
 
     def joints(self, p: Array) -> Chain:
         """The moved screws and home pose as a chain of joint values x, without coupling."""
@@ -90,11 +98,13 @@ class ErrorModel:
 
     def _moved(self, p: Array) -> Chain:
         errors = self.errors(p)
-        A = (se3.adjoint(se3.exp(errors.screws)) @ self.nominal.screws[..., None])[..., 0]
-        M = self.nominal.home @ se3.exp(errors.home)
-        pitches = self.nominal.pitches + errors.pitches
+        nominal = self.nominal
+        moves = se3.adjoint(se3.exp(errors.screws))
+        A = (moves @ nominal.screws[..., None])[..., 0]
+        M = nominal.home @ se3.exp(errors.home)
+        pitches = nominal.pitches + errors.pitches
         if self._plain:
-            return self.nominal.replace(screws=A, home=M, pitches=pitches)
+            return nominal.replace(screws=A, home=M, pitches=pitches)
         return Chain.from_space(A, M, pitches=pitches)
 
     def values(self, p: Array, q: Array) -> Array:
@@ -155,7 +165,8 @@ class ErrorModel:
             parts.append(slides[..., free.pitches])
             if self._coupling is not None:
                 J = J @ self._coupling
-            readings = [J[..., free.offsets], J[..., free.gains] * q[:, None, free.gains]]
+            gains = J[..., free.gains] * q[:, None, free.gains]
+            readings = [J[..., free.offsets], gains]
         if free.home.any():
             parts.append(derivatives.home @ se3.right_jacobian(errors.home))
         return np.concatenate([*parts, *readings], axis=2)

@@ -59,7 +59,11 @@ class Free(NamedTuple):
     gains: Mask
 
 
-def free_parameters(nominal: Chain, kinds: tuple[str, ...], chosen: Mask) -> Free:
+def free_parameters(
+    nominal: Chain,
+    kinds: tuple[str, ...],
+    chosen: Mask,
+) -> Free:
     """Parameters of these kinds of the chosen joints (n,), and of the coordinates that move them."""
     screws = np.tile(chosen[:, None], 4)
     screws[nominal.local.rotates == 0, _SHIFT] = False
@@ -74,7 +78,11 @@ def free_parameters(nominal: Chain, kinds: tuple[str, ...], chosen: Mask) -> Fre
     )
 
 
-def names(nominal: Chain, free: Free, frames: Array) -> tuple[Parameter, ...]:
+def names(
+    nominal: Chain,
+    free: Free,
+    frames: Array,
+) -> tuple[Parameter, ...]:
     """Names of the free parameters in the order of p; frames (n, 4, 4) of the joints at home."""
     found = _axis_names(nominal.joint_names, free, frames)
     pitched = compress(nominal.joint_names, free.pitches)
@@ -96,7 +104,11 @@ def frame_parameters(owner: str, size: int = 6) -> list[Parameter]:
     return [*rotations, *translations][-size:]
 
 
-def _axis_names(joint_names: Sequence[str], free: Free, frames: Array) -> list[Parameter]:
+def _axis_names(
+    joint_names: Sequence[str],
+    free: Free,
+    frames: Array,
+) -> list[Parameter]:
     across = (np.round(frames[:, :3, :2], 6) + 0.0).tolist()
     found = []
     for i, k in np.argwhere(free.screws).tolist():

@@ -65,12 +65,11 @@ class Problem:
         """Initial guesses of the unknown frames: of those that sets share, by the largest set."""
         T = self.model.nominal.fk(self.q)
         found: dict[str, Array] = {}
-        for k in sorted(range(len(self.sets)), key=lambda k: -len(self.sets[k])):
-            s = self.sets[k]
-            own = self._own[k]
+        parts = zip(self.sets, self._own, self.rows, strict=True)
+        for s, own, rows in sorted(parts, key=lambda part: -len(part[0])):
             pairs = zip(own, s.unknown_frames, strict=True)
             known = [u._replace(guess=found.get(name, u.guess)) for name, u in pairs]
-            guesses = s.with_unknown_frames(known).guesses(T[self.rows[k]])
+            guesses = s.with_unknown_frames(known).guesses(T[rows])
             found |= dict(zip(own, guesses, strict=True))
         return [found[name] for name in self.frame_names]
 
@@ -114,14 +113,19 @@ class Problem:
     def linearised(self, p: Array) -> list[Linear]:
         """The errors of each set and their Jacobian."""
         errors = self.errors(p)
-        return list(map(Linear, errors, self._jacobians(p, self._moved(p), errors)))
+        jacobians = self._jacobians(p, self._moved(p), errors)
+        return list(map(Linear, errors, jacobians))
 
     def _moved(self, p: Array) -> list[PosesAndTwists]:
         """Poses and their twists at the readings of each set."""
         T, D = self.model.poses_and_twists(p[: self.model_size], self.q)
         return [PosesAndTwists(T[rows], D[rows]) for rows in self.rows]
 
-    def jacobians(self, p: Array, q: Array | None = None) -> list[Array]:
+    def jacobians(
+        self,
+        p: Array,
+        q: Array | None = None,
+    ) -> list[Array]:
         """The Jacobian (N, d, P) of each set as if the model were right: no measured value is used.
 
         q (K, m): other readings, at each of which every set measures.
@@ -130,7 +134,8 @@ class Problem:
             moved = self._moved(p)
         else:
             moved = [self.model.poses_and_twists(p[: self.model_size], q)] * len(self.sets)
-        errors = [np.zeros((len(m.T), s.width)) for m, s in zip(moved, self.sets, strict=True)]
+        pairs = zip(moved, self.sets, strict=True)
+        errors = [np.zeros((len(m.T), s.width)) for m, s in pairs]
         return self._jacobians(p, moved, errors)
 
     def _jacobians(
@@ -141,8 +146,10 @@ class Problem:
     ) -> list[Array]:
         frames = self.frame_values(p)
         found = []
-        for s, own, (T, D), e in zip(self.sets, self._own, moved, errors, strict=True):
-            of_model, of_frames = s.jacobian(T, [frames[name] for name in own], e, D)
+        parts = zip(self.sets, self._own, moved, errors, strict=True)
+        for s, own, (T, D), e in parts:
+            mine = [frames[name] for name in own]
+            of_model, of_frames = s.jacobian(T, mine, e, D)
             jacobian = np.zeros((*e.shape, self.size))
             jacobian[..., : self.model_size] = of_model
             for name, of_frame in zip(own, of_frames, strict=True):

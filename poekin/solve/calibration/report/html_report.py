@@ -118,7 +118,8 @@ def _measured(found: CalibrationData) -> Iterator[str]:
     if found.frames:
         heads = ("", "x (m)", "y (m)", "z (m)", "rotation vector (rad)")
         yield caption("Unknown frames and points, estimated jointly")
-        yield _table(heads, [_frame_row(*item) for item in found.frames.items()], words=(0, 4))
+        rows = [_frame_row(*item) for item in found.frames.items()]
+        yield _table(heads, rows, words=(0, 4))
 
 
 def _noise_row(found: CalibrationData, k: int) -> tuple[str, ...]:
@@ -172,12 +173,22 @@ def _compared_row(j: JointComparison) -> tuple[str, ...]:
     zero = f"{_degrees(j.zero_offset)} °"
     if j.unit == "m":
         zero = f"{_millimetres(j.zero_offset)} mm"
-    return (j.name_a, _degrees(j.angle), _millimetres(j.normal), _millimetres(j.shift), zero)
+    return (
+        j.name_a,
+        _degrees(j.angle),
+        _millimetres(j.normal),
+        _millimetres(j.shift),
+        zero,
+    )
 
 
 def _difference(j: JointComparison) -> float:
     """Largest difference of two axes, in mm or degrees."""
-    return max(1e3 * (j.shift or 0.0), 1e3 * (j.normal or 0.0), math.degrees(j.angle))
+    return max(
+        1e3 * (j.shift or 0.0),
+        1e3 * (j.normal or 0.0),
+        math.degrees(j.angle),
+    )
 
 
 def _uncertainty(found: CalibrationData) -> Iterator[str]:
@@ -264,7 +275,11 @@ def _seen(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-9 else value:.3g}"
 
 
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]], words: Sequence[int] = (0,)) -> str:
+def _table(
+    heads: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    words: Sequence[int] = (0,),
+) -> str:
     """Columns of numbers, but for those in `words`; a column with nothing in it is left out."""
     rows = list(rows)
     kept = [i for i in range(len(heads)) if not rows or any(row[i] for row in rows)]

@@ -18,15 +18,37 @@ PURPOSE = "a report of a calibration"
 MOST_DOTS = 400  # of a curve: what more of them show cannot be seen
 _LEAST = 1e-12  # mm and mrad: less is rounding, and a logarithmic axis has to end somewhere
 _STYLES: tuple[dict[str, Any], ...] = (
-    {"marker": "o", "markersize": 4, "linestyle": "", "markerfacecolor": "white", "color": PALE},
-    {"marker": "o", "markersize": 3.5, "linestyle": "", "color": INK},
-    {"linestyle": ":", "linewidth": 1.3, "color": INK},
+    {
+        "marker": "o",
+        "markersize": 4,
+        "linestyle": "",
+        "markerfacecolor": "white",
+        "color": PALE,
+    },
+    {
+        "marker": "o",
+        "markersize": 3.5,
+        "linestyle": "",
+        "color": INK,
+    },
+    {
+        "linestyle": ":",
+        "linewidth": 1.3,
+        "color": INK,
+    },
 )
 
-
 _DIRECTIONS: tuple[dict[str, Any], ...] = (
-    {"fmt": "o", "markerfacecolor": INK, "label": "first direction"},
-    {"fmt": "s", "markerfacecolor": "white", "label": "second direction"},
+    {
+        "fmt": "o",
+        "markerfacecolor": INK,
+        "label": "first direction",
+    },
+    {
+        "fmt": "s",
+        "markerfacecolor": "white",
+        "label": "second direction",
+    },
 )
 
 
@@ -50,7 +72,12 @@ def residuals(curves: Sequence[NamedResiduals]) -> str:
     return _inline(9.0, 3.5, draw)
 
 
-def _distributions(axes: Any, label: str, names: Sequence[str], series: Sequence[Array]) -> None:
+def _distributions(
+    axes: Any,
+    label: str,
+    names: Sequence[str],
+    series: Sequence[Array],
+) -> None:
     for name, values, style in zip(names, series, _STYLES, strict=False):
         x, share = _shares(values)
         axes.plot(np.maximum(x, _LEAST), share, label=name, **style)
@@ -65,8 +92,8 @@ def _shares(values: Array) -> tuple[Array, Array]:
     x = np.sort(values[~np.isnan(values)])
     if not len(x):
         return x, x
-    kept = np.linspace(0, len(x) - 1, MOST_DOTS).round().astype(int)
-    kept = np.unique(kept)
+    even = np.linspace(0, len(x) - 1, MOST_DOTS)
+    kept = np.unique(even.round().astype(int))
     return x[kept], 100.0 * (kept + 1) / len(x)
 
 
@@ -77,7 +104,8 @@ def joints(found: Sequence[Joint]) -> str:
         panels = figure.subplots(1, 2, sharey=True)
         _bars(panels[0], "tilt (mrad)", [j.tilt for j in found])
         _bars(panels[1], "shift (mm)", [j.shift for j in found])
-        panels[0].set_yticks(range(len(found)), [svg.label(j.name, 28) for j in found])
+        names = [svg.label(j.name, 28) for j in found]
+        panels[0].set_yticks(range(len(found)), names)
         panels[0].set_ylim(len(found) - 0.5, -0.5)
         _legend(figure, panels[0], 2)
 
@@ -127,7 +155,13 @@ def _histogram(axes: Any, label: str, values: Array) -> None:
         edgecolor=INK,
         linewidth=0.7,
     )
-    axes.axvline(np.median(values), color=INK, linewidth=1.2, linestyle="--", label="median")
+    axes.axvline(
+        np.median(values),
+        color=INK,
+        linewidth=1.2,
+        linestyle="--",
+        label="median",
+    )
     axes.set(xlabel=f"standard deviation of the {label}", xlim=(0.0, 1.05 * top))
     svg.plain(axes)
 
@@ -144,14 +178,32 @@ def steps(found: Sequence[Step]) -> str:
     return _inline(9.0, 2.7, draw)
 
 
-def _course(axes: Any, label: str, values: Sequence[float], damped: NDArray[np.bool_]) -> None:
+def _course(
+    axes: Any,
+    label: str,
+    values: Sequence[float],
+    damped: NDArray[np.bool_],
+) -> None:
     """One number of each step, on a logarithmic axis."""
     number = np.arange(1, len(values) + 1)
     y = np.array(values, float)
     y[y <= 0] = np.nan
     axes.plot(number, y, color=PALE, linewidth=0.8)
-    axes.plot(number[~damped], y[~damped], ".", color=INK, markersize=5)
-    axes.plot(number[damped], y[damped], "o", color=INK, markersize=4, markerfacecolor="white")
+    axes.plot(
+        number[~damped],
+        y[~damped],
+        ".",
+        color=INK,
+        markersize=5,
+    )
+    axes.plot(
+        number[damped],
+        y[damped],
+        "o",
+        color=INK,
+        markersize=4,
+        markerfacecolor="white",
+    )
     if np.isfinite(y).any():
         axes.set_yscale("log")
     axes.set(xlabel="step", ylabel=label)
@@ -162,7 +214,13 @@ def _course(axes: Any, label: str, values: Sequence[float], damped: NDArray[np.b
 def _legend(figure: Any, axes: Any, columns: int) -> None:
     """Legend of one panel above all."""
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper left", ncols=columns, frameon=False)
+    figure.legend(
+        handles,
+        labels,
+        loc="outside upper left",
+        ncols=columns,
+        frameon=False,
+    )
 
 
 def _plain(axes: Any, grid: str) -> None:
@@ -171,5 +229,9 @@ def _plain(axes: Any, grid: str) -> None:
     svg.plain(axes)
 
 
-def _inline(width: float, height: float, draw: Callable[[Any], None]) -> str:
+def _inline(
+    width: float,
+    height: float,
+    draw: Callable[[Any], None],
+) -> str:
     return svg.inline(svg.svg(width, height, PURPOSE, draw))

@@ -55,7 +55,11 @@ def _frame(keys: Keys, name: str) -> Array:
         raise keys.fault(name, str(fault)) from fault
 
 
-def parameters(keys: Keys, model: ErrorModel, frames: dict[str, Array]) -> Named:
+def parameters(
+    keys: Keys,
+    model: ErrorModel,
+    frames: dict[str, Array],
+) -> Named:
     """Parameters with values and covariance, those of arm and frames. Raises: ModelError."""
     rows = keys.tables("parameter", (*Parameter._fields, "value", "deviation"))
     found = tuple(map(_parameter, rows))
@@ -116,7 +120,8 @@ def check_chain(keys: Keys, model: ErrorModel, values: Array, chain: Chain) -> N
     except PoekinError as fault:
         raise ModelError(f"{keys.place}: parameter: {fault}") from fault
     same = all(getattr(own, name) == getattr(chain, name) for name in _SAME)
-    off = [np.abs(getattr(own, name) - getattr(chain, name)).max(initial=0.0) for name in _NEAR]
+    differences = (getattr(own, name) - getattr(chain, name) for name in _NEAR)
+    off = [np.abs(difference).max(initial=0.0) for difference in differences]
     if not same or not max(off) <= _AGREE * own.reach:
         raise keys.fault(CALIBRATED, "the chain is not what the parameters make of the nominal one")
 
