@@ -233,7 +233,7 @@ def _bound_by_ritz_values(search: Search, state: DesignState, out: Array) -> Arr
     return ahead
 
 
-def _between(low: Array, high: Array, criterion: Criterion) -> Array:
+def _between(low: np.ndarray, high: np.ndarray, criterion: Criterion) -> Array:
     """Bound (K,) of the criterion where all eigenvalues span from low to high at least."""
     return _of_extremes(_log(low, -np.inf), _log(high, np.inf), criterion)
 

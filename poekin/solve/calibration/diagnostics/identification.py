@@ -19,6 +19,7 @@ from ....model.sampling import half_range
 from ....results import Result
 from ..design import observability
 from ..measurements.inputs import parse_measurements, parse_readings
+from ..measurements.measurement import per_error
 from ..model.error_model import ErrorModel
 from ..model.parameters import ParameterKind
 from ..model.problem import Problem
@@ -172,7 +173,7 @@ def scaled_jacobians(
     if p is None:
         p = np.zeros(problem.size)
     reach = problem.model.nominal.reach
-    units = [s.per_error(1.0, reach)[:, None] for s in problem.sets]
+    units = [per_error(s, 1.0, reach)[:, None] for s in problem.sets]
     pairs = zip(problem.jacobians(p, q), units, strict=True)
     return [jacobian * problem.scale / unit for jacobian, unit in pairs]
 

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ....groups.arrays import Array
+from ..measurements.measurement import per_error
 from ..model.problem import Problem
 from ..model.tsqr import blocked_product, least_squares, qr_r
 from .losses import LossName, loss
@@ -182,7 +183,7 @@ def _exact(problem: Problem, p: Array) -> bool:
     """Whether all errors are rounding."""
     reach = problem.model.nominal.reach
     pairs = zip(problem.sets, problem.errors(p), strict=True)
-    return all((np.abs(e) <= _ROUNDING * s.per_error(1.0, reach)).all() for s, e in pairs)
+    return all((np.abs(e) <= _ROUNDING * per_error(s, 1.0, reach)).all() for s, e in pairs)
 
 
 def _cost(objective: _Objective, p: Array) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ....errors import InputError
 from ....groups.arrays import Array
-from ..measurements.measurement import Measurement
+from ..measurements.measurement import Measurement, per_error
 
 _NORMAL = 0.6744897501960817  # the median of the absolute value of a normal number
 LEAST = 1e-15
@@ -58,7 +58,7 @@ class Noise:
             if s.covariance is not None:
                 self._whiten.append(np.linalg.inv(np.linalg.cholesky(s.covariance)))
             elif estimate is not None:
-                sigma = s.per_error(estimate.angle, estimate.length)
+                sigma = per_error(s, estimate.angle, estimate.length)
                 self._whiten.append(1.0 / sigma[:, None])
 
     def whitened(self, k: int, errors: Array) -> Array:

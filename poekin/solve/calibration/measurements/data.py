@@ -28,7 +28,7 @@ from ....model.chain import Chain
 from ....model.coordinates import coordinates
 from . import columns
 from .columns import Layout
-from .measurement import Measurement, MeasurementKind, finite_rows
+from .measurement import Measurement, MeasurementKind, finite_rows, rows_of
 from .points import Distances, Points
 from .poses import EyeInHand, EyeToHand, Poses
 
@@ -193,7 +193,7 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
     """
     measured, values = _columns(measurement)
     q = coordinates(q, chain.q_names)
-    rows = measurement.rows_of(len(values))
+    rows = rows_of(measurement, len(values))
     unlike = measurement.rows is None and len(q) != len(values)
     if q.ndim != 2 or unlike or (rows >= len(q)).any():
         raise ShapeError(

@@ -68,27 +68,6 @@ class Measurement:
         """Name of the kind in messages."""
         return type(self).__name__
 
-    def per_error(self, angle: float | None, length: float) -> Array:
-        """One number for each error of a measurement, by what the error is.
-
-        Parameters
-        ----------
-        angle, length : float
-            Number for each error that is an angle, and for each that is a length. Where nothing
-            turns, `angle` is not read.
-
-        Returns
-        -------
-        numbers : (width,) ndarray
-            The numbers, in the order of the errors.
-
-        Notes
-        -----
-        Raises: nothing, it checks nothing. Source: none, it repeats them.
-        """
-        counts = [self.angular, self.width - self.angular]
-        return np.repeat(np.array([angle, length], float), counts)
-
     def errors(self, T: Array, frame_values: Frames) -> Array:
         """Model minus measurement, by the equation of the kind.
 
@@ -203,27 +182,6 @@ class Measurement:
                 changes[name] = value[chosen]
         return self._with(**changes)
 
-    def rows_of(self, count: int) -> Rows:
-        """Row of q of each measurement.
-
-        Parameters
-        ----------
-        count : int
-            Number of rows of q.
-
-        Returns
-        -------
-        rows : (N,) ndarray of int
-            `rows`, or all in order.
-
-        Notes
-        -----
-        Raises: nothing, it checks nothing. Source: none, it counts them.
-        """
-        if self.rows is None:
-            return np.arange(count)
-        return self.rows
-
     def with_rows(self, rows: Rows | None) -> Measurement:
         """Copy of the measurements at other rows of q, unchecked.
 
@@ -305,6 +263,19 @@ class Measurement:
             if isinstance(value, np.ndarray):
                 value = read_only(value)
             object.__setattr__(self, name, value)
+
+
+def rows_of(s: Measurement, count: int) -> Rows:
+    """Row of q of each measurement: as given, or all `count` of them in order."""
+    if s.rows is None:
+        return np.arange(count)
+    return s.rows
+
+
+def per_error(s: Measurement, angle: float | None, length: float) -> Array:
+    """Vector (width,): one number for the errors that are angles, another for lengths."""
+    counts = [s.angular, s.width - s.angular]
+    return np.repeat(np.array([angle, length], float), counts)
 
 
 def parse_rows(rows: ArrayLike | None, count: int) -> Rows | None:

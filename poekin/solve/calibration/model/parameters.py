@@ -68,7 +68,7 @@ def free_parameters(
     screws = np.tile(chosen[:, None], 4)
     screws[nominal.local.rotates == 0, _SHIFT] = False
     pitched = chosen & (np.array(nominal.kinds, "U9") != "prismatic")
-    moved = nominal.coupling[chosen].any(axis=0)
+    moved = np.abs(nominal.coupling[chosen]).sum(0) > 0
     return Free(
         screws=screws & ("screws" in kinds),
         pitches=pitched & ("pitch" in kinds),

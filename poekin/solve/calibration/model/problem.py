@@ -12,7 +12,7 @@ import numpy as np
 from ....groups import se3
 from ....groups.arrays import Array
 from ....model.checks import read_only
-from ..measurements.measurement import Measurement, Rows
+from ..measurements.measurement import Measurement, Rows, rows_of
 from .error_model import ErrorModel, PosesAndTwists
 from .last_result import LastResult
 from .parameters import frame_parameters
@@ -43,7 +43,7 @@ class Problem:
         self.model = model
         self.q = q
         self.sets = tuple(sets)
-        self.rows = [s.rows_of(len(q)) for s in self.sets]
+        self.rows = [rows_of(s, len(q)) for s in self.sets]
         self._own = [_frame_names(k, self.sets) for k in range(len(self.sets))]
         named = list(model.parameters)
         self._parts: dict[str, slice] = {}

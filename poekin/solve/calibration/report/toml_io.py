@@ -122,12 +122,10 @@ def _data(value: Any) -> Any:
 
 def _identification(keys: Keys) -> Identification:
     own = keys.table("identification", (*_COUNTS, *_INDICES, *_WORDS, "singular_values"))
-    return Identification(
-        **{name: own.whole(name) for name in _COUNTS},
-        **{name: own.number(name, finite=False) for name in _INDICES},
-        **{name: own.texts(name) for name in _WORDS},
-        singular_values=own.array("singular_values", (None,)),
-    )
+    values: dict[str, Any] = {name: own.whole(name) for name in _COUNTS}
+    values |= {name: own.number(name, finite=False) for name in _INDICES}
+    values |= {name: own.texts(name) for name in _WORDS}
+    return Identification(**values, singular_values=own.array("singular_values", (None,)))
 
 
 def _noise(keys: Keys) -> NoiseEstimate | None:

@@ -10,7 +10,7 @@ import pytest
 
 import poekin as pk
 from poekin.errors import InputError
-from poekin.solve.calibration import Distances, Poses, calibrate
+from poekin.solve.calibration import CrossValidation, Distances, Poses, Residuals, calibrate
 from poekin.solve.calibration.diagnostics import cross_validation
 from poekin.solve.calibration.fit.minimise import FitOptions
 from poekin.solve.calibration.model.error_model import ErrorModel
@@ -36,6 +36,16 @@ def test_as_many_parts_as_readings_two_and_none_are_numbers_of_parts():
     assert [
         cross_validation.check_folds(np.int64(value), 6, np.int64(value)) for value in (6, 2, 0)
     ] == [6, 2, 0]
+
+
+def test_what_was_held_out_is_said_before_and_after():
+    row = np.zeros(1, int)
+    before = Residuals(np.array([4e-3]), np.array([2e-3]), row, row)
+    after = Residuals(np.array([1e-3]), np.array([np.nan]), row, row)
+    found = CrossValidation(before, after, 3)
+    assert str(found) == f"3 folds\nbefore: {before}\nafter: {after}"
+    document = found.to_dict()
+    assert (document["folds"], document["before"]) == (3, before.to_dict())
 
 
 @pytest.mark.parametrize("seed", [True, -1, 0.0])

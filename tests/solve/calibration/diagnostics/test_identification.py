@@ -56,6 +56,31 @@ def test_offsets_tell_nothing_that_the_screws_do_not():
     assert (alone.size, alone.rank) == (6, 6)
 
 
+@pytest.mark.parametrize("kinds, count", [
+    ((Poses,), 15), ((Points,), 30), ((Poses, Points), 10), ((Poses, Points, Points), 8), ((Poses, Distances), 13),
+])  # fmt: skip
+def test_what_can_be_known_is_looked_for_at_so_many_configurations_that_each_parameter_has_three_equations(
+    kinds, count, monkeypatch
+):
+    looked = []
+    anywhere = identification._random_configurations
+
+    def noted(chain, count):
+        looked.append(count)
+        return anywhere(chain, count)
+
+    monkeypatch.setattr(identification, "_random_configurations", noted)
+    T = PUMA.fk(PUMA.random(0, 2))  # too few: the rest is looked for elsewhere
+    make = {
+        Poses: lambda: Poses(T),
+        Points: lambda: Points(T[:, :3, 3]),
+        Distances: lambda: Distances([2.0, 2.0], centre=[2.0, 0.0, 0.0]),
+    }
+    found = identify(PUMA, PUMA.random(0, 2), [make[kind]() for kind in kinds])
+    assert found.size == 30
+    assert looked == [count]
+
+
 def test_gains_and_pitches_are_seen():
     q = PUMA.random(0, 40)
     found = identify(PUMA, q, PUMA.fk(q), parameters=("screws", "home", "gains", "pitch"))

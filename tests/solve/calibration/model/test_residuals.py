@@ -8,7 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from poekin.solve.calibration.model.residuals import Residuals, concatenate, residuals
+from poekin.solve.calibration.model.residuals import (
+    Residuals,
+    concatenate,
+    largest,
+    median,
+    residuals,
+    rms,
+)
 from tests.findings import dataclasses_of, frozen_and_equal_only_where_its_parts_can_be
 
 POSES: Any = SimpleNamespace(width=6, angular=3)
@@ -44,6 +51,21 @@ def test_figures_are_of_what_was_measured_alone_and_said_in_mm_and_mrad():
     none = Residuals(found.length, np.full(3, np.nan), found.set, found.row)
     assert str(none) == "position 4.97 mm rms, median 3 mm"
     assert np.isnan([none.median_angle, none.rms_angle]).all()
+
+
+def test_of_values_that_are_none_no_figure_is_known_and_the_largest_is_of_the_others():
+    values = np.array([np.nan, 2.0, -3.0, 1.0])
+    figures = (median, rms, largest)
+    assert [f(values) for f in figures] == [1.0, pytest.approx(np.sqrt(14 / 3)), 2.0]
+    assert all(type(f(values)) is float for f in figures)
+    assert np.isnan([f(values[:1]) for f in figures]).all()
+
+
+def test_of_a_set_there_are_its_own_residuals_alone():
+    found = Residuals(np.arange(4.0), -np.arange(4.0), np.array([1, 0, 1, 2]), np.arange(4))
+    assert found.of_set(1).row.tolist() == [0, 2]
+    assert found.of_set(1).length.tolist() == [0, 2]
+    assert len(found.of_set(3)) == 0
 
 
 def test_parts_are_joined_in_the_order_of_set_and_row():

@@ -116,6 +116,12 @@ def test_names_out_of_files_stand_there_as_text(text):
     assert "\x1b" not in text
 
 
+def test_without_a_title_a_page_has_that_of_the_arm_from_base_to_tip(found, monkeypatch):
+    monkeypatch.setattr(html_report.html_page, "page", lambda title, parts: title)
+    assert html_report.html(found) == "Calibration: <b>base</b> to ${tip}"
+    assert html_report.html(found, title="") == ""
+
+
 def test_the_page_tells_what_was_found(found, text):
     assert changes.sentence(found) in text
     aside = found.cross_validation
