@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....errors import InputError
 from ....groups.arrays import Array
@@ -21,7 +20,7 @@ from ..design import observability
 from ..measurements.inputs import parse_measurements, parse_readings
 from ..measurements.measurement import per_error
 from ..model.error_model import ErrorModel
-from ..model.parameters import ParameterKind
+from ..model.parameters import Mask, ParameterKind
 from ..model.problem import Problem
 from ..model.tsqr import qr_r
 from . import messages
@@ -190,7 +189,7 @@ def rank_at(problem: Problem, p: Array) -> int:
 def free_directions_at(
     problem: Problem,
     p: Array,
-    known: NDArray[np.bool_] | None = None,
+    known: Mask | None = None,
 ) -> Array:
     """Basis (P, k) as of `identify_directions` of what is identified at p, where a fit ended."""
     J = identification_matrix(problem, p=p)
@@ -200,7 +199,7 @@ def free_directions_at(
 
 def identify_directions(
     problem: Problem,
-    known: NDArray[np.bool_] | None = None,
+    known: Mask | None = None,
     p: Array | None = None,
 ) -> tuple[Identification, Array]:
     """The identification, and a basis (P, k) in rad and reaches of what these measurements can
@@ -265,7 +264,7 @@ def check_rank(identification: Identification, on_rank_deficiency: OnRankDeficie
     )
 
 
-def _prior_rows(problem: Problem, known: NDArray[np.bool_] | None) -> Array:
+def _prior_rows(problem: Problem, known: Mask | None) -> Array:
     """A row for each parameter that a prior tells something of."""
     if known is None:
         return np.empty((0, problem.size))

@@ -60,7 +60,11 @@ def _combined(problem: Problem, rest: Array) -> str:
     if count > 1:
         changes = f"{count} combined changes"
         cancel = "that cancel out"
-    return f"{changes} of {_list(owners)} {cancel}{_common(problem, owners)}"
+    words = f"{changes} of {_list(owners)} {cancel}"
+    frames = [o for o in owners if o in problem.frame_names]
+    if frames:
+        words += f": {_list(frames)} may move, the arm does not"
+    return words
 
 
 def unobserved(problem: Problem, N: Array, unidentifiable: Array) -> list[str]:
@@ -77,14 +81,6 @@ def unobserved(problem: Problem, N: Array, unidentifiable: Array) -> list[str]:
             are = "is"
         words[-1] += f" ({_list(still)} {are} the same in all readings)"
     return words
-
-
-def _common(problem: Problem, owners: list[str]) -> str:
-    """Remark on which of them may move, where unknown frames take part."""
-    frames = [o for o in owners if o in problem.frame_names]
-    if frames:
-        return f": {_list(frames)} may move, the arm does not"
-    return ""
 
 
 def _alone(problem: Problem, alone: Rows) -> list[str]:

@@ -142,8 +142,7 @@ def read_table(
 
     with csv_rows.opened(path) as (stream, where, size):
         rows, lines = csv_rows.read_chosen(stream, choose, where, progress, size)
-    if not np.isfinite(rows).all():
-        i, k = np.argwhere(~np.isfinite(rows))[0]
+    for i, k in np.argwhere(~np.isfinite(rows)):
         raise InputError(
             f"{where}:{lines[i]}, column {quote(names[k])}: expected a finite number, got "
             f"{rows[i, k]}; leave the line out where nothing was measured"

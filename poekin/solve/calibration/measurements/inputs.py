@@ -27,8 +27,7 @@ def parse_readings(chain: Chain, q: object) -> Array:
     if not len(array):
         raise InputError("q: expected readings, got none")
     good = np.isfinite(array).all(1)
-    if not good.all():
-        row = int(np.argmin(good))
+    for row in np.flatnonzero(~good):
         raise InputError(f"q[{row}]: expected finite numbers, got {array[row].tolist()}")
     return array
 

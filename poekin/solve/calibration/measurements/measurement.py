@@ -297,8 +297,7 @@ def finite_rows(values: ArrayLike, what: str) -> Array:
     """A copy of the values (N, ...), all finite. Raises: InputError with the first row that is not."""
     array = numbers(values, what).copy()
     good = np.isfinite(array).all(axis=tuple(range(1, array.ndim)))
-    if not good.all():
-        row = int(np.argmin(good))
+    for row in np.flatnonzero(~good):
         raise InputError(f"{what}[{row}]: expected finite numbers, got NaN or infinity")
     return array
 

@@ -204,8 +204,7 @@ class Distances(Measurement):
         d = finite_rows(self.d, "d")
         if d.ndim != 1:
             raise ShapeError(f"d: expected distances (N,), got shape {d.shape}")
-        if (d <= 0).any():
-            row = int(np.argmax(d <= 0))
+        for row in np.flatnonzero(d <= 0):
             raise InputError(f"d[{row}]: expected a distance above 0, got {d[row]:g}")
         point = _position(numbers(self.point, "point"), "point")
         centre = _position(self.centre, "centre")

@@ -46,6 +46,7 @@ def _table(found: CalibrationData) -> list[str]:
         heads = heads[:2]
     lines = [" " * 29 + "".join(f"{head:>13}" for head in heads)]
     for name, r in rows:
-        values = [r.median_length, r.rms_length, r.median_angle, r.rms_angle][: len(heads)]
-        lines.append(f"{name:29}" + "".join(f"{1e3 * value:13.3g}" for value in values))
+        values = (r.median_length, r.rms_length, r.median_angle, r.rms_angle)
+        cells = (f"{1e3 * value:13.3g}" for value in values[: len(heads)])
+        lines.append(f"{name:29}" + "".join(cells))
     return lines

@@ -129,15 +129,14 @@ def check_chain(keys: Keys, model: ErrorModel, values: Array, chain: Chain) -> N
 def check_sets(keys: Keys, found: CalibrationData) -> None:
     """Refuse residuals of sets that there are not, and outliers that are no measurement."""
     count = len(found.noise_std)
-    after = found.after
-    if (after.set >= count).any():
+    most = found.after.set.max(initial=-1)
+    if most >= count:
         raise keys.fault(
             "after",
-            f"expected sets below {count}, as there is a [[noise_std]] for each, got "
-            f"{after.set.max()}",
+            f"expected sets below {count}, as there is a [[noise_std]] for each, got {most}",
         )
     for o in found.outliers:
-        rows = after.of_set(o.set).row
+        rows = found.after.of_set(o.set).row
         if o.index >= len(rows) or rows[o.index] != o.row:
             raise keys.fault(
                 "outliers",
