@@ -11,6 +11,7 @@ from ...analysis.compare.comparison import Comparison
 from ...formats import dh
 from ...formats.dh.from_chain import FromChain
 from ...formats.relink import relinked
+from ...formats.text.atomic_write import write_whole
 from ...formats.urdf_text import to_urdf
 from ...groups.arrays import Array
 from ...model.robot import Robot
@@ -222,7 +223,7 @@ class Calibration(CalibrationData):
         MissingExtra
             Without Matplotlib (extra `report`).
         """
-        html_report.write(self, path, title, sources)
+        write_whole(path, html_report.html(self, title, sources).encode())
 
     def summary(self) -> str:
         """Errors before and after, what could be identified, outliers and warnings, as text."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
@@ -11,7 +10,6 @@ import numpy as np
 from ....analysis.compare.compare import compare
 from ....analysis.compare.comparison import JointComparison
 from ....errors import ShapeError, escape_unprintable
-from ....formats.text.atomic_write import write_whole
 from ....groups import so3
 from ....groups.arrays import Array
 from ... import html_page
@@ -27,22 +25,14 @@ MOST_ROWS = 60
 _HEADS = ("", "position rms (mm)", "median", "largest", "rotation rms (mrad)", "median", "largest")
 
 
-def write(
-    found: CalibrationData,
-    path: str | os.PathLike[str],
-    title: str | None = None,
-    sources: Sequence[str] | None = None,
-) -> None:
-    """Write the page, whole or not at all; see `Calibration.report`."""
-    write_whole(path, html(found, title, sources).encode())
-
-
 def html(
     found: CalibrationData,
     title: str | None = None,
     sources: Sequence[str] | None = None,
 ) -> str:
-    """The page as text. Raises: ShapeError where sources do not name all rows; MissingExtra."""
+    """The page as text; see `Calibration.report`. Raises: ShapeError where sources do not name all
+    rows; MissingExtra.
+    """
     rows = int(found.after.row.max()) + 1
     if sources is not None and len(sources) < rows:
         raise ShapeError(

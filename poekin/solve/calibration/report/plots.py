@@ -15,6 +15,7 @@ from ..fit.minimise import Step
 from .changes import Change, Joint, NamedResiduals
 
 PURPOSE = "a report of a calibration"
+WIDTH = 9.0
 MOST_DOTS = 400  # of a curve: what more of them show cannot be seen
 _LEAST = 1e-12  # mm and mrad: less is rounding, and a logarithmic axis has to end somewhere
 _STYLES: tuple[dict[str, Any], ...] = (
@@ -69,7 +70,7 @@ def residuals(curves: Sequence[NamedResiduals]) -> str:
         every[0].set(ylabel="share of measurements (%)", ylim=(0, 103))
         _legend(figure, every[0], 3)
 
-    return _inline(9.0, 3.5, draw)
+    return _inline(3.5, draw)
 
 
 def _distributions(
@@ -109,7 +110,7 @@ def joints(found: Sequence[Joint]) -> str:
         panels[0].set_ylim(len(found) - 0.5, -0.5)
         _legend(figure, panels[0], 2)
 
-    return _inline(9.0, 1.3 + 0.36 * len(found), draw)
+    return _inline(1.3 + 0.36 * len(found), draw)
 
 
 def _bars(axes: Any, label: str, changes: Sequence[Change]) -> None:
@@ -141,7 +142,7 @@ def uncertainty(length: Array, angle: Array) -> str:
         panels[0].set_ylabel("share of configurations (%)")
         panels[0].legend(frameon=False)
 
-    return _inline(9.0, 2.9, draw)
+    return _inline(2.9, draw)
 
 
 def _histogram(axes: Any, label: str, values: Array) -> None:
@@ -175,7 +176,7 @@ def steps(found: Sequence[Step]) -> str:
         _course(panels[0], "cost before the step", [s.cost for s in found], damped)
         _course(panels[1], "length of the step (rad, reaches)", [s.step for s in found], damped)
 
-    return _inline(9.0, 2.7, draw)
+    return _inline(2.7, draw)
 
 
 def _course(
@@ -229,9 +230,5 @@ def _plain(axes: Any, grid: str) -> None:
     svg.plain(axes)
 
 
-def _inline(
-    width: float,
-    height: float,
-    draw: Callable[[Any], None],
-) -> str:
-    return svg.inline(svg.svg(width, height, PURPOSE, draw))
+def _inline(height: float, draw: Callable[[Any], None]) -> str:
+    return svg.inline(svg.svg(WIDTH, height, PURPOSE, draw))
