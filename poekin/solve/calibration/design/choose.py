@@ -180,10 +180,9 @@ def _candidates(chain: Chain, candidates: Any, seed: int) -> Array:
 
 def _examples(measurements: Any) -> list[Measurement]:
     """Examples of what is measured at each configuration."""
-    if isinstance(measurements, str) and measurements == "poses":
-        return [Poses(np.eye(4)[None])]
-    if isinstance(measurements, str) and measurements == "points":
-        return [Points(np.zeros((1, 3)))]
+    tip = {"poses": Poses(np.eye(4)[None]), "points": Points(np.zeros((1, 3)))}
+    if isinstance(measurements, str) and measurements in tip:
+        return [tip[measurements]]
     sets: Any = [measurements] if isinstance(measurements, Measurement) else measurements
     several = isinstance(sets, (list, tuple)) and len(sets)
     if not several or not all(isinstance(s, Measurement) for s in sets):

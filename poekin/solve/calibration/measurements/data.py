@@ -125,13 +125,15 @@ def read_table(
     """
     if kind is not None:
         choice(kind, KINDS, "kind")
-    ignore = (ignore,) if isinstance(ignore, str) else tuple(ignore)
+    if isinstance(ignore, str):
+        ignore = (ignore,)
+    passed_over = tuple(ignore)
     names: tuple[str, ...] = ()
     layout = columns.EMPTY
 
     def choose(header: list[str], here: str) -> list[int]:
         nonlocal names, layout
-        joints, layout = columns.parse_header(header, chain.q_names, ignore, here)
+        joints, layout = columns.parse_header(header, chain.q_names, passed_over, here)
         if kind is not None and kind not in layout.kinds:
             kinds = " or ".join(layout.kinds)
             those = f"the columns {columns.describe(layout)} are those of {kinds}"

@@ -8,6 +8,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ....checks import choice
 from ....errors import InputError, ShapeError, safe_repr
 from ....groups import se3, so3
 from ....groups.arrays import Array, numbers
@@ -113,8 +114,7 @@ class Points(Measurement):
             raise ShapeError(
                 f"p: expected positions (N, {k}, 3), of {k} points, got shape {np.shape(self.p)}"
             )
-        if self.frame not in get_args(PointFrame):
-            raise InputError(f"frame: expected 'base' or 'unknown', got {safe_repr(self.frame)}")
+        choice(self.frame, get_args(PointFrame), "frame")
         unknown: tuple[UnknownFrame, ...] = ()
         if self.frame == "unknown":
             unknown = (UnknownFrame("T_base_device", 6),)

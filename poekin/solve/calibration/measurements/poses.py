@@ -121,13 +121,13 @@ class _HandEye(Measurement):
     def guesses(self, T: Array) -> list[Array]:
         """Frames as given, else by hand-eye calibration or the mean of the measured poses."""
         X, Z = (u.guess for u in self.unknown_frames)
-        if X is not None and Z is not None:
-            return [X, Z]
-        if X is not None:
-            return [X, initial_guess.mean_pose(se3.inverse(T) @ X @ self.T)]
-        if Z is not None:
-            return [initial_guess.mean_pose(T @ Z @ se3.inverse(self.T)), Z]
-        return list(initial_guess.hand_eye(T, self.T))
+        if Z is None:
+            if X is None:
+                return list(initial_guess.hand_eye(T, self.T))
+            Z = initial_guess.mean_pose(se3.inverse(T) @ X @ self.T)
+        elif X is None:
+            X = initial_guess.mean_pose(T @ Z @ se3.inverse(self.T))
+        return [X, Z]
 
 
 @dataclass(frozen=True, eq=False)
