@@ -203,7 +203,8 @@ def _outliers(problem: Problem, fit: Fit) -> tuple[Outlier, ...]:
     found = []
     for k, squares in enumerate(fit.noise.squares(problem.errors(fit.p))):
         gross = squares > chi_square(problem.sets[k].width, OUTLIER)
-        found += [Outlier(k, i, int(problem.rows[k][i])) for i in np.flatnonzero(gross).tolist()]
+        rows = problem.rows[k].tolist()
+        found += [Outlier(k, i, rows[i]) for i in np.flatnonzero(gross).tolist()]
     return tuple(found)
 
 
@@ -220,5 +221,6 @@ def _prior(prior: Mapping[Unit, float] | None, problem: Problem) -> Array | None
         choice(unit, get_args(Unit), "prior")
         positive(sigma, f"prior[{unit!r}]")
     sigmas = np.full(problem.size, np.inf)
-    sigmas[: problem.model_size] = [prior.get(p.unit, np.inf) for p in problem.model.parameters]
+    own = problem.model.parameters
+    sigmas[: len(own)] = [prior.get(p.unit, np.inf) for p in own]
     return sigmas

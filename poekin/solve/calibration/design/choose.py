@@ -180,7 +180,10 @@ def _candidates(chain: Chain, candidates: Any, seed: int) -> Array:
 
 def _examples(measurements: Any) -> list[Measurement]:
     """Examples of what is measured at each configuration."""
-    tip = {"poses": Poses(np.eye(4)[None]), "points": Points(np.zeros((1, 3)))}
+    tip = {
+        "poses": Poses(np.eye(4)[None]),
+        "points": Points(np.zeros((1, 3))),
+    }
     if isinstance(measurements, str) and measurements in tip:
         return [tip[measurements]]
     sets: Any = [measurements] if isinstance(measurements, Measurement) else measurements
@@ -216,7 +219,8 @@ def _enough(blocks: Array, n: int) -> None:
     start = greedy(blocks, min(len(blocks), max(n, size)))
 
     def shows(count: int) -> bool:
-        s = np.linalg.svd(qr_r(blocks[start[:count]].reshape(-1, size)), compute_uv=False)
+        J = blocks[start[:count]].reshape(-1, size)
+        s = np.linalg.svd(qr_r(J), compute_uv=False)
         return len(s) == size and s[-1] > RANK * s[0]
 
     if not shows(n):

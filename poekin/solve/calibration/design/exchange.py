@@ -255,4 +255,5 @@ def _exact_update(search: Search, state: DesignState, out: Array) -> Array:
     weighted = state.inverse @ search.mean
     spread = W @ (weighted @ state.inverse) @ W.transpose(0, 2, 1)
     less = np.trace(np.linalg.solve(C, spread), axis1=-2, axis2=-1)
-    return np.where(regular, -_log(np.trace(weighted) - less, np.inf), -np.inf)
+    left = np.trace(weighted) - less
+    return np.where(regular, -_log(left, np.inf), -np.inf)

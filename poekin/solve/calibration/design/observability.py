@@ -114,8 +114,9 @@ def from_singular_values(sigma: np.ndarray, m: int) -> ObservabilityIndices:
     safe = np.where(seen[..., None], sigma, 1.0)
     first = safe[..., 0]
     last = safe[..., -1]
+    mean = np.exp(np.log(safe).mean(-1))
     indices = ObservabilityIndices(
-        O1=np.where(seen, np.exp(np.log(safe).mean(-1)) / np.sqrt(m), 0.0),
+        O1=np.where(seen, mean / np.sqrt(m), 0.0),
         condition=np.where(seen, first / last, np.inf),
         smallest=smallest,
         amplification=np.where(seen, last / first * last, 0.0),

@@ -286,12 +286,14 @@ def _row_space(J: Array, least: float) -> _RowSpace:
 
 def _complement(V: Array) -> Array:
     """An orthonormal basis of what is orthogonal to the columns of V (P, k)."""
-    return np.linalg.qr(V, mode="complete")[0][:, V.shape[1] :]
+    Q, _ = np.linalg.qr(V, mode="complete")
+    return Q[:, V.shape[1] :]
 
 
 def _span(N: Array, count: int) -> Array:
     """An orthonormal basis of the `count` directions that the columns of N mostly point in."""
-    return np.linalg.svd(N, full_matrices=False)[0][:, : max(count, 0)]
+    U, _, _ = np.linalg.svd(N, full_matrices=False)
+    return U[:, : max(count, 0)]
 
 
 def _free(problem: Problem, fixed: Array) -> Array:

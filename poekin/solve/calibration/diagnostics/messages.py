@@ -86,8 +86,9 @@ def unobserved(problem: Problem, N: Array, unidentifiable: Array) -> list[str]:
 def _alone(problem: Problem, alone: Rows) -> list[str]:
     """Words for single parameters, by their owner."""
     words: list[str] = []
-    for owner in dict.fromkeys(problem.parameters[j].owner for j in alone):
-        mine = [problem.parameters[j].what for j in alone if problem.parameters[j].owner == owner]
+    told = [problem.parameters[j] for j in alone]
+    for owner in dict.fromkeys(p.owner for p in told):
+        mine = [p.what for p in told if p.owner == owner]
         count = sum(p.owner == owner for p in problem.parameters)
         name = escape_unprintable(owner, 60)
         if len(mine) == count > 1:

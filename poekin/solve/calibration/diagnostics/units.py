@@ -70,7 +70,8 @@ def check(problem: Problem, p: Array) -> None:
     """
     off = problem.residuals(p).median_length
     arm = problem.model.nominal
-    if off <= LARGE * arm.reach and np.abs(problem.q).max(initial=0.0) <= 4 * _TURN:
+    largest = np.abs(problem.q).max(initial=0.0)
+    if off <= LARGE * arm.reach and largest <= 4 * _TURN:
         return
     # in the units as they stand: whatever the model, lengths made a thousandth are off by a
     # thousandth
@@ -100,7 +101,8 @@ def build_problem(model: ErrorModel, q: Array, sets: Sequence[Measurement]) -> P
 
 def converted(chain: Chain, q: Array, units: Units) -> Array:
     """Readings (N, m) in other units."""
-    return q * [units.angle if chain.is_angle(k) else units.slide for k in range(chain.dof)]
+    angles = [chain.is_angle(k) for k in range(chain.dof)]
+    return q * np.where(angles, units.angle, units.slide)
 
 
 def _tried(problem: Problem, units: Units) -> float:

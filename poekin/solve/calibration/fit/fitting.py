@@ -122,7 +122,8 @@ def _covariance(
     psi_squared = 0.0
     psi_slope = 0.0
     total = problem.n_equations
-    for s, m in zip(noise.squares(problem.errors(outcome.p)), problem.sets, strict=True):
+    squares = noise.squares(problem.errors(outcome.p))
+    for s, m in zip(squares, problem.sets, strict=True):
         rho = loss(options.loss, s, m.width)
         psi_squared += float(np.sum(rho.weight**2 * s))
         psi_slope += float(np.sum(m.width * rho.weight + 2.0 * rho.rho_second * s))

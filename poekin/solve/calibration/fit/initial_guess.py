@@ -63,7 +63,10 @@ def hand_eye(A: Array, B: Array) -> tuple[Array, Array]:
     design = np.concatenate([R_A, fixed], axis=2)
     there = B[:, :3, 3] @ R_X.T
     here = A[:, :3, 3]
-    floor = _rounding(np.median(np.abs(there)), np.median(np.abs(here)))
+    floor = _rounding(
+        np.median(np.abs(there)),
+        np.median(np.abs(here)),
+    )
     placed = reweighted(
         lambda w: _linear(design, there - here, turned.kept * w),
         count,

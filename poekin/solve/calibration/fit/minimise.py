@@ -162,8 +162,9 @@ def _solution(linear: _Linear, damping: float) -> Array:
     """The z of the least |R z + c|^2 + damping |diag(|R|) z|^2."""
     R, c = linear
     if damping > 0.0:
-        norms = np.maximum(np.linalg.norm(R, axis=0), np.finfo(float).tiny)
-        R = np.concatenate([R, np.diag(np.sqrt(damping) * norms)])
+        norms = np.linalg.norm(R, axis=0)
+        weights = np.sqrt(damping) * np.maximum(norms, np.finfo(float).tiny)
+        R = np.concatenate([R, np.diag(weights)])
         c = np.concatenate([c, np.zeros(len(norms))])
     elif regular(R):
         return np.asarray(np.linalg.solve(R, -c), float)
@@ -182,8 +183,9 @@ def regular(R: Array) -> bool:
 def _exact(problem: Problem, p: Array) -> bool:
     """Whether all errors are rounding."""
     reach = problem.model.nominal.reach
-    pairs = zip(problem.sets, problem.errors(p), strict=True)
-    return all((np.abs(e) <= _ROUNDING * per_error(s, 1.0, reach)).all() for s, e in pairs)
+    least = [_ROUNDING * per_error(s, 1.0, reach) for s in problem.sets]
+    pairs = zip(problem.errors(p), least, strict=True)
+    return all((np.abs(e) <= small).all() for e, small in pairs)
 
 
 def _cost(objective: _Objective, p: Array) -> float:
@@ -200,7 +202,8 @@ def misfit(
 ) -> float:
     """Sum of rho of all measurements, and the part of the prior."""
     total = of_prior
-    for s, squares in zip(problem.sets, noise.squares(problem.errors(p)), strict=True):
+    every = noise.squares(problem.errors(p))
+    for s, squares in zip(problem.sets, every, strict=True):
         rho = loss(name, squares, s.width).rho
         total += float(np.sum(rho))
     return total

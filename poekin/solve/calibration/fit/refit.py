@@ -40,7 +40,8 @@ def fit_with_refit(problem: Problem, free: Array, p: Array, options: FitOptions)
     left = options.max_iterations - len(first.steps)
     trial = options._replace(max_iterations=min(_TRIED, left))
     tried = minimise(problem, more, first.noise, first.p, trial)
-    was, now = (misfit(problem, first.noise, options.loss, fit.p) for fit in (first, tried))
+    was = misfit(problem, first.noise, options.loss, first.p)
+    now = misfit(problem, first.noise, options.loss, tried.p)
     gain = was - now
     if gain <= chi_square(more.shape[1] - rank, OUTLIER):
         return first

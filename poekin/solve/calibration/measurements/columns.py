@@ -109,7 +109,8 @@ def _fault(rest: list[str], here: str) -> InputError | UnknownName:
 def _points(words: set[str]) -> Layout:
     """The columns x1 y1 z1 ... xk yk zk of as many points as the words speak of."""
     numbers = [int(word[1:]) for word in words if re.fullmatch(r"[xyz][1-9][0-9]{0,5}", word)]
-    return Layout(point_columns(min(max(numbers, default=0), len(words))), ("points",))
+    count = min(max(numbers, default=0), len(words))
+    return Layout(point_columns(count), ("points",))
 
 
 def point_columns(count: int) -> tuple[str, ...]:

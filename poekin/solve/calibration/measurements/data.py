@@ -150,7 +150,8 @@ def read_table(
             f"{rows[i, k]}; leave the line out where nothing was measured"
         )
     sources = [f"{where}:{line}" for line in lines]
-    return Table(rows[:, : chain.dof], rows[:, chain.dof :], layout, sources)
+    q, values = np.split(rows, [chain.dof], axis=1)
+    return Table(q, values, layout, sources)
 
 
 def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
@@ -208,7 +209,8 @@ def write(path: Path, chain: Chain, q: Any, measurement: Measurement) -> None:
         escape_unprintable(name).strip() != name for name in names
     ):
         names = numbered
-    text = csv_rows.text((*names, *measured), np.column_stack([q[rows], values]))
+    table = np.column_stack([q[rows], values])
+    text = csv_rows.text((*names, *measured), table)
     write_whole(path, text.encode())
 
 

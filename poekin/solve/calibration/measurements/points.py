@@ -22,7 +22,8 @@ def _velocities(D: Array, y: Array) -> Array:
     """Velocities (..., 3, P) of the points y (..., 3) under the space twists D (..., 6, P): v +
     omega x y.
     """
-    return D[..., 3:, :] - so3.hat(y) @ D[..., :3, :]
+    omega, v = np.split(D, 2, axis=-2)
+    return v - so3.hat(y) @ omega
 
 
 def points_at(T: Array, points: Array) -> Array:
@@ -138,7 +139,8 @@ class Points(Measurement):
         if not frame_values:
             return self._moved(T, D), []
         seen, twists = seen_from(frame_values[0], T, D)
-        arm, *frames = np.split(self._moved(seen, twists), [-6], axis=2)
+        jacobian = self._moved(seen, twists)
+        arm, *frames = np.split(jacobian, [-6], axis=2)
         return arm, frames
 
     def _moved(self, T: Array, D: Array) -> Array:

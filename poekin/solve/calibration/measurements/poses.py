@@ -17,7 +17,8 @@ def pose_errors(T: Array, measured: Array) -> Array:
     """Errors (N, 6): the rotation vector of R R_measured^T (rad), and p - p_measured (m), both in
     the fixed axes.
     """
-    turns = T[:, :3, :3] @ np.swapaxes(measured[:, :3, :3], 1, 2)
+    back = np.swapaxes(measured[:, :3, :3], 1, 2)
+    turns = T[:, :3, :3] @ back
     moved = T[:, :3, 3] - measured[:, :3, 3]
     return np.concatenate([so3.log(turns), moved], axis=1)
 

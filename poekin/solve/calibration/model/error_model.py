@@ -136,7 +136,10 @@ class ErrorModel:
 
     def poses(self, p: Array, q: Array) -> Array:
         """T_base_tip (N, 4, 4) at the readings q (N, m)."""
-        return self._last_poses(_key(p, q), lambda: read_only(self.joints(p).fk(self.values(p, q))))
+        return self._last_poses(
+            _key(p, q),
+            lambda: read_only(self.joints(p).fk(self.values(p, q))),
+        )
 
     def poses_and_twists(self, p: Array, q: Array) -> PosesAndTwists:
         """Poses at the readings q (N, m), and how the parameters move them.

@@ -128,7 +128,8 @@ def residuals(
         angle = np.full(len(e), np.nan)
         if s.angular:
             angle = np.linalg.norm(e[:, : s.angular], axis=1)
-        parts.append(Residuals(length, angle, np.full(len(e), k), rows[k]))
+        mine = np.full(len(e), k)
+        parts.append(Residuals(length, angle, mine, rows[k]))
     return _stacked(parts)
 
 

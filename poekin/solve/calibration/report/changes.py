@@ -114,7 +114,14 @@ def joints(found: CalibrationData) -> list[Joint]:
     """The joints whose axes could move, in the order of the chain."""
     own = found.error_model.parameters
     tilted = dict.fromkeys(p.owner for p in own if p.what.startswith(TILT))
-    return [Joint(name, _change(found, name, TILT), _change(found, name, SHIFT)) for name in tilted]
+    return [
+        Joint(
+            name,
+            _change(found, name, TILT),
+            _change(found, name, SHIFT),
+        )
+        for name in tilted
+    ]
 
 
 def _change(found: CalibrationData, name: str, word: str) -> Change:
@@ -126,4 +133,5 @@ def _change(found: CalibrationData, name: str, word: str) -> Change:
 def row(joint: Joint) -> tuple[str, ...]:
     """Name, tilt and its interval (mrad), shift and its interval (mm)."""
     moved = (joint.tilt, joint.shift)
-    return joint.name, *(milli(x) for change in moved for x in (change.size, change.margin))
+    figures = (x for change in moved for x in (change.size, change.margin))
+    return joint.name, *map(milli, figures)

@@ -200,7 +200,8 @@ def _uncertainty(found: CalibrationData) -> Iterator[str]:
 
 def _deviation(C: Array) -> Array:
     """Standard deviation (N,) of vectors with covariances (N, 3, 3)."""
-    return np.sqrt(np.maximum(np.trace(C, axis1=1, axis2=2), 0.0))
+    variances = np.trace(C, axis1=1, axis2=2)
+    return np.sqrt(np.maximum(variances, 0.0))
 
 
 def _outliers(found: CalibrationData, sources: Sequence[str] | None) -> Iterator[str]:
@@ -218,11 +219,17 @@ def _outliers(found: CalibrationData, sources: Sequence[str] | None) -> Iterator
     rows = []
     for o in found.outliers[:MOST_ROWS]:
         mine = found.after.of_set(o.set)
-        errors = (milli(mine.length[o.index]), milli(mine.angle[o.index]))
         source = ""
         if sources is not None:
             source = sources[o.row]
-        rows.append((str(o.row), str(o.set), *errors, source))
+        row = (
+            str(o.row),
+            str(o.set),
+            milli(mine.length[o.index]),
+            milli(mine.angle[o.index]),
+            source,
+        )
+        rows.append(row)
     yield _table(heads, rows, words=(4,))
 
 

@@ -75,7 +75,8 @@ def parameters(
             name = quote(expected.name)
             got = quote(found[k].name)
             raise rows[k].fault("what", f"expected {name}, the arm's parameter {k + 1}, got {got}")
-    for row, given in zip(rows[len(own) :], found[len(own) :], strict=True):
+    of_frames = zip(rows[len(own) :], found[len(own) :], strict=True)
+    for row, given in of_frames:
         if given.owner not in frames:
             raise row.fault("owner", f"expected a name in frames, got {quote(given.owner)}")
     values = np.array([row.number("value") for row in rows], float)

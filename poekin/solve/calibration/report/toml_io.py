@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from itertools import starmap
 from typing import Any
 
 import numpy as np
@@ -99,7 +100,7 @@ def load(path: str | os.PathLike[str]) -> CalibrationData:
         before=_residuals(keys, "before"),
         after=_residuals(keys, "after"),
         cross_validation=_cross_validation(keys),
-        outliers=tuple(Outlier(*o) for o in keys.wholes("outliers", (None, 3)).tolist()),
+        outliers=tuple(starmap(Outlier, keys.wholes("outliers", (None, 3)).tolist())),
         noise_std=tuple(map(_noise, keys.tables("noise_std", ("length", "angle")))),
         loss=keys.text("loss", LOSSES),  # type: ignore[arg-type]  # one of these
         error_model=model,
