@@ -377,3 +377,11 @@ def test_an_unknown_frame_has_six_parameters_however_it_is_said():
             )
             assert (unknown.guess is None) == (said is not X)
     assert Distances([1.0]).unknown_frames[0].size == 3
+
+
+def test_a_covariance_is_symmetric_or_not_by_its_own_diagonal():
+    C = 1e-10 * np.array([[1.0, 0.05, 0], [0.04, 1, 0], [0, 0, 4]])
+    with pytest.raises(InputError, match=r"covariance is not symmetric, by 0\.01 of its diagonal$"):
+        Points(AT[:, 0], TOOL[0], C)
+    C[1, 0] = C[0, 1]
+    np.testing.assert_array_equal(Points(AT[:, 0], TOOL[0], C).covariance[0], C)

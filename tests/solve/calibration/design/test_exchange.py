@@ -271,3 +271,17 @@ def test_where_nothing_can_be_exchanged_each_place_is_looked_at_once():
         np.random.default_rng(0).normal(size=(5, 3, 6)), 5, progress=lambda *step: said.append(step)
     )
     assert said == [*((k, 45) for k in range(1, 11)), (10, 10)]
+
+
+@pytest.mark.parametrize("by", ["smallest", "condition", "amplification"])
+def test_what_promises_more_on_all_eigenvectors_is_as_good_as_it_promises(by):
+    blocks = np.random.default_rng(11).normal(size=(40, 2, 6))
+    chosen = np.arange(5)
+    of = search.Search(blocks, by, np.eye(6))
+    state = search.design_state(of, chosen)
+    promised = search.upper_bound(of, state, blocks[2])
+    others = np.flatnonzero(promised[5:] > state.value) + 5
+    assert len(others)
+    for j in others:
+        true = search.design_state(of, np.array([0, 1, j, 3, 4])).value
+        assert promised[j] == pytest.approx(true, abs=1e-9)

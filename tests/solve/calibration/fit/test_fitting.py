@@ -267,6 +267,7 @@ def test_a_prior_draws_every_step_as_much_as_the_data_do(size):
 def test_a_triangle_is_regular_whose_diagonal_is_not_much_smaller_somewhere():
     assert regular(np.diag([1.0, -2e-8]))
     assert not regular(np.diag([1.0, 0.9e-8]))
+    assert regular(1e-12 * np.diag([1.0, -2e-8]))  # whatever its size
     assert not regular(np.diag([0.0]))
     assert not regular(np.ones((1, 2)))
     assert regular(np.empty((0, 0)))
