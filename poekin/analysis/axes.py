@@ -3,18 +3,27 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations
 from typing import ClassVar, get_args
 
-import numpy as np
-
 from ..checks import choice, positive
-from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..model.kinematics.arm import Arm, chain_of
 from ..results import Result
 from .amounts import amount
-from .axis_lines import POSITION, ROTATION, cross, direction, uncoupled_at_zero
+from .axis_lines import (
+    POSITION,
+    ROTATION,
+    Tolerances,
+    direction,
+    distance_to_line,
+    normal_length,
+    place,
+    prismatic,
+    uncoupled_at_zero,
+)
 from .shapes import Shape, ShapeKind, line_angle, shapes
 
 __all__ = ["AxesReport", "AxisPair", "axes"]
@@ -188,48 +197,42 @@ def axes(
     panda_joint4 - panda_joint5: perpendicular, 82.5 mm from intersecting
     """
     chain = chain_of(chain)
-    tol = (positive(tol_position, "tol_position"), positive(tol_rotation, "tol_rotation"))
-    rest = uncoupled_at_zero(chain)
-    numbers = range(1, len(rest.kinds) + 1)
-    near = [(i, i + step) for i in numbers for step in (1, 2) if i + step in numbers]
-    ways = direction(rest.screws, rest.kinds)
-    places = cross(rest.screws[:, :3], rest.screws[:, 3:])
-    pairs = tuple(_pair(rest, ways, places, i - 1, j - 1, *tol) for i, j in near)
-    coaxial = [pair.parallel and pair.intersecting for pair in pairs if pair.fixed]
-    return AxesReport(pairs, shapes(rest, coaxial, *tol), *tol)
-
-
-def _pair(
-    rest: Chain,
-    ways: Array,
-    places: Array,
-    i: int,
-    j: int,
-    tol_position: float,
-    tol_rotation: float,
-) -> AxisPair:
-    """Relation of the axes i < j of a chain at rest."""
-    angle = line_angle(ways[i], ways[j])
-    distance = None
-    if "prismatic" not in (rest.kinds[i], rest.kinds[j]):
-        distance = _distance(ways[i], ways[j], places[j] - places[i], angle <= tol_rotation)
-    return AxisPair(
-        first=i + 1,
-        second=j + 1,
-        name_first=rest.joint_names[i],
-        name_second=rest.joint_names[j],
-        angle=angle,
-        distance=distance,
-        parallel=angle <= tol_rotation,
-        perpendicular=math.pi / 2 - angle <= tol_rotation,
-        intersecting=distance is not None and distance <= tol_position,
-        fixed=j == i + 1,
+    tol = Tolerances(
+        positive(tol_position, "tol_position"),
+        positive(tol_rotation, "tol_rotation"),
     )
+    rest = uncoupled_at_zero(chain)
+    pairs = tuple(_pairs(rest, tol))
+    coaxial = [pair.parallel and pair.intersecting for pair in pairs if pair.fixed]
+    return AxesReport(pairs, shapes(rest, coaxial, tol), *tol)
 
 
-def _distance(w: Array, u: Array, gap: Array, parallel: bool) -> float:
-    """Length (m) of the common normal of lines along w and u, `gap` between them."""
-    if parallel:
-        return float(np.linalg.norm(gap - w * (w @ gap)))
-    across = cross(w, u)
-    return abs(float(gap @ across)) / float(np.linalg.norm(across))
+def _pairs(rest: Chain, tol: Tolerances) -> Iterator[AxisPair]:
+    """Relations of neighbouring and every third axes of a chain at rest."""
+    slides = prismatic(rest)
+    ways = direction(rest.screws, slides)
+    places = place(rest.screws)
+    names = rest.joint_names
+    for i, j in combinations(range(len(names)), 2):
+        if j > i + 2:
+            continue
+        w = ways[i]
+        u = ways[j]
+        angle = line_angle(w, u)
+        parallel = angle <= tol.rotation
+        gap = places[j] - places[i]
+        distance = None
+        if not slides[[i, j]].any():
+            distance = distance_to_line(gap, w) if parallel else normal_length(w, u, gap)
+        yield AxisPair(
+            first=i + 1,
+            second=j + 1,
+            name_first=names[i],
+            name_second=names[j],
+            angle=angle,
+            distance=distance,
+            parallel=parallel,
+            perpendicular=math.pi / 2 - angle <= tol.rotation,
+            intersecting=distance is not None and distance <= tol.position,
+            fixed=j == i + 1,
+        )

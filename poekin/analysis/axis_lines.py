@@ -1,13 +1,17 @@
-"""Axes of an arm as lines: their directions, cross products, and the arm at rest."""
+"""Axes of an arm as lines: their directions, places and distances, and the arm at rest."""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..groups.arrays import Array
 from ..model.chain import Chain
+
+Marks = NDArray[np.bool_]
 
 POSITION = 1e-5
 """Default of `tol_position`, m: 0.01 mm."""
@@ -18,14 +22,44 @@ _NEXT = [1, 2, 0]
 _LAST = [2, 0, 1]
 
 
+class Tolerances(NamedTuple):
+    """Largest position (m) and rotation (rad) that make no difference."""
+
+    position: float
+    rotation: float
+
+
 def cross(x: Array, y: Array) -> Array:
     """x × y over the last axis (..., 3): `numpy.cross` takes four times as long for so few numbers."""
     return x[..., _NEXT] * y[..., _LAST] - x[..., _LAST] * y[..., _NEXT]
 
 
-def direction(axes: Array, kinds: tuple[str, ...]) -> Array:
-    """Unit directions (n, 3) of axes of these kinds."""
-    return np.where((np.array(kinds) == "prismatic")[:, None], axes[:, 3:], axes[:, :3])
+def prismatic(chain: Chain) -> Marks:
+    """Whether each joint is prismatic (n)."""
+    return np.array([kind == "prismatic" for kind in chain.kinds], bool)
+
+
+def direction(axes: Array, slides: Marks) -> Array:
+    """Unit directions (n, 3) of axes, some of which are those of prismatic joints."""
+    return np.where(slides[:, None], axes[:, 3:], axes[:, :3])
+
+
+def place(axes: Array) -> Array:
+    """Points (..., 3) of axes (..., 6) that are nearest to the origin."""
+    return cross(axes[..., :3], axes[..., 3:])
+
+
+def distance_to_line(gap: Array, w: Array) -> float:
+    """Distance (m) of a point from a line along w, `gap` from a point of the line."""
+    return float(np.linalg.norm(gap - w * (w @ gap)))
+
+
+def normal_length(w: Array, u: Array, gap: Array) -> float:
+    """Length (m) of the common normal of lines along w and u that are not parallel, `gap` between
+    them.
+    """
+    across = cross(w, u)
+    return abs(float(gap @ across)) / float(np.linalg.norm(across))
 
 
 def uncoupled_at_zero(chain: Chain) -> Chain:

@@ -16,7 +16,7 @@ from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..results import Result
 from .amounts import amount
-from .axis_lines import cross
+from .axis_lines import Tolerances, cross, place
 
 __all__ = ["Shape", "ShapeKind", "shapes"]
 
@@ -68,12 +68,7 @@ class Shape(Result):
         return f"{joints}: {self.kind}, {meet}"
 
 
-def shapes(
-    chain: Chain,
-    coaxial: Sequence[bool],
-    tol_position: float,
-    tol_rotation: float,
-) -> tuple[Shape, ...]:
+def shapes(chain: Chain, coaxial: Sequence[bool], tol: Tolerances) -> tuple[Shape, ...]:
     """The shapes of a chain at rest, of whose joints k and k + 1 are coaxial or not.
 
     Three revolute axes that meet in one point at q = 0 meet at every q, as each turns about a line
@@ -90,13 +85,13 @@ def shapes(
         numbers = (i + 1, i + 2, i + 3)
         three = chain.screws[i : i + 3]
         angle = _apart(three)
-        if angle <= tol_rotation:
+        if angle <= tol.rotation:
             if not any(coaxial[i : i + 2]):
                 found.append(Shape("three parallel axes", numbers, angle, parallel=True))
             continue
         miss = _meeting(three)
         # Neighbours along one line leave two axes only, which is no spherical joint.
-        if miss <= tol_position and min(_apart(three[:2]), _apart(three[1:])) > tol_rotation:
+        if miss <= tol.position and min(_apart(three[:2]), _apart(three[1:])) > tol.rotation:
             kind: ShapeKind = "spherical joint"
             if i == n - 3:
                 kind = "spherical wrist"
@@ -130,7 +125,7 @@ def _apart(screws: Array) -> float:
 
 def _meeting(screws: Array) -> float:
     """The largest distance in m of the axes from the point that is nearest to all of them."""
-    feet = cross(screws[:, :3], screws[:, 3:])
+    feet = place(screws)
     across = np.eye(3) - screws[:, :3, None] * screws[:, None, :3]
     start = feet.mean(axis=0)
     right = (across @ (feet - start)[:, :, None]).reshape(-1)

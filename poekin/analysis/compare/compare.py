@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,9 +14,20 @@ from ...errors import quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.kinematics.arm import Arm, chain_of
-from ..axis_lines import POSITION, ROTATION, cross, direction, uncoupled_at_zero
-from .alignment.hypotheses import Hypothesis, make_hypotheses
-from .alignment.lines import lines, sides
+from ..axis_lines import (
+    POSITION,
+    ROTATION,
+    Tolerances,
+    cross,
+    direction,
+    distance_to_line,
+    normal_length,
+    place,
+    prismatic,
+    uncoupled_at_zero,
+)
+from .alignment.hypotheses import Hypothesis, as_they_stand
+from .alignment.lines import lines
 from .alignment.search import search
 from .comparison import Comparison, JointComparison, PoseErrors
 from .followers import follows
@@ -107,8 +119,10 @@ def compare(
     b = chain_of(b, "b")
     asked = _Asked(
         strict,
-        positive(tol_position, "tol_position"),
-        positive(tol_rotation, "tol_rotation"),
+        Tolerances(
+            positive(tol_position, "tol_position"),
+            positive(tol_rotation, "tol_rotation"),
+        ),
         whole(samples, "samples", 1),
         seed,
     )
@@ -128,15 +142,9 @@ class _Asked(NamedTuple):
     """Tolerances and samples of a comparison, and whether it is strict, as the caller gave them."""
 
     strict: bool
-    tol_position: float
-    tol_rotation: float
+    tol: Tolerances
     samples: int
     seed: int
-
-    @property
-    def tol(self) -> tuple[float, float]:
-        """The tolerances of position (m) and rotation (rad)."""
-        return self.tol_position, self.tol_rotation
 
 
 class _Matched(NamedTuple):
@@ -159,20 +167,29 @@ def _matched(a: Chain, b: Chain, asked: _Asked) -> _Matched | None:
     one = uncoupled_at_zero(a)
     other = uncoupled_at_zero(b)
     x = a.random(asked.seed, asked.samples) @ a.coupling.T
+    pair = _Matched(one, other, a.coupling, b.coupling, x)
     if len(one.screws) == len(other.screws):
-        return _Matched(one, other, a.coupling, b.coupling, x)
-    found = droppable(one, other, *asked.tol)
+        return pair
+    found = droppable(one, other, asked.tol)
     if found is None:
         return None
     ks, held = found
-    if len(one.screws) > len(other.screws):
-        extra = ("a", *_names(one, ks))
-        left = np.delete(a.coupling, ks, axis=0)
-        shorter = without(one, ks, held)
-        return _Matched(shorter, other, left, b.coupling, np.delete(x, ks, axis=1), extra)
-    extra = ("b", *_names(other, ks))
-    left = np.delete(b.coupling, ks, axis=0)
-    return _Matched(one, without(other, ks, held), a.coupling, left, x, extra)
+    if len(one.screws) < len(other.screws):
+        return pair._replace(
+            b=without(other, ks, held),
+            C_b=np.delete(b.coupling, ks, axis=0),
+            extra=("b", *_names(other, ks)),
+        )
+    return pair._replace(
+        a=without(one, ks, held),
+        C_a=np.delete(a.coupling, ks, axis=0),
+        x=np.delete(x, ks, axis=1),
+        extra=("a", *_names(one, ks)),
+    )
+
+
+def _names(chain: Chain, ks: tuple[int, ...]) -> tuple[str, ...]:
+    return tuple(chain.joint_names[k] for k in ks)
 
 
 def _unmatched(n_a: int, n_b: int, asked: _Asked) -> Comparison:
@@ -183,7 +200,18 @@ def _unmatched(n_a: int, n_b: int, asked: _Asked) -> Comparison:
     )
     end = f"{which} be dropped so that the rest agree"
     verdict = f"the models differ: {n_a} joints against {n_b}, and {end}"
-    return Comparison(False, verdict, (), None, None, None, None, (), None, *asked)
+    return _comparison(asked, equal=False, verdict=verdict)
+
+
+def _comparison(asked: _Asked, **found: Any) -> Comparison:
+    return Comparison(
+        **found,
+        strict=asked.strict,
+        tol_position=asked.tol.position,
+        tol_rotation=asked.tol.rotation,
+        samples=asked.samples,
+        seed=asked.seed,
+    )
 
 
 def _compared(a: Chain, b: Chain, ratio: float, asked: _Asked) -> tuple[Comparison, int]:
@@ -194,74 +222,54 @@ def _compared(a: Chain, b: Chain, ratio: float, asked: _Asked) -> tuple[Comparis
     if pair is None:
         counts = len(a.screws), len(b.screws)
         return _unmatched(*counts, asked), max(counts)
-    one, other, C_a, C_b, x, extra = pair
     others: list[Hypothesis] = []
     if asked.strict:
-        reading = _as_it_is(one, other, *asked.tol)
+        reading = as_they_stand(pair.a, pair.b, asked.tol)
     else:
-        reading, others = search(one, other, *asked.tol)
-    coupled = follows(C_a, C_b, one, other, reading, *asked.tol)
-    joints = _joints(one, other, reading, asked.tol[1], coupled)
-    same = (
-        extra is None
-        and ratio == 1
-        and not reading.moved.any()
-        and not any(joint.coupling_differs for joint in joints)
-        and (not asked.strict or not (reading.implicated.any() or reading.frames))
-    )
-    result = Comparison(
-        same,
-        _verdict(same, joints, reading, extra, ratio, asked),
-        joints,
-        reading.base,
-        None,
-        _pose_errors(one.fk(x), other.fk(x)),
-        None,
-        (),
-        extra,
-        *asked,
-        ratio,
+        reading, others = search(pair.a, pair.b, asked.tol)
+    joints = tuple(_joints(pair, reading, asked.tol))
+    moved = int(reading.moved.sum())
+    same = pair.extra is None and ratio == 1 and not moved
+    same = same and not any(joint.coupling_differs for joint in joints)
+    if asked.strict:
+        same = same and not (reading.implicated.any() or reading.frames)
+    poses = pair.a.fk(pair.x)
+    result = _comparison(
+        asked,
+        equal=same,
+        verdict=_verdict(same, joints, reading, pair.extra, ratio, asked),
+        joints=joints,
+        base=reading.base,
+        before=_pose_errors(poses, pair.b.fk(pair.x)),
+        unmatched_joints=pair.extra,
+        length_ratio=ratio,
     )
     if not asked.strict:
-        aligned = other.fk(reading.directions * x + reading.zeros)
-        after = _pose_errors(one.fk(x), reading.base @ aligned @ reading.tool)
-        said = tuple(equivalents(one, other, reading, others, *asked.tol))
-        result = replace(result, tool=reading.tool, after=after, alternatives=said)
-    if reading.link:
-        return result, 1
-    return result, int(reading.moved.sum())
+        result = replace(
+            result,
+            tool=reading.tool,
+            after=_pose_errors(poses, reading.poses(pair.b, pair.x)),
+            alternatives=tuple(equivalents(pair.a, pair.b, reading, others, asked.tol)),
+        )
+    return result, 1 if reading.link else moved
 
 
-def _as_it_is(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Hypothesis:
-    pair = sides(a, b, tol_m, tol_rad)
-    base = np.eye(4)
-    base[:3, 3] = pair.b.centre - pair.a.centre
-    return make_hypotheses(pair, base[None], np.zeros((1, pair.n)))[0]
-
-
-def _names(chain: Chain, ks: tuple[int, ...]) -> tuple[str, ...]:
-    return tuple(chain.joint_names[k] for k in ks)
-
-
-def _joints(
-    a: Chain,
-    b: Chain,
-    reading: Hypothesis,
-    tol_rotation: float,
-    coupled: list[tuple[str, str, bool]],
-) -> tuple[JointComparison, ...]:
+def _joints(pair: _Matched, reading: Hypothesis, tol: Tolerances) -> Iterator[JointComparison]:
+    a = pair.a
+    b = pair.b
     ours = lines(a)
-    ways = direction(a.screws, a.kinds)
-    their_ways = reading.directions[:, None] * direction(reading.axes, b.kinds)
-    feet = cross(reading.axes[:, :3], reading.axes[:, 3:])
-    gaps = feet - (ours.places + ours.centre)
-    rows = []
-    for i, (follows_a, follows_b, coupling_differs) in enumerate(coupled):
-        placed = "prismatic" not in (a.kinds[i], b.kinds[i])
-        gap = gaps[i] if placed else None
-        angle, normal, shift = _apart(ways[i], their_ways[i], gap, tol_rotation)
+    slides = prismatic(b)
+    their_ways = reading.directions[:, None] * direction(reading.axes, slides)
+    gaps = place(reading.axes) - (ours.places + ours.centre)
+    coupled = follows(pair.C_a, pair.C_b, a, b, reading, tol)
+    for i, following in enumerate(coupled):
+        gap = gaps[i]
+        if ours.slides[i] or slides[i]:
+            gap = None
+        angle, normal, shift = _apart(ours.ways[i], their_ways[i], gap, tol)
         zero = float(reading.zeros[i])
-        row = JointComparison(
+        limits = reading.directions[i] * (b.limits[i] - zero)
+        yield JointComparison(
             number=i + 1,
             name_a=a.joint_names[i],
             name_b=b.joint_names[i],
@@ -272,42 +280,36 @@ def _joints(
             shift=shift,
             zero_offset=zero,
             reversed=bool(reading.directions[i] < 0),
-            limits=_limits_apart(reading.directions[i] * (b.limits[i] - zero), a.limits[i]),
+            limits=_limits_apart(limits, a.limits[i]),
             axis_differs=bool(reading.moved[i]),
             zero_differs=bool(reading.offset[i]),
-            follows_a=follows_a,
-            follows_b=follows_b,
-            coupling_differs=coupling_differs,
+            **following._asdict(),
         )
-        rows.append(row)
-    return tuple(rows)
 
 
 def _apart(
     w: Array,
     u: Array,
     gap: Array | None,
-    tol_rotation: float,
+    tol: Tolerances,
 ) -> tuple[float, float | None, float | None]:
     """Angle (rad), common normal and distance at a place (m) of two axes, `gap` between their
     places; of axes without a place the angle alone.
     """
-    across = cross(w, u)
-    angle = math.atan2(float(np.linalg.norm(across)), float(w @ u))
+    angle = math.atan2(float(np.linalg.norm(cross(w, u))), float(w @ u))
     if gap is None:
         return angle, None, None
-    shift = float(np.linalg.norm(gap - u * (u @ gap)))
-    if angle <= tol_rotation:
+    shift = distance_to_line(gap, u)
+    if angle <= tol.rotation:
         return angle, shift, shift
-    return angle, abs(float(gap @ across)) / float(np.linalg.norm(across)), shift
+    return angle, normal_length(w, u, gap), shift
 
 
 def _limits_apart(theirs: Array, ours: Array) -> tuple[float, float]:
     """Lower and upper limit of b, in either order, less a's."""
+    pairs = zip(np.sort(theirs), ours, strict=True)
     # Infinite less infinite is no difference.
-    low, high = (
-        0.0 if p == q else float(p - q) for p, q in zip(np.sort(theirs), ours, strict=True)
-    )
+    low, high = (0.0 if p == q else float(p - q) for p, q in pairs)
     return low, high
 
 
@@ -331,24 +333,20 @@ def _verdict(
         model, *names = extra
         count = "one joint" if len(names) == 1 else "two joints"
         found.append(f"model {model} has {count} more, {' and '.join(map(quote, names))}")
-    found += differences(joints, *asked.tol, reading.link)
+    found += differences(joints, asked.tol, reading.link)
+    equal = "the models are the same"
     if asked.strict:
-        found.append(frame_words("home pose's", reading.tool, *asked.tol))
-        head = "the models differ"
-        if same:
-            head = "the models are the same as they stand"
-        return "; ".join(words for words in (head, *found) if words)
-    frames = [
-        frame_words("base", reading.base, *asked.tol),
-        frame_words("tool", reading.tool, *asked.tol),
-    ]
-    aligned = " and ".join(words for words in frames if words)
-    if not same:
-        head = "the models differ"
-    elif found or aligned:
-        head = "the models are the same arm, up to free choices"
+        found.append(frame_words("home pose's", reading.tool, asked.tol))
+        equal = "the models are the same as they stand"
     else:
-        head = "the models are the same"
-    if aligned:
-        found.append(f"aligned: {aligned}")
-    return "; ".join([head, *found])
+        frames = {"base": reading.base, "tool": reading.tool}
+        moved = (frame_words(name, T, asked.tol) for name, T in frames.items())
+        aligned = " and ".join(filter(None, moved))
+        if found or aligned:
+            equal = "the models are the same arm, up to free choices"
+        if aligned:
+            found.append(f"aligned: {aligned}")
+    head = "the models differ"
+    if same:
+        head = equal
+    return "; ".join(filter(None, [head, *found]))

@@ -115,7 +115,7 @@ class PoseErrors(Result):
         return f"worst {worst}; mean {mean}"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Comparison(Result):
     """Two models of one arm, compared joint by joint; the result of `compare`.
 
@@ -154,13 +154,13 @@ class Comparison(Result):
 
     equal: bool
     verdict: str
-    joints: tuple[JointComparison, ...]
-    base: Array | None
-    tool: Array | None
-    before: PoseErrors | None
-    after: PoseErrors | None
-    alternatives: tuple[str, ...]
-    unmatched_joints: tuple[str, ...] | None
+    joints: tuple[JointComparison, ...] = ()
+    base: Array | None = None
+    tool: Array | None = None
+    before: PoseErrors | None = None
+    after: PoseErrors | None = None
+    alternatives: tuple[str, ...] = ()
+    unmatched_joints: tuple[str, ...] | None = None
     strict: bool
     tol_position: float
     tol_rotation: float

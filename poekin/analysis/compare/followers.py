@@ -3,15 +3,27 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from ...errors import quote
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ..axis_lines import Tolerances, prismatic
 from .alignment.hypotheses import Hypothesis
 
 __all__ = ["follows"]
+
+
+class Following(NamedTuple):
+    """Text on what a joint follows in a and in b, "" where it moves by itself, and whether they
+    differ.
+    """
+
+    follows_a: str
+    follows_b: str
+    coupling_differs: bool
 
 
 def follows(
@@ -20,30 +32,25 @@ def follows(
     a: Chain,
     b: Chain,
     reading: Hypothesis,
-    tol_m: float,
-    tol_rad: float,
-) -> list[tuple[str, str, bool]]:
-    """The earlier joints that each joint follows: in a's words, in b's ("" where it moves by
-    itself), and whether they differ.
+    tol: Tolerances,
+) -> list[Following]:
+    """The earlier joints that each joint follows, in both models.
 
     With directions s of the reading, joint i of b is s_i x_i: so the ratio to joint j is s_i F_ij
     s_j there.
 
     Parameters: C_a, C_b (n, m), the couplings of the chains a and b, which are at rest. Ratios are
     the same where what a turn of the leading joint (or a metre) makes of them is within tolerance.
-    Returns: n triples. Source: none, x = C q.
+    Source: none, x = C q.
     """
     F = _ratios(C_a)
     G = _ratios(C_b)
     apart = np.abs(F - reading.directions[:, None] * G * reading.directions)
-    slides = np.array([kind == "prismatic" for kind in a.kinds], bool)
-    small = np.where(slides, tol_m, tol_rad)
+    slides = prismatic(a)
+    small = np.where(slides, tol.position, tol.rotation)
     scales = np.where(slides, 1.0, 2 * math.pi)
-    found = []
-    for i in range(len(F)):
-        differs = bool((apart[i] * scales > small[i]).any())
-        found.append((_words(F, i, a), _words(G, i, b), differs))
-    return found
+    differ = np.asarray((apart * scales > small[:, None]).any(1))
+    return [Following(_words(F, i, a), _words(G, i, b), bool(differ[i])) for i in range(len(F))]
 
 
 def _ratios(C: Array) -> Array:

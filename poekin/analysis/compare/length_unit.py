@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...model.chain import Chain
-from ..axis_lines import uncoupled_at_zero
+from ..axis_lines import prismatic, uncoupled_at_zero
 from .alignment.lines import lines
 
 __all__ = ["length_ratio", "rescaled", "to_one_unit"]
@@ -43,7 +43,7 @@ def to_one_unit(a: Chain, b: Chain, ratio: float) -> tuple[Chain, Chain]:
 
 def rescaled(chain: Chain, factor: float) -> Chain:
     """The chain with all its lengths multiplied by a factor."""
-    slides = np.array([kind == "prismatic" for kind in chain.kinds], bool)
+    slides = prismatic(chain)
     joints = np.where(slides, factor, 1.0)
     coordinates = np.array([1.0 if chain.is_angle(k) else factor for k in range(chain.dof)])
     # A prismatic joint's screw is a direction: there the joint variable is the length.

@@ -13,6 +13,7 @@ import numpy as np
 from ...groups import se3, so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
+from ..axis_lines import Tolerances
 from .alignment.lines import Lines, lines
 from .length_unit import rescaled
 
@@ -57,8 +58,7 @@ def held_positions(
     short: Chain,
     run: Sequence[int],
     gone: Sequence[int],
-    tol_m: float,
-    tol_rad: float,
+    tol: Tolerances,
 ) -> list[tuple[float, ...]]:
     """Positions (rad, m) of neighbouring joints at which the axes on both sides lie to each other
     as in the shorter chain; the best first.
@@ -69,7 +69,7 @@ def held_positions(
     distance of parallel ones. A slide leaves directions as they are, so that those of the axes
     beyond it count as well.
     """
-    size = max(float(np.linalg.norm(lines(long).places)), tol_m)
+    size = max(float(np.linalg.norm(lines(long).places)), tol.position)
     # In units of the arm's own size, so that lengths and angles count alike.
     ours, theirs = (lines(rescaled(chain, 1.0 / size)) for chain in (long, short))
     front = _side(ours, range(run[0] - 1, -1, -1), gone)
@@ -90,9 +90,9 @@ def held_positions(
     found: list[Array] = []
     for miss, x in sorted(tried, key=lambda row: row[0]):
         x = np.where(turning, np.arctan2(np.sin(x), np.cos(x)), x)
-        if miss > 10.0 * (tol_rad + tol_m / size) or len(found) == MOST:
+        if miss > 10.0 * (tol.rotation + tol.position / size) or len(found) == MOST:
             break
-        if all(abs(x - other).max() > tol_rad for other in found):
+        if all(abs(x - other).max() > tol.rotation for other in found):
             found.append(x)
     return [tuple(map(float, units * x)) for x in found]
 

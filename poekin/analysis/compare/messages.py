@@ -9,11 +9,12 @@ from ...groups import se3
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ..amounts import amount, joint_unit
+from ..axis_lines import Tolerances
 from .alignment.hypotheses import Hypothesis, motion_sizes, still
 from .comparison import JointComparison
 
 
-def joint_words(joint: JointComparison, tol_position: float, tol_rotation: float) -> str:
+def joint_words(joint: JointComparison, tol: Tolerances) -> str:
     """Differences of one joint, as the end of a sentence that begins with its name; empty where
     there are none.
     """
@@ -21,10 +22,10 @@ def joint_words(joint: JointComparison, tol_position: float, tol_rotation: float
     if joint.kind_a != joint.kind_b:
         words.append(f"is {joint.kind_a} in one model and {joint.kind_b} in the other")
     elif joint.axis_differs:
-        turned = joint.angle > tol_rotation
-        moved = joint.normal is not None and joint.normal > tol_position
+        turned = joint.angle > tol.rotation
+        moved = joint.normal is not None and joint.normal > tol.position
         far = ""
-        if joint.shift is not None and joint.shift > tol_position:
+        if joint.shift is not None and joint.shift > tol.position:
             far = f" ({amount(joint.shift, 'm')} at the arm)"
         if turned and moved:
             words.append(
@@ -35,7 +36,7 @@ def joint_words(joint: JointComparison, tol_position: float, tol_rotation: float
             words.append(
                 f"has an axis that is turned by {amount(joint.angle, 'rad')} from the other model's{far}"
             )
-        elif joint.shift is not None and joint.shift > tol_position:
+        elif joint.shift is not None and joint.shift > tol.position:
             words.append(f"has an axis that is {amount(joint.shift, 'm')} from the other model's")
         else:
             words.append("has another pitch")
@@ -53,8 +54,7 @@ def joint_words(joint: JointComparison, tol_position: float, tol_rotation: float
 
 def differences(
     joints: tuple[JointComparison, ...],
-    tol_position: float,
-    tol_rotation: float,
+    tol: Tolerances,
     link: int = 0,
 ) -> list[str]:
     """One clause a joint that differs; where the axes behind joint `link` moved together, one for
@@ -67,21 +67,21 @@ def differences(
         return [
             f"the link between joint {link} ({quote(joints[link - 1].name_a)}) and joint {link + 1} "
             f"({quote(joints[link].name_a)}) differs: from joint {first.number} on the axes have moved together, and "
-            f"joint {first.number} {joint_words(first, tol_position, tol_rotation)}"
+            f"joint {first.number} {joint_words(first, tol)}"
         ]
-    named = ((j, joint_words(j, tol_position, tol_rotation)) for j in joints)
+    named = ((j, joint_words(j, tol)) for j in joints)
     return [f"joint {j.number} ({quote(j.name_a)}) {words}" for j, words in named if words]
 
 
-def frame_words(what: str, T: Array, tol_m: float, tol_rad: float) -> str:
+def frame_words(what: str, T: Array, tol: Tolerances) -> str:
     """The motion of a frame, or empty: "the base frame is moved by 12 mm and turned by 3°"."""
-    if still(T, tol_m, tol_rad):
+    if still(T, tol):
         return ""
     distance, angle = map(float, motion_sizes(T))
     said = []
-    if distance > tol_m:
+    if distance > tol.position:
         said.append(f"moved by {amount(distance, 'm')}")
-    if angle > tol_rad:
+    if angle > tol.rotation:
         said.append(f"turned by {amount(angle, 'rad')}")
     return f"the {what} frame is {' and '.join(said)}"
 
@@ -97,8 +97,7 @@ def equivalents(
     b: Chain,
     first: Hypothesis,
     others: list[Hypothesis],
-    tol_m: float,
-    tol_rad: float,
+    tol: Tolerances,
 ) -> list[str]:
     """Other readings of the same difference: frames turned about an end joint, other joints that
     may be implicated.
@@ -111,8 +110,8 @@ def equivalents(
             ("tool", first.tool, last, len(a.screws)),
         )
         for what, T, S, number in ends:
-            size = _about(T, S, tol_m, tol_rad)
-            if size is not None and not still(T, tol_m, tol_rad):
+            size = _about(T, S, tol)
+            if size is not None and not still(T, tol):
                 far = amount(size, joint_unit(b.kinds[number - 1]))
                 name = a.joint_names[number - 1]
                 said.append(
@@ -135,11 +134,11 @@ def equivalents(
     return said
 
 
-def _about(T: Array, S: Array, tol_m: float, tol_rad: float) -> float | None:
+def _about(T: Array, S: Array, tol: Tolerances) -> float | None:
     """z with T = e^{S z} within tolerance, or None."""
     xi = se3.log(T)
     z = float(xi[:3] @ S[:3] if S[:3].any() else xi[3:] @ S[3:])
     for value in (z, -z):  # at half a turn the logarithm may come with either sign
-        if still(se3.inverse(se3.exp(S * value)) @ T, tol_m, tol_rad):
+        if still(se3.inverse(se3.exp(S * value)) @ T, tol):
             return value
     return None

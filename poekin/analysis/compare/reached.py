@@ -10,6 +10,7 @@ from ...groups import so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ...model.sampling import sampling_range
+from ..axis_lines import Tolerances
 from .alignment.hypotheses import Hypothesis
 from .alignment.lines import Sides
 
@@ -32,10 +33,9 @@ def poses_agree(pair: Sides, a: Chain, b: Chain, reading: Hypothesis) -> bool:
     theirs = reading.directions * (b.random(0, SAMPLES) - reading.zeros)
     x = np.concatenate([a.random(0, SAMPLES), theirs])
     ours = a.fk(x)
-    other = reading.base @ b.fk(reading.directions * x + reading.zeros) @ reading.tool
-    moved, turned = pose_differences(ours, other)
-    most_moved, most_turned = _bounds(pair, a, b)
-    return bool(moved.max() <= most_moved and turned.max() <= most_turned)
+    moved, turned = pose_differences(ours, reading.poses(b, x))
+    most = _bounds(pair, a, b)
+    return bool(moved.max() <= most.position and turned.max() <= most.rotation)
 
 
 def pose_differences(ours: Array, theirs: Array) -> tuple[Array, Array]:
@@ -45,25 +45,22 @@ def pose_differences(ours: Array, theirs: Array) -> tuple[Array, Array]:
     return distances, np.linalg.norm(turns, axis=1)
 
 
-def _bounds(pair: Sides, a: Chain, b: Chain) -> tuple[float, float]:
-    """The largest difference in place (m) and in direction (rad) of poses of arms whose axes agree
-    within tolerance.
-    """
-    slides = np.array(a.kinds) == "prismatic"
+def _bounds(pair: Sides, a: Chain, b: Chain) -> Tolerances:
+    """The largest differences of poses of arms whose axes agree within tolerance."""
+    slides = pair.a.slides
+    tol = pair.tol
     # The lengths from place to place are those of the links; a slide has no place, and lengthens
     # what is behind it.
-    places = [
-        place
-        for place, slide in zip(pair.a.places + pair.a.centre, slides, strict=True)
-        if not slide
-    ]
-    lengths = np.linalg.norm(np.diff([*places, a.home[:3, 3]], axis=0), axis=1)
+    places = (pair.a.places + pair.a.centre)[~slides]
+    steps = np.diff([*places, a.home[:3, 3]], axis=0)
+    lengths = np.linalg.norm(steps, axis=1)
     most = np.maximum(*(np.abs(sampling_range(chain)).max(0) for chain in (a, b)))
     travel = most * np.where(slides, 1.0, np.abs(a.pitches))
-    behind = np.cumsum(lengths[::-1]) + travel.sum()
-    moved = (
-        2.0 * (len(places) * pair.tol_m + pair.tol_rad * behind.sum()) + pair.tol_rad * travel.sum()
-    )
-    moved += pair.tol_m * float(most[a.pitches != 0].sum()) / (2.0 * np.pi)
+    slid = travel.sum()
+    behind = np.cumsum(lengths[::-1]) + slid
+    moved = 2.0 * (len(places) * tol.position + tol.rotation * behind.sum())
+    moved += tol.rotation * slid
+    moved += tol.position * float(most[a.pitches != 0].sum()) / (2.0 * np.pi)
     rounding = 1e-12 * max(a.reach, b.reach)
-    return 1.001 * moved + rounding, 1.001 * 2.0 * pair.tol_rad * len(places) + 1e-12
+    turned = 1.001 * 2.0 * tol.rotation * len(places)
+    return Tolerances(1.001 * moved + rounding, turned + 1e-12)

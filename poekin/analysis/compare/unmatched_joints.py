@@ -11,6 +11,7 @@ import numpy as np
 from ...groups.arrays import Array
 from ...model.chain import Chain
 from ..axes import axes
+from ..axis_lines import Tolerances
 from .alignment.search import agreeing
 from .locked_joints import held_positions
 
@@ -23,8 +24,7 @@ MOST = 2
 def droppable(
     a: Chain,
     b: Chain,
-    tol_position: float,
-    tol_rotation: float,
+    tol: Tolerances,
 ) -> tuple[tuple[int, ...], Array] | None:
     """The joints of the longer of two chains at rest without which both agree, and the positions at
     which they are then held.
@@ -42,10 +42,10 @@ def droppable(
         return None
     fitting = []
     for ks in combinations(range(len(long.screws)), more):
-        for held in _positions(long, short, ks, tol_position, tol_rotation):
+        for held in _positions(long, short, ks, tol):
             rest = without(long, ks, held)
-            if _may_agree(rest, short, tol_position, tol_rotation):
-                reading = agreeing(rest, short, tol_position, tol_rotation)
+            if _may_agree(rest, short, tol):
+                reading = agreeing(rest, short, tol)
                 if reading is not None:
                     *changes, near = reading.cost
                     # Of choices that fit exactly, as parallel joints leave, the first one, and not
@@ -79,8 +79,7 @@ def _positions(
     long: Chain,
     short: Chain,
     ks: tuple[int, ...],
-    tol_position: float,
-    tol_rotation: float,
+    tol: Tolerances,
 ) -> Iterator[tuple[float, ...]]:
     """Positions at which joints ks may be held: all 0, and those that make the axes on both sides
     lie as in the other chain.
@@ -96,15 +95,14 @@ def _positions(
     if any(inner) and _may_agree(
         without(long, ks, zero),
         short,
-        tol_position,
-        tol_rotation,
+        tol,
         across,
     ):
         tried: list[list[tuple[float, ...]]] = []
         for run, free in zip(runs, inner, strict=True):
             tried.append([(0.0,) * len(run)])
             if free:
-                tried[-1] += held_positions(long, short, run, ks, tol_position, tol_rotation)
+                tried[-1] += held_positions(long, short, run, ks, tol)
         for parts in product(*tried):
             held = tuple(x for part in parts for x in part)
             if held != zero:
@@ -114,8 +112,7 @@ def _positions(
 def _may_agree(
     a: Chain,
     b: Chain,
-    tol_position: float,
-    tol_rotation: float,
+    tol: Tolerances,
     but: tuple[int, ...] = (),
 ) -> bool:
     """Whether neighbouring axes of two chains, and those on both sides of a slide, lie to each
@@ -129,9 +126,9 @@ def _may_agree(
     """
     if a.kinds != b.kinds:
         return False
-    lever = max(a.reach, b.reach) * tol_rotation
+    lever = max(a.reach, b.reach) * tol.rotation
     ours, theirs = (
-        axes(chain, tol_position=tol_position, tol_rotation=tol_rotation).pairs for chain in (a, b)
+        axes(chain, tol_position=tol.position, tol_rotation=tol.rotation).pairs for chain in (a, b)
     )
     for p, q in zip(ours, theirs, strict=True):
         between = range(p.first, p.second - 1)
@@ -139,7 +136,7 @@ def _may_agree(
             a.kinds[k] != "prismatic" for k in between
         ):
             continue
-        if abs(p.angle - q.angle) > 4 * tol_rotation:
+        if abs(p.angle - q.angle) > 4 * tol.rotation:
             return False
         # A slide moves the axes beyond it.
         if p.fixed and p.distance is not None and q.distance is not None:
@@ -151,6 +148,6 @@ def _may_agree(
                 certain = 1.0
             elif sine >= 0.1:
                 certain = sine
-            if abs(p.distance - q.distance) * certain > 4 * (tol_position + lever):
+            if abs(p.distance - q.distance) * certain > 4 * (tol.position + lever):
                 return False
     return True

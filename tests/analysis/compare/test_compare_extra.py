@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from benchmarks.planted_changes import arm, random_arm
+from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare import unmatched_joints
 from poekin.analysis.compare.alignment.search import agreeing, search
 from poekin.analysis.compare.compare import compare
@@ -17,6 +18,8 @@ from poekin.analysis.compare.locked_joints import held_positions
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
+
+TOL = Tolerances(1e-5, np.radians(1e-3))
 
 
 def longer_by(chain, places, rng):
@@ -201,8 +204,8 @@ def test_the_quick_look_lets_every_pair_of_models_that_agree_pass(seed, wobble):
         .rezeroed(rng.normal(size=6))
         .rebased(se3.exp(rng.normal(size=6)))
     )
-    assert unmatched_joints._may_agree(chain, other, 1e-5, np.radians(1e-3))
-    assert not unmatched_joints._may_agree(chain, random_arm(seed + 1), 1e-5, np.radians(1e-3))
+    assert unmatched_joints._may_agree(chain, other, TOL)
+    assert not unmatched_joints._may_agree(chain, random_arm(seed + 1), TOL)
 
 
 def bolt(pitch=0.02, sign=1.0):
@@ -258,16 +261,15 @@ def test_what_agrees_is_found_without_looking_for_what_differs(seed):
     chain = random_arm(
         seed, ("revolute", "revolute", "prismatic", "revolute", "revolute")[: 3 + seed % 3]
     )
-    tol = 1e-5, np.radians(1e-3)
     other = chain.rezeroed(rng.normal(size=chain.dof)).rebased(se3.exp(rng.normal(size=6)))
     for two in (chain, chain.rebased(se3.exp(rng.normal(size=6))), other):
-        found, _ = search(chain, two, *tol)
-        reading = agreeing(chain, two, *tol)
+        found, _ = search(chain, two, TOL)
+        reading = agreeing(chain, two, TOL)
         assert reading is not None
         assert not reading.moved.any()
         assert reading.cost[0] == found.cost[0]
     if chain.dof > 3:
-        assert agreeing(chain, random_arm(seed + 9, chain.kinds), *tol) is None
+        assert agreeing(chain, random_arm(seed + 9, chain.kinds), TOL) is None
 
 
 def test_an_axis_three_tolerances_off_does_not_agree_though_the_poses_nearly_do():
@@ -275,7 +277,7 @@ def test_an_axis_three_tolerances_off_does_not_agree_though_the_poses_nearly_do(
     S = chain.screws.copy()
     across = np.cross(S[2, :3], S[0, :3])
     S[2, 3:] += np.cross(3e-5 * across / np.linalg.norm(across), S[2, :3])
-    assert agreeing(chain, Chain.from_space(S, chain.home), 1e-5, np.radians(1e-3)) is None
+    assert agreeing(chain, Chain.from_space(S, chain.home), TOL) is None
 
 
 KINDS = [(a, k, b) for a in "rph" for k in "rph" for b in "rph"]
@@ -301,7 +303,7 @@ def off(x, y):
 
 def held_at(chain, short):
     """Where joint 2 of an arm can be held that another arm lacks (rad, m)."""
-    return [x for (x,) in held_positions(chain, short, (2,), (2,), 1e-5, np.radians(1e-3))]
+    return [x for (x,) in held_positions(chain, short, (2,), (2,), TOL)]
 
 
 @pytest.mark.parametrize("kinds", KINDS, ids="".join)
@@ -336,7 +338,7 @@ def test_joints_at_the_ends_alone_are_held_at_zero_alone():
 
     def positions(ks, held):
         short = unmatched_joints.without(chain, ks, held)
-        return list(unmatched_joints._positions(chain, short, ks, 0.01, 0.001))
+        return list(unmatched_joints._positions(chain, short, ks, Tolerances(0.01, 0.001)))
 
     assert positions((0,), [0.5]) == positions((6,), [0.5]) == [(0.0,)]
     for held in (0.5, -0.5):
@@ -353,7 +355,9 @@ def test_joints_at_the_ends_alone_are_held_at_zero_alone():
     assert min(off(x, 0.5) for _, x in end) < 1e-9
     # Where other neighbours do not agree, no position helps, and none but 0 is tried.
     other = arm_of("rrrrrr", seed=1)
-    assert list(unmatched_joints._positions(chain, other, (3,), 0.01, 0.001)) == [(0.0,)]
+    assert list(unmatched_joints._positions(chain, other, (3,), Tolerances(0.01, 0.001))) == [
+        (0.0,)
+    ]
 
 
 def test_what_is_left_of_a_chain_without_joints_keeps_its_names_limits_and_poses():
@@ -376,17 +380,12 @@ def test_the_quick_look_lets_four_tolerances_pass(change, agree):
 
     angle = 0.9 + np.radians(change.get("angle", 0))
     a, b = crossing(0.9, 0.0), crossing(angle, change.get("gap", 0))
-    assert (
-        unmatched_joints._may_agree(a, b, 1e-5, np.radians(1e-3))
-        == unmatched_joints._may_agree(b, a, 1e-5, np.radians(1e-3))
-        == agree
-    )
-    assert unmatched_joints._may_agree(a, b, 1e-5, np.radians(1e-3), but=(0,))
+    assert unmatched_joints._may_agree(a, b, TOL) == unmatched_joints._may_agree(b, a, TOL) == agree
+    assert unmatched_joints._may_agree(a, b, TOL, but=(0,))
     assert not unmatched_joints._may_agree(
         a,
         Chain.from_space([a.screws[0], screw.prismatic([0, 0, 1])], np.eye(4)),
-        1e-5,
-        np.radians(1e-3),
+        TOL,
     )
 
 
@@ -405,15 +404,13 @@ def two(angle, gap, tip=1.0):
 def test_the_quick_look_lets_lengths_pass_by_four_tolerances_and_what_angles_make_of_the_reach(
     angle, certain, tip
 ):
-    tol_position, tol_rotation = 2e-5, np.radians(0.003)
+    tol = Tolerances(2e-5, np.radians(0.003))
     a = two(angle, 500.0)
     reach = max(a.reach, two(angle, 500.0, tip).reach)
-    most = 4 * (tol_position + reach * tol_rotation)
+    most = 4 * (tol.position + reach * tol.rotation)
     for share in (0.9996, 1.0004, -0.9996, -1.0004):
         b = two(angle, 500.0 + 1e3 * share * most / (certain or 1e-3), tip)
-        assert unmatched_joints._may_agree(a, b, tol_position, tol_rotation) == (
-            certain == 0 or abs(share) < 1
-        )
+        assert unmatched_joints._may_agree(a, b, tol) == (certain == 0 or abs(share) < 1)
 
 
 def test_the_quick_look_looks_at_neighbours_and_across_slides_alone():
@@ -426,8 +423,7 @@ def test_the_quick_look_looks_at_neighbours_and_across_slides_alone():
         return unmatched_joints._may_agree(
             Chain.from_space(rows, np.eye(4)),
             Chain.from_space(changed, np.eye(4)),
-            1e-5,
-            np.radians(1e-3),
+            TOL,
             but,
         )
 
@@ -450,6 +446,5 @@ def test_the_quick_look_looks_at_neighbours_and_across_slides_alone():
     assert not unmatched_joints._may_agree(
         Chain.from_space(rows, np.eye(4)),
         Chain.from_space(turning[:3], np.eye(4)),
-        1e-5,
-        np.radians(1e-3),
+        TOL,
     )

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from benchmarks.planted_changes import arm, random_arm
+from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare.alignment import search as searching
+from poekin.analysis.compare.alignment.alignments import Alignments
 from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.compare import compare
@@ -17,7 +19,7 @@ from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
 
-TOL = 1e-5, np.radians(1e-3)
+TOL = Tolerances(1e-5, np.radians(1e-3))
 
 
 def reversed_at(chain, k):
@@ -66,7 +68,7 @@ def test_angle_normal_and_shift_are_those_of_the_two_lines(angle):
     (w, p, _), (u, r, _) = (screw.axis_of(model.screws[k]) for model in (chain, other))
     assert p is not None
     assert r is not None
-    pair = sides(chain, chain, *TOL).a
+    pair = sides(chain, chain, TOL).a
     place = pair.places[k] + pair.centre
     assert np.linalg.norm(np.cross(w, place - p)) < 1e-12
     across = np.cross(w, u)
@@ -98,7 +100,7 @@ def test_pose_errors_are_the_worst_and_the_mean_over_the_configurations():
 
 def test_an_axis_that_only_turns_says_how_far_it_is_at_the_arm_and_one_that_passes_by_says_both():
     chain, k = random_arm(2), 3
-    pair = sides(chain, chain, *TOL).a
+    pair = sides(chain, chain, TOL).a
     w, place = chain.screws[k, :3], pair.places[k] + pair.centre
     across = np.cross(w, [1, 0, 0]) / np.linalg.norm(np.cross(w, [1, 0, 0]))
     # Turned by 0.1 rad about a point of it that is 0.5 m from the arm: it crosses the old one
@@ -125,12 +127,10 @@ def test_an_axis_that_only_turns_says_how_far_it_is_at_the_arm_and_one_that_pass
 def test_a_zero_offset_is_read_as_the_lesser_turn():
     chain = random_arm(3)
     other = chain.rezeroed([0, 0, np.radians(10), 0, 0, 0])
-    pair = sides(chain, other, *TOL)
-    P = np.eye(4)
-    P[:3, 3] = pair.b.centre - pair.a.centre
+    pair = sides(chain, other, TOL)
     z = np.zeros((2, 6))
     z[:, 2] = np.radians([350, -370])
-    for reading in searching._simplest(pair, np.stack([P, P]), z):
+    for reading in searching._simplest(pair, Alignments(pair.as_they_stand.tiled(2).P, z)):
         assert np.degrees(reading.zeros) == pytest.approx([0, 0, -10, 0, 0, 0], abs=1e-9)
         assert not reading.moved.any()
 
@@ -214,15 +214,14 @@ def test_a_zero_offset_that_no_agreeing_axis_needs_is_put_back_though_another_ax
     across = np.cross(S[2, :3], S[0, :3])
     S[2, 3:] += np.cross(1e-3 * across / np.linalg.norm(across), S[2, :3])
     other = Chain.from_space(S, chain.home)
-    pair = sides(chain, other, *TOL)
-    P, z = np.eye(4)[None].copy(), np.zeros((1, 6))
-    P[0, :3, 3] = pair.b.centre - pair.a.centre
-    z[0, 5] = 0.4
-    (found,) = searching._simplest(pair, P, z)
+    pair = sides(chain, other, TOL)
+    start = pair.as_they_stand
+    start.z[0, 5] = 0.4
+    (found,) = searching._simplest(pair, start)
     assert found.zeros.tolist() == [0.0] * 6
     assert found.moved.sum() >= 1
 
 
 def test_zero_offsets_of_inner_joints_alone_are_no_turn_of_base_or_tool():
-    pair = sides(random_arm(1), random_arm(1), *TOL)
+    pair = sides(random_arm(1), random_arm(1), TOL)
     assert searching._inner(pair).tolist() == [False, True, True, True, True, False]

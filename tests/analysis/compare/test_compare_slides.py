@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from benchmarks.planted_changes import random_arm
+from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare.alignment.hypotheses import make_hypotheses
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.alignment.search import search
@@ -21,7 +22,7 @@ from poekin.model import screw
 from poekin.model.chain import Chain
 from poekin.model.sampling import sampling_range
 
-TOL = 1e-5, np.radians(1e-3)
+TOL = Tolerances(1e-5, np.radians(1e-3))
 
 
 def on_a_rail(chain, *ways):
@@ -94,7 +95,7 @@ def test_a_slide_that_is_tilted_within_tolerance_makes_up_for_no_axis_that_is_el
     other = shifted(COBRA, 3, 0.5e-3)
     S, way = other.screws.copy(), np.cross(other.screws[3, :3], other.screws[3, 3:])
     way = way / np.linalg.norm(way)
-    S[2] = screw.prismatic(S[2, 3:] + 0.5 * TOL[1] * way)
+    S[2] = screw.prismatic(S[2, 3:] + 0.5 * TOL.rotation * way)
     other = Chain.from_space(S, other.home, limits=other.limits)
     moved = other.rebased(se3.exp([0.1, -0.4, 0.2, 1, 2, 3])).retooled(
         se3.exp([0.3, 0, 0.1, 0.5, 0, 0])
@@ -109,34 +110,36 @@ def test_a_slide_that_is_tilted_within_tolerance_makes_up_for_no_axis_that_is_el
 
 def as_it_stands(chain, other, zeros=(0.0,)):
     """The sides of two arms, and the reading of their bases as they stand."""
-    pair = sides(chain, other, *TOL)
-    P = np.eye(4)
-    P[:3, 3] = pair.b.centre - pair.a.centre
-    (reading,) = make_hypotheses(pair, P[None], np.zeros((1, pair.n)) + np.array(zeros))
+    pair = sides(chain, other, TOL)
+    start = pair.as_they_stand
+    start.z[:] = zeros
+    (reading,) = make_hypotheses(pair, start)
     return pair, reading
 
 
 def off_by_the_tolerance(chain, rng):
     """The arm with each axis off by all of the tolerances, in direction and at its place."""
-    rows, ours = [], sides(chain, chain, *TOL).a
+    rows, ours = [], sides(chain, chain, TOL).a
     for S, place in zip(chain.screws, ours.places + ours.centre, strict=True):
         way = S[:3] if S[:3].any() else S[3:]
         across = np.cross(way, rng.normal(size=3))
         across *= 0.999 / np.linalg.norm(across)
-        tilted, pitch = way + np.tan(TOL[1]) * across, screw.axis_of(S).pitch
+        tilted, pitch = way + np.tan(TOL.rotation) * across, screw.axis_of(S).pitch
         if np.isinf(pitch):
             rows.append(screw.prismatic(tilted))
         else:
-            another = pitch + 0.999 * TOL[0] / (2 * np.pi) if pitch else 0.0
-            rows.append(screw.helical(tilted, place + TOL[0] * np.cross(way, across), another))
+            another = pitch + 0.999 * TOL.position / (2 * np.pi) if pitch else 0.0
+            rows.append(
+                screw.helical(tilted, place + TOL.position * np.cross(way, across), another)
+            )
     return Chain.from_space(rows, chain.home, limits=chain.limits)
 
 
 def test_a_reading_without_a_bad_axis_holds_where_the_poses_agree_within_the_limits_of_both():
     chain = RAILS["cobra600"]
-    reading, _ = search(chain, chain.rebased(se3.exp([0.1, 0.2, 0.3, 1, 2, 3])), *TOL)
+    reading, _ = search(chain, chain.rebased(se3.exp([0.1, 0.2, 0.3, 1, 2, 3])), TOL)
     other = chain.rebased(se3.exp([0.1, 0.2, 0.3, 1, 2, 3]))
-    pair = sides(chain, other, *TOL)
+    pair = sides(chain, other, TOL)
     assert poses_agree(pair, chain, other, reading)
     for change in (
         {"tool": reading.tool @ se3.exp([0, 0, 0, 0.5e-3, 0, 0])},
@@ -147,7 +150,7 @@ def test_a_reading_without_a_bad_axis_holds_where_the_poses_agree_within_the_lim
     # Slides that differ by half a tolerance make the same arm, but not where the limits of one are
     # 100 m away.
     S = chain.screws.copy()
-    S[3] = se3.adjoint(se3.exp([0.5 * TOL[1], 0, 0, 0, 0, 0])) @ S[3]
+    S[3] = se3.adjoint(se3.exp([0.5 * TOL.rotation, 0, 0, 0, 0, 0])) @ S[3]
     tilted = Chain.from_space(S, chain.home, limits=chain.limits)
     far = tilted.rezeroed([0, 0, 0, 100.0, 0])
     elsewhere = Chain.from_space(far.screws, far.home, limits=chain.limits)

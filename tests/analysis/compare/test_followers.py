@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare.followers import follows
 from poekin.model import screw
 from poekin.model.chain import Chain
@@ -32,7 +33,7 @@ def compared(C_a, C_b, kinds, directions=None):
         directions=np.ones(len(kinds)) if directions is None else np.array(directions, float)
     )
     C_a, C_b = np.array(C_a, float), np.array(C_b, float)
-    return follows(C_a, C_b, arm(kinds, "a"), arm(kinds, "b"), reading, TOL_M, TOL_RAD)
+    return follows(C_a, C_b, arm(kinds, "a"), arm(kinds, "b"), reading, Tolerances(TOL_M, TOL_RAD))
 
 
 def test_the_first_independent_joints_lead_and_the_others_say_what_they_follow():

@@ -9,6 +9,7 @@ from itertools import product
 import numpy as np
 import pytest
 
+from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare import unmatched_joints
 from poekin.analysis.compare.alignment.lines import lines
 from poekin.analysis.compare.locked_joints import (
@@ -26,7 +27,7 @@ from poekin.model import screw
 from poekin.model.chain import Chain
 
 X, Y, Z = np.eye(3)
-TOL = 1e-5, np.radians(1e-3)
+TOL = Tolerances(1e-5, np.radians(1e-3))
 
 
 def arm_of(letters, seed=0):
@@ -189,7 +190,7 @@ def test_axes_before_have_their_angles_to_those_behind_and_the_nearest_with_plac
 
 def positions(chain, run, gone, held, tol=TOL):
     short = unmatched_joints.without(chain, gone, held)
-    return held_positions(chain, short, run, gone, *tol)
+    return held_positions(chain, short, run, gone, tol)
 
 
 @pytest.mark.parametrize("flipped", [(), (0,), (1,), (0, 1), (1, 2), (0, 2), (2, 3)], ids=str)
@@ -198,7 +199,7 @@ def test_the_other_model_s_axes_may_point_either_way(letters, flipped):
     chain = arm_of(letters, seed=2)
     short = unmatched_joints.without(chain, (2,), [0.9])
     S = np.array([-row if k in flipped else row for k, row in enumerate(short.screws)])
-    found = held_positions(chain, Chain.from_space(S, short.home), (2,), (2,), *TOL)
+    found = held_positions(chain, Chain.from_space(S, short.home), (2,), (2,), TOL)
     assert min(abs(x - 0.9) for (x,) in found) < 1e-9
     assert all(abs(x) <= np.pi for (x,) in found)
 
@@ -216,7 +217,7 @@ def test_more_axes_than_needed_leave_one_position(letters, run):
         known = chain.rezeroed(
             np.where(np.isin(range(chain.dof), others), np.resize(held[::-1], chain.dof), 0.0)
         )
-        found = held_positions(known, short, (k,), run, *TOL)
+        found = held_positions(known, short, (k,), run, TOL)
         assert len(found) == 1
         assert found[0][0] == pytest.approx(x, abs=1e-9)
 
@@ -234,8 +235,8 @@ def test_a_length_may_be_missed_by_ten_tolerances_of_length_and_of_angle_by_the_
     chain = Chain.from_space(arm(size), np.eye(4))
     scale = float(np.linalg.norm(lines(chain).places))
     short = Chain.from_space(np.delete(arm((1.5 + 0.4 * share) * size), 1, 0), np.eye(4))
-    tol_m, tol_rad = 0.03 * size, 0.01 * size / scale
-    assert bool(held_positions(chain, short, (1,), (1,), tol_m, tol_rad)) == found
+    tol = Tolerances(0.03 * size, 0.01 * size / scale)
+    assert bool(held_positions(chain, short, (1,), (1,), tol)) == found
 
 
 def test_of_a_continuum_of_positions_sixteen_are_tried_that_differ():
@@ -245,7 +246,9 @@ def test_of_a_continuum_of_positions_sixteen_are_tried_that_differ():
     found = positions(chain, (1, 2), (1, 2), [0.5, -0.9])
     assert len(found) == 16
     assert all(
-        max(map(abs, np.subtract(x, y))) > TOL[1] for k, x in enumerate(found) for y in found[:k]
+        max(map(abs, np.subtract(x, y))) > TOL.rotation
+        for k, x in enumerate(found)
+        for y in found[:k]
     )
 
 
@@ -263,7 +266,7 @@ def test_ten_tolerances_of_angle_and_of_length_by_the_arm_s_size_may_be_missed(
     size = float(np.linalg.norm(lines(chain).places))
     assert size == pytest.approx(metres / np.sqrt(2))
     short = Chain.from_space(np.delete(arm(np.cos(0.2) + 0.019 * share), 1, 0), np.eye(4))
-    assert bool(held_positions(chain, short, (1,), (1,), 9e-4 * size, 1e-3)) == found
+    assert bool(held_positions(chain, short, (1,), (1,), Tolerances(9e-4 * size, 1e-3))) == found
 
 
 def test_without_any_place_the_tolerance_is_the_size():
@@ -278,6 +281,6 @@ def test_positions_come_the_best_first():
     chain = Chain.from_space(
         [revolving(X, [0, 0, 0.3]), revolving(Z), revolving([1, 0, 0.5], [0, 0.4, -0.2])], np.eye(4)
     )
-    found = [x for (x,) in positions(chain, (1,), (1,), [0.5], (0.02, 0.02))]
+    found = [x for (x,) in positions(chain, (1,), (1,), [0.5], Tolerances(0.02, 0.02))]
     assert len(found) > 1
     assert found[0] == pytest.approx(0.5, abs=1e-6)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import poekin as pk
+from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare import messages
 from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.compare import compare
@@ -54,7 +55,7 @@ def test_another_reading_says_the_size_of_its_zero_offset(kind, words):
         np.eye(4), np.eye(4), np.zeros(n), ones, marks, marks, chain.screws, np.zeros(n), 0
     )
     other = replace(same, zeros=zero * (np.arange(n) == k), offset=np.arange(n) == k)
-    (sentence,) = messages.equivalents(chain, chain, same, [other], 1e-5, 1e-5)
+    (sentence,) = messages.equivalents(chain, chain, same, [other], Tolerances(1e-5, 1e-5))
     assert sentence.startswith(f"{words} of joint 2 ('joint2'), ")
 
 
@@ -62,7 +63,7 @@ TURNS = JointComparison(
     2, "arm", "b2", "revolute", "revolute", 0.0, 0.0, 0.0, 0.0, False, (0.0, 0.0), False, False
 )
 
-TOL = 1e-5, np.radians(1e-3)
+TOL = Tolerances(1e-5, np.radians(1e-3))
 
 
 def in_si(joint: JointComparison, **changes: Any) -> JointComparison:
@@ -106,7 +107,7 @@ SLIDES = replace(TURNS, kind_a="prismatic", kind_b="prismatic", normal=None, shi
      "has its zero position 1° from the other model's and has the sign of q flipped"),
 ])  # fmt: skip
 def test_what_differs_in_a_joint_is_said_whole(joint, changes, words):
-    assert messages.joint_words(in_si(joint, **changes), *TOL) == words
+    assert messages.joint_words(in_si(joint, **changes), TOL) == words
 
 
 def test_joints_that_differ_are_named_by_number_and_the_first_model_s_name():
@@ -116,15 +117,15 @@ def test_joints_that_differ_are_named_by_number_and_the_first_model_s_name():
     )
     axis = "has an axis that is turned by {}° from the other model's"
     two = [f"joint 3 ('a3') {axis.format(3)}", f"joint 4 ('a4') {axis.format(4)}"]
-    assert messages.differences(joints, *TOL) == two
+    assert messages.differences(joints, TOL) == two
     for link in (1, 2):
-        (sentence,) = messages.differences(joints, *TOL, link=link)
+        (sentence,) = messages.differences(joints, TOL, link=link)
         assert sentence == (
             f"the link between joint {link} ('a{link}') and joint {link + 1} ('a{link + 1}') differs: from joint 3 on "
             f"the axes have moved together, and joint 3 {axis.format(3)}"
         )
     coupled = (*joints[:3], replace(joints[3], axis_differs=False, coupling_differs=True))
-    assert len(messages.differences(coupled, *TOL, link=2)) == 2
+    assert len(messages.differences(coupled, TOL, link=2)) == 2
 
 
 @pytest.mark.parametrize("xi, words", [
@@ -136,7 +137,7 @@ def test_joints_that_differ_are_named_by_number_and_the_first_model_s_name():
     ([0, 0.9e-3, 0, 1.1e-5, 0, 0], "the tool frame is moved by 0.011 mm"),
 ])  # fmt: skip
 def test_how_a_frame_moved_is_said_in_mm_and_degrees_beyond_tolerance(xi, words):
-    assert messages.frame_words("tool", pk.se3.exp(xi), 1e-5, 1e-3) == words
+    assert messages.frame_words("tool", pk.se3.exp(xi), Tolerances(1e-5, 1e-3)) == words
 
 
 def test_the_model_with_longer_lengths_is_the_larger_one():
@@ -171,7 +172,9 @@ def test_a_frame_moved_along_or_about_an_end_joint_is_its_zero_offset(kind, size
     tool = pk.se3.exp(pk.se3.adjoint(pk.se3.inverse(chain.home)) @ chain.screws[-1] * size)
 
     def said(**changes):
-        words = messages.equivalents(chain, chain, replace(same, **changes), [], 1e-6, 1e-6)
+        words = messages.equivalents(
+            chain, chain, replace(same, **changes), [], Tolerances(1e-6, 1e-6)
+        )
         return [line.replace("-180", "180") for line in words]
 
     def expected(what, number, name):
@@ -196,7 +199,7 @@ def test_other_readings_say_which_joint_is_to_blame_instead_and_for_what():
         replace(same, zeros=0.1 * at, offset=at), replace(same, zeros=0.1 * at, offset=at, moved=at),
     ]  # fmt: skip
     end = " of joint 3 ('last'), with the base and tool frames aligned to that, explains it as well"
-    assert messages.equivalents(chain, chain, same, others, 1e-6, 1e-6) == [
+    assert messages.equivalents(chain, chain, same, others, Tolerances(1e-6, 1e-6)) == [
         f"{words}{end}" for words in ("another axis", "the other direction", "a zero offset of 5.73°",
                                       "another axis of 5.73°")
     ]  # fmt: skip

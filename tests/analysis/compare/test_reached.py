@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.reached import _bounds, poses_agree
@@ -32,7 +33,7 @@ def planar(last, limits=((-1, 2), (-1, 1), (-1, 1)), tip=6.0):
 
 def bounds(a, b=None):
     b = a if b is None else b
-    return _bounds(sides(a, b, TOL_M, TOL_RAD), a, b)
+    return _bounds(sides(a, b, Tolerances(TOL_M, TOL_RAD)), a, b)
 
 
 def expected(places, behind, travel=0.0, turns=0.0, reach=1.0):
@@ -79,7 +80,7 @@ def test_equal_arms_agree_within_rounding_however_small_the_tolerance():
     other, nothing = chain.rebased(base), np.zeros(n, bool)
     reading = Hypothesis(se3.inverse(base), np.eye(4), np.zeros(n), np.ones(n), nothing, nothing, chain.screws,
                       np.zeros(n), 1)  # fmt: skip
-    pair = sides(chain, other, 1e-300, 1e-300)
+    pair = sides(chain, other, Tolerances(1e-300, 1e-300))
     assert poses_agree(pair, chain, other, reading)
     for xi in ([0, 0, 0, 1e-8, 0, 0], [1e-11, 0, 0, 0, 0, 0]):
         assert not poses_agree(pair, chain, other, replace(reading, tool=se3.exp(xi)))
@@ -103,4 +104,6 @@ def test_poses_are_looked_at_within_the_limits_of_each_arm_in_its_own_zero_and_d
     reading = Hypothesis(
         np.eye(4), np.eye(4), zeros, directions, nothing, nothing, a.screws, np.zeros(3), 0
     )
-    assert poses_agree(sides(a, b, TOL_M, TOL_RAD), a, b, reading) == (free == "neither")
+    assert poses_agree(sides(a, b, Tolerances(TOL_M, TOL_RAD)), a, b, reading) == (
+        free == "neither"
+    )

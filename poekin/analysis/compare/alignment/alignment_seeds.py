@@ -1,20 +1,23 @@
 """Starts of an alignment: poses that bring two of b's axes onto a's, and turns that bring one more.
 
-Alignments come as arrays, P (m, 4, 4) and z (m, n), all of them weighed at once.
+All alignments are weighed at once.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from itertools import combinations, product
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ....groups import se3
 from ....groups.arrays import Array
-from ...axis_lines import cross
-from .lines import Lines, Sides, aligned_deviations, deviations, signs, transformed
+from ...axis_lines import Marks, cross, place
+from .alignments import Alignments, Rows
+from .lines import Lines, Sides
 
 # An axis within about a degree of parallel counts as parallel, as the common normal flies about
 # there.
@@ -24,12 +27,46 @@ MOST = 600
 """Beyond so many alignments, each pose is tried with one turn only."""
 
 
-def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> tuple[NDArray[np.intp], Array]:
-    """Pairs i < j of joints (m, 2), of those asked for, and poses D (m, 4, 4) carrying b's two axes
-    to a's.
+@dataclass(frozen=True, eq=False)
+class PairPoses(Rows):
+    """Alignments without a zero offset that carry two of b's axes to a's, those of `joints` (m, 2)."""
+
+    joints: NDArray[np.intp]
+    at: Alignments
+
+
+@dataclass(frozen=True, eq=False)
+class _Beam(Rows):
+    """Alignments, the poses D (m, 4, 4) of their next joint, and what they have lost (m)."""
+
+    at: Alignments
+    D: Array
+    loss: Array
+
+
+class _Frame(NamedTuple):
+    """The frame T (4, 4) of two axes, z along the first and x along the common normal; the cosine
+    of their angle, and whether they are parallel.
+    """
+
+    T: Array
+    cosine: float
+    parallel: bool
+
+
+class _Line(NamedTuple):
+    """Axes as lines: directions and places (..., 3), and whether they have a place (..., 1)."""
+
+    way: Array
+    place: Array
+    placed: Marks
+
+
+def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> PairPoses:
+    """Poses that carry b's two axes to a's, of those pairs i < j of joints that are asked for.
 
     There is a pose for each way round that the axes can be taken.
-    Two axes that are not parallel fix D up to that; parallel ones leave a slide along them, which
+    Two axes that are not parallel fix it up to that; parallel ones leave a slide along them, which
     stays near the centres. There is none where the pairs differ by more than about a degree.
     """
     found = []
@@ -40,29 +77,24 @@ def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> tuple[NDArray[
         other = _frame(pair.b, i, j)
         if one is None or other is None:
             continue
-        T_a, cosine_a, _ = one
-        T_b, cosine_b, parallel_b = other
         for s, t in product((1.0, -1.0), repeat=2):
-            if abs(s * t * cosine_b - cosine_a) < 2 * PARALLEL:
+            if abs(s * t * other.cosine - one.cosine) < 2 * PARALLEL:
                 found.append((i, j))
-                ours.append(T_a)
+                ours.append(one.T)
                 # Axes taken s and t times their way: z turns with the one, a common normal with
                 # both.
-                x = 1.0 if parallel_b else s * t
-                theirs.append(T_b * [x, s * x, s, 1.0])
-    if not found:
-        return np.empty((0, 2), np.intp), np.empty((0, 4, 4))
-    return np.array(found), np.array(ours) @ se3.inverse(np.array(theirs))
+                x = 1.0 if other.parallel else s * t
+                theirs.append(other.T * [x, s * x, s, 1.0])
+    numbers = np.array(found, np.intp).reshape(-1, 2)
+    T_a, T_b = (np.array(frames).reshape(-1, 4, 4) for frames in (ours, theirs))
+    return PairPoses(numbers, Alignments.rigid(T_a @ se3.inverse(T_b), pair.n))
 
 
-def rigid_poses(pair: Sides) -> tuple[NDArray[np.intp], Array]:
-    """Pairs (i, j) and poses D of all pairs of joints of the same kinds; first, as (-1, -1), the
-    base as it is.
-    """
-    as_it_is = np.eye(4)
-    as_it_is[:3, 3] = pair.b.centre - pair.a.centre
-    joints, poses = pair_poses(pair, combinations(np.flatnonzero(pair.alike).tolist(), 2))
-    return np.concatenate([[[-1, -1]], joints]), np.concatenate([as_it_is[None], poses])
+def rigid_poses(pair: Sides) -> PairPoses:
+    """Poses of all pairs of joints of the same kinds; first, of (-1, -1), the base as it is."""
+    alike = np.flatnonzero(pair.alike).tolist()
+    as_it_is = PairPoses(np.array([[-1, -1]]), pair.as_they_stand)
+    return as_it_is.joined(pair_poses(pair, combinations(alike, 2)))
 
 
 def turns(screw: Array, axis: Array, target: Array) -> Array:
@@ -72,91 +104,83 @@ def turns(screw: Array, axis: Array, target: Array) -> Array:
     The second is NaN where there is but one; 0 where none is better.
     """
     w = screw[..., :3]
-    p = _place(screw)
-    turns_axis = axis[..., :3].any(-1, keepdims=True)
-    turns_target = target[..., :3].any(-1, keepdims=True)
-    d = np.where(turns_axis, axis[..., :3], axis[..., 3:])
-    e = np.where(turns_target, target[..., :3], target[..., 3:])
-    here = _place(axis)
-    there = _place(target)
-    placed = turns_axis & turns_target
+    v = screw[..., 3:]
+    line = _line(axis)
+    goal = _line(target)
+    placed = line.placed & goal.placed
     if not w.any():
-        slide = screw[..., 3:] - d * _dot(d, screw[..., 3:])
+        slide = v - line.way * _dot(line.way, v)
         long = _dot(slide, slide)
         moves = placed & (long >= PARALLEL**2)
-        z = np.where(moves, _dot(slide, there - here) / np.where(moves, long, 1.0), 0.0)
+        ahead = _dot(slide, goal.place - line.place)
+        z = np.where(moves, ahead / np.where(moves, long, 1.0), 0.0)
         return np.concatenate([z, np.full_like(z, np.nan)], axis=-1)
-    z, size = _angle(w, d, e)
-    about, radius = _angle(w, here - p, there - p)
+    p = place(screw)
+    z, size = _angle(w, line.way, goal.way)
+    about, radius = _angle(w, line.place - p, goal.place - p)
     turned = size > PARALLEL**2
-    other = np.where(turned, np.where(z > 0, z - np.pi, z + np.pi), np.nan)
-    return np.concatenate(
-        [np.where(turned, z, np.where(placed & (radius >= 1e-8), about, 0.0)), other],
-        axis=-1,
-    )
+    beside = np.where(placed & (radius >= 1e-8), about, 0.0)
+    opposite = np.where(z > 0, z - np.pi, z + np.pi)
+    both = [np.where(turned, z, beside), np.where(turned, opposite, np.nan)]
+    return np.concatenate(both, axis=-1)
 
 
-def one_turn(pair: Sides, rigid: tuple[NDArray[np.intp], Array], k: int) -> tuple[Array, Array]:
-    """Alignments (P, z) in which joint k alone has a zero offset, best first, from the
-    `rigid_poses` of both.
+def one_turn(pair: Sides, rigid: PairPoses, k: int) -> Alignments:
+    """Alignments in which joint k alone has a zero offset, best first, from the `rigid_poses` of
+    both.
     """
-    i, j = rigid[0].T
-    D = rigid[1]
-    # D is the base's pose, or stands behind joint k
+    i, j = rigid.joints.T
+    # The pose is the base's, or stands behind joint k
     front = j <= k
     back = i >= k
-    Ad = se3.adjoint(D)
-    turn = turns((Ad @ pair.b.screws[k])[:, None], pair.b.axes @ np.swapaxes(Ad, 1, 2), pair.a.axes)
+    own = pair.b.screws[k]
+    Ad = se3.adjoint(rigid.at.P)
+    axes = pair.b.axes @ np.swapaxes(Ad, 1, 2)
+    turn = turns((Ad @ own)[:, None], axes, pair.a.axes)
     # The next axis on the other side of k that is not k's own line tells the offset.
     others = np.arange(pair.n)
-    good = (
-        ~np.isnan(turn) & (front[:, None] & (others > k) | back[:, None] & (others < k))[..., None]
-    )
+    beyond = front[:, None] & (others > k) | back[:, None] & (others < k)
+    good = ~np.isnan(turn) & beyond[..., None]
     each = good.sum(-1)
     before = (np.cumsum(each) - each.ravel()).reshape(each.shape)
-    good &= ((before <= MOST) | (others == np.where(back, 0, k + 1)[:, None]))[..., None]
+    first = others == np.where(back, 0, k + 1)[:, None]
+    good &= ((before <= MOST) | first)[..., None]
     which = np.nonzero(good)[0]
     turn = turn[good]
-    z = np.zeros((len(turn), pair.n))
-    P = D[which]
     behind = back[which]
-    z[:, k] = np.where(behind, -turn, turn)
-    P[behind] @= se3.exp(pair.b.screws[k] * turn[behind, None])
-    return best(pair, P, z)
+    at = rigid.at[which]
+    at.z[:, k] = np.where(behind, -turn, turn)
+    at.P[behind] @= se3.exp(own * turn[behind, None])
+    return best(pair, at)
 
 
-def one_by_one(pair: Sides) -> tuple[Array, Array]:
-    """Alignments (P, z) found joint after joint, each zero offset bringing the next axis into its
-    place; best first.
+def one_by_one(pair: Sides) -> Alignments:
+    """Alignments found joint after joint, each zero offset bringing the next axis into its place;
+    best first.
     """
-    P = np.empty((0, 4, 4))
-    if pair.n > 1:
-        P = pair_poses(pair, [(0, 1)])[1]
-    if not len(P):
-        P = rigid_poses(pair)[1]
-    P = _on_the_first_turning_axis(pair, P)
-    D = P
-    z = np.zeros((len(P), pair.n))
-    loss = np.zeros(len(P))
+    first = [(0, 1)][: pair.n - 1]
+    start = pair_poses(pair, first).at
+    if not len(start):
+        start = rigid_poses(pair).at
+    P = _on_the_first_turning_axis(pair, start.P)
+    beam = _Beam(Alignments(P, start.z), P, np.zeros(len(P)))
     for k in range(1, pair.n - 1):
-        Ad = se3.adjoint(D)
-        turn = turns(Ad @ pair.b.screws[k], Ad @ pair.b.axes[k + 1], pair.a.axes[k + 1])
-        turn = np.concatenate([np.zeros((len(turn), 1)), np.where(turn == 0, np.nan, turn)], axis=1)
+        Ad = se3.adjoint(beam.D)
+        own = pair.b.screws[k]
+        turn = turns(Ad @ own, Ad @ pair.b.axes[k + 1], pair.a.axes[k + 1])
+        turn = np.where(turn == 0, np.nan, turn)
+        turn = np.pad(turn, [(0, 0), (1, 0)])  # none is tried as well
         good = ~np.isnan(turn)
-        row = np.nonzero(good)[0]
+        beam = beam[np.nonzero(good)[0]]
         turn = turn[good]
-        P = P[row]
-        D = D[row] @ se3.exp(pair.b.screws[k] * turn[:, None])
-        z = z[row]
-        z[:, k] = turn
-        miss = aligned_deviations(pair, P, z)[:, k + 1]
-        loss = loss[row] + np.minimum(miss, 1e4) ** 0.5 + (abs(turn) > pair.zero_tolerance[k])
+        beam.at.z[:, k] = turn
+        miss = pair.deviations(beam.at)[:, k + 1]
+        far = np.minimum(miss, 1e4) ** 0.5
+        loss = beam.loss + far + (abs(turn) > pair.zero_tolerance[k])
+        D = beam.D @ se3.exp(own * turn[:, None])
         kept = np.argsort(loss, kind="stable")[:BEAM]
-        P = P[kept]
-        D = D[kept]
-        z = z[kept]
-        loss = loss[kept]
-    return P, z
+        beam = _Beam(beam.at, D, loss)[kept]
+    return beam.at
 
 
 def _on_the_first_turning_axis(pair: Sides, P: Array) -> Array:
@@ -166,10 +190,11 @@ def _on_the_first_turning_axis(pair: Sides, P: Array) -> Array:
     That place is where a link that no zero offset changes has it, and not the point nearest the
     centre.
     """
-    turning = [k for k, kind in enumerate(pair.a.kinds) if kind != "prismatic"]
-    if not turning or turning[0] == 0:
+    k = int(np.argmin(pair.a.slides))  # 0 where all of them slide
+    if k == 0:
         return P
-    ours, theirs = (_anchor(side, turning[0]) for side in (pair.a, pair.b))
+    ours = _anchor(pair.a, k)
+    theirs = _anchor(pair.b, k)
     if ours is None or theirs is None:
         return P
     P = P.copy()
@@ -182,55 +207,53 @@ def _anchor(lines: Lines, k: int) -> Array | None:
     are not parallel.
     """
     for m in range(k, len(lines.kinds) - 1):
-        if "prismatic" in lines.kinds[m : m + 2]:
+        if lines.slides[m : m + 2].any():
             return None
         frame = _frame(lines, m, m + 1)
-        if frame is not None and not frame[2]:
+        if frame is not None and not frame.parallel:
             way = lines.ways[k]
-            foot = frame[0][:3, 3]
-            return lines.places[k] + way * (way @ (foot - lines.places[k]))
+            own = lines.places[k]
+            foot = frame.T[:3, 3]
+            return own + way * (way @ (foot - own))
     return None
 
 
-def best(pair: Sides, P: Array, z: Array, most: int = 4) -> tuple[Array, Array]:
+def best(pair: Sides, at: Alignments, most: int = 4) -> Alignments:
     """The alignments under which most axes agree best: a far miss counts little more than a near
     one.
 
     Of alignments that differ by rounding alone those with fewer zero offsets and fewer reversed
     axes come first.
     """
-    axes = transformed(pair, P, z)[1]
-    changes = (abs(z) > 0).sum(1) + (signs(pair, axes) < 0).sum(1)
-    loss = np.log1p(np.minimum(deviations(pair, axes), 1e6)).sum(1) + 0.01 * changes
-    first = np.argsort(loss, kind="stable")[:most]
-    return P[first], z[first]
+    b = pair.transformed(at)
+    changes = (abs(at.z) > 0).sum(1) + (b.signs < 0).sum(1)
+    loss = np.log1p(np.minimum(b.deviations, 1e6)).sum(1) + 0.01 * changes
+    return at[np.argsort(loss, kind="stable")[:most]]
 
 
-def _frame(lines: Lines, i: int, j: int) -> tuple[Array, float, bool] | None:
-    """The frame (4, 4) of two axes, z along i, x along the common normal; their cosine; and whether
-    they are parallel.
+def _frame(lines: Lines, i: int, j: int) -> _Frame | None:
+    """The frame of two axes.
 
     Of parallel axes x is the way from i to j. None where there is none: parallel axes on one line,
     or one without a place.
     """
     z = lines.ways[i]
     other = lines.ways[j]
-    p = lines.places[i]
-    r = lines.places[j]
-    has_p = lines.kinds[i] != "prismatic"
-    has_r = lines.kinds[j] != "prismatic"
+    origin = lines.places[i]
+    gap = lines.places[j] - origin
+    placed = not lines.slides[[i, j]].any()
+    if lines.slides[i]:
+        origin = lines.places[j]
     x = cross(z, other)
-    origin = p if has_p else r
     parallel = not x @ x > PARALLEL**2
     if parallel:
-        if not has_p or not has_r or (r - p) @ (r - p) <= 1e-10:
+        if not placed or gap @ gap <= 1e-10:
             return None
-        x = r - p
-    elif has_p and has_r:
-        # p + z h is the foot of the common normal: the gap's part across the normal and axis j
-        # vanishes.
+        x = gap
+    elif placed:
+        # The foot of the common normal: the gap's part across the normal and axis j vanishes.
         side = cross(x, other)
-        origin = p + z * (side @ (r - p)) / (side @ z)
+        origin = origin + z * (side @ gap) / (side @ z)
     x = x - z * (z @ x)
     length = np.sqrt(x @ x)
     if length < 1e-6:
@@ -239,7 +262,13 @@ def _frame(lines: Lines, i: int, j: int) -> tuple[Array, float, bool] | None:
     frame = np.eye(4)
     frame[:3, :3] = np.stack([x, cross(z, x), z], axis=1)
     frame[:3, 3] = origin
-    return frame, float(z @ other), parallel
+    return _Frame(frame, float(z @ other), parallel)
+
+
+def _line(axis: Array) -> _Line:
+    w = axis[..., :3]
+    placed = np.asarray(w.any(-1, keepdims=True))
+    return _Line(np.where(placed, w, axis[..., 3:]), place(axis), placed)
 
 
 def _angle(w: Array, u: Array, v: Array) -> tuple[Array, Array]:
@@ -248,11 +277,8 @@ def _angle(w: Array, u: Array, v: Array) -> tuple[Array, Array]:
     """
     u = u - w * _dot(w, u)
     v = v - w * _dot(w, v)
-    return np.arctan2(_dot(w, cross(u, v)), _dot(u, v)), np.minimum(_dot(u, u), _dot(v, v))
-
-
-def _place(axis: Array) -> Array:
-    return cross(axis[..., :3], axis[..., 3:])
+    angle = np.arctan2(_dot(w, cross(u, v)), _dot(u, v))
+    return angle, np.minimum(_dot(u, u), _dot(v, v))
 
 
 def _dot(x: Array, y: Array) -> Array:

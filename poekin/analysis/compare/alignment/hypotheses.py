@@ -8,11 +8,14 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
-from ...axis_lines import cross
-from .lines import Marks, Sides, carriers, deviations, signs, transformed
+from ....model.chain import Chain
+from ...axis_lines import Marks, Tolerances, cross
+from .alignments import Alignments
+from .lines import Sides, sides
 
 
 class Costs(NamedTuple):
@@ -71,6 +74,10 @@ class Hypothesis:
     frames: int
     link: int = 0
 
+    def poses(self, b: Chain, x: Array) -> Array:
+        """Poses (m, 4, 4) of b that are to be those of a at joint values x (m, n)."""
+        return self.base @ b.fk(self.directions * x + self.zeros) @ self.tool
+
     @property
     def changes(self) -> Marks:
         """Changes (3, n, bool) of each joint: another axis, another zero, another direction."""
@@ -109,44 +116,53 @@ class Hypothesis:
         return (COSTS.axis * moved + far + weight, self.frames, changes, near)
 
 
-def make_hypotheses(pair: Sides, P: Array, z: Array) -> list[Hypothesis]:
-    """Hypotheses that alignments (P, z) of both models' axes, (m, 4, 4) and (m, n), stand for.
+def make_hypotheses(pair: Sides, at: Alignments) -> list[Hypothesis]:
+    """Hypotheses that alignments of both models' axes stand for.
 
     An axis is the same where its deviation is at most 1: the larger of the angle between the
     directions by `tol_rotation` and of the distance between the lines by `tol_position`
-    (`lines.deviations`); kind and pitch have agreed before.
+    (`lines.Transformed.deviations`); kind and pitch have agreed before.
     """
-    axes = transformed(pair, P, z)[1]
-    miss = deviations(pair, axes)
-    s = signs(pair, axes)
-    base = off_centre(pair, P)
-    last = off_centre(pair, carriers(pair, P, z)[:, -1])
-    tool = se3.inverse(last @ pair.b.home) @ pair.a.home
+    b = pair.transformed(at)
+    miss = b.deviations
+    base = off_centre(pair, at.P)
+    tool = tool_behind(pair, pair.carriers(at)[:, -1])
+    axes = b.axes
     axes[..., 3:] -= cross(axes[..., :3], pair.a.centre)
-    frames = (~still(np.stack([base, tool]), pair.tol_m, pair.tol_rad)).sum(0)
-    moved = miss > 1.0
-    offset = abs(z) > pair.zero_tolerance
-    far = np.minimum(miss, 1e9)
-    return [
-        Hypothesis(
-            base[i],
-            tool[i],
-            z[i],
-            s[i],
-            moved[i],
-            offset[i],
-            axes[i],
-            far[i],
-            int(frames[i]),
-        )
-        for i in range(len(z))
-    ]
+    columns = (
+        base,
+        tool,
+        at.z,
+        b.signs,
+        miss > 1.0,
+        abs(at.z) > pair.zero_tolerance,
+        axes,
+        np.minimum(miss, 1e9),
+        frames_moved(pair, base, tool).tolist(),
+    )
+    return [Hypothesis(*row) for row in zip(*columns, strict=True)]
 
 
-def still(T: Array, tol_m: float, tol_rad: float) -> Marks:
+def as_they_stand(a: Chain, b: Chain, tol: Tolerances) -> Hypothesis:
+    """The reading that aligns nothing."""
+    pair = sides(a, b, tol)
+    return make_hypotheses(pair, pair.as_they_stand)[0]
+
+
+def tool_behind(pair: Sides, P: Array) -> Array:
+    """Poses (..., 4, 4) of a's tool in b's, where b's last link is carried by poses P."""
+    return se3.inverse(off_centre(pair, P) @ pair.b.home) @ pair.a.home
+
+
+def frames_moved(pair: Sides, base: Array, tool: Array) -> NDArray[np.intp]:
+    """Number (...) of the two frames that are not where they were."""
+    return (~still(np.stack([base, tool]), pair.tol)).sum(0)
+
+
+def still(T: Array, tol: Tolerances) -> Marks:
     """Whether poses (..., 4, 4) are the identity within tolerance (...)."""
     moved, turned = motion_sizes(T)
-    return (moved <= tol_m) & (turned <= tol_rad)
+    return (moved <= tol.position) & (turned <= tol.rotation)
 
 
 def motion_sizes(T: Array) -> tuple[Array, Array]:

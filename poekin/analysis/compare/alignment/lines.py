@@ -3,8 +3,7 @@
 A screw is carried by a pose D as Ad(D) S. Model b's base stands at P in model a's, and b's joint k
 reads z_k where a's reads 0; so b's axis i is carried by D_i = P e^{B_1 z_1} ... e^{B_{i-1}
 z_{i-1}}. All is computed about each arm's centre, the point nearest to all its axes, so that a far
-base frame costs no digits. Leading axes are the batch: many alignments (P, z) at once, P (..., 4,
-4) and z (..., n).
+base frame costs no digits. Leading axes are the batch: many `Alignments` (P, z) at once.
 """
 
 from __future__ import annotations
@@ -12,14 +11,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ....model.chain import Chain
-from ...axis_lines import cross, direction
-
-Marks = NDArray[np.bool_]
+from ...axis_lines import Marks, Tolerances, cross, direction, place, prismatic
+from .alignments import Alignments
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,24 +24,31 @@ class Lines:
     """The axes of one arm at rest about its centre.
 
     Attributes: screws (n, 6); axes (n, 6), the same without pitch; ways (n, 3), their unit
-    directions; kinds (n); pitches (n), m per rad; places (n, 3), the point of each axis nearest the
-    centre (zero for prismatic joints, which have no place); centre (3,) and home (4, 4), in the own
-    base.
+    directions; kinds (n), and slides (n), whether they are prismatic; pitches (n), m per rad;
+    places (n, 3), the point of each axis nearest the centre (zero for prismatic joints, which have
+    no place); centre (3,) and home (4, 4), in the own base.
     """
 
     screws: Array
     axes: Array
     ways: Array
     kinds: tuple[str, ...]
+    slides: Marks
     pitches: Array
     places: Array
     centre: Array
     home: Array
 
+    def part(self, k: int) -> slice:
+        """The part of axis k that is its direction."""
+        if self.slides[k]:
+            return slice(3, 6)
+        return slice(0, 3)
+
 
 @dataclass(frozen=True, eq=False)
 class Sides:
-    """Both arms' lines, and how near is near enough: tol_m (m) and tol_rad (rad).
+    """Two arms to be aligned, and how near is near enough: `tol`.
 
     `alike` (n,): same kind and pitch. `weights` (n, 6, 6): what makes of a change of an axis how
     far it moves, in tolerances: direction, then place at a's place on it. `ways` (n, 6): a's
@@ -55,8 +59,7 @@ class Sides:
 
     a: Lines
     b: Lines
-    tol_m: float
-    tol_rad: float
+    tol: Tolerances
     alike: Marks
     weights: Array
     ways: Array
@@ -66,122 +69,147 @@ class Sides:
     @property
     def n(self) -> int:
         """Number of joints."""
-        return len(self.a.kinds)
+        return len(self.alike)
+
+    @property
+    def as_they_stand(self) -> Alignments:
+        """The alignment that changes nothing."""
+        base = np.eye(4)
+        base[:3, 3] = self.b.centre - self.a.centre
+        return Alignments.rigid(base[None], self.n)
+
+    def carriers(self, at: Alignments) -> Array:
+        """D_1 ... D_{n+1} (m, n + 1, 4, 4): D_i = P e^{B_1 z_1} ... e^{B_{i-1} z_{i-1}}, about the
+        centres.
+        """
+        D = [at.P]
+        for i, x in enumerate(at.z.T):
+            here = D[-1]
+            screw = self.b.screws[i]
+            if not x.any():
+                D.append(here)
+            elif i == self.suspect_joint:
+                screws = self.suspect_screw(se3.adjoint(here) @ screw)
+                D.append(se3.exp(screws * x[:, None]) @ here)
+            else:
+                D.append(here @ se3.exp(screw * x[:, None]))
+        return np.stack(D, axis=1)
+
+    def suspect_screw(self, carried: Array) -> Array:
+        """a's screw (m, 6) of the joint that is held to be wrong, turning the way that b's carried
+        screw (m, 6) does.
+        """
+        own = self.a.screws[self.suspect_joint]
+        part = self.a.part(self.suspect_joint)
+        opposite = carried[:, part] @ own[part] < 0
+        return np.where(opposite[:, None], -own, own)
+
+    def transformed(self, at: Alignments) -> Transformed:
+        """Model b's axes under alignments."""
+        D = at.P[:, None]
+        if at.z.any():
+            D = self.carriers(at)[:, :-1]
+        Ad = se3.adjoint(D)
+        axes = _applied(Ad, self.b.axes)
+        against = (self.ways * axes).sum(-1) < 0
+        return Transformed(self, _applied(Ad, self.b.screws), axes, np.where(against, -1.0, 1.0))
+
+    def deviations(self, at: Alignments) -> Array:
+        """The deviations (m, n) of b's axes under alignments."""
+        return self.transformed(at).deviations
+
+
+@dataclass(frozen=True, eq=False)
+class Transformed:
+    """Model b's screws and pitch-free axes (m, n, 6) in model a's base, about a's centre.
+
+    `signs` (m, n): +1 or -1, whether each axis points the same way as a's.
+    """
+
+    pair: Sides
+    screws: Array
+    axes: Array
+    signs: Array
+
+    @property
+    def residuals(self) -> Array:
+        """Distances from a's axes in tolerances (m, n, 6): direction, then place at a's place on
+        each.
+        """
+        change = self.signs[..., None] * self.axes - self.pair.a.axes
+        return _applied(self.pair.weights, change)
+
+    @property
+    def deviations(self) -> Array:
+        """Tolerances (m, n) by which each axis is off in direction or place; inf where kinds
+        differ.
+        """
+        r = self.residuals
+        parts = r.reshape(*r.shape[:-1], 2, 3)
+        worst = np.linalg.norm(parts, axis=-1).max(-1)
+        return np.where(self.pair.alike, worst, np.inf)
 
 
 def lines(chain: Chain) -> Lines:
     """The axes of a chain at rest about its centre."""
-    centre = _centre(chain)
+    slides = prismatic(chain)
+    centre = _centre(chain, slides)
     screws = chain.screws.copy()
     screws[:, 3:] += cross(screws[:, :3], centre)
     axes = screws.copy()
     axes[:, 3:] -= chain.pitches[:, None] * screws[:, :3]
-    places = cross(axes[:, :3], axes[:, 3:])
-    ways = direction(axes, chain.kinds)
-    kinds = chain.kinds
-    return Lines(screws, axes, ways, kinds, chain.pitches, places, centre, chain.home)
+    return Lines(
+        screws,
+        axes,
+        direction(axes, slides),
+        chain.kinds,
+        slides,
+        chain.pitches,
+        place(axes),
+        centre,
+        chain.home,
+    )
 
 
-def sides(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Sides:
+def sides(a: Chain, b: Chain, tol: Tolerances) -> Sides:
     """Both chains at rest, with equal numbers of joints, ready to be aligned."""
     one = lines(a)
     other = lines(b)
     # A pitch shows after one turn as a length.
-    alike = [
-        k == j and abs(g - h) * 2 * np.pi <= tol_m
-        for k, j, g, h in zip(one.kinds, other.kinds, one.pitches, other.pitches, strict=True)
-    ]
-    ours, theirs = (np.array(side.kinds) == "prismatic" for side in (one, other))
-    weights = np.zeros((len(alike), 6, 6))
-    weights[:, :3, :3] = np.eye(3) / tol_rad
+    pitched = abs(one.pitches - other.pitches) * 2 * np.pi
+    same = [k == j for k, j in zip(one.kinds, other.kinds, strict=True)]
+    length = np.where(one.slides, tol.rotation, tol.position)
+    weights = np.zeros((len(same), 6, 6))
+    weights[:, :3, :3] = np.eye(3) / tol.rotation
     weights[:, 3:, :3] = -so3.hat(one.places)
     weights[:, 3:, 3:] = np.eye(3)
-    weights[:, 3:] /= np.where(ours, tol_rad, tol_m)[:, None, None]
-    ways = np.concatenate([one.ways, one.ways], axis=1) * np.repeat(
-        np.stack([~theirs, theirs], axis=1),
-        3,
-        axis=1,
+    weights[:, 3:] /= length[:, None, None]
+    theirs = np.stack([~other.slides, other.slides], axis=1)
+    return Sides(
+        one,
+        other,
+        tol,
+        np.array(same, bool) & (pitched <= tol.position),
+        weights,
+        (theirs[..., None] * one.ways[:, None]).reshape(-1, 6),
+        np.where(other.slides, tol.position, tol.rotation),
     )
-    zero_tolerance = np.where(theirs, tol_m, tol_rad)
-    return Sides(one, other, tol_m, tol_rad, np.array(alike, bool), weights, ways, zero_tolerance)
 
 
-def carriers(pair: Sides, P: Array, z: Array) -> Array:
-    """D_1 ... D_{n+1} (..., n + 1, 4, 4): D_i = P e^{B_1 z_1} ... e^{B_{i-1} z_{i-1}}, about the
-    centres.
-    """
-    D = np.empty((*z.shape[:-1], pair.n + 1, 4, 4))
-    here = P
-    for i in range(pair.n):
-        D[..., i, :, :] = here
-        if z[..., i].any():
-            turn = z[..., i, None]
-            if i == pair.suspect_joint:
-                here = (
-                    se3.exp(suspect_screw(pair, se3.adjoint(here) @ pair.b.screws[i]) * turn) @ here
-                )
-            else:
-                here = here @ se3.exp(pair.b.screws[i] * turn)
-    D[..., pair.n, :, :] = here
-    return D
-
-
-def suspect_screw(pair: Sides, carried: Array) -> Array:
-    """a's screw (..., 6) of the joint that is held to be wrong, turning the way that b's carried
-    one (..., 6) does.
-    """
-    own = pair.a.screws[pair.suspect_joint]
-    part = slice(0, 3)
-    if pair.a.kinds[pair.suspect_joint] == "prismatic":
-        part = slice(3, 6)
-    return np.where((carried[..., part] @ own[part] < 0)[..., None], -own, own)
-
-
-def transformed(pair: Sides, P: Array, z: Array) -> tuple[Array, Array]:
-    """Model b's screws and pitch-free axes (..., n, 6) in model a's base, about a's centre."""
-    D = P[..., None, :, :]
-    if z.any():
-        D = carriers(pair, P, z)[..., :-1, :, :]
-    Ad = se3.adjoint(D)
-    return (Ad @ pair.b.screws[..., None])[..., 0], (Ad @ pair.b.axes[..., None])[..., 0]
-
-
-def signs(pair: Sides, axes: Array) -> Array:
-    """+1 or -1 (..., n): whether each of b's carried axes (..., n, 6) points the same way as a's."""
-    return np.where((pair.ways * axes).sum(-1) < 0, -1.0, 1.0)
-
-
-def residuals(pair: Sides, axes: Array) -> Array:
-    """Distances of b's carried axes from a's, in tolerances (..., n, 6): direction, then place at
-    a's place on each.
-    """
-    change = signs(pair, axes)[..., None] * axes - pair.a.axes
-    return (pair.weights @ change[..., None])[..., 0]
-
-
-def deviations(pair: Sides, axes: Array) -> Array:
-    """Tolerances (..., n) by which each of b's carried axes is off in direction or place; inf where
-    kinds differ.
-    """
-    r = residuals(pair, axes)
-    worst = np.linalg.norm(r.reshape(*r.shape[:-1], 2, 3), axis=-1).max(-1)
-    return np.where(pair.alike, worst, np.inf)
-
-
-def aligned_deviations(pair: Sides, P: Array, z: Array) -> Array:
-    """The `deviations` (m, n) under alignments (P, z)."""
-    return deviations(pair, transformed(pair, P, z)[1])
-
-
-def _centre(chain: Chain) -> Array:
+def _centre(chain: Chain, slides: Marks) -> Array:
     """The point (3,) nearest to all axes; where they leave it free (parallel axes), as near the
     tool as they let it.
     """
     tool = chain.home[:3, 3]
-    rows = [S for S, kind in zip(chain.screws, chain.kinds, strict=True) if kind != "prismatic"]
-    if not rows:
+    turning = chain.screws[~slides]
+    if not len(turning):
         return tool.copy()
-    across = [np.eye(3) - np.outer(S[:3], S[:3]) for S in rows]
-    reach = [A @ (cross(S[:3], S[3:]) - tool) for A, S in zip(across, rows, strict=True)]
+    across = [np.eye(3) - np.outer(S[:3], S[:3]) for S in turning]
+    reach = [A @ (place(S) - tool) for A, S in zip(across, turning, strict=True)]
     # Axes parallel within a degree or so leave it free, else it would fly away.
     return tool + np.linalg.lstsq(np.concatenate(across), np.concatenate(reach), rcond=0.02)[0]
+
+
+def _applied(M: Array, x: Array) -> Array:
+    """M x over the last axes, matrices (..., 6, 6) and vectors (..., 6)."""
+    return (M @ x[..., None])[..., 0]

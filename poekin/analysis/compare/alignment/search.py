@@ -9,55 +9,63 @@ where they are, then the fewest changes. So one bad joint is not smeared over it
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from operator import attrgetter
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ....groups import se3
-from ....groups.arrays import Array
 from ....model.chain import Chain
+from ...axis_lines import Marks, Tolerances
 from ..reached import poses_agree
-from .alignment_seeds import best, one_by_one, one_turn, rigid_poses
+from .alignment_seeds import PairPoses, best, one_by_one, one_turn, rigid_poses
+from .alignments import Alignments, Rows
 from .fit import fit
-from .hypotheses import COSTS, Hypothesis, make_hypotheses, off_centre, still
-from .lines import Marks, Sides, aligned_deviations, deviations, sides, signs, transformed
+from .hypotheses import COSTS, Hypothesis, frames_moved, make_hypotheses, tool_behind
+from .lines import Sides, sides
+
+_cost = attrgetter("cost")
 
 
-def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Hypothesis, list[Hypothesis]]:
+@dataclass(frozen=True, eq=False)
+class _Start(Rows):
+    """Starts of a fit, with the zero offsets that are `free` and the axes that are `used` (m, n)."""
+
+    at: Alignments
+    free: Marks
+    used: Marks
+
+    def fitted(self, pair: Sides) -> Alignments:
+        """The alignments to which these starts lead."""
+        return fit(pair, self.at, self.free, self.used)
+
+
+def search(a: Chain, b: Chain, tol: Tolerances) -> tuple[Hypothesis, list[Hypothesis]]:
     """The best reading of the difference of two chains at rest, and the others that blame one joint
     only.
     """
-    pair = sides(a, b, tol_m, tol_rad)
+    pair = sides(a, b, tol)
     n = pair.n
-    alone = np.eye(n, dtype=bool)
     poses = rigid_poses(pair)
-    rigid = (poses[1], np.zeros((len(poses[1]), n)))
-
-    def rigidly(P: Array, z: Array, used: Marks) -> list[Hypothesis]:
-        return make_hypotheses(pair, *fit(pair, P, z, np.zeros(n, bool), used))
-
-    found = make_hypotheses(pair, rigid[0][:1], rigid[1][:1])
+    found = make_hypotheses(pair, poses.at[:1])
     # Alike as they stand: nothing is to be aligned.
     if not found[0].cost[0] and not found[0].frames:
         return found[0], []
-    P, z = best(pair, *rigid)
-    found += rigidly(P, z, np.ones(n, bool))
+    starts = best(pair, poses.at)
+    found += _rigid(pair, starts, np.ones(n, bool))
     first = min(found, key=_cost)
     if first.cost[0] == 0:
         return first, []
-    all_but_one = ~alone.repeat(len(z[:2]), 0)
-    found += rigidly(np.tile(P[:2], (n, 1, 1)), np.tile(z[:2], (n, 1)), all_but_one)
+    two = starts[:2]
+    all_but_one = ~np.eye(n, dtype=bool).repeat(len(two), 0)
+    found += _rigid(pair, two.tiled(n), all_but_one)
     if n > 2:
         found += _one_joint(pair, poses)
-    found += _links(pair, poses[1])
+    found += _links(pair, poses.at)
     # Where several axes differ, those that most starts agree on; one bad axis is looked for above.
-    found += [
-        as_it_starts for as_it_starts in make_hypotheses(pair, P, z) if as_it_starts.moved.sum() > 1
-    ]
-    miss = aligned_deviations(pair, P, z)
+    found += [start for start in make_hypotheses(pair, starts) if start.moved.sum() > 1]
+    miss = pair.deviations(starts)
     agree = np.concatenate([miss <= 10.0, miss <= 1.0])
-    found += rigidly(np.tile(P, (2, 1, 1)), np.tile(z, (2, 1)), agree)
+    found += _rigid(pair, starts.tiled(2), agree)
     if min(found, key=_cost).cost[0] > COSTS.one_change:
         found += _conventions(pair)
     # The reading of the models as they stand holds, and so there is one that does.
@@ -67,81 +75,81 @@ def search(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> tuple[Hypothesis
     return _simpler(first, found), _others(first, holding)
 
 
-def agreeing(a: Chain, b: Chain, tol_m: float, tol_rad: float) -> Hypothesis | None:
+def agreeing(a: Chain, b: Chain, tol: Tolerances) -> Hypothesis | None:
     """The best reading of two chains at rest under which all axes agree, or None: `search` without
     what differs.
     """
-    pair = sides(a, b, tol_m, tol_rad)
-    none = np.zeros(pair.n, bool)
-    every = np.ones(pair.n, bool)
-    poses = rigid_poses(pair)[1]
-    nothing = np.zeros((len(poses), pair.n))
-    found = make_hypotheses(pair, poses[:1], nothing[:1])
-    found += make_hypotheses(pair, *fit(pair, *best(pair, poses, nothing), none, every))
+    pair = sides(a, b, tol)
+    rigid = rigid_poses(pair).at
+    found = make_hypotheses(pair, rigid[:1])
+    found += _rigid(pair, best(pair, rigid), np.ones(pair.n, bool))
     if min(found, key=_cost).cost[0]:
-        found += _simplest(pair, *_other_zeros(pair)[2:])
-    holding = (
-        r for r in sorted(found, key=_cost) if not r.moved.any() and poses_agree(pair, a, b, r)
-    )
-    return next(holding, None)
+        found += _simplest(pair, _all_zeros_free(pair, _other_zeros(pair)))
+    found.sort(key=_cost)
+    agree = (r for r in found if not r.moved.any() and poses_agree(pair, a, b, r))
+    return next(agree, None)
 
 
-def _one_joint(pair: Sides, poses: tuple[NDArray[np.intp], Array]) -> list[Hypothesis]:
+def _rigid(pair: Sides, starts: Alignments, used: Marks) -> list[Hypothesis]:
+    """Readings of starts fitted to the axes in `used`, zero offsets as they are."""
+    none = np.zeros(pair.n, bool)
+    return make_hypotheses(pair, fit(pair, starts, none, used))
+
+
+def _one_joint(pair: Sides, poses: PairPoses) -> list[Hypothesis]:
     """Readings in which one inner joint alone has a zero offset, its axis agreeing, or held to be
     wrong.
     """
     alone = np.eye(pair.n, dtype=bool)
-    every = np.ones(pair.n, bool)
-    starts = [(one_turn(pair, poses, k), alone[k]) for k in range(1, pair.n - 1)]
+    inner = range(1, pair.n - 1)
+    starts = [one_turn(pair, poses, k) for k in inner]
     # Of each joint all the starts with its axis, then the two best without it, then the two with
     # what agrees alone.
-    tries = [
-        (P[i], z[i], own, used)
-        for (P, z), own in starts
-        for most, used in ((4, every), (2, ~own))
-        for i in range(len(z[:most]))
-    ]
-    for (P, z), own in starts:
-        agree = aligned_deviations(pair, P[:2], z[:2]) <= 1.0
-        tries += [(P[i], z[i], own, used) for i, used in enumerate(agree)]
-    P, z, free, used = (np.array(column) for column in zip(*tries, strict=True))
-    return make_hypotheses(pair, *fit(pair, P, z, free, used))
+    tries = []
+    for k, at in zip(inner, starts, strict=True):
+        tries.append(_start(at, alone[k], alone[k] | True))
+        tries.append(_start(at[:2], alone[k], ~alone[k]))
+    for k, at in zip(inner, starts, strict=True):
+        two = at[:2]
+        tries.append(_start(two, alone[k], pair.deviations(two) <= 1.0))
+    return make_hypotheses(pair, tries[0].joined(*tries[1:]).fitted(pair))
+
+
+def _start(at: Alignments, free: Marks, used: Marks) -> _Start:
+    """Starts with the same joints free, and the same or their own axes used."""
+    shape = at.z.shape
+    return _Start(at, np.broadcast_to(free, shape), np.broadcast_to(used, shape))
 
 
 def _simpler(first: Hypothesis, found: list[Hypothesis]) -> Hypothesis:
     """The best reading, or one that blames fewer joints and leaves base and tool where they are,
     which it does not.
     """
-    fewer = (
-        r
-        for r in found
-        if not r.frames and r.moved.any() and r.implicated.sum() < first.implicated.sum()
-    )
     if not first.frames or first.link:
         return first
-    return next(fewer, first)
+    in_place = (r for r in found if not r.frames and r.moved.any())
+    most = first.implicated.sum()
+    return next((r for r in in_place if r.implicated.sum() < most), first)
 
 
-def _links(pair: Sides, poses: Array) -> list[Hypothesis]:
+def _links(pair: Sides, rigid: Alignments) -> list[Hypothesis]:
     """Readings in which one link is another: the axes before it agree under one pose, those behind
     under another.
     """
-    nothing = np.zeros((len(poses), pair.n))
     found = []
-    axes = transformed(pair, poses, nothing)[1]
-    agree = (deviations(pair, axes) <= 1.0) & (signs(pair, axes) > 0)
+    b = pair.transformed(rigid)
+    agree = (b.deviations <= 1.0) & (b.signs > 0)
     for k in range(2, pair.n - 1):
-        before = agree[:, :k].all(1)
-        behind = agree[:, k:].all(1)
-        if before.any() and behind.any():
-            P = poses[before][:1]
-            last = off_centre(pair, poses[behind][0])
-            (reading,) = make_hypotheses(pair, P, nothing[:1])
-            if reading.implicated.sum() < 2:
-                continue
-            tool = se3.inverse(last @ pair.b.home) @ pair.a.home
-            frames = sum(not still(T, pair.tol_m, pair.tol_rad) for T in (reading.base, tool))
-            found.append(replace(reading, tool=tool, frames=frames, link=k))
+        before = rigid[agree[:, :k].all(1)]
+        behind = rigid[agree[:, k:].all(1)]
+        if not len(before) or not len(behind):
+            continue
+        (reading,) = make_hypotheses(pair, before[:1])
+        if reading.implicated.sum() < 2:
+            continue
+        tool = tool_behind(pair, behind.P[0])
+        frames = int(frames_moved(pair, reading.base, tool))
+        found.append(replace(reading, tool=tool, frames=frames, link=k))
     return found
 
 
@@ -149,67 +157,59 @@ def _conventions(pair: Sides) -> list[Hypothesis]:
     """Readings in which every zero offset is free: with no bad axis, with each one, and with those
     that then miss.
     """
-    n = pair.n
-    inner = _inner(pair)
-    P, z, P_fitted, z_fitted = _other_zeros(pair)
-    found = _simplest(pair, P_fitted, z_fitted)
-    if min(found, key=_cost).moved.any():
-        tried = best(pair, np.concatenate([P, P_fitted]), np.concatenate([z, z_fitted]), 2)
-        P = np.concatenate([P[:4], tried[0]])
-        z = np.concatenate([z[:4], tried[1]])
-        suspects = pair.alike if pair.alike.all() else ~pair.alike
-        for k in np.flatnonzero(suspects):
-            used = np.arange(n) != k
-            for held in (pair, replace(pair, suspect_joint=int(k))):
-                trial = fit(held, P, z, inner, used)
-                fits = ~(aligned_deviations(held, *trial)[:, used] > 1.0).any(1)
-                readings = _simplest(held, trial[0][fits], trial[1][fits])
-                # Zero offsets about a's axis k say nothing of b's, unless that is another one.
-                found += [
-                    reading for reading in readings if held.suspect_joint < 0 or reading.moved[k]
-                ]
+    starts = _other_zeros(pair)
+    fitted = _all_zeros_free(pair, starts)
+    found = _simplest(pair, fitted)
+    if not min(found, key=_cost).moved.any():
+        return found
+    tried = starts[:4].joined(best(pair, starts.joined(fitted), 2))
+    suspects = ~pair.alike
+    if pair.alike.all():
+        suspects = pair.alike
+    for k in np.flatnonzero(suspects):
+        used = np.arange(pair.n) != k
+        for held in (pair, replace(pair, suspect_joint=int(k))):
+            trial = fit(held, tried, _inner(pair), used)
+            fits = ~(held.deviations(trial)[:, used] > 1.0).any(1)
+            readings = _simplest(held, trial[fits])
+            # Zero offsets about a's axis k say nothing of b's, unless that is another one.
+            found += [r for r in readings if held.suspect_joint < 0 or r.moved[k]]
     return found
 
 
 def _inner(pair: Sides) -> Marks:
     """The joints (n,) whose zero offsets are no turn of the base or the tool."""
-    return (np.arange(pair.n) > 0) & (np.arange(pair.n) < pair.n - 1)
+    k = np.arange(pair.n)
+    return (k > 0) & (k < pair.n - 1)
 
 
-def _other_zeros(pair: Sides) -> tuple[Array, Array, Array, Array]:
-    """Alignments (P, z) with zero offsets found joint after joint, and the same fitted to all axes
-    with them free.
-    """
-    P, z = (rows[:8] for rows in one_by_one(pair))
-    return P, z, *fit(pair, P, z, _inner(pair), np.ones(pair.n, bool))
+def _other_zeros(pair: Sides) -> Alignments:
+    """Alignments with zero offsets found joint after joint."""
+    return one_by_one(pair)[:8]
 
 
-def _simplest(pair: Sides, P: Array, z: Array) -> list[Hypothesis]:
+def _all_zeros_free(pair: Sides, starts: Alignments) -> Alignments:
+    """Starts fitted to all axes with their zero offsets free."""
+    return fit(pair, starts, _inner(pair), np.ones(pair.n, bool))
+
+
+def _simplest(pair: Sides, at: Alignments) -> list[Hypothesis]:
     """The readings of alignments with as many zero offsets put back to 0, least first, as the
     agreeing axes allow.
     """
-    kinds = np.array(pair.b.kinds)
-    z = np.where(kinds == "revolute", np.arctan2(np.sin(z), np.cos(z)), z)
-    P = P.copy()
-    agree = aligned_deviations(pair, P, z) <= 1.0
-    free = abs(z) > 0
-    for ks in np.argsort(abs(z), axis=1).T:
-        (row,) = np.nonzero(free[np.arange(len(z)), ks])
-        k = ks[row]
-        rest = free[row]
-        without = z[row]
-        rest[np.arange(len(row)), k] = False
-        without[np.arange(len(row)), k] = 0.0
-        trial = fit(pair, P[row], without, rest, agree[row])
-        fits = ~((aligned_deviations(pair, *trial) > 1.0) & agree[row]).any(1)
-        P[row[fits]] = trial[0][fits]
-        z[row[fits]] = trial[1][fits]
-        free[row[fits]] = rest[fits]
-    return make_hypotheses(pair, P, z)
-
-
-def _cost(reading: Hypothesis) -> tuple[float, ...]:
-    return reading.cost
+    turning = np.array(pair.b.kinds) == "revolute"
+    z = np.where(turning, np.arctan2(np.sin(at.z), np.cos(at.z)), at.z)
+    at = Alignments(at.P.copy(), z)
+    kept = _Start(at, abs(z) > 0, pair.deviations(at) <= 1.0)
+    for k in np.argsort(abs(z), axis=1).T[..., None]:
+        (row,) = np.nonzero(np.take_along_axis(kept.free, k, 1)[:, 0])
+        trial = kept[row]
+        np.put_along_axis(trial.free, k[row], False, 1)
+        np.put_along_axis(trial.at.z, k[row], 0.0, 1)
+        trial = replace(trial, at=trial.fitted(pair))
+        fits = ~((pair.deviations(trial.at) > 1.0) & trial.used).any(1)
+        kept[row[fits]] = trial[fits]
+    return make_hypotheses(pair, kept.at)
 
 
 def _others(first: Hypothesis, behind: Iterable[Hypothesis]) -> list[Hypothesis]:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.planted_changes import random_arm
+from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare.alignment import alignment_seeds
 from poekin.analysis.compare.alignment.alignment_seeds import (
     one_turn,
@@ -13,7 +14,8 @@ from poekin.analysis.compare.alignment.alignment_seeds import (
     rigid_poses,
     turns,
 )
-from poekin.analysis.compare.alignment.lines import deviations, lines, sides, transformed
+from poekin.analysis.compare.alignment.alignments import Alignments
+from poekin.analysis.compare.alignment.lines import lines, sides
 from poekin.analysis.compare.compare import compare
 from poekin.groups import se3
 from poekin.model import screw
@@ -36,11 +38,8 @@ def test_an_axis_misses_by_its_angle_and_by_its_distance_at_the_place_of_the_oth
     across = np.cross(S[1, :3], S[2, :3]) / np.linalg.norm(np.cross(S[1, :3], S[2, :3]))
     # Turned by 1e-3 about a point of it that is 0.5 m from its place, which so moves by 0.5 mm.
     S[1] = se3.adjoint(se3.exp(1e-3 * screw.revolute(across, place + 0.5 * S[1, :3]))) @ S[1]
-    pair = sides(chain, Chain.from_space(S, chain.home), 1e-5, 1e-3)
-    P = np.eye(4)
-    P[:3, 3] = pair.b.centre - pair.a.centre
-    nothing = np.zeros((1, 6))
-    assert deviations(pair, transformed(pair, P[None], nothing)[1])[0] == pytest.approx(
+    pair = sides(chain, Chain.from_space(S, chain.home), Tolerances(1e-5, 1e-3))
+    assert pair.deviations(pair.as_they_stand)[0] == pytest.approx(
         [0, 50, 0, 0, 0, 0], rel=1e-3, abs=1e-9
     )
     assert np.linalg.norm(place - foot) > 1e-2  # else the place would be that of the base
@@ -53,12 +52,14 @@ def test_an_axis_misses_by_its_angle_and_by_its_distance_at_the_place_of_the_oth
 def test_one_pose_of_each_pair_of_axes_brings_all_of_a_moved_arm_home(chain, signs):
     moved = chain.rebased(BASE)
     pair = sides(
-        chain, Chain.from_space(moved.screws * np.array(signs)[:, None], moved.home), 1e-6, 1e-6
+        chain,
+        Chain.from_space(moved.screws * np.array(signs)[:, None], moved.home),
+        Tolerances(1e-6, 1e-6),
     )
     for joints in [(0, 1), (0, 2), (1, 2)]:
-        found, D = pair_poses(pair, [joints])
-        miss = deviations(pair, transformed(pair, D, np.zeros((len(D), 3)))[1])
-        assert (found == joints).all()
+        found = pair_poses(pair, [joints])
+        miss = pair.deviations(found.at)
+        assert (found.joints == joints).all()
         assert miss[:, joints].max() < 1e-3  # that is 1e-9, far above rounding
         assert miss.max(axis=1).min() < 1e-3
 
@@ -67,13 +68,14 @@ def test_one_pose_of_each_pair_of_axes_brings_all_of_a_moved_arm_home(chain, sig
 def test_one_turn_finds_a_zero_offset_from_the_poses_before_the_joint_and_from_those_behind_it(k):
     chain = random_arm(4)
     offset = np.where(np.arange(6) == k, 0.7, 0.0)
-    pair = sides(chain, chain.rezeroed(offset).rebased(BASE), 1e-6, 1e-6)
-    joints, D = rigid_poses(pair)
+    pair = sides(chain, chain.rezeroed(offset).rebased(BASE), Tolerances(1e-6, 1e-6))
+    poses = rigid_poses(pair)
+    joints = poses.joints
     for i in (joints[:, 0] >= k, (joints[:, 0] >= 0) & (joints[:, 1] <= k)):
         if i.any():
-            P, z = one_turn(pair, (joints[i], D[i]), k)
-            assert deviations(pair, transformed(pair, P[:1], z[:1])[1]).max() < 1e-3
-            assert z[0] == pytest.approx(-offset, abs=1e-9)
+            found = one_turn(pair, poses[i], k)
+            assert pair.deviations(found[:1]).max() < 1e-3
+            assert found.z[0] == pytest.approx(-offset, abs=1e-9)
 
 
 def test_a_turn_brings_an_axis_onto_its_target_whether_it_slants_or_is_parallel_to_the_joint_or_the_joint_slides():
@@ -117,8 +119,10 @@ def two_lines(cosine, gap=0.5):
     "cosine, poses", [(0.5, 2), (0.535, 2), (0.465, 2), (0.545, 0), (0.455, 0), (-0.5, 2)]
 )
 def test_axes_at_another_angle_are_not_carried_onto_each_other(cosine, poses):
-    joints, D = pair_poses(sides(two_lines(0.5), two_lines(cosine), 1e-6, 1e-6), [(0, 1)])
-    assert (joints.shape, D.shape) == ((poses, 2), (poses, 4, 4))
+    pair = sides(two_lines(0.5), two_lines(cosine), Tolerances(1e-6, 1e-6))
+    found = pair_poses(pair, [(0, 1)])
+    assert (found.joints.shape, found.at.P.shape) == ((poses, 2), (poses, 4, 4))
+    assert found.at.z.shape == (poses, 2)
 
 
 SKEW = lines(
@@ -222,38 +226,41 @@ def test_a_slide_along_an_axis_moves_it_nowhere():
 
 def test_the_best_alignments_are_those_under_which_most_axes_agree_and_fewest_things_change():
     chain = random_arm(3, ("revolute",) * 4)
-    pair = sides(chain, chain, 1e-5, 1e-5)
+    pair = sides(chain, chain, Tolerances(1e-5, 1e-5))
     away = [np.eye(4), *(se3.exp(np.array([0, 0, 0, size, 0, 0])) for size in (1e-7, 5e-3, 5.0))]
     z = np.zeros((5, 4))
     z[0, 3] = 0.5  # moves no axis
     P = np.stack([away[i] for i in (0, 3, 2, 1, 0)])
-    found = alignment_seeds.best(pair, P, z, 5)
-    assert [np.flatnonzero((P == D).all((1, 2)) & (z == x).all(1)).tolist() for D, x in zip(*found, strict=True)] == [
-        [4], [0], [3], [2], [1]
-    ]  # fmt: skip
-    assert alignment_seeds.best(pair, P, z)[1].shape == (4, 4)
+    at = Alignments(P, z)
+    found = alignment_seeds.best(pair, at, 5)
+    order = [
+        np.flatnonzero((P == D).all((1, 2)) & (z == x).all(1)).tolist()
+        for D, x in zip(found.P, found.z, strict=True)
+    ]
+    assert order == [[4], [0], [3], [2], [1]]
+    assert alignment_seeds.best(pair, at).z.shape == (4, 4)
 
 
 def test_one_axis_far_off_counts_less_than_several_that_miss():
     chain = random_arm(3, ("revolute",) * 4)
     S = chain.screws.copy()
     S[3] = screw.prismatic([0, 0, 1])  # another kind, so that it never agrees
-    pair = sides(Chain.from_space(S, chain.home), chain, 1e-5, 1e-5)
-    centres = np.eye(4)
-    centres[:3, 3] = pair.b.centre - pair.a.centre
+    pair = sides(Chain.from_space(S, chain.home), chain, Tolerances(1e-5, 1e-5))
+    centres = pair.as_they_stand.P[0]
     P = np.stack([se3.exp(np.array([0, 0, 0, 5e-4, 0, 0])) @ centres, centres])
-    assert alignment_seeds.best(pair, P, np.zeros((2, 4)), 1)[0][0] == pytest.approx(centres)
+    assert alignment_seeds.best(pair, Alignments.rigid(P, 4), 1).P[0] == pytest.approx(centres)
 
 
 def test_two_axes_are_aligned_as_one_pair():
     chain = two_lines(0.3)
-    pair = sides(chain, chain.rebased(BASE), 1e-6, 1e-6)
-    P, z = alignment_seeds.one_by_one(pair)
-    assert pytest.approx(pair_poses(pair, [(0, 1)])[1]) == P
-    assert (z == np.zeros((2, 2))).all()
+    pair = sides(chain, chain.rebased(BASE), Tolerances(1e-6, 1e-6))
+    found = alignment_seeds.one_by_one(pair)
+    assert pytest.approx(pair_poses(pair, [(0, 1)]).at.P) == found.P
+    assert (found.z == np.zeros((2, 2))).all()
     alone = Chain.from_space(chain.screws[:1], chain.home)
-    assert alignment_seeds.one_by_one(sides(alone, alone, 1e-6, 1e-6))[0] == pytest.approx(
-        np.eye(4)[None]
+    assert (
+        pytest.approx(np.eye(4)[None])
+        == alignment_seeds.one_by_one(sides(alone, alone, Tolerances(1e-6, 1e-6))).P
     )
 
 
@@ -264,18 +271,19 @@ def test_beyond_many_alignments_each_pose_is_tried_with_the_turns_of_one_axis(
 ):
     chain = random_arm(4)
     offset = np.where(np.arange(6) == k, 0.7, 0.0)
-    pair = sides(chain, chain.rezeroed(offset).rebased(BASE), 1e-6, 1e-6)
-    joints, D = rigid_poses(pair)
+    pair = sides(chain, chain.rezeroed(offset).rebased(BASE), Tolerances(1e-6, 1e-6))
+    poses = rigid_poses(pair)
+    joints = poses.joints
     some = joints[:, 0] >= k if behind else (joints[:, 0] >= 0) & (joints[:, 1] <= k)
     if some.any():
         kept = []
         monkeypatch.setattr(alignment_seeds, "MOST", -1)
         monkeypatch.setattr(
-            alignment_seeds, "best", lambda pair, P, z: kept.append(len(z)) or BEST(pair, P, z)
+            alignment_seeds, "best", lambda pair, at: kept.append(len(at)) or BEST(pair, at)
         )
-        P, z = one_turn(pair, (joints[some], D[some]), k)
+        found = one_turn(pair, poses[some], k)
         assert kept == [2 * some.sum()]
-        assert deviations(pair, transformed(pair, P[:1], z[:1])[1]).max() < 1e-3
+        assert pair.deviations(found[:1]).max() < 1e-3
 
 
 def test_a_helical_axis_has_its_line_as_a_revolute_one_has():
@@ -309,17 +317,16 @@ def test_poses_are_moved_along_slides_to_where_the_first_axis_that_turns_has_its
     ]
     chain = Chain.from_space(rows, np.eye(4))
     moved = chain.rezeroed([3.0, 0, 0]).rebased(BASE)  # the slide has moved what is behind it
-    pair = sides(chain, moved, 1e-6, 1e-6)
+    pair = sides(chain, moved, Tolerances(1e-6, 1e-6))
     P = se3.inverse(BASE)
     P[:3, 3] += P[:3, :3] @ pair.b.centre - pair.a.centre + [0.3, 0.2, 0.1]
     (D,) = alignment_seeds._on_the_first_turning_axis(pair, P[None])
-    miss = deviations(pair, transformed(pair, D[None], np.zeros((1, 3)))[1])[0]
+    miss = pair.deviations(Alignments.rigid(D[None], 3))[0]
     assert miss[1:].max() < 1e-3
     turning = sides(
         Chain.from_space(chain.screws[1:], chain.home),
         Chain.from_space(moved.screws[1:], moved.home),
-        1e-6,
-        1e-6,
+        Tolerances(1e-6, 1e-6),
     )
     assert alignment_seeds._on_the_first_turning_axis(turning, P[None]) == pytest.approx(P[None])
 
@@ -346,12 +353,12 @@ def test_the_few_alignments_that_are_kept_are_those_that_miss_least_and_change_l
         if wrists
         else random_arm(4)
     )
-    pair = sides(chain, chain.rezeroed(offset).rebased(BASE), 1e-6, 1e-6)
+    pair = sides(chain, chain.rezeroed(offset).rebased(BASE), Tolerances(1e-6, 1e-6))
     monkeypatch.setattr(alignment_seeds, "BEAM", 2)
-    P, found = alignment_seeds.one_by_one(pair)
-    assert len(P) == 2
-    assert deviations(pair, transformed(pair, P, found)[1])[0].max() < 1e-3
-    assert np.sort((abs(found) > 1e-6).sum(1))[0] <= np.count_nonzero(offset)
+    found = alignment_seeds.one_by_one(pair)
+    assert len(found) == 2
+    assert pair.deviations(found)[0].max() < 1e-3
+    assert np.sort((abs(found.z) > 1e-6).sum(1))[0] <= np.count_nonzero(offset)
 
 
 def test_pairs_without_a_frame_or_at_another_angle_are_passed_over():
@@ -360,45 +367,51 @@ def test_pairs_without_a_frame_or_at_another_angle_are_passed_over():
         [screw.revolute(*row) for row in ((z, [0, 0, 0]), (z, [0, 0, 1]), (x, [0, 1, 0]))],
         np.eye(4),
     )
-    pair = sides(one, one, 1e-6, 1e-6)
-    joints, _ = pair_poses(pair, [(0, 1), (0, 2), (1, 2)])
-    assert sorted({tuple(map(int, row)) for row in joints}) == [(0, 2), (1, 2)]
+    pair = sides(one, one, Tolerances(1e-6, 1e-6))
+    found = pair_poses(pair, [(0, 1), (0, 2), (1, 2)])
+    assert sorted({tuple(map(int, row)) for row in found.joints}) == [(0, 2), (1, 2)]
     other = sides(
-        one, Chain.from_space([one.screws[0], *one.screws[[2, 2]]], np.eye(4)), 1e-6, 1e-6
+        one,
+        Chain.from_space([one.screws[0], *one.screws[[2, 2]]], np.eye(4)),
+        Tolerances(1e-6, 1e-6),
     )
-    assert {tuple(map(int, row)) for row in pair_poses(other, [(0, 1), (1, 2), (0, 2)])[0]} == {
-        (0, 2)
-    }
+    found = pair_poses(other, [(0, 1), (1, 2), (0, 2)])
+    assert {tuple(map(int, row)) for row in found.joints} == {(0, 2)}
 
 
 def test_the_first_pose_is_the_base_as_it_is_and_the_others_are_of_pairs_of_joints_of_the_same_kind():
     chain = random_arm(4, ("revolute",) * 4)
     rows = [*chain.screws[:3], screw.prismatic([1, 2, 3])]
-    pair = sides(chain, Chain.from_space(rows, chain.home), 1e-6, 1e-6)
-    joints, D = rigid_poses(pair)
+    pair = sides(chain, Chain.from_space(rows, chain.home), Tolerances(1e-6, 1e-6))
+    poses = rigid_poses(pair)
+    joints = poses.joints
     as_it_is = np.eye(4)
     as_it_is[:3, 3] = pair.b.centre - pair.a.centre
     assert joints[0].tolist() == [-1, -1]
-    assert pytest.approx(as_it_is) == D[0]
+    assert poses.at.P[0] == pytest.approx(as_it_is)
     assert {tuple(map(int, row)) for row in joints[1:]} == {(0, 1), (0, 2), (1, 2)}
-    assert len(joints) == len(D)
+    assert len(joints) == len(poses.at)
+    assert not poses.at.z.any()
 
 
 @pytest.mark.parametrize("k", [1, 2, 3, 4])
 def test_the_axes_on_the_other_side_of_a_joint_tell_its_offset(k, monkeypatch):
     chain = random_arm(4, ("revolute",) * 6)
     pair = sides(
-        chain, chain.rezeroed(np.where(np.arange(6) == k, 0.7, 0.0)).rebased(BASE), 1e-6, 1e-6
+        chain,
+        chain.rezeroed(np.where(np.arange(6) == k, 0.7, 0.0)).rebased(BASE),
+        Tolerances(1e-6, 1e-6),
     )
-    joints, D = rigid_poses(pair)
+    poses = rigid_poses(pair)
+    joints = poses.joints
     kept = []
     monkeypatch.setattr(
-        alignment_seeds, "best", lambda pair, P, z: kept.append(len(z)) or BEST(pair, P, z)
+        alignment_seeds, "best", lambda pair, at: kept.append(len(at)) or BEST(pair, at)
     )
     front, back = joints[:, 1] <= k, joints[:, 0] >= k
     for some in (front, back, front | back):
         if some.any():
-            one_turn(pair, (joints[some], D[some]), k)
+            one_turn(pair, poses[some], k)
     # Each brings there either of two turns.
     counts = [2 * some.sum() * others for some, others in ((front, 5 - k), (back, k)) if some.any()]
     assert kept == [*counts, sum(counts)]

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from benchmarks.planted_changes import planted, random_arm
+from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare.alignment import fit as fitting
+from poekin.analysis.compare.alignment.alignments import Alignments
 from poekin.analysis.compare.alignment.fit import _linearised, _step, fit
-from poekin.analysis.compare.alignment.lines import deviations, sides, transformed
+from poekin.analysis.compare.alignment.lines import sides
 from poekin.groups import se3
 
 KINDS = ("revolute", "revolute", "prismatic", "revolute", "revolute")
@@ -22,19 +24,24 @@ def near(seed, count):
     """
     rng = np.random.default_rng(seed)
     chain = random_arm(seed + 50, KINDS)
-    pair = sides(chain, planted(chain, "shift", 3, rng), 1e-5, 1e-5)
+    pair = sides(chain, planted(chain, "shift", 3, rng), Tolerances(1e-5, 1e-5))
     P, z = se3.exp(1e-3 * rng.normal(size=(count, 6))), 1e-3 * rng.normal(size=(count, 5))
-    return pair, P, z, rng.random((count, 5)) < 0.4, rng.random((count, 5)) < 0.8
+    return pair, Alignments(P, z), rng.random((count, 5)) < 0.4, rng.random((count, 5)) < 0.8
+
+
+def moved(at, xi, change):
+    """Alignments whose bases a twist moves, and whose zero offsets change."""
+    return Alignments(se3.exp(xi) @ at.P, at.z + change)
 
 
 @pytest.mark.parametrize("hinge", [-1, 0, 1, 2, 3])
 def test_the_derivatives_are_those_of_the_residuals(hinge):
-    pair, P, z, free, used = near(0, 4)
+    pair, at, free, used = near(0, 4)
     pair, h = replace(pair, suspect_joint=hinge), 1e-6
-    J = _linearised(pair, P, z, free, used)[1]
+    J = _linearised(pair, at, free, used).J
     for c, xi in enumerate(np.eye(11)):
         ahead, back = (
-            _linearised(pair, se3.exp(t * xi[:6]) @ P, z + t * xi[6:] * free, free, used)[0]
+            _linearised(pair, moved(at, t * xi[:6], t * xi[6:] * free), free, used).r
             for t in (h, -h)
         )
         # 1e5 tolerances a metre or radian: of central differences they leave h^2 and, by rounding,
@@ -44,28 +51,27 @@ def test_the_derivatives_are_those_of_the_residuals(hinge):
 
 
 def test_starts_fitted_together_come_out_as_each_alone():
-    pair, P, z, free, used = near(1, 6)
-    together = fit(pair, P, z, free, used)
+    pair, at, free, used = near(1, 6)
+    together = fit(pair, at, free, used)
     for i in range(6):
-        alone = fit(pair, P[i : i + 1], z[i : i + 1], free[i], used[i])
-        for ours, theirs in zip(together, alone, strict=True):
-            assert ours[i] == pytest.approx(theirs[0], abs=1e-12)
-    assert (together[1] == z)[~free].all()
+        alone = fit(pair, at[i : i + 1], free[i], used[i])
+        assert together.P[i] == pytest.approx(alone.P[0], abs=1e-12)
+        assert together.z[i] == pytest.approx(alone.z[0], abs=1e-12)
+    assert (together.z == at.z)[~free].all()
 
 
 def test_a_fit_takes_the_base_and_the_free_zero_offsets_to_where_the_used_axes_agree():
-    pair, P, z, _, _ = near(2, 3)
+    pair, at, _, _ = near(2, 3)
     inner = np.array([False, True, True, True, False])
     used = np.arange(5) != 3
-    start = z * inner
-    fitted = fit(pair, P, start, inner, used)
-    miss = deviations(pair, transformed(pair, *fitted)[1])
+    fitted = fit(pair, Alignments(at.P, at.z * inner), inner, used)
+    miss = pair.deviations(fitted)
     assert miss[:, used].max() < 1e-6
     assert miss[:, ~used].min() > 99  # the shift of 1 mm, in tolerances of 0.01 mm
     base = np.eye(4)
     base[:3, 3] = pair.b.centre - pair.a.centre
-    assert fitted[0] == pytest.approx(np.tile(base, (3, 1, 1)), abs=1e-9)
-    assert fitted[1] == pytest.approx(np.zeros((3, 5)), abs=1e-9)
+    assert pytest.approx(np.tile(base, (3, 1, 1)), abs=1e-9) == fitted.P
+    assert fitted.z == pytest.approx(np.zeros((3, 5)), abs=1e-9)
 
 
 def test_a_step_lessens_residuals_held_back_by_each_coordinate_s_own_size():
@@ -99,24 +105,26 @@ def counted(monkeypatch, most, *arguments):
 
 
 def test_a_fit_that_starts_near_takes_few_steps_and_ends_where_none_helps(monkeypatch):
-    pair, P, z, _, _ = near(2, 3)
+    pair, at, _, _ = near(2, 3)
     free, used = np.array([False, True, True, True, False]), np.arange(5) != 3
-    (Q, y), taken = counted(monkeypatch, 60, pair, P, z * free, free, used)
+    start = Alignments(at.P, at.z * free)
+    there, taken = counted(monkeypatch, 60, pair, start, free, used)
     assert taken <= 6
     # The error squares itself: from 100 tolerances beyond 1e-9 in four steps.
-    fitted, _ = counted(monkeypatch, 4, pair, P, z * free, free, used)
-    assert deviations(pair, transformed(pair, *fitted)[1])[:, used].max() < 1e-8
+    fitted, _ = counted(monkeypatch, 4, pair, start, free, used)
+    assert pair.deviations(fitted)[:, used].max() < 1e-8
     # With the axis that differs too, the least squares are none that vanish: from there no step
     # helps, and until the damping has grown from 1e-6 beyond 1e3 ten are tried.
-    least, _ = counted(monkeypatch, 60, pair, P, z * free, free, used | True)
-    again, taken = counted(monkeypatch, 60, pair, *least, free, used | True)
-    assert again[0] == pytest.approx(least[0], abs=1e-9)
+    least, _ = counted(monkeypatch, 60, pair, start, free, used | True)
+    again, taken = counted(monkeypatch, 60, pair, least, free, used | True)
+    assert pytest.approx(least.P, abs=1e-9) == again.P
     assert 1 <= taken <= 14
-    assert counted(monkeypatch, 60, pair, Q, y, free, used)[1] <= 1
+    assert counted(monkeypatch, 60, pair, there, free, used)[1] <= 1
     # A tenth of a tolerance is still too much, and nothing at all is not.
     chain = random_arm(50, KINDS)
-    same, here = sides(chain, chain, 1e-5, 1e-5), np.eye(4)[None]
+    same = sides(chain, chain, Tolerances(1e-5, 1e-5))
+    here = same.as_they_stand
     off = se3.exp(np.array([[0, 0, 0, 1e-6, 0, 0]]))
-    (found, _), _ = counted(monkeypatch, 60, same, off, np.zeros((1, 5)), free, used)
-    assert found == pytest.approx(here, abs=1e-12)
-    assert counted(monkeypatch, 60, same, here, np.zeros((1, 5)), free, used)[1] == 0
+    found, _ = counted(monkeypatch, 60, same, Alignments.rigid(off, 5), free, used)
+    assert pytest.approx(here.P, abs=1e-12) == found.P
+    assert counted(monkeypatch, 60, same, here, free, used)[1] == 0

@@ -10,16 +10,9 @@ import numpy as np
 import pytest
 
 from benchmarks.planted_changes import random_arm
-from poekin.analysis.compare.alignment.lines import (
-    carriers,
-    deviations,
-    lines,
-    residuals,
-    sides,
-    signs,
-    suspect_screw,
-    transformed,
-)
+from poekin.analysis.axis_lines import Tolerances
+from poekin.analysis.compare.alignment.alignments import Alignments
+from poekin.analysis.compare.alignment.lines import lines, sides
 from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
@@ -73,41 +66,39 @@ def moved(chain, k, angle=0.0, length=0.0, along=X):
 
 def test_a_miss_is_the_larger_of_the_turn_and_the_way_at_its_place_each_in_tolerances():
     chain = chain_of(screw.revolute(Z, [1, 2, 0]), screw.revolute(Y, [3, 0, 5]), screw.prismatic(Z))
-    tol_m, tol_rad, nothing = 1e-4, 1e-3, np.zeros((1, 3))
+    tol = Tolerances(1e-4, 1e-3)
     for k, angle, length, expected in ((0, 3e-6, 5e-4, 5), (1, 0.003, 1e-5, 3), (2, 0.004, 7.0, 4)):
         other = moved(chain, k, angle, length)
-        pair = sides(chain, other, tol_m, tol_rad)
-        P = np.eye(4)[None].copy()
-        P[:, :3, 3] = pair.b.centre - pair.a.centre
-        axes = transformed(pair, P, nothing)[1]
-        assert deviations(pair, axes)[0] == pytest.approx(
+        pair = sides(chain, other, tol)
+        b = pair.transformed(pair.as_they_stand)
+        assert b.deviations[0] == pytest.approx(
             np.where(np.arange(3) == k, expected, 0), rel=1e-3, abs=1e-8
         )
         # The direction comes first, as a vector; the place of a slide is its direction once more.
-        r = residuals(pair, axes)[0, k]
+        r = b.residuals[0, k]
         if k < 2:
-            assert np.linalg.norm(r[3:]) == pytest.approx(length / tol_m, rel=1e-3)
-            assert np.linalg.norm(r[:3]) == pytest.approx(angle / tol_rad, rel=1e-3)
+            assert np.linalg.norm(r[3:]) == pytest.approx(length / tol.position, rel=1e-3)
+            assert np.linalg.norm(r[:3]) == pytest.approx(angle / tol.rotation, rel=1e-3)
         else:
             assert (np.linalg.norm(r[3:]), r[:3].any()) == (
-                pytest.approx(angle / tol_rad, rel=1e-3),
+                pytest.approx(angle / tol.rotation, rel=1e-3),
                 False,
             )
         # And the other way round it is the same axis.
         flipped = Chain.from_space(
             other.screws * np.where(np.arange(3) == k, -1, 1)[:, None], other.home
         )
-        pair = sides(chain, flipped, tol_m, tol_rad)
-        axes = transformed(pair, P, nothing)[1]
-        assert signs(pair, axes)[0].tolist() == [-1 if i == k else 1 for i in range(3)]
-        assert deviations(pair, axes)[0, k] == pytest.approx(expected, rel=1e-3)
+        pair = sides(chain, flipped, tol)
+        b = pair.transformed(pair.as_they_stand)
+        assert b.signs[0].tolist() == [-1 if i == k else 1 for i in range(3)]
+        assert b.deviations[0, k] == pytest.approx(expected, rel=1e-3)
 
 
 def test_joints_are_alike_whose_kind_is_the_same_and_whose_pitch_shows_less_than_the_tolerance_in_a_turn():
     def pair(pitch):
         a, b = (chain_of(screw.helical(Z, [1, 0, 0], h), screw.prismatic(Z), screw.revolute(Z, [1, 1, 0]))
                 for h in (0.1, 0.1 + pitch))  # fmt: skip
-        return sides(a, b, 1e-5, 1e-3)
+        return sides(a, b, Tolerances(1e-5, 1e-3))
 
     assert pair(1.5e-6).alike.tolist() == [True, True, True]
     assert pair(-1.7e-6).alike.tolist() == [False, True, True]
@@ -117,9 +108,9 @@ def test_joints_are_alike_whose_kind_is_the_same_and_whose_pitch_shows_less_than
         for S in (screw.prismatic(Z), screw.revolute(Z, [1, 0, 0]))
     )
     for one, two, tolerance in ((a, b, 1e-3), (b, a, 1e-5)):
-        unlike = sides(one, two, 1e-5, 1e-3)
-        axes = transformed(unlike, np.eye(4)[None], np.zeros((1, 2)))[1]
-        assert (unlike.alike.tolist(), deviations(unlike, axes)[0, 0]) == ([False, True], np.inf)
+        unlike = sides(one, two, Tolerances(1e-5, 1e-3))
+        miss = unlike.deviations(Alignments.rigid(np.eye(4)[None], 2))
+        assert (unlike.alike.tolist(), miss[0, 0]) == ([False, True], np.inf)
         assert unlike.zero_tolerance[0] == tolerance  # of b's joint
 
 
@@ -133,14 +124,15 @@ def test_a_hinge_turns_what_is_behind_it_about_the_other_model_s_axis_the_way_it
             S = other.screws.copy()
             S[k] *= sign
             pair = replace(
-                sides(chain, Chain.from_space(S, chain.home), 1e-5, 1e-5), suspect_joint=k
+                sides(chain, Chain.from_space(S, chain.home), Tolerances(1e-5, 1e-5)),
+                suspect_joint=k,
             )
-            D = carriers(pair, P, z)
+            D = pair.carriers(Alignments(P, z))
             D_k = D[:, k]
             own = sign * pair.a.screws[k]
             part = slice(3, 6) if k == 2 else slice(0, 3)
             assert ((se3.adjoint(D_k) @ pair.b.screws[k])[:, part] @ own[part] > 0).all()
-            assert suspect_screw(pair, se3.adjoint(D_k) @ pair.b.screws[k]) == pytest.approx(
+            assert pair.suspect_screw(se3.adjoint(D_k) @ pair.b.screws[k]) == pytest.approx(
                 np.stack([own, own])
             )
             assert D[:, k + 1] == pytest.approx(se3.exp(own * z[:, k, None]) @ D_k)
@@ -156,9 +148,7 @@ def test_an_axis_that_is_perpendicular_to_its_own_is_not_reversed():
     )
     for sign in (1.0, -1.0):
         turned = Chain.from_space(other.screws * [[sign], [1.0]], other.home)
-        pair = replace(sides(chain, turned, 1e-5, 1e-5), suspect_joint=0)
-        P = np.eye(4)[None].copy()
-        P[:, :3, 3] = pair.b.centre - pair.a.centre
-        screws, axes = transformed(pair, P, np.zeros((1, 2)))
-        assert signs(pair, axes).tolist() == [[1, 1]]
-        assert suspect_screw(pair, screws[:, 0]) == pytest.approx(pair.a.screws[:1])
+        pair = replace(sides(chain, turned, Tolerances(1e-5, 1e-5)), suspect_joint=0)
+        b = pair.transformed(pair.as_they_stand)
+        assert b.signs.tolist() == [[1, 1]]
+        assert pair.suspect_screw(b.screws[:, 0]) == pytest.approx(pair.a.screws[:1])

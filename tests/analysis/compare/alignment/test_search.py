@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from benchmarks.planted_changes import random_arm
+from poekin.analysis.axis_lines import Tolerances
 from poekin.analysis.compare.alignment.alignment_seeds import rigid_poses
+from poekin.analysis.compare.alignment.alignments import Alignments
 from poekin.analysis.compare.alignment.hypotheses import Hypothesis
 from poekin.analysis.compare.alignment.lines import sides
 from poekin.analysis.compare.alignment.search import (
@@ -22,7 +24,8 @@ from poekin.groups import se3
 from poekin.model import screw
 from poekin.model.chain import Chain
 
-N, TOL = 4, (1e-5, np.radians(1e-3))
+N = 4
+TOL = Tolerances(1e-5, np.radians(1e-3))
 
 
 def reading(moved=(), offset=(), reversed_=(), frames=0, link=0):
@@ -75,7 +78,7 @@ def test_a_reading_that_blames_fewer_joints_and_moves_no_frame_comes_before_one_
 def test_the_zeros_of_the_first_and_the_last_joint_are_turns_of_base_and_tool(n):
     chain = random_arm(1, ("revolute",) * n)
     expected = [0 < k < n - 1 for k in range(n)]
-    assert _inner(sides(chain, chain, *TOL)).tolist() == expected
+    assert _inner(sides(chain, chain, TOL)).tolist() == expected
 
 
 @pytest.mark.parametrize("n, k", [(5, 2), (5, 3), (4, 2)])
@@ -86,8 +89,8 @@ def test_a_link_of_another_shape_moves_what_is_behind_it_and_the_tool_with_it(n,
     for tool, frames in ((np.eye(4), 1), (se3.exp([0, 0, 0, 0, 0, 0.1]), 2)):
         # The tool is the one behind the link: it has moved with it.
         other = Chain.from_space(S, bent @ chain.home @ tool).rebased(base)
-        pair = sides(chain, other, *TOL)
-        (found,) = _links(pair, rigid_poses(pair)[1])
+        pair = sides(chain, other, TOL)
+        (found,) = _links(pair, rigid_poses(pair).at)
         assert (found.link, found.frames, found.moved.tolist()) == (
             k,
             frames,
@@ -95,7 +98,8 @@ def test_a_link_of_another_shape_moves_what_is_behind_it_and_the_tool_with_it(n,
         )
         assert found.base == pytest.approx(se3.inverse(base), abs=1e-9)
         assert found.tool == pytest.approx(se3.inverse(tool), abs=1e-9)
-    assert _links(sides(chain, chain, *TOL), rigid_poses(sides(chain, chain, *TOL))[1]) == []
+    same = sides(chain, chain, TOL)
+    assert _links(same, rigid_poses(same).at) == []
 
 
 def test_a_link_with_one_axis_behind_it_is_an_axis_that_moved():
@@ -103,19 +107,17 @@ def test_a_link_with_one_axis_behind_it_is_an_axis_that_moved():
     S = chain.screws.copy()
     S[3] = se3.adjoint(se3.exp([0.02, 0.01, 0.03, 0.1, 0.2, 0.1])) @ S[3]
     other = Chain.from_space(S, chain.home)
-    pair = sides(chain, other, *TOL)
-    assert _links(pair, rigid_poses(pair)[1]) == []
+    pair = sides(chain, other, TOL)
+    assert _links(pair, rigid_poses(pair).at) == []
 
 
 def test_zero_offsets_that_no_axis_needs_are_put_back_and_whole_turns_taken_off():
     chain = random_arm(3, ("revolute",) * 5)
     other = chain.rezeroed([0, 0, 0.4, 0, 0])
-    pair = sides(chain, other, *TOL)
-    centres = np.eye(4)
-    centres[:3, 3] = pair.b.centre - pair.a.centre
+    pair = sides(chain, other, TOL)
     # The last offset moves no axis; -0.4 and a turn less are one to a revolute joint.
     z = np.array([[0, 0, -0.4, 0, 0.3], [0, 0, -0.4 + 2 * np.pi, 0, 0.0], [0, 0, -0.4, 1e-9, 0.0]])
-    for found in _simplest(pair, np.tile(centres, (3, 1, 1)), z):
+    for found in _simplest(pair, Alignments(pair.as_they_stand.tiled(3).P, z)):
         assert found.zeros == pytest.approx([0, 0, -0.4, 0, 0], abs=1e-9)
         assert (found.zeros == 0).tolist() == [True, True, False, True, True]
         assert not found.moved.any()
@@ -131,7 +133,7 @@ def test_arms_of_few_joints_are_read_too(n, kind):
     if kind == "direction":
         S[k] *= -1
     other = Chain.from_space(S, chain.home).rezeroed(0.1 * (kind == "zero") * (np.arange(n) == k))
-    first, others = search(chain, other, *TOL)
+    first, others = search(chain, other, TOL)
     assert first.implicated.sum() <= 1
     assert all(found.implicated.sum() == 1 for found in others)
     assert compare(chain, other, samples=5).differing or first.frames
@@ -147,5 +149,5 @@ def test_an_arm_of_slides_alone_is_read():
     chain = Chain.from_space(
         [screw.prismatic(row) for row in np.random.default_rng(1).normal(size=(3, 3))], np.eye(4)
     )
-    first, _ = search(chain, chain.rebased(se3.exp([0.1, 0.2, 0.3, 1, 2, 3])), *TOL)
+    first, _ = search(chain, chain.rebased(se3.exp([0.1, 0.2, 0.3, 1, 2, 3])), TOL)
     assert not first.implicated.any()
