@@ -150,9 +150,11 @@ def test_the_model_with_longer_lengths_is_the_larger_one():
 
 
 def two_ends(kind):
-    make = (
-        pk.screw.prismatic if kind == "prismatic" else lambda z: pk.screw.revolute(z, [0.1, 0.2, 0])
-    )
+    make = {
+        "prismatic": pk.screw.prismatic,
+        "revolute": lambda z: pk.screw.revolute(z, [0.1, 0.2, 0]),
+        "helical": lambda z: pk.screw.helical(z, [0.1, 0.2, 0], 0.05),
+    }[kind]
     rows = [make([0, 0, 1.0]), pk.screw.revolute([0, 1, 0], [0.3, 0, 0]), make([1.0, 0, 0])]
     return Chain.from_space(
         rows, pk.se3.exp([0.3, 0.2, 0.1, 1, 0, 0]), joint_names=["first", "mid", "last"]
@@ -161,6 +163,8 @@ def two_ends(kind):
 
 @pytest.mark.parametrize("kind, size, far", [
     ("revolute", 0.1, "5.73°"), ("revolute", -np.pi, "180°"), ("prismatic", -0.25, "-250 mm"),
+    # just beyond half a turn, where the logarithm turns the other way about
+    ("helical", np.pi + 1e-9, "180°"), ("helical", -np.pi - 1e-9, "180°"),
 ])  # fmt: skip
 @pytest.mark.parametrize("direction", [1.0, -1.0])
 def test_a_frame_moved_along_or_about_an_end_joint_is_its_zero_offset(kind, size, far, direction):
@@ -186,6 +190,23 @@ def test_a_frame_moved_along_or_about_an_end_joint_is_its_zero_offset(kind, size
     assert said(tool=tool) == expected("tool", 3, "last")
     for slip in ([0, 0, 0, 0, 2e-6, 0], [0, 2e-6, 0, 0, 0, 0]):
         assert said(base=pk.se3.exp(slip) @ base) == []
+
+
+def test_a_moved_frame_has_the_unit_of_its_own_end_joint():
+    turn, slide = pk.screw.revolute([0, 0, 1], [0.1, 0, 0]), pk.screw.prismatic([1, 0, 0])
+    for rows, base, tool in (
+        ([turn, slide], "5.73°", "100 mm"),
+        ([slide, turn], "100 mm", "5.73°"),
+    ):
+        chain = Chain.from_space(rows, np.eye(4))
+        marks = np.zeros(2, bool)
+        moved = Hypothesis(
+            pk.se3.exp(0.1 * rows[0]), pk.se3.exp(0.1 * rows[1]), np.zeros(2), np.ones(2), marks, marks,
+            chain.screws, np.zeros(2), 2,
+        )  # fmt: skip
+        first, last = messages.equivalents(chain, chain, moved, [], Tolerances(1e-6, 1e-6))
+        assert first.startswith(f"the base moved by {base} along")
+        assert last.startswith(f"the tool moved by {tool} along")
 
 
 def test_other_readings_say_which_joint_is_to_blame_instead_and_for_what():

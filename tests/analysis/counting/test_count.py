@@ -13,7 +13,8 @@ import pytest
 
 import poekin as pk
 from poekin.analysis.counting import count_methods, count_scalars
-from poekin.analysis.counting.count import METHODS
+from poekin.analysis.counting import count_table as tables
+from poekin.analysis.counting.count import METHODS, Count
 from poekin.analysis.counting.count_table import PRINTED, count_table, printed
 
 JOINTS = range(2, 13)
@@ -355,6 +356,35 @@ def test_the_table_has_every_column_and_is_plain_data():
     assert lines[-1] == table.verdict[-1]
     assert table.cheapest is not None
     assert document["cheapest"]["joint"] == table.cheapest.joint
+
+
+def test_the_summary_has_each_heading_and_its_rows_below_it_indented():
+    table = count_table(arm("rrr"))
+    _, *lines = table.summary().split("\n")
+    expected = []
+    for group in table.groups:
+        expected += [f"{group}:", *(f"  {row.summary()}" for row in table.of(group))]
+    assert lines == [*expected, *table.verdict]
+
+
+@pytest.mark.parametrize(
+    "more, words",
+    [
+        ((0, 0), "nothing"),
+        ((3, 0), "3 multiplications and 0 additions"),
+        ((0, 2), "0 multiplications and 2 additions"),
+        ((0, -2), "0 multiplications and -2 additions"),
+    ],
+)
+def test_a_gap_is_nothing_where_neither_multiplications_nor_additions_differ(
+    more, words, monkeypatch
+):
+    def cost(_chain, *, method, **_):
+        return Count(10, 7) if method == "recursive" else Count(10 + more[0], 7 + more[1])
+
+    monkeypatch.setattr(tables, "count", cost)
+    first, *_ = tables._verdict(arm("rrr"))
+    assert first == f"The paper's way of counting gives POE an advantage of {words} over DH."
 
 
 def test_the_verdict_is_in_the_arm_s_own_numbers():

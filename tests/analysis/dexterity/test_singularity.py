@@ -54,6 +54,15 @@ def test_a_stretched_arm_cannot_move_along_itself():
     assert np.abs(arm.jacobian(ELBOW, "hybrid") @ s.joint_direction).max() < 1e-14
 
 
+@pytest.mark.parametrize("q", [[0.0, 0.0], [0.0, 1.2], [2.0, -1.2], [-1.0, np.pi]], ids=str)
+def test_no_component_of_a_direction_is_a_negative_zero(q):
+    joints = [pk.screw.revolute([0, 0, 1], [x, 0, 0]) for x in (0.0, 0.5)]
+    s = singularity(pk.Chain.from_space(joints, pk.se3.exp([0, 0, 0, 1, 0, 0])), q)
+    for vector in (s.singular_direction, s.singular_subspace, s.joint_direction):
+        assert not np.signbit(vector[vector == 0]).any()
+    assert (s.singular_direction[:3] == 0).all()  # the translation alone is judged
+
+
 def test_aligned_wrist_axes_lose_a_turn_about_what_is_square_to_them():
     arm, q = elbow_arm(), np.array([0.3, -0.7, 0.9, 0.4, 0.0, 0.2])
     s, T = singularity(arm, q), arm.joint_poses(q)
