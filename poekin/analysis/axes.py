@@ -19,12 +19,13 @@ from .axis_lines import (
     Tolerances,
     direction,
     distance_to_line,
+    line_angle,
     normal_length,
     place,
     prismatic,
     uncoupled_at_zero,
 )
-from .shapes import Shape, ShapeKind, line_angle, shapes
+from .shapes import Shape, ShapeKind, shapes
 
 __all__ = ["AxesReport", "AxisPair", "axes"]
 
@@ -202,12 +203,12 @@ def axes(
         positive(tol_rotation, "tol_rotation"),
     )
     rest = uncoupled_at_zero(chain)
-    pairs = tuple(_pairs(rest, tol))
+    pairs = tuple(axis_pairs(rest, tol))
     coaxial = [pair.parallel and pair.intersecting for pair in pairs if pair.fixed]
     return AxesReport(pairs, shapes(rest, coaxial, tol), *tol)
 
 
-def _pairs(rest: Chain, tol: Tolerances) -> Iterator[AxisPair]:
+def axis_pairs(rest: Chain, tol: Tolerances) -> Iterator[AxisPair]:
     """Relations of neighbouring and every third axes of a chain at rest."""
     slides = prismatic(rest)
     ways = direction(rest.screws, slides)

@@ -49,6 +49,16 @@ def place(axes: Array) -> Array:
     return cross(axes[..., :3], axes[..., 3:])
 
 
+def sine(w: Array, u: Array) -> float:
+    """Sine of the angle between unit directions."""
+    return float(np.linalg.norm(cross(w, u)))
+
+
+def line_angle(w: Array, u: Array) -> float:
+    """Angle between two lines whatever their directions, 0 to π/2 rad."""
+    return math.atan2(sine(w, u), abs(float(w @ u)))
+
+
 def distance_to_line(gap: Array, w: Array) -> float:
     """Distance (m) of a point from a line along w, `gap` from a point of the line."""
     return float(np.linalg.norm(gap - w * (w @ gap)))
@@ -58,8 +68,21 @@ def normal_length(w: Array, u: Array, gap: Array) -> float:
     """Length (m) of the common normal of lines along w and u that are not parallel, `gap` between
     them.
     """
-    across = cross(w, u)
-    return abs(float(gap @ across)) / float(np.linalg.norm(across))
+    return abs(float(gap @ cross(w, u))) / sine(w, u)
+
+
+def nearest_point(screws: Array, start: Array, rcond: float) -> Array:
+    """The point (3,) nearest to axes; where they leave it free, within `rcond`, nearest to a start."""
+    w = screws[:, :3]
+    across = np.eye(3) - w[:, :, None] * w[:, None]
+    right = applied(across, place(screws) - start)
+    moved = np.linalg.lstsq(across.reshape(-1, 3), right.reshape(-1), rcond=rcond)[0]
+    return start + moved
+
+
+def applied(M: Array, x: Array) -> Array:
+    """M x over the last axes, matrices (..., k, k) and vectors (..., k)."""
+    return (M @ x[..., None])[..., 0]
 
 
 def uncoupled_at_zero(chain: Chain) -> Chain:
@@ -67,22 +90,14 @@ def uncoupled_at_zero(chain: Chain) -> Chain:
     coordinate sets them.
     """
     C = chain.coupling
-    if np.array_equal(C, np.eye(len(C))) and not chain.offset.any():
+    if chain.nontrivial_coupling is None and not chain.offset.any():
         return chain
     limits = np.tile([-np.inf, np.inf], (len(C), 1))
     for i, row in enumerate(C):
         (ks,) = np.nonzero(row)
         if len(ks) == 1:
             limits[i] = np.sort(row[ks[0]] * chain.limits[ks[0]]) + chain.offset[i]
-    bare = Chain.from_space(
-        chain.screws,
-        chain.home,
-        joint_names=chain.joint_names,
-        limits=limits,
-        base=chain.base,
-        tip=chain.tip,
-        pitches=chain.pitches,
-    )
-    if chain.offset.any():
-        return bare.rezeroed(chain.offset)
-    return bare
+    bare = chain.replace(coupling=None, q_names=None, limits=limits, offset=None)
+    if not chain.offset.any():
+        return bare
+    return bare.rezeroed(chain.offset)

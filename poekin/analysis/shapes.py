@@ -4,19 +4,16 @@ closed form.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal
 
-import numpy as np
-
 from ..groups.arrays import Array
 from ..model.chain import Chain
 from ..results import Result
 from .amounts import amount
-from .axis_lines import Tolerances, cross, place
+from .axis_lines import Tolerances, distance_to_line, line_angle, nearest_point, place
 
 __all__ = ["Shape", "ShapeKind", "shapes"]
 
@@ -113,11 +110,6 @@ def _solvable(n: int, threes: list[Shape]) -> Iterator[Shape]:
         yield Shape("S-R-S", tuple(range(1, 8)), max(shape.error for shape in ends))
 
 
-def line_angle(w: Array, u: Array) -> float:
-    """Angle between two lines whatever their directions, 0 to π/2 rad."""
-    return math.atan2(float(np.linalg.norm(cross(w, u))), abs(float(w @ u)))
-
-
 def _apart(screws: Array) -> float:
     """The largest angle between any two axes, as lines, in rad."""
     return max(line_angle(a[:3], b[:3]) for a, b in combinations(screws, 2))
@@ -126,9 +118,7 @@ def _apart(screws: Array) -> float:
 def _meeting(screws: Array) -> float:
     """The largest distance in m of the axes from the point that is nearest to all of them."""
     feet = place(screws)
-    across = np.eye(3) - screws[:, :3, None] * screws[:, None, :3]
-    start = feet.mean(axis=0)
-    right = (across @ (feet - start)[:, :, None]).reshape(-1)
     # Axes almost parallel meet far away, which is of no use: their meeting point stays near.
-    point = start + np.linalg.lstsq(across.reshape(-1, 3), right, rcond=1e-3)[0]
-    return float(np.linalg.norm((across @ (feet - point)[:, :, None])[:, :, 0], axis=1).max())
+    point = nearest_point(screws, feet.mean(axis=0), 1e-3)
+    lines = zip(feet - point, screws[:, :3], strict=True)
+    return max(distance_to_line(gap, w) for gap, w in lines)

@@ -257,39 +257,35 @@ def chain_errors(
     """
     unknown = [name for name in chain.q_names if name not in oracle.coordinates]
     if unknown:
-        return _row(
-            chain,
-            np.full((4, 1), np.inf),
-            {},
-            f"Pinocchio has no coordinate {quote(unknown[0])}",
-        )
-    own = [oracle.coordinates.index(name) for name in chain.q_names]
-    configurations = np.zeros((1, 0))
-    if oracle.coordinates:
-        values = np.column_stack([np.asarray(q[n], float) for n in oracle.coordinates])
-        configurations = np.ascontiguousarray(values[:, own])
+        note = f"Pinocchio has no coordinate {quote(unknown[0])}"
+        return _row(chain, [math.inf] * 4, {}, note)
     expected, columns = oracle.evaluate(q, chain.tip, chain.base)
-    weight = np.array([1.0, 1.0, 1.0, 1 / chain.reach])
-    errors = [np.abs((chain.fk(configurations) - expected)[:, :3] * weight).max((1, 2))]
-    rows = np.array([1.0] * 3 + [1 / chain.reach] * 3)[:, None]
+    configurations = np.zeros((len(expected), chain.dof))
+    for i, name in enumerate(chain.q_names):
+        configurations[:, i] = q[name]
+    apart = (chain.fk(configurations) - expected)[:, :3]
+    apart[..., 3] *= 1 / chain.reach
+    errors = [np.abs(apart).max((1, 2))]
+    own = [oracle.coordinates.index(name) for name in chain.q_names]
     for frame in FRAME_NAMES:
-        J = np.zeros(columns[frame].shape)
-        J[..., own] = chain.jacobian(configurations, frame)
-        errors.append(np.abs((J - columns[frame]) * rows).max((1, 2), initial=0.0))
+        apart = -columns[frame]
+        apart[..., own] += chain.jacobian(configurations, frame)
+        apart[:, 3:] *= 1 / chain.reach
+        errors.append(np.abs(apart).max((1, 2), initial=0.0))
     worst = int(np.argmax(np.nan_to_num(np.max(errors, axis=0), nan=np.inf)))
-    configuration = {name: float(configurations[worst, i]) for i, name in enumerate(chain.q_names)}
-    return _row(chain, np.array(errors), configuration, note)
+    configuration = dict(zip(chain.q_names, configurations[worst].tolist(), strict=True))
+    # np.max hands on a NaN, so that one wrong configuration cannot hide among right ones.
+    return _row(chain, np.max(errors, axis=1).tolist(), configuration, note)
 
 
 def _row(
     chain: Chain,
-    errors: np.ndarray,
+    errors: list[float],
     configuration: dict[str, float],
     note: str,
 ) -> ChainErrors:
-    # np.max hands on a NaN, so that one wrong configuration cannot hide among right ones.
-    pose, space, body, hybrid = np.max(errors, axis=1).tolist()
     ends = (chain.base, chain.tip, len(chain.joint_names), chain.dof, chain.reach)
+    pose, space, body, hybrid = errors
     return ChainErrors(*ends, pose, space, body, hybrid, configuration, note)
 
 

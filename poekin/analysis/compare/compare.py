@@ -18,12 +18,12 @@ from ..axis_lines import (
     POSITION,
     ROTATION,
     Tolerances,
-    cross,
     direction,
     distance_to_line,
     normal_length,
     place,
     prismatic,
+    sine,
     uncoupled_at_zero,
 )
 from .alignment.hypotheses import Hypothesis, as_they_stand
@@ -296,7 +296,7 @@ def _apart(
     """Angle (rad), common normal and distance at a place (m) of two axes, `gap` between their
     places; of axes without a place the angle alone.
     """
-    angle = math.atan2(float(np.linalg.norm(cross(w, u))), float(w @ u))
+    angle = math.atan2(sine(w, u), float(w @ u))
     if gap is None:
         return angle, None, None
     shift = distance_to_line(gap, u)

@@ -13,7 +13,7 @@ import numpy as np
 from ...groups import se3, so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ..axis_lines import Tolerances
+from ..axis_lines import Tolerances, sine
 from .alignment.lines import Lines, lines
 from .length_unit import rescaled
 
@@ -72,21 +72,21 @@ def held_positions(
     size = max(float(np.linalg.norm(lines(long).places)), tol.position)
     # In units of the arm's own size, so that lengths and angles count alike.
     ours, theirs = (lines(rescaled(chain, 1.0 / size)) for chain in (long, short))
-    front = _side(ours, range(run[0] - 1, -1, -1), gone)
+    front = _side(ours, reversed(range(run[0])), gone)
     behind = _side(ours, range(run[-1] + 1, len(ours.kinds)), gone)
     both = front + behind
-    wanted = theirs.axes[[j - sum(k < j for k in gone) for j in both]]
-    starts = _starts(ours, run)
+    wanted = {j: theirs.axes[j - sum(k < j for k in gone)] for j in both}
     tried: list[tuple[float, Array]] = []
     for signs in product((1.0, -1.0), repeat=len(both) - 1):
-        signed = dict(zip(both, np.array([1.0, *signs])[:, None] * wanted, strict=True))
+        signed = {j: sign * wanted[j] for j, sign in zip(both, (1.0, *signs), strict=True)}
         relations = _relations(ours, front, behind, signed)
-        x = starts
+        x = _starts(ours, run)
         for _ in range(STEPS):
             x = x + _step(*_misfit(ours, run, behind, relations, x))
-        tried += zip(abs(_misfit(ours, run, behind, relations, x)[0]).max(1), x, strict=True)
+        r, _ = _misfit(ours, run, behind, relations, x)
+        tried += zip(abs(r).max(1), x, strict=True)
     turning = np.array([ours.kinds[k] == "revolute" for k in run])
-    units = np.array([size if ours.kinds[k] == "prismatic" else 1.0 for k in run])
+    units = np.where(ours.slides[list(run)], size, 1.0)
     found: list[Array] = []
     for miss, x in sorted(tried, key=lambda row: row[0]):
         x = np.where(turning, np.arctan2(np.sin(x), np.cos(x)), x)
@@ -106,7 +106,7 @@ def _side(ours: Lines, joints: Iterable[int], gone: Sequence[int]) -> list[int]:
         if j in gone:
             break
         side.append(j)
-        if ours.kinds[j] != "prismatic":
+        if not ours.slides[j]:
             break
     return side
 
@@ -129,17 +129,11 @@ def _relations(
     wanted: dict[int, Array],
 ) -> list[_Relation]:
     """Relations of the axes on both sides, as those of the other arm (6,) have them."""
-    relations = [
-        _angle(
-            ours.ways[f],
-            _way(ours, f, wanted[f]),
-            _way(ours, g, wanted[g]),
-            place,
-            _part(ours, g),
-        )
-        for f in front
-        for place, g in enumerate(behind)
-    ]
+    relations = []
+    for f, (place, g) in product(front, enumerate(behind)):
+        part = ours.part(g)
+        way = wanted[f][ours.part(f)]
+        relations.append(_angle(ours.ways[f], way, wanted[g][part], place, part))
     if _placed(ours, front) and _placed(ours, behind):
         f = front[-1]
         g = behind[-1]
@@ -151,46 +145,34 @@ def _placed(ours: Lines, side: list[int]) -> bool:
     """Whether the last of these axes has a place that no slide before it changes, as where they
     slide along it.
     """
-    last = ours.ways[side[-1]]
-    along = [np.linalg.norm(np.cross(ours.ways[j], last)) <= PARALLEL for j in side[:-1]]
-    return ours.kinds[side[-1]] != "prismatic" and all(along)
-
-
-def _part(ours: Lines, j: int) -> slice:
-    """The part of an axis that is its direction."""
-    if ours.kinds[j] == "prismatic":
-        return slice(3, 6)
-    return slice(0, 3)
-
-
-def _way(ours: Lines, j: int, axis: Array) -> Array:
-    return axis[_part(ours, j)]
+    *slides, last = side
+    along = [sine(ours.ways[j], ours.ways[last]) <= PARALLEL for j in slides]
+    return not ours.slides[last] and all(along)
 
 
 def _angle(w: Array, way: Array, other: Array, place: int, part: slice) -> _Relation:
     """An axis behind makes the angle with direction w that `other` makes with `way`."""
-    parallel = bool(np.linalg.norm(np.cross(way, other)) <= PARALLEL)
-    if parallel:
-        C = np.zeros((3, 6))
-        C[:, part] = so3.hat(w)
-        return _Relation(place, C, np.zeros(3))
-    C = np.zeros((1, 6))
-    C[:, part] = w
-    return _Relation(place, C, np.array([way @ other]))
+    rows = w[None]
+    goal = np.array([way @ other])
+    if sine(way, other) <= PARALLEL:
+        rows = so3.hat(w)
+        goal = np.zeros(3)
+    C = np.zeros((len(rows), 6))
+    C[:, part] = rows
+    return _Relation(place, C, goal)
 
 
 def _apart(axis: Array, first: Array, second: Array, place: int) -> _Relation:
     """An axis behind is as far from `axis` as `second` is from `first`."""
-    sign = float(np.sign(first[:3] @ second[:3]))
-    if np.linalg.norm(np.cross(first[:3], second[:3])) > PARALLEL:
-        moment = np.concatenate([axis[3:], axis[:3]])
-        return _Relation(
-            place,
-            moment[None],
-            np.array([first[:3] @ second[3:] + first[3:] @ second[:3]]),
-        )
+    w = first[:3]
+    u = second[:3]
+    if sine(w, u) > PARALLEL:
+        moment = w @ second[3:] + first[3:] @ u
+        return _Relation(place, np.roll(axis, 3)[None], np.array([moment]))
+    sign = float(np.sign(w @ u))
     gap = second[3:] - sign * first[3:]
-    return _Relation(place, np.zeros((0, 6)), np.zeros(0), (sign * axis[3:], float(gap @ gap)))
+    sphere = sign * axis[3:], float(gap @ gap)
+    return _Relation(place, np.zeros((0, 6)), np.zeros(0), sphere)
 
 
 def _misfit(
@@ -208,9 +190,9 @@ def _misfit(
     for k, own in zip(run, x.T, strict=True):
         screws.append(se3.adjoint(T) @ ours.screws[k])
         T = T @ se3.exp(ours.screws[k] * own[:, None])
-    axes = ours.axes[behind] @ np.swapaxes(se3.adjoint(T), 1, 2)
+    axes = ours.axes[behind] @ se3.adjoint(T).swapaxes(1, 2)
     # d Ad(e^{S x}) A = ad(S) A dx.
-    changes = np.stack([axes @ np.swapaxes(se3.ad(S), 1, 2) for S in screws], axis=-1)
+    changes = np.stack([axes @ se3.ad(S).swapaxes(1, 2) for S in screws], axis=-1)
     r = []
     J = []
     for relation in relations:
@@ -228,7 +210,8 @@ def _misfit(
 
 def _step(r: Array, J: Array) -> Array:
     """The steps (m, r) of Levenberg-Marquardt, damped by |r|² (Fan and Yuan 2005), of 1/2 at most."""
-    normal = np.swapaxes(J, 1, 2) @ J
+    transposed = J.swapaxes(1, 2)
+    normal = transposed @ J
     damping = (r * r).sum(1) + 1e-14 * np.trace(normal, axis1=1, axis2=2) + 1e-30
     damped = normal + damping[:, None, None] * np.eye(J.shape[2])
-    return np.linalg.solve(damped, np.swapaxes(J, 1, 2) @ -r[..., None])[..., 0]
+    return np.linalg.solve(damped, transposed @ -r[..., None])[..., 0]

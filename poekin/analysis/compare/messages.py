@@ -22,24 +22,7 @@ def joint_words(joint: JointComparison, tol: Tolerances) -> str:
     if joint.kind_a != joint.kind_b:
         words.append(f"is {joint.kind_a} in one model and {joint.kind_b} in the other")
     elif joint.axis_differs:
-        turned = joint.angle > tol.rotation
-        moved = joint.normal is not None and joint.normal > tol.position
-        far = ""
-        if joint.shift is not None and joint.shift > tol.position:
-            far = f" ({amount(joint.shift, 'm')} at the arm)"
-        if turned and moved:
-            words.append(
-                f"has an axis that is {amount(joint.angle, 'rad')} and "
-                f"{amount(joint.normal or 0, 'm')} from the other model's{far}"
-            )
-        elif turned:
-            words.append(
-                f"has an axis that is turned by {amount(joint.angle, 'rad')} from the other model's{far}"
-            )
-        elif joint.shift is not None and joint.shift > tol.position:
-            words.append(f"has an axis that is {amount(joint.shift, 'm')} from the other model's")
-        else:
-            words.append("has another pitch")
+        words.append(f"has {_axis_words(joint, tol)}")
     if joint.zero_differs:
         words.append(
             f"has its zero position {amount(abs(joint.zero_offset), joint.unit)} from the other model's"
@@ -50,6 +33,25 @@ def joint_words(joint: JointComparison, tol: Tolerances) -> str:
         one, other = (said or "moves by itself" for said in (joint.follows_a, joint.follows_b))
         words.append(f"{one} in one model and {other} in the other")
     return " and ".join(words)
+
+
+def _axis_words(joint: JointComparison, tol: Tolerances) -> str:
+    """The difference of an axis."""
+    shift = joint.shift or 0.0
+    normal = joint.normal or 0.0
+    far = ""
+    if shift > tol.position:
+        far = amount(shift, "m")
+    if joint.angle > tol.rotation:
+        apart = f"turned by {amount(joint.angle, 'rad')}"
+        if normal > tol.position:
+            apart = f"{amount(joint.angle, 'rad')} and {amount(normal, 'm')}"
+        if far:
+            far = f" ({far} at the arm)"
+        return f"an axis that is {apart} from the other model's{far}"
+    if far:
+        return f"an axis that is {far} from the other model's"
+    return "another pitch"
 
 
 def differences(

@@ -40,7 +40,7 @@ def poses_agree(pair: Sides, a: Chain, b: Chain, reading: Hypothesis) -> bool:
 
 def pose_differences(ours: Array, theirs: Array) -> tuple[Array, Array]:
     """Distances (m) and angles (rad) between two rows of poses (m, 4, 4)."""
-    turns = so3.log(np.swapaxes(ours[:, :3, :3], 1, 2) @ theirs[:, :3, :3])
+    turns = so3.log(ours[:, :3, :3].swapaxes(1, 2) @ theirs[:, :3, :3])
     distances = np.linalg.norm(ours[:, :3, 3] - theirs[:, :3, 3], axis=1)
     return distances, np.linalg.norm(turns, axis=1)
 

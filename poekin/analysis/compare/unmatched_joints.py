@@ -10,8 +10,8 @@ import numpy as np
 
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ..axes import axes
-from ..axis_lines import Tolerances
+from ..axes import axis_pairs
+from ..axis_lines import Tolerances, prismatic
 from .alignment.search import agreeing
 from .locked_joints import held_positions
 
@@ -32,11 +32,7 @@ def droppable(
     Of several choices the one that leaves least to align. None where there are none, or where the
     chains differ by more than `MOST` joints.
     """
-    long = a
-    short = b
-    if len(a.screws) <= len(b.screws):
-        long = b
-        short = a
+    short, long = sorted((a, b), key=lambda chain: len(chain.screws))
     more = len(long.screws) - len(short.screws)
     if more > MOST:
         return None
@@ -44,13 +40,14 @@ def droppable(
     for ks in combinations(range(len(long.screws)), more):
         for held in _positions(long, short, ks, tol):
             rest = without(long, ks, held)
-            if _may_agree(rest, short, tol):
-                reading = agreeing(rest, short, tol)
-                if reading is not None:
-                    *changes, near = reading.cost
-                    # Of choices that fit exactly, as parallel joints leave, the first one, and not
-                    # rounding's.
-                    fitting.append((changes, round(near, 3), ks, held))
+            if not _may_agree(rest, short, tol):
+                continue
+            reading = agreeing(rest, short, tol)
+            if reading is not None:
+                *changes, near = reading.cost
+                # Of choices that fit exactly, as parallel joints leave, the first one, and not
+                # rounding's.
+                fitting.append((changes, round(near, 3), ks, held))
     if not fitting:
         return None
     *_, ks, held = min(fitting)
@@ -127,14 +124,10 @@ def _may_agree(
     if a.kinds != b.kinds:
         return False
     lever = max(a.reach, b.reach) * tol.rotation
-    ours, theirs = (
-        axes(chain, tol_position=tol.position, tol_rotation=tol.rotation).pairs for chain in (a, b)
-    )
-    for p, q in zip(ours, theirs, strict=True):
+    turning = np.flatnonzero(~prismatic(a)).tolist()
+    for p, q in zip(axis_pairs(a, tol), axis_pairs(b, tol), strict=True):
         between = range(p.first, p.second - 1)
-        if any(i in but for i in (p.first - 1, *between)) or any(
-            a.kinds[k] != "prismatic" for k in between
-        ):
+        if p.first - 1 in but or not {*but, *turning}.isdisjoint(between):
             continue
         if abs(p.angle - q.angle) > 4 * tol.rotation:
             return False

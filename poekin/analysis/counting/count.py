@@ -69,23 +69,24 @@ def _specialised(chain: Chain, frame: Any, _counting: Counting, pose: bool) -> C
     return chain.compile().program(frame, pose=pose).count
 
 
+_BODY: dict[CountMethod, tuple[scalars.Algorithm, scalars.Form]] = {
+    "direct": (methods.direct_body, scalars.exponential),
+    "recursive": (methods.z_aligned, scalars.z_link),
+    "recursive_with_tool": (methods.with_tool, scalars.z_link),
+    "recursive_by_cross": (methods.by_cross, scalars.z_link),
+    "recursive_general_frames": (methods.general_frames, scalars.general_link),
+    "dh_recursive": (methods.orin_schrader, scalars.paul_link),
+    "dh_paul": (methods.paul, scalars.paul_link),
+    "dh_modified": (methods.z_aligned, scalars.craig_link),
+}
 METHODS: dict[CountMethod, tuple[Method, ...]] = {
-    "direct": (
-        Method(_general(methods.direct_body, scalars.exponential)),
-        Method(_general(methods.direct_space, scalars.exponential), ("space",)),
-    ),
-    "recursive": (Method(_general(methods.z_aligned, scalars.z_link)),),
-    "recursive_with_tool": (Method(_general(methods.with_tool, scalars.z_link)),),
-    "recursive_by_cross": (Method(_general(methods.by_cross, scalars.z_link)),),
-    "recursive_general_frames": (Method(_general(methods.general_frames, scalars.general_link)),),
-    "dh_recursive": (Method(_general(methods.orin_schrader, scalars.paul_link)),),
-    "dh_paul": (Method(_general(methods.paul, scalars.paul_link)),),
-    "dh_modified": (Method(_general(methods.z_aligned, scalars.craig_link)),),
+    **{name: (Method(_general(*way)),) for name, way in _BODY.items()},
     "structured": (Method(_structured, ("body", "space", "hybrid"), ("live", "everything")),),
     "specialised": (
         Method(_specialised, ("body", "space", "hybrid", "cheapest"), ("everything",)),
     ),
 }
+METHODS["direct"] += (Method(_general(methods.direct_space, scalars.exponential), ("space",)),)
 
 
 def count(

@@ -7,10 +7,20 @@ Source: Park 1994, Sections III and IV.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from ...algebra import IDENTITY, compose, cross, make_pose, pose, set_column
+from ...algebra import (
+    IDENTITY,
+    add,
+    compose,
+    cross,
+    make_pose,
+    pose,
+    rotate,
+    set_column,
+    translation,
+)
 from ...formulas.kinematics import recursive
 from ...formulas.paper import dh_recursive, direct
 
@@ -96,9 +106,7 @@ def paul(links: Links) -> JacobianThenPose:
     """The recursion on Paul's frames without a tool: J in the last link's frame, as the POE
     recursion of the paper's table has it.
     """
-    J = empty_rows(links.n)
-    T = dh_recursive.body(links.poses, IDENTITY, links.rotates, links.slides, links.n, J)
-    return J, lambda: T
+    return orin_schrader(replace(links, tool=IDENTITY))
 
 
 def by_cross(links: Links) -> JacobianThenPose:
@@ -117,9 +125,8 @@ def by_cross(links: Links) -> JacobianThenPose:
 
 def product_by_cross(a: Row, b: Row) -> Row:
     """T_ac = T_ab T_bc with the third column of R as X x Y: 33 multiplications and 24 additions."""
-    X, Y = (
-        [a[k] * b[j] + a[k + 1] * b[j + 3] + a[k + 2] * b[j + 6] for k in (0, 3, 6)] for j in (0, 1)
-    )
-    Z = cross(X, Y)
-    p = [a[k] * b[9] + a[k + 1] * b[10] + a[k + 2] * b[11] + a[9 + k // 3] for k in (0, 3, 6)]
-    return make_pose((X[0], Y[0], Z[0], X[1], Y[1], Z[1], X[2], Y[2], Z[2]), p)
+    X = rotate(a, b[0:9:3])
+    Y = rotate(a, b[1:9:3])
+    rows = zip(X, Y, cross(X, Y), strict=True)
+    p = add(rotate(a, translation(b)), translation(a))
+    return make_pose([x for row in rows for x in row], p)

@@ -70,29 +70,22 @@ def all_operations(algorithm: Algorithm, form: Form, chain: Chain, with_pose: bo
     graph = Graph()
     angles = Angles(graph)
     rng = generator()
-    C = chain.coupling
-    rotates, slides = structure(chain)
+    C = chain.coupling.tolist()
+    offsets = chain.offset.tolist()
     coordinates = [graph.input(-k) for k, _ in enumerate(chain.q_names, 1)]
     poses = []
-    for kind, r, s, row, c in zip(
-        chain.kinds,
-        rotates,
-        slides,
-        C,
-        chain.offset.tolist(),
-        strict=True,
-    ):
-        x: Any = c
+    for kind, r, s, row, c in zip(chain.kinds, *structure(chain), C, offsets, strict=True):
+        x = c
         for q, factor in zip(coordinates, row, strict=True):
-            x = x + graph.scaled(q, float(factor))
-        sine, cosine = angles.sine_cosine([float(r * factor) for factor in row], r * c, 0)
+            x = x + graph.scaled(q, factor)
+        sine, cosine = angles.sine_cosine([r * factor for factor in row], r * c, 0)
         poses.append(form(Motion(kind, x, sine, cosine, s * x), rng))
     J, T = _run(algorithm, chain, poses, with_pose)
-    if not np.array_equal(C, np.eye(len(C))):
-        J_q = empty_rows(chain.dof)
-        columns.coupled(J, C.tolist(), len(C), chain.dof, J_q)
-        J = J_q
-    return _count(graph, angles, T, J)
+    if chain.nontrivial_coupling is None:
+        return _count(graph, angles, T, J)
+    J_q = empty_rows(chain.dof)
+    columns.coupled(J, C, len(C), chain.dof, J_q)
+    return _count(graph, angles, T, J_q)
 
 
 def exponential(motion: Motion, rng: np.random.Generator) -> Row:
@@ -113,33 +106,24 @@ def z_link(motion: Motion, rng: np.random.Generator) -> Row:
 
 def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
     """Rz(theta) Tz(d) Tx(a) Rx(alpha), the joint before its link."""
-    d, a, alpha, theta = generic(rng, 4)
+    d, a, alpha, theta = generic(rng, 4).tolist()
     sine = motion.sine
     cosine = motion.cosine
     if motion.kind == "prismatic":
         sine = math.sin(theta)
         cosine = math.cos(theta)
-    return dh.link(
-        sine,
-        cosine,
-        float(d) + motion.shift,
-        float(a),
-        math.sin(alpha),
-        math.cos(alpha),
-    )
+    return dh.link(sine, cosine, d + motion.shift, a, math.sin(alpha), math.cos(alpha))
 
 
 def craig_link(motion: Motion, rng: np.random.Generator) -> Row:
     """Tx(a) Rx(alpha) Rz(theta) Tz(d), the joint behind its link."""
-    d, a, alpha, theta = generic(rng, 4)
-    fixed = theta if motion.kind == "prismatic" else 0.0
-    link = dh.link(0.0, 1.0, 0.0, float(a), math.sin(alpha), math.cos(alpha))
-    return turned_about_z(
-        turned_about_z(link, math.sin(fixed), math.cos(fixed), float(d)),
-        motion.sine,
-        motion.cosine,
-        motion.shift,
-    )
+    d, a, alpha, theta = generic(rng, 4).tolist()
+    fixed = 0.0
+    if motion.kind == "prismatic":
+        fixed = theta
+    link = dh.link(0.0, 1.0, 0.0, a, math.sin(alpha), math.cos(alpha))
+    behind = turned_about_z(link, math.sin(fixed), math.cos(fixed), d)
+    return turned_about_z(behind, motion.sine, motion.cosine, motion.shift)
 
 
 def generic_structure(chain: Chain, tool: bool) -> Structure:
@@ -149,18 +133,18 @@ def generic_structure(chain: Chain, tool: bool) -> Structure:
     """
     n = len(chain.kinds)
     rng = generator()
-    links = [(0.0, 1.0, 0.0, 0.0)]
-    for d, alpha in generic(rng, n - 1, 2).tolist():
-        links.append((math.sin(alpha), math.cos(alpha), d, 0.0))
-    d_offsets = tuple(generic(rng, n).tolist())
+    first = (0.0, 1.0, 0.0, 0.0)
+    between = generic(rng, n - 1, 2).tolist()
+    links = [(math.sin(alpha), math.cos(alpha), a, 0.0) for a, alpha in between]
+    d_offsets = generic(rng, n).tolist()
     base = IDENTITY
     end = IDENTITY
     if tool:
         base = generic_pose(rng)
         end = generic_pose(rng)
     return Structure(
-        links=tuple(links),
-        d_offsets=d_offsets,
+        links=(first, *links),
+        d_offsets=tuple(d_offsets),
         parallel=(0,) * n,
         rotates=tuple(chain.local.rotates.tolist()),
         slides=tuple(chain.local.slides.tolist()),
@@ -203,8 +187,10 @@ def generic_screw(kind: str, rng: np.random.Generator) -> Row:
 
 def structure(chain: Chain) -> tuple[Sequence[float], Sequence[float]]:
     """r and s of the joints, 0 and 1 as integers."""
-    rows = (chain.local.rotates.tolist(), chain.local.slides.tolist())
-    rotates, slides = ([int(x) if x in (0.0, 1.0) else x for x in row] for row in rows)
+    rotates, slides = (
+        [int(x) if x in (0.0, 1.0) else x for x in row.tolist()]
+        for row in (chain.local.rotates, chain.local.slides)
+    )
     return rotates, slides
 
 
@@ -216,9 +202,8 @@ def _run(
 ) -> tuple[Rows, Row]:
     """J and the pose, which is empty where it is not asked for."""
     rng = generator()
-    rotates, slides = structure(chain)
     screws = [generic_screw(kind, rng) for kind in chain.kinds]
-    links = Links(len(poses), rotates, slides, screws, poses, generic_pose(rng))
+    links = Links(len(poses), *structure(chain), screws, poses, generic_pose(rng))
     J, finish = algorithm(links)
     if not with_pose:
         return J, ()

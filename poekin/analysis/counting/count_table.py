@@ -8,8 +8,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-import numpy as np
-
 from ...checks import choice
 from ...model.chain import Chain
 from ...model.geometry.idealise import Idealised
@@ -310,8 +308,7 @@ def printed(method: CountMethod, n: int) -> Count:
 
 def uncoupled_revolute(chain: Chain) -> bool:
     """Whether all joints are revolute, each its own coordinate, as in the paper's formulas."""
-    C = chain.coupling
-    return set(chain.kinds) == {"revolute"} and np.array_equal(C, np.eye(len(C)))
+    return set(chain.kinds) == {"revolute"} and chain.nontrivial_coupling is None
 
 
 def _programs(arm: CompiledChain, group: str) -> Iterator[CountRow]:
@@ -330,12 +327,9 @@ def _programs(arm: CompiledChain, group: str) -> Iterator[CountRow]:
 
 
 def _words(method: CountMethod) -> str:
-    mult, add = (f"{a}n" + (f" - {b}" if b else "") for a, b in PRINTED[method])
-    return {
-        "direct": "POE, direct",
-        "recursive": "POE, recursive",
-        "dh_recursive": "DH, recursive",
-    }[method] + (f": {mult} and {add}")
+    mult, add = (f"{a}n - {b}".removesuffix(" - 0") for a, b in PRINTED[method])
+    names = {"direct": "POE, direct", "recursive": "POE, recursive"}
+    return f"{names.get(method, 'DH, recursive')}: {mult} and {add}"
 
 
 def _verdict(chain: Chain) -> Iterator[str]:

@@ -135,7 +135,7 @@ def one_turn(pair: Sides, rigid: PairPoses, k: int) -> Alignments:
     back = i >= k
     own = pair.b.screws[k]
     Ad = se3.adjoint(rigid.at.P)
-    axes = pair.b.axes @ np.swapaxes(Ad, 1, 2)
+    axes = pair.b.axes @ Ad.swapaxes(1, 2)
     turn = turns((Ad @ own)[:, None], axes, pair.a.axes)
     # The next axis on the other side of k that is not k's own line tells the offset.
     others = np.arange(pair.n)

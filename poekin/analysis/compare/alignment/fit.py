@@ -66,11 +66,14 @@ def _step(r: Array, J: Array, damping: Array) -> Array:
     scale = np.where(scale < 1e-6 * most, most, scale)
     scale[scale == 0] = 1.0  # where nothing is to be moved
     held = np.sqrt(damping)[:, None] * scale
-    system = np.concatenate([J, held[:, None] * np.eye(J.shape[2])], axis=1)
-    right = np.concatenate([-r, np.zeros_like(scale)], axis=1)
+    m, rows, columns = J.shape
     # The factor R of the system beside its right side holds both triangular.
-    R = np.asarray(np.linalg.qr(np.concatenate([system, right[..., None]], axis=2), mode="r"))
-    return np.linalg.solve(R[:, :-1, :-1], R[:, :-1, -1:])[..., 0]
+    system = np.zeros((m, rows + columns, columns + 1))
+    system[:, :rows, :-1] = J
+    system[:, :rows, -1] = -r
+    system[:, rows:, :-1] = held[:, None] * np.eye(columns)
+    R = np.asarray(np.linalg.qr(system, mode="r"))[:, :columns]
+    return np.linalg.solve(R[..., :-1], R[..., -1:])[..., 0]
 
 
 def _linearised(pair: Sides, at: Alignments, free: Marks, used: Marks) -> Linearised:
@@ -86,13 +89,13 @@ def _linearised(pair: Sides, at: Alignments, free: Marks, used: Marks) -> Linear
     if k >= 0:
         screws[:, k] = pair.suspect_screw(screws[:, k])
     # A zero offset turns what is behind it as a turn of the base about the joint's axis would.
-    columns = base @ np.swapaxes(screws, 1, 2)[:, None]
+    columns = base @ screws.swapaxes(1, 2)[:, None]
     if k >= 0:
         # Behind the suspect joint every change further in front is itself turned about a's axis.
         behind = slice(k + 1, None)
         turn = se3.exp(screws[:, k] * at.z[:, k, None])
         base[:, behind] @= se3.adjoint(turn)[:, None]
-        in_front = np.swapaxes(screws[:, :k], 1, 2)
+        in_front = screws[:, :k].swapaxes(1, 2)
         columns[:, behind, :, :k] = base[:, behind] @ in_front[:, None]
     moved = free[:, None] & np.tri(pair.n, k=-1, dtype=bool)
     columns *= moved[:, :, None]

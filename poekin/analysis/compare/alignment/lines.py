@@ -15,7 +15,16 @@ import numpy as np
 from ....groups import se3, so3
 from ....groups.arrays import Array
 from ....model.chain import Chain
-from ...axis_lines import Marks, Tolerances, cross, direction, place, prismatic
+from ...axis_lines import (
+    Marks,
+    Tolerances,
+    applied,
+    cross,
+    direction,
+    nearest_point,
+    place,
+    prismatic,
+)
 from .alignments import Alignments
 
 
@@ -110,9 +119,9 @@ class Sides:
         if at.z.any():
             D = self.carriers(at)[:, :-1]
         Ad = se3.adjoint(D)
-        axes = _applied(Ad, self.b.axes)
+        axes = applied(Ad, self.b.axes)
         against = (self.ways * axes).sum(-1) < 0
-        return Transformed(self, _applied(Ad, self.b.screws), axes, np.where(against, -1.0, 1.0))
+        return Transformed(self, applied(Ad, self.b.screws), axes, np.where(against, -1.0, 1.0))
 
     def deviations(self, at: Alignments) -> Array:
         """The deviations (m, n) of b's axes under alignments."""
@@ -137,7 +146,7 @@ class Transformed:
         each.
         """
         change = self.signs[..., None] * self.axes - self.pair.a.axes
-        return _applied(self.pair.weights, change)
+        return applied(self.pair.weights, change)
 
     @property
     def deviations(self) -> Array:
@@ -201,15 +210,7 @@ def _centre(chain: Chain, slides: Marks) -> Array:
     tool as they let it.
     """
     tool = chain.home[:3, 3]
-    turning = chain.screws[~slides]
-    if not len(turning):
+    if slides.all():
         return tool.copy()
-    across = [np.eye(3) - np.outer(S[:3], S[:3]) for S in turning]
-    reach = [A @ (place(S) - tool) for A, S in zip(across, turning, strict=True)]
     # Axes parallel within a degree or so leave it free, else it would fly away.
-    return tool + np.linalg.lstsq(np.concatenate(across), np.concatenate(reach), rcond=0.02)[0]
-
-
-def _applied(M: Array, x: Array) -> Array:
-    """M x over the last axes, matrices (..., 6, 6) and vectors (..., 6)."""
-    return (M @ x[..., None])[..., 0]
+    return nearest_point(chain.screws[~slides], tool, 0.02)
