@@ -31,7 +31,8 @@ class Tolerances(NamedTuple):
 
 def cross(x: Array, y: Array) -> Array:
     """x × y over the last axis (..., 3): `numpy.cross` takes four times as long for so few numbers."""
-    return x[..., _NEXT] * y[..., _LAST] - x[..., _LAST] * y[..., _NEXT]
+    ahead = x[..., _NEXT] * y[..., _LAST]
+    return ahead - x[..., _LAST] * y[..., _NEXT]
 
 
 def prismatic(chain: Chain) -> Marks:
@@ -80,6 +81,11 @@ def nearest_point(screws: Array, start: Array, rcond: float) -> Array:
     return start + moved
 
 
+def wrapped(x: Array, turns: Marks) -> Array:
+    """Values of joints, those of joints that turn within half a turn."""
+    return np.where(turns, np.arctan2(np.sin(x), np.cos(x)), x)
+
+
 def applied(M: Array, x: Array) -> Array:
     """M x over the last axes, matrices (..., k, k) and vectors (..., k)."""
     return (M @ x[..., None])[..., 0]
@@ -94,9 +100,10 @@ def uncoupled_at_zero(chain: Chain) -> Chain:
         return chain
     limits = np.tile([-np.inf, np.inf], (len(C), 1))
     for i, row in enumerate(C):
-        (ks,) = np.nonzero(row)
-        if len(ks) == 1:
-            limits[i] = np.sort(row[ks[0]] * chain.limits[ks[0]]) + chain.offset[i]
+        leaders = np.flatnonzero(row)
+        if len(leaders) == 1:
+            (k,) = leaders
+            limits[i] = np.sort(row[k] * chain.limits[k]) + chain.offset[i]
     bare = chain.replace(coupling=None, q_names=None, limits=limits, offset=None)
     if not chain.offset.any():
         return bare

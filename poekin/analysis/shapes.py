@@ -88,7 +88,8 @@ def shapes(chain: Chain, coaxial: Sequence[bool], tol: Tolerances) -> tuple[Shap
             continue
         miss = _meeting(three)
         # Neighbours along one line leave two axes only, which is no spherical joint.
-        if miss <= tol.position and min(_apart(three[:2]), _apart(three[1:])) > tol.rotation:
+        least = min(_apart(three[:2]), _apart(three[1:]))
+        if miss <= tol.position and least > tol.rotation:
             kind: ShapeKind = "spherical joint"
             if i == n - 3:
                 kind = "spherical wrist"
@@ -105,9 +106,10 @@ def _solvable(n: int, threes: list[Shape]) -> Iterator[Shape]:
     if n == 6 and threes:
         first = min(threes, key=lambda shape: shape.parallel)
         yield Shape("Pieper", first.joints, first.error, first.parallel)
-    ends = [shape for shape in threes if not shape.parallel and shape.joints[0] in (1, 5)]
-    if n == 7 and len(ends) == 2:
-        yield Shape("S-R-S", tuple(range(1, 8)), max(shape.error for shape in ends))
+    meeting = (shape for shape in threes if not shape.parallel)
+    errors = [shape.error for shape in meeting if shape.joints[0] in (1, 5)]
+    if n == 7 and len(errors) == 2:
+        yield Shape("S-R-S", tuple(range(1, 8)), max(errors))
 
 
 def _apart(screws: Array) -> float:

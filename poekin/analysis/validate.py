@@ -222,7 +222,8 @@ def validate(
     for done, (base, tip, note) in enumerate(ways):
         if progress is not None:
             progress(done, len(ways), tip)
-        rows.append(chain_errors(model.chain(base=base, tip=tip), oracle, q, note=note))
+        chain = model.chain(base=base, tip=tip)
+        rows.append(chain_errors(chain, oracle, q, note=note))
     moving = sum(joint.kind in MOVING for joint in model.joints)
     return Validation(
         model.name,
@@ -271,8 +272,10 @@ def chain_errors(
         apart = -columns[frame]
         apart[..., own] += chain.jacobian(configurations, frame)
         apart[:, 3:] *= 1 / chain.reach
-        errors.append(np.abs(apart).max((1, 2), initial=0.0))
-    worst = int(np.argmax(np.nan_to_num(np.max(errors, axis=0), nan=np.inf)))
+        size = np.abs(apart)
+        errors.append(size.max((1, 2), initial=0.0))
+    largest = np.nan_to_num(np.max(errors, axis=0), nan=np.inf)
+    worst = int(np.argmax(largest))
     configuration = dict(zip(chain.q_names, configurations[worst].tolist(), strict=True))
     # np.max hands on a NaN, so that one wrong configuration cannot hide among right ones.
     return _row(chain, np.max(errors, axis=1).tolist(), configuration, note)

@@ -314,8 +314,13 @@ def _limits_apart(theirs: Array, ours: Array) -> tuple[float, float]:
 
 
 def _pose_errors(ours: Array, theirs: Array) -> PoseErrors:
-    apart = pose_differences(ours, theirs)
-    return PoseErrors(*(float(x) for e in apart for x in (e.max(), e.mean())))
+    distance, angle = pose_differences(ours, theirs)
+    return PoseErrors(
+        float(distance.max()),
+        float(distance.mean()),
+        float(angle.max()),
+        float(angle.mean()),
+    )
 
 
 def _verdict(

@@ -186,4 +186,6 @@ class Comparison(Result):
             f"Pose error {title}: {found.summary()}" for title, found in errors.items() if found
         ]
         lines += [f"Equivalent: {text}" for text in self.alternatives]
-        return "\n".join([*lines, self.verdict[0].upper() + self.verdict[1:]])
+        verdict = self.verdict
+        lines.append(verdict[0].upper() + verdict[1:])
+        return "\n".join(lines)

@@ -49,8 +49,11 @@ def follows(
     slides = prismatic(a)
     small = np.where(slides, tol.position, tol.rotation)
     scales = np.where(slides, 1.0, 2 * math.pi)
-    differ = np.asarray((apart * scales > small[:, None]).any(1))
-    return [Following(_words(F, i, a), _words(G, i, b), bool(differ[i])) for i in range(len(F))]
+    found = []
+    for i, errors in enumerate(apart * scales):
+        differs = bool((errors > small[i]).any())
+        found.append(Following(_words(F, i, a), _words(G, i, b), differs))
+    return found
 
 
 def _ratios(C: Array) -> Array:
@@ -61,8 +64,10 @@ def _ratios(C: Array) -> Array:
     F = np.zeros((n, n))
     leaders: list[int] = []
     for i, row in enumerate(C):
-        own = np.linalg.lstsq(C[leaders].T, row, rcond=None)[0] if leaders else np.zeros(0)
-        if np.linalg.norm(row - own @ C[leaders]) > 1e-9 * np.linalg.norm(row):
+        lead = C[leaders]
+        own = np.linalg.lstsq(lead.T, row, rcond=None)[0]
+        rest = np.linalg.norm(row - own @ lead)
+        if rest > 1e-9 * np.linalg.norm(row):
             leaders.append(i)
             # Its coordinate may be that of a joint off the chain, which it follows by a ratio of
             # its own.

@@ -45,7 +45,8 @@ def rescaled(chain: Chain, factor: float) -> Chain:
     """The chain with all its lengths multiplied by a factor."""
     slides = prismatic(chain)
     joints = np.where(slides, factor, 1.0)
-    coordinates = np.array([1.0 if chain.is_angle(k) else factor for k in range(chain.dof)])
+    angles = [chain.is_angle(k) for k in range(chain.dof)]
+    coordinates = np.where(angles, 1.0, factor)
     # A prismatic joint's screw is a direction: there the joint variable is the length.
     screws = chain.screws.copy()
     home = chain.home.copy()

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import product
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -13,11 +14,11 @@ import numpy as np
 from ...groups import se3, so3
 from ...groups.arrays import Array
 from ...model.chain import Chain
-from ..axis_lines import Tolerances, sine
+from ..axis_lines import Tolerances, sine, wrapped
 from .alignment.lines import Lines, lines
 from .length_unit import rescaled
 
-__all__ = ["held_positions"]
+__all__ = ["held_positions", "index_without"]
 
 STEPS = 30
 """Steps of Levenberg-Marquardt: where two solutions coincide each halves the distance, from 1 rad
@@ -39,18 +40,35 @@ MOST = 16
 """Positions tried where the axes leave a continuum of them, as parallel ones do."""
 
 
-class _Relation(NamedTuple):
-    """Required position of an axis A behind the joints to one before them: C A = goal, and |A_v -
-    centre|² = square.
-
-    Attributes: place, of A in the axes behind; C (k, 6), goal (k,); sphere, centre (3,) and square,
-    of parallel axes.
-    """
+class _Linear(NamedTuple):
+    """Required position of an axis A, one of those behind the joints: C A = goal, (k, 6) and (k)."""
 
     place: int
     C: Array
     goal: Array
-    sphere: tuple[Array, float] | None = None
+
+    def misfit(self, A: Array, dA: Array) -> tuple[Array, Array]:
+        """Residuals (m, k) of axes A (m, 6), and derivatives (m, k, r) from those of A."""
+        return A @ self.C.T - self.goal, self.C @ dA
+
+
+class _Sphere(NamedTuple):
+    """Required position of an axis A that is parallel to one before the joints: |A_v - centre|² =
+    square.
+    """
+
+    place: int
+    centre: Array
+    square: float
+
+    def misfit(self, A: Array, dA: Array) -> tuple[Array, Array]:
+        """Residuals (m, 1) of axes A (m, 6), and derivatives (m, 1, r) from those of A."""
+        apart = A[:, 3:] - self.centre
+        distances = (apart * apart).sum(1, keepdims=True)
+        return distances - self.square, 2.0 * apart[:, None] @ dA[:, 3:]
+
+
+_Relation = _Linear | _Sphere
 
 
 def held_positions(
@@ -75,7 +93,7 @@ def held_positions(
     front = _side(ours, reversed(range(run[0])), gone)
     behind = _side(ours, range(run[-1] + 1, len(ours.kinds)), gone)
     both = front + behind
-    wanted = {j: theirs.axes[j - sum(k < j for k in gone)] for j in both}
+    wanted = {j: theirs.axes[index_without(gone, j)] for j in both}
     tried: list[tuple[float, Array]] = []
     for signs in product((1.0, -1.0), repeat=len(both) - 1):
         signed = {j: sign * wanted[j] for j, sign in zip(both, (1.0, *signs), strict=True)}
@@ -85,16 +103,22 @@ def held_positions(
             x = x + _step(*_misfit(ours, run, behind, relations, x))
         r, _ = _misfit(ours, run, behind, relations, x)
         tried += zip(abs(r).max(1), x, strict=True)
-    turning = np.array([ours.kinds[k] == "revolute" for k in run])
-    units = np.where(ours.slides[list(run)], size, 1.0)
+    joints = list(run)
+    units = np.where(ours.slides[joints], size, 1.0)
+    most = 10.0 * (tol.rotation + tol.position / size)
     found: list[Array] = []
-    for miss, x in sorted(tried, key=lambda row: row[0]):
-        x = np.where(turning, np.arctan2(np.sin(x), np.cos(x)), x)
-        if miss > 10.0 * (tol.rotation + tol.position / size) or len(found) == MOST:
+    for miss, values in sorted(tried, key=itemgetter(0)):
+        if miss > most or len(found) == MOST:
             break
+        x = wrapped(values, ours.revolute[joints])
         if all(abs(x - other).max() > tol.rotation for other in found):
             found.append(x)
     return [tuple(map(float, units * x)) for x in found]
+
+
+def index_without(gone: Sequence[int], j: int) -> int:
+    """Number of joint j in the chain that lacks others."""
+    return j - sum(k < j for k in gone)
 
 
 def _side(ours: Lines, joints: Iterable[int], gone: Sequence[int]) -> list[int]:
@@ -114,12 +138,14 @@ def _side(ours: Lines, joints: Iterable[int], gone: Sequence[int]) -> list[int]:
 def _starts(ours: Lines, run: Sequence[int]) -> Array:
     """Starts (m, r) of the joints' positions."""
     turn = 2.0 * np.pi * np.arange(TURN) / TURN
+    first = 2.0 * np.pi * (np.arange(TURNS) - TURNS / 2.0)
     values = {
         "revolute": turn,
-        "helical": np.concatenate([turn + 2.0 * np.pi * (k - TURNS / 2.0) for k in range(TURNS)]),
+        "helical": (turn + first[:, None]).ravel(),
         "prismatic": np.array([-0.5, 0.0, 0.5]),
     }
-    return np.array(list(product(*(values[ours.kinds[k]] for k in run))))
+    starts = product(*(values[ours.kinds[k]] for k in run))
+    return np.array(list(starts))
 
 
 def _relations(
@@ -129,7 +155,7 @@ def _relations(
     wanted: dict[int, Array],
 ) -> list[_Relation]:
     """Relations of the axes on both sides, as those of the other arm (6,) have them."""
-    relations = []
+    relations: list[_Relation] = []
     for f, (place, g) in product(front, enumerate(behind)):
         part = ours.part(g)
         way = wanted[f][ours.part(f)]
@@ -159,7 +185,7 @@ def _angle(w: Array, way: Array, other: Array, place: int, part: slice) -> _Rela
         goal = np.zeros(3)
     C = np.zeros((len(rows), 6))
     C[:, part] = rows
-    return _Relation(place, C, goal)
+    return _Linear(place, C, goal)
 
 
 def _apart(axis: Array, first: Array, second: Array, place: int) -> _Relation:
@@ -168,11 +194,10 @@ def _apart(axis: Array, first: Array, second: Array, place: int) -> _Relation:
     u = second[:3]
     if sine(w, u) > PARALLEL:
         moment = w @ second[3:] + first[3:] @ u
-        return _Relation(place, np.roll(axis, 3)[None], np.array([moment]))
+        return _Linear(place, np.roll(axis, 3)[None], np.array([moment]))
     sign = float(np.sign(w @ u))
     gap = second[3:] - sign * first[3:]
-    sphere = sign * axis[3:], float(gap @ gap)
-    return _Relation(place, np.zeros((0, 6)), np.zeros(0), sphere)
+    return _Sphere(place, sign * axis[3:], float(gap @ gap))
 
 
 def _misfit(
@@ -187,24 +212,19 @@ def _misfit(
     """
     T = np.tile(np.eye(4), (len(x), 1, 1))
     screws = []
-    for k, own in zip(run, x.T, strict=True):
-        screws.append(se3.adjoint(T) @ ours.screws[k])
-        T = T @ se3.exp(ours.screws[k] * own[:, None])
+    for S, own in zip(ours.screws[list(run)], x.T, strict=True):
+        screws.append(se3.adjoint(T) @ S)
+        T = T @ se3.exp(S * own[:, None])
     axes = ours.axes[behind] @ se3.adjoint(T).swapaxes(1, 2)
     # d Ad(e^{S x}) A = ad(S) A dx.
     changes = np.stack([axes @ se3.ad(S).swapaxes(1, 2) for S in screws], axis=-1)
     r = []
     J = []
     for relation in relations:
-        A = axes[:, relation.place]
-        dA = changes[:, relation.place]
-        r.append(A @ relation.C.T - relation.goal)
-        J.append(relation.C @ dA)
-        if relation.sphere is not None:
-            centre, square = relation.sphere
-            apart = A[:, 3:] - centre
-            r.append((apart * apart).sum(1, keepdims=True) - square)
-            J.append(2.0 * apart[:, None] @ dA[:, 3:])
+        k = relation.place
+        residuals, derivatives = relation.misfit(axes[:, k], changes[:, k])
+        r.append(residuals)
+        J.append(derivatives)
     return np.concatenate(r, 1), np.concatenate(J, 1)
 
 
@@ -212,6 +232,7 @@ def _step(r: Array, J: Array) -> Array:
     """The steps (m, r) of Levenberg-Marquardt, damped by |r|² (Fan and Yuan 2005), of 1/2 at most."""
     transposed = J.swapaxes(1, 2)
     normal = transposed @ J
-    damping = (r * r).sum(1) + 1e-14 * np.trace(normal, axis1=1, axis2=2) + 1e-30
+    size = np.trace(normal, axis1=1, axis2=2)
+    damping = (r * r).sum(1) + 1e-14 * size + 1e-30
     damped = normal + damping[:, None, None] * np.eye(J.shape[2])
     return np.linalg.solve(damped, transposed @ -r[..., None])[..., 0]

@@ -90,8 +90,13 @@ def frame_words(what: str, T: Array, tol: Tolerances) -> str:
 
 def unit_words(ratio: float) -> str:
     """The sentence on lengths of one model that are 1000 times the other's: ratio is b's by a's."""
-    larger, smaller, times = ("b", "a", ratio) if ratio > 1 else ("a", "b", 1 / ratio)
-    return f"lengths of model {larger} are {times:.4g} times those of model {smaller} (millimetres against metres?)"
+    larger = "b"
+    smaller = "a"
+    if ratio < 1:
+        larger = "a"
+        smaller = "b"
+        ratio = 1 / ratio
+    return f"lengths of model {larger} are {ratio:.4g} times those of model {smaller} (millimetres against metres?)"
 
 
 def equivalents(
@@ -139,7 +144,10 @@ def equivalents(
 def _about(T: Array, S: Array, tol: Tolerances) -> float | None:
     """z with T = e^{S z} within tolerance, or None."""
     xi = se3.log(T)
-    z = float(xi[:3] @ S[:3] if S[:3].any() else xi[3:] @ S[3:])
+    part = slice(0, 3)
+    if not S[:3].any():
+        part = slice(3, 6)
+    z = float(xi[part] @ S[part])
     for value in (z, -z):  # at half a turn the logarithm may come with either sign
         if still(se3.inverse(se3.exp(S * value)) @ T, tol):
             return value

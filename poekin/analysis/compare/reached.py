@@ -40,9 +40,10 @@ def poses_agree(pair: Sides, a: Chain, b: Chain, reading: Hypothesis) -> bool:
 
 def pose_differences(ours: Array, theirs: Array) -> tuple[Array, Array]:
     """Distances (m) and angles (rad) between two rows of poses (m, 4, 4)."""
-    turns = so3.log(ours[:, :3, :3].swapaxes(1, 2) @ theirs[:, :3, :3])
-    distances = np.linalg.norm(ours[:, :3, 3] - theirs[:, :3, 3], axis=1)
-    return distances, np.linalg.norm(turns, axis=1)
+    back = ours[:, :3, :3].swapaxes(1, 2)
+    turns = so3.log(back @ theirs[:, :3, :3])
+    gaps = ours[:, :3, 3] - theirs[:, :3, 3]
+    return np.linalg.norm(gaps, axis=1), np.linalg.norm(turns, axis=1)
 
 
 def _bounds(pair: Sides, a: Chain, b: Chain) -> Tolerances:
@@ -54,13 +55,15 @@ def _bounds(pair: Sides, a: Chain, b: Chain) -> Tolerances:
     places = (pair.a.places + pair.a.centre)[~slides]
     steps = np.diff([*places, a.home[:3, 3]], axis=0)
     lengths = np.linalg.norm(steps, axis=1)
-    most = np.maximum(*(np.abs(sampling_range(chain)).max(0) for chain in (a, b)))
+    ranges = (np.abs(sampling_range(chain)) for chain in (a, b))
+    most = np.max([size.max(0) for size in ranges], axis=0)
     travel = most * np.where(slides, 1.0, np.abs(a.pitches))
     slid = travel.sum()
     behind = np.cumsum(lengths[::-1]) + slid
     moved = 2.0 * (len(places) * tol.position + tol.rotation * behind.sum())
     moved += tol.rotation * slid
-    moved += tol.position * float(most[a.pitches != 0].sum()) / (2.0 * np.pi)
+    turned_by = float(most[a.pitches != 0].sum())
+    moved += tol.position * turned_by / (2.0 * np.pi)
     rounding = 1e-12 * max(a.reach, b.reach)
     turned = 1.001 * 2.0 * tol.rotation * len(places)
     return Tolerances(1.001 * moved + rounding, turned + 1e-12)

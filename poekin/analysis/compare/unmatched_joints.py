@@ -13,7 +13,7 @@ from ...model.chain import Chain
 from ..axes import axis_pairs
 from ..axis_lines import Tolerances, prismatic
 from .alignment.search import agreeing
-from .locked_joints import held_positions
+from .locked_joints import held_positions, index_without
 
 __all__ = ["droppable", "without"]
 
@@ -87,8 +87,9 @@ def _positions(
     if ks[-1] - ks[0] != len(ks) - 1:
         runs = [(k,) for k in ks]
     # End joints are held anywhere, as base and tool are free.
-    inner = [run[0] > 0 and run[-1] < len(long.screws) - 1 for run in runs]
-    across = tuple(run[0] - 1 - sum(k < run[0] for k in ks) for run in runs)
+    last = len(long.screws) - 1
+    inner = [run[0] > 0 and run[-1] < last for run in runs]
+    across = tuple(index_without(ks, run[0] - 1) for run in runs)
     if any(inner) and _may_agree(
         without(long, ks, zero),
         short,
@@ -101,7 +102,7 @@ def _positions(
             if free:
                 tried[-1] += held_positions(long, short, run, ks, tol)
         for parts in product(*tried):
-            held = tuple(x for part in parts for x in part)
+            held = sum(parts, ())
             if held != zero:
                 yield held
 

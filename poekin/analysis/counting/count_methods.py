@@ -114,10 +114,11 @@ def by_cross(links: Links) -> JacobianThenPose:
     the first two.
     """
     J = empty_rows(links.n)
-    set_column(J, -1, (0.0, 0.0, links.rotates[-1], 0.0, 0.0, links.slides[-1]))
+    *joints, (r, s) = zip(links.rotates, links.slides, strict=True)
+    set_column(J, -1, (0.0, 0.0, r, 0.0, 0.0, s))
     T = pose(links.poses[-1])
-    for i in reversed(range(links.n - 1)):
-        set_column(J, i, recursive.z_column(T, links.rotates[i], links.slides[i]))
+    for i, (r, s) in reversed(list(enumerate(joints))):
+        set_column(J, i, recursive.z_column(T, r, s))
         if i:
             T = product_by_cross(links.poses[i], T)
     return J, lambda: product_by_cross(links.poses[0], T)

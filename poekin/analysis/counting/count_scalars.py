@@ -107,12 +107,10 @@ def z_link(motion: Motion, rng: np.random.Generator) -> Row:
 def paul_link(motion: Motion, rng: np.random.Generator) -> Row:
     """Rz(theta) Tz(d) Tx(a) Rx(alpha), the joint before its link."""
     d, a, alpha, theta = generic(rng, 4).tolist()
-    sine = motion.sine
-    cosine = motion.cosine
+    turn = motion.sine, motion.cosine
     if motion.kind == "prismatic":
-        sine = math.sin(theta)
-        cosine = math.cos(theta)
-    return dh.link(sine, cosine, d + motion.shift, a, math.sin(alpha), math.cos(alpha))
+        turn = math.sin(theta), math.cos(theta)
+    return dh.link(*turn, d + motion.shift, a, math.sin(alpha), math.cos(alpha))
 
 
 def craig_link(motion: Motion, rng: np.random.Generator) -> Row:
@@ -172,7 +170,7 @@ def generic(rng: np.random.Generator, *shape: int) -> Array:
 def generic_pose(rng: np.random.Generator) -> tuple[float, ...]:
     """A pose without any structure."""
     T = se3.exp(generic(rng, 6))
-    return (*T[:3, :3].ravel().tolist(), *T[:3, 3].tolist())
+    return tuple(np.append(T[:3, :3], T[:3, 3]).tolist())
 
 
 def generic_screw(kind: str, rng: np.random.Generator) -> Row:

@@ -161,7 +161,7 @@ class CountTable(Result):
         """
         ideal = self.idealised
         return super().to_dict() | {
-            "cheapest": plain(self.cheapest and self.cheapest._asdict()),
+            "cheapest": plain(self.cheapest),
             "idealised": ideal
             and {
                 "position_bound": ideal.position_bound,

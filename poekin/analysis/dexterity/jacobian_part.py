@@ -39,9 +39,11 @@ def scaled(X: Array, axis: int, part: Part, length: float) -> Array:
     """The rows of a part, along an axis of J (-2) or of its Hessian (-3); of the pose with v ÷
     length.
     """
+    behind = -1 - axis
     if part == "pose":
-        return X * np.repeat([1.0, 1.0 / length], 3).reshape(6, *[1] * (-1 - axis))
-    return X[(..., ROWS[part], *[slice(None)] * (-1 - axis))]
+        weights = np.repeat([1.0, 1.0 / length], 3)
+        return X * weights.reshape(6, *[1] * behind)
+    return X[(..., ROWS[part], *[slice(None)] * behind)]
 
 
 def svd(J: Array) -> tuple[Array, Array, Array]:
@@ -49,14 +51,16 @@ def svd(J: Array) -> tuple[Array, Array, Array]:
 
     Where an entry of J is NaN, s is.
     """
-    bad = np.asarray(~np.isfinite(J).all(axis=(-2, -1), keepdims=True))
+    finite = np.isfinite(J).all(axis=(-2, -1), keepdims=True)
+    bad = np.asarray(~finite)
     U, s, V = np.linalg.svd(np.where(bad, 0.0, J), full_matrices=False)
     return U, np.where(bad[..., 0], np.nan, s), V
 
 
 def random_configurations(chain: Chain) -> Array:
     """Configurations (SAMPLES, m), at one of which a Jacobian has its largest rank."""
-    return half_range(chain) * np.random.default_rng(0).uniform(-1.0, 1.0, (SAMPLES, chain.dof))
+    rng = np.random.default_rng(0)
+    return half_range(chain) * rng.uniform(-1.0, 1.0, (SAMPLES, chain.dof))
 
 
 def largest_rank(J: Array, reach: float, part: Part, tolerance: float = TOLERANCE) -> int:
@@ -64,8 +68,9 @@ def largest_rank(J: Array, reach: float, part: Part, tolerance: float = TOLERANC
 
     Lengths are in units of the arm's own size, so that it does not matter.
     """
-    size = max(float(np.abs(J[:, 3:]).max()), 1e-6 * reach)
-    s = svd(scaled(J, -2, "pose", size)[:, ROWS[part]])[1]
+    longest = float(np.abs(J[:, 3:]).max())
+    J = scaled(J, -2, "pose", max(longest, 1e-6 * reach))
+    _, s, _ = svd(J[:, ROWS[part]])
     # Below that is rounding: an arm that never moves its tool in this part.
     least = np.maximum(tolerance * s[:, :1], 1e-9)
     return int((s > least).sum(axis=1).max())

@@ -49,7 +49,11 @@ class Measures(Result):
         """
         if not np.size(self.smallest):
             return "no configuration"
-        measures = (np.min(self.yoshikawa), np.max(self.condition), np.min(self.smallest))
+        measures = (
+            np.min(self.yoshikawa),
+            np.max(self.condition),
+            np.min(self.smallest),
+        )
         w, condition, smallest = (f"{float(x) + 0.0:.4g}" for x in measures)
         return f"yoshikawa {w}, condition {condition}, smallest {smallest}"
 
@@ -201,7 +205,8 @@ def manipulability_gradient(
     H = scaled(chain.hessian(q, "hybrid"), -3, part, length)
     U, s, V = svd(J)
     g = _counted(chain, part)
-    others = [np.prod(np.delete(s[..., :g], a, -1), axis=-1) for a in range(g)]
+    counted = s[..., :g]
+    others = [np.delete(counted, a, -1).prod(axis=-1) for a in range(g)]
     return np.einsum(
         "...a,...ra,...rij,...ai->...j",
         np.stack(others, axis=-1),
@@ -218,8 +223,9 @@ def _counted(chain: Chain, part: Part) -> int:
 
 
 def _measures(chain: Chain, J: Array, part: Part, length: float) -> Measures:
-    s = svd(scaled(J, -2, part, length))[1][..., : _counted(chain, part)]
-    largest = s[..., 0]
+    _, s, _ = svd(scaled(J, -2, part, length))
+    s = s[..., : _counted(chain, part)]
     smallest = s[..., -1]
-    condition = np.divide(largest, smallest, out=np.full(s.shape[:-1], np.inf), where=smallest != 0)
+    condition = np.full(s.shape[:-1], np.inf)
+    np.divide(s[..., 0], smallest, out=condition, where=smallest != 0)
     return Measures(np.prod(s, axis=-1), condition, smallest)

@@ -228,7 +228,8 @@ def singularity(
     q = _configuration(chain, q)
     ratios = joint_ratios(chain)
     J = scaled(chain.jacobian(q, "hybrid") / ratios, -2, part, L)
-    H = scaled(chain.hessian(q, "hybrid") / np.outer(ratios, ratios), -3, part, L)
+    H = chain.hessian(q, "hybrid") / np.outer(ratios, ratios)
+    H = scaled(H, -3, part, L)
     U, s, V = svd(J)
     g = generic_rank(chain, part, min(float(tolerance), TOLERANCE))
     last = max(g, 1) - 1

@@ -86,8 +86,10 @@ def pair_poses(pair: Sides, joints: Iterable[tuple[int, int]]) -> PairPoses:
                 x = 1.0 if other.parallel else s * t
                 theirs.append(other.T * [x, s * x, s, 1.0])
     numbers = np.array(found, np.intp).reshape(-1, 2)
-    T_a, T_b = (np.array(frames).reshape(-1, 4, 4) for frames in (ours, theirs))
-    return PairPoses(numbers, Alignments.rigid(T_a @ se3.inverse(T_b), pair.n))
+    T_a = np.array(ours).reshape(-1, 4, 4)
+    T_b = np.array(theirs).reshape(-1, 4, 4)
+    P = T_a @ se3.inverse(T_b)
+    return PairPoses(numbers, Alignments.rigid(P, pair.n))
 
 
 def rigid_poses(pair: Sides) -> PairPoses:
@@ -121,8 +123,9 @@ def turns(screw: Array, axis: Array, target: Array) -> Array:
     turned = size > PARALLEL**2
     beside = np.where(placed & (radius >= 1e-8), about, 0.0)
     opposite = np.where(z > 0, z - np.pi, z + np.pi)
-    both = [np.where(turned, z, beside), np.where(turned, opposite, np.nan)]
-    return np.concatenate(both, axis=-1)
+    first = np.where(turned, z, beside)
+    second = np.where(turned, opposite, np.nan)
+    return np.concatenate([first, second], axis=-1)
 
 
 def one_turn(pair: Sides, rigid: PairPoses, k: int) -> Alignments:
@@ -167,7 +170,8 @@ def one_by_one(pair: Sides) -> Alignments:
     for k in range(1, pair.n - 1):
         Ad = se3.adjoint(beam.D)
         own = pair.b.screws[k]
-        turn = turns(Ad @ own, Ad @ pair.b.axes[k + 1], pair.a.axes[k + 1])
+        following = Ad @ pair.b.axes[k + 1]
+        turn = turns(Ad @ own, following, pair.a.axes[k + 1])
         turn = np.where(turn == 0, np.nan, turn)
         turn = np.pad(turn, [(0, 0), (1, 0)])  # none is tried as well
         good = ~np.isnan(turn)
@@ -198,7 +202,8 @@ def _on_the_first_turning_axis(pair: Sides, P: Array) -> Array:
     if ours is None or theirs is None:
         return P
     P = P.copy()
-    P[:, :3, 3] += ours - (P[:, :3, :3] @ theirs + P[:, :3, 3])
+    carried = P[:, :3, :3] @ theirs + P[:, :3, 3]
+    P[:, :3, 3] += ours - carried
     return P
 
 
@@ -226,8 +231,10 @@ def best(pair: Sides, at: Alignments, most: int = 4) -> Alignments:
     axes come first.
     """
     b = pair.transformed(at)
-    changes = (abs(at.z) > 0).sum(1) + (b.signs < 0).sum(1)
-    loss = np.log1p(np.minimum(b.deviations, 1e6)).sum(1) + 0.01 * changes
+    offsets = (abs(at.z) > 0).sum(1)
+    changes = offsets + (b.signs < 0).sum(1)
+    miss = np.minimum(b.deviations, 1e6)
+    loss = np.log1p(miss).sum(1) + 0.01 * changes
     return at[np.argsort(loss, kind="stable")[:most]]
 
 
@@ -268,7 +275,8 @@ def _frame(lines: Lines, i: int, j: int) -> _Frame | None:
 def _line(axis: Array) -> _Line:
     w = axis[..., :3]
     placed = np.asarray(w.any(-1, keepdims=True))
-    return _Line(np.where(placed, w, axis[..., 3:]), place(axis), placed)
+    way = np.where(placed, w, axis[..., 3:])
+    return _Line(way, place(axis), placed)
 
 
 def _angle(w: Array, u: Array, v: Array) -> tuple[Array, Array]:

@@ -18,12 +18,13 @@ class Rows:
         return type(self)(*(field[rows] for field in vars(self).values()))
 
     def __setitem__(self, rows: Any, others: Self) -> None:
-        for field, other in zip(vars(self).values(), vars(others).values(), strict=True):
-            field[rows] = other
+        for name, field in vars(self).items():
+            field[rows] = getattr(others, name)
 
     def joined(self, *others: Self) -> Self:
         """These rows and those of others behind them."""
-        fields = zip(*(vars(record).values() for record in (self, *others)), strict=True)
+        records = [vars(record).values() for record in (self, *others)]
+        fields = zip(*records, strict=True)
         return type(self)(*map(_joined, fields))
 
 
@@ -59,4 +60,5 @@ class Alignments(Rows):
         """Alignments from which steps (m, 6 + n) lead: a motion of the base, changes of zero
         offsets.
         """
-        return type(self)(se3.exp(steps[:, :6]) @ self.P, self.z + steps[:, 6:])
+        motions = se3.exp(steps[:, :6])
+        return type(self)(motions @ self.P, self.z + steps[:, 6:])

@@ -37,7 +37,8 @@ def fit(pair: Sides, starts: Alignments, free: Marks, used: Marks) -> Alignments
     """
     free = np.broadcast_to(free, starts.z.shape)
     used = np.broadcast_to(used & pair.alike, starts.z.shape)
-    best = _linearised(pair, Alignments(starts.P.copy(), starts.z.copy()), free, used)
+    everywhere = np.arange(len(starts))
+    best = _linearised(pair, starts[everywhere], free, used)
     damping = np.full(len(starts), 1e-6)
     going = best.cost >= 1e-16
     for _ in range(STEPS):
@@ -102,4 +103,5 @@ def _linearised(pair: Sides, at: Alignments, free: Marks, used: Marks) -> Linear
     J = np.concatenate([base, columns], axis=3) * used[..., None, None]
     shape = len(at), 6 * pair.n
     r = (b.residuals * used[..., None]).reshape(shape)
-    return Linearised(at, r, J.reshape(*shape, J.shape[-1]), (r * r).sum(1))
+    cost = (r * r).sum(1)
+    return Linearised(at, r, J.reshape(*shape, J.shape[-1]), cost)

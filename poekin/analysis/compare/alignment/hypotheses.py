@@ -167,12 +167,14 @@ def still(T: Array, tol: Tolerances) -> Marks:
 
 def motion_sizes(T: Array) -> tuple[Array, Array]:
     """Lengths (m) and angles (rad) of motions (..., 4, 4)."""
-    turned = np.linalg.norm(so3.log(T[..., :3, :3]), axis=-1)
-    return np.linalg.norm(T[..., :3, 3], axis=-1), turned
+    turns = so3.log(T[..., :3, :3])
+    moved = np.linalg.norm(T[..., :3, 3], axis=-1)
+    return moved, np.linalg.norm(turns, axis=-1)
 
 
 def off_centre(pair: Sides, P: Array) -> Array:
     """The poses (..., 4, 4) between the arms' own bases, of those between their centres."""
     T = P.copy()
-    T[..., :3, 3] += pair.a.centre - P[..., :3, :3] @ pair.b.centre
+    turned = P[..., :3, :3] @ pair.b.centre
+    T[..., :3, 3] += pair.a.centre - turned
     return T

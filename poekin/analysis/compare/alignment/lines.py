@@ -48,6 +48,11 @@ class Lines:
     centre: Array
     home: Array
 
+    @property
+    def revolute(self) -> Marks:
+        """Whether each joint is revolute (n)."""
+        return np.array(self.kinds) == "revolute"
+
     def part(self, k: int) -> slice:
         """The part of axis k that is its direction."""
         if self.slides[k]:
@@ -121,7 +126,8 @@ class Sides:
         Ad = se3.adjoint(D)
         axes = applied(Ad, self.b.axes)
         against = (self.ways * axes).sum(-1) < 0
-        return Transformed(self, applied(Ad, self.b.screws), axes, np.where(against, -1.0, 1.0))
+        signs = np.where(against, -1.0, 1.0)
+        return Transformed(self, applied(Ad, self.b.screws), axes, signs)
 
     def deviations(self, at: Alignments) -> Array:
         """The deviations (m, n) of b's axes under alignments."""

@@ -15,7 +15,7 @@ from operator import attrgetter
 import numpy as np
 
 from ....model.chain import Chain
-from ...axis_lines import Marks, Tolerances
+from ...axis_lines import Marks, Tolerances, wrapped
 from ..reached import poses_agree
 from .alignment_seeds import PairPoses, best, one_by_one, one_turn, rigid_poses
 from .alignments import Alignments, Rows
@@ -197,8 +197,7 @@ def _simplest(pair: Sides, at: Alignments) -> list[Hypothesis]:
     """The readings of alignments with as many zero offsets put back to 0, least first, as the
     agreeing axes allow.
     """
-    turning = np.array(pair.b.kinds) == "revolute"
-    z = np.where(turning, np.arctan2(np.sin(at.z), np.cos(at.z)), at.z)
+    z = wrapped(at.z, pair.b.revolute)
     at = Alignments(at.P.copy(), z)
     kept = _Start(at, abs(z) > 0, pair.deviations(at) <= 1.0)
     for k in np.argsort(abs(z), axis=1).T[..., None]:
