@@ -77,13 +77,14 @@ def nearest_point(screws: Array, start: Array, rcond: float) -> Array:
     w = screws[:, :3]
     across = np.eye(3) - w[:, :, None] * w[:, None]
     right = applied(across, place(screws) - start)
-    moved = np.linalg.lstsq(across.reshape(-1, 3), right.reshape(-1), rcond=rcond)[0]
-    return start + moved
+    system = across.reshape(-1, 3)
+    return start + np.linalg.lstsq(system, right.ravel(), rcond=rcond)[0]
 
 
 def wrapped(x: Array, turns: Marks) -> Array:
     """Values of joints, those of joints that turn within half a turn."""
-    return np.where(turns, np.arctan2(np.sin(x), np.cos(x)), x)
+    within = np.arctan2(np.sin(x), np.cos(x))
+    return np.where(turns, within, x)
 
 
 def applied(M: Array, x: Array) -> Array:
@@ -103,7 +104,8 @@ def uncoupled_at_zero(chain: Chain) -> Chain:
         leaders = np.flatnonzero(row)
         if len(leaders) == 1:
             (k,) = leaders
-            limits[i] = np.sort(row[k] * chain.limits[k]) + chain.offset[i]
+            ends = np.sort(row[k] * chain.limits[k])
+            limits[i] = ends + chain.offset[i]
     bare = chain.replace(coupling=None, q_names=None, limits=limits, offset=None)
     if not chain.offset.any():
         return bare

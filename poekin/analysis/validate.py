@@ -143,7 +143,7 @@ class Validation(Result):
 
         Where joints of the robot move, there must be a chain that has some.
         """
-        proof = any(row.joints for row in self.chains) if self.moving else bool(self.chains)
+        proof = any(row.joints or not self.moving for row in self.chains)
         return proof and self.error <= self.bar
 
     def summary(self) -> str:
@@ -307,9 +307,8 @@ def routes(robot: Robot) -> Iterator[tuple[str, str, str]]:
         covered.update(moving)
         yield base, leaf, note
     # The longer of two comes first, as it may have all that is in the shorter one.
-    ends = [
-        (*_way(robot, above, joint.parent), joint) for joint in robot.joints if joint.kind in FREE
-    ]
+    free_joints = [joint for joint in robot.joints if joint.kind in FREE]
+    ends = [(*_way(robot, above, joint.parent), joint) for joint in free_joints]
     for base, moving, note, free in sorted(ends, key=lambda end: -len(end[1])):
         if not covered.issuperset(moving):
             covered.update(moving)

@@ -71,7 +71,9 @@ def _ratios(C: Array) -> Array:
             leaders.append(i)
             # Its coordinate may be that of a joint off the chain, which it follows by a ratio of
             # its own.
-            F[i, i] = abs(row.sum()) if np.count_nonzero(row) == 1 else 1.0
+            F[i, i] = 1.0
+            if np.count_nonzero(row) == 1:
+                F[i, i] = abs(row.sum())
         else:
             F[i, leaders] = np.where(np.abs(own) > 1e-12, own, 0.0)
     return F

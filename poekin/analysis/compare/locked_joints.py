@@ -210,7 +210,7 @@ def _misfit(
     """Residuals (m, k) of the relations at positions x (m, r) of the joints, and their Jacobian (m,
     k, r).
     """
-    T = np.tile(np.eye(4), (len(x), 1, 1))
+    T = np.eye(4)[None]
     screws = []
     for S, own in zip(ours.screws[list(run)], x.T, strict=True):
         screws.append(se3.adjoint(T) @ S)

@@ -86,7 +86,8 @@ METHODS: dict[CountMethod, tuple[Method, ...]] = {
         Method(_specialised, ("body", "space", "hybrid", "cheapest"), ("everything",)),
     ),
 }
-METHODS["direct"] += (Method(_general(methods.direct_space, scalars.exponential), ("space",)),)
+_IN_SPACE = _general(methods.direct_space, scalars.exponential)
+METHODS["direct"] += (Method(_IN_SPACE, ("space",)),)
 
 
 def count(

@@ -44,6 +44,11 @@ class Links:
     poses: Sequence[Row]
     tool: Row
 
+    @property
+    def joints(self) -> tuple[Sequence[float], Sequence[float], int]:
+        """rotates, slides and n, as the formulas take them."""
+        return self.rotates, self.slides, self.n
+
 
 JacobianThenPose = tuple[Rows, Callable[[], Row]]
 
@@ -82,14 +87,14 @@ def general_frames(links: Links) -> JacobianThenPose:
 def z_aligned(links: Links) -> JacobianThenPose:
     """Section IV's recursion in z-aligned frames, the tool in the last link's frame."""
     J = empty_rows(links.n)
-    T = recursive.body(links.poses, links.rotates, links.slides, links.n, J)
+    T = recursive.body(links.poses, *links.joints, J)
     return J, lambda: compose(links.poses[0], T)
 
 
 def with_tool(links: Links) -> JacobianThenPose:
     """Section IV's recursion in z-aligned frames, the constant tool behind the last link."""
     J = empty_rows(links.n)
-    T = recursive.body_with_tool(links.poses, links.tool, links.rotates, links.slides, links.n, J)
+    T = recursive.body_with_tool(links.poses, links.tool, *links.joints, J)
     return J, lambda: compose(links.poses[0], T)
 
 
@@ -98,7 +103,7 @@ def orin_schrader(links: Links) -> JacobianThenPose:
     link included.
     """
     J = empty_rows(links.n)
-    T = dh_recursive.body(links.poses, links.tool, links.rotates, links.slides, links.n, J)
+    T = dh_recursive.body(links.poses, links.tool, *links.joints, J)
     return J, lambda: T
 
 

@@ -115,16 +115,17 @@ def turns(screw: Array, axis: Array, target: Array) -> Array:
         long = _dot(slide, slide)
         moves = placed & (long >= PARALLEL**2)
         ahead = _dot(slide, goal.place - line.place)
-        z = np.where(moves, ahead / np.where(moves, long, 1.0), 0.0)
-        return np.concatenate([z, np.full_like(z, np.nan)], axis=-1)
-    p = place(screw)
-    z, size = _angle(w, line.way, goal.way)
-    about, radius = _angle(w, line.place - p, goal.place - p)
-    turned = size > PARALLEL**2
-    beside = np.where(placed & (radius >= 1e-8), about, 0.0)
-    opposite = np.where(z > 0, z - np.pi, z + np.pi)
-    first = np.where(turned, z, beside)
-    second = np.where(turned, opposite, np.nan)
+        first = np.where(moves, ahead / np.where(moves, long, 1.0), 0.0)
+        second = np.full_like(first, np.nan)
+    else:
+        p = place(screw)
+        z, size = _angle(w, line.way, goal.way)
+        about, radius = _angle(w, line.place - p, goal.place - p)
+        turned = size > PARALLEL**2
+        beside = np.where(placed & (radius >= 1e-8), about, 0.0)
+        opposite = np.where(z > 0, z - np.pi, z + np.pi)
+        first = np.where(turned, z, beside)
+        second = np.where(turned, opposite, np.nan)
     return np.concatenate([first, second], axis=-1)
 
 
@@ -267,8 +268,7 @@ def _frame(lines: Lines, i: int, j: int) -> _Frame | None:
         return None
     x = x / length
     frame = np.eye(4)
-    frame[:3, :3] = np.stack([x, cross(z, x), z], axis=1)
-    frame[:3, 3] = origin
+    frame[:3] = np.stack([x, cross(z, x), z, origin], axis=1)
     return _Frame(frame, float(z @ other), parallel)
 
 

@@ -27,11 +27,16 @@ class Linearised(Rows):
     cost: Array
 
 
-def fit(pair: Sides, starts: Alignments, free: Marks, used: Marks) -> Alignments:
+def fit(
+    pair: Sides,
+    starts: Alignments,
+    free: Marks | bool,
+    used: Marks | bool,
+) -> Alignments:
     """The alignments that bring b's axes nearest to a's, from m starts.
 
     Least squares of direction and place, each in tolerances, over the axes in `used` (n) or (m, n,
-    bool); zero offsets move where `free` (n) or (m, n, bool) says so. What the axes leave free
+    bool); zero offsets move where `free` (n) or (m, n, bool) says so: True is all, False none. What the axes leave free
     stays where it starts. All starts are stepped at once, each with a damping of its own and until
     it is done.
     """

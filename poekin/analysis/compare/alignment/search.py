@@ -51,7 +51,7 @@ def search(a: Chain, b: Chain, tol: Tolerances) -> tuple[Hypothesis, list[Hypoth
     if not found[0].cost[0] and not found[0].frames:
         return found[0], []
     starts = best(pair, poses.at)
-    found += _rigid(pair, starts, np.ones(n, bool))
+    found += _rigid(pair, starts, True)
     first = min(found, key=_cost)
     if first.cost[0] == 0:
         return first, []
@@ -82,7 +82,7 @@ def agreeing(a: Chain, b: Chain, tol: Tolerances) -> Hypothesis | None:
     pair = sides(a, b, tol)
     rigid = rigid_poses(pair).at
     found = make_hypotheses(pair, rigid[:1])
-    found += _rigid(pair, best(pair, rigid), np.ones(pair.n, bool))
+    found += _rigid(pair, best(pair, rigid), True)
     if min(found, key=_cost).cost[0]:
         found += _simplest(pair, _all_zeros_free(pair, _other_zeros(pair)))
     found.sort(key=_cost)
@@ -90,10 +90,9 @@ def agreeing(a: Chain, b: Chain, tol: Tolerances) -> Hypothesis | None:
     return next(agree, None)
 
 
-def _rigid(pair: Sides, starts: Alignments, used: Marks) -> list[Hypothesis]:
+def _rigid(pair: Sides, starts: Alignments, used: Marks | bool) -> list[Hypothesis]:
     """Readings of starts fitted to the axes in `used`, zero offsets as they are."""
-    none = np.zeros(pair.n, bool)
-    return make_hypotheses(pair, fit(pair, starts, none, used))
+    return make_hypotheses(pair, fit(pair, starts, False, used))
 
 
 def _one_joint(pair: Sides, poses: PairPoses) -> list[Hypothesis]:
@@ -107,15 +106,17 @@ def _one_joint(pair: Sides, poses: PairPoses) -> list[Hypothesis]:
     # what agrees alone.
     tries = []
     for k, at in zip(inner, starts, strict=True):
-        tries.append(_start(at, alone[k], alone[k] | True))
+        tries.append(_start(at, alone[k], True))
         tries.append(_start(at[:2], alone[k], ~alone[k]))
     for k, at in zip(inner, starts, strict=True):
         two = at[:2]
         tries.append(_start(two, alone[k], pair.deviations(two) <= 1.0))
-    return make_hypotheses(pair, tries[0].joined(*tries[1:]).fitted(pair))
+    first, *others = tries
+    together = first.joined(*others)
+    return make_hypotheses(pair, together.fitted(pair))
 
 
-def _start(at: Alignments, free: Marks, used: Marks) -> _Start:
+def _start(at: Alignments, free: Marks, used: Marks | bool) -> _Start:
     """Starts with the same joints free, and the same or their own axes used."""
     shape = at.z.shape
     return _Start(at, np.broadcast_to(free, shape), np.broadcast_to(used, shape))
@@ -162,7 +163,8 @@ def _conventions(pair: Sides) -> list[Hypothesis]:
     found = _simplest(pair, fitted)
     if not min(found, key=_cost).moved.any():
         return found
-    tried = starts[:4].joined(best(pair, starts.joined(fitted), 2))
+    two = best(pair, starts.joined(fitted), 2)
+    tried = starts[:4].joined(two)
     suspects = ~pair.alike
     if pair.alike.all():
         suspects = pair.alike
@@ -190,7 +192,7 @@ def _other_zeros(pair: Sides) -> Alignments:
 
 def _all_zeros_free(pair: Sides, starts: Alignments) -> Alignments:
     """Starts fitted to all axes with their zero offsets free."""
-    return fit(pair, starts, _inner(pair), np.ones(pair.n, bool))
+    return fit(pair, starts, _inner(pair), True)
 
 
 def _simplest(pair: Sides, at: Alignments) -> list[Hypothesis]:
@@ -201,12 +203,14 @@ def _simplest(pair: Sides, at: Alignments) -> list[Hypothesis]:
     at = Alignments(at.P.copy(), z)
     kept = _Start(at, abs(z) > 0, pair.deviations(at) <= 1.0)
     for k in np.argsort(abs(z), axis=1).T[..., None]:
-        (row,) = np.nonzero(np.take_along_axis(kept.free, k, 1)[:, 0])
+        free = np.take_along_axis(kept.free, k, 1)
+        (row,) = np.nonzero(free[:, 0])
         trial = kept[row]
         np.put_along_axis(trial.free, k[row], False, 1)
         np.put_along_axis(trial.at.z, k[row], 0.0, 1)
         trial = replace(trial, at=trial.fitted(pair))
-        fits = ~((pair.deviations(trial.at) > 1.0) & trial.used).any(1)
+        lost = (pair.deviations(trial.at) > 1.0) & trial.used
+        fits = ~lost.any(1)
         kept[row[fits]] = trial[fits]
     return make_hypotheses(pair, kept.at)
 
