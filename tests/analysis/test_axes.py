@@ -320,3 +320,14 @@ def test_shapes_behind_a_slide_and_behind_parallel_axes_are_found():
     # Neighbours along one line are no wrist, and neither are slides.
     assert axes(made((z, [0, 0, 0]), (z, [0, 0, 1]), (x, [0, 0, 0]))).shapes == ()
     assert axes(made((z, [0, 0, 0]), (x, [0, 0, 0]), (x, [1, 0, 0]))).shapes == ()
+
+
+@pytest.mark.parametrize("degrees", [61.0, 80.0, 89.9])
+def test_axes_at_less_than_a_right_angle_are_not_perpendicular(degrees):
+    angle = math.radians(degrees)
+    slant = screw.revolute([0, math.sin(angle), math.cos(angle)], [0.5, 0, 0])
+    chain = Chain.from_space([screw.revolute([0, 0, 1], [0, 0, 0]), slant], np.eye(4))
+    (pair,) = axes(chain).pairs
+    assert not pair.perpendicular
+    off = f"{90 - degrees:.4g}° from perpendicular"
+    assert pair.relation == f"{off}, 500 mm from intersecting"
