@@ -56,6 +56,15 @@ def unrotate(R, a):
     )
 
 
+def transform(T, a):
+    """R a + p of a pose and a point."""
+    return (
+        T[0] * a[0] + T[1] * a[1] + T[2] * a[2] + T[9],
+        T[3] * a[0] + T[4] * a[1] + T[5] * a[2] + T[10],
+        T[6] * a[0] + T[7] * a[1] + T[8] * a[2] + T[11],
+    )
+
+
 def angular(V):
     """omega of a twist (omega; v)."""
     return (V[0], V[1], V[2])
@@ -86,26 +95,24 @@ def pose(row):
     return make_pose(row, translation(row))
 
 
+def axes(T):
+    """The axes X, Y, Z and the origin of a pose."""
+    return (T[0], T[3], T[6]), (T[1], T[4], T[7]), (T[2], T[5], T[8]), translation(T)
+
+
+def from_axes(X, Y, Z, o):
+    """The pose of the axes X, Y, Z and the origin: inverse of `axes`."""
+    return make_pose((X[0], Y[0], Z[0], X[1], Y[1], Z[1], X[2], Y[2], Z[2]), o)
+
+
 def compose(T_ab, T_bc):
     """T_ac = T_ab T_bc, as of f' = P f Q in the paper's Section II: 36 multiplications and 27
     additions.
     """
-    a = T_ab
-    b = T_bc
-    return (
-        a[0] * b[0] + a[1] * b[3] + a[2] * b[6],
-        a[0] * b[1] + a[1] * b[4] + a[2] * b[7],
-        a[0] * b[2] + a[1] * b[5] + a[2] * b[8],
-        a[3] * b[0] + a[4] * b[3] + a[5] * b[6],
-        a[3] * b[1] + a[4] * b[4] + a[5] * b[7],
-        a[3] * b[2] + a[4] * b[5] + a[5] * b[8],
-        a[6] * b[0] + a[7] * b[3] + a[8] * b[6],
-        a[6] * b[1] + a[7] * b[4] + a[8] * b[7],
-        a[6] * b[2] + a[7] * b[5] + a[8] * b[8],
-        a[0] * b[9] + a[1] * b[10] + a[2] * b[11] + a[9],
-        a[3] * b[9] + a[4] * b[10] + a[5] * b[11] + a[10],
-        a[6] * b[9] + a[7] * b[10] + a[8] * b[11] + a[11],
-    )
+    x = unrotate(T_bc, T_ab[0:3])
+    y = unrotate(T_bc, T_ab[3:6])
+    z = unrotate(T_bc, T_ab[6:9])
+    return make_pose((*x, *y, *z), transform(T_ab, translation(T_bc)))
 
 
 def inverse(T_ab):
@@ -134,20 +141,14 @@ def turned_about_z(T, sine, cosine, slide):
     """T (Rz, slide z), M_i e^{S_i q_i} of the paper's Section IV: a joint about and along its own z
     axis. Its sine and cosine are given: a table of them may serve, the paper's alternative.
     """
-    return (
-        T[0] * cosine + T[1] * sine,
-        T[1] * cosine - T[0] * sine,
-        T[2],
-        T[3] * cosine + T[4] * sine,
-        T[4] * cosine - T[3] * sine,
-        T[5],
-        T[6] * cosine + T[7] * sine,
-        T[7] * cosine - T[6] * sine,
-        T[8],
-        T[9] + T[2] * slide,
-        T[10] + T[5] * slide,
-        T[11] + T[8] * slide,
-    )
+    X, Y, Z, o = axes(T)
+    X, Y = turn_axes(X, Y, sine, cosine)
+    return from_axes(X, Y, Z, add(o, scale(slide, Z)))
+
+
+def turn_axes(a, b, sine, cosine):
+    """(cosine a + sine b, cosine b - sine a): two axes of a frame after a turn about the third."""
+    return add(scale(cosine, a), scale(sine, b)), subtract(scale(cosine, b), scale(sine, a))
 
 
 def column(J, i):

@@ -39,6 +39,13 @@ CASES = {
     "twist": (algebra.twist(a, b), np.r_[a, b]),
     "pose": (algebra.pose([*Q, 7.0, 8.0]), Q),
     "make_pose": (algebra.make_pose(R.ravel(), p), Q),
+    "transform": (algebra.transform(Q, a), R @ a + p),
+    "axes": (np.ravel(algebra.axes(Q)), T[:3].T.ravel()),
+    "from_axes": (algebra.from_axes(*T[:3].T), Q),
+    "turn_axes": (
+        np.ravel(algebra.turn_axes(a, b, 0.6, 0.8)),
+        (np.c_[a, b] @ TURN[:2, :2]).T.ravel(),
+    ),
     "compose": (algebra.compose(Q, P), flat(T @ W)),
     "inverse": (algebra.inverse(Q), flat(np.linalg.inv(T))),
     "adjoint": (algebra.adjoint(Q, V), Ad(T) @ V),

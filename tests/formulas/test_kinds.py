@@ -88,7 +88,7 @@ TWISTS = [
     [math.sin(t), math.cos(t), a, b]
     for t, a, b in zip(ALPHAS, *rng.normal(size=(2, N)), strict=True)
 ]
-WALK = (structured.axes(T2), TWISTS, RATES, [0, 0, 1, 0], SINES, COSINES)
+WALK = (algebra.axes(T2), TWISTS, RATES, [0, 0, 1, 0], SINES, COSINES)
 SEEN = rng.normal(size=(N, 2)).tolist()
 SLOPES = [list(map(float, row)) for row in np.random.default_rng(5).normal(size=(6, N))]
 PRODUCTS = [list(map(float, exponential.se3(tuple(0.4 * k for k in W), V))) for _ in range(N + 2)]
@@ -110,6 +110,10 @@ CASES = [
     (algebra.twist, W, V),
     (algebra.pose, T1),
     (algebra.make_pose, R1, V),
+    (algebra.transform, T1, V),
+    (algebra.turn_axes, W, V, 0.6, 0.8),
+    (algebra.axes, T1),
+    (algebra.from_axes, *algebra.axes(T1)),
     (algebra.compose, T1, T2),
     (algebra.inverse, T1),
     (algebra.adjoint, T1, X),
@@ -224,10 +228,7 @@ CASES = [
     (structured.columns_of_axes, LINKS, SEEN, ROTATES, SLIDES, 1, N, AXES),
     (structured.link, TWISTS[0]),
     (structured.turn_coordinates, 0.3, -0.2, 0.6, 0.8),
-    (structured.turn_axes, W, V, 0.6, 0.8),
     (structured.write, list(T1), W, V, LONG, V),
-    (structured.axes, T1),
-    (structured.pose, structured.axes(T1)),
     *[
         (f, X, (*V, *LONG))
         for f in (derivatives.bracket, derivatives.add_twists, derivatives.subtract_twists)

@@ -1,6 +1,6 @@
 """Kernels of SO(3) and SE(3): each maps one formula over the rows of an array."""
 
-from ...algebra import angular, cross, inverse, linear, store_row, translation
+from ...algebra import angular, axes, cross, from_axes, inverse, linear, store_row
 from ...formulas.lie import defect, exp_jacobian, exponential, logarithm
 from ..jit.array_io import load_matrix, load_rotation, store_matrix, store_rotation
 from ..jit.kernel import kernel
@@ -70,7 +70,7 @@ def se3_inverse(T_ab, T_ba):
 
 
 def _store_blocks(J, diagonal, corner):
-    """The 6x6 matrix [diagonal 0; corner diagonal]."""
+    """The 6x6 matrix [diagonal 0; corner diagonal], each block by its first nine numbers."""
     for r in range(3):
         for c in range(3):
             J[r][c] = J[r + 3][c + 3] = diagonal[3 * r + c]
@@ -83,12 +83,8 @@ def se3_adjoint(T_ab, Ad):
     """Ad of poses: [p] R is p x each column of R."""
     for k in range(T_ab.shape[0]):
         T = load_matrix(T_ab[k])
-        R = T[:9]
-        p = translation(T)
-        x = cross(p, (R[0], R[3], R[6]))
-        y = cross(p, (R[1], R[4], R[7]))
-        z = cross(p, (R[2], R[5], R[8]))
-        _store_blocks(Ad[k], R, (x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]))
+        X, Y, Z, p = axes(T)
+        _store_blocks(Ad[k], T, from_axes(cross(p, X), cross(p, Y), cross(p, Z), p))
 
 
 @kernel("r2 w3")

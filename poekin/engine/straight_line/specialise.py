@@ -11,7 +11,17 @@ from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
-from ...algebra import IDENTITY, add, compose, inverse, make_pose, rotate, set_column, translation
+from ...algebra import (
+    IDENTITY,
+    axes,
+    compose,
+    from_axes,
+    inverse,
+    make_pose,
+    set_column,
+    transform,
+    translation,
+)
 from ...formulas.kinematics import columns, structured
 from .program import HALF_PI, Angles, Program, program
 from .trace import FOLD_TOLERANCE, Graph
@@ -173,15 +183,15 @@ class _Trace:
 
     def _with_tip(self, T, p):
         """The pose T with its origin at p, given in the frame before joint 0."""
-        return make_pose(T, add(rotate(self.arm.base, p), translation(self.arm.base)))
+        return make_pose(T, transform(self.arm.base, p))
 
     def _outward(self, T, begin: int, walk: Walk):
         """The pose of the frame after the last joint where T is the one before joint `begin`."""
-        return structured.pose(structured.outward(structured.axes(T), *walk, begin, self.rows))
+        return from_axes(*structured.outward(axes(T), *walk, begin, self.rows))
 
     def _inward(self, T, begin: int, walk: Walk):
         """The pose of the frame before joint 0 where T is the one after joint `begin`."""
-        return structured.pose(structured.inward(structured.axes(T), *walk, begin, self.rows))
+        return from_axes(*structured.inward(axes(T), *walk, begin, self.rows))
 
     def _jacobian(self, parts, p=(0, 0, 0)):
         """J from what the walks have written: velocity of the point p; parts are (begin, end,
@@ -196,8 +206,6 @@ class _Trace:
         for begin, end, seen in parts:
             if seen:
                 structured.columns_of_axes(self.rows, self.points, rotates, slides, begin, end, J)
-        if self.arm.coupling == _identity(self.n):
-            return J
         J_q: list[list[Any]] = [[0.0] * self.arm.coordinates for _ in range(6)]
         columns.coupled(J, self.arm.coupling, self.n, self.arm.coordinates, J_q)
         return J_q
@@ -254,7 +262,3 @@ class _Trace:
             offset = 0.0
             quarters = quarters + whole
         return self.angles.sine_cosine(factors, offset, quarters)
-
-
-def _identity(n: int) -> tuple[tuple[float, ...], ...]:
-    return tuple(tuple(float(i == k) for k in range(n)) for i in range(n))

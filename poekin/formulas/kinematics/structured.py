@@ -24,7 +24,7 @@ n revolute joints 36 n - 68 and 21 n - 44 at most. Accuracy: as `forward`
 Source: Park 1994, Section IV, each link's constant pose taken apart as Denavit and Hartenberg do.
 """
 
-from ...algebra import add, make_pose, scale, set_column, store_row, subtract, translation, twist
+from ...algebra import add, scale, set_column, store_row, subtract, turn_axes, twist
 
 
 def outward(frame, links, d_offsets, parallel, sines, cosines, begin, rows):
@@ -168,22 +168,6 @@ def turn_coordinates(a, b, sine, cosine):
     return cosine * a + sine * b, cosine * b - sine * a
 
 
-def turn_axes(a, b, sine, cosine):
-    """(cosine a + sine b, cosine b - sine a): two axes of a frame after a turn about the third."""
-    return add(scale(cosine, a), scale(sine, b)), subtract(scale(cosine, b), scale(sine, a))
-
-
 def write(row, X, Y, Z, o):
     """X, Y, Z and o into a row of 12 numbers."""
     store_row(row, (*X, *Y, *Z, *o))
-
-
-def axes(T):
-    """The axes X, Y, Z and the origin of a pose."""
-    return (T[0], T[3], T[6]), (T[1], T[4], T[7]), (T[2], T[5], T[8]), translation(T)
-
-
-def pose(frame):
-    """The pose of the axes X, Y, Z and the origin."""
-    X, Y, Z, o = frame
-    return make_pose((X[0], Y[0], Z[0], X[1], Y[1], Z[1], X[2], Y[2], Z[2]), o)
