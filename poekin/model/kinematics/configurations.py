@@ -29,10 +29,14 @@ def broadcast_rows(chain: ChainData, **given: Any) -> tuple[tuple[int, ...], lis
     """The common batch shape of configurations, rates, ... and each as rows (N, m)."""
     arrays = [coordinates(value, chain.q_names, name) for name, value in given.items()]
     try:
-        shape = np.broadcast_shapes(*(a.shape for a in arrays))
+        shape = np.broadcast(*arrays).shape
     except ValueError as error:
         shapes = ", ".join(str(a.shape) for a in arrays)
         raise ShapeError(f"{', '.join(given)} do not broadcast: shapes {shapes}") from error
     batch = shape[:-1]
-    rows = [np.broadcast_to(a, shape).reshape(math.prod(batch), chain.dof) for a in arrays]
+    rows = []
+    for array in arrays:
+        if array.shape != shape:  # for nothing, this takes as long as the rest of a call
+            array = np.broadcast_to(array, shape)
+        rows.append(array.reshape(math.prod(batch), chain.dof))
     return batch, rows
