@@ -31,12 +31,6 @@ def _modules():
         yield importlib.import_module(info.name)
 
 
-_OVERLOADED = (
-    *(elementary.sqrt, elementary.sin, elementary.cos, elementary.asin, elementary.atan2),
-    *(elementary.takes_series, elementary.below, array_io.without_refcount),
-)
-
-
 @intrinsic
 def _without_references(typing_context, array):
     def generate(context, builder, signature, arguments):
@@ -47,15 +41,22 @@ def _without_references(typing_context, array):
     return array(array), generate
 
 
+_OVERLOADED = {
+    elementary.sqrt: lambda x: lambda x: math.sqrt(x),
+    elementary.sin: lambda x: lambda x: math.sin(x),
+    elementary.cos: lambda x: lambda x: math.cos(x),
+    elementary.asin: lambda x: lambda x: math.asin(x),
+    elementary.atan2: lambda y, x: lambda y, x: math.atan2(y, x),
+    elementary.takes_series: lambda x: lambda x: True,
+    elementary.below: lambda x, limit: lambda x, limit: x < limit,
+    array_io.without_refcount: lambda array: lambda array: _without_references(array),  # type: ignore[call-arg]
+}
+"""Compiled code of the functions that are not compiled as they stand."""
+
+
 def _register() -> None:
-    overload(elementary.sqrt)(lambda x: lambda x: math.sqrt(x))
-    overload(elementary.sin)(lambda x: lambda x: math.sin(x))
-    overload(elementary.cos)(lambda x: lambda x: math.cos(x))
-    overload(elementary.asin)(lambda x: lambda x: math.asin(x))
-    overload(elementary.atan2)(lambda y, x: lambda y, x: math.atan2(y, x))
-    overload(elementary.takes_series)(lambda x: lambda x: True)
-    overload(elementary.below)(lambda x, limit: lambda x, limit: x < limit)
-    overload(array_io.without_refcount)(lambda array: lambda array: _without_references(array))  # type: ignore[call-arg]
+    for function, implementation in _OVERLOADED.items():
+        overload(function)(implementation)
     for module in _modules():
         _register_functions(module)
 

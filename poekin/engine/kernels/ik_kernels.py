@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...algebra import dot, store_row, subtract, translation, twist
+from ...algebra import store_row, subtract, translation, twist
 from ...formulas.inverse import damped_step, pose_error
 from ...formulas.kinematics import forward
 from ..jit.array_io import load_matrix, store_matrix
@@ -257,22 +257,9 @@ def pose_errors(table, q, targets, task, axis, errors):
     """
     sines, cosines, shifts = scratch(table)
     T = np.empty((4, 4))
+    J = np.empty((6, 0))
+    e = np.empty(6)
     for k in range(q.shape[0]):
         set_motions(table, q[k], sines, cosines, shifts)
         store_matrix(T, forward.tip(table, sines, cosines, shifts, table.shape[0] - 1))
-        now = load_matrix(T)
-        then = load_matrix(targets[k])
-        off = subtract(translation(then), translation(now))
-        if task == PLANAR:
-            off = pose_error.across(axis, off)
-        errors[k, 0] = math.sqrt(dot(off, off))
-        errors[k, 1] = 0.0
-        if task == ROTATION:
-            errors[k, 0] = 0.0
-        if task == DIRECTION:
-            _, turn = pose_error.direction_error(now, then, axis)
-            errors[k, 1] = pose_error.angle(turn)
-        elif task == PLANAR:
-            errors[k, 1] = pose_error.angle(pose_error.planar_error(now, then, axis))
-        elif task != POSITION:
-            errors[k, 1] = pose_error.angle(pose_error.rotation_error(now, then))
+        store_row(errors[k], error_parts(task, axis, T, targets[k], J, e))
