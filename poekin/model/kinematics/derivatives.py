@@ -6,11 +6,13 @@ All are with respect to q and in one of the three frames in which `jacobian` giv
 
 from __future__ import annotations
 
+import math
 from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
 from ...checks import choice
+from ...engine.jit.kernel import Kernel
 from ...engine.kernels import derivative_kernels
 from ...groups import se3
 from ...groups.arrays import Array
@@ -56,64 +58,56 @@ class JacobianChanges(NamedTuple):
 def jacobian_rate(chain: ChainData, q: Any, dq: Any, frame: Frame) -> Array:
     """dJ/dt (..., 6, m) along the rates dq."""
     code = _code(frame)
-    batch, (rows, rates) = broadcast_rows(chain, q=q, dq=dq)
-    dJ = np.zeros((len(rows), 6, chain.dof))
-    if chain.joint_names:
-        derivative_kernels.jacobian_rates.call(chain.kernel_table, rows, rates, code, dJ)
-    return dJ.reshape(*batch, 6, chain.dof)
+    batch, rows = broadcast_rows(chain, q=q, dq=dq)
+    kernel = derivative_kernels.jacobian_rates
+    return _results(kernel, chain, batch, (6, chain.dof), *rows, code)
 
 
 def hessian(chain: ChainData, q: Any, frame: Frame) -> Array:
     """dJ/dq (..., 6, m, m), the column first, then the coordinate."""
     code = _code(frame)
     batch, rows = configurations(chain, q)
-    H = np.zeros((len(rows), 6, chain.dof, chain.dof))
-    if chain.joint_names:
-        derivative_kernels.hessians.call(chain.kernel_table, rows, code, H)
-    return H.reshape(*batch, 6, chain.dof, chain.dof)
+    kernel = derivative_kernels.hessians
+    return _results(kernel, chain, batch, (6, chain.dof, chain.dof), rows, code)
 
 
 def acceleration(chain: ChainData, q: Any, dq: Any, ddq: Any, frame: Frame) -> Array:
     """dV/dt (..., 6) = J ddq + (dJ/dt) dq."""
     code = _code(frame)
-    batch, (rows, rates, accelerations) = broadcast_rows(chain, q=q, dq=dq, ddq=ddq)
-    A = np.zeros((len(rows), 6))
-    if chain.joint_names:
-        derivative_kernels.accelerations.call(
-            chain.kernel_table,
-            rows,
-            rates,
-            accelerations,
-            code,
-            A,
-        )
-    return A.reshape(*batch, 6)
+    batch, rows = broadcast_rows(chain, q=q, dq=dq, ddq=ddq)
+    return _results(derivative_kernels.accelerations, chain, batch, (6,), *rows, code)
 
 
 def joint_velocities(chain: ChainData, q: Any, dq: Any, frame: Frame) -> Array:
     """Twists (..., n, 6) of the joints' z-aligned frames."""
     code = _code(frame)
-    batch, (rows, rates) = broadcast_rows(chain, q=q, dq=dq)
-    n = len(chain.joint_names)
-    V = np.zeros((len(rows), n, 6))
-    if n:
-        derivative_kernels.joint_velocities.call(chain.kernel_table, rows, rates, code, V)
-    return V.reshape(*batch, n, 6)
+    batch, rows = broadcast_rows(chain, q=q, dq=dq)
+    kernel = derivative_kernels.joint_velocities
+    return _results(kernel, chain, batch, (len(chain.kinds), 6), *rows, code)
+
+
+def _results(
+    kernel: Kernel,
+    chain: ChainData,
+    batch: tuple[int, ...],
+    shape: tuple[int, ...],
+    *arguments: object,
+) -> Array:
+    """Results (*batch, *shape) of a kernel over rows; zeros of a chain without joints."""
+    results = np.zeros((math.prod(batch), *shape))
+    if chain.kinds:
+        kernel.call(chain.kernel_table, *arguments, results)
+    return results.reshape(*batch, *shape)
 
 
 def screw_derivatives(chain: ChainData, q: Any, wrt: Parameters) -> PoseChanges:
     """Change of the pose with each screw and the home pose."""
     choice(wrt, get_args(Parameters), "wrt")
     batch, rows = configurations(chain, q)
-    n = len(chain.joint_names)
+    n = len(chain.kinds)
     D = np.zeros((len(rows), 6, n + 1, 6))
-    derivative_kernels.pose_changes.call(
-        chain.kernel_table,
-        chain.screws,
-        _home_row(chain),
-        rows,
-        D,
-    )
+    kernel = derivative_kernels.pose_changes
+    kernel.call(chain.kernel_table, chain.screws, _home_row(chain), rows, D)
     D = D.reshape(*batch, 6, n + 1, 6)
     motions = D[..., :n, :]
     home = D[..., n, :]
@@ -134,19 +128,10 @@ def jacobian_screw_derivatives(chain: ChainData, q: Any, frame: Frame) -> Jacobi
     """Change of the Jacobian with each screw and the home pose, each moved."""
     code = _code(frame)
     batch, rows = configurations(chain, q)
-    n = len(chain.joint_names)
-    m = chain.dof
-    D = np.zeros((len(rows), 6, m, n + 1, 6))
-    if n:
-        derivative_kernels.jacobian_changes.call(
-            chain.kernel_table,
-            chain.screws,
-            _home_row(chain),
-            rows,
-            code,
-            D,
-        )
-    D = D.reshape(*batch, 6, m, n + 1, 6)
+    n = len(chain.kinds)
+    kernel = derivative_kernels.jacobian_changes
+    shape = (6, chain.dof, n + 1, 6)
+    D = _results(kernel, chain, batch, shape, chain.screws, _home_row(chain), rows, code)
     return JacobianChanges(D[..., :n, :].copy(), D[..., n, :].copy())
 
 
