@@ -35,6 +35,8 @@ MIB = 2**20
 MAX_ENTRY = 64 * MIB
 """Bytes of an entry: a larger one is none."""
 DEFAULT_SIZE = 100 * MIB
+PLACES = {"win32": ("LOCALAPPDATA", "AppData/Local"), "darwin": ("", "Library/Caches")}
+"""Variable with a user's cache directory, and its place below the home directory without it."""
 log = logging.getLogger("poekin")
 _logged: set[str] = set()
 
@@ -55,26 +57,25 @@ def directory() -> Path | None:
     """Directory of the kernels: `POEKIN_CACHE_DIR`, else this user's cache directory; None for
     nowhere.
     """
-    if "POEKIN_CACHE_DIR" in os.environ:
-        named = os.environ["POEKIN_CACHE_DIR"]
-        try:
-            if named:
-                return Path(named).expanduser().absolute()
-            return None
-        except (
-            RuntimeError,
-            OSError,
-        ) as error:  # a user who is not known, or no working directory any more
-            log_no_cache("no cache in %s (%s)", named, error)
-            return None
+    named = os.environ.get("POEKIN_CACHE_DIR")
+    if named is None:
+        return _usual_directory()
+    if not named:
+        return None
     try:
-        if sys.platform == "win32":
-            base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
-        elif sys.platform == "darwin":
-            base = Path.home() / "Library" / "Caches"
-        else:
-            base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    except RuntimeError:  # no home directory can be found
+        return Path(named).expanduser().absolute()
+    # a user who is not known, or no working directory any more
+    except (RuntimeError, OSError) as error:
+        log_no_cache("no cache in %s (%s)", named, error)
+        return None
+
+
+def _usual_directory() -> Path | None:
+    """Place in this user's cache directory; None where no home directory can be found."""
+    variable, below = PLACES.get(sys.platform, ("XDG_CACHE_HOME", ".cache"))
+    try:
+        base = Path(os.environ.get(variable) or Path.home() / below)
+    except RuntimeError:
         return None
     if base.is_absolute():
         return base / "poekin"
@@ -161,9 +162,8 @@ def usable_directory() -> Path | None:
 def entry(name: str, key: object) -> Path | None:
     """Path of the entry of a name and a key; None for nowhere."""
     place = usable_directory()
-    if (
-        place is None or source_hash.LOADED is None
-    ):  # the package runs from where its source cannot be read
+    # without a key where the package runs from where its source cannot be read
+    if place is None or source_hash.LOADED is None:
         return None
     whole = (source_hash.LOADED, machine_key(), key)
     return place / f"{name}-{hashlib.sha256(repr(whole).encode()).hexdigest()[:32]}.kernel"

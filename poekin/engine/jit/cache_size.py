@@ -34,9 +34,8 @@ def _sweep(place: Path, most: float) -> None:
     found = []
     with os.scandir(place) as files:
         for file in files:
-            if (
-                ".kernel" in file.name
-            ):  # an entry, or what is left of a process that ended while it wrote one
+            # an entry, or what is left of a process that ended while it wrote one
+            if ".kernel" in file.name:
                 with contextlib.suppress(FileNotFoundError):  # another process was quicker
                     status = file.stat(follow_symlinks=False)
                     found.append((status.st_mtime, status.st_size, file))
@@ -51,7 +50,6 @@ def _sweep(place: Path, most: float) -> None:
             whole += size
             keep = whole <= most
         if not keep:
-            with contextlib.suppress(
-                OSError
-            ):  # it is gone already, or in use where such a file cannot be removed
+            # it is gone already, or in use where such a file cannot be removed
+            with contextlib.suppress(OSError):
                 os.unlink(file.path)

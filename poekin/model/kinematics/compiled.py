@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ...checks import REQUIRED, true_or_false
 from ...engine.jit import threads
+from ...engine.jit.kernel import Kernel
 from ...engine.jit.locks import COMPILING
 from ...engine.kernels import chain_kernels
 from ...engine.straight_line import interpret
@@ -88,7 +89,7 @@ class CompiledChain(ChainPrograms[AnyChain]):
         self._kernels = arm_kernels
         self._interpreted = bool(config.DISABLE_JIT)  # type: ignore[attr-defined]
         self._shape = chain.jacobian_shape
-        self._arms: dict[tuple[int | None, bool, bool], ArmCode] = {}
+        self._arms: dict[tuple[int | None, bool], ArmCode] = {}
         # The kernel and the arm that one configuration needs, by the frame as the user says it. A
         # kernel refuses what is not exactly one float64 configuration and its results; then the
         # longer way is taken, which takes everything and says what is wrong. Only the order of a
@@ -127,13 +128,7 @@ class CompiledChain(ChainPrograms[AnyChain]):
         """
         try:
             if q.ndim == 1:
-                kernel, arm = self._poses.get(None) or self._prepare(
-                    self._poses,
-                    None,
-                    "pose_one",
-                    True,
-                    False,
-                )
+                kernel, arm = self._poses.get(None) or self._prepare(self._poses, None)
                 T = _empty(_POSE_SHAPE) if out is None else out
                 if q.dtype is T.dtype is _float64 and kernel(arm, q, T):
                     return T
@@ -182,13 +177,7 @@ class CompiledChain(ChainPrograms[AnyChain]):
         """
         try:
             if q.ndim == 1 and at is None:
-                kernel, arm = self._jacobians.get(frame) or self._prepare(
-                    self._jacobians,
-                    frame,
-                    "jacobian_one",
-                    False,
-                    True,
-                )
+                kernel, arm = self._jacobians.get(frame) or self._prepare(self._jacobians, frame)
                 J = _empty(self._shape) if out is None else out
                 if q.dtype is J.dtype is _float64 and kernel(arm, q, J):
                     return J
@@ -240,13 +229,7 @@ class CompiledChain(ChainPrograms[AnyChain]):
         """
         try:
             if q.ndim == 1 and at is None:
-                kernel, arm = self._both.get(frame) or self._prepare(
-                    self._both,
-                    frame,
-                    "pose_jacobian_one",
-                    True,
-                    True,
-                )
+                kernel, arm = self._both.get(frame) or self._prepare(self._both, frame)
                 T, J = (_empty(_POSE_SHAPE), _empty(self._shape)) if out is None else out
                 if q.dtype is T.dtype is J.dtype is _float64 and kernel(arm, q, T, J):
                     return T, J
@@ -258,53 +241,47 @@ class CompiledChain(ChainPrograms[AnyChain]):
     @property
     def hybrid_address(self) -> int:
         """Address of the code of pose and hybrid Jacobian; valid as long as this object lives."""
-        return self._arm(chain_kernels.HYBRID, True, True).address
+        return self._arm(chain_kernels.HYBRID, True).address
 
-    def _prepare(
-        self,
-        calls: _Calls,
-        frame: object,
-        kernel: str,
-        pose: bool,
-        jacobian: bool,
-    ) -> tuple[Callable, int]:
+    def _prepare(self, calls: _Calls, frame: object) -> tuple[Callable, int]:
         """The kernel and the arm for a frame, from now on in `calls`."""
         if self._interpreted:
             return _refusing, 0
-        code = None if frame is None else self._frame_code(frame)
-        ready = getattr(self._kernels, kernel).ready()
-        calls[frame] = ready, self._arm(code, pose, jacobian).address
+        code = None if calls is self._poses else self._frame_code(frame)
+        pose = calls is not self._jacobians
+        kernel = self._kernel(pose, code, "one").ready()
+        calls[frame] = kernel, self._arm(code, pose).address
         return calls[frame]
 
-    def _arm(self, code: int | None, pose: bool, jacobian: bool) -> ArmCode:
-        """The machine code for a frame."""
+    def _kernel(self, pose: bool, code: int | None, many: str) -> Kernel:
+        """The kernel of poses, Jacobians or both, for "one" configuration or "many"."""
+        results = ["pose"] * pose + ["jacobian"] * (code is not None)
+        return getattr(self._kernels, "_".join([*results, many]))
+
+    def _arm(self, code: int | None, pose: bool) -> ArmCode:
+        """The machine code for a frame; for None, of the pose alone."""
         with COMPILING:
-            if (code, pose, jacobian) not in self._arms:
+            if (code, pose) not in self._arms:
                 from ...engine.straight_line.arm_code import arm_code
 
                 # the structure, not the chain's numbers: it also holds what the modules of this
                 # room make of them
-                key = self.structure, code, jacobian
-                self._arms[code, pose, jacobian] = arm_code(
+                key = self.structure, code, code is not None
+                self._arms[code, pose] = arm_code(
                     key,
                     lambda: self._program(code, pose),
                     self.dof,
                     pose,
                 )
-            return self._arms[code, pose, jacobian]
+            return self._arms[code, pose]
 
     def _fill(self, rows: Array, code: int | None, T: Array | None, J: Array | None) -> None:
         """Poses into T and Jacobians in the frame of a code into J, where these are given."""
         if self._interpreted:
             self._interpret(code, rows, T, J)
             return
-        if T is None:
-            kernel = self._kernels.jacobian_many
-        elif J is None:
-            kernel = self._kernels.pose_many
-        else:
-            kernel = self._kernels.pose_jacobian_many
-        arm = self._arm(code, T is not None, J is not None)
+        kernel = self._kernel(T is not None, code, "many")
+        arm = self._arm(code, T is not None)
         results = [array for array in (T, J) if array is not None]
         q = np.require(rows, np.float64, ["C", "A", "W"])
         if self.parallel:

@@ -316,6 +316,13 @@ def test_an_entry_that_is_a_pipe_is_not_waited_for_and_is_replaced(place, caplog
     assert cache.read(entry) == b"code"
 
 
+def test_an_entry_of_two_mib_is_read(place):
+    entry = cache.entry("arm", 0)
+    assert entry is not None
+    cache.write(entry, bytes(2 * cache.MIB))
+    assert cache.read(entry) == bytes(2 * cache.MIB)
+
+
 def test_an_entry_larger_than_any_is_not_read(place, monkeypatch, caplog):
     entry = cache.entry("arm", 0)
     assert entry is not None
@@ -449,6 +456,35 @@ def test_a_home_that_cannot_be_made_costs_a_compilation(session, tmp_path, monke
     assert "in each run: no cache in" in nowhere
     assert COMPILING in compiling
     assert len(session.arm()) == 1
+
+
+USUAL_PLACES = {
+    "linux": ("XDG_CACHE_HOME", ".cache"),
+    "win32": ("LOCALAPPDATA", "AppData/Local"),
+    "darwin": (None, "Library/Caches"),
+}
+
+
+@pytest.mark.parametrize("system", USUAL_PLACES)
+def test_kernels_are_kept_in_the_cache_directory_of_the_system(monkeypatch, tmp_path, system):
+    variable, below = USUAL_PLACES[system]
+    monkeypatch.delenv("POEKIN_CACHE_DIR", raising=False)
+    variables = [name for name, _ in USUAL_PLACES.values() if name]
+    for name in variables:
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(cache.sys, "platform", system)
+    monkeypatch.setattr(Path, "home", lambda: tmp_path)
+    assert cache.directory() == tmp_path / below / "poekin"
+    for name in variables:
+        monkeypatch.setenv(name, str(tmp_path / name))
+    assert cache.directory() == tmp_path / (variable or below) / "poekin"
+
+
+def test_a_cache_directory_that_is_not_absolute_is_none(monkeypatch):
+    monkeypatch.delenv("POEKIN_CACHE_DIR", raising=False)
+    monkeypatch.setattr(cache.sys, "platform", "linux")
+    monkeypatch.setenv("XDG_CACHE_HOME", "kernels")
+    assert cache.directory() is None
 
 
 def test_no_home_at_all_costs_a_compilation(session, monkeypatch):

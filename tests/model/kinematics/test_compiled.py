@@ -330,6 +330,26 @@ def test_memory_that_is_shared_is_refused():
             call()
 
 
+def test_no_frame_is_none():
+    for call in (FAST.jacobian, FAST.fk_jacobian):
+        for q in (Q, Q[0]):
+            with pytest.raises(InputError, match="got None"):
+                call(q, None)
+
+
+def test_an_offset_of_a_right_angle_costs_nothing_and_any_other_an_addition():
+    def additions(offset):
+        arm = ARM.replace(offset=np.full(7, offset)).compile()
+        np.testing.assert_allclose(
+            arm.fk(Q[:3]), ARM.fk(Q[:3] + offset), rtol=0, atol=NEAR, err_msg=str(offset)
+        )
+        return arm.program(None).count.additions
+
+    assert additions(0.0) == additions(np.pi / 2) == additions(-np.pi)
+    for offset in (np.pi / 3, np.pi / 2 + 1e-9):
+        assert additions(offset) > additions(0.0)
+
+
 def test_where_nothing_is_compiled_an_arm_computes_the_same():
     arm = compiled.CompiledChain(ARM)
     arm._interpreted = True
