@@ -9,7 +9,18 @@ pi that counts 1 / cos(phi / 2) times (tests/formulas/inverse/test_pose_error.py
 Source: the quaternion of `formulas.lie.quaternion`, 2 q_v where w >= 0.
 """
 
-from ...algebra import cross, dot, rotate, scale, subtract
+from ...algebra import (
+    angular,
+    column,
+    cross,
+    dot,
+    linear,
+    rotate,
+    scale,
+    set_column,
+    subtract,
+    twist,
+)
 from .. import elementary
 from ..lie import quaternion
 
@@ -83,25 +94,24 @@ def downhill(e):
 
     J^T W e itself is that only near the target: |turn| = 2 sin(phi / 2) grows with cos(phi / 2).
     """
-    half_sine = 0.5 * elementary.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2])
+    turn = angular(e)
+    half_sine = 0.5 * elementary.sqrt(dot(turn, turn))
     cosine = elementary.sqrt(max(1.0 - half_sine * half_sine, 0.0))
-    return (cosine * e[0], cosine * e[1], cosine * e[2], e[3], e[4], e[5])
+    return twist(scale(cosine, turn), linear(e))
 
 
 def distance(e):
     """|p* - p| (m) of an error."""
-    p = (e[3], e[4], e[5])
+    p = linear(e)
     return elementary.sqrt(dot(p, p))
 
 
 def remove_turn_about(a, J, count):
     """Takes the angular velocity along the unit vector a out of the columns of J."""
     for i in range(count):
-        w = (J[0][i], J[1][i], J[2][i])
-        along = dot(a, w)
-        J[0][i] = w[0] - along * a[0]
-        J[1][i] = w[1] - along * a[1]
-        J[2][i] = w[2] - along * a[2]
+        V = column(J, i)
+        w = angular(V)
+        set_column(J, i, twist(subtract(w, scale(dot(a, w), a)), linear(V)))
 
 
 def across(normal, v):
@@ -112,8 +122,6 @@ def across(normal, v):
 def keep_in_plane(normal, J, count):
     """Leaves of the columns of J the turn about a unit normal and the velocity across it."""
     for i in range(count):
-        turn = scale(dot(normal, (J[0][i], J[1][i], J[2][i])), normal)
-        velocity = across(normal, (J[3][i], J[4][i], J[5][i]))
-        for r in range(3):
-            J[r][i] = turn[r]
-            J[3 + r][i] = velocity[r]
+        V = column(J, i)
+        turn = scale(dot(normal, angular(V)), normal)
+        set_column(J, i, twist(turn, across(normal, linear(V))))

@@ -14,7 +14,7 @@ Source: Park 1994, Section III, J_s differentiated; the bracket is ad of its Sec
 
 from ...algebra import add, angular, column, cross, linear, scale, set_column, subtract, twist
 
-_ZERO = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+ZERO_TWIST = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def bracket(X, Y):
@@ -63,7 +63,7 @@ def space_rate(J, rates, count, dJ):
 
     24 n - 18 multiplications and 18 n - 18 additions.
     """
-    set_column(dJ, 0, _ZERO)
+    set_column(dJ, 0, ZERO_TWIST)
     V = scale_twist(rates[0], column(J, 0))
     for i in range(1, count):
         S = column(J, i)
@@ -76,7 +76,7 @@ def body_rate(J, rates, count, dJ):
 
     24 n - 18 multiplications and 18 n - 18 additions.
     """
-    set_column(dJ, count - 1, _ZERO)
+    set_column(dJ, count - 1, ZERO_TWIST)
     U = scale_twist(rates[count - 1], column(J, count - 1))
     for i in range(count - 2, -1, -1):
         B = column(J, i)
@@ -91,7 +91,7 @@ def hybrid_rate(J, rates, count, dJ):
     24 n - 12 multiplications and 18 n - 12 additions.
     """
     last = column(J, count - 1)
-    set_column(dJ, count - 1, _ZERO)
+    set_column(dJ, count - 1, ZERO_TWIST)
     u = scale(rates[count - 1], linear(last))
     for i in range(count - 2, -1, -1):
         H = column(J, i)
@@ -141,7 +141,7 @@ def space_hessian(J, count, H):
         for j in range(i):
             set_derivative(H, i, j, bracket(column(J, j), S))
         for j in range(i, count):
-            set_derivative(H, i, j, _ZERO)
+            set_derivative(H, i, j, ZERO_TWIST)
 
 
 def body_hessian(J, count, H):
@@ -151,7 +151,7 @@ def body_hessian(J, count, H):
     for i in range(count):
         B = column(J, i)
         for j in range(i + 1):
-            set_derivative(H, i, j, _ZERO)
+            set_derivative(H, i, j, ZERO_TWIST)
         for j in range(i + 1, count):
             set_derivative(H, i, j, bracket(B, column(J, j)))
 

@@ -29,9 +29,8 @@ from ...algebra import (
     translation,
     twist,
 )
-from .derivatives import at_point, bracket, set_derivative, subtract_twists
+from .derivatives import ZERO_TWIST, at_point, bracket, set_derivative, subtract_twists
 
-_ZERO = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNITS = tuple(tuple(int(k == e) for k in range(6)) for e in range(6))
 
 
@@ -72,7 +71,7 @@ def column_change(J, P, D, k, i, e):
         return bracket(_derivative(D, i, e), column(J, k))
     if i == k:
         return bracket(adjoint(P[k], UNITS[e]), column(J, k))
-    return _ZERO
+    return ZERO_TWIST
 
 
 def space_changes(J, P, D, count, C):

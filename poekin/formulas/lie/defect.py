@@ -7,9 +7,7 @@ from ...algebra import cross, dot
 
 def orthonormality(R):
     """The largest entry of abs(R R^T - I)."""
-    x = (R[0], R[1], R[2])
-    y = (R[3], R[4], R[5])
-    z = (R[6], R[7], R[8])
+    x, y, z = _rows(R)
     worst = abs(dot(x, x) - 1.0)
     for entry in (dot(y, y) - 1.0, dot(z, z) - 1.0, dot(x, y), dot(y, z), dot(z, x)):
         if abs(entry) > worst:
@@ -19,4 +17,9 @@ def orthonormality(R):
 
 def determinant(R):
     """det R: +1 of a rotation, -1 of a reflection."""
-    return dot((R[0], R[1], R[2]), cross((R[3], R[4], R[5]), (R[6], R[7], R[8])))
+    x, y, z = _rows(R)
+    return dot(x, cross(y, z))
+
+
+def _rows(R):
+    return (R[0], R[1], R[2]), (R[3], R[4], R[5]), (R[6], R[7], R[8])

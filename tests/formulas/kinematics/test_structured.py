@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from poekin import algebra
 from poekin.formulas.kinematics import structured
 
 N = 5
@@ -101,14 +102,14 @@ def rows_seen(parallel, begin, outward):
 @BEGINS
 def test_an_outward_walk_meets_each_joint_s_axis(parallel, begin):
     sums, rows = outward_sums(parallel, begin), np.full((N, 12), np.nan)
-    frame = structured.axes((*START[:3, :3].ravel(), *START[:3, 3]))
+    frame = algebra.axes((*START[:3, :3].ravel(), *START[:3, 3]))
     same_frame(frame, START)
     end = structured.outward(
         frame, links(parallel), ALONG, parallel, np.sin(sums), np.cos(sums), begin, rows
     )
     expected, T = rows_seen(parallel, begin, True)
     same_frame(end, T)
-    same(structured.pose(end), (*T[:3, :3].ravel(), *T[:3, 3]))
+    same(algebra.from_axes(*end), (*T[:3, :3].ravel(), *T[:3, 3]))
     for i in range(begin, N):
         same(rows[i], expected[i])
     assert np.isnan(rows[:begin]).all()
@@ -118,7 +119,7 @@ def test_an_outward_walk_meets_each_joint_s_axis(parallel, begin):
 @BEGINS
 def test_an_inward_walk_meets_each_joint_s_axis(parallel, begin):
     sums, rows = inward_sums(parallel, begin), np.full((N, 12), np.nan)
-    frame = structured.axes((*START[:3, :3].ravel(), *START[:3, 3]))
+    frame = algebra.axes((*START[:3, :3].ravel(), *START[:3, 3]))
     end = structured.inward(
         frame, links(parallel), ALONG, parallel, np.sin(sums), np.cos(sums), begin, rows
     )
