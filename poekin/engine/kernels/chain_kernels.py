@@ -164,7 +164,7 @@ def joint_poses(table, q, T):
 
 @kernel("w2 r2 r2 w2")
 def body_velocity(table, q, dq, V):
-    """f^-1 f' by the V recursion."""
+    """f^-1 f' by the V recursion, of a chain with a joint."""
     n = table.shape[0] - 1
     sines, cosines, shifts = scratch(table)
     links = np.empty((n, 12))
@@ -174,10 +174,7 @@ def body_velocity(table, q, dq, V):
         set_rates(table, dq[k], rates)
         for i in range(n):
             store_row(links[i], turned_about_z(pose(table[i]), sines[i], cosines[i], shifts[i]))
-        if n > 0:
-            tool = pose(table[n])
-            rotates = table[:, ROTATES]
-            slides = table[:, SLIDES]
-            store_row(V[k], recursive.body_velocity(links, tool, rotates, slides, n, rates))
-        else:
-            store_row(V[k], (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+        tool = pose(table[n])
+        rotates = table[:, ROTATES]
+        slides = table[:, SLIDES]
+        store_row(V[k], recursive.body_velocity(links, tool, rotates, slides, n, rates))

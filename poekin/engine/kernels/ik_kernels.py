@@ -195,13 +195,6 @@ def is_finite(target):
     return total == 0.0
 
 
-def _fail(q, row):
-    """The result for a target that is not finite."""
-    for i in range(len(q)):
-        q[i] = math.nan
-    set_info(row, math.nan, math.nan, 0, BAD_TARGET)
-
-
 def set_info(row, position, rotation, iterations, state):
     """Write the errors of q (m, rad), what it took without a restart, and how it ended."""
     row[AT_POSITION] = position
@@ -227,7 +220,8 @@ def solve_many(arm, targets, q0, limits, ranges, fixed, options, indices, seed, 
         target = targets[k]
         row = info[k]
         if not is_finite(target):
-            _fail(q[k], row)
+            store_row(q[k], np.full(m, math.nan))
+            set_info(row, math.nan, math.nan, 0, BAD_TARGET)
             continue
         state = seeded(seed, int(indices[k]))
         best = math.inf

@@ -144,29 +144,21 @@ class _Function:
             elif node.kind == "constant":
                 values[number] = self._constant(node.first)
             elif node.kind == "scaled":
-                values[number] = build.fmul(
-                    self._constant(node.first),
-                    values[node.second],
-                    flags=CONTRACT,
-                )
+                factor = self._constant(node.first)
+                values[number] = build.fmul(factor, values[node.second], flags=CONTRACT)
             else:
                 operation = self._operation(node)
-                values[number] = operation(
-                    values[int(node.first)],
-                    values[node.second],
-                    flags=CONTRACT,
-                )
+                first = values[int(node.first)]
+                values[number] = operation(first, values[node.second], flags=CONTRACT)
         outputs = [self._output(values, number, sign) for number, sign in program.outputs]
         *_, T, J = self.function.args
         if pose:
             R = outputs[:9]
             p = outputs[9:12]
-            zero = self._constant(0.0)
-            self._store(
-                T,
-                [*R[:3], p[0], *R[3:6], p[1], *R[6:], p[2], zero, zero, zero, self._constant(1.0)],
-            )
-        self._store(J, outputs[12:] if pose else outputs)
+            del outputs[:12]
+            last_row = map(self._constant, (0.0, 0.0, 0.0, 1.0))
+            self._store(T, [*R[:3], p[0], *R[3:6], p[1], *R[6:], p[2], *last_row])
+        self._store(J, outputs)
         build.ret_void()
 
     def _operation(self, node: Node) -> Any:
@@ -247,7 +239,8 @@ class _Function:
         A pose has 16 numbers and a Jacobian 6 m: there is never one left, nor three.
         """
         if len(group) == LANES:
-            (even, odd), (even2, odd2) = self._even_odd(*group[:2]), self._even_odd(*group[2:])
+            even, odd = self._even_odd(*group[:2])
+            even2, odd2 = self._even_odd(*group[2:])
             return [
                 self._shuffled(a, b, mask)
                 for mask in ([0, 1, 4, 5], [2, 3, 6, 7])

@@ -18,6 +18,10 @@ from .trace import Graph, Node, Traced, folded
 HALF_PI = math.pi / 2
 
 
+Terms = tuple[tuple[int, float], ...]
+"""Coordinates (k, factor) of a sum."""
+
+
 @dataclass(frozen=True)
 class Angle:
     """Sum of factor * q_k over `terms` (k, factor), plus `offset` (rad), plus angle number `base`
@@ -25,7 +29,7 @@ class Angle:
     """
 
     base: int | None
-    terms: tuple[tuple[int, float], ...]
+    terms: Terms
     offset: float
 
     def cost(self) -> tuple[int, int]:
@@ -39,8 +43,7 @@ class Angles:
 
     def __init__(self, graph: Graph):
         self.graph = graph
-        self.forms: list[tuple[tuple[tuple[int, float], ...], float]] = []
-        self._numbers: dict[tuple[tuple[tuple[int, float], ...], float], int] = {}
+        self.numbers: dict[tuple[Terms, float], int] = {}
 
     def sine_cosine(self, factors: Sequence[float], offset: float, quarters: int):
         """Sine and cosine of sum factors[k] q_k + offset + quarters * 90 degrees."""
@@ -54,10 +57,7 @@ class Angles:
                 terms = tuple((k, -f) for k, f in terms)
                 offset = -offset
                 quarters = -quarters
-            form = (terms, offset)
-            number = self._numbers.setdefault(form, len(self.forms))
-            if number == len(self.forms):
-                self.forms.append(form)
+            number = self.numbers.setdefault((terms, offset), len(self.numbers))
             sine = self.graph.input(2 * number)
             cosine = self.graph.input(2 * number + 1)
         for _ in range(quarters % 4):
@@ -97,7 +97,8 @@ def program(graph: Graph, angles: Angles, outputs: Sequence[Traced | float]) -> 
             if nodes[k].kind == "input" and nodes[k].first >= 0
         }
     )
-    chosen, order = _sums([angles.forms[j] for j in used])
+    forms = list(angles.numbers)
+    chosen, order = _sums([forms[j] for j in used])
     place = {used[j]: position for position, j in enumerate(order)}
     steps = []
     for number in sorted(needed):
@@ -123,10 +124,8 @@ def _sums(forms) -> tuple[list[Angle], list[int]]:
     """The angles, each from an earlier one where that saves additions; and which form each one is."""
     order = sorted(range(len(forms)), key=lambda j: (len(forms[j][0]), j))
     chosen: list[Angle] = []
-    having: dict[
-        int,
-        list[int],
-    ] = {}  # the angles so far that have a coordinate: no other one saves an addition
+    # the angles so far that have a coordinate: no other one saves an addition
+    having: dict[int, list[int]] = {}
     for position, j in enumerate(order):
         terms, offset = forms[j]
         best = Angle(None, terms, offset)

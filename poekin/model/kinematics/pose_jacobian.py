@@ -122,8 +122,9 @@ def velocity(chain: ChainData, q: Any, dq: Any, frame: Frame | int) -> Array:
     """Twists V (..., 6) of the tool by the paper's recursion for the body velocity."""
     code = frame_code(chain, frame)
     batch, (rows, rates) = broadcast_rows(chain, q=q, dq=dq)
-    V = np.empty((len(rows), 6))
-    chain_kernels.body_velocity.call(chain.kernel_table, rows, rates, V)
+    V = np.zeros((len(rows), 6))
+    if chain.kinds:
+        chain_kernels.body_velocity.call(chain.kernel_table, rows, rates, V)
     if code != chain_kernels.BODY:
         V = _in_frame(chain, rows, code, V)
     return V.reshape(*batch, 6)
