@@ -22,6 +22,7 @@ from ...errors import quote
 from ...groups.arrays import Array
 from ..chain_data import ChainData
 from .normals import (
+    BASE,
     ZERO,
     Frame,
     Vector,
@@ -31,6 +32,7 @@ from .normals import (
     exact,
     frame_on_line,
     length,
+    nearest_on_line,
     unit,
 )
 
@@ -76,7 +78,7 @@ class Walk:
         x = exact(chain.home[:3, 0])
         z = unit(exact(chain.home[:3, 2]))
         p = exact(chain.home[:3, 3])
-        self._step(z, add(p, scale(dot(subtract(self.given[-1].o, p), z), z)))
+        self._step(z, nearest_on_line(p, z, self.given[-1].o))
         self._end(frame_on_line(unit(across(x, z)), z, p))
 
     def _step(self, z: Vector, p: Vector) -> None:
@@ -112,11 +114,8 @@ class Walk:
         turned = new.out((theta.cosine, theta.sine, ZERO))
         up = add(scale(alpha.cosine, new.z), scale(alpha.sine, cross(turned, new.z)))
         origin = add(new.o, add(scale(d, new.z), scale(a, turned)))
-        return frame_on_line(x, z, add(normal.foot, scale(normal.a, x))), frame_on_line(
-            turned,
-            up,
-            origin,
-        )
+        given = frame_on_line(x, z, add(normal.foot, scale(normal.a, x)))
+        return given, frame_on_line(turned, up, origin)
 
     def _aside(self, z: Vector, p: Vector) -> tuple[Frame, Frame]:
         """By the smallest turn, to the next line's point nearest to the last origin."""
@@ -213,9 +212,6 @@ class Walk:
         T = np.eye(4)
         T[:3] = np.stack(columns, axis=1)
         return T
-
-
-BASE = frame_on_line((Decimal(1), ZERO, ZERO), (ZERO, ZERO, Decimal(1)), (ZERO, ZERO, ZERO))
 
 
 def _cosine(k: int) -> Decimal:

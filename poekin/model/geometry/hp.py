@@ -10,11 +10,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...algebra import add, cross, dot, scale, subtract
+from ...algebra import add, cross, scale, subtract
 from ...errors import InputError, quote
 from ...groups.arrays import Array
 from ..chain_data import ChainData
-from .normals import Vector, axis_near, common_normal, digits, exact, length
+from .normals import (
+    BASE,
+    Vector,
+    axis_near,
+    common_normal,
+    digits,
+    exact,
+    length,
+    nearest_on_line,
+)
 from .other_frames import rezeroed
 
 MEETING = Decimal("1e-14")
@@ -62,27 +71,26 @@ def to_hp(chain: ChainData) -> HPForm:
     if chain.offset.any():
         chain = rezeroed(chain.replace(offset=np.zeros(chain.dof)), chain.offset)
     with digits():
-        points = [exact((0.0, 0.0, 0.0)), *_points(chain), exact(chain.home[:3, 3])]
+        points = [BASE.o, *_points(chain), exact(chain.home[:3, 3])]
         steps = [[float(x) for x in subtract(b, a)] for a, b in pairwise(points)]
     return HPForm(chain.screws[:, :3].copy(), np.array(steps), chain.home[:3, :3].copy())
 
 
 def _points(chain: ChainData) -> list[Vector]:
     """One point of each axis, those of axes that meet the same."""
-    origin = exact((0.0, 0.0, 0.0))
-    lines = [axis_near(S, False, origin) for S in chain.screws]
+    lines = [axis_near(S, False, BASE.o) for S in chain.screws]
     shared: dict[int, Vector] = {}
     for run in _meetings(lines, MEETING * Decimal(chain.reach)):
         joints = range(run.first, run.last + 1)
         if not any(i in shared for i in joints):
             shared.update(dict.fromkeys(joints, run.point))
     points = []
-    last = origin
+    last = BASE.o
     for i, (z, p) in enumerate(lines):
         if i in shared:
             last = shared[i]
         else:
-            last = add(p, scale(dot(subtract(last, p), z), z))
+            last = nearest_on_line(p, z, last)
         points.append(last)
     return points
 

@@ -15,7 +15,7 @@ from typing import ClassVar, Generic
 
 import numpy as np
 
-from ...algebra import add, dot, scale, subtract
+from ...algebra import dot, subtract
 from ...checks import is_real
 from ...errors import InputError, safe_repr
 from ...groups.arrays import ROUNDOFF, Array
@@ -23,7 +23,7 @@ from ...results import Result
 from ..chain_data import AnyChain, ChainData
 from ..sampling import sampling_range
 from .axis_walk import Walk
-from .normals import Frame, digits, length
+from .normals import Frame, digits, length, nearest_on_line
 
 LARGEST = 0.05
 """The largest tolerance [rad, m] that is accepted: nothing has more than one multiple of 15 degrees
@@ -129,7 +129,7 @@ def _nearest(chain: ChainData, frames: list[Frame]) -> list[Frame]:
     for frame, kind in zip(frames[1:-1], chain.kinds, strict=True):
         o = slid[-1].o
         if kind != "prismatic":
-            o = add(frame.o, scale(dot(subtract(o, frame.o), frame.z), frame.z))
+            o = nearest_on_line(frame.o, frame.z, o)
         slid.append(frame._replace(o=o))
     return [*slid, frames[-1]]
 

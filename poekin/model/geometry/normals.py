@@ -75,6 +75,15 @@ def frame_on_line(x: Vector, z: Vector, o: Vector) -> Frame:
     return Frame(x, cross(z, x), z, o)
 
 
+BASE = frame_on_line((Decimal(1), ZERO, ZERO), (ZERO, ZERO, Decimal(1)), (ZERO, ZERO, ZERO))
+"""The base frame."""
+
+
+def nearest_on_line(p: Vector, z: Vector, o: Vector) -> Vector:
+    """Point nearest to o of the line of unit direction z through p."""
+    return add(p, scale(dot(subtract(o, p), z), z))
+
+
 def axis_near(S: np.ndarray, slides: bool, origin: Vector) -> tuple[Vector, Vector]:
     """Direction of a screw's axis and its point nearest to `origin`, which is that itself where a
     joint only slides.
@@ -85,7 +94,7 @@ def axis_near(S: np.ndarray, slides: bool, origin: Vector) -> tuple[Vector, Vect
         return unit(v), origin
     z = unit(w)
     foot = scale(1 / dot(w, w), cross(w, v))
-    return z, add(foot, scale(dot(subtract(origin, foot), z), z))
+    return z, nearest_on_line(foot, z, origin)
 
 
 class Normal(NamedTuple):

@@ -19,10 +19,10 @@ import numpy as np
 from ...algebra import add, cross, dot, scale, subtract
 from ...engine.straight_line.specialise import Pose, Structure
 from ...engine.straight_line.trace import FOLD_TOLERANCE
-from ...groups.arrays import Array
 from ..chain_data import ChainData
 from .local import turned_least
 from .normals import (
+    BASE,
     ZERO,
     Frame,
     Vector,
@@ -55,7 +55,8 @@ class _Joint:
 
     def end(self, before: Frame, after: Frame) -> None:
         """Sets its angle, which turns x from the frame before to the frame after, about z."""
-        self.quarters, self.offset = _angle((dot(after.x, before.x), dot(after.x, before.y)))
+        cosine, sine, _ = before.of(after.x)
+        self.quarters, self.offset = _angle(cosine, sine)
         self.pose = _pose(after)
 
 
@@ -84,14 +85,14 @@ def structure(chain: ChainData) -> Structure:
 
 
 def _structure(chain: ChainData) -> Structure:
-    frame = Frame(*_columns(np.eye(3)), exact((0.0, 0.0, 0.0)))
+    frame = BASE
     base = _pose(frame)
     joints: list[_Joint] = []
     for S, kind in zip(chain.screws, chain.kinds, strict=True):
         slides = kind == "prismatic"
         z, p = axis_near(S, slides, frame.o)
         if not joints:
-            x, y, _ = _columns(turned_least(np.array(z, float)))
+            x, y, _ = map(exact, turned_least(np.array(z, float)).T)
             frame = Frame(x, y, z, p)
             base = _pose(frame)
             joints.append(_Joint())
@@ -160,11 +161,10 @@ def _as_structure(chain: ChainData, joints: list[_Joint], base: Pose, tool: Pose
     )
 
 
-def _angle(turn: tuple[Decimal, Decimal]) -> tuple[int, float]:
+def _angle(cosine: Decimal, sine: Decimal) -> tuple[int, float]:
     """An angle given by cosine and sine: whole quarter turns, and what is left, which is 0 within
     rounding or not.
     """
-    cosine, sine = turn
     angle = math.atan2(sine, cosine)
     quarters = round(angle / (math.pi / 2))
     left = sine if quarters % 2 == 0 else cosine
@@ -177,11 +177,6 @@ def _pose(frame: Frame) -> Pose:
     """The twelve numbers of a frame, rotation row by row, then position."""
     *columns, o = frame
     return (*(float(value) for row in zip(*columns, strict=True) for value in row), *map(float, o))
-
-
-def _columns(R: Array) -> tuple[Vector, Vector, Vector]:
-    x, y, z = (exact(column) for column in R.T)
-    return x, y, z
 
 
 def _in_local(chain: ChainData, k: int, T: Pose) -> Pose:

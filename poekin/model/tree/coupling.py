@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -30,8 +30,12 @@ class Coupling(NamedTuple):
     shift: np.ndarray
 
 
-_Value = tuple[int, float, float]
-"""The master's number of a joint, or -1 where it stands still, and its ratio and shift."""
+class _Value(NamedTuple):
+    """A joint's value: ratio times that of its master, by number, plus shift; -1 stands still."""
+
+    master: int = -1
+    ratio: float = 0.0
+    shift: float = 0.0
 
 
 def coupling_of(joints: Sequence[Joint], source: Source) -> Coupling:
@@ -41,21 +45,23 @@ def coupling_of(joints: Sequence[Joint], source: Source) -> Coupling:
     does not exist, of itself or in a circle, of a floating or planar joint, and for multipliers
     whose product is not finite.
     """
+
+    def where(index: int) -> str:
+        return f"{source.of_joint(index)}: joint {quote(joints[index].name)}"
+
     numbers = {joint.name: index for index, joint in enumerate(joints)}
     known: dict[int, _Value] = {}
     for start in range(len(joints)):
-        _resolve(start, joints, numbers, known, source)
+        _resolve(start, joints, numbers, known, where)
     values = [known[index] for index in range(len(joints))]
-    coordinates: dict[int, int] = {}
-    for master, _, _ in values:
-        if master >= 0:
-            coordinates.setdefault(master, len(coordinates))
+    masters = dict.fromkeys(value.master for value in values if value.master >= 0)
+    coordinates = {master: number for number, master in enumerate(masters)}
     return Coupling(
-        tuple(joints[master].name for master in coordinates),
-        _frozen(list(coordinates), np.int64),
-        _frozen([coordinates.get(master, -1) for master, _, _ in values], np.int64),
-        _frozen([ratio for _, ratio, _ in values], np.float64),
-        _frozen([shift for _, _, shift in values], np.float64),
+        tuple(joints[master].name for master in masters),
+        _frozen(list(masters), np.int64),
+        _frozen([coordinates.get(value.master, -1) for value in values], np.int64),
+        _frozen([value.ratio for value in values], np.float64),
+        _frozen([value.shift for value in values], np.float64),
     )
 
 
@@ -76,10 +82,8 @@ def shared_limits(
     upper = np.full(len(own), np.inf)
     followers = joints[(coupling.coordinate[joints] >= 0) & (coupling.ratio[joints] != 0)]
     with np.errstate(over="ignore"):  # a bound beyond the largest number is no bound
-        ends = (bounds[followers] - coupling.shift[followers, None]) / coupling.ratio[
-            followers,
-            None,
-        ]
+        moved = bounds[followers] - coupling.shift[followers, None]
+        ends = moved / coupling.ratio[followers, None]
     coordinate = coupling.coordinate[followers]
     np.maximum.at(lower, coordinate, ends.min(axis=1))
     np.minimum.at(upper, coordinate, ends.max(axis=1))
@@ -109,7 +113,7 @@ def _resolve(
     joints: Sequence[Joint],
     numbers: dict[str, int],
     known: dict[int, _Value],
-    source: Source,
+    where: Callable[[int], str],
 ) -> None:
     # Up the mimics to the first joint that is settled or follows none, then back down, composing.
     walk: dict[int, None] = {}
@@ -118,54 +122,41 @@ def _resolve(
         joint = joints[index]
         if index in walk:
             through = ", through others" if len(walk) > 1 else ""
-            raise ModelError(f"{_where(index, joints, source)} mimics itself{through}")
+            raise ModelError(f"{where(index)} mimics itself{through}")
         walk[index] = None
         if joint.mimic is None:
-            known[index] = (-1, 0.0, 0.0)
+            known[index] = _Value()
             if joint.kind in MOVING:
-                known[index] = (index, 1.0, 0.0)
+                known[index] = _Value(index, 1.0)
             break
         if joint.mimic.joint not in numbers:
             name = joint.mimic.joint
-            where = _where(index, joints, source)
-            raise ModelError(
-                f"{where} mimics {quote(name)}, which does not exist; {suggest(name, numbers)}"
-            )
+            close = suggest(name, numbers)
+            raise ModelError(f"{where(index)} mimics {quote(name)}, which does not exist; {close}")
         master = numbers[joint.mimic.joint]
-        if joints[master].kind in FREE:
-            free = joints[master]
-            where = _where(index, joints, source)
+        free = joints[master]
+        if free.kind in FREE:
             raise ModelError(
-                f"{where} mimics {quote(free.name)}, but a {free.kind} joint has no single value"
+                f"{where(index)} mimics {quote(free.name)}, but a {free.kind} joint has no single value"
             )
         index = master
     for index in reversed(walk):
-        mimic = joints[index].mimic
-        if mimic is not None:
-            known[index] = _composed(index, mimic, known[numbers[mimic.joint]], joints, source)
+        joint = joints[index]
+        if joint.mimic is None:
+            continue
+        known[index] = _Value()
+        if joint.kind != "fixed":
+            followed = known[numbers[joint.mimic.joint]]
+            known[index] = _composed(joint.mimic, followed, where(index))
 
 
-def _composed(
-    index: int,
-    mimic: Mimic,
-    followed: _Value,
-    joints: Sequence[Joint],
-    source: Source,
-) -> _Value:
+def _composed(mimic: Mimic, followed: _Value, where: str) -> _Value:
     """Value of a joint that mimics another, of which this is the value."""
-    if joints[index].kind == "fixed":
-        return -1, 0.0, 0.0
-    master, ratio, shift = followed
-    ratio = mimic.multiplier * ratio
-    shift = mimic.multiplier * shift + mimic.offset
+    ratio = mimic.multiplier * followed.ratio
+    shift = mimic.multiplier * followed.shift + mimic.offset
     if not (math.isfinite(ratio) and math.isfinite(shift)):
-        where = _where(index, joints, source)
         raise ModelError(f"{where}: the product of its chain of multipliers is not finite")
-    return master, ratio, shift
-
-
-def _where(index: int, joints: Sequence[Joint], source: Source) -> str:
-    return f"{source.of_joint(index)}: joint {quote(joints[index].name)}"
+    return _Value(followed.master, ratio, shift)
 
 
 def _frozen(values: list, dtype: type) -> np.ndarray:

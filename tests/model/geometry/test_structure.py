@@ -145,7 +145,7 @@ def test_a_quarter_turn_is_one_within_rounding_and_else_an_angle(quarter, cosine
     ):
         small = off * FOLD_TOLERANCE
         c, s = cosine - small * sine, sine + small * cosine
-        quarters, angle = _angle((Decimal(c), Decimal(s)))
+        quarters, angle = _angle(Decimal(c), Decimal(s))
         assert (quarters, angle) == ((quarter, 0) if folded else (0, math.atan2(s, c)))
 
 
