@@ -196,15 +196,16 @@ def _name(value: object, what: str) -> None:
 
 
 def _finite(values: Any, count: int, what: str) -> tuple[float, ...]:
+    fault = None
     try:
         numbers = tuple(map(float, values))
-    except (TypeError, ValueError, OverflowError) as fault:
-        raise ModelError(
-            f"{what}: expected {count} finite number(s), got {safe_repr(values)}"
-        ) from fault
-    if len(numbers) != count or not all(map(math.isfinite, numbers)):
-        raise ModelError(f"{what}: expected {count} finite number(s), got {safe_repr(values)}")
-    return numbers
+        if len(numbers) == count and all(map(math.isfinite, numbers)):
+            return numbers
+    except (TypeError, ValueError, OverflowError) as error:
+        fault = error
+    raise ModelError(
+        f"{what}: expected {count} finite number(s), got {safe_repr(values)}"
+    ) from fault
 
 
 def _direction(axis: Any) -> tuple[float, ...]:
