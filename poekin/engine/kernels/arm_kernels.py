@@ -116,9 +116,8 @@ def run_one(arm, q, T, J, scratch):
     overwritten.
     """
     count, _, angles, one, _ = _header(arm)
-    whole = (
-        (count + LANES - 1) // LANES * LANES
-    )  # full lanes are faster, whatever is in the last of them
+    # full lanes are faster, whatever is in the last of them
+    whole = (count + LANES - 1) // LANES * LANES
     if 2 * whole > scratch.size:
         scratch = np.empty(2 * whole)
     sines = scratch[:whole]
@@ -140,7 +139,7 @@ def _apart(a, b):
 @kernel("int w1 w2", returns="int", quick=True)
 def pose_one(arm, q, T):
     """f(q) of one configuration."""
-    if q.shape[0] != _header(arm)[1] or T.shape[0] != 4 or T.shape[1] != 4 or not _apart(q, T):
+    if len(q) != _header(arm)[1] or T.shape != (4, 4) or not _apart(q, T):
         return 0
     q = without_refcount(q)
     T = without_refcount(T)
@@ -152,7 +151,7 @@ def pose_one(arm, q, T):
 def jacobian_one(arm, q, J):
     """The Jacobian of one configuration."""
     m = _header(arm)[1]
-    if q.shape[0] != m or J.shape[0] != 6 or J.shape[1] != m or not _apart(q, J):
+    if len(q) != m or J.shape != (6, m) or not _apart(q, J):
         return 0
     q = without_refcount(q)
     J = without_refcount(J)
@@ -164,7 +163,7 @@ def jacobian_one(arm, q, J):
 def pose_jacobian_one(arm, q, T, J):
     """f(q) and the Jacobian of one configuration."""
     m = _header(arm)[1]
-    if q.shape[0] != m or T.shape[0] != 4 or T.shape[1] != 4 or J.shape[0] != 6 or J.shape[1] != m:
+    if len(q) != m or T.shape != (4, 4) or J.shape != (6, m):
         return 0
     if not (_apart(q, T) and _apart(q, J) and _apart(T, J)):
         return 0

@@ -62,11 +62,10 @@ def jacobian_rates(table, q, dq, frame, dJ):
     for k in range(q.shape[0]):
         set_columns(table, q[k], frame, sines, cosines, shifts, J)
         set_rates(table, dq[k], rates)
+        target = dJ_x if coupled else dJ[k]
+        set_jacobian_rate(J, rates, frame, target)
         if coupled:
-            set_jacobian_rate(J, rates, frame, dJ_x)
             columns.coupled(dJ_x, table[:, COUPLING:], n, q.shape[1], dJ[k])
-        else:
-            set_jacobian_rate(J, rates, frame, dJ[k])
 
 
 @kernel("w2 r2 r2 r2 int w2")

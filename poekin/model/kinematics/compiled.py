@@ -28,6 +28,7 @@ _Calls = dict[object, tuple[Callable, int]]
 _empty = np.empty
 _float64 = np.dtype(np.float64)
 _POSE_SHAPE = (4, 4)
+_RESULTS = {(True, False): "pose", (False, True): "jacobian", (True, True): "pose_jacobian"}
 _NOT_PLAIN = (AttributeError, KeyError, TypeError, ValueError)
 
 
@@ -255,8 +256,8 @@ class CompiledChain(ChainPrograms[AnyChain]):
 
     def _kernel(self, pose: bool, code: int | None, many: str) -> Kernel:
         """The kernel of poses, Jacobians or both, for "one" configuration or "many"."""
-        results = ["pose"] * pose + ["jacobian"] * (code is not None)
-        return getattr(self._kernels, "_".join([*results, many]))
+        results = _RESULTS[pose, code is not None]
+        return getattr(self._kernels, f"{results}_{many}")
 
     def _arm(self, code: int | None, pose: bool) -> ArmCode:
         """The machine code for a frame; for None, of the pose alone."""

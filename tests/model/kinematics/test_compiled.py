@@ -334,7 +334,7 @@ def test_no_frame_is_none():
     for call in (FAST.jacobian, FAST.fk_jacobian):
         for q in (Q, Q[0]):
             with pytest.raises(InputError, match="got None"):
-                call(q, None)
+                call(q, None)  # type: ignore[arg-type]
 
 
 def test_an_offset_of_a_right_angle_costs_nothing_and_any_other_an_addition():
