@@ -15,12 +15,20 @@ IDENTITY = (1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0)
 
 def add(a, b):
     """a + b of two vectors."""
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+    return (
+        a[0] + b[0],
+        a[1] + b[1],
+        a[2] + b[2],
+    )
 
 
 def subtract(a, b):
     """a - b of two vectors."""
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+    return (
+        a[0] - b[0],
+        a[1] - b[1],
+        a[2] - b[2],
+    )
 
 
 def scale(k, a):
@@ -35,7 +43,11 @@ def dot(a, b):
 
 def cross(a, b):
     """a x b of two vectors."""
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
 
 
 def rotate(R, a):
@@ -153,7 +165,14 @@ def turn_axes(a, b, sine, cosine):
 
 def column(J, i):
     """Column i of six rows, a twist."""
-    return (J[0][i], J[1][i], J[2][i], J[3][i], J[4][i], J[5][i])
+    return (
+        J[0][i],
+        J[1][i],
+        J[2][i],
+        J[3][i],
+        J[4][i],
+        J[5][i],
+    )
 
 
 def set_column(J, i, V):

@@ -20,6 +20,12 @@ def angles(R: Array) -> Array:
     yaw = np.arctan2(R[..., 1, 0], R[..., 0, 0])
     s = np.sin(yaw)
     c = np.cos(yaw)
-    roll = np.arctan2(s * R[..., 0, 2] - c * R[..., 1, 2], c * R[..., 1, 1] - s * R[..., 0, 1])
-    pitch = np.arctan2(-R[..., 2, 0], c * R[..., 0, 0] + s * R[..., 1, 0])
+    roll = np.arctan2(
+        s * R[..., 0, 2] - c * R[..., 1, 2],
+        c * R[..., 1, 1] - s * R[..., 0, 1],
+    )
+    pitch = np.arctan2(
+        -R[..., 2, 0],
+        c * R[..., 0, 0] + s * R[..., 1, 0],
+    )
     return np.stack([roll, pitch, yaw], axis=-1) + 0.0

@@ -347,7 +347,11 @@ class Chain(ChainEntrances, ChainFrames, ChainDerivatives, ChainCoordinates):
         """
         return pose_jacobian.joint_poses(self, q)
 
-    def random(self, rng: np.random.Generator | int, size: int | tuple[int, ...] = ()) -> Array:
+    def random(
+        self,
+        rng: np.random.Generator | int,
+        size: int | tuple[int, ...] = (),
+    ) -> Array:
         """Configurations drawn uniformly within the limits.
 
         A coordinate without limits is drawn from one turn, or 1 m either way, of the joint that it

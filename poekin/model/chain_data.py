@@ -248,7 +248,11 @@ class ChainData:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, ChainData):
             return NotImplemented
-        pairs = zip(self._data().values(), other._data().values(), strict=True)
+        pairs = zip(
+            self._data().values(),
+            other._data().values(),
+            strict=True,
+        )
         return all(type(a) is type(b) and np.array_equal(a, b) for a, b in pairs)
 
     def __hash__(self) -> int:

@@ -49,7 +49,11 @@ def one_pose(T: ArrayLike, what: str = "home") -> Array:
             raise InputError(
                 f"{what}: expected lengths of at most {LONGEST:g} m, got {row[3]:g} in row {number}"
             )
-    R = (*rows[0][:3], *rows[1][:3], *rows[2][:3])
+    R = (
+        *rows[0][:3],
+        *rows[1][:3],
+        *rows[2][:3],
+    )
     off = defect.orthonormality(R)
     fits = all(abs(a - b) <= TOLERANCE for a, b in zip(last, _LAST_ROW, strict=True))
     if off > TOLERANCE or defect.determinant(R) < 0 or not fits:

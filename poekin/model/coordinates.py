@@ -14,7 +14,11 @@ from ..groups.arrays import Array, numbers
 from ..groups.objects import labels
 
 
-def coordinates(q: Any, names: tuple[str, ...], what: str = "q") -> Array:
+def coordinates(
+    q: Any,
+    names: tuple[str, ...],
+    what: str = "q",
+) -> Array:
     """q as a float64 array (..., m) in the order of `names`: of an array, or of a dict or a pandas
     Series or DataFrame (its columns) whose labels are the names, in any order.
 
@@ -36,7 +40,11 @@ def coordinates(q: Any, names: tuple[str, ...], what: str = "q") -> Array:
     return array
 
 
-def _known(given: Collection[Any], names: tuple[str, ...], what: str) -> None:
+def _known(
+    given: Collection[Any],
+    names: tuple[str, ...],
+    what: str,
+) -> None:
     """Raises UnknownName or InputError where the names given are not those of the coordinates."""
     for name in given:
         if name not in names:
@@ -46,7 +54,12 @@ def _known(given: Collection[Any], names: tuple[str, ...], what: str) -> None:
         raise InputError(f"{what}: no value for {join_names(missing)}")
 
 
-def _from_labels(q: Any, marks: tuple[Any, ...], names: tuple[str, ...], what: str) -> Array:
+def _from_labels(
+    q: Any,
+    marks: tuple[Any, ...],
+    names: tuple[str, ...],
+    what: str,
+) -> Array:
     _known(marks, names, what)
     if len(marks) > len(names):
         raise InputError(

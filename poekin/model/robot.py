@@ -282,7 +282,12 @@ class Robot:
         )
 
 
-def _rebuilt(name: str, links: Any, joints: Any, source: Source | None) -> Robot:
+def _rebuilt(
+    name: str,
+    links: Any,
+    joints: Any,
+    source: Source | None,
+) -> Robot:
     """A robot that was pickled: what there was to warn of was said when it was made."""
     robot = object.__new__(Robot)
     robot._freeze(make_parts(name, links, joints, source), source)

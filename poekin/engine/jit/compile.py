@@ -112,7 +112,13 @@ def array_type(code: str):
     return types.Array(element, dimensions, "A", readonly=True, aligned=False)
 
 
-def compiled(function, arguments: str, returns: str = "", quick: bool = False, bare: bool = False):
+def compiled(
+    function,
+    arguments: str,
+    returns: str = "",
+    quick: bool = False,
+    bare: bool = False,
+):
     """Machine code of `function` for one signature, from the cache or compiled now; see
     `engine.jit.kernel.Kernel`.
     """

@@ -21,7 +21,14 @@ class Kernel:
 
     __slots__ = ("arguments", "bare", "call", "function", "quick", "returns")
 
-    def __init__(self, function: Callable, arguments: str, returns: str, quick: bool, bare: bool):
+    def __init__(
+        self,
+        function: Callable,
+        arguments: str,
+        returns: str,
+        quick: bool,
+        bare: bool,
+    ):
         self.function = function
         self.arguments = arguments
         self.returns = returns
@@ -50,7 +57,12 @@ class Kernel:
         return self.ready()(*arguments)
 
 
-def kernel(arguments: str, returns: str = "", quick: bool = False, bare: bool = False):
+def kernel(
+    arguments: str,
+    returns: str = "",
+    quick: bool = False,
+    bare: bool = False,
+):
     """Decorator: make a function of arrays a `Kernel`; for the argument codes see
     `engine.jit.compile.array_type`.
     """

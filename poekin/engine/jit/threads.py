@@ -19,7 +19,11 @@ _pools: dict[int, ThreadPoolExecutor] = {}
 _making = threading.Lock()
 
 
-def share_out(run: Callable[..., Any], *arrays: Any, rows: int = ROWS_AT_ONCE) -> None:
+def share_out(
+    run: Callable[..., Any],
+    *arrays: Any,
+    rows: int = ROWS_AT_ONCE,
+) -> None:
     """run(*parts) for parts of all arrays, `rows` along their first axis, by a thread for each
     processor.
     """

@@ -47,7 +47,11 @@ def _angles(typing_context, code, q, row, sines, stride, lane):
         start = builder.mul(values[2], _width(context, builder, signature, values, 1))
         builder.call(
             function,
-            [builder.gep(q, [start]), builder.gep(sines, [values[5]]), values[4]],
+            [
+                builder.gep(q, [start]),
+                builder.gep(sines, [values[5]]),
+                values[4],
+            ],
         )
         return context.get_dummy_value()
 

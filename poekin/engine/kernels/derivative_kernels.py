@@ -115,9 +115,21 @@ def hessians(table, q, frame, H):
             derivatives.hybrid_hessian(J, n, target)
         if coupled:
             for j in range(n):
-                columns.coupled(H_x[:, :, j], coupling, n, m, half[:, :, j])
+                columns.coupled(
+                    H_x[:, :, j],
+                    coupling,
+                    n,
+                    m,
+                    half[:, :, j],
+                )
             for i in range(m):
-                columns.coupled(half[:, i, :], coupling, n, m, H[k][:, i, :])
+                columns.coupled(
+                    half[:, i, :],
+                    coupling,
+                    n,
+                    m,
+                    H[k][:, i, :],
+                )
 
 
 @kernel("w2 r2 r2 int w3")
@@ -212,4 +224,10 @@ def jacobian_changes(table, screws, home, q, frame, C):
         if coupled:
             for i in range(n + 1):
                 for e in range(6):
-                    columns.coupled(C_x[:, :, i, e], coupling, n, m, C[k][:, :, i, e])
+                    columns.coupled(
+                        C_x[:, :, i, e],
+                        coupling,
+                        n,
+                        m,
+                        C[k][:, :, i, e],
+                    )

@@ -59,7 +59,14 @@ def se3_log(T, xi):
 def se3_log_near(T, near, xi):
     """The log whose angular part is nearest to that of a given twist."""
     for k in range(xi.shape[0]):
-        store_row(xi[k], logarithm.se3_near(load_matrix(T[k]), angular(near[k]), linear(near[k])))
+        store_row(
+            xi[k],
+            logarithm.se3_near(
+                load_matrix(T[k]),
+                angular(near[k]),
+                linear(near[k]),
+            ),
+        )
 
 
 @kernel("r3 w3")

@@ -182,7 +182,10 @@ def descend(problem, target, q, work):
         choose_free(problem, weights, q, J, rows)
         damped_step.step(J, e, weights, E, rows[FREE], m, H, dq)
         for i in range(m):
-            q[i] = min(max(q[i] + dq[i], problem.limits[i, 0]), problem.limits[i, 1])
+            q[i] = min(
+                max(q[i] + dq[i], problem.limits[i, 0]),
+                problem.limits[i, 1],
+            )
         taken += 1
 
 

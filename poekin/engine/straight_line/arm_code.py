@@ -28,7 +28,12 @@ class ArmCode:
         self.address = int(self._numbers.ctypes.data)
 
 
-def arm_code(key: object, make: Callable[[], Program], coordinates: int, pose: bool) -> ArmCode:
+def arm_code(
+    key: object,
+    make: Callable[[], Program],
+    coordinates: int,
+    pose: bool,
+) -> ArmCode:
     """The machine code of the program that `make` makes. key: all that it depends on besides
     poekin's source.
     """

@@ -169,7 +169,12 @@ class _Function:
             return self.build.fadd
         return self.build.fsub
 
-    def _output(self, values: dict[int, Any], number: int | None, sign: float) -> Any:
+    def _output(
+        self,
+        values: dict[int, Any],
+        number: int | None,
+        sign: float,
+    ) -> Any:
         """One output: a constant, or a node with its sign."""
         if number is None:
             return self._constant(sign)
@@ -202,7 +207,10 @@ class _Function:
         build = self.build
         sines, cosines, stride, q, width, *_ = self.function.args
         if number >= 0:
-            place = build.gep((sines, cosines)[number % 2], [build.mul(stride, _INT(number // 2))])
+            place = build.gep(
+                (sines, cosines)[number % 2],
+                [build.mul(stride, _INT(number // 2))],
+            )
             return build.load(self._cast_pointer(place, self.type), align=8)
         value = build.load(build.gep(q, [_INT(-1 - number)]), align=8)
         if self.lanes == 1:

@@ -120,7 +120,10 @@ def _traced(
     return program(
         trace.graph,
         trace.angles,
-        [*(T if pose or frame is None else ()), *(x for row in J for x in row)],
+        [
+            *(T if pose or frame is None else ()),
+            *(x for row in J for x in row),
+        ],
     )
 
 

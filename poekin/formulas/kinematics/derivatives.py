@@ -31,12 +31,18 @@ def scale_twist(k, V):
 
 def add_twists(V, W):
     """V + W of two twists."""
-    return twist(add(angular(V), angular(W)), add(linear(V), linear(W)))
+    return twist(
+        add(angular(V), angular(W)),
+        add(linear(V), linear(W)),
+    )
 
 
 def subtract_twists(V, W):
     """V - W of two twists."""
-    return twist(subtract(angular(V), angular(W)), subtract(linear(V), linear(W)))
+    return twist(
+        subtract(angular(V), angular(W)),
+        subtract(linear(V), linear(W)),
+    )
 
 
 def at_point(V, p):

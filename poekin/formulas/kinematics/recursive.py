@@ -62,8 +62,22 @@ def body_velocity(links, tool, rotates, slides, count, rates):
     """Body velocity (omega; v) of the tool: V_i = Ad(f_{i-1,i})^-1 V_{i-1} + S_i dx_i, V_0 = 0 (the
     V recursion).
     """
-    V = (0.0, 0.0, rotates[0] * rates[0], 0.0, 0.0, slides[0] * rates[0])
+    V = (
+        0.0,
+        0.0,
+        rotates[0] * rates[0],
+        0.0,
+        0.0,
+        slides[0] * rates[0],
+    )
     for i in range(1, count):
         V = adjoint_inverse(links[i], V)
-        V = (V[0], V[1], V[2] + rotates[i] * rates[i], V[3], V[4], V[5] + slides[i] * rates[i])
+        V = (
+            V[0],
+            V[1],
+            V[2] + rotates[i] * rates[i],
+            V[3],
+            V[4],
+            V[5] + slides[i] * rates[i],
+        )
     return adjoint_inverse(tool, V)

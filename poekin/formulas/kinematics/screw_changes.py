@@ -62,7 +62,14 @@ def pose_changes(P, count, D):
 
 
 def _derivative(D, i, e):
-    return (D[0][i][e], D[1][i][e], D[2][i][e], D[3][i][e], D[4][i][e], D[5][i][e])
+    return (
+        D[0][i][e],
+        D[1][i][e],
+        D[2][i][e],
+        D[3][i][e],
+        D[4][i][e],
+        D[5][i][e],
+    )
 
 
 def column_change(J, P, D, k, i, e):

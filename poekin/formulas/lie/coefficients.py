@@ -73,7 +73,10 @@ def _beyond_poles(k):
 
 def _derivative_term(k, order):
     """Coefficient of t^2k of B'/t (order 4) and C'/t (order 5)."""
-    return Fraction((-1) ** (k + 1) * 2 * (k + 1), factorial(2 * k + order))
+    return Fraction(
+        (-1) ** (k + 1) * 2 * (k + 1),
+        factorial(2 * k + order),
+    )
 
 
 FIRST = float(_TURN)

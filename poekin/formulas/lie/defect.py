@@ -9,7 +9,13 @@ def orthonormality(R):
     """The largest entry of abs(R R^T - I)."""
     x, y, z = _rows(R)
     worst = abs(dot(x, x) - 1.0)
-    for entry in (dot(y, y) - 1.0, dot(z, z) - 1.0, dot(x, y), dot(y, z), dot(z, x)):
+    for entry in (
+        dot(y, y) - 1.0,
+        dot(z, z) - 1.0,
+        dot(x, y),
+        dot(y, z),
+        dot(z, x),
+    ):
         if abs(entry) > worst:
             worst = abs(entry)
     return worst

@@ -84,7 +84,14 @@ def left_dual(w, v):
     """Q(w, v), the lower left block of the left Jacobian on SE(3), row by row."""
     tt = dot(w, w)
     a, b, c = _abc(w, tt)
-    return _dual(w, v, b, c, b_derivative(tt, a, b), c_derivative(tt, b, c))
+    return _dual(
+        w,
+        v,
+        b,
+        c,
+        b_derivative(tt, a, b),
+        c_derivative(tt, b, c),
+    )
 
 
 def left_inverse_dual(w, v):

@@ -18,7 +18,14 @@ def rotation(w, a, b):
     xx = w[0] * w[0]
     yy = w[1] * w[1]
     zz = w[2] * w[2]
-    return _with_diagonal(w, a, b, 1.0 - b * (yy + zz), 1.0 - b * (xx + zz), 1.0 - b * (xx + yy))
+    return _with_diagonal(
+        w,
+        a,
+        b,
+        1.0 - b * (yy + zz),
+        1.0 - b * (xx + zz),
+        1.0 - b * (xx + yy),
+    )
 
 
 def _with_diagonal(w, a, b, first, second, third):

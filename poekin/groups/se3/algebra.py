@@ -110,7 +110,13 @@ def vee(X: ArrayLike) -> Array:
     Accuracy: one rounding; exact for the result of `hat`. Source: Park 1994, Section II.
     """
     X = shaped(X, (4, 4), "X")
-    return np.concatenate([so3.vee(X[..., :3, :3]), X[..., :3, 3]], axis=-1)
+    return np.concatenate(
+        [
+            so3.vee(X[..., :3, :3]),
+            X[..., :3, 3],
+        ],
+        axis=-1,
+    )
 
 
 def inverse(T_ab: ArrayLike) -> Array:

@@ -112,7 +112,10 @@ class Walk:
             f"{name} turned by {{0:.3g}} rad to be {{2}} to {before}",
         )
         turned = new.out((theta.cosine, theta.sine, ZERO))
-        up = add(scale(alpha.cosine, new.z), scale(alpha.sine, cross(turned, new.z)))
+        up = add(
+            scale(alpha.cosine, new.z),
+            scale(alpha.sine, cross(turned, new.z)),
+        )
         origin = add(new.o, add(scale(d, new.z), scale(a, turned)))
         given = frame_on_line(x, z, add(normal.foot, scale(normal.a, x)))
         return given, frame_on_line(turned, up, origin)
@@ -167,7 +170,13 @@ class Walk:
     def _length(self, value: Decimal, words: str) -> Decimal:
         return self._zeros(value, ZERO, self.noise, words)[0]
 
-    def _zeros(self, x: Decimal, y: Decimal, noise: float, words: str) -> tuple[Decimal, Decimal]:
+    def _zeros(
+        self,
+        x: Decimal,
+        y: Decimal,
+        noise: float,
+        words: str,
+    ) -> tuple[Decimal, Decimal]:
         """Each made 0 where it is within the tolerance."""
         a, b = (ZERO if self._is_zero(value) else value for value in (x, y))
         self._changed(math.hypot(x - a, y - b), noise, words)
@@ -187,7 +196,13 @@ class Walk:
         self._changed(off, ROUNDING, words, degrees, relation)
         return turn
 
-    def _changed(self, size: float, noise: float, words: str, *rest: object) -> None:
+    def _changed(
+        self,
+        size: float,
+        noise: float,
+        words: str,
+        *rest: object,
+    ) -> None:
         self.snapped |= size > 0
         if size > noise:
             self.changes.append(words.format(size, *rest))
@@ -195,12 +210,20 @@ class Walk:
     def screws(self) -> Array:
         """The exact lines (n, 6) with the given pitches."""
         S = np.zeros((len(self.chain.kinds), 6))
-        joints = zip(self.exact[1:], self.chain.kinds, self.chain.local.slides, strict=False)
+        joints = zip(
+            self.exact[1:],
+            self.chain.kinds,
+            self.chain.local.slides,
+            strict=False,
+        )
         for row, (frame, kind, pitch) in zip(S, joints, strict=True):
             if kind == "prismatic":
                 row[3:] = _floats(frame.z)
             else:
-                moment = add(cross(frame.o, frame.z), scale(Decimal(float(pitch)), frame.z))
+                moment = add(
+                    cross(frame.o, frame.z),
+                    scale(Decimal(float(pitch)), frame.z),
+                )
                 row[:3] = _floats(frame.z)
                 row[3:] = _floats(moment, length(frame.o))
         return S
@@ -208,7 +231,10 @@ class Walk:
     def home(self) -> Array:
         """The exact home pose (4, 4)."""
         tool = self.exact[-1]
-        columns = [*map(_floats, (tool.x, tool.y, tool.z)), _floats(tool.o, length(tool.o))]
+        columns = [
+            *map(_floats, (tool.x, tool.y, tool.z)),
+            _floats(tool.o, length(tool.o)),
+        ]
         T = np.eye(4)
         T[:3] = np.stack(columns, axis=1)
         return T

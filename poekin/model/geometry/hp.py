@@ -73,7 +73,11 @@ def to_hp(chain: ChainData) -> HPForm:
     with digits():
         points = [BASE.o, *_points(chain), exact(chain.home[:3, 3])]
         steps = [[float(x) for x in subtract(b, a)] for a, b in pairwise(points)]
-    return HPForm(chain.screws[:, :3].copy(), np.array(steps), chain.home[:3, :3].copy())
+    return HPForm(
+        chain.screws[:, :3].copy(),
+        np.array(steps),
+        chain.home[:3, :3].copy(),
+    )
 
 
 def _points(chain: ChainData) -> list[Vector]:

@@ -90,7 +90,11 @@ def idealised(chain: AnyChain, tol: float) -> Idealised[AnyChain]:
     return Idealised(exact, position, rotation, tuple(walk.changes))
 
 
-def _bounds(chain: ChainData, given: list[Frame], exact: list[Frame]) -> tuple[float, float]:
+def _bounds(
+    chain: ChainData,
+    given: list[Frame],
+    exact: list[Frame],
+) -> tuple[float, float]:
     """Bounds of the distance [m] and the angle [rad] of the tip from its given pose.
 
     f = G_0 e^{Z x_1} G_1 ... e^{Z x_n} G_n with z-aligned frames on the lines, and G_i' in place of

@@ -62,12 +62,20 @@ class Frame(NamedTuple):
 
     def out(self, v: Vector) -> Vector:
         """A direction of this frame, as the base frame sees it."""
-        return add(add(scale(v[0], self.x), scale(v[1], self.y)), scale(v[2], self.z))
+        return add(
+            add(scale(v[0], self.x), scale(v[1], self.y)),
+            scale(v[2], self.z),
+        )
 
     def seen_by(self, other: Frame) -> Frame:
         """Frame by its directions and origin in another one."""
         o = other.of(subtract(self.o, other.o))
-        return Frame(other.of(self.x), other.of(self.y), other.of(self.z), o)
+        return Frame(
+            other.of(self.x),
+            other.of(self.y),
+            other.of(self.z),
+            o,
+        )
 
 
 def frame_on_line(x: Vector, z: Vector, o: Vector) -> Frame:
@@ -75,7 +83,11 @@ def frame_on_line(x: Vector, z: Vector, o: Vector) -> Frame:
     return Frame(x, cross(z, x), z, o)
 
 
-BASE = frame_on_line((Decimal(1), ZERO, ZERO), (ZERO, ZERO, Decimal(1)), (ZERO, ZERO, ZERO))
+BASE = frame_on_line(
+    (Decimal(1), ZERO, ZERO),
+    (ZERO, ZERO, Decimal(1)),
+    (ZERO, ZERO, ZERO),
+)
 """The base frame."""
 
 

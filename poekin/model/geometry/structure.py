@@ -131,9 +131,23 @@ def _step(frame: Frame, z: Vector, p: Vector, slides: bool) -> _Step:
         return _Step(x, z, sine, cosine)
     if sine < SLANT:
         w = subtract(w, scale(dot(w, frame.z) / cosine, z))
-        return _Step(x, z, sine, cosine, a=dot(w, x), b=dot(w, y))
+        return _Step(
+            x,
+            z,
+            sine,
+            cosine,
+            a=dot(w, x),
+            b=dot(w, y),
+        )
     w = subtract(w, scale(dot(w, y) / dot(z, y), z))
-    return _Step(x, z, sine, cosine, a=dot(w, x), d=dot(w, frame.z))
+    return _Step(
+        x,
+        z,
+        sine,
+        cosine,
+        a=dot(w, x),
+        d=dot(w, frame.z),
+    )
 
 
 def _least_turned(tip: Frame, z: Vector) -> Vector:
@@ -142,7 +156,12 @@ def _least_turned(tip: Frame, z: Vector) -> Vector:
     return unit(across(tip.out(exact(turned_least(u)[:, 0])), z))
 
 
-def _as_structure(chain: ChainData, joints: list[_Joint], base: Pose, tool: Pose) -> Structure:
+def _as_structure(
+    chain: ChainData,
+    joints: list[_Joint],
+    base: Pose,
+    tool: Pose,
+) -> Structure:
     signs = np.array([joint.sign for joint in joints])
     return Structure(
         links=tuple(joint.link for joint in joints),
@@ -176,7 +195,10 @@ def _angle(cosine: Decimal, sine: Decimal) -> tuple[int, float]:
 def _pose(frame: Frame) -> Pose:
     """The twelve numbers of a frame, rotation row by row, then position."""
     *columns, o = frame
-    return (*(float(value) for row in zip(*columns, strict=True) for value in row), *map(float, o))
+    return (
+        *(float(value) for row in zip(*columns, strict=True) for value in row),
+        *map(float, o),
+    )
 
 
 def _in_local(chain: ChainData, k: int, T: Pose) -> Pose:

@@ -37,7 +37,13 @@ class RotationNumbers(NamedTuple):
 
     def pose_coordinates(self, T: Array) -> Array:
         """Numbers (..., k + 3) of poses: those of the rotation, then the position."""
-        return np.concatenate([self.numbers(T[..., :3, :3]), T[..., :3, 3]], axis=-1)
+        return np.concatenate(
+            [
+                self.numbers(T[..., :3, :3]),
+                T[..., :3, 3],
+            ],
+            axis=-1,
+        )
 
     def jacobian(self, T: Array, J: Array) -> Array:
         """Derivatives (..., k + 3, m) of the numbers, of poses and hybrid Jacobians."""
@@ -72,7 +78,13 @@ def _quaternion_rates(R: Array) -> Array:
     Q = quaternion_wxyz(R)
     w = Q[..., :1, None]
     v = Q[..., 1:]
-    return 0.5 * np.concatenate([-v[..., None, :], w * np.eye(3) - so3.hat(v)], axis=-2)
+    return 0.5 * np.concatenate(
+        [
+            -v[..., None, :],
+            w * np.eye(3) - so3.hat(v),
+        ],
+        axis=-2,
+    )
 
 
 def _rpy_rates(R: Array) -> Array:

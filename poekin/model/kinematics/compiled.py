@@ -276,7 +276,13 @@ class CompiledChain(ChainPrograms[AnyChain]):
                 )
             return self._arms[code, pose]
 
-    def _fill(self, rows: Array, code: int | None, T: Array | None, J: Array | None) -> None:
+    def _fill(
+        self,
+        rows: Array,
+        code: int | None,
+        T: Array | None,
+        J: Array | None,
+    ) -> None:
         """Poses into T and Jacobians in the frame of a code into J, where these are given."""
         if self._interpreted:
             self._interpret(code, rows, T, J)
@@ -290,7 +296,13 @@ class CompiledChain(ChainPrograms[AnyChain]):
         else:
             kernel.call(arm.address, q, *results)
 
-    def _interpret(self, code: int | None, rows: Array, T: Array | None, J: Array | None) -> None:
+    def _interpret(
+        self,
+        code: int | None,
+        rows: Array,
+        T: Array | None,
+        J: Array | None,
+    ) -> None:
         """Runs the programs without machine code, where Numba is told to compile nothing."""
         values = interpret.evaluate(self._program(code, T is not None), rows)
         if T is not None:

@@ -71,7 +71,13 @@ def hessian(chain: ChainData, q: Any, frame: Frame) -> Array:
     return _results(kernel, chain, batch, (6, chain.dof, chain.dof), rows, code)
 
 
-def acceleration(chain: ChainData, q: Any, dq: Any, ddq: Any, frame: Frame) -> Array:
+def acceleration(
+    chain: ChainData,
+    q: Any,
+    dq: Any,
+    ddq: Any,
+    frame: Frame,
+) -> Array:
     """dV/dt (..., 6) = J ddq + (dJ/dt) dq."""
     code = _code(frame)
     batch, rows = broadcast_rows(chain, q=q, dq=dq, ddq=ddq)
@@ -132,12 +138,20 @@ def jacobian_screw_derivatives(chain: ChainData, q: Any, frame: Frame) -> Jacobi
     kernel = derivative_kernels.jacobian_changes
     shape = (6, chain.dof, n + 1, 6)
     D = _results(kernel, chain, batch, shape, chain.screws, _home_row(chain), rows, code)
-    return JacobianChanges(D[..., :n, :].copy(), D[..., n, :].copy())
+    return JacobianChanges(
+        D[..., :n, :].copy(),
+        D[..., n, :].copy(),
+    )
 
 
 def _home_row(chain: ChainData) -> Array:
     """The twelve numbers of the home pose, as the kernels order them."""
-    return np.concatenate([chain.home[:3, :3].ravel(), chain.home[:3, 3]])
+    return np.concatenate(
+        [
+            chain.home[:3, :3].ravel(),
+            chain.home[:3, 3],
+        ]
+    )
 
 
 def _code(frame: object) -> int:

@@ -14,7 +14,12 @@ _ndarray = np.ndarray
 _float64 = np.dtype(np.float64)
 
 
-def checked_out(out: Any, shape: tuple[int, ...], what: str, q: Any) -> Array:
+def checked_out(
+    out: Any,
+    shape: tuple[int, ...],
+    what: str,
+    q: Any,
+) -> Array:
     """`out` itself where a kernel can write into it while it reads q."""
     if type(out) is not _ndarray or out.dtype != _float64 or out.shape != shape:
         got = type(out).__name__

@@ -50,7 +50,12 @@ def _fill(
     chain_kernels.pose_jacobian_many.call(chain.kernel_table, rows, code, T, J)
 
 
-def fk(chain: ChainData, q: Any, out: Array | None = None, fill: Fill | None = None) -> Array:
+def fk(
+    chain: ChainData,
+    q: Any,
+    out: Array | None = None,
+    fill: Fill | None = None,
+) -> Array:
     """Poses T_sb (..., 4, 4) of the tip."""
     batch, rows = configurations(chain, q)
     shape = (*batch, 4, 4)
@@ -85,7 +90,12 @@ def fk_jacobian(
     else:
         T, J = checked_pair(out, T_shape, J_shape, q)
     fill = fill or partial(_fill, chain)
-    fill(rows, code, T.reshape(len(rows), 4, 4), J.reshape(len(rows), 6, chain.dof))
+    fill(
+        rows,
+        code,
+        T.reshape(len(rows), 4, 4),
+        J.reshape(len(rows), 6, chain.dof),
+    )
     if point is not None:
         _move(J, point, frame, T)
     return T, J
@@ -118,7 +128,12 @@ def jacobian(
     return J
 
 
-def velocity(chain: ChainData, q: Any, dq: Any, frame: Frame | int) -> Array:
+def velocity(
+    chain: ChainData,
+    q: Any,
+    dq: Any,
+    frame: Frame | int,
+) -> Array:
     """Twists V (..., 6) of the tool by the paper's recursion for the body velocity."""
     code = frame_code(chain, frame)
     batch, (rows, rates) = broadcast_rows(chain, q=q, dq=dq)

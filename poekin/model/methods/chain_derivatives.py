@@ -17,7 +17,12 @@ class ChainDerivatives(ChainData):
 
     __slots__ = ()
 
-    def velocity(self, q: Any, dq: Any, frame: Frame | int = REQUIRED) -> Array:
+    def velocity(
+        self,
+        q: Any,
+        dq: Any,
+        frame: Frame | int = REQUIRED,
+    ) -> Array:
         """Twist V = J(q) dq of the tool by the paper's recursion, without forming J.
 
         Parameters
@@ -167,7 +172,13 @@ class ChainDerivatives(ChainData):
         """
         return derivatives.hessian(self, q, frame)
 
-    def acceleration(self, q: Any, dq: Any, ddq: Any, frame: Frame = REQUIRED) -> Array:
+    def acceleration(
+        self,
+        q: Any,
+        dq: Any,
+        ddq: Any,
+        frame: Frame = REQUIRED,
+    ) -> Array:
         """Rate dV/dt = J ddq + (dJ/dt) dq of the tool's twist `velocity(q, dq, frame)`.
 
         - "hybrid": (alpha; p''), base axes: angular acceleration, and the acceleration of the

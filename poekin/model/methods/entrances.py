@@ -21,7 +21,12 @@ class ChainEntrances(ChainData):
     __slots__ = ()
 
     @classmethod
-    def from_space(cls, A: ArrayLike, M: ArrayLike, **options: Unpack[ChainOptions]) -> Self:
+    def from_space(
+        cls,
+        A: ArrayLike,
+        M: ArrayLike,
+        **options: Unpack[ChainOptions],
+    ) -> Self:
         """Chain of screws in the base frame: f = e^{A_1 x_1} ... e^{A_n x_n} M.
 
         Parameters
@@ -67,7 +72,12 @@ class ChainEntrances(ChainData):
         return cls(A, M, frame="space", **options)
 
     @classmethod
-    def from_body(cls, B: ArrayLike, M: ArrayLike, **options: Unpack[ChainOptions]) -> Self:
+    def from_body(
+        cls,
+        B: ArrayLike,
+        M: ArrayLike,
+        **options: Unpack[ChainOptions],
+    ) -> Self:
         """Chain of screws in the tool frame: f = M e^{B_1 x_1} ... e^{B_n x_n}.
 
         Parameters

@@ -14,7 +14,11 @@ _EXACT = 4.5e-16  # two units in the last place of 1
 _NO_PITCH = 4e-15  # m per rad, relative to max(1 m, |v|): the rounding of omega . v
 
 
-def unit_screws(screws: ArrayLike, names: tuple[str, ...] = (), what: str = "screws") -> Array:
+def unit_screws(
+    screws: ArrayLike,
+    names: tuple[str, ...] = (),
+    what: str = "screws",
+) -> Array:
     """Screws (n, 6) with |omega| = 1, or omega = 0 and |v| = 1, to the last digit.
 
     Accepted where that holds to 1e-9; anything else is refused, as rescaling it would rescale q.
@@ -77,7 +81,11 @@ def pitch_of(screw: Array) -> float:
     return pitch
 
 
-def pitches_of(screws: Array, given: ArrayLike | None = None, names: tuple[str, ...] = ()) -> Array:
+def pitches_of(
+    screws: Array,
+    given: ArrayLike | None = None,
+    names: tuple[str, ...] = (),
+) -> Array:
     """Pitches (n,) of unit screws (n, 6), in m per rad; 0 for a prismatic joint, which has none.
 
     Raises: ShapeError; ScrewError for a pitch of a prismatic joint or one above 1e100; InputError

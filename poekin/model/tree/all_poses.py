@@ -17,7 +17,11 @@ from .robot_parts import RobotParts
 from .tree_arrays import link_poses
 
 
-def all_poses(parts: RobotParts, q: Any, poses: Mapping[str, Any] | None) -> dict[str, np.ndarray]:
+def all_poses(
+    parts: RobotParts,
+    q: Any,
+    poses: Mapping[str, Any] | None,
+) -> dict[str, np.ndarray]:
     """Pose (..., 4, 4) of each link in the root link's frame."""
     names = parts.coupling.q_names
     values = coordinates(q, names, f"robot {quote(parts.name)}")

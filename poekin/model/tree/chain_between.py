@@ -65,7 +65,12 @@ def chain_between(
     return np.reshape(screws, (-1, 6)), home, options
 
 
-def _options(parts: RobotParts, moving: np.ndarray, base: str, tip: str) -> ChainOptions:
+def _options(
+    parts: RobotParts,
+    moving: np.ndarray,
+    base: str,
+    tip: str,
+) -> ChainOptions:
     """Names, limits, coupling and pitches of the joints that move between two links."""
     whole = parts.coupling
     followed = whole.coordinate[moving]

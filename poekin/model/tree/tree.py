@@ -25,7 +25,11 @@ class Tree(NamedTuple):
     child_link: tuple[int, ...]
 
 
-def tree_of(links: Sequence[str], joints: Sequence[Joint], source: Source) -> Tree:
+def tree_of(
+    links: Sequence[str],
+    joints: Sequence[Joint],
+    source: Source,
+) -> Tree:
     """The tree that the joints make of the links, in linear time.
 
     Raises: ModelError, with file and line where the source has them, for no link, a name used
@@ -99,7 +103,11 @@ def _joints_above(tree: Tree, link: int) -> list[int]:
     return joints
 
 
-def _unique(names: Sequence[str], what: str, place: Callable[[int], str]) -> dict[str, int]:
+def _unique(
+    names: Sequence[str],
+    what: str,
+    place: Callable[[int], str],
+) -> dict[str, int]:
     numbers: dict[str, int] = {}
     for index, name in enumerate(names):
         if not isinstance(name, str) or not name:

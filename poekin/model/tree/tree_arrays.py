@@ -55,7 +55,11 @@ def layout_of(tree: Tree, joints: Sequence[Joint], coupling: Coupling) -> Layout
     return Layout(*map(read_only, arrays))
 
 
-def link_poses(layout: Layout, values: np.ndarray, free: Mapping[int, np.ndarray]) -> np.ndarray:
+def link_poses(
+    layout: Layout,
+    values: np.ndarray,
+    free: Mapping[int, np.ndarray],
+) -> np.ndarray:
     """Poses (N, L, 4, 4) of the links in the root's frame, in row order, for values (N, m).
 
     free: for the number of a floating or planar joint its poses (N, 4, 4); the others are at
